@@ -1,0 +1,562 @@
+//! The lecture's camera: where the eye is, how the viewport lies before it, and which ray belongs to
+//! a pixel.
+
+use glam::{DVec3, Vec3};
+
+/// How the world loses a dimension.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
+pub enum Projection {
+    /// All viewing rays start at the eye.
+    #[default]
+    Perspective,
+    /// All viewing rays are parallel.
+    Parallel,
+}
+
+/// Where the camera looks and which way up it is held.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Orientation {
+    /// From the eye towards a point of the world.
+    LookAt {
+        /// The point in the middle of the picture.
+        target: Vec3,
+        /// Any direction that is not along the view; what of it is perpendicular becomes `v`.
+        up: Vec3,
+    },
+    /// From the eye along a direction.
+    Direction {
+        /// The direction of view, `−w`; its length does not matter.
+        direction: Vec3,
+        /// As for [`Orientation::LookAt`].
+        up: Vec3,
+    },
+    /// The camera frame itself: right, up and back, perpendicular and right-handed.
+    Frame {
+        /// Right.
+        u: Vec3,
+        /// Up.
+        v: Vec3,
+        /// Back.
+        w: Vec3,
+    },
+}
+
+/// A camera as somebody states it: any values, checked by [`Camera::new`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CameraDescription {
+    /// Perspective or parallel.
+    pub projection: Projection,
+    /// The eye, in the world.
+    pub eye: Vec3,
+    /// Where the camera looks.
+    pub orientation: Orientation,
+    /// The lecture's `d`: from the eye to the viewport.
+    pub distance: f32,
+    /// The viewport's width and height, the lecture's `vw` and `vh`.
+    pub viewport: [f32; 2],
+    /// The image's width and height in pixels, the lecture's `W` and `H`.
+    pub image: [u32; 2],
+}
+
+impl Default for CameraDescription {
+    /// The lecture's canonical camera with a 640 × 480 image and square pixels.
+    fn default() -> Self {
+        CameraDescription {
+            projection: Projection::Perspective,
+            eye: Vec3::ZERO,
+            orientation: Orientation::Frame { u: Vec3::X, v: Vec3::Y, w: Vec3::Z },
+            distance: 1.0,
+            viewport: [640.0 / 480.0, 1.0],
+            image: [640, 480],
+        }
+    }
+}
+
+/// The camera of the lecture, ready to make viewing rays.
+///
+/// Its frame is `f64` and orthonormal to the last bits; everything else is stored as it was given.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    description: CameraDescription,
+    u: DVec3,
+    v: DVec3,
+    w: DVec3,
+}
+
+/// The largest number of samples along one side of the picture, `N·W` or `N·H`.
+pub const MAX_SIDE: u32 = 65_536;
+/// The largest number of samples in one picture, `W·H·N²`.
+pub const MAX_SAMPLES: u64 = 1 << 30;
+
+/// Why a camera is refused.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum CameraError {
+    /// A coordinate is NaN or infinite.
+    #[error("{what} has a coordinate that is not finite: {value}; give three finite numbers")]
+    NotFinite {
+        /// Which vector.
+        what: &'static str,
+        /// As it was given.
+        value: Vec3,
+    },
+    /// A direction has no length.
+    #[error("{what} is zero and so has no direction; give a vector with a length")]
+    NoDirection {
+        /// Which vector.
+        what: &'static str,
+    },
+    /// The target of the view is the eye.
+    #[error("the eye {eye} is the point it looks at; move one of them")]
+    LooksAtItself {
+        /// The eye.
+        eye: Vec3,
+    },
+    /// The up vector says nothing about which way is up.
+    #[error("up {up} runs along the direction of view; choose another up")]
+    UpAlongView {
+        /// As it was given.
+        up: Vec3,
+    },
+    /// `u`, `v`, `w` are not a camera frame.
+    #[error(
+        "u, v, w are not a right-handed perpendicular frame: {reason}; \
+         give look_at (or direction) and up instead, and the frame is computed"
+    )]
+    NotAFrame {
+        /// What is wrong with them.
+        reason: &'static str,
+    },
+    /// `d`, `vw` or `vh` is out of range.
+    #[error("{what} is {value}; it must be between 2^-64 and 2^64")]
+    OutOfRange {
+        /// Which length.
+        what: &'static str,
+        /// As it was given.
+        value: f32,
+    },
+    /// The field of view is too close to 180 degrees.
+    #[error(
+        "the viewport is {width} x {height} at distance {distance}; \
+         its sides may be at most 2^20 times the distance"
+    )]
+    TooWide {
+        /// The viewport's width.
+        width: f32,
+        /// The viewport's height.
+        height: f32,
+        /// The distance from the eye.
+        distance: f32,
+    },
+    /// The image has no pixels.
+    #[error("the image is {width}x{height}; both sides need at least 1 pixel")]
+    EmptyImage {
+        /// The image's width.
+        width: u32,
+        /// The image's height.
+        height: u32,
+    },
+    /// The image has too many samples.
+    #[error(
+        "the image is {width}x{height} with {samples}x{samples} samples a pixel; a side may have at \
+         most {MAX_SIDE} samples and the image at most {MAX_SAMPLES}"
+    )]
+    TooManySamples {
+        /// The image's width.
+        width: u32,
+        /// The image's height.
+        height: u32,
+        /// Samples along one side of a pixel.
+        samples: u32,
+    },
+}
+
+impl Camera {
+    /// Checks a description and computes the camera frame.
+    ///
+    /// # Errors
+    ///
+    /// Every way in which a camera can be degenerate or out of the accepted range: see
+    /// [`CameraError`].
+    pub fn new(description: CameraDescription) -> Result<Camera, CameraError> {
+        finite("the eye", description.eye)?;
+        check_lengths(&description)?;
+        check_samples(description.image, 1)?;
+        let [u, v, w] = frame(description.eye, description.orientation)?;
+        Ok(Camera { description, u, v, w })
+    }
+
+    /// The lecture's first camera: eye at the origin, looking down the negative z axis,
+    /// `vw = vh = d = 1`.
+    ///
+    /// # Panics
+    ///
+    /// If a side is 0 or larger than [`MAX_SIDE`], or there are more than [`MAX_SAMPLES`] pixels.
+    ///
+    /// ```
+    /// use bothways_common::Camera;
+    ///
+    /// let camera = Camera::canonical(2, 2);
+    /// let ray = camera.viewing_ray(0, 0);
+    /// assert_eq!(ray.origin.to_array(), [0.0, 0.0, 0.0]);
+    /// assert_eq!(ray.direction.to_array(), [-0.25, 0.25, -1.0]);
+    /// ```
+    pub fn canonical(width: u32, height: u32) -> Camera {
+        let description = CameraDescription {
+            viewport: [1.0, 1.0],
+            image: [width, height],
+            ..CameraDescription::default()
+        };
+        Camera::new(description).expect("the size is within the limits")
+    }
+
+    /// What this camera was made from.
+    pub fn description(&self) -> &CameraDescription {
+        &self.description
+    }
+
+    /// Perspective or parallel.
+    pub fn projection(&self) -> Projection {
+        self.description.projection
+    }
+
+    /// The eye, in the world.
+    pub fn eye(&self) -> Vec3 {
+        self.description.eye
+    }
+
+    /// Right, a unit vector in the world's axes.
+    pub fn u(&self) -> DVec3 {
+        self.u
+    }
+
+    /// Up, a unit vector in the world's axes.
+    pub fn v(&self) -> DVec3 {
+        self.v
+    }
+
+    /// Back, a unit vector in the world's axes.
+    pub fn w(&self) -> DVec3 {
+        self.w
+    }
+
+    /// `d`, from the eye to the viewport.
+    pub fn distance(&self) -> f64 {
+        f64::from(self.description.distance)
+    }
+
+    /// `vw` and `vh`.
+    pub fn viewport(&self) -> [f64; 2] {
+        self.description.viewport.map(f64::from)
+    }
+
+    /// `W` and `H`, in pixels.
+    pub fn image(&self) -> [u32; 2] {
+        self.description.image
+    }
+
+    /// The viewing ray through the middle of pixel `(i, j)`, relative to the eye.
+    ///
+    /// With the lecture's numbers, which count pixels from 1:
+    /// `x = vw·((j − ½)/W − ½)`, `y = −vh·((i − ½)/H − ½)`, direction `x·u + y·v − d·w`.
+    pub fn viewing_ray(&self, i: u32, j: u32) -> Ray {
+        let [width, height] = self.image();
+        let [vw, vh] = self.viewport();
+        self.ray_through(viewport_coordinate(vw, j, width), -viewport_coordinate(vh, i, height))
+    }
+
+    /// The viewing ray through the point `(x, y)` of the viewport, relative to the eye.
+    ///
+    /// Its rounded numbers *are* the ray: every statement about visibility is about them.
+    pub fn ray_through(&self, x: f64, y: f64) -> Ray {
+        let across = x * self.u + y * self.v;
+        match self.projection() {
+            Projection::Perspective => {
+                Ray { origin: DVec3::ZERO, direction: across - self.distance() * self.w }
+            }
+            Projection::Parallel => Ray { origin: across, direction: -self.w },
+        }
+    }
+
+    /// All sample points of the picture, `samples` × `samples` a pixel on a regular grid.
+    ///
+    /// # Panics
+    ///
+    /// If [`check_samples`] refuses the number of samples.
+    pub fn sample_grid(&self, samples: u32) -> SampleGrid<'_> {
+        check_samples(self.image(), samples).expect("the number of samples was checked");
+        let [width, height] = self.image().map(|side| side * samples);
+        let [vw, vh] = self.viewport();
+        SampleGrid {
+            camera: self,
+            x: (0..width).map(|column| viewport_coordinate(vw, column, width)).collect(),
+            y: (0..height).map(|row| -viewport_coordinate(vh, row, height)).collect(),
+        }
+    }
+}
+
+/// Half a line: the points `origin + t·direction` with `t > 0`, the eye at the origin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    /// Where the ray begins: the eye itself (zero) for a perspective camera.
+    pub origin: DVec3,
+    /// Where it goes; its length is the unit of `t`.
+    pub direction: DVec3,
+}
+
+/// The sample points of one picture, on the viewport.
+#[derive(Clone, Debug)]
+pub struct SampleGrid<'a> {
+    camera: &'a Camera,
+    x: Vec<f64>,
+    y: Vec<f64>,
+}
+
+impl SampleGrid<'_> {
+    /// The number of rows, `H·N`.
+    pub fn height(&self) -> usize {
+        self.y.len()
+    }
+
+    /// The number of columns, `W·N`.
+    pub fn width(&self) -> usize {
+        self.x.len()
+    }
+
+    /// `x` on the viewport, for each column from the left; ascending.
+    pub fn x(&self) -> &[f64] {
+        &self.x
+    }
+
+    /// `y` on the viewport, for each row from the top; descending.
+    pub fn y(&self) -> &[f64] {
+        &self.y
+    }
+
+    /// The viewing ray through a sample.
+    pub fn ray(&self, row: usize, column: usize) -> Ray {
+        self.camera.ray_through(self.x[column], self.y[row])
+    }
+}
+
+/// Tells whether a picture of this size may have `samples` × `samples` samples a pixel.
+///
+/// # Errors
+///
+/// [`CameraError::EmptyImage`] or [`CameraError::TooManySamples`], naming the limits.
+pub fn check_samples(image: [u32; 2], samples: u32) -> Result<(), CameraError> {
+    let [width, height] = image;
+    if width == 0 || height == 0 {
+        return Err(CameraError::EmptyImage { width, height });
+    }
+    let side = |pixels: u32| u64::from(pixels) * u64::from(samples);
+    let fits = |pixels: u32| (1..=u64::from(MAX_SIDE)).contains(&side(pixels));
+    if !fits(width) || !fits(height) || side(width) * side(height) > MAX_SAMPLES {
+        return Err(CameraError::TooManySamples { width, height, samples });
+    }
+    Ok(())
+}
+
+/// `extent·(2·index + 1 − count)/(2·count)`: the middle of a cell of the viewport.
+///
+/// The numerator is exact (24 + 17 bits), so the quotient is correctly rounded, and the cells on
+/// both sides of the middle are each other's negatives.
+fn viewport_coordinate(extent: f64, index: u32, count: u32) -> f64 {
+    let numerator = 2.0 * f64::from(index) + 1.0 - f64::from(count);
+    extent * numerator / (2.0 * f64::from(count))
+}
+
+fn check_lengths(description: &CameraDescription) -> Result<(), CameraError> {
+    let CameraDescription { distance, viewport: [width, height], .. } = *description;
+    let range = (-64f32).exp2()..=64f32.exp2();
+    let lengths =
+        [("the distance", distance), ("the viewport's width", width), ("its height", height)];
+    for (what, value) in lengths {
+        if !range.contains(&value) {
+            return Err(CameraError::OutOfRange { what, value });
+        }
+    }
+    if width.max(height) > distance * 20f32.exp2() {
+        return Err(CameraError::TooWide { width, height, distance });
+    }
+    Ok(())
+}
+
+fn finite(what: &'static str, value: Vec3) -> Result<DVec3, CameraError> {
+    if value.is_finite() {
+        Ok(value.as_dvec3())
+    } else {
+        Err(CameraError::NotFinite { what, value })
+    }
+}
+
+fn direction(what: &'static str, value: Vec3) -> Result<DVec3, CameraError> {
+    match finite(what, value)? {
+        DVec3::ZERO => Err(CameraError::NoDirection { what }),
+        vector => Ok(unit(vector)),
+    }
+}
+
+/// Right, up and back, orthonormal to the last bits.
+fn frame(eye: Vec3, orientation: Orientation) -> Result<[DVec3; 3], CameraError> {
+    let (w, up) = match orientation {
+        Orientation::LookAt { target, up } => {
+            let back = eye.as_dvec3() - finite("the point to look at", target)?;
+            if back == DVec3::ZERO {
+                return Err(CameraError::LooksAtItself { eye });
+            }
+            (unit(back), up)
+        }
+        Orientation::Direction { direction: view, up } => {
+            (-direction("the direction of view", view)?, up)
+        }
+        Orientation::Frame { u, v, w } => return stated_frame(u, v, w),
+    };
+    let right = direction("up", up)?.cross(w);
+    // What is left of up is lost in the rounding of w below this.
+    if right.length() < 1e-6 {
+        return Err(CameraError::UpAlongView { up });
+    }
+    Ok(complete_frame(right, w))
+}
+
+fn stated_frame(u: Vec3, v: Vec3, w: Vec3) -> Result<[DVec3; 3], CameraError> {
+    let (u, v, w) = (direction("u", u)?, direction("v", v)?, direction("w", w)?);
+    // Six decimals, as a frame written by hand or printed by another program has them, pass.
+    const SKEW: f64 = 1e-3;
+    let skew = u.dot(v).abs().max(v.dot(w).abs()).max(w.dot(u).abs());
+    if skew > SKEW {
+        return Err(CameraError::NotAFrame { reason: "they are not perpendicular" });
+    }
+    if w.cross(u).dot(v) < 0.0 {
+        return Err(CameraError::NotAFrame { reason: "they are left-handed (v is not w x u)" });
+    }
+    Ok(complete_frame(u, w))
+}
+
+/// Makes `right` perpendicular to `w` and of unit length; `v` follows.
+fn complete_frame(right: DVec3, w: DVec3) -> [DVec3; 3] {
+    let w = clean(w);
+    let u = clean(unit(right - right.dot(w) * w));
+    let v = clean(w.cross(u));
+    [u, v, w]
+}
+
+/// The vector scaled to unit length. In `f64` no finite `f32` vector over- or underflows here.
+fn unit(vector: DVec3) -> DVec3 {
+    vector / vector.length()
+}
+
+/// Components that mean nothing beside 1 become 0, so that no product of the predicates underflows.
+fn clean(vector: DVec3) -> DVec3 {
+    DVec3::select(vector.abs().cmplt(DVec3::splat((-100f64).exp2())), DVec3::ZERO, vector)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_canonical_camera_gives_the_lecture_s_rays() {
+        // The slide for W = 4, H = 2, pixel (1, 1) counted from 1: x = (½)/4 − ½, y = −((½)/2 − ½).
+        let camera = Camera::canonical(4, 2);
+        let ray = camera.viewing_ray(0, 0);
+        assert_eq!(ray.direction, DVec3::new(-0.375, 0.25, -1.0));
+        assert_eq!(camera.viewing_ray(1, 3).direction, DVec3::new(0.375, -0.25, -1.0));
+    }
+
+    #[test]
+    fn a_turned_camera_builds_the_ray_from_its_frame() {
+        // Looking along +x with y up: u = +z, w = −x. Pixel (0, 2) of 4 x 4, vw = 4, vh = 2, d = 3:
+        // x = 4·(5 − 4)/8 = ½, y = −2·(1 − 4)/8 = ¾; direction = ½·u + ¾·v − 3·w.
+        let camera = Camera::new(CameraDescription {
+            eye: Vec3::new(5.0, 6.0, 7.0),
+            orientation: Orientation::Direction { direction: Vec3::X, up: Vec3::Y },
+            distance: 3.0,
+            viewport: [4.0, 2.0],
+            image: [4, 4],
+            ..CameraDescription::default()
+        })
+        .unwrap();
+        assert_eq!(camera.viewing_ray(0, 2).direction, DVec3::new(3.0, 0.75, 0.5));
+    }
+
+    #[test]
+    fn parallel_rays_start_on_the_viewport_s_plane_through_the_eye() {
+        let camera = Camera::new(CameraDescription {
+            projection: Projection::Parallel,
+            viewport: [4.0, 4.0],
+            image: [2, 2],
+            ..CameraDescription::default()
+        })
+        .unwrap();
+        let ray = camera.viewing_ray(0, 1);
+        assert_eq!(ray.origin, DVec3::new(1.0, 1.0, 0.0));
+        assert_eq!(ray.direction, DVec3::new(0.0, 0.0, -1.0));
+    }
+
+    #[test]
+    fn samples_of_a_pixel_are_pixels_of_a_finer_picture() {
+        let camera = Camera::canonical(3, 5);
+        let fine = Camera::canonical(6, 10);
+        let grid = camera.sample_grid(2);
+        assert_eq!((grid.width(), grid.height()), (6, 10));
+        for (row, column) in [(0, 0), (3, 5), (9, 2)] {
+            let pixel = fine.viewing_ray(row, column);
+            assert_eq!(grid.ray(row as usize, column as usize), pixel);
+        }
+    }
+
+    #[test]
+    fn the_picture_is_symmetric_to_the_last_bit() {
+        let camera = Camera::canonical(1919, 1081);
+        let grid = camera.sample_grid(1);
+        for (left, right) in grid.x().iter().zip(grid.x().iter().rev()) {
+            assert_eq!(*left, -*right);
+        }
+        assert_eq!(grid.x()[959], 0.0);
+    }
+
+    #[test]
+    fn frames_are_orthonormal_to_the_last_bits() {
+        for target in [[1.0, 0.7, 1.5], [-1e-20, 3.0, 1e-3], [1e30, -1e30, 2e29], [0.0, 1.0, 2e-6]]
+        {
+            let [u, v, w] = frame(
+                Vec3::ZERO,
+                Orientation::LookAt { target: Vec3::from_array(target), up: Vec3::Y },
+            )
+            .unwrap();
+            for product in [u.dot(v), v.dot(w), w.dot(u), u.length() - 1.0, v.length() - 1.0] {
+                assert!(product.abs() < 4e-16, "{target:?}: {product}");
+            }
+        }
+    }
+
+    #[test]
+    fn degenerate_cameras_are_refused() {
+        let with = |change: &dyn Fn(&mut CameraDescription)| {
+            let mut description = CameraDescription::default();
+            change(&mut description);
+            Camera::new(description).unwrap_err()
+        };
+        let look = |target, up| Orientation::LookAt { target, up };
+        let up_along_view = with(&|c| c.orientation = look(Vec3::Y, Vec3::NEG_Y));
+        assert!(matches!(up_along_view, CameraError::UpAlongView { .. }));
+        let at_itself = with(&|c| c.orientation = look(Vec3::ZERO, Vec3::Y));
+        assert!(matches!(at_itself, CameraError::LooksAtItself { .. }));
+        let no_up = with(&|c| c.orientation = look(Vec3::X, Vec3::ZERO));
+        assert_eq!(no_up, CameraError::NoDirection { what: "up" });
+        let nan = with(&|c| c.eye.x = f32::NAN);
+        assert!(matches!(nan, CameraError::NotFinite { what: "the eye", .. }));
+        let left = with(&|c| {
+            c.orientation = Orientation::Frame { u: Vec3::X, v: Vec3::NEG_Y, w: Vec3::Z }
+        });
+        assert!(left.to_string().contains("left-handed"));
+        assert!(matches!(with(&|c| c.distance = 0.0), CameraError::OutOfRange { .. }));
+        assert!(matches!(with(&|c| c.distance = f32::NAN), CameraError::OutOfRange { .. }));
+        assert!(matches!(with(&|c| c.viewport[0] = 2e6), CameraError::TooWide { .. }));
+        assert!(matches!(with(&|c| c.image = [0, 4]), CameraError::EmptyImage { .. }));
+        assert!(matches!(with(&|c| c.image = [65_537, 1]), CameraError::TooManySamples { .. }));
+        assert!(check_samples([40_000, 1], 2).is_err());
+        assert!(check_samples([4, 4], 0).is_err());
+    }
+}

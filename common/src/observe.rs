@@ -1,0 +1,147 @@
+//! Watching the loops at work. Whatever is ever shown about the renderers comes from here.
+
+use crate::frame::Region;
+use crate::predicate::Sign;
+
+/// One sample of the picture: its row and column on the raster of samples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Sample {
+    /// From the top.
+    pub row: usize,
+    /// From the left.
+    pub column: usize,
+}
+
+/// What the fast arithmetic of a renderer left open.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Question {
+    /// Does the primitive cover the sample?
+    Coverage,
+    /// Which of two primitives is nearer?
+    Nearest,
+}
+
+/// Somebody who is told what a renderer's loops do, while they do it.
+///
+/// All methods do nothing unless overridden, and `()` overrides none: watching costs nothing when
+/// nobody watches. A picture is rendered in parts by several threads; each part gets an observer by
+/// [`Observer::fork`], and they come back through [`Observer::join`] in an order that does not
+/// depend on the threads.
+///
+/// Object order tells: `primitive_begun`, then for each of its samples `sample_tested`,
+/// `edge_signs`, `fragment`, `depth_test`. Image order tells: `ray_begun`, then `node_opened`,
+/// `sample_tested`, `edge_signs`, `fragment`, `depth_test`, and at the end of the ray `hit`.
+pub trait Observer: Send + Sync {
+    /// A new observer for one part of the picture.
+    fn fork(&self) -> Self
+    where
+        Self: Sized;
+
+    /// Takes back what the observer of one part has seen.
+    fn join(&mut self, part: Self)
+    where
+        Self: Sized;
+
+    /// Object order takes up a primitive; no sample outside of the region can be affected.
+    fn primitive_begun(&mut self, _primitive: u32, _region: &Region) {}
+
+    /// Image order takes up a sample.
+    fn ray_begun(&mut self, _sample: Sample) {}
+
+    /// Image order tests the box of a node of its hierarchy, and enters it or not.
+    fn node_opened(&mut self, _sample: Sample, _node: u32, _entered: bool) {}
+
+    /// One primitive is tested against one sample: the step at the heart of both loops.
+    fn sample_tested(&mut self, _sample: Sample, _primitive: u32) {}
+
+    /// The signs of a triangle's edge functions `E_ab`, `E_bc`, `E_ca` at a sample; zero is a tie.
+    /// `None` for one that was not needed, because another had already decided.
+    fn edge_signs(&mut self, _sample: Sample, _primitive: u32, _signs: [Option<Sign>; 3]) {}
+
+    /// The primitive covers the sample.
+    fn fragment(&mut self, _sample: Sample, _primitive: u32) {}
+
+    /// A fragment meets an earlier one at its sample, and replaces it or not.
+    fn depth_test(&mut self, _sample: Sample, _challenger: u32, _holder: u32, _replaced: bool) {}
+
+    /// The first primitive along a ray is known.
+    fn hit(&mut self, _sample: Sample, _primitive: Option<u32>) {}
+
+    /// A decision that the fast arithmetic left open goes to the exact judge.
+    fn judged(&mut self, _sample: Sample, _question: Question) {}
+}
+
+impl Observer for () {
+    fn fork(&self) -> Self {}
+    fn join(&mut self, (): ()) {}
+}
+
+/// How much was done, in steps that do not depend on threads, tiles or the width of SIMD.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Primitives taken up by the outer loop of object order.
+    pub primitives: u64,
+    /// Rays taken up by the outer loop of image order.
+    pub rays: u64,
+    /// Boxes of the hierarchy tested against a ray.
+    pub nodes: u64,
+    /// Pairs of a primitive and a sample tested for coverage: the inner step of both loops. In
+    /// object order these are the samples of the primitives' bounding regions.
+    pub tests: u64,
+    /// Of these, the pairs in which the primitive covers the sample.
+    pub fragments: u64,
+    /// Comparisons of a fragment with an earlier one at its sample.
+    pub depth_tests: u64,
+    /// Coverage decisions that the fast arithmetic left to the exact judge.
+    pub judged_coverage: u64,
+    /// Depth decisions that the fast arithmetic left to the exact judge.
+    pub judged_nearest: u64,
+}
+
+impl Observer for Work {
+    fn fork(&self) -> Self {
+        Work::default()
+    }
+
+    fn join(&mut self, part: Self) {
+        self.primitives += part.primitives;
+        self.rays += part.rays;
+        self.nodes += part.nodes;
+        self.tests += part.tests;
+        self.fragments += part.fragments;
+        self.depth_tests += part.depth_tests;
+        self.judged_coverage += part.judged_coverage;
+        self.judged_nearest += part.judged_nearest;
+    }
+
+    fn primitive_begun(&mut self, _primitive: u32, _region: &Region) {
+        self.primitives += 1;
+    }
+
+    fn ray_begun(&mut self, _sample: Sample) {
+        self.rays += 1;
+    }
+
+    fn node_opened(&mut self, _sample: Sample, _node: u32, _entered: bool) {
+        self.nodes += 1;
+    }
+
+    fn sample_tested(&mut self, _sample: Sample, _primitive: u32) {
+        self.tests += 1;
+    }
+
+    fn fragment(&mut self, _sample: Sample, _primitive: u32) {
+        self.fragments += 1;
+    }
+
+    fn depth_test(&mut self, _sample: Sample, _challenger: u32, _holder: u32, _replaced: bool) {
+        self.depth_tests += 1;
+    }
+
+    fn judged(&mut self, _sample: Sample, question: Question) {
+        match question {
+            Question::Coverage => self.judged_coverage += 1,
+            Question::Nearest => self.judged_nearest += 1,
+        }
+    }
+}

@@ -1,0 +1,200 @@
+//! Which samples a primitive covers.
+
+use super::real::{Real, cross, difference, dot, exactly, vector};
+use super::sign::Sign;
+use crate::camera::{Projection, Ray};
+use glam::DVec3;
+use robust::{Coord3D, orient3d};
+
+/// What decides whether a triangle covers a sample.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct EdgeSigns {
+    /// The facing `F`: negative when the corners are seen counter-clockwise, zero for edge-on.
+    pub facing: Sign,
+    /// The signs of `E_ab`, `E_bc`, `E_ca` at the sample itself; zero is a tie.
+    pub at_sample: [Sign; 3],
+    /// The same with ties broken by the nudge, so never zero unless the triangle is edge-on.
+    pub decided: [Sign; 3],
+    /// Whether the triangle's plane is met at `t > 0`.
+    pub in_front: bool,
+}
+
+impl EdgeSigns {
+    /// Whether the triangle covers the sample.
+    pub fn covers(&self) -> bool {
+        self.facing != Sign::Zero
+            && self.decided.iter().all(|&edge| edge == self.facing)
+            && self.in_front
+    }
+}
+
+/// How a zero edge function is decided: the sample moves infinitely little along `u`, and far less
+/// still against `v`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Nudge {
+    pub(super) u: DVec3,
+    pub(super) v: DVec3,
+}
+
+/// All signs of a triangle at a sample.
+pub(super) fn edge_signs(
+    projection: Projection,
+    nudge: &Nudge,
+    triangle: &[DVec3; 3],
+    ray: &Ray,
+) -> EdgeSigns {
+    let [a, b, c] = *triangle;
+    let facing = facing(projection, triangle, ray);
+    let at_sample = [(a, b), (b, c), (c, a)].map(|(p, q)| edge(projection, p, q, ray));
+    let mut decided = at_sample;
+    for (sign, (p, q)) in decided.iter_mut().zip([(a, b), (b, c), (c, a)]) {
+        *sign = sign.or_else(|| nudged_edge(projection, nudge, p, q, ray));
+    }
+    let in_front = in_front(projection, facing, triangle, ray);
+    EdgeSigns { facing, at_sample, decided, in_front }
+}
+
+/// [`EdgeSigns::covers`], with no sign computed that is not needed.
+pub(super) fn triangle_covers(
+    projection: Projection,
+    nudge: &Nudge,
+    triangle: &[DVec3; 3],
+    ray: &Ray,
+) -> bool {
+    let [a, b, c] = *triangle;
+    let facing = facing(projection, triangle, ray);
+    let owns = |(p, q)| {
+        let edge = edge(projection, p, q, ray);
+        edge.or_else(|| nudged_edge(projection, nudge, p, q, ray)) == facing
+    };
+    facing != Sign::Zero
+        && [(a, b), (b, c), (c, a)].into_iter().all(owns)
+        && in_front(projection, facing, triangle, ray)
+}
+
+/// `F = det(a, b, c)`, or for parallel rays `det(b − a, c − a, D)`.
+pub(super) fn facing(projection: Projection, [a, b, c]: &[DVec3; 3], ray: &Ray) -> Sign {
+    match projection {
+        Projection::Perspective => determinant(*a, *b, *c),
+        Projection::Parallel => {
+            exactly!(difference_determinant([*b, *a], [*c, *a], [ray.direction, DVec3::ZERO]))
+        }
+    }
+}
+
+/// `E_pq = det(p − O, q − O, D)`: on which side of the edge the ray passes.
+///
+/// Olano and Greer, "Triangle Scan Conversion using 2D Homogeneous Coordinates", 1997.
+fn edge(projection: Projection, p: DVec3, q: DVec3, ray: &Ray) -> Sign {
+    let Ray { origin, direction } = *ray;
+    match projection {
+        Projection::Perspective => determinant(p, q, direction),
+        Projection::Parallel => {
+            exactly!(difference_determinant([p, origin], [q, origin], [direction, DVec3::ZERO]))
+        }
+    }
+}
+
+/// The edge function's sign when it is zero at the sample: its derivative along the nudge.
+///
+/// With `D(ε) = D + ε·u − ε²·v` the edge function of a perspective camera is
+/// `det(p, q, D) + ε·det(p, q, u) − ε²·det(p, q, v)`. With `O(ε) = O + ε·u − ε²·v` that of a parallel
+/// camera is `det(p − O, q − O, D) + ε·det(u, p − q, D) − ε²·det(v, p − q, D)`: what is quadratic in
+/// `O` cancels, since `det(O, O, D) = 0`.
+fn nudged_edge(projection: Projection, nudge: &Nudge, p: DVec3, q: DVec3, ray: &Ray) -> Sign {
+    let derivative = |along: DVec3| match projection {
+        Projection::Perspective => determinant(p, q, along),
+        Projection::Parallel => exactly!(difference_determinant(
+            [along, DVec3::ZERO],
+            [p, q],
+            [ray.direction, DVec3::ZERO]
+        )),
+    };
+    derivative(nudge.u).or_else(|| -derivative(nudge.v))
+}
+
+/// Whether `t > 0`. A covered sample of a perspective camera has it for free: `E_ab + E_bc + E_ca =
+/// n·D` has the sign of `F`, and `t = F/(n·D)`.
+fn in_front(projection: Projection, facing: Sign, [a, b, c]: &[DVec3; 3], ray: &Ray) -> bool {
+    match projection {
+        Projection::Perspective => true,
+        Projection::Parallel => {
+            exactly!(difference_determinant([*b, *a], [*c, *a], [*a, ray.origin])) == facing
+        }
+    }
+}
+
+/// The sign of `det(p, q, r)` of stored vectors.
+///
+/// `robust` takes differences to a fourth point, here the origin: they are exact. Its error-free
+/// transformations need products that neither over- nor underflow. Offsets from the eye are zero or
+/// in 2⁻¹⁴⁹ … 2¹²⁹, and multiples of 2⁻¹⁴⁹. Directions are sums of products of a coordinate on the
+/// viewport (zero or at least 2⁻⁸¹) or `d` and a frame component (zero or at least 2⁻¹⁰⁰): each
+/// product is zero or at least 2⁻¹⁸¹, hence with its 53 bits a multiple of 2⁻²³³, and directions are
+/// below 2⁶⁷. So products of three stay below 2³²⁶ and are multiples of 2⁻⁵³¹ (of three offsets: 2³⁸⁸
+/// and 2⁻⁴⁴⁷), far within f64's 2¹⁰²³ and 2⁻¹⁰⁷⁴.
+fn determinant(p: DVec3, q: DVec3, r: DVec3) -> Sign {
+    let point = |v: DVec3| Coord3D { x: v.x, y: v.y, z: v.z };
+    Sign::of(orient3d(point(p), point(q), point(r), point(DVec3::ZERO)))
+}
+
+/// The sign of `det(p₀ − p₁, q₀ − q₁, r₀ − r₁)`, of the real differences.
+fn difference_determinant<R: Real>(
+    [p0, p1]: [DVec3; 2],
+    [q0, q1]: [DVec3; 2],
+    [r0, r1]: [DVec3; 2],
+) -> Option<Sign> {
+    let normal = cross::<R>(&difference(p0, p1), &difference(q0, q1));
+    dot(&normal, &difference(r0, r1)).sign()
+}
+
+/// Whether a plane is met: `n·D ≠ 0` and `t = n·(point − O)/(n·D) > 0`.
+pub(super) fn plane_covers(point: DVec3, normal: DVec3, ray: &Ray) -> bool {
+    let height = exactly!(dot_sign(normal, [point, ray.origin]));
+    let descent = exactly!(dot_sign(normal, [ray.direction, DVec3::ZERO]));
+    height * descent == Sign::Positive
+}
+
+fn dot_sign<R: Real>(normal: DVec3, [p, q]: [DVec3; 2]) -> Option<Sign> {
+    dot::<R>(&vector(normal), &difference(p, q)).sign()
+}
+
+/// Whether a sphere is met: a positive discriminant and a positive root.
+pub(super) fn sphere_covers(center: DVec3, radius: f64, ray: &Ray) -> bool {
+    exactly!(sphere_sign(center, radius, ray)) == Sign::Positive
+}
+
+fn sphere_sign<R: Real>(center: DVec3, radius: f64, ray: &Ray) -> Option<Sign> {
+    let quadratic = Quadratic::<R>::new(center, radius, ray);
+    // Inside of the sphere (C < 0) every ray leaves it. Outside and on it the ray must approach
+    // (B < 0) and not miss; with C = 0 and B < 0 the discriminant is B² and the root −2B/A.
+    if quadratic.c.sign()? == Sign::Negative {
+        return Some(Sign::Positive);
+    }
+    if quadratic.b.sign()? == Sign::Negative {
+        quadratic.discriminant().sign()
+    } else {
+        Some(Sign::Negative)
+    }
+}
+
+/// A ray and a sphere: `A·t² + 2B·t + C = 0` with `A = D·D`, `B = m·D`, `C = m·m − r²`, `m = O −
+/// center`.
+pub(super) struct Quadratic<R> {
+    pub(super) a: R,
+    pub(super) b: R,
+    pub(super) c: R,
+}
+
+impl<R: Real> Quadratic<R> {
+    pub(super) fn new(center: DVec3, radius: f64, ray: &Ray) -> Self {
+        let m = difference::<R>(ray.origin, center);
+        let d = vector::<R>(ray.direction);
+        Quadratic { a: dot(&d, &d), b: dot(&m, &d), c: dot(&m, &m).minus(&R::new(radius).square()) }
+    }
+
+    /// `B² − A·C`.
+    pub(super) fn discriminant(&self) -> R {
+        self.b.square().minus(&self.a.times(&self.c))
+    }
+}

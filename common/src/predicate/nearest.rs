@@ -1,0 +1,245 @@
+//! Which of two primitives is nearer along a ray, and how far one is.
+//!
+//! Both are known to cover the sample. Triangles and planes are *flat*: with a normal `n` and a point
+//! `a` of it, the ray crosses it at `t = p/q`, `p = n·(a − O)`, `q = n·D`.
+
+use super::cover::{Nudge, Quadratic};
+use super::real::{Bounded, Dyadic, Real, cross, difference, dot, exactly, vector};
+use super::sign::Sign;
+use crate::camera::{Projection, Ray};
+use crate::view::Primitive;
+use glam::DVec3;
+use std::cmp::Ordering;
+
+/// Which of two primitives is nearer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Comparison {
+    /// By `t` at the sample itself; equal is a tie.
+    pub at_sample: Ordering,
+    /// With ties broken: flat before round, then the nudged ray. What is still equal is the same
+    /// plane, or two spheres met at the same point.
+    pub decided: Ordering,
+}
+
+/// Compares the distances of two primitives that both cover the sample; `Less` is nearer.
+pub(super) fn compare(
+    projection: Projection,
+    nudge: &Nudge,
+    first: &Primitive,
+    second: &Primitive,
+    ray: &Ray,
+) -> Comparison {
+    match (first, second) {
+        (Primitive::Sphere { .. }, Primitive::Sphere { .. }) => {
+            let order = ordering(exactly!(sphere_against_sphere(first, second, ray)));
+            Comparison { at_sample: order, decided: order }
+        }
+        (Primitive::Sphere { .. }, _) => {
+            let order = ordering(exactly!(sphere_against_flat(first, second, ray)));
+            Comparison { at_sample: order, decided: order.then(Ordering::Greater) }
+        }
+        (_, Primitive::Sphere { .. }) => {
+            let order = ordering(exactly!(sphere_against_flat(second, first, ray))).reverse();
+            Comparison { at_sample: order, decided: order.then(Ordering::Less) }
+        }
+        _ if same_corners(first, second) => {
+            Comparison { at_sample: Ordering::Equal, decided: Ordering::Equal }
+        }
+        _ => {
+            let at_sample = ordering(exactly!(flat_against_flat(first, second, ray)));
+            let along = |direction| {
+                ordering(exactly!(flat_against_flat_along(
+                    projection, first, second, ray, direction
+                )))
+            };
+            let decided = at_sample.then_with(|| along(nudge.u)).then_with(|| along(-nudge.v));
+            Comparison { at_sample, decided }
+        }
+    }
+}
+
+/// The distance of a primitive that covers the sample, to within a few parts in 10¹⁰.
+pub(super) fn distance(primitive: &Primitive, ray: &Ray) -> f64 {
+    const CLOSE: f64 = 1e-10;
+    let rounded = match *primitive {
+        Primitive::Sphere { center, radius } => rounded_sphere_distance(center, radius, ray),
+        _ => {
+            let Crossing { p, q, .. } = Crossing::<Bounded>::new(primitive, ray);
+            p.over(q)
+        }
+    };
+    if rounded.error <= CLOSE * rounded.value {
+        return rounded.value;
+    }
+    match *primitive {
+        Primitive::Sphere { center, radius } => exact_sphere_distance(center, radius, ray),
+        _ => {
+            let Crossing { p, q, .. } = Crossing::<Dyadic>::new(primitive, ray);
+            p.to_f64() / q.to_f64()
+        }
+    }
+}
+
+/// The sign of `t₁ − t₂` as an order.
+fn ordering(sign: Sign) -> Ordering {
+    sign.cmp(&Sign::Zero)
+}
+
+/// Duplicated faces are the most frequent ties, and need no arithmetic.
+fn same_corners(first: &Primitive, second: &Primitive) -> bool {
+    match (first, second) {
+        (Primitive::Triangle(first), Primitive::Triangle(second)) => {
+            let [a, b, c] = *first;
+            [[a, b, c], [b, c, a], [c, a, b], [a, c, b], [c, b, a], [b, a, c]].contains(second)
+        }
+        _ => false,
+    }
+}
+
+/// Where a ray crosses a flat primitive: at `t = p/q`.
+struct Crossing<R> {
+    normal: [R; 3],
+    p: R,
+    q: R,
+}
+
+impl<R: Real> Crossing<R> {
+    fn new(flat: &Primitive, ray: &Ray) -> Self {
+        let (normal, point) = match *flat {
+            Primitive::Triangle([a, b, c]) => (cross(&difference(b, a), &difference(c, a)), a),
+            Primitive::Plane { point, normal } => (vector(normal), point),
+            Primitive::Sphere { .. } => unreachable!("a sphere is not flat"),
+        };
+        let p = dot(&normal, &difference(point, ray.origin));
+        let q = dot(&normal, &vector(ray.direction));
+        Crossing { normal, p, q }
+    }
+}
+
+/// The sign of `p₁/q₁ − p₂/q₂`: that of `(p₁·q₂ − p₂·q₁)·q₁·q₂`.
+fn flat_against_flat<R: Real>(first: &Primitive, second: &Primitive, ray: &Ray) -> Option<Sign> {
+    let (first, second) = (Crossing::<R>::new(first, ray), Crossing::<R>::new(second, ray));
+    let difference = first.p.times(&second.q).minus(&second.p.times(&first.q));
+    Some(difference.sign()? * first.q.sign()? * second.q.sign()?)
+}
+
+/// The same when it is zero at the sample: the derivative along a direction of the nudge.
+///
+/// A perspective camera nudges `D`, which moves `q` by `n·along`; `p₁·q₂ − p₂·q₁` moves by
+/// `p₁·(n₂·along) − p₂·(n₁·along)`. A parallel camera nudges `O`, which moves `p` by `−n·along`, and
+/// the difference by `(n₂·along)·q₁ − (n₁·along)·q₂`.
+fn flat_against_flat_along<R: Real>(
+    projection: Projection,
+    first: &Primitive,
+    second: &Primitive,
+    ray: &Ray,
+    along: DVec3,
+) -> Option<Sign> {
+    let (first, second) = (Crossing::<R>::new(first, ray), Crossing::<R>::new(second, ray));
+    let along = vector::<R>(along);
+    let (slope1, slope2) = (dot(&first.normal, &along), dot(&second.normal, &along));
+    let derivative = match projection {
+        Projection::Perspective => first.p.times(&slope2).minus(&second.p.times(&slope1)),
+        Projection::Parallel => first.q.times(&slope2).minus(&second.q.times(&slope1)),
+    };
+    Some(derivative.sign()? * first.q.sign()? * second.q.sign()?)
+}
+
+/// A sphere's visible root: `t = (−B + side·√(B² − A·C))/A`, near side first.
+fn root_side<R: Real>(quadratic: &Quadratic<R>) -> Option<Sign> {
+    // The eye outside of the sphere sees the near root; inside, and on it, only the far one is
+    // positive.
+    Some(if quadratic.c.sign()? == Sign::Positive { Sign::Negative } else { Sign::Positive })
+}
+
+/// The sign of `t_sphere − t_flat`.
+///
+/// Put `t = p/q` with `q > 0` into the sphere's quadratic: `Q = A·p² + 2B·p·q + C·q²` is positive
+/// where the flat's point lies outside of the roots, and then the slope `X = A·p + B·q` says on which
+/// side of both.
+fn sphere_against_flat<R: Real>(sphere: &Primitive, flat: &Primitive, ray: &Ray) -> Option<Sign> {
+    let Primitive::Sphere { center, radius } = *sphere else { unreachable!("it is a sphere") };
+    let quadratic = Quadratic::<R>::new(center, radius, ray);
+    let Quadratic { a, b, c } = &quadratic;
+    let Crossing { p, q, .. } = Crossing::<R>::new(flat, ray);
+    let twice = p.times(&q).plus(&p.times(&q));
+    let value = a.times(&p.square()).plus(&b.times(&twice)).plus(&c.times(&q.square())).sign()?;
+    // Multiplied by q's sign, X is the slope for q > 0.
+    let slope = || Some(a.times(&p).plus(&b.times(&q)).sign()? * q.sign()?);
+    match (root_side(&quadratic)?, value) {
+        // Between the roots: the near one comes before, the far one after.
+        (side, Sign::Negative) => Some(side),
+        // On a root: which one, says the slope (it is not zero: the roots are two).
+        (side, Sign::Zero) => {
+            let at = slope()?;
+            Some(if at == side { Sign::Zero } else { side })
+        }
+        // Outside of both roots: behind both, or before both.
+        (_, Sign::Positive) => Some(-slope()?),
+    }
+}
+
+/// The sign of `t₁ − t₂` of two spheres: of `L − Δ` with `L = σ₁·√d₁ − σ₂·√d₂`, `Δ = B₁ − B₂`.
+fn sphere_against_sphere<R: Real>(
+    first: &Primitive,
+    second: &Primitive,
+    ray: &Ray,
+) -> Option<Sign> {
+    let quadratic = |sphere: &Primitive| match *sphere {
+        Primitive::Sphere { center, radius } => Quadratic::<R>::new(center, radius, ray),
+        _ => unreachable!("it is a sphere"),
+    };
+    let (first, second) = (quadratic(first), quadratic(second));
+    let (side1, side2) = (root_side(&first)?, root_side(&second)?);
+    let (d1, d2) = (first.discriminant(), second.discriminant());
+    let delta = first.b.minus(&second.b);
+    let same_side = side1 == side2;
+
+    let left = if same_side { side1 * d1.minus(&d2).sign()? } else { side1 };
+    let right = delta.sign()?;
+    if left != right {
+        return Some(if left > right { Sign::Positive } else { Sign::Negative });
+    }
+    if left == Sign::Zero {
+        return Some(Sign::Zero);
+    }
+    // L and Δ have one sign, so their squares tell: L² − Δ² = M − 2σ₁σ₂·√(d₁·d₂) with
+    // M = d₁ + d₂ − Δ².
+    let m = d1.plus(&d2).minus(&delta.square());
+    let product = d1.times(&d2);
+    let four = product.plus(&product).plus(&product).plus(&product);
+    let squares = || m.square().minus(&four).sign();
+    let greater = match (m.sign()?, same_side) {
+        (Sign::Positive, true) => squares()?,
+        (_, true) => Sign::Negative,
+        (Sign::Negative, false) => -squares()?,
+        (_, false) => Sign::Positive,
+    };
+    Some(greater * left)
+}
+
+fn rounded_sphere_distance(center: DVec3, radius: f64, ray: &Ray) -> Bounded {
+    let quadratic = Quadratic::<Bounded>::new(center, radius, ray);
+    let root = quadratic.discriminant().square_root();
+    let Quadratic { a, b, c } = quadratic;
+    let minus_b = Bounded::new(0.0).minus(&b);
+    // Of the two forms of a root, the one without cancellation. Which root is seen must be certain.
+    match (c.sign(), b.value < 0.0) {
+        (Some(Sign::Positive), _) => c.over(minus_b.plus(&root)),
+        (Some(Sign::Negative), true) => minus_b.plus(&root).over(a),
+        (Some(Sign::Negative), false) => Bounded::new(0.0).minus(&c).over(b.plus(&root)),
+        _ => Bounded { value: 0.0, error: f64::INFINITY },
+    }
+}
+
+fn exact_sphere_distance(center: DVec3, radius: f64, ray: &Ray) -> f64 {
+    let quadratic = Quadratic::<Dyadic>::new(center, radius, ray);
+    let root = quadratic.discriminant().square_root();
+    let outside = quadratic.c.sign() == Some(Sign::Positive);
+    let [a, b, c] = [quadratic.a, quadratic.b, quadratic.c].map(|number| number.to_f64());
+    match (outside, b < 0.0) {
+        (true, _) => c / (root - b),
+        (false, true) => (root - b) / a,
+        (false, false) => -c / (b + root),
+    }
+}

@@ -1,0 +1,278 @@
+//! What there is to see: objects in an order, what they are made of, and light.
+
+use crate::mesh::Mesh;
+use glam::Vec3;
+
+/// One triangle, in the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Triangle {
+    /// First corner.
+    pub a: Vec3,
+    /// Second corner.
+    pub b: Vec3,
+    /// Third corner.
+    pub c: Vec3,
+}
+
+/// One sphere, in the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sphere {
+    /// Its middle.
+    pub center: Vec3,
+    /// Positive.
+    pub radius: f32,
+}
+
+/// One infinite plane, in the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plane {
+    /// Any point of it.
+    pub point: Vec3,
+    /// Perpendicular to it; its length does not matter.
+    pub normal: Vec3,
+}
+
+/// The form of one object.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// One primitive.
+    Triangle(Triangle),
+    /// One primitive.
+    Sphere(Sphere),
+    /// One primitive.
+    Plane(Plane),
+    /// One primitive a triangle.
+    Mesh(Mesh),
+}
+
+/// How a surface answers light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Material {
+    /// Diffuse reflectance, linear red, green and blue in 0 … 1.
+    pub color: Vec3,
+    /// Strength of the highlight, 0 … 1.
+    pub specular: f32,
+    /// The Blinn–Phong exponent: larger is a smaller highlight.
+    pub shininess: f32,
+}
+
+impl Default for Material {
+    /// Matt light grey.
+    fn default() -> Self {
+        Material { color: Vec3::splat(0.6), specular: 0.0, shininess: 32.0 }
+    }
+}
+
+/// Where light comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Light {
+    /// The same from everywhere.
+    Ambient {
+        /// Its strength; 1 shows a material in its own colour.
+        intensity: f32,
+    },
+    /// Parallel light, as from the sun.
+    Directional {
+        /// The way the light goes.
+        direction: Vec3,
+        /// Its strength on a surface that faces it.
+        intensity: f32,
+    },
+    /// Light from a point of the world; it does not fade with distance.
+    Point {
+        /// Where it is.
+        position: Vec3,
+        /// Its strength on a surface that faces it.
+        intensity: f32,
+    },
+    /// Light from where the viewing rays come from: whatever faces the viewer is bright.
+    AtCamera {
+        /// Its strength on a surface that faces it.
+        intensity: f32,
+    },
+}
+
+/// One object: a form and what it is made of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Object {
+    /// Its form.
+    pub shape: Shape,
+    /// What it is made of.
+    pub material: Material,
+}
+
+impl Shape {
+    /// How many primitive ids this shape takes.
+    pub fn primitive_count(&self) -> usize {
+        match self {
+            Shape::Mesh(mesh) => mesh.triangles().len(),
+            Shape::Triangle(_) | Shape::Sphere(_) | Shape::Plane(_) => 1,
+        }
+    }
+}
+
+impl From<Shape> for Object {
+    /// An object of the default material.
+    fn from(shape: Shape) -> Self {
+        Object { shape, material: Material::default() }
+    }
+}
+
+/// Everything there is to see, with ids for all primitives.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    objects: Vec<Object>,
+    /// The id of each object's first primitive, and behind the last the number of primitives.
+    first_ids: Vec<u32>,
+    /// Where light comes from.
+    pub lights: Vec<Light>,
+    /// What is seen where nothing is, linear red, green and blue.
+    pub background: Vec3,
+}
+
+/// Why a scene is refused.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SceneError {
+    /// A coordinate is NaN or infinite.
+    #[error("object {object}: {what} is not finite; give finite numbers")]
+    NotFinite {
+        /// The object, counted from 0.
+        object: usize,
+        /// Which of its properties.
+        what: &'static str,
+    },
+    /// A sphere without size.
+    #[error("object {object}: the radius is {radius}; it must be greater than 0")]
+    Radius {
+        /// The object, counted from 0.
+        object: usize,
+        /// As it was given.
+        radius: f32,
+    },
+    /// A plane without a direction.
+    #[error("object {object}: the plane's normal is zero; give a vector with a length")]
+    NoNormal {
+        /// The object, counted from 0.
+        object: usize,
+    },
+    /// More primitives than ids.
+    #[error("the scene has {primitives} primitives; at most {} can be told apart", u32::MAX - 1)]
+    TooManyPrimitives {
+        /// How many there are.
+        primitives: usize,
+    },
+}
+
+impl Scene {
+    /// Objects in their order, lit from the camera, before a dark background.
+    ///
+    /// # Errors
+    ///
+    /// Numbers that are not finite, a radius that is not positive, a normal of zero, or more
+    /// primitives than ids.
+    pub fn new(objects: Vec<Object>) -> Result<Scene, SceneError> {
+        let mut first_ids = Vec::with_capacity(objects.len() + 1);
+        let mut primitives = 0;
+        for (index, object) in objects.iter().enumerate() {
+            check_shape(index, &object.shape)?;
+            first_ids.push(id(primitives)?);
+            primitives += object.shape.primitive_count();
+        }
+        first_ids.push(id(primitives)?);
+        let lights = vec![Light::AtCamera { intensity: 0.9 }, Light::Ambient { intensity: 0.1 }];
+        Ok(Scene { objects, first_ids, lights, background: Vec3::splat(0.006) })
+    }
+
+    /// The objects, in scene order.
+    pub fn objects(&self) -> &[Object] {
+        &self.objects
+    }
+
+    /// The id of an object's first primitive.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such object.
+    pub fn first_id(&self, object: usize) -> u32 {
+        assert!(object < self.objects.len(), "there is no object {object}");
+        self.first_ids[object]
+    }
+
+    /// How many primitives there are; ids are smaller.
+    pub fn primitive_count(&self) -> u32 {
+        self.first_ids[self.objects.len()]
+    }
+
+    /// The object that a primitive belongs to, and the primitive's number within it.
+    ///
+    /// # Panics
+    ///
+    /// If there is no primitive of this id.
+    pub fn locate(&self, id: u32) -> (usize, usize) {
+        assert!(id < self.primitive_count(), "there is no primitive {id}");
+        let object = self.first_ids.partition_point(|&first| first <= id) - 1;
+        (object, (id - self.first_ids[object]) as usize)
+    }
+}
+
+fn id(primitives: usize) -> Result<u32, SceneError> {
+    match u32::try_from(primitives) {
+        Ok(id) if id < u32::MAX => Ok(id),
+        _ => Err(SceneError::TooManyPrimitives { primitives }),
+    }
+}
+
+fn check_shape(object: usize, shape: &Shape) -> Result<(), SceneError> {
+    let finite = |what, vector: Vec3| {
+        if vector.is_finite() { Ok(()) } else { Err(SceneError::NotFinite { object, what }) }
+    };
+    match shape {
+        Shape::Triangle(Triangle { a, b, c }) => {
+            [*a, *b, *c].into_iter().try_for_each(|corner| finite("a corner", corner))
+        }
+        Shape::Sphere(Sphere { center, radius }) => {
+            finite("the center", *center)?;
+            if *radius > 0.0 && radius.is_finite() {
+                Ok(())
+            } else {
+                Err(SceneError::Radius { object, radius: *radius })
+            }
+        }
+        Shape::Plane(Plane { point, normal }) => {
+            finite("the point", *point)?;
+            finite("the normal", *normal)?;
+            if *normal == Vec3::ZERO { Err(SceneError::NoNormal { object }) } else { Ok(()) }
+        }
+        // A mesh was checked when it was made.
+        Shape::Mesh(_) => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sphere(radius: f32) -> Object {
+        Shape::Sphere(Sphere { center: Vec3::ZERO, radius }).into()
+    }
+
+    #[test]
+    fn ids_run_through_meshes_and_skip_empty_ones() {
+        let mesh = |triangles: usize| -> Object {
+            Shape::Mesh(Mesh::new(vec![Vec3::ZERO], vec![[0; 3]; triangles]).unwrap()).into()
+        };
+        let scene = Scene::new(vec![mesh(2), mesh(0), sphere(1.0), mesh(3)]).unwrap();
+        assert_eq!(scene.primitive_count(), 6);
+        let located: Vec<_> = (0..6).map(|id| scene.locate(id)).collect();
+        assert_eq!(located, [(0, 0), (0, 1), (2, 0), (3, 0), (3, 1), (3, 2)]);
+    }
+
+    #[test]
+    fn impossible_objects_are_refused() {
+        for radius in [0.0, -1.0, f32::NAN, f32::INFINITY] {
+            assert!(matches!(Scene::new(vec![sphere(radius)]), Err(SceneError::Radius { .. })));
+        }
+        let plane = Shape::Plane(Plane { point: Vec3::ZERO, normal: Vec3::ZERO });
+        assert_eq!(Scene::new(vec![plane.into()]), Err(SceneError::NoNormal { object: 0 }));
+    }
+}

@@ -1,0 +1,81 @@
+//! The look of a surface point: one function for both orders, which each bring their own normals.
+
+use crate::scene::{Light, Material};
+use glam::Vec3;
+
+/// What is seen at one sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfacePoint {
+    /// Where it is, relative to the eye.
+    pub position: Vec3,
+    /// Unit normal, towards the viewer.
+    pub normal: Vec3,
+    /// Unit direction towards the viewer, against the viewing ray.
+    pub to_viewer: Vec3,
+}
+
+/// The linear colour of a surface point: ambient light, Lambert's cosine and a Blinn–Phong highlight.
+///
+/// `eye` is where the eye is in the world. Colours above 1 are left to the picture to clamp.
+///
+/// Blinn, "Models of Light Reflection for Computer Synthesized Pictures", SIGGRAPH 1977.
+pub fn colour(point: &SurfacePoint, material: &Material, lights: &[Light], eye: Vec3) -> Vec3 {
+    lights.iter().map(|light| lit_by(light, point, material, eye)).sum()
+}
+
+fn lit_by(light: &Light, point: &SurfacePoint, material: &Material, eye: Vec3) -> Vec3 {
+    let (to_light, intensity) = match *light {
+        Light::Ambient { intensity } => return material.color * intensity,
+        Light::Directional { direction, intensity } => (-direction, intensity),
+        Light::Point { position, intensity } => (position - eye - point.position, intensity),
+        Light::AtCamera { intensity } => (point.to_viewer, intensity),
+    };
+    let to_light = to_light.normalize_or_zero();
+    let cosine = point.normal.dot(to_light);
+    if cosine <= 0.0 {
+        return Vec3::ZERO;
+    }
+    let halfway = (to_light + point.to_viewer).normalize_or_zero();
+    let highlight = point.normal.dot(halfway).max(0.0).powf(material.shininess);
+    intensity * (material.color * cosine + Vec3::splat(material.specular * highlight))
+}
+
+/// An sRGB byte from a linear value in 0 … 1; values outside are clamped.
+///
+/// IEC 61966-2-1:1999.
+pub fn srgb_from_linear(linear: f32) -> u8 {
+    let linear = linear.clamp(0.0, 1.0);
+    let encoded =
+        if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255")]
+    let byte = (encoded * 255.0).round() as u8;
+    byte
+}
+
+/// The linear value in 0 … 1 that an sRGB byte stands for.
+pub fn linear_from_srgb(byte: u8) -> f32 {
+    let encoded = f32::from(byte) / 255.0;
+    if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn srgb_bytes_survive_the_way_there_and_back() {
+        assert!((0..=255).all(|byte| srgb_from_linear(linear_from_srgb(byte)) == byte));
+    }
+
+    #[test]
+    fn a_surface_that_faces_the_light_shows_its_colour() {
+        let point = SurfacePoint { position: -Vec3::Z, normal: Vec3::Z, to_viewer: Vec3::Z };
+        let material = Material { color: Vec3::new(0.5, 0.25, 0.0), ..Material::default() };
+        let lit = |direction| {
+            let light = Light::Directional { direction, intensity: 1.0 };
+            colour(&point, &material, &[light], Vec3::ZERO)
+        };
+        assert_eq!(lit(-Vec3::Z), material.color);
+        assert_eq!(lit(Vec3::Z), Vec3::ZERO);
+    }
+}

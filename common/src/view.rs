@@ -1,0 +1,90 @@
+//! One scene as one camera sees it: positions become offsets from the eye.
+
+use crate::camera::Camera;
+use crate::predicate::Judge;
+use crate::scene::{Plane, Scene, Shape, Sphere, Triangle};
+use glam::{DVec3, Vec3};
+
+/// A scene and a camera. It copies nothing: whoever needs a vertex asks for its offset.
+#[derive(Clone, Copy, Debug)]
+pub struct View<'a> {
+    /// What there is to see.
+    pub scene: &'a Scene,
+    /// From where.
+    pub camera: &'a Camera,
+}
+
+/// One primitive relative to the eye: the eye is the origin, the axes are the world's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Primitive {
+    /// Its three corners.
+    Triangle([DVec3; 3]),
+    /// A sphere.
+    Sphere {
+        /// Its middle.
+        center: DVec3,
+        /// Positive.
+        radius: f64,
+    },
+    /// An infinite plane.
+    Plane {
+        /// Any point of it.
+        point: DVec3,
+        /// Perpendicular to it, not of unit length.
+        normal: DVec3,
+    },
+}
+
+impl<'a> View<'a> {
+    /// This scene, seen by this camera.
+    pub fn new(scene: &'a Scene, camera: &'a Camera) -> Self {
+        View { scene, camera }
+    }
+
+    /// A position of the world relative to the eye: one subtraction a coordinate, which *is* the
+    /// vertex from here on.
+    pub fn offset(&self, position: Vec3) -> DVec3 {
+        position.as_dvec3() - self.camera.eye().as_dvec3()
+    }
+
+    /// A primitive relative to the eye.
+    ///
+    /// # Panics
+    ///
+    /// If there is no primitive of this id.
+    pub fn primitive(&self, id: u32) -> Primitive {
+        let (object, local) = self.scene.locate(id);
+        self.primitive_of(&self.scene.objects()[object].shape, local)
+    }
+
+    /// All primitives with their ids, in scene order.
+    pub fn primitives(&self) -> impl Iterator<Item = (u32, Primitive)> {
+        let shapes = self.scene.objects().iter().map(|object| &object.shape);
+        let all = shapes.flat_map(move |shape| {
+            (0..shape.primitive_count()).map(move |local| self.primitive_of(shape, local))
+        });
+        (0..).zip(all)
+    }
+
+    /// Who decides what is true of a sample of this view.
+    pub fn judge(&self) -> Judge {
+        Judge::new(self.camera)
+    }
+
+    fn primitive_of(&self, shape: &Shape, local: usize) -> Primitive {
+        match shape {
+            Shape::Triangle(Triangle { a, b, c }) => {
+                Primitive::Triangle([*a, *b, *c].map(|corner| self.offset(corner)))
+            }
+            Shape::Mesh(mesh) => {
+                Primitive::Triangle(mesh.corners(local).map(|corner| self.offset(corner)))
+            }
+            Shape::Sphere(Sphere { center, radius }) => {
+                Primitive::Sphere { center: self.offset(*center), radius: f64::from(*radius) }
+            }
+            Shape::Plane(Plane { point, normal }) => {
+                Primitive::Plane { point: self.offset(*point), normal: normal.as_dvec3() }
+            }
+        }
+    }
+}
