@@ -1,0 +1,156 @@
+//! A triangle's edge functions as functions on the viewport, with the error of their rounding.
+
+use super::depth::{DepthPlane, UNIT_ROUNDOFF};
+use super::screen::{Screen, samples_between};
+use bothways_common::fault::{Fault, Planted};
+use bothways_common::{Judge, Projection, Sign};
+use glam::DVec3;
+use std::ops::Range;
+
+/// An edge function `at_centre + x·across + y·up` on the viewport, positive inside of the triangle,
+/// to within `error`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Edge {
+    pub(super) at_centre: f64,
+    pub(super) across: f64,
+    pub(super) up: f64,
+    pub(super) error: f64,
+}
+
+impl Edge {
+    /// The edge function from `p` to `q`, its sign that of the real one.
+    ///
+    /// # The error, rounding by rounding
+    ///
+    /// Perspective: `E = n·D`, `n = p × q`. A coordinate of `n` carries 2 roundings of its permanent
+    /// `N`, a product with `u`, `v` or `w` and two sums 3, `d` one; evaluation at a sample adds at most
+    /// 3. `D = (x·u + y·v) − d·w` is rounded by 3. That is at most 2 + 3 + 1 + 2 + 3 = 11 of `Σ
+    /// N·reach`.
+    ///
+    /// Parallel: `E = D·(p × q) + O·m`, `m = (p − q) × D`. The first term carries 2 + 3, and 2 for two
+    /// sums. A coordinate of `m` carries 3 of its permanent `M`, the product with `u` or `v` 3,
+    /// evaluation 3, and `O` is rounded by 2: at most 11 of `Σ M·reach`.
+    ///
+    /// The bound takes 13, so that its own roundings (at most 10, each of one part in 2⁵³) do no harm.
+    fn new(screen: &Screen, p: DVec3, q: DVec3) -> Edge {
+        let (normal, permanent) = (p.cross(q), cross_permanent(p, q));
+        let (at_centre, slope, size) = match screen.projection() {
+            Projection::Perspective => {
+                (-screen.distance * normal.dot(screen.w), normal, permanent.dot(screen.reach))
+            }
+            Projection::Parallel => {
+                let along = p - q;
+                let slope = -along.cross(screen.w);
+                let size = permanent.dot(screen.w.abs())
+                    + cross_permanent(along, screen.w).dot(screen.reach);
+                (-normal.dot(screen.w), slope, size)
+            }
+        };
+        Edge {
+            at_centre,
+            across: slope.dot(screen.u),
+            up: slope.dot(screen.v),
+            error: 13.0 * UNIT_ROUNDOFF * size + f64::MIN_POSITIVE,
+        }
+    }
+
+    fn oriented(self, facing: f64) -> Edge {
+        let Edge { at_centre, across, up, error } = self;
+        Edge { at_centre: facing * at_centre, across: facing * across, up: facing * up, error }
+    }
+
+    /// The part of the function that all samples of a row share.
+    pub(super) fn on_row(&self, y: f64) -> f64 {
+        self.at_centre + y * self.up
+    }
+}
+
+/// `|p| × |q|` with sums for differences: what bounds a cross product and its rounding.
+fn cross_permanent(p: DVec3, q: DVec3) -> DVec3 {
+    let (p, q) = (p.abs(), q.abs());
+    DVec3::new(p.y * q.z + p.z * q.y, p.z * q.x + p.x * q.z, p.x * q.y + p.y * q.x)
+}
+
+/// A triangle, set up to be drawn.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct TriangleSetup {
+    pub(super) edges: [Edge; 3],
+    pub(super) depth: DepthPlane,
+    /// The facing, ±1: what edge functions were multiplied with.
+    pub(super) facing: f64,
+}
+
+impl TriangleSetup {
+    /// Edge functions and depth; `None` for a triangle that is edge-on, which covers nothing.
+    pub(super) fn new<F: Fault>(
+        screen: &Screen,
+        judge: &Judge,
+        corners: &[DVec3; 3],
+    ) -> Option<Self> {
+        let [a, b, c] = *corners;
+        let (along_b, along_c) = (b - a, c - a);
+        let normal = along_b.cross(along_c);
+        let permanent = cross_permanent(along_b, along_c);
+        let facing = facing(screen, judge, corners, normal, permanent)?;
+        let edge = |p, q| Edge::new(screen, p, q).oriented(facing);
+        let mut setup = TriangleSetup {
+            edges: [edge(a, b), edge(b, c), edge(c, a)],
+            depth: DepthPlane::new(screen, a, normal, permanent),
+            facing,
+        };
+        if F::is(Planted::ZeroErrorBound) {
+            setup.edges.iter_mut().for_each(|edge| edge.error = 0.0);
+            setup.depth.error = 0.0;
+        }
+        Some(setup)
+    }
+
+    /// The columns of a row at which no edge function is certainly negative, widened by one.
+    pub(super) fn span(&self, screen: &Screen, y: f64, columns: &Range<usize>) -> Range<usize> {
+        let mut low = f64::NEG_INFINITY;
+        let mut high = f64::INFINITY;
+        for edge in &self.edges {
+            // on_row + x·across ≥ −error.
+            let on_row = edge.on_row(y);
+            let crossing = (-edge.error - on_row) / edge.across;
+            if edge.across > 0.0 {
+                low = low.max(crossing);
+            } else if edge.across < 0.0 {
+                high = high.min(crossing);
+            } else if on_row < -edge.error {
+                return columns.start..columns.start;
+            }
+        }
+        // In the picture a column is rounded by less than 2⁻³³; one column is room enough.
+        let [first, last] = [low, high].map(|x| screen.column(x));
+        let span = samples_between(first - 1.0, last + 1.0, columns.end);
+        span.start.clamp(columns.start, columns.end)..span.end.clamp(columns.start, columns.end)
+    }
+}
+
+/// The sign of `F`, ±1, or `None` if it is zero.
+///
+/// Perspective: `F = n·a`, `n = (b − a) × (c − a)`, of which each coordinate carries 4 roundings and
+/// the product 3 more; parallel: `F = n·D` likewise. 8 leaves room for the bound's own.
+fn facing(
+    screen: &Screen,
+    judge: &Judge,
+    corners: &[DVec3; 3],
+    normal: DVec3,
+    permanent: DVec3,
+) -> Option<f64> {
+    let against = match screen.projection() {
+        Projection::Perspective => corners[0],
+        Projection::Parallel => -screen.w,
+    };
+    let facing = normal.dot(against);
+    let error = 8.0 * UNIT_ROUNDOFF * permanent.dot(against.abs()) + f64::MIN_POSITIVE;
+    if facing.abs() > error {
+        return Some(facing.signum());
+    }
+    match judge.facing(corners, &screen.grid.ray(0, 0)) {
+        Sign::Negative => Some(-1.0),
+        Sign::Zero => None,
+        Sign::Positive => Some(1.0),
+    }
+}

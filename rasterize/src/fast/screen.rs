@@ -1,0 +1,259 @@
+//! Where primitives may appear on the raster of samples: the vertex stage and bounding regions.
+
+use super::depth::DepthPlane;
+use bothways_common::fault::{Fault, Planted};
+use bothways_common::frame::Region;
+use bothways_common::{Camera, Projection, SampleGrid};
+use glam::DVec3;
+
+/// One camera's raster: how viewport coordinates become rows and columns.
+///
+/// A sample's column is the real number `x·W/vw + (W − 1)/2`, integer at samples; rows likewise.
+#[derive(Debug)]
+pub(super) struct Screen<'a> {
+    pub(super) camera: &'a Camera,
+    pub(super) grid: &'a SampleGrid<'a>,
+    pub(super) u: DVec3,
+    pub(super) v: DVec3,
+    pub(super) w: DVec3,
+    /// `d`.
+    pub(super) distance: f64,
+    /// The largest `|x|·|u| + |y|·|v| (+ d·|w|)` of the picture, a coordinate each: bounds of the
+    /// rays' origins (parallel) or directions (perspective).
+    pub(super) reach: DVec3,
+    /// Columns and rows a unit of the viewport.
+    scale: [f64; 2],
+    /// The column and row of the viewport's middle.
+    middle: [f64; 2],
+    /// How far a computed column or row of a trusted vertex may be off; see [`Screen::new`].
+    margin: [f64; 2],
+    /// Half the smaller side of the viewport, for parallel cameras.
+    trusted_extent: f64,
+}
+
+/// A vertex on the raster.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum ScreenVertex {
+    /// Certainly in front of the eye, at this column and row (to within the margin).
+    At(f64, f64),
+    /// Certainly not in front of the eye.
+    Behind,
+    /// Too near to the eye's plane, or too far out, for a column and row to be trusted.
+    Unknown,
+}
+
+impl<'a> Screen<'a> {
+    /// # How the margin is derived
+    ///
+    /// Perspective. A visible point of a triangle lies in its corners' hull and on a ray, so its
+    /// column lies between the corners' columns; what must be bounded is the error of a corner's
+    /// computed column. With `s = ‖p‖₁`, `p·u` and `−p·w` carry at most `3.01u·s` (`u = 2⁻⁵³`; frame
+    /// components are at most 1), and a trusted vertex has `ζ = −p·w ≥ 2⁻¹⁰·s`. The quotient
+    /// `d·(p·u)/ζ` is off by `d·2⁻⁴¹` plus `2⁻⁴¹` of itself, hence a column by `2⁻⁴¹·W·(d/vw + 1)` as
+    /// long as it lies in the picture; if it lies outside, it stays outside. The rays that are meant
+    /// are those of the stored frame: it is orthonormal to within `2⁻⁵⁰`, and `D` is rounded by
+    /// `2⁻⁵¹` of `|x| + |y| + d`, which moves `x` by at most `2⁻⁴⁹·(vw + vh + d)·(1 + (vw + vh)/d)`.
+    /// The margin takes `2⁻³⁶` and `2⁻⁴⁷`: more than 30 and 4 times that.
+    ///
+    /// Parallel. `p·u` is off by `3.01u·s`, frame and `O` by `2⁻⁴⁹·s`, and a trusted vertex has `s ≤
+    /// 2¹⁶·min(vw, vh)`, so a column is off by `2⁻³³·W`; the margin takes `2⁻³⁰`.
+    ///
+    /// Where the margin exceeds a quarter, no vertex is trusted, and primitives are drawn with the
+    /// whole picture as their region.
+    pub(super) fn new(camera: &'a Camera, grid: &'a SampleGrid<'a>) -> Self {
+        let [vw, vh] = camera.viewport();
+        let d = camera.distance();
+        #[expect(clippy::cast_precision_loss, reason = "at most 65,536")]
+        let size = [grid.width() as f64, grid.height() as f64];
+        let across = 0.5 * vw * camera.u().abs() + 0.5 * vh * camera.v().abs();
+        let margin = |extent: f64, count: f64| match camera.projection() {
+            Projection::Perspective => {
+                let frame = (vw + vh + d) * (1.0 + (vw + vh) / d) / extent;
+                count * ((-36f64).exp2() * (1.0 + d / extent) + (-47f64).exp2() * frame)
+            }
+            Projection::Parallel => count * (-30f64).exp2(),
+        };
+        Screen {
+            camera,
+            grid,
+            u: camera.u(),
+            v: camera.v(),
+            w: camera.w(),
+            distance: d,
+            reach: match camera.projection() {
+                Projection::Perspective => across + d * camera.w().abs(),
+                Projection::Parallel => across,
+            },
+            scale: [size[0] / vw, -size[1] / vh],
+            middle: size.map(|count| 0.5 * (count - 1.0)),
+            margin: [margin(vw, size[0]), margin(vh, size[1])],
+            trusted_extent: 16f64.exp2() * vw.min(vh),
+        }
+    }
+
+    /// Perspective or parallel.
+    pub(super) fn projection(&self) -> Projection {
+        self.camera.projection()
+    }
+
+    /// The whole picture.
+    pub(super) fn whole(&self) -> Region {
+        Region { rows: 0..self.grid.height(), columns: 0..self.grid.width() }
+    }
+
+    /// The vertex stage: an offset from the eye becomes a place on the raster.
+    pub(super) fn vertex(&self, p: DVec3) -> ScreenVertex {
+        let (extent, depth) = (p.abs().element_sum(), -p.dot(self.w));
+        // The sign of the depth is certain beyond 3.01u·s.
+        if depth < -extent * (-50f64).exp2() {
+            return ScreenVertex::Behind;
+        }
+        let onto_viewport = match self.projection() {
+            Projection::Perspective if depth >= extent * (-10f64).exp2() && depth > 0.0 => {
+                self.distance / depth
+            }
+            Projection::Parallel if extent <= self.trusted_extent => 1.0,
+            _ => return ScreenVertex::Unknown,
+        };
+        if self.margin[0].max(self.margin[1]) > 0.25 {
+            return ScreenVertex::Unknown;
+        }
+        let [column, row] =
+            self.place(p.dot(self.u) * onto_viewport, p.dot(self.v) * onto_viewport);
+        ScreenVertex::At(column, row)
+    }
+
+    /// The samples that a triangle may cover.
+    pub(super) fn triangle_region<F: Fault>(&self, corners: &[ScreenVertex; 3]) -> Region {
+        let mut low = [f64::INFINITY; 2];
+        let mut high = [f64::NEG_INFINITY; 2];
+        let mut behind = 0;
+        for corner in corners {
+            match *corner {
+                ScreenVertex::At(column, row) => {
+                    low = [low[0].min(column), low[1].min(row)];
+                    high = [high[0].max(column), high[1].max(row)];
+                }
+                ScreenVertex::Behind => behind += 1,
+                ScreenVertex::Unknown => return self.whole(),
+            }
+        }
+        match behind {
+            0 => self.region::<F>(low, high, self.margin),
+            // All of it lies behind: with t > 0 no ray gets there.
+            3 => Region { rows: 0..0, columns: 0..0 },
+            _ => self.whole(),
+        }
+    }
+
+    /// The samples that a sphere may cover.
+    ///
+    /// Perspective: in the plane of `u` and `w` its silhouette is the two tangents from the eye to a
+    /// circle around `(c_u, ζ)`, of slopes `(c_u·ζ ± r·√(c_u² + ζ² − r²))/(ζ² − r²)`. Trusted is `ζ − r
+    /// ≥ 2⁻¹⁰·s` with `s = ‖c‖₁ + r`: then `ζ² − r²` carries `2⁻³⁹` of itself and is at least `2⁻²⁰·s²`,
+    /// the numerator carries `2⁻⁴⁸·s²`, and the slope is off by `2⁻²⁷` of `1 + |slope|`. The extra
+    /// margin takes `2⁻²⁴`.
+    pub(super) fn sphere_region<F: Fault>(&self, center: DVec3, radius: f64) -> Region {
+        let (s, depth) = (center.abs().element_sum() + radius, -center.dot(self.w));
+        if depth + radius < -s * (-49f64).exp2() {
+            return Region { rows: 0..0, columns: 0..0 };
+        }
+        let along = [center.dot(self.u), center.dot(self.v)];
+        match self.projection() {
+            Projection::Perspective if depth - radius >= s * (-10f64).exp2() => {
+                let (between, d) = ((depth - radius) * (depth + radius), self.distance);
+                let slopes = along.map(|c| {
+                    let root = radius * (c * c + between).sqrt();
+                    [(c * depth - root) / between, (c * depth + root) / between]
+                });
+                let [[left, right], [bottom, top]] = slopes.map(|pair| pair.map(|slope| slope * d));
+                let extra = |axis: usize| {
+                    #[expect(clippy::cast_precision_loss, reason = "at most 65,536")]
+                    let count = [self.grid.width() as f64, self.grid.height() as f64][axis];
+                    (-24f64).exp2() * (d * self.scale[axis].abs() + count)
+                };
+                let margin = [self.margin[0] + extra(0), self.margin[1] + extra(1)];
+                self.region::<F>(self.place(left, top), self.place(right, bottom), margin)
+            }
+            Projection::Parallel if s <= self.trusted_extent => {
+                let low = self.place(along[0] - radius, along[1] + radius);
+                let high = self.place(along[0] + radius, along[1] - radius);
+                self.region::<F>(low, high, self.margin)
+            }
+            _ => self.whole(),
+        }
+    }
+
+    /// The samples beyond a plane's horizon, where its depth says that `t` may be positive.
+    pub(super) fn plane_region(&self, depth: &DepthPlane) -> Region {
+        let (x, y) = (self.grid.x(), self.grid.y());
+        let side = depth.sign_in_front(self.projection());
+        let widest = x.last().map_or(0.0, |x| x.abs()) * depth.across.abs();
+        let highest = y.first().map_or(0.0, |y| y.abs()) * depth.up.abs();
+        let slack = depth.error;
+        let may = |value: f64, rest: f64| {
+            let most = side * value + rest;
+            most >= -slack || most.is_nan()
+        };
+        let row = |row: &usize| may(depth.at_centre + y[*row] * depth.up, widest);
+        let column = |column: &usize| may(depth.at_centre + x[*column] * depth.across, highest);
+        // On a row the largest value over all columns is affine in the row, so those that pass are
+        // consecutive.
+        let span = |count: usize, passes: &dyn Fn(&usize) -> bool| {
+            let first = (0..count).find(passes).unwrap_or(count);
+            let end = (first..count).rev().find(passes).map_or(first, |last| last + 1);
+            first..end
+        };
+        Region { rows: span(y.len(), &row), columns: span(x.len(), &column) }
+    }
+
+    /// The column of a point of the viewport, a real number.
+    pub(super) fn column(&self, x: f64) -> f64 {
+        x * self.scale[0] + self.middle[0]
+    }
+
+    /// The column and row of a point of the viewport.
+    fn place(&self, x: f64, y: f64) -> [f64; 2] {
+        [self.column(x), y * self.scale[1] + self.middle[1]]
+    }
+
+    /// The samples between two places, widened by a margin.
+    fn region<F: Fault>(&self, low: [f64; 2], high: [f64; 2], margin: [f64; 2]) -> Region {
+        let range = |axis: usize, count: usize| {
+            let margin = if F::is(Planted::ShrunkBox) {
+                -f64::EPSILON * (1.0 + low[axis].abs())
+            } else {
+                margin[axis]
+            };
+            samples_between(low[axis] - margin, high[axis] + margin, count)
+        };
+        Region { rows: range(1, self.grid.height()), columns: range(0, self.grid.width()) }
+    }
+}
+
+/// The integers from `low` to `high` that are indices below `count`.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the conversion saturates: negative numbers and NaN become 0"
+)]
+pub(super) fn samples_between(low: f64, high: f64, count: usize) -> std::ops::Range<usize> {
+    let start = low.ceil() as usize;
+    let end = if high < 0.0 { 0 } else { (high.floor() as usize).saturating_add(1).min(count) };
+    start..end.max(start)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn samples_between_includes_both_ends() {
+        assert_eq!(samples_between(1.0, 3.0, 10), 1..4);
+        assert_eq!(samples_between(1.1, 3.9, 10), 2..4);
+        assert_eq!(samples_between(-5.0, -0.5, 10), 0..0);
+        assert_eq!(samples_between(-5.0, 1e300, 10), 0..10);
+        assert!(samples_between(12.0, 14.0, 10).is_empty());
+        assert!(samples_between(2.3, 2.7, 10).is_empty());
+    }
+}

@@ -1,0 +1,67 @@
+//! The lecture's object order, every primitive × every sample:
+//!
+//! ```text
+//! for each object in the scene {
+//!   for each pixel in the image {
+//!     if (object affects pixel) {
+//!       do something
+//!     }
+//!   }
+//! }
+//! ```
+//!
+//! *Affects* is the exact predicate; *do something* is keeping the nearest primitive so far, which
+//! is what the frame is for: it is the z-buffer.
+
+use bothways_common::frame::Region;
+use bothways_common::observe::{Observer, Sample};
+use bothways_common::{Frame, Options, View};
+
+/// Renders a view: what is seen at every sample, and its look.
+pub fn render(view: &View, options: &Options) -> Frame {
+    let mut frame = Frame::new(view.camera, options);
+    determine_visibility(view, options, &mut frame, &mut ());
+    crate::shade(view, &mut frame);
+    frame
+}
+
+/// Finds the primitive that is seen at every sample, and how far it is.
+pub fn determine_visibility(
+    view: &View,
+    options: &Options,
+    frame: &mut Frame,
+    observer: &mut impl Observer,
+) {
+    frame.fit(view.camera, options);
+    frame.clear();
+    let judge = view.judge();
+    let grid = view.camera.sample_grid(options.samples);
+
+    for (id, primitive) in view.primitives() {
+        observer.primitive_begun(id, &Region { rows: 0..grid.height(), columns: 0..grid.width() });
+        for row in 0..grid.height() {
+            for column in 0..grid.width() {
+                let sample = Sample { row, column };
+                let ray = grid.ray(row, column);
+                observer.sample_tested(sample, id);
+                let coverage = judge.coverage(&primitive, &ray);
+                if let Some(edges) = coverage.edges {
+                    observer.edge_signs(sample, id, edges.at_sample.map(Some));
+                }
+                if !coverage.covers {
+                    continue;
+                }
+                observer.fragment(sample, id);
+                if let Some(holder) = frame.id(row, column) {
+                    let nearer =
+                        judge.nearer((id, &primitive), (holder, &view.primitive(holder)), &ray);
+                    observer.depth_test(sample, id, holder, nearer);
+                    if !nearer {
+                        continue;
+                    }
+                }
+                frame.set(row, column, id, judge.distance(&primitive, &ray));
+            }
+        }
+    }
+}
