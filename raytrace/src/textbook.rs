@@ -1,0 +1,70 @@
+//! The lecture's image order, every sample × every primitive:
+//!
+//! ```text
+//! for each pixel in the image {
+//!   for each object in the scene {
+//!     if (object affects pixel) {
+//!       do something
+//!     }
+//!   }
+//! }
+//! ```
+//!
+//! *Affects* is the exact predicate; *do something* is keeping the nearest primitive so far, for
+//! which one variable is enough: the ray is finished before the next begins.
+
+use bothways_common::observe::{Observer, Sample};
+use bothways_common::{Frame, Options, View};
+
+/// Renders a view: what is seen at every sample, and its look.
+pub fn render(view: &View, options: &Options) -> Frame {
+    let mut frame = Frame::new(view.camera, options);
+    determine_visibility(view, options, &mut frame, &mut ());
+    crate::shade(view, &mut frame);
+    frame
+}
+
+/// Finds the primitive that is seen at every sample, and how far it is.
+pub fn determine_visibility(
+    view: &View,
+    options: &Options,
+    frame: &mut Frame,
+    observer: &mut impl Observer,
+) {
+    frame.fit(view.camera, options);
+    frame.clear();
+    let judge = view.judge();
+    let grid = view.camera.sample_grid(options.samples);
+
+    for row in 0..grid.height() {
+        for column in 0..grid.width() {
+            let sample = Sample { row, column };
+            let ray = grid.ray(row, column);
+            observer.ray_begun(sample);
+            let mut nearest = None;
+            for (id, primitive) in view.primitives() {
+                observer.sample_tested(sample, id);
+                let coverage = judge.coverage(&primitive, &ray);
+                if let Some(edges) = coverage.edges {
+                    observer.edge_signs(sample, id, edges.at_sample.map(Some));
+                }
+                if !coverage.covers {
+                    continue;
+                }
+                observer.fragment(sample, id);
+                if let Some((holder, held)) = nearest {
+                    let nearer = judge.nearer((id, &primitive), (holder, &held), &ray);
+                    observer.depth_test(sample, id, holder, nearer);
+                    if !nearer {
+                        continue;
+                    }
+                }
+                nearest = Some((id, primitive));
+            }
+            observer.hit(sample, nearest.map(|(id, _)| id));
+            if let Some((id, primitive)) = nearest {
+                frame.set(row, column, id, judge.distance(&primitive, &ray));
+            }
+        }
+    }
+}
