@@ -1,0 +1,187 @@
+//! What the integration tests share: the four renderers, and small scenes.
+#![expect(dead_code, unreachable_pub, reason = "each test takes what it needs")]
+
+use bothways::common::glam::Vec3;
+use bothways::common::observe::{Observer, Sample};
+use bothways::common::predicate::Sign;
+use bothways::common::{
+    Camera, CameraDescription, Frame, Object, Options, Orientation, Projection, Scene, Shape,
+    Triangle, View,
+};
+use bothways::{rasterize, raytrace};
+use std::cmp::Ordering;
+
+pub type Render = fn(&View, &Options) -> Frame;
+
+/// One suite, four renderers.
+pub const RENDERERS: [(&str, Render); 4] = [
+    ("object order, textbook", rasterize::textbook::render),
+    ("image order, textbook", raytrace::textbook::render),
+    ("object order, fast", |view, options| {
+        rasterize::fast::render(&rasterize::fast::prepare(view.scene), view, options)
+    }),
+    ("image order, fast", |view, options| {
+        raytrace::fast::render(&raytrace::fast::prepare(view.scene), view, options)
+    }),
+];
+
+pub const PROJECTIONS: [Projection; 2] = [Projection::Perspective, Projection::Parallel];
+
+/// Renders with all four and compares ids, distances and normals' looks; gives the first's frame.
+pub fn all_agree(view: &View, options: &Options, what: &str) -> Frame {
+    let frames = RENDERERS.map(|(name, render)| (name, render(view, options)));
+    let (_, expected) = &frames[0];
+    for (name, frame) in &frames[1..] {
+        assert_same_visibility(expected, frame, &format!("{what}: {name}"));
+    }
+    frames[0].1.clone()
+}
+
+/// Ids equal; distances within a millionth.
+pub fn assert_same_visibility(expected: &Frame, frame: &Frame, what: &str) {
+    let width = expected.width();
+    let place = |index: usize| (index / width, index % width);
+    for (index, (id, other)) in expected.ids().iter().zip(frame.ids()).enumerate() {
+        assert_eq!(id, other, "{what}: sample {:?}", place(index));
+    }
+    for (index, (t, other)) in expected.distances().iter().zip(frame.distances()).enumerate() {
+        let close = t == other || (t - other).abs() <= 1e-6 * t;
+        assert!(close, "{what}: t {t} and {other} at sample {:?}", place(index));
+    }
+}
+
+/// An observer that counts exact ties: of edges where they decide, and of distances.
+#[derive(Clone, Debug)]
+pub struct Ties<'a> {
+    view: &'a View<'a>,
+    samples: u32,
+    pub edge: u64,
+    pub distance: u64,
+    pub tested: u64,
+}
+
+impl<'a> Ties<'a> {
+    pub fn new(view: &'a View<'a>, samples: u32) -> Self {
+        Ties { view, samples, edge: 0, distance: 0, tested: 0 }
+    }
+}
+
+impl Observer for Ties<'_> {
+    fn fork(&self) -> Self {
+        Ties::new(self.view, self.samples)
+    }
+
+    fn join(&mut self, part: Self) {
+        self.edge += part.edge;
+        self.distance += part.distance;
+        self.tested += part.tested;
+    }
+
+    fn sample_tested(&mut self, _sample: Sample, _primitive: u32) {
+        self.tested += 1;
+    }
+
+    fn edge_signs(&mut self, _sample: Sample, _primitive: u32, signs: [Option<Sign>; 3]) {
+        let has = |sign| signs.contains(&Some(sign));
+        let decided_elsewhere = has(Sign::Negative) && has(Sign::Positive);
+        self.edge += u64::from(has(Sign::Zero) && !decided_elsewhere);
+    }
+
+    fn depth_test(&mut self, sample: Sample, challenger: u32, holder: u32, _replaced: bool) {
+        let ray = self.view.camera.sample_grid(self.samples).ray(sample.row, sample.column);
+        let [first, second] = [challenger, holder].map(|id| self.view.primitive(id));
+        let at_sample = self.view.judge().compare(&first, &second, &ray).at_sample;
+        self.distance += u64::from(at_sample == Ordering::Equal);
+    }
+}
+
+/// An observer that counts, for every sample, the primitives that cover it.
+#[derive(Clone, Debug)]
+pub struct Owners {
+    width: usize,
+    pub counts: Vec<u32>,
+}
+
+impl Owners {
+    pub fn new(camera: &Camera, options: &Options) -> Self {
+        let [width, height] = camera.image().map(|side| (side * options.samples) as usize);
+        Owners { width, counts: vec![0; width * height] }
+    }
+}
+
+impl Observer for Owners {
+    fn fork(&self) -> Self {
+        Owners { width: self.width, counts: vec![0; self.counts.len()] }
+    }
+
+    fn join(&mut self, part: Self) {
+        for (count, more) in self.counts.iter_mut().zip(part.counts) {
+            *count += more;
+        }
+    }
+
+    fn fragment(&mut self, sample: Sample, _primitive: u32) {
+        self.counts[sample.row * self.width + sample.column] += 1;
+    }
+}
+
+/// How many primitives cover each sample, as each of the four renderers' loops meet them.
+pub fn owners(view: &View, options: &Options) -> [(&'static str, Vec<u32>); 4] {
+    let mut counts = [(); 4].map(|()| Owners::new(view.camera, options));
+    let mut frame = Frame::new(view.camera, options);
+    let [a, b, c, d] = &mut counts;
+    rasterize::textbook::determine_visibility(view, options, &mut frame, a);
+    raytrace::textbook::determine_visibility(view, options, &mut frame, b);
+    let prepared = rasterize::fast::prepare(view.scene);
+    rasterize::fast::determine_visibility(&prepared, view, options, &mut frame, c);
+    let prepared = raytrace::fast::prepare(view.scene);
+    raytrace::fast::determine_visibility(&prepared, view, options, &mut frame, d);
+    let mut names = RENDERERS.iter().map(|(name, _)| *name);
+    counts.map(|owners| (names.next().unwrap(), owners.counts))
+}
+
+/// A camera at `eye` that looks down the negative z axis.
+pub fn camera(
+    projection: Projection,
+    eye: [f32; 3],
+    viewport: [f32; 2],
+    image: [u32; 2],
+) -> Camera {
+    let eye = Vec3::from_array(eye);
+    let description =
+        CameraDescription { projection, eye, viewport, image, ..CameraDescription::default() };
+    Camera::new(description).unwrap()
+}
+
+/// A camera from anywhere, looking at a point.
+pub fn turned(projection: Projection, eye: [f32; 3], target: [f32; 3], image: [u32; 2]) -> Camera {
+    let orientation = Orientation::LookAt { target: Vec3::from_array(target), up: Vec3::Y };
+    let eye = Vec3::from_array(eye);
+    let viewport = match projection {
+        Projection::Perspective => [1.5, 1.5],
+        Projection::Parallel => [6.0, 6.0],
+    };
+    let description = CameraDescription {
+        projection,
+        eye,
+        orientation,
+        viewport,
+        image,
+        ..CameraDescription::default()
+    };
+    Camera::new(description).unwrap()
+}
+
+pub fn triangle(corners: [[f32; 3]; 3]) -> Object {
+    let [a, b, c] = corners.map(Vec3::from_array);
+    Shape::Triangle(Triangle { a, b, c }).into()
+}
+
+pub fn scene(objects: Vec<Object>) -> Scene {
+    Scene::new(objects).unwrap()
+}
+
+/// How often the property tests run: more with `BOTHWAYS_LONG` set.
+pub fn cases(usual: u32) -> u32 {
+    if std::env::var_os("BOTHWAYS_LONG").is_some() { usual * 50 } else { usual }
+}
