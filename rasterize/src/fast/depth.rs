@@ -42,7 +42,7 @@ impl DepthKey {
     pub(super) fn t(self, projection: Projection) -> Option<f64> {
         const CLOSE: f64 = 1e-9;
         let key = 0.5 * (self.low + self.high);
-        let certain = self.high - self.low <= CLOSE * key.abs();
+        let certain = key.is_finite() && self.high - self.low <= CLOSE * key.abs();
         certain.then(|| match projection {
             Projection::Perspective => -1.0 / key,
             Projection::Parallel => key,

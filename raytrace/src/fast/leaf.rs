@@ -29,7 +29,7 @@ impl Distance {
     pub(super) fn t(self) -> Option<f64> {
         const CLOSE: f64 = 1e-9;
         let t = 0.5 * (self.low + self.high);
-        (self.high - self.low <= CLOSE * t).then_some(t)
+        (t.is_finite() && self.high - self.low <= CLOSE * t).then_some(t)
     }
 }
 
