@@ -1,0 +1,145 @@
+//! The verdict can fail: each fault planted inside the visibility code of one order turns it to
+//! *differ*, and without the fault the same picture is a *match*.
+
+mod support;
+
+use bothways::common::fault::{
+    DroppedTile, Fault, ForgottenNode, ShrunkBox, Sound, StrictComparison, TiesToLast,
+    ZeroErrorBound,
+};
+use bothways::common::glam::Vec3;
+use bothways::common::{Camera, Frame, Mesh, Object, Options, Projection, Scene, Shape, View};
+use bothways::diff::compare;
+use bothways::{rasterize, raytrace};
+use support::{PROJECTIONS, camera, scene, triangle, turned};
+
+/// Whether both orders match when object order, or image order, has a fault.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Verdicts {
+    object_order: bool,
+    image_order: bool,
+}
+
+const CAUGHT: Verdicts = Verdicts { object_order: false, image_order: false };
+
+fn verdicts<F: Fault>(scene: &Scene, camera: &Camera, fault: F) -> Verdicts {
+    let (view, options) = (View::new(scene, camera), Options::default());
+    let object_order = |fault: &dyn Fn(&mut Frame)| {
+        let mut frame = Frame::new(camera, &options);
+        fault(&mut frame);
+        rasterize::shade(&view, &mut frame);
+        frame
+    };
+    let prepared = (rasterize::fast::prepare(scene), raytrace::fast::prepare(scene));
+    let rasterized = |frame: &mut Frame| {
+        rasterize::fast::determine_visibility(&prepared.0, &view, &options, frame, &mut ());
+    };
+    let traced = |frame: &mut Frame| {
+        raytrace::fast::determine_visibility(&prepared.1, &view, &options, frame, &mut ());
+    };
+    let sound = (object_order(&rasterized), object_order(&traced));
+    assert!(compare(&sound.0, &sound.1).matches(), "without a fault the orders match");
+    let broken = (
+        object_order(&|frame| {
+            rasterize::fast::determine_visibility_with_fault(
+                &prepared.0,
+                &view,
+                &options,
+                frame,
+                &mut (),
+                fault,
+            );
+        }),
+        object_order(&|frame| {
+            raytrace::fast::determine_visibility_with_fault(
+                &prepared.1,
+                &view,
+                &options,
+                frame,
+                &mut (),
+                fault,
+            );
+        }),
+    );
+    Verdicts {
+        object_order: compare(&broken.0, &sound.1).matches(),
+        image_order: compare(&sound.0, &broken.1).matches(),
+    }
+}
+
+/// A square from (−2, −2) to (2, 2) at z = −1, of two triangles.
+fn square() -> Vec<Object> {
+    let [a, b, c, d] = [[-2.0, -2.0, -1.0], [2.0, -2.0, -1.0], [2.0, 2.0, -1.0], [-2.0, 2.0, -1.0]];
+    vec![triangle([a, b, c]), triangle([a, c, d])]
+}
+
+/// 7 × 7 samples on the integer points from −3 to 3.
+fn on_integers(projection: Projection) -> Camera {
+    camera(projection, [0.0; 3], [7.0, 7.0], [7, 7])
+}
+
+#[test]
+fn a_sound_renderer_matches() {
+    for projection in PROJECTIONS {
+        let all_well = Verdicts { object_order: true, image_order: true };
+        assert_eq!(verdicts(&scene(square()), &on_integers(projection), Sound), all_well);
+    }
+}
+
+#[test]
+fn a_dropped_tile_differs() {
+    let camera = camera(Projection::Perspective, [0.0; 3], [2.0, 2.0], [200, 200]);
+    assert_eq!(verdicts(&scene(square()), &camera, DroppedTile), CAUGHT);
+}
+
+#[test]
+fn greater_for_greater_or_equal_differs() {
+    for projection in PROJECTIONS {
+        let verdicts = verdicts(&scene(square()), &on_integers(projection), StrictComparison);
+        assert_eq!(verdicts, CAUGHT, "{projection:?}");
+    }
+}
+
+#[test]
+fn a_box_one_ulp_too_small_differs() {
+    for projection in PROJECTIONS {
+        let verdicts = verdicts(&scene(square()), &on_integers(projection), ShrunkBox);
+        assert_eq!(verdicts, CAUGHT, "{projection:?}");
+    }
+}
+
+#[test]
+fn an_error_bound_of_zero_differs() {
+    // Two triangles of one plane, seen at an angle: every sample of the overlap is an exact tie,
+    // which rounding breaks either way.
+    let floor = triangle([[-3.0, 0.0, -3.0], [3.0, 0.0, -3.0], [0.0, 0.0, 4.0]]);
+    let rug = triangle([[-1.0, 0.0, -2.0], [2.0, 0.0, -1.0], [0.5, 0.0, 3.0]]);
+    let scene = scene(vec![floor, rug]);
+    for projection in PROJECTIONS {
+        let camera = turned(projection, [1.3, 2.9, 4.1], [0.1, 0.2, 0.3], [64, 64]);
+        assert_eq!(verdicts(&scene, &camera, ZeroErrorBound), CAUGHT, "{projection:?}");
+    }
+}
+
+#[test]
+fn ties_to_the_last_primitive_differ() {
+    let twice = scene([square(), square()].concat());
+    for projection in PROJECTIONS {
+        let verdicts = verdicts(&twice, &on_integers(projection), TiesToLast);
+        assert_eq!(verdicts, CAUGHT, "{projection:?}");
+    }
+}
+
+#[test]
+fn a_forgotten_node_of_the_hierarchy_differs() {
+    let positions: Vec<Vec3> =
+        (0..81).map(|k| Vec3::new((k % 9) as f32 - 4.0, (k / 9) as f32 - 4.0, -4.0)).collect();
+    let corner = |k: u32| k / 8 * 9 + k % 8;
+    let cells = (0..64).map(corner).flat_map(|k| [[k, k + 1, k + 10], [k, k + 10, k + 9]]);
+    let mesh = Mesh::new(positions, cells.collect()).unwrap();
+    let scene = scene(vec![Shape::Mesh(mesh).into()]);
+    let camera = camera(Projection::Perspective, [0.0; 3], [2.0, 2.0], [32, 32]);
+    // Object order has no hierarchy to forget a node of.
+    let expected = Verdicts { object_order: true, image_order: false };
+    assert_eq!(verdicts(&scene, &camera, ForgottenNode), expected);
+}
