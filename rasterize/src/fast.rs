@@ -131,17 +131,20 @@ pub fn determine_visibility_with_fault<O: Observer, F: Fault>(
     let parts: Vec<O> = tiles
         .into_par_iter()
         .enumerate()
-        .map_init(TileBuffer::new, |buffer, (index, tile)| {
-            let mut observer = seen.fork();
-            buffer.begin(&tile.region);
-            if dropped != Some(index) {
-                for entry in bins.of_tile(index) {
-                    buffer.draw::<O, F>(entry, view, &screen, &mut observer);
+        .map_init(
+            || TileBuffer::new(view),
+            |buffer, (index, tile)| {
+                let mut observer = seen.fork();
+                buffer.begin(&tile.region);
+                if dropped != Some(index) {
+                    for entry in bins.of_tile(index) {
+                        buffer.draw::<O, F>(entry, view, &screen, &mut observer);
+                    }
                 }
-            }
-            buffer.store(view, &screen, tile);
-            observer
-        })
+                buffer.store(view, &screen, tile);
+                observer
+            },
+        )
         .collect();
     parts.into_iter().for_each(|part| observer.join(part));
 }

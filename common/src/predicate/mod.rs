@@ -6,6 +6,7 @@
 
 mod cover;
 mod nearest;
+mod pair;
 mod real;
 mod sign;
 
@@ -16,6 +17,7 @@ use glam::DVec3;
 
 pub use cover::EdgeSigns;
 pub use nearest::Comparison;
+pub use pair::Memory;
 pub use sign::Sign;
 
 /// Decides what is true of the samples of one camera.
@@ -31,13 +33,15 @@ pub use sign::Sign;
 pub struct Judge {
     projection: Projection,
     nudge: Nudge,
+    /// Where the camera looks, `−w`.
+    forward: DVec3,
 }
 
 impl Judge {
     /// The judge of one camera's samples.
     pub fn new(camera: &Camera) -> Judge {
         let nudge = Nudge { u: camera.u(), v: camera.v() };
-        Judge { projection: camera.projection(), nudge }
+        Judge { projection: camera.projection(), nudge, forward: -camera.w() }
     }
 
     /// Whether a primitive covers the sample that a viewing ray of this camera passes through.

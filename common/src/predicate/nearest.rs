@@ -81,7 +81,7 @@ pub(super) fn distance(primitive: &Primitive, ray: &Ray) -> f64 {
 }
 
 /// The sign of `t₁ − t₂` as an order.
-fn ordering(sign: Sign) -> Ordering {
+pub(super) fn ordering(sign: Sign) -> Ordering {
     sign.cmp(&Sign::Zero)
 }
 
@@ -97,14 +97,14 @@ fn same_corners(first: &Primitive, second: &Primitive) -> bool {
 }
 
 /// Where a ray crosses a flat primitive: at `t = p/q`.
-struct Crossing<R> {
-    normal: [R; 3],
-    p: R,
-    q: R,
+pub(super) struct Crossing<R> {
+    pub(super) normal: [R; 3],
+    pub(super) p: R,
+    pub(super) q: R,
 }
 
 impl<R: Real> Crossing<R> {
-    fn new(flat: &Primitive, ray: &Ray) -> Self {
+    pub(super) fn new(flat: &Primitive, ray: &Ray) -> Self {
         let (normal, point) = match *flat {
             Primitive::Triangle([a, b, c]) => (cross(&difference(b, a), &difference(c, a)), a),
             Primitive::Plane { point, normal } => (vector(normal), point),

@@ -9,6 +9,7 @@ use super::screen::Screen;
 use bothways_common::fault::{Fault, Planted};
 use bothways_common::frame::{NO_PRIMITIVE, Region, Tile, stored_t};
 use bothways_common::observe::{Observer, Question, Sample};
+use bothways_common::predicate::Memory;
 use bothways_common::{Judge, Primitive, Projection, Sign, View};
 
 /// Regions wider than this are cut to the span of each row.
@@ -20,6 +21,7 @@ pub(super) struct TileBuffer {
     region: Region,
     ids: Vec<u32>,
     keys: Vec<DepthKey>,
+    memory: Memory,
 }
 
 /// What stays the same while one primitive is drawn.
@@ -33,8 +35,9 @@ struct Brush<'a, O> {
 }
 
 impl TileBuffer {
-    pub(super) fn new() -> Self {
+    pub(super) fn new(view: &View) -> Self {
         TileBuffer {
+            memory: Memory::new(view.judge()),
             region: Region { rows: 0..0, columns: 0..0 },
             ids: vec![NO_PRIMITIVE; TILE * TILE],
             keys: vec![DepthKey::NOTHING; TILE * TILE],
@@ -213,7 +216,7 @@ impl TileBuffer {
             } else if key.low > held.high {
                 false
             } else {
-                brush.judge_nearer::<F>(sample, holder)
+                brush.judge_nearer::<F>(&mut self.memory, sample, holder)
             };
             brush.observer.depth_test(sample, brush.id, holder, nearer);
             if !nearer {
@@ -240,14 +243,15 @@ impl<O: Observer> Brush<'_, O> {
 
     /// Asks the judge whether the primitive is seen rather than the one that the sample shows.
     #[cold]
-    fn judge_nearer<F: Fault>(&mut self, sample: Sample, holder: u32) -> bool {
+    fn judge_nearer<F: Fault>(&mut self, memory: &mut Memory, sample: Sample, holder: u32) -> bool {
         self.observer.judged(sample, Question::Nearest);
         let ray = self.screen.grid.ray(sample.row, sample.column);
         let held = self.view.primitive(holder);
         if F::is(Planted::TiesToLast) {
-            return self.judge.compare(&self.primitive, &held, &ray).decided.is_le();
+            let order = memory.compare((self.id, &self.primitive), (holder, &held), &ray);
+            return order.decided.is_le();
         }
-        self.judge.nearer((self.id, &self.primitive), (holder, &held), &ray)
+        memory.nearer((self.id, &self.primitive), (holder, &held), &ray)
     }
 
     /// Tells the observer the edges' signs as far as they are certain, in the orientation of the

@@ -4,6 +4,7 @@ use super::build::{Bounds, Child, Form, Prepared};
 use super::leaf::{self, Answer, Distance, Trust, UNIT_ROUNDOFF};
 use bothways_common::fault::{Fault, Planted};
 use bothways_common::observe::{Observer, Question, Sample};
+use bothways_common::predicate::Memory;
 use bothways_common::{Judge, Primitive, Ray, View};
 use glam::DVec3;
 
@@ -21,9 +22,11 @@ pub(super) struct Walker<'a> {
     prepared: &'a Prepared,
     view: &'a View<'a>,
     judge: Judge,
+    memory: Memory,
     eye: DVec3,
-    /// Spheres that no box can be trusted to hold, so far away is the eye.
-    loose: Vec<u32>,
+    /// What is tested without a box: planes, and spheres that no box can be trusted to hold, because
+    /// they are huge or the eye is so far away.
+    unbounded: Vec<u32>,
     /// Nodes to enter yet, each with a `t` that none of its primitives is nearer than.
     open: Vec<(Child, f64)>,
 }
@@ -79,11 +82,19 @@ impl<'a> Walker<'a> {
         let eye = view.camera.eye().as_dvec3();
         let room = |extent: f32| f64::from(extent) * 30f64.exp2();
         let spheres = prepared.spheres.iter();
-        let loose = spheres
-            .filter(|(_, extent)| eye.abs().max_element() > room(*extent))
-            .map(|(id, _)| *id)
-            .collect();
-        Walker { prepared, view, judge: view.judge(), eye, loose, open: Vec::new() }
+        let loose = spheres.filter(|(_, extent)| eye.abs().max_element() > room(*extent));
+        let unbounded =
+            prepared.unbounded.iter().copied().chain(loose.map(|(id, _)| *id)).collect();
+        let judge = view.judge();
+        Walker {
+            prepared,
+            view,
+            judge,
+            memory: Memory::new(judge),
+            eye,
+            unbounded,
+            open: Vec::new(),
+        }
     }
 
     /// The first primitive along a ray.
@@ -95,7 +106,8 @@ impl<'a> Walker<'a> {
     ) -> Option<Hit> {
         observer.ray_begun(sample);
         let mut hit = None;
-        for &id in self.prepared.unbounded.iter().chain(&self.loose) {
+        for index in 0..self.unbounded.len() {
+            let id = self.unbounded[index];
             self.test::<O, F>(ray, sample, id, self.view.primitive(id), &mut hit, observer);
         }
         let box_ray = BoxRay::new(ray);
@@ -163,7 +175,7 @@ impl<'a> Walker<'a> {
 
     /// Tests a ray against a primitive and keeps the nearer of it and the hit so far.
     fn test<O: Observer, F: Fault>(
-        &self,
+        &mut self,
         ray: &Ray,
         sample: Sample,
         id: u32,
@@ -224,7 +236,7 @@ impl<'a> Walker<'a> {
     /// Asks the judge whether a primitive is seen rather than the hit so far.
     #[cold]
     fn judge_nearer<O: Observer, F: Fault>(
-        &self,
+        &mut self,
         ray: &Ray,
         sample: Sample,
         challenger: (u32, &Primitive),
@@ -233,10 +245,10 @@ impl<'a> Walker<'a> {
     ) -> bool {
         observer.judged(sample, Question::Nearest);
         if F::is(Planted::TiesToLast) {
-            let decided = self.judge.compare(challenger.1, &held.primitive, ray).decided;
-            return decided.then(held.id.cmp(&challenger.0)).is_lt();
+            let order = self.memory.compare(challenger, (held.id, &held.primitive), ray);
+            return order.decided.then(held.id.cmp(&challenger.0)).is_lt();
         }
-        self.judge.nearer(challenger, (held.id, &held.primitive), ray)
+        self.memory.nearer(challenger, (held.id, &held.primitive), ray)
     }
 
     /// A leaf's primitive relative to the eye.
