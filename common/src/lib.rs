@@ -17,6 +17,7 @@
 pub mod camera;
 pub mod fault;
 pub mod frame;
+pub mod generate;
 pub mod mesh;
 pub mod observe;
 pub mod predicate;

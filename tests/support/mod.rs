@@ -185,3 +185,7 @@ pub fn scene(objects: Vec<Object>) -> Scene {
 pub fn cases(usual: u32) -> u32 {
     if std::env::var_os("BOTHWAYS_LONG").is_some() { usual * 50 } else { usual }
 }
+
+pub fn mesh(mesh: bothways::common::Mesh) -> Object {
+    Shape::Mesh(mesh).into()
+}
