@@ -19,6 +19,7 @@ pub mod fault;
 pub mod frame;
 pub mod generate;
 pub mod mesh;
+pub mod obj;
 pub mod observe;
 pub mod predicate;
 pub mod scene;

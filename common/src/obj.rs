@@ -1,0 +1,351 @@
+//! Wavefront OBJ files: the reader and the writer of meshes.
+//!
+//! Of the format (Wavefront, "Advanced Visualizer" manual, appendix B1, "Object Files") the reader
+//! takes what describes triangles, and takes it strictly:
+//!
+//! - `v x y z`, `vt u [v]`, `vn x y z`: numbers round once, to the nearest `f32`. What follows (a
+//!   weight `w`, a colour) must be numbers and is ignored; `w` only weighs free-form curves.
+//! - `f` with corners `v`, `v/vt`, `v//vn`, `v/vt/vn`: a polygon of any size, cut into the fan
+//!   `(0, k, k + 1)` in file order. Indices count from 1, or back from what is defined above the
+//!   face. A positive index may name what only follows below, anywhere in the file: some programs
+//!   write faces first, and `tobj`, which the tests compare with, accepts it too.
+//! - `#` before a word begins a comment; a backslash before the end of a line joins the next line.
+//! - Names, groups, materials, points, lines, free-form geometry and display settings are skipped.
+//!   Anything else is an error, `call` and `csh` too: they would run or include what is not here.
+
+mod error;
+mod lines;
+mod write;
+
+pub use error::{Element, ReadObjError, StatementFault};
+pub use write::write;
+
+use std::path::Path;
+use std::{fs, io};
+
+use glam::{Vec2, Vec3};
+
+use crate::mesh::{Attribute, Mesh};
+use error::quote;
+use lines::{Statements, Words};
+
+/// Reads a mesh from an OBJ file.
+///
+/// # Errors
+///
+/// As for [`parse`], and a file that cannot be read; messages call the file by `path`.
+pub fn read(path: &Path) -> Result<Mesh, ReadObjError> {
+    let file = path.display().to_string();
+    let unreadable = |error| ReadObjError::Unreadable { file: file.clone(), error };
+    let metadata = fs::metadata(path).map_err(unreadable)?;
+    // Some systems call it a lack of permission when a folder is opened.
+    if metadata.is_dir() {
+        return Err(unreadable(io::ErrorKind::IsADirectory.into()));
+    }
+    // Better to say so before the memory is full.
+    if metadata.len() > MOST_BYTES {
+        return Err(ReadObjError::TooLarge { file });
+    }
+    parse(&file, &fs::read(path).map_err(unreadable)?)
+}
+
+/// Reads a mesh from the bytes of an OBJ file, which messages call `name`.
+///
+/// Normals and texture coordinates are there if any corner of a face names one.
+///
+/// # Errors
+///
+/// A statement that is wrong or means nothing, an index of something that is not defined, a file
+/// without faces.
+///
+/// ```
+/// use bothways_common::obj;
+///
+/// let square = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+/// assert_eq!(obj::parse("square.obj", square)?.triangles(), [[0, 1, 2], [0, 2, 3]]);
+///
+/// let error = obj::parse("bad.obj", b"v 0 0 0\nv 1 0 O\n").unwrap_err();
+/// assert_eq!(error.to_string(), r#"bad.obj:2: "O" is not a number"#);
+/// # Ok::<(), obj::ReadObjError>(())
+/// ```
+pub fn parse(name: &str, bytes: &[u8]) -> Result<Mesh, ReadObjError> {
+    if bytes.is_empty() {
+        return Err(ReadObjError::Empty { file: name.to_owned() });
+    }
+    if bytes.len() as u64 > MOST_BYTES {
+        return Err(ReadObjError::TooLarge { file: name.to_owned() });
+    }
+    let located = |line, fault| ReadObjError::Statement { file: name.to_owned(), line, fault };
+    let mut reader = Reader::default();
+    // Some editors put a byte order mark before the first line.
+    for (line, words) in Statements::new(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)) {
+        reader.statement(line, words).map_err(|fault| located(line, fault))?;
+    }
+    reader.check_forward().map_err(|(line, fault)| located(line, fault))?;
+    if reader.triangles.is_empty() {
+        return Err(ReadObjError::NoFace { file: name.to_owned() });
+    }
+    Ok(reader.finish())
+}
+
+/// The shortest definition, `vt 0` and a line end, has five bytes: so many bytes define fewer than
+/// 2³² − 1 things of any kind, and every index that is valid fits into a `u32` other than `NONE`.
+const MOST_BYTES: u64 = 1 << 34;
+
+/// Says that a corner lacks something: [`Attribute::NONE`], whatever the values are.
+const NONE: u32 = Attribute::<()>::NONE;
+
+/// What has been read so far.
+#[derive(Default)]
+struct Reader {
+    positions: Vec<Vec3>,
+    triangles: Vec<[u32; 3]>,
+    texture_coordinates: Attribute<Vec2>,
+    normals: Attribute<Vec3>,
+    /// What faces name before it is defined, for each [`Element`].
+    forward: [Vec<Forward>; 3],
+}
+
+/// A face that names something below itself.
+#[derive(Clone, Copy)]
+struct Forward {
+    line: usize,
+    index: i64,
+}
+
+/// One corner of a face: its vertex, texture coordinate and normal, counted from 0.
+type Corner = [u32; 3];
+
+/// In the order in which a corner names them.
+const ELEMENTS: [Element; 3] = [Element::Vertex, Element::TextureCoordinate, Element::Normal];
+
+impl Reader {
+    fn statement(&mut self, line: usize, mut words: Words) -> Result<(), StatementFault> {
+        let Some(keyword) = words.next() else { return Ok(()) };
+        match keyword {
+            b"v" => self.positions.push(numbers(words, Element::Vertex, 3)?.into()),
+            b"vn" => self.normals.values.push(numbers(words, Element::Normal, 3)?.into()),
+            b"vt" => {
+                let value: [f32; 2] = numbers(words, Element::TextureCoordinate, 1)?;
+                self.texture_coordinates.values.push(value.into());
+            }
+            // Version 2 of the format had a second keyword, which became the first.
+            b"f" | b"fo" => self.face(line, words)?,
+            _ if is_skipped(keyword) => {}
+            _ if !is_text(keyword) => return Err(StatementFault::NotText),
+            _ => return Err(StatementFault::UnknownKeyword { keyword: quote(keyword) }),
+        }
+        Ok(())
+    }
+
+    /// Adds the fan of one polygon.
+    fn face(&mut self, line: usize, words: Words) -> Result<(), StatementFault> {
+        let (mut first, mut before) = ([NONE; 3], [NONE; 3]);
+        let mut corners = 0;
+        for word in words {
+            let corner = self.corner(line, word)?;
+            match corners {
+                0 => first = corner,
+                1 => {}
+                _ => self.triangle([first, before, corner]),
+            }
+            before = corner;
+            corners += 1;
+        }
+        if corners < 3 { Err(StatementFault::TooFewCorners { corners }) } else { Ok(()) }
+    }
+
+    fn triangle(&mut self, corners: [Corner; 3]) {
+        let triangle = self.triangles.len();
+        self.triangles.push(corners.map(|[vertex, _, _]| vertex));
+        let texture_coordinates = corners.map(|[_, texture_coordinate, _]| texture_coordinate);
+        carry(&mut self.texture_coordinates.corners, triangle, texture_coordinates);
+        carry(&mut self.normals.corners, triangle, corners.map(|[_, _, normal]| normal));
+    }
+
+    fn corner(&mut self, line: usize, word: &[u8]) -> Result<Corner, StatementFault> {
+        let wrong = || StatementFault::NotACorner { text: quote(word) };
+        let mut corner = [NONE; 3];
+        for (place, text) in word.split(|&byte| byte == b'/').enumerate() {
+            // Some programs write `v/` and `v//` where others write `v`; a vertex must be named.
+            if text.is_empty() && place != 0 && place < 3 {
+                continue;
+            }
+            let element = *ELEMENTS.get(place).ok_or_else(wrong)?;
+            let index = integer(text).ok_or_else(wrong)?;
+            corner[place] = self.resolve(line, element, index)?;
+        }
+        Ok(corner)
+    }
+
+    /// Turns an index of the file into one that counts from 0.
+    fn resolve(&mut self, line: usize, what: Element, index: i64) -> Result<u32, StatementFault> {
+        let defined = self.defined(what);
+        // A slice is never longer than i64::MAX.
+        let count = i64::try_from(defined).unwrap_or(i64::MAX);
+        let from_zero = match index {
+            0 => return Err(StatementFault::IndexZero { what }),
+            1.. => index - 1,
+            _ if index < -count => {
+                return Err(StatementFault::UnknownAbove { what, index, defined });
+            }
+            _ => count + index,
+        };
+        if index > count {
+            self.note_forward(what, Forward { line, index });
+        }
+        // An index that does not fit is larger than any that can be defined: the note refuses it.
+        Ok(u32::try_from(from_zero).unwrap_or(NONE))
+    }
+
+    fn defined(&self, what: Element) -> usize {
+        match what {
+            Element::Vertex => self.positions.len(),
+            Element::TextureCoordinate => self.texture_coordinates.values.len(),
+            Element::Normal => self.normals.values.len(),
+        }
+    }
+
+    /// Keeps a forward reference if it reaches farther than all before it: the first one that turns
+    /// out to reach too far does.
+    fn note_forward(&mut self, what: Element, forward: Forward) {
+        let noted = &mut self.forward[what as usize];
+        if noted.last().is_none_or(|last| last.index < forward.index) {
+            noted.push(forward);
+        }
+    }
+
+    /// Finds the first face that names what is not defined below it either.
+    fn check_forward(&self) -> Result<(), (usize, StatementFault)> {
+        let unknown = ELEMENTS.into_iter().filter_map(|what| {
+            let defined = self.defined(what);
+            let too_far = |index| usize::try_from(index).is_ok_and(|index| index > defined);
+            let first = self.forward[what as usize].iter().find(|noted| too_far(noted.index))?;
+            Some((first.line, StatementFault::Unknown { what, index: first.index, defined }))
+        });
+        unknown.min_by_key(|&(line, _)| line).map_or(Ok(()), Err)
+    }
+
+    fn finish(self) -> Mesh {
+        let triangles = self.triangles.len();
+        let normals = complete(self.normals, triangles);
+        let texture_coordinates = complete(self.texture_coordinates, triangles);
+        Mesh::new(self.positions, self.triangles)
+            .and_then(|mesh| mesh.with_normals(normals))
+            .and_then(|mesh| mesh.with_texture_coordinates(texture_coordinates))
+            .expect("the reader has checked every number and every index")
+    }
+}
+
+/// Notes what the corners of a triangle carry, if they do; earlier triangles may have been silent.
+fn carry(list: &mut Vec<[u32; 3]>, triangle: usize, corners: [u32; 3]) {
+    if corners != [NONE; 3] {
+        list.resize(triangle, [NONE; 3]);
+        list.push(corners);
+    }
+}
+
+/// Gives an attribute an entry for each triangle; one that no corner names vanishes.
+fn complete<T>(mut attribute: Attribute<T>, triangles: usize) -> Attribute<T> {
+    if attribute.corners.is_empty() {
+        attribute.values = Vec::new();
+    } else {
+        attribute.corners.resize(triangles, [NONE; 3]);
+    }
+    attribute
+}
+
+/// The first `N` numbers of a statement, `needed` of which must be there; the others are 0.
+fn numbers<const N: usize>(
+    words: Words,
+    what: Element,
+    needed: usize,
+) -> Result<[f32; N], StatementFault> {
+    let mut values = [0.0; N];
+    let mut found = 0;
+    for word in words {
+        let value = number(word)?;
+        if let Some(place) = values.get_mut(found) {
+            *place = value;
+        }
+        found += 1;
+    }
+    if found < needed {
+        return Err(StatementFault::MissingCoordinates { what, needed, found });
+    }
+    Ok(values)
+}
+
+/// The nearest `f32`: rounding to `f64` first could miss it.
+fn number(word: &[u8]) -> Result<f32, StatementFault> {
+    let parsed = str::from_utf8(word).ok().and_then(|text| text.parse::<f32>().ok());
+    match parsed {
+        Some(value) if value.is_finite() => Ok(value),
+        Some(_) if word.iter().any(u8::is_ascii_digit) => {
+            Err(StatementFault::OutOfRange { text: quote(word) })
+        }
+        Some(_) => Err(StatementFault::NotFinite { text: quote(word) }),
+        None => Err(StatementFault::NotANumber { text: quote(word) }),
+    }
+}
+
+fn integer(text: &[u8]) -> Option<i64> {
+    str::from_utf8(text).ok()?.parse().ok()
+}
+
+fn is_text(word: &[u8]) -> bool {
+    str::from_utf8(word).is_ok_and(|text| !text.contains(char::is_control))
+}
+
+/// Statements of the format that describe nothing to draw here, with those of its version 2.
+fn is_skipped(keyword: &[u8]) -> bool {
+    let skipped: &[&[u8]] = &[
+        // Grouping and names.
+        b"g",
+        b"s",
+        b"mg",
+        b"o",
+        // Materials and display.
+        b"usemtl",
+        b"mtllib",
+        b"usemap",
+        b"maplib",
+        b"bevel",
+        b"c_interp",
+        b"d_interp",
+        b"lod",
+        b"shadow_obj",
+        b"trace_obj",
+        b"ctech",
+        b"stech",
+        // Points and lines.
+        b"p",
+        b"l",
+        // Free-form curves and surfaces.
+        b"vp",
+        b"cstype",
+        b"deg",
+        b"bmat",
+        b"step",
+        b"curv",
+        b"curv2",
+        b"surf",
+        b"parm",
+        b"trim",
+        b"hole",
+        b"scrv",
+        b"sp",
+        b"end",
+        b"con",
+        // Patches of version 2.
+        b"bsp",
+        b"bzp",
+        b"cdc",
+        b"cdp",
+        b"res",
+    ];
+    skipped.contains(&keyword)
+}
+
+#[cfg(test)]
+mod tests;
