@@ -23,6 +23,7 @@ pub mod obj;
 pub mod observe;
 pub mod predicate;
 pub mod scene;
+pub mod scene_file;
 pub mod shade;
 pub mod view;
 

@@ -299,52 +299,21 @@ fn is_text(word: &[u8]) -> bool {
 
 /// Statements of the format that describe nothing to draw here, with those of its version 2.
 fn is_skipped(keyword: &[u8]) -> bool {
-    let skipped: &[&[u8]] = &[
-        // Grouping and names.
-        b"g",
-        b"s",
-        b"mg",
-        b"o",
+    match keyword {
+        // Names and groups.
+        b"o" | b"g" | b"s" | b"mg" => true,
         // Materials and display.
-        b"usemtl",
-        b"mtllib",
-        b"usemap",
-        b"maplib",
-        b"bevel",
-        b"c_interp",
-        b"d_interp",
-        b"lod",
-        b"shadow_obj",
-        b"trace_obj",
-        b"ctech",
-        b"stech",
+        b"usemtl" | b"mtllib" | b"usemap" | b"maplib" | b"bevel" | b"c_interp" => true,
+        b"d_interp" | b"lod" | b"shadow_obj" | b"trace_obj" | b"ctech" | b"stech" => true,
         // Points and lines.
-        b"p",
-        b"l",
+        b"p" | b"l" => true,
         // Free-form curves and surfaces.
-        b"vp",
-        b"cstype",
-        b"deg",
-        b"bmat",
-        b"step",
-        b"curv",
-        b"curv2",
-        b"surf",
-        b"parm",
-        b"trim",
-        b"hole",
-        b"scrv",
-        b"sp",
-        b"end",
-        b"con",
+        b"vp" | b"cstype" | b"deg" | b"bmat" | b"step" | b"curv" | b"curv2" | b"surf" => true,
+        b"parm" | b"trim" | b"hole" | b"scrv" | b"sp" | b"end" | b"con" => true,
         // Patches of version 2.
-        b"bsp",
-        b"bzp",
-        b"cdc",
-        b"cdp",
-        b"res",
-    ];
-    skipped.contains(&keyword)
+        b"bsp" | b"bzp" | b"cdc" | b"cdp" | b"res" => true,
+        _ => false,
+    }
 }
 
 #[cfg(test)]

@@ -1,0 +1,113 @@
+//! Why a scene file is refused: always with the place in its text, if it has a text.
+
+use std::fmt;
+use std::ops::Range;
+
+/// Why a scene file could not be read.
+#[derive(Debug, thiserror::Error)]
+pub enum SceneFileError {
+    /// Nothing has this name.
+    #[error("{name}: there is no such file")]
+    Missing {
+        /// The file.
+        name: String,
+    },
+    /// The name is a folder's.
+    #[error("{name} is a folder; name a scene file in it")]
+    Folder {
+        /// The folder.
+        name: String,
+    },
+    /// The system does not let us read it.
+    #[error("{name} cannot be read: {source}")]
+    Unreadable {
+        /// The file.
+        name: String,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// The file is no text.
+    #[error("{name} is not UTF-8 text: byte {byte} on line {line} begins no character")]
+    NotText {
+        /// The file.
+        name: String,
+        /// The line, counted from 1.
+        line: usize,
+        /// The byte in the file, counted from 0.
+        byte: usize,
+    },
+    /// Something in the text is wrong.
+    #[error(transparent)]
+    Located(#[from] LocatedError),
+}
+
+/// What is wrong with a text, and where.
+///
+/// It displays as one line, `scene.toml:3:7: message; help`; its fields are what a tool needs that
+/// underlines the place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LocatedError {
+    /// What messages call the text.
+    pub name: String,
+    /// All of the text.
+    pub text: String,
+    /// The bytes of the text to underline.
+    pub span: Range<usize>,
+    /// What is wrong.
+    pub message: String,
+    /// What to do about it.
+    pub help: Option<String>,
+}
+
+impl LocatedError {
+    /// The line and the column where the place begins, in characters, both counted from 1.
+    pub fn line_and_column(&self) -> (usize, usize) {
+        let before = &self.text.as_bytes()[..self.span.start.min(self.text.len())];
+        let line_start = before.iter().rposition(|&byte| byte == b'\n').map_or(0, |end| end + 1);
+        let line = before.iter().filter(|&&byte| byte == b'\n').count() + 1;
+        let in_line = String::from_utf8_lossy(&before[line_start..]);
+        // A byte order mark is no character that anybody sees.
+        let column = in_line.trim_start_matches('\u{feff}').chars().count() + 1;
+        (line, column)
+    }
+}
+
+impl fmt::Display for LocatedError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (line, column) = self.line_and_column();
+        write!(f, "{}:{line}:{column}: {}", self.name, self.message)?;
+        self.help.iter().try_for_each(|help| write!(f, "; {help}"))
+    }
+}
+
+impl std::error::Error for LocatedError {}
+
+/// A [`LocatedError`] on its way out, before it learns the text's name.
+#[derive(Debug)]
+pub(super) struct Problem {
+    span: Range<usize>,
+    message: String,
+    help: Option<String>,
+}
+
+impl Problem {
+    pub(super) fn new(span: Range<usize>, message: impl Into<String>) -> Problem {
+        Problem { span, message: message.into(), help: None }
+    }
+
+    pub(super) fn help(self, help: impl Into<String>) -> Problem {
+        Problem { help: Some(help.into()), ..self }
+    }
+
+    pub(super) fn in_text(self, name: &str, text: &str) -> LocatedError {
+        let Problem { span, message, help } = self;
+        LocatedError { name: name.to_owned(), text: text.to_owned(), span, message, help }
+    }
+}
+
+impl From<toml::de::Error> for Problem {
+    /// The TOML parser's own words.
+    fn from(error: toml::de::Error) -> Problem {
+        Problem::new(error.span().unwrap_or(0..0), error.message())
+    }
+}

@@ -1,0 +1,240 @@
+//! The options of `render`, and how their values are read.
+
+use bothways::common::Projection;
+use bothways::common::camera::{MAX_SAMPLES, MAX_SIDE};
+use bothways::common::glam::Vec3;
+use bothways::orders::{Method, Order};
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+/// What to render, how, and where to.
+#[derive(Debug, Args)]
+pub(super) struct RenderArgs {
+    /// A built-in scene, a .toml scene file, or a mesh file (framed automatically)
+    #[arg(default_value = "lecture")]
+    pub(super) scene: String,
+    #[command(flatten)]
+    pub(super) camera: CameraArgs,
+    #[command(flatten)]
+    pub(super) method: MethodArgs,
+    #[command(flatten)]
+    pub(super) output: OutputArgs,
+}
+
+/// What to change in the scene's camera.
+#[derive(Debug, Default, Args)]
+#[command(next_help_heading = "Camera")]
+pub(super) struct CameraArgs {
+    /// The image in pixels; the viewport keeps its height, and gets the image's form unless the
+    /// scene states a viewport
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    pub(super) size: Option<[u32; 2]>,
+    /// How the world loses a dimension; eye and frame stay, and the viewport is scaled so that what
+    /// is looked at keeps its size (unless --viewport is given)
+    #[arg(long, value_enum)]
+    pub(super) projection: Option<ProjectionArg>,
+    /// The eye
+    #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
+    pub(super) eye: Option<Vec3>,
+    /// The point in the middle of the picture
+    #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
+    pub(super) look_at: Option<Vec3>,
+    /// Which way is up
+    #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
+    pub(super) up: Option<Vec3>,
+    /// From the eye to the viewport
+    #[arg(long, value_name = "D", value_parser = number, allow_hyphen_values = true)]
+    pub(super) distance: Option<f32>,
+    /// The viewport's width and height
+    #[arg(long, value_name = "VW,VH", value_parser = pair, allow_hyphen_values = true)]
+    pub(super) viewport: Option<[f32; 2]>,
+}
+
+/// How to render.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Method")]
+pub(super) struct MethodArgs {
+    /// Which order to render in
+    #[arg(long, value_enum, default_value_t = OrderArg::Both)]
+    pub(super) order: OrderArg,
+    /// With all machinery, or the lecture's double loop
+    #[arg(long, value_enum, default_value_t = MethodArg::Fast)]
+    pub(super) method: MethodArg,
+    /// Samples a pixel: an N×N regular grid
+    #[arg(long, value_name = "N", default_value_t = 1,
+          value_parser = clap::value_parser!(u32).range(1..))]
+    pub(super) samples: u32,
+    /// Threads to render with; all cores if not given
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(super) threads: Option<u16>,
+    /// Render N times after a warm-up, and report the spread of times
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(super) repeat: Option<u32>,
+}
+
+/// What to write, and where.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Output")]
+pub(super) struct OutputArgs {
+    /// The folder to write into [default: out/NAME]. It shows one run: files of an earlier run that
+    /// this one does not write are removed, other files are left alone
+    #[arg(short = 'o', long = "output", value_name = "DIR")]
+    pub(super) folder: Option<PathBuf>,
+    /// Also write ids and distances as NumPy arrays
+    #[arg(long, value_enum, default_value_t = BuffersArg::None)]
+    pub(super) buffers: BuffersArg,
+    /// Leave measured times out, so that every run writes the same
+    #[arg(long)]
+    pub(super) no_times: bool,
+    /// Print nothing but errors
+    #[arg(long, conflicts_with = "json")]
+    pub(super) quiet: bool,
+    /// Print the report as JSON instead of the table
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum ProjectionArg {
+    Perspective,
+    Parallel,
+}
+
+impl From<ProjectionArg> for Projection {
+    fn from(projection: ProjectionArg) -> Self {
+        match projection {
+            ProjectionArg::Perspective => Projection::Perspective,
+            ProjectionArg::Parallel => Projection::Parallel,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum OrderArg {
+    /// One after the other, and compared
+    Both,
+    /// Object order alone: rasterization
+    Object,
+    /// Image order alone: ray tracing
+    Image,
+}
+
+impl OrderArg {
+    pub(super) fn orders(self) -> &'static [Order] {
+        match self {
+            OrderArg::Both => &[Order::Object, Order::Image],
+            OrderArg::Object => &[Order::Object],
+            OrderArg::Image => &[Order::Image],
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum MethodArg {
+    /// With bounds and hierarchies that skip what cannot matter
+    Fast,
+    /// Every primitive at every sample: slow, and readable in five minutes
+    Textbook,
+}
+
+impl From<MethodArg> for Method {
+    fn from(method: MethodArg) -> Self {
+        match method {
+            MethodArg::Fast => Method::Fast,
+            MethodArg::Textbook => Method::Textbook,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum BuffersArg {
+    /// No buffers
+    None,
+    /// .npy files
+    Npy,
+}
+
+fn size(text: &str) -> Result<[u32; 2], String> {
+    let (width, height) =
+        text.split_once(['x', 'X']).ok_or("write it as WIDTHxHEIGHT, such as 640x480")?;
+    let (width, height) = (side(width)?, side(height)?);
+    if u64::from(width) * u64::from(height) > MAX_SAMPLES {
+        return Err(format!("an image may have at most {MAX_SAMPLES} samples (2^30)"));
+    }
+    Ok([width, height])
+}
+
+fn side(text: &str) -> Result<u32, String> {
+    if text.is_empty() || !text.bytes().all(|byte| byte.is_ascii_digit()) {
+        return Err(format!("'{text}' is not a number of pixels; write it like 640x480"));
+    }
+    // Too many digits for a u32 are also too many pixels.
+    match text.parse().unwrap_or(u32::MAX) {
+        0 => Err("both sides need at least 1 pixel".into()),
+        pixels if pixels > MAX_SIDE => {
+            Err(format!("a side may have at most {MAX_SIDE} pixels (2^16)"))
+        }
+        pixels => Ok(pixels),
+    }
+}
+
+fn vector(text: &str) -> Result<Vec3, String> {
+    numbers(text, "three numbers, such as 1,-2,0.5").map(Vec3::from_array)
+}
+
+fn pair(text: &str) -> Result<[f32; 2], String> {
+    numbers(text, "two numbers, such as 1.6,1")
+}
+
+fn numbers<const N: usize>(text: &str, expected: &str) -> Result<[f32; N], String> {
+    let numbers = text.split(',').map(number).collect::<Result<Vec<f32>, String>>()?;
+    let count = numbers.len();
+    numbers.try_into().map_err(|_| format!("it has {count}, but needs {expected}"))
+}
+
+fn number(text: &str) -> Result<f32, String> {
+    let text = text.trim();
+    let number: f32 = text.parse().map_err(|_| format!("'{text}' is not a number"))?;
+    if number.is_finite() {
+        Ok(number)
+    } else if text.bytes().any(|byte| byte.is_ascii_digit()) {
+        Err(format!("{text} is out of range; numbers go up to 3.4e38"))
+    } else {
+        Err(format!("{text} is not a finite number"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_are_width_by_height() {
+        assert_eq!(size("640x480"), Ok([640, 480]));
+        assert_eq!(size("1X65536"), Ok([1, 65_536]));
+        for bad in ["640", "x", "640x", "-1x4", "4x4x4", "1.5x2", " 4x4", "+4x4"] {
+            assert!(size(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn sizes_beyond_the_limits_name_them() {
+        let problem = |text| size(text).unwrap_err();
+        assert_eq!(problem("0x4"), "both sides need at least 1 pixel");
+        assert_eq!(problem("65537x1"), "a side may have at most 65536 pixels (2^16)");
+        assert_eq!(problem("1x99999999999999999999"), problem("65537x1"));
+        let many = "an image may have at most 1073741824 samples (2^30)";
+        assert_eq!(problem("65536x65536"), many);
+    }
+
+    #[test]
+    fn vectors_are_three_finite_numbers() {
+        assert_eq!(vector("1,-2.5, 3e2"), Ok(Vec3::new(1.0, -2.5, 300.0)));
+        let problem = |text| vector(text).unwrap_err();
+        assert_eq!(problem("1,2"), "it has 2, but needs three numbers, such as 1,-2,0.5");
+        assert_eq!(problem("1,2,x"), "'x' is not a number");
+        assert_eq!(problem("1,NaN,3"), "NaN is not a finite number");
+        assert_eq!(problem("1,2,-inf"), "-inf is not a finite number");
+        assert_eq!(problem("1e39,2,3"), "1e39 is out of range; numbers go up to 3.4e38");
+    }
+}

@@ -1,0 +1,232 @@
+//! The scene's camera with the changes that the command line asks for.
+
+use super::args::CameraArgs;
+use super::failure::Failure;
+use bothways::common::glam::{DVec3, Vec3};
+use bothways::common::{
+    Camera, CameraDescription, CameraError, Orientation, Projection, Scene, Shape,
+};
+use bothways::scenes::LoadedScene;
+
+/// The camera to render with.
+pub(super) fn camera(loaded: &LoadedScene, args: &CameraArgs) -> Result<Camera, Failure> {
+    changed(loaded, args).and_then(Camera::new).map_err(|error| {
+        let changes = options_given(args);
+        let with = if changes.is_empty() { String::new() } else { " with ".to_owned() + &changes };
+        Failure::new(format!("the camera of '{}'{with}: {error}", loaded.name))
+    })
+}
+
+fn changed(loaded: &LoadedScene, args: &CameraArgs) -> Result<CameraDescription, CameraError> {
+    let mut camera = loaded.camera;
+    camera.eye = args.eye.unwrap_or(camera.eye);
+    camera.orientation = orientation(camera.orientation, args.look_at, args.up);
+    camera.distance = args.distance.unwrap_or(camera.distance);
+    camera.image = args.size.unwrap_or(camera.image);
+
+    let projection = args.projection.map_or(camera.projection, Projection::from);
+    if let Some(viewport) = args.viewport {
+        camera.viewport = viewport;
+    } else {
+        if args.size.is_some() && !loaded.viewport_stated {
+            camera.viewport[0] = width_of_square_pixels(&camera);
+        }
+        if projection != camera.projection {
+            let scale = scale_for(projection, &camera, &loaded.scene)?;
+            camera.viewport = camera.viewport.map(|side| rounded(f64::from(side) * scale));
+        }
+    }
+    camera.projection = projection;
+    Ok(camera)
+}
+
+fn orientation(stated: Orientation, target: Option<Vec3>, up: Option<Vec3>) -> Orientation {
+    let stated_up = match stated {
+        Orientation::LookAt { up, .. } | Orientation::Direction { up, .. } => up,
+        Orientation::Frame { v, .. } => v,
+    };
+    let up_or_stated = up.unwrap_or(stated_up);
+    match (target, stated) {
+        (Some(target), _) | (None, Orientation::LookAt { target, .. }) => {
+            Orientation::LookAt { target, up: up_or_stated }
+        }
+        (None, Orientation::Direction { direction, .. }) => {
+            Orientation::Direction { direction, up: up_or_stated }
+        }
+        (None, Orientation::Frame { w, .. }) if up.is_some() => {
+            Orientation::Direction { direction: -w, up: up_or_stated }
+        }
+        (None, Orientation::Frame { .. }) => stated,
+    }
+}
+
+/// `vw = vh·W/H`.
+fn width_of_square_pixels(camera: &CameraDescription) -> f32 {
+    let [width, height] = camera.image.map(f64::from);
+    rounded(f64::from(camera.viewport[1]) * width / height)
+}
+
+/// What the viewport is scaled by, so that what is looked at keeps its size in the picture.
+///
+/// At a depth `z` a perspective camera sees a rectangle `z/d` times its viewport.
+fn scale_for(
+    projection: Projection,
+    camera: &CameraDescription,
+    scene: &Scene,
+) -> Result<f64, CameraError> {
+    let depth = match camera.orientation {
+        Orientation::LookAt { target, .. } => {
+            Some((target.as_dvec3() - camera.eye.as_dvec3()).length())
+        }
+        Orientation::Direction { .. } | Orientation::Frame { .. } => {
+            let back = Camera::new(*camera)?.w();
+            middle(scene).map(|middle| -(middle - camera.eye.as_dvec3()).dot(back))
+        }
+    };
+    let ratio = match depth {
+        Some(depth) if depth > 0.0 => depth / f64::from(camera.distance),
+        _ => 1.0,
+    };
+    Ok(match projection {
+        Projection::Parallel => ratio,
+        Projection::Perspective => 1.0 / ratio,
+    })
+}
+
+/// The middle of the box around everything that has an end.
+fn middle(scene: &Scene) -> Option<DVec3> {
+    let mut bounds: Option<[DVec3; 2]> = None;
+    let mut include = |point: Vec3, radius: f32| {
+        let (point, radius) = (point.as_dvec3(), DVec3::splat(radius.into()));
+        let [low, high] = bounds.unwrap_or([point; 2]);
+        bounds = Some([low.min(point - radius), high.max(point + radius)]);
+    };
+    for object in scene.objects() {
+        match &object.shape {
+            Shape::Triangle(triangle) => {
+                [triangle.a, triangle.b, triangle.c].into_iter().for_each(|p| include(p, 0.0));
+            }
+            Shape::Sphere(sphere) => include(sphere.center, sphere.radius),
+            Shape::Mesh(mesh) => {
+                // A file may define vertices that no triangle uses.
+                let used = mesh.triangles().iter().flatten();
+                used.for_each(|&vertex| include(mesh.positions()[vertex as usize], 0.0));
+            }
+            Shape::Plane(_) => {}
+        }
+    }
+    bounds.map(|[low, high]| low.midpoint(high))
+}
+
+/// `--eye, --up`: what was given, for messages.
+fn options_given(args: &CameraArgs) -> String {
+    let given = [
+        ("--size", args.size.is_some()),
+        ("--projection", args.projection.is_some()),
+        ("--eye", args.eye.is_some()),
+        ("--look-at", args.look_at.is_some()),
+        ("--up", args.up.is_some()),
+        ("--distance", args.distance.is_some()),
+        ("--viewport", args.viewport.is_some()),
+    ];
+    let names = given.iter().filter(|(_, given)| *given).map(|(name, _)| *name);
+    names.collect::<Vec<_>>().join(", ")
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "the camera stores f32, and checks its range")]
+fn rounded(value: f64) -> f32 {
+    value as f32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::args::ProjectionArg;
+    use super::*;
+    use bothways::common::{Plane, Sphere};
+
+    fn loaded(camera: CameraDescription) -> LoadedScene {
+        let plane = Shape::Plane(Plane { point: Vec3::ZERO, normal: Vec3::Y });
+        let near = Shape::Sphere(Sphere { center: Vec3::new(0.0, 0.0, -3.0), radius: 1.0 });
+        let far = Shape::Sphere(Sphere { center: Vec3::new(0.0, 0.0, -9.0), radius: 1.0 });
+        let scene = Scene::new(vec![plane.into(), near.into(), far.into()]).unwrap();
+        let (name, toml) = ("test".into(), String::new());
+        LoadedScene { name, scene, camera, viewport_stated: false, toml }
+    }
+
+    fn look_at(target: Vec3) -> CameraDescription {
+        CameraDescription {
+            orientation: Orientation::LookAt { target, up: Vec3::Y },
+            viewport: [2.0, 1.0],
+            image: [200, 100],
+            ..CameraDescription::default()
+        }
+    }
+
+    #[test]
+    fn a_size_keeps_the_height_of_the_viewport() {
+        let args = CameraArgs { size: Some([300, 100]), ..CameraArgs::default() };
+        let mut scene = loaded(look_at(Vec3::NEG_Z));
+        assert_eq!(changed(&scene, &args).unwrap().viewport, [3.0, 1.0]);
+        scene.viewport_stated = true;
+        assert_eq!(changed(&scene, &args).unwrap().viewport, [2.0, 1.0]);
+    }
+
+    #[test]
+    fn another_projection_keeps_the_size_of_the_target() {
+        let args = CameraArgs {
+            projection: Some(ProjectionArg::Parallel),
+            distance: Some(2.0),
+            ..CameraArgs::default()
+        };
+        let camera = changed(&loaded(look_at(Vec3::new(0.0, 0.0, -8.0))), &args).unwrap();
+        assert_eq!((camera.projection, camera.viewport), (Projection::Parallel, [8.0, 4.0]));
+
+        let args =
+            CameraArgs { projection: Some(ProjectionArg::Perspective), ..CameraArgs::default() };
+        assert_eq!(changed(&loaded(camera), &args).unwrap().viewport, [2.0, 1.0]);
+    }
+
+    #[test]
+    fn without_a_target_the_middle_of_the_objects_keeps_its_size() {
+        let args =
+            CameraArgs { projection: Some(ProjectionArg::Parallel), ..CameraArgs::default() };
+        let canonical = CameraDescription { viewport: [1.0, 1.0], ..CameraDescription::default() };
+        assert_eq!(changed(&loaded(canonical), &args).unwrap().viewport, [6.0, 6.0]);
+        let behind = CameraDescription { eye: Vec3::new(0.0, 0.0, -20.0), ..canonical };
+        assert_eq!(changed(&loaded(behind), &args).unwrap().viewport, [1.0, 1.0]);
+    }
+
+    #[test]
+    fn a_stated_viewport_is_taken_as_it_is() {
+        let args = CameraArgs {
+            projection: Some(ProjectionArg::Parallel),
+            viewport: Some([5.0, 7.0]),
+            size: Some([9, 9]),
+            ..CameraArgs::default()
+        };
+        assert_eq!(changed(&loaded(look_at(Vec3::NEG_Z)), &args).unwrap().viewport, [5.0, 7.0]);
+    }
+
+    #[test]
+    fn a_frame_can_be_given_another_up() {
+        let up = Some(Vec3::X);
+        let frame = CameraDescription::default().orientation;
+        let turned = Orientation::Direction { direction: Vec3::NEG_Z, up: Vec3::X };
+        assert_eq!(orientation(frame, None, up), turned);
+        let target = Vec3::new(1.0, 2.0, 3.0);
+        let looking = Orientation::LookAt { target, up: Vec3::Y };
+        assert_eq!(orientation(frame, Some(target), None), looking);
+        assert_eq!(orientation(frame, None, None), frame);
+    }
+
+    #[test]
+    fn a_degenerate_change_is_named() {
+        let args = CameraArgs {
+            up: Some(Vec3::Z),
+            look_at: Some(Vec3::new(0.0, 0.0, -8.0)),
+            ..CameraArgs::default()
+        };
+        let message = camera(&loaded(look_at(Vec3::X)), &args).unwrap_err().to_string();
+        assert!(message.starts_with("the camera of 'test' with --look-at, --up: up "), "{message}");
+    }
+}

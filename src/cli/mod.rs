@@ -1,0 +1,146 @@
+//! The command line: `bothways [render] [SCENE]` and what goes with it.
+//!
+//! To add a subcommand, give it a file of its own here, a variant of [`Command`] and an arm of
+//! [`run`].
+
+mod args;
+mod camera;
+mod failure;
+mod npy;
+mod output;
+mod render;
+mod table;
+mod terminal;
+
+use args::RenderArgs;
+use bothways::scenes;
+use clap::{CommandFactory, Parser, Subcommand};
+use clap_complete::Shell;
+use failure::Failure;
+use std::process::ExitCode;
+
+const ABOUT: &str = "Renders one scene in object order (rasterization) and in image order (ray \
+tracing), and proves that both see the same.";
+
+const EXAMPLES: &str = "\
+Examples:
+  bothways                                   the lecture's scene, into out/lecture
+  bothways canonical --size 64x64 -o small   a built-in scene, in small
+  bothways bunny.obj --projection parallel   a mesh file, framed automatically
+  bothways scene.toml --order object         one order alone
+  bothways render --repeat 20 --json         measured times, for a program to read
+  bothways scenes                            what is built in
+
+Exit codes: 0 both orders see the same, 1 they differ, 2 something went wrong.";
+
+#[derive(Debug, Parser)]
+#[command(name = "bothways", version, about = ABOUT, after_help = EXAMPLES)]
+#[command(args_conflicts_with_subcommands = true, disable_help_subcommand = true)]
+struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+    #[command(flatten)]
+    render: RenderArgs,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Render a scene both ways and compare (what happens without a subcommand)
+    #[command(after_help = EXAMPLES)]
+    Render(Box<RenderArgs>),
+    /// List the built-in scenes, or print one as TOML
+    #[command(after_help = SCENES_EXAMPLES)]
+    Scenes {
+        /// A built-in scene, or a scene or mesh file: prints its TOML
+        name: Option<String>,
+    },
+    /// Print a completion script for a shell
+    #[command(after_help = COMPLETIONS_EXAMPLES)]
+    Completions {
+        /// The shell
+        shell: Shell,
+    },
+}
+
+const SCENES_EXAMPLES: &str = "\
+Examples:
+  bothways scenes                        list the built-in scenes
+  bothways scenes canonical > mine.toml  begin a scene file of your own
+  bothways scenes bunny.obj              the camera that frames a mesh";
+
+const COMPLETIONS_EXAMPLES: &str = "\
+Example:
+  bothways completions bash > ~/.local/share/bash-completion/completions/bothways";
+
+/// Runs the program: 0 is a match, 1 a difference, 2 a failure.
+pub(crate) fn main() -> ExitCode {
+    run(Cli::parse()).unwrap_or_else(|failure| {
+        failure.print();
+        ExitCode::from(2)
+    })
+}
+
+fn run(cli: Cli) -> Result<ExitCode, Failure> {
+    match cli.command {
+        None => render::run(&cli.render),
+        Some(Command::Render(args)) => render::run(&args),
+        Some(Command::Scenes { name }) => print_scenes(name.as_deref()),
+        Some(Command::Completions { shell }) => print_completions(shell),
+    }
+}
+
+fn print_scenes(name: Option<&str>) -> Result<ExitCode, Failure> {
+    let text = match name {
+        Some(name) => scenes::load(name)?.toml,
+        None => scene_list(),
+    };
+    terminal::print(&text)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn scene_list() -> String {
+    let widest = scenes::BUILT_IN.iter().map(|scene| scene.name.len()).max().unwrap_or(0);
+    let line = |scene: &scenes::BuiltIn| format!("{:widest$}  {}\n", scene.name, scene.about);
+    scenes::BUILT_IN.iter().map(line).collect()
+}
+
+fn print_completions(shell: Shell) -> Result<ExitCode, Failure> {
+    let mut script = Vec::new();
+    clap_complete::generate(shell, &mut Cli::command(), "bothways", &mut script);
+    terminal::print(&String::from_utf8_lossy(&script))?;
+    Ok(ExitCode::SUCCESS)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn render_is_what_happens_without_a_subcommand() {
+        let scene_of = |line: &[&str]| match Cli::parse_from(line) {
+            Cli { command: None, render } => render.scene,
+            Cli { command: Some(Command::Render(args)), .. } => args.scene,
+            Cli { command: Some(_), .. } => panic!("another subcommand"),
+        };
+        assert_eq!(scene_of(&["bothways"]), "lecture");
+        assert_eq!(scene_of(&["bothways", "canonical"]), "canonical");
+        assert_eq!(scene_of(&["bothways", "x.obj", "--size", "64x64"]), "x.obj");
+        assert_eq!(scene_of(&["bothways", "--size", "64x64", "x.obj"]), "x.obj");
+        assert_eq!(scene_of(&["bothways", "render", "-o", "there", "x.toml"]), "x.toml");
+    }
+
+    #[test]
+    fn no_built_in_scene_shares_its_name_with_a_subcommand() {
+        let command = Cli::command();
+        let later = ["diff", "pixel", "cover", "camera", "mesh", "help"];
+        for scene in scenes::BUILT_IN {
+            assert!(command.get_subcommands().all(|sub| sub.get_name() != scene.name));
+            assert!(!later.contains(&scene.name));
+        }
+    }
+}

@@ -1,0 +1,38 @@
+//! Buffers as NumPy arrays: H×W, or H×W×N×N with several samples.
+
+use bothways::common::Frame;
+use npyz::{AutoSerialize, NpyWriter, WriteOptions, WriterBuilder};
+use std::io::{self, Write};
+
+/// Writes the id of what is seen at each sample, all ones for nothing.
+pub(super) fn write_ids(frame: &Frame, out: impl Write) -> io::Result<()> {
+    write(frame, frame.ids(), out)
+}
+
+/// Writes how far it is, +∞ for nothing.
+pub(super) fn write_distances(frame: &Frame, out: impl Write) -> io::Result<()> {
+    write(frame, frame.distances(), out)
+}
+
+fn write<T: AutoSerialize + Copy>(
+    frame: &Frame,
+    buffer: &[T],
+    mut out: impl Write,
+) -> io::Result<()> {
+    let [width, height] = frame.image().map(u64::from);
+    let n = u64::from(frame.samples());
+    let shape = if n == 1 { vec![height, width] } else { vec![height, width, n, n] };
+    let mut writer: NpyWriter<T, _> =
+        WriteOptions::new().default_dtype().shape(&shape).writer(&mut out).begin_nd()?;
+    // A frame stores rows of samples; the array, the samples of one pixel after another.
+    let [width, height] = frame.image().map(|side| side as usize);
+    for i in 0..height {
+        for j in 0..width {
+            for sample in frame.samples_of(i, j) {
+                writer.push(&buffer[sample])?;
+            }
+        }
+    }
+    writer.finish()?;
+    out.flush()
+}

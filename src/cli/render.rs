@@ -1,0 +1,166 @@
+//! `bothways render`: from a scene to the output folder and the verdict.
+
+use super::args::{BuffersArg, RenderArgs};
+use super::camera::camera;
+use super::failure::Failure;
+use super::output::Staging;
+use super::{npy, table, terminal};
+use bothways::common::camera::check_samples;
+use bothways::common::{Camera, Options, View};
+use bothways::diff::{Classes, Comparison, compare};
+use bothways::figure::Slide;
+use bothways::orders::{self, Rendered};
+use bothways::picture::{mask, picture};
+use bothways::report::Report;
+use bothways::scenes::{self, LoadedScene};
+use image::{ColorType, ImageEncoder, codecs::png::PngEncoder};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Renders, writes and prints; 0 if both orders see the same (or one was asked for), 1 if not.
+pub(super) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
+    let loaded = scenes::load(&args.scene)?;
+    let camera = camera(&loaded, &args.camera)?;
+    check_samples(camera.image(), args.method.samples)
+        .map_err(|error| Failure::new(format!("--samples {}: {error}", args.method.samples)))?;
+    let folder = match &args.output.folder {
+        Some(folder) => folder.clone(),
+        None => PathBuf::from("out").join(&loaded.name),
+    };
+    // Before the work, so that nobody waits for pictures that cannot be written.
+    let staging = Staging::begin(&folder)?;
+
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(args.method.threads.unwrap_or(0).into())
+        .build()
+        .map_err(|error| Failure::new(format!("cannot start the threads: {error}")))?;
+    pool.install(|| Run::new(args, &loaded, &camera).finish(staging, &folder))
+}
+
+/// Everything that came of the rendering.
+struct Run<'a> {
+    args: &'a RenderArgs,
+    rendered: Vec<Rendered>,
+    comparison: Option<Comparison>,
+    report: Report,
+}
+
+impl<'a> Run<'a> {
+    fn new(args: &'a RenderArgs, loaded: &LoadedScene, camera: &Camera) -> Run<'a> {
+        let view = View::new(&loaded.scene, camera);
+        let options = Options { samples: args.method.samples };
+        let (method, repeat) = (args.method.method.into(), args.method.repeat);
+        let mut rendered = Vec::new();
+        for &order in args.method.order.orders() {
+            let mut one = orders::render(order, method, &view, &options, repeat);
+            if args.output.no_times {
+                one.times = None;
+            }
+            rendered.push(one);
+        }
+        let comparison = match rendered.as_slice() {
+            [object_order, image_order] => Some(compare(&object_order.frame, &image_order.frame)),
+            _ => None,
+        };
+        let report = Report::new(
+            &loaded.name,
+            loaded.scene.primitive_count(),
+            rayon::current_num_threads(),
+            &rendered,
+            comparison.as_ref(),
+        );
+        Run { args, rendered, comparison, report }
+    }
+
+    fn finish(&self, mut staging: Staging, folder: &Path) -> Result<ExitCode, Failure> {
+        let json = self.report.to_json().map_err(|error| Failure::new(error.to_string()))?;
+        self.write(&mut staging, &json)?;
+        staging.commit()?;
+
+        if self.args.output.json {
+            terminal::print(&json)?;
+        } else if !self.args.output.quiet {
+            let comparison = self.comparison.as_ref();
+            terminal::print(&table::table(&self.report, &self.rendered, comparison, folder))?;
+        }
+        Ok(ExitCode::from(status(self.comparison.as_ref())))
+    }
+
+    fn write(&self, staging: &mut Staging, json: &str) -> Result<(), Failure> {
+        for Rendered { order, frame, .. } in &self.rendered {
+            let stem = order.file_stem();
+            write_rgb(staging, &format!("{stem}.png"), &picture(frame))?;
+            let mask = mask(frame);
+            write_png(
+                staging,
+                &format!("mask-{stem}.png"),
+                &mask,
+                mask.dimensions(),
+                ColorType::L8,
+            )?;
+            if self.args.output.buffers == BuffersArg::Npy {
+                let ids = |out: &mut BufWriter<_>| npy::write_ids(frame, out);
+                staging.write(&format!("{stem}.ids.npy"), ids)?;
+                let distances = |out: &mut BufWriter<_>| npy::write_distances(frame, out);
+                staging.write(&format!("{stem}.t.npy"), distances)?;
+            }
+        }
+        if let ([object_order, image_order], Some(comparison)) =
+            (self.rendered.as_slice(), &self.comparison)
+        {
+            let classes = Classes::new(&object_order.frame, &image_order.frame);
+            let difference = classes.picture(&picture(&object_order.frame));
+            write_rgb(staging, "difference.png", &difference)?;
+            let slide = Slide {
+                scene: &self.report.scene,
+                primitives: self.report.primitives,
+                threads: self.report.threads,
+                object_order,
+                image_order,
+                comparison,
+            };
+            write_rgb(staging, "side-by-side.png", &slide.draw())?;
+        }
+        staging.write("report.json", |out| out.write_all(json.as_bytes()))
+    }
+}
+
+/// The exit code of a run that went well: one order alone cannot differ.
+fn status(comparison: Option<&Comparison>) -> u8 {
+    u8::from(!comparison.is_none_or(Comparison::matches))
+}
+
+fn write_rgb(staging: &mut Staging, name: &str, picture: &image::RgbImage) -> Result<(), Failure> {
+    write_png(staging, name, picture, picture.dimensions(), ColorType::Rgb8)
+}
+
+fn write_png(
+    staging: &mut Staging,
+    name: &str,
+    bytes: &[u8],
+    (width, height): (u32, u32),
+    colour: ColorType,
+) -> Result<(), Failure> {
+    staging.write(name, |out| {
+        PngEncoder::new(out)
+            .write_image(bytes, width, height, colour.into())
+            .map_err(io::Error::other)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bothways::common::Frame;
+
+    #[test]
+    fn a_difference_is_exit_code_1() {
+        let nothing = Frame::new(&Camera::canonical(2, 2), &Options::default());
+        let mut something = nothing.clone();
+        something.set(1, 1, 0, 1.0);
+        assert_eq!(status(Some(&compare(&nothing, &something))), 1);
+        assert_eq!(status(Some(&compare(&something, &something))), 0);
+        assert_eq!(status(None), 0);
+    }
+}

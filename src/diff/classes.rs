@@ -1,0 +1,149 @@
+//! The difference as a picture: what each pixel says of the two orders.
+
+use super::{assert_same_raster, pixels};
+use crate::common::Frame;
+use crate::common::frame::NO_PRIMITIVE;
+use image::{Rgb, RgbImage};
+
+/// What both orders say of a pixel, from the worst to the best; a pixel of several samples has the
+/// worst of theirs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Class {
+    /// Only object order covers it.
+    OnlyObjectOrder,
+    /// Only image order covers it.
+    OnlyImageOrder,
+    /// Both cover it and see different primitives.
+    OtherPrimitive,
+    /// Both see the same primitive.
+    Alike,
+    /// Neither sees anything.
+    Neither,
+}
+
+impl Class {
+    /// All classes, from the worst to the best.
+    pub const ALL: [Class; 5] = [
+        Class::OnlyObjectOrder,
+        Class::OnlyImageOrder,
+        Class::OtherPrimitive,
+        Class::Alike,
+        Class::Neither,
+    ];
+
+    /// What a legend calls it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Class::OnlyObjectOrder => "only object order",
+            Class::OnlyImageOrder => "only image order",
+            Class::OtherPrimitive => "different primitives",
+            Class::Alike => "both alike",
+            Class::Neither => "neither",
+        }
+    }
+
+    /// Its sRGB colour in a difference image. Pixels that are alike are greys, lit faintly by the
+    /// picture; this is the middle one of them.
+    ///
+    /// Told apart by everybody: Okabe and Ito, "Color Universal Design", 2008.
+    pub fn colour(self) -> [u8; 3] {
+        match self {
+            Class::OnlyObjectOrder => [0xe6, 0x9f, 0x00],
+            Class::OnlyImageOrder => [0x00, 0x72, 0xb2],
+            Class::OtherPrimitive => [0xcc, 0x79, 0xa7],
+            Class::Alike => [0x58; 3],
+            Class::Neither => [0x08, 0x0a, 0x0c],
+        }
+    }
+
+    /// Whether the orders disagree.
+    pub fn differs(self) -> bool {
+        self < Class::Alike
+    }
+
+    fn of_sample(by_object: u32, by_image: u32) -> Class {
+        match (by_object, by_image) {
+            (NO_PRIMITIVE, NO_PRIMITIVE) => Class::Neither,
+            (_, NO_PRIMITIVE) => Class::OnlyObjectOrder,
+            (NO_PRIMITIVE, _) => Class::OnlyImageOrder,
+            (a, b) if a == b => Class::Alike,
+            _ => Class::OtherPrimitive,
+        }
+    }
+}
+
+/// The class of every pixel.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Classes {
+    image: [u32; 2],
+    classes: Vec<Class>,
+}
+
+impl Classes {
+    /// Classifies what both orders saw of one view.
+    ///
+    /// # Panics
+    ///
+    /// If the frames differ in size or samples.
+    pub fn new(object_order: &Frame, image_order: &Frame) -> Classes {
+        assert_same_raster(object_order, image_order);
+        let class_of = |[i, j]: [u32; 2]| {
+            let samples = object_order.samples_of(i as usize, j as usize);
+            let classes = samples.map(|sample| {
+                Class::of_sample(object_order.ids()[sample], image_order.ids()[sample])
+            });
+            classes.min().unwrap_or(Class::Neither)
+        };
+        let image = object_order.image();
+        Classes { image, classes: pixels(image).map(class_of).collect() }
+    }
+
+    /// The image's width and height in pixels.
+    pub fn image(&self) -> [u32; 2] {
+        self.image
+    }
+
+    /// The class of a pixel.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such pixel.
+    pub fn at(&self, i: u32, j: u32) -> Class {
+        self.classes[i as usize * self.image[0] as usize + j as usize]
+    }
+
+    /// How many pixels are of a class.
+    pub fn count(&self, class: Class) -> u64 {
+        self.classes.iter().filter(|&&other| other == class).count() as u64
+    }
+
+    /// The pixels `[i, j]` in which the orders disagree, row by row, each with its class.
+    pub fn differing(&self) -> impl Iterator<Item = ([u32; 2], Class)> {
+        pixels(self.image).zip(self.classes.iter().copied()).filter(|(_, class)| class.differs())
+    }
+
+    /// The difference image; `lit_by` is the picture of either order.
+    ///
+    /// # Panics
+    ///
+    /// If the picture is of another size.
+    pub fn picture(&self, lit_by: &RgbImage) -> RgbImage {
+        assert_eq!([lit_by.width(), lit_by.height()], self.image, "the picture is of another size");
+        let mut picture = RgbImage::new(self.image[0], self.image[1]);
+        let lit = picture.pixels_mut().zip(lit_by.pixels());
+        for ((pixel, light), class) in lit.zip(&self.classes) {
+            *pixel = match class {
+                Class::Alike => faint_grey(*light),
+                class => Rgb(class.colour()),
+            };
+        }
+        picture
+    }
+}
+
+/// A dark grey that lets the picture be recognised and no difference be overlooked.
+fn faint_grey(Rgb([red, green, blue]): Rgb<u8>) -> Rgb<u8> {
+    // The weights of Rec. 709, in 256ths.
+    let light = (54 * u32::from(red) + 183 * u32::from(green) + 19 * u32::from(blue)) / 256;
+    Rgb([u8::try_from(44 + 96 * light / 255).expect("at most 140"); 3])
+}

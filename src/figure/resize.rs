@@ -1,0 +1,144 @@
+//! Pictures in other sizes: enlarged so that pixels stay squares, reduced without losing light.
+
+use crate::common::shade::{linear_from_srgb, srgb_from_linear};
+use image::{Rgb, RgbImage};
+use std::ops::RangeInclusive;
+
+/// The size at which a picture is shown in a frame: enlarged by a whole factor, or reduced.
+pub(super) fn fitted(picture: [u32; 2], frame: [u32; 2]) -> [u32; 2] {
+    let factor = (frame[0] / picture[0]).min(frame[1] / picture[1]);
+    if factor >= 1 {
+        return picture.map(|side| side * factor);
+    }
+    let [width, height] = picture.map(u64::from);
+    let [most_wide, most_high] = frame.map(u64::from);
+    // Of the two scales, the one that is tighter; the other side is rounded.
+    let scaled = |side: u64, most: u64, of: u64| {
+        u32::try_from(((2 * side * most + of) / (2 * of)).max(1)).expect("smaller than it was")
+    };
+    if width * most_high >= height * most_wide {
+        [frame[0], scaled(height, most_wide, width)]
+    } else {
+        [scaled(width, most_high, height), frame[1]]
+    }
+}
+
+/// The pixels of the reduced picture that a pixel of the original falls on, along one side.
+pub(super) fn footprint(pixel: u32, from: u32, to: u32) -> RangeInclusive<u32> {
+    let position = |pixel: u64| pixel * u64::from(to);
+    let (begin, end) = (position(u64::from(pixel)), position(u64::from(pixel) + 1));
+    let index = |position: u64| u32::try_from(position / u64::from(from)).expect("within a side");
+    index(begin)..=index(end - 1)
+}
+
+/// The picture in another size, as [`fitted`] gives it.
+pub(super) fn resized(picture: &RgbImage, size: [u32; 2]) -> RgbImage {
+    let [width, height] = [picture.width(), picture.height()];
+    if size[0] >= width && size[1] >= height {
+        let (across, down) = (size[0] / width, size[1] / height);
+        return RgbImage::from_fn(size[0], size[1], |x, y| {
+            *picture.get_pixel(x / across, y / down)
+        });
+    }
+    reduced(picture, size)
+}
+
+/// The average, in linear light, of the area that each new pixel covers.
+fn reduced(picture: &RgbImage, [width, height]: [u32; 2]) -> RgbImage {
+    let linear: Vec<f32> = (0..=u8::MAX).map(linear_from_srgb).collect();
+    let columns = Overlaps::new(picture.width(), width);
+    let rows = Overlaps::new(picture.height(), height);
+
+    let mut sums = vec![[0.0_f32; 3]; width as usize * height as usize];
+    let mut narrow = vec![[0.0_f32; 3]; width as usize];
+    for (i, row) in picture.rows().enumerate() {
+        narrow.fill([0.0; 3]);
+        for (j, Rgb(pixel)) in row.enumerate() {
+            let light = pixel.map(|channel| linear[usize::from(channel)]);
+            columns.of(j).for_each(|(x, share)| add(&mut narrow[x], light, share));
+        }
+        for (y, share) in rows.of(i) {
+            let sums = &mut sums[y * width as usize..][..width as usize];
+            sums.iter_mut().zip(&narrow).for_each(|(sum, light)| add(sum, *light, share));
+        }
+    }
+    let bytes = sums.into_iter().flat_map(|sum| sum.map(srgb_from_linear)).collect();
+    RgbImage::from_raw(width, height, bytes).expect("three bytes a pixel")
+}
+
+fn add(sum: &mut [f32; 3], light: [f32; 3], share: f32) {
+    sum.iter_mut().zip(light).for_each(|(sum, light)| *sum += share * light);
+}
+
+/// Which new pixels each old one falls on, along one side, and what share of each it fills.
+struct Overlaps {
+    from: u32,
+    to: u32,
+}
+
+impl Overlaps {
+    fn new(from: u32, to: u32) -> Overlaps {
+        Overlaps { from, to }
+    }
+
+    fn of(&self, pixel: usize) -> impl Iterator<Item = (usize, f32)> + use<> {
+        let (from, to) = (u64::from(self.from), u64::from(self.to));
+        // In units in which an old pixel is `to` long and a new one `from`.
+        let (begin, end) = (pixel as u64 * to, (pixel as u64 + 1) * to);
+        (begin / from..=(end - 1) / from).map(move |new| {
+            let common = end.min((new + 1) * from) - begin.max(new * from);
+            #[expect(clippy::cast_precision_loss, reason = "a share needs no more than f32")]
+            let share = common as f32 / from as f32;
+            #[expect(clippy::cast_possible_truncation, reason = "an index that fits a side")]
+            let new = new as usize;
+            (new, share)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_pictures_grow_by_whole_factors() {
+        assert_eq!(fitted([64, 64], [568, 426]), [384, 384]);
+        assert_eq!(fitted([1, 1], [568, 426]), [426, 426]);
+        assert_eq!(fitted([300, 200], [568, 426]), [300, 200]);
+    }
+
+    #[test]
+    fn large_pictures_shrink_to_fit_and_keep_their_form() {
+        assert_eq!(fitted([640, 480], [568, 426]), [568, 426]);
+        assert_eq!(fitted([3840, 2160], [568, 426]), [568, 320]);
+        assert_eq!(fitted([100, 5000], [568, 426]), [9, 426]);
+        assert_eq!(fitted([65_536, 1], [568, 426]), [568, 1]);
+    }
+
+    #[test]
+    fn enlarged_pixels_are_squares() {
+        let picture = RgbImage::from_raw(2, 1, vec![1, 2, 3, 4, 5, 6]).unwrap();
+        let large = resized(&picture, [4, 2]);
+        assert_eq!(large.get_pixel(1, 1).0, [1, 2, 3]);
+        assert_eq!(large.get_pixel(2, 0).0, [4, 5, 6]);
+    }
+
+    #[test]
+    fn reducing_keeps_the_light() {
+        let picture =
+            RgbImage::from_fn(9, 7, |x, y| Rgb([if (x + y) % 2 == 0 { 255 } else { 0 }; 3]));
+        let one = resized(&picture, [1, 1]).get_pixel(0, 0).0;
+        assert_eq!(one, [srgb_from_linear(32.0 / 63.0); 3]);
+        let plain = RgbImage::from_pixel(1000, 300, Rgb([90, 160, 30]));
+        let small = resized(&plain, [567, 170]);
+        assert!(small.pixels().all(|pixel| pixel.0 == [90, 160, 30]));
+    }
+
+    #[test]
+    fn a_footprint_holds_every_pixel_that_is_touched() {
+        assert_eq!(footprint(0, 4, 2), 0..=0);
+        assert_eq!(footprint(1, 3, 2), 0..=1);
+        assert_eq!(footprint(2, 3, 2), 1..=1);
+        assert_eq!(footprint(1, 2, 6), 3..=5);
+    }
+}

@@ -1,0 +1,77 @@
+//! Slides of extreme pictures: the size never changes, and no text runs into another.
+
+use super::*;
+use crate::common::{Camera, Frame, Options};
+use crate::diff::compare;
+use crate::orders::{Method, Spread, Times};
+
+fn rendered(order: Order, [width, height]: [u32; 2], count: u64, seen: bool) -> Rendered {
+    let mut frame = Frame::new(&Camera::canonical(width, height), &Options::default());
+    if seen {
+        frame.set(frame.height() - 1, frame.width() / 2, 0, 1.0);
+    }
+    let work = Work {
+        primitives: count,
+        rays: count,
+        nodes: count,
+        tests: count,
+        fragments: count,
+        depth_tests: count,
+        judged_coverage: count / 2,
+        judged_nearest: count / 2,
+    };
+    let spread = Spread { median: 12_345.0, min: 1.0, max: 99_999.0 };
+    let times = Some(Times { prepare: spread, visibility: spread, shading: spread });
+    Rendered { order, method: Method::Fast, frame, work, times }
+}
+
+fn slide(scene: &str, size: [u32; 2], count: u64, match_: bool) -> RgbImage {
+    let object_order = rendered(Order::Object, size, count, true);
+    let image_order = rendered(Order::Image, size, count, match_);
+    let comparison = compare(&object_order.frame, &image_order.frame);
+    let slide = Slide {
+        scene,
+        primitives: u32::MAX - 1,
+        threads: 128,
+        object_order: &object_order,
+        image_order: &image_order,
+        comparison: &comparison,
+    };
+    slide.draw()
+}
+
+/// Whether nothing is drawn in an upright strip.
+fn is_blank(slide: &RgbImage, x: std::ops::Range<u32>, y: std::ops::Range<u32>) -> bool {
+    y.into_iter().all(|y| x.clone().all(|x| slide.get_pixel(x, y).0 == BACKGROUND))
+}
+
+#[test]
+fn margins_and_gutters_stay_blank() {
+    let long = "a scene whose name goes on and on ".repeat(8);
+    for (scene, size, count, match_) in [
+        ("lecture", [640, 480], 1_234_567, true),
+        (long.as_str(), [1, 1], 0, false),
+        ("wide", [2000, 3], 9_999_999, true),
+        ("tall", [3, 2000], 999_999_999_999_999, false),
+    ] {
+        let slide = slide(scene, size, count, match_);
+        assert_eq!([slide.width(), slide.height()], SLIDE_SIZE);
+        for x in [0..70, 1850..1920] {
+            assert!(is_blank(&slide, x, 0..1080), "{scene}: a margin");
+        }
+        for x in [642..674, 1246..1278] {
+            assert!(is_blank(&slide, x, 150..976), "{scene}: a gutter");
+        }
+        assert!(is_blank(&slide, 0..1920, 0..32) && is_blank(&slide, 0..1920, 1046..1080));
+    }
+}
+
+#[test]
+fn one_differing_pixel_of_millions_is_seen() {
+    let slide = slide("large", [2400, 1350], 1, false);
+    let column = 1280..1848;
+    let found = (282..708)
+        .flat_map(|y| column.clone().map(move |x| (x, y)))
+        .any(|(x, y)| slide.get_pixel(x, y).0 == Class::OnlyObjectOrder.colour());
+    assert!(found);
+}

@@ -1,0 +1,131 @@
+//! `report.json`: everything that was found out, for programs.
+
+use crate::common::Work;
+use crate::diff::{Colour, Comparison, Coverage, Depth, Visible};
+use crate::orders::{Method, Order, Rendered, Spread};
+use serde::Serialize;
+
+/// The report; its fields are written in this order.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Report {
+    /// The scene's name.
+    pub scene: String,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Samples along one side of a pixel.
+    pub samples: u32,
+    /// Threads that rendered.
+    pub threads: usize,
+    /// Primitives in the scene.
+    pub primitives: u32,
+    /// Which samples are covered; like the other parts of the comparison, `None` unless both orders
+    /// were rendered.
+    pub coverage: Option<Coverage>,
+    /// Which primitive is seen.
+    pub visible: Option<Visible>,
+    /// How far it is.
+    pub depth: Option<Depth>,
+    /// What it looks like.
+    pub colour: Option<Colour>,
+    /// What object order did, if it was rendered.
+    pub object_order: Option<OrderReport>,
+    /// What image order did, if it was rendered.
+    pub image_order: Option<OrderReport>,
+}
+
+/// What one order did.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct OrderReport {
+    /// How it was run.
+    pub method: Method,
+    /// Work on the scene alone; times are `None` where they are left out.
+    pub prepare_ms: Option<Spread>,
+    /// Finding what is visible, per frame.
+    pub visibility_ms: Option<Spread>,
+    /// Its normals and colours, per frame.
+    pub shading_ms: Option<Spread>,
+    /// How much was done for one frame.
+    pub work: WorkReport,
+}
+
+/// The counts of [`Work`], under the same names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[expect(missing_docs, reason = "documented where they are counted, in Work")]
+pub struct WorkReport {
+    pub primitives: u64,
+    pub rays: u64,
+    pub nodes: u64,
+    pub tests: u64,
+    pub fragments: u64,
+    pub depth_tests: u64,
+    pub judged_coverage: u64,
+    pub judged_nearest: u64,
+}
+
+impl Report {
+    /// Reports what was rendered, one order or both, and how the two compare.
+    ///
+    /// # Panics
+    ///
+    /// If nothing was rendered.
+    pub fn new(
+        scene: &str,
+        primitives: u32,
+        threads: usize,
+        rendered: &[Rendered],
+        comparison: Option<&Comparison>,
+    ) -> Report {
+        let frame = &rendered.first().expect("an order was rendered").frame;
+        let section = |order| rendered.iter().find(|one| one.order == order).map(OrderReport::new);
+        Report {
+            scene: scene.into(),
+            size: frame.image(),
+            samples: frame.samples(),
+            threads,
+            primitives,
+            coverage: comparison.map(|comparison| comparison.coverage),
+            visible: comparison.map(|comparison| comparison.visible.clone()),
+            depth: comparison.map(|comparison| comparison.depth),
+            colour: comparison.map(|comparison| comparison.colour),
+            object_order: section(Order::Object),
+            image_order: section(Order::Image),
+        }
+    }
+
+    /// The report as JSON, with a newline at its end.
+    ///
+    /// # Errors
+    ///
+    /// Never for a report made by [`Report::new`]; `serde_json` allows for it.
+    pub fn to_json(&self) -> serde_json::Result<String> {
+        Ok(serde_json::to_string_pretty(self)? + "\n")
+    }
+}
+
+impl OrderReport {
+    fn new(rendered: &Rendered) -> OrderReport {
+        let times = rendered.times;
+        OrderReport {
+            method: rendered.method,
+            prepare_ms: times.map(|times| times.prepare),
+            visibility_ms: times.map(|times| times.visibility),
+            shading_ms: times.map(|times| times.shading),
+            work: WorkReport::from(rendered.work),
+        }
+    }
+}
+
+impl From<Work> for WorkReport {
+    fn from(work: Work) -> Self {
+        WorkReport {
+            primitives: work.primitives,
+            rays: work.rays,
+            nodes: work.nodes,
+            tests: work.tests,
+            fragments: work.fragments,
+            depth_tests: work.depth_tests,
+            judged_coverage: work.judged_coverage,
+            judged_nearest: work.judged_nearest,
+        }
+    }
+}

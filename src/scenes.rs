@@ -1,0 +1,274 @@
+//! What can be rendered by name: the built-in scenes, scene files, and mesh files, which get a
+//! camera that frames them.
+
+mod framing;
+
+pub use framing::{FrameMeshError, framed};
+
+use crate::common::obj::{self, ReadObjError};
+use crate::common::scene_file::{self, SceneFileError, framed_mesh_toml, nearest_name};
+use crate::common::{CameraDescription, Scene, SceneError, Shape};
+use std::ffi::OsStr;
+use std::path::Path;
+
+/// A scene that comes with the program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BuiltIn {
+    /// What the command line calls it.
+    pub name: &'static str,
+    /// Its point, in one sentence; the first line of its file says the same.
+    pub about: &'static str,
+    /// Its scene file.
+    pub toml: &'static str,
+}
+
+/// The name of the scene that is rendered when nobody names one.
+pub const DEFAULT: &str = "lecture";
+
+/// All built-in scenes, the default first.
+pub const BUILT_IN: &[BuiltIn] = &[
+    BuiltIn {
+        name: "lecture",
+        about: "The first slide: a torus, a sphere and a plane, with materials and light.",
+        toml: include_str!("../scenes/lecture.toml"),
+    },
+    BuiltIn {
+        name: "canonical",
+        about: "The lecture's first camera before one triangle, one sphere and one plane.",
+        toml: include_str!("../scenes/canonical.toml"),
+    },
+    BuiltIn {
+        name: "ties",
+        about: "Edges and vertices exactly on sample points, at every size that is a power of two.",
+        toml: include_str!("../scenes/ties.toml"),
+    },
+    BuiltIn {
+        name: "behind",
+        about: "Triangles, spheres and planes that reach behind the eye, and some that lie there.",
+        toml: include_str!("../scenes/behind.toml"),
+    },
+    BuiltIn {
+        name: "slivers",
+        about: "Needles down to thousandths of a pixel, and a fan of them that leaves no gap.",
+        toml: include_str!("../scenes/slivers.toml"),
+    },
+    BuiltIn {
+        name: "overlap",
+        about: "Coplanar and duplicated faces, of which the first in the scene is always seen.",
+        toml: include_str!("../scenes/overlap.toml"),
+    },
+    BuiltIn {
+        name: "inside",
+        about: "A closed mesh seen from within: every pixel is covered, or the surface leaks.",
+        toml: include_str!("../scenes/inside.toml"),
+    },
+    BuiltIn {
+        name: "many",
+        about: "A necklace of some 100,000 triangles, so that searching well pays.",
+        toml: include_str!("../scenes/many.toml"),
+    },
+];
+
+/// A scene, ready to be rendered.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoadedScene {
+    /// The built-in's name, or the file's without its folder and extension.
+    pub name: String,
+    /// What there is to see.
+    pub scene: Scene,
+    /// From where.
+    pub camera: CameraDescription,
+    /// Whether somebody stated the viewport, so that another image size keeps both its sides.
+    pub viewport_stated: bool,
+    /// The scene as a scene file; for a mesh file, the one that shows it.
+    pub toml: String,
+}
+
+/// Why a scene could not be loaded.
+#[derive(Debug, thiserror::Error)]
+pub enum LoadError {
+    /// No built-in scene has this name.
+    #[error(
+        "there is no built-in scene {name:?}{}; the built-in scenes are {}; a scene file (.toml) \
+         or a mesh file (.obj) can be named, too",
+        .meant.map_or(String::new(), |meant| format!("; did you mean {meant:?}?")),
+        names().join(", ")
+    )]
+    UnknownName {
+        /// What was asked for.
+        name: String,
+        /// The name that may have been meant.
+        meant: Option<&'static str>,
+    },
+    /// The file is of no kind that is read.
+    #[error("{path} is neither a scene file (.toml) nor a mesh file (.obj); no others are read")]
+    UnknownExtension {
+        /// What was asked for.
+        path: String,
+    },
+    /// The scene file is wrong.
+    #[error(transparent)]
+    SceneFile(#[from] SceneFileError),
+    /// The mesh file is wrong.
+    #[error(transparent)]
+    Mesh(#[from] ReadObjError),
+    /// The mesh file has more triangles than there are ids.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The mesh file is right, but no camera shows what is in it.
+    #[error("{path}: {error}")]
+    Framing {
+        /// The mesh file.
+        path: String,
+        /// Why.
+        error: FrameMeshError,
+    },
+}
+
+/// Loads a built-in scene by its name, a scene file, or a mesh file before a camera that frames it.
+///
+/// # Errors
+///
+/// An unknown name, listing the known ones; an unknown kind of file; what is wrong with the file.
+///
+/// ```
+/// let loaded = bothways::scenes::load("canonical")?;
+/// assert_eq!(loaded.camera.image, [480, 480]);
+/// # Ok::<(), bothways::scenes::LoadError>(())
+/// ```
+pub fn load(source: &str) -> Result<LoadedScene, LoadError> {
+    if let Some(built_in) = BUILT_IN.iter().find(|built_in| built_in.name == source) {
+        return load_built_in(built_in);
+    }
+    let path = Path::new(source);
+    let extension = path.extension().and_then(OsStr::to_str).map(str::to_ascii_lowercase);
+    match extension.as_deref() {
+        Some("toml") => load_scene_file(path),
+        Some("obj") => load_mesh(path),
+        None if !source.contains(['/', '\\']) => Err(LoadError::UnknownName {
+            name: source.to_owned(),
+            meant: nearest_name(source, BUILT_IN.iter().map(|built_in| built_in.name)),
+        }),
+        _ => Err(LoadError::UnknownExtension { path: source.to_owned() }),
+    }
+}
+
+fn load_built_in(built_in: &BuiltIn) -> Result<LoadedScene, LoadError> {
+    let toml = built_in.toml.to_owned();
+    let file = scene_file::parse(&format!("{}.toml", built_in.name), &toml, Path::new(""))?;
+    let scene_file::SceneFile { scene, camera, viewport_stated } = file;
+    Ok(LoadedScene { name: built_in.name.to_owned(), scene, camera, viewport_stated, toml })
+}
+
+fn load_scene_file(path: &Path) -> Result<LoadedScene, LoadError> {
+    let toml = scene_file::read_text(path)?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let file = scene_file::parse(&path.display().to_string(), &toml, folder)?;
+    let scene_file::SceneFile { scene, camera, viewport_stated } = file;
+    Ok(LoadedScene { name: stem(path), scene, camera, viewport_stated, toml })
+}
+
+fn load_mesh(path: &Path) -> Result<LoadedScene, LoadError> {
+    let mesh = obj::read(path)?;
+    let shown = path.display().to_string();
+    let camera =
+        framed(&mesh).map_err(|error| LoadError::Framing { path: shown.clone(), error })?;
+    let toml = framed_mesh_toml(&camera, &shown);
+    let scene = Scene::new(vec![Shape::Mesh(mesh).into()])?;
+    Ok(LoadedScene { name: stem(path), scene, camera, viewport_stated: false, toml })
+}
+
+/// The file's name without its folder and extension.
+fn stem(path: &Path) -> String {
+    path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+fn names() -> Vec<&'static str> {
+    BUILT_IN.iter().map(|built_in| built_in.name).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::common::Camera;
+
+    #[test]
+    fn every_built_in_scene_loads_and_says_its_point() {
+        for BuiltIn { name, about, toml } in BUILT_IN {
+            let loaded = load(name).unwrap_or_else(|error| panic!("{error}"));
+            assert_eq!((loaded.name.as_str(), loaded.toml.as_str()), (*name, *toml));
+            assert!(loaded.scene.primitive_count() > 0, "{name}");
+            Camera::new(loaded.camera).unwrap();
+            assert_eq!(toml.lines().next(), Some(format!("# {about}").as_str()));
+            assert!(toml.lines().all(|line| line.len() <= 120), "{name}");
+        }
+        assert_eq!(BUILT_IN[0].name, DEFAULT);
+    }
+
+    #[test]
+    fn no_built_in_scene_has_the_name_of_a_subcommand() {
+        let commands =
+            ["render", "diff", "pixel", "cover", "camera", "mesh", "scenes", "completions", "help"];
+        assert!(names().iter().all(|name| !commands.contains(name)));
+    }
+
+    #[test]
+    fn many_has_about_a_hundred_thousand_triangles() {
+        let triangles = load("many").unwrap().scene.primitive_count();
+        assert!((90_000..110_000).contains(&triangles), "{triangles}");
+    }
+
+    #[test]
+    fn an_unknown_name_lists_the_known_ones() {
+        let says = |name| load(name).unwrap_err().to_string();
+        let list = "the built-in scenes are lecture, canonical, ties, behind, slivers, overlap, \
+                    inside, many; a scene file (.toml) or a mesh file (.obj) can be named, too";
+        let near =
+            format!("there is no built-in scene \"lectuer\"; did you mean \"lecture\"?; {list}");
+        assert_eq!(says("lectuer"), near);
+        assert_eq!(says("bunny"), format!("there is no built-in scene \"bunny\"; {list}"));
+        assert_eq!(says(""), format!("there is no built-in scene \"\"; {list}"));
+    }
+
+    #[test]
+    fn an_unknown_kind_of_file_is_refused_by_name() {
+        for path in ["meshes/bunny.ply", "bunny.ply", "meshes/bunny"] {
+            let says = load(path).unwrap_err().to_string();
+            let reason =
+                "is neither a scene file (.toml) nor a mesh file (.obj); no others are read";
+            assert_eq!(says, format!("{path} {reason}"));
+        }
+    }
+
+    #[test]
+    fn a_missing_scene_file_is_named() {
+        let says = load("no-such.toml").unwrap_err().to_string();
+        assert_eq!(says, "no-such.toml: there is no such file");
+    }
+
+    #[test]
+    fn a_mesh_file_is_framed_and_its_scene_file_reads_back() {
+        let folder = std::env::temp_dir().join(format!("bothways-scenes-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let path = folder.join("a \"triangle\".OBJ");
+        std::fs::write(&path, "v 0.1 0 0\nv 1 0.3 0\nv 0 1 -0.7\nf 1 2 3\n").unwrap();
+
+        let loaded = load(path.to_str().unwrap()).unwrap();
+        assert_eq!(loaded.name, "a \"triangle\"");
+        assert!(!loaded.viewport_stated);
+        let again = scene_file::parse("again.toml", &loaded.toml, Path::new("")).unwrap();
+        assert_eq!((again.scene, again.camera), (loaded.scene, loaded.camera));
+        assert!(!again.viewport_stated);
+
+        let saved = folder.join("saved.toml");
+        std::fs::write(&saved, &loaded.toml).unwrap();
+        let from_file = load(saved.to_str().unwrap()).unwrap();
+        assert_eq!((from_file.name.as_str(), from_file.camera), ("saved", loaded.camera));
+        assert_eq!(from_file.toml, loaded.toml);
+
+        std::fs::write(&path, "v 1 1 1\nf 1 1 1\n").unwrap();
+        let says = load(path.to_str().unwrap()).unwrap_err().to_string();
+        assert!(says.ends_with("all triangles lie in one point, so no camera can frame them"));
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+}

@@ -1,0 +1,66 @@
+//! Numbers as people read them: `1,234,567 samples`.
+
+/// A whole number with its digits in groups of three.
+pub fn grouped(number: u64) -> String {
+    let digits = number.to_string();
+    let mut grouped = String::with_capacity(digits.len() + digits.len() / 3);
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+            grouped.push(',');
+        }
+        grouped.push(digit);
+    }
+    grouped
+}
+
+/// A number of things; one of them loses the plural's s.
+pub fn count(number: u64, things: &str) -> String {
+    let things = if number == 1 { things.trim_end_matches('s') } else { things };
+    format!("{} {things}", grouped(number))
+}
+
+/// A time that is read at a glance: three significant digits, in milliseconds.
+pub fn milliseconds(time: f64) -> String {
+    let decimals = match time {
+        time if time < 9.995 => 2,
+        time if time < 99.95 => 1,
+        _ => 0,
+    };
+    format!("{time:.decimals$} ms")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_come_in_threes() {
+        let numbers = [0, 7, 999, 1000, 12_345, 123_456, 1_234_567, u64::MAX];
+        assert_eq!(
+            numbers.map(grouped),
+            [
+                "0",
+                "7",
+                "999",
+                "1,000",
+                "12,345",
+                "123,456",
+                "1,234,567",
+                "18,446,744,073,709,551,615"
+            ]
+        );
+    }
+
+    #[test]
+    fn one_thing_is_singular() {
+        assert_eq!([count(0, "samples"), count(1, "samples")], ["0 samples", "1 sample"]);
+    }
+
+    #[test]
+    fn times_keep_three_digits() {
+        assert_eq!(
+            [0.0, 1.234, 9.996, 99.96, 1234.5].map(milliseconds),
+            ["0.00 ms", "1.23 ms", "10.0 ms", "100 ms", "1234 ms"]
+        );
+    }
+}
