@@ -16,7 +16,8 @@ fn bunny() -> Option<Scene> {
         println!("skipped: ../shared/meshes/stanford-bunny.obj is absent");
         return None;
     }
-    Some(Scene::new(vec![support::mesh(obj::read(&path).unwrap())]).unwrap())
+    let bunny = obj::read(&path).expect("it is an OBJ file");
+    Some(support::scene(vec![support::mesh(bunny)]))
 }
 
 /// Views from six sides, near and far.
@@ -34,7 +35,7 @@ fn views() -> impl Iterator<Item = Camera> {
             image: [1920, 1080],
             ..CameraDescription::default()
         };
-        Camera::new(description).unwrap()
+        Camera::new(description).expect("it is a camera")
     })
 }
 

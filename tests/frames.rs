@@ -16,7 +16,7 @@ fn still_life() -> Scene {
         Vec3::new((2.1 * k).sin(), (1.3 * k).cos(), (0.7 * k).sin()) * 1.5
     });
     let triangles = (0..58).map(|k| [k, k + 1, k + 2]).collect();
-    let mesh = Shape::Mesh(Mesh::new(positions.collect(), triangles).unwrap());
+    let mesh = Shape::Mesh(Mesh::new(positions.collect(), triangles).expect("it is a mesh"));
     let ball = Shape::Sphere(Sphere { center: Vec3::new(1.0, 0.5, 0.0), radius: 0.75 });
     let ground = Shape::Plane(Plane { point: Vec3::new(0.0, -1.25, 0.0), normal: Vec3::Y });
     scene([mesh, ball, ground].map(Object::from).to_vec())

@@ -72,9 +72,9 @@ fn shape(numbers: Numbers) -> impl Strategy<Value = Shape> {
         (normal != Vec3::ZERO).then_some(Shape::Plane(Plane { point, normal }))
     });
     let fan = proptest::collection::vec(point(numbers), 4..8).prop_map(|positions| {
-        let count = u32::try_from(positions.len()).unwrap();
+        let count = u32::try_from(positions.len()).expect("they are few");
         let triangles = (1..count - 1).map(|k| [0, k, k + 1]).collect();
-        Shape::Mesh(Mesh::new(positions, triangles).unwrap())
+        Shape::Mesh(Mesh::new(positions, triangles).expect("it is a mesh"))
     });
     prop_oneof![
         4 => triangle, 1 => degenerate, 3 => coplanar, 1 => needle, 2 => ball, 1 => plane, 2 => fan
@@ -155,8 +155,8 @@ fn agree_on(numbers: Numbers, count: u32) -> (f64, f64) {
     let strategy = (objects(numbers), camera(numbers), samples);
     TestRunner::new(config)
         .run(&strategy, |(objects, description, samples)| {
-            let scene = Scene::new(objects).unwrap();
-            let camera = Camera::new(description).unwrap();
+            let scene = Scene::new(objects).expect("it is a scene");
+            let camera = Camera::new(description).expect("it is a camera");
             let (view, options) = (View::new(&scene, &camera), Options { samples });
             all_agree(&view, &options, "a hostile scene");
             let mut ties = Ties::new(&view, samples);
@@ -167,7 +167,7 @@ fn agree_on(numbers: Numbers, count: u32) -> (f64, f64) {
             tested.set(tested.get() + ties.tested);
             Ok(())
         })
-        .unwrap();
+        .expect("all renderers agree");
     #[expect(clippy::cast_precision_loss, reason = "shares need no more")]
     let share = |ties: u64| ties as f64 / tested.get() as f64;
     let shares = (share(edge.get()), share(distance.get()));

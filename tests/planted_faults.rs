@@ -110,13 +110,16 @@ fn a_box_one_ulp_too_small_differs() {
 
 #[test]
 fn an_error_bound_of_zero_differs() {
-    // Two triangles of one plane, seen at an angle: every sample of the overlap is an exact tie,
-    // which rounding breaks either way.
-    let floor = triangle([[-3.0, 0.0, -3.0], [3.0, 0.0, -3.0], [0.0, 0.0, 4.0]]);
-    let rug = triangle([[-1.0, 0.0, -2.0], [2.0, 0.0, -1.0], [0.5, 0.0, 3.0]]);
-    let scene = scene(vec![floor, rug]);
+    // Triangles of the plane x + y + z = 0, one on the other and seen at an angle: every sample is an
+    // exact tie of several, which rounding breaks either way.
+    let on_plane = |[x, y]: [f32; 2]| [x, y, -x - y];
+    let rug = |k: u8| {
+        let k = f32::from(k);
+        triangle([[-3.0 - k, 1.0], [2.0, -3.0 - k], [1.0 + k, 2.0 + k]].map(on_plane))
+    };
+    let scene = scene((0..12).map(rug).collect());
     for projection in PROJECTIONS {
-        let camera = turned(projection, [1.3, 2.9, 4.1], [0.1, 0.2, 0.3], [64, 64]);
+        let camera = turned(projection, [2.3, 2.9, 4.1], [0.1, 0.2, 0.3], [64, 64]);
         assert_eq!(verdicts(&scene, &camera, ZeroErrorBound), CAUGHT, "{projection:?}");
     }
 }

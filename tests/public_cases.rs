@@ -4,12 +4,12 @@
 mod support;
 
 use bothways::common::glam::Vec3;
-use bothways::common::{Camera, CameraDescription, Mesh, Options, Projection, Scene, Shape, View};
-use support::{PROJECTIONS, all_agree, camera, owners, scene};
+use bothways::common::{Camera, CameraDescription, Mesh, Options, Projection, Scene, View};
+use support::{PROJECTIONS, all_agree, camera, mesh, owners, scene};
 
 fn quad(positions: &[[f32; 3]], triangles: Vec<[u32; 3]>) -> Scene {
     let positions = positions.iter().map(|p| Vec3::from_array(*p)).collect();
-    scene(vec![Shape::Mesh(Mesh::new(positions, triangles).unwrap()).into()])
+    scene(vec![mesh(Mesh::new(positions, triangles).expect("it is a mesh"))])
 }
 
 /// facebookresearch/DRTK, issue 9, "Edge case": pixel centres at integers of an 8 × 8 image; six of

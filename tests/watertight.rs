@@ -2,10 +2,11 @@
 
 mod support;
 
+use bothways::common::frame::NO_PRIMITIVE;
 use bothways::common::glam::{DVec3, Vec3};
 use bothways::common::predicate::Sign;
 use bothways::common::{Camera, Mesh, Options, Primitive, Projection, Scene, Shape, View};
-use support::{PROJECTIONS, RENDERERS, all_agree, camera, owners, scene, triangle, turned};
+use support::{PROJECTIONS, RENDERERS, all_agree, camera, mesh, owners, scene, triangle, turned};
 
 /// A square from (−4, −4) to (4, 4) at z = −4, cut into 8 × 8 cells of two triangles, inner vertices
 /// moved by `shake`.
@@ -20,10 +21,10 @@ fn tiling(shake: impl Fn(u32, u32) -> [f32; 3]) -> Scene {
     let cell = |k: u32| {
         let corner = k / 8 * 9 + k % 8;
         let [a, b, c, d] = [corner, corner + 1, corner + 10, corner + 9];
-        if k % 3 == 0 { [[a, b, c], [a, c, d]] } else { [[a, b, d], [d, b, c]] }
+        if k.is_multiple_of(3) { [[a, b, c], [a, c, d]] } else { [[a, b, d], [d, b, c]] }
     };
     let triangles = (0..64).flat_map(cell).collect();
-    scene(vec![Shape::Mesh(Mesh::new(positions, triangles).unwrap()).into()])
+    scene(vec![mesh(Mesh::new(positions, triangles).expect("it is a mesh"))])
 }
 
 fn assert_one_owner(scene: &Scene, camera: &Camera, samples: u32) {
@@ -88,7 +89,7 @@ fn octahedron(size: f32, center: Vec3) -> Mesh {
         [3, 1, 5],
         [0, 3, 5],
     ];
-    Mesh::new(positions, triangles).unwrap()
+    Mesh::new(positions, triangles).expect("it is a mesh")
 }
 
 #[test]
@@ -189,10 +190,10 @@ fn the_canonical_camera_s_ties_follow_the_top_left_rule() {
             let view = View::new(&scene, &camera);
             for (name, render) in RENDERERS {
                 let frame = render(&view, &Options::default());
-                for (i, j) in (0..SIZE * SIZE).map(|k| (k / SIZE, k % SIZE)) {
-                    let sample = [2 * j + 1, 2 * i + 1];
-                    let expected = top_left_covers(corners, sample);
-                    let seen = frame.id(i as usize, j as usize).is_some();
+                for (k, &id) in (0..).zip(frame.ids()) {
+                    let (i, j) = (k / SIZE, k % SIZE);
+                    let expected = top_left_covers(corners, [2 * j + 1, 2 * i + 1]);
+                    let seen = id != NO_PRIMITIVE;
                     assert_eq!(seen, expected, "{name}, {projection:?}: {corners:?} at ({i}, {j})");
                 }
             }

@@ -21,10 +21,10 @@ pub enum FrameMeshError {
         /// The diagonal of their bounding box.
         diagonal: f64,
     },
-    /// The triangles are so small where they lie that the eye would be among them.
+    /// The triangles are so small where they lie that rounding moves the eye among them.
     #[error(
-        "the triangles reach over {diagonal:.2e} only, too little for the numbers around them; move \
-         them to the origin or scale them up in a scene file"
+        "the triangles reach over {diagonal:.2e} only, too little for the numbers around them; \
+         move them to the origin or scale them up in a scene file"
     )]
     TooSmall {
         /// The diagonal of their bounding box.
@@ -34,14 +34,15 @@ pub enum FrameMeshError {
 
 /// From the middle of the mesh to the eye, before it is scaled: from the right, above and in front.
 const TOWARDS_EYE: DVec3 = DVec3::new(1.0, 0.7, 1.5);
-/// From the middle of the mesh to the eye, in diagonals of its bounding box.
-const EYE_DISTANCE: f64 = 1.6;
+/// `d`, with a viewport one high: a lens that is a little longer than the eye's, as for a portrait.
+const DISTANCE: f32 = 2.2;
+/// How much of the viewport's height the mesh may fill.
+const FILLED: f64 = 0.92;
 
-/// A camera that looks at the middle of the mesh from a little above, and sees about all of it.
+/// A camera that looks at the middle of the mesh from a little above and sees all of it, in any image
+/// that is not higher than wide.
 ///
-/// The mesh is what triangles use of its vertices. The numbers are those of the programs that
-/// `bothways` is measured against, so that all see one picture; they suit models that are rounder
-/// than their bounding box, and a box itself loses its outermost corners.
+/// The mesh is what triangles use of its vertices.
 ///
 /// # Errors
 ///
@@ -52,30 +53,43 @@ pub fn framed(mesh: &Mesh) -> Result<CameraDescription, FrameMeshError> {
     if diagonal == 0.0 {
         return Err(FrameMeshError::Point);
     }
-    let eye = (center + EYE_DISTANCE * diagonal * TOWARDS_EYE.normalize()).as_vec3();
+    let w = TOWARDS_EYE.normalize();
+    let u = DVec3::Y.cross(w).normalize();
+    let v = w.cross(u);
+    // A point at height h beside the axis is seen at h·d/(eye's distance − its own) on the viewport.
+    let lens = 2.0 * f64::from(DISTANCE) / FILLED;
+    let needed = |point: DVec3| {
+        let p = point - center;
+        p.dot(w) + lens * p.dot(u).abs().max(p.dot(v).abs())
+    };
+    let away = points(mesh).map(needed).fold(0.5 * diagonal, f64::max);
+    let eye = (center + away * w).as_vec3();
     let target = center.as_vec3();
     if !eye.is_finite() {
         return Err(FrameMeshError::TooLarge { diagonal });
     }
-    // Rounding may put the eye anywhere once neighbouring f32 numbers are about as far apart.
-    if !(1.0..2.0 * EYE_DISTANCE).contains(&((eye.as_dvec3() - center).length() / diagonal)) {
+    // Where neighbouring f32 numbers are farther apart than the mesh is wide, the eye is rounded to
+    // somewhere else.
+    if ((eye.as_dvec3() - center).length() / away - 1.0).abs() > 0.01 {
         return Err(FrameMeshError::TooSmall { diagonal });
     }
     Ok(CameraDescription {
         eye,
         orientation: Orientation::LookAt { target, up: Vec3::Y },
-        distance: 2.2,
+        distance: DISTANCE,
         ..CameraDescription::default()
     })
 }
 
 /// The least and the greatest coordinates of what triangles use.
 fn bounds(mesh: &Mesh) -> Option<(DVec3, DVec3)> {
+    points(mesh).map(|p| (p, p)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+}
+
+/// The corners of all triangles.
+fn points(mesh: &Mesh) -> impl Iterator<Item = DVec3> {
     let used = mesh.triangles().iter().flatten();
-    let points = used.map(|&vertex| mesh.positions()[vertex as usize]);
-    let boxes = points.map(|point| (point, point));
-    let (low, high) = boxes.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))?;
-    Some((low.as_dvec3(), high.as_dvec3()))
+    used.map(|&vertex| mesh.positions()[vertex as usize].as_dvec3())
 }
 
 #[cfg(test)]
@@ -89,17 +103,17 @@ mod tests {
     }
 
     #[test]
-    fn the_camera_is_that_of_the_programs_we_measure_against() {
-        // The box of the triangle's vertices, without the one that no triangle uses: centre
-        // (3, 5, 7), sides 2, 2 and 1, so the diagonal is 3 and the eye 4.8 from the centre.
+    fn all_of_a_mesh_is_seen_and_touches_the_margin() {
+        // The last vertex belongs to no triangle.
         let mesh =
             corners(&[[2.0, 4.0, 6.5], [4.0, 4.0, 7.5], [2.0, 6.0, 7.0], [900.0, 900.0, 900.0]]);
         let camera = Camera::new(framed(&mesh).unwrap()).unwrap();
-        let w = DVec3::new(1.0, 0.7, 1.5).normalize();
-        let u = DVec3::Y.cross(w).normalize();
-        assert_eq!(camera.eye(), (DVec3::new(3.0, 5.0, 7.0) + 4.8 * w).as_vec3());
-        assert!((camera.w() - w).length() < 1e-6 && (camera.u() - u).length() < 1e-6);
-        assert_eq!((camera.distance(), camera.viewport()[1]), (f64::from(2.2f32), 1.0));
+        let farthest = (0..3).map(|k| {
+            let p = mesh.positions()[k].as_dvec3() - camera.eye().as_dvec3();
+            let onto_viewport = camera.distance() / -p.dot(camera.w());
+            (p.dot(camera.u()) * onto_viewport).abs().max((p.dot(camera.v()) * onto_viewport).abs())
+        });
+        assert!((farthest.fold(0.0, f64::max) - 0.46).abs() < 1e-5);
     }
 
     #[test]
@@ -120,9 +134,8 @@ mod tests {
         let message = "the triangles reach over 6.71e38, too far for a camera that sees them all; \
                        scale them down in a scene file";
         assert_eq!(says(&large), message);
-        let far = 16_777_216.0;
-        let small = corners(&[[far, far, far], [far + 2.0, far, far], [far, far, far]]);
-        let message = "the triangles reach over 2.00e0 only, too little for the numbers around \
+        let small = corners(&[[1e8, 0.0, 1e8], [1e8, 0.125, 1e8], [1e8, 0.0, 1e8]]);
+        let message = "the triangles reach over 1.25e-1 only, too little for the numbers around \
                        them; move them to the origin or scale them up in a scene file";
         assert_eq!(says(&small), message);
     }

@@ -137,7 +137,7 @@ pub fn owners(view: &View, options: &Options) -> [(&'static str, Vec<u32>); 4] {
     let prepared = raytrace::fast::prepare(view.scene);
     raytrace::fast::determine_visibility(&prepared, view, options, &mut frame, d);
     let mut names = RENDERERS.iter().map(|(name, _)| *name);
-    counts.map(|owners| (names.next().unwrap(), owners.counts))
+    counts.map(|owners| (names.next().expect("there are four"), owners.counts))
 }
 
 /// A camera at `eye` that looks down the negative z axis.
@@ -150,7 +150,7 @@ pub fn camera(
     let eye = Vec3::from_array(eye);
     let description =
         CameraDescription { projection, eye, viewport, image, ..CameraDescription::default() };
-    Camera::new(description).unwrap()
+    Camera::new(description).expect("it is a camera")
 }
 
 /// A camera from anywhere, looking at a point.
@@ -169,7 +169,7 @@ pub fn turned(projection: Projection, eye: [f32; 3], target: [f32; 3], image: [u
         image,
         ..CameraDescription::default()
     };
-    Camera::new(description).unwrap()
+    Camera::new(description).expect("it is a camera")
 }
 
 pub fn triangle(corners: [[f32; 3]; 3]) -> Object {
@@ -178,7 +178,7 @@ pub fn triangle(corners: [[f32; 3]; 3]) -> Object {
 }
 
 pub fn scene(objects: Vec<Object>) -> Scene {
-    Scene::new(objects).unwrap()
+    Scene::new(objects).expect("it is a scene")
 }
 
 /// How often the property tests run: more with `BOTHWAYS_LONG` set.

@@ -1,0 +1,98 @@
+//! The built-in scenes show what they say they show.
+
+use bothways::common::glam::{DVec3, Vec3};
+use bothways::common::{
+    Camera, CameraDescription, Options, Orientation, Primitive, Projection, Ray, View,
+};
+use bothways::raytrace::textbook;
+use bothways::scenes::{LoadedScene, load};
+
+/// The scene's camera with another image, and the parallel one that shows its target as large.
+fn cameras(loaded: &LoadedScene, image: [u32; 2]) -> [Camera; 2] {
+    let perspective = CameraDescription { image, ..loaded.camera };
+    let Orientation::LookAt { target, .. } = loaded.camera.orientation else {
+        panic!("{} has no target", loaded.name)
+    };
+    let enlarged = (loaded.camera.eye - target).length() / loaded.camera.distance;
+    let parallel = CameraDescription {
+        projection: Projection::Parallel,
+        viewport: perspective.viewport.map(|side| side * enlarged),
+        ..perspective
+    };
+    [perspective, parallel].map(|description| Camera::new(description).expect("it is usable"))
+}
+
+/// Whether a ray meets the triangle's rim exactly. Good for numbers so short that nothing rounds.
+fn meets_rim(primitive: &Primitive, ray: &Ray) -> bool {
+    let Primitive::Triangle([a, b, c]) = *primitive else { return false };
+    let edge = |p: DVec3, q: DVec3| (p - ray.origin).cross(q - ray.origin).dot(ray.direction);
+    let edges = [edge(a, b), edge(b, c), edge(c, a)];
+    let one_sided = edges.iter().all(|&e| e >= 0.0) || edges.iter().all(|&e| e <= 0.0);
+    one_sided && edges.contains(&0.0) && edges.iter().any(|&e| e != 0.0)
+}
+
+#[test]
+fn a_third_of_the_samples_of_ties_lie_on_edges_whatever_the_power_of_two() {
+    let loaded = load("ties").unwrap();
+    assert_eq!(loaded.camera.image, [64, 64]);
+    for side in [64, 32, 16, 8, 4, 2, 1] {
+        for camera in cameras(&loaded, [side, side]) {
+            let view = View::new(&loaded.scene, &camera);
+            let on_rim = |i, j| {
+                let ray = camera.viewing_ray(i, j);
+                view.primitives().any(|(_, primitive)| meets_rim(&primitive, &ray))
+            };
+            let pixels = (0..side).flat_map(|i| (0..side).map(move |j| (i, j)));
+            let ties = pixels.filter(|&(i, j)| on_rim(i, j)).count();
+            let samples = (side * side) as usize;
+            assert!(3 * ties >= samples, "{ties} of {samples}, {:?}", camera.projection());
+        }
+    }
+}
+
+#[test]
+fn inside_covers_every_pixel() {
+    let loaded = load("inside").unwrap();
+    for camera in cameras(&loaded, [24, 18]) {
+        let view = View::new(&loaded.scene, &camera);
+        let frame = textbook::render(&view, &Options::default());
+        assert!((0..18).all(|row| (0..24).all(|column| frame.id(row, column).is_some())));
+    }
+}
+
+#[test]
+fn what_nobody_should_see_is_not_seen() {
+    // Such objects are magenta.
+    let is_hidden = |colour: Vec3| colour == Vec3::new(1.0, 0.0, 1.0);
+    for name in ["behind", "overlap"] {
+        let loaded = load(name).unwrap();
+        assert!(loaded.scene.objects().iter().any(|object| is_hidden(object.material.color)));
+        for camera in cameras(&loaded, [40, 30]) {
+            let view = View::new(&loaded.scene, &camera);
+            let frame = textbook::render(&view, &Options::default());
+            for (row, column) in (0..30).flat_map(|row| (0..40).map(move |column| (row, column))) {
+                let Some(id) = frame.id(row, column) else { continue };
+                let (object, _) = loaded.scene.locate(id);
+                let colour = loaded.scene.objects()[object].material.color;
+                assert!(!is_hidden(colour), "{name}: object {object} at {row}, {column}");
+            }
+        }
+    }
+}
+
+#[test]
+fn mesh_files_of_the_wild_are_framed() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/meshes");
+    let Ok(files) = std::fs::read_dir(folder) else {
+        println!("skipped: there is no folder {folder}");
+        return;
+    };
+    let paths = files.map(|file| file.expect("the folder can be listed").path());
+    for path in paths.filter(|path| path.extension().is_some_and(|extension| extension == "obj")) {
+        let loaded = load(path.to_str().unwrap()).unwrap_or_else(|error| panic!("{error}"));
+        let camera = Camera::new(loaded.camera).unwrap();
+        // The middle of the picture shows the middle of the mesh.
+        let ray = camera.ray_through(0.0, 0.0);
+        assert!((ray.direction.normalize() + camera.w()).length() < 1e-12);
+    }
+}
