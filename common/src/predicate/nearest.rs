@@ -68,7 +68,7 @@ pub(super) fn distance(primitive: &Primitive, ray: &Ray) -> f64 {
             p.over(q)
         }
     };
-    if rounded.error <= CLOSE * rounded.value {
+    if rounded.error < CLOSE * rounded.value {
         return rounded.value;
     }
     match *primitive {
