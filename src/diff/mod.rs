@@ -4,6 +4,7 @@
 //! each order rounds in its own way, are measured and reported.
 
 mod classes;
+pub mod foreign;
 
 pub use classes::{Class, Classes};
 
