@@ -76,6 +76,7 @@ fn an_edited_id_is_found_and_shown() {
     assert_eq!(report["equal"], false);
     assert_eq!(report["compared"], json!(["coverage", "ids"]));
     assert_eq!(report["first_differing"], json!([[0, 3]]));
+    assert_eq!(report["region"], json!([0, 3, 1, 1]));
     assert_eq!(report["coverage"]["only_b"], 1);
     assert_eq!(report["depth"], Value::Null);
     assert_eq!(report["a"]["file"], "out/object-order.ids.npy");
@@ -158,7 +159,7 @@ first pixels (row, column) that differ:
   (0, 2)  A covered  B nothing
   (1, 2)  A nothing  B covered
 hint: B agrees with A once it is turned upside down
-differ: 2 pixels of 8
+differ: 2 pixels of 8, from (0, 2) to (1, 2)
 ";
     bothways(&home, &["diff", "a.png", "b.png"]).assert().code(1).stdout(expected);
 }

@@ -167,6 +167,16 @@ impl Told<'_> {
         names.join(", ")
     }
 
+    /// What was compared, and how closely.
+    fn judged(&self) -> String {
+        let judged = |aspect: &Aspect| match aspect {
+            Aspect::Coverage | Aspect::Ids => aspect.name().to_owned(),
+            Aspect::T => format!("t (within {DEPTH_TOLERANCE:e})"),
+            Aspect::Colour => format!("colour (within {COLOUR_TOLERANCE}/255)"),
+        };
+        self.comparison.compared.iter().map(judged).collect::<Vec<_>>().join(", ")
+    }
+
     fn counts(&self, text: &mut String) {
         let mut rows = Vec::new();
         if let Some(coverage) = self.comparison.coverage {
@@ -250,17 +260,17 @@ impl Told<'_> {
     }
 
     fn verdict(&self) -> String {
-        let compared = self.compared();
         let comparison = self.comparison;
-        let [width, height] = comparison.size.map(u64::from);
-        if !comparison.equal {
-            let pixels = count(comparison.differing_pixels, "pixels");
-            return format!("differ: {pixels} of {}", grouped(width * height));
-        }
-        let rounded =
-            comparison.compared.iter().any(|what| matches!(what, Aspect::T | Aspect::Colour));
-        let within = if rounded { " (t and colour within tolerance)" } else { "" };
-        format!("equal in everything compared: {compared}{within}")
+        let Some([row, column, height, width]) = comparison.region else {
+            return format!("equal in everything compared: {}", self.judged());
+        };
+        let pixels = count(comparison.differing_pixels, "pixels");
+        let all = comparison.size.map(u64::from).iter().product();
+        let (bottom, right) = (row + height - 1, column + width - 1);
+        format!(
+            "differ: {pixels} of {}, from ({row}, {column}) to ({bottom}, {right})",
+            grouped(all)
+        )
     }
 }
 

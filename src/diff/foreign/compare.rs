@@ -96,6 +96,8 @@ pub struct BufferComparison {
     pub differing_pixels: u64,
     /// The first of them, at most 10, as `[i, j]`, row by row.
     pub first_differing: Vec<[u32; 2]>,
+    /// The smallest rectangle around all of them: row, column, height, width.
+    pub region: Option<[u32; 4]>,
     /// What is covered.
     pub coverage: Option<BufferCoverage>,
     /// Which primitive is seen, where both cover.
@@ -193,6 +195,9 @@ pub fn compare(a: &Buffer, b: &Buffer) -> Result<BufferComparison, Incomparable>
         not_compared: pair.not_compared(),
         differing_pixels: sums.differing_pixels,
         first_differing: sums.first_differing,
+        region: sums
+            .corners
+            .map(|[[top, left], [bottom, right]]| [top, left, bottom - top + 1, right - left + 1]),
         coverage,
         ids: has(Aspect::Ids).then_some(sums.ids),
         depth: has(Aspect::T).then_some(sums.depth),
@@ -359,6 +364,8 @@ struct Sums {
     colour: BufferColour,
     differing_pixels: u64,
     first_differing: Vec<[u32; 2]>,
+    /// Of the rectangle around all that differ, both inside.
+    corners: Option<[[u32; 2]; 2]>,
 }
 
 impl Sums {
@@ -380,6 +387,11 @@ impl Sums {
         let class = look.class();
         if class.differs() {
             self.differing_pixels += 1;
+            let [low, high] = self.corners.unwrap_or([pixel; 2]);
+            let both = |a: [u32; 2], b: [u32; 2], pick: fn(u32, u32) -> u32| {
+                [pick(a[0], b[0]), pick(a[1], b[1])]
+            };
+            self.corners = Some([both(low, pixel, u32::min), both(high, pixel, u32::max)]);
             if self.first_differing.len() < NAMED_PIXELS {
                 self.first_differing.push(pixel);
             }

@@ -2,13 +2,14 @@
 
 use super::compare::Pair;
 use super::{Buffer, Content};
+use crate::diff::{Class, pixels};
 use std::collections::BTreeMap;
 
 /// What may be the cause, each in a sentence.
 pub(super) fn hints(pair: &Pair) -> Vec<String> {
     let mut hints = Vec::new();
-    if let Some(turned) = turned(pair) {
-        hints.push(format!("B agrees with A once it is turned {turned}"));
+    if let Some(moved) = moved(pair) {
+        hints.push(format!("B agrees with A once it is {moved}"));
     }
     if let (Content::Ids(a), Content::Ids(b)) = (&pair.a.content, &pair.b.content)
         && pair.a.samples == pair.b.samples
@@ -36,26 +37,50 @@ pub(super) fn hints(pair: &Pair) -> Vec<String> {
     hints
 }
 
-/// How B must be turned to agree with A everywhere.
-fn turned(pair: &Pair) -> Option<&'static str> {
+/// How B must be turned or moved to agree with A.
+fn moved(pair: &Pair) -> Option<String> {
     if pair.a.samples != 1 || pair.b.samples != 1 {
         return None;
     }
-    let [width, height] = pair.a.size.map(|side| side as usize);
-    let ways: [(&str, bool, bool); 3] = [
-        ("upside down", true, false),
-        ("left to right", false, true),
-        ("by 180 degrees", true, true),
-    ];
-    let agrees = |&(_, rows, columns): &(&str, bool, bool)| {
-        (0..width * height).all(|pixel| {
-            let (i, j) = (pixel / width, pixel % width);
-            let i = if rows { height - 1 - i } else { i };
-            let j = if columns { width - 1 - j } else { j };
-            !pair.look(pixel, i * width + j).class().differs()
-        })
-    };
-    ways.iter().find(|way| agrees(way)).map(|(name, ..)| *name)
+    let [width, height] = pair.a.size;
+    let turned = [("upside down", true, false), ("left to right", false, true)];
+    for (name, rows, columns) in turned.into_iter().chain([("by 180 degrees", true, true)]) {
+        let mirrored =
+            |side: u32, index: u32, mirror| if mirror { side - 1 - index } else { index };
+        let place =
+            |[i, j]: [u32; 2]| Some([mirrored(height, i, rows), mirrored(width, j, columns)]);
+        if agree(pair, place) {
+            return Some(format!("turned {name}"));
+        }
+    }
+    let steps = [0, 1, -1];
+    let moves = steps.into_iter().flat_map(|rows| steps.map(|columns| [rows, columns]));
+    for [rows, columns] in moves.skip(1) {
+        let place = |[i, j]: [u32; 2]| {
+            let i = i.checked_add_signed(rows).filter(|&i| i < height)?;
+            Some([i, j.checked_add_signed(columns).filter(|&j| j < width)?])
+        };
+        if agree(pair, place) {
+            return Some(format!("moved by {} rows and {} columns", -rows, -columns));
+        }
+    }
+    None
+}
+
+/// Whether each pixel of A agrees with the one of B at another place, if there is one, and
+/// something is seen in any of them.
+fn agree(pair: &Pair, place: impl Fn([u32; 2]) -> Option<[u32; 2]>) -> bool {
+    let index = |[i, j]: [u32; 2]| i as usize * pair.a.size[0] as usize + j as usize;
+    let mut seen = false;
+    for in_a in pixels(pair.a.size) {
+        let Some(in_b) = place(in_a) else { continue };
+        let class = pair.look(index(in_a), index(in_b)).class();
+        if class.differs() {
+            return false;
+        }
+        seen |= class == Class::Alike;
+    }
+    seen
 }
 
 /// The ids of A and B side by side, if each has one partner and they are not the same.

@@ -170,6 +170,7 @@ fn coverage_and_ids_are_counted() {
     assert_eq!((coverage.only_a, coverage.only_b, coverage.matches), (1, 1, false));
     assert_eq!(comparison.ids, Some(BufferIds { differing_samples: 1, differing_pixels: 1 }));
     assert_eq!(comparison.first_differing, [[0, 1], [0, 2], [1, 1]]);
+    assert_eq!(comparison.region, Some([0, 1, 2, 2]));
     let colours: Vec<[u8; 3]> = comparison.picture().pixels().map(|pixel| pixel.0).collect();
     assert_eq!(colours[1..3], [[0xe6, 0x9f, 0x00], [0x00, 0x72, 0xb2]]);
     assert_eq!(colours[3..5], [[0x58; 3], [0xcc, 0x79, 0xa7]]);
@@ -226,6 +227,8 @@ fn common_mistakes_are_recognised() {
     let a = ids([2, 2], "01..");
     assert!(hint(&a, &ids([2, 2], "..01")).contains("turned upside down"));
     assert!(hint(&a, &ids([2, 2], "10..")).contains("turned left to right"));
+    let row = ids([4, 1], "01..");
+    assert!(hint(&row, &ids([4, 1], ".01.")).contains("moved by 0 rows and -1 columns"));
     assert!(hint(&a, &ids([2, 2], "12..")).contains("0 in A is 1 in B, 1 in A is 2 in B"));
     assert!(hint(&a, &ids([2, 2], "1200")).contains("B covers every pixel and has the id 0"));
     assert!(hint(&a, &ids([2, 2], "..00")).contains("exactly what A does not"));
