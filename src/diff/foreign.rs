@@ -16,6 +16,7 @@
 
 mod compare;
 mod hints;
+mod look;
 mod npy;
 mod picture;
 mod read;

@@ -2,6 +2,8 @@
 //!
 //! Coverage and primitive ids have no tolerance, and they alone decide. Depth and colour, which
 //! each order rounds in its own way, are measured and reported.
+//!
+//! [`foreign`] does the same for files of any origin.
 
 mod classes;
 pub mod foreign;

@@ -1,6 +1,6 @@
 //! What a difference as a whole looks like: mistakes that every renderer makes once.
 
-use super::compare::Pair;
+use super::look::Pair;
 use super::{Buffer, Content};
 use crate::diff::{Class, pixels};
 use std::collections::BTreeMap;

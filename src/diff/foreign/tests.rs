@@ -2,6 +2,7 @@
 
 use super::*;
 use image::{DynamicImage, GrayAlphaImage, GrayImage, ImageBuffer, ImageFormat, Luma, RgbaImage};
+use proptest::prelude::*;
 use std::path::Path;
 
 /// A NumPy array as any program may write it.
@@ -233,4 +234,38 @@ fn common_mistakes_are_recognised() {
     assert!(hint(&a, &ids([2, 2], "1200")).contains("B covers every pixel and has the id 0"));
     assert!(hint(&a, &ids([2, 2], "..00")).contains("exactly what A does not"));
     assert_eq!(hint(&a, &ids([2, 2], "0.0.")), "");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    /// Whatever was damaged on the way: an answer, never a panic.
+    #[test]
+    fn damaged_files_are_answered(
+        which in 0..4_usize,
+        damage in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 0..6),
+        end in any::<prop::sample::Index>(),
+        cut in any::<bool>(),
+    ) {
+        let mut bytes = match which {
+            0 => npy("'<u4'", false, "(2, 3)", &[7; 24]),
+            1 => npy("'>f8'", true, "(1, 2, 2, 2)", &[63; 64]),
+            2 => b"P6 2 1 255 abcdef".to_vec(),
+            _ => {
+                let mut png = std::io::Cursor::new(Vec::new());
+                RgbaImage::new(3, 2).write_to(&mut png, ImageFormat::Png).unwrap();
+                png.into_inner()
+            }
+        };
+        for (place, byte) in damage {
+            let place = place.index(bytes.len());
+            bytes[place] = byte;
+        }
+        if cut {
+            bytes.truncate(end.index(bytes.len()));
+        }
+        if let Ok(buffer) = read_bytes(&bytes, None) {
+            prop_assert!(compare(&buffer, &buffer).unwrap().equal);
+        }
+    }
 }
