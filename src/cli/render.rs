@@ -131,7 +131,12 @@ fn status(comparison: Option<&Comparison>) -> u8 {
     u8::from(!comparison.is_none_or(Comparison::matches))
 }
 
-fn write_rgb(staging: &mut Staging, name: &str, picture: &image::RgbImage) -> Result<(), Failure> {
+/// Writes a picture as PNG.
+pub(super) fn write_rgb(
+    staging: &mut Staging,
+    name: &str,
+    picture: &image::RgbImage,
+) -> Result<(), Failure> {
     write_png(staging, name, picture, picture.dimensions(), ColorType::Rgb8)
 }
 

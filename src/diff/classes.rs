@@ -98,6 +98,11 @@ impl Classes {
         Classes { image, classes: pixels(image).map(class_of).collect() }
     }
 
+    /// Classes that were found elsewhere, row by row.
+    pub(super) fn from_pixels(image: [u32; 2], classes: Vec<Class>) -> Classes {
+        Classes { image, classes }
+    }
+
     /// The image's width and height in pixels.
     pub fn image(&self) -> [u32; 2] {
         self.image

@@ -2,8 +2,11 @@
 //!
 //! Coverage and primitive ids have no tolerance, and they alone decide. Depth and colour, which
 //! each order rounds in its own way, are measured and reported.
+//!
+//! [`foreign`] does the same for files of any origin.
 
 mod classes;
+pub mod foreign;
 
 pub use classes::{Class, Classes};
 

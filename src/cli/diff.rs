@@ -1,0 +1,297 @@
+//! `bothways diff A B`: where do two renderers differ, and how?
+
+use super::failure::Failure;
+use super::output::Staging;
+use super::render::write_rgb;
+use super::terminal;
+use anstyle::{AnsiColor, Style};
+use bothways::diff::foreign::{self, Aspect, Buffer, BufferComparison, Unit};
+use bothways::diff::{COLOUR_TOLERANCE, DEPTH_TOLERANCE};
+use bothways::wording::{count, grouped};
+use clap::Args;
+use serde::Serialize;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  bothways diff out/canonical/object-order.ids.npy mine.npy    ids: the same primitives?
+  bothways diff out/canonical/object-order.t.npy mine-t.npy    distances, within 1e-5 of t
+  bothways diff out/canonical/mask-object-order.png mine.png   coverage
+  bothways diff yours.png mine.png --background '#101418'      colours, and what is not background
+  bothways diff a.npy b.npy -o out/diff                        writes out/diff/difference.png
+
+Files:
+  PNG, PNM or BMP    one channel: a mask or grey picture, covered where it is not 0;
+                     with alpha: covered where alpha is not 0; RGB: colours alone
+  NPY, H x W         bool: a mask; integers: ids, all ones (or -1) for nothing;
+                     floats: distances t, infinity (or NaN) for nothing;
+                     with N x N samples a pixel, H x W x N x N
+  NPY, H x W x 3|4   colours in sRGB: uint8, uint16, or floats from 0 to 1
+
+Coverage and ids are compared exactly, t within 1e-5 of the larger, colours within 2/255.
+
+Exit codes: 0 equal in everything compared, 1 something differs, 2 something went wrong.";
+
+/// The one file that is written.
+const NAMES: [&str; 1] = ["difference.png"];
+
+/// What to compare.
+#[derive(Debug, Args)]
+pub(super) struct DiffArgs {
+    /// A mask, a picture or a buffer
+    a: PathBuf,
+    /// Another one of the same size
+    b: PathBuf,
+    /// The folder to write difference.png into; without it, nothing is written
+    #[arg(short = 'o', long = "output", value_name = "DIR")]
+    folder: Option<PathBuf>,
+    /// The colour of what is not covered, in pictures that have no alpha, such as #101418
+    #[arg(long, value_name = "COLOR", value_parser = colour)]
+    background: Option<[u8; 3]>,
+    /// Print the comparison as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Compares and prints; 0 if the files are equal in everything compared, 1 if not.
+pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
+    let read = |path: &Path| {
+        foreign::read(path, args.background).map_err(|error| Failure::new(error.to_string()))
+    };
+    let (a, b) = (read(&args.a)?, read(&args.b)?);
+    let comparison = foreign::compare(&a, &b).map_err(|error| {
+        let (a, b) = (args.a.display(), args.b.display());
+        Failure::new(format!("A = {a}, B = {b}: {error}"))
+    })?;
+    if let Some(folder) = &args.folder {
+        let mut staging = Staging::begin_with(folder, &NAMES)?;
+        write_rgb(&mut staging, NAMES[0], &comparison.picture())?;
+        staging.commit()?;
+    }
+    let told = Told { files: [(&args.a, &a), (&args.b, &b)], comparison: &comparison };
+    let text = if args.json { told.json()? } else { told.text(args.folder.as_deref()) };
+    terminal::print(&text)?;
+    Ok(ExitCode::from(u8::from(!comparison.equal)))
+}
+
+/// A colour as screens show it.
+fn colour(text: &str) -> Result<[u8; 3], String> {
+    let digits = text.strip_prefix('#').filter(|digits| digits.len() == 6);
+    let bytes = digits
+        .filter(|digits| digits.bytes().all(|digit| digit.is_ascii_hexdigit()))
+        .and_then(|digits| u32::from_str_radix(digits, 16).ok())
+        .map(u32::to_be_bytes);
+    match bytes {
+        Some([_, red, green, blue]) => Ok([red, green, blue]),
+        None => Err("write a # and six hexadecimal digits, such as '#101418'".into()),
+    }
+}
+
+/// What there is to tell.
+struct Told<'a> {
+    files: [(&'a PathBuf, &'a Buffer); 2],
+    comparison: &'a BufferComparison,
+}
+
+/// The comparison for programs.
+#[derive(Serialize)]
+struct Json<'a> {
+    a: JsonFile,
+    b: JsonFile,
+    #[serde(flatten)]
+    comparison: &'a BufferComparison,
+}
+
+#[derive(Serialize)]
+struct JsonFile {
+    file: String,
+    kind: &'static str,
+    samples: u32,
+}
+
+impl Told<'_> {
+    fn json(&self) -> Result<String, Failure> {
+        let [a, b] = self.files.map(|(path, buffer)| JsonFile {
+            file: path.display().to_string(),
+            kind: buffer.kind(),
+            samples: buffer.samples(),
+        });
+        serde_json::to_string_pretty(&Json { a, b, comparison: self.comparison })
+            .map(|json| json + "\n")
+            .map_err(|error| Failure::new(error.to_string()))
+    }
+
+    fn text(&self, folder: Option<&Path>) -> String {
+        let mut text = self.heading();
+        self.counts(&mut text);
+        self.largest(&mut text);
+        self.first(&mut text);
+        for hint in &self.comparison.hints {
+            line(&mut text, format_args!("hint: {hint}"));
+        }
+        let colour = if self.comparison.equal { AnsiColor::Green } else { AnsiColor::Yellow };
+        let style = colour.on_default().bold();
+        line(&mut text, format_args!("{style}{}{style:#}", self.verdict()));
+        if let Some(folder) = folder {
+            let (dimmed, file) = (Style::new().dimmed(), folder.join(NAMES[0]));
+            line(&mut text, format_args!("{dimmed}written to {}{dimmed:#}", file.display()));
+        }
+        text
+    }
+
+    /// The files, as they were understood.
+    fn heading(&self) -> String {
+        let bold = Style::new().bold();
+        let mut text = String::new();
+        for (name, (path, buffer)) in ["A", "B"].into_iter().zip(self.files) {
+            let samples = match buffer.samples() {
+                1 => String::new(),
+                n => format!(", {n} x {n} samples a pixel"),
+            };
+            let (path, kind) = (path.display(), buffer.kind());
+            line(&mut text, format_args!("{bold}{name}{bold:#}  {path}: {kind}{samples}"));
+        }
+        let [width, height] = self.comparison.size;
+        line(&mut text, format_args!("\n{width} x {height} pixels, compared: {}", self.compared()));
+        for what in &self.comparison.not_compared {
+            line(&mut text, format_args!("not compared: {what}"));
+        }
+        text.push('\n');
+        text
+    }
+
+    fn compared(&self) -> String {
+        let names: Vec<&str> = self.comparison.compared.iter().map(|what| what.name()).collect();
+        names.join(", ")
+    }
+
+    /// What was compared, and how closely.
+    fn judged(&self) -> String {
+        let judged = |aspect: &Aspect| match aspect {
+            Aspect::Coverage | Aspect::Ids => aspect.name().to_owned(),
+            Aspect::T => format!("t (within {DEPTH_TOLERANCE:e})"),
+            Aspect::Colour => format!("colour (within {COLOUR_TOLERANCE}/255)"),
+        };
+        self.comparison.compared.iter().map(judged).collect::<Vec<_>>().join(", ")
+    }
+
+    fn counts(&self, text: &mut String) {
+        let mut rows = Vec::new();
+        if let Some(coverage) = self.comparison.coverage {
+            let one_sample = self.files.iter().all(|(_, buffer)| buffer.samples() == 1);
+            let things = match coverage.unit {
+                Unit::Samples if !one_sample => "samples",
+                Unit::Samples | Unit::Pixels => "pixels",
+            };
+            rows.extend([
+                (format!("{things} covered in A"), coverage.a),
+                (format!("{things} covered in B"), coverage.b),
+                ("in both".into(), coverage.both),
+                ("only in A".into(), coverage.only_a),
+                ("only in B".into(), coverage.only_b),
+            ]);
+        }
+        if let Some(ids) = self.comparison.ids {
+            rows.push(("in both, but other ids".into(), ids.differing_samples));
+        }
+        if let Some(depth) = self.comparison.depth {
+            rows.push((
+                format!("pixels with t beyond {DEPTH_TOLERANCE:e}"),
+                depth.differing_pixels,
+            ));
+        }
+        if let Some(colour) = self.comparison.colour {
+            let label = format!("pixels beyond {COLOUR_TOLERANCE}/255 in colour");
+            rows.push((label, colour.differing_pixels));
+        }
+        for (label, number) in rows {
+            line(text, format_args!("{label:30}{:>14}", grouped(number)));
+        }
+        text.push('\n');
+    }
+
+    fn largest(&self, text: &mut String) {
+        if let Some(depth) = self.comparison.depth
+            && let (Some([i, j]), Some([a, b])) = (depth.at, depth.t)
+        {
+            let most = depth.max_relative_difference;
+            let [a, b] = [a, b].map(foreign::distance_text);
+            line(
+                text,
+                format_args!(
+                    "largest difference in t: {most:.1e} of it, at ({i}, {j}): A {a}, B {b}"
+                ),
+            );
+        }
+        if let Some(colour) = self.comparison.colour
+            && let Some(at @ [i, j]) = colour.at
+        {
+            let most = number(colour.max_difference);
+            let [a, b] = self.files.map(|(_, buffer)| buffer.seen(at));
+            line(
+                text,
+                format_args!(
+                    "largest difference in colour: {most}/255, at ({i}, {j}): A {a}, B {b}"
+                ),
+            );
+        }
+    }
+
+    fn first(&self, text: &mut String) {
+        let first = &self.comparison.first_differing;
+        if first.is_empty() {
+            return;
+        }
+        line(text, format_args!("first pixels (row, column) that differ:"));
+        let rows: Vec<[String; 3]> = first
+            .iter()
+            .map(|&[i, j]| {
+                let [a, b] = self.files.map(|(_, buffer)| buffer.seen([i, j]));
+                [format!("({i}, {j})"), format!("A {a}"), format!("B {b}")]
+            })
+            .collect();
+        let widest = |column: usize| rows.iter().map(|row| row[column].len()).max().unwrap_or(0);
+        let (place, a) = (widest(0), widest(1));
+        for row in &rows {
+            line(text, format_args!("  {:place$}  {:a$}  {}", row[0], row[1], row[2]));
+        }
+    }
+
+    fn verdict(&self) -> String {
+        let comparison = self.comparison;
+        let Some([row, column, height, width]) = comparison.region else {
+            return format!("equal in everything compared: {}", self.judged());
+        };
+        let pixels = count(comparison.differing_pixels, "pixels");
+        let all = comparison.size.map(u64::from).iter().product();
+        let (bottom, right) = (row + height - 1, column + width - 1);
+        format!(
+            "differ: {pixels} of {}, from ({row}, {column}) to ({bottom}, {right})",
+            grouped(all)
+        )
+    }
+}
+
+fn line(text: &mut String, content: std::fmt::Arguments) {
+    writeln!(text, "{content}").expect("a string takes all");
+}
+
+/// With no more decimals than it has.
+fn number(steps: f32) -> String {
+    if steps.fract() == 0.0 { format!("{steps}") } else { format!("{steps:.2}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colours_are_six_digits() {
+        assert_eq!(colour("#0172fF"), Ok([0x01, 0x72, 0xff]));
+        for bad in ["", "#", "101418", "#10141", "#1014188", "#+01418", "#12345é", "black"] {
+            assert!(colour(bad).is_err(), "{bad}");
+        }
+    }
+}

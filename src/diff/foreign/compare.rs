@@ -1,0 +1,278 @@
+//! What two buffers have in common, and where they differ.
+
+use super::hints::hints;
+use super::look::{Look, Pair};
+use super::{Buffer, Content};
+use crate::diff::{COLOUR_TOLERANCE, Class, Classes, DEPTH_TOLERANCE, NAMED_PIXELS, pixels};
+use image::RgbImage;
+use serde::Serialize;
+
+/// Something that two buffers may both tell of a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Aspect {
+    /// Whether something is there.
+    Coverage,
+    /// Which primitive it is.
+    Ids,
+    /// How far it is.
+    T,
+    /// What it looks like.
+    Colour,
+}
+
+impl Aspect {
+    pub(super) const ALL: [Aspect; 4] = [Aspect::Coverage, Aspect::Ids, Aspect::T, Aspect::Colour];
+
+    /// What a sentence calls it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Aspect::Coverage => "coverage",
+            Aspect::Ids => "ids",
+            Aspect::T => "t",
+            Aspect::Colour => "colour",
+        }
+    }
+
+    pub(super) fn is_in(self, buffer: &Buffer) -> bool {
+        match self {
+            Aspect::Coverage => buffer.has_coverage(),
+            Aspect::Ids => matches!(buffer.content, Content::Ids(_)),
+            Aspect::T => matches!(buffer.content, Content::Distances(_)),
+            Aspect::Colour => matches!(buffer.content, Content::Picture(_)),
+        }
+    }
+}
+
+/// What coverage is counted in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Unit {
+    /// Each sample for itself; with one sample a pixel, that is a pixel.
+    Samples,
+    /// The files have different numbers of samples: a pixel is covered if one of its samples is.
+    Pixels,
+}
+
+/// Why two buffers cannot be compared.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Incomparable {
+    /// They are not of one size.
+    #[error(
+        "A is {} x {} pixels and B is {} x {}; compare files of one size{}",
+        .a[0], .a[1], .b[0], .b[1],
+        if .a[0] == .b[1] && .a[1] == .b[0] { " (are rows and columns swapped?)" } else { "" }
+    )]
+    Size {
+        /// Width and height of A.
+        a: [u32; 2],
+        /// Width and height of B.
+        b: [u32; 2],
+    },
+    /// They tell different things.
+    #[error(
+        "A ({a}) and B ({b}) have nothing in common to compare; \
+         a picture without alpha tells what is covered with --background COLOR"
+    )]
+    NothingInCommon {
+        /// What A is.
+        a: &'static str,
+        /// What B is.
+        b: &'static str,
+    },
+}
+
+/// Everything that is said about two buffers; what was not compared is `None`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BufferComparison {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Whether they are equal in everything compared.
+    pub equal: bool,
+    /// What both tell, and was compared.
+    pub compared: Vec<Aspect>,
+    /// What was not compared, and why.
+    pub not_compared: Vec<String>,
+    /// Pixels that differ in anything compared.
+    pub differing_pixels: u64,
+    /// The first of them, at most 10, as `[i, j]`, row by row.
+    pub first_differing: Vec<[u32; 2]>,
+    /// The smallest rectangle around all of them: row, column, height, width.
+    pub region: Option<[u32; 4]>,
+    /// What is covered.
+    pub coverage: Option<BufferCoverage>,
+    /// Which primitive is seen, where both cover.
+    pub ids: Option<BufferIds>,
+    /// How far it is, where both cover.
+    pub depth: Option<BufferDepth>,
+    /// What it looks like, where neither says that nothing is there.
+    pub colour: Option<BufferColour>,
+    /// What the difference as a whole looks like, for whoever looks for its cause.
+    pub hints: Vec<String>,
+    #[serde(skip)]
+    classes: Classes,
+    #[serde(skip)]
+    light: RgbImage,
+}
+
+/// Coverage of both, counted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct BufferCoverage {
+    /// What is counted.
+    pub unit: Unit,
+    /// Covered in A.
+    pub a: u64,
+    /// Covered in B.
+    pub b: u64,
+    /// Covered in both.
+    pub both: u64,
+    /// Covered in A alone.
+    pub only_a: u64,
+    /// Covered in B alone.
+    pub only_b: u64,
+    /// Whether both cover the same.
+    #[serde(rename = "match")]
+    pub matches: bool,
+}
+
+/// Ids where both cover.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct BufferIds {
+    /// Samples in which both see something, but not the same primitive.
+    pub differing_samples: u64,
+    /// Pixels with such a sample.
+    pub differing_pixels: u64,
+}
+
+/// Distances where both cover.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct BufferDepth {
+    /// The largest difference of a sample, as a part of the larger distance.
+    pub max_relative_difference: f64,
+    /// The first pixel `[i, j]` with it, if there is any difference.
+    pub at: Option<[u32; 2]>,
+    /// The two distances there.
+    pub t: Option<[f64; 2]>,
+    /// Pixels with a sample beyond [`DEPTH_TOLERANCE`].
+    pub differing_pixels: u64,
+}
+
+/// Colours where neither says that nothing is there.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct BufferColour {
+    /// The largest difference in red, green, blue (or alpha, if both have it), in steps of 1/255.
+    pub max_difference: f32,
+    /// The first pixel `[i, j]` with it, if there is any difference.
+    pub at: Option<[u32; 2]>,
+    /// Pixels beyond [`COLOUR_TOLERANCE`].
+    pub differing_pixels: u64,
+}
+
+/// Compares whatever both buffers tell.
+///
+/// # Errors
+///
+/// If they differ in size, or have nothing in common.
+pub fn compare(a: &Buffer, b: &Buffer) -> Result<BufferComparison, Incomparable> {
+    if a.size != b.size {
+        return Err(Incomparable::Size { a: a.size, b: b.size });
+    }
+    let pair = Pair { a, b };
+    let compared: Vec<Aspect> =
+        Aspect::ALL.into_iter().filter(|&aspect| pair.compares(aspect)).collect();
+    if compared.is_empty() {
+        return Err(Incomparable::NothingInCommon { a: a.kind(), b: b.kind() });
+    }
+    let mut sums = Sums::default();
+    let mut classes = Vec::with_capacity(pixels(a.size).count());
+    for (index, pixel) in pixels(a.size).enumerate() {
+        classes.push(sums.add(pixel, pair.look(index, index)));
+    }
+    let has = |aspect| compared.contains(&aspect);
+    let coverage = has(Aspect::Coverage).then(|| sums.coverage(pair.unit()));
+    Ok(BufferComparison {
+        size: a.size,
+        equal: sums.differing_pixels == 0,
+        not_compared: pair.not_compared(),
+        differing_pixels: sums.differing_pixels,
+        first_differing: sums.first_differing,
+        region: sums
+            .corners
+            .map(|[[top, left], [bottom, right]]| [top, left, bottom - top + 1, right - left + 1]),
+        coverage,
+        ids: has(Aspect::Ids).then_some(sums.ids),
+        depth: has(Aspect::T).then_some(sums.depth),
+        colour: has(Aspect::Colour).then_some(sums.colour),
+        hints: if sums.differing_pixels == 0 { Vec::new() } else { hints(&pair) },
+        compared,
+        classes: Classes::from_pixels(a.size, classes),
+        light: if Aspect::Colour.is_in(a) { a.light() } else { b.light() },
+    })
+}
+
+impl BufferComparison {
+    /// The difference image: orange and blue where only A or only B covers, pink where both cover
+    /// and differ, grey where they agree, near black where neither covers.
+    pub fn picture(&self) -> RgbImage {
+        self.classes.picture(&self.light)
+    }
+}
+
+/// What has been seen so far.
+#[derive(Default)]
+struct Sums {
+    only_a: u64,
+    only_b: u64,
+    both: u64,
+    ids: BufferIds,
+    depth: BufferDepth,
+    colour: BufferColour,
+    differing_pixels: u64,
+    first_differing: Vec<[u32; 2]>,
+    /// Of the rectangle around all that differ, both inside.
+    corners: Option<[[u32; 2]; 2]>,
+}
+
+impl Sums {
+    fn add(&mut self, pixel: [u32; 2], look: Look) -> Class {
+        self.only_a += look.only_a;
+        self.only_b += look.only_b;
+        self.both += look.both;
+        self.ids.differing_samples += look.other_ids;
+        self.ids.differing_pixels += u64::from(look.other_ids > 0);
+        self.depth.differing_pixels += u64::from(look.depth > DEPTH_TOLERANCE);
+        if look.depth > self.depth.max_relative_difference {
+            self.depth.max_relative_difference = look.depth;
+            (self.depth.at, self.depth.t) = (Some(pixel), Some(look.t));
+        }
+        self.colour.differing_pixels += u64::from(look.colour > f32::from(COLOUR_TOLERANCE));
+        if look.colour > self.colour.max_difference {
+            (self.colour.max_difference, self.colour.at) = (look.colour, Some(pixel));
+        }
+        let class = look.class();
+        if class.differs() {
+            self.differing_pixels += 1;
+            let [low, high] = self.corners.unwrap_or([pixel; 2]);
+            let both = |a: [u32; 2], b: [u32; 2], pick: fn(u32, u32) -> u32| {
+                [pick(a[0], b[0]), pick(a[1], b[1])]
+            };
+            self.corners = Some([both(low, pixel, u32::min), both(high, pixel, u32::max)]);
+            if self.first_differing.len() < NAMED_PIXELS {
+                self.first_differing.push(pixel);
+            }
+        }
+        class
+    }
+
+    fn coverage(&self, unit: Unit) -> BufferCoverage {
+        BufferCoverage {
+            unit,
+            a: self.both + self.only_a,
+            b: self.both + self.only_b,
+            both: self.both,
+            only_a: self.only_a,
+            only_b: self.only_b,
+            matches: self.only_a + self.only_b == 0,
+        }
+    }
+}

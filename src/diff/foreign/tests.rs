@@ -1,0 +1,271 @@
+//! Files and buffers made by hand, and what is said of them.
+
+use super::*;
+use image::{DynamicImage, GrayAlphaImage, GrayImage, ImageBuffer, ImageFormat, Luma, RgbaImage};
+use proptest::prelude::*;
+use std::path::Path;
+
+/// A NumPy array as any program may write it.
+fn npy(descr: &str, fortran: bool, shape: &str, data: &[u8]) -> Vec<u8> {
+    let fortran = if fortran { "True" } else { "False" };
+    let header = format!("{{'descr': {descr}, 'fortran_order': {fortran}, 'shape': {shape}, }}\n");
+    let length = u16::try_from(header.len()).unwrap().to_le_bytes();
+    [b"\x93NUMPY\x01\x00", &length[..], header.as_bytes(), data].concat()
+}
+
+fn read_bytes(bytes: &[u8], background: Option<[u8; 3]>) -> Result<Buffer, String> {
+    let home = tempfile::tempdir().unwrap();
+    let path = home.path().join("file");
+    std::fs::write(&path, bytes).unwrap();
+    read(&path, background).map_err(|error| error.to_string())
+}
+
+fn read_npy(descr: &str, shape: &str, data: &[u8]) -> Buffer {
+    read_bytes(&npy(descr, false, shape, data), None).unwrap()
+}
+
+fn read_image(image: impl Into<DynamicImage>, format: ImageFormat) -> Buffer {
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    image.into().write_to(&mut bytes, format).unwrap();
+    read_bytes(bytes.get_ref(), None).unwrap()
+}
+
+fn ids(size: [u32; 2], drawn: &str) -> Buffer {
+    let ids = drawn.chars().map(|letter| letter.to_digit(10).map(u64::from)).collect();
+    Buffer::new(size, 1, Content::Ids(ids))
+}
+
+fn distances(t: &[f64]) -> Buffer {
+    let width = u32::try_from(t.len()).unwrap();
+    Buffer::new([width, 1], 1, Content::Distances(t.to_vec()))
+}
+
+fn colours(pixels: &[[f32; 4]], covered: Covered) -> Buffer {
+    let picture = Picture { pixels: pixels.to_vec(), covered };
+    Buffer::new([u32::try_from(pixels.len()).unwrap(), 1], 1, Content::Picture(picture))
+}
+
+#[test]
+fn integers_of_every_size_are_ids_and_all_ones_are_nothing() {
+    let expected = Content::Ids(vec![Some(0), Some(5), None]);
+    for (descr, width) in [("i1", 1), ("u1", 1), ("i2", 2), ("u2", 2), ("i4", 4), ("u8", 8)] {
+        let value = |id: i64| id.to_le_bytes()[..width].to_vec();
+        let little: Vec<u8> = [0, 5, -1].into_iter().flat_map(value).collect();
+        let big: Vec<u8> =
+            [0, 5, -1].into_iter().flat_map(|id| value(id).into_iter().rev()).collect();
+        assert_eq!(read_npy(&format!("'<{descr}'"), "(1, 3)", &little).content, expected);
+        assert_eq!(read_npy(&format!("'>{descr}'"), "(1, 3)", &big).content, expected);
+    }
+}
+
+#[test]
+fn floats_of_every_size_are_distances() {
+    let expected = Content::Distances(vec![1.5, -2.0, f64::INFINITY]);
+    let halves = [0x3e00_u16, 0xc000, 0x7c00].map(u16::to_le_bytes).concat();
+    assert_eq!(read_npy("'<f2'", "(1, 3)", &halves).content, expected);
+    let singles = [1.5, -2.0, f32::INFINITY].map(f32::to_be_bytes).concat();
+    assert_eq!(read_npy("'>f4'", "(1, 3)", &singles).content, expected);
+    let doubles = [1.5, -2.0, f64::INFINITY].map(f64::to_le_bytes).concat();
+    assert_eq!(read_npy("'<f8'", "(1, 3, 1)", &doubles).content, expected);
+    // The smallest half, the largest, and one third.
+    let halves = [0x0001_u16, 0x7bff, 0x3555].map(u16::to_le_bytes).concat();
+    let expected = Content::Distances(vec![2.0_f64.powi(-24), 65_504.0, 0.333_251_953_125]);
+    assert_eq!(read_npy("'<f2'", "(1, 3)", &halves).content, expected);
+}
+
+#[test]
+fn booleans_are_masks_and_columns_may_come_first() {
+    let mask = read_npy("'|b1'", "(2, 3)", &[1, 0, 0, 1, 1, 0]);
+    assert_eq!((mask.size, mask.kind()), ([3, 2], "mask"));
+    let fortran = npy("'|b1'", true, "(2, 3)", &[1, 1, 0, 1, 0, 0]);
+    assert_eq!(read_bytes(&fortran, None), Ok(mask));
+}
+
+#[test]
+fn arrays_have_samples_or_channels() {
+    let samples = read_npy("'|u1'", "(1, 2, 2, 2)", &[0, 1, 2, 3, 4, 5, 6, 255]);
+    assert_eq!((samples.size, samples.samples), ([2, 1], 2));
+    assert_eq!(samples.seen([0, 1]), "id 4, id 5, id 6, nothing");
+
+    let rgb = read_npy("'|u1'", "(1, 2, 3)", &[1, 2, 3, 4, 5, 6]);
+    assert_eq!(rgb.kind(), "picture without coverage");
+    assert_eq!(rgb.seen([0, 1]), "#040506");
+    let floats = [0.0, 1.0, 0.2, 0.0].map(f32::to_le_bytes).concat();
+    let rgba = read_npy("'<f4'", "(1, 1, 4)", &floats);
+    assert_eq!((rgba.kind(), rgba.seen([0, 0])), ("picture with alpha", "nothing".into()));
+}
+
+#[test]
+fn sixteen_bits_of_a_picture_are_kept() {
+    let deep = ImageBuffer::from_fn(3, 1, |x, _| Luma([[0_u16, 1, 514][x as usize]]));
+    for format in [ImageFormat::Png, ImageFormat::Pnm] {
+        let grey = read_image(DynamicImage::ImageLuma16(deep.clone()), format);
+        let Content::Picture(picture) = grey.content() else { panic!("a mask") };
+        assert_eq!(picture.pixels.iter().map(|p| p[0] * 257.0).collect::<Vec<_>>(), [0., 1., 514.]);
+        assert_eq!(
+            (0..3).map(|p| grey.covered(p).unwrap()).collect::<Vec<_>>(),
+            [false, true, true]
+        );
+    }
+}
+
+#[test]
+fn two_greys_are_a_mask_whatever_its_white_is() {
+    for white in [1, 255] {
+        let grey = GrayImage::from_raw(3, 1, vec![0, white, 0]).unwrap();
+        let mask = read_image(grey, ImageFormat::Png);
+        assert_eq!(mask.content, Content::Mask(vec![false, true, false]));
+    }
+}
+
+#[test]
+fn alpha_tells_what_is_covered() {
+    let grey = GrayAlphaImage::from_raw(2, 1, vec![9, 0, 9, 1]).unwrap();
+    let grey = read_image(grey, ImageFormat::Png);
+    assert_eq!([0, 1].map(|pixel| grey.covered(pixel)), [Some(false), Some(true)]);
+    let rgba = RgbaImage::from_raw(1, 1, vec![1, 2, 3, 4]).unwrap();
+    assert_eq!(read_image(rgba, ImageFormat::Png).seen([0, 0]), "#01020304");
+}
+
+#[test]
+fn a_background_tells_what_is_not_covered() {
+    let bytes = npy("'|u1'", false, "(1, 2, 3)", &[1, 2, 3, 4, 5, 6]);
+    let picture = read_bytes(&bytes, Some([4, 5, 6])).unwrap();
+    assert_eq!([0, 1].map(|pixel| picture.covered(pixel)), [Some(true), Some(false)]);
+}
+
+#[test]
+fn bad_files_are_refused_with_their_reason() {
+    let huge = "(9223372036854775807, 9223372036854775807)";
+    let nan = f32::NAN.to_le_bytes().repeat(3);
+    let refused: [(Vec<u8>, &str); 14] = [
+        (b"hello".to_vec(), "neither a picture"),
+        (Vec::new(), "neither a picture"),
+        (b"PK\x03\x04...".to_vec(), ".npz"),
+        (b"\x89PNG\r\n\x1a\nrubbish".to_vec(), "file"),
+        (b"\x93NUMPY\x01\x00".to_vec(), "header"),
+        (npy(&"(".repeat(60_000), false, "(2, 3)", &[]), "too many parts"),
+        (npy("'<u4'", false, "(2, 3)", &[0; 23]), "23 of the 24 bytes"),
+        (npy("'<u4'", false, "(6,)", &[0; 24]), "shape [6]; pixels are H x W"),
+        (npy("'<u4'", false, "(0, 3)", &[]), "the image is 3x0"),
+        (npy("'<u4'", false, huge, &[]), "more than 1073741824 samples"),
+        (npy("'<c8'", false, "(1, 1)", &[0; 8]), "dtype is '<c8'"),
+        (npy("[('id', '<u4')]", false, "(1, 1)", &[0; 4]), "dtype is [('id', '<u4')"),
+        (npy("'|i1'", false, "(1, 2)", &[0, 254]), "the id at (0, 1) is negative"),
+        (npy("'<f4'", false, "(1, 1, 3)", &nan), "the colour at (0, 0) is NaN"),
+    ];
+    for (bytes, reason) in refused {
+        let problem = read_bytes(&bytes, None).unwrap_err();
+        assert!(problem.contains(reason), "{problem}");
+    }
+    let missing = read(Path::new("no/such/file.png"), None).unwrap_err().to_string();
+    assert!(missing.starts_with("cannot read no/such/file.png"), "{missing}");
+}
+
+#[test]
+fn coverage_and_ids_are_counted() {
+    let (a, b) = (ids([3, 2], "01.22."), ids([3, 2], "0.123."));
+    let comparison = compare(&a, &b).unwrap();
+    let coverage = comparison.coverage.unwrap();
+    assert_eq!((coverage.a, coverage.b, coverage.both), (4, 4, 3));
+    assert_eq!((coverage.only_a, coverage.only_b, coverage.matches), (1, 1, false));
+    assert_eq!(comparison.ids, Some(BufferIds { differing_samples: 1, differing_pixels: 1 }));
+    assert_eq!(comparison.first_differing, [[0, 1], [0, 2], [1, 1]]);
+    assert_eq!(comparison.region, Some([0, 1, 2, 2]));
+    let colours: Vec<[u8; 3]> = comparison.picture().pixels().map(|pixel| pixel.0).collect();
+    assert_eq!(colours[1..3], [[0xe6, 0x9f, 0x00], [0x00, 0x72, 0xb2]]);
+    assert_eq!(colours[3..5], [[0x58; 3], [0xcc, 0x79, 0xa7]]);
+    assert!(compare(&a, &a).unwrap().equal);
+}
+
+#[test]
+fn distances_are_compared_within_tolerance() {
+    let a = distances(&[1.0, 2.0, f64::INFINITY, 0.0, f64::MAX]);
+    let b = distances(&[1.0 + 1e-6, 2.5, f64::NAN, -0.0, -f64::MAX]);
+    let comparison = compare(&a, &b).unwrap();
+    let depth = comparison.depth.unwrap();
+    assert_eq!((depth.max_relative_difference, depth.at), (2.0, Some([0, 4])));
+    assert_eq!((depth.differing_pixels, comparison.differing_pixels), (2, 2));
+    assert_eq!(comparison.coverage.unwrap().both, 4);
+    assert!(compare(&distances(&[1.0]), &distances(&[1.0 + 9e-6])).unwrap().equal);
+}
+
+#[test]
+fn colours_are_compared_where_neither_says_nothing() {
+    let a = colours(&[[0.0, 9.0, 0.0, 255.0], [1.0; 4], [7.0; 4]], Covered::Unknown);
+    let b = colours(&[[0.0, 6.5, 0.0, 9.0], [3.0; 4], [0.0; 4]], Covered::ByAlpha);
+    let comparison = compare(&a, &b).unwrap();
+    assert_eq!(comparison.compared, [Aspect::Colour]);
+    assert_eq!(comparison.not_compared, ["coverage: only B tells"]);
+    let expected = BufferColour { max_difference: 2.5, at: Some([0, 0]), differing_pixels: 1 };
+    assert_eq!(comparison.colour, Some(expected));
+}
+
+#[test]
+fn other_numbers_of_samples_are_compared_by_pixel() {
+    let fine = Content::Ids(vec![Some(3), None, None, None, None, None, None, None]);
+    let fine = Buffer::new([2, 1], 2, fine);
+    let comparison = compare(&fine, &ids([2, 1], "1.")).unwrap();
+    assert_eq!(comparison.coverage.unwrap().unit, Unit::Pixels);
+    assert_eq!((comparison.equal, comparison.ids), (true, None));
+    assert_eq!(comparison.not_compared, ["ids: A has 2 x 2 samples a pixel, B 1 x 1"]);
+    assert_eq!(fine.seen([0, 0]), "id 3, nothing (x3)");
+}
+
+#[test]
+fn what_cannot_be_compared_is_named() {
+    let problem = |a: &Buffer, b: &Buffer| compare(a, b).unwrap_err().to_string();
+    let sizes = problem(&ids([3, 2], "......"), &ids([2, 3], "......"));
+    assert!(sizes.contains("A is 3 x 2 pixels and B is 2 x 3"), "{sizes}");
+    assert!(sizes.contains("swapped"), "{sizes}");
+    let nothing = problem(&ids([1, 1], "0"), &colours(&[[0.0; 4]], Covered::Unknown));
+    assert!(nothing.contains("--background"), "{nothing}");
+}
+
+#[test]
+fn common_mistakes_are_recognised() {
+    let hint = |a: &Buffer, b: &Buffer| compare(a, b).unwrap().hints.join("; ");
+    let a = ids([2, 2], "01..");
+    assert!(hint(&a, &ids([2, 2], "..01")).contains("turned upside down"));
+    assert!(hint(&a, &ids([2, 2], "10..")).contains("turned left to right"));
+    let row = ids([4, 1], "01..");
+    assert!(hint(&row, &ids([4, 1], ".01.")).contains("moved by 0 rows and -1 columns"));
+    assert!(hint(&a, &ids([2, 2], "12..")).contains("0 in A is 1 in B, 1 in A is 2 in B"));
+    assert!(hint(&a, &ids([2, 2], "1200")).contains("B covers every pixel and has the id 0"));
+    assert!(hint(&a, &ids([2, 2], "..00")).contains("exactly what A does not"));
+    assert_eq!(hint(&a, &ids([2, 2], "0.0.")), "");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    /// Whatever was damaged on the way: an answer, never a panic.
+    #[test]
+    fn damaged_files_are_answered(
+        which in 0..4_usize,
+        damage in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 0..6),
+        end in any::<prop::sample::Index>(),
+        cut in any::<bool>(),
+    ) {
+        let mut bytes = match which {
+            0 => npy("'<u4'", false, "(2, 3)", &[7; 24]),
+            1 => npy("'>f8'", true, "(1, 2, 2, 2)", &[63; 64]),
+            2 => b"P6 2 1 255 abcdef".to_vec(),
+            _ => {
+                let mut png = std::io::Cursor::new(Vec::new());
+                RgbaImage::new(3, 2).write_to(&mut png, ImageFormat::Png).unwrap();
+                png.into_inner()
+            }
+        };
+        for (place, byte) in damage {
+            let place = place.index(bytes.len());
+            bytes[place] = byte;
+        }
+        if cut {
+            bytes.truncate(end.index(bytes.len()));
+        }
+        if let Ok(buffer) = read_bytes(&bytes, None) {
+            prop_assert!(compare(&buffer, &buffer).unwrap().equal);
+        }
+    }
+}

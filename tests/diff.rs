@@ -1,0 +1,191 @@
+//! `bothways diff` as a student meets it: real outputs against edited copies.
+
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use assert_cmd::Command;
+use predicates::prelude::*;
+use predicates::str::contains;
+use serde_json::{Value, json};
+use std::fs;
+use std::path::Path;
+use tempfile::TempDir;
+
+fn bothways(home: &TempDir, args: &[&str]) -> Command {
+    let mut command = Command::cargo_bin("bothways").unwrap();
+    command.current_dir(home).args(args);
+    command
+}
+
+/// A folder with `out/`, the canonical scene rendered small.
+fn rendered(samples: &str) -> TempDir {
+    let home = tempfile::tempdir().unwrap();
+    let args = ["canonical", "--size", "24x16", "--buffers", "npy", "--samples", samples];
+    bothways(&home, &args).args(["--quiet", "-o", "out"]).assert().code(0);
+    home
+}
+
+/// Copies a buffer, a number of pixel `(i, j)` replaced.
+fn edited<const N: usize>(home: &TempDir, name: &str, [i, j]: [usize; 2], number: [u8; N]) {
+    let mut bytes = fs::read(home.path().join("out").join(name)).unwrap();
+    let start = bytes.len() - N * (24 * 16 - 24 * i - j);
+    bytes[start..start + N].copy_from_slice(&number);
+    fs::write(home.path().join("mine.npy"), bytes).unwrap();
+}
+
+fn json_of(home: &TempDir, args: &[&str]) -> Value {
+    let output = bothways(home, args).arg("--json").output().unwrap();
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+fn count(folder: &Path) -> usize {
+    fs::read_dir(folder).unwrap().count()
+}
+
+#[test]
+fn both_orders_are_equal_in_every_file() {
+    for samples in ["1", "2"] {
+        let home = rendered(samples);
+        for (object, image) in [
+            ("object-order.ids.npy", "image-order.ids.npy"),
+            ("object-order.t.npy", "image-order.t.npy"),
+            ("object-order.png", "image-order.png"),
+            ("mask-object-order.png", "mask-image-order.png"),
+            ("object-order.ids.npy", "image-order.t.npy"),
+            ("object-order.t.npy", "mask-image-order.png"),
+        ] {
+            let files = [object, image].map(|name| format!("out/{name}"));
+            let equal = contains("equal in everything compared");
+            bothways(&home, &["diff", &files[0], &files[1]]).assert().code(0).stdout(equal);
+        }
+        // Nothing was asked to be written.
+        assert_eq!(count(home.path()), 1);
+    }
+}
+
+#[test]
+fn an_edited_id_is_found_and_shown() {
+    let home = rendered("1");
+    edited(&home, "object-order.ids.npy", [0, 3], 7_u32.to_le_bytes());
+    let args = ["diff", "out/object-order.ids.npy", "mine.npy"];
+    let said = contains("(0, 3)  A nothing  B id 7")
+        .and(contains("differ: 1 pixel of 384"))
+        .and(contains("\u{1b}").not());
+    bothways(&home, &args).assert().code(1).stdout(said).stderr("");
+
+    let report = json_of(&home, &args);
+    assert_eq!(report["equal"], false);
+    assert_eq!(report["compared"], json!(["coverage", "ids"]));
+    assert_eq!(report["first_differing"], json!([[0, 3]]));
+    assert_eq!(report["region"], json!([0, 3, 1, 1]));
+    assert_eq!(report["coverage"]["only_b"], 1);
+    assert_eq!(report["depth"], Value::Null);
+    assert_eq!(report["a"]["file"], "out/object-order.ids.npy");
+
+    bothways(&home, &args).args(["-o", "new/diff"]).assert().code(1);
+    let picture = image::open(home.path().join("new/diff/difference.png")).unwrap().to_rgb8();
+    assert_eq!((picture.dimensions(), picture[(3, 0)].0), ((24, 16), [0x00, 0x72, 0xb2]));
+    assert_eq!(count(&home.path().join("new/diff")), 1);
+}
+
+#[test]
+fn an_edited_distance_is_measured() {
+    let home = rendered("1");
+    let report = json_of(&home, &["diff", "out/object-order.t.npy", "out/image-order.t.npy"]);
+    assert!(report["depth"]["max_relative_difference"].as_f64().unwrap() <= 1e-5);
+    edited(&home, "object-order.t.npy", [0, 3], 2.5_f32.to_le_bytes());
+    let args = ["diff", "mine.npy", "out/object-order.t.npy"];
+    let said = contains("A t 2.5").and(contains("B nothing")).and(contains("only in A"));
+    bothways(&home, &args).assert().code(1).stdout(said);
+}
+
+#[test]
+fn a_mask_against_ids_is_compared_in_coverage() {
+    let home = rendered("1");
+    let args = ["diff", "out/mask-object-order.png", "out/image-order.ids.npy"];
+    let said = contains("compared: coverage\n").and(contains("not compared: ids: only B tells"));
+    bothways(&home, &args).assert().code(0).stdout(said);
+}
+
+#[test]
+fn an_output_folder_of_render_keeps_its_files() {
+    let home = rendered("1");
+    let before = count(&home.path().join("out"));
+    let args = ["diff", "out/object-order.png", "out/image-order.png", "-o", "out"];
+    bothways(&home, &args).assert().code(0).stdout(contains("written to"));
+    assert_eq!(count(&home.path().join("out")), before);
+}
+
+#[test]
+fn a_background_makes_a_mask_of_a_picture() {
+    let home = tempfile::tempdir().unwrap();
+    let save = |name: &str, pixels: &[[u8; 3]]| {
+        let width = u32::try_from(pixels.len()).unwrap();
+        let picture = image::RgbImage::from_raw(width, 1, pixels.concat()).unwrap();
+        picture.save(home.path().join(name)).unwrap();
+    };
+    save("a.png", &[[16, 20, 24], [200, 0, 0], [9, 9, 9]]);
+    save("b.ppm", &[[16, 20, 24], [190, 0, 0], [16, 20, 24]]);
+    let args = ["diff", "a.png", "b.ppm"];
+    let said = contains("largest difference in colour: 15/255, at (0, 2): A #090909, B #101418")
+        .and(contains("compared: colour\n"));
+    bothways(&home, &args).assert().code(1).stdout(said);
+    let said = contains("largest difference in colour: 10/255, at (0, 1): A #c80000, B #be0000")
+        .and(contains("compared: coverage, colour\n"));
+    bothways(&home, &args).args(["--background", "#101418"]).assert().code(1).stdout(said);
+}
+
+#[test]
+fn the_text_reads_at_a_glance() {
+    let home = tempfile::tempdir().unwrap();
+    let save = |name: &str, pixels: &[u8]| {
+        let picture = image::GrayImage::from_raw(4, 2, pixels.to_vec()).unwrap();
+        picture.save(home.path().join(name)).unwrap();
+    };
+    save("a.png", &[0, 255, 255, 0, 0, 255, 0, 0]);
+    save("b.png", &[0, 1, 0, 0, 0, 1, 1, 0]);
+    let expected = "\
+A  a.png: mask
+B  b.png: mask
+
+4 x 2 pixels, compared: coverage
+
+pixels covered in A                        3
+pixels covered in B                        3
+in both                                    2
+only in A                                  1
+only in B                                  1
+
+first pixels (row, column) that differ:
+  (0, 2)  A covered  B nothing
+  (1, 2)  A nothing  B covered
+hint: B agrees with A once it is turned upside down
+differ: 2 pixels of 8, from (0, 2) to (1, 2)
+";
+    bothways(&home, &["diff", "a.png", "b.png"]).assert().code(1).stdout(expected);
+}
+
+#[test]
+fn bad_input_is_named_and_nothing_is_written() {
+    let home = rendered("1");
+    let args = ["canonical", "--size", "16x24", "--quiet", "-o", "other"];
+    bothways(&home, &args).assert().code(0);
+    fs::write(home.path().join("text"), "no picture").unwrap();
+    let ids = "out/object-order.ids.npy";
+    let refused: [(&[&str], &str); 7] = [
+        (&[ids, "missing.png"], "cannot read missing.png"),
+        (&[ids, "text"], "text is neither a picture"),
+        (&[ids, "out"], "cannot read out"),
+        (&[ids, "other/mask-object-order.png"], "A is 24 x 16 pixels and B is 16 x 24"),
+        (&[ids, "out/object-order.png"], "nothing in common"),
+        (&[ids, ids, "--background", "black"], "six hexadecimal digits"),
+        (&[ids, ids, "-o", "text"], "cannot write into the folder text"),
+    ];
+    let before = count(home.path());
+    for (args, message) in refused {
+        let said = contains(message).and(contains("panicked").not());
+        bothways(&home, &["diff"]).args(args).assert().code(2).stdout("").stderr(said);
+    }
+    assert_eq!(count(home.path()), before);
+    let help = contains("Examples:").and(contains("Exit codes"));
+    bothways(&home, &["diff", "--help"]).assert().code(0).stdout(help);
+}
