@@ -5,6 +5,7 @@
 
 mod args;
 mod camera;
+mod cover;
 mod failure;
 mod npy;
 mod output;
@@ -54,6 +55,9 @@ enum Command {
         /// A built-in scene, or a scene or mesh file: prints its TOML
         name: Option<String>,
     },
+    /// Tell which pixels a triangle in raster coordinates covers, exactly
+    #[command(after_help = cover::EXAMPLES)]
+    Cover(cover::CoverArgs),
     /// Print a completion script for a shell
     #[command(after_help = COMPLETIONS_EXAMPLES)]
     Completions {
@@ -85,6 +89,7 @@ fn run(cli: Cli) -> Result<ExitCode, Failure> {
         None => render::run(&cli.render),
         Some(Command::Render(args)) => render::run(&args),
         Some(Command::Scenes { name }) => print_scenes(name.as_deref()),
+        Some(Command::Cover(args)) => cover::run(&args),
         Some(Command::Completions { shell }) => print_completions(shell),
     }
 }
