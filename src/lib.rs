@@ -5,7 +5,7 @@
 //! what a scene is and what is true of one sample and one primitive. This crate knows both:
 //! [`orders`] runs and measures them, [`diff`] compares what they saw, [`picture`] and [`figure`]
 //! show it, [`report`] writes it down for programs, and [`scenes`] finds the scenes. [`cover`]
-//! answers for one triangle on a raster.
+//! answers for one triangle on a raster, [`opengl`] gives a camera's matrices.
 //!
 //! ```
 //! use bothways::common::{Camera, Object, Options, Scene, Shape, Sphere, View, glam::Vec3};
@@ -31,6 +31,7 @@ pub use bothways_raytrace as raytrace;
 pub mod cover;
 pub mod diff;
 pub mod figure;
+pub mod opengl;
 pub mod orders;
 pub mod picture;
 pub mod report;

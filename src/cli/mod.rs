@@ -10,6 +10,7 @@ mod failure;
 mod npy;
 mod output;
 mod render;
+mod show_camera;
 mod table;
 mod terminal;
 
@@ -58,6 +59,9 @@ enum Command {
     /// Tell which pixels a triangle in raster coordinates covers, exactly
     #[command(after_help = cover::EXAMPLES)]
     Cover(cover::CoverArgs),
+    /// Print a scene's camera: eye, frame, viewport, field of view, OpenGL matrices
+    #[command(after_help = show_camera::EXAMPLES)]
+    Camera(Box<show_camera::ShowCameraArgs>),
     /// Print a completion script for a shell
     #[command(after_help = COMPLETIONS_EXAMPLES)]
     Completions {
@@ -90,6 +94,7 @@ fn run(cli: Cli) -> Result<ExitCode, Failure> {
         Some(Command::Render(args)) => render::run(&args),
         Some(Command::Scenes { name }) => print_scenes(name.as_deref()),
         Some(Command::Cover(args)) => cover::run(&args),
+        Some(Command::Camera(args)) => show_camera::run(&args),
         Some(Command::Completions { shell }) => print_completions(shell),
     }
 }
