@@ -5,7 +5,8 @@
 //! what a scene is and what is true of one sample and one primitive. This crate knows both:
 //! [`orders`] runs and measures them, [`diff`] compares what they saw, [`picture`] and [`figure`]
 //! show it, [`report`] writes it down for programs, and [`scenes`] finds the scenes. [`cover`]
-//! answers for one triangle on a raster, [`opengl`] gives a camera's matrices.
+//! answers for one triangle on a raster, [`pixel`] for one pixel of a scene, and [`opengl`] gives a
+//! camera's matrices.
 //!
 //! ```
 //! use bothways::common::{Camera, Object, Options, Scene, Shape, Sphere, View, glam::Vec3};
@@ -34,6 +35,7 @@ pub mod figure;
 pub mod opengl;
 pub mod orders;
 pub mod picture;
+pub mod pixel;
 pub mod report;
 pub mod scenes;
 pub mod wording;

@@ -9,6 +9,7 @@ mod cover;
 mod failure;
 mod npy;
 mod output;
+mod pixel;
 mod render;
 mod show_camera;
 mod table;
@@ -59,6 +60,9 @@ enum Command {
     /// Tell which pixels a triangle in raster coordinates covers, exactly
     #[command(after_help = cover::EXAMPLES)]
     Cover(cover::CoverArgs),
+    /// Derive one pixel's viewing ray; tell what covers it, and what each order saw and did there
+    #[command(after_help = pixel::EXAMPLES)]
+    Pixel(Box<pixel::PixelArgs>),
     /// Print a scene's camera: eye, frame, viewport, field of view, OpenGL matrices
     #[command(after_help = show_camera::EXAMPLES)]
     Camera(Box<show_camera::ShowCameraArgs>),
@@ -94,6 +98,7 @@ fn run(cli: Cli) -> Result<ExitCode, Failure> {
         Some(Command::Render(args)) => render::run(&args),
         Some(Command::Scenes { name }) => print_scenes(name.as_deref()),
         Some(Command::Cover(args)) => cover::run(&args),
+        Some(Command::Pixel(args)) => pixel::run(&args),
         Some(Command::Camera(args)) => show_camera::run(&args),
         Some(Command::Completions { shell }) => print_completions(shell),
     }
