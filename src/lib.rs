@@ -4,7 +4,9 @@
 //! [`rasterize`] walks the objects, [`raytrace`] the pixels; both know only [`common`], which says
 //! what a scene is and what is true of one sample and one primitive. This crate knows both:
 //! [`orders`] runs and measures them, [`diff`] compares what they saw, [`picture`] and [`figure`]
-//! show it, [`report`] writes it down for programs, and [`scenes`] finds the scenes.
+//! show it, [`report`] writes it down for programs, and [`scenes`] finds the scenes. [`cover`]
+//! answers for one triangle on a raster, [`pixel`] for one pixel of a scene, and [`opengl`] gives a
+//! camera's matrices.
 //!
 //! ```
 //! use bothways::common::{Camera, Object, Options, Scene, Shape, Sphere, View, glam::Vec3};
@@ -27,10 +29,13 @@ pub use bothways_common as common;
 pub use bothways_rasterize as rasterize;
 pub use bothways_raytrace as raytrace;
 
+pub mod cover;
 pub mod diff;
 pub mod figure;
+pub mod opengl;
 pub mod orders;
 pub mod picture;
+pub mod pixel;
 pub mod report;
 pub mod scenes;
 pub mod wording;

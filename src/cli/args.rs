@@ -154,7 +154,7 @@ pub(super) enum BuffersArg {
     Npy,
 }
 
-fn size(text: &str) -> Result<[u32; 2], String> {
+pub(super) fn size(text: &str) -> Result<[u32; 2], String> {
     let (width, height) =
         text.split_once(['x', 'X']).ok_or("write it as WIDTHxHEIGHT, such as 640x480")?;
     let (width, height) = (side(width)?, side(height)?);
@@ -182,7 +182,7 @@ fn vector(text: &str) -> Result<Vec3, String> {
     numbers(text, "three numbers, such as 1,-2,0.5").map(Vec3::from_array)
 }
 
-fn pair(text: &str) -> Result<[f32; 2], String> {
+pub(super) fn pair(text: &str) -> Result<[f32; 2], String> {
     numbers(text, "two numbers, such as 1.6,1")
 }
 

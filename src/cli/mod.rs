@@ -6,10 +6,13 @@
 mod args;
 mod camera;
 mod diff;
+mod cover;
 mod failure;
 mod npy;
 mod output;
+mod pixel;
 mod render;
+mod show_camera;
 mod table;
 mod terminal;
 
@@ -58,6 +61,15 @@ enum Command {
         /// A built-in scene, or a scene or mesh file: prints its TOML
         name: Option<String>,
     },
+    /// Tell which pixels a triangle in raster coordinates covers, exactly
+    #[command(after_help = cover::EXAMPLES)]
+    Cover(cover::CoverArgs),
+    /// Derive one pixel's viewing ray; tell what covers it, and what each order saw and did there
+    #[command(after_help = pixel::EXAMPLES)]
+    Pixel(Box<pixel::PixelArgs>),
+    /// Print a scene's camera: eye, frame, viewport, field of view, OpenGL matrices
+    #[command(after_help = show_camera::EXAMPLES)]
+    Camera(Box<show_camera::ShowCameraArgs>),
     /// Print a completion script for a shell
     #[command(after_help = COMPLETIONS_EXAMPLES)]
     Completions {
@@ -90,6 +102,9 @@ fn run(cli: Cli) -> Result<ExitCode, Failure> {
         Some(Command::Render(args)) => render::run(&args),
         Some(Command::Diff(args)) => diff::run(&args),
         Some(Command::Scenes { name }) => print_scenes(name.as_deref()),
+        Some(Command::Cover(args)) => cover::run(&args),
+        Some(Command::Pixel(args)) => pixel::run(&args),
+        Some(Command::Camera(args)) => show_camera::run(&args),
         Some(Command::Completions { shell }) => print_completions(shell),
     }
 }

@@ -145,6 +145,31 @@ impl Staging {
     }
 }
 
+/// Writes one file: under a temporary name beside it, and renamed once it is complete.
+pub(super) fn write_file(
+    target: &Path,
+    content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+) -> Result<(), Failure> {
+    let folder = match target.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let write = || {
+        let hidden = tempfile::Builder::new().prefix(".bothways-").tempdir_in(folder)?;
+        let place = hidden.path().join("file");
+        let mut out = BufWriter::new(File::create(&place)?);
+        content(&mut out)?;
+        out.flush()?;
+        fs::rename(&place, target)
+    };
+    write().map_err(|error: io::Error| {
+        // What tempfile says names the temporary file.
+        let error = io::Error::from(error.kind());
+        let target = target.display();
+        Failure::new(format!("cannot write {target}: {error}; choose another file with -o"))
+    })
+}
+
 impl Drop for Staging {
     fn drop(&mut self) {
         self.folder = None;

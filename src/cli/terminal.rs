@@ -1,6 +1,7 @@
 //! Printing to stdout.
 
 use super::failure::Failure;
+use serde::Serialize;
 use std::io::{ErrorKind, Write};
 
 /// Prints a text; its colours are kept on a terminal only, and not if `NO_COLOR` is set.
@@ -14,4 +15,15 @@ pub(super) fn print(text: &str) -> Result<(), Failure> {
         }
         _ => Ok(()),
     }
+}
+
+/// How many characters fit beside each other: 80 where nobody can tell.
+pub(super) fn width() -> usize {
+    terminal_size::terminal_size().map_or(80, |(width, _)| width.0.into())
+}
+
+/// A report as JSON for programs, with a newline at its end.
+pub(super) fn json(report: &impl Serialize) -> Result<String, Failure> {
+    let text = serde_json::to_string_pretty(report);
+    text.map(|text| text + "\n").map_err(|error| Failure::new(error.to_string()))
 }

@@ -1,0 +1,244 @@
+//! `bothways pixel`: the viewing ray of one pixel, derived; what covers it; what each order saw.
+
+mod json;
+
+use super::args::CameraArgs;
+use super::camera::camera;
+use super::failure::Failure;
+use super::show_camera::{plain, vector};
+use super::terminal;
+use bothways::common::camera::check_samples;
+use bothways::common::predicate::EdgeSigns;
+use bothways::common::{Camera, Options, Projection, Sign, View, Work};
+use bothways::orders::Order;
+use bothways::pixel::{self, SampleReport};
+use bothways::scenes;
+use bothways::wording::count;
+use clap::Args;
+use std::fmt::Write;
+use std::process::ExitCode;
+
+pub(super) const EXAMPLES: &str = "\
+ROW counts from the top, COLUMN from the left, both from 0.
+
+Examples:
+  bothways pixel lecture 240 320                the middle of the lecture's scene
+  bothways pixel ties 8 8 --size 16x16          ties, and how they are broken
+  bothways pixel lecture 240 320 --samples 4    all samples of the pixel, the first one derived
+  bothways pixel canonical 100 200 --json       for a program to read
+
+Exit codes: 0 both orders see what is true, 1 they do not, 2 something went wrong.";
+
+/// Which pixel.
+#[derive(Debug, Args)]
+pub(super) struct PixelArgs {
+    /// A built-in scene, a .toml scene file, or a mesh file (framed automatically)
+    scene: String,
+    /// The pixel's row from the top, counted from 0
+    #[arg(allow_negative_numbers = true)]
+    row: u32,
+    /// The pixel's column from the left, counted from 0
+    #[arg(allow_negative_numbers = true)]
+    column: u32,
+    #[command(flatten)]
+    camera: CameraArgs,
+    /// Samples a pixel: an N×N regular grid; the first one's ray is derived
+    #[arg(long, value_name = "N", default_value_t = 1,
+          value_parser = clap::value_parser!(u32).range(1..))]
+    samples: u32,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Judges, renders and prints; 0 if both orders saw what is true.
+pub(super) fn run(args: &PixelArgs) -> Result<ExitCode, Failure> {
+    let loaded = scenes::load(&args.scene)?;
+    let camera = camera(&loaded, &args.camera)?;
+    check_samples(camera.image(), args.samples)
+        .map_err(|error| Failure::new(format!("--samples {}: {error}", args.samples)))?;
+    let (i, j, [width, height]) = (args.row, args.column, camera.image());
+    if i >= height || j >= width {
+        return Err(Failure::new(format!(
+            "there is no pixel ({i}, {j}) in an image of {width}x{height}: ROW goes from 0 to {}, \
+             COLUMN from 0 to {}",
+            height - 1,
+            width - 1
+        )));
+    }
+    let view = View::new(&loaded.scene, &camera);
+    let samples = pixel::report(&view, &Options { samples: args.samples }, i, j);
+    let agree = samples.iter().all(SampleReport::agrees);
+    let lesson = Lesson { scene: &loaded.name, camera: &camera, args, samples: &samples };
+    terminal::print(&if args.json { lesson.json()? } else { lesson.text() })?;
+    Ok(ExitCode::from(u8::from(!agree)))
+}
+
+/// All there is to tell.
+struct Lesson<'a> {
+    scene: &'a str,
+    camera: &'a Camera,
+    args: &'a PixelArgs,
+    samples: &'a [SampleReport],
+}
+
+impl Lesson<'_> {
+    fn text(&self) -> String {
+        let (i, j, [width, height]) = (self.args.row, self.args.column, self.camera.image());
+        let mut text = format!("{}: pixel ({i}, {j}) of {width} x {height}", self.scene);
+        text += ", row from the top, column from the left, counted from 0\n";
+        let n = self.args.samples;
+        if n > 1 {
+            text += &format!("the first of its {n} x {n} samples, at its top left\n");
+        }
+        let first = &self.samples[0];
+        text += &self.derivation(first);
+        text += &truth(first);
+        text += &answers(first);
+        if n > 1 {
+            text += &seen(self.samples, n as usize);
+        }
+        text += if self.samples.iter().all(SampleReport::agrees) {
+            "\nmatch: both orders saw what is nearest\n"
+        } else {
+            "\nDIFFERENCE: the orders did not both see what is nearest; please report this\n"
+        };
+        text
+    }
+
+    /// The lecture's formulas with this camera's numbers.
+    fn derivation(&self, SampleReport { place: [x, y], ray, .. }: &SampleReport) -> String {
+        let camera = self.camera;
+        let ([width, height], [vw, vh]) = (camera.image(), camera.viewport());
+        let (i, j, n) = (self.args.row + 1, self.args.column + 1, self.args.samples);
+        // The middle of the pixel, or of the first of the n parts of its sides.
+        let half = if n == 1 { "1/2".into() } else { format!("1 + 1/{}", 2 * n) };
+        let (d, direction) = (camera.distance(), vector(plain(ray.direction)));
+        let [u, v, w] = [camera.u(), camera.v(), camera.w()].map(|axis| vector(plain(axis)));
+        let eye = vector(plain(camera.eye().as_dvec3()));
+        let rest = match camera.projection() {
+            Projection::Perspective => format!(
+                "  origin    = eye = {eye}\n  \
+                 direction = x u + y v - d w, with d = {d}\n            = {direction}\n  \
+                 t counts in lengths of the direction: t d is the depth along -w\n"
+            ),
+            Projection::Parallel => format!(
+                "  origin    = eye + x u + y v = {eye}\n            + {}\n  \
+                 direction = -w = {direction}\n  \
+                 t is the depth along -w\n",
+                vector(plain(ray.origin))
+            ),
+        };
+        format!(
+            "\nthe viewing ray, as the lecture writes it: it counts from 1, so that i = {i}, j = {j}\n  \
+             x =  vw ((j - {half})/W - 1/2) =  {vw} (({j} - {half})/{width} - 1/2) = {x}\n  \
+             y = -vh ((i - {half})/H - 1/2) = -{vh} (({i} - {half})/{height} - 1/2) = {y}\n  \
+             u = {u}\n  v = {v}\n  w = {w}\n{rest}",
+            x = x + 0.0,
+            y = y + 0.0,
+        )
+    }
+}
+
+/// What covers the sample, near to far, and what only touches it.
+fn truth(sample: &SampleReport) -> String {
+    let mut text = match sample.covering.len() {
+        0 => "\nno primitive covers it\n".into(),
+        1 => "\n1 primitive covers it\n".into(),
+        more => format!("\n{more} primitives cover it, near to far\n"),
+    };
+    if !(sample.covering.iter().all(|one| one.edges.is_none()) && sample.touching.is_empty()) {
+        text += "a triangle covers a sample if its edge functions have the sign of its facing\n";
+    }
+    for covering in &sample.covering {
+        let (id, object, kind) = (covering.id, covering.object, covering.kind);
+        let t = certain(covering.t);
+        write!(text, "  id {id}: {kind}, object {object}, t = {t}").expect("a string takes all");
+        let behind = covering.behind.map_or("seen", |behind| behind.words());
+        text += &format!(" ({behind})\n");
+        text += &covering.edges.map_or(String::new(), |edges| signs(&edges));
+    }
+    if !sample.touching.is_empty() {
+        let triangles = count(sample.touching.len() as u64, "triangles");
+        text += &format!(
+            "\nexactly on an edge of {triangles}, but owned by its other side: not covered\n"
+        );
+        for touching in &sample.touching {
+            text += &format!("  id {}: object {}\n", touching.id, touching.object);
+            text += &signs(&touching.edges);
+        }
+    }
+    text
+}
+
+/// `E_ab -, E_bc 0 (tie, nudged to +), E_ca -`, and the facing that they are held against.
+fn signs(edges: &EdgeSigns) -> String {
+    let names = ["ab", "bc", "ca"].iter();
+    let each = names.zip(edges.at_sample.iter().zip(&edges.decided));
+    let words = each.map(|(name, (at, decided))| match at {
+        Sign::Zero => format!("E_{name} 0 (tie, nudged to {})", symbol(*decided)),
+        _ => format!("E_{name} {}", symbol(*at)),
+    });
+    let words = words.collect::<Vec<_>>().join(", ");
+    format!("    edge signs {words}; facing {}\n", symbol(edges.facing))
+}
+
+fn symbol(sign: Sign) -> &'static str {
+    match sign {
+        Sign::Negative => "-",
+        Sign::Zero => "0",
+        Sign::Positive => "+",
+    }
+}
+
+/// What both orders answered, and what they did for it.
+fn answers(sample: &SampleReport) -> String {
+    let orders = [(Order::Object, &sample.object_order), (Order::Image, &sample.image_order)];
+    let mut text = String::from("\n");
+    for (order, answer) in orders {
+        let name = order.name();
+        text += &match (answer.id, answer.t) {
+            (Some(id), Some(t)) => format!("{name} saw id {id} at t = {t}\n"),
+            _ => format!("{name} saw nothing\n"),
+        };
+        text += &format!("  {}\n", work(&answer.work));
+    }
+    text
+}
+
+fn work(work: &Work) -> String {
+    let steps = [
+        (work.primitives, "bounding regions", " around it"),
+        (work.nodes, "box tests", ""),
+        (work.tests, "primitive tests", ""),
+        (work.fragments, "fragments", ""),
+        (work.depth_tests, "depth comparisons", ""),
+        (work.judged_coverage + work.judged_nearest, "questions", " to the exact judge"),
+    ];
+    let done = steps.iter().filter(|(number, ..)| *number > 0);
+    let done: Vec<String> =
+        done.map(|(number, things, rest)| count(*number, things) + rest).collect();
+    if done.is_empty() { "nothing to do here".into() } else { done.join(", ") }
+}
+
+/// The ids that are seen at all samples, as they lie in the pixel.
+fn seen(samples: &[SampleReport], n: usize) -> String {
+    let word = |sample: &SampleReport| match sample.object_order.id {
+        _ if !sample.agrees() => "differ".into(),
+        Some(id) => id.to_string(),
+        None => "-".into(),
+    };
+    let words: Vec<String> = samples.iter().map(word).collect();
+    let width = words.iter().map(String::len).max().unwrap_or(0);
+    let mut text = String::from("\nthe ids seen at all samples of the pixel\n");
+    for row in words.chunks(n) {
+        row.iter().for_each(|word| text += &format!("  {word:>width$}"));
+        text.push('\n');
+    }
+    text
+}
+
+/// The ten digits of a distance that are certain, so that equal ones look equal.
+fn certain(t: f64) -> f64 {
+    format!("{t:.9e}").parse().expect("a number is written as a number")
+}

@@ -1,0 +1,137 @@
+//! What `pixel --json` prints.
+
+use super::{Lesson, certain};
+use crate::cli::failure::Failure;
+use crate::cli::show_camera::plain;
+use crate::cli::terminal;
+use bothways::common::Sign;
+use bothways::common::predicate::EdgeSigns;
+use bothways::pixel::{Answer, Behind, SampleReport};
+use bothways::report::WorkReport;
+use serde::Serialize;
+
+impl Lesson<'_> {
+    /// Everything, of all samples.
+    pub(super) fn json(&self) -> Result<String, Failure> {
+        let camera = self.camera;
+        let samples = self.samples.iter().map(SampleJson::new).collect();
+        terminal::json(&PixelJson {
+            scene: self.scene,
+            pixel: [self.args.row, self.args.column],
+            size: camera.image(),
+            samples: self.args.samples,
+            eye: plain(camera.eye().as_dvec3()),
+            agree: self.samples.iter().all(SampleReport::agrees),
+            at: samples,
+        })
+    }
+}
+
+/// What `--json` prints, in this order.
+#[derive(Debug, Serialize)]
+struct PixelJson<'a> {
+    scene: &'a str,
+    pixel: [u32; 2],
+    size: [u32; 2],
+    samples: u32,
+    eye: [f64; 3],
+    agree: bool,
+    at: Vec<SampleJson>,
+}
+
+#[derive(Debug, Serialize)]
+struct SampleJson {
+    sample: [usize; 2],
+    x: f64,
+    y: f64,
+    origin_from_eye: [f64; 3],
+    direction: [f64; 3],
+    covering: Vec<CoveringJson>,
+    touching: Vec<TouchingJson>,
+    object_order: AnswerJson,
+    image_order: AnswerJson,
+}
+
+#[derive(Debug, Serialize)]
+struct CoveringJson {
+    id: u32,
+    object: usize,
+    kind: &'static str,
+    t: f64,
+    edges: Option<EdgesJson>,
+    behind: Option<&'static str>,
+}
+
+#[derive(Debug, Serialize)]
+struct TouchingJson {
+    id: u32,
+    object: usize,
+    edges: EdgesJson,
+}
+
+/// Signs as -1, 0 and 1.
+#[derive(Debug, Serialize)]
+struct EdgesJson {
+    facing: i8,
+    at_sample: [i8; 3],
+    decided: [i8; 3],
+    tie: bool,
+}
+
+#[derive(Debug, Serialize)]
+struct AnswerJson {
+    id: Option<u32>,
+    t: Option<f32>,
+    work: WorkReport,
+}
+
+impl SampleJson {
+    fn new(report: &SampleReport) -> SampleJson {
+        let covering = report.covering.iter().map(|one| CoveringJson {
+            id: one.id,
+            object: one.object,
+            kind: one.kind,
+            t: certain(one.t),
+            edges: one.edges.as_ref().map(EdgesJson::new),
+            behind: one.behind.map(Behind::words),
+        });
+        let touching = report.touching.iter().map(|one| TouchingJson {
+            id: one.id,
+            object: one.object,
+            edges: EdgesJson::new(&one.edges),
+        });
+        SampleJson {
+            sample: [report.sample.row, report.sample.column],
+            x: report.place[0] + 0.0,
+            y: report.place[1] + 0.0,
+            origin_from_eye: plain(report.ray.origin),
+            direction: plain(report.ray.direction),
+            covering: covering.collect(),
+            touching: touching.collect(),
+            object_order: AnswerJson::new(&report.object_order),
+            image_order: AnswerJson::new(&report.image_order),
+        }
+    }
+}
+
+impl EdgesJson {
+    fn new(edges: &EdgeSigns) -> EdgesJson {
+        let number = |sign| match sign {
+            Sign::Negative => -1,
+            Sign::Zero => 0,
+            Sign::Positive => 1,
+        };
+        EdgesJson {
+            facing: number(edges.facing),
+            at_sample: edges.at_sample.map(number),
+            decided: edges.decided.map(number),
+            tie: edges.at_sample.contains(&Sign::Zero),
+        }
+    }
+}
+
+impl AnswerJson {
+    fn new(answer: &Answer) -> AnswerJson {
+        AnswerJson { id: answer.id, t: answer.t, work: WorkReport::from(answer.work) }
+    }
+}

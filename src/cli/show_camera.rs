@@ -1,0 +1,168 @@
+//! `bothways camera`: a scene's camera in numbers, for other people's renderers.
+
+use super::args::CameraArgs;
+use super::camera::camera;
+use super::failure::Failure;
+use super::terminal;
+use bothways::common::glam::DVec3;
+use bothways::common::{Projection, View};
+use bothways::opengl::{self, Matrices, Matrix};
+use bothways::scenes::{self, DEFAULT};
+use clap::Args;
+use serde::Serialize;
+use std::process::ExitCode;
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  bothways camera canonical                          the lecture's first camera
+  bothways camera bunny.obj                          the camera that frames a mesh
+  bothways camera --projection parallel --json       for a program to read
+  bothways camera scene.toml --eye 0,1,4 --size 64x64";
+
+/// Which camera.
+#[derive(Debug, Args)]
+pub(super) struct ShowCameraArgs {
+    /// A built-in scene, a .toml scene file, or a mesh file (framed automatically)
+    #[arg(default_value = DEFAULT)]
+    scene: String,
+    #[command(flatten)]
+    camera: CameraArgs,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Prints the camera.
+pub(super) fn run(args: &ShowCameraArgs) -> Result<ExitCode, Failure> {
+    let loaded = scenes::load(&args.scene)?;
+    let camera = camera(&loaded, &args.camera)?;
+    let view = View::new(&loaded.scene, &camera);
+    let report = Report::new(&loaded.name, &view);
+    let text = if args.json { terminal::json(&report)? } else { report.text() };
+    terminal::print(&text)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// What `--json` prints, in this order.
+#[derive(Debug, Serialize)]
+struct Report {
+    scene: String,
+    projection: &'static str,
+    eye: [f64; 3],
+    u: [f64; 3],
+    v: [f64; 3],
+    w: [f64; 3],
+    distance: f64,
+    viewport: [f64; 2],
+    image: [u32; 2],
+    field_of_view_degrees: Option<[f64; 2]>,
+    opengl: OpenGl,
+}
+
+/// Matrices as rows.
+#[derive(Debug, Serialize)]
+struct OpenGl {
+    layout: &'static str,
+    near: f64,
+    far: Option<f64>,
+    view: Matrix,
+    projection: Matrix,
+    projection_reversed_depth: Matrix,
+}
+
+impl Report {
+    fn new(scene: &str, view: &View) -> Report {
+        let camera = view.camera;
+        let Matrices { view: camera_from_world, projection, reversed, near, far } =
+            opengl::matrices(view);
+        Report {
+            scene: scene.into(),
+            projection: match camera.projection() {
+                Projection::Perspective => "perspective",
+                Projection::Parallel => "parallel",
+            },
+            eye: camera.eye().as_dvec3().to_array(),
+            u: plain(camera.u()),
+            v: plain(camera.v()),
+            w: plain(camera.w()),
+            distance: camera.distance(),
+            viewport: camera.viewport(),
+            image: camera.image(),
+            field_of_view_degrees: opengl::field_of_view(view),
+            opengl: OpenGl {
+                layout: "row-major",
+                near,
+                far,
+                view: camera_from_world,
+                projection,
+                projection_reversed_depth: reversed,
+            },
+        }
+    }
+
+    fn text(&self) -> String {
+        let ([vw, vh], [width, height]) = (self.viewport, self.image);
+        let mut text = format!("{}: {} camera\n\n", self.scene, self.projection);
+        let mut line = |name: &str, value: String| text += &format!("{name:15}{value}\n");
+        line("eye", vector(self.eye));
+        line("u (right)", vector(self.u));
+        line("v (up)", vector(self.v));
+        line("w (back)", vector(self.w));
+        line("d", format!("{}", self.distance));
+        line("viewport", format!("vw = {vw}, vh = {vh}"));
+        line("image", format!("W = {width}, H = {height}"));
+        if let Some([across, down]) = self.field_of_view_degrees {
+            line("field of view", format!("{across:.3} degrees across, {down:.3} down"));
+        }
+        text + &self.opengl.text(self.image)
+    }
+}
+
+impl OpenGl {
+    fn text(&self, [width, height]: [u32; 2]) -> String {
+        let far = self.far.map_or("at infinity".into(), |far| format!("at {far}"));
+        let bounds = format!("near plane at {}, far plane {far}", self.near);
+        format!(
+            "\n\
+             OpenGL, with glViewport(0, 0, {width}, {height}); row i of the picture is its row {last} - i.\n\
+             Matrices are row by row, as 32-bit floats; glUniformMatrix4fv wants column by column: pass\n\
+             GL_TRUE as its transpose argument, or transpose them.\n\
+             \n\
+             view (camera_from_world)\n{}\
+             \n\
+             projection: {bounds}, depths -1 to 1\n{}\
+             \n\
+             the same with reversed depth, 1 to 0: glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE),\n\
+             glDepthFunc(GL_GREATER), glClearDepth(0)\n{}\
+             \n\
+             This program's rays have no near and no far plane; OpenGL cuts off what is beyond. It also\n\
+             rounds vertices to a grid, so that pixels on an edge may differ.\n",
+            matrix(&self.view),
+            matrix(&self.projection),
+            matrix(&self.projection_reversed_depth),
+            last = height - 1,
+        )
+    }
+}
+
+/// The vector without a negative zero.
+pub(super) fn plain(vector: DVec3) -> [f64; 3] {
+    (vector + DVec3::ZERO).to_array()
+}
+
+/// `(x, y, z)`, every number so that it reads back as the same.
+pub(super) fn vector([x, y, z]: [f64; 3]) -> String {
+    format!("({x}, {y}, {z})")
+}
+
+/// Its rows, with the columns aligned.
+fn matrix(matrix: &Matrix) -> String {
+    #[expect(clippy::cast_possible_truncation, reason = "OpenGL's floats are f32")]
+    let words = matrix.map(|row| row.map(|number| format!("{:?}", number as f32 + 0.0)));
+    let width = words.as_flattened().iter().map(String::len).max().unwrap_or(0);
+    let row = |row: &[String; 4]| {
+        let cells = row.iter().map(|word| format!("  {word:>width$}"));
+        cells.collect::<String>() + "\n"
+    };
+    words.iter().map(row).collect()
+}

@@ -1,0 +1,183 @@
+//! A camera as OpenGL's matrices, so that somebody can draw the same picture there.
+//!
+//! Matrices are rows of numbers, to be multiplied with columns: `clip = projection · view · (x, y, z,
+//! 1)`. With `glViewport(0, 0, W, H)` the centre of pixel `(i, j)` is OpenGL's window position `(j +
+//! ½, H − i − ½)`: its rows count from the bottom.
+//!
+//! Our rays have no near and no far plane, OpenGL's depth needs bounds. A perspective projection here
+//! has its far plane at infinity, and a near plane at a small part of `d`: what is nearer to the eye
+//! is cut off in OpenGL alone. A parallel one reaches from the eye to behind everything in the scene
+//! that has an end.
+
+use crate::common::glam::DVec3;
+use crate::common::{Primitive, Projection, View};
+
+/// Four rows of four numbers.
+pub type Matrix = [[f64; 4]; 4];
+
+/// OpenGL's matrices for one view.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Matrices {
+    /// `camera_from_world`: eye coordinates, `x` along `u`, `y` along `v`, `z` along `w`.
+    pub view: Matrix,
+    /// `clip_from_camera` for depths from −1 (near) to 1 (far), OpenGL's default.
+    pub projection: Matrix,
+    /// `clip_from_camera` for depths from 1 (near) to 0 (far), after `glClipControl(GL_LOWER_LEFT,
+    /// GL_ZERO_TO_ONE)`, with `glDepthFunc(GL_GREATER)` and `glClearDepth(0)`: floating-point depth
+    /// buffers resolve distances much better so.
+    pub reversed: Matrix,
+    /// The depth along `−w` of the near plane.
+    pub near: f64,
+    /// The depth of the far plane; `None` is at infinity.
+    pub far: Option<f64>,
+}
+
+/// The near plane of a perspective projection, in parts of `d`: a power of two, so that the matrix
+/// stays exact.
+const NEAR: f64 = 1.0 / 1024.0;
+
+/// The matrices that draw a view's picture.
+pub fn matrices(view: &View) -> Matrices {
+    let camera = view.camera;
+    let [vw, vh] = camera.viewport();
+    match camera.projection() {
+        Projection::Perspective => {
+            let d = camera.distance();
+            let near = d * NEAR;
+            let with = |depth| {
+                let (x, y) = ([2.0 * d / vw, 0.0, 0.0, 0.0], [0.0, 2.0 * d / vh, 0.0, 0.0]);
+                [x, y, depth, [0.0, 0.0, -1.0, 0.0]]
+            };
+            Matrices {
+                view: camera_from_world(view),
+                projection: with([0.0, 0.0, -1.0, -2.0 * near]),
+                reversed: with([0.0, 0.0, 0.0, near]),
+                near,
+                far: None,
+            }
+        }
+        Projection::Parallel => {
+            let far = behind_everything(view);
+            let with = |depth| {
+                let (x, y) = ([2.0 / vw, 0.0, 0.0, 0.0], [0.0, 2.0 / vh, 0.0, 0.0]);
+                [x, y, depth, [0.0, 0.0, 0.0, 1.0]]
+            };
+            Matrices {
+                view: camera_from_world(view),
+                projection: with([0.0, 0.0, -2.0 / far, -1.0]),
+                reversed: with([0.0, 0.0, 1.0 / far, 1.0]),
+                near: 0.0,
+                far: Some(far),
+            }
+        }
+    }
+}
+
+/// The angles between opposite sides of a perspective viewport, across and down, in degrees.
+pub fn field_of_view(view: &View) -> Option<[f64; 2]> {
+    let camera = view.camera;
+    let angle = |side: f64| 2.0 * (side / 2.0).atan2(camera.distance()).to_degrees();
+    (camera.projection() == Projection::Perspective).then(|| camera.viewport().map(angle))
+}
+
+fn camera_from_world(view: &View) -> Matrix {
+    let camera = view.camera;
+    let eye = camera.eye().as_dvec3();
+    // Adding 0 turns −0 into 0.
+    let row = |axis: DVec3| [axis.x, axis.y, axis.z, -axis.dot(eye) + 0.0];
+    [row(camera.u()), row(camera.v()), row(camera.w()), [0.0, 0.0, 0.0, 1.0]]
+}
+
+/// A power of two that no triangle and no sphere lies behind.
+fn behind_everything(view: &View) -> f64 {
+    let depth = |point: DVec3| -point.dot(view.camera.w());
+    let depths = view.primitives().map(|(_, primitive)| match primitive {
+        Primitive::Triangle(corners) => corners.map(depth).into_iter().fold(0.0, f64::max),
+        Primitive::Sphere { center, radius } => depth(center) + radius,
+        Primitive::Plane { .. } => 0.0,
+    });
+    let deepest = depths.fold(0.0, f64::max);
+    // Strictly behind, so that the farthest corner is not cut off.
+    if deepest > 0.0 { (deepest.log2().floor() + 1.0).exp2() } else { 1.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::common::glam::{DVec4, Vec3};
+    use crate::common::{Camera, CameraDescription, Orientation, Scene, Shape, Sphere, Triangle};
+
+    fn camera(projection: Projection) -> Camera {
+        Camera::new(CameraDescription {
+            projection,
+            eye: Vec3::new(1.0, 2.0, 5.0),
+            orientation: Orientation::LookAt { target: Vec3::new(0.5, 0.0, 0.0), up: Vec3::Y },
+            distance: 2.0,
+            viewport: [4.0, 3.0],
+            image: [8, 6],
+        })
+        .unwrap()
+    }
+
+    fn scene() -> Scene {
+        let ball = Shape::Sphere(Sphere { center: Vec3::ZERO, radius: 1.0 });
+        let (a, b, c) = (Vec3::X, Vec3::Y, Vec3::new(0.0, 0.0, -9.0));
+        Scene::new(vec![ball.into(), Shape::Triangle(Triangle { a, b, c }).into()]).unwrap()
+    }
+
+    fn apply(matrix: &Matrix, point: DVec4) -> DVec4 {
+        DVec4::from_array(matrix.map(|row| DVec4::from_array(row).dot(point)))
+    }
+
+    #[test]
+    fn a_pixel_s_ray_ends_at_its_place_in_the_window() {
+        for projection in [Projection::Perspective, Projection::Parallel] {
+            let (scene, camera) = (scene(), camera(projection));
+            let matrices = matrices(&View::new(&scene, &camera));
+            for (i, j) in [(0, 0), (5, 7), (2, 3)] {
+                let ray = camera.viewing_ray(i, j);
+                let point = camera.eye().as_dvec3() + ray.origin + 1.5 * ray.direction;
+                let eye = apply(&matrices.view, point.extend(1.0));
+                for (projection, low) in [(matrices.projection, -1.0), (matrices.reversed, 0.0)] {
+                    let clip = apply(&projection, eye);
+                    let normalized = clip.truncate() / clip.w;
+                    let window = (normalized + 1.0) / 2.0;
+                    assert!((window.x * 8.0 - (f64::from(j) + 0.5)).abs() < 1e-12);
+                    assert!((window.y * 6.0 - (5.5 - f64::from(i))).abs() < 1e-12);
+                    assert!((low..1.0).contains(&normalized.z));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn depths_run_from_near_to_far() {
+        let (scene, camera) = (scene(), camera(Projection::Perspective));
+        let found = matrices(&View::new(&scene, &camera));
+        let depth = |matrix: &Matrix, depth: f64| {
+            let clip = apply(matrix, DVec4::new(0.0, 0.0, -depth, 1.0));
+            clip.z / clip.w
+        };
+        assert_eq!((found.near, found.far), (2.0 / 1024.0, None));
+        assert_eq!(depth(&found.projection, found.near), -1.0);
+        assert_eq!(depth(&found.reversed, found.near), 1.0);
+        assert!(depth(&found.projection, 1e30) > 0.999);
+        assert!(depth(&found.reversed, 1e30) < 0.001);
+
+        let camera = self::camera(Projection::Parallel);
+        let found = matrices(&View::new(&scene, &camera));
+        let far = found.far.unwrap();
+        assert_eq!((found.near, far), (0.0, 16.0));
+        assert_eq!((depth(&found.projection, 0.0), depth(&found.projection, far)), (-1.0, 1.0));
+        assert_eq!((depth(&found.reversed, 0.0), depth(&found.reversed, far)), (1.0, 0.0));
+    }
+
+    #[test]
+    fn a_field_of_view_is_an_angle_of_a_perspective_camera() {
+        let scene = scene();
+        let [across, down] = field_of_view(&View::new(&scene, &camera(Projection::Perspective)))
+            .expect("it is a perspective camera");
+        assert!((across - 90.0).abs() < 1e-12 && (down - 73.739_795_291_688_05).abs() < 1e-12);
+        assert_eq!(field_of_view(&View::new(&scene, &camera(Projection::Parallel))), None);
+    }
+}

@@ -1,0 +1,308 @@
+//! Everything about one pixel: its viewing rays, what covers its samples, and what each order saw.
+//!
+//! What is true comes from the view's own judge, what was seen from the renderers' own loops,
+//! watched at this pixel alone: what is said here cannot disagree with the picture.
+
+use crate::common::frame::Region;
+use crate::common::observe::{Question, Sample};
+use crate::common::predicate::EdgeSigns;
+use crate::common::{Frame, Observer, Options, Primitive, Ray, Shape, View, Work};
+use crate::{rasterize, raytrace};
+use rayon::prelude::*;
+use std::cmp::Ordering;
+
+/// One sample of a pixel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SampleReport {
+    /// Where it is on the raster of samples.
+    pub sample: Sample,
+    /// Where it is on the viewport.
+    pub place: [f64; 2],
+    /// Its viewing ray, relative to the eye.
+    pub ray: Ray,
+    /// The primitives that cover it, near to far: the first one is seen.
+    pub covering: Vec<Covering>,
+    /// The triangles that it lies exactly on an edge of, but which do not own it.
+    pub touching: Vec<Touching>,
+    /// What object order answered.
+    pub object_order: Answer,
+    /// What image order answered.
+    pub image_order: Answer,
+}
+
+/// A primitive that covers a sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Covering {
+    /// Its id.
+    pub id: u32,
+    /// The object it belongs to, counted from 0.
+    pub object: usize,
+    /// What it is.
+    pub kind: &'static str,
+    /// Its distance in lengths of the ray's direction.
+    pub t: f64,
+    /// The signs of a triangle's edge functions.
+    pub edges: Option<EdgeSigns>,
+    /// Why it comes behind the primitive before it; `None` for the first.
+    pub behind: Option<Behind>,
+}
+
+/// A triangle that has a sample on its boundary and does not cover it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Touching {
+    /// Its id.
+    pub id: u32,
+    /// The object it belongs to, counted from 0.
+    pub object: usize,
+    /// Its signs.
+    pub edges: EdgeSigns,
+}
+
+/// Why one primitive comes behind another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Behind {
+    /// Its `t` is greater.
+    Farther,
+    /// The same `t`, and the other is flat while this one is round.
+    Round,
+    /// The same `t`, and the other is nearer on the nudged ray.
+    Nudged,
+    /// The same `t`, nudged or not, and the other comes first in the scene.
+    Later,
+}
+
+impl Behind {
+    /// The reason in words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Behind::Farther => "farther",
+            Behind::Round => "tie: the same t, and flat comes before round",
+            Behind::Nudged => "tie: the same t, decided by the nudged ray",
+            Behind::Later => "tie: the same t, and the first in the scene is seen",
+        }
+    }
+}
+
+/// What one order answered at a sample, and what it did there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Answer {
+    /// The primitive that it saw.
+    pub id: Option<u32>,
+    /// How far it found it.
+    pub t: Option<f32>,
+    /// What its loops did at this sample. Its `primitives` are those whose bounding region holds the
+    /// sample.
+    pub work: Work,
+}
+
+impl SampleReport {
+    /// Whether both orders saw what is true.
+    pub fn agrees(&self) -> bool {
+        let truth = self.covering.first().map(|nearest| nearest.id);
+        self.object_order.id == truth && self.image_order.id == truth
+    }
+}
+
+/// Reports on every sample of pixel `(i, j)`, row by row. Both orders render the whole picture, with
+/// all their machinery.
+///
+/// # Panics
+///
+/// If the image has no such pixel, or [`check_samples`](crate::common::camera::check_samples) refuses
+/// the options.
+///
+/// ```
+/// use bothways::common::{Camera, Options, Scene, Shape, Sphere, View, glam::Vec3};
+///
+/// let ball = Shape::Sphere(Sphere { center: Vec3::new(0.0, 0.0, -4.0), radius: 1.0 });
+/// let (scene, camera) = (Scene::new(vec![ball.into()])?, Camera::canonical(5, 5));
+/// let report = bothways::pixel::report(&View::new(&scene, &camera), &Options::default(), 2, 2);
+/// assert_eq!(report[0].covering[0].t, 3.0);
+/// assert_eq!((report[0].object_order.id, report[0].image_order.id), (Some(0), Some(0)));
+/// # Ok::<(), bothways::common::SceneError>(())
+/// ```
+pub fn report(view: &View, options: &Options, i: u32, j: u32) -> Vec<SampleReport> {
+    let [width, height] = view.camera.image();
+    assert!(i < height && j < width, "there is no pixel ({i}, {j})");
+    let side = options.samples as usize;
+    let (top, left) = (i as usize * side, j as usize * side);
+    let pixel = Region { rows: top..top + side, columns: left..left + side };
+
+    let object_order = watched(view, options, &pixel, |frame, watch| {
+        let prepared = rasterize::fast::prepare(view.scene);
+        rasterize::fast::determine_visibility(&prepared, view, options, frame, watch);
+    });
+    let image_order = watched(view, options, &pixel, |frame, watch| {
+        let prepared = raytrace::fast::prepare(view.scene);
+        raytrace::fast::determine_visibility(&prepared, view, options, frame, watch);
+    });
+    let grid = view.camera.sample_grid(options.samples);
+    let answers = object_order.into_iter().zip(image_order);
+    let answered: Vec<_> = samples(&pixel).zip(answers).collect();
+    let report = answered.into_par_iter().map(|(sample, (object_order, image_order))| {
+        let Sample { row, column } = sample;
+        let ray = grid.ray(row, column);
+        let (covering, touching) = truth(view, &ray);
+        let place = [grid.x()[column], grid.y()[row]];
+        SampleReport { sample, place, ray, covering, touching, object_order, image_order }
+    });
+    report.collect()
+}
+
+fn samples(pixel: &Region) -> impl Iterator<Item = Sample> + use<> {
+    let columns = pixel.columns.clone();
+    let rows = pixel.rows.clone();
+    rows.flat_map(move |row| columns.clone().map(move |column| Sample { row, column }))
+}
+
+/// What covers a sample, near to far, and what only touches it.
+fn truth(view: &View, ray: &Ray) -> (Vec<Covering>, Vec<Touching>) {
+    let judge = view.judge();
+    let (mut found, mut touching) = (Vec::new(), Vec::new());
+    for (id, primitive) in view.primitives() {
+        let coverage = judge.coverage(&primitive, ray);
+        if coverage.covers {
+            found.push((id, primitive, coverage.edges));
+        } else if let Some(edges) = coverage.edges.filter(touches) {
+            touching.push(Touching { id, object: view.scene.locate(id).0, edges });
+        }
+    }
+    found.sort_by(|(id, one, _), (other_id, other, _)| {
+        judge.compare(one, other, ray).decided.then(id.cmp(other_id))
+    });
+    let covering = (0..found.len()).map(|place| {
+        let (id, primitive, edges) = &found[place];
+        let nearer = place.checked_sub(1).map(|before| &found[before].1);
+        let (object, _) = view.scene.locate(*id);
+        Covering {
+            id: *id,
+            object,
+            kind: kind(&view.scene.objects()[object].shape),
+            t: judge.distance(primitive, ray),
+            edges: *edges,
+            behind: nearer.map(|nearer| behind(view, nearer, primitive, ray)),
+        }
+    });
+    (covering.collect(), touching)
+}
+
+/// Whether a sample that is not covered lies on the boundary: no edge has it outside.
+fn touches(edges: &EdgeSigns) -> bool {
+    let outside = -edges.facing;
+    edges.facing != outside && edges.in_front && !edges.at_sample.contains(&outside)
+}
+
+fn behind(view: &View, nearer: &Primitive, primitive: &Primitive, ray: &Ray) -> Behind {
+    let order = view.judge().compare(nearer, primitive, ray);
+    let round = |primitive: &Primitive| matches!(primitive, Primitive::Sphere { .. });
+    match (order.at_sample, order.decided) {
+        (Ordering::Equal, Ordering::Equal) => Behind::Later,
+        (Ordering::Equal, _) if round(nearer) != round(primitive) => Behind::Round,
+        (Ordering::Equal, _) => Behind::Nudged,
+        _ => Behind::Farther,
+    }
+}
+
+fn kind(shape: &Shape) -> &'static str {
+    match shape {
+        Shape::Triangle(_) => "triangle",
+        Shape::Sphere(_) => "sphere",
+        Shape::Plane(_) => "plane",
+        Shape::Mesh(_) => "triangle of a mesh",
+    }
+}
+
+/// Renders, and tells what was answered and done at each sample of the pixel.
+fn watched(
+    view: &View,
+    options: &Options,
+    pixel: &Region,
+    render: impl FnOnce(&mut Frame, &mut Watch),
+) -> Vec<Answer> {
+    let mut frame = Frame::new(view.camera, options);
+    let mut watch = Watch::new(pixel);
+    render(&mut frame, &mut watch);
+    // Object order has nothing to do where no primitive comes near.
+    watch.work.resize(pixel.area(), Work::default());
+    let answers = samples(pixel).zip(watch.work).map(|(Sample { row, column }, work)| Answer {
+        id: frame.id(row, column),
+        t: frame.t(row, column),
+        work,
+    });
+    answers.collect()
+}
+
+/// An observer that counts what happens at the samples of one pixel.
+#[derive(Clone, Debug)]
+struct Watch {
+    pixel: Region,
+    /// One count a sample; none as long as nothing happens there, as in most parts of a picture.
+    work: Vec<Work>,
+}
+
+impl Watch {
+    fn new(pixel: &Region) -> Watch {
+        Watch { pixel: pixel.clone(), work: Vec::new() }
+    }
+
+    /// The sample's count, if it is one of the pixel's.
+    fn at(&mut self, sample: Sample) -> Option<&mut Work> {
+        let Region { rows, columns } = &self.pixel;
+        if !rows.contains(&sample.row) || !columns.contains(&sample.column) {
+            return None;
+        }
+        let row = sample.row - rows.start;
+        self.work.resize(self.pixel.area(), Work::default());
+        self.work.get_mut(row * columns.len() + sample.column - columns.start)
+    }
+
+    fn tell(&mut self, sample: Sample, event: impl FnOnce(&mut Work)) {
+        if let Some(work) = self.at(sample) {
+            event(work);
+        }
+    }
+}
+
+impl Observer for Watch {
+    fn fork(&self) -> Self {
+        Watch::new(&self.pixel)
+    }
+
+    fn join(&mut self, part: Self) {
+        if self.work.is_empty() {
+            self.work = part.work;
+        } else {
+            self.work.iter_mut().zip(part.work).for_each(|(work, more)| work.join(more));
+        }
+    }
+
+    fn primitive_begun(&mut self, primitive: u32, region: &Region) {
+        for sample in samples(&self.pixel.intersection(region)) {
+            self.tell(sample, |work| work.primitive_begun(primitive, region));
+        }
+    }
+
+    fn ray_begun(&mut self, sample: Sample) {
+        self.tell(sample, |work| work.ray_begun(sample));
+    }
+
+    fn node_opened(&mut self, sample: Sample, node: u32, entered: bool) {
+        self.tell(sample, |work| work.node_opened(sample, node, entered));
+    }
+
+    fn sample_tested(&mut self, sample: Sample, primitive: u32) {
+        self.tell(sample, |work| work.sample_tested(sample, primitive));
+    }
+
+    fn fragment(&mut self, sample: Sample, primitive: u32) {
+        self.tell(sample, |work| work.fragment(sample, primitive));
+    }
+
+    fn depth_test(&mut self, sample: Sample, challenger: u32, holder: u32, replaced: bool) {
+        self.tell(sample, |work| work.depth_test(sample, challenger, holder, replaced));
+    }
+
+    fn judged(&mut self, sample: Sample, question: Question) {
+        self.tell(sample, |work| work.judged(sample, question));
+    }
+}

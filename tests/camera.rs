@@ -1,0 +1,105 @@
+//! `bothways camera`: the camera in numbers.
+
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use assert_cmd::Command;
+use predicates::prelude::*;
+use predicates::str::contains;
+use serde_json::{Value, json};
+
+fn camera(args: &[&str]) -> Command {
+    let mut command = Command::cargo_bin("bothways").unwrap();
+    command.arg("camera").args(args);
+    command
+}
+
+fn report(args: &[&str]) -> Value {
+    let output = camera(args).arg("--json").assert().code(0).stderr("").get_output().stdout.clone();
+    serde_json::from_slice(&output).unwrap()
+}
+
+#[test]
+fn the_canonical_camera_is_printed() {
+    let output = camera(&["canonical"]).assert().code(0).stderr("").get_output().stdout.clone();
+    insta::assert_snapshot!(String::from_utf8(output).unwrap(), @r"
+    canonical: perspective camera
+
+    eye            (0, 0, 0)
+    u (right)      (1, 0, 0)
+    v (up)         (0, 1, 0)
+    w (back)       (0, 0, 1)
+    d              1
+    viewport       vw = 1, vh = 1
+    image          W = 480, H = 480
+    field of view  53.130 degrees across, 53.130 down
+
+    OpenGL, with glViewport(0, 0, 480, 480); row i of the picture is its row 479 - i.
+    Matrices are row by row, as 32-bit floats; glUniformMatrix4fv wants column by column: pass
+    GL_TRUE as its transpose argument, or transpose them.
+
+    view (camera_from_world)
+      1.0  0.0  0.0  0.0
+      0.0  1.0  0.0  0.0
+      0.0  0.0  1.0  0.0
+      0.0  0.0  0.0  1.0
+
+    projection: near plane at 0.0009765625, far plane at infinity, depths -1 to 1
+               2.0           0.0           0.0           0.0
+               0.0           2.0           0.0           0.0
+               0.0           0.0          -1.0  -0.001953125
+               0.0           0.0          -1.0           0.0
+
+    the same with reversed depth, 1 to 0: glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE),
+    glDepthFunc(GL_GREATER), glClearDepth(0)
+               2.0           0.0           0.0           0.0
+               0.0           2.0           0.0           0.0
+               0.0           0.0           0.0  0.0009765625
+               0.0           0.0          -1.0           0.0
+
+    This program's rays have no near and no far plane; OpenGL cuts off what is beyond. It also
+    rounds vertices to a grid, so that pixels on an edge may differ.
+    ");
+}
+
+#[test]
+fn json_has_frame_viewport_and_matrices() {
+    let report = report(&["canonical"]);
+    assert_eq!(report["scene"], "canonical");
+    assert_eq!(report["projection"], "perspective");
+    assert_eq!((&report["w"], &report["distance"]), (&json!([0.0, 0.0, 1.0]), &json!(1.0)));
+    assert_eq!((&report["viewport"], &report["image"]), (&json!([1.0, 1.0]), &json!([480, 480])));
+    let opengl = &report["opengl"];
+    assert_eq!((&opengl["layout"], &opengl["far"]), (&json!("row-major"), &Value::Null));
+    assert_eq!(opengl["view"][3], json!([0.0, 0.0, 0.0, 1.0]));
+    assert_eq!(opengl["projection"][0], json!([2.0, 0.0, 0.0, 0.0]));
+    assert_eq!(opengl["projection"][3], json!([0.0, 0.0, -1.0, 0.0]));
+}
+
+#[test]
+fn the_camera_can_be_changed() {
+    let report =
+        report(&["canonical", "--eye", "1,2,3", "--projection=parallel", "--viewport=4,2"]);
+    assert_eq!(report["eye"], json!([1.0, 2.0, 3.0]));
+    assert_eq!(
+        (&report["projection"], &report["field_of_view_degrees"]),
+        (&json!("parallel"), &Value::Null)
+    );
+    let opengl = &report["opengl"];
+    assert_eq!(opengl["view"][2], json!([0.0, 0.0, 1.0, -3.0]));
+    assert_eq!(opengl["projection"][1], json!([0.0, 1.0, 0.0, 0.0]));
+    assert!(opengl["far"].as_f64().unwrap() > 0.0);
+}
+
+#[test]
+fn bad_input_is_named() {
+    let refused: [(&[&str], &str); 4] = [
+        (&["no-such-scene"], "no-such-scene"),
+        (&["canonical", "--distance", "0"], "the distance is 0"),
+        (&["canonical", "--up", "0,0,0"], "up is zero"),
+        (&["canonical", "--eye", "NaN,0,0"], "NaN is not a finite number"),
+    ];
+    for (args, message) in refused {
+        let said = contains(message).and(contains("panicked").not());
+        camera(args).assert().code(2).stdout("").stderr(said);
+    }
+}

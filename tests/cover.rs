@@ -1,0 +1,207 @@
+//! `bothways cover` and its library function, held against all four renderers.
+
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod support;
+
+use assert_cmd::Command;
+use bothways::common::glam::{Vec2, Vec3};
+use bothways::common::{
+    Camera, CameraDescription, Options, Orientation, Projection, Shape, Triangle, View,
+};
+use bothways::cover::{Cover, cover};
+use predicates::prelude::*;
+use predicates::str::contains;
+use proptest::prelude::*;
+use serde_json::{Value, json};
+use std::fs;
+use tempfile::TempDir;
+
+/// A parallel camera in the middle of the image, whose axes are the raster's.
+fn raster_camera([width, height]: [u32; 2]) -> Camera {
+    let half = |side: u32| f32::from(u16::try_from(side).unwrap()) / 2.0;
+    Camera::new(CameraDescription {
+        projection: Projection::Parallel,
+        eye: Vec3::new(half(width), half(height), -1.0),
+        orientation: Orientation::Frame { u: Vec3::X, v: Vec3::NEG_Y, w: Vec3::NEG_Z },
+        viewport: [2.0 * half(width), 2.0 * half(height)],
+        image: [width, height],
+        ..CameraDescription::default()
+    })
+    .unwrap()
+}
+
+/// All four renderers cover what is claimed.
+fn check_renderers(claimed: &Cover) {
+    let [a, b, c] = claimed.triangle.map(|corner| corner.extend(0.0));
+    let scene = support::scene(vec![Shape::Triangle(Triangle { a, b, c }).into()]);
+    let camera = raster_camera(claimed.image);
+    let view = View::new(&scene, &camera);
+    let frame = support::all_agree(&view, &Options::default(), "a triangle on a raster");
+    for (i, row) in (0..).zip(frame.ids().chunks(frame.width())) {
+        for (j, id) in (0..).zip(row) {
+            assert_eq!(claimed.covers(i, j), *id == 0, "pixel ({i}, {j}) of {claimed:?}");
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(support::cases(200)))]
+
+    /// Coordinates in halves put corners and edges on centres.
+    #[test]
+    fn what_is_covered_is_what_the_renderers_see(
+        corners in prop::array::uniform6(-8i16..40),
+        image in prop::array::uniform2(1u32..17),
+    ) {
+        let [a, b, c, d, e, f] = corners.map(|number| f32::from(number) / 2.0);
+        let triangle = [Vec2::new(a, b), Vec2::new(c, d), Vec2::new(e, f)];
+        check_renderers(&cover(triangle, image).unwrap());
+    }
+
+    #[test]
+    fn so_it_is_for_any_numbers(
+        corners in prop::array::uniform6(-10f32..30.0),
+        image in prop::array::uniform2(1u32..17),
+    ) {
+        let [a, b, c, d, e, f] = corners;
+        let triangle = [Vec2::new(a, b), Vec2::new(c, d), Vec2::new(e, f)];
+        check_renderers(&cover(triangle, image).unwrap());
+    }
+}
+
+fn bothways(home: &TempDir, args: &[&str]) -> Command {
+    let mut command = Command::cargo_bin("bothways").unwrap();
+    command.current_dir(home).arg("cover").args(args);
+    command
+}
+
+fn home() -> TempDir {
+    tempfile::tempdir().unwrap()
+}
+
+fn printed(args: &[&str]) -> String {
+    let output = bothways(&home(), args).assert().code(0).stderr("").get_output().stdout.clone();
+    String::from_utf8(output).unwrap()
+}
+
+const CORNERS: &str = "0.5,0.5 0.5,3.5 3.5,0.5";
+
+#[test]
+fn a_small_triangle_is_drawn() {
+    insta::assert_snapshot!(printed(&[CORNERS, "--size", "9x5"]), @r"
+    triangle (0.5, 0.5) (0.5, 3.5) (3.5, 0.5) on 9 x 5 pixels: its corners are seen counter-clockwise
+    6 pixels covered
+    9 pixel centres lie exactly on an edge: 5 covered, 4 not (top-left rule)
+
+    row  columns 0 to 4
+      0  + + + o .
+      1  + # o . .
+      2  + o . . .
+      3  o . . . .
+      4  . . . . .
+
+    # covered   + on an edge, covered   o on an edge, not covered   . not covered
+    ");
+}
+
+#[test]
+fn a_table_lists_the_rows() {
+    insta::assert_snapshot!(printed(&[CORNERS, "--size", "9x5", "--table"]), @r"
+    triangle (0.5, 0.5) (0.5, 3.5) (3.5, 0.5) on 9 x 5 pixels: its corners are seen counter-clockwise
+    6 pixels covered
+    9 pixel centres lie exactly on an edge: 5 covered, 4 not (top-left rule)
+
+        row    first     last    count  on edge
+          0        0        2        3        4
+          1        0        1        2        2
+          2        0        0        1        2
+          3        -        -        0        1
+    ");
+}
+
+#[test]
+fn what_is_too_wide_to_draw_is_a_table() {
+    let text = printed(&["0,0 300,0 0,3", "--size", "640x480"]);
+    assert!(text.contains("first") && !text.contains('#'), "{text}");
+    let text = printed(&["300,200 309,200 300,207", "--size", "640x480"]);
+    assert!(text.contains("columns 299 to 308"), "{text}");
+}
+
+#[test]
+fn json_has_every_fact() {
+    let report: Value =
+        serde_json::from_str(&printed(&[CORNERS, "--size", "9x5", "--json"])).unwrap();
+    let expected = json!({
+        "triangle": [[0.5, 0.5], [0.5, 3.5], [3.5, 0.5]],
+        "size": [9, 5],
+        "facing": "counter-clockwise",
+        "covered": 6,
+        "on_edge": { "samples": 9, "covered": 5 },
+        "rows": [
+            { "row": 0, "covered": [0, 2], "on_edge": [0, 1, 2, 3] },
+            { "row": 1, "covered": [0, 1], "on_edge": [0, 2] },
+            { "row": 2, "covered": [0, 0], "on_edge": [0, 1] },
+            { "row": 3, "covered": null, "on_edge": [0] },
+        ],
+    });
+    assert_eq!(report, expected);
+}
+
+#[test]
+fn a_triangle_without_area_covers_nothing() {
+    let text = printed(&["1,1 3,3 2,2", "--size", "4x4"]);
+    assert!(text.contains("it has no area, and so covers nothing"), "{text}");
+    assert!(text.contains("0 pixels covered"), "{text}");
+}
+
+#[test]
+fn a_decimal_that_no_float_holds_is_shown_as_it_is_stored() {
+    let text = printed(&["0.1,0 8,0.5 4,9", "--size", "8x8"]);
+    assert!(text.starts_with("triangle (0.10000000149011612, 0) (8, 0.5) (4, 9) on"), "{text}");
+}
+
+#[test]
+fn corners_may_be_negative() {
+    let corners = "-1,-2 9,0 0,9";
+    let text = printed(&[corners, "--size", "4x4"]);
+    assert!(text.starts_with("triangle (-1, -2) (9, 0) (0, 9) on 4 x 4 pixels"), "{text}");
+    assert_eq!(printed(&["--size", "4x4", corners]), text);
+    assert_eq!(printed(&["--size", "4x4", "--", corners]), text);
+}
+
+#[test]
+fn the_mask_is_written_at_once_or_not_at_all() {
+    let home = home();
+    bothways(&home, &[CORNERS, "--size", "9x5", "-o", "mask.png"]).assert().code(0);
+    let mask = image::open(home.path().join("mask.png")).unwrap();
+    assert_eq!(mask.color(), image::ColorType::L8);
+    let mask = mask.to_luma8();
+    assert_eq!(mask.dimensions(), (9, 5));
+    assert_eq!(mask.iter().filter(|&&pixel| pixel == 255).count(), 6);
+    assert_eq!(fs::read_dir(&home).unwrap().count(), 1);
+
+    let refused = contains("cannot write missing/mask.png").and(contains("-o"));
+    let args = [CORNERS, "--size", "9x5", "-o", "missing/mask.png"];
+    bothways(&home, &args).assert().code(2).stdout("").stderr(refused);
+    assert_eq!(fs::read_dir(&home).unwrap().count(), 1);
+}
+
+#[test]
+fn bad_input_is_named() {
+    let refused: [(&[&str], &str); 9] = [
+        (&["1,1 2,2", "--size", "4x4"], "has 2 corners; a triangle has three"),
+        (&["1,1 2,2 3,3 4,4", "--size", "4x4"], "has 4 corners"),
+        (&["1,1 2,2,2 3,3", "--size", "4x4"], "corner 2 is '2,2,2': it has 3"),
+        (&["1,1 2,x 3,3", "--size", "4x4"], "'x' is not a number"),
+        (&["NaN,1 2,2 3,3", "--size", "4x4"], "NaN is not a finite number"),
+        (&["1,1 2,2 3,1e39", "--size", "4x4"], "1e39 is out of range"),
+        (&["1,1 2,2 3,3", "--size", "0x4"], "both sides need at least 1 pixel"),
+        (&["1,1 2,2 3,3"], "--size"),
+        (&["--size", "4x4"], "x,y x,y x,y"),
+    ];
+    for (args, message) in refused {
+        let said = contains(message).and(contains("panicked").not());
+        bothways(&home(), args).assert().code(2).stdout("").stderr(said);
+    }
+}
