@@ -4,7 +4,8 @@
 //! [`rasterize`] walks the objects, [`raytrace`] the pixels; both know only [`common`], which says
 //! what a scene is and what is true of one sample and one primitive. This crate knows both:
 //! [`orders`] runs and measures them, [`diff`] compares what they saw, [`picture`] and [`figure`]
-//! show it, [`report`] writes it down for programs, and [`scenes`] finds the scenes.
+//! show it, [`report`] writes it down for programs, [`scenes`] finds the scenes, and [`vectors`] is a
+//! conformance set for other renderers.
 //!
 //! ```
 //! use bothways::common::{Camera, Object, Options, Scene, Shape, Sphere, View, glam::Vec3};
@@ -33,4 +34,5 @@ pub mod orders;
 pub mod picture;
 pub mod report;
 pub mod scenes;
+pub mod vectors;
 pub mod wording;

@@ -11,6 +11,7 @@ mod output;
 mod render;
 mod table;
 mod terminal;
+mod vectors;
 
 use args::RenderArgs;
 use bothways::scenes;
@@ -54,6 +55,9 @@ enum Command {
         /// A built-in scene, or a scene or mesh file: prints its TOML
         name: Option<String>,
     },
+    /// Write a conformance set for other renderers: small scenes and what is seen of each
+    #[command(after_help = vectors::EXAMPLES)]
+    Vectors(vectors::VectorsArgs),
     /// Print a completion script for a shell
     #[command(after_help = COMPLETIONS_EXAMPLES)]
     Completions {
@@ -85,6 +89,7 @@ fn run(cli: Cli) -> Result<ExitCode, Failure> {
         None => render::run(&cli.render),
         Some(Command::Render(args)) => render::run(&args),
         Some(Command::Scenes { name }) => print_scenes(name.as_deref()),
+        Some(Command::Vectors(args)) => vectors::run(&args),
         Some(Command::Completions { shell }) => print_completions(shell),
     }
 }

@@ -135,7 +135,8 @@ fn write_rgb(staging: &mut Staging, name: &str, picture: &image::RgbImage) -> Re
     write_png(staging, name, picture, picture.dimensions(), ColorType::Rgb8)
 }
 
-fn write_png(
+/// Writes one picture of this kind of colour.
+pub(super) fn write_png(
     staging: &mut Staging,
     name: &str,
     bytes: &[u8],
