@@ -166,6 +166,75 @@ fn an_independent_rasterizer_sees_the_same() {
     assert!(checked > 1000, "only {checked} samples were covered");
 }
 
+/// How near a triangle of the world is along the ray of a sample, if it covers it.
+///
+/// The ray's direction is a sum `α·a + β·b + γ·c` of the corners; the sample is covered if all three
+/// are positive, and `1/t` is their sum, wherever the corners are. Like the direction they are linear
+/// in the sample's place, which moves right along `x` and down against `y`.
+fn nearness_in_the_world([a, b, c]: &[[Number; 3]; 3], direction: &[Number; 3]) -> Option<Linear> {
+    let volume = determinant(a, b, c);
+    if volume.is_zero() {
+        return None;
+    }
+    let [zero, one] = [0, 1].map(|number| Number::from_integer(number.into()));
+    let moves = [
+        direction.clone(),
+        [one.clone(), zero.clone(), zero.clone()],
+        [zero.clone(), -one, zero.clone()],
+    ];
+    let part = |p, q| Linear([0, 1, 2].map(|k| determinant(&moves[k], p, q) / &volume));
+    let parts = [part(b, c), part(c, a), part(a, b)];
+    let covered = parts.iter().all(|part| part.sign().is_gt());
+    let sum = |k: usize| parts.iter().map(|part| &part.0[k]).sum::<Number>();
+    covered.then(|| Linear([sum(0), sum(1), sum(2)]))
+}
+
+fn determinant(a: &[Number; 3], b: &[Number; 3], c: &[Number; 3]) -> Number {
+    let minor = |i: usize, j: usize| &b[i] * &c[j] - &b[j] * &c[i];
+    &a[0] * minor(1, 2) + &a[1] * minor(2, 0) + &a[2] * minor(0, 1)
+}
+
+/// Straight cameras in perspective, whose viewport is the image in pixels.
+fn is_straight(scene: &Value) -> bool {
+    let axes = ["eye", "u", "v", "w"].map(|key| numbers(&scene[key]));
+    let straight = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    scene["projection"] == "perspective"
+        && numbers(&scene["viewport"]) == numbers(&scene["image"])
+        && axes.iter().zip(straight).all(|(axis, straight)| *axis == straight)
+}
+
+#[test]
+fn independent_rays_see_the_same_behind_the_eye_too() {
+    let home = written();
+    let mut behind = 0;
+    for (_, scene) in scenes(home.path()).iter().filter(|(_, scene)| is_straight(scene)) {
+        behind += u32::from(scene["raster"].is_null());
+        let vertex = |index: &Value| {
+            let vertex = usize::try_from(index.as_u64().unwrap()).unwrap();
+            [0, 1, 2].map(|axis| rational(&scene["vertices"][vertex][axis]))
+        };
+        let triangles: Vec<_> = list(&scene["triangles"])
+            .iter()
+            .map(|triangle| [0, 1, 2].map(|corner| vertex(&triangle[corner])))
+            .collect();
+        let half = |side: usize| scene["image"][side].as_f64().unwrap() / 2.0;
+        for (i, ids) in (0_u32..).zip(list(&scene["ids"])) {
+            for (j, id) in (0_u32..).zip(list(ids)) {
+                let [x, y] = [f64::from(j) + 0.5 - half(0), half(1) - 0.5 - f64::from(i)];
+                let [x, y] = [x, y].map(|number| Number::from_float(number).unwrap());
+                let direction = [x, y, -rational(&scene["distance"])];
+                let covering = (0_u64..).zip(&triangles).filter_map(|(id, triangle)| {
+                    nearness_in_the_world(triangle, &direction).map(|nearness| (id, nearness))
+                });
+                let seen = covering.reduce(|held, next| if next.1 > held.1 { next } else { held });
+                let name = &scene["name"];
+                assert_eq!(seen.map(|(id, _)| id), id.as_u64(), "{name}: pixel ({i}, {j})");
+            }
+        }
+    }
+    assert!(behind >= 7, "only {behind} scenes reach behind the eye");
+}
+
 #[test]
 fn every_file_is_there_and_says_the_same() {
     let home = written();
