@@ -5,8 +5,8 @@
 //! what a scene is and what is true of one sample and one primitive. This crate knows both:
 //! [`orders`] runs and measures them, [`diff`] compares what they saw, [`picture`] and [`figure`]
 //! show it, [`report`] writes it down for programs, and [`scenes`] finds the scenes. [`cover`]
-//! answers for one triangle on a raster, [`pixel`] for one pixel of a scene, and [`opengl`] gives a
-//! camera's matrices.
+//! answers for one triangle on a raster, [`pixel`] for one pixel of a scene, [`opengl`] gives a
+//! camera's matrices, and [`vectors`] is a conformance set for other renderers.
 //!
 //! ```
 //! use bothways::common::{Camera, Object, Options, Scene, Shape, Sphere, View, glam::Vec3};
@@ -38,4 +38,5 @@ pub mod picture;
 pub mod pixel;
 pub mod report;
 pub mod scenes;
+pub mod vectors;
 pub mod wording;

@@ -10,7 +10,7 @@
 //! that has an end.
 
 use crate::common::glam::DVec3;
-use crate::common::{Primitive, Projection, View};
+use crate::common::{Camera, Primitive, Projection, View};
 
 /// Four rows of four numbers.
 pub type Matrix = [[f64; 4]; 4];
@@ -36,39 +36,37 @@ pub struct Matrices {
 /// stays exact.
 const NEAR: f64 = 1.0 / 1024.0;
 
-/// The matrices that draw a view's picture.
+/// The matrices that draw a view's picture, with depths that leave out as little as can be.
 pub fn matrices(view: &View) -> Matrices {
-    let camera = view.camera;
+    match view.camera.projection() {
+        Projection::Perspective => between(view.camera, NEAR * view.camera.distance(), 0.0),
+        Projection::Parallel => between(view.camera, 0.0, behind_everything(view)),
+    }
+}
+
+/// The matrices of a camera with stated depths: a perspective projection begins at `near` and has no
+/// end, a parallel one begins at the eye and ends at `far`.
+pub fn between(camera: &Camera, near: f64, far: f64) -> Matrices {
     let [vw, vh] = camera.viewport();
+    let view = camera_from_world(camera);
     match camera.projection() {
         Projection::Perspective => {
             let d = camera.distance();
-            let near = d * NEAR;
             let with = |depth| {
                 let (x, y) = ([2.0 * d / vw, 0.0, 0.0, 0.0], [0.0, 2.0 * d / vh, 0.0, 0.0]);
                 [x, y, depth, [0.0, 0.0, -1.0, 0.0]]
             };
-            Matrices {
-                view: camera_from_world(view),
-                projection: with([0.0, 0.0, -1.0, -2.0 * near]),
-                reversed: with([0.0, 0.0, 0.0, near]),
-                near,
-                far: None,
-            }
+            let projection = with([0.0, 0.0, -1.0, -2.0 * near]);
+            Matrices { view, projection, reversed: with([0.0, 0.0, 0.0, near]), near, far: None }
         }
         Projection::Parallel => {
-            let far = behind_everything(view);
             let with = |depth| {
                 let (x, y) = ([2.0 / vw, 0.0, 0.0, 0.0], [0.0, 2.0 / vh, 0.0, 0.0]);
                 [x, y, depth, [0.0, 0.0, 0.0, 1.0]]
             };
-            Matrices {
-                view: camera_from_world(view),
-                projection: with([0.0, 0.0, -2.0 / far, -1.0]),
-                reversed: with([0.0, 0.0, 1.0 / far, 1.0]),
-                near: 0.0,
-                far: Some(far),
-            }
+            let projection = with([0.0, 0.0, -2.0 / far, -1.0]);
+            let reversed = with([0.0, 0.0, 1.0 / far, 1.0]);
+            Matrices { view, projection, reversed, near: 0.0, far: Some(far) }
         }
     }
 }
@@ -80,8 +78,7 @@ pub fn field_of_view(view: &View) -> Option<[f64; 2]> {
     (camera.projection() == Projection::Perspective).then(|| camera.viewport().map(angle))
 }
 
-fn camera_from_world(view: &View) -> Matrix {
-    let camera = view.camera;
+fn camera_from_world(camera: &Camera) -> Matrix {
     let eye = camera.eye().as_dvec3();
     // Adding 0 turns −0 into 0.
     let row = |axis: DVec3| [axis.x, axis.y, axis.z, -axis.dot(eye) + 0.0];
@@ -105,7 +102,7 @@ fn behind_everything(view: &View) -> f64 {
 mod tests {
     use super::*;
     use crate::common::glam::{DVec4, Vec3};
-    use crate::common::{Camera, CameraDescription, Orientation, Scene, Shape, Sphere, Triangle};
+    use crate::common::{CameraDescription, Orientation, Scene, Shape, Sphere, Triangle};
 
     fn camera(projection: Projection) -> Camera {
         Camera::new(CameraDescription {

@@ -66,7 +66,7 @@ pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
         Failure::new(format!("A = {a}, B = {b}: {error}"))
     })?;
     if let Some(folder) = &args.folder {
-        let mut staging = Staging::begin_with(folder, &NAMES)?;
+        let mut staging = Staging::begin_with(folder, NAMES.map(str::to_owned).to_vec())?;
         write_rgb(&mut staging, NAMES[0], &comparison.picture())?;
         staging.commit()?;
     }

@@ -5,8 +5,8 @@
 
 mod args;
 mod camera;
-mod diff;
 mod cover;
+mod diff;
 mod failure;
 mod npy;
 mod output;
@@ -15,6 +15,7 @@ mod render;
 mod show_camera;
 mod table;
 mod terminal;
+mod vectors;
 
 use args::RenderArgs;
 use bothways::scenes;
@@ -70,6 +71,9 @@ enum Command {
     /// Print a scene's camera: eye, frame, viewport, field of view, OpenGL matrices
     #[command(after_help = show_camera::EXAMPLES)]
     Camera(Box<show_camera::ShowCameraArgs>),
+    /// Write a conformance set for other renderers: small scenes and what is seen of each
+    #[command(after_help = vectors::EXAMPLES)]
+    Vectors(vectors::VectorsArgs),
     /// Print a completion script for a shell
     #[command(after_help = COMPLETIONS_EXAMPLES)]
     Completions {
@@ -105,6 +109,7 @@ fn run(cli: Cli) -> Result<ExitCode, Failure> {
         Some(Command::Cover(args)) => cover::run(&args),
         Some(Command::Pixel(args)) => pixel::run(&args),
         Some(Command::Camera(args)) => show_camera::run(&args),
+        Some(Command::Vectors(args)) => vectors::run(&args),
         Some(Command::Completions { shell }) => print_completions(shell),
     }
 }
@@ -157,7 +162,7 @@ mod tests {
     #[test]
     fn no_built_in_scene_shares_its_name_with_a_subcommand() {
         let command = Cli::command();
-        let later = ["pixel", "cover", "camera", "mesh", "help"];
+        let later = ["mesh", "help"];
         for scene in scenes::BUILT_IN {
             assert!(command.get_subcommands().all(|sub| sub.get_name() != scene.name));
             assert!(!later.contains(&scene.name));

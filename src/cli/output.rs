@@ -26,38 +26,31 @@ const NAMES: [&str; 11] = [
 #[derive(Debug)]
 pub(super) struct Staging {
     target: PathBuf,
-    /// Every file that this run could write; no other file is touched.
-    names: &'static [&'static str],
     /// Within the target, so that a file moves by being renamed. `None` once removed.
     folder: Option<TempDir>,
     /// Folders that did not exist before, the innermost first.
     created: Vec<PathBuf>,
+    /// Every file that this kind of run may write; no other file is touched.
+    names: Vec<String>,
     written: Vec<String>,
 }
 
 impl Staging {
-    /// Makes the target folder if need be, and a hidden one within it.
+    /// Makes the target folder of `render` if need be, and a hidden one within it.
     pub(super) fn begin(target: &Path) -> Result<Staging, Failure> {
-        Staging::begin_with(target, &NAMES)
+        Staging::begin_with(target, NAMES.map(str::to_owned).to_vec())
     }
 
-    /// The same for a command that writes other files than `render`.
-    pub(super) fn begin_with(
-        target: &Path,
-        names: &'static [&'static str],
-    ) -> Result<Staging, Failure> {
+    /// The same for a run that may write other files.
+    pub(super) fn begin_with(target: &Path, names: Vec<String>) -> Result<Staging, Failure> {
         let created: Vec<PathBuf> = target
             .ancestors()
             .take_while(|folder| !folder.as_os_str().is_empty() && !folder.exists())
             .map(Path::to_owned)
             .collect();
-        let mut staging = Staging {
-            target: target.to_owned(),
-            names,
-            folder: None,
-            created,
-            written: Vec::new(),
-        };
+        let target_path = target.to_owned();
+        let mut staging =
+            Staging { target: target_path, folder: None, created, names, written: Vec::new() };
         let folder = fs::create_dir_all(target)
             .and_then(|()| tempfile::Builder::new().prefix(".bothways-").tempdir_in(target));
         // Dropping the staging takes back what was made before the failure.
@@ -72,7 +65,8 @@ impl Staging {
         name: &str,
         content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
     ) -> Result<(), Failure> {
-        debug_assert!(self.names.contains(&name), "{name} would never be replaced or removed");
+        let known = self.names.iter().any(|known| known == name);
+        debug_assert!(known, "{name} would never be replaced or removed");
         let path = self.hidden().join(name);
         let result = File::create(path).and_then(|file| {
             let mut out = BufWriter::new(file);
@@ -108,12 +102,12 @@ impl Staging {
             moves.push((from, to));
             io::Result::Ok(())
         };
-        for &name in self.names {
+        for name in &self.names {
             let place = self.target.join(name);
             if place.symlink_metadata().is_ok() {
                 move_file(place.clone(), old.join(name))?;
             }
-            if self.written.iter().any(|written| written == name) {
+            if self.written.contains(name) {
                 move_file(self.hidden().join(name), place)?;
             }
         }
@@ -122,8 +116,8 @@ impl Staging {
 
     /// A folder of a file's name is somebody else's: it is not replaced.
     fn check_names(&self) -> Result<(), Failure> {
-        let taken =
-            self.names.iter().map(|name| self.target.join(name)).find(|place| place.is_dir());
+        let mut places = self.names.iter().map(|name| self.target.join(name));
+        let taken = places.find(|place| place.is_dir());
         taken.map_or(Ok(()), |place| {
             let place = place.display();
             Err(Failure::new(format!(

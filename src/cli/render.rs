@@ -140,7 +140,8 @@ pub(super) fn write_rgb(
     write_png(staging, name, picture, picture.dimensions(), ColorType::Rgb8)
 }
 
-fn write_png(
+/// Writes one picture of this kind of colour.
+pub(super) fn write_png(
     staging: &mut Staging,
     name: &str,
     bytes: &[u8],

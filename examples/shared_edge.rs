@@ -1,0 +1,59 @@
+//! A square cut along a diagonal that runs exactly through samples: who owns the cut?
+//!
+//! Its border runs through samples, too. Every sample is owned once, on the left and top but not on
+//! the right and bottom, so tiles laid side by side leave neither gap nor overlap.
+//!
+//! `cargo run --example shared_edge`
+
+use bothways::common::glam::Vec3;
+use bothways::common::predicate::{EdgeSigns, Sign};
+use bothways::common::{Camera, Frame, Object, Options, Scene, Shape, Triangle, View, Work};
+use bothways::raytrace;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    // At depth 16 one unit is one pixel, and 16 is a power of two: every sample's place is exact.
+    let camera = Camera::canonical(16, 16);
+    let square = [[3.5, 3.5], [11.5, 3.5], [11.5, 11.5], [3.5, 11.5]];
+    let [a, b, c, d] = square.map(|[x, y]| Vec3::new(x - 8.0, 8.0 - y, -16.0));
+    let halves = [Triangle { a, b, c }, Triangle { a, b: c, c: d }];
+    let halves = halves.map(|half| Object::from(Shape::Triangle(half)));
+    let scene = Scene::new(halves.to_vec())?;
+    let view = View::new(&scene, &camera);
+
+    // An observer is told what the loops do; `Work` counts it.
+    let (mut frame, mut work) = (Frame::new(&camera, &Options::default()), Work::default());
+    raytrace::textbook::determine_visibility(&view, &Options::default(), &mut frame, &mut work);
+
+    // A sample of the closed half with an edge function of zero lies exactly on its border.
+    let grid = camera.sample_grid(1);
+    let on_an_edge = |i, j| {
+        view.primitives().any(|(_, half)| {
+            let edges = view.judge().coverage(&half, &grid.ray(i, j)).edges;
+            edges.is_some_and(|EdgeSigns { at_sample, facing, .. }| {
+                at_sample.contains(&Sign::Zero) && !at_sample.contains(&-facing)
+            })
+        })
+    };
+    for i in 0..frame.height() {
+        for j in 0..frame.width() {
+            let (owner, tie) = (frame.id(i, j), on_an_edge(i, j));
+            let pixel = match (owner, tie) {
+                (Some(0), true) => 'A',
+                (Some(0), false) => 'a',
+                (Some(_), true) => 'B',
+                (Some(_), false) => 'b',
+                (None, true) => 'o',
+                (None, false) => '.',
+            };
+            print!("{pixel} ");
+        }
+        println!();
+    }
+    let owned = frame.ids().iter().filter(|&&id| id < scene.primitive_count()).count();
+    println!(
+        "\na, b: the two halves; A, B: owned although exactly on an edge; o: on one, not owned"
+    );
+    assert_eq!(owned as u64, work.fragments);
+    println!("{owned} samples are owned, {} times in all: each exactly once", work.fragments);
+    Ok(())
+}

@@ -1,0 +1,156 @@
+//! The set's JSON: one file a scene, and the index of all.
+//!
+//! Every number is an exact `f64`: read as a double it is the very number that was meant.
+
+use super::{ENDINGS, Vector, raster};
+use crate::common::{Camera, Frame, Projection, View};
+use crate::opengl;
+use serde::Serialize;
+
+/// A scene as the index lists it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Entry {
+    /// Its files' names begin with it.
+    pub name: &'static str,
+    /// What kind of difficulty it is.
+    pub group: &'static str,
+    /// Its point, in a sentence.
+    pub point: &'static str,
+    /// Width and height in pixels.
+    pub image: [u32; 2],
+    /// How many triangles there are.
+    pub triangles: u32,
+    /// Whether its corners have exact raster coordinates.
+    pub raster: bool,
+    /// How many samples are covered.
+    pub covered: u64,
+    /// Its files.
+    pub files: Vec<String>,
+}
+
+impl Entry {
+    /// What the index says about a scene of which this frame is seen.
+    pub fn new(vector: &Vector, frame: &Frame) -> Entry {
+        let (scene, camera) = (vector.scene(), vector.camera());
+        let seen = frame.ids().iter().filter(|&&id| id < scene.primitive_count());
+        Entry {
+            name: vector.name,
+            group: vector.group.name(),
+            point: vector.point,
+            image: frame.image(),
+            triangles: scene.primitive_count(),
+            raster: raster::triangles(&View::new(&scene, &camera)).is_some(),
+            covered: seen.count() as u64,
+            files: ENDINGS.map(|ending| format!("{}{ending}", vector.name)).to_vec(),
+        }
+    }
+}
+
+/// `index.json`: all scenes in order.
+///
+/// # Errors
+///
+/// Those of `serde_json`, of which there are none for these types.
+pub fn index(entries: &[Entry]) -> serde_json::Result<String> {
+    Ok(Fields::default()
+        .one("set", "bothways")?
+        .one("version", env!("CARGO_PKG_VERSION"))?
+        .lines("scenes", entries)?
+        .finish())
+}
+
+/// `NAME.json`: the scene, its raster coordinates, its matrices, and what is seen.
+///
+/// # Errors
+///
+/// As for [`index`].
+pub fn json(vector: &Vector, frame: &Frame) -> serde_json::Result<String> {
+    let (scene, camera) = (vector.scene(), vector.camera());
+    let raster = raster::triangles(&View::new(&scene, &camera));
+    let positions: Vec<[f64; 3]> =
+        vector.mesh.positions().iter().map(|position| position.as_dvec3().to_array()).collect();
+    let [near, far] = depth_range(&camera, frame);
+    let matrices = opengl::between(&camera, near, far);
+    let (view, projection) = (columns(&matrices.view), columns(&matrices.projection));
+    let (perspective, interpolate) = match camera.projection() {
+        Projection::Perspective => ("perspective", "1/t"),
+        Projection::Parallel => ("parallel", "t"),
+    };
+    let fields = Fields::default()
+        .one("name", vector.name)?
+        .one("group", vector.group.name())?
+        .one("point", vector.point)?
+        .one("image", &camera.image())?
+        .one("projection", perspective)?
+        .one("eye", &camera.eye().as_dvec3().to_array())?
+        .one("u", &camera.u().to_array())?
+        .one("v", &camera.v().to_array())?
+        .one("w", &camera.w().to_array())?
+        .one("distance", &camera.distance())?
+        .one("viewport", &camera.viewport())?
+        .lines("vertices", &positions)?
+        .lines("triangles", vector.mesh.triangles())?
+        .one("interpolate", interpolate)?;
+    let fields = match raster {
+        Some(corners) => fields.lines("raster", &corners)?,
+        None => fields.one("raster", &None::<()>)?,
+    };
+    Ok(fields
+        .one("opengl_view", &view)?
+        .one("opengl_projection", &projection)?
+        .lines("ids", &rows(frame, |row, column| frame.id(row, column)))?
+        .lines("t", &rows(frame, |row, column| frame.t(row, column).map(f64::from)))?
+        .finish())
+}
+
+fn rows<T>(frame: &Frame, value: impl Fn(usize, usize) -> T) -> Vec<Vec<T>> {
+    let row = |row| (0..frame.width()).map(|column| value(row, column)).collect();
+    (0..frame.height()).map(row).collect()
+}
+
+/// Half of the least and twice the largest depth that is seen, so that no plane cuts any of it.
+fn depth_range(camera: &Camera, frame: &Frame) -> [f64; 2] {
+    let unit = match camera.projection() {
+        Projection::Perspective => camera.distance(),
+        Projection::Parallel => 1.0,
+    };
+    let seen = frame.distances().iter().filter(|t| t.is_finite()).map(|&t| unit * f64::from(t));
+    let [least, most] =
+        seen.fold([f64::INFINITY, 0.0], |[least, most], depth| [least.min(depth), most.max(depth)]);
+    if most > 0.0 { [least / 2.0, most * 2.0] } else { [camera.distance(); 2] }
+}
+
+/// A matrix column by column, as OpenGL takes it.
+fn columns(matrix: &opengl::Matrix) -> [f64; 16] {
+    std::array::from_fn(|k| without_sign(matrix[k % 4][k / 4]))
+}
+
+/// Nobody needs to know of a negative zero.
+fn without_sign(number: f64) -> f64 {
+    if number == 0.0 { 0.0 } else { number }
+}
+
+/// A JSON object with a field a line, and long lists with an element a line.
+#[derive(Default)]
+struct Fields(Vec<String>);
+
+impl Fields {
+    fn one(self, key: &str, value: &(impl Serialize + ?Sized)) -> serde_json::Result<Fields> {
+        let value = serde_json::to_string(value)?;
+        Ok(self.field(key, &value))
+    }
+
+    fn lines(self, key: &str, values: &[impl Serialize]) -> serde_json::Result<Fields> {
+        let values = values.iter().map(serde_json::to_string).collect::<Result<Vec<_>, _>>()?;
+        Ok(self.field(key, &format!("[\n    {}\n  ]", values.join(",\n    "))))
+    }
+
+    fn field(mut self, key: &str, value: &str) -> Fields {
+        self.0.push(format!("  \"{key}\": {value}"));
+        self
+    }
+
+    fn finish(self) -> String {
+        format!("{{\n{}\n}}\n", self.0.join(",\n"))
+    }
+}

@@ -1,0 +1,16 @@
+//! The set's `README.md`.
+
+use super::{Entry, Group};
+use std::fmt::Write;
+
+/// What the files are and how to use them, and a list of all scenes.
+pub fn readme(entries: &[Entry]) -> String {
+    let mut text = include_str!("readme.md").replace("{count}", &entries.len().to_string());
+    for group in Group::ALL.map(Group::name) {
+        write!(text, "\n### {group}\n\n| scene | point |\n|---|---|\n").expect("a string has room");
+        for Entry { name, point, .. } in entries.iter().filter(|entry| entry.group == group) {
+            writeln!(text, "| [`{name}`]({name}.json) | {point} |").expect("a string has room");
+        }
+    }
+    text
+}

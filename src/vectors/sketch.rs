@@ -1,0 +1,127 @@
+//! Drawing the set's scenes: in pixels where that is what they are about, else in the world.
+
+use super::{Group, Vector};
+use crate::common::glam::Vec3;
+use crate::common::{CameraDescription, Mesh, Orientation, Projection};
+
+/// The distance `d` of all straight cameras. Their viewport is as large as the image in pixels, so
+/// that at this depth one unit of the world is one pixel.
+pub(super) const DISTANCE: f32 = 16.0;
+
+/// A scene that is being drawn.
+#[derive(Debug)]
+pub(super) struct Sketch {
+    name: &'static str,
+    group: Group,
+    point: &'static str,
+    camera: CameraDescription,
+    corners: Vec<Vec3>,
+}
+
+/// An empty scene of 8 × 8 pixels, seen in perspective.
+pub(super) fn sketch(group: Group, name: &'static str, point: &'static str) -> Sketch {
+    let camera = CameraDescription { distance: DISTANCE, ..CameraDescription::default() };
+    Sketch { name, group, point, camera, corners: Vec::new() }.size(8, 8)
+}
+
+impl Sketch {
+    /// The size in pixels; before the first triangle, as pixels depend on it.
+    pub(super) fn size(mut self, width: u16, height: u16) -> Sketch {
+        assert!(self.corners.is_empty(), "{}: the size comes first", self.name);
+        self.camera.image = [width.into(), height.into()];
+        self.camera.viewport = [width.into(), height.into()];
+        self
+    }
+
+    /// With parallel rays.
+    pub(super) fn parallel(mut self) -> Sketch {
+        assert!(self.corners.is_empty(), "{}: the projection comes first", self.name);
+        self.camera.projection = Projection::Parallel;
+        self
+    }
+
+    /// With pixels that are not square.
+    pub(super) fn viewport(mut self, viewport: [f32; 2]) -> Sketch {
+        self.camera.viewport = viewport;
+        self
+    }
+
+    /// From anywhere.
+    pub(super) fn looking(mut self, eye: [f32; 3], target: [f32; 3]) -> Sketch {
+        self.camera.eye = eye.into();
+        self.camera.orientation = Orientation::LookAt { target: target.into(), up: Vec3::Y };
+        self
+    }
+
+    /// A triangle at the depth where a unit is a pixel; corners are `[x, y]` in pixels, right and
+    /// down, the middle of the first pixel at `[0.5, 0.5]`.
+    pub(super) fn flat(self, corners: [[f32; 2]; 3]) -> Sketch {
+        self.pixels(corners.map(|[x, y]| [x, y, DISTANCE]))
+    }
+
+    /// A triangle whose corners are `[x, y, depth]`, in pixels and in the world.
+    pub(super) fn pixels(mut self, corners: [[f32; 3]; 3]) -> Sketch {
+        let corners = corners.map(|corner| self.in_world(corner));
+        self.corners.extend(corners);
+        self
+    }
+
+    /// A triangle in the world.
+    pub(super) fn world(mut self, corners: [[f32; 3]; 3]) -> Sketch {
+        self.corners.extend(corners.map(Vec3::from_array));
+        self
+    }
+
+    /// Two triangles: a convex quadrilateral, cut from its first corner to its third.
+    pub(super) fn flat_quad(self, [a, b, c, d]: [[f32; 2]; 4]) -> Sketch {
+        self.flat([a, b, c]).flat([a, c, d])
+    }
+
+    /// Two triangles of the world, cut alike.
+    pub(super) fn world_quad(self, [a, b, c, d]: [[f32; 3]; 4]) -> Sketch {
+        self.world([a, b, c]).world([a, c, d])
+    }
+
+    /// All that was drawn, larger or smaller about the eye; the picture stays the same.
+    pub(super) fn scaled(mut self, factor: f32) -> Sketch {
+        self.corners.iter_mut().for_each(|corner| *corner *= factor);
+        self
+    }
+
+    /// The scene; corners in the same place become one vertex.
+    pub(super) fn done(self) -> Vector {
+        let Sketch { name, group, point, camera, corners } = self;
+        let mut positions: Vec<Vec3> = Vec::new();
+        let mut indices = Vec::new();
+        for corner in corners {
+            let known = positions.iter().position(|&position| position == corner);
+            let index = known.unwrap_or(positions.len());
+            if known.is_none() {
+                positions.push(corner);
+            }
+            indices.push(u32::try_from(index).expect("the scenes are small"));
+        }
+        let triangles = indices.chunks_exact(3).map(|corners| [corners[0], corners[1], corners[2]]);
+        let mesh = Mesh::new(positions, triangles.collect()).expect("the numbers are finite");
+        Vector { name, group, point, mesh, camera }
+    }
+
+    fn in_world(&self, [x, y, depth]: [f32; 3]) -> Vec3 {
+        let [width, height] = self.camera.viewport.map(f64::from);
+        let scale = match self.camera.projection {
+            Projection::Perspective => f64::from(depth) / f64::from(DISTANCE),
+            Projection::Parallel => 1.0,
+        };
+        let across = (f64::from(x) - width / 2.0) * scale;
+        let up = (height / 2.0 - f64::from(y)) * scale;
+        Vec3::new(self.exact(across), self.exact(up), -depth)
+    }
+
+    /// A number that must not be rounded, or the scene would not be what was drawn.
+    fn exact(&self, number: f64) -> f32 {
+        #[expect(clippy::cast_possible_truncation, reason = "nothing is lost, and that is checked")]
+        let stored = number as f32;
+        assert_eq!(f64::from(stored), number, "{}: a corner has too many bits", self.name);
+        stored
+    }
+}
