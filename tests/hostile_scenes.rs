@@ -119,6 +119,10 @@ fn camera(numbers: Numbers) -> impl Strategy<Value = CameraDescription> {
             1 => Just([(-64f32).exp2(), (-44f32).exp2(), (-60f32).exp2()]),
             1 => Just([64f32.exp2(), (-64f32).exp2(), 64f32.exp2()]),
             1 => Just([1.0, 20f32.exp2(), 10f32.exp2()]),
+            2 => (-20..20_i32, -20..20_i32, 0.5..2.0_f32).prop_map(|(d, side, factor)| {
+                let side = factor * (side as f32).exp2();
+                [(d as f32).exp2().max(side * (-19f32).exp2()), side, side]
+            }),
         ]
         .boxed(),
         _ => {
@@ -129,7 +133,12 @@ fn camera(numbers: Numbers) -> impl Strategy<Value = CameraDescription> {
         Numbers::FewBits => {
             prop_oneof![Just([5_u32, 5]), Just([9, 9]), Just([7, 3]), Just([1, 1])].boxed()
         }
-        _ => (1..14_u32, 1..14_u32).prop_map(|(width, height)| [width, height]).boxed(),
+        // Some reach over the borders of tiles.
+        Numbers::Ordinary | Numbers::Extreme => prop_oneof![
+            8 => (1..14_u32, 1..14_u32).prop_map(|(width, height)| [width, height]),
+            1 => Just([70, 2]), 1 => Just([3, 67]), 1 => Just([140, 1])
+        ]
+        .boxed(),
     };
     (projection, point(numbers), orientation, lens, sides).prop_map(
         move |(projection, eye, orientation, [distance, width, height], image)| {

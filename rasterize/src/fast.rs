@@ -11,6 +11,7 @@
 //! exact judge. The loop over primitives decides visibility: no ray is walked, and no tree.
 
 mod bins;
+mod clip;
 mod depth;
 mod edges;
 mod round;
@@ -21,7 +22,7 @@ use bins::Bins;
 use bothways_common::fault::{Fault, Planted, Sound};
 use bothways_common::frame::Tile;
 use bothways_common::observe::Observer;
-use bothways_common::{Frame, Object, Options, Scene, View};
+use bothways_common::{Frame, Options, Scene, View};
 use rayon::prelude::*;
 use screen::Screen;
 use tile::TileBuffer;
@@ -29,7 +30,7 @@ use tile::TileBuffer;
 /// Samples along one side of a tile: its depth intervals and ids fill 80 KiB.
 const TILE: usize = 64;
 /// Primitives that one thread takes up at a time.
-const BATCH: usize = 4096;
+const BATCH: u32 = 4096;
 
 /// What a moving camera would not repeat: the scene cut into batches that threads can share.
 #[derive(Clone, Debug)]
@@ -38,31 +39,20 @@ pub struct Prepared {
     primitives: u32,
 }
 
-/// Some consecutive primitives of one object.
+/// Some consecutive primitives, of one object or of several.
 #[derive(Clone, Copy, Debug)]
 struct Batch {
-    object: usize,
-    /// Of the object's primitives, the first one of the batch.
-    first: usize,
-    count: usize,
     /// The id of the batch's first primitive.
     first_id: u32,
+    count: u32,
 }
 
 /// Prepares a scene for any number of views of it.
 pub fn prepare(scene: &Scene) -> Prepared {
-    let mut batches = Vec::new();
-    for (object, Object { shape, .. }) in scene.objects().iter().enumerate() {
-        let mut first_id = scene.first_id(object);
-        let mut first = 0;
-        while first < shape.primitive_count() {
-            let count = BATCH.min(shape.primitive_count() - first);
-            batches.push(Batch { object, first, count, first_id });
-            first += count;
-            first_id += u32::try_from(count).expect("a batch is small");
-        }
-    }
-    Prepared { batches, primitives: scene.primitive_count() }
+    let primitives = scene.primitive_count();
+    let first_ids = (0..primitives).step_by(BATCH as usize);
+    let batch = |first_id| Batch { first_id, count: BATCH.min(primitives - first_id) };
+    Prepared { batches: first_ids.map(batch).collect(), primitives }
 }
 
 /// Renders a view of a prepared scene: what is seen at every sample, and its look.

@@ -155,6 +155,11 @@ pub(super) fn plane_covers(point: DVec3, normal: DVec3, ray: &Ray) -> bool {
     height * descent == Sign::Positive
 }
 
+/// Whether `n·v` is zero.
+pub(super) fn is_perpendicular(normal: DVec3, v: DVec3) -> bool {
+    exactly!(dot_sign(normal, [v, DVec3::ZERO])) == Sign::Zero
+}
+
 fn dot_sign<R: Real>(normal: DVec3, [p, q]: [DVec3; 2]) -> Option<Sign> {
     dot::<R>(&vector(normal), &difference(p, q)).sign()
 }

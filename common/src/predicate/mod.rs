@@ -79,6 +79,24 @@ impl Judge {
         cover::facing(self.projection, triangle, ray)
     }
 
+    /// Whether a flat primitive covers no sample at all, because the camera sees it edge-on: `F = 0` of
+    /// a triangle, a plane that holds the eye, or one along the rays of a parallel camera. A sphere is
+    /// never seen edge-on.
+    pub fn is_edge_on(&self, primitive: &Primitive) -> bool {
+        let axis = Ray { origin: DVec3::ZERO, direction: self.forward };
+        match primitive {
+            Primitive::Triangle(corners) => self.facing(corners, &axis) == Sign::Zero,
+            Primitive::Plane { point, normal } => {
+                let along = match self.projection {
+                    Projection::Perspective => *point,
+                    Projection::Parallel => self.forward,
+                };
+                cover::is_perpendicular(*normal, along)
+            }
+            Primitive::Sphere { .. } => false,
+        }
+    }
+
     /// The signs that decide whether a triangle covers a sample, ties shown.
     pub fn edge_signs(&self, triangle: &[DVec3; 3], ray: &Ray) -> EdgeSigns {
         cover::edge_signs(self.projection, &self.nudge, triangle, ray)

@@ -21,6 +21,12 @@ pub struct Comparison {
     pub decided: Ordering,
 }
 
+impl Comparison {
+    /// Nothing but the order in the scene tells them apart.
+    pub(super) const EQUAL: Comparison =
+        Comparison { at_sample: Ordering::Equal, decided: Ordering::Equal };
+}
+
 /// Compares the distances of two primitives that both cover the sample; `Less` is nearer.
 pub(super) fn compare(
     projection: Projection,
@@ -30,6 +36,7 @@ pub(super) fn compare(
     ray: &Ray,
 ) -> Comparison {
     match (first, second) {
+        _ if are_identical(first, second) => Comparison::EQUAL,
         (Primitive::Sphere { .. }, Primitive::Sphere { .. }) => {
             let order = ordering(exactly!(sphere_against_sphere(first, second, ray)));
             Comparison { at_sample: order, decided: order }
@@ -41,9 +48,6 @@ pub(super) fn compare(
         (_, Primitive::Sphere { .. }) => {
             let order = ordering(exactly!(sphere_against_flat(second, first, ray))).reverse();
             Comparison { at_sample: order, decided: order.then(Ordering::Less) }
-        }
-        _ if same_corners(first, second) => {
-            Comparison { at_sample: Ordering::Equal, decided: Ordering::Equal }
         }
         _ => {
             let at_sample = ordering(exactly!(flat_against_flat(first, second, ray)));
@@ -85,14 +89,15 @@ pub(super) fn ordering(sign: Sign) -> Ordering {
     sign.cmp(&Sign::Zero)
 }
 
-/// Duplicated faces are the most frequent ties, and need no arithmetic.
-fn same_corners(first: &Primitive, second: &Primitive) -> bool {
+/// Whether two primitives are the same one again, corners in any order. Duplicates are the most
+/// frequent ties, and need no arithmetic.
+pub(super) fn are_identical(first: &Primitive, second: &Primitive) -> bool {
     match (first, second) {
         (Primitive::Triangle(first), Primitive::Triangle(second)) => {
             let [a, b, c] = *first;
             [[a, b, c], [b, c, a], [c, a, b], [a, c, b], [c, b, a], [b, a, c]].contains(second)
         }
-        _ => false,
+        _ => first == second,
     }
 }
 

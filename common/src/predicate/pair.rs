@@ -5,12 +5,13 @@
 //! function alone, whose coefficients can be found exactly once.
 
 use super::Judge;
-use super::nearest::{Comparison, Crossing, ordering};
+use super::nearest::{Comparison, Crossing, are_identical, ordering};
 use super::real::{Dyadic, Real};
 use super::sign::Sign;
 use crate::camera::{Projection, Ray};
 use crate::view::Primitive;
 use glam::DVec3;
+use std::collections::HashMap;
 
 /// Which of two flat primitives is nearer, as a function of the ray.
 ///
@@ -69,8 +70,7 @@ impl Pair {
     /// of two coefficients and a direction being zero or far above 2⁻¹⁰²².
     fn compare(&self, projection: Projection, ray: &Ray) -> Option<Comparison> {
         let Pair::Function { constant, slope, side } = *self else {
-            let equal = ordering(Sign::Zero);
-            return Some(Comparison { at_sample: equal, decided: equal });
+            return Some(Comparison::EQUAL);
         };
         let along = match projection {
             Projection::Perspective => ray.direction,
@@ -92,16 +92,24 @@ impl Pair {
 #[derive(Debug)]
 pub struct Memory {
     judge: Judge,
-    pairs: Vec<Option<([u32; 2], Pair)>>,
+    pairs: HashMap<[u32; 2], Pair>,
+    unseen: HashMap<u32, bool>,
 }
 
 impl Memory {
-    /// As many pairs as are remembered at a time; a power of two.
-    const PAIRS: usize = 64;
+    /// So many pairs are remembered before all are forgotten: some megabytes.
+    const MOST: usize = 1 << 15;
 
     /// Remembers nothing yet.
     pub fn new(judge: Judge) -> Memory {
-        Memory { judge, pairs: vec![None; Self::PAIRS] }
+        Memory { judge, pairs: HashMap::new(), unseen: HashMap::new() }
+    }
+
+    /// Whether a flat primitive covers no sample of this camera at all: it is seen edge-on, or is a
+    /// plane that holds the eye or runs along the rays. Such primitives leave every fast test open.
+    pub fn is_edge_on(&mut self, id: u32, primitive: &Primitive) -> bool {
+        let judge = &self.judge;
+        *self.unseen.entry(id).or_insert_with(|| judge.is_edge_on(primitive))
     }
 
     /// [`Judge::nearer`]. An id must always mean the same primitive.
@@ -123,18 +131,21 @@ impl Memory {
         ray: &Ray,
     ) -> Comparison {
         let flat = |primitive: &Primitive| !matches!(primitive, Primitive::Sphere { .. });
+        if are_identical(first.1, second.1) {
+            return Comparison::EQUAL;
+        }
         if !flat(first.1) || !flat(second.1) {
             return self.judge.compare(first.1, second.1, ray);
         }
+        if self.pairs.len() >= Self::MOST {
+            self.pairs.clear();
+        }
         let ids = [first.0, second.0];
-        let slot = (ids[0].wrapping_mul(0x9E37_79B1) ^ ids[1].wrapping_mul(0x85EB_CA77)) as usize
-            >> 16
-            & (Self::PAIRS - 1);
-        let pair = match self.pairs[slot] {
-            Some((known, pair)) if known == ids => Some(pair),
-            _ => {
+        let pair = match self.pairs.get(&ids) {
+            Some(pair) => Some(*pair),
+            None => {
                 let pair = Pair::new(&self.judge, first.1, second.1);
-                self.pairs[slot] = pair.map(|pair| (ids, pair));
+                self.pairs.extend(pair.map(|pair| (ids, pair)));
                 pair
             }
         };

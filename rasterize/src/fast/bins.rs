@@ -80,8 +80,7 @@ impl Bins {
             .par_iter()
             .map(|batch| {
                 let mut observer = seen.fork();
-                let vertices = &vertices[batch.object];
-                let entries = entries::<O, F>(batch, view, screen, vertices, &mut observer);
+                let entries = entries::<O, F>(batch, view, screen, &vertices, &mut observer);
                 (BatchBins::sort(&entries, screen), observer)
             })
             .unzip();
@@ -129,16 +128,22 @@ fn entries<O: Observer, F: Fault>(
     batch: &Batch,
     view: &View,
     screen: &Screen,
-    vertices: &[ScreenVertex],
+    vertices: &[Vec<ScreenVertex>],
     observer: &mut O,
 ) -> Vec<Entry> {
     let mut entries = Vec::new();
-    let shape = &view.scene.objects()[batch.object].shape;
-    for (id, local) in (batch.first_id..).zip(batch.first..batch.first + batch.count) {
-        let region = match shape {
+    let objects = view.scene.objects();
+    let (mut object, mut local) = view.scene.locate(batch.first_id);
+    for id in batch.first_id..batch.first_id + batch.count {
+        while local == objects[object].shape.primitive_count() {
+            (object, local) = (object + 1, 0);
+        }
+        let region = match &objects[object].shape {
             Shape::Mesh(mesh) => {
+                let vertices = &vertices[object];
                 let corners = mesh.triangles()[local].map(|vertex| vertices[vertex as usize]);
-                screen.triangle_region::<F>(&corners)
+                let offsets = || mesh.corners(local).map(|corner| view.offset(corner));
+                screen.triangle_region::<F>(&corners, offsets)
             }
             Shape::Triangle(_) | Shape::Sphere(_) | Shape::Plane(_) => {
                 region::<F>(&view.primitive(id), screen)
@@ -148,6 +153,7 @@ fn entries<O: Observer, F: Fault>(
         if !region.is_empty() {
             entries.push(Entry::new(id, &region));
         }
+        local += 1;
     }
     entries
 }
@@ -155,7 +161,8 @@ fn entries<O: Observer, F: Fault>(
 fn region<F: Fault>(primitive: &Primitive, screen: &Screen) -> Region {
     match primitive {
         Primitive::Triangle(corners) => {
-            screen.triangle_region::<F>(&corners.map(|corner| screen.vertex(corner)))
+            let vertices = corners.map(|corner| screen.vertex(corner));
+            screen.triangle_region::<F>(&vertices, || *corners)
         }
         Primitive::Sphere { center, radius } => screen.sphere_region::<F>(*center, *radius),
         Primitive::Plane { point, normal } => {

@@ -1,5 +1,6 @@
 //! Where primitives may appear on the raster of samples: the vertex stage and bounding regions.
 
+use super::clip;
 use super::depth::DepthPlane;
 use bothways_common::fault::{Fault, Planted};
 use bothways_common::frame::Region;
@@ -22,9 +23,9 @@ pub(super) struct Screen<'a> {
     /// rays' origins (parallel) or directions (perspective).
     pub(super) reach: DVec3,
     /// Columns and rows a unit of the viewport.
-    scale: [f64; 2],
+    pub(super) scale: [f64; 2],
     /// The column and row of the viewport's middle.
-    middle: [f64; 2],
+    pub(super) middle: [f64; 2],
     /// How far a computed column or row of a trusted vertex may be off; see [`Screen::new`].
     margin: [f64; 2],
     /// Half the smaller side of the viewport, for parallel cameras.
@@ -33,13 +34,12 @@ pub(super) struct Screen<'a> {
 
 /// A vertex on the raster.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum ScreenVertex {
-    /// Certainly in front of the eye, at this column and row (to within the margin).
-    At(f64, f64),
-    /// Certainly not in front of the eye.
-    Behind,
-    /// Too near to the eye's plane, or too far out, for a column and row to be trusted.
-    Unknown,
+pub(super) struct ScreenVertex {
+    /// Its column and row, to within the margin. `None` if it is too near to the eye's plane, behind
+    /// the eye of a perspective camera, or too far out for them to be trusted.
+    place: Option<[f64; 2]>,
+    /// Whether it is certainly not in front of the eye.
+    behind: bool,
 }
 
 impl<'a> Screen<'a> {
@@ -104,46 +104,45 @@ impl<'a> Screen<'a> {
     /// The vertex stage: an offset from the eye becomes a place on the raster.
     pub(super) fn vertex(&self, p: DVec3) -> ScreenVertex {
         let (extent, depth) = (p.abs().element_sum(), -p.dot(self.w));
-        // The sign of the depth is certain beyond 3.01u·s.
-        if depth < -extent * (-50f64).exp2() {
-            return ScreenVertex::Behind;
-        }
+        // A computed depth carries 3.01u·s, so that what is behind has a true one below −120u·s. The depth
+        // of a point of a triangle whose corners are all behind is then below −120u·‖point‖₁; but a point
+        // that a ray meets at t > 0 has one of at least the ray's origin, which is 0 for a perspective
+        // camera and, by the frame's skew and its own rounding, at least −8u·‖O‖₁ for a parallel one,
+        // where ‖O‖₁ is at most twice ‖point‖₁.
+        let behind = depth < -extent * (-46f64).exp2();
         let onto_viewport = match self.projection() {
             Projection::Perspective if depth >= extent * (-10f64).exp2() && depth > 0.0 => {
-                self.distance / depth
+                Some(self.distance / depth)
             }
-            Projection::Parallel if extent <= self.trusted_extent => 1.0,
-            _ => return ScreenVertex::Unknown,
+            Projection::Parallel if extent <= self.trusted_extent => Some(1.0),
+            _ => None,
         };
-        if self.margin[0].max(self.margin[1]) > 0.25 {
-            return ScreenVertex::Unknown;
-        }
-        let [column, row] =
-            self.place(p.dot(self.u) * onto_viewport, p.dot(self.v) * onto_viewport);
-        ScreenVertex::At(column, row)
+        let trusted = onto_viewport.filter(|_| self.margin[0].max(self.margin[1]) <= 0.25);
+        let place = trusted.map(|onto| self.place(p.dot(self.u) * onto, p.dot(self.v) * onto));
+        ScreenVertex { place, behind }
     }
 
-    /// The samples that a triangle may cover.
-    pub(super) fn triangle_region<F: Fault>(&self, corners: &[ScreenVertex; 3]) -> Region {
-        let mut low = [f64::INFINITY; 2];
-        let mut high = [f64::NEG_INFINITY; 2];
-        let mut behind = 0;
-        for corner in corners {
-            match *corner {
-                ScreenVertex::At(column, row) => {
-                    low = [low[0].min(column), low[1].min(row)];
-                    high = [high[0].max(column), high[1].max(row)];
-                }
-                ScreenVertex::Behind => behind += 1,
-                ScreenVertex::Unknown => return self.whole(),
-            }
-        }
-        match behind {
-            0 => self.region::<F>(low, high, self.margin),
+    /// The samples that a triangle may cover; `corners` are its offsets from the eye.
+    pub(super) fn triangle_region<F: Fault>(
+        &self,
+        vertices: &[ScreenVertex; 3],
+        corners: impl FnOnce() -> [DVec3; 3],
+    ) -> Region {
+        if vertices.iter().all(|vertex| vertex.behind) {
             // All of it lies behind: with t > 0 no ray gets there.
-            3 => Region { rows: 0..0, columns: 0..0 },
-            _ => self.whole(),
+            return Region { rows: 0..0, columns: 0..0 };
         }
+        let [Some(a), Some(b), Some(c)] = vertices.map(|vertex| vertex.place) else {
+            let sharp = self.margin[0].max(self.margin[1]) <= 0.0625;
+            return match self.projection() {
+                Projection::Perspective if sharp => clip::region(self, &corners()),
+                _ => self.whole(),
+            };
+        };
+        let both = |least: fn(f64, f64) -> f64| {
+            [least(least(a[0], b[0]), c[0]), least(least(a[1], b[1]), c[1])]
+        };
+        self.region::<F>(both(f64::min), both(f64::max), self.margin)
     }
 
     /// The samples that a sphere may cover.
@@ -155,7 +154,7 @@ impl<'a> Screen<'a> {
     /// margin takes `2⁻²⁴`.
     pub(super) fn sphere_region<F: Fault>(&self, center: DVec3, radius: f64) -> Region {
         let (s, depth) = (center.abs().element_sum() + radius, -center.dot(self.w));
-        if depth + radius < -s * (-49f64).exp2() {
+        if depth + radius < -s * (-46f64).exp2() {
             return Region { rows: 0..0, columns: 0..0 };
         }
         let along = [center.dot(self.u), center.dot(self.v)];
@@ -218,7 +217,12 @@ impl<'a> Screen<'a> {
     }
 
     /// The samples between two places, widened by a margin.
-    fn region<F: Fault>(&self, low: [f64; 2], high: [f64; 2], margin: [f64; 2]) -> Region {
+    pub(super) fn region<F: Fault>(
+        &self,
+        low: [f64; 2],
+        high: [f64; 2],
+        margin: [f64; 2],
+    ) -> Region {
         let range = |axis: usize, count: usize| {
             let margin = if F::is(Planted::ShrunkBox) {
                 -f64::EPSILON * (1.0 + low[axis].abs())

@@ -71,6 +71,7 @@ impl TileBuffer {
                 }
             }
             Primitive::Sphere { .. } => self.draw_sphere::<O, F>(&mut brush, &region),
+            Primitive::Plane { .. } if self.memory.is_edge_on(entry.id, &primitive) => {}
             Primitive::Plane { point, normal } => {
                 let mut depth = DepthPlane::new(screen, point, normal, normal.abs());
                 if F::is(Planted::ZeroErrorBound) {

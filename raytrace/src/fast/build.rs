@@ -156,7 +156,7 @@ fn triangle(id: u32, corners: [Vec3; 3]) -> Item {
 /// a side's coordinate or lies within, and stays within, but `center ± radius` was never stored. The
 /// box is therefore wider by 2⁻¹⁸·e. That is more than all roundings of the offsets (and of the box
 /// itself) as long as the eye is nearer to the origin than 2³⁰·e: two of at most 2⁻²³·e each, and 2⁻²¹·e.
-/// The walk tests spheres without their boxes when the eye is farther.
+/// The walk tests spheres without their boxes, too, when the eye is farther.
 fn sphere(id: u32, &Sphere { center, radius }: &Sphere) -> Option<(Item, f32)> {
     let extent = center.abs().max_element() + radius;
     let half = Vec3::splat(radius + (-18f32).exp2() * extent);

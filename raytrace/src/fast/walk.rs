@@ -25,8 +25,8 @@ pub(super) struct Walker<'a> {
     memory: Memory,
     eye: DVec3,
     /// What is tested without a box: planes, and spheres that no box can be trusted to hold, because
-    /// they are huge or the eye is so far away.
-    unbounded: Vec<u32>,
+    /// they are huge or the eye is so far away (those are in boxes, too).
+    unbounded: Vec<(u32, Primitive)>,
     /// Nodes to enter yet, each with a `t` that none of its primitives is nearer than.
     open: Vec<(Child, f64)>,
 }
@@ -83,8 +83,8 @@ impl<'a> Walker<'a> {
         let room = |extent: f32| f64::from(extent) * 30f64.exp2();
         let spheres = prepared.spheres.iter();
         let loose = spheres.filter(|(_, extent)| eye.abs().max_element() > room(*extent));
-        let unbounded =
-            prepared.unbounded.iter().copied().chain(loose.map(|(id, _)| *id)).collect();
+        let ids = prepared.unbounded.iter().chain(loose.map(|(id, _)| id));
+        let unbounded = ids.map(|&id| (id, view.primitive(id))).collect();
         let judge = view.judge();
         Walker {
             prepared,
@@ -107,8 +107,8 @@ impl<'a> Walker<'a> {
         observer.ray_begun(sample);
         let mut hit = None;
         for index in 0..self.unbounded.len() {
-            let id = self.unbounded[index];
-            self.test::<O, F>(ray, sample, id, self.view.primitive(id), &mut hit, observer);
+            let (id, primitive) = self.unbounded[index];
+            self.test::<O, F>(ray, sample, id, primitive, &mut hit, observer);
         }
         let box_ray = BoxRay::new(ray);
         self.open.clear();
@@ -156,6 +156,9 @@ impl<'a> Walker<'a> {
         }
         let node = &self.prepared.nodes[index as usize];
         let entries = [0, 1].map(|child| {
+            if let Child::Leaf { count: 0, .. } = node.children[child] {
+                return None;
+            }
             let bounds = shrunk::<F>(&node.bounds[child]);
             let entry = ray.enter(&bounds, self.eye).filter(|entry| !is_farther(*entry, hit));
             observer.node_opened(sample, 2 * index + [0, 1][child], entry.is_some());
@@ -218,13 +221,16 @@ impl<'a> Walker<'a> {
     /// Asks the judge whether a primitive covers a sample that rounding leaves open.
     #[cold]
     fn judge_covers<O: Observer, F: Fault>(
-        &self,
+        &mut self,
         ray: &Ray,
         sample: Sample,
         id: u32,
         primitive: &Primitive,
         observer: &mut O,
     ) -> bool {
+        if self.memory.is_edge_on(id, primitive) {
+            return false;
+        }
         observer.judged(sample, Question::Coverage);
         let coverage = self.judge.coverage(primitive, ray);
         if let Some(edges) = coverage.edges {
