@@ -7,7 +7,7 @@ pub use framing::{FrameMeshError, framed};
 
 use crate::common::obj::{self, ReadObjError};
 use crate::common::scene_file::{self, SceneFileError, framed_mesh_toml, nearest_name};
-use crate::common::{CameraDescription, Scene, SceneError, Shape};
+use crate::common::{CameraDescription, Scene, SceneError, Shape, smooth};
 use std::ffi::OsStr;
 use std::path::Path;
 
@@ -29,7 +29,7 @@ pub const DEFAULT: &str = "lecture";
 pub const BUILT_IN: &[BuiltIn] = &[
     BuiltIn {
         name: "lecture",
-        about: "The first slide: a torus, a sphere and a plane, with materials and light.",
+        about: "The first slide: Newell's teapot, a sphere and a plane, with materials and light.",
         toml: include_str!("../scenes/lecture.toml"),
     },
     BuiltIn {
@@ -174,7 +174,7 @@ fn load_mesh(path: &Path) -> Result<LoadedScene, LoadError> {
     let camera =
         framed(&mesh).map_err(|error| LoadError::Framing { path: shown.clone(), error })?;
     let toml = framed_mesh_toml(&camera, &shown);
-    let scene = Scene::new(vec![Shape::Mesh(mesh).into()])?;
+    let scene = Scene::new(vec![Shape::Mesh(smooth::with_normals(mesh, smooth::CREASE)).into()])?;
     Ok(LoadedScene { name: stem(path), scene, camera, viewport_stated: false, toml })
 }
 

@@ -17,6 +17,7 @@ use super::transform::{self, Transform};
 use crate::generate::Kind;
 use crate::obj;
 use crate::scene::{Material, Object, Plane, Shape, Sphere, Triangle};
+use crate::smooth;
 use std::path::Path;
 
 const SHAPES: [&str; 5] = ["triangle", "sphere", "plane", "mesh", "generate"];
@@ -83,7 +84,8 @@ fn mesh(item: &Item, folder: &Path) -> Result<Shape, Problem> {
         return Err(problem.help("convert it to OBJ; no other format is read"));
     }
     let mesh = obj::read(&folder.join(path));
-    mesh.map(Shape::Mesh).map_err(|error| Problem::new(item.span.clone(), error.to_string()))
+    let smooth = |mesh| Shape::Mesh(smooth::with_normals(mesh, smooth::CREASE));
+    mesh.map(smooth).map_err(|error| Problem::new(item.span.clone(), error.to_string()))
 }
 
 fn generated(item: &Item) -> Result<Shape, Problem> {

@@ -1,0 +1,75 @@
+//! `bothways mesh`: writes a generated mesh as an OBJ file.
+
+use super::failure::Failure;
+use super::output;
+use bothways::common::generate::Kind;
+use bothways::common::{obj, scene_file};
+use bothways::wording::{count, grouped};
+use clap::Args;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+pub(super) const EXAMPLES: &str = "\
+Kinds and what their divisions count:
+  sphere     around, from pole to pole       radius 1
+  cylinder   around, along                   radius 1, y from -1 to 1, with caps
+  cone       around, along                   radius 1 at y = -1, apex at y = 1, with its base
+  torus      around, around the tube         radius 1 around the y axis, tube 0.4
+  box        along x and z, along y          from -1 to 1
+  grid       across, up                      the square from -1 to 1 in the plane z = 0
+  teapot     both sides of each patch        Newell's, on y = 0, from its Bezier patches
+
+Normals point outward. Closed surfaces share their vertices by index, also across seams.
+
+Examples:
+  bothways mesh teapot -o teapot.obj
+  bothways mesh sphere --divisions 512,256 -o ball.obj
+  bothways mesh grid --divisions 4 -o grid.obj";
+
+/// Which mesh, and where to.
+#[derive(Debug, Args)]
+pub(super) struct MeshArgs {
+    /// sphere, cylinder, cone, torus, box, grid or teapot
+    #[arg(value_parser = kind)]
+    kind: Kind,
+    /// How finely it is divided, in its two directions; one number stands for both
+    #[arg(long, value_name = "N[,M]", value_parser = divisions)]
+    divisions: Option<[u32; 2]>,
+    /// The OBJ file
+    #[arg(short = 'o', long = "output", value_name = "FILE.obj")]
+    file: PathBuf,
+}
+
+/// Generates, writes and says so.
+pub(super) fn run(args: &MeshArgs) -> Result<ExitCode, Failure> {
+    let divisions = args.divisions.unwrap_or_else(|| args.kind.default_divisions());
+    let mesh = args.kind.mesh(divisions).map_err(|error| Failure::new(error.to_string()))?;
+    output::write_file(&args.file, |out| obj::write(&mesh, out))?;
+    let vertices = grouped(mesh.positions().len() as u64);
+    anstream::eprintln!(
+        "wrote {}: {}, {vertices} vertices",
+        args.file.display(),
+        count(mesh.triangles().len() as u64, "triangles")
+    );
+    Ok(ExitCode::SUCCESS)
+}
+
+fn kind(name: &str) -> Result<Kind, String> {
+    Kind::named(name).ok_or_else(|| {
+        let names = Kind::ALL.map(Kind::name);
+        let nearest = scene_file::nearest_name(name, names);
+        let suggestion = nearest.map_or(String::new(), |near| format!("did you mean {near}? "));
+        format!("{suggestion}the kinds are {}", names.join(", "))
+    })
+}
+
+fn divisions(text: &str) -> Result<[u32; 2], String> {
+    let number = |text: &str| {
+        let number = text.trim().parse::<u32>();
+        number.map_err(|_| format!("{text:?} is not a number of divisions; give N or N,M"))
+    };
+    match text.split_once(',') {
+        Some((first, second)) => Ok([number(first)?, number(second)?]),
+        None => number(text).map(|both| [both; 2]),
+    }
+}
