@@ -6,7 +6,7 @@ use bothways::common::glam::Vec3;
 use bothways::common::{
     Camera, CameraDescription, Frame, Options, Orientation, Scene, View, Work, obj,
 };
-use bothways::{rasterize, raytrace};
+use bothways::{rasterize, raytrace, scenes};
 use std::path::Path;
 
 /// The bunny of `../shared`, if that is there.
@@ -39,26 +39,37 @@ fn views() -> impl Iterator<Item = Camera> {
     })
 }
 
-#[test]
-fn fewer_than_one_decision_in_a_thousand_asks_the_judge() {
-    let Some(scene) = bunny() else { return };
-    let prepared = (rasterize::fast::prepare(&scene), raytrace::fast::prepare(&scene));
-    let options = Options::default();
-    for camera in views() {
-        let view = View::new(&scene, &camera);
-        let mut frames = [(); 2].map(|()| Frame::new(&camera, &options));
-        let mut works = [Work::default(); 2];
-        let [object, image] = &mut frames;
-        let [object_work, image_work] = &mut works;
-        rasterize::fast::determine_visibility(&prepared.0, &view, &options, object, object_work);
-        raytrace::fast::determine_visibility(&prepared.1, &view, &options, image, image_work);
-        assert_eq!(frames[0].ids(), frames[1].ids());
-        for (order, work) in ["object order", "image order"].into_iter().zip(works) {
-            let decisions = work.tests + work.depth_tests;
-            let asked = work.judged_coverage + work.judged_nearest;
-            println!("{order}: {asked} of {decisions} decisions asked the judge");
-            assert!(work.fragments > 100_000, "the bunny fills a part of the picture");
-            assert!(1000 * asked < decisions, "{order}: {work:?}");
-        }
+/// Renders with both orders and counts how many decisions each left to the judge.
+fn assert_the_judge_is_seldom_asked(scene: &Scene, camera: &Camera) {
+    let prepared = (rasterize::fast::prepare(scene), raytrace::fast::prepare(scene));
+    let (view, options) = (View::new(scene, camera), Options::default());
+    let mut frames = [(); 2].map(|()| Frame::new(camera, &options));
+    let mut works = [Work::default(); 2];
+    let [object, image] = &mut frames;
+    let [object_work, image_work] = &mut works;
+    rasterize::fast::determine_visibility(&prepared.0, &view, &options, object, object_work);
+    raytrace::fast::determine_visibility(&prepared.1, &view, &options, image, image_work);
+    assert_eq!(frames[0].ids(), frames[1].ids());
+    for (order, work) in ["object order", "image order"].into_iter().zip(works) {
+        let decisions = work.tests + work.depth_tests;
+        let asked = work.judged_coverage + work.judged_nearest;
+        println!("{order}: {asked} of {decisions} decisions asked the judge");
+        assert!(work.fragments > 100_000, "the mesh fills a part of the picture");
+        assert!(1000 * asked < decisions, "{order}: {work:?}");
     }
+}
+
+#[test]
+fn on_the_bunny_fewer_than_one_decision_in_a_thousand_asks_the_judge() {
+    let Some(scene) = bunny() else { return };
+    for camera in views() {
+        assert_the_judge_is_seldom_asked(&scene, &camera);
+    }
+}
+
+#[test]
+fn on_a_built_in_scene_fewer_than_one_decision_in_a_thousand_asks_the_judge() {
+    let many = scenes::load("many").expect("it is built in");
+    let camera = Camera::new(many.camera).expect("it is a camera");
+    assert_the_judge_is_seldom_asked(&many.scene, &camera);
 }

@@ -275,7 +275,10 @@ fn check_scene(name: &str, scene: &Value, toml: &Path, mesh: &Path) {
     let loaded = bothways::scenes::load(toml.to_str().unwrap()).unwrap();
     let mesh = obj::read(mesh).unwrap();
     let [object] = loaded.scene.objects() else { panic!("{name}: one mesh") };
-    assert!(matches!(&object.shape, Shape::Mesh(shown) if *shown == mesh), "{name}");
+    // A mesh without normals gets smooth ones in a scene; what covers pixels stays.
+    let Shape::Mesh(shown) = &object.shape else { panic!("{name}: the object is no mesh") };
+    assert_eq!(shown.positions(), mesh.positions(), "{name}: positions");
+    assert_eq!(shown.triangles(), mesh.triangles(), "{name}: triangles");
     let positions: Vec<Vec<f64>> =
         mesh.positions().iter().map(|position| position.as_dvec3().to_array().to_vec()).collect();
     let stated: Vec<Vec<f64>> = list(&scene["vertices"]).iter().map(numbers).collect();

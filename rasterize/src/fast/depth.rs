@@ -104,14 +104,6 @@ impl DepthPlane {
         }
     }
 
-    /// The key's sign where the plane is in front of the eye: `−1/t` is negative there, `t` positive.
-    pub(super) fn sign_in_front(&self, projection: Projection) -> f64 {
-        match projection {
-            Projection::Perspective => -1.0,
-            Projection::Parallel => 1.0,
-        }
-    }
-
     /// The part of the key that all samples of a row share.
     pub(super) fn on_row(&self, y: f64) -> f64 {
         self.at_centre + y * self.up
@@ -123,5 +115,13 @@ impl DepthPlane {
         let (low, high) = (key - self.error, key + self.error);
         // NaN (from a plane that is not trusted) must not look like an order.
         if low <= high { DepthKey { low, high } } else { DepthKey::UNKNOWN }
+    }
+}
+
+/// The key's sign where something is in front of the eye: `−1/t` is negative there, `t` positive.
+pub(super) fn sign_in_front(projection: Projection) -> f64 {
+    match projection {
+        Projection::Perspective => -1.0,
+        Projection::Parallel => 1.0,
     }
 }

@@ -1,7 +1,7 @@
 //! Where primitives may appear on the raster of samples: the vertex stage and bounding regions.
 
 use super::clip;
-use super::depth::DepthPlane;
+use super::depth::{DepthPlane, sign_in_front};
 use bothways_common::fault::{Fault, Planted};
 use bothways_common::frame::Region;
 use bothways_common::{Camera, Projection, SampleGrid};
@@ -186,7 +186,7 @@ impl<'a> Screen<'a> {
     /// The samples beyond a plane's horizon, where its depth says that `t` may be positive.
     pub(super) fn plane_region(&self, depth: &DepthPlane) -> Region {
         let (x, y) = (self.grid.x(), self.grid.y());
-        let side = depth.sign_in_front(self.projection());
+        let side = sign_in_front(self.projection());
         let widest = x.last().map_or(0.0, |x| x.abs()) * depth.across.abs();
         let highest = y.first().map_or(0.0, |y| y.abs()) * depth.up.abs();
         let slack = depth.error;

@@ -2,7 +2,7 @@
 
 use super::TILE;
 use super::bins::Entry;
-use super::depth::{DepthKey, DepthPlane};
+use super::depth::{DepthKey, DepthPlane, sign_in_front};
 use super::edges::TriangleSetup;
 use super::round::{self, Covered};
 use super::screen::Screen;
@@ -180,7 +180,7 @@ impl TileBuffer {
         depth: &DepthPlane,
         region: &Region,
     ) {
-        let side = depth.sign_in_front(brush.screen.projection());
+        let side = sign_in_front(brush.screen.projection());
         let (xs, ys) = (brush.screen.grid.x(), brush.screen.grid.y());
         let here = region.intersection(&self.region);
         for row in here.rows {
