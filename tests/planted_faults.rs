@@ -24,10 +24,9 @@ const CAUGHT: Verdicts = Verdicts { object_order: false, image_order: false };
 
 fn verdicts<F: Fault>(scene: &Scene, camera: &Camera, fault: F) -> Verdicts {
     let (view, options) = (View::new(scene, camera), Options::default());
-    let object_order = |fault: &dyn Fn(&mut Frame)| {
+    let drawn = |determine_visibility: &dyn Fn(&mut Frame)| {
         let mut frame = Frame::new(camera, &options);
-        fault(&mut frame);
-        rasterize::shade(&view, &mut frame);
+        determine_visibility(&mut frame);
         frame
     };
     let prepared = (rasterize::fast::prepare(scene), raytrace::fast::prepare(scene));
@@ -37,10 +36,10 @@ fn verdicts<F: Fault>(scene: &Scene, camera: &Camera, fault: F) -> Verdicts {
     let traced = |frame: &mut Frame| {
         raytrace::fast::determine_visibility(&prepared.1, &view, &options, frame, &mut ());
     };
-    let sound = (object_order(&rasterized), object_order(&traced));
+    let sound = (drawn(&rasterized), drawn(&traced));
     assert!(compare(&sound.0, &sound.1).matches(), "without a fault the orders match");
     let broken = (
-        object_order(&|frame| {
+        drawn(&|frame| {
             rasterize::fast::determine_visibility_with_fault(
                 &prepared.0,
                 &view,
@@ -50,7 +49,7 @@ fn verdicts<F: Fault>(scene: &Scene, camera: &Camera, fault: F) -> Verdicts {
                 fault,
             );
         }),
-        object_order(&|frame| {
+        drawn(&|frame| {
             raytrace::fast::determine_visibility_with_fault(
                 &prepared.1,
                 &view,

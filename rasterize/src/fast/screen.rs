@@ -28,7 +28,7 @@ pub(super) struct Screen<'a> {
     pub(super) middle: [f64; 2],
     /// How far a computed column or row of a trusted vertex may be off; see [`Screen::new`].
     margin: [f64; 2],
-    /// Half the smaller side of the viewport, for parallel cameras.
+    /// How far from the eye, in the sum of its coordinates, a vertex of a parallel camera is trusted.
     trusted_extent: f64,
 }
 
