@@ -25,6 +25,7 @@ pub mod predicate;
 pub mod scene;
 pub mod scene_file;
 pub mod shade;
+pub mod simd;
 pub mod smooth;
 pub mod view;
 

@@ -32,6 +32,9 @@ pub enum Question {
 /// `edge_signs`, `fragment`, `depth_test`. Image order tells: `ray_begun`, then `node_opened`,
 /// `sample_tested`, `edge_signs`, `fragment`, `depth_test`, and at the end of the ray `hit`.
 pub trait Observer: Send + Sync {
+    /// Whether anything is done with what is told: renderers save themselves the telling if not.
+    const WATCHES: bool = true;
+
     /// A new observer for one part of the picture.
     fn fork(&self) -> Self
     where
@@ -72,6 +75,8 @@ pub trait Observer: Send + Sync {
 }
 
 impl Observer for () {
+    const WATCHES: bool = false;
+
     fn fork(&self) -> Self {}
     fn join(&mut self, (): ()) {}
 }
