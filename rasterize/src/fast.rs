@@ -43,8 +43,8 @@ use std::sync::Mutex;
 use tile::{Picture, TileBuffer};
 use vertices::{Raster, Vertex};
 
-/// Columns and rows of a tile: its keys and ids fill half a MiB.
-const TILE: [usize; 2] = [1024, 64];
+/// Columns and rows of a tile, as powers of two: its keys and ids fill half a MiB.
+const TILE: [u32; 2] = [10, 6];
 /// Primitives that one thread takes up at a time.
 const BATCH: u32 = 4096;
 
@@ -60,7 +60,7 @@ pub struct Prepared {
     bounds: [DVec3; 8],
     has_planes: bool,
     level: Level,
-    tile: [usize; 2],
+    tile: [u32; 2],
     /// Of the last frame, for its allocations alone.
     spare: Mutex<Spare>,
 }
@@ -133,11 +133,11 @@ pub fn prepare(scene: &Scene) -> Prepared {
 }
 
 impl Prepared {
-    /// The same, drawn at another level of SIMD and in tiles of other columns and rows: for tests, which
-    /// see that neither changes a bit.
+    /// The same, drawn at another level of SIMD and in tiles of other columns and rows (powers of
+    /// two): for tests, which see that neither changes a bit.
     #[doc(hidden)]
     #[must_use]
-    pub fn drawn_with(self, level: Level, tile: [usize; 2]) -> Prepared {
+    pub fn drawn_with(self, level: Level, tile: [u32; 2]) -> Prepared {
         Prepared { level, tile, ..self }
     }
 }

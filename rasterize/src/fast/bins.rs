@@ -9,8 +9,9 @@ use super::vertices::{ON_RASTER, OUT_OF_SIGHT, Raster, Vertex};
 use bothways_common::fault::{Fault, Planted};
 use bothways_common::frame::Region;
 use bothways_common::observe::Observer;
-use bothways_common::simd::{Simd, SimdBase, i32x4};
+use bothways_common::simd::{Simd, SimdBase, SimdMask, i32x4};
 use bothways_common::{Mesh, Primitive, Shape, View};
+use std::ops::Range;
 
 /// How a primitive is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,7 +25,7 @@ pub(super) enum Class {
 }
 
 /// All classes, in the order in which a tile draws them.
-const CLASSES: usize = 3;
+const CLASSES: u32 = 3;
 
 /// How the picture is cut into tiles.
 #[derive(Clone, Copy, Debug)]
@@ -32,20 +33,28 @@ pub(super) struct Tiling {
     /// Columns and rows of a tile.
     pub(super) columns: usize,
     pub(super) rows: usize,
+    /// The logarithms of both, before they were cut to the picture.
+    column_bits: u32,
+    row_bits: u32,
     /// Tiles in a row, and rows of them.
-    across: usize,
-    down: usize,
+    across: u32,
+    down: u32,
 }
 
 impl Tiling {
-    pub(super) fn new(screen: &Screen, [columns, rows]: [usize; 2]) -> Tiling {
+    /// Tiles of `2^column_bits` by `2^row_bits` samples.
+    pub(super) fn new(screen: &Screen, [column_bits, row_bits]: [u32; 2]) -> Tiling {
         let (width, height) = (screen.grid.width(), screen.grid.height());
-        let (columns, rows) = (columns.min(width), rows.min(height));
-        Tiling { columns, rows, across: width.div_ceil(columns), down: height.div_ceil(rows) }
+        let (columns, rows) = (width.min(1 << column_bits), height.min(1 << row_bits));
+        let tiles = |side: usize, of: usize| {
+            u32::try_from(side.div_ceil(of)).expect("a side has at most 65,536 samples")
+        };
+        let (across, down) = (tiles(width, columns), tiles(height, rows));
+        Tiling { columns, rows, column_bits, row_bits, across, down }
     }
 
-    fn count(&self) -> usize {
-        self.across * self.down
+    fn lists(&self) -> usize {
+        (self.across * self.down * CLASSES) as usize
     }
 }
 
@@ -53,33 +62,70 @@ impl Tiling {
 #[derive(Clone, Copy, Debug)]
 struct Entry {
     id: u32,
-    class: Class,
-    /// First and last column and row.
-    columns: [u16; 2],
-    rows: [u16; 2],
+    /// Columns and rows: the first, and the last times 2¹⁶.
+    ends: [u32; 2],
+    /// Whether it must be drawn as [`Class::Large`].
+    large: bool,
+    /// The list that it belongs to, or [`Entry::SEVERAL`].
+    list: u32,
 }
 
 impl Entry {
+    const NONE: Entry = Entry { id: 0, ends: [0; 2], large: false, list: 0 };
+    const SEVERAL: u32 = u32::MAX;
+
     /// # Panics
     ///
     /// If the region is empty.
-    fn new(id: u32, class: Class, region: &Region) -> Entry {
+    fn new(id: u32, region: &Region) -> Entry {
         let index = |index: usize| u16::try_from(index).expect("a side has at most 65,536 samples");
-        let ends = |range: &std::ops::Range<usize>| [index(range.start), index(range.end - 1)];
-        Entry { id, class, rows: ends(&region.rows), columns: ends(&region.columns) }
+        let ends = |range: &Range<usize>| {
+            u32::from(index(range.start)) | u32::from(index(range.end - 1)) << 16
+        };
+        Entry { id, ends: [ends(&region.columns), ends(&region.rows)], large: true, list: 0 }
     }
 
-    /// The numbers of the lists, of this class, of the tiles that the region overlaps.
+    /// First and last column, first and last row.
     #[inline(always)]
-    fn lists(&self, tiling: &Tiling) -> impl Iterator<Item = usize> + use<> {
-        let tiles = |[first, last]: [u16; 2], side: usize| {
-            usize::from(first) / side..=usize::from(last) / side
-        };
-        let columns = tiles(self.columns, tiling.columns);
-        let (across, class) = (tiling.across, self.class as usize);
-        tiles(self.rows, tiling.rows).flat_map(move |row| {
-            columns.clone().map(move |column| (row * across + column) * CLASSES + class)
-        })
+    fn bounds(&self) -> [[u32; 2]; 2] {
+        let [columns, rows] = self.ends;
+        [[columns & 0xffff, columns >> 16], [rows & 0xffff, rows >> 16]]
+    }
+
+    #[inline(always)]
+    fn class(&self) -> Class {
+        let [columns, rows] = self.bounds();
+        let samples = (columns[1] - columns[0] + 1) * (rows[1] - rows[0] + 1);
+        if self.large {
+            Class::Large
+        } else if samples <= small::MOST_SAMPLES {
+            Class::Small
+        } else {
+            Class::Block
+        }
+    }
+
+    /// The list of this class of the only tile that the region overlaps.
+    #[inline(always)]
+    fn only_list(&self, tiling: &Tiling) -> u32 {
+        let [columns, rows] = self.bounds();
+        let [row, column] = [rows[0] >> tiling.row_bits, columns[0] >> tiling.column_bits];
+        let is_only =
+            row == rows[1] >> tiling.row_bits && column == columns[1] >> tiling.column_bits;
+        let list = (row * tiling.across + column) * CLASSES + self.class() as u32;
+        if is_only { list } else { Entry::SEVERAL }
+    }
+
+    /// Does something for the list, of this class, of every tile that the region overlaps.
+    #[inline(always)]
+    fn for_each_list(&self, tiling: &Tiling, mut action: impl FnMut(usize)) {
+        let [columns, rows] = self.bounds();
+        let class = self.class() as u32;
+        for row in rows[0] >> tiling.row_bits..=rows[1] >> tiling.row_bits {
+            for column in columns[0] >> tiling.column_bits..=columns[1] >> tiling.column_bits {
+                action(((row * tiling.across + column) * CLASSES + class) as usize);
+            }
+        }
     }
 }
 
@@ -87,6 +133,8 @@ impl Entry {
 #[derive(Debug, Default)]
 pub(super) struct BatchBins {
     entries: Vec<Entry>,
+    /// How many entries there are.
+    count: usize,
     ids: Vec<u32>,
     /// Where each list begins, and behind the last where it ends.
     starts: Vec<u32>,
@@ -106,7 +154,7 @@ pub(super) struct Binning<'a> {
 impl BatchBins {
     /// The ids of one class in a tile.
     pub(super) fn list(&self, tile: usize, class: Class) -> &[u32] {
-        let list = tile * CLASSES + class as usize;
+        let list = tile * CLASSES as usize + class as usize;
         &self.ids[self.starts[list] as usize..self.starts[list + 1] as usize]
     }
 
@@ -119,7 +167,9 @@ impl BatchBins {
         binning: &Binning,
         observer: &mut O,
     ) {
-        self.entries.clear();
+        // As long as it can get, so that the loops below need not ask.
+        self.entries.resize(batch.count as usize, Entry::NONE);
+        self.count = 0;
         let objects = binning.view.scene.objects();
         let (mut object, mut local) = binning.view.scene.locate(batch.first_id);
         let mut id = batch.first_id;
@@ -150,7 +200,7 @@ impl BatchBins {
                 }
                 Shape::Sphere(_) | Shape::Plane(_) => {
                     let region = region::<F>(&binning.view.primitive(id), binning.screen);
-                    self.add(id, Class::Large, &region, observer);
+                    self.add(id, &region, observer);
                 }
             }
             id += u32::try_from(count).expect("a batch is small");
@@ -171,98 +221,102 @@ impl BatchBins {
     ) {
         let flags = corners[0][3] & corners[1][3] & corners[2][3];
         if flags & OUT_OF_SIGHT != 0 {
-            self.add(id, Class::Small, &Region { rows: 0..0, columns: 0..0 }, observer);
+            self.add(id, &Region { rows: 0..0, columns: 0..0 }, observer);
         } else if flags & ON_RASTER != 0 {
-            let (class, ends) = bounds::<S, F>(simd, binning.raster, corners);
-            let [columns, rows] = ends;
+            let (entry, is_seen) = entry::<S, F>(simd, id, binning.raster, corners);
             if O::WATCHES {
-                let range = |[first, last]: [i32; 2]| {
-                    let index = |place: i32| usize::try_from(place.max(0)).unwrap_or(0);
-                    index(first)..index(last + 1)
+                let range = |[first, last]: [u32; 2]| first as usize..last as usize + 1;
+                let [columns, rows] = entry.bounds();
+                let region = if is_seen {
+                    Region { rows: range(rows), columns: range(columns) }
+                } else {
+                    Region { rows: 0..0, columns: 0..0 }
                 };
-                let region = Region { rows: range(rows), columns: range(columns) };
                 observer.primitive_begun(id, &region);
             }
-            if columns[0] <= columns[1] && rows[0] <= rows[1] {
-                #[expect(
-                    clippy::cast_possible_truncation,
-                    clippy::cast_sign_loss,
-                    reason = "within the picture, which has at most 65,536 samples a side"
-                )]
-                let index = |place: i32| place as u16;
-                let entry = Entry { id, class, columns: columns.map(index), rows: rows.map(index) };
-                self.entries.push(entry);
-            }
+            self.entries[self.count] = entry;
+            self.count += usize::from(is_seen);
         } else {
             let corners = offsets();
             let vertices = corners.map(|corner| binning.screen.vertex(corner));
             let region = binning.screen.triangle_region::<F>(&vertices, || corners);
-            self.add(id, Class::Large, &region, observer);
+            self.add(id, &region, observer);
         }
     }
 
-    fn add<O: Observer>(&mut self, id: u32, class: Class, region: &Region, observer: &mut O) {
+    fn add<O: Observer>(&mut self, id: u32, region: &Region, observer: &mut O) {
         observer.primitive_begun(id, region);
         if !region.is_empty() {
-            self.entries.push(Entry::new(id, class, region));
+            self.entries[self.count] = Entry::new(id, region);
+            self.count += 1;
         }
     }
 
     /// A counting sort: it keeps the order of entries within a list.
     #[inline(always)]
     fn sort(&mut self, tiling: &Tiling) {
-        let lists = tiling.count() * CLASSES;
+        let lists = tiling.lists();
+        let entries = &mut self.entries[..self.count];
         // While it counts, each list's number stands two places behind its own; while it fills, one.
         self.starts.clear();
         self.starts.resize(lists + 2, 0);
-        for entry in &self.entries {
-            entry.lists(tiling).for_each(|list| self.starts[list + 2] += 1);
+        for entry in &mut *entries {
+            entry.list = entry.only_list(tiling);
+            if entry.list == Entry::SEVERAL {
+                entry.for_each_list(tiling, |list| self.starts[list + 2] += 1);
+            } else {
+                self.starts[entry.list as usize + 2] += 1;
+            }
         }
         for list in 2..lists + 2 {
             self.starts[list] += self.starts[list - 1];
         }
         self.ids.resize(self.starts[lists + 1] as usize, 0);
-        for entry in &self.entries {
-            for list in entry.lists(tiling) {
-                let next = &mut self.starts[list + 1];
-                self.ids[*next as usize] = entry.id;
-                *next += 1;
+        let (starts, ids) = (&mut self.starts, &mut self.ids);
+        let mut put = |list: usize, id: u32| {
+            let next = &mut starts[list + 1];
+            ids[*next as usize] = id;
+            *next += 1;
+        };
+        for entry in &*entries {
+            if entry.list == Entry::SEVERAL {
+                entry.for_each_list(tiling, |list| put(list, entry.id));
+            } else {
+                put(entry.list as usize, entry.id);
             }
         }
     }
 }
 
-/// How a triangle of trusted vertices is drawn, and the first and last column and row that it may
-/// cover; see `setup::side`, which finds the same.
+/// The entry of a triangle of trusted vertices, and whether it may cover a sample at all; see
+/// `setup::side`, which finds the same bounds.
 #[inline(always)]
-fn bounds<S: Simd, F: Fault>(
+fn entry<S: Simd, F: Fault>(
     simd: S,
+    id: u32,
     raster: &Raster,
     corners: &[Vertex; 3],
-) -> (Class, [[i32; 2]; 2]) {
-    let splat = |value: i32| i32x4::splat(simd, value);
+) -> (Entry, bool) {
     let bits = raster.fraction_bits;
     let margin = if F::is(Planted::ShrunkBox) { -1 } else { 2 };
-    let [a, b, c] = corners.map(|corner| i32x4::load_array(simd, corner));
+    let [width, height] = raster.size;
+    // Of the four numbers of a vertex, the first two are of interest.
+    let a = i32x4::load_array(simd, corners[0]);
+    let b = i32x4::load_array(simd, corners[1]);
+    let c = i32x4::load_array(simd, corners[2]);
     let (low, high) = (a.min(b).min(c), a.max(b).max(c));
-    let first = ((low + splat((1 << bits) - 1 - margin)) >> bits).max(splat(0));
-    let last = (high + splat(margin)) >> bits;
-    let size = i32x4::load_array(simd, [raster.size[0] - 1, raster.size[1] - 1, 0, 0]);
-    let last = last.min(size);
-    let (first, last) = (first.to_array(), last.to_array());
-    // Places span less than 2³¹ units, so that the difference is right as an unsigned number.
-    let extent =
-        |axis: usize| high.to_array()[axis].wrapping_sub(low.to_array()[axis]).cast_unsigned();
-    let widest = extent(0).max(extent(1)) >> bits;
-    let samples = (last[0] - first[0] + 1).wrapping_mul(last[1] - first[1] + 1);
-    let class = if widest >= MOST_SAMPLES_ACROSS.cast_unsigned() {
-        Class::Large
-    } else if samples <= small::MOST_SAMPLES {
-        Class::Small
-    } else {
-        Class::Block
-    };
-    (class, [[first[0], last[0]], [first[1], last[1]]])
+    let first = (low + i32x4::splat(simd, (1 << bits) - 1 - margin)) >> bits;
+    let first = first.max(i32x4::splat(simd, 0));
+    let last = (high + i32x4::splat(simd, margin)) >> bits;
+    let last = last.min(i32x4::load_array(simd, [width - 1, height - 1, 0, 0]));
+    let is_seen = first.simd_le(last).to_bitmask() & 3 == 3;
+    let [columns, rows, ..] = (first | (last << 16)).to_array();
+    // Places span less than 2³² units: what wraps is negative.
+    let [wide, tall, ..] = (high - low).to_array();
+    let most = MOST_SAMPLES_ACROSS.cast_unsigned() << bits;
+    let large = wide.cast_unsigned().max(tall.cast_unsigned()) >= most;
+    let ends = [columns.cast_unsigned(), rows.cast_unsigned()];
+    (Entry { id, ends, large, list: 0 }, is_seen)
 }
 
 fn offsets(mesh: &Mesh, triangle: &[u32; 3], view: &View) -> [glam::DVec3; 3] {

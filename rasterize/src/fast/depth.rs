@@ -118,10 +118,10 @@ pub(super) fn sign_in_front(projection: Projection) -> f64 {
 /// What the z-buffer stores where nothing is seen.
 pub(super) const NOTHING: f32 = 0.0;
 /// How far a key may be from the true one, as a part of it.
-pub(super) const KEY_ERROR: f32 = 1.0 / (1 << 19) as f32;
+pub(super) const KEY_ERROR: f32 = 1.0 / (1 << 18) as f32;
 /// A key that is larger than another times this is certainly nearer: both may be off by
 /// [`KEY_ERROR`], and the product by a rounding.
-pub(super) const NEARER: f32 = 1.0 + 1.0 / (1 << 17) as f32;
+pub(super) const NEARER: f32 = 1.0 + 1.0 / (1 << 16) as f32;
 /// Keys within this range and its reciprocal are far from overflow and underflow.
 pub(super) const LARGEST_KEY: f64 = (1_u128 << 100) as f64;
 
@@ -147,16 +147,17 @@ impl KeyScale {
         let low = bounds.iter().map(depth).fold(f64::INFINITY, f64::min);
         let high = bounds.iter().map(depth).fold(f64::NEG_INFINITY, f64::max);
         let offset = match camera.projection() {
-            // From an eye within the box, 1/t has no bound above: far things keep what 0 gives.
+            // From an eye within the box, 1/t has no bound above. Otherwise the nearest key is about
+            // twice the farthest, so that one bound relative to a key suits a whole triangle.
             Projection::Perspective if unbounded || low <= 0.0 || !high.is_finite() => 0.0,
             Projection::Perspective => {
                 let (far, near) = (camera.distance() / high, camera.distance() / low);
-                (far - (0.125 * (near - far)).max(GAP * far)).max(0.0)
+                (far - (near - far).max(GAP * far)).max(0.0)
             }
             Projection::Parallel => {
                 // Planes may be farther than the rest; twice is a guess that costs one bit.
                 let low = low.max(0.0);
-                let room = if unbounded { high.abs() } else { 0.125 * (high - low) };
+                let room = if unbounded { high.abs() } else { 0.5 * (high - low) };
                 (high + room.max(GAP * high.abs())).clamp(0.0, f64::from(f32::MAX))
             }
         };

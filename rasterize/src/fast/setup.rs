@@ -62,10 +62,11 @@ impl Lanes {
         Lanes { ids: [0; 16], x: empty, y: empty, keys: empty, flags: [0; 16], count: 0 }
     }
 
-    /// Fills the lanes with triangles; lanes beyond them repeat nothing and cover nothing.
+    /// Fills the lanes with triangles; lanes beyond them cover nothing.
+    #[inline(always)]
     pub(super) fn fill(&mut self, ids: &[u32], mut vertices: impl FnMut(u32) -> [Vertex; 3]) {
         self.count = ids.len();
-        for (lane, &id) in ids.iter().enumerate().take(16) {
+        for (lane, &id) in ids.iter().take(16).enumerate() {
             let [a, b, c] = vertices(id);
             self.ids[lane] = id;
             for (corner, vertex) in [a, b, c].iter().enumerate() {
@@ -112,37 +113,31 @@ impl Setup {
     #[inline(always)]
     pub(super) fn new<S: Simd, F: Fault>(simd: S, raster: &Raster, lanes: &Lanes) -> Setup {
         let splat = |value: f32| f32x16::splat(simd, value);
-        let unit = splat(raster.unit());
-        let load = |lanes: &[i32; 16]| i32x16::load_array_ref(simd, lanes);
-        let x = [load(&lanes.x[0]), load(&lanes.x[1]), load(&lanes.x[2])];
-        let y = [load(&lanes.y[0]), load(&lanes.y[1]), load(&lanes.y[2])];
+        let x = load(simd, &lanes.x);
+        let y = load(simd, &lanes.y);
         let keys = [key(simd, lanes, 0), key(simd, lanes, 1), key(simd, lanes, 2)];
-        let in_samples = |fixed: i32x16<S>| fixed.to_float::<f32x16<S>>() * unit;
 
         let (first_column, columns, origin_x, width) = side::<S, F>(simd, raster, 0, &x);
         let (first_row, rows, origin_y, height) = side::<S, F>(simd, raster, 1, &y);
-        let lane = i32x16::load_array(simd, std::array::from_fn(|lane| lane as i32));
+        let lane = i32x16::load_array(simd, LANES);
         #[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "up to 16")]
         let used = lane.simd_lt(i32x16::splat(simd, lanes.count as i32));
 
         let product = width * height;
         let rounding = splat(13.6 * UNIT_ROUNDOFF) * product;
         let error = splat(raster.slack) * (width + height) + rounding;
-        let aligned = load(&lanes.flags) & i32x16::splat(simd, ALIGNED);
+        let aligned = i32x16::load_array_ref(simd, &lanes.flags) & i32x16::splat(simd, ALIGNED);
         let aligned = aligned.simd_ne(i32x16::splat(simd, 0));
         let error = aligned.select(splat(0.0), error);
         let error = if F::is(Planted::ZeroErrorBound) { splat(0.0) } else { error };
 
-        let edge = |p: usize, q: usize| {
-            (
-                in_samples(x[q] - x[p]),
-                in_samples(y[q] - y[p]),
-                in_samples(x[p] - origin_x),
-                in_samples(y[p] - origin_y),
-            )
-        };
-        let edges = [edge(0, 1), edge(1, 2), edge(2, 0)];
-        let area = edges[0].1 * edges[2].0 - edges[0].0 * edges[2].1;
+        let unit = splat(raster.unit);
+        // From corner to corner, and from the box's first sample to each.
+        let dx = [difference(x[1], x[0], unit), difference(x[2], x[1], unit), difference(x[0], x[2], unit)];
+        let dy = [difference(y[1], y[0], unit), difference(y[2], y[1], unit), difference(y[0], y[2], unit)];
+        let px = [difference(x[0], origin_x, unit), difference(x[1], origin_x, unit), difference(x[2], origin_x, unit)];
+        let py = [difference(y[0], origin_y, unit), difference(y[1], origin_y, unit), difference(y[2], origin_y, unit)];
+        let area = dy[0] * dx[2] - dx[0] * dy[2];
         let facing = area.simd_lt(splat(0.0)).select(splat(-1.0), splat(1.0));
         let area = area.abs();
         let flat = area.simd_eq(splat(0.0));
@@ -152,9 +147,9 @@ impl Setup {
         let mut across = at_origin;
         let mut down = at_origin;
         let mut shift = at_origin;
-        for (k, (dx, dy, px, py)) in edges.into_iter().enumerate() {
-            across[k] = -dy * facing;
-            down[k] = dx * facing;
+        for k in 0..3 {
+            across[k] = -dy[k] * facing;
+            down[k] = dx[k] * facing;
             let to_right = across[k].simd_gt(splat(0.0));
             let level = across[k].simd_eq(splat(0.0));
             let owned = to_right | (level & down[k].simd_gt(splat(0.0)));
@@ -162,7 +157,7 @@ impl Setup {
             let by =
                 if F::is(Planted::StrictComparison) { -half } else { owned.select(half, -half) };
             shift[k] = aligned.select(by, splat(0.0));
-            at_origin[k] = (dy * px - dx * py) * facing + shift[k];
+            at_origin[k] = (dy[k] * px[k] - dx[k] * py[k]) * facing + shift[k];
         }
 
         let (to_b, to_c) = (keys[1] - keys[0], keys[2] - keys[0]);
@@ -178,20 +173,20 @@ impl Setup {
             keyed = used;
         }
         let drawn = used & certain & !(aligned & flat);
-        let count = |count: i32x16<S>| drawn.select(count, i32x16::splat(simd, 0)).to_array();
+        let columns = drawn.select(columns, i32x16::splat(simd, 0));
         let lanes_of = |mask: u64| u16::try_from(mask).expect("a mask has 16 lanes");
         Setup {
             ids: lanes.ids,
-            at_origin: at_origin.map(SimdBase::to_array),
-            across: across.map(SimdBase::to_array),
-            down: down.map(SimdBase::to_array),
+            at_origin: arrays(at_origin),
+            across: arrays(across),
+            down: arrays(down),
             error: error.to_array(),
             key: keyed.select(key_at_origin, splat(f32::NAN)).to_array(),
             key_b: key_b.to_array(),
             key_c: key_c.to_array(),
             first_column: first_column.to_array(),
             first_row: first_row.to_array(),
-            columns: count(columns),
+            columns: columns.to_array(),
             rows: rows.to_array(),
             facing: facing.to_array(),
             doubtful: lanes_of((used & !certain).to_bitmask()),
@@ -231,6 +226,29 @@ impl Setup {
     }
 }
 
+/// The numbers of the lanes.
+const LANES: [i32; 16] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
+
+#[inline(always)]
+fn load<S: Simd>(simd: S, [a, b, c]: &[[i32; 16]; 3]) -> [i32x16<S>; 3] {
+    [
+        i32x16::load_array_ref(simd, a),
+        i32x16::load_array_ref(simd, b),
+        i32x16::load_array_ref(simd, c),
+    ]
+}
+
+#[inline(always)]
+fn arrays<S: Simd>([a, b, c]: [f32x16<S>; 3]) -> [[f32; 16]; 3] {
+    [a.to_array(), b.to_array(), c.to_array()]
+}
+
+/// The difference of two fixed-point places, in samples.
+#[inline(always)]
+fn difference<S: Simd>(to: i32x16<S>, from: i32x16<S>, unit: f32x16<S>) -> f32x16<S> {
+    (to - from).to_float::<f32x16<S>>() * unit
+}
+
 /// The keys of one corner of all triangles.
 #[inline(always)]
 fn key<S: Simd>(simd: S, lanes: &Lanes, corner: usize) -> f32x16<S> {
@@ -258,6 +276,6 @@ fn side<S: Simd, F: Fault>(
     let last = ((high + splat(margin)) >> bits).min(splat(raster.size[axis] - 1));
     let count = (last - first + splat(1)).max(splat(0));
     let length =
-        (high - low + splat(4)).to_float::<f32x16<S>>() * f32x16::splat(simd, raster.unit());
+        (high - low + splat(4)).to_float::<f32x16<S>>() * f32x16::splat(simd, raster.unit);
     (first, count, first << bits, length)
 }

@@ -7,7 +7,7 @@ use bothways_common::observe::Observer;
 use bothways_common::simd::{Select, Simd, SimdBase, SimdInt, SimdMask, f32x16, i32x16, mask32x16};
 
 /// Boxes of at most this many samples are drawn here.
-pub(super) const MOST_SAMPLES: i32 = 16;
+pub(super) const MOST_SAMPLES: u32 = 16;
 
 /// Draws what of the triangles lies in the tile.
 #[inline(always)]

@@ -239,37 +239,52 @@ impl TileBuffer {
     pub(super) fn store<S: Simd>(&self, simd: S, picture: &Picture, tile: Tile) {
         for (row, (ids, t)) in tile.ids.into_iter().zip(tile.t).enumerate() {
             let start = row * self.stride;
-            let mut column = 0;
-            while column < ids.len() {
-                let (from, end) = (start + column, (column + 16).min(ids.len()));
-                let keys = f32x16::from_slice(simd, &self.keys[from..from + 16]);
-                let (distances, unsure) = distances(simd, &picture.keys, keys);
-                let nothing = keys.simd_eq(f32x16::splat(simd, NOTHING));
-                let seen = u32x16::from_slice(simd, &self.ids[from..from + 16]);
-                let seen = nothing.select(u32x16::splat(simd, NO_PRIMITIVE), seen).to_array();
-                let distances = nothing.select(f32x16::splat(simd, f32::INFINITY), distances);
-                let count = end - column;
-                ids[column..end].copy_from_slice(&seen[..count]);
-                t[column..end].copy_from_slice(&distances.to_array()[..count]);
-                let mut unsure = unsure.to_bitmask();
-                while unsure != 0 {
-                    let lane = unsure.trailing_zeros() as usize;
-                    unsure &= unsure - 1;
-                    if lane < count && seen[lane] != NO_PRIMITIVE {
-                        t[column + lane] = self.judged_distance(picture, from + lane);
-                    }
-                }
-                column = end;
+            let (whole_ids, rest_ids) = ids.as_chunks_mut::<16>();
+            let (whole_t, rest_t) = t.as_chunks_mut::<16>();
+            let whole = 16 * whole_ids.len();
+            let from = (start..).step_by(16);
+            for ((ids, t), from) in whole_ids.iter_mut().zip(whole_t).zip(from) {
+                self.store_sixteen(simd, picture, from, ids, t);
+            }
+            if !rest_ids.is_empty() {
+                let (mut ids, mut t) = ([NO_PRIMITIVE; 16], [f32::INFINITY; 16]);
+                self.store_sixteen(simd, picture, start + whole, &mut ids, &mut t);
+                rest_ids.copy_from_slice(&ids[..rest_ids.len()]);
+                rest_t.copy_from_slice(&t[..rest_t.len()]);
             }
         }
     }
 
+    #[inline(always)]
+    fn store_sixteen<S: Simd>(
+        &self,
+        simd: S,
+        picture: &Picture,
+        from: usize,
+        ids: &mut [u32; 16],
+        t: &mut [f32; 16],
+    ) {
+        let keys = f32x16::from_slice(simd, &self.keys[from..from + 16]);
+        let nothing = keys.simd_eq(f32x16::splat(simd, NOTHING));
+        let (distances, unsure) = distances(simd, &picture.keys, keys);
+        let unsure = unsure & !nothing;
+        nothing.select(f32x16::splat(simd, f32::INFINITY), distances).store_array(t);
+        let seen = u32x16::from_slice(simd, &self.ids[from..from + 16]);
+        nothing.select(u32x16::splat(simd, NO_PRIMITIVE), seen).store_array(ids);
+        if unsure.any_true() {
+            self.judge_distances(picture, from, unsure.to_bitmask(), t);
+        }
+    }
+
     #[cold]
-    fn judged_distance(&self, picture: &Picture, index: usize) -> f32 {
-        let Sample { row, column } = self.sample(index);
-        let ray = picture.screen.grid.ray(row, column);
-        let primitive = picture.view.primitive(self.ids[index]);
-        stored_t(picture.view.judge().distance(&primitive, &ray))
+    fn judge_distances(&self, picture: &Picture, from: usize, lanes: u64, t: &mut [f32; 16]) {
+        let judge = picture.view.judge();
+        for (lane, t) in t.iter_mut().enumerate().filter(|(lane, _)| lanes >> lane & 1 == 1) {
+            let Sample { row, column } = self.sample(from + lane);
+            let ray = picture.screen.grid.ray(row, column);
+            let primitive = picture.view.primitive(self.ids[from + lane]);
+            *t = stored_t(judge.distance(&primitive, &ray));
+        }
     }
 }
 

@@ -34,6 +34,8 @@ pub(super) const ALIGNED: i32 = 64;
 pub(super) struct Raster {
     /// Bits behind the point of a column or row.
     pub(super) fraction_bits: u32,
+    /// One fixed-point unit, in samples.
+    pub(super) unit: f32,
     /// Columns and rows of samples.
     pub(super) size: [i32; 2],
     /// How far the fixed-point column or row of a vertex, less that of a sample, may be from the true
@@ -68,17 +70,13 @@ impl Raster {
         let slack = (1.01 * (unit + 3.0 * margin)) as f32;
         Raster {
             fraction_bits: bits,
+            unit: 0.5f32.powi(bits.cast_signed()),
             size: [size(width), size(height)],
             slack,
             keys,
             trusted: margin <= unit,
             grid: exact_grid(screen),
         }
-    }
-
-    /// One fixed-point unit, in samples.
-    pub(super) fn unit(&self) -> f32 {
-        0.5f32.powi(self.fraction_bits.cast_signed())
     }
 
     /// The vertex stage for any number of vertices.
