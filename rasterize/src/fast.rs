@@ -45,8 +45,9 @@ use vertices::{Raster, Vertex};
 
 /// Columns and rows of a tile, as powers of two: its keys and ids fill half a MiB.
 const TILE: [u32; 2] = [10, 6];
-/// Primitives that one thread takes up at a time.
-const BATCH: u32 = 4096;
+/// Primitives that one thread takes up at a time: at most, and at least if there are enough.
+const MOST_IN_BATCH: u32 = 1 << 15;
+const LEAST_IN_BATCH: u32 = 1 << 10;
 
 /// What a moving camera would not repeat: the scene cut into batches that threads can share, and how
 /// far it reaches.
@@ -84,8 +85,10 @@ struct Batch {
 /// Prepares a scene for any number of views of it.
 pub fn prepare(scene: &Scene) -> Prepared {
     let primitives = scene.primitive_count();
-    let first_ids = (0..primitives).step_by(BATCH as usize);
-    let batch = |first_id| Batch { first_id, count: BATCH.min(primitives - first_id) };
+    // Some dozens of batches share well between threads.
+    let most = (primitives / 64).clamp(LEAST_IN_BATCH, MOST_IN_BATCH);
+    let first_ids = (0..primitives).step_by(most as usize);
+    let batch = |first_id| Batch { first_id, count: most.min(primitives - first_id) };
     let mut first_vertices = vec![0];
     let mut bounds = [DVec3::INFINITY, DVec3::NEG_INFINITY];
     let mut has_planes = false;
@@ -337,11 +340,15 @@ impl Drawing<'_> {
         let mut large = Vec::new();
         for bins in self.bins {
             large.clear();
-            for ids in bins.list(tile, Class::Small).chunks(16) {
-                lanes.fill(ids, |id| find.vertices(id));
-                let setup = Setup::new::<S, F>(simd, self.binning.raster, &lanes);
-                large.extend(setup.lanes(setup.doubtful));
-                small::draw::<S, O, F>(simd, &setup, buffer, observer);
+            for class in [Class::Tiny, Class::Small] {
+                for ids in bins.list(tile, class).chunks(16) {
+                    lanes.fill(ids, |id| find.vertices(id));
+                    let setup = Setup::new::<S, F>(simd, self.binning.raster, &lanes);
+                    if setup.doubtful != 0 {
+                        large.extend(setup.lanes(setup.doubtful));
+                    }
+                    small::draw::<S, O, F>(simd, &setup, buffer, observer);
+                }
             }
             for ids in bins.list(tile, Class::Block).chunks(16) {
                 lanes.fill(ids, |id| find.vertices(id));

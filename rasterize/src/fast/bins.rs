@@ -16,7 +16,9 @@ use std::ops::Range;
 /// How a primitive is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Class {
-    /// A triangle over few samples.
+    /// A triangle over very few samples.
+    Tiny,
+    /// A triangle over few.
     Small,
     /// A triangle over more.
     Block,
@@ -24,8 +26,7 @@ pub(super) enum Class {
     Large,
 }
 
-/// All classes, in the order in which a tile draws them.
-const CLASSES: u32 = 3;
+const CLASSES: u32 = 4;
 
 /// How the picture is cut into tiles.
 #[derive(Clone, Copy, Debug)]
@@ -66,13 +67,10 @@ struct Entry {
     ends: [u32; 2],
     /// Whether it must be drawn as [`Class::Large`].
     large: bool,
-    /// The list that it belongs to, or [`Entry::SEVERAL`].
-    list: u32,
 }
 
 impl Entry {
-    const NONE: Entry = Entry { id: 0, ends: [0; 2], large: false, list: 0 };
-    const SEVERAL: u32 = u32::MAX;
+    const NONE: Entry = Entry { id: 0, ends: [0; 2], large: false };
 
     /// # Panics
     ///
@@ -82,7 +80,7 @@ impl Entry {
         let ends = |range: &Range<usize>| {
             u32::from(index(range.start)) | u32::from(index(range.end - 1)) << 16
         };
-        Entry { id, ends: [ends(&region.columns), ends(&region.rows)], large: true, list: 0 }
+        Entry { id, ends: [ends(&region.columns), ends(&region.rows)], large: true }
     }
 
     /// First and last column, first and last row.
@@ -98,6 +96,8 @@ impl Entry {
         let samples = (columns[1] - columns[0] + 1) * (rows[1] - rows[0] + 1);
         if self.large {
             Class::Large
+        } else if samples <= small::VERY_FEW_SAMPLES {
+            Class::Tiny
         } else if samples <= small::MOST_SAMPLES {
             Class::Small
         } else {
@@ -107,13 +107,13 @@ impl Entry {
 
     /// The list of this class of the only tile that the region overlaps.
     #[inline(always)]
-    fn only_list(&self, tiling: &Tiling) -> u32 {
+    fn only_list(&self, tiling: &Tiling) -> Option<usize> {
         let [columns, rows] = self.bounds();
         let [row, column] = [rows[0] >> tiling.row_bits, columns[0] >> tiling.column_bits];
         let is_only =
             row == rows[1] >> tiling.row_bits && column == columns[1] >> tiling.column_bits;
         let list = (row * tiling.across + column) * CLASSES + self.class() as u32;
-        if is_only { list } else { Entry::SEVERAL }
+        is_only.then_some(list as usize)
     }
 
     /// Does something for the list, of this class, of every tile that the region overlaps.
@@ -129,16 +129,17 @@ impl Entry {
     }
 }
 
-/// The primitives of one batch, sorted by tile and class.
+/// The primitives of one batch, for each tile and class a list of ids.
 #[derive(Debug, Default)]
 pub(super) struct BatchBins {
+    lists: Vec<Vec<u32>>,
+    /// Some entries on their way to the lists.
     entries: Vec<Entry>,
-    /// How many entries there are.
     count: usize,
-    ids: Vec<u32>,
-    /// Where each list begins, and behind the last where it ends.
-    starts: Vec<u32>,
 }
+
+/// So many entries stay in the fastest cache.
+const ENTRIES: usize = 512;
 
 /// What binning needs to know of the frame.
 pub(super) struct Binning<'a> {
@@ -154,8 +155,7 @@ pub(super) struct Binning<'a> {
 impl BatchBins {
     /// The ids of one class in a tile.
     pub(super) fn list(&self, tile: usize, class: Class) -> &[u32] {
-        let list = tile * CLASSES as usize + class as usize;
-        &self.ids[self.starts[list] as usize..self.starts[list + 1] as usize]
+        &self.lists[tile * CLASSES as usize + class as usize]
     }
 
     /// Finds the bounding region of every primitive of a batch, and the tiles that it overlaps.
@@ -167,8 +167,9 @@ impl BatchBins {
         binning: &Binning,
         observer: &mut O,
     ) {
-        // As long as it can get, so that the loops below need not ask.
-        self.entries.resize(batch.count as usize, Entry::NONE);
+        self.lists.resize_with(binning.tiling.lists(), Vec::new);
+        self.lists.iter_mut().for_each(Vec::clear);
+        self.entries.resize(ENTRIES, Entry::NONE);
         self.count = 0;
         let objects = binning.view.scene.objects();
         let (mut object, mut local) = binning.view.scene.locate(batch.first_id);
@@ -181,12 +182,17 @@ impl BatchBins {
                 Shape::Mesh(mesh) => {
                     let vertices = &binning.vertices[binning.first_vertices[object]..];
                     let triangles = &mesh.triangles()[local..local + count];
-                    for (triangle, id) in triangles.iter().zip(id..) {
-                        let corners = triangle.map(|vertex| vertices[vertex as usize]);
-                        let offsets = || offsets(mesh, triangle, binning.view);
-                        self.add_triangle::<S, O, F>(
-                            simd, id, &corners, offsets, binning, observer,
-                        );
+                    let mut id = id;
+                    for some in triangles.chunks(ENTRIES) {
+                        self.make_room(some.len(), binning.tiling);
+                        for triangle in some {
+                            let corners = triangle.map(|vertex| vertices[vertex as usize]);
+                            let offsets = || offsets(mesh, triangle, binning.view);
+                            self.add_triangle::<S, O, F>(
+                                simd, id, &corners, offsets, binning, observer,
+                            );
+                            id += 1;
+                        }
                     }
                 }
                 Shape::Triangle(_) => {
@@ -196,17 +202,19 @@ impl BatchBins {
                         Primitive::Triangle(corners) => corners,
                         _ => unreachable!("it is a triangle"),
                     };
+                    self.make_room(1, binning.tiling);
                     self.add_triangle::<S, O, F>(simd, id, &corners, offsets, binning, observer);
                 }
                 Shape::Sphere(_) | Shape::Plane(_) => {
                     let region = region::<F>(&binning.view.primitive(id), binning.screen);
+                    self.make_room(1, binning.tiling);
                     self.add(id, &region, observer);
                 }
             }
             id += u32::try_from(count).expect("a batch is small");
             (object, local) = (object + 1, 0);
         }
-        self.sort(binning.tiling);
+        self.make_room(ENTRIES, binning.tiling);
     }
 
     #[inline(always)]
@@ -252,39 +260,19 @@ impl BatchBins {
         }
     }
 
-    /// A counting sort: it keeps the order of entries within a list.
+    /// Brings entries to their lists if there is no room for so many more.
     #[inline(always)]
-    fn sort(&mut self, tiling: &Tiling) {
-        let lists = tiling.lists();
-        let entries = &mut self.entries[..self.count];
-        // While it counts, each list's number stands two places behind its own; while it fills, one.
-        self.starts.clear();
-        self.starts.resize(lists + 2, 0);
-        for entry in &mut *entries {
-            entry.list = entry.only_list(tiling);
-            if entry.list == Entry::SEVERAL {
-                entry.for_each_list(tiling, |list| self.starts[list + 2] += 1);
-            } else {
-                self.starts[entry.list as usize + 2] += 1;
+    fn make_room(&mut self, more: usize, tiling: &Tiling) {
+        if self.count + more <= ENTRIES {
+            return;
+        }
+        for entry in &self.entries[..self.count] {
+            match entry.only_list(tiling) {
+                Some(list) => self.lists[list].push(entry.id),
+                None => entry.for_each_list(tiling, |list| self.lists[list].push(entry.id)),
             }
         }
-        for list in 2..lists + 2 {
-            self.starts[list] += self.starts[list - 1];
-        }
-        self.ids.resize(self.starts[lists + 1] as usize, 0);
-        let (starts, ids) = (&mut self.starts, &mut self.ids);
-        let mut put = |list: usize, id: u32| {
-            let next = &mut starts[list + 1];
-            ids[*next as usize] = id;
-            *next += 1;
-        };
-        for entry in &*entries {
-            if entry.list == Entry::SEVERAL {
-                entry.for_each_list(tiling, |list| put(list, entry.id));
-            } else {
-                put(entry.list as usize, entry.id);
-            }
-        }
+        self.count = 0;
     }
 }
 
@@ -316,7 +304,7 @@ fn entry<S: Simd, F: Fault>(
     let most = MOST_SAMPLES_ACROSS.cast_unsigned() << bits;
     let large = wide.cast_unsigned().max(tall.cast_unsigned()) >= most;
     let ends = [columns.cast_unsigned(), rows.cast_unsigned()];
-    (Entry { id, ends, large, list: 0 }, is_seen)
+    (Entry { id, ends, large }, is_seen)
 }
 
 fn offsets(mesh: &Mesh, triangle: &[u32; 3], view: &View) -> [glam::DVec3; 3] {

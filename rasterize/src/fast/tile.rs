@@ -110,6 +110,7 @@ impl TileBuffer {
     }
 
     /// Leaves to the judge whether a fragment is nearest, or whether it is one.
+    #[cold]
     pub(super) fn leave_open(&mut self, index: usize, id: u32, key: f32, covered: bool) {
         let index = u32::try_from(index).expect("a tile is small");
         self.open.push(Open { index, id, key, covered });
