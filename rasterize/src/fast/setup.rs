@@ -133,10 +133,26 @@ impl Setup {
 
         let unit = splat(raster.unit);
         // From corner to corner, and from the box's first sample to each.
-        let dx = [difference(x[1], x[0], unit), difference(x[2], x[1], unit), difference(x[0], x[2], unit)];
-        let dy = [difference(y[1], y[0], unit), difference(y[2], y[1], unit), difference(y[0], y[2], unit)];
-        let px = [difference(x[0], origin_x, unit), difference(x[1], origin_x, unit), difference(x[2], origin_x, unit)];
-        let py = [difference(y[0], origin_y, unit), difference(y[1], origin_y, unit), difference(y[2], origin_y, unit)];
+        let dx = [
+            difference(x[1], x[0], unit),
+            difference(x[2], x[1], unit),
+            difference(x[0], x[2], unit),
+        ];
+        let dy = [
+            difference(y[1], y[0], unit),
+            difference(y[2], y[1], unit),
+            difference(y[0], y[2], unit),
+        ];
+        let px = [
+            difference(x[0], origin_x, unit),
+            difference(x[1], origin_x, unit),
+            difference(x[2], origin_x, unit),
+        ];
+        let py = [
+            difference(y[0], origin_y, unit),
+            difference(y[1], origin_y, unit),
+            difference(y[2], origin_y, unit),
+        ];
         let area = dy[0] * dx[2] - dx[0] * dy[2];
         let facing = area.simd_lt(splat(0.0)).select(splat(-1.0), splat(1.0));
         let area = area.abs();
@@ -275,7 +291,6 @@ fn side<S: Simd, F: Fault>(
     let first = ((low + splat((1 << bits) - 1 - margin)) >> bits).max(splat(0));
     let last = ((high + splat(margin)) >> bits).min(splat(raster.size[axis] - 1));
     let count = (last - first + splat(1)).max(splat(0));
-    let length =
-        (high - low + splat(4)).to_float::<f32x16<S>>() * f32x16::splat(simd, raster.unit);
+    let length = (high - low + splat(4)).to_float::<f32x16<S>>() * f32x16::splat(simd, raster.unit);
     (first, count, first << bits, length)
 }
