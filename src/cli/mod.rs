@@ -8,10 +8,12 @@ mod camera;
 mod cover;
 mod diff;
 mod failure;
+mod interrupt;
 mod mesh;
 mod npy;
 mod output;
 mod pixel;
+mod progress;
 mod render;
 mod show_camera;
 mod table;
@@ -101,6 +103,7 @@ Example:
 
 /// Runs the program: 0 is a match, 1 a difference, 2 a failure.
 pub(crate) fn main() -> ExitCode {
+    interrupt::clean_up();
     run(Cli::parse()).unwrap_or_else(|failure| {
         failure.print();
         ExitCode::from(2)

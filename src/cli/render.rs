@@ -4,6 +4,7 @@ use super::args::{BuffersArg, RenderArgs};
 use super::camera::camera;
 use super::failure::Failure;
 use super::output::Staging;
+use super::progress::Bar;
 use super::{npy, table, terminal};
 use bothways::common::camera::check_samples;
 use bothways::common::{Camera, Options, View};
@@ -11,6 +12,7 @@ use bothways::diff::{Classes, Comparison, compare};
 use bothways::figure::Slide;
 use bothways::orders::{self, Rendered};
 use bothways::picture::{mask, picture};
+use bothways::progress::Listener;
 use bothways::report::Report;
 use bothways::scenes::{self, LoadedScene};
 use image::{ColorType, ImageEncoder, codecs::png::PngEncoder};
@@ -35,7 +37,8 @@ pub(super) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
         .num_threads(args.method.threads.unwrap_or(0).into())
         .build()
         .map_err(|error| Failure::new(format!("cannot start the threads: {error}")))?;
-    pool.install(|| Run::new(args, &loaded, &camera).finish(staging, &folder))
+    let bar = if args.output.quiet { None } else { Bar::on_terminal() };
+    pool.install(|| Run::new(args, &loaded, &camera, bar.as_ref()).finish(staging, &folder, bar))
 }
 
 /// Everything that came of the rendering.
@@ -47,18 +50,26 @@ struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    fn new(args: &'a RenderArgs, loaded: &LoadedScene, camera: &Camera) -> Run<'a> {
+    fn new(
+        args: &'a RenderArgs,
+        loaded: &LoadedScene,
+        camera: &Camera,
+        bar: Option<&Bar>,
+    ) -> Run<'a> {
         let view = View::new(&loaded.scene, camera);
         let options = Options { samples: args.method.samples };
         let (method, repeat) = (args.method.method.into(), args.method.repeat);
+        let listener = bar.map(|bar| move |progress| bar.show(progress));
+        let listener = listener.as_ref().map(|listener| listener as Listener);
         let mut rendered = Vec::new();
         for &order in args.method.order.orders() {
-            let mut one = orders::render(order, method, &view, &options, repeat);
+            let mut one = orders::render_and_tell(order, method, &view, &options, repeat, listener);
             if args.output.no_times {
                 one.times = None;
             }
             rendered.push(one);
         }
+        bar.inspect(|bar| bar.say("comparing and drawing"));
         let comparison = match rendered.as_slice() {
             [object_order, image_order] => Some(compare(&object_order.frame, &image_order.frame)),
             _ => None,
@@ -73,10 +84,17 @@ impl<'a> Run<'a> {
         Run { args, rendered, comparison, report }
     }
 
-    fn finish(&self, mut staging: Staging, folder: &Path) -> Result<ExitCode, Failure> {
+    fn finish(
+        &self,
+        mut staging: Staging,
+        folder: &Path,
+        bar: Option<Bar>,
+    ) -> Result<ExitCode, Failure> {
         let json = self.report.to_json().map_err(|error| Failure::new(error.to_string()))?;
         self.write(&mut staging, &json)?;
         staging.commit()?;
+        // Before something is printed to the same terminal.
+        drop(bar);
 
         if self.args.output.json {
             terminal::print(&json)?;
