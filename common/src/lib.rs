@@ -27,6 +27,7 @@ pub mod scene_file;
 pub mod shade;
 pub mod smooth;
 pub mod view;
+pub mod wording;
 
 pub use glam;
 

@@ -18,6 +18,7 @@ mod render;
 mod show_camera;
 mod table;
 mod terminal;
+mod usage;
 mod vectors;
 
 use args::RenderArgs;
@@ -104,7 +105,7 @@ Example:
 /// Runs the program: 0 is a match, 1 a difference, 2 a failure.
 pub(crate) fn main() -> ExitCode {
     interrupt::clean_up();
-    run(Cli::parse()).unwrap_or_else(|failure| {
+    usage::parse().and_then(run).unwrap_or_else(|failure| {
         failure.print();
         ExitCode::from(2)
     })

@@ -3,7 +3,7 @@
 use super::failure::Failure;
 use super::interrupt::{self, Guard};
 use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
@@ -144,8 +144,9 @@ impl Staging {
 
     fn failure(&self, error: &io::Error) -> Failure {
         Failure::new(format!(
-            "cannot write into the folder {}: {error}; choose another one with -o",
-            self.target.display()
+            "cannot write into the folder {}: {}; choose another one with -o",
+            self.target.display(),
+            reason(error)
         ))
     }
 }
@@ -171,9 +172,22 @@ pub(super) fn write_file(
     write().map_err(|error: io::Error| {
         // What tempfile says names the temporary file.
         let error = io::Error::from(error.kind());
-        let target = target.display();
-        Failure::new(format!("cannot write {target}: {error}; choose another file with -o"))
+        let (target, reason) = (target.display(), reason(&error));
+        Failure::new(format!("cannot write {target}: {reason}; choose another file with -o"))
     })
+}
+
+/// Why nothing can be written, in words where the system has only a number.
+fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        ErrorKind::NotFound => "there is no such folder".into(),
+        ErrorKind::AlreadyExists | ErrorKind::NotADirectory => {
+            "a file is where a folder would be".into()
+        }
+        ErrorKind::IsADirectory => "a folder of this name is there".into(),
+        ErrorKind::PermissionDenied => "there is no permission to".into(),
+        _ => error.to_string(),
+    }
 }
 
 impl Drop for Staging {

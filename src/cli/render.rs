@@ -1,7 +1,7 @@
 //! `bothways render`: from a scene to the output folder and the verdict.
 
 use super::args::{BuffersArg, RenderArgs};
-use super::camera::camera;
+use super::camera::{camera, squashed};
 use super::failure::Failure;
 use super::output::Staging;
 use super::progress::Bar;
@@ -15,6 +15,7 @@ use bothways::picture::{mask, picture};
 use bothways::progress::Listener;
 use bothways::report::Report;
 use bothways::scenes::{self, LoadedScene};
+use bothways::wording::count;
 use image::{ColorType, ImageEncoder, codecs::png::PngEncoder};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -26,6 +27,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
     let camera = camera(&loaded, &args.camera)?;
     check_samples(camera.image(), args.method.samples)
         .map_err(|error| Failure::new(format!("--samples {}: {error}", args.method.samples)))?;
+    check_memory(&camera, args)?;
     let folder = match &args.output.folder {
         Some(folder) => folder.clone(),
         None => PathBuf::from("out").join(&loaded.name),
@@ -33,12 +35,39 @@ pub(super) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
     // Before the work, so that nobody waits for pictures that cannot be written.
     let staging = Staging::begin(&folder)?;
 
+    if let Some(hint) = squashed(&camera, &args.camera).filter(|_| !args.output.quiet) {
+        anstream::eprintln!("hint: {hint}");
+    }
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(args.method.threads.unwrap_or(0).into())
         .build()
         .map_err(|error| Failure::new(format!("cannot start the threads: {error}")))?;
     let bar = if args.output.quiet { None } else { Bar::on_terminal() };
     pool.install(|| Run::new(args, &loaded, &camera, bar.as_ref()).finish(staging, &folder, bar))
+}
+
+/// Bytes that one order keeps for a sample: id, distance, normal and colour.
+const BYTES_PER_SAMPLE: u64 = 4 + 4 + 12 + 12;
+
+/// Tells whether the system can give what all frames take, before it is too late to say so.
+fn check_memory(camera: &Camera, args: &RenderArgs) -> Result<(), Failure> {
+    let [width, height] = camera.image();
+    let per_pixel = u64::from(args.method.samples).pow(2);
+    let samples = u64::from(width) * u64::from(height) * per_pixel;
+    let bytes = samples * args.method.order.orders().len() as u64 * BYTES_PER_SAMPLE;
+    // All of it at once: one frame after the other might be promised, and the promise not kept.
+    let mut all = Vec::<u8>::new();
+    let fits = usize::try_from(bytes).is_ok_and(|bytes| all.try_reserve_exact(bytes).is_ok());
+    // Used, lest the question be optimised away.
+    std::hint::black_box(&mut all);
+    if fits {
+        return Ok(());
+    }
+    let (samples, gibibytes) = (count(samples, "samples"), bytes.div_ceil(1 << 30));
+    Err(Failure::new(format!(
+        "{samples} need at least {gibibytes} GiB of memory, more than there is; take a smaller \
+         --size, fewer --samples, or one --order alone"
+    )))
 }
 
 /// Everything that came of the rendering.
