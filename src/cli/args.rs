@@ -28,7 +28,7 @@ pub(super) struct RenderArgs {
 pub(super) struct CameraArgs {
     /// The image in pixels; the viewport keeps its height, and gets the image's form unless the
     /// scene states a viewport
-    #[arg(long, value_name = "WxH", value_parser = size)]
+    #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true)]
     pub(super) size: Option<[u32; 2]>,
     /// How the world loses a dimension; eye and frame stay, and the viewport is scaled so that what
     /// is looked at keeps its size (unless --viewport is given)

@@ -68,8 +68,10 @@ fn divisions(text: &str) -> Result<[u32; 2], String> {
         let number = text.trim().parse::<u32>();
         number.map_err(|_| format!("'{text}' is not a number of divisions; give N or N,M"))
     };
-    match text.split_once(',') {
-        Some((first, second)) => Ok([number(first)?, number(second)?]),
-        None => number(text).map(|both| [both; 2]),
+    let numbers = text.split(',').map(number).collect::<Result<Vec<u32>, String>>()?;
+    match numbers[..] {
+        [both] => Ok([both; 2]),
+        [first, second] => Ok([first, second]),
+        _ => Err(format!("it has {}; give N or N,M", count(numbers.len() as u64, "numbers"))),
     }
 }
