@@ -28,6 +28,7 @@ pub mod shade;
 pub mod simd;
 pub mod smooth;
 pub mod view;
+pub mod wording;
 
 pub use glam;
 

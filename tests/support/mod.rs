@@ -189,3 +189,19 @@ pub fn cases(usual: u32) -> u32 {
 pub fn mesh(mesh: bothways::common::Mesh) -> Object {
     Shape::Mesh(mesh).into()
 }
+
+/// The arguments of a command line, single quotes taken off, its comment left out.
+pub fn arguments(line: &str) -> Vec<String> {
+    let mut words = vec![String::new()];
+    let mut quoted = false;
+    for character in line.chars() {
+        match character {
+            '#' if !quoted => break,
+            '\'' => quoted = !quoted,
+            ' ' if !quoted => words.push(String::new()),
+            _ => words.last_mut().expect("there is a first word").push(character),
+        }
+    }
+    words.retain(|word| !word.is_empty());
+    words
+}
