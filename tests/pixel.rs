@@ -131,7 +131,7 @@ fn a_tie_is_derived_and_decided() {
         edge signs E_ab 0 (tie, nudged to +), E_bc -, E_ca -; facing -
 
     object order saw id 1 at t = 3.096774
-      4 bounding regions around it, 4 primitive tests, 2 fragments, 1 depth comparison, 4 questions to the exact judge
+      4 bounding regions around it, 4 primitive tests, 2 fragments, 1 depth comparison, 2 questions to the exact judge
     image order saw id 1 at t = 3.096774
       6 box tests, 4 primitive tests, 1 fragment, 2 questions to the exact judge
 

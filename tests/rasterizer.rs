@@ -111,7 +111,7 @@ fn triangles_of_all_sizes_as_the_textbook_sees_them() {
         for eye in [[1.5, 1.0, 4.0], [0.1, 0.0, 0.2], [20.0, 30.0, -10.0]] {
             let camera = turned(projection, eye, [0.0; 3], [96, 80]);
             let work = check(&scene, &camera, &format!("{projection:?} from {eye:?}"));
-            assert!(work.fragments > 100, "{projection:?} from {eye:?}: {work:?}");
+            assert!(work.fragments > 50, "{projection:?} from {eye:?}: {work:?}");
         }
     }
 }

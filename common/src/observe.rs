@@ -83,6 +83,8 @@ impl Observer for () {
 
 /// Two who watch the same loops.
 impl<A: Observer, B: Observer> Observer for (A, B) {
+    const WATCHES: bool = A::WATCHES || B::WATCHES;
+
     fn fork(&self) -> Self {
         (self.0.fork(), self.1.fork())
     }

@@ -52,8 +52,8 @@ pub(super) struct Raster {
 
 impl Raster {
     /// Fixed point leaves room for places from half a picture before the first sample to half a
-    /// picture behind the last: with `2^s` at least as large as both sides, places are between
-    /// `−2^(s − 1)` and `1.5·2^s`, so that `30 − s` bits remain.
+    /// picture behind the last: with `2^s` at least as large as both sides (and as the largest box that
+    /// `f32` takes, 256), places are between `−2^(s − 1)` and `1.5·2^s`, so that `30 − s` bits remain.
     ///
     /// A place is off by half a unit of rounding and by the screen's margin, which speaks of vertices
     /// and of the rays; vertices are trusted if the margin is no larger than one unit. An edge function
@@ -62,7 +62,7 @@ impl Raster {
     /// sample: `unit + 3·margin` in all, for each of `w` and `h`.
     pub(super) fn new(screen: &Screen, keys: KeyScale) -> Raster {
         let [width, height] = [screen.grid.width(), screen.grid.height()];
-        let bits = 30 - width.max(height).next_power_of_two().max(64).ilog2();
+        let bits = 30 - width.max(height).next_power_of_two().max(256).ilog2();
         let unit = 0.5f64.powi(bits.cast_signed());
         let margin = screen.margin[0].max(screen.margin[1]);
         let size = |side: usize| i32::try_from(side).expect("at most 65,536");
