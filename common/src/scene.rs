@@ -1,6 +1,7 @@
 //! What there is to see: objects in an order, what they are made of, and light.
 
 use crate::mesh::Mesh;
+use crate::texture::Checker;
 use glam::Vec3;
 
 /// One triangle, in the world.
@@ -54,12 +55,14 @@ pub struct Material {
     pub specular: f32,
     /// The Blinn–Phong exponent: larger is a smaller highlight.
     pub shininess: f32,
+    /// A second colour over the texture coordinates.
+    pub checker: Option<Checker>,
 }
 
 impl Default for Material {
     /// Matt light grey.
     fn default() -> Self {
-        Material { color: Vec3::splat(0.6), specular: 0.0, shininess: 32.0 }
+        Material { color: Vec3::splat(0.6), specular: 0.0, shininess: 32.0, checker: None }
     }
 }
 

@@ -48,6 +48,7 @@ pub use write::framed_mesh_toml;
 use crate::camera::CameraDescription;
 use crate::scene::{Light, Material, Object, Scene, SceneError};
 use crate::shade::linear_from_srgb;
+use crate::texture::Checker;
 use error::Problem;
 use glam::Vec3;
 use reader::{Item, Table};
@@ -133,7 +134,7 @@ fn document(text: &str, folder: &Path) -> Result<SceneFile, Problem> {
     Ok(SceneFile { scene, camera: description, viewport_stated })
 }
 
-/// Materials by name; each has `color`, `specular` and `shininess`, and may leave them out.
+/// Materials by name; each has `color`, `specular`, `shininess` and `checker`, and may leave them out.
 type Materials = BTreeMap<String, Material>;
 
 fn materials(item: &Item) -> Result<Materials, Problem> {
@@ -141,7 +142,7 @@ fn materials(item: &Item) -> Result<Materials, Problem> {
 }
 
 fn material(item: &Item) -> Result<Material, Problem> {
-    let table = item.table(&["color", "specular", "shininess"])?;
+    let table = item.table(&["color", "specular", "shininess", "checker"])?;
     let mut material = Material::default();
     if let Some(item) = table.get("color") {
         material.color = color(&item)?;
@@ -158,7 +159,18 @@ fn material(item: &Item) -> Result<Material, Problem> {
     if let Some(item) = table.get("shininess") {
         material.shininess = item.positive()?;
     }
+    material.checker = table.get("checker").map(|item| checker(&item)).transpose()?;
     Ok(material)
+}
+
+/// A pattern: its other `color`, and its `divisions`, the cells to a unit of the texture coordinate.
+fn checker(item: &Item) -> Result<Checker, Problem> {
+    const EXAMPLE: &str = "checker = { color = \"#202020\", divisions = [8, 8] }";
+    let table = item.table(&["color", "divisions"])?;
+    Ok(Checker {
+        color: color(&table.need("color", EXAMPLE)?)?,
+        divisions: table.need("divisions", EXAMPLE)?.positive_pair()?,
+    })
 }
 
 /// Lights; each has one of `directional`, `point` and `ambient`, and an `intensity`, else 1.

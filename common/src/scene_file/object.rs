@@ -32,7 +32,24 @@ pub(super) fn read(item: &Item, materials: &Materials, folder: &Path) -> Result<
         Some(world_from_object) => world_from_object.apply(shape)?,
         None => shape,
     };
-    Ok(Object { shape, material: material(&table, materials)? })
+    let material = material(&table, materials)?;
+    check_pattern(&table, &shape, &material)?;
+    Ok(Object { shape, material })
+}
+
+/// A pattern needs texture coordinates; it would silently be missing without them.
+fn check_pattern(object: &Table, shape: &Shape, material: &Material) -> Result<(), Problem> {
+    match shape {
+        Shape::Mesh(mesh)
+            if material.checker.is_some() && mesh.texture_coordinates().corners.is_empty() =>
+        {
+            let message = "this material has a checker, and the mesh has no texture coordinates";
+            Err(Problem::new(object.place_of("material"), message).help(
+                "export the mesh with texture coordinates (vt), or choose a material without checker",
+            ))
+        }
+        _ => Ok(()),
+    }
 }
 
 fn material(object: &Table, materials: &Materials) -> Result<Material, Problem> {
