@@ -3,10 +3,8 @@
 
 mod support;
 
-use bothways::common::glam::{Vec2, Vec3};
-use bothways::common::{
-    Camera, Frame, Object, Options, Scene, Shape, Triangle, View, scene_file,
-};
+use bothways::common::glam::{DVec2, Vec2, Vec3};
+use bothways::common::{Camera, Frame, Object, Options, Scene, Shape, Triangle, View, scene_file};
 use bothways::diff::compare;
 use bothways::scenes::load;
 use bothways::{rasterize, raytrace};
@@ -49,7 +47,8 @@ material = "floor"
 "##;
 
 fn still_life() -> Scene {
-    scene_file::parse("still-life.toml", STILL_LIFE, Path::new("")).unwrap().scene
+    let file = scene_file::parse("still-life.toml", STILL_LIFE, Path::new(""));
+    file.expect("it is a scene").scene
 }
 
 /// Both orders' frames, with texture coordinates.
@@ -126,17 +125,20 @@ fn coordinates_are_right_in_perspective() {
     };
     let scene = scene(vec![Shape::Triangle(far).into()]);
     let camera = Camera::canonical(64, 64);
+    let grid = camera.sample_grid(1);
     for frame in both(&View::new(&scene, &camera), &Options::default()) {
         let mut seen = 0;
-        for row in 0..frame.height() {
-            for column in (0..frame.width()).filter(|&column| frame.id(row, column).is_some()) {
-                // The viewing ray (x, y, −1) meets y = −1 at depth −1/y; `c` is 8 behind `a`.
-                let y = (31.5 - row as f32) / 64.0 * camera.viewport()[1] as f32;
-                let x = (column as f32 - 31.5) / 64.0 * camera.viewport()[0] as f32;
-                let depth = -1.0 / y * camera.distance() as f32;
-                let expected = Vec2::new(0.5 * (x * depth + 1.0), (depth - 1.0) / 8.0);
-                let found = frame.texture_coordinates()[row * frame.width() + column];
-                assert!((found - expected).abs().max_element() < 1e-5, "{found} {expected}");
+        for (row, &y) in grid.y().iter().enumerate() {
+            for (column, &x) in grid.x().iter().enumerate() {
+                if frame.id(row, column).is_none() {
+                    continue;
+                }
+                // The viewing ray t·(x, y, −d) meets the floor y = −1; `c` is 8 behind `a`.
+                let t = -1.0 / y;
+                let depth = t * camera.distance();
+                let expected = DVec2::new(0.5 * (x * t + 1.0), (depth - 1.0) / 8.0);
+                let found = frame.texture_coordinates()[row * frame.width() + column].as_dvec2();
+                assert!((found - expected).abs().max_element() < 1e-6, "{found} {expected}");
                 seen += 1;
             }
         }

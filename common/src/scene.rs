@@ -100,8 +100,21 @@ pub enum Light {
 pub struct Object {
     /// Its form.
     pub shape: Shape,
-    /// What it is made of.
+    /// What it is made of, where a mesh does not say it itself.
     pub material: Material,
+}
+
+impl Object {
+    /// What one of its primitives is made of, counted within the object.
+    pub fn material_of(&self, primitive: usize) -> &Material {
+        match &self.shape {
+            Shape::Mesh(mesh) => {
+                let own = mesh.materials().and_then(|materials| materials.of(primitive));
+                own.unwrap_or(&self.material)
+            }
+            Shape::Triangle(_) | Shape::Sphere(_) | Shape::Plane(_) => &self.material,
+        }
+    }
 }
 
 impl Shape {

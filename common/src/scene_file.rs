@@ -66,6 +66,8 @@ pub struct SceneFile {
     pub camera: CameraDescription,
     /// Whether the file states the viewport, so that another image size keeps both its sides.
     pub viewport_stated: bool,
+    /// What is missing, but no error: see [`crate::obj::MaterialWarning`].
+    pub warnings: Vec<String>,
 }
 
 /// Reads a scene file. Paths in it are relative to its folder.
@@ -122,7 +124,8 @@ fn document(text: &str, folder: &Path) -> Result<SceneFile, Problem> {
         let help = format!("begin one with [[object]] and, for example, {}", object::EXAMPLE);
         Problem::new(0..0, "the scene has no object").help(help)
     })?;
-    let mut scene = scene(&list, &materials.unwrap_or_default(), folder)?;
+    let mut warnings = Vec::new();
+    let mut scene = scene(&list, &materials.unwrap_or_default(), folder, &mut warnings)?;
 
     if let Some(lights) = lights {
         scene.lights = lights;
@@ -131,7 +134,7 @@ fn document(text: &str, folder: &Path) -> Result<SceneFile, Problem> {
         scene.background = background;
     }
     let camera::CameraTable { description, viewport_stated, .. } = camera;
-    Ok(SceneFile { scene, camera: description, viewport_stated })
+    Ok(SceneFile { scene, camera: description, viewport_stated, warnings })
 }
 
 /// Materials by name; each has `color`, `specular`, `shininess` and `checker`, and may leave them out.
@@ -211,10 +214,15 @@ fn exactly_one<'t>(
     }
 }
 
-fn scene(list: &Item, materials: &Materials, folder: &Path) -> Result<Scene, Problem> {
+fn scene(
+    list: &Item,
+    materials: &Materials,
+    folder: &Path,
+    warnings: &mut Vec<String>,
+) -> Result<Scene, Problem> {
     let items: Vec<Item> = list.tables()?.collect();
     let objects: Result<Vec<Object>, Problem> =
-        items.iter().map(|item| object::read(item, materials, folder)).collect();
+        items.iter().map(|item| object::read(item, materials, folder, warnings)).collect();
     Scene::new(objects?).map_err(|error| {
         let index = match error {
             SceneError::NotFinite { object, .. }

@@ -31,7 +31,9 @@ pub fn colour(point: &SurfacePoint, material: &Material, lights: &[Light], eye: 
 /// The material's colour at this point of its pattern.
 fn reflectance(point: &SurfacePoint, material: &Material) -> Vec3 {
     match (&material.checker, &point.texture) {
-        (Some(checker), Some(texture)) => material.color.lerp(checker.color, checker.share(texture)),
+        (Some(checker), Some(texture)) => {
+            material.color.lerp(checker.color, checker.share(texture))
+        }
         _ => material.color,
     }
 }
@@ -86,12 +88,8 @@ mod tests {
 
     #[test]
     fn a_surface_that_faces_the_light_shows_its_colour() {
-        let point = SurfacePoint {
-            position: -Vec3::Z,
-            normal: Vec3::Z,
-            to_viewer: Vec3::Z,
-            texture: None,
-        };
+        let point =
+            SurfacePoint { position: -Vec3::Z, normal: Vec3::Z, to_viewer: Vec3::Z, texture: None };
         let material = Material { color: Vec3::new(0.5, 0.25, 0.0), ..Material::default() };
         let lit = |direction| {
             let light = Light::Directional { direction, intensity: 1.0 };

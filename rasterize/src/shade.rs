@@ -106,18 +106,22 @@ impl Surface {
                     None => Normals::Flat(flat),
                     Some([at_a, at_b, at_c]) => {
                         let [of_a, of_b, of_c] = weights(view, [a, b, c], flat);
-                        Normals::Smooth { corners: [(at_a, of_a), (at_b, of_b), (at_c, of_c)], flat }
+                        Normals::Smooth {
+                            corners: [(at_a, of_a), (at_b, of_b), (at_c, of_c)],
+                            flat,
+                        }
                     }
                 }
             }
         };
         let object = &view.scene.objects()[object];
-        let texture = if keeps_texture || object.material.checker.is_some() {
+        let material = *object.material_of(local);
+        let texture = if keeps_texture || material.checker.is_some() {
             Texture::new(view, &primitive, texture::corners(&object.shape, local))
         } else {
             Texture::None
         };
-        Surface { material: object.material, normals, texture }
+        Surface { material, normals, texture }
     }
 
     /// The texture coordinate at a sample, and how it changes towards its neighbours.

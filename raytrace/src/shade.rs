@@ -35,8 +35,8 @@ fn shade_row(view: &View, grid: &SampleGrid, mut row: ShadingRow) {
         let hit = ray.origin + t * ray.direction;
         let to_viewer = -ray.direction.normalize();
         let normal = normal_at(view, id, &ray, hit).as_vec3();
-        let (object, _) = view.scene.locate(id);
-        let material = &view.scene.objects()[object].material;
+        let (object, local) = view.scene.locate(id);
+        let material = view.scene.objects()[object].material_of(local);
         let texture = if keeps_texture || material.checker.is_some() {
             texture_at(view, id, hit).map(|chart| chart.seen_along(&ray, t, view, grid))
         } else {

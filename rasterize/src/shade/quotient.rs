@@ -25,9 +25,7 @@ impl Linear {
                 across: a.dot(camera.u()),
                 up: a.dot(camera.v()),
             },
-            Projection::Parallel => {
-                Linear { at_centre: -a.dot(camera.w()), across: 0.0, up: 0.0 }
-            }
+            Projection::Parallel => Linear { at_centre: -a.dot(camera.w()), across: 0.0, up: 0.0 },
         }
     }
 
