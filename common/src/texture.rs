@@ -6,7 +6,7 @@
 //! |---|---|
 //! | triangle | (0, 0), (1, 0) and (0, 1) at `a`, `b` and `c` |
 //! | mesh | what its file or its generator gave to the corners; none where a corner has none |
-//! | sphere | the turn around the y axis from +x towards −z, and the way from the south pole to the north, both from 0 to 1 |
+//! | sphere | the turn around the y axis from +x towards −z, and the latitude; from 0 to 1 both |
 //! | plane | lengths of the world from the plane's point, to the right and up: see [`plane_axes`] |
 
 use crate::scene::Shape;

@@ -5,7 +5,7 @@
 //! | `triangle = { a, b, c }` | its corners |
 //! | `sphere = { center, radius }` | |
 //! | `plane = { point, normal }` | an infinite plane |
-//! | `mesh = "bunny.obj"` | a mesh file, relative to the scene file; its colours from the material file beside it |
+//! | `mesh = "bunny.obj"` | a mesh file, relative to the scene file, with its own colours |
 //! | `generate = { kind, divisions }` | a mesh that is computed: see [`Kind`] |
 //! | `material` | the name of a material, instead of those of a mesh file; light grey without it |
 //! | `scale`, `rotate = { axis, degrees }`, `translate` | where it is put, in this order |
