@@ -141,7 +141,8 @@ mod tests {
 
     #[test]
     fn cells_alternate_in_both_directions_and_below_zero() {
-        let row = |y: f64| [-1.5, -0.5, 0.5, 1.5, 2.5].map(|x| share([1.0; 2], [x, y], 1e-3));
+        let share = |x, y| share([1.0; 2], [x, y], 0.125);
+        let row = |y: f64| [-1.5, -0.5, 0.5, 1.5, 2.5].map(|x| share(x, y));
         assert_eq!(row(0.5), [0.0, 1.0, 0.0, 1.0, 0.0]);
         assert_eq!(row(-0.5), [1.0, 0.0, 1.0, 0.0, 1.0]);
     }

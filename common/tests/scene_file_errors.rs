@@ -247,7 +247,7 @@ fn what_is_wrong_with_a_checker() {
         (
             "[material.clay]\nchecker = { color = '#123456', divisions = [8, 0] }",
             "0",
-            "2:47: divisions[1] is 0; it must be greater than 0",
+            "2:48: divisions[1] is 0; it must be greater than 0",
         ),
         (
             "[material.clay]\nchecker = { color = '#123456', divisions = [8] }",
