@@ -82,6 +82,8 @@ pub struct LoadedScene {
     pub viewport_stated: bool,
     /// The scene as a scene file; for a mesh file, the one that shows it.
     pub toml: String,
+    /// What is missing, but no error.
+    pub warnings: Vec<String>,
 }
 
 /// Why a scene could not be loaded.
@@ -156,26 +158,30 @@ pub fn load(source: &str) -> Result<LoadedScene, LoadError> {
 fn load_built_in(built_in: &BuiltIn) -> Result<LoadedScene, LoadError> {
     let toml = built_in.toml.to_owned();
     let file = scene_file::parse(&format!("{}.toml", built_in.name), &toml, Path::new(""))?;
-    let scene_file::SceneFile { scene, camera, viewport_stated } = file;
-    Ok(LoadedScene { name: built_in.name.to_owned(), scene, camera, viewport_stated, toml })
+    Ok(loaded(built_in.name.to_owned(), file, toml))
 }
 
 fn load_scene_file(path: &Path) -> Result<LoadedScene, LoadError> {
     let toml = scene_file::read_text(path)?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let file = scene_file::parse(&path.display().to_string(), &toml, folder)?;
-    let scene_file::SceneFile { scene, camera, viewport_stated } = file;
-    Ok(LoadedScene { name: stem(path), scene, camera, viewport_stated, toml })
+    Ok(loaded(stem(path), file, toml))
+}
+
+fn loaded(name: String, file: scene_file::SceneFile, toml: String) -> LoadedScene {
+    let scene_file::SceneFile { scene, camera, viewport_stated, warnings } = file;
+    LoadedScene { name, scene, camera, viewport_stated, toml, warnings }
 }
 
 fn load_mesh(path: &Path) -> Result<LoadedScene, LoadError> {
-    let mesh = obj::read(path)?;
+    let (mesh, missing) = obj::read_with_materials(path)?;
+    let warnings = missing.iter().map(ToString::to_string).collect();
     let shown = path.display().to_string();
     let camera =
         framed(&mesh).map_err(|error| LoadError::Framing { path: shown.clone(), error })?;
     let toml = framed_mesh_toml(&camera, &shown);
     let scene = Scene::new(vec![Shape::Mesh(smooth::with_normals(mesh, smooth::CREASE)).into()])?;
-    Ok(LoadedScene { name: stem(path), scene, camera, viewport_stated: false, toml })
+    Ok(LoadedScene { name: stem(path), scene, camera, viewport_stated: false, toml, warnings })
 }
 
 /// The file's name without its folder and extension.

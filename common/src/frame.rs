@@ -1,7 +1,7 @@
 //! What a renderer answers: for every sample the primitive that is seen, how far it is, and its look.
 
 use crate::camera::{Camera, check_samples};
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use std::ops::Range;
 
 /// How to render, the same for both orders.
@@ -32,6 +32,8 @@ pub struct Frame {
     t: Vec<f32>,
     normals: Vec<Vec3>,
     colours: Vec<Vec3>,
+    /// Empty unless they are asked for.
+    texture_coordinates: Vec<Vec2>,
 }
 
 /// A rectangle of samples.
@@ -88,6 +90,8 @@ pub struct ShadingRow<'a> {
     pub normals: &'a mut [Vec3],
     /// Linear red, green and blue.
     pub colours: &'a mut [Vec3],
+    /// Texture coordinates, zero where there are none; `None` if nobody asked for them.
+    pub texture_coordinates: Option<&'a mut [Vec2]>,
 }
 
 impl Frame {
@@ -107,13 +111,24 @@ impl Frame {
             t: vec![f32::INFINITY; count],
             normals: vec![Vec3::ZERO; count],
             colours: vec![Vec3::ZERO; count],
+            texture_coordinates: Vec::new(),
         }
+    }
+
+    /// The same frame, with room for the texture coordinate of every sample: shading keeps them.
+    pub fn with_texture_coordinates(mut self) -> Frame {
+        self.texture_coordinates = vec![Vec2::ZERO; self.ids.len()];
+        self
     }
 
     /// Makes the frame fit a camera and options; what it held is no longer of use.
     pub fn fit(&mut self, camera: &Camera, options: &Options) {
         if self.image != camera.image() || self.samples != options.samples {
+            let asked = !self.texture_coordinates.is_empty();
             *self = Frame::new(camera, options);
+            if asked {
+                self.texture_coordinates = vec![Vec2::ZERO; self.ids.len()];
+            }
         }
     }
 
@@ -184,6 +199,12 @@ impl Frame {
         &self.colours
     }
 
+    /// Texture coordinates of what is seen, zero where there are none; empty unless
+    /// [`Frame::with_texture_coordinates`] asked for them.
+    pub fn texture_coordinates(&self) -> &[Vec2] {
+        &self.texture_coordinates
+    }
+
     /// The indices, in [`Frame::ids`] and its like, of a pixel's samples.
     pub fn samples_of(&self, i: usize, j: usize) -> impl Iterator<Item = usize> + use<> {
         let (n, width) = (self.samples as usize, self.width());
@@ -222,6 +243,7 @@ impl Frame {
         let width = self.width();
         let seen = self.ids.chunks(width).zip(self.t.chunks(width));
         let look = self.normals.chunks_mut(width).zip(self.colours.chunks_mut(width));
+        let mut texture_coordinates = self.texture_coordinates.chunks_mut(width);
         seen.zip(look)
             .enumerate()
             .map(|(row, ((ids, t), (normals, colours)))| ShadingRow {
@@ -230,6 +252,7 @@ impl Frame {
                 t,
                 normals,
                 colours,
+                texture_coordinates: texture_coordinates.next(),
             })
             .collect()
     }

@@ -27,6 +27,7 @@ pub mod scene_file;
 pub mod shade;
 pub mod simd;
 pub mod smooth;
+pub mod texture;
 pub mod view;
 pub mod wording;
 

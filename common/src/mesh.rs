@@ -1,5 +1,10 @@
 //! Triangle meshes: positions that triangles share by index, and what the corners carry.
 
+mod materials;
+
+pub use materials::{MaterialSpan, MeshMaterials, NamedMaterial};
+
+use crate::scene::Material;
 use glam::{Vec2, Vec3};
 
 /// Triangles over shared vertices.
@@ -13,6 +18,8 @@ pub struct Mesh {
     triangles: Vec<[u32; 3]>,
     normals: Attribute<Vec3>,
     texture_coordinates: Attribute<Vec2>,
+    /// Hardly a mesh has any.
+    materials: Option<Box<MeshMaterials>>,
 }
 
 /// What the corners of a mesh's triangles carry: values, and which of them belongs to which corner.
@@ -117,6 +124,19 @@ impl Mesh {
         Ok(self)
     }
 
+    /// The same mesh, its triangles made of these; [`MeshMaterials::default`] takes them away.
+    pub fn with_materials(self, materials: MeshMaterials) -> Mesh {
+        let materials = (!materials.is_empty()).then(|| Box::new(materials));
+        Mesh { materials, ..self }
+    }
+
+    /// Says what a material is: see [`MeshMaterials::define`].
+    pub(crate) fn define_material(&mut self, name: &str, material: Material) {
+        if let Some(materials) = &mut self.materials {
+            materials.define(name, material);
+        }
+    }
+
     /// The same mesh somewhere else.
     ///
     /// `place` maps positions, `turn` normals.
@@ -135,8 +155,8 @@ impl Mesh {
         for normal in &mut self.normals.values {
             *normal = turn(*normal);
         }
-        let Mesh { positions, triangles, normals, texture_coordinates } = self;
-        Ok(Mesh { normals, texture_coordinates, ..Mesh::new(positions, triangles)? })
+        let Mesh { positions, triangles, normals, texture_coordinates, materials } = self;
+        Ok(Mesh { normals, texture_coordinates, materials, ..Mesh::new(positions, triangles)? })
     }
 
     /// The vertices' positions, in the world.
@@ -157,6 +177,11 @@ impl Mesh {
     /// Texture coordinates at the corners.
     pub fn texture_coordinates(&self) -> &Attribute<Vec2> {
         &self.texture_coordinates
+    }
+
+    /// What the triangles are made of, if the mesh itself says it.
+    pub fn materials(&self) -> Option<&MeshMaterials> {
+        self.materials.as_deref()
     }
 
     /// The three corners of a triangle.

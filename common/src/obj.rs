@@ -10,14 +10,17 @@
 //!   face. A positive index may name what only follows below, anywhere in the file: some programs
 //!   write faces first, and `tobj`, which the tests compare with, accepts it too.
 //! - `#` before a word begins a comment; a backslash before the end of a line joins the next line.
-//! - Names, groups, materials, points, lines, free-form geometry and display settings are skipped.
-//!   Anything else is an error, `call` and `csh` too: they would run or include what is not here.
+//! - `usemtl` names the material of the faces below, `mtllib` a file that defines some: see
+//!   [`read_with_materials`].
+//! - Names, groups, points, lines, free-form geometry and display settings are skipped. Anything else is an error, `call` and `csh` too: they would run or include what is not here.
 
 mod error;
 mod lines;
+mod materials;
 mod write;
 
 pub use error::{Element, ReadObjError, StatementFault};
+pub use materials::{MaterialWarning, parse_materials};
 pub use write::write;
 
 use std::path::Path;
@@ -25,7 +28,7 @@ use std::{fs, io};
 
 use glam::{Vec2, Vec3};
 
-use crate::mesh::{Attribute, Mesh};
+use crate::mesh::{Attribute, Mesh, MeshMaterials};
 use error::quote;
 use lines::{Statements, Words};
 
@@ -35,6 +38,24 @@ use lines::{Statements, Words};
 ///
 /// As for [`parse`], and a file that cannot be read; messages call the file by `path`.
 pub fn read(path: &Path) -> Result<Mesh, ReadObjError> {
+    parse(&path.display().to_string(), &read_bytes(path)?)
+}
+
+/// Reads a mesh from an OBJ file, and its colours from the material files beside it.
+///
+/// A material file that is not there, or that lacks a material, is no error: many meshes come without
+/// theirs. What is missing is told, and drawn in the material of the object.
+///
+/// # Errors
+///
+/// As for [`read`], and for each material file that is there.
+pub fn read_with_materials(path: &Path) -> Result<(Mesh, Vec<MaterialWarning>), ReadObjError> {
+    let mut mesh = read(path)?;
+    let warnings = materials::resolve(&mut mesh, path)?;
+    Ok((mesh, warnings))
+}
+
+fn read_bytes(path: &Path) -> Result<Vec<u8>, ReadObjError> {
     let file = path.display().to_string();
     let unreadable = |error| ReadObjError::Unreadable { file: file.clone(), error };
     let metadata = fs::metadata(path).map_err(unreadable)?;
@@ -46,12 +67,13 @@ pub fn read(path: &Path) -> Result<Mesh, ReadObjError> {
     if metadata.len() > MOST_BYTES {
         return Err(ReadObjError::TooLarge { file });
     }
-    parse(&file, &fs::read(path).map_err(unreadable)?)
+    fs::read(path).map_err(unreadable)
 }
 
 /// Reads a mesh from the bytes of an OBJ file, which messages call `name`.
 ///
-/// Normals and texture coordinates are there if any corner of a face names one.
+/// Normals and texture coordinates are there if any corner of a face names one. Materials have names,
+/// but are not known: they stand in other files.
 ///
 /// # Errors
 ///
@@ -77,8 +99,7 @@ pub fn parse(name: &str, bytes: &[u8]) -> Result<Mesh, ReadObjError> {
     }
     let located = |line, fault| ReadObjError::Statement { file: name.to_owned(), line, fault };
     let mut reader = Reader::default();
-    // Some editors put a byte order mark before the first line.
-    for (line, words) in Statements::new(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)) {
+    for (line, words) in Statements::new(without_mark(bytes)) {
         reader.statement(line, words).map_err(|fault| located(line, fault))?;
     }
     reader.check_forward().map_err(|(line, fault)| located(line, fault))?;
@@ -86,6 +107,11 @@ pub fn parse(name: &str, bytes: &[u8]) -> Result<Mesh, ReadObjError> {
         return Err(ReadObjError::NoFace { file: name.to_owned() });
     }
     Ok(reader.finish())
+}
+
+/// Some editors put a byte order mark before the first line.
+fn without_mark(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
 }
 
 /// The shortest definition, `vt 0` and a line end, has five bytes: so many bytes define fewer than
@@ -102,6 +128,9 @@ struct Reader {
     triangles: Vec<[u32; 3]>,
     texture_coordinates: Attribute<Vec2>,
     normals: Attribute<Vec3>,
+    materials: MeshMaterials,
+    /// What the last `usemtl` says, until a face uses it; `Some(None)` is no name.
+    next_material: Option<Option<String>>,
     /// What faces name before it is defined, for each [`Element`].
     forward: [Vec<Forward>; 3],
 }
@@ -131,6 +160,8 @@ impl Reader {
             }
             // Version 2 of the format had a second keyword, which became the first.
             b"f" | b"fo" => self.face(line, words)?,
+            b"usemtl" => self.next_material = Some(words.text()),
+            b"mtllib" => words.text().iter().for_each(|name| self.materials.add_library(name)),
             _ if is_skipped(keyword) => {}
             _ if !is_text(keyword) => return Err(StatementFault::NotText),
             _ => return Err(StatementFault::UnknownKeyword { keyword: quote(keyword) }),
@@ -157,6 +188,9 @@ impl Reader {
 
     fn triangle(&mut self, corners: [Corner; 3]) {
         let triangle = self.triangles.len();
+        if let Some(name) = self.next_material.take() {
+            self.materials.use_from(triangle, name.as_deref());
+        }
         self.triangles.push(corners.map(|[vertex, _, _]| vertex));
         let texture_coordinates = corners.map(|[_, texture_coordinate, _]| texture_coordinate);
         carry(&mut self.texture_coordinates.corners, triangle, texture_coordinates);
@@ -234,6 +268,7 @@ impl Reader {
             .and_then(|mesh| mesh.with_normals(normals))
             .and_then(|mesh| mesh.with_texture_coordinates(texture_coordinates))
             .expect("the reader has checked every number and every index")
+            .with_materials(self.materials)
     }
 }
 
@@ -302,8 +337,8 @@ fn is_skipped(keyword: &[u8]) -> bool {
     match keyword {
         // Names and groups.
         b"o" | b"g" | b"s" | b"mg" => true,
-        // Materials and display.
-        b"usemtl" | b"mtllib" | b"usemap" | b"maplib" | b"bevel" | b"c_interp" => true,
+        // Maps and display.
+        b"usemap" | b"maplib" | b"bevel" | b"c_interp" => true,
         b"d_interp" | b"lod" | b"shadow_obj" | b"trace_obj" | b"ctech" | b"stech" => true,
         // Points and lines.
         b"p" | b"l" => true,

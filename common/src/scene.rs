@@ -1,6 +1,7 @@
 //! What there is to see: objects in an order, what they are made of, and light.
 
 use crate::mesh::Mesh;
+use crate::texture::Checker;
 use glam::Vec3;
 
 /// One triangle, in the world.
@@ -54,12 +55,14 @@ pub struct Material {
     pub specular: f32,
     /// The Blinn–Phong exponent: larger is a smaller highlight.
     pub shininess: f32,
+    /// A second colour over the texture coordinates.
+    pub checker: Option<Checker>,
 }
 
 impl Default for Material {
     /// Matt light grey.
     fn default() -> Self {
-        Material { color: Vec3::splat(0.6), specular: 0.0, shininess: 32.0 }
+        Material { color: Vec3::splat(0.6), specular: 0.0, shininess: 32.0, checker: None }
     }
 }
 
@@ -97,8 +100,21 @@ pub enum Light {
 pub struct Object {
     /// Its form.
     pub shape: Shape,
-    /// What it is made of.
+    /// What it is made of, where a mesh does not say it itself.
     pub material: Material,
+}
+
+impl Object {
+    /// What one of its primitives is made of, counted within the object.
+    pub fn material_of(&self, primitive: usize) -> &Material {
+        match &self.shape {
+            Shape::Mesh(mesh) => {
+                let own = mesh.materials().and_then(|materials| materials.of(primitive));
+                own.unwrap_or(&self.material)
+            }
+            Shape::Triangle(_) | Shape::Sphere(_) | Shape::Plane(_) => &self.material,
+        }
+    }
 }
 
 impl Shape {

@@ -48,6 +48,7 @@ pub use write::framed_mesh_toml;
 use crate::camera::CameraDescription;
 use crate::scene::{Light, Material, Object, Scene, SceneError};
 use crate::shade::linear_from_srgb;
+use crate::texture::Checker;
 use error::Problem;
 use glam::Vec3;
 use reader::{Item, Table};
@@ -65,6 +66,8 @@ pub struct SceneFile {
     pub camera: CameraDescription,
     /// Whether the file states the viewport, so that another image size keeps both its sides.
     pub viewport_stated: bool,
+    /// What is missing, but no error: see [`crate::obj::MaterialWarning`].
+    pub warnings: Vec<String>,
 }
 
 /// Reads a scene file. Paths in it are relative to its folder.
@@ -121,7 +124,8 @@ fn document(text: &str, folder: &Path) -> Result<SceneFile, Problem> {
         let help = format!("begin one with [[object]] and, for example, {}", object::EXAMPLE);
         Problem::new(0..0, "the scene has no object").help(help)
     })?;
-    let mut scene = scene(&list, &materials.unwrap_or_default(), folder)?;
+    let mut warnings = Vec::new();
+    let mut scene = scene(&list, &materials.unwrap_or_default(), folder, &mut warnings)?;
 
     if let Some(lights) = lights {
         scene.lights = lights;
@@ -130,10 +134,10 @@ fn document(text: &str, folder: &Path) -> Result<SceneFile, Problem> {
         scene.background = background;
     }
     let camera::CameraTable { description, viewport_stated, .. } = camera;
-    Ok(SceneFile { scene, camera: description, viewport_stated })
+    Ok(SceneFile { scene, camera: description, viewport_stated, warnings })
 }
 
-/// Materials by name; each has `color`, `specular` and `shininess`, and may leave them out.
+/// Materials by name; each has `color`, `specular`, `shininess` and `checker`, and may leave them out.
 type Materials = BTreeMap<String, Material>;
 
 fn materials(item: &Item) -> Result<Materials, Problem> {
@@ -141,7 +145,7 @@ fn materials(item: &Item) -> Result<Materials, Problem> {
 }
 
 fn material(item: &Item) -> Result<Material, Problem> {
-    let table = item.table(&["color", "specular", "shininess"])?;
+    let table = item.table(&["color", "specular", "shininess", "checker"])?;
     let mut material = Material::default();
     if let Some(item) = table.get("color") {
         material.color = color(&item)?;
@@ -158,7 +162,18 @@ fn material(item: &Item) -> Result<Material, Problem> {
     if let Some(item) = table.get("shininess") {
         material.shininess = item.positive()?;
     }
+    material.checker = table.get("checker").map(|item| checker(&item)).transpose()?;
     Ok(material)
+}
+
+/// A pattern: its other `color`, and its `divisions`, the cells to a unit of the texture coordinate.
+fn checker(item: &Item) -> Result<Checker, Problem> {
+    const EXAMPLE: &str = "checker = { color = \"#202020\", divisions = [8, 8] }";
+    let table = item.table(&["color", "divisions"])?;
+    Ok(Checker {
+        color: color(&table.need("color", EXAMPLE)?)?,
+        divisions: table.need("divisions", EXAMPLE)?.positive_pair()?,
+    })
 }
 
 /// Lights; each has one of `directional`, `point` and `ambient`, and an `intensity`, else 1.
@@ -199,10 +214,15 @@ fn exactly_one<'t>(
     }
 }
 
-fn scene(list: &Item, materials: &Materials, folder: &Path) -> Result<Scene, Problem> {
+fn scene(
+    list: &Item,
+    materials: &Materials,
+    folder: &Path,
+    warnings: &mut Vec<String>,
+) -> Result<Scene, Problem> {
     let items: Vec<Item> = list.tables()?.collect();
     let objects: Result<Vec<Object>, Problem> =
-        items.iter().map(|item| object::read(item, materials, folder)).collect();
+        items.iter().map(|item| object::read(item, materials, folder, warnings)).collect();
     Scene::new(objects?).map_err(|error| {
         let index = match error {
             SceneError::NotFinite { object, .. }

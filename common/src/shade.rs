@@ -1,6 +1,8 @@
-//! The look of a surface point: one function for both orders, which each bring their own normals.
+//! The look of a surface point: one function for both orders, which each bring their own normals
+//! and texture coordinates.
 
 use crate::scene::{Light, Material};
+use crate::texture::TexturePoint;
 use glam::Vec3;
 
 /// What is seen at one sample.
@@ -12,6 +14,8 @@ pub struct SurfacePoint {
     pub normal: Vec3,
     /// Unit direction towards the viewer, against the viewing ray.
     pub to_viewer: Vec3,
+    /// Where it is on its texture; a pattern is not drawn without.
+    pub texture: Option<TexturePoint>,
 }
 
 /// The linear colour of a surface point: ambient light, Lambert's cosine and a Blinn–Phong highlight.
@@ -20,7 +24,18 @@ pub struct SurfacePoint {
 ///
 /// Blinn, "Models of Light Reflection for Computer Synthesized Pictures", SIGGRAPH 1977.
 pub fn colour(point: &SurfacePoint, material: &Material, lights: &[Light], eye: Vec3) -> Vec3 {
-    lights.iter().map(|light| lit_by(light, point, material, eye)).sum()
+    let plain = Material { color: reflectance(point, material), ..*material };
+    lights.iter().map(|light| lit_by(light, point, &plain, eye)).sum()
+}
+
+/// The material's colour at this point of its pattern.
+fn reflectance(point: &SurfacePoint, material: &Material) -> Vec3 {
+    match (&material.checker, &point.texture) {
+        (Some(checker), Some(texture)) => {
+            material.color.lerp(checker.color, checker.share(texture))
+        }
+        _ => material.color,
+    }
 }
 
 fn lit_by(light: &Light, point: &SurfacePoint, material: &Material, eye: Vec3) -> Vec3 {
@@ -54,7 +69,11 @@ pub fn srgb_from_linear(linear: f32) -> u8 {
 
 /// The linear value in 0 … 1 that an sRGB byte stands for.
 pub fn linear_from_srgb(byte: u8) -> f32 {
-    let encoded = f32::from(byte) / 255.0;
+    linear_from_encoded(f32::from(byte) / 255.0)
+}
+
+/// The linear value in 0 … 1 that an sRGB value in 0 … 1 stands for.
+pub fn linear_from_encoded(encoded: f32) -> f32 {
     if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }
 
@@ -69,7 +88,8 @@ mod tests {
 
     #[test]
     fn a_surface_that_faces_the_light_shows_its_colour() {
-        let point = SurfacePoint { position: -Vec3::Z, normal: Vec3::Z, to_viewer: Vec3::Z };
+        let point =
+            SurfacePoint { position: -Vec3::Z, normal: Vec3::Z, to_viewer: Vec3::Z, texture: None };
         let material = Material { color: Vec3::new(0.5, 0.25, 0.0), ..Material::default() };
         let lit = |direction| {
             let light = Light::Directional { direction, intensity: 1.0 };

@@ -232,6 +232,38 @@ fn what_is_wrong_with_light_and_material() {
 }
 
 #[test]
+fn what_is_wrong_with_a_checker() {
+    let example = "write for example checker = { color = \"#202020\", divisions = [8, 8] }";
+    check_errors(&[
+        (
+            "[material.clay]\nchecker = { color = '#123456' }",
+            "{ color = '#123456' }",
+            &format!("2:11: checker lacks divisions; {example}"),
+        ),
+        (
+            "[material.clay]\nchecker = { divisions = [8, 8] }",
+            "{ divisions = [8, 8] }",
+            &format!("2:11: checker lacks color; {example}"),
+        ),
+        (
+            "[material.clay]\nchecker = { color = '#123456', divisions = [8, 0] }",
+            "0",
+            "2:48: divisions[1] is 0; it must be greater than 0",
+        ),
+        (
+            "[material.clay]\nchecker = { color = '#123456', divisions = [8] }",
+            "[8]",
+            "2:44: divisions has 1 element; it must be two numbers",
+        ),
+        (
+            "[material.clay]\nchecker = { colour = '#123456', divisions = [8, 8] }",
+            "colour",
+            "2:13: checker has no key \"colour\"; did you mean \"color\"?",
+        ),
+    ]);
+}
+
+#[test]
 fn what_is_wrong_with_an_object() {
     check_errors(&[
         (

@@ -1,13 +1,18 @@
 //! The look of what is seen: object order interpolates over each triangle what its corners carry,
 //! with weights that are functions on the viewport.
 
+mod quotient;
+
 use bothways_common::frame::{NO_PRIMITIVE, ShadingRow};
 use bothways_common::shade::{SurfacePoint, colour};
+use bothways_common::texture::{self, TexturePoint};
 use bothways_common::{Frame, Material, Primitive, Projection, SampleGrid, Scene, Shape, View};
-use glam::{DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec2, Vec3};
+use quotient::{Linear, Quotient};
 use rayon::prelude::*;
 
-/// Gives every sample its normal and colour, by interpolation over the triangle that is seen there.
+/// Gives every sample its normal and colour, by interpolation over the triangle that is seen there; its
+/// texture coordinate, too, if the frame [keeps them](Frame::with_texture_coordinates).
 ///
 /// # Panics
 ///
@@ -18,35 +23,65 @@ pub fn shade(view: &View, frame: &mut Frame) {
     frame.shading_rows().into_par_iter().for_each(|row| shade_row(view, &grid, row));
 }
 
-fn shade_row(view: &View, grid: &SampleGrid, row: ShadingRow) {
+fn shade_row(view: &View, grid: &SampleGrid, mut row: ShadingRow) {
+    let step = sample_step(view, grid);
     // Neighbouring samples mostly show the same primitive: set it up once for the run.
     let mut run: Option<(u32, Surface)> = None;
     for (column, &id) in row.ids.iter().enumerate() {
         if id == NO_PRIMITIVE {
             row.normals[column] = Vec3::ZERO;
             row.colours[column] = view.scene.background;
+            if let Some(kept) = &mut row.texture_coordinates {
+                kept[column] = Vec2::ZERO;
+            }
             continue;
         }
         let surface = match &run {
             Some((of, surface)) if *of == id => surface,
-            _ => &run.insert((id, Surface::new(view, id))).1,
+            _ => &run.insert((id, Surface::new(view, id, row.texture_coordinates.is_some()))).1,
         };
         let (x, y) = (grid.x()[column], grid.y()[row.row]);
         let ray = view.camera.ray_through(x, y);
         let position = ray.origin + f64::from(row.t[column]) * ray.direction;
         let normal = surface.normal(x, y, position, ray.direction).as_vec3();
         let to_viewer = -ray.direction.normalize().as_vec3();
-        let point = SurfacePoint { position: position.as_vec3(), normal, to_viewer };
+        let texture = surface.texture_point(view, x, y, position, step);
+        let point = SurfacePoint { position: position.as_vec3(), normal, to_viewer, texture };
         row.normals[column] = normal;
+        if let Some(kept) = &mut row.texture_coordinates {
+            kept[column] = texture.map_or(Vec2::ZERO, |texture| texture.stored());
+        }
         row.colours[column] =
             colour(&point, &surface.material, &view.scene.lights, view.camera.eye());
     }
+}
+
+/// The way from a sample to the next one across, and to the next one down.
+fn sample_step(view: &View, grid: &SampleGrid) -> [f64; 2] {
+    let [width, height] = view.camera.viewport();
+    [width / count(grid.width()), -height / count(grid.height())]
+}
+
+/// Of samples along a side.
+#[expect(clippy::cast_precision_loss, reason = "at most 65,536")]
+fn count(samples: usize) -> f64 {
+    samples as f64
 }
 
 /// One visible primitive, set up for all samples at which it is seen.
 struct Surface {
     material: Material,
     normals: Normals,
+    texture: Texture,
+}
+
+enum Texture {
+    /// Not there, or not needed.
+    None,
+    /// Of a sphere around this centre.
+    Round(DVec3),
+    /// Of a flat form: a function on the viewport.
+    Flat(Quotient),
 }
 
 enum Normals {
@@ -55,21 +90,14 @@ enum Normals {
     /// Of a sphere around this centre.
     Round(DVec3),
     /// Interpolated: the corners' normals, each with its weight, and the flat one.
-    Smooth { corners: [(DVec3, Weight); 3], flat: DVec3 },
-}
-
-/// A function `at_centre + x·across + y·up` on the viewport: the edge function opposite to a corner,
-/// which is that corner's perspective-correct weight up to a common factor.
-struct Weight {
-    at_centre: f64,
-    across: f64,
-    up: f64,
+    Smooth { corners: [(DVec3, Linear); 3], flat: DVec3 },
 }
 
 impl Surface {
-    fn new(view: &View, id: u32) -> Surface {
+    fn new(view: &View, id: u32, keeps_texture: bool) -> Surface {
         let (object, local) = view.scene.locate(id);
-        let normals = match view.primitive(id) {
+        let primitive = view.primitive(id);
+        let normals = match primitive {
             Primitive::Sphere { center, .. } => Normals::Round(center),
             Primitive::Plane { normal, .. } => Normals::Flat(normal),
             Primitive::Triangle([a, b, c]) => {
@@ -77,15 +105,46 @@ impl Surface {
                 match corner_normals(view.scene, object, local) {
                     None => Normals::Flat(flat),
                     Some([at_a, at_b, at_c]) => {
-                        let weight = |p, q| Weight::new(view, p, q, flat);
-                        let corners =
-                            [(at_a, weight(b, c)), (at_b, weight(c, a)), (at_c, weight(a, b))];
-                        Normals::Smooth { corners, flat }
+                        let [of_a, of_b, of_c] = weights(view, [a, b, c], flat);
+                        Normals::Smooth {
+                            corners: [(at_a, of_a), (at_b, of_b), (at_c, of_c)],
+                            flat,
+                        }
                     }
                 }
             }
         };
-        Surface { material: view.scene.objects()[object].material, normals }
+        let object = &view.scene.objects()[object];
+        let material = *object.material_of(local);
+        let texture = if keeps_texture || material.checker.is_some() {
+            Texture::new(view, &primitive, texture::corners(&object.shape, local))
+        } else {
+            Texture::None
+        };
+        Surface { material, normals, texture }
+    }
+
+    /// The texture coordinate at a sample, and how it changes towards its neighbours.
+    fn texture_point(
+        &self,
+        view: &View,
+        x: f64,
+        y: f64,
+        position: DVec3,
+        [across, down]: [f64; 2],
+    ) -> Option<TexturePoint> {
+        let (coordinate, [along_x, along_y]) = match &self.texture {
+            Texture::None => return None,
+            Texture::Flat(quotient) => quotient.at(x, y),
+            Texture::Round(center) => {
+                // Near the sample the sphere is the plane that touches it there.
+                let normal = position - center;
+                let (coordinate, gradients) = texture::on_sphere(normal);
+                let touching = Quotient::on_plane(view, position, normal, gradients);
+                (coordinate, touching.at(x, y).1)
+            }
+        };
+        Some(TexturePoint::new(coordinate, across * along_x, down * along_y))
     }
 
     /// The unit normal at a sample, towards the viewer.
@@ -94,7 +153,7 @@ impl Surface {
             Normals::Flat(flat) => (*flat, *flat),
             Normals::Round(center) => (position - center, position - center),
             Normals::Smooth { corners, flat } => {
-                let weighted = |(normal, weight): &(DVec3, Weight)| weight.at(x, y) * *normal;
+                let weighted = |(normal, weight): &(DVec3, Linear)| weight.at(x, y) * *normal;
                 (*flat, corners.iter().map(weighted).sum::<DVec3>())
             }
         };
@@ -104,35 +163,44 @@ impl Surface {
     }
 }
 
-impl Weight {
-    /// The edge function from `p` to `q`, positive inside of the triangle.
-    fn new(view: &View, p: DVec3, q: DVec3, flat: DVec3) -> Weight {
-        let camera = view.camera;
-        let (u, v, w) = (camera.u(), camera.v(), camera.w());
-        match camera.projection() {
-            Projection::Perspective => {
-                let edge = p.cross(q);
-                let side = flat.dot(p).signum();
-                Weight {
-                    at_centre: -side * camera.distance() * edge.dot(w),
-                    across: side * edge.dot(u),
-                    up: side * edge.dot(v),
-                }
+impl Texture {
+    fn new(view: &View, primitive: &Primitive, corners: Option<[DVec2; 3]>) -> Texture {
+        match (*primitive, corners) {
+            (Primitive::Sphere { center, .. }, _) => Texture::Round(center),
+            (Primitive::Plane { point, normal }, _) => {
+                let axes = texture::plane_axes(normal);
+                Texture::Flat(Quotient::on_plane(view, point, normal, axes))
             }
-            Projection::Parallel => {
-                let side = -flat.dot(w).signum();
-                let slope = (p - q).cross(w);
-                Weight {
-                    at_centre: -side * p.cross(q).dot(w),
-                    across: -side * slope.dot(u),
-                    up: -side * slope.dot(v),
-                }
+            (Primitive::Triangle([a, b, c]), Some(coordinates)) => {
+                let flat = (b - a).cross(c - a);
+                Texture::Flat(Quotient::interpolating(weights(view, [a, b, c], flat), coordinates))
             }
+            (Primitive::Triangle(_), None) => Texture::None,
         }
     }
+}
 
-    fn at(&self, x: f64, y: f64) -> f64 {
-        self.at_centre + x * self.across + y * self.up
+/// The perspective-correct weights of a triangle's corners, up to a common factor: each is the edge
+/// function of the side opposite to its corner.
+fn weights(view: &View, [a, b, c]: [DVec3; 3], flat: DVec3) -> [Linear; 3] {
+    [(b, c), (c, a), (a, b)].map(|(p, q)| edge_function(view, p, q, flat))
+}
+
+/// The edge function from `p` to `q`, positive inside of the triangle.
+fn edge_function(view: &View, p: DVec3, q: DVec3, flat: DVec3) -> Linear {
+    let w = view.camera.w();
+    match view.camera.projection() {
+        Projection::Perspective => {
+            let side = flat.dot(p).signum();
+            Linear::along_ray(view, p.cross(q)) * side
+        }
+        Projection::Parallel => {
+            let side = -flat.dot(w).signum();
+            let (u, v) = (view.camera.u(), view.camera.v());
+            let slope = (p - q).cross(w);
+            let [at_centre, across, up] = [p.cross(q).dot(w), slope.dot(u), slope.dot(v)];
+            Linear { at_centre, across, up } * -side
+        }
     }
 }
 

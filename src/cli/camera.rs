@@ -168,7 +168,7 @@ mod tests {
         let far = Shape::Sphere(Sphere { center: Vec3::new(0.0, 0.0, -9.0), radius: 1.0 });
         let scene = Scene::new(vec![plane.into(), near.into(), far.into()]).unwrap();
         let (name, toml) = ("test".into(), String::new());
-        LoadedScene { name, scene, camera, viewport_stated: false, toml }
+        LoadedScene { name, scene, camera, viewport_stated: false, toml, warnings: Vec::new() }
     }
 
     fn look_at(target: Vec3) -> CameraDescription {

@@ -54,6 +54,7 @@ pub(super) struct PixelArgs {
 /// Judges, renders and prints; 0 if both orders saw what is true.
 pub(super) fn run(args: &PixelArgs) -> Result<ExitCode, Failure> {
     let loaded = scenes::load(&args.scene)?;
+    terminal::warn(&loaded.warnings);
     let camera = camera(&loaded, &args.camera)?;
     check_samples(camera.image(), args.samples)
         .map_err(|error| Failure::new(format!("--samples {}: {error}", args.samples)))?;

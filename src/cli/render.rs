@@ -24,6 +24,9 @@ use std::process::ExitCode;
 /// Renders, writes and prints; 0 if both orders see the same (or one was asked for), 1 if not.
 pub(super) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
     let loaded = scenes::load(&args.scene)?;
+    if !args.output.quiet {
+        terminal::warn(&loaded.warnings);
+    }
     let camera = camera(&loaded, &args.camera)?;
     check_samples(camera.image(), args.method.samples)
         .map_err(|error| Failure::new(format!("--samples {}: {error}", args.method.samples)))?;

@@ -1,4 +1,4 @@
-//! Printing to stdout.
+//! Printing: results to stdout, warnings to stderr.
 
 use super::failure::Failure;
 use serde::Serialize;
@@ -14,6 +14,15 @@ pub(super) fn print(text: &str) -> Result<(), Failure> {
             Err(Failure::new(format!("cannot print to standard output: {error}")))
         }
         _ => Ok(()),
+    }
+}
+
+/// Prints to stderr what is missing but stops nothing, in colour as [`print()`] does.
+pub(super) fn warn(warnings: &[String]) {
+    let yellow = anstyle::AnsiColor::Yellow.on_default().bold();
+    for warning in warnings {
+        // If nobody can be told, the result is the same.
+        let _ = writeln!(anstream::stderr(), "{yellow}warning{yellow:#}: {warning}");
     }
 }
 

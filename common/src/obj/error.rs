@@ -51,7 +51,7 @@ pub enum ReadObjError {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum StatementFault {
     /// The line does not begin like text.
-    #[error("this is not plain text, as an OBJ file must be (a binary or UTF-16 file?)")]
+    #[error("this is not plain text, as an OBJ or MTL file must be (a binary or UTF-16 file?)")]
     NotText,
     /// The statement's keyword is not one of the format, or one that includes other files.
     #[error("there is no statement {keyword:?} that an OBJ file may have here")]
@@ -124,6 +124,33 @@ pub enum StatementFault {
         index: i64,
         /// How many the file defines.
         defined: usize,
+    },
+    /// A `newmtl` of an MTL file gives no name.
+    #[error("newmtl needs the material's name")]
+    NoName,
+    /// A statement of an MTL file describes nothing.
+    #[error("{keyword} stands before the first newmtl, so it describes no material")]
+    NoMaterial {
+        /// The statement's keyword.
+        keyword: String,
+    },
+    /// A statement of an MTL file has too few numbers.
+    #[error("{keyword} needs {needed}")]
+    MissingNumbers {
+        /// The statement's keyword.
+        keyword: String,
+        /// How many, in words.
+        needed: &'static str,
+    },
+    /// A number of an MTL file is too small or too large.
+    #[error("{keyword} has the value {text}; it must be {range}")]
+    OutOfBounds {
+        /// The statement's keyword.
+        keyword: String,
+        /// What stands there.
+        text: String,
+        /// What is allowed, in words.
+        range: &'static str,
     },
 }
 

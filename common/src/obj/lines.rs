@@ -55,6 +55,13 @@ pub(super) struct Words<'a> {
 }
 
 impl<'a> Words<'a> {
+    /// What is left of the statement, as it stands, if it is not blank: a name, which may have blanks
+    /// and `#` in it.
+    pub(super) fn text(&self) -> Option<String> {
+        let text = self.rest.trim_ascii();
+        (!text.is_empty()).then(|| String::from_utf8_lossy(text).into_owned())
+    }
+
     fn any_comment(mut self) -> bool {
         while let Some(word) = self.split_word() {
             if word.starts_with(b"#") {

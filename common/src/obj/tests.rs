@@ -102,7 +102,8 @@ fn what_is_no_statement_says_so() {
         message("call b.obj\n"),
         r#"a:1: there is no statement "call" that an OBJ file may have here"#
     );
-    let binary = "a:2: this is not plain text, as an OBJ file must be (a binary or UTF-16 file?)";
+    let binary =
+        "a:2: this is not plain text, as an OBJ or MTL file must be (a binary or UTF-16 file?)";
     assert_eq!(message(b"v 0 0 0\n\x89PNG\n"), binary);
     assert_eq!(message(b"v 0 0 0\nf\0 \x01\0\n"), binary);
 }

@@ -3,12 +3,12 @@
 use std::fmt;
 use std::io::{self, Write};
 
-use crate::mesh::{Attribute, Mesh};
+use crate::mesh::{Attribute, Mesh, MeshMaterials};
 
 /// Writes a mesh as an OBJ file that [`parse`](super::parse) reads back bit for bit.
 ///
 /// Numbers are written as the shortest decimals that stand for them alone. Triangles keep their
-/// order, positions and what corners carry their indices. Values of an attribute that no corner
+/// order, positions and what corners carry their indices, materials their names. Values of an attribute that no corner
 /// carries are left out; a mesh without triangles and values that are not finite are written, but
 /// are refused when read.
 ///
@@ -27,6 +27,10 @@ use crate::mesh::{Attribute, Mesh};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn write(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
+    let materials = mesh.materials();
+    for library in materials.map_or(&[][..], MeshMaterials::libraries) {
+        writeln!(out, "mtllib {library}")?;
+    }
     for &position in mesh.positions() {
         write_values(out, "v", position.to_array())?;
     }
@@ -41,7 +45,14 @@ pub fn write(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
             write_values(out, "vn", value.to_array())?;
         }
     }
+    let named = materials.map_or(&[][..], MeshMaterials::named);
+    let mut spans = materials.map_or(&[][..], MeshMaterials::spans).iter().peekable();
     for (triangle, &vertices) in mesh.triangles().iter().enumerate() {
+        if let Some(span) = spans.next_if(|span| span.first == triangle) {
+            let name = span.material.map(|place| &named[place as usize].name);
+            // Without a name it ends the use of the material before it.
+            writeln!(out, "usemtl{}", name.map_or(String::new(), |name| format!(" {name}")))?;
+        }
         write!(out, "f")?;
         for (corner, &vertex) in vertices.iter().enumerate() {
             let (texture, normal) =

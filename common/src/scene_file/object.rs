@@ -5,9 +5,9 @@
 //! | `triangle = { a, b, c }` | its corners |
 //! | `sphere = { center, radius }` | |
 //! | `plane = { point, normal }` | an infinite plane |
-//! | `mesh = "bunny.obj"` | a mesh file, relative to the scene file |
+//! | `mesh = "bunny.obj"` | a mesh file, relative to the scene file, with its own colours |
 //! | `generate = { kind, divisions }` | a mesh that is computed: see [`Kind`] |
-//! | `material` | the name of a material; light grey without it |
+//! | `material` | the name of a material, instead of those of a mesh file; light grey without it |
 //! | `scale`, `rotate = { axis, degrees }`, `translate` | where it is put, in this order |
 
 use super::Materials;
@@ -15,7 +15,8 @@ use super::error::Problem;
 use super::reader::{Item, Table, suggestion};
 use super::transform::{self, Transform};
 use crate::generate::Kind;
-use crate::obj;
+use crate::mesh::MeshMaterials;
+use crate::obj::{self, ReadObjError};
 use crate::scene::{Material, Object, Plane, Shape, Sphere, Triangle};
 use crate::smooth;
 use std::path::Path;
@@ -24,15 +25,44 @@ const SHAPES: [&str; 5] = ["triangle", "sphere", "plane", "mesh", "generate"];
 pub(super) const EXAMPLE: &str = "sphere = { center = [0, 0, 0], radius = 1 }";
 
 /// Reads one object.
-pub(super) fn read(item: &Item, materials: &Materials, folder: &Path) -> Result<Object, Problem> {
+pub(super) fn read(
+    item: &Item,
+    materials: &Materials,
+    folder: &Path,
+    warnings: &mut Vec<String>,
+) -> Result<Object, Problem> {
     let known = [&SHAPES[..], &["material"], &transform::KEYS].concat();
     let table = item.table(&known)?;
-    let shape = shape(&super::exactly_one(&table, "an object", &SHAPES, EXAMPLE)?, folder)?;
+    let stated = super::exactly_one(&table, "an object", &SHAPES, EXAMPLE)?;
+    let shape = match stated.name.as_str() {
+        "triangle" => triangle(&stated)?,
+        "sphere" => sphere(&stated)?,
+        "plane" => plane(&stated)?,
+        "mesh" => mesh(&stated, folder, table.get("material").is_none(), warnings)?,
+        _ => generated(&stated)?,
+    };
     let shape = match Transform::read(&table)? {
         Some(world_from_object) => world_from_object.apply(shape)?,
         None => shape,
     };
-    Ok(Object { shape, material: material(&table, materials)? })
+    let material = material(&table, materials)?;
+    check_pattern(&table, &shape, &material)?;
+    Ok(Object { shape, material })
+}
+
+/// A pattern needs texture coordinates; it would silently be missing without them.
+fn check_pattern(object: &Table, shape: &Shape, material: &Material) -> Result<(), Problem> {
+    match shape {
+        Shape::Mesh(mesh)
+            if material.checker.is_some() && mesh.texture_coordinates().corners.is_empty() =>
+        {
+            let message = "this material has a checker, and the mesh has no texture coordinates";
+            Err(Problem::new(object.place_of("material"), message).help(
+                "export the mesh with texture coordinates (vt), or choose a material without checker",
+            ))
+        }
+        _ => Ok(()),
+    }
 }
 
 fn material(object: &Table, materials: &Materials) -> Result<Material, Problem> {
@@ -45,16 +75,6 @@ fn material(object: &Table, materials: &Materials) -> Result<Material, Problem> 
         }
         problem.help(suggestion("materials", name, materials.keys().map(String::as_str)))
     })
-}
-
-fn shape(item: &Item, folder: &Path) -> Result<Shape, Problem> {
-    match item.name.as_str() {
-        "triangle" => triangle(item),
-        "sphere" => sphere(item),
-        "plane" => plane(item),
-        "mesh" => mesh(item, folder),
-        _ => generated(item),
-    }
 }
 
 fn triangle(item: &Item) -> Result<Shape, Problem> {
@@ -77,15 +97,28 @@ fn plane(item: &Item) -> Result<Shape, Problem> {
     Ok(Shape::Plane(Plane { point, normal: table.need("normal", EXAMPLE)?.direction()? }))
 }
 
-fn mesh(item: &Item, folder: &Path) -> Result<Shape, Problem> {
+/// A mesh file; `coloured` with its own materials.
+fn mesh(
+    item: &Item,
+    folder: &Path,
+    coloured: bool,
+    warnings: &mut Vec<String>,
+) -> Result<Shape, Problem> {
     let path = Path::new(item.text()?);
     if !path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("obj")) {
         let problem = item.problem(format!("is {:?}, which is no .obj file", path.display()));
         return Err(problem.help("convert it to OBJ; no other format is read"));
     }
-    let mesh = obj::read(&folder.join(path));
-    let smooth = |mesh| Shape::Mesh(smooth::with_normals(mesh, smooth::CREASE));
-    mesh.map(smooth).map_err(|error| Problem::new(item.span.clone(), error.to_string()))
+    let path = folder.join(path);
+    let wrong = |error: ReadObjError| Problem::new(item.span.clone(), error.to_string());
+    let mesh = if coloured {
+        let (mesh, missing) = obj::read_with_materials(&path).map_err(wrong)?;
+        warnings.extend(missing.iter().map(ToString::to_string));
+        mesh
+    } else {
+        obj::read(&path).map_err(wrong)?.with_materials(MeshMaterials::default())
+    };
+    Ok(Shape::Mesh(smooth::with_normals(mesh, smooth::CREASE)))
 }
 
 fn generated(item: &Item) -> Result<Shape, Problem> {

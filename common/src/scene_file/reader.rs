@@ -172,6 +172,12 @@ impl<'t> Item<'t> {
         Ok([a.number()?, b.number()?])
     }
 
+    /// Two numbers greater than 0.
+    pub(super) fn positive_pair(&self) -> Read<[f32; 2]> {
+        let [a, b] = self.elements("two numbers")?;
+        Ok([a.positive()?, b.positive()?])
+    }
+
     pub(super) fn counts(&self) -> Read<[u32; 2]> {
         let [a, b] = self.elements("two whole numbers")?;
         Ok([a.count()?, b.count()?])
