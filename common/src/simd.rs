@@ -36,6 +36,72 @@ pub fn levels() -> Vec<Level> {
     levels
 }
 
+/// Asks the machine to bring an element into its cache, because it is needed soon. Changes no result.
+#[inline(always)]
+#[cfg_attr(
+    target_arch = "x86_64",
+    expect(unsafe_code, reason = "the intrinsic takes a pointer; it reads nothing through it")
+)]
+pub fn prefetch<T>(slice: &[T], index: usize) {
+    #[cfg(target_arch = "x86_64")]
+    if let Some(element) = slice.get(index) {
+        use core::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        // SAFETY: prefetching is defined for any address; SSE is part of every x86-64.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(core::ptr::from_ref(element).cast()) };
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = (slice, index);
+}
+
+/// Writes sixteen numbers that are not needed again soon: past the caches, where the machine can. Whoever
+/// lets other threads read them calls [`finish_streaming`] before.
+#[inline(always)]
+#[cfg_attr(
+    target_arch = "x86_64",
+    expect(unsafe_code, reason = "the intrinsic takes a pointer; it writes what the array holds")
+)]
+pub fn stream<T: Copy + Sixteen>(values: [T; 16], to: &mut [T; 16]) {
+    #[cfg(target_arch = "x86_64")]
+    {
+        use core::arch::x86_64::{__m128i, _mm_loadu_si128, _mm_stream_si128};
+        let (from, onto) = (values.as_ptr().cast::<__m128i>(), to.as_mut_ptr().cast::<__m128i>());
+        if onto.is_aligned() {
+            for quarter in 0..4 {
+                // SAFETY: both arrays have 64 bytes, any of which may hold any bits; `onto` is
+                // aligned; SSE2 is part of every x86-64.
+                unsafe {
+                    _mm_stream_si128(onto.add(quarter), _mm_loadu_si128(from.add(quarter)));
+                }
+            }
+            return;
+        }
+    }
+    *to = values;
+}
+
+/// Numbers of four bytes, all of whose bits are theirs.
+pub trait Sixteen: sealed::Sealed {}
+impl Sixteen for f32 {}
+impl Sixteen for u32 {}
+
+mod sealed {
+    #[expect(unnameable_types, reason = "so that nobody else implements it")]
+    pub trait Sealed {}
+    impl Sealed for f32 {}
+    impl Sealed for u32 {}
+}
+
+/// Makes what was written by [`stream`] visible to other threads as any other write.
+#[inline(always)]
+#[cfg_attr(target_arch = "x86_64", expect(unsafe_code, reason = "a fence has no condition"))]
+pub fn finish_streaming() {
+    #[cfg(target_arch = "x86_64")]
+    // SAFETY: SSE is part of every x86-64.
+    unsafe {
+        core::arch::x86_64::_mm_sfence();
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

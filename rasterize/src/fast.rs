@@ -32,13 +32,13 @@ use bins::{BatchBins, Binning, Class, Tiling};
 use bothways_common::fault::{Fault, Planted, Sound};
 use bothways_common::frame::Tile;
 use bothways_common::observe::Observer;
-use bothways_common::simd::{Level, Simd, best_level, dispatch};
+use bothways_common::simd::{Level, Simd, best_level, dispatch, prefetch};
 use bothways_common::{Frame, Options, Scene, Shape, View};
 use depth::KeyScale;
 use glam::DVec3;
 use rayon::prelude::*;
 use screen::Screen;
-use setup::Setup;
+use setup::{Lanes, Setup};
 use std::sync::Mutex;
 use tile::{Picture, TileBuffer};
 use vertices::{Raster, Vertex};
@@ -47,7 +47,7 @@ use vertices::{Raster, Vertex};
 const TILE: [u32; 2] = [10, 6];
 /// Primitives that one thread takes up at a time: at most, and at least if there are enough.
 const MOST_IN_BATCH: u32 = 1 << 15;
-const LEAST_IN_BATCH: u32 = 1 << 12;
+const LEAST_IN_BATCH: u32 = 1 << 10;
 
 /// What a moving camera would not repeat: the scene cut into batches that threads can share, and how
 /// far it reaches.
@@ -86,7 +86,7 @@ struct Batch {
 pub fn prepare(scene: &Scene) -> Prepared {
     let primitives = scene.primitive_count();
     // Some dozens of batches share well between threads.
-    let most = (primitives / 16).clamp(LEAST_IN_BATCH, MOST_IN_BATCH);
+    let most = (primitives / 64).clamp(LEAST_IN_BATCH, MOST_IN_BATCH);
     let first_ids = (0..primitives).step_by(most as usize);
     let batch = |first_id| Batch { first_id, count: most.min(primitives - first_id) };
     let mut first_vertices = vec![0];
@@ -247,7 +247,7 @@ pub fn determine_visibility_with_fault<O: Observer, F: Fault>(
     parts.into_iter().for_each(|part| observer.join(part));
 
     let picture = Picture { view, screen: &screen, keys };
-    let drawing = Drawing { raster: &raster, picture: &picture, bins: &spare.bins };
+    let drawing = Drawing { binning: &binning, picture: &picture, bins: &spare.bins };
     let seen: &O = observer;
     let tiles: Vec<Tile> = frame.tiles_mut(tiling.columns, tiling.rows);
     let dropped = F::is(Planted::DroppedTile).then_some(tiles.len() / 2);
@@ -320,7 +320,7 @@ fn place_vertices(
 
 /// What drawing needs to know of the frame.
 struct Drawing<'a> {
-    raster: &'a Raster,
+    binning: &'a Binning<'a>,
     picture: &'a Picture<'a>,
     bins: &'a [BatchBins],
 }
@@ -335,33 +335,96 @@ impl Drawing<'_> {
         buffer: &mut TileBuffer,
         observer: &mut O,
     ) {
+        let mut lanes = Lanes::new();
+        let mut find = Finder::new(self.binning);
         let mut large = Vec::new();
         for bins in self.bins {
             large.clear();
             for class in [Class::Tiny, Class::Small] {
-                for lanes in bins.triangles(tile, class) {
-                    let setup = Setup::new::<S, F>(simd, self.raster, lanes);
+                for ids in bins.list(tile, class).chunks(16) {
+                    lanes.fill(ids, |id| find.vertices(id));
+                    let setup = Setup::new::<S, F>(simd, self.binning.raster, &lanes);
                     if setup.doubtful != 0 {
                         large.extend(setup.lanes(setup.doubtful));
                     }
                     small::draw::<S, O, F>(simd, &setup, buffer, observer);
                 }
             }
-            for lanes in bins.triangles(tile, Class::Block) {
-                let setup = Setup::new::<S, F>(simd, self.raster, lanes);
+            let list = bins.list(tile, Class::Block);
+            for (k, ids) in list.chunks(16).enumerate() {
+                lanes.fill(ids, |id| find.vertices(id));
+                find.look_ahead(list, 16 * k + 16);
+                let setup = Setup::new::<S, F>(simd, self.binning.raster, &lanes);
                 let elsewhere = setup.doubtful | setup.keyless;
-                if elsewhere != 0 {
-                    large.extend(setup.lanes(elsewhere));
-                }
-                for lane in setup.keyed_lanes() {
+                large.extend(setup.lanes(elsewhere));
+                for lane in (0..ids.len()).filter(|lane| elsewhere >> lane & 1 == 0) {
                     block::draw::<S, O, F>(simd, &setup, lane, buffer, observer);
                 }
             }
-            large.extend_from_slice(bins.large(tile));
+            large.extend_from_slice(bins.list(tile, Class::Large));
             for id in &large {
                 large::draw::<O, F>(*id, self.picture, buffer, observer);
             }
             buffer.settle::<O, F>(self.picture, observer);
         }
+    }
+}
+
+/// Finds the vertices of triangles, which mostly come in the order of the scene.
+struct Finder<'a> {
+    binning: &'a Binning<'a>,
+    /// The ids of the current object's primitives.
+    ids: std::ops::Range<u32>,
+    /// Its triangles' vertices, none for a triangle that is no mesh, and its first vertex.
+    triangles: &'a [[u32; 3]],
+    vertices: &'a [Vertex],
+}
+
+impl<'a> Finder<'a> {
+    fn new(binning: &'a Binning<'a>) -> Self {
+        Finder { binning, ids: 0..0, triangles: &[], vertices: &[] }
+    }
+
+    #[inline(always)]
+    fn vertices(&mut self, id: u32) -> [Vertex; 3] {
+        if !self.ids.contains(&id) {
+            self.find_object(id);
+        }
+        let triangle = (id - self.ids.start) as usize;
+        let corners = self.triangles.get(triangle).copied().unwrap_or([0, 1, 2]);
+        corners.map(|vertex| self.vertices[vertex as usize])
+    }
+
+    /// Prepares for the sixteen triangles from `next` on, and a little for the sixteen behind them.
+    ///
+    /// Larger triangles of a tile may lie anywhere in memory. Small ones are neighbours, as meshes go, so
+    /// that this would cost more than it saves.
+    #[inline(always)]
+    fn look_ahead(&self, ids: &[u32], next: usize) {
+        let triangle = |id: u32| id.wrapping_sub(self.ids.start) as usize;
+        let from = |start: usize| ids.get(start..).unwrap_or_default().iter().take(16);
+        for &id in from(next + 16) {
+            prefetch(self.triangles, triangle(id));
+        }
+        for &id in from(next) {
+            for vertex in self.triangles.get(triangle(id)).into_iter().flatten() {
+                prefetch(self.vertices, *vertex as usize);
+            }
+        }
+    }
+
+    #[cold]
+    fn find_object(&mut self, id: u32) {
+        let scene = self.binning.view.scene;
+        let (object, local) = scene.locate(id);
+        let shape = &scene.objects()[object].shape;
+        let number = |count: usize| u32::try_from(count).expect("ids are u32");
+        let first = id - number(local);
+        self.ids = first..first + number(shape.primitive_count());
+        self.triangles = match shape {
+            Shape::Mesh(mesh) => mesh.triangles(),
+            Shape::Triangle(_) | Shape::Sphere(_) | Shape::Plane(_) => &[],
+        };
+        self.vertices = &self.binning.vertices[self.binning.first_vertices[object]..];
     }
 }

@@ -3,7 +3,7 @@
 use super::Batch;
 use super::depth::DepthPlane;
 use super::screen::Screen;
-use super::setup::{Lanes, MOST_SAMPLES_ACROSS};
+use super::setup::MOST_SAMPLES_ACROSS;
 use super::small;
 use super::vertices::{ON_RASTER, OUT_OF_SIGHT, Raster, Vertex};
 use bothways_common::fault::{Fault, Planted};
@@ -13,7 +13,7 @@ use bothways_common::simd::{Simd, SimdBase, SimdMask, i32x4};
 use bothways_common::{Mesh, Primitive, Shape, View};
 use std::ops::Range;
 
-/// How a triangle is drawn, unless it is too large or too extreme for `f32`.
+/// How a primitive is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Class {
     /// A triangle over very few samples.
@@ -22,15 +22,11 @@ pub(super) enum Class {
     Small,
     /// A triangle over more.
     Block,
+    /// Everything else.
+    Large,
 }
 
-const CLASSES: usize = 3;
-
-/// Where the triangles of one class in a tile are kept.
-#[inline(always)]
-fn list(tile: usize, class: Class) -> usize {
-    tile * CLASSES + class as usize
-}
+const CLASSES: u32 = 4;
 
 /// How the picture is cut into tiles.
 #[derive(Clone, Copy, Debug)]
@@ -58,25 +54,23 @@ impl Tiling {
         Tiling { columns, rows, column_bits, row_bits, across, down }
     }
 
-    fn tiles(&self) -> usize {
-        (self.across * self.down) as usize
+    fn lists(&self) -> usize {
+        (self.across * self.down * CLASSES) as usize
     }
 }
 
 /// A primitive and the samples that it may cover.
 #[derive(Clone, Copy, Debug)]
 struct Entry {
-    /// Of a triangle that `f32` can draw.
-    corners: [Vertex; 3],
     id: u32,
     /// Columns and rows: the first, and the last times 2¹⁶.
     ends: [u32; 2],
-    /// Whether `f32` cannot draw it.
+    /// Whether it must be drawn as [`Class::Large`].
     large: bool,
 }
 
 impl Entry {
-    const NONE: Entry = Entry { corners: [[0; 4]; 3], id: 0, ends: [0; 2], large: true };
+    const NONE: Entry = Entry { id: 0, ends: [0; 2], large: false };
 
     /// # Panics
     ///
@@ -86,7 +80,7 @@ impl Entry {
         let ends = |range: &Range<usize>| {
             u32::from(index(range.start)) | u32::from(index(range.end - 1)) << 16
         };
-        Entry { id, ends: [ends(&region.columns), ends(&region.rows)], ..Entry::NONE }
+        Entry { id, ends: [ends(&region.columns), ends(&region.rows)], large: true }
     }
 
     /// First and last column, first and last row.
@@ -96,12 +90,13 @@ impl Entry {
         [[columns & 0xffff, columns >> 16], [rows & 0xffff, rows >> 16]]
     }
 
-    /// The class of a triangle that is not large.
     #[inline(always)]
     fn class(&self) -> Class {
         let [columns, rows] = self.bounds();
         let samples = (columns[1] - columns[0] + 1) * (rows[1] - rows[0] + 1);
-        if samples <= small::VERY_FEW_SAMPLES {
+        if self.large {
+            Class::Large
+        } else if samples <= small::VERY_FEW_SAMPLES {
             Class::Tiny
         } else if samples <= small::MOST_SAMPLES {
             Class::Small
@@ -110,77 +105,41 @@ impl Entry {
         }
     }
 
-    /// The only tile that the region overlaps.
+    /// The list of this class of the only tile that the region overlaps.
     #[inline(always)]
-    fn only_tile(&self, tiling: &Tiling) -> Option<usize> {
+    fn only_list(&self, tiling: &Tiling) -> Option<usize> {
         let [columns, rows] = self.bounds();
         let [row, column] = [rows[0] >> tiling.row_bits, columns[0] >> tiling.column_bits];
         let is_only =
             row == rows[1] >> tiling.row_bits && column == columns[1] >> tiling.column_bits;
-        is_only.then_some((row * tiling.across + column) as usize)
+        let list = (row * tiling.across + column) * CLASSES + self.class() as u32;
+        is_only.then_some(list as usize)
     }
 
-    /// Does something for every tile that the region overlaps.
+    /// Does something for the list, of this class, of every tile that the region overlaps.
     #[inline(always)]
-    fn for_each_tile(&self, tiling: &Tiling, mut action: impl FnMut(usize)) {
+    fn for_each_list(&self, tiling: &Tiling, mut action: impl FnMut(usize)) {
         let [columns, rows] = self.bounds();
+        let class = self.class() as u32;
         for row in rows[0] >> tiling.row_bits..=rows[1] >> tiling.row_bits {
             for column in columns[0] >> tiling.column_bits..=columns[1] >> tiling.column_bits {
-                action((row * tiling.across + column) as usize);
+                action(((row * tiling.across + column) * CLASSES + class) as usize);
             }
         }
     }
 }
 
-/// The primitives of one batch, for each tile and class a list.
+/// The primitives of one batch, for each tile and class a list of ids.
 #[derive(Debug, Default)]
 pub(super) struct BatchBins {
-    triangles: Vec<TriangleList>,
-    /// The ids of what `f32` cannot draw, for each tile.
-    large: Vec<Vec<u32>>,
+    lists: Vec<Vec<u32>>,
     /// Some entries on their way to the lists.
     entries: Vec<Entry>,
     count: usize,
 }
 
-/// Triangles in the form in which they are set up.
-#[derive(Debug, Default)]
-struct TriangleList {
-    /// Those of this frame, and behind them memory of earlier ones.
-    sixteens: Vec<Lanes>,
-    /// How many are of this frame.
-    used: usize,
-}
-
-impl TriangleList {
-    fn clear(&mut self) {
-        self.used = 0;
-    }
-
-    #[inline(always)]
-    fn push(&mut self, entry: &Entry) {
-        if self.used == 0 || self.sixteens[self.used - 1].is_full() {
-            self.start_sixteen();
-        }
-        self.sixteens[self.used - 1].push(entry.id, &entry.corners);
-    }
-
-    #[inline(never)]
-    fn start_sixteen(&mut self) {
-        if self.used == self.sixteens.len() {
-            self.sixteens.push(Lanes::new());
-        }
-        self.sixteens[self.used].clear();
-        self.used += 1;
-    }
-
-    fn as_slice(&self) -> &[Lanes] {
-        &self.sixteens[..self.used]
-    }
-}
-
 /// So many entries stay in the fastest cache.
-const ENTRIES: usize = 256;
+const ENTRIES: usize = 512;
 
 /// What binning needs to know of the frame.
 pub(super) struct Binning<'a> {
@@ -194,14 +153,9 @@ pub(super) struct Binning<'a> {
 }
 
 impl BatchBins {
-    /// The triangles of one class in a tile.
-    pub(super) fn triangles(&self, tile: usize, class: Class) -> &[Lanes] {
-        self.triangles[list(tile, class)].as_slice()
-    }
-
-    /// The ids of what else is in a tile.
-    pub(super) fn large(&self, tile: usize) -> &[u32] {
-        &self.large[tile]
+    /// The ids of one class in a tile.
+    pub(super) fn list(&self, tile: usize, class: Class) -> &[u32] {
+        &self.lists[tile * CLASSES as usize + class as usize]
     }
 
     /// Finds the bounding region of every primitive of a batch, and the tiles that it overlaps.
@@ -213,11 +167,8 @@ impl BatchBins {
         binning: &Binning,
         observer: &mut O,
     ) {
-        let tiles = binning.tiling.tiles();
-        self.triangles.resize_with(tiles * CLASSES, TriangleList::default);
-        self.triangles.iter_mut().for_each(TriangleList::clear);
-        self.large.resize_with(tiles, Vec::new);
-        self.large.iter_mut().for_each(Vec::clear);
+        self.lists.resize_with(binning.tiling.lists(), Vec::new);
+        self.lists.iter_mut().for_each(Vec::clear);
         self.entries.resize(ENTRIES, Entry::NONE);
         self.count = 0;
         let objects = binning.view.scene.objects();
@@ -316,13 +267,9 @@ impl BatchBins {
             return;
         }
         for entry in &self.entries[..self.count] {
-            if let Some(tile) = entry.only_tile(tiling).filter(|_| !entry.large) {
-                self.triangles[list(tile, entry.class())].push(entry);
-            } else if entry.large {
-                entry.for_each_tile(tiling, |tile| self.large[tile].push(entry.id));
-            } else {
-                let class = entry.class();
-                entry.for_each_tile(tiling, |tile| self.triangles[list(tile, class)].push(entry));
+            match entry.only_list(tiling) {
+                Some(list) => self.lists[list].push(entry.id),
+                None => entry.for_each_list(tiling, |list| self.lists[list].push(entry.id)),
             }
         }
         self.count = 0;
@@ -357,7 +304,7 @@ fn entry<S: Simd, F: Fault>(
     let most = MOST_SAMPLES_ACROSS.cast_unsigned() << bits;
     let large = wide.cast_unsigned().max(tall.cast_unsigned()) >= most;
     let ends = [columns.cast_unsigned(), rows.cast_unsigned()];
-    (Entry { corners: *corners, id, ends, large }, is_seen)
+    (Entry { id, ends, large }, is_seen)
 }
 
 fn offsets(mesh: &Mesh, triangle: &[u32; 3], view: &View) -> [glam::DVec3; 3] {

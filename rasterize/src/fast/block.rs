@@ -34,48 +34,77 @@ pub(super) fn draw<S: Simd, O: Observer, F: Fault>(
     buffer: &mut TileBuffer,
     observer: &mut O,
 ) {
-    let brush = Brush::new(simd, setup, lane);
-    let tile = buffer.region().clone();
+    let tile = buffer.region();
     let columns = within(setup.first_column[lane], setup.columns[lane], &tile.columns);
     let rows = within(setup.first_row[lane], setup.rows[lane], &tile.rows);
-    let narrow = columns.len() <= 8;
-    let (across, down) = if narrow { (8, 2) } else { (16, 1) };
-    #[expect(clippy::cast_precision_loss, reason = "at most 16")]
-    let of_lane = |place: fn(usize, usize) -> usize| {
-        f32x16::load_array(simd, std::array::from_fn(|lane| place(lane, across) as f32))
-    };
-    let lane_column = of_lane(|lane, across| lane % across);
-    let lane_row = of_lane(|lane, across| lane / across);
-    // Columns and rows of the triangle's own box.
-    let own = |place: usize, first: i32| {
-        #[expect(clippy::cast_precision_loss, reason = "at most 256")]
-        let own = (place as i64 - i64::from(first)) as f32;
-        own
-    };
-    let ends = [own(columns.end, setup.first_column[lane]), own(rows.end, setup.first_row[lane])];
-    let [end_column, end_row] = ends.map(|end| f32x16::splat(simd, end));
+    if columns.len() <= 8 {
+        draw_blocks::<8, S, O, F>(simd, setup, lane, columns, rows, buffer, observer);
+    } else {
+        draw_blocks::<16, S, O, F>(simd, setup, lane, columns, rows, buffer, observer);
+    }
+}
 
-    for row in rows.step_by(down) {
-        let own_row = lane_row + own(row, setup.first_row[lane]);
+/// Draws in blocks of `ACROSS` columns and as many rows as make sixteen samples: 16 or 8.
+#[inline(always)]
+fn draw_blocks<const ACROSS: usize, S: Simd, O: Observer, F: Fault>(
+    simd: S,
+    setup: &Setup,
+    lane: usize,
+    columns: Range<usize>,
+    rows: Range<usize>,
+    buffer: &mut TileBuffer,
+    observer: &mut O,
+) {
+    let brush = Brush::new(simd, setup, lane);
+    let lane_column = f32x16::load_array(simd, const { lane_places::<ACROSS>()[0] });
+    let lane_row = f32x16::load_array(simd, const { lane_places::<ACROSS>()[1] });
+    // Columns and rows of the triangle's own box.
+    let (first_column, first_row) = (setup.first_column[lane], setup.first_row[lane]);
+    let end_column = f32x16::splat(simd, own(columns.end, first_column));
+    let end_row = f32x16::splat(simd, own(rows.end, first_row));
+
+    for row in rows.step_by(16 / ACROSS) {
+        let own_row = lane_row + own(row, first_row);
         let values_on_row = brush.on_row(own_row);
-        for column in columns.clone().step_by(across) {
-            let own_column = lane_column + own(column, setup.first_column[lane]);
+        for column in columns.clone().step_by(ACROSS) {
+            let own_column = lane_column + own(column, first_column);
             let in_box = own_column.simd_lt(end_column) & own_row.simd_lt(end_row);
             let tested = brush.test(&values_on_row, own_column, in_box);
             let index = buffer.index(Sample { row, column });
             if O::WATCHES {
-                tell::<S, O, F>(setup, lane, buffer, observer, index, across, in_box, &tested);
+                tell::<S, O, F>(setup, lane, buffer, observer, index, ACROSS, in_box, &tested);
             }
-            let doubt = if narrow {
+            let doubt = if ACROSS == 8 {
                 keep_two_rows::<S, F>(simd, &brush, &tested, buffer, index)
             } else {
                 keep_row::<S, F>(simd, &brush, &tested, buffer, index)
             };
             if doubt != 0 {
-                leave_open(&brush, &tested, buffer, index, across, doubt);
+                leave_open(&brush, &tested, buffer, index, ACROSS, doubt);
             }
         }
     }
+}
+
+/// A column or row of the picture, counted from the first of a triangle's box.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "at most 65,536")]
+#[expect(clippy::cast_precision_loss, reason = "at most 256")]
+fn own(place: usize, first: i32) -> f32 {
+    (place as i32 - first) as f32
+}
+
+/// Columns and rows of the sixteen samples of a block.
+const fn lane_places<const ACROSS: usize>() -> [[f32; 16]; 2] {
+    let mut places = [[0.0; 16]; 2];
+    let mut lane = 0;
+    while lane < 16 {
+        #[expect(clippy::cast_precision_loss, reason = "at most 16")]
+        let place = [(lane % ACROSS) as f32, (lane / ACROSS) as f32];
+        (places[0][lane], places[1][lane]) = (place[0], place[1]);
+        lane += 1;
+    }
+    places
 }
 
 /// The part of a triangle's columns or rows that lies in the tile.
@@ -89,26 +118,32 @@ fn within(first: i32, count: i32, tile: &Range<usize>) -> Range<usize> {
 impl<S: Simd> Brush<S> {
     #[inline(always)]
     fn new(simd: S, setup: &Setup, lane: usize) -> Self {
-        let splat = |lanes: &[f32; 16]| f32x16::splat(simd, lanes[lane]);
-        let edge =
-            |k: usize| [splat(&setup.at_origin[k]), splat(&setup.across[k]), splat(&setup.down[k])];
+        let lane = lane & 15;
+        let edge = |k: usize| {
+            let [at_origin, across, down] =
+                [setup.at_origin[k][lane], setup.across[k][lane], setup.down[k][lane]];
+            [f32x16::splat(simd, at_origin), f32x16::splat(simd, across), f32x16::splat(simd, down)]
+        };
+        let keys = [setup.key[lane], setup.key_b[lane], setup.key_c[lane]];
         Brush {
             id: setup.ids[lane],
             edges: [edge(0), edge(1), edge(2)],
-            error: splat(&setup.error),
-            keys: [splat(&setup.key), splat(&setup.key_b), splat(&setup.key_c)],
+            error: f32x16::splat(simd, setup.error[lane]),
+            keys: keys.map(|key| f32x16::splat(simd, key)),
         }
     }
 
     #[inline(always)]
     fn on_row(&self, row: f32x16<S>) -> [f32x16<S>; 3] {
-        self.edges.map(|[at_origin, _, down]| at_origin + down * row)
+        let [a, b, c] = &self.edges;
+        [a[0] + a[2] * row, b[0] + b[2] * row, c[0] + c[2] * row]
     }
 
     #[inline(always)]
     fn test(&self, on_row: &[f32x16<S>; 3], column: f32x16<S>, in_box: mask32x16<S>) -> Tested<S> {
-        let value = |k: usize| on_row[k] + self.edges[k][1] * column;
-        let values = [value(0), value(1), value(2)];
+        let [a, b, c] = &self.edges;
+        let values =
+            [on_row[0] + a[1] * column, on_row[1] + b[1] * column, on_row[2] + c[1] * column];
         let least = values[0].min(values[1]).min(values[2]);
         let [key, key_b, key_c] = self.keys;
         Tested {

@@ -17,7 +17,7 @@ const TIE: f32 = 1.0 / 32.0;
 /// Half of 2⁻²³.
 const UNIT_ROUNDOFF: f32 = f32::EPSILON / 2.0;
 
-/// Vertices of up to sixteen triangles, one triangle a lane.
+/// Vertices of sixteen triangles, one triangle a lane.
 #[derive(Clone, Debug)]
 pub(super) struct Lanes {
     ids: [u32; 16],
@@ -62,34 +62,20 @@ impl Lanes {
         Lanes { ids: [0; 16], x: empty, y: empty, keys: empty, flags: [0; 16], count: 0 }
     }
 
-    /// Empties the lanes.
-    pub(super) fn clear(&mut self) {
-        self.count = 0;
-    }
-
-    /// Whether there is no lane left.
+    /// Fills the lanes with triangles; lanes beyond them cover nothing.
     #[inline(always)]
-    pub(super) fn is_full(&self) -> bool {
-        self.count == 16
-    }
-
-    /// Puts a triangle into the next lane; lanes without one cover nothing.
-    ///
-    /// # Panics
-    ///
-    /// If there is no lane left.
-    #[inline(always)]
-    pub(super) fn push(&mut self, id: u32, corners: &[Vertex; 3]) {
-        let lane = self.count;
-        let [a, b, c] = corners;
-        self.ids[lane] = id;
-        for (corner, vertex) in [a, b, c].into_iter().enumerate() {
-            self.x[corner][lane] = vertex[0];
-            self.y[corner][lane] = vertex[1];
-            self.keys[corner][lane] = vertex[2];
+    pub(super) fn fill(&mut self, ids: &[u32], mut vertices: impl FnMut(u32) -> [Vertex; 3]) {
+        self.count = ids.len();
+        for (lane, &id) in ids.iter().take(16).enumerate() {
+            let [a, b, c] = vertices(id);
+            self.ids[lane] = id;
+            for (corner, vertex) in [a, b, c].iter().enumerate() {
+                self.x[corner][lane] = vertex[0];
+                self.y[corner][lane] = vertex[1];
+                self.keys[corner][lane] = vertex[2];
+            }
+            self.flags[lane] = a[3] & b[3] & c[3];
         }
-        self.flags[lane] = a[3] & b[3] & c[3];
-        self.count = lane + 1;
     }
 }
 
@@ -226,12 +212,6 @@ impl Setup {
 }
 
 impl Setup {
-    /// The lanes that have samples to be drawn in `f32`: of those whose keys can be trusted.
-    pub(super) fn keyed_lanes(&self) -> impl Iterator<Item = usize> {
-        let keyless = self.keyless;
-        (0..16).filter(move |lane| self.columns[*lane] > 0 && keyless >> lane & 1 == 0)
-    }
-
     /// The ids of some lanes.
     pub(super) fn lanes(&self, mask: u16) -> impl Iterator<Item = u32> {
         (0..16).filter(move |lane| mask >> lane & 1 == 1).map(|lane: usize| self.ids[lane])

@@ -7,7 +7,9 @@ use bothways_common::fault::{Fault, Planted};
 use bothways_common::frame::{NO_PRIMITIVE, Region, Tile, stored_t};
 use bothways_common::observe::{Observer, Question, Sample};
 use bothways_common::predicate::Memory;
-use bothways_common::simd::{Select, Simd, SimdBase, SimdMask, f32x16, mask32x16, u32x16};
+use bothways_common::simd::{
+    Select, Simd, SimdBase, SimdMask, f32x16, finish_streaming, mask32x16, stream, u32x16,
+};
 use bothways_common::{Primitive, Projection, View};
 
 /// What stays the same while a picture is drawn.
@@ -254,6 +256,7 @@ impl TileBuffer {
                 rest_t.copy_from_slice(&t[..rest_t.len()]);
             }
         }
+        finish_streaming();
     }
 
     #[inline(always)]
@@ -269,12 +272,15 @@ impl TileBuffer {
         let nothing = keys.simd_eq(f32x16::splat(simd, NOTHING));
         let (distances, unsure) = distances(simd, &picture.keys, keys);
         let unsure = unsure & !nothing;
-        nothing.select(f32x16::splat(simd, f32::INFINITY), distances).store_array(t);
+        let mut distances =
+            nothing.select(f32x16::splat(simd, f32::INFINITY), distances).to_array();
         let seen = u32x16::from_slice(simd, &self.ids[from..from + 16]);
-        nothing.select(u32x16::splat(simd, NO_PRIMITIVE), seen).store_array(ids);
+        let seen = nothing.select(u32x16::splat(simd, NO_PRIMITIVE), seen).to_array();
         if unsure.any_true() {
-            self.judge_distances(picture, from, unsure.to_bitmask(), t);
+            self.judge_distances(picture, from, unsure.to_bitmask(), &mut distances);
         }
+        stream(seen, ids);
+        stream(distances, t);
     }
 
     #[cold]
