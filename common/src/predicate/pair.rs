@@ -123,6 +123,13 @@ impl Memory {
         order.then(challenger.0.cmp(&holder.0)).is_lt()
     }
 
+    /// Whether two primitives are equally far along every ray that meets both: they are the same, or flat
+    /// and in one plane. Then the smaller id is seen wherever both cover.
+    pub fn are_tied(&mut self, first: (u32, &Primitive), second: (u32, &Primitive)) -> bool {
+        are_identical(first.1, second.1)
+            || matches!(self.pair(first, second), Some(Pair::SamePlane))
+    }
+
     /// [`Judge::compare`], of primitives with ids.
     pub fn compare(
         &mut self,
@@ -130,26 +137,28 @@ impl Memory {
         second: (u32, &Primitive),
         ray: &Ray,
     ) -> Comparison {
-        let flat = |primitive: &Primitive| !matches!(primitive, Primitive::Sphere { .. });
         if are_identical(first.1, second.1) {
             return Comparison::EQUAL;
         }
+        self.pair(first, second)
+            .and_then(|pair| pair.compare(self.judge.projection, ray))
+            .unwrap_or_else(|| self.judge.compare(first.1, second.1, ray))
+    }
+    /// What is known of two flat primitives.
+    fn pair(&mut self, first: (u32, &Primitive), second: (u32, &Primitive)) -> Option<Pair> {
+        let flat = |primitive: &Primitive| !matches!(primitive, Primitive::Sphere { .. });
         if !flat(first.1) || !flat(second.1) {
-            return self.judge.compare(first.1, second.1, ray);
+            return None;
         }
         if self.pairs.len() >= Self::MOST {
             self.pairs.clear();
         }
         let ids = [first.0, second.0];
-        let pair = match self.pairs.get(&ids) {
-            Some(pair) => Some(*pair),
-            None => {
-                let pair = Pair::new(&self.judge, first.1, second.1);
-                self.pairs.extend(pair.map(|pair| (ids, pair)));
-                pair
-            }
-        };
-        pair.and_then(|pair| pair.compare(self.judge.projection, ray))
-            .unwrap_or_else(|| self.judge.compare(first.1, second.1, ray))
+        if let Some(pair) = self.pairs.get(&ids) {
+            return Some(*pair);
+        }
+        let pair = Pair::new(&self.judge, first.1, second.1)?;
+        self.pairs.insert(ids, pair);
+        Some(pair)
     }
 }

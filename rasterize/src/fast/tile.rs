@@ -32,6 +32,9 @@ pub(super) struct TileBuffer {
     keys: Vec<f32>,
     open: Vec<Open>,
     memory: Memory,
+    /// The last challenger and holder that were found to be tied everywhere: they mostly meet at several
+    /// samples, one after the other.
+    tied: Option<[u32; 2]>,
 }
 
 /// A fragment, or a sample that may be one, that waits for the judge.
@@ -67,6 +70,7 @@ impl TileBuffer {
             ids: vec![NO_PRIMITIVE; samples],
             keys: vec![NOTHING; samples],
             open: Vec::new(),
+            tied: None,
         }
     }
 
@@ -78,6 +82,7 @@ impl TileBuffer {
     /// Starts a tile in which nothing is seen.
     pub(super) fn begin(&mut self, view: &View, region: &Region) {
         self.memory = Memory::new(view.judge());
+        self.tied = None;
         self.region = region.clone();
         self.keys[..self.stride * region.rows.len()].fill(NOTHING);
     }
@@ -207,7 +212,9 @@ impl TileBuffer {
             Rank::Unknown if held == NOTHING => true,
             Rank::Unknown => self.judge_nearer::<O, F>(picture, index, (id, primitive), observer),
         };
-        self.tell_depth_test(index, id, nearer, observer);
+        if O::WATCHES {
+            self.tell_depth_test(index, id, nearer, observer);
+        }
         if nearer {
             self.keys[index] = key;
             self.ids[index] = id;
@@ -222,14 +229,20 @@ impl TileBuffer {
         challenger: (u32, &Primitive),
         observer: &mut O,
     ) -> bool {
-        let (sample, holder) = (self.sample(index), self.ids[index]);
-        observer.judged(sample, Question::Nearest);
-        let ray = picture.screen.grid.ray(sample.row, sample.column);
-        let held = picture.view.primitive(holder);
-        if F::is(Planted::TiesToLast) {
-            return self.memory.compare(challenger, (holder, &held), &ray).decided.is_le();
+        let holder = self.ids[index];
+        if O::WATCHES {
+            observer.judged(self.sample(index), Question::Nearest);
         }
-        self.memory.nearer(challenger, (holder, &held), &ray)
+        if self.tied == Some([challenger.0, holder]) && !F::is(Planted::TiesToLast) {
+            return challenger.0 < holder;
+        }
+        let held = picture.view.primitive(holder);
+        if self.memory.are_tied(challenger, (holder, &held)) {
+            self.tied = Some([challenger.0, holder]);
+            return (challenger.0 < holder) != F::is(Planted::TiesToLast);
+        }
+        let Sample { row, column } = self.sample(index);
+        self.memory.nearer(challenger, (holder, &held), &picture.screen.grid.ray(row, column))
     }
 
     /// Whether a flat primitive covers no sample of this camera at all; see [`Memory::is_edge_on`].
