@@ -39,6 +39,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 use screen::Screen;
 use setup::{Lanes, Setup};
+use small::Fragments;
 use std::sync::Mutex;
 use tile::{Picture, TileBuffer};
 use vertices::{Raster, Vertex};
@@ -337,6 +338,7 @@ impl Drawing<'_> {
     ) {
         let mut lanes = Lanes::new();
         let mut find = Finder::new(self.binning);
+        let mut fragments = Fragments::new();
         let mut large = Vec::new();
         for bins in self.bins {
             large.clear();
@@ -347,7 +349,7 @@ impl Drawing<'_> {
                     if setup.doubtful != 0 {
                         large.extend(setup.lanes(setup.doubtful));
                     }
-                    small::draw::<S, O, F>(simd, &setup, buffer, observer);
+                    small::draw::<S, O, F>(simd, &setup, &mut fragments, buffer, observer);
                 }
             }
             let list = bins.list(tile, Class::Block);

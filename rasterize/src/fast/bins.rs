@@ -10,7 +10,7 @@ use bothways_common::fault::{Fault, Planted};
 use bothways_common::frame::Region;
 use bothways_common::observe::Observer;
 use bothways_common::simd::{Simd, SimdBase, SimdMask, i32x4};
-use bothways_common::{Mesh, Primitive, Shape, View};
+use bothways_common::{Primitive, Shape, View};
 use std::ops::Range;
 
 /// How a primitive is drawn.
@@ -83,6 +83,12 @@ impl Entry {
         Entry { id, ends: [ends(&region.columns), ends(&region.rows)], large: true }
     }
 
+    fn region(&self) -> Region {
+        let range = |[first, last]: [u32; 2]| first as usize..last as usize + 1;
+        let [columns, rows] = self.bounds();
+        Region { rows: range(rows), columns: range(columns) }
+    }
+
     /// First and last column, first and last row.
     #[inline(always)]
     fn bounds(&self) -> [[u32; 2]; 2] {
@@ -90,19 +96,15 @@ impl Entry {
         [[columns & 0xffff, columns >> 16], [rows & 0xffff, rows >> 16]]
     }
 
+    /// Without a branch: sizes come in no order that could be guessed.
     #[inline(always)]
-    fn class(&self) -> Class {
+    fn class(&self) -> u32 {
         let [columns, rows] = self.bounds();
         let samples = (columns[1] - columns[0] + 1) * (rows[1] - rows[0] + 1);
-        if self.large {
-            Class::Large
-        } else if samples <= small::VERY_FEW_SAMPLES {
-            Class::Tiny
-        } else if samples <= small::MOST_SAMPLES {
-            Class::Small
-        } else {
-            Class::Block
-        }
+        const { assert!(Class::Small as u32 == 1 && Class::Block as u32 == 2) };
+        let by_samples =
+            u32::from(samples > small::VERY_FEW_SAMPLES) + u32::from(samples > small::MOST_SAMPLES);
+        by_samples.max(u32::from(self.large) * Class::Large as u32)
     }
 
     /// The list of this class of the only tile that the region overlaps.
@@ -112,7 +114,7 @@ impl Entry {
         let [row, column] = [rows[0] >> tiling.row_bits, columns[0] >> tiling.column_bits];
         let is_only =
             row == rows[1] >> tiling.row_bits && column == columns[1] >> tiling.column_bits;
-        let list = (row * tiling.across + column) * CLASSES + self.class() as u32;
+        let list = (row * tiling.across + column) * CLASSES + self.class();
         is_only.then_some(list as usize)
     }
 
@@ -120,7 +122,7 @@ impl Entry {
     #[inline(always)]
     fn for_each_list(&self, tiling: &Tiling, mut action: impl FnMut(usize)) {
         let [columns, rows] = self.bounds();
-        let class = self.class() as u32;
+        let class = self.class();
         for row in rows[0] >> tiling.row_bits..=rows[1] >> tiling.row_bits {
             for column in columns[0] >> tiling.column_bits..=columns[1] >> tiling.column_bits {
                 action(((row * tiling.across + column) * CLASSES + class) as usize);
@@ -133,13 +135,11 @@ impl Entry {
 #[derive(Debug, Default)]
 pub(super) struct BatchBins {
     lists: Vec<Vec<u32>>,
-    /// Some entries on their way to the lists.
-    entries: Vec<Entry>,
-    count: usize,
 }
 
-/// So many entries stay in the fastest cache.
-const ENTRIES: usize = 512;
+/// Triangles whose bounds are found before the first goes to its list: their entries stay in the fastest
+/// cache.
+const SOME: usize = 256;
 
 /// What binning needs to know of the frame.
 pub(super) struct Binning<'a> {
@@ -169,8 +169,6 @@ impl BatchBins {
     ) {
         self.lists.resize_with(binning.tiling.lists(), Vec::new);
         self.lists.iter_mut().for_each(Vec::clear);
-        self.entries.resize(ENTRIES, Entry::NONE);
-        self.count = 0;
         let objects = binning.view.scene.objects();
         let (mut object, mut local) = binning.view.scene.locate(batch.first_id);
         let mut id = batch.first_id;
@@ -182,99 +180,86 @@ impl BatchBins {
                 Shape::Mesh(mesh) => {
                     let vertices = &binning.vertices[binning.first_vertices[object]..];
                     let triangles = &mesh.triangles()[local..local + count];
-                    let mut id = id;
-                    for some in triangles.chunks(ENTRIES) {
-                        self.make_room(some.len(), binning.tiling);
-                        for triangle in some {
-                            let corners = triangle.map(|vertex| vertices[vertex as usize]);
-                            let offsets = || offsets(mesh, triangle, binning.view);
-                            self.add_triangle::<S, O, F>(
-                                simd, id, &corners, offsets, binning, observer,
-                            );
-                            id += 1;
-                        }
+                    for (some, first_id) in triangles.chunks(SOME).zip((id..).step_by(SOME)) {
+                        self.add_triangles::<S, O, F>(
+                            simd, first_id, some, vertices, binning, observer,
+                        );
                     }
                 }
                 Shape::Triangle(_) => {
-                    let first = binning.first_vertices[object];
-                    let corners = std::array::from_fn(|k| binning.vertices[first + k]);
-                    let offsets = || match binning.view.primitive(id) {
-                        Primitive::Triangle(corners) => corners,
-                        _ => unreachable!("it is a triangle"),
-                    };
-                    self.make_room(1, binning.tiling);
-                    self.add_triangle::<S, O, F>(simd, id, &corners, offsets, binning, observer);
+                    let vertices = &binning.vertices[binning.first_vertices[object]..];
+                    self.add_triangles::<S, O, F>(
+                        simd,
+                        id,
+                        &[[0, 1, 2]],
+                        vertices,
+                        binning,
+                        observer,
+                    );
                 }
-                Shape::Sphere(_) | Shape::Plane(_) => {
-                    let region = region::<F>(&binning.view.primitive(id), binning.screen);
-                    self.make_room(1, binning.tiling);
-                    self.add(id, &region, observer);
-                }
+                Shape::Sphere(_) | Shape::Plane(_) => self.add_large::<O, F>(id, binning, observer),
             }
             id += u32::try_from(count).expect("a batch is small");
             (object, local) = (object + 1, 0);
         }
-        self.make_room(ENTRIES, binning.tiling);
     }
 
+    /// Adds at most [`SOME`] triangles of one object.
     #[inline(always)]
-    fn add_triangle<S: Simd, O: Observer, F: Fault>(
+    fn add_triangles<S: Simd, O: Observer, F: Fault>(
         &mut self,
         simd: S,
-        id: u32,
-        corners: &[Vertex; 3],
-        offsets: impl FnOnce() -> [glam::DVec3; 3],
+        first_id: u32,
+        triangles: &[[u32; 3]],
+        vertices: &[Vertex],
         binning: &Binning,
         observer: &mut O,
     ) {
-        let flags = corners[0][3] & corners[1][3] & corners[2][3];
-        if flags & OUT_OF_SIGHT != 0 {
-            self.add(id, &Region { rows: 0..0, columns: 0..0 }, observer);
-        } else if flags & ON_RASTER != 0 {
-            let (entry, is_seen) = entry::<S, F>(simd, id, binning.raster, corners);
-            if O::WATCHES {
-                let range = |[first, last]: [u32; 2]| first as usize..last as usize + 1;
-                let [columns, rows] = entry.bounds();
-                let region = if is_seen {
-                    Region { rows: range(rows), columns: range(columns) }
-                } else {
-                    Region { rows: 0..0, columns: 0..0 }
-                };
-                observer.primitive_begun(id, &region);
+        let mut entries = [Entry::NONE; SOME];
+        let mut count = 0;
+        for (triangle, id) in triangles.iter().zip(first_id..) {
+            let corners = triangle.map(|vertex| vertices[vertex as usize]);
+            let flags = corners[0][3] & corners[1][3] & corners[2][3];
+            if flags & (OUT_OF_SIGHT | ON_RASTER) == ON_RASTER {
+                let (entry, is_seen) = entry::<S, F>(simd, id, binning.raster, &corners);
+                if O::WATCHES {
+                    let region = if is_seen { entry.region() } else { NOWHERE };
+                    observer.primitive_begun(id, &region);
+                }
+                // Written whether it is seen or not, so that nothing depends on a guess.
+                entries[count % SOME] = entry;
+                count += usize::from(is_seen);
+            } else if flags & OUT_OF_SIGHT != 0 {
+                observer.primitive_begun(id, &NOWHERE);
+            } else {
+                self.add_large::<O, F>(id, binning, observer);
             }
-            self.entries[self.count] = entry;
-            self.count += usize::from(is_seen);
-        } else {
-            let corners = offsets();
-            let vertices = corners.map(|corner| binning.screen.vertex(corner));
-            let region = binning.screen.triangle_region::<F>(&vertices, || corners);
-            self.add(id, &region, observer);
+        }
+        for entry in &entries[..count] {
+            self.add(entry, binning.tiling);
         }
     }
 
-    fn add<O: Observer>(&mut self, id: u32, region: &Region, observer: &mut O) {
-        observer.primitive_begun(id, region);
+    /// Adds any primitive as [`Class::Large`].
+    fn add_large<O: Observer, F: Fault>(&mut self, id: u32, binning: &Binning, observer: &mut O) {
+        let region = region::<F>(&binning.view.primitive(id), binning.screen);
+        observer.primitive_begun(id, &region);
         if !region.is_empty() {
-            self.entries[self.count] = Entry::new(id, region);
-            self.count += 1;
+            self.add(&Entry::new(id, &region), binning.tiling);
         }
     }
 
-    /// Brings entries to their lists if there is no room for so many more.
     #[inline(always)]
-    fn make_room(&mut self, more: usize, tiling: &Tiling) {
-        if self.count + more <= ENTRIES {
-            return;
+    fn add(&mut self, entry: &Entry, tiling: &Tiling) {
+        match entry.only_list(tiling) {
+            Some(list) => self.lists[list].push(entry.id),
+            None => entry.for_each_list(tiling, |list| self.lists[list].push(entry.id)),
         }
-        for entry in &self.entries[..self.count] {
-            match entry.only_list(tiling) {
-                Some(list) => self.lists[list].push(entry.id),
-                None => entry.for_each_list(tiling, |list| self.lists[list].push(entry.id)),
-            }
-        }
-        self.count = 0;
     }
 }
+
+/// No sample at all.
+const NOWHERE: Region = Region { rows: 0..0, columns: 0..0 };
 
 /// The entry of a triangle of trusted vertices, and whether it may cover a sample at all; see
 /// `setup::side`, which finds the same bounds.
@@ -305,10 +290,6 @@ fn entry<S: Simd, F: Fault>(
     let large = wide.cast_unsigned().max(tall.cast_unsigned()) >= most;
     let ends = [columns.cast_unsigned(), rows.cast_unsigned()];
     (Entry { id, ends, large }, is_seen)
-}
-
-fn offsets(mesh: &Mesh, triangle: &[u32; 3], view: &View) -> [glam::DVec3; 3] {
-    triangle.map(|vertex| view.offset(mesh.positions()[vertex as usize]))
 }
 
 /// The samples that any primitive may cover.

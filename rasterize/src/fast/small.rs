@@ -4,7 +4,9 @@ use super::setup::Setup;
 use super::tile::TileBuffer;
 use bothways_common::fault::Fault;
 use bothways_common::observe::Observer;
-use bothways_common::simd::{Select, Simd, SimdBase, SimdInt, SimdMask, f32x16, i32x16, mask32x16};
+use bothways_common::simd::{
+    Select, Simd, SimdBase, SimdInt, SimdMask, f32x16, i32x16, mask32x16, u32x16,
+};
 
 /// Boxes of at most this many samples are drawn together, apart from larger ones: sixteen triangles take
 /// as long as the one with most samples.
@@ -17,9 +19,11 @@ pub(super) const MOST_SAMPLES: u32 = 16;
 pub(super) fn draw<S: Simd, O: Observer, F: Fault>(
     simd: S,
     setup: &Setup,
+    fragments: &mut Fragments,
     buffer: &mut TileBuffer,
     observer: &mut O,
 ) {
+    let ids = u32x16::load_array_ref(simd, &setup.ids);
     let load = |lanes: &[f32; 16]| f32x16::load_array_ref(simd, lanes);
     let edges: [_; 3] = std::array::from_fn(|k| {
         (load(&setup.at_origin[k]), load(&setup.across[k]), load(&setup.down[k]))
@@ -47,22 +51,10 @@ pub(super) fn draw<S: Simd, O: Observer, F: Fault>(
         if O::WATCHES {
             tell(setup, buffer, observer, active, &index.to_array(), &values, error);
         }
-        let (mut fragments, perhaps) = (inside.to_bitmask(), perhaps.to_bitmask());
-        if perhaps != 0 {
-            let (index, keys) = (index.to_array(), keys.to_array());
-            let mut open = perhaps & !fragments;
-            while fragments != 0 {
-                let lane = (fragments.trailing_zeros() & 15) as usize;
-                fragments &= fragments - 1;
-                let at = index[lane].cast_unsigned() as usize;
-                buffer.fragment::<O, F>(at, setup.ids[lane], keys[lane], observer);
-            }
-            while open != 0 {
-                let lane = (open.trailing_zeros() & 15) as usize;
-                open &= open - 1;
-                let at = index[lane].cast_unsigned() as usize;
-                buffer.leave_open(at, setup.ids[lane], keys[lane], false);
-            }
+        fragments.add(index, keys, ids, inside);
+        let open = (perhaps & !inside).to_bitmask();
+        if open != 0 {
+            leave_open(setup, buffer, open, &index.to_array(), &keys.to_array());
         }
         // On to the next sample of each box, row by row.
         column += f32x16::splat(simd, 1.0);
@@ -71,6 +63,73 @@ pub(super) fn draw<S: Simd, O: Observer, F: Fault>(
         row += wraps.select(f32x16::splat(simd, 1.0), f32x16::splat(simd, 0.0));
         index += wraps.select(to_next_row, one);
         remaining -= one;
+    }
+    fragments.test_depth::<O, F>(buffer, observer);
+}
+
+/// Leaves to the judge whether some lanes' samples are covered.
+#[cold]
+fn leave_open(
+    setup: &Setup,
+    buffer: &mut TileBuffer,
+    open: u64,
+    index: &[i32; 16],
+    keys: &[f32; 16],
+) {
+    for lane in (0..16).filter(|lane| open >> lane & 1 == 1) {
+        let at = index[lane].cast_unsigned() as usize;
+        buffer.leave_open(at, setup.ids[lane], keys[lane], false);
+    }
+}
+
+/// Most fragments of sixteen triangles.
+const MOST_FRAGMENTS: usize = 16 * MOST_SAMPLES as usize;
+
+/// Fragments that wait for their depth test: one loop over all of them is easier to foresee for the
+/// machine than one for each step.
+#[derive(Debug)]
+pub(super) struct Fragments {
+    /// Each has room behind the last for sixteen more.
+    index: [i32; MOST_FRAGMENTS + 16],
+    keys: [f32; MOST_FRAGMENTS + 16],
+    ids: [u32; MOST_FRAGMENTS + 16],
+    count: usize,
+}
+
+impl Fragments {
+    pub(super) const fn new() -> Self {
+        Fragments {
+            index: [0; MOST_FRAGMENTS + 16],
+            keys: [0.0; MOST_FRAGMENTS + 16],
+            ids: [0; MOST_FRAGMENTS + 16],
+            count: 0,
+        }
+    }
+
+    /// Adds the lanes in which there is a fragment.
+    #[inline(always)]
+    fn add<S: Simd>(
+        &mut self,
+        index: i32x16<S>,
+        keys: f32x16<S>,
+        ids: u32x16<S>,
+        inside: mask32x16<S>,
+    ) {
+        let from = self.count.min(MOST_FRAGMENTS);
+        index.compress(inside).store_slice(&mut self.index[from..from + 16]);
+        keys.compress(inside).store_slice(&mut self.keys[from..from + 16]);
+        ids.compress(inside).store_slice(&mut self.ids[from..from + 16]);
+        self.count = from + inside.to_bitmask().count_ones() as usize;
+    }
+
+    /// Tests the depth of all, and forgets them.
+    #[inline(always)]
+    fn test_depth<O: Observer, F: Fault>(&mut self, buffer: &mut TileBuffer, observer: &mut O) {
+        let count = std::mem::take(&mut self.count).min(MOST_FRAGMENTS);
+        let fragments = self.index[..count].iter().zip(&self.keys[..count]).zip(&self.ids[..count]);
+        for ((index, key), id) in fragments {
+            buffer.fragment::<O, F>(index.cast_unsigned() as usize, *id, *key, observer);
+        }
     }
 }
 

@@ -141,10 +141,10 @@ impl TileBuffer {
         if O::WATCHES {
             self.tell_depth_test(index, id, rank == Rank::Nearer, observer);
         }
-        if rank == Rank::Nearer {
-            self.keys[index] = key;
-            self.ids[index] = id;
-        }
+        // Both are written in any case: which is nearer cannot be guessed.
+        let nearer = rank == Rank::Nearer;
+        self.keys[index] = if nearer { key } else { held };
+        self.ids[index] = if nearer { id } else { self.ids[index] };
     }
 
     /// Tells of a fragment and its depth test, before it takes effect.

@@ -199,7 +199,7 @@ impl Raster {
             });
             let aligned = on_raster & across & down;
 
-            flags = flags + flag(aligned, ALIGNED);
+            flags += flag(aligned, ALIGNED);
         }
         let scale = splat(f64::from(1 << self.fraction_bits));
         let fixed = |place: f64x8<S>| integers(on_raster.select(place * scale, zero));
