@@ -19,13 +19,16 @@ pub mod fault;
 pub mod frame;
 pub mod generate;
 pub mod mesh;
+pub mod mesh_file;
 pub mod obj;
 pub mod observe;
+pub mod ply;
 pub mod predicate;
 pub mod scene;
 pub mod scene_file;
 pub mod shade;
 pub mod smooth;
+pub mod stream;
 pub mod view;
 
 pub use glam;

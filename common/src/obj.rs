@@ -15,9 +15,11 @@
 
 mod error;
 mod lines;
+mod passes;
 mod write;
 
 pub use error::{Element, ReadObjError, StatementFault};
+pub(crate) use passes::ObjFile;
 pub use write::write;
 
 use std::path::Path;
@@ -26,7 +28,7 @@ use std::{fs, io};
 use glam::{Vec2, Vec3};
 
 use crate::mesh::{Attribute, Mesh};
-use error::quote;
+pub(crate) use error::quote;
 use lines::{Statements, Words};
 
 /// Reads a mesh from an OBJ file.
@@ -76,16 +78,16 @@ pub fn parse(name: &str, bytes: &[u8]) -> Result<Mesh, ReadObjError> {
         return Err(ReadObjError::TooLarge { file: name.to_owned() });
     }
     let located = |line, fault| ReadObjError::Statement { file: name.to_owned(), line, fault };
-    let mut reader = Reader::default();
+    let mut reader = Reader::new(Parts::default(), None);
     // Some editors put a byte order mark before the first line.
     for (line, words) in Statements::new(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)) {
         reader.statement(line, words).map_err(|fault| located(line, fault))?;
     }
     reader.check_forward().map_err(|(line, fault)| located(line, fault))?;
-    if reader.triangles.is_empty() {
+    if reader.sink.triangles.is_empty() {
         return Err(ReadObjError::NoFace { file: name.to_owned() });
     }
-    Ok(reader.finish())
+    Ok(reader.sink.finish())
 }
 
 /// The shortest definition, `vt 0` and a line end, has five bytes: so many bytes define fewer than
@@ -95,15 +97,32 @@ const MOST_BYTES: u64 = 1 << 34;
 /// Says that a corner lacks something: [`Attribute::NONE`], whatever the values are.
 const NONE: u32 = Attribute::<()>::NONE;
 
-/// What has been read so far.
+/// Who takes what the statements of a file define, in its order.
+pub(super) trait Sink {
+    fn position(&mut self, position: Vec3);
+    fn texture_coordinate(&mut self, _value: Vec2) {}
+    fn normal(&mut self, _normal: Vec3) {}
+    fn triangle(&mut self, corners: [Corner; 3]);
+}
+
+/// Takes up statement after statement, and checks what faces name.
+pub(super) struct Reader<S> {
+    sink: S,
+    /// How many are defined so far, for each [`Element`].
+    defined: [usize; 3],
+    /// How many the whole file defines, if that is known.
+    total: Option<[usize; 3]>,
+    /// What faces name before it is defined, for each [`Element`], as long as no total is known.
+    forward: [Vec<Forward>; 3],
+}
+
+/// All of a mesh, while it is read.
 #[derive(Default)]
-struct Reader {
+struct Parts {
     positions: Vec<Vec3>,
     triangles: Vec<[u32; 3]>,
     texture_coordinates: Attribute<Vec2>,
     normals: Attribute<Vec3>,
-    /// What faces name before it is defined, for each [`Element`].
-    forward: [Vec<Forward>; 3],
 }
 
 /// A face that names something below itself.
@@ -114,20 +133,31 @@ struct Forward {
 }
 
 /// One corner of a face: its vertex, texture coordinate and normal, counted from 0.
-type Corner = [u32; 3];
+pub(super) type Corner = [u32; 3];
 
 /// In the order in which a corner names them.
 const ELEMENTS: [Element; 3] = [Element::Vertex, Element::TextureCoordinate, Element::Normal];
 
-impl Reader {
+impl<S: Sink> Reader<S> {
+    fn new(sink: S, total: Option<[usize; 3]>) -> Self {
+        Reader { sink, defined: [0; 3], total, forward: Default::default() }
+    }
+
     fn statement(&mut self, line: usize, mut words: Words) -> Result<(), StatementFault> {
         let Some(keyword) = words.next() else { return Ok(()) };
         match keyword {
-            b"v" => self.positions.push(numbers(words, Element::Vertex, 3)?.into()),
-            b"vn" => self.normals.values.push(numbers(words, Element::Normal, 3)?.into()),
+            b"v" => {
+                self.sink.position(numbers(words, Element::Vertex, 3)?.into());
+                self.defined[Element::Vertex as usize] += 1;
+            }
+            b"vn" => {
+                self.sink.normal(numbers(words, Element::Normal, 3)?.into());
+                self.defined[Element::Normal as usize] += 1;
+            }
             b"vt" => {
                 let value: [f32; 2] = numbers(words, Element::TextureCoordinate, 1)?;
-                self.texture_coordinates.values.push(value.into());
+                self.sink.texture_coordinate(value.into());
+                self.defined[Element::TextureCoordinate as usize] += 1;
             }
             // Version 2 of the format had a second keyword, which became the first.
             b"f" | b"fo" => self.face(line, words)?,
@@ -147,20 +177,12 @@ impl Reader {
             match corners {
                 0 => first = corner,
                 1 => {}
-                _ => self.triangle([first, before, corner]),
+                _ => self.sink.triangle([first, before, corner]),
             }
             before = corner;
             corners += 1;
         }
         if corners < 3 { Err(StatementFault::TooFewCorners { corners }) } else { Ok(()) }
-    }
-
-    fn triangle(&mut self, corners: [Corner; 3]) {
-        let triangle = self.triangles.len();
-        self.triangles.push(corners.map(|[vertex, _, _]| vertex));
-        let texture_coordinates = corners.map(|[_, texture_coordinate, _]| texture_coordinate);
-        carry(&mut self.texture_coordinates.corners, triangle, texture_coordinates);
-        carry(&mut self.normals.corners, triangle, corners.map(|[_, _, normal]| normal));
     }
 
     fn corner(&mut self, line: usize, word: &[u8]) -> Result<Corner, StatementFault> {
@@ -180,7 +202,7 @@ impl Reader {
 
     /// Turns an index of the file into one that counts from 0.
     fn resolve(&mut self, line: usize, what: Element, index: i64) -> Result<u32, StatementFault> {
-        let defined = self.defined(what);
+        let defined = self.defined[what as usize];
         // A slice is never longer than i64::MAX.
         let count = i64::try_from(defined).unwrap_or(i64::MAX);
         let from_zero = match index {
@@ -191,19 +213,14 @@ impl Reader {
             }
             _ => count + index,
         };
-        if index > count {
-            self.note_forward(what, Forward { line, index });
+        match self.total.map(|total| total[what as usize]) {
+            _ if index <= count => {}
+            None => self.note_forward(what, Forward { line, index }),
+            Some(defined) if is_within(index, defined) => {}
+            Some(defined) => return Err(StatementFault::Unknown { what, index, defined }),
         }
         // An index that does not fit is larger than any that can be defined: the note refuses it.
         Ok(u32::try_from(from_zero).unwrap_or(NONE))
-    }
-
-    fn defined(&self, what: Element) -> usize {
-        match what {
-            Element::Vertex => self.positions.len(),
-            Element::TextureCoordinate => self.texture_coordinates.values.len(),
-            Element::Normal => self.normals.values.len(),
-        }
     }
 
     /// Keeps a forward reference if it reaches farther than all before it: the first one that turns
@@ -218,14 +235,42 @@ impl Reader {
     /// Finds the first face that names what is not defined below it either.
     fn check_forward(&self) -> Result<(), (usize, StatementFault)> {
         let unknown = ELEMENTS.into_iter().filter_map(|what| {
-            let defined = self.defined(what);
-            let too_far = |index| usize::try_from(index).is_ok_and(|index| index > defined);
-            let first = self.forward[what as usize].iter().find(|noted| too_far(noted.index))?;
+            let (defined, noted) = (self.defined[what as usize], &self.forward[what as usize]);
+            let first = noted.iter().find(|noted| !is_within(noted.index, defined))?;
             Some((first.line, StatementFault::Unknown { what, index: first.index, defined }))
         });
         unknown.min_by_key(|&(line, _)| line).map_or(Ok(()), Err)
     }
+}
 
+/// Whether so many elements have one of this index, counted from 1.
+fn is_within(index: i64, count: usize) -> bool {
+    usize::try_from(index).is_ok_and(|index| index <= count)
+}
+
+impl Sink for Parts {
+    fn position(&mut self, position: Vec3) {
+        self.positions.push(position);
+    }
+
+    fn texture_coordinate(&mut self, value: Vec2) {
+        self.texture_coordinates.values.push(value);
+    }
+
+    fn normal(&mut self, normal: Vec3) {
+        self.normals.values.push(normal);
+    }
+
+    fn triangle(&mut self, corners: [Corner; 3]) {
+        let triangle = self.triangles.len();
+        self.triangles.push(corners.map(|[vertex, _, _]| vertex));
+        let texture_coordinates = corners.map(|[_, texture_coordinate, _]| texture_coordinate);
+        carry(&mut self.texture_coordinates.corners, triangle, texture_coordinates);
+        carry(&mut self.normals.corners, triangle, corners.map(|[_, _, normal]| normal));
+    }
+}
+
+impl Parts {
     fn finish(self) -> Mesh {
         let triangles = self.triangles.len();
         let normals = complete(self.normals, triangles);

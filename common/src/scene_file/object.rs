@@ -5,7 +5,7 @@
 //! | `triangle = { a, b, c }` | its corners |
 //! | `sphere = { center, radius }` | |
 //! | `plane = { point, normal }` | an infinite plane |
-//! | `mesh = "bunny.obj"` | a mesh file, relative to the scene file |
+//! | `mesh = "bunny.obj"` | a mesh file, OBJ or PLY, relative to the scene file |
 //! | `generate = { kind, divisions }` | a mesh that is computed: see [`Kind`] |
 //! | `material` | the name of a material; light grey without it |
 //! | `scale`, `rotate = { axis, degrees }`, `translate` | where it is put, in this order |
@@ -15,7 +15,7 @@ use super::error::Problem;
 use super::reader::{Item, Table, suggestion};
 use super::transform::{self, Transform};
 use crate::generate::Kind;
-use crate::obj;
+use crate::mesh_file::Format;
 use crate::scene::{Material, Object, Plane, Shape, Sphere, Triangle};
 use crate::smooth;
 use std::path::Path;
@@ -79,11 +79,11 @@ fn plane(item: &Item) -> Result<Shape, Problem> {
 
 fn mesh(item: &Item, folder: &Path) -> Result<Shape, Problem> {
     let path = Path::new(item.text()?);
-    if !path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("obj")) {
-        let problem = item.problem(format!("is {:?}, which is no .obj file", path.display()));
-        return Err(problem.help("convert it to OBJ; no other format is read"));
-    }
-    let mesh = obj::read(&folder.join(path));
+    let Some(format) = Format::of(path) else {
+        let problem = format!("is {:?}, which is no .obj or .ply file", path.display());
+        return Err(item.problem(problem).help("convert it to OBJ or PLY; no others are read"));
+    };
+    let mesh = format.read(&folder.join(path));
     let smooth = |mesh| Shape::Mesh(smooth::with_normals(mesh, smooth::CREASE));
     mesh.map(smooth).map_err(|error| Problem::new(item.span.clone(), error.to_string()))
 }
