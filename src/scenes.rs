@@ -2,11 +2,14 @@
 //! camera that frames them.
 
 mod framing;
+mod stream;
 
 pub use framing::{FrameMeshError, framed, framed_positions};
+pub use stream::{StreamedScene, open_stream};
 
 use crate::common::mesh_file::{Format, ReadMeshError};
 use crate::common::scene_file::{self, SceneFileError, framed_mesh_toml, nearest_name};
+use crate::common::stream::StreamError;
 use crate::common::{CameraDescription, Scene, SceneError, Shape, smooth};
 use std::path::Path;
 
@@ -116,6 +119,18 @@ pub enum LoadError {
     /// The mesh file has more triangles than there are ids.
     #[error(transparent)]
     Scene(#[from] SceneError),
+    /// The mesh file cannot be streamed.
+    #[error(transparent)]
+    Stream(#[from] StreamError),
+    /// What is to be streamed is no mesh file.
+    #[error(
+        "--stream draws one mesh file (.obj, .ply), triangle by triangle, and {source_name:?} is \
+         none; render it without --stream, or name a mesh file"
+    )]
+    NotStreamed {
+        /// What was asked for.
+        source_name: String,
+    },
     /// The mesh file is right, but no camera shows what is in it.
     #[error("{path}: {error}")]
     Framing {

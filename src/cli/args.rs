@@ -10,7 +10,7 @@ use std::path::PathBuf;
 /// What to render, how, and where to.
 #[derive(Debug, Args)]
 pub(super) struct RenderArgs {
-    /// A built-in scene, a .toml scene file, or a mesh file (framed automatically)
+    /// A built-in scene, a .toml scene file, or a mesh file (.obj or .ply, framed automatically)
     #[arg(default_value = "lecture")]
     pub(super) scene: String,
     #[command(flatten)]
@@ -67,6 +67,10 @@ pub(super) struct MethodArgs {
     /// Threads to render with; all cores if not given
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(super) threads: Option<u16>,
+    /// Draw a mesh file that may be larger than memory: only its vertices are kept, its faces pass by
+    /// (with --order object; flat normals)
+    #[arg(long)]
+    pub(super) stream: bool,
     /// Render N times after a warm-up, and report the spread of times
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub(super) repeat: Option<u32>,

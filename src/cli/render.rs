@@ -4,7 +4,7 @@ use super::args::{BuffersArg, RenderArgs};
 use super::camera::camera;
 use super::failure::Failure;
 use super::output::Staging;
-use super::{npy, table, terminal};
+use super::{npy, stream, table, terminal};
 use bothways::common::camera::check_samples;
 use bothways::common::{Camera, Options, View};
 use bothways::diff::{Classes, Comparison, compare};
@@ -20,30 +20,44 @@ use std::process::ExitCode;
 
 /// Renders, writes and prints; 0 if both orders see the same (or one was asked for), 1 if not.
 pub(super) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
+    if args.method.stream {
+        return stream::run(args);
+    }
     let loaded = scenes::load(&args.scene)?;
-    let camera = camera(&loaded, &args.camera)?;
+    let (camera, staging, folder) = prepared_output(args, &loaded)?;
+    thread_pool(args)?.install(|| Run::new(args, &loaded, &camera).finish(staging, &folder))
+}
+
+/// The camera, and where to write: before the work, so that nobody waits for pictures that cannot be
+/// written.
+pub(super) fn prepared_output(
+    args: &RenderArgs,
+    loaded: &LoadedScene,
+) -> Result<(Camera, Staging, PathBuf), Failure> {
+    let camera = camera(loaded, &args.camera)?;
     check_samples(camera.image(), args.method.samples)
         .map_err(|error| Failure::new(format!("--samples {}: {error}", args.method.samples)))?;
     let folder = match &args.output.folder {
         Some(folder) => folder.clone(),
         None => PathBuf::from("out").join(&loaded.name),
     };
-    // Before the work, so that nobody waits for pictures that cannot be written.
-    let staging = Staging::begin(&folder)?;
+    Ok((camera, Staging::begin(&folder)?, folder))
+}
 
-    let pool = rayon::ThreadPoolBuilder::new()
+/// The threads to render on.
+pub(super) fn thread_pool(args: &RenderArgs) -> Result<rayon::ThreadPool, Failure> {
+    rayon::ThreadPoolBuilder::new()
         .num_threads(args.method.threads.unwrap_or(0).into())
         .build()
-        .map_err(|error| Failure::new(format!("cannot start the threads: {error}")))?;
-    pool.install(|| Run::new(args, &loaded, &camera).finish(staging, &folder))
+        .map_err(|error| Failure::new(format!("cannot start the threads: {error}")))
 }
 
 /// Everything that came of the rendering.
-struct Run<'a> {
-    args: &'a RenderArgs,
-    rendered: Vec<Rendered>,
-    comparison: Option<Comparison>,
-    report: Report,
+pub(super) struct Run<'a> {
+    pub(super) args: &'a RenderArgs,
+    pub(super) rendered: Vec<Rendered>,
+    pub(super) comparison: Option<Comparison>,
+    pub(super) report: Report,
 }
 
 impl<'a> Run<'a> {
@@ -73,7 +87,8 @@ impl<'a> Run<'a> {
         Run { args, rendered, comparison, report }
     }
 
-    fn finish(&self, mut staging: Staging, folder: &Path) -> Result<ExitCode, Failure> {
+    /// Writes everything, and prints the report.
+    pub(super) fn finish(&self, mut staging: Staging, folder: &Path) -> Result<ExitCode, Failure> {
         let json = self.report.to_json().map_err(|error| Failure::new(error.to_string()))?;
         self.write(&mut staging, &json)?;
         staging.commit()?;
