@@ -42,9 +42,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             index.iter().try_for_each(|vertex| out.write_all(&vertex.to_le_bytes()))?;
         }
     }
-    out.flush()?;
     println!("{path}: {triangles} triangles");
-    Ok(())
+    Ok(out.flush()?)
 }
 
 /// From 0 to 1, as if by chance.

@@ -124,8 +124,8 @@ pub enum LoadError {
     Stream(#[from] StreamError),
     /// What is to be streamed is no mesh file.
     #[error(
-        "--stream draws one mesh file (.obj, .ply), triangle by triangle, and {source_name:?} is \
-         none; render it without --stream, or name a mesh file"
+        "only a mesh file (.obj, .ply) can be streamed, and {source_name:?} is none; render it in \
+         memory, without --stream, or name a mesh file"
     )]
     NotStreamed {
         /// What was asked for.

@@ -230,13 +230,13 @@ fn what_cannot_be_streamed_says_why_and_what_to_do() {
     let every_ray = contains("in image order every ray may need every triangle");
     for order in [&["--order", "both"][..], &["--order", "image"], &[]] {
         let args = [&["torus.obj", "--stream"], order].concat();
-        plain(&args)
-            .code(2)
-            .stderr(contains("--stream needs --order object").and(every_ray.clone()));
+        plain(&args).code(2).stderr(contains("give --order object").and(every_ray.clone()));
     }
-    stream(&home, &["torus.obj", "--method", "textbook"]).code(2).stderr(contains("--method fast"));
+    stream(&home, &["torus.obj", "--method", "textbook"])
+        .code(2)
+        .stderr(contains("--method textbook"));
     for source in ["lecture", "scene.toml", "-", "/dev/stdin", "mesh.stl"] {
-        let says = contains(format!("{source:?} is none; render it without --stream"));
+        let says = contains(format!("{source:?} is none; render it in memory"));
         stream(&home, &[source]).code(2).stderr(says);
     }
     stream(&home, &["none.obj"]).code(2).stderr(contains("none.obj: there is no such file"));

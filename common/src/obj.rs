@@ -15,6 +15,7 @@
 
 mod error;
 mod lines;
+mod parts;
 mod passes;
 mod write;
 
@@ -30,6 +31,7 @@ use glam::{Vec2, Vec3};
 use crate::mesh::{Attribute, Mesh};
 pub(crate) use error::quote;
 use lines::{Statements, Words};
+use parts::Parts;
 
 /// Reads a mesh from an OBJ file.
 ///
@@ -84,7 +86,7 @@ pub fn parse(name: &str, bytes: &[u8]) -> Result<Mesh, ReadObjError> {
         reader.statement(line, words).map_err(|fault| located(line, fault))?;
     }
     reader.check_forward().map_err(|(line, fault)| located(line, fault))?;
-    if reader.sink.triangles.is_empty() {
+    if !reader.sink.has_triangles() {
         return Err(ReadObjError::NoFace { file: name.to_owned() });
     }
     Ok(reader.sink.finish())
@@ -114,15 +116,6 @@ pub(super) struct Reader<S> {
     total: Option<[usize; 3]>,
     /// What faces name before it is defined, for each [`Element`], as long as no total is known.
     forward: [Vec<Forward>; 3],
-}
-
-/// All of a mesh, while it is read.
-#[derive(Default)]
-struct Parts {
-    positions: Vec<Vec3>,
-    triangles: Vec<[u32; 3]>,
-    texture_coordinates: Attribute<Vec2>,
-    normals: Attribute<Vec3>,
 }
 
 /// A face that names something below itself.
@@ -246,58 +239,6 @@ impl<S: Sink> Reader<S> {
 /// Whether so many elements have one of this index, counted from 1.
 fn is_within(index: i64, count: usize) -> bool {
     usize::try_from(index).is_ok_and(|index| index <= count)
-}
-
-impl Sink for Parts {
-    fn position(&mut self, position: Vec3) {
-        self.positions.push(position);
-    }
-
-    fn texture_coordinate(&mut self, value: Vec2) {
-        self.texture_coordinates.values.push(value);
-    }
-
-    fn normal(&mut self, normal: Vec3) {
-        self.normals.values.push(normal);
-    }
-
-    fn triangle(&mut self, corners: [Corner; 3]) {
-        let triangle = self.triangles.len();
-        self.triangles.push(corners.map(|[vertex, _, _]| vertex));
-        let texture_coordinates = corners.map(|[_, texture_coordinate, _]| texture_coordinate);
-        carry(&mut self.texture_coordinates.corners, triangle, texture_coordinates);
-        carry(&mut self.normals.corners, triangle, corners.map(|[_, _, normal]| normal));
-    }
-}
-
-impl Parts {
-    fn finish(self) -> Mesh {
-        let triangles = self.triangles.len();
-        let normals = complete(self.normals, triangles);
-        let texture_coordinates = complete(self.texture_coordinates, triangles);
-        Mesh::new(self.positions, self.triangles)
-            .and_then(|mesh| mesh.with_normals(normals))
-            .and_then(|mesh| mesh.with_texture_coordinates(texture_coordinates))
-            .expect("the reader has checked every number and every index")
-    }
-}
-
-/// Notes what the corners of a triangle carry, if they do; earlier triangles may have been silent.
-fn carry(list: &mut Vec<[u32; 3]>, triangle: usize, corners: [u32; 3]) {
-    if corners != [NONE; 3] {
-        list.resize(triangle, [NONE; 3]);
-        list.push(corners);
-    }
-}
-
-/// Gives an attribute an entry for each triangle; one that no corner names vanishes.
-fn complete<T>(mut attribute: Attribute<T>, triangles: usize) -> Attribute<T> {
-    if attribute.corners.is_empty() {
-        attribute.values = Vec::new();
-    } else {
-        attribute.corners.resize(triangles, [NONE; 3]);
-    }
-    attribute
 }
 
 /// The first `N` numbers of a statement, `needed` of which must be there; the others are 0.

@@ -171,6 +171,9 @@ impl MeshStream {
 mod tests {
     use super::*;
     use crate::mesh::Mesh;
+    use proptest::collection::vec;
+    use proptest::prelude::*;
+    use proptest::sample::select;
 
     #[test]
     fn positions_are_found_across_blocks() {
@@ -186,30 +189,32 @@ mod tests {
         assert!(positions.iter().zip(0_u32..).all(|(position, k)| positions.get(k) == position));
     }
 
-    /// A file's mesh in memory, and as it is streamed.
-    fn both(name: &str, content: &str) -> (Mesh, Mesh) {
+    /// A file's mesh in memory, and as it is streamed; `None` where it is refused.
+    fn both(name: &str, content: &[u8]) -> [Option<Mesh>; 2] {
         let folder = std::env::temp_dir().join(format!("bothways-stream-{}", std::process::id()));
         std::fs::create_dir_all(&folder).unwrap();
         let path = folder.join(name);
         std::fs::write(&path, content).unwrap();
         let format = Format::of(&path).unwrap();
-        let mut stream = MeshStream::open(&path, format).unwrap();
-        let mut triangles = Vec::new();
-        let count = stream.for_each_triangle(|_, triangle| triangles.push(triangle)).unwrap();
-        assert_eq!(count as usize, triangles.len());
-        let streamed = Mesh::new(stream.positions().iter().collect(), triangles).unwrap();
-        let whole = format.read(&path).unwrap();
-        let whole = Mesh::new(whole.positions().to_vec(), whole.triangles().to_vec()).unwrap();
-        (whole, streamed)
+        let whole = format.read(&path).ok().map(|whole| {
+            Mesh::new(whole.positions().to_vec(), whole.triangles().to_vec()).unwrap()
+        });
+        let streamed = MeshStream::open(&path, format).ok().and_then(|mut stream| {
+            let mut triangles = Vec::new();
+            let count = stream.for_each_triangle(|_, triangle| triangles.push(triangle)).ok()?;
+            assert_eq!(count as usize, triangles.len());
+            Some(Mesh::new(stream.positions().iter().collect(), triangles).unwrap())
+        });
+        [whole, streamed]
     }
 
     #[test]
     fn a_stream_shows_what_the_reader_reads() {
         let obj = "\u{feff}f 1 3 2\nv 0 0 0\r\nvt 1\nv 1 0 0\nv 0 1 0 # c\nf -3/1 -2 \\\n-1\n\
                    v 5 5 5\nf 1 2 \\\r\n4 3\nvn 0 0 1\ng x";
-        let (whole, streamed) = both("a.obj", obj);
+        let [whole, streamed] = both("a.obj", obj.as_bytes());
         assert_eq!(whole, streamed);
-        assert_eq!(whole.triangles(), [[0, 2, 1], [0, 1, 2], [0, 1, 3], [0, 3, 2]]);
+        assert_eq!(whole.unwrap().triangles(), [[0, 2, 1], [0, 1, 2], [0, 1, 3], [0, 3, 2]]);
     }
 
     #[test]
@@ -221,5 +226,40 @@ mod tests {
         assert_eq!(triangles, 1);
         assert_eq!(used.collect::<Vec<Vec3>>(), [Vec3::ZERO, Vec3::X, Vec3::Y]);
         std::fs::remove_file(&path).unwrap();
+    }
+
+    /// Pieces that OBJ files are made of, and some that they are not.
+    const PIECES: [&str; 20] = [
+        "v 1 2 3\n",
+        "v 1 0 0\r\n",
+        "v 0 1 0 \\\n7\n",
+        "v 0 0 2\n",
+        "vt 1\n",
+        "vn 0 0 1\n",
+        "f 1 2 3\n",
+        "f 3 2 1 4\n",
+        "f -1 -2 -3\n",
+        "f 1/1 2/1 3/1\n",
+        "f 1//1 2 \\\r\n 3\n",
+        "fo 2 1 3\n",
+        "f 1 2 9\n",
+        "f -5 1 2\n",
+        "g a\n",
+        "# f \\\n",
+        "\n",
+        "f",
+        " 1",
+        "x\n",
+    ];
+
+    proptest! {
+        #[test]
+        fn a_stream_takes_and_refuses_what_the_reader_does(
+            pieces in vec(select(PIECES.to_vec()), 0..12),
+        ) {
+            let text = ["v 0 0 0\nv 1 1 0\n", &pieces.concat()].concat();
+            let [whole, streamed] = both("pieces.obj", text.as_bytes());
+            prop_assert_eq!(whole, streamed, "{}", text);
+        }
     }
 }

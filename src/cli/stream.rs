@@ -32,19 +32,22 @@ pub(super) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
 
 /// Refuses what cannot be streamed.
 fn check(args: &RenderArgs) -> Result<(), Failure> {
-    match args.method.order {
-        OrderArg::Object => {}
-        OrderArg::Both | OrderArg::Image => {
-            return Err(Failure::new(
-                "--stream needs --order object: object order takes up one triangle after another, \
-                 but in image order every ray may need every triangle, so all must be at hand",
-            ));
-        }
+    let order = match args.method.order {
+        OrderArg::Object => None,
+        OrderArg::Both => Some("both"),
+        OrderArg::Image => Some("image"),
+    };
+    if let Some(order) = order {
+        return Err(Failure::new(format!(
+            "--stream cannot be used with --order {order}: in image order every ray may need every \
+             triangle, so all must be in memory; give --order object, which needs one at a time"
+        )));
     }
     match args.method.method {
         MethodArg::Fast => Ok(()),
         MethodArg::Textbook => Err(Failure::new(
-            "--stream needs --method fast; the textbook's loop reads a scene that is in memory",
+            "--stream cannot be used with --method textbook, whose loop walks a scene in memory; \
+             leave one of them out",
         )),
     }
 }
