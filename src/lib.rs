@@ -36,6 +36,7 @@ pub mod opengl;
 pub mod orders;
 pub mod picture;
 pub mod pixel;
+pub mod progress;
 pub mod report;
 pub mod scenes;
 pub mod vectors;

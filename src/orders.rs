@@ -6,8 +6,10 @@ pub use stream::render_stream;
 
 use crate::common::frame::NO_PRIMITIVE;
 use crate::common::{Frame, Observer, Options, Scene, View, Work};
+use crate::progress::{Listener, Steps};
 use crate::{rasterize, raytrace};
 use serde::Serialize;
+use std::sync::atomic::AtomicU64;
 use std::time::{Duration, Instant};
 
 /// Which loop is the outer one.
@@ -137,12 +139,40 @@ pub fn render(
     options: &Options,
     repeat: Option<u32>,
 ) -> Rendered {
-    let (frame, work, times) = match (order, method) {
-        (Order::Object, Method::Fast) => measure::<FastRasterizer>(view, options, repeat),
-        (Order::Object, Method::Textbook) => measure::<TextbookRasterizer>(view, options, repeat),
-        (Order::Image, Method::Fast) => measure::<FastRayTracer>(view, options, repeat),
-        (Order::Image, Method::Textbook) => measure::<TextbookRayTracer>(view, options, repeat),
+    render_and_tell(order, method, view, options, repeat, None)
+}
+
+/// [`render`], with somebody who is told how far it has come; that changes no bit of the answer.
+///
+/// # Panics
+///
+/// As [`render`].
+pub fn render_and_tell(
+    order: Order,
+    method: Method,
+    view: &View,
+    options: &Options,
+    repeat: Option<u32>,
+    listener: Option<Listener>,
+) -> Rendered {
+    let outer_loop = match (method, order) {
+        (Method::Fast, _) => None,
+        (Method::Textbook, Order::Object) => Some(view.scene.primitive_count().into()),
+        (Method::Textbook, Order::Image) => {
+            Some(u64::from(view.camera.image()[1]) * u64::from(options.samples))
+        }
     };
+    // One that counts, one to warm up, and the timed ones.
+    let frames = 1 + repeat.map_or(1, |repeat| 1 + u64::from(repeat));
+    let done = AtomicU64::new(0);
+    let steps = Steps::new(order, listener, outer_loop, frames, &done);
+    let measure = match (order, method) {
+        (Order::Object, Method::Fast) => measure::<FastRasterizer>,
+        (Order::Object, Method::Textbook) => measure::<TextbookRasterizer>,
+        (Order::Image, Method::Fast) => measure::<FastRayTracer>,
+        (Order::Image, Method::Textbook) => measure::<TextbookRayTracer>,
+    };
+    let (frame, work, times) = measure(view, options, repeat, &steps);
     Rendered { order, method, frame, work, times: Some(times) }
 }
 
@@ -220,28 +250,54 @@ fn measure<R: Renderer>(
     view: &View,
     options: &Options,
     repeat: Option<u32>,
+    steps: &Steps,
 ) -> (Frame, Work, Times) {
+    steps.preparing();
     let (prepared, prepare) = measure_preparing::<R>(view.scene, repeat);
     let mut frame = Frame::new(view.camera, options);
 
+    steps.frames_done(0);
     let mut work = Work::default();
-    R::determine_visibility(&prepared, view, options, &mut frame, &mut work);
+    watched::<R, _>(&prepared, view, options, &mut frame, &mut work, steps);
+    steps.frames_done(1);
 
     if repeat.is_some() {
-        R::determine_visibility(&prepared, view, options, &mut frame, &mut ());
+        watched::<R, _>(&prepared, view, options, &mut frame, &mut (), steps);
         R::shade(view, &mut frame);
+        steps.frames_done(2);
     }
+    let before = 1 + u64::from(repeat.is_some());
     let (mut visibility, mut shading) = (Vec::new(), Vec::new());
-    for _ in 0..repeat.unwrap_or(1) {
+    for number in 1..=u64::from(repeat.unwrap_or(1)) {
         let ((), time) = timed(|| {
-            R::determine_visibility(&prepared, view, options, &mut frame, &mut ());
+            watched::<R, _>(&prepared, view, options, &mut frame, &mut (), steps);
         });
         visibility.push(time);
         let ((), time) = timed(|| R::shade(view, &mut frame));
         shading.push(time);
+        steps.frames_done(before + number);
     }
     let times = Times { prepare, visibility: Spread::of(visibility), shading: Spread::of(shading) };
     (frame, work, times)
+}
+
+/// Finds what is visible, and tells of the steps within the frame if somebody wants to know.
+fn watched<R: Renderer, O: Observer>(
+    prepared: &R::Prepared,
+    view: &View,
+    options: &Options,
+    frame: &mut Frame,
+    observer: &mut O,
+    steps: &Steps,
+) {
+    match steps.watch() {
+        None => R::determine_visibility(prepared, view, options, frame, observer),
+        Some(watch) => {
+            let mut both = (observer.fork(), watch);
+            R::determine_visibility(prepared, view, options, frame, &mut both);
+            observer.join(both.0);
+        }
+    }
 }
 
 fn measure_preparing<R: Renderer>(scene: &Scene, repeat: Option<u32>) -> (R::Prepared, Spread) {
@@ -294,6 +350,8 @@ mod tests {
     use super::*;
     use crate::common::glam::Vec3;
     use crate::common::{Camera, Shape, Sphere};
+    use crate::progress::{Progress, Stage};
+    use std::sync::Mutex;
 
     #[test]
     fn the_median_lies_in_the_middle() {
@@ -303,10 +361,14 @@ mod tests {
         assert_eq!(Spread::of(vec![9.0, 3.0, 1.0, 2.0]), even);
     }
 
+    fn two_balls() -> Scene {
+        let ball = |x| Shape::Sphere(Sphere { center: Vec3::new(x, 0.0, -3.0), radius: 1.0 });
+        Scene::new(vec![ball(0.0).into(), ball(0.5).into()]).unwrap()
+    }
+
     #[test]
     fn repeating_changes_neither_picture_nor_counts() {
-        let ball = Shape::Sphere(Sphere { center: Vec3::new(0.0, 0.0, -3.0), radius: 1.0 });
-        let scene = Scene::new(vec![ball.into()]).unwrap();
+        let scene = two_balls();
         let camera = Camera::canonical(9, 7);
         let view = View::new(&scene, &camera);
         for order in [Order::Object, Order::Image] {
@@ -314,6 +376,35 @@ mod tests {
                 let once = render(order, method, &view, &Options::default(), None);
                 let thrice = render(order, method, &view, &Options::default(), Some(3));
                 assert_eq!((once.frame, once.work), (thrice.frame, thrice.work));
+            }
+        }
+    }
+    #[test]
+    fn progress_is_told_to_the_end_and_changes_nothing() {
+        let (scene, camera) = (two_balls(), Camera::canonical(9, 7));
+        let view = View::new(&scene, &camera);
+        let options = Options { samples: 2 };
+        // Steps within a frame: frames, primitives, or rows of samples.
+        for (order, method, steps) in [
+            (Order::Object, Method::Fast, 1),
+            (Order::Object, Method::Textbook, 2),
+            (Order::Image, Method::Fast, 1),
+            (Order::Image, Method::Textbook, 14),
+        ] {
+            for (repeat, frames) in [(None, 2), (Some(1), 3), (Some(3), 5)] {
+                let told = Mutex::new(Vec::new());
+                let listener = |progress| told.lock().unwrap().push(progress);
+                let told_of =
+                    render_and_tell(order, method, &view, &options, repeat, Some(&listener));
+                let alone = render(order, method, &view, &options, repeat);
+                assert_eq!((told_of.frame, told_of.work), (alone.frame, alone.work));
+
+                let total = steps * frames;
+                let step = |stage, done| Progress { order, stage, done, total };
+                let rendering = (0..=total).map(|done| step(Stage::Rendering, done));
+                let mut expected = vec![step(Stage::Preparing, 0)];
+                expected.extend(rendering);
+                assert_eq!(told.into_inner().unwrap(), expected, "{order:?} {method:?}");
             }
         }
     }

@@ -91,9 +91,9 @@ pub struct LoadedScene {
 pub enum LoadError {
     /// No built-in scene has this name.
     #[error(
-        "there is no built-in scene {name:?}{}; the built-in scenes are {}; a scene file (.toml) \
+        "there is no built-in scene {name:?}; {}the built-in scenes are {}; a scene file (.toml) \
          or a mesh file (.obj, .ply) can be named, too",
-        .meant.map_or(String::new(), |meant| format!("; did you mean {meant:?}?")),
+        .meant.map_or(String::new(), |meant| format!("did you mean {meant:?}? ")),
         names().join(", ")
     )]
     UnknownName {
@@ -241,7 +241,7 @@ mod tests {
         let list = "the built-in scenes are lecture, canonical, ties, behind, slivers, overlap, \
                     inside, many; a scene file (.toml) or a mesh file (.obj, .ply) can be named, too";
         let near =
-            format!("there is no built-in scene \"lectuer\"; did you mean \"lecture\"?; {list}");
+            format!("there is no built-in scene \"lectuer\"; did you mean \"lecture\"? {list}");
         assert_eq!(says("lectuer"), near);
         assert_eq!(says("bunny"), format!("there is no built-in scene \"bunny\"; {list}"));
         assert_eq!(says(""), format!("there is no built-in scene \"\"; {list}"));

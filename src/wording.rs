@@ -1,5 +1,7 @@
 //! Numbers as people read them: `1,234,567 samples`.
 
+pub use crate::common::wording::readable;
+
 /// A whole number with its digits in groups of three.
 pub fn grouped(number: u64) -> String {
     let digits = number.to_string();

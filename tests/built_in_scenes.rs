@@ -61,6 +61,32 @@ fn inside_covers_every_pixel() {
 }
 
 #[test]
+fn the_fan_of_slivers_leaves_no_gap() {
+    let loaded = load("slivers").unwrap();
+    let [perspective, _] = cameras(&loaded, [64, 48]);
+    let view = View::new(&loaded.scene, &perspective);
+    let frame = textbook::render(&view, &Options::default());
+    // The cone's rim is 10.5 pixels from the middle.
+    let from_middle = |row: f64, column: f64| (row - 23.5).hypot(column - 31.5);
+    let (mut in_fan, mut thinnest) = (0, f64::INFINITY);
+    for (row, column) in (0_u8..48).flat_map(|row| (0_u8..64).map(move |column| (row, column))) {
+        if from_middle(row.into(), column.into()) < 10.0 {
+            let id = frame.id(row.into(), column.into());
+            let object = id.map(|id| loaded.scene.locate(id).0);
+            assert_eq!(object, Some(0), "a gap at {row}, {column}");
+            in_fan += 1;
+        }
+    }
+    assert_eq!(in_fan, 316);
+    for (_, primitive) in view.primitives().filter(|&(id, _)| loaded.scene.locate(id).0 > 0) {
+        let Primitive::Triangle([_, b, c]) = primitive else { continue };
+        // One of the full picture's 480 pixels, as far away as the needle.
+        thinnest = thinnest.min((b - c).length() / (5.6 / 480.0));
+    }
+    assert!(thinnest < 0.005, "{thinnest} pixels");
+}
+
+#[test]
 fn what_nobody_should_see_is_not_seen() {
     // Such objects are magenta.
     let is_hidden = |colour: Vec3| colour == Vec3::new(1.0, 0.0, 1.0);

@@ -186,22 +186,3 @@ fn the_mask_is_written_at_once_or_not_at_all() {
     bothways(&home, &args).assert().code(2).stdout("").stderr(refused);
     assert_eq!(fs::read_dir(&home).unwrap().count(), 1);
 }
-
-#[test]
-fn bad_input_is_named() {
-    let refused: [(&[&str], &str); 9] = [
-        (&["1,1 2,2", "--size", "4x4"], "has 2 corners; a triangle has three"),
-        (&["1,1 2,2 3,3 4,4", "--size", "4x4"], "has 4 corners"),
-        (&["1,1 2,2,2 3,3", "--size", "4x4"], "corner 2 is '2,2,2': it has 3"),
-        (&["1,1 2,x 3,3", "--size", "4x4"], "'x' is not a number"),
-        (&["NaN,1 2,2 3,3", "--size", "4x4"], "NaN is not a finite number"),
-        (&["1,1 2,2 3,1e39", "--size", "4x4"], "1e39 is out of range"),
-        (&["1,1 2,2 3,3", "--size", "0x4"], "both sides need at least 1 pixel"),
-        (&["1,1 2,2 3,3"], "--size"),
-        (&["--size", "4x4"], "x,y x,y x,y"),
-    ];
-    for (args, message) in refused {
-        let said = contains(message).and(contains("panicked").not());
-        bothways(&home(), args).assert().code(2).stdout("").stderr(said);
-    }
-}

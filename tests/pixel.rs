@@ -12,8 +12,6 @@ use bothways::common::{
 use bothways::orders::{Method, Order, render};
 use bothways::pixel::{Behind, report};
 use bothways::scenes;
-use predicates::prelude::*;
-use predicates::str::contains;
 use serde_json::{Value, json};
 
 /// What is told of all pixels adds up to what the whole frame did and saw.
@@ -133,7 +131,7 @@ fn a_tie_is_derived_and_decided() {
         edge signs E_ab 0 (tie, nudged to +), E_bc -, E_ca -; facing -
 
     object order saw id 1 at t = 3.096774
-      4 bounding regions around it, 4 primitive tests, 2 fragments, 1 depth comparison, 4 questions to the exact judge
+      4 bounding regions around it, 4 primitive tests, 2 fragments, 1 depth comparison, 2 questions to the exact judge
     image order saw id 1 at t = 3.096774
       6 box tests, 4 primitive tests, 1 fragment, 2 questions to the exact judge
 
@@ -170,21 +168,4 @@ fn json_has_every_fact() {
     assert_eq!(first["covering"][0]["id"], first["object_order"]["id"]);
     assert_eq!(first["covering"][0]["edges"]["tie"], true);
     assert!(first["image_order"]["work"]["nodes"].as_u64().unwrap() > 0);
-}
-
-#[test]
-fn bad_input_is_named() {
-    let refused: [(&[&str], &str); 7] = [
-        (&["canonical", "480", "0"], "there is no pixel (480, 0) in an image of 480x480"),
-        (&["canonical", "0", "64", "--size", "64x9"], "ROW goes from 0 to 8, COLUMN from 0 to 63"),
-        (&["canonical", "-1", "0"], "-1"),
-        (&["canonical", "1.5", "0"], "1.5"),
-        (&["canonical", "1"], "<COLUMN>"),
-        (&["canonical", "1", "1", "--samples", "1000"], "--samples 1000"),
-        (&["no-such-scene", "1", "1"], "no-such-scene"),
-    ];
-    for (args, message) in refused {
-        let said = contains(message).and(contains("panicked").not());
-        bothways(args).assert().code(2).stdout("").stderr(said);
-    }
 }

@@ -1,23 +1,10 @@
 //! Every command in the README does what it says: it runs, and ends well.
 
+mod support;
+
 use assert_cmd::Command;
 use std::path::Path;
-
-/// The arguments of a command line, single quotes taken off, its comment left out.
-fn arguments(line: &str) -> Vec<String> {
-    let mut words = vec![String::new()];
-    let mut quoted = false;
-    for character in line.chars() {
-        match character {
-            '#' if !quoted => break,
-            '\'' => quoted = !quoted,
-            ' ' if !quoted => words.push(String::new()),
-            _ => words.last_mut().expect("there is a first word").push(character),
-        }
-    }
-    words.retain(|word| !word.is_empty());
-    words
-}
+use support::arguments;
 
 #[test]
 fn every_command_of_the_readme_runs() {

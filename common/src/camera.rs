@@ -1,6 +1,7 @@
 //! The lecture's camera: where the eye is, how the viewport lies before it, and which ray belongs to
 //! a pixel.
 
+use crate::wording::{readable, readable_vector};
 use glam::{DVec3, Vec3};
 
 /// How the world loses a dimension.
@@ -106,13 +107,13 @@ pub enum CameraError {
         what: &'static str,
     },
     /// The target of the view is the eye.
-    #[error("the eye {eye} is the point it looks at; move one of them")]
+    #[error("the eye {} is the point it looks at; move one of them", readable_vector(*.eye))]
     LooksAtItself {
         /// The eye.
         eye: Vec3,
     },
     /// The up vector says nothing about which way is up.
-    #[error("up {up} runs along the direction of view; choose another up")]
+    #[error("up {} runs along the direction of view; choose another up", readable_vector(*.up))]
     UpAlongView {
         /// As it was given.
         up: Vec3,
@@ -127,7 +128,10 @@ pub enum CameraError {
         reason: &'static str,
     },
     /// `d`, `vw` or `vh` is out of range.
-    #[error("{what} is {value}; it must be between 2^-64 and 2^64")]
+    #[error(
+        "{what} is {}; it must be between 2^-64 and 2^64 (5.4e-20 to 1.8e19)",
+        readable(*.value)
+    )]
     OutOfRange {
         /// Which length.
         what: &'static str,
@@ -136,8 +140,9 @@ pub enum CameraError {
     },
     /// The field of view is too close to 180 degrees.
     #[error(
-        "the viewport is {width} x {height} at distance {distance}; \
-         its sides may be at most 2^20 times the distance"
+        "the viewport is {} x {} at distance {}; \
+         its sides may be at most 2^20 (about 1e6) times the distance",
+        readable(*.width), readable(*.height), readable(*.distance)
     )]
     TooWide {
         /// The viewport's width.
@@ -368,8 +373,11 @@ fn viewport_coordinate(extent: f64, index: u32, count: u32) -> f64 {
 fn check_lengths(description: &CameraDescription) -> Result<(), CameraError> {
     let CameraDescription { distance, viewport: [width, height], .. } = *description;
     let range = (-64f32).exp2()..=64f32.exp2();
-    let lengths =
-        [("the distance", distance), ("the viewport's width", width), ("its height", height)];
+    let lengths = [
+        ("the distance", distance),
+        ("the viewport's width", width),
+        ("the viewport's height", height),
+    ];
     for (what, value) in lengths {
         if !range.contains(&value) {
             return Err(CameraError::OutOfRange { what, value });

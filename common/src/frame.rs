@@ -190,25 +190,25 @@ impl Frame {
         (0..n * n).map(move |sample| (i * n + sample / n) * width + j * n + sample % n)
     }
 
-    /// Cuts the frame into tiles of at most `side` × `side` samples, row by row.
+    /// Cuts the frame into tiles of at most so many columns and rows of samples, row by row.
     ///
     /// # Panics
     ///
-    /// If `side` is 0.
-    pub fn tiles_mut(&mut self, side: usize) -> Vec<Tile<'_>> {
+    /// If `columns` or `rows` is 0.
+    pub fn tiles_mut(&mut self, columns: usize, rows: usize) -> Vec<Tile<'_>> {
         let (width, height) = (self.width(), self.height());
-        let mut tiles: Vec<Tile<'_>> = tile_regions(width, height, side)
+        let mut tiles: Vec<Tile<'_>> = tile_regions(width, height, columns, rows)
             .map(|region| {
-                let rows = region.rows.len();
-                Tile { region, ids: Vec::with_capacity(rows), t: Vec::with_capacity(rows) }
+                let height = region.rows.len();
+                Tile { region, ids: Vec::with_capacity(height), t: Vec::with_capacity(height) }
             })
             .collect();
-        let across = width.div_ceil(side);
-        let rows = self.ids.chunks_mut(width).zip(self.t.chunks_mut(width));
-        for (row, (ids, t)) in rows.enumerate() {
-            let tiles = &mut tiles[row / side * across..][..across];
+        let across = width.div_ceil(columns);
+        let lines = self.ids.chunks_mut(width).zip(self.t.chunks_mut(width));
+        for (row, (ids, t)) in lines.enumerate() {
+            let tiles = &mut tiles[row / rows * across..][..across];
             for (tile, (ids, t)) in
-                tiles.iter_mut().zip(ids.chunks_mut(side).zip(t.chunks_mut(side)))
+                tiles.iter_mut().zip(ids.chunks_mut(columns).zip(t.chunks_mut(columns)))
             {
                 tile.ids.push(ids);
                 tile.t.push(t);
@@ -235,17 +235,24 @@ impl Frame {
     }
 }
 
-/// The tiles of a picture of `width` × `height` samples, row by row, each at most `side` square.
+/// The tiles of a picture of `width` × `height` samples, row by row, each of at most so many columns and
+/// rows.
 ///
 /// # Panics
 ///
-/// If `side` is 0.
-pub fn tile_regions(width: usize, height: usize, side: usize) -> impl Iterator<Item = Region> {
-    let band = move |start: usize, end: usize| start..end.min(start + side);
-    (0..height).step_by(side).flat_map(move |row| {
-        (0..width)
-            .step_by(side)
-            .map(move |column| Region { rows: band(row, height), columns: band(column, width) })
+/// If `columns` or `rows` is 0.
+pub fn tile_regions(
+    width: usize,
+    height: usize,
+    columns: usize,
+    rows: usize,
+) -> impl Iterator<Item = Region> {
+    let band = |start: usize, side: usize, end: usize| start..end.min(start + side);
+    (0..height).step_by(rows).flat_map(move |row| {
+        (0..width).step_by(columns).map(move |column| Region {
+            rows: band(row, rows, height),
+            columns: band(column, columns, width),
+        })
     })
 }
 
@@ -266,7 +273,7 @@ mod tests {
         let camera = Camera::canonical(5, 7);
         let mut frame = Frame::new(&camera, &Options { samples: 2 });
         let mut area = 0;
-        for tile in frame.tiles_mut(4) {
+        for tile in frame.tiles_mut(4, 3) {
             area += tile.region.area();
             assert_eq!(tile.ids.len(), tile.region.rows.len());
             for row in tile.ids {

@@ -27,9 +27,11 @@ pub mod predicate;
 pub mod scene;
 pub mod scene_file;
 pub mod shade;
+pub mod simd;
 pub mod smooth;
 pub mod stream;
 pub mod view;
+pub mod wording;
 
 pub use glam;
 

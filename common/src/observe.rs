@@ -32,6 +32,9 @@ pub enum Question {
 /// `edge_signs`, `fragment`, `depth_test`. Image order tells: `ray_begun`, then `node_opened`,
 /// `sample_tested`, `edge_signs`, `fragment`, `depth_test`, and at the end of the ray `hit`.
 pub trait Observer: Send + Sync {
+    /// Whether anything is done with what is told: renderers save themselves the telling if not.
+    const WATCHES: bool = true;
+
     /// A new observer for one part of the picture.
     fn fork(&self) -> Self
     where
@@ -72,8 +75,69 @@ pub trait Observer: Send + Sync {
 }
 
 impl Observer for () {
+    const WATCHES: bool = false;
+
     fn fork(&self) -> Self {}
     fn join(&mut self, (): ()) {}
+}
+
+/// Two who watch the same loops.
+impl<A: Observer, B: Observer> Observer for (A, B) {
+    const WATCHES: bool = A::WATCHES || B::WATCHES;
+
+    fn fork(&self) -> Self {
+        (self.0.fork(), self.1.fork())
+    }
+
+    fn join(&mut self, (first, second): Self) {
+        self.0.join(first);
+        self.1.join(second);
+    }
+
+    fn primitive_begun(&mut self, primitive: u32, region: &Region) {
+        self.0.primitive_begun(primitive, region);
+        self.1.primitive_begun(primitive, region);
+    }
+
+    fn ray_begun(&mut self, sample: Sample) {
+        self.0.ray_begun(sample);
+        self.1.ray_begun(sample);
+    }
+
+    fn node_opened(&mut self, sample: Sample, node: u32, entered: bool) {
+        self.0.node_opened(sample, node, entered);
+        self.1.node_opened(sample, node, entered);
+    }
+
+    fn sample_tested(&mut self, sample: Sample, primitive: u32) {
+        self.0.sample_tested(sample, primitive);
+        self.1.sample_tested(sample, primitive);
+    }
+
+    fn edge_signs(&mut self, sample: Sample, primitive: u32, signs: [Option<Sign>; 3]) {
+        self.0.edge_signs(sample, primitive, signs);
+        self.1.edge_signs(sample, primitive, signs);
+    }
+
+    fn fragment(&mut self, sample: Sample, primitive: u32) {
+        self.0.fragment(sample, primitive);
+        self.1.fragment(sample, primitive);
+    }
+
+    fn depth_test(&mut self, sample: Sample, challenger: u32, holder: u32, replaced: bool) {
+        self.0.depth_test(sample, challenger, holder, replaced);
+        self.1.depth_test(sample, challenger, holder, replaced);
+    }
+
+    fn hit(&mut self, sample: Sample, primitive: Option<u32>) {
+        self.0.hit(sample, primitive);
+        self.1.hit(sample, primitive);
+    }
+
+    fn judged(&mut self, sample: Sample, question: Question) {
+        self.0.judged(sample, question);
+        self.1.judged(sample, question);
+    }
 }
 
 /// How much was done, in steps that do not depend on threads, tiles or the width of SIMD.

@@ -149,13 +149,14 @@ fn what_is_wrong_with_a_camera() {
         (
             "[camera]\ndistance = 1e-9",
             "1e-9",
-            "2:12: the viewport is 1.3333334 x 1 at distance 0.000000001; its sides may be at \
-             most 2^20 times the distance",
+            "2:12: the viewport is 1.3333334 x 1 at distance 1e-9; its sides may be at \
+             most 2^20 (about 1e6) times the distance",
         ),
         (
             "[camera]\nviewport = [0, 1]",
             "[0, 1]",
-            "2:12: the viewport's width is 0; it must be between 2^-64 and 2^64",
+            "2:12: the viewport's width is 0; it must be between 2^-64 and 2^64 \
+             (5.4e-20 to 1.8e19)",
         ),
         (
             "[camera]\nu = [1, 0, 0]",

@@ -94,7 +94,7 @@ pub fn determine_visibility_with_fault<O: Observer, F: Fault>(
     frame.fit(view.camera, options);
     let grid = view.camera.sample_grid(options.samples);
 
-    let (seen, tiles): (&O, Vec<Tile>) = (observer, frame.tiles_mut(TILE));
+    let (seen, tiles): (&O, Vec<Tile>) = (observer, frame.tiles_mut(TILE, TILE));
     let dropped = F::is(Planted::DroppedTile).then_some(tiles.len() / 2);
     let parts: Vec<O> = tiles
         .into_par_iter()

@@ -4,6 +4,7 @@ use bothways::common::Projection;
 use bothways::common::camera::{MAX_SAMPLES, MAX_SIDE};
 use bothways::common::glam::Vec3;
 use bothways::orders::{Method, Order};
+use bothways::wording::count;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -27,7 +28,7 @@ pub(super) struct RenderArgs {
 pub(super) struct CameraArgs {
     /// The image in pixels; the viewport keeps its height, and gets the image's form unless the
     /// scene states a viewport
-    #[arg(long, value_name = "WxH", value_parser = size)]
+    #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true)]
     pub(super) size: Option<[u32; 2]>,
     /// How the world loses a dimension; eye and frame stay, and the viewport is scaled so that what
     /// is looked at keeps its size (unless --viewport is given)
@@ -61,18 +62,18 @@ pub(super) struct MethodArgs {
     #[arg(long, value_enum, default_value_t = MethodArg::Fast)]
     pub(super) method: MethodArg,
     /// Samples a pixel: an N×N regular grid
-    #[arg(long, value_name = "N", default_value_t = 1,
-          value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = from_1,
+          allow_negative_numbers = true)]
     pub(super) samples: u32,
     /// Threads to render with; all cores if not given
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]
     pub(super) threads: Option<u16>,
     /// Draw a mesh file that may be larger than memory: only its vertices are kept, its faces pass by
     /// (with --order object; flat normals)
     #[arg(long)]
     pub(super) stream: bool,
     /// Render N times after a warm-up, and report the spread of times
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", value_parser = from_1, allow_negative_numbers = true)]
     pub(super) repeat: Option<u32>,
 }
 
@@ -182,18 +183,42 @@ fn side(text: &str) -> Result<u32, String> {
     }
 }
 
+/// A whole number from 1.
+pub(super) fn from_1(text: &str) -> Result<u32, String> {
+    let most = u32::MAX;
+    match text.parse() {
+        Ok(number @ 1..) => Ok(number),
+        _ => Err(format!("give a whole number from 1 to {most}")),
+    }
+}
+
+/// A row or a column.
+pub(super) fn from_0(text: &str) -> Result<u32, String> {
+    text.parse().map_err(|_| "give a whole number; pixels are counted from 0".into())
+}
+
+/// As many threads as a large machine has cores.
+fn threads(text: &str) -> Result<u16, String> {
+    match text.parse() {
+        Ok(number @ 1..=1024) => Ok(number),
+        _ => Err("give a whole number from 1 to 1024".into()),
+    }
+}
+
 fn vector(text: &str) -> Result<Vec3, String> {
-    numbers(text, "three numbers, such as 1,-2,0.5").map(Vec3::from_array)
+    numbers(text, "three, such as 1,-2,0.5").map(Vec3::from_array)
 }
 
 pub(super) fn pair(text: &str) -> Result<[f32; 2], String> {
-    numbers(text, "two numbers, such as 1.6,1")
+    numbers(text, "two, such as 1.6,1")
 }
 
 fn numbers<const N: usize>(text: &str, expected: &str) -> Result<[f32; N], String> {
     let numbers = text.split(',').map(number).collect::<Result<Vec<f32>, String>>()?;
-    let count = numbers.len();
-    numbers.try_into().map_err(|_| format!("it has {count}, but needs {expected}"))
+    let given = numbers.len();
+    numbers
+        .try_into()
+        .map_err(|_| format!("it has {}, but needs {expected}", count(given as u64, "numbers")))
 }
 
 fn number(text: &str) -> Result<f32, String> {
@@ -235,7 +260,7 @@ mod tests {
     fn vectors_are_three_finite_numbers() {
         assert_eq!(vector("1,-2.5, 3e2"), Ok(Vec3::new(1.0, -2.5, 300.0)));
         let problem = |text| vector(text).unwrap_err();
-        assert_eq!(problem("1,2"), "it has 2, but needs three numbers, such as 1,-2,0.5");
+        assert_eq!(problem("1,2"), "it has 2 numbers, but needs three, such as 1,-2,0.5");
         assert_eq!(problem("1,2,x"), "'x' is not a number");
         assert_eq!(problem("1,NaN,3"), "NaN is not a finite number");
         assert_eq!(problem("1,2,-inf"), "-inf is not a finite number");

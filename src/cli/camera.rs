@@ -7,6 +7,7 @@ use bothways::common::{
     Camera, CameraDescription, CameraError, Orientation, Projection, Scene, Shape,
 };
 use bothways::scenes::LoadedScene;
+use bothways::wording::readable;
 
 /// The camera to render with.
 pub(super) fn camera(loaded: &LoadedScene, args: &CameraArgs) -> Result<Camera, Failure> {
@@ -118,6 +119,23 @@ fn middle(scene: &Scene) -> Option<DVec3> {
     bounds.map(|[low, high]| low.midpoint(high))
 }
 
+/// What to say about an image that was given another form than the viewport has: the picture looks
+/// squashed, which may be what is wanted.
+pub(super) fn squashed(camera: &Camera, args: &CameraArgs) -> Option<String> {
+    let CameraDescription { viewport: [vw, vh], image: [width, height], .. } =
+        *camera.description();
+    let square = width_of_square_pixels(camera.description());
+    // A rounded viewport, such as 1.33 x 1, is meant.
+    let fits = (vw / square - 1.0).abs() < 0.01;
+    (args.size.is_some() && !fits).then(|| {
+        let [vw, vh, square] = [vw, vh, square].map(readable);
+        format!(
+            "the viewport is {vw} x {vh} whatever the size, so the pixels of an image of \
+             {width}x{height} are not square; --viewport {square},{vh} makes them so"
+        )
+    })
+}
+
 /// `--eye, --up`: what was given, for messages.
 fn options_given(args: &CameraArgs) -> String {
     let given = [
@@ -205,6 +223,20 @@ mod tests {
             ..CameraArgs::default()
         };
         assert_eq!(changed(&loaded(look_at(Vec3::NEG_Z)), &args).unwrap().viewport, [5.0, 7.0]);
+    }
+
+    #[test]
+    fn a_picture_that_looks_squashed_is_told() {
+        let mut scene = loaded(look_at(Vec3::NEG_Z));
+        let size = |size| CameraArgs { size: Some(size), ..CameraArgs::default() };
+        let says = |scene: &LoadedScene, args| squashed(&camera(scene, &args).unwrap(), &args);
+        assert_eq!(says(&scene, size([100, 100])), None);
+        scene.viewport_stated = true;
+        assert_eq!(says(&scene, size([400, 200])), None);
+        assert_eq!(says(&scene, CameraArgs::default()), None);
+        let hint = "the viewport is 2 x 1 whatever the size, so the pixels of an image of 100x100 are \
+                    not square; --viewport 1,1 makes them so";
+        assert_eq!(says(&scene, size([100, 100])).unwrap(), hint);
     }
 
     #[test]

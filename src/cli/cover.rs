@@ -35,7 +35,7 @@ pub(super) struct CoverArgs {
     #[arg(value_name = "x,y x,y x,y", allow_hyphen_values = true)]
     corners: String,
     /// The image in pixels
-    #[arg(long, value_name = "WxH", value_parser = size)]
+    #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true)]
     size: [u32; 2],
     /// Also write the mask as a PNG file: 255 where covered, 0 elsewhere
     #[arg(short = 'o', long = "output", value_name = "FILE.png")]

@@ -267,10 +267,12 @@ impl Told<'_> {
         let pixels = count(comparison.differing_pixels, "pixels");
         let all = comparison.size.map(u64::from).iter().product();
         let (bottom, right) = (row + height - 1, column + width - 1);
-        format!(
-            "differ: {pixels} of {}, from ({row}, {column}) to ({bottom}, {right})",
-            grouped(all)
-        )
+        let place = if comparison.differing_pixels == 1 {
+            format!("at ({row}, {column})")
+        } else {
+            format!("from ({row}, {column}) to ({bottom}, {right})")
+        };
+        format!("differ: {pixels} of {}, {place}", grouped(all))
     }
 }
 

@@ -33,7 +33,7 @@ pub(super) struct MeshArgs {
     #[arg(value_parser = kind)]
     kind: Kind,
     /// How finely it is divided, in its two directions; one number stands for both
-    #[arg(long, value_name = "N[,M]", value_parser = divisions)]
+    #[arg(long, value_name = "N[,M]", value_parser = divisions, allow_hyphen_values = true)]
     divisions: Option<[u32; 2]>,
     /// The OBJ file
     #[arg(short = 'o', long = "output", value_name = "FILE.obj")]
@@ -66,10 +66,12 @@ fn kind(name: &str) -> Result<Kind, String> {
 fn divisions(text: &str) -> Result<[u32; 2], String> {
     let number = |text: &str| {
         let number = text.trim().parse::<u32>();
-        number.map_err(|_| format!("{text:?} is not a number of divisions; give N or N,M"))
+        number.map_err(|_| format!("'{text}' is not a number of divisions; give N or N,M"))
     };
-    match text.split_once(',') {
-        Some((first, second)) => Ok([number(first)?, number(second)?]),
-        None => number(text).map(|both| [both; 2]),
+    let numbers = text.split(',').map(number).collect::<Result<Vec<u32>, String>>()?;
+    match numbers[..] {
+        [both] => Ok([both; 2]),
+        [first, second] => Ok([first, second]),
+        _ => Err(format!("it has {}; give N or N,M", count(numbers.len() as u64, "numbers"))),
     }
 }

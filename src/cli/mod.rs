@@ -8,15 +8,18 @@ mod camera;
 mod cover;
 mod diff;
 mod failure;
+mod interrupt;
 mod mesh;
 mod npy;
 mod output;
 mod pixel;
+mod progress;
 mod render;
 mod show_camera;
 mod stream;
 mod table;
 mod terminal;
+mod usage;
 mod vectors;
 
 use args::RenderArgs;
@@ -103,7 +106,8 @@ Example:
 
 /// Runs the program: 0 is a match, 1 a difference, 2 a failure.
 pub(crate) fn main() -> ExitCode {
-    run(Cli::parse()).unwrap_or_else(|failure| {
+    interrupt::clean_up();
+    usage::parse().and_then(run).unwrap_or_else(|failure| {
         failure.print();
         ExitCode::from(2)
     })

@@ -1,8 +1,9 @@
 //! The output folder: all files of a run appear together at its end, or none of them does.
 
 use super::failure::Failure;
+use super::interrupt::{self, Guard};
 use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
@@ -28,6 +29,8 @@ pub(super) struct Staging {
     target: PathBuf,
     /// Within the target, so that a file moves by being renamed. `None` once removed.
     folder: Option<TempDir>,
+    /// Removes it and what was created if the program is interrupted.
+    guard: Option<Guard>,
     /// Folders that did not exist before, the innermost first.
     created: Vec<PathBuf>,
     /// Every file that this kind of run may write; no other file is touched.
@@ -48,13 +51,19 @@ impl Staging {
             .take_while(|folder| !folder.as_os_str().is_empty() && !folder.exists())
             .map(Path::to_owned)
             .collect();
-        let target_path = target.to_owned();
-        let mut staging =
-            Staging { target: target_path, folder: None, created, names, written: Vec::new() };
+        let mut staging = Staging {
+            target: target.to_owned(),
+            folder: None,
+            guard: None,
+            created,
+            names,
+            written: Vec::new(),
+        };
         let folder = fs::create_dir_all(target)
             .and_then(|()| tempfile::Builder::new().prefix(".bothways-").tempdir_in(target));
         // Dropping the staging takes back what was made before the failure.
         staging.folder = Some(folder.map_err(|error| staging.failure(&error))?);
+        staging.guard = Some(interrupt::guard(staging.hidden(), &staging.created));
         staging.check_names()?;
         Ok(staging)
     }
@@ -81,14 +90,16 @@ impl Staging {
 
     /// Puts all files where they belong, in place of those of earlier runs.
     pub(super) fn commit(mut self) -> Result<(), Failure> {
-        let mut moves = Vec::new();
-        if let Err(error) = self.replace(&mut moves) {
-            // The last move first: an old file returns after the new one has left.
-            for (from, to) in moves.iter().rev() {
-                let _ = fs::rename(to, from);
-            }
-            return Err(self.failure(&error));
-        }
+        let moved = interrupt::uninterrupted(|| {
+            let mut moves = Vec::new();
+            self.replace(&mut moves).inspect_err(|_| {
+                // The last move first: an old file returns after the new one has left.
+                for (from, to) in moves.iter().rev() {
+                    let _ = fs::rename(to, from);
+                }
+            })
+        });
+        moved.map_err(|error| self.failure(&error))?;
         self.created.clear();
         Ok(())
     }
@@ -133,8 +144,9 @@ impl Staging {
 
     fn failure(&self, error: &io::Error) -> Failure {
         Failure::new(format!(
-            "cannot write into the folder {}: {error}; choose another one with -o",
-            self.target.display()
+            "cannot write into the folder {}: {}; choose another one with -o",
+            self.target.display(),
+            reason(error)
         ))
     }
 }
@@ -150,6 +162,7 @@ pub(super) fn write_file(
     };
     let write = || {
         let hidden = tempfile::Builder::new().prefix(".bothways-").tempdir_in(folder)?;
+        let _guard = interrupt::guard(hidden.path(), &[]);
         let place = hidden.path().join("file");
         let mut out = BufWriter::new(File::create(&place)?);
         content(&mut out)?;
@@ -159,9 +172,22 @@ pub(super) fn write_file(
     write().map_err(|error: io::Error| {
         // What tempfile says names the temporary file.
         let error = io::Error::from(error.kind());
-        let target = target.display();
-        Failure::new(format!("cannot write {target}: {error}; choose another file with -o"))
+        let (target, reason) = (target.display(), reason(&error));
+        Failure::new(format!("cannot write {target}: {reason}; choose another file with -o"))
     })
+}
+
+/// Why nothing can be written, in words where the system has only a number.
+fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        ErrorKind::NotFound => "there is no such folder".into(),
+        ErrorKind::AlreadyExists | ErrorKind::NotADirectory => {
+            "a file is where a folder would be".into()
+        }
+        ErrorKind::IsADirectory => "a folder of this name is there".into(),
+        ErrorKind::PermissionDenied => "there is no permission to".into(),
+        _ => error.to_string(),
+    }
 }
 
 impl Drop for Staging {

@@ -2,7 +2,7 @@
 
 mod json;
 
-use super::args::CameraArgs;
+use super::args::{CameraArgs, from_0, from_1};
 use super::camera::camera;
 use super::failure::Failure;
 use super::show_camera::{plain, vector};
@@ -35,16 +35,16 @@ pub(super) struct PixelArgs {
     /// A built-in scene, a .toml scene file, or a mesh file (framed automatically)
     scene: String,
     /// The pixel's row from the top, counted from 0
-    #[arg(allow_negative_numbers = true)]
+    #[arg(value_parser = from_0, allow_negative_numbers = true)]
     row: u32,
     /// The pixel's column from the left, counted from 0
-    #[arg(allow_negative_numbers = true)]
+    #[arg(value_parser = from_0, allow_negative_numbers = true)]
     column: u32,
     #[command(flatten)]
     camera: CameraArgs,
     /// Samples a pixel: an N×N regular grid; the first one's ray is derived
-    #[arg(long, value_name = "N", default_value_t = 1,
-          value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = from_1,
+          allow_negative_numbers = true)]
     samples: u32,
     /// Print JSON
     #[arg(long)]

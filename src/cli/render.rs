@@ -1,9 +1,10 @@
 //! `bothways render`: from a scene to the output folder and the verdict.
 
 use super::args::{BuffersArg, RenderArgs};
-use super::camera::camera;
+use super::camera::{camera, squashed};
 use super::failure::Failure;
 use super::output::Staging;
+use super::progress::Bar;
 use super::{npy, stream, table, terminal};
 use bothways::common::camera::check_samples;
 use bothways::common::{Camera, Options, View};
@@ -11,8 +12,10 @@ use bothways::diff::{Classes, Comparison, compare};
 use bothways::figure::Slide;
 use bothways::orders::{self, Rendered};
 use bothways::picture::{mask, picture};
+use bothways::progress::Listener;
 use bothways::report::Report;
 use bothways::scenes::{self, LoadedScene};
+use bothways::wording::count;
 use image::{ColorType, ImageEncoder, codecs::png::PngEncoder};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -25,7 +28,9 @@ pub(super) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
     }
     let loaded = scenes::load(&args.scene)?;
     let (camera, staging, folder) = prepared_output(args, &loaded)?;
-    thread_pool(args)?.install(|| Run::new(args, &loaded, &camera).finish(staging, &folder))
+    let pool = thread_pool(args)?;
+    let bar = if args.output.quiet { None } else { Bar::on_terminal() };
+    pool.install(|| Run::new(args, &loaded, &camera, bar.as_ref()).finish(staging, &folder, bar))
 }
 
 /// The camera, and where to write: before the work, so that nobody waits for pictures that cannot be
@@ -37,11 +42,16 @@ pub(super) fn prepared_output(
     let camera = camera(loaded, &args.camera)?;
     check_samples(camera.image(), args.method.samples)
         .map_err(|error| Failure::new(format!("--samples {}: {error}", args.method.samples)))?;
+    check_memory(&camera, args)?;
     let folder = match &args.output.folder {
         Some(folder) => folder.clone(),
         None => PathBuf::from("out").join(&loaded.name),
     };
-    Ok((camera, Staging::begin(&folder)?, folder))
+    let staging = Staging::begin(&folder)?;
+    if let Some(hint) = squashed(&camera, &args.camera).filter(|_| !args.output.quiet) {
+        anstream::eprintln!("hint: {hint}");
+    }
+    Ok((camera, staging, folder))
 }
 
 /// The threads to render on.
@@ -50,6 +60,30 @@ pub(super) fn thread_pool(args: &RenderArgs) -> Result<rayon::ThreadPool, Failur
         .num_threads(args.method.threads.unwrap_or(0).into())
         .build()
         .map_err(|error| Failure::new(format!("cannot start the threads: {error}")))
+}
+
+/// Bytes that one order keeps for a sample: id, distance, normal and colour.
+const BYTES_PER_SAMPLE: u64 = 4 + 4 + 12 + 12;
+
+/// Tells whether the system can give what all frames take, before it is too late to say so.
+fn check_memory(camera: &Camera, args: &RenderArgs) -> Result<(), Failure> {
+    let [width, height] = camera.image();
+    let per_pixel = u64::from(args.method.samples).pow(2);
+    let samples = u64::from(width) * u64::from(height) * per_pixel;
+    let bytes = samples * args.method.order.orders().len() as u64 * BYTES_PER_SAMPLE;
+    // All of it at once: one frame after the other might be promised, and the promise not kept.
+    let mut all = Vec::<u8>::new();
+    let fits = usize::try_from(bytes).is_ok_and(|bytes| all.try_reserve_exact(bytes).is_ok());
+    // Used, lest the question be optimised away.
+    std::hint::black_box(&mut all);
+    if fits {
+        return Ok(());
+    }
+    let (samples, gibibytes) = (count(samples, "samples"), bytes.div_ceil(1 << 30));
+    Err(Failure::new(format!(
+        "{samples} need at least {gibibytes} GiB of memory, more than there is; take a smaller \
+         --size, fewer --samples, or one --order alone"
+    )))
 }
 
 /// Everything that came of the rendering.
@@ -61,18 +95,26 @@ pub(super) struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    fn new(args: &'a RenderArgs, loaded: &LoadedScene, camera: &Camera) -> Run<'a> {
+    fn new(
+        args: &'a RenderArgs,
+        loaded: &LoadedScene,
+        camera: &Camera,
+        bar: Option<&Bar>,
+    ) -> Run<'a> {
         let view = View::new(&loaded.scene, camera);
         let options = Options { samples: args.method.samples };
         let (method, repeat) = (args.method.method.into(), args.method.repeat);
+        let listener = bar.map(|bar| move |progress| bar.show(progress));
+        let listener = listener.as_ref().map(|listener| listener as Listener);
         let mut rendered = Vec::new();
         for &order in args.method.order.orders() {
-            let mut one = orders::render(order, method, &view, &options, repeat);
+            let mut one = orders::render_and_tell(order, method, &view, &options, repeat, listener);
             if args.output.no_times {
                 one.times = None;
             }
             rendered.push(one);
         }
+        bar.inspect(|bar| bar.say("comparing and drawing"));
         let comparison = match rendered.as_slice() {
             [object_order, image_order] => Some(compare(&object_order.frame, &image_order.frame)),
             _ => None,
@@ -88,10 +130,17 @@ impl<'a> Run<'a> {
     }
 
     /// Writes everything, and prints the report.
-    pub(super) fn finish(&self, mut staging: Staging, folder: &Path) -> Result<ExitCode, Failure> {
+    pub(super) fn finish(
+        &self,
+        mut staging: Staging,
+        folder: &Path,
+        bar: Option<Bar>,
+    ) -> Result<ExitCode, Failure> {
         let json = self.report.to_json().map_err(|error| Failure::new(error.to_string()))?;
         self.write(&mut staging, &json)?;
         staging.commit()?;
+        // Before something is printed to the same terminal.
+        drop(bar);
 
         if self.args.output.json {
             terminal::print(&json)?;

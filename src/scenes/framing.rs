@@ -2,6 +2,7 @@
 
 use crate::common::glam::{DVec3, Vec3};
 use crate::common::{CameraDescription, Mesh, Orientation};
+use crate::wording::readable;
 
 /// Why no camera frames a mesh.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -14,8 +15,9 @@ pub enum FrameMeshError {
     Point,
     /// The eye would be where no `f32` number reaches.
     #[error(
-        "the triangles reach over {diagonal:.2e}, too far for a camera that sees them all; \
-         scale them down in a scene file"
+        "the triangles reach over {}, too far for a camera that sees them all; \
+         scale them down in a scene file",
+        about(*.diagonal)
     )]
     TooLarge {
         /// The diagonal of their bounding box.
@@ -23,13 +25,19 @@ pub enum FrameMeshError {
     },
     /// The triangles are so small where they lie that rounding moves the eye among them.
     #[error(
-        "the triangles reach over {diagonal:.2e} only, too little for the numbers around them; \
-         move them to the origin or scale them up in a scene file"
+        "the triangles reach over {} only, too little for the numbers around them; \
+         move them to the origin or scale them up in a scene file",
+        about(*.diagonal)
     )]
     TooSmall {
         /// The diagonal of their bounding box.
         diagonal: f64,
     },
+}
+
+/// The first three digits of a length.
+fn about(length: f64) -> String {
+    readable::<f64>(format!("{length:.2e}").parse().expect("a number is written as a number"))
 }
 
 /// From the middle of the mesh to the eye, before it is scaled: from the right, above and in front.
@@ -142,7 +150,7 @@ mod tests {
                        scale them down in a scene file";
         assert_eq!(says(&large), message);
         let small = corners(&[[1e8, 0.0, 1e8], [1e8, 0.125, 1e8], [1e8, 0.0, 1e8]]);
-        let message = "the triangles reach over 1.25e-1 only, too little for the numbers around \
+        let message = "the triangles reach over 0.125 only, too little for the numbers around \
                        them; move them to the origin or scale them up in a scene file";
         assert_eq!(says(&small), message);
     }

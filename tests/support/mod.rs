@@ -37,7 +37,7 @@ pub fn all_agree(view: &View, options: &Options, what: &str) -> Frame {
     frames[0].1.clone()
 }
 
-/// Ids equal; distances within a millionth.
+/// Ids equal; distances within the contract's 10⁻⁵.
 pub fn assert_same_visibility(expected: &Frame, frame: &Frame, what: &str) {
     let width = expected.width();
     let place = |index: usize| (index / width, index % width);
@@ -45,7 +45,7 @@ pub fn assert_same_visibility(expected: &Frame, frame: &Frame, what: &str) {
         assert_eq!(id, other, "{what}: sample {:?}", place(index));
     }
     for (index, (t, other)) in expected.distances().iter().zip(frame.distances()).enumerate() {
-        let close = t == other || (t - other).abs() <= 1e-6 * t;
+        let close = t == other || (t - other).abs() <= 1e-5 * t;
         assert!(close, "{what}: t {t} and {other} at sample {:?}", place(index));
     }
 }
@@ -188,4 +188,20 @@ pub fn cases(usual: u32) -> u32 {
 
 pub fn mesh(mesh: bothways::common::Mesh) -> Object {
     Shape::Mesh(mesh).into()
+}
+
+/// The arguments of a command line, single quotes taken off, its comment left out.
+pub fn arguments(line: &str) -> Vec<String> {
+    let mut words = vec![String::new()];
+    let mut quoted = false;
+    for character in line.chars() {
+        match character {
+            '#' if !quoted => break,
+            '\'' => quoted = !quoted,
+            ' ' if !quoted => words.push(String::new()),
+            _ => words.last_mut().expect("there is a first word").push(character),
+        }
+    }
+    words.retain(|word| !word.is_empty());
+    words
 }

@@ -1,56 +1,45 @@
-//! Depth as a function on the viewport, and as an interval that is certain to hold the true one.
+//! Depth as a function on the viewport: as an interval that is certain to hold the true one, and as the
+//! key that the z-buffer stores.
 
 use super::screen::Screen;
-use bothways_common::Projection;
+use bothways_common::{Camera, Projection};
 use glam::DVec3;
 
 /// Half the distance from 1 to the next number.
 pub(super) const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
 
-/// Two numbers between which a depth key lies.
+/// Two numbers between which a depth lies.
 ///
-/// A key grows with `t`: it is `−1/t` for a perspective camera, where `1/t` is affine on the
+/// Depth grows with `t`: it is `−1/t` for a perspective camera, where `1/t` is affine on the
 /// viewport, and `t` itself for a parallel one.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct DepthKey {
+pub(super) struct DepthInterval {
     pub(super) low: f64,
     pub(super) high: f64,
 }
 
-impl DepthKey {
-    /// Behind everything: the key of a sample at which nothing is seen so far.
-    pub(super) const NOTHING: DepthKey = DepthKey { low: f64::INFINITY, high: f64::INFINITY };
+impl DepthInterval {
     /// It could be anywhere: only the judge knows.
-    pub(super) const UNKNOWN: DepthKey = DepthKey { low: f64::NEG_INFINITY, high: f64::INFINITY };
+    pub(super) const UNKNOWN: DepthInterval =
+        DepthInterval { low: f64::NEG_INFINITY, high: f64::INFINITY };
 
     /// The interval of an enclosure of `t`, of which `relative` bounds the relative error.
-    pub(super) fn from_t(projection: Projection, t: f64, relative: f64) -> DepthKey {
+    pub(super) fn from_t(projection: Projection, t: f64, relative: f64) -> DepthInterval {
         // Not certain, not finite or NaN: only the judge knows.
         if !(relative < 0.125 && t > 0.0) {
-            return DepthKey::UNKNOWN;
+            return DepthInterval::UNKNOWN;
         }
         // 1/(t·(1 ± ρ)) is within 1.15·ρ of 1/t for ρ < 1/8; one rounding more is the reciprocal's.
-        let (key, relative) = match projection {
+        let (depth, relative) = match projection {
             Projection::Perspective => (-1.0 / t, 1.15 * relative + 2.0 * UNIT_ROUNDOFF),
             Projection::Parallel => (t, relative + UNIT_ROUNDOFF),
         };
-        let error = key.abs() * relative * (1.0 + 8.0 * UNIT_ROUNDOFF);
-        DepthKey { low: key - error, high: key + error }
-    }
-
-    /// The distance in the middle of the interval, if that is as good as a stored `t` needs.
-    pub(super) fn t(self, projection: Projection) -> Option<f64> {
-        const CLOSE: f64 = 1e-9;
-        let key = 0.5 * (self.low + self.high);
-        let certain = key.is_finite() && self.high - self.low <= CLOSE * key.abs();
-        certain.then(|| match projection {
-            Projection::Perspective => -1.0 / key,
-            Projection::Parallel => key,
-        })
+        let error = depth.abs() * relative * (1.0 + 8.0 * UNIT_ROUNDOFF);
+        DepthInterval { low: depth - error, high: depth + error }
     }
 }
 
-/// The depth key of a flat primitive: `at_centre + x·across + y·up` on the viewport, to within
+/// The depth of a flat primitive: `at_centre + x·across + y·up` on the viewport, to within
 /// `error`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DepthPlane {
@@ -72,7 +61,7 @@ impl DepthPlane {
     /// with it 2, evaluating at a sample at most 3, and `D` itself is rounded by 3: at most 16 of `Q =
     /// Σ permanent·reach`. `F` brings 4 + 3 of `Σ permanent·|point|`. Parallel: `t = (n·point −
     /// n·O)/F` with `F = n·D`; the same counts hold with `D` and `O` in each other's place.
-    /// So the key is off by at most `(16u·Q + Q·δF/(|F| − δF))/|F|`; the constants below leave room
+    /// So the depth is off by at most `(16u·Q + Q·δF/(|F| − δF))/|F|`; the constants below leave room
     /// for the roundings of the bound itself.
     pub(super) fn new(screen: &Screen, point: DVec3, normal: DVec3, permanent: DVec3) -> Self {
         let projection = screen.projection();
@@ -104,24 +93,96 @@ impl DepthPlane {
         }
     }
 
-    /// The part of the key that all samples of a row share.
+    /// The part of the depth that all samples of a row share.
     pub(super) fn on_row(&self, y: f64) -> f64 {
         self.at_centre + y * self.up
     }
 
-    /// The key at a sample of that row.
-    pub(super) fn key(&self, on_row: f64, x: f64) -> DepthKey {
-        let key = on_row + x * self.across;
-        let (low, high) = (key - self.error, key + self.error);
+    /// The depth at a sample of that row.
+    pub(super) fn at(&self, on_row: f64, x: f64) -> DepthInterval {
+        let depth = on_row + x * self.across;
+        let (low, high) = (depth - self.error, depth + self.error);
         // NaN (from a plane that is not trusted) must not look like an order.
-        if low <= high { DepthKey { low, high } } else { DepthKey::UNKNOWN }
+        if low <= high { DepthInterval { low, high } } else { DepthInterval::UNKNOWN }
     }
 }
 
-/// The key's sign where something is in front of the eye: `−1/t` is negative there, `t` positive.
+/// The sign of depth where something is in front of the eye: `−1/t` is negative there, `t` positive.
 pub(super) fn sign_in_front(projection: Projection) -> f64 {
     match projection {
         Projection::Perspective => -1.0,
         Projection::Parallel => 1.0,
     }
 }
+
+/// What the z-buffer stores where nothing is seen.
+pub(super) const NOTHING: f32 = 0.0;
+/// How far a key may be from the true one, as a part of it.
+pub(super) const KEY_ERROR: f32 = 1.0 / (1 << 18) as f32;
+/// A key that is larger than another times this is certainly nearer: both may be off by
+/// [`KEY_ERROR`], and the product by a rounding.
+pub(super) const NEARER: f32 = 1.0 + 1.0 / (1 << 16) as f32;
+/// Keys within this range and its reciprocal are far from overflow and underflow.
+pub(super) const LARGEST_KEY: f64 = (1_u128 << 100) as f64;
+
+/// How the z-buffer stores depth: as an `f32` key that is larger for what is nearer, positive, within
+/// [`KEY_ERROR`] of the true one; or NaN, for "ask the judge".
+///
+/// A key is `1/t − offset` for a perspective camera, `offset − t` for a parallel one. The offset
+/// brings the farthest point of the scene close to 0, where an `f32` resolves best: a distant eye
+/// loses no depth.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct KeyScale {
+    pub(super) projection: Projection,
+    pub(super) offset: f64,
+}
+
+impl KeyScale {
+    /// The scale for a scene within a box, `bounds` its corners, as one camera sees it.
+    ///
+    /// `unbounded` says that the scene has planes. Whatever the scale is, keys are right; a scale that
+    /// fits the scene leaves less to the judge.
+    pub(super) fn new(camera: &Camera, bounds: &[DVec3; 8], unbounded: bool) -> Self {
+        let depth = |corner: &DVec3| -(*corner - camera.eye().as_dvec3()).dot(camera.w());
+        let low = bounds.iter().map(depth).fold(f64::INFINITY, f64::min);
+        let high = bounds.iter().map(depth).fold(f64::NEG_INFINITY, f64::max);
+        let offset = match camera.projection() {
+            // From an eye within the box, 1/t has no bound above. Otherwise the nearest key is about
+            // twice the farthest, so that one bound relative to a key suits a whole triangle.
+            Projection::Perspective if unbounded || low <= 0.0 || !high.is_finite() => 0.0,
+            Projection::Perspective => {
+                let (far, near) = (camera.distance() / high, camera.distance() / low);
+                (far - (near - far).max(GAP * far)).max(0.0)
+            }
+            Projection::Parallel => {
+                // Planes may be farther than the rest; twice is a guess that costs one bit.
+                let low = low.max(0.0);
+                let room = if unbounded { high.abs() } else { 0.5 * (high - low) };
+                (high + room.max(GAP * high.abs())).clamp(0.0, f64::from(f32::MAX))
+            }
+        };
+        let offset = if offset.is_finite() { offset } else { 0.0 };
+        KeyScale { projection: camera.projection(), offset }
+    }
+
+    /// The key of a depth that is certain to within a quarter of [`KEY_ERROR`], or NaN.
+    ///
+    /// The middle of the interval, the difference to the offset and their bound bring fewer than 2³
+    /// roundings of 2⁻⁵³; rounding to `f32` brings 2⁻²⁴ of the key.
+    pub(super) fn key(&self, depth: DepthInterval) -> f32 {
+        let middle = 0.5 * (depth.low + depth.high);
+        let key = match self.projection {
+            Projection::Perspective => -middle - self.offset,
+            Projection::Parallel => self.offset - middle,
+        };
+        let error = 0.5 * (depth.high - depth.low) + (-50f64).exp2() * (middle.abs() + self.offset);
+        let in_range = (1.0 / LARGEST_KEY..=LARGEST_KEY).contains(&key);
+        #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is what is asked")]
+        let rounded = key as f32;
+        if in_range && error <= 0.25 * f64::from(KEY_ERROR) * key { rounded } else { f32::NAN }
+    }
+}
+
+/// The least distance of the farthest key from 0, as a part of the farthest `1/t` or `t`: the vertex
+/// stage knows those to within 2⁻⁴¹, hence keys to within 2⁻³¹.
+const GAP: f64 = 1.0 / 1024.0;

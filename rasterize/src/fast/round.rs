@@ -1,6 +1,6 @@
 //! A sphere, tested by its equation at the samples of its bounding region.
 
-use super::depth::{DepthKey, UNIT_ROUNDOFF};
+use super::depth::{DepthInterval, UNIT_ROUNDOFF};
 use bothways_common::{Projection, Ray};
 use glam::DVec3;
 
@@ -8,7 +8,7 @@ use glam::DVec3;
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Covered {
     /// Certainly, at this depth.
-    At(DepthKey),
+    At(DepthInterval),
     /// Certainly not.
     No,
     /// The judge must say.
@@ -66,5 +66,5 @@ pub(super) fn covered(
     } else {
         (sum / a, sum_relative + 4.0 * unit)
     };
-    Covered::At(DepthKey::from_t(projection, t, 1.25 * (relative + 2.0 * unit)))
+    Covered::At(DepthInterval::from_t(projection, t, 1.25 * (relative + 2.0 * unit)))
 }

@@ -27,9 +27,9 @@ pub(super) struct Screen<'a> {
     /// The column and row of the viewport's middle.
     pub(super) middle: [f64; 2],
     /// How far a computed column or row of a trusted vertex may be off; see [`Screen::new`].
-    margin: [f64; 2],
+    pub(super) margin: [f64; 2],
     /// How far from the eye, in the sum of its coordinates, a vertex of a parallel camera is trusted.
-    trusted_extent: f64,
+    pub(super) trusted_extent: f64,
 }
 
 /// A vertex on the raster.

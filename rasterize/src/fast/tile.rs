@@ -1,267 +1,346 @@
-//! One tile of the picture: its z-buffer, and the loops over a primitive's samples in it.
+//! One tile of the picture: its z-buffer, and the decisions that rounding left open.
 
-use super::TILE;
-use super::bins::Entry;
-use super::depth::{DepthKey, DepthPlane, sign_in_front};
-use super::edges::TriangleSetup;
-use super::round::{self, Covered};
+use super::bins::Tiling;
+use super::depth::{KeyScale, NEARER, NOTHING};
 use super::screen::Screen;
 use bothways_common::fault::{Fault, Planted};
 use bothways_common::frame::{NO_PRIMITIVE, Region, Tile, stored_t};
 use bothways_common::observe::{Observer, Question, Sample};
 use bothways_common::predicate::Memory;
-use bothways_common::{Judge, Primitive, Projection, Sign, View};
+use bothways_common::simd::{Select, Simd, SimdBase, SimdMask, f32x16, mask32x16, u32x16};
+use bothways_common::{Primitive, Projection, View};
 
-/// Regions wider than this are cut to the span of each row.
-const WIDE: usize = 16;
+/// What stays the same while a picture is drawn.
+pub(super) struct Picture<'a> {
+    pub(super) view: &'a View<'a>,
+    pub(super) screen: &'a Screen<'a>,
+    pub(super) keys: KeyScale,
+}
 
-/// The samples of one tile: what is seen so far, and in which interval its depth lies.
+/// The samples of one tile: what is seen so far, and how near it is.
 #[derive(Debug)]
 pub(super) struct TileBuffer {
     region: Region,
+    /// Samples from one row to the next: some more than a row has, so that sixteen at a time may reach
+    /// over its end.
+    stride: usize,
+    /// What is seen, where the key says that something is.
     ids: Vec<u32>,
-    keys: Vec<DepthKey>,
+    /// Depth keys; [`NOTHING`] for nothing.
+    keys: Vec<f32>,
+    open: Vec<Open>,
     memory: Memory,
 }
 
-/// What stays the same while one primitive is drawn.
-struct Brush<'a, O> {
+/// A fragment, or a sample that may be one, that waits for the judge.
+#[derive(Clone, Copy, Debug)]
+struct Open {
+    index: u32,
     id: u32,
-    primitive: Primitive,
-    view: &'a View<'a>,
-    screen: &'a Screen<'a>,
-    judge: Judge,
-    observer: &'a mut O,
+    key: f32,
+    /// Whether only its depth is open.
+    covered: bool,
+}
+
+/// Samples behind the end of a row and rows behind the last.
+const SPARE: usize = 16;
+
+/// How a fragment's key relates to the one that its sample holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Rank {
+    Nearer,
+    Farther,
+    Unknown,
 }
 
 impl TileBuffer {
-    pub(super) fn new(view: &View) -> Self {
+    /// A buffer for tiles of this size.
+    pub(super) fn new(view: &View, tiling: &Tiling) -> Self {
+        let stride = tiling.columns + SPARE;
+        let samples = stride * (tiling.rows + 1);
         TileBuffer {
             memory: Memory::new(view.judge()),
             region: Region { rows: 0..0, columns: 0..0 },
-            ids: vec![NO_PRIMITIVE; TILE * TILE],
-            keys: vec![DepthKey::NOTHING; TILE * TILE],
+            stride,
+            ids: vec![NO_PRIMITIVE; samples],
+            keys: vec![NOTHING; samples],
+            open: Vec::new(),
         }
+    }
+
+    /// Whether it was made for tiles of this size.
+    pub(super) fn fits(&self, tiling: &Tiling) -> bool {
+        self.stride == tiling.columns + SPARE && self.ids.len() == self.stride * (tiling.rows + 1)
     }
 
     /// Starts a tile in which nothing is seen.
-    pub(super) fn begin(&mut self, region: &Region) {
+    pub(super) fn begin(&mut self, view: &View, region: &Region) {
+        self.memory = Memory::new(view.judge());
         self.region = region.clone();
-        self.ids.fill(NO_PRIMITIVE);
-        self.keys.fill(DepthKey::NOTHING);
+        self.keys[..self.stride * region.rows.len()].fill(NOTHING);
     }
 
-    /// Draws what of a primitive lies in this tile.
-    pub(super) fn draw<O: Observer, F: Fault>(
-        &mut self,
-        entry: &Entry,
-        view: &View,
-        screen: &Screen,
-        observer: &mut O,
-    ) {
-        let region = entry.region();
-        let primitive = view.primitive(entry.id);
-        let judge = view.judge();
-        let mut brush = Brush { id: entry.id, primitive, view, screen, judge, observer };
-        match primitive {
-            Primitive::Triangle(corners) => {
-                let wide = region.columns.len() > WIDE;
-                if let Some(setup) = TriangleSetup::new::<F>(screen, &judge, &corners) {
-                    self.draw_triangle::<O, F>(&mut brush, &setup, &region, wide);
-                }
-            }
-            Primitive::Sphere { .. } => self.draw_sphere::<O, F>(&mut brush, &region),
-            Primitive::Plane { .. } if self.memory.is_edge_on(entry.id, &primitive) => {}
-            Primitive::Plane { point, normal } => {
-                let mut depth = DepthPlane::new(screen, point, normal, normal.abs());
-                if F::is(Planted::ZeroErrorBound) {
-                    depth.error = 0.0;
-                }
-                self.draw_plane::<O, F>(&mut brush, &depth, &region);
-            }
+    /// Where the tile lies in the picture.
+    pub(super) fn region(&self) -> &Region {
+        &self.region
+    }
+
+    /// Samples from one row to the next.
+    pub(super) fn stride(&self) -> usize {
+        self.stride
+    }
+
+    /// Where a sample of the tile is kept.
+    pub(super) fn index(&self, sample: Sample) -> usize {
+        (sample.row - self.region.rows.start) * self.stride + sample.column
+            - self.region.columns.start
+    }
+
+    /// The sample that is kept there.
+    pub(super) fn sample(&self, index: usize) -> Sample {
+        Sample {
+            row: self.region.rows.start + index / self.stride,
+            column: self.region.columns.start + index % self.stride,
         }
     }
 
-    /// Writes ids and distances into the frame.
-    pub(super) fn store(&self, view: &View, screen: &Screen, tile: Tile) {
-        let projection = screen.projection();
-        let judge = view.judge();
-        let width = tile.region.columns.len();
-        let lines = tile.ids.into_iter().zip(tile.t);
-        for ((row, (ids, t)), buffer) in
-            tile.region.rows.zip(lines).zip(self.ids.chunks(TILE).zip(self.keys.chunks(TILE)))
-        {
-            ids.copy_from_slice(&buffer.0[..width]);
-            for (index, (t, key)) in t.iter_mut().zip(buffer.1).enumerate() {
-                *t = match ids[index] {
-                    NO_PRIMITIVE => f32::INFINITY,
-                    id => stored_t(key.t(projection).unwrap_or_else(|| {
-                        let ray = screen.grid.ray(row, tile.region.columns.start + index);
-                        judge.distance(&view.primitive(id), &ray)
-                    })),
-                };
-            }
-        }
+    /// Ids and keys of the samples from `index` on.
+    pub(super) fn from(&mut self, index: usize) -> (&mut [u32], &mut [f32]) {
+        (&mut self.ids[index..], &mut self.keys[index..])
     }
 
-    fn draw_triangle<O: Observer, F: Fault>(
-        &mut self,
-        brush: &mut Brush<O>,
-        setup: &TriangleSetup,
-        region: &Region,
-        wide: bool,
-    ) {
-        let (xs, ys) = (brush.screen.grid.x(), brush.screen.grid.y());
-        let [ab, bc, ca] = &setup.edges;
-        let here = region.intersection(&self.region);
-        for row in here.rows {
-            let y = ys[row];
-            let on_row = [ab.on_row(y), bc.on_row(y), ca.on_row(y)];
-            let depth_on_row = setup.depth.on_row(y);
-            let columns = if wide {
-                setup.span(brush.screen, y, &here.columns)
-            } else {
-                here.columns.clone()
-            };
-            for column in columns {
-                let (x, sample) = (xs[column], Sample { row, column });
-                let e = [
-                    on_row[0] + x * ab.across,
-                    on_row[1] + x * bc.across,
-                    on_row[2] + x * ca.across,
-                ];
-                brush.observer.sample_tested(sample, brush.id);
-                let out = e[0] < -ab.error || e[1] < -bc.error || e[2] < -ca.error;
-                let inside = e[0] > ab.error && e[1] > bc.error && e[2] > ca.error;
-                if out || inside {
-                    brush.tell_edges(sample, setup, &e);
-                }
-                if out || (!inside && !brush.judge_covers::<F>(sample)) {
-                    continue;
-                }
-                let key = setup.depth.key(depth_on_row, x);
-                // A perspective ray meets what it covers in front of the eye; a parallel one may not.
-                let behind = brush.screen.projection() == Projection::Parallel
-                    && (key.high < 0.0
-                        || (inside && key.low <= 0.0 && !brush.judge_covers::<F>(sample)));
-                if !behind {
-                    self.fragment::<O, F>(brush, sample, key);
-                }
-            }
-        }
-    }
-
-    fn draw_sphere<O: Observer, F: Fault>(&mut self, brush: &mut Brush<O>, region: &Region) {
-        let Primitive::Sphere { center, radius } = brush.primitive else { return };
-        let projection = brush.screen.projection();
-        let here = region.intersection(&self.region);
-        for row in here.rows {
-            for column in here.columns.clone() {
-                let sample = Sample { row, column };
-                let ray = brush.screen.grid.ray(row, column);
-                brush.observer.sample_tested(sample, brush.id);
-                let exact = !F::is(Planted::ZeroErrorBound);
-                match round::covered(projection, center, radius, &ray, exact) {
-                    Covered::At(key) => self.fragment::<O, F>(brush, sample, key),
-                    Covered::No => {}
-                    Covered::Unknown => {
-                        if brush.judge_covers::<F>(sample) {
-                            self.fragment::<O, F>(brush, sample, DepthKey::UNKNOWN);
-                        }
-                    }
-                }
-            }
-        }
-    }
-
-    fn draw_plane<O: Observer, F: Fault>(
-        &mut self,
-        brush: &mut Brush<O>,
-        depth: &DepthPlane,
-        region: &Region,
-    ) {
-        let side = sign_in_front(brush.screen.projection());
-        let (xs, ys) = (brush.screen.grid.x(), brush.screen.grid.y());
-        let here = region.intersection(&self.region);
-        for row in here.rows {
-            let on_row = depth.on_row(ys[row]);
-            for column in here.columns.clone() {
-                let sample = Sample { row, column };
-                let key = depth.key(on_row, xs[column]);
-                brush.observer.sample_tested(sample, brush.id);
-                // In front of the eye the key has this side's sign, behind it the other.
-                let [near, far] =
-                    if side > 0.0 { [key.low, key.high] } else { [-key.high, -key.low] };
-                if near > 0.0 || (far >= 0.0 && brush.judge_covers::<F>(sample)) {
-                    self.fragment::<O, F>(brush, sample, key);
-                }
-            }
-        }
+    /// Leaves to the judge whether a fragment is nearest, or whether it is one.
+    #[cold]
+    pub(super) fn leave_open(&mut self, index: usize, id: u32, key: f32, covered: bool) {
+        let index = u32::try_from(index).expect("a tile is small");
+        self.open.push(Open { index, id, key, covered });
     }
 
     /// The depth test: keeps the nearer of a fragment and what its sample shows so far.
-    fn fragment<O: Observer, F: Fault>(
+    #[inline(always)]
+    pub(super) fn fragment<O: Observer, F: Fault>(
         &mut self,
-        brush: &mut Brush<O>,
-        sample: Sample,
-        key: DepthKey,
+        index: usize,
+        id: u32,
+        key: f32,
+        observer: &mut O,
     ) {
-        let row = sample.row - self.region.rows.start;
-        let index = row * TILE + sample.column - self.region.columns.start;
-        let holder = self.ids[index];
-        brush.observer.fragment(sample, brush.id);
-        if holder != NO_PRIMITIVE {
-            let held = self.keys[index];
-            let nearer = if key.high < held.low {
-                true
-            } else if key.low > held.high {
-                false
-            } else {
-                brush.judge_nearer::<F>(&mut self.memory, sample, holder)
+        let held = self.keys[index];
+        let rank = rank::<F>(key, held);
+        if rank == Rank::Unknown {
+            self.leave_open(index, id, key, true);
+            return;
+        }
+        if O::WATCHES {
+            self.tell_depth_test(index, id, rank == Rank::Nearer, observer);
+        }
+        if rank == Rank::Nearer {
+            self.keys[index] = key;
+            self.ids[index] = id;
+        }
+    }
+
+    /// Tells of a fragment and its depth test, before it takes effect.
+    pub(super) fn tell_depth_test<O: Observer>(
+        &self,
+        index: usize,
+        id: u32,
+        nearer: bool,
+        observer: &mut O,
+    ) {
+        let sample = self.sample(index);
+        observer.fragment(sample, id);
+        if self.keys[index] != NOTHING {
+            observer.depth_test(sample, id, self.ids[index], nearer);
+        }
+    }
+
+    /// Tells of a fragment whose depth test is not left open, before it takes effect.
+    pub(super) fn tell_certain<O: Observer, F: Fault>(
+        &self,
+        index: usize,
+        id: u32,
+        key: f32,
+        observer: &mut O,
+    ) {
+        let rank = rank::<F>(key, self.keys[index]);
+        if rank != Rank::Unknown {
+            self.tell_depth_test(index, id, rank == Rank::Nearer, observer);
+        }
+    }
+
+    /// Asks the judge what was left open.
+    pub(super) fn settle<O: Observer, F: Fault>(&mut self, picture: &Picture, observer: &mut O) {
+        let open = std::mem::take(&mut self.open);
+        let mut current: Option<(u32, Primitive)> = None;
+        for Open { index, id, key, covered } in &open {
+            let primitive = match &current {
+                Some((of, primitive)) if of == id => *primitive,
+                _ => current.insert((*id, picture.view.primitive(*id))).1,
             };
-            brush.observer.depth_test(sample, brush.id, holder, nearer);
-            if !nearer {
-                return;
+            let index = *index as usize;
+            let covered = *covered
+                || judge_covers::<O, F>(picture, self.sample(index), *id, &primitive, observer);
+            if covered {
+                self.settle_depth::<O, F>(picture, index, (*id, &primitive), *key, observer);
             }
         }
-        self.ids[index] = brush.id;
-        self.keys[index] = key;
+        self.open = open;
+        self.open.clear();
+    }
+
+    /// The depth test at once, by the judge if need be.
+    pub(super) fn settle_depth<O: Observer, F: Fault>(
+        &mut self,
+        picture: &Picture,
+        index: usize,
+        (id, primitive): (u32, &Primitive),
+        key: f32,
+        observer: &mut O,
+    ) {
+        let held = self.keys[index];
+        let nearer = match rank::<F>(key, held) {
+            Rank::Nearer => true,
+            Rank::Farther => false,
+            Rank::Unknown if held == NOTHING => true,
+            Rank::Unknown => self.judge_nearer::<O, F>(picture, index, (id, primitive), observer),
+        };
+        self.tell_depth_test(index, id, nearer, observer);
+        if nearer {
+            self.keys[index] = key;
+            self.ids[index] = id;
+        }
+    }
+
+    /// Asks the judge whether a primitive is seen rather than the one that the sample shows.
+    fn judge_nearer<O: Observer, F: Fault>(
+        &mut self,
+        picture: &Picture,
+        index: usize,
+        challenger: (u32, &Primitive),
+        observer: &mut O,
+    ) -> bool {
+        let (sample, holder) = (self.sample(index), self.ids[index]);
+        observer.judged(sample, Question::Nearest);
+        let ray = picture.screen.grid.ray(sample.row, sample.column);
+        let held = picture.view.primitive(holder);
+        if F::is(Planted::TiesToLast) {
+            return self.memory.compare(challenger, (holder, &held), &ray).decided.is_le();
+        }
+        self.memory.nearer(challenger, (holder, &held), &ray)
+    }
+
+    /// Whether a flat primitive covers no sample of this camera at all; see [`Memory::is_edge_on`].
+    pub(super) fn is_edge_on(&mut self, id: u32, primitive: &Primitive) -> bool {
+        self.memory.is_edge_on(id, primitive)
+    }
+
+    /// Writes ids and distances into the frame.
+    #[inline(always)]
+    pub(super) fn store<S: Simd>(&self, simd: S, picture: &Picture, tile: Tile) {
+        for (row, (ids, t)) in tile.ids.into_iter().zip(tile.t).enumerate() {
+            let start = row * self.stride;
+            let (whole_ids, rest_ids) = ids.as_chunks_mut::<16>();
+            let (whole_t, rest_t) = t.as_chunks_mut::<16>();
+            let whole = 16 * whole_ids.len();
+            let from = (start..).step_by(16);
+            for ((ids, t), from) in whole_ids.iter_mut().zip(whole_t).zip(from) {
+                self.store_sixteen(simd, picture, from, ids, t);
+            }
+            if !rest_ids.is_empty() {
+                let (mut ids, mut t) = ([NO_PRIMITIVE; 16], [f32::INFINITY; 16]);
+                self.store_sixteen(simd, picture, start + whole, &mut ids, &mut t);
+                rest_ids.copy_from_slice(&ids[..rest_ids.len()]);
+                rest_t.copy_from_slice(&t[..rest_t.len()]);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn store_sixteen<S: Simd>(
+        &self,
+        simd: S,
+        picture: &Picture,
+        from: usize,
+        ids: &mut [u32; 16],
+        t: &mut [f32; 16],
+    ) {
+        let keys = f32x16::from_slice(simd, &self.keys[from..from + 16]);
+        let nothing = keys.simd_eq(f32x16::splat(simd, NOTHING));
+        let (distances, unsure) = distances(simd, &picture.keys, keys);
+        let unsure = unsure & !nothing;
+        nothing.select(f32x16::splat(simd, f32::INFINITY), distances).store_array(t);
+        let seen = u32x16::from_slice(simd, &self.ids[from..from + 16]);
+        nothing.select(u32x16::splat(simd, NO_PRIMITIVE), seen).store_array(ids);
+        if unsure.any_true() {
+            self.judge_distances(picture, from, unsure.to_bitmask(), t);
+        }
+    }
+
+    #[cold]
+    fn judge_distances(&self, picture: &Picture, from: usize, lanes: u64, t: &mut [f32; 16]) {
+        let judge = picture.view.judge();
+        for (lane, t) in t.iter_mut().enumerate().filter(|(lane, _)| lanes >> lane & 1 == 1) {
+            let Sample { row, column } = self.sample(from + lane);
+            let ray = picture.screen.grid.ray(row, column);
+            let primitive = picture.view.primitive(self.ids[from + lane]);
+            *t = stored_t(judge.distance(&primitive, &ray));
+        }
     }
 }
 
-impl<O: Observer> Brush<'_, O> {
-    /// Asks the judge whether the primitive covers a sample that rounding leaves open.
-    #[cold]
-    fn judge_covers<F: Fault>(&mut self, sample: Sample) -> bool {
-        self.observer.judged(sample, Question::Coverage);
-        let ray = self.screen.grid.ray(sample.row, sample.column);
-        let coverage = self.judge.coverage(&self.primitive, &ray);
-        if let Some(edges) = coverage.edges {
-            self.observer.edge_signs(sample, self.id, edges.at_sample.map(Some));
-        }
-        coverage.covers && !F::is(Planted::StrictComparison)
+/// Which is nearer, if the keys' errors leave no doubt. NaN leaves it.
+#[inline(always)]
+fn rank<F: Fault>(key: f32, held: f32) -> Rank {
+    let nearer = nearer_by::<F>();
+    if key > held * nearer {
+        Rank::Nearer
+    } else if held > key * nearer {
+        Rank::Farther
+    } else {
+        Rank::Unknown
     }
+}
 
-    /// Asks the judge whether the primitive is seen rather than the one that the sample shows.
-    #[cold]
-    fn judge_nearer<F: Fault>(&mut self, memory: &mut Memory, sample: Sample, holder: u32) -> bool {
-        self.observer.judged(sample, Question::Nearest);
-        let ray = self.screen.grid.ray(sample.row, sample.column);
-        let held = self.view.primitive(holder);
-        if F::is(Planted::TiesToLast) {
-            let order = memory.compare((self.id, &self.primitive), (holder, &held), &ray);
-            return order.decided.is_le();
-        }
-        memory.nearer((self.id, &self.primitive), (holder, &held), &ray)
-    }
+/// By which factor the key must be larger of what is certainly nearer.
+pub(super) fn nearer_by<F: Fault>() -> f32 {
+    if F::is(Planted::ZeroErrorBound) { 1.0 } else { NEARER }
+}
 
-    /// Tells the observer the edges' signs as far as they are certain, in the orientation of the
-    /// contract.
-    fn tell_edges(&mut self, sample: Sample, setup: &TriangleSetup, e: &[f64; 3]) {
-        let certain = |k: usize| {
-            let edge = &setup.edges[k];
-            (e[k].abs() > edge.error).then(|| Sign::of(setup.facing * e[k]))
-        };
-        self.observer.edge_signs(sample, self.id, [certain(0), certain(1), certain(2)]);
+/// Distances from keys, and where they are not within 4·10⁻⁶ of the true ones.
+///
+/// Perspective: `1/(key + offset)` is at most `KEY_ERROR` of it off, and three roundings of 2⁻²⁴.
+/// Parallel: `offset − key` is off by `KEY_ERROR` of the key, less than twice the distance if that is
+/// at least a third of the offset.
+#[inline(always)]
+fn distances<S: Simd>(simd: S, scale: &KeyScale, keys: f32x16<S>) -> (f32x16<S>, mask32x16<S>) {
+    #[expect(clippy::cast_possible_truncation, reason = "one of the roundings")]
+    let offset = f32x16::splat(simd, scale.offset as f32);
+    match scale.projection {
+        Projection::Perspective => {
+            (f32x16::splat(simd, 1.0) / (keys + offset), !keys.simd_eq(keys))
+        }
+        Projection::Parallel => {
+            let distances = offset - keys;
+            (distances, !distances.simd_gt(offset * (1.0 / 3.0)))
+        }
     }
+}
+
+/// Asks the judge whether a primitive covers a sample that rounding leaves open.
+#[cold]
+pub(super) fn judge_covers<O: Observer, F: Fault>(
+    picture: &Picture,
+    sample: Sample,
+    id: u32,
+    primitive: &Primitive,
+    observer: &mut O,
+) -> bool {
+    observer.judged(sample, Question::Coverage);
+    let ray = picture.screen.grid.ray(sample.row, sample.column);
+    let coverage = picture.view.judge().coverage(primitive, &ray);
+    if let Some(edges) = coverage.edges {
+        observer.edge_signs(sample, id, edges.at_sample.map(Some));
+    }
+    coverage.covers && !F::is(Planted::StrictComparison)
 }

@@ -9,7 +9,7 @@ use std::{fs, io};
 #[derive(Debug, thiserror::Error)]
 pub enum ReadBufferError {
     /// There is no such file, or it may not be read.
-    #[error("cannot read {}: {error}", .path.display())]
+    #[error("cannot read {}: {}", .path.display(), reason(.error))]
     Open {
         /// The file.
         path: PathBuf,
@@ -115,4 +115,14 @@ pub fn read(path: &Path, background: Option<[u8; 3]>) -> Result<Buffer, ReadBuff
         Problem::Array(problem) => ReadBufferError::Array { path: path_of_error(), problem },
         Problem::Size(error) => ReadBufferError::Size { path: path_of_error(), error },
     })
+}
+
+/// Why a file cannot be opened, in words where the system has only a number.
+fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "there is no such file".into(),
+        io::ErrorKind::IsADirectory => "it is a folder".into(),
+        io::ErrorKind::PermissionDenied => "there is no permission to".into(),
+        _ => error.to_string(),
+    }
 }

@@ -1,0 +1,56 @@
+//! SIMD for both orders: vectors of a fixed number of lanes, and a run-time choice of how the machine
+//! computes them.
+//!
+//! Everything here is [`fearless_simd`]'s, gathered in one place. Code is written once, generic over
+//! [`Simd`], for sixteen lanes of `f32` (eight of `f64`); [`dispatch!`] runs it at a [`Level`]: AVX-512,
+//! AVX2, SSE4.2, SSE2, NEON, WebAssembly's SIMD, or plain scalars. The number of lanes never changes, and
+//! only operations that IEEE 754 rounds correctly are used (no fused multiply-add, no approximate
+//! reciprocal), so the level changes no bit of any result.
+//!
+//! Functions between [`dispatch!`] and the vector operations must be `#[inline(always)]`, or they are
+//! compiled for the wrong level.
+
+pub use fearless_simd::prelude::*;
+pub use fearless_simd::{
+    Level, Simd, dispatch, f32x8, f32x16, f64x8, i32x4, i32x16, mask32x16, mask64x8, u32x8, u32x16,
+};
+
+/// The best level of this machine.
+pub fn best_level() -> Level {
+    Level::new()
+}
+
+/// Every level that this machine has, the best one first: for tests, which compare them.
+pub fn levels() -> Vec<Level> {
+    let best = Level::new();
+    let mut levels = vec![best];
+    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+    if best.as_sse2().is_some() {
+        let avx2 = best.as_avx2().map(Simd::level);
+        let sse4_2 = best.as_sse4_2().map(Simd::level);
+        let sse2 = best.as_sse2().map(Simd::level);
+        let lesser = [avx2, sse4_2, sse2].into_iter().flatten();
+        let name = |level: &Level| format!("{level:?}");
+        levels.extend(lesser.filter(|level| name(level) != name(&best)));
+    }
+    levels
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[inline(always)]
+    fn quotients<S: Simd>(simd: S) -> [f32; 16] {
+        let numerators = f32x16::from_fn(simd, |lane| lane as f32 + 0.1);
+        (numerators / f32x16::splat(simd, 3.0)).to_array()
+    }
+
+    #[test]
+    fn all_levels_compute_the_same() {
+        let results: Vec<[f32; 16]> =
+            levels().into_iter().map(|level| dispatch!(level, simd => quotients(simd))).collect();
+        println!("{} levels", results.len());
+        assert!(results.iter().all(|result| *result == results[0]));
+    }
+}

@@ -1,0 +1,296 @@
+//! Sixteen triangles set up at a time: edge functions and depth as affine functions of the sample, in
+//! `f32`, with the error of their rounding.
+
+use super::depth::KEY_ERROR;
+use super::vertices::{ALIGNED, Raster, Vertex};
+use bothways_common::Sign;
+use bothways_common::fault::{Fault, Planted};
+use bothways_common::observe::{Observer, Sample};
+use bothways_common::simd::{Select, Simd, SimdBase, SimdInt, SimdMask, f32x16, i32x16};
+
+/// Boxes of more columns or rows than this are not for `f32`.
+pub(super) const MOST_SAMPLES_ACROSS: i32 = 256;
+
+/// What decides a sample on an edge of an aligned triangle: half of the least edge function but 0.
+const TIE: f32 = 1.0 / 32.0;
+
+/// Half of 2⁻²³.
+const UNIT_ROUNDOFF: f32 = f32::EPSILON / 2.0;
+
+/// Vertices of sixteen triangles, one triangle a lane.
+#[derive(Clone, Debug)]
+pub(super) struct Lanes {
+    ids: [u32; 16],
+    x: [[i32; 16]; 3],
+    y: [[i32; 16]; 3],
+    keys: [[i32; 16]; 3],
+    flags: [i32; 16],
+    count: usize,
+}
+
+/// Sixteen triangles, ready to be drawn. Columns and rows within a triangle count from its box's first
+/// sample.
+#[derive(Clone, Debug)]
+pub(super) struct Setup {
+    pub(super) ids: [u32; 16],
+    /// Edge functions opposite to `c`, `a`, `b`: `at_origin + column·across + row·down`, positive inside.
+    pub(super) at_origin: [[f32; 16]; 3],
+    pub(super) across: [[f32; 16]; 3],
+    pub(super) down: [[f32; 16]; 3],
+    /// Beyond this an edge function's sign is certain.
+    pub(super) error: [f32; 16],
+    /// The key is `key + key_b·E_ca + key_c·E_ab`; NaN if it cannot be trusted.
+    pub(super) key: [f32; 16],
+    pub(super) key_b: [f32; 16],
+    pub(super) key_c: [f32; 16],
+    /// The box of samples that the triangle may cover: first column and row, and how many.
+    pub(super) first_column: [i32; 16],
+    pub(super) first_row: [i32; 16],
+    pub(super) columns: [i32; 16],
+    pub(super) rows: [i32; 16],
+    /// The sign of the triangle's facing, ±1.
+    pub(super) facing: [f32; 16],
+    /// Lanes that must be drawn another way: the facing is not certain.
+    pub(super) doubtful: u16,
+    /// Lanes whose keys cannot be trusted.
+    pub(super) keyless: u16,
+}
+
+impl Lanes {
+    pub(super) const fn new() -> Lanes {
+        let empty = [[0; 16]; 3];
+        Lanes { ids: [0; 16], x: empty, y: empty, keys: empty, flags: [0; 16], count: 0 }
+    }
+
+    /// Fills the lanes with triangles; lanes beyond them cover nothing.
+    #[inline(always)]
+    pub(super) fn fill(&mut self, ids: &[u32], mut vertices: impl FnMut(u32) -> [Vertex; 3]) {
+        self.count = ids.len();
+        for (lane, &id) in ids.iter().take(16).enumerate() {
+            let [a, b, c] = vertices(id);
+            self.ids[lane] = id;
+            for (corner, vertex) in [a, b, c].iter().enumerate() {
+                self.x[corner][lane] = vertex[0];
+                self.y[corner][lane] = vertex[1];
+                self.keys[corner][lane] = vertex[2];
+            }
+            self.flags[lane] = a[3] & b[3] & c[3];
+        }
+    }
+}
+
+impl Setup {
+    /// Sets up the triangles of all lanes.
+    ///
+    /// # The errors, rounding by rounding
+    ///
+    /// All lengths are in samples, `u = 2⁻²⁴`; `w` and `h` are the sides of the box of the vertices,
+    /// widened by two fixed-point units on each side; `P = w·h`. The box's first sample lies in it, so
+    /// the fixed-point differences below are at most `w` and `h`; they are exact integers, rounded once
+    /// when they become `f32`.
+    ///
+    /// *Edge functions.* `C = dy·px − dx·py`: two products of 3 roundings each, at most `P`, and a
+    /// difference, which is the edge function at a point of the box and so at most `P`: `7uP`. `B·row`: 2
+    /// roundings; `C + B·row`, at most `P` again: one; `A·column`: 2; their sum: one. Together `13uP`, to
+    /// which [`Raster::slack`] adds the error of the places, times `w + h`. The constants are larger by
+    /// more than the roundings of the bound.
+    ///
+    /// *Facing.* The area is an edge function at a vertex, computed with at most `8uP`, of which one more
+    /// place is off: `1.5` times the error of an edge function covers it.
+    ///
+    /// *Key.* With `E` the error of an edge function and `ε = E/area`, at most 2⁻⁴, the weights `λ_b =
+    /// E_ca/area` and `λ_c` are off by `1.1·ε` for the numerator and, times the weight, `1.1·1.5·ε` for the
+    /// area: `2.8·ε·(|k_b − k_a| + |k_c − k_a|)` in all, the weights of a covered sample summing up to at most
+    /// one. Rounding: the vertices' keys bring `1.35u` of the largest one (see [`Raster::place`]), the
+    /// products 3 roundings of differences that are at most that, the sums 2: `6.4u`. The shift of aligned
+    /// edges (below) brings as many again at the most.
+    ///
+    /// *Aligned triangles.* Places are multiples of a quarter of a sample without any error, so edge
+    /// functions are multiples of 1/16, below 2¹⁷, and `f32` adds and multiplies them without rounding. A
+    /// zero is decided as the contract says: the sample moves a little to the right, which adds a little
+    /// of `A`, and far less down, which adds far less of `B`. Adding 1/32 to the edges that own their
+    /// samples and taking it from the others decides every sample by a sign; the key takes it back.
+    #[inline(always)]
+    pub(super) fn new<S: Simd, F: Fault>(simd: S, raster: &Raster, lanes: &Lanes) -> Setup {
+        let splat = |value: f32| f32x16::splat(simd, value);
+        let x = load(simd, &lanes.x);
+        let y = load(simd, &lanes.y);
+        let keys = [key(simd, lanes, 0), key(simd, lanes, 1), key(simd, lanes, 2)];
+
+        let (first_column, columns, origin_x, width) = side::<S, F>(simd, raster, 0, &x);
+        let (first_row, rows, origin_y, height) = side::<S, F>(simd, raster, 1, &y);
+        let lane = i32x16::load_array(simd, LANES);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "up to 16")]
+        let used = lane.simd_lt(i32x16::splat(simd, lanes.count as i32));
+
+        let product = width * height;
+        let rounding = splat(13.6 * UNIT_ROUNDOFF) * product;
+        let error = splat(raster.slack) * (width + height) + rounding;
+        let aligned = i32x16::load_array_ref(simd, &lanes.flags) & i32x16::splat(simd, ALIGNED);
+        let aligned = aligned.simd_ne(i32x16::splat(simd, 0));
+        let error = aligned.select(splat(0.0), error);
+        let error = if F::is(Planted::ZeroErrorBound) { splat(0.0) } else { error };
+
+        let unit = splat(raster.unit);
+        // From corner to corner, and from the box's first sample to each.
+        let dx = [
+            difference(x[1], x[0], unit),
+            difference(x[2], x[1], unit),
+            difference(x[0], x[2], unit),
+        ];
+        let dy = [
+            difference(y[1], y[0], unit),
+            difference(y[2], y[1], unit),
+            difference(y[0], y[2], unit),
+        ];
+        let px = [
+            difference(x[0], origin_x, unit),
+            difference(x[1], origin_x, unit),
+            difference(x[2], origin_x, unit),
+        ];
+        let py = [
+            difference(y[0], origin_y, unit),
+            difference(y[1], origin_y, unit),
+            difference(y[2], origin_y, unit),
+        ];
+        let area = dy[0] * dx[2] - dx[0] * dy[2];
+        let facing = area.simd_lt(splat(0.0)).select(splat(-1.0), splat(1.0));
+        let area = area.abs();
+        let flat = area.simd_eq(splat(0.0));
+        let certain = area.simd_gt(splat(1.5) * error) | aligned;
+
+        let mut at_origin = [splat(0.0); 3];
+        let mut across = at_origin;
+        let mut down = at_origin;
+        let mut shift = at_origin;
+        for k in 0..3 {
+            across[k] = -dy[k] * facing;
+            down[k] = dx[k] * facing;
+            let to_right = across[k].simd_gt(splat(0.0));
+            let level = across[k].simd_eq(splat(0.0));
+            let owned = to_right | (level & down[k].simd_gt(splat(0.0)));
+            let half = splat(TIE);
+            let by =
+                if F::is(Planted::StrictComparison) { -half } else { owned.select(half, -half) };
+            shift[k] = aligned.select(by, splat(0.0));
+            at_origin[k] = (dy[k] * px[k] - dx[k] * py[k]) * facing + shift[k];
+        }
+
+        let (to_b, to_c) = (keys[1] - keys[0], keys[2] - keys[0]);
+        let (key_b, key_c) = (to_b / area, to_c / area);
+        let key_at_origin = keys[0] - (shift[2] * key_b + shift[0] * key_c);
+        let largest = keys[0].max(keys[1]).max(keys[2]);
+        let least = keys[0].min(keys[1]).min(keys[2]);
+        let key_error = splat(2.8) * (error / area) * (to_b.abs() + to_c.abs())
+            + splat(13.0 * UNIT_ROUNDOFF) * largest;
+        let mut keyed =
+            key_error.simd_le(splat(KEY_ERROR) * least) & (splat(16.0) * error).simd_le(area);
+        if F::is(Planted::ZeroErrorBound) {
+            keyed = used;
+        }
+        let drawn = used & certain & !(aligned & flat);
+        let columns = drawn.select(columns, i32x16::splat(simd, 0));
+        let lanes_of = |mask: u64| u16::try_from(mask).expect("a mask has 16 lanes");
+        Setup {
+            ids: lanes.ids,
+            at_origin: arrays(at_origin),
+            across: arrays(across),
+            down: arrays(down),
+            error: error.to_array(),
+            key: keyed.select(key_at_origin, splat(f32::NAN)).to_array(),
+            key_b: key_b.to_array(),
+            key_c: key_c.to_array(),
+            first_column: first_column.to_array(),
+            first_row: first_row.to_array(),
+            columns: columns.to_array(),
+            rows: rows.to_array(),
+            facing: facing.to_array(),
+            doubtful: lanes_of((used & !certain).to_bitmask()),
+            keyless: lanes_of((drawn & !keyed).to_bitmask()),
+        }
+    }
+}
+
+impl Setup {
+    /// The ids of some lanes.
+    pub(super) fn lanes(&self, mask: u16) -> impl Iterator<Item = u32> {
+        (0..16).filter(move |lane| mask >> lane & 1 == 1).map(|lane: usize| self.ids[lane])
+    }
+
+    /// Tells of one test: the edge functions' signs as far as they are certain, in the orientation of
+    /// the contract.
+    pub(super) fn tell_test<O: Observer>(
+        &self,
+        lane: usize,
+        sample: Sample,
+        edges: [f32; 3],
+        error: f32,
+        observer: &mut O,
+    ) {
+        let id = self.ids[lane];
+        observer.sample_tested(sample, id);
+        let out = edges.iter().any(|edge| *edge < -error);
+        let inside = edges.iter().all(|edge| *edge > error);
+        if out || inside {
+            let sign = |edge: f32| {
+                let on_edge = error == 0.0 && edge.abs() == TIE;
+                let sign = if on_edge { 0.0 } else { f64::from(self.facing[lane] * edge) };
+                (edge.abs() > error).then(|| Sign::of(sign))
+            };
+            observer.edge_signs(sample, id, edges.map(sign));
+        }
+    }
+}
+
+/// The numbers of the lanes.
+const LANES: [i32; 16] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
+
+#[inline(always)]
+fn load<S: Simd>(simd: S, [a, b, c]: &[[i32; 16]; 3]) -> [i32x16<S>; 3] {
+    [
+        i32x16::load_array_ref(simd, a),
+        i32x16::load_array_ref(simd, b),
+        i32x16::load_array_ref(simd, c),
+    ]
+}
+
+#[inline(always)]
+fn arrays<S: Simd>([a, b, c]: [f32x16<S>; 3]) -> [[f32; 16]; 3] {
+    [a.to_array(), b.to_array(), c.to_array()]
+}
+
+/// The difference of two fixed-point places, in samples.
+#[inline(always)]
+fn difference<S: Simd>(to: i32x16<S>, from: i32x16<S>, unit: f32x16<S>) -> f32x16<S> {
+    (to - from).to_float::<f32x16<S>>() * unit
+}
+
+/// The keys of one corner of all triangles.
+#[inline(always)]
+fn key<S: Simd>(simd: S, lanes: &Lanes, corner: usize) -> f32x16<S> {
+    let bits = lanes.keys[corner].map(|bits| f32::from_bits(bits.cast_unsigned()));
+    f32x16::load_array(simd, bits)
+}
+
+/// Along one axis: the first sample of the box, how many, the place of the first, and the length of the
+/// box with two units on each side.
+///
+/// A vertex is at most half a unit and the margin, which is at most one unit, from its place.
+#[inline(always)]
+fn side<S: Simd, F: Fault>(
+    simd: S,
+    raster: &Raster,
+    axis: usize,
+    places: &[i32x16<S>; 3],
+) -> (i32x16<S>, i32x16<S>, i32x16<S>, f32x16<S>) {
+    let splat = |value: i32| i32x16::splat(simd, value);
+    let bits = raster.fraction_bits;
+    let margin = if F::is(Planted::ShrunkBox) { -1 } else { 2 };
+    let low = places[0].min(places[1]).min(places[2]);
+    let high = places[0].max(places[1]).max(places[2]);
+    let first = ((low + splat((1 << bits) - 1 - margin)) >> bits).max(splat(0));
+    let last = ((high + splat(margin)) >> bits).min(splat(raster.size[axis] - 1));
+    let count = (last - first + splat(1)).max(splat(0));
+    let length = (high - low + splat(4)).to_float::<f32x16<S>>() * f32x16::splat(simd, raster.unit);
+    (first, count, first << bits, length)
+}

@@ -1,0 +1,275 @@
+//! The vertex stage: every vertex once a frame, to a fixed-point place on the raster and a depth key.
+
+use super::depth::{KeyScale, LARGEST_KEY};
+use super::screen::Screen;
+use bothways_common::Projection;
+use bothways_common::simd::{
+    Select, Simd, SimdBase, SimdFloat, SimdInterleaved, SimdMask, f64x8, i32x4, mask64x8,
+};
+use glam::{DVec3, Vec3};
+
+/// One vertex on the raster: column and row in fixed point, the bits of its depth key (an `f32`), and
+/// flags.
+///
+/// Columns and rows count in units of [`Raster::unit`] of a sample, 0 at the first sample, each within
+/// [`Raster::slack`] of the true one. They and the key mean something if [`ON_RASTER`] is set.
+pub(super) type Vertex = [i32; 4];
+
+/// The place and the key can be trusted.
+pub(super) const ON_RASTER: i32 = 1;
+/// Certainly not in front of the eye.
+pub(super) const BEHIND: i32 = 2;
+/// Certainly left of the first sample, right of the last, above, below; all in front of the eye.
+pub(super) const LEFT: i32 = 4;
+const RIGHT: i32 = 8;
+const ABOVE: i32 = 16;
+const BELOW: i32 = 32;
+/// A triangle whose vertices share one of these is not seen.
+pub(super) const OUT_OF_SIGHT: i32 = BEHIND | LEFT | RIGHT | ABOVE | BELOW;
+/// The place is exactly the true one, and a multiple of a quarter of a sample.
+pub(super) const ALIGNED: i32 = 64;
+
+/// The fixed-point raster of one camera.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Raster {
+    /// Bits behind the point of a column or row.
+    pub(super) fraction_bits: u32,
+    /// One fixed-point unit, in samples.
+    pub(super) unit: f32,
+    /// Columns and rows of samples.
+    pub(super) size: [i32; 2],
+    /// How far the fixed-point column or row of a vertex, less that of a sample, may be from the true
+    /// difference: in samples, for the differences along two edges' ends together.
+    pub(super) slack: f32,
+    /// How depth is stored.
+    pub(super) keys: KeyScale,
+    /// Whether vertices can be trusted at all: the camera is not too extreme.
+    trusted: bool,
+    /// The distances of neighbouring columns and rows on the viewport, if that grid and the camera's
+    /// frame are free of rounding; see [`exact_grid`].
+    grid: Option<[f64; 2]>,
+}
+
+impl Raster {
+    /// Fixed point leaves room for places from half a picture before the first sample to half a
+    /// picture behind the last: with `2^s` at least as large as both sides (and as the largest box that
+    /// `f32` takes, 256), places are between `−2^(s − 1)` and `1.5·2^s`, so that `30 − s` bits remain.
+    ///
+    /// A place is off by half a unit of rounding and by the screen's margin, which speaks of vertices
+    /// and of the rays; vertices are trusted if the margin is no larger than one unit. An edge function
+    /// between two vertices, at a sample in their triangle's box of `w × h` samples, moves by at most
+    /// `2(w + h)` times the one for both vertices together and once `(w + h)` times the margin for the
+    /// sample: `unit + 3·margin` in all, for each of `w` and `h`.
+    pub(super) fn new(screen: &Screen, keys: KeyScale) -> Raster {
+        let [width, height] = [screen.grid.width(), screen.grid.height()];
+        let bits = 30 - width.max(height).next_power_of_two().max(256).ilog2();
+        let unit = 0.5f64.powi(bits.cast_signed());
+        let margin = screen.margin[0].max(screen.margin[1]);
+        let size = |side: usize| i32::try_from(side).expect("at most 65,536");
+        #[expect(clippy::cast_possible_truncation, reason = "rounding is what is asked")]
+        let slack = (1.01 * (unit + 3.0 * margin)) as f32;
+        Raster {
+            fraction_bits: bits,
+            unit: 0.5f32.powi(bits.cast_signed()),
+            size: [size(width), size(height)],
+            slack,
+            keys,
+            trusted: margin <= unit,
+            grid: exact_grid(screen),
+        }
+    }
+
+    /// The vertex stage for any number of vertices.
+    #[inline(always)]
+    pub(super) fn place<S: Simd>(
+        &self,
+        simd: S,
+        screen: &Screen,
+        positions: &[Vec3],
+        vertices: &mut [Vertex],
+    ) {
+        let (positions, rest) = positions.as_chunks::<16>();
+        let (vertices, last) = vertices.split_at_mut(16 * positions.len());
+        for (positions, vertices) in positions.iter().zip(vertices.chunks_exact_mut(16)) {
+            self.place_sixteen(simd, screen, positions, vertices.as_flattened_mut());
+        }
+        if !rest.is_empty() {
+            let mut padded = [Vec3::ZERO; 16];
+            padded[..rest.len()].copy_from_slice(rest);
+            let mut placed = [[0; 4]; 16];
+            self.place_sixteen(simd, screen, &padded, placed.as_flattened_mut());
+            last.copy_from_slice(&placed[..rest.len()]);
+        }
+    }
+
+    #[inline(always)]
+    fn place_sixteen<S: Simd>(
+        &self,
+        simd: S,
+        screen: &Screen,
+        positions: &[Vec3; 16],
+        vertices: &mut [i32],
+    ) {
+        let mut columns = [0; 16];
+        let mut rows = [0; 16];
+        let mut keys = [0; 16];
+        let mut flags = [0; 16];
+        let (halves, _) = positions.as_chunks::<8>();
+        for (half, positions) in halves.iter().enumerate() {
+            let lanes = half * 8..half * 8 + 8;
+            let placed = self.place_eight(simd, screen, positions);
+            columns[lanes.clone()].copy_from_slice(&placed[0]);
+            rows[lanes.clone()].copy_from_slice(&placed[1]);
+            keys[lanes.clone()].copy_from_slice(&placed[2]);
+            flags[lanes].copy_from_slice(&placed[3]);
+        }
+        for (four, vertices) in vertices.chunks_exact_mut(16).enumerate() {
+            let part = |lanes: &[i32; 16]| i32x4::from_slice(simd, &lanes[four * 4..four * 4 + 4]);
+            let parts = [part(&columns), part(&rows), part(&keys), part(&flags)];
+            i32x4::store_four_interleaved(parts, vertices);
+        }
+    }
+
+    /// Columns, rows, keys' bits and flags of eight vertices.
+    ///
+    /// What is trusted, and why, says [`Screen::new`]: `ζ ≥ 2⁻¹⁰·s` for the depth `ζ` along the view.
+    /// Then `1/t = d/ζ` (perspective) or `t = ζ` (parallel) is known to within 2⁻⁴¹ of itself, and a key
+    /// that is at least 2⁻¹⁵ of it to within 2⁻²⁶; rounding to `f32` adds 2⁻²⁴.
+    #[inline(always)]
+    fn place_eight<S: Simd>(
+        &self,
+        simd: S,
+        screen: &Screen,
+        positions: &[Vec3; 8],
+    ) -> [[i32; 8]; 4] {
+        let splat = |value: f64| f64x8::splat(simd, value);
+        let eye = screen.camera.eye().as_dvec3();
+        // Relative to the eye, as the contract says.
+        let offset = |axis: usize| {
+            let of = |lane: usize| f64::from(positions[lane].to_array()[axis]);
+            f64x8::load_array(simd, std::array::from_fn(of)) - splat(eye[axis])
+        };
+        let [x, y, z] = [offset(0), offset(1), offset(2)];
+        let along = |axis: DVec3| x * splat(axis.x) + y * splat(axis.y) + z * splat(axis.z);
+        let extent = x.abs() + y.abs() + z.abs();
+        let (right, up) = (along(screen.u), along(screen.v));
+        let depth = -along(screen.w);
+        let zero = splat(0.0);
+
+        let behind = depth.simd_lt(extent * splat(-(-46f64).exp2()));
+        let in_front = depth.simd_ge(extent * splat((-10f64).exp2())) & depth.simd_gt(zero);
+        let (onto_viewport, near, safe) = match self.keys.projection {
+            Projection::Perspective => {
+                let onto = splat(screen.distance) / depth;
+                (onto, onto, in_front)
+            }
+            Projection::Parallel => {
+                let close = extent.simd_le(splat(screen.trusted_extent));
+                (splat(1.0), depth, in_front & close)
+            }
+        };
+        let safe = safe & mask64x8::splat(simd, self.trusted);
+        let column = right * onto_viewport * splat(screen.scale[0]) + splat(screen.middle[0]);
+        let row = up * onto_viewport * splat(screen.scale[1]) + splat(screen.middle[1]);
+        let key = match self.keys.projection {
+            Projection::Perspective => near - splat(self.keys.offset),
+            Projection::Parallel => splat(self.keys.offset) - near,
+        };
+        let key_trusted = key.simd_ge(near * splat((-15f64).exp2()))
+            & key.simd_ge(splat(1.0 / LARGEST_KEY))
+            & key.simd_le(splat(LARGEST_KEY));
+
+        let [width, height] = self.size.map(f64::from);
+        let one = splat(1.0);
+        let side = f64::from(1 << (30 - self.fraction_bits));
+        let within =
+            |place: f64x8<S>| place.simd_ge(splat(-0.5 * side)) & place.simd_lt(splat(1.49 * side));
+        let on_raster = safe & key_trusted & within(column) & within(row);
+        let flag = |mask: mask64x8<S>, flag: i32| mask.select(splat(f64::from(flag)), zero);
+        let mut flags = flag(on_raster, ON_RASTER)
+            + flag(behind, BEHIND)
+            + flag(safe & column.simd_lt(-one), LEFT)
+            + flag(safe & column.simd_gt(splat(width)), RIGHT)
+            + flag(safe & row.simd_lt(-one), ABOVE)
+            + flag(safe & row.simd_gt(splat(height)), BELOW);
+        if let Some(grid) = self.grid {
+            let lines = [[column, right, depth], [row, -up, depth]];
+            let [across, down] = std::array::from_fn(|axis| {
+                is_aligned(simd, screen, lines[axis], screen.middle[axis], grid[axis])
+            });
+            let aligned = on_raster & across & down;
+
+            flags = flags + flag(aligned, ALIGNED);
+        }
+        let scale = splat(f64::from(1 << self.fraction_bits));
+        let fixed = |place: f64x8<S>| integers(on_raster.select(place * scale, zero));
+        let key = on_raster.select(key, zero).to_array();
+        #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is what is asked")]
+        let key = key.map(|key| (key as f32).to_bits().cast_signed());
+        [fixed(column), fixed(row), key, integers(flags)]
+    }
+}
+
+/// Where vertices lie exactly at multiples of a quarter of a column (or row).
+///
+/// With `r` along `u` (or `−v`) and `g` the distance of neighbours, the true column is `middle +
+/// r·d/(ζ·g)` (parallel: without `d/ζ`). Let `n/4` be the quarter nearest to the computed one: it is the
+/// true one if `m·g·ζ = 4·r·d` with the integer `m = n − 4·middle`. Both products are exact in `f64`: `m`
+/// has at most 19 bits, `g` 10 by [`exact_grid`], `d` 24, and `r` and `ζ` are checked to have 24.
+#[inline(always)]
+fn is_aligned<S: Simd>(
+    simd: S,
+    screen: &Screen,
+    [place, along, depth]: [f64x8<S>; 3],
+    middle: f64,
+    spacing: f64,
+) -> mask64x8<S> {
+    let splat = |value: f64| f64x8::splat(simd, value);
+    let from_middle = (place * splat(4.0)).round_ties_even() - splat(4.0 * middle);
+    #[expect(clippy::cast_possible_truncation, reason = "the question is what survives it")]
+    let is_short = |value: f64x8<S>| {
+        let back = value.to_array().map(|value| f64::from(value as f32));
+        value.simd_eq(f64x8::load_array(simd, back))
+    };
+    let grid_point = from_middle * splat(spacing);
+    match screen.projection() {
+        Projection::Perspective => {
+            let same = (grid_point * depth).simd_eq(along * splat(4.0 * screen.distance));
+            same & is_short(along) & is_short(depth)
+        }
+        Projection::Parallel => grid_point.simd_eq(along * splat(4.0)) & is_short(along),
+    }
+}
+
+/// The distances of neighbouring columns and rows on the viewport, if nothing is rounded between the
+/// camera and its rays.
+///
+/// If the distance `vw/W` has at most 10 bits, a sample's coordinate, half of it times an integer of 17
+/// bits, is stored without rounding. If besides `u`, `v` and `w` run along the world's axes, the rays and
+/// all offsets along `u`, `v`, `w` are the coordinates themselves.
+fn exact_grid(screen: &Screen) -> Option<[f64; 2]> {
+    let is_axis = |axis: DVec3| axis.abs().element_sum() == 1.0 && axis.abs().max_element() == 1.0;
+    let size = [screen.grid.width(), screen.grid.height()];
+    let viewport = screen.camera.viewport();
+    let spacing: [Option<f64>; 2] = std::array::from_fn(|axis| {
+        #[expect(clippy::cast_precision_loss, reason = "at most 65,536")]
+        let count = size[axis] as f64;
+        let spacing = viewport[axis] / count;
+        let few_bits = spacing.to_bits().trailing_zeros() >= 43;
+        (few_bits && spacing * count == viewport[axis]).then_some(spacing)
+    });
+    let [Some(across), Some(down)] = spacing else { return None };
+    [screen.u, screen.v, screen.w].into_iter().all(is_axis).then_some([across, down])
+}
+
+/// The nearest integers, which must be within 31 bits.
+///
+/// Added to 1.5·2⁵², a number has no bits left behind the point, and its last 32 bits are the integer in
+/// two's complement.
+#[inline(always)]
+fn integers<S: Simd>(value: f64x8<S>) -> [i32; 8] {
+    const MAGIC: f64 = 6_755_399_441_055_744.0;
+    #[expect(clippy::cast_possible_truncation, reason = "the last 32 bits are what is wanted")]
+    let last_bits = |value: f64| value.to_bits() as i32;
+    (value + MAGIC).to_array().map(last_bits)
+}

@@ -1,0 +1,113 @@
+//! How far a rendering has come, told while it runs.
+//!
+//! The fast renderers are told of frame by frame. The textbooks, which can take minutes for one frame,
+//! are told of step by step of their outer loop: by an observer, so that their page stays as it is
+//! and nothing is paid for where nobody asks.
+
+use crate::common::frame::Region;
+use crate::common::observe::{Observer, Sample};
+use crate::orders::Order;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Somebody who is told of progress, from any thread; never twice of the same step.
+pub type Listener<'a> = &'a (dyn Fn(Progress) + Sync);
+
+/// How far one order has come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Progress {
+    /// Which order.
+    pub order: Order,
+    /// What it does.
+    pub stage: Stage,
+    /// Steps that are done, over all frames: none while the scene is prepared, in the end all.
+    pub done: u64,
+    /// All steps; for a textbook those of its outer loop, for a fast renderer frames.
+    pub total: u64,
+}
+
+/// What an order does with a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// What a moving camera would not repeat.
+    Preparing,
+    /// Frames: one that counts the work, one to warm up if there are to be several, and the timed ones.
+    Rendering,
+}
+
+/// The steps of one order, counted for a listener, if there is one.
+#[derive(Clone, Copy)]
+pub(crate) struct Steps<'a> {
+    order: Order,
+    listener: Option<Listener<'a>>,
+    /// Steps within a frame, where its outer loop is watched.
+    within_frame: Option<u64>,
+    frames: u64,
+    done: &'a AtomicU64,
+}
+
+impl<'a> Steps<'a> {
+    pub(crate) fn new(
+        order: Order,
+        listener: Option<Listener<'a>>,
+        within_frame: Option<u64>,
+        frames: u64,
+        done: &'a AtomicU64,
+    ) -> Steps<'a> {
+        Steps { order, listener, within_frame, frames, done }
+    }
+
+    /// An observer that counts the steps of a frame; `None` where frames count as a whole, or nobody
+    /// listens.
+    pub(crate) fn watch(&self) -> Option<Watch<'a>> {
+        (self.listener.is_some() && self.within_frame.is_some()).then_some(Watch(*self))
+    }
+
+    pub(crate) fn preparing(&self) {
+        self.tell(Stage::Preparing, 0);
+    }
+
+    /// So many frames are rendered.
+    pub(crate) fn frames_done(&self, frames: u64) {
+        let done = frames * self.within_frame.unwrap_or(1);
+        self.done.store(done, Ordering::Relaxed);
+        self.tell(Stage::Rendering, done);
+    }
+
+    fn tell(&self, stage: Stage, done: u64) {
+        if let Some(listener) = self.listener {
+            let total = self.frames * self.within_frame.unwrap_or(1);
+            listener(Progress { order: self.order, stage, done, total });
+        }
+    }
+
+    /// One more step begins: those before it are done.
+    fn begin(&self) {
+        let done = self.done.fetch_add(1, Ordering::Relaxed);
+        // The first of a frame was told with the frame before it.
+        if !done.is_multiple_of(self.within_frame.unwrap_or(1)) {
+            self.tell(Stage::Rendering, done);
+        }
+    }
+}
+
+/// Counts the steps of an outer loop: primitives in object order, rows of samples in image order.
+#[derive(Clone, Copy)]
+pub(crate) struct Watch<'a>(Steps<'a>);
+
+impl Observer for Watch<'_> {
+    fn fork(&self) -> Self {
+        *self
+    }
+
+    fn join(&mut self, _part: Self) {}
+
+    fn primitive_begun(&mut self, _primitive: u32, _region: &Region) {
+        self.0.begin();
+    }
+
+    fn ray_begun(&mut self, sample: Sample) {
+        if sample.column == 0 {
+            self.0.begin();
+        }
+    }
+}

@@ -1,0 +1,200 @@
+//! What the fast rasterizer must not depend on, and the triangles that its own paths are made for.
+
+mod support;
+
+use bothways::common::glam::{Vec2, Vec3};
+use bothways::common::simd::{Level, best_level, levels};
+use bothways::common::{
+    Camera, CameraDescription, Frame, Mesh, Object, Options, Orientation, Projection, Scene, View,
+    Work,
+};
+use bothways::rasterize::fast::{self, Prepared};
+use bothways::{rasterize, scenes};
+use support::{PROJECTIONS, assert_same_visibility, camera, mesh, scene, triangle, turned};
+
+/// Draws with a prepared scene; also tells the work.
+fn draw(prepared: &Prepared, view: &View, options: &Options) -> (Frame, Work) {
+    let mut frame = Frame::new(view.camera, options);
+    let mut work = Work::default();
+    fast::determine_visibility(prepared, view, options, &mut frame, &mut work);
+    let mut unwatched = Frame::new(view.camera, options);
+    fast::determine_visibility(prepared, view, options, &mut unwatched, &mut ());
+    assert_eq!(frame.ids(), unwatched.ids(), "watching changes nothing");
+    assert_eq!(frame.distances(), unwatched.distances(), "watching changes nothing");
+    (frame, work)
+}
+
+/// Numbers in 0 … 1 that look random: the golden ratio's multiples, as a low-discrepancy sequence.
+fn scattered(count: usize) -> impl Iterator<Item = [f32; 3]> {
+    let part = |k: usize, step: f64| (k as f64 * step).fract() as f32;
+    (1..=count)
+        .map(move |k| [part(k, 0.618_033_988), part(k, 0.754_877_666), part(k, 0.569_840_291)])
+}
+
+/// Triangles of all sizes, from less than a sample to larger than the picture, many of them slivers.
+fn all_sizes(count: usize) -> Scene {
+    let mut numbers = scattered(4 * count);
+    let mut next = || Vec3::from_array(numbers.next().expect("there are enough")) - 0.5;
+    let mut positions = Vec::new();
+    for k in 0..count {
+        let size = 4.0 * 0.5f32.powi((k % 12) as i32);
+        let thin = if k % 5 == 0 { 0.01 } else { 1.0 };
+        let (middle, across) = (3.0 * next(), size * next());
+        positions.extend([middle, middle + across, middle + across * 0.5 + thin * size * next()]);
+    }
+    let triangles = (0..count as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+    scene(vec![mesh(Mesh::new(positions, triangles).expect("it is a mesh"))])
+}
+
+fn every_way_to_draw() -> impl Iterator<Item = (Level, [u32; 2])> {
+    let tiles = [[10, 6], [3, 3], [4, 0], [0, 5], [16, 16]];
+    let of_levels = levels().into_iter().map(move |level| (level, tiles[0]));
+    of_levels.chain(tiles.map(|tile| (best_level(), tile)))
+}
+
+#[test]
+fn no_width_of_simd_and_no_tile_changes_a_bit() {
+    let chosen = ["overlap", "ties", "slivers", "inside", "behind"];
+    let built_in = chosen.map(|name| scenes::load(name).expect("it is built in").scene);
+    for (k, scene) in built_in.into_iter().chain([all_sizes(600)]).enumerate() {
+        for projection in PROJECTIONS {
+            let camera = turned(projection, [1.5, 1.0, 4.0], [0.0; 3], [101, 67]);
+            let view = View::new(&scene, &camera);
+            let options = Options { samples: 1 + k as u32 % 2 };
+            let prepared = fast::prepare(&scene);
+            let (expected, expected_work) = draw(&prepared, &view, &options);
+            for (level, tile) in every_way_to_draw() {
+                let prepared = prepared.clone().drawn_with(level, tile);
+                let (frame, work) = draw(&prepared, &view, &options);
+                assert_eq!(frame.ids(), expected.ids(), "scene {k}, {level:?}, tiles {tile:?}");
+                assert_eq!(frame.distances(), expected.distances(), "{level:?}, {tile:?}");
+                let counts = |work: Work| [work.tests, work.fragments, work.depth_tests];
+                assert_eq!(counts(work), counts(expected_work), "{level:?}, {tile:?}");
+                if tile == [10, 6] {
+                    assert_eq!(work, expected_work, "{level:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn no_number_of_threads_changes_a_bit() {
+    let scene = all_sizes(40_000);
+    let camera = turned(Projection::Perspective, [1.5, 1.0, 4.0], [0.0; 3], [640, 480]);
+    let view = View::new(&scene, &camera);
+    let prepared = fast::prepare(&scene);
+    let drawn = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.expect("there are threads").install(|| draw(&prepared, &view, &Options::default()))
+    };
+    let expected = drawn(1);
+    assert!(expected.1.fragments > 100_000);
+    for threads in [2, 3, 8] {
+        assert_eq!(drawn(threads), expected, "{threads} threads");
+    }
+}
+
+/// A view against the textbook; gives the work of the fast one.
+fn check(scene: &Scene, camera: &Camera, what: &str) -> Work {
+    let (view, options) = (View::new(scene, camera), Options::default());
+    let expected = rasterize::textbook::render(&view, &options);
+    let (frame, work) = draw(&fast::prepare(scene), &view, &options);
+    assert_same_visibility(&expected, &frame, what);
+    work
+}
+
+#[test]
+fn triangles_of_all_sizes_as_the_textbook_sees_them() {
+    let scene = all_sizes(400);
+    for projection in PROJECTIONS {
+        for eye in [[1.5, 1.0, 4.0], [0.1, 0.0, 0.2], [20.0, 30.0, -10.0]] {
+            let camera = turned(projection, eye, [0.0; 3], [96, 80]);
+            let work = check(&scene, &camera, &format!("{projection:?} from {eye:?}"));
+            assert!(work.fragments > 50, "{projection:?} from {eye:?}: {work:?}");
+        }
+    }
+}
+
+/// A camera whose samples are the integer points from −`half` to `half`, one unit apart.
+fn on_integers(projection: Projection, half: u32) -> Camera {
+    let side = 2 * half + 1;
+    camera(projection, [0.0; 3], [side as f32; 2], [side; 2])
+}
+
+/// The corners of a grid of squares in the plane z = −1, moved by `shift`, cut by both diagonals in turn.
+fn grid(side: f32, squares: usize, shift: Vec2) -> Object {
+    let count = squares + 1;
+    let half = 0.5 * side * squares as f32;
+    let place = |k: usize| {
+        let [column, row] = [k % count, k / count].map(|index| side * index as f32 - half);
+        Vec3::new(column + shift.x, row + shift.y, -1.0)
+    };
+    let square = |k: usize| {
+        let a = (k / squares * count + k % squares) as u32;
+        let [b, c, d] = [a + 1, a + count as u32 + 1, a + count as u32];
+        if k % 2 == 0 { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] }
+    };
+    let triangles = (0..squares * squares).flat_map(square).collect();
+    mesh(Mesh::new((0..count * count).map(place).collect(), triangles).expect("it is a mesh"))
+}
+
+#[test]
+fn edges_through_samples_need_no_judge_where_vertices_are_on_the_raster() {
+    for projection in PROJECTIONS {
+        for side in [0.25, 0.5, 1.0, 2.0, 4.0, 9.0] {
+            for shift in [Vec2::ZERO, Vec2::new(0.25, 0.5)] {
+                let scene = scene(vec![grid(side, (24.0 / side) as usize, shift)]);
+                let camera = on_integers(projection, 10);
+                let work = check(&scene, &camera, &format!("{projection:?}, squares of {side}"));
+                assert_eq!(work.judged_coverage, 0, "{projection:?}, squares of {side}: {work:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn every_triangle_on_quarters_of_samples() {
+    // Any corners, so that edges of any slope pass through samples.
+    let corner = |[x, y, _]: [f32; 3]| {
+        [(12.0 * x).floor() * 0.75 - 4.0, (12.0 * y).floor() * 0.5 - 3.0, -1.0]
+    };
+    let corners: Vec<[f32; 3]> = scattered(900).map(corner).collect();
+    let triangles = corners.chunks_exact(3).map(|c| triangle([c[0], c[1], c[2]])).collect();
+    let scene = scene(triangles);
+    for projection in PROJECTIONS {
+        let work = check(&scene, &on_integers(projection, 6), &format!("{projection:?}"));
+        assert_eq!(work.judged_coverage, 0, "{projection:?}");
+    }
+}
+
+#[test]
+fn a_distant_eye_loses_no_depth() {
+    // Two walls a ten-thousandth of their distance apart, seen through a telescope.
+    let wall = |z: f32| {
+        let corners = [[-3.0, -3.0, z], [3.0, -3.0, z], [3.0, 3.0, z], [-3.0, 3.0, z]];
+        let [a, b, c, d] = corners;
+        [triangle([a, b, c]), triangle([a, c, d])]
+    };
+    let scene = scene([wall(0.0), wall(0.1)].concat());
+    let description = CameraDescription {
+        eye: Vec3::new(10.0, 5.0, 1000.0),
+        orientation: Orientation::LookAt { target: Vec3::ZERO, up: Vec3::Y },
+        distance: 500.0,
+        viewport: [2.0, 2.0],
+        image: [64, 64],
+        ..CameraDescription::default()
+    };
+    let camera = Camera::new(description).expect("it is a camera");
+    let work = check(&scene, &camera, "telescope");
+    assert!(work.depth_tests > 1000 && work.judged_nearest == 0, "{work:?}");
+}
+
+#[test]
+fn nothing_at_all() {
+    for objects in [Vec::new(), vec![triangle([[0.0; 3]; 3])]] {
+        let scene = scene(objects);
+        let work = check(&scene, &on_integers(Projection::Perspective, 3), "nothing");
+        assert_eq!(work.fragments, 0);
+    }
+}

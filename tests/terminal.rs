@@ -1,0 +1,107 @@
+//! What a person at a terminal sees and does: a progress bar that leaves no trace, and Ctrl-C.
+#![cfg(target_os = "linux")]
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
+use rustix::termios::{Winsize, tcsetwinsize};
+use std::fs::{self, File};
+use std::io::Read;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+
+/// Long enough for the bar to appear, and short enough to wait for.
+const SLOW: [&str; 6] = ["many", "--method", "textbook", "--size", "8x6", "--no-times"];
+
+/// A pseudo terminal, 90 characters wide: what a person looks at, and what the program writes to.
+fn terminal() -> (File, File) {
+    let person = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).unwrap();
+    grantpt(&person).unwrap();
+    unlockpt(&person).unwrap();
+    let size = Winsize { ws_row: 24, ws_col: 90, ws_xpixel: 0, ws_ypixel: 0 };
+    tcsetwinsize(&person, size).unwrap();
+    let name = ptsname(&person, Vec::new()).unwrap().into_string().unwrap();
+    let program = fs::OpenOptions::new().read(true).write(true).open(name).unwrap();
+    (person.into(), program)
+}
+
+fn bothways(home: &TempDir, args: &[&str]) -> Command {
+    let mut command = Command::new(assert_cmd::cargo::cargo_bin("bothways"));
+    command.current_dir(home).args(args).env("TERM", "xterm").env_remove("NO_COLOR");
+    command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+/// What appears on the terminal that is the program's stderr; its stdout is a pipe.
+fn seen_on_stderr(mut command: Command) -> String {
+    let (mut person, program) = terminal();
+    let child = command.stderr(program).spawn().unwrap();
+    // The program's end closes with the program, but also with what was made to start it.
+    drop(command);
+    let mut seen = Vec::new();
+    // A terminal that nobody writes to any more reads as an error.
+    let mut piece = [0; 4096];
+    while let Ok(count @ 1..) = person.read(&mut piece) {
+        seen.extend_from_slice(&piece[..count]);
+    }
+    let output = child.wait_with_output().unwrap();
+    assert!(output.status.success() && !output.stdout.contains(&0x1b));
+    String::from_utf8(seen).unwrap()
+}
+
+#[test]
+fn a_long_rendering_shows_how_far_it_is_and_erases_that() {
+    let home = tempfile::tempdir().unwrap();
+    let seen = seen_on_stderr(bothways(&home, &SLOW));
+    assert!(seen.contains("object order [") && seen.contains("image order  ["), "{seen:?}");
+    assert!(seen.contains(" %, "), "{seen:?}");
+    // Nothing but one line, drawn again and again, and in the end erased; no colours.
+    assert!(seen.ends_with("\r\u{1b}[2K") && !seen.contains('\n'), "{seen:?}");
+    assert!(seen.split('\u{1b}').skip(1).all(|rest| rest.starts_with("[2K")), "{seen:?}");
+}
+
+#[test]
+fn a_bar_needs_a_person_and_time() {
+    let home = tempfile::tempdir().unwrap();
+    let quick = ["canonical", "--size", "4x4"];
+    assert_eq!(seen_on_stderr(bothways(&home, &quick)), "");
+    let quiet = [&SLOW[..], &["--quiet"]].concat();
+    assert_eq!(seen_on_stderr(bothways(&home, &quiet)), "");
+    let mut dumb = bothways(&home, &SLOW);
+    dumb.env("TERM", "dumb");
+    assert_eq!(seen_on_stderr(dumb), "");
+    let piped = bothways(&home, &SLOW).output().unwrap();
+    assert_eq!(String::from_utf8(piped.stderr).unwrap(), "");
+}
+
+/// Runs until something is in the output folder, and presses Ctrl-C then.
+fn interrupted(home: &TempDir, args: &[&str]) -> Child {
+    let child = bothways(home, args).spawn().unwrap();
+    let begun = Instant::now();
+    let hidden = |entry: fs::DirEntry| entry.file_name().to_string_lossy().starts_with(".bothways");
+    let folder = home.path().join("out/many");
+    while !fs::read_dir(&folder).is_ok_and(|mut entries| entries.any(|one| hidden(one.unwrap()))) {
+        assert!(begun.elapsed() < Duration::from_secs(20), "it does not begin");
+    }
+    let id = rustix::process::Pid::from_child(&child);
+    rustix::process::kill_process(id, rustix::process::Signal::INT).unwrap();
+    child
+}
+
+#[test]
+fn an_interrupted_rendering_leaves_nothing_behind() {
+    let home = tempfile::tempdir().unwrap();
+    let endless = ["many", "--method", "textbook"];
+    let output = interrupted(&home, &endless).wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130));
+    assert_eq!(String::from_utf8(output.stderr).unwrap(), "\ninterrupted: nothing was written\n");
+    assert!(!home.path().join("out/many").exists());
+
+    // What was there stays.
+    let report = home.path().join("out/many/report.json");
+    fs::create_dir_all(report.parent().unwrap()).unwrap();
+    fs::write(&report, "old").unwrap();
+    interrupted(&home, &endless).wait().unwrap();
+    let left: Vec<_> = fs::read_dir(report.parent().unwrap()).unwrap().collect();
+    assert_eq!((left.len(), fs::read_to_string(&report).unwrap().as_str()), (1, "old"));
+}
