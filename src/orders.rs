@@ -1,5 +1,9 @@
 //! Both orders behind one door: which to run, how, and what it cost.
 
+mod stream;
+
+pub use stream::render_stream;
+
 use crate::common::frame::NO_PRIMITIVE;
 use crate::common::{Frame, Observer, Options, Scene, View, Work};
 use crate::progress::{Listener, Steps};

@@ -2,13 +2,15 @@
 //! camera that frames them.
 
 mod framing;
+mod stream;
 
-pub use framing::{FrameMeshError, framed};
+pub use framing::{FrameMeshError, framed, framed_positions};
+pub use stream::{StreamedScene, open_stream};
 
-use crate::common::obj::{self, ReadObjError};
+use crate::common::mesh_file::{Format, ReadMeshError};
 use crate::common::scene_file::{self, SceneFileError, framed_mesh_toml, nearest_name};
+use crate::common::stream::StreamError;
 use crate::common::{CameraDescription, Scene, SceneError, Shape, smooth};
-use std::ffi::OsStr;
 use std::path::Path;
 
 /// A scene that comes with the program.
@@ -92,7 +94,7 @@ pub enum LoadError {
     /// No built-in scene has this name.
     #[error(
         "there is no built-in scene {name:?}; {}the built-in scenes are {}; a scene file (.toml) \
-         or a mesh file (.obj) can be named, too",
+         or a mesh file (.obj, .ply) can be named, too",
         .meant.map_or(String::new(), |meant| format!("did you mean {meant:?}? ")),
         names().join(", ")
     )]
@@ -103,7 +105,9 @@ pub enum LoadError {
         meant: Option<&'static str>,
     },
     /// The file is of no kind that is read.
-    #[error("{path} is neither a scene file (.toml) nor a mesh file (.obj); no others are read")]
+    #[error(
+        "{path} is neither a scene file (.toml) nor a mesh file (.obj, .ply); no others are read"
+    )]
     UnknownExtension {
         /// What was asked for.
         path: String,
@@ -113,10 +117,22 @@ pub enum LoadError {
     SceneFile(#[from] SceneFileError),
     /// The mesh file is wrong.
     #[error(transparent)]
-    Mesh(#[from] ReadObjError),
+    Mesh(#[from] ReadMeshError),
     /// The mesh file has more triangles than there are ids.
     #[error(transparent)]
     Scene(#[from] SceneError),
+    /// The mesh file cannot be streamed.
+    #[error(transparent)]
+    Stream(#[from] StreamError),
+    /// What is to be streamed is no mesh file.
+    #[error(
+        "only a mesh file (.obj, .ply) can be streamed, and {source_name:?} is none; render it in \
+         memory, without --stream, or name a mesh file"
+    )]
+    NotStreamed {
+        /// What was asked for.
+        source_name: String,
+    },
     /// The mesh file is right, but no camera shows what is in it.
     #[error("{path}: {error}")]
     Framing {
@@ -143,10 +159,11 @@ pub fn load(source: &str) -> Result<LoadedScene, LoadError> {
         return load_built_in(built_in);
     }
     let path = Path::new(source);
-    let extension = path.extension().and_then(OsStr::to_str).map(str::to_ascii_lowercase);
-    match extension.as_deref() {
-        Some("toml") => load_scene_file(path),
-        Some("obj") => load_mesh(path),
+    if let Some(format) = Format::of(path) {
+        return load_mesh(path, format);
+    }
+    match path.extension() {
+        Some(extension) if extension.eq_ignore_ascii_case("toml") => load_scene_file(path),
         None if !source.contains(['/', '\\']) => Err(LoadError::UnknownName {
             name: source.to_owned(),
             meant: nearest_name(source, BUILT_IN.iter().map(|built_in| built_in.name)),
@@ -173,8 +190,8 @@ fn loaded(name: String, file: scene_file::SceneFile, toml: String) -> LoadedScen
     LoadedScene { name, scene, camera, viewport_stated, toml, warnings }
 }
 
-fn load_mesh(path: &Path) -> Result<LoadedScene, LoadError> {
-    let (mesh, missing) = obj::read_with_materials(path)?;
+fn load_mesh(path: &Path, format: Format) -> Result<LoadedScene, LoadError> {
+    let (mesh, missing) = format.read_with_materials(path)?;
     let warnings = missing.iter().map(ToString::to_string).collect();
     let shown = path.display().to_string();
     let camera =
@@ -228,7 +245,7 @@ mod tests {
     fn an_unknown_name_lists_the_known_ones() {
         let says = |name| load(name).unwrap_err().to_string();
         let list = "the built-in scenes are lecture, canonical, ties, behind, slivers, overlap, \
-                    inside, many; a scene file (.toml) or a mesh file (.obj) can be named, too";
+                    inside, many; a scene file (.toml) or a mesh file (.obj, .ply) can be named, too";
         let near =
             format!("there is no built-in scene \"lectuer\"; did you mean \"lecture\"? {list}");
         assert_eq!(says("lectuer"), near);
@@ -238,10 +255,10 @@ mod tests {
 
     #[test]
     fn an_unknown_kind_of_file_is_refused_by_name() {
-        for path in ["meshes/bunny.ply", "bunny.ply", "meshes/bunny"] {
+        for path in ["meshes/bunny.stl", "bunny.stl", "meshes/bunny"] {
             let says = load(path).unwrap_err().to_string();
             let reason =
-                "is neither a scene file (.toml) nor a mesh file (.obj); no others are read";
+                "is neither a scene file (.toml) nor a mesh file (.obj, .ply); no others are read";
             assert_eq!(says, format!("{path} {reason}"));
         }
     }

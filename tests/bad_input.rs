@@ -28,9 +28,10 @@ const REFUSED: &[(&str, &str)] = &[
     ),
     ("no-such.toml", "no-such.toml: there is no such file"),
     ("no-such.obj", "no-such.obj: there is no such file"),
+    ("no-such.ply", "no-such.ply: there is no such file"),
     (
-        "no-such.ply",
-        "no-such.ply is neither a scene file (.toml) nor a mesh file (.obj); no others are read",
+        "no-such.stl",
+        "no-such.stl is neither a scene file (.toml) nor a mesh file (.obj, .ply); no others are read",
     ),
     (
         "empty.obj",
@@ -294,6 +295,15 @@ const REFUSED: &[(&str, &str)] = &[
     (
         "canonical --threads all",
         "invalid value 'all' for '--threads <N>': give a whole number from 1 to 1024",
+    ),
+    (
+        "canonical --stream",
+        "--stream cannot be used with --order both: in image order every ray may need every \
+         triangle",
+    ),
+    (
+        "canonical --order object --stream",
+        "only a mesh file (.obj, .ply) can be streamed, and \"canonical\" is none",
     ),
     (
         "canonical --repeat 0",

@@ -1,5 +1,7 @@
 //! What the fast rasterizer must not depend on, and the triangles that its own paths are made for.
 
+#![expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small numbers")]
+
 mod support;
 
 use bothways::common::glam::{Vec2, Vec3};
@@ -133,7 +135,7 @@ fn grid(side: f32, squares: usize, shift: Vec2) -> Object {
     let square = |k: usize| {
         let a = (k / squares * count + k % squares) as u32;
         let [b, c, d] = [a + 1, a + count as u32 + 1, a + count as u32];
-        if k % 2 == 0 { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] }
+        if k.is_multiple_of(2) { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] }
     };
     let triangles = (0..squares * squares).flat_map(square).collect();
     mesh(Mesh::new((0..count * count).map(place).collect(), triangles).expect("it is a mesh"))

@@ -12,25 +12,33 @@
 //! - `#` before a word begins a comment; a backslash before the end of a line joins the next line.
 //! - `usemtl` names the material of the faces below, `mtllib` a file that defines some: see
 //!   [`read_with_materials`].
-//! - Names, groups, points, lines, free-form geometry and display settings are skipped. Anything else is an error, `call` and `csh` too: they would run or include what is not here.
+//! - Names, groups, points, lines, free-form geometry and display settings are skipped. Anything else
+//!   is an error, `call` and `csh` too: they would run or include what is not here.
+//!
+//! A file that is read in passes, for [`stream`](crate::stream), tells its vertices and triangles only.
 
 mod error;
 mod lines;
 mod materials;
+mod parts;
+mod passes;
 mod write;
 
 pub use error::{Element, ReadObjError, StatementFault};
 pub use materials::{MaterialWarning, parse_materials};
+pub(crate) use passes::ObjFile;
 pub use write::write;
 
+use std::fs;
 use std::path::Path;
-use std::{fs, io};
 
 use glam::{Vec2, Vec3};
 
-use crate::mesh::{Attribute, Mesh, MeshMaterials};
-use error::quote;
+use crate::mesh::{Attribute, Mesh};
+use crate::mesh_file::metadata;
+pub(crate) use error::quote;
 use lines::{Statements, Words};
+use parts::Parts;
 
 /// Reads a mesh from an OBJ file.
 ///
@@ -58,13 +66,8 @@ pub fn read_with_materials(path: &Path) -> Result<(Mesh, Vec<MaterialWarning>), 
 fn read_bytes(path: &Path) -> Result<Vec<u8>, ReadObjError> {
     let file = path.display().to_string();
     let unreadable = |error| ReadObjError::Unreadable { file: file.clone(), error };
-    let metadata = fs::metadata(path).map_err(unreadable)?;
-    // Some systems call it a lack of permission when a folder is opened.
-    if metadata.is_dir() {
-        return Err(unreadable(io::ErrorKind::IsADirectory.into()));
-    }
     // Better to say so before the memory is full.
-    if metadata.len() > MOST_BYTES {
+    if metadata(path).map_err(unreadable)?.len() > MOST_BYTES {
         return Err(ReadObjError::TooLarge { file });
     }
     fs::read(path).map_err(unreadable)
@@ -98,20 +101,22 @@ pub fn parse(name: &str, bytes: &[u8]) -> Result<Mesh, ReadObjError> {
         return Err(ReadObjError::TooLarge { file: name.to_owned() });
     }
     let located = |line, fault| ReadObjError::Statement { file: name.to_owned(), line, fault };
-    let mut reader = Reader::default();
+    let mut reader = Reader::new(Parts::default(), None);
     for (line, words) in Statements::new(without_mark(bytes)) {
         reader.statement(line, words).map_err(|fault| located(line, fault))?;
     }
     reader.check_forward().map_err(|(line, fault)| located(line, fault))?;
-    if reader.triangles.is_empty() {
+    if !reader.sink.has_triangles() {
         return Err(ReadObjError::NoFace { file: name.to_owned() });
     }
-    Ok(reader.finish())
+    Ok(reader.sink.finish())
 }
 
 /// Some editors put a byte order mark before the first line.
+const MARK: &[u8] = b"\xef\xbb\xbf";
+
 fn without_mark(bytes: &[u8]) -> &[u8] {
-    bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
+    bytes.strip_prefix(MARK).unwrap_or(bytes)
 }
 
 /// The shortest definition, `vt 0` and a line end, has five bytes: so many bytes define fewer than
@@ -121,17 +126,26 @@ const MOST_BYTES: u64 = 1 << 34;
 /// Says that a corner lacks something: [`Attribute::NONE`], whatever the values are.
 const NONE: u32 = Attribute::<()>::NONE;
 
-/// What has been read so far.
-#[derive(Default)]
-struct Reader {
-    positions: Vec<Vec3>,
-    triangles: Vec<[u32; 3]>,
-    texture_coordinates: Attribute<Vec2>,
-    normals: Attribute<Vec3>,
-    materials: MeshMaterials,
-    /// What the last `usemtl` says, until a face uses it; `Some(None)` is no name.
-    next_material: Option<Option<String>>,
-    /// What faces name before it is defined, for each [`Element`].
+/// Who takes what the statements of a file define, in its order.
+pub(super) trait Sink {
+    fn position(&mut self, position: Vec3);
+    fn texture_coordinate(&mut self, _value: Vec2) {}
+    fn normal(&mut self, _normal: Vec3) {}
+    fn triangle(&mut self, corners: [Corner; 3]);
+    /// The material of the triangles from here on; `None` is no name.
+    fn material(&mut self, _name: Option<String>) {}
+    /// A file that defines materials.
+    fn material_library(&mut self, _name: &str) {}
+}
+
+/// Takes up statement after statement, and checks what faces name.
+pub(super) struct Reader<S> {
+    sink: S,
+    /// How many are defined so far, for each [`Element`].
+    defined: [usize; 3],
+    /// How many the whole file defines, if that is known.
+    total: Option<[usize; 3]>,
+    /// What faces name before it is defined, for each [`Element`], as long as no total is known.
     forward: [Vec<Forward>; 3],
 }
 
@@ -143,25 +157,36 @@ struct Forward {
 }
 
 /// One corner of a face: its vertex, texture coordinate and normal, counted from 0.
-type Corner = [u32; 3];
+pub(super) type Corner = [u32; 3];
 
 /// In the order in which a corner names them.
 const ELEMENTS: [Element; 3] = [Element::Vertex, Element::TextureCoordinate, Element::Normal];
 
-impl Reader {
+impl<S: Sink> Reader<S> {
+    fn new(sink: S, total: Option<[usize; 3]>) -> Self {
+        Reader { sink, defined: [0; 3], total, forward: Default::default() }
+    }
+
     fn statement(&mut self, line: usize, mut words: Words) -> Result<(), StatementFault> {
         let Some(keyword) = words.next() else { return Ok(()) };
         match keyword {
-            b"v" => self.positions.push(numbers(words, Element::Vertex, 3)?.into()),
-            b"vn" => self.normals.values.push(numbers(words, Element::Normal, 3)?.into()),
+            b"v" => {
+                self.sink.position(numbers(words, Element::Vertex, 3)?.into());
+                self.defined[Element::Vertex as usize] += 1;
+            }
+            b"vn" => {
+                self.sink.normal(numbers(words, Element::Normal, 3)?.into());
+                self.defined[Element::Normal as usize] += 1;
+            }
             b"vt" => {
                 let value: [f32; 2] = numbers(words, Element::TextureCoordinate, 1)?;
-                self.texture_coordinates.values.push(value.into());
+                self.sink.texture_coordinate(value.into());
+                self.defined[Element::TextureCoordinate as usize] += 1;
             }
             // Version 2 of the format had a second keyword, which became the first.
             b"f" | b"fo" => self.face(line, words)?,
-            b"usemtl" => self.next_material = Some(words.text()),
-            b"mtllib" => words.text().iter().for_each(|name| self.materials.add_library(name)),
+            b"usemtl" => self.sink.material(words.text()),
+            b"mtllib" => words.text().iter().for_each(|name| self.sink.material_library(name)),
             _ if is_skipped(keyword) => {}
             _ if !is_text(keyword) => return Err(StatementFault::NotText),
             _ => return Err(StatementFault::UnknownKeyword { keyword: quote(keyword) }),
@@ -178,23 +203,12 @@ impl Reader {
             match corners {
                 0 => first = corner,
                 1 => {}
-                _ => self.triangle([first, before, corner]),
+                _ => self.sink.triangle([first, before, corner]),
             }
             before = corner;
             corners += 1;
         }
         if corners < 3 { Err(StatementFault::TooFewCorners { corners }) } else { Ok(()) }
-    }
-
-    fn triangle(&mut self, corners: [Corner; 3]) {
-        let triangle = self.triangles.len();
-        if let Some(name) = self.next_material.take() {
-            self.materials.use_from(triangle, name.as_deref());
-        }
-        self.triangles.push(corners.map(|[vertex, _, _]| vertex));
-        let texture_coordinates = corners.map(|[_, texture_coordinate, _]| texture_coordinate);
-        carry(&mut self.texture_coordinates.corners, triangle, texture_coordinates);
-        carry(&mut self.normals.corners, triangle, corners.map(|[_, _, normal]| normal));
     }
 
     fn corner(&mut self, line: usize, word: &[u8]) -> Result<Corner, StatementFault> {
@@ -214,7 +228,7 @@ impl Reader {
 
     /// Turns an index of the file into one that counts from 0.
     fn resolve(&mut self, line: usize, what: Element, index: i64) -> Result<u32, StatementFault> {
-        let defined = self.defined(what);
+        let defined = self.defined[what as usize];
         // A slice is never longer than i64::MAX.
         let count = i64::try_from(defined).unwrap_or(i64::MAX);
         let from_zero = match index {
@@ -225,19 +239,14 @@ impl Reader {
             }
             _ => count + index,
         };
-        if index > count {
-            self.note_forward(what, Forward { line, index });
+        match self.total.map(|total| total[what as usize]) {
+            _ if index <= count => {}
+            None => self.note_forward(what, Forward { line, index }),
+            Some(defined) if is_within(index, defined) => {}
+            Some(defined) => return Err(StatementFault::Unknown { what, index, defined }),
         }
         // An index that does not fit is larger than any that can be defined: the note refuses it.
         Ok(u32::try_from(from_zero).unwrap_or(NONE))
-    }
-
-    fn defined(&self, what: Element) -> usize {
-        match what {
-            Element::Vertex => self.positions.len(),
-            Element::TextureCoordinate => self.texture_coordinates.values.len(),
-            Element::Normal => self.normals.values.len(),
-        }
     }
 
     /// Keeps a forward reference if it reaches farther than all before it: the first one that turns
@@ -252,42 +261,17 @@ impl Reader {
     /// Finds the first face that names what is not defined below it either.
     fn check_forward(&self) -> Result<(), (usize, StatementFault)> {
         let unknown = ELEMENTS.into_iter().filter_map(|what| {
-            let defined = self.defined(what);
-            let too_far = |index| usize::try_from(index).is_ok_and(|index| index > defined);
-            let first = self.forward[what as usize].iter().find(|noted| too_far(noted.index))?;
+            let (defined, noted) = (self.defined[what as usize], &self.forward[what as usize]);
+            let first = noted.iter().find(|noted| !is_within(noted.index, defined))?;
             Some((first.line, StatementFault::Unknown { what, index: first.index, defined }))
         });
         unknown.min_by_key(|&(line, _)| line).map_or(Ok(()), Err)
     }
-
-    fn finish(self) -> Mesh {
-        let triangles = self.triangles.len();
-        let normals = complete(self.normals, triangles);
-        let texture_coordinates = complete(self.texture_coordinates, triangles);
-        Mesh::new(self.positions, self.triangles)
-            .and_then(|mesh| mesh.with_normals(normals))
-            .and_then(|mesh| mesh.with_texture_coordinates(texture_coordinates))
-            .expect("the reader has checked every number and every index")
-            .with_materials(self.materials)
-    }
 }
 
-/// Notes what the corners of a triangle carry, if they do; earlier triangles may have been silent.
-fn carry(list: &mut Vec<[u32; 3]>, triangle: usize, corners: [u32; 3]) {
-    if corners != [NONE; 3] {
-        list.resize(triangle, [NONE; 3]);
-        list.push(corners);
-    }
-}
-
-/// Gives an attribute an entry for each triangle; one that no corner names vanishes.
-fn complete<T>(mut attribute: Attribute<T>, triangles: usize) -> Attribute<T> {
-    if attribute.corners.is_empty() {
-        attribute.values = Vec::new();
-    } else {
-        attribute.corners.resize(triangles, [NONE; 3]);
-    }
-    attribute
+/// Whether so many elements have one of this index, counted from 1.
+fn is_within(index: i64, count: usize) -> bool {
+    usize::try_from(index).is_ok_and(|index| index <= count)
 }
 
 /// The first `N` numbers of a statement, `needed` of which must be there; the others are 0.

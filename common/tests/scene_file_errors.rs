@@ -322,10 +322,10 @@ fn what_is_wrong_with_an_object() {
             "4:12: there is no material \"gold\"; the materials are clay",
         ),
         (
-            "[[object]]\nmesh = 'bunny.ply'",
-            "'bunny.ply'",
-            "2:8: mesh is \"bunny.ply\", which is no .obj file; convert it to OBJ; no other \
-             format is read",
+            "[[object]]\nmesh = 'bunny.stl'",
+            "'bunny.stl'",
+            "2:8: mesh is \"bunny.stl\", which is no .obj or .ply file; convert it to OBJ or PLY; \
+             no others are read",
         ),
         (
             "[[object]]\ngenerate = { kind = 'tors' }",

@@ -11,7 +11,7 @@ use std::path::PathBuf;
 /// What to render, how, and where to.
 #[derive(Debug, Args)]
 pub(super) struct RenderArgs {
-    /// A built-in scene, a .toml scene file, or a mesh file (framed automatically)
+    /// A built-in scene, a .toml scene file, or a mesh file (.obj or .ply, framed automatically)
     #[arg(default_value = "lecture")]
     pub(super) scene: String,
     #[command(flatten)]
@@ -68,6 +68,10 @@ pub(super) struct MethodArgs {
     /// Threads to render with; all cores if not given
     #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]
     pub(super) threads: Option<u16>,
+    /// Draw a mesh file that may be larger than memory: only its vertices are kept, its faces pass by
+    /// (with --order object; flat normals)
+    #[arg(long)]
+    pub(super) stream: bool,
     /// Render N times after a warm-up, and report the spread of times
     #[arg(long, value_name = "N", value_parser = from_1, allow_negative_numbers = true)]
     pub(super) repeat: Option<u32>,

@@ -16,6 +16,7 @@ mod pixel;
 mod progress;
 mod render;
 mod show_camera;
+mod stream;
 mod table;
 mod terminal;
 mod usage;
@@ -37,6 +38,7 @@ Examples:
   bothways canonical --size 64x64 -o small   a built-in scene, in small
   bothways bunny.obj --projection parallel   a mesh file, framed automatically
   bothways scene.toml --order object         one order alone
+  bothways huge.ply --order object --stream  a mesh that is larger than memory
   bothways render --repeat 20 --json         measured times, for a program to read
   bothways scenes                            what is built in
   bothways diff a.png b.png                  which pixels of two files differ, and how

@@ -5,7 +5,7 @@ use super::camera::{camera, squashed};
 use super::failure::Failure;
 use super::output::Staging;
 use super::progress::Bar;
-use super::{npy, table, terminal};
+use super::{npy, stream, table, terminal};
 use bothways::common::camera::check_samples;
 use bothways::common::{Camera, Options, View};
 use bothways::diff::{Classes, Comparison, compare};
@@ -23,11 +23,26 @@ use std::process::ExitCode;
 
 /// Renders, writes and prints; 0 if both orders see the same (or one was asked for), 1 if not.
 pub(super) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
+    if args.method.stream {
+        return stream::run(args);
+    }
     let loaded = scenes::load(&args.scene)?;
+    let (camera, staging, folder) = prepared_output(args, &loaded)?;
+    let pool = thread_pool(args)?;
+    let bar = if args.output.quiet { None } else { Bar::on_terminal() };
+    pool.install(|| Run::new(args, &loaded, &camera, bar.as_ref()).finish(staging, &folder, bar))
+}
+
+/// The camera, and where to write: before the work, so that nobody waits for pictures that cannot be
+/// written. Tells what the scene lacks, too.
+pub(super) fn prepared_output(
+    args: &RenderArgs,
+    loaded: &LoadedScene,
+) -> Result<(Camera, Staging, PathBuf), Failure> {
     if !args.output.quiet {
         terminal::warn(&loaded.warnings);
     }
-    let camera = camera(&loaded, &args.camera)?;
+    let camera = camera(loaded, &args.camera)?;
     check_samples(camera.image(), args.method.samples)
         .map_err(|error| Failure::new(format!("--samples {}: {error}", args.method.samples)))?;
     check_memory(&camera, args)?;
@@ -35,18 +50,19 @@ pub(super) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
         Some(folder) => folder.clone(),
         None => PathBuf::from("out").join(&loaded.name),
     };
-    // Before the work, so that nobody waits for pictures that cannot be written.
     let staging = Staging::begin(&folder)?;
-
     if let Some(hint) = squashed(&camera, &args.camera).filter(|_| !args.output.quiet) {
         anstream::eprintln!("hint: {hint}");
     }
-    let pool = rayon::ThreadPoolBuilder::new()
+    Ok((camera, staging, folder))
+}
+
+/// The threads to render on.
+pub(super) fn thread_pool(args: &RenderArgs) -> Result<rayon::ThreadPool, Failure> {
+    rayon::ThreadPoolBuilder::new()
         .num_threads(args.method.threads.unwrap_or(0).into())
         .build()
-        .map_err(|error| Failure::new(format!("cannot start the threads: {error}")))?;
-    let bar = if args.output.quiet { None } else { Bar::on_terminal() };
-    pool.install(|| Run::new(args, &loaded, &camera, bar.as_ref()).finish(staging, &folder, bar))
+        .map_err(|error| Failure::new(format!("cannot start the threads: {error}")))
 }
 
 /// Bytes that one order keeps for a sample: id, distance, normal and colour.
@@ -74,11 +90,11 @@ fn check_memory(camera: &Camera, args: &RenderArgs) -> Result<(), Failure> {
 }
 
 /// Everything that came of the rendering.
-struct Run<'a> {
-    args: &'a RenderArgs,
-    rendered: Vec<Rendered>,
-    comparison: Option<Comparison>,
-    report: Report,
+pub(super) struct Run<'a> {
+    pub(super) args: &'a RenderArgs,
+    pub(super) rendered: Vec<Rendered>,
+    pub(super) comparison: Option<Comparison>,
+    pub(super) report: Report,
 }
 
 impl<'a> Run<'a> {
@@ -116,7 +132,8 @@ impl<'a> Run<'a> {
         Run { args, rendered, comparison, report }
     }
 
-    fn finish(
+    /// Writes everything, and prints the report.
+    pub(super) fn finish(
         &self,
         mut staging: Staging,
         folder: &Path,

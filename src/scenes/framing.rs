@@ -56,7 +56,20 @@ const FILLED: f64 = 0.92;
 ///
 /// A mesh without triangles or without size, or one that leads out of the range of `f32`.
 pub fn framed(mesh: &Mesh) -> Result<CameraDescription, FrameMeshError> {
-    let (low, high) = bounds(mesh).ok_or(FrameMeshError::Empty)?;
+    let used = mesh.triangles().iter().flatten();
+    framed_positions(used.map(|&vertex| mesh.positions()[vertex as usize]))
+}
+
+/// The same camera for the positions that the mesh's triangles use, each at least once.
+///
+/// # Errors
+///
+/// As for [`framed`].
+pub fn framed_positions(
+    positions: impl Iterator<Item = Vec3> + Clone,
+) -> Result<CameraDescription, FrameMeshError> {
+    let points = positions.map(|position| position.as_dvec3());
+    let (low, high) = bounds(points.clone()).ok_or(FrameMeshError::Empty)?;
     let (center, diagonal) = (0.5 * (low + high), (high - low).length());
     if diagonal == 0.0 {
         return Err(FrameMeshError::Point);
@@ -70,7 +83,7 @@ pub fn framed(mesh: &Mesh) -> Result<CameraDescription, FrameMeshError> {
         let p = point - center;
         p.dot(w) + lens * p.dot(u).abs().max(p.dot(v).abs())
     };
-    let away = points(mesh).map(needed).fold(0.5 * diagonal, f64::max);
+    let away = points.map(needed).fold(0.5 * diagonal, f64::max);
     let eye = (center + away * w).as_vec3();
     let target = center.as_vec3();
     if !eye.is_finite() {
@@ -89,15 +102,9 @@ pub fn framed(mesh: &Mesh) -> Result<CameraDescription, FrameMeshError> {
     })
 }
 
-/// The least and the greatest coordinates of what triangles use.
-fn bounds(mesh: &Mesh) -> Option<(DVec3, DVec3)> {
-    points(mesh).map(|p| (p, p)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
-}
-
-/// The corners of all triangles.
-fn points(mesh: &Mesh) -> impl Iterator<Item = DVec3> {
-    let used = mesh.triangles().iter().flatten();
-    used.map(|&vertex| mesh.positions()[vertex as usize].as_dvec3())
+/// The least and the greatest coordinates.
+fn bounds(points: impl Iterator<Item = DVec3>) -> Option<(DVec3, DVec3)> {
+    points.map(|p| (p, p)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
 }
 
 #[cfg(test)]

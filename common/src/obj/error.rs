@@ -1,5 +1,6 @@
 //! Why an OBJ file could not be read: which file, where in it, what is wrong there.
 
+use crate::mesh_file::Unreadable;
 use std::fmt;
 use std::io;
 
@@ -7,7 +8,7 @@ use std::io;
 #[derive(Debug, thiserror::Error)]
 pub enum ReadObjError {
     /// There is no such file, it is a folder, or the system does not give it away.
-    #[error("{file}: {}", Unreadable(.error))]
+    #[error("{file}: {}", Unreadable::new(.error, "an OBJ file"))]
     Unreadable {
         /// The file.
         file: String,
@@ -59,6 +60,15 @@ pub enum StatementFault {
         /// The keyword.
         keyword: String,
     },
+    /// The statement does not fit into the buffer of a file that is streamed.
+    #[error("a statement of more than {most} bytes cannot be streamed; cut the polygon up")]
+    TooLong {
+        /// The most bytes that it may have.
+        most: usize,
+    },
+    /// More vertices than indices of 32 bits can name.
+    #[error("there are too many vertices; at most {} can be told apart", u32::MAX - 1)]
+    TooManyVertices,
     /// A coordinate is not a number.
     #[error("{text:?} is not a number")]
     NotANumber {
@@ -188,22 +198,8 @@ impl fmt::Display for Defined {
     }
 }
 
-/// The common failures in our words, the others in the system's.
-struct Unreadable<'a>(&'a io::Error);
-
-impl fmt::Display for Unreadable<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        match self.0.kind() {
-            io::ErrorKind::NotFound => f.write_str("there is no such file"),
-            io::ErrorKind::IsADirectory => f.write_str("this is a folder, not an OBJ file"),
-            io::ErrorKind::PermissionDenied => f.write_str("there is no permission to read it"),
-            _ => write!(f, "it cannot be read: {}", self.0),
-        }
-    }
-}
-
 /// A word of the file, fit for a message.
-pub(super) fn quote(word: &[u8]) -> String {
+pub(crate) fn quote(word: &[u8]) -> String {
     /// Longer words say no more.
     const MOST: usize = 32;
     // A character has at most four bytes, so this cuts none that would be shown.

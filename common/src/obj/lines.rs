@@ -1,5 +1,7 @@
 //! The statements of an OBJ file and the words of a statement, taken from its bytes without a copy.
 
+use std::io::{self, BufRead, Read};
+
 /// Walks through the statements of a file: its lines, where a backslash at the end joins the next.
 ///
 /// Lines end with a line feed, with or without a carriage return before it.
@@ -41,6 +43,44 @@ impl<'a> Iterator for Statements<'a> {
     }
 }
 
+/// Takes the statements of a file out of a reader, one at a time, through a buffer of one statement.
+pub(super) struct BufferedStatements<R> {
+    input: R,
+    statement: Vec<u8>,
+    next_line: usize,
+}
+
+impl<R: BufRead> BufferedStatements<R> {
+    /// All statements from here on.
+    pub(super) fn new(input: R) -> Self {
+        BufferedStatements { input, statement: Vec::new(), next_line: 1 }
+    }
+
+    /// As [`Statements::next`]; of a statement of more than `most` bytes, no more than one byte
+    /// too many.
+    pub(super) fn next(&mut self, most: usize) -> io::Result<Option<(usize, Words<'_>)>> {
+        let first_line = self.next_line;
+        self.statement.clear();
+        loop {
+            let start = self.statement.len();
+            let room = (most + 1).saturating_sub(start) as u64;
+            self.input.by_ref().take(room).read_until(b'\n', &mut self.statement)?;
+            if self.statement.is_empty() {
+                return Ok(None);
+            }
+            let Some(line) = self.statement[start..].strip_suffix(b"\n") else {
+                break;
+            };
+            self.next_line += 1;
+            if !continues(line) {
+                self.statement.pop();
+                break;
+            }
+        }
+        Ok(Some((first_line, Words { rest: &self.statement })))
+    }
+}
+
 /// Whether the line after this one belongs to the same statement.
 fn continues(line: &[u8]) -> bool {
     // A comment ends with its line, even if it ends with a folder's name.
@@ -60,6 +100,11 @@ impl<'a> Words<'a> {
     pub(super) fn text(&self) -> Option<String> {
         let text = self.rest.trim_ascii();
         (!text.is_empty()).then(|| String::from_utf8_lossy(text).into_owned())
+    }
+
+    /// Bytes that are left of the statement.
+    pub(super) fn length(&self) -> usize {
+        self.rest.len()
     }
 
     fn any_comment(mut self) -> bool {

@@ -43,6 +43,11 @@ pub enum MaterialWarning {
         /// Their names.
         names: Vec<String>,
     },
+    /// The mesh is streamed, so nobody asks for its materials.
+    Streamed {
+        /// The mesh's file.
+        file: String,
+    },
 }
 
 impl fmt::Display for MaterialWarning {
@@ -69,6 +74,11 @@ impl fmt::Display for MaterialWarning {
                      light grey"
                 )
             }
+            MaterialWarning::Streamed { file } => write!(
+                f,
+                "{file}: the materials of a mesh that is streamed are not read; all of it is drawn \
+                 in light grey"
+            ),
         }
     }
 }

@@ -5,7 +5,7 @@
 //! | `triangle = { a, b, c }` | its corners |
 //! | `sphere = { center, radius }` | |
 //! | `plane = { point, normal }` | an infinite plane |
-//! | `mesh = "bunny.obj"` | a mesh file, relative to the scene file, with its own colours |
+//! | `mesh = "bunny.obj"` | an OBJ (with its own colours) or PLY file, relative to the scene file |
 //! | `generate = { kind, divisions }` | a mesh that is computed: see [`Kind`] |
 //! | `material` | the name of a material, instead of those of a mesh file; light grey without it |
 //! | `scale`, `rotate = { axis, degrees }`, `translate` | where it is put, in this order |
@@ -16,7 +16,7 @@ use super::reader::{Item, Table, suggestion};
 use super::transform::{self, Transform};
 use crate::generate::Kind;
 use crate::mesh::MeshMaterials;
-use crate::obj::{self, ReadObjError};
+use crate::mesh_file::{Format, ReadMeshError};
 use crate::scene::{Material, Object, Plane, Shape, Sphere, Triangle};
 use crate::smooth;
 use std::path::Path;
@@ -58,7 +58,8 @@ fn check_pattern(object: &Table, shape: &Shape, material: &Material) -> Result<(
         {
             let message = "this material has a checker, and the mesh has no texture coordinates";
             Err(Problem::new(object.place_of("material"), message).help(
-                "export the mesh with texture coordinates (vt), or choose a material without checker",
+                "export the mesh as OBJ with texture coordinates (vt), or choose a material without \
+                 checker",
             ))
         }
         _ => Ok(()),
@@ -105,18 +106,18 @@ fn mesh(
     warnings: &mut Vec<String>,
 ) -> Result<Shape, Problem> {
     let path = Path::new(item.text()?);
-    if !path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("obj")) {
-        let problem = item.problem(format!("is {:?}, which is no .obj file", path.display()));
-        return Err(problem.help("convert it to OBJ; no other format is read"));
-    }
+    let Some(format) = Format::of(path) else {
+        let problem = format!("is {:?}, which is no .obj or .ply file", path.display());
+        return Err(item.problem(problem).help("convert it to OBJ or PLY; no others are read"));
+    };
     let path = folder.join(path);
-    let wrong = |error: ReadObjError| Problem::new(item.span.clone(), error.to_string());
+    let wrong = |error: ReadMeshError| Problem::new(item.span.clone(), error.to_string());
     let mesh = if coloured {
-        let (mesh, missing) = obj::read_with_materials(&path).map_err(wrong)?;
+        let (mesh, missing) = format.read_with_materials(&path).map_err(wrong)?;
         warnings.extend(missing.iter().map(ToString::to_string));
         mesh
     } else {
-        obj::read(&path).map_err(wrong)?.with_materials(MeshMaterials::default())
+        format.read(&path).map_err(wrong)?.with_materials(MeshMaterials::default())
     };
     Ok(Shape::Mesh(smooth::with_normals(mesh, smooth::CREASE)))
 }

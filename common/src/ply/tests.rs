@@ -1,0 +1,325 @@
+//! What the reader takes, what it refuses, and in which words.
+
+use super::header::Encoding;
+use super::*;
+use proptest::collection::vec;
+use proptest::prelude::*;
+
+/// A header with these lines between its first and its last.
+fn header(encoding: &str, lines: &[&str]) -> String {
+    format!("ply\nformat {encoding} 1.0\n{}\nend_header\n", lines.join("\n"))
+}
+
+const XYZ: &str = "property float x\nproperty float y\nproperty float z";
+const FACES: &str = "property list uchar int vertex_indices";
+/// The corners of a square.
+const SQUARE: &str = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+
+/// A square's vertices and some faces, in words.
+fn square(faces: usize, lines: &str) -> String {
+    let face = format!("element face {faces}");
+    header("ascii", &["element vertex 4", XYZ, &face, FACES]) + SQUARE + lines
+}
+
+/// The message that a file earns; the file is called `a`.
+fn message(bytes: impl AsRef<[u8]>) -> String {
+    parse("a", bytes.as_ref()).unwrap_err().to_string()
+}
+
+fn message_of_header(lines: &[&str]) -> String {
+    message(header("ascii", lines))
+}
+
+#[test]
+fn polygons_become_fans_in_file_order() {
+    let mesh = parse("a", square(2, "4 1 2 3 0\n3 0 1 2").as_bytes()).unwrap();
+    assert_eq!(mesh.triangles(), [[1, 2, 3], [1, 3, 0], [0, 1, 2]]);
+    assert_eq!(mesh.positions()[2], Vec3::new(1.0, 1.0, 0.0));
+}
+
+/// A file with every type, in one of the three encodings.
+fn every_type(encoding: Encoding) -> Vec<u8> {
+    let name = match encoding {
+        Encoding::Ascii => "ascii",
+        Encoding::LittleEndian => "binary_little_endian",
+        Encoding::BigEndian => "binary_big_endian",
+    };
+    let text = header(
+        name,
+        &[
+            "comment by hand",
+            "obj_info nothing",
+            "element camera 1",
+            "property list ushort short view",
+            "element vertex 3",
+            "property uchar red",
+            "property float z",
+            "property double x",
+            "property short y",
+            "property list char float weights",
+            "element face 1",
+            "property uint flags",
+            "property list uint ushort vertex_index",
+            "element edge 1",
+            "property int8 first",
+        ],
+    );
+    let mut bytes = text.replace('\n', "\r\n").into_bytes();
+    let mut put = |word: &str, value: &[u8], line_end: bool| match encoding {
+        Encoding::Ascii => {
+            bytes.extend_from_slice(word.as_bytes());
+            bytes.extend_from_slice(if line_end { b"\r\n" } else { b" " });
+        }
+        Encoding::LittleEndian => bytes.extend_from_slice(value),
+        Encoding::BigEndian => bytes.extend(value.iter().rev()),
+    };
+    put("2", &2_u16.to_le_bytes(), false);
+    put("-7", &(-7_i16).to_le_bytes(), false);
+    put("9", &9_i16.to_le_bytes(), true);
+    for (x, y, z) in [(0.1_f64, 0_i16, 0.5_f32), (1e-60, 7, -0.25), (-2.0, -300, 4.0)] {
+        put("255", &[255], false);
+        put(&z.to_string(), &z.to_le_bytes(), false);
+        put(&x.to_string(), &x.to_le_bytes(), false);
+        put(&y.to_string(), &y.to_le_bytes(), false);
+        put("1", &[1], false);
+        put("nan", &f32::NAN.to_le_bytes(), true);
+    }
+    put("4000000000", &4_000_000_000_u32.to_le_bytes(), false);
+    put("3", &3_u32.to_le_bytes(), false);
+    for index in [2_u16, 0, 1] {
+        put(&index.to_string(), &index.to_le_bytes(), index == 1);
+    }
+    put("-1", &[255], true);
+    bytes
+}
+
+#[test]
+fn all_types_are_read_in_all_encodings() {
+    for encoding in [Encoding::Ascii, Encoding::LittleEndian, Encoding::BigEndian] {
+        let bytes = every_type(encoding);
+        let mesh = parse("a", &bytes).unwrap_or_else(|error| panic!("{encoding:?}: {error}"));
+        let expected =
+            [Vec3::new(0.1, 0.0, 0.5), Vec3::new(0.0, 7.0, -0.25), Vec3::new(-2.0, -300.0, 4.0)];
+        assert_eq!(mesh.positions(), expected, "{encoding:?}");
+        assert_eq!(mesh.triangles(), [[2, 0, 1]], "{encoding:?}");
+        // In passes, the vertices are passed over or read through.
+        let mut file = PlyFile::new("a".into(), Cursor::new(bytes.as_slice())).unwrap();
+        let (mut positions, mut triangles) = (Vec::new(), Vec::new());
+        for _ in 0..2 {
+            file.vertices(|position| positions.push(position)).unwrap();
+            file.triangles(|triangle| triangles.push(triangle)).unwrap();
+        }
+        assert_eq!(positions, [expected, expected].concat());
+        assert_eq!(triangles, [[2, 0, 1], [2, 0, 1]]);
+    }
+}
+
+#[test]
+fn a_file_cut_short_anywhere_is_refused() {
+    for encoding in [Encoding::LittleEndian, Encoding::BigEndian] {
+        let bytes = every_type(encoding);
+        for end in 0..bytes.len() {
+            assert!(parse("a", &bytes[..end]).is_err(), "{encoding:?} with {end} bytes");
+        }
+        let longer = [bytes.as_slice(), b"\n"].concat();
+        let place = format!("(byte {})", bytes.len());
+        assert!(
+            message(longer).starts_with(&format!("a: something follows the last element {place}"))
+        );
+    }
+}
+
+#[test]
+fn coordinates_round_once_to_the_nearest() {
+    // Just above the middle between 1 and its successor; as an f64 it is that middle, a tie.
+    let lines = square(1, "3 0 1 2").replace("1 1 0", "1.00000005960464477540 1e-60 1e-45");
+    let position = parse("a", lines.as_bytes()).unwrap().positions()[2];
+    assert_eq!(position.x, 1.0 + f32::EPSILON);
+    assert_eq!((position.y, position.z), (0.0, f32::from_bits(1)));
+}
+
+#[test]
+fn faces_may_come_before_vertices() {
+    let text = header("ascii", &["element face 1", FACES, "element vertex 3", XYZ]);
+    let text = text + "3 2 1 0\n\n0 0 0\n1 0 0\n  \n1 1 0\n\n \n";
+    assert_eq!(parse("a", text.as_bytes()).unwrap().triangles(), [[2, 1, 0]]);
+}
+
+#[test]
+fn headers_that_are_none_say_so() {
+    assert_eq!(message(""), "a:1: the file is empty");
+    let no_ply = "a:1: this is no PLY file, which begins with a line that says \"ply\"";
+    assert_eq!(message("v 0 0 0\n"), no_ply);
+    assert_eq!(message([0xff; 9000]), no_ply);
+    let no_end = "the header has no end; a line that says \"end_header\" must close it";
+    assert_eq!(message("ply\nformat ascii 1.0\n"), format!("a:2: {no_end}"));
+    assert_eq!(message(format!("ply\ncomment {}", "x".repeat(9000))), format!("a:2: {no_end}"));
+    assert_eq!(
+        message("ply\nformat text 1.0\n"),
+        "a:2: there is no format \"text\"; it is ascii, binary_little_endian or binary_big_endian"
+    );
+    assert_eq!(
+        message("ply\nformat ascii 2.0\n"),
+        "a:2: PLY of version \"2.0\" cannot be read; there is only 1.0"
+    );
+    let unknown = message_of_header(&["elements vertex 3"]);
+    assert!(unknown.starts_with("a:3: \"elements vertex 3\" is no line of a PLY header"));
+    let says = |lines: &[&str]| {
+        let message = message_of_header(lines);
+        message.split_once(": ").unwrap().1.to_owned()
+    };
+    assert_eq!(says(&["format ascii 1.0"]), "the header has a second format");
+    assert_eq!(says(&["element vertex -1"]), "\"-1\" is no number of elements of vertex");
+    assert_eq!(
+        says(&["element vertex 99999999999999999999"]),
+        "\"99999999999999999999\" is no number of elements of vertex"
+    );
+    assert_eq!(says(&["element vertex 3", "element face 1"]), "the element vertex has no property");
+    assert_eq!(
+        says(&["element vertex 3", XYZ, "element vertex 3"]),
+        "the header has a second element vertex"
+    );
+    assert_eq!(
+        says(&["element vertex 3", XYZ, XYZ]),
+        "the header has a second property x of vertex"
+    );
+    assert!(says(&["property float x"]).starts_with("the property x belongs to no element"));
+    assert!(
+        says(&["element vertex 1", "property real x"]).starts_with("there is no type \"real\"")
+    );
+    assert_eq!(
+        says(&["element face 1", "property list float int vertex_indices"]),
+        "the length of the list vertex_indices is no integer type"
+    );
+}
+
+#[test]
+fn headers_without_a_mesh_say_what_they_lack() {
+    let says = |lines: &[&str]| {
+        let message = message_of_header(lines);
+        message.split_once(": ").unwrap().1.to_owned()
+    };
+    assert_eq!(
+        message("ply\nelement face 1\nproperty int x\nend_header\n"),
+        "a:4: the header has no line \"format\""
+    );
+    let no_faces = "no elements face, so nothing to draw; export the mesh as polygons";
+    assert_eq!(says(&["element vertex 3", XYZ]), no_faces);
+    assert_eq!(says(&["element vertex 3", XYZ, "element face 0", FACES]), no_faces);
+    let no_vertices = "the header has no element vertex, so nothing has a place";
+    assert_eq!(says(&["element face 1", FACES]), no_vertices);
+    let face = ["element face 1", FACES];
+    assert_eq!(
+        says(&["element vertex 3", "property float x\nproperty list int int y", face[0], face[1]]),
+        "the element vertex has no property y that is a number"
+    );
+    assert_eq!(
+        says(&["element vertex 4294967295", XYZ, face[0], face[1]]),
+        "4294967295 vertices are too many; at most 4294967294 can be told apart"
+    );
+    for list in ["property list uchar float vertex_indices", "property int vertex_index"] {
+        assert_eq!(
+            says(&["element vertex 3", XYZ, "element face 1", list]),
+            "the element face has no list vertex_indices (or vertex_index) of integers"
+        );
+    }
+}
+
+#[test]
+fn elements_that_are_wrong_say_which_and_where() {
+    let unknown = "vertices are counted from 0 and there are 4";
+    assert_eq!(
+        message(square(2, "3 0 1 2\n3 0 1 4\n")),
+        format!("a: face 1 (line 15): it names vertex 4, but {unknown}")
+    );
+    assert_eq!(
+        message(square(1, "3 0 -1 2\n")),
+        format!("a: face 0 (line 14): it names vertex -1, but {unknown}")
+    );
+    let corners = |count| format!("a face needs at least 3 corners, this one has {count}");
+    assert_eq!(message(square(1, "2 0 1\n")), format!("a: face 0 (line 14): {}", corners(2)));
+    assert_eq!(message(square(1, "-1\n")), format!("a: face 0 (line 14): {}", corners(-1)));
+    let says = |lines: &str| {
+        let message = message(square(1, lines));
+        message.strip_prefix("a: face 0 (line 14): ").expect(&message).to_owned()
+    };
+    let short = "the line ends before its element does; an element is one line";
+    assert_eq!(says("3 0 1\n2\n"), short);
+    let long = "the line goes on behind its element with \"3\"; an element is one line";
+    assert_eq!(says("3 0 1 2 3\n"), long);
+    assert_eq!(says("3 0 1 2.5\n"), "\"2.5\" is not a whole number of the property's type");
+    assert_eq!(says("300 0 1 2\n"), "\"300\" is not a whole number of the property's type");
+    let promised = "but its header promises 1 such elements; is it truncated?";
+    assert_eq!(says("3 0 1"), format!("the file ends here, {promised}"));
+    let trailing = message(square(1, "3 0 1 2\n3 0 1 2\n"));
+    assert!(trailing.starts_with("a: something follows the last element (line 15)"), "{trailing}");
+}
+
+#[test]
+fn coordinates_that_are_none_say_so() {
+    let says = |word: &str| {
+        let message = message(square(1, "3 0 1 2\n").replacen("1 0 0", &format!("{word} 0 0"), 1));
+        message.strip_prefix("a: vertex 1 (line 11): ").expect(&message).to_owned()
+    };
+    assert_eq!(says("0,5"), "\"0,5\" is not a number");
+    assert_eq!(says(&"1".repeat(3000)), format!("\"{}…\" is not a number", "1".repeat(32)));
+    assert_eq!(says("nan"), "the coordinate x is nan, which is not a finite number");
+    let end = "is out of range: single precision ends at 3.4028235e38";
+    assert_eq!(says("-1e39"), format!("the coordinate x = -1e39 {end}"));
+    assert_eq!(says("1e999"), format!("the coordinate x = 1e999 {end}"));
+
+    let lines = ["element vertex 1", "property double x\nproperty char y\nproperty char z"];
+    let head = header("binary_big_endian", &[lines[0], lines[1], "element face 1", FACES]);
+    let with = |x: f64| message([head.as_bytes(), &x.to_be_bytes(), &[0; 99]].concat());
+    let place = format!("a: vertex 0 (byte {})", head.len() + 8);
+    assert_eq!(
+        with(f64::NEG_INFINITY),
+        format!("{place}: the coordinate x is -inf, which is not a finite number")
+    );
+    assert!(with(1e39).starts_with(&format!("{place}: the coordinate x = 1000")));
+}
+
+#[test]
+fn a_count_that_the_file_cannot_hold_takes_no_memory() {
+    let lines = ["element vertex 4000000000", XYZ, "element face 18446744073709551615", FACES];
+    for encoding in ["ascii", "binary_little_endian"] {
+        assert!(message(header(encoding, &lines) + SQUARE).contains("4000000000 such elements"));
+    }
+    let lines = ["element vertex 1", XYZ, "element face 1", "property list uint int vertex_index"];
+    let head = header("binary_little_endian", &lines);
+    let bytes = [head.as_bytes(), &[0; 12], &[0xff; 4], &[0; 40]];
+    assert!(message(bytes.concat()).contains("promises 1 such elements"));
+}
+
+#[test]
+fn files_that_cannot_be_read_say_why() {
+    let folder = std::env::temp_dir().join(format!("bothways-ply-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let message = |path: &Path| {
+        let message = read(path).unwrap_err().to_string();
+        message.replace(&folder.display().to_string(), "FOLDER").replace('\\', "/")
+    };
+    assert_eq!(message(&folder), "FOLDER: this is a folder, not a PLY file");
+    let path = folder.join("none.ply");
+    assert_eq!(message(&path), "FOLDER/none.ply: there is no such file");
+    std::fs::write(&path, square(1, "3 0 1 2\n")).unwrap();
+    assert_eq!(read(&path).unwrap().triangles(), [[0, 1, 2]]);
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+proptest! {
+    #[test]
+    fn no_bytes_make_the_reader_panic(
+        encoding in 0..3_usize,
+        damage in vec((any::<prop::sample::Index>(), any::<u8>()), 0..6),
+    ) {
+        let encodings = [Encoding::Ascii, Encoding::LittleEndian, Encoding::BigEndian];
+        let mut bytes = every_type(encodings[encoding]);
+        for (place, byte) in damage {
+            let place = place.index(bytes.len());
+            bytes[place] = byte;
+        }
+        // `Mesh` itself checks what is accepted.
+        let _ = parse("a", &bytes);
+    }
+}

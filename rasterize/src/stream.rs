@@ -1,0 +1,327 @@
+//! Object order for meshes that are larger than memory.
+//!
+//! ```text
+//! for each triangle in the file         so many at a time: a chunk, drawn as a small scene of its own
+//!     for each sample it may affect     by `fast`, into a frame of the chunk
+//!         keep the nearest              of the chunk's winners and those of all chunks before
+//! ```
+//!
+//! Object order needs one object at a time: what was drawn is not asked for again, except for the one
+//! triangle that each sample shows. So it is the same loop as in [`fast`], with a pause now and then.
+//!
+//! What is nearest is a minimum over a total order: by exact `t`, then by the nudged ray, then by id.
+//! A minimum over parts is the minimum over all, in whichever parts: the ids are those of the whole
+//! mesh in memory, for chunks of any size. Image order cannot do this: any ray may need any triangle.
+
+use crate::fast;
+use bothways_common::frame::{NO_PRIMITIVE, Region};
+use bothways_common::observe::{Observer, Question, Sample};
+use bothways_common::predicate::Memory;
+use bothways_common::stream::Positions;
+use bothways_common::{
+    Camera, Frame, Mesh, Options, Primitive, SampleGrid, Scene, Shape, Sign, View,
+};
+use glam::Vec3;
+use rayon::prelude::*;
+use std::mem;
+
+/// Triangles of a chunk, unless a caller knows better: enough that clearing and merging a frame for
+/// each is a small part of the work, in some tens of megabytes.
+pub const CHUNK: usize = 1 << 18;
+
+/// What lasts from chunk to chunk and from pass to pass: what is seen at every sample, 52 bytes each.
+#[derive(Debug)]
+pub struct Canvas {
+    /// The chunk's while a pass is drawn, the whole mesh's in the end.
+    frame: Frame,
+    ids: Vec<u32>,
+    t: Vec<f32>,
+    /// The three vertices of the triangle that a sample shows: nobody else remembers them.
+    corners: Vec<[u32; 3]>,
+    options: Options,
+}
+
+/// One pass over a mesh: takes its triangles one after another.
+#[derive(Debug)]
+pub struct Pass<'a, O> {
+    camera: &'a Camera,
+    canvas: &'a mut Canvas,
+    observer: &'a mut O,
+    chunk: usize,
+    waiting: Vec<[u32; 3]>,
+    /// The id of the first triangle that waits.
+    first_id: u32,
+}
+
+impl Canvas {
+    /// For pictures of this camera's size.
+    ///
+    /// # Panics
+    ///
+    /// If the camera's image does not allow this number of samples.
+    pub fn new(camera: &Camera, options: &Options) -> Canvas {
+        let frame = Frame::new(camera, options);
+        let count = frame.ids().len();
+        let (ids, t) = (vec![NO_PRIMITIVE; count], vec![f32::INFINITY; count]);
+        Canvas { frame, ids, t, corners: vec![[0; 3]; count], options: *options }
+    }
+
+    /// Begins a pass with nothing seen, which draws so many triangles at a time.
+    ///
+    /// # Panics
+    ///
+    /// If `chunk` is 0, or the camera's image has another size than the canvas.
+    pub fn begin<'a, O: Observer>(
+        &'a mut self,
+        camera: &'a Camera,
+        chunk: usize,
+        observer: &'a mut O,
+    ) -> Pass<'a, O> {
+        assert!(chunk > 0, "a chunk has at least one triangle");
+        assert_eq!(self.frame.image(), camera.image(), "the canvas fits another picture");
+        self.ids.fill(NO_PRIMITIVE);
+        self.t.fill(f32::INFINITY);
+        Pass { camera, canvas: self, observer, chunk, waiting: Vec::new(), first_id: 0 }
+    }
+
+    /// Gives every sample its normal and colour, flat and of the default material: only what is seen
+    /// is asked for.
+    ///
+    /// # Panics
+    ///
+    /// If the camera or the positions are not those of the last pass, which must have been finished.
+    pub fn shade(&mut self, positions: &Positions, camera: &Camera) {
+        let seen = self.ids.iter().zip(&self.corners).filter(|(id, _)| **id != NO_PRIMITIVE);
+        let mut visible: Vec<(u32, [u32; 3])> = seen.map(|(id, corners)| (*id, *corners)).collect();
+        visible.par_sort_unstable();
+        visible.dedup();
+        let scene = scene_of(visible.iter().map(|(_, corners)| *corners), positions);
+        // The small scene counts what is seen only.
+        let ids = mem::take(&mut self.ids);
+        self.put(&ids, |id| visible.partition_point(|&(seen, _)| seen < id));
+        crate::shade(&View::new(&scene, camera), &mut self.frame);
+        self.put(&ids, |id| id as usize);
+        self.ids = ids;
+    }
+
+    /// What is seen, once a pass is finished; its look, once it is shaded.
+    pub fn frame(&self) -> &Frame {
+        &self.frame
+    }
+
+    /// The same, without the rest of the canvas.
+    pub fn into_frame(self) -> Frame {
+        self.frame
+    }
+
+    /// Puts distances into the frame, and ids under other names.
+    fn put(&mut self, ids: &[u32], renamed: impl Fn(u32) -> usize) {
+        self.frame.clear();
+        let width = self.frame.width();
+        for (index, &id) in ids.iter().enumerate().filter(|(_, id)| **id != NO_PRIMITIVE) {
+            let id = u32::try_from(renamed(id)).expect("there are fewer names than ids");
+            self.frame.set(index / width, index % width, id, self.t[index].into());
+        }
+    }
+}
+
+impl<O: Observer> Pass<'_, O> {
+    /// Draws one triangle, the next of the mesh: its id is the number of those before it. It may wait
+    /// for others before it is drawn.
+    ///
+    /// # Panics
+    ///
+    /// If a vertex has no position, or all ids are used up.
+    pub fn draw(&mut self, positions: &Positions, triangle: [u32; 3]) {
+        self.waiting.push(triangle);
+        if self.waiting.len() == self.chunk {
+            self.draw_chunk(positions);
+        }
+    }
+
+    /// Draws what still waits, and puts ids and distances into the canvas's frame.
+    pub fn finish(mut self, positions: &Positions) {
+        self.draw_chunk(positions);
+        let ids = mem::take(&mut self.canvas.ids);
+        self.canvas.put(&ids, |id| id as usize);
+        self.canvas.ids = ids;
+    }
+
+    fn draw_chunk(&mut self, positions: &Positions) {
+        if self.waiting.is_empty() {
+            return;
+        }
+        let scene = scene_of(self.waiting.iter().copied(), positions);
+        let view = View::new(&scene, self.camera);
+        let mut observer = Shifted { inner: self.observer.fork(), by: self.first_id };
+        let Canvas { frame, options, .. } = &mut *self.canvas;
+        let prepared = fast::prepare(&scene);
+        fast::determine_visibility(&prepared, &view, options, frame, &mut observer);
+        self.observer.join(observer.inner);
+        self.merge(positions, &view);
+        let drawn = u32::try_from(self.waiting.len()).expect("a scene has fewer primitives");
+        self.first_id = self.first_id.checked_add(drawn).expect("there are ids for all triangles");
+        self.waiting.clear();
+    }
+
+    /// The depth test between the chunk's winners and those before.
+    fn merge(&mut self, positions: &Positions, view: &View) {
+        let Canvas { frame, ids, t, corners, options } = &mut *self.canvas;
+        let (frame, width, observer) = (&*frame, frame.width(), &*self.observer);
+        let grid = &self.camera.sample_grid(options.samples);
+        let (first_id, chunk) = (self.first_id, self.waiting.as_slice());
+        let held = ids.par_chunks_mut(width).zip(t.par_chunks_mut(width));
+        let held = held.zip(corners.par_chunks_mut(width));
+        let drawn = frame.ids().par_chunks(width).zip(frame.distances().par_chunks(width));
+        let begin = || Memory::new(view.judge());
+        let parts: Vec<O> = held
+            .zip(drawn)
+            .enumerate()
+            .map_init(begin, |memory, (row, (((ids, t), corners), (new_ids, new_t)))| {
+                let mut depth_test =
+                    DepthTest { positions, view, grid, memory, observer: observer.fork() };
+                for (column, &local) in new_ids.iter().enumerate() {
+                    if local == NO_PRIMITIVE {
+                        continue;
+                    }
+                    let triangle = chunk[local as usize];
+                    let challenger = Seen { id: first_id + local, t: new_t[column], triangle };
+                    let holder = Seen { id: ids[column], t: t[column], triangle: corners[column] };
+                    if depth_test.passes(Sample { row, column }, &challenger, &holder) {
+                        ids[column] = challenger.id;
+                        t[column] = challenger.t;
+                        corners[column] = challenger.triangle;
+                    }
+                }
+                depth_test.observer
+            })
+            .collect();
+        parts.into_iter().for_each(|part| self.observer.join(part));
+    }
+}
+
+/// Triangles with corners of their own, as a scene of one mesh.
+fn scene_of(triangles: impl Iterator<Item = [u32; 3]>, positions: &Positions) -> Scene {
+    let corners: Vec<Vec3> = triangles.flatten().map(|vertex| positions.get(vertex)).collect();
+    let count = u32::try_from(corners.len() / 3).expect("a chunk has fewer triangles than ids");
+    // Three times that is a vertex number, too, for up to 2³² / 3 triangles.
+    let triangles = (0..count).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+    let mesh = Mesh::new(corners, triangles).expect("positions are finite, and all are there");
+    Scene::new(vec![Shape::Mesh(mesh).into()]).expect("a mesh was checked, and ids suffice")
+}
+
+/// What a sample shows.
+#[derive(Clone, Copy, Debug)]
+struct Seen {
+    id: u32,
+    t: f32,
+    triangle: [u32; 3],
+}
+
+/// Who decides between a winner of a chunk and one of the chunks before.
+struct DepthTest<'a, O> {
+    positions: &'a Positions,
+    view: &'a View<'a>,
+    grid: &'a SampleGrid<'a>,
+    memory: &'a mut Memory,
+    observer: O,
+}
+
+impl<O: Observer> DepthTest<'_, O> {
+    /// Whether the challenger is seen rather than the holder, if there is one.
+    fn passes(&mut self, sample: Sample, challenger: &Seen, holder: &Seen) -> bool {
+        if holder.id == NO_PRIMITIVE {
+            return true;
+        }
+        let nearer = surely_nearer(challenger.t, holder.t)
+            .unwrap_or_else(|| self.judge(sample, challenger, holder));
+        self.observer.depth_test(sample, challenger.id, holder.id, nearer);
+        nearer
+    }
+
+    #[cold]
+    fn judge(&mut self, sample: Sample, challenger: &Seen, holder: &Seen) -> bool {
+        self.observer.judged(sample, Question::Nearest);
+        let ray = self.grid.ray(sample.row, sample.column);
+        let [first, second] = [challenger, holder].map(|seen| {
+            let corner = |vertex| self.view.offset(self.positions.get(vertex));
+            Primitive::Triangle(seen.triangle.map(corner))
+        });
+        self.memory.nearer((challenger.id, &first), (holder.id, &second), &ray)
+    }
+}
+
+/// Which of two stored distances belongs to the nearer triangle, if rounding leaves no doubt.
+///
+/// A stored `t` is within 4·10⁻⁶ of the true one, relatively, where it is at least 2⁻¹⁰⁰: there the
+/// nearest `f32` is a part in 2²⁴ away, and what a renderer stores is tested to be within a millionth.
+/// Two of them are in order if they differ by more than about 8·10⁻⁶ of the larger; 2·10⁻⁵ takes more
+/// than twice that. Where the smaller one is below 2⁻¹⁰⁰, its error is far below 2⁻¹⁰⁰·10⁻⁵ however it
+/// was rounded, and the larger alone must be above. A true `t` beyond `f32::MAX` is stored as that: as
+/// the larger one it is even larger, and two such are never in order.
+fn surely_nearer(challenger: f32, holder: f32) -> Option<bool> {
+    const DOUBT: f64 = 2e-5;
+    /// 2⁻¹⁰⁰.
+    const LEAST: f32 = f32::from_bits(27 << 23);
+    let (near, far) = (challenger.min(holder), challenger.max(holder));
+    let certain = far >= LEAST && f64::from(near) < f64::from(far) * (1.0 - DOUBT);
+    certain.then_some(challenger < holder)
+}
+
+/// An observer of a chunk, who hears the ids of the whole mesh.
+struct Shifted<O> {
+    inner: O,
+    by: u32,
+}
+
+impl<O: Observer> Observer for Shifted<O> {
+    fn fork(&self) -> Self {
+        Shifted { inner: self.inner.fork(), by: self.by }
+    }
+
+    fn join(&mut self, part: Self) {
+        self.inner.join(part.inner);
+    }
+
+    fn primitive_begun(&mut self, primitive: u32, region: &Region) {
+        self.inner.primitive_begun(primitive + self.by, region);
+    }
+
+    fn sample_tested(&mut self, sample: Sample, primitive: u32) {
+        self.inner.sample_tested(sample, primitive + self.by);
+    }
+
+    fn edge_signs(&mut self, sample: Sample, primitive: u32, signs: [Option<Sign>; 3]) {
+        self.inner.edge_signs(sample, primitive + self.by, signs);
+    }
+
+    fn fragment(&mut self, sample: Sample, primitive: u32) {
+        self.inner.fragment(sample, primitive + self.by);
+    }
+
+    fn depth_test(&mut self, sample: Sample, challenger: u32, holder: u32, replaced: bool) {
+        self.inner.depth_test(sample, challenger + self.by, holder + self.by, replaced);
+    }
+
+    fn judged(&mut self, sample: Sample, question: Question) {
+        self.inner.judged(sample, question);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn distances_that_rounding_cannot_tell_apart_go_to_the_judge() {
+        assert_eq!(surely_nearer(1.0, 1.0), None);
+        assert_eq!(surely_nearer(1.0, 1.000_01), None);
+        assert_eq!(surely_nearer(1.0, 1.000_03), Some(true));
+        assert_eq!(surely_nearer(1.000_03, 1.0), Some(false));
+        assert_eq!(surely_nearer(f32::MAX, f32::MAX), None);
+        assert_eq!(surely_nearer(f32::MAX, 1e38), Some(false));
+        // Stored denormals say little about what was rounded to them.
+        assert_eq!(surely_nearer(f32::from_bits(1), f32::from_bits(9)), None);
+        assert_eq!(surely_nearer(f32::from_bits(1), 1e-20), Some(true));
+    }
+}
