@@ -39,7 +39,7 @@ fn all_sizes(count: usize) -> Scene {
     let mut next = || Vec3::from_array(numbers.next().expect("there are enough")) - 0.5;
     let mut positions = Vec::new();
     for k in 0..count {
-        let size = 4.0 * 0.5f32.powi((k % 12) as i32);
+        let size = 4.0 * 0.5f32.powf((k % 12) as f32);
         let thin = if k % 5 == 0 { 0.01 } else { 1.0 };
         let (middle, across) = (3.0 * next(), size * next());
         positions.extend([middle, middle + across, middle + across * 0.5 + thin * size * next()]);
