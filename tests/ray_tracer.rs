@@ -9,7 +9,10 @@ use bothways::common::{
     Camera, CameraDescription, Frame, Mesh, Object, Options, Orientation, Plane, Projection, Shape,
     Sphere, Triangle, View, Work,
 };
-use bothways::raytrace::{fast, textbook};
+use bothways::raytrace::{
+    fast::{self, WorldRay},
+    textbook,
+};
 use support::{PROJECTIONS, assert_same_visibility, camera, mesh, scene, triangle, turned};
 
 /// Numbers that look random, the same every time.
@@ -201,6 +204,49 @@ fn spheres_only_planes_only_nothing_at_all() {
             check_against_textbook(&View::new(&scene, &camera), 1, &format!("{projection:?}"));
         }
     }
+}
+
+#[test]
+fn any_ray_meets_what_its_camera_sees() {
+    let ball = Shape::Sphere(Sphere { center: Vec3::new(0.3, 0.2, 0.1), radius: 0.4 });
+    let scene = scene(vec![mesh(soup(200, 0.5)), ball.into()]);
+    let prepared = fast::prepare(&scene);
+    let mut dice = Dice(17);
+    let mut hits = 0;
+    for k in 0..400 {
+        // Some along the axes, and from few-bit origins.
+        let round = |v: Vec3| if k % 4 == 0 { (2.0 * v).round() } else { v };
+        let origin = 2.0 * round(dice.point());
+        let direction = round(0.5 * dice.point()) - origin;
+        if direction == Vec3::ZERO {
+            continue;
+        }
+        let ray = WorldRay { origin, direction };
+        let camera = ray.camera();
+        let expected = textbook::render(&View::new(&scene, &camera), &Options::default());
+        let hit = fast::first_hit(&prepared, &scene, ray);
+        assert_eq!(hit.map(|hit| hit.id), expected.id(0, 0), "{ray:?}");
+        if let (Some(hit), Some(t)) = (hit, expected.t(0, 0)) {
+            assert!((hit.distance - t).abs() <= 1e-6 * t, "{ray:?}: {} and {t}", hit.distance);
+            hits += 1;
+        }
+    }
+    assert!(hits > 100, "{hits}");
+}
+
+#[test]
+fn a_ray_on_an_edge_belongs_to_its_right() {
+    // The edge from (0, −1) to (0, 1) at z = −1, shared by a triangle on either side.
+    let left = triangle([[0.0, -1.0, -1.0], [0.0, 1.0, -1.0], [-1.0, 0.0, -1.0]]);
+    let right = triangle([[0.0, -1.0, -1.0], [0.0, 1.0, -1.0], [1.0, 0.0, -1.0]]);
+    let scene = scene(vec![left, right]);
+    let prepared = fast::prepare(&scene);
+    let forward = WorldRay { origin: Vec3::ZERO, direction: Vec3::NEG_Z };
+    assert_eq!(forward.camera().u().as_vec3(), Vec3::X);
+    assert_eq!(fast::first_hit(&prepared, &scene, forward).map(|hit| hit.id), Some(1));
+    let back = WorldRay { origin: Vec3::new(0.0, 0.0, -3.0), direction: Vec3::Z };
+    assert_eq!(back.camera().u().as_vec3(), Vec3::NEG_X);
+    assert_eq!(fast::first_hit(&prepared, &scene, back).map(|hit| hit.id), Some(0));
 }
 
 #[test]

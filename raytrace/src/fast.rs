@@ -15,6 +15,7 @@
 //! Where an observer watches, each ray walks alone, as a tile of one: so the counts are those of a ray,
 //! and depend on nothing else.
 
+mod any_ray;
 mod build;
 mod draw;
 mod leaf;
@@ -34,6 +35,7 @@ use rayon::prelude::*;
 use rays::Rays;
 use walk::Walker;
 
+pub use any_ray::{Hit, WorldRay, first_hit};
 pub use build::Prepared;
 
 /// Samples along one side of a tile.
