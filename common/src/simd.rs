@@ -16,6 +16,22 @@ pub use fearless_simd::{
     u32x8, u32x16,
 };
 
+/// Asks the machine to bring a value into its cache, as it will soon be needed. Changes nothing else.
+#[inline(always)]
+pub fn prefetch<T>(soon: &T) {
+    #[cfg(target_arch = "x86_64")]
+    for line in 0..size_of::<T>().div_ceil(64) {
+        use core::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        let start = core::ptr::from_ref(soon).cast::<i8>();
+        #[expect(unsafe_code, reason = "a hint: nothing is read, whatever the address")]
+        unsafe {
+            _mm_prefetch::<_MM_HINT_T0>(start.wrapping_add(64 * line));
+        }
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = soon;
+}
+
 /// The best level of this machine.
 pub fn best_level() -> Level {
     Level::new()

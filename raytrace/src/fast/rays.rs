@@ -69,6 +69,8 @@ pub(super) struct Errors {
     pub(super) depth: f64,
     /// Computed `t` of a point and `t` of the ray there: relative for a perspective camera.
     pub(super) t: f64,
+    /// All this is for coordinates of at most so much, relative to the eye.
+    pub(super) reach: f64,
     /// Whether the boxes of projected triangles can be trusted.
     pub(super) small: bool,
 }
@@ -171,6 +173,7 @@ impl<'a> Rays<'a> {
                         far,
                         depth: 0.0,
                         t: 64.0 * V * q,
+                        reach: a,
                         small: wide - half < 1.0 / 1024.0,
                     },
                 }
@@ -205,6 +208,7 @@ impl<'a> Rays<'a> {
                         far,
                         depth,
                         t: 2.0 * depth,
+                        reach: a,
                         small: wide - half < 1.0 / 1024.0,
                     },
                 }

@@ -46,6 +46,10 @@ fn region(lens: &Lens, side: usize, center: DVec3, radius: f64) -> [[usize; 2]; 
     for k in 0..8 {
         let sign = |axis: usize| if k >> axis & 1 == 1 { radius } else { -radius };
         let corner = center + DVec3::new(sign(0), sign(1), sign(2));
+        // The bounds are made for what boxes hold; a sphere without one may be larger.
+        if corner.abs().max_element() > 2.0 * lens.errors.reach {
+            return all;
+        }
         let [t, x, y] = std::array::from_fn(|row| {
             DVec3::from_array(lens.rows[row]).dot(corner) + lens.shift[row]
         });

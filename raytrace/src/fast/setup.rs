@@ -263,10 +263,7 @@ fn narrow<S: Simd>(first: f64x8<S>, second: f64x8<S>) -> (f32x8<S>, f32x8<S>) {
     first.narrow(second).split()
 }
 
-/// The columns and rows of the tile that triangles may cover; all where that is not certain.
-///
-/// Where `t ≥ 2¹⁴·e`, a corner's column is off by at most `2⁻¹⁴·(1 + |x|)`, and in `f32` by three
-/// roundings more; samples by less than 2⁻¹⁰ (the lens says so). The margin is larger.
+/// The columns and rows of the tile that triangles may cover.
 #[inline(always)]
 fn boxes<S: Simd>(
     simd: S,
@@ -275,13 +272,6 @@ fn boxes<S: Simd>(
     e: f32x8<S>,
     [[ta, xa, ya], [tb, xb, yb], [tc, xc, yc]]: &[[f32x8<S>; 3]; 3],
 ) -> ([f32x8<S>; 2], [f32x8<S>; 2]) {
-    #[expect(clippy::cast_precision_loss, reason = "at most 31")]
-    let last = f32x8::splat(simd, (side - 1) as f32);
-    let zero = f32x8::splat(simd, 0.0);
-    if !lens.errors.small {
-        return ([zero, last], [zero, last]);
-    }
-    let half = last * 0.5;
     let (x, y, safe) = if lens.parallel {
         let safe = e.simd_lt(f32x8::splat(simd, 1.0 / 16384.0));
         ([*xa, *xb, *xc], [*ya, *yb, *yc], safe)
@@ -291,19 +281,29 @@ fn boxes<S: Simd>(
         let safe = ta.min(*tb).min(*tc).simd_gt(e * 16384.0);
         ([*xa * ra, *xb * rb, *xc * rc], [*ya * ra, *yb * rb, *yc * rc], safe)
     };
-    (range(x, safe, half, last), range(y, safe, half, last))
+    let safe = safe & mask32x8::splat(simd, lens.errors.small);
+    let (left, right) = (x[0].min(x[1]).min(x[2]), x[0].max(x[1]).max(x[2]));
+    let (upper, lower) = (y[0].min(y[1]).min(y[2]), y[0].max(y[1]).max(y[2]));
+    (columns(simd, left, right, safe, side), columns(simd, upper, lower, safe, side))
 }
 
-/// The first and the last column that three corners allow.
+/// The first and the last column (or row) of the tile between two places, counted from its middle; all
+/// columns where that is not `safe`.
+///
+/// Where `t ≥ 2¹⁴·e`, a corner's column is off by at most `2⁻¹⁴·(1 + |x|)`, and in `f32` by four roundings
+/// more; so is that of a parallel camera where `e < 2⁻¹⁴`. Samples are off by less than 2⁻¹⁰, or the lens
+/// would not be `small`. The margin is larger.
 #[inline(always)]
-fn range<S: Simd>(
-    [p, q, r]: [f32x8<S>; 3],
+fn columns<S: Simd>(
+    simd: S,
+    low: f32x8<S>,
+    high: f32x8<S>,
     safe: mask32x8<S>,
-    half: f32x8<S>,
-    last: f32x8<S>,
+    side: usize,
 ) -> [f32x8<S>; 2] {
-    let zero = half - half;
-    let (low, high) = (p.min(q).min(r), p.max(q).max(r));
+    #[expect(clippy::cast_precision_loss, reason = "at most 31")]
+    let end = (side - 1) as f32;
+    let (half, zero, last) = (0.5 * end, f32x8::splat(simd, 0.0), f32x8::splat(simd, end));
     let first = (low - (low.abs() * (1.0 / 4096.0) + 1.0 / 512.0) + half).ceil().max(zero);
     let end = (high + (high.abs() * (1.0 / 4096.0) + 1.0 / 512.0) + half).floor().min(last);
     [safe.select(first, zero), safe.select(end, last)]

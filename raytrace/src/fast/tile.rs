@@ -29,6 +29,8 @@ pub(super) struct Tile {
     pub(super) block_far: [f32; BLOCKS],
     /// The least low end of all: nothing with a smaller key can be seen in the tile.
     pub(super) far: f32,
+    /// Whether anything was hit.
+    touched: bool,
     /// Blocks whose least low end must be found again.
     pub(super) dirty: u64,
     /// The first row and column, and how many rows and columns there are in the picture.
@@ -58,6 +60,7 @@ impl Tile {
             high: Box::new([0.0; SAMPLES]),
             block_far: [f32::INFINITY; BLOCKS],
             far: f32::NEG_INFINITY,
+            touched: true,
             dirty: 0,
             row: 0,
             column: 0,
@@ -72,8 +75,12 @@ impl Tile {
     /// Starts a tile in which nothing is hit.
     pub(super) fn begin(&mut self, start: [usize; 2], size: [usize; 2], side: usize) {
         [self.row, self.column] = start;
+        if !self.touched && size == [self.height, self.width] && side == self.side {
+            return;
+        }
         [self.height, self.width] = size;
         self.side = side;
+        self.touched = false;
         let blocks = self.blocks();
         let whole = size == [side, side] && side >= BLOCK;
         let outside = if whole { f32::NEG_INFINITY } else { f32::INFINITY };
@@ -114,6 +121,10 @@ impl Tile {
     /// Finds the farthest hit again where something was hit.
     #[inline(always)]
     pub(super) fn renew<S: Simd>(&mut self, simd: S) {
+        if self.dirty == 0 {
+            return;
+        }
+        self.touched = true;
         while self.dirty != 0 {
             let block = (self.dirty.trailing_zeros() & 63) as usize;
             self.dirty &= self.dirty - 1;
@@ -273,6 +284,13 @@ impl Tile {
         t: &mut [&mut [f32]],
         columns: std::ops::Range<usize>,
     ) {
+        if !self.touched {
+            for (ids, t) in ids.iter_mut().zip(t) {
+                ids[columns.clone()].fill(NO_PRIMITIVE);
+                t[columns.clone()].fill(f32::INFINITY);
+            }
+            return;
+        }
         if self.side < BLOCK {
             let (mut shown, mut far) = ([0; 16], [0.0; 16]);
             self.store_block(simd, rays, 0, &mut shown, &mut far);

@@ -8,7 +8,9 @@ use super::tile::Tile;
 use super::tree::{Child, Kind, Node, WIDTH};
 use bothways_common::fault::{Fault, Planted};
 use bothways_common::observe::Observer;
-use bothways_common::simd::{Simd, SimdBase, SimdMask, SimdWiden, f32x16, f64x8, mask64x8};
+use bothways_common::simd::{
+    Simd, SimdBase, SimdMask, SimdWiden, f32x16, f64x8, mask64x8, prefetch,
+};
 use bothways_common::{Primitive, View};
 
 /// A node or leaf to enter yet.
@@ -155,8 +157,13 @@ impl<'a> Walker<'a> {
         while met != 0 {
             let lane = (met.trailing_zeros() & 7) as usize;
             met &= met - 1;
-            let open =
-                Open { near: near[lane], child: node.children[lane], counts: node.counts[lane] };
+            let child = node.children[lane];
+            match child.kind() {
+                Kind::Node => prefetch(&self.prepared.nodes[child.index()]),
+                Kind::Triangles => prefetch(&self.prepared.leaves[child.index()]),
+                Kind::Spheres => {}
+            }
+            let open = Open { near: near[lane], child, counts: node.counts[lane] };
             self.stack.push(open);
             let mut place = self.stack.len() - 1;
             while place > base && self.stack[place - 1].near < open.near {
@@ -171,12 +178,7 @@ impl<'a> Walker<'a> {
 /// The nearest `t` of each box, and which boxes a ray of the tile may meet before `farthest`.
 #[inline(always)]
 fn meet<S: Simd>(simd: S, lens: &Lens, node: &Node, farthest: f64) -> (f64x8<S>, mask64x8<S>) {
-    let rows = node.bounds.as_flattened();
-    let (lx, ly) = f32x16::from_slice(simd, &rows[..16]).widen();
-    let (lz, hx) = f32x16::from_slice(simd, &rows[16..32]).widen();
-    let (hy, hz) = f32x16::from_slice(simd, &rows[32..48]).widen();
-    let [x, y, z] = lens.eye;
-    let corners = [[lx - x, hx - x], [ly - y, hy - y], [lz - z, hz - z]];
+    let corners = corners(simd, lens, node);
     let [left, right, upper, lower] = &lens.sides;
     let across = along(simd, &corners, left, true).min(along(simd, &corners, right, true));
     let down = along(simd, &corners, upper, true).min(along(simd, &corners, lower, true));
@@ -187,6 +189,17 @@ fn meet<S: Simd>(simd: S, lens: &Lens, node: &Node, farthest: f64) -> (f64x8<S>,
         & far.simd_ge(f64x8::splat(simd, lens.least_t))
         & near.simd_le(f64x8::splat(simd, farthest));
     (near, met)
+}
+
+/// Low and high sides of the boxes relative to the eye, along each axis.
+#[inline(always)]
+fn corners<S: Simd>(simd: S, lens: &Lens, node: &Node) -> [[f64x8<S>; 2]; 3] {
+    let rows = node.bounds.as_flattened();
+    let (lx, ly) = f32x16::from_slice(simd, &rows[..16]).widen();
+    let (lz, hx) = f32x16::from_slice(simd, &rows[16..32]).widen();
+    let (hy, hz) = f32x16::from_slice(simd, &rows[32..48]).widen();
+    let [x, y, z] = lens.eye;
+    [[lx - x, hx - x], [ly - y, hy - y], [lz - z, hz - z]]
 }
 
 /// How far along a plane's normal boxes reach: their farthest corners, or the least far.
