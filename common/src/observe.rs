@@ -89,7 +89,7 @@ pub struct Work {
     /// Rays taken up by the outer loop of image order.
     pub rays: u64,
     /// Boxes of the hierarchy tested against a ray. The fast ray tracer walks its hierarchy with many rays
-    /// at once; but where it is watched, each ray walks alone, so that what is counted here and below
+    /// at once; for whoever watches, each ray walks alone as well, so that what is counted here and below
     /// belongs to the ray, not to its neighbours. All boxes of a node count, and all triangles of a leaf
     /// but those that are the same as an earlier one.
     pub nodes: u64,

@@ -12,8 +12,8 @@
 //! that the sign is certain; the rest goes to the exact judge. Boxes are dropped only when all rays of the
 //! tile certainly miss them or they are certainly farther than what all rays hit.
 //!
-//! Where an observer watches, each ray walks alone, as a tile of one: so the counts are those of a ray,
-//! and depend on nothing else.
+//! For an observer each ray walks alone as well, as a tile of one: so what is told belongs to the ray, and
+//! depends on nothing else. The frame is that of the tiles, watched or not.
 
 mod any_ray;
 mod build;
@@ -123,9 +123,8 @@ pub fn determine_visibility_with_fault<O: Observer, F: Fault>(
     assert_eq!(prepared.primitives, view.scene.primitive_count(), "another scene was prepared");
     frame.fit(view.camera, options);
     let rays = Rays::new(view, options.samples, walk::reach(prepared, view));
-    // Counts belong to a ray, whatever tile it is in; and a box's last place matters to a ray alone.
-    let alone = O::WATCHES || F::is(Planted::ShrunkBox);
-    let side = if alone { 1 } else { prepared.side };
+    // A box's last place matters to a ray alone: a fault there shows in tiles of one.
+    let side = if F::is(Planted::ShrunkBox) { 1 } else { prepared.side };
 
     let (seen, shares): (&O, Vec<Tile>) = (observer, frame.tiles_mut(SHARE, prepared.side));
     let dropped = F::is(Planted::DroppedTile).then_some(shares.len() / 2);
@@ -143,7 +142,10 @@ pub fn determine_visibility_with_fault<O: Observer, F: Fault>(
                     t.into_iter().for_each(|t| t.fill(f32::INFINITY));
                 } else {
                     dispatch!(prepared.level, simd => {
-                        trace::<_, O, F>(simd, walker, &rays, side, share, &mut observer)
+                        if O::WATCHES {
+                            watch::<_, O, F>(simd, walker, &share, &mut observer);
+                        }
+                        trace::<_, F>(simd, walker, &rays, side, share);
                     });
                 }
                 observer
@@ -153,23 +155,31 @@ pub fn determine_visibility_with_fault<O: Observer, F: Fault>(
     parts.into_iter().for_each(|part| observer.join(part));
 }
 
-/// Traces the rays of a share of the picture, tile by tile.
+/// Walks each ray of a share of the picture alone, for an observer.
 #[inline(always)]
-fn trace<S: Simd, O: Observer, F: Fault>(
+fn watch<S: Simd, O: Observer, F: Fault>(
     simd: S,
     walker: &mut Walker,
-    rays: &Rays,
-    side: usize,
-    share: Tile,
+    share: &Tile,
     observer: &mut O,
 ) {
+    for row in share.region.rows.clone() {
+        for column in share.region.columns.clone() {
+            walker.walk::<S, O, F>(simd, [row, column], [1, 1], 1, observer);
+        }
+    }
+}
+
+/// Traces the rays of a share of the picture, tile by tile.
+#[inline(always)]
+fn trace<S: Simd, F: Fault>(simd: S, walker: &mut Walker, rays: &Rays, side: usize, share: Tile) {
     let Tile { region, mut ids, mut t } = share;
     let (height, width) = (region.rows.len(), region.columns.len());
     for top in (0..height).step_by(side) {
         for left in (0..width).step_by(side) {
             let start = [region.rows.start + top, region.columns.start + left];
             let size = [side.min(height - top), side.min(width - left)];
-            walker.walk::<S, O, F>(simd, start, size, side, observer);
+            walker.walk::<S, (), F>(simd, start, size, side, &mut ());
             let (ids, t) = (&mut ids[top..top + size[0]], &mut t[top..top + size[0]]);
             walker.tile.store(simd, rays, ids, t, left..left + size[1]);
         }

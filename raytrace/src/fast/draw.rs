@@ -106,7 +106,7 @@ fn draw_few<S: Simd, O: Observer>(
     tile: &mut Tile,
     observer: &mut O,
 ) {
-    let half = f32x8::splat(simd, lens.from_middle(0));
+    let half = f32x8::splat(simd, lens.offset(0));
     let (zero, one) = (f32x8::splat(simd, 0.0), f32x8::splat(simd, 1.0));
     let (first, end) = (setup.columns[0], setup.columns[1]);
     let (mut column, mut row) = (first, setup.rows[0]);
@@ -130,7 +130,7 @@ fn draw_few<S: Simd, O: Observer>(
             if lens.parallel {
                 // In front of the eye a key is negative; behind it there is nothing to see.
                 perhaps &= !low.simd_gt(zero).to_bitmask();
-                inside = inside & high.simd_lt(zero);
+                inside &= high.simd_lt(zero);
             }
             let inside = inside.to_bitmask();
             let (low, high) = (low.to_array(), high.to_array());
@@ -188,13 +188,13 @@ fn draw_many<S: Simd>(simd: S, lens: &Lens, lanes: &Lanes, lane: usize, id: u32,
     let key_error = f32x16::splat(simd, lanes.key_error[lane]);
     let (minus_error, zero) = (-error, f32x16::splat(simd, 0.0));
     let side = tile.side();
-    let half = lens.from_middle(0);
+    let half = lens.offset(0);
     let [first, last] = [lanes.columns[0][lane] + half, lanes.columns[1][lane] + half];
     let [upper, lower] = [lanes.rows[0][lane] + half, lanes.rows[1][lane] + half];
     for group in 0..tile.blocks() / 16 {
         let (top, left) = place(side, group * 256);
-        let bx = columns(simd, STEPS) + (lens.from_middle(left) + 1.5);
-        let by = rows(simd, STEPS) + (lens.from_middle(top) + 1.5);
+        let bx = columns(simd, STEPS) + (lens.offset(left) + 1.5);
+        let by = rows(simd, STEPS) + (lens.offset(top) + 1.5);
         let (v0, v1, v2, v3) = (ab.at(bx, by), bc.at(bx, by), ca.at(bx, by), key.at(bx, by));
         // Blocks that are certainly outside of an edge, of the box, or hidden.
         let outside = (v0 + ab.spread).simd_lt(minus_error)
@@ -225,8 +225,8 @@ fn draw_many<S: Simd>(simd: S, lens: &Lens, lanes: &Lanes, lane: usize, id: u32,
             let out = e0.simd_lt(minus_error) | e1.simd_lt(minus_error) | e2.simd_lt(minus_error);
             let mut nowhere = out | high.simd_lt(held_low);
             if lens.parallel {
-                nowhere = nowhere | low.simd_gt(zero);
-                inside = inside & high.simd_lt(zero);
+                nowhere |= low.simd_gt(zero);
+                inside &= high.simd_lt(zero);
             }
             let nearer = inside & low.simd_gt(held_high);
             if nearer.any_true() {
@@ -293,12 +293,11 @@ impl Tile {
     ) {
         let farther = high < self.low[at];
         let nearer = certain && low > self.high[at];
-        if O::WATCHES && certain && (farther || nearer) {
-            if let Some(sample) = self.sample(at) {
-                observer.fragment(sample, id);
-                if self.high[at] != f32::NEG_INFINITY {
-                    observer.depth_test(sample, id, self.ids[at], nearer);
-                }
+        let told = O::WATCHES && certain && (farther || nearer);
+        if told && let Some(sample) = self.sample(at) {
+            observer.fragment(sample, id);
+            if self.high[at] != f32::NEG_INFINITY {
+                observer.depth_test(sample, id, self.ids[at], nearer);
             }
         }
         if nearer {

@@ -412,13 +412,13 @@ pub(super) fn place(side: usize, index: usize) -> (usize, usize) {
 impl Lens {
     /// The place of a tile's column or row, from its middle.
     #[inline(always)]
-    pub(super) fn from_middle(&self, place: usize) -> f32 {
+    pub(super) fn offset(&self, place: usize) -> f32 {
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_precision_loss,
             reason = "halves of small integers"
         )]
-        let from_middle = (place as f64 - self.half) as f32;
-        from_middle
+        let offset = (place as f64 - self.half) as f32;
+        offset
     }
 }
