@@ -147,7 +147,10 @@ pub struct Work {
     pub primitives: u64,
     /// Rays taken up by the outer loop of image order.
     pub rays: u64,
-    /// Boxes of the hierarchy tested against a ray.
+    /// Boxes of the hierarchy tested against a ray. The fast ray tracer walks its hierarchy with many rays
+    /// at once; for whoever watches, each ray walks alone as well, so that what is counted here and below
+    /// belongs to the ray, not to its neighbours. All boxes of a node count, and all triangles of a leaf
+    /// but those that are the same as an earlier one.
     pub nodes: u64,
     /// Pairs of a primitive and a sample tested for coverage: the inner step of both loops. In
     /// object order these are the samples of the primitives' bounding regions, which in regions wider

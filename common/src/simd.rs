@@ -12,8 +12,26 @@
 
 pub use fearless_simd::prelude::*;
 pub use fearless_simd::{
-    Level, Simd, dispatch, f32x8, f32x16, f64x8, i32x4, i32x16, mask32x16, mask64x8, u32x8, u32x16,
+    Level, Simd, dispatch, f32x8, f32x16, f64x8, i32x4, i32x16, mask32x8, mask32x16, mask64x8,
+    u32x8, u32x16,
 };
+
+/// Asks the machine to bring a value into its cache, as it will soon be needed. Changes nothing else.
+#[inline(always)]
+pub fn prefetch<T>(soon: &T) {
+    #[cfg(target_arch = "x86_64")]
+    for line in 0..size_of::<T>().div_ceil(64) {
+        use core::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        let start = core::ptr::from_ref(soon).cast::<i8>();
+        // SAFETY: SSE is part of every x86-64, and the instruction is defined for any address.
+        #[expect(unsafe_code, reason = "a hint: nothing is read, whatever the address")]
+        unsafe {
+            _mm_prefetch::<_MM_HINT_T0>(start.wrapping_add(64 * line));
+        }
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = soon;
+}
 
 /// The best level of this machine.
 pub fn best_level() -> Level {
@@ -34,23 +52,6 @@ pub fn levels() -> Vec<Level> {
         levels.extend(lesser.filter(|level| name(level) != name(&best)));
     }
     levels
-}
-
-/// Asks the machine to bring an element into its cache, because it is needed soon. Changes no result.
-#[inline(always)]
-#[cfg_attr(
-    target_arch = "x86_64",
-    expect(unsafe_code, reason = "the intrinsic takes a pointer; it reads nothing through it")
-)]
-pub fn prefetch<T>(slice: &[T], index: usize) {
-    #[cfg(target_arch = "x86_64")]
-    if let Some(element) = slice.get(index) {
-        use core::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
-        // SAFETY: prefetching is defined for any address; SSE is part of every x86-64.
-        unsafe { _mm_prefetch::<_MM_HINT_T0>(core::ptr::from_ref(element).cast()) };
-    }
-    #[cfg(not(target_arch = "x86_64"))]
-    let _ = (slice, index);
 }
 
 /// Writes sixteen numbers that are not needed again soon: past the caches, where the machine can. Whoever

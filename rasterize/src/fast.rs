@@ -406,11 +406,11 @@ impl<'a> Finder<'a> {
         let triangle = |id: u32| id.wrapping_sub(self.ids.start) as usize;
         let from = |start: usize| ids.get(start..).unwrap_or_default().iter().take(16);
         for &id in from(next + 16) {
-            prefetch(self.triangles, triangle(id));
+            self.triangles.get(triangle(id)).into_iter().for_each(prefetch);
         }
         for &id in from(next) {
             for vertex in self.triangles.get(triangle(id)).into_iter().flatten() {
-                prefetch(self.vertices, *vertex as usize);
+                prefetch(&self.vertices[*vertex as usize]);
             }
         }
     }

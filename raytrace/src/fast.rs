@@ -1,38 +1,68 @@
 //! Image order without the work that cannot matter.
 //!
 //! ```text
-//! once for a scene                      a hierarchy of boxes around the primitives         (build)
-//! for each sample                       tile by tile, so that neighbours share the cache
-//!     for each primitive its ray may hit    nodes near to far, none beyond the hit          (walk)
-//!         if it covers the sample           edge functions of the ray                       (leaf)
-//!             keep the nearest              distance as an interval that holds the true one
+//! once for a scene                      a hierarchy of boxes around the primitives     (build, tree)
+//! for each sample                       a tile of them at a time, their rays as one map        (rays)
+//!     for each primitive its ray may hit    boxes near to far, none beyond the hits          (walk)
+//!         if it covers the sample           edge functions, eight triangles at once     (setup, draw)
+//!             keep the nearest              keys as intervals that hold the true ones           (tile)
 //! ```
 //!
-//! Rounded arithmetic decides wherever its bound says that the sign is certain; the rest goes to the
-//! exact judge. Boxes are dropped only when the ray certainly misses them or they are certainly
-//! farther than what was hit.
+//! Spheres and planes go ray by ray (`round`, `leaf`). Rounded arithmetic decides wherever its bound says
+//! that the sign is certain; the rest goes to the exact judge. Boxes are dropped only when all rays of the
+//! tile certainly miss them or they are certainly farther than what all rays hit.
+//!
+//! For an observer each ray walks alone as well, as a tile of one: so what is told belongs to the ray, and
+//! depends on nothing else. The frame is that of the tiles, watched or not.
 
+mod any_ray;
 mod build;
+mod draw;
 mod leaf;
+mod rays;
+mod round;
+mod setup;
+mod tile;
+mod tree;
 mod walk;
 
 use bothways_common::fault::{Fault, Planted, Sound};
-use bothways_common::frame::{NO_PRIMITIVE, Tile, stored_t};
-use bothways_common::observe::{Observer, Sample};
+use bothways_common::frame::{NO_PRIMITIVE, Tile};
+use bothways_common::observe::Observer;
+use bothways_common::simd::{Level, Simd, dispatch};
 use bothways_common::{Frame, Options, Scene, View};
 use rayon::prelude::*;
+use rays::Rays;
 use walk::Walker;
 
+pub use any_ray::{Hit, WorldRay, first_hit};
 pub use build::Prepared;
 
 /// Samples along one side of a tile.
-const TILE: usize = 32;
+const SIDE: usize = 16;
+/// Columns of samples that one thread takes up at a time.
+const SHARE: usize = 512;
 
 /// Prepares a scene for any number of views of it: builds the hierarchy of boxes.
 ///
 /// Runs on the rayon pool that it is called in; the number of threads does not change the hierarchy.
 pub fn prepare(scene: &Scene) -> Prepared {
-    build::build(scene)
+    build::build(scene, SIDE)
+}
+
+impl Prepared {
+    /// The same, traced at another level of SIMD and in tiles of 16 × 16 or 32 × 32 samples: for tests,
+    /// which see that neither changes a bit.
+    ///
+    /// # Panics
+    ///
+    /// If `side` is another number.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn drawn_with(self, level: Level, side: usize) -> Prepared {
+        assert!([16, 32].contains(&side), "tiles have 16 or 32 samples a side, not {side}");
+        Prepared { level, side, ..self }
+    }
 }
 
 /// Renders a view of a prepared scene: what is seen at every sample, and its look.
@@ -92,37 +122,66 @@ pub fn determine_visibility_with_fault<O: Observer, F: Fault>(
 ) {
     assert_eq!(prepared.primitives, view.scene.primitive_count(), "another scene was prepared");
     frame.fit(view.camera, options);
-    let grid = view.camera.sample_grid(options.samples);
+    let rays = Rays::new(view, options.samples, walk::reach(prepared, view));
+    // A box's last place matters to a ray alone: a fault there shows in tiles of one.
+    let side = if F::is(Planted::ShrunkBox) { 1 } else { prepared.side };
 
-    let (seen, tiles): (&O, Vec<Tile>) = (observer, frame.tiles_mut(TILE, TILE));
-    let dropped = F::is(Planted::DroppedTile).then_some(tiles.len() / 2);
-    let parts: Vec<O> = tiles
+    let (seen, shares): (&O, Vec<Tile>) = (observer, frame.tiles_mut(SHARE, prepared.side));
+    let dropped = F::is(Planted::DroppedTile).then_some(shares.len() / 2);
+    let parts: Vec<O> = shares
         .into_par_iter()
+        .with_max_len(1)
         .enumerate()
         .map_init(
-            || Walker::new(prepared, view),
-            |walker, (index, tile)| {
+            || Walker::new(prepared, &rays),
+            |walker, (index, share)| {
                 let mut observer = seen.fork();
-                let lines = tile.ids.into_iter().zip(tile.t);
-                for (row, (ids, t)) in tile.region.rows.zip(lines) {
-                    let line = ids.iter_mut().zip(t.iter_mut());
-                    for (column, (id, t)) in tile.region.columns.clone().zip(line) {
-                        let sample = Sample { row, column };
-                        let ray = grid.ray(row, column);
-                        let hit = if dropped == Some(index) {
-                            None
-                        } else {
-                            walker.first_hit::<O, F>(&ray, sample, &mut observer)
-                        };
-                        (*id, *t) = match hit {
-                            Some(hit) => (hit.id, stored_t(walker.t(&hit, &ray))),
-                            None => (NO_PRIMITIVE, f32::INFINITY),
-                        };
-                    }
+                if dropped == Some(index) {
+                    let Tile { ids, t, .. } = share;
+                    ids.into_iter().for_each(|ids| ids.fill(NO_PRIMITIVE));
+                    t.into_iter().for_each(|t| t.fill(f32::INFINITY));
+                } else {
+                    dispatch!(prepared.level, simd => {
+                        if O::WATCHES {
+                            watch::<_, O, F>(simd, walker, &share, &mut observer);
+                        }
+                        trace::<_, F>(simd, walker, &rays, side, share);
+                    });
                 }
                 observer
             },
         )
         .collect();
     parts.into_iter().for_each(|part| observer.join(part));
+}
+
+/// Walks each ray of a share of the picture alone, for an observer.
+#[inline(always)]
+fn watch<S: Simd, O: Observer, F: Fault>(
+    simd: S,
+    walker: &mut Walker,
+    share: &Tile,
+    observer: &mut O,
+) {
+    for row in share.region.rows.clone() {
+        for column in share.region.columns.clone() {
+            walker.walk::<S, O, F>(simd, [row, column], [1, 1], 1, observer);
+        }
+    }
+}
+
+/// Traces the rays of a share of the picture, tile by tile.
+#[inline(always)]
+fn trace<S: Simd, F: Fault>(simd: S, walker: &mut Walker, rays: &Rays, side: usize, share: Tile) {
+    let Tile { region, mut ids, mut t } = share;
+    let (height, width) = (region.rows.len(), region.columns.len());
+    for top in (0..height).step_by(side) {
+        for left in (0..width).step_by(side) {
+            let start = [region.rows.start + top, region.columns.start + left];
+            let size = [side.min(height - top), side.min(width - left)];
+            walker.walk::<S, (), F>(simd, start, size, side, &mut ());
+            let (ids, t) = (&mut ids[top..top + size[0]], &mut t[top..top + size[0]]);
+            walker.tile.store(simd, rays, ids, t, left..left + size[1]);
+        }
+    }
 }

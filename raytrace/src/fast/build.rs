@@ -1,138 +1,193 @@
-//! The hierarchy: boxes around boxes around primitives, split where that is expected to be cheapest.
+//! Building the hierarchy: boxes around boxes around primitives, split where that is expected to be
+//! cheapest.
 //!
 //! Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", IEEE Symposium on
-//! Interactive Ray Tracing, 2007.
+//! Interactive Ray Tracing, 2007; eight boxes a node as in Wald, Benthin and Boulos, "Getting Rid of
+//! Packets", same venue, 2008.
 
-use bothways_common::{Plane, Scene, Shape, Sphere, Triangle};
-use glam::{DVec3, Vec3};
+use super::tree::{Bounds, Child, Kind, Leaf, Node, WIDTH};
+use bothways_common::simd::{Level, best_level};
+use bothways_common::{Mesh, Plane, Scene, Shape, Sphere, Triangle};
+use glam::{Vec3, Vec4};
+use rayon::prelude::*;
 
-/// At most this many primitives in a leaf.
-const LEAF: usize = 4;
 /// Candidate splits along an axis, plus one.
 const BINS: usize = 16;
 /// Parts with fewer primitives are built by one thread.
-const SERIAL: usize = 8192;
+const SERIAL: usize = 4096;
+/// Bins of parts with more primitives are filled by all threads.
+const LARGE: usize = 1 << 17;
 /// From this depth on a part is halved by count, which bounds the depth of any hierarchy.
-const DEEP: usize = 48;
+const DEEP: usize = 64;
 
 /// What a moving camera would not repeat: the hierarchy over all bounded primitives.
 #[derive(Clone, Debug)]
 pub struct Prepared {
     pub(super) nodes: Vec<Node>,
-    /// The primitives of the leaves.
+    /// Eight triangles each.
     pub(super) leaves: Vec<Leaf>,
+    /// Where the walk begins: the triangles, and the spheres, as far as there are any.
+    pub(super) roots: Vec<Child>,
+    /// Around everything in the hierarchy.
+    pub(super) bounds: Bounds,
     /// Planes, which no box bounds, and spheres too large for one.
     pub(super) unbounded: Vec<u32>,
     /// Spheres in boxes, and of each the extent that its box's margin was made for; see [`sphere`].
     pub(super) spheres: Vec<(u32, f32)>,
+    /// The ids of the spheres of the hierarchy's leaves, eight each; unused ones repeat the first.
+    pub(super) round: Vec<[u32; WIDTH]>,
     pub(super) primitives: u32,
+    pub(super) level: Level,
+    pub(super) side: usize,
 }
 
-/// An inner node: two children, each with its box.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Node {
-    pub(super) bounds: [Bounds; 2],
-    pub(super) children: [Child; 2],
-}
-
-/// What a box contains.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Child {
-    Node(u32),
-    /// Some consecutive leaf primitives.
-    Leaf {
-        first: u32,
-        count: u32,
-    },
-}
-
-/// A primitive where the walk needs it, as it is stored in the world.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Leaf {
-    pub(super) id: u32,
-    pub(super) form: Form,
-}
-
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Form {
-    Triangle([Vec3; 3]),
-    Sphere(Vec3, f32),
-}
-
-/// An axis-aligned box in the world. Its corners are coordinates of the scene or rounded outward.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Bounds {
-    pub(super) low: Vec3,
-    pub(super) high: Vec3,
-}
-
-/// A primitive while the hierarchy is built.
+/// A primitive while the hierarchy is built: its box, and in the fourth lane of the low corner the bits
+/// of its id.
 #[derive(Clone, Copy)]
 struct Item {
-    bounds: Bounds,
-    leaf: Leaf,
+    low: Vec4,
+    high: Vec4,
 }
 
-impl Bounds {
-    const EMPTY: Bounds = Bounds { low: Vec3::INFINITY, high: Vec3::NEG_INFINITY };
-
-    fn with(self, other: &Bounds) -> Bounds {
-        Bounds { low: self.low.min(other.low), high: self.high.max(other.high) }
+impl Item {
+    fn new(bounds: &Bounds, id: u32) -> Item {
+        Item { low: bounds.low.extend(f32::from_bits(id)), high: bounds.high.extend(0.0) }
     }
 
-    /// The middle, taken in halves so that it is finite.
-    fn middle(&self) -> Vec3 {
-        0.5 * self.low + 0.5 * self.high
+    fn id(&self) -> u32 {
+        self.low.w.to_bits()
     }
 
-    /// Half of the surface area: proportional to the chance that a ray meets the box. In `f64`,
-    /// where no finite box overflows.
+    /// The middle, taken in halves so that it is finite. Without the id: most are denormal numbers, and
+    /// to multiply these takes a hundred times as long.
+    #[inline(always)]
+    fn middle(&self) -> Vec4 {
+        0.5 * self.low.with_w(0.0) + 0.5 * self.high
+    }
+}
+
+/// Boxes in which the fourth lane means nothing.
+#[derive(Clone, Copy)]
+struct Box4 {
+    low: Vec4,
+    high: Vec4,
+}
+
+impl Box4 {
+    const EMPTY: Box4 = Box4 { low: Vec4::INFINITY, high: Vec4::NEG_INFINITY };
+
+    #[inline(always)]
+    fn with(self, low: Vec4, high: Vec4) -> Box4 {
+        Box4 { low: self.low.min(low), high: self.high.max(high) }
+    }
+
+    fn bounds(&self) -> Bounds {
+        Bounds { low: self.low.truncate(), high: self.high.truncate() }
+    }
+
+    /// Half of the surface area: proportional to the chance that a ray meets the box. In `f64`, where
+    /// no finite box overflows.
     fn half_area(&self) -> f64 {
-        let size = (self.high.as_dvec3() - self.low.as_dvec3()).max(DVec3::ZERO);
+        let size = (self.high.as_dvec4() - self.low.as_dvec4()).max(glam::DVec4::ZERO);
         size.x * size.y + size.y * size.z + size.z * size.x
     }
 }
 
-pub(super) fn build(scene: &Scene) -> Prepared {
-    let Collected { mut items, unbounded, spheres } = collect(scene);
+/// Some consecutive items, the box around them and the box around their middles.
+struct Part<'a> {
+    items: &'a mut [Item],
+    bounds: Box4,
+    middles: Box4,
+    /// The number of the first item among all.
+    first: usize,
+    depth: usize,
+    /// Whether triangles that are the same as an earlier one were left out.
+    distinct: bool,
+}
+
+pub(super) fn build(scene: &Scene, side: usize) -> Prepared {
+    let mut collected = collect(scene);
     let mut arena = Arena::default();
-    if !items.is_empty() {
-        let bounds = around(&items);
-        // The walk begins at a node: a lone leaf gets one, its other child empty.
-        if let root @ Child::Leaf { .. } = arena.grow(&mut items, &bounds, 0) {
-            let children = [root, Child::Leaf { first: 0, count: 0 }];
-            arena.nodes.push(Node { bounds: [bounds, Bounds::EMPTY], children });
+    let mut roots = Vec::new();
+    let mut bounds = Bounds::EMPTY;
+    let kinds = [Kind::Triangles, Kind::Spheres];
+    for (kind, items) in kinds.into_iter().zip([&mut collected.triangles, &mut collected.round]) {
+        if items.is_empty() {
+            continue;
         }
+        let all = Part::new(items, 0, 0, false);
+        bounds = bounds.with(&all.bounds.bounds());
+        let mut tree = Arena::default();
+        tree.grow_node(all, &Plot { kind, scene });
+        roots.push(arena.append(tree));
     }
-    let Arena { nodes, leaves } = arena;
-    Prepared { nodes, leaves, unbounded, spheres, primitives: scene.primitive_count() }
+    let triangle_leaves = arena.leaves.iter().filter(|leaf| leaf.kind == Kind::Triangles).count();
+    let (flat, round) = arena.leaves.split_at(triangle_leaves);
+    let first =
+        |leaf: &LeafRange| leaf.first as usize..(leaf.first + u32::from(leaf.count)) as usize;
+    let leaves = flat
+        .par_iter()
+        .with_min_len(64)
+        .map_init(
+            || Corners::new(scene),
+            |corners, leaf| fill(&collected.triangles[first(leaf)], corners),
+        )
+        .collect();
+    let round = round.iter().map(|leaf| {
+        let items = &collected.round[first(leaf)];
+        std::array::from_fn(|lane| items.get(lane).unwrap_or(&items[0]).id())
+    });
+    // Spheres' leaves are counted from 0 again.
+    let mut nodes = arena.nodes;
+    let renumbered = |child: &mut Child| {
+        if child.kind() == Kind::Spheres {
+            *child = Child::new(Kind::Spheres, child.index() - triangle_leaves);
+        }
+    };
+    if round.len() > 0 {
+        nodes.iter_mut().flat_map(|node| &mut node.children).for_each(renumbered);
+    }
+    Prepared {
+        leaves,
+        round: round.collect(),
+        nodes,
+        roots,
+        bounds,
+        unbounded: collected.unbounded,
+        spheres: collected.spheres,
+        primitives: scene.primitive_count(),
+        level: best_level(),
+        side,
+    }
 }
 
 /// The primitives of a scene, sorted by whether a box can bound them.
 #[derive(Default)]
 struct Collected {
-    items: Vec<Item>,
+    triangles: Vec<Item>,
+    round: Vec<Item>,
     unbounded: Vec<u32>,
     spheres: Vec<(u32, f32)>,
 }
 
 fn collect(scene: &Scene) -> Collected {
     let mut all = Collected::default();
-    all.items.reserve_exact(scene.primitive_count() as usize);
+    all.triangles.reserve_exact(scene.primitive_count() as usize);
     for (index, object) in scene.objects().iter().enumerate() {
         let first_id = scene.first_id(index);
         match &object.shape {
             Shape::Triangle(Triangle { a, b, c }) => {
-                all.items.push(triangle(first_id, [*a, *b, *c]));
+                all.triangles.push(triangle(first_id, [*a, *b, *c]));
             }
             Shape::Mesh(mesh) => {
-                let corners = (0..mesh.triangles().len()).map(|local| mesh.corners(local));
-                let triangles = (first_id..).zip(corners);
-                all.items.extend(triangles.map(|(id, corners)| triangle(id, corners)));
+                let triangles = mesh.triangles().par_iter().zip(first_id..u32::MAX);
+                all.triangles.par_extend(
+                    triangles.map(|(corners, id)| triangle(id, mesh_corners(mesh, corners))),
+                );
             }
             Shape::Sphere(ball) => match sphere(first_id, ball) {
                 Some((item, extent)) => {
-                    all.items.push(item);
+                    all.round.push(item);
                     all.spheres.push((first_id, extent));
                 }
                 None => all.unbounded.push(first_id),
@@ -143,10 +198,12 @@ fn collect(scene: &Scene) -> Collected {
     all
 }
 
-fn triangle(id: u32, corners: [Vec3; 3]) -> Item {
-    let [a, b, c] = corners;
-    let bounds = Bounds { low: a.min(b).min(c), high: a.max(b).max(c) };
-    Item { bounds, leaf: Leaf { id, form: Form::Triangle(corners) } }
+fn mesh_corners(mesh: &Mesh, corners: &[u32; 3]) -> [Vec3; 3] {
+    corners.map(|vertex| mesh.positions()[vertex as usize])
+}
+
+fn triangle(id: u32, [a, b, c]: [Vec3; 3]) -> Item {
+    Item::new(&Bounds { low: a.min(b).min(c), high: a.max(b).max(c) }, id)
 }
 
 /// A sphere in its box, and its extent `e = max|center| + radius`; `None` if a corner of the box is
@@ -162,243 +219,369 @@ fn sphere(id: u32, &Sphere { center, radius }: &Sphere) -> Option<(Item, f32)> {
     let half = Vec3::splat(radius + (-18f32).exp2() * extent);
     let bounds = Bounds { low: center - half, high: center + half };
     let finite = bounds.low.is_finite() && bounds.high.is_finite();
-    let leaf = Leaf { id, form: Form::Sphere(center, radius) };
     // Below this, the margin itself would underflow.
     let representable = extent > (-100f32).exp2();
-    (finite && representable).then_some((Item { bounds, leaf }, extent))
+    (finite && representable).then(|| (Item::new(&bounds, id), extent))
 }
 
-fn around(items: &[Item]) -> Bounds {
-    items.iter().fold(Bounds::EMPTY, |bounds, item| bounds.with(&item.bounds))
+/// Finds the corners of triangles, which mostly come in the order of the scene.
+struct Corners<'a> {
+    scene: &'a Scene,
+    ids: std::ops::Range<u32>,
+    shape: Option<&'a Shape>,
+}
+
+impl<'a> Corners<'a> {
+    fn new(scene: &'a Scene) -> Self {
+        Corners { scene, ids: 0..0, shape: None }
+    }
+
+    fn of(&mut self, id: u32) -> [Vec3; 3] {
+        if !self.ids.contains(&id) {
+            let (object, _) = self.scene.locate(id);
+            let shape = &self.scene.objects()[object].shape;
+            let first = self.scene.first_id(object);
+            let count = u32::try_from(shape.primitive_count()).expect("ids are u32");
+            (self.ids, self.shape) = (first..first + count, Some(shape));
+        }
+        match self.shape {
+            Some(Shape::Mesh(mesh)) => {
+                mesh_corners(mesh, &mesh.triangles()[(id - self.ids.start) as usize])
+            }
+            Some(Shape::Triangle(Triangle { a, b, c })) => [*a, *b, *c],
+            _ => unreachable!("leaves of triangles hold triangles"),
+        }
+    }
+}
+
+/// The leaf of some triangles.
+fn fill(items: &[Item], corners: &mut Corners) -> Leaf {
+    let mut leaf = Leaf { corners: [[0.0; WIDTH]; 9], ids: [items[0].id(); WIDTH] };
+    for lane in 0..WIDTH {
+        let id = items.get(lane).unwrap_or(&items[0]).id();
+        leaf.ids[lane] = id;
+        for (corner, position) in corners.of(id).into_iter().enumerate() {
+            for axis in 0..3 {
+                leaf.corners[3 * corner + axis][lane] = position[axis];
+            }
+        }
+    }
+    leaf
+}
+
+/// Whether two triangles have the same corners, in any order: whichever ray meets one meets the other
+/// at the same place, and the first in the scene is seen.
+fn are_same(first: [Vec3; 3], second: [Vec3; 3]) -> bool {
+    let key = |mut corners: [Vec3; 3]| {
+        // Adding 0 makes −0 and 0 one.
+        let bits = |corner: &Vec3| (*corner + 0.0).to_array().map(f32::to_bits);
+        corners.sort_by_key(bits);
+        corners
+    };
+    key(first) == key(second)
+}
+
+/// Orders the triangles of a leaf so that those which are the same as one with a smaller id come last,
+/// and tells how many others there are.
+fn put_twins_last(items: &mut [Item], corners: &mut Corners) -> usize {
+    let box_of = |item: &Item| (item.low.truncate(), item.high.truncate());
+    items.sort_unstable_by_key(Item::id);
+    let mut different = 0;
+    for k in 0..items.len() {
+        let is_twin = |other: &Item| box_of(other) == box_of(&items[k]);
+        let twin = items[..different].iter().any(|other| {
+            is_twin(other) && are_same(corners.of(other.id()), corners.of(items[k].id()))
+        });
+        if !twin {
+            items[different..=k].rotate_right(1);
+            different += 1;
+        }
+    }
+    different
+}
+
+/// The items of a leaf.
+#[derive(Clone, Copy)]
+struct LeafRange {
+    first: u32,
+    count: u8,
+    kind: Kind,
 }
 
 /// Nodes and leaves of the hierarchy, or of a part of it, in depth-first order.
 #[derive(Default)]
 struct Arena {
     nodes: Vec<Node>,
-    leaves: Vec<Leaf>,
+    leaves: Vec<LeafRange>,
+}
+
+/// What all parts of one hierarchy share.
+struct Plot<'a> {
+    kind: Kind,
+    scene: &'a Scene,
+}
+
+impl<'a> Part<'a> {
+    fn new(items: &'a mut [Item], first: usize, depth: usize, distinct: bool) -> Self {
+        let (mut bounds, mut middles) = (Box4::EMPTY, Box4::EMPTY);
+        for item in &*items {
+            bounds = bounds.with(item.low, item.high);
+            let middle = item.middle();
+            middles = middles.with(middle, middle);
+        }
+        Part { items, bounds, middles, first, depth, distinct }
+    }
 }
 
 impl Arena {
-    /// Builds the hierarchy over some primitives and says where it begins.
-    fn grow(&mut self, items: &mut [Item], bounds: &Bounds, depth: usize) -> Child {
-        let Some(middle) = split(items, bounds, depth) else {
-            let child = Child::Leaf { first: index(self.leaves.len()), count: index(items.len()) };
-            self.leaves.extend(items.iter().map(|item| item.leaf));
-            return child;
-        };
-        let parallel = items.len() >= SERIAL;
-        let (left, right) = items.split_at_mut(middle);
-        let bounds = [around(left), around(right)];
+    /// Builds a node over some primitives: splits the part with the largest box until there are eight.
+    fn grow_node(&mut self, whole: Part, plot: &Plot) {
+        let parallel = whole.items.len() >= SERIAL;
+        let mut parts = vec![whole];
+        while parts.len() < WIDTH {
+            let divisible = parts.iter().enumerate().filter(|(_, part)| part.items.len() > WIDTH);
+            let areas = divisible.map(|(index, part)| (index, part.bounds.half_area()));
+            let Some((largest, _)) = areas.max_by(|a, b| a.1.total_cmp(&b.1)) else { break };
+            let part = parts.remove(largest);
+            parts.splice(largest..largest, split(part, plot).into_iter().flatten());
+        }
         let node = self.nodes.len();
-        // The children are known once they are built; until then the node names itself.
-        self.nodes.push(Node { bounds, children: [Child::Node(index(node)); 2] });
-        let children = if parallel {
-            let mut beside = Arena::default();
-            let (left, right) = rayon::join(
-                || self.grow(left, &bounds[0], depth + 1),
-                || beside.grow(right, &bounds[1], depth + 1),
-            );
-            [left, self.append(beside, right)]
+        self.nodes.push(Node::empty());
+        if parallel {
+            let grown: Vec<(Bounds, Arena, Child, u8)> =
+                parts.into_par_iter().map(|part| Arena::grown(part, plot)).collect();
+            for (bounds, arena, child, counts) in grown {
+                let child = child.moved(self.nodes.len(), self.leaves.len());
+                self.append(arena);
+                self.attach(node, &bounds, child, counts);
+            }
         } else {
-            [self.grow(left, &bounds[0], depth + 1), self.grow(right, &bounds[1], depth + 1)]
+            for part in parts {
+                let bounds = part.bounds.bounds();
+                let (child, counts) = self.grow(part, plot);
+                self.attach(node, &bounds, child, counts);
+            }
+        }
+    }
+
+    fn attach(&mut self, node: usize, bounds: &Bounds, child: Child, counts: u8) {
+        let node = &mut self.nodes[node];
+        node.counts[usize::from(node.used)] = counts;
+        node.push(bounds, child);
+    }
+
+    /// A part by itself.
+    fn grown(part: Part, plot: &Plot) -> (Bounds, Arena, Child, u8) {
+        let mut arena = Arena::default();
+        let bounds = part.bounds.bounds();
+        let (child, counts) = arena.grow(part, plot);
+        (bounds, arena, child, counts)
+    }
+
+    /// Builds a leaf or a node.
+    fn grow(&mut self, part: Part, plot: &Plot) -> (Child, u8) {
+        if part.items.len() > WIDTH {
+            let node = Child::new(Kind::Node, self.nodes.len());
+            self.grow_node(part, plot);
+            return (node, 0);
+        }
+        let different = match plot.kind {
+            Kind::Triangles => put_twins_last(part.items, &mut Corners::new(plot.scene)),
+            _ => part.items.len(),
         };
-        self.nodes[node].children = children;
-        Child::Node(index(node))
+        let number = |count: usize| u8::try_from(count).expect("eight at most");
+        let count = number(part.items.len());
+        let leaf = Child::new(plot.kind, self.leaves.len());
+        let first = u32::try_from(part.first).expect("ids are u32");
+        self.leaves.push(LeafRange { first, count, kind: plot.kind });
+        (leaf, 16 * count + number(different))
     }
 
     /// Takes in a part that was built beside this one, and says where it begins now.
-    fn append(&mut self, part: Arena, root: Child) -> Child {
-        let (nodes, leaves) = (index(self.nodes.len()), index(self.leaves.len()));
-        let moved = |child: Child| match child {
-            Child::Node(node) => Child::Node(node + nodes),
-            Child::Leaf { first, count } => Child::Leaf { first: first + leaves, count },
-        };
-        let moved_node = |node: Node| Node { children: node.children.map(moved), ..node };
-        self.nodes.extend(part.nodes.into_iter().map(moved_node));
+    fn append(&mut self, part: Arena) -> Child {
+        let (nodes, leaves) = (self.nodes.len(), self.leaves.len());
+        self.nodes.extend(part.nodes.into_iter().map(|mut node| {
+            for child in &mut node.children[..usize::from(node.used)] {
+                *child = child.moved(nodes, leaves);
+            }
+            node
+        }));
         self.leaves.extend(part.leaves);
-        moved(root)
+        Child::new(Kind::Node, nodes)
     }
 }
 
-fn index(number: usize) -> u32 {
-    u32::try_from(number).expect("there are no more nodes and leaves than ids")
-}
-
-/// Orders primitives into two parts and gives the number in the first; `None` for a leaf.
-fn split(items: &mut [Item], bounds: &Bounds, depth: usize) -> Option<usize> {
-    if items.len() < 2 {
-        return None;
-    }
-    let middles = items.iter().fold(Bounds::EMPTY, |bounds, item| {
-        let middle = item.bounds.middle();
-        bounds.with(&Bounds { low: middle, high: middle })
-    });
+/// Divides a part of more than eight primitives in two, or leaves out what is in it twice.
+fn split<'a>(part: Part<'a>, plot: &Plot) -> [Option<Part<'a>>; 2] {
+    let Part { items, middles, first, depth, distinct, .. } = part;
     let best = cheapest_plane(items, &middles).filter(|_| depth < DEEP);
-    // One primitive costs one; a node with its two boxes about as much.
-    let leaf_cost = as_real(items.len());
-    let area = bounds.half_area();
-    let cost = best.map_or(f64::INFINITY, |plane| 1.0 + plane.cost / area.max(f64::MIN_POSITIVE));
-    if items.len() <= LEAF && leaf_cost <= cost {
-        return None;
-    }
     let Some(plane) = best else {
-        // All in one place, or too deep: any half is as good as any other.
-        return Some(items.len() / 2);
+        if plot.kind == Kind::Triangles && !distinct {
+            let count = leave_out_twins(items, plot);
+            return [Some(Part::new(&mut items[..count], first, depth, true)), None];
+        }
+        // All in one place, or too deep: any half is as good as any other, if only it is whole leaves.
+        let half = (items.len() / 2).next_multiple_of(WIDTH).min(items.len() - 1);
+        let (left, right) = items.split_at_mut(half);
+        let left = Part::new(left, first, depth + 1, distinct);
+        return [Some(left), Some(Part::new(right, first + half, depth + 1, distinct))];
     };
-    let mut first = 0;
-    for k in 0..items.len() {
-        if plane.bin_of(&items[k], &middles) < plane.bin {
-            items.swap(first, k);
-            first += 1;
+    let (mut middle, mut end) = (0, items.len());
+    let (mut left, mut right) = ([Box4::EMPTY; 2], [Box4::EMPTY; 2]);
+    while middle < end {
+        let item = items[middle];
+        let place = item.middle();
+        let goes_left = plane.grid.bins(place)[plane.axis] < plane.bin;
+        let side = if goes_left { &mut left } else { &mut right };
+        side[0] = side[0].with(item.low, item.high);
+        side[1] = side[1].with(place, place);
+        if goes_left {
+            middle += 1;
+        } else {
+            end -= 1;
+            items.swap(middle, end);
         }
     }
-    Some(first)
+    let (left_items, right_items) = items.split_at_mut(middle);
+    let part = |items, first, [bounds, middles]: [Box4; 2]| {
+        Some(Part { items, bounds, middles, first, depth: depth + 1, distinct })
+    };
+    [part(left_items, first, left), part(right_items, first + middle, right)]
+}
+
+/// Brings triangles with the same corners together, keeps the first in the scene of each and tells how
+/// many there are: the others are never seen.
+fn leave_out_twins(items: &mut [Item], plot: &Plot) -> usize {
+    let mut corners = Corners::new(plot.scene);
+    let mut bits = |item: &Item| {
+        // Adding 0 makes −0 and 0 one.
+        let mut bits = corners.of(item.id()).map(|v| (v + 0.0).to_array().map(f32::to_bits));
+        bits.sort_unstable();
+        bits
+    };
+    items.sort_by_cached_key(|item| (bits(item), item.id()));
+    let mut kept = 1;
+    for k in 1..items.len() {
+        if bits(&items[k]) != bits(&items[kept - 1]) {
+            items[kept] = items[k];
+            kept += 1;
+        }
+    }
+    kept
+}
+
+/// How middles are sorted into bins.
+#[derive(Clone, Copy)]
+struct Grid {
+    low: Vec4,
+    scale: Vec4,
+}
+
+impl Grid {
+    fn new(middles: &Box4) -> Grid {
+        #[expect(clippy::cast_precision_loss, reason = "it is 16")]
+        let bins = BINS as f32;
+        // An extent that overflows, and one that is nothing, puts everything into the first bin.
+        let scale = Vec4::splat(bins * 0.999) / (middles.high - middles.low);
+        Grid {
+            low: middles.low,
+            scale: Vec4::select(scale.cmplt(Vec4::INFINITY), scale, Vec4::ZERO),
+        }
+    }
+
+    #[inline(always)]
+    fn bins(&self, middle: Vec4) -> [usize; 3] {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "it is not negative, and the conversion saturates"
+        )]
+        let bin = |place: f32| (place as u32 as usize).min(BINS - 1);
+        let place = (middle - self.low) * self.scale;
+        [bin(place.x), bin(place.y), bin(place.z)]
+    }
 }
 
 /// A split: primitives whose middle lies in a bin before this one, along one axis, go first.
 #[derive(Clone, Copy)]
 struct SplitPlane {
+    grid: Grid,
     axis: usize,
     bin: usize,
-    /// The sum over both parts of half their area times their number of primitives.
+    /// The sum over both parts of half their area times their number of leaves.
     cost: f64,
 }
 
-impl SplitPlane {
-    fn bin_of(&self, item: &Item, middles: &Bounds) -> usize {
-        bin(item.bounds.middle()[self.axis], middles, self.axis)
-    }
+/// What lies in a bin.
+#[derive(Clone, Copy)]
+struct Bin {
+    bounds: Box4,
+    count: usize,
 }
 
-/// The split that the surface area heuristic likes best; `None` if all middles are in one place.
-fn cheapest_plane(items: &[Item], middles: &Bounds) -> Option<SplitPlane> {
-    let mut best: Option<SplitPlane> = None;
-    for axis in (0..3).filter(|&axis| middles.low[axis] < middles.high[axis]) {
-        let mut bins = [(0_usize, Bounds::EMPTY); BINS];
-        for item in items {
-            let (count, bounds) = &mut bins[bin(item.bounds.middle()[axis], middles, axis)];
-            *count += 1;
-            *bounds = bounds.with(&item.bounds);
+type Bins = [[Bin; BINS]; 3];
+
+const NO_BINS: Bins = [[Bin { bounds: Box4::EMPTY, count: 0 }; BINS]; 3];
+
+fn fill_bins(items: &[Item], grid: &Grid) -> Bins {
+    if items.len() > LARGE {
+        let shares = items.par_chunks(LARGE / 4).map(|share| fill_bins(share, grid));
+        return shares.reduce(
+            || NO_BINS,
+            |mut all, share| {
+                for (bin, more) in all.iter_mut().flatten().zip(share.as_flattened()) {
+                    bin.count += more.count;
+                    bin.bounds = bin.bounds.with(more.bounds.low, more.bounds.high);
+                }
+                all
+            },
+        );
+    }
+    let mut bins = NO_BINS;
+    for item in items {
+        let places = grid.bins(item.middle());
+        for axis in 0..3 {
+            let bin = &mut bins[axis][places[axis]];
+            bin.count += 1;
+            bin.bounds = bin.bounds.with(item.low, item.high);
         }
+    }
+    bins
+}
+
+/// The split that the surface area heuristic likes best; `None` if all middles are in one bin.
+fn cheapest_plane(items: &[Item], middles: &Box4) -> Option<SplitPlane> {
+    let grid = Grid::new(middles);
+    let bins = fill_bins(items, &grid);
+    let mut best: Option<SplitPlane> = None;
+    for (axis, bins) in bins.iter().enumerate() {
         // From the right, the cost of what lies at or beyond each bin; then from the left.
         let mut beyond = [0.0; BINS];
-        let (mut count, mut bounds) = (0, Bounds::EMPTY);
+        let (mut count, mut bounds) = (0, Box4::EMPTY);
         for k in (1..BINS).rev() {
-            count += bins[k].0;
-            bounds = bounds.with(&bins[k].1);
-            beyond[k] = as_real(count) * bounds.half_area();
+            count += bins[k].count;
+            bounds = bounds.with(bins[k].bounds.low, bins[k].bounds.high);
+            beyond[k] = leaves(count) * bounds.half_area();
         }
-        let (mut count, mut bounds) = (0, Bounds::EMPTY);
+        let (mut count, mut bounds) = (0, Box4::EMPTY);
         for k in 1..BINS {
-            count += bins[k - 1].0;
-            bounds = bounds.with(&bins[k - 1].1);
-            let cost = as_real(count) * bounds.half_area() + beyond[k];
+            count += bins[k - 1].count;
+            bounds = bounds.with(bins[k - 1].bounds.low, bins[k - 1].bounds.high);
+            let cost = leaves(count) * bounds.half_area() + beyond[k];
             let useful = count > 0 && count < items.len();
             if useful && best.is_none_or(|best| cost < best.cost) {
-                best = Some(SplitPlane { axis, bin: k, cost });
+                best = Some(SplitPlane { grid, axis, bin: k, cost });
             }
         }
     }
     best
 }
 
-/// The bin of a middle along an axis along which middles differ.
-fn bin(middle: f32, middles: &Bounds, axis: usize) -> usize {
-    let (low, high) = (f64::from(middles.low[axis]), f64::from(middles.high[axis]));
-    let part = (f64::from(middle) - low) / (high - low);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "0 to 1, and the conversion saturates"
-    )]
-    let bin = (part * as_real(BINS)) as usize;
-    bin.min(BINS - 1)
-}
-
+/// How many leaves so many primitives fill.
 #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
-fn as_real(count: usize) -> f64 {
-    count as f64
+fn leaves(count: usize) -> f64 {
+    count.div_ceil(WIDTH) as f64
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use bothways_common::{Mesh, Object};
-
-    fn mesh(positions: Vec<Vec3>) -> Scene {
-        let count = u32::try_from(positions.len()).unwrap();
-        let triangles = (0..count / 3).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
-        let object: Object = Shape::Mesh(Mesh::new(positions, triangles).unwrap()).into();
-        Scene::new(vec![object]).unwrap()
-    }
-
-    /// The depth of the hierarchy and the ids in it; checks that boxes hold what is under them.
-    fn inspect(prepared: &Prepared) -> (usize, Vec<u32>) {
-        let (mut deepest, mut ids) = (0, Vec::new());
-        let mut open = vec![(Child::Node(0), Bounds::EMPTY.with(&prepared.nodes[0].bounds[0]), 0)];
-        open[0].1 = open[0].1.with(&prepared.nodes[0].bounds[1]);
-        while let Some((child, bounds, depth)) = open.pop() {
-            deepest = deepest.max(depth);
-            let holds = |inner: &Bounds| {
-                inner.low.cmpge(bounds.low).all() && inner.high.cmple(bounds.high).all()
-            };
-            match child {
-                Child::Node(node) => {
-                    let Node { bounds, children } = &prepared.nodes[node as usize];
-                    for (child, bounds) in children.iter().zip(bounds) {
-                        assert!(holds(bounds) || bounds.low.x > bounds.high.x);
-                        open.push((*child, *bounds, depth + 1));
-                    }
-                }
-                Child::Leaf { first, count } => {
-                    for leaf in &prepared.leaves[first as usize..(first + count) as usize] {
-                        let Form::Triangle(corners) = leaf.form else { panic!("only triangles") };
-                        assert!(holds(&triangle(0, corners).bounds));
-                        ids.push(leaf.id);
-                    }
-                }
-            }
-        }
-        ids.sort_unstable();
-        (deepest, ids)
-    }
-
-    #[test]
-    fn every_primitive_is_in_one_leaf() {
-        let corner =
-            |k: u32| Vec3::new((k * 37 % 101) as f32, (k * 53 % 97) as f32, (k % 89) as f32);
-        let scene = mesh((0..3000 * 3).map(corner).collect());
-        let (depth, ids) = inspect(&build(&scene));
-        assert_eq!(ids, (0..3000).collect::<Vec<_>>());
-        assert!(depth < 30, "{depth}");
-    }
-
-    #[test]
-    fn coincident_triangles_are_halved() {
-        let scene = mesh([Vec3::ZERO, Vec3::X, Vec3::Y].repeat(100_000));
-        let (depth, ids) = inspect(&build(&scene));
-        assert_eq!(ids.len(), 100_000);
-        assert!(depth <= 17, "{depth}");
-    }
-
-    #[test]
-    fn triangles_ever_smaller_do_not_nest_without_end() {
-        let corner =
-            |k: usize| Vec3::splat((-(k as f32)).exp2()) * [Vec3::X, Vec3::Y, Vec3::Z][k % 3];
-        let scene = mesh((0..3 * 140).map(|k| corner(k / 3 + k % 3)).collect());
-        let (depth, ids) = inspect(&build(&scene));
-        assert_eq!(ids.len(), 140);
-        assert!(depth <= DEEP + 8, "{depth}");
-    }
-
-    #[test]
-    fn a_scene_may_have_nothing_to_bound() {
-        let plane = Shape::Plane(Plane { point: Vec3::ZERO, normal: Vec3::Y });
-        let huge = Shape::Sphere(Sphere { center: Vec3::splat(3e38), radius: 3e38 });
-        let prepared = build(&Scene::new(vec![plane.into(), huge.into()]).unwrap());
-        assert!(prepared.nodes.is_empty());
-        assert_eq!(prepared.unbounded, [0, 1]);
-        assert!(build(&Scene::new(vec![]).unwrap()).unbounded.is_empty());
-    }
-}
+mod tests;

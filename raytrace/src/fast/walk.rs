@@ -1,286 +1,226 @@
-//! The walk of one ray through the hierarchy, near boxes first.
+//! The walk of a tile's rays through the hierarchy, near boxes first.
 
-use super::build::{Bounds, Child, Form, Prepared};
-use super::leaf::{self, Answer, Distance, Trust, UNIT_ROUNDOFF};
+use super::build::Prepared;
+use super::draw;
+use super::rays::{Lens, Rays, Side};
+use super::round;
+use super::tile::Tile;
+use super::tree::{Child, Kind, Node, WIDTH};
 use bothways_common::fault::{Fault, Planted};
-use bothways_common::observe::{Observer, Question, Sample};
-use bothways_common::predicate::Memory;
-use bothways_common::{Judge, Primitive, Ray, View};
-use glam::DVec3;
+use bothways_common::observe::Observer;
+use bothways_common::simd::{
+    Simd, SimdBase, SimdMask, SimdWiden, f32x16, f64x8, mask64x8, prefetch,
+};
+use bothways_common::{Primitive, View};
 
-/// What a ray meets first, as far as the walk has come.
+/// A node or leaf to enter yet.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Hit {
-    pub(super) id: u32,
-    primitive: Primitive,
-    distance: Distance,
+struct Open {
+    /// None of its primitives is nearer than this `t`, in the scale of the map.
+    near: f64,
+    child: Child,
+    counts: u8,
 }
 
-/// Walks rays of one view through the hierarchy.
+/// Walks tiles of one view through the hierarchy.
 #[derive(Debug)]
 pub(super) struct Walker<'a> {
     prepared: &'a Prepared,
-    view: &'a View<'a>,
-    judge: Judge,
-    memory: Memory,
-    eye: DVec3,
+    rays: &'a Rays<'a>,
+    pub(super) tile: Tile,
     /// What is tested without a box: planes, and spheres that no box can be trusted to hold, because
     /// they are huge or the eye is so far away (those are in boxes, too).
     unbounded: Vec<(u32, Primitive)>,
-    /// Nodes to enter yet, each with a `t` that none of its primitives is nearer than.
-    open: Vec<(Child, f64)>,
+    stack: Vec<Open>,
 }
 
-/// A ray as boxes are tested against it.
-struct BoxRay {
-    origin: DVec3,
-    inverse: DVec3,
-    /// For each axis, whether the ray runs against it.
-    backward: [bool; 3],
-}
-
-impl BoxRay {
-    fn new(ray: &Ray) -> Self {
-        let inverse = ray.direction.recip();
-        BoxRay {
-            origin: ray.origin,
-            inverse,
-            backward: inverse.to_array().map(f64::is_sign_negative),
-        }
-    }
-
-    /// The `t` at which the ray enters a box, at most; `None` if it certainly misses it.
-    ///
-    /// The box is taken relative to the eye as vertices are, by one rounded subtraction, which keeps
-    /// order: no vertex gets outside. Then a slab's `t = (side − O)·(1/D)` carries 3 roundings, so that
-    /// a ray which meets the box in real numbers has `entry·(1 − 4u) ≤ exit·(1 + 4u)`. Where `D` is
-    /// zero along an axis, a side that the origin lies on gives `0·∞`, NaN, which the comparisons
-    /// below pass over.
-    fn enter(&self, bounds: &Bounds, eye: DVec3) -> Option<f64> {
-        const WIDER: f64 = 1.0 + 16.0 * UNIT_ROUNDOFF;
-        const NARROWER: f64 = 1.0 - 8.0 * UNIT_ROUNDOFF;
-        let (mut entry, mut exit) = (0.0, f64::INFINITY);
-        for axis in 0..3 {
-            let (low, high) = (bounds.low[axis], bounds.high[axis]);
-            let (near, far) = if self.backward[axis] { (high, low) } else { (low, high) };
-            let t =
-                |side: f32| (f64::from(side) - eye[axis] - self.origin[axis]) * self.inverse[axis];
-            let (near, far) = (t(near), t(far));
-            if near > entry {
-                entry = near;
-            }
-            if far < exit {
-                exit = far;
-            }
-        }
-        (entry <= exit * WIDER).then_some(entry * NARROWER)
-    }
+/// How far what boxes hold reaches from the eye, along any axis.
+pub(super) fn reach(prepared: &Prepared, view: &View) -> f64 {
+    let eye = view.camera.eye().as_dvec3();
+    let [low, high] = [prepared.bounds.low, prepared.bounds.high].map(|v| v.as_dvec3() - eye);
+    let reach = low.abs().max(high.abs()).max_element();
+    if reach.is_finite() && reach > 0.0 { reach } else { 1.0 }
 }
 
 impl<'a> Walker<'a> {
-    pub(super) fn new(prepared: &'a Prepared, view: &'a View<'a>) -> Self {
-        let eye = view.camera.eye().as_dvec3();
+    pub(super) fn new(prepared: &'a Prepared, rays: &'a Rays<'a>) -> Self {
+        let eye = rays.camera().eye().as_dvec3();
         let room = |extent: f32| f64::from(extent) * 30f64.exp2();
         let spheres = prepared.spheres.iter();
         let loose = spheres.filter(|(_, extent)| eye.abs().max_element() > room(*extent));
         let ids = prepared.unbounded.iter().chain(loose.map(|(id, _)| id));
-        let unbounded = ids.map(|&id| (id, view.primitive(id))).collect();
-        let judge = view.judge();
-        Walker {
-            prepared,
-            view,
-            judge,
-            memory: Memory::new(judge),
-            eye,
-            unbounded,
-            open: Vec::new(),
-        }
+        let unbounded = ids.map(|&id| (id, rays.view.primitive(id))).collect();
+        Walker { prepared, rays, tile: Tile::new(rays), unbounded, stack: Vec::new() }
     }
 
-    /// The first primitive along a ray.
-    pub(super) fn first_hit<O: Observer, F: Fault>(
+    /// Finds the first hits of a square of samples, of which so many rows and columns are in the
+    /// picture.
+    #[inline(always)]
+    pub(super) fn walk<S: Simd, O: Observer, F: Fault>(
         &mut self,
-        ray: &Ray,
-        sample: Sample,
+        simd: S,
+        start: [usize; 2],
+        size: [usize; 2],
+        side: usize,
         observer: &mut O,
-    ) -> Option<Hit> {
-        observer.ray_begun(sample);
-        let mut hit = None;
-        for index in 0..self.unbounded.len() {
-            let (id, primitive) = self.unbounded[index];
-            self.test::<O, F>(ray, sample, id, primitive, &mut hit, observer);
+    ) {
+        let [row, column] = start;
+        let lens = self.rays.lens(column, row, side);
+        self.tile.begin(start, size, side);
+        if O::WATCHES
+            && let Some(sample) = self.tile.sample(0)
+        {
+            observer.ray_begun(sample);
         }
-        let box_ray = BoxRay::new(ray);
-        self.open.clear();
-        if !self.prepared.nodes.is_empty() {
-            self.open.push((Child::Node(0), 0.0));
+        for (id, primitive) in &self.unbounded {
+            round::draw::<O, F>(self.rays, &lens, *id, primitive, &mut self.tile, observer);
         }
-        while let Some((child, entry)) = self.open.pop() {
-            if is_farther(entry, hit.as_ref()) {
+        if !self.unbounded.is_empty() {
+            self.tile.renew(simd);
+        }
+        self.stack.clear();
+        let root = |&child: &Child| Open { near: f64::NEG_INFINITY, child, counts: 0 };
+        self.stack.extend(self.prepared.roots.iter().map(root));
+        let mut farthest = self.rays.farthest(self.tile.far, &lens.errors);
+        while let Some(Open { near, child, counts }) = self.stack.pop() {
+            if near > farthest {
                 continue;
             }
-            match child {
-                Child::Node(node) => {
-                    self.enter::<O, F>(node, &box_ray, sample, hit.as_ref(), observer);
+            match child.kind() {
+                Kind::Node => {
+                    self.enter::<S, O, F>(simd, &lens, child.index(), farthest, observer);
+                    continue;
                 }
-                Child::Leaf { first, count } => {
-                    let leaves = first as usize..(first + count) as usize;
-                    for leaf in &self.prepared.leaves[leaves] {
-                        let primitive = self.primitive(&leaf.form);
-                        self.test::<O, F>(ray, sample, leaf.id, primitive, &mut hit, observer);
+                Kind::Triangles => {
+                    let leaf = &self.prepared.leaves[child.index()];
+                    let [all, different] = [counts >> 4, counts & 15].map(usize::from);
+                    let used = if F::is(Planted::TiesToLast) { all } else { different };
+                    let of = (leaf, used);
+                    draw::draw::<S, O, F>(simd, self.rays, &lens, of, &mut self.tile, observer);
+                }
+                Kind::Spheres => {
+                    let count = usize::from(counts >> 4);
+                    for &id in &self.prepared.round[child.index()][..count] {
+                        let ball = self.rays.view.primitive(id);
+                        round::draw::<O, F>(self.rays, &lens, id, &ball, &mut self.tile, observer);
                     }
+                    self.tile.renew(simd);
                 }
             }
+            farthest = self.rays.farthest(self.tile.far, &lens.errors);
         }
-        observer.hit(sample, hit.as_ref().map(|hit| hit.id));
-        hit
+        if O::WATCHES
+            && let Some(sample) = self.tile.sample(0)
+        {
+            observer.hit(sample, self.tile.seen());
+        }
     }
 
-    /// The distance of a hit.
-    pub(super) fn t(&self, hit: &Hit, ray: &Ray) -> f64 {
-        hit.distance.t().unwrap_or_else(|| self.judge.distance(&hit.primitive, ray))
-    }
-
-    /// Tests both boxes of a node and opens those that the ray meets, the nearer one last, so first.
-    fn enter<O: Observer, F: Fault>(
+    /// Tests the boxes of a node and opens those that a ray of the tile may meet, near ones last, so
+    /// first.
+    ///
+    /// A box is taken relative to the eye as vertices are, by one rounded subtraction. Rounding keeps
+    /// order: what is computed from a box's corner is not less than what would be computed from any point
+    /// of the box that is nowhere farther along the plane's normal, so only the error of points on rays
+    /// counts, which [`Rays::lens`] allows for.
+    #[inline(always)]
+    fn enter<S: Simd, O: Observer, F: Fault>(
         &mut self,
-        index: u32,
-        ray: &BoxRay,
-        sample: Sample,
-        hit: Option<&Hit>,
+        simd: S,
+        lens: &Lens,
+        index: usize,
+        farthest: f64,
         observer: &mut O,
     ) {
-        let forgotten = self.prepared.nodes.len() / 2;
-        if F::is(Planted::ForgottenNode) && index as usize == forgotten {
+        if F::is(Planted::ForgottenNode) && index == self.prepared.nodes.len() / 2 {
             return;
         }
-        let node = &self.prepared.nodes[index as usize];
-        let entries = [0, 1].map(|child| {
-            if let Child::Leaf { count: 0, .. } = node.children[child] {
-                return None;
-            }
-            let bounds = shrunk::<F>(&node.bounds[child]);
-            let entry = ray.enter(&bounds, self.eye).filter(|entry| !is_farther(*entry, hit));
-            observer.node_opened(sample, 2 * index + [0, 1][child], entry.is_some());
-            entry
-        });
-        let [first, second] = node.children;
-        match entries {
-            [Some(near), Some(far)] if near <= far => {
-                self.open.extend([(second, far), (first, near)]);
-            }
-            [Some(far), Some(near)] => self.open.extend([(first, far), (second, near)]),
-            [Some(entry), None] => self.open.push((first, entry)),
-            [None, Some(entry)] => self.open.push((second, entry)),
-            [None, None] => {}
+        let shrunk;
+        let mut node = &self.prepared.nodes[index];
+        if F::is(Planted::ShrunkBox) {
+            shrunk = shrink(node);
+            node = &shrunk;
         }
-    }
-
-    /// Tests a ray against a primitive and keeps the nearer of it and the hit so far.
-    fn test<O: Observer, F: Fault>(
-        &mut self,
-        ray: &Ray,
-        sample: Sample,
-        id: u32,
-        primitive: Primitive,
-        hit: &mut Option<Hit>,
-        observer: &mut O,
-    ) {
-        observer.sample_tested(sample, id);
-        let trust = Trust { blind: F::is(Planted::ZeroErrorBound) };
-        let (answer, signs) = leaf::primitive(ray, &primitive, trust);
-        let distance = match answer {
-            Answer::Hit(distance) | Answer::Open(distance) => distance,
-            Answer::Miss => {
-                observer.edge_signs(sample, id, signs);
-                return;
-            }
-        };
-        if let Answer::Hit(_) = answer {
-            observer.edge_signs(sample, id, signs);
-        } else if !self.judge_covers::<O, F>(ray, sample, id, &primitive, observer) {
-            return;
-        }
-        observer.fragment(sample, id);
-        if let Some(held) = hit {
-            let nearer = if distance.high < held.distance.low {
-                true
-            } else if distance.low > held.distance.high {
-                false
-            } else {
-                self.judge_nearer::<O, F>(ray, sample, (id, &primitive), held, observer)
-            };
-            observer.depth_test(sample, id, held.id, nearer);
-            if !nearer {
-                return;
+        let (near, met) = meet(simd, lens, node, farthest);
+        let used = (1_u64 << node.used) - 1;
+        let mut met = met.to_bitmask() & used;
+        if O::WATCHES
+            && let Some(sample) = self.tile.sample(0)
+        {
+            for lane in 0..usize::from(node.used) {
+                let number = u32::try_from(index * WIDTH + lane).unwrap_or(u32::MAX);
+                observer.node_opened(sample, number, met >> lane & 1 == 1);
             }
         }
-        *hit = Some(Hit { id, primitive, distance });
-    }
-
-    /// Asks the judge whether a primitive covers a sample that rounding leaves open.
-    #[cold]
-    fn judge_covers<O: Observer, F: Fault>(
-        &mut self,
-        ray: &Ray,
-        sample: Sample,
-        id: u32,
-        primitive: &Primitive,
-        observer: &mut O,
-    ) -> bool {
-        if self.memory.is_edge_on(id, primitive) {
-            return false;
-        }
-        observer.judged(sample, Question::Coverage);
-        let coverage = self.judge.coverage(primitive, ray);
-        if let Some(edges) = coverage.edges {
-            observer.edge_signs(sample, id, edges.at_sample.map(Some));
-        }
-        coverage.covers && !F::is(Planted::StrictComparison)
-    }
-
-    /// Asks the judge whether a primitive is seen rather than the hit so far.
-    #[cold]
-    fn judge_nearer<O: Observer, F: Fault>(
-        &mut self,
-        ray: &Ray,
-        sample: Sample,
-        challenger: (u32, &Primitive),
-        held: &Hit,
-        observer: &mut O,
-    ) -> bool {
-        observer.judged(sample, Question::Nearest);
-        if F::is(Planted::TiesToLast) {
-            let order = self.memory.compare(challenger, (held.id, &held.primitive), ray);
-            return order.decided.then(held.id.cmp(&challenger.0)).is_lt();
-        }
-        self.memory.nearer(challenger, (held.id, &held.primitive), ray)
-    }
-
-    /// A leaf's primitive relative to the eye.
-    fn primitive(&self, form: &Form) -> Primitive {
-        match *form {
-            Form::Triangle(corners) => {
-                Primitive::Triangle(corners.map(|corner| self.view.offset(corner)))
+        let near = near.to_array();
+        let base = self.stack.len();
+        while met != 0 {
+            let lane = (met.trailing_zeros() & 7) as usize;
+            met &= met - 1;
+            let child = node.children[lane];
+            match child.kind() {
+                Kind::Node => prefetch(&self.prepared.nodes[child.index()]),
+                Kind::Triangles => prefetch(&self.prepared.leaves[child.index()]),
+                Kind::Spheres => {}
             }
-            Form::Sphere(center, radius) => {
-                Primitive::Sphere { center: self.view.offset(center), radius: f64::from(radius) }
+            let open = Open { near: near[lane], child, counts: node.counts[lane] };
+            self.stack.push(open);
+            let mut place = self.stack.len() - 1;
+            while place > base && self.stack[place - 1].near < open.near {
+                self.stack[place] = self.stack[place - 1];
+                place -= 1;
             }
+            self.stack[place] = open;
         }
     }
 }
 
-/// Whether nothing from this `t` on can be the first hit: only what is certainly farther is dropped,
-/// since of equal distances another primitive may win.
-fn is_farther(entry: f64, hit: Option<&Hit>) -> bool {
-    hit.is_some_and(|hit| entry > hit.distance.high)
+/// The nearest `t` of each box, and which boxes a ray of the tile may meet before `farthest`.
+#[inline(always)]
+fn meet<S: Simd>(simd: S, lens: &Lens, node: &Node, farthest: f64) -> (f64x8<S>, mask64x8<S>) {
+    let corners = corners(simd, lens, node);
+    let [left, right, upper, lower] = &lens.sides;
+    let across = along(simd, &corners, left, true).min(along(simd, &corners, right, true));
+    let down = along(simd, &corners, upper, true).min(along(simd, &corners, lower, true));
+    let t = Side { normal: lens.rows[0], offset: lens.shift[0] };
+    let near = along(simd, &corners, &t, false);
+    let far = along(simd, &corners, &t, true);
+    let met = across.min(down).simd_ge(f64x8::splat(simd, 0.0))
+        & far.simd_ge(f64x8::splat(simd, lens.least_t))
+        & near.simd_le(f64x8::splat(simd, farthest));
+    (near, met)
 }
 
-fn shrunk<F: Fault>(bounds: &Bounds) -> Bounds {
-    if F::is(Planted::ShrunkBox) {
-        let step = |v: glam::Vec3, next: fn(f32) -> f32| glam::Vec3::from(v.to_array().map(next));
-        Bounds { low: step(bounds.low, f32::next_up), high: step(bounds.high, f32::next_down) }
-    } else {
-        *bounds
-    }
+/// Low and high sides of the boxes relative to the eye, along each axis.
+#[inline(always)]
+fn corners<S: Simd>(simd: S, lens: &Lens, node: &Node) -> [[f64x8<S>; 2]; 3] {
+    let rows = node.bounds.as_flattened();
+    let (lx, ly) = f32x16::from_slice(simd, &rows[..16]).widen();
+    let (lz, hx) = f32x16::from_slice(simd, &rows[16..32]).widen();
+    let (hy, hz) = f32x16::from_slice(simd, &rows[32..48]).widen();
+    let [x, y, z] = lens.eye;
+    [[lx - x, hx - x], [ly - y, hy - y], [lz - z, hz - z]]
+}
+
+/// How far along a plane's normal boxes reach: their farthest corners, or the least far.
+#[inline(always)]
+fn along<S: Simd>(
+    simd: S,
+    corners: &[[f64x8<S>; 2]; 3],
+    Side { normal: [nx, ny, nz], offset }: &Side,
+    far: bool,
+) -> f64x8<S> {
+    let [x, y, z] = corners;
+    let x = x[usize::from((*nx >= 0.0) == far)];
+    let y = y[usize::from((*ny >= 0.0) == far)];
+    let z = z[usize::from((*nz >= 0.0) == far)];
+    f64x8::splat(simd, *offset) + x * *nx + y * *ny + z * *nz
+}
+
+/// A fault: boxes too small by the last place.
+fn shrink(node: &Node) -> Node {
+    let mut node = *node;
+    node.bounds[..3].as_flattened_mut().iter_mut().for_each(|low| *low = low.next_up());
+    node.bounds[3..].as_flattened_mut().iter_mut().for_each(|high| *high = high.next_down());
+    node
 }

@@ -1,0 +1,101 @@
+//! Any ray, not only those of a picture.
+
+use super::build::Prepared;
+use super::rays::Rays;
+use super::walk::{self, Walker};
+use bothways_common::fault::Sound;
+use bothways_common::simd::{Simd, dispatch};
+use bothways_common::{Camera, CameraDescription, Orientation, Scene, View};
+use glam::Vec3;
+
+/// Half a line in the world: what lies at `origin + t·direction` with `t > 0`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WorldRay {
+    /// Where it begins.
+    pub origin: Vec3,
+    /// Where it goes; its length does not matter.
+    pub direction: Vec3,
+}
+
+/// What a ray meets first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// The primitive.
+    pub id: u32,
+    /// How far it is from the ray's origin.
+    pub distance: f32,
+}
+
+impl WorldRay {
+    /// The camera of which this ray is the middle ray: perspective, at the ray's origin, `w` against its
+    /// direction, `d = vw = vh = 1`, one pixel. Its up vector is the axis of the world that is most
+    /// perpendicular to the ray, of equals the first of `y`, `z`, `x`.
+    ///
+    /// It says what is exactly true of the ray: [`View::judge`] of it is the judge of
+    /// [`first_hit`]. A ray through an edge or a vertex belongs to what lies to its right, towards this
+    /// camera's `u`.
+    ///
+    /// # Panics
+    ///
+    /// If a number is not finite, or the direction is zero.
+    pub fn camera(&self) -> Camera {
+        let [x, y, z] = self.direction.abs().to_array();
+        let up = if y <= z && y <= x {
+            Vec3::Y
+        } else if z <= x {
+            Vec3::Z
+        } else {
+            Vec3::X
+        };
+        let orientation = Orientation::Direction { direction: self.direction, up };
+        let description = CameraDescription {
+            eye: self.origin,
+            orientation,
+            distance: 1.0,
+            viewport: [1.0, 1.0],
+            image: [1, 1],
+            ..CameraDescription::default()
+        };
+        Camera::new(description).unwrap_or_else(|error| panic!("this ray has no camera: {error}"))
+    }
+}
+
+/// Finds the first primitive along any ray, exactly: what is seen at the middle of
+/// [`WorldRay::camera`]'s picture.
+///
+/// # Panics
+///
+/// If the scene is not the one that was prepared, a number of the ray is not finite, or its direction is
+/// zero.
+///
+/// ```
+/// use bothways_raytrace::common::{Scene, Shape, Sphere, glam::Vec3};
+/// use bothways_raytrace::fast::{self, WorldRay};
+///
+/// let ball = Shape::Sphere(Sphere { center: Vec3::new(5.0, 0.0, 0.0), radius: 2.0 });
+/// let scene = Scene::new(vec![ball.into()])?;
+/// let prepared = fast::prepare(&scene);
+/// let to_the_right = WorldRay { origin: Vec3::ZERO, direction: Vec3::X };
+/// let hit = fast::first_hit(&prepared, &scene, to_the_right).expect("it meets the ball");
+/// assert_eq!((hit.id, hit.distance), (0, 3.0));
+/// let to_the_left = WorldRay { direction: Vec3::NEG_X, ..to_the_right };
+/// assert_eq!(fast::first_hit(&prepared, &scene, to_the_left), None);
+/// # Ok::<(), bothways_raytrace::common::SceneError>(())
+/// ```
+pub fn first_hit(prepared: &Prepared, scene: &Scene, ray: WorldRay) -> Option<Hit> {
+    assert_eq!(prepared.primitives, scene.primitive_count(), "another scene was prepared");
+    let camera = ray.camera();
+    let view = View::new(scene, &camera);
+    let rays = Rays::new(&view, 1, walk::reach(prepared, &view));
+    let mut walker = Walker::new(prepared, &rays);
+    let distance = dispatch!(prepared.level, simd => alone(simd, &mut walker, &rays));
+    walker.tile.seen().map(|id| Hit { id, distance })
+}
+
+#[inline(always)]
+fn alone<S: Simd>(simd: S, walker: &mut Walker, rays: &Rays) -> f32 {
+    walker.walk::<S, (), Sound>(simd, [0, 0], [1, 1], 1, &mut ());
+    let (mut id, mut distance) = ([0], [0.0]);
+    walker.tile.store(simd, rays, &mut [&mut id], &mut [&mut distance], 0..1);
+    distance[0]
+}

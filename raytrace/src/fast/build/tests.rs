@@ -1,0 +1,108 @@
+//! What a hierarchy must be.
+
+use super::*;
+use bothways_common::Object;
+
+fn mesh(positions: Vec<Vec3>) -> Scene {
+    let count = u32::try_from(positions.len()).unwrap();
+    let triangles = (0..count / 3).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+    let object: Object = Shape::Mesh(Mesh::new(positions, triangles).unwrap()).into();
+    Scene::new(vec![object]).unwrap()
+}
+
+fn built(scene: &Scene) -> Prepared {
+    build(scene, 16)
+}
+
+/// The depth of the hierarchy and the ids in it; checks that boxes hold what is under them.
+fn inspect(prepared: &Prepared) -> (usize, Vec<u32>) {
+    let (mut deepest, mut ids) = (0, Vec::new());
+    let mut open = vec![(prepared.roots[0], prepared.bounds, 0)];
+    while let Some((child, bounds, depth)) = open.pop() {
+        deepest = deepest.max(depth);
+        let holds =
+            |low: Vec3, high: Vec3| low.cmpge(bounds.low).all() && high.cmple(bounds.high).all();
+        let node = &prepared.nodes[child.index()];
+        assert!(node.used > 0);
+        for lane in 0..usize::from(node.used) {
+            let side = |at: usize| Vec3::from_array([0, 1, 2].map(|k| node.bounds[at + k][lane]));
+            let inner = Bounds { low: side(0), high: side(3) };
+            assert!(holds(inner.low, inner.high));
+            let child = node.children[lane];
+            if child.kind() == Kind::Node {
+                open.push((child, inner, depth + 1));
+                continue;
+            }
+            let leaf = &prepared.leaves[child.index()];
+            for lane in 0..usize::from(node.counts[lane] >> 4) {
+                for corner in leaf.corners(lane) {
+                    assert!(corner.cmpge(inner.low).all() && corner.cmple(inner.high).all());
+                }
+                ids.push(leaf.ids[lane]);
+            }
+        }
+    }
+    ids.sort_unstable();
+    (deepest, ids)
+}
+
+#[test]
+fn every_primitive_is_in_one_leaf() {
+    let corner = |k: u32| Vec3::new((k * 37 % 101) as f32, (k * 53 % 97) as f32, (k % 89) as f32);
+    for count in [1, 8, 9, 70, 3000, 20_000] {
+        let scene = mesh((0..count * 3).map(corner).collect());
+        let (depth, ids) = inspect(&built(&scene));
+        assert_eq!(ids, (0..count).collect::<Vec<_>>());
+        assert!(depth < 12, "{depth}");
+    }
+}
+
+#[test]
+fn of_many_coincident_triangles_the_first_is_kept() {
+    let scene = mesh([Vec3::ZERO, Vec3::X, Vec3::Y].repeat(100_000));
+    assert_eq!(inspect(&built(&scene)), (0, vec![0]));
+}
+
+#[test]
+fn twins_in_a_leaf_come_last() {
+    let (a, b, c, d) = (Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z);
+    let scene = mesh(vec![a, b, c, c, a, b, a, b, d, b, a, c]);
+    let prepared = built(&scene);
+    assert_eq!(prepared.nodes[0].counts[0], 16 * 4 + 2);
+    assert_eq!(prepared.leaves[0].ids[..2], [0, 2]);
+}
+
+#[test]
+fn triangles_with_one_middle_are_halved() {
+    // Nested, each around the origin.
+    let scene = mesh(
+        (0..3 * 500_u16)
+            .map(|k| {
+                let size = 1.0 + f32::from(k / 3);
+                size * [Vec3::NEG_ONE, Vec3::ONE, Vec3::new(1.0, -1.0, 0.0)][usize::from(k % 3)]
+            })
+            .collect(),
+    );
+    let (depth, ids) = inspect(&built(&scene));
+    assert_eq!(ids.len(), 500);
+    assert!(depth <= 9, "{depth}");
+}
+
+#[test]
+fn triangles_ever_smaller_do_not_nest_without_end() {
+    let corner = |k: usize| Vec3::splat((-(k as f32)).exp2()) * [Vec3::X, Vec3::Y, Vec3::Z][k % 3];
+    let scene = mesh((0..3 * 140).map(|k| corner(k / 3 + k % 3)).collect());
+    let (depth, ids) = inspect(&built(&scene));
+    assert_eq!(ids.len(), 140);
+    assert!(depth <= DEEP, "{depth}");
+}
+
+#[test]
+fn a_scene_may_have_nothing_to_bound() {
+    let plane = Shape::Plane(Plane { point: Vec3::ZERO, normal: Vec3::Y });
+    let huge = Shape::Sphere(Sphere { center: Vec3::splat(3e38), radius: 3e38 });
+    let prepared = built(&Scene::new(vec![plane.into(), huge.into()]).unwrap());
+    assert!(prepared.nodes.is_empty() && prepared.roots.is_empty());
+    assert_eq!(prepared.unbounded, [0, 1]);
+    assert!(built(&Scene::new(vec![]).unwrap()).unbounded.is_empty());
+}
