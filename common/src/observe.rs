@@ -153,8 +153,8 @@ pub struct Work {
     /// but those that are the same as an earlier one.
     pub nodes: u64,
     /// Pairs of a primitive and a sample tested for coverage: the inner step of both loops. In
-    /// object order these are the samples of the primitives' bounding regions, which in regions wider
-    /// than 16 samples are cut row by row to where the edge functions allow.
+    /// object order these are the samples of the primitives' bounding regions, which for triangles wider
+    /// than 256 samples are cut row by row to where the edge functions allow.
     pub tests: u64,
     /// Of these, the pairs in which the primitive covers the sample.
     pub fragments: u64,
