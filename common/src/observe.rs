@@ -162,7 +162,8 @@ pub struct Work {
     pub depth_tests: u64,
     /// Coverage decisions that the fast arithmetic left to the exact judge.
     pub judged_coverage: u64,
-    /// Depth decisions that the fast arithmetic left to the exact judge.
+    /// Depth decisions that the fast arithmetic left to the exact judge. In object order it depends on
+    /// which fragment comes first to a sample, and so on how the picture is cut into tiles.
     pub judged_nearest: u64,
 }
 

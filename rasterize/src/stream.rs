@@ -253,7 +253,7 @@ impl<O: Observer> DepthTest<'_, O> {
 
 /// Which of two stored distances belongs to the nearer triangle, if rounding leaves no doubt.
 ///
-/// A stored `t` is within 4·10⁻⁶ of the true one, relatively, where it is at least 2⁻¹⁰⁰: there the
+/// A stored `t` is within 8·10⁻⁶ of the true one, relatively, where it is at least 2⁻¹⁰⁰: there the
 /// nearest `f32` is a part in 2²⁴ away, and what a renderer stores is tested to be within a millionth.
 /// Two of them are in order if they differ by more than about 8·10⁻⁶ of the larger; 2·10⁻⁵ takes more
 /// than twice that. Where the smaller one is below 2⁻¹⁰⁰, its error is far below 2⁻¹⁰⁰·10⁻⁵ however it

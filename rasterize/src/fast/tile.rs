@@ -326,7 +326,7 @@ pub(super) fn nearer_by<F: Fault>() -> f32 {
     if F::is(Planted::ZeroErrorBound) { 1.0 } else { NEARER }
 }
 
-/// Distances from keys, and where they are not within 4·10⁻⁶ of the true ones.
+/// Distances from keys, and where they are not within 8·10⁻⁶ of the true ones.
 ///
 /// Perspective: `1/(key + offset)` is at most `KEY_ERROR` of it off, and three roundings of 2⁻²⁴.
 /// Parallel: `offset − key` is off by `KEY_ERROR` of the key, less than twice the distance if that is
