@@ -253,10 +253,9 @@ impl<O: Observer> DepthTest<'_, O> {
 
 /// Which of two stored distances belongs to the nearer triangle, if rounding leaves no doubt.
 ///
-/// A stored `t` is within 8·10⁻⁶ of the true one, relatively, where it is at least 2⁻¹⁰⁰: there the
-/// nearest `f32` is a part in 2²⁴ away, and what a renderer stores is tested to be within a millionth.
-/// Two of them are in order if they differ by more than about 8·10⁻⁶ of the larger; 2·10⁻⁵ takes more
-/// than twice that. Where the smaller one is below 2⁻¹⁰⁰, its error is far below 2⁻¹⁰⁰·10⁻⁵ however it
+/// A stored `t` is within 8·10⁻⁶ of the true one, relatively, where it is at least 2⁻¹⁰⁰: so the fast
+/// rasterizer derives it. Two of them are in order if they differ by more than 1.6·10⁻⁵ of the larger;
+/// 2·10⁻⁵ leaves room for rounding. Where the smaller one is below 2⁻¹⁰⁰, its error is far below 2⁻¹⁰⁰·10⁻⁵ however it
 /// was rounded, and the larger alone must be above. A true `t` beyond `f32::MAX` is stored as that: as
 /// the larger one it is even larger, and two such are never in order.
 fn surely_nearer(challenger: f32, holder: f32) -> Option<bool> {
@@ -275,6 +274,8 @@ struct Shifted<O> {
 }
 
 impl<O: Observer> Observer for Shifted<O> {
+    const WATCHES: bool = O::WATCHES;
+
     fn fork(&self) -> Self {
         Shifted { inner: self.inner.fork(), by: self.by }
     }
