@@ -32,19 +32,21 @@ pub(crate) struct Curve {
     pub(crate) points: Vec<[f64; 2]>,
 }
 
-/// Powers of ten that an axis shows, and where they lie.
+/// What an axis shows, as powers of ten.
 struct Axis {
     low: f64,
     high: f64,
 }
 
 impl Axis {
-    /// An axis that begins and ends with a tick, on a third of a decade.
+    /// The shortest axis that begins and ends with a tick.
     fn around(values: impl Iterator<Item = f64>) -> Axis {
         let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
-            (low.min(value.log10()), high.max(value.log10()))
+            (low.min(value), high.max(value))
         });
-        Axis { low: (3.0 * low - 0.1).floor() / 3.0, high: (3.0 * high + 0.1).ceil() / 3.0 }
+        let below = ticks().filter(|tick| *tick <= low).last().unwrap_or(low);
+        let above = ticks().find(|tick| *tick >= high).unwrap_or(high);
+        Axis { low: below.log10(), high: above.log10() }
     }
 
     fn length(&self) -> f64 {
@@ -55,13 +57,14 @@ impl Axis {
         DECADE * (value.log10() - self.low)
     }
 
-    /// 1, 2 and 5 of each decade, as far as they are on the axis.
     fn ticks(&self) -> impl Iterator<Item = f64> {
-        // Nothing that is drawn here is smaller or larger.
-        let all =
-            (-9..=12).flat_map(|power| [1.0, 2.0, 5.0].map(|digit| digit * 10f64.powi(power)));
-        all.filter(|tick| (self.low - 1e-9..=self.high + 1e-9).contains(&tick.log10()))
+        ticks().filter(|tick| (self.low..=self.high).contains(&tick.log10()))
     }
+}
+
+/// 1, 2 and 5 of each decade; nothing that is drawn here is smaller or larger.
+fn ticks() -> impl Iterator<Item = f64> {
+    (-9..=12).flat_map(|power| [1.0, 2.0, 5.0].map(|digit| digit * 10f64.powi(power)))
 }
 
 impl Chart {
