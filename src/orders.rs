@@ -328,12 +328,12 @@ fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
 }
 
 impl Spread {
-    /// The spread of some measurements, to a tenth of a microsecond.
+    /// The spread of some measurements in milliseconds, to a tenth of a microsecond.
     ///
     /// # Panics
     ///
     /// If there are none.
-    fn of(mut times: Vec<f64>) -> Spread {
+    pub fn of(mut times: Vec<f64>) -> Spread {
         times.sort_by(f64::total_cmp);
         let rounded = |time: f64| (time * 1e4).round() / 1e4;
         let last = times.len() - 1;

@@ -1,0 +1,116 @@
+//! Draws what a frame costs in both orders: time against triangles, and time against pixels.
+//!
+//! `cargo bench --bench cost_curves -- FOLDER` measures, prints every point, and writes
+//! `cost-triangles.svg` and `cost-pixels.svg`; without FOLDER, into `target/cost-curves`. One thread;
+//! a sphere that is seen whole; the median of some frames of visibility after a warm-up, as
+//! `render --repeat` measures them. `BOTHWAYS_LONG=1` goes on to 8 million triangles.
+
+mod chart;
+
+use bothways::common::generate::Kind;
+use bothways::common::simd::best_level;
+use bothways::common::{Camera, CameraDescription, Options, Scene, Shape, View};
+use bothways::orders::{self, Method, Order};
+use bothways::scenes::framed;
+use chart::{Chart, Curve};
+use std::path::Path;
+use std::process::ExitCode;
+
+const FULL_HD: [u32; 2] = [1920, 1080];
+/// The sphere under the sweep of pixels: 100 thousand triangles.
+const FIXED: [u32; 2] = [316, 159];
+const REPEAT: u32 = 7;
+
+/// Around and along: from 80 triangles to 1 million, then 8 million.
+const SPHERES: [[u32; 2]; 7] =
+    [[10, 5], [32, 17], [100, 51], [178, 90], FIXED, [1000, 501], [2828, 1415]];
+const IMAGES: [[u32; 2]; 6] =
+    [[160, 90], [320, 180], [640, 360], [1280, 720], FULL_HD, [3840, 2160]];
+
+/// The colours of the difference picture, the second lighter where the page is dark.
+const COLOURS: [(Order, [&str; 2]); 2] =
+    [(Order::Object, ["#b87600", "#e69f00"]), (Order::Image, ["#0072b2", "#56b4e9"])];
+
+fn main() -> ExitCode {
+    // Cargo itself adds one.
+    let folder = std::env::args().skip(1).find(|word| word != "--bench");
+    let default = concat!(env!("CARGO_MANIFEST_DIR"), "/target/cost-curves");
+    let folder = folder.unwrap_or_else(|| default.into());
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    let drawn = pool.expect("there is a thread").install(|| draw(Path::new(&folder)));
+    match drawn {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{folder}: {error}; name a folder that can be written");
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn draw(folder: &Path) -> std::io::Result<()> {
+    // Rather now than after minutes.
+    std::fs::create_dir_all(folder)?;
+    let level = format!("{:?}", best_level());
+    let level = level.split('(').next().unwrap_or_default();
+    let long = std::env::var_os("BOTHWAYS_LONG").is_some();
+    let spheres = if long { &SPHERES[..] } else { &SPHERES[..SPHERES.len() - 1] };
+
+    let curves =
+        curves(spheres.iter().map(|divisions| (*divisions, FULL_HD)), |triangles, _| triangles);
+    let chart = Chart {
+        title: "A frame against its triangles".into(),
+        note: format!("sphere, 1920 × 1080 pixels, one thread, {level}"),
+        x: "triangles",
+        y: "milliseconds a frame",
+        curves,
+    };
+    write(folder, "cost-triangles.svg", &chart.svg())?;
+
+    let curves = self::curves(IMAGES.iter().map(|image| (FIXED, *image)), |_, pixels| pixels);
+    let chart = Chart {
+        title: "A frame against its pixels".into(),
+        note: format!("sphere of 100 k triangles, one thread, {level}"),
+        x: "pixels",
+        curves,
+        ..chart
+    };
+    write(folder, "cost-pixels.svg", &chart.svg())
+}
+
+/// Measures both orders on spheres in images; `x` chooses between triangles and pixels.
+fn curves(
+    cases: impl Iterator<Item = ([u32; 2], [u32; 2])>,
+    x: impl Fn(f64, f64) -> f64,
+) -> Vec<Curve> {
+    let curve =
+        |(order, colours): (Order, _)| Curve { name: order.name(), colours, points: vec![] };
+    let mut curves = COLOURS.map(curve);
+    for (divisions, [width, height]) in cases {
+        let mesh = Kind::Sphere.mesh(divisions).expect("a sphere has so many divisions");
+        let triangles = mesh.triangles().len();
+        let description = framed(&mesh).expect("a sphere has a size");
+        let vh = description.viewport[1];
+        let viewport = [vh * width as f32 / height as f32, vh];
+        let camera = CameraDescription { viewport, image: [width, height], ..description };
+        let camera = Camera::new(camera).expect("it is a camera");
+        let scene = Scene::new(vec![Shape::Mesh(mesh).into()]).expect("it is a scene");
+        for (curve, (order, _)) in curves.iter_mut().zip(COLOURS) {
+            let (view, options) = (View::new(&scene, &camera), Options::default());
+            let rendered = orders::render(order, Method::Fast, &view, &options, Some(REPEAT));
+            let time = rendered.times.expect("it was timed").visibility.median;
+            println!("{}, {triangles} triangles, {width}x{height}: {time} ms", order.name());
+            let pixels = f64::from(width * height);
+            curve.points.push([x(triangles as f64, pixels), time]);
+        }
+    }
+    curves.into()
+}
+
+/// Writes a file at once: nobody meets half of it.
+fn write(folder: &Path, name: &str, text: &str) -> std::io::Result<()> {
+    let partial = folder.join(format!(".{name}.partial"));
+    std::fs::write(&partial, text)?;
+    std::fs::rename(partial, folder.join(name))?;
+    println!("{}", folder.join(name).display());
+    Ok(())
+}

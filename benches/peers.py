@@ -1,0 +1,373 @@
+#!/usr/bin/env python3
+"""Both orders against the strongest existing renderers, side by side: ratios for docs/performance.md.
+
+    python3 benches/peers.py                        # every mesh; about 20 minutes
+    python3 benches/peers.py --meshes stanford-bunny sphere:501x1000 --repeats 9 --rounds 5
+    python3 benches/peers.py --markdown             # the same, and the table into docs/performance.md
+
+Our object order runs against Mesa llvmpipe, our image order against Intel Embree, each on the same mesh from
+the same camera: ../shared/peers says how, and what its programs time. Rounds alternate between ours and
+theirs, so that a machine that drifts drifts under both; a ratio is theirs over ours, above 1 where we are
+faster, and the table gives the median of the rounds. Beside them stands what filling the id and distance
+buffers costs with nothing drawn. Needs a quiet machine and, for the peers, what their README lists; what is
+missing is left out, and said.
+"""
+import argparse
+import json
+import os
+import platform
+import re
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+BUILD = ROOT / "target/peers"
+PAGE = ROOT / "docs/performance.md"
+BEGIN, END = "<!-- peers.py writes from here -->", "<!-- to here -->"
+
+# Triangles of generated meshes stand in mkmesh's own notation.
+GENERATED = ["sphere:51x100", "sphere:501x1000", "sphere:1415x2828", "soup:100000"]
+# From so many triangles on, issue 4 asks for 6 times llvmpipe.
+MANY = 50_000
+# An 8 M mesh costs seconds to load for every process: fewer rounds tell enough.
+LARGE = 4_000_000
+
+
+def main():
+    options = arguments()
+    try:
+        results = measure(options)
+    except subprocess.CalledProcessError as error:
+        words = " ".join(map(str, error.cmd))
+        fail(f"{words}\nended with {error.returncode}: {(error.stderr or '').strip()[-2000:]}")
+    except OSError as error:
+        fail(error)
+    tables = markdown(results)
+    print(tables)
+    write(BUILD / "peers.json", json.dumps(results, indent=2) + "\n")
+    if options.markdown:
+        page = PAGE.read_text(encoding="utf-8")
+        before, _, rest = page.partition(BEGIN)
+        _, _, after = rest.partition(END)
+        write(PAGE, f"{before}{BEGIN}\n\n{tables}\n{END}{after}")
+
+
+def arguments():
+    parser = argparse.ArgumentParser(
+        description=__doc__.splitlines()[0], epilog="JSON goes to target/peers/peers.json."
+    )
+    option = parser.add_argument
+    option("--meshes", nargs="+", metavar="MESH",
+           help="names of ../shared/meshes, OBJ files, sphere:LATxLON or soup:N; all if not given")
+    option("--sizes", nargs="+", metavar="WxH", type=size, default=["1920x1080"])
+    option("--threads", metavar="N", type=whole, default=2)
+    option("--repeats", metavar="N", type=whole, default=9, help="timed frames a process")
+    option("--rounds", metavar="N", type=whole, default=3, help="processes of each, alternating")
+    option("--shared", metavar="FOLDER", type=Path, default=ROOT / "../shared",
+           help="where peers and meshes are, if not in ../shared")
+    option("--order", choices=["both", "object", "image"], default="both")
+    option("--markdown", action="store_true", help="also write the tables into docs/performance.md")
+    return parser.parse_args()
+
+
+def whole(text):
+    if not text.isascii() or not text.isdigit() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"{text} is not a whole number from 1")
+    return int(text)
+
+
+def size(text):
+    if not re.fullmatch(r"[1-9]\d{0,4}x[1-9]\d{0,4}", text):
+        raise argparse.ArgumentTypeError(f"{text} is not a size; write it like 1920x1080")
+    return text
+
+
+def fail(text):
+    say(text)
+    sys.exit(2)
+
+
+def say(text):
+    print(text, file=sys.stderr, flush=True)
+
+
+def run(*words, **more):
+    """What a program prints, as text."""
+    done = subprocess.run([*map(str, words)], check=True, capture_output=True, text=True, **more)
+    return done.stdout
+
+
+def write(path, text):
+    """The whole file at once."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    partial = path.with_name(path.name + ".partial")
+    partial.write_text(text, encoding="utf-8")
+    partial.replace(path)
+
+
+def measure(options):
+    if options.markdown and BEGIN not in PAGE.read_text(encoding="utf-8"):
+        fail(f"{PAGE} has no line {BEGIN!r}: put it back where the table belongs")
+    specs = list(meshes(options.meshes, options.shared / "meshes"))
+    peers = build_peers(options.shared / "peers")
+    if "mkmesh" not in peers:
+        fail("nothing to draw: ../shared/peers and a C++ compiler make the scenes; get both")
+    ours, fill = build_ours()
+    if options.threads != 2 and "embree" in peers and options.order != "object":
+        say("Embree's program times 1 and 2 threads only")
+    rows = []
+    with tempfile.TemporaryDirectory(prefix="bothways-peers-") as folder:
+        for spec in specs:
+            for image in options.sizes:
+                rows.append(compare(spec, image, options, peers, ours, fill, Path(folder)))
+                say(one_line(rows[-1]))
+    return {
+        "machine": f"{platform.system()} {platform.machine()}, {processor()}, {os.cpu_count()} cores",
+        "commit": commit(),
+        "date": run("date", "+%F").strip(),
+        "threads": options.threads,
+        "repeats": options.repeats,
+        "rounds": options.rounds,
+        "rows": rows,
+    }
+
+
+def meshes(named, folder):
+    """OBJ files and generated meshes to draw."""
+    if not named:
+        named = [str(path) for path in sorted(folder.glob("*.obj"))]
+        if not named:
+            say(f"{folder} has no meshes: generated ones alone")
+        named += GENERATED
+    for name in named:
+        if re.fullmatch(r"sphere:\d+x\d+|soup:\d+", name):
+            yield name
+            continue
+        candidates = [Path(name), folder / f"{name}.obj"]
+        found = [path for path in candidates if path.suffix == ".obj" and path.is_file()]
+        if not found:
+            kinds = "an OBJ file, a name of ../shared/meshes, sphere:LATxLON or soup:N"
+            fail(f"there is no mesh {name}: give {kinds}")
+        yield str(found[0].resolve())
+
+
+# --- building ---------------------------------------------------------------------------------------
+
+
+def build_peers(folder):
+    """Programs by name, each with what its absence would mean said; built into target/peers."""
+    if not folder.is_dir():
+        say(f"{folder} is absent: no peers")
+        return {}
+    compiler = shutil.which("g++")
+    if not compiler:
+        say("no g++: no peers")
+        return {}
+    flags = ["-O3", "-march=native", "-mprefer-vector-width=512", "-fopenmp-simd", "-std=c++17"]
+    sources = {
+        "mkmesh": ("mkmesh.cpp", [], "meshes"),
+        "llvmpipe": ("gl_raster.cpp", ["-lEGL", "-lGL"], "llvmpipe (libegl-dev libgl-dev libgl1-mesa-dri)"),
+        "embree": ("embree_primary.cpp", ["-lembree3", "-lpthread"], "Embree (libembree-dev libtbb-dev)"),
+    }
+    BUILD.mkdir(parents=True, exist_ok=True)
+    programs = {}
+    for name, (source, libraries, what) in sources.items():
+        program, newest = BUILD / name, max(path.stat().st_mtime for path in folder.glob("*.*"))
+        if not program.exists() or program.stat().st_mtime < newest:
+            say(f"building {name}")
+            built = subprocess.run(
+                [compiler, *flags, "-o", str(program), str(folder / source), *libraries],
+                capture_output=True, text=True,
+            )
+            if built.returncode != 0:
+                say(f"left out, for it does not build here: {what}\n{built.stderr.strip()[:300]}")
+                continue
+        programs[name] = program
+    return programs
+
+
+def build_ours():
+    """Our program, and the bench that fills memory, as Cargo names them."""
+    say("building ours")
+    return (
+        built("bothways", "build", "--release", "--bin", "bothways"),
+        built("memory_fill", "bench", "--no-run", "--bench", "memory_fill"),
+    )
+
+
+def built(name, *words):
+    """Where Cargo put a program that it was asked to build."""
+    messages = run("cargo", *words, "--locked", "--message-format", "json", cwd=ROOT).splitlines()
+    messages = [json.loads(line) for line in messages if line.startswith("{")]
+    made = [m["executable"] for m in messages if m.get("executable") and m["target"]["name"] == name]
+    return made[0]
+
+
+# --- measuring --------------------------------------------------------------------------------------
+
+
+def compare(spec, image, options, peers, ours, fill, folder):
+    """One mesh at one size: every renderer in turn, round by round."""
+    name = re.sub(r"[^\w-]", "_", Path(spec).stem if spec.endswith(".obj") else spec)
+    say(f"{name}, {image}")
+    scene = folder / f"{name}.toml"
+    run(sys.executable, options.shared / "peers/scene.py", peers["mkmesh"], spec, name, image, folder)
+    tri = scene.with_suffix(".tri")
+    triangles = int.from_bytes(tri.read_bytes()[8:12], "little")
+    times = {}
+
+    def note(key, value):
+        if value is not None:
+            times.setdefault(key, []).append(value)
+
+    for _ in range(options.rounds if triangles < LARGE else 1):
+        report = {}
+        if options.order != "image":
+            report = ours_on(ours, "object", scene, options, folder)
+            note("object", report["visibility_ms"]["median"])
+            if "llvmpipe" in peers:
+                note("llvmpipe", llvmpipe(peers["llvmpipe"], tri, image, options))
+        if options.order != "object":
+            report = ours_on(ours, "image", scene, options, folder)
+            note("image", report["visibility_ms"]["median"])
+            note("prepare", report["prepare_ms"]["median"])
+            if "embree" in peers and options.threads <= 2:
+                for mode, value in embree(peers["embree"], tri, image, options).items():
+                    note(mode, value)
+        note("fill", json.loads(run(fill, image, options.threads, options.repeats))["median"])
+    for path in folder.glob(f"{name}.*"):
+        path.unlink()
+    return {"mesh": name, "triangles": triangles, "size": image, "ms": times}
+
+
+def ours_on(program, order, scene, options, folder):
+    """Our report on one order."""
+    words = ["render", "--order", order, "--threads", options.threads, "--repeat", options.repeats]
+    report = json.loads(run(program, *words, "--json", "-o", folder / "out", scene))
+    return report[f"{order}_order"]
+
+
+def llvmpipe(program, tri, image, options):
+    """The faster of its two ways to write ids."""
+    # With one thread of its own the application's works beside it: 0 is one core.
+    threads = 0 if options.threads == 1 else options.threads
+    chosen = {"LIBGL_ALWAYS_SOFTWARE": "1", "GALLIUM_DRIVER": "llvmpipe", "LP_NUM_THREADS": str(threads)}
+    drawn = run(program, tri, "-", options.repeats, image, env={**os.environ, **chosen})
+    lines = drawn.splitlines()
+    lines = [line.split("|") for line in lines if "|primid|" in line or "|vid|" in line]
+    return min(float(line[6].removeprefix("median ")) for line in lines)
+
+
+def embree(program, tri, image, options):
+    """The fastest of its modes, watertight and not; m0 traces nothing."""
+    best = {}
+    for line in run(program, tri, "-", options.repeats, image).splitlines():
+        fields = line.split("|")
+        if len(fields) != 12 or fields[8] != f"{options.threads}T" or fields[5] == "m0":
+            continue
+        key = f"embree_{fields[3]}"
+        best[key] = min(float(fields[9]), best.get(key, float("inf")))
+    return best
+
+
+def processor():
+    try:
+        names = re.findall(r"^model name\s*:\s*(.+)$", Path("/proc/cpuinfo").read_text(), re.MULTILINE)
+    except OSError:
+        names = []
+    return names[0] if names else platform.processor() or "unknown processor"
+
+
+def commit():
+    try:
+        changed = run("git", "status", "--porcelain", "--untracked-files=no", "--", "*.rs", cwd=ROOT)
+        name = run("git", "rev-parse", "--short", "HEAD", cwd=ROOT).strip()
+        return f"{name}, changed" if changed else name
+    except (OSError, subprocess.CalledProcessError):
+        return "unknown"
+
+
+# --- showing ----------------------------------------------------------------------------------------
+
+
+def median(row, key):
+    values = row["ms"].get(key)
+    return statistics.median(values) if values else None
+
+
+def ratio(row, theirs, ours):
+    """Theirs over ours, the median of the rounds."""
+    pairs = list(zip(row["ms"].get(theirs, []), row["ms"].get(ours, [])))
+    return statistics.median(a / b for a, b in pairs) if pairs else None
+
+
+def shown(value, digits=2):
+    return "–" if value is None else f"{value:.{digits}f}"
+
+
+def best_embree(row):
+    """The row with Embree's best mode of each round, watertight or not."""
+    pairs = zip(row["ms"].get("embree_fast", []), row["ms"].get("embree_robust", []))
+    return {**row, "ms": {**row["ms"], "embree": [min(pair) for pair in pairs]}}
+
+
+def one_line(row):
+    parts = [f"{key} {shown(median(row, key))} ms" for key in row["ms"]]
+    return f"  {row['triangles']} triangles: " + ", ".join(parts)
+
+
+def markdown(results):
+    rows = [best_embree(row) for row in results["rows"]]
+    said = (
+        f"{results['machine']}; {results['date']}, commit {results['commit']}; {results['threads']} threads, "
+        f"{results['rounds']} alternating rounds of {results['repeats']} frames. Times in milliseconds; a "
+        "ratio is theirs over ours, above 1 where ours is faster."
+    )
+    parts = [said]
+    if any("object" in row["ms"] for row in rows):
+        parts += object_order(rows)
+    if any("image" in row["ms"] for row in rows):
+        parts += image_order(rows)
+    return "\n\n".join(parts) + "\n"
+
+
+def object_order(rows):
+    def cells(row):
+        peer = ratio(row, "llvmpipe", "object")
+        over = ratio(row, "object", "fill")
+        times = [shown(median(row, key)) for key in ("object", "llvmpipe")]
+        return [*times, shown(peer, 1), shown(median(row, "fill")), shown(over, 1)]
+
+    yield table(["object order", "llvmpipe", "ratio", "memory fill", "ours over fill"], rows, cells)
+    ratios = [ratio(row, "llvmpipe", "object") for row in rows if row["triangles"] >= MANY]
+    ratios = [value for value in ratios if value is not None]
+    if ratios:
+        middle, least = statistics.median(ratios), min(ratios)
+        yield f"From {MANY:,} triangles on, the median ratio is {middle:.1f}, the least {least:.1f}."
+
+
+def image_order(rows):
+    def cells(row):
+        times = [median(row, key) for key in ("prepare", "image", "embree", "embree_robust")]
+        ratios = [ratio(row, key, "image") for key in ("embree", "embree_robust")]
+        return [shown(value) for value in times + ratios]
+
+    heads = ["prepare", "image order", "Embree", "watertight", "ratio", "to watertight"]
+    yield table(heads, rows, cells)
+
+
+def table(heads, rows, cells):
+    lines = ["| " + " | ".join(["mesh", "triangles", "pixels", *heads]) + " |"]
+    lines.append("|---" + "|--:" * (len(heads) + 2) + "|")
+    for row in rows:
+        line = [row["mesh"], f"{row['triangles']:,}", row["size"], *cells(row)]
+        lines.append("| " + " | ".join(line) + " |")
+    return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,131 @@
+//! What the fuzz targets share: a hostile scene from any bytes, and what must hold of two frames.
+//!
+//! The bytes are spent in the order in which they matter: what coordinates look like, the camera, then
+//! objects as long as bytes last. So small changes of the bytes are small changes of the scene.
+
+mod numbers;
+mod objects;
+
+use bothways_common::glam::{Quat, Vec3};
+use bothways_common::{
+    Camera, CameraDescription, Frame, Options, Orientation, Projection, Scene, View,
+};
+use libfuzzer_sys::arbitrary::{Result, Unstructured};
+use numbers::Numbers;
+
+/// The largest side of a picture: of most, and of those that reach over the borders of tiles and blocks.
+const SIDES: [u32; 2] = [14, 48];
+
+/// One scene, and how to draw it.
+#[derive(Debug)]
+pub struct Case {
+    /// What there is to see.
+    pub scene: Scene,
+    /// From where.
+    pub camera: Camera,
+    /// With how many samples.
+    pub options: Options,
+    /// Which of the machine's SIMD levels: the remainder counts.
+    pub level: usize,
+    /// Columns and rows of a tile, as powers of two.
+    pub tile: [u32; 2],
+    /// Somewhere else to draw from before, so that reused memory is not fresh.
+    pub before: Option<Camera>,
+}
+
+impl Case {
+    /// The case that some bytes describe; `None` for a camera that is refused.
+    pub fn decode(bytes: &[u8]) -> Option<Case> {
+        decode(&mut Unstructured::new(bytes)).ok().flatten()
+    }
+
+    /// The scene from the camera.
+    pub fn view(&self) -> View<'_> {
+        View::new(&self.scene, &self.camera)
+    }
+}
+
+fn decode(bytes: &mut Unstructured) -> Result<Option<Case>> {
+    let numbers = Numbers::choose(bytes)?;
+    let samples = if bytes.ratio(1, 4)? { 2 } else { 1 };
+    let level = usize::from(bytes.arbitrary::<u8>()?);
+    let tile = [bytes.int_in_range(0..=7)?, bytes.int_in_range(0..=7)?];
+    let description = camera(bytes, numbers)?;
+    let moved = CameraDescription { eye: numbers.point(bytes)?, ..description };
+    let soiled = bytes.ratio(1, 4)?;
+    let scene = Scene::new(objects::objects(bytes, numbers)?).expect("only sound objects are made");
+    let case = |camera| Case {
+        scene,
+        camera,
+        options: Options { samples },
+        level,
+        tile,
+        before: Camera::new(moved).ok().filter(|_| soiled),
+    };
+    Ok(Camera::new(description).ok().map(case))
+}
+
+fn camera(bytes: &mut Unstructured, numbers: Numbers) -> Result<CameraDescription> {
+    let projection = *bytes.choose(&[Projection::Perspective, Projection::Parallel])?;
+    let most = SIDES[usize::from(bytes.ratio(1, 8)?)];
+    let image = [bytes.int_in_range(1..=most)?, bytes.int_in_range(1..=most)?];
+    let eye = if bytes.ratio(1, 2)? { Vec3::ZERO } else { numbers.point(bytes)? };
+    // The first choice is what bytes of zero give: aligned.
+    let orientation = match bytes.int_in_range(0..=3)? {
+        0 | 1 => Orientation::Frame { u: Vec3::X, v: Vec3::Y, w: Vec3::Z },
+        2 => Orientation::Direction { direction: numbers.point(bytes)?, up: numbers.point(bytes)? },
+        _ => {
+            let turn = Quat::from_rotation_y(numbers::share(bytes)? * 6.3)
+                * Quat::from_rotation_x(numbers::share(bytes)? * 3.0 - 1.5)
+                * Quat::from_rotation_z(numbers::share(bytes)? * 6.0);
+            Orientation::Direction { direction: turn * Vec3::NEG_Z, up: turn * Vec3::Y }
+        }
+    };
+    let (distance, viewport) = lens(bytes, numbers, image)?;
+    Ok(CameraDescription { projection, eye, orientation, distance, viewport, image })
+}
+
+/// Distance and viewport.
+fn lens(bytes: &mut Unstructured, numbers: Numbers, image: [u32; 2]) -> Result<(f32, [f32; 2])> {
+    // A pixel is a whole number of units at distance 1, or some power of two of them.
+    let aligned = |power: i32| image.map(|side| side as f32 * (power as f32).exp2());
+    let wide = [8.0, 8.0 * image[1] as f32 / image[0] as f32];
+    Ok(match bytes.int_in_range(0..=if numbers.is_extreme() { 7 } else { 3 })? {
+        0 => (1.0, aligned(0)),
+        1 => (*bytes.choose(&[0.5, 1.0, 2.0, 8.0])?, aligned(bytes.int_in_range(-4..=1)?)),
+        2 => (1.0, wide),
+        3 => (2.0, [4.0 * numbers::share(bytes)? + 0.01, 4.0 * numbers::share(bytes)? + 0.01]),
+        4 => ((-64f32).exp2(), [(-44f32).exp2(), (-60f32).exp2()]),
+        5 => (64f32.exp2(), [(-64f32).exp2(), 64f32.exp2()]),
+        6 => (1.0, [20f32.exp2(), 10f32.exp2()]),
+        _ => {
+            let side =
+                (bytes.int_in_range(-40..=40)? as f32).exp2() * (1.0 + numbers::share(bytes)?);
+            let distance = (bytes.int_in_range(-40..=40)? as f32).exp2();
+            (distance.max(side * (-19f32).exp2()), [side, side])
+        }
+    })
+}
+
+/// Ids equal, distances within the contract's 10⁻⁵.
+///
+/// # Panics
+///
+/// If they are not: that is the finding.
+pub fn assert_same(case: &Case, expected: &Frame, frame: &Frame) {
+    let width = expected.width();
+    for index in 0..expected.ids().len() {
+        let place = (index / width, index % width);
+        let (id, other) = (expected.ids()[index], frame.ids()[index]);
+        assert_eq!(id, other, "ids at sample {place:?} of {case:#?}");
+        let (t, other) = (expected.distances()[index], frame.distances()[index]);
+        let close = t == other || (t - other).abs() <= 1e-5 * t;
+        assert!(close, "t {t} and {other} at sample {place:?} of {case:#?}");
+    }
+}
+
+/// Lets whatever is parallel run on the thread of the fuzzer, which has enough processes.
+pub fn on_one_thread() {
+    let builder = rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread();
+    builder.build_global().expect("this is the first use of the pool");
+}
