@@ -1,6 +1,7 @@
-//! The fast ray tracer sees what its textbook sees.
+//! The fast ray tracer sees what its textbook sees, at any SIMD level, in tiles of both sizes.
 #![no_main]
 
+use bothways_common::simd::levels;
 use bothways_common::{Frame, View};
 use bothways_fuzz::{Case, assert_same, on_one_thread};
 use bothways_raytrace::{fast, textbook};
@@ -15,7 +16,10 @@ fuzz_target!(
         let mut expected = Frame::new(&case.camera, &case.options);
         textbook::determine_visibility(&case.view(), &case.options, &mut expected, &mut ());
 
-        let prepared = fast::prepare(&case.scene);
+        let levels = levels();
+        let level = levels[case.level % levels.len()];
+        let side = if case.tile[0] % 2 == 0 { 16 } else { 32 };
+        let prepared = fast::prepare(&case.scene).drawn_with(level, side);
         let mut frame = Frame::new(&case.camera, &case.options);
         let trace = |view: &View, frame: &mut Frame| {
             fast::determine_visibility(&prepared, view, &case.options, frame, &mut ());
