@@ -123,56 +123,78 @@ pub struct Spread {
 /// Preparing is repeated as often as a frame, but only until this much time is spent on it.
 const PREPARE_BUDGET: Duration = Duration::from_secs(2);
 
+/// How an order is to be run and told of. The default: one sample a pixel, one frame, told to nobody.
+#[derive(Clone, Copy, Default)]
+pub struct RenderOptions<'a> {
+    /// What a frame holds.
+    pub frame: Options,
+    /// With a number, everything is done once to warm up and then timed so many times, into the same
+    /// buffers; without, it is timed once. Never 0.
+    pub repeat: Option<u32>,
+    /// Who is told how far the rendering has come; that changes no bit of the answer.
+    pub progress: Option<Listener<'a>>,
+}
+
+impl std::fmt::Debug for RenderOptions<'_> {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter) -> std::fmt::Result {
+        let RenderOptions { frame, repeat, progress } = self;
+        let progress = progress.map(|_| "a listener");
+        formatter
+            .debug_struct("RenderOptions")
+            .field("frame", frame)
+            .field("repeat", repeat)
+            .field("progress", &progress)
+            .finish()
+    }
+}
+
+impl RenderOptions<'_> {
+    /// How many frames are rendered: one that counts the work, one to warm up, and the timed ones.
+    fn frames(&self) -> u64 {
+        1 + self.repeat.map_or(1, |repeat| 1 + u64::from(repeat))
+    }
+}
+
 /// Renders a view in one order, on the rayon pool that this is called in.
 ///
-/// With `repeat`, everything is done once to warm up and then timed so many times, into the same
-/// buffers; without, it is timed once. The work is counted in a frame of its own, before the timed
-/// ones.
+/// The work is counted in a frame of its own, before the timed ones.
 ///
 /// # Panics
 ///
 /// If `repeat` is 0, or the camera does not allow this number of samples.
-pub fn render(
-    order: Order,
-    method: Method,
-    view: &View,
-    options: &Options,
-    repeat: Option<u32>,
-) -> Rendered {
-    render_and_tell(order, method, view, options, repeat, None)
-}
-
-/// [`render`], with somebody who is told how far it has come; that changes no bit of the answer.
 ///
-/// # Panics
+/// ```
+/// use bothways::common::{Camera, View};
+/// use bothways::orders::{self, Method, Order, RenderOptions};
 ///
-/// As [`render`].
-pub fn render_and_tell(
-    order: Order,
-    method: Method,
-    view: &View,
-    options: &Options,
-    repeat: Option<u32>,
-    listener: Option<Listener>,
-) -> Rendered {
+/// let scene = bothways::scenes::load("canonical")?.scene;
+/// let camera = Camera::canonical(32, 32);
+/// let told = |progress: bothways::progress::Progress| {
+///     eprintln!("{} of {}", progress.done, progress.total);
+/// };
+/// let options = RenderOptions { progress: Some(&told), ..RenderOptions::default() };
+/// let view = View::new(&scene, &camera);
+/// let rendered = orders::render(Order::Object, Method::Textbook, &view, &options);
+/// assert!(rendered.covered() > 0);
+/// # Ok::<(), bothways::scenes::LoadError>(())
+/// ```
+pub fn render(order: Order, method: Method, view: &View, options: &RenderOptions) -> Rendered {
     let outer_loop = match (method, order) {
         (Method::Fast, _) => None,
         (Method::Textbook, Order::Object) => Some(view.scene.primitive_count().into()),
         (Method::Textbook, Order::Image) => {
-            Some(u64::from(view.camera.image()[1]) * u64::from(options.samples))
+            Some(u64::from(view.camera.image()[1]) * u64::from(options.frame.samples))
         }
     };
-    // One that counts, one to warm up, and the timed ones.
-    let frames = 1 + repeat.map_or(1, |repeat| 1 + u64::from(repeat));
     let done = AtomicU64::new(0);
-    let steps = Steps::new(order, listener, outer_loop, frames, &done);
+    let steps = Steps::new(order, options.progress, outer_loop, options.frames(), &done);
     let measure = match (order, method) {
         (Order::Object, Method::Fast) => measure::<FastRasterizer>,
         (Order::Object, Method::Textbook) => measure::<TextbookRasterizer>,
         (Order::Image, Method::Fast) => measure::<FastRayTracer>,
         (Order::Image, Method::Textbook) => measure::<TextbookRayTracer>,
     };
-    let (frame, work, times) = measure(view, options, repeat, &steps);
+    let (frame, work, times) = measure(view, options, &steps);
     Rendered { order, method, frame, work, times: Some(times) }
 }
 
@@ -248,8 +270,7 @@ renderer! { TextbookRayTracer: textbook raytrace }
 
 fn measure<R: Renderer>(
     view: &View,
-    options: &Options,
-    repeat: Option<u32>,
+    &RenderOptions { frame: ref options, repeat, .. }: &RenderOptions,
     steps: &Steps,
 ) -> (Frame, Work, Times) {
     steps.preparing();
@@ -373,17 +394,19 @@ mod tests {
         let view = View::new(&scene, &camera);
         for order in [Order::Object, Order::Image] {
             for method in [Method::Fast, Method::Textbook] {
-                let once = render(order, method, &view, &Options::default(), None);
-                let thrice = render(order, method, &view, &Options::default(), Some(3));
+                let once = render(order, method, &view, &RenderOptions::default());
+                let repeating = RenderOptions { repeat: Some(3), ..RenderOptions::default() };
+                let thrice = render(order, method, &view, &repeating);
                 assert_eq!((once.frame, once.work), (thrice.frame, thrice.work));
             }
         }
     }
+
     #[test]
     fn progress_is_told_to_the_end_and_changes_nothing() {
         let (scene, camera) = (two_balls(), Camera::canonical(9, 7));
         let view = View::new(&scene, &camera);
-        let options = Options { samples: 2 };
+        let frame = Options { samples: 2 };
         // Steps within a frame: frames, primitives, or rows of samples.
         for (order, method, steps) in [
             (Order::Object, Method::Fast, 1),
@@ -394,9 +417,10 @@ mod tests {
             for (repeat, frames) in [(None, 2), (Some(1), 3), (Some(3), 5)] {
                 let told = Mutex::new(Vec::new());
                 let listener = |progress| told.lock().unwrap().push(progress);
-                let told_of =
-                    render_and_tell(order, method, &view, &options, repeat, Some(&listener));
-                let alone = render(order, method, &view, &options, repeat);
+                let options = RenderOptions { frame, repeat, progress: Some(&listener) };
+                let told_of = render(order, method, &view, &options);
+                let options = RenderOptions { progress: None, ..options };
+                let alone = render(order, method, &view, &options);
                 assert_eq!((told_of.frame, told_of.work), (alone.frame, alone.work));
 
                 let total = steps * frames;

@@ -1,8 +1,8 @@
 //! How far a rendering has come, told while it runs.
 //!
-//! The fast renderers are told of frame by frame. The textbooks, which can take minutes for one frame,
-//! are told of step by step of their outer loop: by an observer, so that their page stays as it is
-//! and nothing is paid for where nobody asks.
+//! The fast renderers are told of frame by frame, and chunk by chunk where a mesh is streamed. The
+//! textbooks, which can take minutes for one frame, are told of step by step of their outer loop: by
+//! an observer, so that their page stays as it is and nothing is paid for where nobody asks.
 
 use crate::common::frame::Region;
 use crate::common::observe::{Observer, Sample};
@@ -21,7 +21,8 @@ pub struct Progress {
     pub stage: Stage,
     /// Steps that are done, over all frames: none while the scene is prepared, in the end all.
     pub done: u64,
-    /// All steps; for a textbook those of its outer loop, for a fast renderer frames.
+    /// All steps: for a textbook those of its outer loop, for a stream its chunks of triangles, otherwise
+    /// frames.
     pub total: u64,
 }
 
@@ -39,7 +40,7 @@ pub enum Stage {
 pub(crate) struct Steps<'a> {
     order: Order,
     listener: Option<Listener<'a>>,
-    /// Steps within a frame, where its outer loop is watched.
+    /// Steps within a frame, where it is watched.
     within_frame: Option<u64>,
     frames: u64,
     done: &'a AtomicU64,
@@ -81,7 +82,7 @@ impl<'a> Steps<'a> {
     }
 
     /// One more step begins: those before it are done.
-    fn begin(&self) {
+    pub(crate) fn begin(&self) {
         let done = self.done.fetch_add(1, Ordering::Relaxed);
         // The first of a frame was told with the frame before it.
         if !done.is_multiple_of(self.within_frame.unwrap_or(1)) {

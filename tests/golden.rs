@@ -16,10 +16,10 @@
 
 use assert_cmd::Command;
 use bothways::common::glam::Vec3;
-use bothways::common::{Camera, CameraDescription, Options, View};
+use bothways::common::{Camera, CameraDescription, View};
 use bothways::diff::{compare, foreign};
 use bothways::figure::Slide;
-use bothways::orders::{Method, Order, render};
+use bothways::orders::{Method, Order, RenderOptions, render};
 use bothways::scenes::load;
 use bothways::wording::count;
 use image::{RgbImage, imageops};
@@ -121,7 +121,7 @@ fn a_slide_shows_every_kind_of_difference() {
     let [here, there] = [description, moved].map(|camera| Camera::new(camera).unwrap());
     let rendered = |order, camera| {
         let view = View::new(&loaded.scene, camera);
-        let mut rendered = render(order, Method::Textbook, &view, &Options::default(), None);
+        let mut rendered = render(order, Method::Textbook, &view, &RenderOptions::default());
         rendered.times = None;
         rendered
     };

@@ -9,15 +9,16 @@ use bothways::common::glam::Vec3;
 use bothways::common::{
     Camera, Object, Options, Plane, Projection, Scene, Shape, Sphere, View, Work,
 };
-use bothways::orders::{Method, Order, render};
+use bothways::orders::{Method, Order, RenderOptions, render};
 use bothways::pixel::{Behind, report};
 use bothways::scenes;
 use serde_json::{Value, json};
 
 /// What is told of all pixels adds up to what the whole frame did and saw.
 fn check_whole_picture(view: &View, options: &Options) {
+    let once = RenderOptions { frame: *options, ..RenderOptions::default() };
     let frames =
-        [Order::Object, Order::Image].map(|order| render(order, Method::Fast, view, options, None));
+        [Order::Object, Order::Image].map(|order| render(order, Method::Fast, view, &once));
     let mut work = [Work::default(); 2];
     let [width, height] = view.camera.image();
     for (i, j) in (0..height).flat_map(|i| (0..width).map(move |j| (i, j))) {

@@ -7,10 +7,13 @@ mod support;
 use assert_cmd::Command;
 use bothways::common::generate::Kind;
 use bothways::common::glam::Vec3;
-use bothways::common::stream::Positions;
+use bothways::common::mesh_file::Format;
+use bothways::common::stream::{MeshStream, Positions};
 use bothways::common::{Camera, Frame, Mesh, Object, Options, Projection, Scene, View, Work, obj};
 use bothways::diff::compare;
-use bothways::rasterize::{self, stream::Canvas};
+use bothways::orders::{Order, RenderOptions, render_stream};
+use bothways::progress::{Progress, Stage};
+use bothways::rasterize::{self, stream::CHUNK, stream::Canvas};
 use predicates::prelude::*;
 use predicates::str::contains;
 use proptest::collection::vec;
@@ -19,6 +22,7 @@ use proptest::test_runner::{Config, TestRng, TestRunner};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
+use std::sync::Mutex;
 use support::{PROJECTIONS, assert_same_visibility, camera, cases, mesh, scene, turned};
 use tempfile::TempDir;
 
@@ -105,6 +109,32 @@ fn nothing_at_all_is_seen_of_no_triangles() {
     let view = View::new(&scene, &camera);
     assert_eq!(frame, rasterize::textbook::render(&view, &Options::default()));
     assert_eq!(work, Work::default());
+}
+
+#[test]
+fn progress_is_told_chunk_by_chunk() {
+    let home = tempfile::tempdir().unwrap();
+    let path = home.path().join("long.obj");
+    let triangles = CHUNK + 1;
+    let text = ["v 0 0 -2\nv 1 0 -2\nv 0 1 -2\n", &"f 1 2 3\n".repeat(triangles)].concat();
+    fs::write(&path, text).unwrap();
+    let camera = Camera::canonical(4, 3);
+    let told = Mutex::new(Vec::new());
+    let listener = |progress: Progress| {
+        assert_eq!(progress.order, Order::Object);
+        told.lock().unwrap().push((progress.stage, progress.done, progress.total));
+    };
+    let options = RenderOptions { progress: Some(&listener), ..RenderOptions::default() };
+    let mut stream = MeshStream::open(&path, Format::Obj).unwrap();
+    // Of the first pass nobody knows how long it is.
+    for (repeat, total) in [(None, 1), (None, 2), (Some(1), 6)] {
+        let (options, times) = (RenderOptions { repeat, ..options }, repeat.map(|_| 0.0));
+        let rendered = render_stream(&mut stream, &camera, &options, times).unwrap();
+        assert_eq!(rendered.work.primitives, triangles as u64);
+        let steps = (0..=total).map(|done| (Stage::Rendering, done, total));
+        let expected: Vec<_> = [(Stage::Preparing, 0, total)].into_iter().chain(steps).collect();
+        assert_eq!(told.lock().unwrap().split_off(0), expected);
+    }
 }
 
 /// A coordinate of few bits, of ordinary size, or of any.

@@ -9,8 +9,8 @@ mod chart;
 
 use bothways::common::generate::Kind;
 use bothways::common::simd::best_level;
-use bothways::common::{Camera, CameraDescription, Options, Scene, Shape, View};
-use bothways::orders::{self, Method, Order};
+use bothways::common::{Camera, CameraDescription, Scene, Shape, View};
+use bothways::orders::{self, Method, Order, RenderOptions};
 use bothways::scenes::framed;
 use chart::{Chart, Curve};
 use std::path::Path;
@@ -95,8 +95,9 @@ fn curves(
         let camera = Camera::new(camera).expect("it is a camera");
         let scene = Scene::new(vec![Shape::Mesh(mesh).into()]).expect("it is a scene");
         for (curve, (order, _)) in curves.iter_mut().zip(COLOURS) {
-            let (view, options) = (View::new(&scene, &camera), Options::default());
-            let rendered = orders::render(order, Method::Fast, &view, &options, Some(REPEAT));
+            let options = RenderOptions { repeat: Some(REPEAT), ..RenderOptions::default() };
+            let view = View::new(&scene, &camera);
+            let rendered = orders::render(order, Method::Fast, &view, &options);
             let time = rendered.times.expect("it was timed").visibility.median;
             println!("{}, {triangles} triangles, {width}x{height}: {time} ms", order.name());
             let pixels = f64::from(width * height);

@@ -67,6 +67,7 @@ pub struct MeshStream {
     name: String,
     positions: Positions,
     faces: Faces,
+    triangles: Option<u32>,
 }
 
 #[derive(Debug)]
@@ -109,12 +110,17 @@ impl MeshStream {
                 Faces::Ply(file)
             }
         };
-        Ok(MeshStream { name: path.display().to_string(), positions, faces })
+        Ok(MeshStream { name: path.display().to_string(), positions, faces, triangles: None })
     }
 
     /// The vertices' positions.
     pub fn positions(&self) -> &Positions {
         &self.positions
+    }
+
+    /// How many triangles there are, once somebody has read all of them.
+    pub fn triangles(&self) -> Option<u32> {
+        self.triangles
     }
 
     /// That the mesh has materials, if so: they are not read.
@@ -149,7 +155,10 @@ impl MeshStream {
             Faces::Ply(file) => file.triangles(visit).map_err(ReadMeshError::from)?,
         }
         match u32::try_from(count) {
-            Ok(count) if count < u32::MAX => Ok(count),
+            Ok(count) if count < u32::MAX => {
+                self.triangles = Some(count);
+                Ok(count)
+            }
             _ => Err(StreamError::TooManyTriangles { file: self.name.clone() }),
         }
     }
@@ -231,9 +240,11 @@ mod tests {
         let path = std::env::temp_dir().join(format!("bothways-used-{}.obj", std::process::id()));
         std::fs::write(&path, "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 8 8 8\nv 0 1 0\nf 5 2 3\n").unwrap();
         let mut stream = MeshStream::open(&path, Format::Obj).unwrap();
+        assert_eq!(stream.triangles(), None);
         let (triangles, used) = stream.used_positions().unwrap();
         assert_eq!(triangles, 1);
         assert_eq!(used.collect::<Vec<Vec3>>(), [Vec3::ZERO, Vec3::X, Vec3::Y]);
+        assert_eq!(stream.triangles(), Some(1));
         std::fs::remove_file(&path).unwrap();
     }
 

@@ -1,5 +1,6 @@
 //! The bar that shows, on a terminal, how far a long rendering has come.
 
+use super::args::RenderArgs;
 use bothways::orders::Order;
 use bothways::progress::{Progress, Stage};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -24,12 +25,19 @@ pub(super) struct Bar {
 }
 
 impl Bar {
-    /// A bar that appears after a moment; `None` if stderr is no terminal that could erase it.
+    /// A bar that appears after a moment; `None` if nobody wants one, or stderr is no terminal that
+    /// could erase it.
     ///
     /// What goes to stdout does not matter: `bothways --json > report.json` has somebody waiting, too.
-    pub(super) fn on_terminal() -> Option<Bar> {
+    pub(super) fn of_run(args: &RenderArgs) -> Option<Bar> {
         let erases = env::var_os("TERM").is_none_or(|terminal| terminal != "dumb");
-        (erases && stderr().is_terminal()).then(Bar::new)
+        (!args.output.quiet && erases && stderr().is_terminal()).then(Bar::new)
+    }
+
+    /// Says what is being done while it is done, if that takes more than a moment.
+    pub(super) fn during<T>(what: &'static str, args: &RenderArgs, work: impl FnOnce() -> T) -> T {
+        let _bar = Bar::of_run(args).inspect(|bar| bar.say(what));
+        work()
     }
 
     fn new() -> Bar {

@@ -10,7 +10,7 @@ use bothways::common::camera::check_samples;
 use bothways::common::{Camera, Options, View};
 use bothways::diff::{Classes, Comparison, compare};
 use bothways::figure::Slide;
-use bothways::orders::{self, Rendered};
+use bothways::orders::{self, RenderOptions, Rendered};
 use bothways::picture::{mask, picture};
 use bothways::progress::Listener;
 use bothways::report::Report;
@@ -26,10 +26,10 @@ pub(super) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
     if args.method.stream {
         return stream::run(args);
     }
-    let loaded = scenes::load(&args.scene)?;
+    let loaded = Bar::during("reading the scene", args, || scenes::load(&args.scene))?;
     let (camera, staging, folder) = prepared_output(args, &loaded)?;
     let pool = thread_pool(args)?;
-    let bar = if args.output.quiet { None } else { Bar::on_terminal() };
+    let bar = Bar::of_run(args);
     pool.install(|| Run::new(args, &loaded, &camera, bar.as_ref()).finish(staging, &folder, bar))
 }
 
@@ -63,6 +63,15 @@ pub(super) fn thread_pool(args: &RenderArgs) -> Result<rayon::ThreadPool, Failur
         .num_threads(args.method.threads.unwrap_or(0).into())
         .build()
         .map_err(|error| Failure::new(format!("cannot start the threads: {error}")))
+}
+
+/// How an order is asked to run.
+pub(super) fn render_options<'a>(
+    args: &RenderArgs,
+    progress: Option<Listener<'a>>,
+) -> RenderOptions<'a> {
+    let frame = Options { samples: args.method.samples };
+    RenderOptions { frame, repeat: args.method.repeat, progress }
 }
 
 /// Bytes that one order keeps for a sample: id, distance, normal and colour.
@@ -105,13 +114,12 @@ impl<'a> Run<'a> {
         bar: Option<&Bar>,
     ) -> Run<'a> {
         let view = View::new(&loaded.scene, camera);
-        let options = Options { samples: args.method.samples };
-        let (method, repeat) = (args.method.method.into(), args.method.repeat);
         let listener = bar.map(|bar| move |progress| bar.show(progress));
-        let listener = listener.as_ref().map(|listener| listener as Listener);
+        let options = render_options(args, listener.as_ref().map(|listener| listener as Listener));
+        let method = args.method.method.into();
         let mut rendered = Vec::new();
         for &order in args.method.order.orders() {
-            let mut one = orders::render_and_tell(order, method, &view, &options, repeat, listener);
+            let mut one = orders::render(order, method, &view, &options);
             if args.output.no_times {
                 one.times = None;
             }

@@ -3,9 +3,10 @@
 
 use super::args::{MethodArg, OrderArg, RenderArgs};
 use super::failure::Failure;
-use super::render::{Run, prepared_output, thread_pool};
-use bothways::common::Options;
+use super::progress::Bar;
+use super::render::{Run, prepared_output, render_options, thread_pool};
 use bothways::orders::render_stream;
+use bothways::progress::Listener;
 use bothways::report::Report;
 use bothways::scenes::{StreamedScene, open_stream};
 use std::process::ExitCode;
@@ -15,18 +16,22 @@ use std::time::Instant;
 pub(super) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
     check(args)?;
     let begun = Instant::now();
-    let StreamedScene { loaded, mut mesh, triangles } = open_stream(&args.scene)?;
+    let opened = Bar::during("reading the scene", args, || open_stream(&args.scene))?;
+    let StreamedScene { loaded, mut mesh, triangles } = opened;
     let prepare = begun.elapsed().as_secs_f64() * 1e3;
     let (camera, staging, folder) = prepared_output(args, &loaded)?;
 
+    let bar = Bar::of_run(args);
+
     thread_pool(args)?.install(|| {
-        let options = Options { samples: args.method.samples };
+        let listener = bar.as_ref().map(|bar| move |progress| bar.show(progress));
+        let options = render_options(args, listener.as_ref().map(|listener| listener as Listener));
         let prepare = (!args.output.no_times).then_some(prepare);
-        let rendered = render_stream(&mut mesh, &camera, &options, args.method.repeat, prepare);
+        let rendered = render_stream(&mut mesh, &camera, &options, prepare);
         let rendered = vec![rendered.map_err(|error| Failure::new(error.to_string()))?];
         let threads = rayon::current_num_threads();
         let report = Report::new(&loaded.name, triangles, threads, &rendered, None);
-        Run { args, rendered, comparison: None, report }.finish(staging, &folder, None)
+        Run { args, rendered, comparison: None, report }.finish(staging, &folder, bar)
     })
 }
 

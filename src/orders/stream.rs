@@ -1,9 +1,11 @@
 //! Object order of a mesh that is streamed, measured as the others are.
 
-use super::{Method, Order, Rendered, Spread, Times, timed};
+use super::{Method, Order, RenderOptions, Rendered, Spread, Times, timed};
 use crate::common::stream::{MeshStream, StreamError};
-use crate::common::{Camera, Observer, Options, Work};
+use crate::common::{Camera, Observer, Work};
+use crate::progress::Steps;
 use crate::rasterize::stream::{CHUNK, Canvas};
+use std::sync::atomic::AtomicU64;
 
 /// Renders a mesh that is streamed, in object order, on the rayon pool that this is called in.
 ///
@@ -21,28 +23,39 @@ use crate::rasterize::stream::{CHUNK, Canvas};
 pub fn render_stream(
     mesh: &mut MeshStream,
     camera: &Camera,
-    options: &Options,
-    repeat: Option<u32>,
+    options: &RenderOptions,
     prepare: Option<f64>,
 ) -> Result<Rendered, StreamError> {
-    let mut canvas = Canvas::new(camera, options);
+    // As long as nobody knows how many triangles there are, passes count as a whole.
+    let chunks = mesh.triangles().map(|count| u64::from(count).div_ceil(CHUNK as u64).max(1));
+    let done = AtomicU64::new(0);
+    let passes = if prepare.is_some() { options.frames() } else { 1 };
+    let steps = Steps::new(Order::Object, options.progress, chunks, passes, &done);
+    let mut canvas = Canvas::new(camera, &options.frame);
     let mut work = Work::default();
-    draw(mesh, &mut canvas, camera, &mut work)?;
+
+    steps.preparing();
+    steps.frames_done(0);
+    draw(mesh, &mut canvas, camera, &mut work, &steps)?;
+    steps.frames_done(1);
     let Some(prepare) = prepare else {
         canvas.shade(mesh.positions(), camera);
         return Ok(rendered(canvas, work, None));
     };
-    if repeat.is_some() {
-        draw(mesh, &mut canvas, camera, &mut ())?;
+    if options.repeat.is_some() {
+        draw(mesh, &mut canvas, camera, &mut (), &steps)?;
         canvas.shade(mesh.positions(), camera);
+        steps.frames_done(2);
     }
+    let before = 1 + u64::from(options.repeat.is_some());
     let (mut visibility, mut shading) = (Vec::new(), Vec::new());
-    for _ in 0..repeat.unwrap_or(1) {
-        let (drawn, time) = timed(|| draw(mesh, &mut canvas, camera, &mut ()));
+    for number in 1..=u64::from(options.repeat.unwrap_or(1)) {
+        let (drawn, time) = timed(|| draw(mesh, &mut canvas, camera, &mut (), &steps));
         drawn?;
         visibility.push(time);
         let ((), time) = timed(|| canvas.shade(mesh.positions(), camera));
         shading.push(time);
+        steps.frames_done(before + number);
     }
     let times = Times {
         prepare: Spread::of(vec![prepare]),
@@ -58,9 +71,17 @@ fn draw(
     canvas: &mut Canvas,
     camera: &Camera,
     observer: &mut impl Observer,
+    steps: &Steps,
 ) -> Result<(), StreamError> {
     let mut pass = canvas.begin(camera, CHUNK, observer);
-    mesh.for_each_triangle(|positions, triangle| pass.draw(positions, triangle))?;
+    let (chunked, mut count) = (mesh.triangles().is_some(), 0_usize);
+    mesh.for_each_triangle(|positions, triangle| {
+        if chunked && count.is_multiple_of(CHUNK) {
+            steps.begin();
+        }
+        count += 1;
+        pass.draw(positions, triangle);
+    })?;
     pass.finish(mesh.positions());
     Ok(())
 }

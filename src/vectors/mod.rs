@@ -16,9 +16,9 @@ mod sketch;
 pub use json::{Entry, index, json};
 pub use readme::readme;
 
-use crate::common::{Camera, CameraDescription, Frame, Mesh, Options, Scene, Shape, View};
+use crate::common::{Camera, CameraDescription, Frame, Mesh, Scene, Shape, View};
 use crate::diff::compare;
-use crate::orders::{self, Method, Order};
+use crate::orders::{self, Method, Order, RenderOptions};
 
 /// One scene of the set.
 #[derive(Clone, Debug, PartialEq)]
@@ -125,7 +125,7 @@ pub fn expected(vector: &Vector) -> Result<Frame, Disagreement> {
     let (scene, camera) = (vector.scene(), vector.camera());
     let view = View::new(&scene, &camera);
     let rendered =
-        |order, method| orders::render(order, method, &view, &Options::default(), None).frame;
+        |order, method| orders::render(order, method, &view, &RenderOptions::default()).frame;
     let answer = rendered(Order::Object, Method::Textbook);
     for method in [Method::Textbook, Method::Fast] {
         for order in [Order::Object, Order::Image] {
