@@ -383,7 +383,7 @@ mod tests {
     fn progress_is_told_to_the_end_and_changes_nothing() {
         let (scene, camera) = (two_balls(), Camera::canonical(9, 7));
         let view = View::new(&scene, &camera);
-        let options = Options { samples: 2 };
+        let options = Options { samples: 2, ..Options::default() };
         // Steps within a frame: frames, primitives, or rows of samples.
         for (order, method, steps) in [
             (Order::Object, Method::Fast, 1),

@@ -61,7 +61,8 @@ mod tests {
     use crate::common::{Camera, Options};
 
     fn frame(samples: u32, seen: &[(usize, usize)]) -> Frame {
-        let mut frame = Frame::new(&Camera::canonical(2, 1), &Options { samples });
+        let mut frame =
+            Frame::new(&Camera::canonical(2, 1), &Options { samples, ..Options::default() });
         seen.iter().for_each(|&(row, column)| frame.set(row, column, 0, 1.0));
         frame
     }

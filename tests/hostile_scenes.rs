@@ -173,7 +173,8 @@ fn agree_on(numbers: Numbers, count: u32) -> (f64, f64) {
         .run(&strategy, |(objects, description, samples)| {
             let scene = Scene::new(objects).expect("it is a scene");
             let camera = Camera::new(description).expect("it is a camera");
-            let (view, options) = (View::new(&scene, &camera), Options { samples });
+            let (view, options) =
+                (View::new(&scene, &camera), Options { samples, ..Options::default() });
             all_agree(&view, &options, "a hostile scene");
             let mut ties = Ties::new(&view, samples);
             let mut frame = Frame::new(&camera, &options);

@@ -294,7 +294,7 @@ mod tests {
     #[test]
     fn tiles_cover_every_sample_once() {
         let camera = Camera::canonical(5, 7);
-        let mut frame = Frame::new(&camera, &Options { samples: 2 });
+        let mut frame = Frame::new(&camera, &Options { samples: 2, ..Options::default() });
         let mut area = 0;
         for tile in frame.tiles_mut(4, 3) {
             area += tile.region.area();
@@ -310,7 +310,8 @@ mod tests {
 
     #[test]
     fn a_pixel_finds_its_samples() {
-        let frame = Frame::new(&Camera::canonical(3, 2), &Options { samples: 2 });
+        let frame =
+            Frame::new(&Camera::canonical(3, 2), &Options { samples: 2, ..Options::default() });
         let samples: Vec<_> = frame.samples_of(1, 2).collect();
         assert_eq!(samples, [16, 17, 22, 23]);
     }

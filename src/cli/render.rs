@@ -105,7 +105,7 @@ impl<'a> Run<'a> {
         bar: Option<&Bar>,
     ) -> Run<'a> {
         let view = View::new(&loaded.scene, camera);
-        let options = Options { samples: args.method.samples };
+        let options = Options { samples: args.method.samples, ..Options::default() };
         let (method, repeat) = (args.method.method.into(), args.method.repeat);
         let listener = bar.map(|bar| move |progress| bar.show(progress));
         let listener = listener.as_ref().map(|listener| listener as Listener);

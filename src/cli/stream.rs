@@ -20,7 +20,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
     let (camera, staging, folder) = prepared_output(args, &loaded)?;
 
     thread_pool(args)?.install(|| {
-        let options = Options { samples: args.method.samples };
+        let options = Options { samples: args.method.samples, ..Options::default() };
         let prepare = (!args.output.no_times).then_some(prepare);
         let rendered = render_stream(&mut mesh, &camera, &options, args.method.repeat, prepare);
         let rendered = vec![rendered.map_err(|error| Failure::new(error.to_string()))?];
