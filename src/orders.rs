@@ -159,7 +159,8 @@ pub fn render_and_tell(
         (Method::Fast, _) => None,
         (Method::Textbook, Order::Object) => Some(view.scene.primitive_count().into()),
         (Method::Textbook, Order::Image) => {
-            Some(u64::from(view.camera.image()[1]) * u64::from(options.samples))
+            let rows = options.pixels(view.camera.image()).height;
+            Some(u64::from(rows) * u64::from(options.samples))
         }
     };
     // One that counts, one to warm up, and the timed ones.

@@ -3,7 +3,7 @@
 use super::leaf::{self, Answer, Distance, Trust};
 use super::rays::{Lens, Rays};
 use bothways_common::fault::{Fault, Planted};
-use bothways_common::frame::{NO_PRIMITIVE, stored_t};
+use bothways_common::frame::{NO_PRIMITIVE, Region, stored_t};
 use bothways_common::observe::{Observer, Question, Sample};
 use bothways_common::predicate::Memory;
 use bothways_common::simd::{Select, Simd, SimdBase, SimdMask, f32x16, u32x16};
@@ -274,47 +274,55 @@ impl Tile {
         self.memory.nearer(challenger, (holder, &held), &ray)
     }
 
-    /// Writes ids and distances into rows of a frame.
+    /// Writes ids and distances into a region of a frame, as much of it as the tile holds.
     #[inline(always)]
     pub(super) fn store<S: Simd>(
         &self,
         simd: S,
         rays: &Rays,
+        region: &Region,
         ids: &mut [&mut [u32]],
         t: &mut [&mut [f32]],
-        columns: std::ops::Range<usize>,
     ) {
+        let place_of = |top: usize, left: usize, height: usize, width: usize| {
+            let (row, column) = (self.row + top, self.column + left);
+            Region { rows: row..row + height, columns: column..column + width }
+        };
+        let here = place_of(0, 0, self.height, self.width).intersection(region);
+        let (first_row, first_column) = (region.rows.start, region.columns.start);
         if !self.touched {
-            for (ids, t) in ids.iter_mut().zip(t) {
-                ids[columns.clone()].fill(NO_PRIMITIVE);
-                t[columns.clone()].fill(f32::INFINITY);
+            let columns = here.columns.start - first_column..here.columns.end - first_column;
+            for row in here.rows {
+                ids[row - first_row][columns.clone()].fill(NO_PRIMITIVE);
+                t[row - first_row][columns.clone()].fill(f32::INFINITY);
             }
             return;
         }
         if self.side < BLOCK {
             let (mut shown, mut far) = ([0; 16], [0.0; 16]);
             self.store_block(simd, rays, 0, &mut shown, &mut far);
-            ids[0][columns.start] = shown[0];
-            t[0][columns.start] = far[0];
+            ids[self.row - first_row][self.column - first_column] = shown[0];
+            t[self.row - first_row][self.column - first_column] = far[0];
             return;
         }
         for block in 0..self.blocks() {
             let (top, left) = place(self.side, block * 16);
-            if top >= self.height || left >= self.width {
+            let Region { rows, columns } = place_of(top, left, BLOCK, BLOCK).intersection(&here);
+            if rows.is_empty() || columns.is_empty() {
                 continue;
             }
             let (mut shown, mut far) = ([0; 16], [0.0; 16]);
             self.store_block(simd, rays, block, &mut shown, &mut far);
-            let wide = (self.width - left).min(BLOCK);
-            let start = columns.start + left;
-            for row in top..self.height.min(top + BLOCK) {
-                let from = (row - top) * BLOCK;
+            let (wide, start) = (columns.len(), columns.start - first_column);
+            for row in rows {
+                let from = (row - self.row - top) * BLOCK + columns.start - self.column - left;
+                let (ids, t) = (&mut ids[row - first_row], &mut t[row - first_row]);
                 if wide == BLOCK {
-                    ids[row][start..start + BLOCK].copy_from_slice(&shown[from..from + BLOCK]);
-                    t[row][start..start + BLOCK].copy_from_slice(&far[from..from + BLOCK]);
+                    ids[start..start + BLOCK].copy_from_slice(&shown[from..from + BLOCK]);
+                    t[start..start + BLOCK].copy_from_slice(&far[from..from + BLOCK]);
                 } else {
-                    ids[row][start..start + wide].copy_from_slice(&shown[from..from + wide]);
-                    t[row][start..start + wide].copy_from_slice(&far[from..from + wide]);
+                    ids[start..start + wide].copy_from_slice(&shown[from..from + wide]);
+                    t[start..start + wide].copy_from_slice(&far[from..from + wide]);
                 }
             }
         }
