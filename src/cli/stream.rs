@@ -4,7 +4,6 @@
 use super::args::{MethodArg, OrderArg, RenderArgs};
 use super::failure::Failure;
 use super::render::{Run, prepared_output, thread_pool};
-use bothways::common::Options;
 use bothways::orders::render_stream;
 use bothways::report::Report;
 use bothways::scenes::{StreamedScene, open_stream};
@@ -20,7 +19,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
     let (camera, staging, folder) = prepared_output(args, &loaded)?;
 
     thread_pool(args)?.install(|| {
-        let options = Options { samples: args.method.samples, ..Options::default() };
+        let options = args.method.options();
         let prepare = (!args.output.no_times).then_some(prepare);
         let rendered = render_stream(&mut mesh, &camera, &options, args.method.repeat, prepare);
         let rendered = vec![rendered.map_err(|error| Failure::new(error.to_string()))?];
