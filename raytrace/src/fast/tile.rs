@@ -8,6 +8,7 @@ use bothways_common::observe::{Observer, Question, Sample};
 use bothways_common::predicate::Memory;
 use bothways_common::simd::{Select, Simd, SimdBase, SimdMask, f32x16, u32x16};
 use bothways_common::{Primitive, Projection};
+use std::ops::Range;
 
 /// Samples along one side of a block: sixteen samples are tested at once.
 pub(super) const BLOCK: usize = 4;
@@ -284,39 +285,42 @@ impl Tile {
         ids: &mut [&mut [u32]],
         t: &mut [&mut [f32]],
     ) {
-        let place_of = |top: usize, left: usize, height: usize, width: usize| {
-            let (row, column) = (self.row + top, self.column + left);
-            Region { rows: row..row + height, columns: column..column + width }
+        // What the region holds of the tile, counted from the tile's first row and column.
+        let held = |first: usize, count: usize, of: &Range<usize>| {
+            of.start.saturating_sub(first)..(of.end - first).min(count)
         };
-        let here = place_of(0, 0, self.height, self.width).intersection(region);
-        let (first_row, first_column) = (region.rows.start, region.columns.start);
+        let rows = held(self.row, self.height, &region.rows);
+        let columns = held(self.column, self.width, &region.columns);
+        let line = |row: usize| row + self.row - region.rows.start;
+        let place_in_line = |column: usize| column + self.column - region.columns.start;
         if !self.touched {
-            let columns = here.columns.start - first_column..here.columns.end - first_column;
-            for row in here.rows {
-                ids[row - first_row][columns.clone()].fill(NO_PRIMITIVE);
-                t[row - first_row][columns.clone()].fill(f32::INFINITY);
+            let columns = place_in_line(columns.start)..place_in_line(columns.end);
+            for row in rows.map(line) {
+                ids[row][columns.clone()].fill(NO_PRIMITIVE);
+                t[row][columns.clone()].fill(f32::INFINITY);
             }
             return;
         }
         if self.side < BLOCK {
             let (mut shown, mut far) = ([0; 16], [0.0; 16]);
             self.store_block(simd, rays, 0, &mut shown, &mut far);
-            ids[self.row - first_row][self.column - first_column] = shown[0];
-            t[self.row - first_row][self.column - first_column] = far[0];
+            ids[line(0)][place_in_line(0)] = shown[0];
+            t[line(0)][place_in_line(0)] = far[0];
             return;
         }
         for block in 0..self.blocks() {
             let (top, left) = place(self.side, block * 16);
-            let Region { rows, columns } = place_of(top, left, BLOCK, BLOCK).intersection(&here);
+            let rows = top.max(rows.start)..rows.end.min(top + BLOCK);
+            let columns = left.max(columns.start)..columns.end.min(left + BLOCK);
             if rows.is_empty() || columns.is_empty() {
                 continue;
             }
             let (mut shown, mut far) = ([0; 16], [0.0; 16]);
             self.store_block(simd, rays, block, &mut shown, &mut far);
-            let (wide, start) = (columns.len(), columns.start - first_column);
+            let (wide, start) = (columns.len(), place_in_line(columns.start));
             for row in rows {
-                let from = (row - self.row - top) * BLOCK + columns.start - self.column - left;
-                let (ids, t) = (&mut ids[row - first_row], &mut t[row - first_row]);
+                let from = (row - top) * BLOCK + columns.start - left;
+                let (ids, t) = (&mut ids[line(row)], &mut t[line(row)]);
                 if wide == BLOCK {
                     ids[start..start + BLOCK].copy_from_slice(&shown[from..from + BLOCK]);
                     t[start..start + BLOCK].copy_from_slice(&far[from..from + BLOCK]);
