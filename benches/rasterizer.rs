@@ -5,23 +5,18 @@
 //! unless the bench is about that. `cargo bench --bench rasterizer` runs all; `BOTHWAYS_LONG=1` adds the
 //! sphere of 8 million triangles.
 
-use bothways::common::generate::Kind;
+mod support;
+
 use bothways::common::glam::{Vec2, Vec3};
-use bothways::common::{
-    Camera, CameraDescription, Frame, Mesh, Options, Projection, Scene, Shape, View,
-};
+use bothways::common::{Camera, CameraDescription, Frame, Mesh, Options, Projection, Scene, View};
 use bothways::rasterize::fast;
-use bothways::scenes::framed;
 use divan::Bencher;
 use divan::counter::ItemsCount;
+use support::{Copy, FULL_HD, MILLION, Part, camera, scene, sphere};
 
 fn main() {
     divan::main();
 }
-
-const FULL_HD: [u32; 2] = [1920, 1080];
-/// The sphere of a million triangles.
-const MILLION: [u32; 2] = [1000, 501];
 
 /// Divisions of spheres: 10 thousand, 100 thousand, 1 million and 8 million triangles.
 fn spheres() -> &'static [[u32; 2]] {
@@ -29,33 +24,20 @@ fn spheres() -> &'static [[u32; 2]] {
     if std::env::var_os("BOTHWAYS_LONG").is_some() { all } else { &all[..3] }
 }
 
-fn sphere(divisions: [u32; 2]) -> Mesh {
-    Kind::Sphere.mesh(divisions).expect("a sphere has so many divisions")
-}
-
-/// A camera that sees all of a mesh.
-fn camera(mesh: &Mesh, image: [u32; 2]) -> Camera {
-    let description = framed(mesh).expect("the mesh has a size");
-    let [width, height] = image.map(|side| side as f32);
-    let viewport = [description.viewport[1] * width / height, description.viewport[1]];
-    Camera::new(CameraDescription { viewport, image, ..description }).expect("it is a camera")
-}
-
-fn scene(meshes: impl IntoIterator<Item = Mesh>) -> Scene {
-    let objects = meshes.into_iter().map(|mesh| Shape::Mesh(mesh).into());
-    Scene::new(objects.collect()).expect("it is a scene")
-}
-
 /// Times one frame of visibility on so many threads.
 fn time_visibility(bencher: Bencher, scene: &Scene, camera: &Camera, threads: usize) {
+    time_part(bencher, scene, camera, threads, &Options::default());
+}
+
+fn time_part(bencher: Bencher, scene: &Scene, camera: &Camera, threads: usize, options: &Options) {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    let (view, options) = (View::new(scene, camera), Options::default());
+    let view = View::new(scene, camera);
     let prepared = fast::prepare(scene);
-    let mut frame = Frame::new(camera, &options);
+    let mut frame = Frame::new(camera, options);
     let pool = pool.expect("there are threads");
     bencher.bench_local(|| {
         pool.install(|| {
-            fast::determine_visibility(&prepared, &view, &options, &mut frame, &mut ());
+            fast::determine_visibility(&prepared, &view, options, &mut frame, &mut ());
         });
     });
 }
@@ -86,13 +68,13 @@ fn threads(bencher: Bencher, threads: usize) {
     time_visibility(bencher, &scene([mesh]), &camera, threads);
 }
 
-/// What another copy of a mesh is to the first.
-#[derive(Clone, Copy, Debug)]
-enum Copy {
-    /// In the same place: every depth test is a tie.
-    Tied,
-    /// Moved away from the eye by a thousandth of the diagonal: no tie.
-    Behind,
+/// A hundredth of the picture beside the whole one: every vertex is placed and every triangle looked at for
+/// both.
+#[divan::bench(args = [Part::Whole, Part::Hundredth])]
+fn crop(bencher: Bencher, part: Part) {
+    let mesh = sphere(MILLION);
+    let camera = camera(&mesh, FULL_HD);
+    time_part(bencher, &scene([mesh]), &camera, 1, &part.options());
 }
 
 /// A mesh drawn twice: ties cost at most twice what the same without ties costs.
@@ -100,13 +82,7 @@ enum Copy {
 fn twice<const AROUND: u32>(bencher: Bencher, copy: Copy) {
     let mesh = sphere([AROUND, AROUND / 2 + 1]);
     let camera = camera(&mesh, FULL_HD);
-    // The unit sphere's box has a diagonal of 2·√3.
-    let away = -camera.w().as_vec3() * (2.0 * 3f32.sqrt() / 1000.0);
-    let moved = match copy {
-        Copy::Tied => mesh.clone(),
-        Copy::Behind => mesh.clone().map(|p| p + away, |n| n).expect("it stays finite"),
-    };
-    time_visibility(bencher, &scene([mesh, moved]), &camera, 1);
+    time_visibility(bencher, &copy.with(mesh, &camera), &camera, 1);
 }
 
 /// How a grid of squares lies on the samples.

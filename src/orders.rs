@@ -183,7 +183,8 @@ pub fn render(order: Order, method: Method, view: &View, options: &RenderOptions
         (Method::Fast, _) => None,
         (Method::Textbook, Order::Object) => Some(view.scene.primitive_count().into()),
         (Method::Textbook, Order::Image) => {
-            Some(u64::from(view.camera.image()[1]) * u64::from(options.frame.samples))
+            let rows = options.frame.pixels(view.camera.image()).height;
+            Some(u64::from(rows) * u64::from(options.frame.samples))
         }
     };
     let done = AtomicU64::new(0);
@@ -406,7 +407,7 @@ mod tests {
     fn progress_is_told_to_the_end_and_changes_nothing() {
         let (scene, camera) = (two_balls(), Camera::canonical(9, 7));
         let view = View::new(&scene, &camera);
-        let frame = Options { samples: 2 };
+        let frame = Options { samples: 2, ..Options::default() };
         // Steps within a frame: frames, primitives, or rows of samples.
         for (order, method, steps) in [
             (Order::Object, Method::Fast, 1),

@@ -9,11 +9,13 @@ use rayon::prelude::*;
 
 /// The picture: each pixel is the average of its samples in linear light, as an sRGB colour.
 pub fn picture(frame: &Frame) -> RgbImage {
-    let [width, height] = frame.image();
+    let ([width, height], [top, left]) = (frame.image(), first_pixel(frame));
     let mut picture = RgbImage::new(width, height);
     picture.par_chunks_exact_mut(3 * width as usize).enumerate().for_each(|(i, row)| {
         for (j, pixel) in row.chunks_exact_mut(3).enumerate() {
-            pixel.copy_from_slice(&average(frame, i, j).to_array().map(srgb_from_linear));
+            pixel.copy_from_slice(
+                &average(frame, top + i, left + j).to_array().map(srgb_from_linear),
+            );
         }
     });
     picture
@@ -23,14 +25,19 @@ pub fn picture(frame: &Frame) -> RgbImage {
 ///
 /// In between it is `255·covered / N²`, rounded, but never 0 or 255: partial coverage stays visible.
 pub fn mask(frame: &Frame) -> GrayImage {
-    let [width, height] = frame.image();
+    let ([width, height], [top, left]) = (frame.image(), first_pixel(frame));
     let mut mask = GrayImage::new(width, height);
     mask.par_chunks_exact_mut(width as usize).enumerate().for_each(|(i, row)| {
         for (j, pixel) in row.iter_mut().enumerate() {
-            *pixel = coverage_byte(frame, i, j);
+            *pixel = coverage_byte(frame, top + i, left + j);
         }
     });
     mask
+}
+
+/// The row and column of the frame's first pixel.
+fn first_pixel(frame: &Frame) -> [usize; 2] {
+    frame.crop().map_or([0; 2], |crop| [crop.row as usize, crop.column as usize])
 }
 
 fn average(frame: &Frame, i: usize, j: usize) -> Vec3 {
@@ -61,7 +68,8 @@ mod tests {
     use crate::common::{Camera, Options};
 
     fn frame(samples: u32, seen: &[(usize, usize)]) -> Frame {
-        let mut frame = Frame::new(&Camera::canonical(2, 1), &Options { samples });
+        let mut frame =
+            Frame::new(&Camera::canonical(2, 1), &Options { samples, ..Options::default() });
         seen.iter().for_each(|&(row, column)| frame.set(row, column, 0, 1.0));
         frame
     }

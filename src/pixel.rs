@@ -104,7 +104,7 @@ impl SampleReport {
 }
 
 /// Reports on every sample of pixel `(i, j)`, row by row. Both orders render the whole picture, with
-/// all their machinery.
+/// all their machinery, without a crop.
 ///
 /// # Panics
 ///
@@ -124,6 +124,7 @@ impl SampleReport {
 pub fn report(view: &View, options: &Options, i: u32, j: u32) -> Vec<SampleReport> {
     let [width, height] = view.camera.image();
     assert!(i < height && j < width, "there is no pixel ({i}, {j})");
+    let options = &Options { crop: None, ..*options };
     let side = options.samples as usize;
     let (top, left) = (i as usize * side, j as usize * side);
     let pixel = Region { rows: top..top + side, columns: left..left + side };

@@ -60,7 +60,8 @@ impl<'a> Steps<'a> {
     /// An observer that counts the steps of a frame; `None` where frames count as a whole, or nobody
     /// listens.
     pub(crate) fn watch(&self) -> Option<Watch<'a>> {
-        (self.listener.is_some() && self.within_frame.is_some()).then_some(Watch(*self))
+        (self.listener.is_some() && self.within_frame.is_some())
+            .then_some(Watch { steps: *self, row: None })
     }
 
     pub(crate) fn preparing(&self) {
@@ -93,7 +94,11 @@ impl<'a> Steps<'a> {
 
 /// Counts the steps of an outer loop: primitives in object order, rows of samples in image order.
 #[derive(Clone, Copy)]
-pub(crate) struct Watch<'a>(Steps<'a>);
+pub(crate) struct Watch<'a> {
+    steps: Steps<'a>,
+    /// The row of the last ray.
+    row: Option<usize>,
+}
 
 impl Observer for Watch<'_> {
     fn fork(&self) -> Self {
@@ -103,12 +108,32 @@ impl Observer for Watch<'_> {
     fn join(&mut self, _part: Self) {}
 
     fn primitive_begun(&mut self, _primitive: u32, _region: &Region) {
-        self.0.begin();
+        self.steps.begin();
     }
 
     fn ray_begun(&mut self, sample: Sample) {
-        if sample.column == 0 {
-            self.0.begin();
+        if self.row.replace(sample.row) != Some(sample.row) {
+            self.steps.begin();
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::Mutex;
+
+    #[test]
+    fn rows_count_wherever_they_begin() {
+        let (told, done) = (Mutex::new(Vec::new()), AtomicU64::new(0));
+        let listener = |progress: Progress| told.lock().unwrap().push(progress.done);
+        let steps = Steps::new(Order::Image, Some(&listener), Some(3), 1, &done);
+        let mut watch = steps.watch().unwrap();
+        steps.frames_done(0);
+        for row in 5..8 {
+            (7..9).for_each(|column| watch.ray_begun(Sample { row, column }));
+        }
+        steps.frames_done(1);
+        assert_eq!(told.into_inner().unwrap(), [0, 1, 2, 3]);
     }
 }

@@ -10,8 +10,12 @@ use serde::Serialize;
 pub struct Report {
     /// The scene's name.
     pub scene: String,
-    /// Width and height in pixels.
+    /// Width and height of the camera's image in pixels.
     pub size: [u32; 2],
+    /// Row, column, height and width of the part of it that was rendered, if it was not all. Pixels are
+    /// named as in the whole image.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub crop: Option<[u32; 4]>,
     /// Samples along one side of a pixel.
     pub samples: u32,
     /// Threads that rendered.
@@ -79,7 +83,8 @@ impl Report {
         let section = |order| rendered.iter().find(|one| one.order == order).map(OrderReport::new);
         Report {
             scene: scene.into(),
-            size: frame.image(),
+            size: frame.camera_image(),
+            crop: frame.crop().map(|crop| crop.to_array()),
             samples: frame.samples(),
             threads,
             primitives,

@@ -1,5 +1,7 @@
 //! Numbers as people read them: `1,234,567 samples`.
 
+use crate::common::Crop;
+
 pub use crate::common::wording::readable;
 
 /// A whole number with its digits in groups of three.
@@ -19,6 +21,25 @@ pub fn grouped(number: u64) -> String {
 pub fn count(number: u64, things: &str) -> String {
     let things = if number == 1 { things.trim_end_matches('s') } else { things };
     format!("{} {things}", grouped(number))
+}
+
+/// The pixels that a picture shows: all of an image of this width and height, or a crop. `times` stands
+/// between two sides.
+///
+/// ```
+/// use bothways::{common::Crop, wording::pixels_shown};
+///
+/// let crop = Crop { row: 486, column: 864, height: 108, width: 192 };
+/// assert_eq!(pixels_shown([1920, 1080], None, "x"), "1920 x 1080 pixels");
+/// let shown = "crop of 192 x 108 pixels at (486, 864) in 1920 x 1080";
+/// assert_eq!(pixels_shown([1920, 1080], Some(crop), "x"), shown);
+/// ```
+pub fn pixels_shown([width, height]: [u32; 2], crop: Option<Crop>, times: &str) -> String {
+    let Some(crop) = crop else {
+        return format!("{width} {times} {height} pixels");
+    };
+    let pixels = format!("{} {times} {} pixels", crop.width, crop.height);
+    format!("crop of {pixels} at ({}, {}) in {width} {times} {height}", crop.row, crop.column)
 }
 
 /// A time that is read at a glance: three significant digits, in milliseconds.

@@ -285,6 +285,55 @@ const REFUSED: &[(&str, &str)] = &[
          65536 samples and the image at most 1073741824",
     ),
     (
+        "canonical --crop 10,20,30",
+        "invalid value '10,20,30' for '--crop <ROW,COLUMN,HEIGHT,WIDTH>': it has 3 numbers, but \
+         needs four; give ROW,COLUMN,HEIGHT,WIDTH in pixels of the image, such as 100,200,48,64",
+    ),
+    (
+        "canonical --crop 64x48",
+        "invalid value '64x48' for '--crop <ROW,COLUMN,HEIGHT,WIDTH>': '64x48' is not a whole \
+         number from 0; give ROW,COLUMN,HEIGHT,WIDTH in pixels of the image, such as 100,200,48,64",
+    ),
+    (
+        "canonical --crop -1,0,8,8",
+        "invalid value '-1,0,8,8' for '--crop <ROW,COLUMN,HEIGHT,WIDTH>': '-1' is not a whole \
+         number from 0; give ROW,COLUMN,HEIGHT,WIDTH",
+    ),
+    (
+        "canonical --crop 0,0,8,1.5",
+        "invalid value '0,0,8,1.5' for '--crop <ROW,COLUMN,HEIGHT,WIDTH>': '1.5' is not a whole \
+         number from 0",
+    ),
+    (
+        "canonical --crop ,",
+        "invalid value ',' for '--crop <ROW,COLUMN,HEIGHT,WIDTH>': '' is not a whole number from 0",
+    ),
+    (
+        "canonical --crop 0,0,8,99999999999",
+        "invalid value '0,0,8,99999999999' for '--crop <ROW,COLUMN,HEIGHT,WIDTH>': 99999999999 is \
+         out of range; an image has at most 65536 rows and columns",
+    ),
+    (
+        "canonical --size 64x48 --crop 10,20,0,8",
+        "--crop: the crop 10,20,0,8 of an image of 64x48 holds no pixel; its height and width, the \
+         last two numbers, must be at least 1",
+    ),
+    (
+        "canonical --size 64x48 --crop 40,0,9,64",
+        "--crop: the crop 40,0,9,64 ends at pixel (48, 63), outside of an image of 64x48, whose \
+         last pixel is (47, 63); give ROW,COLUMN,HEIGHT,WIDTH with ROW + HEIGHT up to 48 and COLUMN \
+         + WIDTH up to 64",
+    ),
+    (
+        "canonical --crop 0,4294967295,1,4294967295",
+        "--crop: the crop 0,4294967295,1,4294967295 ends at pixel (0, 8589934589), outside of an \
+         image of 480x480",
+    ),
+    (
+        "render canonical --crop 480,0,1,1",
+        "--crop: the crop 480,0,1,1 ends at pixel (480, 0), outside of an image of 480x480",
+    ),
+    (
         "canonical --threads 0",
         "invalid value '0' for '--threads <N>': give a whole number from 1 to 1024",
     ),

@@ -39,7 +39,7 @@ type Determine<'a> = &'a dyn Fn(&View, &Options, &mut Frame, &mut Work);
 fn check_repeats(prepared: Determine, fresh: Determine) {
     let scene = still_life();
     let cameras = cameras();
-    let options = Options { samples: 2 };
+    let options = Options { samples: 2, ..Options::default() };
     let mut frame = Frame::new(&cameras[0], &options);
     for step in 0..2 * cameras.len() {
         let view = View::new(&scene, &cameras[step % 3 + 3 * (step % 2)]);
@@ -85,7 +85,7 @@ fn image_order_starts_every_frame_afresh() {
 
 #[test]
 fn threads_never_change_a_bit() {
-    let (scene, options) = (still_life(), Options { samples: 3 });
+    let (scene, options) = (still_life(), Options { samples: 3, ..Options::default() });
     for camera in cameras() {
         let view = View::new(&scene, &camera);
         let with_threads = |threads: usize| {

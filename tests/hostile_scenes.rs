@@ -12,7 +12,7 @@ use bothways::rasterize;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRng, TestRunner};
 use std::cell::Cell;
-use support::{Ties, all_agree, cases};
+use support::{RENDERERS, Ties, all_agree, assert_is_part, cases, some_crops};
 
 /// What a scene's coordinates look like.
 #[derive(Clone, Copy, Debug)]
@@ -152,9 +152,19 @@ fn camera(numbers: Numbers) -> impl Strategy<Value = CameraDescription> {
     )
 }
 
+/// Renders a part of the picture with all four.
+fn check_a_crop(view: &View, options: &Options, seed: u64) {
+    let crop = some_crops(view.camera.image(), seed).next();
+    for (name, render) in RENDERERS {
+        let part = render(view, &Options { crop, ..*options });
+        assert_is_part(&render(view, options), &part, name);
+    }
+}
+
 /// Runs the four renderers on random scenes and gives the shares of exact ties among the tests.
 fn agree_on(numbers: Numbers, count: u32) -> (f64, f64) {
     let (edge, distance, tested) = (Cell::new(0), Cell::new(0), Cell::new(0));
+    let crops = Cell::new(0);
     let config = Config { cases: cases(count), failure_persistence: None, ..Config::default() };
     // Several samples a pixel lie between the integers of few bits.
     let samples = match numbers {
@@ -173,8 +183,11 @@ fn agree_on(numbers: Numbers, count: u32) -> (f64, f64) {
         .run(&strategy, |(objects, description, samples)| {
             let scene = Scene::new(objects).expect("it is a scene");
             let camera = Camera::new(description).expect("it is a camera");
-            let (view, options) = (View::new(&scene, &camera), Options { samples });
+            let (view, options) =
+                (View::new(&scene, &camera), Options { samples, ..Options::default() });
             all_agree(&view, &options, "a hostile scene");
+            crops.set(crops.get() + 1);
+            check_a_crop(&view, &options, crops.get());
             let mut ties = Ties::new(&view, samples);
             let mut frame = Frame::new(&camera, &options);
             rasterize::textbook::determine_visibility(&view, &options, &mut frame, &mut ties);

@@ -141,7 +141,7 @@ fn both_orders_draw_each_triangle_in_its_own_material() {
     let plain = Scene::new(vec![Shape::Mesh(plain).into()]).unwrap();
     for projection in PROJECTIONS {
         let camera = turned(projection, [1.0, 0.7, 4.0], [0.0; 3], [48, 36]);
-        let options = Options { samples: 2 };
+        let options = Options { samples: 2, ..Options::default() };
         let view = View::new(&scene, &camera);
         let frames = RENDERERS.map(|(_, render)| render(&view, &options));
         for frame in &frames[1..] {

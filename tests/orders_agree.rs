@@ -31,7 +31,8 @@ fn camera(scene: &LoadedScene, projection: Projection, image: [u32; 2]) -> Camer
 /// Renders with all four, and holds the fast pair's look against each other, too.
 fn check(scene: &LoadedScene, projection: Projection, image: [u32; 2], samples: u32) {
     let camera = camera(scene, projection, image);
-    let (view, options) = (View::new(&scene.scene, &camera), Options { samples });
+    let (view, options) =
+        (View::new(&scene.scene, &camera), Options { samples, ..Options::default() });
     let what = format!("{} {projection:?} {image:?} x {samples}", scene.name);
     all_agree(&view, &options, &what);
     check_looks(&view, &options, &what);
@@ -75,7 +76,11 @@ fn the_large_scenes_at_small_sizes() {
             for (image, samples) in SIZES.iter().flat_map(|size| (1..=3).map(move |n| (size, n))) {
                 let camera = camera(&scene, projection, *image);
                 let what = format!("{name} {projection:?} {image:?} x {samples}");
-                check_looks(&View::new(&scene.scene, &camera), &Options { samples }, &what);
+                check_looks(
+                    &View::new(&scene.scene, &camera),
+                    &Options { samples, ..Options::default() },
+                    &what,
+                );
             }
         }
     }
@@ -99,7 +104,7 @@ fn the_scene_inside_covers_every_sample() {
     for image in [[64, 48], [33, 77]] {
         let camera = camera(&scene, Projection::Perspective, image);
         let view = View::new(&scene.scene, &camera);
-        let frame = check_looks(&view, &Options { samples: 2 }, "inside");
+        let frame = check_looks(&view, &Options { samples: 2, ..Options::default() }, "inside");
         assert!(frame.ids().iter().all(|&id| id < scene.scene.primitive_count()));
     }
 }

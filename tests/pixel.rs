@@ -53,7 +53,10 @@ fn all_pixels_together_are_the_picture() {
             let mut description = loaded.camera;
             (description.projection, description.image) = (projection, [8, 8]);
             let camera = Camera::new(description).unwrap();
-            check_whole_picture(&View::new(&loaded.scene, &camera), &Options { samples });
+            check_whole_picture(
+                &View::new(&loaded.scene, &camera),
+                &Options { samples, ..Options::default() },
+            );
         }
     }
 }

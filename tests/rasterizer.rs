@@ -62,7 +62,7 @@ fn no_width_of_simd_and_no_tile_changes_a_bit() {
         for projection in PROJECTIONS {
             let camera = turned(projection, [1.5, 1.0, 4.0], [0.0; 3], [101, 67]);
             let view = View::new(&scene, &camera);
-            let options = Options { samples: 1 + k as u32 % 2 };
+            let options = Options { samples: 1 + k as u32 % 2, ..Options::default() };
             let prepared = fast::prepare(&scene);
             let (expected, expected_work) = draw(&prepared, &view, &options);
             for (level, tile) in every_way_to_draw() {

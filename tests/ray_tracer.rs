@@ -42,7 +42,7 @@ fn soup(count: u32, size: f32) -> Mesh {
 }
 
 fn check_against_textbook(view: &View, samples: u32, what: &str) -> Frame {
-    let options = Options { samples };
+    let options = Options { samples, ..Options::default() };
     let expected = textbook::render(view, &options);
     let frame = fast::render(&fast::prepare(view.scene), view, &options);
     assert_same_visibility(&expected, &frame, what);
@@ -69,7 +69,7 @@ fn neither_simd_nor_tiles_nor_threads_change_a_bit() {
     let ground = Shape::Plane(Plane { point: Vec3::new(0.0, -0.9, 0.0), normal: Vec3::Y });
     let objects = vec![mesh(soup(400, 0.3)), ball.into(), ground.into()];
     let scene = scene(objects);
-    let options = Options { samples: 2 };
+    let options = Options { samples: 2, ..Options::default() };
     for (projection, image) in PROJECTIONS.into_iter().zip([[130, 70], [77, 33]]) {
         let camera = turned(projection, [1.0, 1.2, 2.0], [0.0; 3], image);
         let view = View::new(&scene, &camera);

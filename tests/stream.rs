@@ -81,7 +81,12 @@ fn coplanar_and_duplicated_triangles_keep_their_order() {
     for projection in PROJECTIONS {
         for samples in 1..=3 {
             let camera = camera(projection, [0.0; 3], [2.0, 2.0], [9, 8]);
-            check(&mesh, &camera, &Options { samples }, &format!("{projection:?}"));
+            check(
+                &mesh,
+                &camera,
+                &Options { samples, ..Options::default() },
+                &format!("{projection:?}"),
+            );
         }
     }
 }
@@ -94,7 +99,12 @@ fn meshes_with_shared_vertices_are_streamed_as_they_are() {
         for projection in PROJECTIONS {
             let camera = turned(projection, [2.0, 1.5, 3.0], [0.0; 3], [21, 17]);
             let what = format!("{kind} {projection:?}");
-            check(bare.as_ref().unwrap(), &camera, &Options { samples: 2 }, &what);
+            check(
+                bare.as_ref().unwrap(),
+                &camera,
+                &Options { samples: 2, ..Options::default() },
+                &what,
+            );
         }
         let inside = turned(Projection::Perspective, [0.0; 3], [1.0, 0.2, 0.1], [12, 12]);
         check(bare.as_ref().unwrap(), &inside, &Options::default(), &format!("in {kind}"));
@@ -170,7 +180,7 @@ fn hostile_meshes_are_streamed_as_they_are() {
             .run(&strategy, |(mesh, eye, parallel, samples)| {
                 let projection = PROJECTIONS[usize::from(parallel)];
                 let camera = camera(projection, eye, [6.0, 6.0], [6, 6]);
-                check(&mesh, &camera, &Options { samples }, "a hostile mesh");
+                check(&mesh, &camera, &Options { samples, ..Options::default() }, "a hostile mesh");
                 Ok(())
             })
             .unwrap();

@@ -77,7 +77,7 @@ fn both_orders_find_the_same_place_of_the_texture() {
         for (eye, samples) in [([1.0, 1.5, 6.0], 1), ([-2.0, 0.4, 3.0], 2), ([0.0, 4.0, 0.5], 1)] {
             let camera = turned(projection, eye, [0.0; 3], [80, 60]);
             let view = View::new(&scene, &camera);
-            let [by_object, by_image] = both(&view, &Options { samples });
+            let [by_object, by_image] = both(&view, &Options { samples, ..Options::default() });
             let coordinates = by_object.texture_coordinates().iter();
             let mut found = 0;
             for (sample, (&a, &b)) in coordinates.zip(by_image.texture_coordinates()).enumerate() {

@@ -28,7 +28,7 @@ fn tiling(shake: impl Fn(u32, u32) -> [f32; 3]) -> Scene {
 }
 
 fn assert_one_owner(scene: &Scene, camera: &Camera, samples: u32) {
-    let options = Options { samples };
+    let options = Options { samples, ..Options::default() };
     let view = View::new(scene, camera);
     for (name, counts) in owners(&view, &options) {
         assert!(counts.iter().all(|&count| count == 1), "{name}, {:?}", camera.description());
@@ -102,7 +102,7 @@ fn a_closed_mesh_from_inside_covers_every_sample() {
     ];
     for camera in &cameras {
         let view = View::new(&scene, camera);
-        let options = Options { samples: 2 };
+        let options = Options { samples: 2, ..Options::default() };
         let frame = all_agree(&view, &options, "octahedron from inside");
         assert!(frame.ids().iter().all(|&id| id < 8));
     }

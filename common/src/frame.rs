@@ -1,6 +1,7 @@
 //! What a renderer answers: for every sample the primitive that is seen, how far it is, and its look.
 
 use crate::camera::{Camera, check_samples};
+use crate::crop::Crop;
 use glam::{Vec2, Vec3};
 use std::ops::Range;
 
@@ -11,12 +12,21 @@ use std::ops::Range;
 pub struct Options {
     /// Samples along one side of a pixel: `samples`² a pixel, on a regular grid.
     pub samples: u32,
+    /// The pixels to render; `None` for all of the camera's image.
+    pub crop: Option<Crop>,
 }
 
 impl Default for Options {
-    /// One sample, in the middle of the pixel.
+    /// One sample, in the middle of the pixel, and all pixels.
     fn default() -> Self {
-        Options { samples: 1 }
+        Options { samples: 1, crop: None }
+    }
+}
+
+impl Options {
+    /// The pixels of an image of this width and height that are rendered.
+    pub fn pixels(&self, image: [u32; 2]) -> Crop {
+        self.crop.unwrap_or(Crop::whole(image))
     }
 }
 
@@ -24,10 +34,15 @@ impl Default for Options {
 pub const NO_PRIMITIVE: u32 = u32::MAX;
 
 /// One rendered picture, in samples: `height·N` rows of `width·N` columns, row by row from the top.
+///
+/// It may hold a [`Crop`] of the camera's image: then its size is the crop's, while pixels, rows and
+/// columns keep their numbers in the whole image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
-    image: [u32; 2],
-    samples: u32,
+    camera_image: [u32; 2],
+    options: Options,
+    /// The samples that it holds, on the raster of the whole image.
+    region: Region,
     ids: Vec<u32>,
     t: Vec<f32>,
     normals: Vec<Vec3>,
@@ -58,7 +73,10 @@ impl Region {
 
     /// The samples that both hold.
     pub fn intersection(&self, other: &Region) -> Region {
-        let overlap = |a: &Range<usize>, b: &Range<usize>| a.start.max(b.start)..a.end.min(b.end);
+        let overlap = |a: &Range<usize>, b: &Range<usize>| {
+            let start = a.start.max(b.start);
+            start..a.end.min(b.end).max(start)
+        };
         Region {
             rows: overlap(&self.rows, &other.rows),
             columns: overlap(&self.columns, &other.columns),
@@ -82,6 +100,8 @@ pub struct Tile<'a> {
 pub struct ShadingRow<'a> {
     /// The row's number from the top.
     pub row: usize,
+    /// The columns' numbers from the left.
+    pub columns: Range<usize>,
     /// What is seen.
     pub ids: &'a [u32],
     /// How far it is.
@@ -99,14 +119,17 @@ impl Frame {
     ///
     /// # Panics
     ///
-    /// If [`check_samples`] refuses the size.
+    /// If [`check_samples`] refuses the size, or [`Crop::check`] the crop.
     pub fn new(camera: &Camera, options: &Options) -> Frame {
         check_samples(camera.image(), options.samples).expect("the size was checked");
-        let [width, height] = camera.image().map(|side| side as usize * options.samples as usize);
-        let count = width * height;
+        let pixels = options.pixels(camera.image());
+        pixels.check(camera.image()).expect("the crop was checked");
+        let region = pixels.region(options.samples);
+        let count = region.area();
         Frame {
-            image: camera.image(),
-            samples: options.samples,
+            camera_image: camera.image(),
+            options: *options,
+            region,
             ids: vec![NO_PRIMITIVE; count],
             t: vec![f32::INFINITY; count],
             normals: vec![Vec3::ZERO; count],
@@ -123,7 +146,7 @@ impl Frame {
 
     /// Makes the frame fit a camera and options; what it held is no longer of use.
     pub fn fit(&mut self, camera: &Camera, options: &Options) {
-        if self.image != camera.image() || self.samples != options.samples {
+        if self.camera_image != camera.image() || self.options != *options {
             let asked = !self.texture_coordinates.is_empty();
             *self = Frame::new(camera, options);
             if asked {
@@ -138,29 +161,57 @@ impl Frame {
         self.t.fill(f32::INFINITY);
     }
 
-    /// The image's width and height in pixels.
+    /// Its width and height in pixels: the image's, or the crop's.
     pub fn image(&self) -> [u32; 2] {
-        self.image
+        let Crop { width, height, .. } = self.options.pixels(self.camera_image);
+        [width, height]
+    }
+
+    /// The width and height of the camera's image, cropped or not.
+    pub fn camera_image(&self) -> [u32; 2] {
+        self.camera_image
+    }
+
+    /// The crop of the camera's image that it holds, if it does not hold all.
+    pub fn crop(&self) -> Option<Crop> {
+        self.options.crop
+    }
+
+    /// The pixels `[i, j]` that it holds, row by row, as they are numbered in the whole image.
+    pub fn pixels(&self) -> impl Iterator<Item = [u32; 2]> + use<> {
+        let Crop { row, column, height, width } = self.options.pixels(self.camera_image);
+        (row..row + height).flat_map(move |i| (column..column + width).map(move |j| [i, j]))
+    }
+
+    /// The samples that it holds: rows and columns on the raster of the whole image.
+    pub fn region(&self) -> &Region {
+        &self.region
     }
 
     /// Samples along one side of a pixel.
     pub fn samples(&self) -> u32 {
-        self.samples
+        self.options.samples
     }
 
     /// Columns of samples.
     pub fn width(&self) -> usize {
-        self.image[0] as usize * self.samples as usize
+        self.region.columns.len()
     }
 
     /// Rows of samples.
     pub fn height(&self) -> usize {
-        self.image[1] as usize * self.samples as usize
+        self.region.rows.len()
+    }
+
+    /// Where a sample is kept.
+    fn index(&self, row: usize, column: usize) -> usize {
+        debug_assert!(self.region.rows.contains(&row) && self.region.columns.contains(&column));
+        (row - self.region.rows.start) * self.width() + column - self.region.columns.start
     }
 
     /// The primitive that is seen at a sample.
     pub fn id(&self, row: usize, column: usize) -> Option<u32> {
-        match self.ids[row * self.width() + column] {
+        match self.ids[self.index(row, column)] {
             NO_PRIMITIVE => None,
             id => Some(id),
         }
@@ -168,13 +219,13 @@ impl Frame {
 
     /// How far it is, in lengths of the viewing ray's direction.
     pub fn t(&self, row: usize, column: usize) -> Option<f32> {
-        let index = row * self.width() + column;
+        let index = self.index(row, column);
         (self.ids[index] != NO_PRIMITIVE).then(|| self.t[index])
     }
 
     /// Notes that a primitive is seen at a sample.
     pub fn set(&mut self, row: usize, column: usize, id: u32, t: f64) {
-        let index = row * self.width() + column;
+        let index = self.index(row, column);
         self.ids[index] = id;
         self.t[index] = stored_t(t);
     }
@@ -207,32 +258,33 @@ impl Frame {
 
     /// The indices, in [`Frame::ids`] and its like, of a pixel's samples.
     pub fn samples_of(&self, i: usize, j: usize) -> impl Iterator<Item = usize> + use<> {
-        let (n, width) = (self.samples as usize, self.width());
-        (0..n * n).map(move |sample| (i * n + sample / n) * width + j * n + sample % n)
+        let (n, width) = (self.samples() as usize, self.width());
+        let first = self.index(i * n, j * n);
+        (0..n * n).map(move |sample| first + sample / n * width + sample % n)
     }
 
-    /// Cuts the frame into tiles of at most so many columns and rows of samples, row by row.
+    /// Cuts the frame into tiles of at most so many columns and rows of samples, row by row. They are those
+    /// of the whole image, of a crop as much as it holds of each.
     ///
     /// # Panics
     ///
     /// If `columns` or `rows` is 0.
     pub fn tiles_mut(&mut self, columns: usize, rows: usize) -> Vec<Tile<'_>> {
-        let (width, height) = (self.width(), self.height());
-        let mut tiles: Vec<Tile<'_>> = tile_regions(width, height, columns, rows)
+        let (width, region) = (self.width(), self.region.clone());
+        let mut tiles: Vec<Tile<'_>> = tile_regions(&region, columns, rows)
             .map(|region| {
                 let height = region.rows.len();
                 Tile { region, ids: Vec::with_capacity(height), t: Vec::with_capacity(height) }
             })
             .collect();
-        let across = width.div_ceil(columns);
+        let across = pieces(&region.columns, columns).count();
+        let first = region.rows.start / rows;
         let lines = self.ids.chunks_mut(width).zip(self.t.chunks_mut(width));
-        for (row, (ids, t)) in lines.enumerate() {
-            let tiles = &mut tiles[row / rows * across..][..across];
-            for (tile, (ids, t)) in
-                tiles.iter_mut().zip(ids.chunks_mut(columns).zip(t.chunks_mut(columns)))
-            {
-                tile.ids.push(ids);
-                tile.t.push(t);
+        for (row, (mut ids, mut t)) in region.rows.zip(lines) {
+            for tile in &mut tiles[(row / rows - first) * across..][..across] {
+                let wide = tile.region.columns.len();
+                tile.ids.push(ids.split_off_mut(..wide).expect("tiles are as wide as the frame"));
+                tile.t.push(t.split_off_mut(..wide).expect("tiles are as wide as the frame"));
             }
         }
         tiles
@@ -241,13 +293,14 @@ impl Frame {
     /// The frame's rows, for shading.
     pub fn shading_rows(&mut self) -> Vec<ShadingRow<'_>> {
         let width = self.width();
+        let Region { rows, columns } = self.region.clone();
         let seen = self.ids.chunks(width).zip(self.t.chunks(width));
         let look = self.normals.chunks_mut(width).zip(self.colours.chunks_mut(width));
         let mut texture_coordinates = self.texture_coordinates.chunks_mut(width);
-        seen.zip(look)
-            .enumerate()
+        rows.zip(seen.zip(look))
             .map(|(row, ((ids, t), (normals, colours)))| ShadingRow {
                 row,
+                columns: columns.clone(),
                 ids,
                 t,
                 normals,
@@ -258,25 +311,24 @@ impl Frame {
     }
 }
 
-/// The tiles of a picture of `width` × `height` samples, row by row, each of at most so many columns and
+/// What a part of a picture holds of the picture's tiles, row by row, each of at most so many columns and
 /// rows.
 ///
 /// # Panics
 ///
 /// If `columns` or `rows` is 0.
-pub fn tile_regions(
-    width: usize,
-    height: usize,
-    columns: usize,
-    rows: usize,
-) -> impl Iterator<Item = Region> {
-    let band = |start: usize, side: usize, end: usize| start..end.min(start + side);
-    (0..height).step_by(rows).flat_map(move |row| {
-        (0..width).step_by(columns).map(move |column| Region {
-            rows: band(row, rows, height),
-            columns: band(column, columns, width),
-        })
+fn tile_regions(region: &Region, columns: usize, rows: usize) -> impl Iterator<Item = Region> {
+    let across = pieces(&region.columns, columns);
+    pieces(&region.rows, rows).flat_map(move |rows| {
+        across.clone().map(move |columns| Region { rows: rows.clone(), columns })
     })
+}
+
+/// A range cut at the multiples of a number.
+fn pieces(range: &Range<usize>, side: usize) -> impl Iterator<Item = Range<usize>> + Clone + use<> {
+    let Range { start, end } = *range;
+    let first = start / side * side;
+    (first..end).step_by(side).map(move |piece| piece.max(start)..end.min(piece + side))
 }
 
 /// A distance as a frame stores it: the nearest `f32`, but finite and not 0, as `t` of something
@@ -294,7 +346,7 @@ mod tests {
     #[test]
     fn tiles_cover_every_sample_once() {
         let camera = Camera::canonical(5, 7);
-        let mut frame = Frame::new(&camera, &Options { samples: 2 });
+        let mut frame = Frame::new(&camera, &Options { samples: 2, ..Options::default() });
         let mut area = 0;
         for tile in frame.tiles_mut(4, 3) {
             area += tile.region.area();
@@ -309,8 +361,43 @@ mod tests {
     }
 
     #[test]
+    fn tiles_of_a_crop_end_where_those_of_the_whole_do() {
+        let crop = Some(Crop { row: 2, column: 5, height: 5, width: 7 });
+        let mut frame = Frame::new(&Camera::canonical(20, 9), &Options { samples: 1, crop });
+        let mut cells = 0;
+        let regions: Vec<_> = frame
+            .tiles_mut(8, 4)
+            .iter_mut()
+            .map(|tile| {
+                assert!(tile.ids.iter().all(|ids| ids.len() == tile.region.columns.len()));
+                assert_eq!(tile.ids.len(), tile.region.rows.len());
+                cells += tile.region.area();
+                (tile.region.rows.clone(), tile.region.columns.clone())
+            })
+            .collect();
+        assert_eq!(regions, [(2..4, 5..8), (2..4, 8..12), (4..7, 5..8), (4..7, 8..12)]);
+        assert_eq!(cells, frame.ids().len());
+    }
+
+    #[test]
+    fn a_crop_keeps_the_numbers_of_the_whole() {
+        let crop = Some(Crop { row: 1, column: 2, height: 1, width: 2 });
+        let mut frame = Frame::new(&Camera::canonical(5, 3), &Options { samples: 2, crop });
+        assert_eq!((frame.image(), frame.camera_image()), ([2, 1], [5, 3]));
+        assert_eq!(frame.pixels().collect::<Vec<_>>(), [[1, 2], [1, 3]]);
+        frame.set(3, 6, 9, 1.0);
+        assert_eq!(frame.id(3, 6), Some(9));
+        assert_eq!(frame.samples_of(1, 3).collect::<Vec<_>>(), [2, 3, 6, 7]);
+        assert_eq!(frame.ids()[6], 9);
+        let rows = frame.shading_rows();
+        let rows: Vec<_> = rows.iter().map(|row| (row.row, row.columns.clone())).collect();
+        assert_eq!(rows, [(2, 4..8), (3, 4..8)]);
+    }
+
+    #[test]
     fn a_pixel_finds_its_samples() {
-        let frame = Frame::new(&Camera::canonical(3, 2), &Options { samples: 2 });
+        let frame =
+            Frame::new(&Camera::canonical(3, 2), &Options { samples: 2, ..Options::default() });
         let samples: Vec<_> = frame.samples_of(1, 2).collect();
         assert_eq!(samples, [16, 17, 22, 23]);
     }

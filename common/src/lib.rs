@@ -15,6 +15,7 @@
 //!   for a mesh.
 
 pub mod camera;
+pub mod crop;
 pub mod fault;
 pub mod frame;
 pub mod generate;
@@ -39,6 +40,7 @@ pub use glam;
 pub use camera::{
     Camera, CameraDescription, CameraError, Orientation, Projection, Ray, SampleGrid,
 };
+pub use crop::{Crop, CropError};
 pub use frame::{Frame, Options};
 pub use mesh::{Mesh, MeshError};
 pub use observe::{Observer, Work};

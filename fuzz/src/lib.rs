@@ -57,7 +57,7 @@ fn decode(bytes: &mut Unstructured) -> Result<Option<Case>> {
     let case = |camera| Case {
         scene,
         camera,
-        options: Options { samples },
+        options: Options { samples, ..Options::default() },
         level,
         tile,
         before: Camera::new(moved).ok().filter(|_| soiled),

@@ -218,7 +218,7 @@ pub fn determine_visibility_with_fault<O: Observer, F: Fault>(
     let screen = Screen::new(view.camera, &grid);
     let keys = KeyScale::new(view.camera, &prepared.bounds, prepared.has_planes);
     let raster = Raster::new(&screen, keys);
-    let tiling = Tiling::new(&screen, prepared.tile);
+    let tiling = Tiling::new(&screen, prepared.tile, frame.region());
     // A thread that panicked left nothing that matters.
     let mut spare = std::mem::take(&mut *lock(&prepared.spare));
 

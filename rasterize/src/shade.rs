@@ -18,7 +18,7 @@ use rayon::prelude::*;
 ///
 /// If the frame does not show this view: another size, or ids that the scene does not have.
 pub fn shade(view: &View, frame: &mut Frame) {
-    assert_eq!(frame.image(), view.camera.image(), "the frame shows another view");
+    assert_eq!(frame.camera_image(), view.camera.image(), "the frame shows another view");
     let grid = view.camera.sample_grid(frame.samples());
     frame.shading_rows().into_par_iter().for_each(|row| shade_row(view, &grid, row));
 }
@@ -27,12 +27,12 @@ fn shade_row(view: &View, grid: &SampleGrid, mut row: ShadingRow) {
     let step = sample_step(view, grid);
     // Neighbouring samples mostly show the same primitive: set it up once for the run.
     let mut run: Option<(u32, Surface)> = None;
-    for (column, &id) in row.ids.iter().enumerate() {
+    for (index, (column, &id)) in row.columns.zip(row.ids).enumerate() {
         if id == NO_PRIMITIVE {
-            row.normals[column] = Vec3::ZERO;
-            row.colours[column] = view.scene.background;
+            row.normals[index] = Vec3::ZERO;
+            row.colours[index] = view.scene.background;
             if let Some(kept) = &mut row.texture_coordinates {
-                kept[column] = Vec2::ZERO;
+                kept[index] = Vec2::ZERO;
             }
             continue;
         }
@@ -42,16 +42,16 @@ fn shade_row(view: &View, grid: &SampleGrid, mut row: ShadingRow) {
         };
         let (x, y) = (grid.x()[column], grid.y()[row.row]);
         let ray = view.camera.ray_through(x, y);
-        let position = ray.origin + f64::from(row.t[column]) * ray.direction;
+        let position = ray.origin + f64::from(row.t[index]) * ray.direction;
         let normal = surface.normal(x, y, position, ray.direction).as_vec3();
         let to_viewer = -ray.direction.normalize().as_vec3();
         let texture = surface.texture_point(view, x, y, position, step);
         let point = SurfacePoint { position: position.as_vec3(), normal, to_viewer, texture };
-        row.normals[column] = normal;
+        row.normals[index] = normal;
         if let Some(kept) = &mut row.texture_coordinates {
-            kept[column] = texture.map_or(Vec2::ZERO, |texture| texture.stored());
+            kept[index] = texture.map_or(Vec2::ZERO, |texture| texture.stored());
         }
-        row.colours[column] =
+        row.colours[index] =
             colour(&point, &surface.material, &view.scene.lights, view.camera.eye());
     }
 }

@@ -78,7 +78,7 @@ impl Canvas {
         observer: &'a mut O,
     ) -> Pass<'a, O> {
         assert!(chunk > 0, "a chunk has at least one triangle");
-        assert_eq!(self.frame.image(), camera.image(), "the canvas fits another picture");
+        assert_eq!(self.frame.camera_image(), camera.image(), "the canvas fits another picture");
         self.ids.fill(NO_PRIMITIVE);
         self.t.fill(f32::INFINITY);
         Pass { camera, canvas: self, observer, chunk, waiting: Vec::new(), first_id: 0 }
@@ -118,9 +118,11 @@ impl Canvas {
     fn put(&mut self, ids: &[u32], renamed: impl Fn(u32) -> usize) {
         self.frame.clear();
         let width = self.frame.width();
+        let Region { rows, columns } = self.frame.region().clone();
         for (index, &id) in ids.iter().enumerate().filter(|(_, id)| **id != NO_PRIMITIVE) {
             let id = u32::try_from(renamed(id)).expect("there are fewer names than ids");
-            self.frame.set(index / width, index % width, id, self.t[index].into());
+            let (row, column) = (rows.start + index / width, columns.start + index % width);
+            self.frame.set(row, column, id, self.t[index].into());
         }
     }
 }
@@ -168,29 +170,30 @@ impl<O: Observer> Pass<'_, O> {
     fn merge(&mut self, positions: &Positions, view: &View) {
         let Canvas { frame, ids, t, corners, options } = &mut *self.canvas;
         let (frame, width, observer) = (&*frame, frame.width(), &*self.observer);
+        let Region { rows, columns } = frame.region().clone();
         let grid = &self.camera.sample_grid(options.samples);
         let (first_id, chunk) = (self.first_id, self.waiting.as_slice());
         let held = ids.par_chunks_mut(width).zip(t.par_chunks_mut(width));
         let held = held.zip(corners.par_chunks_mut(width));
         let drawn = frame.ids().par_chunks(width).zip(frame.distances().par_chunks(width));
         let begin = || Memory::new(view.judge());
-        let parts: Vec<O> = held
-            .zip(drawn)
-            .enumerate()
+        let parts: Vec<O> = rows
+            .into_par_iter()
+            .zip(held.zip(drawn))
             .map_init(begin, |memory, (row, (((ids, t), corners), (new_ids, new_t)))| {
                 let mut depth_test =
                     DepthTest { positions, view, grid, memory, observer: observer.fork() };
-                for (column, &local) in new_ids.iter().enumerate() {
+                for (index, (column, &local)) in columns.clone().zip(new_ids).enumerate() {
                     if local == NO_PRIMITIVE {
                         continue;
                     }
                     let triangle = chunk[local as usize];
-                    let challenger = Seen { id: first_id + local, t: new_t[column], triangle };
-                    let holder = Seen { id: ids[column], t: t[column], triangle: corners[column] };
+                    let challenger = Seen { id: first_id + local, t: new_t[index], triangle };
+                    let holder = Seen { id: ids[index], t: t[index], triangle: corners[index] };
                     if depth_test.passes(Sample { row, column }, &challenger, &holder) {
-                        ids[column] = challenger.id;
-                        t[column] = challenger.t;
-                        corners[column] = challenger.triangle;
+                        ids[index] = challenger.id;
+                        t[index] = challenger.t;
+                        corners[index] = challenger.triangle;
                     }
                 }
                 depth_test.observer

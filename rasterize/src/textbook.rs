@@ -13,7 +13,6 @@
 //! *Affects* is the exact predicate; *do something* is keeping the nearest primitive so far, which
 //! is what the frame is for: it is the z-buffer.
 
-use bothways_common::frame::Region;
 use bothways_common::observe::{Observer, Sample};
 use bothways_common::{Frame, Options, View};
 
@@ -36,11 +35,12 @@ pub fn determine_visibility(
     frame.clear();
     let judge = view.judge();
     let grid = view.camera.sample_grid(options.samples);
+    let picture = frame.region().clone();
 
     for (id, primitive) in view.primitives() {
-        observer.primitive_begun(id, &Region { rows: 0..grid.height(), columns: 0..grid.width() });
-        for row in 0..grid.height() {
-            for column in 0..grid.width() {
+        observer.primitive_begun(id, &picture);
+        for row in picture.rows.clone() {
+            for column in picture.columns.clone() {
                 let sample = Sample { row, column };
                 let ray = grid.ray(row, column);
                 observer.sample_tested(sample, id);

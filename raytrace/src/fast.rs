@@ -33,6 +33,7 @@ use bothways_common::simd::{Level, Simd, dispatch};
 use bothways_common::{Frame, Options, Scene, View};
 use rayon::prelude::*;
 use rays::Rays;
+use std::ops::Range;
 use walk::Walker;
 
 pub use any_ray::{Hit, WorldRay, first_hit};
@@ -170,18 +171,17 @@ fn watch<S: Simd, O: Observer, F: Fault>(
     }
 }
 
-/// Traces the rays of a share of the picture, tile by tile.
+/// Traces the rays of a share of the picture, tile by tile. Of a tile at the border of a crop all rays are
+/// traced, so that the crop shows the bits of the whole picture, and those in the share are stored.
 #[inline(always)]
 fn trace<S: Simd, F: Fault>(simd: S, walker: &mut Walker, rays: &Rays, side: usize, share: Tile) {
     let Tile { region, mut ids, mut t } = share;
-    let (height, width) = (region.rows.len(), region.columns.len());
-    for top in (0..height).step_by(side) {
-        for left in (0..width).step_by(side) {
-            let start = [region.rows.start + top, region.columns.start + left];
-            let size = [side.min(height - top), side.min(width - left)];
-            walker.walk::<S, (), F>(simd, start, size, side, &mut ());
-            let (ids, t) = (&mut ids[top..top + size[0]], &mut t[top..top + size[0]]);
-            walker.tile.store(simd, rays, ids, t, left..left + size[1]);
+    let tiles = |range: &Range<usize>| (range.start / side * side..range.end).step_by(side);
+    for top in tiles(&region.rows) {
+        for left in tiles(&region.columns) {
+            let size = [rays.grid.height() - top, rays.grid.width() - left].map(|s| s.min(side));
+            walker.walk::<S, (), F>(simd, [top, left], size, side, &mut ());
+            walker.tile.store(simd, rays, &region, &mut ids, &mut t);
         }
     }
 }

@@ -14,24 +14,24 @@ use rayon::prelude::*;
 ///
 /// If the frame does not show this view: another size, or ids that the scene does not have.
 pub fn shade(view: &View, frame: &mut Frame) {
-    assert_eq!(frame.image(), view.camera.image(), "the frame shows another view");
+    assert_eq!(frame.camera_image(), view.camera.image(), "the frame shows another view");
     let grid = view.camera.sample_grid(frame.samples());
     frame.shading_rows().into_par_iter().for_each(|row| shade_row(view, &grid, row));
 }
 
 fn shade_row(view: &View, grid: &SampleGrid, mut row: ShadingRow) {
     let keeps_texture = row.texture_coordinates.is_some();
-    for (column, &id) in row.ids.iter().enumerate() {
+    for (index, (column, &id)) in row.columns.zip(row.ids).enumerate() {
         if id == NO_PRIMITIVE {
-            row.normals[column] = Vec3::ZERO;
-            row.colours[column] = view.scene.background;
+            row.normals[index] = Vec3::ZERO;
+            row.colours[index] = view.scene.background;
             if let Some(kept) = &mut row.texture_coordinates {
-                kept[column] = Vec2::ZERO;
+                kept[index] = Vec2::ZERO;
             }
             continue;
         }
         let ray = grid.ray(row.row, column);
-        let t = f64::from(row.t[column]);
+        let t = f64::from(row.t[index]);
         let hit = ray.origin + t * ray.direction;
         let to_viewer = -ray.direction.normalize();
         let normal = normal_at(view, id, &ray, hit).as_vec3();
@@ -44,11 +44,11 @@ fn shade_row(view: &View, grid: &SampleGrid, mut row: ShadingRow) {
         };
         let (position, to_viewer) = (hit.as_vec3(), to_viewer.as_vec3());
         let point = SurfacePoint { position, normal, to_viewer, texture };
-        row.normals[column] = normal;
+        row.normals[index] = normal;
         if let Some(kept) = &mut row.texture_coordinates {
-            kept[column] = texture.map_or(Vec2::ZERO, |texture| texture.stored());
+            kept[index] = texture.map_or(Vec2::ZERO, |texture| texture.stored());
         }
-        row.colours[column] = colour(&point, material, &view.scene.lights, view.camera.eye());
+        row.colours[index] = colour(&point, material, &view.scene.lights, view.camera.eye());
     }
 }
 

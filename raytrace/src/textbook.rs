@@ -35,9 +35,10 @@ pub fn determine_visibility(
     frame.clear();
     let judge = view.judge();
     let grid = view.camera.sample_grid(options.samples);
+    let picture = frame.region().clone();
 
-    for row in 0..grid.height() {
-        for column in 0..grid.width() {
+    for row in picture.rows {
+        for column in picture.columns.clone() {
             let sample = Sample { row, column };
             let ray = grid.ray(row, column);
             observer.ray_begun(sample);

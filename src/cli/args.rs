@@ -1,8 +1,8 @@
 //! The options of `render`, and how their values are read.
 
-use bothways::common::Projection;
 use bothways::common::camera::{MAX_SAMPLES, MAX_SIDE};
 use bothways::common::glam::Vec3;
+use bothways::common::{Crop, Options, Projection};
 use bothways::orders::{Method, Order};
 use bothways::wording::count;
 use clap::{Args, ValueEnum};
@@ -65,6 +65,11 @@ pub(super) struct MethodArgs {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = from_1,
           allow_negative_numbers = true)]
     pub(super) samples: u32,
+    /// Render this part of the image alone: its first row and column, counted from 0, and how many rows
+    /// and columns. The output has its size; pixels keep their numbers and their bits
+    #[arg(long, value_name = "ROW,COLUMN,HEIGHT,WIDTH", value_parser = crop,
+          allow_hyphen_values = true)]
+    pub(super) crop: Option<Crop>,
     /// Threads to render with; all cores if not given
     #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]
     pub(super) threads: Option<u16>,
@@ -75,6 +80,13 @@ pub(super) struct MethodArgs {
     /// Render N times after a warm-up, and report the spread of times
     #[arg(long, value_name = "N", value_parser = from_1, allow_negative_numbers = true)]
     pub(super) repeat: Option<u32>,
+}
+
+impl MethodArgs {
+    /// What both orders are told.
+    pub(super) fn options(&self) -> Options {
+        Options { samples: self.samples, crop: self.crop }
+    }
 }
 
 /// What to write, and where.
@@ -192,6 +204,27 @@ pub(super) fn from_1(text: &str) -> Result<u32, String> {
     }
 }
 
+/// Four numbers of pixels; whether the image has them is not known yet.
+fn crop(text: &str) -> Result<Crop, String> {
+    let whole = |number: &str| {
+        let digits = number.trim();
+        if digits.is_empty() || !digits.bytes().all(|byte| byte.is_ascii_digit()) {
+            return Err(format!("'{number}' is not a whole number from 0; give {CROP}"));
+        }
+        // Only too many digits are left to go wrong.
+        digits.parse::<u32>().map_err(|_| {
+            format!("{digits} is out of range; an image has at most {MAX_SIDE} rows and columns")
+        })
+    };
+    let numbers = text.split(',').map(whole).collect::<Result<Vec<u32>, String>>()?;
+    let given = count(numbers.len() as u64, "numbers");
+    let four = <[u32; 4]>::try_from(numbers);
+    four.map(Crop::from).map_err(|_| format!("it has {given}, but needs four; give {CROP}"))
+}
+
+/// How a crop is written.
+const CROP: &str = "ROW,COLUMN,HEIGHT,WIDTH in pixels of the image, such as 100,200,48,64";
+
 /// A row or a column.
 pub(super) fn from_0(text: &str) -> Result<u32, String> {
     text.parse().map_err(|_| "give a whole number; pixels are counted from 0".into())
@@ -254,6 +287,18 @@ mod tests {
         assert_eq!(problem("1x99999999999999999999"), problem("65537x1"));
         let many = "an image may have at most 1073741824 samples (2^30)";
         assert_eq!(problem("65536x65536"), many);
+    }
+
+    #[test]
+    fn crops_are_four_whole_numbers() {
+        assert_eq!(crop("1,2,3,4"), Ok(Crop { row: 1, column: 2, height: 3, width: 4 }));
+        assert_eq!(
+            crop(" 0, 0, 1, 65536"),
+            Ok(Crop { row: 0, column: 0, height: 1, width: 65_536 })
+        );
+        for bad in ["", ",", "1,2,3", "1,2,3,4,5", "1;2;3;4", "1,2,3,+4", "-1,2,3,4", "1,2,3,4.0"] {
+            assert!(crop(bad).is_err(), "{bad}");
+        }
     }
 
     #[test]

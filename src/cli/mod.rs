@@ -38,6 +38,7 @@ Examples:
   bothways canonical --size 64x64 -o small   a built-in scene, in small
   bothways bunny.obj --projection parallel   a mesh file, framed automatically
   bothways scene.toml --order object         one order alone
+  bothways --crop 100,200,48,64              a part of the picture alone, to the last bit
   bothways huge.ply --order object --stream  a mesh that is larger than memory
   bothways render --repeat 20 --json         measured times, for a program to read
   bothways scenes                            what is built in

@@ -25,12 +25,9 @@ fn write<T: AutoSerialize + Copy>(
     let mut writer: NpyWriter<T, _> =
         WriteOptions::new().default_dtype().shape(&shape).writer(&mut out).begin_nd()?;
     // A frame stores rows of samples; the array, the samples of one pixel after another.
-    let [width, height] = frame.image().map(|side| side as usize);
-    for i in 0..height {
-        for j in 0..width {
-            for sample in frame.samples_of(i, j) {
-                writer.push(&buffer[sample])?;
-            }
+    for [i, j] in frame.pixels() {
+        for sample in frame.samples_of(i as usize, j as usize) {
+            writer.push(&buffer[sample])?;
         }
     }
     writer.finish()?;

@@ -68,7 +68,8 @@ pub(super) fn run(args: &PixelArgs) -> Result<ExitCode, Failure> {
         )));
     }
     let view = View::new(&loaded.scene, &camera);
-    let samples = pixel::report(&view, &Options { samples: args.samples }, i, j);
+    let samples =
+        pixel::report(&view, &Options { samples: args.samples, ..Options::default() }, i, j);
     let agree = samples.iter().all(SampleReport::agrees);
     let lesson = Lesson { scene: &loaded.name, camera: &camera, args, samples: &samples };
     terminal::print(&if args.json { lesson.json()? } else { lesson.text() })?;

@@ -45,6 +45,9 @@ pub(super) fn prepared_output(
     let camera = camera(loaded, &args.camera)?;
     check_samples(camera.image(), args.method.samples)
         .map_err(|error| Failure::new(format!("--samples {}: {error}", args.method.samples)))?;
+    let options = args.method.options();
+    let checked = options.pixels(camera.image()).check(camera.image());
+    checked.map_err(|error| Failure::new(format!("--crop: {error}")))?;
     check_memory(&camera, args)?;
     let folder = match &args.output.folder {
         Some(folder) => folder.clone(),
@@ -70,8 +73,7 @@ pub(super) fn render_options<'a>(
     args: &RenderArgs,
     progress: Option<Listener<'a>>,
 ) -> RenderOptions<'a> {
-    let frame = Options { samples: args.method.samples };
-    RenderOptions { frame, repeat: args.method.repeat, progress }
+    RenderOptions { frame: args.method.options(), repeat: args.method.repeat, progress }
 }
 
 /// Bytes that one order keeps for a sample: id, distance, normal and colour.
@@ -79,9 +81,8 @@ const BYTES_PER_SAMPLE: u64 = 4 + 4 + 12 + 12;
 
 /// Tells whether the system can give what all frames take, before it is too late to say so.
 fn check_memory(camera: &Camera, args: &RenderArgs) -> Result<(), Failure> {
-    let [width, height] = camera.image();
-    let per_pixel = u64::from(args.method.samples).pow(2);
-    let samples = u64::from(width) * u64::from(height) * per_pixel;
+    let Options { samples, .. } = args.method.options();
+    let samples = args.method.options().pixels(camera.image()).region(samples).area() as u64;
     let bytes = samples * args.method.order.orders().len() as u64 * BYTES_PER_SAMPLE;
     // All of it at once: one frame after the other might be promised, and the promise not kept.
     let mut all = Vec::<u8>::new();
@@ -94,7 +95,7 @@ fn check_memory(camera: &Camera, args: &RenderArgs) -> Result<(), Failure> {
     let (samples, gibibytes) = (count(samples, "samples"), bytes.div_ceil(1 << 30));
     Err(Failure::new(format!(
         "{samples} need at least {gibibytes} GiB of memory, more than there is; take a smaller \
-         --size, fewer --samples, or one --order alone"
+         --size, a --crop of it, fewer --samples, or one --order alone"
     )))
 }
 

@@ -1,11 +1,11 @@
 //! What `render` prints: a short table of what each order did, and the verdict.
 
 use anstyle::{AnsiColor, Style};
-use bothways::common::Work;
+use bothways::common::{Crop, Work};
 use bothways::diff::{COLOUR_TOLERANCE, Comparison, DEPTH_TOLERANCE};
 use bothways::orders::{Rendered, Spread, Times};
 use bothways::report::Report;
-use bothways::wording::{count, grouped, milliseconds};
+use bothways::wording::{count, grouped, milliseconds, pixels_shown};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -37,16 +37,13 @@ const COLUMN_WIDTH: usize = 18;
 
 fn heading(report: &Report, rendered: &[Rendered]) -> String {
     let bold = Style::new().bold();
-    let [width, height] = report.size;
+    let pixels = pixels_shown(report.size, report.crop.map(Crop::from), "x");
     let samples = match report.samples {
         1 => "1 sample a pixel".into(),
         n => format!("{n} x {n} samples a pixel"),
     };
     let primitives = count(report.primitives.into(), "primitives");
-    let mut text = format!(
-        "{bold}{}{bold:#}: {primitives}, {width} x {height} pixels, {samples}",
-        report.scene
-    );
+    let mut text = format!("{bold}{}{bold:#}: {primitives}, {pixels}, {samples}", report.scene);
     if rendered.iter().any(|one| one.times.is_some()) {
         text += ", ";
         text += &count(report.threads as u64, "threads");

@@ -72,7 +72,7 @@ impl Class {
     }
 }
 
-/// The class of every pixel.
+/// The class of every pixel of a picture; of a crop, its pixels are counted from its own corner.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Classes {
     image: [u32; 2],
@@ -84,7 +84,7 @@ impl Classes {
     ///
     /// # Panics
     ///
-    /// If the frames differ in size or samples.
+    /// If the frames differ in size, crop or samples.
     pub fn new(object_order: &Frame, image_order: &Frame) -> Classes {
         assert_same_raster(object_order, image_order);
         let class_of = |[i, j]: [u32; 2]| {
@@ -94,8 +94,8 @@ impl Classes {
             });
             classes.min().unwrap_or(Class::Neither)
         };
-        let image = object_order.image();
-        Classes { image, classes: pixels(image).map(class_of).collect() }
+        let classes = object_order.pixels().map(class_of).collect();
+        Classes { image: object_order.image(), classes }
     }
 
     /// Classes that were found elsewhere, row by row.

@@ -60,7 +60,7 @@ pub struct Coverage {
 pub struct Visible {
     /// Pixels in which the ids differ at any sample, coverage included.
     pub differing_pixels: u64,
-    /// The first of them, at most 10, as `[i, j]`, row by row.
+    /// The first of them, at most 10, as `[i, j]` of the whole image, row by row.
     pub first_differing: Vec<[u32; 2]>,
 }
 
@@ -86,7 +86,7 @@ pub struct Colour {
 ///
 /// # Panics
 ///
-/// If the frames differ in size or samples.
+/// If the frames differ in size, crop or samples.
 pub fn compare(object_order: &Frame, image_order: &Frame) -> Comparison {
     assert_same_raster(object_order, image_order);
     Comparison {
@@ -130,7 +130,7 @@ impl Comparison {
 }
 
 fn assert_same_raster(object_order: &Frame, image_order: &Frame) {
-    let raster = |frame: &Frame| (frame.image(), frame.samples());
+    let raster = |frame: &Frame| (frame.camera_image(), frame.crop(), frame.samples());
     assert_eq!(raster(object_order), raster(image_order), "the frames show different views");
 }
 
@@ -152,7 +152,7 @@ fn coverage(object_order: &Frame, image_order: &Frame) -> Coverage {
 
 fn visible(object_order: &Frame, image_order: &Frame) -> Visible {
     let mut visible = Visible::default();
-    for [i, j] in pixels(object_order.image()) {
+    for [i, j] in object_order.pixels() {
         let mut samples = object_order.samples_of(i as usize, j as usize);
         if samples.any(|sample| object_order.ids()[sample] != image_order.ids()[sample]) {
             visible.differing_pixels += 1;
@@ -175,7 +175,7 @@ fn depth(object_order: &Frame, image_order: &Frame) -> Depth {
         (by_object - by_image).abs() / by_object.max(by_image)
     };
     let mut depth = Depth::default();
-    for [i, j] in pixels(object_order.image()) {
+    for [i, j] in object_order.pixels() {
         let samples = object_order.samples_of(i as usize, j as usize);
         let worst = samples.map(relative_difference).fold(0.0, f64::max);
         depth.max_relative_difference = depth.max_relative_difference.max(worst);

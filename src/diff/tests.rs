@@ -8,7 +8,7 @@ use crate::common::{Camera, Options};
 fn frame(samples: u32, rows: &[&str]) -> Frame {
     let side = |length: usize| u32::try_from(length).unwrap() / samples;
     let camera = Camera::canonical(side(rows[0].len()), side(rows.len()));
-    let mut frame = Frame::new(&camera, &Options { samples });
+    let mut frame = Frame::new(&camera, &Options { samples, ..Options::default() });
     for (row, text) in rows.iter().enumerate() {
         for (column, letter) in text.chars().enumerate() {
             if let Some(id) = letter.to_digit(10) {

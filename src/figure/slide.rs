@@ -6,7 +6,7 @@ use crate::common::Work;
 use crate::diff::{Class, Classes, Comparison};
 use crate::orders::{Order, Rendered};
 use crate::picture::picture;
-use crate::wording::{count, grouped, milliseconds};
+use crate::wording::{count, grouped, milliseconds, pixels_shown};
 use image::{Rgb, RgbImage};
 use std::ops::RangeInclusive;
 use tiny_skia::{Color, Paint, Pixmap, Rect, Transform};
@@ -91,13 +91,13 @@ impl Slide<'_> {
 
     fn title(&self, canvas: &mut Canvas) {
         let frame = &self.object_order.frame;
-        let [width, height] = frame.image();
         let samples = match frame.samples() {
             1 => "1 sample a pixel".into(),
             n => format!("{n} × {n} samples a pixel"),
         };
         let primitives = count(self.primitives.into(), "primitives");
-        let mut facts = format!("{primitives}   ·   {width} × {height} pixels   ·   {samples}");
+        let pixels = pixels_shown(frame.camera_image(), frame.crop(), "×");
+        let mut facts = format!("{primitives}   ·   {pixels}   ·   {samples}");
         facts += &format!("   ·   method {}", self.object_order.method.name());
         if self.object_order.times.is_some() {
             facts += &format!("   ·   {}", count(self.threads as u64, "threads"));

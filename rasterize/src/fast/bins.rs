@@ -37,25 +37,68 @@ pub(super) struct Tiling {
     /// The logarithms of both, before they were cut to the picture.
     column_bits: u32,
     row_bits: u32,
-    /// Tiles in a row, and rows of them.
+    /// Of the picture's tiles, those that hold what is drawn: the first and the last in a row, and the
+    /// first and the last row of them.
+    tile_columns: [u32; 2],
+    tile_rows: [u32; 2],
+    /// How many of them are in a row.
     across: u32,
-    down: u32,
+    /// What a row of tiles times `across` and the tile's column count more than the lists do.
+    before: u32,
+    /// The first and the last sample that is drawn: column and row, as a vertex has them.
+    first: [i32; 4],
+    last: [i32; 4],
 }
 
 impl Tiling {
-    /// Tiles of `2^column_bits` by `2^row_bits` samples.
-    pub(super) fn new(screen: &Screen, [column_bits, row_bits]: [u32; 2]) -> Tiling {
+    /// Tiles of `2^column_bits` by `2^row_bits` samples, of which those are drawn that hold a region.
+    pub(super) fn new(
+        screen: &Screen,
+        [column_bits, row_bits]: [u32; 2],
+        region: &Region,
+    ) -> Tiling {
         let (width, height) = (screen.grid.width(), screen.grid.height());
         let (columns, rows) = (width.min(1 << column_bits), height.min(1 << row_bits));
-        let tiles = |side: usize, of: usize| {
-            u32::try_from(side.div_ceil(of)).expect("a side has at most 65,536 samples")
+        let number = |place: usize| i32::try_from(place).expect("at most 65,536 samples");
+        let first = [region.columns.start, region.rows.start].map(number);
+        let last = [region.columns.end - 1, region.rows.end - 1].map(number);
+        let tiles = |axis: usize, bits: u32| {
+            [first[axis].cast_unsigned() >> bits, last[axis].cast_unsigned() >> bits]
         };
-        let (across, down) = (tiles(width, columns), tiles(height, rows));
-        Tiling { columns, rows, column_bits, row_bits, across, down }
+        let (tile_columns, tile_rows) = (tiles(0, column_bits), tiles(1, row_bits));
+        let across = tile_columns[1] - tile_columns[0] + 1;
+        Tiling {
+            columns,
+            rows,
+            column_bits,
+            row_bits,
+            tile_columns,
+            tile_rows,
+            across,
+            before: tile_rows[0] * across + tile_columns[0],
+            first: [first[0], first[1], 0, 0],
+            last: [last[0], last[1], 0, 0],
+        }
     }
 
     fn lists(&self) -> usize {
-        (self.across * self.down * CLASSES) as usize
+        let down = self.tile_rows[1] - self.tile_rows[0] + 1;
+        (self.across * down * CLASSES) as usize
+    }
+
+    /// The list of a class of the tile in this row and column of tiles.
+    #[inline(always)]
+    fn list(&self, row: u32, column: u32, class: u32) -> usize {
+        ((row * self.across + column - self.before) * CLASSES + class) as usize
+    }
+
+    /// The samples that are drawn.
+    fn region(&self) -> Region {
+        let range = |axis: usize| {
+            let [first, last] = [self.first[axis], self.last[axis]].map(i32::cast_unsigned);
+            first as usize..last as usize + 1
+        };
+        Region { rows: range(1), columns: range(0) }
     }
 }
 
@@ -107,25 +150,28 @@ impl Entry {
         by_samples.max(u32::from(self.large) * Class::Large as u32)
     }
 
-    /// The list of this class of the only tile that the region overlaps.
+    /// The list of this class of the only tile that the region overlaps, one that is drawn.
     #[inline(always)]
     fn only_list(&self, tiling: &Tiling) -> Option<usize> {
         let [columns, rows] = self.bounds();
         let [row, column] = [rows[0] >> tiling.row_bits, columns[0] >> tiling.column_bits];
         let is_only =
             row == rows[1] >> tiling.row_bits && column == columns[1] >> tiling.column_bits;
-        let list = (row * tiling.across + column) * CLASSES + self.class();
-        is_only.then_some(list as usize)
+        is_only.then(|| tiling.list(row, column, self.class()))
     }
 
-    /// Does something for the list, of this class, of every tile that the region overlaps.
+    /// Does something for the list, of this class, of every tile that the region overlaps and that is
+    /// drawn. The class is that of the whole region: how a triangle is drawn does not depend on a crop.
     #[inline(always)]
     fn for_each_list(&self, tiling: &Tiling, mut action: impl FnMut(usize)) {
         let [columns, rows] = self.bounds();
         let class = self.class();
-        for row in rows[0] >> tiling.row_bits..=rows[1] >> tiling.row_bits {
-            for column in columns[0] >> tiling.column_bits..=columns[1] >> tiling.column_bits {
-                action(((row * tiling.across + column) * CLASSES + class) as usize);
+        let within = |[first, last]: [u32; 2], bits: u32, drawn: [u32; 2]| {
+            (first >> bits).max(drawn[0])..=(last >> bits).min(drawn[1])
+        };
+        for row in within(rows, tiling.row_bits, tiling.tile_rows) {
+            for column in within(columns, tiling.column_bits, tiling.tile_columns) {
+                action(tiling.list(row, column, class));
             }
         }
     }
@@ -221,9 +267,11 @@ impl BatchBins {
             let corners = triangle.map(|vertex| vertices[vertex as usize]);
             let flags = corners[0][3] & corners[1][3] & corners[2][3];
             if flags & (OUT_OF_SIGHT | ON_RASTER) == ON_RASTER {
-                let (entry, is_seen) = entry::<S, F>(simd, id, binning.raster, &corners);
+                let (entry, is_seen) = entry::<S, F>(simd, id, binning, &corners);
                 if O::WATCHES {
-                    let region = if is_seen { entry.region() } else { NOWHERE };
+                    let drawn = binning.tiling.region();
+                    let region =
+                        if is_seen { entry.region().intersection(&drawn) } else { NOWHERE };
                     observer.primitive_begun(id, &region);
                 }
                 // Written whether it is seen or not, so that nothing depends on a guess.
@@ -243,8 +291,9 @@ impl BatchBins {
     /// Adds any primitive as [`Class::Large`].
     fn add_large<O: Observer, F: Fault>(&mut self, id: u32, binning: &Binning, observer: &mut O) {
         let region = region::<F>(&binning.view.primitive(id), binning.screen);
-        observer.primitive_begun(id, &region);
-        if !region.is_empty() {
+        let drawn = region.intersection(&binning.tiling.region());
+        observer.primitive_begun(id, &drawn);
+        if !drawn.is_empty() {
             self.add(&Entry::new(id, &region), binning.tiling);
         }
     }
@@ -261,15 +310,16 @@ impl BatchBins {
 /// No sample at all.
 const NOWHERE: Region = Region { rows: 0..0, columns: 0..0 };
 
-/// The entry of a triangle of trusted vertices, and whether it may cover a sample at all; see
+/// The entry of a triangle of trusted vertices, and whether it may cover a sample that is drawn; see
 /// `setup::side`, which finds the same bounds.
 #[inline(always)]
 fn entry<S: Simd, F: Fault>(
     simd: S,
     id: u32,
-    raster: &Raster,
+    binning: &Binning,
     corners: &[Vertex; 3],
 ) -> (Entry, bool) {
+    let Binning { raster, tiling, .. } = binning;
     let bits = raster.fraction_bits;
     let margin = if F::is(Planted::ShrunkBox) { -1 } else { 2 };
     let [width, height] = raster.size;
@@ -282,7 +332,8 @@ fn entry<S: Simd, F: Fault>(
     let first = first.max(i32x4::splat(simd, 0));
     let last = (high + i32x4::splat(simd, margin)) >> bits;
     let last = last.min(i32x4::load_array(simd, [width - 1, height - 1, 0, 0]));
-    let is_seen = first.simd_le(last).to_bitmask() & 3 == 3;
+    let drawn = [&tiling.first, &tiling.last].map(|ends| i32x4::load_array_ref(simd, ends));
+    let is_seen = first.max(drawn[0]).simd_le(last.min(drawn[1])).to_bitmask() & 3 == 3;
     let [columns, rows, ..] = (first | (last << 16)).to_array();
     // Places span less than 2³² units: what wraps is negative.
     let [wide, tall, ..] = (high - low).to_array();

@@ -4,6 +4,7 @@ use super::build::Prepared;
 use super::rays::Rays;
 use super::walk::{self, Walker};
 use bothways_common::fault::Sound;
+use bothways_common::frame::Region;
 use bothways_common::simd::{Simd, dispatch};
 use bothways_common::{Camera, CameraDescription, Orientation, Scene, View};
 use glam::Vec3;
@@ -96,6 +97,7 @@ pub fn first_hit(prepared: &Prepared, scene: &Scene, ray: WorldRay) -> Option<Hi
 fn alone<S: Simd>(simd: S, walker: &mut Walker, rays: &Rays) -> f32 {
     walker.walk::<S, (), Sound>(simd, [0, 0], [1, 1], 1, &mut ());
     let (mut id, mut distance) = ([0], [0.0]);
-    walker.tile.store(simd, rays, &mut [&mut id], &mut [&mut distance], 0..1);
+    let here = Region { rows: 0..1, columns: 0..1 };
+    walker.tile.store(simd, rays, &here, &mut [&mut id], &mut [&mut distance]);
     distance[0]
 }

@@ -3,11 +3,12 @@
 use super::leaf::{self, Answer, Distance, Trust};
 use super::rays::{Lens, Rays};
 use bothways_common::fault::{Fault, Planted};
-use bothways_common::frame::{NO_PRIMITIVE, stored_t};
+use bothways_common::frame::{NO_PRIMITIVE, Region, stored_t};
 use bothways_common::observe::{Observer, Question, Sample};
 use bothways_common::predicate::Memory;
 use bothways_common::simd::{Select, Simd, SimdBase, SimdMask, f32x16, u32x16};
 use bothways_common::{Primitive, Projection};
+use std::ops::Range;
 
 /// Samples along one side of a block: sixteen samples are tested at once.
 pub(super) const BLOCK: usize = 4;
@@ -274,47 +275,58 @@ impl Tile {
         self.memory.nearer(challenger, (holder, &held), &ray)
     }
 
-    /// Writes ids and distances into rows of a frame.
+    /// Writes ids and distances into a region of a frame, as much of it as the tile holds.
     #[inline(always)]
     pub(super) fn store<S: Simd>(
         &self,
         simd: S,
         rays: &Rays,
+        region: &Region,
         ids: &mut [&mut [u32]],
         t: &mut [&mut [f32]],
-        columns: std::ops::Range<usize>,
     ) {
+        // What the region holds of the tile, counted from the tile's first row and column.
+        let held = |first: usize, count: usize, of: &Range<usize>| {
+            of.start.saturating_sub(first)..(of.end - first).min(count)
+        };
+        let rows = held(self.row, self.height, &region.rows);
+        let columns = held(self.column, self.width, &region.columns);
+        let line = |row: usize| row + self.row - region.rows.start;
+        let place_in_line = |column: usize| column + self.column - region.columns.start;
         if !self.touched {
-            for (ids, t) in ids.iter_mut().zip(t) {
-                ids[columns.clone()].fill(NO_PRIMITIVE);
-                t[columns.clone()].fill(f32::INFINITY);
+            let columns = place_in_line(columns.start)..place_in_line(columns.end);
+            for row in rows.map(line) {
+                ids[row][columns.clone()].fill(NO_PRIMITIVE);
+                t[row][columns.clone()].fill(f32::INFINITY);
             }
             return;
         }
         if self.side < BLOCK {
             let (mut shown, mut far) = ([0; 16], [0.0; 16]);
             self.store_block(simd, rays, 0, &mut shown, &mut far);
-            ids[0][columns.start] = shown[0];
-            t[0][columns.start] = far[0];
+            ids[line(0)][place_in_line(0)] = shown[0];
+            t[line(0)][place_in_line(0)] = far[0];
             return;
         }
         for block in 0..self.blocks() {
             let (top, left) = place(self.side, block * 16);
-            if top >= self.height || left >= self.width {
+            let rows = top.max(rows.start)..rows.end.min(top + BLOCK);
+            let columns = left.max(columns.start)..columns.end.min(left + BLOCK);
+            if rows.is_empty() || columns.is_empty() {
                 continue;
             }
             let (mut shown, mut far) = ([0; 16], [0.0; 16]);
             self.store_block(simd, rays, block, &mut shown, &mut far);
-            let wide = (self.width - left).min(BLOCK);
-            let start = columns.start + left;
-            for row in top..self.height.min(top + BLOCK) {
-                let from = (row - top) * BLOCK;
+            let (wide, start) = (columns.len(), place_in_line(columns.start));
+            for row in rows {
+                let from = (row - top) * BLOCK + columns.start - left;
+                let (ids, t) = (&mut ids[line(row)], &mut t[line(row)]);
                 if wide == BLOCK {
-                    ids[row][start..start + BLOCK].copy_from_slice(&shown[from..from + BLOCK]);
-                    t[row][start..start + BLOCK].copy_from_slice(&far[from..from + BLOCK]);
+                    ids[start..start + BLOCK].copy_from_slice(&shown[from..from + BLOCK]);
+                    t[start..start + BLOCK].copy_from_slice(&far[from..from + BLOCK]);
                 } else {
-                    ids[row][start..start + wide].copy_from_slice(&shown[from..from + wide]);
-                    t[row][start..start + wide].copy_from_slice(&far[from..from + wide]);
+                    ids[start..start + wide].copy_from_slice(&shown[from..from + wide]);
+                    t[start..start + wide].copy_from_slice(&far[from..from + wide]);
                 }
             }
         }
