@@ -1,13 +1,15 @@
 //! Object order without the work that cannot matter.
 //!
 //! ```text
-//! for each primitive                    vertex stage, bounding region, bins     (vertices, bins)
-//!     for each sample it may affect     tile by tile, so that a z-buffer stays in cache    (tile)
+//! for each primitive                    vertex stage, bounding region, bins   (vertices, clusters, bins)
+//!     for each sample it may affect     tile by tile, so that a z-buffer stays in cache    (paint, tile)
 //!         if it covers the sample       edge functions, affine on the raster        (setup, edges)
 //!             keep the nearest          depth keys, affine on the raster             (tile, depth)
 //! ```
 //!
-//! Small triangles go sixteen at a time, one a lane (`small`); larger ones one at a time, sixteen samples
+//! Neighbouring triangles of a mesh go to their tile together, as a cluster, and not at all if the tile
+//! already shows something certainly nearer wherever they may lie (`clusters`). Small triangles are then
+//! drawn sixteen at a time, one a lane (`small`); larger ones one at a time, sixteen samples
 //! at once (`block`); both in `f32`, from vertices in fixed point. What is larger still, reaches behind
 //! the eye, or is a sphere or a plane goes sample by sample in `f64` (`large`).
 //!
@@ -18,9 +20,12 @@
 mod bins;
 mod block;
 mod clip;
+mod clusters;
 mod depth;
 mod edges;
+mod lanes;
 mod large;
+mod paint;
 mod round;
 mod screen;
 mod setup;
@@ -28,33 +33,35 @@ mod small;
 mod tile;
 mod vertices;
 
-use bins::{BatchBins, Binning, Class, Tiling};
+use bins::{BatchBins, Binning, Tiling};
 use bothways_common::fault::{Fault, Planted, Sound};
 use bothways_common::frame::Tile;
 use bothways_common::observe::Observer;
-use bothways_common::simd::{Level, Simd, best_level, dispatch, prefetch};
+use bothways_common::simd::{Level, best_level, dispatch};
 use bothways_common::{Frame, Options, Scene, Shape, View};
+use clusters::{CLUSTER, Clusters};
 use depth::KeyScale;
 use glam::DVec3;
+use paint::Drawing;
 use rayon::prelude::*;
 use screen::Screen;
-use setup::{Lanes, Setup};
-use small::Fragments;
 use std::sync::Mutex;
 use tile::{Picture, TileBuffer};
 use vertices::{Raster, Vertex};
 
 /// Columns and rows of a tile, as powers of two: its keys and ids fill half a MiB.
-const TILE: [u32; 2] = [10, 6];
+const TILE: [u32; 2] = [8, 8];
 /// Primitives that one thread takes up at a time: at most, and at least if there are enough.
 const MOST_IN_BATCH: u32 = 1 << 15;
 const LEAST_IN_BATCH: u32 = 1 << 10;
 
-/// What a moving camera would not repeat: the scene cut into batches that threads can share, and how
-/// far it reaches.
+/// What a moving camera would not repeat: the scene cut into batches that threads can share, its meshes
+/// into clusters of neighbouring triangles, and how far it reaches.
 #[derive(Debug)]
 pub struct Prepared {
     batches: Vec<Batch>,
+    /// The clusters of every object.
+    clusters: Vec<Clusters>,
     primitives: u32,
     /// For each object, where its vertices begin among all of them; behind the last, how many there are.
     first_vertices: Vec<usize>,
@@ -83,13 +90,37 @@ struct Batch {
     count: u32,
 }
 
+/// A part of a batch: consecutive primitives of one object.
+struct Piece {
+    object: usize,
+    /// The first, among the object's, and its id.
+    first: u32,
+    first_id: u32,
+    count: u32,
+}
+
+impl Batch {
+    /// The parts of a batch, object by object.
+    fn pieces(&self, scene: &Scene) -> impl Iterator<Item = Piece> {
+        let end = self.first_id + self.count;
+        let (mut object, first) = scene.locate(self.first_id);
+        let number = |count: usize| u32::try_from(count).expect("ids are u32");
+        let (mut first, mut first_id) = (number(first), self.first_id);
+        std::iter::from_fn(move || {
+            let shape = &scene.objects().get(object).filter(|_| first_id < end)?.shape;
+            let count = (number(shape.primitive_count()) - first).min(end - first_id);
+            let piece = Piece { object, first, first_id, count };
+            (object, first, first_id) = (object + 1, 0, first_id + count);
+            Some(piece)
+        })
+    }
+}
+
 /// Prepares a scene for any number of views of it.
 pub fn prepare(scene: &Scene) -> Prepared {
     let primitives = scene.primitive_count();
     // Some dozens of batches share well between threads.
     let most = (primitives / 64).clamp(LEAST_IN_BATCH, MOST_IN_BATCH);
-    let first_ids = (0..primitives).step_by(most as usize);
-    let batch = |first_id| Batch { first_id, count: most.min(primitives - first_id) };
     let mut first_vertices = vec![0];
     let mut bounds = [DVec3::INFINITY, DVec3::NEG_INFINITY];
     let mut has_planes = false;
@@ -124,8 +155,10 @@ pub fn prepare(scene: &Scene) -> Prepared {
     }
     let corner =
         |k: usize| DVec3::from_array(std::array::from_fn(|axis| bounds[k >> axis & 1][axis]));
+    let clusters = scene.objects().par_iter().map(|object| Clusters::new(&object.shape));
     Prepared {
-        batches: first_ids.map(batch).collect(),
+        batches: batches(scene, most),
+        clusters: clusters.collect(),
         primitives,
         first_vertices,
         bounds: std::array::from_fn(corner),
@@ -134,6 +167,28 @@ pub fn prepare(scene: &Scene) -> Prepared {
         tile: TILE,
         spare: Mutex::default(),
     }
+}
+
+/// Cuts a scene into batches of at most so many primitives, meshes only between clusters.
+fn batches(scene: &Scene, most: u32) -> Vec<Batch> {
+    let mut batches = Vec::new();
+    let mut batch = Batch { first_id: 0, count: 0 };
+    for object in scene.objects() {
+        let mut rest = u32::try_from(object.shape.primitive_count()).expect("ids are u32");
+        while rest > 0 {
+            let room = most - batch.count;
+            let count = if rest <= room { rest } else { room - room % CLUSTER };
+            batch.count += count;
+            rest -= count;
+            if rest > 0 {
+                batches.push(batch);
+                batch = Batch { first_id: batch.first_id + batch.count, count: 0 };
+            }
+        }
+    }
+    batches.push(batch);
+    batches.retain(|batch| batch.count > 0);
+    batches
 }
 
 impl Prepared {
@@ -150,6 +205,7 @@ impl Clone for Prepared {
     fn clone(&self) -> Self {
         Prepared {
             batches: self.batches.clone(),
+            clusters: self.clusters.clone(),
             first_vertices: self.first_vertices.clone(),
             spare: Mutex::default(),
             ..*self
@@ -230,6 +286,7 @@ pub fn determine_visibility_with_fault<O: Observer, F: Fault>(
         tiling: &tiling,
         vertices: &spare.vertices,
         first_vertices: &prepared.first_vertices,
+        clusters: &prepared.clusters,
     };
     spare.bins.resize_with(prepared.batches.len(), BatchBins::default);
     let seen: &O = observer;
@@ -248,7 +305,8 @@ pub fn determine_visibility_with_fault<O: Observer, F: Fault>(
     parts.into_iter().for_each(|part| observer.join(part));
 
     let picture = Picture { view, screen: &screen, keys };
-    let drawing = Drawing { binning: &binning, picture: &picture, bins: &spare.bins };
+    let (bins, level) = (&spare.bins, prepared.level);
+    let drawing = Drawing { binning: &binning, picture: &picture, bins, level };
     let seen: &O = observer;
     let tiles: Vec<Tile> = frame.tiles_mut(tiling.columns, tiling.rows);
     let dropped = F::is(Planted::DroppedTile).then_some(tiles.len() / 2);
@@ -262,12 +320,10 @@ pub fn determine_visibility_with_fault<O: Observer, F: Fault>(
             let buffer = lock(&buffers).pop().filter(|buffer| buffer.fits(&tiling));
             let mut buffer = buffer.unwrap_or_else(|| TileBuffer::new(view, &tiling));
             buffer.begin(view, &tile.region);
-            dispatch!(prepared.level, simd => {
-                if dropped != Some(index) {
-                    drawing.draw_tile::<_, O, F>(simd, index, &mut buffer, &mut observer);
-                }
-                buffer.store(simd, &picture, tile);
-            });
+            if dropped != Some(index) {
+                drawing.draw_tile::<O, F>(index, &mut buffer, &mut observer);
+            }
+            dispatch!(level, simd => buffer.store(simd, &picture, tile));
             lock(&buffers).push(buffer);
             observer
         })
@@ -316,117 +372,5 @@ fn place_vertices(
             }
             Shape::Sphere(_) | Shape::Plane(_) => {}
         }
-    }
-}
-
-/// What drawing needs to know of the frame.
-struct Drawing<'a> {
-    binning: &'a Binning<'a>,
-    picture: &'a Picture<'a>,
-    bins: &'a [BatchBins],
-}
-
-impl Drawing<'_> {
-    /// Draws all primitives of a tile: batch by batch in scene order, in each class by class.
-    #[inline(always)]
-    fn draw_tile<S: Simd, O: Observer, F: Fault>(
-        &self,
-        simd: S,
-        tile: usize,
-        buffer: &mut TileBuffer,
-        observer: &mut O,
-    ) {
-        let mut lanes = Lanes::new();
-        let mut find = Finder::new(self.binning);
-        let mut fragments = Fragments::new();
-        let mut large = Vec::new();
-        for bins in self.bins {
-            large.clear();
-            for class in [Class::Tiny, Class::Small] {
-                for ids in bins.list(tile, class).chunks(16) {
-                    lanes.fill(ids, |id| find.vertices(id));
-                    let setup = Setup::new::<S, F>(simd, self.binning.raster, &lanes);
-                    if setup.doubtful != 0 {
-                        large.extend(setup.lanes(setup.doubtful));
-                    }
-                    small::draw::<S, O, F>(simd, &setup, &mut fragments, buffer, observer);
-                }
-            }
-            let list = bins.list(tile, Class::Block);
-            for (k, ids) in list.chunks(16).enumerate() {
-                lanes.fill(ids, |id| find.vertices(id));
-                find.look_ahead(list, 16 * k + 16);
-                let setup = Setup::new::<S, F>(simd, self.binning.raster, &lanes);
-                let elsewhere = setup.doubtful | setup.keyless;
-                large.extend(setup.lanes(elsewhere));
-                for lane in (0..ids.len()).filter(|lane| elsewhere >> lane & 1 == 0) {
-                    block::draw::<S, O, F>(simd, &setup, lane, buffer, observer);
-                }
-            }
-            large.extend_from_slice(bins.list(tile, Class::Large));
-            for id in &large {
-                large::draw::<O, F>(*id, self.picture, buffer, observer);
-            }
-            buffer.settle::<O, F>(self.picture, observer);
-        }
-    }
-}
-
-/// Finds the vertices of triangles, which mostly come in the order of the scene.
-struct Finder<'a> {
-    binning: &'a Binning<'a>,
-    /// The ids of the current object's primitives.
-    ids: std::ops::Range<u32>,
-    /// Its triangles' vertices, none for a triangle that is no mesh, and its first vertex.
-    triangles: &'a [[u32; 3]],
-    vertices: &'a [Vertex],
-}
-
-impl<'a> Finder<'a> {
-    fn new(binning: &'a Binning<'a>) -> Self {
-        Finder { binning, ids: 0..0, triangles: &[], vertices: &[] }
-    }
-
-    #[inline(always)]
-    fn vertices(&mut self, id: u32) -> [Vertex; 3] {
-        if !self.ids.contains(&id) {
-            self.find_object(id);
-        }
-        let triangle = (id - self.ids.start) as usize;
-        let corners = self.triangles.get(triangle).copied().unwrap_or([0, 1, 2]);
-        corners.map(|vertex| self.vertices[vertex as usize])
-    }
-
-    /// Prepares for the sixteen triangles from `next` on, and a little for the sixteen behind them.
-    ///
-    /// Larger triangles of a tile may lie anywhere in memory. Small ones are neighbours, as meshes go, so
-    /// that this would cost more than it saves.
-    #[inline(always)]
-    fn look_ahead(&self, ids: &[u32], next: usize) {
-        let triangle = |id: u32| id.wrapping_sub(self.ids.start) as usize;
-        let from = |start: usize| ids.get(start..).unwrap_or_default().iter().take(16);
-        for &id in from(next + 16) {
-            self.triangles.get(triangle(id)).into_iter().for_each(prefetch);
-        }
-        for &id in from(next) {
-            for vertex in self.triangles.get(triangle(id)).into_iter().flatten() {
-                prefetch(&self.vertices[*vertex as usize]);
-            }
-        }
-    }
-
-    #[cold]
-    fn find_object(&mut self, id: u32) {
-        let scene = self.binning.view.scene;
-        let (object, local) = scene.locate(id);
-        let shape = &scene.objects()[object].shape;
-        let number = |count: usize| u32::try_from(count).expect("ids are u32");
-        let first = id - number(local);
-        self.ids = first..first + number(shape.primitive_count());
-        self.triangles = match shape {
-            Shape::Mesh(mesh) => mesh.triangles(),
-            Shape::Triangle(_) | Shape::Sphere(_) | Shape::Plane(_) => &[],
-        };
-        self.vertices = &self.binning.vertices[self.binning.first_vertices[object]..];
     }
 }

@@ -1,11 +1,12 @@
 //! Which tiles a primitive may affect: every tile gets the lists of its primitives, in scene order.
 
-use super::Batch;
+use super::clusters::{self, CLUSTER, Cluster, Clusters, Place};
 use super::depth::DepthPlane;
 use super::screen::Screen;
-use super::setup::MOST_SAMPLES_ACROSS;
+use super::setup::{BOX_MARGIN, MOST_SAMPLES_ACROSS};
 use super::small;
 use super::vertices::{ON_RASTER, OUT_OF_SIGHT, Raster, Vertex};
+use super::{Batch, Piece};
 use bothways_common::fault::{Fault, Planted};
 use bothways_common::frame::Region;
 use bothways_common::observe::Observer;
@@ -86,12 +87,6 @@ impl Tiling {
         (self.across * down * CLASSES) as usize
     }
 
-    /// The list of a class of the tile in this row and column of tiles.
-    #[inline(always)]
-    fn list(&self, row: u32, column: u32, class: u32) -> usize {
-        ((row * self.across + column - self.before) * CLASSES + class) as usize
-    }
-
     /// The samples that are drawn.
     fn region(&self) -> Region {
         let range = |axis: usize| {
@@ -99,6 +94,27 @@ impl Tiling {
             first as usize..last as usize + 1
         };
         Region { rows: range(1), columns: range(0) }
+    }
+
+    /// The number of the tile in this row and column of tiles.
+    #[inline(always)]
+    fn tile(&self, row: u32, column: u32) -> usize {
+        (row * self.across + column - self.before) as usize
+    }
+
+    /// The numbers of the tiles that are drawn and in which samples lie: those from a first to a last
+    /// column and row.
+    pub(super) fn tiles<T: Into<u32>>(
+        &self,
+        bounds: [[T; 2]; 2],
+    ) -> impl Iterator<Item = usize> + use<'_, T> {
+        let [columns, rows] = bounds.map(|ends| ends.map(Into::into));
+        let within = |[first, last]: [u32; 2], bits: u32, drawn: [u32; 2]| {
+            (first >> bits).max(drawn[0])..=(last >> bits).min(drawn[1])
+        };
+        let columns = within(columns, self.column_bits, self.tile_columns);
+        let rows = within(rows, self.row_bits, self.tile_rows);
+        rows.flat_map(move |row| columns.clone().map(move |column| self.tile(row, column)))
     }
 }
 
@@ -113,8 +129,6 @@ struct Entry {
 }
 
 impl Entry {
-    const NONE: Entry = Entry { id: 0, ends: [0; 2], large: false };
-
     /// # Panics
     ///
     /// If the region is empty.
@@ -150,42 +164,32 @@ impl Entry {
         by_samples.max(u32::from(self.large) * Class::Large as u32)
     }
 
-    /// The list of this class of the only tile that the region overlaps, one that is drawn.
+    /// The list of this class of a tile.
+    #[inline(always)]
+    fn list(&self, tile: usize) -> usize {
+        tile * CLASSES as usize + self.class() as usize
+    }
+
+    /// The list of this class of the only tile that the region overlaps, one that is drawn. The class is that
+    /// of the whole region: how a triangle is drawn does not depend on a crop.
     #[inline(always)]
     fn only_list(&self, tiling: &Tiling) -> Option<usize> {
         let [columns, rows] = self.bounds();
         let [row, column] = [rows[0] >> tiling.row_bits, columns[0] >> tiling.column_bits];
         let is_only =
             row == rows[1] >> tiling.row_bits && column == columns[1] >> tiling.column_bits;
-        is_only.then(|| tiling.list(row, column, self.class()))
-    }
-
-    /// Does something for the list, of this class, of every tile that the region overlaps and that is
-    /// drawn. The class is that of the whole region: how a triangle is drawn does not depend on a crop.
-    #[inline(always)]
-    fn for_each_list(&self, tiling: &Tiling, mut action: impl FnMut(usize)) {
-        let [columns, rows] = self.bounds();
-        let class = self.class();
-        let within = |[first, last]: [u32; 2], bits: u32, drawn: [u32; 2]| {
-            (first >> bits).max(drawn[0])..=(last >> bits).min(drawn[1])
-        };
-        for row in within(rows, tiling.row_bits, tiling.tile_rows) {
-            for column in within(columns, tiling.column_bits, tiling.tile_columns) {
-                action(tiling.list(row, column, class));
-            }
-        }
+        is_only.then(|| self.list(tiling.tile(row, column)))
     }
 }
 
-/// The primitives of one batch, for each tile and class a list of ids.
+/// The primitives of one batch: for each tile clusters of triangles, and for each class a list of ids.
 #[derive(Debug, Default)]
 pub(super) struct BatchBins {
+    clusters: Vec<Vec<Cluster>>,
     lists: Vec<Vec<u32>>,
+    /// Of some triangles at a time: they stay in the fastest cache until they go to their lists.
+    entries: Vec<Entry>,
 }
-
-/// Triangles whose bounds are found before the first goes to its list: their entries stay in the fastest
-/// cache.
-const SOME: usize = 256;
 
 /// What binning needs to know of the frame.
 pub(super) struct Binning<'a> {
@@ -196,10 +200,17 @@ pub(super) struct Binning<'a> {
     /// All vertices, and for each object where its own begin.
     pub(super) vertices: &'a [Vertex],
     pub(super) first_vertices: &'a [usize],
+    /// The clusters of every object.
+    pub(super) clusters: &'a [Clusters],
 }
 
 impl BatchBins {
-    /// The ids of one class in a tile.
+    /// The clusters of which triangles may be seen in a tile.
+    pub(super) fn clusters(&self, tile: usize) -> &[Cluster] {
+        &self.clusters[tile]
+    }
+
+    /// The ids of one class in a tile, other than those in clusters.
     pub(super) fn list(&self, tile: usize, class: Class) -> &[u32] {
         &self.lists[tile * CLASSES as usize + class as usize]
     }
@@ -213,96 +224,125 @@ impl BatchBins {
         binning: &Binning,
         observer: &mut O,
     ) {
-        self.lists.resize_with(binning.tiling.lists(), Vec::new);
+        let lists = binning.tiling.lists();
+        self.lists.resize_with(lists, Vec::new);
         self.lists.iter_mut().for_each(Vec::clear);
-        let objects = binning.view.scene.objects();
-        let (mut object, mut local) = binning.view.scene.locate(batch.first_id);
-        let mut id = batch.first_id;
-        let end = batch.first_id + batch.count;
-        while id < end {
-            let shape = &objects[object].shape;
-            let count = (shape.primitive_count() - local).min((end - id) as usize);
-            match shape {
-                Shape::Mesh(mesh) => {
-                    let vertices = &binning.vertices[binning.first_vertices[object]..];
-                    let triangles = &mesh.triangles()[local..local + count];
-                    for (some, first_id) in triangles.chunks(SOME).zip((id..).step_by(SOME)) {
-                        self.add_triangles::<S, O, F>(
-                            simd, first_id, some, vertices, binning, observer,
-                        );
-                    }
-                }
+        self.clusters.resize_with(lists / CLASSES as usize, Vec::new);
+        self.clusters.iter_mut().for_each(Vec::clear);
+        let scene = binning.view.scene;
+        for piece in batch.pieces(scene) {
+            match &scene.objects()[piece.object].shape {
+                Shape::Mesh(_) => self.add_clusters::<S, O, F>(simd, &piece, binning, observer),
                 Shape::Triangle(_) => {
-                    let vertices = &binning.vertices[binning.first_vertices[object]..];
-                    self.add_triangles::<S, O, F>(
-                        simd,
-                        id,
-                        &[[0, 1, 2]],
-                        vertices,
-                        binning,
-                        observer,
-                    );
+                    let first = binning.first_vertices[piece.object];
+                    let corners = std::array::from_fn(|corner| binning.vertices[first + corner]);
+                    self.entries.clear();
+                    self.enter::<S, O, F>(simd, piece.first_id, &corners, binning, observer);
+                    self.add_entries(binning.tiling);
                 }
-                Shape::Sphere(_) | Shape::Plane(_) => self.add_large::<O, F>(id, binning, observer),
+                Shape::Sphere(_) | Shape::Plane(_) => {
+                    self.entries.clear();
+                    self.enter_large::<O, F>(piece.first_id, binning, observer);
+                    self.add_entries(binning.tiling);
+                }
             }
-            id += u32::try_from(count).expect("a batch is small");
-            (object, local) = (object + 1, 0);
         }
     }
 
-    /// Adds at most [`SOME`] triangles of one object.
+    /// Adds a part of a mesh: clusters as they are, where they lie in few tiles, and the triangles of others
+    /// one by one.
     #[inline(always)]
-    fn add_triangles<S: Simd, O: Observer, F: Fault>(
+    fn add_clusters<S: Simd, O: Observer, F: Fault>(
         &mut self,
         simd: S,
-        first_id: u32,
-        triangles: &[[u32; 3]],
-        vertices: &[Vertex],
+        piece: &Piece,
         binning: &Binning,
         observer: &mut O,
     ) {
-        let mut entries = [Entry::NONE; SOME];
-        let mut count = 0;
-        for (triangle, id) in triangles.iter().zip(first_id..) {
-            let corners = triangle.map(|vertex| vertices[vertex as usize]);
-            let flags = corners[0][3] & corners[1][3] & corners[2][3];
-            if flags & (OUT_OF_SIGHT | ON_RASTER) == ON_RASTER {
-                let (entry, is_seen) = entry::<S, F>(simd, id, binning, &corners);
-                if O::WATCHES {
-                    let drawn = binning.tiling.region();
-                    let region =
-                        if is_seen { entry.region().intersection(&drawn) } else { NOWHERE };
-                    observer.primitive_begun(id, &region);
+        let shape = &binning.view.scene.objects()[piece.object].shape;
+        let clusters = &binning.clusters[piece.object];
+        let triangles = clusters.triangles(shape);
+        let vertices = &binning.vertices[binning.first_vertices[piece.object]..];
+        // Batches are cut between clusters.
+        let first_id = piece.first_id - piece.first;
+        let object = u32::try_from(piece.object).expect("there are fewer objects than ids");
+        let all = piece.first..piece.first + piece.count;
+        let bounds = &clusters.bounds()[(all.start / CLUSTER) as usize..];
+        for (first, bounds) in all.clone().step_by(CLUSTER as usize).zip(bounds) {
+            let places = first..all.end.min(first + CLUSTER);
+            let cluster = [object, first, places.end - first];
+            let place = clusters::place(simd, binning, bounds, cluster);
+            if O::WATCHES || matches!(place, Place::Scattered) {
+                self.entries.clear();
+                for place in places {
+                    let id = first_id + triangles.number(place);
+                    let corners =
+                        triangles.corners[place as usize].map(|vertex| vertices[vertex as usize]);
+                    self.enter::<S, O, F>(simd, id, &corners, binning, observer);
                 }
-                // Written whether it is seen or not, so that nothing depends on a guess.
-                entries[count % SOME] = entry;
-                count += usize::from(is_seen);
-            } else if flags & OUT_OF_SIGHT != 0 {
-                observer.primitive_begun(id, &NOWHERE);
-            } else {
-                self.add_large::<O, F>(id, binning, observer);
             }
-        }
-        for entry in &entries[..count] {
-            self.add(entry, binning.tiling);
+            match place {
+                Place::Scattered => self.add_entries(binning.tiling),
+                Place::Unseen => {}
+                Place::Near(cluster) => {
+                    for tile in binning.tiling.tiles(cluster.bounds) {
+                        self.clusters[tile].push(cluster);
+                    }
+                }
+            }
         }
     }
 
-    /// Adds any primitive as [`Class::Large`].
-    fn add_large<O: Observer, F: Fault>(&mut self, id: u32, binning: &Binning, observer: &mut O) {
+    /// Notes the samples that a triangle may cover, if there are any.
+    #[inline(always)]
+    fn enter<S: Simd, O: Observer, F: Fault>(
+        &mut self,
+        simd: S,
+        id: u32,
+        corners: &[Vertex; 3],
+        binning: &Binning,
+        observer: &mut O,
+    ) {
+        let flags = corners[0][3] & corners[1][3] & corners[2][3];
+        if flags & (OUT_OF_SIGHT | ON_RASTER) == ON_RASTER {
+            let (entry, is_seen) = entry::<S, F>(simd, id, binning, corners);
+            if O::WATCHES {
+                let drawn = binning.tiling.region();
+                let region = if is_seen { entry.region().intersection(&drawn) } else { NOWHERE };
+                observer.primitive_begun(id, &region);
+            }
+            // Written whether it is seen or not, so that nothing depends on a guess.
+            self.entries.push(entry);
+            self.entries.truncate(self.entries.len() - usize::from(!is_seen));
+        } else if flags & OUT_OF_SIGHT != 0 {
+            observer.primitive_begun(id, &NOWHERE);
+        } else {
+            self.enter_large::<O, F>(id, binning, observer);
+        }
+    }
+
+    /// Notes the samples that any primitive may cover, to be drawn as [`Class::Large`].
+    fn enter_large<O: Observer, F: Fault>(&mut self, id: u32, binning: &Binning, observer: &mut O) {
         let region = region::<F>(&binning.view.primitive(id), binning.screen);
         let drawn = region.intersection(&binning.tiling.region());
         observer.primitive_begun(id, &drawn);
         if !drawn.is_empty() {
-            self.add(&Entry::new(id, &region), binning.tiling);
+            self.entries.push(Entry::new(id, &region));
         }
     }
 
+    /// Puts what was noted into the lists.
     #[inline(always)]
-    fn add(&mut self, entry: &Entry, tiling: &Tiling) {
-        match entry.only_list(tiling) {
-            Some(list) => self.lists[list].push(entry.id),
-            None => entry.for_each_list(tiling, |list| self.lists[list].push(entry.id)),
+    fn add_entries(&mut self, tiling: &Tiling) {
+        for entry in &self.entries {
+            match entry.only_list(tiling) {
+                Some(list) => self.lists[list].push(entry.id),
+                None => {
+                    for tile in tiling.tiles(entry.bounds()) {
+                        self.lists[entry.list(tile)].push(entry.id);
+                    }
+                }
+            }
         }
     }
 }
@@ -311,7 +351,7 @@ impl BatchBins {
 const NOWHERE: Region = Region { rows: 0..0, columns: 0..0 };
 
 /// The entry of a triangle of trusted vertices, and whether it may cover a sample that is drawn; see
-/// `setup::side`, which finds the same bounds.
+/// [`super::setup::Side`], which finds the same bounds.
 #[inline(always)]
 fn entry<S: Simd, F: Fault>(
     simd: S,
@@ -321,7 +361,7 @@ fn entry<S: Simd, F: Fault>(
 ) -> (Entry, bool) {
     let Binning { raster, tiling, .. } = binning;
     let bits = raster.fraction_bits;
-    let margin = if F::is(Planted::ShrunkBox) { -1 } else { 2 };
+    let margin = if F::is(Planted::ShrunkBox) { -1 } else { BOX_MARGIN };
     let [width, height] = raster.size;
     // Of the four numbers of a vertex, the first two are of interest.
     let a = i32x4::load_array(simd, corners[0]);

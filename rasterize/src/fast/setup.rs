@@ -2,11 +2,12 @@
 //! `f32`, with the error of their rounding.
 
 use super::depth::KEY_ERROR;
-use super::vertices::{ALIGNED, Raster, Vertex};
+use super::lanes::Lanes;
+use super::vertices::{ALIGNED, Raster};
 use bothways_common::Sign;
 use bothways_common::fault::{Fault, Planted};
 use bothways_common::observe::{Observer, Sample};
-use bothways_common::simd::{Select, Simd, SimdBase, SimdInt, SimdMask, f32x16, i32x16};
+use bothways_common::simd::{Select, Simd, SimdBase, SimdInt, SimdMask, f32x16, i32x16, mask32x16};
 
 /// Boxes of more columns or rows than this are not for `f32`.
 pub(super) const MOST_SAMPLES_ACROSS: i32 = 256;
@@ -14,19 +15,11 @@ pub(super) const MOST_SAMPLES_ACROSS: i32 = 256;
 /// What decides a sample on an edge of an aligned triangle: half of the least edge function but 0.
 const TIE: f32 = 1.0 / 32.0;
 
+/// Fixed-point units that a box of samples has room for around its vertices.
+pub(super) const BOX_MARGIN: i32 = 2;
+
 /// Half of 2⁻²³.
 const UNIT_ROUNDOFF: f32 = f32::EPSILON / 2.0;
-
-/// Vertices of sixteen triangles, one triangle a lane.
-#[derive(Clone, Debug)]
-pub(super) struct Lanes {
-    ids: [u32; 16],
-    x: [[i32; 16]; 3],
-    y: [[i32; 16]; 3],
-    keys: [[i32; 16]; 3],
-    flags: [i32; 16],
-    count: usize,
-}
 
 /// Sixteen triangles, ready to be drawn. Columns and rows within a triangle count from its box's first
 /// sample.
@@ -54,29 +47,6 @@ pub(super) struct Setup {
     pub(super) doubtful: u16,
     /// Lanes whose keys cannot be trusted.
     pub(super) keyless: u16,
-}
-
-impl Lanes {
-    pub(super) const fn new() -> Lanes {
-        let empty = [[0; 16]; 3];
-        Lanes { ids: [0; 16], x: empty, y: empty, keys: empty, flags: [0; 16], count: 0 }
-    }
-
-    /// Fills the lanes with triangles; lanes beyond them cover nothing.
-    #[inline(always)]
-    pub(super) fn fill(&mut self, ids: &[u32], mut vertices: impl FnMut(u32) -> [Vertex; 3]) {
-        self.count = ids.len();
-        for (lane, &id) in ids.iter().take(16).enumerate() {
-            let [a, b, c] = vertices(id);
-            self.ids[lane] = id;
-            for (corner, vertex) in [a, b, c].iter().enumerate() {
-                self.x[corner][lane] = vertex[0];
-                self.y[corner][lane] = vertex[1];
-                self.keys[corner][lane] = vertex[2];
-            }
-            self.flags[lane] = a[3] & b[3] & c[3];
-        }
-    }
 }
 
 impl Setup {
@@ -113,20 +83,20 @@ impl Setup {
     #[inline(always)]
     pub(super) fn new<S: Simd, F: Fault>(simd: S, raster: &Raster, lanes: &Lanes) -> Setup {
         let splat = |value: f32| f32x16::splat(simd, value);
-        let x = load(simd, &lanes.x);
-        let y = load(simd, &lanes.y);
-        let keys = [key(simd, lanes, 0), key(simd, lanes, 1), key(simd, lanes, 2)];
-
-        let (first_column, columns, origin_x, width) = side::<S, F>(simd, raster, 0, &x);
-        let (first_row, rows, origin_y, height) = side::<S, F>(simd, raster, 1, &y);
-        let lane = i32x16::load_array(simd, LANES);
-        #[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "up to 16")]
-        let used = lane.simd_lt(i32x16::splat(simd, lanes.count as i32));
+        let (x, y) = (lanes.places(simd, 0), lanes.places(simd, 1));
+        let keys = lanes.keys(simd);
+        let across_box = Side::new::<F>(simd, raster, 0, &x);
+        let down_box = Side::new::<F>(simd, raster, 1, &y);
+        let origin_x = across_box.first << raster.fraction_bits;
+        let origin_y = down_box.first << raster.fraction_bits;
+        let width = across_box.widened_length(simd, raster);
+        let height = down_box.widened_length(simd, raster);
+        let used = lanes.used(simd);
 
         let product = width * height;
         let rounding = splat(13.6 * UNIT_ROUNDOFF) * product;
         let error = splat(raster.slack) * (width + height) + rounding;
-        let aligned = i32x16::load_array_ref(simd, &lanes.flags) & i32x16::splat(simd, ALIGNED);
+        let aligned = lanes.flags(simd) & i32x16::splat(simd, ALIGNED);
         let aligned = aligned.simd_ne(i32x16::splat(simd, 0));
         let error = aligned.select(splat(0.0), error);
         let error = if F::is(Planted::ZeroErrorBound) { splat(0.0) } else { error };
@@ -189,10 +159,10 @@ impl Setup {
             keyed = used;
         }
         let drawn = used & certain & !(aligned & flat);
-        let columns = drawn.select(columns, i32x16::splat(simd, 0));
+        let columns = drawn.select(across_box.count, i32x16::splat(simd, 0));
         let lanes_of = |mask: u64| u16::try_from(mask).expect("a mask has 16 lanes");
         Setup {
-            ids: lanes.ids,
+            ids: lanes.ids(simd).to_array(),
             at_origin: arrays(at_origin),
             across: arrays(across),
             down: arrays(down),
@@ -200,10 +170,10 @@ impl Setup {
             key: keyed.select(key_at_origin, splat(f32::NAN)).to_array(),
             key_b: key_b.to_array(),
             key_c: key_c.to_array(),
-            first_column: first_column.to_array(),
-            first_row: first_row.to_array(),
+            first_column: across_box.first.to_array(),
+            first_row: down_box.first.to_array(),
             columns: columns.to_array(),
-            rows: rows.to_array(),
+            rows: down_box.count.to_array(),
             facing: facing.to_array(),
             doubtful: lanes_of((used & !certain).to_bitmask()),
             keyless: lanes_of((drawn & !keyed).to_bitmask()),
@@ -242,18 +212,6 @@ impl Setup {
     }
 }
 
-/// The numbers of the lanes.
-const LANES: [i32; 16] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
-
-#[inline(always)]
-fn load<S: Simd>(simd: S, [a, b, c]: &[[i32; 16]; 3]) -> [i32x16<S>; 3] {
-    [
-        i32x16::load_array_ref(simd, a),
-        i32x16::load_array_ref(simd, b),
-        i32x16::load_array_ref(simd, c),
-    ]
-}
-
 #[inline(always)]
 fn arrays<S: Simd>([a, b, c]: [f32x16<S>; 3]) -> [[f32; 16]; 3] {
     [a.to_array(), b.to_array(), c.to_array()]
@@ -265,32 +223,47 @@ fn difference<S: Simd>(to: i32x16<S>, from: i32x16<S>, unit: f32x16<S>) -> f32x1
     (to - from).to_float::<f32x16<S>>() * unit
 }
 
-/// The keys of one corner of all triangles.
-#[inline(always)]
-fn key<S: Simd>(simd: S, lanes: &Lanes, corner: usize) -> f32x16<S> {
-    let bits = lanes.keys[corner].map(|bits| f32::from_bits(bits.cast_unsigned()));
-    f32x16::load_array(simd, bits)
+/// Along one axis, the boxes of sixteen triangles: the samples that they may cover, and the lengths
+/// between their outermost vertices.
+#[derive(Clone, Copy)]
+pub(super) struct Side<S: Simd> {
+    /// The first sample, and how many.
+    pub(super) first: i32x16<S>,
+    pub(super) count: i32x16<S>,
+    /// In fixed point; negative where it is 2³¹ or more.
+    length: i32x16<S>,
 }
 
-/// Along one axis: the first sample of the box, how many, the place of the first, and the length of the
-/// box with two units on each side.
-///
-/// A vertex is at most half a unit and the margin, which is at most one unit, from its place.
-#[inline(always)]
-fn side<S: Simd, F: Fault>(
-    simd: S,
-    raster: &Raster,
-    axis: usize,
-    places: &[i32x16<S>; 3],
-) -> (i32x16<S>, i32x16<S>, i32x16<S>, f32x16<S>) {
-    let splat = |value: i32| i32x16::splat(simd, value);
-    let bits = raster.fraction_bits;
-    let margin = if F::is(Planted::ShrunkBox) { -1 } else { 2 };
-    let low = places[0].min(places[1]).min(places[2]);
-    let high = places[0].max(places[1]).max(places[2]);
-    let first = ((low + splat((1 << bits) - 1 - margin)) >> bits).max(splat(0));
-    let last = ((high + splat(margin)) >> bits).min(splat(raster.size[axis] - 1));
-    let count = (last - first + splat(1)).max(splat(0));
-    let length = (high - low + splat(4)).to_float::<f32x16<S>>() * f32x16::splat(simd, raster.unit);
-    (first, count, first << bits, length)
+impl<S: Simd> Side<S> {
+    /// A vertex is at most half a unit and the margin, which is at most one unit, from its place.
+    #[inline(always)]
+    pub(super) fn new<F: Fault>(
+        simd: S,
+        raster: &Raster,
+        axis: usize,
+        places: &[i32x16<S>; 3],
+    ) -> Self {
+        let splat = |value: i32| i32x16::splat(simd, value);
+        let bits = raster.fraction_bits;
+        let margin = if F::is(Planted::ShrunkBox) { -1 } else { BOX_MARGIN };
+        let low = places[0].min(places[1]).min(places[2]);
+        let high = places[0].max(places[1]).max(places[2]);
+        let first = ((low + splat((1 << bits) - 1 - margin)) >> bits).max(splat(0));
+        let last = ((high + splat(margin)) >> bits).min(splat(raster.size[axis] - 1));
+        Side { first, count: (last - first + splat(1)).max(splat(0)), length: high - low }
+    }
+
+    /// The length with two units on each side, in samples.
+    #[inline(always)]
+    fn widened_length(&self, simd: S, raster: &Raster) -> f32x16<S> {
+        let length = self.length + i32x16::splat(simd, 2 * BOX_MARGIN);
+        length.to_float::<f32x16<S>>() * f32x16::splat(simd, raster.unit)
+    }
+
+    /// Whether it is no longer than `f32` takes.
+    #[inline(always)]
+    pub(super) fn is_short(&self, simd: S, raster: &Raster) -> mask32x16<S> {
+        let most = i32x16::splat(simd, MOST_SAMPLES_ACROSS << raster.fraction_bits);
+        self.length.simd_lt(most) & self.length.simd_ge(i32x16::splat(simd, 0))
+    }
 }

@@ -116,6 +116,21 @@ impl TileBuffer {
         (&mut self.ids[index..], &mut self.keys[index..])
     }
 
+    /// Whether all samples of a region hold keys larger than this one.
+    #[inline(always)]
+    pub(super) fn is_nearer<S: Simd>(&self, simd: S, region: &Region, key: f32) -> bool {
+        let key = f32x16::splat(simd, key);
+        region.rows.clone().all(|row| {
+            let start = self.index(Sample { row, column: region.columns.start });
+            let keys = &self.keys[start..start + region.columns.len() + SPARE];
+            (0..region.columns.len()).step_by(16).all(|column| {
+                let held = f32x16::from_slice(simd, &keys[column..column + 16]);
+                let beyond = u64::MAX << (region.columns.len() - column).min(16);
+                held.simd_gt(key).to_bitmask() | beyond == u64::MAX
+            })
+        })
+    }
+
     /// Leaves to the judge whether a fragment is nearest, or whether it is one.
     #[cold]
     pub(super) fn leave_open(&mut self, index: usize, id: u32, key: f32, covered: bool) {

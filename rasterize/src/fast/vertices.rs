@@ -136,7 +136,7 @@ impl Raster {
     /// Then `1/t = d/ζ` (perspective) or `t = ζ` (parallel) is known to within 2⁻⁴¹ of itself, and a key
     /// that is at least 2⁻¹⁵ of it to within 2⁻²⁶; rounding to `f32` adds 2⁻²⁴.
     #[inline(always)]
-    fn place_eight<S: Simd>(
+    pub(super) fn place_eight<S: Simd>(
         &self,
         simd: S,
         screen: &Screen,

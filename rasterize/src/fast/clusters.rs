@@ -1,0 +1,230 @@
+//! Neighbouring triangles of a mesh together: where they mostly lie in one tile, it takes them as they
+//! are, and looks at each of them once, when it draws them.
+
+use super::bins::Binning;
+use super::setup::BOX_MARGIN;
+use super::vertices::{ON_RASTER, OUT_OF_SIGHT};
+use bothways_common::Shape;
+use bothways_common::frame::Region;
+use bothways_common::simd::Simd;
+use glam::{Vec3, Vec3A};
+use rayon::prelude::*;
+
+/// Triangles of a cluster: they are of one mesh and in one batch.
+pub(super) const CLUSTER: u32 = 32;
+/// A cluster that may lie in more tiles than this is taken apart: each would look at all of it.
+const MOST_TILES: usize = 2;
+
+/// Fixed-point units that a cluster's box has room for around its corners.
+const MARGIN: i32 = BOX_MARGIN + 4;
+
+/// A box around a cluster, its least and its greatest corner.
+pub(super) type Bounds = [Vec3; 2];
+
+/// Some consecutive triangles of an object's [`Triangles`].
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cluster {
+    /// The object, the place of the first triangle and how many there are.
+    pub(super) object: u32,
+    pub(super) first: u32,
+    pub(super) count: u32,
+    /// The samples that they may cover: first and last column, first and last row.
+    pub(super) bounds: [[u16; 2]; 2],
+    /// No depth key of theirs is larger, but for rounding.
+    pub(super) nearest: f32,
+}
+
+/// Where a cluster may be seen.
+#[derive(Debug)]
+pub(super) enum Place {
+    /// Nowhere.
+    Unseen,
+    /// In few tiles.
+    Near(Cluster),
+    /// In many tiles, or it is not known where.
+    Scattered,
+}
+
+/// The triangles of one object in clusters; none for what is no mesh.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Clusters {
+    bounds: Vec<Bounds>,
+    /// The triangles in another order than the mesh's, where the mesh's has no neighbours in a row.
+    sorted: Option<Sorted>,
+}
+
+#[derive(Clone, Debug)]
+struct Sorted {
+    /// Which triangles of the mesh.
+    numbers: Vec<u32>,
+    triangles: Vec<[u32; 3]>,
+}
+
+/// Triangles in the order of their clusters.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Triangles<'a> {
+    pub(super) corners: &'a [[u32; 3]],
+    numbers: Option<&'a [u32]>,
+}
+
+impl Triangles<'_> {
+    /// The number in the mesh of the one at this place.
+    #[inline(always)]
+    pub(super) fn number(&self, place: u32) -> u32 {
+        match self.numbers {
+            None => place,
+            Some(numbers) => numbers[place as usize],
+        }
+    }
+}
+
+impl Clusters {
+    /// Puts neighbours together.
+    pub(super) fn new(shape: &Shape) -> Clusters {
+        let Shape::Mesh(mesh) = shape else { return Clusters::default() };
+        let (positions, triangles) = (mesh.positions(), mesh.triangles());
+        let (bounds, is_coherent) = bounds(positions, triangles);
+        if is_coherent {
+            return Clusters { bounds, sorted: None };
+        }
+        let sorted = Sorted::new(positions, triangles);
+        let (bounds, _) = self::bounds(positions, &sorted.triangles);
+        Clusters { bounds, sorted: Some(sorted) }
+    }
+
+    /// Boxes around the clusters, in their order.
+    pub(super) fn bounds(&self) -> &[Bounds] {
+        &self.bounds
+    }
+
+    /// The object's triangles in the order of their clusters.
+    pub(super) fn triangles<'a>(&'a self, shape: &'a Shape) -> Triangles<'a> {
+        match (shape, &self.sorted) {
+            (Shape::Mesh(_), Some(Sorted { numbers, triangles })) => {
+                Triangles { corners: triangles, numbers: Some(numbers) }
+            }
+            (Shape::Mesh(mesh), None) => Triangles { corners: mesh.triangles(), numbers: None },
+            _ => Triangles { corners: &[], numbers: None },
+        }
+    }
+}
+
+/// Boxes around clusters of consecutive triangles, and whether they are much smaller than those of
+/// triangles from anywhere would be.
+fn bounds(positions: &[Vec3], triangles: &[[u32; 3]]) -> (Vec<Bounds>, bool) {
+    /// Sides of a cluster's box, in those of its triangles: a row of 16 pairs has 9, a square patch 4.
+    const MOST_SIDES: f64 = 16.0;
+    let around = |triangle: &[u32; 3]| {
+        let [a, b, c] = triangle.map(|vertex| Vec3A::from(positions[vertex as usize]));
+        [a.min(b).min(c), a.max(b).max(c)]
+    };
+    let sides = |[low, high]: [Vec3A; 2]| f64::from((high - low).element_sum());
+    let around_cluster = |cluster: &[[u32; 3]]| {
+        let (mut bounds, mut sum) = ([Vec3A::INFINITY, Vec3A::NEG_INFINITY], 0.0);
+        for triangle in cluster.iter().map(around) {
+            bounds = [bounds[0].min(triangle[0]), bounds[1].max(triangle[1])];
+            sum += sides(triangle);
+        }
+        (bounds.map(Vec3::from), [sides(bounds), sum / cluster.len() as f64])
+    };
+    let all: Vec<(Bounds, [f64; 2])> =
+        triangles.par_chunks(CLUSTER as usize).with_min_len(64).map(around_cluster).collect();
+    let [clusters, single] =
+        all.iter().fold([0.0; 2], |sum, (_, sides)| [sum[0] + sides[0], sum[1] + sides[1]]);
+    (all.into_iter().map(|(bounds, _)| bounds).collect(), clusters <= MOST_SIDES * single)
+}
+
+impl Sorted {
+    /// Sorts triangles into clusters by halving, again and again, along the longest side.
+    fn new(positions: &[Vec3], triangles: &[[u32; 3]]) -> Sorted {
+        let centre = |triangle: &[u32; 3]| {
+            triangle.iter().map(|vertex| Vec3A::from(positions[*vertex as usize]) / 3.0).sum()
+        };
+        let count = u32::try_from(triangles.len()).expect("ids are u32");
+        let mut all: Vec<(Vec3A, u32)> = triangles.par_iter().map(centre).zip(0..count).collect();
+        sort(&mut all);
+        let numbers: Vec<u32> = all.into_iter().map(|(_, number)| number).collect();
+        let triangles = numbers.iter().map(|number| triangles[*number as usize]).collect();
+        Sorted { numbers, triangles }
+    }
+}
+
+/// Puts points in an order in which every cluster is close together.
+fn sort(points: &mut [(Vec3A, u32)]) {
+    /// Fewer than this are not worth a thread.
+    const FEW: usize = 4096;
+    let clusters = points.len().div_ceil(CLUSTER as usize);
+    if clusters < 2 {
+        return;
+    }
+    let include =
+        |[low, high]: [Vec3A; 2], point: &(Vec3A, u32)| [low.min(point.0), high.max(point.0)];
+    let [low, high] = points.iter().fold([Vec3A::INFINITY, Vec3A::NEG_INFINITY], include);
+    let axis = (high - low).max_position();
+    let middle = clusters / 2 * CLUSTER as usize;
+    points
+        .select_nth_unstable_by(middle, |a, b| a.0[axis].total_cmp(&b.0[axis]).then(a.1.cmp(&b.1)));
+    let (left, right) = points.split_at_mut(middle);
+    if left.len() < FEW {
+        sort(left);
+        sort(right);
+    } else {
+        rayon::join(|| sort(left), || sort(right));
+    }
+}
+
+/// Finds where a cluster may be seen, from the corners of its box.
+///
+/// What lies in a box in front of the eye is seen between the places of its corners. A corner's place is
+/// off by at most a unit and a half, and so is a vertex's: with three units more than a triangle's own box
+/// has, no triangle's box reaches over the cluster's.
+#[inline(always)]
+pub(super) fn place<S: Simd>(
+    simd: S,
+    Binning { raster, screen, tiling, .. }: &Binning,
+    [low, high]: &Bounds,
+    [object, first, count]: [u32; 3],
+) -> Place {
+    let corner = |k: usize| {
+        let of = |axis: usize| if k >> axis & 1 == 0 { low[axis] } else { high[axis] };
+        Vec3::new(of(0), of(1), of(2))
+    };
+    let corners = std::array::from_fn(corner);
+    let [columns, rows, keys, flags] = raster.place_eight(simd, screen, &corners);
+    let common = flags.iter().fold(-1, |common, flags| common & flags);
+    if common & OUT_OF_SIGHT != 0 {
+        return Place::Unseen;
+    }
+    if common & ON_RASTER == 0 {
+        return Place::Scattered;
+    }
+    let bits = raster.fraction_bits;
+    let samples = |places: &[i32; 8], size: i32| {
+        let low = places.iter().fold(i32::MAX, |low, place| low.min(*place));
+        let high = places.iter().fold(i32::MIN, |high, place| high.max(*place));
+        let first = ((low + (1 << bits) - 1 - MARGIN) >> bits).max(0);
+        let last = ((high + MARGIN) >> bits).min(size - 1);
+        let sample = |place: i32| u16::try_from(place).expect("a side has at most 65,536 samples");
+        (first <= last).then(|| [sample(first), sample(last)])
+    };
+    let [width, height] = raster.size;
+    let (Some(columns), Some(rows)) = (samples(&columns, width), samples(&rows, height)) else {
+        return Place::Unseen;
+    };
+    let bounds = [columns, rows];
+    if tiling.tiles(bounds).count() > MOST_TILES {
+        return Place::Scattered;
+    }
+    let key = |bits: &i32| f32::from_bits(bits.cast_unsigned());
+    let nearest = keys.iter().map(key).fold(0.0, f32::max);
+    Place::Near(Cluster { object, first, count, bounds, nearest })
+}
+
+impl Cluster {
+    /// The samples that it may cover.
+    pub(super) fn region(&self) -> Region {
+        let range = |[first, last]: [u16; 2]| first.into()..usize::from(last) + 1;
+        let [columns, rows] = self.bounds;
+        Region { rows: range(rows), columns: range(columns) }
+    }
+}
