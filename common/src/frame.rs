@@ -2,6 +2,7 @@
 
 use crate::camera::{Camera, check_samples};
 use crate::crop::Crop;
+use crate::memory::filled;
 use glam::{Vec2, Vec3};
 use std::ops::Range;
 
@@ -130,8 +131,8 @@ impl Frame {
             camera_image: camera.image(),
             options: *options,
             region,
-            ids: vec![NO_PRIMITIVE; count],
-            t: vec![f32::INFINITY; count],
+            ids: filled(NO_PRIMITIVE, count),
+            t: filled(f32::INFINITY, count),
             normals: vec![Vec3::ZERO; count],
             colours: vec![Vec3::ZERO; count],
             texture_coordinates: Vec::new(),

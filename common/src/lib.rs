@@ -19,6 +19,7 @@ pub mod crop;
 pub mod fault;
 pub mod frame;
 pub mod generate;
+pub mod memory;
 pub mod mesh;
 pub mod mesh_file;
 pub mod obj;

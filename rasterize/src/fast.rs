@@ -36,6 +36,7 @@ mod vertices;
 use bins::{BatchBins, Binning, Tiling};
 use bothways_common::fault::{Fault, Planted, Sound};
 use bothways_common::frame::Tile;
+use bothways_common::memory::filled;
 use bothways_common::observe::Observer;
 use bothways_common::simd::{Level, best_level, dispatch};
 use bothways_common::{Frame, Options, Scene, Shape, View};
@@ -347,7 +348,10 @@ fn place_vertices(
 ) {
     /// Vertices that one thread takes up at a time.
     const SHARE: usize = 4096;
-    vertices.resize(prepared.first_vertices[prepared.first_vertices.len() - 1], [0; 4]);
+    let count = prepared.first_vertices[prepared.first_vertices.len() - 1];
+    if vertices.len() != count {
+        *vertices = filled([0; 4], count);
+    }
     let mut rest = vertices.as_mut_slice();
     for object in view.scene.objects() {
         let place = |positions: &[glam::Vec3], vertices: &mut [Vertex]| {

@@ -182,42 +182,34 @@ fn sort(points: &mut [(Vec3A, u32)]) {
 pub(super) fn place<S: Simd>(
     simd: S,
     Binning { raster, screen, tiling, .. }: &Binning,
-    [low, high]: &Bounds,
+    bounds: &Bounds,
     [object, first, count]: [u32; 3],
 ) -> Place {
-    let corner = |k: usize| {
-        let of = |axis: usize| if k >> axis & 1 == 0 { low[axis] } else { high[axis] };
-        Vec3::new(of(0), of(1), of(2))
-    };
-    let corners = std::array::from_fn(corner);
-    let [columns, rows, keys, flags] = raster.place_eight(simd, screen, &corners);
-    let common = flags.iter().fold(-1, |common, flags| common & flags);
-    if common & OUT_OF_SIGHT != 0 {
+    let corners = raster.place_corners(simd, screen, *bounds);
+    if corners.flags & OUT_OF_SIGHT != 0 {
         return Place::Unseen;
     }
-    if common & ON_RASTER == 0 {
+    if corners.flags & ON_RASTER == 0 {
         return Place::Scattered;
     }
     let bits = raster.fraction_bits;
-    let samples = |places: &[i32; 8], size: i32| {
-        let low = places.iter().fold(i32::MAX, |low, place| low.min(*place));
-        let high = places.iter().fold(i32::MIN, |high, place| high.max(*place));
+    let samples = |[low, high]: [i32; 2], size: i32| {
         let first = ((low + (1 << bits) - 1 - MARGIN) >> bits).max(0);
         let last = ((high + MARGIN) >> bits).min(size - 1);
         let sample = |place: i32| u16::try_from(place).expect("a side has at most 65,536 samples");
         (first <= last).then(|| [sample(first), sample(last)])
     };
     let [width, height] = raster.size;
-    let (Some(columns), Some(rows)) = (samples(&columns, width), samples(&rows, height)) else {
+    let (Some(columns), Some(rows)) =
+        (samples(corners.columns, width), samples(corners.rows, height))
+    else {
         return Place::Unseen;
     };
     let bounds = [columns, rows];
     if tiling.tiles(bounds).count() > MOST_TILES {
         return Place::Scattered;
     }
-    let key = |bits: &i32| f32::from_bits(bits.cast_unsigned());
-    let nearest = keys.iter().map(key).fold(0.0, f32::max);
-    Place::Near(Cluster { object, first, count, bounds, nearest })
+    Place::Near(Cluster { object, first, count, bounds, nearest: corners.nearest })
 }
 
 impl Cluster {

@@ -4,7 +4,8 @@ use super::depth::{KeyScale, LARGEST_KEY};
 use super::screen::Screen;
 use bothways_common::Projection;
 use bothways_common::simd::{
-    Select, Simd, SimdBase, SimdFloat, SimdInterleaved, SimdMask, f64x8, i32x4, mask64x8,
+    Bytes, Select, Simd, SimdBase, SimdFloat, SimdInterleaved, SimdMask, f32x16, f64x8, i32x4,
+    i32x16, mask64x8,
 };
 use glam::{DVec3, Vec3};
 
@@ -110,19 +111,17 @@ impl Raster {
         positions: &[Vec3; 16],
         vertices: &mut [i32],
     ) {
-        let mut columns = [0; 16];
-        let mut rows = [0; 16];
-        let mut keys = [0; 16];
-        let mut flags = [0; 16];
-        let (halves, _) = positions.as_chunks::<8>();
-        for (half, positions) in halves.iter().enumerate() {
-            let lanes = half * 8..half * 8 + 8;
-            let placed = self.place_eight(simd, screen, positions);
-            columns[lanes.clone()].copy_from_slice(&placed[0]);
-            rows[lanes.clone()].copy_from_slice(&placed[1]);
-            keys[lanes.clone()].copy_from_slice(&placed[2]);
-            flags[lanes].copy_from_slice(&placed[3]);
-        }
+        let (x, y, z) = (
+            coordinates(simd, positions, 0),
+            coordinates(simd, positions, 1),
+            coordinates(simd, positions, 2),
+        );
+        let upper = self.place_eight(simd, screen, [x.0, y.0, z.0]);
+        let lower = self.place_eight(simd, screen, [x.1, y.1, z.1]);
+        let columns = integers(upper.column, lower.column).to_array();
+        let rows = integers(upper.row, lower.row).to_array();
+        let keys = simd.narrow_f64x8(upper.key, lower.key).bitcast::<i32x16<S>>().to_array();
+        let flags = integers(upper.flags, lower.flags).to_array();
         for (four, vertices) in vertices.chunks_exact_mut(16).enumerate() {
             let part = |lanes: &[i32; 16]| i32x4::from_slice(simd, &lanes[four * 4..four * 4 + 4]);
             let parts = [part(&columns), part(&rows), part(&keys), part(&flags)];
@@ -130,26 +129,56 @@ impl Raster {
         }
     }
 
-    /// Columns, rows, keys' bits and flags of eight vertices.
+    /// The places of a box's corners, the keys of those (as `f32`) and the flags that they share; none
+    /// unless all of them are on the raster.
+    #[inline(always)]
+    pub(super) fn place_corners<S: Simd>(
+        &self,
+        simd: S,
+        screen: &Screen,
+        [low, high]: [Vec3; 2],
+    ) -> Corners {
+        let (low, high) = (low.as_dvec3(), high.as_dvec3());
+        let x = [low.x, high.x, low.x, high.x, low.x, high.x, low.x, high.x];
+        let y = [low.y, low.y, high.y, high.y, low.y, low.y, high.y, high.y];
+        let z = [low.z, low.z, low.z, low.z, high.z, high.z, high.z, high.z];
+        let corners =
+            [f64x8::load_array(simd, x), f64x8::load_array(simd, y), f64x8::load_array(simd, z)];
+        let placed = self.place_eight(simd, screen, corners);
+        let columns = integers(placed.column, placed.column).to_array();
+        let rows = integers(placed.row, placed.row).to_array();
+        let flags = integers(placed.flags, placed.flags).to_array();
+        let keys = simd.narrow_f64x8(placed.key, placed.key).to_array();
+        let ends = |places: &[i32; 16]| {
+            [
+                places.iter().fold(i32::MAX, |low, place| low.min(*place)),
+                places.iter().fold(i32::MIN, |high, place| high.max(*place)),
+            ]
+        };
+        Corners {
+            columns: ends(&columns),
+            rows: ends(&rows),
+            nearest: keys.into_iter().fold(0.0, f32::max),
+            flags: flags.into_iter().fold(-1, |common, flags| common & flags),
+        }
+    }
+
+    /// Columns and rows in fixed point, keys and flags of eight vertices.
     ///
     /// What is trusted, and why, says [`Screen::new`]: `ζ ≥ 2⁻¹⁰·s` for the depth `ζ` along the view.
     /// Then `1/t = d/ζ` (perspective) or `t = ζ` (parallel) is known to within 2⁻⁴¹ of itself, and a key
     /// that is at least 2⁻¹⁵ of it to within 2⁻²⁶; rounding to `f32` adds 2⁻²⁴.
     #[inline(always)]
-    pub(super) fn place_eight<S: Simd>(
+    fn place_eight<S: Simd>(
         &self,
         simd: S,
         screen: &Screen,
-        positions: &[Vec3; 8],
-    ) -> [[i32; 8]; 4] {
+        [x, y, z]: [f64x8<S>; 3],
+    ) -> Placed<S> {
         let splat = |value: f64| f64x8::splat(simd, value);
         let eye = screen.camera.eye().as_dvec3();
         // Relative to the eye, as the contract says.
-        let offset = |axis: usize| {
-            let of = |lane: usize| f64::from(positions[lane].to_array()[axis]);
-            f64x8::load_array(simd, std::array::from_fn(of)) - splat(eye[axis])
-        };
-        let [x, y, z] = [offset(0), offset(1), offset(2)];
+        let (x, y, z) = (x - splat(eye.x), y - splat(eye.y), z - splat(eye.z));
         let along = |axis: DVec3| x * splat(axis.x) + y * splat(axis.y) + z * splat(axis.z);
         let extent = x.abs() + y.abs() + z.abs();
         let (right, up) = (along(screen.u), along(screen.v));
@@ -198,16 +227,45 @@ impl Raster {
                 is_aligned(simd, screen, lines[axis], screen.middle[axis], grid[axis])
             });
             let aligned = on_raster & across & down;
-
             flags += flag(aligned, ALIGNED);
         }
         let scale = splat(f64::from(1 << self.fraction_bits));
-        let fixed = |place: f64x8<S>| integers(on_raster.select(place * scale, zero));
-        let key = on_raster.select(key, zero).to_array();
-        #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is what is asked")]
-        let key = key.map(|key| (key as f32).to_bits().cast_signed());
-        [fixed(column), fixed(row), key, integers(flags)]
+        Placed {
+            column: on_raster.select(column * scale, zero),
+            row: on_raster.select(row * scale, zero),
+            key: on_raster.select(key, zero),
+            flags,
+        }
     }
+}
+
+/// Eight vertices, all numbers still `f64`.
+struct Placed<S: Simd> {
+    column: f64x8<S>,
+    row: f64x8<S>,
+    key: f64x8<S>,
+    flags: f64x8<S>,
+}
+
+/// What the eight corners of a box have in common.
+pub(super) struct Corners {
+    /// The least and the greatest.
+    pub(super) columns: [i32; 2],
+    pub(super) rows: [i32; 2],
+    /// The largest key.
+    pub(super) nearest: f32,
+    /// The flags that all of them have.
+    pub(super) flags: i32,
+}
+
+/// One coordinate of sixteen positions.
+#[inline(always)]
+fn coordinates<S: Simd>(simd: S, positions: &[Vec3; 16], axis: usize) -> (f64x8<S>, f64x8<S>) {
+    let mut along = [0.0; 16];
+    for (along, position) in along.iter_mut().zip(positions) {
+        *along = position.to_array()[axis];
+    }
+    simd.widen_f32x16(f32x16::load_array(simd, along))
 }
 
 /// Where vertices lie exactly at multiples of a quarter of a column (or row).
@@ -262,14 +320,13 @@ fn exact_grid(screen: &Screen) -> Option<[f64; 2]> {
     [screen.u, screen.v, screen.w].into_iter().all(is_axis).then_some([across, down])
 }
 
-/// The nearest integers, which must be within 31 bits.
+/// The nearest integers, which must be within 31 bits: those of `upper`, then those of `lower`.
 ///
 /// Added to 1.5·2⁵², a number has no bits left behind the point, and its last 32 bits are the integer in
 /// two's complement.
 #[inline(always)]
-fn integers<S: Simd>(value: f64x8<S>) -> [i32; 8] {
+fn integers<S: Simd>(upper: f64x8<S>, lower: f64x8<S>) -> i32x16<S> {
     const MAGIC: f64 = 6_755_399_441_055_744.0;
-    #[expect(clippy::cast_possible_truncation, reason = "the last 32 bits are what is wanted")]
-    let last_bits = |value: f64| value.to_bits() as i32;
-    (value + MAGIC).to_array().map(last_bits)
+    // The last 32 bits come first in memory.
+    (upper + MAGIC).bitcast::<i32x16<S>>().unzip_low((lower + MAGIC).bitcast::<i32x16<S>>())
 }
