@@ -229,6 +229,34 @@ impl Scene {
         let object = self.first_ids.partition_point(|&first| first <= id) - 1;
         (object, (id - self.first_ids[object]) as usize)
     }
+
+    /// The corners of a primitive that is a triangle, in the world.
+    ///
+    /// # Panics
+    ///
+    /// If there is no primitive of this id.
+    pub fn triangle(&self, id: u32) -> Option<[Vec3; 3]> {
+        let (object, local) = self.locate(id);
+        match &self.objects[object].shape {
+            Shape::Triangle(Triangle { a, b, c }) => Some([*a, *b, *c]),
+            Shape::Mesh(mesh) => Some(mesh.corners(local)),
+            Shape::Sphere(_) | Shape::Plane(_) => None,
+        }
+    }
+
+    /// Whether two primitives are triangles with the same corners, in any order: then they tie wherever
+    /// they are seen.
+    ///
+    /// # Panics
+    ///
+    /// If there is no primitive of one of the ids.
+    pub fn are_same_triangle(&self, first: u32, second: u32) -> bool {
+        let (Some([a, b, c]), Some(other)) = (self.triangle(first), self.triangle(second)) else {
+            return false;
+        };
+        [a, b, c] == other
+            || [[b, c, a], [c, a, b], [a, c, b], [c, b, a], [b, a, c]].contains(&other)
+    }
 }
 
 fn id(primitives: usize) -> Result<u32, SceneError> {

@@ -1,7 +1,7 @@
 //! Triangles over many samples: one triangle at a time, sixteen samples at once.
 
 use super::setup::Setup;
-use super::tile::{TileBuffer, nearer_by};
+use super::tile::{Picture, TileBuffer, nearer_by};
 use bothways_common::fault::Fault;
 use bothways_common::observe::{Observer, Sample};
 use bothways_common::simd::{
@@ -29,8 +29,8 @@ struct Tested<S: Simd> {
 #[inline(always)]
 pub(super) fn draw<S: Simd, O: Observer, F: Fault>(
     simd: S,
-    setup: &Setup,
-    lane: usize,
+    (setup, lane): (&Setup, usize),
+    picture: &Picture,
     buffer: &mut TileBuffer,
     observer: &mut O,
 ) {
@@ -38,9 +38,9 @@ pub(super) fn draw<S: Simd, O: Observer, F: Fault>(
     let columns = within(setup.first_column[lane], setup.columns[lane], &tile.columns);
     let rows = within(setup.first_row[lane], setup.rows[lane], &tile.rows);
     if columns.len() <= 8 {
-        draw_blocks::<8, S, O, F>(simd, setup, lane, columns, rows, buffer, observer);
+        draw_blocks::<8, S, O, F>(simd, (setup, lane), [columns, rows], picture, buffer, observer);
     } else {
-        draw_blocks::<16, S, O, F>(simd, setup, lane, columns, rows, buffer, observer);
+        draw_blocks::<16, S, O, F>(simd, (setup, lane), [columns, rows], picture, buffer, observer);
     }
 }
 
@@ -48,10 +48,9 @@ pub(super) fn draw<S: Simd, O: Observer, F: Fault>(
 #[inline(always)]
 fn draw_blocks<const ACROSS: usize, S: Simd, O: Observer, F: Fault>(
     simd: S,
-    setup: &Setup,
-    lane: usize,
-    columns: Range<usize>,
-    rows: Range<usize>,
+    (setup, lane): (&Setup, usize),
+    [columns, rows]: [Range<usize>; 2],
+    picture: &Picture,
     buffer: &mut TileBuffer,
     observer: &mut O,
 ) {
@@ -80,7 +79,7 @@ fn draw_blocks<const ACROSS: usize, S: Simd, O: Observer, F: Fault>(
                 keep_row::<S, F>(simd, &brush, &tested, buffer, index)
             };
             if doubt != 0 {
-                leave_open(&brush, &tested, buffer, index, ACROSS, doubt);
+                leave_open::<S, O, F>(&brush, &tested, picture, buffer, (index, ACROSS), doubt);
             }
         }
     }
@@ -217,20 +216,21 @@ fn depth_test<S: Simd, F: Fault>(
 }
 
 #[cold]
-fn leave_open<S: Simd>(
+fn leave_open<S: Simd, O: Observer, F: Fault>(
     brush: &Brush<S>,
     tested: &Tested<S>,
+    picture: &Picture,
     buffer: &mut TileBuffer,
-    index: usize,
-    across: usize,
+    (index, across): (usize, usize),
     mut doubt: u64,
 ) {
-    let inside = tested.inside.to_bitmask();
+    let (inside, keys) = (tested.inside.to_bitmask(), tested.keys.to_array());
     while doubt != 0 {
         let lane = doubt.trailing_zeros() as usize;
         doubt &= doubt - 1;
         let at = index + lane / across * buffer.stride() + lane % across;
-        buffer.leave_open(at, brush.id, tested.keys.to_array()[lane], inside >> lane & 1 == 1);
+        let covered = inside >> lane & 1 == 1;
+        buffer.leave_open::<O, F>(picture, at, brush.id, keys[lane & 15], covered);
     }
 }
 

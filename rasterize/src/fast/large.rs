@@ -6,7 +6,7 @@ use super::depth::{DepthInterval, DepthPlane, sign_in_front};
 use super::edges::TriangleSetup;
 use super::round::{self, Covered};
 use super::setup::MOST_SAMPLES_ACROSS;
-use super::tile::{Picture, TileBuffer, judge_covers};
+use super::tile::{Challenger, Picture, TileBuffer, judge_covers};
 use bothways_common::fault::{Fault, Planted};
 use bothways_common::frame::Region;
 use bothways_common::observe::{Observer, Sample};
@@ -142,7 +142,7 @@ impl<O: Observer> Brush<'_, '_, O> {
 
     fn fragment<F: Fault>(&mut self, sample: Sample, depth: DepthInterval) {
         let (index, key) = (self.buffer.index(sample), self.picture.keys.key(depth));
-        let challenger = (self.id, &self.primitive);
+        let challenger = &mut Challenger { id: self.id, primitive: Some(self.primitive) };
         self.buffer.settle_depth::<O, F>(self.picture, index, challenger, key, self.observer);
     }
 

@@ -172,13 +172,15 @@ impl<O: Observer> Painter<'_, '_, O> {
                 let elsewhere = setup.doubtful | setup.keyless;
                 large.extend(setup.lanes(elsewhere));
                 for lane in (0..count).filter(|lane| elsewhere >> lane & 1 == 0) {
-                    block::draw::<_, O, F>(simd, &setup, lane, buffer, *observer);
+                    let picture = drawing.picture;
+                    block::draw::<_, O, F>(simd, (&setup, lane), picture, buffer, *observer);
                 }
             } else {
                 if setup.doubtful != 0 {
                     large.extend(setup.lanes(setup.doubtful));
                 }
-                small::draw::<_, O, F>(simd, &setup, fragments, buffer, *observer);
+                let picture = drawing.picture;
+                small::draw::<_, O, F>(simd, &setup, picture, fragments, buffer, *observer);
             }
         });
         lanes.advance();

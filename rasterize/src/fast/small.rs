@@ -1,7 +1,7 @@
 //! Triangles over few samples: sixteen triangles at a time, each testing one of its samples.
 
 use super::setup::Setup;
-use super::tile::TileBuffer;
+use super::tile::{Picture, TileBuffer};
 use bothways_common::fault::Fault;
 use bothways_common::observe::Observer;
 use bothways_common::simd::{
@@ -19,6 +19,7 @@ pub(super) const MOST_SAMPLES: u32 = 16;
 pub(super) fn draw<S: Simd, O: Observer, F: Fault>(
     simd: S,
     setup: &Setup,
+    picture: &Picture,
     fragments: &mut Fragments,
     buffer: &mut TileBuffer,
     observer: &mut O,
@@ -54,7 +55,7 @@ pub(super) fn draw<S: Simd, O: Observer, F: Fault>(
         fragments.add(index, keys, ids, inside);
         let open = (perhaps & !inside).to_bitmask();
         if open != 0 {
-            leave_open(setup, buffer, open, &index.to_array(), &keys.to_array());
+            leave_open::<O, F>(setup, picture, buffer, open, &index.to_array(), &keys.to_array());
         }
         // On to the next sample of each box, row by row.
         column += f32x16::splat(simd, 1.0);
@@ -64,13 +65,14 @@ pub(super) fn draw<S: Simd, O: Observer, F: Fault>(
         index += wraps.select(to_next_row, one);
         remaining -= one;
     }
-    fragments.test_depth::<O, F>(buffer, observer);
+    fragments.test_depth::<O, F>(picture, buffer, observer);
 }
 
 /// Leaves to the judge whether some lanes' samples are covered.
 #[cold]
-fn leave_open(
+fn leave_open<O: Observer, F: Fault>(
     setup: &Setup,
+    picture: &Picture,
     buffer: &mut TileBuffer,
     open: u64,
     index: &[i32; 16],
@@ -78,7 +80,7 @@ fn leave_open(
 ) {
     for lane in (0..16).filter(|lane| open >> lane & 1 == 1) {
         let at = index[lane].cast_unsigned() as usize;
-        buffer.leave_open(at, setup.ids[lane], keys[lane], false);
+        buffer.leave_open::<O, F>(picture, at, setup.ids[lane], keys[lane], false);
     }
 }
 
@@ -124,11 +126,17 @@ impl Fragments {
 
     /// Tests the depth of all, and forgets them.
     #[inline(always)]
-    fn test_depth<O: Observer, F: Fault>(&mut self, buffer: &mut TileBuffer, observer: &mut O) {
+    fn test_depth<O: Observer, F: Fault>(
+        &mut self,
+        picture: &Picture,
+        buffer: &mut TileBuffer,
+        observer: &mut O,
+    ) {
         let count = std::mem::take(&mut self.count).min(MOST_FRAGMENTS);
         let fragments = self.index[..count].iter().zip(&self.keys[..count]).zip(&self.ids[..count]);
         for ((index, key), id) in fragments {
-            buffer.fragment::<O, F>(index.cast_unsigned() as usize, *id, *key, observer);
+            let fragment = (index.cast_unsigned() as usize, *id, *key);
+            buffer.fragment::<O, F>(picture, fragment, observer);
         }
     }
 }

@@ -35,6 +35,9 @@ pub(super) struct TileBuffer {
     /// The last challenger and holder that were found to be tied everywhere: they mostly meet at several
     /// samples, one after the other.
     tied: Option<[u32; 2]>,
+    /// The last two ids that were compared (at first, no primitives'), and whether they are the same
+    /// triangle twice.
+    compared: ([u32; 2], bool),
 }
 
 /// A fragment, or a sample that may be one, that waits for the judge.
@@ -45,6 +48,19 @@ struct Open {
     key: f32,
     /// Whether only its depth is open.
     covered: bool,
+}
+
+/// A primitive whose fragments come to a depth test; it is looked up when it is needed.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Challenger {
+    pub(super) id: u32,
+    pub(super) primitive: Option<Primitive>,
+}
+
+impl Challenger {
+    fn primitive(&mut self, picture: &Picture) -> Primitive {
+        *self.primitive.get_or_insert_with(|| picture.view.primitive(self.id))
+    }
 }
 
 /// Samples behind the end of a row and rows behind the last.
@@ -71,6 +87,7 @@ impl TileBuffer {
             keys: vec![NOTHING; samples],
             open: Vec::new(),
             tied: None,
+            compared: ([NO_PRIMITIVE; 2], false),
         }
     }
 
@@ -83,6 +100,7 @@ impl TileBuffer {
     pub(super) fn begin(&mut self, view: &View, region: &Region) {
         self.memory = Memory::new(view.judge());
         self.tied = None;
+        self.compared = ([NO_PRIMITIVE; 2], false);
         self.region = region.clone();
         self.keys[..self.stride * region.rows.len()].fill(NOTHING);
     }
@@ -132,25 +150,51 @@ impl TileBuffer {
     }
 
     /// Leaves to the judge whether a fragment is nearest, or whether it is one.
-    #[cold]
-    pub(super) fn leave_open(&mut self, index: usize, id: u32, key: f32, covered: bool) {
+    #[inline]
+    pub(super) fn leave_open<O: Observer, F: Fault>(
+        &mut self,
+        picture: &Picture,
+        index: usize,
+        id: u32,
+        key: f32,
+        covered: bool,
+    ) {
+        // Who watches is told of every decision, and the fault decides otherwise.
+        let tells = O::WATCHES || F::is(Planted::TiesToLast);
+        if !tells && covered && self.loses_tie(picture, index, id) {
+            return;
+        }
         let index = u32::try_from(index).expect("a tile is small");
         self.open.push(Open { index, id, key, covered });
+    }
+
+    /// Whether a fragment is of the same triangle again as the one that its sample shows, and the later
+    /// of the two.
+    #[inline]
+    fn loses_tie(&mut self, picture: &Picture, index: usize, id: u32) -> bool {
+        let holder = self.ids[index];
+        if self.keys[index] == NOTHING || id < holder {
+            return false;
+        }
+        let pair = [id, holder];
+        if self.compared.0 != pair {
+            self.compared = (pair, picture.view.scene.are_same_triangle(id, holder));
+        }
+        self.compared.1
     }
 
     /// The depth test: keeps the nearer of a fragment and what its sample shows so far.
     #[inline(always)]
     pub(super) fn fragment<O: Observer, F: Fault>(
         &mut self,
-        index: usize,
-        id: u32,
-        key: f32,
+        picture: &Picture,
+        (index, id, key): (usize, u32, f32),
         observer: &mut O,
     ) {
         let held = self.keys[index];
         let rank = rank::<F>(key, held);
         if rank == Rank::Unknown {
-            self.leave_open(index, id, key, true);
+            self.leave_open::<O, F>(picture, index, id, key, true);
             return;
         }
         if O::WATCHES {
@@ -194,17 +238,19 @@ impl TileBuffer {
     /// Asks the judge what was left open.
     pub(super) fn settle<O: Observer, F: Fault>(&mut self, picture: &Picture, observer: &mut O) {
         let open = std::mem::take(&mut self.open);
-        let mut current: Option<(u32, Primitive)> = None;
+        let mut current: Option<Challenger> = None;
         for Open { index, id, key, covered } in &open {
-            let primitive = match &current {
-                Some((of, primitive)) if of == id => *primitive,
-                _ => current.insert((*id, picture.view.primitive(*id))).1,
+            let challenger = match &mut current {
+                Some(challenger) if challenger.id == *id => challenger,
+                _ => current.insert(Challenger { id: *id, primitive: None }),
             };
             let index = *index as usize;
-            let covered = *covered
-                || judge_covers::<O, F>(picture, self.sample(index), *id, &primitive, observer);
+            let covered = *covered || {
+                let (sample, primitive) = (self.sample(index), challenger.primitive(picture));
+                judge_covers::<O, F>(picture, sample, *id, &primitive, observer)
+            };
             if covered {
-                self.settle_depth::<O, F>(picture, index, (*id, &primitive), *key, observer);
+                self.settle_depth::<O, F>(picture, index, challenger, *key, observer);
             }
         }
         self.open = open;
@@ -216,7 +262,7 @@ impl TileBuffer {
         &mut self,
         picture: &Picture,
         index: usize,
-        (id, primitive): (u32, &Primitive),
+        challenger: &mut Challenger,
         key: f32,
         observer: &mut O,
     ) {
@@ -225,14 +271,14 @@ impl TileBuffer {
             Rank::Nearer => true,
             Rank::Farther => false,
             Rank::Unknown if held == NOTHING => true,
-            Rank::Unknown => self.judge_nearer::<O, F>(picture, index, (id, primitive), observer),
+            Rank::Unknown => self.judge_nearer::<O, F>(picture, index, challenger, observer),
         };
         if O::WATCHES {
-            self.tell_depth_test(index, id, nearer, observer);
+            self.tell_depth_test(index, challenger.id, nearer, observer);
         }
         if nearer {
             self.keys[index] = key;
-            self.ids[index] = id;
+            self.ids[index] = challenger.id;
         }
     }
 
@@ -241,23 +287,30 @@ impl TileBuffer {
         &mut self,
         picture: &Picture,
         index: usize,
-        challenger: (u32, &Primitive),
+        challenger: &mut Challenger,
         observer: &mut O,
     ) -> bool {
-        let holder = self.ids[index];
+        let (id, holder) = (challenger.id, self.ids[index]);
         if O::WATCHES {
             observer.judged(self.sample(index), Question::Nearest);
         }
-        if self.tied == Some([challenger.0, holder]) && !F::is(Planted::TiesToLast) {
-            return challenger.0 < holder;
+        let before = (id < holder) != F::is(Planted::TiesToLast);
+        if self.tied == Some([id, holder]) {
+            return before;
         }
-        let held = picture.view.primitive(holder);
-        if self.memory.are_tied(challenger, (holder, &held)) {
-            self.tied = Some([challenger.0, holder]);
-            return (challenger.0 < holder) != F::is(Planted::TiesToLast);
+        // Duplicates are the most frequent ties.
+        if picture.view.scene.are_same_triangle(id, holder) {
+            self.tied = Some([id, holder]);
+            return before;
+        }
+        let (primitive, held) = (challenger.primitive(picture), picture.view.primitive(holder));
+        if self.memory.are_tied((id, &primitive), (holder, &held)) {
+            self.tied = Some([id, holder]);
+            return before;
         }
         let Sample { row, column } = self.sample(index);
-        self.memory.nearer(challenger, (holder, &held), &picture.screen.grid.ray(row, column))
+        let ray = picture.screen.grid.ray(row, column);
+        self.memory.nearer((id, &primitive), (holder, &held), &ray)
     }
 
     /// Whether a flat primitive covers no sample of this camera at all; see [`Memory::is_edge_on`].
