@@ -62,13 +62,14 @@ fn draw_blocks<const ACROSS: usize, S: Simd, O: Observer, F: Fault>(
     let end_column = f32x16::splat(simd, own(columns.end, first_column));
     let end_row = f32x16::splat(simd, own(rows.end, first_row));
 
-    for row in rows.step_by(16 / ACROSS) {
-        let own_row = lane_row + own(row, first_row);
-        let values_on_row = brush.on_row(own_row);
-        for column in columns.clone().step_by(ACROSS) {
-            let own_column = lane_column + own(column, first_column);
-            let in_box = own_column.simd_lt(end_column) & own_row.simd_lt(end_row);
-            let tested = brush.test(&values_on_row, own_column, in_box);
+    // Most triangles have one column of blocks: what depends on columns is computed once.
+    for column in columns.step_by(ACROSS) {
+        let own_column = lane_column + own(column, first_column);
+        let (along_row, in_columns) = (brush.along_row(own_column), own_column.simd_lt(end_column));
+        for row in rows.clone().step_by(16 / ACROSS) {
+            let own_row = lane_row + own(row, first_row);
+            let in_box = in_columns & own_row.simd_lt(end_row);
+            let tested = brush.test(own_row, &along_row, in_box);
             let index = buffer.index(Sample { row, column });
             if O::WATCHES {
                 tell::<S, O, F>(setup, lane, buffer, observer, index, ACROSS, in_box, &tested);
@@ -132,17 +133,21 @@ impl<S: Simd> Brush<S> {
         }
     }
 
+    /// What columns add to the edge functions.
     #[inline(always)]
-    fn on_row(&self, row: f32x16<S>) -> [f32x16<S>; 3] {
+    fn along_row(&self, column: f32x16<S>) -> [f32x16<S>; 3] {
         let [a, b, c] = &self.edges;
-        [a[0] + a[2] * row, b[0] + b[2] * row, c[0] + c[2] * row]
+        [a[1] * column, b[1] * column, c[1] * column]
     }
 
     #[inline(always)]
-    fn test(&self, on_row: &[f32x16<S>; 3], column: f32x16<S>, in_box: mask32x16<S>) -> Tested<S> {
+    fn test(&self, row: f32x16<S>, along_row: &[f32x16<S>; 3], in_box: mask32x16<S>) -> Tested<S> {
         let [a, b, c] = &self.edges;
-        let values =
-            [on_row[0] + a[1] * column, on_row[1] + b[1] * column, on_row[2] + c[1] * column];
+        let values = [
+            (a[0] + a[2] * row) + along_row[0],
+            (b[0] + b[2] * row) + along_row[1],
+            (c[0] + c[2] * row) + along_row[2],
+        ];
         let least = values[0].min(values[1]).min(values[2]);
         let [key, key_b, key_c] = self.keys;
         Tested {
