@@ -41,7 +41,6 @@ pub fn best_level() -> Level {
 /// Every level that this machine has, the best one first: for tests, which compare them.
 pub fn levels() -> Vec<Level> {
     let best = Level::new();
-    let mut levels = vec![best];
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
     if best.as_sse2().is_some() {
         let avx2 = best.as_avx2().map(Simd::level);
@@ -49,9 +48,10 @@ pub fn levels() -> Vec<Level> {
         let sse2 = best.as_sse2().map(Simd::level);
         let lesser = [avx2, sse4_2, sse2].into_iter().flatten();
         let name = |level: &Level| format!("{level:?}");
-        levels.extend(lesser.filter(|level| name(level) != name(&best)));
+        let lesser = lesser.filter(|level| name(level) != name(&best));
+        return [best].into_iter().chain(lesser).collect();
     }
-    levels
+    vec![best]
 }
 
 /// Writes sixteen numbers that are not needed again soon: past the caches, where the machine can. Whoever
