@@ -1,6 +1,7 @@
 //! What there is to see: objects in an order, what they are made of, and light.
 
 use crate::mesh::Mesh;
+use crate::predicate::are_same_corners;
 use crate::texture::Checker;
 use glam::Vec3;
 
@@ -251,11 +252,10 @@ impl Scene {
     ///
     /// If there is no primitive of one of the ids.
     pub fn are_same_triangle(&self, first: u32, second: u32) -> bool {
-        let (Some([a, b, c]), Some(other)) = (self.triangle(first), self.triangle(second)) else {
-            return false;
-        };
-        [a, b, c] == other
-            || [[b, c, a], [c, a, b], [a, c, b], [c, b, a], [b, a, c]].contains(&other)
+        match (self.triangle(first), self.triangle(second)) {
+            (Some(first), Some(second)) => are_same_corners(&first, &second),
+            _ => false,
+        }
     }
 }
 

@@ -16,7 +16,7 @@ use cover::Nudge;
 use glam::DVec3;
 
 pub use cover::EdgeSigns;
-pub use nearest::Comparison;
+pub use nearest::{Comparison, are_same_corners};
 pub use pair::Memory;
 pub use sign::Sign;
 

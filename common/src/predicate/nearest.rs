@@ -94,11 +94,17 @@ pub(super) fn ordering(sign: Sign) -> Ordering {
 pub(super) fn are_identical(first: &Primitive, second: &Primitive) -> bool {
     match (first, second) {
         (Primitive::Triangle(first), Primitive::Triangle(second)) => {
-            let [a, b, c] = *first;
-            [[a, b, c], [b, c, a], [c, a, b], [a, c, b], [c, b, a], [b, a, c]].contains(second)
+            are_same_corners(first, second)
         }
         _ => first == second,
     }
+}
+
+/// Whether two triangles have the same corners, in any order: whatever ray meets one meets the other at
+/// the same place.
+pub fn are_same_corners<P: Copy + PartialEq>(first: &[P; 3], second: &[P; 3]) -> bool {
+    let [a, b, c] = *first;
+    first == second || [[b, c, a], [c, a, b], [a, c, b], [c, b, a], [b, a, c]].contains(second)
 }
 
 /// Where a ray crosses a flat primitive: at `t = p/q`.

@@ -1,5 +1,6 @@
 //! Triangles over many samples: one triangle at a time, sixteen samples at once.
 
+use super::lanes::lanes_of;
 use super::setup::Setup;
 use super::tile::{Picture, TileBuffer, nearer_by};
 use bothways_common::fault::Fault;
@@ -227,12 +228,10 @@ fn leave_open<S: Simd, O: Observer, F: Fault>(
     picture: &Picture,
     buffer: &mut TileBuffer,
     (index, across): (usize, usize),
-    mut doubt: u64,
+    doubt: u64,
 ) {
     let (inside, keys) = (tested.inside.to_bitmask(), tested.keys.to_array());
-    while doubt != 0 {
-        let lane = doubt.trailing_zeros() as usize;
-        doubt &= doubt - 1;
+    for lane in lanes_of(doubt) {
         let at = index + lane / across * buffer.stride() + lane % across;
         let covered = inside >> lane & 1 == 1;
         buffer.leave_open::<O, F>(picture, at, brush.id, keys[lane & 15], covered);
@@ -253,7 +252,7 @@ fn tell<S: Simd, O: Observer, F: Fault>(
 ) {
     let (values, error) = (tested.values.map(SimdBase::to_array), setup.error[of]);
     let (inside, keys) = (tested.inside.to_bitmask(), tested.keys.to_array());
-    for lane in (0..16).filter(|lane| in_box.to_bitmask() >> lane & 1 == 1) {
+    for lane in lanes_of(in_box.to_bitmask()) {
         let at = index + lane / across * buffer.stride() + lane % across;
         let edges = values.map(|values| values[lane]);
         setup.tell_test(of, buffer.sample(at), edges, error, observer);

@@ -102,7 +102,7 @@ impl Lanes {
 
     /// The ids of some lanes.
     pub(super) fn ids_of(&self, lanes: u64) -> impl Iterator<Item = u32> {
-        (0..16).filter(move |lane| lanes >> lane & 1 == 1).map(|lane: usize| self.ids[lane])
+        lanes_of(lanes).map(|lane| self.ids[lane])
     }
 
     /// The fixed-point columns or rows of the three corners.
@@ -130,6 +130,11 @@ impl Lanes {
         let count = i32x16::splat(simd, self.count() as i32);
         i32x16::load_array(simd, LANES).simd_lt(count)
     }
+}
+
+/// The numbers of the lanes that a mask has.
+pub(super) fn lanes_of(mask: u64) -> impl Iterator<Item = usize> {
+    (0..16).filter(move |lane| mask >> lane & 1 == 1)
 }
 
 /// The numbers of the lanes.

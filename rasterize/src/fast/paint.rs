@@ -45,7 +45,7 @@ impl Drawing<'_> {
         };
         painter.draw_clusters::<F>(tile);
         for bins in self.bins {
-            for class in CLASSES {
+            for class in IN_LANES {
                 painter.draw_list::<F>(class, bins.list(tile, class));
             }
             painter.large.extend_from_slice(bins.list(tile, Class::Large));
@@ -55,7 +55,7 @@ impl Drawing<'_> {
 }
 
 /// The classes whose triangles are set up together.
-const CLASSES: [Class; 3] = [Class::Tiny, Class::Small, Class::Block];
+const IN_LANES: [Class; 3] = [Class::Tiny, Class::Small, Class::Block];
 
 /// Draws into one tile.
 struct Painter<'a, 'b, O> {
@@ -63,7 +63,7 @@ struct Painter<'a, 'b, O> {
     find: Finder<'a>,
     /// Triangles of a cluster, as they come.
     gathered: Lanes,
-    /// Triangles of each of [`CLASSES`] that wait until there are sixteen.
+    /// Triangles of each of [`IN_LANES`] that wait until there are sixteen.
     waiting: [Lanes; 3],
     fragments: Fragments,
     /// Primitives of the current batch that are drawn at its end.
@@ -88,7 +88,7 @@ impl<O: Observer> Painter<'_, '_, O> {
                     self.sort_cluster::<F>(cluster);
                 }
             }
-            for class in CLASSES {
+            for class in IN_LANES {
                 self.draw_waiting::<F>(class);
             }
         }
@@ -121,7 +121,7 @@ impl<O: Observer> Painter<'_, '_, O> {
                 });
                 self.sort::<_, F>(simd);
             });
-            for class in CLASSES {
+            for class in IN_LANES {
                 if self.waiting[class as usize].are_full() {
                     self.draw_waiting::<F>(class);
                 }

@@ -2,7 +2,7 @@
 //! `f32`, with the error of their rounding.
 
 use super::depth::KEY_ERROR;
-use super::lanes::Lanes;
+use super::lanes::{Lanes, lanes_of};
 use super::vertices::{ALIGNED, Raster};
 use bothways_common::Sign;
 use bothways_common::fault::{Fault, Planted};
@@ -184,7 +184,7 @@ impl Setup {
 impl Setup {
     /// The ids of some lanes.
     pub(super) fn lanes(&self, mask: u16) -> impl Iterator<Item = u32> {
-        (0..16).filter(move |lane| mask >> lane & 1 == 1).map(|lane: usize| self.ids[lane])
+        lanes_of(mask.into()).map(|lane| self.ids[lane])
     }
 
     /// Tells of one test: the edge functions' signs as far as they are certain, in the orientation of

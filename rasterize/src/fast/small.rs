@@ -1,5 +1,6 @@
 //! Triangles over few samples: sixteen triangles at a time, each testing one of its samples.
 
+use super::lanes::lanes_of;
 use super::setup::Setup;
 use super::tile::{Picture, TileBuffer};
 use bothways_common::fault::Fault;
@@ -78,7 +79,7 @@ fn leave_open<O: Observer, F: Fault>(
     index: &[i32; 16],
     keys: &[f32; 16],
 ) {
-    for lane in (0..16).filter(|lane| open >> lane & 1 == 1) {
+    for lane in lanes_of(open) {
         let at = index[lane].cast_unsigned() as usize;
         buffer.leave_open::<O, F>(picture, at, setup.ids[lane], keys[lane], false);
     }
@@ -192,7 +193,7 @@ fn tell<S: Simd, O: Observer>(
     error: f32x16<S>,
 ) {
     let (values, error) = (values.map(SimdBase::to_array), error.to_array());
-    for lane in (0..16).filter(|lane| active.to_bitmask() >> lane & 1 == 1) {
+    for lane in lanes_of(active.to_bitmask()) {
         let at = index[lane].cast_unsigned() as usize;
         let edges = values.map(|values| values[lane]);
         setup.tell_test(lane, buffer.sample(at), edges, error[lane], observer);

@@ -32,8 +32,7 @@ pub(super) struct TileBuffer {
     keys: Vec<f32>,
     open: Vec<Open>,
     memory: Memory,
-    /// The last challenger and holder that were found to be tied everywhere: they mostly meet at several
-    /// samples, one after the other.
+    /// The last challenger and holder that were found to be tied everywhere without being the same.
     tied: Option<[u32; 2]>,
     /// The last two ids that were compared (at first, no primitives'), and whether they are the same
     /// triangle twice.
@@ -173,12 +172,15 @@ impl TileBuffer {
     #[inline]
     fn loses_tie(&mut self, picture: &Picture, index: usize, id: u32) -> bool {
         let holder = self.ids[index];
-        if self.keys[index] == NOTHING || id < holder {
-            return false;
-        }
-        let pair = [id, holder];
+        self.keys[index] != NOTHING && id > holder && self.are_same(picture, [id, holder])
+    }
+
+    /// Whether two primitives are the same triangle: they mostly meet at several samples, one after the
+    /// other.
+    #[inline]
+    fn are_same(&mut self, picture: &Picture, pair: [u32; 2]) -> bool {
         if self.compared.0 != pair {
-            self.compared = (pair, picture.view.scene.are_same_triangle(id, holder));
+            self.compared = (pair, picture.view.scene.are_same_triangle(pair[0], pair[1]));
         }
         self.compared.1
     }
@@ -295,12 +297,8 @@ impl TileBuffer {
             observer.judged(self.sample(index), Question::Nearest);
         }
         let before = (id < holder) != F::is(Planted::TiesToLast);
-        if self.tied == Some([id, holder]) {
-            return before;
-        }
         // Duplicates are the most frequent ties.
-        if picture.view.scene.are_same_triangle(id, holder) {
-            self.tied = Some([id, holder]);
+        if self.are_same(picture, [id, holder]) || self.tied == Some([id, holder]) {
             return before;
         }
         let (primitive, held) = (challenger.primitive(picture), picture.view.primitive(holder));

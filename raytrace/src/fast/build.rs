@@ -6,6 +6,7 @@
 //! Packets", same venue, 2008.
 
 use super::tree::{Bounds, Child, Kind, Leaf, Node, WIDTH};
+use bothways_common::predicate::are_same_corners;
 use bothways_common::simd::{Level, best_level};
 use bothways_common::{Mesh, Plane, Scene, Shape, Sphere, Triangle};
 use glam::{Vec3, Vec4};
@@ -269,20 +270,8 @@ fn fill(items: &[Item], corners: &mut Corners) -> Leaf {
     leaf
 }
 
-/// Whether two triangles have the same corners, in any order: whichever ray meets one meets the other
-/// at the same place, and the first in the scene is seen.
-fn are_same(first: [Vec3; 3], second: [Vec3; 3]) -> bool {
-    let key = |mut corners: [Vec3; 3]| {
-        // Adding 0 makes −0 and 0 one.
-        let bits = |corner: &Vec3| (*corner + 0.0).to_array().map(f32::to_bits);
-        corners.sort_by_key(bits);
-        corners
-    };
-    key(first) == key(second)
-}
-
-/// Orders the triangles of a leaf so that those which are the same as one with a smaller id come last,
-/// and tells how many others there are.
+/// Orders the triangles of a leaf so that those which are the same as one with a smaller id, and so never
+/// seen, come last; tells how many others there are.
 fn put_twins_last(items: &mut [Item], corners: &mut Corners) -> usize {
     let box_of = |item: &Item| (item.low.truncate(), item.high.truncate());
     items.sort_unstable_by_key(Item::id);
@@ -290,7 +279,7 @@ fn put_twins_last(items: &mut [Item], corners: &mut Corners) -> usize {
     for k in 0..items.len() {
         let is_twin = |other: &Item| box_of(other) == box_of(&items[k]);
         let twin = items[..different].iter().any(|other| {
-            is_twin(other) && are_same(corners.of(other.id()), corners.of(items[k].id()))
+            is_twin(other) && are_same_corners(&corners.of(other.id()), &corners.of(items[k].id()))
         });
         if !twin {
             items[different..=k].rotate_right(1);
