@@ -9,6 +9,7 @@ use crate::common::{Frame, Observer, Options, Scene, View, Work};
 use crate::progress::{Listener, Steps};
 use crate::{rasterize, raytrace};
 use serde::Serialize;
+use std::convert::Infallible;
 use std::sync::atomic::AtomicU64;
 use std::time::{Duration, Instant};
 
@@ -283,24 +284,40 @@ fn measure<R: Renderer>(
     watched::<R, _>(&prepared, view, options, &mut frame, &mut work, steps);
     steps.frames_done(1);
 
-    if repeat.is_some() {
-        watched::<R, _>(&prepared, view, options, &mut frame, &mut (), steps);
-        R::shade(view, &mut frame);
-        steps.frames_done(2);
-    }
-    let before = 1 + u64::from(repeat.is_some());
-    let (mut visibility, mut shading) = (Vec::new(), Vec::new());
-    for number in 1..=u64::from(repeat.unwrap_or(1)) {
-        let ((), time) = timed(|| {
+    let draw = || {
+        let ((), visibility) = timed(|| {
             watched::<R, _>(&prepared, view, options, &mut frame, &mut (), steps);
         });
-        visibility.push(time);
-        let ((), time) = timed(|| R::shade(view, &mut frame));
-        shading.push(time);
-        steps.frames_done(before + number);
+        let ((), shading) = timed(|| R::shade(view, &mut frame));
+        Ok([visibility, shading])
+    };
+    let Ok([visibility, shading]) = repeated::<Infallible>(repeat, steps, draw);
+    (frame, work, Times { prepare, visibility, shading })
+}
+
+/// Draws the frames that follow the one in which the work is counted, each of which tells how long its
+/// visibility and its shading took.
+fn repeated<E>(
+    repeat: Option<u32>,
+    steps: &Steps,
+    mut draw: impl FnMut() -> Result<[f64; 2], E>,
+) -> Result<[Spread; 2], E> {
+    let mut drawn = 1;
+    if repeat.is_some() {
+        // To warm up.
+        draw()?;
+        drawn += 1;
+        steps.frames_done(drawn);
     }
-    let times = Times { prepare, visibility: Spread::of(visibility), shading: Spread::of(shading) };
-    (frame, work, times)
+    let (mut visibility, mut shading) = (Vec::new(), Vec::new());
+    for _ in 0..repeat.unwrap_or(1) {
+        let times = draw()?;
+        visibility.push(times[0]);
+        shading.push(times[1]);
+        drawn += 1;
+        steps.frames_done(drawn);
+    }
+    Ok([Spread::of(visibility), Spread::of(shading)])
 }
 
 /// Finds what is visible, and tells of the steps within the frame if somebody wants to know.

@@ -7,6 +7,7 @@ mod numbers;
 mod objects;
 
 use bothways_common::glam::{Quat, Vec3};
+use bothways_common::simd::{Level, levels};
 use bothways_common::{
     Camera, CameraDescription, Frame, Options, Orientation, Projection, Scene, View,
 };
@@ -107,12 +108,35 @@ fn lens(bytes: &mut Unstructured, numbers: Numbers, image: [u32; 2]) -> Result<(
     })
 }
 
-/// Ids equal, distances within the contract's 10⁻⁵.
+/// Draws the case that some bytes describe, as a textbook does and at one of the machine's SIMD levels;
+/// `prepare` gives what draws at such a level.
 ///
 /// # Panics
 ///
-/// If they are not: that is the finding.
-pub fn assert_same(case: &Case, expected: &Frame, frame: &Frame) {
+/// If the pictures differ: that is the finding.
+pub fn check<D: Fn(&View, &mut Frame)>(
+    bytes: &[u8],
+    textbook: impl FnOnce(&View, &Options, &mut Frame, &mut ()),
+    prepare: impl FnOnce(&Case, Level) -> D,
+) {
+    let Some(case) = Case::decode(bytes) else {
+        return;
+    };
+    let mut expected = Frame::new(&case.camera, &case.options);
+    textbook(&case.view(), &case.options, &mut expected, &mut ());
+
+    let levels = levels();
+    let draw = prepare(&case, levels[case.level % levels.len()]);
+    let mut frame = Frame::new(&case.camera, &case.options);
+    if let Some(before) = &case.before {
+        draw(&View::new(&case.scene, before), &mut frame);
+    }
+    draw(&case.view(), &mut frame);
+    assert_same(&case, &expected, &frame);
+}
+
+/// Ids equal, distances within the contract's 10⁻⁵.
+fn assert_same(case: &Case, expected: &Frame, frame: &Frame) {
     let width = expected.width();
     for index in 0..expected.ids().len() {
         let place = (index / width, index % width);

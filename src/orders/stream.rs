@@ -1,6 +1,6 @@
 //! Object order of a mesh that is streamed, measured as the others are.
 
-use super::{Method, Order, RenderOptions, Rendered, Spread, Times, timed};
+use super::{Method, Order, RenderOptions, Rendered, Spread, Times, repeated, timed};
 use crate::common::stream::{MeshStream, StreamError};
 use crate::common::{Camera, Observer, Work};
 use crate::progress::Steps;
@@ -42,26 +42,14 @@ pub fn render_stream(
         canvas.shade(mesh.positions(), camera);
         return Ok(rendered(canvas, work, None));
     };
-    if options.repeat.is_some() {
-        draw(mesh, &mut canvas, camera, &mut (), &steps)?;
-        canvas.shade(mesh.positions(), camera);
-        steps.frames_done(2);
-    }
-    let before = 1 + u64::from(options.repeat.is_some());
-    let (mut visibility, mut shading) = (Vec::new(), Vec::new());
-    for number in 1..=u64::from(options.repeat.unwrap_or(1)) {
-        let (drawn, time) = timed(|| draw(mesh, &mut canvas, camera, &mut (), &steps));
+    let pass = || {
+        let (drawn, visibility) = timed(|| draw(mesh, &mut canvas, camera, &mut (), &steps));
         drawn?;
-        visibility.push(time);
-        let ((), time) = timed(|| canvas.shade(mesh.positions(), camera));
-        shading.push(time);
-        steps.frames_done(before + number);
-    }
-    let times = Times {
-        prepare: Spread::of(vec![prepare]),
-        visibility: Spread::of(visibility),
-        shading: Spread::of(shading),
+        let ((), shading) = timed(|| canvas.shade(mesh.positions(), camera));
+        Ok::<_, StreamError>([visibility, shading])
     };
+    let [visibility, shading] = repeated(options.repeat, &steps, pass)?;
+    let times = Times { prepare: Spread::of(vec![prepare]), visibility, shading };
     Ok(rendered(canvas, work, Some(times)))
 }
 
