@@ -284,7 +284,7 @@ fn bad_input_is_named_and_leaves_earlier_outputs_untouched() {
     fs::write(home.path().join("typo.toml"), "[camera]\neyes = [0, 0, 0]\n").unwrap();
     fs::write(home.path().join("file"), "no folder").unwrap();
 
-    // What is said of all else is in `bad_input.rs`.
+    // What is said of all else is in `bad_input`.
     check_refused(&home, &["typo.toml"], "eyes");
     check_refused(&home, &["canonical", "--samples", "4000000000"], "at most 65536 samples");
     check_refused(&home, &["canonical", "--distance", "0"], "the distance is 0");

@@ -1,0 +1,183 @@
+//! Every other command.
+
+/// What is typed, and how the message begins.
+pub(super) const REFUSED: &[(&str, &str)] = &[
+    (
+        "camera canonical --json=yes",
+        "unexpected value 'yes' for '--json' found; no more were expected",
+    ),
+    // One pixel.
+    ("pixel", "the following required arguments were not provided: <SCENE> <ROW> <COLUMN>"),
+    ("pixel canonical 1", "the following required arguments were not provided: <COLUMN>"),
+    (
+        "pixel canonical 480 0",
+        "there is no pixel (480, 0) in an image of 480x480: ROW goes from 0 to 479, COLUMN from \
+         0 to 479",
+    ),
+    (
+        "pixel canonical 0 64 --size 64x9",
+        "there is no pixel (0, 64) in an image of 64x9: ROW goes from 0 to 8, COLUMN from 0 to 63",
+    ),
+    (
+        "pixel canonical -1 0",
+        "invalid value '-1' for '<ROW>': give a whole number; pixels are counted from 0",
+    ),
+    (
+        "pixel canonical 0 1.5",
+        "invalid value '1.5' for '<COLUMN>': give a whole number; pixels are counted from 0",
+    ),
+    (
+        "pixel canonical 1 1 --samples 0",
+        "invalid value '0' for '--samples <N>': give a whole number from 1 to 4294967295",
+    ),
+    (
+        "pixel canonical 1 1 --samples 1000",
+        "--samples 1000: the image is 480x480 with 1000x1000 samples a pixel; a side may have at \
+         most 65536 samples and the image at most 1073741824",
+    ),
+    (
+        "pixel canonical 1 1 --json=yes",
+        "unexpected value 'yes' for '--json' found; no more were expected",
+    ),
+    // One triangle.
+    ("cover", "the following required arguments were not provided: --size <WxH> <x,y x,y x,y>"),
+    ("cover '1,1 9,2 3,7'", "the following required arguments were not provided: --size <WxH>"),
+    ("cover '1,1 9,2' --size 10x8", "'1,1 9,2' has 2 corners; a triangle has three: 'x,y x,y x,y'"),
+    (
+        "cover '1,1 9,2 3,7 4,4' --size 10x8",
+        "'1,1 9,2 3,7 4,4' has 4 corners; a triangle has three: 'x,y x,y x,y'",
+    ),
+    (
+        "cover '1,1 9,2 3,x' --size 10x8",
+        "corner 3 is '3,x': 'x' is not a number; write 'x,y x,y x,y'",
+    ),
+    (
+        "cover '1,1 9,2 3' --size 10x8",
+        "corner 3 is '3': it has 1 number, but needs two, such as 1.6,1; write 'x,y x,y x,y'",
+    ),
+    (
+        "cover '1,1 9,2 3,1e39' --size 10x8",
+        "corner 3 is '3,1e39': 1e39 is out of range; numbers go up to 3.4e38; write 'x,y x,y x,y'",
+    ),
+    (
+        "cover '1,1 9,2 3,7' --size 10",
+        "invalid value '10' for '--size <WxH>': write it as WIDTHxHEIGHT, such as 640x480",
+    ),
+    (
+        "cover '1,1 9,2 3,7' --size 10x8 --table --json",
+        "the argument '--table' cannot be used with '--json'",
+    ),
+    (
+        "cover '1,1 9,2 3,7' --size 10x8 --table=yes",
+        "unexpected value 'yes' for '--table' found; no more were expected",
+    ),
+    (
+        "cover '1,1 9,2 3,7' --size 10x8 --json=yes",
+        "unexpected value 'yes' for '--json' found; no more were expected",
+    ),
+    (
+        "cover '1,1 9,2 3,7' --size 10x8 -o nowhere/t.png",
+        "cannot write nowhere/t.png: there is no such folder; choose another file with -o",
+    ),
+    (
+        "cover '1,1 9,2 3,7' --size 10x8 --output nowhere/t.png",
+        "cannot write nowhere/t.png: there is no such folder; choose another file with -o",
+    ),
+    // Two files.
+    ("diff", "the following required arguments were not provided: <A> <B>"),
+    ("diff a.pgm", "the following required arguments were not provided: <B>"),
+    ("diff a.pgm no-such.png", "cannot read no-such.png: there is no such file"),
+    ("diff a.pgm .", "cannot read .: it is a folder"),
+    (
+        "diff a.pgm file",
+        "file is neither a picture (PNG, PNM, BMP) nor a NumPy array (.npy); save it as one of \
+         these",
+    ),
+    ("diff a.pgm damaged.png", "damaged.png: unexpected end of file"),
+    (
+        "diff a.pgm b.pgm",
+        "A = a.pgm, B = b.pgm: A is 2 x 1 pixels and B is 1 x 2; compare files of one size (are \
+         rows and columns swapped?)",
+    ),
+    ("diff a.pgm a.pgm a.pgm", "unexpected argument 'a.pgm' found"),
+    (
+        "diff a.pgm a.pgm --background black",
+        "invalid value 'black' for '--background <COLOR>': write a # and six hexadecimal digits, \
+         such as '#101418'",
+    ),
+    (
+        "diff a.pgm a.pgm --background '#12345'",
+        "invalid value '#12345' for '--background <COLOR>': write a # and six hexadecimal \
+         digits, such as '#101418'",
+    ),
+    (
+        "diff a.pgm a.pgm --json=yes",
+        "unexpected value 'yes' for '--json' found; no more were expected",
+    ),
+    (
+        "diff a.pgm a.pgm -o file",
+        "cannot write into the folder file: a file is where a folder would be; choose another \
+         one with -o",
+    ),
+    (
+        "diff a.pgm a.pgm --output file",
+        "cannot write into the folder file: a file is where a folder would be; choose another \
+         one with -o",
+    ),
+    // Everything else.
+    ("mesh", "the following required arguments were not provided: --output <FILE.obj> <KIND>"),
+    ("mesh teapot", "the following required arguments were not provided: --output <FILE.obj>"),
+    (
+        "mesh teapott -o m.obj",
+        "invalid value 'teapott' for '<KIND>': did you mean teapot? the kinds are",
+    ),
+    ("mesh ball -o m.obj", "invalid value 'ball' for '<KIND>': the kinds are"),
+    (
+        "mesh torus --divisions 2 -o m.obj",
+        "a torus needs divisions of at least 3, 3; these are 2, 2",
+    ),
+    (
+        "mesh torus --divisions x -o m.obj",
+        "invalid value 'x' for '--divisions <N[,M]>': 'x' is not a number of divisions; give N \
+         or N,M",
+    ),
+    (
+        "mesh torus --divisions 3,3,3 -o m.obj",
+        "invalid value '3,3,3' for '--divisions <N[,M]>': it has 3 numbers; give N or N,M",
+    ),
+    (
+        "mesh torus --divisions -3 -o m.obj",
+        "invalid value '-3' for '--divisions <N[,M]>': '-3' is not a number of divisions; give N \
+         or N,M",
+    ),
+    (
+        "mesh grid --divisions 4000000000 -o m.obj",
+        "a grid with divisions 4000000000, 4000000000 would have more than 100000000 triangles; \
+         take fewer",
+    ),
+    (
+        "mesh grid -o nowhere/m.obj",
+        "cannot write nowhere/m.obj: there is no such folder; choose another file with -o",
+    ),
+    (
+        "mesh grid --output nowhere/m.obj",
+        "cannot write nowhere/m.obj: there is no such folder; choose another file with -o",
+    ),
+    ("vectors all", "unexpected argument 'all' found"),
+    (
+        "vectors -o file",
+        "cannot write into the folder file: a file is where a folder would be; choose another \
+         one with -o",
+    ),
+    (
+        "vectors --output file",
+        "cannot write into the folder file: a file is where a folder would be; choose another \
+         one with -o",
+    ),
+    ("vectors --json=yes", "unexpected value 'yes' for '--json' found; no more were expected"),
+    ("completions", "the following required arguments were not provided: <SHELL>"),
+    (
+        "completions tcsh",
+        "invalid value 'tcsh' for '<SHELL>' [possible values: bash, elvish, fish, powershell, zsh]",
+    ),
+];

@@ -1,0 +1,192 @@
+//! What is rendered, how, and where to.
+
+/// What is typed, and how the message begins.
+pub(super) const REFUSED: &[(&str, &str)] = &[
+    // The scene, wherever one is named.
+    ("no-such-scene", "there is no built-in scene \"no-such-scene\"; the built-in scenes are"),
+    (
+        "lectuer",
+        "there is no built-in scene \"lectuer\"; did you mean \"lecture\"? the built-in scenes are",
+    ),
+    (
+        "Canonical",
+        "there is no built-in scene \"Canonical\"; did you mean \"canonical\"? the built-in \
+         scenes are",
+    ),
+    ("no-such.toml", "no-such.toml: there is no such file"),
+    ("no-such.obj", "no-such.obj: there is no such file"),
+    ("no-such.ply", "no-such.ply: there is no such file"),
+    (
+        "no-such.stl",
+        "no-such.stl is neither a scene file (.toml) nor a mesh file (.obj, .ply); no others are read",
+    ),
+    (
+        "empty.obj",
+        "empty.obj: no faces (`f` statements), so nothing to draw; export the mesh as polygons",
+    ),
+    (
+        "render no-such-scene",
+        "there is no built-in scene \"no-such-scene\"; the built-in scenes are",
+    ),
+    (
+        "pixel no-such-scene 1 1",
+        "there is no built-in scene \"no-such-scene\"; the built-in scenes are",
+    ),
+    (
+        "camera no-such-scene",
+        "there is no built-in scene \"no-such-scene\"; the built-in scenes are",
+    ),
+    (
+        "scenes no-such-scene",
+        "there is no built-in scene \"no-such-scene\"; the built-in scenes are",
+    ),
+    ("canonical ties", "'ties' is a word too many: one scene is rendered at a time"),
+    (
+        "canonical pixel",
+        "'pixel' is a subcommand, so it comes first: bothways pixel, then all else",
+    ),
+    (
+        "--size 8x8 pixel",
+        "'pixel' is a subcommand, so it comes first: bothways pixel, then all else",
+    ),
+    ("help", "for help, write bothways --help"),
+    ("scenes canonical ties", "unexpected argument 'ties' found"),
+    ("camera canonical ties", "unexpected argument 'ties' found"),
+    // How to render, and where to.
+    (
+        "canonical --order both,object",
+        "invalid value 'both,object' for '--order <ORDER>' [possible values: both, object, image]",
+    ),
+    (
+        "canonical --method slow",
+        "invalid value 'slow' for '--method <METHOD>' [possible values: fast, textbook]",
+    ),
+    (
+        "canonical --samples 0",
+        "invalid value '0' for '--samples <N>': give a whole number from 1 to 4294967295",
+    ),
+    (
+        "canonical --samples -1",
+        "invalid value '-1' for '--samples <N>': give a whole number from 1 to 4294967295",
+    ),
+    (
+        "canonical --samples 1.5",
+        "invalid value '1.5' for '--samples <N>': give a whole number from 1 to 4294967295",
+    ),
+    (
+        "canonical --samples 4000000000",
+        "--samples 4000000000: the image is 480x480 with 4000000000x4000000000 samples a pixel; \
+         a side may have at most 65536 samples and the image at most 1073741824",
+    ),
+    (
+        "canonical --size 8192x8 --samples 9",
+        "--samples 9: the image is 8192x8 with 9x9 samples a pixel; a side may have at most \
+         65536 samples and the image at most 1073741824",
+    ),
+    (
+        "canonical --crop 10,20,30",
+        "invalid value '10,20,30' for '--crop <ROW,COLUMN,HEIGHT,WIDTH>': it has 3 numbers, but \
+         needs four; give ROW,COLUMN,HEIGHT,WIDTH in pixels of the image, such as 100,200,48,64",
+    ),
+    (
+        "canonical --crop 64x48",
+        "invalid value '64x48' for '--crop <ROW,COLUMN,HEIGHT,WIDTH>': '64x48' is not a whole \
+         number from 0; give ROW,COLUMN,HEIGHT,WIDTH in pixels of the image, such as 100,200,48,64",
+    ),
+    (
+        "canonical --crop -1,0,8,8",
+        "invalid value '-1,0,8,8' for '--crop <ROW,COLUMN,HEIGHT,WIDTH>': '-1' is not a whole \
+         number from 0; give ROW,COLUMN,HEIGHT,WIDTH",
+    ),
+    (
+        "canonical --crop 0,0,8,1.5",
+        "invalid value '0,0,8,1.5' for '--crop <ROW,COLUMN,HEIGHT,WIDTH>': '1.5' is not a whole \
+         number from 0",
+    ),
+    (
+        "canonical --crop ,",
+        "invalid value ',' for '--crop <ROW,COLUMN,HEIGHT,WIDTH>': '' is not a whole number from 0",
+    ),
+    (
+        "canonical --crop 0,0,8,99999999999",
+        "invalid value '0,0,8,99999999999' for '--crop <ROW,COLUMN,HEIGHT,WIDTH>': 99999999999 is \
+         out of range; an image has at most 65536 rows and columns",
+    ),
+    (
+        "canonical --size 64x48 --crop 10,20,0,8",
+        "--crop: the crop 10,20,0,8 of an image of 64x48 holds no pixel; its height and width, the \
+         last two numbers, must be at least 1",
+    ),
+    (
+        "canonical --size 64x48 --crop 40,0,9,64",
+        "--crop: the crop 40,0,9,64 ends at pixel (48, 63), outside of an image of 64x48, whose \
+         last pixel is (47, 63); give ROW,COLUMN,HEIGHT,WIDTH with ROW + HEIGHT up to 48 and COLUMN \
+         + WIDTH up to 64",
+    ),
+    (
+        "canonical --crop 0,4294967295,1,4294967295",
+        "--crop: the crop 0,4294967295,1,4294967295 ends at pixel (0, 8589934589), outside of an \
+         image of 480x480",
+    ),
+    (
+        "render canonical --crop 480,0,1,1",
+        "--crop: the crop 480,0,1,1 ends at pixel (480, 0), outside of an image of 480x480",
+    ),
+    (
+        "canonical --threads 0",
+        "invalid value '0' for '--threads <N>': give a whole number from 1 to 1024",
+    ),
+    (
+        "canonical --threads 1025",
+        "invalid value '1025' for '--threads <N>': give a whole number from 1 to 1024",
+    ),
+    (
+        "canonical --threads all",
+        "invalid value 'all' for '--threads <N>': give a whole number from 1 to 1024",
+    ),
+    (
+        "canonical --stream",
+        "--stream cannot be used with --order both: in image order every ray may need every \
+         triangle",
+    ),
+    (
+        "canonical --order object --stream",
+        "only a mesh file (.obj, .ply) can be streamed, and \"canonical\" is none",
+    ),
+    (
+        "canonical --repeat 0",
+        "invalid value '0' for '--repeat <N>': give a whole number from 1 to 4294967295",
+    ),
+    (
+        "canonical --repeat -3",
+        "invalid value '-3' for '--repeat <N>': give a whole number from 1 to 4294967295",
+    ),
+    (
+        "canonical --buffers exr",
+        "invalid value 'exr' for '--buffers <BUFFERS>' [possible values: none, npy]",
+    ),
+    ("canonical --quiet --json", "the argument '--quiet' cannot be used with '--json'"),
+    ("canonical --quiet=yes", "unexpected value 'yes' for '--quiet' found; no more were expected"),
+    ("canonical --json=yes", "unexpected value 'yes' for '--json' found; no more were expected"),
+    (
+        "canonical --no-times=yes",
+        "unexpected value 'yes' for '--no-times' found; no more were expected",
+    ),
+    ("canonical --no-such-option", "unexpected argument '--no-such-option' found"),
+    ("canonical -o", "a value is required for '--output <DIR>' but none was supplied"),
+    (
+        "canonical -o file",
+        "cannot write into the folder file: a file is where a folder would be; choose another \
+         one with -o",
+    ),
+    (
+        "canonical -o file/below/it",
+        "cannot write into the folder file/below/it: a file is where a folder would be; choose \
+         another one with -o",
+    ),
+    (
+        "canonical --output file",
+        "cannot write into the folder file: a file is where a folder would be; choose another \
+         one with -o",
+    ),
+];
