@@ -9,8 +9,8 @@ pub enum Planted {
     DroppedTile,
     /// A comparison that must admit equality does not.
     StrictComparison,
-    /// A bounding box (object order: in the picture; image order: in the world) is too small by the
-    /// last place of its numbers.
+    /// A bounding box (object order: in the picture; image order: in the world, where nothing makes up for
+    /// it) is too small by the last place of its numbers.
     ShrunkBox,
     /// The arithmetic is trusted as if it were exact.
     ZeroErrorBound,

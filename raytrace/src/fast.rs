@@ -3,14 +3,15 @@
 //! ```text
 //! once for a scene                      a hierarchy of boxes around the primitives     (build, tree)
 //! for each sample                       a tile of them at a time, their rays as one map        (rays)
-//!     for each primitive its ray may hit    boxes near to far, none beyond the hits          (walk)
+//!     for each primitive its ray may hit    boxes near to far, none beyond the hits   (walk, sieve)
 //!         if it covers the sample           edge functions, eight triangles at once     (setup, draw)
 //!             keep the nearest              keys as intervals that hold the true ones           (tile)
 //! ```
 //!
 //! Spheres and planes go ray by ray (`round`, `leaf`). Rounded arithmetic decides wherever its bound says
-//! that the sign is certain; the rest goes to the exact judge. Boxes are dropped only when all rays of the
-//! tile certainly miss them or they are certainly farther than what all rays hit.
+//! that the sign is certain; the rest goes to the exact judge. Boxes, and triangles before they are set up, are
+//! dropped only when all rays of the tile certainly miss them or they are certainly farther than what all rays
+//! hit: to find that out, `f32` is enough (`rough`).
 //!
 //! For an observer each ray walks alone as well, as a tile of one: so what is told belongs to the ray, and
 //! depends on nothing else. The frame is that of the tiles, watched or not.
@@ -20,8 +21,10 @@ mod build;
 mod draw;
 mod leaf;
 mod rays;
+mod rough;
 mod round;
 mod setup;
+mod sieve;
 mod tile;
 mod tree;
 mod walk;
@@ -32,7 +35,7 @@ use bothways_common::observe::Observer;
 use bothways_common::simd::{Level, Simd, dispatch};
 use bothways_common::{Frame, Options, Scene, View};
 use rayon::prelude::*;
-use rays::Rays;
+use rays::{LensKind, Rays};
 use std::ops::Range;
 use walk::Walker;
 
@@ -126,6 +129,7 @@ pub fn determine_visibility_with_fault<O: Observer, F: Fault>(
     let rays = Rays::new(view, options.samples, walk::reach(prepared, view));
     // A box's last place matters to a ray alone: a fault there shows in tiles of one.
     let side = if F::is(Planted::ShrunkBox) { 1 } else { prepared.side };
+    let (kind, kind_of_one) = (rays.lens_kind(side), rays.lens_kind(1));
 
     let (seen, shares): (&O, Vec<Tile>) = (observer, frame.tiles_mut(SHARE, prepared.side));
     let dropped = F::is(Planted::DroppedTile).then_some(shares.len() / 2);
@@ -144,9 +148,9 @@ pub fn determine_visibility_with_fault<O: Observer, F: Fault>(
                 } else {
                     dispatch!(prepared.level, simd => {
                         if O::WATCHES {
-                            watch::<_, O, F>(simd, walker, &share, &mut observer);
+                            watch::<_, O, F>(simd, walker, &kind_of_one, &share, &mut observer);
                         }
-                        trace::<_, F>(simd, walker, &rays, side, share);
+                        trace::<_, F>(simd, walker, &rays, &kind, share);
                     });
                 }
                 observer
@@ -161,12 +165,13 @@ pub fn determine_visibility_with_fault<O: Observer, F: Fault>(
 fn watch<S: Simd, O: Observer, F: Fault>(
     simd: S,
     walker: &mut Walker,
+    kind: &LensKind,
     share: &Tile,
     observer: &mut O,
 ) {
     for row in share.region.rows.clone() {
         for column in share.region.columns.clone() {
-            walker.walk::<S, O, F>(simd, [row, column], [1, 1], 1, observer);
+            walker.walk::<S, O, F>(simd, kind, [row, column], [1, 1], observer);
         }
     }
 }
@@ -174,13 +179,20 @@ fn watch<S: Simd, O: Observer, F: Fault>(
 /// Traces the rays of a share of the picture, tile by tile. Of a tile at the border of a crop all rays are
 /// traced, so that the crop shows the bits of the whole picture, and those in the share are stored.
 #[inline(always)]
-fn trace<S: Simd, F: Fault>(simd: S, walker: &mut Walker, rays: &Rays, side: usize, share: Tile) {
+fn trace<S: Simd, F: Fault>(
+    simd: S,
+    walker: &mut Walker,
+    rays: &Rays,
+    kind: &LensKind,
+    share: Tile,
+) {
     let Tile { region, mut ids, mut t } = share;
+    let side = kind.side;
     let tiles = |range: &Range<usize>| (range.start / side * side..range.end).step_by(side);
     for top in tiles(&region.rows) {
         for left in tiles(&region.columns) {
             let size = [rays.grid.height() - top, rays.grid.width() - left].map(|s| s.min(side));
-            walker.walk::<S, (), F>(simd, [top, left], size, side, &mut ());
+            walker.walk::<S, (), F>(simd, kind, [top, left], size, &mut ());
             walker.tile.store(simd, rays, &region, &mut ids, &mut t);
         }
     }

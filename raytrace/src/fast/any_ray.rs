@@ -95,7 +95,7 @@ pub fn first_hit(prepared: &Prepared, scene: &Scene, ray: WorldRay) -> Option<Hi
 
 #[inline(always)]
 fn alone<S: Simd>(simd: S, walker: &mut Walker, rays: &Rays) -> f32 {
-    walker.walk::<S, (), Sound>(simd, [0, 0], [1, 1], 1, &mut ());
+    walker.walk::<S, (), Sound>(simd, &rays.lens_kind(1), [0, 0], [1, 1], &mut ());
     let (mut id, mut distance) = ([0], [0.0]);
     let here = Region { rows: 0..1, columns: 0..1 };
     walker.tile.store(simd, rays, &here, &mut [&mut id], &mut [&mut distance]);

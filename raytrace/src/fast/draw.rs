@@ -44,23 +44,23 @@ fn arrays<S: Simd>(affine: &Affine<S>) -> [[f32; 8]; 3] {
     [affine.at_middle.to_array(), affine.across.to_array(), affine.down.to_array()]
 }
 
-/// Tests the triangles of a leaf at the samples of the tile.
+/// Tests some triangles of a leaf at the samples of the tile; tells whether one of them may cover many.
 #[inline(always)]
 pub(super) fn draw<S: Simd, O: Observer, F: Fault>(
     simd: S,
     rays: &Rays,
     lens: &Lens,
-    (leaf, used): (&Leaf, usize),
+    (leaf, used): (&Leaf, u64),
     tile: &mut Tile,
     observer: &mut O,
-) {
+) -> bool {
     let setup = Setup::new::<F>(simd, lens, tile.side(), leaf, used, tile.far);
     if O::WATCHES {
         tell(&setup, leaf, used, tile, observer);
     }
     let alive = setup.alive.to_bitmask();
     if alive == 0 {
-        return;
+        return false;
     }
     let doubtful = alive & setup.doubtful.to_bitmask();
     let wide = setup.columns[1] - setup.columns[0] + 1.0;
@@ -72,6 +72,7 @@ pub(super) fn draw<S: Simd, O: Observer, F: Fault>(
         draw_few::<S, O>(simd, lens, &setup, few, samples, leaf, tile, observer);
     }
     let mut many = alive & !few & !doubtful;
+    let any_many = many != 0;
     while many != 0 {
         let lane = (many.trailing_zeros() & 7) as usize;
         many &= many - 1;
@@ -91,6 +92,7 @@ pub(super) fn draw<S: Simd, O: Observer, F: Fault>(
         tile.settle::<O, F>(rays, &primitives, observer);
     }
     tile.renew(simd);
+    any_many
 }
 
 /// Triangles over few samples: each lane goes through its own.
@@ -127,7 +129,7 @@ fn draw_few<S: Simd, O: Observer>(
             let key = setup.key.at(across, down);
             let (low, high) = (key - setup.key_error, key + setup.key_error);
             let mut inside = least.simd_gt(setup.error);
-            if lens.parallel {
+            if lens.kind.parallel {
                 // In front of the eye a key is negative; behind it there is nothing to see.
                 perhaps &= !low.simd_gt(zero).to_bitmask();
                 inside &= high.simd_lt(zero);
@@ -224,7 +226,7 @@ fn draw_many<S: Simd>(simd: S, lens: &Lens, lanes: &Lanes, lane: usize, id: u32,
             // Not the least of the three: it need not be NaN where one of them is.
             let out = e0.simd_lt(minus_error) | e1.simd_lt(minus_error) | e2.simd_lt(minus_error);
             let mut nowhere = out | high.simd_lt(held_low);
-            if lens.parallel {
+            if lens.kind.parallel {
                 nowhere |= low.simd_gt(zero);
                 inside &= high.simd_lt(zero);
             }
@@ -316,7 +318,7 @@ impl Tile {
 fn tell<S: Simd, O: Observer>(
     setup: &Setup<S>,
     leaf: &Leaf,
-    used: usize,
+    used: u64,
     tile: &Tile,
     observer: &mut O,
 ) {
@@ -324,7 +326,7 @@ fn tell<S: Simd, O: Observer>(
     let values = setup.edges.map(|edge| edge.at_middle.to_array());
     let (error, facing) = (setup.error.to_array(), setup.facing.to_array());
     let doubtful = setup.doubtful.to_bitmask();
-    for lane in 0..used {
+    for lane in (0..8).filter(|lane| used >> lane & 1 == 1) {
         observer.sample_tested(sample, leaf.ids[lane]);
         let edges = values.map(|values| values[lane]);
         let out = edges.iter().any(|edge| *edge < -error[lane]);

@@ -8,6 +8,7 @@
 //!
 //! What is computed here is computed with rounding: [`Errors`] bounds what that does.
 
+use super::rough::{self, Plane, Rough};
 use bothways_common::{Camera, Projection, SampleGrid, View};
 use glam::DVec3;
 
@@ -32,27 +33,34 @@ pub(super) struct Rays<'a> {
 
 /// The rays of a square of samples.
 #[derive(Clone, Debug)]
-pub(super) struct Lens {
-    pub(super) parallel: bool,
-    pub(super) eye: [f64; 3],
+pub(super) struct Lens<'a> {
+    pub(super) kind: &'a LensKind,
     /// The map: a row for `t`, one for columns, one for rows; and what is added.
     pub(super) rows: [[f64; 3]; 3],
     pub(super) shift: [f64; 3],
-    /// Half the tile's side, in samples from its middle to the last sample.
-    pub(super) half: f64,
-    /// A point on a ray of the tile has `normal·p + offset ≥ 0`, also when computed in `f64` from any
-    /// corner of a box that is at least as far along each component of the normal.
-    pub(super) sides: [Side; 4],
-    /// Such a point has a computed `t` that is at least this.
-    pub(super) least_t: f64,
-    pub(super) errors: Errors,
+    /// The map in `f32`.
+    pub(super) rough: Rough,
 }
 
-/// One side of a tile's rays.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Side {
-    pub(super) normal: [f64; 3],
-    pub(super) offset: f64,
+/// What the lenses of all tiles of one size have in common.
+#[derive(Clone, Debug)]
+pub(super) struct LensKind {
+    pub(super) parallel: bool,
+    /// Samples along one side of a tile, and half of the way from the first to the last.
+    pub(super) side: usize,
+    pub(super) half: f64,
+    /// That half and what rounding may add: a point on one of a tile's rays is no more columns and rows
+    /// from its middle, also when that is computed in `f64` from any corner of a box that is at least as
+    /// far that way.
+    wide: f64,
+    pub(super) eye: [f64; 3],
+    /// The map's rows for the middle of the picture, and what those of columns and rows gain with the
+    /// coordinates on the viewport.
+    axes: [DVec3; 3],
+    slopes: [DVec3; 2],
+    pub(super) errors: Errors,
+    /// What the map in `f32` needs.
+    pub(super) rough: rough::Kind,
 }
 
 /// How far what is computed may be from what is meant.
@@ -105,7 +113,7 @@ impl<'a> Rays<'a> {
         self.view.camera
     }
 
-    /// The rays of a square of `side` × `side` samples. It may reach over the picture's end.
+    /// What all squares of `side` × `side` samples share.
     ///
     /// # The errors, rounding by rounding
     ///
@@ -114,8 +122,9 @@ impl<'a> Rays<'a> {
     ///
     /// *Perspective*, with `q = (d + X + Y)/d`. `D` is rounded by 3 in each coordinate of `X|u| + Y|v| +
     /// d|w|`, which is at most `d·q`. The row of `t` is `−w/d`: non-orthonormality brings `8v + 8vq`, `D`
-    /// `3·√3·vq`, the row `√3·vq`: `24vq` of 1. The row of columns is `(u + (x/d)·w)/g`, four roundings of
-    /// coordinates whose sum is at most `√3·(1 + q)`: `14v·q²d/g`; non-orthonormality `16v·q²d/g`, `D`
+    /// `3·√3·vq`, the row `√3·vq`: `24vq` of 1. The row of columns is `u/g + x·(w/(d·g))`, two
+    /// roundings of `u` and five of `(x/d)·w`, whose coordinates' sums are at most `√3` and `√3·(q − 1)`: less
+    /// than `14v·q²d/g`; non-orthonormality `16v·q²d/g`, `D`
     /// `10.5v·q²d/g`, the coordinates of the sample and the middle `2v·qd/g`: `48v·q²d/g`.
     /// A vertex brings 3 roundings of `Σ|row|·A`, and the row its own: `4v·√3·A/d` for `t`,
     /// `4v·2√3·q·A/g` for columns.
@@ -125,95 +134,100 @@ impl<'a> Rays<'a> {
     /// *Parallel*, with `Q = X + Y + 4A`, where `|t| ≤ 4A` for all that boxes hold. `O` is rounded by 2, `u/g`
     /// by 2, the shift by 2; with non-orthonormality `20v·Q/g` for a sample; a vertex brings `4v·(√3·A +
     /// 2X)/g`; a side 5 roundings more. The row of `t` is `−w/g`, alike.
-    #[inline(always)]
-    pub(super) fn lens(&self, column: usize, row: usize, side: usize) -> Lens {
+    pub(super) fn lens_kind(&self, side: usize) -> LensKind {
         let camera = self.view.camera;
         let (u, v, w) = (camera.u(), camera.v(), camera.w());
         let half = 0.5 * (count(side) - 1.0);
-        let middle = |axis: usize, first: usize| {
-            let numerator = 2.0 * (count(first) + half) + 1.0 - self.size[axis];
-            self.viewport[axis] * numerator / (2.0 * self.size[axis])
-        };
-        let (x, y) = (middle(0, column), -middle(1, row));
         let [gx, gy] = self.spacing;
         let g = gx.min(gy);
+        // The last tile may reach over the picture's end.
         let beyond = 0.5 + (half + 1.0) / self.size[0].min(self.size[1]);
         let largest = (self.viewport[0] + self.viewport[1]) * beyond;
         let (a, far) = (self.reach, half.max(1.0));
-        let scaled = |v: DVec3| (v * self.scale).to_array();
+        let (errors, wide, axes, slopes);
         match self.projection {
             Projection::Perspective => {
                 let d = camera.distance();
                 let q = (d + largest) / d;
-                let rows = [
-                    scaled(-w / d),
-                    scaled((u + (x / d) * w) / gx),
-                    scaled(-((v + (y / d) * w) / gy)),
-                ];
-                let wide = half + 128.0 * V * (q * q * d / g + q * far);
-                let [t, across, down] = rows.map(DVec3::from_array);
-                let side = |normal: DVec3| Side { normal: normal.to_array(), offset: 0.0 };
                 let sample = (24.0 * q).max(48.0 * q * q * d / (g * far));
-                Lens {
-                    parallel: false,
-                    eye: self.eye.to_array(),
-                    rows,
-                    shift: [0.0; 3],
-                    half,
-                    sides: [
-                        side(wide * t - across),
-                        side(wide * t + across),
-                        side(wide * t - down),
-                        side(wide * t + down),
-                    ],
-                    least_t: 0.0,
-                    errors: Errors {
-                        corner: V * self.scale * a * (16.0 * q / g).max(8.0 * far / d),
-                        sample: V * sample,
-                        far,
-                        depth: 0.0,
-                        t: 64.0 * V * q,
-                        reach: a,
-                        small: wide - half < 1.0 / 1024.0,
-                    },
-                }
+                wide = half + 128.0 * V * (q * q * d / g + q * far);
+                errors = Errors {
+                    corner: V * self.scale * a * (16.0 * q / g).max(8.0 * far / d),
+                    sample: V * sample,
+                    far,
+                    depth: 0.0,
+                    t: 64.0 * V * q,
+                    reach: a,
+                    small: wide - half < 1.0 / 1024.0,
+                };
+                axes = [-w / d, u / gx, -v / gy].map(|axis| axis * self.scale);
+                slopes = [gx, gy].map(|g| w * (self.scale / (d * g)));
             }
             Projection::Parallel => {
-                let rows = [scaled(-w), (u / gx).to_array(), (-v / gy).to_array()];
-                let shift = [0.0, -x / gx, y / gy];
                 let q = largest + 4.0 * a;
-                let wide = half + 64.0 * V * (q / g + far);
-                let [_, across, down] = rows.map(DVec3::from_array);
-                let side = |normal: DVec3, shift: f64| Side {
-                    normal: normal.to_array(),
-                    offset: wide + shift,
-                };
                 let depth = 40.0 * V * q / g;
-                Lens {
-                    parallel: true,
-                    eye: self.eye.to_array(),
-                    rows,
-                    shift,
-                    half,
-                    sides: [
-                        side(-across, -shift[1]),
-                        side(across, shift[1]),
-                        side(-down, -shift[2]),
-                        side(down, shift[2]),
-                    ],
-                    least_t: -depth,
-                    errors: Errors {
-                        corner: 8.0 * V * (a + largest) / g,
-                        sample: 24.0 * V * q / (g * far),
-                        far,
-                        depth,
-                        t: 2.0 * depth,
-                        reach: a,
-                        small: wide - half < 1.0 / 1024.0,
-                    },
-                }
+                wide = half + 64.0 * V * (q / g + far);
+                errors = Errors {
+                    corner: 8.0 * V * (a + largest) / g,
+                    sample: 24.0 * V * q / (g * far),
+                    far,
+                    depth,
+                    t: 2.0 * depth,
+                    reach: a,
+                    small: wide - half < 1.0 / 1024.0,
+                };
+                axes = [-w * self.scale, u / gx, -v / gy];
+                slopes = [DVec3::ZERO; 2];
             }
         }
+        let parallel = self.projection == Projection::Parallel;
+        let of = |k: usize| axes[k].abs() + largest * slopes[k - 1].abs();
+        let size_of_t = axes[0].abs();
+        let rough = rough::Kind::new(
+            self.eye,
+            axes[0],
+            &rough::Sizes {
+                reach: a,
+                t: size_of_t,
+                place: of(1).max(of(2)),
+                offset: if parallel { largest / g } else { 0.0 },
+                wide,
+                beside: if parallel { 0.0 } else { wide },
+                sample: errors.sample
+                    * far
+                    * if parallel { 1.0 } else { a * size_of_t.element_sum() },
+            },
+        );
+        let eye = self.eye.to_array();
+        LensKind { parallel, side, half, wide, eye, axes, slopes, errors, rough }
+    }
+
+    /// The rays of a square of samples. It may reach over the picture's end.
+    #[inline(always)]
+    pub(super) fn lens<'k>(&self, kind: &'k LensKind, column: usize, row: usize) -> Lens<'k> {
+        let [t, across, down] = kind.axes;
+        let middle = |axis: usize, first: usize| {
+            let numerator = 2.0 * (count(first) + kind.half) + 1.0 - self.size[axis];
+            self.spacing[axis] * (0.5 * numerator)
+        };
+        let (x, y) = (middle(0, column), -middle(1, row));
+        let (across, down) = (across + x * kind.slopes[0], down - y * kind.slopes[1]);
+        let (shift, side, offset) = if kind.parallel {
+            ([0.0, -x / self.spacing[0], y / self.spacing[1]], DVec3::ZERO, kind.wide)
+        } else {
+            ([0.0; 3], kind.wide * t, 0.0)
+        };
+        let rough = Rough {
+            across: Plane::new(across, shift[1]),
+            down: Plane::new(down, shift[2]),
+            sides: [
+                Plane::new(side - across, offset - shift[1]),
+                Plane::new(side + across, offset + shift[1]),
+                Plane::new(side - down, offset - shift[2]),
+                Plane::new(side + down, offset + shift[2]),
+            ],
+        };
+        Lens { kind, rows: [t.to_array(), across.to_array(), down.to_array()], shift, rough }
     }
 
     /// The key interval of an interval of `t`, widened to `f32`s.

@@ -39,7 +39,7 @@ pub(super) fn draw<O: Observer, F: Fault>(
 /// sphere's box.
 fn region(lens: &Lens, side: usize, center: DVec3, radius: f64) -> [[usize; 2]; 2] {
     let all = [[0, side]; 2];
-    if !lens.errors.small {
+    if !lens.kind.errors.small {
         return all;
     }
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
@@ -47,15 +47,15 @@ fn region(lens: &Lens, side: usize, center: DVec3, radius: f64) -> [[usize; 2]; 
         let sign = |axis: usize| if k >> axis & 1 == 1 { radius } else { -radius };
         let corner = center + DVec3::new(sign(0), sign(1), sign(2));
         // The bounds are made for what boxes hold; a sphere without one may be larger.
-        if corner.abs().max_element() > 2.0 * lens.errors.reach {
+        if corner.abs().max_element() > 2.0 * lens.kind.errors.reach {
             return all;
         }
         let [t, x, y] = std::array::from_fn(|row| {
             DVec3::from_array(lens.rows[row]).dot(corner) + lens.shift[row]
         });
-        let place = if lens.parallel {
+        let place = if lens.kind.parallel {
             [y, x]
-        } else if t > 16384.0 * lens.errors.corner {
+        } else if t > 16384.0 * lens.kind.errors.corner {
             [y / t, x / t]
         } else {
             return all;
@@ -65,7 +65,7 @@ fn region(lens: &Lens, side: usize, center: DVec3, radius: f64) -> [[usize; 2]; 
             high[axis] = high[axis].max(place[axis]);
         }
     }
-    if lens.parallel && lens.errors.corner * 16384.0 > 1.0 {
+    if lens.kind.parallel && lens.kind.errors.corner * 16384.0 > 1.0 {
         return all;
     }
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped before")]
@@ -73,8 +73,9 @@ fn region(lens: &Lens, side: usize, center: DVec3, radius: f64) -> [[usize; 2]; 
         let margin = |x: f64| 0.01 + 0.01 * x.abs();
         #[expect(clippy::cast_precision_loss, reason = "at most 32")]
         let end = side as f64;
-        let first = (low[axis] - margin(low[axis]) + lens.half).ceil().clamp(0.0, end);
-        let behind = (high[axis] + margin(high[axis]) + lens.half + 1.0).floor().clamp(0.0, end);
+        let first = (low[axis] - margin(low[axis]) + lens.kind.half).ceil().clamp(0.0, end);
+        let behind =
+            (high[axis] + margin(high[axis]) + lens.kind.half + 1.0).floor().clamp(0.0, end);
         [first as usize, behind as usize]
     })
 }

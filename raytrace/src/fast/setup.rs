@@ -89,7 +89,7 @@ impl<S: Simd> Setup<S> {
         lens: &Lens,
         side: usize,
         leaf: &Leaf,
-        used: usize,
+        used: u64,
         far: f32,
     ) -> Self {
         let blind = F::is(Planted::ZeroErrorBound);
@@ -102,9 +102,9 @@ impl<S: Simd> Setup<S> {
             ca[0] * ab[1] - ca[1] * ab[0],
         ];
         let along = n[0] * a[0] + n[1] * a[1] + n[2] * a[2];
-        let (f, key_at_middle) = if lens.parallel { (n[0], -along) } else { (along, n[0]) };
+        let (f, key_at_middle) = if lens.kind.parallel { (n[0], -along) } else { (along, n[0]) };
         let r = f64x8::splat(simd, 1.0) / f;
-        let [e1, e2, e3] = if lens.parallel {
+        let [e1, e2, e3] = if lens.kind.parallel {
             [flat_edge(a, ab), flat_edge(b, bc), flat_edge(c, ca)]
         } else {
             [edge(a, ab), edge(b, bc), edge(c, ca)]
@@ -129,14 +129,14 @@ impl<S: Simd> Setup<S> {
         let (ab_y, ca_t) = narrow(ab[2], ca[0]);
         let (ca_x, ca_y) = narrow(ca[1], ca[2]);
 
-        let (e, eps) = (bound(simd, lens.errors.corner), bound(simd, lens.errors.sample));
-        let (h, half) = (bound(simd, lens.errors.far), bound(simd, lens.half));
+        let (e, eps) = (bound(simd, lens.kind.errors.corner), bound(simd, lens.kind.errors.sample));
+        let (h, half) = (bound(simd, lens.kind.errors.far), bound(simd, lens.kind.half));
         let t_size = ta.abs().max(tb.abs()).max(tc.abs());
         let flat_size =
             xa.abs().max(xb.abs()).max(xc.abs()).max(ya.abs().max(yb.abs()).max(yc.abs()));
         let flat_length = ab_x.abs().max(ca_x.abs()).max(ab_y.abs().max(ca_y.abs()));
         let t_length = ab_t.abs().max(ca_t.abs());
-        let (m, all, l) = if lens.parallel {
+        let (m, all, l) = if lens.kind.parallel {
             let m = flat_size.max(h) + e;
             (m, m.max(t_size), flat_length.max(t_length) + e)
         } else {
@@ -144,7 +144,7 @@ impl<S: Simd> Setup<S> {
             (m, m, flat_length.max(h * t_length) + e)
         };
         let le = l * e;
-        let (f_error, top_error) = if lens.parallel {
+        let (f_error, top_error) = if lens.kind.parallel {
             (le * 13.5, all * le * 65.0 + h * (le * 27.0 + l * l * eps * 4.2))
         } else {
             (m * le / h * 62.0, le * 40.0 + l * l * eps * 6.2)
@@ -165,7 +165,7 @@ impl<S: Simd> Setup<S> {
         let largest = key.at_middle.abs() + key_slope;
         let mut key_error = (key.at_middle.abs() * 6.2 + key_slope * 7.2) * U
             + (top_error + largest * f_error) * by_f * 1.1
-            + (floor + bound(simd, lens.errors.depth));
+            + (floor + bound(simd, lens.kind.errors.depth));
         let known =
             (f_error * 16.0).simd_lt(size) & key_error.simd_lt(f32x8::splat(simd, f32::MAX));
         if blind {
@@ -189,7 +189,7 @@ impl<S: Simd> Setup<S> {
         let corners = [[ta, xa, ya], [tb, xb, yb], [tc, xc, yc]];
         let (columns, rows) = boxes(simd, lens, side, e, &corners);
         let empty = columns[1].simd_lt(columns[0]) | rows[1].simd_lt(rows[0]);
-        let used = mask32x8::from_bitmask(simd, (1 << used) - 1);
+        let used = mask32x8::from_bitmask(simd, used);
         Setup {
             edges,
             error,
@@ -220,13 +220,13 @@ fn map_corners<S: Simd>(simd: S, lens: &Lens, leaf: &Leaf) -> [[f64x8<S>; 3]; 3]
 
 #[inline(always)]
 fn map<S: Simd>([x, y, z]: [f64x8<S>; 3], lens: &Lens) -> [f64x8<S>; 3] {
-    let [eye_x, eye_y, eye_z] = lens.eye;
+    let [eye_x, eye_y, eye_z] = lens.kind.eye;
     let (x, y, z) = (x - eye_x, y - eye_y, z - eye_z);
     let [t, across, down] = &lens.rows;
     let t = x * t[0] + y * t[1] + z * t[2];
     let across = x * across[0] + y * across[1] + z * across[2];
     let down = x * down[0] + y * down[1] + z * down[2];
-    if lens.parallel {
+    if lens.kind.parallel {
         [t + lens.shift[0], across + lens.shift[1], down + lens.shift[2]]
     } else {
         [t, across, down]
@@ -272,7 +272,7 @@ fn boxes<S: Simd>(
     e: f32x8<S>,
     [[ta, xa, ya], [tb, xb, yb], [tc, xc, yc]]: &[[f32x8<S>; 3]; 3],
 ) -> ([f32x8<S>; 2], [f32x8<S>; 2]) {
-    let (x, y, safe) = if lens.parallel {
+    let (x, y, safe) = if lens.kind.parallel {
         let safe = e.simd_lt(f32x8::splat(simd, 1.0 / 16384.0));
         ([*xa, *xb, *xc], [*ya, *yb, *yc], safe)
     } else {
@@ -281,7 +281,7 @@ fn boxes<S: Simd>(
         let safe = ta.min(*tb).min(*tc).simd_gt(e * 16384.0);
         ([*xa * ra, *xb * rb, *xc * rc], [*ya * ra, *yb * rb, *yc * rc], safe)
     };
-    let safe = safe & mask32x8::splat(simd, lens.errors.small);
+    let safe = safe & mask32x8::splat(simd, lens.kind.errors.small);
     let (left, right) = (x[0].min(x[1]).min(x[2]), x[0].max(x[1]).max(x[2]));
     let (upper, lower) = (y[0].min(y[1]).min(y[2]), y[0].max(y[1]).max(y[2]));
     (columns(simd, left, right, safe, side), columns(simd, upper, lower, safe, side))

@@ -30,6 +30,8 @@ pub(super) struct Tile {
     pub(super) block_far: [f32; BLOCKS],
     /// The least low end of all: nothing with a smaller key can be seen in the tile.
     pub(super) far: f32,
+    /// How many of the first sixteen blocks have samples at which nothing was hit.
+    open_blocks: u32,
     /// Whether anything was hit.
     touched: bool,
     /// Blocks whose least low end must be found again.
@@ -61,6 +63,7 @@ impl Tile {
             high: Box::new([0.0; SAMPLES]),
             block_far: [f32::INFINITY; BLOCKS],
             far: f32::NEG_INFINITY,
+            open_blocks: 0,
             touched: true,
             dirty: 0,
             row: 0,
@@ -74,6 +77,7 @@ impl Tile {
     }
 
     /// Starts a tile in which nothing is hit.
+    #[inline(always)]
     pub(super) fn begin(&mut self, start: [usize; 2], size: [usize; 2], side: usize) {
         [self.row, self.column] = start;
         if !self.touched && size == [self.height, self.width] && side == self.side {
@@ -99,6 +103,7 @@ impl Tile {
             }
         }
         self.far = f32::NEG_INFINITY;
+        self.open_blocks = 16;
         self.dirty = 0;
     }
 
@@ -133,10 +138,18 @@ impl Tile {
             self.block_far[block] = least(low);
         }
         let mut far = f32x16::from_slice(simd, &self.block_far[..16]);
+        let open = far.simd_eq(f32x16::splat(simd, f32::NEG_INFINITY));
+        self.open_blocks = open.to_bitmask().count_ones();
         for group in 1..self.blocks().div_ceil(16) {
             far = far.min(f32x16::from_slice(simd, &self.block_far[group * 16..group * 16 + 16]));
         }
         self.far = least(far);
+    }
+
+    /// Whether something was hit nearly everywhere, so that soon what lies farther need not be looked at.
+    #[inline(always)]
+    pub(super) fn is_nearly_full(&self) -> bool {
+        self.open_blocks <= 2
     }
 
     /// Leaves a sample to [`Tile::settle`].
@@ -421,7 +434,7 @@ pub(super) fn place(side: usize, index: usize) -> (usize, usize) {
     (row, column)
 }
 
-impl Lens {
+impl Lens<'_> {
     /// The place of a tile's column or row, from its middle.
     #[inline(always)]
     pub(super) fn offset(&self, place: usize) -> f32 {
@@ -430,7 +443,7 @@ impl Lens {
             clippy::cast_precision_loss,
             reason = "halves of small integers"
         )]
-        let offset = (place as f64 - self.half) as f32;
+        let offset = (place as f64 - self.kind.half) as f32;
         offset
     }
 }

@@ -2,22 +2,21 @@
 
 use super::build::Prepared;
 use super::draw;
-use super::rays::{Lens, Rays, Side};
+use super::rays::{Lens, LensKind, Rays};
 use super::round;
+use super::sieve::{self, Sieve};
 use super::tile::Tile;
 use super::tree::{Child, Kind, Node, WIDTH};
 use bothways_common::fault::{Fault, Planted};
 use bothways_common::observe::Observer;
-use bothways_common::simd::{
-    Simd, SimdBase, SimdMask, SimdWiden, f32x16, f64x8, mask64x8, prefetch,
-};
+use bothways_common::simd::{Simd, SimdBase, SimdMask, f32x8, mask32x8, prefetch};
 use bothways_common::{Primitive, View};
 
 /// A node or leaf to enter yet.
 #[derive(Clone, Copy, Debug)]
 struct Open {
     /// None of its primitives is nearer than this `t`, in the scale of the map.
-    near: f64,
+    near: f32,
     child: Child,
     counts: u8,
 }
@@ -32,6 +31,7 @@ pub(super) struct Walker<'a> {
     /// they are huge or the eye is so far away (those are in boxes, too).
     unbounded: Vec<(u32, Primitive)>,
     stack: Vec<Open>,
+    sieve: Sieve,
 }
 
 /// How far what boxes hold reaches from the eye, along any axis.
@@ -50,7 +50,14 @@ impl<'a> Walker<'a> {
         let loose = spheres.filter(|(_, extent)| eye.abs().max_element() > room(*extent));
         let ids = prepared.unbounded.iter().chain(loose.map(|(id, _)| id));
         let unbounded = ids.map(|&id| (id, rays.view.primitive(id))).collect();
-        Walker { prepared, rays, tile: Tile::new(rays), unbounded, stack: Vec::new() }
+        Walker {
+            prepared,
+            rays,
+            tile: Tile::new(rays),
+            unbounded,
+            stack: Vec::new(),
+            sieve: Sieve::new(),
+        }
     }
 
     /// Finds the first hits of a square of samples, of which so many rows and columns are in the
@@ -59,13 +66,13 @@ impl<'a> Walker<'a> {
     pub(super) fn walk<S: Simd, O: Observer, F: Fault>(
         &mut self,
         simd: S,
+        kind: &LensKind,
         start: [usize; 2],
         size: [usize; 2],
-        side: usize,
         observer: &mut O,
     ) {
-        let [row, column] = start;
-        let lens = self.rays.lens(column, row, side);
+        let ([row, column], side) = (start, kind.side);
+        let lens = self.rays.lens(kind, column, row);
         self.tile.begin(start, size, side);
         if O::WATCHES
             && let Some(sample) = self.tile.sample(0)
@@ -79,10 +86,19 @@ impl<'a> Walker<'a> {
             self.tile.renew(simd);
         }
         self.stack.clear();
-        let root = |&child: &Child| Open { near: f64::NEG_INFINITY, child, counts: 0 };
+        let root = |&child: &Child| Open { near: f32::NEG_INFINITY, child, counts: 0 };
         self.stack.extend(self.prepared.roots.iter().map(root));
-        let mut farthest = self.rays.farthest(self.tile.far, &lens.errors);
-        while let Some(Open { near, child, counts }) = self.stack.pop() {
+        // Whether the last triangles that were drawn were large.
+        let mut coarse = true;
+        let mut farthest = self.farthest(&lens);
+        loop {
+            let Some(Open { near, child, counts }) = self.stack.pop() else {
+                if self.sieve.is_empty() {
+                    break;
+                }
+                self.sift::<S, F>(simd, &lens, farthest, true);
+                continue;
+            };
             if near > farthest {
                 continue;
             }
@@ -92,11 +108,22 @@ impl<'a> Walker<'a> {
                     continue;
                 }
                 Kind::Triangles => {
-                    let leaf = &self.prepared.leaves[child.index()];
-                    let [all, different] = [counts >> 4, counts & 15].map(usize::from);
+                    let [all, different] = [counts >> 4, counts & 15];
                     let used = if F::is(Planted::TiesToLast) { all } else { different };
-                    let of = (leaf, used);
-                    draw::draw::<S, O, F>(simd, self.rays, &lens, of, &mut self.tile, observer);
+                    let leaf = (child.index(), (1 << used) - 1);
+                    // Who watches is told of every triangle.
+                    if O::WATCHES
+                        || ((coarse || self.tile.is_nearly_full()) && self.sieve.is_empty())
+                    {
+                        coarse = self.draw_leaf::<S, O, F>(simd, &lens, leaf, farthest, observer);
+                    } else {
+                        let is_full = self.sieve.add(leaf);
+                        let hurry = coarse || self.tile.is_nearly_full();
+                        if !(is_full || hurry) {
+                            continue;
+                        }
+                        coarse = self.sift::<S, F>(simd, &lens, farthest, hurry);
+                    }
                 }
                 Kind::Spheres => {
                     let count = usize::from(counts >> 4);
@@ -107,7 +134,7 @@ impl<'a> Walker<'a> {
                     self.tile.renew(simd);
                 }
             }
-            farthest = self.rays.farthest(self.tile.far, &lens.errors);
+            farthest = self.farthest(&lens);
         }
         if O::WATCHES
             && let Some(sample) = self.tile.sample(0)
@@ -116,20 +143,69 @@ impl<'a> Walker<'a> {
         }
     }
 
+    /// The `t` of boxes and corners beyond which nothing can be seen.
+    #[inline(always)]
+    fn farthest(&self, lens: &Lens) -> f32 {
+        lens.kind.rough.farthest(self.rays.farthest(self.tile.far, &lens.kind.errors))
+    }
+
+    /// Draws those triangles of a leaf that may be seen; tells whether one of them is large, as it supposes
+    /// where there is none.
+    #[inline(always)]
+    fn draw_leaf<S: Simd, O: Observer, F: Fault>(
+        &mut self,
+        simd: S,
+        lens: &Lens,
+        (leaf, used): (usize, u64),
+        farthest: f32,
+        observer: &mut O,
+    ) -> bool {
+        let leaf = &self.prepared.leaves[leaf];
+        let passed = if O::WATCHES {
+            used
+        } else {
+            sieve::pass(simd, lens, [leaf, leaf], farthest).to_bitmask() & used
+        };
+        let of = (leaf, passed);
+        passed == 0 || draw::draw::<S, O, F>(simd, self.rays, lens, of, &mut self.tile, observer)
+    }
+
+    /// Looks at the leaves that have waited longest, or all, and draws triangles, eight at a time; all of them
+    /// if they are large, which it tells, or `hurry` asks for it.
+    #[inline(always)]
+    fn sift<S: Simd, F: Fault>(
+        &mut self,
+        simd: S,
+        lens: &Lens,
+        farthest: f32,
+        hurry: bool,
+    ) -> bool {
+        let count = self.sieve.sift(simd, &self.prepared.leaves, lens, farthest, hurry);
+        let (mut drawn, mut coarse) = (0, false);
+        while count - drawn >= WIDTH || (count > drawn && (hurry || coarse)) {
+            let eight = self.sieve.eight(simd, drawn);
+            let of = (&eight, (1 << (count - drawn).min(WIDTH)) - 1);
+            coarse |= draw::draw::<S, (), F>(simd, self.rays, lens, of, &mut self.tile, &mut ());
+            drawn = count.min(drawn + WIDTH);
+        }
+        self.sieve.forget(simd, drawn);
+        coarse
+    }
+
     /// Tests the boxes of a node and opens those that a ray of the tile may meet, near ones last, so
     /// first.
     ///
     /// A box is taken relative to the eye as vertices are, by one rounded subtraction. Rounding keeps
-    /// order: what is computed from a box's corner is not less than what would be computed from any point
-    /// of the box that is nowhere farther along the plane's normal, so only the error of points on rays
-    /// counts, which [`Rays::lens`] allows for.
+    /// order: in `f64`, what is computed from a box's corner is not less than what would be computed from any
+    /// point of the box that is nowhere farther along the plane's normal, so only the error of points on rays
+    /// counts, which [`Rays::lens_kind`] allows for, and that of `f32`, for which [`super::rough`] does.
     #[inline(always)]
     fn enter<S: Simd, O: Observer, F: Fault>(
         &mut self,
         simd: S,
         lens: &Lens,
         index: usize,
-        farthest: f64,
+        farthest: f32,
         observer: &mut O,
     ) {
         if F::is(Planted::ForgottenNode) && index == self.prepared.nodes.len() / 2 {
@@ -141,7 +217,7 @@ impl<'a> Walker<'a> {
             shrunk = shrink(node);
             node = &shrunk;
         }
-        let (near, met) = meet(simd, lens, node, farthest);
+        let (near, met) = meet::<S, F>(simd, lens, node, farthest);
         let used = (1_u64 << node.used) - 1;
         let mut met = met.to_bitmask() & used;
         if O::WATCHES
@@ -177,44 +253,31 @@ impl<'a> Walker<'a> {
 
 /// The nearest `t` of each box, and which boxes a ray of the tile may meet before `farthest`.
 #[inline(always)]
-fn meet<S: Simd>(simd: S, lens: &Lens, node: &Node, farthest: f64) -> (f64x8<S>, mask64x8<S>) {
-    let corners = corners(simd, lens, node);
-    let [left, right, upper, lower] = &lens.sides;
-    let across = along(simd, &corners, left, true).min(along(simd, &corners, right, true));
-    let down = along(simd, &corners, upper, true).min(along(simd, &corners, lower, true));
-    let t = Side { normal: lens.rows[0], offset: lens.shift[0] };
-    let near = along(simd, &corners, &t, false);
-    let far = along(simd, &corners, &t, true);
-    let met = across.min(down).simd_ge(f64x8::splat(simd, 0.0))
-        & far.simd_ge(f64x8::splat(simd, lens.least_t))
-        & near.simd_le(f64x8::splat(simd, farthest));
-    (near, met)
-}
-
-/// Low and high sides of the boxes relative to the eye, along each axis.
-#[inline(always)]
-fn corners<S: Simd>(simd: S, lens: &Lens, node: &Node) -> [[f64x8<S>; 2]; 3] {
-    let rows = node.bounds.as_flattened();
-    let (lx, ly) = f32x16::from_slice(simd, &rows[..16]).widen();
-    let (lz, hx) = f32x16::from_slice(simd, &rows[16..32]).widen();
-    let (hy, hz) = f32x16::from_slice(simd, &rows[32..48]).widen();
-    let [x, y, z] = lens.eye;
-    [[lx - x, hx - x], [ly - y, hy - y], [lz - z, hz - z]]
-}
-
-/// How far along a plane's normal boxes reach: their farthest corners, or the least far.
-#[inline(always)]
-fn along<S: Simd>(
+fn meet<S: Simd, F: Fault>(
     simd: S,
-    corners: &[[f64x8<S>; 2]; 3],
-    Side { normal: [nx, ny, nz], offset }: &Side,
-    far: bool,
-) -> f64x8<S> {
-    let [x, y, z] = corners;
-    let x = x[usize::from((*nx >= 0.0) == far)];
-    let y = y[usize::from((*ny >= 0.0) == far)];
-    let z = z[usize::from((*nz >= 0.0) == far)];
-    f64x8::splat(simd, *offset) + x * *nx + y * *ny + z * *nz
+    Lens { kind, rough, .. }: &Lens,
+    node: &Node,
+    farthest: f32,
+) -> (f32x8<S>, mask32x8<S>) {
+    let kind = &kind.rough;
+    let [ex, ey, ez] = kind.eye;
+    let [lx, ly, lz, hx, hy, hz] = &node.bounds;
+    let boxes = [
+        [f32x8::load_array_ref(simd, lx) - ex, f32x8::load_array_ref(simd, hx) - ex],
+        [f32x8::load_array_ref(simd, ly) - ey, f32x8::load_array_ref(simd, hy) - ey],
+        [f32x8::load_array_ref(simd, lz) - ez, f32x8::load_array_ref(simd, hz) - ez],
+    ];
+    let [left, right, upper, lower] = &rough.sides;
+    let across = left.reach(&boxes, true).min(right.reach(&boxes, true));
+    let down = upper.reach(&boxes, true).min(lower.reach(&boxes, true));
+    let (near, far) = (kind.t.reach(&boxes, false), kind.t.reach(&boxes, true));
+    let room = if F::is(Planted::ShrunkBox) { 0.0 } else { kind.sides_error };
+    let least_t = -kind.t_error;
+    // NaN, from numbers that overflow, lets pass.
+    let missed = across.min(down).simd_lt(f32x8::splat(simd, -room))
+        | far.simd_lt(f32x8::splat(simd, least_t))
+        | near.simd_gt(f32x8::splat(simd, farthest));
+    (near, !missed)
 }
 
 /// A fault: boxes too small by the last place.
