@@ -353,13 +353,13 @@ fn place_vertices(
         *vertices = filled([0; 4], count);
     }
     let mut rest = vertices.as_mut_slice();
-    for object in view.scene.objects() {
+    for (object, clusters) in view.scene.objects().iter().zip(&prepared.clusters) {
         let place = |positions: &[glam::Vec3], vertices: &mut [Vertex]| {
             dispatch!(prepared.level, simd => raster.place(simd, screen, positions, vertices));
         };
         match &object.shape {
             Shape::Mesh(mesh) => {
-                let positions = mesh.positions();
+                let positions = clusters.positions(mesh);
                 let (own, others) = rest.split_at_mut(positions.len());
                 rest = others;
                 if positions.len() <= SHARE {

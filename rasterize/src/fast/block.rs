@@ -66,11 +66,11 @@ fn draw_blocks<const ACROSS: usize, S: Simd, O: Observer, F: Fault>(
     // Most triangles have one column of blocks: what depends on columns is computed once.
     for column in columns.step_by(ACROSS) {
         let own_column = lane_column + own(column, first_column);
-        let (along_row, in_columns) = (brush.along_row(own_column), own_column.simd_lt(end_column));
+        let (at_top, in_columns) = (brush.at_top(own_column), own_column.simd_lt(end_column));
         for row in rows.clone().step_by(16 / ACROSS) {
             let own_row = lane_row + own(row, first_row);
             let in_box = in_columns & own_row.simd_lt(end_row);
-            let tested = brush.test(own_row, &along_row, in_box);
+            let tested = brush.test(own_row, &at_top, in_box);
             let index = buffer.index(Sample { row, column });
             if O::WATCHES {
                 tell::<S, O, F>(setup, lane, buffer, observer, index, ACROSS, in_box, &tested);
@@ -125,7 +125,7 @@ impl<S: Simd> Brush<S> {
                 [setup.at_origin[k][lane], setup.across[k][lane], setup.down[k][lane]];
             [f32x16::splat(simd, at_origin), f32x16::splat(simd, across), f32x16::splat(simd, down)]
         };
-        let keys = [setup.key[lane], setup.key_b[lane], setup.key_c[lane]];
+        let keys = [setup.key[0][lane], setup.key[1][lane], setup.key[2][lane]];
         Brush {
             id: setup.ids[lane],
             edges: [edge(0), edge(1), edge(2)],
@@ -134,28 +134,23 @@ impl<S: Simd> Brush<S> {
         }
     }
 
-    /// What columns add to the edge functions.
+    /// The edge functions and the key in the first row of the triangle's box.
     #[inline(always)]
-    fn along_row(&self, column: f32x16<S>) -> [f32x16<S>; 3] {
-        let [a, b, c] = &self.edges;
-        [a[1] * column, b[1] * column, c[1] * column]
+    fn at_top(&self, column: f32x16<S>) -> [f32x16<S>; 4] {
+        let ([a, b, c], key) = (&self.edges, &self.keys);
+        [a[0] + a[1] * column, b[0] + b[1] * column, c[0] + c[1] * column, key[0] + key[1] * column]
     }
 
     #[inline(always)]
-    fn test(&self, row: f32x16<S>, along_row: &[f32x16<S>; 3], in_box: mask32x16<S>) -> Tested<S> {
+    fn test(&self, row: f32x16<S>, at_top: &[f32x16<S>; 4], in_box: mask32x16<S>) -> Tested<S> {
         let [a, b, c] = &self.edges;
-        let values = [
-            (a[0] + a[2] * row) + along_row[0],
-            (b[0] + b[2] * row) + along_row[1],
-            (c[0] + c[2] * row) + along_row[2],
-        ];
+        let values = [at_top[0] + a[2] * row, at_top[1] + b[2] * row, at_top[2] + c[2] * row];
         let least = values[0].min(values[1]).min(values[2]);
-        let [key, key_b, key_c] = self.keys;
         Tested {
             values,
             inside: in_box & least.simd_gt(self.error),
             perhaps: in_box & least.simd_ge(-self.error),
-            keys: key + key_b * values[2] + key_c * values[0],
+            keys: at_top[3] + self.keys[2] * row,
         }
     }
 }

@@ -4,9 +4,9 @@
 use super::bins::Binning;
 use super::setup::BOX_MARGIN;
 use super::vertices::{ON_RASTER, OUT_OF_SIGHT};
-use bothways_common::Shape;
 use bothways_common::frame::Region;
 use bothways_common::simd::Simd;
+use bothways_common::{Mesh, Shape};
 use glam::{Vec3, Vec3A};
 use rayon::prelude::*;
 
@@ -58,6 +58,10 @@ struct Sorted {
     /// Which triangles of the mesh.
     numbers: Vec<u32>,
     triangles: Vec<[u32; 3]>,
+    /// The mesh's vertices in the order in which these triangles first have them, and the place there of each
+    /// of the mesh.
+    positions: Vec<Vec3>,
+    places: Vec<u32>,
 }
 
 /// Triangles in the order of their clusters.
@@ -88,7 +92,7 @@ impl Clusters {
             return Clusters { bounds, sorted: None };
         }
         let sorted = Sorted::new(positions, triangles);
-        let (bounds, _) = self::bounds(positions, &sorted.triangles);
+        let (bounds, _) = self::bounds(&sorted.positions, &sorted.triangles);
         Clusters { bounds, sorted: Some(sorted) }
     }
 
@@ -100,12 +104,24 @@ impl Clusters {
     /// The object's triangles in the order of their clusters.
     pub(super) fn triangles<'a>(&'a self, shape: &'a Shape) -> Triangles<'a> {
         match (shape, &self.sorted) {
-            (Shape::Mesh(_), Some(Sorted { numbers, triangles })) => {
+            (Shape::Mesh(_), Some(Sorted { numbers, triangles, .. })) => {
                 Triangles { corners: triangles, numbers: Some(numbers) }
             }
             (Shape::Mesh(mesh), None) => Triangles { corners: mesh.triangles(), numbers: None },
             _ => Triangles { corners: &[], numbers: None },
         }
+    }
+}
+
+impl Clusters {
+    /// The vertices of a mesh in the order in which the vertex stage takes them.
+    pub(super) fn positions<'a>(&'a self, mesh: &'a Mesh) -> &'a [Vec3] {
+        self.sorted.as_ref().map_or(mesh.positions(), |sorted| &sorted.positions)
+    }
+
+    /// Where each of the mesh's vertices is among those, if not at its own place.
+    pub(super) fn places(&self) -> Option<&[u32]> {
+        self.sorted.as_ref().map(|sorted| &*sorted.places)
     }
 }
 
@@ -144,8 +160,23 @@ impl Sorted {
         let mut all: Vec<(Vec3A, u32)> = triangles.par_iter().map(centre).zip(0..count).collect();
         sort(&mut all);
         let numbers: Vec<u32> = all.into_iter().map(|(_, number)| number).collect();
-        let triangles = numbers.iter().map(|number| triangles[*number as usize]).collect();
-        Sorted { numbers, triangles }
+        // Vertices come in this order, too: neighbours share lines of the cache.
+        let mut places = vec![u32::MAX; positions.len()];
+        let mut order = Vec::with_capacity(positions.len());
+        let mut place = |vertex: u32| {
+            let place = &mut places[vertex as usize];
+            if *place == u32::MAX {
+                *place = u32::try_from(order.len()).expect("vertices are u32");
+                order.push(vertex);
+            }
+            *place
+        };
+        let sorted = numbers.iter().map(|number| triangles[*number as usize].map(&mut place));
+        let triangles = sorted.collect();
+        // Those of no triangle.
+        (0..u32::try_from(positions.len()).expect("vertices are u32")).for_each(|v| _ = place(v));
+        let positions = order.iter().map(|vertex| positions[*vertex as usize]).collect();
+        Sorted { numbers, triangles, positions, places }
     }
 }
 

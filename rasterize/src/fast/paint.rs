@@ -230,14 +230,16 @@ struct Finder<'a> {
     binning: &'a Binning<'a>,
     /// The ids of the current object's primitives.
     ids: Range<u32>,
-    /// Its triangles' vertices, none for a triangle that is no mesh, and its first vertex.
+    /// Its triangles' vertices, none for a triangle that is no mesh, where those are if not at their own
+    /// places, and all from the first on.
     triangles: &'a [[u32; 3]],
+    places: Option<&'a [u32]>,
     vertices: &'a [Vertex],
 }
 
 impl<'a> Finder<'a> {
     fn new(binning: &'a Binning<'a>) -> Self {
-        Finder { binning, ids: 0..0, triangles: &[], vertices: &[] }
+        Finder { binning, ids: 0..0, triangles: &[], places: None, vertices: &[] }
     }
 
     /// The id of an object's first primitive, its triangles and vertices.
@@ -257,7 +259,12 @@ impl<'a> Finder<'a> {
         }
         let triangle = (id - self.ids.start) as usize;
         let corners = self.triangles.get(triangle).copied().unwrap_or([0, 1, 2]);
-        corners.map(|vertex| self.vertices[vertex as usize])
+        corners.map(|vertex| self.vertices[self.place(vertex)])
+    }
+
+    #[inline(always)]
+    fn place(&self, vertex: u32) -> usize {
+        self.places.map_or(vertex, |places| places[vertex as usize]) as usize
     }
 
     /// Prepares for the sixteen triangles from `next` on, and a little for the sixteen behind them.
@@ -270,7 +277,7 @@ impl<'a> Finder<'a> {
         }
         for &id in from(next) {
             for vertex in self.triangles.get(triangle(id)).into_iter().flatten() {
-                prefetch(&self.vertices[*vertex as usize]);
+                prefetch(&self.vertices[self.place(*vertex)]);
             }
         }
     }
@@ -287,6 +294,7 @@ impl<'a> Finder<'a> {
             Shape::Mesh(mesh) => mesh.triangles(),
             Shape::Triangle(_) | Shape::Sphere(_) | Shape::Plane(_) => &[],
         };
+        self.places = self.binning.clusters[object].places();
         self.vertices = &self.binning.vertices[self.binning.first_vertices[object]..];
     }
 }

@@ -32,10 +32,8 @@ pub(super) struct Setup {
     pub(super) down: [[f32; 16]; 3],
     /// Beyond this an edge function's sign is certain.
     pub(super) error: [f32; 16],
-    /// The key is `key + key_b·E_ca + key_c·E_ab`; NaN if it cannot be trusted.
-    pub(super) key: [f32; 16],
-    pub(super) key_b: [f32; 16],
-    pub(super) key_c: [f32; 16],
+    /// The key in the same form, NaN if it cannot be trusted: at the origin, across, down.
+    pub(super) key: [[f32; 16]; 3],
     /// The box of samples that the triangle may cover: first column and row, and how many.
     pub(super) first_column: [i32; 16],
     pub(super) first_row: [i32; 16],
@@ -71,15 +69,18 @@ impl Setup {
     /// *Key.* With `E` the error of an edge function and `ε = E/area`, at most 2⁻⁴, the weights `λ_b =
     /// E_ca/area` and `λ_c` are off by `1.1·ε` for the numerator and, times the weight, `1.1·1.5·ε` for the
     /// area: `2.8·ε·(|k_b − k_a| + |k_c − k_a|)` in all, the weights of a covered sample summing up to at most
-    /// one. Rounding: the vertices' keys bring `1.35u` of the largest one (see [`Raster::place`]), the
-    /// products 3 roundings of differences that are at most that, the sums 2: `6.4u`. The shift of aligned
-    /// edges (below) brings as many again at the most.
+    /// one. Edge functions are at most `P` in the box, and so are `A·column` and `B·row`. So with `κ = u·P·(|k_b −
+    /// k_a| + |k_c − k_a|)/area` the key at the origin brings `3κ` and twice `u·k_a`, each slope times its column
+    /// or row `2κ`, evaluation `κ` for each product and for each of two sums, and of `k_a` twice `u`: `11κ` in
+    /// all, also of aligned triangles. The vertices' keys bring `1.35u` of the largest one (see
+    /// [`Raster::place`]), their differences and the quotients `2.2u` of the differences: with what `k_a` brings,
+    /// `7.6u`.
     ///
     /// *Aligned triangles.* Places are multiples of a quarter of a sample without any error, so edge
     /// functions are multiples of 1/16, below 2¹⁷, and `f32` adds and multiplies them without rounding. A
     /// zero is decided as the contract says: the sample moves a little to the right, which adds a little
     /// of `A`, and far less down, which adds far less of `B`. Adding 1/32 to the edges that own their
-    /// samples and taking it from the others decides every sample by a sign; the key takes it back.
+    /// samples and taking it from the others decides every sample by a sign; the key does without it.
     #[inline(always)]
     pub(super) fn new<S: Simd, F: Fault>(simd: S, raster: &Raster, lanes: &Lanes) -> Setup {
         let splat = |value: f32| f32x16::splat(simd, value);
@@ -143,15 +144,18 @@ impl Setup {
             let by =
                 if F::is(Planted::StrictComparison) { -half } else { owned.select(half, -half) };
             shift[k] = aligned.select(by, splat(0.0));
-            at_origin[k] = (dy[k] * px[k] - dx[k] * py[k]) * facing + shift[k];
+            at_origin[k] = (dy[k] * px[k] - dx[k] * py[k]) * facing;
         }
 
         let (to_b, to_c) = (keys[1] - keys[0], keys[2] - keys[0]);
         let (key_b, key_c) = (to_b / area, to_c / area);
-        let key_at_origin = keys[0] - (shift[2] * key_b + shift[0] * key_c);
+        let key_at_origin = keys[0] + key_b * at_origin[2] + key_c * at_origin[0];
+        let key_across = key_b * across[2] + key_c * across[0];
+        let key_down = key_b * down[2] + key_c * down[0];
         let largest = keys[0].max(keys[1]).max(keys[2]);
         let least = keys[0].min(keys[1]).min(keys[2]);
-        let key_error = splat(2.8) * (error / area) * (to_b.abs() + to_c.abs())
+        let key_error = (splat(2.8) * error + splat(0.9) * rounding) / area
+            * (to_b.abs() + to_c.abs())
             + splat(13.0 * UNIT_ROUNDOFF) * largest;
         let mut keyed =
             key_error.simd_le(splat(KEY_ERROR) * least) & (splat(16.0) * error).simd_le(area);
@@ -163,13 +167,15 @@ impl Setup {
         let lanes_of = |mask: u64| u16::try_from(mask).expect("a mask has 16 lanes");
         Setup {
             ids: lanes.ids(simd).to_array(),
-            at_origin: arrays(at_origin),
+            at_origin: arrays([
+                at_origin[0] + shift[0],
+                at_origin[1] + shift[1],
+                at_origin[2] + shift[2],
+            ]),
             across: arrays(across),
             down: arrays(down),
             error: error.to_array(),
-            key: keyed.select(key_at_origin, splat(f32::NAN)).to_array(),
-            key_b: key_b.to_array(),
-            key_c: key_c.to_array(),
+            key: arrays([keyed.select(key_at_origin, splat(f32::NAN)), key_across, key_down]),
             first_column: across_box.first.to_array(),
             first_row: down_box.first.to_array(),
             columns: columns.to_array(),

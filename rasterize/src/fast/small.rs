@@ -31,7 +31,7 @@ pub(super) fn draw<S: Simd, O: Observer, F: Fault>(
         (load(&setup.at_origin[k]), load(&setup.across[k]), load(&setup.down[k]))
     });
     let error = load(&setup.error);
-    let (key, key_b, key_c) = (load(&setup.key), load(&setup.key_b), load(&setup.key_c));
+    let key = [load(&setup.key[0]), load(&setup.key[1]), load(&setup.key[2])];
     let Walk { left, right, top, mut index, mut remaining, to_next_row } =
         Walk::new(simd, setup, buffer);
     let one = i32x16::splat(simd, 1);
@@ -49,7 +49,7 @@ pub(super) fn draw<S: Simd, O: Observer, F: Fault>(
         let least = values[0].min(values[1]).min(values[2]);
         let inside = active & least.simd_gt(error);
         let perhaps = active & least.simd_ge(-error);
-        let keys = key + key_b * values[2] + key_c * values[0];
+        let keys = (key[0] + key[2] * row) + key[1] * column;
         if O::WATCHES {
             tell(setup, buffer, observer, active, &index.to_array(), &values, error);
         }
