@@ -263,10 +263,13 @@ def llvmpipe(program, tri, image, options):
 
 
 def embree(program, tri, image, options):
-    """The fastest of its modes, watertight and not; m0 traces nothing."""
+    """The fastest of its modes, watertight and not (m0 traces nothing); and its builds."""
     best = {}
     for line in run(program, tri, "-", options.repeats, image).splitlines():
         fields = line.split("|")
+        if fields[1] == "BUILD" and fields[5:7] == ["fast", f"{options.threads}T"]:
+            time = fields[7].removeprefix("median ").removesuffix(" ms")
+            best[f"build_{fields[4].lower()}"] = float(time)
         if len(fields) != 12 or fields[8] != f"{options.threads}T" or fields[5] == "m0":
             continue
         key = f"embree_{fields[3]}"
@@ -352,12 +355,25 @@ def object_order(rows):
 
 def image_order(rows):
     def cells(row):
-        times = [median(row, key) for key in ("prepare", "image", "embree", "embree_robust")]
+        times = [median(row, key) for key in ("image", "embree", "embree_robust")]
         ratios = [ratio(row, key, "image") for key in ("embree", "embree_robust")]
         return [shown(value) for value in times + ratios]
 
-    heads = ["prepare", "image order", "Embree", "watertight", "ratio", "to watertight"]
+    heads = ["image order", "Embree", "watertight", "ratio", "to watertight"]
     yield table(heads, rows, cells)
+    ratios = [ratio(row, "embree", "image") for row in rows]
+    ratios = [value for value in ratios if value is not None]
+    if ratios:
+        middle, least = statistics.median(ratios), min(ratios)
+        yield f"The median ratio is {middle:.2f}, the least {least:.2f}."
+
+    def builds(row):
+        times = [median(row, key) for key in ("prepare", "build_high", "build_medium")]
+        ratios = [ratio(row, key, "prepare") for key in ("build_high", "build_medium")]
+        return [shown(value) for value in times + ratios]
+
+    heads = ["prepare", "Embree, high", "medium", "ratio to high", "to medium"]
+    yield table(heads, rows, builds)
 
 
 def table(heads, rows, cells):

@@ -7,12 +7,11 @@
 
 mod support;
 
-use bothways::common::glam::{Vec2, Vec3};
-use bothways::common::{Camera, CameraDescription, Frame, Mesh, Options, Projection, Scene, View};
+use bothways::common::{Camera, Frame, Options, Scene, View};
 use bothways::rasterize::fast;
 use divan::Bencher;
 use divan::counter::ItemsCount;
-use support::{Copy, FULL_HD, MILLION, Part, camera, scene, sphere};
+use support::{Copy, FULL_HD, Lying, MILLION, Part, camera, on_pixels, scene, sphere, squares};
 
 fn main() {
     divan::main();
@@ -85,53 +84,10 @@ fn twice<const AROUND: u32>(bencher: Bencher, copy: Copy) {
     time_visibility(bencher, &copy.with(mesh, &camera), &camera, 1);
 }
 
-/// How a grid of squares lies on the samples.
-#[derive(Clone, Copy, Debug)]
-enum Lying {
-    /// Every corner on a sample, so that edges and diagonals pass through samples.
-    Aligned,
-    /// The same, moved by a third of a pixel to the right and down.
-    Shifted,
-}
-
 /// A grid of squares with sides of so many pixels over the whole picture: that its edges pass through
 /// samples costs at most twice what they cost beside them.
 #[divan::bench(args = [Lying::Aligned, Lying::Shifted], consts = [2, 4, 8, 32, 100])]
 fn grid<const SIDE: u32>(bencher: Bencher, lying: Lying) {
-    let shift = match lying {
-        Lying::Aligned => Vec2::ZERO,
-        Lying::Shifted => Vec2::new(1.0 / 3.0, -1.0 / 3.0),
-    };
-    let scene = scene([squares(SIDE, shift)]);
+    let scene = scene([squares(SIDE, lying)]);
     time_visibility(bencher, &scene, &on_pixels(), 1);
-}
-
-/// A camera before which one unit of the plane z = −1000 is one pixel.
-fn on_pixels() -> Camera {
-    let description = CameraDescription {
-        projection: Projection::Perspective,
-        distance: 1000.0,
-        viewport: FULL_HD.map(|side| side as f32),
-        image: FULL_HD,
-        ..CameraDescription::default()
-    };
-    Camera::new(description).expect("it is a camera")
-}
-
-/// Squares over the whole picture, their corners on samples before they are shifted.
-fn squares(side: u32, shift: Vec2) -> Mesh {
-    let [columns, rows] = FULL_HD.map(|pixels| pixels.div_ceil(side));
-    let corner = |k: u32| {
-        let [column, row] = [k % (columns + 1), k / (columns + 1)].map(|step| (side * step) as f32);
-        // Samples lie in the middle of pixels.
-        let (x, y) = (column - 959.5 + shift.x, 539.5 - row + shift.y);
-        Vec3::new(x, y, -1000.0)
-    };
-    let square = |k: u32| {
-        let a = k / columns * (columns + 1) + k % columns;
-        let [b, c, d] = [a + columns + 1, a + columns + 2, a + 1];
-        [[a, b, c], [a, c, d]]
-    };
-    let positions = (0..(columns + 1) * (rows + 1)).map(corner).collect();
-    Mesh::new(positions, (0..columns * rows).flat_map(square).collect()).expect("it is a mesh")
 }

@@ -13,7 +13,7 @@ use bothways::raytrace::fast;
 use divan::Bencher;
 use divan::counter::ItemsCount;
 use rayon::ThreadPool;
-use support::{Copy, FULL_HD, MILLION, Part, camera, scene, sphere};
+use support::{Copy, FULL_HD, Lying, MILLION, Part, camera, on_pixels, scene, sphere, squares};
 
 fn main() {
     divan::main();
@@ -88,6 +88,14 @@ fn twice<const AROUND: u32>(bencher: Bencher, copy: Copy) {
     let mesh = sphere([AROUND, AROUND / 2 + 1]);
     let camera = camera(&mesh, FULL_HD);
     time_visibility(bencher, &copy.with(mesh, &camera), &camera, 1, &Options::default());
+}
+
+/// A grid of squares with sides of so many pixels over the whole picture: that its edges pass through
+/// samples costs at most twice what they cost beside them.
+#[divan::bench(args = [Lying::Aligned, Lying::Shifted], consts = [2, 4, 8, 32, 100])]
+fn grid<const SIDE: u32>(bencher: Bencher, lying: Lying) {
+    let scene = scene([squares(SIDE, lying)]);
+    time_visibility(bencher, &scene, &on_pixels(), 1, &Options::default());
 }
 
 /// The sphere of a million triangles by either camera, as large in both pictures.

@@ -11,7 +11,7 @@ use bothways::common::glam::Vec3;
 use bothways::common::{Camera, Frame, Mesh, Object, Options, Projection, Scene, Shape, View};
 use bothways::diff::compare;
 use bothways::{rasterize, raytrace};
-use support::{PROJECTIONS, camera, scene, triangle, turned};
+use support::{PROJECTIONS, camera, on_integers, scene, triangle, turned};
 
 /// Whether both orders match when object order, or image order, has a fault.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,16 +72,11 @@ fn square() -> Vec<Object> {
     vec![triangle([a, b, c]), triangle([a, c, d])]
 }
 
-/// 7 × 7 samples on the integer points from −3 to 3.
-fn on_integers(projection: Projection) -> Camera {
-    camera(projection, [0.0; 3], [7.0, 7.0], [7, 7])
-}
-
 #[test]
 fn a_sound_renderer_matches() {
     for projection in PROJECTIONS {
         let all_well = Verdicts { object_order: true, image_order: true };
-        assert_eq!(verdicts(&scene(square()), &on_integers(projection), Sound), all_well);
+        assert_eq!(verdicts(&scene(square()), &on_integers(projection, 3), Sound), all_well);
     }
 }
 
@@ -94,7 +89,7 @@ fn a_dropped_tile_differs() {
 #[test]
 fn greater_for_greater_or_equal_differs() {
     for projection in PROJECTIONS {
-        let verdicts = verdicts(&scene(square()), &on_integers(projection), StrictComparison);
+        let verdicts = verdicts(&scene(square()), &on_integers(projection, 3), StrictComparison);
         assert_eq!(verdicts, CAUGHT, "{projection:?}");
     }
 }
@@ -102,7 +97,7 @@ fn greater_for_greater_or_equal_differs() {
 #[test]
 fn a_box_one_ulp_too_small_differs() {
     for projection in PROJECTIONS {
-        let verdicts = verdicts(&scene(square()), &on_integers(projection), ShrunkBox);
+        let verdicts = verdicts(&scene(square()), &on_integers(projection, 3), ShrunkBox);
         assert_eq!(verdicts, CAUGHT, "{projection:?}");
     }
 }
@@ -127,7 +122,7 @@ fn an_error_bound_of_zero_differs() {
 fn ties_to_the_last_primitive_differ() {
     let twice = scene([square(), square()].concat());
     for projection in PROJECTIONS {
-        let verdicts = verdicts(&twice, &on_integers(projection), TiesToLast);
+        let verdicts = verdicts(&twice, &on_integers(projection, 3), TiesToLast);
         assert_eq!(verdicts, CAUGHT, "{projection:?}");
     }
 }

@@ -1,6 +1,6 @@
 //! What the fast rasterizer must not depend on, and the triangles that its own paths are made for.
 
-#![expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small numbers")]
+#![expect(clippy::cast_possible_truncation, reason = "small numbers")]
 
 mod support;
 
@@ -8,12 +8,13 @@ use bothways::common::generate::Kind;
 use bothways::common::glam::{Vec2, Vec3};
 use bothways::common::simd::{Level, best_level, levels};
 use bothways::common::{
-    Camera, CameraDescription, Frame, Mesh, Object, Options, Orientation, Projection, Scene, View,
-    Work,
+    Camera, CameraDescription, Frame, Mesh, Options, Orientation, Projection, Scene, View, Work,
 };
 use bothways::rasterize::fast::{self, Prepared};
 use bothways::{rasterize, scenes};
-use support::{PROJECTIONS, assert_same_visibility, camera, mesh, scene, triangle, turned};
+use support::{
+    GRIDS, PROJECTIONS, assert_same_visibility, grid, mesh, on_integers, scene, triangle, turned,
+};
 
 /// Draws with a prepared scene; also tells the work.
 fn draw(prepared: &Prepared, view: &View, options: &Options) -> (Frame, Work) {
@@ -173,35 +174,12 @@ fn triangles_of_all_sizes_as_the_textbook_sees_them() {
     }
 }
 
-/// A camera whose samples are the integer points from −`half` to `half`, one unit apart.
-fn on_integers(projection: Projection, half: u32) -> Camera {
-    let side = 2 * half + 1;
-    camera(projection, [0.0; 3], [side as f32; 2], [side; 2])
-}
-
-/// The corners of a grid of squares in the plane z = −1, moved by `shift`, cut by both diagonals in turn.
-fn grid(side: f32, squares: usize, shift: Vec2) -> Object {
-    let count = squares + 1;
-    let half = 0.5 * side * squares as f32;
-    let place = |k: usize| {
-        let [column, row] = [k % count, k / count].map(|index| side * index as f32 - half);
-        Vec3::new(column + shift.x, row + shift.y, -1.0)
-    };
-    let square = |k: usize| {
-        let a = (k / squares * count + k % squares) as u32;
-        let [b, c, d] = [a + 1, a + count as u32 + 1, a + count as u32];
-        if k.is_multiple_of(2) { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] }
-    };
-    let triangles = (0..squares * squares).flat_map(square).collect();
-    mesh(Mesh::new((0..count * count).map(place).collect(), triangles).expect("it is a mesh"))
-}
-
 #[test]
 fn edges_through_samples_need_no_judge_where_vertices_are_on_the_raster() {
     for projection in PROJECTIONS {
-        for side in [0.25, 0.5, 1.0, 2.0, 4.0, 9.0] {
+        for (side, squares) in GRIDS {
             for shift in [Vec2::ZERO, Vec2::new(0.25, 0.5)] {
-                let scene = scene(vec![grid(side, (24.0 / side) as usize, shift)]);
+                let scene = scene(vec![grid(side, squares, shift)]);
                 let camera = on_integers(projection, 10);
                 let work = check(&scene, &camera, &format!("{projection:?}, squares of {side}"));
                 assert_eq!(work.judged_coverage, 0, "{projection:?}, squares of {side}: {work:?}");

@@ -3,7 +3,7 @@
 
 mod support;
 
-use bothways::common::glam::{Quat, Vec3};
+use bothways::common::glam::{Quat, Vec2, Vec3};
 use bothways::common::simd::levels;
 use bothways::common::{
     Camera, CameraDescription, Frame, Mesh, Object, Options, Orientation, Plane, Projection, Shape,
@@ -13,7 +13,10 @@ use bothways::raytrace::{
     fast::{self, WorldRay},
     textbook,
 };
-use support::{PROJECTIONS, assert_same_visibility, camera, mesh, scene, triangle, turned};
+use support::{
+    GRIDS, PROJECTIONS, assert_same_visibility, camera, grid, mesh, on_integers, scene, triangle,
+    turned,
+};
 
 /// Numbers that look random, the same every time.
 struct Dice(u64);
@@ -123,6 +126,46 @@ fn rays_that_graze_boxes_and_meet_vertices_and_edges() {
         check_against_textbook(&View::new(&scene, &camera), 1, "on the grid's lines");
         let fine = support::camera(projection, [1.0, 0.0, 0.0], viewport, [66, 33]);
         check_against_textbook(&View::new(&scene, &fine), 2, "and between them");
+    }
+}
+
+#[test]
+fn edges_through_samples_need_no_judge_where_vertices_are_on_the_raster() {
+    for projection in PROJECTIONS {
+        for (side, squares) in GRIDS {
+            for shift in [Vec2::ZERO, Vec2::new(0.25, 0.5)] {
+                let scene = scene(vec![grid(side, squares, shift)]);
+                let camera = on_integers(projection, 10);
+                let what = format!("{projection:?}, squares of {side}");
+                let view = View::new(&scene, &camera);
+                let mut frame = check_against_textbook(&view, 1, &what);
+                let mut work = Work::default();
+                let (prepared, options) = (fast::prepare(&scene), Options::default());
+                fast::determine_visibility(&prepared, &view, &options, &mut frame, &mut work);
+                assert_eq!(work.judged_coverage, 0, "{what}: {work:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn every_triangle_on_quarters_of_samples() {
+    // Any corners, at several depths, so that edges of any slope pass through samples.
+    let mut dice = Dice(3);
+    let triangles = (0..300).map(|_| {
+        let z = (4.0 * dice.next()).floor() - 8.0;
+        triangle([(); 3].map(|()| {
+            let [x, y, _] = dice.point().to_array();
+            [(6.0 * x).floor() * 0.75 * -z, (6.0 * y).floor() * 0.5 * -z, z]
+        }))
+    });
+    let scene = scene(triangles.collect());
+    for projection in PROJECTIONS {
+        for samples in [1, 2, 4] {
+            let view = (&scene, &on_integers(projection, 6));
+            let what = format!("{projection:?}, {samples} samples");
+            check_against_textbook(&View::new(view.0, view.1), samples, &what);
+        }
     }
 }
 

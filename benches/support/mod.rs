@@ -1,7 +1,8 @@
 //! What the benches of both orders draw.
 
 use bothways::common::generate::Kind;
-use bothways::common::{Camera, CameraDescription, Crop, Mesh, Options, Scene, Shape};
+use bothways::common::glam::{Vec2, Vec3};
+use bothways::common::{Camera, CameraDescription, Crop, Mesh, Options, Projection, Scene, Shape};
 use bothways::scenes::framed;
 
 pub(crate) const FULL_HD: [u32; 2] = [1920, 1080];
@@ -65,4 +66,47 @@ impl Part {
         };
         Options { crop, ..Options::default() }
     }
+}
+
+/// How a grid of squares lies on the samples.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Lying {
+    /// Every corner on a sample, so that edges and diagonals pass through samples.
+    Aligned,
+    /// The same, moved by a third of a pixel to the right and down.
+    Shifted,
+}
+
+/// A camera before which one unit of the plane z = −1000 is one pixel.
+pub(crate) fn on_pixels() -> Camera {
+    let description = CameraDescription {
+        projection: Projection::Perspective,
+        distance: 1000.0,
+        viewport: FULL_HD.map(|side| side as f32),
+        image: FULL_HD,
+        ..CameraDescription::default()
+    };
+    Camera::new(description).expect("it is a camera")
+}
+
+/// Squares over the whole picture, their corners on samples before they are shifted.
+pub(crate) fn squares(side: u32, lying: Lying) -> Mesh {
+    let shift = match lying {
+        Lying::Aligned => Vec2::ZERO,
+        Lying::Shifted => Vec2::new(1.0 / 3.0, -1.0 / 3.0),
+    };
+    let [columns, rows] = FULL_HD.map(|pixels| pixels.div_ceil(side));
+    let corner = |k: u32| {
+        let [column, row] = [k % (columns + 1), k / (columns + 1)].map(|step| (side * step) as f32);
+        // Samples lie in the middle of pixels.
+        let (x, y) = (column - 959.5 + shift.x, 539.5 - row + shift.y);
+        Vec3::new(x, y, -1000.0)
+    };
+    let square = |k: u32| {
+        let a = k / columns * (columns + 1) + k % columns;
+        let [b, c, d] = [a + columns + 1, a + columns + 2, a + 1];
+        [[a, b, c], [a, c, d]]
+    };
+    let positions = (0..(columns + 1) * (rows + 1)).map(corner).collect();
+    Mesh::new(positions, (0..columns * rows).flat_map(square).collect()).expect("it is a mesh")
 }

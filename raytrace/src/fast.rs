@@ -16,6 +16,7 @@
 //! For an observer each ray walks alone as well, as a tile of one: so what is told belongs to the ray, and
 //! depends on nothing else. The frame is that of the tiles, watched or not.
 
+mod aligned;
 mod any_ray;
 mod build;
 mod draw;

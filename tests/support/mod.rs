@@ -1,12 +1,13 @@
 //! What the integration tests share: the four renderers, and small scenes.
 #![expect(dead_code, unreachable_pub, reason = "each test takes what it needs")]
+#![expect(clippy::cast_possible_truncation, reason = "small numbers")]
 
-use bothways::common::glam::Vec3;
+use bothways::common::glam::{Vec2, Vec3};
 use bothways::common::observe::{Observer, Sample};
 use bothways::common::predicate::Sign;
 use bothways::common::{
-    Camera, CameraDescription, Crop, Frame, Object, Options, Orientation, Projection, Scene, Shape,
-    Triangle, View,
+    Camera, CameraDescription, Crop, Frame, Mesh, Object, Options, Orientation, Projection, Scene,
+    Shape, Triangle, View,
 };
 use bothways::{rasterize, raytrace};
 use std::cmp::Ordering;
@@ -243,4 +244,31 @@ pub fn arguments(line: &str) -> Vec<String> {
     }
     words.retain(|word| !word.is_empty());
     words
+}
+
+/// A camera whose samples are the integer points from −`half` to `half`, one unit apart.
+pub fn on_integers(projection: Projection, half: u32) -> Camera {
+    let side = 2 * half + 1;
+    camera(projection, [0.0; 3], [side as f32; 2], [side; 2])
+}
+
+/// Sides of squares, and how many in a row fill 24 units.
+pub const GRIDS: [(f32, usize); 6] =
+    [(0.25, 96), (0.5, 48), (1.0, 24), (2.0, 12), (4.0, 6), (9.0, 2)];
+
+/// The corners of a grid of squares in the plane z = −1, moved by `shift`, cut by both diagonals in turn.
+pub fn grid(side: f32, squares: usize, shift: Vec2) -> Object {
+    let count = squares + 1;
+    let half = 0.5 * side * squares as f32;
+    let place = |k: usize| {
+        let [column, row] = [k % count, k / count].map(|index| side * index as f32 - half);
+        Vec3::new(column + shift.x, row + shift.y, -1.0)
+    };
+    let square = |k: usize| {
+        let a = (k / squares * count + k % squares) as u32;
+        let [b, c, d] = [a + 1, a + count as u32 + 1, a + count as u32];
+        if k.is_multiple_of(2) { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] }
+    };
+    let triangles = (0..squares * squares).flat_map(square).collect();
+    mesh(Mesh::new((0..count * count).map(place).collect(), triangles).expect("it is a mesh"))
 }

@@ -3,9 +3,10 @@
 use super::depth::{KeyScale, LARGEST_KEY};
 use super::screen::Screen;
 use bothways_common::Projection;
+use bothways_common::exact_grid::ExactGrid;
 use bothways_common::simd::{
-    Bytes, Select, Simd, SimdBase, SimdFloat, SimdInterleaved, SimdMask, f32x16, f64x8, i32x4,
-    i32x16, mask64x8,
+    Bytes, Select, Simd, SimdBase, SimdInterleaved, SimdMask, f32x16, f64x8, i32x4, i32x16,
+    mask64x8,
 };
 use glam::{DVec3, Vec3};
 
@@ -46,9 +47,8 @@ pub(super) struct Raster {
     pub(super) keys: KeyScale,
     /// Whether vertices can be trusted at all: the camera is not too extreme.
     trusted: bool,
-    /// The distances of neighbouring columns and rows on the viewport, if that grid and the camera's
-    /// frame are free of rounding; see [`exact_grid`].
-    grid: Option<[f64; 2]>,
+    /// The samples, if nothing is rounded between them.
+    grid: Option<ExactGrid>,
 }
 
 impl Raster {
@@ -76,7 +76,7 @@ impl Raster {
             slack,
             keys,
             trusted: margin <= unit,
-            grid: exact_grid(screen),
+            grid: ExactGrid::new(screen.camera, screen.grid),
         }
     }
 
@@ -221,11 +221,9 @@ impl Raster {
             + flag(safe & column.simd_gt(splat(width)), RIGHT)
             + flag(safe & row.simd_lt(-one), ABOVE)
             + flag(safe & row.simd_gt(splat(height)), BELOW);
-        if let Some(grid) = self.grid {
-            let lines = [[column, right, depth], [row, -up, depth]];
-            let [across, down] = std::array::from_fn(|axis| {
-                is_aligned(simd, screen, lines[axis], screen.middle[axis], grid[axis])
-            });
+        if let Some(grid) = &self.grid {
+            let across = grid.holds(simd, 0, [column, right, depth]);
+            let down = grid.holds(simd, 1, [row, -up, depth]);
             let aligned = on_raster & across & down;
             flags += flag(aligned, ALIGNED);
         }
@@ -266,58 +264,6 @@ fn coordinates<S: Simd>(simd: S, positions: &[Vec3; 16], axis: usize) -> (f64x8<
         *along = position.to_array()[axis];
     }
     simd.widen_f32x16(f32x16::load_array(simd, along))
-}
-
-/// Where vertices lie exactly at multiples of a quarter of a column (or row).
-///
-/// With `r` along `u` (or `−v`) and `g` the distance of neighbours, the true column is `middle +
-/// r·d/(ζ·g)` (parallel: without `d/ζ`). Let `n/4` be the quarter nearest to the computed one: it is the
-/// true one if `m·g·ζ = 4·r·d` with the integer `m = n − 4·middle`. Both products are exact in `f64`: `m`
-/// has at most 19 bits, `g` 10 by [`exact_grid`], `d` 24, and `r` and `ζ` are checked to have 24.
-#[inline(always)]
-fn is_aligned<S: Simd>(
-    simd: S,
-    screen: &Screen,
-    [place, along, depth]: [f64x8<S>; 3],
-    middle: f64,
-    spacing: f64,
-) -> mask64x8<S> {
-    let splat = |value: f64| f64x8::splat(simd, value);
-    let from_middle = (place * splat(4.0)).round_ties_even() - splat(4.0 * middle);
-    #[expect(clippy::cast_possible_truncation, reason = "the question is what survives it")]
-    let is_short = |value: f64x8<S>| {
-        let back = value.to_array().map(|value| f64::from(value as f32));
-        value.simd_eq(f64x8::load_array(simd, back))
-    };
-    let grid_point = from_middle * splat(spacing);
-    match screen.projection() {
-        Projection::Perspective => {
-            let same = (grid_point * depth).simd_eq(along * splat(4.0 * screen.distance));
-            same & is_short(along) & is_short(depth)
-        }
-        Projection::Parallel => grid_point.simd_eq(along * splat(4.0)) & is_short(along),
-    }
-}
-
-/// The distances of neighbouring columns and rows on the viewport, if nothing is rounded between the
-/// camera and its rays.
-///
-/// If the distance `vw/W` has at most 10 bits, a sample's coordinate, half of it times an integer of 17
-/// bits, is stored without rounding. If besides `u`, `v` and `w` run along the world's axes, the rays and
-/// all offsets along `u`, `v`, `w` are the coordinates themselves.
-fn exact_grid(screen: &Screen) -> Option<[f64; 2]> {
-    let is_axis = |axis: DVec3| axis.abs().element_sum() == 1.0 && axis.abs().max_element() == 1.0;
-    let size = [screen.grid.width(), screen.grid.height()];
-    let viewport = screen.camera.viewport();
-    let spacing: [Option<f64>; 2] = std::array::from_fn(|axis| {
-        #[expect(clippy::cast_precision_loss, reason = "at most 65,536")]
-        let count = size[axis] as f64;
-        let spacing = viewport[axis] / count;
-        let few_bits = spacing.to_bits().trailing_zeros() >= 43;
-        (few_bits && spacing * count == viewport[axis]).then_some(spacing)
-    });
-    let [Some(across), Some(down)] = spacing else { return None };
-    [screen.u, screen.v, screen.w].into_iter().all(is_axis).then_some([across, down])
 }
 
 /// The nearest integers, which must be within 31 bits: those of `upper`, then those of `lower`.

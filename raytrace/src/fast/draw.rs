@@ -3,6 +3,7 @@
 //! Over few samples: eight triangles at a time, each at one of its samples. Over more: one triangle at a
 //! time, first at sixteen blocks at once, then at the sixteen samples of each block that is left.
 
+use super::aligned::TIE;
 use super::rays::{Lens, Rays};
 use super::setup::{Affine, Setup};
 use super::tile::{Tile, index, place};
@@ -333,7 +334,9 @@ fn tell<S: Simd, O: Observer>(
         let inside = edges.iter().all(|edge| *edge > error[lane]);
         if doubtful >> lane & 1 == 0 && (out || inside) {
             let sign = |edge: f32| {
-                (edge.abs() > error[lane]).then(|| Sign::of(f64::from(facing[lane] * edge)))
+                let on_edge = error[lane] == 0.0 && edge.abs() == TIE;
+                let sign = if on_edge { 0.0 } else { f64::from(facing[lane] * edge) };
+                (edge.abs() > error[lane]).then(|| Sign::of(sign))
             };
             observer.edge_signs(sample, leaf.ids[lane], edges.map(sign));
         }

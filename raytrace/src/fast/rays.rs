@@ -9,6 +9,7 @@
 //! What is computed here is computed with rounding: [`Errors`] bounds what that does.
 
 use super::rough::{self, Plane, Rough};
+use bothways_common::exact_grid::ExactGrid;
 use bothways_common::{Camera, Projection, SampleGrid, View};
 use glam::DVec3;
 
@@ -38,6 +39,8 @@ pub(super) struct Lens<'a> {
     /// The map: a row for `t`, one for columns, one for rows; and what is added.
     pub(super) rows: [[f64; 3]; 3],
     pub(super) shift: [f64; 3],
+    /// The column and row of the tile's middle.
+    pub(super) middle: [f64; 2],
     /// The map in `f32`.
     pub(super) rough: Rough,
 }
@@ -54,6 +57,10 @@ pub(super) struct LensKind {
     /// far that way.
     wide: f64,
     pub(super) eye: [f64; 3],
+    /// `u`, `v`, `w`.
+    pub(super) frame: [DVec3; 3],
+    /// The samples, if nothing is rounded between them.
+    pub(super) grid: Option<ExactGrid>,
     /// The map's rows for the middle of the picture, and what those of columns and rows gain with the
     /// coordinates on the viewport.
     axes: [DVec3; 3],
@@ -199,7 +206,8 @@ impl<'a> Rays<'a> {
             },
         );
         let eye = self.eye.to_array();
-        LensKind { parallel, side, half, wide, eye, axes, slopes, errors, rough }
+        let (frame, grid) = ([u, v, w], ExactGrid::new(camera, &self.grid));
+        LensKind { parallel, side, half, wide, eye, frame, grid, axes, slopes, errors, rough }
     }
 
     /// The rays of a square of samples. It may reach over the picture's end.
@@ -227,7 +235,9 @@ impl<'a> Rays<'a> {
                 Plane::new(side + down, offset + shift[2]),
             ],
         };
-        Lens { kind, rows: [t.to_array(), across.to_array(), down.to_array()], shift, rough }
+        let rows = [t.to_array(), across.to_array(), down.to_array()];
+        let middle = [count(column) + kind.half, count(row) + kind.half];
+        Lens { kind, rows, shift, middle, rough }
     }
 
     /// The key interval of an interval of `t`, widened to `f32`s.

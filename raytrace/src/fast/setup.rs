@@ -1,6 +1,7 @@
 //! Eight triangles against the rays of a tile: edge functions and keys as affine functions of column and
 //! row, set up in `f64` about the tile's middle and rounded to `f32`, with bounds of the error.
 
+use super::aligned::Aligned;
 use super::rays::Lens;
 use super::tree::Leaf;
 use bothways_common::fault::{Fault, Planted};
@@ -49,6 +50,16 @@ impl<S: Simd> Affine<S> {
         half * (self.across.abs() + self.down.abs())
     }
 
+    /// The other, in some lanes.
+    #[inline(always)]
+    fn or(&self, other: &Self, which: mask32x8<S>) -> Self {
+        Affine {
+            at_middle: which.select(other.at_middle, self.at_middle),
+            across: which.select(other.across, self.across),
+            down: which.select(other.down, self.down),
+        }
+    }
+
     #[inline(always)]
     pub(super) fn at(&self, across: f32x8<S>, down: f32x8<S>) -> f32x8<S> {
         (self.at_middle + self.down * down) + self.across * across
@@ -93,7 +104,8 @@ impl<S: Simd> Setup<S> {
         far: f32,
     ) -> Self {
         let blind = F::is(Planted::ZeroErrorBound);
-        let [a, b, c] = map_corners(simd, lens, leaf);
+        let [a, b, c] = offsets(simd, lens, leaf);
+        let [a, b, c] = [map(a, lens), map(b, lens), map(c, lens)];
         let (ab, bc, ca) = (minus(b, a), minus(c, b), minus(a, c));
 
         let n = [
@@ -116,8 +128,17 @@ impl<S: Simd> Setup<S> {
         let (y3, ck) = narrow(e3[2] * r, key_at_middle * r);
         let (xk, yk) = narrow(n[1] * r, n[2] * r);
         let affine = |at_middle, across, down| Affine { at_middle, across, down };
-        let edges = [affine(c1, x1, y1), affine(c2, x2, y2), affine(c3, x3, y3)];
+        let mut edges = [affine(c1, x1, y1), affine(c2, x2, y2), affine(c3, x3, y3)];
         let mut key = affine(ck, xk, yk);
+
+        let aligned = if blind { None } else { Aligned::new::<F>(simd, lens, leaf, &[a, b, c]) };
+        if let Some(Aligned { which, edges: exact, .. }) = &aligned {
+            edges = [
+                edges[0].or(&exact[0], *which),
+                edges[1].or(&exact[1], *which),
+                edges[2].or(&exact[2], *which),
+            ];
+        }
 
         // The same corners in f32, for bounds and for the boxes of samples.
         let (ta, xa) = narrow(a[0], a[1]);
@@ -154,7 +175,7 @@ impl<S: Simd> Setup<S> {
         let f_error = f_error + floor;
         let size = f.abs();
         let by_f = f32x8::splat(simd, 1.001) / size;
-        let certain = size.simd_gt(f_error);
+        let mut certain = size.simd_gt(f_error);
         let slopes = [edges[0].abs_slope(half), edges[1].abs_slope(half), edges[2].abs_slope(half)];
         let middle =
             edges[0].at_middle.abs().max(edges[1].at_middle.abs()).max(edges[2].at_middle.abs());
@@ -178,6 +199,15 @@ impl<S: Simd> Setup<S> {
             key.down = known.select(key.down, zero);
         }
 
+        let mut facing = f.simd_lt(zero).select(f32x8::splat(simd, -1.0), f32x8::splat(simd, 1.0));
+        let mut flat = mask32x8::splat(simd, false);
+        if let Some(aligned) = &aligned {
+            certain |= aligned.which;
+            error = aligned.which.select(zero, error);
+            facing = aligned.which.select(aligned.facing, facing);
+            flat = aligned.which & aligned.flat;
+        }
+
         // All three edge functions may be positive somewhere, and so may the key be larger than `far`.
         // Comparisons with NaN are false, and let pass.
         let out = (edges[0].at_middle + slopes[0] + error).simd_lt(zero)
@@ -195,18 +225,18 @@ impl<S: Simd> Setup<S> {
             error,
             key,
             key_error,
-            facing: f.simd_lt(zero).select(f32x8::splat(simd, -1.0), f32x8::splat(simd, 1.0)),
+            facing,
             columns,
             rows,
-            alive: used & !(out | hidden | empty),
+            alive: used & !(out | hidden | empty | flat),
             doubtful: !certain,
         }
     }
 }
 
-/// The corners' `(t, x, y)` by the map.
+/// The corners' offsets from the eye.
 #[inline(always)]
-fn map_corners<S: Simd>(simd: S, lens: &Lens, leaf: &Leaf) -> [[f64x8<S>; 3]; 3] {
+pub(super) fn offsets<S: Simd>(simd: S, lens: &Lens, leaf: &Leaf) -> [[f64x8<S>; 3]; 3] {
     let rows = leaf.corners.as_flattened();
     let (ax, ay) = f32x16::from_slice(simd, &rows[..16]).widen();
     let (az, bx) = f32x16::from_slice(simd, &rows[16..32]).widen();
@@ -214,14 +244,13 @@ fn map_corners<S: Simd>(simd: S, lens: &Lens, leaf: &Leaf) -> [[f64x8<S>; 3]; 3]
     let (cx, cy) = f32x16::from_slice(simd, &rows[48..64]).widen();
     let (low, high) = f32x8::from_slice(simd, &rows[64..72]).widen();
     let cz = low.combine(high);
-    let corners = [[ax, ay, az], [bx, by, bz], [cx, cy, cz]];
-    [map(corners[0], lens), map(corners[1], lens), map(corners[2], lens)]
+    let [x, y, z] = lens.kind.eye;
+    [[ax - x, ay - y, az - z], [bx - x, by - y, bz - z], [cx - x, cy - y, cz - z]]
 }
 
+/// The `(t, x, y)` of an offset by the map.
 #[inline(always)]
 fn map<S: Simd>([x, y, z]: [f64x8<S>; 3], lens: &Lens) -> [f64x8<S>; 3] {
-    let [eye_x, eye_y, eye_z] = lens.kind.eye;
-    let (x, y, z) = (x - eye_x, y - eye_y, z - eye_z);
     let [t, across, down] = &lens.rows;
     let t = x * t[0] + y * t[1] + z * t[2];
     let across = x * across[0] + y * across[1] + z * across[2];
