@@ -7,6 +7,14 @@ use crate::camera::{Camera, Projection, SampleGrid};
 use crate::simd::{Simd, SimdBase, SimdFloat, f64x8, mask64x8};
 use glam::DVec3;
 
+/// What decides a sample on an edge between such places: half of the least edge function but 0, which is added
+/// to edges that own their samples, and taken from others.
+///
+/// The contract moves the sample a little to the right, which adds a little of the edge function's slope across,
+/// and far less down, which adds far less of its slope down: an edge owns its samples if its slope across is
+/// positive, or is zero and its slope down positive.
+pub const TIE: f32 = 1.0 / 32.0;
+
 /// The samples of a camera between which and its rays nothing is rounded.
 #[derive(Clone, Copy, Debug)]
 pub struct ExactGrid {
@@ -44,14 +52,15 @@ impl ExactGrid {
         })
     }
 
-    /// Where vertices lie exactly at multiples of a quarter of a column (axis 0) or row (axis 1): at the one
-    /// next to `place`, their computed column or row, if this is within an eighth of the true one. `along` is
-    /// their offset from the eye along `u` or `−v`, and `depth` along `−w`.
+    /// Where vertices lie exactly at a multiple of a quarter of a column (axis 0) or row (axis 1): the one next
+    /// to `place`, their computed column or row. `along` is their offset from the eye along `u` or `−v`, and
+    /// `depth` along `−w`.
     ///
     /// With `r` along `u` (or `−v`) and `g` the distance of neighbours, the true column is `middle +
     /// r·d/(ζ·g)` (parallel: without `d/ζ`). Let `n/4` be the quarter nearest to the computed one: it is the
     /// true one if `m·g·ζ = 4·r·d` with the integer `m = n − 4·middle`. Both products are exact in `f64`: `m`
-    /// has at most 19 bits, `g` 10, `d` 24, and `r` and `ζ` are checked to have 24.
+    /// has at most 19 bits where `place` is within 1.49·2¹⁶, `g` 10, `d` 24, and `r` and `ζ` are checked to
+    /// have 24. Of places farther out, nothing is said.
     #[inline(always)]
     pub fn holds<S: Simd>(
         &self,

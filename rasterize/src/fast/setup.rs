@@ -5,15 +5,13 @@ use super::depth::KEY_ERROR;
 use super::lanes::{Lanes, lanes_of};
 use super::vertices::{ALIGNED, Raster};
 use bothways_common::Sign;
+use bothways_common::exact_grid::TIE;
 use bothways_common::fault::{Fault, Planted};
 use bothways_common::observe::{Observer, Sample};
 use bothways_common::simd::{Select, Simd, SimdBase, SimdInt, SimdMask, f32x16, i32x16, mask32x16};
 
 /// Boxes of more columns or rows than this are not for `f32`.
 pub(super) const MOST_SAMPLES_ACROSS: i32 = 256;
-
-/// What decides a sample on an edge of an aligned triangle: half of the least edge function but 0.
-const TIE: f32 = 1.0 / 32.0;
 
 /// Fixed-point units that a box of samples has room for around its vertices.
 pub(super) const BOX_MARGIN: i32 = 2;
@@ -77,10 +75,8 @@ impl Setup {
     /// `7.6u`.
     ///
     /// *Aligned triangles.* Places are multiples of a quarter of a sample without any error, so edge
-    /// functions are multiples of 1/16, below 2¹⁷, and `f32` adds and multiplies them without rounding. A
-    /// zero is decided as the contract says: the sample moves a little to the right, which adds a little
-    /// of `A`, and far less down, which adds far less of `B`. Adding 1/32 to the edges that own their
-    /// samples and taking it from the others decides every sample by a sign; the key does without it.
+    /// functions are multiples of 1/16, below 2¹⁷, and `f32` adds and multiplies them without rounding.
+    /// [`TIE`] decides those that are zero; the key does without it.
     #[inline(always)]
     pub(super) fn new<S: Simd, F: Fault>(simd: S, raster: &Raster, lanes: &Lanes) -> Setup {
         let splat = |value: f32| f32x16::splat(simd, value);

@@ -4,17 +4,17 @@
 use super::rays::Lens;
 use super::setup::{Affine, offsets};
 use super::tree::Leaf;
-use bothways_common::exact_grid::ExactGrid;
+use bothways_common::exact_grid::{ExactGrid, TIE};
 use bothways_common::fault::{Fault, Planted};
 use bothways_common::simd::{
     Select, Simd, SimdBase, SimdFloat, SimdMask, SimdNarrow, SimdSplit, f32x8, f64x8, mask32x8,
     mask64x8,
 };
 
-/// What decides a sample on an edge: half of the least edge function but 0.
-pub(super) const TIE: f32 = 1.0 / 32.0;
 /// Edge functions are at most so large, so that `f32` has 24 bits for them and for [`TIE`].
 const LARGEST: f64 = (1 << 17) as f64;
+/// [`ExactGrid::holds`] is asked no farther out.
+const FARTHEST: f64 = (1 << 16) as f64;
 
 /// Eight triangles of which some are aligned.
 pub(super) struct Aligned<S: Simd> {
@@ -29,15 +29,12 @@ pub(super) struct Aligned<S: Simd> {
 }
 
 impl<S: Simd> Aligned<S> {
-    /// Finds the aligned ones among triangles: of each corner its offset from the eye, and its `(t, x, y)` by the
-    /// map. `None` if the camera's grid is not exact.
+    /// Finds the aligned ones among the triangles of a leaf, of which `mapped` are the corners by the map. `None`
+    /// if the camera's grid is not exact.
     ///
     /// Places are multiples of a quarter without any error, so edge functions are multiples of a sixteenth. In
     /// front of the eye, an edge function on the raster has the sign of the one in space: it is that
-    /// divided by the `t` of both corners. A zero is decided as the contract says: the sample moves a little to
-    /// the right, which adds a little of the slope across, and far less down, which adds far less of the slope
-    /// down. Adding half a sixteenth to the edges that own their samples and taking it from the others
-    /// decides every sample by a sign.
+    /// divided by the `t` of both corners. [`TIE`] decides those that are zero.
     #[inline(always)]
     pub(super) fn new<F: Fault>(
         simd: S,
@@ -88,12 +85,12 @@ fn place<S: Simd>(
     let zero = f64x8::splat(simd, 0.0);
     let near = if lens.kind.parallel { f64x8::splat(simd, 1.0) } else { *t };
     let [column, row] = [*across / near + lens.middle[0], *down / near + lens.middle[1]];
-    let most = f64x8::splat(simd, LARGEST);
+    let most = f64x8::splat(simd, FARTHEST);
     let on = grid.holds(simd, 0, [column, right, depth])
         & grid.holds(simd, 1, [row, -up, depth])
         & column.abs().simd_lt(most)
         & row.abs().simd_lt(most)
-        & (near.simd_gt(zero));
+        & near.simd_gt(zero);
     let quarter = [(column * 4.0).round_ties_even() * 0.25, (row * 4.0).round_ties_even() * 0.25];
     ([quarter[0] - lens.middle[0], quarter[1] - lens.middle[1]], on)
 }
