@@ -5,19 +5,19 @@
 //! Interactive Ray Tracing, 2007; eight boxes a node as in Wald, Benthin and Boulos, "Getting Rid of
 //! Packets", same venue, 2008.
 
+mod items;
+mod planes;
+
 use super::tree::{Bounds, Child, Kind, Leaf, Node, WIDTH};
+use bothways_common::Scene;
 use bothways_common::predicate::are_same_corners;
 use bothways_common::simd::{Level, best_level};
-use bothways_common::{Mesh, Plane, Scene, Shape, Sphere, Triangle};
-use glam::{Vec3, Vec4};
+use items::{Box4, Corners, Item, collect};
+use planes::cheapest_plane;
 use rayon::prelude::*;
 
-/// Candidate splits along an axis, plus one.
-const BINS: usize = 16;
 /// Parts with fewer primitives are built by one thread.
 const SERIAL: usize = 4096;
-/// Bins of parts with more primitives are filled by all threads.
-const LARGE: usize = 1 << 17;
 /// From this depth on a part is halved by count, which bounds the depth of any hierarchy.
 const DEEP: usize = 64;
 
@@ -33,65 +33,13 @@ pub struct Prepared {
     pub(super) bounds: Bounds,
     /// Planes, which no box bounds, and spheres too large for one.
     pub(super) unbounded: Vec<u32>,
-    /// Spheres in boxes, and of each the extent that its box's margin was made for; see [`sphere`].
+    /// Spheres in boxes, and of each the extent that its box's margin was made for; see [`items::sphere`].
     pub(super) spheres: Vec<(u32, f32)>,
     /// The ids of the spheres of the hierarchy's leaves, eight each; unused ones repeat the first.
     pub(super) round: Vec<[u32; WIDTH]>,
     pub(super) primitives: u32,
     pub(super) level: Level,
     pub(super) side: usize,
-}
-
-/// A primitive while the hierarchy is built: its box, and in the fourth lane of the low corner the bits
-/// of its id.
-#[derive(Clone, Copy)]
-struct Item {
-    low: Vec4,
-    high: Vec4,
-}
-
-impl Item {
-    fn new(bounds: &Bounds, id: u32) -> Item {
-        Item { low: bounds.low.extend(f32::from_bits(id)), high: bounds.high.extend(0.0) }
-    }
-
-    fn id(&self) -> u32 {
-        self.low.w.to_bits()
-    }
-
-    /// The middle, taken in halves so that it is finite. Without the id: most are denormal numbers, and
-    /// to multiply these takes a hundred times as long.
-    #[inline(always)]
-    fn middle(&self) -> Vec4 {
-        0.5 * self.low.with_w(0.0) + 0.5 * self.high
-    }
-}
-
-/// Boxes in which the fourth lane means nothing.
-#[derive(Clone, Copy)]
-struct Box4 {
-    low: Vec4,
-    high: Vec4,
-}
-
-impl Box4 {
-    const EMPTY: Box4 = Box4 { low: Vec4::INFINITY, high: Vec4::NEG_INFINITY };
-
-    #[inline(always)]
-    fn with(self, low: Vec4, high: Vec4) -> Box4 {
-        Box4 { low: self.low.min(low), high: self.high.max(high) }
-    }
-
-    fn bounds(&self) -> Bounds {
-        Bounds { low: self.low.truncate(), high: self.high.truncate() }
-    }
-
-    /// Half of the surface area: proportional to the chance that a ray meets the box. In `f64`, where
-    /// no finite box overflows.
-    fn half_area(&self) -> f64 {
-        let size = (self.high.as_dvec4() - self.low.as_dvec4()).max(glam::DVec4::ZERO);
-        size.x * size.y + size.y * size.z + size.z * size.x
-    }
 }
 
 /// Some consecutive items, the box around them and the box around their middles.
@@ -159,99 +107,6 @@ pub(super) fn build(scene: &Scene, side: usize) -> Prepared {
         primitives: scene.primitive_count(),
         level: best_level(),
         side,
-    }
-}
-
-/// The primitives of a scene, sorted by whether a box can bound them.
-#[derive(Default)]
-struct Collected {
-    triangles: Vec<Item>,
-    round: Vec<Item>,
-    unbounded: Vec<u32>,
-    spheres: Vec<(u32, f32)>,
-}
-
-fn collect(scene: &Scene) -> Collected {
-    let mut all = Collected::default();
-    all.triangles.reserve_exact(scene.primitive_count() as usize);
-    for (index, object) in scene.objects().iter().enumerate() {
-        let first_id = scene.first_id(index);
-        match &object.shape {
-            Shape::Triangle(Triangle { a, b, c }) => {
-                all.triangles.push(triangle(first_id, [*a, *b, *c]));
-            }
-            Shape::Mesh(mesh) => {
-                let triangles = mesh.triangles().par_iter().zip(first_id..u32::MAX);
-                all.triangles.par_extend(
-                    triangles.map(|(corners, id)| triangle(id, mesh_corners(mesh, corners))),
-                );
-            }
-            Shape::Sphere(ball) => match sphere(first_id, ball) {
-                Some((item, extent)) => {
-                    all.round.push(item);
-                    all.spheres.push((first_id, extent));
-                }
-                None => all.unbounded.push(first_id),
-            },
-            Shape::Plane(Plane { .. }) => all.unbounded.push(first_id),
-        }
-    }
-    all
-}
-
-fn mesh_corners(mesh: &Mesh, corners: &[u32; 3]) -> [Vec3; 3] {
-    corners.map(|vertex| mesh.positions()[vertex as usize])
-}
-
-fn triangle(id: u32, [a, b, c]: [Vec3; 3]) -> Item {
-    Item::new(&Bounds { low: a.min(b).min(c), high: a.max(b).max(c) }, id)
-}
-
-/// A sphere in its box, and its extent `e = max|center| + radius`; `None` if a corner of the box is
-/// not finite.
-///
-/// A sphere is judged by its rounded offset from the eye, and so is each side of its box: a vertex is
-/// a side's coordinate or lies within, and stays within, but `center ± radius` was never stored. The
-/// box is therefore wider by 2⁻¹⁸·e. That is more than all roundings of the offsets (and of the box
-/// itself) as long as the eye is nearer to the origin than 2³⁰·e: two of at most 2⁻²³·e each, and 2⁻²¹·e.
-/// The walk tests spheres without their boxes, too, when the eye is farther.
-fn sphere(id: u32, &Sphere { center, radius }: &Sphere) -> Option<(Item, f32)> {
-    let extent = center.abs().max_element() + radius;
-    let half = Vec3::splat(radius + (-18f32).exp2() * extent);
-    let bounds = Bounds { low: center - half, high: center + half };
-    let finite = bounds.low.is_finite() && bounds.high.is_finite();
-    // Below this, the margin itself would underflow.
-    let representable = extent > (-100f32).exp2();
-    (finite && representable).then(|| (Item::new(&bounds, id), extent))
-}
-
-/// Finds the corners of triangles, which mostly come in the order of the scene.
-struct Corners<'a> {
-    scene: &'a Scene,
-    ids: std::ops::Range<u32>,
-    shape: Option<&'a Shape>,
-}
-
-impl<'a> Corners<'a> {
-    fn new(scene: &'a Scene) -> Self {
-        Corners { scene, ids: 0..0, shape: None }
-    }
-
-    fn of(&mut self, id: u32) -> [Vec3; 3] {
-        if !self.ids.contains(&id) {
-            let (object, _) = self.scene.locate(id);
-            let shape = &self.scene.objects()[object].shape;
-            let first = self.scene.first_id(object);
-            let count = u32::try_from(shape.primitive_count()).expect("ids are u32");
-            (self.ids, self.shape) = (first..first + count, Some(shape));
-        }
-        match self.shape {
-            Some(Shape::Mesh(mesh)) => {
-                mesh_corners(mesh, &mesh.triangles()[(id - self.ids.start) as usize])
-            }
-            Some(Shape::Triangle(Triangle { a, b, c })) => [*a, *b, *c],
-            _ => unreachable!("leaves of triangles hold triangles"),
-        }
     }
 }
 
@@ -457,119 +312,6 @@ fn leave_out_twins(items: &mut [Item], plot: &Plot) -> usize {
         }
     }
     kept
-}
-
-/// How middles are sorted into bins.
-#[derive(Clone, Copy)]
-struct Grid {
-    low: Vec4,
-    scale: Vec4,
-}
-
-impl Grid {
-    fn new(middles: &Box4) -> Grid {
-        #[expect(clippy::cast_precision_loss, reason = "it is 16")]
-        let bins = BINS as f32;
-        // An extent that overflows, and one that is nothing, puts everything into the first bin.
-        let scale = Vec4::splat(bins * 0.999) / (middles.high - middles.low);
-        Grid {
-            low: middles.low,
-            scale: Vec4::select(scale.cmplt(Vec4::INFINITY), scale, Vec4::ZERO),
-        }
-    }
-
-    #[inline(always)]
-    fn bins(&self, middle: Vec4) -> [usize; 3] {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "it is not negative, and the conversion saturates"
-        )]
-        let bin = |place: f32| (place as u32 as usize).min(BINS - 1);
-        let place = (middle - self.low) * self.scale;
-        [bin(place.x), bin(place.y), bin(place.z)]
-    }
-}
-
-/// A split: primitives whose middle lies in a bin before this one, along one axis, go first.
-#[derive(Clone, Copy)]
-struct SplitPlane {
-    grid: Grid,
-    axis: usize,
-    bin: usize,
-    /// The sum over both parts of half their area times their number of leaves.
-    cost: f64,
-}
-
-/// What lies in a bin.
-#[derive(Clone, Copy)]
-struct Bin {
-    bounds: Box4,
-    count: usize,
-}
-
-type Bins = [[Bin; BINS]; 3];
-
-const NO_BINS: Bins = [[Bin { bounds: Box4::EMPTY, count: 0 }; BINS]; 3];
-
-fn fill_bins(items: &[Item], grid: &Grid) -> Bins {
-    if items.len() > LARGE {
-        let shares = items.par_chunks(LARGE / 4).map(|share| fill_bins(share, grid));
-        return shares.reduce(
-            || NO_BINS,
-            |mut all, share| {
-                for (bin, more) in all.iter_mut().flatten().zip(share.as_flattened()) {
-                    bin.count += more.count;
-                    bin.bounds = bin.bounds.with(more.bounds.low, more.bounds.high);
-                }
-                all
-            },
-        );
-    }
-    let mut bins = NO_BINS;
-    for item in items {
-        let places = grid.bins(item.middle());
-        for axis in 0..3 {
-            let bin = &mut bins[axis][places[axis]];
-            bin.count += 1;
-            bin.bounds = bin.bounds.with(item.low, item.high);
-        }
-    }
-    bins
-}
-
-/// The split that the surface area heuristic likes best; `None` if all middles are in one bin.
-fn cheapest_plane(items: &[Item], middles: &Box4) -> Option<SplitPlane> {
-    let grid = Grid::new(middles);
-    let bins = fill_bins(items, &grid);
-    let mut best: Option<SplitPlane> = None;
-    for (axis, bins) in bins.iter().enumerate() {
-        // From the right, the cost of what lies at or beyond each bin; then from the left.
-        let mut beyond = [0.0; BINS];
-        let (mut count, mut bounds) = (0, Box4::EMPTY);
-        for k in (1..BINS).rev() {
-            count += bins[k].count;
-            bounds = bounds.with(bins[k].bounds.low, bins[k].bounds.high);
-            beyond[k] = leaves(count) * bounds.half_area();
-        }
-        let (mut count, mut bounds) = (0, Box4::EMPTY);
-        for k in 1..BINS {
-            count += bins[k - 1].count;
-            bounds = bounds.with(bins[k - 1].bounds.low, bins[k - 1].bounds.high);
-            let cost = leaves(count) * bounds.half_area() + beyond[k];
-            let useful = count > 0 && count < items.len();
-            if useful && best.is_none_or(|best| cost < best.cost) {
-                best = Some(SplitPlane { grid, axis, bin: k, cost });
-            }
-        }
-    }
-    best
-}
-
-/// How many leaves so many primitives fill.
-#[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
-fn leaves(count: usize) -> f64 {
-    count.div_ceil(WIDTH) as f64
 }
 
 #[cfg(test)]

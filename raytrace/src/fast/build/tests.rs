@@ -1,7 +1,8 @@
 //! What a hierarchy must be.
 
 use super::*;
-use bothways_common::Object;
+use bothways_common::{Mesh, Object, Plane, Shape, Sphere};
+use glam::Vec3;
 
 fn mesh(positions: Vec<Vec3>) -> Scene {
     let count = u32::try_from(positions.len()).unwrap();

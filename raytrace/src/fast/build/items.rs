@@ -1,0 +1,151 @@
+//! What the hierarchy is built from: each primitive's box and id.
+
+use super::super::tree::Bounds;
+use bothways_common::{Mesh, Plane, Scene, Shape, Sphere, Triangle};
+use glam::{Vec3, Vec4};
+use rayon::prelude::*;
+
+/// A primitive while the hierarchy is built: its box, and in the fourth lane of the low corner the bits
+/// of its id.
+#[derive(Clone, Copy)]
+pub(super) struct Item {
+    pub(super) low: Vec4,
+    pub(super) high: Vec4,
+}
+
+impl Item {
+    pub(super) fn new(bounds: &Bounds, id: u32) -> Item {
+        Item { low: bounds.low.extend(f32::from_bits(id)), high: bounds.high.extend(0.0) }
+    }
+
+    pub(super) fn id(&self) -> u32 {
+        self.low.w.to_bits()
+    }
+
+    /// The middle, taken in halves so that it is finite. Without the id: most are denormal numbers, and
+    /// to multiply these takes a hundred times as long.
+    #[inline(always)]
+    pub(super) fn middle(&self) -> Vec4 {
+        0.5 * self.low.with_w(0.0) + 0.5 * self.high
+    }
+}
+
+/// Boxes in which the fourth lane means nothing.
+#[derive(Clone, Copy)]
+pub(super) struct Box4 {
+    pub(super) low: Vec4,
+    pub(super) high: Vec4,
+}
+
+impl Box4 {
+    pub(super) const EMPTY: Box4 = Box4 { low: Vec4::INFINITY, high: Vec4::NEG_INFINITY };
+
+    #[inline(always)]
+    pub(super) fn with(self, low: Vec4, high: Vec4) -> Box4 {
+        Box4 { low: self.low.min(low), high: self.high.max(high) }
+    }
+
+    pub(super) fn bounds(&self) -> Bounds {
+        Bounds { low: self.low.truncate(), high: self.high.truncate() }
+    }
+
+    /// Half of the surface area: proportional to the chance that a ray meets the box. In `f64`, where
+    /// no finite box overflows.
+    pub(super) fn half_area(&self) -> f64 {
+        let size = (self.high.as_dvec4() - self.low.as_dvec4()).max(glam::DVec4::ZERO);
+        size.x * size.y + size.y * size.z + size.z * size.x
+    }
+}
+
+/// The primitives of a scene, sorted by whether a box can bound them.
+#[derive(Default)]
+pub(super) struct Collected {
+    pub(super) triangles: Vec<Item>,
+    pub(super) round: Vec<Item>,
+    pub(super) unbounded: Vec<u32>,
+    pub(super) spheres: Vec<(u32, f32)>,
+}
+
+pub(super) fn collect(scene: &Scene) -> Collected {
+    let mut all = Collected::default();
+    all.triangles.reserve_exact(scene.primitive_count() as usize);
+    for (index, object) in scene.objects().iter().enumerate() {
+        let first_id = scene.first_id(index);
+        match &object.shape {
+            Shape::Triangle(Triangle { a, b, c }) => {
+                all.triangles.push(triangle(first_id, [*a, *b, *c]));
+            }
+            Shape::Mesh(mesh) => {
+                let triangles = mesh.triangles().par_iter().zip(first_id..u32::MAX);
+                all.triangles.par_extend(
+                    triangles.map(|(corners, id)| triangle(id, mesh_corners(mesh, corners))),
+                );
+            }
+            Shape::Sphere(ball) => match sphere(first_id, ball) {
+                Some((item, extent)) => {
+                    all.round.push(item);
+                    all.spheres.push((first_id, extent));
+                }
+                None => all.unbounded.push(first_id),
+            },
+            Shape::Plane(Plane { .. }) => all.unbounded.push(first_id),
+        }
+    }
+    all
+}
+
+pub(super) fn mesh_corners(mesh: &Mesh, corners: &[u32; 3]) -> [Vec3; 3] {
+    corners.map(|vertex| mesh.positions()[vertex as usize])
+}
+
+pub(super) fn triangle(id: u32, [a, b, c]: [Vec3; 3]) -> Item {
+    Item::new(&Bounds { low: a.min(b).min(c), high: a.max(b).max(c) }, id)
+}
+
+/// A sphere in its box, and its extent `e = max|center| + radius`; `None` if a corner of the box is
+/// not finite.
+///
+/// A sphere is judged by its rounded offset from the eye, and so is each side of its box: a vertex is
+/// a side's coordinate or lies within, and stays within, but `center ± radius` was never stored. The
+/// box is therefore wider by 2⁻¹⁸·e. That is more than all roundings of the offsets (and of the box
+/// itself) as long as the eye is nearer to the origin than 2³⁰·e: two of at most 2⁻²³·e each, and 2⁻²¹·e.
+/// The walk tests spheres without their boxes, too, when the eye is farther.
+pub(super) fn sphere(id: u32, &Sphere { center, radius }: &Sphere) -> Option<(Item, f32)> {
+    let extent = center.abs().max_element() + radius;
+    let half = Vec3::splat(radius + (-18f32).exp2() * extent);
+    let bounds = Bounds { low: center - half, high: center + half };
+    let finite = bounds.low.is_finite() && bounds.high.is_finite();
+    // Below this, the margin itself would underflow.
+    let representable = extent > (-100f32).exp2();
+    (finite && representable).then(|| (Item::new(&bounds, id), extent))
+}
+
+/// Finds the corners of triangles, which mostly come in the order of the scene.
+pub(super) struct Corners<'a> {
+    scene: &'a Scene,
+    ids: std::ops::Range<u32>,
+    shape: Option<&'a Shape>,
+}
+
+impl<'a> Corners<'a> {
+    pub(super) fn new(scene: &'a Scene) -> Self {
+        Corners { scene, ids: 0..0, shape: None }
+    }
+
+    pub(super) fn of(&mut self, id: u32) -> [Vec3; 3] {
+        if !self.ids.contains(&id) {
+            let (object, _) = self.scene.locate(id);
+            let shape = &self.scene.objects()[object].shape;
+            let first = self.scene.first_id(object);
+            let count = u32::try_from(shape.primitive_count()).expect("ids are u32");
+            (self.ids, self.shape) = (first..first + count, Some(shape));
+        }
+        match self.shape {
+            Some(Shape::Mesh(mesh)) => {
+                mesh_corners(mesh, &mesh.triangles()[(id - self.ids.start) as usize])
+            }
+            Some(Shape::Triangle(Triangle { a, b, c })) => [*a, *b, *c],
+            _ => unreachable!("leaves of triangles hold triangles"),
+        }
+    }
+}
