@@ -346,11 +346,8 @@ def object_order(rows):
         return [*times, shown(peer, 1), shown(median(row, "fill")), shown(over, 1)]
 
     yield table(["object order", "llvmpipe", "ratio", "memory fill", "ours over fill"], rows, cells)
-    ratios = [ratio(row, "llvmpipe", "object") for row in rows if row["triangles"] >= MANY]
-    ratios = [value for value in ratios if value is not None]
-    if ratios:
-        middle, least = statistics.median(ratios), min(ratios)
-        yield f"From {MANY:,} triangles on, the median ratio is {middle:.1f}, the least {least:.1f}."
+    many = [row for row in rows if row["triangles"] >= MANY]
+    yield from summary(f"From {MANY:,} triangles on, the", many, "llvmpipe", "object", 1)
 
 
 def image_order(rows):
@@ -361,11 +358,7 @@ def image_order(rows):
 
     heads = ["image order", "Embree", "watertight", "ratio", "to watertight"]
     yield table(heads, rows, cells)
-    ratios = [ratio(row, "embree", "image") for row in rows]
-    ratios = [value for value in ratios if value is not None]
-    if ratios:
-        middle, least = statistics.median(ratios), min(ratios)
-        yield f"The median ratio is {middle:.2f}, the least {least:.2f}."
+    yield from summary("The", rows, "embree", "image", 2)
 
     def builds(row):
         times = [median(row, key) for key in ("prepare", "build_high", "build_medium")]
@@ -374,6 +367,14 @@ def image_order(rows):
 
     heads = ["prepare", "Embree, high", "medium", "ratio to high", "to medium"]
     yield table(heads, rows, builds)
+
+
+def summary(start, rows, theirs, ours, digits):
+    ratios = [ratio(row, theirs, ours) for row in rows]
+    ratios = [value for value in ratios if value is not None]
+    if ratios:
+        middle, least = (shown(value, digits) for value in (statistics.median(ratios), min(ratios)))
+        yield f"{start} median ratio is {middle}, the least {least}."
 
 
 def table(heads, rows, cells):

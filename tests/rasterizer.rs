@@ -13,7 +13,8 @@ use bothways::common::{
 use bothways::rasterize::fast::{self, Prepared};
 use bothways::{rasterize, scenes};
 use support::{
-    GRIDS, PROJECTIONS, assert_same_visibility, grid, mesh, on_integers, scene, triangle, turned,
+    PROJECTIONS, assert_same_visibility, grids_on_quarters, mesh, on_integers, scene, triangle,
+    turned,
 };
 
 /// Draws with a prepared scene; also tells the work.
@@ -176,15 +177,9 @@ fn triangles_of_all_sizes_as_the_textbook_sees_them() {
 
 #[test]
 fn edges_through_samples_need_no_judge_where_vertices_are_on_the_raster() {
-    for projection in PROJECTIONS {
-        for (side, squares) in GRIDS {
-            for shift in [Vec2::ZERO, Vec2::new(0.25, 0.5)] {
-                let scene = scene(vec![grid(side, squares, shift)]);
-                let camera = on_integers(projection, 10);
-                let work = check(&scene, &camera, &format!("{projection:?}, squares of {side}"));
-                assert_eq!(work.judged_coverage, 0, "{projection:?}, squares of {side}: {work:?}");
-            }
-        }
+    for (scene, camera, what) in grids_on_quarters() {
+        let work = check(&scene, &camera, &what);
+        assert_eq!(work.judged_coverage, 0, "{what}: {work:?}");
     }
 }
 

@@ -3,7 +3,7 @@
 
 mod support;
 
-use bothways::common::glam::{Quat, Vec2, Vec3};
+use bothways::common::glam::{Quat, Vec3};
 use bothways::common::simd::levels;
 use bothways::common::{
     Camera, CameraDescription, Frame, Mesh, Object, Options, Orientation, Plane, Projection, Shape,
@@ -14,8 +14,8 @@ use bothways::raytrace::{
     textbook,
 };
 use support::{
-    GRIDS, PROJECTIONS, assert_same_visibility, camera, grid, mesh, on_integers, scene, triangle,
-    turned,
+    PROJECTIONS, assert_same_visibility, camera, grids_on_quarters, mesh, on_integers, scene,
+    triangle, turned,
 };
 
 /// Numbers that look random, the same every time.
@@ -131,20 +131,13 @@ fn rays_that_graze_boxes_and_meet_vertices_and_edges() {
 
 #[test]
 fn edges_through_samples_need_no_judge_where_vertices_are_on_the_raster() {
-    for projection in PROJECTIONS {
-        for (side, squares) in GRIDS {
-            for shift in [Vec2::ZERO, Vec2::new(0.25, 0.5)] {
-                let scene = scene(vec![grid(side, squares, shift)]);
-                let camera = on_integers(projection, 10);
-                let what = format!("{projection:?}, squares of {side}");
-                let view = View::new(&scene, &camera);
-                let mut frame = check_against_textbook(&view, 1, &what);
-                let mut work = Work::default();
-                let (prepared, options) = (fast::prepare(&scene), Options::default());
-                fast::determine_visibility(&prepared, &view, &options, &mut frame, &mut work);
-                assert_eq!(work.judged_coverage, 0, "{what}: {work:?}");
-            }
-        }
+    for (scene, camera, what) in grids_on_quarters() {
+        let (view, options) = (View::new(&scene, &camera), Options::default());
+        let mut frame = check_against_textbook(&view, 1, &what);
+        let mut work = Work::default();
+        let prepared = fast::prepare(&scene);
+        fast::determine_visibility(&prepared, &view, &options, &mut frame, &mut work);
+        assert_eq!(work.judged_coverage, 0, "{what}: {work:?}");
     }
 }
 
@@ -162,9 +155,9 @@ fn every_triangle_on_quarters_of_samples() {
     let scene = scene(triangles.collect());
     for projection in PROJECTIONS {
         for samples in [1, 2, 4] {
-            let view = (&scene, &on_integers(projection, 6));
+            let camera = on_integers(projection, 6);
             let what = format!("{projection:?}, {samples} samples");
-            check_against_textbook(&View::new(view.0, view.1), samples, &what);
+            check_against_textbook(&View::new(&scene, &camera), samples, &what);
         }
     }
 }

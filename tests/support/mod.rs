@@ -252,12 +252,21 @@ pub fn on_integers(projection: Projection, half: u32) -> Camera {
     camera(projection, [0.0; 3], [side as f32; 2], [side; 2])
 }
 
-/// Sides of squares, and how many in a row fill 24 units.
-pub const GRIDS: [(f32, usize); 6] =
-    [(0.25, 96), (0.5, 48), (1.0, 24), (2.0, 12), (4.0, 6), (9.0, 2)];
+/// Grids of squares of several sides, their corners on quarters of the camera's samples, and what they are.
+pub fn grids_on_quarters() -> impl Iterator<Item = (Scene, Camera, String)> {
+    let sides = [(0.25, 96), (0.5, 48), (1.0, 24), (2.0, 12), (4.0, 6), (9.0, 2)];
+    PROJECTIONS.into_iter().flat_map(move |projection| {
+        sides.into_iter().flat_map(move |(side, squares)| {
+            [Vec2::ZERO, Vec2::new(0.25, 0.5)].into_iter().map(move |shift| {
+                let what = format!("{projection:?}, squares of {side}, moved by {shift}");
+                (scene(vec![grid(side, squares, shift)]), on_integers(projection, 10), what)
+            })
+        })
+    })
+}
 
 /// The corners of a grid of squares in the plane z = −1, moved by `shift`, cut by both diagonals in turn.
-pub fn grid(side: f32, squares: usize, shift: Vec2) -> Object {
+fn grid(side: f32, squares: usize, shift: Vec2) -> Object {
     let count = squares + 1;
     let half = 0.5 * side * squares as f32;
     let place = |k: usize| {

@@ -111,9 +111,7 @@ impl Clusters {
             _ => Triangles { corners: &[], numbers: None },
         }
     }
-}
 
-impl Clusters {
     /// The vertices of a mesh in the order in which the vertex stage takes them.
     pub(super) fn positions<'a>(&'a self, mesh: &'a Mesh) -> &'a [Vec3] {
         self.sorted.as_ref().map_or(mesh.positions(), |sorted| &sorted.positions)

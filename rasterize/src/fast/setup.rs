@@ -57,7 +57,8 @@ impl Setup {
     ///
     /// *Edge functions.* `C = dy·px − dx·py`: two products of 3 roundings each, at most `P`, and a
     /// difference, which is the edge function at a point of the box and so at most `P`: `7uP`. `B·row`: 2
-    /// roundings; `C + B·row`, at most `P` again: one; `A·column`: 2; their sum: one. Together `13uP`, to
+    /// roundings; `C + B·row`, at most `P` again: one; `A·column`: 2; their sum: one (columns before rows
+    /// bring as much). Together `13uP`, to
     /// which [`Raster::slack`] adds the error of the places, times `w + h`. The constants are larger by
     /// more than the roundings of the bound.
     ///

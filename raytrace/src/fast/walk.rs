@@ -93,7 +93,7 @@ impl<'a> Walker<'a> {
         let mut farthest = self.farthest(&lens);
         loop {
             let Some(Open { near, child, counts }) = self.stack.pop() else {
-                if self.sieve.is_empty() {
+                if O::WATCHES || self.sieve.is_empty() {
                     break;
                 }
                 self.sift::<S, F>(simd, &lens, farthest, true);
