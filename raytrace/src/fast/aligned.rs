@@ -2,8 +2,7 @@
 //! are decided without the judge.
 
 use super::rays::Lens;
-use super::setup::{Affine, offsets};
-use super::tree::Leaf;
+use super::setup::Affine;
 use bothways_common::exact_grid::{ExactGrid, TIE};
 use bothways_common::fault::{Fault, Planted};
 use bothways_common::simd::{
@@ -29,8 +28,8 @@ pub(super) struct Aligned<S: Simd> {
 }
 
 impl<S: Simd> Aligned<S> {
-    /// Finds the aligned ones among the triangles of a leaf, of which `mapped` are the corners by the map. `None`
-    /// if the camera's grid is not exact.
+    /// Finds the aligned ones among triangles, whose corners are given by their offsets from the eye and by the
+    /// map. `None` if the camera's grid is not exact.
     ///
     /// Places are multiples of a quarter without any error, so edge functions are multiples of a sixteenth. In
     /// front of the eye, an edge function on the raster has the sign of the one in space: it is that
@@ -39,11 +38,10 @@ impl<S: Simd> Aligned<S> {
     pub(super) fn new<F: Fault>(
         simd: S,
         lens: &Lens,
-        leaf: &Leaf,
-        mapped: &Mapped<S>,
+        offsets: &Corners<S>,
+        mapped: &Corners<S>,
     ) -> Option<Self> {
         let grid = lens.kind.grid.as_ref()?;
-        let offsets = offsets(simd, lens, leaf);
         let (a, on_a) = place(simd, lens, grid, &offsets[0], &mapped[0]);
         let (b, on_b) = place(simd, lens, grid, &offsets[1], &mapped[1]);
         let (c, on_c) = place(simd, lens, grid, &offsets[2], &mapped[2]);
@@ -66,8 +64,8 @@ impl<S: Simd> Aligned<S> {
     }
 }
 
-/// The corners' `(t, x, y)` by the map, or their offsets from the eye.
-pub(super) type Mapped<S> = [[f64x8<S>; 3]; 3];
+/// Three coordinates of the three corners.
+type Corners<S> = [[f64x8<S>; 3]; 3];
 
 /// Where a corner of each triangle lies, in columns and rows from the tile's middle, and which are aligned.
 #[inline(always)]

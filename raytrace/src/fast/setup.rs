@@ -104,8 +104,9 @@ impl<S: Simd> Setup<S> {
         far: f32,
     ) -> Self {
         let blind = F::is(Planted::ZeroErrorBound);
-        let [a, b, c] = offsets(simd, lens, leaf);
-        let [a, b, c] = [map(a, lens), map(b, lens), map(c, lens)];
+        let offsets = offsets(simd, lens, leaf);
+        let mapped = [map(offsets[0], lens), map(offsets[1], lens), map(offsets[2], lens)];
+        let [a, b, c] = mapped;
         let (ab, bc, ca) = (minus(b, a), minus(c, b), minus(a, c));
 
         let n = [
@@ -131,7 +132,7 @@ impl<S: Simd> Setup<S> {
         let mut edges = [affine(c1, x1, y1), affine(c2, x2, y2), affine(c3, x3, y3)];
         let mut key = affine(ck, xk, yk);
 
-        let aligned = if blind { None } else { Aligned::new::<F>(simd, lens, leaf, &[a, b, c]) };
+        let aligned = if blind { None } else { Aligned::new::<F>(simd, lens, &offsets, &mapped) };
         if let Some(Aligned { which, edges: exact, .. }) = &aligned {
             edges = [
                 edges[0].or(&exact[0], *which),
@@ -236,7 +237,7 @@ impl<S: Simd> Setup<S> {
 
 /// The corners' offsets from the eye.
 #[inline(always)]
-pub(super) fn offsets<S: Simd>(simd: S, lens: &Lens, leaf: &Leaf) -> [[f64x8<S>; 3]; 3] {
+fn offsets<S: Simd>(simd: S, lens: &Lens, leaf: &Leaf) -> [[f64x8<S>; 3]; 3] {
     let rows = leaf.corners.as_flattened();
     let (ax, ay) = f32x16::from_slice(simd, &rows[..16]).widen();
     let (az, bx) = f32x16::from_slice(simd, &rows[16..32]).widen();
