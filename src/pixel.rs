@@ -6,7 +6,7 @@
 use crate::common::frame::Region;
 use crate::common::observe::{Question, Sample};
 use crate::common::predicate::EdgeSigns;
-use crate::common::{Frame, Observer, Options, Primitive, Ray, Shape, View, Work};
+use crate::common::{Events, Frame, Observer, Options, Primitive, Ray, Shape, View, Work};
 use crate::{rasterize, raytrace};
 use rayon::prelude::*;
 use std::cmp::Ordering;
@@ -276,7 +276,9 @@ impl Observer for Watch {
             self.work.iter_mut().zip(part.work).for_each(|(work, more)| work.join(more));
         }
     }
+}
 
+impl Events for Watch {
     fn primitive_begun(&mut self, primitive: u32, region: &Region) {
         for sample in samples(&self.pixel.intersection(region)) {
             self.tell(sample, |work| work.primitive_begun(primitive, region));

@@ -5,7 +5,7 @@
 //! an observer, so that their page stays as it is and nothing is paid for where nobody asks.
 
 use crate::common::frame::Region;
-use crate::common::observe::{Observer, Sample};
+use crate::common::observe::{Events, Observer, Sample};
 use crate::orders::Order;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -106,7 +106,9 @@ impl Observer for Watch<'_> {
     }
 
     fn join(&mut self, _part: Self) {}
+}
 
+impl Events for Watch<'_> {
     fn primitive_begun(&mut self, _primitive: u32, _region: &Region) {
         self.steps.begin();
     }

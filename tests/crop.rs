@@ -8,7 +8,7 @@ use assert_cmd::Command;
 use bothways::common::frame::{NO_PRIMITIVE, Region};
 use bothways::common::generate::Kind;
 use bothways::common::glam::Vec3;
-use bothways::common::observe::{Observer, Sample};
+use bothways::common::observe::{Events, Observer, Sample};
 use bothways::common::{
     Camera, CameraDescription, Crop, Frame, Mesh, Object, Options, Plane, Projection, Scene, Shape,
     Sphere, View, Work,
@@ -166,7 +166,9 @@ impl Observer for Within {
     fn join(&mut self, part: Self) {
         self.outside += part.outside;
     }
+}
 
+impl Events for Within {
     fn primitive_begun(&mut self, _primitive: u32, region: &Region) {
         let is_within = region.is_empty() || region.intersection(&self.region) == *region;
         self.outside += u64::from(!is_within);

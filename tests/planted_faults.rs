@@ -45,7 +45,6 @@ fn verdicts<F: Fault>(scene: &Scene, camera: &Camera, fault: F) -> Verdicts {
                 &view,
                 &options,
                 frame,
-                &mut (),
                 fault,
             );
         }),
@@ -55,7 +54,6 @@ fn verdicts<F: Fault>(scene: &Scene, camera: &Camera, fault: F) -> Verdicts {
                 &view,
                 &options,
                 frame,
-                &mut (),
                 fault,
             );
         }),

@@ -45,7 +45,7 @@ pub use camera::{
 pub use crop::{Crop, CropError};
 pub use frame::{Frame, Options};
 pub use mesh::{Mesh, MeshError};
-pub use observe::{Observer, Work};
+pub use observe::{Events, Observer, Work};
 pub use predicate::{Judge, Sign};
 pub use scene::{Light, Material, Object, Plane, Scene, SceneError, Shape, Sphere, Triangle};
 pub use view::{Primitive, View};

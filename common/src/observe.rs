@@ -21,30 +21,12 @@ pub enum Question {
     Nearest,
 }
 
-/// Somebody who is told what a renderer's loops do, while they do it.
-///
-/// All methods do nothing unless overridden, and `()` overrides none: watching costs nothing when
-/// nobody watches. A picture is rendered in parts by several threads; each part gets an observer by
-/// [`Observer::fork`], and they come back through [`Observer::join`] in an order that does not
-/// depend on the threads.
+/// What a renderer's loops tell while they run. All methods do nothing unless overridden.
 ///
 /// Object order tells: `primitive_begun`, then for each of its samples `sample_tested`,
 /// `edge_signs`, `fragment`, `depth_test`. Image order tells: `ray_begun`, then `node_opened`,
 /// `sample_tested`, `edge_signs`, `fragment`, `depth_test`, and at the end of the ray `hit`.
-pub trait Observer: Send + Sync {
-    /// Whether anything is done with what is told: renderers save themselves the telling if not.
-    const WATCHES: bool = true;
-
-    /// A new observer for one part of the picture.
-    fn fork(&self) -> Self
-    where
-        Self: Sized;
-
-    /// Takes back what the observer of one part has seen.
-    fn join(&mut self, part: Self)
-    where
-        Self: Sized;
-
+pub trait Events {
     /// Object order takes up a primitive; no sample outside of the region can be affected.
     fn primitive_begun(&mut self, _primitive: u32, _region: &Region) {}
 
@@ -74,6 +56,44 @@ pub trait Observer: Send + Sync {
     fn judged(&mut self, _sample: Sample, _question: Question) {}
 }
 
+/// Somebody who watches a renderer's loops at work.
+///
+/// `()` watches nothing, and costs nothing. A picture is rendered in parts by several threads; each part gets an
+/// observer by [`Observer::fork`], and they come back through [`Observer::join`] in an order that does not depend
+/// on the threads.
+pub trait Observer: Events + Send + Sync + Sized {
+    /// Whether anything is done with what is told: renderers save themselves the telling if not.
+    const WATCHES: bool = true;
+
+    /// The observer as what is told, if it watches.
+    fn watcher(&mut self) -> Option<&mut dyn Events> {
+        if Self::WATCHES { Some(self) } else { None }
+    }
+
+    /// A new observer for one part of the picture.
+    fn fork(&self) -> Self;
+
+    /// Takes back what the observer of one part has seen.
+    fn join(&mut self, part: Self);
+}
+
+/// Whom the innermost loops tell: nobody, which is `()`, or `dyn Events`, whoever that is. So fast renderers are
+/// compiled for these two, not anew for each observer.
+pub trait Watcher: Events {
+    /// Whether it is anybody.
+    const WATCHES: bool;
+}
+
+impl Watcher for () {
+    const WATCHES: bool = false;
+}
+
+impl Watcher for dyn Events + '_ {
+    const WATCHES: bool = true;
+}
+
+impl Events for () {}
+
 impl Observer for () {
     const WATCHES: bool = false;
 
@@ -93,7 +113,9 @@ impl<A: Observer, B: Observer> Observer for (A, B) {
         self.0.join(first);
         self.1.join(second);
     }
+}
 
+impl<A: Events, B: Events> Events for (A, B) {
     fn primitive_begun(&mut self, primitive: u32, region: &Region) {
         self.0.primitive_begun(primitive, region);
         self.1.primitive_begun(primitive, region);
@@ -184,7 +206,9 @@ impl Observer for Work {
         self.judged_coverage += part.judged_coverage;
         self.judged_nearest += part.judged_nearest;
     }
+}
 
+impl Events for Work {
     fn primitive_begun(&mut self, _primitive: u32, _region: &Region) {
         self.primitives += 1;
     }

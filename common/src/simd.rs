@@ -33,6 +33,39 @@ pub fn prefetch<T>(soon: &T) {
     let _ = soon;
 }
 
+/// [`dispatch!`] for code that is generic over a [`Fault`](crate::fault::Fault). With a fault in it, it need not be
+/// fast, and is compiled for one level alone where there are several.
+#[macro_export]
+#[cfg(target_arch = "x86_64")]
+macro_rules! dispatch_with {
+    ($fault:ty, $level:expr, $simd:pat => $op:expr) => {
+        if const { <$fault as $crate::fault::Fault>::PLANTED.is_some() } {
+            let $simd = $crate::simd::least();
+            $op
+        } else {
+            $crate::simd::dispatch!($level, $simd => $op)
+        }
+    };
+}
+
+/// [`dispatch!`] for code that is generic over a [`Fault`](crate::fault::Fault).
+#[macro_export]
+#[cfg(not(target_arch = "x86_64"))]
+macro_rules! dispatch_with {
+    ($fault:ty, $level:expr, $simd:pat => $op:expr) => {
+        $crate::simd::dispatch!($level, $simd => $op)
+    };
+}
+
+pub use crate::dispatch_with;
+
+/// The least level, which needs no other code than the rest of a program does.
+#[doc(hidden)]
+#[cfg(target_arch = "x86_64")]
+pub fn least() -> impl Simd {
+    Level::baseline().as_sse2().expect("SSE2 is part of every x86-64")
+}
+
 /// The best level of this machine.
 pub fn best_level() -> Level {
     Level::new()

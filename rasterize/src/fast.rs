@@ -37,8 +37,8 @@ use bins::{BatchBins, Binning, Tiling};
 use bothways_common::fault::{Fault, Planted, Sound};
 use bothways_common::frame::Tile;
 use bothways_common::memory::filled;
-use bothways_common::observe::Observer;
-use bothways_common::simd::{Level, best_level, dispatch};
+use bothways_common::observe::{Events, Observer};
+use bothways_common::simd::{Level, best_level, dispatch, dispatch_with};
 use bothways_common::{Frame, Options, Scene, Shape, View};
 use clusters::{CLUSTER, Clusters};
 use depth::KeyScale;
@@ -256,18 +256,69 @@ pub fn determine_visibility(
     frame: &mut Frame,
     observer: &mut impl Observer,
 ) {
-    determine_visibility_with_fault(prepared, view, options, frame, observer, Sound);
+    run(prepared, view, options, frame, observer, &SOUND);
 }
 
 /// [`determine_visibility`] with a fault in it, for tests of the verdict.
 #[doc(hidden)]
-pub fn determine_visibility_with_fault<O: Observer, F: Fault>(
+pub fn determine_visibility_with_fault<F: Fault>(
+    prepared: &Prepared,
+    view: &View,
+    options: &Options,
+    frame: &mut Frame,
+    _fault: F,
+) {
+    run(prepared, view, options, frame, &mut (), &const { Loops::new::<F>() });
+}
+
+/// The loops with one fault in them, or none; somebody may watch. So [`run`], which is compiled for each
+/// observer, is not what takes long to compile.
+struct Loops {
+    planted: Option<Planted>,
+    fill: fn(&mut BatchBins, &Batch, &Binning, Level, Option<&mut dyn Events>),
+    draw_tile: fn(&Drawing, usize, &mut TileBuffer, Option<&mut dyn Events>),
+}
+
+static SOUND: Loops = Loops::new::<Sound>();
+
+impl Loops {
+    const fn new<F: Fault>() -> Loops {
+        Loops { planted: F::PLANTED, fill: fill::<F>, draw_tile: draw_tile::<F> }
+    }
+}
+
+fn fill<F: Fault>(
+    bins: &mut BatchBins,
+    batch: &Batch,
+    binning: &Binning,
+    level: Level,
+    watcher: Option<&mut dyn Events>,
+) {
+    dispatch_with!(F, level, simd => match watcher {
+        None => bins.fill::<_, (), F>(simd, batch, binning, &mut ()),
+        Some(watcher) => bins.fill::<_, dyn Events, F>(simd, batch, binning, watcher),
+    });
+}
+
+fn draw_tile<F: Fault>(
+    drawing: &Drawing,
+    tile: usize,
+    buffer: &mut TileBuffer,
+    watcher: Option<&mut dyn Events>,
+) {
+    match watcher {
+        None => drawing.draw_tile::<(), F>(tile, buffer, &mut ()),
+        Some(watcher) => drawing.draw_tile::<dyn Events, F>(tile, buffer, watcher),
+    }
+}
+
+fn run<O: Observer>(
     prepared: &Prepared,
     view: &View,
     options: &Options,
     frame: &mut Frame,
     observer: &mut O,
-    _fault: F,
+    loops: &Loops,
 ) {
     assert_eq!(prepared.primitives, view.scene.primitive_count(), "another scene was prepared");
     frame.fit(view.camera, options);
@@ -297,9 +348,7 @@ pub fn determine_visibility_with_fault<O: Observer, F: Fault>(
         .zip(&mut spare.bins)
         .map(|(batch, bins)| {
             let mut observer = seen.fork();
-            dispatch!(prepared.level, simd => {
-                bins.fill::<_, O, F>(simd, batch, &binning, &mut observer)
-            });
+            (loops.fill)(bins, batch, &binning, prepared.level, observer.watcher());
             observer
         })
         .collect();
@@ -310,7 +359,7 @@ pub fn determine_visibility_with_fault<O: Observer, F: Fault>(
     let drawing = Drawing { binning: &binning, picture: &picture, bins, level };
     let seen: &O = observer;
     let tiles: Vec<Tile> = frame.tiles_mut(tiling.columns, tiling.rows);
-    let dropped = F::is(Planted::DroppedTile).then_some(tiles.len() / 2);
+    let dropped = (loops.planted == Some(Planted::DroppedTile)).then_some(tiles.len() / 2);
     let buffers = Mutex::new(std::mem::take(&mut spare.tiles));
     let parts: Vec<O> = tiles
         .into_par_iter()
@@ -322,7 +371,7 @@ pub fn determine_visibility_with_fault<O: Observer, F: Fault>(
             let mut buffer = buffer.unwrap_or_else(|| TileBuffer::new(view, &tiling));
             buffer.begin(view, &tile.region);
             if dropped != Some(index) {
-                drawing.draw_tile::<O, F>(index, &mut buffer, &mut observer);
+                (loops.draw_tile)(&drawing, index, &mut buffer, observer.watcher());
             }
             dispatch!(level, simd => buffer.store(simd, &picture, tile));
             lock(&buffers).push(buffer);

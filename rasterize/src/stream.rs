@@ -15,7 +15,7 @@
 
 use crate::fast;
 use bothways_common::frame::{NO_PRIMITIVE, Region};
-use bothways_common::observe::{Observer, Question, Sample};
+use bothways_common::observe::{Events, Observer, Question, Sample};
 use bothways_common::predicate::Memory;
 use bothways_common::stream::Positions;
 use bothways_common::{
@@ -286,7 +286,9 @@ impl<O: Observer> Observer for Shifted<O> {
     fn join(&mut self, part: Self) {
         self.inner.join(part.inner);
     }
+}
 
+impl<O: Events> Events for Shifted<O> {
     fn primitive_begun(&mut self, primitive: u32, region: &Region) {
         self.inner.primitive_begun(primitive + self.by, region);
     }

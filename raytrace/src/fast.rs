@@ -33,8 +33,8 @@ mod walk;
 
 use bothways_common::fault::{Fault, Planted, Sound};
 use bothways_common::frame::{NO_PRIMITIVE, Tile};
-use bothways_common::observe::Observer;
-use bothways_common::simd::{Level, Simd, dispatch};
+use bothways_common::observe::{Events, Observer};
+use bothways_common::simd::{Level, dispatch_with};
 use bothways_common::{Frame, Options, Scene, View};
 use rayon::prelude::*;
 use rays::{LensKind, Rays};
@@ -113,28 +113,54 @@ pub fn determine_visibility(
     frame: &mut Frame,
     observer: &mut impl Observer,
 ) {
-    determine_visibility_with_fault(prepared, view, options, frame, observer, Sound);
+    run(prepared, view, options, frame, observer, &SOUND);
 }
 
 /// [`determine_visibility`] with a fault in it, for tests of the verdict.
 #[doc(hidden)]
-pub fn determine_visibility_with_fault<O: Observer, F: Fault>(
+pub fn determine_visibility_with_fault<F: Fault>(
+    prepared: &Prepared,
+    view: &View,
+    options: &Options,
+    frame: &mut Frame,
+    _fault: F,
+) {
+    run(prepared, view, options, frame, &mut (), &const { Loops::new::<F>() });
+}
+
+/// The loops with one fault in them, or none. So [`run`], which is compiled for each observer, is not what takes
+/// long to compile.
+struct Loops {
+    planted: Option<Planted>,
+    watch: fn(&mut Walker, &LensKind, &Tile, &mut dyn Events),
+    trace: fn(&mut Walker, &LensKind, Tile),
+}
+
+static SOUND: Loops = Loops::new::<Sound>();
+
+impl Loops {
+    const fn new<F: Fault>() -> Loops {
+        Loops { planted: F::PLANTED, watch: watch::<F>, trace: trace::<F> }
+    }
+}
+
+fn run<O: Observer>(
     prepared: &Prepared,
     view: &View,
     options: &Options,
     frame: &mut Frame,
     observer: &mut O,
-    _fault: F,
+    loops: &Loops,
 ) {
     assert_eq!(prepared.primitives, view.scene.primitive_count(), "another scene was prepared");
     frame.fit(view.camera, options);
     let rays = Rays::new(view, options.samples, walk::reach(prepared, view));
     // A box's last place matters to a ray alone: a fault there shows in tiles of one.
-    let side = if F::is(Planted::ShrunkBox) { 1 } else { prepared.side };
+    let side = if loops.planted == Some(Planted::ShrunkBox) { 1 } else { prepared.side };
     let (kind, kind_of_one) = (rays.lens_kind(side), rays.lens_kind(1));
 
     let (seen, shares): (&O, Vec<Tile>) = (observer, frame.tiles_mut(SHARE, prepared.side));
-    let dropped = F::is(Planted::DroppedTile).then_some(shares.len() / 2);
+    let dropped = (loops.planted == Some(Planted::DroppedTile)).then_some(shares.len() / 2);
     let parts: Vec<O> = shares
         .into_par_iter()
         .with_max_len(1)
@@ -148,12 +174,10 @@ pub fn determine_visibility_with_fault<O: Observer, F: Fault>(
                     ids.into_iter().for_each(|ids| ids.fill(NO_PRIMITIVE));
                     t.into_iter().for_each(|t| t.fill(f32::INFINITY));
                 } else {
-                    dispatch!(prepared.level, simd => {
-                        if O::WATCHES {
-                            watch::<_, O, F>(simd, walker, &kind_of_one, &share, &mut observer);
-                        }
-                        trace::<_, F>(simd, walker, &rays, &kind, share);
-                    });
+                    if let Some(watcher) = observer.watcher() {
+                        (loops.watch)(walker, &kind_of_one, &share, watcher);
+                    }
+                    (loops.trace)(walker, &kind, share);
                 }
                 observer
             },
@@ -163,39 +187,30 @@ pub fn determine_visibility_with_fault<O: Observer, F: Fault>(
 }
 
 /// Walks each ray of a share of the picture alone, for an observer.
-#[inline(always)]
-fn watch<S: Simd, O: Observer, F: Fault>(
-    simd: S,
-    walker: &mut Walker,
-    kind: &LensKind,
-    share: &Tile,
-    observer: &mut O,
-) {
-    for row in share.region.rows.clone() {
-        for column in share.region.columns.clone() {
-            walker.walk::<S, O, F>(simd, kind, [row, column], [1, 1], observer);
+fn watch<F: Fault>(walker: &mut Walker, kind: &LensKind, share: &Tile, observer: &mut dyn Events) {
+    dispatch_with!(F, walker.prepared.level, simd => {
+        for row in share.region.rows.clone() {
+            for column in share.region.columns.clone() {
+                walker.walk::<_, dyn Events, F>(simd, kind, [row, column], [1, 1], observer);
+            }
         }
-    }
+    });
 }
 
 /// Traces the rays of a share of the picture, tile by tile. Of a tile at the border of a crop all rays are
 /// traced, so that the crop shows the bits of the whole picture, and those in the share are stored.
-#[inline(always)]
-fn trace<S: Simd, F: Fault>(
-    simd: S,
-    walker: &mut Walker,
-    rays: &Rays,
-    kind: &LensKind,
-    share: Tile,
-) {
+fn trace<F: Fault>(walker: &mut Walker, kind: &LensKind, share: Tile) {
     let Tile { region, mut ids, mut t } = share;
-    let side = kind.side;
+    let (rays, side) = (walker.rays, kind.side);
     let tiles = |range: &Range<usize>| (range.start / side * side..range.end).step_by(side);
-    for top in tiles(&region.rows) {
-        for left in tiles(&region.columns) {
-            let size = [rays.grid.height() - top, rays.grid.width() - left].map(|s| s.min(side));
-            walker.walk::<S, (), F>(simd, kind, [top, left], size, &mut ());
-            walker.tile.store(simd, rays, &region, &mut ids, &mut t);
+    dispatch_with!(F, walker.prepared.level, simd => {
+        for top in tiles(&region.rows) {
+            for left in tiles(&region.columns) {
+                let size =
+                    [rays.grid.height() - top, rays.grid.width() - left].map(|s| s.min(side));
+                walker.walk::<_, (), F>(simd, kind, [top, left], size, &mut ());
+                walker.tile.store(simd, rays, &region, &mut ids, &mut t);
+            }
         }
-    }
+    });
 }

@@ -3,7 +3,7 @@
 #![expect(clippy::cast_possible_truncation, reason = "small numbers")]
 
 use bothways::common::glam::{Vec2, Vec3};
-use bothways::common::observe::{Observer, Sample};
+use bothways::common::observe::{Events, Observer, Sample};
 use bothways::common::predicate::Sign;
 use bothways::common::{
     Camera, CameraDescription, Crop, Frame, Mesh, Object, Options, Orientation, Projection, Scene,
@@ -116,7 +116,9 @@ impl Observer for Ties<'_> {
         self.distance += part.distance;
         self.tested += part.tested;
     }
+}
 
+impl Events for Ties<'_> {
     fn sample_tested(&mut self, _sample: Sample, _primitive: u32) {
         self.tested += 1;
     }
@@ -159,7 +161,9 @@ impl Observer for Owners {
             *count += more;
         }
     }
+}
 
+impl Events for Owners {
     fn fragment(&mut self, sample: Sample, _primitive: u32) {
         self.counts[sample.row * self.width + sample.column] += 1;
     }

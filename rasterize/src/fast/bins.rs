@@ -9,7 +9,7 @@ use super::vertices::{ON_RASTER, OUT_OF_SIGHT, Raster, Vertex};
 use super::{Batch, Piece};
 use bothways_common::fault::{Fault, Planted};
 use bothways_common::frame::Region;
-use bothways_common::observe::Observer;
+use bothways_common::observe::Watcher;
 use bothways_common::simd::{Simd, SimdBase, SimdMask, i32x4};
 use bothways_common::{Primitive, Shape, View};
 use std::ops::Range;
@@ -217,7 +217,7 @@ impl BatchBins {
 
     /// Finds the bounding region of every primitive of a batch, and the tiles that it overlaps.
     #[inline(always)]
-    pub(super) fn fill<S: Simd, O: Observer, F: Fault>(
+    pub(super) fn fill<S: Simd, O: Watcher + ?Sized, F: Fault>(
         &mut self,
         simd: S,
         batch: &Batch,
@@ -252,7 +252,7 @@ impl BatchBins {
     /// Adds a part of a mesh: clusters as they are, where they lie in few tiles, and the triangles of others
     /// one by one.
     #[inline(always)]
-    fn add_clusters<S: Simd, O: Observer, F: Fault>(
+    fn add_clusters<S: Simd, O: Watcher + ?Sized, F: Fault>(
         &mut self,
         simd: S,
         piece: &Piece,
@@ -295,7 +295,7 @@ impl BatchBins {
 
     /// Notes the samples that a triangle may cover, if there are any.
     #[inline(always)]
-    fn enter<S: Simd, O: Observer, F: Fault>(
+    fn enter<S: Simd, O: Watcher + ?Sized, F: Fault>(
         &mut self,
         simd: S,
         id: u32,
@@ -322,7 +322,12 @@ impl BatchBins {
     }
 
     /// Notes the samples that any primitive may cover, to be drawn as [`Class::Large`].
-    fn enter_large<O: Observer, F: Fault>(&mut self, id: u32, binning: &Binning, observer: &mut O) {
+    fn enter_large<O: Watcher + ?Sized, F: Fault>(
+        &mut self,
+        id: u32,
+        binning: &Binning,
+        observer: &mut O,
+    ) {
         let region = region::<F>(&binning.view.primitive(id), binning.screen);
         let drawn = region.intersection(&binning.tiling.region());
         observer.primitive_begun(id, &drawn);

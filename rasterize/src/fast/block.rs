@@ -4,7 +4,7 @@ use super::lanes::lanes_of;
 use super::setup::Setup;
 use super::tile::{Picture, TileBuffer, nearer_by};
 use bothways_common::fault::Fault;
-use bothways_common::observe::{Observer, Sample};
+use bothways_common::observe::{Sample, Watcher};
 use bothways_common::simd::{
     Select, Simd, SimdBase, SimdMask, f32x8, f32x16, mask32x16, u32x8, u32x16,
 };
@@ -28,7 +28,7 @@ struct Tested<S: Simd> {
 
 /// Draws what of one triangle lies in the tile.
 #[inline(always)]
-pub(super) fn draw<S: Simd, O: Observer, F: Fault>(
+pub(super) fn draw<S: Simd, O: Watcher + ?Sized, F: Fault>(
     simd: S,
     (setup, lane): (&Setup, usize),
     picture: &Picture,
@@ -47,7 +47,7 @@ pub(super) fn draw<S: Simd, O: Observer, F: Fault>(
 
 /// Draws in blocks of `ACROSS` columns and as many rows as make sixteen samples: 16 or 8.
 #[inline(always)]
-fn draw_blocks<const ACROSS: usize, S: Simd, O: Observer, F: Fault>(
+fn draw_blocks<const ACROSS: usize, S: Simd, O: Watcher + ?Sized, F: Fault>(
     simd: S,
     (setup, lane): (&Setup, usize),
     [columns, rows]: [Range<usize>; 2],
@@ -217,7 +217,7 @@ fn depth_test<S: Simd, F: Fault>(
 }
 
 #[cold]
-fn leave_open<S: Simd, O: Observer, F: Fault>(
+fn leave_open<S: Simd, O: Watcher + ?Sized, F: Fault>(
     brush: &Brush<S>,
     tested: &Tested<S>,
     picture: &Picture,
@@ -235,7 +235,7 @@ fn leave_open<S: Simd, O: Observer, F: Fault>(
 
 /// Tells of sixteen tests, and of the depth tests that follow.
 #[expect(clippy::too_many_arguments, reason = "all that an observer may want to know")]
-fn tell<S: Simd, O: Observer, F: Fault>(
+fn tell<S: Simd, O: Watcher + ?Sized, F: Fault>(
     setup: &Setup,
     of: usize,
     buffer: &TileBuffer,

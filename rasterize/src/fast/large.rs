@@ -9,14 +9,14 @@ use super::setup::MOST_SAMPLES_ACROSS;
 use super::tile::{Challenger, Picture, TileBuffer, judge_covers};
 use bothways_common::fault::{Fault, Planted};
 use bothways_common::frame::Region;
-use bothways_common::observe::{Observer, Sample};
+use bothways_common::observe::{Sample, Watcher};
 use bothways_common::{Primitive, Projection, Sign};
 
 /// Regions wider than this are cut to the span of each row.
 const WIDE: usize = MOST_SAMPLES_ACROSS.cast_unsigned() as usize;
 
 /// One primitive while it is drawn into a tile.
-struct Brush<'a, 'b, O> {
+struct Brush<'a, 'b, O: ?Sized> {
     id: u32,
     primitive: Primitive,
     picture: &'a Picture<'a>,
@@ -25,7 +25,7 @@ struct Brush<'a, 'b, O> {
 }
 
 /// Draws what of a primitive's region lies in the tile.
-pub(super) fn draw<O: Observer, F: Fault>(
+pub(super) fn draw<O: Watcher + ?Sized, F: Fault>(
     id: u32,
     picture: &Picture,
     buffer: &mut TileBuffer,
@@ -54,7 +54,7 @@ pub(super) fn draw<O: Observer, F: Fault>(
     }
 }
 
-impl<O: Observer> Brush<'_, '_, O> {
+impl<O: Watcher + ?Sized> Brush<'_, '_, O> {
     fn draw_triangle<F: Fault>(&mut self, setup: &TriangleSetup, here: Region, wide: bool) {
         let screen = self.picture.screen;
         let (xs, ys) = (screen.grid.x(), screen.grid.y());

@@ -11,9 +11,9 @@ use super::vertices::{ON_RASTER, OUT_OF_SIGHT, Vertex};
 use super::{block, large};
 use bothways_common::Shape;
 use bothways_common::fault::Fault;
-use bothways_common::observe::Observer;
+use bothways_common::observe::Watcher;
 use bothways_common::simd::{
-    Level, Simd, SimdBase, SimdMask, dispatch, i32x16, mask32x16, prefetch,
+    Level, Simd, SimdBase, SimdMask, dispatch_with, i32x16, mask32x16, prefetch,
 };
 use std::ops::Range;
 
@@ -27,7 +27,7 @@ pub(super) struct Drawing<'a> {
 
 impl Drawing<'_> {
     /// Draws all primitives of a tile.
-    pub(super) fn draw_tile<O: Observer, F: Fault>(
+    pub(super) fn draw_tile<O: Watcher + ?Sized, F: Fault>(
         &self,
         tile: usize,
         buffer: &mut TileBuffer,
@@ -58,7 +58,7 @@ impl Drawing<'_> {
 const IN_LANES: [Class; 3] = [Class::Tiny, Class::Small, Class::Block];
 
 /// Draws into one tile.
-struct Painter<'a, 'b, O> {
+struct Painter<'a, 'b, O: ?Sized> {
     drawing: &'a Drawing<'a>,
     find: Finder<'a>,
     /// Triangles of a cluster, as they come.
@@ -72,7 +72,7 @@ struct Painter<'a, 'b, O> {
     observer: &'b mut O,
 }
 
-impl<O: Observer> Painter<'_, '_, O> {
+impl<O: Watcher + ?Sized> Painter<'_, '_, O> {
     /// Draws the clusters that may be seen in the tile: the nearer ones first, because what they hide need
     /// not be drawn. Otherwise clusters keep their order, in which neighbours share vertices.
     fn draw_clusters<F: Fault>(&mut self, tile: usize) {
@@ -102,7 +102,7 @@ impl<O: Observer> Painter<'_, '_, O> {
     fn hides<F: Fault>(&self, cluster: &Cluster) -> bool {
         let here = cluster.region().intersection(self.buffer.region());
         let farthest = cluster.nearest * nearer_by::<F>();
-        dispatch!(self.drawing.level, simd => self.buffer.is_nearer(simd, &here, farthest))
+        dispatch_with!(F, self.drawing.level, simd => self.buffer.is_nearer(simd, &here, farthest))
     }
 
     /// Looks at the triangles of a cluster, and lets those that may be seen in the tile wait for others of
@@ -112,7 +112,7 @@ impl<O: Observer> Painter<'_, '_, O> {
         let (first_id, triangles, vertices) = self.find.object(object);
         for first in (first..first + count).step_by(16) {
             let sixteen = (cluster.first + count - first).min(16) as usize;
-            dispatch!(self.drawing.level, simd => {
+            dispatch_with!(F, self.drawing.level, simd => {
                 self.gathered.fill(simd, sixteen, |lane| {
                     let place = first + u32::try_from(lane).expect("there are sixteen lanes");
                     let corners = triangles.corners[place as usize];
@@ -166,7 +166,7 @@ impl<O: Observer> Painter<'_, '_, O> {
         if count == 0 {
             return;
         }
-        dispatch!(drawing.level, simd => {
+        dispatch_with!(F, drawing.level, simd => {
             let setup = Setup::new::<_, F>(simd, drawing.binning.raster, lanes);
             if class == Class::Block {
                 let elsewhere = setup.doubtful | setup.keyless;
@@ -191,7 +191,7 @@ impl<O: Observer> Painter<'_, '_, O> {
         for (ids, next) in list.chunks(16).zip((16..).step_by(16)) {
             let Painter { drawing, waiting, find, .. } = self;
             let lanes = &mut waiting[class as usize];
-            dispatch!(drawing.level, simd => {
+            dispatch_with!(F, drawing.level, simd => {
                 lanes.fill(simd, ids.len(), |lane| (ids[lane], find.vertices(ids[lane])));
             });
             // Larger triangles of a tile may lie anywhere in memory. Small ones are neighbours, as meshes

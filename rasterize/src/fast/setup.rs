@@ -7,7 +7,7 @@ use super::vertices::{ALIGNED, Raster};
 use bothways_common::Sign;
 use bothways_common::exact_grid::TIE;
 use bothways_common::fault::{Fault, Planted};
-use bothways_common::observe::{Observer, Sample};
+use bothways_common::observe::{Sample, Watcher};
 use bothways_common::simd::{Select, Simd, SimdBase, SimdInt, SimdMask, f32x16, i32x16, mask32x16};
 
 /// Boxes of more columns or rows than this are not for `f32`.
@@ -192,7 +192,7 @@ impl Setup {
 
     /// Tells of one test: the edge functions' signs as far as they are certain, in the orientation of
     /// the contract.
-    pub(super) fn tell_test<O: Observer>(
+    pub(super) fn tell_test<O: Watcher + ?Sized>(
         &self,
         lane: usize,
         sample: Sample,

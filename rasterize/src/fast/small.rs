@@ -4,7 +4,7 @@ use super::lanes::lanes_of;
 use super::setup::Setup;
 use super::tile::{Picture, TileBuffer};
 use bothways_common::fault::Fault;
-use bothways_common::observe::Observer;
+use bothways_common::observe::Watcher;
 use bothways_common::simd::{
     Select, Simd, SimdBase, SimdInt, SimdMask, f32x16, i32x16, mask32x16, u32x16,
 };
@@ -17,7 +17,7 @@ pub(super) const MOST_SAMPLES: u32 = 16;
 
 /// Draws what of the triangles lies in the tile.
 #[inline(always)]
-pub(super) fn draw<S: Simd, O: Observer, F: Fault>(
+pub(super) fn draw<S: Simd, O: Watcher + ?Sized, F: Fault>(
     simd: S,
     setup: &Setup,
     picture: &Picture,
@@ -71,7 +71,7 @@ pub(super) fn draw<S: Simd, O: Observer, F: Fault>(
 
 /// Leaves to the judge whether some lanes' samples are covered.
 #[cold]
-fn leave_open<O: Observer, F: Fault>(
+fn leave_open<O: Watcher + ?Sized, F: Fault>(
     setup: &Setup,
     picture: &Picture,
     buffer: &mut TileBuffer,
@@ -127,7 +127,7 @@ impl Fragments {
 
     /// Tests the depth of all, and forgets them.
     #[inline(always)]
-    fn test_depth<O: Observer, F: Fault>(
+    fn test_depth<O: Watcher + ?Sized, F: Fault>(
         &mut self,
         picture: &Picture,
         buffer: &mut TileBuffer,
@@ -183,7 +183,7 @@ impl<S: Simd> Walk<S> {
 }
 
 /// Tells of the tests of one step.
-fn tell<S: Simd, O: Observer>(
+fn tell<S: Simd, O: Watcher + ?Sized>(
     setup: &Setup,
     buffer: &TileBuffer,
     observer: &mut O,

@@ -5,7 +5,7 @@ use super::depth::{KeyScale, NEARER, NOTHING};
 use super::screen::Screen;
 use bothways_common::fault::{Fault, Planted};
 use bothways_common::frame::{NO_PRIMITIVE, Region, Tile, stored_t};
-use bothways_common::observe::{Observer, Question, Sample};
+use bothways_common::observe::{Question, Sample, Watcher};
 use bothways_common::predicate::Memory;
 use bothways_common::simd::{
     Select, Simd, SimdBase, SimdMask, f32x16, finish_streaming, mask32x16, stream, u32x16,
@@ -150,7 +150,7 @@ impl TileBuffer {
 
     /// Leaves to the judge whether a fragment is nearest, or whether it is one.
     #[inline]
-    pub(super) fn leave_open<O: Observer, F: Fault>(
+    pub(super) fn leave_open<O: Watcher + ?Sized, F: Fault>(
         &mut self,
         picture: &Picture,
         index: usize,
@@ -187,7 +187,7 @@ impl TileBuffer {
 
     /// The depth test: keeps the nearer of a fragment and what its sample shows so far.
     #[inline(always)]
-    pub(super) fn fragment<O: Observer, F: Fault>(
+    pub(super) fn fragment<O: Watcher + ?Sized, F: Fault>(
         &mut self,
         picture: &Picture,
         (index, id, key): (usize, u32, f32),
@@ -209,7 +209,7 @@ impl TileBuffer {
     }
 
     /// Tells of a fragment and its depth test, before it takes effect.
-    pub(super) fn tell_depth_test<O: Observer>(
+    pub(super) fn tell_depth_test<O: Watcher + ?Sized>(
         &self,
         index: usize,
         id: u32,
@@ -224,7 +224,7 @@ impl TileBuffer {
     }
 
     /// Tells of a fragment whose depth test is not left open, before it takes effect.
-    pub(super) fn tell_certain<O: Observer, F: Fault>(
+    pub(super) fn tell_certain<O: Watcher + ?Sized, F: Fault>(
         &self,
         index: usize,
         id: u32,
@@ -238,7 +238,11 @@ impl TileBuffer {
     }
 
     /// Asks the judge what was left open.
-    pub(super) fn settle<O: Observer, F: Fault>(&mut self, picture: &Picture, observer: &mut O) {
+    pub(super) fn settle<O: Watcher + ?Sized, F: Fault>(
+        &mut self,
+        picture: &Picture,
+        observer: &mut O,
+    ) {
         let open = std::mem::take(&mut self.open);
         let mut current: Option<Challenger> = None;
         for Open { index, id, key, covered } in &open {
@@ -260,7 +264,7 @@ impl TileBuffer {
     }
 
     /// The depth test at once, by the judge if need be.
-    pub(super) fn settle_depth<O: Observer, F: Fault>(
+    pub(super) fn settle_depth<O: Watcher + ?Sized, F: Fault>(
         &mut self,
         picture: &Picture,
         index: usize,
@@ -285,7 +289,7 @@ impl TileBuffer {
     }
 
     /// Asks the judge whether a primitive is seen rather than the one that the sample shows.
-    fn judge_nearer<O: Observer, F: Fault>(
+    fn judge_nearer<O: Watcher + ?Sized, F: Fault>(
         &mut self,
         picture: &Picture,
         index: usize,
@@ -414,7 +418,7 @@ fn distances<S: Simd>(simd: S, scale: &KeyScale, keys: f32x16<S>) -> (f32x16<S>,
 
 /// Asks the judge whether a primitive covers a sample that rounding leaves open.
 #[cold]
-pub(super) fn judge_covers<O: Observer, F: Fault>(
+pub(super) fn judge_covers<O: Watcher + ?Sized, F: Fault>(
     picture: &Picture,
     sample: Sample,
     id: u32,

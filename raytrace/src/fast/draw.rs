@@ -10,7 +10,7 @@ use super::tree::Leaf;
 use bothways_common::Sign;
 use bothways_common::exact_grid::TIE;
 use bothways_common::fault::Fault;
-use bothways_common::observe::Observer;
+use bothways_common::observe::Watcher;
 use bothways_common::simd::{Select, Simd, SimdBase, SimdMask, f32x8, f32x16, u32x16};
 
 /// Boxes of at most this many samples are tested one triangle a lane.
@@ -47,7 +47,7 @@ fn arrays<S: Simd>(affine: &Affine<S>) -> [[f32; 8]; 3] {
 
 /// Tests some triangles of a leaf at the samples of the tile; tells whether one of them may cover many.
 #[inline(always)]
-pub(super) fn draw<S: Simd, O: Observer, F: Fault>(
+pub(super) fn draw<S: Simd, O: Watcher + ?Sized, F: Fault>(
     simd: S,
     rays: &Rays,
     lens: &Lens,
@@ -99,7 +99,7 @@ pub(super) fn draw<S: Simd, O: Observer, F: Fault>(
 /// Triangles over few samples: each lane goes through its own.
 #[inline(always)]
 #[expect(clippy::too_many_arguments, reason = "all is known already")]
-fn draw_few<S: Simd, O: Observer>(
+fn draw_few<S: Simd, O: Watcher + ?Sized>(
     simd: S,
     lens: &Lens,
     setup: &Setup<S>,
@@ -284,7 +284,7 @@ impl Tile {
     /// fragment at all, is not certain.
     #[inline(always)]
     #[expect(clippy::too_many_arguments, reason = "all that is known of a fragment")]
-    fn fragment<O: Observer>(
+    fn fragment<O: Watcher + ?Sized>(
         &mut self,
         at: usize,
         lane: usize,
@@ -316,7 +316,7 @@ impl Tile {
 
 /// Tells of the tests of a leaf's triangles against the only ray of a tile, as far as they are certain.
 #[cold]
-fn tell<S: Simd, O: Observer>(
+fn tell<S: Simd, O: Watcher + ?Sized>(
     setup: &Setup<S>,
     leaf: &Leaf,
     used: u64,

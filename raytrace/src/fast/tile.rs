@@ -4,7 +4,7 @@ use super::leaf::{self, Answer, Distance, Trust};
 use super::rays::{Lens, Rays};
 use bothways_common::fault::{Fault, Planted};
 use bothways_common::frame::{NO_PRIMITIVE, Region, stored_t};
-use bothways_common::observe::{Observer, Question, Sample};
+use bothways_common::observe::{Question, Sample, Watcher};
 use bothways_common::predicate::Memory;
 use bothways_common::simd::{Select, Simd, SimdBase, SimdMask, f32x16, u32x16};
 use bothways_common::{Primitive, Projection};
@@ -183,7 +183,7 @@ impl Tile {
 
     /// Decides what was left open.
     #[cold]
-    pub(super) fn settle<O: Observer, F: Fault>(
+    pub(super) fn settle<O: Watcher + ?Sized, F: Fault>(
         &mut self,
         rays: &Rays,
         primitives: &[(u32, Primitive); 8],
@@ -201,7 +201,7 @@ impl Tile {
 
     /// Tests one ray against one primitive in `f64`, by the judge if need be, and keeps the nearer of it
     /// and the hit so far. `covered` says that it is certainly covered, which was told already.
-    pub(super) fn decide<O: Observer, F: Fault>(
+    pub(super) fn decide<O: Watcher + ?Sized, F: Fault>(
         &mut self,
         rays: &Rays,
         index: usize,
@@ -260,7 +260,7 @@ impl Tile {
 
     /// Whether a primitive is seen rather than the hit so far: by `f64` if that is certain, or by the
     /// judge.
-    fn judge_nearer<O: Observer, F: Fault>(
+    fn judge_nearer<O: Watcher + ?Sized, F: Fault>(
         &mut self,
         rays: &Rays,
         (sample, index): (Sample, usize),

@@ -8,7 +8,7 @@ use super::sieve::{self, Sieve};
 use super::tile::Tile;
 use super::tree::{Child, Kind, Node, WIDTH};
 use bothways_common::fault::{Fault, Planted};
-use bothways_common::observe::Observer;
+use bothways_common::observe::Watcher;
 use bothways_common::simd::{Simd, SimdBase, SimdMask, f32x8, mask32x8, prefetch};
 use bothways_common::{Primitive, View};
 
@@ -24,8 +24,8 @@ struct Open {
 /// Walks tiles of one view through the hierarchy.
 #[derive(Debug)]
 pub(super) struct Walker<'a> {
-    prepared: &'a Prepared,
-    rays: &'a Rays<'a>,
+    pub(super) prepared: &'a Prepared,
+    pub(super) rays: &'a Rays<'a>,
     pub(super) tile: Tile,
     /// What is tested without a box: planes, and spheres that no box can be trusted to hold, because
     /// they are huge or the eye is so far away (those are in boxes, too).
@@ -63,7 +63,7 @@ impl<'a> Walker<'a> {
     /// Finds the first hits of a square of samples, of which so many rows and columns are in the
     /// picture.
     #[inline(always)]
-    pub(super) fn walk<S: Simd, O: Observer, F: Fault>(
+    pub(super) fn walk<S: Simd, O: Watcher + ?Sized, F: Fault>(
         &mut self,
         simd: S,
         kind: &LensKind,
@@ -152,7 +152,7 @@ impl<'a> Walker<'a> {
     /// Draws those triangles of a leaf that may be seen; tells whether one of them is large, as it supposes
     /// where there is none.
     #[inline(always)]
-    fn draw_leaf<S: Simd, O: Observer, F: Fault>(
+    fn draw_leaf<S: Simd, O: Watcher + ?Sized, F: Fault>(
         &mut self,
         simd: S,
         lens: &Lens,
@@ -200,7 +200,7 @@ impl<'a> Walker<'a> {
     /// point of the box that is nowhere farther along the plane's normal, so only the error of points on rays
     /// counts, which [`Rays::lens_kind`] allows for, and that of `f32`, for which [`super::rough`] does.
     #[inline(always)]
-    fn enter<S: Simd, O: Observer, F: Fault>(
+    fn enter<S: Simd, O: Watcher + ?Sized, F: Fault>(
         &mut self,
         simd: S,
         lens: &Lens,
