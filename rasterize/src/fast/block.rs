@@ -16,6 +16,8 @@ struct Brush<S: Simd> {
     edges: [[f32x16<S>; 3]; 3],
     error: f32x16<S>,
     keys: [f32x16<S>; 3],
+    /// −∞, as far from the inside as an edge function can be.
+    outside: f32x16<S>,
 }
 
 /// Sixteen samples tested.
@@ -62,27 +64,36 @@ fn draw_blocks<const ACROSS: usize, S: Simd, O: Watcher + ?Sized, F: Fault>(
     let (first_column, first_row) = (setup.first_column[lane], setup.first_row[lane]);
     let end_column = f32x16::splat(simd, own(columns.end, first_column));
     let end_row = f32x16::splat(simd, own(rows.end, first_row));
+    let first_rows = lane_row + own(rows.start, first_row);
+    let down = 16 / ACROSS;
+    let step = f32x16::splat(simd, const { own(16 / ACROSS, 0) });
+    let to_next = down * buffer.stride();
 
     // Most triangles have one column of blocks: what depends on columns is computed once.
-    for column in columns.step_by(ACROSS) {
+    for column in columns.clone().step_by(ACROSS) {
         let own_column = lane_column + own(column, first_column);
-        let (at_top, in_columns) = (brush.at_top(own_column), own_column.simd_lt(end_column));
-        for row in rows.clone().step_by(16 / ACROSS) {
-            let own_row = lane_row + own(row, first_row);
-            let in_box = in_columns & own_row.simd_lt(end_row);
-            let tested = brush.test(own_row, &at_top, in_box);
-            let index = buffer.index(Sample { row, column });
+        let at_top = brush.at_top(own_column, own_column.simd_lt(end_column));
+        let mut own_row = first_rows;
+        let mut index = buffer.index(Sample { row: rows.start, column });
+        for row in rows.clone().step_by(down) {
+            let in_rows = (ACROSS < 16).then(|| own_row.simd_lt(end_row));
+            let tested = brush.test(own_row, &at_top, in_rows);
+            let first = Sample { row, column };
             if O::WATCHES {
-                tell::<S, O, F>(setup, lane, buffer, observer, index, ACROSS, in_box, &tested);
+                let ends = [rows.end, columns.end];
+                tell::<ACROSS, S, O, F>((setup, lane), buffer, observer, first, ends, &tested);
             }
             let doubt = if ACROSS == 8 {
                 keep_two_rows::<S, F>(simd, &brush, &tested, buffer, index)
             } else {
                 keep_row::<S, F>(simd, &brush, &tested, buffer, index)
             };
-            if doubt != 0 {
-                leave_open::<S, O, F>(&brush, &tested, picture, buffer, (index, ACROSS), doubt);
+            if doubt.any_true() {
+                let masks = [doubt.to_bitmask(), tested.inside.to_bitmask()];
+                leave_open::<ACROSS, O, F>((setup, lane), picture, buffer, first, masks);
             }
+            own_row += step;
+            index += to_next;
         }
     }
 }
@@ -91,7 +102,7 @@ fn draw_blocks<const ACROSS: usize, S: Simd, O: Watcher + ?Sized, F: Fault>(
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "at most 65,536")]
 #[expect(clippy::cast_precision_loss, reason = "at most 256")]
-fn own(place: usize, first: i32) -> f32 {
+const fn own(place: usize, first: i32) -> f32 {
     (place as i32 - first) as f32
 }
 
@@ -131,25 +142,41 @@ impl<S: Simd> Brush<S> {
             edges: [edge(0), edge(1), edge(2)],
             error: f32x16::splat(simd, setup.error[lane]),
             keys: keys.map(|key| f32x16::splat(simd, key)),
+            outside: f32x16::splat(simd, f32::NEG_INFINITY),
         }
     }
 
-    /// The edge functions and the key in the first row of the triangle's box.
+    /// The edge functions and the key in the first row of the triangle's box. One edge function excludes what is not in
+    /// its columns.
     #[inline(always)]
-    fn at_top(&self, column: f32x16<S>) -> [f32x16<S>; 4] {
+    fn at_top(&self, column: f32x16<S>, in_columns: mask32x16<S>) -> [f32x16<S>; 4] {
         let ([a, b, c], key) = (&self.edges, &self.keys);
-        [a[0] + a[1] * column, b[0] + b[1] * column, c[0] + c[1] * column, key[0] + key[1] * column]
+        [
+            in_columns.select(a[0] + a[1] * column, self.outside),
+            b[0] + b[1] * column,
+            c[0] + c[1] * column,
+            key[0] + key[1] * column,
+        ]
     }
 
+    /// Tests sixteen samples, of which some may lie outside of the triangle's rows.
     #[inline(always)]
-    fn test(&self, row: f32x16<S>, at_top: &[f32x16<S>; 4], in_box: mask32x16<S>) -> Tested<S> {
+    fn test(
+        &self,
+        row: f32x16<S>,
+        at_top: &[f32x16<S>; 4],
+        in_rows: Option<mask32x16<S>>,
+    ) -> Tested<S> {
         let [a, b, c] = &self.edges;
         let values = [at_top[0] + a[2] * row, at_top[1] + b[2] * row, at_top[2] + c[2] * row];
-        let least = values[0].min(values[1]).min(values[2]);
+        let mut least = values[0].min(values[1]).min(values[2]);
+        if let Some(in_rows) = in_rows {
+            least = in_rows.select(least, self.outside);
+        }
         Tested {
             values,
-            inside: in_box & least.simd_gt(self.error),
-            perhaps: in_box & least.simd_ge(-self.error),
+            inside: least.simd_gt(self.error),
+            perhaps: least.simd_ge(-self.error),
             keys: at_top[3] + self.keys[2] * row,
         }
     }
@@ -163,7 +190,7 @@ fn keep_row<S: Simd, F: Fault>(
     tested: &Tested<S>,
     buffer: &mut TileBuffer,
     index: usize,
-) -> u64 {
+) -> mask32x16<S> {
     let (ids, keys) = buffer.from(index);
     let (ids, keys) = (&mut ids[..16], &mut keys[..16]);
     let held = f32x16::from_slice(simd, keys);
@@ -171,7 +198,7 @@ fn keep_row<S: Simd, F: Fault>(
     replaces.select(tested.keys, held).store_slice(keys);
     let shown = u32x16::from_slice(simd, ids);
     replaces.select(u32x16::splat(simd, brush.id), shown).store_slice(ids);
-    doubt.to_bitmask()
+    doubt
 }
 
 /// The depth test of two rows of eight samples; tells which lanes are left open.
@@ -182,7 +209,7 @@ fn keep_two_rows<S: Simd, F: Fault>(
     tested: &Tested<S>,
     buffer: &mut TileBuffer,
     index: usize,
-) -> u64 {
+) -> mask32x16<S> {
     let stride = buffer.stride();
     let (ids, keys) = buffer.from(index);
     let (ids, keys) = (&mut ids[..stride + 8], &mut keys[..stride + 8]);
@@ -191,17 +218,15 @@ fn keep_two_rows<S: Simd, F: Fault>(
         f32x8::from_slice(simd, &keys[stride..stride + 8]),
     );
     let (replaces, doubt) = depth_test::<S, F>(tested, held);
-    let (upper, lower) = simd.split_f32x16(replaces.select(tested.keys, held));
-    upper.store_slice(&mut keys[..8]);
-    lower.store_slice(&mut keys[stride..stride + 8]);
-    let shown = simd.combine_u32x8(
-        u32x8::from_slice(simd, &ids[..8]),
-        u32x8::from_slice(simd, &ids[stride..stride + 8]),
-    );
-    let (upper, lower) = simd.split_u32x16(replaces.select(u32x16::splat(simd, brush.id), shown));
-    upper.store_slice(&mut ids[..8]);
-    lower.store_slice(&mut ids[stride..stride + 8]);
-    doubt.to_bitmask()
+    let (upper, lower) = simd.split_mask32x16(replaces);
+    let (upper_keys, lower_keys) = simd.split_f32x16(tested.keys);
+    let id = u32x8::splat(simd, brush.id);
+    for (start, mask, new) in [(0, upper, upper_keys), (stride, lower, lower_keys)] {
+        let (ids, keys) = (&mut ids[start..start + 8], &mut keys[start..start + 8]);
+        mask.select(new, f32x8::from_slice(simd, keys)).store_slice(keys);
+        mask.select(id, u32x8::from_slice(simd, ids)).store_slice(ids);
+    }
+    doubt
 }
 
 /// Which fragments are certainly nearest so far, and which samples are not decided.
@@ -210,48 +235,56 @@ fn depth_test<S: Simd, F: Fault>(
     tested: &Tested<S>,
     held: f32x16<S>,
 ) -> (mask32x16<S>, mask32x16<S>) {
-    let nearer = tested.keys.simd_gt(held * nearer_by::<F>());
-    let farther = held.simd_gt(tested.keys * nearer_by::<F>());
-    let decided = tested.inside & (nearer | farther);
-    (tested.inside & nearer, tested.perhaps & !decided)
+    let nearer = tested.inside & tested.keys.simd_gt(held * nearer_by::<F>());
+    let farther = tested.inside & held.simd_gt(tested.keys * nearer_by::<F>());
+    // Who is inside is perhaps inside.
+    (nearer, tested.perhaps ^ (nearer | farther))
 }
 
+/// The sample of one lane of a block that begins at `first`.
+fn sample<const ACROSS: usize>(first: Sample, lane: usize) -> Sample {
+    Sample { row: first.row + lane / ACROSS, column: first.column + lane % ACROSS }
+}
+
+/// Leaves some lanes to the judge: those of the first mask, which of the second are certainly covered.
 #[cold]
-fn leave_open<S: Simd, O: Watcher + ?Sized, F: Fault>(
-    brush: &Brush<S>,
-    tested: &Tested<S>,
+fn leave_open<const ACROSS: usize, O: Watcher + ?Sized, F: Fault>(
+    (setup, of): (&Setup, usize),
     picture: &Picture,
     buffer: &mut TileBuffer,
-    (index, across): (usize, usize),
-    doubt: u64,
+    first: Sample,
+    [doubt, inside]: [u64; 2],
 ) {
-    let (inside, keys) = (tested.inside.to_bitmask(), tested.keys.to_array());
     for lane in lanes_of(doubt) {
-        let at = index + lane / across * buffer.stride() + lane % across;
-        let covered = inside >> lane & 1 == 1;
-        buffer.leave_open::<O, F>(picture, at, brush.id, keys[lane & 15], covered);
+        let sample = sample::<ACROSS>(first, lane);
+        let column = own(sample.column, setup.first_column[of]);
+        let row = own(sample.row, setup.first_row[of]);
+        // The same bits as in SIMD.
+        let key = setup.key[0][of] + setup.key[1][of] * column + setup.key[2][of] * row;
+        let (at, covered) = (buffer.index(sample), inside >> lane & 1 == 1);
+        buffer.leave_open::<O, F>(picture, at, setup.ids[of], key, covered);
     }
 }
 
 /// Tells of sixteen tests, and of the depth tests that follow.
-#[expect(clippy::too_many_arguments, reason = "all that an observer may want to know")]
-fn tell<S: Simd, O: Watcher + ?Sized, F: Fault>(
-    setup: &Setup,
-    of: usize,
+fn tell<const ACROSS: usize, S: Simd, O: Watcher + ?Sized, F: Fault>(
+    (setup, of): (&Setup, usize),
     buffer: &TileBuffer,
     observer: &mut O,
-    index: usize,
-    across: usize,
-    in_box: mask32x16<S>,
+    first: Sample,
+    [end_row, end_column]: [usize; 2],
     tested: &Tested<S>,
 ) {
     let (values, error) = (tested.values.map(SimdBase::to_array), setup.error[of]);
     let (inside, keys) = (tested.inside.to_bitmask(), tested.keys.to_array());
-    for lane in lanes_of(in_box.to_bitmask()) {
-        let at = index + lane / across * buffer.stride() + lane % across;
-        let edges = values.map(|values| values[lane]);
-        setup.tell_test(of, buffer.sample(at), edges, error, observer);
+    for lane in 0..16 {
+        let sample = sample::<ACROSS>(first, lane);
+        if sample.row >= end_row || sample.column >= end_column {
+            continue;
+        }
+        setup.tell_test(of, sample, values.map(|values| values[lane]), error, observer);
         if inside >> lane & 1 == 1 {
+            let at = buffer.index(sample);
             buffer.tell_certain::<O, F>(at, setup.ids[of], keys[lane], observer);
         }
     }
