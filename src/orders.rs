@@ -284,40 +284,51 @@ fn measure<R: Renderer>(
     watched::<R, _>(&prepared, view, options, &mut frame, &mut work, steps);
     steps.frames_done(1);
 
-    let draw = || {
-        let ((), visibility) = timed(|| {
-            watched::<R, _>(&prepared, view, options, &mut frame, &mut (), steps);
-        });
-        let ((), shading) = timed(|| R::shade(view, &mut frame));
-        Ok([visibility, shading])
+    let run = |part| {
+        match part {
+            Part::Visibility => {
+                watched::<R, _>(&prepared, view, options, &mut frame, &mut (), steps);
+            }
+            Part::Shading => R::shade(view, &mut frame),
+        }
+        Ok(())
     };
-    let Ok([visibility, shading]) = repeated::<Infallible>(repeat, steps, draw);
+    let Ok([visibility, shading]) = repeated::<Infallible>(repeat, steps, run);
     (frame, work, Times { prepare, visibility, shading })
 }
 
-/// Draws the frames that follow the one in which the work is counted, each of which tells how long its
-/// visibility and its shading took.
+/// A part of rendering a frame.
+#[derive(Clone, Copy)]
+enum Part {
+    Visibility,
+    Shading,
+}
+
+/// Renders the frames that follow the one in which the work is counted, and tells how long visibility and shading
+/// took. Each is repeated by itself, so that no shading lies between two frames of which visibility is timed: it
+/// does not in other programs, which ours are held against.
 fn repeated<E>(
     repeat: Option<u32>,
     steps: &Steps,
-    mut draw: impl FnMut() -> Result<[f64; 2], E>,
+    mut run: impl FnMut(Part) -> Result<(), E>,
 ) -> Result<[Spread; 2], E> {
     let mut drawn = 1;
-    if repeat.is_some() {
-        // To warm up.
-        draw()?;
-        drawn += 1;
-        steps.frames_done(drawn);
-    }
-    let (mut visibility, mut shading) = (Vec::new(), Vec::new());
-    for _ in 0..repeat.unwrap_or(1) {
-        let times = draw()?;
-        visibility.push(times[0]);
-        shading.push(times[1]);
-        drawn += 1;
-        steps.frames_done(drawn);
-    }
-    Ok([Spread::of(visibility), Spread::of(shading)])
+    let mut spread_of = |part| {
+        // One more to warm up.
+        let runs = repeat.map_or(1, |repeat| repeat + 1);
+        let mut times = Vec::new();
+        for _ in 0..runs {
+            let (done, time) = timed(|| run(part));
+            done?;
+            times.push(time);
+            if matches!(part, Part::Visibility) {
+                drawn += 1;
+                steps.frames_done(drawn);
+            }
+        }
+        Ok(Spread::of(times.split_off(usize::from(repeat.is_some()))))
+    };
+    Ok([spread_of(Part::Visibility)?, spread_of(Part::Shading)?])
 }
 
 /// Finds what is visible, and tells of the steps within the frame if somebody wants to know.

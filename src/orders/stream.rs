@@ -1,6 +1,6 @@
 //! Object order of a mesh that is streamed, measured as the others are.
 
-use super::{Method, Order, RenderOptions, Rendered, Spread, Times, repeated, timed};
+use super::{Method, Order, Part, RenderOptions, Rendered, Spread, Times, repeated};
 use crate::common::stream::{MeshStream, StreamError};
 use crate::common::{Camera, Observer, Work};
 use crate::progress::Steps;
@@ -42,13 +42,14 @@ pub fn render_stream(
         canvas.shade(mesh.positions(), camera);
         return Ok(rendered(canvas, work, None));
     };
-    let pass = || {
-        let (drawn, visibility) = timed(|| draw(mesh, &mut canvas, camera, &mut (), &steps));
-        drawn?;
-        let ((), shading) = timed(|| canvas.shade(mesh.positions(), camera));
-        Ok::<_, StreamError>([visibility, shading])
+    let run = |part| {
+        match part {
+            Part::Visibility => draw(mesh, &mut canvas, camera, &mut (), &steps)?,
+            Part::Shading => canvas.shade(mesh.positions(), camera),
+        }
+        Ok::<_, StreamError>(())
     };
-    let [visibility, shading] = repeated(options.repeat, &steps, pass)?;
+    let [visibility, shading] = repeated(options.repeat, &steps, run)?;
     let times = Times { prepare: Spread::of(vec![prepare]), visibility, shading };
     Ok(rendered(canvas, work, Some(times)))
 }
