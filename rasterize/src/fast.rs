@@ -25,6 +25,7 @@ mod depth;
 mod edges;
 mod lanes;
 mod large;
+mod narrow;
 mod paint;
 mod round;
 mod screen;

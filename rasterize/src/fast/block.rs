@@ -1,16 +1,16 @@
 //! Triangles over many samples: one triangle at a time, sixteen samples at once.
 
 use super::lanes::lanes_of;
-use super::setup::Setup;
+use super::setup::Affine;
 use super::tile::{Picture, TileBuffer, nearer_by};
 use bothways_common::fault::Fault;
+use bothways_common::frame::Region;
 use bothways_common::observe::{Sample, Watcher};
 use bothways_common::simd::{
     Select, Simd, SimdBase, SimdMask, f32x8, f32x16, mask32x16, u32x8, u32x16,
 };
-use std::ops::Range;
 
-/// One triangle of a setup, its numbers in every lane.
+/// One triangle, its numbers in every lane.
 struct Brush<S: Simd> {
     id: u32,
     edges: [[f32x16<S>; 3]; 3],
@@ -32,18 +32,16 @@ struct Tested<S: Simd> {
 #[inline(always)]
 pub(super) fn draw<S: Simd, O: Watcher + ?Sized, F: Fault>(
     simd: S,
-    (setup, lane): (&Setup, usize),
+    triangle: &Affine,
     picture: &Picture,
     buffer: &mut TileBuffer,
     observer: &mut O,
 ) {
-    let tile = buffer.region();
-    let columns = within(setup.first_column[lane], setup.columns[lane], &tile.columns);
-    let rows = within(setup.first_row[lane], setup.rows[lane], &tile.rows);
-    if columns.len() <= 8 {
-        draw_blocks::<8, S, O, F>(simd, (setup, lane), [columns, rows], picture, buffer, observer);
+    let here = triangle.region.intersection(buffer.region());
+    if here.columns.len() <= 8 {
+        draw_blocks::<8, S, O, F>(simd, triangle, here, picture, buffer, observer);
     } else {
-        draw_blocks::<16, S, O, F>(simd, (setup, lane), [columns, rows], picture, buffer, observer);
+        draw_blocks::<16, S, O, F>(simd, triangle, here, picture, buffer, observer);
     }
 }
 
@@ -51,17 +49,17 @@ pub(super) fn draw<S: Simd, O: Watcher + ?Sized, F: Fault>(
 #[inline(always)]
 fn draw_blocks<const ACROSS: usize, S: Simd, O: Watcher + ?Sized, F: Fault>(
     simd: S,
-    (setup, lane): (&Setup, usize),
-    [columns, rows]: [Range<usize>; 2],
+    triangle: &Affine,
+    Region { rows, columns }: Region,
     picture: &Picture,
     buffer: &mut TileBuffer,
     observer: &mut O,
 ) {
-    let brush = Brush::new(simd, setup, lane);
+    let brush = Brush::new(simd, triangle);
     let lane_column = f32x16::load_array(simd, const { lane_places::<ACROSS>()[0] });
     let lane_row = f32x16::load_array(simd, const { lane_places::<ACROSS>()[1] });
-    // Columns and rows of the triangle's own box.
-    let (first_column, first_row) = (setup.first_column[lane], setup.first_row[lane]);
+    // Columns and rows from the triangle's origin.
+    let (first_column, first_row) = (triangle.origin.column, triangle.origin.row);
     let end_column = f32x16::splat(simd, own(columns.end, first_column));
     let end_row = f32x16::splat(simd, own(rows.end, first_row));
     let first_rows = lane_row + own(rows.start, first_row);
@@ -81,7 +79,7 @@ fn draw_blocks<const ACROSS: usize, S: Simd, O: Watcher + ?Sized, F: Fault>(
             let first = Sample { row, column };
             if O::WATCHES {
                 let ends = [rows.end, columns.end];
-                tell::<ACROSS, S, O, F>((setup, lane), buffer, observer, first, ends, &tested);
+                tell::<ACROSS, S, O, F>(triangle, buffer, observer, first, ends, &tested);
             }
             let doubt = if ACROSS == 8 {
                 keep_two_rows::<S, F>(simd, &brush, &tested, buffer, index)
@@ -90,7 +88,8 @@ fn draw_blocks<const ACROSS: usize, S: Simd, O: Watcher + ?Sized, F: Fault>(
             };
             if doubt.any_true() {
                 let masks = [doubt.to_bitmask(), tested.inside.to_bitmask()];
-                leave_open::<ACROSS, O, F>((setup, lane), picture, buffer, first, masks);
+                let fragments = (brush.id, tested.keys.to_array());
+                leave_open::<ACROSS, O, F>(fragments, picture, buffer, first, masks);
             }
             own_row += step;
             index += to_next;
@@ -98,12 +97,12 @@ fn draw_blocks<const ACROSS: usize, S: Simd, O: Watcher + ?Sized, F: Fault>(
     }
 }
 
-/// A column or row of the picture, counted from the first of a triangle's box.
+/// A column or row of the picture, counted from a first one.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "at most 65,536")]
 #[expect(clippy::cast_precision_loss, reason = "at most 256")]
-const fn own(place: usize, first: i32) -> f32 {
-    (place as i32 - first) as f32
+const fn own(place: usize, first: usize) -> f32 {
+    (place as i32 - first as i32) as f32
 }
 
 /// Columns and rows of the sixteen samples of a block.
@@ -119,29 +118,18 @@ const fn lane_places<const ACROSS: usize>() -> [[f32; 16]; 2] {
     places
 }
 
-/// The part of a triangle's columns or rows that lies in the tile.
-#[inline(always)]
-fn within(first: i32, count: i32, tile: &Range<usize>) -> Range<usize> {
-    let first = first.cast_unsigned() as usize;
-    let end = (first + count.cast_unsigned() as usize).min(tile.end);
-    first.max(tile.start)..end
-}
-
 impl<S: Simd> Brush<S> {
     #[inline(always)]
-    fn new(simd: S, setup: &Setup, lane: usize) -> Self {
-        let lane = lane & 15;
-        let edge = |k: usize| {
-            let [at_origin, across, down] =
-                [setup.at_origin[k][lane], setup.across[k][lane], setup.down[k][lane]];
+    fn new(simd: S, Affine { id, edges: [a, b, c], error, key, .. }: &Affine) -> Self {
+        let in_lanes = |numbers: &[f32; 3]| {
+            let [at_origin, across, down] = *numbers;
             [f32x16::splat(simd, at_origin), f32x16::splat(simd, across), f32x16::splat(simd, down)]
         };
-        let keys = [setup.key[0][lane], setup.key[1][lane], setup.key[2][lane]];
         Brush {
-            id: setup.ids[lane],
-            edges: [edge(0), edge(1), edge(2)],
-            error: f32x16::splat(simd, setup.error[lane]),
-            keys: keys.map(|key| f32x16::splat(simd, key)),
+            id: *id,
+            edges: [in_lanes(a), in_lanes(b), in_lanes(c)],
+            error: f32x16::splat(simd, *error),
+            keys: in_lanes(key),
             outside: f32x16::splat(simd, f32::NEG_INFINITY),
         }
     }
@@ -246,46 +234,42 @@ fn sample<const ACROSS: usize>(first: Sample, lane: usize) -> Sample {
     Sample { row: first.row + lane / ACROSS, column: first.column + lane % ACROSS }
 }
 
-/// Leaves some lanes to the judge: those of the first mask, which of the second are certainly covered.
+/// Leaves some lanes to the judge: those of the first mask, which of the second are certainly covered. It takes
+/// copies, so that who calls it may keep everything in registers.
 #[cold]
 fn leave_open<const ACROSS: usize, O: Watcher + ?Sized, F: Fault>(
-    (setup, of): (&Setup, usize),
+    (id, keys): (u32, [f32; 16]),
     picture: &Picture,
     buffer: &mut TileBuffer,
     first: Sample,
     [doubt, inside]: [u64; 2],
 ) {
     for lane in lanes_of(doubt) {
-        let sample = sample::<ACROSS>(first, lane);
-        let column = own(sample.column, setup.first_column[of]);
-        let row = own(sample.row, setup.first_row[of]);
-        // The same bits as in SIMD.
-        let key = setup.key[0][of] + setup.key[1][of] * column + setup.key[2][of] * row;
-        let (at, covered) = (buffer.index(sample), inside >> lane & 1 == 1);
-        buffer.leave_open::<O, F>(picture, at, setup.ids[of], key, covered);
+        let at = buffer.index(sample::<ACROSS>(first, lane));
+        buffer.leave_open::<O, F>(picture, at, id, keys[lane & 15], inside >> lane & 1 == 1);
     }
 }
 
 /// Tells of sixteen tests, and of the depth tests that follow.
 fn tell<const ACROSS: usize, S: Simd, O: Watcher + ?Sized, F: Fault>(
-    (setup, of): (&Setup, usize),
+    triangle: &Affine,
     buffer: &TileBuffer,
     observer: &mut O,
     first: Sample,
     [end_row, end_column]: [usize; 2],
     tested: &Tested<S>,
 ) {
-    let (values, error) = (tested.values.map(SimdBase::to_array), setup.error[of]);
+    let values = tested.values.map(SimdBase::to_array);
     let (inside, keys) = (tested.inside.to_bitmask(), tested.keys.to_array());
     for lane in 0..16 {
         let sample = sample::<ACROSS>(first, lane);
         if sample.row >= end_row || sample.column >= end_column {
             continue;
         }
-        setup.tell_test(of, sample, values.map(|values| values[lane]), error, observer);
+        triangle.tell_test(sample, values.map(|values| values[lane]), observer);
         if inside >> lane & 1 == 1 {
             let at = buffer.index(sample);
-            buffer.tell_certain::<O, F>(at, setup.ids[of], keys[lane], observer);
+            buffer.tell_certain::<O, F>(at, triangle.id, keys[lane], observer);
         }
     }
 }

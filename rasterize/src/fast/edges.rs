@@ -105,13 +105,18 @@ impl TriangleSetup {
         Some(setup)
     }
 
-    /// The columns of a row at which no edge function is certainly negative, widened by one.
-    pub(super) fn span(&self, screen: &Screen, y: f64, columns: &Range<usize>) -> Range<usize> {
+    /// The columns at which, on some row from one to another, no edge function is certainly negative, widened by one.
+    pub(super) fn span(
+        &self,
+        screen: &Screen,
+        ys: [f64; 2],
+        columns: &Range<usize>,
+    ) -> Range<usize> {
         let mut low = f64::NEG_INFINITY;
         let mut high = f64::INFINITY;
         for edge in &self.edges {
-            // on_row + x·across ≥ −error.
-            let on_row = edge.on_row(y);
+            // on_row + x·across ≥ −error; rounding keeps order, so that no row between has a larger on_row.
+            let on_row = edge.on_row(ys[0]).max(edge.on_row(ys[1]));
             let crossing = (-edge.error - on_row) / edge.across;
             if edge.across > 0.0 {
                 low = low.max(crossing);

@@ -1,19 +1,27 @@
-//! What the `f32` paths leave: triangles that are large, reach to the eye's plane or are almost edge-on,
-//! spheres and planes. One primitive at a time, one sample at a time, in `f64`.
+//! What the other paths leave, one primitive at a time, set up in `f64`: triangles that are large, reach to the
+//! eye's plane or are almost edge-on, part by part; spheres and planes sample by sample.
 
 use super::bins::region;
+use super::block;
 use super::depth::{DepthInterval, DepthPlane, sign_in_front};
 use super::edges::TriangleSetup;
+use super::narrow::narrow;
 use super::round::{self, Covered};
 use super::setup::MOST_SAMPLES_ACROSS;
 use super::tile::{Challenger, Picture, TileBuffer, judge_covers};
 use bothways_common::fault::{Fault, Planted};
 use bothways_common::frame::Region;
 use bothways_common::observe::{Sample, Watcher};
+use bothways_common::simd::Simd;
 use bothways_common::{Primitive, Projection, Sign};
+use glam::DVec3;
+use std::ops::Range;
 
-/// Regions wider than this are cut to the span of each row.
+/// Regions wider than this are cut to what the edge functions leave of each strip.
 const WIDE: usize = MOST_SAMPLES_ACROSS.cast_unsigned() as usize;
+/// A triangle is drawn in parts of so many columns and rows, which lie where these lead from the picture's first
+/// sample. So what comes of a part depends neither on tiles nor on a crop.
+const PART: [usize; 2] = [WIDE, 16];
 
 /// One primitive while it is drawn into a tile.
 struct Brush<'a, 'b, O: ?Sized> {
@@ -24,38 +32,88 @@ struct Brush<'a, 'b, O: ?Sized> {
     observer: &'b mut O,
 }
 
-/// Draws what of a primitive's region lies in the tile.
-pub(super) fn draw<O: Watcher + ?Sized, F: Fault>(
-    id: u32,
+/// Draws what of primitives' regions lies in the tile.
+#[inline(always)]
+pub(super) fn draw<S: Simd, O: Watcher + ?Sized, F: Fault>(
+    simd: S,
+    ids: &[u32],
     picture: &Picture,
     buffer: &mut TileBuffer,
     observer: &mut O,
 ) {
-    let primitive = picture.view.primitive(id);
-    let region = region::<F>(&primitive, picture.screen);
-    let here = region.intersection(buffer.region());
-    let mut brush = Brush { id, primitive, picture, buffer, observer };
-    match primitive {
-        Primitive::Triangle(corners) => {
-            let judge = picture.view.judge();
-            if let Some(setup) = TriangleSetup::new::<F>(picture.screen, &judge, &corners) {
-                brush.draw_triangle::<F>(&setup, here, region.columns.len() > WIDE);
-            }
-        }
-        Primitive::Sphere { .. } => brush.draw_sphere::<F>(here),
-        Primitive::Plane { .. } if brush.buffer.is_edge_on(id, &primitive) => {}
-        Primitive::Plane { point, normal } => {
-            let mut depth = DepthPlane::new(picture.screen, point, normal, normal.abs());
-            if F::is(Planted::ZeroErrorBound) {
-                depth.error = 0.0;
-            }
-            brush.draw_plane::<F>(&depth, here);
+    // Several are looked up before they are drawn: so the machine waits for them together.
+    for ids in ids.chunks(8) {
+        let last = ids.len() - 1;
+        let primitives: [Primitive; 8] =
+            std::array::from_fn(|k| picture.view.primitive(ids[k.min(last)]));
+        for (id, primitive) in ids.iter().zip(primitives) {
+            let brush = Brush { id: *id, primitive, picture, buffer, observer };
+            brush.draw::<S, F>(simd);
         }
     }
 }
 
 impl<O: Watcher + ?Sized> Brush<'_, '_, O> {
-    fn draw_triangle<F: Fault>(&mut self, setup: &TriangleSetup, here: Region, wide: bool) {
+    #[inline(always)]
+    fn draw<S: Simd, F: Fault>(mut self, simd: S) {
+        let Brush { id, primitive, picture, .. } = self;
+        let region = region::<F>(&primitive, picture.screen);
+        match primitive {
+            Primitive::Triangle(corners) => {
+                let judge = picture.view.judge();
+                if let Some(setup) = TriangleSetup::new::<F>(picture.screen, &judge, &corners) {
+                    self.draw_triangle::<S, F>(simd, &setup, &corners, &region);
+                }
+            }
+            Primitive::Sphere { .. } => {
+                let here = region.intersection(self.buffer.region());
+                self.draw_sphere::<F>(here);
+            }
+            Primitive::Plane { .. } if self.buffer.is_edge_on(id, &primitive) => {}
+            Primitive::Plane { point, normal } => {
+                let here = region.intersection(self.buffer.region());
+                let mut depth = DepthPlane::new(picture.screen, point, normal, normal.abs());
+                if F::is(Planted::ZeroErrorBound) {
+                    depth.error = 0.0;
+                }
+                self.draw_plane::<F>(&depth, here);
+            }
+        }
+    }
+
+    /// Draws a triangle part by part: sixteen samples at a time where `f32` is certain enough of depths,
+    /// one by one elsewhere.
+    #[inline(always)]
+    fn draw_triangle<S: Simd, F: Fault>(
+        &mut self,
+        simd: S,
+        setup: &TriangleSetup,
+        corners: &[DVec3; 3],
+        region: &Region,
+    ) {
+        let (screen, keys) = (self.picture.screen, self.picture.keys);
+        let here = region.intersection(self.buffer.region());
+        for rows in parts(&here.rows, &region.rows, PART[1]) {
+            let columns = if region.columns.len() > WIDE {
+                let ys = [screen.grid.y()[rows.start], screen.grid.y()[rows.end - 1]];
+                setup.span(screen, ys, &region.columns)
+            } else {
+                region.columns.clone()
+            };
+            for columns in parts(&here.columns, &columns, PART[0]) {
+                let part = Region { rows: rows.clone(), columns };
+                let triangle = narrow::<F>(screen, keys, setup, (self.id, corners), &part);
+                if let Some(triangle) = triangle {
+                    let Brush { picture, buffer, observer, .. } = self;
+                    block::draw::<S, O, F>(simd, &triangle, picture, buffer, *observer);
+                } else {
+                    self.draw_part::<F>(setup, part.intersection(&here));
+                }
+            }
+        }
+    }
+
+    fn draw_part<F: Fault>(&mut self, setup: &TriangleSetup, here: Region) {
         let screen = self.picture.screen;
         let (xs, ys) = (screen.grid.x(), screen.grid.y());
         let [ab, bc, ca] = &setup.edges;
@@ -63,9 +121,7 @@ impl<O: Watcher + ?Sized> Brush<'_, '_, O> {
             let y = ys[row];
             let on_row = [ab.on_row(y), bc.on_row(y), ca.on_row(y)];
             let depth_on_row = setup.depth.on_row(y);
-            let columns =
-                if wide { setup.span(screen, y, &here.columns) } else { here.columns.clone() };
-            for column in columns {
+            for column in here.columns.clone() {
                 let (x, sample) = (xs[column], Sample { row, column });
                 let e = [
                     on_row[0] + x * ab.across,
@@ -154,5 +210,33 @@ impl<O: Watcher + ?Sized> Brush<'_, '_, O> {
             (e[k].abs() > edge.error).then(|| Sign::of(setup.facing * e[k]))
         };
         self.observer.edge_signs(sample, self.id, [certain(0), certain(1), certain(2)]);
+    }
+}
+
+/// The parts of `all`, cut at multiples of a length, that reach into `here`, a part of it.
+fn parts(
+    here: &Range<usize>,
+    all: &Range<usize>,
+    length: usize,
+) -> impl Iterator<Item = Range<usize>> + use<> {
+    let (all, first, end) = (all.clone(), here.start.max(all.start), here.end.min(all.end));
+    let start = if first < end { first / length * length } else { end };
+    (start..end)
+        .step_by(length)
+        .map(move |start| start.max(all.start)..(start + length).min(all.end))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_are_those_of_the_whole() {
+        let parts = |here, all| parts(&here, &all, 16).collect::<Vec<_>>();
+        assert_eq!(parts(5..40, 5..40), [5..16, 16..32, 32..40]);
+        assert_eq!(parts(20..33, 5..40), [16..32, 32..40]);
+        assert_eq!(parts(16..33, 20..40), [20..32, 32..40]);
+        assert!(parts(20..32, 32..40).is_empty() && parts(20..32, 5..20).is_empty());
+        assert!(parts(20..20, 5..40).is_empty());
     }
 }

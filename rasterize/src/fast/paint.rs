@@ -173,7 +173,7 @@ impl<O: Watcher + ?Sized> Painter<'_, '_, O> {
                 large.extend(setup.lanes(elsewhere));
                 for lane in (0..count).filter(|lane| elsewhere >> lane & 1 == 0) {
                     let picture = drawing.picture;
-                    block::draw::<_, O, F>(simd, (&setup, lane), picture, buffer, *observer);
+                    block::draw::<_, O, F>(simd, &setup.triangle(lane), picture, buffer, *observer);
                 }
             } else {
                 if setup.doubtful != 0 {
@@ -206,8 +206,11 @@ impl<O: Watcher + ?Sized> Painter<'_, '_, O> {
     /// Draws what is left of a batch, and asks the judge what is left open.
     fn draw_large<F: Fault>(&mut self) {
         let Painter { drawing, large, buffer, observer, .. } = self;
-        for id in large.drain(..) {
-            large::draw::<O, F>(id, drawing.picture, buffer, *observer);
+        if !large.is_empty() {
+            dispatch_with!(F, drawing.level, simd => {
+                large::draw::<_, O, F>(simd, large, drawing.picture, buffer, *observer);
+            });
+            large.clear();
         }
         buffer.settle::<O, F>(drawing.picture, *observer);
     }

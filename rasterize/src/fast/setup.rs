@@ -7,6 +7,7 @@ use super::vertices::{ALIGNED, Raster};
 use bothways_common::Sign;
 use bothways_common::exact_grid::TIE;
 use bothways_common::fault::{Fault, Planted};
+use bothways_common::frame::Region;
 use bothways_common::observe::{Sample, Watcher};
 use bothways_common::simd::{Select, Simd, SimdBase, SimdInt, SimdMask, f32x16, i32x16, mask32x16};
 
@@ -184,34 +185,70 @@ impl Setup {
     }
 }
 
-impl Setup {
-    /// The ids of some lanes.
-    pub(super) fn lanes(&self, mask: u16) -> impl Iterator<Item = u32> {
-        lanes_of(mask.into()).map(|lane| self.ids[lane])
-    }
+/// One triangle, ready to be drawn, as [`Setup`] has sixteen.
+#[derive(Clone, Debug)]
+pub(super) struct Affine {
+    pub(super) id: u32,
+    /// Edge functions: at the origin, a column across, a row down.
+    pub(super) edges: [[f32; 3]; 3],
+    pub(super) error: f32,
+    /// The key likewise.
+    pub(super) key: [f32; 3],
+    /// The sample from which columns and rows count.
+    pub(super) origin: Sample,
+    /// The samples that the triangle may cover: within 256 columns and rows of the origin.
+    pub(super) region: Region,
+    /// The sign of the triangle's facing, ±1.
+    pub(super) facing: f32,
+}
 
+impl Affine {
     /// Tells of one test: the edge functions' signs as far as they are certain, in the orientation of
     /// the contract.
     pub(super) fn tell_test<O: Watcher + ?Sized>(
         &self,
-        lane: usize,
         sample: Sample,
         edges: [f32; 3],
-        error: f32,
         observer: &mut O,
     ) {
-        let id = self.ids[lane];
+        let (id, error) = (self.id, self.error);
         observer.sample_tested(sample, id);
         let out = edges.iter().any(|edge| *edge < -error);
         let inside = edges.iter().all(|edge| *edge > error);
         if out || inside {
             let sign = |edge: f32| {
                 let on_edge = error == 0.0 && edge.abs() == TIE;
-                let sign = if on_edge { 0.0 } else { f64::from(self.facing[lane] * edge) };
+                let sign = if on_edge { 0.0 } else { f64::from(self.facing * edge) };
                 (edge.abs() > error).then(|| Sign::of(sign))
             };
             observer.edge_signs(sample, id, edges.map(sign));
         }
+    }
+}
+
+impl Setup {
+    /// The triangle of one lane.
+    #[inline(always)]
+    pub(super) fn triangle(&self, lane: usize) -> Affine {
+        let lane = lane & 15;
+        let edge = |k: usize| [self.at_origin[k][lane], self.across[k][lane], self.down[k][lane]];
+        let from = |first: &[i32; 16]| first[lane].cast_unsigned() as usize;
+        let (column, row) = (from(&self.first_column), from(&self.first_row));
+        let rows = row..row + from(&self.rows);
+        Affine {
+            id: self.ids[lane],
+            edges: [edge(0), edge(1), edge(2)],
+            error: self.error[lane],
+            key: [self.key[0][lane], self.key[1][lane], self.key[2][lane]],
+            origin: Sample { row, column },
+            region: Region { rows, columns: column..column + from(&self.columns) },
+            facing: self.facing[lane],
+        }
+    }
+
+    /// The ids of some lanes.
+    pub(super) fn lanes(&self, mask: u16) -> impl Iterator<Item = u32> {
+        lanes_of(mask.into()).map(|lane| self.ids[lane])
     }
 }
 

@@ -51,7 +51,7 @@ pub(super) fn draw<S: Simd, O: Watcher + ?Sized, F: Fault>(
         let perhaps = active & least.simd_ge(-error);
         let keys = (key[0] + key[2] * row) + key[1] * column;
         if O::WATCHES {
-            tell(setup, buffer, observer, active, &index.to_array(), &values, error);
+            tell(setup, buffer, observer, active, &index.to_array(), &values);
         }
         fragments.add(index, keys, ids, inside);
         let open = (perhaps & !inside).to_bitmask();
@@ -190,12 +190,11 @@ fn tell<S: Simd, O: Watcher + ?Sized>(
     active: mask32x16<S>,
     index: &[i32; 16],
     values: &[f32x16<S>; 3],
-    error: f32x16<S>,
 ) {
-    let (values, error) = (values.map(SimdBase::to_array), error.to_array());
+    let values = values.map(SimdBase::to_array);
     for lane in lanes_of(active.to_bitmask()) {
         let at = index[lane].cast_unsigned() as usize;
         let edges = values.map(|values| values[lane]);
-        setup.tell_test(lane, buffer.sample(at), edges, error[lane], observer);
+        setup.triangle(lane).tell_test(buffer.sample(at), edges, observer);
     }
 }

@@ -1,0 +1,159 @@
+//! From `f64` to `f32`: what lies in a small part of the picture of a triangle that is set up in `f64`, ready
+//! to be drawn sixteen samples at a time.
+
+use super::depth::{DepthPlane, KEY_ERROR, KeyScale, LARGEST_KEY};
+use super::edges::{Edge, TriangleSetup};
+use super::screen::Screen;
+use super::setup::Affine;
+use bothways_common::Projection;
+use bothways_common::fault::{Fault, Planted};
+use bothways_common::frame::Region;
+use bothways_common::observe::Sample;
+use glam::DVec3;
+
+/// Half the distance from 1 to the next `f32`.
+const NARROW_ROUNDOFF: f64 = f32::EPSILON as f64 / 2.0;
+
+/// What bounds the roundings of evaluating an affine function in `f32`, as a part of [`Function::most`]: the
+/// constant is rounded by itself and in two sums, what comes from columns also in a product, what comes from rows
+/// in a product and one sum; at most four of `u`, and a little for their products and for numbers too small to be
+/// normal.
+const EVALUATION: f64 = 4.1 * NARROW_ROUNDOFF;
+
+/// An affine function of column and row, counted from an origin.
+#[derive(Clone, Copy)]
+struct Function {
+    at_origin: f64,
+    across: f64,
+    down: f64,
+    /// How far it may be from the true one at a sample.
+    error: f64,
+    /// The largest value of its parts together.
+    most: f64,
+}
+
+/// The part of the picture in which functions are wanted.
+struct Part<'a> {
+    screen: &'a Screen<'a>,
+    origin: Sample,
+    /// Columns and rows.
+    size: [f64; 2],
+}
+
+impl Part<'_> {
+    /// A function on the viewport as one of column and row.
+    ///
+    /// `x` of a sample is within `10·2⁻⁵³·X` of where a column's width times their number leads from the origin's,
+    /// `X` the largest of any sample: three roundings for each, and two for that width. The function at the origin
+    /// is rounded three times, its slopes twice: less than 2⁻⁴⁸ of all parts in all.
+    fn function(&self, at_centre: f64, across: f64, up: f64, error: f64) -> Function {
+        let Part { screen, origin, size } = self;
+        let (xs, ys) = (screen.grid.x(), screen.grid.y());
+        let at_origin = at_centre + ys[origin.row] * up + xs[origin.column] * across;
+        let furthest = |places: &[f64]| places.first().map_or(0.0, |place| place.abs());
+        let parts = at_centre.abs() + furthest(xs) * across.abs() + furthest(ys) * up.abs();
+        let [across, down] = [across / screen.scale[0], up / screen.scale[1]];
+        let most = at_origin.abs() + across.abs() * size[0] + down.abs() * size[1];
+        Function { at_origin, across, down, error: error + (-48f64).exp2() * parts, most }
+    }
+}
+
+impl Function {
+    /// The function times a factor, rounded.
+    #[expect(clippy::cast_possible_truncation, reason = "rounding is what is asked")]
+    fn rounded(&self, factor: f64) -> [f32; 3] {
+        [self.at_origin, self.across, self.down].map(|number| (number * factor) as f32)
+    }
+
+    /// The least value in a part of the picture, but for the error.
+    fn least(&self, size: [f64; 2]) -> f64 {
+        self.at_origin + (self.across * size[0]).min(0.0) + (self.down * size[1]).min(0.0)
+    }
+
+    fn largest(&self, size: [f64; 2]) -> f64 {
+        self.at_origin + (self.across * size[0]).max(0.0) + (self.down * size[1]).max(0.0)
+    }
+}
+
+/// A part of a triangle, with edge functions and key in `f32`; `None` if a key would not be certain enough, or a
+/// fragment not to be in front of the eye. What comes of it depends on the triangle and the region alone.
+///
+/// Each edge function is divided by the largest value that it may have in the region: so one error suits all, and
+/// nothing overflows.
+pub(super) fn narrow<F: Fault>(
+    screen: &Screen,
+    keys: KeyScale,
+    setup: &TriangleSetup,
+    (id, corners): (u32, &[DVec3; 3]),
+    region: &Region,
+) -> Option<Affine> {
+    let origin = Sample { row: region.rows.start, column: region.columns.start };
+    #[expect(clippy::cast_precision_loss, reason = "at most 65,536")]
+    let size = [region.columns.len() as f64, region.rows.len() as f64];
+    let part = Part { screen, origin, size };
+
+    let edges = setup
+        .edges
+        .map(|Edge { at_centre, across, up, error }| part.function(at_centre, across, up, error));
+    let factors = edges.map(|edge| 1.0 / edge.most);
+    // The division's rounding is part of the little.
+    let error_of = |k: usize| EVALUATION + edges[k].error * factors[k];
+    let error = error_of(0).max(error_of(1)).max(error_of(2));
+    let key = key(&part, keys, &setup.depth, corners)?;
+    if !(error.is_finite() && factors.iter().all(|factor| factor.is_normal())) {
+        return None;
+    }
+    let blind = F::is(Planted::ZeroErrorBound);
+    #[expect(clippy::cast_possible_truncation, reason = "rounded up thereafter")]
+    let error = if blind { 0.0 } else { (error as f32).next_up() };
+    #[expect(clippy::cast_possible_truncation, reason = "±1")]
+    let facing = setup.facing as f32;
+    let rounded = |k: usize| edges[k].rounded(factors[k]);
+    Some(Affine {
+        id,
+        edges: [rounded(0), rounded(1), rounded(2)],
+        error,
+        key: key.rounded(1.0),
+        origin,
+        region: region.clone(),
+        facing,
+    })
+}
+
+/// The key, if it is within [`KEY_ERROR`] of the true one at every sample that the triangle covers.
+fn key(part: &Part, keys: KeyScale, depth: &DepthPlane, corners: &[DVec3; 3]) -> Option<Function> {
+    let (screen, offset) = (part.screen, keys.offset);
+    let from_depth = match keys.projection {
+        Projection::Perspective => -offset,
+        Projection::Parallel => offset,
+    };
+    let DepthPlane { at_centre, across, up, error } = *depth;
+    let key = part.function(from_depth - at_centre, -across, -up, error);
+    let error = key.error + (-48f64).exp2() * offset;
+
+    // What is covered lies between the corners, and its key between theirs.
+    let depths = corners.map(|corner| -corner.dot(screen.w));
+    let extents = corners.map(|corner| corner.abs().element_sum());
+    let trusted = depths.iter().zip(&extents).all(|(depth, extent)| {
+        // As Screen::new says: then 1/t and t are certain within 2⁻⁴¹ of themselves.
+        *depth >= extent * (-10f64).exp2() && *depth > 0.0
+    });
+    let farthest = depths[0].max(depths[1]).max(depths[2]);
+    let least_of_corners = match keys.projection {
+        _ if !trusted => f64::NEG_INFINITY,
+        Projection::Perspective => {
+            let near = screen.distance / farthest;
+            near - offset - (-40f64).exp2() * near
+        }
+        Projection::Parallel => offset - farthest - (-40f64).exp2() * (farthest + offset),
+    };
+    let least = (key.least(part.size) - error).max(least_of_corners);
+    let in_front = match keys.projection {
+        Projection::Perspective => true,
+        Projection::Parallel => trusted || offset - key.largest(part.size) > error,
+    };
+    let all = error + EVALUATION * key.most;
+    let is_certain = all <= 0.99 * f64::from(KEY_ERROR) * least;
+    let in_range = least >= 1.0 / LARGEST_KEY && key.most <= LARGEST_KEY;
+    (in_front && is_certain && in_range).then_some(key)
+}
