@@ -62,6 +62,21 @@ pub(super) fn compare(
     }
 }
 
+/// The comparison of two flat primitives, if rounded arithmetic is certain that one is nearer.
+pub(super) fn by_rounded_arithmetic(
+    first: &Primitive,
+    second: &Primitive,
+    ray: &Ray,
+) -> Option<Comparison> {
+    let is_round = |primitive: &Primitive| matches!(primitive, Primitive::Sphere { .. });
+    if is_round(first) || is_round(second) {
+        return None;
+    }
+    let sign = flat_against_flat::<Bounded>(first, second, ray)?;
+    let order = ordering(sign);
+    (sign != Sign::Zero).then_some(Comparison { at_sample: order, decided: order })
+}
+
 /// The distance of a primitive that covers the sample, to within a few parts in 10¹⁰.
 pub(super) fn distance(primitive: &Primitive, ray: &Ray) -> f64 {
     const CLOSE: f64 = 1e-10;

@@ -5,7 +5,7 @@
 //! function alone, whose coefficients can be found exactly once.
 
 use super::Judge;
-use super::nearest::{Comparison, Crossing, are_identical, ordering};
+use super::nearest::{Comparison, Crossing, are_identical, by_rounded_arithmetic, ordering};
 use super::real::{Dyadic, Real};
 use super::sign::Sign;
 use crate::camera::{Projection, Ray};
@@ -140,10 +140,17 @@ impl Memory {
         if are_identical(first.1, second.1) {
             return Comparison::EQUAL;
         }
+        // Those that cross each other are mostly told apart by rounded arithmetic: nothing to remember.
+        if !self.pairs.contains_key(&[first.0, second.0])
+            && let Some(comparison) = by_rounded_arithmetic(first.1, second.1, ray)
+        {
+            return comparison;
+        }
         self.pair(first, second)
             .and_then(|pair| pair.compare(self.judge.projection, ray))
             .unwrap_or_else(|| self.judge.compare(first.1, second.1, ray))
     }
+
     /// What is known of two flat primitives.
     fn pair(&mut self, first: (u32, &Primitive), second: (u32, &Primitive)) -> Option<Pair> {
         let flat = |primitive: &Primitive| !matches!(primitive, Primitive::Sphere { .. });

@@ -11,6 +11,7 @@ use bothways_common::simd::{
     Select, Simd, SimdBase, SimdMask, f32x16, finish_streaming, mask32x16, stream, u32x16,
 };
 use bothways_common::{Primitive, Projection, View};
+use std::cmp::Ordering;
 
 /// What stays the same while a picture is drawn.
 pub(super) struct Picture<'a> {
@@ -306,13 +307,19 @@ impl TileBuffer {
             return before;
         }
         let (primitive, held) = (challenger.primitive(picture), picture.view.primitive(holder));
-        if self.memory.are_tied((id, &primitive), (holder, &held)) {
-            self.tied = Some([id, holder]);
-            return before;
-        }
         let Sample { row, column } = self.sample(index);
         let ray = picture.screen.grid.ray(row, column);
-        self.memory.nearer((id, &primitive), (holder, &held), &ray)
+        let (challenger, holder) = ((id, &primitive), (holder, &held));
+        match self.memory.compare(challenger, holder, &ray).decided {
+            Ordering::Less => true,
+            Ordering::Greater => false,
+            Ordering::Equal => {
+                if self.memory.are_tied(challenger, holder) {
+                    self.tied = Some([id, holder.0]);
+                }
+                before
+            }
+        }
     }
 
     /// Whether a flat primitive covers no sample of this camera at all; see [`Memory::is_edge_on`].
