@@ -47,6 +47,7 @@ use glam::DVec3;
 use paint::Drawing;
 use rayon::prelude::*;
 use screen::Screen;
+use std::cmp::Reverse;
 use std::sync::Mutex;
 use tile::{Picture, TileBuffer};
 use vertices::{Raster, Vertex};
@@ -362,11 +363,17 @@ fn run<O: Observer>(
     let tiles: Vec<Tile> = frame.tiles_mut(tiling.columns, tiling.rows);
     let dropped = (loops.planted == Some(Planted::DroppedTile)).then_some(tiles.len() / 2);
     let buffers = Mutex::new(std::mem::take(&mut spare.tiles));
-    let parts: Vec<O> = tiles
+    // Those with most to draw come first, so that all threads end at about the same time.
+    let mut queue: Vec<(usize, Tile)> = tiles.into_iter().enumerate().collect();
+    queue.sort_by_cached_key(|(index, _)| {
+        Reverse(bins.iter().map(|bins| bins.work(*index)).sum::<usize>())
+    });
+    let (count, queue) = (queue.len(), Mutex::new(queue.into_iter()));
+    let mut parts: Vec<(usize, O)> = (0..count)
         .into_par_iter()
         .with_max_len(1)
-        .enumerate()
-        .map(|(index, tile)| {
+        .map(|_| {
+            let (index, tile) = lock(&queue).next().expect("there are as many");
             let mut observer = seen.fork();
             let buffer = lock(&buffers).pop().filter(|buffer| buffer.fits(&tiling));
             let mut buffer = buffer.unwrap_or_else(|| TileBuffer::new(view, &tiling));
@@ -376,10 +383,11 @@ fn run<O: Observer>(
             }
             dispatch!(level, simd => buffer.store(simd, &picture, tile));
             lock(&buffers).push(buffer);
-            observer
+            (index, observer)
         })
         .collect();
-    parts.into_iter().for_each(|part| observer.join(part));
+    parts.sort_unstable_by_key(|(index, _)| *index);
+    parts.into_iter().for_each(|(_, part)| observer.join(part));
     spare.tiles = buffers.into_inner().unwrap_or_default();
     *lock(&prepared.spare) = spare;
 }

@@ -210,6 +210,13 @@ impl BatchBins {
         &self.clusters[tile]
     }
 
+    /// About how many primitives come to a tile.
+    pub(super) fn work(&self, tile: usize) -> usize {
+        let lists = &self.lists[tile * CLASSES as usize..][..CLASSES as usize];
+        let clusters = self.clusters[tile].len() * CLUSTER as usize;
+        clusters + lists.iter().map(Vec::len).sum::<usize>()
+    }
+
     /// The ids of one class in a tile, other than those in clusters.
     pub(super) fn list(&self, tile: usize, class: Class) -> &[u32] {
         &self.lists[tile * CLASSES as usize + class as usize]
