@@ -121,7 +121,7 @@ impl Tiling {
 /// A primitive and the samples that it may cover.
 #[derive(Clone, Copy, Debug)]
 struct Entry {
-    id: u32,
+    place: u32,
     /// Columns and rows: the first, and the last times 2¹⁶.
     ends: [u32; 2],
     /// Whether it must be drawn as [`Class::Large`].
@@ -132,12 +132,12 @@ impl Entry {
     /// # Panics
     ///
     /// If the region is empty.
-    fn new(id: u32, region: &Region) -> Entry {
+    fn new(place: u32, region: &Region) -> Entry {
         let index = |index: usize| u16::try_from(index).expect("a side has at most 65,536 samples");
         let ends = |range: &Range<usize>| {
             u32::from(index(range.start)) | u32::from(index(range.end - 1)) << 16
         };
-        Entry { id, ends: [ends(&region.columns), ends(&region.rows)], large: true }
+        Entry { place, ends: [ends(&region.columns), ends(&region.rows)], large: true }
     }
 
     fn region(&self) -> Region {
@@ -217,7 +217,8 @@ impl BatchBins {
         clusters + lists.iter().map(Vec::len).sum::<usize>()
     }
 
-    /// The ids of one class in a tile, other than those in clusters.
+    /// The primitives of one class in a tile, other than those in clusters: their places, which are as ids are, but
+    /// in the order in which an object's triangles are drawn.
     pub(super) fn list(&self, tile: usize, class: Class) -> &[u32] {
         &self.lists[tile * CLASSES as usize + class as usize]
     }
@@ -244,12 +245,12 @@ impl BatchBins {
                     let first = binning.first_vertices[piece.object];
                     let corners = std::array::from_fn(|corner| binning.vertices[first + corner]);
                     self.entries.clear();
-                    self.enter::<S, O, F>(simd, piece.first_id, &corners, binning, observer);
+                    self.enter::<S, O, F>(simd, [piece.first_id; 2], &corners, binning, observer);
                     self.add_entries(binning.tiling);
                 }
                 Shape::Sphere(_) | Shape::Plane(_) => {
                     self.entries.clear();
-                    self.enter_large::<O, F>(piece.first_id, binning, observer);
+                    self.enter_large::<O, F>([piece.first_id; 2], binning, observer);
                     self.add_entries(binning.tiling);
                 }
             }
@@ -282,10 +283,10 @@ impl BatchBins {
             if O::WATCHES || matches!(place, Place::Scattered) {
                 self.entries.clear();
                 for place in places {
-                    let id = first_id + triangles.number(place);
+                    let ids = [first_id + triangles.number(place), first_id + place];
                     let corners =
                         triangles.corners[place as usize].map(|vertex| vertices[vertex as usize]);
-                    self.enter::<S, O, F>(simd, id, &corners, binning, observer);
+                    self.enter::<S, O, F>(simd, ids, &corners, binning, observer);
                 }
             }
             match place {
@@ -305,14 +306,14 @@ impl BatchBins {
     fn enter<S: Simd, O: Watcher + ?Sized, F: Fault>(
         &mut self,
         simd: S,
-        id: u32,
+        [id, place]: [u32; 2],
         corners: &[Vertex; 3],
         binning: &Binning,
         observer: &mut O,
     ) {
         let flags = corners[0][3] & corners[1][3] & corners[2][3];
         if flags & (OUT_OF_SIGHT | ON_RASTER) == ON_RASTER {
-            let (entry, is_seen) = entry::<S, F>(simd, id, binning, corners);
+            let (entry, is_seen) = entry::<S, F>(simd, place, binning, corners);
             if O::WATCHES {
                 let drawn = binning.tiling.region();
                 let region = if is_seen { entry.region().intersection(&drawn) } else { NOWHERE };
@@ -324,14 +325,14 @@ impl BatchBins {
         } else if flags & OUT_OF_SIGHT != 0 {
             observer.primitive_begun(id, &NOWHERE);
         } else {
-            self.enter_large::<O, F>(id, binning, observer);
+            self.enter_large::<O, F>([id, place], binning, observer);
         }
     }
 
     /// Notes the samples that any primitive may cover, to be drawn as [`Class::Large`].
     fn enter_large<O: Watcher + ?Sized, F: Fault>(
         &mut self,
-        id: u32,
+        [id, place]: [u32; 2],
         binning: &Binning,
         observer: &mut O,
     ) {
@@ -339,7 +340,7 @@ impl BatchBins {
         let drawn = region.intersection(&binning.tiling.region());
         observer.primitive_begun(id, &drawn);
         if !drawn.is_empty() {
-            self.entries.push(Entry::new(id, &region));
+            self.entries.push(Entry::new(place, &region));
         }
     }
 
@@ -348,10 +349,10 @@ impl BatchBins {
     fn add_entries(&mut self, tiling: &Tiling) {
         for entry in &self.entries {
             match entry.only_list(tiling) {
-                Some(list) => self.lists[list].push(entry.id),
+                Some(list) => self.lists[list].push(entry.place),
                 None => {
                     for tile in tiling.tiles(entry.bounds()) {
-                        self.lists[entry.list(tile)].push(entry.id);
+                        self.lists[entry.list(tile)].push(entry.place);
                     }
                 }
             }
@@ -367,7 +368,7 @@ const NOWHERE: Region = Region { rows: 0..0, columns: 0..0 };
 #[inline(always)]
 fn entry<S: Simd, F: Fault>(
     simd: S,
-    id: u32,
+    place: u32,
     binning: &Binning,
     corners: &[Vertex; 3],
 ) -> (Entry, bool) {
@@ -392,7 +393,7 @@ fn entry<S: Simd, F: Fault>(
     let most = MOST_SAMPLES_ACROSS.cast_unsigned() << bits;
     let large = wide.cast_unsigned().max(tall.cast_unsigned()) >= most;
     let ends = [columns.cast_unsigned(), rows.cast_unsigned()];
-    (Entry { id, ends, large }, is_seen)
+    (Entry { place, ends, large }, is_seen)
 }
 
 /// The samples that any primitive may cover.

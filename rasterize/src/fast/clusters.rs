@@ -58,10 +58,8 @@ struct Sorted {
     /// Which triangles of the mesh.
     numbers: Vec<u32>,
     triangles: Vec<[u32; 3]>,
-    /// The mesh's vertices in the order in which these triangles first have them, and the place there of each
-    /// of the mesh.
+    /// The mesh's vertices in the order in which these triangles first have them.
     positions: Vec<Vec3>,
-    places: Vec<u32>,
 }
 
 /// Triangles in the order of their clusters.
@@ -72,6 +70,8 @@ pub(super) struct Triangles<'a> {
 }
 
 impl Triangles<'_> {
+    pub(super) const NONE: Triangles<'static> = Triangles { corners: &[], numbers: None };
+
     /// The number in the mesh of the one at this place.
     #[inline(always)]
     pub(super) fn number(&self, place: u32) -> u32 {
@@ -108,18 +108,13 @@ impl Clusters {
                 Triangles { corners: triangles, numbers: Some(numbers) }
             }
             (Shape::Mesh(mesh), None) => Triangles { corners: mesh.triangles(), numbers: None },
-            _ => Triangles { corners: &[], numbers: None },
+            _ => Triangles::NONE,
         }
     }
 
     /// The vertices of a mesh in the order in which the vertex stage takes them.
     pub(super) fn positions<'a>(&'a self, mesh: &'a Mesh) -> &'a [Vec3] {
         self.sorted.as_ref().map_or(mesh.positions(), |sorted| &sorted.positions)
-    }
-
-    /// Where each of the mesh's vertices is among those, if not at its own place.
-    pub(super) fn places(&self) -> Option<&[u32]> {
-        self.sorted.as_ref().map(|sorted| &*sorted.places)
     }
 }
 
@@ -174,7 +169,7 @@ impl Sorted {
         // Those of no triangle.
         (0..u32::try_from(positions.len()).expect("vertices are u32")).for_each(|v| _ = place(v));
         let positions = order.iter().map(|vertex| positions[*vertex as usize]).collect();
-        Sorted { numbers, triangles, positions, places }
+        Sorted { numbers, triangles, positions }
     }
 }
 

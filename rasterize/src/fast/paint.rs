@@ -9,7 +9,6 @@ use super::small::{self, Fragments};
 use super::tile::{Picture, TileBuffer, nearer_by};
 use super::vertices::{ON_RASTER, OUT_OF_SIGHT, Vertex};
 use super::{block, large};
-use bothways_common::Shape;
 use bothways_common::fault::Fault;
 use bothways_common::observe::Watcher;
 use bothways_common::simd::{
@@ -48,7 +47,8 @@ impl Drawing<'_> {
             for class in IN_LANES {
                 painter.draw_list::<F>(class, bins.list(tile, class));
             }
-            painter.large.extend_from_slice(bins.list(tile, Class::Large));
+            let Painter { large, find, .. } = &mut painter;
+            large.extend(bins.list(tile, Class::Large).iter().map(|place| find.id(*place)));
             painter.draw_large::<F>();
         }
     }
@@ -115,8 +115,7 @@ impl<O: Watcher + ?Sized> Painter<'_, '_, O> {
             dispatch_with!(F, self.drawing.level, simd => {
                 self.gathered.fill(simd, sixteen, |lane| {
                     let place = first + u32::try_from(lane).expect("there are sixteen lanes");
-                    let corners = triangles.corners[place as usize];
-                    let corners = corners.map(|vertex| vertices[vertex as usize]);
+                    let corners = triangles.corners[place as usize].map(|vertex| vertices[vertex as usize]);
                     (first_id + triangles.number(place), corners)
                 });
                 self.sort::<_, F>(simd);
@@ -188,11 +187,11 @@ impl<O: Watcher + ?Sized> Painter<'_, '_, O> {
 
     /// Draws the triangles of a list.
     fn draw_list<F: Fault>(&mut self, class: Class, list: &[u32]) {
-        for (ids, next) in list.chunks(16).zip((16..).step_by(16)) {
+        for (places, next) in list.chunks(16).zip((16..).step_by(16)) {
             let Painter { drawing, waiting, find, .. } = self;
             let lanes = &mut waiting[class as usize];
             dispatch_with!(F, drawing.level, simd => {
-                lanes.fill(simd, ids.len(), |lane| (ids[lane], find.vertices(ids[lane])));
+                lanes.fill(simd, places.len(), |lane| find.triangle(places[lane]));
             });
             // Larger triangles of a tile may lie anywhere in memory. Small ones are neighbours, as meshes
             // go, so that this would cost more than it saves.
@@ -228,21 +227,20 @@ fn overlaps<S: Simd>(simd: S, side: &Side<S>, tile: &Range<usize>) -> mask32x16<
         & end.simd_gt(splat(tile.start))
 }
 
-/// Finds the vertices of triangles, which mostly come in the order of the scene.
+/// Finds triangles by their places, which mostly come in their order.
 struct Finder<'a> {
     binning: &'a Binning<'a>,
     /// The ids of the current object's primitives.
     ids: Range<u32>,
-    /// Its triangles' vertices, none for a triangle that is no mesh, where those are if not at their own
-    /// places, and all from the first on.
-    triangles: &'a [[u32; 3]],
-    places: Option<&'a [u32]>,
+    /// Its triangles, none for what is no mesh.
+    triangles: Triangles<'a>,
+    /// Its vertices, and those behind.
     vertices: &'a [Vertex],
 }
 
 impl<'a> Finder<'a> {
     fn new(binning: &'a Binning<'a>) -> Self {
-        Finder { binning, ids: 0..0, triangles: &[], places: None, vertices: &[] }
+        Finder { binning, ids: 0..0, triangles: Triangles::NONE, vertices: &[] }
     }
 
     /// The id of an object's first primitive, its triangles and vertices.
@@ -254,50 +252,52 @@ impl<'a> Finder<'a> {
         (first_id, triangles, &vertices[first_vertices[object]..])
     }
 
-    /// The vertices of a triangle.
+    /// The id and the vertices of a triangle.
     #[inline(always)]
-    fn vertices(&mut self, id: u32) -> [Vertex; 3] {
-        if !self.ids.contains(&id) {
-            self.find_object(id);
-        }
-        let triangle = (id - self.ids.start) as usize;
-        let corners = self.triangles.get(triangle).copied().unwrap_or([0, 1, 2]);
-        corners.map(|vertex| self.vertices[self.place(vertex)])
+    fn triangle(&mut self, place: u32) -> (u32, [Vertex; 3]) {
+        self.find_object(place);
+        let own = place - self.ids.start;
+        let id = self.ids.start + self.triangles.number(own);
+        let triangle = self.triangles.corners.get(own as usize).copied().unwrap_or([0, 1, 2]);
+        (id, triangle.map(|vertex| self.vertices[vertex as usize]))
     }
 
-    #[inline(always)]
-    fn place(&self, vertex: u32) -> usize {
-        self.places.map_or(vertex, |places| places[vertex as usize]) as usize
+    /// The id of any primitive.
+    fn id(&mut self, place: u32) -> u32 {
+        self.find_object(place);
+        self.ids.start + self.triangles.number(place - self.ids.start)
     }
 
     /// Prepares for the sixteen triangles from `next` on, and a little for the sixteen behind them.
     #[inline(always)]
-    fn look_ahead(&self, ids: &[u32], next: usize) {
-        let triangle = |id: u32| id.wrapping_sub(self.ids.start) as usize;
-        let from = |start: usize| ids.get(start..).unwrap_or_default().iter().take(16);
-        for &id in from(next + 16) {
-            self.triangles.get(triangle(id)).into_iter().for_each(prefetch);
+    fn look_ahead(&self, places: &[u32], next: usize) {
+        let corners = self.triangles.corners;
+        let triangle = |place: u32| corners.get(place.wrapping_sub(self.ids.start) as usize);
+        let from = |start: usize| places.get(start..).unwrap_or_default().iter().take(16);
+        for &place in from(next + 16) {
+            triangle(place).into_iter().for_each(prefetch);
         }
-        for &id in from(next) {
-            for vertex in self.triangles.get(triangle(id)).into_iter().flatten() {
-                prefetch(&self.vertices[self.place(*vertex)]);
+        for &place in from(next) {
+            for vertex in triangle(place).into_iter().flatten() {
+                prefetch(&self.vertices[*vertex as usize]);
             }
         }
     }
 
+    #[inline(always)]
+    fn find_object(&mut self, place: u32) {
+        if !self.ids.contains(&place) {
+            self.find_other_object(place);
+        }
+    }
+
     #[cold]
-    fn find_object(&mut self, id: u32) {
+    fn find_other_object(&mut self, place: u32) {
         let scene = self.binning.view.scene;
-        let (object, local) = scene.locate(id);
-        let shape = &scene.objects()[object].shape;
+        let (object, _) = scene.locate(place);
         let number = |count: usize| u32::try_from(count).expect("ids are u32");
-        let first = id - number(local);
-        self.ids = first..first + number(shape.primitive_count());
-        self.triangles = match shape {
-            Shape::Mesh(mesh) => mesh.triangles(),
-            Shape::Triangle(_) | Shape::Sphere(_) | Shape::Plane(_) => &[],
-        };
-        self.places = self.binning.clusters[object].places();
-        self.vertices = &self.binning.vertices[self.binning.first_vertices[object]..];
+        let count = number(scene.objects()[object].shape.primitive_count());
+        let (first, triangles, vertices) = self.object(number(object));
+        (self.ids, self.triangles, self.vertices) = (first..first + count, triangles, vertices);
     }
 }
