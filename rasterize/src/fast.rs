@@ -375,12 +375,14 @@ fn run<O: Observer>(
         .map(|_| {
             let (index, tile) = lock(&queue).next().expect("there are as many");
             let mut observer = seen.fork();
+            if dropped == Some(index) || bins.iter().all(|bins| bins.work(index) == 0) {
+                TileBuffer::store_nothing(tile);
+                return (index, observer);
+            }
             let buffer = lock(&buffers).pop().filter(|buffer| buffer.fits(&tiling));
             let mut buffer = buffer.unwrap_or_else(|| TileBuffer::new(view, &tiling));
             buffer.begin(view, &tile.region);
-            if dropped != Some(index) {
-                (loops.draw_tile)(&drawing, index, &mut buffer, observer.watcher());
-            }
+            (loops.draw_tile)(&drawing, index, &mut buffer, observer.watcher());
             dispatch!(level, simd => buffer.store(simd, &picture, tile));
             lock(&buffers).push(buffer);
             (index, observer)

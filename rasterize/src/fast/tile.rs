@@ -349,6 +349,21 @@ impl TileBuffer {
         finish_streaming();
     }
 
+    /// Writes a tile in which nothing is seen.
+    pub(super) fn store_nothing(tile: Tile) {
+        for (ids, t) in tile.ids.into_iter().zip(tile.t) {
+            let (whole_ids, rest_ids) = ids.as_chunks_mut::<16>();
+            let (whole_t, rest_t) = t.as_chunks_mut::<16>();
+            for (ids, t) in whole_ids.iter_mut().zip(whole_t) {
+                stream([NO_PRIMITIVE; 16], ids);
+                stream([f32::INFINITY; 16], t);
+            }
+            rest_ids.fill(NO_PRIMITIVE);
+            rest_t.fill(f32::INFINITY);
+        }
+        finish_streaming();
+    }
+
     #[inline(always)]
     fn store_sixteen<S: Simd>(
         &self,
@@ -360,6 +375,11 @@ impl TileBuffer {
     ) {
         let keys = f32x16::from_slice(simd, &self.keys[from..from + 16]);
         let nothing = keys.simd_eq(f32x16::splat(simd, NOTHING));
+        if nothing.all_true() {
+            stream([NO_PRIMITIVE; 16], ids);
+            stream([f32::INFINITY; 16], t);
+            return;
+        }
         let (distances, unsure) = distances(simd, &picture.keys, keys);
         let unsure = unsure & !nothing;
         let mut distances =
