@@ -176,6 +176,40 @@ fn triangles_of_all_sizes_as_the_textbook_sees_them() {
 }
 
 #[test]
+fn triangles_wider_than_the_picture_whatever_the_tiles() {
+    // Some reach behind the eye, some lie almost edge-on; the last are floors that end at the horizon.
+    let mut numbers = scattered(3 * 60);
+    let mut next = || Vec3::from_array(numbers.next().expect("there are enough")) - 0.5;
+    let triangles = (0..60).map(|k| {
+        let flat = Vec3::new(1.0, if k % 3 == 0 { 1e-4 } else { 1.0 }, 1.0);
+        triangle([next(), next(), next()].map(|corner| (12.0 * corner * flat).to_array()))
+    });
+    let floor = |y: f32| triangle([[-900.0, y, 2.0], [900.0, y, 2.0], [0.0, y, -900.0]]);
+    let scene = scene(triangles.chain([floor(-0.5), floor(-0.51), floor(1e-3)]).collect());
+    for projection in PROJECTIONS {
+        for (eye, target) in [([0.3, 0.4, 1.5], [0.0; 3]), ([1.0, 0.0, 9.0], [0.0, 0.2, 0.0])] {
+            let camera = turned(projection, eye, target, [700, 90]);
+            let work = check(&scene, &camera, &format!("{projection:?} from {eye:?}"));
+            assert!(work.fragments > 100_000, "{work:?}");
+            let judged = work.judged_coverage + work.judged_nearest;
+            assert!(judged * 1000 < work.tests, "{work:?}");
+
+            let (view, options) = (View::new(&scene, &camera), Options::default());
+            let prepared = fast::prepare(&scene);
+            let (expected, _) = draw(&prepared, &view, &options);
+            for (level, tile) in every_way_to_draw() {
+                let (frame, other) =
+                    draw(&prepared.clone().drawn_with(level, tile), &view, &options);
+                assert_eq!(frame.ids(), expected.ids(), "{level:?}, tiles {tile:?}");
+                assert_eq!(frame.distances(), expected.distances(), "{level:?}, tiles {tile:?}");
+                assert_eq!(other.tests, work.tests, "{level:?}, tiles {tile:?}");
+                assert_eq!(other.judged_coverage, work.judged_coverage, "tiles {tile:?}");
+            }
+        }
+    }
+}
+
+#[test]
 fn edges_through_samples_need_no_judge_where_vertices_are_on_the_raster() {
     for (scene, camera, what) in grids_on_quarters() {
         let work = check(&scene, &camera, &what);

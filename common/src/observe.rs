@@ -176,9 +176,9 @@ pub struct Work {
     pub nodes: u64,
     /// Pairs of a primitive and a sample tested for coverage: the inner step of both loops. In
     /// object order these are the samples of the primitives' bounding regions, which for triangles wider
-    /// than 256 samples are cut row by row to where the edge functions allow. The fast rasterizer leaves
-    /// out clusters of triangles that are certainly hidden; for whoever watches it draws them, so that
-    /// what is counted here and below does not depend on what was drawn before.
+    /// than 256 samples are cut, sixteen rows at a time, to where the edge functions allow. The fast
+    /// rasterizer leaves out clusters of triangles that are certainly hidden; for whoever watches it draws
+    /// them, so that what is counted here and below does not depend on what was drawn before.
     pub tests: u64,
     /// Of these, the pairs in which the primitive covers the sample.
     pub fragments: u64,
