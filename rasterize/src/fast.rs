@@ -11,7 +11,8 @@
 //! already shows something certainly nearer wherever they may lie (`clusters`). Small triangles are then
 //! drawn sixteen at a time, one a lane (`small`); larger ones one at a time, sixteen samples
 //! at once (`block`); both in `f32`, from vertices in fixed point. What is larger still, reaches behind
-//! the eye, or is a sphere or a plane goes sample by sample in `f64` (`large`).
+//! the eye or is a plane is set up in `f64`, and drawn the same way part by part wherever `f32` is certain
+//! enough (`large`, `narrow`). Spheres go sample by sample in `f64`.
 //!
 //! Rounded arithmetic decides wherever its bound says that the sign is certain; the rest goes to the
 //! exact judge. The loop over primitives decides visibility: no ray is walked, and no tree. Normals and

@@ -1,13 +1,13 @@
-//! What the other paths leave, one primitive at a time, set up in `f64`: triangles that are large, reach to the
-//! eye's plane or are almost edge-on, part by part; spheres and planes sample by sample.
+//! What the other paths leave, one primitive at a time, set up in `f64`: planes, and triangles that are large,
+//! reach to the eye's plane or are almost edge-on, part by part; spheres sample by sample.
 
 use super::bins::region;
 use super::block;
 use super::depth::{DepthInterval, DepthPlane, sign_in_front};
 use super::edges::TriangleSetup;
-use super::narrow::narrow;
+use super::narrow::{narrow, narrow_plane};
 use super::round::{self, Covered};
-use super::setup::MOST_SAMPLES_ACROSS;
+use super::setup::{Affine, MOST_SAMPLES_ACROSS};
 use super::tile::{Challenger, Picture, TileBuffer, judge_covers};
 use bothways_common::fault::{Fault, Planted};
 use bothways_common::frame::Region;
@@ -71,12 +71,11 @@ impl<O: Watcher + ?Sized> Brush<'_, '_, O> {
             }
             Primitive::Plane { .. } if self.buffer.is_edge_on(id, &primitive) => {}
             Primitive::Plane { point, normal } => {
-                let here = region.intersection(self.buffer.region());
                 let mut depth = DepthPlane::new(picture.screen, point, normal, normal.abs());
                 if F::is(Planted::ZeroErrorBound) {
                     depth.error = 0.0;
                 }
-                self.draw_plane::<F>(&depth, here);
+                self.draw_plane::<S, F>(simd, &depth, &region);
             }
         }
     }
@@ -104,16 +103,15 @@ impl<O: Watcher + ?Sized> Brush<'_, '_, O> {
                 let part = Region { rows: rows.clone(), columns };
                 let triangle = narrow::<F>(screen, keys, setup, (self.id, corners), &part);
                 if let Some(triangle) = triangle {
-                    let Brush { picture, buffer, observer, .. } = self;
-                    block::draw::<S, O, F>(simd, &triangle, picture, buffer, *observer);
+                    self.draw_blocks::<S, F>(simd, &triangle);
                 } else {
-                    self.draw_part::<F>(setup, part.intersection(&here));
+                    self.draw_part_of_triangle::<F>(setup, part.intersection(&here));
                 }
             }
         }
     }
 
-    fn draw_part<F: Fault>(&mut self, setup: &TriangleSetup, here: Region) {
+    fn draw_part_of_triangle<F: Fault>(&mut self, setup: &TriangleSetup, here: Region) {
         let screen = self.picture.screen;
         let (xs, ys) = (screen.grid.x(), screen.grid.y());
         let [ab, bc, ca] = &setup.edges;
@@ -172,7 +170,24 @@ impl<O: Watcher + ?Sized> Brush<'_, '_, O> {
         }
     }
 
-    fn draw_plane<F: Fault>(&mut self, depth: &DepthPlane, here: Region) {
+    /// Draws a plane as a triangle is drawn.
+    #[inline(always)]
+    fn draw_plane<S: Simd, F: Fault>(&mut self, simd: S, depth: &DepthPlane, region: &Region) {
+        let (screen, keys) = (self.picture.screen, self.picture.keys);
+        let here = region.intersection(self.buffer.region());
+        for rows in parts(&here.rows, &region.rows, PART[1]) {
+            for columns in parts(&here.columns, &region.columns, PART[0]) {
+                let part = Region { rows: rows.clone(), columns };
+                if let Some(plane) = narrow_plane(screen, keys, depth, self.id, &part) {
+                    self.draw_blocks::<S, F>(simd, &plane);
+                } else {
+                    self.draw_part_of_plane::<F>(depth, part.intersection(&here));
+                }
+            }
+        }
+    }
+
+    fn draw_part_of_plane<F: Fault>(&mut self, depth: &DepthPlane, here: Region) {
         let screen = self.picture.screen;
         let side = sign_in_front(screen.projection());
         let (xs, ys) = (screen.grid.x(), screen.grid.y());
@@ -190,6 +205,12 @@ impl<O: Watcher + ?Sized> Brush<'_, '_, O> {
                 }
             }
         }
+    }
+
+    #[inline(always)]
+    fn draw_blocks<S: Simd, F: Fault>(&mut self, simd: S, flat: &Affine) {
+        let Brush { picture, buffer, observer, .. } = self;
+        block::draw::<S, O, F>(simd, flat, picture, buffer, *observer);
     }
 
     fn judge_covers<F: Fault>(&mut self, sample: Sample) -> bool {

@@ -40,7 +40,14 @@ struct Part<'a> {
     size: [f64; 2],
 }
 
-impl Part<'_> {
+impl<'a> Part<'a> {
+    fn new(screen: &'a Screen<'a>, region: &Region) -> Self {
+        let origin = Sample { row: region.rows.start, column: region.columns.start };
+        #[expect(clippy::cast_precision_loss, reason = "at most 65,536")]
+        let size = [region.columns.len() as f64, region.rows.len() as f64];
+        Part { screen, origin, size }
+    }
+
     /// A function on the viewport as one of column and row.
     ///
     /// `x` of a sample is within `10·2⁻⁵³·X` of where a column's width times their number leads from the origin's,
@@ -75,8 +82,8 @@ impl Function {
     }
 }
 
-/// A part of a triangle, with edge functions and key in `f32`; `None` if a key would not be certain enough, or a
-/// fragment not to be in front of the eye. What comes of it depends on the triangle and the region alone.
+/// A part of a triangle, with edge functions and key in `f32`; `None` if a key would not be certain enough, or
+/// fragments not to be in front of the eye. What comes of it depends on the triangle and the region alone.
 ///
 /// Each edge function is divided by the largest value that it may have in the region: so one error suits all, and
 /// nothing overflows.
@@ -87,11 +94,7 @@ pub(super) fn narrow<F: Fault>(
     (id, corners): (u32, &[DVec3; 3]),
     region: &Region,
 ) -> Option<Affine> {
-    let origin = Sample { row: region.rows.start, column: region.columns.start };
-    #[expect(clippy::cast_precision_loss, reason = "at most 65,536")]
-    let size = [region.columns.len() as f64, region.rows.len() as f64];
-    let part = Part { screen, origin, size };
-
+    let part = Part::new(screen, region);
     let edges = setup
         .edges
         .map(|Edge { at_centre, across, up, error }| part.function(at_centre, across, up, error));
@@ -99,7 +102,7 @@ pub(super) fn narrow<F: Fault>(
     // The division's rounding is part of the little.
     let error_of = |k: usize| EVALUATION + edges[k].error * factors[k];
     let error = error_of(0).max(error_of(1)).max(error_of(2));
-    let key = key(&part, keys, &setup.depth, corners)?;
+    let key = key(&part, keys, &setup.depth, Some(corners))?;
     if !(error.is_finite() && factors.iter().all(|factor| factor.is_normal())) {
         return None;
     }
@@ -114,14 +117,40 @@ pub(super) fn narrow<F: Fault>(
         edges: [rounded(0), rounded(1), rounded(2)],
         error,
         key: key.rounded(1.0),
-        origin,
+        origin: part.origin,
         region: region.clone(),
         facing,
     })
 }
 
-/// The key, if it is within [`KEY_ERROR`] of the true one at every sample that the triangle covers.
-fn key(part: &Part, keys: KeyScale, depth: &DepthPlane, corners: &[DVec3; 3]) -> Option<Function> {
+/// A part of a plane likewise, if all of it is certainly in front of the eye: it has no edges.
+pub(super) fn narrow_plane(
+    screen: &Screen,
+    keys: KeyScale,
+    depth: &DepthPlane,
+    id: u32,
+    region: &Region,
+) -> Option<Affine> {
+    let part = Part::new(screen, region);
+    Some(Affine {
+        id,
+        edges: [[1.0, 0.0, 0.0]; 3],
+        error: 0.0,
+        key: key(&part, keys, depth, None)?.rounded(1.0),
+        origin: part.origin,
+        region: region.clone(),
+        facing: 0.0,
+    })
+}
+
+/// The key, if it is within [`KEY_ERROR`] of the true one at every sample that the primitive covers, a triangle of
+/// these corners or a plane.
+fn key(
+    part: &Part,
+    keys: KeyScale,
+    depth: &DepthPlane,
+    corners: Option<&[DVec3; 3]>,
+) -> Option<Function> {
     let (screen, offset) = (part.screen, keys.offset);
     let from_depth = match keys.projection {
         Projection::Perspective => -offset,
@@ -131,7 +160,9 @@ fn key(part: &Part, keys: KeyScale, depth: &DepthPlane, corners: &[DVec3; 3]) ->
     let key = part.function(from_depth - at_centre, -across, -up, error);
     let error = key.error + (-48f64).exp2() * offset;
 
-    // What is covered lies between the corners, and its key between theirs.
+    // The key at the farthest corner, if that is trusted: what is covered lies between corners, and its key
+    // between theirs.
+    let corners = corners.map_or([DVec3::NAN; 3], |corners| *corners);
     let depths = corners.map(|corner| -corner.dot(screen.w));
     let extents = corners.map(|corner| corner.abs().element_sum());
     let trusted = depths.iter().zip(&extents).all(|(depth, extent)| {

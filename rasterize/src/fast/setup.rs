@@ -198,7 +198,7 @@ pub(super) struct Affine {
     pub(super) origin: Sample,
     /// The samples that the triangle may cover: within 256 columns and rows of the origin.
     pub(super) region: Region,
-    /// The sign of the triangle's facing, ±1.
+    /// The sign of the triangle's facing, ±1; 0 for a plane, which has no edges.
     pub(super) facing: f32,
 }
 
@@ -215,7 +215,7 @@ impl Affine {
         observer.sample_tested(sample, id);
         let out = edges.iter().any(|edge| *edge < -error);
         let inside = edges.iter().all(|edge| *edge > error);
-        if out || inside {
+        if self.facing != 0.0 && (out || inside) {
             let sign = |edge: f32| {
                 let on_edge = error == 0.0 && edge.abs() == TIE;
                 let sign = if on_edge { 0.0 } else { f64::from(self.facing * edge) };
