@@ -2,6 +2,9 @@
 //!
 //! Not for users: every public renderer runs with [`Sound`], whose branches the compiler removes.
 
+use std::sync::atomic::{AtomicU8, Ordering};
+use std::sync::{Mutex, PoisonError};
+
 /// What is broken on purpose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Planted {
@@ -20,15 +23,13 @@ pub enum Planted {
     ForgottenNode,
 }
 
-/// A renderer's code is generic over the fault in it.
+/// A renderer's code is generic over whether faults are planted in it.
 pub trait Fault: Copy + Send + Sync {
-    /// The fault, or none.
-    const PLANTED: Option<Planted>;
+    /// Whether none ever is.
+    const SOUND: bool;
 
     /// Whether this fault is planted.
-    fn is(fault: Planted) -> bool {
-        Self::PLANTED == Some(fault)
-    }
+    fn is(fault: Planted) -> bool;
 }
 
 /// No fault.
@@ -36,19 +37,35 @@ pub trait Fault: Copy + Send + Sync {
 pub struct Sound;
 
 impl Fault for Sound {
-    const PLANTED: Option<Planted> = None;
+    const SOUND: bool = true;
+
+    fn is(_fault: Planted) -> bool {
+        false
+    }
 }
 
-macro_rules! faults {
-    ($($name:ident)*) => {$(
-        #[doc = concat!("Plants [`Planted::", stringify!($name), "`].")]
-        #[derive(Clone, Copy, Debug)]
-        pub struct $name;
+/// The fault that [`with`] plants: any of them, so that the code is compiled once for all.
+#[derive(Clone, Copy, Debug)]
+pub struct Faulty;
 
-        impl Fault for $name {
-            const PLANTED: Option<Planted> = Some(Planted::$name);
-        }
-    )*};
+impl Fault for Faulty {
+    const SOUND: bool = false;
+
+    fn is(fault: Planted) -> bool {
+        PLANTED.load(Ordering::Relaxed) == fault as u8
+    }
 }
 
-faults! { DroppedTile StrictComparison ShrunkBox ZeroErrorBound TiesToLast ForgottenNode }
+/// What is planted now; `NONE` for nothing.
+static PLANTED: AtomicU8 = AtomicU8::new(NONE);
+const NONE: u8 = u8::MAX;
+
+/// Runs something with a fault planted, if any, wherever [`Faulty`] code asks for it. Others wait meanwhile.
+pub fn with<R>(fault: Option<Planted>, run: impl FnOnce() -> R) -> R {
+    static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
+    let _one = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
+    PLANTED.store(fault.map_or(NONE, |fault| fault as u8), Ordering::Relaxed);
+    let result = run();
+    PLANTED.store(NONE, Ordering::Relaxed);
+    result
+}

@@ -33,13 +33,13 @@ pub fn prefetch<T>(soon: &T) {
     let _ = soon;
 }
 
-/// [`dispatch!`] for code that is generic over a [`Fault`](crate::fault::Fault). With a fault in it, it need not be
-/// fast, and is compiled for one level alone where there are several.
+/// [`dispatch!`] for code that is generic over a [`Fault`](crate::fault::Fault). With faults in it, it need not
+/// be fast, and is compiled for one level alone where there are several.
 #[macro_export]
 #[cfg(target_arch = "x86_64")]
 macro_rules! dispatch_with {
     ($fault:ty, $level:expr, $simd:pat => $op:expr) => {
-        if const { <$fault as $crate::fault::Fault>::PLANTED.is_some() } {
+        if const { !<$fault as $crate::fault::Fault>::SOUND } {
             let $simd = $crate::simd::least();
             $op
         } else {

@@ -262,7 +262,7 @@ pub fn determine_visibility(
     run(prepared, view, options, frame, observer, &SOUND);
 }
 
-/// [`determine_visibility`] with a fault in it, for tests of the verdict.
+/// [`determine_visibility`] with faults in it, for tests of the verdict.
 #[doc(hidden)]
 pub fn determine_visibility_with_fault<F: Fault>(
     prepared: &Prepared,
@@ -274,10 +274,10 @@ pub fn determine_visibility_with_fault<F: Fault>(
     run(prepared, view, options, frame, &mut (), &const { Loops::new::<F>() });
 }
 
-/// The loops with one fault in them, or none; somebody may watch. So [`run`], which is compiled for each
+/// The loops, sound or with faults in them; somebody may watch. So [`run`], which is compiled for each
 /// observer, is not what takes long to compile.
 struct Loops {
-    planted: Option<Planted>,
+    is: fn(Planted) -> bool,
     fill: fn(&mut BatchBins, &Batch, &Binning, Level, Option<&mut dyn Events>),
     draw_tile: fn(&Drawing, usize, &mut TileBuffer, Option<&mut dyn Events>),
 }
@@ -286,7 +286,7 @@ static SOUND: Loops = Loops::new::<Sound>();
 
 impl Loops {
     const fn new<F: Fault>() -> Loops {
-        Loops { planted: F::PLANTED, fill: fill::<F>, draw_tile: draw_tile::<F> }
+        Loops { is: F::is, fill: fill::<F>, draw_tile: draw_tile::<F> }
     }
 }
 
@@ -362,7 +362,7 @@ fn run<O: Observer>(
     let drawing = Drawing { binning: &binning, picture: &picture, bins, level };
     let seen: &O = observer;
     let tiles: Vec<Tile> = frame.tiles_mut(tiling.columns, tiling.rows);
-    let dropped = (loops.planted == Some(Planted::DroppedTile)).then_some(tiles.len() / 2);
+    let dropped = (loops.is)(Planted::DroppedTile).then_some(tiles.len() / 2);
     let buffers = Mutex::new(std::mem::take(&mut spare.tiles));
     // Those with most to draw come first, so that all threads end at about the same time.
     let mut queue: Vec<(usize, Tile)> = tiles.into_iter().enumerate().collect();

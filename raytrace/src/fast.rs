@@ -116,7 +116,7 @@ pub fn determine_visibility(
     run(prepared, view, options, frame, observer, &SOUND);
 }
 
-/// [`determine_visibility`] with a fault in it, for tests of the verdict.
+/// [`determine_visibility`] with faults in it, for tests of the verdict.
 #[doc(hidden)]
 pub fn determine_visibility_with_fault<F: Fault>(
     prepared: &Prepared,
@@ -128,10 +128,10 @@ pub fn determine_visibility_with_fault<F: Fault>(
     run(prepared, view, options, frame, &mut (), &const { Loops::new::<F>() });
 }
 
-/// The loops with one fault in them, or none. So [`run`], which is compiled for each observer, is not what takes
+/// The loops, sound or with faults in them. So [`run`], which is compiled for each observer, is not what takes
 /// long to compile.
 struct Loops {
-    planted: Option<Planted>,
+    is: fn(Planted) -> bool,
     watch: fn(&mut Walker, &LensKind, &Tile, &mut dyn Events),
     trace: fn(&mut Walker, &LensKind, Tile),
 }
@@ -140,7 +140,7 @@ static SOUND: Loops = Loops::new::<Sound>();
 
 impl Loops {
     const fn new<F: Fault>() -> Loops {
-        Loops { planted: F::PLANTED, watch: watch::<F>, trace: trace::<F> }
+        Loops { is: F::is, watch: watch::<F>, trace: trace::<F> }
     }
 }
 
@@ -156,11 +156,11 @@ fn run<O: Observer>(
     frame.fit(view.camera, options);
     let rays = Rays::new(view, options.samples, walk::reach(prepared, view));
     // A box's last place matters to a ray alone: a fault there shows in tiles of one.
-    let side = if loops.planted == Some(Planted::ShrunkBox) { 1 } else { prepared.side };
+    let side = if (loops.is)(Planted::ShrunkBox) { 1 } else { prepared.side };
     let (kind, kind_of_one) = (rays.lens_kind(side), rays.lens_kind(1));
 
     let (seen, shares): (&O, Vec<Tile>) = (observer, frame.tiles_mut(SHARE, prepared.side));
-    let dropped = (loops.planted == Some(Planted::DroppedTile)).then_some(shares.len() / 2);
+    let dropped = (loops.is)(Planted::DroppedTile).then_some(shares.len() / 2);
     let parts: Vec<O> = shares
         .into_par_iter()
         .with_max_len(1)
