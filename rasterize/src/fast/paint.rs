@@ -149,7 +149,10 @@ impl<O: Watcher + ?Sized> Painter<'_, '_, O> {
         let small = here & short;
         let by_class = [small & very_few, small & few & !very_few, small & !few];
         for (waiting, which) in self.waiting.iter_mut().zip(by_class) {
-            waiting.add(simd, lanes, which);
+            // Of some classes a mesh has hardly any.
+            if which.any_true() {
+                waiting.add(simd, lanes, which);
+            }
         }
         let large = (here & !short | unknown).to_bitmask();
         if large != 0 {
