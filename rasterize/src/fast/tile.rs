@@ -29,7 +29,7 @@ pub(super) struct TileBuffer {
     stride: usize,
     /// What is seen, where the key says that something is.
     ids: Vec<u32>,
-    /// Depth keys; [`NOTHING`] for nothing.
+    /// Depth keys; [`NOTHING`] for nothing, which all are between two tiles.
     keys: Vec<f32>,
     open: Vec<Open>,
     memory: Memory,
@@ -102,7 +102,6 @@ impl TileBuffer {
         self.tied = None;
         self.compared = ([NO_PRIMITIVE; 2], false);
         self.region = region.clone();
-        self.keys[..self.stride * region.rows.len()].fill(NOTHING);
     }
 
     /// Where the tile lies in the picture.
@@ -327,9 +326,9 @@ impl TileBuffer {
         self.memory.is_edge_on(id, primitive)
     }
 
-    /// Writes ids and distances into the frame.
+    /// Writes ids and distances into the frame, and leaves the tile ready for another.
     #[inline(always)]
-    pub(super) fn store<S: Simd>(&self, simd: S, picture: &Picture, tile: Tile) {
+    pub(super) fn store<S: Simd>(&mut self, simd: S, picture: &Picture, tile: Tile) {
         for (row, (ids, t)) in tile.ids.into_iter().zip(tile.t).enumerate() {
             let start = row * self.stride;
             let (whole_ids, rest_ids) = ids.as_chunks_mut::<16>();
@@ -366,7 +365,7 @@ impl TileBuffer {
 
     #[inline(always)]
     fn store_sixteen<S: Simd>(
-        &self,
+        &mut self,
         simd: S,
         picture: &Picture,
         from: usize,
@@ -380,6 +379,7 @@ impl TileBuffer {
             stream([f32::INFINITY; 16], t);
             return;
         }
+        f32x16::splat(simd, NOTHING).store_slice(&mut self.keys[from..from + 16]);
         let (distances, unsure) = distances(simd, &picture.keys, keys);
         let unsure = unsure & !nothing;
         let mut distances =
