@@ -53,8 +53,9 @@ use std::sync::Mutex;
 use tile::{Picture, TileBuffer};
 use vertices::{Raster, Vertex};
 
-/// Columns and rows of a tile, as powers of two: its keys and ids fill half a MiB.
-const TILE: [u32; 2] = [8, 8];
+/// Columns and rows of a tile, as powers of two: its keys and ids fill a MiB. Of Full HD that makes 20, enough
+/// for some threads.
+const TILE: [u32; 2] = [9, 8];
 /// Primitives that one thread takes up at a time: at most, and at least if there are enough.
 const MOST_IN_BATCH: u32 = 1 << 15;
 const LEAST_IN_BATCH: u32 = 1 << 10;
