@@ -19,8 +19,8 @@ use std::ops::Range;
 
 /// Regions wider than this are cut to what the edge functions leave of each strip.
 const WIDE: usize = MOST_SAMPLES_ACROSS.cast_unsigned() as usize;
-/// A triangle is drawn in parts of so many columns and rows, which lie where these lead from the picture's first
-/// sample. So what comes of a part depends neither on tiles nor on a crop.
+/// Triangles and planes are drawn in parts of so many columns and rows, which begin at multiples of these. So what
+/// comes of a part depends neither on tiles nor on a crop.
 const PART: [usize; 2] = [WIDE, 16];
 
 /// One primitive while it is drawn into a tile.

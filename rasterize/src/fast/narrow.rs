@@ -1,5 +1,5 @@
-//! From `f64` to `f32`: what lies in a small part of the picture of a triangle that is set up in `f64`, ready
-//! to be drawn sixteen samples at a time.
+//! From `f64` to `f32`: what lies in a small part of the picture of a triangle or plane that is set up in `f64`,
+//! ready to be drawn sixteen samples at a time.
 
 use super::depth::{DepthPlane, KEY_ERROR, KeyScale, LARGEST_KEY};
 use super::edges::{Edge, TriangleSetup};
