@@ -134,7 +134,13 @@ impl Lanes {
 
 /// The numbers of the lanes that a mask has.
 pub(super) fn lanes_of(mask: u64) -> impl Iterator<Item = usize> {
-    (0..16).filter(move |lane| mask >> lane & 1 == 1)
+    let mut rest = mask & 0xffff;
+    std::iter::from_fn(move || {
+        let lane = rest.trailing_zeros() as usize;
+        let is_one = rest != 0;
+        rest &= rest.wrapping_sub(1);
+        is_one.then_some(lane)
+    })
 }
 
 /// The numbers of the lanes.
