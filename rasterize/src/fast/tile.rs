@@ -149,7 +149,7 @@ impl TileBuffer {
     }
 
     /// Leaves to the judge whether a fragment is nearest, or whether it is one.
-    #[inline]
+    #[inline(always)]
     pub(super) fn leave_open<O: Watcher + ?Sized, F: Fault>(
         &mut self,
         picture: &Picture,
@@ -169,7 +169,7 @@ impl TileBuffer {
 
     /// Whether a fragment is of the same triangle again as the one that its sample shows, and the later
     /// of the two.
-    #[inline]
+    #[inline(always)]
     fn loses_tie(&mut self, picture: &Picture, index: usize, id: u32) -> bool {
         let holder = self.ids[index];
         self.keys[index] != NOTHING && id > holder && self.are_same(picture, [id, holder])
@@ -177,7 +177,7 @@ impl TileBuffer {
 
     /// Whether two primitives are the same triangle: they mostly meet at several samples, one after the
     /// other.
-    #[inline]
+    #[inline(always)]
     fn are_same(&mut self, picture: &Picture, pair: [u32; 2]) -> bool {
         if self.compared.0 != pair {
             self.compared = (pair, picture.view.scene.are_same_triangle(pair[0], pair[1]));
