@@ -158,9 +158,7 @@ impl TileBuffer {
         key: f32,
         covered: bool,
     ) {
-        // Who watches is told of every decision, and the fault decides otherwise.
-        let tells = O::WATCHES || F::is(Planted::TiesToLast);
-        if !tells && covered && self.loses_tie(picture, index, id) {
+        if drops_ties::<O, F>() && covered && self.loses_tie(picture, index, id) {
             return;
         }
         let index = u32::try_from(index).expect("a tile is small");
@@ -173,6 +171,14 @@ impl TileBuffer {
     fn loses_tie(&mut self, picture: &Picture, index: usize, id: u32) -> bool {
         let holder = self.ids[index];
         self.keys[index] != NOTHING && id > holder && self.are_same(picture, [id, holder])
+    }
+
+    /// The earlier primitive that was last found to be the same triangle as this one, if it was this one that was
+    /// compared last: where both are seen, this one need not be drawn.
+    pub(super) fn twin<O: Watcher + ?Sized, F: Fault>(&self, id: u32) -> u32 {
+        let ([last, holder], are_same) = self.compared;
+        let is_twin = drops_ties::<O, F>() && are_same && last == id && holder < id;
+        if is_twin { holder } else { NO_PRIMITIVE }
     }
 
     /// Whether two primitives are the same triangle: they mostly meet at several samples, one after the
@@ -403,6 +409,12 @@ impl TileBuffer {
             *t = stored_t(judge.distance(&primitive, &ray));
         }
     }
+}
+
+/// Whether fragments that lose a tie for certain are dropped at once. Who watches is told of every decision, and
+/// the fault decides otherwise.
+fn drops_ties<O: Watcher + ?Sized, F: Fault>() -> bool {
+    !(O::WATCHES || F::is(Planted::TiesToLast))
 }
 
 /// Which is nearer, if the keys' errors leave no doubt. NaN leaves it.
