@@ -5,6 +5,7 @@
 //! Interactive Ray Tracing, 2007; eight boxes a node as in Wald, Benthin and Boulos, "Getting Rid of
 //! Packets", same venue, 2008.
 
+mod cut;
 mod items;
 mod planes;
 
@@ -12,6 +13,7 @@ use super::tree::{Bounds, Child, Kind, Leaf, Node, WIDTH};
 use bothways_common::Scene;
 use bothways_common::predicate::are_same_corners;
 use bothways_common::simd::{Level, best_level};
+use cut::Branches;
 use items::{Box4, Corners, Item, collect};
 use planes::cheapest_plane;
 use rayon::prelude::*;
@@ -66,8 +68,12 @@ pub(super) fn build(scene: &Scene, side: usize) -> Prepared {
         }
         let all = Part::new(items, 0, 0, false);
         bounds = bounds.with(&all.bounds.bounds());
-        let mut tree = Arena::default();
-        tree.grow_node(all, &Plot { kind, scene });
+        let root = all.bounds.bounds();
+        let (mut tree, child, counts) = Arena::grown(all, &Plot { kind, scene });
+        if child.kind() != Kind::Node {
+            tree.nodes.push(Node::empty());
+            tree.attach(0, &root, child, counts);
+        }
         roots.push(arena.append(tree));
     }
     let triangle_leaves = arena.leaves.iter().filter(|leaf| leaf.kind == Kind::Triangles).count();
@@ -82,12 +88,12 @@ pub(super) fn build(scene: &Scene, side: usize) -> Prepared {
             |corners, leaf| fill(&collected.triangles[first(leaf)], corners),
         )
         .collect();
+    let mut nodes = arena.nodes;
     let round = round.iter().map(|leaf| {
         let items = &collected.round[first(leaf)];
         std::array::from_fn(|lane| items.get(lane).unwrap_or(&items[0]).id())
     });
     // Spheres' leaves are counted from 0 again.
-    let mut nodes = arena.nodes;
     let renumbered = |child: &mut Child| {
         if child.kind() == Kind::Spheres {
             *child = Child::new(Kind::Spheres, child.index() - triangle_leaves);
@@ -145,7 +151,7 @@ fn put_twins_last(items: &mut [Item], corners: &mut Corners) -> usize {
 }
 
 /// The items of a leaf.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct LeafRange {
     first: u32,
     count: u8,
@@ -178,67 +184,40 @@ impl<'a> Part<'a> {
 }
 
 impl Arena {
-    /// Builds a node over some primitives: splits the part with the largest box until there are eight.
-    fn grow_node(&mut self, whole: Part, plot: &Plot) {
-        let parallel = whole.items.len() >= SERIAL;
+    /// Builds the hierarchy of a part, from its first node on. If there are many primitives, splits the part with
+    /// the largest box until there are eight.
+    fn grown(whole: Part, plot: &Plot) -> (Arena, Child, u8) {
+        let mut arena = Arena::default();
+        if whole.items.len() < SERIAL {
+            let (child, counts) = Branches::new(whole, plot).place(&mut arena);
+            return (arena, child, counts);
+        }
         let mut parts = vec![whole];
         while parts.len() < WIDTH {
             let divisible = parts.iter().enumerate().filter(|(_, part)| part.items.len() > WIDTH);
             let areas = divisible.map(|(index, part)| (index, part.bounds.half_area()));
             let Some((largest, _)) = areas.max_by(|a, b| a.1.total_cmp(&b.1)) else { break };
-            let part = parts.remove(largest);
-            parts.splice(largest..largest, split(part, plot).into_iter().flatten());
-        }
-        let node = self.nodes.len();
-        self.nodes.push(Node::empty());
-        if parallel {
-            let grown: Vec<(Bounds, Arena, Child, u8)> =
-                parts.into_par_iter().map(|part| Arena::grown(part, plot)).collect();
-            for (bounds, arena, child, counts) in grown {
-                let child = child.moved(self.nodes.len(), self.leaves.len());
-                self.append(arena);
-                self.attach(node, &bounds, child, counts);
-            }
-        } else {
-            for part in parts {
-                let bounds = part.bounds.bounds();
-                let (child, counts) = self.grow(part, plot);
-                self.attach(node, &bounds, child, counts);
+            match split(parts.remove(largest), plot) {
+                Split::Halves(halves) => _ = parts.splice(largest..largest, halves),
+                Split::Distinct(part) => parts.insert(largest, part),
             }
         }
+        arena.nodes.push(Node::empty());
+        let bounds: Vec<Bounds> = parts.iter().map(|part| part.bounds.bounds()).collect();
+        let grown: Vec<(Arena, Child, u8)> =
+            parts.into_par_iter().map(|part| Arena::grown(part, plot)).collect();
+        for ((part, child, counts), bounds) in grown.into_iter().zip(bounds) {
+            let child = child.moved(arena.nodes.len(), arena.leaves.len());
+            arena.append(part);
+            arena.attach(0, &bounds, child, counts);
+        }
+        (arena, Child::new(Kind::Node, 0), 0)
     }
 
     fn attach(&mut self, node: usize, bounds: &Bounds, child: Child, counts: u8) {
         let node = &mut self.nodes[node];
         node.counts[usize::from(node.used)] = counts;
         node.push(bounds, child);
-    }
-
-    /// A part by itself.
-    fn grown(part: Part, plot: &Plot) -> (Bounds, Arena, Child, u8) {
-        let mut arena = Arena::default();
-        let bounds = part.bounds.bounds();
-        let (child, counts) = arena.grow(part, plot);
-        (bounds, arena, child, counts)
-    }
-
-    /// Builds a leaf or a node.
-    fn grow(&mut self, part: Part, plot: &Plot) -> (Child, u8) {
-        if part.items.len() > WIDTH {
-            let node = Child::new(Kind::Node, self.nodes.len());
-            self.grow_node(part, plot);
-            return (node, 0);
-        }
-        let different = match plot.kind {
-            Kind::Triangles => put_twins_last(part.items, &mut Corners::new(plot.scene)),
-            _ => part.items.len(),
-        };
-        let number = |count: usize| u8::try_from(count).expect("eight at most");
-        let count = number(part.items.len());
-        let leaf = Child::new(plot.kind, self.leaves.len());
-        let first = u32::try_from(part.first).expect("ids are u32");
-        self.leaves.push(LeafRange { first, count, kind: plot.kind });
-        (leaf, 16 * count + number(different))
     }
 
     /// Takes in a part that was built beside this one, and says where it begins now.
@@ -255,20 +234,25 @@ impl Arena {
     }
 }
 
-/// Divides a part of more than eight primitives in two, or leaves out what is in it twice.
-fn split<'a>(part: Part<'a>, plot: &Plot) -> [Option<Part<'a>>; 2] {
+/// A part of more than eight primitives, divided in two, or without those that were in it twice.
+enum Split<'a> {
+    Halves([Part<'a>; 2]),
+    Distinct(Part<'a>),
+}
+
+fn split<'a>(part: Part<'a>, plot: &Plot) -> Split<'a> {
     let Part { items, middles, first, depth, distinct, .. } = part;
     let best = cheapest_plane(items, &middles).filter(|_| depth < DEEP);
     let Some(plane) = best else {
         if plot.kind == Kind::Triangles && !distinct {
             let count = leave_out_twins(items, plot);
-            return [Some(Part::new(&mut items[..count], first, depth, true)), None];
+            return Split::Distinct(Part::new(&mut items[..count], first, depth, true));
         }
         // All in one place, or too deep: any half is as good as any other, if only it is whole leaves.
         let half = (items.len() / 2).next_multiple_of(WIDTH).min(items.len() - 1);
         let (left, right) = items.split_at_mut(half);
         let left = Part::new(left, first, depth + 1, distinct);
-        return [Some(left), Some(Part::new(right, first + half, depth + 1, distinct))];
+        return Split::Halves([left, Part::new(right, first + half, depth + 1, distinct)]);
     };
     let (mut middle, mut end) = (0, items.len());
     let (mut left, mut right) = ([Box4::EMPTY; 2], [Box4::EMPTY; 2]);
@@ -287,10 +271,15 @@ fn split<'a>(part: Part<'a>, plot: &Plot) -> [Option<Part<'a>>; 2] {
         }
     }
     let (left_items, right_items) = items.split_at_mut(middle);
-    let part = |items, first, [bounds, middles]: [Box4; 2]| {
-        Some(Part { items, bounds, middles, first, depth: depth + 1, distinct })
+    let part = |items, first, [bounds, middles]: [Box4; 2]| Part {
+        items,
+        bounds,
+        middles,
+        first,
+        depth: depth + 1,
+        distinct,
     };
-    [part(left_items, first, left), part(right_items, first + middle, right)]
+    Split::Halves([part(left_items, first, left), part(right_items, first + middle, right)])
 }
 
 /// Brings triangles with the same corners together, keeps the first in the scene of each and tells how

@@ -59,6 +59,25 @@ fn every_primitive_is_in_one_leaf() {
 }
 
 #[test]
+fn nodes_are_filled() {
+    let corner = |k: u32| Vec3::new((k * 37 % 101) as f32, (k * 53 % 97) as f32, (k % 89) as f32);
+    for count in [9, 30, 70, 3000, 20_000] {
+        let prepared = built(&mesh((0..count * 3).map(corner).collect()));
+        let children = prepared.nodes.len() - 1 + prepared.leaves.len();
+        // Splitting the largest box until there are eight leaves them half empty.
+        assert!(children >= 6 * (prepared.nodes.len() - 1), "{count}: {children}");
+    }
+}
+
+#[test]
+fn nodes_are_filled_where_no_box_has_an_area() {
+    let corner = |k: u16| Vec3::new(f32::from(k), 0.0, 0.0);
+    let prepared = built(&mesh((0..3 * 3000).map(corner).collect()));
+    let children = prepared.nodes.len() - 1 + prepared.leaves.len();
+    assert!(children >= 6 * (prepared.nodes.len() - 1), "{children}");
+}
+
+#[test]
 fn of_many_coincident_triangles_the_first_is_kept() {
     let scene = mesh([Vec3::ZERO, Vec3::X, Vec3::Y].repeat(100_000));
     assert_eq!(inspect(&built(&scene)), (0, vec![0]));
