@@ -21,12 +21,12 @@ pub use fearless_simd::{
 pub fn prefetch<T>(soon: &T) {
     #[cfg(target_arch = "x86_64")]
     for line in 0..size_of::<T>().div_ceil(64) {
-        use core::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        use core::arch::x86_64::{_MM_HINT_T1, _mm_prefetch};
         let start = core::ptr::from_ref(soon).cast::<i8>();
         // SAFETY: SSE is part of every x86-64, and the instruction is defined for any address.
         #[expect(unsafe_code, reason = "a hint: nothing is read, whatever the address")]
         unsafe {
-            _mm_prefetch::<_MM_HINT_T0>(start.wrapping_add(64 * line));
+            _mm_prefetch::<_MM_HINT_T1>(start.wrapping_add(64 * line));
         }
     }
     #[cfg(not(target_arch = "x86_64"))]

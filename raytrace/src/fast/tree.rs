@@ -36,7 +36,7 @@ pub(super) enum Kind {
 /// Up to eight triangles, as they are stored in the world: x, y, z of the first corners, of the second,
 /// of the third. Unused ones repeat the first.
 #[derive(Clone, Copy, Debug)]
-#[repr(C, align(32))]
+#[repr(C, align(64))]
 pub(super) struct Leaf {
     pub(super) corners: [[f32; WIDTH]; 9],
     pub(super) ids: [u32; WIDTH],
