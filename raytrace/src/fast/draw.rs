@@ -15,6 +15,16 @@ use bothways_common::simd::{Select, Simd, SimdBase, SimdMask, f32x8, f32x16, u32
 
 /// Boxes of at most this many samples are tested one triangle a lane.
 const FEW: f32 = 8.0;
+/// Boxes of at most this many are tiny.
+const TINY: f32 = 3.0;
+
+/// How many samples the largest of some triangles may cover.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Extent {
+    Tiny,
+    Few,
+    Many,
+}
 
 /// A setup, lane by lane.
 struct Lanes {
@@ -45,7 +55,7 @@ fn arrays<S: Simd>(affine: &Affine<S>) -> [[f32; 8]; 3] {
     [affine.at_middle.to_array(), affine.across.to_array(), affine.down.to_array()]
 }
 
-/// Tests some triangles of a leaf at the samples of the tile; tells whether one of them may cover many.
+/// Tests some triangles of a leaf at the samples of the tile; tells how many one of them may cover.
 #[inline(always)]
 pub(super) fn draw<S: Simd, O: Watcher + ?Sized, F: Fault>(
     simd: S,
@@ -54,14 +64,14 @@ pub(super) fn draw<S: Simd, O: Watcher + ?Sized, F: Fault>(
     (leaf, used): (&Leaf, u64),
     tile: &mut Tile,
     observer: &mut O,
-) -> bool {
+) -> Extent {
     let setup = Setup::new::<F>(simd, lens, tile.side(), leaf, used, tile.far);
     if O::WATCHES {
         tell(&setup, leaf, used, tile, observer);
     }
     let alive = setup.alive.to_bitmask();
     if alive == 0 {
-        return false;
+        return Extent::Tiny;
     }
     let doubtful = alive & setup.doubtful.to_bitmask();
     let wide = setup.columns[1] - setup.columns[0] + 1.0;
@@ -73,7 +83,12 @@ pub(super) fn draw<S: Simd, O: Watcher + ?Sized, F: Fault>(
         draw_few::<S, O>(simd, lens, &setup, few, samples, leaf, tile, observer);
     }
     let mut many = alive & !few & !doubtful;
-    let any_many = many != 0;
+    let tiny = samples.simd_le(f32x8::splat(simd, TINY)).to_bitmask();
+    let extent = match (many, few & !tiny) {
+        (0, 0) => Extent::Tiny,
+        (0, _) => Extent::Few,
+        _ => Extent::Many,
+    };
     while many != 0 {
         let lane = (many.trailing_zeros() & 7) as usize;
         many &= many - 1;
@@ -93,7 +108,7 @@ pub(super) fn draw<S: Simd, O: Watcher + ?Sized, F: Fault>(
         tile.settle::<O, F>(rays, &primitives, observer);
     }
     tile.renew(simd);
-    any_many
+    extent
 }
 
 /// Triangles over few samples: each lane goes through its own.

@@ -1,7 +1,7 @@
 //! The walk of a tile's rays through the hierarchy, near boxes first.
 
 use super::build::Prepared;
-use super::draw;
+use super::draw::{self, Extent};
 use super::rays::{Lens, LensKind, Rays};
 use super::round;
 use super::sieve::{self, Sieve};
@@ -88,15 +88,15 @@ impl<'a> Walker<'a> {
         self.stack.clear();
         let root = |&child: &Child| Open { near: f32::NEG_INFINITY, child, counts: 0 };
         self.stack.extend(self.prepared.roots.iter().map(root));
-        // Whether the last triangles that were drawn were large.
-        let mut coarse = true;
+        // That of the last triangles that were drawn.
+        let mut extent = Extent::Many;
         let mut farthest = self.farthest(&lens);
         loop {
             let Some(Open { near, child, counts }) = self.stack.pop() else {
                 if O::WATCHES || self.sieve.is_empty() {
                     break;
                 }
-                self.sift::<S, F>(simd, &lens, farthest, true);
+                self.sift::<S, F>(simd, &lens, farthest, extent, true);
                 continue;
             };
             if near > farthest {
@@ -112,17 +112,15 @@ impl<'a> Walker<'a> {
                     let used = if F::is(Planted::TiesToLast) { all } else { different };
                     let leaf = (child.index(), (1 << used) - 1);
                     // Who watches is told of every triangle.
-                    if O::WATCHES
-                        || ((coarse || self.tile.is_nearly_full()) && self.sieve.is_empty())
-                    {
-                        coarse = self.draw_leaf::<S, O, F>(simd, &lens, leaf, farthest, observer);
+                    let hurry = extent == Extent::Many || self.tile.is_nearly_full();
+                    if O::WATCHES || (hurry && self.sieve.is_empty()) {
+                        extent = self.draw_leaf::<S, O, F>(simd, &lens, leaf, farthest, observer);
                     } else {
                         let is_full = self.sieve.add(leaf);
-                        let hurry = coarse || self.tile.is_nearly_full();
                         if !(is_full || hurry) {
                             continue;
                         }
-                        coarse = self.sift::<S, F>(simd, &lens, farthest, hurry);
+                        extent = self.sift::<S, F>(simd, &lens, farthest, extent, hurry);
                     }
                 }
                 Kind::Spheres => {
@@ -149,7 +147,7 @@ impl<'a> Walker<'a> {
         lens.kind.rough.farthest(self.rays.farthest(self.tile.far, &lens.kind.errors))
     }
 
-    /// Draws those triangles of a leaf that may be seen; tells whether one of them is large, as it supposes
+    /// Draws those triangles of a leaf that may be seen; tells their extent, and supposes that they are large
     /// where there is none.
     #[inline(always)]
     fn draw_leaf<S: Simd, O: Watcher + ?Sized, F: Fault>(
@@ -159,37 +157,46 @@ impl<'a> Walker<'a> {
         (leaf, used): (usize, u64),
         farthest: f32,
         observer: &mut O,
-    ) -> bool {
+    ) -> Extent {
         let leaf = &self.prepared.leaves[leaf];
         let passed = if O::WATCHES {
             used
         } else {
-            sieve::pass(simd, lens, [leaf, leaf], farthest).to_bitmask() & used
+            sieve::pass(simd, lens, [leaf, leaf], farthest, false).to_bitmask() & used
         };
-        let of = (leaf, passed);
-        passed == 0 || draw::draw::<S, O, F>(simd, self.rays, lens, of, &mut self.tile, observer)
+        if passed == 0 {
+            return Extent::Many;
+        }
+        draw::draw::<S, O, F>(simd, self.rays, lens, (leaf, passed), &mut self.tile, observer)
     }
 
     /// Looks at the leaves that have waited longest, or all, and draws triangles, eight at a time; all of them
-    /// if they are large, which it tells, or `hurry` asks for it.
+    /// if they are large, or `hurry` asks for it. Takes and tells the extent of those that were drawn last.
     #[inline(always)]
     fn sift<S: Simd, F: Fault>(
         &mut self,
         simd: S,
         lens: &Lens,
         farthest: f32,
+        extent: Extent,
         hurry: bool,
-    ) -> bool {
-        let count = self.sieve.sift(simd, &self.prepared.leaves, lens, farthest, hurry);
-        let (mut drawn, mut coarse) = (0, false);
-        while count - drawn >= WIDTH || (count > drawn && (hurry || coarse)) {
-            let eight = self.sieve.eight(simd, drawn);
-            let of = (&eight, (1 << (count - drawn).min(WIDTH)) - 1);
-            coarse |= draw::draw::<S, (), F>(simd, self.rays, lens, of, &mut self.tile, &mut ());
-            drawn = count.min(drawn + WIDTH);
+    ) -> Extent {
+        let tiny = extent == Extent::Tiny;
+        self.sieve.sift(simd, &self.prepared.leaves, lens, farthest, tiny, hurry);
+        let mut largest = None;
+        loop {
+            let count = self.sieve.count();
+            let all = hurry || largest == Some(Extent::Many);
+            if count == 0 || (count < WIDTH && !all) {
+                break;
+            }
+            let eight = self.sieve.take_eight(simd);
+            let of = (&eight, (1 << count.min(WIDTH)) - 1);
+            let tile = &mut self.tile;
+            let extent = draw::draw::<S, (), F>(simd, self.rays, lens, of, tile, &mut ());
+            largest = largest.max(Some(extent));
         }
-        self.sieve.forget(simd, drawn);
-        coarse
+        largest.unwrap_or(extent.min(Extent::Few))
     }
 
     /// Tests the boxes of a node and opens those that a ray of the tile may meet, near ones last, so
