@@ -71,7 +71,7 @@ pub(super) fn draw<S: Simd, O: Watcher + ?Sized, F: Fault>(
     }
     let alive = setup.alive.to_bitmask();
     if alive == 0 {
-        return Extent::Tiny;
+        return Extent::Few;
     }
     let doubtful = alive & setup.doubtful.to_bitmask();
     let wide = setup.columns[1] - setup.columns[0] + 1.0;
