@@ -67,9 +67,10 @@ pub(super) fn build(scene: &Scene, side: usize) -> Prepared {
             continue;
         }
         let all = Part::new(items, 0, 0, false);
-        bounds = bounds.with(&all.bounds.bounds());
         let root = all.bounds.bounds();
+        bounds = bounds.with(&root);
         let (mut tree, child, counts) = Arena::grown(all, &Plot { kind, scene });
+        // Few primitives are a leaf; the walk begins at a node.
         if child.kind() != Kind::Node {
             tree.nodes.push(Node::empty());
             tree.attach(0, &root, child, counts);
@@ -88,12 +89,12 @@ pub(super) fn build(scene: &Scene, side: usize) -> Prepared {
             |corners, leaf| fill(&collected.triangles[first(leaf)], corners),
         )
         .collect();
-    let mut nodes = arena.nodes;
     let round = round.iter().map(|leaf| {
         let items = &collected.round[first(leaf)];
         std::array::from_fn(|lane| items.get(lane).unwrap_or(&items[0]).id())
     });
     // Spheres' leaves are counted from 0 again.
+    let mut nodes = arena.nodes;
     let renumbered = |child: &mut Child| {
         if child.kind() == Kind::Spheres {
             *child = Child::new(Kind::Spheres, child.index() - triangle_leaves);
@@ -151,7 +152,7 @@ fn put_twins_last(items: &mut [Item], corners: &mut Corners) -> usize {
 }
 
 /// The items of a leaf.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 struct LeafRange {
     first: u32,
     count: u8,
