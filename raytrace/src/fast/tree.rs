@@ -19,6 +19,8 @@ pub(super) struct Node {
     /// as an earlier one: `16·all + different`.
     pub(super) counts: [u8; WIDTH],
     pub(super) used: u8,
+    /// Whether there are only leaves in it.
+    pub(super) bottom: bool,
 }
 
 /// A node or a leaf: its kind in two bits, its number in the others.
@@ -89,7 +91,13 @@ impl Child {
 
 impl Node {
     pub(super) fn empty() -> Node {
-        Node { bounds: [[0.0; WIDTH]; 6], children: [Child(0); WIDTH], counts: [0; WIDTH], used: 0 }
+        Node {
+            bounds: [[0.0; WIDTH]; 6],
+            children: [Child(0); WIDTH],
+            counts: [0; WIDTH],
+            used: 0,
+            bottom: true,
+        }
     }
 
     pub(super) fn push(&mut self, bounds: &Bounds, child: Child) {
@@ -99,6 +107,7 @@ impl Node {
             self.bounds[3 + axis][lane] = bounds.high[axis];
         }
         self.children[lane] = child;
+        self.bottom &= child.kind() != Kind::Node;
         self.used += 1;
     }
 }

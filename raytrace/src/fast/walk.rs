@@ -104,7 +104,8 @@ impl<'a> Walker<'a> {
             }
             match child.kind() {
                 Kind::Node => {
-                    self.enter::<S, O, F>(simd, &lens, child.index(), farthest, observer);
+                    let tiny = extent == Extent::Tiny;
+                    self.enter::<S, O, F>(simd, &lens, child.index(), farthest, tiny, observer);
                     continue;
                 }
                 Kind::Triangles => {
@@ -200,7 +201,7 @@ impl<'a> Walker<'a> {
     }
 
     /// Tests the boxes of a node and opens those that a ray of the tile may meet, near ones last, so
-    /// first.
+    /// first; of leaves with `tiny` triangles any.
     ///
     /// A box is taken relative to the eye as vertices are, by one rounded subtraction. Rounding keeps
     /// order: in `f64`, what is computed from a box's corner is not less than what would be computed from any
@@ -213,6 +214,7 @@ impl<'a> Walker<'a> {
         lens: &Lens,
         index: usize,
         farthest: f32,
+        tiny: bool,
         observer: &mut O,
     ) {
         if F::is(Planted::ForgottenNode) && index == self.prepared.nodes.len() / 2 {
@@ -236,7 +238,9 @@ impl<'a> Walker<'a> {
             }
         }
         let near = near.to_array();
-        let base = self.stack.len();
+        // Where leaves wait for others anyway, sorting them costs more than it saves.
+        let sorted = !(tiny && node.bottom);
+        let base = if sorted { self.stack.len() } else { usize::MAX };
         while met != 0 {
             let lane = (met.trailing_zeros() & 7) as usize;
             met &= met - 1;
