@@ -4,7 +4,7 @@ use super::lanes::lanes_of;
 use super::setup::Affine;
 use super::tile::{Picture, TileBuffer, nearer_by};
 use bothways_common::fault::Fault;
-use bothways_common::frame::{NO_PRIMITIVE, Region};
+use bothways_common::frame::Region;
 use bothways_common::observe::{Sample, Watcher};
 use bothways_common::simd::{
     Select, Simd, SimdBase, SimdMask, f32x8, f32x16, mask32x16, u32x8, u32x16,
@@ -67,9 +67,6 @@ fn draw_blocks<const ACROSS: usize, S: Simd, O: Watcher + ?Sized, F: Fault>(
     let step = f32x16::splat(simd, const { own(16 / ACROSS, 0) });
     let to_next = down * buffer.stride();
 
-    // An earlier one that is the same triangle, once it is known: wherever it is seen, this one is not.
-    let mut twin = NO_PRIMITIVE;
-
     // Most triangles have one column of blocks: what depends on columns is computed once.
     for column in columns.clone().step_by(ACROSS) {
         let own_column = lane_column + own(column, first_column);
@@ -90,14 +87,11 @@ fn draw_blocks<const ACROSS: usize, S: Simd, O: Watcher + ?Sized, F: Fault>(
                 keep_row::<S, F>(simd, &brush, &tested, buffer, index)
             };
             if doubt.any_true() {
-                let seen = ids::<ACROSS, S>(simd, buffer, index);
-                let seen = seen.simd_eq(u32x16::splat(simd, twin));
-                let doubt = doubt & !(tested.inside & seen);
-                if doubt.any_true() {
-                    let masks = [doubt.to_bitmask(), tested.inside.to_bitmask()];
-                    let fragments = (brush.id, tested.keys.to_array());
-                    leave_open::<ACROSS, O, F>(fragments, picture, buffer, first, masks);
-                    twin = buffer.twin::<O, F>(brush.id);
+                let masks = [doubt.to_bitmask(), tested.inside.to_bitmask()];
+                let fragments = (brush.id, tested.keys.to_array());
+                leave_open::<ACROSS, O, F>(fragments, picture, buffer, first, masks);
+                if buffer.is_twin::<O, F>(brush.id) {
+                    return;
                 }
             }
             own_row += step;
@@ -176,19 +170,6 @@ impl<S: Simd> Brush<S> {
             perhaps: least.simd_ge(-self.error),
             keys: at_top[3] + self.keys[2] * row,
         }
-    }
-}
-
-/// The ids of sixteen samples.
-#[inline(always)]
-fn ids<const ACROSS: usize, S: Simd>(simd: S, buffer: &mut TileBuffer, index: usize) -> u32x16<S> {
-    let stride = buffer.stride();
-    let (ids, _) = buffer.from(index);
-    if ACROSS == 8 {
-        let (upper, lower) = (&ids[..8], &ids[stride..stride + 8]);
-        simd.combine_u32x8(u32x8::from_slice(simd, upper), u32x8::from_slice(simd, lower))
-    } else {
-        u32x16::from_slice(simd, &ids[..16])
     }
 }
 

@@ -173,12 +173,11 @@ impl TileBuffer {
         self.keys[index] != NOTHING && id > holder && self.are_same(picture, [id, holder])
     }
 
-    /// The earlier primitive that was last found to be the same triangle as this one, if it was this one that was
-    /// compared last: where both are seen, this one need not be drawn.
-    pub(super) fn twin<O: Watcher + ?Sized, F: Fault>(&self, id: u32) -> u32 {
+    /// Whether this primitive is known to be the same triangle as an earlier one in the tile, so that it is seen
+    /// nowhere.
+    pub(super) fn is_twin<O: Watcher + ?Sized, F: Fault>(&self, id: u32) -> bool {
         let ([last, holder], are_same) = self.compared;
-        let is_twin = drops_ties::<O, F>() && are_same && last == id && holder < id;
-        if is_twin { holder } else { NO_PRIMITIVE }
+        drops_ties::<O, F>() && are_same && last == id && holder < id
     }
 
     /// Whether two primitives are the same triangle: they mostly meet at several samples, one after the
