@@ -1,6 +1,6 @@
 //! Draws what a frame costs in both orders: time against triangles, and time against pixels.
 //!
-//! `cargo bench --bench cost_curves -- FOLDER` measures, prints every point, and writes
+//! `cargo bench --bench cost_curves -- FOLDER` measures, prints every measurement, and writes
 //! `cost-triangles.svg` and `cost-pixels.svg`; without FOLDER, into `target/cost-curves`. One thread;
 //! a sphere that is seen whole; the median of some frames of visibility after a warm-up, as
 //! `render --repeat` measures them, and of several rounds over all points the least, so that what else the
