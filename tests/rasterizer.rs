@@ -131,10 +131,15 @@ fn sheet(z: f32) -> Mesh {
 fn what_is_hidden_is_left_out_and_nothing_else() {
     let generated = |kind: Kind, divisions| kind.mesh(divisions).expect("it can be divided so");
     let ball = generated(Kind::Sphere, [24, 16]);
+    let coarse = generated(Kind::Sphere, [10, 7]);
     let ring = generated(Kind::Torus, [24, 14]);
     let moved = |mesh: &Mesh, by: Vec3, size: f32| {
         let positions = mesh.positions().iter().map(|position| *position * size + by).collect();
         Mesh::new(positions, mesh.triangles().to_vec()).expect("it is a mesh")
+    };
+    let doubled = |mesh: &Mesh| {
+        let triangles = [mesh.triangles(), mesh.triangles()].concat();
+        Mesh::new(mesh.positions().to_vec(), triangles).expect("it is a mesh")
     };
     // Twice the same in another order: everything ties. Sheets of which each is nearer by a thousandth than
     // the one before; a far one keeps depth keys from spreading.
@@ -143,6 +148,7 @@ fn what_is_hidden_is_left_out_and_nothing_else() {
         ("a shuffled ball", vec![shuffled(&ball)]),
         ("a ring", vec![ring.clone(), moved(&ring, Vec3::new(0.3, 0.1, -0.2), 0.8)]),
         ("a ring twice", vec![shuffled(&ring), ring.clone()]),
+        ("every triangle twice in a mesh", vec![shuffled(&doubled(&coarse))]),
         ("a ball in a ball", vec![moved(&ball, Vec3::ZERO, 0.999), shuffled(&ball)]),
         ("sheets", [-9.0, 0.0, 0.001, 0.002, 0.003].map(sheet).to_vec()),
         ("behind a ball", vec![moved(&ring, Vec3::new(-1.0, -0.7, -2.0), 0.5), ball.clone()]),
