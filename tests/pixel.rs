@@ -137,7 +137,7 @@ fn a_tie_is_derived_and_decided() {
     object order saw id 1 at t = 3.096774
       4 bounding regions around it, 4 primitive tests, 2 fragments, 1 depth comparison, 2 questions to the exact judge
     image order saw id 1 at t = 3.096774
-      8 box tests, 4 primitive tests, 1 fragment
+      15 box tests, 4 primitive tests, 1 fragment
 
     match: both orders saw what is nearest
     ");

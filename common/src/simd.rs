@@ -13,7 +13,7 @@
 pub use fearless_simd::prelude::*;
 pub use fearless_simd::{
     Level, Simd, dispatch, f32x8, f32x16, f64x8, i32x4, i32x16, mask32x8, mask32x16, mask64x8,
-    u32x8, u32x16,
+    u8x64, u32x8, u32x16,
 };
 
 /// Asks the machine to bring a value into its cache, as it will soon be needed. Changes nothing else.

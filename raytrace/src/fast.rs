@@ -18,8 +18,10 @@
 //! depends on nothing else. The frame is that of the tiles, watched or not.
 
 mod aligned;
+mod anchor;
 mod any_ray;
 mod build;
+mod corners;
 mod draw;
 mod leaf;
 mod rays;
@@ -45,7 +47,7 @@ pub use any_ray::{Hit, WorldRay, first_hit};
 pub use build::Prepared;
 
 /// Samples along one side of a tile.
-const SIDE: usize = 16;
+const SIDE: usize = 32;
 /// Columns of samples that one thread takes up at a time.
 const SHARE: usize = 512;
 

@@ -2,16 +2,18 @@
 //! cheapest.
 //!
 //! Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", IEEE Symposium on
-//! Interactive Ray Tracing, 2007; eight boxes a node as in Wald, Benthin and Boulos, "Getting Rid of
+//! Interactive Ray Tracing, 2007; sixteen boxes a node as in Wald, Benthin and Boulos, "Getting Rid of
 //! Packets", same venue, 2008.
 
 mod cut;
 mod items;
+mod leaves;
 mod planes;
 
-use super::tree::{Bounds, Child, Kind, Leaf, Node, WIDTH};
+use super::tree::{
+    Bounds, Child, Counts, Kind, LEAF, LEAF_KINDS, Node, Patch, SPHERES, Triangles, WIDTH,
+};
 use bothways_common::Scene;
-use bothways_common::predicate::are_same_corners;
 use bothways_common::simd::{Level, best_level};
 use cut::Branches;
 use items::{Box4, Corners, Item, collect};
@@ -27,8 +29,8 @@ const DEEP: usize = 64;
 #[derive(Clone, Debug)]
 pub struct Prepared {
     pub(super) nodes: Vec<Node>,
-    /// Eight triangles each.
-    pub(super) leaves: Vec<Leaf>,
+    pub(super) patches: Vec<Patch>,
+    pub(super) triangles: Vec<Triangles>,
     /// Where the walk begins: the triangles, and the spheres, as far as there are any.
     pub(super) roots: Vec<Child>,
     /// Around everything in the hierarchy.
@@ -37,8 +39,8 @@ pub struct Prepared {
     pub(super) unbounded: Vec<u32>,
     /// Spheres in boxes, and of each the extent that its box's margin was made for; see [`items::sphere`].
     pub(super) spheres: Vec<(u32, f32)>,
-    /// The ids of the spheres of the hierarchy's leaves, eight each; unused ones repeat the first.
-    pub(super) round: Vec<[u32; WIDTH]>,
+    /// The ids of the spheres of the hierarchy's leaves; unused ones repeat the first.
+    pub(super) round: Vec<[u32; SPHERES]>,
     pub(super) primitives: u32,
     pub(super) level: Level,
     pub(super) side: usize,
@@ -61,15 +63,15 @@ pub(super) fn build(scene: &Scene, side: usize) -> Prepared {
     let mut arena = Arena::default();
     let mut roots = Vec::new();
     let mut bounds = Bounds::EMPTY;
-    let kinds = [Kind::Triangles, Kind::Spheres];
-    for (kind, items) in kinds.into_iter().zip([&mut collected.triangles, &mut collected.round]) {
+    let parts = [(false, &mut collected.triangles), (true, &mut collected.round)];
+    for (round, items) in parts {
         if items.is_empty() {
             continue;
         }
         let all = Part::new(items, 0, 0, false);
         let root = all.bounds.bounds();
         bounds = bounds.with(&root);
-        let (mut tree, child, counts) = Arena::grown(all, &Plot { kind, scene });
+        let (mut tree, child, counts) = Arena::grown(all, &Plot { round, scene });
         // Few primitives are a leaf; the walk begins at a node.
         if child.kind() != Kind::Node {
             tree.nodes.push(Node::empty());
@@ -77,36 +79,15 @@ pub(super) fn build(scene: &Scene, side: usize) -> Prepared {
         }
         roots.push(arena.append(tree));
     }
-    let triangle_leaves = arena.leaves.iter().filter(|leaf| leaf.kind == Kind::Triangles).count();
-    let (flat, round) = arena.leaves.split_at(triangle_leaves);
-    let first =
-        |leaf: &LeafRange| leaf.first as usize..(leaf.first + u32::from(leaf.count)) as usize;
-    let leaves = flat
-        .par_iter()
-        .with_min_len(64)
-        .map_init(
-            || Corners::new(scene),
-            |corners, leaf| fill(&collected.triangles[first(leaf)], corners),
-        )
-        .collect();
-    let round = round.iter().map(|leaf| {
-        let items = &collected.round[first(leaf)];
-        std::array::from_fn(|lane| items.get(lane).unwrap_or(&items[0]).id())
-    });
-    // Spheres' leaves are counted from 0 again.
-    let mut nodes = arena.nodes;
-    let renumbered = |child: &mut Child| {
-        if child.kind() == Kind::Spheres {
-            *child = Child::new(Kind::Spheres, child.index() - triangle_leaves);
-        }
-    };
-    if round.len() > 0 {
-        nodes.iter_mut().flat_map(|node| &mut node.children).for_each(renumbered);
-    }
+    let [patches, triangles, round] = &arena.leaves;
+    let (flat, balls) = (&collected.triangles, &collected.round);
     Prepared {
-        leaves,
-        round: round.collect(),
-        nodes,
+        patches: filled(scene, flat, patches, leaves::patch),
+        triangles: filled(scene, flat, triangles, leaves::triangles),
+        round: filled(scene, balls, round, |items, _| {
+            std::array::from_fn(|lane| items.get(lane).unwrap_or(&items[0]).id())
+        }),
+        nodes: arena.nodes,
         roots,
         bounds,
         unbounded: collected.unbounded,
@@ -117,38 +98,16 @@ pub(super) fn build(scene: &Scene, side: usize) -> Prepared {
     }
 }
 
-/// The leaf of some triangles.
-fn fill(items: &[Item], corners: &mut Corners) -> Leaf {
-    let mut leaf = Leaf { corners: [[0.0; WIDTH]; 9], ids: [items[0].id(); WIDTH] };
-    for lane in 0..WIDTH {
-        let id = items.get(lane).unwrap_or(&items[0]).id();
-        leaf.ids[lane] = id;
-        for (corner, position) in corners.of(id).into_iter().enumerate() {
-            for axis in 0..3 {
-                leaf.corners[3 * corner + axis][lane] = position[axis];
-            }
-        }
-    }
-    leaf
-}
-
-/// Orders the triangles of a leaf so that those which are the same as one with a smaller id, and so never
-/// seen, come last; tells how many others there are.
-fn put_twins_last(items: &mut [Item], corners: &mut Corners) -> usize {
-    let box_of = |item: &Item| (item.low.truncate(), item.high.truncate());
-    items.sort_unstable_by_key(Item::id);
-    let mut different = 0;
-    for k in 0..items.len() {
-        let is_twin = |other: &Item| box_of(other) == box_of(&items[k]);
-        let twin = items[..different].iter().any(|other| {
-            is_twin(other) && are_same_corners(&corners.of(other.id()), &corners.of(items[k].id()))
-        });
-        if !twin {
-            items[different..=k].rotate_right(1);
-            different += 1;
-        }
-    }
-    different
+/// Leaves of one kind.
+fn filled<L: Send>(
+    scene: &Scene,
+    items: &[Item],
+    ranges: &[LeafRange],
+    leaf: impl Fn(&[Item], &mut Corners) -> L + Sync,
+) -> Vec<L> {
+    let ranges = ranges.par_iter().with_min_len(64);
+    let of = |range: &LeafRange| &items[range.first as usize..][..usize::from(range.count)];
+    ranges.map_init(|| Corners::new(scene), |corners, range| leaf(of(range), corners)).collect()
 }
 
 /// The items of a leaf.
@@ -156,20 +115,27 @@ fn put_twins_last(items: &mut [Item], corners: &mut Corners) -> usize {
 struct LeafRange {
     first: u32,
     count: u8,
-    kind: Kind,
 }
 
 /// Nodes and leaves of the hierarchy, or of a part of it, in depth-first order.
 #[derive(Default)]
 struct Arena {
     nodes: Vec<Node>,
-    leaves: Vec<LeafRange>,
+    leaves: [Vec<LeafRange>; LEAF_KINDS],
 }
 
 /// What all parts of one hierarchy share.
 struct Plot<'a> {
-    kind: Kind,
+    /// Whether it is that of the spheres.
+    round: bool,
     scene: &'a Scene,
+}
+
+impl Plot<'_> {
+    /// How many primitives a leaf has at most.
+    fn most(&self) -> usize {
+        if self.round { SPHERES } else { LEAF }
+    }
 }
 
 impl<'a> Part<'a> {
@@ -186,8 +152,8 @@ impl<'a> Part<'a> {
 
 impl Arena {
     /// Builds the hierarchy of a part, from its first node on. If there are many primitives, splits the part with
-    /// the largest box until there are eight.
-    fn grown(whole: Part, plot: &Plot) -> (Arena, Child, u8) {
+    /// the largest box until a node is full.
+    fn grown(whole: Part, plot: &Plot) -> (Arena, Child, Counts) {
         let mut arena = Arena::default();
         if whole.items.len() < SERIAL {
             let (child, counts) = Branches::new(whole, plot).place(&mut arena);
@@ -195,7 +161,8 @@ impl Arena {
         }
         let mut parts = vec![whole];
         while parts.len() < WIDTH {
-            let divisible = parts.iter().enumerate().filter(|(_, part)| part.items.len() > WIDTH);
+            let divisible =
+                parts.iter().enumerate().filter(|(_, part)| part.items.len() > plot.most());
             let areas = divisible.map(|(index, part)| (index, part.bounds.half_area()));
             let Some((largest, _)) = areas.max_by(|a, b| a.1.total_cmp(&b.1)) else { break };
             match split(parts.remove(largest), plot) {
@@ -205,17 +172,17 @@ impl Arena {
         }
         arena.nodes.push(Node::empty());
         let bounds: Vec<Bounds> = parts.iter().map(|part| part.bounds.bounds()).collect();
-        let grown: Vec<(Arena, Child, u8)> =
+        let grown: Vec<(Arena, Child, Counts)> =
             parts.into_par_iter().map(|part| Arena::grown(part, plot)).collect();
         for ((part, child, counts), bounds) in grown.into_iter().zip(bounds) {
-            let child = child.moved(arena.nodes.len(), arena.leaves.len());
+            let child = child.moved(arena.nodes.len(), arena.leaf_counts());
             arena.append(part);
             arena.attach(0, &bounds, child, counts);
         }
-        (arena, Child::new(Kind::Node, 0), 0)
+        (arena, Child::new(Kind::Node, 0), Counts::default())
     }
 
-    fn attach(&mut self, node: usize, bounds: &Bounds, child: Child, counts: u8) {
+    fn attach(&mut self, node: usize, bounds: &Bounds, child: Child, counts: Counts) {
         let node = &mut self.nodes[node];
         node.counts[usize::from(node.used)] = counts;
         node.push(bounds, child);
@@ -223,19 +190,25 @@ impl Arena {
 
     /// Takes in a part that was built beside this one, and says where it begins now.
     fn append(&mut self, part: Arena) -> Child {
-        let (nodes, leaves) = (self.nodes.len(), self.leaves.len());
+        let (nodes, leaves) = (self.nodes.len(), self.leaf_counts());
         self.nodes.extend(part.nodes.into_iter().map(|mut node| {
             for child in &mut node.children[..usize::from(node.used)] {
                 *child = child.moved(nodes, leaves);
             }
             node
         }));
-        self.leaves.extend(part.leaves);
+        for (leaves, more) in self.leaves.iter_mut().zip(part.leaves) {
+            leaves.extend(more);
+        }
         Child::new(Kind::Node, nodes)
+    }
+
+    fn leaf_counts(&self) -> [usize; LEAF_KINDS] {
+        [0, 1, 2].map(|kind: usize| self.leaves[kind].len())
     }
 }
 
-/// A part of more than eight primitives, divided in two, or without those that were in it twice.
+/// A part of more primitives than a leaf holds, divided in two, or without those that were in it twice.
 enum Split<'a> {
     Halves([Part<'a>; 2]),
     Distinct(Part<'a>),
@@ -243,14 +216,14 @@ enum Split<'a> {
 
 fn split<'a>(part: Part<'a>, plot: &Plot) -> Split<'a> {
     let Part { items, middles, first, depth, distinct, .. } = part;
-    let best = cheapest_plane(items, &middles).filter(|_| depth < DEEP);
+    let best = cheapest_plane(items, &middles, plot.most()).filter(|_| depth < DEEP);
     let Some(plane) = best else {
-        if plot.kind == Kind::Triangles && !distinct {
+        if !plot.round && !distinct {
             let count = leave_out_twins(items, plot);
             return Split::Distinct(Part::new(&mut items[..count], first, depth, true));
         }
         // All in one place, or too deep: any half is as good as any other, if only it is whole leaves.
-        let half = (items.len() / 2).next_multiple_of(WIDTH).min(items.len() - 1);
+        let half = (items.len() / 2).next_multiple_of(plot.most()).min(items.len() - 1);
         let (left, right) = items.split_at_mut(half);
         let left = Part::new(left, first, depth + 1, distinct);
         return Split::Halves([left, Part::new(right, first + half, depth + 1, distinct)]);

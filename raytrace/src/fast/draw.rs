@@ -4,9 +4,8 @@
 //! time, first at sixteen blocks at once, then at the sixteen samples of each block that is left.
 
 use super::rays::{Lens, Rays};
-use super::setup::{Affine, Setup};
+use super::setup::{Affine, Eight, Setup};
 use super::tile::{Tile, index, place};
-use super::tree::Leaf;
 use bothways_common::Sign;
 use bothways_common::exact_grid::TIE;
 use bothways_common::fault::Fault;
@@ -55,19 +54,19 @@ fn arrays<S: Simd>(affine: &Affine<S>) -> [[f32; 8]; 3] {
     [affine.at_middle.to_array(), affine.across.to_array(), affine.down.to_array()]
 }
 
-/// Tests some triangles of a leaf at the samples of the tile; tells how many one of them may cover.
+/// Tests some of eight triangles at the samples of the tile; tells how many one of them may cover.
 #[inline(always)]
 pub(super) fn draw<S: Simd, O: Watcher + ?Sized, F: Fault>(
     simd: S,
     rays: &Rays,
     lens: &Lens,
-    (leaf, used): (&Leaf, u64),
+    (eight, used): (&Eight, u64),
     tile: &mut Tile,
     observer: &mut O,
 ) -> Extent {
-    let setup = Setup::new::<F>(simd, lens, tile.side(), leaf, used, tile.far);
+    let setup = Setup::new::<F>(simd, lens, tile.side(), eight, used, tile.far);
     if O::WATCHES {
-        tell(&setup, leaf, used, tile, observer);
+        tell(&setup, eight, used, tile, observer);
     }
     let alive = setup.alive.to_bitmask();
     if alive == 0 {
@@ -80,7 +79,7 @@ pub(super) fn draw<S: Simd, O: Watcher + ?Sized, F: Fault>(
     let few = samples.simd_le(f32x8::splat(simd, FEW)).to_bitmask() & alive & !doubtful;
     let lanes = Lanes::new(&setup);
     if few != 0 {
-        draw_few::<S, O>(simd, lens, &setup, few, samples, leaf, tile, observer);
+        draw_few::<S, O>(simd, lens, &setup, few, samples, eight, tile, observer);
     }
     let mut many = alive & !few & !doubtful;
     let tiny = samples.simd_le(f32x8::splat(simd, TINY)).to_bitmask();
@@ -92,19 +91,19 @@ pub(super) fn draw<S: Simd, O: Watcher + ?Sized, F: Fault>(
     while many != 0 {
         let lane = (many.trailing_zeros() & 7) as usize;
         many &= many - 1;
-        draw_many::<S>(simd, lens, &lanes, lane, leaf.ids[lane], tile);
+        draw_many::<S>(simd, lens, &lanes, lane, eight.ids[lane], tile);
     }
     let mut doubtful = doubtful;
     while doubtful != 0 {
         let lane = (doubtful.trailing_zeros() & 7) as usize;
         doubtful &= doubtful - 1;
-        if !tile.is_edge_on(leaf.ids[lane], &leaf.primitive(&rays.view, lane)) {
+        if !tile.is_edge_on(eight.ids[lane], &eight.primitive(&rays.view, lane)) {
             (0..tile.blocks() * 16).for_each(|sample| tile.leave_open(sample, lane, false));
         }
     }
     if tile.has_open() {
         let primitives =
-            std::array::from_fn(|lane| (leaf.ids[lane], leaf.primitive(&rays.view, lane)));
+            std::array::from_fn(|lane| (eight.ids[lane], eight.primitive(&rays.view, lane)));
         tile.settle::<O, F>(rays, &primitives, observer);
     }
     tile.renew(simd);
@@ -120,7 +119,7 @@ fn draw_few<S: Simd, O: Watcher + ?Sized>(
     setup: &Setup<S>,
     few: u64,
     samples: f32x8<S>,
-    leaf: &Leaf,
+    eight: &Eight,
     tile: &mut Tile,
     observer: &mut O,
 ) {
@@ -164,7 +163,7 @@ fn draw_few<S: Simd, O: Watcher + ?Sized>(
                 let at =
                     index(tile.side(), rows[lane] as u32 as usize, columns[lane] as u32 as usize);
                 let certain = inside >> lane & 1 == 1;
-                tile.fragment(at, lane, leaf.ids[lane], certain, low[lane], high[lane], observer);
+                tile.fragment(at, lane, eight.ids[lane], certain, low[lane], high[lane], observer);
             }
         }
         done += one;
@@ -329,11 +328,11 @@ impl Tile {
     }
 }
 
-/// Tells of the tests of a leaf's triangles against the only ray of a tile, as far as they are certain.
+/// Tells of the tests of triangles against the only ray of a tile, as far as they are certain.
 #[cold]
 fn tell<S: Simd, O: Watcher + ?Sized>(
     setup: &Setup<S>,
-    leaf: &Leaf,
+    eight: &Eight,
     used: u64,
     tile: &Tile,
     observer: &mut O,
@@ -343,7 +342,7 @@ fn tell<S: Simd, O: Watcher + ?Sized>(
     let (error, facing) = (setup.error.to_array(), setup.facing.to_array());
     let doubtful = setup.doubtful.to_bitmask();
     for lane in (0..8).filter(|lane| used >> lane & 1 == 1) {
-        observer.sample_tested(sample, leaf.ids[lane]);
+        observer.sample_tested(sample, eight.ids[lane]);
         let edges = values.map(|values| values[lane]);
         let out = edges.iter().any(|edge| *edge < -error[lane]);
         let inside = edges.iter().all(|edge| *edge > error[lane]);
@@ -353,7 +352,7 @@ fn tell<S: Simd, O: Watcher + ?Sized>(
                 let sign = if on_edge { 0.0 } else { f64::from(facing[lane] * edge) };
                 (edge.abs() > error[lane]).then(|| Sign::of(sign))
             };
-            observer.edge_signs(sample, leaf.ids[lane], edges.map(sign));
+            observer.edge_signs(sample, eight.ids[lane], edges.map(sign));
         }
     }
 }

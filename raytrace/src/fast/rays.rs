@@ -8,7 +8,8 @@
 //!
 //! What is computed here is computed with rounding: [`Errors`] bounds what that does.
 
-use super::rough::{self, Plane, Rough};
+use super::anchor;
+use super::rough::{self, Plane};
 use bothways_common::exact_grid::ExactGrid;
 use bothways_common::{Camera, Projection, SampleGrid, View};
 use glam::DVec3;
@@ -41,8 +42,10 @@ pub(super) struct Lens<'a> {
     pub(super) shift: [f64; 3],
     /// The column and row of the tile's middle.
     pub(super) middle: [f64; 2],
-    /// The map in `f32`.
-    pub(super) rough: Rough,
+    /// The map's rows in `f32`.
+    pub(super) normals: [[f32; 3]; 3],
+    /// The tile's sides: not negative, but for [`rough::Kind::sides_error`], where one of its rays meets a box.
+    pub(super) sides: [Plane; 4],
 }
 
 /// What the lenses of all tiles of one size have in common.
@@ -66,8 +69,9 @@ pub(super) struct LensKind {
     axes: [DVec3; 3],
     slopes: [DVec3; 2],
     pub(super) errors: Errors,
-    /// What the map in `f32` needs.
+    /// What boxes need, and what vertices need.
     pub(super) rough: rough::Kind,
+    pub(super) places: anchor::Errors,
 }
 
 /// How far what is computed may be from what is meant.
@@ -200,14 +204,35 @@ impl<'a> Rays<'a> {
                 offset: if parallel { largest / g } else { 0.0 },
                 wide,
                 beside: if parallel { 0.0 } else { wide },
-                sample: errors.sample
-                    * far
-                    * if parallel { 1.0 } else { a * size_of_t.element_sum() },
             },
         );
+        // Of `t`, an error counts once for each column to the tile's side, so about twice; and it is that of an
+        // anchor and of the other vertices' offsets from it.
+        let exact = 10.0 * errors.corner
+            + errors.sample * far * if parallel { 1.0 } else { a * size_of_t.element_sum() };
+        let places = anchor::Errors::new(&anchor::Sizes {
+            reach: a,
+            place: of(1).max(of(2)).element_sum(),
+            t: if parallel { 0.0 } else { size_of_t.element_sum() },
+            wide,
+            exact,
+        });
         let eye = self.eye.to_array();
         let (frame, grid) = ([u, v, w], ExactGrid::new(camera, &self.grid));
-        LensKind { parallel, side, half, wide, eye, frame, grid, axes, slopes, errors, rough }
+        LensKind {
+            parallel,
+            side,
+            half,
+            wide,
+            eye,
+            frame,
+            grid,
+            axes,
+            slopes,
+            errors,
+            rough,
+            places,
+        }
     }
 
     /// The rays of a square of samples. It may reach over the picture's end.
@@ -225,19 +250,16 @@ impl<'a> Rays<'a> {
         } else {
             ([0.0; 3], kind.wide * t, 0.0)
         };
-        let rough = Rough {
-            across: Plane::new(across, shift[1]),
-            down: Plane::new(down, shift[2]),
-            sides: [
-                Plane::new(side - across, offset - shift[1]),
-                Plane::new(side + across, offset + shift[1]),
-                Plane::new(side - down, offset - shift[2]),
-                Plane::new(side + down, offset + shift[2]),
-            ],
-        };
+        let sides = [
+            Plane::new(side - across, offset - shift[1]),
+            Plane::new(side + across, offset + shift[1]),
+            Plane::new(side - down, offset - shift[2]),
+            Plane::new(side + down, offset + shift[2]),
+        ];
+        let normals = [t, across, down].map(|row| row.as_vec3().to_array());
         let rows = [t.to_array(), across.to_array(), down.to_array()];
         let middle = [count(column) + kind.half, count(row) + kind.half];
-        Lens { kind, rows, shift, middle, rough }
+        Lens { kind, rows, shift, middle, normals, sides }
     }
 
     /// The key interval of an interval of `t`, widened to `f32`s.

@@ -1,23 +1,14 @@
-//! The map of [`super::rays`] in `f32`: where things are in a tile, roughly, and how far off that may be.
-//! It says what certainly misses the tile or lies behind its hits; what it lets pass is looked at again.
+//! The sides of a tile and `t` in `f32`, and how far off they may be. They say which boxes certainly miss the tile or
+//! lie behind its hits.
 
-use bothways_common::simd::{Simd, f32x8};
+use bothways_common::simd::{Simd, f32x16};
 use glam::DVec3;
 use std::ops::{Add, Mul};
 
 /// Half of 2⁻²³.
-const U: f64 = f32::EPSILON as f64 / 2.0;
+pub(super) const U: f64 = f32::EPSILON as f64 / 2.0;
 /// Of numbers beyond, sums may overflow.
-const LARGEST: f64 = 1e38;
-
-/// A tile's map, but for `t`, and its sides.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Rough {
-    pub(super) across: Plane,
-    pub(super) down: Plane,
-    /// Not negative, but for [`Kind::sides_error`], where a ray of the tile meets a box.
-    pub(super) sides: [Plane; 4],
-}
+pub(super) const LARGEST: f64 = 1e38;
 
 /// What all tiles have in common. Errors are infinite if numbers might overflow.
 #[derive(Clone, Copy, Debug)]
@@ -27,15 +18,13 @@ pub(super) struct Kind {
     /// How far computed values may be off: those of `t`, and those for sides.
     pub(super) t_error: f32,
     pub(super) sides_error: f32,
-    /// That of a coordinate minus a sample's times `t`, which is 1 of a parallel camera.
-    pub(super) column_error: f32,
 }
 
 /// An affine function in the world.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plane {
-    normal: [f32; 3],
-    offset: f32,
+    pub(super) normal: [f32; 3],
+    pub(super) offset: f32,
 }
 
 /// What bounds the values of a map.
@@ -52,8 +41,6 @@ pub(super) struct Sizes {
     /// of a parallel camera.
     pub(super) wide: f64,
     pub(super) beside: f64,
-    /// By how much samples may be off, times `t`.
-    pub(super) sample: f64,
 }
 
 impl Kind {
@@ -67,25 +54,19 @@ impl Kind {
     /// what of these products is of second order, and than all roundings in `f64`, which are 2⁻²⁶ times as
     /// large (those of a parallel `t`, too, thanks to the offset that it does not have). What underflows is
     /// less than the smallest normal number, times the reach where it is a normal's coordinate.
-    ///
-    /// *Columns.* `x − k·t`, and `t` added to it, round by at most 2 of `x` and 3 of `(k + 1)·t` more; half of the
-    /// 6.5 that stand for the errors of both is more.
     pub(super) fn new(eye: DVec3, row_of_t: DVec3, sizes: &Sizes) -> Kind {
-        let Sizes { reach, t, place, offset, wide, beside, sample } = *sizes;
+        let Sizes { reach, t, place, offset, wide, beside } = *sizes;
         let error = |normal: DVec3, offset: f64| {
             let size = reach * normal.element_sum() + offset;
             let floor = f64::from(f32::MIN_POSITIVE) * (1.0 + reach);
             let largest = size.max(reach).max(normal.max_element());
             if largest < LARGEST { upward(6.5 * U * size + floor) } else { f32::INFINITY }
         };
-        let (t_error, place_error) = (error(t, offset), error(place, offset));
-        let column_error = f64::from(place_error) + (beside + 1.0) * f64::from(t_error);
         Kind {
             eye: eye.as_vec3().to_array(),
             t: Plane::new(row_of_t, 0.0),
-            t_error,
+            t_error: error(t, offset),
             sides_error: error(beside * t + place, wide + offset),
-            column_error: upward(1.5 * column_error + sample),
         }
     }
 
@@ -102,7 +83,7 @@ impl Plane {
         Plane { normal: normal.as_vec3().to_array(), offset: narrowed(offset) }
     }
 
-    /// Its value at points relative to the eye.
+    /// Its value at points, relative to where its offset is its value.
     #[inline(always)]
     pub(super) fn at<V>(&self, [x, y, z]: [V; 3]) -> V
     where
@@ -115,7 +96,11 @@ impl Plane {
     /// Its largest values in boxes, of which low and high sides are given relative to the eye; or its
     /// least ones.
     #[inline(always)]
-    pub(super) fn reach<S: Simd>(&self, [x, y, z]: &[[f32x8<S>; 2]; 3], largest: bool) -> f32x8<S> {
+    pub(super) fn reach<S: Simd>(
+        &self,
+        [x, y, z]: &[[f32x16<S>; 2]; 3],
+        largest: bool,
+    ) -> f32x16<S> {
         let [nx, ny, nz] = self.normal;
         // Where a coordinate does not grow along the normal, the other side is farther.
         let side = |n: f32| usize::from(n.is_sign_positive() == largest);
@@ -125,12 +110,12 @@ impl Plane {
 
 /// In `f32`, not less.
 #[inline(always)]
-fn upward(value: f64) -> f32 {
+pub(super) fn upward(value: f64) -> f32 {
     narrowed(value).next_up()
 }
 
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, reason = "one of the roundings")]
-fn narrowed(value: f64) -> f32 {
+pub(super) fn narrowed(value: f64) -> f32 {
     value as f32
 }

@@ -3,15 +3,24 @@
 
 use super::aligned::Aligned;
 use super::rays::Lens;
-use super::tree::Leaf;
 use bothways_common::fault::{Fault, Planted};
 use bothways_common::simd::{
     Select, Simd, SimdBase, SimdCombine, SimdFloat, SimdMask, SimdNarrow, SimdSplit, SimdWiden,
     f32x8, f32x16, f64x8, mask32x8,
 };
+use bothways_common::{Primitive, View};
+use glam::Vec3;
 
 /// Half of 2⁻²³.
 const U: f32 = f32::EPSILON / 2.0;
+
+/// Eight triangles as they are stored in the world, or fewer and others with them: x, y, z of the first corners, of
+/// the second, of the third.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Eight {
+    pub(super) corners: [[f32; 8]; 9],
+    pub(super) ids: [u32; 8],
+}
 
 /// An affine function in eight lanes: `at_middle + δj·across + δi·down`.
 #[derive(Clone, Copy, Debug)]
@@ -44,6 +53,16 @@ pub(super) struct Setup<S: Simd> {
     pub(super) doubtful: mask32x8<S>,
 }
 
+impl Eight {
+    /// One of its triangles relative to the eye.
+    pub(super) fn primitive(&self, view: &View, lane: usize) -> Primitive {
+        Primitive::Triangle(std::array::from_fn(|corner| {
+            let axes = std::array::from_fn(|axis| self.corners[3 * corner + axis][lane]);
+            view.offset(Vec3::from_array(axes))
+        }))
+    }
+}
+
 impl<S: Simd> Affine<S> {
     #[inline(always)]
     fn abs_slope(&self, half: f32x8<S>) -> f32x8<S> {
@@ -67,7 +86,7 @@ impl<S: Simd> Affine<S> {
 }
 
 impl<S: Simd> Setup<S> {
-    /// Sets up the triangles of a leaf. Nothing with a key below `far` can be seen.
+    /// Sets up the used ones of eight triangles. Nothing with a key below `far` can be seen.
     ///
     /// # The errors, rounding by rounding
     ///
@@ -99,12 +118,12 @@ impl<S: Simd> Setup<S> {
         simd: S,
         lens: &Lens,
         side: usize,
-        leaf: &Leaf,
+        eight: &Eight,
         used: u64,
         far: f32,
     ) -> Self {
         let blind = F::is(Planted::ZeroErrorBound);
-        let offsets = offsets(simd, lens, leaf);
+        let offsets = offsets(simd, lens, eight);
         let mapped = [map(offsets[0], lens), map(offsets[1], lens), map(offsets[2], lens)];
         let [a, b, c] = mapped;
         let (ab, bc, ca) = (minus(b, a), minus(c, b), minus(a, c));
@@ -237,8 +256,8 @@ impl<S: Simd> Setup<S> {
 
 /// The corners' offsets from the eye.
 #[inline(always)]
-fn offsets<S: Simd>(simd: S, lens: &Lens, leaf: &Leaf) -> [[f64x8<S>; 3]; 3] {
-    let rows = leaf.corners.as_flattened();
+fn offsets<S: Simd>(simd: S, lens: &Lens, eight: &Eight) -> [[f64x8<S>; 3]; 3] {
+    let rows = eight.corners.as_flattened();
     let (ax, ay) = f32x16::from_slice(simd, &rows[..16]).widen();
     let (az, bx) = f32x16::from_slice(simd, &rows[16..32]).widen();
     let (by, bz) = f32x16::from_slice(simd, &rows[32..48]).widen();

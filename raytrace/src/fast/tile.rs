@@ -137,11 +137,13 @@ impl Tile {
             let low = f32x16::from_slice(simd, &self.low[block * 16..block * 16 + 16]);
             self.block_far[block] = least(low);
         }
-        let mut far = f32x16::from_slice(simd, &self.block_far[..16]);
-        let open = far.simd_eq(f32x16::splat(simd, f32::NEG_INFINITY));
-        self.open_blocks = open.to_bitmask().count_ones();
-        for group in 1..self.blocks().div_ceil(16) {
-            far = far.min(f32x16::from_slice(simd, &self.block_far[group * 16..group * 16 + 16]));
+        let (mut far, nothing) =
+            (f32x16::splat(simd, f32::INFINITY), f32x16::splat(simd, f32::NEG_INFINITY));
+        self.open_blocks = 0;
+        for group in 0..self.blocks().div_ceil(16) {
+            let of_group = f32x16::from_slice(simd, &self.block_far[group * 16..group * 16 + 16]);
+            self.open_blocks += of_group.simd_eq(nothing).to_bitmask().count_ones();
+            far = far.min(of_group);
         }
         self.far = least(far);
     }

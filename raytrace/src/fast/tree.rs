@@ -1,23 +1,23 @@
-//! The hierarchy as the walk reads it: nodes of eight boxes, leaves of eight triangles, all as structures
-//! of arrays.
+//! The hierarchy as the walk reads it: nodes of sixteen boxes, leaves of up to sixteen triangles, all as structures of
+//! arrays.
 
-use bothways_common::Primitive;
-use bothways_common::View;
 use glam::Vec3;
 
-/// Boxes in a node, and triangles in a leaf.
-pub(super) const WIDTH: usize = 8;
+/// Boxes in a node.
+pub(super) const WIDTH: usize = 16;
+/// Triangles in a leaf at most, and vertices of a patch.
+pub(super) const LEAF: usize = 16;
+/// Spheres in a leaf at most.
+pub(super) const SPHERES: usize = 8;
 
-/// Eight boxes, and what is in them.
+/// Boxes, and what is in them.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(super) struct Node {
     /// Low x, y, z and high x, y, z of each box: coordinates of the scene, or rounded outward.
     pub(super) bounds: [[f32; WIDTH]; 6],
     pub(super) children: [Child; WIDTH],
-    /// Of a leaf, how many primitives it has, and behind how many begin those that are the same triangle
-    /// as an earlier one: `16·all + different`.
-    pub(super) counts: [u8; WIDTH],
+    pub(super) counts: [Counts; WIDTH],
     pub(super) used: u8,
     /// Whether there are only leaves in it.
     pub(super) bottom: bool,
@@ -30,18 +30,39 @@ pub(super) struct Child(u32);
 /// What a child is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
-    Node,
+    Patch,
     Triangles,
     Spheres,
+    Node,
 }
 
-/// Up to eight triangles, as they are stored in the world: x, y, z of the first corners, of the second,
-/// of the third. Unused ones repeat the first.
+/// How many kinds of leaves there are: those before nodes.
+pub(super) const LEAF_KINDS: usize = Kind::Node as usize;
+
+/// How many primitives a leaf has, and behind how many begin those that are the same triangle as an earlier
+/// one: both less one, in four bits each.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Counts(u8);
+
+/// A leaf of triangles that share their vertices, as those of most meshes do. Unused ones repeat the first.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
-pub(super) struct Leaf {
-    pub(super) corners: [[f32; WIDTH]; 9],
-    pub(super) ids: [u32; WIDTH],
+pub(super) struct Patch {
+    /// x, y and z of the vertices, as they are stored in the world.
+    pub(super) vertices: [[f32; LEAF]; 3],
+    /// Of each triangle the vertices `a`, `b`, `c`: at which byte of the rows they begin, four times their number.
+    /// The last byte is 0.
+    pub(super) corners: [[u8; 4]; LEAF],
+    pub(super) ids: [u32; LEAF],
+}
+
+/// A leaf of triangles that have more vertices. Unused ones repeat the first.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub(super) struct Triangles {
+    /// x, y, z of the first corners, of the second, of the third.
+    pub(super) corners: [[f32; LEAF]; 9],
+    pub(super) ids: [u32; LEAF],
 }
 
 /// An axis-aligned box in the world.
@@ -71,9 +92,10 @@ impl Child {
     #[inline(always)]
     pub(super) fn kind(self) -> Kind {
         match self.0 >> Self::BITS {
-            0 => Kind::Node,
+            0 => Kind::Patch,
             1 => Kind::Triangles,
-            _ => Kind::Spheres,
+            2 => Kind::Spheres,
+            _ => Kind::Node,
         }
     }
 
@@ -82,10 +104,12 @@ impl Child {
         (self.0 & ((1 << Self::BITS) - 1)) as usize
     }
 
-    /// The child of a part of the hierarchy that was built by itself, once nodes and leaves precede it.
-    pub(super) fn moved(self, nodes: usize, leaves: usize) -> Child {
-        let by = if self.kind() == Kind::Node { nodes } else { leaves };
-        Child::new(self.kind(), self.index() + by)
+    /// The child of a part of the hierarchy that was built by itself, once so many nodes and leaves of each kind
+    /// precede it.
+    pub(super) fn moved(self, nodes: usize, leaves: [usize; LEAF_KINDS]) -> Child {
+        let kind = self.kind();
+        let by = leaves.get(kind as usize).copied().unwrap_or(nodes);
+        Child::new(kind, self.index() + by)
     }
 }
 
@@ -94,7 +118,7 @@ impl Node {
         Node {
             bounds: [[0.0; WIDTH]; 6],
             children: [Child(0); WIDTH],
-            counts: [0; WIDTH],
+            counts: [Counts::default(); WIDTH],
             used: 0,
             bottom: true,
         }
@@ -112,15 +136,22 @@ impl Node {
     }
 }
 
-impl Leaf {
-    pub(super) fn corners(&self, lane: usize) -> [Vec3; 3] {
-        std::array::from_fn(|corner| {
-            Vec3::from_array(std::array::from_fn(|axis| self.corners[3 * corner + axis][lane]))
-        })
+impl Counts {
+    /// `1 ≤ different ≤ all ≤ 16`.
+    pub(super) fn new(all: usize, different: usize) -> Counts {
+        let less_one = |count: usize| u8::try_from(count - 1).ok().filter(|less| *less < 16);
+        let [all, different] =
+            [all, different].map(|count| less_one(count).expect("sixteen at most"));
+        Counts(all << 4 | different)
     }
 
-    /// One of its triangles relative to the eye.
-    pub(super) fn primitive(&self, view: &View, lane: usize) -> Primitive {
-        Primitive::Triangle(self.corners(lane).map(|corner| view.offset(corner)))
+    #[inline(always)]
+    pub(super) fn all(self) -> usize {
+        usize::from(self.0 >> 4) + 1
+    }
+
+    #[inline(always)]
+    pub(super) fn different(self) -> usize {
+        usize::from(self.0 & 15) + 1
     }
 }

@@ -4,12 +4,12 @@ use super::build::Prepared;
 use super::draw::{self, Extent};
 use super::rays::{Lens, LensKind, Rays};
 use super::round;
-use super::sieve::{self, Sieve};
+use super::sieve::{Look, Sieve, Waiting};
 use super::tile::Tile;
-use super::tree::{Child, Kind, Node, WIDTH};
+use super::tree::{Child, Counts, Kind, Node, WIDTH};
 use bothways_common::fault::{Fault, Planted};
 use bothways_common::observe::Watcher;
-use bothways_common::simd::{Simd, SimdBase, SimdMask, f32x8, mask32x8, prefetch};
+use bothways_common::simd::{Simd, SimdBase, SimdMask, f32x16, mask32x16, prefetch};
 use bothways_common::{Primitive, View};
 
 /// A node or leaf to enter yet.
@@ -17,8 +17,10 @@ use bothways_common::{Primitive, View};
 struct Open {
     /// None of its primitives is nearer than this `t`, in the scale of the map.
     near: f32,
+    /// The longest side of its box.
+    size: f32,
     child: Child,
-    counts: u8,
+    counts: Counts,
 }
 
 /// Walks tiles of one view through the hierarchy.
@@ -86,17 +88,22 @@ impl<'a> Walker<'a> {
             self.tile.renew(simd);
         }
         self.stack.clear();
-        let root = |&child: &Child| Open { near: f32::NEG_INFINITY, child, counts: 0 };
+        let root = |&child: &Child| Open {
+            near: f32::NEG_INFINITY,
+            size: f32::INFINITY,
+            child,
+            counts: Counts::default(),
+        };
         self.stack.extend(self.prepared.roots.iter().map(root));
         // That of the last triangles that were drawn.
         let mut extent = Extent::Many;
         let mut farthest = self.farthest(&lens);
         loop {
-            let Some(Open { near, child, counts }) = self.stack.pop() else {
-                if O::WATCHES || self.sieve.is_empty() {
+            let Some(Open { near, size, child, counts }) = self.stack.pop() else {
+                if self.sieve.is_empty() {
                     break;
                 }
-                self.sift::<S, F>(simd, &lens, farthest, extent, true);
+                self.sift::<S, O, F>(simd, &lens, extent, true, observer);
                 continue;
             };
             if near > farthest {
@@ -108,24 +115,18 @@ impl<'a> Walker<'a> {
                     self.enter::<S, O, F>(simd, &lens, child.index(), farthest, tiny, observer);
                     continue;
                 }
-                Kind::Triangles => {
-                    let [all, different] = [counts >> 4, counts & 15];
-                    let used = if F::is(Planted::TiesToLast) { all } else { different };
-                    let leaf = (child.index(), (1 << used) - 1);
-                    // Who watches is told of every triangle.
-                    let hurry = extent == Extent::Many || self.tile.is_nearly_full();
-                    if O::WATCHES || (hurry && self.sieve.is_empty()) {
-                        extent = self.draw_leaf::<S, O, F>(simd, &lens, leaf, farthest, observer);
-                    } else {
-                        let is_full = self.sieve.add(leaf);
-                        if !(is_full || hurry) {
-                            continue;
-                        }
-                        extent = self.sift::<S, F>(simd, &lens, farthest, extent, hurry);
+                Kind::Patch | Kind::Triangles => {
+                    let is_odd = F::is(Planted::TiesToLast);
+                    let used = if is_odd { counts.all() } else { counts.different() };
+                    let hurry = O::WATCHES || extent == Extent::Many || self.tile.is_nearly_full();
+                    let is_full = self.sieve.add(Waiting { leaf: child, used, near, size });
+                    if !(is_full || hurry) {
+                        continue;
                     }
+                    extent = self.sift::<S, O, F>(simd, &lens, extent, hurry, observer);
                 }
                 Kind::Spheres => {
-                    let count = usize::from(counts >> 4);
+                    let count = counts.all();
                     for &id in &self.prepared.round[child.index()][..count] {
                         let ball = self.rays.view.primitive(id);
                         round::draw::<O, F>(self.rays, &lens, id, &ball, &mut self.tile, observer);
@@ -148,56 +149,37 @@ impl<'a> Walker<'a> {
         lens.kind.rough.farthest(self.rays.farthest(self.tile.far, &lens.kind.errors))
     }
 
-    /// Draws those triangles of a leaf that may be seen; tells their extent, and supposes that they are large
-    /// where there is none.
-    #[inline(always)]
-    fn draw_leaf<S: Simd, O: Watcher + ?Sized, F: Fault>(
-        &mut self,
-        simd: S,
-        lens: &Lens,
-        (leaf, used): (usize, u64),
-        farthest: f32,
-        observer: &mut O,
-    ) -> Extent {
-        let leaf = &self.prepared.leaves[leaf];
-        let passed = if O::WATCHES {
-            used
-        } else {
-            sieve::pass(simd, lens, [leaf, leaf], farthest, false).to_bitmask() & used
-        };
-        if passed == 0 {
-            return Extent::Many;
-        }
-        draw::draw::<S, O, F>(simd, self.rays, lens, (leaf, passed), &mut self.tile, observer)
-    }
-
-    /// Looks at the leaves that have waited longest, or all, and draws triangles, eight at a time; all of them
+    /// Looks at the leaves that have waited longest, or at all, and draws triangles, eight at a time; all of them
     /// if they are large, or `hurry` asks for it. Takes and tells the extent of those that were drawn last.
     #[inline(always)]
-    fn sift<S: Simd, F: Fault>(
+    fn sift<S: Simd, O: Watcher + ?Sized, F: Fault>(
         &mut self,
         simd: S,
         lens: &Lens,
-        farthest: f32,
         extent: Extent,
         hurry: bool,
+        observer: &mut O,
     ) -> Extent {
-        let tiny = extent == Extent::Tiny;
-        self.sieve.sift(simd, &self.prepared.leaves, lens, farthest, tiny, hurry);
+        let look = match extent {
+            // Who watches is told of every triangle.
+            _ if O::WATCHES => Look::None,
+            Extent::Tiny | Extent::Few => Look::Edges,
+            Extent::Many => Look::Boxes,
+        };
+        self.sieve.sift(simd, self.prepared, lens, look, hurry);
         let mut largest = None;
         loop {
             let count = self.sieve.count();
             let all = hurry || largest == Some(Extent::Many);
-            if count == 0 || (count < WIDTH && !all) {
+            if count == 0 || (count < 8 && !all) {
                 break;
             }
             let eight = self.sieve.take_eight(simd);
-            let of = (&eight, (1 << count.min(WIDTH)) - 1);
-            let tile = &mut self.tile;
-            let extent = draw::draw::<S, (), F>(simd, self.rays, lens, of, tile, &mut ());
+            let of = (&eight, (1 << count.min(8)) - 1);
+            let extent = draw::draw::<S, O, F>(simd, self.rays, lens, of, &mut self.tile, observer);
             largest = largest.max(Some(extent));
         }
-        largest.unwrap_or(extent.min(Extent::Few))
+        largest.unwrap_or(extent)
     }
 
     /// Tests the boxes of a node and opens those that a ray of the tile may meet, near ones last, so
@@ -226,7 +208,7 @@ impl<'a> Walker<'a> {
             shrunk = shrink(node);
             node = &shrunk;
         }
-        let (near, met) = meet::<S, F>(simd, lens, node, farthest);
+        let ([near, size], met) = meet::<S, F>(simd, lens, node, farthest);
         let used = (1_u64 << node.used) - 1;
         let mut met = met.to_bitmask() & used;
         if O::WATCHES
@@ -237,23 +219,25 @@ impl<'a> Walker<'a> {
                 observer.node_opened(sample, number, met >> lane & 1 == 1);
             }
         }
-        let near = near.to_array();
+        let (near, size) = (near.to_array(), size.to_array());
         // Where leaves wait for others anyway, sorting them costs more than it saves.
         let sorted = !(tiny && node.bottom);
-        let base = if sorted { self.stack.len() } else { usize::MAX };
+        let base = self.stack.len();
         while met != 0 {
-            let lane = (met.trailing_zeros() & 7) as usize;
+            let lane = (met.trailing_zeros() & 15) as usize;
             met &= met - 1;
             let child = node.children[lane];
             match child.kind() {
                 Kind::Node => prefetch(&self.prepared.nodes[child.index()]),
-                Kind::Triangles => prefetch(&self.prepared.leaves[child.index()]),
+                Kind::Patch => prefetch(&self.prepared.patches[child.index()]),
+                Kind::Triangles => prefetch(&self.prepared.triangles[child.index()]),
                 Kind::Spheres => {}
             }
-            let open = Open { near: near[lane], child, counts: node.counts[lane] };
+            let open =
+                Open { near: near[lane], size: size[lane], child, counts: node.counts[lane] };
             self.stack.push(open);
             let mut place = self.stack.len() - 1;
-            while place > base && self.stack[place - 1].near < open.near {
+            while sorted && place > base && self.stack[place - 1].near < open.near {
                 self.stack[place] = self.stack[place - 1];
                 place -= 1;
             }
@@ -262,33 +246,36 @@ impl<'a> Walker<'a> {
     }
 }
 
-/// The nearest `t` of each box, and which boxes a ray of the tile may meet before `farthest`.
+/// The nearest `t` of each box, its longest side, and which boxes a ray of the tile may meet before `farthest`.
 #[inline(always)]
 fn meet<S: Simd, F: Fault>(
     simd: S,
-    Lens { kind, rough, .. }: &Lens,
+    Lens { kind, sides, .. }: &Lens,
     node: &Node,
     farthest: f32,
-) -> (f32x8<S>, mask32x8<S>) {
+) -> ([f32x16<S>; 2], mask32x16<S>) {
     let kind = &kind.rough;
     let [ex, ey, ez] = kind.eye;
     let [lx, ly, lz, hx, hy, hz] = &node.bounds;
     let boxes = [
-        [f32x8::load_array_ref(simd, lx) - ex, f32x8::load_array_ref(simd, hx) - ex],
-        [f32x8::load_array_ref(simd, ly) - ey, f32x8::load_array_ref(simd, hy) - ey],
-        [f32x8::load_array_ref(simd, lz) - ez, f32x8::load_array_ref(simd, hz) - ez],
+        [f32x16::load_array_ref(simd, lx) - ex, f32x16::load_array_ref(simd, hx) - ex],
+        [f32x16::load_array_ref(simd, ly) - ey, f32x16::load_array_ref(simd, hy) - ey],
+        [f32x16::load_array_ref(simd, lz) - ez, f32x16::load_array_ref(simd, hz) - ez],
     ];
-    let [left, right, upper, lower] = &rough.sides;
+    let [left, right, upper, lower] = sides;
     let across = left.reach(&boxes, true).min(right.reach(&boxes, true));
     let down = upper.reach(&boxes, true).min(lower.reach(&boxes, true));
     let (near, far) = (kind.t.reach(&boxes, false), kind.t.reach(&boxes, true));
     let room = if F::is(Planted::ShrunkBox) { 0.0 } else { kind.sides_error };
     let least_t = -kind.t_error;
     // NaN, from numbers that overflow, lets pass.
-    let missed = across.min(down).simd_lt(f32x8::splat(simd, -room))
-        | far.simd_lt(f32x8::splat(simd, least_t))
-        | near.simd_gt(f32x8::splat(simd, farthest));
-    (near, !missed)
+    let missed = across.min(down).simd_lt(f32x16::splat(simd, -room))
+        | far.simd_lt(f32x16::splat(simd, least_t))
+        | near.simd_gt(f32x16::splat(simd, farthest));
+    let width = f32x16::load_array_ref(simd, hx) - f32x16::load_array_ref(simd, lx);
+    let height = f32x16::load_array_ref(simd, hy) - f32x16::load_array_ref(simd, ly);
+    let depth = f32x16::load_array_ref(simd, hz) - f32x16::load_array_ref(simd, lz);
+    ([near, width.max(height).max(depth)], !missed)
 }
 
 /// A fault: boxes too small by the last place.

@@ -1,12 +1,13 @@
 //! Parts for one thread: split in two down to the leaves, and then cut into nodes so that these cost least.
 //!
-//! Splitting the largest box until a node has eight would leave most nodes at the bottom with two or three
+//! Splitting the largest box until a node is full would leave most nodes at the bottom with few
 //! leaves. Which splits to make boxes of is found by dynamic programming instead, as in Ylitie, Karras and Laine,
 //! "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", High-Performance Graphics, 2017.
 
-use super::super::tree::{Bounds, Child, Kind, Node, WIDTH};
+use super::super::tree::{Bounds, Child, Counts, Kind, Node, WIDTH};
 use super::items::Corners;
-use super::{Arena, LeafRange, Part, Plot, Split, put_twins_last, split};
+use super::leaves::{Gathered, put_twins_last};
+use super::{Arena, LeafRange, Part, Plot, Split, split};
 
 /// A part that was split all the way down.
 pub(super) struct Branches {
@@ -23,7 +24,7 @@ struct Branch {
 }
 
 enum BranchKind {
-    Leaf(LeafRange, u8),
+    Leaf(LeafRange, Kind, Counts),
     /// The numbers of its two halves.
     Fork([usize; 2]),
 }
@@ -38,7 +39,7 @@ impl Branches {
     /// Splits a part until leaves are left; tells its number, which is the last.
     fn divide(&mut self, mut part: Part, plot: &Plot) -> usize {
         let (bounds, weight) = (part.bounds.bounds(), part.bounds.half_area());
-        while part.items.len() > WIDTH {
+        while part.items.len() > plot.most() {
             match split(part, plot) {
                 Split::Halves([left, right]) => {
                     let halves = [self.divide(left, plot), self.divide(right, plot)];
@@ -48,15 +49,18 @@ impl Branches {
                 Split::Distinct(distinct) => part = distinct,
             }
         }
-        let different = match plot.kind {
-            Kind::Triangles => put_twins_last(part.items, &mut Corners::new(plot.scene)),
-            _ => part.items.len(),
+        let count = part.items.len();
+        let (kind, different) = if plot.round {
+            (Kind::Spheres, count)
+        } else {
+            let corners = &mut Corners::new(plot.scene);
+            let is_patch = Gathered::new(part.items, corners).is_some();
+            let kind = if is_patch { Kind::Patch } else { Kind::Triangles };
+            (kind, put_twins_last(part.items, corners))
         };
-        let number = |count: usize| u8::try_from(count).expect("eight at most");
-        let count = number(part.items.len());
         let first = u32::try_from(part.first).expect("ids are u32");
-        let leaf = LeafRange { first, count, kind: plot.kind };
-        let kind = BranchKind::Leaf(leaf, 16 * count + number(different));
+        let leaf = LeafRange { first, count: u8::try_from(count).expect("sixteen at most") };
+        let kind = BranchKind::Leaf(leaf, kind, Counts::new(count, different));
         self.add(Branch { bounds: part.bounds.bounds(), costs: [0.0; WIDTH], kind })
     }
 
@@ -90,15 +94,16 @@ impl Branches {
     }
 
     /// Puts its nodes and leaves into an arena; tells which is the first.
-    pub(super) fn place(&self, arena: &mut Arena) -> (Child, u8) {
+    pub(super) fn place(&self, arena: &mut Arena) -> (Child, Counts) {
         self.place_branch(self.all.len() - 1, arena)
     }
 
-    fn place_branch(&self, branch: usize, arena: &mut Arena) -> (Child, u8) {
+    fn place_branch(&self, branch: usize, arena: &mut Arena) -> (Child, Counts) {
         let halves = match self.all[branch].kind {
-            BranchKind::Leaf(leaf, counts) => {
-                arena.leaves.push(leaf);
-                return (Child::new(leaf.kind, arena.leaves.len() - 1), counts);
+            BranchKind::Leaf(leaf, kind, counts) => {
+                let leaves = &mut arena.leaves[kind as usize];
+                leaves.push(leaf);
+                return (Child::new(kind, leaves.len() - 1), counts);
             }
             BranchKind::Fork(halves) => halves,
         };
@@ -110,7 +115,7 @@ impl Branches {
             let (child, counts) = self.place_branch(branch, arena);
             arena.attach(index, &self.all[branch].bounds, child, counts);
         }
-        (Child::new(Kind::Node, index), 0)
+        (Child::new(Kind::Node, index), Counts::default())
     }
 
     /// Which branches two halves become as so many children of a node, or fewer; as many as cost no more.

@@ -1,6 +1,5 @@
 //! Where the surface area heuristic would split a part: between bins of its primitives' middles.
 
-use super::super::tree::WIDTH;
 use super::items::{Box4, Item};
 use glam::Vec4;
 use rayon::prelude::*;
@@ -66,11 +65,11 @@ pub(super) const NO_BINS: Bins = [[Bin { bounds: Box4::EMPTY, count: 0 }; BINS];
 
 pub(super) fn fill_bins(items: &[Item], grid: &Grid) -> Bins {
     if items.len() > LARGE {
-        let shares = items.par_chunks(LARGE / 4).map(|share| fill_bins(share, grid));
-        return shares.reduce(
+        let mosts = items.par_chunks(LARGE / 4).map(|most| fill_bins(most, grid));
+        return mosts.reduce(
             || NO_BINS,
-            |mut all, share| {
-                for (bin, more) in all.iter_mut().flatten().zip(share.as_flattened()) {
+            |mut all, most| {
+                for (bin, more) in all.iter_mut().flatten().zip(most.as_flattened()) {
                     bin.count += more.count;
                     bin.bounds = bin.bounds.with(more.bounds.low, more.bounds.high);
                 }
@@ -91,7 +90,7 @@ pub(super) fn fill_bins(items: &[Item], grid: &Grid) -> Bins {
 }
 
 /// The split that the surface area heuristic likes best; `None` if all middles are in one bin.
-pub(super) fn cheapest_plane(items: &[Item], middles: &Box4) -> Option<SplitPlane> {
+pub(super) fn cheapest_plane(items: &[Item], middles: &Box4, most: usize) -> Option<SplitPlane> {
     let grid = Grid::new(middles);
     let bins = fill_bins(items, &grid);
     let mut best: Option<SplitPlane> = None;
@@ -102,13 +101,13 @@ pub(super) fn cheapest_plane(items: &[Item], middles: &Box4) -> Option<SplitPlan
         for k in (1..BINS).rev() {
             count += bins[k].count;
             bounds = bounds.with(bins[k].bounds.low, bins[k].bounds.high);
-            beyond[k] = leaves(count) * bounds.half_area();
+            beyond[k] = leaves(count, most) * bounds.half_area();
         }
         let (mut count, mut bounds) = (0, Box4::EMPTY);
         for k in 1..BINS {
             count += bins[k - 1].count;
             bounds = bounds.with(bins[k - 1].bounds.low, bins[k - 1].bounds.high);
-            let cost = leaves(count) * bounds.half_area() + beyond[k];
+            let cost = leaves(count, most) * bounds.half_area() + beyond[k];
             let useful = count > 0 && count < items.len();
             if useful && best.is_none_or(|best| cost < best.cost) {
                 best = Some(SplitPlane { grid, axis, bin: k, cost });
@@ -118,8 +117,8 @@ pub(super) fn cheapest_plane(items: &[Item], middles: &Box4) -> Option<SplitPlan
     best
 }
 
-/// How many leaves so many primitives fill.
+/// How many leaves so many primitives fill, of so many at most.
 #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
-pub(super) fn leaves(count: usize) -> f64 {
-    count.div_ceil(WIDTH) as f64
+pub(super) fn leaves(count: usize, most: usize) -> f64 {
+    count.div_ceil(most) as f64
 }

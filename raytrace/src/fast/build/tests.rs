@@ -15,8 +15,33 @@ fn built(scene: &Scene) -> Prepared {
     build(scene, 16)
 }
 
-/// The depth of the hierarchy and the ids in it; checks that boxes hold what is under them.
-fn inspect(prepared: &Prepared) -> (usize, Vec<u32>) {
+/// The ids and the corners of a leaf's triangles.
+fn triangles(prepared: &Prepared, leaf: Child, count: usize) -> Vec<(u32, [Vec3; 3])> {
+    let triangle = |lane: usize| match leaf.kind() {
+        Kind::Patch => {
+            let patch = &prepared.patches[leaf.index()];
+            let [a, b, c, last] = patch.corners[lane];
+            assert_eq!(last, 0);
+            let vertex =
+                |byte: u8| Vec3::from_array(patch.vertices.map(|row| row[usize::from(byte / 4)]));
+            (patch.ids[lane], [a, b, c].map(vertex))
+        }
+        Kind::Triangles => {
+            let leaf = &prepared.triangles[leaf.index()];
+            let corner =
+                |k: usize| Vec3::from_array([0, 1, 2].map(|axis| leaf.corners[3 * k + axis][lane]));
+            (leaf.ids[lane], [0, 1, 2].map(corner))
+        }
+        kind => panic!("{kind:?} in a scene of triangles"),
+    };
+    // Unused lanes repeat the first.
+    assert!((count..LEAF).all(|lane| triangle(lane) == triangle(0)));
+    (0..count).map(triangle).collect()
+}
+
+/// The depth of the hierarchy and the ids in it; checks that boxes hold what is under them, and leaves
+/// the triangles of the scene.
+fn inspect(prepared: &Prepared, scene: &Scene) -> (usize, Vec<u32>) {
     let (mut deepest, mut ids) = (0, Vec::new());
     let mut open = vec![(prepared.roots[0], prepared.bounds, 0)];
     while let Some((child, bounds, depth)) = open.pop() {
@@ -34,12 +59,12 @@ fn inspect(prepared: &Prepared) -> (usize, Vec<u32>) {
                 open.push((child, inner, depth + 1));
                 continue;
             }
-            let leaf = &prepared.leaves[child.index()];
-            for lane in 0..usize::from(node.counts[lane] >> 4) {
-                for corner in leaf.corners(lane) {
+            for (id, corners) in triangles(prepared, child, node.counts[lane].all()) {
+                for corner in corners {
                     assert!(corner.cmpge(inner.low).all() && corner.cmple(inner.high).all());
                 }
-                ids.push(leaf.ids[lane]);
+                assert_eq!(corners, Corners::new(scene).of(id));
+                ids.push(id);
             }
         }
     }
@@ -52,7 +77,7 @@ fn every_primitive_is_in_one_leaf() {
     let corner = |k: u32| Vec3::new((k * 37 % 101) as f32, (k * 53 % 97) as f32, (k % 89) as f32);
     for count in [1, 8, 9, 70, 3000, 20_000] {
         let scene = mesh((0..count * 3).map(corner).collect());
-        let (depth, ids) = inspect(&built(&scene));
+        let (depth, ids) = inspect(&built(&scene), &scene);
         assert_eq!(ids, (0..count).collect::<Vec<_>>());
         assert!(depth < 12, "{depth}");
     }
@@ -63,9 +88,13 @@ fn nodes_are_filled() {
     let corner = |k: u32| Vec3::new((k * 37 % 101) as f32, (k * 53 % 97) as f32, (k % 89) as f32);
     for count in [9, 30, 70, 3000, 20_000] {
         let prepared = built(&mesh((0..count * 3).map(corner).collect()));
-        let children = prepared.nodes.len() - 1 + prepared.leaves.len();
-        // Splitting the largest box until there are eight leaves them half empty.
-        assert!(children >= 6 * (prepared.nodes.len() - 1), "{count}: {children}");
+        let children = prepared.nodes.len() - 1 + prepared.patches.len() + prepared.triangles.len();
+        // Splitting the largest box until there are sixteen leaves them half empty.
+        assert!(
+            children >= 10 * (prepared.nodes.len() - 1),
+            "{count}: {children} in {}",
+            prepared.nodes.len()
+        );
     }
 }
 
@@ -73,14 +102,14 @@ fn nodes_are_filled() {
 fn nodes_are_filled_where_no_box_has_an_area() {
     let corner = |k: u16| Vec3::new(f32::from(k), 0.0, 0.0);
     let prepared = built(&mesh((0..3 * 3000).map(corner).collect()));
-    let children = prepared.nodes.len() - 1 + prepared.leaves.len();
-    assert!(children >= 6 * (prepared.nodes.len() - 1), "{children}");
+    let children = prepared.nodes.len() - 1 + prepared.patches.len() + prepared.triangles.len();
+    assert!(children >= 10 * (prepared.nodes.len() - 1), "{children} in {}", prepared.nodes.len());
 }
 
 #[test]
 fn of_many_coincident_triangles_the_first_is_kept() {
     let scene = mesh([Vec3::ZERO, Vec3::X, Vec3::Y].repeat(100_000));
-    assert_eq!(inspect(&built(&scene)), (0, vec![0]));
+    assert_eq!(inspect(&built(&scene), &scene), (0, vec![0]));
 }
 
 #[test]
@@ -88,8 +117,8 @@ fn twins_in_a_leaf_come_last() {
     let (a, b, c, d) = (Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z);
     let scene = mesh(vec![a, b, c, c, a, b, a, b, d, b, a, c]);
     let prepared = built(&scene);
-    assert_eq!(prepared.nodes[0].counts[0], 16 * 4 + 2);
-    assert_eq!(prepared.leaves[0].ids[..2], [0, 2]);
+    assert_eq!(prepared.nodes[0].counts[0], Counts::new(4, 2));
+    assert_eq!(prepared.patches[0].ids[..2], [0, 2]);
 }
 
 #[test]
@@ -103,7 +132,7 @@ fn triangles_with_one_middle_are_halved() {
             })
             .collect(),
     );
-    let (depth, ids) = inspect(&built(&scene));
+    let (depth, ids) = inspect(&built(&scene), &scene);
     assert_eq!(ids.len(), 500);
     assert!(depth <= 9, "{depth}");
 }
@@ -112,7 +141,7 @@ fn triangles_with_one_middle_are_halved() {
 fn triangles_ever_smaller_do_not_nest_without_end() {
     let corner = |k: usize| Vec3::splat((-(k as f32)).exp2()) * [Vec3::X, Vec3::Y, Vec3::Z][k % 3];
     let scene = mesh((0..3 * 140).map(|k| corner(k / 3 + k % 3)).collect());
-    let (depth, ids) = inspect(&built(&scene));
+    let (depth, ids) = inspect(&built(&scene), &scene);
     assert_eq!(ids.len(), 140);
     assert!(depth <= DEEP, "{depth}");
 }

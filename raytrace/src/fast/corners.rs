@@ -1,0 +1,134 @@
+//! The corners of a leaf's triangles, whichever way it is stored.
+
+use super::anchor::Anchor;
+use super::rays::Lens;
+use super::tree::{LEAF, Patch, Triangles};
+use bothways_common::simd::{Bytes, Simd, SimdBase, f32x16, mask32x16, u8x64, u32x16};
+
+/// Up to sixteen triangles.
+pub(super) trait Leaf {
+    fn ids(&self) -> &[u32; LEAF];
+
+    /// A vertex of one.
+    fn anchor(&self) -> [f32; 3];
+
+    /// The columns of the three corners of each, and their rows, counted from the tile's first.
+    fn places<S: Simd>(&self, simd: S, lens: &Lens, anchor: &Anchor) -> [[f32x16<S>; 3]; 2];
+
+    /// Stores x, y, z of the first, second and third corners of some triangles, one triangle behind the other from a
+    /// place on. The other lanes up to sixteen are overwritten, too.
+    fn gather<S: Simd, const ROOM: usize>(
+        &self,
+        simd: S,
+        which: mask32x16<S>,
+        to: &mut [[f32; ROOM]; 9],
+        at: usize,
+    );
+}
+
+impl Leaf for Patch {
+    #[inline(always)]
+    fn ids(&self) -> &[u32; LEAF] {
+        &self.ids
+    }
+
+    #[inline(always)]
+    fn anchor(&self) -> [f32; 3] {
+        self.vertices.map(|row| row[0])
+    }
+
+    #[inline(always)]
+    fn places<S: Simd>(&self, simd: S, lens: &Lens, anchor: &Anchor) -> [[f32x16<S>; 3]; 2] {
+        let [x, y, z] = &self.vertices;
+        let [columns, rows] = anchor.places(simd, lens, [x, y, z]);
+        let corners = u8x64::from_slice(simd, self.corners.as_flattened());
+        let [a, b, c] = bytes_of_corners(simd, corners);
+        [
+            [columns.swizzle_dyn(a), columns.swizzle_dyn(b), columns.swizzle_dyn(c)],
+            [rows.swizzle_dyn(a), rows.swizzle_dyn(b), rows.swizzle_dyn(c)],
+        ]
+    }
+
+    #[inline(always)]
+    fn gather<S: Simd, const ROOM: usize>(
+        &self,
+        simd: S,
+        which: mask32x16<S>,
+        to: &mut [[f32; ROOM]; 9],
+        at: usize,
+    ) {
+        let corners: u32x16<S> = u8x64::from_slice(simd, self.corners.as_flattened()).bitcast();
+        let corners = bytes_of_corners(simd, corners.compress(which).bitcast());
+        for (axis, row) in self.vertices.iter().enumerate() {
+            let row = f32x16::load_array_ref(simd, row);
+            for (corner, bytes) in corners.into_iter().enumerate() {
+                let to = &mut to[3 * corner + axis][at..at + LEAF];
+                row.swizzle_dyn(bytes).store_slice(to);
+            }
+        }
+    }
+}
+
+impl Leaf for Triangles {
+    #[inline(always)]
+    fn ids(&self) -> &[u32; LEAF] {
+        &self.ids
+    }
+
+    #[inline(always)]
+    fn anchor(&self) -> [f32; 3] {
+        [self.corners[0][0], self.corners[1][0], self.corners[2][0]]
+    }
+
+    #[inline(always)]
+    fn places<S: Simd>(&self, simd: S, lens: &Lens, anchor: &Anchor) -> [[f32x16<S>; 3]; 2] {
+        let [ax, ay, az, bx, by, bz, cx, cy, cz] = &self.corners;
+        let [a, d] = anchor.places(simd, lens, [ax, ay, az]);
+        let [b, e] = anchor.places(simd, lens, [bx, by, bz]);
+        let [c, f] = anchor.places(simd, lens, [cx, cy, cz]);
+        [[a, b, c], [d, e, f]]
+    }
+
+    #[inline(always)]
+    fn gather<S: Simd, const ROOM: usize>(
+        &self,
+        simd: S,
+        which: mask32x16<S>,
+        to: &mut [[f32; ROOM]; 9],
+        at: usize,
+    ) {
+        for (row, to) in self.corners.iter().zip(to) {
+            let row = f32x16::load_array_ref(simd, row).compress(which);
+            row.store_slice(&mut to[at..at + LEAF]);
+        }
+    }
+}
+
+/// For each of three corners the bytes of a row of vertices that are each triangle's, from [`Patch::corners`].
+#[inline(always)]
+fn bytes_of_corners<S: Simd>(simd: S, corners: u8x64<S>) -> [u8x64<S>; 3] {
+    let within = u8x64::load_array(simd, const { pattern([0, 1, 2, 3], 0) });
+    let of = [
+        u8x64::load_array(simd, const { pattern([0; 4], 4) }),
+        u8x64::load_array(simd, const { pattern([1; 4], 4) }),
+        u8x64::load_array(simd, const { pattern([2; 4], 4) }),
+    ];
+    [
+        corners.swizzle_dyn_within_blocks(of[0]) + within,
+        corners.swizzle_dyn_within_blocks(of[1]) + within,
+        corners.swizzle_dyn_within_blocks(of[2]) + within,
+    ]
+}
+
+/// Four bytes, sixteen times, each time `step` more, anew after every four times.
+const fn pattern(four: [u8; 4], step: u8) -> [u8; 64] {
+    let mut all = [0; 64];
+    let mut k = 0;
+    while k < 64 {
+        #[expect(clippy::cast_possible_truncation, reason = "less than 4")]
+        let time = (k / 4 % 4) as u8;
+        all[k] = four[k % 4] + step * time;
+        k += 1;
+    }
+    all
+}
