@@ -11,7 +11,7 @@
 //! Spheres and planes go ray by ray (`round`, `leaf`). Rounded arithmetic decides wherever its bound says
 //! that the sign is certain; the rest goes to the exact judge. Boxes, and triangles before they are set up, are
 //! dropped only when all rays of the tile certainly miss them or they are certainly farther than what all rays
-//! hit: to find that out, `f32` is enough (`rough`). Edges through samples need no judge where corners lie on
+//! hit: to find that out, `f32` is enough (`rough`, `anchor`). Edges through samples need no judge where corners lie on
 //! quarters of samples (`aligned`).
 //!
 //! For an observer each ray walks alone as well, as a tile of one: so what is told belongs to the ray, and
