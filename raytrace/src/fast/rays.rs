@@ -206,10 +206,10 @@ impl<'a> Rays<'a> {
                 beside: if parallel { 0.0 } else { wide },
             },
         );
-        // Of `t`, an error counts once for each column to the tile's side, so about twice; and it is that of an
-        // anchor and of the other vertices' offsets from it.
-        let exact = 10.0 * errors.corner
-            + errors.sample * far * if parallel { 1.0 } else { a * size_of_t.element_sum() };
+        // That of a column counts once, that of `t` as often as there are columns from the middle, at most three times
+        // `far`; for a vertex, once for the anchor and half for the rows' errors of the offset from it.
+        let most_t = if parallel { 1.0 } else { a * size_of_t.element_sum() };
+        let exact = 10.0 * errors.corner + 4.0 * errors.sample * far * most_t;
         let places = anchor::Errors::new(&anchor::Sizes {
             reach: a,
             place: of(1).max(of(2)).element_sum(),

@@ -15,8 +15,8 @@ use bothways_common::simd::{
 
 /// So many leaves wait.
 const LEAVES: usize = 4;
-/// Lanes of a setup.
-const EIGHT: usize = 8;
+/// Triangles that are set up together.
+pub(super) const EIGHT: usize = 8;
 /// Room for so many triangles, those of all leaves and those that are stored before it is known how many count.
 const ROOM: usize = 80 + LEAVES * LEAF + EIGHT;
 

@@ -30,7 +30,7 @@ pub(super) struct Tile {
     pub(super) block_far: [f32; BLOCKS],
     /// The least low end of all: nothing with a smaller key can be seen in the tile.
     pub(super) far: f32,
-    /// How many of the first sixteen blocks have samples at which nothing was hit.
+    /// How many blocks have samples at which nothing was hit; the largest number until that is counted.
     open_blocks: u32,
     /// Whether anything was hit.
     touched: bool,
@@ -46,7 +46,7 @@ pub(super) struct Tile {
     memory: Memory,
 }
 
-/// A sample that one of a leaf's triangles may cover, or be nearest at: rounding leaves it open.
+/// A sample that one of eight triangles may cover, or be nearest at: rounding leaves it open.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Open {
     pub(super) index: u16,
@@ -103,7 +103,7 @@ impl Tile {
             }
         }
         self.far = f32::NEG_INFINITY;
-        self.open_blocks = 16;
+        self.open_blocks = u32::MAX;
         self.dirty = 0;
     }
 
@@ -159,7 +159,7 @@ impl Tile {
     pub(super) fn leave_open(&mut self, index: usize, lane: usize, covered: bool) {
         #[expect(
             clippy::cast_possible_truncation,
-            reason = "a tile has 1024 samples, a leaf 8 lanes"
+            reason = "a tile has 1024 samples, a setup 8 lanes"
         )]
         self.open.push(Open { index: index as u16, lane: lane as u8, covered });
     }

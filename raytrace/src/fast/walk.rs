@@ -4,7 +4,7 @@ use super::build::Prepared;
 use super::draw::{self, Extent};
 use super::rays::{Lens, LensKind, Rays};
 use super::round;
-use super::sieve::{Look, Sieve, Waiting};
+use super::sieve::{EIGHT, Look, Sieve, Waiting};
 use super::tile::Tile;
 use super::tree::{Child, Counts, Kind, Node, WIDTH};
 use bothways_common::fault::{Fault, Planted};
@@ -171,11 +171,11 @@ impl<'a> Walker<'a> {
         loop {
             let count = self.sieve.count();
             let all = hurry || largest == Some(Extent::Many);
-            if count == 0 || (count < 8 && !all) {
+            if count == 0 || (count < EIGHT && !all) {
                 break;
             }
             let eight = self.sieve.take_eight(simd);
-            let of = (&eight, (1 << count.min(8)) - 1);
+            let of = (&eight, (1 << count.min(EIGHT)) - 1);
             let extent = draw::draw::<S, O, F>(simd, self.rays, lens, of, &mut self.tile, observer);
             largest = largest.max(Some(extent));
         }
