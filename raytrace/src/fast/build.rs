@@ -204,7 +204,7 @@ impl Arena {
     }
 
     fn leaf_counts(&self) -> [usize; LEAF_KINDS] {
-        [0, 1, 2].map(|kind: usize| self.leaves[kind].len())
+        self.leaves.each_ref().map(Vec::len)
     }
 }
 

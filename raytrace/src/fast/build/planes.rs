@@ -65,11 +65,11 @@ pub(super) const NO_BINS: Bins = [[Bin { bounds: Box4::EMPTY, count: 0 }; BINS];
 
 pub(super) fn fill_bins(items: &[Item], grid: &Grid) -> Bins {
     if items.len() > LARGE {
-        let mosts = items.par_chunks(LARGE / 4).map(|most| fill_bins(most, grid));
-        return mosts.reduce(
+        let shares = items.par_chunks(LARGE / 4).map(|share| fill_bins(share, grid));
+        return shares.reduce(
             || NO_BINS,
-            |mut all, most| {
-                for (bin, more) in all.iter_mut().flatten().zip(most.as_flattened()) {
+            |mut all, share| {
+                for (bin, more) in all.iter_mut().flatten().zip(share.as_flattened()) {
                     bin.count += more.count;
                     bin.bounds = bin.bounds.with(more.bounds.low, more.bounds.high);
                 }
@@ -117,7 +117,7 @@ pub(super) fn cheapest_plane(items: &[Item], middles: &Box4, most: usize) -> Opt
     best
 }
 
-/// How many leaves so many primitives fill, of so many at most.
+/// How many leaves so many primitives fill, with so many in each at most.
 #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
 pub(super) fn leaves(count: usize, most: usize) -> f64 {
     count.div_ceil(most) as f64
