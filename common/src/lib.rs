@@ -16,7 +16,6 @@
 
 pub mod camera;
 pub mod crop;
-pub mod exact_grid;
 pub mod fault;
 pub mod frame;
 pub mod generate;

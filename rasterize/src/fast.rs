@@ -18,6 +18,7 @@
 //! exact judge. The loop over primitives decides visibility: no ray is walked, and no tree. Normals and
 //! colours are computed at the end, for what is visible.
 
+mod aligned;
 mod bins;
 mod block;
 mod clip;

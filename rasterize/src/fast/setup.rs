@@ -1,11 +1,11 @@
 //! Sixteen triangles set up at a time: edge functions and depth as affine functions of the sample, in
 //! `f32`, with the error of their rounding.
 
+use super::aligned::TIE;
 use super::depth::KEY_ERROR;
 use super::lanes::{Lanes, lanes_of};
 use super::vertices::{ALIGNED, Raster};
 use bothways_common::Sign;
-use bothways_common::exact_grid::TIE;
 use bothways_common::fault::{Fault, Planted};
 use bothways_common::frame::Region;
 use bothways_common::observe::{Sample, Watcher};

@@ -1,9 +1,9 @@
 //! The vertex stage: every vertex once a frame, to a fixed-point place on the raster and a depth key.
 
+use super::aligned::ExactRaster;
 use super::depth::{KeyScale, LARGEST_KEY};
 use super::screen::Screen;
 use bothways_common::Projection;
-use bothways_common::exact_grid::ExactGrid;
 use bothways_common::simd::{
     Bytes, Select, Simd, SimdBase, SimdInterleaved, SimdMask, f32x16, f64x8, i32x4, i32x16,
     mask64x8,
@@ -47,8 +47,8 @@ pub(super) struct Raster {
     pub(super) keys: KeyScale,
     /// Whether vertices can be trusted at all: the camera is not too extreme.
     trusted: bool,
-    /// The samples, if nothing is rounded between them.
-    grid: Option<ExactGrid>,
+    /// The same without rounding, where there is none.
+    exact: Option<ExactRaster>,
 }
 
 impl Raster {
@@ -76,7 +76,7 @@ impl Raster {
             slack,
             keys,
             trusted: margin <= unit,
-            grid: ExactGrid::new(screen.camera, screen.grid),
+            exact: ExactRaster::new(screen),
         }
     }
 
@@ -221,9 +221,9 @@ impl Raster {
             + flag(safe & column.simd_gt(splat(width)), RIGHT)
             + flag(safe & row.simd_lt(-one), ABOVE)
             + flag(safe & row.simd_gt(splat(height)), BELOW);
-        if let Some(grid) = &self.grid {
-            let across = grid.holds(simd, 0, [column, right, depth]);
-            let down = grid.holds(simd, 1, [row, -up, depth]);
+        if let Some(exact) = &self.exact {
+            let across = exact.holds(simd, 0, [column, right, depth]);
+            let down = exact.holds(simd, 1, [row, -up, depth]);
             let aligned = on_raster & across & down;
             flags += flag(aligned, ALIGNED);
         }

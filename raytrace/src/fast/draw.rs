@@ -3,11 +3,11 @@
 //! Over few samples: eight triangles at a time, each at one of its samples. Over more: one triangle at a
 //! time, first at sixteen blocks at once, then at the sixteen samples of each block that is left.
 
+use super::aligned::TIE;
 use super::rays::{Lens, Rays};
 use super::setup::{Affine, Eight, Setup};
 use super::tile::{Tile, index, place};
 use bothways_common::Sign;
-use bothways_common::exact_grid::TIE;
 use bothways_common::fault::Fault;
 use bothways_common::observe::Watcher;
 use bothways_common::simd::{Select, Simd, SimdBase, SimdMask, f32x8, f32x16, u32x16};

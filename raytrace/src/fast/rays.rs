@@ -8,9 +8,9 @@
 //!
 //! What is computed here is computed with rounding: [`Errors`] bounds what that does.
 
+use super::aligned::Straight;
 use super::anchor;
 use super::rough::{self, Plane};
-use bothways_common::exact_grid::ExactGrid;
 use bothways_common::{Camera, Projection, SampleGrid, View};
 use glam::DVec3;
 
@@ -60,10 +60,8 @@ pub(super) struct LensKind {
     /// far that way.
     wide: f64,
     pub(super) eye: [f64; 3],
-    /// `u`, `v`, `w`.
-    pub(super) frame: [DVec3; 3],
-    /// The samples, if nothing is rounded between them.
-    pub(super) grid: Option<ExactGrid>,
+    /// The same rays without rounding, where there is none.
+    pub(super) straight: Option<Straight>,
     /// The map's rows for the middle of the picture, and what those of columns and rows gain with the
     /// coordinates on the viewport.
     axes: [DVec3; 3],
@@ -218,21 +216,8 @@ impl<'a> Rays<'a> {
             exact,
         });
         let eye = self.eye.to_array();
-        let (frame, grid) = ([u, v, w], ExactGrid::new(camera, &self.grid));
-        LensKind {
-            parallel,
-            side,
-            half,
-            wide,
-            eye,
-            frame,
-            grid,
-            axes,
-            slopes,
-            errors,
-            rough,
-            places,
-        }
+        let straight = Straight::new(camera, &self.grid);
+        LensKind { parallel, side, half, wide, eye, straight, axes, slopes, errors, rough, places }
     }
 
     /// The rays of a square of samples. It may reach over the picture's end.
