@@ -12,7 +12,7 @@ use bothways::rasterize;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRng, TestRunner};
 use std::cell::Cell;
-use support::{RENDERERS, Ties, all_agree, assert_is_part, cases, some_crops};
+use support::{RENDERERS, Ties, all_agree, assert_is_part, cases, scene, some_crops, triangle};
 
 /// What a scene's coordinates look like.
 #[derive(Clone, Copy, Debug)]
@@ -227,4 +227,38 @@ fn scenes_of_ordinary_numbers() {
 #[test]
 fn scenes_of_extreme_numbers() {
     agree_on(Numbers::Extreme, 700);
+}
+
+#[test]
+fn lanes_beyond_the_picture_are_not_judged() {
+    // Error bounds that overflow: every sample of the picture is left open, and nothing beside it.
+    let look = |projection, eye, direction: [f32; 3], up: [f32; 3], image| {
+        let orientation = Orientation::Direction {
+            direction: Vec3::from_array(direction),
+            up: Vec3::from_array(up),
+        };
+        let (eye, viewport) = (Vec3::from_array(eye), [1.0, 1.0]);
+        CameraDescription { projection, eye, orientation, viewport, image, ..Default::default() }
+    };
+    let far = [7e26, 7e20, 0.0];
+    for width in 1..=33 {
+        let description =
+            look(Projection::Perspective, far, [0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [width, 5]);
+        let scene = scene(vec![triangle([[0.0, 0.0, 6e-38], [8e29, 0.0, 0.0], [0.0; 3]])]);
+        agree_on_one(&scene, description, &format!("{width} columns"));
+    }
+    let far = [-4_503_599_600_000_000.0, 0.0, -474_644_050_000_000.0];
+    for width in 1..=33 {
+        let description =
+            look(Projection::Parallel, far, [0.4, 0.9, -0.3], [0.0, 1.0, 0.0], [width, 4]);
+        let scene =
+            scene(vec![triangle([[0.0, 0.0, -1.0], [0.0, 9e-39, -1.0], [-16.0, 0.0, 0.0]])]);
+        agree_on_one(&scene, description, &format!("parallel, {width} columns"));
+    }
+}
+
+/// All four renderers on one scene.
+fn agree_on_one(scene: &Scene, description: CameraDescription, what: &str) {
+    let camera = Camera::new(description).expect("it is a camera");
+    all_agree(&View::new(scene, &camera), &Options::default(), what);
 }

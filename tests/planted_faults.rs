@@ -5,8 +5,11 @@ mod support;
 
 use bothways::common::fault::{Faulty, Planted, with};
 use bothways::common::glam::Vec3;
-use bothways::common::{Camera, Frame, Mesh, Object, Options, Projection, Scene, Shape, View};
+use bothways::common::{
+    Camera, CameraDescription, Frame, Mesh, Object, Options, Projection, Scene, Shape, View,
+};
 use bothways::diff::compare;
+use bothways::scenes::load;
 use bothways::{rasterize, raytrace};
 use support::{PROJECTIONS, camera, on_integers, scene, triangle, turned};
 
@@ -17,6 +20,7 @@ struct Verdicts {
     image_order: bool,
 }
 
+const ALL_WELL: Verdicts = Verdicts { object_order: true, image_order: true };
 const CAUGHT: Verdicts = Verdicts { object_order: false, image_order: false };
 
 fn verdicts(scene: &Scene, camera: &Camera, fault: Option<Planted>) -> Verdicts {
@@ -59,8 +63,7 @@ fn square() -> Vec<Object> {
 #[test]
 fn a_sound_renderer_matches() {
     for projection in PROJECTIONS {
-        let all_well = Verdicts { object_order: true, image_order: true };
-        assert_eq!(verdicts(&scene(square()), &on_integers(projection, 3), None), all_well);
+        assert_eq!(verdicts(&scene(square()), &on_integers(projection, 3), None), ALL_WELL);
     }
 }
 
@@ -108,6 +111,24 @@ fn an_error_bound_of_zero_differs() {
             CAUGHT,
             "{projection:?}"
         );
+    }
+}
+
+#[test]
+fn bounds_without_end_change_nothing() {
+    // Then nothing is certain but what exact arithmetic says: slow, and right.
+    for fault in [Planted::InfiniteErrorBound, Planted::InfiniteMargin] {
+        for name in ["canonical", "ties", "behind", "slivers", "overlap", "inside"] {
+            let built_in = load(name).expect("it is built in");
+            for projection in PROJECTIONS {
+                let image = [19, 35];
+                let camera =
+                    Camera::new(CameraDescription { projection, image, ..built_in.camera });
+                let found =
+                    verdicts(&built_in.scene, &camera.expect("it is a camera"), Some(fault));
+                assert_eq!(found, ALL_WELL, "{fault:?}, {name}, {projection:?}");
+            }
+        }
     }
 }
 

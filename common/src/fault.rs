@@ -17,6 +17,10 @@ pub enum Planted {
     ShrunkBox,
     /// The arithmetic is trusted as if it were exact.
     ZeroErrorBound,
+    /// The arithmetic is not trusted at all: no fault that may show, as then exact arithmetic decides everything.
+    InfiniteErrorBound,
+    /// Nor are the places where things are seen, and what holds them.
+    InfiniteMargin,
     /// Of equal primitives the last one wins.
     TiesToLast,
     /// One inner node of the hierarchy is never entered.
@@ -30,6 +34,18 @@ pub trait Fault: Copy + Send + Sync {
 
     /// Whether this fault is planted.
     fn is(fault: Planted) -> bool;
+}
+
+/// A bound of rounding errors as it is, or as a fault has it.
+#[inline(always)]
+pub fn error_bound<F: Fault>(bound: f64) -> f64 {
+    if F::is(Planted::ZeroErrorBound) {
+        0.0
+    } else if F::is(Planted::InfiniteErrorBound) {
+        f64::INFINITY
+    } else {
+        bound
+    }
 }
 
 /// No fault.

@@ -328,7 +328,10 @@ fn run<O: Observer>(
     assert_eq!(prepared.primitives, view.scene.primitive_count(), "another scene was prepared");
     frame.fit(view.camera, options);
     let grid = view.camera.sample_grid(options.samples);
-    let screen = Screen::new(view.camera, &grid);
+    let mut screen = Screen::new(view.camera, &grid);
+    if (loops.is)(Planted::InfiniteMargin) {
+        screen.margin = [f64::INFINITY; 2];
+    }
     let keys = KeyScale::new(view.camera, &prepared.bounds, prepared.has_planes);
     let raster = Raster::new(&screen, keys);
     let tiling = Tiling::new(&screen, prepared.tile, frame.region());

@@ -159,7 +159,11 @@ fn run<O: Observer>(
     let rays = Rays::new(view, options.samples, walk::reach(prepared, view));
     // A box's last place matters to a ray alone: a fault there shows in tiles of one.
     let side = if (loops.is)(Planted::ShrunkBox) { 1 } else { prepared.side };
-    let (kind, kind_of_one) = (rays.lens_kind(side), rays.lens_kind(1));
+    let (mut kind, mut kind_of_one) = (rays.lens_kind(side), rays.lens_kind(1));
+    if (loops.is)(Planted::InfiniteMargin) {
+        kind.distrust();
+        kind_of_one.distrust();
+    }
 
     let (seen, shares): (&O, Vec<Tile>) = (observer, frame.tiles_mut(SHARE, prepared.side));
     let dropped = (loops.is)(Planted::DroppedTile).then_some(shares.len() / 2);

@@ -124,6 +124,7 @@ const fn lane_places<const ACROSS: usize>() -> [[f32; 16]; 2] {
 impl<S: Simd> Brush<S> {
     #[inline(always)]
     fn new(simd: S, Affine { id, edges: [a, b, c], error, key, .. }: &Affine) -> Self {
+        debug_assert!(error.is_finite(), "or lanes beyond the region would count");
         let in_lanes = |numbers: &[f32; 3]| {
             let [at_origin, across, down] = *numbers;
             [f32x16::splat(simd, at_origin), f32x16::splat(simd, across), f32x16::splat(simd, down)]

@@ -2,7 +2,7 @@
 
 use super::depth::{DepthPlane, UNIT_ROUNDOFF};
 use super::screen::{Screen, samples_between};
-use bothways_common::fault::{Fault, Planted};
+use bothways_common::fault::{Fault, Planted, error_bound};
 use bothways_common::{Judge, Projection, Sign};
 use glam::DVec3;
 use std::ops::Range;
@@ -91,17 +91,15 @@ impl TriangleSetup {
         let (along_b, along_c) = (b - a, c - a);
         let normal = along_b.cross(along_c);
         let permanent = cross_permanent(along_b, along_c);
-        let facing = facing(screen, judge, corners, normal, permanent)?;
+        let facing = facing::<F>(screen, judge, corners, normal, permanent)?;
         let edge = |p, q| Edge::new(screen, p, q).oriented(facing);
         let mut setup = TriangleSetup {
             edges: [edge(a, b), edge(b, c), edge(c, a)],
             depth: DepthPlane::new(screen, a, normal, permanent),
             facing,
         };
-        if F::is(Planted::ZeroErrorBound) {
-            setup.edges.iter_mut().for_each(|edge| edge.error = 0.0);
-            setup.depth.error = 0.0;
-        }
+        setup.edges.iter_mut().for_each(|edge| edge.error = error_bound::<F>(edge.error));
+        setup.depth.error = error_bound::<F>(setup.depth.error);
         Some(setup)
     }
 
@@ -137,7 +135,7 @@ impl TriangleSetup {
 ///
 /// Perspective: `F = n·a`, `n = (b − a) × (c − a)`, of which each coordinate carries 4 roundings and
 /// the product 3 more; parallel: `F = n·D` likewise. 8 leaves room for the bound's own.
-fn facing(
+fn facing<F: Fault>(
     screen: &Screen,
     judge: &Judge,
     corners: &[DVec3; 3],
@@ -150,7 +148,7 @@ fn facing(
     };
     let facing = normal.dot(against);
     let error = 8.0 * UNIT_ROUNDOFF * permanent.dot(against.abs()) + f64::MIN_POSITIVE;
-    if facing.abs() > error {
+    if facing.abs() > error && !F::is(Planted::InfiniteErrorBound) {
         return Some(facing.signum());
     }
     match judge.facing(corners, &screen.grid.ray(0, 0)) {

@@ -9,7 +9,7 @@ use super::narrow::{narrow, narrow_plane};
 use super::round::{self, Covered};
 use super::setup::{Affine, MOST_SAMPLES_ACROSS};
 use super::tile::{Challenger, Picture, TileBuffer, judge_covers};
-use bothways_common::fault::{Fault, Planted};
+use bothways_common::fault::{Fault, Planted, error_bound};
 use bothways_common::frame::Region;
 use bothways_common::observe::{Sample, Watcher};
 use bothways_common::simd::Simd;
@@ -72,9 +72,7 @@ impl<O: Watcher + ?Sized> Brush<'_, '_, O> {
             Primitive::Plane { .. } if self.buffer.is_edge_on(id, &primitive) => {}
             Primitive::Plane { point, normal } => {
                 let mut depth = DepthPlane::new(picture.screen, point, normal, normal.abs());
-                if F::is(Planted::ZeroErrorBound) {
-                    depth.error = 0.0;
-                }
+                depth.error = error_bound::<F>(depth.error);
                 self.draw_plane::<S, F>(simd, &depth, &region);
             }
         }
@@ -157,7 +155,12 @@ impl<O: Watcher + ?Sized> Brush<'_, '_, O> {
                 let ray = screen.grid.ray(row, column);
                 self.observer.sample_tested(sample, self.id);
                 let exact = !F::is(Planted::ZeroErrorBound);
-                match round::covered(projection, center, radius, &ray, exact) {
+                let answer = if F::is(Planted::InfiniteErrorBound) {
+                    Covered::Unknown
+                } else {
+                    round::covered(projection, center, radius, &ray, exact)
+                };
+                match answer {
                     Covered::At(depth) => self.fragment::<F>(sample, depth),
                     Covered::No => {}
                     Covered::Unknown => {

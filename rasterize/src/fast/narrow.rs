@@ -6,7 +6,7 @@ use super::edges::{Edge, TriangleSetup};
 use super::screen::Screen;
 use super::setup::Affine;
 use bothways_common::Projection;
-use bothways_common::fault::{Fault, Planted};
+use bothways_common::fault::{Fault, error_bound};
 use bothways_common::frame::Region;
 use bothways_common::observe::Sample;
 use glam::DVec3;
@@ -82,8 +82,8 @@ impl Function {
     }
 }
 
-/// A part of a triangle, with edge functions and key in `f32`; `None` if a key would not be certain enough, or
-/// fragments not to be in front of the eye. What comes of it depends on the triangle and the region alone.
+/// A part of a triangle, with edge functions and key in `f32`; `None` if keys or edge functions would not be certain
+/// enough, or fragments not to be in front of the eye. What comes of it depends on the triangle and the region alone.
 ///
 /// Each edge function is divided by the largest value that it may have in the region: so one error suits all, and
 /// nothing overflows.
@@ -103,12 +103,14 @@ pub(super) fn narrow<F: Fault>(
     let error_of = |k: usize| EVALUATION + edges[k].error * factors[k];
     let error = error_of(0).max(error_of(1)).max(error_of(2));
     let key = key(&part, keys, &setup.depth, Some(corners))?;
-    if !(error.is_finite() && factors.iter().all(|factor| factor.is_normal())) {
+    let error = error_bound::<F>(error);
+    // No value is larger than 1, so that such a bound would decide nothing. What lies beside the region is kept from
+    // being drawn as outside by infinitely much, which is beyond any bound but an infinite one.
+    if !(error < 1.0 && factors.iter().all(|factor| factor.is_normal())) {
         return None;
     }
-    let blind = F::is(Planted::ZeroErrorBound);
     #[expect(clippy::cast_possible_truncation, reason = "rounded up thereafter")]
-    let error = if blind { 0.0 } else { (error as f32).next_up() };
+    let error = if error > 0.0 { (error as f32).next_up() } else { 0.0 };
     #[expect(clippy::cast_possible_truncation, reason = "±1")]
     let facing = setup.facing as f32;
     let rounded = |k: usize| edges[k].rounded(factors[k]);

@@ -95,6 +95,7 @@ impl Setup {
         let product = width * height;
         let rounding = splat(13.6 * UNIT_ROUNDOFF) * product;
         let error = splat(raster.slack) * (width + height) + rounding;
+        let error = if F::is(Planted::InfiniteErrorBound) { splat(f32::INFINITY) } else { error };
         let aligned = lanes.flags(simd) & i32x16::splat(simd, ALIGNED);
         let aligned = aligned.simd_ne(i32x16::splat(simd, 0));
         let error = aligned.select(splat(0.0), error);

@@ -431,7 +431,13 @@ fn rank<F: Fault>(key: f32, held: f32) -> Rank {
 
 /// By which factor the key must be larger of what is certainly nearer.
 pub(super) fn nearer_by<F: Fault>() -> f32 {
-    if F::is(Planted::ZeroErrorBound) { 1.0 } else { NEARER }
+    if F::is(Planted::ZeroErrorBound) {
+        1.0
+    } else if F::is(Planted::InfiniteErrorBound) {
+        f32::INFINITY
+    } else {
+        NEARER
+    }
 }
 
 /// Distances from keys, and where they are not within 8·10⁻⁶ of the true ones.

@@ -44,6 +44,10 @@ pub(super) struct Sizes {
 }
 
 impl Errors {
+    /// Nothing is known of places.
+    pub(super) const UNKNOWN: Errors =
+        Errors { away: f32::INFINITY, at_anchor: f32::INFINITY, rounding: f32::INFINITY };
+
     /// # The errors, rounding by rounding
     ///
     /// `u = 2⁻²⁴`, `P` is the size of the leaf's box, of which no vertex is farther from the anchor along an axis;

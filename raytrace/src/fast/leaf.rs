@@ -1,5 +1,6 @@
 //! One ray against one primitive: what rounded arithmetic says for certain.
 
+use bothways_common::fault::{Fault, Planted};
 use bothways_common::{Primitive, Ray, Sign};
 use glam::DVec3;
 
@@ -141,15 +142,29 @@ pub(super) fn sphere(ray: &Ray, center: DVec3, radius: f64, trust: Trust) -> Ans
     }
 }
 
-/// Whether error bounds hold, or are (by a planted fault) zero.
+/// Whether error bounds hold, or are (by a planted fault) zero or infinite.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Trust {
-    pub(super) blind: bool,
+pub(super) enum Trust {
+    Sound,
+    Blind,
+    None,
 }
 
 impl Trust {
+    pub(super) fn new<F: Fault>() -> Trust {
+        match () {
+            () if F::is(Planted::ZeroErrorBound) => Trust::Blind,
+            () if F::is(Planted::InfiniteErrorBound) => Trust::None,
+            () => Trust::Sound,
+        }
+    }
+
     fn of(self, error: f64) -> f64 {
-        if self.blind { 0.0 } else { error }
+        match self {
+            Trust::Sound => error,
+            Trust::Blind => 0.0,
+            Trust::None => f64::INFINITY,
+        }
     }
 }
 

@@ -72,6 +72,16 @@ pub(super) struct LensKind {
     pub(super) places: anchor::Errors,
 }
 
+impl LensKind {
+    /// A fault: nothing is known of where boxes, leaves and small triangles are seen.
+    pub(super) fn distrust(&mut self) {
+        self.rough.t_error = f32::INFINITY;
+        self.rough.sides_error = f32::INFINITY;
+        self.places = anchor::Errors::UNKNOWN;
+        self.errors.small = false;
+    }
+}
+
 /// How far what is computed may be from what is meant.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Errors {

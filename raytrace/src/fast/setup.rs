@@ -170,7 +170,11 @@ impl<S: Simd> Setup<S> {
         let (ab_y, ca_t) = narrow(ab[2], ca[0]);
         let (ca_x, ca_y) = narrow(ca[1], ca[2]);
 
-        let (e, eps) = (bound(simd, lens.kind.errors.corner), bound(simd, lens.kind.errors.sample));
+        let (e, eps) = if F::is(Planted::InfiniteErrorBound) {
+            (bound(simd, f64::INFINITY), bound(simd, f64::INFINITY))
+        } else {
+            (bound(simd, lens.kind.errors.corner), bound(simd, lens.kind.errors.sample))
+        };
         let (h, half) = (bound(simd, lens.kind.errors.far), bound(simd, lens.kind.half));
         let t_size = ta.abs().max(tb.abs()).max(tc.abs());
         let flat_size =

@@ -213,7 +213,7 @@ impl Tile {
     ) {
         let Some(sample) = self.sample(index) else { return };
         let ray = rays.grid.ray(sample.row, sample.column);
-        let trust = Trust { blind: F::is(Planted::ZeroErrorBound) };
+        let trust = Trust::new::<F>();
         let (answer, signs) = leaf::primitive(&ray, primitive, trust);
         let distance = match answer {
             Answer::Hit(distance) | Answer::Open(distance) => distance,
@@ -273,7 +273,7 @@ impl Tile {
         let holder = self.ids[index];
         let held = rays.view.primitive(holder);
         let ray = rays.grid.ray(sample.row, sample.column);
-        let trust = Trust { blind: F::is(Planted::ZeroErrorBound) };
+        let trust = Trust::new::<F>();
         if let (Answer::Hit(other) | Answer::Open(other), _) = leaf::primitive(&ray, &held, trust) {
             if distance.high < other.low {
                 return true;
@@ -397,7 +397,7 @@ impl Tile {
         for lane in (0..16).filter(|lane| lanes >> lane & 1 == 1) {
             let Some(Sample { row, column }) = self.sample(from + lane) else { continue };
             let (ray, primitive) = (rays.grid.ray(row, column), rays.view.primitive(ids[lane]));
-            let rounded = match leaf::primitive(&ray, &primitive, Trust { blind: false }).0 {
+            let rounded = match leaf::primitive(&ray, &primitive, Trust::Sound).0 {
                 Answer::Hit(distance) | Answer::Open(distance) => distance.t(),
                 Answer::Miss => None,
             };
