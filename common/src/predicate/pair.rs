@@ -97,7 +97,7 @@ pub struct Memory {
 }
 
 impl Memory {
-    /// So many pairs are remembered before all are forgotten: some megabytes.
+    /// So many pairs, and so many primitives, are remembered before all are forgotten: some megabytes.
     const MOST: usize = 1 << 15;
 
     /// Remembers nothing yet.
@@ -108,6 +108,9 @@ impl Memory {
     /// Whether a flat primitive covers no sample of this camera at all: it is seen edge-on, or is a
     /// plane that holds the eye or runs along the rays. Such primitives leave every fast test open.
     pub fn is_edge_on(&mut self, id: u32, primitive: &Primitive) -> bool {
+        if self.unseen.len() >= Self::MOST {
+            self.unseen.clear();
+        }
         let judge = &self.judge;
         *self.unseen.entry(id).or_insert_with(|| judge.is_edge_on(primitive))
     }

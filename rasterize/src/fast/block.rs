@@ -89,7 +89,7 @@ fn draw_blocks<const ACROSS: usize, S: Simd, O: Watcher + ?Sized, F: Fault>(
             if doubt.any_true() {
                 let masks = [doubt.to_bitmask(), tested.inside.to_bitmask()];
                 let fragments = (brush.id, tested.keys.to_array());
-                leave_open::<ACROSS, O, F>(fragments, picture, buffer, first, masks);
+                leave_open::<ACROSS, O, F>(fragments, picture, buffer, first, masks, observer);
                 if buffer.is_twin::<O, F>(brush.id) {
                     return;
                 }
@@ -247,10 +247,12 @@ fn leave_open<const ACROSS: usize, O: Watcher + ?Sized, F: Fault>(
     buffer: &mut TileBuffer,
     first: Sample,
     [doubt, inside]: [u64; 2],
+    observer: &mut O,
 ) {
     for lane in lanes_of(doubt) {
         let at = buffer.index(sample::<ACROSS>(first, lane));
-        buffer.leave_open::<O, F>(picture, at, id, keys[lane & 15], inside >> lane & 1 == 1);
+        let covered = inside >> lane & 1 == 1;
+        buffer.leave_open::<O, F>(picture, (at, id, keys[lane & 15]), covered, observer);
     }
 }
 

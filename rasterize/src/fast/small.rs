@@ -56,7 +56,8 @@ pub(super) fn draw<S: Simd, O: Watcher + ?Sized, F: Fault>(
         fragments.add(index, keys, ids, inside);
         let open = (perhaps & !inside).to_bitmask();
         if open != 0 {
-            leave_open::<O, F>(setup, picture, buffer, open, &index.to_array(), &keys.to_array());
+            let fragments = (&index.to_array(), &keys.to_array());
+            leave_open::<O, F>(setup, picture, buffer, open, fragments, observer);
         }
         // On to the next sample of each box, row by row.
         column += f32x16::splat(simd, 1.0);
@@ -76,12 +77,12 @@ fn leave_open<O: Watcher + ?Sized, F: Fault>(
     picture: &Picture,
     buffer: &mut TileBuffer,
     open: u64,
-    index: &[i32; 16],
-    keys: &[f32; 16],
+    (index, keys): (&[i32; 16], &[f32; 16]),
+    observer: &mut O,
 ) {
     for lane in lanes_of(open) {
-        let at = index[lane].cast_unsigned() as usize;
-        buffer.leave_open::<O, F>(picture, at, setup.ids[lane], keys[lane], false);
+        let fragment = (index[lane].cast_unsigned() as usize, setup.ids[lane], keys[lane]);
+        buffer.leave_open::<O, F>(picture, fragment, false, observer);
     }
 }
 

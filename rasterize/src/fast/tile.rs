@@ -66,6 +66,9 @@ impl Challenger {
 /// Samples behind the end of a row and rows behind the last.
 const SPARE: usize = 16;
 
+/// So many fragments wait for the judge at most, in a quarter of a MiB, however many are tied.
+const MOST_OPEN: usize = 1 << 14;
+
 /// How a fragment's key relates to the one that its sample holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Rank {
@@ -148,36 +151,48 @@ impl TileBuffer {
         })
     }
 
-    /// Leaves to the judge whether a fragment is nearest, or whether it is one.
+    /// Leaves to the judge whether a fragment is nearest, or whether it is one. When too many wait, all are
+    /// settled at once: which fragment comes to its depth test first does not matter.
     #[inline(always)]
     pub(super) fn leave_open<O: Watcher + ?Sized, F: Fault>(
         &mut self,
         picture: &Picture,
-        index: usize,
-        id: u32,
-        key: f32,
+        (index, id, key): (usize, u32, f32),
         covered: bool,
+        observer: &mut O,
     ) {
-        if drops_ties::<O, F>() && covered && self.loses_tie(picture, index, id) {
+        if !F::is(Planted::TiesToLast) && covered && self.loses_tie(picture, index, id) {
+            if O::WATCHES {
+                // Who watches is told of it as of any other tie.
+                observer.judged(self.sample(index), Question::Nearest);
+                self.tell_depth_test(index, id, false, observer);
+            }
             return;
+        }
+        if self.open.len() == MOST_OPEN {
+            self.settle::<O, F>(picture, observer);
         }
         let index = u32::try_from(index).expect("a tile is small");
         self.open.push(Open { index, id, key, covered });
     }
 
-    /// Whether a fragment is of the same triangle again as the one that its sample shows, and the later
-    /// of the two.
+    /// Whether a fragment is known to be tied with the one that its sample shows, as it is of the same triangle
+    /// again or of one in the same plane, and is the later of the two.
     #[inline(always)]
     fn loses_tie(&mut self, picture: &Picture, index: usize, id: u32) -> bool {
         let holder = self.ids[index];
-        self.keys[index] != NOTHING && id > holder && self.are_same(picture, [id, holder])
+        let pair = [id, holder];
+        self.keys[index] != NOTHING
+            && id > holder
+            && (self.tied == Some(pair) || self.are_same(picture, pair))
     }
 
     /// Whether this primitive is known to be the same triangle as an earlier one in the tile, so that it is seen
-    /// nowhere.
+    /// nowhere. Who watches is told of all its fragments, and the fault decides otherwise.
     pub(super) fn is_twin<O: Watcher + ?Sized, F: Fault>(&self, id: u32) -> bool {
         let ([last, holder], are_same) = self.compared;
-        drops_ties::<O, F>() && are_same && last == id && holder < id
+        let drops = !(O::WATCHES || F::is(Planted::TiesToLast));
+        drops && are_same && last == id && holder < id
     }
 
     /// Whether two primitives are the same triangle: they mostly meet at several samples, one after the
@@ -201,7 +216,7 @@ impl TileBuffer {
         let held = self.keys[index];
         let rank = rank::<F>(key, held);
         if rank == Rank::Unknown {
-            self.leave_open::<O, F>(picture, index, id, key, true);
+            self.leave_open::<O, F>(picture, (index, id, key), true, observer);
             return;
         }
         if O::WATCHES {
@@ -243,6 +258,7 @@ impl TileBuffer {
     }
 
     /// Asks the judge what was left open.
+    #[inline(never)]
     pub(super) fn settle<O: Watcher + ?Sized, F: Fault>(
         &mut self,
         picture: &Picture,
@@ -408,12 +424,6 @@ impl TileBuffer {
             *t = stored_t(judge.distance(&primitive, &ray));
         }
     }
-}
-
-/// Whether fragments that lose a tie for certain are dropped at once. Who watches is told of every decision, and
-/// the fault decides otherwise.
-fn drops_ties<O: Watcher + ?Sized, F: Fault>() -> bool {
-    !(O::WATCHES || F::is(Planted::TiesToLast))
 }
 
 /// Which is nearer, if the keys' errors leave no doubt. NaN leaves it.
