@@ -35,6 +35,7 @@ mod setup;
 mod small;
 mod tile;
 mod vertices;
+mod waypoint;
 
 use bins::{BatchBins, Binning, Tiling};
 use bothways_common::fault::{Fault, Planted, Sound};
@@ -328,11 +329,11 @@ fn run<O: Observer>(
     assert_eq!(prepared.primitives, view.scene.primitive_count(), "another scene was prepared");
     frame.fit(view.camera, options);
     let grid = view.camera.sample_grid(options.samples);
-    let mut screen = Screen::new(view.camera, &grid);
+    let mut screen = Screen::new(view.camera, &grid, &prepared.bounds);
     if (loops.is)(Planted::InfiniteMargin) {
         screen.margin = [f64::INFINITY; 2];
     }
-    let keys = KeyScale::new(view.camera, &prepared.bounds, prepared.has_planes);
+    let keys = KeyScale::new(&screen, &prepared.bounds, prepared.has_planes);
     let raster = Raster::new(&screen, keys);
     let tiling = Tiling::new(&screen, prepared.tile, frame.region());
     // A thread that panicked left nothing that matters.

@@ -2,7 +2,7 @@
 //! key that the z-buffer stores.
 
 use super::screen::Screen;
-use bothways_common::{Camera, Projection};
+use bothways_common::Projection;
 use glam::DVec3;
 
 /// Half the distance from 1 to the next number.
@@ -11,7 +11,7 @@ pub(super) const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
 /// Two numbers between which a depth lies.
 ///
 /// Depth grows with `t`: it is `−1/t` for a perspective camera, where `1/t` is affine on the
-/// viewport, and `t` itself for a parallel one.
+/// viewport, and `t` itself, from the waypoint on, for a parallel one.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DepthInterval {
     pub(super) low: f64,
@@ -60,11 +60,13 @@ impl DepthPlane {
     /// roundings, a product with `u`, `v` or `w` and two sums 3, `d` one more, `−1/F` and the product
     /// with it 2, evaluating at a sample at most 3, and `D` itself is rounded by 3: at most 16 of `Q =
     /// Σ permanent·reach`. `F` brings 4 + 3 of `Σ permanent·|point|`. Parallel: `t = (n·point −
-    /// n·O)/F` with `F = n·D`; the same counts hold with `D` and `O` in each other's place.
-    /// So the depth is off by at most `(16u·Q + Q·δF/(|F| − δF))/|F|`; the constants below leave room
+    /// n·O)/F` with `F = n·D`; the same counts hold with `D` and `O` in each other's place, and the point is
+    /// taken from the waypoint, which brings two more.
+    /// So the depth is off by at most `(18u·Q + Q·δF/(|F| − δF))/|F|`; the constants below leave room
     /// for the roundings of the bound itself.
     pub(super) fn new(screen: &Screen, point: DVec3, normal: DVec3, permanent: DVec3) -> Self {
         let projection = screen.projection();
+        let point = screen.waypoint.relative(point);
         let (height, mut reach) = (normal.dot(point), permanent.dot(screen.reach));
         let (f, f_permanent) = match projection {
             Projection::Perspective => (height, permanent.dot(point.abs())),
@@ -81,7 +83,7 @@ impl DepthPlane {
         let f_error = 7.5 * UNIT_ROUNDOFF * f_permanent + f64::MIN_POSITIVE;
         let room = f.abs() - f_error;
         let error = if room > f_error {
-            (17.0 * UNIT_ROUNDOFF + 1.01 * f_error / room) * reach / room + f64::MIN_POSITIVE
+            (19.0 * UNIT_ROUNDOFF + 1.01 * f_error / room) * reach / room + f64::MIN_POSITIVE
         } else {
             f64::INFINITY
         };
@@ -130,11 +132,13 @@ pub(super) const LARGEST_KEY: f64 = (1_u128 << 100) as f64;
 ///
 /// A key is `1/t − offset` for a perspective camera, `offset − t` for a parallel one. The offset
 /// brings the farthest point of the scene close to 0, where an `f32` resolves best: a distant eye
-/// loses no depth.
+/// loses no depth. The `t` of a parallel camera counts from the waypoint.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct KeyScale {
     pub(super) projection: Projection,
     pub(super) offset: f64,
+    /// The `t` of a parallel camera whose key is 0, from the eye on; for a perspective camera the offset.
+    pub(super) from_eye: f64,
 }
 
 impl KeyScale {
@@ -142,8 +146,10 @@ impl KeyScale {
     ///
     /// `unbounded` says that the scene has planes. Whatever the scale is, keys are right; a scale that
     /// fits the scene leaves less to the judge.
-    pub(super) fn new(camera: &Camera, bounds: &[DVec3; 8], unbounded: bool) -> Self {
-        let depth = |corner: &DVec3| -(*corner - camera.eye().as_dvec3()).dot(camera.w());
+    pub(super) fn new(screen: &Screen, bounds: &[DVec3; 8], unbounded: bool) -> Self {
+        let (camera, waypoint) = (screen.camera, screen.waypoint);
+        let relative = |corner: &DVec3| waypoint.relative(*corner - camera.eye().as_dvec3());
+        let depth = |corner: &DVec3| -relative(corner).dot(camera.w());
         let low = bounds.iter().map(depth).fold(f64::INFINITY, f64::min);
         let high = bounds.iter().map(depth).fold(f64::NEG_INFINITY, f64::max);
         let offset = match camera.projection() {
@@ -155,14 +161,20 @@ impl KeyScale {
                 (far - (near - far).max(GAP * far)).max(0.0)
             }
             Projection::Parallel => {
+                let extent = |corner: &DVec3| relative(corner).abs().element_sum();
+                let size = if waypoint.t > 0.0 {
+                    bounds.iter().map(extent).fold(0.0, f64::max)
+                } else {
+                    high.abs()
+                };
                 // Planes may be farther than the rest; twice is a guess that costs one bit.
-                let low = low.max(0.0);
-                let room = if unbounded { high.abs() } else { 0.5 * (high - low) };
-                (high + room.max(GAP * high.abs())).clamp(0.0, f64::from(f32::MAX))
+                let low = low.max(screen.depth_of_eye());
+                let room = if unbounded { size } else { 0.5 * (high - low) };
+                (high + room.max(GAP * size)).clamp(0.0, f64::from(f32::MAX))
             }
         };
         let offset = if offset.is_finite() { offset } else { 0.0 };
-        KeyScale { projection: camera.projection(), offset }
+        KeyScale { projection: camera.projection(), offset, from_eye: offset + waypoint.t }
     }
 
     /// The key of a depth that is certain to within a quarter of [`KEY_ERROR`], or NaN.
@@ -183,6 +195,6 @@ impl KeyScale {
     }
 }
 
-/// The least distance of the farthest key from 0, as a part of the farthest `1/t` or `t`: the vertex
-/// stage knows those to within 2⁻⁴¹, hence keys to within 2⁻³¹.
+/// The least distance of the farthest key from 0, as a part of the farthest `1/t` or `t`, or of the scene's size
+/// about the waypoint: the vertex stage knows those to within 2⁻⁴¹, hence keys to within 2⁻³¹.
 const GAP: f64 = 1.0 / 1024.0;

@@ -27,19 +27,20 @@ impl Edge {
     /// 3. `D = (x·u + y·v) − d·w` is rounded by 3. That is at most 2 + 3 + 1 + 2 + 3 = 11 of `Σ
     /// N·reach`.
     ///
-    /// Parallel: `E = D·(p × q) + O·m`, `m = (p − q) × D`. The first term carries 2 + 3, and 2 for two
-    /// sums. A coordinate of `m` carries 3 of its permanent `M`, the product with `u` or `v` 3,
+    /// Parallel: `E = D·(p × q) + O·m`, `m = (p − q) × D`. Corners are taken from the waypoint in the first term,
+    /// which leaves `E` as it is; each brings two roundings then, and the term carries 4 + 2 + 3, and 2 for
+    /// two sums. A coordinate of `m` carries 3 of its permanent `M`, the product with `u` or `v` 3,
     /// evaluation 3, and `O` is rounded by 2: at most 11 of `Σ M·reach`.
     ///
-    /// The bound takes 13, so that its own roundings (at most 10, each of one part in 2⁵³) do no harm.
-    fn new(screen: &Screen, p: DVec3, q: DVec3) -> Edge {
+    /// The bound takes 13, so that its own roundings (at most 10, each of one part in 2⁵³) do no harm, nor those
+    /// of second order.
+    fn new(screen: &Screen, [p, q]: [DVec3; 2], along: DVec3) -> Edge {
         let (normal, permanent) = (p.cross(q), cross_permanent(p, q));
         let (at_centre, slope, size) = match screen.projection() {
             Projection::Perspective => {
                 (-screen.distance * normal.dot(screen.w), normal, permanent.dot(screen.reach))
             }
             Projection::Parallel => {
-                let along = p - q;
                 let slope = -along.cross(screen.w);
                 let size = permanent.dot(screen.w.abs())
                     + cross_permanent(along, screen.w).dot(screen.reach);
@@ -92,7 +93,10 @@ impl TriangleSetup {
         let normal = along_b.cross(along_c);
         let permanent = cross_permanent(along_b, along_c);
         let facing = facing::<F>(screen, judge, corners, normal, permanent)?;
-        let edge = |p, q| Edge::new(screen, p, q).oriented(facing);
+        let edge = |p, q| {
+            let ends = [p, q].map(|corner| screen.waypoint.relative(corner));
+            Edge::new(screen, ends, p - q).oriented(facing)
+        };
         let mut setup = TriangleSetup {
             edges: [edge(a, b), edge(b, c), edge(c, a)],
             depth: DepthPlane::new(screen, a, normal, permanent),

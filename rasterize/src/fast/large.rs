@@ -13,7 +13,7 @@ use bothways_common::fault::{Fault, Planted, error_bound};
 use bothways_common::frame::Region;
 use bothways_common::observe::{Sample, Watcher};
 use bothways_common::simd::Simd;
-use bothways_common::{Primitive, Projection, Sign};
+use bothways_common::{Primitive, Projection, Ray, Sign};
 use glam::DVec3;
 use std::ops::Range;
 
@@ -112,6 +112,7 @@ impl<O: Watcher + ?Sized> Brush<'_, '_, O> {
     fn draw_part_of_triangle<F: Fault>(&mut self, setup: &TriangleSetup, here: Region) {
         let screen = self.picture.screen;
         let (xs, ys) = (screen.grid.x(), screen.grid.y());
+        let eye = screen.depth_of_eye();
         let [ab, bc, ca] = &setup.edges;
         for row in here.rows {
             let y = ys[row];
@@ -136,8 +137,8 @@ impl<O: Watcher + ?Sized> Brush<'_, '_, O> {
                 let depth = setup.depth.at(depth_on_row, x);
                 // A perspective ray meets what it covers in front of the eye; a parallel one may not.
                 let behind = screen.projection() == Projection::Parallel
-                    && (depth.high < 0.0
-                        || (inside && depth.low <= 0.0 && !self.judge_covers::<F>(sample)));
+                    && (depth.high < eye
+                        || (inside && depth.low <= eye && !self.judge_covers::<F>(sample)));
                 if !behind {
                     self.fragment::<F>(sample, depth);
                 }
@@ -148,17 +149,32 @@ impl<O: Watcher + ?Sized> Brush<'_, '_, O> {
     fn draw_sphere<F: Fault>(&mut self, here: Region) {
         let Primitive::Sphere { center, radius } = self.primitive else { return };
         let screen = self.picture.screen;
-        let projection = screen.projection();
+        let exact = !F::is(Planted::ZeroErrorBound);
+        let waypoint = screen.waypoint;
+        let from_waypoint = waypoint.relative(center);
+        let is_before_the_eye = {
+            let (extent, depth) = (center.abs().element_sum() + radius, -center.dot(screen.w));
+            depth - radius >= extent * (-10f64).exp2()
+        };
+        let covered = |ray: &Ray| {
+            if waypoint.t > 0.0 && is_before_the_eye {
+                return round::covered_from_afar(from_waypoint, radius, ray, exact);
+            }
+            match round::covered(screen.projection(), center, radius, ray, exact) {
+                // The depth from the eye is not that from the waypoint.
+                Covered::At(_) if waypoint.t > 0.0 => Covered::At(DepthInterval::UNKNOWN),
+                answer => answer,
+            }
+        };
         for row in here.rows {
             for column in here.columns.clone() {
                 let sample = Sample { row, column };
                 let ray = screen.grid.ray(row, column);
                 self.observer.sample_tested(sample, self.id);
-                let exact = !F::is(Planted::ZeroErrorBound);
                 let answer = if F::is(Planted::InfiniteErrorBound) {
                     Covered::Unknown
                 } else {
-                    round::covered(projection, center, radius, &ray, exact)
+                    covered(&ray)
                 };
                 match answer {
                     Covered::At(depth) => self.fragment::<F>(sample, depth),
@@ -192,7 +208,7 @@ impl<O: Watcher + ?Sized> Brush<'_, '_, O> {
 
     fn draw_part_of_plane<F: Fault>(&mut self, depth: &DepthPlane, here: Region) {
         let screen = self.picture.screen;
-        let side = sign_in_front(screen.projection());
+        let (side, eye) = (sign_in_front(screen.projection()), screen.depth_of_eye());
         let (xs, ys) = (screen.grid.x(), screen.grid.y());
         for row in here.rows {
             let on_row = depth.on_row(ys[row]);
@@ -203,7 +219,7 @@ impl<O: Watcher + ?Sized> Brush<'_, '_, O> {
                 // In front of the eye the depth has this side's sign, behind it the other.
                 let [near, far] =
                     if side > 0.0 { [depth.low, depth.high] } else { [-depth.high, -depth.low] };
-                if near > 0.0 || (far >= 0.0 && self.judge_covers::<F>(sample)) {
+                if near > eye || (far >= eye && self.judge_covers::<F>(sample)) {
                     self.fragment::<F>(sample, depth);
                 }
             }

@@ -165,25 +165,34 @@ fn key(
     // The key at the farthest corner, if that is trusted: what is covered lies between corners, and its key
     // between theirs.
     let corners = corners.map_or([DVec3::NAN; 3], |corners| *corners);
+    let most = |numbers: [f64; 3]| numbers[0].max(numbers[1]).max(numbers[2]);
     let depths = corners.map(|corner| -corner.dot(screen.w));
     let extents = corners.map(|corner| corner.abs().element_sum());
     let trusted = depths.iter().zip(&extents).all(|(depth, extent)| {
         // As Screen::new says: then 1/t and t are certain within 2⁻⁴¹ of themselves.
         *depth >= extent * (-10f64).exp2() && *depth > 0.0
     });
-    let farthest = depths[0].max(depths[1]).max(depths[2]);
     let least_of_corners = match keys.projection {
         _ if !trusted => f64::NEG_INFINITY,
         Projection::Perspective => {
-            let near = screen.distance / farthest;
+            let near = screen.distance / most(depths);
             near - offset - (-40f64).exp2() * near
         }
-        Projection::Parallel => offset - farthest - (-40f64).exp2() * (farthest + offset),
+        Projection::Parallel => {
+            // Two roundings of a coordinate, three of the product and the frame's are less than 2⁻⁴⁸.
+            let near = corners.map(|corner| screen.waypoint.relative(corner));
+            let farthest = most(near.map(|corner| -corner.dot(screen.w)));
+            let extent = most(near.map(|corner| corner.abs().element_sum()));
+            offset - farthest - (-46f64).exp2() * (extent + offset)
+        }
     };
     let least = (key.least(part.size) - error).max(least_of_corners);
     let in_front = match keys.projection {
         Projection::Perspective => true,
-        Projection::Parallel => trusted || offset - key.largest(part.size) > error,
+        Projection::Parallel => {
+            let from_eye = keys.from_eye - key.largest(part.size);
+            trusted || from_eye > error + (-48f64).exp2() * keys.from_eye
+        }
     };
     let all = error + EVALUATION * key.most;
     let is_certain = all <= 0.99 * f64::from(KEY_ERROR) * least;

@@ -2,6 +2,7 @@
 
 use super::clip;
 use super::depth::{DepthPlane, sign_in_front};
+use super::waypoint::Waypoint;
 use bothways_common::fault::{Fault, Planted};
 use bothways_common::frame::Region;
 use bothways_common::{Camera, Projection, SampleGrid};
@@ -28,7 +29,9 @@ pub(super) struct Screen<'a> {
     pub(super) middle: [f64; 2],
     /// How far a computed column or row of a trusted vertex may be off; see [`Screen::new`].
     pub(super) margin: [f64; 2],
-    /// How far from the eye, in the sum of its coordinates, a vertex of a parallel camera is trusted.
+    /// From where a parallel camera's offsets are computed.
+    pub(super) waypoint: Waypoint,
+    /// How far from there, in the sum of its coordinates, a vertex of a parallel camera is trusted.
     pub(super) trusted_extent: f64,
 }
 
@@ -55,12 +58,14 @@ impl<'a> Screen<'a> {
     /// `2⁻⁵¹` of `|x| + |y| + d`, which moves `x` by at most `2⁻⁴⁹·(vw + vh + d)·(1 + (vw + vh)/d)`.
     /// The margin takes `2⁻³⁶` and `2⁻⁴⁷`: more than 30 and 4 times that.
     ///
-    /// Parallel. `p·u` is off by `3.01u·s`, frame and `O` by `2⁻⁴⁹·s`, and a trusted vertex has `s ≤
-    /// 2¹⁶·min(vw, vh)`, so a column is off by `2⁻³³·W`; the margin takes `2⁻³⁰`.
+    /// Parallel. `p` is taken from the waypoint, which lies on the middle ray, so that it is seen where it is;
+    /// its coordinates carry two roundings (see [`Waypoint::relative`]) and `s` is the sum of these. `p·u` is off
+    /// by `5.03u·s`, frame and `O` by `2⁻⁴⁹·s`, and a trusted vertex has `s ≤ 2¹⁶·min(vw, vh)`, so a column is off
+    /// by less than `2⁻³²·W`; the margin takes `2⁻³⁰`.
     ///
     /// Where the margin exceeds a quarter, no vertex is trusted, and primitives are drawn with the
     /// whole picture as their region.
-    pub(super) fn new(camera: &'a Camera, grid: &'a SampleGrid<'a>) -> Self {
+    pub(super) fn new(camera: &'a Camera, grid: &'a SampleGrid<'a>, bounds: &[DVec3; 8]) -> Self {
         let [vw, vh] = camera.viewport();
         let d = camera.distance();
         #[expect(clippy::cast_precision_loss, reason = "at most 65,536")]
@@ -87,6 +92,7 @@ impl<'a> Screen<'a> {
             scale: [size[0] / vw, -size[1] / vh],
             middle: size.map(|count| 0.5 * (count - 1.0)),
             margin: [margin(vw, size[0]), margin(vh, size[1])],
+            waypoint: Waypoint::new(camera, bounds),
             trusted_extent: 16f64.exp2() * vw.min(vh),
         }
     }
@@ -94,6 +100,12 @@ impl<'a> Screen<'a> {
     /// Perspective or parallel.
     pub(super) fn projection(&self) -> Projection {
         self.camera.projection()
+    }
+
+    /// The depth of the eye: that of a parallel camera is less than what it sees has, that of a perspective camera is
+    /// 0, on the other side of which infinity lies.
+    pub(super) fn depth_of_eye(&self) -> f64 {
+        -self.waypoint.t
     }
 
     /// The whole picture.
@@ -110,11 +122,12 @@ impl<'a> Screen<'a> {
         // camera and, by the frame's skew and its own rounding, at least −8u·‖O‖₁ for a parallel one,
         // where ‖O‖₁ is at most twice ‖point‖₁.
         let behind = depth < -extent * (-46f64).exp2();
+        let p = self.waypoint.relative(p);
         let onto_viewport = match self.projection() {
             Projection::Perspective if depth >= extent * (-10f64).exp2() && depth > 0.0 => {
                 Some(self.distance / depth)
             }
-            Projection::Parallel if extent <= self.trusted_extent => Some(1.0),
+            Projection::Parallel if p.abs().element_sum() <= self.trusted_extent => Some(1.0),
             _ => None,
         };
         let trusted = onto_viewport.filter(|_| self.margin[0].max(self.margin[1]) <= 0.25);
@@ -157,7 +170,8 @@ impl<'a> Screen<'a> {
         if depth + radius < -s * (-46f64).exp2() {
             return Region { rows: 0..0, columns: 0..0 };
         }
-        let along = [center.dot(self.u), center.dot(self.v)];
+        let relative = self.waypoint.relative(center);
+        let along = [relative.dot(self.u), relative.dot(self.v)];
         match self.projection() {
             Projection::Perspective if depth - radius >= s * (-10f64).exp2() => {
                 let (between, d) = ((depth - radius) * (depth + radius), self.distance);
@@ -174,7 +188,9 @@ impl<'a> Screen<'a> {
                 let margin = [self.margin[0] + extra(0), self.margin[1] + extra(1)];
                 self.region::<F>(self.place(left, top), self.place(right, bottom), margin)
             }
-            Projection::Parallel if s <= self.trusted_extent => {
+            Projection::Parallel
+                if relative.abs().element_sum() + radius <= self.trusted_extent =>
+            {
                 let low = self.place(along[0] - radius, along[1] + radius);
                 let high = self.place(along[0] + radius, along[1] - radius);
                 self.region::<F>(low, high, self.margin)
@@ -189,10 +205,11 @@ impl<'a> Screen<'a> {
         let side = sign_in_front(self.projection());
         let widest = x.last().map_or(0.0, |x| x.abs()) * depth.across.abs();
         let highest = y.first().map_or(0.0, |y| y.abs()) * depth.up.abs();
-        let slack = depth.error;
+        let eye = self.depth_of_eye();
+        let least = eye - depth.error - (-50f64).exp2() * eye.abs();
         let may = |value: f64, rest: f64| {
             let most = side * value + rest;
-            most >= -slack || most.is_nan()
+            most >= least || most.is_nan()
         };
         let row = |row: &usize| may(depth.at_centre + y[*row] * depth.up, widest);
         let column = |column: &usize| may(depth.at_centre + x[*column] * depth.across, highest);

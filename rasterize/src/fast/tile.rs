@@ -453,12 +453,12 @@ pub(super) fn nearer_by<F: Fault>() -> f32 {
 /// Distances from keys, and where they are not within 8·10⁻⁶ of the true ones.
 ///
 /// Perspective: `1/(key + offset)` is at most `KEY_ERROR` of it off, and three roundings of 2⁻²⁴.
-/// Parallel: `offset − key` is off by `KEY_ERROR` of the key, less than twice the distance if that is
-/// at least a third of the offset.
+/// Parallel: `offset − key`, from the eye on, is off by `KEY_ERROR` of the key, less than twice the distance if
+/// that is at least a third of the offset.
 #[inline(always)]
 fn distances<S: Simd>(simd: S, scale: &KeyScale, keys: f32x16<S>) -> (f32x16<S>, mask32x16<S>) {
     #[expect(clippy::cast_possible_truncation, reason = "one of the roundings")]
-    let offset = f32x16::splat(simd, scale.offset as f32);
+    let offset = f32x16::splat(simd, scale.from_eye as f32);
     match scale.projection {
         Projection::Perspective => {
             (f32x16::splat(simd, 1.0) / (keys + offset), !keys.simd_eq(keys))

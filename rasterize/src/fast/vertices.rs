@@ -166,8 +166,9 @@ impl Raster {
     /// Columns and rows in fixed point, keys and flags of eight vertices.
     ///
     /// What is trusted, and why, says [`Screen::new`]: `ζ ≥ 2⁻¹⁰·s` for the depth `ζ` along the view.
-    /// Then `1/t = d/ζ` (perspective) or `t = ζ` (parallel) is known to within 2⁻⁴¹ of itself, and a key
-    /// that is at least 2⁻¹⁵ of it to within 2⁻²⁶; rounding to `f32` adds 2⁻²⁴.
+    /// Then `1/t = d/ζ` (perspective) is known to within 2⁻⁴¹ of itself, and a key that is at least 2⁻¹⁵ of it to
+    /// within 2⁻²⁶; `t` from the waypoint on (parallel) is known to within 2⁻⁴⁸ of the vertex' distance from
+    /// there, and a key that is at least 2⁻²⁰ of that to within 2⁻²⁷. Rounding to `f32` adds 2⁻²⁴.
     #[inline(always)]
     fn place_eight<S: Simd>(
         &self,
@@ -181,30 +182,35 @@ impl Raster {
         let (x, y, z) = (x - splat(eye.x), y - splat(eye.y), z - splat(eye.z));
         let along = |axis: DVec3| x * splat(axis.x) + y * splat(axis.y) + z * splat(axis.z);
         let extent = x.abs() + y.abs() + z.abs();
-        let (right, up) = (along(screen.u), along(screen.v));
         let depth = -along(screen.w);
         let zero = splat(0.0);
 
         let behind = depth.simd_lt(extent * splat(-(-46f64).exp2()));
         let in_front = depth.simd_ge(extent * splat((-10f64).exp2())) & depth.simd_gt(zero);
-        let (onto_viewport, near, safe) = match self.keys.projection {
+        let (right, up, onto_viewport, key, least_key, safe) = match self.keys.projection {
             Projection::Perspective => {
                 let onto = splat(screen.distance) / depth;
-                (onto, onto, in_front)
+                let (right, up) = (along(screen.u), along(screen.v));
+                let key = onto - splat(self.keys.offset);
+                (right, up, onto, key, onto * splat((-15f64).exp2()), in_front)
             }
             Projection::Parallel => {
+                let [high, low] = screen.waypoint.parts();
+                let x = x - splat(high.x) - splat(low.x);
+                let y = y - splat(high.y) - splat(low.y);
+                let z = z - splat(high.z) - splat(low.z);
+                let along = |axis: DVec3| x * splat(axis.x) + y * splat(axis.y) + z * splat(axis.z);
+                let extent = x.abs() + y.abs() + z.abs();
                 let close = extent.simd_le(splat(screen.trusted_extent));
-                (splat(1.0), depth, in_front & close)
+                let key = splat(self.keys.offset) + along(screen.w);
+                let least_key = extent * splat((-20f64).exp2());
+                (along(screen.u), along(screen.v), splat(1.0), key, least_key, in_front & close)
             }
         };
         let safe = safe & mask64x8::splat(simd, self.trusted);
         let column = right * onto_viewport * splat(screen.scale[0]) + splat(screen.middle[0]);
         let row = up * onto_viewport * splat(screen.scale[1]) + splat(screen.middle[1]);
-        let key = match self.keys.projection {
-            Projection::Perspective => near - splat(self.keys.offset),
-            Projection::Parallel => splat(self.keys.offset) - near,
-        };
-        let key_trusted = key.simd_ge(near * splat((-15f64).exp2()))
+        let key_trusted = key.simd_ge(least_key)
             & key.simd_ge(splat(1.0 / LARGEST_KEY))
             & key.simd_le(splat(LARGEST_KEY));
 

@@ -104,7 +104,7 @@ impl Anchor {
             narrowed(x * nx + y * ny + z * nz + lens.shift[row])
         };
         let [t, column, row] = [at_vertex(0), at_vertex(1), at_vertex(2)];
-        let near = if kind.parallel { 1.0 } else { near - kind.rough.t_error };
+        let near = if kind.parallel { 1.0 } else { kind.rough.nearest(near) };
         let [of_t, across, down] = lens.normals;
         Anchor {
             vertex,

@@ -12,7 +12,7 @@ use super::aligned::Straight;
 use super::anchor;
 use super::rough::{self, Plane};
 use bothways_common::{Camera, Projection, SampleGrid, View};
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 /// Half the distance from 1 to the next `f64`.
 const V: f64 = f64::EPSILON / 2.0;
@@ -29,8 +29,17 @@ pub(super) struct Rays<'a> {
     spacing: [f64; 2],
     /// The first coordinate of the map is `t` times this.
     pub(super) scale: f64,
+    reach: Reach,
+}
+
+/// How far what boxes hold reaches.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reach {
     /// No vertex has a larger coordinate relative to the eye.
-    reach: f64,
+    pub(super) from_eye: f64,
+    /// A point of the world, the eye or one that is much nearer, and the largest coordinate relative to it.
+    pub(super) origin: Vec3,
+    pub(super) from_origin: f64,
 }
 
 /// The rays of a square of samples.
@@ -103,8 +112,8 @@ pub(super) struct Errors {
 }
 
 impl<'a> Rays<'a> {
-    /// The rays of a view; `reach` bounds the coordinates of what boxes hold, relative to the eye.
-    pub(super) fn new(view: &View<'a>, samples: u32, reach: f64) -> Self {
+    /// The rays of a view; `reach` bounds the coordinates of what boxes hold.
+    pub(super) fn new(view: &View<'a>, samples: u32, reach: Reach) -> Self {
         let camera = view.camera;
         let grid = camera.sample_grid(samples);
         let size = [count(grid.width()), count(grid.height())];
@@ -112,7 +121,7 @@ impl<'a> Rays<'a> {
         let spacing = [viewport[0] / size[0], viewport[1] / size[1]];
         // Numbers near 1 neither over- nor underflow in f32: a power of two brings them there.
         let scale = match camera.projection() {
-            Projection::Perspective => (camera.distance() / reach).log2().floor().exp2(),
+            Projection::Perspective => (camera.distance() / reach.from_eye).log2().floor().exp2(),
             Projection::Parallel => 1.0 / spacing[0].min(spacing[1]),
         };
         Rays {
@@ -162,7 +171,7 @@ impl<'a> Rays<'a> {
         // The last tile may reach over the picture's end.
         let beyond = 0.5 + (half + 1.0) / self.size[0].min(self.size[1]);
         let largest = (self.viewport[0] + self.viewport[1]) * beyond;
-        let (a, far) = (self.reach, half.max(1.0));
+        let (a, far) = (self.reach.from_eye, half.max(1.0));
         let (errors, wide, axes, slopes);
         match self.projection {
             Projection::Perspective => {
@@ -202,11 +211,19 @@ impl<'a> Rays<'a> {
         let parallel = self.projection == Projection::Parallel;
         let of = |k: usize| axes[k].abs() + largest * slopes[k - 1].abs();
         let size_of_t = axes[0].abs();
+        let Reach { origin, from_origin, .. } = self.reach;
+        let from_eye = origin.as_dvec3() - self.eye;
+        // From any tile's middle the origin's column, times `t` of a perspective camera, is not farther.
+        let beyond_middle = if parallel { 0.0 } else { largest / g * axes[0].dot(from_eye).abs() };
+        let place_of_origin = axes[1].dot(from_eye).abs().max(axes[2].dot(from_eye).abs());
         let rough = rough::Kind::new(
-            self.eye,
+            origin,
+            from_eye,
             axes[0],
             &rough::Sizes {
                 reach: a,
+                near: from_origin,
+                place_of_origin: place_of_origin + beyond_middle,
                 t: size_of_t,
                 place: of(1).max(of(2)),
                 offset: if parallel { largest / g } else { 0.0 },
@@ -245,11 +262,15 @@ impl<'a> Rays<'a> {
         } else {
             ([0.0; 3], kind.wide * t, 0.0)
         };
+        // About the origin of `rough`.
+        let plane = |normal: DVec3, offset: f64| {
+            Plane::new(normal, normal.dot(kind.rough.from_eye) + offset)
+        };
         let sides = [
-            Plane::new(side - across, offset - shift[1]),
-            Plane::new(side + across, offset + shift[1]),
-            Plane::new(side - down, offset - shift[2]),
-            Plane::new(side + down, offset + shift[2]),
+            plane(side - across, offset - shift[1]),
+            plane(side + across, offset + shift[1]),
+            plane(side - down, offset - shift[2]),
+            plane(side + down, offset + shift[2]),
         ];
         let normals = [t, across, down].map(|row| row.as_vec3().to_array());
         let rows = [t.to_array(), across.to_array(), down.to_array()];

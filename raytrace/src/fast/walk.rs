@@ -2,7 +2,7 @@
 
 use super::build::Prepared;
 use super::draw::{self, Extent};
-use super::rays::{Lens, LensKind, Rays};
+use super::rays::{Lens, LensKind, Rays, Reach};
 use super::round;
 use super::sieve::{EIGHT, Look, Sieve, Waiting};
 use super::tile::Tile;
@@ -11,6 +11,7 @@ use bothways_common::fault::{Fault, Planted};
 use bothways_common::observe::Watcher;
 use bothways_common::simd::{Simd, SimdBase, SimdMask, f32x16, mask32x16, prefetch};
 use bothways_common::{Primitive, View};
+use glam::Vec3;
 
 /// A node or leaf to enter yet.
 #[derive(Clone, Copy, Debug)]
@@ -36,12 +37,26 @@ pub(super) struct Walker<'a> {
     sieve: Sieve,
 }
 
-/// How far what boxes hold reaches from the eye, along any axis.
-pub(super) fn reach(prepared: &Prepared, view: &View) -> f64 {
-    let eye = view.camera.eye().as_dvec3();
-    let [low, high] = [prepared.bounds.low, prepared.bounds.high].map(|v| v.as_dvec3() - eye);
-    let reach = low.abs().max(high.abs()).max_element();
-    if reach.is_finite() && reach > 0.0 { reach } else { 1.0 }
+/// How far what boxes hold reaches, along any axis.
+pub(super) fn reach(prepared: &Prepared, view: &View) -> Reach {
+    /// So many times as near as the eye must another origin be.
+    const WORTH: f64 = 8.0;
+    let from = |point: Vec3| {
+        let ends = [prepared.bounds.low, prepared.bounds.high];
+        let [low, high] = ends.map(|end| end.as_dvec3() - point.as_dvec3());
+        let reach = low.abs().max(high.abs()).max_element();
+        if reach.is_finite() && reach > 0.0 { reach } else { 1.0 }
+    };
+    let eye = view.camera.eye();
+    let middle = 0.5 * prepared.bounds.low + 0.5 * prepared.bounds.high;
+    let (from_eye, from_middle) = (from(eye), from(middle));
+    // Rounded up: the differences were rounded.
+    let from_middle = from_middle * (1.0 + f64::EPSILON);
+    if middle.is_finite() && WORTH * from_middle < from_eye {
+        Reach { from_eye, origin: middle, from_origin: from_middle }
+    } else {
+        Reach { from_eye, origin: eye, from_origin: from_eye }
+    }
 }
 
 impl<'a> Walker<'a> {
@@ -185,10 +200,8 @@ impl<'a> Walker<'a> {
     /// Tests the boxes of a node and opens those that a ray of the tile may meet, near ones last, so
     /// first; of leaves with `tiny` triangles any.
     ///
-    /// A box is taken relative to the eye as vertices are, by one rounded subtraction. Rounding keeps
-    /// order: in `f64`, what is computed from a box's corner is not less than what would be computed from any
-    /// point of the box that is nowhere farther along the plane's normal, so only the error of points on rays
-    /// counts, which [`Rays::lens_kind`] allows for, and that of `f32`, for which [`super::rough`] does.
+    /// A side's function is largest, of a box, at one of its corners. The error of points on rays counts, which
+    /// [`Rays::lens_kind`] allows for, and that of what is computed here, for which [`super::rough`] does.
     #[inline(always)]
     fn enter<S: Simd, O: Watcher + ?Sized, F: Fault>(
         &mut self,
@@ -255,22 +268,21 @@ fn meet<S: Simd, F: Fault>(
     farthest: f32,
 ) -> ([f32x16<S>; 2], mask32x16<S>) {
     let kind = &kind.rough;
-    let [ex, ey, ez] = kind.eye;
+    let [ox, oy, oz] = kind.origin;
     let [lx, ly, lz, hx, hy, hz] = &node.bounds;
     let boxes = [
-        [f32x16::load_array_ref(simd, lx) - ex, f32x16::load_array_ref(simd, hx) - ex],
-        [f32x16::load_array_ref(simd, ly) - ey, f32x16::load_array_ref(simd, hy) - ey],
-        [f32x16::load_array_ref(simd, lz) - ez, f32x16::load_array_ref(simd, hz) - ez],
+        [f32x16::load_array_ref(simd, lx) - ox, f32x16::load_array_ref(simd, hx) - ox],
+        [f32x16::load_array_ref(simd, ly) - oy, f32x16::load_array_ref(simd, hy) - oy],
+        [f32x16::load_array_ref(simd, lz) - oz, f32x16::load_array_ref(simd, hz) - oz],
     ];
     let [left, right, upper, lower] = sides;
     let across = left.reach(&boxes, true).min(right.reach(&boxes, true));
     let down = upper.reach(&boxes, true).min(lower.reach(&boxes, true));
     let (near, far) = (kind.t.reach(&boxes, false), kind.t.reach(&boxes, true));
     let room = if F::is(Planted::ShrunkBox) { 0.0 } else { kind.sides_error };
-    let least_t = -kind.t_error;
     // NaN, from numbers that overflow, lets pass.
     let missed = across.min(down).simd_lt(f32x16::splat(simd, -room))
-        | far.simd_lt(f32x16::splat(simd, least_t))
+        | far.simd_lt(f32x16::splat(simd, kind.least_t))
         | near.simd_gt(f32x16::splat(simd, farthest));
     let width = f32x16::load_array_ref(simd, hx) - f32x16::load_array_ref(simd, lx);
     let height = f32x16::load_array_ref(simd, hy) - f32x16::load_array_ref(simd, ly);

@@ -1,0 +1,100 @@
+//! A point on the way of the middle ray, from which what lies far from the eye is computed.
+
+use bothways_common::{Camera, Projection};
+use glam::DVec3;
+
+/// The point `t·D` of a parallel camera's middle ray `0 + t·D`, exactly.
+///
+/// From an eye that is a million times as far from the scene as the scene is large, an offset has twenty bits less
+/// for where it is seen. But parallel rays may begin anywhere on their way: edge functions and places are the same
+/// for offsets from this point, which are short, and depths are less by `t`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Waypoint {
+    pub(super) t: f64,
+    /// The point is the sum of both, of which the second is not more than a rounding of the first.
+    high: DVec3,
+    low: DVec3,
+}
+
+impl Waypoint {
+    /// The eye itself.
+    const EYE: Waypoint = Waypoint { t: 0.0, high: DVec3::ZERO, low: DVec3::ZERO };
+
+    /// The middle of a scene's depth, if that lies far before a parallel camera; `bounds` are the corners of a box
+    /// around the scene.
+    pub(super) fn new(camera: &Camera, bounds: &[DVec3; 8]) -> Waypoint {
+        /// So many times as far as the scene is deep is far.
+        const FAR: f64 = 16.0;
+        if camera.projection() == Projection::Perspective {
+            return Waypoint::EYE;
+        }
+        let depth = |corner: &DVec3| -(*corner - camera.eye().as_dvec3()).dot(camera.w());
+        let low = bounds.iter().map(depth).fold(f64::INFINITY, f64::min);
+        let high = bounds.iter().map(depth).fold(f64::NEG_INFINITY, f64::max);
+        let t = f64::midpoint(low, high);
+        // Written so that NaN and infinity, of a scene of planes alone, fail.
+        if low > 0.0 && t > FAR * (high - low) && t < f64::MAX {
+            Waypoint::at(t, -camera.w())
+        } else {
+            Waypoint::EYE
+        }
+    }
+
+    fn at(t: f64, direction: DVec3) -> Waypoint {
+        let [x, y, z] = direction.to_array().map(|along| product(t, along));
+        Waypoint { t, high: DVec3::new(x[0], y[0], z[0]), low: DVec3::new(x[1], y[1], z[1]) }
+    }
+
+    /// The two parts of the point: subtracted one after the other they are what [`Waypoint::relative`] subtracts.
+    pub(super) fn parts(&self) -> [DVec3; 2] {
+        [self.high, self.low]
+    }
+
+    /// What is given relative to the eye relative to this point, each coordinate rounded twice.
+    ///
+    /// The second rounding is one of the result. The first is, too: either a coordinate and the point's are
+    /// within a factor of two, and their difference is exact (Sterbenz, "Floating-Point Computation", 1974); or it is
+    /// at least half of the point's, of which the second part is less than 2⁻⁵³.
+    pub(super) fn relative(&self, offset: DVec3) -> DVec3 {
+        (offset - self.high) - self.low
+    }
+}
+
+/// A product as the sum of its rounded value and the rest, both exact (Dekker, "A floating-point technique for extending
+/// the available precision", Numerische Mathematik 18, 1971). Neither over- nor underflows: lengths are at most 2¹³⁰,
+/// coordinates of a frame 0 or at least 2⁻¹⁰⁰.
+fn product(a: f64, b: f64) -> [f64; 2] {
+    let halves = |number: f64| {
+        let shifted = 134_217_729.0 * number;
+        let high = shifted - (shifted - number);
+        [high, number - high]
+    };
+    let ([a_high, a_low], [b_high, b_low]) = (halves(a), halves(b));
+    let high = a * b;
+    let low = ((a_high * b_high - high) + a_high * b_low + a_low * b_high) + a_low * b_low;
+    [high, low]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn products_lose_nothing() {
+        // (1 + 2⁻⁵²)² = 1 + 2⁻⁵¹ + 2⁻¹⁰⁴.
+        let a = 1.0 + f64::EPSILON;
+        assert_eq!(product(a, a), [1.0 + 2.0 * f64::EPSILON, f64::EPSILON * f64::EPSILON]);
+        assert_eq!(product(3.0, -0.5), [-1.5, 0.0]);
+    }
+
+    #[test]
+    fn what_lies_on_the_ray_is_at_the_waypoint() {
+        let direction = DVec3::new(0.6, 0.0, -0.8);
+        let waypoint = Waypoint::at(1e6 + 1.0 / 3.0, direction);
+        let [high, low] = waypoint.parts();
+        assert_eq!(waypoint.relative(high), -low);
+        assert!(low != DVec3::ZERO && low.length() < 1e-9);
+        let beside = high + DVec3::new(0.0, 3.5, 0.0);
+        assert_eq!(waypoint.relative(beside).y, 3.5);
+    }
+}
