@@ -4,8 +4,9 @@ mod stream;
 
 pub use stream::render_stream;
 
+use crate::common::budget::{Budget, WorkWithin};
 use crate::common::frame::NO_PRIMITIVE;
-use crate::common::{Frame, Observer, Options, Scene, View, Work};
+use crate::common::{Camera, Frame, Observer, Options, Scene, View, Work};
 use crate::progress::{Listener, Steps};
 use crate::{rasterize, raytrace};
 use serde::Serialize;
@@ -87,7 +88,7 @@ pub struct Rendered {
     /// What it saw.
     pub frame: Frame,
     /// How much was done for one frame.
-    pub work: Work,
+    pub work: Counts,
     /// How long it took; `None` if times are to be left out.
     pub times: Option<Times>,
 }
@@ -97,6 +98,34 @@ impl Rendered {
     pub fn covered(&self) -> u64 {
         self.frame.ids().iter().filter(|&&id| id != NO_PRIMITIVE).count() as u64
     }
+
+    /// The work for one frame, if it was counted.
+    pub fn work(&self) -> Option<&Work> {
+        match &self.work {
+            Counts::Counted(work) => Some(work),
+            Counts::TooMany { .. } | Counts::LeftOut => None,
+        }
+    }
+}
+
+/// What was counted of the work for a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Counts {
+    /// All of it.
+    Counted(Work),
+    /// Nothing: it is more than so many steps, as [`Work::steps`] has them.
+    TooMany {
+        /// See [`most_steps`].
+        most: u64,
+    },
+    /// Nothing: nobody wanted it counted.
+    LeftOut,
+}
+
+/// At how many steps counting is given up, for a frame of so many samples: 2¹⁰ a sample and 2³⁰ besides. Rays meet
+/// some hundred boxes and triangles each, as a rule; who has more to count has it without end.
+pub fn most_steps(samples: u64) -> u64 {
+    (1 << 30) + (samples << 10)
 }
 
 /// How long the parts of a rendering took.
@@ -132,18 +161,21 @@ pub struct RenderOptions<'a> {
     /// With a number, everything is done once to warm up and then timed so many times, into the same
     /// buffers; without, it is timed once. Never 0.
     pub repeat: Option<u32>,
+    /// Whether the frame that counts the work is left out. It may take longer than those that are timed.
+    pub no_counts: bool,
     /// Who is told how far the rendering has come; that changes no bit of the answer.
     pub progress: Option<Listener<'a>>,
 }
 
 impl std::fmt::Debug for RenderOptions<'_> {
     fn fmt(&self, formatter: &mut std::fmt::Formatter) -> std::fmt::Result {
-        let RenderOptions { frame, repeat, progress } = self;
+        let RenderOptions { frame, repeat, no_counts, progress } = self;
         let progress = progress.map(|_| "a listener");
         formatter
             .debug_struct("RenderOptions")
             .field("frame", frame)
             .field("repeat", repeat)
+            .field("no_counts", no_counts)
             .field("progress", &progress)
             .finish()
     }
@@ -151,14 +183,15 @@ impl std::fmt::Debug for RenderOptions<'_> {
 
 impl RenderOptions<'_> {
     /// How many frames are rendered: one that counts the work, one to warm up, and the timed ones.
-    fn frames(&self) -> u64 {
-        1 + self.repeat.map_or(1, |repeat| 1 + u64::from(repeat))
+    fn frames(&self, counting: &Counting) -> u64 {
+        counting.frames() + self.repeat.map_or(1, |repeat| 1 + u64::from(repeat))
     }
 }
 
 /// Renders a view in one order, on the rayon pool that this is called in.
 ///
-/// The work is counted in a frame of its own, before the timed ones.
+/// The work is counted in a frame of its own, before the timed ones, as long as it is at most
+/// [`most_steps`].
 ///
 /// # Panics
 ///
@@ -188,16 +221,71 @@ pub fn render(order: Order, method: Method, view: &View, options: &RenderOptions
             Some(u64::from(rows) * u64::from(options.frame.samples))
         }
     };
+    let counting = Counting::new(view.camera, options);
+    let counting = match method {
+        Method::Fast => counting,
+        Method::Textbook => counting.of_all_tests(view.scene.primitive_count()),
+    };
     let done = AtomicU64::new(0);
-    let steps = Steps::new(order, options.progress, outer_loop, options.frames(), &done);
+    let frames = options.frames(&counting);
+    let steps = Steps::new(order, options.progress, outer_loop, frames, &done);
     let measure = match (order, method) {
         (Order::Object, Method::Fast) => measure::<FastRasterizer>,
         (Order::Object, Method::Textbook) => measure::<TextbookRasterizer>,
         (Order::Image, Method::Fast) => measure::<FastRayTracer>,
         (Order::Image, Method::Textbook) => measure::<TextbookRayTracer>,
     };
-    let (frame, work, times) = measure(view, options, &steps);
+    let (frame, work, times) = measure(view, options, &counting, &steps);
     Rendered { order, method, frame, work, times: Some(times) }
+}
+
+/// Whether the work is counted.
+#[derive(Clone, Copy, Debug)]
+enum Counting {
+    /// In a frame of its own, as long as it is at most so many steps.
+    AtMost { most: u64, samples: u64 },
+    /// It is not, for a reason that is known beforehand.
+    Not(Counts),
+}
+
+impl Counting {
+    fn new(camera: &Camera, options: &RenderOptions) -> Counting {
+        if options.no_counts {
+            return Counting::Not(Counts::LeftOut);
+        }
+        let Options { samples, .. } = options.frame;
+        let samples = options.frame.pixels(camera.image()).region(samples).area() as u64;
+        Counting::AtMost { most: most_steps(samples), samples }
+    }
+
+    /// The same where every primitive is tested at every sample: then it is known whether that is too much.
+    fn of_all_tests(self, primitives: u32) -> Counting {
+        match self {
+            Counting::AtMost { most, samples }
+                if u64::from(primitives).saturating_mul(samples) > most =>
+            {
+                Counting::Not(Counts::TooMany { most })
+            }
+            counting => counting,
+        }
+    }
+
+    fn frames(&self) -> u64 {
+        u64::from(matches!(self, Counting::AtMost { .. }))
+    }
+
+    /// Counts the work of a frame that is drawn for it.
+    fn count<E>(&self, draw: impl FnOnce(&mut WorkWithin) -> Result<(), E>) -> Result<Counts, E> {
+        match *self {
+            Counting::Not(counts) => Ok(counts),
+            Counting::AtMost { most, .. } => {
+                let budget = Budget::new(most);
+                let mut work = WorkWithin::new(&budget);
+                draw(&mut work)?;
+                Ok(work.work().map_or(Counts::TooMany { most }, Counts::Counted))
+            }
+        }
+    }
 }
 
 /// What the four renderers have in common.
@@ -273,16 +361,19 @@ renderer! { TextbookRayTracer: textbook raytrace }
 fn measure<R: Renderer>(
     view: &View,
     &RenderOptions { frame: ref options, repeat, .. }: &RenderOptions,
+    counting: &Counting,
     steps: &Steps,
-) -> (Frame, Work, Times) {
+) -> (Frame, Counts, Times) {
     steps.preparing();
     let (prepared, prepare) = measure_preparing::<R>(view.scene, repeat);
     let mut frame = Frame::new(view.camera, options);
 
     steps.frames_done(0);
-    let mut work = Work::default();
-    watched::<R, _>(&prepared, view, options, &mut frame, &mut work, steps);
-    steps.frames_done(1);
+    let Ok(work) = counting.count::<Infallible>(|work| {
+        watched::<R, _>(&prepared, view, options, &mut frame, work, steps);
+        Ok(())
+    });
+    steps.frames_done(counting.frames());
 
     let run = |part| {
         match part {
@@ -293,7 +384,8 @@ fn measure<R: Renderer>(
         }
         Ok(())
     };
-    let Ok([visibility, shading]) = repeated::<Infallible>(repeat, steps, run);
+    let drawn = counting.frames();
+    let Ok([visibility, shading]) = repeated::<Infallible>(repeat, drawn, steps, run);
     (frame, work, Times { prepare, visibility, shading })
 }
 
@@ -304,15 +396,15 @@ enum Part {
     Shading,
 }
 
-/// Renders the frames that follow the one in which the work is counted, and tells how long visibility and shading
+/// Renders the frames that follow those drawn before, in which the work is counted, and tells how long visibility and shading
 /// took. Each is repeated by itself, so that no shading lies between two frames of which visibility is timed: it
 /// does not in other programs, which ours are held against.
 fn repeated<E>(
     repeat: Option<u32>,
+    mut drawn: u64,
     steps: &Steps,
     mut run: impl FnMut(Part) -> Result<(), E>,
 ) -> Result<[Spread; 2], E> {
-    let mut drawn = 1;
     let mut spread_of = |part| {
         // One more to warm up.
         let runs = repeat.map_or(1, |repeat| repeat + 1);
@@ -399,7 +491,7 @@ impl Spread {
 mod tests {
     use super::*;
     use crate::common::glam::Vec3;
-    use crate::common::{Camera, Shape, Sphere};
+    use crate::common::{Shape, Sphere};
     use crate::progress::{Progress, Stage};
     use std::sync::Mutex;
 
@@ -446,7 +538,12 @@ mod tests {
             for (repeat, frames) in [(None, 2), (Some(1), 3), (Some(3), 5)] {
                 let told = Mutex::new(Vec::new());
                 let listener = |progress| told.lock().unwrap().push(progress);
-                let options = RenderOptions { frame, repeat, progress: Some(&listener) };
+                let options = RenderOptions {
+                    frame,
+                    repeat,
+                    progress: Some(&listener),
+                    ..RenderOptions::default()
+                };
                 let told_of = render(order, method, &view, &options);
                 let options = RenderOptions { progress: None, ..options };
                 let alone = render(order, method, &view, &options);

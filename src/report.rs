@@ -48,8 +48,8 @@ pub struct OrderReport {
     pub visibility_ms: Option<Spread>,
     /// Its normals and colours, per frame.
     pub shading_ms: Option<Spread>,
-    /// How much was done for one frame.
-    pub work: WorkReport,
+    /// How much was done for one frame; `None` where that was not counted, because it was left out or is too much.
+    pub work: Option<WorkReport>,
 }
 
 /// The counts of [`Work`], under the same names.
@@ -115,7 +115,7 @@ impl OrderReport {
             prepare_ms: times.map(|times| times.prepare),
             visibility_ms: times.map(|times| times.visibility),
             shading_ms: times.map(|times| times.shading),
-            work: WorkReport::from(rendered.work),
+            work: rendered.work().copied().map(WorkReport::from),
         }
     }
 }

@@ -35,8 +35,9 @@ fn check_whole_picture(view: &View, options: &Options) {
     }
     for (mut told, one) in work.into_iter().zip(&frames) {
         // One region holds many samples.
-        told.primitives = one.work.primitives;
-        assert_eq!(told, one.work, "{}", one.order.name());
+        let whole = *one.work().unwrap();
+        told.primitives = whole.primitives;
+        assert_eq!(told, whole, "{}", one.order.name());
     }
 }
 

@@ -140,7 +140,7 @@ fn progress_is_told_chunk_by_chunk() {
     for (repeat, total) in [(None, 1), (None, 2), (Some(1), 6)] {
         let (options, times) = (RenderOptions { repeat, ..options }, repeat.map(|_| 0.0));
         let rendered = render_stream(&mut stream, &camera, &options, times).unwrap();
-        assert_eq!(rendered.work.primitives, triangles as u64);
+        assert_eq!(rendered.work().map(|work| work.primitives), Some(triangles as u64));
         let steps = (0..=total).map(|done| (Stage::Rendering, done, total));
         let expected: Vec<_> = [(Stage::Preparing, 0, total)].into_iter().chain(steps).collect();
         assert_eq!(told.lock().unwrap().split_off(0), expected);

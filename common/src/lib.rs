@@ -14,6 +14,7 @@
 //! - Primitive ids count from 0 in scene order, one for a triangle, sphere or plane, one a triangle
 //!   for a mesh.
 
+pub mod budget;
 pub mod camera;
 pub mod crop;
 pub mod fault;

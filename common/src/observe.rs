@@ -25,8 +25,19 @@ pub enum Question {
 ///
 /// Object order tells: `primitive_begun`, then for each of its samples `sample_tested`,
 /// `edge_signs`, `fragment`, `depth_test`. Image order tells: `ray_begun`, then `node_opened`,
-/// `sample_tested`, `edge_signs`, `fragment`, `depth_test`, and at the end of the ray `hit`.
+/// `sample_tested`, `edge_signs`, `fragment`, `depth_test`, and at the end of the ray `hit`. Who merely counts may be
+/// told sums instead.
 pub trait Events {
+    /// The counts of one who merely counts: renderers add to them what happens at many samples at once.
+    fn counts(&mut self) -> Option<&mut Work> {
+        None
+    }
+
+    /// Whether nothing more need be told, from now on: renderers go on for nobody then.
+    fn has_enough(&mut self) -> bool {
+        false
+    }
+
     /// Object order takes up a primitive; no sample outside of the region can be affected.
     fn primitive_begun(&mut self, _primitive: u32, _region: &Region) {}
 
@@ -40,7 +51,8 @@ pub trait Events {
     fn sample_tested(&mut self, _sample: Sample, _primitive: u32) {}
 
     /// The signs of a triangle's edge functions `E_ab`, `E_bc`, `E_ca` at a sample; zero is a tie.
-    /// `None` for one that was not needed, because another had already decided.
+    /// `None` for one that was not needed, because another had already decided. Not told of a triangle that was
+    /// dropped before its edge functions were known, because of where its corners are seen.
     fn edge_signs(&mut self, _sample: Sample, _primitive: u32, _signs: [Option<Sign>; 3]) {}
 
     /// The primitive covers the sample.
@@ -116,6 +128,11 @@ impl<A: Observer, B: Observer> Observer for (A, B) {
 }
 
 impl<A: Events, B: Events> Events for (A, B) {
+    fn has_enough(&mut self) -> bool {
+        // Both are asked: either may note that it was.
+        self.0.has_enough() & self.1.has_enough()
+    }
+
     fn primitive_begun(&mut self, primitive: u32, region: &Region) {
         self.0.primitive_begun(primitive, region);
         self.1.primitive_begun(primitive, region);
@@ -191,6 +208,16 @@ pub struct Work {
     pub judged_nearest: u64,
 }
 
+impl Work {
+    /// How much there is to count, in tests of a primitive or box: what else is looked at for each sample counts as
+    /// much, and a question to the exact judge as much as 256.
+    pub fn steps(&self) -> u64 {
+        const QUESTION: u64 = 256;
+        let questions = self.judged_coverage + self.judged_nearest;
+        self.nodes + self.tests + self.depth_tests + QUESTION * questions
+    }
+}
+
 impl Observer for Work {
     fn fork(&self) -> Self {
         Work::default()
@@ -209,6 +236,10 @@ impl Observer for Work {
 }
 
 impl Events for Work {
+    fn counts(&mut self) -> Option<&mut Work> {
+        Some(self)
+    }
+
     fn primitive_begun(&mut self, _primitive: u32, _region: &Region) {
         self.primitives += 1;
     }

@@ -312,10 +312,14 @@ fn draw_tile<F: Fault>(
     buffer: &mut TileBuffer,
     watcher: Option<&mut dyn Events>,
 ) {
-    match watcher {
-        None => drawing.draw_tile::<(), F>(tile, buffer, &mut ()),
-        Some(watcher) => drawing.draw_tile::<dyn Events, F>(tile, buffer, watcher),
+    if let Some(watcher) = watcher {
+        if drawing.draw_tile::<dyn Events, F>(tile, buffer, watcher) {
+            return;
+        }
+        // Who watches has enough: once more, for nobody.
+        buffer.clear();
     }
+    drawing.draw_tile::<(), F>(tile, buffer, &mut ());
 }
 
 fn run<O: Observer>(

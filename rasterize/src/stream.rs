@@ -19,7 +19,7 @@ use bothways_common::observe::{Events, Observer, Question, Sample};
 use bothways_common::predicate::Memory;
 use bothways_common::stream::Positions;
 use bothways_common::{
-    Camera, Frame, Mesh, Options, Primitive, SampleGrid, Scene, Shape, Sign, View,
+    Camera, Frame, Mesh, Options, Primitive, SampleGrid, Scene, Shape, Sign, View, Work,
 };
 use glam::Vec3;
 use rayon::prelude::*;
@@ -289,6 +289,14 @@ impl<O: Observer> Observer for Shifted<O> {
 }
 
 impl<O: Events> Events for Shifted<O> {
+    fn counts(&mut self) -> Option<&mut Work> {
+        self.inner.counts()
+    }
+
+    fn has_enough(&mut self) -> bool {
+        self.inner.has_enough()
+    }
+
     fn primitive_begun(&mut self, primitive: u32, region: &Region) {
         self.inner.primitive_begun(primitive + self.by, region);
     }

@@ -192,11 +192,14 @@ fn run<O: Observer>(
     parts.into_iter().for_each(|part| observer.join(part));
 }
 
-/// Walks each ray of a share of the picture alone, for an observer.
+/// Walks each ray of a share of the picture alone, for an observer, until that has enough.
 fn watch<F: Fault>(walker: &mut Walker, kind: &LensKind, share: &Tile, observer: &mut dyn Events) {
     dispatch_with!(F, walker.prepared.level, simd => {
         for row in share.region.rows.clone() {
             for column in share.region.columns.clone() {
+                if observer.has_enough() {
+                    return;
+                }
                 walker.walk::<_, dyn Events, F>(simd, kind, [row, column], [1, 1], observer);
             }
         }

@@ -103,6 +103,10 @@ pub(super) struct OutputArgs {
     /// Leave measured times out, so that every run writes the same
     #[arg(long)]
     pub(super) no_times: bool,
+    /// Leave the work uncounted. It is counted in a frame of its own, which takes longer than those that are
+    /// timed; beyond 2^30 steps and 2^10 a sample that is given up
+    #[arg(long)]
+    pub(super) no_counts: bool,
     /// Print nothing but errors
     #[arg(long, conflicts_with = "json")]
     pub(super) quiet: bool,

@@ -73,7 +73,12 @@ pub(super) fn render_options<'a>(
     args: &RenderArgs,
     progress: Option<Listener<'a>>,
 ) -> RenderOptions<'a> {
-    RenderOptions { frame: args.method.options(), repeat: args.method.repeat, progress }
+    RenderOptions {
+        frame: args.method.options(),
+        repeat: args.method.repeat,
+        no_counts: args.output.no_counts,
+        progress,
+    }
 }
 
 /// Bytes that one order keeps for a sample: id, distance, normal and colour.

@@ -3,7 +3,7 @@
 use anstyle::{AnsiColor, Style};
 use bothways::common::{Crop, Work};
 use bothways::diff::{COLOUR_TOLERANCE, Comparison, DEPTH_TOLERANCE};
-use bothways::orders::{Rendered, Spread, Times};
+use bothways::orders::{Counts, Rendered, Spread, Times};
 use bothways::report::Report;
 use bothways::wording::{count, grouped, milliseconds, pixels_shown};
 use std::fmt::Write;
@@ -21,6 +21,15 @@ pub(super) fn table(
         line(&mut text, label, &figures);
     }
     text.push('\n');
+    for one in rendered {
+        if let Counts::TooMany { most } = one.work {
+            let (order, most) = (one.order.name(), grouped(most));
+            text += &format!(
+                "note: the work of {order} was not counted: it is more than {most} steps \
+                 (--no-counts does not try)\n"
+            );
+        }
+    }
     if let Some(comparison) = comparison {
         text += &notes(comparison);
         let colour = if comparison.matches() { AnsiColor::Green } else { AnsiColor::Yellow };
@@ -66,21 +75,24 @@ fn rows(rendered: &[Rendered]) -> Vec<(&'static str, Vec<String>)> {
     let each =
         |figure: &dyn Fn(&Rendered) -> String| rendered.iter().map(figure).collect::<Vec<_>>();
     let counts = |figure: fn(&Work) -> u64| {
-        each(&|one| match figure(&one.work) {
-            0 => "-".into(),
-            number => grouped(number),
+        each(&|one| match one.work().map(figure) {
+            None => "not counted".into(),
+            Some(0) => "-".into(),
+            Some(number) => grouped(number),
         })
     };
-    let mut rows = vec![
-        ("samples covered", each(&|one| grouped(one.covered()))),
-        ("primitives", counts(|work| work.primitives)),
-        ("rays", counts(|work| work.rays)),
-        ("boxes tested", counts(|work| work.nodes)),
-        ("primitive x sample tested", counts(|work| work.tests)),
-        ("of these, covered", counts(|work| work.fragments)),
-        ("depth comparisons", counts(|work| work.depth_tests)),
-        ("left to the exact judge", counts(|work| work.judged_coverage + work.judged_nearest)),
-    ];
+    let mut rows = vec![("samples covered", each(&|one| grouped(one.covered())))];
+    if rendered.iter().any(|one| one.work().is_some()) {
+        rows.extend([
+            ("primitives", counts(|work| work.primitives)),
+            ("rays", counts(|work| work.rays)),
+            ("boxes tested", counts(|work| work.nodes)),
+            ("primitive x sample tested", counts(|work| work.tests)),
+            ("of these, covered", counts(|work| work.fragments)),
+            ("depth comparisons", counts(|work| work.depth_tests)),
+            ("left to the exact judge", counts(|work| work.judged_coverage + work.judged_nearest)),
+        ]);
+    }
     let times = |figure: fn(&Times) -> Spread| {
         each(&|one| one.times.map_or("-".into(), |times| milliseconds(figure(&times).median)))
     };

@@ -4,7 +4,7 @@ use super::resize::{fitted, footprint, resized};
 use super::text::{Style, Weight, draw, shortened, width};
 use crate::common::Work;
 use crate::diff::{Class, Classes, Comparison};
-use crate::orders::{Order, Rendered};
+use crate::orders::{Counts, Order, Rendered};
 use crate::picture::picture;
 use crate::wording::{count, grouped, milliseconds, pixels_shown};
 use image::{Rgb, RgbImage};
@@ -131,25 +131,36 @@ impl Slide<'_> {
 
 /// What one order did: labels and figures, row by row.
 fn figures(rendered: &Rendered) -> Vec<(&'static str, String)> {
-    let Work { primitives, rays, nodes, tests, fragments, depth_tests, .. } = rendered.work;
-    let judged = rendered.work.judged_coverage + rendered.work.judged_nearest;
-    let (outer, boxes) = match rendered.order {
+    let mut rows = match rendered.work {
+        Counts::Counted(work) => counts(rendered.order, &work),
+        Counts::TooMany { most } => vec![
+            ("work for a frame", "not counted".into()),
+            ("it is more than", format!("{} steps", grouped(most))),
+        ],
+        Counts::LeftOut => vec![],
+    };
+    if let Some(times) = rendered.times {
+        let frame = times.visibility.median + times.shading.median;
+        rows.push(("time a frame", milliseconds(frame)));
+    }
+    rows
+}
+
+fn counts(order: Order, work: &Work) -> Vec<(&'static str, String)> {
+    let Work { primitives, rays, nodes, tests, fragments, depth_tests, .. } = *work;
+    let judged = work.judged_coverage + work.judged_nearest;
+    let (outer, boxes) = match order {
         Order::Object => (("primitives", primitives), None),
         Order::Image => (("rays", rays), Some(nodes)),
     };
-    let mut rows = vec![
+    vec![
         (outer.0, grouped(outer.1)),
         ("boxes tested", boxes.map_or("–".into(), grouped)),
         ("primitive × sample tested", grouped(tests)),
         ("of these, covered", grouped(fragments)),
         ("depth comparisons", grouped(depth_tests)),
         ("left to the exact judge", grouped(judged)),
-    ];
-    if let Some(times) = rendered.times {
-        let frame = times.visibility.median + times.shading.median;
-        rows.push(("time a frame", milliseconds(frame)));
-    }
-    rows
+    ]
 }
 
 fn difference(relative: f64) -> String {

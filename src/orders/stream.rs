@@ -1,15 +1,17 @@
 //! Object order of a mesh that is streamed, measured as the others are.
 
-use super::{Method, Order, Part, RenderOptions, Rendered, Spread, Times, repeated};
+use super::{
+    Counting, Counts, Method, Order, Part, RenderOptions, Rendered, Spread, Times, repeated,
+};
 use crate::common::stream::{MeshStream, StreamError};
-use crate::common::{Camera, Observer, Work};
+use crate::common::{Camera, Observer};
 use crate::progress::Steps;
 use crate::rasterize::stream::{CHUNK, Canvas};
 use std::sync::atomic::AtomicU64;
 
 /// Renders a mesh that is streamed, in object order, on the rayon pool that this is called in.
 ///
-/// The work is counted in a pass over the file of its own. If times are wanted, another pass is timed,
+/// The work is counted in a pass over the file of its own, if it is to be counted. If times are wanted, another pass is timed,
 /// or with `repeat` so many after one to warm up; its visibility holds the reading of all faces.
 /// `prepare` is how many milliseconds the vertices took; without it, no times are measured.
 ///
@@ -29,16 +31,20 @@ pub fn render_stream(
     // As long as nobody knows how many triangles there are, passes count as a whole.
     let chunks = mesh.triangles().map(|count| u64::from(count).div_ceil(CHUNK as u64).max(1));
     let done = AtomicU64::new(0);
-    let passes = if prepare.is_some() { options.frames() } else { 1 };
+    let counting = Counting::new(camera, options);
+    let passes = if prepare.is_some() { options.frames(&counting) } else { 1 };
     let steps = Steps::new(Order::Object, options.progress, chunks, passes, &done);
     let mut canvas = Canvas::new(camera, &options.frame);
-    let mut work = Work::default();
 
     steps.preparing();
     steps.frames_done(0);
-    draw(mesh, &mut canvas, camera, &mut work, &steps)?;
-    steps.frames_done(1);
+    let work = counting.count(|work| draw(mesh, &mut canvas, camera, work, &steps))?;
+    steps.frames_done(counting.frames());
     let Some(prepare) = prepare else {
+        if counting.frames() == 0 {
+            draw(mesh, &mut canvas, camera, &mut (), &steps)?;
+            steps.frames_done(1);
+        }
         canvas.shade(mesh.positions(), camera);
         return Ok(rendered(canvas, work, None));
     };
@@ -49,7 +55,7 @@ pub fn render_stream(
         }
         Ok::<_, StreamError>(())
     };
-    let [visibility, shading] = repeated(options.repeat, &steps, run)?;
+    let [visibility, shading] = repeated(options.repeat, counting.frames(), &steps, run)?;
     let times = Times { prepare: Spread::of(vec![prepare]), visibility, shading };
     Ok(rendered(canvas, work, Some(times)))
 }
@@ -75,7 +81,7 @@ fn draw(
     Ok(())
 }
 
-fn rendered(canvas: Canvas, work: Work, times: Option<Times>) -> Rendered {
+fn rendered(canvas: Canvas, work: Counts, times: Option<Times>) -> Rendered {
     let frame = canvas.into_frame();
     Rendered { order: Order::Object, method: Method::Fast, frame, work, times }
 }

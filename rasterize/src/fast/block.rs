@@ -1,5 +1,6 @@
 //! Triangles over many samples: one triangle at a time, sixteen samples at once.
 
+use super::depth::NOTHING;
 use super::lanes::lanes_of;
 use super::setup::Affine;
 use super::tile::{Picture, TileBuffer, nearer_by};
@@ -79,7 +80,7 @@ fn draw_blocks<const ACROSS: usize, S: Simd, O: Watcher + ?Sized, F: Fault>(
             let first = Sample { row, column };
             if O::WATCHES {
                 let ends = [rows.end, columns.end];
-                tell::<ACROSS, S, O, F>(triangle, buffer, observer, first, ends, &tested);
+                tell::<ACROSS, S, O, F>(simd, triangle, buffer, observer, first, ends, &tested);
             }
             let doubt = if ACROSS == 8 {
                 keep_two_rows::<S, F>(simd, &brush, &tested, buffer, index)
@@ -205,10 +206,7 @@ fn keep_two_rows<S: Simd, F: Fault>(
     let stride = buffer.stride();
     let (ids, keys) = buffer.from(index);
     let (ids, keys) = (&mut ids[..stride + 8], &mut keys[..stride + 8]);
-    let held = simd.combine_f32x8(
-        f32x8::from_slice(simd, &keys[..8]),
-        f32x8::from_slice(simd, &keys[stride..stride + 8]),
-    );
+    let held = two_rows(simd, keys, stride);
     let (replaces, doubt) = depth_test::<S, F>(tested, held);
     let (upper, lower) = simd.split_mask32x16(replaces);
     let (upper_keys, lower_keys) = simd.split_f32x16(tested.keys);
@@ -219,6 +217,15 @@ fn keep_two_rows<S: Simd, F: Fault>(
         mask.select(id, u32x8::from_slice(simd, ids)).store_slice(ids);
     }
     doubt
+}
+
+/// Eight keys of one row and eight of the next.
+#[inline(always)]
+fn two_rows<S: Simd>(simd: S, keys: &[f32], stride: usize) -> f32x16<S> {
+    simd.combine_f32x8(
+        f32x8::from_slice(simd, &keys[..8]),
+        f32x8::from_slice(simd, &keys[stride..stride + 8]),
+    )
 }
 
 /// Which fragments are certainly nearest so far, and which samples are not decided.
@@ -257,14 +264,32 @@ fn leave_open<const ACROSS: usize, O: Watcher + ?Sized, F: Fault>(
 }
 
 /// Tells of sixteen tests, and of the depth tests that follow.
+#[inline(always)]
 fn tell<const ACROSS: usize, S: Simd, O: Watcher + ?Sized, F: Fault>(
+    simd: S,
     triangle: &Affine,
-    buffer: &TileBuffer,
+    buffer: &mut TileBuffer,
     observer: &mut O,
     first: Sample,
     [end_row, end_column]: [usize; 2],
     tested: &Tested<S>,
 ) {
+    if let Some(counts) = observer.counts() {
+        let (index, stride) = (buffer.index(first), buffer.stride());
+        let (_, keys) = buffer.from(index);
+        let held = match ACROSS {
+            8 => two_rows(simd, keys, stride),
+            _ => f32x16::from_slice(simd, &keys[..16]),
+        };
+        let (nearer, doubt) = depth_test::<S, F>(tested, held);
+        let certain = nearer | (tested.inside & !doubt);
+        let is_held = certain & !held.simd_eq(f32x16::splat(simd, NOTHING));
+        let (rows, columns) = (end_row - first.row, end_column - first.column);
+        counts.tests += (rows.min(16 / ACROSS) * columns.min(ACROSS)) as u64;
+        counts.fragments += u64::from(certain.to_bitmask().count_ones());
+        counts.depth_tests += u64::from(is_held.to_bitmask().count_ones());
+        return;
+    }
     let values = tested.values.map(SimdBase::to_array);
     let (inside, keys) = (tested.inside.to_bitmask(), tested.keys.to_array());
     for lane in 0..16 {

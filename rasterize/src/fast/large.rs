@@ -43,6 +43,9 @@ pub(super) fn draw<S: Simd, O: Watcher + ?Sized, F: Fault>(
 ) {
     // Several are looked up before they are drawn: so the machine waits for them together.
     for ids in ids.chunks(8) {
+        if O::WATCHES && observer.has_enough() {
+            return;
+        }
         let last = ids.len() - 1;
         let primitives: [Primitive; 8] =
             std::array::from_fn(|k| picture.view.primitive(ids[k.min(last)]));

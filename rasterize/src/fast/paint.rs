@@ -25,13 +25,13 @@ pub(super) struct Drawing<'a> {
 }
 
 impl Drawing<'_> {
-    /// Draws all primitives of a tile.
+    /// Draws all primitives of a tile; or not all, and tells so, if who watches has enough.
     pub(super) fn draw_tile<O: Watcher + ?Sized, F: Fault>(
         &self,
         tile: usize,
         buffer: &mut TileBuffer,
         observer: &mut O,
-    ) {
+    ) -> bool {
         let mut painter = Painter {
             drawing: self,
             find: Finder::new(self.binning),
@@ -51,6 +51,7 @@ impl Drawing<'_> {
             large.extend(bins.list(tile, Class::Large).iter().map(|place| find.id(*place)));
             painter.draw_large::<F>();
         }
+        painter.goes_on()
     }
 }
 
@@ -73,6 +74,12 @@ struct Painter<'a, 'b, O: ?Sized> {
 }
 
 impl<O: Watcher + ?Sized> Painter<'_, '_, O> {
+    /// Whether there is anybody to draw for.
+    #[inline(always)]
+    fn goes_on(&mut self) -> bool {
+        !(O::WATCHES && self.observer.has_enough())
+    }
+
     /// Draws the clusters that may be seen in the tile: the nearer ones first, because what they hide need
     /// not be drawn. Otherwise clusters keep their order, in which neighbours share vertices.
     fn draw_clusters<F: Fault>(&mut self, tile: usize) {
@@ -83,6 +90,9 @@ impl<O: Watcher + ?Sized> Painter<'_, '_, O> {
         let middle = f32::midpoint(low, high);
         for nearer in [true, false] {
             for cluster in clusters().filter(|cluster| (cluster.nearest >= middle) == nearer) {
+                if !self.goes_on() {
+                    return;
+                }
                 // Who watches is told of every triangle.
                 if O::WATCHES || !self.hides::<F>(cluster) {
                     self.sort_cluster::<F>(cluster);
@@ -191,6 +201,9 @@ impl<O: Watcher + ?Sized> Painter<'_, '_, O> {
     /// Draws the triangles of a list.
     fn draw_list<F: Fault>(&mut self, class: Class, list: &[u32]) {
         for (places, next) in list.chunks(16).zip((16..).step_by(16)) {
+            if !self.goes_on() {
+                return;
+            }
             let Painter { drawing, waiting, find, .. } = self;
             let lanes = &mut waiting[class as usize];
             dispatch_with!(F, drawing.level, simd => {

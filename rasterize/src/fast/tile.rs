@@ -107,6 +107,12 @@ impl TileBuffer {
         self.region = region.clone();
     }
 
+    /// Forgets what was drawn into the tile.
+    pub(super) fn clear(&mut self) {
+        self.keys.fill(NOTHING);
+        self.open.clear();
+    }
+
     /// Where the tile lies in the picture.
     pub(super) fn region(&self) -> &Region {
         &self.region
@@ -236,9 +242,15 @@ impl TileBuffer {
         nearer: bool,
         observer: &mut O,
     ) {
+        let is_held = self.keys[index] != NOTHING;
+        if let Some(counts) = observer.counts() {
+            counts.fragments += 1;
+            counts.depth_tests += u64::from(is_held);
+            return;
+        }
         let sample = self.sample(index);
         observer.fragment(sample, id);
-        if self.keys[index] != NOTHING {
+        if is_held {
             observer.depth_test(sample, id, self.ids[index], nearer);
         }
     }

@@ -328,7 +328,7 @@ impl Tile {
     }
 }
 
-/// Tells of the tests of triangles against the only ray of a tile, as far as they are certain.
+/// Tells of the edge functions of triangles at the only ray of a tile, as far as they are certain.
 #[cold]
 fn tell<S: Simd, O: Watcher + ?Sized>(
     setup: &Setup<S>,
@@ -337,12 +337,14 @@ fn tell<S: Simd, O: Watcher + ?Sized>(
     tile: &Tile,
     observer: &mut O,
 ) {
+    if observer.counts().is_some() {
+        return;
+    }
     let Some(sample) = tile.sample(0) else { return };
     let values = setup.edges.map(|edge| edge.at_middle.to_array());
     let (error, facing) = (setup.error.to_array(), setup.facing.to_array());
     let doubtful = setup.doubtful.to_bitmask();
     for lane in (0..8).filter(|lane| used >> lane & 1 == 1) {
-        observer.sample_tested(sample, eight.ids[lane]);
         let edges = values.map(|values| values[lane]);
         let out = edges.iter().any(|edge| *edge < -error[lane]);
         let inside = edges.iter().all(|edge| *edge > error[lane]);

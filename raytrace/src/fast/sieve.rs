@@ -117,7 +117,7 @@ impl Sieve {
     ) {
         let mut passed = mask32x16::from_bitmask(simd, (1 << waiting.used) - 1);
         let anchor = Anchor::new(lens, leaf.anchor(), waiting.size, waiting.near);
-        if anchor.is_useful() && look != Look::None {
+        if anchor.is_useful() {
             let places = leaf.places(simd, lens, &anchor);
             passed &= pass(simd, lens, &places, anchor.error, look);
         }
@@ -163,8 +163,6 @@ impl Sieve {
 /// How closely triangles are looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Look {
-    /// Not at all: all pass.
-    None,
     /// At which samples lie between their corners.
     Boxes,
     /// At their edges, too, which decide where one or two samples lie between the corners.

@@ -133,6 +133,9 @@ impl<'a> Walker<'a> {
                 Kind::Patch | Kind::Triangles => {
                     let is_odd = F::is(Planted::TiesToLast);
                     let used = if is_odd { counts.all() } else { counts.different() };
+                    if O::WATCHES {
+                        self.tell_of_leaf(child, used, observer);
+                    }
                     let hurry = O::WATCHES || extent == Extent::Many || self.tile.is_nearly_full();
                     let is_full = self.sieve.add(Waiting { leaf: child, used, near, size });
                     if !(is_full || hurry) {
@@ -176,8 +179,8 @@ impl<'a> Walker<'a> {
         observer: &mut O,
     ) -> Extent {
         let look = match extent {
-            // Who watches is told of every triangle.
-            _ if O::WATCHES => Look::None,
+            // What depends on the triangles that came before does not belong to the ray.
+            _ if O::WATCHES => Look::Edges,
             Extent::Tiny | Extent::Few => Look::Edges,
             Extent::Many => Look::Boxes,
         };
@@ -195,6 +198,20 @@ impl<'a> Walker<'a> {
             largest = largest.max(Some(extent));
         }
         largest.unwrap_or(extent)
+    }
+
+    /// Tells that a ray alone is tested against triangles of a leaf.
+    fn tell_of_leaf<O: Watcher + ?Sized>(&self, leaf: Child, used: usize, observer: &mut O) {
+        if let Some(counts) = observer.counts() {
+            counts.tests += used as u64;
+            return;
+        }
+        let Some(sample) = self.tile.sample(0) else { return };
+        let ids = match leaf.kind() {
+            Kind::Patch => &self.prepared.patches[leaf.index()].ids,
+            _ => &self.prepared.triangles[leaf.index()].ids,
+        };
+        ids.iter().take(used).for_each(|id| observer.sample_tested(sample, *id));
     }
 
     /// Tests the boxes of a node and opens those that a ray of the tile may meet, near ones last, so
@@ -227,7 +244,13 @@ impl<'a> Walker<'a> {
         if O::WATCHES
             && let Some(sample) = self.tile.sample(0)
         {
-            for lane in 0..usize::from(node.used) {
+            let boxes = if let Some(counts) = observer.counts() {
+                counts.nodes += u64::from(node.used);
+                0
+            } else {
+                usize::from(node.used)
+            };
+            for lane in 0..boxes {
                 let number = u32::try_from(index * WIDTH + lane).unwrap_or(u32::MAX);
                 observer.node_opened(sample, number, met >> lane & 1 == 1);
             }

@@ -22,7 +22,7 @@ fn rendered(order: Order, [width, height]: [u32; 2], count: u64, seen: bool) -> 
     };
     let spread = Spread { median: 12_345.0, min: 1.0, max: 99_999.0 };
     let times = Some(Times { prepare: spread, visibility: spread, shading: spread });
-    Rendered { order, method: Method::Fast, frame, work, times }
+    Rendered { order, method: Method::Fast, frame, work: Counts::Counted(work), times }
 }
 
 fn slide(scene: &str, size: [u32; 2], count: u64, match_: bool) -> RgbImage {
@@ -64,6 +64,20 @@ fn margins_and_gutters_stay_blank() {
         }
         assert!(is_blank(&slide, 0..1920, 0..32) && is_blank(&slide, 0..1920, 1046..1080));
     }
+}
+
+#[test]
+fn work_that_was_not_counted_has_its_rows() {
+    let of = |work| Rendered { work, ..rendered(Order::Image, [4, 4], 1, true) };
+    let rows = figures(&of(Counts::TooMany { most: 1_074_790_400 }));
+    let shown = rows.iter().map(|(label, figure)| format!("{label}: {figure}"));
+    let expected = [
+        "work for a frame: not counted",
+        "it is more than: 1,074,790,400 steps",
+        "time a frame: 24.7 s",
+    ];
+    assert_eq!(shown.collect::<Vec<_>>(), expected);
+    assert_eq!(figures(&of(Counts::LeftOut)).len(), 1);
 }
 
 #[test]
