@@ -160,20 +160,25 @@ pub fn prepare(scene: &Scene) -> Prepared {
         };
         first_vertices.push(first_vertices[first_vertices.len() - 1] + vertices);
     }
-    let corner =
-        |k: usize| DVec3::from_array(std::array::from_fn(|axis| bounds[k >> axis & 1][axis]));
     let clusters = scene.objects().par_iter().map(|object| Clusters::new(&object.shape));
     Prepared {
         batches: batches(scene, most),
         clusters: clusters.collect(),
         primitives,
         first_vertices,
-        bounds: std::array::from_fn(corner),
+        bounds: corners(bounds),
         has_planes,
         level: best_level(),
         tile: TILE,
         spare: Mutex::default(),
     }
+}
+
+/// The corners of a box.
+pub(crate) fn corners(bounds: [DVec3; 2]) -> [DVec3; 8] {
+    std::array::from_fn(|k| {
+        DVec3::from_array(std::array::from_fn(|axis| bounds[k >> axis & 1][axis]))
+    })
 }
 
 /// Cuts a scene into batches of at most so many primitives, meshes only between clusters.
@@ -199,6 +204,12 @@ fn batches(scene: &Scene, most: u32) -> Vec<Batch> {
 }
 
 impl Prepared {
+    /// The same as a part of a larger scene, of which these are the corners of a box around: it is drawn as it is
+    /// within that, to the last bit.
+    pub(crate) fn within(self, bounds: [DVec3; 8]) -> Prepared {
+        Prepared { bounds, ..self }
+    }
+
     /// The same, drawn at another level of SIMD and in tiles of other columns and rows (powers of
     /// two): for tests, which see that neither changes a bit.
     #[doc(hidden)]

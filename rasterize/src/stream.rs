@@ -21,7 +21,7 @@ use bothways_common::stream::Positions;
 use bothways_common::{
     Camera, Frame, Mesh, Options, Primitive, SampleGrid, Scene, Shape, Sign, View, Work,
 };
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 use std::mem;
 
@@ -51,6 +51,8 @@ pub struct Pass<'a, O> {
     waiting: Vec<[u32; 3]>,
     /// The id of the first triangle that waits.
     first_id: u32,
+    /// The corners of a box around all vertices, once it is needed.
+    bounds: Option<[DVec3; 8]>,
 }
 
 impl Canvas {
@@ -81,7 +83,15 @@ impl Canvas {
         assert_eq!(self.frame.camera_image(), camera.image(), "the canvas fits another picture");
         self.ids.fill(NO_PRIMITIVE);
         self.t.fill(f32::INFINITY);
-        Pass { camera, canvas: self, observer, chunk, waiting: Vec::new(), first_id: 0 }
+        Pass {
+            camera,
+            canvas: self,
+            observer,
+            chunk,
+            waiting: Vec::new(),
+            first_id: 0,
+            bounds: None,
+        }
     }
 
     /// Gives every sample its normal and colour, flat and of the default material: only what is seen
@@ -157,7 +167,13 @@ impl<O: Observer> Pass<'_, O> {
         let view = View::new(&scene, self.camera);
         let mut observer = Shifted { inner: self.observer.fork(), by: self.first_id };
         let Canvas { frame, options, .. } = &mut *self.canvas;
-        let prepared = fast::prepare(&scene);
+        let bounds = *self.bounds.get_or_insert_with(|| {
+            let ends = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+            fast::corners(positions.iter().fold(ends, |[low, high], position| {
+                [low.min(position.as_dvec3()), high.max(position.as_dvec3())]
+            }))
+        });
+        let prepared = fast::prepare(&scene).within(bounds);
         fast::determine_visibility(&prepared, &view, options, frame, &mut observer);
         self.observer.join(observer.inner);
         self.merge(positions, &view);
