@@ -384,8 +384,7 @@ fn measure<R: Renderer>(
         }
         Ok(())
     };
-    let drawn = counting.frames();
-    let Ok([visibility, shading]) = repeated::<Infallible>(repeat, drawn, steps, run);
+    let Ok([visibility, shading]) = repeated::<Infallible>(repeat, steps, run);
     (frame, work, Times { prepare, visibility, shading })
 }
 
@@ -401,10 +400,10 @@ enum Part {
 /// does not in other programs, which ours are held against.
 fn repeated<E>(
     repeat: Option<u32>,
-    mut drawn: u64,
     steps: &Steps,
     mut run: impl FnMut(Part) -> Result<(), E>,
 ) -> Result<[Spread; 2], E> {
+    let mut drawn = steps.frames_drawn();
     let mut spread_of = |part| {
         // One more to warm up.
         let runs = repeat.map_or(1, |repeat| repeat + 1);

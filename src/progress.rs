@@ -68,6 +68,11 @@ impl<'a> Steps<'a> {
         self.tell(Stage::Preparing, 0);
     }
 
+    /// How many frames are rendered.
+    pub(crate) fn frames_drawn(&self) -> u64 {
+        self.done.load(Ordering::Relaxed) / self.within_frame.unwrap_or(1).max(1)
+    }
+
     /// So many frames are rendered.
     pub(crate) fn frames_done(&self, frames: u64) {
         let done = frames * self.within_frame.unwrap_or(1);

@@ -1,5 +1,7 @@
 //! How work is counted: the same event by event as in sums, as long as it is within bounds, and to no harm of the frame.
 
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 mod support;
 
 use bothways::common::budget::{Budget, WorkWithin};
@@ -257,4 +259,29 @@ fn peak_memory() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
     line.split_whitespace().nth(1)?.parse().ok()
+}
+
+#[test]
+fn the_command_line_leaves_counts_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |more: &[&str]| {
+        let mut command = assert_cmd::Command::cargo_bin("bothways").unwrap();
+        command.current_dir(&folder).args(["canonical", "--size", "8x6", "--no-times"]);
+        let output = command.args(more).assert().success().get_output().stdout.clone();
+        String::from_utf8(output).unwrap()
+    };
+    let counted = run(&[]);
+    assert!(counted.contains("boxes tested") && counted.contains("left to the exact judge"));
+    let without = run(&["--no-counts"]);
+    assert!(without.contains("samples covered") && without.contains("match"), "{without}");
+    for row in ["primitives  ", "rays", "boxes", "tested", "judge", "not counted"] {
+        assert!(!without.contains(row), "{row}: {without}");
+    }
+    let report: serde_json::Value = serde_json::from_str(&run(&["--no-counts", "--json"])).unwrap();
+    for order in ["object_order", "image_order"] {
+        assert_eq!(report[order]["work"], serde_json::Value::Null);
+        assert_eq!(report[order]["method"], "fast");
+    }
+    let report: serde_json::Value = serde_json::from_str(&run(&["--json"])).unwrap();
+    assert_eq!(report["image_order"]["work"]["rays"], 48);
 }

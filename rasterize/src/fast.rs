@@ -30,6 +30,7 @@ mod large;
 mod narrow;
 mod paint;
 mod round;
+mod round_from_afar;
 mod screen;
 mod setup;
 mod small;

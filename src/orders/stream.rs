@@ -55,7 +55,7 @@ pub fn render_stream(
         }
         Ok::<_, StreamError>(())
     };
-    let [visibility, shading] = repeated(options.repeat, counting.frames(), &steps, run)?;
+    let [visibility, shading] = repeated(options.repeat, &steps, run)?;
     let times = Times { prepare: Spread::of(vec![prepare]), visibility, shading };
     Ok(rendered(canvas, work, Some(times)))
 }

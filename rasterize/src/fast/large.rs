@@ -7,6 +7,7 @@ use super::depth::{DepthInterval, DepthPlane, sign_in_front};
 use super::edges::TriangleSetup;
 use super::narrow::{narrow, narrow_plane};
 use super::round::{self, Covered};
+use super::round_from_afar;
 use super::setup::{Affine, MOST_SAMPLES_ACROSS};
 use super::tile::{Challenger, Picture, TileBuffer, judge_covers};
 use bothways_common::fault::{Fault, Planted, error_bound};
@@ -161,7 +162,7 @@ impl<O: Watcher + ?Sized> Brush<'_, '_, O> {
         };
         let covered = |ray: &Ray| {
             if waypoint.t > 0.0 && is_before_the_eye {
-                return round::covered_from_afar(from_waypoint, radius, ray, exact);
+                return round_from_afar::covered(from_waypoint, radius, ray, exact);
             }
             match round::covered(screen.projection(), center, radius, ray, exact) {
                 // The depth from the eye is not that from the waypoint.

@@ -68,38 +68,3 @@ pub(super) fn covered(
     };
     Covered::At(DepthInterval::from_t(projection, t, 1.25 * (relative + 2.0 * unit)))
 }
-
-/// The same for a sphere that lies before the eye as a whole, of a parallel camera, `center` and the depth that comes of
-/// it counted from the waypoint: the near root is seen, whatever its sign.
-///
-/// # The errors, rounding by rounding
-///
-/// As in [`covered`], but for the centre, of which each coordinate brings two: `m` carries 3, `B` 3 and 3 of `B̂`, `C` 6,
-/// 3 and 1 of `Ĉ`, `B²` twice 6 and one, `A·C` 3, 10 and 1, their difference one more: 15. The root `(−B − √…)/A`
-/// carries what its parts do, and 3 of `A`, the sum's and the quotient's.
-pub(super) fn covered_from_afar(center: DVec3, radius: f64, ray: &Ray, exact: bool) -> Covered {
-    const FLOOR: f64 = 1e-200;
-    let (unit, floor) = if exact { (UNIT_ROUNDOFF, FLOOR) } else { (0.0, 0.0) };
-    let m = ray.origin - center;
-    let a = ray.direction.length_squared();
-    let b = m.dot(ray.direction);
-    let (distance_squared, radius_squared) = (m.length_squared(), radius * radius);
-    let b_size = m.abs().dot(ray.direction.abs());
-    let c_size = distance_squared + radius_squared;
-    let discriminant = b * b - a * (distance_squared - radius_squared);
-    let d_error = 18.0 * unit * (b_size * b_size + a * c_size) + floor;
-    if discriminant < -d_error {
-        return Covered::No;
-    }
-    // Written so that NaN is not known.
-    if discriminant.partial_cmp(&d_error) != Some(std::cmp::Ordering::Greater) {
-        return Covered::Unknown;
-    }
-    let root = discriminant.sqrt();
-    let root_error = d_error / root + unit * root;
-    let t = (-b - root) / a;
-    let error =
-        1.01 * (8.0 * unit * b_size + root_error + 6.0 * unit * (b.abs() + root)) / a + floor;
-    let (low, high) = (t - error, t + error);
-    Covered::At(if low <= high { DepthInterval { low, high } } else { DepthInterval::UNKNOWN })
-}

@@ -85,6 +85,7 @@ impl LensKind {
     /// A fault: nothing is known of where boxes, leaves and small triangles are seen.
     pub(super) fn distrust(&mut self) {
         self.rough.t_error = f32::INFINITY;
+        self.rough.least_t = f32::NEG_INFINITY;
         self.rough.sides_error = f32::INFINITY;
         self.places = anchor::Errors::UNKNOWN;
         self.errors.small = false;

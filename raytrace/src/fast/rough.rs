@@ -24,7 +24,7 @@ pub(super) struct Kind {
     /// What lies in front of the eye has no smaller one, as computed.
     pub(super) least_t: f32,
     /// How far computed values may be off: those of `t`, and those for sides.
-    t_error: f32,
+    pub(super) t_error: f32,
     pub(super) sides_error: f32,
 }
 
