@@ -6,7 +6,8 @@
 //! [`orders`] runs and measures them, [`diff`] compares what they saw, [`picture`] and [`figure`]
 //! show it, [`report`] writes it down for programs, and [`scenes`] finds the scenes. [`cover`]
 //! answers for one triangle on a raster, [`pixel`] for one pixel of a scene, [`opengl`] gives a
-//! camera's matrices, and [`vectors`] is a conformance set for other renderers.
+//! camera's matrices, [`verify`] holds samples of a picture against the textbook, and [`vectors`] is a
+//! conformance set for other renderers.
 //!
 //! ```
 //! use bothways::common::{Camera, Object, Options, Scene, Shape, Sphere, View, glam::Vec3};
@@ -40,4 +41,5 @@ pub mod progress;
 pub mod report;
 pub mod scenes;
 pub mod vectors;
+pub mod verify;
 pub mod wording;

@@ -3,6 +3,7 @@
 use crate::common::Work;
 use crate::diff::{Colour, Comparison, Coverage, Depth, Visible};
 use crate::orders::{Method, Order, Rendered, Spread};
+use crate::verify::Verified;
 use serde::Serialize;
 
 /// The report; its fields are written in this order.
@@ -31,6 +32,9 @@ pub struct Report {
     pub depth: Option<Depth>,
     /// What it looks like.
     pub colour: Option<Colour>,
+    /// What the textbook says of some samples, if it was asked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub verified: Option<Verified>,
     /// What object order did, if it was rendered.
     pub object_order: Option<OrderReport>,
     /// What image order did, if it was rendered.
@@ -92,6 +96,7 @@ impl Report {
             visible: comparison.map(|comparison| comparison.visible.clone()),
             depth: comparison.map(|comparison| comparison.depth),
             colour: comparison.map(|comparison| comparison.colour),
+            verified: None,
             object_order: section(Order::Object),
             image_order: section(Order::Image),
         }

@@ -77,6 +77,11 @@ pub(super) struct MethodArgs {
     /// (with --order object; flat normals)
     #[arg(long)]
     pub(super) stream: bool,
+    /// Answer N samples by the textbook as well (exact ties, silhouettes and edges first, the rest anywhere), and
+    /// fail with exit code 1 if it sees otherwise: a proof on scenes that are too large for --method textbook
+    #[arg(long, value_name = "N", value_parser = from_1, allow_negative_numbers = true,
+          conflicts_with = "stream")]
+    pub(super) verify: Option<u32>,
     /// Render N times after a warm-up, and report the spread of times
     #[arg(long, value_name = "N", value_parser = from_1, allow_negative_numbers = true)]
     pub(super) repeat: Option<u32>,

@@ -12,6 +12,7 @@ mod interrupt;
 mod mesh;
 mod npy;
 mod output;
+mod patience;
 mod pixel;
 mod progress;
 mod render;

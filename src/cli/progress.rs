@@ -71,6 +71,21 @@ impl Bar {
         }
     }
 
+    /// Shows how many steps of something are done.
+    pub(super) fn count(&self, what: &'static str, done: u64, total: u64) {
+        if done <= 1 {
+            self.bar.set_style(with_bar());
+            self.bar.set_message(what);
+            self.bar.set_length(total);
+        }
+        self.bar.set_position(done);
+    }
+
+    /// Does something, such as printing a line, while the bar is out of the way.
+    pub(super) fn suspend(&self, work: impl FnOnce()) {
+        self.bar.suspend(work);
+    }
+
     /// Says what is done that has no steps.
     pub(super) fn say(&self, what: &'static str) {
         self.bar.set_style(without_bar());

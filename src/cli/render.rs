@@ -1,9 +1,10 @@
 //! `bothways render`: from a scene to the output folder and the verdict.
 
-use super::args::{BuffersArg, RenderArgs};
+use super::args::{BuffersArg, MethodArg, RenderArgs};
 use super::camera::{camera, squashed};
 use super::failure::Failure;
 use super::output::Staging;
+use super::patience::Patience;
 use super::progress::Bar;
 use super::{npy, stream, table, terminal};
 use bothways::common::camera::check_samples;
@@ -15,6 +16,7 @@ use bothways::picture::{mask, picture};
 use bothways::progress::Listener;
 use bothways::report::Report;
 use bothways::scenes::{self, LoadedScene};
+use bothways::verify::{Verified, verify};
 use bothways::wording::count;
 use image::{ColorType, ImageEncoder, codecs::png::PngEncoder};
 use std::io::{self, BufWriter, Write};
@@ -27,6 +29,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
         return stream::run(args);
     }
     let loaded = Bar::during("reading the scene", args, || scenes::load(&args.scene))?;
+    check_verify(args)?;
     let (camera, staging, folder) = prepared_output(args, &loaded)?;
     let pool = thread_pool(args)?;
     let bar = Bar::of_run(args);
@@ -58,6 +61,17 @@ pub(super) fn prepared_output(
         anstream::eprintln!("hint: {hint}");
     }
     Ok((camera, staging, folder))
+}
+
+/// Refuses to hold the textbook against itself.
+fn check_verify(args: &RenderArgs) -> Result<(), Failure> {
+    if args.method.verify.is_some() && args.method.method == MethodArg::Textbook {
+        return Err(Failure::new(
+            "--verify holds the fast method against the textbook, which --method textbook is; leave one of \
+             them out",
+        ));
+    }
+    Ok(())
 }
 
 /// The threads to render on.
@@ -136,13 +150,17 @@ impl<'a> Run<'a> {
             [object_order, image_order] => Some(compare(&object_order.frame, &image_order.frame)),
             _ => None,
         };
-        let report = Report::new(
+        let mut report = Report::new(
             &loaded.name,
             loaded.scene.primitive_count(),
             rayon::current_num_threads(),
             &rendered,
             comparison.as_ref(),
         );
+        report.verified = args.method.verify.map(|samples| {
+            let patience = Patience::new(args, &rendered, samples, bar);
+            verify(&view, &rendered, samples.into(), &|| patience.step())
+        });
         Run { args, rendered, comparison, report }
     }
 
@@ -165,7 +183,7 @@ impl<'a> Run<'a> {
             let comparison = self.comparison.as_ref();
             terminal::print(&table::table(&self.report, &self.rendered, comparison, folder))?;
         }
-        Ok(ExitCode::from(status(self.comparison.as_ref())))
+        Ok(ExitCode::from(status(self.comparison.as_ref(), self.report.verified.as_ref())))
     }
 
     fn write(&self, staging: &mut Staging, json: &str) -> Result<(), Failure> {
@@ -207,9 +225,10 @@ impl<'a> Run<'a> {
     }
 }
 
-/// The exit code of a run that went well: one order alone cannot differ.
-fn status(comparison: Option<&Comparison>) -> u8 {
-    u8::from(!comparison.is_none_or(Comparison::matches))
+/// The exit code of a run that went well: one order alone cannot differ, but from its textbook.
+fn status(comparison: Option<&Comparison>, verified: Option<&Verified>) -> u8 {
+    let differs = !comparison.is_none_or(Comparison::matches);
+    u8::from(differs || verified.is_some_and(|verified| !verified.matches))
 }
 
 /// Writes a picture as PNG.
@@ -246,8 +265,8 @@ mod tests {
         let nothing = Frame::new(&Camera::canonical(2, 2), &Options::default());
         let mut something = nothing.clone();
         something.set(1, 1, 0, 1.0);
-        assert_eq!(status(Some(&compare(&nothing, &something))), 1);
-        assert_eq!(status(Some(&compare(&something, &something))), 0);
-        assert_eq!(status(None), 0);
+        assert_eq!(status(Some(&compare(&nothing, &something)), None), 1);
+        assert_eq!(status(Some(&compare(&something, &something)), None), 0);
+        assert_eq!(status(None, None), 0);
     }
 }

@@ -32,13 +32,22 @@ pub(super) fn table(
     }
     if let Some(comparison) = comparison {
         text += &notes(comparison);
-        let colour = if comparison.matches() { AnsiColor::Green } else { AnsiColor::Yellow };
-        let style = colour.on_default().bold();
+        let style = verdict_style(comparison.matches());
         text += &format!("{style}{}{style:#}\n", comparison.verdict());
     }
     let dimmed = Style::new().dimmed();
+    if let Some(verified) = &report.verified {
+        let style = verdict_style(verified.matches);
+        text += &format!("{style}{}{style:#}\n", verified.verdict());
+        text += &format!("{dimmed}of these samples {}{dimmed:#}\n", verified.places());
+    }
     text += &format!("{dimmed}written to {}{dimmed:#}\n", folder.display());
     text
+}
+
+fn verdict_style(matches: bool) -> Style {
+    let colour = if matches { AnsiColor::Green } else { AnsiColor::Yellow };
+    colour.on_default().bold()
 }
 
 const LABEL_WIDTH: usize = 26;

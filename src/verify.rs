@@ -1,0 +1,184 @@
+//! Some samples of a picture answered by the textbook as well: a proof that costs little where the whole picture by the
+//! textbook would take days.
+//!
+//! The fast renderers were held against the textbooks on many scenes, but perhaps not on this one. Where they might be
+//! wrong is where something is decided closely, so that samples are chosen there first: where the orders disagree, at
+//! exact ties, at silhouettes, at edges between primitives; and then anywhere.
+
+mod choice;
+
+pub use choice::{Choice, Reason, choose};
+
+use crate::common::{Crop, Frame, Options, View};
+use crate::orders::{Order, Rendered};
+use crate::wording::{count, grouped};
+use crate::{rasterize, raytrace};
+use rayon::prelude::*;
+use serde::Serialize;
+
+/// How many wrong pixels are named.
+const NAMED_PIXELS: usize = 10;
+
+/// What came of it, in samples.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Verified {
+    /// How many were answered by the textbook as well.
+    pub samples: u64,
+    /// Of these, in pixels in which the orders see different primitives.
+    pub differing: u64,
+    /// In pixels with an exact tie: a sample on an edge of what is seen in or beside it, or two primitives equally near.
+    pub ties: u64,
+    /// In pixels beside which something is covered where they are not, or the other way round.
+    pub silhouettes: u64,
+    /// In pixels beside which another primitive is seen.
+    pub edges: u64,
+    /// Anywhere else.
+    pub at_random: u64,
+    /// How object order compares with its textbook, if it was rendered.
+    pub object_order: Option<Against>,
+    /// How image order compares with its textbook, if it was rendered.
+    pub image_order: Option<Against>,
+    /// Whether no sample differs.
+    #[serde(rename = "match")]
+    pub matches: bool,
+}
+
+/// One order against its textbook.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Against {
+    /// Samples at which it sees another primitive, or one where there is none, or none where there is one.
+    pub differing_samples: u64,
+    /// The first pixels of these, at most 10, as `[i, j]` of the whole image, row by row.
+    pub first_differing: Vec<[u32; 2]>,
+}
+
+impl Verified {
+    /// What is said of it in one line.
+    pub fn verdict(&self) -> String {
+        let samples = count(self.samples, "samples");
+        if self.matches {
+            return format!("verified: {samples} answered by the textbook as well, none differs");
+        }
+        let said = |name: &str, against: &Option<Against>| {
+            let against = against.as_ref().filter(|against| against.differing_samples > 0)?;
+            let first = against.first_differing.first();
+            let first = first.map(|[i, j]| format!(", first at ({i}, {j})")).unwrap_or_default();
+            Some(format!("{name} in {} of them{first}", grouped(against.differing_samples)))
+        };
+        let wrong =
+            [said("object order", &self.object_order), said("image order", &self.image_order)];
+        let wrong: Vec<String> = wrong.into_iter().flatten().collect();
+        let wrong = wrong.join("; ");
+        format!(
+            "not verified: {samples} answered by the textbook as well, which sees otherwise than {wrong}"
+        )
+    }
+
+    /// Where the samples lie, in words.
+    pub fn places(&self) -> String {
+        let all = [
+            (self.differing, "where the orders differ"),
+            (self.ties, "at exact ties"),
+            (self.silhouettes, "at silhouettes"),
+            (self.edges, "at edges"),
+            (self.at_random, "at random"),
+        ];
+        let some = all.iter().filter(|(samples, _)| *samples > 0);
+        let some: Vec<String> =
+            some.map(|(samples, place)| format!("{} {place}", grouped(*samples))).collect();
+        some.join(", ")
+    }
+}
+
+/// Answers about so many samples by the textbook, whole pixels of them, and compares.
+///
+/// Runs on the rayon pool that it is called in. The choice depends on the pictures alone, so that it is the same for any
+/// number of threads; `progress` is told after each pixel.
+///
+/// # Panics
+///
+/// If nothing was rendered, or the frames are not of this view.
+///
+/// ```
+/// use bothways::common::{Camera, View};
+/// use bothways::orders::{self, Method, Order, RenderOptions};
+///
+/// let scene = bothways::scenes::load("canonical")?.scene;
+/// let camera = Camera::canonical(32, 32);
+/// let view = View::new(&scene, &camera);
+/// let drawn = orders::render(Order::Object, Method::Fast, &view, &RenderOptions::default());
+/// let verified = bothways::verify::verify(&view, &[drawn], 100, &|| ());
+/// assert!(verified.matches && verified.samples == 100);
+/// # Ok::<(), bothways::scenes::LoadError>(())
+/// ```
+pub fn verify(
+    view: &View,
+    rendered: &[Rendered],
+    samples: u64,
+    progress: &(dyn Fn() + Sync),
+) -> Verified {
+    let frames: Vec<&Frame> = rendered.iter().map(|one| &one.frame).collect();
+    let a_pixel = u64::from(frames[0].samples()).pow(2);
+    let pixels = usize::try_from(samples.div_ceil(a_pixel)).unwrap_or(usize::MAX);
+    let choices = choose(view, &frames, pixels);
+    let against: Vec<(Order, Against)> =
+        rendered.iter().map(|one| (one.order, against(view, one, &choices, progress))).collect();
+    let of =
+        |order| against.iter().find(|(of, _)| *of == order).map(|(_, against)| against.clone());
+    let chosen =
+        |reason| a_pixel * choices.iter().filter(|choice| choice.reason == reason).count() as u64;
+    Verified {
+        samples: a_pixel * choices.len() as u64,
+        differing: chosen(Reason::Differs),
+        ties: chosen(Reason::Tie),
+        silhouettes: chosen(Reason::Silhouette),
+        edges: chosen(Reason::Edge),
+        at_random: chosen(Reason::Random),
+        matches: against.iter().all(|(_, against)| against.differing_samples == 0),
+        object_order: of(Order::Object),
+        image_order: of(Order::Image),
+    }
+}
+
+/// Holds one order's frame against its textbook, in the chosen pixels.
+fn against(
+    view: &View,
+    one: &Rendered,
+    choices: &[Choice],
+    progress: &(dyn Fn() + Sync),
+) -> Against {
+    let textbook = |[row, column]: [u32; 2]| {
+        let crop = Some(Crop { row, column, height: 1, width: 1 });
+        let options = Options { samples: one.frame.samples(), crop };
+        let mut frame = Frame::new(view.camera, &options);
+        match one.order {
+            Order::Object => {
+                rasterize::textbook::determine_visibility(view, &options, &mut frame, &mut ());
+            }
+            Order::Image => {
+                raytrace::textbook::determine_visibility(view, &options, &mut frame, &mut ());
+            }
+        }
+        frame
+    };
+    let wrong = choices.par_iter().map(|choice| {
+        let [i, j] = choice.pixel;
+        let expected = textbook(choice.pixel);
+        let drawn = one.frame.samples_of(i as usize, j as usize);
+        let pairs = expected.samples_of(i as usize, j as usize).zip(drawn);
+        let differing =
+            pairs.filter(|(own, drawn)| expected.ids()[*own] != one.frame.ids()[*drawn]);
+        let differing = differing.count() as u64;
+        progress();
+        (choice.pixel, differing)
+    });
+    let mut wrong: Vec<([u32; 2], u64)> = wrong.filter(|(_, differing)| *differing > 0).collect();
+    wrong.sort_unstable();
+    Against {
+        differing_samples: wrong.iter().map(|(_, differing)| differing).sum(),
+        first_differing: wrong.iter().map(|(pixel, _)| *pixel).take(NAMED_PIXELS).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests;
