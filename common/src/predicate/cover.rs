@@ -189,17 +189,25 @@ pub(super) struct Quadratic<R> {
     pub(super) a: R,
     pub(super) b: R,
     pub(super) c: R,
+    pub(super) m: [R; 3],
+    pub(super) d: [R; 3],
+    pub(super) radius: R,
 }
 
 impl<R: Real> Quadratic<R> {
     pub(super) fn new(center: DVec3, radius: f64, ray: &Ray) -> Self {
         let m = difference::<R>(ray.origin, center);
         let d = vector::<R>(ray.direction);
-        Quadratic { a: dot(&d, &d), b: dot(&m, &d), c: dot(&m, &m).minus(&R::new(radius).square()) }
+        let radius = R::new(radius);
+        let (a, b) = (dot(&d, &d), dot(&m, &d));
+        let c = dot(&m, &m).minus(&radius.square());
+        Quadratic { a, b, c, m, d, radius }
     }
 
-    /// `B² − A·C`.
+    /// `B² − A·C`, as `A·r² − |m × D|²` (Lagrange's identity): nothing of the size of `m·m` cancels, so that
+    /// small spheres far away lose less to rounding.
     pub(super) fn discriminant(&self) -> R {
-        self.b.square().minus(&self.a.times(&self.c))
+        let across = cross(&self.m, &self.d);
+        self.a.times(&self.radius.square()).minus(&dot(&across, &across))
     }
 }

@@ -5,6 +5,7 @@
 //! bound leaves a sign open, exact arithmetic is asked.
 
 mod cover;
+mod double;
 mod nearest;
 mod pair;
 mod real;

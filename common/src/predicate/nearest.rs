@@ -4,6 +4,7 @@
 //! `a` of it, the ray crosses it at `t = p/q`, `p = n·(a − O)`, `q = n·D`.
 
 use super::cover::{Nudge, Quadratic};
+use super::double::Double;
 use super::real::{Bounded, Dyadic, Real, cross, difference, dot, exactly, vector};
 use super::sign::Sign;
 use crate::camera::{Projection, Ray};
@@ -91,7 +92,8 @@ pub(super) fn distance(primitive: &Primitive, ray: &Ray) -> f64 {
         return rounded.value;
     }
     match *primitive {
-        Primitive::Sphere { center, radius } => exact_sphere_distance(center, radius, ray),
+        Primitive::Sphere { center, radius } => doubled_sphere_distance(center, radius, ray)
+            .unwrap_or_else(|| exact_sphere_distance(center, radius, ray)),
         _ => {
             let Crossing { p, q, .. } = Crossing::<Dyadic>::new(primitive, ray);
             p.to_f64() / q.to_f64()
@@ -186,7 +188,7 @@ fn root_side<R: Real>(quadratic: &Quadratic<R>) -> Option<Sign> {
 fn sphere_against_flat<R: Real>(sphere: &Primitive, flat: &Primitive, ray: &Ray) -> Option<Sign> {
     let Primitive::Sphere { center, radius } = *sphere else { unreachable!("it is a sphere") };
     let quadratic = Quadratic::<R>::new(center, radius, ray);
-    let Quadratic { a, b, c } = &quadratic;
+    let Quadratic { a, b, c, .. } = &quadratic;
     let Crossing { p, q, .. } = Crossing::<R>::new(flat, ray);
     let twice = p.times(&q).plus(&p.times(&q));
     let value = a.times(&p.square()).plus(&b.times(&twice)).plus(&c.times(&q.square())).sign()?;
@@ -206,22 +208,29 @@ fn sphere_against_flat<R: Real>(sphere: &Primitive, flat: &Primitive, ray: &Ray)
 }
 
 /// The sign of `t₁ − t₂` of two spheres: of `L − Δ` with `L = σ₁·√d₁ − σ₂·√d₂`, `Δ = B₁ − B₂`.
+///
+/// Spheres that nearly touch have nearly everything in common, which must not be subtracted once it is
+/// rounded. So `Δ = s·D` with the way `s` from the first centre to the second, and by Lagrange's identity
+/// `d₁ − d₂ = A·(r₁ − r₂)·(r₁ + r₂) − (s × D)·((m₁ + m₂) × D)`.
 fn sphere_against_sphere<R: Real>(
     first: &Primitive,
     second: &Primitive,
     ray: &Ray,
 ) -> Option<Sign> {
-    let quadratic = |sphere: &Primitive| match *sphere {
-        Primitive::Sphere { center, radius } => Quadratic::<R>::new(center, radius, ray),
+    let center_and_radius = |sphere: &Primitive| match *sphere {
+        Primitive::Sphere { center, radius } => (center, radius),
         _ => unreachable!("it is a sphere"),
     };
-    let (first, second) = (quadratic(first), quadratic(second));
+    let [(center1, radius1), (center2, radius2)] = [first, second].map(center_and_radius);
+    let first = Quadratic::<R>::new(center1, radius1, ray);
+    let second = Quadratic::<R>::new(center2, radius2, ray);
     let (side1, side2) = (root_side(&first)?, root_side(&second)?);
-    let (d1, d2) = (first.discriminant(), second.discriminant());
-    let delta = first.b.minus(&second.b);
+    let way = difference(center2, center1);
+    let delta = dot(&way, &first.d);
     let same_side = side1 == side2;
+    let greater = || difference_of_discriminants(&first, &second, &way);
 
-    let left = if same_side { side1 * d1.minus(&d2).sign()? } else { side1 };
+    let left = if same_side { side1 * greater().sign()? } else { side1 };
     let right = delta.sign()?;
     if left != right {
         return Some(if left > right { Sign::Positive } else { Sign::Negative });
@@ -230,11 +239,11 @@ fn sphere_against_sphere<R: Real>(
         return Some(Sign::Zero);
     }
     // L and Δ have one sign, so their squares tell: L² − Δ² = M − 2σ₁σ₂·√(d₁·d₂) with
-    // M = d₁ + d₂ − Δ².
-    let m = d1.plus(&d2).minus(&delta.square());
-    let product = d1.times(&d2);
-    let four = product.plus(&product).plus(&product).plus(&product);
-    let squares = || m.square().minus(&four).sign();
+    // M = d₁ + d₂ − Δ². And M² − 4·d₁·d₂ = (d₁ − d₂)² − Δ²·(M + d₁ + d₂).
+    let square = delta.square();
+    let sum = first.discriminant().plus(&second.discriminant());
+    let m = sum.minus(&square);
+    let squares = || greater().square().minus(&square.times(&m.plus(&sum))).sign();
     let greater = match (m.sign()?, same_side) {
         (Sign::Positive, true) => squares()?,
         (_, true) => Sign::Negative,
@@ -244,10 +253,22 @@ fn sphere_against_sphere<R: Real>(
     Some(greater * left)
 }
 
+/// `d₁ − d₂` of two spheres, with the `way` from the first centre to the second.
+fn difference_of_discriminants<R: Real>(
+    first: &Quadratic<R>,
+    second: &Quadratic<R>,
+    way: &[R; 3],
+) -> R {
+    let sum: [R; 3] = std::array::from_fn(|k| first.m[k].plus(&second.m[k]));
+    let radii = first.radius.minus(&second.radius).times(&first.radius.plus(&second.radius));
+    let across = dot(&cross(way, &first.d), &cross(&sum, &first.d));
+    first.a.times(&radii).minus(&across)
+}
+
 fn rounded_sphere_distance(center: DVec3, radius: f64, ray: &Ray) -> Bounded {
     let quadratic = Quadratic::<Bounded>::new(center, radius, ray);
     let root = quadratic.discriminant().square_root();
-    let Quadratic { a, b, c } = quadratic;
+    let Quadratic { a, b, c, .. } = quadratic;
     let minus_b = Bounded::new(0.0).minus(&b);
     // Of the two forms of a root, the one without cancellation. Which root is seen must be certain.
     match (c.sign(), b.value < 0.0) {
@@ -258,11 +279,29 @@ fn rounded_sphere_distance(center: DVec3, radius: f64, ray: &Ray) -> Bounded {
     }
 }
 
+/// From numbers of twice as many digits, if they leave no doubt of more than a part in 10¹².
+fn doubled_sphere_distance(center: DVec3, radius: f64, ray: &Ray) -> Option<f64> {
+    const PART: f64 = 1e-12;
+    let quadratic = Quadratic::<Double>::new(center, radius, ray);
+    let outside = quadratic.c.sign()? == Sign::Positive;
+    let relative = |number: &Double| number.within(PART * number.rounded().abs());
+    let root = relative(&quadratic.discriminant())?.sqrt();
+    // Beside the root, b may be as small as it likes.
+    let b = quadratic.b.within(PART * root)?;
+    let (a, c) = (relative(&quadratic.a)?, relative(&quadratic.c)?);
+    Some(seen_root(outside, [a, b, c], root))
+}
+
 fn exact_sphere_distance(center: DVec3, radius: f64, ray: &Ray) -> f64 {
     let quadratic = Quadratic::<Dyadic>::new(center, radius, ray);
     let root = quadratic.discriminant().square_root();
     let outside = quadratic.c.sign() == Some(Sign::Positive);
-    let [a, b, c] = [quadratic.a, quadratic.b, quadratic.c].map(|number| number.to_f64());
+    let parts = [quadratic.a, quadratic.b, quadratic.c].map(|number| number.to_f64());
+    seen_root(outside, parts, root)
+}
+
+/// The root that is seen, in the form in which nothing cancels. `root` is that of the discriminant.
+fn seen_root(outside: bool, [a, b, c]: [f64; 3], root: f64) -> f64 {
     match (outside, b < 0.0) {
         (true, _) => c / (root - b),
         (false, true) => (root - b) / a,

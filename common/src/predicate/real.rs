@@ -1,9 +1,10 @@
-//! One formula, two arithmetics: rounded with a proved bound, and exact.
+//! One formula, three arithmetics: rounded with a proved bound, rounded to twice as many digits, and exact.
 //!
-//! A predicate is written once, over [`Real`]. It is evaluated in [`Bounded`] arithmetic first; only
-//! where the bound leaves the sign open is it evaluated again in [`Dyadic`] numbers, which have no
-//! error (a floating-point filter: Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast
-//! Robust Geometric Predicates", Discrete & Computational Geometry 18, 1997).
+//! A predicate is written once, over [`Real`]. It is evaluated in [`Bounded`] arithmetic first; where the
+//! bound leaves the sign open, in [`Double`](super::double::Double) numbers, whose bound is smaller by 2⁻⁵³; and only where even
+//! that is not certain, in [`Dyadic`] numbers, which have no error (a floating-point filter: Shewchuk,
+//! "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", Discrete &
+//! Computational Geometry 18, 1997).
 
 use super::sign::Sign;
 use dashu_int::IBig;
@@ -24,10 +25,11 @@ pub(super) trait Real: Sized {
     }
 }
 
-/// Evaluates a predicate in bounded, and where that is not certain in exact arithmetic.
+/// Evaluates a predicate in bounded, then in doubled, and where that is not certain in exact arithmetic.
 macro_rules! exactly {
     ($predicate:ident ( $($argument:expr),* )) => {
         $predicate::<crate::predicate::real::Bounded>($($argument),*)
+            .or_else(|| $predicate::<crate::predicate::double::Double>($($argument),*))
             .or_else(|| $predicate::<crate::predicate::real::Dyadic>($($argument),*))
             .expect("exact arithmetic leaves no sign open")
     };
@@ -66,9 +68,9 @@ pub(super) struct Bounded {
 }
 
 /// Half the distance from 1 to the next number: one rounding changes a result by at most this part.
-const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
+pub(super) const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
 /// More than all underflows of one operation and of its bound can lose.
-const UNDERFLOW: f64 = 8.0 * f64::MIN_POSITIVE;
+pub(super) const UNDERFLOW: f64 = 8.0 * f64::MIN_POSITIVE;
 
 impl Bounded {
     /// A bound computed by at most ten roundings, of which each may have lost one part in 2⁵³, made
