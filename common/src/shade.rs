@@ -3,13 +3,13 @@
 
 use crate::scene::{Light, Material};
 use crate::texture::TexturePoint;
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 /// What is seen at one sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfacePoint {
-    /// Where it is, relative to the eye.
-    pub position: Vec3,
+    /// Where it is, relative to the eye, which may be far away.
+    pub position: DVec3,
     /// Unit normal, towards the viewer.
     pub normal: Vec3,
     /// Unit direction towards the viewer, against the viewing ray.
@@ -42,7 +42,10 @@ fn lit_by(light: &Light, point: &SurfacePoint, material: &Material, eye: Vec3) -
     let (to_light, intensity) = match *light {
         Light::Ambient { intensity } => return material.color * intensity,
         Light::Directional { direction, intensity } => (-direction, intensity),
-        Light::Point { position, intensity } => (position - eye - point.position, intensity),
+        Light::Point { position, intensity } => {
+            let to_light = (position.as_dvec3() - eye.as_dvec3()) - point.position;
+            (to_light.as_vec3(), intensity)
+        }
         Light::AtCamera { intensity } => (point.to_viewer, intensity),
     };
     let to_light = to_light.normalize_or_zero();
@@ -88,8 +91,12 @@ mod tests {
 
     #[test]
     fn a_surface_that_faces_the_light_shows_its_colour() {
-        let point =
-            SurfacePoint { position: -Vec3::Z, normal: Vec3::Z, to_viewer: Vec3::Z, texture: None };
+        let point = SurfacePoint {
+            position: -DVec3::Z,
+            normal: Vec3::Z,
+            to_viewer: Vec3::Z,
+            texture: None,
+        };
         let material = Material { color: Vec3::new(0.5, 0.25, 0.0), ..Material::default() };
         let lit = |direction| {
             let light = Light::Directional { direction, intensity: 1.0 };

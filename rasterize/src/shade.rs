@@ -1,12 +1,16 @@
 //! The look of what is seen: object order interpolates over each triangle what its corners carry,
 //! with weights that are functions on the viewport.
 
+mod form;
 mod quotient;
 
 use bothways_common::frame::{NO_PRIMITIVE, ShadingRow};
 use bothways_common::shade::{SurfacePoint, colour};
 use bothways_common::texture::{self, TexturePoint};
-use bothways_common::{Frame, Material, Primitive, Projection, SampleGrid, Scene, Shape, View};
+use bothways_common::{
+    Frame, Material, Primitive, Projection, Ray, SampleGrid, Scene, Shape, View,
+};
+use form::{Form, Place};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 use quotient::{Linear, Quotient};
 use rayon::prelude::*;
@@ -42,11 +46,11 @@ fn shade_row(view: &View, grid: &SampleGrid, mut row: ShadingRow) {
         };
         let (x, y) = (grid.x()[column], grid.y()[row.row]);
         let ray = view.camera.ray_through(x, y);
-        let position = ray.origin + f64::from(row.t[index]) * ray.direction;
-        let normal = surface.normal(x, y, position, ray.direction).as_vec3();
+        let place = surface.place([x, y], &ray, row.t[index]);
+        let normal = surface.normal(x, y, &place, ray.direction).as_vec3();
         let to_viewer = -ray.direction.normalize().as_vec3();
-        let texture = surface.texture_point(view, x, y, position, step);
-        let point = SurfacePoint { position: position.as_vec3(), normal, to_viewer, texture };
+        let texture = surface.texture_point(view, x, y, &place, step);
+        let point = SurfacePoint { position: place.position, normal, to_viewer, texture };
         row.normals[index] = normal;
         if let Some(kept) = &mut row.texture_coordinates {
             kept[index] = texture.map_or(Vec2::ZERO, |texture| texture.stored());
@@ -71,6 +75,7 @@ fn count(samples: usize) -> f64 {
 /// One visible primitive, set up for all samples at which it is seen.
 struct Surface {
     material: Material,
+    form: Form,
     normals: Normals,
     texture: Texture,
 }
@@ -78,8 +83,8 @@ struct Surface {
 enum Texture {
     /// Not there, or not needed.
     None,
-    /// Of a sphere around this centre.
-    Round(DVec3),
+    /// Of a sphere.
+    Round,
     /// Of a flat form: a function on the viewport.
     Flat(Quotient),
 }
@@ -87,8 +92,8 @@ enum Texture {
 enum Normals {
     /// The same everywhere.
     Flat(DVec3),
-    /// Of a sphere around this centre.
-    Round(DVec3),
+    /// Of a sphere.
+    Round,
     /// Interpolated: the corners' normals, each with its weight, and the flat one.
     Smooth { corners: [(DVec3, Linear); 3], flat: DVec3 },
 }
@@ -98,7 +103,7 @@ impl Surface {
         let (object, local) = view.scene.locate(id);
         let primitive = view.primitive(id);
         let normals = match primitive {
-            Primitive::Sphere { center, .. } => Normals::Round(center),
+            Primitive::Sphere { .. } => Normals::Round,
             Primitive::Plane { normal, .. } => Normals::Flat(normal),
             Primitive::Triangle([a, b, c]) => {
                 let flat = (b - a).cross(c - a);
@@ -121,7 +126,12 @@ impl Surface {
         } else {
             Texture::None
         };
-        Surface { material, normals, texture }
+        Surface { material, form: Form::new(view, &primitive), normals, texture }
+    }
+
+    /// What is seen at a sample of which this `t` is stored.
+    fn place(&self, [x, y]: [f64; 2], ray: &Ray, stored: f32) -> Place {
+        self.form.place([x, y], ray, stored.into())
     }
 
     /// The texture coordinate at a sample, and how it changes towards its neighbours.
@@ -130,17 +140,17 @@ impl Surface {
         view: &View,
         x: f64,
         y: f64,
-        position: DVec3,
+        place: &Place,
         [across, down]: [f64; 2],
     ) -> Option<TexturePoint> {
         let (coordinate, [along_x, along_y]) = match &self.texture {
             Texture::None => return None,
             Texture::Flat(quotient) => quotient.at(x, y),
-            Texture::Round(center) => {
+            Texture::Round => {
                 // Near the sample the sphere is the plane that touches it there.
-                let normal = position - center;
+                let normal = place.from_center;
                 let (coordinate, gradients) = texture::on_sphere(normal);
-                let touching = Quotient::on_plane(view, position, normal, gradients);
+                let touching = Quotient::on_plane(view, place.position, normal, gradients);
                 (coordinate, touching.at(x, y).1)
             }
         };
@@ -148,10 +158,10 @@ impl Surface {
     }
 
     /// The unit normal at a sample, towards the viewer.
-    fn normal(&self, x: f64, y: f64, position: DVec3, direction: DVec3) -> DVec3 {
+    fn normal(&self, x: f64, y: f64, place: &Place, direction: DVec3) -> DVec3 {
         let (flat, smooth) = match &self.normals {
             Normals::Flat(flat) => (*flat, *flat),
-            Normals::Round(center) => (position - center, position - center),
+            Normals::Round => (place.from_center, place.from_center),
             Normals::Smooth { corners, flat } => {
                 let weighted = |(normal, weight): &(DVec3, Linear)| weight.at(x, y) * *normal;
                 (*flat, corners.iter().map(weighted).sum::<DVec3>())
@@ -166,7 +176,7 @@ impl Surface {
 impl Texture {
     fn new(view: &View, primitive: &Primitive, corners: Option<[DVec2; 3]>) -> Texture {
         match (*primitive, corners) {
-            (Primitive::Sphere { center, .. }, _) => Texture::Round(center),
+            (Primitive::Sphere { .. }, _) => Texture::Round,
             (Primitive::Plane { point, normal }, _) => {
                 let axes = texture::plane_axes(normal);
                 Texture::Flat(Quotient::on_plane(view, point, normal, axes))
@@ -187,18 +197,20 @@ fn weights(view: &View, [a, b, c]: [DVec3; 3], flat: DVec3) -> [Linear; 3] {
 }
 
 /// The edge function from `p` to `q`, positive inside of the triangle.
+///
+/// It is made of the way from one to the other: seen from afar, `p × q` would be all rounding.
 fn edge_function(view: &View, p: DVec3, q: DVec3, flat: DVec3) -> Linear {
     let w = view.camera.w();
     match view.camera.projection() {
         Projection::Perspective => {
             let side = flat.dot(p).signum();
-            Linear::along_ray(view, p.cross(q)) * side
+            Linear::along_ray(view, p.cross(q - p)) * side
         }
         Projection::Parallel => {
             let side = -flat.dot(w).signum();
             let (u, v) = (view.camera.u(), view.camera.v());
             let slope = (p - q).cross(w);
-            let [at_centre, across, up] = [p.cross(q).dot(w), slope.dot(u), slope.dot(v)];
+            let [at_centre, across, up] = [p.cross(q - p).dot(w), slope.dot(u), slope.dot(v)];
             Linear { at_centre, across, up } * -side
         }
     }

@@ -31,19 +31,20 @@ fn shade_row(view: &View, grid: &SampleGrid, mut row: ShadingRow) {
             continue;
         }
         let ray = grid.ray(row.row, column);
-        let t = f64::from(row.t[index]);
-        let hit = ray.origin + t * ray.direction;
+        let primitive = view.primitive(id);
+        let hit = Hit::new(&primitive, &ray, row.t[index]);
         let to_viewer = -ray.direction.normalize();
-        let normal = normal_at(view, id, &ray, hit).as_vec3();
+        let normal = normal_at(view, (id, &primitive), &ray, &hit).as_vec3();
         let (object, local) = view.scene.locate(id);
         let material = view.scene.objects()[object].material_of(local);
         let texture = if keeps_texture || material.checker.is_some() {
-            texture_at(view, id, hit).map(|chart| chart.seen_along(&ray, t, view, grid))
+            let chart = texture_at(view, (id, &primitive), &hit);
+            chart.map(|chart| chart.seen_along(&ray, hit.t, view, grid))
         } else {
             None
         };
-        let (position, to_viewer) = (hit.as_vec3(), to_viewer.as_vec3());
-        let point = SurfacePoint { position, normal, to_viewer, texture };
+        let to_viewer = to_viewer.as_vec3();
+        let point = SurfacePoint { position: hit.position, normal, to_viewer, texture };
         row.normals[index] = normal;
         if let Some(kept) = &mut row.texture_coordinates {
             kept[index] = texture.map_or(Vec2::ZERO, |texture| texture.stored());
@@ -52,15 +53,71 @@ fn shade_row(view: &View, grid: &SampleGrid, mut row: ShadingRow) {
     }
 }
 
+/// Where a ray hits a primitive.
+struct Hit {
+    t: f64,
+    /// Relative to the eye.
+    position: DVec3,
+    /// Relative to the middle of a sphere; elsewhere the same.
+    from_center: DVec3,
+}
+
+/// How far a stored `t` may be from the true one, as a part of it.
+const STORED: f64 = 2e-5;
+
+impl Hit {
+    /// What is known to be hit, found again in `f64`: from afar, the digits of the stored `t` end before those of
+    /// the surface begin.
+    ///
+    /// Where the ray runs along the surface or numbers are extreme, rounding may leave less than is stored; then
+    /// that is taken.
+    fn new(primitive: &Primitive, ray: &Ray, stored: f32) -> Hit {
+        let stored = f64::from(stored);
+        let hit = match *primitive {
+            Primitive::Sphere { center, radius } => Hit::on_sphere(center, radius, ray, stored),
+            Primitive::Plane { point, normal } => Hit::on_plane(point, normal, ray),
+            Primitive::Triangle(corners) => Hit::on_plane(corners[0], flat_normal(corners), ray),
+        };
+        if (hit.t - stored).abs() <= STORED * stored {
+            return hit;
+        }
+        let position = ray.origin + stored * ray.direction;
+        let center = match *primitive {
+            Primitive::Sphere { center, .. } => center,
+            _ => DVec3::ZERO,
+        };
+        Hit { t: stored, position, from_center: position - center }
+    }
+
+    fn on_plane(point: DVec3, normal: DVec3, ray: &Ray) -> Hit {
+        let t = normal.dot(point - ray.origin) / normal.dot(ray.direction);
+        let position = ray.origin + t * ray.direction;
+        Hit { t, position, from_center: position }
+    }
+
+    /// The hit whose `t` is closest to this one. The ray comes nearest to the centre at `−k`, beside it by `f`; half
+    /// of the way through the sphere farther or nearer, it meets the sphere.
+    fn on_sphere(center: DVec3, radius: f64, ray: &Ray, stored: f64) -> Hit {
+        let (m, d) = (ray.origin - center, ray.direction);
+        let a = d.length_squared();
+        let k = m.dot(d) / a;
+        let f = m - k * d;
+        let half = ((radius * radius - f.length_squared()).max(0.0) / a).sqrt();
+        let half = if stored + k < 0.0 { -half } else { half };
+        let t = half - k;
+        Hit { t, position: ray.origin + t * d, from_center: f + half * d }
+    }
+}
+
 /// The unit normal of a primitive at a hit point, towards the viewer.
-fn normal_at(view: &View, id: u32, ray: &Ray, hit: DVec3) -> DVec3 {
-    let (flat, smooth) = match view.primitive(id) {
-        Primitive::Sphere { center, .. } => (hit - center, None),
+fn normal_at(view: &View, (id, primitive): (u32, &Primitive), ray: &Ray, hit: &Hit) -> DVec3 {
+    let (flat, smooth) = match *primitive {
+        Primitive::Sphere { .. } => (hit.from_center, None),
         Primitive::Plane { normal, .. } => (normal, None),
         Primitive::Triangle(corners) => {
             let flat = flat_normal(corners);
             let normals = corner_normals(view.scene, id);
-            (flat, normals.map(|normals| interpolate(corners, flat, hit, normals)))
+            (flat, normals.map(|normals| interpolate(corners, flat, hit.position, normals)))
         }
     };
     let normal = smooth.unwrap_or(flat).normalize_or(flat.normalize_or_zero());
@@ -102,21 +159,21 @@ struct Chart {
 }
 
 /// The texture of a primitive around a hit point.
-fn texture_at(view: &View, id: u32, hit: DVec3) -> Option<Chart> {
-    match view.primitive(id) {
-        Primitive::Sphere { center, .. } => {
-            let (coordinate, gradients) = texture::on_sphere(hit - center);
-            Some(Chart { coordinate, gradients, normal: hit - center })
+fn texture_at(view: &View, (id, primitive): (u32, &Primitive), hit: &Hit) -> Option<Chart> {
+    match *primitive {
+        Primitive::Sphere { .. } => {
+            let (coordinate, gradients) = texture::on_sphere(hit.from_center);
+            Some(Chart { coordinate, gradients, normal: hit.from_center })
         }
         Primitive::Plane { point, normal } => {
             let gradients = texture::plane_axes(normal);
-            let coordinate = DVec2::from(gradients.map(|axis| axis.dot(hit - point)));
+            let coordinate = DVec2::from(gradients.map(|axis| axis.dot(hit.position - point)));
             Some(Chart { coordinate, gradients, normal })
         }
         Primitive::Triangle(corners) => {
             let (object, local) = view.scene.locate(id);
             let values = texture::corners(&view.scene.objects()[object].shape, local)?;
-            Some(triangle_chart(corners, values, hit))
+            Some(triangle_chart(corners, values, hit.position))
         }
     }
 }

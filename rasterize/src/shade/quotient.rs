@@ -30,7 +30,7 @@ impl Linear {
     }
 
     /// `a · (O − p)`, where `O` is the origin of the viewing ray.
-    fn from_origin(view: &View, a: DVec3, p: DVec3) -> Linear {
+    pub(super) fn from_origin(view: &View, a: DVec3, p: DVec3) -> Linear {
         let at_centre = -a.dot(p);
         match view.camera.projection() {
             Projection::Perspective => Linear { at_centre, across: 0.0, up: 0.0 },

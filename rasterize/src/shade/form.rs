@@ -1,0 +1,93 @@
+//! Where on a primitive a sample lies, to the digits of an `f64`.
+//!
+//! A stored `t` has 20 binary digits. From afar, these end before those of the surface begin.
+
+use super::quotient::Linear;
+use bothways_common::{Primitive, Projection, Ray, View};
+use glam::DVec3;
+
+/// What is seen at one sample.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    /// Relative to the eye.
+    pub(super) position: DVec3,
+    /// Relative to the middle of a sphere; elsewhere the same.
+    pub(super) from_center: DVec3,
+}
+
+/// A primitive as functions on the viewport.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Form {
+    /// Seen at `t = −above/along`.
+    Flat { above: Linear, along: Linear },
+    /// The ray crosses the plane through the middle that faces the camera at `depth`, beside the middle by what
+    /// `across` and `up` are times `u` and `v`.
+    Round { center: DVec3, radius: f64, depth: f64, across: Linear, up: Linear, axes: [DVec3; 2] },
+}
+
+/// How far a stored `t` may be from the true one, as a part of it.
+const STORED: f64 = 2e-5;
+
+impl Form {
+    pub(super) fn new(view: &View, primitive: &Primitive) -> Form {
+        match *primitive {
+            Primitive::Triangle([a, b, c]) => Form::flat(view, a, (b - a).cross(c - a)),
+            Primitive::Plane { point, normal } => Form::flat(view, point, normal),
+            Primitive::Sphere { center, radius } => {
+                let (u, v) = (view.camera.u(), view.camera.v());
+                let ahead = -center.dot(view.camera.w());
+                // A perspective ray is there at t = depth, as many times as far from the axis as on the viewport.
+                let (depth, scale) = match view.camera.projection() {
+                    Projection::Perspective => {
+                        let depth = ahead / view.camera.distance();
+                        (depth, depth)
+                    }
+                    Projection::Parallel => (ahead, 1.0),
+                };
+                let across = Linear { at_centre: -center.dot(u), across: scale, up: 0.0 };
+                let up = Linear { at_centre: -center.dot(v), across: 0.0, up: scale };
+                Form::Round { center, radius, depth, across, up, axes: [u, v] }
+            }
+        }
+    }
+
+    fn flat(view: &View, point: DVec3, normal: DVec3) -> Form {
+        Form::Flat {
+            above: Linear::from_origin(view, normal, point),
+            along: Linear::along_ray(view, normal),
+        }
+    }
+
+    /// What is seen at a place of the viewport, of which this `t` is stored. That is taken where rounding leaves less:
+    /// where a surface is seen almost edge-on, and numbers are extreme.
+    pub(super) fn place(&self, [x, y]: [f64; 2], ray: &Ray, stored: f64) -> Place {
+        let is_close = |t: f64| (t - stored).abs() <= STORED * stored;
+        let at = |t: f64| ray.origin + t * ray.direction;
+        match self {
+            Form::Flat { above, along } => {
+                let t = -above.at(x, y) / along.at(x, y);
+                let position = at(if is_close(t) { t } else { stored });
+                Place { position, from_center: position }
+            }
+            Form::Round { center, radius, depth, across, up, axes: [u, v] } => {
+                let beside = across.at(x, y) * *u + up.at(x, y) * *v;
+                let on = farther(beside, *radius, ray.direction, stored - depth);
+                let t = depth + on;
+                if is_close(t) {
+                    let from_center = beside + on * ray.direction;
+                    return Place { position: at(t), from_center };
+                }
+                Place { position: at(stored), from_center: at(stored) - *center }
+            }
+        }
+    }
+}
+
+/// How much farther than at `beside` its middle a ray meets a sphere, of two such places the one closer to `about`.
+fn farther(beside: DVec3, radius: f64, direction: DVec3, about: f64) -> f64 {
+    let (a, b) = (direction.length_squared(), beside.dot(direction));
+    let c = beside.length_squared() - radius * radius;
+    let root = (b * b - a * c).max(0.0).sqrt();
+    let root = if about * a + b < 0.0 { -root } else { root };
+    (root - b) / a
+}
