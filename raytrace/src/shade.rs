@@ -95,15 +95,19 @@ impl Hit {
         Hit { t, position, from_center: position }
     }
 
-    /// The hit whose `t` is closest to this one. The ray comes nearest to the centre at `−k`, beside it by `f`; half
-    /// of the way through the sphere farther or nearer, it meets the sphere.
+    /// The ray comes nearest to the centre at `−k`, beside it by `f`; half of the way through the sphere nearer or
+    /// farther, it meets the sphere. From outside it is seen where it is nearer; from where rounding cannot tell, where
+    /// the stored `t` says.
     fn on_sphere(center: DVec3, radius: f64, ray: &Ray, stored: f64) -> Hit {
         let (m, d) = (ray.origin - center, ray.direction);
         let a = d.length_squared();
         let k = m.dot(d) / a;
         let f = m - k * d;
         let half = ((radius * radius - f.length_squared()).max(0.0) / a).sqrt();
-        let half = if stored + k < 0.0 { -half } else { half };
+        let (begins, square) = (m.length_squared(), radius * radius);
+        let is_clear = (begins - square).abs() > 1e-12 * (begins + square);
+        let is_near = if is_clear { begins > square } else { stored + k < 0.0 };
+        let half = if is_near { -half } else { half };
         let t = half - k;
         Hit { t, position: ray.origin + t * d, from_center: f + half * d }
     }

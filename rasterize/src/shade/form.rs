@@ -71,7 +71,12 @@ impl Form {
             }
             Form::Round { center, radius, depth, across, up, axes: [u, v] } => {
                 let beside = across.at(x, y) * *u + up.at(x, y) * *v;
-                let on = farther(beside, *radius, ray.direction, stored - depth);
+                let on = farther(
+                    beside,
+                    *radius,
+                    ray,
+                    [center.distance_squared(ray.origin), stored - depth],
+                );
                 let t = depth + on;
                 if is_close(t) {
                     let from_center = beside + on * ray.direction;
@@ -83,11 +88,15 @@ impl Form {
     }
 }
 
-/// How much farther than at `beside` its middle a ray meets a sphere, of two such places the one closer to `about`.
-fn farther(beside: DVec3, radius: f64, direction: DVec3, about: f64) -> f64 {
-    let (a, b) = (direction.length_squared(), beside.dot(direction));
-    let c = beside.length_squared() - radius * radius;
-    let root = (b * b - a * c).max(0.0).sqrt();
-    let root = if about * a + b < 0.0 { -root } else { root };
+/// How much farther than at `beside` its middle a ray meets a sphere: the first time if it begins outside, so many
+/// lengths squared from the middle, the second time from inside, and where that is hard to say, the closer one to
+/// `about`.
+fn farther(beside: DVec3, radius: f64, ray: &Ray, [begins, about]: [f64; 2]) -> f64 {
+    let (a, b) = (ray.direction.length_squared(), beside.dot(ray.direction));
+    let square = radius * radius;
+    let root = (b * b - a * (beside.length_squared() - square)).max(0.0).sqrt();
+    let is_clear = (begins - square).abs() > 1e-12 * (begins + square);
+    let first = if is_clear { begins > square } else { about * a + b < 0.0 };
+    let root = if first { -root } else { root };
     (root - b) / a
 }
