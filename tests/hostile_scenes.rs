@@ -6,9 +6,9 @@ mod support;
 use bothways::common::glam::{Quat, Vec3};
 use bothways::common::{
     Camera, CameraDescription, Frame, Mesh, Object, Options, Orientation, Plane, Projection, Scene,
-    Shape, Sphere, Triangle, View,
+    Shape, Sphere, Triangle, View, Work,
 };
-use bothways::rasterize;
+use bothways::{rasterize, raytrace};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRng, TestRunner};
 use std::cell::Cell;
@@ -261,4 +261,177 @@ fn lanes_beyond_the_picture_are_not_judged() {
 fn agree_on_one(scene: &Scene, description: CameraDescription, what: &str) {
     let camera = Camera::new(description).expect("it is a camera");
     all_agree(&View::new(scene, &camera), &Options::default(), what);
+}
+
+/// Ways from a point of a sphere to its middle, of whole length.
+const WAYS: [[f32; 3]; 5] =
+    [[0.0, 0.0, -1.0], [1.0, 2.0, -2.0], [-2.0, 3.0, -6.0], [3.0, 0.0, -4.0], [-4.0, 4.0, -7.0]];
+
+/// Two spheres, of up to 10⁹ and more, that nearly have a point in common or everything, and the plane that nearly
+/// touches them there; before the eye, behind it, or on it.
+fn nearly_touching() -> impl Strategy<Value = (Vec<Object>, CameraDescription, u32)> {
+    let radius = || {
+        prop_oneof![
+            (0..31_i8).prop_map(|exponent| f32::from(exponent).exp2()),
+            proptest::sample::select(vec![1.0_f32, 1e3, 1e6, 1e9]),
+            0.5..2.0_f32,
+        ]
+    };
+    let near = |x: f32, which: u8| match which {
+        0 => x.next_up(),
+        1 => x.next_down(),
+        _ => x,
+    };
+    let eye = prop_oneof![Just(Vec3::ZERO), point(Numbers::FewBits), point(Numbers::Ordinary)];
+    let away =
+        prop_oneof![2 => Just(0.0_f32), 2 => (-2..8_i8).prop_map(f32::from), 1 => 1.0..100.0_f32];
+    let shapes = (0..WAYS.len(), [radius(), radius()], [0..4_u8, 0..4_u8, 0..4_u8], 0..5_u8);
+    let lens = (any::<bool>(), -6..3_i8, 0.0..6.3_f32, prop_oneof![Just(0.0_f32), -1.5..1.5_f32]);
+    (eye, away, shapes, lens, 1..3_u32).prop_map(
+        move |(
+            eye,
+            away,
+            (way, [radius, other], near_by, kind),
+            (wide, zoom, yaw, pitch),
+            samples,
+        )| {
+            let way = Vec3::from_array(WAYS[way]);
+            let (ahead, length) = (way / way.length(), way.length());
+            let point = eye + away * ahead;
+            // For radii of few digits, these are exact.
+            let ball = |radius: f32, near_by: u8| {
+                let center = point + radius / length * way;
+                Shape::Sphere(Sphere { center, radius: near(radius, near_by) })
+            };
+            let first = ball(radius, near_by[0]);
+            let second = match (kind, &first) {
+                (0, Shape::Sphere(Sphere { center, radius })) => Shape::Sphere(Sphere {
+                    center: *center,
+                    radius: near(near(*radius, near_by[1]), near_by[2]),
+                }),
+                (1, Shape::Sphere(Sphere { center, radius })) => {
+                    let center =
+                        Vec3::new(near(center.x, near_by[1]), near(center.y, near_by[2]), center.z);
+                    Shape::Sphere(Sphere { center, radius: *radius })
+                }
+                (2, _) => {
+                    // From the other side.
+                    Shape::Sphere(Sphere {
+                        center: point - other / length * way,
+                        radius: near(other, near_by[1]),
+                    })
+                }
+                _ => ball(other, near_by[1]),
+            };
+            let mut shapes = vec![first, second];
+            if kind == 4 {
+                shapes.push(Shape::Plane(Plane { point, normal: way }));
+            }
+            // Towards the point, along the surface, or anywhere.
+            let turn = Quat::from_rotation_y(if yaw < 3.0 { 0.0 } else { yaw })
+                * Quat::from_rotation_x(pitch);
+            let orientation = Orientation::Direction {
+                direction: turn * ahead,
+                up: turn * Vec3::new(0.25, 1.0, 0.125),
+            };
+            let side = f32::from(zoom).exp2();
+            let projection = if wide { Projection::Perspective } else { Projection::Parallel };
+            let description = CameraDescription {
+                projection,
+                eye,
+                orientation,
+                distance: 1.0,
+                viewport: [side; 2],
+                image: [9, 7],
+            };
+            (shapes.into_iter().map(Object::from).collect(), description, samples)
+        },
+    )
+}
+
+#[test]
+fn spheres_that_nearly_touch_each_other_or_the_eye() {
+    let config = Config { cases: cases(1500), failure_persistence: None, ..Config::default() };
+    let rng = TestRng::deterministic_rng(config.rng_algorithm);
+    let mut runner =
+        if cases(1) == 1 { TestRunner::new_with_rng(config, rng) } else { TestRunner::new(config) };
+    let (seen, all) = (Cell::new(0), Cell::new(0));
+    runner
+        .run(&nearly_touching(), |(objects, description, samples)| {
+            let scene = Scene::new(objects).expect("it is a scene");
+            // Looking along up is refused.
+            let Ok(camera) = Camera::new(description) else { return Ok(()) };
+            let options = Options { samples, ..Options::default() };
+            let view = View::new(&scene, &camera);
+            let frame = all_agree(&view, &options, "nearly touching spheres");
+            seen.set(seen.get() + frame.ids().iter().filter(|id| **id != u32::MAX).count());
+            all.set(all.get() + frame.ids().len());
+            Ok(())
+        })
+        .expect("all renderers agree");
+    println!("nearly touching spheres: {} of {} samples covered", seen.get(), all.get());
+    assert!(4 * seen.get() > all.get(), "hardly anything is covered");
+}
+
+#[test]
+fn spheres_are_not_left_to_the_judge() {
+    let ball = |x: f32, y: f32, z: f32, radius: f32| {
+        Shape::Sphere(Sphere { center: Vec3::new(x, y, z), radius })
+    };
+    let scenes = [
+        ("the eye on a sphere", vec![ball(0.0, 0.0, -1.0, 1.0)]),
+        ("the eye on another", vec![ball(3.0, 0.0, -4.0, 5.0)]),
+        ("the eye nearly on a sphere", vec![ball(0.3, 0.1, -1.0, 1.048_809)]),
+        (
+            "nearly touching",
+            vec![ball(0.0, 0.0, -1e6 - 10.0, 1e6), ball(0.0, 0.0, -1e6 - 11.0, 1e6 + 1.0)],
+        ),
+        ("side by side", vec![ball(-1e6, 0.0, -10.0, 1e6), ball(1e6 + 0.0625, 0.0, -10.0, 1e6)]),
+        ("beside itself", vec![ball(0.0, 0.0, -1e6, 9e5), ball(0.0625, 0.0, -1e6, 9e5)]),
+        ("around the eye", vec![ball(0.0, 0.0, -10.0, 1e6), ball(0.0, 0.0, -10.0, 1e6 + 0.0625)]),
+        ("a planet before the eye", vec![ball(0.0, 0.0, -1e9 - 64.0, 1e9)]),
+        ("a planet below the eye", vec![ball(0.0, -1e9 - 64.0, 0.0, 1e9)]),
+        ("a planet that the eye is on", vec![ball(0.0, 0.0, -1e9, 1e9)]),
+        ("a planet beside the eye", vec![ball(1e9, 0.0, -1.0, 1e9)]),
+    ];
+    for (what, shapes) in scenes {
+        let scene =
+            Scene::new(shapes.into_iter().map(Object::from).collect()).expect("it is a scene");
+        for projection in [Projection::Perspective, Projection::Parallel] {
+            let description = CameraDescription {
+                projection,
+                viewport: [1.5, 1.0],
+                image: [48, 32],
+                ..CameraDescription::default()
+            };
+            let camera = Camera::new(description).expect("it is a camera");
+            let (view, options) = (View::new(&scene, &camera), Options::default());
+            let (mut by_object, mut by_image) = (Work::default(), Work::default());
+            let mut frame = Frame::new(&camera, &options);
+            let prepared = rasterize::fast::prepare(&scene);
+            rasterize::fast::determine_visibility(
+                &prepared,
+                &view,
+                &options,
+                &mut frame,
+                &mut by_object,
+            );
+            let prepared = raytrace::fast::prepare(&scene);
+            raytrace::fast::determine_visibility(
+                &prepared,
+                &view,
+                &options,
+                &mut frame,
+                &mut by_image,
+            );
+            for (order, work) in [("object order", by_object), ("image order", by_image)] {
+                let judged = work.judged_coverage + work.judged_nearest;
+                assert!(
+                    judged * 20 <= work.tests,
+                    "{what}, {projection:?}, {order}: {judged} of {}",
+                    work.tests
+                );
+            }
+        }
+    }
 }

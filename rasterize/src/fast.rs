@@ -35,6 +35,7 @@ mod screen;
 mod setup;
 mod small;
 mod tile;
+mod twofold;
 mod vertices;
 mod waypoint;
 

@@ -20,10 +20,12 @@
 mod aligned;
 mod anchor;
 mod any_ray;
+mod ball;
 mod build;
 mod corners;
 mod draw;
 mod leaf;
+mod precise;
 mod rays;
 mod rough;
 mod round;

@@ -245,4 +245,5 @@ fn spheres_that_touch_and_meet_exactly() {
     let met = confirm("met at the same distance", 2000, round::met_at_one_point());
     assert!(met.distance_ties * 100 >= met.comparisons, "too few ties: {met:?}");
     confirm("the eye on or in a sphere", 1200, round::about_the_eye());
+    confirm("huge and nearly touching spheres", 3000, round::huge_and_nearly_touching());
 }

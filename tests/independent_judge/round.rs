@@ -148,3 +148,29 @@ pub(crate) fn about_the_eye() -> impl Strategy<Value = Case> {
         case(camera, line, shapes.collect())
     })
 }
+
+/// Spheres of up to 10⁹ that touch each other from inside at a point of a ray, or nearly; have one centre and nearly
+/// one radius, or nearly one centre; or hold the ray's origin; and the plane that touches them.
+pub(crate) fn huge_and_nearly_touching() -> impl Strategy<Value = Case> {
+    let size = || (0..=29_i8).prop_map(|exponent| f32::from(exponent).exp2());
+    let one = (0..RADII.len(), [size(), size()], 0..4_u8, 0..6_u8);
+    (camera_and_line(), distance(), any::<bool>(), one).prop_flat_map(
+        |((camera, line), t, far, (index, [size, other_size], which, kind))| {
+            let out = Vec3::from_array(RADII[index]) * if far { 1.0 } else { -1.0 };
+            let point = if kind == 0 { line.origin } else { line.at(t) };
+            let ball = |point: Vec3, size: f32, which: u8| {
+                sphere(point + size * out, nearly(size * out.length(), which))
+            };
+            let beside = Vec3::new((size * out.x).next_up() / size, out.y, out.z);
+            let other = match kind {
+                0 | 1 => ball(point, other_size, which),
+                2 => ball(point, size, (which + 1) % 4),
+                3 => sphere(point + size * beside, size * out.length()),
+                4 => ball(point + 0.25 * line.across, size, which),
+                _ => ball(point + 0.0625 * out, size, which),
+            };
+            let touching = Shape::Plane(Plane { point, normal: out });
+            case(camera, line, vec![ball(point, size, 2), other, touching])
+        },
+    )
+}

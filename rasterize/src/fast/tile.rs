@@ -2,6 +2,7 @@
 
 use super::bins::Tiling;
 use super::depth::{KeyScale, NEARER, NOTHING};
+use super::round;
 use super::screen::Screen;
 use bothways_common::fault::{Fault, Planted};
 use bothways_common::frame::{NO_PRIMITIVE, Region, Tile, stored_t};
@@ -330,6 +331,9 @@ impl TileBuffer {
         observer: &mut O,
     ) -> bool {
         let (id, holder) = (challenger.id, self.ids[index]);
+        if let Some(order) = self.compare_spheres::<F>(picture, index, challenger) {
+            return order.is_lt();
+        }
         if O::WATCHES {
             observer.judged(self.sample(index), Question::Nearest);
         }
@@ -352,6 +356,26 @@ impl TileBuffer {
                 before
             }
         }
+    }
+
+    /// Whether a sphere is nearer than the one that the sample shows, if both are and `f64` is certain.
+    fn compare_spheres<F: Fault>(
+        &self,
+        picture: &Picture,
+        index: usize,
+        challenger: &Challenger,
+    ) -> Option<Ordering> {
+        let sphere = |primitive: Primitive| match primitive {
+            Primitive::Sphere { center, radius } => Some((center, radius)),
+            Primitive::Triangle(_) | Primitive::Plane { .. } => None,
+        };
+        let ball = sphere(challenger.primitive?)?;
+        if F::is(Planted::ZeroErrorBound) {
+            return None;
+        }
+        let held = sphere(picture.view.primitive(self.ids[index]))?;
+        let Sample { row, column } = self.sample(index);
+        round::nearer([ball, held], &picture.screen.grid.ray(row, column))
     }
 
     /// Whether a flat primitive covers no sample of this camera at all; see [`Memory::is_edge_on`].

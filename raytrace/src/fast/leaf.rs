@@ -1,5 +1,6 @@
 //! One ray against one primitive: what rounded arithmetic says for certain.
 
+use super::ball;
 use bothways_common::fault::{Fault, Planted};
 use bothways_common::{Primitive, Ray, Sign};
 use glam::DVec3;
@@ -19,7 +20,7 @@ impl Distance {
     pub(super) const UNKNOWN: Distance = Distance { low: 0.0, high: f64::INFINITY };
 
     /// `t`, known to within `error`.
-    fn around(t: f64, error: f64) -> Distance {
+    pub(super) fn around(t: f64, error: f64) -> Distance {
         let error = error * (1.0 + 8.0 * UNIT_ROUNDOFF);
         let (low, high) = (t - error, t + error);
         // NaN must not look like an order.
@@ -28,7 +29,7 @@ impl Distance {
 
     /// The middle, if that is as good as a stored `t` needs.
     pub(super) fn t(self) -> Option<f64> {
-        const CLOSE: f64 = 1e-9;
+        const CLOSE: f64 = 1e-7;
         let t = 0.5 * (self.low + self.high);
         (t.is_finite() && self.high - self.low <= CLOSE * t).then_some(t)
     }
@@ -95,53 +96,6 @@ pub(super) fn plane(ray: &Ray, point: DVec3, normal: DVec3, trust: Trust) -> Ans
     in_front(flat_distance(ray, point - ray.origin, normal, normal.abs(), trust))
 }
 
-/// The answer for a sphere.
-///
-/// With `k = m·D/A`, `m = O − center`, the ray's line comes nearest to the centre at `t = −k`, where `f
-/// = m − k·D` remains; it meets the sphere at `t = −k ∓ √((r² − f·f)/A)`. Unlike the discriminant `B² −
-/// A·C`, `f·f` does not cancel for small spheres far away (Haines et al., "Precision Improvements for
-/// Ray/Sphere Intersection", Ray Tracing Gems, 2019).
-///
-/// `m` carries one rounding; `A` 3; `k` 1 + 3 + 3 + 1 of `k̂ = Σ|m|·|D|/A`; a coordinate of `f` at most 10
-/// of `|m| + k̂·|D|`; `f·f` what its coordinates bring, and 3; `C = m·m − r²` 2 + 1 + 2 + 1. Constants are
-/// larger by one or more, for the roundings of the bounds.
-pub(super) fn sphere(ray: &Ray, center: DVec3, radius: f64, trust: Trust) -> Answer {
-    // Beneath this, products may have underflowed; it is far above what that can lose.
-    const FLOOR: f64 = 1e-200;
-    let u = UNIT_ROUNDOFF;
-    let (m, d) = (ray.origin - center, ray.direction);
-    let a = d.length_squared();
-    let (k, k_size) = (m.dot(d) / a, m.abs().dot(d.abs()) / a);
-    let k_error = trust.of(9.0 * u * k_size + FLOOR);
-    let f = m - k * d;
-    let f_error = 11.0 * u * (m.abs() + k_size * d.abs());
-    let f_squared = f.length_squared();
-    let radius_squared = radius * radius;
-    let room = radius_squared - f_squared;
-    let room_error = trust.of(2.0 * f.abs().dot(f_error)
-        + f_error.length_squared()
-        + 5.0 * u * (f_squared + radius_squared)
-        + FLOOR);
-    let c_size = m.length_squared() + radius_squared;
-    let c = m.length_squared() - radius_squared;
-    let c_error = trust.of(7.0 * u * c_size + FLOOR);
-
-    let (inside, outside) = (c < -c_error, c > c_error);
-    if outside && (k > k_error || room < -room_error) {
-        return Answer::Miss;
-    }
-    let half = (room.max(0.0) / a).sqrt();
-    // |√(X + e) − √X| ≤ |e|/√X, and A brings 3 roundings, the quotient and the root one each.
-    let half_error = trust.of(room_error / (a * half) + 5.0 * u * half);
-    let t = if inside { half - k } else { -half - k };
-    let error = k_error + half_error + trust.of(2.0 * u * (k.abs() + half));
-    if inside || (outside && k < -k_error && room > room_error) {
-        Answer::Hit(Distance::around(t, error))
-    } else {
-        Answer::Open(Distance::UNKNOWN)
-    }
-}
-
 /// Whether error bounds hold, or are (by a planted fault) zero or infinite.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Trust {
@@ -159,7 +113,11 @@ impl Trust {
         }
     }
 
-    fn of(self, error: f64) -> f64 {
+    pub(super) fn is_sound(self) -> bool {
+        matches!(self, Trust::Sound)
+    }
+
+    pub(super) fn of(self, error: f64) -> f64 {
         match self {
             Trust::Sound => error,
             Trust::Blind => 0.0,
@@ -218,7 +176,9 @@ pub(super) fn primitive(
 ) -> (Answer, [Option<Sign>; 3]) {
     match primitive {
         Primitive::Triangle(corners) => triangle(ray, corners, trust),
-        Primitive::Sphere { center, radius } => (sphere(ray, *center, *radius, trust), [None; 3]),
+        Primitive::Sphere { center, radius } => {
+            (ball::answer(ray, *center, *radius, trust), [None; 3])
+        }
         Primitive::Plane { point, normal } => (plane(ray, *point, *normal, trust), [None; 3]),
     }
 }

@@ -1,5 +1,6 @@
 //! What the rays of one tile have hit so far.
 
+use super::ball;
 use super::leaf::{self, Answer, Distance, Trust};
 use super::rays::{Lens, Rays};
 use bothways_common::fault::{Fault, Planted};
@@ -281,6 +282,15 @@ impl Tile {
             if distance.low > other.high {
                 return false;
             }
+        }
+        if let (
+            Primitive::Sphere { center, radius },
+            Primitive::Sphere { center: other, radius: other_radius },
+        ) = (*challenger.1, held)
+            && trust.is_sound()
+            && let Some(order) = ball::nearer([(center, radius), (other, other_radius)], &ray)
+        {
+            return order.is_lt();
         }
         observer.judged(sample, Question::Nearest);
         if F::is(Planted::TiesToLast) {
