@@ -20,6 +20,9 @@ pub(super) fn table(
     for (label, figures) in rows(rendered) {
         line(&mut text, label, &figures);
     }
+    if let Some(comparison) = comparison {
+        text += &beyond_tolerance(comparison);
+    }
     text.push('\n');
     for one in rendered {
         if let Counts::TooMany { most } = one.work {
@@ -31,7 +34,6 @@ pub(super) fn table(
         }
     }
     if let Some(comparison) = comparison {
-        text += &notes(comparison);
         let style = verdict_style(comparison.matches());
         text += &format!("{style}{}{style:#}\n", comparison.verdict());
     }
@@ -113,24 +115,46 @@ fn rows(rendered: &[Rendered]) -> Vec<(&'static str, Vec<String>)> {
     rows
 }
 
-/// What the verdict does not judge, if it is more than rounding explains.
-fn notes(comparison: &Comparison) -> String {
+/// What the verdict does not judge, if it is more than rounding explains: a row of the table each.
+fn beyond_tolerance(comparison: &Comparison) -> String {
+    let style = AnsiColor::Yellow.on_default();
     let mut text = String::new();
+    let mut row = |label: String, pixels: u64, most: String| {
+        if pixels > 0 {
+            let figure = format!("{}, by at most {most}", count(pixels, "pixels"));
+            let wide = 2 * COLUMN_WIDTH;
+            writeln!(text, "{style}{label:LABEL_WIDTH$}{figure:>wide$}{style:#}")
+                .expect("a string takes all");
+        }
+    };
     let depth = comparison.depth;
-    if depth.differing_pixels > 0 {
-        let pixels = count(depth.differing_pixels, "pixels");
-        let most = depth.max_relative_difference;
-        text += &format!(
-            "note: depths differ by more than {DEPTH_TOLERANCE:e} in {pixels}, at most by {most:.1e}\n"
-        );
-    }
+    let most = format!("{:.1e}", depth.max_relative_difference);
+    row(format!("depths beyond {DEPTH_TOLERANCE:e}"), depth.differing_pixels, most);
     let colour = comparison.colour;
-    if colour.differing_pixels > 0 {
-        let pixels = count(colour.differing_pixels, "pixels");
-        let most = colour.max_difference;
-        text += &format!(
-            "note: colours differ by more than {COLOUR_TOLERANCE} of 255 in {pixels}, at most by {most}\n"
-        );
-    }
+    let most = format!("{} of 255", colour.max_difference);
+    row(format!("colours beyond {COLOUR_TOLERANCE} of 255"), colour.differing_pixels, most);
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bothways::common::{Camera, Frame, Options};
+    use bothways::diff::{Colour, Depth, compare};
+
+    #[test]
+    fn what_is_beyond_tolerance_has_its_rows() {
+        let nothing = Frame::new(&Camera::canonical(2, 2), &Options::default());
+        let mut comparison = compare(&nothing, &nothing);
+        assert_eq!(beyond_tolerance(&comparison), "");
+        comparison.depth = Depth { max_relative_difference: 0.5, differing_pixels: 1 };
+        comparison.colour = Colour { max_difference: 108, differing_pixels: 12_345 };
+        let plain = anstream::adapter::strip_str(&beyond_tolerance(&comparison)).to_string();
+        assert_eq!(
+            plain,
+            "depths beyond 1e-5                 1 pixel, by at most 5.0e-1\n\
+             colours beyond 2 of 255    12,345 pixels, by at most 108 of 255\n"
+        );
+        assert!(comparison.matches());
+    }
 }
