@@ -1,4 +1,4 @@
-//! PLY files: the reader of meshes that scanners and sculpting programs write.
+//! PLY files: the reader of meshes that scanners and sculpting programs write, and a writer.
 //!
 //! Of the format (Turk, "The PLY Polygon File Format", 1994) the reader takes all three encodings,
 //! and of what is in a file the triangles, strictly:
@@ -15,8 +15,10 @@
 mod error;
 mod header;
 mod values;
+mod write;
 
 pub use error::{ElementFault, HeaderFault, Place, ReadPlyError};
+pub use write::write;
 
 use crate::mesh::Mesh;
 use crate::mesh_file::{READ_AT_ONCE, regular_file};
