@@ -6,6 +6,7 @@ use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
 use rustix::termios::{Winsize, tcsetwinsize};
 use std::fs::{self, File};
 use std::io::Read;
+use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
@@ -79,12 +80,15 @@ fn interrupted(home: &TempDir, args: &[&str]) -> Child {
     let child = bothways(home, args).spawn().unwrap();
     let begun = Instant::now();
     let hidden = |entry: fs::DirEntry| entry.file_name().to_string_lossy().starts_with(".bothways");
-    let folder = home.path().join("out/many");
-    while !fs::read_dir(&folder).is_ok_and(|mut entries| entries.any(|one| hidden(one.unwrap()))) {
+    // Beside a folder that is to appear, in one that is there.
+    let begun_in = |folder: &str| {
+        let entries = fs::read_dir(home.path().join(folder));
+        entries.is_ok_and(|mut entries| entries.any(|one| hidden(one.unwrap())))
+    };
+    while !begun_in("out") && !begun_in("out/many") {
         assert!(begun.elapsed() < Duration::from_secs(20), "it does not begin");
     }
-    let id = rustix::process::Pid::from_child(&child);
-    rustix::process::kill_process(id, rustix::process::Signal::INT).unwrap();
+    press_ctrl_c(&child);
     child
 }
 
@@ -95,7 +99,7 @@ fn an_interrupted_rendering_leaves_nothing_behind() {
     let output = interrupted(&home, &endless).wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(130));
     assert_eq!(String::from_utf8(output.stderr).unwrap(), "\ninterrupted: nothing was written\n");
-    assert!(!home.path().join("out/many").exists());
+    assert!(!home.path().join("out").exists());
 
     // What was there stays.
     let report = home.path().join("out/many/report.json");
@@ -104,4 +108,84 @@ fn an_interrupted_rendering_leaves_nothing_behind() {
     interrupted(&home, &endless).wait().unwrap();
     let left: Vec<_> = fs::read_dir(report.parent().unwrap()).unwrap().collect();
     assert_eq!((left.len(), fs::read_to_string(&report).unwrap().as_str()), (1, "old"));
+}
+
+fn press_ctrl_c(child: &Child) {
+    let id = rustix::process::Pid::from_child(child);
+    rustix::process::kill_process(id, rustix::process::Signal::INT).unwrap();
+}
+
+/// What is in a folder: the width of a picture in it, and whether there is a report, and no more.
+fn width_in(folder: &Path) -> (u32, usize) {
+    let (width, _) = image::image_dimensions(folder.join("object-order.png")).unwrap();
+    let report = fs::read_to_string(folder.join("report.json")).unwrap();
+    assert!(report.contains(&format!("\"size\": [\n    {width},")), "{width}: {report}");
+    (width, fs::read_dir(folder).unwrap().count())
+}
+
+#[test]
+fn the_exit_code_of_an_interrupted_run_tells_what_is_in_the_folder() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path().join("out");
+    let run = |width: &str| {
+        let size = format!("{width}x8");
+        bothways(&home, &["canonical", "--size", &size, "--quiet", "-o", "out"]).spawn().unwrap()
+    };
+    let begun = Instant::now();
+    assert!(run("4").wait().unwrap().success());
+    let usual = begun.elapsed();
+    let mut codes = Vec::new();
+    for (round, width) in (5..45).enumerate() {
+        let (before, child) = (width_in(&folder), run(&width.to_string()));
+        // From the middle to the end, where files are moved.
+        std::thread::sleep(usual * (20 + u32::try_from(round).unwrap()) / 40);
+        press_ctrl_c(&child);
+        let output = child.wait_with_output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        match output.status.code() {
+            Some(0) => assert_eq!((width_in(&folder), said.as_str()), ((width, 7), "")),
+            Some(130) => {
+                assert_eq!(width_in(&folder), before, "{said}");
+                assert!(["", "\ninterrupted: nothing was written\n"].contains(&&*said), "{said}");
+            }
+            // Before the program had begun.
+            None => assert_eq!(width_in(&folder), before),
+            code => panic!("{code:?}: {said}"),
+        }
+        codes.push(output.status.code());
+    }
+    println!("{codes:?}");
+}
+
+#[test]
+fn a_run_that_waits_for_another_can_be_interrupted() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path().join("out");
+    let run = |size| bothways(&home, &["canonical", "--size", size, "-o", "out"]).spawn().unwrap();
+    assert!(run("4x8").wait().unwrap().success());
+    // As a run does that is moving its files.
+    let other = File::open(&folder).unwrap();
+    other.lock().unwrap();
+    let written = || {
+        let hidden = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path());
+        hidden.filter(|path| path.is_dir()).any(|path| path.join("new/report.json").exists())
+    };
+    let wait = |child: &mut Child| {
+        while !written() {
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        std::thread::sleep(Duration::from_millis(100));
+        assert_eq!(child.try_wait().unwrap(), None);
+    };
+    let mut child = run("5x8");
+    wait(&mut child);
+    press_ctrl_c(&child);
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert_eq!(width_in(&folder), (4, 7));
+
+    let mut child = run("6x8");
+    wait(&mut child);
+    other.unlock().unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(0));
+    assert_eq!(width_in(&folder), (6, 7));
 }

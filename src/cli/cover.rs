@@ -2,7 +2,8 @@
 
 use super::args::{pair, size};
 use super::failure::Failure;
-use super::{output, terminal};
+use super::output::OutputFile;
+use super::terminal;
 use bothways::common::Sign;
 use bothways::common::glam::Vec2;
 use bothways::cover::{Cover, Place, Row, cover};
@@ -13,7 +14,7 @@ use serde::Serialize;
 use std::fmt::Write;
 use std::io;
 use std::ops::RangeInclusive;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 pub(super) const EXAMPLES: &str = "\
@@ -37,7 +38,7 @@ pub(super) struct CoverArgs {
     /// The image in pixels
     #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true)]
     size: [u32; 2],
-    /// Also write the mask as a PNG file: 255 where covered, 0 elsewhere
+    /// Also write the mask as a PNG file, 255 where covered, 0 elsewhere; - is standard output
     #[arg(short = 'o', long = "output", value_name = "FILE.png")]
     file: Option<PathBuf>,
     /// Print the rows as a table, even where a drawing fits
@@ -51,6 +52,7 @@ pub(super) struct CoverArgs {
 /// Judges, writes and prints.
 pub(super) fn run(args: &CoverArgs) -> Result<ExitCode, Failure> {
     let corners = corners(&args.corners)?;
+    let file = args.file.as_deref().map(|name| mask_file(name, args.json)).transpose()?;
     let cover = cover(corners, args.size).map_err(|error| Failure::new(error.to_string()))?;
     let text = if args.json {
         json(&cover)?
@@ -58,17 +60,41 @@ pub(super) fn run(args: &CoverArgs) -> Result<ExitCode, Failure> {
         let drawing = if args.table { None } else { drawing(&cover, terminal::width()) };
         heading(&cover) + &drawing.unwrap_or_else(|| table(&cover))
     };
-    if let Some(file) = &args.file {
-        let mask = cover.mask();
-        output::write_file(file, |out| {
-            let [width, height] = cover.image;
-            PngEncoder::new(out)
-                .write_image(&mask, width, height, ExtendedColorType::L8)
-                .map_err(io::Error::other)
-        })?;
+    let Some(file) = file else {
+        terminal::print(&text)?;
+        return Ok(ExitCode::SUCCESS);
+    };
+    let mask = cover.mask();
+    file.write(|out| {
+        let [width, height] = cover.image;
+        PngEncoder::new(out)
+            .write_image(&mask, width, height, ExtendedColorType::L8)
+            .map_err(io::Error::other)
+    })?;
+    if file.is_stdout() {
+        // The picture is the result; a person may still want to read about it.
+        anstream::eprint!("{text}");
+    } else {
+        terminal::print(&text)?;
     }
-    terminal::print(&text)?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// Where the mask goes.
+fn mask_file(name: &Path, json: bool) -> Result<OutputFile, Failure> {
+    let file = OutputFile::find(name)?;
+    if file.is_stdout() && json {
+        return Err(Failure::new(
+            "--json and the mask would both go to standard output; name a file with -o",
+        ));
+    }
+    match file.ending().as_deref() {
+        None | Some("png") => Ok(file),
+        Some(ending) => Err(Failure::new(format!(
+            "cannot write {}: a mask is a .png file, and .{ending} is none; end the name in .png",
+            file.said()
+        ))),
+    }
 }
 
 fn corners(text: &str) -> Result<[Vec2; 3], Failure> {

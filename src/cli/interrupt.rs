@@ -1,9 +1,8 @@
 //! Ctrl-C: whatever is half-written goes, and what was there before stays.
 
-use std::fs;
 use std::path::{Path, PathBuf};
-use std::process;
 use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::{fs, mem, process};
 
 /// The exit code by which shells know an interrupted program.
 const INTERRUPTED: i32 = 130;
@@ -16,7 +15,18 @@ struct Unfinished {
     created: Vec<PathBuf>,
 }
 
-static UNFINISHED: Mutex<Vec<Unfinished>> = Mutex::new(Vec::new());
+/// What is to be done about Ctrl-C.
+#[derive(Debug)]
+struct State {
+    unfinished: Vec<Unfinished>,
+    /// Everything is written, and where it belongs: nothing can be taken back any more.
+    placed: bool,
+    /// Somebody has pressed Ctrl-C since.
+    asked: bool,
+}
+
+static STATE: Mutex<State> =
+    Mutex::new(State { unfinished: Vec::new(), placed: false, asked: false });
 
 /// Keeps a folder known as unfinished while it lives.
 #[derive(Debug)]
@@ -27,39 +37,78 @@ pub(super) fn clean_up() {
     // Without a handler an interrupted run leaves a hidden folder: not worth refusing to run.
     let _ = ctrlc::set_handler(|| {
         // Kept locked to the end: nothing more is begun, moved or finished.
-        let unfinished = unfinished();
-        for Unfinished { hidden, created } in unfinished.iter() {
+        let mut state = state();
+        if state.is_left_to_end() {
+            return;
+        }
+        for Unfinished { hidden, created } in &state.unfinished {
             let _ = fs::remove_dir_all(hidden);
             for folder in created {
                 let _ = fs::remove_dir(folder);
             }
         }
-        if !unfinished.is_empty() {
+        if state.placed {
+            anstream::eprintln!("\ninterrupted: all files are written");
+        } else if !state.unfinished.is_empty() {
             anstream::eprintln!("\ninterrupted: nothing was written");
         }
         process::exit(INTERRUPTED);
     });
 }
 
-/// Notes a folder as unfinished.
-pub(super) fn guard(hidden: &Path, created: &[PathBuf]) -> Guard {
-    let hidden = hidden.to_owned();
-    unfinished().push(Unfinished { hidden: hidden.clone(), created: created.to_owned() });
-    Guard(hidden)
+impl State {
+    /// Whether a run is so near its end that it is let go on: all files are in place, and the exit code
+    /// tells what they hold. Who presses Ctrl-C again means it.
+    fn is_left_to_end(&mut self) -> bool {
+        self.placed && !mem::replace(&mut self.asked, true)
+    }
 }
 
-/// Does what must not stop half-way; Ctrl-C waits.
-pub(super) fn uninterrupted<T>(work: impl FnOnce() -> T) -> T {
-    let _lock = unfinished();
-    work()
+/// While this lives, Ctrl-C waits.
+#[derive(Debug)]
+pub(super) struct Held(MutexGuard<'static, State>);
+
+/// Lets Ctrl-C wait for what must not stop half-way.
+pub(super) fn hold() -> Held {
+    Held(state())
+}
+
+impl Held {
+    /// Notes a folder as unfinished, and what was made for it.
+    pub(super) fn guard(&mut self, hidden: &Path, created: &[PathBuf]) -> Guard {
+        let hidden = hidden.to_owned();
+        let created = created.to_owned();
+        self.0.unfinished.push(Unfinished { hidden: hidden.clone(), created });
+        Guard(hidden)
+    }
+
+    /// Notes that all that a guard stands for is where it belongs.
+    pub(super) fn placed(&mut self, guard: &Guard) {
+        self.0.unfinished.retain(|one| one.hidden != guard.0);
+        self.0.placed = true;
+    }
 }
 
 impl Drop for Guard {
     fn drop(&mut self) {
-        unfinished().retain(|one| one.hidden != self.0);
+        state().unfinished.retain(|one| one.hidden != self.0);
     }
 }
 
-fn unfinished() -> MutexGuard<'static, Vec<Unfinished>> {
-    UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
+fn state() -> MutexGuard<'static, State> {
+    STATE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::State;
+
+    #[test]
+    fn only_a_run_whose_files_are_in_place_goes_on_and_once() {
+        let mut state = State { unfinished: Vec::new(), placed: false, asked: false };
+        assert!(!state.is_left_to_end());
+        state.placed = true;
+        assert!(state.is_left_to_end());
+        assert!(!state.is_left_to_end());
+    }
 }

@@ -1,12 +1,13 @@
-//! `bothways mesh`: writes a generated mesh as an OBJ file.
+//! `bothways mesh`: writes a generated mesh as an OBJ or PLY file.
 
 use super::failure::Failure;
-use super::output;
+use super::output::OutputFile;
 use bothways::common::generate::Kind;
-use bothways::common::{obj, scene_file};
+use bothways::common::mesh_file::Format;
+use bothways::common::{obj, ply, scene_file};
 use bothways::wording::{count, grouped};
 use clap::Args;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 pub(super) const EXAMPLES: &str = "\
@@ -24,7 +25,8 @@ Normals point outward. Closed surfaces share their vertices by index, also acros
 Examples:
   bothways mesh teapot -o teapot.obj
   bothways mesh sphere --divisions 512,256 -o ball.obj
-  bothways mesh grid --divisions 4 -o grid.obj";
+  bothways mesh grid --divisions 4 -o grid.ply     PLY: positions and triangles alone
+  bothways mesh box -o - | less                    to standard output, as OBJ";
 
 /// Which mesh, and where to.
 #[derive(Debug, Args)]
@@ -35,23 +37,40 @@ pub(super) struct MeshArgs {
     /// How finely it is divided, in its two directions; one number stands for both
     #[arg(long, value_name = "N[,M]", value_parser = divisions, allow_hyphen_values = true)]
     divisions: Option<[u32; 2]>,
-    /// The OBJ file
+    /// The file, OBJ or PLY as its name ends; - is standard output
     #[arg(short = 'o', long = "output", value_name = "FILE.obj")]
     file: PathBuf,
 }
 
 /// Generates, writes and says so.
 pub(super) fn run(args: &MeshArgs) -> Result<ExitCode, Failure> {
+    let file = OutputFile::find(&args.file)?;
+    let format = format(&file)?;
     let divisions = args.divisions.unwrap_or_else(|| args.kind.default_divisions());
     let mesh = args.kind.mesh(divisions).map_err(|error| Failure::new(error.to_string()))?;
-    output::write_file(&args.file, |out| obj::write(&mesh, out))?;
+    file.write(|out| match format {
+        Format::Obj => obj::write(&mesh, out),
+        Format::Ply => ply::write(&mesh, out),
+    })?;
     let vertices = grouped(mesh.positions().len() as u64);
     anstream::eprintln!(
         "wrote {}: {}, {vertices} vertices",
-        args.file.display(),
+        file.said(),
         count(mesh.triangles().len() as u64, "triangles")
     );
     Ok(ExitCode::SUCCESS)
+}
+
+/// The format that the file's name asks for; OBJ if it does not say.
+fn format(file: &OutputFile) -> Result<Format, Failure> {
+    let Some(ending) = file.ending() else { return Ok(Format::Obj) };
+    Format::of(Path::new(&format!("mesh.{ending}"))).ok_or_else(|| {
+        Failure::new(format!(
+            "cannot write {}: a mesh is written as OBJ or PLY, and .{ending} is neither; end the \
+             name in .obj or .ply",
+            file.said()
+        ))
+    })
 }
 
 fn kind(name: &str) -> Result<Kind, String> {

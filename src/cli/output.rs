@@ -1,14 +1,28 @@
 //! The output folder: all files of a run appear together at its end, or none of them does.
+//!
+//! A folder that is new appears by one rename. In one that is there already (somebody may be in it, and
+//! other files stay) file by file is renamed, by one run at a time; the last of them, the report, is gone
+//! before the first is touched and comes when all are in place. So it is there only beside its own files,
+//! wherever a run is stopped.
+
+mod file;
+mod hidden;
+mod sink;
+
+pub(super) use file::OutputFile;
+pub(super) use sink::Out;
 
 use super::failure::Failure;
-use super::interrupt::{self, Guard};
-use std::fs::{self, File};
-use std::io::{self, BufWriter, ErrorKind, Write};
+use super::interrupt;
+use hidden::Hidden;
+use std::fs::{self, File, TryLockError};
+use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
-use tempfile::TempDir;
+use std::thread::sleep;
+use std::time::{Duration, Instant};
 
 /// Every file that `render` may write. Those that a run does not write are removed from the folder,
-/// so that it never shows a picture of one run beside the report of another.
+/// so that it never shows a picture of one run beside the report of another. The report is the last.
 const NAMES: [&str; 11] = [
     "object-order.png",
     "image-order.png",
@@ -16,21 +30,23 @@ const NAMES: [&str; 11] = [
     "mask-image-order.png",
     "difference.png",
     "side-by-side.png",
-    "report.json",
     "object-order.ids.npy",
     "object-order.t.npy",
     "image-order.ids.npy",
     "image-order.t.npy",
+    "report.json",
 ];
+
+/// Another run needs a moment to put its files into the same folder, never so long.
+const PATIENCE: Duration = Duration::from_secs(30);
 
 /// Files that are written, but not yet where the user looks for them.
 #[derive(Debug)]
 pub(super) struct Staging {
     target: PathBuf,
-    /// Within the target, so that a file moves by being renamed. `None` once removed.
-    folder: Option<TempDir>,
-    /// Removes it and what was created if the program is interrupted.
-    guard: Option<Guard>,
+    /// Beside a target that is to appear, within one that is there: either way files move by being renamed.
+    /// `None` once removed.
+    hidden: Option<Hidden>,
     /// Folders that did not exist before, the innermost first.
     created: Vec<PathBuf>,
     /// Every file that this kind of run may write; no other file is touched.
@@ -39,90 +55,143 @@ pub(super) struct Staging {
 }
 
 impl Staging {
-    /// Makes the target folder of `render` if need be, and a hidden one within it.
+    /// Makes ready to write the target folder of `render`.
     pub(super) fn begin(target: &Path) -> Result<Staging, Failure> {
         Staging::begin_with(target, NAMES.map(str::to_owned).to_vec())
     }
 
-    /// The same for a run that may write other files.
+    /// The same for a run that may write other files. The last one of them tells that all are there.
     pub(super) fn begin_with(target: &Path, names: Vec<String>) -> Result<Staging, Failure> {
-        let created: Vec<PathBuf> = target
-            .ancestors()
-            .take_while(|folder| !folder.as_os_str().is_empty() && !folder.exists())
-            .map(Path::to_owned)
-            .collect();
+        if target == Path::new("-") {
+            return Err(Failure::new(
+                "-o - is standard output, which takes one file, and here a folder of files is \
+                 written; name a folder (one that is called - as ./-)",
+            ));
+        }
         let mut staging = Staging {
             target: target.to_owned(),
-            folder: None,
-            guard: None,
-            created,
+            hidden: None,
+            created: Vec::new(),
             names,
             written: Vec::new(),
         };
-        let folder = fs::create_dir_all(target)
-            .and_then(|()| tempfile::Builder::new().prefix(".bothways-").tempdir_in(target));
         // Dropping the staging takes back what was made before the failure.
-        staging.folder = Some(folder.map_err(|error| staging.failure(&error))?);
-        staging.guard = Some(interrupt::guard(staging.hidden(), &staging.created));
+        staging.make().map_err(|error| staging.failure(&error))?;
         staging.check_names()?;
         Ok(staging)
+    }
+
+    /// Makes the hidden folder, and those above it that are missing.
+    fn make(&mut self) -> io::Result<()> {
+        let mut held = interrupt::hold();
+        let home = self.home()?;
+        self.created = missing_folders(&home);
+        fs::create_dir_all(&home)?;
+        if home != self.target {
+            // Other runs into this folder began when it was not there.
+            hidden::remove_dead(&self.target);
+        }
+        let hidden = Hidden::within(&home, &self.created, &mut held)?;
+        let made = fs::create_dir(hidden.path().join(NEW));
+        self.hidden = Some(hidden);
+        drop(held);
+        made
+    }
+
+    /// The folder that holds the hidden one.
+    fn home(&self) -> io::Result<PathBuf> {
+        if self.target.as_os_str().is_empty() {
+            return Err(io::Error::new(ErrorKind::InvalidInput, "the name is empty"));
+        }
+        if self.target.exists() {
+            return Ok(self.target.clone());
+        }
+        if self.target.is_symlink() {
+            return Err(io::Error::new(ErrorKind::InvalidInput, "it is a link that leads nowhere"));
+        }
+        let above = self.target.parent().filter(|above| !above.as_os_str().is_empty());
+        Ok(above.unwrap_or(Path::new(".")).to_owned())
     }
 
     /// Writes one of the files.
     pub(super) fn write(
         &mut self,
         name: &str,
-        content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+        content: impl FnOnce(&mut Out) -> io::Result<()>,
     ) -> Result<(), Failure> {
         let known = self.names.iter().any(|known| known == name);
         debug_assert!(known, "{name} would never be replaced or removed");
-        let path = self.hidden().join(name);
-        let result = File::create(path).and_then(|file| {
-            let mut out = BufWriter::new(file);
-            content(&mut out)?;
-            out.flush()
-        });
+        let path = self.new_files().join(name);
+        let result = File::create(path).and_then(|file| sink::fill(file, content));
         self.written.push(name.into());
         result.map_err(|error| {
-            Failure::new(format!("cannot write {}: {error}", self.target.join(name).display()))
+            let place = self.target.join(name);
+            let reason = reason(&error, "choose another folder with -o");
+            Failure::new(format!("cannot write {}: {reason}", place.display()))
         })
     }
 
     /// Puts all files where they belong, in place of those of earlier runs.
     pub(super) fn commit(mut self) -> Result<(), Failure> {
-        let moved = interrupt::uninterrupted(|| {
-            let mut moves = Vec::new();
-            self.replace(&mut moves).inspect_err(|_| {
-                // The last move first: an old file returns after the new one has left.
-                for (from, to) in moves.iter().rev() {
-                    let _ = fs::rename(to, from);
-                }
-            })
-        });
-        moved.map_err(|error| self.failure(&error))?;
+        let placed = self.place_folder().or_else(|_| self.place_files());
+        placed.map_err(|error| self.failure(&error))?;
         self.created.clear();
         Ok(())
     }
 
-    /// Moves the old files away and the new ones in, and notes each move.
+    /// Lets the whole folder appear by one rename, if there was none. If there is one by now, that fails.
+    fn place_folder(&self) -> io::Result<()> {
+        if self.hidden_path().parent() == Some(&self.target) {
+            return Err(ErrorKind::AlreadyExists.into());
+        }
+        let mut held = interrupt::hold();
+        fs::rename(self.new_files(), &self.target)?;
+        self.placed(&mut held);
+        Ok(())
+    }
+
+    /// Moves file by file into a folder that is there.
+    fn place_files(&self) -> io::Result<()> {
+        fs::create_dir_all(&self.target)?;
+        let _one_at_a_time = locked(&self.target)?;
+        let mut held = interrupt::hold();
+        let mut moves = Vec::new();
+        self.replace(&mut moves).inspect_err(|_| {
+            // The last move first: an old file returns after the new one has left.
+            for (from, to) in moves.iter().rev() {
+                let _ = fs::rename(to, from);
+            }
+        })?;
+        self.placed(&mut held);
+        Ok(())
+    }
+
+    /// Moves the old files away and the new ones in, and notes each move: the last file goes first, and
+    /// comes last.
     fn replace(&self, moves: &mut Vec<(PathBuf, PathBuf)>) -> io::Result<()> {
-        let old = self.hidden().join("old");
+        let (old, new) = (self.hidden_path().join("old"), self.new_files());
         fs::create_dir(&old)?;
         let mut move_file = |from: PathBuf, to: PathBuf| {
             fs::rename(&from, &to)?;
             moves.push((from, to));
             io::Result::Ok(())
         };
-        for name in &self.names {
+        let steps = self.names.iter().map(|name| (name, self.written.contains(name)));
+        // What comes last is put away first.
+        for (name, is_new) in self.names.last().map(|last| (last, false)).into_iter().chain(steps) {
             let place = self.target.join(name);
             if place.symlink_metadata().is_ok() {
                 move_file(place.clone(), old.join(name))?;
             }
-            if self.written.contains(name) {
-                move_file(self.hidden().join(name), place)?;
+            if is_new {
+                move_file(new.join(name), place)?;
             }
         }
         Ok(())
+    }
+
+    fn placed(&self, held: &mut interrupt::Held) {
+        held.placed(self.hidden.as_ref().expect(HIDDEN).guard());
     }
 
     /// A folder of a file's name is somebody else's: it is not replaced.
@@ -138,61 +207,75 @@ impl Staging {
         })
     }
 
-    fn hidden(&self) -> &Path {
-        self.folder.as_ref().expect("the folder exists until the end").path()
+    fn hidden_path(&self) -> &Path {
+        self.hidden.as_ref().expect(HIDDEN).path()
+    }
+
+    /// Where the files wait: a folder that gets the permissions of any other, while the hidden one is the
+    /// user's alone.
+    fn new_files(&self) -> PathBuf {
+        self.hidden_path().join(NEW)
     }
 
     fn failure(&self, error: &io::Error) -> Failure {
-        Failure::new(format!(
-            "cannot write into the folder {}: {}; choose another one with -o",
-            self.target.display(),
-            reason(error)
-        ))
+        let (folder, reason) = (self.target.display(), reason(error, "choose another one with -o"));
+        Failure::new(format!("cannot write into the folder {folder}: {reason}"))
     }
 }
 
-/// Writes one file: under a temporary name beside it, and renamed once it is complete.
-pub(super) fn write_file(
-    target: &Path,
-    content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
-) -> Result<(), Failure> {
-    let folder = match target.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
-    let write = || {
-        let hidden = tempfile::Builder::new().prefix(".bothways-").tempdir_in(folder)?;
-        let _guard = interrupt::guard(hidden.path(), &[]);
-        let place = hidden.path().join("file");
-        let mut out = BufWriter::new(File::create(&place)?);
-        content(&mut out)?;
-        out.flush()?;
-        fs::rename(&place, target)
-    };
-    write().map_err(|error: io::Error| {
-        // What tempfile says names the temporary file.
-        let error = io::Error::from(error.kind());
-        let (target, reason) = (target.display(), reason(&error));
-        Failure::new(format!("cannot write {target}: {reason}; choose another file with -o"))
-    })
+const NEW: &str = "new";
+const HIDDEN: &str = "the hidden folder is there until the end";
+
+/// The folders that have to be made for this one, the innermost first.
+fn missing_folders(folder: &Path) -> Vec<PathBuf> {
+    let missing = |folder: &&Path| !folder.as_os_str().is_empty() && !folder.exists();
+    folder.ancestors().take_while(missing).map(Path::to_owned).collect()
 }
 
-/// Why nothing can be written, in words where the system has only a number.
-fn reason(error: &io::Error) -> String {
-    match error.kind() {
-        ErrorKind::NotFound => "there is no such folder".into(),
-        ErrorKind::AlreadyExists | ErrorKind::NotADirectory => {
-            "a file is where a folder would be".into()
+/// Waits until no other run moves files into a folder, and keeps others waiting. `None` where folders
+/// cannot be locked.
+fn locked(folder: &Path) -> io::Result<Option<File>> {
+    let Ok(folder) = File::open(folder) else { return Ok(None) };
+    let begun = Instant::now();
+    loop {
+        match folder.try_lock() {
+            Ok(()) => return Ok(Some(folder)),
+            Err(TryLockError::Error(_)) => return Ok(None),
+            Err(TryLockError::WouldBlock) if begun.elapsed() > PATIENCE => {
+                return Err(ErrorKind::ResourceBusy.into());
+            }
+            Err(TryLockError::WouldBlock) => sleep(Duration::from_millis(10)),
         }
-        ErrorKind::IsADirectory => "a folder of this name is there".into(),
-        ErrorKind::PermissionDenied => "there is no permission to".into(),
-        _ => error.to_string(),
     }
+}
+
+/// Why something cannot be written, in words where the system has only a number, and what to do: what
+/// helps against that, or `otherwise`.
+pub(super) fn reason(error: &io::Error, otherwise: &str) -> String {
+    let (cause, help) = match error.kind() {
+        ErrorKind::NotFound => ("there is no such folder", ""),
+        ErrorKind::AlreadyExists | ErrorKind::NotADirectory => {
+            ("a file is where a folder would be", "")
+        }
+        ErrorKind::IsADirectory => ("a folder of this name is there", ""),
+        ErrorKind::PermissionDenied => ("there is no permission to", ""),
+        ErrorKind::ReadOnlyFilesystem => ("the file system can only be read", ""),
+        ErrorKind::StorageFull => ("no space is left on the device", "free some, or "),
+        ErrorKind::QuotaExceeded => ("the quota of disk space is used up", "free some, or "),
+        ErrorKind::FileTooLarge => ("files may not become so large", "raise the limit, or "),
+        ErrorKind::ResourceBusy => ("another run is writing into it", "wait for it, or "),
+        _ => {
+            let text = error.to_string();
+            let text = text.split(" (os error").next().unwrap_or_default();
+            return format!("{text}; {otherwise}");
+        }
+    };
+    format!("{cause}; {help}{otherwise}")
 }
 
 impl Drop for Staging {
     fn drop(&mut self) {
-        self.folder = None;
+        self.hidden = None;
         for folder in &self.created {
             // Only what is still empty goes.
             let _ = fs::remove_dir(folder);
@@ -203,6 +286,7 @@ impl Drop for Staging {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::io::Write;
 
     fn write(staging: &mut Staging, name: &str, text: &str) {
         staging.write(name, |out| out.write_all(text.as_bytes())).unwrap();
@@ -259,7 +343,7 @@ mod tests {
         write(&mut staging, "object-order.png", "new");
         write(&mut staging, "report.json", "new");
         // Somebody takes the last file away: its move cannot succeed.
-        fs::remove_file(staging.hidden().join("report.json")).unwrap();
+        fs::remove_file(staging.new_files().join("report.json")).unwrap();
         assert!(staging.commit().is_err());
         for name in ["object-order.png", "report.json"] {
             assert_eq!(fs::read_to_string(home.path().join(name)).unwrap(), "old");

@@ -3,7 +3,7 @@
 use super::args::{BuffersArg, MethodArg, RenderArgs};
 use super::camera::{camera, squashed};
 use super::failure::Failure;
-use super::output::Staging;
+use super::output::{Out, Staging};
 use super::patience::Patience;
 use super::progress::Bar;
 use super::{npy, stream, table, terminal};
@@ -19,7 +19,7 @@ use bothways::scenes::{self, LoadedScene};
 use bothways::verify::{Verified, verify};
 use bothways::wording::count;
 use image::{ColorType, ImageEncoder, codecs::png::PngEncoder};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -54,7 +54,7 @@ pub(super) fn prepared_output(
     check_memory(&camera, args)?;
     let folder = match &args.output.folder {
         Some(folder) => folder.clone(),
-        None => PathBuf::from("out").join(&loaded.name),
+        None => Path::new("out").join(folder_name(&loaded.name)),
     };
     let staging = Staging::begin(&folder)?;
     if let Some(hint) = squashed(&camera, &args.camera).filter(|_| !args.output.quiet) {
@@ -72,6 +72,17 @@ fn check_verify(args: &RenderArgs) -> Result<(), Failure> {
         ));
     }
     Ok(())
+}
+
+/// The folder that a scene is written into, below `out`: its name, unless it would lead elsewhere (a file may
+/// be called `...toml`) or cannot be typed.
+fn folder_name(name: &str) -> String {
+    let typed = |c: char| if c.is_control() || "/\\:".contains(c) { '_' } else { c };
+    if name.bytes().all(|byte| byte == b'.') {
+        "scene".into()
+    } else {
+        name.chars().map(typed).collect()
+    }
 }
 
 /// The threads to render on.
@@ -199,9 +210,9 @@ impl<'a> Run<'a> {
                 ColorType::L8,
             )?;
             if self.args.output.buffers == BuffersArg::Npy {
-                let ids = |out: &mut BufWriter<_>| npy::write_ids(frame, out);
+                let ids = |out: &mut Out| npy::write_ids(frame, out);
                 staging.write(&format!("{stem}.ids.npy"), ids)?;
-                let distances = |out: &mut BufWriter<_>| npy::write_distances(frame, out);
+                let distances = |out: &mut Out| npy::write_distances(frame, out);
                 staging.write(&format!("{stem}.t.npy"), distances)?;
             }
         }
@@ -259,6 +270,23 @@ pub(super) fn write_png(
 mod tests {
     use super::*;
     use bothways::common::Frame;
+
+    #[test]
+    fn no_scene_s_folder_lies_outside_of_out() {
+        for (name, folder) in [
+            ("bunny", "bunny"),
+            ("a b.c", "a b.c"),
+            ("-x", "-x"),
+            ("", "scene"),
+            (".", "scene"),
+            ("..", "scene"),
+            ("...", "scene"),
+            ("../up", ".._up"),
+            ("a\nb\\c:d\u{9b}", "a_b_c_d_"),
+        ] {
+            assert_eq!(folder_name(name), folder, "{name:?}");
+        }
+    }
 
     #[test]
     fn a_difference_is_exit_code_1() {

@@ -1,6 +1,7 @@
 //! Printing: results to stdout, warnings to stderr.
 
 use super::failure::Failure;
+use super::output::reason;
 use serde::Serialize;
 use std::io::{ErrorKind, Write};
 
@@ -11,7 +12,8 @@ pub(super) fn print(text: &str) -> Result<(), Failure> {
     let mut stdout = anstream::stdout().lock();
     match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-            Err(Failure::new(format!("cannot print to standard output: {error}")))
+            let reason = reason(&error, "send it elsewhere");
+            Err(Failure::new(format!("cannot print to standard output: {reason}")))
         }
         _ => Ok(()),
     }

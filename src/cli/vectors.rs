@@ -1,7 +1,7 @@
 //! `bothways vectors`: writes the conformance set.
 
 use super::failure::Failure;
-use super::output::Staging;
+use super::output::{Out, Staging};
 use super::render::write_png;
 use super::{npy, terminal};
 use bothways::common::Frame;
@@ -12,7 +12,7 @@ use bothways::vectors::{ENDINGS, Entry, Group, Vector, all, expected, index, jso
 use bothways::wording::count;
 use clap::Args;
 use image::ColorType;
-use std::io::{BufWriter, Write};
+use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -48,7 +48,7 @@ pub(super) fn run(args: &VectorsArgs) -> Result<ExitCode, Failure> {
     let index = index(&entries).map_err(|error| Failure::new(error.to_string()))?;
 
     let names = entries.iter().flat_map(|entry| entry.files.iter().cloned());
-    let names = names.chain([INDEX.to_owned(), README.to_owned()]).collect();
+    let names = names.chain([README.to_owned(), INDEX.to_owned()]).collect();
     let mut staging = Staging::begin_with(&args.folder, names)?;
     for (vector, frame) in vectors.iter().zip(&answers) {
         write_vector(&mut staging, vector, frame)?;
@@ -71,8 +71,8 @@ fn write_vector(staging: &mut Staging, vector: &Vector, frame: &Frame) -> Result
     staging.write(&toml, |out| out.write_all(scene.as_bytes()))?;
     staging.write(&mesh_file, |out| obj::write(mesh, out))?;
     staging.write(&all, |out| out.write_all(json.as_bytes()))?;
-    staging.write(&ids, |out: &mut BufWriter<_>| npy::write_ids(frame, out))?;
-    staging.write(&distances, |out: &mut BufWriter<_>| npy::write_distances(frame, out))?;
+    staging.write(&ids, |out: &mut Out| npy::write_ids(frame, out))?;
+    staging.write(&distances, |out: &mut Out| npy::write_distances(frame, out))?;
     write_png(staging, &seen, &mask, mask.dimensions(), ColorType::L8)
 }
 

@@ -76,12 +76,24 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
         "unexpected value 'yes' for '--json' found; no more were expected",
     ),
     (
-        "cover '1,1 9,2 3,7' --size 10x8 -o nowhere/t.png",
-        "cannot write nowhere/t.png: there is no such folder; choose another file with -o",
+        "cover '1,1 9,2 3,7' --size 10x8 -o file/t.png",
+        "cannot write file/t.png: a file is where a folder would be; choose another file with -o",
     ),
     (
-        "cover '1,1 9,2 3,7' --size 10x8 --output nowhere/t.png",
-        "cannot write nowhere/t.png: there is no such folder; choose another file with -o",
+        "cover '1,1 9,2 3,7' --size 10x8 --output file/t.png",
+        "cannot write file/t.png: a file is where a folder would be; choose another file with -o",
+    ),
+    (
+        "cover '1,1 9,2 3,7' --size 10x8 -o .",
+        "cannot write .: a folder of this name is there; choose another file with -o",
+    ),
+    (
+        "cover '1,1 9,2 3,7' --size 10x8 -o t.pgm",
+        "cannot write t.pgm: a mask is a .png file, and .pgm is none; end the name in .png",
+    ),
+    (
+        "cover '1,1 9,2 3,7' --size 10x8 --json -o -",
+        "--json and the mask would both go to standard output; name a file with -o",
     ),
     // Two files.
     ("diff", "the following required arguments were not provided: <A> <B>"),
@@ -120,6 +132,11 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
          one with -o",
     ),
     (
+        "diff a.pgm a.pgm -o -",
+        "-o - is standard output, which takes one file, and here a folder of files is written; \
+         name a folder (one that is called - as ./-)",
+    ),
+    (
         "diff a.pgm a.pgm --output file",
         "cannot write into the folder file: a file is where a folder would be; choose another \
          one with -o",
@@ -156,13 +173,23 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
          take fewer",
     ),
     (
-        "mesh grid -o nowhere/m.obj",
-        "cannot write nowhere/m.obj: there is no such folder; choose another file with -o",
+        "mesh grid -o file/m.obj",
+        "cannot write file/m.obj: a file is where a folder would be; choose another file with -o",
     ),
     (
-        "mesh grid --output nowhere/m.obj",
-        "cannot write nowhere/m.obj: there is no such folder; choose another file with -o",
+        "mesh grid --output file/m.obj",
+        "cannot write file/m.obj: a file is where a folder would be; choose another file with -o",
     ),
+    (
+        "mesh grid -o new/m.stl",
+        "cannot write new/m.stl: a mesh is written as OBJ or PLY, and .stl is neither; end the \
+         name in .obj or .ply",
+    ),
+    (
+        "mesh grid -o new/m.",
+        "cannot write new/m.: a mesh is written as OBJ or PLY, and . is neither; end the name in",
+    ),
+    ("mesh grid -o new/", "cannot write new/: it names a folder; choose another file with -o"),
     ("vectors all", "unexpected argument 'all' found"),
     (
         "vectors -o file",

@@ -185,6 +185,11 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
          another one with -o",
     ),
     (
+        "canonical -o -",
+        "-o - is standard output, which takes one file, and here a folder of files is written; \
+         name a folder (one that is called - as ./-)",
+    ),
+    (
         "canonical --output file",
         "cannot write into the folder file: a file is where a folder would be; choose another \
          one with -o",

@@ -1,0 +1,190 @@
+//! `-o FILE`: where the one file of a run goes, and how it gets there.
+
+use super::hidden::Hidden;
+use super::sink::{Out, fill};
+use super::{missing_folders, reason};
+use crate::cli::failure::Failure;
+use crate::cli::interrupt;
+use std::ffi::OsStr;
+use std::fs::{self, File, Metadata};
+use std::io::{self, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+/// A file that is to be written, found before the work begins.
+#[derive(Debug)]
+pub(in crate::cli) struct OutputFile {
+    /// As it was named.
+    name: PathBuf,
+    place: Place,
+}
+
+/// Where the content goes.
+#[derive(Debug)]
+enum Place {
+    /// Standard output, by `-` or by any other name.
+    Stdout,
+    /// A device, a pipe: written to as it is, and never replaced.
+    Direct(PathBuf),
+    /// A file, at the end of all links: replaced once the new one is complete.
+    File(PathBuf),
+}
+
+/// As many links as Linux follows.
+const MOST_LINKS: usize = 40;
+
+impl OutputFile {
+    /// Finds out where a file of this name would go.
+    pub(in crate::cli) fn find(name: &Path) -> Result<OutputFile, Failure> {
+        let file = |place| OutputFile { name: name.to_owned(), place };
+        place(name).map(file).map_err(|error| failure(name, &error))
+    }
+
+    /// What its name ends in, in small letters; where that says nothing, the name that it leads to.
+    pub(in crate::cli) fn ending(&self) -> Option<String> {
+        let ending = |path: &Path| path.extension().map(OsStr::to_ascii_lowercase);
+        let ending = ending(&self.name).or_else(|| match &self.place {
+            Place::File(path) => ending(path),
+            Place::Stdout | Place::Direct(_) => None,
+        });
+        ending.map(|ending| ending.to_string_lossy().into_owned())
+    }
+
+    /// Whether it is standard output, so that nothing else should be printed there.
+    pub(in crate::cli) fn is_stdout(&self) -> bool {
+        matches!(self.place, Place::Stdout)
+    }
+
+    /// What messages call it.
+    pub(in crate::cli) fn said(&self) -> String {
+        if self.name == Path::new("-") {
+            "standard output".into()
+        } else {
+            self.name.display().to_string()
+        }
+    }
+
+    /// Writes it: a file under a temporary name beside it, renamed once it is complete.
+    pub(in crate::cli) fn write(
+        &self,
+        content: impl FnOnce(&mut Out) -> io::Result<()>,
+    ) -> Result<(), Failure> {
+        let written = match &self.place {
+            Place::Stdout => into_stream(io::stdout().lock(), content),
+            Place::Direct(path) => {
+                let opened = File::options().write(true).open(path);
+                opened.and_then(|file| into_stream(file, content))
+            }
+            Place::File(path) => replace(path, content),
+        };
+        written.map_err(|error| failure(&self.name, &error))
+    }
+}
+
+fn place(name: &Path) -> io::Result<Place> {
+    if name == Path::new("-") {
+        return Ok(Place::Stdout);
+    }
+    if name.as_os_str().is_empty() {
+        return Err(io::Error::new(ErrorKind::InvalidInput, "the name is empty"));
+    }
+    match fs::metadata(name) {
+        Ok(there) if there.is_dir() => Err(ErrorKind::IsADirectory.into()),
+        // The same file under two names must not be written twice, from two beginnings.
+        Ok(there) if is_stdout(&there) => Ok(Place::Stdout),
+        Ok(there) if !there.is_file() => Ok(Place::Direct(name.to_owned())),
+        Ok(_) => fs::canonicalize(name).map(Place::File),
+        Err(error) if error.kind() == ErrorKind::NotFound => end_of_links(name).map(Place::File),
+        Err(error) => Err(error),
+    }
+}
+
+/// The file that a name leads to, where none is yet.
+fn end_of_links(name: &Path) -> io::Result<PathBuf> {
+    if name.as_os_str().as_encoded_bytes().ends_with(b"/") {
+        return Err(io::Error::new(ErrorKind::InvalidInput, "it names a folder"));
+    }
+    let mut path = name.to_owned();
+    for _ in 0..MOST_LINKS {
+        let Ok(link) = fs::read_link(&path) else { return Ok(path) };
+        path = folder_of(&path).join(link);
+    }
+    Err(io::Error::new(ErrorKind::InvalidInput, "it is a link that leads nowhere"))
+}
+
+/// The folder that a file is in.
+fn folder_of(file: &Path) -> &Path {
+    file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+#[cfg(unix)]
+fn is_stdout(file: &Metadata) -> bool {
+    use std::os::fd::AsFd;
+    use std::os::unix::fs::MetadataExt;
+    let stdout = io::stdout().as_fd().try_clone_to_owned();
+    let stdout = stdout.and_then(|stdout| File::from(stdout).metadata());
+    stdout.is_ok_and(|stdout| (stdout.dev(), stdout.ino()) == (file.dev(), file.ino()))
+}
+
+#[cfg(not(unix))]
+fn is_stdout(_file: &Metadata) -> bool {
+    false
+}
+
+/// Writes to what cannot be replaced. Whoever reads it may stop when they have seen enough.
+fn into_stream(
+    stream: impl Write + 'static,
+    content: impl FnOnce(&mut Out) -> io::Result<()>,
+) -> io::Result<()> {
+    match fill(stream, content) {
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+        written => written,
+    }
+}
+
+/// Writes a new file in place of the old one, if there is one; makes the folders that are missing.
+fn replace(path: &Path, content: impl FnOnce(&mut Out) -> io::Result<()>) -> io::Result<()> {
+    let folder = folder_of(path);
+    let created = missing_folders(folder);
+    let written = replace_within(folder, &created, path, content);
+    if written.is_err() {
+        for folder in &created {
+            // Only what is still empty goes.
+            let _ = fs::remove_dir(folder);
+        }
+    }
+    written
+}
+
+fn replace_within(
+    folder: &Path,
+    created: &[PathBuf],
+    path: &Path,
+    content: impl FnOnce(&mut Out) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut held = interrupt::hold();
+    fs::create_dir_all(folder)?;
+    let hidden = Hidden::within(folder, created, &mut held)?;
+    drop(held);
+    let complete = hidden.path().join("file");
+    let file = File::create(&complete)?;
+    if let Ok(old) = fs::metadata(path) {
+        // Who may read the old one may read the new one, and nobody else.
+        file.set_permissions(old.permissions())?;
+    }
+    fill(file, content)?;
+    let mut held = interrupt::hold();
+    fs::rename(&complete, path)?;
+    held.placed(hidden.guard());
+    // Dropping what is hidden takes the lock that Ctrl-C waits for.
+    drop(held);
+    Ok(())
+}
+
+fn failure(name: &Path, error: &io::Error) -> Failure {
+    if name == Path::new("-") {
+        let reason = reason(error, "name a file with -o");
+        return Failure::new(format!("cannot write to standard output: {reason}"));
+    }
+    let reason = reason(error, "choose another file with -o");
+    Failure::new(format!("cannot write {}: {reason}", name.display()))
+}
