@@ -406,7 +406,7 @@ fn repeated<E>(
     let mut drawn = steps.frames_drawn();
     let mut spread_of = |part| {
         // One more to warm up.
-        let runs = repeat.map_or(1, |repeat| repeat + 1);
+        let runs = repeat.map_or(1, |repeat| u64::from(repeat) + 1);
         let mut times = Vec::new();
         for _ in 0..runs {
             let (done, time) = timed(|| run(part));
@@ -520,6 +520,18 @@ mod tests {
                 assert_eq!((once.frame, once.work), (thrice.frame, thrice.work));
             }
         }
+    }
+
+    #[test]
+    fn the_largest_number_of_repetitions_is_no_smaller_one() {
+        let done = AtomicU64::new(0);
+        let steps = Steps::new(Order::Object, None, None, 1, &done);
+        let mut runs = 0;
+        let spreads = repeated(Some(u32::MAX), &steps, |_| {
+            runs += 1;
+            if runs < 5 { Ok(()) } else { Err("enough") }
+        });
+        assert_eq!((spreads, runs), (Err("enough"), 5));
     }
 
     #[test]

@@ -75,14 +75,15 @@ impl<'a> Steps<'a> {
 
     /// So many frames are rendered.
     pub(crate) fn frames_done(&self, frames: u64) {
-        let done = frames * self.within_frame.unwrap_or(1);
+        let done = frames.saturating_mul(self.within_frame.unwrap_or(1));
         self.done.store(done, Ordering::Relaxed);
         self.tell(Stage::Rendering, done);
     }
 
     fn tell(&self, stage: Stage, done: u64) {
         if let Some(listener) = self.listener {
-            let total = self.frames * self.within_frame.unwrap_or(1);
+            // As often as that nobody renders; but it may be asked for.
+            let total = self.frames.saturating_mul(self.within_frame.unwrap_or(1));
             listener(Progress { order: self.order, stage, done, total });
         }
     }
