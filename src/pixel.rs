@@ -6,7 +6,7 @@
 use crate::common::frame::Region;
 use crate::common::observe::{Question, Sample};
 use crate::common::predicate::EdgeSigns;
-use crate::common::{Events, Frame, Observer, Options, Primitive, Ray, Shape, View, Work};
+use crate::common::{Crop, Events, Frame, Observer, Options, Primitive, Ray, Shape, View, Work};
 use crate::{rasterize, raytrace};
 use rayon::prelude::*;
 use std::cmp::Ordering;
@@ -103,8 +103,9 @@ impl SampleReport {
     }
 }
 
-/// Reports on every sample of pixel `(i, j)`, row by row. Both orders render the whole picture, with
-/// all their machinery, without a crop.
+/// Reports on every sample of pixel `(i, j)`, row by row. Both orders render a crop of this pixel alone, with all
+/// their machinery: what they answer and do at its samples is what they do in the whole picture, which takes
+/// more memory.
 ///
 /// # Panics
 ///
@@ -124,19 +125,10 @@ impl SampleReport {
 pub fn report(view: &View, options: &Options, i: u32, j: u32) -> Vec<SampleReport> {
     let [width, height] = view.camera.image();
     assert!(i < height && j < width, "there is no pixel ({i}, {j})");
-    let options = &Options { crop: None, ..*options };
-    let side = options.samples as usize;
-    let (top, left) = (i as usize * side, j as usize * side);
-    let pixel = Region { rows: top..top + side, columns: left..left + side };
-
-    let object_order = watched(view, options, &pixel, |frame, watch| {
-        let prepared = rasterize::fast::prepare(view.scene);
-        rasterize::fast::determine_visibility(&prepared, view, options, frame, watch);
-    });
-    let image_order = watched(view, options, &pixel, |frame, watch| {
-        let prepared = raytrace::fast::prepare(view.scene);
-        raytrace::fast::determine_visibility(&prepared, view, options, frame, watch);
-    });
+    let crop = Crop { row: i, column: j, height: 1, width: 1 };
+    let options = &Options { crop: Some(crop), ..*options };
+    let pixel = crop.region(options.samples);
+    let [object_order, image_order] = answers(view, options, &pixel);
     let grid = view.camera.sample_grid(options.samples);
     let answers = object_order.into_iter().zip(image_order);
     let answered: Vec<_> = samples(&pixel).zip(answers).collect();
@@ -148,6 +140,19 @@ pub fn report(view: &View, options: &Options, i: u32, j: u32) -> Vec<SampleRepor
         SampleReport { sample, place, ray, covering, touching, object_order, image_order }
     });
     report.collect()
+}
+
+/// What both orders answer at each sample of the pixel.
+fn answers(view: &View, options: &Options, pixel: &Region) -> [Vec<Answer>; 2] {
+    let object_order = watched(view, options, pixel, |frame, watch| {
+        let prepared = rasterize::fast::prepare(view.scene);
+        rasterize::fast::determine_visibility(&prepared, view, options, frame, watch);
+    });
+    let image_order = watched(view, options, pixel, |frame, watch| {
+        let prepared = raytrace::fast::prepare(view.scene);
+        raytrace::fast::determine_visibility(&prepared, view, options, frame, watch);
+    });
+    [object_order, image_order]
 }
 
 fn samples(pixel: &Region) -> impl Iterator<Item = Sample> + use<> {
@@ -307,5 +312,36 @@ impl Events for Watch {
 
     fn judged(&mut self, sample: Sample, question: Question) {
         self.tell(sample, |work| work.judged(sample, question));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::common::{Camera, Projection};
+    use crate::scenes;
+
+    /// What is told of a pixel is told of the picture, and not of something that was made for it.
+    #[test]
+    fn a_pixel_alone_is_answered_as_in_the_whole_picture() {
+        for (name, projection) in [
+            ("lecture", Projection::Perspective),
+            ("slivers", Projection::Parallel),
+            ("overlap", Projection::Perspective),
+        ] {
+            let loaded = scenes::load(name).unwrap();
+            let mut description = loaded.camera;
+            (description.projection, description.image) = (projection, [80, 60]);
+            let camera = Camera::new(description).unwrap();
+            let view = View::new(&loaded.scene, &camera);
+            let whole = Options { samples: 2, ..Options::default() };
+            for [row, column] in [[0, 0], [31, 32], [32, 40], [59, 79]] {
+                let crop = Crop { row, column, height: 1, width: 1 };
+                let alone = Options { crop: Some(crop), ..whole };
+                let pixel = crop.region(whole.samples);
+                let all = answers(&view, &whole, &pixel);
+                assert_eq!(answers(&view, &alone, &pixel), all, "{name} ({row}, {column})");
+            }
+        }
     }
 }
