@@ -10,6 +10,8 @@ use crate::common::{Crop, Events, Frame, Observer, Options, Primitive, Ray, Shap
 use crate::{rasterize, raytrace};
 use rayon::prelude::*;
 use std::cmp::Ordering;
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
 /// One sample of a pixel.
 #[derive(Clone, Debug, PartialEq)]
@@ -228,12 +230,10 @@ fn watched(
     let mut frame = Frame::new(view.camera, options);
     let mut watch = Watch::new(pixel);
     render(&mut frame, &mut watch);
-    // Object order has nothing to do where no primitive comes near.
-    watch.work.resize(pixel.area(), Work::default());
-    let answers = samples(pixel).zip(watch.work).map(|(Sample { row, column }, work)| Answer {
+    let answers = samples(pixel).map(|sample @ Sample { row, column }| Answer {
         id: frame.id(row, column),
         t: frame.t(row, column),
-        work,
+        work: watch.of(sample),
     });
     answers.collect()
 }
@@ -242,29 +242,36 @@ fn watched(
 #[derive(Clone, Debug)]
 struct Watch {
     pixel: Region,
-    /// One count a sample; none as long as nothing happens there, as in most parts of a picture.
-    work: Vec<Work>,
+    /// Counts of squares of samples, as long as something happens there: in most parts of a picture nothing
+    /// does, and of a pixel of many samples each thread sees a small part at a time.
+    work: HashMap<[usize; 2], Vec<Work>>,
 }
+
+/// Samples along a side of such a square.
+const SQUARE: usize = 16;
 
 impl Watch {
     fn new(pixel: &Region) -> Watch {
-        Watch { pixel: pixel.clone(), work: Vec::new() }
+        Watch { pixel: pixel.clone(), work: HashMap::new() }
     }
 
-    /// The sample's count, if it is one of the pixel's.
-    fn at(&mut self, sample: Sample) -> Option<&mut Work> {
-        let Region { rows, columns } = &self.pixel;
-        if !rows.contains(&sample.row) || !columns.contains(&sample.column) {
-            return None;
-        }
-        let row = sample.row - rows.start;
-        self.work.resize(self.pixel.area(), Work::default());
-        self.work.get_mut(row * columns.len() + sample.column - columns.start)
+    /// In which square a sample lies, and where in it.
+    fn place(Sample { row, column }: Sample) -> ([usize; 2], usize) {
+        ([row / SQUARE, column / SQUARE], row % SQUARE * SQUARE + column % SQUARE)
+    }
+
+    /// What has happened at a sample.
+    fn of(&self, sample: Sample) -> Work {
+        let (square, place) = Watch::place(sample);
+        self.work.get(&square).map_or(Work::default(), |work| work[place])
     }
 
     fn tell(&mut self, sample: Sample, event: impl FnOnce(&mut Work)) {
-        if let Some(work) = self.at(sample) {
-            event(work);
+        let Region { rows, columns } = &self.pixel;
+        if rows.contains(&sample.row) && columns.contains(&sample.column) {
+            let (square, place) = Watch::place(sample);
+            let nothing = || vec![Work::default(); SQUARE * SQUARE];
+            event(&mut self.work.entry(square).or_insert_with(nothing)[place]);
         }
     }
 }
@@ -275,10 +282,15 @@ impl Observer for Watch {
     }
 
     fn join(&mut self, part: Self) {
-        if self.work.is_empty() {
-            self.work = part.work;
-        } else {
-            self.work.iter_mut().zip(part.work).for_each(|(work, more)| work.join(more));
+        for (square, more) in part.work {
+            match self.work.entry(square) {
+                Entry::Vacant(place) => {
+                    place.insert(more);
+                }
+                Entry::Occupied(work) => {
+                    work.into_mut().iter_mut().zip(more).for_each(|(work, more)| work.join(more));
+                }
+            }
         }
     }
 }

@@ -174,3 +174,16 @@ fn json_has_every_fact() {
     assert_eq!(first["covering"][0]["edges"]["tie"], true);
     assert!(first["image_order"]["work"]["nodes"].as_u64().unwrap() > 0);
 }
+
+#[cfg(target_os = "linux")]
+#[test]
+fn one_pixel_of_a_picture_that_is_larger_than_memory_needs_its_own_samples_alone() {
+    // All samples of the picture are 2^30, which take 32 bytes each; in KiB, less than half of that.
+    let script =
+        "ulimit -v 16000000; exec \"$0\" pixel canonical 64 64 --size 128x128 --samples 256";
+    let program = assert_cmd::cargo::cargo_bin("bothways");
+    let output = std::process::Command::new("sh").args(["-c", script]).arg(program).output();
+    let output = output.unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success() && text.ends_with("both orders saw what is nearest\n"));
+}
