@@ -5,7 +5,7 @@
 use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
 use rustix::termios::{Winsize, tcsetwinsize};
 use std::fs::{self, File};
-use std::io::Read;
+use std::io::{BufRead, Read};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
@@ -55,7 +55,7 @@ fn a_long_rendering_shows_how_far_it_is_and_erases_that() {
     let home = tempfile::tempdir().unwrap();
     let seen = seen_on_stderr(bothways(&home, &SLOW));
     assert!(seen.contains("object order [") && seen.contains("image order  ["), "{seen:?}");
-    assert!(seen.contains(" %, "), "{seen:?}");
+    assert!(seen.contains(" %, ") && seen.contains(" s left"), "{seen:?}");
     // Nothing but one line, drawn again and again, and in the end erased; no colours.
     assert!(seen.ends_with("\r\u{1b}[2K") && !seen.contains('\n'), "{seen:?}");
     assert!(seen.split('\u{1b}').skip(1).all(|rest| rest.starts_with("[2K")), "{seen:?}");
@@ -73,6 +73,44 @@ fn a_bar_needs_a_person_and_time() {
     assert_eq!(seen_on_stderr(dumb), "");
     let piped = bothways(&home, &SLOW).output().unwrap();
     assert_eq!(String::from_utf8(piped.stderr).unwrap(), "");
+}
+
+/// What is said first on stderr, as soon as it is said.
+fn first_line(child: &mut Child) -> String {
+    let mut line = String::new();
+    std::io::BufReader::new(child.stderr.take().unwrap()).read_line(&mut line).unwrap();
+    line
+}
+
+#[test]
+fn a_run_that_takes_much_memory_says_so_before_it_takes_it() {
+    let home = tempfile::tempdir().unwrap();
+    // 3840 · 2160 · 4² samples of 32 bytes in two orders: 8.5 GB.
+    let large = ["canonical", "--size", "3840x2160", "--viewport", "16,9", "--samples", "4"];
+    let mut child = bothways(&home, &large).spawn().unwrap();
+    let line = first_line(&mut child);
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert!(line.contains("132,710,400 samples "), "{line}");
+    // Where there is so much, or where there is not.
+    assert!(line.contains(" take 8.1 GiB of memory; ") || line.contains(" need at least 9 GiB "));
+    assert!(line.contains("--crop") && line.contains("fewer --samples"), "{line}");
+}
+
+#[test]
+fn a_run_of_more_than_a_minute_says_so_in_one_line_and_how_to_make_it_shorter() {
+    let home = tempfile::tempdir().unwrap();
+    let long = ["many", "--method", "textbook", "--size", "400x250", "--samples", "4"];
+    let mut child = bothways(&home, &long).spawn().unwrap();
+    let line = first_line(&mut child);
+    press_ctrl_c(&child);
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    let rest = ", as the textbook tests every primitive at every sample: --method fast gives the same \
+                answers far sooner, a smaller --size, a --crop of it or fewer --samples shorten it \
+                too\n";
+    let time = line.strip_prefix("note: this takes about ").unwrap().strip_suffix(rest).unwrap();
+    let (number, unit) = time.split_once(' ').unwrap();
+    assert!(number.parse::<u32>().unwrap() > 1 && ["min", "h", "days"].contains(&unit), "{line}");
 }
 
 /// Runs until something is in the output folder, and presses Ctrl-C then.

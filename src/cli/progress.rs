@@ -1,37 +1,45 @@
-//! The bar that shows, on a terminal, how far a long rendering has come.
+//! The bar that shows, on a terminal, how far a long rendering has come and how long it still takes; and,
+//! wherever somebody may read it, the line that says that it will be long.
 
 use super::args::RenderArgs;
+use super::forecast::{Forecast, advice, words};
 use bothways::orders::Order;
 use bothways::progress::{Progress, Stage};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::env;
+use std::fmt::Write;
 use std::io::{IsTerminal, stderr};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Who waits for less is not told.
 const PATIENCE: Duration = Duration::from_millis(400);
 /// How often the time is counted on, whether or not a step is done.
 const TICK: Duration = Duration::from_millis(200);
 
-/// A bar on stderr that is gone without a trace when this is dropped.
+/// A bar on stderr that is gone without a trace when this is dropped. Where stderr is no terminal nothing is
+/// drawn.
 #[derive(Debug)]
-pub(super) struct Bar {
+pub(super) struct Bar<'a> {
+    args: &'a RenderArgs,
     bar: ProgressBar,
+    begun: Instant,
+    forecast: Arc<Mutex<Forecast>>,
     /// Dropped to stop waiting.
     waiting: Option<Sender<()>>,
     appearing: Option<JoinHandle<()>>,
 }
 
-impl Bar {
-    /// A bar that appears after a moment; `None` if nobody wants one, or stderr is no terminal that
-    /// could erase it.
+impl Bar<'_> {
+    /// A bar that appears after a moment if stderr is a terminal that can erase it; `None` if nobody wants to
+    /// be told.
     ///
     /// What goes to stdout does not matter: `bothways --json > report.json` has somebody waiting, too.
-    pub(super) fn of_run(args: &RenderArgs) -> Option<Bar> {
+    pub(super) fn of_run(args: &RenderArgs) -> Option<Bar<'_>> {
         let erases = env::var_os("TERM").is_none_or(|terminal| terminal != "dumb");
-        (!args.output.quiet && erases && stderr().is_terminal()).then(Bar::new)
+        (!args.output.quiet).then(|| Bar::new(args, erases && stderr().is_terminal()))
     }
 
     /// Says what is being done while it is done, if that takes more than a moment.
@@ -40,18 +48,21 @@ impl Bar {
         work()
     }
 
-    fn new() -> Bar {
+    fn new(args: &RenderArgs, is_seen: bool) -> Bar<'_> {
         let bar = ProgressBar::with_draw_target(Some(0), ProgressDrawTarget::hidden());
         let (waiting, dropped) = channel();
-        let appearing = thread::spawn({
+        let appearing = is_seen.then(|| {
             let bar = bar.clone();
-            move || appear(&bar, &dropped)
+            thread::spawn(move || appear(&bar, &dropped))
         });
-        Bar { bar, waiting: Some(waiting), appearing: Some(appearing) }
+        let forecast = Forecast::new(args.method.order.orders().len());
+        let forecast = Arc::new(Mutex::new(forecast));
+        Bar { args, bar, begun: Instant::now(), forecast, waiting: Some(waiting), appearing }
     }
 
     /// Shows what an order does, and how much of it is done.
     pub(super) fn show(&self, progress: Progress) {
+        let whole = locked(&self.forecast).note(progress, self.begun.elapsed());
         let order = progress.order.name();
         match progress.stage {
             Stage::Preparing => {
@@ -60,7 +71,7 @@ impl Bar {
             }
             Stage::Rendering => {
                 if progress.done == 0 {
-                    self.bar.set_style(with_bar());
+                    self.bar.set_style(self.with_bar());
                     // Both names take the same room, so that the bar stays where it is.
                     let room = Order::Object.name().len();
                     self.bar.set_message(format!("{order:room$}"));
@@ -68,6 +79,10 @@ impl Bar {
                 }
                 self.bar.set_position(progress.done);
             }
+        }
+        if let Some(whole) = whole {
+            let note = advice(whole, self.args);
+            self.bar.suspend(|| anstream::eprintln!("note: {note}"));
         }
     }
 
@@ -91,9 +106,22 @@ impl Bar {
         self.bar.set_style(without_bar());
         self.bar.set_message(what);
     }
+
+    /// Without colours, so that `NO_COLOR` needs no care.
+    fn with_bar(&self) -> ProgressStyle {
+        let (forecast, begun) = (Arc::clone(&self.forecast), self.begun);
+        let left = move |_: &ProgressState, out: &mut dyn Write| {
+            if let Some(left) = locked(&forecast).left(begun.elapsed()) {
+                // A bar is not worth a failure.
+                let _ = write!(out, ", about {} left", words(left));
+            }
+        };
+        let style = style("{msg} [{bar:32}] {percent:>3} %, {elapsed}{left}");
+        style.with_key("left", left).progress_chars("=> ")
+    }
 }
 
-impl Drop for Bar {
+impl Drop for Bar<'_> {
     fn drop(&mut self) {
         self.waiting = None;
         if let Some(appearing) = self.appearing.take() {
@@ -104,17 +132,16 @@ impl Drop for Bar {
     }
 }
 
+fn locked(forecast: &Mutex<Forecast>) -> MutexGuard<'_, Forecast> {
+    forecast.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 /// Lets the bar appear unless it is dropped before.
 fn appear(bar: &ProgressBar, dropped: &Receiver<()>) {
     if dropped.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout) {
         bar.set_draw_target(ProgressDrawTarget::stderr());
         bar.enable_steady_tick(TICK);
     }
-}
-
-/// Without colours, so that `NO_COLOR` needs no care.
-fn with_bar() -> ProgressStyle {
-    style("{msg} [{bar:32}] {percent:>3} %, {elapsed}").progress_chars("=> ")
 }
 
 fn without_bar() -> ProgressStyle {

@@ -6,9 +6,9 @@ use super::failure::Failure;
 use super::output::{Out, Staging};
 use super::patience::Patience;
 use super::progress::Bar;
-use super::{npy, stream, table, terminal};
+use super::{memory, npy, stream, table, terminal};
 use bothways::common::camera::check_samples;
-use bothways::common::{Camera, Options, View};
+use bothways::common::{Camera, View};
 use bothways::diff::{Classes, Comparison, compare};
 use bothways::figure::Slide;
 use bothways::orders::{self, RenderOptions, Rendered};
@@ -17,7 +17,6 @@ use bothways::progress::Listener;
 use bothways::report::Report;
 use bothways::scenes::{self, LoadedScene};
 use bothways::verify::{Verified, verify};
-use bothways::wording::count;
 use image::{ColorType, ImageEncoder, codecs::png::PngEncoder};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -51,7 +50,7 @@ pub(super) fn prepared_output(
     let options = args.method.options();
     let checked = options.pixels(camera.image()).check(camera.image());
     checked.map_err(|error| Failure::new(format!("--crop: {error}")))?;
-    check_memory(&camera, args)?;
+    memory::check(&camera, args)?;
     let folder = match &args.output.folder {
         Some(folder) => folder.clone(),
         None => Path::new("out").join(folder_name(&loaded.name)),
@@ -104,29 +103,6 @@ pub(super) fn render_options<'a>(
         no_counts: args.output.no_counts,
         progress,
     }
-}
-
-/// Bytes that one order keeps for a sample: id, distance, normal and colour.
-const BYTES_PER_SAMPLE: u64 = 4 + 4 + 12 + 12;
-
-/// Tells whether the system can give what all frames take, before it is too late to say so.
-fn check_memory(camera: &Camera, args: &RenderArgs) -> Result<(), Failure> {
-    let Options { samples, .. } = args.method.options();
-    let samples = args.method.options().pixels(camera.image()).region(samples).area() as u64;
-    let bytes = samples * args.method.order.orders().len() as u64 * BYTES_PER_SAMPLE;
-    // All of it at once: one frame after the other might be promised, and the promise not kept.
-    let mut all = Vec::<u8>::new();
-    let fits = usize::try_from(bytes).is_ok_and(|bytes| all.try_reserve_exact(bytes).is_ok());
-    // Used, lest the question be optimised away.
-    std::hint::black_box(&mut all);
-    if fits {
-        return Ok(());
-    }
-    let (samples, gibibytes) = (count(samples, "samples"), bytes.div_ceil(1 << 30));
-    Err(Failure::new(format!(
-        "{samples} need at least {gibibytes} GiB of memory, more than there is; take a smaller \
-         --size, a --crop of it, fewer --samples, or one --order alone"
-    )))
 }
 
 /// Everything that came of the rendering.
@@ -269,7 +245,7 @@ pub(super) fn write_png(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use bothways::common::Frame;
+    use bothways::common::{Frame, Options};
 
     #[test]
     fn no_scene_s_folder_lies_outside_of_out() {

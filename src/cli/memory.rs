@@ -1,0 +1,284 @@
+//! What a run takes of memory, held against what there is, before it is too late to say so.
+
+use super::args::RenderArgs;
+use super::failure::Failure;
+use super::terminal;
+use bothways::common::Camera;
+use bothways::wording::count;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Bytes that one order keeps for a sample: id, distance, normal and colour.
+const BYTES_PER_SAMPLE: u64 = 4 + 4 + 12 + 12;
+/// Bytes for a pixel while pictures are drawn and compressed: of both orders at once, where there are two
+/// (measured: 14), or of one.
+const BYTES_PER_PIXEL: [u64; 2] = [8, 16];
+/// For the program itself, and a slide of 1920 × 1080.
+const BYTES_FOR_THE_REST: u64 = 32 << 20;
+
+/// From so many bytes on, a run says beforehand what it takes.
+const MUCH: u64 = 4 << 30;
+
+/// Refuses what does not fit; says what will take much of it, or more than is free.
+pub(super) fn check(camera: &Camera, args: &RenderArgs) -> Result<(), Failure> {
+    let need = Need::of(camera, args);
+    let memory = Memory::read(Path::new("/"));
+    if memory.most.is_some_and(|most| need.bytes > most) || !can_be_reserved(need.bytes) {
+        return Err(Failure::new(need.refusal(memory.most)));
+    }
+    if !args.output.quiet {
+        terminal::warn(&need.warning(memory.free).into_iter().collect::<Vec<_>>());
+        if need.bytes >= MUCH && memory.free.is_none_or(|free| need.bytes <= free) {
+            anstream::eprintln!("note: {} take less", need.takes());
+        }
+    }
+    Ok(())
+}
+
+/// What all frames and pictures of a run take.
+#[derive(Debug)]
+struct Need {
+    samples: u64,
+    bytes: u64,
+}
+
+impl Need {
+    fn of(camera: &Camera, args: &RenderArgs) -> Need {
+        let options = args.method.options();
+        let pixels = options.pixels(camera.image());
+        let samples = pixels.region(options.samples).area() as u64;
+        let pixels = u64::from(pixels.width) * u64::from(pixels.height);
+        let orders = args.method.order.orders().len();
+        let bytes = samples * orders as u64 * BYTES_PER_SAMPLE
+            + pixels * BYTES_PER_PIXEL[orders - 1]
+            + BYTES_FOR_THE_REST;
+        Need { samples, bytes }
+    }
+
+    /// Also where memory has no end, the message has one.
+    fn refusal(&self, most: Option<u64>) -> String {
+        let (samples, need) = (count(self.samples, "samples"), self.bytes.div_ceil(1 << 30));
+        let have = most.map_or(String::new(), |most| format!(" ({})", gibibytes(most)));
+        format!(
+            "{samples} need at least {need} GiB of memory, more than there is{have}; take a smaller \
+             --size, a --crop of it, fewer --samples, or one --order alone"
+        )
+    }
+
+    /// That it may not fit, if so.
+    fn warning(&self, free: Option<u64>) -> Option<String> {
+        let free = free.filter(|&free| self.bytes > free)?;
+        let free = gibibytes(free);
+        Some(format!(
+            "only {free} are free, so the system may stop this run or grow slow: {} take less",
+            self.takes()
+        ))
+    }
+
+    fn takes(&self) -> String {
+        let (samples, bytes) = (count(self.samples, "samples"), gibibytes(self.bytes));
+        format!(
+            "{samples} take {bytes} of memory; a smaller --size, a --crop of it, fewer --samples, or \
+             one --order alone"
+        )
+    }
+}
+
+/// To a tenth.
+fn gibibytes(bytes: u64) -> String {
+    let tenths = (u128::from(bytes) * 10 + (1 << 29)) >> 30;
+    format!("{}.{} GiB", tenths / 10, tenths % 10)
+}
+
+/// Whether the system promises so much at once, where addresses are limited: one frame after the other
+/// might be promised, and the promise not kept.
+fn can_be_reserved(bytes: u64) -> bool {
+    let mut all = Vec::<u8>::new();
+    let fits = usize::try_from(bytes).is_ok_and(|bytes| all.try_reserve_exact(bytes).is_ok());
+    // Used, lest the question be optimised away.
+    std::hint::black_box(&mut all);
+    fits
+}
+
+/// What memory there is, as far as the system tells.
+#[derive(Debug, Default, PartialEq, Eq)]
+struct Memory {
+    /// Bytes that this program can get at most, with all swap space, besides those that it has.
+    most: Option<u64>,
+    /// Bytes that it gets without anything being swapped out.
+    free: Option<u64>,
+}
+
+impl Memory {
+    /// Asks the Linux kernel, whose files are below `root`. Elsewhere nothing is known.
+    fn read(root: &Path) -> Memory {
+        let info = Fields(fs::read_to_string(root.join("proc/meminfo")).unwrap_or_default());
+        let own = Fields(fs::read_to_string(root.join("proc/self/status")).unwrap_or_default());
+        let kibibytes = |fields: &Fields, name| fields.number(name).map(|number| number << 10);
+        let swap = kibibytes(&info, "SwapTotal:").unwrap_or(0);
+        let (mut most, mut free) = (
+            kibibytes(&info, "MemTotal:").map(|total| total + swap),
+            kibibytes(&info, "MemAvailable:"),
+        );
+        let least = |one: Option<u64>, other: u64| Some(one.map_or(other, |one| one.min(other)));
+        for group in groups(root) {
+            if let Some(limit) = group.limit() {
+                let swap = group.swap(limit).map_or(swap, |allowed| allowed.min(swap));
+                most = least(most, limit.saturating_add(swap));
+                free = least(free, limit.saturating_sub(group.used()));
+            }
+        }
+        // The scene is read by now.
+        let own = kibibytes(&own, "VmRSS:").unwrap_or(0);
+        Memory { most: most.map(|most| most.saturating_sub(own)), free }
+    }
+}
+
+/// A file of names and numbers, one a line.
+struct Fields(String);
+
+impl Fields {
+    fn number(&self, name: &str) -> Option<u64> {
+        let mut lines = self.0.lines().map(str::split_ascii_whitespace);
+        lines.find_map(|mut words| (words.next()? == name).then(|| words.next())?)?.parse().ok()
+    }
+}
+
+/// A control group that this program is in, of version 1 or 2.
+#[derive(Debug)]
+struct Group {
+    folder: PathBuf,
+    version: usize,
+}
+
+/// All groups that hold this program, from its own to the root: each may have a limit. In a container they
+/// may be seen as the root alone.
+fn groups(root: &Path) -> Vec<Group> {
+    let list = fs::read_to_string(root.join("proc/self/cgroup")).unwrap_or_default();
+    let mut groups = Vec::new();
+    for line in list.lines() {
+        let mut parts = line.splitn(3, ':').skip(1);
+        let (Some(controllers), Some(path)) = (parts.next(), parts.next()) else { continue };
+        let (mounted, version) = if controllers.is_empty() {
+            ("sys/fs/cgroup", 2)
+        } else if controllers.split(',').any(|controller| controller == "memory") {
+            ("sys/fs/cgroup/memory", 1)
+        } else {
+            continue;
+        };
+        let path = Path::new(path.trim_start_matches('/'));
+        let folders = path.ancestors().map(|path| root.join(mounted).join(path));
+        groups.extend(folders.map(|folder| Group { folder, version }));
+    }
+    groups
+}
+
+impl Group {
+    /// What a file says, which has one name in version 1 and another in version 2; `max` is no number.
+    fn number(&self, names: [&str; 2]) -> Option<u64> {
+        let text = fs::read_to_string(self.folder.join(names[self.version - 1])).ok()?;
+        text.trim().parse().ok()
+    }
+
+    fn limit(&self) -> Option<u64> {
+        self.number(["memory.limit_in_bytes", "memory.max"])
+    }
+
+    /// How much swap space it may take besides, if that is limited.
+    fn swap(&self, limit: u64) -> Option<u64> {
+        let stated = self.number(["memory.memsw.limit_in_bytes", "memory.swap.max"])?;
+        Some(if self.version == 1 { stated.saturating_sub(limit) } else { stated })
+    }
+
+    /// What is taken, without copies of files that can be read again.
+    fn used(&self) -> u64 {
+        let used = self.number(["memory.usage_in_bytes", "memory.current"]).unwrap_or(0);
+        let stat = Fields(fs::read_to_string(self.folder.join("memory.stat")).unwrap_or_default());
+        let copies = ["total_inactive_file", "inactive_file"][self.version - 1];
+        used.saturating_sub(stat.number(copies).unwrap_or(0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A system whose files say this.
+    fn memory(files: &[(&str, &str)]) -> Memory {
+        let root = tempfile::tempdir().unwrap();
+        let write = |(name, text): &(&str, &str)| {
+            let path = root.path().join(name);
+            fs::create_dir_all(path.parent().unwrap()).unwrap();
+            fs::write(path, text).unwrap();
+        };
+        files.iter().for_each(write);
+        Memory::read(root.path())
+    }
+
+    const INFO: (&str, &str) = (
+        "proc/meminfo",
+        "MemTotal:  8388608 kB\nMemFree:  100 kB\nMemAvailable:  4194304 kB\nSwapTotal:  1048576 kB\n",
+    );
+    const GIB: u64 = 1 << 30;
+
+    #[test]
+    fn without_limits_the_machine_s_memory_counts() {
+        assert_eq!(memory(&[]), Memory::default());
+        assert_eq!(memory(&[INFO]), Memory { most: Some(9 * GIB), free: Some(4 * GIB) });
+        let status = ("proc/self/status", "Name:\tbothways\nVmRSS:\t 1048576 kB\n");
+        assert_eq!(memory(&[INFO, status]), Memory { most: Some(8 * GIB), free: Some(4 * GIB) });
+    }
+
+    #[test]
+    fn a_control_group_of_version_2_limits_it() {
+        let in_group = ("proc/self/cgroup", "0::/user.slice/run.scope\n");
+        let limits = [
+            INFO,
+            in_group,
+            ("sys/fs/cgroup/user.slice/run.scope/memory.max", "max\n"),
+            ("sys/fs/cgroup/user.slice/memory.max", "2147483648\n"),
+            ("sys/fs/cgroup/user.slice/memory.current", "1610612736\n"),
+            ("sys/fs/cgroup/user.slice/memory.stat", "anon 7\ninactive_file 536870912\n"),
+            ("sys/fs/cgroup/user.slice/memory.swap.max", "0\n"),
+        ];
+        assert_eq!(memory(&limits), Memory { most: Some(2 * GIB), free: Some(GIB) });
+        // Without a limit to swap space, all of it.
+        assert_eq!(memory(&limits[..6]).most, Some(3 * GIB));
+        let unlimited = Memory { most: Some(9 * GIB), free: Some(4 * GIB) };
+        assert_eq!(memory(&limits[..3]), unlimited);
+    }
+
+    #[test]
+    fn a_control_group_of_version_1_limits_it() {
+        let limits = [
+            INFO,
+            ("proc/self/cgroup", "5:cpu,cpuacct:/x\n4:memory:/docker/abc\n0::/\n"),
+            // A container sees its own group as the root.
+            ("sys/fs/cgroup/memory/memory.limit_in_bytes", "1073741824\n"),
+            ("sys/fs/cgroup/memory/memory.memsw.limit_in_bytes", "1610612736\n"),
+            ("sys/fs/cgroup/memory/memory.usage_in_bytes", "805306368\n"),
+            (
+                "sys/fs/cgroup/memory/memory.stat",
+                "inactive_file 1\ntotal_inactive_file 268435456\n",
+            ),
+        ];
+        assert_eq!(memory(&limits), Memory { most: Some(3 * GIB / 2), free: Some(GIB / 2) });
+    }
+
+    #[test]
+    fn what_is_said_has_numbers_and_remedies() {
+        let need = Need { samples: 132_710_400, bytes: 8_600_000_000 };
+        assert_eq!(
+            need.refusal(Some(2 * GIB)),
+            "132,710,400 samples need at least 9 GiB of memory, more than there is (2.0 GiB); take a \
+             smaller --size, a --crop of it, fewer --samples, or one --order alone"
+        );
+        assert_eq!(need.warning(Some(9 * GIB)), None);
+        assert_eq!(
+            need.warning(Some(GIB)).unwrap(),
+            "only 1.0 GiB are free, so the system may stop this run or grow slow: 132,710,400 samples \
+             take 8.0 GiB of memory; a smaller --size, a --crop of it, fewer --samples, or one --order \
+             alone take less"
+        );
+    }
+}
