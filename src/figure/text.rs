@@ -3,12 +3,17 @@
 //! Enough of typography for labels and numbers: kerning, and figures of one width, so that columns
 //! of numbers align. The typeface is Inter, under the SIL Open Font License (`assets/inter`).
 
+use skrifa::charmap::Charmap;
+use skrifa::instance::{LocationRef, Size};
+use skrifa::metrics::GlyphMetrics;
+use skrifa::outline::{DrawSettings, OutlineGlyphCollection, OutlinePen};
+use skrifa::raw::tables::gpos::{PairPos, PositionSubtables};
+use skrifa::raw::tables::gsub::{SingleSubst, SubstitutionSubtables};
+use skrifa::raw::tables::layout::{ClassDef, FeatureList};
+use skrifa::raw::{ReadError, TableProvider};
+use skrifa::{FontRef, GlyphId16, MetadataProvider, Tag};
 use std::sync::LazyLock;
 use tiny_skia::{Color, FillRule, Paint, Path, PathBuilder, Pixmap, Transform};
-use ttf_parser::gpos::{PairAdjustment, PositioningSubtable};
-use ttf_parser::gsub::{SingleSubstitution, SubstitutionSubtable};
-use ttf_parser::opentype_layout::{LayoutTable, Lookup};
-use ttf_parser::{Face, GlyphId, OutlineBuilder, Tag};
 
 /// How heavy the letters are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,14 +69,17 @@ pub(super) fn shortened(text: &str, style: Style, limit: f32) -> String {
 
 /// One weight of the typeface, and the tables that say how its letters stand beside each other.
 struct Font {
-    face: Face<'static>,
-    tabular: Vec<Lookup<'static>>,
-    kerning: Vec<Lookup<'static>>,
+    units_per_em: u16,
+    letters: Charmap<'static>,
+    metrics: GlyphMetrics<'static>,
+    outlines: OutlineGlyphCollection<'static>,
+    tabular: Vec<SingleSubst<'static>>,
+    kerning: Vec<PairPos<'static>>,
 }
 
 /// A line of glyphs in font units, each with its distance from the line's beginning.
 struct Line {
-    glyphs: Vec<(GlyphId, f32)>,
+    glyphs: Vec<(GlyphId16, f32)>,
     width: f32,
 }
 
@@ -90,15 +98,24 @@ impl Weight {
 
 impl Font {
     fn new(bytes: &'static [u8]) -> Font {
-        let face = Face::parse(bytes, 0).expect("the embedded font is sound");
-        let tabular = lookups(face.tables().gsub, Tag::from_bytes(b"tnum"));
-        let kerning = lookups(face.tables().gpos, Tag::from_bytes(b"kern"));
-        Font { face, tabular, kerning }
+        let read = |bytes| -> Result<Font, ReadError> {
+            let font = FontRef::new(bytes)?;
+            let (size, place) = (Size::unscaled(), LocationRef::default());
+            Ok(Font {
+                units_per_em: font.head()?.units_per_em(),
+                letters: font.charmap(),
+                metrics: font.glyph_metrics(size, place),
+                outlines: font.outline_glyphs(),
+                tabular: tabular(&font)?,
+                kerning: kerning(&font)?,
+            })
+        };
+        read(bytes).expect("the embedded font is sound")
     }
 
     /// Pixels in a font unit.
     fn scale(&self, size: f32) -> f32 {
-        size / f32::from(self.face.units_per_em())
+        size / f32::from(self.units_per_em)
     }
 
     fn set(&self, text: &str) -> Line {
@@ -108,65 +125,100 @@ impl Font {
             let glyph = self.glyph(letter);
             width += previous.map_or(0.0, |previous| self.kern(previous, glyph));
             glyphs.push((glyph, width));
-            width += f32::from(self.face.glyph_hor_advance(glyph).unwrap_or(0));
+            width += self.metrics.advance_width(glyph.into()).unwrap_or(0.0);
             previous = Some(glyph);
         }
         Line { glyphs, width }
     }
 
     /// The glyph of a letter; figures in their tabular form.
-    fn glyph(&self, letter: char) -> GlyphId {
+    fn glyph(&self, letter: char) -> GlyphId16 {
         // What the font lacks becomes glyph 0, a box.
-        let glyph = self.face.glyph_index(letter).unwrap_or_default();
+        let glyph = self.letters.map(letter).and_then(|glyph| glyph.try_into().ok());
+        let glyph = glyph.unwrap_or(GlyphId16::NOTDEF);
         if letter.is_ascii_digit() { self.tabular_form(glyph).unwrap_or(glyph) } else { glyph }
     }
 
-    fn tabular_form(&self, glyph: GlyphId) -> Option<GlyphId> {
-        let tables = self.tabular.iter().flat_map(|lookup| lookup.subtables.into_iter());
-        tables.into_iter().find_map(|table| match table {
-            SubstitutionSubtable::Single(SingleSubstitution::Format1 { coverage, delta }) => {
-                coverage.get(glyph).map(|_| GlyphId(glyph.0.wrapping_add_signed(delta)))
+    fn tabular_form(&self, glyph: GlyphId16) -> Option<GlyphId16> {
+        self.tabular.iter().find_map(|table| match table {
+            SingleSubst::Format1(table) => {
+                table.coverage().ok()?.get(glyph)?;
+                let form = glyph.to_u16().wrapping_add_signed(table.delta_glyph_id());
+                Some(GlyphId16::new(form))
             }
-            SubstitutionSubtable::Single(SingleSubstitution::Format2 { coverage, substitutes }) => {
-                substitutes.get(coverage.get(glyph)?)
+            SingleSubst::Format2(table) => {
+                let place = table.coverage().ok()?.get(glyph)?;
+                table.substitute_glyph_ids().get(place as usize).map(|form| form.get())
             }
             _ => None,
         })
     }
 
     /// How much farther apart than usual two glyphs stand; negative is nearer.
-    fn kern(&self, left: GlyphId, right: GlyphId) -> f32 {
-        let tables = self.kerning.iter().flat_map(|lookup| lookup.subtables.into_iter());
-        let adjustment = tables.into_iter().find_map(|table| match table {
-            PositioningSubtable::Pair(PairAdjustment::Format1 { coverage, sets }) => {
-                sets.get(coverage.get(left)?)?.get(right)
+    fn kern(&self, left: GlyphId16, right: GlyphId16) -> f32 {
+        let adjustment = self.kerning.iter().find_map(|table| match table {
+            PairPos::Format1(table) => {
+                let place = table.coverage().ok()?.get(left)?;
+                let pairs = table.pair_sets().get(place as usize).ok()?;
+                pairs.find_pair_value_record(right)?.value_record1().x_advance()
             }
-            PositioningSubtable::Pair(PairAdjustment::Format2 { coverage, classes, matrix }) => {
-                coverage.get(left)?;
-                matrix.get((classes.0.get(left), classes.1.get(right)))
+            PairPos::Format2(table) => {
+                table.coverage().ok()?.get(left)?;
+                let class = |glyph, classes: ClassDef| u16::try_from(classes.get(glyph)).ok();
+                let left = class(left, table.class_def1().ok()?)?;
+                let right = class(right, table.class_def2().ok()?)?;
+                table.value_record_refs(left, right)?[0].x_advance()
             }
             _ => None,
         });
-        adjustment.map_or(0.0, |(left, _)| f32::from(left.x_advance))
+        adjustment.map_or(0.0, f32::from)
     }
 
     fn outline(&self, line: &Line) -> Option<Path> {
         let mut pen = Pen { path: PathBuilder::new(), x: 0.0 };
         for &(glyph, x) in &line.glyphs {
             pen.x = x;
-            // A space has no outline.
-            let _ = self.face.outline_glyph(glyph, &mut pen);
+            let settings = DrawSettings::unhinted(Size::unscaled(), LocationRef::default());
+            if let Some(outline) = self.outlines.get(glyph.into()) {
+                outline.draw(settings, &mut pen).expect("the embedded font is sound");
+            }
         }
         pen.path.finish()
     }
 }
 
-fn lookups(table: Option<LayoutTable<'static>>, feature: Tag) -> Vec<Lookup<'static>> {
-    let Some(table) = table else {
-        return Vec::new();
-    };
-    let indices = table.features.find(feature).map(|feature| feature.lookup_indices);
-    indices.into_iter().flatten().filter_map(|index| table.lookups.get(index)).collect()
+/// The tables that say which form of a figure is as wide as all.
+fn tabular(font: &FontRef<'static>) -> Result<Vec<SingleSubst<'static>>, ReadError> {
+    let table = font.gsub()?;
+    let lookups = table.lookup_list()?.lookups();
+    let mut tables = Vec::new();
+    for index in lookup_indices(&table.feature_list()?, Tag::new(b"tnum"))? {
+        if let SubstitutionSubtables::Single(single) = lookups.get(index)?.subtables()? {
+            tables.extend(single.iter().collect::<Result<Vec<_>, _>>()?);
+        }
+    }
+    Ok(tables)
+}
+
+/// The tables that say how far from each other letters stand.
+fn kerning(font: &FontRef<'static>) -> Result<Vec<PairPos<'static>>, ReadError> {
+    let table = font.gpos()?;
+    let lookups = table.lookup_list()?.lookups();
+    let mut tables = Vec::new();
+    for index in lookup_indices(&table.feature_list()?, Tag::new(b"kern"))? {
+        if let PositionSubtables::Pair(pairs) = lookups.get(index)?.subtables()? {
+            tables.extend(pairs.iter().collect::<Result<Vec<_>, _>>()?);
+        }
+    }
+    Ok(tables)
+}
+
+/// Which lookups make a feature; scripts that have one of their own are not drawn.
+fn lookup_indices(features: &FeatureList, name: Tag) -> Result<Vec<usize>, ReadError> {
+    let found = features.feature_records().iter().find(|record| record.feature_tag() == name);
+    let Some(found) = found else { return Ok(Vec::new()) };
+    let feature = found.feature(features.offset_data())?;
+    Ok(feature.lookup_list_indices().iter().map(|index| index.get().into()).collect())
 }
 
 /// Draws glyphs one after another into one path.
@@ -175,7 +227,7 @@ struct Pen {
     x: f32,
 }
 
-impl OutlineBuilder for Pen {
+impl OutlinePen for Pen {
     fn move_to(&mut self, x: f32, y: f32) {
         self.path.move_to(self.x + x, y);
     }
