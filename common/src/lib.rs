@@ -27,6 +27,7 @@ pub mod obj;
 pub mod observe;
 pub mod ply;
 pub mod predicate;
+pub mod quote;
 pub mod scene;
 pub mod scene_file;
 pub mod shade;

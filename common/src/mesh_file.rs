@@ -76,11 +76,15 @@ pub(crate) fn metadata(path: &Path) -> io::Result<Metadata> {
 }
 
 /// Bytes that are read at a time.
-pub(crate) const READ_AT_ONCE: usize = 1 << 18;
+pub const READ_AT_ONCE: usize = 1 << 18;
 
 /// Opens a file that can be read from any place, and more than once: no folder, and no pipe, which
 /// would wait for a writer.
-pub(crate) fn regular_file(path: &Path) -> io::Result<File> {
+///
+/// # Errors
+///
+/// `IsADirectory` for a folder, `NotSeekable` for what else is no file, and what the system says.
+pub fn regular_file(path: &Path) -> io::Result<File> {
     if !metadata(path)?.is_file() {
         return Err(io::ErrorKind::NotSeekable.into());
     }
@@ -88,14 +92,15 @@ pub(crate) fn regular_file(path: &Path) -> io::Result<File> {
 }
 
 /// The common failures in our words, the others in the system's.
-pub(crate) struct Unreadable<'a> {
+#[derive(Debug)]
+pub struct Unreadable<'a> {
     error: &'a io::Error,
     format: &'static str,
 }
 
 impl<'a> Unreadable<'a> {
     /// Why a file was not read that should be of a format, such as "an OBJ file".
-    pub(crate) fn new(error: &'a io::Error, format: &'static str) -> Self {
+    pub fn new(error: &'a io::Error, format: &'static str) -> Self {
         Unreadable { error, format }
     }
 }

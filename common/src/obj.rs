@@ -29,14 +29,12 @@ pub use materials::{MaterialWarning, parse_materials};
 pub(crate) use passes::ObjFile;
 pub use write::write;
 
-use std::fs;
 use std::path::Path;
 
 use glam::{Vec2, Vec3};
 
 use crate::mesh::{Attribute, Mesh};
-use crate::mesh_file::metadata;
-pub(crate) use error::quote;
+use crate::quote::quote;
 use lines::{Statements, Words};
 use parts::Parts;
 
@@ -46,7 +44,17 @@ use parts::Parts;
 ///
 /// As for [`parse`], and a file that cannot be read; messages call the file by `path`.
 pub fn read(path: &Path) -> Result<Mesh, ReadObjError> {
-    parse(&path.display().to_string(), &read_bytes(path)?)
+    let mut file = ObjFile::open(path)?;
+    let name = path.display().to_string();
+    // A statement at a time: a file that is none ends the reader early, and never fills the memory.
+    if file.length()? > MOST_BYTES {
+        return Err(ReadObjError::TooLarge { file: name });
+    }
+    let mut reader = Reader::new(Parts::default(), None);
+    match file.statements(|line, words| reader.statement(line, words))? {
+        0 => Err(ReadObjError::Empty { file: name }),
+        _ => finish(name, reader),
+    }
 }
 
 /// Reads a mesh from an OBJ file, and its colours from the material files beside it.
@@ -61,16 +69,6 @@ pub fn read_with_materials(path: &Path) -> Result<(Mesh, Vec<MaterialWarning>), 
     let mut mesh = read(path)?;
     let warnings = materials::resolve(&mut mesh, path)?;
     Ok((mesh, warnings))
-}
-
-fn read_bytes(path: &Path) -> Result<Vec<u8>, ReadObjError> {
-    let file = path.display().to_string();
-    let unreadable = |error| ReadObjError::Unreadable { file: file.clone(), error };
-    // Better to say so before the memory is full.
-    if metadata(path).map_err(unreadable)?.len() > MOST_BYTES {
-        return Err(ReadObjError::TooLarge { file });
-    }
-    fs::read(path).map_err(unreadable)
 }
 
 /// Reads a mesh from the bytes of an OBJ file, which messages call `name`.
@@ -105,9 +103,16 @@ pub fn parse(name: &str, bytes: &[u8]) -> Result<Mesh, ReadObjError> {
     for (line, words) in Statements::new(without_mark(bytes)) {
         reader.statement(line, words).map_err(|fault| located(line, fault))?;
     }
-    reader.check_forward().map_err(|(line, fault)| located(line, fault))?;
+    finish(name.to_owned(), reader)
+}
+
+/// Checks what faces name, once everything is defined.
+fn finish(file: String, reader: Reader<Parts>) -> Result<Mesh, ReadObjError> {
+    if let Err((line, fault)) = reader.check_forward() {
+        return Err(ReadObjError::Statement { file, line, fault });
+    }
     if !reader.sink.has_triangles() {
-        return Err(ReadObjError::NoFace { file: name.to_owned() });
+        return Err(ReadObjError::NoFace { file });
     }
     Ok(reader.sink.finish())
 }

@@ -22,6 +22,7 @@ pub use write::write;
 
 use crate::mesh::Mesh;
 use crate::mesh_file::{READ_AT_ONCE, regular_file};
+use crate::quote::shown;
 use glam::Vec3;
 use header::{Elements, Form, Header, HeaderError, Scalar};
 use std::fs::File;
@@ -187,7 +188,7 @@ fn element<R: BufRead + Seek>(
             (Form::List { length, item }, _) => {
                 let length = values.integer(length)?;
                 if length < 0 {
-                    let name = property.name.clone();
+                    let name = shown(&property.name);
                     return Err(ElementFault::NegativeLength { name, length }.into());
                 }
                 (0..length).try_for_each(|_| values.ignore(item))?;
@@ -241,7 +242,7 @@ fn located<R: BufRead + Seek>(
         Stop::End => ElementFault::Truncated { count: elements.count },
         Stop::Fault(fault) => fault,
     };
-    let (file, element) = (name.to_owned(), crate::obj::quote(elements.name.as_bytes()));
+    let (file, element) = (name.to_owned(), shown(&elements.name));
     ReadPlyError::Element { file, element, number, place: values.place(), fault: Box::new(fault) }
 }
 

@@ -36,16 +36,20 @@
 
 mod camera;
 mod error;
+mod excerpt;
 mod object;
 mod reader;
 mod transform;
 mod write;
 
 pub use error::{LocatedError, SceneFileError};
+pub use excerpt::Excerpt;
 pub use reader::nearest_name;
 pub use write::framed_mesh_toml;
 
 use crate::camera::CameraDescription;
+use crate::mesh_file::regular_file;
+use crate::quote::quoted;
 use crate::scene::{Light, Material, Object, Scene, SceneError};
 use crate::shade::linear_from_srgb;
 use crate::texture::Checker;
@@ -53,7 +57,7 @@ use error::Problem;
 use glam::Vec3;
 use reader::{Item, Table};
 use std::collections::BTreeMap;
-use std::io::ErrorKind;
+use std::io::Read;
 use std::path::Path;
 use toml::de::DeTable;
 
@@ -80,18 +84,26 @@ pub fn read(path: &Path) -> Result<SceneFile, SceneFileError> {
     parse(&path.display().to_string(), &text, path.parent().unwrap_or(Path::new("")))
 }
 
+/// The largest scene file. Its tables take up to some sixty times as much memory as their text while
+/// they are read: a scene of more objects than fit here is better off with a mesh.
+const MOST_BYTES: u64 = 16 << 20;
+
 /// Reads the text of a scene file, for whoever needs it besides what it says.
 ///
 /// # Errors
 ///
-/// A file that is not there, cannot be read or is no text.
+/// A file that is not there, cannot be read, is a pipe or a device, is too large or is no text.
 pub fn read_text(path: &Path) -> Result<String, SceneFileError> {
     let name = path.display().to_string();
-    let bytes = std::fs::read(path).map_err(|source| match source.kind() {
-        _ if path.is_dir() => SceneFileError::Folder { name: name.clone() },
-        ErrorKind::NotFound => SceneFileError::Missing { name: name.clone() },
-        _ => SceneFileError::Unreadable { name: name.clone(), source },
-    })?;
+    let mut bytes = Vec::new();
+    // A byte more than may be read tells that there is too much, whatever the system says of its length.
+    let read =
+        regular_file(path).and_then(|file| file.take(MOST_BYTES + 1).read_to_end(&mut bytes));
+    match read {
+        Err(source) => return Err(SceneFileError::Unreadable { name, source }),
+        Ok(_) if bytes.len() as u64 > MOST_BYTES => return Err(SceneFileError::TooLarge { name }),
+        Ok(_) => {}
+    }
     String::from_utf8(bytes).map_err(|error| {
         let byte = error.utf8_error().valid_up_to();
         let before = &error.as_bytes()[..byte];
@@ -247,7 +259,7 @@ fn color(item: &Item) -> Result<Vec3, Problem> {
     match bytes.flatten() {
         Some(bytes) => Ok(Vec3::from_array(bytes.map(linear_from_srgb))),
         None => Err(item
-            .problem(format!("is {text:?}; it must be a # and six hexadecimal digits"))
+            .problem(format!("is {}; it must be a # and six hexadecimal digits", quoted(text)))
             .help("write for example \"#c8553d\"")),
     }
 }

@@ -404,7 +404,7 @@ fn a_scene_file_that_cannot_be_read_is_named() {
 
     let missing = folder.join("missing.toml");
     assert_eq!(says(&missing), format!("{}: there is no such file", missing.display()));
-    let is_a_folder = format!("{} is a folder; name a scene file in it", folder.display());
+    let is_a_folder = format!("{}: this is a folder, not a scene file", folder.display());
     assert_eq!(says(&folder), is_a_folder);
     let latin = folder.join("latin.toml");
     std::fs::write(&latin, b"[camera]\n# caf\xe9\n").unwrap();

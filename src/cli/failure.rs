@@ -1,8 +1,12 @@
 //! What the user is told when something went wrong.
 
-use bothways::common::scene_file::{LocatedError, SceneFileError};
+use bothways::common::quote::visible;
+use bothways::common::scene_file::{Excerpt, LocatedError, SceneFileError};
 use bothways::scenes::LoadError;
-use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, SourceCode};
+use miette::{
+    Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError,
+    MietteSpanContents, SourceCode, SourceSpan, SpanContents,
+};
 use std::fmt;
 use std::io::Write;
 
@@ -19,7 +23,18 @@ pub(crate) enum Failure {
 #[derive(Debug)]
 pub(crate) struct Located {
     error: LocatedError,
-    source: miette::NamedSource<String>,
+    lines: Lines,
+}
+
+/// The lines around the place, which know where in the file they are.
+///
+/// Never the whole file: `miette` panics where a place is beyond column 65,535, and shows whatever stands
+/// there as it is.
+#[derive(Debug)]
+struct Lines {
+    excerpt: Excerpt,
+    /// `scene.toml:3:7`
+    place: String,
 }
 
 impl Failure {
@@ -31,7 +46,8 @@ impl Failure {
     pub(super) fn print(&self) {
         let red = anstyle::AnsiColor::Red.on_default().bold();
         let text = match self {
-            Failure::Plain(message) => format!("{red}error{red:#}: {message}\n"),
+            // Whatever a message quotes, no terminal shall obey it.
+            Failure::Plain(message) => format!("{red}error{red:#}: {}\n", visible(message)),
             Failure::InSceneFile(located) => located.drawn(),
         };
         // If nobody can be told, the exit code still says it.
@@ -61,14 +77,17 @@ impl From<LoadError> for Failure {
 
 impl Located {
     fn new(error: LocatedError) -> Located {
-        let source = miette::NamedSource::new(&error.name, error.text.clone());
-        Located { error, source }
+        let (line, column) = error.line_and_column();
+        let place = format!("{}:{line}:{column}", visible(&error.name));
+        let lines = Lines { excerpt: error.excerpt(), place };
+        Located { error, lines }
     }
 
     /// The lines around the place, underlined.
     fn drawn(&self) -> String {
         let handler = GraphicalReportHandler::new_themed(GraphicalTheme::unicode())
             .with_links(false)
+            .without_primary_span_start()
             .with_width(100);
         let mut drawn = String::new();
         match handler.render_report(&mut drawn, self) {
@@ -92,13 +111,31 @@ impl Diagnostic for Located {
     }
 
     fn source_code(&self) -> Option<&dyn SourceCode> {
-        Some(&self.source)
+        Some(&self.lines)
     }
 
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        // An error at the end of a file still has a place in it.
-        let end = self.error.text.len();
-        let span = self.error.span.start.min(end)..self.error.span.end.min(end);
+        let span = self.lines.excerpt.span.clone();
         Some(Box::new(std::iter::once(LabeledSpan::underline(span))))
+    }
+}
+
+impl SourceCode for Lines {
+    fn read_span<'a>(
+        &'a self,
+        span: &SourceSpan,
+        before: usize,
+        after: usize,
+    ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
+        let found = self.excerpt.text.read_span(span, before, after)?;
+        let line = found.line() + self.excerpt.first_line - 1;
+        Ok(Box::new(MietteSpanContents::new_named(
+            self.place.clone(),
+            found.data(),
+            *found.span(),
+            line,
+            found.column(),
+            found.line_count(),
+        )))
     }
 }

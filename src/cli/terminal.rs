@@ -1,14 +1,18 @@
 //! Printing: results to stdout, warnings to stderr.
 
 use super::failure::Failure;
+use bothways::common::quote::visible;
 use super::output::reason;
 use serde::Serialize;
-use std::io::{ErrorKind, Write};
+use std::borrow::Cow;
+use std::io::{self, ErrorKind, IsTerminal, Write};
 
 /// Prints a text; its colours are kept on a terminal only, and not if `NO_COLOR` is set.
 ///
 /// A reader that has seen enough (`bothways | head`) is no failure.
 pub(super) fn print(text: &str) -> Result<(), Failure> {
+    // A file keeps every byte of the result; a terminal shall obey none of it but our colours.
+    let text = if io::stdout().is_terminal() { tame(text) } else { Cow::Borrowed(text) };
     let mut stdout = anstream::stdout().lock();
     match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
@@ -19,12 +23,41 @@ pub(super) fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
+/// A text of several lines in which a terminal obeys nothing but colours: scenes are printed as they are,
+/// and may hold anything.
+fn tame(text: &str) -> Cow<'_, str> {
+    let kept = |c: char| c == '\n' || c == '\t';
+    if visible(text).len() == text.len() {
+        return Cow::Borrowed(text);
+    }
+    let mut tamed = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(character) = rest.chars().next() {
+        let length = colour_sequence(rest).unwrap_or(character.len_utf8());
+        let (part, after) = rest.split_at(length);
+        if length > character.len_utf8() || kept(character) {
+            tamed.push_str(part);
+        } else {
+            tamed.push_str(&visible(part));
+        }
+        rest = after;
+    }
+    Cow::Owned(tamed)
+}
+
+/// The length of the sequence that sets colours and weights with which a text begins, if it does.
+fn colour_sequence(text: &str) -> Option<usize> {
+    let numbers = text.strip_prefix("\u{1b}[")?;
+    let end = numbers.find(|c: char| !c.is_ascii_digit() && c != ';')?;
+    numbers[end..].starts_with('m').then_some(2 + end + 1)
+}
+
 /// Prints to stderr what is missing but stops nothing, in colour as [`print()`] does.
 pub(super) fn warn(warnings: &[String]) {
     let yellow = anstyle::AnsiColor::Yellow.on_default().bold();
     for warning in warnings {
         // If nobody can be told, the result is the same.
-        let _ = writeln!(anstream::stderr(), "{yellow}warning{yellow:#}: {warning}");
+        let _ = writeln!(anstream::stderr(), "{yellow}warning{yellow:#}: {}", visible(warning));
     }
 }
 
@@ -37,4 +70,18 @@ pub(super) fn width() -> usize {
 pub(super) fn json(report: &impl Serialize) -> Result<String, Failure> {
     let text = serde_json::to_string_pretty(report);
     text.map(|text| text + "\n").map_err(|error| Failure::new(error.to_string()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_terminal_obeys_nothing_but_colours() {
+        let ours = "\u{1b}[1;33mA\u{1b}[0m\tb\n";
+        assert_eq!(tame(ours), ours);
+        let hostile = "# \u{1b}[2J\u{1b}]0;x\u{7} \u{202e}\u{9b}m\r\u{1b}[1";
+        let shown = r"# \u{1b}[2J\u{1b}]0;x\u{7} \u{202e}\u{9b}m\u{d}\u{1b}[1";
+        assert_eq!(tame(hostile), shown);
+    }
 }

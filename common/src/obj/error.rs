@@ -60,8 +60,8 @@ pub enum StatementFault {
         /// The keyword.
         keyword: String,
     },
-    /// The statement does not fit into the buffer of a file that is streamed.
-    #[error("a statement of more than {most} bytes cannot be streamed; cut the polygon up")]
+    /// The statement does not fit into the reader's buffer.
+    #[error("a statement of more than {most} bytes is not read; cut the polygon up")]
     TooLong {
         /// The most bytes that it may have.
         most: usize,
@@ -195,17 +195,5 @@ impl fmt::Display for Defined {
             1 => f.write_str("only 1 is defined"),
             count => write!(f, "only {count} are defined"),
         }
-    }
-}
-
-/// A word of the file, fit for a message.
-pub(crate) fn quote(word: &[u8]) -> String {
-    /// Longer words say no more.
-    const MOST: usize = 32;
-    // A character has at most four bytes, so this cuts none that would be shown.
-    let text = String::from_utf8_lossy(&word[..word.len().min(4 * MOST + 4)]);
-    match text.char_indices().nth(MOST) {
-        None => text.into_owned(),
-        Some((end, _)) => format!("{}…", &text[..end]),
     }
 }

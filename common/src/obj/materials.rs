@@ -16,10 +16,10 @@
 //! its three. `Ns 0` would light the whole surface; programs write it for matt ones, so it takes the
 //! highlight away.
 
-use super::error::quote;
 use super::lines::{Statements, Words};
-use super::{ReadObjError, StatementFault, is_text, number, read_bytes, without_mark};
+use super::{ObjFile, ReadObjError, StatementFault, is_text, number, without_mark};
 use crate::mesh::Mesh;
+use crate::quote::{quote, quoted};
 use crate::scene::Material;
 use crate::shade::linear_from_encoded;
 use glam::Vec3;
@@ -57,12 +57,11 @@ impl fmt::Display for MaterialWarning {
         match self {
             MaterialWarning::MissingLibrary { file, library } => write!(
                 f,
-                "{file}: there is no material file {library:?} beside it; what needs it is drawn in \
-                 light grey"
+                "{file}: there is no material file {} beside it; what needs it is drawn in light grey",
+                quoted(library)
             ),
             MaterialWarning::Undefined { file, names } => {
-                let some: Vec<String> =
-                    names.iter().take(MOST).map(|name| format!("{name:?}")).collect();
+                let some: Vec<String> = names.iter().take(MOST).map(|name| quoted(name)).collect();
                 let more = match names.len().saturating_sub(MOST) {
                     0 => String::new(),
                     more => format!(" and {more} more"),
@@ -102,8 +101,7 @@ pub(super) fn resolve(mesh: &mut Mesh, path: &Path) -> Result<Vec<MaterialWarnin
             continue;
         };
         for path in paths {
-            let materials = parse_materials(&path.display().to_string(), &read_bytes(&path)?)?;
-            for (name, material) in materials {
+            for (name, material) in read_materials(&path)? {
                 mesh.define_material(&name, material);
             }
         }
@@ -154,13 +152,25 @@ pub fn parse_materials(name: &str, bytes: &[u8]) -> Result<Vec<(String, Material
             fault,
         })?;
     }
+    Ok(finished(materials))
+}
+
+/// The same of a file, a statement at a time.
+fn read_materials(path: &Path) -> Result<Vec<(String, Material)>, ReadObjError> {
+    let mut materials = Vec::new();
+    ObjFile::open(path)?.statements(|_, words| statement(&mut materials, words))?;
+    Ok(finished(materials))
+}
+
+/// What is to be said when everything has been: that `Ns 0` takes the highlight away.
+fn finished(mut materials: Vec<(String, Material)>) -> Vec<(String, Material)> {
     for (_, material) in &mut materials {
         if material.shininess == 0.0 {
             *material =
                 Material { specular: 0.0, shininess: Material::default().shininess, ..*material };
         }
     }
-    Ok(materials)
+    materials
 }
 
 fn statement(

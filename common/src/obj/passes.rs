@@ -3,14 +3,14 @@
 
 use super::error::{Element, ReadObjError, StatementFault};
 use super::lines::{BufferedStatements, Words};
-use super::{Corner, MARK, MaterialWarning, Reader, Sink};
+use super::{Corner, MARK, MaterialWarning, Reader, Sink, is_text};
 use crate::mesh_file::{READ_AT_ONCE, regular_file};
 use glam::Vec3;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Seek};
 use std::path::Path;
 
-/// The longest statement that a pass reads: a polygon of some million corners.
+/// The longest statement that is read: a polygon of some million corners.
 const MOST_BYTES_A_STATEMENT: usize = 1 << 24;
 
 /// An OBJ file, and what its first pass found.
@@ -73,7 +73,7 @@ impl ObjFile {
                 check_count(reader.defined[Element::Vertex as usize])
             }
         };
-        let statements = self.pass(read)?;
+        let statements = self.statements(read)?;
         self.total = reader.defined;
         self.names_materials = reader.sink.names_materials;
         if statements == 0 { Err(ReadObjError::Empty { file: self.name.clone() }) } else { Ok(()) }
@@ -96,12 +96,18 @@ impl ObjFile {
             visit(corners);
         };
         let mut reader = Reader::new(Visit::new(|_| (), triangle), Some(self.total));
-        self.pass(|line, words| reader.statement(line, words))?;
+        self.statements(|line, words| reader.statement(line, words))?;
         if found { Ok(()) } else { Err(ReadObjError::NoFace { file: self.name.clone() }) }
     }
 
-    /// Takes up all statements, and gives their number.
-    fn pass(
+    /// How many bytes the file has.
+    pub(super) fn length(&self) -> Result<u64, ReadObjError> {
+        let unreadable = |error| ReadObjError::Unreadable { file: self.name.clone(), error };
+        Ok(self.input.get_ref().metadata().map_err(unreadable)?.len())
+    }
+
+    /// Takes up all statements from the first on, and gives their number.
+    pub(super) fn statements(
         &mut self,
         mut statement: impl FnMut(usize, Words) -> Result<(), StatementFault>,
     ) -> Result<usize, ReadObjError> {
@@ -118,7 +124,10 @@ impl ObjFile {
             statements.next(MOST_BYTES_A_STATEMENT).map_err(unreadable)?
         {
             if words.length() > MOST_BYTES_A_STATEMENT {
-                let fault = StatementFault::TooLong { most: MOST_BYTES_A_STATEMENT };
+                let fault = match words.clone().next() {
+                    Some(word) if !is_text(word) => StatementFault::NotText,
+                    _ => StatementFault::TooLong { most: MOST_BYTES_A_STATEMENT },
+                };
                 return Err(located(line, fault));
             }
             statement(line, words).map_err(|fault| located(line, fault))?;

@@ -2,7 +2,7 @@
 //! properties.
 
 use super::error::HeaderFault;
-use crate::obj::quote;
+use crate::quote::{self, quote};
 use std::io::{self, BufRead, Read};
 
 /// How the values behind the header are written.
@@ -196,7 +196,7 @@ impl Draft {
             ["property", "list", length, item, name] => {
                 let [length, item] = [scalar(length)?, scalar(item)?];
                 if !length.is_integer() {
-                    return Err(HeaderFault::LengthNotInteger { name: quote(name.as_bytes()) });
+                    return Err(HeaderFault::LengthNotInteger { name: quote::shown(name) });
                 }
                 self.property(name, Form::List { length, item })?;
             }
@@ -224,7 +224,7 @@ impl Draft {
     }
 
     fn element(&mut self, name: &str, count: &str) -> Result<(), HeaderFault> {
-        let shown = quote(name.as_bytes());
+        let shown = quote::shown(name);
         let Some(count) = whole(count) else {
             return Err(HeaderFault::NotACount { name: shown, text: quote(count.as_bytes()) });
         };
@@ -237,13 +237,13 @@ impl Draft {
     }
 
     fn property(&mut self, name: &str, form: Form) -> Result<(), HeaderFault> {
-        let shown = quote(name.as_bytes());
+        let shown = quote::shown(name);
         let Some(elements) = self.elements.last_mut() else {
             return Err(HeaderFault::NoElement { name: shown });
         };
         if elements.property(name).is_some() {
-            let element = quote(elements.name.as_bytes());
-            return Err(HeaderFault::Twice { what: format!("property {shown} of {element}") });
+            let what = format!("property {shown} of {}", quote::shown(&elements.name));
+            return Err(HeaderFault::Twice { what });
         }
         self.properties += 1;
         if self.properties > MOST_PROPERTIES {
@@ -257,7 +257,7 @@ impl Draft {
     fn check_last(&self) -> Result<(), HeaderFault> {
         match self.elements.last() {
             Some(last) if last.properties.is_empty() => {
-                Err(HeaderFault::NoProperties { name: quote(last.name.as_bytes()) })
+                Err(HeaderFault::NoProperties { name: quote::shown(&last.name) })
             }
             _ => Ok(()),
         }

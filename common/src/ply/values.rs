@@ -2,7 +2,7 @@
 
 use super::error::{ElementFault, Place};
 use super::header::{Encoding, Header, Scalar};
-use crate::obj::quote;
+use crate::quote::{quote, shown};
 use std::io::{self, BufRead, ErrorKind, Seek};
 
 /// Why reading a value ended.
@@ -109,7 +109,7 @@ impl<'a, R: BufRead + Seek> Values<'a, R> {
         if rounded.is_finite() {
             return Ok(rounded);
         }
-        let (in_words, name) = (self.encoding == Encoding::Ascii, quote(name.as_bytes()));
+        let (in_words, name) = (self.encoding == Encoding::Ascii, shown(name));
         let text = if in_words { quote(&self.word) } else { value.to_string() };
         // Words may be too large even for an f64.
         let has_digits = in_words && self.word.iter().any(u8::is_ascii_digit);

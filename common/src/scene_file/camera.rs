@@ -18,6 +18,7 @@ use super::reader::{Item, Table, suggestion};
 use crate::camera::{
     Camera, CameraDescription, CameraError, Orientation, Projection, check_samples,
 };
+use crate::quote::quoted;
 use glam::Vec3;
 use std::ops::Range;
 
@@ -75,7 +76,7 @@ fn projection(item: &Item) -> Result<Projection, Problem> {
     match item.text()? {
         "perspective" => Ok(Projection::Perspective),
         "parallel" => Ok(Projection::Parallel),
-        other => Err(item.problem(format!("is {other:?}")).help(suggestion(
+        other => Err(item.problem(format!("is {}", quoted(other))).help(suggestion(
             "projections",
             other,
             ["perspective", "parallel"],

@@ -1,30 +1,32 @@
 //! Why a scene file is refused: always with the place in its text, if it has a text.
 
+use super::MOST_BYTES;
+use super::excerpt::Excerpt;
+use crate::mesh_file::Unreadable;
+use crate::quote::visible;
 use std::fmt;
 use std::ops::Range;
 
 /// Why a scene file could not be read.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneFileError {
-    /// Nothing has this name.
-    #[error("{name}: there is no such file")]
-    Missing {
-        /// The file.
-        name: String,
-    },
-    /// The name is a folder's.
-    #[error("{name} is a folder; name a scene file in it")]
-    Folder {
-        /// The folder.
-        name: String,
-    },
-    /// The system does not let us read it.
-    #[error("{name} cannot be read: {source}")]
+    /// There is no such file, it is none that can be read twice, or the system does not give it away.
+    #[error("{name}: {}", Unreadable::new(.source, "a scene file"))]
     Unreadable {
         /// The file.
         name: String,
         /// What the system says.
         source: std::io::Error,
+    },
+    /// The file would take more memory than any scene needs.
+    #[error(
+        "{name}: a scene file of more than {} MiB is not read; put its triangles into a mesh file \
+         (.obj, .ply) and name it in the scene",
+        MOST_BYTES >> 20
+    )]
+    TooLarge {
+        /// The file.
+        name: String,
     },
     /// The file is no text.
     #[error("{name} is not UTF-8 text: byte {byte} on line {line} begins no character")]
@@ -70,12 +72,17 @@ impl LocatedError {
         let column = in_line.trim_start_matches('\u{feff}').chars().count() + 1;
         (line, column)
     }
+
+    /// The lines around the place, fit to be shown.
+    pub fn excerpt(&self) -> Excerpt {
+        Excerpt::around(&self.text, self.span.clone())
+    }
 }
 
 impl fmt::Display for LocatedError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (line, column) = self.line_and_column();
-        write!(f, "{}:{line}:{column}: {}", self.name, self.message)?;
+        write!(f, "{}:{line}:{column}: {}", visible(&self.name), self.message)?;
         self.help.iter().try_for_each(|help| write!(f, "; {help}"))
     }
 }
@@ -106,8 +113,8 @@ impl Problem {
 }
 
 impl From<toml::de::Error> for Problem {
-    /// The TOML parser's own words.
+    /// The TOML parser's own words, which may quote the file.
     fn from(error: toml::de::Error) -> Problem {
-        Problem::new(error.span().unwrap_or(0..0), error.message())
+        Problem::new(error.span().unwrap_or(0..0), visible(error.message()))
     }
 }

@@ -17,6 +17,7 @@ use super::transform::{self, Transform};
 use crate::generate::Kind;
 use crate::mesh::MeshMaterials;
 use crate::mesh_file::{Format, ReadMeshError};
+use crate::quote::{quoted, shown};
 use crate::scene::{Material, Object, Plane, Shape, Sphere, Triangle};
 use crate::smooth;
 use std::path::Path;
@@ -70,12 +71,19 @@ fn material(object: &Table, materials: &Materials) -> Result<Material, Problem> 
     let Some(item) = object.get("material") else { return Ok(Material::default()) };
     let name = item.text()?;
     materials.get(name).copied().ok_or_else(|| {
-        let problem = Problem::new(item.span.clone(), format!("there is no material {name:?}"));
+        let problem =
+            Problem::new(item.span.clone(), format!("there is no material {}", quoted(name)));
         if materials.is_empty() {
-            return problem.help(format!("define it in a table [material.{name}]"));
+            return problem.help(format!("define it in a table [material.{}]", key(name)));
         }
         problem.help(suggestion("materials", name, materials.keys().map(String::as_str)))
     })
+}
+
+/// A name as TOML has it in a header: in quotation marks unless it is plain.
+fn key(name: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+    if !name.is_empty() && name.chars().all(plain) { shown(name) } else { quoted(name) }
 }
 
 fn triangle(item: &Item) -> Result<Shape, Problem> {
@@ -107,7 +115,7 @@ fn mesh(
 ) -> Result<Shape, Problem> {
     let path = Path::new(item.text()?);
     let Some(format) = Format::of(path) else {
-        let problem = format!("is {:?}, which is no .obj or .ply file", path.display());
+        let problem = format!("is {}, which is no .obj or .ply file", quoted(item.text()?));
         return Err(item.problem(problem).help("convert it to OBJ or PLY; no others are read"));
     };
     let path = folder.join(path);
@@ -129,7 +137,7 @@ fn generated(item: &Item) -> Result<Shape, Problem> {
     let name = kind.text()?;
     let Some(generated) = Kind::named(name) else {
         let kinds = Kind::ALL.into_iter().map(Kind::name);
-        let problem = kind.problem(format!("is {name:?}"));
+        let problem = kind.problem(format!("is {}", quoted(name)));
         return Err(problem.help(suggestion("kinds", name, kinds)));
     };
     let divisions = table.get("divisions");

@@ -2,6 +2,7 @@
 //! checked, and values that turn into what is asked for or say why not.
 
 use super::error::Problem;
+use crate::quote::{listed, quoted, shown};
 use glam::Vec3;
 use std::ops::Range;
 use toml::Spanned;
@@ -40,7 +41,7 @@ impl<'t> Table<'t> {
         match unknown.min_by_key(|key| key.span().start) {
             None => Ok(Table { entries, name, span }),
             Some(key) => {
-                let message = format!("{name} has no key {:?}", key.get_ref());
+                let message = format!("{} has no key {}", shown(&name), quoted(key.get_ref()));
                 let help = suggestion("keys", key.get_ref(), known.iter().copied());
                 Err(Problem::new(key.span(), message).help(help))
             }
@@ -55,7 +56,7 @@ impl<'t> Table<'t> {
     /// The value of a key that the table must have; `example` shows one that has it.
     pub(super) fn need(&self, key: &str, example: &str) -> Read<Item<'t>> {
         self.get(key).ok_or_else(|| {
-            Problem::new(self.span.clone(), format!("{} lacks {key}", self.name))
+            Problem::new(self.span.clone(), format!("{} lacks {key}", shown(&self.name)))
                 .help(format!("write for example {example}"))
         })
     }
@@ -84,7 +85,7 @@ impl<'t> Item<'t> {
 
     /// Something that is wrong with this value: its name and the rest of the sentence.
     pub(super) fn problem(&self, what: impl std::fmt::Display) -> Problem {
-        Problem::new(self.span.clone(), format!("{} {what}", self.name))
+        Problem::new(self.span.clone(), format!("{} {what}", shown(&self.name)))
     }
 
     /// A table with keys among those known.
@@ -163,7 +164,8 @@ impl<'t> Item<'t> {
             return Err(self.not("a whole number"));
         };
         u32::from_str_radix(integer.as_str(), integer.radix()).map_err(|_| {
-            self.problem(format!("is {integer}; it must be a whole number from 0 to {}", u32::MAX))
+            let (written, most) = (self.written(), u32::MAX);
+            self.problem(format!("is {written}; it must be a whole number from 0 to {most}"))
         })
     }
 
@@ -225,8 +227,8 @@ impl<'t> Item<'t> {
     /// A number as the file has it, or what else it is.
     pub(super) fn written(&self) -> String {
         match self.value {
-            DeValue::Float(float) => float.to_string(),
-            DeValue::Integer(integer) => integer.to_string(),
+            DeValue::Float(float) => shown(float.as_str()),
+            DeValue::Integer(integer) => shown(&integer.to_string()),
             other => kind(other).to_owned(),
         }
     }
@@ -239,11 +241,8 @@ pub(super) fn suggestion<'k>(
     known: impl IntoIterator<Item = &'k str> + Clone,
 ) -> String {
     match nearest_name(word, known.clone()) {
-        Some(name) => format!("did you mean {name:?}?"),
-        None => {
-            let names: Vec<&str> = known.into_iter().collect();
-            format!("the {what} are {}", names.join(", "))
-        }
+        Some(name) => format!("did you mean {}?", quoted(name)),
+        None => format!("the {what} are {}", listed(known)),
     }
 }
 
