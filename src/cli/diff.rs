@@ -5,6 +5,7 @@ use super::output::Staging;
 use super::render::write_rgb;
 use super::terminal;
 use anstyle::{AnsiColor, Style};
+use bothways::common::quote::visible;
 use bothways::diff::foreign::{self, Aspect, Buffer, BufferComparison, Unit};
 use bothways::diff::{COLOUR_TOLERANCE, DEPTH_TOLERANCE};
 use bothways::wording::{count, grouped};
@@ -150,7 +151,8 @@ impl Told<'_> {
                 1 => String::new(),
                 n => format!(", {n} x {n} samples a pixel"),
             };
-            let (path, kind) = (path.display(), buffer.kind());
+            let (path, kind) = (path.display().to_string(), buffer.kind());
+            let path = visible(&path);
             line(&mut text, format_args!("{bold}{name}{bold:#}  {path}: {kind}{samples}"));
         }
         let [width, height] = self.comparison.size;

@@ -19,13 +19,14 @@ mod hints;
 mod look;
 mod npy;
 mod picture;
+mod png;
 mod read;
 
 pub use compare::{
     Aspect, BufferColour, BufferComparison, BufferCoverage, BufferDepth, BufferIds, Incomparable,
     Unit, compare,
 };
-pub use read::{ReadBufferError, read};
+pub use read::{ReadBufferError, read, read_from};
 
 use image::{Rgb, RgbImage};
 
@@ -53,10 +54,51 @@ pub enum Content {
 /// Colours, and what they say of coverage.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
-    /// Red, green, blue and alpha in sRGB as stored, in steps of 1/255; not premultiplied.
-    pub pixels: Vec<[f32; 4]>,
+    /// Red, green, blue and alpha in sRGB as stored; not premultiplied.
+    pub pixels: Pixels,
     /// How coverage is read from them.
     pub covered: Covered,
+}
+
+/// Red, green, blue and alpha of each pixel, in steps of 1/255.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Pixels {
+    /// Of 8 bits each.
+    Bytes(Vec<[u8; 4]>),
+    /// Finer.
+    Steps(Vec<[f32; 4]>),
+}
+
+impl Pixels {
+    /// How many pixels there are.
+    pub fn len(&self) -> usize {
+        match self {
+            Pixels::Bytes(pixels) => pixels.len(),
+            Pixels::Steps(pixels) => pixels.len(),
+        }
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// A pixel.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such pixel.
+    pub fn get(&self, pixel: usize) -> [f32; 4] {
+        match self {
+            Pixels::Bytes(pixels) => pixels[pixel].map(f32::from),
+            Pixels::Steps(pixels) => pixels[pixel],
+        }
+    }
+
+    /// All of them, in their order.
+    pub fn iter(&self) -> impl Iterator<Item = [f32; 4]> {
+        (0..self.len()).map(|pixel| self.get(pixel))
+    }
 }
 
 /// How a picture tells what is covered.
@@ -162,7 +204,7 @@ impl Buffer {
                 format!("t {}", distance_text(t[sample]))
             }
             Content::Picture(picture) if self.covered(sample) != Some(false) => {
-                colour_text(picture.pixels[sample], picture.covered == Covered::ByAlpha)
+                colour_text(picture.pixels.get(sample), picture.covered == Covered::ByAlpha)
             }
             Content::Mask(_) | Content::Distances(_) | Content::Picture(_) => nothing(),
         }
@@ -185,8 +227,8 @@ impl Buffer {
             return RgbImage::from_pixel(width, height, Rgb([117; 3]));
         };
         let mut light = RgbImage::new(width, height);
-        for (pixel, colour) in light.pixels_mut().zip(&picture.pixels) {
-            *pixel = Rgb(bytes([colour[0], colour[1], colour[2]]));
+        for (pixel, [red, green, blue, _]) in light.pixels_mut().zip(picture.pixels.iter()) {
+            *pixel = Rgb(bytes([red, green, blue]));
         }
         light
     }
@@ -194,7 +236,7 @@ impl Buffer {
 
 impl Picture {
     fn covered(&self, pixel: usize) -> Option<bool> {
-        let [red, green, blue, alpha] = self.pixels[pixel];
+        let [red, green, blue, alpha] = self.pixels.get(pixel);
         match self.covered {
             Covered::Unknown => None,
             Covered::ByAlpha => Some(alpha > 0.0),

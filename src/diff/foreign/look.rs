@@ -131,7 +131,7 @@ fn relative_difference(a: f64, b: f64) -> f64 {
 fn colour_difference(in_a: &Picture, a: usize, in_b: &Picture, b: usize) -> f32 {
     let both_have_alpha = [in_a, in_b].iter().all(|picture| picture.has_alpha());
     let channels = if both_have_alpha { 4 } else { 3 };
-    let channels = in_a.pixels[a].iter().zip(&in_b.pixels[b]).take(channels);
+    let channels = in_a.pixels.get(a).into_iter().zip(in_b.pixels.get(b)).take(channels);
     channels.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
 }
 

@@ -1,25 +1,45 @@
 //! NumPy arrays of any origin: every shape, order and number type that pixels come in.
 
-use super::read::Problem;
-use super::{Buffer, Content, Covered, Picture};
+use super::read::{Problem, ends_early};
+use super::{Buffer, Content, Covered, Picture, Pixels};
 use crate::common::camera::{MAX_SAMPLES, check_samples};
+use crate::common::quote::shown;
 use npyz::{DType, Endianness, NpyHeader, Order, TypeChar};
+use std::borrow::Cow;
+use std::io::Read;
 
 /// The first bytes of every such file.
 pub(super) const MAGIC: &[u8] = b"\x93NUMPY";
-/// Brackets in a header, far more than a structured dtype of a picture would need.
+/// Brackets in a header, and brackets within brackets, far more than the dtype of a picture would need.
+/// The header's reader takes time that is exponential in their depth.
 const MAX_BRACKETS: usize = 64;
+const MAX_DEPTH: usize = 8;
+/// Bytes of a header: NumPy itself reads no longer one unless told to.
+const MAX_HEADER: usize = 10_000;
 
 /// Reads an array: a mask, ids, distances or colours, by shape and number type.
-pub(super) fn read(bytes: &[u8], background: Option<[u8; 3]>) -> Result<Buffer, Problem> {
-    check_header(bytes)?;
-    let mut rest = bytes;
-    let header = NpyHeader::from_reader(&mut rest)
-        .map_err(|error| format!("the header of the array cannot be read: {error}"))?;
+pub(super) fn read(
+    mut input: impl Read,
+    length: u64,
+    background: Option<[u8; 3]>,
+) -> Result<Buffer, Problem> {
+    let start = header_bytes(&mut input, length)?;
+    let header = header(&start)?;
     let number = Number::of(&header.dtype())?;
     let layout = Layout::of(&header)?;
     check_samples(layout.size, layout.samples)?;
-    let values = Values::new(rest, number, &header, layout.size)?;
+    let needed = header.shape().iter().product::<u64>() * number.bytes as u64;
+    let there = length.saturating_sub(start.len() as u64);
+    if there < needed {
+        return Err(Problem::Content(format!(
+            "the file ends early: it has {there} of the {needed} bytes of its array; write it again"
+        )));
+    }
+    let mut bytes = reserved(needed)?;
+    if input.take(needed).read_to_end(&mut bytes)? as u64 != needed {
+        return Err(Problem::Content(ends_early(length)));
+    }
+    let values = Values::new(&bytes, number, &header, layout.size);
     let content = match layout.channels {
         1 => values.content()?,
         channels => Content::Picture(values.picture(channels, background)?),
@@ -27,39 +47,121 @@ pub(super) fn read(bytes: &[u8], background: Option<[u8; 3]>) -> Result<Buffer, 
     Ok(Buffer::new(layout.size, layout.samples, content))
 }
 
-/// Refuses what the header's reader would stumble over: shapes with more numbers than memory, and
-/// brackets within brackets.
-fn check_header(bytes: &[u8]) -> Result<(), String> {
-    let header = header_text(bytes).ok_or("the file ends within the header of its array")?;
-    // An array of numbers has a pair for its dictionary and one for its shape.
-    if header.matches(['(', '[', '{']).count() > MAX_BRACKETS {
-        return Err("the array's dtype has too many parts; save an array of plain numbers".into());
-    }
-    let shape = header.split_once("shape").and_then(|(_, rest)| rest.split_once('('));
-    let Some((shape, _)) = shape.and_then(|(_, rest)| rest.split_once(')')) else {
-        return Ok(());
-    };
-    let sides = shape.split(',').map(str::trim).filter(|side| !side.is_empty());
-    // A side of 0 is left to the check of the size.
-    let count = sides.map(|side| side.parse::<u64>().unwrap_or(u64::MAX).max(1));
-    match count.fold(1, u64::saturating_mul) {
-        count if count > 4 * MAX_SAMPLES => Err(format!(
-            "the array has the shape ({shape}), more than {MAX_SAMPLES} samples (2^30); \
-             compare smaller pictures, or parts"
-        )),
-        _ => Ok(()),
+/// Room for so many bytes of a file, if there is any.
+fn reserved(bytes: u64) -> Result<Vec<u8>, String> {
+    let mut room = Vec::new();
+    match usize::try_from(bytes).is_ok_and(|bytes| room.try_reserve_exact(bytes).is_ok()) {
+        true => Ok(room),
+        false => Err(format!("there is no memory for its {bytes} bytes; compare parts of it")),
     }
 }
 
-/// The header as text: after the magic and two bytes of version come its length, then itself.
-fn header_text(bytes: &[u8]) -> Option<String> {
-    let (start, length) = match *bytes.get(6..12)? {
-        [1, _, low, high, ..] => (10, usize::from(u16::from_le_bytes([low, high]))),
-        [_, _, a, b, c, d] => (12, usize::try_from(u32::from_le_bytes([a, b, c, d])).ok()?),
-        _ => return None,
+/// The header as it stands at the beginning of a file: the magic, two bytes of version, its length, and
+/// so many bytes more.
+fn header_bytes(input: &mut impl Read, length: u64) -> Result<Vec<u8>, Problem> {
+    let mut start = Vec::new();
+    let mut take = |bytes: usize, start: &mut Vec<u8>| -> Result<(), Problem> {
+        let read = input.by_ref().take(bytes as u64).read_to_end(start)?;
+        if read == bytes { Ok(()) } else { Err(Problem::Content(ends_early(length))) }
     };
-    let header = bytes.get(start..)?.get(..length)?;
-    Some(String::from_utf8_lossy(header).into_owned())
+    take(10, &mut start)?;
+    let bytes = match start[6] {
+        1 => usize::from(u16::from_le_bytes([start[8], start[9]])),
+        2 | 3 => {
+            take(2, &mut start)?;
+            let bytes = u32::from_le_bytes([start[8], start[9], start[10], start[11]]);
+            usize::try_from(bytes).unwrap_or(usize::MAX)
+        }
+        version => {
+            return Err(Problem::Content(format!(
+                "arrays of version {version} are not read; save it with numpy.save"
+            )));
+        }
+    };
+    if bytes > MAX_HEADER {
+        return Err(Problem::Content(format!(
+            "the header of its array has {bytes} bytes, more than the {MAX_HEADER} that any array of \
+             numbers needs; save it with numpy.save"
+        )));
+    }
+    take(bytes, &mut start)?;
+    Ok(start)
+}
+
+/// Reads a header, and refuses what its reader would stumble over: brackets within brackets, and shapes
+/// with more numbers than memory.
+fn header(bytes: &[u8]) -> Result<NpyHeader, String> {
+    let begin = if bytes[6] == 1 { 10 } else { 12 };
+    let text = String::from_utf8_lossy(&bytes[begin..]).into_owned();
+    // An array of numbers has a pair for its dictionary and one for its shape.
+    if text.matches(['(', '[', '{']).count() > MAX_BRACKETS || depth(&text) > MAX_DEPTH {
+        return Err("the array's dtype has too many parts; save an array of plain numbers".into());
+    }
+    let text = match shape(&text) {
+        Some((before, shape, after)) => format!("{before}{}{after}", checked(shape)?),
+        None => text,
+    };
+    let length = u32::try_from(text.len()).map_err(|error| error.to_string())?;
+    // Version 2 is version 1 with more room; version 3 may have any letters.
+    let version = if bytes[6] == 3 { 3 } else { 2 };
+    let again = [MAGIC, &[version, 0], &length.to_le_bytes(), text.as_bytes()].concat();
+    NpyHeader::from_reader(&again[..]).map_err(|_| {
+        format!(
+            "the header of its array, from byte {begin} on, is none that NumPy writes ({}); save it \
+             with numpy.save",
+            shown(text.trim())
+        )
+    })
+}
+
+/// How deep brackets are nested.
+fn depth(text: &str) -> usize {
+    let mut depths = text.chars().scan(0_usize, |depth, letter| {
+        match letter {
+            '(' | '[' | '{' => *depth += 1,
+            ')' | ']' | '}' => *depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        Some(*depth)
+    });
+    depths.by_ref().max().unwrap_or(0)
+}
+
+/// What stands before the sides of a shape, the sides, and what stands behind them.
+fn shape(header: &str) -> Option<(&str, &str, &str)> {
+    let key = header.find("'shape'").or_else(|| header.find("\"shape\""))?;
+    let begin = key + header[key..].find('(')? + 1;
+    let end = begin + header[begin..].find(')')?;
+    Some((&header[..begin], &header[begin..end], &header[end..]))
+}
+
+/// The sides of a shape without the `L` that Python 2 put behind long numbers.
+fn checked(shape: &str) -> Result<Cow<'_, str>, String> {
+    let sides: Vec<&str> = shape.split(',').map(str::trim).collect();
+    let plain: Vec<&str> =
+        sides.iter().map(|side| side.strip_suffix('L').unwrap_or(side)).collect();
+    let mut count = 1_u64;
+    for side in plain.iter().filter(|side| !side.is_empty()) {
+        let digits = side.bytes().all(|byte| byte.is_ascii_digit());
+        if !digits {
+            return Err(format!(
+                "the array has the shape ({}), where {} is no number of rows, columns or samples; \
+                 save it with numpy.save",
+                shown(shape),
+                shown(side)
+            ));
+        }
+        // A side of 0 is left to the check of the size.
+        count = count.saturating_mul(side.parse::<u64>().unwrap_or(u64::MAX).max(1));
+    }
+    if count > 4 * MAX_SAMPLES {
+        return Err(format!(
+            "the array has the shape ({}), more than {MAX_SAMPLES} samples (2^30); compare smaller \
+             pictures, or parts",
+            shown(shape)
+        ));
+    }
+    Ok(if plain == sides { Cow::Borrowed(shape) } else { Cow::Owned(plain.join(", ")) })
 }
 
 /// How the axes of an array become pixels, samples and channels.
@@ -105,7 +207,7 @@ impl Number {
             Err(format!(
                 "the array's dtype is {}; save it as bool, as integers of up to 64 bits, or as \
                  float16, float32 or float64, with array.astype",
-                dtype.descr()
+                shown(&dtype.descr())
             ))
         };
         let DType::Plain(plain) = dtype else { return refused() };
@@ -183,7 +285,7 @@ impl<'a> Values<'a> {
         number: Number,
         header: &NpyHeader,
         [width, _]: [u32; 2],
-    ) -> Result<Values<'a>, String> {
+    ) -> Values<'a> {
         let index = |length: &u64| usize::try_from(*length).expect("checked to be at most 2^32");
         let shape: Vec<usize> = header.shape().iter().map(index).collect();
         let mut strides = vec![1; shape.len()];
@@ -194,15 +296,7 @@ impl<'a> Values<'a> {
             Order::Fortran => (1..shape.len())
                 .for_each(|axis| strides[axis] = strides[axis - 1] * shape[axis - 1]),
         }
-        let needed = shape.iter().product::<usize>() * number.bytes;
-        if bytes.len() < needed {
-            return Err(format!(
-                "the file ends early: it has {} of the {needed} bytes of its array; \
-                 write it again",
-                bytes.len()
-            ));
-        }
-        Ok(Values { bytes, number, shape, strides, width: width as usize })
+        Values { bytes, number, shape, strides, width: width as usize }
     }
 
     fn bits(&self) -> impl Iterator<Item = u64> {
@@ -277,7 +371,7 @@ impl<'a> Values<'a> {
             (_, Some(background)) => Covered::ByBackground(background),
             (_, None) => Covered::Unknown,
         };
-        Ok(Picture { pixels, covered })
+        Ok(Picture { pixels: Pixels::Steps(pixels), covered })
     }
 
     /// The pixel of a value, for a message.

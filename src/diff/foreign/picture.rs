@@ -1,51 +1,159 @@
 //! Pictures of any origin: PNG and what else the `image` crate reads.
 
-use super::read::Problem;
-use super::{Buffer, Content, Covered, Picture};
-use crate::common::camera::{MAX_SAMPLES, check_samples};
-use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
-use std::io::Cursor;
+use super::read::{Problem, ends_early};
+use super::{Buffer, Content, Covered, Picture, Pixels, png};
+use crate::common::camera::check_samples;
+use crate::common::quote::visible;
+use image::error::ImageError;
+use image::{
+    ColorType, DynamicImage, GenericImageView, ImageDecoder, ImageFormat, ImageReader, Limits,
+};
+use std::io::{BufRead, ErrorKind, Read, Seek};
+
+/// The memory that a picture may take while it is read. A grey one of 2³⁰ pixels fits, and one of 2²⁸
+/// pixels with four channels of 8 bits.
+const MOST_MEMORY: u64 = 2 << 30;
+/// The most pixels that two bytes of a run-length BMP can fill.
+const LONGEST_RUN: u64 = 255;
 
 /// Reads a picture of a format that is known.
 pub(super) fn read(
-    bytes: &[u8],
+    mut input: impl BufRead + Seek,
+    length: u64,
     format: ImageFormat,
     background: Option<[u8; 3]>,
 ) -> Result<Buffer, Problem> {
-    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+    match format {
+        ImageFormat::Png => png::check(&mut input, length)?,
+        ImageFormat::Bmp => check_runs(&mut input, length)?,
+        _ => {}
+    }
+    input.rewind()?;
+    let mut reader = ImageReader::with_format(input, format);
     let mut limits = Limits::no_limits();
-    // The largest picture, four channels of 16 bits; a small file may claim any size.
-    limits.max_alloc = Some(MAX_SAMPLES * 8);
+    limits.max_alloc = Some(MOST_MEMORY);
     reader.limits(limits);
-    let decoder = reader.into_decoder().map_err(Problem::Picture)?;
-    let (width, height) = decoder.dimensions();
-    check_samples([width, height], 1)?;
-    let picture = DynamicImage::from_decoder(decoder).map_err(Problem::Picture)?;
-    Ok(Buffer::new([width, height], 1, content(picture, background)))
+    let told = |error| problem(error, format, length);
+    let decoder = reader.into_decoder().map_err(told)?;
+    let size = decoder.dimensions().into();
+    check_samples(size, 1)?;
+    let colour = decoder.color_type();
+    // A grey picture may become a mask.
+    let kept = if colour == ColorType::L8 || colour == ColorType::L16 { 1 } else { kept(colour) };
+    check_memory(size, colour, kept)?;
+    let picture = DynamicImage::from_decoder(decoder).map_err(told)?;
+    Ok(Buffer::new(size, 1, content(picture, background)?))
 }
 
-fn content(picture: DynamicImage, background: Option<[u8; 3]>) -> Content {
+/// Decoded, and as a [`Buffer`] keeps it, a picture needs no more memory than it may.
+fn check_memory([width, height]: [u32; 2], colour: ColorType, kept: u8) -> Result<(), String> {
+    let bytes = u64::from(width) * u64::from(height) * u64::from(colour.bytes_per_pixel() + kept);
+    if bytes <= MOST_MEMORY {
+        return Ok(());
+    }
+    let needed = bytes.div_ceil(1 << 20);
+    Err(format!(
+        "its {width} x {height} pixels need {needed} MiB of memory, and a picture may take {}; compare \
+         parts of it, or pictures with fewer channels or bits",
+        MOST_MEMORY >> 20
+    ))
+}
+
+/// Bytes that a pixel takes besides the decoded ones, until it is one of [`Pixels`].
+fn kept(colour: ColorType) -> u8 {
+    if is_fine(colour) { 8 + 16 } else { 4 }
+}
+
+/// Whether a channel has more than 8 bits.
+fn is_fine(colour: ColorType) -> bool {
+    colour.bytes_per_pixel() > colour.channel_count()
+}
+
+/// Refuses a run-length BMP that is far too short for its size: a few bytes may claim any.
+fn check_runs(input: &mut (impl BufRead + Seek), length: u64) -> Result<(), Problem> {
+    let mut header = Vec::new();
+    input.rewind()?;
+    input.by_ref().take(34).read_to_end(&mut header)?;
+    if header.len() < 34 {
+        return Ok(());
+    }
+    let number = |at: usize| header[at..at + 4].try_into().map_or(0, i32::from_le_bytes);
+    let ([width, height], compression) = ([number(18), number(22)], number(30));
+    let runs = matches!(compression, 1 | 2) && number(14) >= 40;
+    let pixels = u64::from(width.unsigned_abs()) * u64::from(height.unsigned_abs());
+    if runs && pixels > length * LONGEST_RUN {
+        return Err(Problem::Content(format!(
+            "a run-length BMP of {length} bytes cannot fill {width} x {height} pixels; if the file is \
+             complete, save it as PNG"
+        )));
+    }
+    Ok(())
+}
+
+/// What a decoder says, in our words: the decoders' own name bytes of their formats, and no remedy.
+fn problem(error: ImageError, format: ImageFormat, length: u64) -> Problem {
+    let name = format.extensions_str().first().map_or_else(String::new, |name| name.to_uppercase());
+    Problem::Content(match error {
+        ImageError::IoError(error) if error.kind() == ErrorKind::UnexpectedEof => {
+            ends_early(length)
+        }
+        ImageError::IoError(error) => return Problem::Io(error),
+        ImageError::Limits(_) => format!(
+            "it needs more than the {} MiB of memory that a picture may take; compare parts of it",
+            MOST_MEMORY >> 20
+        ),
+        ImageError::Unsupported(_) => {
+            format!("this kind of {name} is not read; save it as a PNG of 8 or 16 bits a channel")
+        }
+        // A PNG whose chunks are sound has damaged pixels, whatever its decoder calls them.
+        ImageError::Decoding(error) if format != ImageFormat::Png => {
+            let said = std::error::Error::source(&error).map(ToString::to_string);
+            let said = said.unwrap_or_else(|| "no reason given".into());
+            if said.contains("fill whole buffer") {
+                ends_early(length)
+            } else {
+                let said: String = said.chars().take(100).collect();
+                format!("the {name} is damaged ({}); save it again, as PNG at best", visible(&said))
+            }
+        }
+        _ => format!("the pixels of the {name} are damaged; copy the file or save it again"),
+    })
+}
+
+fn content(picture: DynamicImage, background: Option<[u8; 3]>) -> Result<Content, String> {
     let colour = picture.color();
     let covered = match (colour.has_alpha(), colour.has_color()) {
         (true, _) => Covered::ByAlpha,
         (false, false) => Covered::ByLight,
         (false, true) => background.map_or(Covered::Unknown, Covered::ByBackground),
     };
-    // Sixteen bits hold eight exactly: 65,535 / 255 = 257.
-    let pixels: Vec<[f32; 4]> = picture
-        .into_rgba16()
-        .pixels()
-        .map(|pixel| pixel.0.map(|value| f32::from(value) / 257.0))
-        .collect();
-    if covered == Covered::ByLight && has_two_values(&pixels) {
-        return Content::Mask(pixels.iter().map(|pixel| pixel[0] != 0.0).collect());
+    if covered == Covered::ByLight
+        && let Some(mask) = mask(&picture)
+    {
+        return Ok(Content::Mask(mask));
     }
-    Content::Picture(Picture { pixels, covered })
+    check_memory(picture.dimensions().into(), colour, kept(colour))?;
+    let pixels = if is_fine(colour) {
+        // Sixteen bits hold eight exactly: 65,535 / 255 = 257.
+        let steps = |pixel: &image::Rgba<u16>| pixel.0.map(|value| f32::from(value) / 257.0);
+        Pixels::Steps(picture.into_rgba16().pixels().map(steps).collect())
+    } else {
+        Pixels::Bytes(picture.pixels().map(|(_, _, pixel)| pixel.0).collect())
+    };
+    Ok(Content::Picture(Picture { pixels, covered }))
 }
 
-/// Whether a grey picture is black and one other value at most: a mask, be its white 1 or 255.
-fn has_two_values(pixels: &[[f32; 4]]) -> bool {
-    let mut lit = pixels.iter().map(|pixel| pixel[0]).filter(|&light| light != 0.0);
-    let first = lit.next();
-    lit.all(|light| Some(light) == first)
+/// A grey picture that is black and one other value at most is a mask, be its white 1 or 255.
+fn mask(picture: &DynamicImage) -> Option<Vec<bool>> {
+    fn two_values<T: Copy + Default + PartialEq>(values: &[T]) -> Option<Vec<bool>> {
+        let black = T::default();
+        let lit = values.iter().find(|value| **value != black).copied().unwrap_or(black);
+        let is_mask = values.iter().all(|value| *value == black || *value == lit);
+        is_mask.then(|| values.iter().map(|value| *value != black).collect())
+    }
+    match picture {
+        DynamicImage::ImageLuma8(grey) => two_values(grey.as_raw()),
+        DynamicImage::ImageLuma16(grey) => two_values(grey.as_raw()),
+        _ => None,
+    }
 }

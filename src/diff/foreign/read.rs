@@ -2,8 +2,9 @@
 
 use super::{Buffer, npy, picture};
 use crate::common::CameraError;
+use crate::common::mesh_file::{READ_AT_ONCE, regular_file};
+use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
-use std::{fs, io};
 
 /// Why a file could not be read as a buffer.
 #[derive(Debug, thiserror::Error)]
@@ -35,17 +36,9 @@ pub enum ReadBufferError {
         /// The file.
         path: PathBuf,
     },
-    /// A picture is damaged or of a kind that is not read.
-    #[error("{}: {error}", .path.display())]
-    Picture {
-        /// The file.
-        path: PathBuf,
-        /// What its decoder says.
-        error: image::ImageError,
-    },
-    /// An array is damaged, or not one of pixels.
+    /// A picture or an array is damaged, of a kind that is not read, or too large.
     #[error("{}: {problem}", .path.display())]
-    Array {
+    Content {
         /// The file.
         path: PathBuf,
         /// What is wrong, and what would be right.
@@ -64,14 +57,27 @@ pub enum ReadBufferError {
 /// What is wrong with the content of a file, whatever its name.
 #[derive(Debug)]
 pub(super) enum Problem {
-    Picture(image::ImageError),
-    Array(String),
+    /// In the words of a message: what is wrong, and what would be right.
+    Content(String),
     Size(CameraError),
+    /// The system does not give the file away.
+    Io(io::Error),
+}
+
+/// What is said of a file that has fewer bytes than it should.
+pub(super) fn ends_early(bytes: u64) -> String {
+    format!("the file ends early, after {bytes} bytes; copy it or write it again")
 }
 
 impl From<String> for Problem {
     fn from(problem: String) -> Self {
-        Problem::Array(problem)
+        Problem::Content(problem)
+    }
+}
+
+impl From<io::Error> for Problem {
+    fn from(error: io::Error) -> Self {
+        Problem::Io(error)
     }
 }
 
@@ -95,26 +101,56 @@ impl From<CameraError> for Problem {
 ///
 /// If the file cannot be read, or is none of these.
 pub fn read(path: &Path, background: Option<[u8; 3]>) -> Result<Buffer, ReadBufferError> {
-    let path_of_error = || path.to_owned();
-    let bytes =
-        fs::read(path).map_err(|error| ReadBufferError::Open { path: path_of_error(), error })?;
-    if bytes.starts_with(b"PK\x03\x04") {
-        return Err(ReadBufferError::Archive { path: path_of_error() });
+    let file = regular_file(path);
+    let file = file.map_err(|error| ReadBufferError::Open { path: path.to_owned(), error })?;
+    read_from(path, BufReader::with_capacity(READ_AT_ONCE, file), background)
+}
+
+/// Reads what an input holds, as [`read`] does; messages call it `path`.
+///
+/// No number in it makes the reader take memory before the file is known to be of a format, and its size
+/// to be within bounds.
+///
+/// # Errors
+///
+/// As for [`read`].
+pub fn read_from(
+    path: &Path,
+    mut input: impl BufRead + Seek,
+    background: Option<[u8; 3]>,
+) -> Result<Buffer, ReadBufferError> {
+    let path = || path.to_owned();
+    let start = start(&mut input);
+    let (start, length) = start.map_err(|error| ReadBufferError::Open { path: path(), error })?;
+    if start.starts_with(b"PK\x03\x04") {
+        return Err(ReadBufferError::Archive { path: path() });
     }
-    let read = if bytes.starts_with(npy::MAGIC) {
-        npy::read(&bytes, background)
-    } else if let Ok(format) = image::guess_format(&bytes)
+    let read = if start.starts_with(npy::MAGIC) {
+        npy::read(input, length, background)
+    } else if let Ok(format) = image::guess_format(&start)
         && format.reading_enabled()
     {
-        picture::read(&bytes, format, background)
+        picture::read(input, length, format, background)
     } else {
-        return Err(ReadBufferError::UnknownFormat { path: path_of_error() });
+        return Err(ReadBufferError::UnknownFormat { path: path() });
     };
     read.map_err(|problem| match problem {
-        Problem::Picture(error) => ReadBufferError::Picture { path: path_of_error(), error },
-        Problem::Array(problem) => ReadBufferError::Array { path: path_of_error(), problem },
-        Problem::Size(error) => ReadBufferError::Size { path: path_of_error(), error },
+        Problem::Content(problem) => ReadBufferError::Content { path: path(), problem },
+        Problem::Size(error) => ReadBufferError::Size { path: path(), error },
+        Problem::Io(error) => ReadBufferError::Open { path: path(), error },
     })
+}
+
+/// The first bytes of an input, which tell its format, and how many it has.
+fn start(input: &mut (impl BufRead + Seek)) -> io::Result<(Vec<u8>, u64)> {
+    /// As many as any format needs.
+    const MOST: u64 = 32;
+    let length = input.seek(SeekFrom::End(0))?;
+    input.rewind()?;
+    let mut start = Vec::new();
+    input.by_ref().take(MOST).read_to_end(&mut start)?;
+    input.rewind()?;
+    Ok((start, length))
 }
 
 /// Why a file cannot be opened, in words where the system has only a number.
@@ -123,6 +159,7 @@ fn reason(error: &io::Error) -> String {
         io::ErrorKind::NotFound => "there is no such file".into(),
         io::ErrorKind::IsADirectory => "it is a folder".into(),
         io::ErrorKind::PermissionDenied => "there is no permission to".into(),
+        io::ErrorKind::NotSeekable => "it is a pipe or a device; save it as a file first".into(),
         _ => error.to_string(),
     }
 }

@@ -41,7 +41,7 @@ fn distances(t: &[f64]) -> Buffer {
 }
 
 fn colours(pixels: &[[f32; 4]], covered: Covered) -> Buffer {
-    let picture = Picture { pixels: pixels.to_vec(), covered };
+    let picture = Picture { pixels: Pixels::Steps(pixels.to_vec()), covered };
     Buffer::new([u32::try_from(pixels.len()).unwrap(), 1], 1, Content::Picture(picture))
 }
 
@@ -138,13 +138,26 @@ fn a_background_tells_what_is_not_covered() {
 fn bad_files_are_refused_with_their_reason() {
     let huge = "(9223372036854775807, 9223372036854775807)";
     let nan = f32::NAN.to_le_bytes().repeat(3);
-    let refused: [(Vec<u8>, &str); 14] = [
+    let refused: [(Vec<u8>, &str); 18] = [
         (b"hello".to_vec(), "neither a picture"),
         (Vec::new(), "neither a picture"),
         (b"PK\x03\x04...".to_vec(), ".npz"),
-        (b"\x89PNG\r\n\x1a\nrubbish".to_vec(), "file"),
-        (b"\x93NUMPY\x01\x00".to_vec(), "header"),
-        (npy(&"(".repeat(60_000), false, "(2, 3)", &[]), "too many parts"),
+        (b"\x89PNG\r\n\x1a\nrubbish".to_vec(), "ends early, after 15 bytes; copy it"),
+        (b"\x93NUMPY\x01\x00".to_vec(), "ends early, after 8 bytes; copy it"),
+        (npy(&"(".repeat(60_000), false, "(2, 3)", &[]), "more than the 10000 that any array"),
+        (npy(&"()".repeat(40), false, "(2, 3)", &[]), "too many parts"),
+        (
+            npy(&format!("{}'<u1'{}", "[".repeat(20), "]".repeat(20)), false, "(1, 1)", &[0]),
+            "too many parts",
+        ),
+        (
+            npy("'|u1'", false, "(-1, 6)", &[0; 6]),
+            "shape (-1, 6), where -1 is no number of rows, columns",
+        ),
+        (
+            npy("<u1", false, "(1, 6)", &[0; 6]),
+            "from byte 10 on, is none that NumPy writes ({'descr': <u1, 'fo",
+        ),
         (npy("'<u4'", false, "(2, 3)", &[0; 23]), "23 of the 24 bytes"),
         (npy("'<u4'", false, "(6,)", &[0; 24]), "shape [6]; pixels are H x W"),
         (npy("'<u4'", false, "(0, 3)", &[]), "the image is 3x0"),
@@ -160,6 +173,96 @@ fn bad_files_are_refused_with_their_reason() {
     }
     let missing = read(Path::new("no/such/file.png"), None).unwrap_err().to_string();
     assert!(missing.starts_with("cannot read no/such/file.png"), "{missing}");
+}
+
+#[test]
+fn shapes_may_have_the_l_of_python_2() {
+    let buffer = read_npy("'|u1'", "(2L, 3L)", &[0, 1, 2, 3, 4, 5]);
+    assert_eq!((buffer.size, buffer.kind()), ([3, 2], "ids"));
+}
+
+/// A PNG of these chunks.
+fn png(chunks: &[(&[u8; 4], &[u8])]) -> Vec<u8> {
+    let chunk = |(name, content): &(&[u8; 4], &[u8])| {
+        let length = u32::try_from(content.len()).unwrap().to_be_bytes();
+        let covered = [&name[..], content].concat();
+        let checksum = crc32fast::hash(&covered).to_be_bytes();
+        [&length[..], &covered, &checksum].concat()
+    };
+    let chunks: Vec<u8> = chunks.iter().flat_map(chunk).collect();
+    [b"\x89PNG\r\n\x1a\n", &chunks[..]].concat()
+}
+
+/// What is said of a PNG of so many pixels, 8 bits deep, with a palette.
+fn palette_png(size: [u32; 2], palette: &[u8]) -> Vec<u8> {
+    let header = [&size[0].to_be_bytes()[..], &size[1].to_be_bytes(), &[8, 3, 0, 0, 0]].concat();
+    // One row of one pixel: a zlib stream of one stored block.
+    let pixels = [0x78, 0x01, 0x01, 2, 0, 0xfd, 0xff, 0, 1, 0, 3, 0, 2];
+    png(&[(b"IHDR", &header), (b"PLTE", palette), (b"IDAT", &pixels), (b"IEND", &[])])
+}
+
+#[test]
+fn palettes_have_three_bytes_a_colour() {
+    assert!(read_bytes(&palette_png([1, 1], &[0; 6]), None).is_ok());
+    for length in [0, 1, 4, 5, 767, 771] {
+        let problem = read_bytes(&palette_png([1, 1], &vec![0; length]), None).unwrap_err();
+        let said =
+            format!("PLTE at byte 33 of the PNG) has {length} bytes; it must have 3 for each");
+        assert!(problem.contains(&said), "{problem}");
+    }
+}
+
+#[test]
+fn damages_of_a_png_have_their_place() {
+    let whole = palette_png([1, 1], &[0; 6]);
+    let mut bent = whole.clone();
+    bent[42] ^= 1;
+    let problem = read_bytes(&bent, None).unwrap_err();
+    assert!(problem.contains("chunk PLTE at byte 33 of the PNG has a wrong checksum"), "{problem}");
+    let problem = read_bytes(&whole[..60], None).unwrap_err();
+    assert!(
+        problem.ends_with("ends early, after 60 bytes; copy it or write it again"),
+        "{problem}"
+    );
+    let more = read_bytes(&palette_png([3, 5], &[0; 6]), None).unwrap_err();
+    assert!(more.contains("the pixels of the PNG are damaged; copy the file or save"), "{more}");
+}
+
+#[test]
+fn few_bytes_claim_no_memory() {
+    let problem = read_bytes(&palette_png([32_768, 32_768], &[0; 6]), None).unwrap_err();
+    let said =
+        "its 32768 x 32768 pixels need 7168 MiB of memory, and a picture may take 2048; compare";
+    assert!(problem.contains(said), "{problem}");
+    // A run-length BMP of 8 bits: its palette, and the end of the picture.
+    let number = |number: u32| number.to_le_bytes();
+    let header = [40, 10_000, 10_000, 1 | 8 << 16, 1, 2, 0, 0, 2, 0].map(number).concat();
+    let start = [62 + 2, 0, 62].map(number).concat();
+    let bmp = [b"BM", &start[..], &header, &[0; 8], &[0, 1]].concat();
+    let problem = read_bytes(&bmp, None).unwrap_err();
+    let said =
+        "a run-length BMP of 64 bytes cannot fill 10000 x 10000 pixels; if the file is complete";
+    assert!(problem.contains(said), "{problem}");
+}
+
+#[test]
+fn pictures_that_end_early_say_so() {
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    DynamicImage::from(GrayImage::new(4, 4)).write_to(&mut bytes, ImageFormat::Bmp).unwrap();
+    let bmp = bytes.into_inner();
+    let files =
+        [bmp[..bmp.len() - 3].to_vec(), b"P5 4 4 255\nabc".to_vec(), b"P2 2 2 9\n1 2".to_vec()];
+    for file in files {
+        let problem = read_bytes(&file, None).unwrap_err();
+        let said =
+            format!("the file ends early, after {} bytes; copy it or write it again", file.len());
+        assert!(problem.ends_with(&said), "{problem}");
+    }
+    let problem = read_bytes(b"P2 2 x 9\n1 2", None).unwrap_err();
+    assert!(
+        problem.contains("the PNM is damaged (") && problem.contains("save it again"),
+        "{problem}"
+    );
 }
 
 #[test]
