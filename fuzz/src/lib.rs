@@ -5,6 +5,7 @@
 
 mod numbers;
 mod objects;
+mod readers;
 
 use bothways_common::glam::{Quat, Vec3};
 use bothways_common::simd::{Level, levels};
@@ -13,6 +14,7 @@ use bothways_common::{
 };
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use numbers::Numbers;
+pub use readers::{check_mesh, check_message, with_checksums};
 
 /// The largest side of a picture: of most, and of those that reach over the borders of tiles and blocks.
 const SIDES: [u32; 2] = [14, 48];

@@ -1,0 +1,27 @@
+//! Any bytes as a file to compare (PNG, BMP, PNM, NPY): a buffer that equals itself, or a message.
+#![no_main]
+
+use bothways::diff::foreign::{Content, compare, read_from};
+use bothways_fuzz::{check_message, with_checksums};
+use libfuzzer_sys::fuzz_target;
+use std::io::Cursor;
+use std::path::Path;
+
+fuzz_target!(|bytes: &[u8]| {
+    let background = (bytes.len() % 2 == 1).then_some([16, 20, 24]);
+    // What lies behind a wrong checksum would never be reached.
+    let bytes = with_checksums(bytes);
+    match read_from(Path::new("a"), Cursor::new(&bytes), background) {
+        Ok(buffer) => {
+            // Comparing takes its time where there are many pixels.
+            let [width, height] = buffer.size();
+            let not_numbers = matches!(buffer.content(), Content::Distances(t) if t.iter().any(|t| t.is_nan()));
+            if u64::from(width) * u64::from(height) <= 1 << 12 && !not_numbers {
+                if let Ok(comparison) = compare(&buffer, &buffer) {
+                    assert!(comparison.equal);
+                }
+            }
+        }
+        Err(error) => check_message(&error),
+    }
+});

@@ -1,0 +1,11 @@
+//! Any bytes as an OBJ file: a mesh, or a message.
+#![no_main]
+
+use bothways_common::obj;
+use bothways_fuzz::{check_mesh, check_message};
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| match obj::parse("a.obj", bytes) {
+    Ok(mesh) => check_mesh(mesh),
+    Err(error) => check_message(&error),
+});

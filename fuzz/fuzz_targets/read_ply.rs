@@ -1,0 +1,11 @@
+//! Any bytes as a PLY file: a mesh, or a message.
+#![no_main]
+
+use bothways_common::ply;
+use bothways_fuzz::{check_mesh, check_message};
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| match ply::parse("a.ply", bytes) {
+    Ok(mesh) => check_mesh(mesh),
+    Err(error) => check_message(&error),
+});

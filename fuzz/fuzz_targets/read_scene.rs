@@ -1,0 +1,24 @@
+//! Any text as a scene file: a scene and a camera, or a message with its place.
+#![no_main]
+
+use bothways_common::Camera;
+use bothways_common::scene_file;
+use bothways_fuzz::check_message;
+use libfuzzer_sys::{Corpus, fuzz_target};
+use std::path::Path;
+
+fuzz_target!(|text: &str| -> Corpus {
+    // A few bytes may ask for a hundred million triangles, as they may: that takes its time.
+    if text.contains("divisions") && text.contains("generate") {
+        return Corpus::Reject;
+    }
+    match scene_file::parse("a.toml", text, Path::new("no-such-folder")) {
+        Ok(file) => {
+            if let Err(error) = Camera::new(file.camera) {
+                panic!("the reader accepts what the camera refuses: {error}");
+            }
+        }
+        Err(error) => check_message(&error),
+    }
+    Corpus::Keep
+});
