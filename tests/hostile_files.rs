@@ -83,7 +83,7 @@ fn a_scene_file_has_a_largest_size() {
     let home = tempfile::tempdir().unwrap();
     write(&home, "large.toml", SPHERE.repeat(400_000));
     let said = refusal(&home, &["large.toml"]);
-    assert!(said.contains("large.toml: a scene file of more than 16 MiB is not read"), "{said}");
+    assert!(said.contains("large.toml: a scene file of more than 8 MiB is not read"), "{said}");
     assert!(said.contains("mesh file"), "{said}");
 }
 
@@ -141,7 +141,7 @@ fn sparse(path: &Path, start: &[u8]) {
 fn large_files_are_not_read_whole_to_be_refused() {
     let home = tempfile::tempdir().unwrap();
     let cases = [
-        ("a.toml", "", "of more than 16 MiB is not read"),
+        ("a.toml", "", "of more than 8 MiB is not read"),
         ("a.obj", "", "a.obj:1: this is not plain text"),
         ("b.obj", "v 0 0 0\n", "b.obj:2: this is not plain text"),
         ("a.ply", "", "begins with a line that says"),
