@@ -4,6 +4,7 @@ use super::MOST_BYTES;
 use super::excerpt::Excerpt;
 use crate::mesh_file::Unreadable;
 use crate::quote::visible;
+use std::borrow::Cow;
 use std::fmt;
 use std::ops::Range;
 
@@ -108,6 +109,9 @@ impl Problem {
 
     pub(super) fn in_text(self, name: &str, text: &str) -> LocatedError {
         let Problem { span, message, help } = self;
+        // Whatever it quotes, of this file or of one that it names.
+        let (message, help) = (visible(&message).into_owned(), help.as_deref().map(visible));
+        let help = help.map(Cow::into_owned);
         LocatedError { name: name.to_owned(), text: text.to_owned(), span, message, help }
     }
 }
@@ -115,6 +119,6 @@ impl Problem {
 impl From<toml::de::Error> for Problem {
     /// The TOML parser's own words, which may quote the file.
     fn from(error: toml::de::Error) -> Problem {
-        Problem::new(error.span().unwrap_or(0..0), visible(error.message()))
+        Problem::new(error.span().unwrap_or(0..0), error.message())
     }
 }

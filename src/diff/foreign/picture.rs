@@ -92,7 +92,11 @@ fn check_runs(input: &mut (impl BufRead + Seek), length: u64) -> Result<(), Prob
 
 /// What a decoder says, in our words: the decoders' own name bytes of their formats, and no remedy.
 fn problem(error: ImageError, format: ImageFormat, length: u64) -> Problem {
-    let name = format.extensions_str().first().map_or_else(String::new, |name| name.to_uppercase());
+    let name = match format {
+        ImageFormat::Png => "PNG",
+        ImageFormat::Bmp => "BMP",
+        _ => "PNM",
+    };
     Problem::Content(match error {
         ImageError::IoError(error) if error.kind() == ErrorKind::UnexpectedEof => {
             ends_early(length)
@@ -109,7 +113,7 @@ fn problem(error: ImageError, format: ImageFormat, length: u64) -> Problem {
         ImageError::Decoding(error) if format != ImageFormat::Png => {
             let said = std::error::Error::source(&error).map(ToString::to_string);
             let said = said.unwrap_or_else(|| "no reason given".into());
-            if said.contains("fill whole buffer") {
+            if said.contains("fill whole buffer") || said.contains("Not enough data") {
                 ends_early(length)
             } else {
                 let said: String = said.chars().take(100).collect();

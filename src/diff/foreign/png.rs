@@ -2,7 +2,6 @@
 //! names damages without their place.
 
 use super::read::{Problem, ends_early};
-use crate::common::quote::shown;
 use std::io::{BufRead, Read, Seek, SeekFrom};
 
 /// Bytes of the signature before the first chunk.
@@ -22,6 +21,11 @@ pub(super) fn check(input: &mut (impl BufRead + Seek), file_length: u64) -> Resu
         input.read_exact(&mut head)?;
         let [a, b, c, d, name @ ..] = head;
         let (length, name) = (u32::from_be_bytes([a, b, c, d]), name);
+        if !name.iter().all(u8::is_ascii_alphabetic) {
+            return Err(Problem::Content(format!(
+                "at byte {at} of the PNG no chunk begins, so the file is damaged; copy it or save it again"
+            )));
+        }
         if u64::from(length) > file_length - at - 12 {
             return Err(Problem::Content(ends_early(file_length)));
         }
@@ -55,7 +59,7 @@ fn checksum(input: &mut (impl BufRead + Seek), name: [u8; 4], length: u32) -> Re
 
 /// Says what is wrong with a chunk.
 fn chunk(name: [u8; 4], length: u32, at: u64, is_intact: bool) -> Result<(), String> {
-    let shown = shown(&String::from_utf8_lossy(&name));
+    let shown = String::from_utf8_lossy(&name);
     // A small first letter: nobody needs this chunk for the pixels.
     if !is_intact && name[0].is_ascii_uppercase() {
         return Err(format!(
