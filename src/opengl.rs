@@ -15,6 +15,9 @@ use crate::common::{Camera, Primitive, Projection, View};
 /// Four rows of four numbers.
 pub type Matrix = [[f64; 4]; 4];
 
+/// How every matrix that is written for programs lies in its file: as a list of its rows.
+pub const LAYOUT: &str = "row-major";
+
 /// OpenGL's matrices for one view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Matrices {

@@ -5,7 +5,7 @@
 
 use assert_cmd::Command;
 use bothways::common::glam::{DMat4, DVec3};
-use bothways::common::{Shape, obj};
+use bothways::common::{Shape, View, obj};
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 use predicates::str::contains;
@@ -57,6 +57,11 @@ fn numbers(value: &Value) -> Vec<f64> {
 fn table(value: &Value, nothing: f64) -> Vec<f64> {
     let rows = list(value).iter().flat_map(list);
     rows.map(|cell| if cell.is_null() { nothing } else { cell.as_f64().unwrap() }).collect()
+}
+
+/// The `f32` that is written in its shortest form, or nothing at infinity.
+fn single(value: &Value) -> f32 {
+    if value.is_null() { f32::INFINITY } else { value.to_string().parse().unwrap() }
 }
 
 fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
@@ -157,7 +162,7 @@ fn an_independent_rasterizer_sees_the_same() {
                 assert_eq!(seen.map(|(id, _)| id), id.as_u64(), "{name}: pixel ({i}, {j})");
                 let Some((_, exact)) = seen else { continue };
                 // Half a unit in the last place of an f32, and what the f64 before it lost.
-                let error = (t.as_f64().unwrap() - exact).abs();
+                let error = (f64::from(single(t)) - exact).abs();
                 assert!(error <= exact * 6.1e-8, "{name}: t {t} at ({i}, {j}), not {exact}");
                 checked += 1;
             }
@@ -255,8 +260,8 @@ fn every_file_is_there_and_says_the_same() {
         assert_eq!(npy.into_iter().map(f64::from).collect::<Vec<_>>(), ids, "{name}: ids");
         let npy: Vec<f32> =
             npyz::NpyFile::new(&*fs::read(place(".t.npy")).unwrap()).unwrap().into_vec().unwrap();
-        let distances = table(&scene["t"], f64::INFINITY);
-        assert_eq!(npy.into_iter().map(f64::from).collect::<Vec<_>>(), distances, "{name}: t");
+        let distances: Vec<f32> = list(&scene["t"]).iter().flat_map(list).map(single).collect();
+        assert_eq!(npy, distances, "{name}: t");
         let mask = image::open(place(".mask.png")).unwrap().into_luma8();
         assert_eq!(numbers(&scene["image"]), [mask.width(), mask.height()].map(f64::from));
         let covered: Vec<bool> = ids.iter().map(|&id| id < f64::from(u32::MAX)).collect();
@@ -295,7 +300,11 @@ fn check_scene(name: &str, scene: &Value, toml: &Path, mesh: &Path) {
 fn the_matrices_put_vertices_where_the_raster_coordinates_are() {
     let home = written();
     for (_, scene) in scenes(home.path()).iter().filter(|(_, scene)| !scene["raster"].is_null()) {
-        let matrix = |key: &str| DMat4::from_cols_slice(&numbers(&scene[key]));
+        assert_eq!(scene["opengl_layout"], "row-major");
+        let matrix = |key: &str| {
+            let rows: Vec<f64> = list(&scene[key]).iter().flat_map(numbers).collect();
+            DMat4::from_cols_slice(&rows).transpose()
+        };
         let clip_from_world = matrix("opengl_projection") * matrix("opengl_view");
         let image = numbers(&scene["image"]);
         for (triangle, corners) in list(&scene["triangles"]).iter().zip(list(&scene["raster"])) {
@@ -311,6 +320,90 @@ fn the_matrices_put_vertices_where_the_raster_coordinates_are() {
             }
         }
     }
+}
+
+#[test]
+fn the_camera_writes_its_matrices_in_the_same_layout() {
+    let home = written();
+    let mut command = Command::cargo_bin("bothways").unwrap();
+    command.args(["camera", "--json"]).arg(home.path().join("turned-box.toml"));
+    let camera: Value = serde_json::from_slice(&command.output().unwrap().stdout).unwrap();
+    let scene = json(home.path(), "turned-box.json");
+    assert_eq!(camera["opengl"]["layout"], scene["opengl_layout"]);
+    // The view has no symmetry that would hide a transposition.
+    assert_eq!(camera["opengl"]["view"], scene["opengl_view"]);
+    assert_ne!(camera["opengl"]["view"][0][3], camera["opengl"]["view"][3][0]);
+}
+
+#[test]
+fn distances_are_written_as_short_as_they_read_back() {
+    let home = written();
+    for (entry, scene) in scenes(home.path()) {
+        for t in list(&scene["t"]).iter().flat_map(list).filter(|t| !t.is_null()) {
+            let text = t.to_string();
+            // Nine digits tell every f32.
+            let digits = text.split('e').next().unwrap().trim_matches(['0', '.']);
+            let digits = digits.chars().filter(char::is_ascii_digit).count();
+            assert!(digits <= 9, "{}: {text}", entry["name"]);
+        }
+    }
+}
+
+/// What is seen if `x` and `y` are computed as the lecture writes them, rounding by rounding.
+fn seen_with_the_lecture_s_formula(vector: &bothways::vectors::Vector) -> Vec<Option<u32>> {
+    let (scene, camera) = (vector.scene(), vector.camera());
+    let view = View::new(&scene, &camera);
+    let ([width, height], [vw, vh]) = (camera.image(), camera.viewport());
+    let place = |side: f64, index: u32, count: u32| {
+        side * ((f64::from(index + 1) - 0.5) / f64::from(count) - 0.5)
+    };
+    let pixels = (0..height).flat_map(|i| (0..width).map(move |j| (i, j)));
+    let seen = |(i, j)| {
+        let ray = camera.ray_through(place(vw, j, width), -place(vh, i, height));
+        let covering = view.primitives().filter(|(_, one)| view.judge().covers(one, &ray));
+        let nearest = covering.reduce(|held, next| {
+            let nearer = view.judge().nearer((next.0, &next.1), (held.0, &held.1), &ray);
+            if nearer { next } else { held }
+        });
+        nearest.map(|(id, _)| id)
+    };
+    pixels.map(seen).collect()
+}
+
+#[test]
+fn the_readme_s_numbers_are_those_of_the_set() {
+    let home = written();
+    let readme = fs::read_to_string(home.path().join("README.md")).unwrap();
+    let scenes = scenes(home.path());
+    let without: Vec<&str> = scenes
+        .iter()
+        .filter(|(_, scene)| scene["raster"].is_null())
+        .map(|(entry, _)| text(&entry["name"]))
+        .collect();
+    assert_eq!((without.len(), scenes.len()), (9, 68));
+    assert!(readme.contains("\n9 of the 68: `one-corner-behind`, "), "{readme}");
+    for name in without {
+        assert!(readme.contains(&format!("`{name}`")), "{name}");
+    }
+
+    // The lecture's formula, as it is written, in doubles.
+    let mut rounded = Vec::new();
+    for (vector, (_, scene)) in bothways::vectors::all().iter().zip(&scenes) {
+        let ids = table(&scene["ids"], -1.0);
+        let seen = seen_with_the_lecture_s_formula(vector);
+        if seen.iter().map(|id| id.map_or(-1.0, f64::from)).ne(ids.iter().copied()) {
+            rounded.push(vector.name);
+        }
+    }
+    assert_eq!(rounded, ["first-corner", "room", "parallel-behind", "oblong-pixels"]);
+    let names = "`first-corner`, `room`, `parallel-behind` and `oblong-pixels`";
+    assert!(readme.replace("\n ", "").contains(names), "{readme}");
+
+    // What was measured with OpenGL names scenes of the set, 22 of them.
+    let (_, opengl) = readme.split_once("## What OpenGL makes of it").unwrap();
+    let (opengl, _) = opengl.split_once("\n## ").unwrap();
+    let known = |name: &&str| scenes.iter().any(|(entry, _)| entry["name"] == **name);
+    assert_eq!(opengl.split('`').filter(known).count(), 22);
 }
 
 #[test]

@@ -90,7 +90,7 @@ impl Report {
             image: camera.image(),
             field_of_view_degrees: opengl::field_of_view(view),
             opengl: OpenGl {
-                layout: "row-major",
+                layout: opengl::LAYOUT,
                 near,
                 far,
                 view: camera_from_world,

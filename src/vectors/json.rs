@@ -1,6 +1,7 @@
 //! The set's JSON: one file a scene, and the index of all.
 //!
-//! Every number is an exact `f64`: read as a double it is the very number that was meant.
+//! Every number of a scene is an exact `f64`: read as a double it is the very number that was meant.
+//! The `t` that are seen are rounded to `f32`, and written as short as reads back as the same `f32`.
 
 use super::{ENDINGS, Vector, raster};
 use crate::common::{Camera, Frame, Projection, View};
@@ -71,7 +72,7 @@ pub fn json(vector: &Vector, frame: &Frame) -> serde_json::Result<String> {
         vector.mesh.positions().iter().map(|position| position.as_dvec3().to_array()).collect();
     let [near, far] = depth_range(&camera, frame);
     let matrices = opengl::between(&camera, near, far);
-    let (view, projection) = (columns(&matrices.view), columns(&matrices.projection));
+    let (view, projection) = (matrices.view.map(plain), matrices.projection.map(plain));
     let (perspective, interpolate) = match camera.projection() {
         Projection::Perspective => ("perspective", "1/t"),
         Projection::Parallel => ("parallel", "t"),
@@ -96,10 +97,11 @@ pub fn json(vector: &Vector, frame: &Frame) -> serde_json::Result<String> {
         None => fields.one("raster", &None::<()>)?,
     };
     Ok(fields
-        .one("opengl_view", &view)?
-        .one("opengl_projection", &projection)?
+        .one("opengl_layout", opengl::LAYOUT)?
+        .lines("opengl_view", &view)?
+        .lines("opengl_projection", &projection)?
         .lines("ids", &rows(frame, |row, column| frame.id(row, column)))?
-        .lines("t", &rows(frame, |row, column| frame.t(row, column).map(f64::from)))?
+        .lines("t", &rows(frame, |row, column| frame.t(row, column)))?
         .finish())
 }
 
@@ -120,14 +122,9 @@ fn depth_range(camera: &Camera, frame: &Frame) -> [f64; 2] {
     if most > 0.0 { [least / 2.0, most * 2.0] } else { [camera.distance(); 2] }
 }
 
-/// A matrix column by column, as OpenGL takes it.
-fn columns(matrix: &opengl::Matrix) -> [f64; 16] {
-    std::array::from_fn(|k| without_sign(matrix[k % 4][k / 4]))
-}
-
-/// Nobody needs to know of a negative zero.
-fn without_sign(number: f64) -> f64 {
-    if number == 0.0 { 0.0 } else { number }
+/// A row of a matrix; nobody needs to know of a negative zero.
+fn plain(row: [f64; 4]) -> [f64; 4] {
+    row.map(|number| number + 0.0)
 }
 
 /// A JSON object with a field a line, and long lists with an element a line.

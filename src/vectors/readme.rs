@@ -5,7 +5,15 @@ use std::fmt::Write;
 
 /// What the files are and how to use them, and a list of all scenes.
 pub fn readme(entries: &[Entry]) -> String {
-    let mut text = include_str!("readme.md").replace("{count}", &entries.len().to_string());
+    let without: Vec<String> = entries
+        .iter()
+        .filter(|entry| !entry.raster)
+        .map(|entry| format!("`{}`", entry.name))
+        .collect();
+    let mut text = include_str!("readme.md")
+        .replace("{count}", &entries.len().to_string())
+        .replace("{without_raster}", &without.len().to_string())
+        .replace("{without_raster_names}", &without.join(", "));
     for group in Group::ALL.map(Group::name) {
         write!(text, "\n### {group}\n\n| scene | point |\n|---|---|\n").expect("a string has room");
         for Entry { name, point, .. } in entries.iter().filter(|entry| entry.group == group) {
