@@ -3,6 +3,9 @@
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use assert_cmd::Command;
+use bothways::common::View;
+use bothways::diff::foreign::{Buffer, Content, compare};
+use bothways::vectors::{Group, Vector, raster};
 use predicates::prelude::*;
 use predicates::str::contains;
 use serde_json::{Value, json};
@@ -158,10 +161,154 @@ only in B                                  1
 first pixels (row, column) that differ:
   (0, 2)  A covered  B nothing
   (1, 2)  A nothing  B covered
-hint: B agrees with A once it is turned upside down
-differ: 2 pixels of 8, from (0, 2) to (1, 2)
+hint: each of these alone explains every difference
+  - B agrees with A once it is turned upside down
+  - B agrees with A once it is moved 1 row up; where edges lie on samples, half a pixel does that
+differ: 2 pixels of 8, in the bounding box from (0, 2) to (1, 2)
 ";
     bothways(&home, &["diff", "a.png", "b.png"]).assert().code(1).stdout(expected);
+}
+
+/// A mistake that a renderer makes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Mistake {
+    None,
+    SamplesInCorners,
+    InclusiveEdges,
+    CulledClockwise,
+    Transposed,
+    TurnedUpsideDown,
+}
+
+/// Twice the signed area of `a`, `b`, `c`, positive if they are clockwise as seen; exact for the small
+/// dyadic numbers of the vectors used here.
+fn area(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
+
+/// Whether a triangle, clockwise, covers a place.
+fn covers([a, b, c]: [[f64; 2]; 3], place: [f64; 2], inclusive: bool) -> bool {
+    [(a, b), (b, c), (c, a)].into_iter().all(|(p, q)| {
+        let edge = area(p, q, place);
+        let (right, down) = (q[0] - p[0], q[1] - p[1]);
+        // Clockwise with y down, a left edge goes up and a top edge to the right.
+        let owned = down < 0.0 || (down == 0.0 && right > 0.0);
+        edge > 0.0 || (edge == 0.0 && (owned || inclusive))
+    })
+}
+
+/// A little rasterizer of flat scenes, which makes one mistake: the first triangle at a pixel stays.
+fn drawn(vector: &Vector, mistake: Mistake) -> Buffer {
+    let (scene, camera) = (vector.scene(), vector.camera());
+    let triangles = raster::triangles(&View::new(&scene, &camera)).unwrap();
+    let [width, height] = camera.image();
+    let id = |i: u32, j: u32| {
+        let half = if mistake == Mistake::SamplesInCorners { 0.0 } else { 0.5 };
+        let place = [f64::from(j) + half, f64::from(i) + half];
+        let seen = triangles.iter().position(|corners| {
+            let [a, b, c] = corners.map(|[x, y, _]| [x, y]);
+            let facing = area(a, b, c);
+            let culled = mistake == Mistake::CulledClockwise && facing > 0.0;
+            let triangle = if facing > 0.0 { [a, b, c] } else { [a, c, b] };
+            facing != 0.0 && !culled && covers(triangle, place, mistake == Mistake::InclusiveEdges)
+        });
+        seen.map(|id| id as u64)
+    };
+    let pixels = (0..height).flat_map(|i| (0..width).map(move |j| (i, j)));
+    let ids = pixels.map(|(i, j)| match mistake {
+        Mistake::Transposed => id(j, i),
+        Mistake::TurnedUpsideDown => id(height - 1 - i, j),
+        _ => id(i, j),
+    });
+    Buffer::new([width, height], 1, Content::Ids(ids.collect()))
+}
+
+/// The same without ids.
+fn mask_of(buffer: &Buffer) -> Buffer {
+    let Content::Ids(ids) = buffer.content() else { panic!("no ids") };
+    Buffer::new(buffer.size(), 1, Content::Mask(ids.iter().map(Option::is_some).collect()))
+}
+
+/// The flat scenes of the set: no depth, and corners with few bits.
+fn flat_vectors() -> Vec<Vector> {
+    let flat = |vector: &Vector| {
+        let groups = [Group::Edges, Group::Corners, Group::SharedEdges];
+        groups.contains(&vector.group) || vector.name == "far-off-corners"
+    };
+    bothways::vectors::all().into_iter().filter(flat).collect()
+}
+
+fn hints(name: &str, mistake: Mistake, as_masks: bool) -> Vec<String> {
+    let vector = flat_vectors().into_iter().find(|vector| vector.name == name).unwrap();
+    let (mut right, mut wrong) = (drawn(&vector, Mistake::None), drawn(&vector, mistake));
+    if as_masks {
+        (right, wrong) = (mask_of(&right), mask_of(&wrong));
+    }
+    compare(&wrong, &right).unwrap().hints
+}
+
+#[test]
+fn the_little_rasterizer_is_right_without_a_mistake() {
+    for vector in flat_vectors() {
+        let expected = bothways::vectors::expected(&vector).unwrap();
+        let ids = expected.ids().iter().map(|&id| (id != u32::MAX).then_some(u64::from(id)));
+        let expected = Content::Ids(ids.collect());
+        assert_eq!(drawn(&vector, Mistake::None).content(), &expected, "{}", vector.name);
+    }
+}
+
+#[test]
+fn hints_name_the_mistake_or_none() {
+    // What must be said of each, if anything is.
+    let named = [
+        (Mistake::SamplesInCorners, ["moved 1 row up and 1 column to the left", "missed between"]),
+        (Mistake::InclusiveEdges, ["inclusive edges have no hint of their own"; 2]),
+        (Mistake::CulledClockwise, ["culled"; 2]),
+        (Mistake::Transposed, ["transposed"; 2]),
+        (Mistake::TurnedUpsideDown, ["turned upside down"; 2]),
+    ];
+    let mut wrongly_named = Vec::new();
+    for vector in flat_vectors() {
+        let right = drawn(&vector, Mistake::None);
+        for (mistake, names) in named {
+            if mistake == Mistake::Transposed && right.size()[0] != right.size()[1] {
+                continue;
+            }
+            let wrong = drawn(&vector, mistake);
+            for (right, wrong) in [(mask_of(&right), mask_of(&wrong)), (right.clone(), wrong)] {
+                let comparison = compare(&right, &wrong).unwrap();
+                let says = |hint: &String| names.iter().any(|name| hint.contains(name));
+                let named = comparison.hints.iter().any(says);
+                if !comparison.equal && !comparison.hints.is_empty() && !named {
+                    wrongly_named.push((vector.name, mistake, comparison.hints));
+                }
+            }
+        }
+    }
+    assert!(wrongly_named.is_empty(), "{wrongly_named:#?}");
+}
+
+#[test]
+fn misleading_hints_of_old_are_gone() {
+    // A transposed square picture was turned by 180 degrees.
+    let transposed = hints("three-corners", Mistake::Transposed, false);
+    assert!(transposed.len() == 1 && transposed[0].contains("transposed"), "{transposed:?}");
+    // Half a pixel on `square` was, too: as a mask it may be, and all that it may be is said.
+    let half = hints("square", Mistake::SamplesInCorners, true);
+    for may_be in ["moved 1 row down and 1 column to the right", "180 degrees", "diagonal"] {
+        assert!(half.iter().any(|hint| hint.contains(may_be)), "{half:?}");
+    }
+    // Its two triangles tell more.
+    let half = hints("square", Mistake::SamplesInCorners, false);
+    assert!(half.len() == 2 && half[0].contains("diagonal"), "{half:?}");
+    assert!(half[1].contains("moved 1 row down and 1 column to the right"), "{half:?}");
+    // Inclusive edges on `tiles` were "moved by 1 rows and 1 columns".
+    for as_masks in [true, false] {
+        assert_eq!(hints("tiles", Mistake::InclusiveEdges, as_masks), [""; 0]);
+    }
+    // Culling on `far-off-corners` blamed the reference alone, which "has the id 0".
+    let culled = hints("far-off-corners", Mistake::CulledClockwise, false);
+    assert!(culled.iter().any(|hint| hint.contains("culled")), "{culled:?}");
 }
 
 #[test]

@@ -252,7 +252,7 @@ fn different_distances() {
       (2, 5)  A t 8          B t 10
       (3, 0)  A t 2.6666667  B t 3.3333333
       (3, 1)  A t 2.6666667  B t 3.3333333
-    differ: 14 pixels of 24, from (1, 0) to (3, 5)
+    differ: 14 pixels of 24, in the bounding box from (1, 0) to (3, 5)
     ");
 }
 

@@ -129,9 +129,7 @@ impl Told<'_> {
         self.counts(&mut text);
         self.largest(&mut text);
         self.first(&mut text);
-        for hint in &self.comparison.hints {
-            line(&mut text, format_args!("hint: {hint}"));
-        }
+        text += &hints(&self.comparison.hints);
         let colour = if self.comparison.equal { AnsiColor::Green } else { AnsiColor::Yellow };
         let style = colour.on_default().bold();
         line(&mut text, format_args!("{style}{}{style:#}", self.verdict()));
@@ -272,10 +270,26 @@ impl Told<'_> {
         let place = if comparison.differing_pixels == 1 {
             format!("at ({row}, {column})")
         } else {
-            format!("from ({row}, {column}) to ({bottom}, {right})")
+            format!("in the bounding box from ({row}, {column}) to ({bottom}, {right})")
         };
         format!("differ: {pixels} of {}, {place}", grouped(all))
     }
+}
+
+/// What may be the cause; of several that explain everything, each may.
+fn hints(hints: &[String]) -> String {
+    let mut text = String::new();
+    match hints {
+        [] => {}
+        [hint] => line(&mut text, format_args!("hint: {hint}")),
+        several => {
+            line(&mut text, format_args!("hint: each of these alone explains every difference"));
+            for hint in several {
+                line(&mut text, format_args!("  - {hint}"));
+            }
+        }
+    }
+    text
 }
 
 fn line(text: &mut String, content: std::fmt::Arguments) {

@@ -1,80 +1,112 @@
 //! What a difference as a whole looks like: mistakes that every renderer makes once.
+//!
+//! A hint is given only if its cause alone explains every difference. Where several do, all are
+//! given: nobody can tell a symmetric picture that is upside down from one that is moved.
 
 use super::look::Pair;
 use super::{Buffer, Content};
 use crate::diff::{Class, pixels};
-use std::collections::BTreeMap;
+use crate::wording::count;
+use std::collections::{BTreeMap, BTreeSet};
 
-/// What may be the cause, each in a sentence.
+/// Every cause that alone explains every difference, each in a sentence.
 pub(super) fn hints(pair: &Pair) -> Vec<String> {
-    let mut hints = Vec::new();
-    if let Some(moved) = moved(pair) {
-        hints.push(format!("B agrees with A once it is {moved}"));
+    let both = [("A", pair.a), ("B", pair.b)];
+    if let Some((name, _)) = both.into_iter().find(|(_, buffer)| is_empty(buffer)) {
+        return vec![format!(
+            "{name} covers nothing: is all of it culled, cut off, behind the eye, or missed between samples?"
+        )];
     }
-    if let (Content::Ids(a), Content::Ids(b)) = (&pair.a.content, &pair.b.content)
-        && pair.a.samples == pair.b.samples
-        && let Some(renaming) = renaming(a, b)
-    {
-        hints.push(format!(
-            "where both cover, the ids correspond one to one ({renaming}): \
-             the same primitives, counted in another order or from another number"
-        ));
+    let mut hints = placements(pair);
+    if pair.a.samples != pair.b.samples {
+        return hints;
     }
-    for (name, buffer, other) in [("A", pair.a, pair.b), ("B", pair.b, pair.a)] {
-        if covers_all_with_zero(buffer) && leaves_something_out(other) {
-            hints.push(format!(
-                "{name} covers every pixel and has the id 0: ids count from 0, and nothing is the \
-                 largest number of the type, or -1; a mask is saved as bool"
-            ));
-        }
+    let named = [("A", pair.a, "B", pair.b), ("B", pair.b, "A", pair.a)];
+    if let (Content::Ids(a), Content::Ids(b)) = (&pair.a.content, &pair.b.content) {
+        hints.extend(renaming(a, b).map(|renaming| {
+            format!(
+                "the ids correspond one to one ({renaming}): the same primitives, counted in another \
+                 order or from another number, or equally near ones decided otherwise"
+            )
+        }));
+        hints.extend(lacking(a, b).map(|ids| lacks("B", &ids, "A")));
+        hints.extend(lacking(b, a).map(|ids| lacks("A", &ids, "B")));
+    }
+    for (name, buffer, _, other) in named {
+        hints.extend(zero_is_nothing(name, buffer, other));
     }
     if is_inverted(pair) {
-        hints.push(
-            "B covers exactly what A does not; a mask of integers is read as ids, save it as bool"
-                .into(),
-        );
+        let of_integers = named.into_iter().find(|(_, buffer, ..)| has_only_zeros(buffer));
+        hints.push(match of_integers {
+            Some((name, ..)) => format!(
+                "B covers exactly what A does not; if {name} is a mask of integers, its 0 is read as an \
+                 id and its 255 as nothing: save it as bool"
+            ),
+            None => "B covers exactly what A does not".into(),
+        });
     }
     hints
 }
 
-/// How B must be turned or moved to agree with A.
-fn moved(pair: &Pair) -> Option<String> {
+/// All ways to turn or to move B by a pixel so that it agrees with A.
+fn placements(pair: &Pair) -> Vec<String> {
     if pair.a.samples != 1 || pair.b.samples != 1 {
-        return None;
+        return Vec::new();
     }
-    let [width, height] = pair.a.size;
-    let turned = [("upside down", true, false), ("left to right", false, true)];
-    for (name, rows, columns) in turned.into_iter().chain([("by 180 degrees", true, true)]) {
-        let mirrored =
-            |side: u32, index: u32, mirror| if mirror { side - 1 - index } else { index };
-        let place =
-            |[i, j]: [u32; 2]| Some([mirrored(height, i, rows), mirrored(width, j, columns)]);
-        if agree(pair, place) {
-            return Some(format!("turned {name}"));
-        }
-    }
+    let turned = turns(pair.a.size).into_iter().filter(|(_, place)| agree(pair, place.as_ref()));
+    let turned = turned.map(|(name, _)| format!("B agrees with A once it is {name}"));
     let steps = [0, 1, -1];
     let moves = steps.into_iter().flat_map(|rows| steps.map(|columns| [rows, columns]));
-    for [rows, columns] in moves.skip(1) {
-        let place = |[i, j]: [u32; 2]| {
-            let i = i.checked_add_signed(rows).filter(|&i| i < height)?;
-            Some([i, j.checked_add_signed(columns).filter(|&j| j < width)?])
-        };
-        if agree(pair, place) {
-            return Some(format!("moved by {} rows and {} columns", -rows, -columns));
-        }
-    }
-    None
+    let moved = moves.skip(1).filter(|&by| agree_moved(pair, by));
+    let moved = moved.map(|by| {
+        let back = by.map(|step: i32| -step);
+        format!(
+            "B agrees with A once it is moved {}; where edges lie on samples, half a pixel does that",
+            steps_in_words(back)
+        )
+    });
+    turned.chain(moved).collect()
 }
 
-/// Whether each pixel of A agrees with the one of B at another place, if there is one, and
-/// something is seen in any of them.
-fn agree(pair: &Pair, place: impl Fn([u32; 2]) -> Option<[u32; 2]>) -> bool {
-    let index = |[i, j]: [u32; 2]| i as usize * pair.a.size[0] as usize + j as usize;
+/// Where a pixel of A lies in B.
+type Place = Box<dyn Fn([u32; 2]) -> [u32; 2]>;
+
+/// What turns a picture onto itself, and how B is brought back.
+fn turns([width, height]: [u32; 2]) -> Vec<(&'static str, Place)> {
+    let (last_i, last_j) = (height - 1, width - 1);
+    let mut turns: Vec<(&str, Place)> = vec![
+        ("turned upside down", Box::new(move |[i, j]| [last_i - i, j])),
+        ("turned left to right", Box::new(move |[i, j]| [i, last_j - j])),
+        ("turned by 180 degrees", Box::new(move |[i, j]| [last_i - i, last_j - j])),
+    ];
+    if width == height {
+        let last = last_i;
+        let other_diagonal = "mirrored at the diagonal from the bottom left to the top right";
+        let square: [(&str, Place); 4] = [
+            ("transposed (its rows are A's columns)", Box::new(|[i, j]| [j, i])),
+            (other_diagonal, Box::new(move |[i, j]| [last - j, last - i])),
+            ("turned by 90 degrees to the left", Box::new(move |[i, j]| [j, last - i])),
+            ("turned by 90 degrees to the right", Box::new(move |[i, j]| [last - j, i])),
+        ];
+        turns.extend(square);
+    }
+    turns
+}
+
+fn index(pair: &Pair, [i, j]: [u32; 2]) -> usize {
+    i as usize * pair.a.size[0] as usize + j as usize
+}
+
+fn class(pair: &Pair, in_a: [u32; 2], in_b: [u32; 2]) -> Class {
+    pair.look(index(pair, in_a), index(pair, in_b)).class()
+}
+
+/// Whether each pixel of A agrees with the one of B at its other place, and something is seen in any
+/// of them.
+fn agree(pair: &Pair, place: &dyn Fn([u32; 2]) -> [u32; 2]) -> bool {
     let mut seen = false;
     for in_a in pixels(pair.a.size) {
-        let Some(in_b) = place(in_a) else { continue };
-        let class = pair.look(index(in_a), index(in_b)).class();
+        let class = class(pair, in_a, place(in_a));
         if class.differs() {
             return false;
         }
@@ -83,14 +115,58 @@ fn agree(pair: &Pair, place: impl Fn([u32; 2]) -> Option<[u32; 2]>) -> bool {
     seen
 }
 
-/// The ids of A and B side by side, if each has one partner and they are not the same.
+/// The same for what lies so many rows and columns farther in B. What leaves the picture or enters it
+/// has no partner; a difference there would be left unexplained, unless the place is empty.
+fn agree_moved(pair: &Pair, [rows, columns]: [i32; 2]) -> bool {
+    let [width, height] = pair.a.size;
+    let moved = |[i, j]: [u32; 2], sign: i32| {
+        let i = i.checked_add_signed(sign * rows).filter(|&i| i < height)?;
+        Some([i, j.checked_add_signed(sign * columns).filter(|&j| j < width)?])
+    };
+    let empty = |buffer: &Buffer, pixel| buffer.covered(index(pair, pixel)) == Some(false);
+    let mut seen = false;
+    for pixel in pixels(pair.a.size) {
+        if let Some(in_b) = moved(pixel, 1) {
+            let class = class(pair, pixel, in_b);
+            if class.differs() {
+                return false;
+            }
+            seen |= class == Class::Alike;
+        }
+        let explained = (moved(pixel, 1).is_some() || empty(pair.a, pixel))
+            && (moved(pixel, -1).is_some() || empty(pair.b, pixel));
+        if !explained && class(pair, pixel, pixel).differs() {
+            return false;
+        }
+    }
+    seen
+}
+
+/// `1 row up and 1 column to the left`.
+fn steps_in_words([rows, columns]: [i32; 2]) -> String {
+    let words = |steps: i32, things: &str, [back, forth]: [&str; 2]| {
+        let direction = if steps < 0 { back } else { forth };
+        let number = count(steps.unsigned_abs().into(), things);
+        (steps != 0).then(|| format!("{number} {direction}"))
+    };
+    let rows = words(rows, "rows", ["up", "down"]);
+    let columns = words(columns, "columns", ["to the left", "to the right"]);
+    rows.into_iter().chain(columns).collect::<Vec<_>>().join(" and ")
+}
+
+/// The ids of A and B side by side, if both cover the same, each id has one partner, and they are not
+/// the same.
 fn renaming(a: &[Option<u64>], b: &[Option<u64>]) -> Option<String> {
     let (mut forth, mut back) = (BTreeMap::new(), BTreeMap::new());
     for (&a, &b) in a.iter().zip(b) {
-        if let (Some(a), Some(b)) = (a, b)
-            && (*forth.entry(a).or_insert(b) != b || *back.entry(b).or_insert(a) != a)
-        {
-            return None;
+        match (a, b) {
+            (None, None) => {}
+            (Some(a), Some(b)) => {
+                if *forth.entry(a).or_insert(b) != b || *back.entry(b).or_insert(a) != a {
+                    return None;
+                }
+            }
+            _ => return None,
         }
     }
     let renamed: Vec<String> = forth
@@ -98,20 +174,80 @@ fn renaming(a: &[Option<u64>], b: &[Option<u64>]) -> Option<String> {
         .filter(|(a, b)| a != b)
         .map(|(a, b)| format!("{a} in A is {b} in B"))
         .collect();
-    match renamed.len() {
-        0 => None,
-        1..=3 => Some(renamed.join(", ")),
-        _ => Some(renamed[..3].join(", ") + ", ..."),
+    (!renamed.is_empty()).then(|| listed(&renamed))
+}
+
+/// The first three of a list.
+fn listed(words: &[String]) -> String {
+    match words {
+        [first, second, third, _, ..] => format!("{first}, {second}, {third}, ..."),
+        few => few.join(", "),
     }
 }
 
-/// Whether all is covered, and id 0 among it: a sign that 0 was meant as nothing.
-fn covers_all_with_zero(buffer: &Buffer) -> bool {
-    matches!(&buffer.content, Content::Ids(ids) if ids.contains(&Some(0)) && !ids.contains(&None))
+/// The ids that one file shows and the other never does, if showing nothing or what is behind them
+/// instead is the only difference.
+fn lacking(shows: &[Option<u64>], lacks: &[Option<u64>]) -> Option<Vec<u64>> {
+    let differing = || shows.iter().zip(lacks).filter(|(one, other)| one != other);
+    let lacking: Option<BTreeSet<u64>> = differing().map(|(one, _)| *one).collect();
+    let lacking = lacking?;
+    let shown: BTreeSet<u64> = shows.iter().copied().flatten().collect();
+    // What is seen in its place must be a primitive that the other file knows, too.
+    let explained = |id: &u64| shown.contains(id) && !lacking.contains(id);
+    let holds = lacks.iter().flatten().all(explained);
+    (holds && !lacking.is_empty()).then(|| lacking.into_iter().collect())
 }
 
-fn leaves_something_out(buffer: &Buffer) -> bool {
-    (0..samples(buffer)).any(|sample| buffer.covered(sample) == Some(false))
+fn lacks(name: &str, ids: &[u64], other: &str) -> String {
+    let things = if ids.len() == 1 { "the primitive" } else { "the primitives" };
+    let ids: Vec<String> = ids.iter().map(u64::to_string).collect();
+    let ids = listed(&ids);
+    format!(
+        "{name} never shows {things} {ids} of {other}, and agrees elsewhere: culled, cut off, not drawn, or \
+         missed between samples?"
+    )
+}
+
+/// What 0 was meant for, in a buffer that covers everything and would agree otherwise.
+fn zero_is_nothing(name: &str, buffer: &Buffer, other: &Buffer) -> Vec<String> {
+    let Content::Ids(ids) = &buffer.content else { return Vec::new() };
+    if ids.contains(&None) || !ids.contains(&Some(0)) {
+        return Vec::new();
+    }
+    let coverage = (0..).zip(ids).all(|(at, id)| other.covered(at) == Some(*id != Some(0)));
+    if !coverage {
+        return Vec::new();
+    }
+    let is_mask = ids.iter().flatten().all(|&id| id <= 1);
+    let nothing = "write the largest number of the type, or -1";
+    let mut meant = Vec::new();
+    let mut add = |what: String| meant.push(format!("in {name}, 0 stands for nothing: {what}"));
+    match &other.content {
+        Content::Ids(expected) => {
+            let read = |first: u64| {
+                let with = |id: &Option<u64>| id.and_then(|id| id.checked_sub(first));
+                ids.iter().zip(expected).all(|(id, expected)| {
+                    if *id == Some(0) { expected.is_none() } else { with(id) == *expected }
+                })
+            };
+            if read(0) {
+                add(nothing.into());
+            }
+            if read(1) {
+                add(format!("ids count from 0; for nothing, {nothing}"));
+            }
+        }
+        _ if !is_mask => add(nothing.into()),
+        _ => {}
+    }
+    if is_mask {
+        add("a mask of integers is read as ids; save it as bool".into());
+    }
+    meant
+}
+
+fn has_only_zeros(buffer: &Buffer) -> bool {
+    matches!(&buffer.content, Content::Ids(ids) if ids.iter().flatten().all(|&id| id == 0))
 }
 
 fn is_inverted(pair: &Pair) -> bool {
@@ -119,7 +255,12 @@ fn is_inverted(pair: &Pair) -> bool {
         [Some(by_a), Some(by_b)] => by_a != by_b,
         _ => false,
     };
-    pair.a.samples == pair.b.samples && (0..samples(pair.a)).all(differs)
+    (0..samples(pair.a)).all(differs)
+}
+
+/// Whether nothing is covered, as far as is known.
+fn is_empty(buffer: &Buffer) -> bool {
+    (0..samples(buffer)).all(|sample| buffer.covered(sample) == Some(false))
 }
 
 fn samples(buffer: &Buffer) -> usize {

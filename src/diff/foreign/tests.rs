@@ -332,11 +332,97 @@ fn common_mistakes_are_recognised() {
     assert!(hint(&a, &ids([2, 2], "..01")).contains("turned upside down"));
     assert!(hint(&a, &ids([2, 2], "10..")).contains("turned left to right"));
     let row = ids([4, 1], "01..");
-    assert!(hint(&row, &ids([4, 1], ".01.")).contains("moved by 0 rows and -1 columns"));
+    assert!(hint(&row, &ids([4, 1], ".01.")).contains("moved 1 column to the left"));
     assert!(hint(&a, &ids([2, 2], "12..")).contains("0 in A is 1 in B, 1 in A is 2 in B"));
-    assert!(hint(&a, &ids([2, 2], "1200")).contains("B covers every pixel and has the id 0"));
+    let from_1 = hint(&a, &ids([2, 2], "1200"));
+    assert!(from_1.contains("in B, 0 stands for nothing: ids count from 0"), "{from_1}");
     assert!(hint(&a, &ids([2, 2], "..00")).contains("exactly what A does not"));
     assert_eq!(hint(&a, &ids([2, 2], "0.0.")), "");
+}
+
+/// A mask of bools.
+fn mask(size: [u32; 2], drawn: &str) -> Buffer {
+    Buffer::new(size, 1, Content::Mask(drawn.chars().map(|letter| letter == '#').collect()))
+}
+
+fn hints(a: &Buffer, b: &Buffer) -> Vec<String> {
+    let hints = compare(a, b).unwrap().hints;
+    // Nobody can know which file comes first.
+    assert_eq!(hints.len(), compare(b, a).unwrap().hints.len(), "{hints:?}");
+    hints
+}
+
+#[test]
+fn every_turn_is_recognised_and_no_other() {
+    let a = ids([3, 3], "012345678");
+    let turned = [
+        ("678345012", "turned upside down"),
+        ("210543876", "turned left to right"),
+        ("876543210", "turned by 180 degrees"),
+        ("036147258", "transposed (its rows are A's columns)"),
+        ("852741630", "mirrored at the diagonal from the bottom left to the top right"),
+        ("630741852", "turned by 90 degrees to the left"),
+        ("258147036", "turned by 90 degrees to the right"),
+    ];
+    for (drawn, name) in turned {
+        let hints = hints(&a, &ids([3, 3], drawn));
+        assert_eq!(hints[0], format!("B agrees with A once it is {name}"));
+        // Every id has another one in its place, too.
+        assert_eq!(hints.len(), 2, "{hints:?}");
+        assert!(hints[1].starts_with("the ids correspond one to one"), "{hints:?}");
+    }
+}
+
+#[test]
+fn a_symmetric_picture_cannot_tell_a_transposition_from_a_half_turn() {
+    let (a, b) = (mask([3, 3], "##.#....."), mask([3, 3], ".....#.##"));
+    let found = hints(&a, &b);
+    assert_eq!(
+        found,
+        [
+            "B agrees with A once it is turned by 180 degrees",
+            "B agrees with A once it is mirrored at the diagonal from the bottom left to the top right",
+        ]
+    );
+}
+
+#[test]
+fn what_enters_at_the_border_is_explained_by_no_move() {
+    // Two rows and columns, and three: where edges are inclusive, it looks like a move inside.
+    let (two, three) = (mask([4, 4], "##..##.........."), mask([4, 4], "###.###.###....."));
+    assert_eq!(hints(&two, &three), [""; 0]);
+    let (two, moved) = (mask([3, 3], "##.##...."), mask([3, 3], "....##.##"));
+    let found = hints(&two, &moved);
+    assert!(found.iter().any(|hint| hint.contains("moved 1 row up and 1 column to the left")));
+    assert!(found.iter().any(|hint| hint.contains("180 degrees")), "{found:?}");
+}
+
+#[test]
+fn masks_are_not_told_to_be_saved_as_bool() {
+    let (a, b) = (mask([2, 1], "#."), mask([2, 1], ".#"));
+    assert!(hints(&a, &b).iter().all(|hint| !hint.contains("bool")));
+    assert!(hints(&a, &b).contains(&"B covers exactly what A does not".to_owned()));
+    // 0 and 255 of a byte.
+    let integers = ids([2, 1], ".0");
+    assert!(hints(&a, &integers).iter().any(|hint| hint.contains("save it as bool")));
+    let integers = ids([2, 1], "10");
+    assert!(hints(&a, &integers).iter().any(|hint| hint.contains("save it as bool")));
+}
+
+#[test]
+fn a_primitive_that_is_missing_is_named_and_not_blamed_on_the_other_file() {
+    let (a, b) = (ids([3, 1], "012"), ids([3, 1], ".12"));
+    assert_eq!(
+        hints(&a, &b),
+        [
+            "B never shows the primitive 0 of A, and agrees elsewhere: culled, cut off, not \
+             drawn, or missed between samples?",
+            "in A, 0 stands for nothing: write the largest number of the type, or -1",
+        ]
+    );
+    assert_eq!(hints(&a, &ids([3, 1], "0.2")).len(), 1);
+    let nothing = "B covers nothing: is all of it culled, cut off, behind the eye, or missed between samples?";
+    assert_eq!(hints(&a, &ids([3, 1], "...")), [nothing]);
 }
 
 proptest! {
