@@ -87,3 +87,20 @@ fn the_camera_can_be_changed() {
     assert_eq!(opengl["projection"][1], json!([0.0, 1.0, 0.0, 0.0]));
     assert!(opengl["far"].as_f64().unwrap() > 0.0);
 }
+
+#[test]
+fn numbers_are_as_short_as_they_read_back() {
+    let args = ["lecture", "--eye=1,2.1,6.8", "--distance=0.7", "--size=640x480"];
+    let output = camera(&args).assert().code(0).get_output().stdout.clone();
+    let text = String::from_utf8(output).unwrap();
+    assert!(text.contains("eye            (1, 2.1, 6.8)\n"), "{text}");
+    assert!(text.contains("d              0.7\n"), "{text}");
+    assert!(text.contains("vw = 1.3333334, vh = 1\n"), "{text}");
+    assert!(text.contains("near plane at 0.00068359374, far"), "{text}");
+    let report = report(&args);
+    let stored: Vec<String> =
+        report["eye"].as_array().unwrap().iter().map(Value::to_string).collect();
+    assert_eq!(stored, ["1.0", "2.1", "6.8"]);
+    let viewport: f32 = report["viewport"][0].to_string().parse().unwrap();
+    assert_eq!(viewport, 640.0 / 480.0);
+}

@@ -156,9 +156,14 @@ fn a_triangle_without_area_covers_nothing() {
 }
 
 #[test]
-fn a_decimal_that_no_float_holds_is_shown_as_it_is_stored() {
-    let text = printed(&["0.1,0 8,0.5 4,9", "--size", "8x8"]);
-    assert!(text.starts_with("triangle (0.10000000149011612, 0) (8, 0.5) (4, 9) on"), "{text}");
+fn numbers_are_as_short_as_they_read_back() {
+    let corners = "0.1,0 8,0.5 4,9.123456789";
+    let text = printed(&[corners, "--size", "8x8"]);
+    assert!(text.starts_with("triangle (0.1, 0) (8, 0.5) (4, 9.123457) on"), "{text}");
+    let json = printed(&[corners, "--size", "8x8", "--json"]);
+    assert!(json.contains("0.1,") && json.contains("9.123457\n"), "{json}");
+    // A program reads the very number that was judged.
+    assert_eq!("9.123457".parse::<f32>(), "9.123456789".parse::<f32>());
 }
 
 #[test]

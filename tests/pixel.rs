@@ -160,6 +160,17 @@ fn several_samples_are_told_as_a_grid() {
 }
 
 #[test]
+fn numbers_are_as_short_as_they_read_back() {
+    let args = ["ties", "8", "8", "--size=16x16", "--eye=0.1,2.1,4", "--viewport=1.3,0.7"];
+    let text = printed(&[&args[..], &["--distance=0.6"]].concat());
+    assert!(text.contains("origin    = eye = (0.1, 2.1, 4)\n"), "{text}");
+    assert!(text.contains(" =  1.3 ((9 - 1/2)/16 - 1/2)"), "{text}");
+    assert!(text.contains("with d = 0.6\n"), "{text}");
+    let report: Value = serde_json::from_str(&printed(&[&args[..], &["--json"]].concat())).unwrap();
+    assert_eq!(report["eye"].to_string(), "[0.1,2.1,4.0]");
+}
+
+#[test]
 fn json_has_every_fact() {
     let args = ["ties", "8", "8", "--size", "16x16", "--samples", "2", "--json"];
     let report: Value = serde_json::from_str(&printed(&args)).unwrap();

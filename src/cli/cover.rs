@@ -112,9 +112,8 @@ fn corners(text: &str) -> Result<[Vec2; 3], Failure> {
 }
 
 fn heading(cover: &Cover) -> String {
-    // Every digit of what is stored, so that 0.1 shows what became of it.
-    let stored = cover.triangle.map(|corner| corner.as_dvec2());
-    let [a, b, c] = stored.map(|corner| format!("({}, {})", corner.x, corner.y));
+    // As short as reads back as what is stored.
+    let [a, b, c] = cover.triangle.map(|corner| format!("({}, {})", corner.x, corner.y));
     let [width, height] = cover.image;
     let facing = match cover.facing {
         Sign::Zero => "it has no area, and so covers nothing".into(),
@@ -210,7 +209,7 @@ fn ends(row: &Row) -> Option<[u32; 2]> {
 /// What `--json` prints, in this order.
 #[derive(Debug, Serialize)]
 struct Report {
-    triangle: [[f64; 2]; 3],
+    triangle: [[f32; 2]; 3],
     size: [u32; 2],
     facing: &'static str,
     covered: u64,
@@ -238,7 +237,7 @@ fn json(cover: &Cover) -> Result<String, Failure> {
         on_edge: row.touched.clone().filter(|column| !row.inside.contains(column)).collect(),
     });
     let report = Report {
-        triangle: cover.triangle.map(|corner| corner.as_dvec2().to_array()),
+        triangle: cover.triangle.map(|corner| corner.to_array()),
         size: cover.image,
         facing: facing(cover),
         covered: cover.covered(),

@@ -9,7 +9,8 @@ use super::show_camera::{plain, vector};
 use super::terminal;
 use bothways::common::camera::check_samples;
 use bothways::common::predicate::EdgeSigns;
-use bothways::common::{Camera, Options, Projection, Sign, View, Work};
+use bothways::common::glam::Vec3;
+use bothways::common::{Camera, CameraDescription, Options, Projection, Sign, View, Work};
 use bothways::orders::Order;
 use bothways::pixel::{self, SampleReport};
 use bothways::scenes;
@@ -111,13 +112,14 @@ impl Lesson<'_> {
     /// The lecture's formulas with this camera's numbers.
     fn derivation(&self, SampleReport { place: [x, y], ray, .. }: &SampleReport) -> String {
         let camera = self.camera;
-        let ([width, height], [vw, vh]) = (camera.image(), camera.viewport());
+        let CameraDescription { viewport: [vw, vh], image: [width, height], distance: d, .. } =
+            *camera.description();
         let (i, j, n) = (self.args.row + 1, self.args.column + 1, self.args.samples);
         // The middle of the pixel, or of the first of the n parts of its sides.
         let half = if n == 1 { "1/2".into() } else { format!("1 + 1/{}", 2 * n) };
-        let (d, direction) = (camera.distance(), vector(plain(ray.direction)));
+        let direction = vector(plain(ray.direction));
         let [u, v, w] = [camera.u(), camera.v(), camera.w()].map(|axis| vector(plain(axis)));
-        let eye = vector(plain(camera.eye().as_dvec3()));
+        let eye = vector((camera.eye() + Vec3::ZERO).to_array());
         let rest = match camera.projection() {
             Projection::Perspective => format!(
                 "  origin    = eye = {eye}\n  \

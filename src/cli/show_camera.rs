@@ -4,7 +4,7 @@ use super::args::CameraArgs;
 use super::camera::camera;
 use super::failure::Failure;
 use super::terminal;
-use bothways::common::glam::DVec3;
+use bothways::common::glam::{DVec3, Vec3};
 use bothways::common::{Projection, View};
 use bothways::opengl::{self, Matrices, Matrix};
 use bothways::scenes::{self, DEFAULT};
@@ -43,17 +43,18 @@ pub(super) fn run(args: &ShowCameraArgs) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// What `--json` prints, in this order.
+/// What `--json` prints, in this order. What the camera stores as `f32` is written as short as reads
+/// back as the same `f32`.
 #[derive(Debug, Serialize)]
 struct Report {
     scene: String,
     projection: &'static str,
-    eye: [f64; 3],
+    eye: [f32; 3],
     u: [f64; 3],
     v: [f64; 3],
     w: [f64; 3],
-    distance: f64,
-    viewport: [f64; 2],
+    distance: f32,
+    viewport: [f32; 2],
     image: [u32; 2],
     field_of_view_degrees: Option<[f64; 2]>,
     opengl: OpenGl,
@@ -81,12 +82,12 @@ impl Report {
                 Projection::Perspective => "perspective",
                 Projection::Parallel => "parallel",
             },
-            eye: camera.eye().as_dvec3().to_array(),
+            eye: (camera.eye() + Vec3::ZERO).to_array(),
             u: plain(camera.u()),
             v: plain(camera.v()),
             w: plain(camera.w()),
-            distance: camera.distance(),
-            viewport: camera.viewport(),
+            distance: camera.description().distance,
+            viewport: camera.description().viewport,
             image: camera.image(),
             field_of_view_degrees: opengl::field_of_view(view),
             opengl: OpenGl {
@@ -120,8 +121,9 @@ impl Report {
 
 impl OpenGl {
     fn text(&self, [width, height]: [u32; 2]) -> String {
-        let far = self.far.map_or("at infinity".into(), |far| format!("at {far}"));
-        let bounds = format!("near plane at {}, far plane {far}", self.near);
+        let [near, far] = [Some(self.near), self.far].map(|depth| depth.map(single));
+        let far = far.map_or("at infinity".into(), |far| format!("at {far}"));
+        let bounds = format!("near plane at {}, far plane {far}", near.unwrap_or_default());
         format!(
             "\n\
              OpenGL, with glViewport(0, 0, {width}, {height}); row i of the picture is its row {last} - i.\n\
@@ -150,15 +152,20 @@ pub(super) fn plain(vector: DVec3) -> [f64; 3] {
     (vector + DVec3::ZERO).to_array()
 }
 
-/// `(x, y, z)`, every number so that it reads back as the same.
-pub(super) fn vector([x, y, z]: [f64; 3]) -> String {
+/// `(x, y, z)`, every number as short as reads back as the same.
+pub(super) fn vector<T: std::fmt::Display>([x, y, z]: [T; 3]) -> String {
     format!("({x}, {y}, {z})")
+}
+
+/// The number as OpenGL stores it.
+#[expect(clippy::cast_possible_truncation, reason = "OpenGL's floats are f32")]
+fn single(number: f64) -> f32 {
+    number as f32 + 0.0
 }
 
 /// Its rows, with the columns aligned.
 fn matrix(matrix: &Matrix) -> String {
-    #[expect(clippy::cast_possible_truncation, reason = "OpenGL's floats are f32")]
-    let words = matrix.map(|row| row.map(|number| format!("{:?}", number as f32 + 0.0)));
+    let words = matrix.map(|row| row.map(|number| format!("{:?}", single(number))));
     let width = words.as_flattened().iter().map(String::len).max().unwrap_or(0);
     let row = |row: &[String; 4]| {
         let cells = row.iter().map(|word| format!("  {word:>width$}"));

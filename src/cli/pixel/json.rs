@@ -5,6 +5,7 @@ use crate::cli::failure::Failure;
 use crate::cli::show_camera::plain;
 use crate::cli::terminal;
 use bothways::common::Sign;
+use bothways::common::glam::Vec3;
 use bothways::common::predicate::EdgeSigns;
 use bothways::pixel::{Answer, Behind, SampleReport};
 use bothways::report::WorkReport;
@@ -20,7 +21,7 @@ impl Lesson<'_> {
             pixel: [self.args.row, self.args.column],
             size: camera.image(),
             samples: self.args.samples,
-            eye: plain(camera.eye().as_dvec3()),
+            eye: (camera.eye() + Vec3::ZERO).to_array(),
             agree: self.samples.iter().all(SampleReport::agrees),
             at: samples,
         })
@@ -34,7 +35,7 @@ struct PixelJson<'a> {
     pixel: [u32; 2],
     size: [u32; 2],
     samples: u32,
-    eye: [f64; 3],
+    eye: [f32; 3],
     agree: bool,
     at: Vec<SampleJson>,
 }
