@@ -328,6 +328,31 @@ fn help_and_completions_are_printed() {
     }
 }
 
+#[test]
+fn help_is_a_command_too() {
+    let home = home();
+    let all = contains("Examples:").and(contains("--projection")).and(contains("Exit codes"));
+    bothways(&home, &["help"]).assert().code(0).stdout(all).stderr("");
+    let pixel = contains("bothways pixel ties 8 8");
+    bothways(&home, &["help", "pixel"]).assert().code(0).stdout(pixel).stderr("");
+}
+
+#[test]
+fn a_slip_of_the_keyboard_is_answered_with_what_was_meant() {
+    let home = home();
+    let said: [(&[&str], &str); 6] = [
+        (&["pixle", "ties", "3", "4"], "did you mean 'bothways pixel ties 3 4'?"),
+        (&["vectros"], "did you mean the command 'bothways vectors'?"),
+        (&["--size", "4x4", "vectros"], "did you mean the command 'bothways vectors'?"),
+        (&["hlep"], "did you mean the command 'bothways help'?"),
+        (&["canonical", "extra"], "'extra' is a word too many: one scene is rendered at a time"),
+        (&["lectrue"], "did you mean \"lecture\"?"),
+    ];
+    for (args, message) in said {
+        check_refused(&home, args, message);
+    }
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_fails_and_a_closed_pipe_does_not() {

@@ -176,6 +176,24 @@ fn corners_may_be_negative() {
 }
 
 #[test]
+fn three_points_are_three_points_in_quotes_or_not() {
+    let quoted = printed(&["-1,1 9,2 3,7", "--size", "10x8"]);
+    for args in [
+        ["-1,1", "9,2", "3,7", "--size", "10x8"].as_slice(),
+        &["--size", "10x8", "-1,1", "9,2", "3,7"],
+        &["-1,1 9,2", "3,7", "--size=10x8"],
+    ] {
+        assert_eq!(printed(args), quoted, "{args:?}");
+    }
+    let refused = contains("'1,1 9,2 3,7 4,4' has 4 corners; a triangle has three");
+    let args = ["1,1 9,2", "3,7", "4,4", "--size", "10x8"];
+    bothways(&home(), &args).assert().code(2).stdout("").stderr(refused);
+    let refused = contains("unexpected argument '4,4'");
+    let args = ["1,1", "9,2", "3,7", "4,4", "--size", "10x8"];
+    bothways(&home(), &args).assert().code(2).stdout("").stderr(refused);
+}
+
+#[test]
 fn the_mask_is_written_at_once_or_not_at_all() {
     let home = home();
     bothways(&home, &[CORNERS, "--size", "9x5", "-o", "mask.png"]).assert().code(0);

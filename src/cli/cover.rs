@@ -32,9 +32,14 @@ Examples:
 /// Which triangle, on which image.
 #[derive(Debug, Args)]
 pub(super) struct CoverArgs {
-    /// The three corners: 'x,y x,y x,y'
+    /// The three corners: 'x,y x,y x,y', in quotes or without
     #[arg(value_name = "x,y x,y x,y", allow_hyphen_values = true)]
     corners: String,
+    // One argument each: a list of them would swallow options, since its words may begin with a hyphen.
+    #[arg(hide = true, allow_hyphen_values = true)]
+    second: Option<String>,
+    #[arg(hide = true, allow_hyphen_values = true)]
+    third: Option<String>,
     /// The image in pixels
     #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true)]
     size: [u32; 2],
@@ -51,7 +56,9 @@ pub(super) struct CoverArgs {
 
 /// Judges, writes and prints.
 pub(super) fn run(args: &CoverArgs) -> Result<ExitCode, Failure> {
-    let corners = corners(&args.corners)?;
+    let words = [Some(&args.corners), args.second.as_ref(), args.third.as_ref()];
+    let words: Vec<&str> = words.into_iter().flatten().map(String::as_str).collect();
+    let corners = corners(&words.join(" "))?;
     let file = args.file.as_deref().map(|name| mask_file(name, args.json)).transpose()?;
     let cover = cover(corners, args.size).map_err(|error| Failure::new(error.to_string()))?;
     let text = if args.json {

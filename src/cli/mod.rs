@@ -5,6 +5,7 @@
 
 mod args;
 mod camera;
+mod completions;
 mod cover;
 mod diff;
 mod failure;
@@ -27,7 +28,7 @@ mod vectors;
 
 use args::RenderArgs;
 use bothways::scenes;
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{Parser, Subcommand};
 use clap_complete::Shell;
 use failure::Failure;
 use std::process::ExitCode;
@@ -53,7 +54,7 @@ Exit codes: 0 both orders see the same, 1 they differ, 2 something went wrong.";
 
 #[derive(Debug, Parser)]
 #[command(name = "bothways", version, about = ABOUT, after_help = EXAMPLES)]
-#[command(args_conflicts_with_subcommands = true, disable_help_subcommand = true)]
+#[command(args_conflicts_with_subcommands = true)]
 struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
@@ -148,15 +149,14 @@ fn scene_list() -> String {
 }
 
 fn print_completions(shell: Shell) -> Result<ExitCode, Failure> {
-    let mut script = Vec::new();
-    clap_complete::generate(shell, &mut Cli::command(), "bothways", &mut script);
-    terminal::print(&String::from_utf8_lossy(&script))?;
+    terminal::print(&completions::script(shell))?;
     Ok(ExitCode::SUCCESS)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use clap::CommandFactory;
 
     #[test]
     fn the_command_line_is_consistent() {
