@@ -311,6 +311,85 @@ fn misleading_hints_of_old_are_gone() {
     assert!(culled.iter().any(|hint| hint.contains("culled")), "{culled:?}");
 }
 
+/// A folder with the conformance set in `vectors`, and another renderer's files in `mine`.
+fn with_vectors() -> TempDir {
+    let home = tempfile::tempdir().unwrap();
+    bothways(&home, &["vectors", "-o", "vectors"]).assert().code(0);
+    let mine = home.path().join("mine");
+    fs::create_dir(&mine).unwrap();
+    for vector in bothways::vectors::all() {
+        let (name, from) = (vector.name, |ending| format!("vectors/{}{ending}", vector.name));
+        // Masks as PNG under the scene's name, ids of one scene under a name of their own.
+        fs::copy(home.path().join(from(".mask.png")), mine.join(format!("{name}.png"))).unwrap();
+        if name == "tiles" {
+            let to = mine.join("tiles.drawn.npy");
+            fs::copy(home.path().join(from(".ids.npy")), to).unwrap();
+        }
+    }
+    home
+}
+
+#[test]
+fn a_whole_folder_is_held_against_the_vectors() {
+    let home = with_vectors();
+    let all = contains("68 of 69 pairs").not().and(contains("69 of 69 pairs equal"));
+    let said = all.and(contains("tiles.ids ")).and(contains("tiles.mask "));
+    bothways(&home, &["diff", "mine", "vectors"]).assert().code(0).stdout(said).stderr("");
+    let turned = contains("A  vectors: the conformance set");
+    bothways(&home, &["diff", "vectors", "mine"]).assert().code(0).stdout(turned);
+    let two_sets = contains("204 of 204 pairs equal");
+    bothways(&home, &["diff", "vectors", "vectors"]).assert().code(0).stdout(two_sets);
+
+    // A wrong one, a missing one, one that is none, and one that nobody asked for.
+    let mask = vec![255; 64];
+    let mask = image::GrayImage::from_raw(8, 8, mask).unwrap();
+    mask.save(home.path().join("mine/square.png")).unwrap();
+    fs::remove_file(home.path().join("mine/left-edge.png")).unwrap();
+    fs::write(home.path().join("mine/notes.png"), "no picture").unwrap();
+    let said =
+        contains("39 pixels of 64 differ, first (0, 0). All sides lie on samples: a square of 5 x 5")
+            .and(contains("A lacks 1 scene: left-edge\n"))
+            .and(contains("not of the set, and left out: 1 file, such as notes.png"))
+            .and(contains("67 of 68 pairs equal, 1 differs, 1 is missing"))
+            .and(contains(
+                "next: bothways diff mine/square.png vectors/square.mask.png -o out/diff",
+            ))
+            .and(contains("why:  bothways pixel vectors/square.toml 0 0"));
+    let args = ["diff", "mine", "vectors"];
+    bothways(&home, &args).args(["-o", "out"]).assert().code(1).stdout(said).stderr("");
+    let picture = image::open(home.path().join("out/square.mask.difference.png")).unwrap();
+    assert_eq!((picture.width(), count(&home.path().join("out"))), (8, 1));
+
+    let report = json_of(&home, &args);
+    assert_eq!((&report["equal"], &report["missing_in_a"]), (&json!(false), &json!(["left-edge"])));
+    let pairs = report["pairs"].as_array().unwrap();
+    let square = pairs.iter().find(|pair| pair["name"] == "square.mask").unwrap();
+    assert_eq!((&square["equal"], &square["differing_pixels"]), (&json!(false), &json!(39)));
+    assert!(square["point"].as_str().unwrap().starts_with("All sides lie on samples"));
+    assert_eq!(pairs.iter().filter(|pair| pair["equal"] == false).count(), 1);
+
+    // What cannot be read stops no other, and is exit code 2.
+    fs::write(home.path().join("mine/hair.png"), "no picture").unwrap();
+    let said = contains("hair.mask").and(contains("cannot be compared: mine/hair.png is neither"));
+    let said = said.and(contains("66 of 68 pairs equal, 1 differs, 1 cannot be compared"));
+    bothways(&home, &args).assert().code(2).stdout(said);
+}
+
+#[test]
+fn files_of_the_same_name_in_two_folders_are_compared() {
+    let home = rendered("1");
+    let args = ["canonical", "--size", "24x16", "--no-times", "--quiet", "-o", "other"];
+    bothways(&home, &args).assert().code(0);
+    let said =
+        contains("B lacks 4 files: image-order.ids.npy, image-order.t.npy, object-order.ids.npy")
+            .and(contains("mask-object-order"))
+            .and(contains("4 are missing"));
+    bothways(&home, &["diff", "out", "other"]).assert().code(1).stdout(said);
+    fs::create_dir(home.path().join("empty")).unwrap();
+    let refused = contains("no file of out (PNG, PNM, BMP or NPY) belongs to one of empty");
+    bothways(&home, &["diff", "out", "empty"]).assert().code(2).stdout("").stderr(refused);
+}
+
 #[test]
 fn bad_input_is_named_and_nothing_is_written() {
     let home = rendered("1");
@@ -321,7 +400,7 @@ fn bad_input_is_named_and_nothing_is_written() {
     let refused: [(&[&str], &str); 7] = [
         (&[ids, "missing.png"], "cannot read missing.png"),
         (&[ids, "text"], "text is neither a picture"),
-        (&[ids, "out"], "cannot read out"),
+        (&[ids, "out"], "out is a folder and out/object-order.ids.npy is none"),
         (&[ids, "other/mask-object-order.png"], "A is 24 x 16 pixels and B is 16 x 24"),
         (&[ids, "out/object-order.png"], "nothing in common"),
         (&[ids, ids, "--background", "black"], "six hexadecimal digits"),

@@ -1,5 +1,7 @@
 //! `bothways diff A B`: where do two renderers differ, and how?
 
+mod folders;
+
 use super::failure::Failure;
 use super::output::Staging;
 use super::render::write_rgb;
@@ -22,6 +24,8 @@ Examples:
   bothways diff out/canonical/mask-object-order.png mine.png   coverage
   bothways diff yours.png mine.png --background '#101418'      colours, and what is not background
   bothways diff a.npy b.npy -o out/diff                        writes out/diff/difference.png
+  bothways diff mine out/vectors                               a whole folder: each NAME.png or NAME.npy
+                                                               of mine, and which scenes it lacks
 
 Files:
   PNG, PNM or BMP    one channel: a mask or grey picture, covered where it is not 0;
@@ -33,7 +37,11 @@ Files:
 
 Coverage and ids are compared exactly, t within 1e-5 of the larger, colours within 2/255.
 
-Exit codes: 0 equal in everything compared, 1 something differs, 2 something went wrong.";
+Of two folders, files of the same name are compared; beside a conformance set (bothways vectors), those
+that begin with a scene's name, by what is in them: ids, distances or a mask.
+
+Exit codes: 0 equal in everything compared, 1 something differs or lacks its partner, 2 something went
+wrong.";
 
 /// The one file that is written.
 const NAMES: [&str; 1] = ["difference.png"];
@@ -41,11 +49,12 @@ const NAMES: [&str; 1] = ["difference.png"];
 /// What to compare.
 #[derive(Debug, Args)]
 pub(super) struct DiffArgs {
-    /// A mask, a picture or a buffer
+    /// A mask, a picture or a buffer; or a folder of them
     a: PathBuf,
-    /// Another one of the same size
+    /// Another one of the same size; or another folder
     b: PathBuf,
-    /// The folder to write difference.png into; without it, nothing is written
+    /// The folder to write difference.png into (of two folders, NAME.difference.png of each pair that
+    /// differs); without it, nothing is written
     #[arg(short = 'o', long = "output", value_name = "DIR")]
     folder: Option<PathBuf>,
     /// The colour of what is not covered, in pictures that have no alpha, such as #101418
@@ -58,6 +67,17 @@ pub(super) struct DiffArgs {
 
 /// Compares and prints; 0 if the files are equal in everything compared, 1 if not.
 pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
+    match [&args.a, &args.b].map(|path| path.is_dir()) {
+        [true, true] => return folders::run(args),
+        [false, false] => {}
+        [a_is_folder, _] => {
+            let (folder, file) = if a_is_folder { (&args.a, &args.b) } else { (&args.b, &args.a) };
+            let (folder, file) = (folder.display(), file.display());
+            return Err(Failure::new(format!(
+                "{folder} is a folder and {file} is none; compare two files, or two folders"
+            )));
+        }
+    }
     let read = |path: &Path| {
         foreign::read(path, args.background).map_err(|error| Failure::new(error.to_string()))
     };
@@ -274,6 +294,11 @@ impl Told<'_> {
         };
         format!("differ: {pixels} of {}, {place}", grouped(all))
     }
+}
+
+/// `1 differs`, `2 differ`.
+fn count_of(number: usize, one: &str, several: &str) -> String {
+    format!("{number} {}", if number == 1 { one } else { several })
 }
 
 /// What may be the cause; of several that explain everything, each may.

@@ -3,10 +3,12 @@
 //! Coverage and primitive ids have no tolerance, and they alone decide. Depth and colour, which
 //! each order rounds in its own way, are measured and reported.
 //!
-//! [`foreign`] does the same for files of any origin.
+//! [`foreign`] does the same for files of any origin, and [`pairs`] finds those of two folders that
+//! belong together.
 
 mod classes;
 pub mod foreign;
+pub mod pairs;
 
 pub use classes::{Class, Classes};
 

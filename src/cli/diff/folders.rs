@@ -1,0 +1,233 @@
+//! `bothways diff FOLDER FOLDER`: every file of one folder against its partner in the other, a whole
+//! conformance set at once.
+
+use super::{DiffArgs, count_of};
+use crate::cli::failure::Failure;
+use crate::cli::output::Staging;
+use crate::cli::render::write_rgb;
+use crate::cli::terminal;
+use anstyle::{AnsiColor, Style};
+use bothways::diff::foreign::{self, BufferComparison};
+use bothways::diff::pairs::{Pair, Pairs, Partners};
+use bothways::wording::count;
+use serde::Serialize;
+use std::fmt::Write;
+use std::path::Path;
+use std::process::ExitCode;
+
+/// Compares all pairs and prints a table; 0 if all are equal and none lacks its partner, 1 if not, 2 if
+/// a file cannot be compared.
+pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
+    let pairs = Pairs::find(&args.a, &args.b).map_err(|error| Failure::new(error.to_string()))?;
+    let mut staging = staging(args, &pairs)?;
+    let mut rows = Vec::new();
+    for pair in &pairs.pairs {
+        let compared = compared(args, pair);
+        if let (Some(staging), Ok(comparison)) = (&mut staging, &compared)
+            && !comparison.equal
+        {
+            write_rgb(staging, &picture_of(pair), &comparison.picture())?;
+        }
+        rows.push(Row { pair, compared });
+    }
+    if let Some(staging) = staging {
+        staging.commit()?;
+    }
+    let told = Told { args, pairs: &pairs, rows: &rows };
+    terminal::print(&if args.json { told.json()? } else { told.text() })?;
+    Ok(ExitCode::from(told.status()))
+}
+
+/// Where difference images go, if they are asked for.
+fn staging(args: &DiffArgs, pairs: &Pairs) -> Result<Option<Staging>, Failure> {
+    let Some(folder) = &args.folder else { return Ok(None) };
+    let names = pairs.pairs.iter().map(picture_of).collect();
+    Staging::begin_with(folder, names).map(Some)
+}
+
+fn picture_of(pair: &Pair) -> String {
+    format!("{}.difference.png", pair.name)
+}
+
+fn compared(args: &DiffArgs, pair: &Pair) -> Result<BufferComparison, String> {
+    let read = |folder: &Path, file: &str| {
+        foreign::read(&folder.join(file), args.background).map_err(|error| error.to_string())
+    };
+    let (a, b) = (read(&args.a, &pair.a)?, read(&args.b, &pair.b)?);
+    foreign::compare(&a, &b).map_err(|error| error.to_string())
+}
+
+/// What came of a pair.
+struct Row<'a> {
+    pair: &'a Pair,
+    compared: Result<BufferComparison, String>,
+}
+
+/// What there is to tell.
+struct Told<'a> {
+    args: &'a DiffArgs,
+    pairs: &'a Pairs,
+    rows: &'a [Row<'a>],
+}
+
+/// All of it for programs.
+#[derive(Serialize)]
+struct Json<'a> {
+    a: String,
+    b: String,
+    equal: bool,
+    pairs: Vec<JsonPair<'a>>,
+    missing_in_a: Vec<String>,
+    missing_in_b: Vec<String>,
+}
+
+#[derive(Serialize)]
+struct JsonPair<'a> {
+    name: &'a str,
+    a: &'a str,
+    b: &'a str,
+    point: Option<&'a str>,
+    error: Option<&'a str>,
+    #[serde(flatten)]
+    comparison: Option<&'a BufferComparison>,
+}
+
+impl Told<'_> {
+    fn status(&self) -> u8 {
+        if self.rows.iter().any(|row| row.compared.is_err()) {
+            return 2;
+        }
+        u8::from(!self.equal())
+    }
+
+    fn equal(&self) -> bool {
+        let equal = |row: &Row| row.compared.as_ref().is_ok_and(|comparison| comparison.equal);
+        self.rows.iter().all(equal) && self.pairs.is_complete()
+    }
+
+    fn json(&self) -> Result<String, Failure> {
+        let pairs = self.rows.iter().map(|row| JsonPair {
+            name: &row.pair.name,
+            a: &row.pair.a,
+            b: &row.pair.b,
+            point: row.pair.point.as_deref(),
+            error: row.compared.as_ref().err().map(String::as_str),
+            comparison: row.compared.as_ref().ok(),
+        });
+        terminal::json(&Json {
+            a: self.args.a.display().to_string(),
+            b: self.args.b.display().to_string(),
+            equal: self.equal(),
+            pairs: pairs.collect(),
+            missing_in_a: self.pairs.missing_in_a.clone(),
+            missing_in_b: self.pairs.missing_in_b.clone(),
+        })
+    }
+
+    fn text(&self) -> String {
+        let mut text = self.heading();
+        let widest = self.rows.iter().map(|row| row.pair.name.chars().count()).max().unwrap_or(0);
+        for row in self.rows {
+            let name = row.pair.name.escape_debug().to_string();
+            text += &format!("{name:widest$}  {}\n", row.words());
+        }
+        text += &self.missing();
+        text += &self.verdict();
+        text + &self.next_step()
+    }
+
+    fn heading(&self) -> String {
+        let bold = Style::new().bold();
+        let mut text = String::new();
+        let folders = [("A", &self.args.a, Partners::A), ("B", &self.args.b, Partners::B)];
+        for (name, folder, side) in folders {
+            let is_set = self.pairs.set == Some(side);
+            let what = if is_set { ": the conformance set" } else { "" };
+            writeln!(text, "{bold}{name}{bold:#}  {}{what}", folder.display())
+                .expect("a string takes all");
+        }
+        text + "\n"
+    }
+
+    /// The files or scenes that have no partner.
+    fn missing(&self) -> String {
+        let mut text = String::new();
+        let missing =
+            [("A", &self.pairs.missing_in_a), ("B", &self.pairs.missing_in_b)].into_iter();
+        for (name, missing) in missing.filter(|(_, missing)| !missing.is_empty()) {
+            let number = count(missing.len() as u64, self.pairs.things());
+            let names: Vec<String> =
+                missing.iter().map(|name| name.escape_debug().to_string()).collect();
+            text += &format!("\n{name} lacks {number}: {}\n", names.join(", "));
+        }
+        if !self.pairs.ignored.is_empty() {
+            let files = count(self.pairs.ignored.len() as u64, "files");
+            let first = self.pairs.ignored[0].escape_debug();
+            text += &format!("\nnot of the set, and left out: {files}, such as {first}\n");
+        }
+        text
+    }
+
+    fn verdict(&self) -> String {
+        let colour = if self.equal() { AnsiColor::Green } else { AnsiColor::Yellow };
+        let style = colour.on_default().bold();
+        let number = |state: fn(&Row) -> bool| self.rows.iter().filter(|row| state(row)).count();
+        let equal = number(|row| row.compared.as_ref().is_ok_and(|comparison| comparison.equal));
+        let failed = number(|row| row.compared.is_err());
+        let missing = self.pairs.missing_in_a.len() + self.pairs.missing_in_b.len();
+        let pairs = count(self.rows.len() as u64, "pairs");
+        let mut words = vec![format!("{equal} of {pairs} equal")];
+        let differ = self.rows.len() - equal - failed;
+        words.extend((differ > 0).then(|| count_of(differ, "differs", "differ")));
+        let cannot = "cannot be compared";
+        words.extend((failed > 0).then(|| count_of(failed, cannot, cannot)));
+        words.extend((missing > 0).then(|| count_of(missing, "is missing", "are missing")));
+        format!("\n{style}{}{style:#}\n", words.join(", "))
+    }
+
+    /// How to look at the first pair that differs.
+    fn next_step(&self) -> String {
+        let differs = |row: &&Row| row.compared.as_ref().is_ok_and(|comparison| !comparison.equal);
+        let Some(row) = self.rows.iter().find(differs) else { return String::new() };
+        let file = |folder: &Path, file: &str| folder.join(file).display().to_string();
+        let (a, b) = (file(&self.args.a, &row.pair.a), file(&self.args.b, &row.pair.b));
+        let mut text = format!("next: bothways diff {a} {b} -o out/diff\n");
+        if let Some(Partners::A | Partners::B) = self.pairs.set {
+            let name = row.pair.name.split('.').next().unwrap_or_default();
+            let folder = match self.pairs.set {
+                Some(Partners::A) => &self.args.a,
+                _ => &self.args.b,
+            };
+            let scene = folder.join(format!("{name}.toml"));
+            if let Some([i, j]) =
+                row.compared.as_ref().ok().and_then(|one| one.first_differing.first())
+            {
+                text += &format!("why:  bothways pixel {} {i} {j}\n", scene.display());
+            }
+        }
+        text
+    }
+}
+
+impl Row<'_> {
+    /// What came of it, and of a scene that differs the point.
+    fn words(&self) -> String {
+        let comparison = match &self.compared {
+            Ok(comparison) => comparison,
+            Err(error) => return format!("cannot be compared: {error}"),
+        };
+        let compared: Vec<&str> = comparison.compared.iter().map(|what| what.name()).collect();
+        if comparison.equal {
+            let dimmed = Style::new().dimmed();
+            return format!("{dimmed}equal in {}{dimmed:#}", compared.join(", "));
+        }
+        let [width, height] = comparison.size.map(u64::from);
+        let pixels = count(comparison.differing_pixels, "pixels");
+        let first = comparison.first_differing.first();
+        let first = first.map_or(String::new(), |[i, j]| format!(", first ({i}, {j})"));
+        let yellow = AnsiColor::Yellow.on_default();
+        let point = self.pair.point.as_ref().map_or(String::new(), |point| format!(". {point}"));
+        let all = width * height;
+        format!("{yellow}{pixels} of {all} differ{yellow:#}{first}{point}")
+    }
+}
