@@ -159,6 +159,16 @@ impl Mesh {
         Ok(Mesh { normals, texture_coordinates, materials, ..Mesh::new(positions, triangles)? })
     }
 
+    /// The same triangles, each with its corners in the other order: what was seen counter-clockwise is
+    /// clockwise. Whatever belongs to a corner stays with it.
+    #[must_use]
+    pub fn turned_inside_out(mut self) -> Mesh {
+        let lists =
+            [&mut self.triangles, &mut self.normals.corners, &mut self.texture_coordinates.corners];
+        lists.into_iter().flatten().for_each(|[_, b, c]| std::mem::swap(b, c));
+        self
+    }
+
     /// The vertices' positions, in the world.
     pub fn positions(&self) -> &[Vec3] {
         &self.positions

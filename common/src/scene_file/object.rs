@@ -9,6 +9,8 @@
 //! | `generate = { kind, divisions }` | a mesh that is computed: see [`Kind`] |
 //! | `material` | the name of a material, instead of those of a mesh file; light grey without it |
 //! | `scale`, `rotate = { axis, degrees }`, `translate` | where it is put, in this order |
+//!
+//! A `scale` is one factor, or `[x, y, z]`, one for each axis; negative ones mirror.
 
 use super::Materials;
 use super::error::Problem;

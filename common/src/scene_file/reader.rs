@@ -190,6 +190,27 @@ impl<'t> Item<'t> {
         Ok(Vec3::new(x.number()?, y.number()?, z.number()?))
     }
 
+    /// Whether it is one number, of whichever kind.
+    pub(super) fn is_number(&self) -> bool {
+        matches!(self.value, DeValue::Integer(_) | DeValue::Float(_))
+    }
+
+    /// Three numbers, none of them 0.
+    pub(super) fn not_zero_triple(&self) -> Read<[f32; 3]> {
+        if !matches!(self.value, DeValue::Array(_)) {
+            return Err(self.not("a number, or three numbers in brackets"));
+        }
+        let items = self.elements::<3>("three numbers")?;
+        for item in &items {
+            if item.number()? == 0.0 {
+                let what = format!("is {}; it must not be 0, which flattens", item.written());
+                return Err(item.problem(what).help("scale by a small number instead"));
+            }
+        }
+        let [x, y, z] = items;
+        Ok([x.number()?, y.number()?, z.number()?])
+    }
+
     /// A vector that has a length.
     pub(super) fn direction(&self) -> Read<Vec3> {
         match self.vector()? {

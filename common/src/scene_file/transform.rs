@@ -1,4 +1,5 @@
-//! Where an object is put: scaled, then rotated, then translated, in `f64`, rounded to `f32` once.
+//! Where an object is put: scaled (by one factor, or one along each axis), then rotated, then
+//! translated, in `f64`, rounded to `f32` once.
 
 use super::error::Problem;
 use super::reader::{Item, Table};
@@ -13,11 +14,25 @@ pub(super) const KEYS: [&str; 3] = ["scale", "rotate", "translate"];
 /// The world's coordinates from an object's own.
 #[derive(Clone, Debug)]
 pub(super) struct Transform {
-    scale: f64,
+    scale: DVec3,
     rotation: Option<Rotation>,
     translation: DVec3,
     /// Where the file states it.
     span: Range<usize>,
+    /// Where it states the scale.
+    scale_span: Range<usize>,
+}
+
+/// One factor for all axes, or one for each. Negative ones mirror; zero would flatten.
+fn factors(item: &Item) -> Result<DVec3, Problem> {
+    if item.is_number() {
+        let factor = item.positive().map_err(|problem| {
+            problem.help("to mirror, give three factors, such as scale = [-1, 1, 1]")
+        })?;
+        return Ok(DVec3::splat(factor.into()));
+    }
+    let [x, y, z] = item.not_zero_triple()?;
+    Ok(Vec3::new(x, y, z).as_dvec3())
 }
 
 /// A turn about an axis through the origin.
@@ -33,14 +48,15 @@ impl Transform {
     /// What an object's table states; `None` if nothing, so that its numbers stay as they are.
     pub(super) fn read(object: &Table) -> Result<Option<Transform>, Problem> {
         let Some(&first) = object.present(&KEYS).first() else { return Ok(None) };
-        let scale = object.get("scale").map_or(Ok(1.0), |item| item.positive())?;
+        let scale = object.get("scale").map_or(Ok(DVec3::ONE), |item| factors(&item))?;
         let rotation = object.get("rotate").map(|item| Rotation::read(&item)).transpose()?;
         let translation = object.get("translate").map_or(Ok(Vec3::ZERO), |item| item.vector())?;
         Ok(Some(Transform {
-            scale: f64::from(scale),
+            scale,
             rotation,
             translation: translation.as_dvec3(),
             span: object.place_of(first),
+            scale_span: object.get("scale").map_or(0..0, |item| item.span),
         }))
     }
 
@@ -48,7 +64,8 @@ impl Transform {
     ///
     /// # Errors
     ///
-    /// A coordinate that `f32` cannot hold, or a sphere that becomes too small to have a radius.
+    /// A coordinate that `f32` cannot hold, or a sphere that becomes too small to have a radius, or would
+    /// be none any more.
     pub(super) fn apply(&self, shape: Shape) -> Result<Shape, Problem> {
         Ok(match shape {
             Shape::Triangle(Triangle { a, b, c }) => {
@@ -58,7 +75,7 @@ impl Transform {
                 Shape::Sphere(Sphere { center: self.put(center)?, radius: self.stretch(radius)? })
             }
             Shape::Plane(Plane { point, normal }) => {
-                Shape::Plane(Plane { point: self.put(point)?, normal: self.turn(normal) })
+                Shape::Plane(Plane { point: self.put(point)?, normal: self.turn_normal(normal)? })
             }
             Shape::Mesh(mesh) => Shape::Mesh(self.put_mesh(mesh)?),
         })
@@ -75,7 +92,10 @@ impl Transform {
 
     fn put_mesh(&self, mesh: Mesh) -> Result<Mesh, Problem> {
         let moved = mesh.map(|position| self.place(position), |normal| self.turn(normal));
-        moved.map_err(|_| self.beyond("a vertex"))
+        let moved = moved.map_err(|_| self.beyond("a vertex"))?;
+        // A mirror turns counter-clockwise into clockwise: outside must stay outside.
+        let mirrors = self.scale.x * self.scale.y * self.scale.z < 0.0;
+        Ok(if mirrors { moved.turned_inside_out() } else { moved })
     }
 
     fn beyond(&self, what: &str) -> Problem {
@@ -89,17 +109,47 @@ impl Transform {
         (turned + self.translation).as_vec3()
     }
 
-    /// A direction, turned. Its length may become half of what it was, so that it always fits.
-    fn turn(&self, direction: Vec3) -> Vec3 {
-        let Some(rotation) = self.rotation else { return direction };
-        let turned = rotation.turn(direction.as_dvec3());
+    /// A normal, where its surface is put. Its length does not matter, and is chosen so that it fits.
+    ///
+    /// What is perpendicular to a surface is scaled by the reciprocals: `n·v = (n/s)·(s·v)`.
+    fn turn(&self, normal: Vec3) -> Vec3 {
+        let scaled = if self.is_uniform() {
+            normal.as_dvec3()
+        } else {
+            let scaled = normal.as_dvec3() / self.scale;
+            // By a power of two, which rounds nothing.
+            let size = scaled.abs().max_element();
+            if size > 0.0 { scaled * (-size.log2().floor()).exp2() } else { scaled }
+        };
+        let turned = self.rotation.map_or(scaled, |rotation| rotation.turn(scaled));
         let rounded = turned.as_vec3();
         if rounded.is_finite() { rounded } else { (0.5 * turned).as_vec3() }
     }
 
+    /// The normal of a plane, which must stay one.
+    fn turn_normal(&self, normal: Vec3) -> Result<Vec3, Problem> {
+        match self.turn(normal) {
+            Vec3::ZERO => Err(self.beyond("the plane's normal")),
+            normal => Ok(normal),
+        }
+    }
+
+    /// Whether normals keep their directions.
+    fn is_uniform(&self) -> bool {
+        let DVec3 { x, y, z } = self.scale;
+        x == y && y == z && x > 0.0
+    }
+
     fn stretch(&self, radius: f32) -> Result<f32, Problem> {
+        let [factor, y, z] = self.scale.abs().to_array();
+        if factor != y || factor != z {
+            let message =
+                "a sphere stays a sphere: its three factors must be equal, but for their signs";
+            let help = "scale it by one number, or generate a mesh of the kind \"sphere\"";
+            return Err(Problem::new(self.scale_span.clone(), message).help(help));
+        }
         #[expect(clippy::cast_possible_truncation, reason = "this is the one rounding")]
-        let stretched = (f64::from(radius) * self.scale) as f32;
+        let stretched = (f64::from(radius) * factor) as f32;
         if stretched > 0.0 && stretched.is_finite() {
             return Ok(stretched);
         }
@@ -152,7 +202,53 @@ mod tests {
     }
 
     fn transform(scale: f64, rotation: Option<Rotation>, translation: DVec3) -> Transform {
-        Transform { scale, rotation, translation, span: 0..0 }
+        let scale = DVec3::splat(scale);
+        Transform { scale, rotation, translation, span: 0..0, scale_span: 0..0 }
+    }
+
+    fn scaled(scale: [f64; 3]) -> Transform {
+        Transform { scale: DVec3::from_array(scale), ..transform(1.0, None, DVec3::ZERO) }
+    }
+
+    #[test]
+    fn normals_stay_perpendicular_under_any_scale() {
+        let quarter = Some(rotation(DVec3::ONE.normalize(), 33.0));
+        for scale in [[2.0, 3.0, 5.0], [-1.0, 1.0, 1.0], [1e-30, 4.0, 1e30], [-2.0, -3.0, -7.0]] {
+            let put = Transform { rotation: quarter, ..scaled(scale) };
+            // The plane 2x + 3y − z = 0 and two directions in it.
+            let normal = put.turn(Vec3::new(2.0, 3.0, -1.0)).as_dvec3().normalize();
+            for within in [Vec3::new(1.0, 0.0, 2.0), Vec3::new(0.0, 1.0, 3.0)] {
+                let within = put.place(within).as_dvec3().normalize();
+                assert!(normal.dot(within).abs() < 1e-6, "{scale:?}: {normal} {within}");
+            }
+        }
+        // On the side it was: a mirror in x turns (1, 0, 0) round.
+        assert!(scaled([-2.0, 1.0, 1.0]).turn(Vec3::X).x < 0.0);
+        let huge = scaled([1e-45, 1.0, 1.0]).turn(Vec3::new(f32::MAX, 1.0, 1.0));
+        assert!(huge.is_finite() && huge.x > 0.0, "{huge}");
+    }
+
+    #[test]
+    fn a_mirrored_mesh_is_not_turned_inside_out() {
+        use crate::generate::Kind;
+        let volume = |mesh: &Mesh| -> f64 {
+            let corners = (0..mesh.triangles().len()).map(|triangle| mesh.corners(triangle));
+            corners.map(|[a, b, c]| a.as_dvec3().dot(b.as_dvec3().cross(c.as_dvec3())) / 6.0).sum()
+        };
+        let ball = || Kind::named("sphere").unwrap().mesh([16, 8]).unwrap();
+        let whole = volume(&ball());
+        assert!(whole > 0.0);
+        for (scale, factor) in [([1.0, 2.0, 3.0], 6.0), ([-1.0, 2.0, 3.0], 6.0), ([-2.0; 3], 8.0)] {
+            let put = scaled(scale).put_mesh(ball()).unwrap();
+            assert!((volume(&put) / (factor * whole) - 1.0).abs() < 1e-5, "{scale:?}");
+            // Every corner's own normal looks outward still.
+            for triangle in 0..put.triangles().len() {
+                let Some(normals) = put.normals().of(triangle) else { continue };
+                for (corner, normal) in put.corners(triangle).iter().zip(normals) {
+                    assert!(corner.dot(normal) > 0.0, "{scale:?}: triangle {triangle}");
+                }
+            }
+        }
     }
 
     #[test]
