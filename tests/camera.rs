@@ -104,3 +104,15 @@ fn numbers_are_as_short_as_they_read_back() {
     let viewport: f32 = report["viewport"][0].to_string().parse().unwrap();
     assert_eq!(viewport, 640.0 / 480.0);
 }
+
+#[test]
+fn a_field_of_view_and_its_viewport_are_both_said() {
+    let args = ["canonical", "--fov", "40", "--distance", "2", "--size", "320x160"];
+    let output = camera(&args).assert().code(0).get_output().stdout.clone();
+    let text = String::from_utf8(output).unwrap();
+    // 2 · 2 · tan 20° = 1.4558809…, and twice that.
+    assert!(text.contains("vw = 2.9117618, vh = 1.4558809\n"), "{text}");
+    assert!(text.contains(" across, 40.000 down\n"), "{text}");
+    let report = report(&args);
+    assert!((report["field_of_view_degrees"][1].as_f64().unwrap() - 40.0).abs() < 1e-5);
+}

@@ -346,15 +346,14 @@ fn a_whole_folder_is_held_against_the_vectors() {
     mask.save(home.path().join("mine/square.png")).unwrap();
     fs::remove_file(home.path().join("mine/left-edge.png")).unwrap();
     fs::write(home.path().join("mine/notes.png"), "no picture").unwrap();
-    let said =
-        contains("39 pixels of 64 differ, first (0, 0). All sides lie on samples: a square of 5 x 5")
-            .and(contains("A lacks 1 scene: left-edge\n"))
-            .and(contains("not of the set, and left out: 1 file, such as notes.png"))
-            .and(contains("67 of 68 pairs equal, 1 differs, 1 is missing"))
-            .and(contains(
-                "next: bothways diff mine/square.png vectors/square.mask.png -o out/diff",
-            ))
-            .and(contains("why:  bothways pixel vectors/square.toml 0 0"));
+    let said = contains(
+        "39 pixels of 64 differ, first (0, 0). All sides lie on samples: a square of 5 x 5",
+    )
+    .and(contains("A lacks 1 scene: left-edge\n"))
+    .and(contains("not of the set, and left out: 1 file, such as notes.png"))
+    .and(contains("67 of 68 pairs equal, 1 differs, 1 is missing"))
+    .and(contains("next: bothways diff mine/square.png vectors/square.mask.png -o out/diff"))
+    .and(contains("why:  bothways pixel vectors/square.toml 0 0"));
     let args = ["diff", "mine", "vectors"];
     bothways(&home, &args).args(["-o", "out"]).assert().code(1).stdout(said).stderr("");
     let picture = image::open(home.path().join("out/square.mask.difference.png")).unwrap();

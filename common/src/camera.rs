@@ -152,6 +152,20 @@ pub enum CameraError {
         /// The distance from the eye.
         distance: f32,
     },
+    /// The field of view is no angle that a flat viewport can have.
+    #[error(
+        "the field of view is {} degrees; it must be greater than 0 and less than 180",
+        readable(*.degrees)
+    )]
+    FieldOfView {
+        /// As it was given.
+        degrees: f32,
+    },
+    /// A parallel camera is asked for a field of view.
+    #[error(
+        "a parallel camera has no field of view, as its rays never part; give a viewport instead"
+    )]
+    ParallelFieldOfView,
     /// The image has no pixels.
     #[error("the image is {width}x{height}; both sides need at least 1 pixel")]
     EmptyImage {
@@ -173,6 +187,47 @@ pub enum CameraError {
         /// Samples along one side of a pixel.
         samples: u32,
     },
+}
+
+impl CameraDescription {
+    /// The same camera with a vertical field of view: its viewport is as high as this angle at the
+    /// distance `d`, `vh = 2·d·tan(degrees/2)`, and so wide that the pixels of its image are squares.
+    ///
+    /// # Errors
+    ///
+    /// [`CameraError::FieldOfView`] and [`CameraError::ParallelFieldOfView`].
+    ///
+    /// ```
+    /// use bothways_common::CameraDescription;
+    ///
+    /// let camera = CameraDescription { distance: 3.0, image: [20, 10], ..Default::default() };
+    /// assert_eq!(camera.with_field_of_view(90.0)?.viewport, [12.0, 6.0]);
+    /// # Ok::<(), bothways_common::CameraError>(())
+    /// ```
+    pub fn with_field_of_view(mut self, degrees: f32) -> Result<CameraDescription, CameraError> {
+        if self.projection == Projection::Parallel {
+            return Err(CameraError::ParallelFieldOfView);
+        }
+        if !(degrees > 0.0 && degrees < 180.0) {
+            return Err(CameraError::FieldOfView { degrees });
+        }
+        let half = f64::from(degrees).to_radians() / 2.0;
+        // Not the standard library's: the same on every machine.
+        self.viewport[1] = rounded(2.0 * f64::from(self.distance) * libm::tan(half));
+        self.viewport[0] = self.width_of_square_pixels();
+        Ok(self)
+    }
+
+    /// `vw = vh·W/H`, the width on which the pixels of the image are squares.
+    pub fn width_of_square_pixels(&self) -> f32 {
+        let [width, height] = self.image.map(f64::from);
+        rounded(f64::from(self.viewport[1]) * width / height)
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "the camera stores f32, and checks its range")]
+fn rounded(value: f64) -> f32 {
+    value as f32
 }
 
 impl Camera {
@@ -537,6 +592,25 @@ mod tests {
                 assert!(product.abs() < 4e-16, "{target:?}: {product}");
             }
         }
+    }
+
+    #[test]
+    fn a_field_of_view_is_a_viewport_at_its_distance() {
+        let camera =
+            CameraDescription { distance: 0.7, image: [640, 400], ..CameraDescription::default() };
+        for degrees in [1e-3, 40.0, 53.130_1, 90.0, 179.0] {
+            let [vw, vh] = camera.with_field_of_view(degrees).unwrap().viewport.map(f64::from);
+            // The angle whose tangent is half the height over the distance.
+            let angle = 2.0 * (vh / 2.0).atan2(f64::from(camera.distance)).to_degrees();
+            assert!((angle / f64::from(degrees) - 1.0).abs() < 1e-6, "{degrees}: {angle}");
+            assert!((vw / vh / 1.6 - 1.0).abs() < 1e-7, "{degrees}: {vw} x {vh}");
+        }
+        for degrees in [0.0, -0.0, -40.0, 180.0, 1e30, f32::INFINITY, f32::NAN] {
+            let error = camera.with_field_of_view(degrees).unwrap_err();
+            assert!(matches!(error, CameraError::FieldOfView { .. }), "{error}");
+        }
+        let parallel = CameraDescription { projection: Projection::Parallel, ..camera };
+        assert_eq!(parallel.with_field_of_view(40.0), Err(CameraError::ParallelFieldOfView));
     }
 
     #[test]

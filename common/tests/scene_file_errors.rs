@@ -54,6 +54,48 @@ fn what_is_wrong_with_the_document() {
 }
 
 #[test]
+fn what_is_wrong_with_a_field_of_view() {
+    check_errors(&[
+        (
+            "[camera]\nfov = 180",
+            "180",
+            "2:7: fov is 180; it must be greater than 0 and less than 180; it is the vertical angle \
+             in degrees",
+        ),
+        ("[camera]\nfov = \"wide\"", "\"wide\"", "2:7: fov is a string; it must be a number"),
+        (
+            "[camera]\nfov = 40\nviewport = [1, 1]",
+            "viewport",
+            "3:1: the viewport's size is stated by fov already, so not by viewport; give fov, the \
+             vertical angle in degrees, or viewport = [vw, vh]",
+        ),
+        (
+            "[camera]\nprojection = \"parallel\"\nfov = 40",
+            "40",
+            "3:7: fov belongs to a perspective camera; parallel rays never part; give viewport = \
+             [vw, vh] instead",
+        ),
+    ]);
+}
+
+#[test]
+fn what_is_wrong_with_a_scale() {
+    let object = |line: &str| format!("[[object]]\ngenerate = {{ kind = \"box\" }}\n{line}");
+    for (line, message) in [
+        ("scale = [1, 0, 1]", "scale[1] is 0; it must not be 0, which flattens; scale by a small"),
+        ("scale = [1, 2]", "scale has 2 elements; it must be three numbers"),
+        ("scale = -1", "scale is -1; it must be greater than 0; to mirror, give three factors"),
+        ("scale = \"x\"", "scale is a string; it must be a number, or three"),
+    ] {
+        let error = read(&object(line)).unwrap_err().to_string();
+        assert!(error.contains(message), "{error}");
+    }
+    let ball = "[[object]]\nsphere = { center = [0, 0, 0], radius = 1 }\nscale = [1, 2, 1]";
+    let error = read(ball).unwrap_err().to_string();
+    assert!(error.contains("3:9: a sphere stays a sphere"), "{error}");
+}
+
+#[test]
 fn what_is_wrong_with_a_value() {
     check_errors(&[
         ("[camera]\neye = [0, 0]", "[0, 0]", "2:7: eye has 2 elements; it must be three numbers"),
@@ -346,12 +388,14 @@ fn what_is_wrong_with_a_transform() {
         (
             "[[object]]\nsphere = { center = [0, 0, 0], radius = 1 }\nscale = 0",
             "0",
-            "3:9: scale is 0; it must be greater than 0",
+            "3:9: scale is 0; it must be greater than 0; to mirror, give three factors, such as scale = \
+             [-1, 1, 1]",
         ),
         (
             "[[object]]\nsphere = { center = [0, 0, 0], radius = 1 }\nscale = [1, 2, 3]",
             "[1, 2, 3]",
-            "3:9: scale is an array; it must be a number",
+            "3:9: a sphere stays a sphere: its three factors must be equal, but for their signs; scale \
+             it by one number, or generate a mesh of the kind \"sphere\"",
         ),
         (
             "[[object]]\nsphere = { center = [0, 0, 0], radius = 1 }\nrotate = { axis = [0, 1, \

@@ -49,6 +49,11 @@ pub(super) struct CameraArgs {
     /// The viewport's width and height
     #[arg(long, value_name = "VW,VH", value_parser = pair, allow_hyphen_values = true)]
     pub(super) viewport: Option<[f32; 2]>,
+    /// The vertical field of view, instead of a viewport: its height at the distance, and the width
+    /// that the image's form asks for
+    #[arg(long, value_name = "DEGREES", value_parser = number, allow_hyphen_values = true,
+          conflicts_with = "viewport")]
+    pub(super) fov: Option<f32>,
 }
 
 /// How to render.

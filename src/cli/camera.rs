@@ -26,11 +26,13 @@ fn changed(loaded: &LoadedScene, args: &CameraArgs) -> Result<CameraDescription,
     camera.image = args.size.unwrap_or(camera.image);
 
     let projection = args.projection.map_or(camera.projection, Projection::from);
-    if let Some(viewport) = args.viewport {
+    if let Some(degrees) = args.fov {
+        camera = CameraDescription { projection, ..camera }.with_field_of_view(degrees)?;
+    } else if let Some(viewport) = args.viewport {
         camera.viewport = viewport;
     } else {
         if args.size.is_some() && !loaded.viewport_stated {
-            camera.viewport[0] = width_of_square_pixels(&camera);
+            camera.viewport[0] = camera.width_of_square_pixels();
         }
         if projection != camera.projection {
             let scale = scale_for(projection, &camera, &loaded.scene)?;
@@ -59,12 +61,6 @@ fn orientation(stated: Orientation, target: Option<Vec3>, up: Option<Vec3>) -> O
         }
         (None, Orientation::Frame { .. }) => stated,
     }
-}
-
-/// `vw = vh·W/H`.
-fn width_of_square_pixels(camera: &CameraDescription) -> f32 {
-    let [width, height] = camera.image.map(f64::from);
-    rounded(f64::from(camera.viewport[1]) * width / height)
 }
 
 /// What the viewport is scaled by, so that what is looked at keeps its size in the picture.
@@ -124,7 +120,7 @@ fn middle(scene: &Scene) -> Option<DVec3> {
 pub(super) fn squashed(camera: &Camera, args: &CameraArgs) -> Option<String> {
     let CameraDescription { viewport: [vw, vh], image: [width, height], .. } =
         *camera.description();
-    let square = width_of_square_pixels(camera.description());
+    let square = camera.description().width_of_square_pixels();
     // A rounded viewport, such as 1.33 x 1, is meant.
     let fits = (vw / square - 1.0).abs() < 0.01;
     (args.size.is_some() && !fits).then(|| {
@@ -146,6 +142,7 @@ fn options_given(args: &CameraArgs) -> String {
         ("--up", args.up.is_some()),
         ("--distance", args.distance.is_some()),
         ("--viewport", args.viewport.is_some()),
+        ("--fov", args.fov.is_some()),
     ];
     let names = given.iter().filter(|(_, given)| *given).map(|(name, _)| *name);
     names.collect::<Vec<_>>().join(", ")
@@ -223,6 +220,25 @@ mod tests {
             ..CameraArgs::default()
         };
         assert_eq!(changed(&loaded(look_at(Vec3::NEG_Z)), &args).unwrap().viewport, [5.0, 7.0]);
+    }
+
+    #[test]
+    fn a_field_of_view_follows_the_distance_and_the_image() {
+        let args = CameraArgs {
+            fov: Some(90.0),
+            distance: Some(3.0),
+            size: Some([30, 10]),
+            ..CameraArgs::default()
+        };
+        let mut scene = loaded(look_at(Vec3::NEG_Z));
+        assert_eq!(changed(&scene, &args).unwrap().viewport, [18.0, 6.0]);
+        // It states the viewport anew, whatever the scene does.
+        scene.viewport_stated = true;
+        assert_eq!(changed(&scene, &args).unwrap().viewport, [18.0, 6.0]);
+        scene.camera.projection = Projection::Parallel;
+        assert_eq!(changed(&scene, &args), Err(CameraError::ParallelFieldOfView));
+        let args = CameraArgs { projection: Some(ProjectionArg::Perspective), ..args };
+        assert_eq!(changed(&scene, &args).unwrap().viewport, [18.0, 6.0]);
     }
 
     #[test]

@@ -113,6 +113,26 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
         "the camera of 'canonical' with --viewport: the viewport is 3e6 x 1 at distance 1; its \
          sides may be at most 2^20 (about 1e6) times the distance",
     ),
+    (
+        "--fov 180",
+        "the camera of 'canonical' with --fov: the field of view is 180 degrees; it must be greater \
+         than 0 and less than 180",
+    ),
+    (
+        "--fov -40",
+        "the camera of 'canonical' with --fov: the field of view is -40 degrees; it must be greater \
+         than 0 and less than 180",
+    ),
+    (
+        "--fov 40 --projection parallel",
+        "the camera of 'canonical' with --projection, --fov: a parallel camera has no field of view, \
+         as its rays never part; give a viewport instead",
+    ),
+    ("--fov 179.99999", "the camera of 'canonical' with --fov: the viewport is"),
+    (
+        "--fov 40 --viewport 1,1",
+        "the argument '--fov <DEGREES>' cannot be used with '--viewport <VW,VH>'",
+    ),
 ];
 
 /// What takes the flags, all of the scene whose camera the messages name.

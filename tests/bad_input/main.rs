@@ -93,7 +93,7 @@ fn no_option_is_left_out() {
     let commands = help.split("Commands:").nth(1).unwrap().split("\n\n").next().unwrap();
     // Lines that go on are indented more.
     let names = commands.lines().filter_map(|line| line.strip_prefix("  ")?.split(' ').next());
-    let commands: Vec<&str> = names.filter(|name| !name.is_empty()).collect();
+    let commands: Vec<&str> = names.filter(|name| !["", "help"].contains(name)).collect();
     assert!(commands.len() >= 9, "{commands:?}");
     for command in &commands {
         let help = said(&[command, "-h"]);

@@ -99,7 +99,7 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
     ("diff", "the following required arguments were not provided: <A> <B>"),
     ("diff a.pgm", "the following required arguments were not provided: <B>"),
     ("diff a.pgm no-such.png", "cannot read no-such.png: there is no such file"),
-    ("diff a.pgm .", "cannot read .: it is a folder"),
+    ("diff a.pgm .", ". is a folder and a.pgm is none; compare two files, or two folders"),
     (
         "diff a.pgm file",
         "file is neither a picture (PNG, PNM, BMP) nor a NumPy array (.npy); save it as one of \

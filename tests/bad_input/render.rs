@@ -49,7 +49,8 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
         "--size 8x8 pixel",
         "'pixel' is a subcommand, so it comes first: bothways pixel, then all else",
     ),
-    ("help", "for help, write bothways --help"),
+    ("help pixl", "unrecognized subcommand 'pixl'"),
+    ("pixle ties 3 4", "there is no command 'pixle'; did you mean 'bothways pixel ties 3 4'?"),
     ("scenes canonical ties", "unexpected argument 'ties' found"),
     ("camera canonical ties", "unexpected argument 'ties' found"),
     // How to render, and where to.

@@ -9,6 +9,7 @@
 //! | `u`, `v`, `w` | instead of those: right, up and back | |
 //! | `distance` | `d` | 1 |
 //! | `viewport` | `vw`, `vh` | `[W/H, 1]` |
+//! | `fov` | instead of it: the vertical field of view in degrees, which is turned into `vh` at `d` | |
 //! | `image` | `W`, `H` | 640 × 480 |
 //! | `background` | the colour of nothing | nearly black |
 
@@ -30,7 +31,7 @@ pub(super) struct CameraTable {
     pub(super) background: Option<Vec3>,
 }
 
-const KEYS: [&str; 12] = [
+const KEYS: [&str; 13] = [
     "projection",
     "eye",
     "look_at",
@@ -41,6 +42,7 @@ const KEYS: [&str; 12] = [
     "w",
     "distance",
     "viewport",
+    "fov",
     "image",
     "background",
 ];
@@ -62,9 +64,37 @@ pub(super) fn read(item: &Item) -> Result<CameraTable, Problem> {
         viewport: viewport.unwrap_or(square_pixels(image)),
         image,
     };
+    let description = match table.get("fov") {
+        Some(item) => field_of_view(&table, &item, description)?,
+        None => description,
+    };
     let background = table.get("background").map(|item| color(&item)).transpose()?;
     Camera::new(description).map_err(misplaced)?;
     Ok(CameraTable { description, viewport_stated: viewport.is_some(), background })
+}
+
+/// The camera with the viewport that its field of view needs.
+fn field_of_view(
+    table: &Table,
+    item: &Item,
+    camera: CameraDescription,
+) -> Result<CameraDescription, Problem> {
+    let degrees = item.number()?;
+    if let [first, second] = table.present(&["fov", "viewport"])[..] {
+        let message =
+            format!("the viewport's size is stated by {first} already, so not by {second}");
+        let help = "give fov, the vertical angle in degrees, or viewport = [vw, vh]";
+        return Err(Problem::new(table.place_of(second), message).help(help));
+    }
+    let refused = |error: CameraError| match error {
+        CameraError::FieldOfView { .. } => item
+            .problem(format!("is {}; it must be greater than 0 and less than 180", item.written()))
+            .help("it is the vertical angle in degrees"),
+        _ => item
+            .problem("belongs to a perspective camera; parallel rays never part")
+            .help("give viewport = [vw, vh] instead"),
+    };
+    camera.with_field_of_view(degrees).map_err(refused)
 }
 
 /// The viewport of height 1 on which the pixels of an image are squares.
@@ -128,9 +158,10 @@ fn place(table: &Table, error: &CameraError) -> Range<usize> {
         CameraError::NotAFrame { .. } => &["u"],
         CameraError::OutOfRange { what: "the distance", .. } => &["distance"],
         CameraError::OutOfRange { .. } | CameraError::TooWide { .. } => {
-            &["viewport", "distance", "image"]
+            &["viewport", "fov", "distance", "image"]
         }
         CameraError::EmptyImage { .. } | CameraError::TooManySamples { .. } => &["image"],
+        CameraError::FieldOfView { .. } | CameraError::ParallelFieldOfView => &["fov"],
         // Numbers were found finite and directions not zero when they were read.
         CameraError::NotFinite { .. } | CameraError::NoDirection { .. } => &[],
     };
