@@ -1,7 +1,7 @@
 //! The slide that shows both orders side by side, with their difference and what they did.
 
 use super::resize::{fitted, footprint, resized};
-use super::text::{Style, Weight, draw, shortened, width};
+use super::text::{Figures, Style, Weight, draw, shortened, width};
 use crate::common::Work;
 use crate::diff::{Class, Classes, Comparison};
 use crate::orders::{Counts, Order, Rendered};
@@ -103,7 +103,7 @@ impl Slide<'_> {
             facts += &format!("   ·   {}", count(self.threads as u64, "threads"));
         }
         canvas.fitting(MARGIN, TITLE, self.scene, TITLE_STYLE, RIGHT - MARGIN);
-        canvas.fitting(MARGIN, FACTS, &facts, REGULAR.of(QUIET), RIGHT - MARGIN);
+        canvas.fitting(MARGIN, FACTS, &facts, SENTENCE.of(QUIET), RIGHT - MARGIN);
     }
 
     fn legend(&self, canvas: &mut Canvas, left: f32, classes: &Classes) {
@@ -199,10 +199,17 @@ fn widened(range: RangeInclusive<u32>, side: u32) -> RangeInclusive<u32> {
     begin..=(range.end() + missing.div_ceil(2)).min(side - 1)
 }
 
-const REGULAR: Style = Style { weight: Weight::Regular, size: 23.0, colour: BRIGHT };
-const TITLE_STYLE: Style = Style { weight: Weight::SemiBold, size: 46.0, colour: BRIGHT };
-const HEADING_STYLE: Style = Style { weight: Weight::SemiBold, size: 30.0, colour: BRIGHT };
-const VERDICT_STYLE: Style = Style { weight: Weight::SemiBold, size: 32.0, colour: BRIGHT };
+const REGULAR: Style = Style {
+    weight: Weight::Regular,
+    size: 23.0,
+    colour: BRIGHT,
+    figures: Figures::Tabular,
+};
+const SENTENCE: Style = Style { figures: Figures::Proportional, ..REGULAR };
+const SEMI_BOLD: Style = Style { weight: Weight::SemiBold, ..SENTENCE };
+const TITLE_STYLE: Style = Style { size: 46.0, ..SEMI_BOLD };
+const HEADING_STYLE: Style = Style { size: 30.0, ..SEMI_BOLD };
+const VERDICT_STYLE: Style = Style { size: 32.0, ..SEMI_BOLD };
 
 impl Style {
     fn of(self, colour: [u8; 3]) -> Style {

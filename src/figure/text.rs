@@ -1,7 +1,7 @@
 //! Text for figures: the outlines of an embedded typeface, filled.
 //!
-//! Enough of typography for labels and numbers: kerning, and figures of one width, so that columns
-//! of numbers align. The typeface is Inter, under the SIL Open Font License (`assets/inter`).
+//! Enough of typography for labels and numbers: kerning, and figures of one width where columns of
+//! numbers are to align. The typeface is Inter, under the SIL Open Font License (`assets/inter`).
 
 use skrifa::charmap::Charmap;
 use skrifa::instance::{LocationRef, Size};
@@ -30,17 +30,32 @@ pub(super) struct Style {
     pub(super) size: f32,
     /// sRGB.
     pub(super) colour: [u8; 3],
+    pub(super) figures: Figures,
+}
+
+/// How far figures stand apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Figures {
+    /// All equally wide, for columns of numbers.
+    Tabular,
+    /// Each as wide as it is, for figures in a sentence.
+    Proportional,
+}
+
+/// Whether the typeface has this letter.
+pub(super) fn has(letter: char) -> bool {
+    Weight::Regular.font().face.glyph_index(letter).is_some()
 }
 
 /// How wide a text is, in pixels.
 pub(super) fn width(text: &str, style: Style) -> f32 {
-    style.weight.font().set(text).width * style.weight.font().scale(style.size)
+    style.weight.font().set(text, style.figures).width * style.weight.font().scale(style.size)
 }
 
 /// Draws a text from `x` to the right; its letters stand on `baseline`.
 pub(super) fn draw(canvas: &mut Pixmap, text: &str, x: f32, baseline: f32, style: Style) {
     let font = style.weight.font();
-    let Some(path) = font.outline(&font.set(text)) else {
+    let Some(path) = font.outline(&font.set(text, style.figures)) else {
         return;
     };
     let [red, green, blue] = style.colour;
@@ -118,11 +133,11 @@ impl Font {
         size / f32::from(self.units_per_em)
     }
 
-    fn set(&self, text: &str) -> Line {
+    fn set(&self, text: &str, figures: Figures) -> Line {
         let (mut glyphs, mut width) = (Vec::new(), 0.0);
         let mut previous = None;
         for letter in text.chars() {
-            let glyph = self.glyph(letter);
+            let glyph = self.glyph(letter, figures);
             width += previous.map_or(0.0, |previous| self.kern(previous, glyph));
             glyphs.push((glyph, width));
             width += self.metrics.advance_width(glyph.into()).unwrap_or(0.0);
@@ -131,12 +146,13 @@ impl Font {
         Line { glyphs, width }
     }
 
-    /// The glyph of a letter; figures in their tabular form.
-    fn glyph(&self, letter: char) -> GlyphId16 {
+    /// The glyph of a letter, or of a figure in its form.
+    fn glyph(&self, letter: char, figures: Figures) -> GlyphId16 {
         // What the font lacks becomes glyph 0, a box.
         let glyph = self.letters.map(letter).and_then(|glyph| glyph.try_into().ok());
         let glyph = glyph.unwrap_or(GlyphId16::NOTDEF);
-        if letter.is_ascii_digit() { self.tabular_form(glyph).unwrap_or(glyph) } else { glyph }
+        let tabular = figures == Figures::Tabular && letter.is_ascii_digit();
+        if tabular { self.tabular_form(glyph).unwrap_or(glyph) } else { glyph }
     }
 
     fn tabular_form(&self, glyph: GlyphId16) -> Option<GlyphId16> {
@@ -253,16 +269,26 @@ impl OutlinePen for Pen {
 mod tests {
     use super::*;
 
-    const STYLE: Style = Style { weight: Weight::Regular, size: 24.0, colour: [255; 3] };
+    const STYLE: Style =
+        Style { weight: Weight::Regular, size: 24.0, colour: [255; 3], figures: Figures::Tabular };
 
     #[test]
-    fn all_figures_are_equally_wide() {
+    fn all_figures_of_a_column_are_equally_wide() {
         let one = width("1", STYLE);
         assert!(one > 0.0);
         for digit in ["0", "4", "7", "9"] {
             assert_eq!(width(digit, STYLE), one);
         }
         assert_eq!(width("111", STYLE), width("987", STYLE));
+    }
+
+    #[test]
+    fn a_one_in_a_sentence_is_narrow() {
+        for weight in [Weight::Regular, Weight::SemiBold] {
+            let style = Style { weight, figures: Figures::Proportional, ..STYLE };
+            assert!(width("1", style) < 0.85 * width("0", style));
+            assert!(width("274,561", style) < width("274,561", Style { weight, ..STYLE }));
+        }
     }
 
     #[test]
