@@ -1,21 +1,88 @@
-//! What one frame looks like: its picture, and its mask of coverage.
+//! What one frame looks like: its picture, its mask of coverage, and its ids as colours.
 
 use crate::common::Frame;
 use crate::common::frame::NO_PRIMITIVE;
 use crate::common::glam::Vec3;
-use crate::common::shade::srgb_from_linear;
+use crate::common::shade::{linear_from_srgb, srgb_from_linear};
+use crate::diff::Class;
 use image::{GrayImage, RgbImage};
 use rayon::prelude::*;
 
 /// The picture: each pixel is the average of its samples in linear light, as an sRGB colour.
 pub fn picture(frame: &Frame) -> RgbImage {
+    painted(frame, |sample| frame.colours()[sample])
+}
+
+/// The ids as colours: a primitive has the same colour wherever it is seen, near black is nothing. Each pixel is the
+/// average of its samples, as in the picture.
+///
+/// Ids that follow one another, as neighbours in a mesh mostly do, have very different colours. There are more ids
+/// than colours, so two that lie far apart may look alike: programs read the ids themselves.
+pub fn id_picture(frame: &Frame) -> RgbImage {
+    painted(frame, |sample| {
+        Vec3::from_array(colour_of_id(frame.ids()[sample]).map(linear_from_srgb))
+    })
+}
+
+/// The sRGB colour of a primitive in an [`id_picture`], or of none.
+pub fn colour_of_id(id: u32) -> [u8; 3] {
+    if id == NO_PRIMITIVE {
+        return Class::Neither.colour();
+    }
+    // Steps of the golden section around the circle of hues: any few ids in a row are as far apart as can be.
+    const GOLDEN: u32 = 0x9e37_79b9;
+    let hue = 6.0 * part(id.wrapping_mul(GOLDEN));
+    // Ids that are a Fibonacci number apart have nearly one hue; so saturation and brightness are mixed.
+    let mixed = (id ^ (id >> 15)).wrapping_mul(0x2c1b_3c6d);
+    let mixed = (mixed ^ (mixed >> 12)).wrapping_mul(0x297a_2d39);
+    let saturation = 0.35 + 0.5 * part(mixed << 16);
+    let brightness = 0.6 + 0.4 * part(mixed);
+    // Red, green and blue are strongest a third of the circle apart.
+    [0.0, 4.0, 2.0].map(|from| {
+        let away = ((hue + from) % 6.0 - 3.0).abs();
+        let channel = brightness * (1.0 - saturation * (1.0 - (away - 1.0).clamp(0.0, 1.0)));
+        srgb_byte(channel)
+    })
+}
+
+/// A number of 32 bits as a part of all of them.
+fn part(bits: u32) -> f64 {
+    f64::from(bits) / 4_294_967_296.0
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255")]
+fn srgb_byte(encoded: f64) -> u8 {
+    (255.0 * encoded).round() as u8
+}
+
+/// The picture, enlarged by the largest whole factor at which neither side is longer than 512 pixels, so that single
+/// pixels of a tiny one can be seen; a larger one stays as it is.
+///
+/// ```
+/// use bothways::picture::enlarged;
+///
+/// let size = |side| enlarged(image::RgbImage::new(side, side / 2)).dimensions();
+/// assert_eq!([size(64), size(200), size(640)], [(512, 256), (400, 200), (640, 320)]);
+/// ```
+pub fn enlarged(picture: RgbImage) -> RgbImage {
+    const READABLE: u32 = 512;
+    let (width, height) = picture.dimensions();
+    match READABLE / width.max(height).max(1) {
+        0 | 1 => picture,
+        factor => RgbImage::from_fn(factor * width, factor * height, |x, y| {
+            *picture.get_pixel(x / factor, y / factor)
+        }),
+    }
+}
+
+/// A picture of the colours that samples have, in linear light.
+fn painted(frame: &Frame, colour: impl Fn(usize) -> Vec3 + Sync) -> RgbImage {
     let ([width, height], [top, left]) = (frame.image(), first_pixel(frame));
     let mut picture = RgbImage::new(width, height);
     picture.par_chunks_exact_mut(3 * width as usize).enumerate().for_each(|(i, row)| {
         for (j, pixel) in row.chunks_exact_mut(3).enumerate() {
-            pixel.copy_from_slice(
-                &average(frame, top + i, left + j).to_array().map(srgb_from_linear),
-            );
+            let average = average(frame, top + i, left + j, &colour);
+            pixel.copy_from_slice(&average.to_array().map(srgb_from_linear));
         }
     });
     picture
@@ -40,9 +107,9 @@ fn first_pixel(frame: &Frame) -> [usize; 2] {
     frame.crop().map_or([0; 2], |crop| [crop.row as usize, crop.column as usize])
 }
 
-fn average(frame: &Frame, i: usize, j: usize) -> Vec3 {
+fn average(frame: &Frame, i: usize, j: usize, colour: impl Fn(usize) -> Vec3) -> Vec3 {
     let samples = frame.samples_of(i, j);
-    let total: Vec3 = samples.map(|sample| frame.colours()[sample]).sum();
+    let total: Vec3 = samples.map(colour).sum();
     #[expect(clippy::cast_precision_loss, reason = "a count of samples needs no more than f32")]
     let count = frame.samples().pow(2) as f32;
     total / count
@@ -84,6 +151,45 @@ mod tests {
     #[test]
     fn a_single_sample_of_many_is_not_lost() {
         assert_eq!(mask(&frame(64, &[(63, 64)])).into_raw(), [0, 1]);
+    }
+
+    #[test]
+    fn neighbouring_ids_look_different_and_none_like_nothing() {
+        let apart = |a: [u8; 3], b: [u8; 3]| {
+            a.iter().zip(b).map(|(a, b)| u32::from(a.abs_diff(b))).sum::<u32>()
+        };
+        let colours: Vec<_> = (0..3000).map(colour_of_id).collect();
+        for (id, &colour) in colours.iter().enumerate() {
+            assert!(colour.iter().any(|&channel| channel >= 128), "{id}: {colour:?}");
+            for near in 1..=5 {
+                let other = colours[(id + near) % 3000];
+                assert!(
+                    id + near >= 3000 || apart(colour, other) > 24,
+                    "{id}: {colour:?} {other:?}"
+                );
+            }
+        }
+        // Wherever the next row of a mesh begins, few of its triangles look like their neighbours.
+        for row in 6..600 {
+            let alike = (0..2000).filter(|&id| apart(colours[id], colours[id + row]) <= 24).count();
+            assert!(alike < 700, "{row}: {alike}");
+        }
+        assert_eq!(colour_of_id(NO_PRIMITIVE), Class::Neither.colour());
+        assert_eq!(colour_of_id(0), colours[0]);
+    }
+
+    #[test]
+    fn ids_are_shown_pixel_by_pixel() {
+        let shown = id_picture(&frame(1, &[(0, 1)])).into_raw();
+        assert_eq!(shown, [Class::Neither.colour(), colour_of_id(0)].concat());
+    }
+
+    #[test]
+    fn tiny_pictures_grow_by_whole_factors() {
+        let picture = RgbImage::from_raw(2, 1, vec![1, 2, 3, 4, 5, 6]).unwrap();
+        let large = enlarged(picture);
+        assert_eq!(large.dimensions(), (512, 256));
+        assert_eq!((large[(255, 255)].0, large[(256, 0)].0), ([1, 2, 3], [4, 5, 6]));
     }
 
     #[test]

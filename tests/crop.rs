@@ -307,13 +307,19 @@ fn the_command_line_writes_a_part_of_what_it_writes() {
                 assert!(buffer == "t" || part.iter().any(|&id| id != NO_PRIMITIVE), "{name}");
             }
             for name in
-                [format!("{order}.png"), format!("mask-{order}.png"), "difference.png".into()]
+                [format!("{order}.png"), format!("mask-{order}.png"), format!("{order}.ids.png")]
             {
                 let open = |folder: &str| image::open(at(folder).join(&name)).unwrap();
                 let expected = open("whole").crop_imm(30, 5, 7, 11);
                 assert!(open("part") == expected, "{line}: {name}");
             }
         }
+        // The whole difference is enlarged by 512 / 40; that of a crop has the crop's size.
+        let open = |name: &str| image::open(at(name)).unwrap();
+        let whole = open("whole/difference.png");
+        assert_eq!((whole.width(), whole.height()), (12 * 40, 12 * 32));
+        let expected = whole.thumbnail_exact(40, 32).crop_imm(30, 5, 7, 11);
+        assert!(open("part/difference.png") == expected, "{line}: difference.png");
         assert_eq!(image::image_dimensions(at("part/side-by-side.png")).unwrap(), (1920, 1080));
         let (whole, part) = (report(&at("whole")), report(&at("part")));
         assert_eq!(whole.get("crop"), None);

@@ -86,7 +86,10 @@ fn an_edited_id_is_found_and_shown() {
 
     bothways(&home, &args).args(["-o", "new/diff"]).assert().code(1);
     let picture = image::open(home.path().join("new/diff/difference.png")).unwrap().to_rgb8();
-    assert_eq!((picture.dimensions(), picture[(3, 0)].0), ((24, 16), [0x00, 0x72, 0xb2]));
+    // Every pixel is a square of 512 / 24.
+    assert_eq!(picture.dimensions(), (21 * 24, 21 * 16));
+    let only_b = |x: u32, y: u32| picture[(x, y)].0 == [0x00, 0x72, 0xb2];
+    assert!(only_b(63, 0) && only_b(83, 20) && !only_b(62, 0) && !only_b(84, 0) && !only_b(63, 21));
     assert_eq!(count(&home.path().join("new/diff")), 1);
 }
 

@@ -107,7 +107,7 @@ pub(super) struct OutputArgs {
     /// this one does not write are removed, other files are left alone
     #[arg(short = 'o', long = "output", value_name = "DIR")]
     pub(super) folder: Option<PathBuf>,
-    /// Also write ids and distances as NumPy arrays
+    /// Also write ids and distances as NumPy arrays, and a picture coloured by id
     #[arg(long, value_enum, default_value_t = BuffersArg::None)]
     pub(super) buffers: BuffersArg,
     /// Leave measured times out, so that every run writes the same

@@ -10,6 +10,7 @@ use anstyle::{AnsiColor, Style};
 use bothways::common::quote::visible;
 use bothways::diff::foreign::{self, Aspect, Buffer, BufferComparison, Unit};
 use bothways::diff::{COLOUR_TOLERANCE, DEPTH_TOLERANCE};
+use bothways::picture::enlarged;
 use bothways::wording::{count, grouped};
 use clap::Args;
 use serde::Serialize;
@@ -88,7 +89,7 @@ pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
     })?;
     if let Some(folder) = &args.folder {
         let mut staging = Staging::begin_with(folder, NAMES.map(str::to_owned).to_vec())?;
-        write_rgb(&mut staging, NAMES[0], &comparison.picture())?;
+        write_rgb(&mut staging, NAMES[0], &enlarged(comparison.picture()))?;
         staging.commit()?;
     }
     let told = Told { files: [(&args.a, &a), (&args.b, &b)], comparison: &comparison };

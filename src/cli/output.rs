@@ -23,7 +23,7 @@ use std::time::{Duration, Instant};
 
 /// Every file that `render` may write. Those that a run does not write are removed from the folder,
 /// so that it never shows a picture of one run beside the report of another. The report is the last.
-const NAMES: [&str; 11] = [
+const NAMES: [&str; 13] = [
     "object-order.png",
     "image-order.png",
     "mask-object-order.png",
@@ -32,8 +32,10 @@ const NAMES: [&str; 11] = [
     "side-by-side.png",
     "object-order.ids.npy",
     "object-order.t.npy",
+    "object-order.ids.png",
     "image-order.ids.npy",
     "image-order.t.npy",
+    "image-order.ids.png",
     "report.json",
 ];
 

@@ -12,7 +12,7 @@ use bothways::common::{Camera, View};
 use bothways::diff::{Classes, Comparison, compare};
 use bothways::figure::Slide;
 use bothways::orders::{self, RenderOptions, Rendered};
-use bothways::picture::{mask, picture};
+use bothways::picture::{enlarged, id_picture, mask, picture};
 use bothways::progress::Listener;
 use bothways::report::Report;
 use bothways::scenes::{self, LoadedScene};
@@ -190,6 +190,7 @@ impl<'a> Run<'a> {
                 staging.write(&format!("{stem}.ids.npy"), ids)?;
                 let distances = |out: &mut Out| npy::write_distances(frame, out);
                 staging.write(&format!("{stem}.t.npy"), distances)?;
+                write_rgb(staging, &format!("{stem}.ids.png"), &id_picture(frame))?;
             }
         }
         if let ([object_order, image_order], Some(comparison)) =
@@ -197,6 +198,9 @@ impl<'a> Run<'a> {
         {
             let classes = Classes::new(&object_order.frame, &image_order.frame);
             let difference = classes.picture(&picture(&object_order.frame));
+            // Of a crop it has the crop's size, as everything has.
+            let whole = object_order.frame.crop().is_none();
+            let difference = if whole { enlarged(difference) } else { difference };
             write_rgb(staging, "difference.png", &difference)?;
             let slide = Slide {
                 scene: &self.report.scene,
