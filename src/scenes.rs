@@ -3,14 +3,15 @@
 
 mod framing;
 mod stream;
+mod studio;
 
-pub use framing::{FrameMeshError, framed, framed_positions};
+pub use framing::{FrameMeshError, Framing, framed};
 pub use stream::{StreamedScene, open_stream};
 
 use crate::common::mesh_file::{Format, ReadMeshError};
-use crate::common::scene_file::{self, SceneFileError, framed_mesh_toml, nearest_name};
+use crate::common::scene_file::{self, SceneFileError, nearest_name};
 use crate::common::stream::StreamError;
-use crate::common::{CameraDescription, Scene, SceneError, Shape, smooth};
+use crate::common::{CameraDescription, Object, Scene, SceneError, Shape, smooth};
 use std::path::Path;
 
 /// A scene that comes with the program.
@@ -88,6 +89,20 @@ pub struct LoadedScene {
     pub warnings: Vec<String>,
 }
 
+impl LoadedScene {
+    /// The scene in one line: what the first line of its file says, if it is a comment.
+    ///
+    /// ```
+    /// let about = "The lecture's first camera before one triangle, one sphere and one plane.";
+    /// assert_eq!(bothways::scenes::load("canonical")?.about(), Some(about));
+    /// # Ok::<(), bothways::scenes::LoadError>(())
+    /// ```
+    pub fn about(&self) -> Option<&str> {
+        let comment = self.toml.lines().next()?.strip_prefix('#')?;
+        Some(comment.trim_start_matches('#').trim()).filter(|line| !line.is_empty())
+    }
+}
+
 /// Why a scene could not be loaded.
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
@@ -155,12 +170,22 @@ pub enum LoadError {
 /// # Ok::<(), bothways::scenes::LoadError>(())
 /// ```
 pub fn load(source: &str) -> Result<LoadedScene, LoadError> {
+    load_for(source, None)
+}
+
+/// The same for an image of this width and height: a mesh file is framed for its form. The cameras of other scenes
+/// stay as they are.
+///
+/// # Errors
+///
+/// As for [`load`].
+pub fn load_for(source: &str, image: Option<[u32; 2]>) -> Result<LoadedScene, LoadError> {
     if let Some(built_in) = BUILT_IN.iter().find(|built_in| built_in.name == source) {
         return load_built_in(built_in);
     }
     let path = Path::new(source);
     if let Some(format) = Format::of(path) {
-        return load_mesh(path, format);
+        return load_mesh(path, format, &framing_for(image));
     }
     match path.extension() {
         Some(extension) if extension.eq_ignore_ascii_case("toml") => load_scene_file(path),
@@ -190,14 +215,23 @@ fn loaded(name: String, file: scene_file::SceneFile, toml: String) -> LoadedScen
     LoadedScene { name, scene, camera, viewport_stated, toml, warnings }
 }
 
-fn load_mesh(path: &Path, format: Format) -> Result<LoadedScene, LoadError> {
+/// The standard view in an image of this size.
+fn framing_for(image: Option<[u32; 2]>) -> Framing {
+    let standard = Framing::default();
+    Framing { image: image.unwrap_or(standard.image), ..standard }
+}
+
+fn load_mesh(path: &Path, format: Format, framing: &Framing) -> Result<LoadedScene, LoadError> {
     let (mesh, missing) = format.read_with_materials(path)?;
     let warnings = missing.iter().map(ToString::to_string).collect();
     let shown = path.display().to_string();
     let camera =
-        framed(&mesh).map_err(|error| LoadError::Framing { path: shown.clone(), error })?;
-    let toml = framed_mesh_toml(&camera, &shown);
-    let scene = Scene::new(vec![Shape::Mesh(smooth::with_normals(mesh, smooth::CREASE)).into()])?;
+        framing.camera(&mesh).map_err(|error| LoadError::Framing { path: shown.clone(), error })?;
+    let material = studio::material_for(mesh.materials().is_some());
+    let toml = studio::toml(&camera, &shown, material.is_some());
+    let shape = Shape::Mesh(smooth::with_normals(mesh, smooth::CREASE));
+    let object = Object { shape, material: material.unwrap_or_default() };
+    let scene = studio::lit(Scene::new(vec![object])?);
     Ok(LoadedScene { name: stem(path), scene, camera, viewport_stated: false, toml, warnings })
 }
 

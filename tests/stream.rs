@@ -13,7 +13,7 @@ use bothways::common::{Camera, Frame, Mesh, Object, Options, Projection, Scene, 
 use bothways::diff::compare;
 use bothways::orders::{Order, RenderOptions, render_stream};
 use bothways::progress::{Progress, Stage};
-use bothways::rasterize::{self, stream::CHUNK, stream::Canvas};
+use bothways::rasterize::{self, stream::CHUNK, stream::Canvas, stream::Look};
 use predicates::prelude::*;
 use predicates::str::contains;
 use proptest::collection::vec;
@@ -40,7 +40,7 @@ fn streamed(mesh: &Mesh, camera: &Camera, options: &Options, chunk: usize) -> (F
         mesh.triangles().iter().for_each(|&triangle| pass.draw(&positions, triangle));
         pass.finish(&positions);
     }
-    canvas.shade(&positions, camera);
+    canvas.shade(&positions, camera, &Look::default());
     (canvas.into_frame(), work)
 }
 
@@ -139,7 +139,8 @@ fn progress_is_told_chunk_by_chunk() {
     // Of the first pass nobody knows how long it is.
     for (repeat, total) in [(None, 1), (None, 2), (Some(1), 6)] {
         let (options, times) = (RenderOptions { repeat, ..options }, repeat.map(|_| 0.0));
-        let rendered = render_stream(&mut stream, &camera, &options, times).unwrap();
+        let rendered =
+            render_stream(&mut stream, &camera, &Look::default(), &options, times).unwrap();
         assert_eq!(rendered.work().map(|work| work.primitives), Some(triangles as u64));
         let steps = (0..=total).map(|done| (Stage::Rendering, done, total));
         let expected: Vec<_> = [(Stage::Preparing, 0, total)].into_iter().chain(steps).collect();

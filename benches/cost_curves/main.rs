@@ -10,9 +10,9 @@ mod chart;
 
 use bothways::common::generate::Kind;
 use bothways::common::simd::best_level;
-use bothways::common::{Camera, CameraDescription, Scene, Shape, View};
+use bothways::common::{Camera, Scene, Shape, View};
 use bothways::orders::{self, Method, Order, RenderOptions};
-use bothways::scenes::framed;
+use bothways::scenes::Framing;
 use chart::{Chart, Curve};
 use std::path::Path;
 use std::process::ExitCode;
@@ -107,10 +107,8 @@ fn curves(
 fn measure(divisions: [u32; 2], [width, height]: [u32; 2]) -> (usize, [f64; 2]) {
     let mesh = Kind::Sphere.mesh(divisions).expect("a sphere has so many divisions");
     let triangles = mesh.triangles().len();
-    let description = framed(&mesh).expect("a sphere has a size");
-    let vh = description.viewport[1];
-    let viewport = [vh * width as f32 / height as f32, vh];
-    let camera = CameraDescription { viewport, image: [width, height], ..description };
+    let framing = Framing { image: [width, height], ..Framing::default() };
+    let camera = framing.camera(&mesh).expect("a sphere has a size");
     let camera = Camera::new(camera).expect("it is a camera");
     let scene = Scene::new(vec![Shape::Mesh(mesh).into()]).expect("it is a scene");
     let times = COLOURS.map(|(order, _)| {

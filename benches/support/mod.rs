@@ -3,7 +3,7 @@
 use bothways::common::generate::Kind;
 use bothways::common::glam::{Vec2, Vec3};
 use bothways::common::{Camera, CameraDescription, Crop, Mesh, Options, Projection, Scene, Shape};
-use bothways::scenes::framed;
+use bothways::scenes::Framing;
 
 pub(crate) const FULL_HD: [u32; 2] = [1920, 1080];
 /// The sphere of a million triangles.
@@ -15,10 +15,8 @@ pub(crate) fn sphere(divisions: [u32; 2]) -> Mesh {
 
 /// A camera that sees all of a mesh.
 pub(crate) fn camera(mesh: &Mesh, image: [u32; 2]) -> Camera {
-    let description = framed(mesh).expect("the mesh has a size");
-    let [width, height] = image.map(|side| side as f32);
-    let viewport = [description.viewport[1] * width / height, description.viewport[1]];
-    Camera::new(CameraDescription { viewport, image, ..description }).expect("it is a camera")
+    let framing = Framing { image, ..Framing::default() };
+    Camera::new(framing.camera(mesh).expect("the mesh has a size")).expect("it is a camera")
 }
 
 pub(crate) fn scene(meshes: impl IntoIterator<Item = Mesh>) -> Scene {

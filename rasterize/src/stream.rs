@@ -19,7 +19,8 @@ use bothways_common::observe::{Events, Observer, Question, Sample};
 use bothways_common::predicate::Memory;
 use bothways_common::stream::Positions;
 use bothways_common::{
-    Camera, Frame, Mesh, Options, Primitive, SampleGrid, Scene, Shape, Sign, View, Work,
+    Camera, Frame, Light, Material, Mesh, Object, Options, Primitive, SampleGrid, Scene, Shape,
+    Sign, View, Work,
 };
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
@@ -39,6 +40,25 @@ pub struct Canvas {
     /// The three vertices of the triangle that a sample shows: nobody else remembers them.
     corners: Vec<[u32; 3]>,
     options: Options,
+}
+
+/// What a streamed mesh is made of, and what it is seen in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Look {
+    /// Of all triangles.
+    pub material: Material,
+    /// As in a [`Scene`].
+    pub lights: Vec<Light>,
+    /// As in a [`Scene`].
+    pub background: Vec3,
+}
+
+impl Default for Look {
+    /// That of a scene that says nothing of it.
+    fn default() -> Self {
+        let Scene { lights, background, .. } = scene_of([], &Positions::default());
+        Look { material: Material::default(), lights, background }
+    }
 }
 
 /// One pass over a mesh: takes its triangles one after another.
@@ -94,18 +114,20 @@ impl Canvas {
         }
     }
 
-    /// Gives every sample its normal and colour, flat and of the default material: only what is seen
-    /// is asked for.
+    /// Gives every sample its flat normal and its colour: only what is seen is asked for.
     ///
     /// # Panics
     ///
     /// If the camera or the positions are not those of the last pass, which must have been finished.
-    pub fn shade(&mut self, positions: &Positions, camera: &Camera) {
+    pub fn shade(&mut self, positions: &Positions, camera: &Camera, look: &Look) {
         let seen = self.ids.iter().zip(&self.corners).filter(|(id, _)| **id != NO_PRIMITIVE);
         let mut visible: Vec<(u32, [u32; 3])> = seen.map(|(id, corners)| (*id, *corners)).collect();
         visible.par_sort_unstable();
         visible.dedup();
-        let scene = scene_of(visible.iter().map(|(_, corners)| *corners), positions);
+        let shape = mesh_of(visible.iter().map(|(_, corners)| *corners), positions);
+        let Look { material, ref lights, background } = *look;
+        let mut scene = checked(Object { shape, material });
+        (scene.lights, scene.background) = (lights.clone(), background);
         // The small scene counts what is seen only.
         let ids = mem::take(&mut self.ids);
         self.put(&ids, |id| visible.partition_point(|&(seen, _)| seen < id));
@@ -220,13 +242,21 @@ impl<O: Observer> Pass<'_, O> {
 }
 
 /// Triangles with corners of their own, as a scene of one mesh.
-fn scene_of(triangles: impl Iterator<Item = [u32; 3]>, positions: &Positions) -> Scene {
-    let corners: Vec<Vec3> = triangles.flatten().map(|vertex| positions.get(vertex)).collect();
+fn scene_of(triangles: impl IntoIterator<Item = [u32; 3]>, positions: &Positions) -> Scene {
+    checked(mesh_of(triangles, positions).into())
+}
+
+fn checked(object: Object) -> Scene {
+    Scene::new(vec![object]).expect("a mesh was checked, and ids suffice")
+}
+
+fn mesh_of(triangles: impl IntoIterator<Item = [u32; 3]>, positions: &Positions) -> Shape {
+    let corners: Vec<Vec3> =
+        triangles.into_iter().flatten().map(|vertex| positions.get(vertex)).collect();
     let count = u32::try_from(corners.len() / 3).expect("a chunk has fewer triangles than ids");
     // Three times that is a vertex number, too, for up to 2³² / 3 triangles.
     let triangles = (0..count).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
-    let mesh = Mesh::new(corners, triangles).expect("positions are finite, and all are there");
-    Scene::new(vec![Shape::Mesh(mesh).into()]).expect("a mesh was checked, and ids suffice")
+    Shape::Mesh(Mesh::new(corners, triangles).expect("positions are finite, and all are there"))
 }
 
 /// What a sample shows.

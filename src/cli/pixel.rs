@@ -54,7 +54,7 @@ pub(super) struct PixelArgs {
 
 /// Judges, renders and prints; 0 if both orders saw what is true.
 pub(super) fn run(args: &PixelArgs) -> Result<ExitCode, Failure> {
-    let loaded = scenes::load(&args.scene)?;
+    let loaded = scenes::load_for(&args.scene, args.camera.size)?;
     terminal::warn(&loaded.warnings);
     let camera = camera(&loaded, &args.camera)?;
     check_samples(camera.image(), args.samples)

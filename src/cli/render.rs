@@ -27,7 +27,8 @@ pub(super) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
     if args.method.stream {
         return stream::run(args);
     }
-    let loaded = Bar::during("reading the scene", args, || scenes::load(&args.scene))?;
+    let loaded =
+        Bar::during("reading the scene", args, || scenes::load_for(&args.scene, args.camera.size))?;
     check_verify(args)?;
     let (camera, staging, folder) = prepared_output(args, &loaded)?;
     let pool = thread_pool(args)?;

@@ -34,7 +34,7 @@ pub(super) struct ShowCameraArgs {
 
 /// Prints the camera.
 pub(super) fn run(args: &ShowCameraArgs) -> Result<ExitCode, Failure> {
-    let loaded = scenes::load(&args.scene)?;
+    let loaded = scenes::load_for(&args.scene, args.camera.size)?;
     let camera = camera(&loaded, &args.camera)?;
     let view = View::new(&loaded.scene, &camera);
     let report = Report::new(&loaded.name, &view);

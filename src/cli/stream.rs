@@ -16,8 +16,9 @@ use std::time::Instant;
 pub(super) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
     check(args)?;
     let begun = Instant::now();
-    let opened = Bar::during("reading the scene", args, || open_stream(&args.scene))?;
-    let StreamedScene { loaded, mut mesh, triangles } = opened;
+    let opened =
+        Bar::during("reading the scene", args, || open_stream(&args.scene, args.camera.size))?;
+    let StreamedScene { loaded, mut mesh, triangles, look } = opened;
     let prepare = begun.elapsed().as_secs_f64() * 1e3;
     let (camera, staging, folder) = prepared_output(args, &loaded)?;
 
@@ -27,7 +28,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
         let listener = bar.as_ref().map(|bar| move |progress| bar.show(progress));
         let options = render_options(args, listener.as_ref().map(|listener| listener as Listener));
         let prepare = (!args.output.no_times).then_some(prepare);
-        let rendered = render_stream(&mut mesh, &camera, &options, prepare);
+        let rendered = render_stream(&mut mesh, &camera, &look, &options, prepare);
         let rendered = vec![rendered.map_err(|error| Failure::new(error.to_string()))?];
         let threads = rayon::current_num_threads();
         let report = Report::new(&loaded.name, triangles, threads, &rendered, None);

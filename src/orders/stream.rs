@@ -6,7 +6,7 @@ use super::{
 use crate::common::stream::{MeshStream, StreamError};
 use crate::common::{Camera, Observer};
 use crate::progress::Steps;
-use crate::rasterize::stream::{CHUNK, Canvas};
+use crate::rasterize::stream::{CHUNK, Canvas, Look};
 use std::sync::atomic::AtomicU64;
 
 /// Renders a mesh that is streamed, in object order, on the rayon pool that this is called in.
@@ -25,6 +25,7 @@ use std::sync::atomic::AtomicU64;
 pub fn render_stream(
     mesh: &mut MeshStream,
     camera: &Camera,
+    look: &Look,
     options: &RenderOptions,
     prepare: Option<f64>,
 ) -> Result<Rendered, StreamError> {
@@ -45,13 +46,13 @@ pub fn render_stream(
             draw(mesh, &mut canvas, camera, &mut (), &steps)?;
             steps.frames_done(1);
         }
-        canvas.shade(mesh.positions(), camera);
+        canvas.shade(mesh.positions(), camera, look);
         return Ok(rendered(canvas, work, None));
     };
     let run = |part| {
         match part {
             Part::Visibility => draw(mesh, &mut canvas, camera, &mut (), &steps)?,
-            Part::Shading => canvas.shade(mesh.positions(), camera),
+            Part::Shading => canvas.shade(mesh.positions(), camera, look),
         }
         Ok::<_, StreamError>(())
     };

@@ -40,65 +40,225 @@ fn about(length: f64) -> String {
     readable::<f64>(format!("{length:.2e}").parse().expect("a number is written as a number"))
 }
 
-/// From the middle of the mesh to the eye, before it is scaled: from the right, above and in front.
-const TOWARDS_EYE: DVec3 = DVec3::new(1.0, 0.7, 1.5);
-/// `d`, with a viewport one high: a lens that is a little longer than the eye's, as for a portrait.
-const DISTANCE: f32 = 2.2;
-/// How much of the viewport's height the mesh may fill.
-const FILLED: f64 = 0.92;
-
-/// A camera that looks at the middle of the mesh from a little above and sees all of it, in any image
-/// that is not higher than wide.
+/// How a mesh is framed: from which side, and for which image.
 ///
-/// The mesh is what triangles use of its vertices.
+/// ```
+/// use bothways::common::{Camera, generate::Kind, glam::Vec3};
+/// use bothways::scenes::Framing;
 ///
-/// # Errors
-///
-/// A mesh without triangles or without size, or one that leads out of the range of `f32`.
-pub fn framed(mesh: &Mesh) -> Result<CameraDescription, FrameMeshError> {
-    let used = mesh.triangles().iter().flatten();
-    framed_positions(used.map(|&vertex| mesh.positions()[vertex as usize]))
+/// let teapot = Kind::Teapot.mesh([10, 10])?;
+/// let from_above = Framing {
+///     towards_eye: Vec3::new(0.0, 3.0, 1.0),
+///     image: [1920, 1080],
+///     ..Framing::default()
+/// };
+/// let camera = Camera::new(from_above.camera(&teapot)?)?;
+/// assert!(camera.eye().y > 3.15);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Framing {
+    /// From the mesh to the eye; its length does not matter.
+    pub towards_eye: Vec3,
+    /// Which way is up in the picture: any direction that is not along the view.
+    pub up: Vec3,
+    /// The image's width and height in pixels; the viewport gets its form, and is 1 high.
+    pub image: [u32; 2],
+    /// `d`, from the eye to the viewport.
+    pub distance: f32,
+    /// How much of the picture's width or height the mesh fills, whichever is tighter.
+    pub filled: f64,
 }
 
-/// The same camera for the positions that the mesh's triangles use, each at least once.
+impl Default for Framing {
+    /// From the right, above and in front, for a 640 × 480 image, through a lens that is a little longer than the
+    /// eye's, as for a portrait.
+    fn default() -> Self {
+        Framing {
+            towards_eye: Vec3::new(1.0, 0.7, 1.5),
+            up: Vec3::Y,
+            image: [640, 480],
+            distance: 2.2,
+            filled: 0.92,
+        }
+    }
+}
+
+/// How much of half the picture a mesh fills at most where the projection is made parallel.
+const FILLED_IN_PARALLEL: f64 = 0.98;
+
+/// How often the place in the middle is looked for; few meshes take more than three steps.
+const MOST_STEPS: u32 = 16;
+
+/// A camera that looks at a mesh from a little above and sees all of it, in the middle of a 640 × 480 image.
 ///
 /// # Errors
 ///
-/// As for [`framed`].
-pub fn framed_positions(
-    positions: impl Iterator<Item = Vec3> + Clone,
-) -> Result<CameraDescription, FrameMeshError> {
-    let points = positions.map(|position| position.as_dvec3());
-    let (low, high) = bounds(points.clone()).ok_or(FrameMeshError::Empty)?;
-    let (center, diagonal) = (0.5 * (low + high), (high - low).length());
-    if diagonal == 0.0 {
-        return Err(FrameMeshError::Point);
+/// As for [`Framing::camera`].
+///
+/// ```
+/// use bothways::common::{Camera, generate::Kind};
+///
+/// let torus = Kind::Torus.mesh([24, 12])?;
+/// let camera = Camera::new(bothways::scenes::framed(&torus)?)?;
+/// assert_eq!(camera.image(), [640, 480]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn framed(mesh: &Mesh) -> Result<CameraDescription, FrameMeshError> {
+    Framing::default().camera(mesh)
+}
+
+impl Framing {
+    /// The camera that sees all of a mesh, its picture in the middle. The mesh is what triangles use of its vertices.
+    ///
+    /// # Errors
+    ///
+    /// A mesh without triangles or without size, or one that leads out of the range of `f32`.
+    ///
+    /// # Panics
+    ///
+    /// If `up` runs along `towards_eye`, a side of the image is 0, or `distance` or `filled` is not positive.
+    pub fn camera(&self, mesh: &Mesh) -> Result<CameraDescription, FrameMeshError> {
+        let used = mesh.triangles().iter().flatten();
+        self.camera_of(used.map(|&vertex| mesh.positions()[vertex as usize]))
     }
-    let w = TOWARDS_EYE.normalize();
-    let u = DVec3::Y.cross(w).normalize();
-    let v = w.cross(u);
-    // A point at height h beside the axis is seen at h·d/(eye's distance − its own) on the viewport.
-    let lens = 2.0 * f64::from(DISTANCE) / FILLED;
-    let needed = |point: DVec3| {
-        let p = point - center;
-        p.dot(w) + lens * p.dot(u).abs().max(p.dot(v).abs())
-    };
-    let away = points.map(needed).fold(0.5 * diagonal, f64::max);
-    let eye = (center + away * w).as_vec3();
-    let target = center.as_vec3();
-    if !eye.is_finite() {
-        return Err(FrameMeshError::TooLarge { diagonal });
+
+    /// The same camera for the positions that the mesh's triangles use, each at least once. They are gone through
+    /// several times.
+    ///
+    /// # Errors
+    ///
+    /// As for [`camera`](Framing::camera).
+    ///
+    /// # Panics
+    ///
+    /// As for [`camera`](Framing::camera).
+    pub fn camera_of(
+        &self,
+        positions: impl Iterator<Item = Vec3> + Clone,
+    ) -> Result<CameraDescription, FrameMeshError> {
+        let points = positions.map(|position| position.as_dvec3());
+        let (low, high) = bounds(points.clone()).ok_or(FrameMeshError::Empty)?;
+        let (center, diagonal) = (0.5 * (low + high), (high - low).length());
+        if diagonal == 0.0 {
+            return Err(FrameMeshError::Point);
+        }
+        let axes = self.axes();
+        let place = self.place_of_eye(&axes, diagonal, points.map(|point| point - center));
+        let [u, v, w] = axes;
+        // The middle of the picture, as far away as the middle of the mesh.
+        let middle = center + place.x * u + place.y * v;
+        let (eye, target) = ((middle + place.z * w).as_vec3(), middle.as_vec3());
+        if !eye.is_finite() {
+            return Err(FrameMeshError::TooLarge { diagonal });
+        }
+        // Where neighbouring f32 numbers are farther apart than the mesh is wide, both are rounded to somewhere
+        // else.
+        let away = (eye.as_dvec3() - target.as_dvec3()).length();
+        if (away / place.z - 1.0).abs() > 0.01 {
+            return Err(FrameMeshError::TooSmall { diagonal });
+        }
+        Ok(CameraDescription {
+            eye,
+            orientation: Orientation::LookAt { target, up: self.up },
+            distance: self.distance,
+            viewport: [self.image[0] as f32 / self.image[1] as f32, 1.0],
+            image: self.image,
+            ..CameraDescription::default()
+        })
     }
-    // Where neighbouring f32 numbers are farther apart than the mesh is wide, the eye is rounded to
-    // somewhere else.
-    if ((eye.as_dvec3() - center).length() / away - 1.0).abs() > 0.01 {
-        return Err(FrameMeshError::TooSmall { diagonal });
+
+    /// `u`, `v` and `w`.
+    fn axes(&self) -> [DVec3; 3] {
+        let w = self.towards_eye.as_dvec3().normalize();
+        let u = self.up.as_dvec3().cross(w).normalize();
+        assert!(u.is_finite(), "up runs along towards_eye, or one of them has no length");
+        [u, w.cross(u), w]
     }
-    Ok(CameraDescription {
-        eye,
-        orientation: Orientation::LookAt { target, up: Vec3::Y },
-        distance: DISTANCE,
-        ..CameraDescription::default()
+
+    /// Where the eye is from the middle of the mesh, along the axes.
+    ///
+    /// A point at (x, y, z) along the axes is seen within ±s of the viewport's half width, at distance 1, from an eye
+    /// at (X, Y, Z) if x + s·z ≤ X + s·Z and −x + s·z ≤ −X + s·Z. Of all points only the greatest left sides count, A
+    /// and B: there is such an X if A + B ≤ 2·s·Z, and both sides touch the margin if they are equal and
+    /// X = (A − B)/2. So it is with the height.
+    ///
+    /// From there the mesh is seen in a parallel projection, too, in which the picture of what is far is larger.
+    fn place_of_eye(
+        &self,
+        axes: &[DVec3; 3],
+        diagonal: f64,
+        points: impl Iterator<Item = DVec3> + Clone,
+    ) -> DVec3 {
+        let [width, height] = self.image.map(f64::from);
+        let lens = 2.0 * f64::from(self.distance);
+        let half = [width / height / lens, 1.0 / lens];
+        let reach = |slopes| reach(axes, slopes, points.clone());
+        let slopes = half.map(|half| self.filled * half);
+        let [across, down] = [0, 1].map(|axis| {
+            let [right, left] = reach(slopes)[axis];
+            (right + left) / (2.0 * slopes[axis])
+        });
+        // A needle that points at the eye takes no room, but has a length.
+        let mut away = across.max(down).max(diagonal);
+        let flat = reach([0.0; 2]);
+        for _ in 0..MOST_STEPS {
+            let place = in_the_middle(away, slopes, &half, reach);
+            let parallel = [0, 1].map(|axis| {
+                let [right, left] = flat[axis];
+                (right - place[axis]).max(left + place[axis]) / (FILLED_IN_PARALLEL * half[axis])
+            });
+            let needed = parallel[0].max(parallel[1]);
+            if needed <= away {
+                return DVec3::new(place[0], place[1], away);
+            }
+            // A little more, so that the end is reached.
+            away = needed * 1.001;
+        }
+        let place = in_the_middle(away, slopes, &half, reach);
+        DVec3::new(place[0], place[1], away)
+    }
+}
+
+/// Where the eye is along `u` and `v` if it is so far away that a mesh is seen within these slopes: so that what is
+/// left free is the same on both sides.
+///
+/// At least one of the two is not tight. The slope at which it would be is a fixed point, which each step comes
+/// nearer to by the mesh's part of the distance.
+fn in_the_middle(
+    away: f64,
+    slopes: [f64; 2],
+    half: &[f64; 2],
+    reach: impl Fn([f64; 2]) -> [[f64; 2]; 2],
+) -> [f64; 2] {
+    let mut tight = slopes;
+    for _ in 0..MOST_STEPS {
+        let next = reach(tight).map(|[right, left]| (right + left) / (2.0 * away));
+        let moved = |axis: usize| (next[axis] - tight[axis]).abs() > 1e-3 * half[axis];
+        let is_moving = moved(0) || moved(1);
+        tight = next;
+        if !is_moving {
+            break;
+        }
+    }
+    reach(tight).map(|[right, left]| 0.5 * (right - left))
+}
+
+/// For `u` and for `v` with their slopes, the greatest of x + s·z and of −x + s·z.
+fn reach(
+    [u, v, w]: &[DVec3; 3],
+    slopes: [f64; 2],
+    points: impl Iterator<Item = DVec3>,
+) -> [[f64; 2]; 2] {
+    let start = [[f64::NEG_INFINITY; 2]; 2];
+    points.fold(start, |mut most, point| {
+        let z = point.dot(*w);
+        for (axis, x) in [point.dot(*u), point.dot(*v)].into_iter().enumerate() {
+            let [right, left] = &mut most[axis];
+            *right = right.max(x + slopes[axis] * z);
+            *left = left.max(-x + slopes[axis] * z);
+        }
+        most
     })
 }
 
@@ -110,25 +270,77 @@ fn bounds(points: impl Iterator<Item = DVec3>) -> Option<(DVec3, DVec3)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::common::Camera;
+    use crate::common::generate::Kind;
+    use crate::common::{Camera, Projection};
 
     fn corners(corners: &[[f32; 3]]) -> Mesh {
         let positions = corners.iter().copied().map(Vec3::from_array).collect();
         Mesh::new(positions, vec![[0, 1, 2]]).unwrap()
     }
 
+    /// What of the viewport's half width and half height a mesh takes: left, right, below, above.
+    fn sides(mesh: &Mesh, description: CameraDescription) -> [f64; 4] {
+        let camera = Camera::new(description).unwrap();
+        let half = camera.viewport().map(|side| side / 2.0);
+        let mut sides = [f64::NEG_INFINITY; 4];
+        for &vertex in mesh.triangles().iter().flatten() {
+            let p = mesh.positions()[vertex as usize].as_dvec3() - camera.eye().as_dvec3();
+            let scale = match camera.projection() {
+                Projection::Perspective => camera.distance() / -p.dot(camera.w()),
+                Projection::Parallel => 1.0,
+            };
+            assert!(scale > 0.0);
+            let [x, y] = [p.dot(camera.u()) * scale / half[0], p.dot(camera.v()) * scale / half[1]];
+            for (side, here) in sides.iter_mut().zip([-x, x, -y, y]) {
+                *side = side.max(here);
+            }
+        }
+        sides
+    }
+
+    /// As `--projection parallel` makes it.
+    fn parallel(camera: CameraDescription) -> CameraDescription {
+        let Orientation::LookAt { target, .. } = camera.orientation else { unreachable!() };
+        let scale = (target - camera.eye).length() / camera.distance;
+        let viewport = camera.viewport.map(|side| side * scale);
+        CameraDescription { projection: Projection::Parallel, viewport, ..camera }
+    }
+
     #[test]
-    fn all_of_a_mesh_is_seen_and_touches_the_margin() {
+    fn all_of_a_mesh_is_seen_in_the_middle_and_touches_the_margin() {
         // The last vertex belongs to no triangle.
-        let mesh =
+        let triangle =
             corners(&[[2.0, 4.0, 6.5], [4.0, 4.0, 7.5], [2.0, 6.0, 7.0], [900.0, 900.0, 900.0]]);
-        let camera = Camera::new(framed(&mesh).unwrap()).unwrap();
-        let farthest = (0..3).map(|k| {
-            let p = mesh.positions()[k].as_dvec3() - camera.eye().as_dvec3();
-            let onto_viewport = camera.distance() / -p.dot(camera.w());
-            (p.dot(camera.u()) * onto_viewport).abs().max((p.dot(camera.v()) * onto_viewport).abs())
-        });
-        assert!((farthest.fold(0.0, f64::max) - 0.46).abs() < 1e-5);
+        let long = corners(&[[0.0, 0.0, 0.0], [9.0, 0.5, 0.0], [9.0, 1.0, 0.5]]);
+        let high = corners(&[[0.0, 0.0, 0.0], [0.5, 9.0, 0.0], [0.0, 0.0, 0.5]]);
+        let teapot = Kind::Teapot.mesh([10, 10]).unwrap();
+        for mesh in [triangle, long, high, teapot] {
+            for image in [[640, 480], [1920, 1080], [500, 500], [300, 900], [2000, 50]] {
+                let framing = Framing { image, ..Framing::default() };
+                let camera = framing.camera(&mesh).unwrap();
+                let [left, right, below, above] = sides(&mesh, camera);
+                let tightest = left.max(right).max(below).max(above);
+                assert!(tightest < 0.92 + 1e-4, "{image:?}: {tightest}");
+                let in_the_middle = (left - right).abs() < 0.01 && (below - above).abs() < 0.01;
+                assert!(in_the_middle, "{image:?}: {left} {right} {below} {above}");
+                assert!(sides(&mesh, parallel(camera)).iter().all(|&side| side < 1.0), "{image:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_teapot_fills_the_width() {
+        let teapot = Kind::Teapot.mesh([10, 10]).unwrap();
+        let [left, right, ..] = sides(&teapot, framed(&teapot).unwrap());
+        assert!(left > 0.85 && right > 0.85, "{left} {right}");
+    }
+
+    #[test]
+    fn a_needle_that_points_at_the_eye_keeps_its_distance() {
+        let tip = Framing::default().towards_eye.to_array();
+        let needle = corners(&[[0.0; 3], tip, [0.0; 3]]);
+        let camera = Camera::new(framed(&needle).unwrap()).unwrap();
+        assert!((camera.eye().as_dvec3() - Vec3::from_array(tip).as_dvec3()).length() > 0.5);
     }
 
     #[test]

@@ -1,0 +1,64 @@
+//! What a mesh file is shown in that says nothing of light: warm plaster before a slate wall, lit over the
+//! viewer's left shoulder.
+//!
+//! It is written down once, as it stands in the scene file that shows the mesh, and read from there.
+
+use crate::common::scene_file::{self, framed_mesh_toml};
+use crate::common::{CameraDescription, Material, Scene};
+use std::path::Path;
+
+const BACKGROUND: &str = "background = \"#36424b\"\n";
+
+const PLASTER: &str = "
+[material.plaster]
+color = \"#e6c9a5\"
+specular = 0.12
+shininess = 25
+";
+
+/// Over the left shoulder as the standard view sees it, from the right, and a little from behind, so that nothing is
+/// black for somebody who walks around.
+const LIGHTS: &str = "
+[[light]]
+directional = [0.3, -1.15, -0.8]
+intensity = 0.78
+
+[[light]]
+directional = [-1, -0.3, 0.1]
+intensity = 0.2
+
+[[light]]
+directional = [0.2, -0.4, 1]
+intensity = 0.15
+
+[[light]]
+ambient = true
+intensity = 0.14
+";
+
+/// The scene file that shows a mesh file from a camera; a mesh that brings its own materials keeps them.
+pub(super) fn toml(camera: &CameraDescription, mesh: &str, plaster: bool) -> String {
+    let file = framed_mesh_toml(camera, mesh);
+    let (camera, object) = file.split_once("\n[[object]]\n").expect("it has one object");
+    let [material, name] = if plaster { [PLASTER, "material = \"plaster\"\n"] } else { ["", ""] };
+    format!("{camera}{BACKGROUND}{material}{LIGHTS}\n[[object]]\n{object}{name}")
+}
+
+/// What a mesh is made of, unless it says so itself.
+pub(super) fn material_for(has_its_own: bool) -> Option<Material> {
+    (!has_its_own).then(|| sample().objects()[0].material)
+}
+
+/// The scene in this light.
+pub(super) fn lit(mut scene: Scene) -> Scene {
+    let sample = sample();
+    (scene.lights, scene.background) = (sample.lights, sample.background);
+    scene
+}
+
+/// A scene that shows all of it.
+fn sample() -> Scene {
+    let ball = "[[object]]\nsphere = { center = [0, 0, 0], radius = 1 }\nmaterial = \"plaster\"\n";
+    let text = format!("[camera]\n{BACKGROUND}{PLASTER}{LIGHTS}\n{ball}");
+    scene_file::parse("studio.toml", &text, Path::new("")).expect("it is right").scene
+}
