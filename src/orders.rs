@@ -152,6 +152,8 @@ pub struct Spread {
 
 /// Preparing is repeated as often as a frame, but only until this much time is spent on it.
 const PREPARE_BUDGET: Duration = Duration::from_secs(2);
+/// What takes no longer than this is done twice to be timed once: the first time brings memory and caches in.
+const WARM_UP_BUDGET: Duration = Duration::from_millis(200);
 
 /// How an order is to be run and told of. The default: one sample a pixel, one frame, told to nobody.
 #[derive(Clone, Copy, Default)]
@@ -159,7 +161,7 @@ pub struct RenderOptions<'a> {
     /// What a frame holds.
     pub frame: Options,
     /// With a number, everything is done once to warm up and then timed so many times, into the same
-    /// buffers; without, it is timed once. Never 0.
+    /// buffers; without, it is timed once, warmed up by what went before. Never 0.
     pub repeat: Option<u32>,
     /// Whether the frame that counts the work is left out. It may take longer than those that are timed.
     pub no_counts: bool,
@@ -444,10 +446,11 @@ fn watched<R: Renderer, O: Observer>(
 fn measure_preparing<R: Renderer>(scene: &Scene, repeat: Option<u32>) -> (R::Prepared, Spread) {
     let begun = Instant::now();
     let (mut prepared, first) = timed(|| R::prepare(scene));
-    let Some(repeat) = repeat else {
+    // The first one was the warm-up; without `repeat`, too, unless somebody would wait for the second.
+    let repeat = repeat.unwrap_or(u32::from(begun.elapsed() < WARM_UP_BUDGET));
+    if repeat == 0 {
         return (prepared, Spread::of(vec![first]));
-    };
-    // The first one was the warm-up.
+    }
     let mut times = Vec::new();
     for _ in 0..repeat {
         // Never two at once: they are what takes memory.
