@@ -129,6 +129,7 @@ fn a_slide_shows_every_kind_of_difference() {
     let image_order = rendered(Order::Image, &there);
     let slide = Slide {
         scene: "canonical, with the eye moved for one of them",
+        about: loaded.about(),
         primitives: loaded.scene.primitive_count(),
         threads: 1,
         object_order: &object_order,

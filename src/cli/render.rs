@@ -109,6 +109,8 @@ pub(super) fn render_options<'a>(
 /// Everything that came of the rendering.
 pub(super) struct Run<'a> {
     pub(super) args: &'a RenderArgs,
+    /// The scene in one line.
+    pub(super) about: Option<&'a str>,
     pub(super) rendered: Vec<Rendered>,
     pub(super) comparison: Option<Comparison>,
     pub(super) report: Report,
@@ -117,7 +119,7 @@ pub(super) struct Run<'a> {
 impl<'a> Run<'a> {
     fn new(
         args: &'a RenderArgs,
-        loaded: &LoadedScene,
+        loaded: &'a LoadedScene,
         camera: &Camera,
         bar: Option<&Bar>,
     ) -> Run<'a> {
@@ -149,7 +151,7 @@ impl<'a> Run<'a> {
             let patience = Patience::new(args, &rendered, samples, bar);
             verify(&view, &rendered, samples.into(), &|| patience.step())
         });
-        Run { args, rendered, comparison, report }
+        Run { args, about: loaded.about(), rendered, comparison, report }
     }
 
     /// Writes everything, and prints the report.
@@ -205,6 +207,7 @@ impl<'a> Run<'a> {
             write_rgb(staging, "difference.png", &difference)?;
             let slide = Slide {
                 scene: &self.report.scene,
+                about: self.about,
                 primitives: self.report.primitives,
                 threads: self.report.threads,
                 object_order,

@@ -32,7 +32,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
         let rendered = vec![rendered.map_err(|error| Failure::new(error.to_string()))?];
         let threads = rayon::current_num_threads();
         let report = Report::new(&loaded.name, triangles, threads, &rendered, None);
-        Run { args, rendered, comparison: None, report }.finish(staging, &folder, bar)
+        Run { args, about: None, rendered, comparison: None, report }.finish(staging, &folder, bar)
     })
 }
 

@@ -1,5 +1,6 @@
 //! Figures: what was rendered, arranged to be shown to people.
 
+mod fallback;
 mod resize;
 mod slide;
 mod text;

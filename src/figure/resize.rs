@@ -4,11 +4,14 @@ use crate::common::shade::{linear_from_srgb, srgb_from_linear};
 use image::{Rgb, RgbImage};
 use std::ops::RangeInclusive;
 
-/// The size at which a picture is shown in a frame: enlarged by a whole factor, or reduced.
+/// The size at which a picture is shown in a frame. It fills the frame, but where a whole factor comes near that, it
+/// is enlarged by this factor, so that all pixels are squares of one size.
 pub(super) fn fitted(picture: [u32; 2], frame: [u32; 2]) -> [u32; 2] {
     let factor = (frame[0] / picture[0]).min(frame[1] / picture[1]);
-    if factor >= 1 {
-        return picture.map(|side| side * factor);
+    let enlarged = picture.map(|side| side * factor);
+    // Near is seven eighths of a side.
+    if (0..2).any(|axis| 8 * enlarged[axis] >= 7 * frame[axis]) {
+        return enlarged;
     }
     let [width, height] = picture.map(u64::from);
     let [most_wide, most_high] = frame.map(u64::from);
@@ -34,17 +37,18 @@ pub(super) fn footprint(pixel: u32, from: u32, to: u32) -> RangeInclusive<u32> {
 /// The picture in another size, as [`fitted`] gives it.
 pub(super) fn resized(picture: &RgbImage, size: [u32; 2]) -> RgbImage {
     let [width, height] = [picture.width(), picture.height()];
-    if size[0] >= width && size[1] >= height {
+    if size[0].is_multiple_of(width) && size[1].is_multiple_of(height) {
         let (across, down) = (size[0] / width, size[1] / height);
         return RgbImage::from_fn(size[0], size[1], |x, y| {
             *picture.get_pixel(x / across, y / down)
         });
     }
-    reduced(picture, size)
+    averaged(picture, size)
 }
 
-/// The average, in linear light, of the area that each new pixel covers.
-fn reduced(picture: &RgbImage, [width, height]: [u32; 2]) -> RgbImage {
+/// The average, in linear light, of the area that each new pixel covers. Of a picture that is enlarged, pixels stay
+/// squares with sharp sides, and only what lies on a side is a mixture.
+fn averaged(picture: &RgbImage, [width, height]: [u32; 2]) -> RgbImage {
     let linear: Vec<f32> = (0..=u8::MAX).map(linear_from_srgb).collect();
     let columns = Overlaps::new(picture.width(), width);
     let rows = Overlaps::new(picture.height(), height);
@@ -104,7 +108,22 @@ mod tests {
     fn small_pictures_grow_by_whole_factors() {
         assert_eq!(fitted([64, 64], [568, 426]), [384, 384]);
         assert_eq!(fitted([1, 1], [568, 426]), [426, 426]);
-        assert_eq!(fitted([300, 200], [568, 426]), [300, 200]);
+        assert_eq!(fitted([142, 100], [568, 426]), [568, 400]);
+        assert_eq!(fitted([500, 375], [568, 426]), [500, 375]);
+    }
+
+    #[test]
+    fn pictures_between_whole_factors_fill_the_frame() {
+        assert_eq!(fitted([285, 214], [568, 426]), [567, 426]);
+        assert_eq!(fitted([320, 200], [568, 426]), [568, 355]);
+        assert_eq!(fitted([160, 120], [568, 426]), [568, 426]);
+        for width in 1..=2000 {
+            for height in [1, 2, 100, width, 1080] {
+                let [wide, high] = fitted([width, height], [568, 426]);
+                assert!(wide <= 568 && high <= 426, "{width} x {height}");
+                assert!(8 * wide >= 7 * 568 || 8 * high >= 7 * 426, "{width} x {height}");
+            }
+        }
     }
 
     #[test]
@@ -121,6 +140,14 @@ mod tests {
         let large = resized(&picture, [4, 2]);
         assert_eq!(large.get_pixel(1, 1).0, [1, 2, 3]);
         assert_eq!(large.get_pixel(2, 0).0, [4, 5, 6]);
+    }
+
+    #[test]
+    fn pixels_enlarged_by_a_fraction_keep_their_middles_and_mix_at_their_sides() {
+        let picture = RgbImage::from_raw(2, 1, vec![0, 0, 0, 255, 255, 255]).unwrap();
+        let large = resized(&picture, [5, 2]);
+        let row: Vec<u8> = (0..5).map(|x| large.get_pixel(x, 1).0[0]).collect();
+        assert_eq!(row, [0, 0, srgb_from_linear(0.5), 255, 255]);
     }
 
     #[test]

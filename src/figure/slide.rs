@@ -1,7 +1,8 @@
 //! The slide that shows both orders side by side, with their difference and what they did.
 
+use super::fallback::drawable;
 use super::resize::{fitted, footprint, resized};
-use super::text::{Figures, Style, Weight, draw, shortened, width};
+use super::text::{Figures, Style, Weight, draw, has, shortened, width};
 use crate::common::Work;
 use crate::diff::{Class, Classes, Comparison};
 use crate::orders::{Counts, Order, Rendered};
@@ -19,6 +20,8 @@ pub const SLIDE_SIZE: [u32; 2] = [1920, 1080];
 pub struct Slide<'a> {
     /// The scene's name.
     pub scene: &'a str,
+    /// The scene in one line; what does not fit is left out.
+    pub about: Option<&'a str>,
     /// Primitives in the scene.
     pub primitives: u32,
     /// Threads that rendered; shown where times are.
@@ -46,16 +49,17 @@ const COLUMN_WIDTH: f32 = 568.0;
 const RIGHT: f32 = 1920.0 - MARGIN;
 
 /// Baselines and edges, from the top.
-const TITLE: f32 = 80.0;
-const FACTS: f32 = 118.0;
-const HEADING: f32 = 190.0;
-const FIRST_LOOP: f32 = 226.0;
-const SECOND_LOOP: f32 = 257.0;
-const PICTURES: f32 = 282.0;
-const FIRST_ROW: f32 = 756.0;
-const ROW: f32 = 33.0;
-const RULE: f32 = 979.0;
-const VERDICT: f32 = 1030.0;
+const TITLE: f32 = 74.0;
+/// Of the line about the scene, where there is one, and of what is known of it.
+const BELOW_TITLE: [f32; 2] = [110.0, 144.0];
+const HEADING: f32 = 200.0;
+const FIRST_LOOP: f32 = 233.0;
+const SECOND_LOOP: f32 = 263.0;
+const PICTURES: f32 = 286.0;
+const FIRST_ROW: f32 = 752.0;
+const ROW: f32 = 31.0;
+const RULE: f32 = 988.0;
+const VERDICT: f32 = 1035.0;
 /// The most a picture may measure: 4:3 fills it.
 const PICTURE_FRAME: [u32; 2] = [568, 426];
 
@@ -102,8 +106,13 @@ impl Slide<'_> {
         if self.object_order.times.is_some() {
             facts += &format!("   ·   {}", count(self.threads as u64, "threads"));
         }
-        canvas.fitting(MARGIN, TITLE, self.scene, TITLE_STYLE, RIGHT - MARGIN);
-        canvas.fitting(MARGIN, FACTS, &facts, SENTENCE.of(QUIET), RIGHT - MARGIN);
+        let room = RIGHT - MARGIN;
+        canvas.fitting(MARGIN, TITLE, &line(self.scene), TITLE_STYLE, room);
+        let about = self.about.map(line).map(|about| (about, BRIGHT));
+        let lines = about.into_iter().chain([(facts, QUIET)]);
+        for ((text, colour), baseline) in lines.zip(BELOW_TITLE) {
+            canvas.fitting(MARGIN, baseline, &text, SENTENCE.of(colour), room);
+        }
     }
 
     fn legend(&self, canvas: &mut Canvas, left: f32, classes: &Classes) {
@@ -129,6 +138,13 @@ impl Slide<'_> {
     }
 }
 
+/// A text of any length and in any letters, as far as it can be drawn on a line.
+fn line(text: &str) -> String {
+    // More than fits, and so few that nobody waits for an endless name.
+    const MOST: usize = 400;
+    drawable(&text.chars().take(MOST).collect::<String>(), has)
+}
+
 /// What one order did: labels and figures, row by row.
 fn figures(rendered: &Rendered) -> Vec<(&'static str, String)> {
     let mut rows = match rendered.work {
@@ -140,8 +156,9 @@ fn figures(rendered: &Rendered) -> Vec<(&'static str, String)> {
         Counts::LeftOut => vec![],
     };
     if let Some(times) = rendered.times {
-        let frame = times.visibility.median + times.shading.median;
-        rows.push(("time a frame", milliseconds(frame)));
+        // Not the time for shading: it is the same task in both orders, and would drown the others.
+        rows.push(("time to prepare", milliseconds(times.prepare.median)));
+        rows.push(("time for visibility", milliseconds(times.visibility.median)));
     }
     rows
 }
@@ -199,12 +216,8 @@ fn widened(range: RangeInclusive<u32>, side: u32) -> RangeInclusive<u32> {
     begin..=(range.end() + missing.div_ceil(2)).min(side - 1)
 }
 
-const REGULAR: Style = Style {
-    weight: Weight::Regular,
-    size: 23.0,
-    colour: BRIGHT,
-    figures: Figures::Tabular,
-};
+const REGULAR: Style =
+    Style { weight: Weight::Regular, size: 23.0, colour: BRIGHT, figures: Figures::Tabular };
 const SENTENCE: Style = Style { figures: Figures::Proportional, ..REGULAR };
 const SEMI_BOLD: Style = Style { weight: Weight::SemiBold, ..SENTENCE };
 const TITLE_STYLE: Style = Style { size: 46.0, ..SEMI_BOLD };

@@ -31,6 +31,7 @@ fn slide(scene: &str, size: [u32; 2], count: u64, match_: bool) -> RgbImage {
     let comparison = compare(&object_order.frame, &image_order.frame);
     let slide = Slide {
         scene,
+        about: Some(scene),
         primitives: u32::MAX - 1,
         threads: 128,
         object_order: &object_order,
@@ -38,6 +39,41 @@ fn slide(scene: &str, size: [u32; 2], count: u64, match_: bool) -> RgbImage {
         comparison: &comparison,
     };
     slide.draw()
+}
+
+#[test]
+fn times_are_those_of_the_table_without_shading() {
+    let mut rendered = rendered(Order::Object, [4, 3], 1, true);
+    let times = rendered.times.as_mut().unwrap();
+    times.prepare.median = 1.5;
+    times.visibility.median = 22.25;
+    times.shading.median = 333.0;
+    let rows = figures(&rendered);
+    let (counts, times) = rows.split_at(6);
+    assert!(counts.iter().all(|(label, _)| !label.contains("time")));
+    let expected = [("time to prepare", "1.50 ms"), ("time for visibility", "22.2 ms")];
+    assert_eq!(times, expected.map(|(label, time)| (label, time.to_owned())));
+    rendered.times = None;
+    assert_eq!(figures(&rendered), counts);
+}
+
+#[test]
+fn the_line_about_the_scene_is_drawn_below_its_name() {
+    let lines = |about: Option<&str>| {
+        let object_order = rendered(Order::Object, [4, 3], 1, true);
+        let image_order = rendered(Order::Image, [4, 3], 1, true);
+        let comparison = compare(&object_order.frame, &image_order.frame);
+        let (primitives, threads) = (1, 1);
+        let (object_order, image_order, comparison) = (&object_order, &image_order, &comparison);
+        let slide =
+            Slide { scene: "a", about, primitives, threads, object_order, image_order, comparison };
+        let slide = slide.draw();
+        [85..118, 120..152].map(|y| !is_blank(&slide, 72..400, y))
+    };
+    assert_eq!(lines(None), [true, false]);
+    assert_eq!(lines(Some("What there is to see.")), [true, true]);
+    // One that goes on and on takes no time, and no letter breaks it.
+    assert_eq!(lines(Some(&"茶壺\u{202e}\u{7}".repeat(200_000))), [true, true]);
 }
 
 /// Whether nothing is drawn in an upright strip.

@@ -1,0 +1,54 @@
+//! Names in letters that the typeface lacks: written in letters that it has.
+
+use deunicode::deunicode_char;
+
+/// The text with every letter that is not drawable spelled in Latin ones, as well as one can without knowing the
+/// language: 茶 becomes Cha. What has no such spelling is named by its number, as U+F0000.
+pub(super) fn drawable(text: &str, is_drawable: impl Fn(char) -> bool) -> String {
+    let mut drawn = String::with_capacity(text.len());
+    for letter in text.chars() {
+        if is_drawable(letter) {
+            drawn.push(letter);
+            continue;
+        }
+        match deunicode_char(letter) {
+            Some(spelled) if !letter.is_control() && spelled.chars().all(&is_drawable) => {
+                drawn += spelled;
+            }
+            _ => drawn += &format!("U+{:04X} ", u32::from(letter)),
+        }
+    }
+    drawn.trim_end().into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::text::has;
+    use super::*;
+
+    #[test]
+    fn what_the_typeface_has_stays() {
+        for text in ["lecture", "Würfel", "čajník", "чайник", "τσαγιέρα", "ấm trà", "5 × 7 · “x” …"]
+        {
+            assert_eq!(drawable(text, has), text);
+        }
+    }
+
+    #[test]
+    fn what_it_lacks_is_spelled() {
+        assert_eq!(drawable("茶壺", has), "Cha Hu");
+        assert_eq!(drawable("茶壺.v2 – 東京", has), "Cha Hu .v2 – Dong Jing");
+        assert_eq!(drawable("カメラ", has), "kamera");
+        assert_eq!(drawable("주전자", has), "jujeonja");
+        for text in ["إبريق", "קומקום", "กาน้ำชา", "चायदानी", "🫖"]
+        {
+            let drawn = drawable(text, has);
+            assert!(drawn.chars().all(has) && drawn.chars().any(char::is_alphabetic), "{drawn}");
+        }
+    }
+
+    #[test]
+    fn what_nobody_can_spell_is_numbered() {
+        assert_eq!(drawable("a\u{7}b\u{f0000}c", has), "aU+0007 bU+F0000 c");
+    }
+}
