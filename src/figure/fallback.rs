@@ -6,13 +6,24 @@ use deunicode::deunicode_char;
 /// language: 茶 becomes Cha. What has no such spelling is named by its number, as U+F0000.
 pub(super) fn drawable(text: &str, is_drawable: impl Fn(char) -> bool) -> String {
     let mut drawn = String::with_capacity(text.len());
+    let mut was_spelled = false;
     for letter in text.chars() {
         if is_drawable(letter) {
+            // Words that were spelled end in a space, which no full stop needs.
+            if was_spelled && !letter.is_alphanumeric() {
+                drawn.truncate(drawn.trim_end().len());
+            }
             drawn.push(letter);
+            was_spelled = false;
             continue;
         }
+        was_spelled = true;
         match deunicode_char(letter) {
             Some(spelled) if !letter.is_control() && spelled.chars().all(&is_drawable) => {
+                let begins_a_word = spelled.starts_with(|first: char| first.is_uppercase());
+                if begins_a_word && drawn.ends_with(char::is_alphanumeric) {
+                    drawn.push(' ');
+                }
                 drawn += spelled;
             }
             _ => drawn += &format!("U+{:04X} ", u32::from(letter)),
@@ -37,8 +48,9 @@ mod tests {
     #[test]
     fn what_it_lacks_is_spelled() {
         assert_eq!(drawable("茶壺", has), "Cha Hu");
-        assert_eq!(drawable("茶壺.v2 – 東京", has), "Cha Hu .v2 – Dong Jing");
+        assert_eq!(drawable("茶壺.v2 – 東京", has), "Cha Hu.v2 – Dong Jing");
         assert_eq!(drawable("カメラ", has), "kamera");
+        assert_eq!(drawable("茶と茶, 🫖", has), "Cha to Cha, teapot");
         assert_eq!(drawable("주전자", has), "jujeonja");
         for text in ["إبريق", "קומקום", "กาน้ำชา", "चायदानी", "🫖"]
         {
