@@ -50,16 +50,16 @@ fn a_verdict_of_both_orders() {
     canonical: 3 primitives, 12 x 12 pixels, 1 sample a pixel
 
     textbook                        object order       image order
-    samples covered                           86                86
+    samples covered                           91                91
     primitives                                 3                 -
     rays                                       -               144
     boxes tested                               -                 -
     primitive x sample tested                432               432
-    of these, covered                        115               115
-    depth comparisons                         29                29
+    of these, covered                        127               127
+    depth comparisons                         36                36
     left to the exact judge                    -                 -
 
-    match: both orders cover the same 86 samples and see the same primitive in each
+    match: both orders cover the same 91 samples and see the same primitive in each
     written to out/canonical
     ");
 }
@@ -70,13 +70,13 @@ fn one_order_alone() {
     canonical: 3 primitives, 12 x 12 pixels, 2 x 2 samples a pixel
 
     textbook                         image order
-    samples covered                          343
+    samples covered                          373
     primitives                                 -
     rays                                     576
     boxes tested                               -
     primitive x sample tested              1,728
-    of these, covered                        464
-    depth comparisons                        121
+    of these, covered                        536
+    depth comparisons                        163
     left to the exact judge                    -
 
     written to out/canonical
@@ -96,9 +96,9 @@ fn the_report_in_its_stated_order() {
       "threads": 1,
       "primitives": 3,
       "coverage": {
-        "object_order": 86,
-        "image_order": 86,
-        "both": 86,
+        "object_order": 91,
+        "image_order": 91,
+        "both": 91,
         "only_object_order": 0,
         "only_image_order": 0,
         "match": true
@@ -125,8 +125,8 @@ fn the_report_in_its_stated_order() {
           "rays": 0,
           "nodes": 0,
           "tests": 432,
-          "fragments": 115,
-          "depth_tests": 29,
+          "fragments": 127,
+          "depth_tests": 36,
           "judged_coverage": 0,
           "judged_nearest": 0
         }
@@ -141,8 +141,8 @@ fn the_report_in_its_stated_order() {
           "rays": 144,
           "nodes": 0,
           "tests": 432,
-          "fragments": 115,
-          "depth_tests": 29,
+          "fragments": 127,
+          "depth_tests": 36,
           "judged_coverage": 0,
           "judged_nearest": 0
         }
@@ -240,18 +240,18 @@ fn different_distances() {
     only in B                                  0
     pixels with t beyond 1e-5                 13
 
-    largest difference in t: 2.0e-1 of it, at (2, 0): A 8, B 10
+    largest difference in t: 1.6e-1 of it, at (2, 0): A 6, B 7.125
     first pixels (row, column) that differ:
       (1, 2)  A t 4.573464   B t 4.8085485
       (1, 3)  A t 3.2095242  B nothing
-      (2, 0)  A t 8          B t 10
+      (2, 0)  A t 6          B t 7.125
       (2, 1)  A t 4.2907267  B t 4.511278
       (2, 2)  A t 4.5980306  B t 4.834378
       (2, 3)  A t 2.8060932  B t 3.0513854
       (2, 4)  A t 2.7826087  B t 3.0581477
-      (2, 5)  A t 8          B t 10
-      (3, 0)  A t 2.6666667  B t 3.3333333
-      (3, 1)  A t 2.6666667  B t 3.3333333
+      (2, 5)  A t 6          B t 7.125
+      (3, 0)  A t 3          B t 3.5625
+      (3, 1)  A t 3          B t 3.5625
     differ: 14 pixels of 24, in the bounding box from (1, 0) to (3, 5)
     ");
 }
