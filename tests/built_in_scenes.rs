@@ -6,6 +6,7 @@ use bothways::common::{
 };
 use bothways::raytrace::textbook;
 use bothways::scenes::{LoadedScene, load};
+use std::collections::HashSet;
 
 /// The scene's camera with another image, and the parallel one that shows its target as large.
 fn cameras(loaded: &LoadedScene, image: [u32; 2]) -> [Camera; 2] {
@@ -46,6 +47,33 @@ fn a_third_of_the_samples_of_ties_lie_on_edges_whatever_the_power_of_two() {
             let ties = pixels.filter(|&(i, j)| on_rim(i, j)).count();
             let samples = (side * side) as usize;
             assert!(3 * ties >= samples, "{ties} of {samples}, {:?}", camera.projection());
+        }
+    }
+}
+
+#[test]
+fn no_projection_hides_what_a_scene_is_about() {
+    // Of `behind`: the floor, the road, the banner, a wall and both balls.
+    for (name, most) in [("canonical", 3), ("behind", 6), ("overlap", 8), ("inside", 4)] {
+        let loaded = load(name).unwrap();
+        let image = [40, 30];
+        let cameras = match loaded.camera.orientation {
+            Orientation::LookAt { .. } => cameras(&loaded, image),
+            // As the command line finds it: what lies in the middle of the objects keeps its size.
+            _ => [(Projection::Perspective, 1.0), (Projection::Parallel, 4.0)].map(
+                |(projection, side)| {
+                    let viewport = [side; 2];
+                    Camera::new(CameraDescription { projection, viewport, image, ..loaded.camera })
+                        .unwrap()
+                },
+            ),
+        };
+        for camera in cameras {
+            let frame = textbook::render(&View::new(&loaded.scene, &camera), &Options::default());
+            let pixels = (0..30).flat_map(|row| (0..40).map(move |column| (row, column)));
+            let ids = pixels.filter_map(|(row, column)| frame.id(row, column));
+            let seen: HashSet<usize> = ids.map(|id| loaded.scene.locate(id).0).collect();
+            assert!(seen.len() >= most, "{name}, {:?}: {seen:?}", camera.projection());
         }
     }
 }

@@ -180,9 +180,10 @@ fn one_order_alone_writes_its_own_and_has_no_verdict() {
 
     let no_verdict = contains("match").not().and(contains("image order"));
     bothways(&home, &args).args(["--order", "image"]).assert().code(0).stdout(no_verdict);
-    let npy = ["image-order.ids.npy", "image-order.png", "image-order.t.npy"];
-    let other = ["mask-image-order.png", "notes.txt", "report.json"];
-    assert_eq!(names(home.path()), [npy, other].concat());
+    let buffers = ["image-order.ids.npy", "image-order.ids.png"];
+    let pictures = ["image-order.png", "image-order.t.npy", "mask-image-order.png"];
+    let other = ["notes.txt", "report.json"];
+    assert_eq!(names(home.path()), [&buffers[..], &pictures, &other].concat());
     let report = report(home.path());
     for key in ["coverage", "visible", "depth", "colour", "object_order"] {
         assert!(report[key].is_null() && report.get(key).is_some(), "{key}");
