@@ -169,17 +169,40 @@ fn the_built_in_scenes() {
 fn the_camera_that_frames_a_mesh() {
     let home = home();
     fs::write(home.path().join("triangle.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
-    insta::assert_snapshot!(printed(bothways(&home, &["scenes", "triangle.obj"]), 0), @r#"
+    insta::assert_snapshot!(printed(bothways(&home, &["scenes", "triangle.obj"]), 0), @r##"
     [camera]
-    eye = [1.9410442, 1.5087309, 2.1615663]
-    look_at = [0.5, 0.5, 0.0]
+    eye = [1.9141034, 1.465538, 2.0996835]
+    look_at = [0.5131661, 0.48488194, -0.0017223124]
     up = [0.0, 1.0, 0.0]
     distance = 2.2
     image = [640, 480]
+    background = "#36424b"
+
+    [material.plaster]
+    color = "#e6c9a5"
+    specular = 0.12
+    shininess = 25
+
+    [[light]]
+    directional = [0.3, -1.15, -0.8]
+    intensity = 0.78
+
+    [[light]]
+    directional = [-1, -0.3, 0.1]
+    intensity = 0.2
+
+    [[light]]
+    directional = [0.2, -0.4, 1]
+    intensity = 0.15
+
+    [[light]]
+    ambient = true
+    intensity = 0.14
 
     [[object]]
     mesh = "triangle.obj"
-    "#);
+    material = "plaster"
+    "##);
 }
 
 #[test]
