@@ -4,8 +4,9 @@ use bothways::common::glam::{DVec3, Vec3};
 use bothways::common::{
     Camera, CameraDescription, Options, Orientation, Primitive, Projection, Ray, View,
 };
+use bothways::rasterize::fast;
 use bothways::raytrace::textbook;
-use bothways::scenes::{LoadedScene, load};
+use bothways::scenes::{LoadedScene, load, load_for};
 use std::collections::HashSet;
 
 /// The scene's camera with another image, and the parallel one that shows its target as large.
@@ -143,10 +144,26 @@ fn mesh_files_of_the_wild_are_framed() {
     };
     let paths = files.map(|file| file.expect("the folder can be listed").path());
     for path in paths.filter(|path| path.extension().is_some_and(|extension| extension == "obj")) {
-        let loaded = load(path.to_str().unwrap()).unwrap_or_else(|error| panic!("{error}"));
-        let camera = Camera::new(loaded.camera).unwrap();
-        // The middle of the picture shows the middle of the mesh.
-        let ray = camera.ray_through(0.0, 0.0);
-        assert!((ray.direction.normalize() + camera.w()).length() < 1e-12);
+        for image in [[64, 48], [30, 70], [90, 30]] {
+            let loaded = load_for(path.to_str().unwrap(), Some(image));
+            let loaded = loaded.unwrap_or_else(|error| panic!("{error}"));
+            for camera in cameras(&loaded, image) {
+                let view = View::new(&loaded.scene, &camera);
+                let prepared = fast::prepare(&loaded.scene);
+                let frame = fast::render(&prepared, &view, &Options::default());
+                let [width, height] = image.map(|side| side as usize);
+                let row_is_seen = |row| (0..width).any(|column| frame.id(row, column).is_some());
+                let column_is_seen =
+                    |column| (0..height).any(|row| frame.id(row, column).is_some());
+                let rows = (0..height).filter(|&row| row_is_seen(row)).count();
+                let columns = (0..width).filter(|&column| column_is_seen(column)).count();
+                let what = format!("{}, {image:?}, {:?}", path.display(), camera.projection());
+                let border_is_seen = [0, width - 1].into_iter().any(column_is_seen)
+                    || [0, height - 1].into_iter().any(row_is_seen);
+                // The margin of a parallel picture may be less than half a pixel.
+                assert!(camera.projection() == Projection::Parallel || !border_is_seen, "{what}");
+                assert!(10 * rows >= 7 * height || 10 * columns >= 7 * width, "{what}");
+            }
+        }
     }
 }
