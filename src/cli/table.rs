@@ -152,8 +152,8 @@ mod tests {
         let plain = anstream::adapter::strip_str(&beyond_tolerance(&comparison)).to_string();
         assert_eq!(
             plain,
-            "depths beyond 1e-5                 1 pixel, by at most 5.0e-1\n\
-             colours beyond 2 of 255    12,345 pixels, by at most 108 of 255\n"
+            "depths beyond 1e-5                  1 pixel, by at most 5.0e-1\n\
+             colours beyond 2 of 255   12,345 pixels, by at most 108 of 255\n"
         );
         assert!(comparison.matches());
     }
