@@ -105,7 +105,10 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
         "file is neither a picture (PNG, PNM, BMP) nor a NumPy array (.npy); save it as one of \
          these",
     ),
-    ("diff a.pgm damaged.png", "damaged.png: the pixels of the PNG are damaged; copy the file or"),
+    (
+        "diff a.pgm damaged.png",
+        "damaged.png: the file ends early, after 8 bytes; copy it or write it again",
+    ),
     (
         "diff a.pgm b.pgm",
         "A = a.pgm, B = b.pgm: A is 2 x 1 pixels and B is 1 x 2; compare files of one size (are \

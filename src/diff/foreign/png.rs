@@ -67,7 +67,7 @@ fn chunk(name: [u8; 4], length: u32, at: u64, is_intact: bool) -> Result<(), Str
              copy it or save it again"
         ));
     }
-    if &name == b"PLTE" && (length == 0 || length % 3 != 0 || length > LARGEST_PALETTE) {
+    if &name == b"PLTE" && (length == 0 || !length.is_multiple_of(3) || length > LARGEST_PALETTE) {
         return Err(format!(
             "the palette (the chunk PLTE at byte {at} of the PNG) has {length} bytes; it must have 3 \
              for each of its 1 to 256 colours; save the picture again"
