@@ -5,7 +5,7 @@
 
 use crate::common::frame::Region;
 use crate::common::observe::{Question, Sample};
-use crate::common::predicate::EdgeSigns;
+use crate::common::predicate::{EdgeSigns, EdgeValues};
 use crate::common::{Crop, Events, Frame, Observer, Options, Primitive, Ray, Shape, View, Work};
 use crate::{rasterize, raytrace};
 use rayon::prelude::*;
@@ -45,12 +45,14 @@ pub struct Covering {
     pub t: f64,
     /// The signs of a triangle's edge functions.
     pub edges: Option<EdgeSigns>,
+    /// Their values.
+    pub values: Option<EdgeValues>,
     /// Why it comes behind the primitive before it; `None` for the first.
     pub behind: Option<Behind>,
 }
 
 /// A triangle that has a sample on its boundary and does not cover it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Touching {
     /// Its id.
     pub id: u32,
@@ -58,6 +60,8 @@ pub struct Touching {
     pub object: usize,
     /// Its signs.
     pub edges: EdgeSigns,
+    /// The values of its edge functions.
+    pub values: EdgeValues,
 }
 
 /// Why one primitive comes behind another.
@@ -166,13 +170,19 @@ fn samples(pixel: &Region) -> impl Iterator<Item = Sample> + use<> {
 /// What covers a sample, near to far, and what only touches it.
 fn truth(view: &View, ray: &Ray) -> (Vec<Covering>, Vec<Touching>) {
     let judge = view.judge();
+    let values = |primitive: &Primitive| match primitive {
+        Primitive::Triangle(corners) => Some(judge.edge_values(corners, ray)),
+        Primitive::Sphere { .. } | Primitive::Plane { .. } => None,
+    };
     let (mut found, mut touching) = (Vec::new(), Vec::new());
     for (id, primitive) in view.primitives() {
         let coverage = judge.coverage(&primitive, ray);
         if coverage.covers {
             found.push((id, primitive, coverage.edges));
-        } else if let Some(edges) = coverage.edges.filter(touches) {
-            touching.push(Touching { id, object: view.scene.locate(id).0, edges });
+        } else if let Some(edges) = coverage.edges.filter(touches)
+            && let Some(values) = values(&primitive)
+        {
+            touching.push(Touching { id, object: view.scene.locate(id).0, edges, values });
         }
     }
     found.sort_by(|(id, one, _), (other_id, other, _)| {
@@ -188,6 +198,7 @@ fn truth(view: &View, ray: &Ray) -> (Vec<Covering>, Vec<Touching>) {
             kind: kind(&view.scene.objects()[object].shape),
             t: judge.distance(primitive, ray),
             edges: *edges,
+            values: values(primitive),
             behind: nearer.map(|nearer| behind(view, nearer, primitive, ray)),
         }
     });

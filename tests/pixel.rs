@@ -6,8 +6,9 @@ mod support;
 
 use assert_cmd::Command;
 use bothways::common::glam::Vec3;
+use bothways::common::predicate::Side;
 use bothways::common::{
-    Camera, Object, Options, Plane, Projection, Scene, Shape, Sphere, View, Work,
+    Camera, CameraDescription, Object, Options, Plane, Projection, Scene, Shape, Sphere, View, Work,
 };
 use bothways::orders::{Method, Order, RenderOptions, render};
 use bothways::pixel::{Behind, report};
@@ -123,17 +124,18 @@ fn a_tie_is_derived_and_decided() {
       t counts in lengths of the direction: t d is the depth along -w
 
     2 primitives cover it, near to far
-    a triangle covers a sample if its edge functions have the sign of its facing
+    a triangle covers a sample if its edge functions have the sign of its facing F; where one is 0,
+    the sample is moved a little to the right, and less down: left and top edges own it
       id 1: triangle, object 1, t = 3.096774194 (seen)
-        edge signs E_ab -, E_bc -, E_ca 0 (tie, nudged to -); facing -
+        E_ab -1.75, E_bc -0.1875, E_ca 0 (tie: a left edge, nudged to -); F -6
       id 250: triangle of a mesh, object 10, t = 4 (farther)
-        edge signs E_ab -, E_bc -, E_ca 0 (tie, nudged to -); facing -
+        E_ab -0.0234375, E_bc -0.0390625, E_ca 0 (tie: a left edge, nudged to -); F -0.25
 
     exactly on an edge of 2 triangles, but owned by its other side: not covered
       id 0: object 0
-        edge signs E_ab -, E_bc 0 (tie, nudged to +), E_ca -; facing -
+        E_ab -1.75, E_bc 0 (tie: a right edge, nudged to +), E_ca -0.1875; F -6
       id 251: object 10
-        edge signs E_ab 0 (tie, nudged to +), E_bc -, E_ca -; facing -
+        E_ab 0 (tie: a right edge, nudged to +), E_bc -0.0390625, E_ca -0.0234375; F -0.25
 
     object order saw id 1 at t = 3.096774
       4 bounding regions around it, 4 primitive tests, 2 fragments, 1 depth comparison, 2 questions to the exact judge
@@ -149,6 +151,39 @@ fn parallel_rays_begin_beside_the_eye() {
     let text = printed(&["canonical", "1", "2", "--size", "8x8", "--projection", "parallel"]);
     assert!(text.contains("origin    = eye + x u + y v = (0, 0, 0)"), "{text}");
     assert!(text.contains("direction = -w = (0, 0, -1)"), "{text}");
+}
+
+#[test]
+fn the_edge_that_a_sample_lies_on_has_its_name() {
+    let expected = [
+        ("left-edge", (3, 2), Side::Left),
+        ("right-edge", (3, 5), Side::Right),
+        ("top-edge", (2, 3), Side::Top),
+        ("bottom-edge", (5, 3), Side::Bottom),
+    ];
+    for (name, (i, j), side) in expected {
+        let vector = bothways::vectors::all().into_iter().find(|one| one.name == name).unwrap();
+        for projection in [Projection::Perspective, Projection::Parallel] {
+            // At this depth both projections see the same.
+            let description = CameraDescription { projection, ..vector.camera };
+            let (scene, camera) = (vector.scene(), Camera::new(description).unwrap());
+            let sample = report(&View::new(&scene, &camera), &Options::default(), i, j).remove(0);
+            let owns = matches!(side, Side::Left | Side::Top);
+            let values = match (sample.covering.first(), sample.touching.first()) {
+                (Some(covering), None) if owns => covering.values.unwrap(),
+                (None, Some(touching)) if !owns => touching.values,
+                _ => panic!("{name}: {sample:?}"),
+            };
+            let sides: Vec<Side> = values.sides.into_iter().flatten().collect();
+            assert_eq!(sides, [side], "{name}");
+            // E_ab + E_bc + E_ca = n·D and t = F/(n·D).
+            if let (Some(covering), Projection::Perspective) = (sample.covering.first(), projection)
+            {
+                let t = values.facing / values.at_sample.iter().sum::<f64>();
+                assert!((t / covering.t - 1.0).abs() < 1e-12, "{name}: {t}");
+            }
+        }
+    }
 }
 
 #[test]
@@ -182,7 +217,16 @@ fn json_has_every_fact() {
     assert_eq!(first["x"], 0.015_625);
     assert_eq!(first["direction"], json!([0.015_625, -0.015_625, -1.0]));
     assert_eq!(first["covering"][0]["id"], first["object_order"]["id"]);
-    assert_eq!(first["covering"][0]["edges"]["tie"], true);
+    let edges = &first["covering"][0]["edges"];
+    let of_sign = |number: &Value| match number.as_f64().unwrap() {
+        0.0 => 0.0,
+        number => number.signum(),
+    };
+    assert_eq!(of_sign(&edges["facing_value"]), edges["facing"].as_f64().unwrap());
+    assert_eq!(edges["on_edge"].as_array().unwrap().len(), 3);
+    let values = edges["values"].as_array().unwrap().iter().map(of_sign);
+    assert!(values.eq(edges["at_sample"].as_array().unwrap().iter().map(of_sign)), "{edges}");
+    assert_eq!(edges["tie"], true);
     assert!(first["image_order"]["work"]["nodes"].as_u64().unwrap() > 0);
 }
 

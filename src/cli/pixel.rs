@@ -9,12 +9,12 @@ use super::show_camera::{plain, vector};
 use super::terminal;
 use bothways::common::camera::check_samples;
 use bothways::common::glam::Vec3;
-use bothways::common::predicate::EdgeSigns;
+use bothways::common::predicate::{EdgeSigns, EdgeValues};
 use bothways::common::{Camera, CameraDescription, Options, Projection, Sign, View, Work};
 use bothways::orders::Order;
 use bothways::pixel::{self, SampleReport};
 use bothways::scenes;
-use bothways::wording::count;
+use bothways::wording::{count, readable};
 use clap::Args;
 use std::fmt::Write;
 use std::process::ExitCode;
@@ -152,7 +152,8 @@ fn truth(sample: &SampleReport) -> String {
         more => format!("\n{more} primitives cover it, near to far\n"),
     };
     if !(sample.covering.iter().all(|one| one.edges.is_none()) && sample.touching.is_empty()) {
-        text += "a triangle covers a sample if its edge functions have the sign of its facing\n";
+        text += "a triangle covers a sample if its edge functions have the sign of its facing F; where one is \
+                 0,\nthe sample is moved a little to the right, and less down: left and top edges own it\n";
     }
     for covering in &sample.covering {
         let (id, object, kind) = (covering.id, covering.object, covering.kind);
@@ -160,7 +161,9 @@ fn truth(sample: &SampleReport) -> String {
         write!(text, "  id {id}: {kind}, object {object}, t = {t}").expect("a string takes all");
         let behind = covering.behind.map_or("seen", |behind| behind.words());
         text += &format!(" ({behind})\n");
-        text += &covering.edges.map_or(String::new(), |edges| signs(&edges));
+        if let (Some(edges), Some(values)) = (&covering.edges, &covering.values) {
+            text += &functions(edges, values);
+        }
     }
     if !sample.touching.is_empty() {
         let triangles = count(sample.touching.len() as u64, "triangles");
@@ -169,22 +172,30 @@ fn truth(sample: &SampleReport) -> String {
         );
         for touching in &sample.touching {
             text += &format!("  id {}: object {}\n", touching.id, touching.object);
-            text += &signs(&touching.edges);
+            text += &functions(&touching.edges, &touching.values);
         }
     }
     text
 }
 
-/// `E_ab -, E_bc 0 (tie, nudged to +), E_ca -`, and the facing that they are held against.
-fn signs(edges: &EdgeSigns) -> String {
-    let names = ["ab", "bc", "ca"].iter();
-    let each = names.zip(edges.at_sample.iter().zip(&edges.decided));
-    let words = each.map(|(name, (at, decided))| match at {
-        Sign::Zero => format!("E_{name} 0 (tie, nudged to {})", symbol(*decided)),
-        _ => format!("E_{name} {}", symbol(*at)),
+/// `E_ab -0.5, E_bc 0 (tie: a left edge, nudged to -), E_ca -2`, and the facing that they are held
+/// against.
+fn functions(edges: &EdgeSigns, values: &EdgeValues) -> String {
+    let each = ["ab", "bc", "ca"].into_iter().enumerate();
+    let words = each.map(|(index, name)| match values.sides[index] {
+        Some(side) => {
+            let (side, decided) = (side.name(), symbol(edges.decided[index]));
+            format!("E_{name} 0 (tie: a {side} edge, nudged to {decided})")
+        }
+        None => format!("E_{name} {}", six_digits(values.at_sample[index])),
     });
     let words = words.collect::<Vec<_>>().join(", ");
-    format!("    edge signs {words}; facing {}\n", symbol(edges.facing))
+    format!("    {words}; F {}\n", six_digits(values.facing))
+}
+
+/// The first six digits of a number.
+fn six_digits(number: f64) -> String {
+    readable::<f64>(format!("{number:.5e}").parse().expect("a number is written as a number"))
 }
 
 fn symbol(sign: Sign) -> &'static str {

@@ -1,6 +1,6 @@
 //! Which samples a primitive covers.
 
-use super::real::{Real, cross, difference, dot, exactly, vector};
+use super::real::{Dyadic, Real, cross, difference, dot, exactly, vector};
 use super::sign::Sign;
 use crate::camera::{Projection, Ray};
 use glam::DVec3;
@@ -28,6 +28,44 @@ impl EdgeSigns {
     }
 }
 
+/// A triangle's edge functions at a sample as numbers, for whoever wants to see them: each computed
+/// without error, and rounded once. Their signs are those of [`EdgeSigns`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EdgeValues {
+    /// The facing `F`.
+    pub facing: f64,
+    /// `E_ab`, `E_bc`, `E_ca`.
+    pub at_sample: [f64; 3],
+    /// What kind of edge each is that the sample lies on; `None` where it lies on none, or the triangle
+    /// is edge-on.
+    pub sides: [Option<Side>; 3],
+}
+
+/// Where an edge of a triangle is, seen from its inside in the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// The inside is right of it: it owns its samples.
+    Left,
+    /// The inside is left of it: it does not own its samples.
+    Right,
+    /// Level, and the inside below it: it owns its samples.
+    Top,
+    /// Level, and the inside above it: it does not own its samples.
+    Bottom,
+}
+
+impl Side {
+    /// Its name in a sentence.
+    pub fn name(self) -> &'static str {
+        match self {
+            Side::Left => "left",
+            Side::Right => "right",
+            Side::Top => "top",
+            Side::Bottom => "bottom",
+        }
+    }
+}
+
 /// How a zero edge function is decided: the sample moves infinitely little along `u`, and far less
 /// still against `v`.
 #[derive(Clone, Copy, Debug)]
@@ -52,6 +90,45 @@ pub(super) fn edge_signs(
     }
     let in_front = in_front(projection, facing, triangle, ray);
     EdgeSigns { facing, at_sample, decided, in_front }
+}
+
+/// The numbers whose signs are [`edge_signs`].
+pub(super) fn edge_values(
+    projection: Projection,
+    nudge: &Nudge,
+    triangle: &[DVec3; 3],
+    ray: &Ray,
+) -> EdgeValues {
+    let [a, b, c] = *triangle;
+    let Ray { origin, direction } = *ray;
+    let direction = [direction, DVec3::ZERO];
+    // The eye is the origin of a perspective camera's rays.
+    let edge = |(p, q)| difference_value::<Dyadic>([p, origin], [q, origin], direction).to_f64();
+    let facing = match projection {
+        Projection::Perspective => [a, b, c].map(|corner| [corner, DVec3::ZERO]),
+        Projection::Parallel => [[b, a], [c, a], direction],
+    };
+    let [p, q, r] = facing;
+    let signs = edge_signs(projection, nudge, triangle, ray);
+    let edges = [(a, b), (b, c), (c, a)];
+    let side = |index: usize| {
+        let (p, q) = edges[index];
+        if signs.at_sample[index] != Sign::Zero || signs.facing == Sign::Zero {
+            return None;
+        }
+        let is_level = edge_derivative(projection, nudge.u, p, q, ray) == Sign::Zero;
+        Some(match (is_level, signs.decided[index] == signs.facing) {
+            (false, true) => Side::Left,
+            (false, false) => Side::Right,
+            (true, true) => Side::Top,
+            (true, false) => Side::Bottom,
+        })
+    };
+    EdgeValues {
+        facing: difference_value::<Dyadic>(p, q, r).to_f64(),
+        at_sample: edges.map(edge),
+        sides: [side(0), side(1), side(2)],
+    }
 }
 
 /// [`EdgeSigns::covers`], with no sign computed that is not needed.
@@ -102,15 +179,20 @@ fn edge(projection: Projection, p: DVec3, q: DVec3, ray: &Ray) -> Sign {
 /// camera is `det(p − O, q − O, D) + ε·det(u, p − q, D) − ε²·det(v, p − q, D)`: what is quadratic in
 /// `O` cancels, since `det(O, O, D) = 0`.
 fn nudged_edge(projection: Projection, nudge: &Nudge, p: DVec3, q: DVec3, ray: &Ray) -> Sign {
-    let derivative = |along: DVec3| match projection {
+    let derivative = |along| edge_derivative(projection, along, p, q, ray);
+    derivative(nudge.u).or_else(|| -derivative(nudge.v))
+}
+
+/// The sign of the edge function's derivative as the sample moves along an axis.
+fn edge_derivative(projection: Projection, along: DVec3, p: DVec3, q: DVec3, ray: &Ray) -> Sign {
+    match projection {
         Projection::Perspective => determinant(p, q, along),
         Projection::Parallel => exactly!(difference_determinant(
             [along, DVec3::ZERO],
             [p, q],
             [ray.direction, DVec3::ZERO]
         )),
-    };
-    derivative(nudge.u).or_else(|| -derivative(nudge.v))
+    }
 }
 
 /// Whether `t > 0`. A covered sample of a perspective camera has it for free: `E_ab + E_bc + E_ca =
@@ -139,13 +221,17 @@ fn determinant(p: DVec3, q: DVec3, r: DVec3) -> Sign {
 }
 
 /// The sign of `det(p₀ − p₁, q₀ − q₁, r₀ − r₁)`, of the real differences.
-fn difference_determinant<R: Real>(
+fn difference_determinant<R: Real>(p: [DVec3; 2], q: [DVec3; 2], r: [DVec3; 2]) -> Option<Sign> {
+    difference_value::<R>(p, q, r).sign()
+}
+
+fn difference_value<R: Real>(
     [p0, p1]: [DVec3; 2],
     [q0, q1]: [DVec3; 2],
     [r0, r1]: [DVec3; 2],
-) -> Option<Sign> {
+) -> R {
     let normal = cross::<R>(&difference(p0, p1), &difference(q0, q1));
-    dot(&normal, &difference(r0, r1)).sign()
+    dot(&normal, &difference(r0, r1))
 }
 
 /// Whether a plane is met: `n·D ≠ 0` and `t = n·(point − O)/(n·D) > 0`.

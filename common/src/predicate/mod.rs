@@ -16,7 +16,7 @@ use crate::view::Primitive;
 use cover::Nudge;
 use glam::DVec3;
 
-pub use cover::EdgeSigns;
+pub use cover::{EdgeSigns, EdgeValues, Side};
 pub use nearest::{Comparison, are_same_corners};
 pub use pair::Memory;
 pub use sign::Sign;
@@ -101,6 +101,11 @@ impl Judge {
     /// The signs that decide whether a triangle covers a sample, ties shown.
     pub fn edge_signs(&self, triangle: &[DVec3; 3], ray: &Ray) -> EdgeSigns {
         cover::edge_signs(self.projection, &self.nudge, triangle, ray)
+    }
+
+    /// The numbers behind [`Judge::edge_signs`], and what kind of edge a sample lies on.
+    pub fn edge_values(&self, triangle: &[DVec3; 3], ray: &Ray) -> EdgeValues {
+        cover::edge_values(self.projection, &self.nudge, triangle, ray)
     }
 
     /// Compares the distances of two primitives that both cover the sample; `Less` is nearer.

@@ -6,7 +6,7 @@ use crate::cli::show_camera::plain;
 use crate::cli::terminal;
 use bothways::common::Sign;
 use bothways::common::glam::Vec3;
-use bothways::common::predicate::EdgeSigns;
+use bothways::common::predicate::{EdgeSigns, EdgeValues, Side};
 use bothways::pixel::{Answer, Behind, SampleReport};
 use bothways::report::WorkReport;
 use serde::Serialize;
@@ -70,13 +70,16 @@ struct TouchingJson {
     edges: EdgesJson,
 }
 
-/// Signs as -1, 0 and 1.
+/// Signs as -1, 0 and 1; their values; and what kind of edge the sample lies on.
 #[derive(Debug, Serialize)]
 struct EdgesJson {
     facing: i8,
     at_sample: [i8; 3],
     decided: [i8; 3],
     tie: bool,
+    facing_value: f64,
+    values: [f64; 3],
+    on_edge: [Option<&'static str>; 3],
 }
 
 #[derive(Debug, Serialize)]
@@ -93,13 +96,13 @@ impl SampleJson {
             object: one.object,
             kind: one.kind,
             t: certain(one.t),
-            edges: one.edges.as_ref().map(EdgesJson::new),
+            edges: one.edges.as_ref().zip(one.values.as_ref()).map(EdgesJson::new),
             behind: one.behind.map(Behind::words),
         });
         let touching = report.touching.iter().map(|one| TouchingJson {
             id: one.id,
             object: one.object,
-            edges: EdgesJson::new(&one.edges),
+            edges: EdgesJson::new((&one.edges, &one.values)),
         });
         SampleJson {
             sample: [report.sample.row, report.sample.column],
@@ -116,7 +119,7 @@ impl SampleJson {
 }
 
 impl EdgesJson {
-    fn new(edges: &EdgeSigns) -> EdgesJson {
+    fn new((edges, values): (&EdgeSigns, &EdgeValues)) -> EdgesJson {
         let number = |sign| match sign {
             Sign::Negative => -1,
             Sign::Zero => 0,
@@ -127,6 +130,9 @@ impl EdgesJson {
             at_sample: edges.at_sample.map(number),
             decided: edges.decided.map(number),
             tie: edges.at_sample.contains(&Sign::Zero),
+            facing_value: values.facing,
+            values: values.at_sample,
+            on_edge: values.sides.map(|side| side.map(Side::name)),
         }
     }
 }
