@@ -119,7 +119,7 @@ pub fn verify(
 ) -> Verified {
     let frames: Vec<&Frame> = rendered.iter().map(|one| &one.frame).collect();
     let a_pixel = u64::from(frames[0].samples()).pow(2);
-    let pixels = usize::try_from(samples.div_ceil(a_pixel)).unwrap_or(usize::MAX);
+    let pixels = usize::try_from(pixels(frames[0], samples)).unwrap_or(usize::MAX);
     let choices = choose(view, &frames, pixels);
     let against: Vec<(Order, Against)> =
         rendered.iter().map(|one| (one.order, against(view, one, &choices, progress))).collect();
@@ -138,6 +138,12 @@ pub fn verify(
         object_order: of(Order::Object),
         image_order: of(Order::Image),
     }
+}
+
+/// How many pixels of a frame are answered for so many samples: enough of them, or all.
+pub fn pixels(frame: &Frame, samples: u64) -> u64 {
+    let [width, height] = frame.image().map(u64::from);
+    samples.div_ceil(u64::from(frame.samples()).pow(2)).min(width * height)
 }
 
 /// Holds one order's frame against its textbook, in the chosen pixels.

@@ -1,7 +1,5 @@
 //! How work is counted: the same event by event as in sums, as long as it is within bounds, and to no harm of the frame.
 
-#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
-
 mod support;
 
 use bothways::common::budget::{Budget, WorkWithin};

@@ -86,14 +86,19 @@ impl Bar<'_> {
         }
     }
 
-    /// Shows how many steps of something are done.
-    pub(super) fn count(&self, what: &'static str, done: u64, total: u64) {
-        if done <= 1 {
-            self.bar.set_style(with_bar());
-            self.bar.set_message(what);
-            self.bar.set_length(total);
-        }
-        self.bar.set_position(done);
+    /// Shows how many steps of something are done, each of which is told of.
+    pub(super) fn count(&self, what: &'static str, total: u64) {
+        let style = style("{msg} [{bar:32}] {percent:>3} %, about {eta} left");
+        self.bar.set_style(style.progress_chars("=> "));
+        self.bar.set_message(what);
+        self.bar.set_length(total);
+        self.bar.set_position(0);
+        self.bar.reset_eta();
+    }
+
+    /// One more of them is done.
+    pub(super) fn step(&self) {
+        self.bar.inc(1);
     }
 
     /// Does something, such as printing a line, while the bar is out of the way.

@@ -16,7 +16,7 @@ use bothways::picture::{enlarged, id_picture, mask, picture};
 use bothways::progress::Listener;
 use bothways::report::Report;
 use bothways::scenes::{self, LoadedScene};
-use bothways::verify::{Verified, verify};
+use bothways::verify::{self, Verified};
 use image::{ColorType, ImageEncoder, codecs::png::PngEncoder};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -148,8 +148,9 @@ impl<'a> Run<'a> {
             comparison.as_ref(),
         );
         report.verified = args.method.verify.map(|samples| {
-            let patience = Patience::new(args, &rendered, samples, bar);
-            verify(&view, &rendered, samples.into(), &|| patience.step())
+            let pixels_of = |one: &Rendered| verify::pixels(&one.frame, samples.into());
+            let patience = Patience::new(rendered.iter().map(pixels_of).sum(), bar);
+            verify::verify(&view, &rendered, samples.into(), &|| patience.step())
         });
         Run { args, about: loaded.about(), rendered, comparison, report }
     }

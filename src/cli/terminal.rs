@@ -1,8 +1,8 @@
 //! Printing: results to stdout, warnings to stderr.
 
 use super::failure::Failure;
-use bothways::common::quote::visible;
 use super::output::reason;
+use bothways::common::quote::visible;
 use serde::Serialize;
 use std::borrow::Cow;
 use std::io::{self, ErrorKind, IsTerminal, Write};

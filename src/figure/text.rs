@@ -44,7 +44,7 @@ pub(super) enum Figures {
 
 /// Whether the typeface has this letter.
 pub(super) fn has(letter: char) -> bool {
-    Weight::Regular.font().face.glyph_index(letter).is_some()
+    Weight::Regular.font().letters.map(letter).is_some()
 }
 
 /// How wide a text is, in pixels.
