@@ -292,6 +292,12 @@ fn a_count_that_the_file_cannot_hold_takes_no_memory() {
 }
 
 #[test]
+fn names_that_a_terminal_would_obey_are_written_out() {
+    let says = message("ply\nformat ascii 1.0\nproperty float \0\u{9b}2J\n");
+    assert!(says.contains(r"the property \u{0}\u{9b}2J belongs to no element"), "{says}");
+}
+
+#[test]
 fn files_that_cannot_be_read_say_why() {
     let folder = std::env::temp_dir().join(format!("bothways-ply-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
