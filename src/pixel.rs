@@ -111,7 +111,7 @@ impl SampleReport {
 
 /// Reports on every sample of pixel `(i, j)`, row by row. Both orders render a crop of this pixel alone, with all
 /// their machinery: what they answer and do at its samples is what they do in the whole picture, which takes
-/// more memory.
+/// more memory. (Only how often the judge is asked which is nearest may depend on the samples around.)
 ///
 /// # Panics
 ///
@@ -362,8 +362,19 @@ mod tests {
                 let crop = Crop { row, column, height: 1, width: 1 };
                 let alone = Options { crop: Some(crop), ..whole };
                 let pixel = crop.region(whole.samples);
-                let all = answers(&view, &whole, &pixel);
-                assert_eq!(answers(&view, &alone, &pixel), all, "{name} ({row}, {column})");
+                // How often the judge was asked depends on the samples around it.
+                let told = |options| {
+                    answers(&view, options, &pixel).map(|answers| {
+                        answers
+                            .into_iter()
+                            .map(|mut answer| {
+                                answer.work.judged_nearest = 0;
+                                answer
+                            })
+                            .collect::<Vec<Answer>>()
+                    })
+                };
+                assert_eq!(told(&alone), told(&whole), "{name} ({row}, {column})");
             }
         }
     }

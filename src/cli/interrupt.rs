@@ -6,6 +6,8 @@ use std::{fs, mem, process};
 
 /// The exit code by which shells know an interrupted program.
 const INTERRUPTED: i32 = 130;
+/// Each try removes all that was there when it began.
+const MOST_TRIES: usize = 50;
 
 /// A folder that goes if the program is interrupted.
 #[derive(Debug)]
@@ -42,7 +44,12 @@ pub(super) fn clean_up() {
             return;
         }
         for Unfinished { hidden, created } in &state.unfinished {
-            let _ = fs::remove_dir_all(hidden);
+            // Other threads go on writing: what they write meanwhile goes, too.
+            for _ in 0..MOST_TRIES {
+                if fs::remove_dir_all(hidden).is_ok() {
+                    break;
+                }
+            }
             for folder in created {
                 let _ = fs::remove_dir(folder);
             }

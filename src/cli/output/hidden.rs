@@ -12,6 +12,8 @@ use tempfile::TempDir;
 const PREFIX: &str = ".bothways-";
 /// The file in each of them that its run keeps locked for as long as it lives, however it ends.
 const LOCK: &str = "lock";
+/// Its name until it is locked.
+const UNLOCKED: &str = "unlocked";
 /// What is in that file, so that no other program's folder is taken for one of ours.
 const MARK: &str =
     "A run of bothways keeps this file locked. Once nobody does, the folder may go.\n";
@@ -56,7 +58,7 @@ impl Hidden {
 /// unlocked while the run lives. `None` where the system cannot do so: then the folder is removed by its own
 /// run alone.
 fn locked(folder: &Path) -> Option<File> {
-    let unnamed = folder.join("unlocked");
+    let unnamed = folder.join(UNLOCKED);
     let mut file = File::create(&unnamed).ok()?;
     file.write_all(MARK.as_bytes()).ok()?;
     file.try_lock().ok()?;
@@ -78,6 +80,7 @@ pub(super) fn remove_dead(folder: &Path) {
             let _ = fs::remove_dir_all(entry.path());
         } else if is_old(&entry.path()) {
             // Of a run that was killed before it could lock anything; this removes nothing that is not empty.
+            let _ = fs::remove_file(entry.path().join(UNLOCKED));
             let _ = fs::remove_dir(entry.path());
         }
     }
@@ -85,7 +88,8 @@ pub(super) fn remove_dead(folder: &Path) {
 
 fn is_old(folder: &Path) -> bool {
     let changed = fs::symlink_metadata(folder).and_then(|folder| folder.modified());
-    changed.is_ok_and(|changed| changed.elapsed().is_ok_and(|age| age > MOMENT))
+    !folder.join(LOCK).exists()
+        && changed.is_ok_and(|changed| changed.elapsed().is_ok_and(|age| age > MOMENT))
 }
 
 /// The lock of a folder that is certainly ours and that nobody holds any more.
