@@ -1,6 +1,8 @@
 //! Eyes that are far from what they see, up to a billion times its size: what is seen stays right, and what is skipped
 //! from near is skipped from afar, too.
 
+#![expect(clippy::cast_possible_truncation, reason = "small numbers")]
+
 mod support;
 
 use bothways::common::glam::Vec3;
