@@ -74,9 +74,23 @@ fn camera(bytes: &mut Unstructured, numbers: Numbers) -> Result<CameraDescriptio
     let image = [bytes.int_in_range(1..=most)?, bytes.int_in_range(1..=most)?];
     let eye = if bytes.ratio(1, 2)? { Vec3::ZERO } else { numbers.point(bytes)? };
     // The first choice is what bytes of zero give: aligned.
-    let orientation = match bytes.int_in_range(0..=3)? {
+    let orientation = match bytes.int_in_range(0..=4)? {
         0 | 1 => Orientation::Frame { u: Vec3::X, v: Vec3::Y, w: Vec3::Z },
-        2 => Orientation::Direction { direction: numbers.point(bytes)?, up: numbers.point(bytes)? },
+        // Tilted so little that a sum would not show it.
+        2 => {
+            let mut little = || -> Result<f32> {
+                let part = f32::from(bytes.int_in_range(-3..=3_i8)?);
+                Ok(part * (bytes.int_in_range(-100..=-20)? as f32).exp2())
+            };
+            let (w, roll) = (Vec3::new(little()?, little()?, 1.0), little()?);
+            let (u, v) = (Vec3::new(1.0, roll, 0.0), Vec3::new(-roll, 1.0, 0.0));
+            if bytes.arbitrary()? {
+                Orientation::Frame { u, v, w }
+            } else {
+                Orientation::Direction { direction: -w, up: v }
+            }
+        }
+        3 => Orientation::Direction { direction: numbers.point(bytes)?, up: numbers.point(bytes)? },
         _ => {
             let turn = Quat::from_rotation_y(numbers::share(bytes)? * 6.3)
                 * Quat::from_rotation_x(numbers::share(bytes)? * 3.0 - 1.5)

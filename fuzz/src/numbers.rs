@@ -19,7 +19,7 @@ pub(crate) enum Numbers {
 
 impl Numbers {
     pub(crate) fn choose(bytes: &mut Unstructured) -> Result<Numbers> {
-        Ok(match bytes.int_in_range(0..=5)? {
+        Ok(match bytes.int_in_range(0..=6)? {
             0 | 1 => Numbers::FewBits { unit: *bytes.choose(&[1.0, 0.5, 0.25])? },
             2 => Numbers::FewBits { unit: *bytes.choose(&[1.0 / 3.0, 0.1, 1024.0])? },
             3 | 4 => Numbers::Ordinary,
@@ -37,12 +37,18 @@ impl Numbers {
             Numbers::FewBits { unit } => Ok(unit * few(bytes)?),
             Numbers::Ordinary if bytes.ratio(1, 8)? => few(bytes),
             Numbers::Ordinary => Ok(share(bytes)? * 8.0 - 4.0),
-            Numbers::Extreme => match bytes.int_in_range(0..=3)? {
+            Numbers::Extreme => match bytes.int_in_range(0..=4)? {
                 0 => few(bytes),
                 1 => Ok(share(bytes)? * 8.0 - 4.0),
                 2 => {
                     let power = (bytes.int_in_range(-149..=127)? as f32).exp2();
                     Ok(if bytes.arbitrary()? { power } else { -power })
+                }
+                // Near one end or the other, where bounds overflow or vanish, and in few bits.
+                3 => {
+                    let exponent = *bytes.choose(&[-140, -126, -100, -64, 50, 64, 85, 100, 120])?;
+                    let power = ((exponent + bytes.int_in_range(-6..=6)?) as f32).exp2();
+                    Ok(few(bytes)? * power)
                 }
                 _ => {
                     let any = f32::from_bits(bytes.arbitrary()?);
