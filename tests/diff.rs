@@ -383,9 +383,9 @@ fn files_of_the_same_name_in_two_folders_are_compared() {
     let args = ["canonical", "--size", "24x16", "--no-times", "--quiet", "-o", "other"];
     bothways(&home, &args).assert().code(0);
     let said =
-        contains("B lacks 4 files: image-order.ids.npy, image-order.t.npy, object-order.ids.npy")
+        contains("B lacks 6 files: image-order.ids.npy, image-order.ids.png, image-order.t.npy, ")
             .and(contains("mask-object-order"))
-            .and(contains("4 are missing"));
+            .and(contains("6 are missing"));
     bothways(&home, &["diff", "out", "other"]).assert().code(1).stdout(said);
     fs::create_dir(home.path().join("empty")).unwrap();
     let refused = contains("no file of out (PNG, PNM, BMP or NPY) belongs to one of empty");

@@ -25,7 +25,7 @@ pub(super) fn print(text: &str) -> Result<(), Failure> {
 
 /// A text of several lines in which a terminal obeys nothing but colours: scenes are printed as they are,
 /// and may hold anything.
-fn tame(text: &str) -> Cow<'_, str> {
+pub(super) fn tame(text: &str) -> Cow<'_, str> {
     let kept = |c: char| c == '\n' || c == '\t';
     if visible(text).len() == text.len() {
         return Cow::Borrowed(text);

@@ -2,6 +2,8 @@
 
 use super::Cli;
 use super::failure::Failure;
+use super::terminal::tame;
+use bothways::common::quote::visible;
 use bothways::common::scene_file::nearest_name;
 use bothways::scenes::BUILT_IN;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -18,13 +20,22 @@ pub(super) fn parse() -> Result<Cli, Failure> {
         std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned()).collect();
     let cli = Cli::try_parse().map_err(|error| match excess(&error, &words) {
         Some(message) => Failure::new(message),
-        None => error.exit(),
+        None => exit(&error),
     })?;
     match (&cli.command, cli.render.scene.as_str()) {
         (None, word) if is_subcommand(word) => Err(Failure::new(late(word))),
         (None, word) => mistyped(word).map_or(Ok(cli), |message| Err(Failure::new(message))),
         _ => Ok(cli),
     }
+}
+
+/// Prints what the parser says, help or a mistake, and ends the program. It quotes words of the command line.
+fn exit(error: &clap::Error) -> ! {
+    if error.use_stderr() {
+        anstream::eprint!("{}", tame(&error.render().ansi().to_string()));
+        std::process::exit(error.exit_code());
+    }
+    error.exit()
 }
 
 fn is_subcommand(word: &str) -> bool {
@@ -51,7 +62,7 @@ fn mistyped(word: &str) -> Option<String> {
     let command = meant(word)?;
     let scene = nearest_name(word, BUILT_IN.iter().map(|scene| scene.name));
     let or_scene = scene.map_or(String::new(), |scene| format!(", or the scene '{scene}'"));
-    let word = word.escape_debug();
+    let word = visible(word);
     Some(format!(
         "there is no command and no scene '{word}'; did you mean the command 'bothways {command}'{or_scene}? \
          (bothways help and bothways scenes list them)"
@@ -79,7 +90,7 @@ fn excess(error: &clap::Error, words: &[String]) -> Option<String> {
         [start.to_owned()].into_iter().chain(words).collect::<Vec<_>>().join(" ")
     };
     if let Some(command) = scene.and_then(|scene| meant(scene)) {
-        let scene = scene.map_or(String::new(), |scene| scene.escape_debug().to_string());
+        let scene = scene.map_or(String::new(), |scene| visible(scene).into_owned());
         let command = written(&format!("bothways {command}"), rest);
         return Some(format!("there is no command '{scene}'; did you mean '{command}'?"));
     }
@@ -96,7 +107,7 @@ fn excess(error: &clap::Error, words: &[String]) -> Option<String> {
     } else {
         "one scene is rendered at a time; bothways help lists all commands".into()
     };
-    Some(format!("'{}' is a word too many: {remedy}", word.escape_debug()))
+    Some(format!("'{}' is a word too many: {remedy}", visible(word)))
 }
 
 /// A word as a shell reads it.
@@ -105,7 +116,7 @@ fn quoted(word: &str) -> String {
     if !word.is_empty() && word.chars().all(plain) {
         return word.to_owned();
     }
-    format!("'{}'", word.escape_debug())
+    format!("'{}'", visible(word))
 }
 
 #[cfg(test)]

@@ -163,6 +163,14 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
         "invalid value '-3' for '--repeat <N>': give a whole number from 1 to 4294967295",
     ),
     (
+        "canonical --verify 0",
+        "invalid value '0' for '--verify <N>': give a whole number from 1 to 4294967295",
+    ),
+    (
+        "canonical --verify 9 --method textbook",
+        "--verify holds the fast method against the textbook, which --method textbook is; leave one of them out",
+    ),
+    (
         "canonical --buffers exr",
         "invalid value 'exr' for '--buffers <BUFFERS>' [possible values: none, npy]",
     ),
@@ -172,6 +180,10 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
     (
         "canonical --no-times=yes",
         "unexpected value 'yes' for '--no-times' found; no more were expected",
+    ),
+    (
+        "canonical --no-counts=yes",
+        "unexpected value 'yes' for '--no-counts' found; no more were expected",
     ),
     ("canonical --no-such-option", "unexpected argument '--no-such-option' found"),
     ("canonical -o", "a value is required for '--output <DIR>' but none was supplied"),

@@ -7,6 +7,7 @@ use crate::cli::output::Staging;
 use crate::cli::render::write_rgb;
 use crate::cli::terminal;
 use anstyle::{AnsiColor, Style};
+use bothways::common::quote::visible;
 use bothways::diff::foreign::{self, BufferComparison};
 use bothways::diff::pairs::{Pair, Pairs, Partners};
 use bothways::wording::count;
@@ -128,7 +129,7 @@ impl Told<'_> {
         let mut text = self.heading();
         let widest = self.rows.iter().map(|row| row.pair.name.chars().count()).max().unwrap_or(0);
         for row in self.rows {
-            let name = row.pair.name.escape_debug().to_string();
+            let name = visible(&row.pair.name).into_owned();
             text += &format!("{name:widest$}  {}\n", row.words());
         }
         text += &self.missing();
@@ -157,12 +158,12 @@ impl Told<'_> {
         for (name, missing) in missing.filter(|(_, missing)| !missing.is_empty()) {
             let number = count(missing.len() as u64, self.pairs.things());
             let names: Vec<String> =
-                missing.iter().map(|name| name.escape_debug().to_string()).collect();
+                missing.iter().map(|name| visible(name).into_owned()).collect();
             text += &format!("\n{name} lacks {number}: {}\n", names.join(", "));
         }
         if !self.pairs.ignored.is_empty() {
             let files = count(self.pairs.ignored.len() as u64, "files");
-            let first = self.pairs.ignored[0].escape_debug();
+            let first = visible(&self.pairs.ignored[0]);
             text += &format!("\nnot of the set, and left out: {files}, such as {first}\n");
         }
         text
