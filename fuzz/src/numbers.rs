@@ -46,7 +46,7 @@ impl Numbers {
                 }
                 // Near one end or the other, where bounds overflow or vanish, and in few bits.
                 3 => {
-                    let exponent = *bytes.choose(&[-140, -126, -100, -64, 50, 64, 85, 100, 120])?;
+                    let exponent = *bytes.choose(&[-140, -126, -100, -64, 50, 64, 85, 100, 116])?;
                     let power = ((exponent + bytes.int_in_range(-6..=6)?) as f32).exp2();
                     Ok(few(bytes)? * power)
                 }

@@ -22,6 +22,7 @@ const FLOOR: f64 = 1e-200;
 
 /// Tests a ray against a sphere: in `f64`, and where that leaves open whether it hits or leaves too few digits of where,
 /// with twice as many digits. `exact` says whether bounds hold or are (by a fault) zero.
+#[inline(always)]
 pub(super) fn covered(
     projection: Projection,
     center: DVec3,
@@ -35,7 +36,7 @@ pub(super) fn covered(
     let answer = match answer {
         Answer::At { relative, .. } if relative <= ENOUGH => answer,
         Answer::No => answer,
-        _ if exact => Equation::twofold(center, radius, ray).answer(),
+        _ if exact => twofold_answer(center, radius, ray),
         _ => answer,
     };
     match answer {
@@ -45,6 +46,13 @@ pub(super) fn covered(
         Answer::No => Covered::No,
         Answer::Unknown => Covered::Unknown,
     }
+}
+
+/// Apart from the loop, which it would slow down.
+#[cold]
+#[inline(never)]
+fn twofold_answer(center: DVec3, radius: f64, ray: &Ray) -> Answer {
+    Equation::twofold(center, radius, ray).answer()
 }
 
 enum Answer {
@@ -80,6 +88,7 @@ impl Equation {
     /// `A` carries 3 roundings; `m` one; `B` 1 + 3 of `B̂ = Σ|m|·|D|`; `C` 2 + 1 + 2 and the last difference
     /// one, of `Ĉ = m·m + r²`; `B²` twice 4 and one; `A·C` 3 + 6 + 1; their difference one more: 11 of
     /// `B̂² + A·Ĉ`. Each constant below is larger by one or more, for the roundings of the bounds.
+    #[inline(always)]
     fn new(center: DVec3, radius: f64, ray: &Ray, exact: bool) -> Equation {
         let unit = if exact { UNIT_ROUNDOFF } else { 0.0 };
         let floor = if exact { FLOOR } else { 0.0 };
@@ -109,7 +118,6 @@ impl Equation {
     /// `m` has none, a sum less than 4u², a product less than 8u². So `A` carries 8 + 2·4 of them; `B` as many of
     /// `B̂`; `C` 8 + 3·4 of `Ĉ`; `B²` 2·16 + 8; `A·C` 16 + 20 + 8; their difference four more: 48 of `B̂² + A·Ĉ`.
     /// Each constant below is larger by a fifth or more: for the roundings of sizes, and for products of errors.
-    #[cold]
     fn twofold(center: DVec3, radius: f64, ray: &Ray) -> Equation {
         const UU: f64 = UNIT_ROUNDOFF * UNIT_ROUNDOFF;
         let d = ray.direction.to_array().map(Twofold::new);
@@ -136,6 +144,7 @@ impl Equation {
         }
     }
 
+    #[inline(always)]
     fn answer(&self) -> Answer {
         let Equation { a, b, b_error, c, c_error, discriminant, d_error, unit } = *self;
         let (outside, inside) = (c > c_error, c < -c_error);

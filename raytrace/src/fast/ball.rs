@@ -13,6 +13,7 @@ const ENOUGH: f64 = 1e-7;
 
 /// The answer for a sphere: in `f64`, and where that leaves it open or is not sure of enough digits, with twice as
 /// many.
+#[inline(always)]
 pub(super) fn answer(ray: &Ray, center: DVec3, radius: f64, trust: Trust) -> Answer {
     match Passing::new(ray, center, radius, trust).answer(trust) {
         Answer::Hit(Distance { low, high }) if high - low <= ENOUGH * high => {
@@ -47,6 +48,7 @@ impl Passing {
     /// `m` carries one rounding; `A` 3; `k` 1 + 3 + 3 + 1 of `k̂ = Σ|m|·|D|/A`; a coordinate of `f` at most 10 of
     /// `|m| + k̂·|D|`; `f·f` what its coordinates bring, and 3; `C = m·m − r²` 2 + 1 + 2 + 1. Constants are larger by
     /// one or more, for the roundings of the bounds.
+    #[inline(always)]
     fn new(ray: &Ray, center: DVec3, radius: f64, trust: Trust) -> Passing {
         let u = UNIT_ROUNDOFF;
         let (m, d) = (ray.origin - center, ray.direction);
@@ -77,11 +79,13 @@ impl Passing {
     /// Half of the way through the sphere, in lengths of the ray's direction, and how far that may be off.
     ///
     /// `|√(X + e) − √X| ≤ |e|/√X`, and `A` brings 3 roundings, the quotient and the root one each.
+    #[inline(always)]
     fn half(&self, trust: Trust) -> (f64, f64) {
         let half = (self.room.max(0.0) / self.a).sqrt();
         (half, trust.of(self.room_error / (self.a * half) + 5.0 * UNIT_ROUNDOFF * half))
     }
 
+    #[inline(always)]
     fn answer(&self, trust: Trust) -> Answer {
         let (inside, outside) = (self.c < -self.c_error, self.c > self.c_error);
         if outside && (self.k > self.k_error || self.room < -self.room_error) {
@@ -121,6 +125,7 @@ impl Passing {
 /// `m` is the sum of two numbers without error, so its products are sums of twice as many; `m × D` and `A` are taken
 /// as they come out, and what they are off by goes into the bound. `r²` has 48 digits: no error.
 #[cold]
+#[inline(never)]
 fn precise_answer(ray: &Ray, center: DVec3, radius: f64) -> Answer {
     let [dx, dy, dz] = ray.direction.to_array();
     let [(mx, nx), (my, ny), (mz, nz)] =

@@ -92,6 +92,7 @@ pub(super) fn triangle(
 }
 
 /// The answer for a plane.
+#[inline(always)]
 pub(super) fn plane(ray: &Ray, point: DVec3, normal: DVec3, trust: Trust) -> Answer {
     in_front(flat_distance(ray, point - ray.origin, normal, normal.abs(), trust))
 }
@@ -117,6 +118,7 @@ impl Trust {
         matches!(self, Trust::Sound)
     }
 
+    #[inline(always)]
     pub(super) fn of(self, error: f64) -> f64 {
         match self {
             Trust::Sound => error,
@@ -126,6 +128,7 @@ impl Trust {
     }
 }
 
+#[inline(always)]
 fn in_front(distance: Option<Distance>) -> Answer {
     match distance {
         Some(distance) if distance.low > 0.0 => Answer::Hit(distance),
@@ -141,6 +144,7 @@ fn in_front(distance: Option<Distance>) -> Answer {
 /// A coordinate of `normal` carries at most 4 roundings of the same one of `permanent`, the point one,
 /// the products 3: at most 8 for `p`, 7 for `q`. With `|p/q − P/Q| ≤ (δp + |p/q|·δq)/(|q| − δq)`, and
 /// one rounding for the quotient.
+#[inline(always)]
 fn flat_distance(
     ray: &Ray,
     point: DVec3,
