@@ -122,10 +122,10 @@ pub enum Counts {
     LeftOut,
 }
 
-/// At how many steps counting is given up, for a frame of so many samples: 2¹⁰ a sample and 2³⁰ besides. Rays meet
+/// At how many steps counting is given up, for a frame of so many samples: 2¹⁰ a sample and 2²⁸ besides. Rays meet
 /// some hundred boxes and triangles each, as a rule; who has more to count has it without end.
 pub fn most_steps(samples: u64) -> u64 {
-    (1 << 30) + (samples << 10)
+    (1 << 28) + (samples << 10)
 }
 
 /// How long the parts of a rendering took.

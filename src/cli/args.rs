@@ -114,7 +114,7 @@ pub(super) struct OutputArgs {
     #[arg(long)]
     pub(super) no_times: bool,
     /// Leave the work uncounted. It is counted in a frame of its own, which takes longer than those that are
-    /// timed; beyond 2^30 steps and 2^10 a sample that is given up
+    /// timed; beyond 2^28 steps and 2^10 a sample that is given up
     #[arg(long)]
     pub(super) no_counts: bool,
     /// Print nothing but errors

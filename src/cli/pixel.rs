@@ -73,7 +73,7 @@ pub(super) fn run(args: &PixelArgs) -> Result<ExitCode, Failure> {
         pixel::report(&view, &Options { samples: args.samples, ..Options::default() }, i, j);
     let agree = samples.iter().all(SampleReport::agrees);
     let lesson = Lesson { scene: &loaded.name, camera: &camera, args, samples: &samples };
-    terminal::print(&if args.json { lesson.json()? } else { lesson.text() })?;
+    if args.json { lesson.print_json() } else { terminal::print(&lesson.text()) }?;
     Ok(ExitCode::from(u8::from(!agree)))
 }
 

@@ -5,7 +5,7 @@ use super::output::reason;
 use bothways::common::quote::visible;
 use serde::Serialize;
 use std::borrow::Cow;
-use std::io::{self, ErrorKind, IsTerminal, Write};
+use std::io::{self, BufWriter, ErrorKind, IsTerminal, Write};
 
 /// Prints a text; its colours are kept on a terminal only, and not if `NO_COLOR` is set.
 ///
@@ -14,7 +14,21 @@ pub(super) fn print(text: &str) -> Result<(), Failure> {
     // A file keeps every byte of the result; a terminal shall obey none of it but our colours.
     let text = if io::stdout().is_terminal() { tame(text) } else { Cow::Borrowed(text) };
     let mut stdout = anstream::stdout().lock();
-    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+    printed(stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()))
+}
+
+/// Prints a report that may be larger than memory, as [`json`] writes it.
+pub(super) fn print_json(report: &impl Serialize) -> Result<(), Failure> {
+    if io::stdout().is_terminal() {
+        return print(&json(report)?);
+    }
+    let mut stdout = BufWriter::new(io::stdout().lock());
+    let written = serde_json::to_writer_pretty(&mut stdout, report).map_err(io::Error::from);
+    printed(written.and_then(|()| stdout.write_all(b"\n")).and_then(|()| stdout.flush()))
+}
+
+fn printed(result: io::Result<()>) -> Result<(), Failure> {
+    match result {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             let reason = reason(&error, "send it elsewhere");
             Err(Failure::new(format!("cannot print to standard output: {reason}")))

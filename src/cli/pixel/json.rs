@@ -9,21 +9,20 @@ use bothways::common::glam::Vec3;
 use bothways::common::predicate::{EdgeSigns, EdgeValues, Side};
 use bothways::pixel::{Answer, Behind, SampleReport};
 use bothways::report::WorkReport;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 impl Lesson<'_> {
-    /// Everything, of all samples.
-    pub(super) fn json(&self) -> Result<String, Failure> {
+    /// Prints everything, of all samples, one after the other: a million of them are gigabytes of text.
+    pub(super) fn print_json(&self) -> Result<(), Failure> {
         let camera = self.camera;
-        let samples = self.samples.iter().map(SampleJson::new).collect();
-        terminal::json(&PixelJson {
+        terminal::print_json(&PixelJson {
             scene: self.scene,
             pixel: [self.args.row, self.args.column],
             size: camera.image(),
             samples: self.args.samples,
             eye: (camera.eye() + Vec3::ZERO).to_array(),
             agree: self.samples.iter().all(SampleReport::agrees),
-            at: samples,
+            at: Samples(self.samples),
         })
     }
 }
@@ -37,7 +36,16 @@ struct PixelJson<'a> {
     samples: u32,
     eye: [f32; 3],
     agree: bool,
-    at: Vec<SampleJson>,
+    at: Samples<'a>,
+}
+
+#[derive(Debug)]
+struct Samples<'a>(&'a [SampleReport]);
+
+impl Serialize for Samples<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.0.iter().map(SampleJson::new))
+    }
 }
 
 #[derive(Debug, Serialize)]
