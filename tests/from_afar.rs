@@ -7,8 +7,8 @@ mod support;
 
 use bothways::common::glam::Vec3;
 use bothways::common::{
-    Camera, CameraDescription, Frame, Mesh, Object, Options, Orientation, Plane, Projection, Scene,
-    Shape, Sphere, View, Work,
+    Camera, CameraDescription, Crop, Frame, Mesh, Object, Options, Orientation, Plane, Projection,
+    Scene, Shape, Sphere, View, Work,
 };
 use bothways::{rasterize, raytrace};
 use support::{PROJECTIONS, all_agree, assert_same_visibility, mesh, scene};
@@ -160,5 +160,45 @@ fn a_perspective_eye_tests_from_afar_little_more_than_from_near() {
                 assert!(far.nodes <= 2 * near.nodes, "{what}");
             }
         }
+    }
+}
+
+#[test]
+fn spheres_far_beside_the_middle_that_a_ray_hardly_meets() {
+    // A ray passes such a sphere's middle at the radius, as nearly as both can be stored.
+    let description = CameraDescription {
+        projection: Projection::Parallel,
+        orientation: Orientation::Direction {
+            direction: Vec3::new(0.6, 0.1, -0.7),
+            up: Vec3::new(0.13, 1.0, 0.3),
+        },
+        viewport: [256.0, 256.0],
+        image: [256, 256],
+        ..CameraDescription::default()
+    };
+    let camera = Camera::new(description).expect("it is a camera");
+    let found = [
+        ([552.452_15, 258.042_27, -774.729_6], 1.555_325_2e-6, [3, 3]),
+        ([12_440.907, 2_243.451_2, -14_647.731], 7.946_62e-4, [0, 0]),
+    ];
+    let found = found.map(|(center, radius, pixel)| (Vec3::from_array(center), radius, pixel));
+    let made = (0..4000_u32).map(|k| {
+        let [row, column] = [k * 7919 % 256, k * 104_729 % 256];
+        let ray = camera.viewing_ray(row, column);
+        let far = 2f64.powf(f64::from(k % 89) / 8.0 + 5.0);
+        let center = (ray.origin + far * ray.direction).as_vec3();
+        let beside = ray.origin - center.as_dvec3();
+        let nearest = beside - beside.dot(ray.direction) * ray.direction;
+        (center, nearest.length() as f32, [row, column])
+    });
+    for (center, radius, [row, column]) in found.into_iter().chain(made) {
+        if radius == 0.0 {
+            continue;
+        }
+        let scene = scene(vec![Shape::Sphere(Sphere { center, radius }).into()]);
+        let crop = Some(Crop { row, column, height: 1, width: 1 });
+        let options = Options { crop, ..Options::default() };
+        let what = format!("{center:?}, {radius:e}, pixel ({row}, {column})");
+        all_agree(&View::new(&scene, &camera), &options, &what);
     }
 }

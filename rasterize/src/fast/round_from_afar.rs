@@ -11,10 +11,13 @@ use glam::DVec3;
 ///
 /// # The errors, rounding by rounding
 ///
-/// With `A = D·D`, `B = m·D`, `C = m·m − r²` and `m = O − center`, of which the centre brings two for each coordinate:
-/// `A` carries 3, `m` 3, `B` 3 and 3 of `B̂ = Σ|m|·|D|`, `C` 6, 3 and 1 of `Ĉ = m·m + r²`, `B²` twice 6 and one, `A·C` 3,
-/// 10 and 1, their difference one more: 15 of `B̂² + A·Ĉ`. The root `(−B − √…)/A` carries what its parts do, and 3 of
-/// `A`, the sum's and the quotient's. Constants are larger by one or more.
+/// `A = D·D`, `B = m·D`, `C = m·m − r²` and `m = O − center`. The centre carries two roundings of itself, which are not
+/// ones of `m`: beside the middle ray `O` and the centre cancel. With that one's own, a coordinate of `m` is off by at most
+/// `3u·s`, `s = |m| + |center|`. So `B` is off by 3 and 3 of `S = Σs·|D|`; `m·m` by 6 of `Σ|m|·s`, 9 of `u·Σs·s` and 3
+/// of itself; `C` by one of itself and of `r²` besides. With these `δB` and `δC`, `B²` is off by `2|B|·δB + δB²`, of
+/// which the computed `B` may take one more `2δB²`, and one of itself; `A·C` by `A·δC`, 3 for `A` and one; their
+/// difference by one of both. The root `(−B − √…)/A` carries what its parts do, and 3 of `A`, the sum's and the
+/// quotient's. Constants are larger by one or more, or by a tenth.
 pub(super) fn covered(center: DVec3, radius: f64, ray: &Ray, exact: bool) -> Covered {
     const FLOOR: f64 = 1e-200;
     let (unit, floor) = if exact { (UNIT_ROUNDOFF, FLOOR) } else { (0.0, 0.0) };
@@ -22,10 +25,14 @@ pub(super) fn covered(center: DVec3, radius: f64, ray: &Ray, exact: bool) -> Cov
     let a = ray.direction.length_squared();
     let b = m.dot(ray.direction);
     let (distance_squared, radius_squared) = (m.length_squared(), radius * radius);
-    let b_size = m.abs().dot(ray.direction.abs());
-    let c_size = distance_squared + radius_squared;
+    let size = m.abs() + center.abs();
+    let b_error = 7.0 * unit * size.dot(ray.direction.abs()) + floor;
+    let c_error = 12.0 * unit * (m.abs().dot(size) + radius_squared)
+        + 16.0 * unit * unit * size.length_squared();
     let discriminant = b * b - a * (distance_squared - radius_squared);
-    let d_error = 18.0 * unit * (b_size * b_size + a * c_size) + floor;
+    let d_error = 1.1 * (2.0 * b.abs() * b_error + 3.0 * b_error * b_error + a * c_error)
+        + 8.0 * unit * (b * b + a * (distance_squared + radius_squared))
+        + floor;
     if discriminant < -d_error {
         return Covered::No;
     }
@@ -36,8 +43,7 @@ pub(super) fn covered(center: DVec3, radius: f64, ray: &Ray, exact: bool) -> Cov
     let root = discriminant.sqrt();
     let root_error = d_error / root + unit * root;
     let t = (-b - root) / a;
-    let error =
-        1.01 * (8.0 * unit * b_size + root_error + 6.0 * unit * (b.abs() + root)) / a + floor;
+    let error = 1.01 * (b_error + root_error + 6.0 * unit * (b.abs() + root)) / a + floor;
     let (low, high) = (t - error, t + error);
     Covered::At(if low <= high { DepthInterval { low, high } } else { DepthInterval::UNKNOWN })
 }
