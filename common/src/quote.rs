@@ -9,7 +9,7 @@ use std::fmt::Write;
 /// Characters of a word that a message shows: longer words say no more.
 pub const LONGEST_WORD: usize = 32;
 /// The names of a list that a message shows.
-const MOST_NAMES: usize = 12;
+const MOST_NAMES: usize = 16;
 
 /// A text in which every character is seen for what it is, on one line: those that move a cursor, change
 /// a terminal's state or turn text around are written as `\u{1b}`.
@@ -71,7 +71,7 @@ pub fn quoted(word: &str) -> String {
 ///
 /// assert_eq!(listed(["sphere", "plane"]), "sphere, plane");
 /// let many = vec!["a"; 20];
-/// assert_eq!(listed(many), "a, a, a, a, a, a, a, a, a, a, a, a and 8 more");
+/// assert_eq!(listed(many), "a, a, a, a, a, a, a, a, a, a, a, a, a, a, a, a and 4 more");
 /// ```
 pub fn listed<'n>(names: impl IntoIterator<Item = &'n str>) -> String {
     let mut names = names.into_iter();

@@ -57,11 +57,15 @@ impl Need {
 
     /// Also where memory has no end, the message has one.
     fn refusal(&self, most: Option<u64>) -> String {
-        let (samples, need) = (count(self.samples, "samples"), self.bytes.div_ceil(1 << 30));
-        let have = most.map_or(String::new(), |most| format!(" ({})", gibibytes(most)));
+        let (samples, need) = (count(self.samples, "samples"), gibibytes(self.bytes));
+        // Who has less than there is was given a limit (`ulimit -v`).
+        let than = match most.filter(|&most| self.bytes > most) {
+            Some(most) => format!("than there is ({})", gibibytes(most)),
+            None => "than this program may have".into(),
+        };
         format!(
-            "{samples} need at least {need} GiB of memory, more than there is{have}; take a smaller \
-             --size, a --crop of it, fewer --samples, or one --order alone"
+            "{samples} need at least {need} of memory, more {than}; take a smaller --size, a --crop of it, \
+             fewer --samples, or one --order alone"
         )
     }
 
@@ -270,9 +274,11 @@ mod tests {
         let need = Need { samples: 132_710_400, bytes: 8_600_000_000 };
         assert_eq!(
             need.refusal(Some(2 * GIB)),
-            "132,710,400 samples need at least 9 GiB of memory, more than there is (2.0 GiB); take a \
+            "132,710,400 samples need at least 8.0 GiB of memory, more than there is (2.0 GiB); take a \
              smaller --size, a --crop of it, fewer --samples, or one --order alone"
         );
+        // There would be enough, but for a limit.
+        assert!(need.refusal(Some(20 * GIB)).contains(", more than this program may have; take"));
         assert_eq!(need.warning(Some(9 * GIB)), None);
         assert_eq!(
             need.warning(Some(GIB)).unwrap(),
