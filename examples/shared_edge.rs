@@ -5,8 +5,8 @@
 //!
 //! `cargo run --example shared_edge`
 
+use bothways::common::exact::{EdgeSigns, Sign};
 use bothways::common::glam::Vec3;
-use bothways::common::predicate::{EdgeSigns, Sign};
 use bothways::common::{Camera, Frame, Object, Options, Scene, Shape, Triangle, View, Work};
 use bothways::raytrace;
 

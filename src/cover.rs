@@ -10,8 +10,8 @@
 //! rays' origins, without any rounding. Only a decimal that no `f32` holds, such as 0.1, is rounded,
 //! once, to the nearest: [`Cover::triangle`] says to what.
 
+use crate::common::exact::EdgeSigns;
 use crate::common::glam::{DVec3, Vec2, Vec3};
-use crate::common::predicate::EdgeSigns;
 use crate::common::{Camera, CameraDescription, CameraError, Judge, Orientation, Projection, Sign};
 use image::GrayImage;
 use rayon::prelude::*;

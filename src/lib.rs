@@ -27,6 +27,7 @@
 //! ```
 
 pub use bothways_common as common;
+pub use bothways_formats as formats;
 pub use bothways_rasterize as rasterize;
 pub use bothways_raytrace as raytrace;
 

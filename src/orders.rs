@@ -4,8 +4,8 @@ mod stream;
 
 pub use stream::render_stream;
 
-use crate::common::budget::{Budget, WorkWithin};
 use crate::common::frame::NO_PRIMITIVE;
+use crate::common::observe::budget::{Budget, WorkWithin};
 use crate::common::{Camera, Frame, Observer, Options, Scene, View, Work};
 use crate::progress::{Listener, Steps};
 use crate::{rasterize, raytrace};

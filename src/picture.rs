@@ -3,7 +3,7 @@
 use crate::common::Frame;
 use crate::common::frame::NO_PRIMITIVE;
 use crate::common::glam::Vec3;
-use crate::common::shade::{linear_from_srgb, srgb_from_linear};
+use crate::common::look::color::{linear_from_srgb, srgb_from_linear};
 use crate::diff::Class;
 use image::{GrayImage, RgbImage};
 use rayon::prelude::*;

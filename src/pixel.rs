@@ -3,9 +3,10 @@
 //! What is true comes from the view's own judge, what was seen from the renderers' own loops,
 //! watched at this pixel alone: what is said here cannot disagree with the picture.
 
-use crate::common::frame::Region;
-use crate::common::observe::{Question, Sample};
-use crate::common::predicate::{EdgeSigns, EdgeValues};
+use crate::common::exact::{EdgeSigns, EdgeValues};
+use crate::common::observe::Question;
+use crate::common::raster::Region;
+use crate::common::raster::Sample;
 use crate::common::{Crop, Events, Frame, Observer, Options, Primitive, Ray, Shape, View, Work};
 use crate::{rasterize, raytrace};
 use rayon::prelude::*;
@@ -115,7 +116,7 @@ impl SampleReport {
 ///
 /// # Panics
 ///
-/// If the image has no such pixel, or [`check_samples`](crate::common::camera::check_samples) refuses
+/// If the image has no such pixel, or [`check_samples`](crate::common::raster::check_samples) refuses
 /// the options.
 ///
 /// ```

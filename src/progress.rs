@@ -4,8 +4,9 @@
 //! textbooks, which can take minutes for one frame, are told of step by step of their outer loop: by
 //! an observer, so that their page stays as it is and nothing is paid for where nobody asks.
 
-use crate::common::frame::Region;
-use crate::common::observe::{Events, Observer, Sample};
+use crate::common::observe::{Events, Observer};
+use crate::common::raster::Region;
+use crate::common::raster::Sample;
 use crate::orders::Order;
 use std::sync::atomic::{AtomicU64, Ordering};
 

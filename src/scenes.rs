@@ -8,10 +8,11 @@ mod studio;
 pub use framing::{FrameMeshError, Framing, framed};
 pub use stream::{StreamedScene, open_stream};
 
-use crate::common::mesh_file::{Format, ReadMeshError};
-use crate::common::scene_file::{self, SceneFileError, nearest_name};
-use crate::common::stream::StreamError;
-use crate::common::{CameraDescription, Object, Scene, SceneError, Shape, smooth};
+use crate::common::{CameraDescription, Object, Scene, SceneError, Shape};
+use crate::formats::mesh_file::{Format, ReadMeshError};
+use crate::formats::mesh_stream::StreamError;
+use crate::formats::scene_file::{self, SceneFileError, nearest_name};
+use crate::formats::smooth;
 use std::path::Path;
 
 /// A scene that comes with the program.

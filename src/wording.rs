@@ -2,7 +2,7 @@
 
 use crate::common::Crop;
 
-pub use crate::common::wording::readable;
+pub use crate::common::camera::wording::readable;
 
 /// A whole number with its digits in groups of three.
 pub fn grouped(number: u64) -> String {

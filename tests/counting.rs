@@ -2,10 +2,11 @@
 
 mod support;
 
-use bothways::common::budget::{Budget, WorkWithin};
-use bothways::common::frame::Region;
 use bothways::common::glam::Vec3;
-use bothways::common::observe::{Events, Question, Sample};
+use bothways::common::observe::budget::{Budget, WorkWithin};
+use bothways::common::observe::{Events, Question};
+use bothways::common::raster::Region;
+use bothways::common::raster::Sample;
 use bothways::common::{
     Frame, Mesh, Observer, Options, Projection, Scene, Shape, Sphere, View, Work,
 };

@@ -5,15 +5,16 @@
 mod support;
 
 use assert_cmd::Command;
-use bothways::common::frame::{NO_PRIMITIVE, Region};
-use bothways::common::generate::Kind;
+use bothways::common::frame::NO_PRIMITIVE;
 use bothways::common::glam::Vec3;
-use bothways::common::observe::{Events, Observer, Sample};
+use bothways::common::observe::{Events, Observer};
+use bothways::common::raster::Sample;
 use bothways::common::{
-    Camera, CameraDescription, Crop, Frame, Mesh, Object, Options, Plane, Projection, Scene, Shape,
-    Sphere, View, Work,
+    Camera, CameraDescription, Crop, Frame, Mesh, Object, Options, Plane, Projection, Region,
+    Scene, Shape, Sphere, View, Work,
 };
 use bothways::diff::{Class, Classes, compare};
+use bothways::formats::generate::Kind;
 use bothways::picture::{mask, picture};
 use bothways::{rasterize, raytrace, scenes, vectors};
 use predicates::prelude::*;
@@ -103,7 +104,7 @@ fn much() -> Scene {
 
 /// Both `fast` renderers in one frame that is used again and again, on so many threads.
 fn draw_both(view: &View, options: &Options, tile: [u32; 2], side: usize) -> [(Frame, Work); 2] {
-    let level = bothways::common::simd::best_level();
+    let level = bothways::common::engine::simd::best_level();
     let mut drawn = [(); 2].map(|()| {
         let elsewhere = Options { crop: Some([0, 1, 3, 5].into()), ..*options };
         (Frame::new(view.camera, &elsewhere).with_texture_coordinates(), Work::default())
@@ -337,7 +338,7 @@ fn one_order_alone_and_a_streamed_mesh() {
     let home = tempfile::tempdir().unwrap();
     let teapot = Kind::Teapot.mesh([5, 5]).unwrap();
     let mut file = Vec::new();
-    bothways::common::obj::write(&teapot, &mut file).unwrap();
+    bothways::formats::obj::write(&teapot, &mut file).unwrap();
     fs::write(home.path().join("teapot.obj"), file).unwrap();
     let ids = |folder: &str, order: &str| {
         array(&home.path().join(folder).join(format!("{order}.ids.npy")))

@@ -3,12 +3,13 @@
 mod support;
 
 use bothways::common::glam::{DVec3, Vec3};
-use bothways::common::texture::Checker;
+use bothways::common::scene::Checker;
 use bothways::common::{
     Camera, CameraDescription, Frame, Light, Material, Object, Options, Orientation, Plane,
-    Primitive, Projection, Ray, Scene, Shape, Sphere, Triangle, View, generate::Kind,
+    Primitive, Projection, Ray, Scene, Shape, Sphere, Triangle, View,
 };
 use bothways::diff::compare;
+use bothways::formats::generate::Kind;
 use bothways::picture::picture;
 use bothways::{rasterize, raytrace};
 use num_rational::BigRational;

@@ -3,9 +3,8 @@
 mod support;
 
 use bothways::common::glam::Vec3;
-use bothways::common::{
-    Camera, CameraDescription, Frame, Options, Orientation, Scene, View, Work, obj,
-};
+use bothways::common::{Camera, CameraDescription, Frame, Options, Orientation, Scene, View, Work};
+use bothways::formats::obj;
 use bothways::{rasterize, raytrace, scenes};
 use std::path::Path;
 

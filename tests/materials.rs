@@ -5,10 +5,11 @@ mod support;
 
 use assert_cmd::Command;
 use bothways::common::glam::Vec3;
-use bothways::common::mesh::MeshMaterials;
-use bothways::common::shade::linear_from_encoded;
-use bothways::common::{Material, Mesh, Options, Scene, Shape, View, obj, scene_file};
+use bothways::common::look::color::linear_from_encoded;
+use bothways::common::scene::MeshMaterials;
+use bothways::common::{Material, Mesh, Options, Scene, Shape, View};
 use bothways::diff::compare;
+use bothways::formats::{obj, scene_file};
 use predicates::prelude::*;
 use std::collections::BTreeSet;
 use std::fs;

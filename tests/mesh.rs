@@ -1,8 +1,8 @@
 //! `bothways mesh`, as a user calls it.
 
 use assert_cmd::Command;
-use bothways::common::generate::Kind;
-use bothways::common::obj;
+use bothways::formats::generate::Kind;
+use bothways::formats::obj;
 
 fn bothways(arguments: &[&str]) -> assert_cmd::assert::Assert {
     Command::cargo_bin("bothways").expect("it is built").args(arguments).assert()

@@ -4,8 +4,9 @@
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use assert_cmd::Command;
-use bothways::common::generate::Kind;
-use bothways::common::{Mesh, obj, ply};
+use bothways::common::Mesh;
+use bothways::formats::generate::Kind;
+use bothways::formats::{obj, ply};
 use predicates::str::contains;
 use std::fs::{self, File};
 use std::io::Read;

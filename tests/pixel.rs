@@ -5,8 +5,8 @@
 mod support;
 
 use assert_cmd::Command;
+use bothways::common::exact::Side;
 use bothways::common::glam::Vec3;
-use bothways::common::predicate::Side;
 use bothways::common::{
     Camera, CameraDescription, Object, Options, Plane, Projection, Scene, Shape, Sphere, View, Work,
 };

@@ -3,7 +3,7 @@
 
 mod support;
 
-use bothways::common::fault::{Faulty, Planted, with};
+use bothways::common::engine::fault::{Faulty, Planted, with};
 use bothways::common::glam::Vec3;
 use bothways::common::{
     Camera, CameraDescription, Frame, Mesh, Object, Options, Projection, Scene, Shape, View,

@@ -3,8 +3,10 @@
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use assert_cmd::Command;
-use bothways::common::generate::Kind;
-use bothways::common::{Mesh, mesh_file::Format, obj, ply};
+use bothways::common::Mesh;
+use bothways::formats::generate::Kind;
+use bothways::formats::mesh_file::Format;
+use bothways::formats::{obj, ply};
 use predicates::str::contains;
 use std::fs;
 use tempfile::TempDir;

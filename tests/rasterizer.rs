@@ -4,13 +4,13 @@
 
 mod support;
 
-use bothways::common::generate::Kind;
+use bothways::common::engine::simd::{Level, best_level, levels};
 use bothways::common::glam::{Vec2, Vec3};
-use bothways::common::simd::{Level, best_level, levels};
 use bothways::common::{
     Camera, CameraDescription, Frame, Mesh, Options, Orientation, Plane, Projection, Scene, Shape,
     View, Work,
 };
+use bothways::formats::generate::Kind;
 use bothways::rasterize::fast::{self, Prepared};
 use bothways::{rasterize, scenes};
 use support::{

@@ -3,8 +3,8 @@
 
 mod support;
 
+use bothways::common::engine::simd::levels;
 use bothways::common::glam::{Quat, Vec3};
-use bothways::common::simd::levels;
 use bothways::common::{
     Camera, CameraDescription, Frame, Mesh, Object, Options, Orientation, Plane, Projection, Shape,
     Sphere, Triangle, View, Work,

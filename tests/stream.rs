@@ -5,12 +5,14 @@
 mod support;
 
 use assert_cmd::Command;
-use bothways::common::generate::Kind;
 use bothways::common::glam::Vec3;
-use bothways::common::mesh_file::Format;
-use bothways::common::stream::{MeshStream, Positions};
-use bothways::common::{Camera, Frame, Mesh, Object, Options, Projection, Scene, View, Work, obj};
+use bothways::common::scene::Positions;
+use bothways::common::{Camera, Frame, Mesh, Object, Options, Projection, Scene, View, Work};
 use bothways::diff::compare;
+use bothways::formats::generate::Kind;
+use bothways::formats::mesh_file::Format;
+use bothways::formats::mesh_stream::MeshStream;
+use bothways::formats::obj;
 use bothways::orders::{Order, RenderOptions, render_stream};
 use bothways::progress::{Progress, Stage};
 use bothways::rasterize::{self, stream::CHUNK, stream::Canvas, stream::Look};

@@ -4,8 +4,9 @@
 mod support;
 
 use bothways::common::glam::{DVec2, Vec2, Vec3};
-use bothways::common::{Camera, Frame, Object, Options, Scene, Shape, Triangle, View, scene_file};
+use bothways::common::{Camera, Frame, Object, Options, Scene, Shape, Triangle, View};
 use bothways::diff::compare;
+use bothways::formats::scene_file;
 use bothways::scenes::load;
 use bothways::{rasterize, raytrace};
 use std::path::Path;

@@ -5,7 +5,8 @@
 
 use assert_cmd::Command;
 use bothways::common::glam::{DMat4, DVec3};
-use bothways::common::{Shape, View, obj};
+use bothways::common::{Shape, View};
+use bothways::formats::obj;
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 use predicates::str::contains;

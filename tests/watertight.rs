@@ -2,9 +2,9 @@
 
 mod support;
 
+use bothways::common::exact::Sign;
 use bothways::common::frame::NO_PRIMITIVE;
 use bothways::common::glam::{DVec3, Vec3};
-use bothways::common::predicate::Sign;
 use bothways::common::{Camera, Mesh, Options, Primitive, Projection, Scene, Shape, View};
 use support::{PROJECTIONS, RENDERERS, all_agree, camera, mesh, owners, scene, triangle, turned};
 

@@ -8,9 +8,9 @@
 
 mod chart;
 
-use bothways::common::generate::Kind;
-use bothways::common::simd::best_level;
+use bothways::common::engine::simd::best_level;
 use bothways::common::{Camera, Scene, Shape, View};
+use bothways::formats::generate::Kind;
 use bothways::orders::{self, Method, Order, RenderOptions};
 use bothways::scenes::Framing;
 use chart::{Chart, Curve};

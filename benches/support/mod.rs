@@ -1,8 +1,8 @@
 //! What the benches of both orders draw.
 
-use bothways::common::generate::Kind;
 use bothways::common::glam::{Vec2, Vec3};
 use bothways::common::{Camera, CameraDescription, Crop, Mesh, Options, Projection, Scene, Shape};
+use bothways::formats::generate::Kind;
 use bothways::scenes::Framing;
 
 pub(crate) const FULL_HD: [u32; 2] = [1920, 1080];

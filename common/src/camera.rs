@@ -1,7 +1,12 @@
 //! The lecture's camera: where the eye is, how the viewport lies before it, and which ray belongs to
 //! a pixel.
 
-use crate::wording::{readable, readable_vector};
+mod error;
+pub mod wording;
+
+pub use error::CameraError;
+
+use crate::raster::{Raster, check_samples, viewport_coordinate};
 use glam::{DVec3, Vec3};
 
 /// How the world loses a dimension.
@@ -84,111 +89,6 @@ pub struct Camera {
     w: DVec3,
 }
 
-/// The largest number of samples along one side of the picture, `N·W` or `N·H`.
-pub const MAX_SIDE: u32 = 65_536;
-/// The largest number of samples in one picture, `W·H·N²`.
-pub const MAX_SAMPLES: u64 = 1 << 30;
-
-/// Why a camera is refused.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum CameraError {
-    /// A coordinate is NaN or infinite.
-    #[error("{what} has a coordinate that is not finite: {value}; give three finite numbers")]
-    NotFinite {
-        /// Which vector.
-        what: &'static str,
-        /// As it was given.
-        value: Vec3,
-    },
-    /// A direction has no length.
-    #[error("{what} is zero and so has no direction; give a vector with a length")]
-    NoDirection {
-        /// Which vector.
-        what: &'static str,
-    },
-    /// The target of the view is the eye.
-    #[error("the eye {} is the point it looks at; move one of them", readable_vector(*.eye))]
-    LooksAtItself {
-        /// The eye.
-        eye: Vec3,
-    },
-    /// The up vector says nothing about which way is up.
-    #[error("up {} runs along the direction of view; choose another up", readable_vector(*.up))]
-    UpAlongView {
-        /// As it was given.
-        up: Vec3,
-    },
-    /// `u`, `v`, `w` are not a camera frame.
-    #[error(
-        "u, v, w are not a right-handed perpendicular frame: {reason}; \
-         give look_at (or direction) and up instead, and the frame is computed"
-    )]
-    NotAFrame {
-        /// What is wrong with them.
-        reason: &'static str,
-    },
-    /// `d`, `vw` or `vh` is out of range.
-    #[error(
-        "{what} is {}; it must be between 2^-64 and 2^64 (5.4e-20 to 1.8e19)",
-        readable(*.value)
-    )]
-    OutOfRange {
-        /// Which length.
-        what: &'static str,
-        /// As it was given.
-        value: f32,
-    },
-    /// The field of view is too close to 180 degrees.
-    #[error(
-        "the viewport is {} x {} at distance {}; \
-         its sides may be at most 2^20 (about 1e6) times the distance",
-        readable(*.width), readable(*.height), readable(*.distance)
-    )]
-    TooWide {
-        /// The viewport's width.
-        width: f32,
-        /// The viewport's height.
-        height: f32,
-        /// The distance from the eye.
-        distance: f32,
-    },
-    /// The field of view is no angle that a flat viewport can have.
-    #[error(
-        "the field of view is {} degrees; it must be greater than 0 and less than 180",
-        readable(*.degrees)
-    )]
-    FieldOfView {
-        /// As it was given.
-        degrees: f32,
-    },
-    /// A parallel camera is asked for a field of view.
-    #[error(
-        "a parallel camera has no field of view, as its rays never part; give a viewport instead"
-    )]
-    ParallelFieldOfView,
-    /// The image has no pixels.
-    #[error("the image is {width}x{height}; both sides need at least 1 pixel")]
-    EmptyImage {
-        /// The image's width.
-        width: u32,
-        /// The image's height.
-        height: u32,
-    },
-    /// The image has too many samples.
-    #[error(
-        "the image is {width}x{height} with {samples}x{samples} samples a pixel; a side may have at \
-         most {MAX_SIDE} samples and the image at most {MAX_SAMPLES}"
-    )]
-    TooManySamples {
-        /// The image's width.
-        width: u32,
-        /// The image's height.
-        height: u32,
-        /// Samples along one side of a pixel.
-        samples: u32,
-    },
-}
-
 impl CameraDescription {
     /// The same camera with a vertical field of view: its viewport is as high as this angle at the
     /// distance `d`, `vh = 2·d·tan(degrees/2)`, and so wide that the pixels of its image are squares.
@@ -250,7 +150,7 @@ impl Camera {
     ///
     /// # Panics
     ///
-    /// If a side is 0 or larger than [`MAX_SIDE`], or there are more than [`MAX_SAMPLES`] pixels.
+    /// If [`check_samples`] refuses the size.
     ///
     /// ```
     /// use bothways_common::Camera;
@@ -337,20 +237,23 @@ impl Camera {
         }
     }
 
+    /// The raster of the picture with `samples` × `samples` samples a pixel.
+    ///
+    /// # Panics
+    ///
+    /// If [`check_samples`] refuses the number of samples.
+    pub fn raster(&self, samples: u32) -> Raster {
+        Raster::new(self.image(), samples, self.viewport()).expect("the number was checked")
+    }
+
     /// All sample points of the picture, `samples` × `samples` a pixel on a regular grid.
     ///
     /// # Panics
     ///
     /// If [`check_samples`] refuses the number of samples.
     pub fn sample_grid(&self, samples: u32) -> SampleGrid<'_> {
-        check_samples(self.image(), samples).expect("the number of samples was checked");
-        let [width, height] = self.image().map(|side| side * samples);
-        let [vw, vh] = self.viewport();
-        SampleGrid {
-            camera: self,
-            x: (0..width).map(|column| viewport_coordinate(vw, column, width)).collect(),
-            y: (0..height).map(|row| -viewport_coordinate(vh, row, height)).collect(),
-        }
+        let raster = self.raster(samples);
+        SampleGrid { camera: self, x: raster.x().collect(), y: raster.y().collect() }
     }
 }
 
@@ -396,33 +299,6 @@ impl SampleGrid<'_> {
     pub fn ray(&self, row: usize, column: usize) -> Ray {
         self.camera.ray_through(self.x[column], self.y[row])
     }
-}
-
-/// Tells whether a picture of this size may have `samples` × `samples` samples a pixel.
-///
-/// # Errors
-///
-/// [`CameraError::EmptyImage`] or [`CameraError::TooManySamples`], naming the limits.
-pub fn check_samples(image: [u32; 2], samples: u32) -> Result<(), CameraError> {
-    let [width, height] = image;
-    if width == 0 || height == 0 {
-        return Err(CameraError::EmptyImage { width, height });
-    }
-    let side = |pixels: u32| u64::from(pixels) * u64::from(samples);
-    let fits = |pixels: u32| (1..=u64::from(MAX_SIDE)).contains(&side(pixels));
-    if !fits(width) || !fits(height) || side(width) * side(height) > MAX_SAMPLES {
-        return Err(CameraError::TooManySamples { width, height, samples });
-    }
-    Ok(())
-}
-
-/// `extent·(2·index + 1 − count)/(2·count)`: the middle of a cell of the viewport.
-///
-/// The numerator is exact (24 + 17 bits), so the quotient is correctly rounded, and the cells on
-/// both sides of the middle are each other's negatives.
-fn viewport_coordinate(extent: f64, index: u32, count: u32) -> f64 {
-    let numerator = 2.0 * f64::from(index) + 1.0 - f64::from(count);
-    extent * numerator / (2.0 * f64::from(count))
 }
 
 fn check_lengths(description: &CameraDescription) -> Result<(), CameraError> {
@@ -517,6 +393,7 @@ fn clean(vector: DVec3) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::raster::SizeError;
 
     #[test]
     fn the_canonical_camera_gives_the_lecture_s_rays() {
@@ -636,8 +513,11 @@ mod tests {
         assert!(matches!(with(&|c| c.distance = 0.0), CameraError::OutOfRange { .. }));
         assert!(matches!(with(&|c| c.distance = f32::NAN), CameraError::OutOfRange { .. }));
         assert!(matches!(with(&|c| c.viewport[0] = 2e6), CameraError::TooWide { .. }));
-        assert!(matches!(with(&|c| c.image = [0, 4]), CameraError::EmptyImage { .. }));
-        assert!(matches!(with(&|c| c.image = [65_537, 1]), CameraError::TooManySamples { .. }));
+        assert!(matches!(with(&|c| c.image = [0, 4]), CameraError::Size(SizeError::Empty { .. })));
+        assert!(matches!(
+            with(&|c| c.image = [65_537, 1]),
+            CameraError::Size(SizeError::TooManySamples { .. })
+        ));
         assert!(check_samples([40_000, 1], 2).is_err());
         assert!(check_samples([4, 4], 0).is_err());
     }

@@ -1,8 +1,8 @@
 //! What a renderer answers: for every sample the primitive that is seen, how far it is, and its look.
 
-use crate::camera::{Camera, check_samples};
-use crate::crop::Crop;
-use crate::memory::filled;
+use crate::camera::Camera;
+use crate::engine::memory::filled;
+use crate::raster::{Crop, Region, check_samples};
 use glam::{Vec2, Vec3};
 use std::ops::Range;
 
@@ -50,39 +50,6 @@ pub struct Frame {
     colours: Vec<Vec3>,
     /// Empty unless they are asked for.
     texture_coordinates: Vec<Vec2>,
-}
-
-/// A rectangle of samples.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Region {
-    /// Rows from the top.
-    pub rows: Range<usize>,
-    /// Columns from the left.
-    pub columns: Range<usize>,
-}
-
-impl Region {
-    /// How many samples it holds.
-    pub fn area(&self) -> usize {
-        self.rows.len() * self.columns.len()
-    }
-
-    /// Whether it holds no sample.
-    pub fn is_empty(&self) -> bool {
-        self.rows.is_empty() || self.columns.is_empty()
-    }
-
-    /// The samples that both hold.
-    pub fn intersection(&self, other: &Region) -> Region {
-        let overlap = |a: &Range<usize>, b: &Range<usize>| {
-            let start = a.start.max(b.start);
-            start..a.end.min(b.end).max(start)
-        };
-        Region {
-            rows: overlap(&self.rows, &other.rows),
-            columns: overlap(&self.columns, &other.columns),
-        }
-    }
 }
 
 /// A part of a frame that one thread may write: ids and distances of a rectangle of samples.
@@ -264,21 +231,22 @@ impl Frame {
         (0..n * n).map(move |sample| first + sample / n * width + sample % n)
     }
 
-    /// Cuts the frame into tiles of at most so many columns and rows of samples, row by row. They are those
+    /// Cuts the frame into tiles of at most so many rows and columns of samples, row by row. They are those
     /// of the whole image, of a crop as much as it holds of each.
     ///
     /// # Panics
     ///
-    /// If `columns` or `rows` is 0.
-    pub fn tiles_mut(&mut self, columns: usize, rows: usize) -> Vec<Tile<'_>> {
+    /// If `rows` or `columns` is 0.
+    pub fn tiles_mut(&mut self, rows: usize, columns: usize) -> Vec<Tile<'_>> {
         let (width, region) = (self.width(), self.region.clone());
-        let mut tiles: Vec<Tile<'_>> = tile_regions(&region, columns, rows)
+        let mut tiles: Vec<Tile<'_>> = region
+            .tiles(rows, columns)
             .map(|region| {
                 let height = region.rows.len();
                 Tile { region, ids: Vec::with_capacity(height), t: Vec::with_capacity(height) }
             })
             .collect();
-        let across = pieces(&region.columns, columns).count();
+        let across = region.tiles_across(columns);
         let first = region.rows.start / rows;
         let lines = self.ids.chunks_mut(width).zip(self.t.chunks_mut(width));
         for (row, (mut ids, mut t)) in region.rows.zip(lines) {
@@ -312,26 +280,6 @@ impl Frame {
     }
 }
 
-/// What a part of a picture holds of the picture's tiles, row by row, each of at most so many columns and
-/// rows.
-///
-/// # Panics
-///
-/// If `columns` or `rows` is 0.
-fn tile_regions(region: &Region, columns: usize, rows: usize) -> impl Iterator<Item = Region> {
-    let across = pieces(&region.columns, columns);
-    pieces(&region.rows, rows).flat_map(move |rows| {
-        across.clone().map(move |columns| Region { rows: rows.clone(), columns })
-    })
-}
-
-/// A range cut at the multiples of a number.
-fn pieces(range: &Range<usize>, side: usize) -> impl Iterator<Item = Range<usize>> + Clone + use<> {
-    let Range { start, end } = *range;
-    let first = start / side * side;
-    (first..end).step_by(side).map(move |piece| piece.max(start)..end.min(piece + side))
-}
-
 /// A distance as a frame stores it: the nearest `f32`, but finite and not 0, as `t` of something
 /// seen is.
 pub fn stored_t(t: f64) -> f32 {
@@ -349,7 +297,7 @@ mod tests {
         let camera = Camera::canonical(5, 7);
         let mut frame = Frame::new(&camera, &Options { samples: 2, ..Options::default() });
         let mut area = 0;
-        for tile in frame.tiles_mut(4, 3) {
+        for tile in frame.tiles_mut(3, 4) {
             area += tile.region.area();
             assert_eq!(tile.ids.len(), tile.region.rows.len());
             for row in tile.ids {
@@ -367,7 +315,7 @@ mod tests {
         let mut frame = Frame::new(&Camera::canonical(20, 9), &Options { samples: 1, crop });
         let mut cells = 0;
         let regions: Vec<_> = frame
-            .tiles_mut(8, 4)
+            .tiles_mut(4, 8)
             .iter_mut()
             .map(|tile| {
                 assert!(tile.ids.iter().all(|ids| ids.len() == tile.region.columns.len()));

@@ -14,39 +14,28 @@
 //! - Primitive ids count from 0 in scene order, one for a triangle, sphere or plane, one a triangle
 //!   for a mesh.
 
-pub mod budget;
 pub mod camera;
-pub mod crop;
-pub mod fault;
+#[doc(hidden)]
+pub mod engine;
+pub mod exact;
 pub mod frame;
-pub mod generate;
-pub mod memory;
-pub mod mesh;
-pub mod mesh_file;
-pub mod obj;
+pub mod look;
 pub mod observe;
-pub mod ply;
-pub mod predicate;
-pub mod quote;
+pub mod raster;
 pub mod scene;
-pub mod scene_file;
-pub mod shade;
-pub mod simd;
-pub mod smooth;
-pub mod stream;
-pub mod texture;
 pub mod view;
-pub mod wording;
 
 pub use glam;
 
 pub use camera::{
     Camera, CameraDescription, CameraError, Orientation, Projection, Ray, SampleGrid,
 };
-pub use crop::{Crop, CropError};
+pub use exact::{Judge, Sign};
 pub use frame::{Frame, Options};
-pub use mesh::{Mesh, MeshError};
 pub use observe::{Events, Observer, Work};
-pub use predicate::{Judge, Sign};
-pub use scene::{Light, Material, Object, Plane, Scene, SceneError, Shape, Sphere, Triangle};
-pub use view::{Primitive, View};
+pub use raster::{Crop, CropError, Raster, Region, Sample, SizeError};
+pub use scene::{
+    Checker, Light, Material, Mesh, MeshError, Object, Plane, Primitive, Scene, SceneError, Shape,
+    Sphere, Triangle,
+};
+pub use view::View;

@@ -1,16 +1,9 @@
 //! Watching the loops at work. Whatever is ever shown about the renderers comes from here.
 
-use crate::frame::Region;
-use crate::predicate::Sign;
+pub mod budget;
 
-/// One sample of the picture: its row and column on the raster of samples.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Sample {
-    /// From the top.
-    pub row: usize,
-    /// From the left.
-    pub column: usize,
-}
+use crate::exact::Sign;
+use crate::raster::{Region, Sample};
 
 /// What the fast arithmetic of a renderer left open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -1,100 +1,18 @@
 //! What there is to see: objects in an order, what they are made of, and light.
 
-use crate::mesh::Mesh;
-use crate::predicate::are_same_corners;
-use crate::texture::Checker;
+pub mod material;
+pub mod mesh;
+pub mod positions;
+pub mod primitive;
+pub mod shape;
+
+pub use material::{Checker, Light, Material};
+pub use mesh::{Attribute, MaterialSpan, Mesh, MeshError, MeshMaterials, NamedMaterial};
+pub use positions::Positions;
+pub use primitive::{Primitive, are_same_corners};
+pub use shape::{Plane, Shape, Sphere, Triangle};
+
 use glam::Vec3;
-
-/// One triangle, in the world.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Triangle {
-    /// First corner.
-    pub a: Vec3,
-    /// Second corner.
-    pub b: Vec3,
-    /// Third corner.
-    pub c: Vec3,
-}
-
-/// One sphere, in the world.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sphere {
-    /// Its middle.
-    pub center: Vec3,
-    /// Positive.
-    pub radius: f32,
-}
-
-/// One infinite plane, in the world.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Plane {
-    /// Any point of it.
-    pub point: Vec3,
-    /// Perpendicular to it; its length does not matter.
-    pub normal: Vec3,
-}
-
-/// The form of one object.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Shape {
-    /// One primitive.
-    Triangle(Triangle),
-    /// One primitive.
-    Sphere(Sphere),
-    /// One primitive.
-    Plane(Plane),
-    /// One primitive a triangle.
-    Mesh(Mesh),
-}
-
-/// How a surface answers light.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Material {
-    /// Diffuse reflectance, linear red, green and blue in 0 … 1.
-    pub color: Vec3,
-    /// Strength of the highlight, 0 … 1.
-    pub specular: f32,
-    /// The Blinn–Phong exponent: larger is a smaller highlight.
-    pub shininess: f32,
-    /// A second colour over the texture coordinates.
-    pub checker: Option<Checker>,
-}
-
-impl Default for Material {
-    /// Matt light grey.
-    fn default() -> Self {
-        Material { color: Vec3::splat(0.6), specular: 0.0, shininess: 32.0, checker: None }
-    }
-}
-
-/// Where light comes from.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Light {
-    /// The same from everywhere.
-    Ambient {
-        /// Its strength; 1 shows a material in its own colour.
-        intensity: f32,
-    },
-    /// Parallel light, as from the sun.
-    Directional {
-        /// The way the light goes.
-        direction: Vec3,
-        /// Its strength on a surface that faces it.
-        intensity: f32,
-    },
-    /// Light from a point of the world; it does not fade with distance.
-    Point {
-        /// Where it is.
-        position: Vec3,
-        /// Its strength on a surface that faces it.
-        intensity: f32,
-    },
-    /// Light from where the viewing rays come from: whatever faces the viewer is bright.
-    AtCamera {
-        /// Its strength on a surface that faces it.
-        intensity: f32,
-    },
-}
 
 /// One object: a form and what it is made of.
 #[derive(Clone, Debug, PartialEq)]
@@ -114,16 +32,6 @@ impl Object {
                 own.unwrap_or(&self.material)
             }
             Shape::Triangle(_) | Shape::Sphere(_) | Shape::Plane(_) => &self.material,
-        }
-    }
-}
-
-impl Shape {
-    /// How many primitive ids this shape takes.
-    pub fn primitive_count(&self) -> usize {
-        match self {
-            Shape::Mesh(mesh) => mesh.triangles().len(),
-            Shape::Triangle(_) | Shape::Sphere(_) | Shape::Plane(_) => 1,
         }
     }
 }

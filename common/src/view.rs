@@ -1,8 +1,8 @@
 //! One scene as one camera sees it: positions become offsets from the eye.
 
 use crate::camera::Camera;
-use crate::predicate::Judge;
-use crate::scene::{Plane, Scene, Shape, Sphere, Triangle};
+use crate::exact::Judge;
+use crate::scene::{Plane, Primitive, Scene, Shape, Sphere, Triangle};
 use glam::{DVec3, Vec3};
 
 /// A scene and a camera. It copies nothing: whoever needs a vertex asks for its offset.
@@ -12,27 +12,6 @@ pub struct View<'a> {
     pub scene: &'a Scene,
     /// From where.
     pub camera: &'a Camera,
-}
-
-/// One primitive relative to the eye: the eye is the origin, the axes are the world's.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Primitive {
-    /// Its three corners.
-    Triangle([DVec3; 3]),
-    /// A sphere.
-    Sphere {
-        /// Its middle.
-        center: DVec3,
-        /// Positive.
-        radius: f64,
-    },
-    /// An infinite plane.
-    Plane {
-        /// Any point of it.
-        point: DVec3,
-        /// Perpendicular to it, not of unit length.
-        normal: DVec3,
-    },
 }
 
 impl<'a> View<'a> {

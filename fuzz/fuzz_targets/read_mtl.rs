@@ -1,7 +1,7 @@
 //! Any bytes as an MTL file: materials that can be drawn, or a message.
 #![no_main]
 
-use bothways_common::obj;
+use bothways_formats::obj;
 use bothways_fuzz::check_message;
 use libfuzzer_sys::fuzz_target;
 

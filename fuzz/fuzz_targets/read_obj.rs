@@ -1,7 +1,7 @@
 //! Any bytes as an OBJ file: a mesh, or a message.
 #![no_main]
 
-use bothways_common::obj;
+use bothways_formats::obj;
 use bothways_fuzz::{check_mesh, check_message};
 use libfuzzer_sys::fuzz_target;
 

@@ -1,7 +1,7 @@
 //! Any bytes as a PLY file: a mesh, or a message.
 #![no_main]
 
-use bothways_common::ply;
+use bothways_formats::ply;
 use bothways_fuzz::{check_mesh, check_message};
 use libfuzzer_sys::fuzz_target;
 

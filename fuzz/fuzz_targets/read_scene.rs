@@ -2,7 +2,7 @@
 #![no_main]
 
 use bothways_common::Camera;
-use bothways_common::scene_file;
+use bothways_formats::scene_file;
 use bothways_fuzz::check_message;
 use libfuzzer_sys::{Corpus, fuzz_target};
 use std::path::Path;

@@ -8,7 +8,7 @@ mod objects;
 mod readers;
 
 use bothways_common::glam::{Quat, Vec3};
-use bothways_common::simd::{Level, levels};
+use bothways_common::engine::simd::{Level, levels};
 use bothways_common::{
     Camera, CameraDescription, Frame, Options, Orientation, Projection, Scene, View,
 };

@@ -1,7 +1,7 @@
 //! What must hold of every file reader: a sound answer, or a message that somebody can read.
 
 use bothways_common::Mesh;
-use bothways_common::smooth;
+use bothways_formats::smooth;
 use std::fmt::Display;
 
 /// Longer messages are read by nobody.

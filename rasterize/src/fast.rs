@@ -40,11 +40,11 @@ mod vertices;
 mod waypoint;
 
 use bins::{BatchBins, Binning, Tiling};
-use bothways_common::fault::{Fault, Planted, Sound};
+use bothways_common::engine::fault::{Fault, Planted, Sound};
+use bothways_common::engine::memory::filled;
+use bothways_common::engine::simd::{Level, best_level, dispatch, dispatch_with};
 use bothways_common::frame::Tile;
-use bothways_common::memory::filled;
 use bothways_common::observe::{Events, Observer};
-use bothways_common::simd::{Level, best_level, dispatch, dispatch_with};
 use bothways_common::{Frame, Options, Scene, Shape, View};
 use clusters::{CLUSTER, Clusters};
 use depth::KeyScale;
@@ -384,7 +384,7 @@ fn run<O: Observer>(
     let (bins, level) = (&spare.bins, prepared.level);
     let drawing = Drawing { binning: &binning, picture: &picture, bins, level };
     let seen: &O = observer;
-    let tiles: Vec<Tile> = frame.tiles_mut(tiling.columns, tiling.rows);
+    let tiles: Vec<Tile> = frame.tiles_mut(tiling.rows, tiling.columns);
     let dropped = (loops.is)(Planted::DroppedTile).then_some(tiles.len() / 2);
     let buffers = Mutex::new(std::mem::take(&mut spare.tiles));
     // Those with most to draw come first, so that all threads end at about the same time.

@@ -5,8 +5,8 @@ mod form;
 mod quotient;
 
 use bothways_common::frame::{NO_PRIMITIVE, ShadingRow};
-use bothways_common::shade::{SurfacePoint, colour};
-use bothways_common::texture::{self, TexturePoint};
+use bothways_common::look::shade::{SurfacePoint, colour};
+use bothways_common::look::texture::{self, TexturePoint};
 use bothways_common::{
     Frame, Material, Primitive, Projection, Ray, SampleGrid, Scene, Shape, View,
 };

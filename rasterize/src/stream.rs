@@ -14,10 +14,11 @@
 //! mesh in memory, for chunks of any size. Image order cannot do this: any ray may need any triangle.
 
 use crate::fast;
-use bothways_common::frame::{NO_PRIMITIVE, Region};
-use bothways_common::observe::{Events, Observer, Question, Sample};
-use bothways_common::predicate::Memory;
-use bothways_common::stream::Positions;
+use bothways_common::exact::Memory;
+use bothways_common::frame::NO_PRIMITIVE;
+use bothways_common::observe::{Events, Observer, Question};
+use bothways_common::raster::{Region, Sample};
+use bothways_common::scene::Positions;
 use bothways_common::{
     Camera, Frame, Light, Material, Mesh, Object, Options, Primitive, SampleGrid, Scene, Shape,
     Sign, View, Work,

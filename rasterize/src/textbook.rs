@@ -13,7 +13,8 @@
 //! *Affects* is the exact predicate; *do something* is keeping the nearest primitive so far, which
 //! is what the frame is for: it is the z-buffer.
 
-use bothways_common::observe::{Observer, Sample};
+use bothways_common::observe::Observer;
+use bothways_common::raster::Sample;
 use bothways_common::{Frame, Options, View};
 
 /// Renders a view: what is seen at every sample, and its look.

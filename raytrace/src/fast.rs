@@ -35,10 +35,10 @@ mod tile;
 mod tree;
 mod walk;
 
-use bothways_common::fault::{Fault, Planted, Sound};
+use bothways_common::engine::fault::{Fault, Planted, Sound};
+use bothways_common::engine::simd::{Level, dispatch_with};
 use bothways_common::frame::{NO_PRIMITIVE, Tile};
 use bothways_common::observe::{Events, Observer};
-use bothways_common::simd::{Level, dispatch_with};
 use bothways_common::{Frame, Options, Scene, View};
 use rayon::prelude::*;
 use rays::{LensKind, Rays};
@@ -167,7 +167,7 @@ fn run<O: Observer>(
         kind_of_one.distrust();
     }
 
-    let (seen, shares): (&O, Vec<Tile>) = (observer, frame.tiles_mut(SHARE, prepared.side));
+    let (seen, shares): (&O, Vec<Tile>) = (observer, frame.tiles_mut(prepared.side, SHARE));
     let dropped = (loops.is)(Planted::DroppedTile).then_some(shares.len() / 2);
     let parts: Vec<O> = shares
         .into_par_iter()

@@ -1,8 +1,8 @@
 //! The look of what is seen: image order goes back along each ray to the point that it hit.
 
 use bothways_common::frame::{NO_PRIMITIVE, ShadingRow};
-use bothways_common::shade::{SurfacePoint, colour};
-use bothways_common::texture::{self, TexturePoint};
+use bothways_common::look::shade::{SurfacePoint, colour};
+use bothways_common::look::texture::{self, TexturePoint};
 use bothways_common::{Frame, Primitive, Projection, Ray, SampleGrid, Scene, Shape, View};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 use rayon::prelude::*;

@@ -13,7 +13,8 @@
 //! *Affects* is the exact predicate; *do something* is keeping the nearest primitive so far, for
 //! which one variable is enough: the ray is finished before the next begins.
 
-use bothways_common::observe::{Observer, Sample};
+use bothways_common::observe::Observer;
+use bothways_common::raster::Sample;
 use bothways_common::{Frame, Options, View};
 
 /// Renders a view: what is seen at every sample, and its look.

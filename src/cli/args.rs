@@ -1,7 +1,7 @@
 //! The options of `render`, and how their values are read.
 
-use bothways::common::camera::{MAX_SAMPLES, MAX_SIDE};
 use bothways::common::glam::Vec3;
+use bothways::common::raster::{MAX_SAMPLES, MAX_SIDE};
 use bothways::common::{Crop, Options, Projection};
 use bothways::orders::{Method, Order};
 use bothways::wording::count;

@@ -1,7 +1,7 @@
 //! What the user is told when something went wrong.
 
-use bothways::common::quote::visible;
-use bothways::common::scene_file::{Excerpt, LocatedError, SceneFileError};
+use bothways::formats::scene_file::{Excerpt, LocatedError, SceneFileError};
+use bothways::formats::source::quote::visible;
 use bothways::scenes::LoadError;
 use miette::{
     Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError,

@@ -2,9 +2,9 @@
 
 use super::failure::Failure;
 use super::output::OutputFile;
-use bothways::common::generate::Kind;
-use bothways::common::mesh_file::Format;
-use bothways::common::{obj, ply, scene_file};
+use bothways::formats::generate::Kind;
+use bothways::formats::mesh_file::Format;
+use bothways::formats::{obj, ply, scene_file};
 use bothways::wording::{count, grouped};
 use clap::Args;
 use std::path::{Path, PathBuf};

@@ -7,7 +7,7 @@ use super::output::{Out, Staging};
 use super::patience::Patience;
 use super::progress::Bar;
 use super::{memory, npy, stream, table, terminal};
-use bothways::common::camera::check_samples;
+use bothways::common::raster::check_samples;
 use bothways::common::{Camera, View};
 use bothways::diff::{Classes, Comparison, compare};
 use bothways::figure::Slide;

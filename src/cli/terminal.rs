@@ -2,7 +2,7 @@
 
 use super::failure::Failure;
 use super::output::reason;
-use bothways::common::quote::visible;
+use bothways::formats::source::quote::visible;
 use serde::Serialize;
 use std::borrow::Cow;
 use std::io::{self, BufWriter, ErrorKind, IsTerminal, Write};

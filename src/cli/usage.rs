@@ -3,8 +3,8 @@
 use super::Cli;
 use super::failure::Failure;
 use super::terminal::tame;
-use bothways::common::quote::visible;
-use bothways::common::scene_file::nearest_name;
+use bothways::formats::scene_file::nearest_name;
+use bothways::formats::source::quote::visible;
 use bothways::scenes::BUILT_IN;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser};

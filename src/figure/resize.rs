@@ -1,6 +1,6 @@
 //! Pictures in other sizes: enlarged so that pixels stay squares, reduced without losing light.
 
-use crate::common::shade::{linear_from_srgb, srgb_from_linear};
+use crate::common::look::color::{linear_from_srgb, srgb_from_linear};
 use image::{Rgb, RgbImage};
 use std::ops::RangeInclusive;
 

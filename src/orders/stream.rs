@@ -3,8 +3,8 @@
 use super::{
     Counting, Counts, Method, Order, Part, RenderOptions, Rendered, Spread, Times, repeated,
 };
-use crate::common::stream::{MeshStream, StreamError};
 use crate::common::{Camera, Observer};
+use crate::formats::mesh_stream::{MeshStream, StreamError};
 use crate::progress::Steps;
 use crate::rasterize::stream::{CHUNK, Canvas, Look};
 use std::sync::atomic::AtomicU64;

@@ -270,8 +270,8 @@ fn bounds(points: impl Iterator<Item = DVec3>) -> Option<(DVec3, DVec3)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::common::generate::Kind;
     use crate::common::{Camera, Projection};
+    use crate::formats::generate::Kind;
 
     fn corners(corners: &[[f32; 3]]) -> Mesh {
         let positions = corners.iter().copied().map(Vec3::from_array).collect();

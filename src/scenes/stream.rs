@@ -2,8 +2,8 @@
 
 use super::{LoadError, LoadedScene, framing_for, stem, studio};
 use crate::common::Scene;
-use crate::common::mesh_file::Format;
-use crate::common::stream::MeshStream;
+use crate::formats::mesh_file::Format;
+use crate::formats::mesh_stream::MeshStream;
 use crate::rasterize::stream::Look;
 use std::path::Path;
 

@@ -3,8 +3,8 @@
 //!
 //! It is written down once, as it stands in the scene file that shows the mesh, and read from there.
 
-use crate::common::scene_file::{self, framed_mesh_toml};
 use crate::common::{CameraDescription, Material, Scene};
+use crate::formats::scene_file::{self, framed_mesh_toml};
 use std::path::Path;
 
 const BACKGROUND: &str = "background = \"#36424b\"\n";

@@ -1,7 +1,7 @@
 //! A scene's triangles in raster coordinates, where those exist exactly.
 
 use crate::common::glam::DVec3;
-use crate::common::view::Primitive;
+use crate::common::scene::Primitive;
 use crate::common::{Projection, View};
 
 /// The three corners of each triangle in scene order, each `[x, y, t]`: `x` right and `y` down in

@@ -1,6 +1,6 @@
 //! Which pixels are worth the textbook's time.
 
-use crate::common::predicate::Sign;
+use crate::common::exact::Sign;
 use crate::common::{Frame, Primitive, View};
 use rayon::prelude::*;
 use std::cmp::Ordering;

@@ -9,8 +9,8 @@ mod judge;
 mod near_misses;
 mod round;
 
+use bothways::common::exact::Memory;
 use bothways::common::glam::Vec3;
-use bothways::common::predicate::Memory;
 use bothways::common::{Camera, CameraDescription, Judge, Primitive, Ray, Shape, View};
 use cases::{
     Case, Placement::Frame, Placement::Viewport, Placement::World, about_the_view, coplanar,

@@ -8,8 +8,8 @@
 use crate::cases::{Case, few_bits, projection, triangle, turned_camera};
 use crate::judge::{Coverage, IndependentJudge, edge_function};
 use crate::{Court, confirm_case, runner};
+use bothways::common::exact::Memory;
 use bothways::common::glam::{DVec3, Vec3};
-use bothways::common::predicate::Memory;
 use bothways::common::{
     Camera, CameraDescription, Orientation, Primitive, Projection, Ray, Shape, Sphere, Triangle,
     View,

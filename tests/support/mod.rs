@@ -2,9 +2,10 @@
 #![expect(dead_code, unreachable_pub, reason = "each test takes what it needs")]
 #![expect(clippy::cast_possible_truncation, reason = "small numbers")]
 
+use bothways::common::exact::Sign;
 use bothways::common::glam::{Vec2, Vec3};
-use bothways::common::observe::{Events, Observer, Sample};
-use bothways::common::predicate::Sign;
+use bothways::common::observe::{Events, Observer};
+use bothways::common::raster::Sample;
 use bothways::common::{
     Camera, CameraDescription, Crop, Frame, Mesh, Object, Options, Orientation, Projection, Scene,
     Shape, Triangle, View,

@@ -6,7 +6,7 @@
 
 use super::screen::Screen;
 use bothways_common::Projection;
-use bothways_common::simd::{Simd, SimdBase, SimdFloat, f64x8, mask64x8};
+use bothways_common::engine::simd::{Simd, SimdBase, SimdFloat, f64x8, mask64x8};
 use glam::DVec3;
 
 /// What decides a sample on an edge between such places: half of the least edge function but 0, which is added

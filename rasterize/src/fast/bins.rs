@@ -7,10 +7,10 @@ use super::setup::{BOX_MARGIN, MOST_SAMPLES_ACROSS};
 use super::small;
 use super::vertices::{ON_RASTER, OUT_OF_SIGHT, Raster, Vertex};
 use super::{Batch, Piece};
-use bothways_common::fault::{Fault, Planted};
-use bothways_common::frame::Region;
+use bothways_common::engine::fault::{Fault, Planted};
+use bothways_common::engine::simd::{Simd, SimdBase, SimdMask, i32x4};
 use bothways_common::observe::Watcher;
-use bothways_common::simd::{Simd, SimdBase, SimdMask, i32x4};
+use bothways_common::raster::Region;
 use bothways_common::{Primitive, Shape, View};
 use std::ops::Range;
 

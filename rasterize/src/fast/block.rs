@@ -4,12 +4,13 @@ use super::depth::NOTHING;
 use super::lanes::lanes_of;
 use super::setup::Affine;
 use super::tile::{Picture, TileBuffer, nearer_by};
-use bothways_common::fault::Fault;
-use bothways_common::frame::Region;
-use bothways_common::observe::{Sample, Watcher};
-use bothways_common::simd::{
+use bothways_common::engine::fault::Fault;
+use bothways_common::engine::simd::{
     Select, Simd, SimdBase, SimdMask, f32x8, f32x16, mask32x16, u32x8, u32x16,
 };
+use bothways_common::observe::Watcher;
+use bothways_common::raster::Region;
+use bothways_common::raster::Sample;
 
 /// One triangle, its numbers in every lane.
 struct Brush<S: Simd> {

@@ -5,8 +5,8 @@
 //! functions, unclipped.
 
 use super::screen::Screen;
-use bothways_common::fault::Sound;
-use bothways_common::frame::Region;
+use bothways_common::engine::fault::Sound;
+use bothways_common::raster::Region;
 use glam::{DVec3, DVec4};
 
 /// The samples that a triangle may cover in the picture of a perspective camera whose frame and rays

@@ -4,8 +4,8 @@
 use super::bins::Binning;
 use super::setup::BOX_MARGIN;
 use super::vertices::{ON_RASTER, OUT_OF_SIGHT};
-use bothways_common::frame::Region;
-use bothways_common::simd::Simd;
+use bothways_common::engine::simd::Simd;
+use bothways_common::raster::Region;
 use bothways_common::{Mesh, Shape};
 use glam::{Vec3, Vec3A};
 use rayon::prelude::*;

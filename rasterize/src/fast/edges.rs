@@ -2,7 +2,7 @@
 
 use super::depth::{DepthPlane, UNIT_ROUNDOFF};
 use super::screen::{Screen, samples_between};
-use bothways_common::fault::{Fault, Planted, error_bound};
+use bothways_common::engine::fault::{Fault, Planted, error_bound};
 use bothways_common::{Judge, Projection, Sign};
 use glam::DVec3;
 use std::ops::Range;

@@ -2,7 +2,7 @@
 //! time.
 
 use super::vertices::Vertex;
-use bothways_common::simd::{
+use bothways_common::engine::simd::{
     Bytes, Simd, SimdBase, SimdMask, f32x16, i32x4, i32x16, mask32x16, u32x16,
 };
 

@@ -6,9 +6,9 @@ use super::edges::{Edge, TriangleSetup};
 use super::screen::Screen;
 use super::setup::Affine;
 use bothways_common::Projection;
-use bothways_common::fault::{Fault, error_bound};
-use bothways_common::frame::Region;
-use bothways_common::observe::Sample;
+use bothways_common::engine::fault::{Fault, error_bound};
+use bothways_common::raster::Region;
+use bothways_common::raster::Sample;
 use glam::DVec3;
 
 /// Half the distance from 1 to the next `f32`.

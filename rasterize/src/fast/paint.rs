@@ -9,11 +9,11 @@ use super::small::{self, Fragments};
 use super::tile::{Picture, TileBuffer, nearer_by};
 use super::vertices::{ON_RASTER, OUT_OF_SIGHT, Vertex};
 use super::{block, large};
-use bothways_common::fault::Fault;
-use bothways_common::observe::Watcher;
-use bothways_common::simd::{
+use bothways_common::engine::fault::Fault;
+use bothways_common::engine::simd::{
     Level, Simd, SimdBase, SimdMask, dispatch_with, i32x16, mask32x16, prefetch,
 };
+use bothways_common::observe::Watcher;
 use std::ops::Range;
 
 /// What drawing needs to know of the frame.

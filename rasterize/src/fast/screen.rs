@@ -3,8 +3,8 @@
 use super::clip;
 use super::depth::{DepthPlane, sign_in_front};
 use super::waypoint::Waypoint;
-use bothways_common::fault::{Fault, Planted};
-use bothways_common::frame::Region;
+use bothways_common::engine::fault::{Fault, Planted};
+use bothways_common::raster::Region;
 use bothways_common::{Camera, Projection, SampleGrid};
 use glam::DVec3;
 

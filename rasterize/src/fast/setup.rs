@@ -6,10 +6,13 @@ use super::depth::KEY_ERROR;
 use super::lanes::{Lanes, lanes_of};
 use super::vertices::{ALIGNED, Raster};
 use bothways_common::Sign;
-use bothways_common::fault::{Fault, Planted};
-use bothways_common::frame::Region;
-use bothways_common::observe::{Sample, Watcher};
-use bothways_common::simd::{Select, Simd, SimdBase, SimdInt, SimdMask, f32x16, i32x16, mask32x16};
+use bothways_common::engine::fault::{Fault, Planted};
+use bothways_common::engine::simd::{
+    Select, Simd, SimdBase, SimdInt, SimdMask, f32x16, i32x16, mask32x16,
+};
+use bothways_common::observe::Watcher;
+use bothways_common::raster::Region;
+use bothways_common::raster::Sample;
 
 /// Boxes of more columns or rows than this are not for `f32`.
 pub(super) const MOST_SAMPLES_ACROSS: i32 = 256;

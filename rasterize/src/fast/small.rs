@@ -3,11 +3,11 @@
 use super::lanes::lanes_of;
 use super::setup::Setup;
 use super::tile::{Picture, TileBuffer};
-use bothways_common::fault::Fault;
-use bothways_common::observe::Watcher;
-use bothways_common::simd::{
+use bothways_common::engine::fault::Fault;
+use bothways_common::engine::simd::{
     Select, Simd, SimdBase, SimdInt, SimdMask, f32x16, i32x16, mask32x16, u32x16,
 };
+use bothways_common::observe::Watcher;
 
 /// Boxes of at most this many samples are drawn together, apart from larger ones: sixteen triangles take
 /// as long as the one with most samples.

@@ -4,13 +4,14 @@ use super::bins::Tiling;
 use super::depth::{KeyScale, NEARER, NOTHING};
 use super::round;
 use super::screen::Screen;
-use bothways_common::fault::{Fault, Planted};
-use bothways_common::frame::{NO_PRIMITIVE, Region, Tile, stored_t};
-use bothways_common::observe::{Question, Sample, Watcher};
-use bothways_common::predicate::Memory;
-use bothways_common::simd::{
+use bothways_common::engine::fault::{Fault, Planted};
+use bothways_common::engine::simd::{
     Select, Simd, SimdBase, SimdMask, f32x16, finish_streaming, mask32x16, stream, u32x16,
 };
+use bothways_common::exact::Memory;
+use bothways_common::frame::{NO_PRIMITIVE, Tile, stored_t};
+use bothways_common::observe::{Question, Watcher};
+use bothways_common::raster::{Region, Sample};
 use bothways_common::{Primitive, Projection, View};
 use std::cmp::Ordering;
 

@@ -4,7 +4,7 @@ use super::aligned::ExactRaster;
 use super::depth::{KeyScale, LARGEST_KEY};
 use super::screen::Screen;
 use bothways_common::Projection;
-use bothways_common::simd::{
+use bothways_common::engine::simd::{
     Bytes, Select, Simd, SimdBase, SimdInterleaved, SimdMask, f32x16, f64x8, i32x4, i32x16,
     mask64x8,
 };

@@ -3,8 +3,8 @@
 
 use super::rays::Lens;
 use super::setup::Affine;
-use bothways_common::fault::{Fault, Planted};
-use bothways_common::simd::{
+use bothways_common::engine::fault::{Fault, Planted};
+use bothways_common::engine::simd::{
     Select, Simd, SimdBase, SimdFloat, SimdMask, SimdNarrow, SimdSplit, f32x8, f64x8, mask32x8,
     mask64x8,
 };

@@ -4,7 +4,7 @@
 use super::rays::Lens;
 use super::rough::{LARGEST, Plane, U, narrowed, upward};
 use super::tree::LEAF;
-use bothways_common::simd::{Simd, SimdBase, f32x16};
+use bothways_common::engine::simd::{Simd, SimdBase, f32x16};
 
 /// Columns beyond the tile for which errors are derived, and beyond any that is asked for.
 const BESIDE: f64 = 3.0;

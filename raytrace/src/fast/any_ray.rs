@@ -3,9 +3,9 @@
 use super::build::Prepared;
 use super::rays::Rays;
 use super::walk::{self, Walker};
-use bothways_common::fault::Sound;
-use bothways_common::frame::Region;
-use bothways_common::simd::{Simd, dispatch};
+use bothways_common::engine::fault::Sound;
+use bothways_common::engine::simd::{Simd, dispatch};
+use bothways_common::raster::Region;
 use bothways_common::{Camera, CameraDescription, Orientation, Scene, View};
 use glam::Vec3;
 

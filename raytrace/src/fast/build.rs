@@ -14,7 +14,7 @@ use super::tree::{
     Bounds, Child, Counts, Kind, LEAF, LEAF_KINDS, Node, Patch, SPHERES, Triangles, WIDTH,
 };
 use bothways_common::Scene;
-use bothways_common::simd::{Level, best_level};
+use bothways_common::engine::simd::{Level, best_level};
 use cut::Branches;
 use items::{Box4, Corners, Item, collect};
 use planes::cheapest_plane;

@@ -3,7 +3,7 @@
 use super::anchor::Anchor;
 use super::rays::Lens;
 use super::tree::{LEAF, Patch, Triangles};
-use bothways_common::simd::{Bytes, Simd, SimdBase, f32x16, mask32x16, u8x64, u32x16};
+use bothways_common::engine::simd::{Bytes, Simd, SimdBase, f32x16, mask32x16, u8x64, u32x16};
 
 /// Up to sixteen triangles.
 pub(super) trait Leaf {

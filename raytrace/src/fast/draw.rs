@@ -8,9 +8,9 @@ use super::rays::{Lens, Rays};
 use super::setup::{Affine, Eight, Setup};
 use super::tile::{Tile, index, place};
 use bothways_common::Sign;
-use bothways_common::fault::Fault;
+use bothways_common::engine::fault::Fault;
+use bothways_common::engine::simd::{Select, Simd, SimdBase, SimdMask, f32x8, f32x16, u32x16};
 use bothways_common::observe::Watcher;
-use bothways_common::simd::{Select, Simd, SimdBase, SimdMask, f32x8, f32x16, u32x16};
 
 /// Boxes of at most this many samples are tested one triangle a lane.
 const FEW: f32 = 8.0;

@@ -1,7 +1,7 @@
 //! One ray against one primitive: what rounded arithmetic says for certain.
 
 use super::ball;
-use bothways_common::fault::{Fault, Planted};
+use bothways_common::engine::fault::{Fault, Planted};
 use bothways_common::{Primitive, Ray, Sign};
 use glam::DVec3;
 

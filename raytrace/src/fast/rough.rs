@@ -1,7 +1,7 @@
 //! The sides of a tile and `t` in `f32`, and how far off they may be. They say which boxes certainly miss the tile or
 //! lie behind its hits.
 
-use bothways_common::simd::{Simd, f32x16};
+use bothways_common::engine::simd::{Simd, f32x16};
 use glam::{DVec3, Vec3};
 use std::ops::{Add, Mul};
 

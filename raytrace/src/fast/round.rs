@@ -3,7 +3,7 @@
 use super::rays::{Lens, Rays};
 use super::tile::{Tile, index};
 use bothways_common::Primitive;
-use bothways_common::fault::Fault;
+use bothways_common::engine::fault::Fault;
 use bothways_common::observe::Watcher;
 use glam::DVec3;
 

@@ -3,8 +3,8 @@
 
 use super::aligned::Aligned;
 use super::rays::Lens;
-use bothways_common::fault::{Fault, Planted};
-use bothways_common::simd::{
+use bothways_common::engine::fault::{Fault, Planted};
+use bothways_common::engine::simd::{
     Select, Simd, SimdBase, SimdCombine, SimdFloat, SimdMask, SimdNarrow, SimdSplit, SimdWiden,
     f32x8, f32x16, f64x8, mask32x8,
 };

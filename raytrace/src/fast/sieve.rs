@@ -9,7 +9,7 @@ use super::corners::Leaf;
 use super::rays::Lens;
 use super::setup::Eight;
 use super::tree::{Child, Kind, LEAF};
-use bothways_common::simd::{
+use bothways_common::engine::simd::{
     Simd, SimdBase, SimdFloat, SimdMask, f32x8, f32x16, mask32x16, u32x8, u32x16,
 };
 

@@ -3,11 +3,12 @@
 use super::ball;
 use super::leaf::{self, Answer, Distance, Trust};
 use super::rays::{Lens, Rays};
-use bothways_common::fault::{Fault, Planted};
-use bothways_common::frame::{NO_PRIMITIVE, Region, stored_t};
-use bothways_common::observe::{Question, Sample, Watcher};
-use bothways_common::predicate::Memory;
-use bothways_common::simd::{Select, Simd, SimdBase, SimdMask, f32x16, u32x16};
+use bothways_common::engine::fault::{Fault, Planted};
+use bothways_common::engine::simd::{Select, Simd, SimdBase, SimdMask, f32x16, u32x16};
+use bothways_common::exact::Memory;
+use bothways_common::frame::{NO_PRIMITIVE, stored_t};
+use bothways_common::observe::{Question, Watcher};
+use bothways_common::raster::{Region, Sample};
 use bothways_common::{Primitive, Projection};
 use std::ops::Range;
 

@@ -7,9 +7,9 @@ use super::round;
 use super::sieve::{EIGHT, Look, Sieve, Waiting};
 use super::tile::Tile;
 use super::tree::{Child, Counts, Kind, Node, WIDTH};
-use bothways_common::fault::{Fault, Planted};
+use bothways_common::engine::fault::{Fault, Planted};
+use bothways_common::engine::simd::{Simd, SimdBase, SimdMask, f32x16, mask32x16, prefetch};
 use bothways_common::observe::Watcher;
-use bothways_common::simd::{Simd, SimdBase, SimdMask, f32x16, mask32x16, prefetch};
 use bothways_common::{Primitive, View};
 use glam::Vec3;
 

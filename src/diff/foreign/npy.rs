@@ -2,8 +2,8 @@
 
 use super::read::{Problem, ends_early};
 use super::{Buffer, Content, Covered, Picture, Pixels};
-use crate::common::camera::{MAX_SAMPLES, check_samples};
-use crate::common::quote::shown;
+use crate::common::raster::{MAX_SAMPLES, check_samples};
+use crate::formats::source::quote::shown;
 use npyz::{DType, Endianness, NpyHeader, Order, TypeChar};
 use std::borrow::Cow;
 use std::io::Read;

@@ -2,8 +2,8 @@
 
 use super::read::{Problem, ends_early};
 use super::{Buffer, Content, Covered, Picture, Pixels, png};
-use crate::common::camera::check_samples;
-use crate::common::quote::visible;
+use crate::common::raster::check_samples;
+use crate::formats::source::quote::visible;
 use image::error::ImageError;
 use image::{
     ColorType, DynamicImage, GenericImageView, ImageDecoder, ImageFormat, ImageReader, Limits,

@@ -1,8 +1,8 @@
 //! Reads a file of any origin, by what is in it and not by its name.
 
 use super::{Buffer, npy, picture};
-use crate::common::CameraError;
-use crate::common::mesh_file::{READ_AT_ONCE, regular_file};
+use crate::common::SizeError;
+use crate::formats::source::{READ_AT_ONCE, regular_file};
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
@@ -50,7 +50,7 @@ pub enum ReadBufferError {
         /// The file.
         path: PathBuf,
         /// Its size, and the limit.
-        error: CameraError,
+        error: SizeError,
     },
 }
 
@@ -59,7 +59,7 @@ pub enum ReadBufferError {
 pub(super) enum Problem {
     /// In the words of a message: what is wrong, and what would be right.
     Content(String),
-    Size(CameraError),
+    Size(SizeError),
     /// The system does not give the file away.
     Io(io::Error),
 }
@@ -81,8 +81,8 @@ impl From<io::Error> for Problem {
     }
 }
 
-impl From<CameraError> for Problem {
-    fn from(error: CameraError) -> Self {
+impl From<SizeError> for Problem {
+    fn from(error: SizeError) -> Self {
         Problem::Size(error)
     }
 }

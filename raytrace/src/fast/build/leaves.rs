@@ -2,8 +2,8 @@
 
 use super::super::tree::{LEAF, Patch, Triangles};
 use super::items::{Corners, Item};
-use bothways_common::predicate::are_same_corners;
-use bothways_common::simd::{Simd, SimdBase, SimdMask, best_level, dispatch, f32x16};
+use bothways_common::engine::simd::{Simd, SimdBase, SimdMask, best_level, dispatch, f32x16};
+use bothways_common::scene::are_same_corners;
 use glam::Vec3;
 
 /// The triangles of a patch, by their different vertices.

@@ -1,0 +1,156 @@
+//! SIMD for both orders: vectors of a fixed number of lanes, and a run-time choice of how the machine
+//! computes them.
+//!
+//! Everything here is [`fearless_simd`]'s, gathered in one place. Code is written once, generic over
+//! [`Simd`], for sixteen lanes of `f32` (eight of `f64`); [`dispatch!`] runs it at a [`Level`]: AVX-512,
+//! AVX2, SSE4.2, SSE2, NEON, WebAssembly's SIMD, or plain scalars. The number of lanes never changes, and
+//! only operations that IEEE 754 rounds correctly are used (no fused multiply-add, no approximate
+//! reciprocal), so the level changes no bit of any result.
+//!
+//! Functions between [`dispatch!`] and the vector operations must be `#[inline(always)]`, or they are
+//! compiled for the wrong level.
+
+pub use fearless_simd::prelude::*;
+pub use fearless_simd::{
+    Level, Simd, dispatch, f32x8, f32x16, f64x8, i32x4, i32x16, mask32x8, mask32x16, mask64x8,
+    u8x64, u32x8, u32x16,
+};
+
+/// Asks the machine to bring a value into its cache, as it will soon be needed. Changes nothing else.
+#[inline(always)]
+pub fn prefetch<T>(soon: &T) {
+    #[cfg(target_arch = "x86_64")]
+    for line in 0..size_of::<T>().div_ceil(64) {
+        use core::arch::x86_64::{_MM_HINT_T1, _mm_prefetch};
+        let start = core::ptr::from_ref(soon).cast::<i8>();
+        // SAFETY: SSE is part of every x86-64, and the instruction is defined for any address.
+        #[expect(unsafe_code, reason = "a hint: nothing is read, whatever the address")]
+        unsafe {
+            _mm_prefetch::<_MM_HINT_T1>(start.wrapping_add(64 * line));
+        }
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = soon;
+}
+
+/// [`dispatch!`] for code that is generic over a [`Fault`](crate::engine::fault::Fault). With faults in it, it need not
+/// be fast, and is compiled for one level alone where there are several.
+#[macro_export]
+#[cfg(target_arch = "x86_64")]
+macro_rules! dispatch_with {
+    ($fault:ty, $level:expr, $simd:pat => $op:expr) => {
+        if const { !<$fault as $crate::engine::fault::Fault>::SOUND } {
+            let $simd = $crate::engine::simd::least();
+            $op
+        } else {
+            $crate::engine::simd::dispatch!($level, $simd => $op)
+        }
+    };
+}
+
+/// [`dispatch!`] for code that is generic over a [`Fault`](crate::engine::fault::Fault).
+#[macro_export]
+#[cfg(not(target_arch = "x86_64"))]
+macro_rules! dispatch_with {
+    ($fault:ty, $level:expr, $simd:pat => $op:expr) => {
+        $crate::engine::simd::dispatch!($level, $simd => $op)
+    };
+}
+
+pub use crate::dispatch_with;
+
+/// The least level, which needs no other code than the rest of a program does.
+#[doc(hidden)]
+#[cfg(target_arch = "x86_64")]
+pub fn least() -> impl Simd {
+    Level::baseline().as_sse2().expect("SSE2 is part of every x86-64")
+}
+
+/// The best level of this machine.
+pub fn best_level() -> Level {
+    Level::new()
+}
+
+/// Every level that this machine has, the best one first: for tests, which compare them.
+pub fn levels() -> Vec<Level> {
+    let best = Level::new();
+    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+    if best.as_sse2().is_some() {
+        let avx2 = best.as_avx2().map(Simd::level);
+        let sse4_2 = best.as_sse4_2().map(Simd::level);
+        let sse2 = best.as_sse2().map(Simd::level);
+        let lesser = [avx2, sse4_2, sse2].into_iter().flatten();
+        let name = |level: &Level| format!("{level:?}");
+        let lesser = lesser.filter(|level| name(level) != name(&best));
+        return [best].into_iter().chain(lesser).collect();
+    }
+    vec![best]
+}
+
+/// Writes sixteen numbers that are not needed again soon: past the caches, where the machine can. Whoever
+/// lets other threads read them calls [`finish_streaming`] before.
+#[inline(always)]
+#[cfg_attr(
+    target_arch = "x86_64",
+    expect(unsafe_code, reason = "the intrinsic takes a pointer; it writes what the array holds")
+)]
+pub fn stream<T: Copy + Sixteen>(values: [T; 16], to: &mut [T; 16]) {
+    #[cfg(target_arch = "x86_64")]
+    {
+        use core::arch::x86_64::{__m128i, _mm_loadu_si128, _mm_stream_si128};
+        let (from, onto) = (values.as_ptr().cast::<__m128i>(), to.as_mut_ptr().cast::<__m128i>());
+        if onto.is_aligned() {
+            for quarter in 0..4 {
+                // SAFETY: both arrays have 64 bytes, any of which may hold any bits; `onto` is
+                // aligned; SSE2 is part of every x86-64.
+                unsafe {
+                    _mm_stream_si128(onto.add(quarter), _mm_loadu_si128(from.add(quarter)));
+                }
+            }
+            return;
+        }
+    }
+    *to = values;
+}
+
+/// Numbers of four bytes, all of whose bits are theirs.
+pub trait Sixteen: sealed::Sealed {}
+impl Sixteen for f32 {}
+impl Sixteen for u32 {}
+
+mod sealed {
+    #[expect(unnameable_types, reason = "so that nobody else implements it")]
+    pub trait Sealed {}
+    impl Sealed for f32 {}
+    impl Sealed for u32 {}
+}
+
+/// Makes what was written by [`stream`] visible to other threads as any other write.
+#[inline(always)]
+#[cfg_attr(target_arch = "x86_64", expect(unsafe_code, reason = "a fence has no condition"))]
+pub fn finish_streaming() {
+    #[cfg(target_arch = "x86_64")]
+    // SAFETY: SSE is part of every x86-64.
+    unsafe {
+        core::arch::x86_64::_mm_sfence();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[inline(always)]
+    fn quotients<S: Simd>(simd: S) -> [f32; 16] {
+        let numerators = f32x16::from_fn(simd, |lane| lane as f32 + 0.1);
+        (numerators / f32x16::splat(simd, 3.0)).to_array()
+    }
+
+    #[test]
+    fn all_levels_compute_the_same() {
+        let results: Vec<[f32; 16]> =
+            levels().into_iter().map(|level| dispatch!(level, simd => quotients(simd))).collect();
+        println!("{} levels", results.len());
+        assert!(results.iter().all(|result| *result == results[0]));
+    }
+}

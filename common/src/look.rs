@@ -1,0 +1,6 @@
+//! The look of what is seen: shading, texture coordinates and colors. What a look *is* stands here; where on a
+//! surface a sample lies is for each order to find out.
+
+pub mod color;
+pub mod shade;
+pub mod texture;

@@ -1,0 +1,61 @@
+//! What surfaces are made of, and where light comes from.
+
+use glam::Vec3;
+
+/// How a surface answers light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Material {
+    /// Diffuse reflectance, linear red, green and blue in 0 … 1.
+    pub color: Vec3,
+    /// Strength of the highlight, 0 … 1.
+    pub specular: f32,
+    /// The Blinn–Phong exponent: larger is a smaller highlight.
+    pub shininess: f32,
+    /// A second colour over the texture coordinates.
+    pub checker: Option<Checker>,
+}
+
+impl Default for Material {
+    /// Matt light grey.
+    fn default() -> Self {
+        Material { color: Vec3::splat(0.6), specular: 0.0, shininess: 32.0, checker: None }
+    }
+}
+
+/// Where light comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Light {
+    /// The same from everywhere.
+    Ambient {
+        /// Its strength; 1 shows a material in its own colour.
+        intensity: f32,
+    },
+    /// Parallel light, as from the sun.
+    Directional {
+        /// The way the light goes.
+        direction: Vec3,
+        /// Its strength on a surface that faces it.
+        intensity: f32,
+    },
+    /// Light from a point of the world; it does not fade with distance.
+    Point {
+        /// Where it is.
+        position: Vec3,
+        /// Its strength on a surface that faces it.
+        intensity: f32,
+    },
+    /// Light from where the viewing rays come from: whatever faces the viewer is bright.
+    AtCamera {
+        /// Its strength on a surface that faces it.
+        intensity: f32,
+    },
+}
+
+/// A pattern of two colours: the material's own in the cell at (0, 0), this one beside it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Checker {
+    /// The other diffuse reflectance, linear red, green and blue in 0 … 1.
+    pub color: Vec3,
+    /// Cells to one unit of the texture coordinate, in both directions; positive.
+    pub divisions: [f32; 2],
+}

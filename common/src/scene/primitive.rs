@@ -1,0 +1,31 @@
+//! One primitive as a camera sees it.
+
+use glam::DVec3;
+
+/// One primitive relative to the eye: the eye is the origin, the axes are the world's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Primitive {
+    /// Its three corners.
+    Triangle([DVec3; 3]),
+    /// A sphere.
+    Sphere {
+        /// Its middle.
+        center: DVec3,
+        /// Positive.
+        radius: f64,
+    },
+    /// An infinite plane.
+    Plane {
+        /// Any point of it.
+        point: DVec3,
+        /// Perpendicular to it, not of unit length.
+        normal: DVec3,
+    },
+}
+
+/// Whether two triangles have the same corners, in any order: whatever ray meets one meets the other at
+/// the same place.
+pub fn are_same_corners<P: Copy + PartialEq>(first: &[P; 3], second: &[P; 3]) -> bool {
+    let [a, b, c] = *first;
+    first == second || [[b, c, a], [c, a, b], [a, c, b], [c, b, a], [b, a, c]].contains(second)
+}

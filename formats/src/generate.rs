@@ -1,0 +1,260 @@
+//! Meshes from formulas: closed surfaces are watertight by index, seams and caps included.
+//!
+//! All have their middle at the origin, outward normals, counter-clockwise triangles as seen from
+//! outside, and texture coordinates. Points at quarter turns are exact. Sines and cosines come from
+//! one software library, so that the same mesh is the same bits everywhere.
+
+mod lattice;
+mod teapot;
+
+use bothways_common::scene::Mesh;
+use glam::{DVec2, DVec3};
+use lattice::{Lattice, Vertex, turn};
+
+/// The kinds of mesh that can be generated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Kind {
+    /// Radius 1. Divisions: around, from pole to pole.
+    Sphere,
+    /// Radius 1, from y = −1 to 1, with caps. Divisions: around, along.
+    Cylinder,
+    /// Radius 1 at y = −1, its apex at y = 1, with its base. Divisions: around, along.
+    Cone,
+    /// A ring of radius 1 around the y axis, its tube of radius 0.4. Divisions: around, around the
+    /// tube.
+    Torus,
+    /// From −1 to 1 along each axis. Divisions: along x and z, along y.
+    Box,
+    /// The square from −1 to 1 in the plane z = 0, facing +z. Divisions: across, up.
+    Grid,
+    /// Newell's teapot, 3.15 high, standing on y = 0, its spout towards +x; an open surface.
+    /// Divisions: along both sides of each of its 32 patches.
+    Teapot,
+}
+
+/// Why a mesh cannot be generated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum GenerateError {
+    /// Too few divisions for the form.
+    #[error("a {kind} needs divisions of at least {}, {}; these are {}, {}",
+            .least[0], .least[1], .divisions[0], .divisions[1])]
+    TooFew {
+        /// What was asked for.
+        kind: Kind,
+        /// As they were given.
+        divisions: [u32; 2],
+        /// The least that make sense.
+        least: [u32; 2],
+    },
+    /// More triangles than a scene can tell apart, or memory can hold.
+    #[error("a {kind} with divisions {}, {} would have more than {MOST} triangles; take fewer",
+            .divisions[0], .divisions[1])]
+    TooMany {
+        /// What was asked for.
+        kind: Kind,
+        /// As they were given.
+        divisions: [u32; 2],
+    },
+}
+
+/// The most triangles of a generated mesh.
+pub const MOST: u64 = 100_000_000;
+
+impl Kind {
+    /// All kinds, by their names.
+    pub const ALL: [Kind; 7] = [
+        Kind::Sphere,
+        Kind::Cylinder,
+        Kind::Cone,
+        Kind::Torus,
+        Kind::Box,
+        Kind::Grid,
+        Kind::Teapot,
+    ];
+
+    /// Its name in scene files and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::Sphere => "sphere",
+            Kind::Cylinder => "cylinder",
+            Kind::Cone => "cone",
+            Kind::Torus => "torus",
+            Kind::Box => "box",
+            Kind::Grid => "grid",
+            Kind::Teapot => "teapot",
+        }
+    }
+
+    /// The kind of this name.
+    pub fn named(name: &str) -> Option<Kind> {
+        Kind::ALL.into_iter().find(|kind| kind.name() == name)
+    }
+
+    /// Divisions that look good.
+    pub fn default_divisions(self) -> [u32; 2] {
+        match self {
+            Kind::Sphere => [64, 32],
+            Kind::Cylinder | Kind::Cone => [64, 1],
+            Kind::Torus => [96, 48],
+            Kind::Box => [1, 1],
+            Kind::Grid => [8, 8],
+            Kind::Teapot => [10, 10],
+        }
+    }
+
+    /// The fewest divisions that give the form.
+    pub fn least_divisions(self) -> [u32; 2] {
+        match self {
+            Kind::Sphere => [3, 2],
+            Kind::Cylinder | Kind::Cone => [3, 1],
+            Kind::Torus => [3, 3],
+            Kind::Box | Kind::Grid | Kind::Teapot => [1, 1],
+        }
+    }
+
+    /// The mesh.
+    ///
+    /// # Errors
+    ///
+    /// Too few divisions for the form, or too many for anybody.
+    ///
+    /// ```
+    /// use bothways_formats::generate::Kind;
+    ///
+    /// assert_eq!(Kind::Box.mesh([1, 1])?.triangles().len(), 12);
+    /// # Ok::<(), bothways_formats::generate::GenerateError>(())
+    /// ```
+    pub fn mesh(self, divisions: [u32; 2]) -> Result<Mesh, GenerateError> {
+        let least = self.least_divisions();
+        if divisions[0] < least[0] || divisions[1] < least[1] {
+            return Err(GenerateError::TooFew { kind: self, divisions, least });
+        }
+        let patches = match self {
+            Kind::Teapot => 32,
+            Kind::Box => 6,
+            Kind::Cylinder | Kind::Cone => 3,
+            Kind::Sphere | Kind::Torus | Kind::Grid => 1,
+        };
+        let cells = u64::from(divisions[0]).saturating_mul(divisions[1].into());
+        if cells.saturating_mul(2 * patches) > MOST {
+            return Err(GenerateError::TooMany { kind: self, divisions });
+        }
+        Ok(match self {
+            Kind::Sphere => sphere(divisions),
+            Kind::Cylinder => cylinder(divisions),
+            Kind::Cone => cone(divisions),
+            Kind::Torus => torus(divisions),
+            Kind::Box => cuboid(divisions),
+            Kind::Grid => grid(divisions),
+            Kind::Teapot => teapot::teapot(divisions),
+        })
+    }
+}
+
+impl std::fmt::Display for Kind {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+fn sphere([around, along]: [u32; 2]) -> Mesh {
+    let mut lattice = Lattice::default();
+    lattice.surface([around, along], |j, i| {
+        // From the south pole up.
+        let (minus_height, radius) = turn(i, 2 * along);
+        let normal = on_circle(turn(j, around), radius, -minus_height);
+        Vertex { position: normal, normal }
+    });
+    lattice.finish()
+}
+
+fn cylinder([around, along]: [u32; 2]) -> Mesh {
+    let mut lattice = Lattice::default();
+    lattice.surface([around, along], |j, i| {
+        let angle = turn(j, around);
+        let position = on_circle(angle, 1.0, part(i, along));
+        Vertex { position, normal: on_circle(angle, 1.0, 0.0) }
+    });
+    cap(&mut lattice, around, 1.0);
+    cap(&mut lattice, around, -1.0);
+    lattice.finish()
+}
+
+fn cone([around, along]: [u32; 2]) -> Mesh {
+    let mut lattice = Lattice::default();
+    lattice.surface([around, along], |j, i| {
+        let (angle, height) = (turn(j, around), part(i, along));
+        // The side rises by 2 as it comes in by 1. At the apex each triangle has its own normal.
+        let radius = 0.5 * (1.0 - height);
+        Vertex { position: on_circle(angle, radius, height), normal: on_circle(angle, 2.0, 1.0) }
+    });
+    cap(&mut lattice, around, -1.0);
+    lattice.finish()
+}
+
+/// A disc of radius 1 at a height, facing away from the origin.
+fn cap(lattice: &mut Lattice, around: u32, height: f64) {
+    lattice.surface([around, 1], |j, i| {
+        // From the rim to the middle on top, from the middle to the rim below: both face outward.
+        let at_rim = (i == 0) == (height > 0.0);
+        let radius = if at_rim { 1.0 } else { 0.0 };
+        let position = on_circle(turn(j, around), radius, height);
+        Vertex { position, normal: DVec3::new(0.0, height, 0.0) }
+    });
+}
+
+fn torus([around, tube]: [u32; 2]) -> Mesh {
+    const TUBE: f64 = 0.4;
+    let mut lattice = Lattice::default();
+    lattice.surface([around, tube], |j, i| {
+        let (angle, (outward, up)) = (turn(j, around), turn(i, tube));
+        Vertex {
+            position: on_circle(angle, 1.0 + TUBE * outward, TUBE * up),
+            normal: on_circle(angle, outward, up),
+        }
+    });
+    lattice.finish()
+}
+
+fn cuboid(divisions: [u32; 2]) -> Mesh {
+    let mut lattice = Lattice::default();
+    for axis in 0..3 {
+        for side in [-1.0, 1.0] {
+            let others = [(axis + 1) % 3, (axis + 2) % 3];
+            let divisions = others.map(|axis| divisions[usize::from(axis == 1)]);
+            lattice.surface(divisions, |j, i| {
+                // Right-handed axes seen from outside: the other two in order, mirrored behind.
+                let mut position = DVec3::ZERO;
+                position[axis] = side;
+                position[others[0]] = side * part(j, divisions[0]);
+                position[others[1]] = part(i, divisions[1]);
+                let mut normal = DVec3::ZERO;
+                normal[axis] = side;
+                Vertex { position, normal }
+            });
+        }
+    }
+    lattice.finish()
+}
+
+fn grid(divisions: [u32; 2]) -> Mesh {
+    let mut lattice = Lattice::default();
+    lattice.surface(divisions, |j, i| {
+        let place = DVec2::new(part(j, divisions[0]), part(i, divisions[1]));
+        Vertex { position: place.extend(0.0), normal: DVec3::Z }
+    });
+    lattice.finish()
+}
+
+/// From −1 to 1 in `count` equal steps; exact for powers of two, and symmetric.
+fn part(step: u32, count: u32) -> f64 {
+    (2.0 * f64::from(step) - f64::from(count)) / f64::from(count)
+}
+
+/// A point of a circle around the y axis, from +x towards −z: to the right as seen from outside.
+fn on_circle((cos, sin): (f64, f64), radius: f64, height: f64) -> DVec3 {
+    DVec3::new(radius * cos, height, -radius * sin)
+}
+
+#[cfg(test)]
+mod tests;

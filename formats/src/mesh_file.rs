@@ -1,0 +1,79 @@
+//! Mesh files of any format that is read: which one a file is, its name says.
+
+use crate::obj::{self, MaterialWarning, ReadObjError};
+use crate::ply::{self, ReadPlyError};
+use bothways_common::scene::Mesh;
+use std::ffi::OsStr;
+use std::path::Path;
+
+/// A format of mesh files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Wavefront OBJ: [`obj`].
+    Obj,
+    /// PLY, in words or in bytes: [`ply`].
+    Ply,
+}
+
+/// Why a mesh file could not be read.
+#[derive(Debug, thiserror::Error)]
+pub enum ReadMeshError {
+    /// An OBJ file could not.
+    #[error(transparent)]
+    Obj(#[from] ReadObjError),
+    /// A PLY file could not.
+    #[error(transparent)]
+    Ply(#[from] ReadPlyError),
+}
+
+impl Format {
+    /// The format that a file's extension names, in small or capital letters.
+    pub fn of(path: &Path) -> Option<Format> {
+        let extension = path.extension().and_then(OsStr::to_str)?;
+        match extension.to_ascii_lowercase().as_str() {
+            "obj" => Some(Format::Obj),
+            "ply" => Some(Format::Ply),
+            _ => None,
+        }
+    }
+
+    /// Reads a mesh from a file of this format.
+    ///
+    /// # Errors
+    ///
+    /// What is wrong with the file, named by `path`.
+    pub fn read(self, path: &Path) -> Result<Mesh, ReadMeshError> {
+        Ok(match self {
+            Format::Obj => obj::read(path)?,
+            Format::Ply => ply::read(path)?,
+        })
+    }
+
+    /// Reads a mesh from a file of this format, with its materials if they have a place beside it:
+    /// those of an OBJ file do, and what is missing of them is told.
+    ///
+    /// # Errors
+    ///
+    /// As for [`Format::read`], and for each material file that is there.
+    pub fn read_with_materials(
+        self,
+        path: &Path,
+    ) -> Result<(Mesh, Vec<MaterialWarning>), ReadMeshError> {
+        Ok(match self {
+            Format::Obj => obj::read_with_materials(path)?,
+            Format::Ply => (ply::read(path)?, Vec::new()),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_extension_names_the_format() {
+        let of = |path: &str| Format::of(Path::new(path));
+        assert_eq!([of("a/b.obj"), of("B.PLY")], [Some(Format::Obj), Some(Format::Ply)]);
+        assert_eq!([of("ply"), of("a.stl"), of("a.obj.gz"), of("")], [None; 4]);
+    }
+}

@@ -1,0 +1,226 @@
+//! Meshes that are read from a file in passes, and never as a whole: for those that are larger than
+//! memory.
+//!
+//! Vertices stay in memory, 12 bytes each, because any face may name any of them. Faces pass by, as
+//! often as somebody asks for them. Only positions are read: no normals, texture coordinates or
+//! materials, which few of the triangles would ever show.
+
+use crate::mesh_file::{Format, ReadMeshError};
+use crate::obj::{MaterialWarning, ObjFile};
+use crate::ply::PlyFile;
+use bothways_common::scene::Positions;
+use glam::Vec3;
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+/// A mesh file of which only the vertices are in memory.
+#[derive(Debug)]
+pub struct MeshStream {
+    name: String,
+    positions: Positions,
+    faces: Faces,
+    triangles: Option<u32>,
+}
+
+#[derive(Debug)]
+enum Faces {
+    Obj(Box<ObjFile>),
+    Ply(Box<PlyFile<BufReader<File>>>),
+}
+
+/// Why a mesh cannot be streamed.
+#[derive(Debug, thiserror::Error)]
+pub enum StreamError {
+    /// What is wrong with the file.
+    #[error(transparent)]
+    Mesh(#[from] ReadMeshError),
+    /// More triangles than ids.
+    #[error("{file}: more than {} triangles, which is as many as can be told apart", u32::MAX - 1)]
+    TooManyTriangles {
+        /// The file.
+        file: String,
+    },
+}
+
+impl MeshStream {
+    /// Opens a mesh file and reads its vertices.
+    ///
+    /// # Errors
+    ///
+    /// What is wrong with the file up to its last vertex; a pipe, which cannot be read twice.
+    pub fn open(path: &Path, format: Format) -> Result<MeshStream, ReadMeshError> {
+        let mut positions = Positions::default();
+        let faces = match format {
+            Format::Obj => {
+                let mut file = Box::new(ObjFile::open(path)?);
+                file.vertices(|position| positions.push(position))?;
+                Faces::Obj(file)
+            }
+            Format::Ply => {
+                let mut file = Box::new(PlyFile::open(path)?);
+                file.vertices(|position| positions.push(position))?;
+                Faces::Ply(file)
+            }
+        };
+        Ok(MeshStream { name: path.display().to_string(), positions, faces, triangles: None })
+    }
+
+    /// The vertices' positions.
+    pub fn positions(&self) -> &Positions {
+        &self.positions
+    }
+
+    /// How many triangles there are, once somebody has read all of them.
+    pub fn triangles(&self) -> Option<u32> {
+        self.triangles
+    }
+
+    /// That the mesh has materials, if so: they are not read.
+    pub fn material_warning(&self) -> Option<MaterialWarning> {
+        match &self.faces {
+            Faces::Obj(file) => file.material_warning(),
+            Faces::Ply(_) => None,
+        }
+    }
+
+    /// Reads the faces once, from the first to the last, and shows each triangle's vertices; gives
+    /// the number of triangles.
+    ///
+    /// A triangle's place in this order is its id. All its vertices exist.
+    ///
+    /// # Errors
+    ///
+    /// What is wrong with the file, or more triangles than ids; what was shown before is no use then.
+    pub fn for_each_triangle(
+        &mut self,
+        mut visit: impl FnMut(&Positions, [u32; 3]),
+    ) -> Result<u32, StreamError> {
+        let (mut count, positions) = (0_u64, &self.positions);
+        let visit = |triangle| {
+            count += 1;
+            if count < u64::from(u32::MAX) {
+                visit(positions, triangle);
+            }
+        };
+        match &mut self.faces {
+            Faces::Obj(file) => file.triangles(visit).map_err(ReadMeshError::from)?,
+            Faces::Ply(file) => file.triangles(visit).map_err(ReadMeshError::from)?,
+        }
+        match u32::try_from(count) {
+            Ok(count) if count < u32::MAX => {
+                self.triangles = Some(count);
+                Ok(count)
+            }
+            _ => Err(StreamError::TooManyTriangles { file: self.name.clone() }),
+        }
+    }
+
+    /// How many triangles there are, and the positions that they use, in the order of the vertices:
+    /// one pass over the faces, and one bit a vertex.
+    ///
+    /// # Errors
+    ///
+    /// As for [`MeshStream::for_each_triangle`].
+    pub fn used_positions(
+        &mut self,
+    ) -> Result<(u32, impl Iterator<Item = Vec3> + Clone + use<'_>), StreamError> {
+        let mut used = vec![0_u64; self.positions.len().div_ceil(64)];
+        let triangles = self.for_each_triangle(|_, triangle| {
+            for vertex in triangle {
+                used[vertex as usize / 64] |= 1 << (vertex % 64);
+            }
+        })?;
+        let is_used = move |vertex: usize| used[vertex / 64] >> (vertex % 64) & 1 == 1;
+        let all = self.positions.iter().enumerate();
+        let used = all.filter(move |(vertex, _)| is_used(*vertex)).map(|(_, position)| position);
+        Ok((triangles, used))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bothways_common::scene::Mesh;
+    use proptest::collection::vec;
+    use proptest::prelude::*;
+    use proptest::sample::select;
+
+    /// A file's mesh in memory, and as it is streamed; `None` where it is refused.
+    fn both(name: &str, content: &[u8]) -> [Option<Mesh>; 2] {
+        let folder = std::env::temp_dir().join(format!("bothways-stream-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let path = folder.join(name);
+        std::fs::write(&path, content).unwrap();
+        let format = Format::of(&path).unwrap();
+        let whole = format.read(&path).ok().map(|whole| {
+            Mesh::new(whole.positions().to_vec(), whole.triangles().to_vec()).unwrap()
+        });
+        let streamed = MeshStream::open(&path, format).ok().and_then(|mut stream| {
+            let mut triangles = Vec::new();
+            let count = stream.for_each_triangle(|_, triangle| triangles.push(triangle)).ok()?;
+            assert_eq!(count as usize, triangles.len());
+            Some(Mesh::new(stream.positions().iter().collect(), triangles).unwrap())
+        });
+        [whole, streamed]
+    }
+
+    #[test]
+    fn a_stream_shows_what_the_reader_reads() {
+        let obj = "\u{feff}f 1 3 2\nv 0 0 0\r\nvt 1\nv 1 0 0\nv 0 1 0 # c\nf -3/1 -2 \\\n-1\n\
+                   v 5 5 5\nf 1 2 \\\r\n4 3\nvn 0 0 1\ng x";
+        let [whole, streamed] = both("a.obj", obj.as_bytes());
+        assert_eq!(whole, streamed);
+        assert_eq!(whole.unwrap().triangles(), [[0, 2, 1], [0, 1, 2], [0, 1, 3], [0, 3, 2]]);
+    }
+
+    #[test]
+    fn the_positions_of_lonely_vertices_are_left_out() {
+        let path = std::env::temp_dir().join(format!("bothways-used-{}.obj", std::process::id()));
+        std::fs::write(&path, "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 8 8 8\nv 0 1 0\nf 5 2 3\n").unwrap();
+        let mut stream = MeshStream::open(&path, Format::Obj).unwrap();
+        assert_eq!(stream.triangles(), None);
+        let (triangles, used) = stream.used_positions().unwrap();
+        assert_eq!(triangles, 1);
+        assert_eq!(used.collect::<Vec<Vec3>>(), [Vec3::ZERO, Vec3::X, Vec3::Y]);
+        assert_eq!(stream.triangles(), Some(1));
+        std::fs::remove_file(&path).unwrap();
+    }
+
+    /// Pieces that OBJ files are made of, and some that they are not.
+    const PIECES: [&str; 22] = [
+        "v 1 2 3\n",
+        "v 1 0 0\r\n",
+        "v 0 1 0 \\\n7\n",
+        "v 0 0 2\n",
+        "vt 1\n",
+        "vn 0 0 1\n",
+        "f 1 2 3\n",
+        "f 3 2 1 4\n",
+        "f -1 -2 -3\n",
+        "f 1/1 2/1 3/1\n",
+        "f 1//1 2 \\\r\n 3\n",
+        "fo 2 1 3\n",
+        "f 1 2 9\n",
+        "f -5 1 2\n",
+        "g a\n",
+        "usemtl a\n",
+        "mtllib a.mtl\n",
+        "# f \\\n",
+        "\n",
+        "f",
+        " 1",
+        "x\n",
+    ];
+
+    proptest! {
+        #[test]
+        fn a_stream_takes_and_refuses_what_the_reader_does(
+            pieces in vec(select(PIECES.to_vec()), 0..12),
+        ) {
+            let text = ["v 0 0 0\nv 1 1 0\n", &pieces.concat()].concat();
+            let [whole, streamed] = both("pieces.obj", text.as_bytes());
+            prop_assert_eq!(whole, streamed, "{}", text);
+        }
+    }
+}

@@ -1,0 +1,243 @@
+//! Material files (MTL): the colours beside an OBJ file.
+//!
+//! Of the format (Wavefront, "MTL Material Format", 1995) the reader takes, strictly,
+//!
+//! - `newmtl name`, after which what follows describes this material; a name may contain blanks;
+//! - `Kd r g b` and `Ks r g b`, diffuse colour and highlight, from 0 to 1; green and blue may be left
+//!   out and are then like red;
+//! - `Ns s`, the exponent of the highlight, which the format defines with the half vector, as we do.
+//!
+//! Everything else (ambient colour, transparency, maps, what other programs have added) is skipped.
+//!
+//! The format does not say whether its colours are linear. Here `Kd` is taken as screens show it, as
+//! sRGB: the programs that most files were made with and for wrote these numbers to the screen as
+//! they stand, so that only then a surface that faces the light has the colour that its author saw.
+//! (Files of programs that write linear values look darker.) `Ks` becomes one strength, the mean of
+//! its three. `Ns 0` would light the whole surface; programs write it for matt ones, so it takes the
+//! highlight away.
+
+use super::lines::{Statements, Words};
+use super::{ObjFile, ReadObjError, StatementFault, is_text, number, without_mark};
+use crate::source::quote::{quote, quoted};
+use bothways_common::look::color::linear_from_encoded;
+use bothways_common::scene::Material;
+use bothways_common::scene::Mesh;
+use glam::Vec3;
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+/// What is missing of a mesh's materials, so that it is drawn in the default one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum MaterialWarning {
+    /// A material file is not there.
+    MissingLibrary {
+        /// The mesh's file.
+        file: String,
+        /// The material file, as the mesh's file names it.
+        library: String,
+    },
+    /// No material file defines these.
+    Undefined {
+        /// The mesh's file.
+        file: String,
+        /// Their names.
+        names: Vec<String>,
+    },
+    /// The mesh is streamed, so nobody asks for its materials.
+    Streamed {
+        /// The mesh's file.
+        file: String,
+    },
+}
+
+impl fmt::Display for MaterialWarning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        /// More names say no more.
+        const MOST: usize = 3;
+        match self {
+            MaterialWarning::MissingLibrary { file, library } => write!(
+                f,
+                "{file}: there is no material file {} beside it; what needs it is drawn in light grey",
+                quoted(library)
+            ),
+            MaterialWarning::Undefined { file, names } => {
+                let some: Vec<String> = names.iter().take(MOST).map(|name| quoted(name)).collect();
+                let more = match names.len().saturating_sub(MOST) {
+                    0 => String::new(),
+                    more => format!(" and {more} more"),
+                };
+                let some = some.join(", ");
+                write!(
+                    f,
+                    "{file}: no material file defines {some}{more}; what is made of it is drawn in \
+                     light grey"
+                )
+            }
+            MaterialWarning::Streamed { file } => write!(
+                f,
+                "{file}: the materials of a mesh that is streamed are not read; all of it is drawn \
+                 in light grey"
+            ),
+        }
+    }
+}
+
+/// Gives a mesh the materials that it uses, from the files beside its own, and says what is missing.
+///
+/// # Errors
+///
+/// A material file that is there but cannot be read, or is wrong.
+pub(super) fn resolve(mesh: &mut Mesh, path: &Path) -> Result<Vec<MaterialWarning>, ReadObjError> {
+    let mut warnings = Vec::new();
+    let libraries = match mesh.materials() {
+        Some(materials) if !materials.spans().is_empty() => materials.libraries().to_vec(),
+        _ => return Ok(warnings),
+    };
+    let file = path.display().to_string();
+    let folder = path.parent().unwrap_or(Path::new(""));
+    for library in libraries {
+        let Some(paths) = library_files(folder, &library) else {
+            warnings.push(MaterialWarning::MissingLibrary { file: file.clone(), library });
+            continue;
+        };
+        for path in paths {
+            for (name, material) in read_materials(&path)? {
+                mesh.define_material(&name, material);
+            }
+        }
+    }
+    let named = mesh.materials().map_or(&[][..], |materials| materials.named());
+    let undefined = named.iter().filter(|named| named.material.is_none());
+    let names: Vec<String> = undefined.map(|named| named.name.clone()).collect();
+    // What is missing may be in the missing file: one warning says enough.
+    if !names.is_empty() && warnings.is_empty() {
+        warnings.push(MaterialWarning::Undefined { file, names });
+    }
+    Ok(warnings)
+}
+
+/// The files that an `mtllib` names: one, whose name may have blanks in it, or several between blanks.
+/// `None` if one is not there.
+fn library_files(folder: &Path, library: &str) -> Option<Vec<PathBuf>> {
+    let whole = folder.join(library);
+    if whole.is_file() {
+        return Some(vec![whole]);
+    }
+    let there = |name: &str| Some(folder.join(name)).filter(|path| path.is_file());
+    library.split_whitespace().map(there).collect()
+}
+
+/// Reads materials and their names from the bytes of an MTL file, which messages call `name`.
+///
+/// # Errors
+///
+/// A statement that is wrong, with its line.
+///
+/// ```
+/// use bothways_formats::obj;
+///
+/// let materials = obj::parse_materials("a.mtl", b"newmtl red\nKd 1 0 0\nNs 20\n")?;
+/// assert_eq!((materials[0].0.as_str(), materials[0].1.shininess), ("red", 20.0));
+///
+/// let error = obj::parse_materials("a.mtl", b"newmtl red\nKd 255 0 0\n").unwrap_err();
+/// assert_eq!(error.to_string(), "a.mtl:2: Kd has the value 255; it must be from 0 to 1");
+/// # Ok::<(), obj::ReadObjError>(())
+/// ```
+pub fn parse_materials(name: &str, bytes: &[u8]) -> Result<Vec<(String, Material)>, ReadObjError> {
+    let mut materials = Vec::new();
+    for (line, words) in Statements::new(without_mark(bytes)) {
+        statement(&mut materials, words).map_err(|fault| ReadObjError::Statement {
+            file: name.to_owned(),
+            line,
+            fault,
+        })?;
+    }
+    Ok(finished(materials))
+}
+
+/// The same of a file, a statement at a time.
+fn read_materials(path: &Path) -> Result<Vec<(String, Material)>, ReadObjError> {
+    let mut materials = Vec::new();
+    ObjFile::open(path)?.statements(|_, words| statement(&mut materials, words))?;
+    Ok(finished(materials))
+}
+
+/// What is to be said when everything has been: that `Ns 0` takes the highlight away.
+fn finished(mut materials: Vec<(String, Material)>) -> Vec<(String, Material)> {
+    for (_, material) in &mut materials {
+        if material.shininess == 0.0 {
+            *material =
+                Material { specular: 0.0, shininess: Material::default().shininess, ..*material };
+        }
+    }
+    materials
+}
+
+fn statement(
+    materials: &mut Vec<(String, Material)>,
+    mut words: Words,
+) -> Result<(), StatementFault> {
+    let Some(keyword) = words.next() else { return Ok(()) };
+    match keyword {
+        b"newmtl" => match words.text() {
+            None => return Err(StatementFault::NoName),
+            Some(name) => materials.push((name, Material::default())),
+        },
+        b"Kd" | b"Ks" | b"Ns" => describe(last(materials, keyword)?, keyword, words)?,
+        _ if !is_text(keyword) => return Err(StatementFault::NotText),
+        _ => {}
+    }
+    Ok(())
+}
+
+fn describe(material: &mut Material, keyword: &[u8], words: Words) -> Result<(), StatementFault> {
+    match keyword {
+        b"Kd" => material.color = colour(keyword, words)?.map(linear_from_encoded),
+        b"Ks" => material.specular = colour(keyword, words)?.element_sum() / 3.0,
+        _ => material.shininess = one_number(keyword, words)?,
+    }
+    Ok(())
+}
+
+/// The material that a statement describes.
+fn last<'a>(
+    materials: &'a mut [(String, Material)],
+    keyword: &[u8],
+) -> Result<&'a mut Material, StatementFault> {
+    let last = materials.last_mut().map(|(_, material)| material);
+    last.ok_or_else(|| StatementFault::NoMaterial { keyword: quote(keyword) })
+}
+
+/// One number, or three.
+fn colour(keyword: &[u8], words: Words) -> Result<Vec3, StatementFault> {
+    let mut values = Vec::with_capacity(3);
+    for word in words.take(3) {
+        match number(word)? {
+            value if (0.0..=1.0).contains(&value) => values.push(value),
+            _ => return Err(beyond(keyword, word, "from 0 to 1")),
+        }
+    }
+    match values[..] {
+        [red, green, blue] => Ok(Vec3::new(red, green, blue)),
+        [grey] => Ok(Vec3::splat(grey)),
+        _ => Err(StatementFault::MissingNumbers {
+            keyword: quote(keyword),
+            needed: "one number, or three",
+        }),
+    }
+}
+
+/// One number that is not negative.
+fn one_number(keyword: &[u8], mut words: Words) -> Result<f32, StatementFault> {
+    let Some(word) = words.next() else {
+        return Err(StatementFault::MissingNumbers { keyword: quote(keyword), needed: "a number" });
+    };
+    match number(word)? {
+        value if value >= 0.0 => Ok(value),
+        _ => Err(beyond(keyword, word, "at least 0")),
+    }
+}
+
+fn beyond(keyword: &[u8], word: &[u8], range: &'static str) -> StatementFault {
+    StatementFault::OutOfBounds { keyword: quote(keyword), text: quote(word), range }
+}

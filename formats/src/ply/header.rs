@@ -1,0 +1,304 @@
+//! The header of a PLY file: how its values are written, and which elements follow with which
+//! properties.
+
+use super::error::HeaderFault;
+use crate::source::quote::{self, quote};
+use std::io::{self, BufRead, Read};
+
+/// How the values behind the header are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Encoding {
+    /// In words, one element a line.
+    Ascii,
+    /// Least significant byte first.
+    LittleEndian,
+    /// Most significant byte first.
+    BigEndian,
+}
+
+/// The type of one value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Scalar {
+    I8,
+    U8,
+    I16,
+    U16,
+    I32,
+    U32,
+    F32,
+    F64,
+}
+
+impl Scalar {
+    /// The format's first names, and those that say their size.
+    fn named(word: &str) -> Option<Scalar> {
+        Some(match word {
+            "char" | "int8" => Scalar::I8,
+            "uchar" | "uint8" => Scalar::U8,
+            "short" | "int16" => Scalar::I16,
+            "ushort" | "uint16" => Scalar::U16,
+            "int" | "int32" => Scalar::I32,
+            "uint" | "uint32" => Scalar::U32,
+            "float" | "float32" => Scalar::F32,
+            "double" | "float64" => Scalar::F64,
+            _ => return None,
+        })
+    }
+
+    /// Bytes of one value in a binary file.
+    pub(super) fn size(self) -> u64 {
+        match self {
+            Scalar::I8 | Scalar::U8 => 1,
+            Scalar::I16 | Scalar::U16 => 2,
+            Scalar::I32 | Scalar::U32 | Scalar::F32 => 4,
+            Scalar::F64 => 8,
+        }
+    }
+
+    fn is_integer(self) -> bool {
+        !matches!(self, Scalar::F32 | Scalar::F64)
+    }
+}
+
+/// What each element of a kind has.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Property {
+    pub(super) name: String,
+    pub(super) form: Form,
+}
+
+/// One value, or a number of values and then so many.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Form {
+    One(Scalar),
+    List { length: Scalar, item: Scalar },
+}
+
+/// A kind of element: so many follow, in the order in which the header names the kinds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Elements {
+    pub(super) name: String,
+    pub(super) count: u64,
+    pub(super) properties: Vec<Property>,
+}
+
+impl Elements {
+    /// Bytes of one element in a binary file, if all have the same size.
+    pub(super) fn stride(&self) -> Option<u64> {
+        let size = |property: &Property| match property.form {
+            Form::One(scalar) => Some(scalar.size()),
+            Form::List { .. } => None,
+        };
+        self.properties.iter().map(size).sum()
+    }
+
+    fn property(&self, name: &str) -> Option<usize> {
+        self.properties.iter().position(|property| property.name == name)
+    }
+}
+
+/// Everything that the header says, checked.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Header {
+    pub(super) encoding: Encoding,
+    pub(super) elements: Vec<Elements>,
+    /// How many vertices there are: few enough for an index of 32 bits.
+    pub(super) vertices: u32,
+    /// Where `x`, `y` and `z` stand among a vertex's properties.
+    pub(super) coordinates: [usize; 3],
+    /// Where the list of corners stands among a face's properties.
+    pub(super) corners: usize,
+    /// Bytes up to the first element.
+    pub(super) bytes: u64,
+    /// Lines up to the first element.
+    pub(super) lines: u64,
+}
+
+/// Why reading a header ended.
+pub(super) enum HeaderError {
+    Io(io::Error),
+    Fault { line: u64, fault: HeaderFault },
+}
+
+/// The longest line that is read, and the most elements and properties: files have some tens.
+const MOST_BYTES_A_LINE: u64 = 4096;
+const MOST_PROPERTIES: usize = 4096;
+
+impl Header {
+    /// Reads the header; the input is left at its first element.
+    pub(super) fn read(input: &mut impl BufRead) -> Result<Header, HeaderError> {
+        let mut lines = Lines { input, line: 0, bytes: 0, text: Vec::new() };
+        let mut draft = Draft::default();
+        while lines.next()? {
+            let line = lines.line;
+            let at_line = |fault| HeaderError::Fault { line, fault };
+            if draft.statement(line, &lines.text).map_err(at_line)? {
+                return draft.finish(lines.bytes, line).map_err(at_line);
+            }
+        }
+        let fault = if lines.line == 0 { HeaderFault::Empty } else { HeaderFault::NoEnd };
+        Err(HeaderError::Fault { line: lines.line.max(1), fault })
+    }
+}
+
+/// The lines of a header; a carriage return before the end of one belongs to the end.
+struct Lines<'a, R> {
+    input: &'a mut R,
+    line: u64,
+    bytes: u64,
+    text: Vec<u8>,
+}
+
+impl<R: BufRead> Lines<'_, R> {
+    /// Takes up the next line, if there is one.
+    fn next(&mut self) -> Result<bool, HeaderError> {
+        self.text.clear();
+        let mut limited = self.input.take(MOST_BYTES_A_LINE);
+        let read = limited.read_until(b'\n', &mut self.text).map_err(HeaderError::Io)?;
+        if read == 0 {
+            return Ok(false);
+        }
+        self.line += 1;
+        self.bytes += read as u64;
+        let Some(text) = self.text.strip_suffix(b"\n") else {
+            let fault = if self.line == 1 { HeaderFault::NotPly } else { HeaderFault::NoEnd };
+            return Err(HeaderError::Fault { line: self.line, fault });
+        };
+        let length = text.strip_suffix(b"\r").unwrap_or(text).len();
+        self.text.truncate(length);
+        Ok(true)
+    }
+}
+
+/// A header that is being read.
+#[derive(Default)]
+struct Draft {
+    encoding: Option<Encoding>,
+    elements: Vec<Elements>,
+    properties: usize,
+}
+
+impl Draft {
+    /// Takes one line; true if it ends the header.
+    fn statement(&mut self, line: u64, text: &[u8]) -> Result<bool, HeaderFault> {
+        if line == 1 {
+            return if text == b"ply" { Ok(false) } else { Err(HeaderFault::NotPly) };
+        }
+        if text.starts_with(b"comment") || text.starts_with(b"obj_info") {
+            return Ok(false);
+        }
+        let unknown = || HeaderFault::UnknownStatement { text: quote(text) };
+        let words = str::from_utf8(text).map_err(|_| unknown())?;
+        let words: Vec<&str> = words.split_ascii_whitespace().collect();
+        match words[..] {
+            ["format", encoding, version] => self.format(encoding, version)?,
+            ["element", name, count] => self.element(name, count)?,
+            ["property", "list", length, item, name] => {
+                let [length, item] = [scalar(length)?, scalar(item)?];
+                if !length.is_integer() {
+                    return Err(HeaderFault::LengthNotInteger { name: quote::shown(name) });
+                }
+                self.property(name, Form::List { length, item })?;
+            }
+            ["property", kind, name] => self.property(name, Form::One(scalar(kind)?))?,
+            ["end_header"] => return Ok(true),
+            _ => return Err(unknown()),
+        }
+        Ok(false)
+    }
+
+    fn format(&mut self, encoding: &str, version: &str) -> Result<(), HeaderFault> {
+        let known = match encoding {
+            "ascii" => Encoding::Ascii,
+            "binary_little_endian" => Encoding::LittleEndian,
+            "binary_big_endian" => Encoding::BigEndian,
+            _ => return Err(HeaderFault::UnknownFormat { text: quote(encoding.as_bytes()) }),
+        };
+        if version != "1.0" {
+            return Err(HeaderFault::UnknownVersion { text: quote(version.as_bytes()) });
+        }
+        match self.encoding.replace(known) {
+            None => Ok(()),
+            Some(_) => Err(HeaderFault::Twice { what: "format".into() }),
+        }
+    }
+
+    fn element(&mut self, name: &str, count: &str) -> Result<(), HeaderFault> {
+        let shown = quote::shown(name);
+        let Some(count) = whole(count) else {
+            return Err(HeaderFault::NotACount { name: shown, text: quote(count.as_bytes()) });
+        };
+        if self.elements.iter().any(|elements| elements.name == name) {
+            return Err(HeaderFault::Twice { what: format!("element {shown}") });
+        }
+        self.check_last()?;
+        self.elements.push(Elements { name: name.to_owned(), count, properties: Vec::new() });
+        Ok(())
+    }
+
+    fn property(&mut self, name: &str, form: Form) -> Result<(), HeaderFault> {
+        let shown = quote::shown(name);
+        let Some(elements) = self.elements.last_mut() else {
+            return Err(HeaderFault::NoElement { name: shown });
+        };
+        if elements.property(name).is_some() {
+            let what = format!("property {shown} of {}", quote::shown(&elements.name));
+            return Err(HeaderFault::Twice { what });
+        }
+        self.properties += 1;
+        if self.properties > MOST_PROPERTIES {
+            return Err(HeaderFault::TooManyProperties { most: MOST_PROPERTIES });
+        }
+        elements.properties.push(Property { name: name.to_owned(), form });
+        Ok(())
+    }
+
+    /// An element without properties would take no bytes: any number of them could follow.
+    fn check_last(&self) -> Result<(), HeaderFault> {
+        match self.elements.last() {
+            Some(last) if last.properties.is_empty() => {
+                Err(HeaderFault::NoProperties { name: quote::shown(&last.name) })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn finish(self, bytes: u64, lines: u64) -> Result<Header, HeaderFault> {
+        self.check_last()?;
+        let encoding = self.encoding.ok_or(HeaderFault::NoFormat)?;
+        let named = |name| self.elements.iter().find(|elements| elements.name == name);
+        let vertex = named("vertex").ok_or(HeaderFault::NoVertices)?;
+        let face = named("face").filter(|face| face.count > 0).ok_or(HeaderFault::NoFaces)?;
+        let vertices = u32::try_from(vertex.count).ok().filter(|&count| count < u32::MAX);
+        let vertices = vertices.ok_or(HeaderFault::TooManyVertices { count: vertex.count })?;
+        let coordinate = |name| match vertex.property(name) {
+            Some(k) if matches!(vertex.properties[k].form, Form::One(_)) => Ok(k),
+            _ => Err(HeaderFault::NoCoordinate { name }),
+        };
+        let coordinates = [coordinate("x")?, coordinate("y")?, coordinate("z")?];
+        let corners = face.property("vertex_indices").or_else(|| face.property("vertex_index"));
+        let is_index_list = |&k: &usize| match face.properties[k].form {
+            Form::List { item, .. } => item.is_integer(),
+            Form::One(_) => false,
+        };
+        let corners = corners.filter(is_index_list).ok_or(HeaderFault::NoCorners)?;
+        Ok(Header {
+            encoding,
+            vertices,
+            coordinates,
+            corners,
+            bytes,
+            lines,
+            elements: self.elements,
+        })
+    }
+}
+
+fn scalar(word: &str) -> Result<Scalar, HeaderFault> {
+    Scalar::named(word).ok_or_else(|| HeaderFault::UnknownType { text: quote(word.as_bytes()) })
+}
+
+/// A number without a sign: `parse` alone would take `+1`.
+fn whole(word: &str) -> Option<u64> {
+    word.bytes().all(|byte| byte.is_ascii_digit()).then(|| word.parse().ok())?
+}

@@ -1,0 +1,246 @@
+//! The values behind the header of a PLY file, one after another, in words or in bytes.
+
+use super::error::{ElementFault, Place};
+use super::header::{Encoding, Header, Scalar};
+use crate::source::quote::{quote, shown};
+use std::io::{self, BufRead, ErrorKind, Seek};
+
+/// Why reading a value ended.
+pub(super) enum Stop {
+    Io(io::Error),
+    /// The input ends.
+    End,
+    Fault(ElementFault),
+}
+
+impl From<ElementFault> for Stop {
+    fn from(fault: ElementFault) -> Stop {
+        Stop::Fault(fault)
+    }
+}
+
+impl From<io::Error> for Stop {
+    fn from(error: io::Error) -> Stop {
+        if error.kind() == ErrorKind::UnexpectedEof { Stop::End } else { Stop::Io(error) }
+    }
+}
+
+/// Reads values from an input that stands behind the header.
+pub(super) struct Values<'a, R> {
+    input: &'a mut R,
+    encoding: Encoding,
+    /// Bytes before the next value.
+    position: u64,
+    /// The line of the next value, counted from 1.
+    line: u64,
+    /// Bytes of the whole input.
+    length: u64,
+    word: Vec<u8>,
+}
+
+/// No number needs more: longer words are none.
+const LONGEST_WORD: usize = 1024;
+
+impl<'a, R: BufRead + Seek> Values<'a, R> {
+    pub(super) fn new(input: &'a mut R, header: &Header, length: u64) -> Self {
+        let (encoding, position, line) = (header.encoding, header.bytes, header.lines + 1);
+        Values { input, encoding, position, line, length, word: Vec::new() }
+    }
+
+    /// Where the reader is.
+    pub(super) fn place(&self) -> Place {
+        match self.encoding {
+            Encoding::Ascii => Place::Line(self.line),
+            Encoding::LittleEndian | Encoding::BigEndian => Place::Byte(self.position),
+        }
+    }
+
+    /// Passes over `count` binary elements of one size without reading them; gives how many there are
+    /// at most before the input ends.
+    pub(super) fn skip(&mut self, count: u64, stride: u64) -> io::Result<u64> {
+        let whole = (self.length.saturating_sub(self.position) / stride).min(count);
+        let bytes = whole * stride;
+        let offset = i64::try_from(bytes).map_err(io::Error::other)?;
+        self.input.seek_relative(offset)?;
+        self.position += bytes;
+        Ok(whole)
+    }
+
+    /// Whether elements of one size can be passed over.
+    pub(super) fn is_binary(&self) -> bool {
+        self.encoding != Encoding::Ascii
+    }
+
+    /// Finds the line of the next element.
+    pub(super) fn begin_element(&mut self) -> Result<(), Stop> {
+        while self.encoding == Encoding::Ascii && self.at_line_end()? == Some(true) {
+            self.line += 1;
+        }
+        Ok(())
+    }
+
+    /// Ends the line of an element.
+    pub(super) fn end_element(&mut self) -> Result<(), Stop> {
+        if self.encoding != Encoding::Ascii {
+            return Ok(());
+        }
+        match self.at_line_end()? {
+            Some(false) => {
+                self.next_word()?;
+                Err(ElementFault::LineTooLong { text: quote(&self.word) }.into())
+            }
+            Some(true) => {
+                self.line += 1;
+                Ok(())
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Whether nothing follows; blank lines are nothing.
+    pub(super) fn at_end(&mut self) -> Result<bool, Stop> {
+        self.begin_element()?;
+        Ok(self.input.fill_buf()?.is_empty())
+    }
+
+    /// The next value as the nearest `f32`, which must be finite; messages call it `name`.
+    pub(super) fn coordinate(&mut self, name: &str, scalar: Scalar) -> Result<f32, Stop> {
+        let (rounded, value) = self.number(scalar)?;
+        if rounded.is_finite() {
+            return Ok(rounded);
+        }
+        let (in_words, name) = (self.encoding == Encoding::Ascii, shown(name));
+        let text = if in_words { quote(&self.word) } else { value.to_string() };
+        // Words may be too large even for an f64.
+        let has_digits = in_words && self.word.iter().any(u8::is_ascii_digit);
+        Err(if value.is_finite() || has_digits {
+            ElementFault::OutOfRange { name, text }
+        } else {
+            ElementFault::NotFinite { name, text }
+        }
+        .into())
+    }
+
+    /// The next value, rounded to `f32` once, and as it is.
+    fn number(&mut self, scalar: Scalar) -> Result<(f32, f64), Stop> {
+        #[expect(clippy::cast_possible_truncation, reason = "to the nearest, once")]
+        #[expect(clippy::cast_precision_loss, reason = "to the nearest, once")]
+        Ok(match (self.encoding, scalar) {
+            (Encoding::Ascii, _) => {
+                self.next_word()?;
+                // Rounding to f64 first could miss the nearest f32.
+                let parsed = str::from_utf8(&self.word).ok().and_then(|word| word.parse().ok());
+                let rounded: f32 =
+                    parsed.ok_or_else(|| ElementFault::NotANumber { text: quote(&self.word) })?;
+                (rounded, rounded.into())
+            }
+            (_, Scalar::F32) => {
+                let value = f32::from_bits(u32::from_le_bytes(self.bytes()?));
+                (value, value.into())
+            }
+            (_, Scalar::F64) => {
+                let value = f64::from_bits(u64::from_le_bytes(self.bytes()?));
+                (value as f32, value)
+            }
+            (_, integer) => {
+                let value = self.integer(integer)?;
+                (value as f32, value as f64)
+            }
+        })
+    }
+
+    /// The next value of an integer type.
+    pub(super) fn integer(&mut self, scalar: Scalar) -> Result<i64, Stop> {
+        if self.encoding == Encoding::Ascii {
+            return self.integer_in_words(scalar);
+        }
+        Ok(match scalar {
+            Scalar::I8 => i8::from_le_bytes(self.bytes()?).into(),
+            Scalar::U8 => u8::from_le_bytes(self.bytes()?).into(),
+            Scalar::I16 => i16::from_le_bytes(self.bytes()?).into(),
+            Scalar::U16 => u16::from_le_bytes(self.bytes()?).into(),
+            Scalar::I32 => i32::from_le_bytes(self.bytes()?).into(),
+            Scalar::U32 => u32::from_le_bytes(self.bytes()?).into(),
+            Scalar::F32 | Scalar::F64 => unreachable!("the header was checked"),
+        })
+    }
+
+    /// Passes over a value.
+    pub(super) fn ignore(&mut self, scalar: Scalar) -> Result<(), Stop> {
+        // Even what is not needed must be a number: otherwise the header does not fit the file.
+        self.number(scalar).map(|_| ())
+    }
+
+    fn integer_in_words(&mut self, scalar: Scalar) -> Result<i64, Stop> {
+        self.next_word()?;
+        let range = match scalar {
+            Scalar::I8 => i8::MIN.into()..=i8::MAX.into(),
+            Scalar::U8 => 0..=u8::MAX.into(),
+            Scalar::I16 => i16::MIN.into()..=i16::MAX.into(),
+            Scalar::U16 => 0..=u16::MAX.into(),
+            Scalar::I32 => i32::MIN.into()..=i32::MAX.into(),
+            Scalar::U32 => 0..=u32::MAX.into(),
+            Scalar::F32 | Scalar::F64 => unreachable!("the header was checked"),
+        };
+        let parsed: Option<i64> =
+            str::from_utf8(&self.word).ok().and_then(|word| word.parse().ok());
+        // Indices may be negative whatever the type says: the message about the index is the better.
+        let fits = |value: &i64| *value < 0 || range.contains(value);
+        let value = parsed.filter(fits);
+        Ok(value.ok_or_else(|| ElementFault::NotAnInteger { text: quote(&self.word) })?)
+    }
+
+    /// The next bytes, the least significant first.
+    fn bytes<const N: usize>(&mut self) -> Result<[u8; N], Stop> {
+        let mut bytes = [0; N];
+        self.input.read_exact(&mut bytes)?;
+        self.position += N as u64;
+        if self.encoding == Encoding::BigEndian {
+            bytes.reverse();
+        }
+        Ok(bytes)
+    }
+
+    /// Takes the next word of the line.
+    fn next_word(&mut self) -> Result<(), Stop> {
+        match self.at_line_end()? {
+            Some(true) => return Err(ElementFault::LineTooShort.into()),
+            Some(false) => {}
+            None => return Err(Stop::End),
+        }
+        self.word.clear();
+        loop {
+            let bytes = self.input.fill_buf()?;
+            let end = bytes.iter().position(u8::is_ascii_whitespace);
+            let part = &bytes[..end.unwrap_or(bytes.len())];
+            let room = LONGEST_WORD + 1 - self.word.len();
+            self.word.extend_from_slice(&part[..part.len().min(room)]);
+            let taken = part.len();
+            let ended = end.is_some() || bytes.is_empty();
+            self.input.consume(taken);
+            if self.word.len() > LONGEST_WORD {
+                return Err(ElementFault::NotANumber { text: quote(&self.word) }.into());
+            }
+            if ended {
+                return Ok(());
+            }
+        }
+    }
+
+    /// Passes over blanks and tells whether the line ends then, taking its end; `None` at the end of
+    /// the input.
+    fn at_line_end(&mut self) -> Result<Option<bool>, Stop> {
+        loop {
+            let bytes = self.input.fill_buf()?;
+            let Some(&first) = bytes.first() else { return Ok(None) };
+            match first {
+                b'\n' => {
+                    self.input.consume(1);
+                    return Ok(Some(true));
+                }
+                b' ' | b'\t' | b'\r' => self.input.consume(1),
+                _ => return Ok(Some(false)),
+            }
+        }
+    }
+}

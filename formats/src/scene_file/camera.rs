@@ -1,0 +1,169 @@
+//! The `[camera]` table.
+//!
+//! | key | what it says | without it |
+//! |---|---|---|
+//! | `projection` | `"perspective"` or `"parallel"` | perspective |
+//! | `eye` | where the eye is | the origin |
+//! | `look_at` or `direction` | where it looks | down the negative z axis |
+//! | `up` | which way is up | +y |
+//! | `u`, `v`, `w` | instead of those: right, up and back | |
+//! | `distance` | `d` | 1 |
+//! | `viewport` | `vw`, `vh` | `[W/H, 1]` |
+//! | `fov` | instead of it: the vertical field of view in degrees, which is turned into `vh` at `d` | |
+//! | `image` | `W`, `H` | 640 × 480 |
+//! | `background` | the colour of nothing | nearly black |
+
+use super::color;
+use super::error::Problem;
+use super::reader::{Item, Table, suggestion};
+use crate::source::quote::quoted;
+use bothways_common::camera::{Camera, CameraDescription, CameraError, Orientation, Projection};
+use bothways_common::raster::check_samples;
+use glam::Vec3;
+use std::ops::Range;
+
+/// What the table says.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct CameraTable {
+    pub(super) description: CameraDescription,
+    pub(super) viewport_stated: bool,
+    pub(super) background: Option<Vec3>,
+}
+
+const KEYS: [&str; 13] = [
+    "projection",
+    "eye",
+    "look_at",
+    "direction",
+    "up",
+    "u",
+    "v",
+    "w",
+    "distance",
+    "viewport",
+    "fov",
+    "image",
+    "background",
+];
+
+/// Reads the table and makes sure that the camera can be used.
+pub(super) fn read(item: &Item) -> Result<CameraTable, Problem> {
+    let table = item.table(&KEYS)?;
+    let misplaced = |error: CameraError| Problem::new(place(&table, &error), error.to_string());
+    let standard = CameraDescription::default();
+    let image = table.get("image").map_or(Ok(standard.image), |item| item.counts())?;
+    // Before the viewport is computed from it.
+    check_samples(image, 1).map_err(CameraError::from).map_err(misplaced)?;
+    let viewport = table.get("viewport").map(|item| item.pair()).transpose()?;
+    let description = CameraDescription {
+        projection: table.get("projection").map_or(Ok(standard.projection), |i| projection(&i))?,
+        eye: table.get("eye").map_or(Ok(standard.eye), |item| item.vector())?,
+        orientation: orientation(&table)?.unwrap_or(standard.orientation),
+        distance: table.get("distance").map_or(Ok(standard.distance), |item| item.positive())?,
+        viewport: viewport.unwrap_or(square_pixels(image)),
+        image,
+    };
+    let description = match table.get("fov") {
+        Some(item) => field_of_view(&table, &item, description)?,
+        None => description,
+    };
+    let background = table.get("background").map(|item| color(&item)).transpose()?;
+    Camera::new(description).map_err(misplaced)?;
+    Ok(CameraTable { description, viewport_stated: viewport.is_some(), background })
+}
+
+/// The camera with the viewport that its field of view needs.
+fn field_of_view(
+    table: &Table,
+    item: &Item,
+    camera: CameraDescription,
+) -> Result<CameraDescription, Problem> {
+    let degrees = item.number()?;
+    if let [first, second] = table.present(&["fov", "viewport"])[..] {
+        let message =
+            format!("the viewport's size is stated by {first} already, so not by {second}");
+        let help = "give fov, the vertical angle in degrees, or viewport = [vw, vh]";
+        return Err(Problem::new(table.place_of(second), message).help(help));
+    }
+    let refused = |error: CameraError| match error {
+        CameraError::FieldOfView { .. } => item
+            .problem(format!("is {}; it must be greater than 0 and less than 180", item.written()))
+            .help("it is the vertical angle in degrees"),
+        _ => item
+            .problem("belongs to a perspective camera; parallel rays never part")
+            .help("give viewport = [vw, vh] instead"),
+    };
+    camera.with_field_of_view(degrees).map_err(refused)
+}
+
+/// The viewport of height 1 on which the pixels of an image are squares.
+pub(super) fn square_pixels([width, height]: [u32; 2]) -> [f32; 2] {
+    [width as f32 / height as f32, 1.0]
+}
+
+fn projection(item: &Item) -> Result<Projection, Problem> {
+    match item.text()? {
+        "perspective" => Ok(Projection::Perspective),
+        "parallel" => Ok(Projection::Parallel),
+        other => Err(item.problem(format!("is {}", quoted(other))).help(suggestion(
+            "projections",
+            other,
+            ["perspective", "parallel"],
+        ))),
+    }
+}
+
+/// The camera frame in whichever way it is stated, if it is.
+fn orientation(table: &Table) -> Result<Option<Orientation>, Problem> {
+    let stated = table.present(&["look_at", "direction", "u", "v", "w"]);
+    let first = stated.first().copied();
+    let by_axes = first.is_some_and(is_axis);
+    let excess = |key: &&str| Some(*key) != first && !(by_axes && is_axis(key));
+    let up = table.present(&["up"]).into_iter().filter(|_| by_axes);
+    if let (Some(first), Some(excess)) = (first, stated.iter().copied().chain(up).find(excess)) {
+        let message =
+            format!("the camera's frame is stated by {first} already, so not by {excess}");
+        let help = "give look_at and up, or direction and up, or u, v and w";
+        return Err(Problem::new(table.place_of(excess), message).help(help));
+    }
+
+    if by_axes {
+        let axis = |key, example| table.need(key, example)?.direction();
+        let (u, v) = (axis("u", "u = [1, 0, 0]")?, axis("v", "v = [0, 1, 0]")?);
+        return Ok(Some(Orientation::Frame { u, v, w: axis("w", "w = [0, 0, 1]")? }));
+    }
+    let up = table.get("up").map(|item| item.direction()).transpose()?;
+    let target = table.get("look_at").map(|item| item.vector()).transpose()?;
+    let view = table.get("direction").map(|item| item.direction()).transpose()?;
+    Ok(match (target, view, up) {
+        (None, None, None) => None,
+        (Some(target), ..) => Some(Orientation::LookAt { target, up: up.unwrap_or(Vec3::Y) }),
+        (None, view, up) => Some(Orientation::Direction {
+            direction: view.unwrap_or(Vec3::NEG_Z),
+            up: up.unwrap_or(Vec3::Y),
+        }),
+    })
+}
+
+fn is_axis(key: &str) -> bool {
+    matches!(key, "u" | "v" | "w")
+}
+
+/// The key that a camera's error is about, or else the table.
+fn place(table: &Table, error: &CameraError) -> Range<usize> {
+    let keys: &[&str] = match error {
+        CameraError::LooksAtItself { .. } => &["look_at"],
+        CameraError::UpAlongView { .. } => &["up", "look_at", "direction"],
+        CameraError::NotAFrame { .. } => &["u"],
+        CameraError::OutOfRange { what: "the distance", .. } => &["distance"],
+        CameraError::OutOfRange { .. } | CameraError::TooWide { .. } => {
+            &["viewport", "fov", "distance", "image"]
+        }
+        CameraError::Size(_) => &["image"],
+        CameraError::FieldOfView { .. } | CameraError::ParallelFieldOfView => &["fov"],
+        // Numbers were found finite and directions not zero when they were read.
+        CameraError::NotFinite { .. } | CameraError::NoDirection { .. } => &[],
+    };
+    let item = keys.iter().find_map(|key| table.get(key));
+    item.map_or(table.span.clone(), |item| item.span)
+}

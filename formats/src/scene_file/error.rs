@@ -1,0 +1,124 @@
+//! Why a scene file is refused: always with the place in its text, if it has a text.
+
+use super::MOST_BYTES;
+use super::excerpt::Excerpt;
+use crate::source::Unreadable;
+use crate::source::quote::visible;
+use std::borrow::Cow;
+use std::fmt;
+use std::ops::Range;
+
+/// Why a scene file could not be read.
+#[derive(Debug, thiserror::Error)]
+pub enum SceneFileError {
+    /// There is no such file, it is none that can be read twice, or the system does not give it away.
+    #[error("{name}: {}", Unreadable::new(.source, "a scene file"))]
+    Unreadable {
+        /// The file.
+        name: String,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// The file would take more memory than any scene needs.
+    #[error(
+        "{name}: a scene file of more than {} MiB is not read; put its triangles into a mesh file \
+         (.obj, .ply) and name it in the scene",
+        MOST_BYTES >> 20
+    )]
+    TooLarge {
+        /// The file.
+        name: String,
+    },
+    /// The file is no text.
+    #[error("{name} is not UTF-8 text: byte {byte} on line {line} begins no character")]
+    NotText {
+        /// The file.
+        name: String,
+        /// The line, counted from 1.
+        line: usize,
+        /// The byte in the file, counted from 0.
+        byte: usize,
+    },
+    /// Something in the text is wrong.
+    #[error(transparent)]
+    Located(#[from] LocatedError),
+}
+
+/// What is wrong with a text, and where.
+///
+/// It displays as one line, `scene.toml:3:7: message; help`; its fields are what a tool needs that
+/// underlines the place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LocatedError {
+    /// What messages call the text.
+    pub name: String,
+    /// All of the text.
+    pub text: String,
+    /// The bytes of the text to underline.
+    pub span: Range<usize>,
+    /// What is wrong.
+    pub message: String,
+    /// What to do about it.
+    pub help: Option<String>,
+}
+
+impl LocatedError {
+    /// The line and the column where the place begins, in characters, both counted from 1.
+    pub fn line_and_column(&self) -> (usize, usize) {
+        let before = &self.text.as_bytes()[..self.span.start.min(self.text.len())];
+        let line_start = before.iter().rposition(|&byte| byte == b'\n').map_or(0, |end| end + 1);
+        let line = before.iter().filter(|&&byte| byte == b'\n').count() + 1;
+        let in_line = String::from_utf8_lossy(&before[line_start..]);
+        // A byte order mark is no character that anybody sees.
+        let column = in_line.trim_start_matches('\u{feff}').chars().count() + 1;
+        (line, column)
+    }
+
+    /// The lines around the place, fit to be shown.
+    pub fn excerpt(&self) -> Excerpt {
+        Excerpt::around(&self.text, self.span.clone())
+    }
+}
+
+impl fmt::Display for LocatedError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (line, column) = self.line_and_column();
+        write!(f, "{}:{line}:{column}: {}", visible(&self.name), self.message)?;
+        self.help.iter().try_for_each(|help| write!(f, "; {help}"))
+    }
+}
+
+impl std::error::Error for LocatedError {}
+
+/// A [`LocatedError`] on its way out, before it learns the text's name.
+#[derive(Debug)]
+pub(super) struct Problem {
+    span: Range<usize>,
+    message: String,
+    help: Option<String>,
+}
+
+impl Problem {
+    pub(super) fn new(span: Range<usize>, message: impl Into<String>) -> Problem {
+        Problem { span, message: message.into(), help: None }
+    }
+
+    pub(super) fn help(self, help: impl Into<String>) -> Problem {
+        Problem { help: Some(help.into()), ..self }
+    }
+
+    pub(super) fn in_text(self, name: &str, text: &str) -> LocatedError {
+        let Problem { span, message, help } = self;
+        // Whatever it quotes, of this file or of one that it names.
+        let (message, help) = (visible(&message).into_owned(), help.as_deref().map(visible));
+        let help = help.map(Cow::into_owned);
+        LocatedError { name: name.to_owned(), text: text.to_owned(), span, message, help }
+    }
+}
+
+impl From<toml::de::Error> for Problem {
+    /// The TOML parser's own words, which may quote the file.
+    fn from(error: toml::de::Error) -> Problem {
+        Problem::new(error.span().unwrap_or(0..0), error.message())
+    }
+}

@@ -1,0 +1,149 @@
+//! The `[[object]]` tables: one shape each, what it is made of, and where it is put.
+//!
+//! | key | what it says |
+//! |---|---|
+//! | `triangle = { a, b, c }` | its corners |
+//! | `sphere = { center, radius }` | |
+//! | `plane = { point, normal }` | an infinite plane |
+//! | `mesh = "bunny.obj"` | an OBJ (with its own colours) or PLY file, relative to the scene file |
+//! | `generate = { kind, divisions }` | a mesh that is computed: see [`Kind`] |
+//! | `material` | the name of a material, instead of those of a mesh file; light grey without it |
+//! | `scale`, `rotate = { axis, degrees }`, `translate` | where it is put, in this order |
+//!
+//! A `scale` is one factor, or `[x, y, z]`, one for each axis; negative ones mirror.
+
+use super::Materials;
+use super::error::Problem;
+use super::reader::{Item, Table, suggestion};
+use super::transform::{self, Transform};
+use crate::generate::Kind;
+use crate::mesh_file::{Format, ReadMeshError};
+use crate::smooth;
+use crate::source::quote::{quoted, shown};
+use bothways_common::scene::MeshMaterials;
+use bothways_common::scene::{Material, Object, Plane, Shape, Sphere, Triangle};
+use std::path::Path;
+
+const SHAPES: [&str; 5] = ["triangle", "sphere", "plane", "mesh", "generate"];
+pub(super) const EXAMPLE: &str = "sphere = { center = [0, 0, 0], radius = 1 }";
+
+/// Reads one object.
+pub(super) fn read(
+    item: &Item,
+    materials: &Materials,
+    folder: &Path,
+    warnings: &mut Vec<String>,
+) -> Result<Object, Problem> {
+    let known = [&SHAPES[..], &["material"], &transform::KEYS].concat();
+    let table = item.table(&known)?;
+    let stated = super::exactly_one(&table, "an object", &SHAPES, EXAMPLE)?;
+    let shape = match stated.name.as_str() {
+        "triangle" => triangle(&stated)?,
+        "sphere" => sphere(&stated)?,
+        "plane" => plane(&stated)?,
+        "mesh" => mesh(&stated, folder, table.get("material").is_none(), warnings)?,
+        _ => generated(&stated)?,
+    };
+    let shape = match Transform::read(&table)? {
+        Some(world_from_object) => world_from_object.apply(shape)?,
+        None => shape,
+    };
+    let material = material(&table, materials)?;
+    check_pattern(&table, &shape, &material)?;
+    Ok(Object { shape, material })
+}
+
+/// A pattern needs texture coordinates; it would silently be missing without them.
+fn check_pattern(object: &Table, shape: &Shape, material: &Material) -> Result<(), Problem> {
+    match shape {
+        Shape::Mesh(mesh)
+            if material.checker.is_some() && mesh.texture_coordinates().corners.is_empty() =>
+        {
+            let message = "this material has a checker, and the mesh has no texture coordinates";
+            Err(Problem::new(object.place_of("material"), message).help(
+                "export the mesh as OBJ with texture coordinates (vt), or choose a material without \
+                 checker",
+            ))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn material(object: &Table, materials: &Materials) -> Result<Material, Problem> {
+    let Some(item) = object.get("material") else { return Ok(Material::default()) };
+    let name = item.text()?;
+    materials.get(name).copied().ok_or_else(|| {
+        let problem =
+            Problem::new(item.span.clone(), format!("there is no material {}", quoted(name)));
+        if materials.is_empty() {
+            return problem.help(format!("define it in a table [material.{}]", key(name)));
+        }
+        problem.help(suggestion("materials", name, materials.keys().map(String::as_str)))
+    })
+}
+
+/// A name as TOML has it in a header: in quotation marks unless it is plain.
+fn key(name: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+    if !name.is_empty() && name.chars().all(plain) { shown(name) } else { quoted(name) }
+}
+
+fn triangle(item: &Item) -> Result<Shape, Problem> {
+    const EXAMPLE: &str = "triangle = { a = [0, 0, 0], b = [1, 0, 0], c = [0, 1, 0] }";
+    let table = item.table(&["a", "b", "c"])?;
+    let corner = |key| table.need(key, EXAMPLE)?.vector();
+    Ok(Shape::Triangle(Triangle { a: corner("a")?, b: corner("b")?, c: corner("c")? }))
+}
+
+fn sphere(item: &Item) -> Result<Shape, Problem> {
+    let table = item.table(&["center", "radius"])?;
+    let center = table.need("center", EXAMPLE)?.vector()?;
+    Ok(Shape::Sphere(Sphere { center, radius: table.need("radius", EXAMPLE)?.positive()? }))
+}
+
+fn plane(item: &Item) -> Result<Shape, Problem> {
+    const EXAMPLE: &str = "plane = { point = [0, 0, 0], normal = [0, 1, 0] }";
+    let table = item.table(&["point", "normal"])?;
+    let point = table.need("point", EXAMPLE)?.vector()?;
+    Ok(Shape::Plane(Plane { point, normal: table.need("normal", EXAMPLE)?.direction()? }))
+}
+
+/// A mesh file; `coloured` with its own materials.
+fn mesh(
+    item: &Item,
+    folder: &Path,
+    coloured: bool,
+    warnings: &mut Vec<String>,
+) -> Result<Shape, Problem> {
+    let path = Path::new(item.text()?);
+    let Some(format) = Format::of(path) else {
+        let problem = format!("is {}, which is no .obj or .ply file", quoted(item.text()?));
+        return Err(item.problem(problem).help("convert it to OBJ or PLY; no others are read"));
+    };
+    let path = folder.join(path);
+    let wrong = |error: ReadMeshError| Problem::new(item.span.clone(), error.to_string());
+    let mesh = if coloured {
+        let (mesh, missing) = format.read_with_materials(&path).map_err(wrong)?;
+        warnings.extend(missing.iter().map(ToString::to_string));
+        mesh
+    } else {
+        format.read(&path).map_err(wrong)?.with_materials(MeshMaterials::default())
+    };
+    Ok(Shape::Mesh(smooth::with_normals(mesh, smooth::CREASE)))
+}
+
+fn generated(item: &Item) -> Result<Shape, Problem> {
+    const EXAMPLE: &str = "generate = { kind = \"torus\", divisions = [64, 32] }";
+    let table = item.table(&["kind", "divisions"])?;
+    let kind = table.need("kind", EXAMPLE)?;
+    let name = kind.text()?;
+    let Some(generated) = Kind::named(name) else {
+        let kinds = Kind::ALL.into_iter().map(Kind::name);
+        let problem = kind.problem(format!("is {}", quoted(name)));
+        return Err(problem.help(suggestion("kinds", name, kinds)));
+    };
+    let divisions = table.get("divisions");
+    let counts = divisions.as_ref().map_or(Ok(generated.default_divisions()), Item::counts)?;
+    let span = divisions.map_or(kind.span, |item| item.span);
+    generated.mesh(counts).map(Shape::Mesh).map_err(|error| Problem::new(span, error.to_string()))
+}

@@ -1,0 +1,250 @@
+//! Normals for meshes that bring none: smooth where faces meet at a small angle, with a crease where
+//! they meet at a large one.
+
+mod caps;
+
+use bothways_common::scene::{Attribute, Mesh};
+use caps::Caps;
+use glam::{DVec3, Vec3};
+use std::collections::HashMap;
+
+/// The angle between two faces, in degrees, beyond which the edge between them is meant to be seen.
+pub const CREASE: f64 = 40.0;
+
+/// The mesh with a normal at each corner: the mean of the normals of those faces around the vertex that
+/// are turned against the corner's own by at most `crease` degrees, each weighted by its angle there.
+///
+/// Corners of triangles without area get none. A mesh that has normals keeps them.
+///
+/// Thürmer and Wüthrich, "Computing Vertex Normals from Polygonal Facets", Journal of Graphics Tools 3,
+/// 1998, for the weights.
+///
+/// ```
+/// use bothways_common::{generate::Kind, smooth};
+///
+/// // The faces of a box meet at 90 degrees: each corner keeps the normal of its own face.
+/// let corners = Kind::Box.mesh([1, 1])?;
+/// let bare = bothways_common::Mesh::new(corners.positions().to_vec(), corners.triangles().to_vec())?;
+/// let creased = smooth::with_normals(bare, smooth::CREASE);
+/// assert_eq!(creased.normals().of(0), corners.normals().of(0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn with_normals(mesh: Mesh, crease: f64) -> Mesh {
+    if !mesh.normals().corners.is_empty() {
+        return mesh;
+    }
+    let faces: Vec<DVec3> = (0..mesh.triangles().len()).map(|k| face_normal(&mesh, k)).collect();
+    let around = Around::new(&mesh);
+    let least_cosine = libm::cos(crease.to_radians());
+    let mut normals =
+        Attribute { values: Vec::new(), corners: vec![[Attribute::<Vec3>::NONE; 3]; faces.len()] };
+    let mut facets = Vec::new();
+    for vertex in 0..mesh.positions().len() {
+        facets.clear();
+        facets.extend(around.corners_of(vertex).iter().map(|&(triangle, corner)| {
+            let normal = faces[triangle as usize];
+            let angle = angle_at(&mesh, triangle as usize, corner as usize);
+            Facet { normal, weighted: normal * angle, triangle, corner }
+        }));
+        smooth_vertex(&facets, least_cosine, &mut normals);
+    }
+    mesh.with_normals(normals).expect("each corner names a normal that was made")
+}
+
+/// A triangle at one of its vertices.
+#[derive(Clone, Copy, Debug)]
+struct Facet {
+    /// Of unit length; zero if the triangle has no area.
+    normal: DVec3,
+    /// The normal times the triangle's angle at the vertex.
+    weighted: DVec3,
+    triangle: u32,
+    corner: u8,
+}
+
+/// From so many triangles around a vertex on, comparing each with each takes longer than sorting them.
+const MANY: usize = 64;
+
+/// Gives the corners around one vertex their normals.
+fn smooth_vertex(facets: &[Facet], least_cosine: f64, normals: &mut Attribute<Vec3>) {
+    let caps = (facets.len() >= MANY).then(|| Caps::new(facets));
+    // Corners of one smooth patch share a normal: few values for many corners.
+    let first = normals.values.len();
+    let mut known = HashMap::new();
+    for facet in facets.iter().filter(|facet| facet.normal != DVec3::ZERO) {
+        let sum = match &caps {
+            Some(caps) => caps.sum(facet.normal, least_cosine),
+            None => sum_one_by_one(facets, facet, least_cosine),
+        };
+        let normal = sum.normalize_or(facet.normal).as_vec3();
+        let next = normals.values.len();
+        let index = if caps.is_some() {
+            // Zero and minus zero are two keys, and one value: that costs a value.
+            *known.entry(normal.to_array().map(f32::to_bits)).or_insert(next)
+        } else {
+            let equal = normals.values[first..].iter().position(|value| *value == normal);
+            equal.map_or(next, |place| first + place)
+        };
+        if index == next {
+            normals.values.push(normal);
+        }
+        normals.corners[facet.triangle as usize][usize::from(facet.corner)] =
+            u32::try_from(index).unwrap_or(Attribute::<Vec3>::NONE);
+    }
+}
+
+/// The weighted normals of the faces that are turned against one of them by no more than the crease.
+fn sum_one_by_one(facets: &[Facet], one: &Facet, least_cosine: f64) -> DVec3 {
+    let gentle = facets.iter().filter(|other| {
+        one.normal.dot(other.normal) >= least_cosine || other.triangle == one.triangle
+    });
+    gentle.map(|other| other.weighted).sum()
+}
+
+/// The triangles around each vertex, and with which corner they are there.
+struct Around {
+    starts: Vec<u32>,
+    corners: Vec<(u32, u8)>,
+}
+
+impl Around {
+    /// A counting sort of all corners by vertex.
+    fn new(mesh: &Mesh) -> Around {
+        let mut starts = vec![0_u32; mesh.positions().len() + 1];
+        for vertex in mesh.triangles().iter().flatten() {
+            starts[*vertex as usize + 1] += 1;
+        }
+        for vertex in 1..starts.len() {
+            starts[vertex] += starts[vertex - 1];
+        }
+        let mut next = starts.clone();
+        let mut corners = vec![(0, 0); 3 * mesh.triangles().len()];
+        for (triangle, vertices) in (0..).zip(mesh.triangles()) {
+            for (corner, vertex) in (0..).zip(vertices) {
+                let place = &mut next[*vertex as usize];
+                corners[*place as usize] = (triangle, corner);
+                *place += 1;
+            }
+        }
+        Around { starts, corners }
+    }
+
+    fn corners_of(&self, vertex: usize) -> &[(u32, u8)] {
+        &self.corners[self.starts[vertex] as usize..self.starts[vertex + 1] as usize]
+    }
+}
+
+/// The unit normal of a triangle, zero if it has no area.
+fn face_normal(mesh: &Mesh, triangle: usize) -> DVec3 {
+    let [a, b, c] = mesh.corners(triangle).map(Vec3::as_dvec3);
+    (b - a).cross(c - a).normalize_or_zero()
+}
+
+/// The angle of a triangle at one of its corners, in radians.
+fn angle_at(mesh: &Mesh, triangle: usize, corner: usize) -> f64 {
+    let corners = mesh.corners(triangle).map(Vec3::as_dvec3);
+    let [here, next, last] = [0, 1, 2].map(|k| corners[(corner + k) % 3]);
+    let (p, q) = (next - here, last - here);
+    libm::atan2(p.cross(q).length(), p.dot(q))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generate::Kind;
+
+    fn bare(kind: Kind, divisions: [u32; 2]) -> (Mesh, Mesh) {
+        let mesh = kind.mesh(divisions).unwrap();
+        let bare = Mesh::new(mesh.positions().to_vec(), mesh.triangles().to_vec()).unwrap();
+        (mesh, bare)
+    }
+
+    /// The largest angle, in degrees, between the normals of two meshes.
+    fn farthest(mesh: &Mesh, other: &Mesh) -> f32 {
+        let pairs = (0..mesh.triangles().len()).flat_map(|k| {
+            let (a, b) = (mesh.normals().of(k).unwrap(), other.normals().of(k).unwrap());
+            [0, 1, 2].map(|corner| a[corner].angle_between(b[corner]).to_degrees())
+        });
+        pairs.fold(0.0, f32::max)
+    }
+
+    #[test]
+    fn a_sphere_becomes_smooth_again() {
+        let (sphere, bare) = bare(Kind::Sphere, [48, 24]);
+        let smooth = with_normals(bare, CREASE);
+        assert!(farthest(&sphere, &smooth) < 2.0, "{}", farthest(&sphere, &smooth));
+        assert_eq!(smooth.normals().values.len(), sphere.positions().len(), "one for each vertex");
+    }
+
+    #[test]
+    fn a_cylinder_keeps_the_edge_of_its_caps() {
+        let (cylinder, bare) = bare(Kind::Cylinder, [64, 4]);
+        let smooth = with_normals(bare, CREASE);
+        assert!(farthest(&cylinder, &smooth) < 3.0, "{}", farthest(&cylinder, &smooth));
+    }
+
+    #[test]
+    fn triangles_without_area_get_no_normal_and_spoil_none() {
+        let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y, 2.0 * Vec3::X];
+        let mesh = Mesh::new(positions, vec![[0, 1, 2], [0, 1, 3], [1, 1, 2]]).unwrap();
+        let smooth = with_normals(mesh, CREASE);
+        assert_eq!(smooth.normals().of(0), Some([Vec3::Z; 3]));
+        assert_eq!((smooth.normals().of(1), smooth.normals().of(2)), (None, None));
+    }
+
+    #[test]
+    fn normals_that_are_there_stay() {
+        let (torus, _) = bare(Kind::Torus, [8, 8]);
+        assert_eq!(with_normals(torus.clone(), CREASE), torus);
+    }
+
+    /// A cone of so many sides, finely wrinkled, with a crease for every seventh side; its base is one
+    /// polygon, cut into a fan.
+    fn cone(sides: u32) -> Mesh {
+        let rim = (0..sides).map(|k| {
+            let turn = std::f64::consts::TAU * f64::from(k) / f64::from(sides);
+            let height = if k % 7 == 0 { 0.9 } else { 0.01 * f64::from(k % 3) };
+            DVec3::new(libm::cos(turn), height, libm::sin(turn)).as_vec3()
+        });
+        let positions = [Vec3::Y].into_iter().chain(rim).collect();
+        let side = |k: u32| [0, 1 + k, 1 + (k + 1) % sides];
+        let fan = |k: u32| [1, 1 + k, 2 + k];
+        let triangles = (0..sides).map(side).chain((1..sides - 1).map(fan)).collect();
+        Mesh::new(positions, triangles).unwrap()
+    }
+
+    #[test]
+    fn many_faces_around_a_vertex_are_smoothed_as_few_are() {
+        let mesh = cone(500);
+        let faces: Vec<_> = (0..mesh.triangles().len()).map(|k| face_normal(&mesh, k)).collect();
+        let around = Around::new(&mesh);
+        for crease in [0.0, 1.0, CREASE, 90.0, 180.0] {
+            let smooth = with_normals(mesh.clone(), crease);
+            let least = libm::cos(crease.to_radians());
+            // The definition, corner by corner.
+            for (triangle, vertices) in mesh.triangles().iter().enumerate() {
+                for (corner, vertex) in vertices.iter().enumerate() {
+                    let mut sum = DVec3::ZERO;
+                    for &(other, there) in around.corners_of(*vertex as usize) {
+                        let (own, face) = (faces[triangle], faces[other as usize]);
+                        if own.dot(face) >= least || other as usize == triangle {
+                            sum += face * angle_at(&mesh, other as usize, there.into());
+                        }
+                    }
+                    let normal = smooth.normals().of(triangle).unwrap()[corner].as_dvec3();
+                    assert!(normal.distance(sum.normalize()) < 1e-6, "{crease}: {triangle}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_polygon_of_many_corners_takes_no_longer_than_its_corners() {
+        // One by one it would be 10¹⁰ products: a minute and a half.
+        let mesh = cone(100_000);
+        let begun = std::time::Instant::now();
+        let smooth = with_normals(mesh, CREASE);
+        assert!(smooth.normals().of(0).is_some());
+        assert!(begun.elapsed().as_secs() < 20, "{:?}", begun.elapsed());
+    }
+}
