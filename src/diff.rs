@@ -22,7 +22,7 @@ use serde::Serialize;
 /// Two depths of one primitive differ beyond this part of the larger.
 pub const DEPTH_TOLERANCE: f64 = 1e-5;
 /// Two colours differ beyond this many of the 255 steps of sRGB.
-pub const COLOUR_TOLERANCE: u8 = 2;
+pub const COLOR_TOLERANCE: u8 = 2;
 /// How many differing pixels a comparison names.
 const NAMED_PIXELS: usize = 10;
 
@@ -36,7 +36,7 @@ pub struct Comparison {
     /// How far it is.
     pub depth: Depth,
     /// What it looks like.
-    pub colour: Colour,
+    pub color: Color,
 }
 
 /// Coverage, counted in samples.
@@ -77,10 +77,10 @@ pub struct Depth {
 
 /// Colour of the pixels, each the average of its samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct Colour {
+pub struct Color {
     /// The largest difference in red, green or blue, in steps of 8-bit sRGB.
     pub max_difference: u8,
-    /// Pixels beyond [`COLOUR_TOLERANCE`].
+    /// Pixels beyond [`COLOR_TOLERANCE`].
     pub differing_pixels: u64,
 }
 
@@ -95,7 +95,7 @@ pub fn compare(object_order: &Frame, image_order: &Frame) -> Comparison {
         coverage: coverage(object_order, image_order),
         visible: visible(object_order, image_order),
         depth: depth(object_order, image_order),
-        colour: colour(&picture(object_order), &picture(image_order)),
+        color: color(&picture(object_order), &picture(image_order)),
     }
 }
 
@@ -186,15 +186,15 @@ fn depth(object_order: &Frame, image_order: &Frame) -> Depth {
     depth
 }
 
-fn colour(object_order: &RgbImage, image_order: &RgbImage) -> Colour {
-    let mut colour = Colour::default();
+fn color(object_order: &RgbImage, image_order: &RgbImage) -> Color {
+    let mut color = Color::default();
     for (by_object, by_image) in object_order.pixels().zip(image_order.pixels()) {
         let channels = by_object.0.iter().zip(&by_image.0);
         let worst = channels.map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0);
-        colour.max_difference = colour.max_difference.max(worst);
-        colour.differing_pixels += u64::from(worst > COLOUR_TOLERANCE);
+        color.max_difference = color.max_difference.max(worst);
+        color.differing_pixels += u64::from(worst > COLOR_TOLERANCE);
     }
-    colour
+    color
 }
 
 /// All pixels `[i, j]` of an image, row by row.

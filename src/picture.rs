@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 /// The picture: each pixel is the average of its samples in linear light, as an sRGB colour.
 pub fn picture(frame: &Frame) -> RgbImage {
-    painted(frame, |sample| frame.colours()[sample])
+    painted(frame, |sample| frame.colors()[sample])
 }
 
 /// The ids as colours: a primitive has the same colour wherever it is seen, near black is nothing. Each pixel is the
@@ -20,14 +20,14 @@ pub fn picture(frame: &Frame) -> RgbImage {
 /// than colours, so two that lie far apart may look alike: programs read the ids themselves.
 pub fn id_picture(frame: &Frame) -> RgbImage {
     painted(frame, |sample| {
-        Vec3::from_array(colour_of_id(frame.ids()[sample]).map(linear_from_srgb))
+        Vec3::from_array(color_of_id(frame.ids()[sample]).map(linear_from_srgb))
     })
 }
 
 /// The sRGB colour of a primitive in an [`id_picture`], or of none.
-pub fn colour_of_id(id: u32) -> [u8; 3] {
+pub fn color_of_id(id: u32) -> [u8; 3] {
     if id == NO_PRIMITIVE {
-        return Class::Neither.colour();
+        return Class::Neither.color();
     }
     // Steps of the golden section around the circle of hues: any few ids in a row are as far apart as can be.
     const GOLDEN: u32 = 0x9e37_79b9;
@@ -76,12 +76,12 @@ pub fn enlarged(picture: RgbImage) -> RgbImage {
 }
 
 /// A picture of the colours that samples have, in linear light.
-fn painted(frame: &Frame, colour: impl Fn(usize) -> Vec3 + Sync) -> RgbImage {
+fn painted(frame: &Frame, color: impl Fn(usize) -> Vec3 + Sync) -> RgbImage {
     let ([width, height], [top, left]) = (frame.image(), first_pixel(frame));
     let mut picture = RgbImage::new(width, height);
     picture.par_chunks_exact_mut(3 * width as usize).enumerate().for_each(|(i, row)| {
         for (j, pixel) in row.chunks_exact_mut(3).enumerate() {
-            let average = average(frame, top + i, left + j, &colour);
+            let average = average(frame, top + i, left + j, &color);
             pixel.copy_from_slice(&average.to_array().map(srgb_from_linear));
         }
     });
@@ -107,9 +107,9 @@ fn first_pixel(frame: &Frame) -> [usize; 2] {
     frame.crop().map_or([0; 2], |crop| [crop.row as usize, crop.column as usize])
 }
 
-fn average(frame: &Frame, i: usize, j: usize, colour: impl Fn(usize) -> Vec3) -> Vec3 {
+fn average(frame: &Frame, i: usize, j: usize, color: impl Fn(usize) -> Vec3) -> Vec3 {
     let samples = frame.samples_of(i, j);
-    let total: Vec3 = samples.map(colour).sum();
+    let total: Vec3 = samples.map(color).sum();
     #[expect(clippy::cast_precision_loss, reason = "a count of samples needs no more than f32")]
     let count = frame.samples().pow(2) as f32;
     total / count
@@ -158,30 +158,27 @@ mod tests {
         let apart = |a: [u8; 3], b: [u8; 3]| {
             a.iter().zip(b).map(|(a, b)| u32::from(a.abs_diff(b))).sum::<u32>()
         };
-        let colours: Vec<_> = (0..3000).map(colour_of_id).collect();
-        for (id, &colour) in colours.iter().enumerate() {
-            assert!(colour.iter().any(|&channel| channel >= 128), "{id}: {colour:?}");
+        let colors: Vec<_> = (0..3000).map(color_of_id).collect();
+        for (id, &color) in colors.iter().enumerate() {
+            assert!(color.iter().any(|&channel| channel >= 128), "{id}: {color:?}");
             for near in 1..=5 {
-                let other = colours[(id + near) % 3000];
-                assert!(
-                    id + near >= 3000 || apart(colour, other) > 24,
-                    "{id}: {colour:?} {other:?}"
-                );
+                let other = colors[(id + near) % 3000];
+                assert!(id + near >= 3000 || apart(color, other) > 24, "{id}: {color:?} {other:?}");
             }
         }
         // Wherever the next row of a mesh begins, few of its triangles look like their neighbours.
         for row in 6..600 {
-            let alike = (0..2000).filter(|&id| apart(colours[id], colours[id + row]) <= 24).count();
+            let alike = (0..2000).filter(|&id| apart(colors[id], colors[id + row]) <= 24).count();
             assert!(alike < 700, "{row}: {alike}");
         }
-        assert_eq!(colour_of_id(NO_PRIMITIVE), Class::Neither.colour());
-        assert_eq!(colour_of_id(0), colours[0]);
+        assert_eq!(color_of_id(NO_PRIMITIVE), Class::Neither.color());
+        assert_eq!(color_of_id(0), colors[0]);
     }
 
     #[test]
     fn ids_are_shown_pixel_by_pixel() {
         let shown = id_picture(&frame(1, &[(0, 1)])).into_raw();
-        assert_eq!(shown, [Class::Neither.colour(), colour_of_id(0)].concat());
+        assert_eq!(shown, [Class::Neither.color(), color_of_id(0)].concat());
     }
 
     #[test]
@@ -196,7 +193,7 @@ mod tests {
     fn samples_are_averaged_in_linear_light() {
         let mut frame = frame(2, &[]);
         for row in frame.shading_rows() {
-            row.colours[0] = Vec3::ONE;
+            row.colors[0] = Vec3::ONE;
         }
         // Half of the light is 188 in sRGB, not 128.
         assert_eq!(picture(&frame).into_raw(), [188, 188, 188, 0, 0, 0]);

@@ -1,7 +1,7 @@
 //! `report.json`: everything that was found out, for programs.
 
 use crate::common::Work;
-use crate::diff::{Colour, Comparison, Coverage, Depth, Visible};
+use crate::diff::{Color, Comparison, Coverage, Depth, Visible};
 use crate::orders::{Method, Order, Rendered, Spread};
 use crate::verify::Verified;
 use serde::Serialize;
@@ -31,7 +31,7 @@ pub struct Report {
     /// How far it is.
     pub depth: Option<Depth>,
     /// What it looks like.
-    pub colour: Option<Colour>,
+    pub color: Option<Color>,
     /// What the textbook says of some samples, if it was asked.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub verified: Option<Verified>,
@@ -95,7 +95,7 @@ impl Report {
             coverage: comparison.map(|comparison| comparison.coverage),
             visible: comparison.map(|comparison| comparison.visible.clone()),
             depth: comparison.map(|comparison| comparison.depth),
-            colour: comparison.map(|comparison| comparison.colour),
+            color: comparison.map(|comparison| comparison.color),
             verified: None,
             object_order: section(Order::Object),
             image_order: section(Order::Image),

@@ -118,7 +118,7 @@ fn the_fan_of_slivers_leaves_no_gap() {
 #[test]
 fn what_nobody_should_see_is_not_seen() {
     // Such objects are magenta.
-    let is_hidden = |colour: Vec3| colour == Vec3::new(1.0, 0.0, 1.0);
+    let is_hidden = |color: Vec3| color == Vec3::new(1.0, 0.0, 1.0);
     for name in ["behind", "overlap"] {
         let loaded = load(name).unwrap();
         assert!(loaded.scene.objects().iter().any(|object| is_hidden(object.material.color)));
@@ -128,8 +128,8 @@ fn what_nobody_should_see_is_not_seen() {
             for (row, column) in (0..30).flat_map(|row| (0..40).map(move |column| (row, column))) {
                 let Some(id) = frame.id(row, column) else { continue };
                 let (object, _) = loaded.scene.locate(id);
-                let colour = loaded.scene.objects()[object].material.color;
-                assert!(!is_hidden(colour), "{name}: object {object} at {row}, {column}");
+                let color = loaded.scene.objects()[object].material.color;
+                assert!(!is_hidden(color), "{name}: object {object} at {row}, {column}");
             }
         }
     }

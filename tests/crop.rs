@@ -107,7 +107,8 @@ fn draw_both(view: &View, options: &Options, tile: [u32; 2], side: usize) -> [(F
     let level = bothways::common::engine::simd::best_level();
     let mut drawn = [(); 2].map(|()| {
         let elsewhere = Options { crop: Some([0, 1, 3, 5].into()), ..*options };
-        (Frame::new(view.camera, &elsewhere).with_texture_coordinates(), Work::default())
+        let frame = Frame::new(view.camera, &elsewhere);
+        (frame.with_normals().with_texture_coordinates(), Work::default())
     });
     let [(by_object, object_work), (by_image, image_work)] = &mut drawn;
     let prepared = rasterize::fast::prepare(view.scene).drawn_with(level, tile);

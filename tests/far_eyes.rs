@@ -96,8 +96,8 @@ fn a_parallel_picture_does_not_change_with_the_eye_s_distance() {
             let off = largest_difference(near, far);
             assert!(off <= 1, "{away}: {off} of 255");
         }
-        let colour = compare(&far[0], &far[1]).colour;
-        assert!(colour.max_difference <= 1, "{away}: {colour:?}");
+        let color = compare(&far[0], &far[1]).color;
+        assert!(color.max_difference <= 1, "{away}: {color:?}");
     }
 }
 
@@ -114,8 +114,8 @@ fn a_perspective_picture_from_afar_is_the_parallel_one() {
             let off = largest_difference(parallel, far);
             assert!(off <= room, "{away}: {off} of 255");
         }
-        let colour = compare(&far[0], &far[1]).colour;
-        assert!(colour.max_difference <= 1, "{away}: {colour:?}");
+        let color = compare(&far[0], &far[1]).color;
+        assert!(color.max_difference <= 1, "{away}: {color:?}");
     }
 }
 
@@ -224,7 +224,8 @@ fn normals_and_texture_coordinates_from_afar_are_exact_ones() {
                 CameraDescription { eye, orientation: look, ..description(projection, away) };
             let camera = Camera::new(description).expect("it is a camera");
             let view = View::new(&scene, &camera);
-            let mut frame = Frame::new(&camera, &Options::default()).with_texture_coordinates();
+            let frame = Frame::new(&camera, &Options::default());
+            let mut frame = frame.with_normals().with_texture_coordinates();
             for order in ["object order", "image order"] {
                 let what = format!("{order}, {projection:?} from {away:e}");
                 if order == "object order" {

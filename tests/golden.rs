@@ -68,7 +68,7 @@ fn held_against(approved: &Path, picture: &RgbImage) -> Result<(), String> {
     }
     comparison.picture().save(&difference).unwrap();
     let pixels = count(comparison.differing_pixels, "pixels");
-    let most = comparison.colour.map_or(0.0, |colour| colour.max_difference);
+    let most = comparison.color.map_or(0.0, |color| color.max_difference);
     let (new, difference) = (new.display(), difference.display());
     Err(format!(
         "{name}: {pixels} beyond the tolerance, by up to {most}/255: see {new} and {difference}"

@@ -79,7 +79,7 @@ fn read(path: &Path) -> Mesh {
 }
 
 #[test]
-fn names_and_colours_are_those_that_tobj_reads() {
+fn names_and_colors_are_those_that_tobj_reads() {
     // To `tobj`, what stands behind mtllib is one file.
     let both = format!("{CARDS_MTL}{MORE_MTL}");
     // It panics where green and blue are left out.
@@ -147,12 +147,12 @@ fn both_orders_draw_each_triangle_in_its_own_material() {
         let frames = RENDERERS.map(|(_, render)| render(&view, &options));
         for frame in &frames[1..] {
             let comparison = compare(&frames[0], frame);
-            assert!(comparison.matches() && comparison.colour.differing_pixels == 0);
+            assert!(comparison.matches() && comparison.color.differing_pixels == 0);
         }
         let seen: BTreeSet<&u32> = frames[0].ids().iter().collect();
         assert!(seen.len() > 4, "{seen:?}");
         let grey = RENDERERS[0].1(&View::new(&plain, &camera), &options);
-        assert!(compare(&frames[0], &grey).colour.differing_pixels > 100);
+        assert!(compare(&frames[0], &grey).color.differing_pixels > 100);
     }
 }
 
@@ -177,7 +177,7 @@ fn a_material_of_the_scene_file_is_used_instead() {
 }
 
 #[test]
-fn what_is_moved_keeps_its_colours() {
+fn what_is_moved_keeps_its_colors() {
     let (folder, _) = cards();
     let text = "[[object]]\nmesh = 'cards.obj'\nscale = 2\n";
     let file = scene_file::parse("a.toml", text, folder.path()).unwrap();

@@ -45,7 +45,7 @@ fn check_looks(view: &View, options: &Options, what: &str) -> Frame {
     let comparison = compare(&object_order, &image_order);
     assert!(comparison.matches(), "{what}: {}", comparison.verdict());
     assert_eq!(comparison.depth.differing_pixels, 0, "{what}: depth");
-    assert_eq!(comparison.colour.differing_pixels, 0, "{what}: colour");
+    assert_eq!(comparison.color.differing_pixels, 0, "{what}: colour");
     object_order
 }
 

@@ -58,7 +58,7 @@ fn check(one: &Mesh, camera: &Camera, options: &Options, what: &str) {
         let (frame, streamed) = streamed(one, camera, options, chunk);
         let what = format!("{what}, {chunk} triangles at a time");
         assert_same_visibility(&expected, &frame, &what);
-        assert_eq!(compare(&expected, &frame).colour.differing_pixels, 0, "{what}: colour");
+        assert_eq!(compare(&expected, &frame).color.differing_pixels, 0, "{what}: colour");
         // Each fragment but the first of a sample is compared once, whoever does it.
         let counts = |work: &Work| [work.primitives, work.tests, work.fragments, work.depth_tests];
         assert_eq!(counts(&streamed), counts(&work), "{what}");

@@ -88,7 +88,7 @@ fn both_orders_find_the_same_place_of_the_texture() {
             }
             assert!(found > 1000, "{found}");
             let comparison = compare(&by_object, &by_image);
-            assert_eq!(comparison.colour.differing_pixels, 0, "{projection:?} {eye:?}");
+            assert_eq!(comparison.color.differing_pixels, 0, "{projection:?} {eye:?}");
         }
     }
 }
@@ -103,9 +103,9 @@ fn all_four_draw_the_pattern() {
         let (view, options) = (View::new(&scene, &camera), Options::default());
         let frames = RENDERERS.map(|(_, render)| render(&view, &options));
         for frame in &frames {
-            assert_eq!(compare(&frames[0], frame).colour.differing_pixels, 0);
+            assert_eq!(compare(&frames[0], frame).color.differing_pixels, 0);
             let without = RENDERERS[0].1(&View::new(&plain, &camera), &options);
-            assert!(compare(frame, &without).colour.differing_pixels > 200, "a pattern is seen");
+            assert!(compare(frame, &without).color.differing_pixels > 200, "a pattern is seen");
         }
     }
 }

@@ -28,7 +28,7 @@ pub(crate) struct Chart {
 pub(crate) struct Curve {
     pub(crate) name: &'static str,
     /// On light pages, and on dark ones.
-    pub(crate) colours: [&'static str; 2],
+    pub(crate) colors: [&'static str; 2],
     pub(crate) points: Vec<[f64; 2]>,
 }
 
@@ -114,11 +114,11 @@ impl Chart {
     }
 
     fn style(&self) -> String {
-        let colours = |page: usize, ink: &str, line: &str| {
+        let colors = |page: usize, ink: &str, line: &str| {
             let mut rules = format!("text{{fill:{ink}}} .grid{{stroke:{line}}}");
             for (number, curve) in self.curves.iter().enumerate() {
-                let colour = curve.colours[page];
-                let _ = write!(rules, " .c{number}{{stroke:{colour}}} .d{number}{{fill:{colour}}}");
+                let color = curve.colors[page];
+                let _ = write!(rules, " .c{number}{{stroke:{color}}} .d{number}{{fill:{color}}}");
             }
             rules
         };
@@ -127,8 +127,8 @@ impl Chart {
              .note{{font-size:13px;opacity:.8}} .middle{{text-anchor:middle}} .right{{text-anchor:end}}\n\
              .grid{{stroke-width:1}} polyline{{fill:none;stroke-width:2.5}}\n{}\n\
              @media(prefers-color-scheme:dark){{{}}}\n</style>\n",
-            colours(0, "#24292f", "#d0d7de"),
-            colours(1, "#e6edf3", "#3d444d"),
+            colors(0, "#24292f", "#d0d7de"),
+            colors(1, "#e6edf3", "#3d444d"),
         )
     }
 }

@@ -30,7 +30,7 @@ const IMAGES: [[u32; 2]; 6] =
     [[160, 90], [320, 180], [640, 360], [1280, 720], FULL_HD, [3840, 2160]];
 
 /// The colours of the difference picture, the second lighter where the page is dark.
-const COLOURS: [(Order, [&str; 2]); 2] =
+const COLORS: [(Order, [&str; 2]); 2] =
     [(Order::Object, ["#b87600", "#e69f00"]), (Order::Image, ["#0072b2", "#56b4e9"])];
 
 fn main() -> ExitCode {
@@ -84,9 +84,8 @@ fn curves(
     cases: impl Iterator<Item = ([u32; 2], [u32; 2])> + Clone,
     x: impl Fn(f64, f64) -> f64,
 ) -> Vec<Curve> {
-    let curve =
-        |(order, colours): (Order, _)| Curve { name: order.name(), colours, points: vec![] };
-    let mut curves = COLOURS.map(curve);
+    let curve = |(order, colors): (Order, _)| Curve { name: order.name(), colors, points: vec![] };
+    let mut curves = COLORS.map(curve);
     for round in 0..ROUNDS {
         for (point, (divisions, image)) in cases.clone().enumerate() {
             let (triangles, times) = measure(divisions, image);
@@ -111,7 +110,7 @@ fn measure(divisions: [u32; 2], [width, height]: [u32; 2]) -> (usize, [f64; 2]) 
     let camera = framing.camera(&mesh).expect("a sphere has a size");
     let camera = Camera::new(camera).expect("it is a camera");
     let scene = Scene::new(vec![Shape::Mesh(mesh).into()]).expect("it is a scene");
-    let times = COLOURS.map(|(order, _)| {
+    let times = COLORS.map(|(order, _)| {
         let options = RenderOptions { repeat: Some(REPEAT), ..RenderOptions::default() };
         let view = View::new(&scene, &camera);
         let rendered = orders::render(order, Method::Fast, &view, &options);

@@ -18,7 +18,7 @@ use glam::DVec3;
 
 pub use cover::{EdgeSigns, EdgeValues, Side};
 pub use nearest::Comparison;
-pub use pair::Memory;
+pub use pair::CachedJudge;
 pub use sign::Sign;
 
 /// Decides what is true of the samples of one camera.

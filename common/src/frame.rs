@@ -46,8 +46,9 @@ pub struct Frame {
     region: Region,
     ids: Vec<u32>,
     t: Vec<f32>,
+    colors: Vec<Vec3>,
+    /// Empty unless they are asked for.
     normals: Vec<Vec3>,
-    colours: Vec<Vec3>,
     /// Empty unless they are asked for.
     texture_coordinates: Vec<Vec2>,
 }
@@ -74,10 +75,10 @@ pub struct ShadingRow<'a> {
     pub ids: &'a [u32],
     /// How far it is.
     pub t: &'a [f32],
-    /// Unit normals towards the viewer, zero where nothing is seen.
-    pub normals: &'a mut [Vec3],
     /// Linear red, green and blue.
-    pub colours: &'a mut [Vec3],
+    pub colors: &'a mut [Vec3],
+    /// Unit normals towards the viewer, zero where nothing is seen; `None` if nobody asked for them.
+    pub normals: Option<&'a mut [Vec3]>,
     /// Texture coordinates, zero where there are none; `None` if nobody asked for them.
     pub texture_coordinates: Option<&'a mut [Vec2]>,
 }
@@ -100,10 +101,16 @@ impl Frame {
             region,
             ids: filled(NO_PRIMITIVE, count),
             t: filled(f32::INFINITY, count),
-            normals: vec![Vec3::ZERO; count],
-            colours: vec![Vec3::ZERO; count],
+            colors: vec![Vec3::ZERO; count],
+            normals: Vec::new(),
             texture_coordinates: Vec::new(),
         }
+    }
+
+    /// The same frame, with room for the normal of every sample: shading keeps them.
+    pub fn with_normals(mut self) -> Frame {
+        self.normals = vec![Vec3::ZERO; self.ids.len()];
+        self
     }
 
     /// The same frame, with room for the texture coordinate of every sample: shading keeps them.
@@ -115,9 +122,12 @@ impl Frame {
     /// Makes the frame fit a camera and options; what it held is no longer of use.
     pub fn fit(&mut self, camera: &Camera, options: &Options) {
         if self.camera_image != camera.image() || self.options != *options {
-            let asked = !self.texture_coordinates.is_empty();
+            let keeps = [!self.normals.is_empty(), !self.texture_coordinates.is_empty()];
             *self = Frame::new(camera, options);
-            if asked {
+            if keeps[0] {
+                self.normals = vec![Vec3::ZERO; self.ids.len()];
+            }
+            if keeps[1] {
                 self.texture_coordinates = vec![Vec2::ZERO; self.ids.len()];
             }
         }
@@ -208,14 +218,15 @@ impl Frame {
         &self.t
     }
 
-    /// Unit normals of what is seen, towards the viewer; zero for nothing.
+    /// Unit normals of what is seen, towards the viewer; zero for nothing. Empty unless
+    /// [`Frame::with_normals`] asked for them.
     pub fn normals(&self) -> &[Vec3] {
         &self.normals
     }
 
     /// Linear red, green and blue of every sample.
-    pub fn colours(&self) -> &[Vec3] {
-        &self.colours
+    pub fn colors(&self) -> &[Vec3] {
+        &self.colors
     }
 
     /// Texture coordinates of what is seen, zero where there are none; empty unless
@@ -264,16 +275,16 @@ impl Frame {
         let width = self.width();
         let Region { rows, columns } = self.region.clone();
         let seen = self.ids.chunks(width).zip(self.t.chunks(width));
-        let look = self.normals.chunks_mut(width).zip(self.colours.chunks_mut(width));
+        let mut normals = self.normals.chunks_mut(width);
         let mut texture_coordinates = self.texture_coordinates.chunks_mut(width);
-        rows.zip(seen.zip(look))
-            .map(|(row, ((ids, t), (normals, colours)))| ShadingRow {
+        rows.zip(seen.zip(self.colors.chunks_mut(width)))
+            .map(|(row, ((ids, t), colors))| ShadingRow {
                 row,
                 columns: columns.clone(),
                 ids,
                 t,
-                normals,
-                colours,
+                colors,
+                normals: normals.next(),
                 texture_coordinates: texture_coordinates.next(),
             })
             .collect()

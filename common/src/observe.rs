@@ -52,7 +52,7 @@ pub trait Events {
     fn fragment(&mut self, _sample: Sample, _primitive: u32) {}
 
     /// A fragment meets an earlier one at its sample, and replaces it or not.
-    fn depth_test(&mut self, _sample: Sample, _challenger: u32, _holder: u32, _replaced: bool) {}
+    fn depth_test(&mut self, _sample: Sample, _incoming: u32, _stored: u32, _replaced: bool) {}
 
     /// The first primitive along a ray is known.
     fn hit(&mut self, _sample: Sample, _primitive: Option<u32>) {}
@@ -70,8 +70,8 @@ pub trait Observer: Events + Send + Sync + Sized {
     /// Whether anything is done with what is told: renderers save themselves the telling if not.
     const WATCHES: bool = true;
 
-    /// The observer as what is told, if it watches.
-    fn watcher(&mut self) -> Option<&mut dyn Events> {
+    /// The observer as an event sink, if it watches.
+    fn sink(&mut self) -> Option<&mut dyn Events> {
         if Self::WATCHES { Some(self) } else { None }
     }
 
@@ -82,19 +82,18 @@ pub trait Observer: Events + Send + Sync + Sized {
     fn join(&mut self, part: Self);
 }
 
-/// Whom the innermost loops tell: nobody, which is `()`, or `dyn Events`, whoever that is. So fast renderers are
-/// compiled for these two, not anew for each observer.
-pub trait Watcher: Events {
-    /// Whether it is anybody.
-    const WATCHES: bool;
+/// An event sink: `()` or `dyn Events`. The innermost loops are compiled for these two, not anew for each observer.
+pub trait EventSink: Events {
+    /// Whether it is enabled: whether anything becomes of the events.
+    const ENABLED: bool;
 }
 
-impl Watcher for () {
-    const WATCHES: bool = false;
+impl EventSink for () {
+    const ENABLED: bool = false;
 }
 
-impl Watcher for dyn Events + '_ {
-    const WATCHES: bool = true;
+impl EventSink for dyn Events + '_ {
+    const ENABLED: bool = true;
 }
 
 impl Events for () {}
@@ -156,9 +155,9 @@ impl<A: Events, B: Events> Events for (A, B) {
         self.1.fragment(sample, primitive);
     }
 
-    fn depth_test(&mut self, sample: Sample, challenger: u32, holder: u32, replaced: bool) {
-        self.0.depth_test(sample, challenger, holder, replaced);
-        self.1.depth_test(sample, challenger, holder, replaced);
+    fn depth_test(&mut self, sample: Sample, incoming: u32, stored: u32, replaced: bool) {
+        self.0.depth_test(sample, incoming, stored, replaced);
+        self.1.depth_test(sample, incoming, stored, replaced);
     }
 
     fn hit(&mut self, sample: Sample, primitive: Option<u32>) {
@@ -253,7 +252,7 @@ impl Events for Work {
         self.fragments += 1;
     }
 
-    fn depth_test(&mut self, _sample: Sample, _challenger: u32, _holder: u32, _replaced: bool) {
+    fn depth_test(&mut self, _sample: Sample, _incoming: u32, _stored: u32, _replaced: bool) {
         self.depth_tests += 1;
     }
 

@@ -374,7 +374,7 @@ fn run<O: Observer>(
         .zip(&mut spare.bins)
         .map(|(batch, bins)| {
             let mut observer = seen.fork();
-            (loops.fill)(bins, batch, &binning, prepared.level, observer.watcher());
+            (loops.fill)(bins, batch, &binning, prepared.level, observer.sink());
             observer
         })
         .collect();
@@ -406,7 +406,7 @@ fn run<O: Observer>(
             let buffer = lock(&buffers).pop().filter(|buffer| buffer.fits(&tiling));
             let mut buffer = buffer.unwrap_or_else(|| TileBuffer::new(view, &tiling));
             buffer.begin(view, &tile.region);
-            (loops.draw_tile)(&drawing, index, &mut buffer, observer.watcher());
+            (loops.draw_tile)(&drawing, index, &mut buffer, observer.sink());
             dispatch!(level, simd => buffer.store(simd, &picture, tile));
             lock(&buffers).push(buffer);
             (index, observer)

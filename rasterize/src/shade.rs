@@ -5,7 +5,7 @@ mod form;
 mod quotient;
 
 use bothways_common::frame::{NO_PRIMITIVE, ShadingRow};
-use bothways_common::look::shade::{SurfacePoint, colour};
+use bothways_common::look::shade::{SurfacePoint, color};
 use bothways_common::look::texture::{self, TexturePoint};
 use bothways_common::{
     Frame, Material, Primitive, Projection, Ray, SampleGrid, Scene, Shape, View,
@@ -15,8 +15,8 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 use quotient::{Linear, Quotient};
 use rayon::prelude::*;
 
-/// Gives every sample its normal and colour, by interpolation over the triangle that is seen there; its
-/// texture coordinate, too, if the frame [keeps them](Frame::with_texture_coordinates).
+/// Gives every sample its colour, by interpolation over the triangle that is seen there; its normal and its texture
+/// coordinate, too, if the frame keeps [them](Frame::with_normals) [both](Frame::with_texture_coordinates).
 ///
 /// # Panics
 ///
@@ -33,8 +33,10 @@ fn shade_row(view: &View, grid: &SampleGrid, mut row: ShadingRow) {
     let mut run: Option<(u32, Surface)> = None;
     for (index, (column, &id)) in row.columns.zip(row.ids).enumerate() {
         if id == NO_PRIMITIVE {
-            row.normals[index] = Vec3::ZERO;
-            row.colours[index] = view.scene.background;
+            row.colors[index] = view.scene.background;
+            if let Some(kept) = &mut row.normals {
+                kept[index] = Vec3::ZERO;
+            }
             if let Some(kept) = &mut row.texture_coordinates {
                 kept[index] = Vec2::ZERO;
             }
@@ -51,12 +53,13 @@ fn shade_row(view: &View, grid: &SampleGrid, mut row: ShadingRow) {
         let to_viewer = -ray.direction.normalize().as_vec3();
         let texture = surface.texture_point(view, x, y, &place, step);
         let point = SurfacePoint { position: place.position, normal, to_viewer, texture };
-        row.normals[index] = normal;
+        if let Some(kept) = &mut row.normals {
+            kept[index] = normal;
+        }
         if let Some(kept) = &mut row.texture_coordinates {
             kept[index] = texture.map_or(Vec2::ZERO, |texture| texture.stored());
         }
-        row.colours[index] =
-            colour(&point, &surface.material, &view.scene.lights, view.camera.eye());
+        row.colors[index] = color(&point, &surface.material, &view.scene.lights, view.camera.eye());
     }
 }
 

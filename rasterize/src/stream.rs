@@ -14,7 +14,7 @@
 //! mesh in memory, for chunks of any size. Image order cannot do this: any ray may need any triangle.
 
 use crate::fast;
-use bothways_common::exact::Memory;
+use bothways_common::exact::CachedJudge;
 use bothways_common::frame::NO_PRIMITIVE;
 use bothways_common::observe::{Events, Observer, Question};
 use bothways_common::raster::{Region, Sample};
@@ -215,7 +215,7 @@ impl<O: Observer> Pass<'_, O> {
         let held = ids.par_chunks_mut(width).zip(t.par_chunks_mut(width));
         let held = held.zip(corners.par_chunks_mut(width));
         let drawn = frame.ids().par_chunks(width).zip(frame.distances().par_chunks(width));
-        let begin = || Memory::new(view.judge());
+        let begin = || CachedJudge::new(view.judge());
         let parts: Vec<O> = rows
             .into_par_iter()
             .zip(held.zip(drawn))
@@ -273,7 +273,7 @@ struct DepthTest<'a, O> {
     positions: &'a Positions,
     view: &'a View<'a>,
     grid: &'a SampleGrid<'a>,
-    memory: &'a mut Memory,
+    memory: &'a mut CachedJudge,
     observer: O,
 }
 

@@ -182,7 +182,7 @@ fn run<O: Observer>(
                     ids.into_iter().for_each(|ids| ids.fill(NO_PRIMITIVE));
                     t.into_iter().for_each(|t| t.fill(f32::INFINITY));
                 } else {
-                    if let Some(watcher) = observer.watcher() {
+                    if let Some(watcher) = observer.sink() {
                         (loops.watch)(walker, &kind_of_one, &share, watcher);
                     }
                     (loops.trace)(walker, &kind, share);

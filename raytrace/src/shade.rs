@@ -1,14 +1,14 @@
 //! The look of what is seen: image order goes back along each ray to the point that it hit.
 
 use bothways_common::frame::{NO_PRIMITIVE, ShadingRow};
-use bothways_common::look::shade::{SurfacePoint, colour};
+use bothways_common::look::shade::{SurfacePoint, color};
 use bothways_common::look::texture::{self, TexturePoint};
 use bothways_common::{Frame, Primitive, Projection, Ray, SampleGrid, Scene, Shape, View};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 use rayon::prelude::*;
 
-/// Gives every sample its normal and colour, from the hit point of its ray; its texture coordinate,
-/// too, if the frame [keeps them](Frame::with_texture_coordinates).
+/// Gives every sample its colour, from the hit point of its ray; its normal and its texture coordinate, too, if the
+/// frame keeps [them](Frame::with_normals) [both](Frame::with_texture_coordinates).
 ///
 /// # Panics
 ///
@@ -23,8 +23,10 @@ fn shade_row(view: &View, grid: &SampleGrid, mut row: ShadingRow) {
     let keeps_texture = row.texture_coordinates.is_some();
     for (index, (column, &id)) in row.columns.zip(row.ids).enumerate() {
         if id == NO_PRIMITIVE {
-            row.normals[index] = Vec3::ZERO;
-            row.colours[index] = view.scene.background;
+            row.colors[index] = view.scene.background;
+            if let Some(kept) = &mut row.normals {
+                kept[index] = Vec3::ZERO;
+            }
             if let Some(kept) = &mut row.texture_coordinates {
                 kept[index] = Vec2::ZERO;
             }
@@ -45,11 +47,13 @@ fn shade_row(view: &View, grid: &SampleGrid, mut row: ShadingRow) {
         };
         let to_viewer = to_viewer.as_vec3();
         let point = SurfacePoint { position: hit.position, normal, to_viewer, texture };
-        row.normals[index] = normal;
+        if let Some(kept) = &mut row.normals {
+            kept[index] = normal;
+        }
         if let Some(kept) = &mut row.texture_coordinates {
             kept[index] = texture.map_or(Vec2::ZERO, |texture| texture.stored());
         }
-        row.colours[index] = colour(&point, material, &view.scene.lights, view.camera.eye());
+        row.colors[index] = color(&point, material, &view.scene.lights, view.camera.eye());
     }
 }
 

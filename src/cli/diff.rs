@@ -8,7 +8,7 @@ use super::render::write_rgb;
 use super::terminal;
 use anstyle::{AnsiColor, Style};
 use bothways::diff::foreign::{self, Aspect, Buffer, BufferComparison, Unit};
-use bothways::diff::{COLOUR_TOLERANCE, DEPTH_TOLERANCE};
+use bothways::diff::{COLOR_TOLERANCE, DEPTH_TOLERANCE};
 use bothways::formats::source::quote::visible;
 use bothways::picture::enlarged;
 use bothways::wording::{count, grouped};
@@ -59,7 +59,7 @@ pub(super) struct DiffArgs {
     #[arg(short = 'o', long = "output", value_name = "DIR")]
     folder: Option<PathBuf>,
     /// The colour of what is not covered, in pictures that have no alpha, such as #101418
-    #[arg(long, value_name = "COLOR", value_parser = colour)]
+    #[arg(long, value_name = "COLOR", value_parser = color)]
     background: Option<[u8; 3]>,
     /// Print the comparison as JSON
     #[arg(long)]
@@ -99,7 +99,7 @@ pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
 }
 
 /// A colour as screens show it.
-fn colour(text: &str) -> Result<[u8; 3], String> {
+fn color(text: &str) -> Result<[u8; 3], String> {
     let digits = text.strip_prefix('#').filter(|digits| digits.len() == 6);
     let bytes = digits
         .filter(|digits| digits.bytes().all(|digit| digit.is_ascii_hexdigit()))
@@ -151,8 +151,8 @@ impl Told<'_> {
         self.largest(&mut text);
         self.first(&mut text);
         text += &hints(&self.comparison.hints);
-        let colour = if self.comparison.equal { AnsiColor::Green } else { AnsiColor::Yellow };
-        let style = colour.on_default().bold();
+        let color = if self.comparison.equal { AnsiColor::Green } else { AnsiColor::Yellow };
+        let style = color.on_default().bold();
         line(&mut text, format_args!("{style}{}{style:#}", self.verdict()));
         if let Some(folder) = folder {
             let (dimmed, file) = (Style::new().dimmed(), folder.join(NAMES[0]));
@@ -193,7 +193,7 @@ impl Told<'_> {
         let judged = |aspect: &Aspect| match aspect {
             Aspect::Coverage | Aspect::Ids => aspect.name().to_owned(),
             Aspect::T => format!("t (within {DEPTH_TOLERANCE:e})"),
-            Aspect::Colour => format!("colour (within {COLOUR_TOLERANCE}/255)"),
+            Aspect::Color => format!("colour (within {COLOR_TOLERANCE}/255)"),
         };
         self.comparison.compared.iter().map(judged).collect::<Vec<_>>().join(", ")
     }
@@ -223,9 +223,9 @@ impl Told<'_> {
                 depth.differing_pixels,
             ));
         }
-        if let Some(colour) = self.comparison.colour {
-            let label = format!("pixels beyond {COLOUR_TOLERANCE}/255 in colour");
-            rows.push((label, colour.differing_pixels));
+        if let Some(color) = self.comparison.color {
+            let label = format!("pixels beyond {COLOR_TOLERANCE}/255 in colour");
+            rows.push((label, color.differing_pixels));
         }
         for (label, number) in rows {
             line(text, format_args!("{label:30}{:>14}", grouped(number)));
@@ -246,10 +246,10 @@ impl Told<'_> {
                 ),
             );
         }
-        if let Some(colour) = self.comparison.colour
-            && let Some(at @ [i, j]) = colour.at
+        if let Some(color) = self.comparison.color
+            && let Some(at @ [i, j]) = color.at
         {
-            let most = number(colour.max_difference);
+            let most = number(color.max_difference);
             let [a, b] = self.files.map(|(_, buffer)| buffer.seen(at));
             line(
                 text,
@@ -332,10 +332,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn colours_are_six_digits() {
-        assert_eq!(colour("#0172fF"), Ok([0x01, 0x72, 0xff]));
+    fn colors_are_six_digits() {
+        assert_eq!(color("#0172fF"), Ok([0x01, 0x72, 0xff]));
         for bad in ["", "#", "101418", "#10141", "#1014188", "#+01418", "#12345é", "black"] {
-            assert!(colour(bad).is_err(), "{bad}");
+            assert!(color(bad).is_err(), "{bad}");
         }
     }
 }

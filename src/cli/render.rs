@@ -242,11 +242,11 @@ pub(super) fn write_png(
     name: &str,
     bytes: &[u8],
     (width, height): (u32, u32),
-    colour: ColorType,
+    color: ColorType,
 ) -> Result<(), Failure> {
     staging.write(name, |out| {
         PngEncoder::new(out)
-            .write_image(bytes, width, height, colour.into())
+            .write_image(bytes, width, height, color.into())
             .map_err(io::Error::other)
     })
 }

@@ -2,7 +2,7 @@
 
 use anstyle::{AnsiColor, Style};
 use bothways::common::{Crop, Work};
-use bothways::diff::{COLOUR_TOLERANCE, Comparison, DEPTH_TOLERANCE};
+use bothways::diff::{COLOR_TOLERANCE, Comparison, DEPTH_TOLERANCE};
 use bothways::orders::{Counts, Rendered, Spread, Times};
 use bothways::report::Report;
 use bothways::wording::{count, grouped, milliseconds, pixels_shown};
@@ -48,8 +48,8 @@ pub(super) fn table(
 }
 
 fn verdict_style(matches: bool) -> Style {
-    let colour = if matches { AnsiColor::Green } else { AnsiColor::Yellow };
-    colour.on_default().bold()
+    let color = if matches { AnsiColor::Green } else { AnsiColor::Yellow };
+    color.on_default().bold()
 }
 
 const LABEL_WIDTH: usize = 26;
@@ -130,9 +130,9 @@ fn beyond_tolerance(comparison: &Comparison) -> String {
     let depth = comparison.depth;
     let most = format!("{:.1e}", depth.max_relative_difference);
     row(format!("depths beyond {DEPTH_TOLERANCE:e}"), depth.differing_pixels, most);
-    let colour = comparison.colour;
-    let most = format!("{} of 255", colour.max_difference);
-    row(format!("colours beyond {COLOUR_TOLERANCE} of 255"), colour.differing_pixels, most);
+    let color = comparison.color;
+    let most = format!("{} of 255", color.max_difference);
+    row(format!("colours beyond {COLOR_TOLERANCE} of 255"), color.differing_pixels, most);
     text
 }
 
@@ -140,7 +140,7 @@ fn beyond_tolerance(comparison: &Comparison) -> String {
 mod tests {
     use super::*;
     use bothways::common::{Camera, Frame, Options};
-    use bothways::diff::{Colour, Depth, compare};
+    use bothways::diff::{Color, Depth, compare};
 
     #[test]
     fn what_is_beyond_tolerance_has_its_rows() {
@@ -148,7 +148,7 @@ mod tests {
         let mut comparison = compare(&nothing, &nothing);
         assert_eq!(beyond_tolerance(&comparison), "");
         comparison.depth = Depth { max_relative_difference: 0.5, differing_pixels: 1 };
-        comparison.colour = Colour { max_difference: 108, differing_pixels: 12_345 };
+        comparison.color = Color { max_difference: 108, differing_pixels: 12_345 };
         let plain = anstream::adapter::strip_str(&beyond_tolerance(&comparison)).to_string();
         assert_eq!(
             plain,

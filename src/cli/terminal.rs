@@ -47,7 +47,7 @@ pub(super) fn tame(text: &str) -> Cow<'_, str> {
     let mut tamed = String::with_capacity(text.len());
     let mut rest = text;
     while let Some(character) = rest.chars().next() {
-        let length = colour_sequence(rest).unwrap_or(character.len_utf8());
+        let length = color_sequence(rest).unwrap_or(character.len_utf8());
         let (part, after) = rest.split_at(length);
         if length > character.len_utf8() || kept(character) {
             tamed.push_str(part);
@@ -60,7 +60,7 @@ pub(super) fn tame(text: &str) -> Cow<'_, str> {
 }
 
 /// The length of the sequence that sets colours and weights with which a text begins, if it does.
-fn colour_sequence(text: &str) -> Option<usize> {
+fn color_sequence(text: &str) -> Option<usize> {
     let numbers = text.strip_prefix("\u{1b}[")?;
     let end = numbers.find(|c: char| !c.is_ascii_digit() && c != ';')?;
     numbers[end..].starts_with('m').then_some(2 + end + 1)
@@ -91,7 +91,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_terminal_obeys_nothing_but_colours() {
+    fn a_terminal_obeys_nothing_but_colors() {
         let ours = "\u{1b}[1;33mA\u{1b}[0m\tb\n";
         assert_eq!(tame(ours), ours);
         let hostile = "# \u{1b}[2J\u{1b}]0;x\u{7} \u{202e}\u{9b}m\r\u{1b}[1";

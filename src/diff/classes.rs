@@ -46,7 +46,7 @@ impl Class {
     /// picture; this is the middle one of them.
     ///
     /// Told apart by everybody: Okabe and Ito, "Color Universal Design", 2008.
-    pub fn colour(self) -> [u8; 3] {
+    pub fn color(self) -> [u8; 3] {
         match self {
             Class::OnlyObjectOrder => [0xe6, 0x9f, 0x00],
             Class::OnlyImageOrder => [0x00, 0x72, 0xb2],
@@ -139,7 +139,7 @@ impl Classes {
         for ((pixel, light), class) in lit.zip(&self.classes) {
             *pixel = match class {
                 Class::Alike => faint_grey(*light),
-                class => Rgb(class.colour()),
+                class => Rgb(class.color()),
             };
         }
         picture

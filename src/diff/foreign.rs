@@ -23,7 +23,7 @@ mod png;
 mod read;
 
 pub use compare::{
-    Aspect, BufferColour, BufferComparison, BufferCoverage, BufferDepth, BufferIds, Incomparable,
+    Aspect, BufferColor, BufferComparison, BufferCoverage, BufferDepth, BufferIds, Incomparable,
     Unit, compare,
 };
 pub use read::{ReadBufferError, read, read_from};
@@ -204,7 +204,7 @@ impl Buffer {
                 format!("t {}", distance_text(t[sample]))
             }
             Content::Picture(picture) if self.covered(sample) != Some(false) => {
-                colour_text(picture.pixels.get(sample), picture.covered == Covered::ByAlpha)
+                color_text(picture.pixels.get(sample), picture.covered == Covered::ByAlpha)
             }
             Content::Mask(_) | Content::Distances(_) | Content::Picture(_) => nothing(),
         }
@@ -264,9 +264,9 @@ pub fn distance_text(t: f64) -> String {
 }
 
 /// `#rrggbb`, or decimals where eight bits do not tell it all.
-fn colour_text(colour: [f32; 4], with_alpha: bool) -> String {
-    let channels = if with_alpha { &colour[..] } else { &colour[..3] };
-    if bytes(colour).map(f32::from) == colour {
+fn color_text(color: [f32; 4], with_alpha: bool) -> String {
+    let channels = if with_alpha { &color[..] } else { &color[..3] };
+    if bytes(color).map(f32::from) == color {
         return channels
             .iter()
             .fold("#".into(), |text, &c| text + &format!("{:02x}", bytes([c])[0]));

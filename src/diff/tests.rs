@@ -96,12 +96,12 @@ fn depth_is_reported_and_does_not_decide() {
 }
 
 #[test]
-fn colour_is_reported_and_does_not_decide() {
+fn color_is_reported_and_does_not_decide() {
     let (object_order, mut image_order) = (frame(1, &["00"]), frame(1, &["00"]));
-    image_order.shading_rows()[0].colours[1] = Vec3::new(0.0, 1.0, 0.0);
+    image_order.shading_rows()[0].colors[1] = Vec3::new(0.0, 1.0, 0.0);
     let comparison = compare(&object_order, &image_order);
     assert!(comparison.matches());
-    assert_eq!(comparison.colour, Colour { max_difference: 255, differing_pixels: 1 });
+    assert_eq!(comparison.color, Color { max_difference: 255, differing_pixels: 1 });
 }
 
 #[test]
@@ -121,15 +121,15 @@ fn the_worst_class_of_a_pixel_wins() {
 }
 
 #[test]
-fn the_difference_image_has_the_stated_colours() {
+fn the_difference_image_has_the_stated_colors() {
     let object_order = frame(1, &["0.00."]);
     let image_order = frame(1, &[".010."]);
     let classes = Classes::new(&object_order, &image_order);
     let picture = classes.picture(&picture(&object_order));
-    let colours: Vec<_> = picture.pixels().map(|pixel| pixel.0).collect();
-    assert_eq!(colours[0], [0xe6, 0x9f, 0x00]);
-    assert_eq!(colours[1], [0x00, 0x72, 0xb2]);
-    assert_eq!(colours[2], [0xcc, 0x79, 0xa7]);
-    assert!(colours[3][0] > 30 && colours[3][0] == colours[3][1]);
-    assert!(colours[4].iter().all(|&channel| channel < 16));
+    let colors: Vec<_> = picture.pixels().map(|pixel| pixel.0).collect();
+    assert_eq!(colors[0], [0xe6, 0x9f, 0x00]);
+    assert_eq!(colors[1], [0x00, 0x72, 0xb2]);
+    assert_eq!(colors[2], [0xcc, 0x79, 0xa7]);
+    assert!(colors[3][0] > 30 && colors[3][0] == colors[3][1]);
+    assert!(colors[4].iter().all(|&channel| channel < 16));
 }

@@ -110,8 +110,8 @@ impl Slide<'_> {
         canvas.fitting(MARGIN, TITLE, &line(self.scene), TITLE_STYLE, room);
         let about = self.about.map(line).map(|about| (about, BRIGHT));
         let lines = about.into_iter().chain([(facts, QUIET)]);
-        for ((text, colour), baseline) in lines.zip(BELOW_TITLE) {
-            canvas.fitting(MARGIN, baseline, &text, SENTENCE.of(colour), room);
+        for ((text, color), baseline) in lines.zip(BELOW_TITLE) {
+            canvas.fitting(MARGIN, baseline, &text, SENTENCE.of(color), room);
         }
     }
 
@@ -119,22 +119,22 @@ impl Slide<'_> {
         const SWATCH: f32 = 18.0;
         let mut baseline = FIRST_ROW;
         for class in Class::ALL {
-            canvas.framed(left, baseline - 17.0, SWATCH, class.colour());
+            canvas.framed(left, baseline - 17.0, SWATCH, class.color());
             let pixels = count(classes.count(class), "pixels");
             canvas.row(left + SWATCH + 14.0, left + COLUMN_WIDTH, baseline, class.name(), &pixels);
             baseline += ROW;
         }
         let depth = difference(self.comparison.depth.max_relative_difference);
         canvas.row(left, left + COLUMN_WIDTH, baseline, "depths differ by at most", &depth);
-        let colour = format!("{} of 255", self.comparison.colour.max_difference);
-        canvas.row(left, left + COLUMN_WIDTH, baseline + ROW, "colours differ by at most", &colour);
+        let color = format!("{} of 255", self.comparison.color.max_difference);
+        canvas.row(left, left + COLUMN_WIDTH, baseline + ROW, "colours differ by at most", &color);
     }
 
     fn verdict(&self, canvas: &mut Canvas) {
-        let colour = if self.comparison.matches() { MATCH } else { DIFFER };
+        let color = if self.comparison.matches() { MATCH } else { DIFFER };
         canvas.rectangle(MARGIN, RULE, RIGHT - MARGIN, 1.0, HAIRLINE);
         let verdict = self.comparison.verdict();
-        canvas.fitting(MARGIN, VERDICT, &verdict, VERDICT_STYLE.of(colour), RIGHT - MARGIN);
+        canvas.fitting(MARGIN, VERDICT, &verdict, VERDICT_STYLE.of(color), RIGHT - MARGIN);
     }
 }
 
@@ -199,7 +199,7 @@ fn marked_difference(classes: &Classes, lit_by: &RgbImage, size: [u32; 2]) -> Rg
     for ([i, j], class) in differing {
         for y in widened(footprint(i, image[1], size[1]), size[1]) {
             for x in widened(footprint(j, image[0], size[0]), size[0]) {
-                picture.put_pixel(x, y, Rgb(class.colour()));
+                picture.put_pixel(x, y, Rgb(class.color()));
             }
         }
     }
@@ -217,7 +217,7 @@ fn widened(range: RangeInclusive<u32>, side: u32) -> RangeInclusive<u32> {
 }
 
 const REGULAR: Style =
-    Style { weight: Weight::Regular, size: 23.0, colour: BRIGHT, figures: Figures::Tabular };
+    Style { weight: Weight::Regular, size: 23.0, color: BRIGHT, figures: Figures::Tabular };
 const SENTENCE: Style = Style { figures: Figures::Proportional, ..REGULAR };
 const SEMI_BOLD: Style = Style { weight: Weight::SemiBold, ..SENTENCE };
 const TITLE_STYLE: Style = Style { size: 46.0, ..SEMI_BOLD };
@@ -225,8 +225,8 @@ const HEADING_STYLE: Style = Style { size: 30.0, ..SEMI_BOLD };
 const VERDICT_STYLE: Style = Style { size: 32.0, ..SEMI_BOLD };
 
 impl Style {
-    fn of(self, colour: [u8; 3]) -> Style {
-        Style { colour, ..self }
+    fn of(self, color: [u8; 3]) -> Style {
+        Style { color, ..self }
     }
 }
 
@@ -300,14 +300,14 @@ impl Canvas {
     }
 
     /// A square of a colour that may be as dark as the slide.
-    fn framed(&mut self, x: f32, y: f32, side: f32, colour: [u8; 3]) {
+    fn framed(&mut self, x: f32, y: f32, side: f32, color: [u8; 3]) {
         self.rectangle(x - 1.0, y - 1.0, side + 2.0, side + 2.0, HAIRLINE);
-        self.rectangle(x, y, side, side, colour);
+        self.rectangle(x, y, side, side, color);
     }
 
-    fn rectangle(&mut self, x: f32, y: f32, width: f32, height: f32, colour: [u8; 3]) {
+    fn rectangle(&mut self, x: f32, y: f32, width: f32, height: f32, color: [u8; 3]) {
         let mut paint = Paint::default();
-        paint.set_color(opaque(colour));
+        paint.set_color(opaque(color));
         if let Some(rectangle) = Rect::from_xywh(x, y, width, height) {
             self.pixels.fill_rect(rectangle, &paint, Transform::identity(), None);
         }

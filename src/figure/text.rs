@@ -29,7 +29,7 @@ pub(super) struct Style {
     /// The em, in pixels.
     pub(super) size: f32,
     /// sRGB.
-    pub(super) colour: [u8; 3],
+    pub(super) color: [u8; 3],
     pub(super) figures: Figures,
 }
 
@@ -58,7 +58,7 @@ pub(super) fn draw(canvas: &mut Pixmap, text: &str, x: f32, baseline: f32, style
     let Some(path) = font.outline(&font.set(text, style.figures)) else {
         return;
     };
-    let [red, green, blue] = style.colour;
+    let [red, green, blue] = style.color;
     let mut paint = Paint::default();
     paint.set_color(Color::from_rgba8(red, green, blue, u8::MAX));
     let scale = font.scale(style.size);
@@ -270,7 +270,7 @@ mod tests {
     use super::*;
 
     const STYLE: Style =
-        Style { weight: Weight::Regular, size: 24.0, colour: [255; 3], figures: Figures::Tabular };
+        Style { weight: Weight::Regular, size: 24.0, color: [255; 3], figures: Figures::Tabular };
 
     #[test]
     fn all_figures_of_a_column_are_equally_wide() {

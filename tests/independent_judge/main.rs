@@ -9,7 +9,7 @@ mod judge;
 mod near_misses;
 mod round;
 
-use bothways::common::exact::Memory;
+use bothways::common::exact::CachedJudge;
 use bothways::common::glam::Vec3;
 use bothways::common::{Camera, CameraDescription, Judge, Primitive, Ray, Shape, View};
 use cases::{
@@ -64,7 +64,7 @@ impl Court {
     /// Confirms every answer about one sample, or says which one is wrong.
     fn confirm(
         &self,
-        memory: &mut Memory,
+        memory: &mut CachedJudge,
         primitives: &[(u32, Primitive)],
         ray: &Ray,
     ) -> Result<Tally, String> {
@@ -97,7 +97,7 @@ impl Court {
     /// tells whether they tie.
     fn confirm_precedence(
         &self,
-        memory: &mut Memory,
+        memory: &mut CachedJudge,
         first: (u32, &Primitive),
         second: (u32, &Primitive),
         ray: &Ray,
@@ -134,7 +134,7 @@ fn confirm_case(case: &Case) -> Result<Tally, String> {
     let (camera, scene) = (case.camera(), case.scene());
     let court = Court::new(&camera);
     let primitives: Vec<_> = View::new(&scene, &camera).primitives().collect();
-    let mut memory = Memory::new(court.library);
+    let mut memory = CachedJudge::new(court.library);
     case.rays().iter().try_fold(Tally::default(), |sum, ray| {
         Ok(sum.plus(court.confirm(&mut memory, &primitives, ray)?))
     })

@@ -8,7 +8,7 @@
 use crate::cases::{Case, few_bits, projection, triangle, turned_camera};
 use crate::judge::{Coverage, IndependentJudge, edge_function};
 use crate::{Court, confirm_case, runner};
-use bothways::common::exact::Memory;
+use bothways::common::exact::CachedJudge;
 use bothways::common::glam::{DVec3, Vec3};
 use bothways::common::{
     Camera, CameraDescription, Orientation, Primitive, Projection, Ray, Shape, Sphere, Triangle,
@@ -148,7 +148,7 @@ fn search(cases: u32, pictures: impl Strategy<Value = Case>) -> Wrong {
         let [x, y] = case.points[0];
         let ray = camera.ray_through(x, y);
         count_wrong(&court, &primitives, &ray, &mut wrong);
-        let mut memory = Memory::new(court.library);
+        let mut memory = CachedJudge::new(court.library);
         court
             .confirm(&mut memory, &primitives, &ray)
             .unwrap_or_else(|error| panic!("{error}\n{case:?}"));

@@ -60,10 +60,10 @@ pub fn assert_is_part(whole: &Frame, part: &Frame, what: &str) {
     assert_eq!(part.ids().len(), (width * height * n * n) as usize, "{what}");
     let bits = |frame: &Frame, sample: usize| {
         let (t, texture) = (frame.distances()[sample], frame.texture_coordinates().get(sample));
-        let normal = frame.normals()[sample].to_array().map(f32::to_bits);
-        let colour = frame.colours()[sample].to_array().map(f32::to_bits);
+        let normal = frame.normals().get(sample).map(|normal| normal.to_array().map(f32::to_bits));
+        let color = frame.colors()[sample].to_array().map(f32::to_bits);
         let texture = texture.map(|texture| texture.to_array().map(f32::to_bits));
-        (frame.ids()[sample], t.to_bits(), normal, colour, texture)
+        (frame.ids()[sample], t.to_bits(), normal, color, texture)
     };
     for [i, j] in part.pixels().map(|pixel| pixel.map(|place| place as usize)) {
         for (here, there) in part.samples_of(i, j).zip(whole.samples_of(i, j)) {

@@ -90,19 +90,19 @@ impl Pair {
 /// It answers as [`Judge::nearer`] does, always; it only answers sooner where the same two flat
 /// primitives meet at many samples.
 #[derive(Debug)]
-pub struct Memory {
+pub struct CachedJudge {
     judge: Judge,
     pairs: HashMap<[u32; 2], Pair>,
     unseen: HashMap<u32, bool>,
 }
 
-impl Memory {
+impl CachedJudge {
     /// So many pairs, and so many primitives, are remembered before all are forgotten: some megabytes.
     const MOST: usize = 1 << 15;
 
     /// Remembers nothing yet.
-    pub fn new(judge: Judge) -> Memory {
-        Memory { judge, pairs: HashMap::new(), unseen: HashMap::new() }
+    pub fn new(judge: Judge) -> CachedJudge {
+        CachedJudge { judge, pairs: HashMap::new(), unseen: HashMap::new() }
     }
 
     /// Whether a flat primitive covers no sample of this camera at all: it is seen edge-on, or is a

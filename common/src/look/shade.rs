@@ -23,7 +23,7 @@ pub struct SurfacePoint {
 /// `eye` is where the eye is in the world. Colours above 1 are left to the picture to clamp.
 ///
 /// Blinn, "Models of Light Reflection for Computer Synthesized Pictures", SIGGRAPH 1977.
-pub fn colour(point: &SurfacePoint, material: &Material, lights: &[Light], eye: Vec3) -> Vec3 {
+pub fn color(point: &SurfacePoint, material: &Material, lights: &[Light], eye: Vec3) -> Vec3 {
     let plain = Material { color: reflectance(point, material), ..*material };
     lights.iter().map(|light| lit_by(light, point, &plain, eye)).sum()
 }
@@ -63,7 +63,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_surface_that_faces_the_light_shows_its_colour() {
+    fn a_surface_that_faces_the_light_shows_its_color() {
         let point = SurfacePoint {
             position: -DVec3::Z,
             normal: Vec3::Z,
@@ -73,7 +73,7 @@ mod tests {
         let material = Material { color: Vec3::new(0.5, 0.25, 0.0), ..Material::default() };
         let lit = |direction| {
             let light = Light::Directional { direction, intensity: 1.0 };
-            colour(&point, &material, &[light], Vec3::ZERO)
+            color(&point, &material, &[light], Vec3::ZERO)
         };
         assert_eq!(lit(-Vec3::Z), material.color);
         assert_eq!(lit(Vec3::Z), Vec3::ZERO);

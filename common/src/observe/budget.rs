@@ -110,8 +110,8 @@ impl Events for WorkWithin<'_> {
         self.work.fragment(sample, primitive);
     }
 
-    fn depth_test(&mut self, sample: Sample, challenger: u32, holder: u32, replaced: bool) {
-        self.work.depth_test(sample, challenger, holder, replaced);
+    fn depth_test(&mut self, sample: Sample, incoming: u32, stored: u32, replaced: bool) {
+        self.work.depth_test(sample, incoming, stored, replaced);
     }
 
     fn hit(&mut self, sample: Sample, primitive: Option<u32>) {

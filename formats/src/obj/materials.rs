@@ -192,8 +192,8 @@ fn statement(
 
 fn describe(material: &mut Material, keyword: &[u8], words: Words) -> Result<(), StatementFault> {
     match keyword {
-        b"Kd" => material.color = colour(keyword, words)?.map(linear_from_encoded),
-        b"Ks" => material.specular = colour(keyword, words)?.element_sum() / 3.0,
+        b"Kd" => material.color = color(keyword, words)?.map(linear_from_encoded),
+        b"Ks" => material.specular = color(keyword, words)?.element_sum() / 3.0,
         _ => material.shininess = one_number(keyword, words)?,
     }
     Ok(())
@@ -209,7 +209,7 @@ fn last<'a>(
 }
 
 /// One number, or three.
-fn colour(keyword: &[u8], words: Words) -> Result<Vec3, StatementFault> {
+fn color(keyword: &[u8], words: Words) -> Result<Vec3, StatementFault> {
     let mut values = Vec::with_capacity(3);
     for word in words.take(3) {
         match number(word)? {

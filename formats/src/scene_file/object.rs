@@ -108,11 +108,11 @@ fn plane(item: &Item) -> Result<Shape, Problem> {
     Ok(Shape::Plane(Plane { point, normal: table.need("normal", EXAMPLE)?.direction()? }))
 }
 
-/// A mesh file; `coloured` with its own materials.
+/// A mesh file; `colored` with its own materials.
 fn mesh(
     item: &Item,
     folder: &Path,
-    coloured: bool,
+    colored: bool,
     warnings: &mut Vec<String>,
 ) -> Result<Shape, Problem> {
     let path = Path::new(item.text()?);
@@ -122,7 +122,7 @@ fn mesh(
     };
     let path = folder.join(path);
     let wrong = |error: ReadMeshError| Problem::new(item.span.clone(), error.to_string());
-    let mesh = if coloured {
+    let mesh = if colored {
         let (mesh, missing) = format.read_with_materials(&path).map_err(wrong)?;
         warnings.extend(missing.iter().map(ToString::to_string));
         mesh

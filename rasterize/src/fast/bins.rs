@@ -9,7 +9,7 @@ use super::vertices::{ON_RASTER, OUT_OF_SIGHT, Raster, Vertex};
 use super::{Batch, Piece};
 use bothways_common::engine::fault::{Fault, Planted};
 use bothways_common::engine::simd::{Simd, SimdBase, SimdMask, i32x4};
-use bothways_common::observe::Watcher;
+use bothways_common::observe::EventSink;
 use bothways_common::raster::Region;
 use bothways_common::{Primitive, Shape, View};
 use std::ops::Range;
@@ -225,7 +225,7 @@ impl BatchBins {
 
     /// Finds the bounding region of every primitive of a batch, and the tiles that it overlaps.
     #[inline(always)]
-    pub(super) fn fill<S: Simd, O: Watcher + ?Sized, F: Fault>(
+    pub(super) fn fill<S: Simd, O: EventSink + ?Sized, F: Fault>(
         &mut self,
         simd: S,
         batch: &Batch,
@@ -260,7 +260,7 @@ impl BatchBins {
     /// Adds a part of a mesh: clusters as they are, where they lie in few tiles, and the triangles of others
     /// one by one.
     #[inline(always)]
-    fn add_clusters<S: Simd, O: Watcher + ?Sized, F: Fault>(
+    fn add_clusters<S: Simd, O: EventSink + ?Sized, F: Fault>(
         &mut self,
         simd: S,
         piece: &Piece,
@@ -280,7 +280,7 @@ impl BatchBins {
             let places = first..all.end.min(first + CLUSTER);
             let cluster = [object, first, places.end - first];
             let place = clusters::place(simd, binning, bounds, cluster);
-            if O::WATCHES || matches!(place, Place::Scattered) {
+            if O::ENABLED || matches!(place, Place::Scattered) {
                 self.entries.clear();
                 for place in places {
                     let ids = [first_id + triangles.number(place), first_id + place];
@@ -303,7 +303,7 @@ impl BatchBins {
 
     /// Notes the samples that a triangle may cover, if there are any.
     #[inline(always)]
-    fn enter<S: Simd, O: Watcher + ?Sized, F: Fault>(
+    fn enter<S: Simd, O: EventSink + ?Sized, F: Fault>(
         &mut self,
         simd: S,
         [id, place]: [u32; 2],
@@ -314,7 +314,7 @@ impl BatchBins {
         let flags = corners[0][3] & corners[1][3] & corners[2][3];
         if flags & (OUT_OF_SIGHT | ON_RASTER) == ON_RASTER {
             let (entry, is_seen) = entry::<S, F>(simd, place, binning, corners);
-            if O::WATCHES {
+            if O::ENABLED {
                 let drawn = binning.tiling.region();
                 let region = if is_seen { entry.region().intersection(&drawn) } else { NOWHERE };
                 observer.primitive_begun(id, &region);
@@ -330,7 +330,7 @@ impl BatchBins {
     }
 
     /// Notes the samples that any primitive may cover, to be drawn as [`Class::Large`].
-    fn enter_large<O: Watcher + ?Sized, F: Fault>(
+    fn enter_large<O: EventSink + ?Sized, F: Fault>(
         &mut self,
         [id, place]: [u32; 2],
         binning: &Binning,

@@ -8,7 +8,7 @@ use bothways_common::engine::fault::Fault;
 use bothways_common::engine::simd::{
     Select, Simd, SimdBase, SimdMask, f32x8, f32x16, mask32x16, u32x8, u32x16,
 };
-use bothways_common::observe::Watcher;
+use bothways_common::observe::EventSink;
 use bothways_common::raster::Region;
 use bothways_common::raster::Sample;
 
@@ -32,7 +32,7 @@ struct Tested<S: Simd> {
 
 /// Draws what of one triangle lies in the tile.
 #[inline(always)]
-pub(super) fn draw<S: Simd, O: Watcher + ?Sized, F: Fault>(
+pub(super) fn draw<S: Simd, O: EventSink + ?Sized, F: Fault>(
     simd: S,
     triangle: &Affine,
     picture: &Picture,
@@ -49,7 +49,7 @@ pub(super) fn draw<S: Simd, O: Watcher + ?Sized, F: Fault>(
 
 /// Draws in blocks of `ACROSS` columns and as many rows as make sixteen samples: 16 or 8.
 #[inline(always)]
-fn draw_blocks<const ACROSS: usize, S: Simd, O: Watcher + ?Sized, F: Fault>(
+fn draw_blocks<const ACROSS: usize, S: Simd, O: EventSink + ?Sized, F: Fault>(
     simd: S,
     triangle: &Affine,
     Region { rows, columns }: Region,
@@ -79,7 +79,7 @@ fn draw_blocks<const ACROSS: usize, S: Simd, O: Watcher + ?Sized, F: Fault>(
             let in_rows = (ACROSS < 16).then(|| own_row.simd_lt(end_row));
             let tested = brush.test(own_row, &at_top, in_rows);
             let first = Sample { row, column };
-            if O::WATCHES {
+            if O::ENABLED {
                 let ends = [rows.end, columns.end];
                 tell::<ACROSS, S, O, F>(simd, triangle, buffer, observer, first, ends, &tested);
             }
@@ -249,7 +249,7 @@ fn sample<const ACROSS: usize>(first: Sample, lane: usize) -> Sample {
 /// Leaves some lanes to the judge: those of the first mask, which of the second are certainly covered. It takes
 /// copies, so that who calls it may keep everything in registers.
 #[cold]
-fn leave_open<const ACROSS: usize, O: Watcher + ?Sized, F: Fault>(
+fn leave_open<const ACROSS: usize, O: EventSink + ?Sized, F: Fault>(
     (id, keys): (u32, [f32; 16]),
     picture: &Picture,
     buffer: &mut TileBuffer,
@@ -266,7 +266,7 @@ fn leave_open<const ACROSS: usize, O: Watcher + ?Sized, F: Fault>(
 
 /// Tells of sixteen tests, and of the depth tests that follow.
 #[inline(always)]
-fn tell<const ACROSS: usize, S: Simd, O: Watcher + ?Sized, F: Fault>(
+fn tell<const ACROSS: usize, S: Simd, O: EventSink + ?Sized, F: Fault>(
     simd: S,
     triangle: &Affine,
     buffer: &mut TileBuffer,

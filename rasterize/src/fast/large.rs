@@ -12,7 +12,7 @@ use super::setup::{Affine, MOST_SAMPLES_ACROSS};
 use super::tile::{Challenger, Picture, TileBuffer, judge_covers};
 use bothways_common::engine::fault::{Fault, Planted, error_bound};
 use bothways_common::engine::simd::Simd;
-use bothways_common::observe::Watcher;
+use bothways_common::observe::EventSink;
 use bothways_common::raster::Region;
 use bothways_common::raster::Sample;
 use bothways_common::{Primitive, Projection, Ray, Sign};
@@ -36,7 +36,7 @@ struct Brush<'a, 'b, O: ?Sized> {
 
 /// Draws what of primitives' regions lies in the tile.
 #[inline(always)]
-pub(super) fn draw<S: Simd, O: Watcher + ?Sized, F: Fault>(
+pub(super) fn draw<S: Simd, O: EventSink + ?Sized, F: Fault>(
     simd: S,
     ids: &[u32],
     picture: &Picture,
@@ -45,7 +45,7 @@ pub(super) fn draw<S: Simd, O: Watcher + ?Sized, F: Fault>(
 ) {
     // Several are looked up before they are drawn: so the machine waits for them together.
     for ids in ids.chunks(8) {
-        if O::WATCHES && observer.has_enough() {
+        if O::ENABLED && observer.has_enough() {
             return;
         }
         let last = ids.len() - 1;
@@ -58,7 +58,7 @@ pub(super) fn draw<S: Simd, O: Watcher + ?Sized, F: Fault>(
     }
 }
 
-impl<O: Watcher + ?Sized> Brush<'_, '_, O> {
+impl<O: EventSink + ?Sized> Brush<'_, '_, O> {
     #[inline(always)]
     fn draw<S: Simd, F: Fault>(mut self, simd: S) {
         let Brush { id, primitive, picture, .. } = self;

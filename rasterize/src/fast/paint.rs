@@ -13,7 +13,7 @@ use bothways_common::engine::fault::Fault;
 use bothways_common::engine::simd::{
     Level, Simd, SimdBase, SimdMask, dispatch_with, i32x16, mask32x16, prefetch,
 };
-use bothways_common::observe::Watcher;
+use bothways_common::observe::EventSink;
 use std::ops::Range;
 
 /// What drawing needs to know of the frame.
@@ -26,7 +26,7 @@ pub(super) struct Drawing<'a> {
 
 impl Drawing<'_> {
     /// Draws all primitives of a tile; or not all, and tells so, if who watches has enough.
-    pub(super) fn draw_tile<O: Watcher + ?Sized, F: Fault>(
+    pub(super) fn draw_tile<O: EventSink + ?Sized, F: Fault>(
         &self,
         tile: usize,
         buffer: &mut TileBuffer,
@@ -73,11 +73,11 @@ struct Painter<'a, 'b, O: ?Sized> {
     observer: &'b mut O,
 }
 
-impl<O: Watcher + ?Sized> Painter<'_, '_, O> {
+impl<O: EventSink + ?Sized> Painter<'_, '_, O> {
     /// Whether there is anybody to draw for.
     #[inline(always)]
     fn goes_on(&mut self) -> bool {
-        !(O::WATCHES && self.observer.has_enough())
+        !(O::ENABLED && self.observer.has_enough())
     }
 
     /// Draws the clusters that may be seen in the tile: the nearer ones first, because what they hide need
@@ -94,7 +94,7 @@ impl<O: Watcher + ?Sized> Painter<'_, '_, O> {
                     return;
                 }
                 // Who watches is told of every triangle.
-                if O::WATCHES || !self.hides::<F>(cluster) {
+                if O::ENABLED || !self.hides::<F>(cluster) {
                     self.sort_cluster::<F>(cluster);
                 }
             }

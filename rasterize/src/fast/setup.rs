@@ -10,7 +10,7 @@ use bothways_common::engine::fault::{Fault, Planted};
 use bothways_common::engine::simd::{
     Select, Simd, SimdBase, SimdInt, SimdMask, f32x16, i32x16, mask32x16,
 };
-use bothways_common::observe::Watcher;
+use bothways_common::observe::EventSink;
 use bothways_common::raster::Region;
 use bothways_common::raster::Sample;
 
@@ -209,7 +209,7 @@ pub(super) struct Affine {
 impl Affine {
     /// Tells of one test: the edge functions' signs as far as they are certain, in the orientation of
     /// the contract.
-    pub(super) fn tell_test<O: Watcher + ?Sized>(
+    pub(super) fn tell_test<O: EventSink + ?Sized>(
         &self,
         sample: Sample,
         edges: [f32; 3],

@@ -7,7 +7,7 @@ use bothways_common::engine::fault::Fault;
 use bothways_common::engine::simd::{
     Select, Simd, SimdBase, SimdInt, SimdMask, f32x16, i32x16, mask32x16, u32x16,
 };
-use bothways_common::observe::Watcher;
+use bothways_common::observe::EventSink;
 
 /// Boxes of at most this many samples are drawn together, apart from larger ones: sixteen triangles take
 /// as long as the one with most samples.
@@ -17,7 +17,7 @@ pub(super) const MOST_SAMPLES: u32 = 16;
 
 /// Draws what of the triangles lies in the tile.
 #[inline(always)]
-pub(super) fn draw<S: Simd, O: Watcher + ?Sized, F: Fault>(
+pub(super) fn draw<S: Simd, O: EventSink + ?Sized, F: Fault>(
     simd: S,
     setup: &Setup,
     picture: &Picture,
@@ -50,7 +50,7 @@ pub(super) fn draw<S: Simd, O: Watcher + ?Sized, F: Fault>(
         let inside = active & least.simd_gt(error);
         let perhaps = active & least.simd_ge(-error);
         let keys = (key[0] + key[2] * row) + key[1] * column;
-        if O::WATCHES {
+        if O::ENABLED {
             tell(setup, buffer, observer, active, &index.to_array(), &values);
         }
         fragments.add(index, keys, ids, inside);
@@ -72,7 +72,7 @@ pub(super) fn draw<S: Simd, O: Watcher + ?Sized, F: Fault>(
 
 /// Leaves to the judge whether some lanes' samples are covered.
 #[cold]
-fn leave_open<O: Watcher + ?Sized, F: Fault>(
+fn leave_open<O: EventSink + ?Sized, F: Fault>(
     setup: &Setup,
     picture: &Picture,
     buffer: &mut TileBuffer,
@@ -128,7 +128,7 @@ impl Fragments {
 
     /// Tests the depth of all, and forgets them.
     #[inline(always)]
-    fn test_depth<O: Watcher + ?Sized, F: Fault>(
+    fn test_depth<O: EventSink + ?Sized, F: Fault>(
         &mut self,
         picture: &Picture,
         buffer: &mut TileBuffer,
@@ -185,7 +185,7 @@ impl<S: Simd> Walk<S> {
 
 /// Tells of the tests of one step.
 #[inline(always)]
-fn tell<S: Simd, O: Watcher + ?Sized>(
+fn tell<S: Simd, O: EventSink + ?Sized>(
     setup: &Setup,
     buffer: &TileBuffer,
     observer: &mut O,

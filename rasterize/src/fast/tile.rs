@@ -8,9 +8,9 @@ use bothways_common::engine::fault::{Fault, Planted};
 use bothways_common::engine::simd::{
     Select, Simd, SimdBase, SimdMask, f32x16, finish_streaming, mask32x16, stream, u32x16,
 };
-use bothways_common::exact::Memory;
+use bothways_common::exact::CachedJudge;
 use bothways_common::frame::{NO_PRIMITIVE, Tile, stored_t};
-use bothways_common::observe::{Question, Watcher};
+use bothways_common::observe::{EventSink, Question};
 use bothways_common::raster::{Region, Sample};
 use bothways_common::{Primitive, Projection, View};
 use std::cmp::Ordering;
@@ -34,7 +34,7 @@ pub(super) struct TileBuffer {
     /// Depth keys; [`NOTHING`] for nothing, which all are between two tiles.
     keys: Vec<f32>,
     open: Vec<Open>,
-    memory: Memory,
+    memory: CachedJudge,
     /// The last challenger and holder that were found to be tied everywhere without being the same.
     tied: Option<[u32; 2]>,
     /// The last two ids that were compared (at first, no primitives'), and whether they are the same
@@ -85,7 +85,7 @@ impl TileBuffer {
         let stride = tiling.columns + SPARE;
         let samples = stride * (tiling.rows + 1);
         TileBuffer {
-            memory: Memory::new(view.judge()),
+            memory: CachedJudge::new(view.judge()),
             region: Region { rows: 0..0, columns: 0..0 },
             stride,
             ids: vec![NO_PRIMITIVE; samples],
@@ -103,7 +103,7 @@ impl TileBuffer {
 
     /// Starts a tile in which nothing is seen.
     pub(super) fn begin(&mut self, view: &View, region: &Region) {
-        self.memory = Memory::new(view.judge());
+        self.memory = CachedJudge::new(view.judge());
         self.tied = None;
         self.compared = ([NO_PRIMITIVE; 2], false);
         self.region = region.clone();
@@ -162,7 +162,7 @@ impl TileBuffer {
     /// Leaves to the judge whether a fragment is nearest, or whether it is one. When too many wait, all are
     /// settled at once: which fragment comes to its depth test first does not matter.
     #[inline(always)]
-    pub(super) fn leave_open<O: Watcher + ?Sized, F: Fault>(
+    pub(super) fn leave_open<O: EventSink + ?Sized, F: Fault>(
         &mut self,
         picture: &Picture,
         (index, id, key): (usize, u32, f32),
@@ -170,7 +170,7 @@ impl TileBuffer {
         observer: &mut O,
     ) {
         if !F::is(Planted::TiesToLast) && covered && self.loses_tie(picture, index, id) {
-            if O::WATCHES {
+            if O::ENABLED {
                 // Who watches is told of it as of any other tie.
                 observer.judged(self.sample(index), Question::Nearest);
                 self.tell_depth_test(index, id, false, observer);
@@ -197,9 +197,9 @@ impl TileBuffer {
 
     /// Whether this primitive is known to be the same triangle as an earlier one in the tile, so that it is seen
     /// nowhere. Who watches is told of all its fragments, and the fault decides otherwise.
-    pub(super) fn is_twin<O: Watcher + ?Sized, F: Fault>(&self, id: u32) -> bool {
+    pub(super) fn is_twin<O: EventSink + ?Sized, F: Fault>(&self, id: u32) -> bool {
         let ([last, holder], are_same) = self.compared;
-        let drops = !(O::WATCHES || F::is(Planted::TiesToLast));
+        let drops = !(O::ENABLED || F::is(Planted::TiesToLast));
         drops && are_same && last == id && holder < id
     }
 
@@ -215,7 +215,7 @@ impl TileBuffer {
 
     /// The depth test: keeps the nearer of a fragment and what its sample shows so far.
     #[inline(always)]
-    pub(super) fn fragment<O: Watcher + ?Sized, F: Fault>(
+    pub(super) fn fragment<O: EventSink + ?Sized, F: Fault>(
         &mut self,
         picture: &Picture,
         (index, id, key): (usize, u32, f32),
@@ -227,7 +227,7 @@ impl TileBuffer {
             self.leave_open::<O, F>(picture, (index, id, key), true, observer);
             return;
         }
-        if O::WATCHES {
+        if O::ENABLED {
             self.tell_depth_test(index, id, rank == Rank::Nearer, observer);
         }
         // Both are written in any case: which is nearer cannot be guessed.
@@ -237,7 +237,7 @@ impl TileBuffer {
     }
 
     /// Tells of a fragment and its depth test, before it takes effect.
-    pub(super) fn tell_depth_test<O: Watcher + ?Sized>(
+    pub(super) fn tell_depth_test<O: EventSink + ?Sized>(
         &self,
         index: usize,
         id: u32,
@@ -258,7 +258,7 @@ impl TileBuffer {
     }
 
     /// Tells of a fragment whose depth test is not left open, before it takes effect.
-    pub(super) fn tell_certain<O: Watcher + ?Sized, F: Fault>(
+    pub(super) fn tell_certain<O: EventSink + ?Sized, F: Fault>(
         &self,
         index: usize,
         id: u32,
@@ -273,7 +273,7 @@ impl TileBuffer {
 
     /// Asks the judge what was left open.
     #[inline(never)]
-    pub(super) fn settle<O: Watcher + ?Sized, F: Fault>(
+    pub(super) fn settle<O: EventSink + ?Sized, F: Fault>(
         &mut self,
         picture: &Picture,
         observer: &mut O,
@@ -299,7 +299,7 @@ impl TileBuffer {
     }
 
     /// The depth test at once, by the judge if need be.
-    pub(super) fn settle_depth<O: Watcher + ?Sized, F: Fault>(
+    pub(super) fn settle_depth<O: EventSink + ?Sized, F: Fault>(
         &mut self,
         picture: &Picture,
         index: usize,
@@ -314,7 +314,7 @@ impl TileBuffer {
             Rank::Unknown if held == NOTHING => true,
             Rank::Unknown => self.judge_nearer::<O, F>(picture, index, challenger, observer),
         };
-        if O::WATCHES {
+        if O::ENABLED {
             self.tell_depth_test(index, challenger.id, nearer, observer);
         }
         if nearer {
@@ -324,7 +324,7 @@ impl TileBuffer {
     }
 
     /// Asks the judge whether a primitive is seen rather than the one that the sample shows.
-    fn judge_nearer<O: Watcher + ?Sized, F: Fault>(
+    fn judge_nearer<O: EventSink + ?Sized, F: Fault>(
         &mut self,
         picture: &Picture,
         index: usize,
@@ -335,7 +335,7 @@ impl TileBuffer {
         if let Some(order) = self.compare_spheres::<F>(picture, index, challenger) {
             return order.is_lt();
         }
-        if O::WATCHES {
+        if O::ENABLED {
             observer.judged(self.sample(index), Question::Nearest);
         }
         let before = (id < holder) != F::is(Planted::TiesToLast);
@@ -379,7 +379,7 @@ impl TileBuffer {
         round::nearer([ball, held], &picture.screen.grid.ray(row, column))
     }
 
-    /// Whether a flat primitive covers no sample of this camera at all; see [`Memory::is_edge_on`].
+    /// Whether a flat primitive covers no sample of this camera at all; see [`CachedJudge::is_edge_on`].
     pub(super) fn is_edge_on(&mut self, id: u32, primitive: &Primitive) -> bool {
         self.memory.is_edge_on(id, primitive)
     }
@@ -509,7 +509,7 @@ fn distances<S: Simd>(simd: S, scale: &KeyScale, keys: f32x16<S>) -> (f32x16<S>,
 
 /// Asks the judge whether a primitive covers a sample that rounding leaves open.
 #[cold]
-pub(super) fn judge_covers<O: Watcher + ?Sized, F: Fault>(
+pub(super) fn judge_covers<O: EventSink + ?Sized, F: Fault>(
     picture: &Picture,
     sample: Sample,
     id: u32,

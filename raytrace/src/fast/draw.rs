@@ -10,7 +10,7 @@ use super::tile::{Tile, index, place};
 use bothways_common::Sign;
 use bothways_common::engine::fault::Fault;
 use bothways_common::engine::simd::{Select, Simd, SimdBase, SimdMask, f32x8, f32x16, u32x16};
-use bothways_common::observe::Watcher;
+use bothways_common::observe::EventSink;
 
 /// Boxes of at most this many samples are tested one triangle a lane.
 const FEW: f32 = 8.0;
@@ -56,7 +56,7 @@ fn arrays<S: Simd>(affine: &Affine<S>) -> [[f32; 8]; 3] {
 
 /// Tests some of eight triangles at the samples of the tile; tells how many one of them may cover.
 #[inline(always)]
-pub(super) fn draw<S: Simd, O: Watcher + ?Sized, F: Fault>(
+pub(super) fn draw<S: Simd, O: EventSink + ?Sized, F: Fault>(
     simd: S,
     rays: &Rays,
     lens: &Lens,
@@ -65,7 +65,7 @@ pub(super) fn draw<S: Simd, O: Watcher + ?Sized, F: Fault>(
     observer: &mut O,
 ) -> Extent {
     let setup = Setup::new::<F>(simd, lens, tile.side(), eight, used, tile.far);
-    if O::WATCHES {
+    if O::ENABLED {
         tell(&setup, eight, used, tile, observer);
     }
     let alive = setup.alive.to_bitmask();
@@ -113,7 +113,7 @@ pub(super) fn draw<S: Simd, O: Watcher + ?Sized, F: Fault>(
 /// Triangles over few samples: each lane goes through its own.
 #[inline(always)]
 #[expect(clippy::too_many_arguments, reason = "all is known already")]
-fn draw_few<S: Simd, O: Watcher + ?Sized>(
+fn draw_few<S: Simd, O: EventSink + ?Sized>(
     simd: S,
     lens: &Lens,
     setup: &Setup<S>,
@@ -298,7 +298,7 @@ impl Tile {
     /// fragment at all, is not certain.
     #[inline(always)]
     #[expect(clippy::too_many_arguments, reason = "all that is known of a fragment")]
-    fn fragment<O: Watcher + ?Sized>(
+    fn fragment<O: EventSink + ?Sized>(
         &mut self,
         at: usize,
         lane: usize,
@@ -310,7 +310,7 @@ impl Tile {
     ) {
         let farther = high < self.low[at];
         let nearer = certain && low > self.high[at];
-        let told = O::WATCHES && certain && (farther || nearer);
+        let told = O::ENABLED && certain && (farther || nearer);
         if told && let Some(sample) = self.sample(at) {
             observer.fragment(sample, id);
             if self.high[at] != f32::NEG_INFINITY {
@@ -330,7 +330,7 @@ impl Tile {
 
 /// Tells of the edge functions of triangles at the only ray of a tile, as far as they are certain.
 #[cold]
-fn tell<S: Simd, O: Watcher + ?Sized>(
+fn tell<S: Simd, O: EventSink + ?Sized>(
     setup: &Setup<S>,
     eight: &Eight,
     used: u64,

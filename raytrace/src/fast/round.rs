@@ -4,11 +4,11 @@ use super::rays::{Lens, Rays};
 use super::tile::{Tile, index};
 use bothways_common::Primitive;
 use bothways_common::engine::fault::Fault;
-use bothways_common::observe::Watcher;
+use bothways_common::observe::EventSink;
 use glam::DVec3;
 
 /// Tests a primitive at the samples of the tile that it may cover.
-pub(super) fn draw<O: Watcher + ?Sized, F: Fault>(
+pub(super) fn draw<O: EventSink + ?Sized, F: Fault>(
     rays: &Rays,
     lens: &Lens,
     id: u32,

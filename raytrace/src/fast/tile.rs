@@ -5,9 +5,9 @@ use super::leaf::{self, Answer, Distance, Trust};
 use super::rays::{Lens, Rays};
 use bothways_common::engine::fault::{Fault, Planted};
 use bothways_common::engine::simd::{Select, Simd, SimdBase, SimdMask, f32x16, u32x16};
-use bothways_common::exact::Memory;
+use bothways_common::exact::CachedJudge;
 use bothways_common::frame::{NO_PRIMITIVE, stored_t};
-use bothways_common::observe::{Question, Watcher};
+use bothways_common::observe::{EventSink, Question};
 use bothways_common::raster::{Region, Sample};
 use bothways_common::{Primitive, Projection};
 use std::ops::Range;
@@ -45,7 +45,7 @@ pub(super) struct Tile {
     width: usize,
     side: usize,
     open: Vec<Open>,
-    memory: Memory,
+    memory: CachedJudge,
 }
 
 /// A sample that one of eight triangles may cover, or be nearest at: rounding leaves it open.
@@ -74,7 +74,7 @@ impl Tile {
             width: 0,
             side: 1,
             open: Vec::new(),
-            memory: Memory::new(rays.view.judge()),
+            memory: CachedJudge::new(rays.view.judge()),
         }
     }
 
@@ -176,7 +176,7 @@ impl Tile {
         }
     }
 
-    /// Whether a flat primitive covers no sample of this camera at all; see [`Memory::is_edge_on`].
+    /// Whether a flat primitive covers no sample of this camera at all; see [`CachedJudge::is_edge_on`].
     pub(super) fn is_edge_on(&mut self, id: u32, primitive: &Primitive) -> bool {
         self.memory.is_edge_on(id, primitive)
     }
@@ -187,7 +187,7 @@ impl Tile {
 
     /// Decides what was left open.
     #[cold]
-    pub(super) fn settle<O: Watcher + ?Sized, F: Fault>(
+    pub(super) fn settle<O: EventSink + ?Sized, F: Fault>(
         &mut self,
         rays: &Rays,
         primitives: &[(u32, Primitive); 8],
@@ -205,7 +205,7 @@ impl Tile {
 
     /// Tests one ray against one primitive in `f64`, by the judge if need be, and keeps the nearer of it
     /// and the hit so far. `covered` says that it is certainly covered, which was told already.
-    pub(super) fn decide<O: Watcher + ?Sized, F: Fault>(
+    pub(super) fn decide<O: EventSink + ?Sized, F: Fault>(
         &mut self,
         rays: &Rays,
         index: usize,
@@ -264,7 +264,7 @@ impl Tile {
 
     /// Whether a primitive is seen rather than the hit so far: by `f64` if that is certain, or by the
     /// judge.
-    fn judge_nearer<O: Watcher + ?Sized, F: Fault>(
+    fn judge_nearer<O: EventSink + ?Sized, F: Fault>(
         &mut self,
         rays: &Rays,
         (sample, index): (Sample, usize),

@@ -9,7 +9,7 @@ use super::tile::Tile;
 use super::tree::{Child, Counts, Kind, Node, WIDTH};
 use bothways_common::engine::fault::{Fault, Planted};
 use bothways_common::engine::simd::{Simd, SimdBase, SimdMask, f32x16, mask32x16, prefetch};
-use bothways_common::observe::Watcher;
+use bothways_common::observe::EventSink;
 use bothways_common::{Primitive, View};
 use glam::Vec3;
 
@@ -80,7 +80,7 @@ impl<'a> Walker<'a> {
     /// Finds the first hits of a square of samples, of which so many rows and columns are in the
     /// picture.
     #[inline(always)]
-    pub(super) fn walk<S: Simd, O: Watcher + ?Sized, F: Fault>(
+    pub(super) fn walk<S: Simd, O: EventSink + ?Sized, F: Fault>(
         &mut self,
         simd: S,
         kind: &LensKind,
@@ -91,7 +91,7 @@ impl<'a> Walker<'a> {
         let ([row, column], side) = (start, kind.side);
         let lens = self.rays.lens(kind, column, row);
         self.tile.begin(start, size, side);
-        if O::WATCHES
+        if O::ENABLED
             && let Some(sample) = self.tile.sample(0)
         {
             observer.ray_begun(sample);
@@ -133,10 +133,10 @@ impl<'a> Walker<'a> {
                 Kind::Patch | Kind::Triangles => {
                     let is_odd = F::is(Planted::TiesToLast);
                     let used = if is_odd { counts.all() } else { counts.different() };
-                    if O::WATCHES {
+                    if O::ENABLED {
                         self.tell_of_leaf(child, used, observer);
                     }
-                    let hurry = O::WATCHES || extent == Extent::Many || self.tile.is_nearly_full();
+                    let hurry = O::ENABLED || extent == Extent::Many || self.tile.is_nearly_full();
                     let is_full = self.sieve.add(Waiting { leaf: child, used, near, size });
                     if !(is_full || hurry) {
                         continue;
@@ -154,7 +154,7 @@ impl<'a> Walker<'a> {
             }
             farthest = self.farthest(&lens);
         }
-        if O::WATCHES
+        if O::ENABLED
             && let Some(sample) = self.tile.sample(0)
         {
             observer.hit(sample, self.tile.seen());
@@ -170,7 +170,7 @@ impl<'a> Walker<'a> {
     /// Looks at the leaves that have waited longest, or at all, and draws triangles, eight at a time; all of them
     /// if they are large, or `hurry` asks for it. Takes and tells the extent of those that were drawn last.
     #[inline(always)]
-    fn sift<S: Simd, O: Watcher + ?Sized, F: Fault>(
+    fn sift<S: Simd, O: EventSink + ?Sized, F: Fault>(
         &mut self,
         simd: S,
         lens: &Lens,
@@ -180,7 +180,7 @@ impl<'a> Walker<'a> {
     ) -> Extent {
         let look = match extent {
             // What depends on the triangles that came before does not belong to the ray.
-            _ if O::WATCHES => Look::Edges,
+            _ if O::ENABLED => Look::Edges,
             Extent::Tiny | Extent::Few => Look::Edges,
             Extent::Many => Look::Boxes,
         };
@@ -201,7 +201,7 @@ impl<'a> Walker<'a> {
     }
 
     /// Tells that a ray alone is tested against triangles of a leaf.
-    fn tell_of_leaf<O: Watcher + ?Sized>(&self, leaf: Child, used: usize, observer: &mut O) {
+    fn tell_of_leaf<O: EventSink + ?Sized>(&self, leaf: Child, used: usize, observer: &mut O) {
         if let Some(counts) = observer.counts() {
             counts.tests += used as u64;
             return;
@@ -220,7 +220,7 @@ impl<'a> Walker<'a> {
     /// A side's function is largest, of a box, at one of its corners. The error of points on rays counts, which
     /// [`Rays::lens_kind`] allows for, and that of what is computed here, for which [`super::rough`] does.
     #[inline(always)]
-    fn enter<S: Simd, O: Watcher + ?Sized, F: Fault>(
+    fn enter<S: Simd, O: EventSink + ?Sized, F: Fault>(
         &mut self,
         simd: S,
         lens: &Lens,
@@ -241,7 +241,7 @@ impl<'a> Walker<'a> {
         let ([near, size], met) = meet::<S, F>(simd, lens, node, farthest);
         let used = (1_u64 << node.used) - 1;
         let mut met = met.to_bitmask() & used;
-        if O::WATCHES
+        if O::ENABLED
             && let Some(sample) = self.tile.sample(0)
         {
             let boxes = if let Some(counts) = observer.counts() {

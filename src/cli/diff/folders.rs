@@ -170,8 +170,8 @@ impl Told<'_> {
     }
 
     fn verdict(&self) -> String {
-        let colour = if self.equal() { AnsiColor::Green } else { AnsiColor::Yellow };
-        let style = colour.on_default().bold();
+        let color = if self.equal() { AnsiColor::Green } else { AnsiColor::Yellow };
+        let style = color.on_default().bold();
         let number = |state: fn(&Row) -> bool| self.rows.iter().filter(|row| state(row)).count();
         let equal = number(|row| row.compared.as_ref().is_ok_and(|comparison| comparison.equal));
         let failed = number(|row| row.compared.is_err());

@@ -3,7 +3,7 @@
 use super::hints::hints;
 use super::look::{Look, Pair};
 use super::{Buffer, Content};
-use crate::diff::{COLOUR_TOLERANCE, Class, Classes, DEPTH_TOLERANCE, NAMED_PIXELS, pixels};
+use crate::diff::{COLOR_TOLERANCE, Class, Classes, DEPTH_TOLERANCE, NAMED_PIXELS, pixels};
 use image::RgbImage;
 use serde::Serialize;
 
@@ -18,11 +18,11 @@ pub enum Aspect {
     /// How far it is.
     T,
     /// What it looks like.
-    Colour,
+    Color,
 }
 
 impl Aspect {
-    pub(super) const ALL: [Aspect; 4] = [Aspect::Coverage, Aspect::Ids, Aspect::T, Aspect::Colour];
+    pub(super) const ALL: [Aspect; 4] = [Aspect::Coverage, Aspect::Ids, Aspect::T, Aspect::Color];
 
     /// What a sentence calls it.
     pub fn name(self) -> &'static str {
@@ -30,7 +30,7 @@ impl Aspect {
             Aspect::Coverage => "coverage",
             Aspect::Ids => "ids",
             Aspect::T => "t",
-            Aspect::Colour => "colour",
+            Aspect::Color => "colour",
         }
     }
 
@@ -39,7 +39,7 @@ impl Aspect {
             Aspect::Coverage => buffer.has_coverage(),
             Aspect::Ids => matches!(buffer.content, Content::Ids(_)),
             Aspect::T => matches!(buffer.content, Content::Distances(_)),
-            Aspect::Colour => matches!(buffer.content, Content::Picture(_)),
+            Aspect::Color => matches!(buffer.content, Content::Picture(_)),
         }
     }
 }
@@ -106,7 +106,7 @@ pub struct BufferComparison {
     /// How far it is, where both cover.
     pub depth: Option<BufferDepth>,
     /// What it looks like, where neither says that nothing is there.
-    pub colour: Option<BufferColour>,
+    pub color: Option<BufferColor>,
     /// What the difference as a whole looks like, for whoever looks for its cause.
     pub hints: Vec<String>,
     #[serde(skip)]
@@ -159,12 +159,12 @@ pub struct BufferDepth {
 
 /// Colours where neither says that nothing is there.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct BufferColour {
+pub struct BufferColor {
     /// The largest difference in red, green, blue (or alpha, if both have it), in steps of 1/255.
     pub max_difference: f32,
     /// The first pixel `[i, j]` with it, if there is any difference.
     pub at: Option<[u32; 2]>,
-    /// Pixels beyond [`COLOUR_TOLERANCE`].
+    /// Pixels beyond [`COLOR_TOLERANCE`].
     pub differing_pixels: u64,
 }
 
@@ -202,11 +202,11 @@ pub fn compare(a: &Buffer, b: &Buffer) -> Result<BufferComparison, Incomparable>
         coverage,
         ids: has(Aspect::Ids).then_some(sums.ids),
         depth: has(Aspect::T).then_some(sums.depth),
-        colour: has(Aspect::Colour).then_some(sums.colour),
+        color: has(Aspect::Color).then_some(sums.color),
         hints: if sums.differing_pixels == 0 { Vec::new() } else { hints(&pair) },
         compared,
         classes: Classes::from_pixels(a.size, classes),
-        light: if Aspect::Colour.is_in(a) { a.light() } else { b.light() },
+        light: if Aspect::Color.is_in(a) { a.light() } else { b.light() },
     })
 }
 
@@ -226,7 +226,7 @@ struct Sums {
     both: u64,
     ids: BufferIds,
     depth: BufferDepth,
-    colour: BufferColour,
+    color: BufferColor,
     differing_pixels: u64,
     first_differing: Vec<[u32; 2]>,
     /// Of the rectangle around all that differ, both inside.
@@ -245,9 +245,9 @@ impl Sums {
             self.depth.max_relative_difference = look.depth;
             (self.depth.at, self.depth.t) = (Some(pixel), Some(look.t));
         }
-        self.colour.differing_pixels += u64::from(look.colour > f32::from(COLOUR_TOLERANCE));
-        if look.colour > self.colour.max_difference {
-            (self.colour.max_difference, self.colour.at) = (look.colour, Some(pixel));
+        self.color.differing_pixels += u64::from(look.color > f32::from(COLOR_TOLERANCE));
+        if look.color > self.color.max_difference {
+            (self.color.max_difference, self.color.at) = (look.color, Some(pixel));
         }
         let class = look.class();
         if class.differs() {

@@ -2,7 +2,7 @@
 
 use super::compare::{Aspect, Unit};
 use super::{Buffer, Content, Covered, Picture};
-use crate::diff::{COLOUR_TOLERANCE, Class, DEPTH_TOLERANCE};
+use crate::diff::{COLOR_TOLERANCE, Class, DEPTH_TOLERANCE};
 use std::ops::Range;
 
 /// Two buffers of one size.
@@ -21,14 +21,14 @@ pub(super) struct Look {
     /// The largest relative difference of t, and the two.
     pub(super) depth: f64,
     pub(super) t: [f64; 2],
-    pub(super) colour: f32,
+    pub(super) color: f32,
 }
 
 impl Look {
     pub(super) fn class(&self) -> Class {
         let differs = self.other_ids > 0
             || self.depth > DEPTH_TOLERANCE
-            || self.colour > f32::from(COLOUR_TOLERANCE);
+            || self.color > f32::from(COLOR_TOLERANCE);
         match self {
             Look { only_a: 1.., .. } => Class::OnlyObjectOrder,
             Look { only_b: 1.., .. } => Class::OnlyImageOrder,
@@ -106,7 +106,7 @@ impl Pair<'_> {
                 }
             }
             (Content::Picture(in_a), Content::Picture(in_b)) => {
-                look.colour = colour_difference(in_a, a, in_b, b);
+                look.color = color_difference(in_a, a, in_b, b);
             }
             _ => {}
         }
@@ -128,7 +128,7 @@ fn relative_difference(a: f64, b: f64) -> f64 {
     if a == b { 0.0 } else { (a / larger - b / larger).abs() }
 }
 
-fn colour_difference(in_a: &Picture, a: usize, in_b: &Picture, b: usize) -> f32 {
+fn color_difference(in_a: &Picture, a: usize, in_b: &Picture, b: usize) -> f32 {
     let both_have_alpha = [in_a, in_b].iter().all(|picture| picture.has_alpha());
     let channels = if both_have_alpha { 4 } else { 3 };
     let channels = in_a.pixels.get(a).into_iter().zip(in_b.pixels.get(b)).take(channels);

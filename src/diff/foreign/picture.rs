@@ -37,17 +37,17 @@ pub(super) fn read(
     let decoder = reader.into_decoder().map_err(told)?;
     let size = decoder.dimensions().into();
     check_samples(size, 1)?;
-    let colour = decoder.color_type();
+    let color = decoder.color_type();
     // A grey picture may become a mask.
-    let kept = if colour == ColorType::L8 || colour == ColorType::L16 { 1 } else { kept(colour) };
-    check_memory(size, colour, kept)?;
+    let kept = if color == ColorType::L8 || color == ColorType::L16 { 1 } else { kept(color) };
+    check_memory(size, color, kept)?;
     let picture = DynamicImage::from_decoder(decoder).map_err(told)?;
     Ok(Buffer::new(size, 1, content(picture, background)?))
 }
 
 /// Decoded, and as a [`Buffer`] keeps it, a picture needs no more memory than it may.
-fn check_memory([width, height]: [u32; 2], colour: ColorType, kept: u8) -> Result<(), String> {
-    let bytes = u64::from(width) * u64::from(height) * u64::from(colour.bytes_per_pixel() + kept);
+fn check_memory([width, height]: [u32; 2], color: ColorType, kept: u8) -> Result<(), String> {
+    let bytes = u64::from(width) * u64::from(height) * u64::from(color.bytes_per_pixel() + kept);
     if bytes <= MOST_MEMORY {
         return Ok(());
     }
@@ -60,13 +60,13 @@ fn check_memory([width, height]: [u32; 2], colour: ColorType, kept: u8) -> Resul
 }
 
 /// Bytes that a pixel takes besides the decoded ones, until it is one of [`Pixels`].
-fn kept(colour: ColorType) -> u8 {
-    if is_fine(colour) { 8 + 16 } else { 4 }
+fn kept(color: ColorType) -> u8 {
+    if is_fine(color) { 8 + 16 } else { 4 }
 }
 
 /// Whether a channel has more than 8 bits.
-fn is_fine(colour: ColorType) -> bool {
-    colour.bytes_per_pixel() > colour.channel_count()
+fn is_fine(color: ColorType) -> bool {
+    color.bytes_per_pixel() > color.channel_count()
 }
 
 /// Refuses a run-length BMP that is far too short for its size: a few bytes may claim any.
@@ -125,8 +125,8 @@ fn problem(error: ImageError, format: ImageFormat, length: u64) -> Problem {
 }
 
 fn content(picture: DynamicImage, background: Option<[u8; 3]>) -> Result<Content, String> {
-    let colour = picture.color();
-    let covered = match (colour.has_alpha(), colour.has_color()) {
+    let color = picture.color();
+    let covered = match (color.has_alpha(), color.has_color()) {
         (true, _) => Covered::ByAlpha,
         (false, false) => Covered::ByLight,
         (false, true) => background.map_or(Covered::Unknown, Covered::ByBackground),
@@ -136,8 +136,8 @@ fn content(picture: DynamicImage, background: Option<[u8; 3]>) -> Result<Content
     {
         return Ok(Content::Mask(mask));
     }
-    check_memory(picture.dimensions().into(), colour, kept(colour))?;
-    let pixels = if is_fine(colour) {
+    check_memory(picture.dimensions().into(), color, kept(color))?;
+    let pixels = if is_fine(color) {
         // Sixteen bits hold eight exactly: 65,535 / 255 = 257.
         let steps = |pixel: &image::Rgba<u16>| pixel.0.map(|value| f32::from(value) / 257.0);
         Pixels::Steps(picture.into_rgba16().pixels().map(steps).collect())

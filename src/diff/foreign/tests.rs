@@ -40,7 +40,7 @@ fn distances(t: &[f64]) -> Buffer {
     Buffer::new([width, 1], 1, Content::Distances(t.to_vec()))
 }
 
-fn colours(pixels: &[[f32; 4]], covered: Covered) -> Buffer {
+fn colors(pixels: &[[f32; 4]], covered: Covered) -> Buffer {
     let picture = Picture { pixels: Pixels::Steps(pixels.to_vec()), covered };
     Buffer::new([u32::try_from(pixels.len()).unwrap(), 1], 1, Content::Picture(picture))
 }
@@ -202,7 +202,7 @@ fn palette_png(size: [u32; 2], palette: &[u8]) -> Vec<u8> {
 }
 
 #[test]
-fn palettes_have_three_bytes_a_colour() {
+fn palettes_have_three_bytes_a_color() {
     assert!(read_bytes(&palette_png([1, 1], &[0; 6]), None).is_ok());
     for length in [0, 1, 4, 5, 767, 771] {
         let problem = read_bytes(&palette_png([1, 1], &vec![0; length]), None).unwrap_err();
@@ -275,9 +275,9 @@ fn coverage_and_ids_are_counted() {
     assert_eq!(comparison.ids, Some(BufferIds { differing_samples: 1, differing_pixels: 1 }));
     assert_eq!(comparison.first_differing, [[0, 1], [0, 2], [1, 1]]);
     assert_eq!(comparison.region, Some([0, 1, 2, 2]));
-    let colours: Vec<[u8; 3]> = comparison.picture().pixels().map(|pixel| pixel.0).collect();
-    assert_eq!(colours[1..3], [[0xe6, 0x9f, 0x00], [0x00, 0x72, 0xb2]]);
-    assert_eq!(colours[3..5], [[0x58; 3], [0xcc, 0x79, 0xa7]]);
+    let colors: Vec<[u8; 3]> = comparison.picture().pixels().map(|pixel| pixel.0).collect();
+    assert_eq!(colors[1..3], [[0xe6, 0x9f, 0x00], [0x00, 0x72, 0xb2]]);
+    assert_eq!(colors[3..5], [[0x58; 3], [0xcc, 0x79, 0xa7]]);
     assert!(compare(&a, &a).unwrap().equal);
 }
 
@@ -294,14 +294,14 @@ fn distances_are_compared_within_tolerance() {
 }
 
 #[test]
-fn colours_are_compared_where_neither_says_nothing() {
-    let a = colours(&[[0.0, 9.0, 0.0, 255.0], [1.0; 4], [7.0; 4]], Covered::Unknown);
-    let b = colours(&[[0.0, 6.5, 0.0, 9.0], [3.0; 4], [0.0; 4]], Covered::ByAlpha);
+fn colors_are_compared_where_neither_says_nothing() {
+    let a = colors(&[[0.0, 9.0, 0.0, 255.0], [1.0; 4], [7.0; 4]], Covered::Unknown);
+    let b = colors(&[[0.0, 6.5, 0.0, 9.0], [3.0; 4], [0.0; 4]], Covered::ByAlpha);
     let comparison = compare(&a, &b).unwrap();
-    assert_eq!(comparison.compared, [Aspect::Colour]);
+    assert_eq!(comparison.compared, [Aspect::Color]);
     assert_eq!(comparison.not_compared, ["coverage: only B tells"]);
-    let expected = BufferColour { max_difference: 2.5, at: Some([0, 0]), differing_pixels: 1 };
-    assert_eq!(comparison.colour, Some(expected));
+    let expected = BufferColor { max_difference: 2.5, at: Some([0, 0]), differing_pixels: 1 };
+    assert_eq!(comparison.color, Some(expected));
 }
 
 #[test]
@@ -321,7 +321,7 @@ fn what_cannot_be_compared_is_named() {
     let sizes = problem(&ids([3, 2], "......"), &ids([2, 3], "......"));
     assert!(sizes.contains("A is 3 x 2 pixels and B is 2 x 3"), "{sizes}");
     assert!(sizes.contains("swapped"), "{sizes}");
-    let nothing = problem(&ids([1, 1], "0"), &colours(&[[0.0; 4]], Covered::Unknown));
+    let nothing = problem(&ids([1, 1], "0"), &colors(&[[0.0; 4]], Covered::Unknown));
     assert!(nothing.contains("--background"), "{nothing}");
 }
 

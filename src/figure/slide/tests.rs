@@ -118,6 +118,6 @@ fn one_differing_pixel_of_millions_is_seen() {
     let column = 1280..1848;
     let found = (282..708)
         .flat_map(|y| column.clone().map(move |x| (x, y)))
-        .any(|(x, y)| slide.get_pixel(x, y).0 == Class::OnlyObjectOrder.colour());
+        .any(|(x, y)| slide.get_pixel(x, y).0 == Class::OnlyObjectOrder.color());
     assert!(found);
 }

@@ -1,0 +1,72 @@
+//! What every inner loop of a fast renderer carries along: the vector instructions that it is compiled for, the sink
+//! that its events go to, and the faults that tests plant in it.
+
+use super::fault::{Fault, Planted};
+use super::simd::Simd;
+use crate::observe::EventSink;
+use std::fmt;
+use std::marker::PhantomData;
+
+/// One type parameter for the three that a loop is compiled for.
+///
+/// Functions that take `&mut impl Context` and use [`Context::simd`] are `#[inline(always)]`, as all vector code is.
+pub trait Context {
+    /// The vector instructions.
+    type Simd: Simd;
+    /// Where events go: `()`, or `dyn Events`.
+    type Sink: EventSink + ?Sized;
+    /// Which faults there may be.
+    type Fault: Fault;
+
+    /// Whether events go anywhere. A branch on it costs nothing.
+    const WATCHED: bool = <Self::Sink as EventSink>::ENABLED;
+
+    /// The vector instructions.
+    fn simd(&self) -> Self::Simd;
+
+    /// Where events go.
+    fn sink(&mut self) -> &mut Self::Sink;
+
+    /// Whether this fault is planted. In sound code a branch on it costs nothing.
+    #[inline(always)]
+    fn has(fault: Planted) -> bool {
+        Self::Fault::is(fault)
+    }
+}
+
+/// The only [`Context`]: its parts.
+pub struct Parts<'a, S, E: ?Sized, F> {
+    simd: S,
+    sink: &'a mut E,
+    fault: PhantomData<F>,
+}
+
+impl<'a, S: Simd, E: EventSink + ?Sized, F: Fault> Parts<'a, S, E, F> {
+    /// The context of a loop in `simd` instructions that tells `sink` of its events, with the faults of `F`.
+    #[inline(always)]
+    pub fn new(simd: S, sink: &'a mut E, _fault: F) -> Self {
+        Parts { simd, sink, fault: PhantomData }
+    }
+}
+
+impl<S: Simd, E: EventSink + ?Sized, F: Fault> Context for Parts<'_, S, E, F> {
+    type Simd = S;
+    type Sink = E;
+    type Fault = F;
+
+    #[inline(always)]
+    fn simd(&self) -> S {
+        self.simd
+    }
+
+    #[inline(always)]
+    fn sink(&mut self) -> &mut E {
+        self.sink
+    }
+}
+
+impl<S, E: ?Sized, F> fmt::Debug for Parts<'_, S, E, F> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.debug_struct("Parts").finish_non_exhaustive()
+    }
+}
