@@ -36,6 +36,7 @@ pub struct Comparison {
     /// How far it is.
     pub depth: Depth,
     /// What it looks like.
+    #[serde(rename = "colour")]
     pub color: Color,
 }
 

@@ -31,6 +31,7 @@ pub struct Report {
     /// How far it is.
     pub depth: Option<Depth>,
     /// What it looks like.
+    #[serde(rename = "colour")]
     pub color: Option<Color>,
     /// What the textbook says of some samples, if it was asked.
     #[serde(skip_serializing_if = "Option::is_none")]

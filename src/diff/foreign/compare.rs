@@ -18,6 +18,7 @@ pub enum Aspect {
     /// How far it is.
     T,
     /// What it looks like.
+    #[serde(rename = "colour")]
     Color,
 }
 
@@ -106,6 +107,7 @@ pub struct BufferComparison {
     /// How far it is, where both cover.
     pub depth: Option<BufferDepth>,
     /// What it looks like, where neither says that nothing is there.
+    #[serde(rename = "colour")]
     pub color: Option<BufferColor>,
     /// What the difference as a whole looks like, for whoever looks for its cause.
     pub hints: Vec<String>,
