@@ -1,6 +1,8 @@
 //! Which samples a primitive covers.
 
-use super::real::{Dyadic, Real, cross, difference, dot, exactly, vector};
+use super::dyadic::Dyadic;
+use super::evaluate::exactly;
+use super::real::{Real, cross, difference, dot, vector};
 use super::sign::Sign;
 use crate::camera::{Projection, Ray};
 use glam::DVec3;

@@ -3,12 +3,13 @@
 //! Where rounded arithmetic is in doubt, exact numbers of any length cost microseconds. This costs a tenth of
 //! that, and settles nearly everything that is not exactly zero; and what is, where few digits are needed.
 
-use super::real::{Real, UNDERFLOW, UNIT_ROUNDOFF};
+use super::real::{Real, UNDERFLOW};
 use super::sign::Sign;
+use crate::engine::roundoff::EPS53;
 
 /// A number within `error` of `high + low`, where `low` is at most half of the last place of `high`.
 ///
-/// Unlike in [`Bounded`](super::real::Bounded), what each operation loses is found rather than bounded
+/// Unlike in [`Bounded`](super::bounded::Bounded), what each operation loses is found rather than bounded
 /// wherever that is cheap. So `error` stays zero as long as 106 digits are enough, and zero is recognised.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Double {
@@ -31,7 +32,7 @@ impl Double {
     /// The error as computed by at most twenty roundings, of which each may have lost one part in 2⁵³, made
     /// large enough again.
     fn up(error: f64) -> f64 {
-        error * (1.0 + 32.0 * UNIT_ROUNDOFF)
+        error * (1.0 + 32.0 * EPS53)
     }
 
     fn sum(&self, high: f64, low: f64, error: f64) -> Self {
@@ -73,7 +74,7 @@ impl Real for Double {
             let crosswise = one + two;
             rest += crosswise;
             let rounded = one.abs() + two.abs() + crosswise.abs() + rest.abs();
-            error += UNIT_ROUNDOFF * rounded + (self.low * other.low).abs() + UNDERFLOW;
+            error += EPS53 * rounded + (self.low * other.low).abs() + UNDERFLOW;
         }
         if self.error != 0.0 || other.error != 0.0 {
             let carried = self.high.abs() * other.error + other.high.abs() * self.error;
@@ -85,7 +86,7 @@ impl Real for Double {
 
     fn sign(&self) -> Option<Sign> {
         // Twice the low part is less than one part in 2⁵² of the high one.
-        let least = self.high.abs() * (1.0 - 4.0 * UNIT_ROUNDOFF);
+        let least = self.high.abs() * (1.0 - 4.0 * EPS53);
         let is_zero = self.high == 0.0 && self.error == 0.0;
         (is_zero || least > self.error).then(|| Sign::of(self.high))
     }
@@ -124,7 +125,7 @@ fn halves(number: f64) -> [f64; 2] {
 
 #[cfg(test)]
 mod tests {
-    use super::super::real::Dyadic;
+    use super::super::dyadic::Dyadic;
     use super::*;
 
     /// Numbers of any size and number of digits, the same in every run.

@@ -3,9 +3,12 @@
 //! Both are known to cover the sample. Triangles and planes are *flat*: with a normal `n` and a point
 //! `a` of it, the ray crosses it at `t = p/q`, `p = n·(a − O)`, `q = n·D`.
 
+use super::bounded::Bounded;
 use super::cover::{Nudge, Quadratic};
 use super::double::Double;
-use super::real::{Bounded, Dyadic, Real, cross, difference, dot, exactly, vector};
+use super::dyadic::Dyadic;
+use super::evaluate::exactly;
+use super::real::{Real, cross, difference, dot, vector};
 use super::sign::Sign;
 use crate::camera::{Projection, Ray};
 use crate::scene::primitive::{Primitive, are_same_corners};

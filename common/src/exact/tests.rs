@@ -1,4 +1,6 @@
 use super::*;
+use crate::{Camera, Primitive, Projection};
+use glam::DVec3;
 use std::cmp::Ordering;
 
 fn point(x: f64, y: f64, z: f64) -> DVec3 {

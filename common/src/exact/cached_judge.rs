@@ -4,9 +4,10 @@
 //! each costs a microsecond; but which of two planes is nearer depends on the ray through one linear
 //! function alone, whose coefficients can be found exactly once.
 
-use super::Judge;
+use super::dyadic::Dyadic;
+use super::judge::Judge;
 use super::nearest::{Comparison, Crossing, are_identical, by_rounded_arithmetic, ordering};
-use super::real::{Dyadic, Real};
+use super::real::Real;
 use super::sign::Sign;
 use crate::camera::{Projection, Ray};
 use crate::scene::primitive::Primitive;
@@ -118,12 +119,12 @@ impl CachedJudge {
     /// [`Judge::nearer`]. An id must always mean the same primitive.
     pub fn nearer(
         &mut self,
-        challenger: (u32, &Primitive),
-        holder: (u32, &Primitive),
+        incoming: (u32, &Primitive),
+        stored: (u32, &Primitive),
         ray: &Ray,
     ) -> bool {
-        let order = self.compare(challenger, holder, ray).decided;
-        order.then(challenger.0.cmp(&holder.0)).is_lt()
+        let order = self.compare(incoming, stored, ray).decided;
+        order.then(incoming.0.cmp(&stored.0)).is_lt()
     }
 
     /// Whether two primitives are equally far along every ray that meets both: they are the same, or flat

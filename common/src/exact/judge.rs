@@ -1,0 +1,128 @@
+//! The judge: what is true of the samples of one camera.
+
+use super::cover::{self, EdgeSigns, EdgeValues, Nudge};
+use super::nearest::{self, Comparison};
+use super::sign::Sign;
+use crate::camera::{Camera, Projection, Ray};
+use crate::scene::primitive::Primitive;
+use glam::DVec3;
+
+/// Decides what is true of the samples of one camera.
+///
+/// ```
+/// use bothways_common::{Camera, Judge, Primitive, glam::DVec3};
+///
+/// let camera = Camera::canonical(2, 2);
+/// let ball = Primitive::Sphere { center: DVec3::new(0.0, 0.0, -3.0), radius: 1.5 };
+/// assert!(Judge::new(&camera).covers(&ball, &camera.viewing_ray(0, 0)));
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Judge {
+    pub(super) projection: Projection,
+    nudge: Nudge,
+    /// Where the camera looks, `−w`.
+    pub(super) forward: DVec3,
+}
+
+impl Judge {
+    /// The judge of one camera's samples.
+    pub fn new(camera: &Camera) -> Judge {
+        let nudge = Nudge { u: camera.u(), v: camera.v() };
+        Judge { projection: camera.projection(), nudge, forward: -camera.w() }
+    }
+
+    /// Whether a primitive covers the sample that a viewing ray of this camera passes through.
+    ///
+    /// A triangle covers what is inside of all its edges, in front of the eye, from both sides; a
+    /// sample on an edge belongs to the side on which it lies when moved infinitely little to the
+    /// right, and far less still down. A sphere covers what its near or, seen from inside, far wall
+    /// is behind; to touch is to miss. A plane covers what is on this side of its horizon.
+    pub fn covers(&self, primitive: &Primitive, ray: &Ray) -> bool {
+        match primitive {
+            Primitive::Triangle(triangle) => {
+                cover::triangle_covers(self.projection, &self.nudge, triangle, ray)
+            }
+            Primitive::Sphere { center, radius } => cover::sphere_covers(*center, *radius, ray),
+            Primitive::Plane { point, normal } => cover::plane_covers(*point, *normal, ray),
+        }
+    }
+
+    /// [`Judge::covers`] with the signs that decide it, where they are a triangle's.
+    pub fn coverage(&self, primitive: &Primitive, ray: &Ray) -> Coverage {
+        match primitive {
+            Primitive::Triangle(triangle) => {
+                let edges = self.edge_signs(triangle, ray);
+                Coverage { covers: edges.covers(), edges: Some(edges) }
+            }
+            Primitive::Sphere { .. } | Primitive::Plane { .. } => {
+                Coverage { covers: self.covers(primitive, ray), edges: None }
+            }
+        }
+    }
+
+    /// The facing `F` of a triangle: negative when its corners are seen counter-clockwise, zero for
+    /// edge-on. It is the same for every ray of the camera.
+    pub fn facing(&self, triangle: &[DVec3; 3], ray: &Ray) -> Sign {
+        cover::facing(self.projection, triangle, ray)
+    }
+
+    /// Whether a flat primitive covers no sample at all, because the camera sees it edge-on: `F = 0` of
+    /// a triangle, a plane that holds the eye, or one along the rays of a parallel camera. A sphere is
+    /// never seen edge-on.
+    pub fn is_edge_on(&self, primitive: &Primitive) -> bool {
+        let axis = Ray { origin: DVec3::ZERO, direction: self.forward };
+        match primitive {
+            Primitive::Triangle(corners) => self.facing(corners, &axis) == Sign::Zero,
+            Primitive::Plane { point, normal } => {
+                let along = match self.projection {
+                    Projection::Perspective => *point,
+                    Projection::Parallel => self.forward,
+                };
+                cover::is_perpendicular(*normal, along)
+            }
+            Primitive::Sphere { .. } => false,
+        }
+    }
+
+    /// The signs that decide whether a triangle covers a sample, ties shown.
+    pub fn edge_signs(&self, triangle: &[DVec3; 3], ray: &Ray) -> EdgeSigns {
+        cover::edge_signs(self.projection, &self.nudge, triangle, ray)
+    }
+
+    /// The numbers behind [`Judge::edge_signs`], and what kind of edge a sample lies on.
+    pub fn edge_values(&self, triangle: &[DVec3; 3], ray: &Ray) -> EdgeValues {
+        cover::edge_values(self.projection, &self.nudge, triangle, ray)
+    }
+
+    /// Compares the distances of two primitives that both cover the sample; `Less` is nearer.
+    pub fn compare(&self, first: &Primitive, second: &Primitive, ray: &Ray) -> Comparison {
+        nearest::compare(self.projection, &self.nudge, first, second, ray)
+    }
+
+    /// Whether an incoming primitive is seen rather than the stored one, both with their ids; both cover the
+    /// sample. What no distance tells apart, the smaller id does.
+    pub fn nearer(
+        &self,
+        (incoming_id, incoming): (u32, &Primitive),
+        (stored_id, stored): (u32, &Primitive),
+        ray: &Ray,
+    ) -> bool {
+        let order = self.compare(incoming, stored, ray).decided;
+        order.then(incoming_id.cmp(&stored_id)).is_lt()
+    }
+
+    /// The distance of a primitive that covers the sample, in lengths of the ray's direction, to
+    /// within a few parts in 10¹⁰.
+    pub fn distance(&self, primitive: &Primitive, ray: &Ray) -> f64 {
+        nearest::distance(primitive, ray)
+    }
+}
+
+/// Whether a primitive covers a sample, and why.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Coverage {
+    /// Whether it does.
+    pub covers: bool,
+    /// A triangle's signs.
+    pub edges: Option<EdgeSigns>,
+}
