@@ -26,7 +26,7 @@ pub enum Orientation {
     LookAt {
         /// The point in the middle of the picture.
         target: Vec3,
-        /// Any direction that is not along the view; what of it is perpendicular becomes `v`.
+        /// Any direction that is not along the view; its part perpendicular to the view becomes `v`.
         up: Vec3,
     },
     /// From the eye along a direction.
@@ -47,7 +47,7 @@ pub enum Orientation {
     },
 }
 
-/// A camera as somebody states it: any values, checked by [`Camera::new`].
+/// A camera as a user states it: any values, which [`Camera::new`] checks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CameraDescription {
     /// Perspective or parallel.
@@ -80,7 +80,7 @@ impl Default for CameraDescription {
 
 /// The camera of the lecture, ready to make viewing rays.
 ///
-/// Its frame is `f64` and orthonormal to the last bits; everything else is stored as it was given.
+/// Its frame is `f64` and orthonormal to the last bits; everything else is stored as given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     description: CameraDescription,
@@ -112,7 +112,7 @@ impl CameraDescription {
             return Err(CameraError::FieldOfView { degrees });
         }
         let half = f64::from(degrees).to_radians() / 2.0;
-        // Not the standard library's: the same on every machine.
+        // libm gives the same result on every machine; the standard library does not promise that.
         self.viewport[1] = rounded(2.0 * f64::from(self.distance) * libm::tan(half));
         self.viewport[0] = self.width_of_square_pixels();
         Ok(self)
@@ -351,7 +351,7 @@ fn frame(eye: Vec3, orientation: Orientation) -> Result<[DVec3; 3], CameraError>
         Orientation::Frame { u, v, w } => return stated_frame(u, v, w),
     };
     let right = direction("up", up)?.cross(w);
-    // What is left of up is lost in the rounding of w below this.
+    // Below this, rounding of w decides what is left of up.
     if right.length() < 1e-6 {
         return Err(CameraError::UpAlongView { up });
     }
@@ -360,7 +360,7 @@ fn frame(eye: Vec3, orientation: Orientation) -> Result<[DVec3; 3], CameraError>
 
 fn stated_frame(u: Vec3, v: Vec3, w: Vec3) -> Result<[DVec3; 3], CameraError> {
     let (u, v, w) = (direction("u", u)?, direction("v", v)?, direction("w", w)?);
-    // Six decimals, as a frame written by hand or printed by another program has them, pass.
+    // A frame with six decimals passes: people and programs write that many.
     const SKEW: f64 = 1e-3;
     let skew = u.dot(v).abs().max(v.dot(w).abs()).max(w.dot(u).abs());
     if skew > SKEW {
@@ -385,7 +385,7 @@ fn unit(vector: DVec3) -> DVec3 {
     vector / vector.length()
 }
 
-/// Components that mean nothing beside 1 become 0, so that no product of the predicates underflows.
+/// Components that are negligible beside 1 become 0, so that no product of the predicates underflows.
 fn clean(vector: DVec3) -> DVec3 {
     DVec3::select(vector.abs().cmplt(DVec3::splat((-100f64).exp2())), DVec3::ZERO, vector)
 }

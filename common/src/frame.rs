@@ -8,7 +8,7 @@ use std::ops::Range;
 
 /// How to render, the same for both orders.
 ///
-/// Threads are the caller's: the fast renderers run on the rayon pool that they are called in.
+/// The caller chooses the threads: the fast renderers run on the rayon pool that they are called in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
     /// Samples along one side of a pixel: `samples`² a pixel, on a regular grid.
@@ -64,7 +64,7 @@ pub struct Tile<'a> {
     pub t: Vec<&'a mut [f32]>,
 }
 
-/// One row of a frame, while its visible surfaces get their look.
+/// One row of a frame during shading.
 #[derive(Debug)]
 pub struct ShadingRow<'a> {
     /// The row's number from the top.
@@ -77,9 +77,9 @@ pub struct ShadingRow<'a> {
     pub t: &'a [f32],
     /// Linear red, green and blue.
     pub colors: &'a mut [Vec3],
-    /// Unit normals towards the viewer, zero where nothing is seen; `None` if nobody asked for them.
+    /// Unit normals towards the viewer, zero where nothing is seen; `None` unless the frame keeps them.
     pub normals: Option<&'a mut [Vec3]>,
-    /// Texture coordinates, zero where there are none; `None` if nobody asked for them.
+    /// Texture coordinates, zero where there are none; `None` unless the frame keeps them.
     pub texture_coordinates: Option<&'a mut [Vec2]>,
 }
 
@@ -119,7 +119,7 @@ impl Frame {
         self
     }
 
-    /// Makes the frame fit a camera and options; what it held is no longer of use.
+    /// Makes the frame fit a camera and options. Its old content is meaningless afterwards.
     pub fn fit(&mut self, camera: &Camera, options: &Options) {
         if self.camera_image != camera.image() || self.options != *options {
             let keeps = [!self.normals.is_empty(), !self.texture_coordinates.is_empty()];
@@ -133,7 +133,7 @@ impl Frame {
         }
     }
 
-    /// Forgets what was seen.
+    /// Clears the frame: nothing is seen.
     pub fn clear(&mut self) {
         self.ids.fill(NO_PRIMITIVE);
         self.t.fill(f32::INFINITY);
@@ -235,15 +235,15 @@ impl Frame {
         &self.texture_coordinates
     }
 
-    /// The indices, in [`Frame::ids`] and its like, of a pixel's samples.
+    /// The indices of a pixel's samples, in [`Frame::ids`] and the other buffers.
     pub fn samples_of(&self, i: usize, j: usize) -> impl Iterator<Item = usize> + use<> {
         let (n, width) = (self.samples() as usize, self.width());
         let first = self.index(i * n, j * n);
         (0..n * n).map(move |sample| first + sample / n * width + sample % n)
     }
 
-    /// Cuts the frame into tiles of at most so many rows and columns of samples, row by row. They are those
-    /// of the whole image, of a crop as much as it holds of each.
+    /// Cuts the frame into tiles of at most so many rows and columns of samples, row by row. The tiles are those of
+    /// the whole image; a frame of a crop gets the parts of them that it holds.
     ///
     /// # Panics
     ///
@@ -291,8 +291,7 @@ impl Frame {
     }
 }
 
-/// A distance as a frame stores it: the nearest `f32`, but finite and not 0, as `t` of something
-/// seen is.
+/// A distance as a frame stores it: the nearest `f32` that is finite and positive, as every `t` is.
 pub fn stored_t(t: f64) -> f32 {
     #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is what is asked")]
     let rounded = t as f32;

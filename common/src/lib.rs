@@ -1,9 +1,41 @@
-//! What both orders of rendering share: what a scene *is*, and what is *true* of one sample and
-//! one primitive. How to find what is visible is the business of the two renderers.
+//! What both orders of rendering share: what a scene *is*, and what is *true* of one sample and one primitive.
+//!
+//! How to find what is visible is not here. That is the business of the two renderers, `bothways-rasterize` (object
+//! order) and `bothways-raytrace` (image order), which both know this crate and never each other.
+//!
+//! ```
+//! use bothways_common::{Camera, Object, Scene, Shape, Sphere, View, glam::Vec3};
+//!
+//! let ball = Shape::Sphere(Sphere { center: Vec3::new(0.0, 0.0, -3.0), radius: 1.0 });
+//! let scene = Scene::new(vec![Object::from(ball)])?;
+//! let camera = Camera::canonical(3, 3);
+//! let view = View::new(&scene, &camera);
+//!
+//! // Which primitives may cover a sample, a renderer has to find out. Here is only one.
+//! let (ball, ray) = (view.primitive(0), camera.viewing_ray(1, 1));
+//! assert!(view.judge().covers(&ball, &ray));
+//! assert_eq!(view.judge().distance(&ball, &ray), 2.0);
+//! # Ok::<(), bothways_common::SceneError>(())
+//! ```
+//!
+//! # A tour
+//!
+//! - [`scene`] says what there is to see: objects in an order, each a [`Shape`] with a [`Material`], and lights. A
+//!   [`Mesh`] shares its vertices. Every triangle, sphere and plane is one primitive with an id.
+//! - [`camera`] is the lecture's camera. It makes the viewing ray of a pixel or a sample; [`raster`] says where samples
+//!   lie, and cuts rectangles of them.
+//! - [`view`] puts both together: a [`View`] gives each [`Primitive`] relative to the eye.
+//! - [`exact`] decides. A [`Judge`] says whether a primitive covers a sample, and which of two is nearer, without error.
+//! - [`frame`] is what a renderer answers: an id and a `t` for every sample, and its color.
+//! - [`look`] gives a visible point its color, from a normal and a texture coordinate that each order finds for itself.
+//! - [`observe`] is how one watches the loops at work: a renderer sends events, an [`Observer`] makes counts, films or
+//!   lessons of them.
 //!
 //! # Conventions
 //!
-//! - A pixel is `(i, j)`: row from the top, column from the left, counted from 0.
+//! - A pixel is `(i, j)`: row from the top, column from the left, counted from 0. Rows come before columns, and heights
+//!   before widths, wherever both are numbers of the raster. The size of an image is written as people write it, width
+//!   first: 640x480.
 //! - `(x, y)` are real coordinates on the viewport, `x` along `u` (right), `y` along `v` (up).
 //! - A picture of `samples` × `samples` samples a pixel is a raster of `height·samples` rows and
 //!   `width·samples` columns; sample `(row, column)` of it lies in pixel `(row / samples,
@@ -11,8 +43,9 @@
 //! - Positions are stored as `f32` in the world and judged by their offset from the eye, one `f64`
 //!   subtraction a coordinate. From there on, the eye is the origin and the axes are the world's.
 //! - `t` counts in lengths of the viewing ray's direction; larger is farther.
-//! - Primitive ids count from 0 in scene order, one for a triangle, sphere or plane, one a triangle
-//!   for a mesh.
+//! - Primitive ids count from 0 in scene order: one for a triangle, sphere or plane, and one for each triangle of a mesh.
+//!
+//! The whole contract, with its derivations, is in `docs/contract.md`.
 
 pub mod camera;
 #[doc(hidden)]

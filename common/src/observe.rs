@@ -1,4 +1,4 @@
-//! Watching the loops at work. Whatever is ever shown about the renderers comes from here.
+//! The events of the loops, and who receives them. Counts, heat maps, films and lessons are all made from these.
 
 pub mod budget;
 
@@ -14,27 +14,27 @@ pub enum Question {
     Nearest,
 }
 
-/// What a renderer's loops tell while they run. All methods do nothing unless overridden.
+/// The events of a renderer's loops. All methods do nothing unless overridden.
 ///
-/// Object order tells: `primitive_begun`, then for each of its samples `sample_tested`,
-/// `edge_signs`, `fragment`, `depth_test`. Image order tells: `ray_begun`, then `node_opened`,
-/// `sample_tested`, `edge_signs`, `fragment`, `depth_test`, and at the end of the ray `hit`. Who merely counts may be
-/// told sums instead.
+/// In object order they are: `primitive_begun`, then for each of its samples `sample_tested`, `edge_signs`, `fragment`,
+/// `depth_test`. In image order they are: `ray_begun`, then `node_opened`, `sample_tested`, `edge_signs`, `fragment`,
+/// `depth_test`, and at the end of the ray `hit`. An observer that only counts gets sums instead: see
+/// [`Events::counts`].
 pub trait Events {
-    /// The counts of one who merely counts: renderers add to them what happens at many samples at once.
+    /// The counts of an observer that only counts. Renderers may add the events of many samples to them at once.
     fn counts(&mut self) -> Option<&mut Work> {
         None
     }
 
-    /// Whether nothing more need be told, from now on: renderers go on for nobody then.
+    /// Whether the observer needs no more events. A renderer then finishes the picture without sending any.
     fn has_enough(&mut self) -> bool {
         false
     }
 
-    /// Object order takes up a primitive; no sample outside of the region can be affected.
+    /// Object order begins a primitive, which affects no sample outside of the region.
     fn primitive_begun(&mut self, _primitive: u32, _region: &Region) {}
 
-    /// Image order takes up a sample.
+    /// Image order begins the ray of a sample.
     fn ray_begun(&mut self, _sample: Sample) {}
 
     /// Image order tests the box of a node of its hierarchy, and enters it or not.
@@ -44,8 +44,8 @@ pub trait Events {
     fn sample_tested(&mut self, _sample: Sample, _primitive: u32) {}
 
     /// The signs of a triangle's edge functions `E_ab`, `E_bc`, `E_ca` at a sample; zero is a tie.
-    /// `None` for one that was not needed, because another had already decided. Not told of a triangle that was
-    /// dropped before its edge functions were known, because of where its corners are seen.
+    /// `None` stands for a sign that was not needed, because another one had decided. A triangle that is culled by
+    /// where its corners are seen has no such event.
     fn edge_signs(&mut self, _sample: Sample, _primitive: u32, _signs: [Option<Sign>; 3]) {}
 
     /// The primitive covers the sample.
@@ -61,13 +61,13 @@ pub trait Events {
     fn judged(&mut self, _sample: Sample, _question: Question) {}
 }
 
-/// Somebody who watches a renderer's loops at work.
+/// Receives the events of a renderer's loops.
 ///
-/// `()` watches nothing, and costs nothing. A picture is rendered in parts by several threads; each part gets an
+/// `()` receives nothing, and costs nothing. A picture is rendered in parts by several threads; each part gets an
 /// observer by [`Observer::fork`], and they come back through [`Observer::join`] in an order that does not depend
 /// on the threads.
 pub trait Observer: Events + Send + Sync + Sized {
-    /// Whether anything is done with what is told: renderers save themselves the telling if not.
+    /// Whether the observer makes use of events. If not, renderers do not send any.
     const WATCHES: bool = true;
 
     /// The observer as an event sink, if it watches.
@@ -105,7 +105,7 @@ impl Observer for () {
     fn join(&mut self, (): ()) {}
 }
 
-/// Two who watch the same loops.
+/// Two observers of the same loops.
 impl<A: Observer, B: Observer> Observer for (A, B) {
     const WATCHES: bool = A::WATCHES || B::WATCHES;
 
@@ -121,7 +121,7 @@ impl<A: Observer, B: Observer> Observer for (A, B) {
 
 impl<A: Events, B: Events> Events for (A, B) {
     fn has_enough(&mut self) -> bool {
-        // Both are asked: either may note that it was.
+        // `&` asks both: each may count that it was asked.
         self.0.has_enough() & self.1.has_enough()
     }
 
@@ -171,38 +171,38 @@ impl<A: Events, B: Events> Events for (A, B) {
     }
 }
 
-/// How much was done, in steps that do not depend on threads, tiles or the width of SIMD.
+/// Counts of events. Neither threads nor the width of SIMD change them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Work {
-    /// Primitives taken up by the outer loop of object order.
+    /// Primitives that the outer loop of object order began.
     pub primitives: u64,
-    /// Rays taken up by the outer loop of image order.
+    /// Rays that the outer loop of image order began.
     pub rays: u64,
-    /// Boxes of the hierarchy tested against a ray. The fast ray tracer walks its hierarchy with many rays
-    /// at once; for whoever watches, each ray walks alone as well, so that what is counted here and below
-    /// belongs to the ray, not to its neighbours. All boxes of a node count, and all triangles of a leaf
-    /// but those that are the same as an earlier one.
+    /// Boxes of the hierarchy that were tested against a ray. The fast ray tracer walks its hierarchy with many rays
+    /// at once; for an observer each ray walks alone as well, so that the counts belong to the ray and not to its
+    /// neighbours. All boxes of an opened node count.
     pub nodes: u64,
-    /// Pairs of a primitive and a sample tested for coverage: the inner step of both loops. In
-    /// object order these are the samples of the primitives' bounding regions, which for triangles wider
-    /// than 256 samples are cut, sixteen rows at a time, to where the edge functions allow. The fast
-    /// rasterizer leaves out clusters of triangles that are certainly hidden; for whoever watches it draws
-    /// them, so that what is counted here and below does not depend on what was drawn before.
+    /// Pairs of a primitive and a sample that were tested for coverage: the inner step of both loops.
+    ///
+    /// In object order these are the samples of the primitives' bounding regions. The region of a triangle wider than
+    /// 256 samples is cut, sixteen rows at a time, to where the edge functions allow a fragment. The fast rasterizer
+    /// skips clusters of triangles that are certainly hidden; for an observer it draws them, so that the counts do not
+    /// depend on the order of drawing. In image order all triangles of an opened leaf count, without duplicates.
     pub tests: u64,
-    /// Of these, the pairs in which the primitive covers the sample.
+    /// Those of the tests in which the primitive covers the sample.
     pub fragments: u64,
     /// Comparisons of a fragment with an earlier one at its sample.
     pub depth_tests: u64,
     /// Coverage decisions that the fast arithmetic left to the exact judge.
     pub judged_coverage: u64,
-    /// Depth decisions that the fast arithmetic left to the exact judge. In object order it depends on
-    /// which fragment comes first to a sample, and so on how the picture is cut into tiles.
+    /// Depth decisions that the fast arithmetic left to the exact judge. In object order this count depends on which
+    /// fragment comes first to a sample, and so on how the picture is cut into tiles.
     pub judged_nearest: u64,
 }
 
 impl Work {
-    /// How much there is to count, in tests of a primitive or box: what else is looked at for each sample counts as
-    /// much, and a question to the exact judge as much as 256.
+    /// The work as one number of steps: each test of a primitive or a box and each depth test is one step, each question
+    /// to the exact judge 256.
     pub fn steps(&self) -> u64 {
         const QUESTION: u64 = 256;
         let questions = self.judged_coverage + self.judged_nearest;

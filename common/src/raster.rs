@@ -54,8 +54,8 @@ pub fn check_samples(image: [u32; 2], samples: u32) -> Result<(), SizeError> {
 
 /// All samples of one picture as rows and columns, and how they lie on the viewport.
 ///
-/// Row 0 is at the top, column 0 on the left, and a sample in the middle of its cell. `[rows, columns]` is the
-/// order of everything here that has two of a kind.
+/// Row 0 is at the top, column 0 on the left, and a sample in the middle of its cell. Pairs are in the order row,
+/// column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Raster {
     size: [u32; 2],
@@ -140,7 +140,7 @@ impl Region {
         self.rows.is_empty() || self.columns.is_empty()
     }
 
-    /// What it holds of the picture's tiles, row by row, each of at most so many rows and columns.
+    /// The parts of the picture's tiles that lie in it, row by row. A tile has at most so many rows and columns.
     ///
     /// # Panics
     ///
@@ -152,7 +152,7 @@ impl Region {
         })
     }
 
-    /// How many of the picture's tiles, of so many columns each, a row of it meets.
+    /// How many tiles of so many columns lie side by side in it, whole or in part.
     ///
     /// # Panics
     ///
@@ -174,10 +174,10 @@ impl Region {
     }
 }
 
-/// A rectangle of an image's pixels, which alone are rendered.
+/// A rectangle of an image's pixels; only they are rendered.
 ///
-/// It changes nothing else: pixels keep their numbers, rays and bits. A camera with a smaller image
-/// would have rays that are rounded differently.
+/// A crop changes nothing else: pixels keep their numbers, rays and bits. (A camera with a smaller image has rays
+/// that are rounded differently.)
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Crop {
     /// The first row, from the image's top.
@@ -253,13 +253,13 @@ impl Crop {
         Ok(())
     }
 
-    /// Behind the last row, and behind the last column.
+    /// The first row behind the crop, and the first column behind it.
     fn end(&self) -> [u64; 2] {
         [(self.row, self.height), (self.column, self.width)]
             .map(|(first, count)| u64::from(first) + u64::from(count))
     }
 
-    /// Its samples on the raster of the whole image, so many along one side of a pixel.
+    /// Its samples on the raster of the whole image, for `samples` × `samples` samples a pixel.
     pub fn region(&self, samples: u32) -> Region {
         let n = samples as usize;
         let range = |first: u32, count: u32| {

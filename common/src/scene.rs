@@ -19,12 +19,12 @@ use glam::Vec3;
 pub struct Object {
     /// Its form.
     pub shape: Shape,
-    /// What it is made of, where a mesh does not say it itself.
+    /// What it is made of, unless a mesh names a material of its own.
     pub material: Material,
 }
 
 impl Object {
-    /// What one of its primitives is made of, counted within the object.
+    /// The material of one of its primitives, which are counted within the object.
     pub fn material_of(&self, primitive: usize) -> &Material {
         match &self.shape {
             Shape::Mesh(mesh) => {

@@ -5,7 +5,7 @@ use crate::exact::Judge;
 use crate::scene::{Plane, Primitive, Scene, Shape, Sphere, Triangle};
 use glam::{DVec3, Vec3};
 
-/// A scene and a camera. It copies nothing: whoever needs a vertex asks for its offset.
+/// A scene and a camera. A view copies nothing: [`View::offset`] computes a vertex when it is needed.
 #[derive(Clone, Copy, Debug)]
 pub struct View<'a> {
     /// What there is to see.
@@ -45,7 +45,7 @@ impl<'a> View<'a> {
         (0..).zip(all)
     }
 
-    /// Who decides what is true of a sample of this view.
+    /// The judge that decides what is true of a sample of this view.
     pub fn judge(&self) -> Judge {
         Judge::new(self.camera)
     }

@@ -12,14 +12,15 @@ pub enum Planted {
     DroppedTile,
     /// A comparison that must admit equality does not.
     StrictComparison,
-    /// A bounding box (object order: in the picture; image order: in the world, where nothing makes up for
-    /// it) is too small by the last place of its numbers.
+    /// A bounding box is too small by the last place of its numbers: in object order a box in the picture, in image
+    /// order a box in the world.
     ShrunkBox,
     /// The arithmetic is trusted as if it were exact.
     ZeroErrorBound,
-    /// The arithmetic is not trusted at all: no fault that may show, as then exact arithmetic decides everything.
+    /// Every error bound of the arithmetic is infinite. Then exact arithmetic decides everything, and no picture may
+    /// change.
     InfiniteErrorBound,
-    /// Nor are the places where things are seen, and what holds them.
+    /// Every error bound of where boxes, vertices and leaves are seen is infinite. No picture may change.
     InfiniteMargin,
     /// Of equal primitives the last one wins.
     TiesToLast,
@@ -36,7 +37,7 @@ pub trait Fault: Copy + Send + Sync {
     fn is(fault: Planted) -> bool;
 }
 
-/// A bound of rounding errors as it is, or as a fault has it.
+/// A bound of rounding errors: the bound itself, or what a planted fault makes of it.
 #[inline(always)]
 pub fn error_bound<F: Fault>(bound: f64) -> f64 {
     if F::is(Planted::ZeroErrorBound) {

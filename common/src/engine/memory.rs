@@ -27,8 +27,8 @@ fn ask_for_large_pages<T>(memory: &mut [std::mem::MaybeUninit<T>]) {
     if size < LARGE {
         return;
     }
-    // SAFETY: the pages are ours, and the advice changes nothing that a program can see in them. Where it
-    // is refused, all is as it was.
+    // SAFETY: the pages are ours, and the advice changes nothing that a program can see in them. A system that
+    // refuses the advice changes nothing.
     #[expect(unsafe_code, reason = "advice is given by address")]
     let _ = unsafe { madvise(start.wrapping_add(before).cast(), size, Advice::LinuxHugepage) };
 }

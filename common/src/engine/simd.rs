@@ -87,8 +87,8 @@ pub fn levels() -> Vec<Level> {
     vec![best]
 }
 
-/// Writes sixteen numbers that are not needed again soon: past the caches, where the machine can. Whoever
-/// lets other threads read them calls [`finish_streaming`] before.
+/// Writes sixteen numbers that are not needed again soon: past the caches, where the machine can. Call
+/// [`finish_streaming`] before other threads read them.
 #[inline(always)]
 #[cfg_attr(
     target_arch = "x86_64",

@@ -8,7 +8,7 @@ use crate::engine::roundoff::EPS53;
 ///
 /// Each operation adds the error of its own rounding to what its operands bring (a running error
 /// analysis: Higham, "Accuracy and Stability of Numerical Algorithms", 2nd edition, 2002, 3.3).
-/// Whatever meets NaN or infinity has no certain sign.
+/// A number that depends on NaN or infinity has no certain sign.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bounded {
     pub(super) value: f64,

@@ -86,10 +86,10 @@ impl Pair {
     }
 }
 
-/// A judge of close calls that remembers the pairs it was asked about last.
+/// A judge with a cache of the pairs that it compared last.
 ///
-/// It answers as [`Judge::nearer`] does, always; it only answers sooner where the same two flat
-/// primitives meet at many samples.
+/// Its answers are those of [`Judge::nearer`]. They come sooner where the same two flat primitives meet at many
+/// samples.
 #[derive(Debug)]
 pub struct CachedJudge {
     judge: Judge,
@@ -98,10 +98,10 @@ pub struct CachedJudge {
 }
 
 impl CachedJudge {
-    /// So many pairs, and so many primitives, are remembered before all are forgotten: some megabytes.
+    /// The cache holds this many pairs and this many primitives, some megabytes, and is emptied when it is full.
     const MOST: usize = 1 << 15;
 
-    /// Remembers nothing yet.
+    /// A judge with an empty cache.
     pub fn new(judge: Judge) -> CachedJudge {
         CachedJudge { judge, pairs: HashMap::new(), unseen: HashMap::new() }
     }
@@ -144,7 +144,7 @@ impl CachedJudge {
         if are_identical(first.1, second.1) {
             return Comparison::EQUAL;
         }
-        // Those that cross each other are mostly told apart by rounded arithmetic: nothing to remember.
+        // Rounded arithmetic decides most pairs that cross each other: they need no place in the cache.
         if !self.pairs.contains_key(&[first.0, second.0])
             && let Some(comparison) = by_rounded_arithmetic(first.1, second.1, ray)
         {
@@ -155,7 +155,7 @@ impl CachedJudge {
             .unwrap_or_else(|| self.judge.compare(first.1, second.1, ray))
     }
 
-    /// What is known of two flat primitives.
+    /// The comparison function of two flat primitives, from the cache if it is there.
     fn pair(&mut self, first: (u32, &Primitive), second: (u32, &Primitive)) -> Option<Pair> {
         let flat = |primitive: &Primitive| !matches!(primitive, Primitive::Sphere { .. });
         if !flat(first.1) || !flat(second.1) {

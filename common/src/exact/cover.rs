@@ -30,16 +30,16 @@ impl EdgeSigns {
     }
 }
 
-/// A triangle's edge functions at a sample as numbers, for whoever wants to see them: each computed
-/// without error, and rounded once. Their signs are those of [`EdgeSigns`].
+/// A triangle's edge functions at a sample as numbers to show: each is computed without error, and rounded
+/// once. Their signs are those of [`EdgeSigns`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EdgeValues {
     /// The facing `F`.
     pub facing: f64,
     /// `E_ab`, `E_bc`, `E_ca`.
     pub at_sample: [f64; 3],
-    /// What kind of edge each is that the sample lies on; `None` where it lies on none, or the triangle
-    /// is edge-on.
+    /// The kind of each edge on which the sample lies; `None` for an edge on which it does not lie, and where the
+    /// triangle is edge-on.
     pub sides: [Option<Side>; 3],
 }
 

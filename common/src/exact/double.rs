@@ -1,7 +1,7 @@
 //! Numbers of twice as many digits, each the sum of two `f64`, with a bound of their error.
 //!
-//! Where rounded arithmetic is in doubt, exact numbers of any length cost microseconds. This costs a tenth of
-//! that, and settles nearly everything that is not exactly zero; and what is, where few digits are needed.
+//! Exact numbers of any length cost microseconds. These cost a tenth of that, and settle nearly every sign that
+//! rounded arithmetic leaves open; a zero, too, where it needs few digits.
 
 use super::real::{Real, UNDERFLOW};
 use super::sign::Sign;

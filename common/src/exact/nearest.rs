@@ -109,7 +109,7 @@ pub(super) fn ordering(sign: Sign) -> Ordering {
     sign.cmp(&Sign::Zero)
 }
 
-/// Whether two primitives are the same one again, corners in any order. Duplicates are the most
+/// Whether two primitives are duplicates, with their corners in any order. Duplicates are the most
 /// frequent ties, and need no arithmetic.
 pub(super) fn are_identical(first: &Primitive, second: &Primitive) -> bool {
     match (first, second) {
@@ -282,7 +282,7 @@ fn doubled_sphere_distance(center: DVec3, radius: f64, ray: &Ray) -> Option<f64>
     let outside = quadratic.c.sign()? == Sign::Positive;
     let relative = |number: &Double| number.within(PART * number.rounded().abs());
     let root = relative(&quadratic.discriminant())?.sqrt();
-    // Beside the root, b may be as small as it likes.
+    // b only needs to be precise relative to the root.
     let b = quadratic.b.within(PART * root)?;
     let (a, c) = (relative(&quadratic.a)?, relative(&quadratic.c)?);
     Some(seen_root(outside, [a, b, c], root))

@@ -1,4 +1,4 @@
-//! The sign of a real number: what every decision about visibility comes down to.
+//! The sign of a real number. Every decision about visibility is one.
 
 use std::ops::{Mul, Neg};
 
@@ -30,7 +30,7 @@ impl Sign {
         }
     }
 
-    /// This sign, or, where it is zero, the other one: how a nudge decides a tie.
+    /// This sign, or the other one if this is zero: how a nudge decides a tie.
     #[must_use]
     pub fn or_else(self, other: impl FnOnce() -> Sign) -> Sign {
         if self == Sign::Zero { other() } else { self }

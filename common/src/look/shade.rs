@@ -8,13 +8,13 @@ use glam::{DVec3, Vec3};
 /// What is seen at one sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfacePoint {
-    /// Where it is, relative to the eye, which may be far away.
+    /// Where it is, relative to the eye. The eye may be far away, hence `f64`.
     pub position: DVec3,
     /// Unit normal, towards the viewer.
     pub normal: Vec3,
     /// Unit direction towards the viewer, against the viewing ray.
     pub to_viewer: Vec3,
-    /// Where it is on its texture; a pattern is not drawn without.
+    /// Where it is on its texture; without a texture point no pattern is drawn.
     pub texture: Option<TexturePoint>,
 }
 
@@ -32,7 +32,7 @@ pub fn color(point: &SurfacePoint, material: &Material, lights: &[Light], eye: V
 fn reflectance(point: &SurfacePoint, material: &Material) -> Vec3 {
     match (&material.checker, &point.texture) {
         (Some(checker), Some(texture)) => {
-            material.color.lerp(checker.color, checker.share(texture))
+            material.color.lerp(checker.color, checker.fraction(texture))
         }
         _ => material.color,
     }

@@ -37,12 +37,11 @@ impl TexturePoint {
 }
 
 impl Checker {
-    /// How much of what a sample sees has the pattern's second colour, from 0 to 1.
+    /// The fraction of a sample's footprint that has the pattern's second colour, from 0 to 1.
     ///
     /// The pattern is averaged over the sample's footprint. So it turns grey towards the horizon
-    /// where cells become smaller than samples, and it is a continuous function of the coordinate:
-    /// two orders that round the same coordinate differently see nearly the same colour, and nowhere
-    /// the other one.
+    /// where cells become smaller than samples, and it is a continuous function of the coordinate: two orders
+    /// that round the same coordinate differently get nearly the same colour.
     ///
     /// Williams, "Pyramidal Parametrics", SIGGRAPH 1983, for why; the average of stripes is exact
     /// here, from their integral.
@@ -53,20 +52,20 @@ impl Checker {
     /// use bothways_common::look::texture::TexturePoint;
     ///
     /// let checker = Checker { color: Vec3::X, divisions: [4.0, 4.0] };
-    /// let share = |x, y| {
+    /// let fraction = |x, y| {
     ///     let small = DVec2::splat(0.001);
-    ///     checker.share(&TexturePoint { coordinate: DVec2::new(x, y), footprint: small })
+    ///     checker.fraction(&TexturePoint { coordinate: DVec2::new(x, y), footprint: small })
     /// };
-    /// assert_eq!((share(0.1, 0.1), share(0.3, 0.1), share(0.3, 0.3)), (0.0, 1.0, 0.0));
-    /// assert_eq!(share(0.25, 0.1), 0.5);
+    /// assert_eq!((fraction(0.1, 0.1), fraction(0.3, 0.1), fraction(0.3, 0.3)), (0.0, 1.0, 0.0));
+    /// assert_eq!(fraction(0.25, 0.1), 0.5);
     /// ```
-    pub fn share(&self, point: &TexturePoint) -> f32 {
+    pub fn fraction(&self, point: &TexturePoint) -> f32 {
         let divisions = Vec2::from(self.divisions).as_dvec2();
         let (middle, width) = (point.coordinate * divisions, point.footprint * divisions);
         let average = stripes(middle.x, width.x) * stripes(middle.y, width.y);
-        #[expect(clippy::cast_possible_truncation, reason = "a share needs no more than f32")]
-        let share = (0.5 - 0.5 * average) as f32;
-        share.clamp(0.0, 1.0)
+        #[expect(clippy::cast_possible_truncation, reason = "a fraction needs no more than f32")]
+        let fraction = (0.5 - 0.5 * average) as f32;
+        fraction.clamp(0.0, 1.0)
     }
 }
 
@@ -97,8 +96,8 @@ pub fn corners(shape: &Shape, local: usize) -> Option<[DVec2; 3]> {
 
 /// The unit directions in which a plane's texture coordinates grow, for a normal of any length.
 ///
-/// To whom the normal points at, the first goes right and the second up: along +y on walls, along −z
-/// on floors and ceilings.
+/// For a viewer at whom the normal points, the first direction goes right and the second up: along +y on walls,
+/// along −z on floors and ceilings.
 pub fn plane_axes(normal: DVec3) -> [DVec3; 2] {
     let slope = normal.abs();
     let up = if slope.y > slope.x.max(slope.z) { DVec3::NEG_Z } else { DVec3::Y };
@@ -108,7 +107,7 @@ pub fn plane_axes(normal: DVec3) -> [DVec3; 2] {
 }
 
 /// The texture coordinate of the point of a sphere at an offset from its middle, and the directions
-/// in which the two grow, as long as they grow fast: their gradients.
+/// in which the two grow: their gradients, whose length is the growth per length.
 ///
 /// At a pole there is no such direction, and the gradient of the first is not finite.
 pub fn on_sphere(offset: DVec3) -> (DVec2, [DVec3; 2]) {
@@ -127,16 +126,16 @@ mod tests {
     use super::*;
     use glam::Vec3;
 
-    fn share(divisions: [f32; 2], coordinate: [f64; 2], footprint: f64) -> f32 {
+    fn fraction(divisions: [f32; 2], coordinate: [f64; 2], footprint: f64) -> f32 {
         let footprint = DVec2::splat(footprint);
         let point = TexturePoint { coordinate: coordinate.into(), footprint };
-        Checker { color: Vec3::ZERO, divisions }.share(&point)
+        Checker { color: Vec3::ZERO, divisions }.fraction(&point)
     }
 
     #[test]
     fn cells_alternate_in_both_directions_and_below_zero() {
-        let share = |x, y| share([1.0; 2], [x, y], 0.125);
-        let row = |y: f64| [-1.5, -0.5, 0.5, 1.5, 2.5].map(|x| share(x, y));
+        let fraction = |x, y| fraction([1.0; 2], [x, y], 0.125);
+        let row = |y: f64| [-1.5, -0.5, 0.5, 1.5, 2.5].map(|x| fraction(x, y));
         assert_eq!(row(0.5), [0.0, 1.0, 0.0, 1.0, 0.0]);
         assert_eq!(row(-0.5), [1.0, 0.0, 1.0, 0.0, 1.0]);
     }
@@ -144,7 +143,7 @@ mod tests {
     #[test]
     fn the_pattern_has_no_jump() {
         let footprint = 0.01;
-        let at = |k: i32| share([3.0, 5.0], [f64::from(k) * 1e-4, 0.1], footprint);
+        let at = |k: i32| fraction([3.0, 5.0], [f64::from(k) * 1e-4, 0.1], footprint);
         // From one colour to the other takes a whole footprint: 100 steps.
         assert!((-20_000..20_000).all(|k| (at(k) - at(k + 1)).abs() < 0.011));
         assert!((0..10_000).any(|k| at(k) == 0.0) && (0..10_000).any(|k| at(k) == 1.0));
@@ -152,12 +151,12 @@ mod tests {
 
     #[test]
     fn what_is_too_fine_or_nowhere_is_grey() {
-        assert!((share([1.0; 2], [0.3, 0.4], 1000.0) - 0.5).abs() < 1e-3);
+        assert!((fraction([1.0; 2], [0.3, 0.4], 1000.0) - 0.5).abs() < 1e-3);
         for odd in [f64::NAN, f64::INFINITY] {
-            assert_eq!(share([1.0; 2], [odd, 0.5], 0.1), 0.5);
-            assert_eq!(share([1.0; 2], [0.5, 0.5], odd), 0.5);
+            assert_eq!(fraction([1.0; 2], [odd, 0.5], 0.1), 0.5);
+            assert_eq!(fraction([1.0; 2], [0.5, 0.5], odd), 0.5);
         }
-        assert_eq!(share([1.0; 2], [0.5, 0.5], 0.0), 0.0, "no footprint is a point");
+        assert_eq!(fraction([1.0; 2], [0.5, 0.5], 0.0), 0.0, "no footprint is a point");
     }
 
     #[test]

@@ -20,7 +20,7 @@ impl Budget {
     }
 }
 
-/// Counts work as long as a budget lasts.
+/// Counts work until a budget is spent.
 ///
 /// Whether it does depends on the work alone: neither on threads nor on time.
 ///

@@ -44,7 +44,7 @@ pub enum Light {
         /// Its strength on a surface that faces it.
         intensity: f32,
     },
-    /// Light from where the viewing rays come from: whatever faces the viewer is bright.
+    /// Light from where the viewing rays begin: a surface that faces the viewer is bright.
     AtCamera {
         /// Its strength on a surface that faces it.
         intensity: f32,

@@ -18,7 +18,7 @@ pub struct Mesh {
     triangles: Vec<[u32; 3]>,
     normals: Attribute<Vec3>,
     texture_coordinates: Attribute<Vec2>,
-    /// Hardly a mesh has any.
+    /// Few meshes have materials, hence the box.
     materials: Option<Box<MeshMaterials>>,
 }
 
@@ -130,16 +130,14 @@ impl Mesh {
         Mesh { materials, ..self }
     }
 
-    /// Says what a material is: see [`MeshMaterials::define`].
+    /// Defines a material by its name: see [`MeshMaterials::define`].
     pub fn define_material(&mut self, name: &str, material: Material) {
         if let Some(materials) = &mut self.materials {
             materials.define(name, material);
         }
     }
 
-    /// The same mesh somewhere else.
-    ///
-    /// `place` maps positions, `turn` normals.
+    /// The same mesh in another place: `place` maps positions, `turn` maps normals.
     ///
     /// # Errors
     ///
@@ -159,8 +157,8 @@ impl Mesh {
         Ok(Mesh { normals, texture_coordinates, materials, ..Mesh::new(positions, triangles)? })
     }
 
-    /// The same triangles, each with its corners in the other order: what was seen counter-clockwise is
-    /// clockwise. Whatever belongs to a corner stays with it.
+    /// The same triangles with their corners in the opposite order: those seen counter-clockwise are then seen
+    /// clockwise. Attributes stay with their corners.
     #[must_use]
     pub fn turned_inside_out(mut self) -> Mesh {
         let lists =
@@ -189,7 +187,7 @@ impl Mesh {
         &self.texture_coordinates
     }
 
-    /// What the triangles are made of, if the mesh itself says it.
+    /// The materials of the triangles, if the mesh names any.
     pub fn materials(&self) -> Option<&MeshMaterials> {
         self.materials.as_deref()
     }

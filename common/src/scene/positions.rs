@@ -2,14 +2,13 @@
 
 use glam::Vec3;
 
-/// Positions in blocks: the list grows without ever being copied, and never has room to spare for
-/// more than one block.
+/// Positions in blocks. The list grows without being copied, and never reserves more than one block.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Positions {
     blocks: Vec<Vec<Vec3>>,
 }
 
-/// Positions of one block.
+/// How many positions one block holds.
 const BLOCK: usize = 1 << 16;
 
 impl Positions {

@@ -23,8 +23,8 @@ pub enum Primitive {
     },
 }
 
-/// Whether two triangles have the same corners, in any order: whatever ray meets one meets the other at
-/// the same place.
+/// Whether two triangles have the same corners, in any order. Then every ray that meets one meets the other at the
+/// same place.
 pub fn are_same_corners<P: Copy + PartialEq>(first: &[P; 3], second: &[P; 3]) -> bool {
     let [a, b, c] = *first;
     first == second || [[b, c, a], [c, a, b], [a, c, b], [c, b, a], [b, a, c]].contains(second)

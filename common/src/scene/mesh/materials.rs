@@ -21,7 +21,7 @@ pub struct MeshMaterials {
 pub struct NamedMaterial {
     /// Its name.
     pub name: String,
-    /// What it is; `None` as long as nobody has said it.
+    /// The material itself; `None` until [`MeshMaterials::define`] gives it.
     pub material: Option<Material>,
 }
 
@@ -60,7 +60,7 @@ impl MeshMaterials {
         }
     }
 
-    /// Says what a material is, if the mesh uses one of this name and nobody has said it before.
+    /// Defines a material, if the mesh uses one of this name and it is not defined yet.
     pub fn define(&mut self, name: &str, material: Material) {
         if let Some(&place) = self.places.get(name) {
             self.named[place as usize].material.get_or_insert(material);
