@@ -1,0 +1,286 @@
+//! What the fast rasterizer must not depend on, and the triangles that its own paths are made for.
+
+#![expect(clippy::cast_possible_truncation, reason = "small numbers")]
+
+use bothways_common::engine::simd::{Level, best_level, levels};
+use bothways_common::glam::{Vec2, Vec3};
+use bothways_common::{
+    Camera, CameraDescription, Frame, Mesh, Options, Orientation, Plane, Projection, Scene, Shape,
+    View, Work,
+};
+use bothways_formats::generate::Kind;
+use bothways_formats::scene_file;
+use bothways_rasterize::fast::{self, Prepared};
+use bothways_rasterize::textbook;
+use bothways_test_support::{
+    PROJECTIONS, assert_same_visibility, grids_on_quarters, mesh, on_integers, scene, triangle,
+    turned,
+};
+use std::path::Path;
+
+/// Scenes that come with the program, as files.
+const BUILT_IN: [&str; 5] = [
+    include_str!("../../../scenes/overlap.toml"),
+    include_str!("../../../scenes/ties.toml"),
+    include_str!("../../../scenes/slivers.toml"),
+    include_str!("../../../scenes/inside.toml"),
+    include_str!("../../../scenes/behind.toml"),
+];
+
+/// Draws with a prepared scene; also tells the work.
+fn draw(prepared: &Prepared, view: &View, options: &Options) -> (Frame, Work) {
+    let mut frame = Frame::new(view.camera, options);
+    let mut work = Work::default();
+    fast::determine_visibility(prepared, view, options, &mut frame, &mut work);
+    let mut unwatched = Frame::new(view.camera, options);
+    fast::determine_visibility(prepared, view, options, &mut unwatched, &mut ());
+    assert_eq!(frame.ids(), unwatched.ids(), "watching changes nothing");
+    assert_eq!(frame.distances(), unwatched.distances(), "watching changes nothing");
+    (frame, work)
+}
+
+/// Numbers in 0 … 1 that look random: the golden ratio's multiples, as a low-discrepancy sequence.
+fn scattered(count: usize) -> impl Iterator<Item = [f32; 3]> {
+    let part = |k: usize, step: f64| (k as f64 * step).fract() as f32;
+    (1..=count)
+        .map(move |k| [part(k, 0.618_033_988), part(k, 0.754_877_666), part(k, 0.569_840_291)])
+}
+
+/// Triangles of all sizes, from less than a sample to larger than the picture, many of them slivers.
+fn all_sizes(count: usize) -> Scene {
+    let mut numbers = scattered(4 * count);
+    let mut next = || Vec3::from_array(numbers.next().expect("there are enough")) - 0.5;
+    let mut positions = Vec::new();
+    for k in 0..count {
+        let size = 4.0 * 0.5f32.powf((k % 12) as f32);
+        let thin = if k % 5 == 0 { 0.01 } else { 1.0 };
+        let (middle, across) = (3.0 * next(), size * next());
+        positions.extend([middle, middle + across, middle + across * 0.5 + thin * size * next()]);
+    }
+    let triangles = (0..count as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+    scene(vec![mesh(Mesh::new(positions, triangles).expect("it is a mesh"))])
+}
+
+fn every_way_to_draw() -> impl Iterator<Item = (Level, [u32; 2])> {
+    let tiles = [[9, 8], [10, 6], [3, 3], [4, 0], [0, 5], [16, 16]];
+    let of_levels = levels().into_iter().map(move |level| (level, tiles[0]));
+    of_levels.chain(tiles.map(|tile| (best_level(), tile)))
+}
+
+#[test]
+fn no_width_of_simd_and_no_tile_changes_a_bit() {
+    let built_in = BUILT_IN.map(|toml| {
+        scene_file::parse("built-in.toml", toml, Path::new("")).expect("it is a scene").scene
+    });
+    for (k, scene) in built_in.into_iter().chain([all_sizes(600)]).enumerate() {
+        for projection in PROJECTIONS {
+            let camera = turned(projection, [1.5, 1.0, 4.0], [0.0; 3], [101, 67]);
+            let view = View::new(&scene, &camera);
+            let options = Options { samples: 1 + k as u32 % 2, ..Options::default() };
+            let prepared = fast::prepare(&scene);
+            let (expected, expected_work) = draw(&prepared, &view, &options);
+            for (level, tile) in every_way_to_draw() {
+                let prepared = prepared.clone().drawn_with(level, tile);
+                let (frame, work) = draw(&prepared, &view, &options);
+                assert_eq!(frame.ids(), expected.ids(), "scene {k}, {level:?}, tiles {tile:?}");
+                assert_eq!(frame.distances(), expected.distances(), "{level:?}, {tile:?}");
+                let counts = |work: Work| [work.tests, work.fragments, work.depth_tests];
+                assert_eq!(counts(work), counts(expected_work), "{level:?}, {tile:?}");
+                if tile == [9, 8] {
+                    assert_eq!(work, expected_work, "{level:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn no_number_of_threads_changes_a_bit() {
+    let scene = all_sizes(40_000);
+    let camera = turned(Projection::Perspective, [1.5, 1.0, 4.0], [0.0; 3], [640, 480]);
+    let view = View::new(&scene, &camera);
+    let prepared = fast::prepare(&scene);
+    let drawn = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.expect("there are threads").install(|| draw(&prepared, &view, &Options::default()))
+    };
+    let expected = drawn(1);
+    assert!(expected.1.fragments > 100_000);
+    for threads in [2, 3, 8] {
+        assert_eq!(drawn(threads), expected, "{threads} threads");
+    }
+}
+
+/// A view against the textbook; gives the work of the fast one.
+fn check(scene: &Scene, camera: &Camera, what: &str) -> Work {
+    let (view, options) = (View::new(scene, camera), Options::default());
+    let expected = textbook::render(&view, &options);
+    let (frame, work) = draw(&fast::prepare(scene), &view, &options);
+    assert_same_visibility(&expected, &frame, what);
+    work
+}
+
+/// The same triangles in an order in which no neighbours follow each other.
+fn shuffled(mesh: &Mesh) -> Mesh {
+    let triangles = mesh.triangles();
+    // 7919 is prime, and divides none of the counts below.
+    let order = (0..triangles.len()).map(|k| k * 7919 % triangles.len());
+    Mesh::new(mesh.positions().to_vec(), order.map(|k| triangles[k]).collect()).expect("a mesh")
+}
+
+/// A square of 2 × 16 × 16 triangles.
+fn sheet(z: f32) -> Mesh {
+    let places = (0..17 * 17).map(|k| Vec2::new((k % 17) as f32, (k / 17) as f32) / 8.0 - 1.0);
+    let positions = places.map(|place| place.extend(z)).collect();
+    let corners = (0..16 * 16).map(|k| k / 16 * 17 + k % 16);
+    let pair = |k: u32| [[k, k + 1, k + 17], [k + 1, k + 18, k + 17]];
+    Mesh::new(positions, corners.flat_map(pair).collect()).expect("it is a mesh")
+}
+
+#[test]
+fn what_is_hidden_is_left_out_and_nothing_else() {
+    let generated = |kind: Kind, divisions| kind.mesh(divisions).expect("it can be divided so");
+    let ball = generated(Kind::Sphere, [24, 16]);
+    let coarse = generated(Kind::Sphere, [10, 7]);
+    let ring = generated(Kind::Torus, [24, 14]);
+    let moved = |mesh: &Mesh, by: Vec3, size: f32| {
+        let positions = mesh.positions().iter().map(|position| *position * size + by).collect();
+        Mesh::new(positions, mesh.triangles().to_vec()).expect("it is a mesh")
+    };
+    let doubled = |mesh: &Mesh| {
+        let triangles = [mesh.triangles(), mesh.triangles()].concat();
+        Mesh::new(mesh.positions().to_vec(), triangles).expect("it is a mesh")
+    };
+    // Twice the same in another order: everything ties. Sheets of which each is nearer by a thousandth than
+    // the one before; a far one keeps depth keys from spreading.
+    for (name, meshes) in [
+        ("a ball", vec![ball.clone()]),
+        ("a shuffled ball", vec![shuffled(&ball)]),
+        ("a ring", vec![ring.clone(), moved(&ring, Vec3::new(0.3, 0.1, -0.2), 0.8)]),
+        ("a ring twice", vec![shuffled(&ring), ring.clone()]),
+        ("every triangle twice in a mesh", vec![shuffled(&doubled(&coarse))]),
+        ("a ball in a ball", vec![moved(&ball, Vec3::ZERO, 0.999), shuffled(&ball)]),
+        ("sheets", [-9.0, 0.0, 0.001, 0.002, 0.003].map(sheet).to_vec()),
+        ("behind a ball", vec![moved(&ring, Vec3::new(-1.0, -0.7, -2.0), 0.5), ball.clone()]),
+    ] {
+        let scene = scene(meshes.into_iter().map(mesh).collect());
+        for projection in PROJECTIONS {
+            for (eye, size) in [([0.3, 0.2, 3.0], [64, 48]), ([0.2, 0.1, 0.9], [21, 30])] {
+                let camera = turned(projection, eye, [0.0; 3], size);
+                let (view, options) = (View::new(&scene, &camera), Options::default());
+                let expected = textbook::render(&view, &options);
+                // In small tiles clusters are cut, and taken apart.
+                for tile in [[8, 8], [4, 5]] {
+                    let prepared = fast::prepare(&scene).drawn_with(best_level(), tile);
+                    let what = format!("{name}, {projection:?} from {eye:?} in tiles of {tile:?}");
+                    assert_same_visibility(&expected, &draw(&prepared, &view, &options).0, &what);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn triangles_of_all_sizes_as_the_textbook_sees_them() {
+    let scene = all_sizes(400);
+    for projection in PROJECTIONS {
+        for eye in [[1.5, 1.0, 4.0], [0.1, 0.0, 0.2], [20.0, 30.0, -10.0]] {
+            let camera = turned(projection, eye, [0.0; 3], [96, 80]);
+            let work = check(&scene, &camera, &format!("{projection:?} from {eye:?}"));
+            assert!(work.fragments > 50, "{projection:?} from {eye:?}: {work:?}");
+        }
+    }
+}
+
+#[test]
+fn triangles_wider_than_the_picture_whatever_the_tiles() {
+    // Some reach behind the eye, some lie almost edge-on; floors and planes reach to the horizon.
+    let mut numbers = scattered(3 * 60);
+    let mut next = || Vec3::from_array(numbers.next().expect("there are enough")) - 0.5;
+    let triangles = (0..60).map(|k| {
+        let flat = Vec3::new(1.0, if k % 3 == 0 { 1e-4 } else { 1.0 }, 1.0);
+        triangle([next(), next(), next()].map(|corner| (12.0 * corner * flat).to_array()))
+    });
+    let floor = |y: f32| triangle([[-900.0, y, 2.0], [900.0, y, 2.0], [0.0, y, -900.0]]);
+    let plane = |y: f32, normal: [f32; 3]| {
+        let (point, normal) = (Vec3::new(0.0, y, 0.0), Vec3::from_array(normal));
+        Shape::Plane(Plane { point, normal }).into()
+    };
+    let planes = [plane(-3.0, [0.0, 1.0, 0.0]), plane(-2.0, [0.3, 1.0, -0.2])];
+    let floors = [floor(-0.5), floor(-0.51), floor(1e-3)];
+    let scene = scene(triangles.chain(floors).chain(planes).collect());
+    for projection in PROJECTIONS {
+        for (eye, target) in [([0.3, 0.4, 1.5], [0.0; 3]), ([1.0, 0.0, 9.0], [0.0, 0.2, 0.0])] {
+            let camera = turned(projection, eye, target, [700, 90]);
+            let work = check(&scene, &camera, &format!("{projection:?} from {eye:?}"));
+            assert!(work.fragments > 100_000, "{work:?}");
+            assert!(work.judged_coverage * 10_000 < work.tests, "{work:?}");
+
+            let (view, options) = (View::new(&scene, &camera), Options::default());
+            let prepared = fast::prepare(&scene);
+            let (expected, _) = draw(&prepared, &view, &options);
+            for (level, tile) in every_way_to_draw() {
+                let (frame, other) =
+                    draw(&prepared.clone().drawn_with(level, tile), &view, &options);
+                assert_eq!(frame.ids(), expected.ids(), "{level:?}, tiles {tile:?}");
+                assert_eq!(frame.distances(), expected.distances(), "{level:?}, tiles {tile:?}");
+                assert_eq!(other.tests, work.tests, "{level:?}, tiles {tile:?}");
+                assert_eq!(other.judged_coverage, work.judged_coverage, "tiles {tile:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn edges_through_samples_need_no_judge_where_vertices_are_on_the_raster() {
+    for (scene, camera, what) in grids_on_quarters() {
+        let work = check(&scene, &camera, &what);
+        assert_eq!(work.judged_coverage, 0, "{what}: {work:?}");
+    }
+}
+
+#[test]
+fn every_triangle_on_quarters_of_samples() {
+    // Any corners, so that edges of any slope pass through samples.
+    let corner = |[x, y, _]: [f32; 3]| {
+        [(12.0 * x).floor() * 0.75 - 4.0, (12.0 * y).floor() * 0.5 - 3.0, -1.0]
+    };
+    let corners: Vec<[f32; 3]> = scattered(900).map(corner).collect();
+    let triangles = corners.chunks_exact(3).map(|c| triangle([c[0], c[1], c[2]])).collect();
+    let scene = scene(triangles);
+    for projection in PROJECTIONS {
+        let work = check(&scene, &on_integers(projection, 6), &format!("{projection:?}"));
+        assert_eq!(work.judged_coverage, 0, "{projection:?}");
+    }
+}
+
+#[test]
+fn a_distant_eye_loses_no_depth() {
+    // Two walls a ten-thousandth of their distance apart, seen through a telescope.
+    let wall = |z: f32| {
+        let corners = [[-3.0, -3.0, z], [3.0, -3.0, z], [3.0, 3.0, z], [-3.0, 3.0, z]];
+        let [a, b, c, d] = corners;
+        [triangle([a, b, c]), triangle([a, c, d])]
+    };
+    let scene = scene([wall(0.0), wall(0.1)].concat());
+    let description = CameraDescription {
+        eye: Vec3::new(10.0, 5.0, 1000.0),
+        orientation: Orientation::LookAt { target: Vec3::ZERO, up: Vec3::Y },
+        distance: 500.0,
+        viewport: [2.0, 2.0],
+        image: [64, 64],
+        ..CameraDescription::default()
+    };
+    let camera = Camera::new(description).expect("it is a camera");
+    let work = check(&scene, &camera, "telescope");
+    assert!(work.depth_tests > 1000 && work.judged_nearest == 0, "{work:?}");
+}
+
+#[test]
+fn nothing_at_all() {
+    for objects in [Vec::new(), vec![triangle([[0.0; 3]; 3])]] {
+        let scene = scene(objects);
+        let work = check(&scene, &on_integers(Projection::Perspective, 3), "nothing");
+        assert_eq!(work.fragments, 0);
+    }
+}

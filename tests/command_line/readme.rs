@@ -1,0 +1,77 @@
+//! Every command in the README does what it says: it runs, and ends well. And the picture in it is what the program
+//! draws today, counts and all.
+//!
+//! After a change that moves pixels or counts, look at the new picture, and put it into `docs/`:
+//!
+//! ```sh
+//! BOTHWAYS_WRITE_GOLDEN=1 cargo test --test command_line readme
+//! ```
+
+use crate::arguments::arguments;
+use assert_cmd::Command;
+use bothways::diff::foreign;
+use std::fs;
+use std::path::Path;
+
+#[test]
+fn every_command_of_the_readme_runs() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let readme = std::fs::read_to_string(root.join("README.md")).unwrap();
+    let shell = readme.split("```sh").skip(1).filter_map(|block| block.split("```").next());
+    let lines = shell.flat_map(str::lines).filter(|line| line.starts_with("cargo run --release"));
+    // In a folder of its own, one below which `../shared` may be.
+    let outside = tempfile::tempdir().unwrap();
+    let inside = outside.path().join("clone");
+    std::fs::create_dir_all(inside.join("out")).unwrap();
+    let shared = root.join("../shared");
+    let mut commands = 0;
+    for line in lines {
+        let rest = line.trim_start_matches("cargo run --release").trim_start();
+        let mut arguments = arguments(rest.strip_prefix("--").unwrap_or(rest));
+        if rest.starts_with("--") && rest.get(2..3).is_some_and(|next| next != " ") {
+            continue;
+        }
+        if arguments.iter().any(|argument| argument.starts_with("../shared")) && !shared.exists() {
+            println!("skipped, ../shared is absent: {line}");
+            continue;
+        }
+        for argument in &mut arguments {
+            if let Some(file) = argument.strip_prefix("../shared") {
+                *argument = format!("{}{file}", shared.display());
+            }
+        }
+        let mut command = Command::cargo_bin("bothways").unwrap();
+        command.args(&arguments).current_dir(&inside).assert().success();
+        commands += 1;
+    }
+    assert!(commands >= 10, "{commands} commands found");
+    let vectors = format!("writes {} small scenes", bothways::vectors::all().len());
+    assert!(readme.contains(&vectors), "not in the README: {vectors}");
+}
+
+#[test]
+fn the_readme_s_picture_shows_what_the_program_counts() {
+    let published = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/side-by-side.png");
+    let home = tempfile::tempdir().unwrap();
+    let mut command = Command::cargo_bin("bothways").unwrap();
+    command.args(["--no-times", "--quiet", "-o", "."]).current_dir(&home).assert().success();
+    let drawn = home.path().join("side-by-side.png");
+    if std::env::var_os("BOTHWAYS_WRITE_GOLDEN").is_some() {
+        fs::copy(drawn, published).unwrap();
+        return;
+    }
+    // A figure that is another one changes hundreds of pixels by far more than the tolerance for colours, within which
+    // machines round text.
+    let read = |path: &Path| foreign::read(path, None).unwrap();
+    let comparison = foreign::compare(&read(&published), &read(&drawn)).unwrap();
+    if !comparison.equal {
+        let kept = Path::new(env!("CARGO_TARGET_TMPDIR")).join("readme-side-by-side.png");
+        fs::copy(drawn, &kept).unwrap();
+        panic!(
+            "{} pixels of docs/side-by-side.png are not what the program draws, which is in {}; if it is right, \
+             BOTHWAYS_WRITE_GOLDEN=1 cargo test --test command_line readme takes it over",
+            comparison.differing_pixels,
+            kept.display()
+        );
+    }
+}

@@ -1,0 +1,44 @@
+//! The four renderers: each order's textbook and its fast one.
+
+use bothways::common::{Frame, Options, View};
+use bothways::{rasterize, raytrace};
+use bothways_test_support::{Owners, assert_same_visibility};
+
+pub(crate) type Render = fn(&View, &Options) -> Frame;
+
+/// One suite, four renderers.
+pub(crate) const RENDERERS: [(&str, Render); 4] = [
+    ("object order, textbook", rasterize::textbook::render),
+    ("image order, textbook", raytrace::textbook::render),
+    ("object order, fast", |view, options| {
+        rasterize::fast::render(&rasterize::fast::prepare(view.scene), view, options)
+    }),
+    ("image order, fast", |view, options| {
+        raytrace::fast::render(&raytrace::fast::prepare(view.scene), view, options)
+    }),
+];
+
+/// Renders with all four and compares ids, distances and normals' looks; gives the first's frame.
+pub(crate) fn all_agree(view: &View, options: &Options, what: &str) -> Frame {
+    let frames = RENDERERS.map(|(name, render)| (name, render(view, options)));
+    let (_, expected) = &frames[0];
+    for (name, frame) in &frames[1..] {
+        assert_same_visibility(expected, frame, &format!("{what}: {name}"));
+    }
+    frames[0].1.clone()
+}
+
+/// How many primitives cover each sample, as each of the four renderers' loops meet them.
+pub(crate) fn owners(view: &View, options: &Options) -> [(&'static str, Vec<u32>); 4] {
+    let mut counts = [(); 4].map(|()| Owners::new(view.camera, options));
+    let mut frame = Frame::new(view.camera, options);
+    let [a, b, c, d] = &mut counts;
+    rasterize::textbook::determine_visibility(view, options, &mut frame, a);
+    raytrace::textbook::determine_visibility(view, options, &mut frame, b);
+    let prepared = rasterize::fast::prepare(view.scene);
+    rasterize::fast::determine_visibility(&prepared, view, options, &mut frame, c);
+    let prepared = raytrace::fast::prepare(view.scene);
+    raytrace::fast::determine_visibility(&prepared, view, options, &mut frame, d);
+    let mut names = RENDERERS.iter().map(|(name, _)| *name);
+    counts.map(|owners| (names.next().expect("there are four"), owners.counts))
+}

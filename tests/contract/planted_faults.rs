@@ -1,0 +1,154 @@
+//! The verdict can fail: each fault planted inside the visibility code of one order turns it to
+//! *differ*, and without the fault the same picture is a *match*.
+
+use bothways::common::engine::fault::{Faulty, Planted, with};
+use bothways::common::glam::Vec3;
+use bothways::common::{
+    Camera, CameraDescription, Frame, Mesh, Object, Options, Projection, Scene, Shape, View,
+};
+use bothways::diff::compare;
+use bothways::scenes::load;
+use bothways::{rasterize, raytrace};
+use bothways_test_support::{PROJECTIONS, camera, on_integers, scene, triangle, turned};
+
+/// Whether both orders match when object order, or image order, has a fault.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Verdicts {
+    object_order: bool,
+    image_order: bool,
+}
+
+const ALL_WELL: Verdicts = Verdicts { object_order: true, image_order: true };
+const CAUGHT: Verdicts = Verdicts { object_order: false, image_order: false };
+
+fn verdicts(scene: &Scene, camera: &Camera, fault: Option<Planted>) -> Verdicts {
+    let (view, options) = (View::new(scene, camera), Options::default());
+    let drawn = |determine_visibility: &dyn Fn(&mut Frame)| {
+        let mut frame = Frame::new(camera, &options);
+        determine_visibility(&mut frame);
+        frame
+    };
+    let prepared = (rasterize::fast::prepare(scene), raytrace::fast::prepare(scene));
+    let rasterized = |frame: &mut Frame| {
+        rasterize::fast::determine_visibility(&prepared.0, &view, &options, frame, &mut ());
+    };
+    let traced = |frame: &mut Frame| {
+        raytrace::fast::determine_visibility(&prepared.1, &view, &options, frame, &mut ());
+    };
+    let sound = (drawn(&rasterized), drawn(&traced));
+    assert!(compare(&sound.0, &sound.1).matches(), "without a fault the orders match");
+    let rasterized = |frame: &mut Frame| {
+        let (prepared, options) = (&prepared.0, &options);
+        rasterize::fast::determine_visibility_with_fault(prepared, &view, options, frame, Faulty);
+    };
+    let traced = |frame: &mut Frame| {
+        let (prepared, options) = (&prepared.1, &options);
+        raytrace::fast::determine_visibility_with_fault(prepared, &view, options, frame, Faulty);
+    };
+    let broken = with(fault, || (drawn(&rasterized), drawn(&traced)));
+    Verdicts {
+        object_order: compare(&broken.0, &sound.1).matches(),
+        image_order: compare(&sound.0, &broken.1).matches(),
+    }
+}
+
+/// A square from (−2, −2) to (2, 2) at z = −1, of two triangles.
+fn square() -> Vec<Object> {
+    let [a, b, c, d] = [[-2.0, -2.0, -1.0], [2.0, -2.0, -1.0], [2.0, 2.0, -1.0], [-2.0, 2.0, -1.0]];
+    vec![triangle([a, b, c]), triangle([a, c, d])]
+}
+
+#[test]
+fn a_sound_renderer_matches() {
+    for projection in PROJECTIONS {
+        assert_eq!(verdicts(&scene(square()), &on_integers(projection, 3), None), ALL_WELL);
+    }
+}
+
+#[test]
+fn a_dropped_tile_differs() {
+    let camera = camera(Projection::Perspective, [0.0; 3], [2.0, 2.0], [200, 200]);
+    assert_eq!(verdicts(&scene(square()), &camera, Some(Planted::DroppedTile)), CAUGHT);
+}
+
+#[test]
+fn greater_for_greater_or_equal_differs() {
+    for projection in PROJECTIONS {
+        let verdicts = verdicts(
+            &scene(square()),
+            &on_integers(projection, 3),
+            Some(Planted::StrictComparison),
+        );
+        assert_eq!(verdicts, CAUGHT, "{projection:?}");
+    }
+}
+
+#[test]
+fn a_box_one_ulp_too_small_differs() {
+    for projection in PROJECTIONS {
+        let verdicts =
+            verdicts(&scene(square()), &on_integers(projection, 3), Some(Planted::ShrunkBox));
+        assert_eq!(verdicts, CAUGHT, "{projection:?}");
+    }
+}
+
+#[test]
+fn an_error_bound_of_zero_differs() {
+    // Triangles of the plane x + y + z = 0, one on the other and seen at an angle: every sample is an
+    // exact tie of several, which rounding breaks either way.
+    let on_plane = |[x, y]: [f32; 2]| [x, y, -x - y];
+    let rug = |k: u8| {
+        let k = f32::from(k);
+        triangle([[-3.0 - k, 1.0], [2.0, -3.0 - k], [1.0 + k, 2.0 + k]].map(on_plane))
+    };
+    let scene = scene((0..12).map(rug).collect());
+    for projection in PROJECTIONS {
+        let camera = turned(projection, [2.3, 2.9, 4.1], [0.1, 0.2, 0.3], [64, 64]);
+        assert_eq!(
+            verdicts(&scene, &camera, Some(Planted::ZeroErrorBound)),
+            CAUGHT,
+            "{projection:?}"
+        );
+    }
+}
+
+#[test]
+fn bounds_without_end_change_nothing() {
+    // Then nothing is certain but what exact arithmetic says: slow, and right.
+    for fault in [Planted::InfiniteErrorBound, Planted::InfiniteMargin] {
+        for name in ["canonical", "ties", "behind", "slivers", "overlap", "inside"] {
+            let built_in = load(name).expect("it is built in");
+            for projection in PROJECTIONS {
+                let image = [19, 35];
+                let camera =
+                    Camera::new(CameraDescription { projection, image, ..built_in.camera });
+                let found =
+                    verdicts(&built_in.scene, &camera.expect("it is a camera"), Some(fault));
+                assert_eq!(found, ALL_WELL, "{fault:?}, {name}, {projection:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn ties_to_the_last_primitive_differ() {
+    let twice = scene([square(), square()].concat());
+    for projection in PROJECTIONS {
+        let verdicts = verdicts(&twice, &on_integers(projection, 3), Some(Planted::TiesToLast));
+        assert_eq!(verdicts, CAUGHT, "{projection:?}");
+    }
+}
+
+#[test]
+fn a_forgotten_node_of_the_hierarchy_differs() {
+    let positions: Vec<Vec3> =
+        (0..81).map(|k| Vec3::new((k % 9) as f32 - 4.0, (k / 9) as f32 - 4.0, -4.0)).collect();
+    let corner = |k: u32| k / 8 * 9 + k % 8;
+    let cells = (0..64).map(corner).flat_map(|k| [[k, k + 1, k + 10], [k, k + 10, k + 9]]);
+    let mesh = Mesh::new(positions, cells.collect()).unwrap();
+    let scene = scene(vec![Shape::Mesh(mesh).into()]);
+    let camera = camera(Projection::Perspective, [0.0; 3], [2.0, 2.0], [32, 32]);
+    // Object order has no hierarchy to forget a node of.
+    let expected = Verdicts { object_order: true, image_order: false };
+    assert_eq!(verdicts(&scene, &camera, Some(Planted::ForgottenNode)), expected);
+}

@@ -1,0 +1,299 @@
+//! How work is counted: the same event by event as in sums, as long as it is within bounds, and to no harm of the frame.
+
+use assert_cmd::Command;
+use bothways::common::glam::Vec3;
+use bothways::common::observe::budget::{Budget, WorkWithin};
+use bothways::common::observe::{Events, Question};
+use bothways::common::raster::Region;
+use bothways::common::raster::Sample;
+use bothways::common::{
+    Frame, Mesh, Observer, Options, Projection, Scene, Shape, Sphere, View, Work,
+};
+use bothways::orders::{self, Counts, Method, Order, RenderOptions};
+use bothways::report::Report;
+use bothways::{rasterize, raytrace, scenes};
+use bothways_test_support::{PROJECTIONS, mesh, scene, turned};
+use predicates::str::contains;
+
+/// Counts as [`Work`] does, but insists on every single event.
+#[derive(Clone, Debug, Default)]
+struct OneByOne(Work);
+
+impl Observer for OneByOne {
+    fn fork(&self) -> Self {
+        OneByOne::default()
+    }
+
+    fn join(&mut self, part: Self) {
+        self.0.join(part.0);
+    }
+}
+
+impl Events for OneByOne {
+    fn primitive_begun(&mut self, primitive: u32, region: &Region) {
+        self.0.primitive_begun(primitive, region);
+    }
+
+    fn ray_begun(&mut self, sample: Sample) {
+        self.0.ray_begun(sample);
+    }
+
+    fn node_opened(&mut self, sample: Sample, node: u32, entered: bool) {
+        self.0.node_opened(sample, node, entered);
+    }
+
+    fn sample_tested(&mut self, sample: Sample, primitive: u32) {
+        self.0.sample_tested(sample, primitive);
+    }
+
+    fn fragment(&mut self, sample: Sample, primitive: u32) {
+        self.0.fragment(sample, primitive);
+    }
+
+    fn depth_test(&mut self, sample: Sample, challenger: u32, holder: u32, replaced: bool) {
+        self.0.depth_test(sample, challenger, holder, replaced);
+    }
+
+    fn judged(&mut self, sample: Sample, question: Question) {
+        self.0.judged(sample, question);
+    }
+}
+
+/// Draws in one order with somebody who watches.
+fn watched<O: Observer>(order: Order, view: &View, options: &Options, watcher: &mut O) -> Frame {
+    let mut frame = Frame::new(view.camera, options);
+    match order {
+        Order::Object => {
+            let prepared = rasterize::fast::prepare(view.scene);
+            rasterize::fast::determine_visibility(&prepared, view, options, &mut frame, watcher);
+        }
+        Order::Image => {
+            let prepared = raytrace::fast::prepare(view.scene);
+            raytrace::fast::determine_visibility(&prepared, view, options, &mut frame, watcher);
+        }
+    }
+    frame
+}
+
+/// Needles through everything, each of them long and in its own direction.
+fn needles(count: u32) -> Mesh {
+    let mut state = 7_u64;
+    let mut next = || {
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 40) as f32 / (1 << 24) as f32 - 0.5
+    };
+    let mut positions = Vec::new();
+    for _ in 0..count {
+        let [from, to] = [(); 2].map(|()| 2.0 * Vec3::new(next(), next(), next()));
+        positions.extend([from, to, to + 0.01 * Vec3::new(next(), next(), next())]);
+    }
+    let triangles = (0..count).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+    Mesh::new(positions, triangles).expect("it is a mesh")
+}
+
+/// The same triangle again and again, and others in its plane.
+fn ties(count: u32) -> Scene {
+    let corner = |k: u32| {
+        let turn = 0.1 * k as f32;
+        Vec3::new(turn.cos(), turn.sin(), 0.0)
+    };
+    let positions: Vec<Vec3> = (0..63).map(corner).collect();
+    let triangles = (0..count).map(|k| [k % 7, k % 7 + 20, k % 7 + 40]).collect();
+    scene(vec![mesh(Mesh::new(positions, triangles).expect("it is a mesh"))])
+}
+
+fn some_scenes() -> Vec<Scene> {
+    let ball = Shape::Sphere(Sphere { center: Vec3::new(0.2, 0.1, 0.3), radius: 0.4 });
+    let built_in = ["overlap", "ties", "slivers", "inside"];
+    let built_in = built_in.map(|name| scenes::load(name).expect("it is built in").scene);
+    built_in.into_iter().chain([scene(vec![mesh(needles(300)), ball.into()]), ties(200)]).collect()
+}
+
+#[test]
+fn sums_are_those_of_the_events() {
+    for (k, scene) in some_scenes().iter().enumerate() {
+        for projection in PROJECTIONS {
+            let camera = turned(projection, [0.4, 0.3, 2.5], [0.0; 3], [147, 90]);
+            let view = View::new(scene, &camera);
+            for order in [Order::Object, Order::Image] {
+                let (mut sums, mut events) = (Work::default(), OneByOne::default());
+                let options = Options::default();
+                let frames = [
+                    watched(order, &view, &options, &mut sums),
+                    watched(order, &view, &options, &mut events),
+                ];
+                let what = format!("scene {k}, {projection:?}, {}", order.name());
+                assert_eq!(sums, events.0, "{what}");
+                assert!(sums.fragments > 0, "{what}");
+                assert_eq!(frames[0], frames[1], "{what}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_budget_decides_by_the_work_alone_and_changes_no_frame() {
+    for (k, scene) in some_scenes().iter().enumerate() {
+        for order in [Order::Object, Order::Image] {
+            let camera = turned(Projection::Perspective, [0.4, 0.3, 2.5], [0.0; 3], [147, 90]);
+            let (view, options) = (View::new(scene, &camera), Options::default());
+            let mut work = Work::default();
+            let expected = watched(order, &view, &options, &mut work);
+            let steps = work.steps();
+            for (most, is_counted) in
+                [(steps, true), (steps - 1, false), (steps / 3, false), (0, false)]
+            {
+                for threads in [1, 3] {
+                    let budget = Budget::new(most);
+                    let mut within = WorkWithin::new(&budget);
+                    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+                    let pool = pool.expect("there are threads");
+                    let frame = pool.install(|| watched(order, &view, &options, &mut within));
+                    let what = format!("scene {k}, {}, {most} of {steps}", order.name());
+                    assert_eq!(within.work(), is_counted.then_some(work), "{what}");
+                    assert_eq!(frame, expected, "{what}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn counting_ends_soon_after_its_budget() {
+    // So that the whole of it would be some hundred times as much.
+    let scene = scene(vec![mesh(needles(4000))]);
+    let camera = turned(Projection::Perspective, [0.4, 0.3, 2.5], [0.0; 3], [300, 200]);
+    let (view, options) = (View::new(&scene, &camera), Options::default());
+    for order in [Order::Object, Order::Image] {
+        let mut whole = Work::default();
+        let expected = watched(order, &view, &options, &mut whole);
+        let most = whole.steps() / 100;
+        let budget = Budget::new(most);
+        let mut counted = Within { within: WorkWithin::new(&budget), heard: Work::default() };
+        assert_eq!(watched(order, &view, &options, &mut counted), expected);
+        let heard = counted.heard.steps();
+        println!("{}: {heard} steps of {most}, {} in all", order.name(), whole.steps());
+        assert!(heard > most && heard < 4 * most, "{heard} steps for a budget of {most}");
+    }
+}
+
+/// Hears what is counted within a budget, also beyond it.
+struct Within<'a> {
+    within: WorkWithin<'a>,
+    heard: Work,
+}
+
+impl Observer for Within<'_> {
+    fn fork(&self) -> Self {
+        Within { within: self.within.fork(), heard: Work::default() }
+    }
+
+    fn join(&mut self, part: Self) {
+        self.within.join(part.within);
+        self.heard.join(part.heard);
+    }
+}
+
+impl Events for Within<'_> {
+    fn has_enough(&mut self) -> bool {
+        self.within.has_enough()
+    }
+
+    fn node_opened(&mut self, sample: Sample, node: u32, entered: bool) {
+        self.within.node_opened(sample, node, entered);
+        self.heard.node_opened(sample, node, entered);
+    }
+
+    fn sample_tested(&mut self, sample: Sample, primitive: u32) {
+        self.within.sample_tested(sample, primitive);
+        self.heard.sample_tested(sample, primitive);
+    }
+}
+
+#[test]
+fn counts_may_be_left_out_or_too_many() {
+    let scene = ties(4000);
+    let camera = turned(Projection::Perspective, [0.4, 0.3, 2.5], [0.0; 3], [2, 2]);
+    let view = View::new(&scene, &camera);
+    for order in [Order::Object, Order::Image] {
+        for method in [Method::Fast, Method::Textbook] {
+            let counted = orders::render(order, method, &view, &RenderOptions::default());
+            let without = RenderOptions { no_counts: true, ..RenderOptions::default() };
+            let without = orders::render(order, method, &view, &without);
+            assert!(counted.work().is_some() && without.work().is_none());
+            assert_eq!((without.work, &without.frame), (Counts::LeftOut, &counted.frame));
+            let report = Report::new("ties", 4000, 1, &[without], None).to_json().unwrap();
+            assert!(report.contains("\"work\": null"), "{report}");
+        }
+    }
+    assert_eq!(orders::most_steps(640 * 480), (1 << 28) + 640 * 480 * 1024);
+}
+
+#[test]
+fn ten_thousand_triangles_in_one_place_take_little_memory() {
+    // What other tests of this process take is not to be counted.
+    const ALONE: &str = "BOTHWAYS_TEST_ALONE";
+    if std::env::var_os(ALONE).is_none() {
+        let name = "counting::ten_thousand_triangles_in_one_place_take_little_memory";
+        let mut alone = Command::new(std::env::current_exe().unwrap());
+        alone
+            .env(ALONE, "1")
+            .args(["--exact", name])
+            .assert()
+            .success()
+            .stdout(contains("1 passed"));
+        return;
+    }
+    // 16 bytes for every tied fragment were some hundred megabytes.
+    let scene = ties(10_000);
+    let camera = turned(Projection::Parallel, [0.0, 0.0, 2.0], [0.0; 3], [256, 256]);
+    let (view, options) = (View::new(&scene, &camera), Options::default());
+    let mut ids = Vec::new();
+    for order in [Order::Object, Order::Image] {
+        let mut work = Work::default();
+        ids.push(watched(order, &view, &options, &mut work).ids().to_vec());
+        assert!(order == Order::Image || work.fragments > 10_000_000, "{work:?}");
+    }
+    assert_eq!(ids[0], ids[1]);
+    let before = peak_memory();
+    let prepared = rasterize::fast::prepare(&scene);
+    let mut frame = Frame::new(&camera, &options);
+    rasterize::fast::determine_visibility(&prepared, &view, &options, &mut frame, &mut ());
+    if let (Some(before), Some(after)) = (before, peak_memory()) {
+        println!("{before} kB before, {after} kB after");
+        assert!(after < 200_000, "{after} kB");
+    }
+}
+
+/// Kilobytes that this process had at most, where the system tells.
+fn peak_memory() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
+    line.split_whitespace().nth(1)?.parse().ok()
+}
+
+#[test]
+fn the_command_line_leaves_counts_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |more: &[&str]| {
+        let mut command = Command::cargo_bin("bothways").unwrap();
+        command.current_dir(&folder).args(["canonical", "--size", "8x6", "--no-times"]);
+        let output = command.args(more).assert().success().get_output().stdout.clone();
+        String::from_utf8(output).unwrap()
+    };
+    let counted = run(&[]);
+    assert!(counted.contains("boxes tested") && counted.contains("left to the exact judge"));
+    let without = run(&["--no-counts"]);
+    assert!(without.contains("samples covered") && without.contains("match"), "{without}");
+    for row in ["primitives  ", "rays", "boxes", "tested", "judge", "not counted"] {
+        assert!(!without.contains(row), "{row}: {without}");
+    }
+    let report: serde_json::Value = serde_json::from_str(&run(&["--no-counts", "--json"])).unwrap();
+    for order in ["object_order", "image_order"] {
+        assert_eq!(report[order]["work"], serde_json::Value::Null);
+        assert_eq!(report[order]["method"], "fast");
+    }
+    let report: serde_json::Value = serde_json::from_str(&run(&["--json"])).unwrap();
+    assert_eq!(report["image_order"]["work"]["rays"], 48);
+}

@@ -1,0 +1,245 @@
+//! A part of the picture alone: the pixels of the whole one, bit for bit, in both orders.
+
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use crate::four_renderers::{RENDERERS, owners};
+use bothways::common::glam::Vec3;
+use bothways::common::observe::{Events, Observer};
+use bothways::common::raster::Sample;
+use bothways::common::{
+    Camera, CameraDescription, Crop, Frame, Mesh, Object, Options, Plane, Projection, Region,
+    Scene, Shape, Sphere, View, Work,
+};
+use bothways::diff::{Class, Classes, compare};
+use bothways::formats::generate::Kind;
+use bothways::picture::{mask, picture};
+use bothways::{rasterize, raytrace, scenes, vectors};
+use bothways_test_support::{
+    PROJECTIONS, assert_is_part, mesh, scene, some_crops, triangle, turned,
+};
+
+/// One pixel in each corner, the borders, odd ones in between, and everything.
+fn crops_of([width, height]: [u32; 2], seed: u64) -> Vec<Crop> {
+    let corners = [[0, 0], [0, width - 1], [height - 1, 0], [height - 1, width - 1]];
+    let corners = corners.map(|[row, column]| [row, column, 1, 1]);
+    let borders = [[0, 0, height, width], [height - 1, 0, 1, width], [0, width - 1, height, 1]];
+    let fixed = corners.into_iter().chain(borders).map(Crop::from);
+    fixed.chain(some_crops([width, height], seed).take(5)).collect()
+}
+
+/// Renders the whole picture and its crops with all four, and compares.
+fn check_all(view: &View, samples: u32, seed: u64, what: &str) {
+    let options = Options { samples, ..Options::default() };
+    for (name, render) in RENDERERS {
+        let whole = render(view, &options);
+        for crop in crops_of(view.camera.image(), seed) {
+            let part = render(view, &Options { crop: Some(crop), ..options });
+            assert_is_part(&whole, &part, &format!("{what}, {name}"));
+        }
+    }
+}
+
+#[test]
+fn built_in_scenes_from_everywhere() {
+    let mut seed = 0;
+    for name in ["overlap", "ties", "slivers", "inside", "behind"] {
+        let scene = scenes::load(name).unwrap().scene;
+        for projection in PROJECTIONS {
+            for (eye, image) in [([1.5, 1.0, 4.0], [11, 7]), ([0.2, 0.1, -0.3], [6, 9])] {
+                let camera = turned(projection, eye, [0.0; 3], image);
+                seed += 1;
+                let samples = 1 + u32::try_from(seed % 3).unwrap();
+                let what = format!("{name}, {projection:?} from {eye:?}, {samples} samples");
+                check_all(&View::new(&scene, &camera), samples, seed, &what);
+            }
+        }
+    }
+}
+
+#[test]
+fn scenes_that_make_a_point() {
+    for (seed, vector) in (0..).zip(vectors::all()) {
+        let (scene, camera) = (vector.scene(), vector.camera());
+        let small = CameraDescription { image: [13, 11], ..*camera.description() };
+        let camera = Camera::new(small).unwrap();
+        let samples = 1 + u32::try_from(seed % 2).unwrap();
+        check_all(&View::new(&scene, &camera), samples, seed, vector.name);
+    }
+}
+
+/// Triangles of all sizes, some behind the eye, a textured ball and a plane.
+fn much() -> Scene {
+    let number = |k: u32, step: f64| {
+        #[expect(clippy::cast_possible_truncation, reason = "it looks random")]
+        let number = (f64::from(k) * step).fract() as f32 - 0.5;
+        number
+    };
+    let point = |k: u32| {
+        Vec3::new(number(k, 0.618_033_988), number(k, 0.754_877_666), number(k, 0.569_840_291))
+    };
+    let positions = (0..600).flat_map(|k| {
+        let size = 4.0 * 0.5f32.powf((k % 12) as f32);
+        [0, 1, 2].map(|corner| 4.0 * point(7 * k + 1) + size * point(11 * k + corner + 5))
+    });
+    let triangles = (0..600).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+    let soup = mesh(Mesh::new(positions.collect(), triangles).unwrap());
+    let lecture = scenes::load("lecture").unwrap().scene;
+    let mut materials = lecture.objects().iter().map(|object| object.material);
+    let checkered = materials.find(|material| material.checker.is_some()).unwrap();
+    let ball = Shape::Sphere(Sphere { center: Vec3::new(0.5, 0.4, 0.0), radius: 0.6 });
+    let ground = Shape::Plane(Plane { point: Vec3::new(0.0, -1.0, 0.0), normal: Vec3::Y });
+    let textured = |shape| Object { material: checkered, ..Object::from(shape) };
+    let teapot = Kind::Teapot.mesh([6, 6]).unwrap();
+    scene(vec![soup, textured(ball), textured(ground), mesh(teapot)])
+}
+
+/// Both `fast` renderers in one frame that is used again and again, on so many threads.
+fn draw_both(view: &View, options: &Options, tile: [u32; 2], side: usize) -> [(Frame, Work); 2] {
+    let level = bothways::common::engine::simd::best_level();
+    let mut drawn = [(); 2].map(|()| {
+        let elsewhere = Options { crop: Some([0, 1, 3, 5].into()), ..*options };
+        let frame = Frame::new(view.camera, &elsewhere);
+        (frame.with_normals().with_texture_coordinates(), Work::default())
+    });
+    let [(by_object, object_work), (by_image, image_work)] = &mut drawn;
+    let prepared = rasterize::fast::prepare(view.scene).drawn_with(level, tile);
+    rasterize::fast::determine_visibility(&prepared, view, options, by_object, object_work);
+    rasterize::fast::determine_visibility(&prepared, view, options, by_object, &mut ());
+    rasterize::shade(view, by_object);
+    let prepared = raytrace::fast::prepare(view.scene).drawn_with(level, side);
+    raytrace::fast::determine_visibility(&prepared, view, options, by_image, image_work);
+    raytrace::fast::determine_visibility(&prepared, view, options, by_image, &mut ());
+    raytrace::shade(view, by_image);
+    drawn
+}
+
+#[test]
+fn tiles_are_cut_and_threads_change_nothing() {
+    let (scene, image) = (much(), [203, 141]);
+    let mut seed = 100;
+    for projection in PROJECTIONS {
+        for eye in [[1.5, 1.0, 4.0], [0.1, -0.2, 0.3]] {
+            let camera = turned(projection, eye, [0.0; 3], image);
+            let view = View::new(&scene, &camera);
+            for (tile, side) in [([10, 6], 16), ([3, 4], 32), ([6, 3], 16)] {
+                seed += 1;
+                let samples = 1 + u32::try_from(seed % 2).unwrap();
+                let options = Options { samples, ..Options::default() };
+                let wholes = draw_both(&view, &options, tile, side);
+                for crop in crops_of(image, seed) {
+                    let options = Options { crop: Some(crop), ..options };
+                    let on = |threads: usize| {
+                        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+                        pool.unwrap().install(|| draw_both(&view, &options, tile, side))
+                    };
+                    let parts = on(1);
+                    let what = format!("{projection:?} from {eye:?}, tiles {tile:?} and {side}");
+                    for ((whole, _), (part, _)) in wholes.iter().zip(&parts) {
+                        assert_is_part(whole, part, &what);
+                    }
+                    assert!(parts == on(3), "{what}, 3 threads");
+                }
+            }
+        }
+    }
+}
+
+/// The region that object order tells, and whether a sample outside of it is told of.
+#[derive(Clone, Debug)]
+struct Within {
+    region: Region,
+    outside: u64,
+}
+
+impl Observer for Within {
+    fn fork(&self) -> Self {
+        Within { outside: 0, ..self.clone() }
+    }
+
+    fn join(&mut self, part: Self) {
+        self.outside += part.outside;
+    }
+}
+
+impl Events for Within {
+    fn primitive_begun(&mut self, _primitive: u32, region: &Region) {
+        let is_within = region.is_empty() || region.intersection(&self.region) == *region;
+        self.outside += u64::from(!is_within);
+    }
+
+    fn ray_begun(&mut self, Sample { row, column }: Sample) {
+        let is_within = self.region.rows.contains(&row) && self.region.columns.contains(&column);
+        self.outside += u64::from(!is_within);
+    }
+}
+
+#[test]
+fn observers_hear_of_the_crop_alone_in_the_numbers_of_the_whole() {
+    let scene = much();
+    for projection in PROJECTIONS {
+        let camera = turned(projection, [1.5, 1.0, 4.0], [0.0; 3], [40, 30]);
+        let view = View::new(&scene, &camera);
+        let whole = Options { samples: 2, ..Options::default() };
+        let crop = Crop { row: 11, column: 5, height: 7, width: 18 };
+        let part = Options { crop: Some(crop), ..whole };
+        let region = crop.region(2);
+        for ((name, all), (_, some)) in owners(&view, &whole).into_iter().zip(owners(&view, &part))
+        {
+            for (index, (all, some)) in all.into_iter().zip(some).enumerate() {
+                let (row, column) = (index / 80, index % 80);
+                let is_in = region.rows.contains(&row) && region.columns.contains(&column);
+                let expected = if is_in { all } else { 0 };
+                assert_eq!(some, expected, "{name}, sample ({row}, {column})");
+            }
+        }
+        let [(by_object, object_work), (_, image_work)] = draw_both(&view, &part, [10, 6], 16);
+        assert_eq!(by_object.region(), &region);
+        // One looks at every object for the smallest picture, the other at no ray that it does not need.
+        assert_eq!(object_work.primitives, u64::from(scene.primitive_count()));
+        assert_eq!((image_work.rays, object_work.rays), (4 * 7 * 18, 0));
+
+        let mut within = Within { region, outside: 0 };
+        let mut frame = Frame::new(&camera, &part);
+        rasterize::textbook::determine_visibility(&view, &part, &mut frame, &mut within);
+        raytrace::textbook::determine_visibility(&view, &part, &mut frame, &mut within);
+        let prepared = rasterize::fast::prepare(&scene);
+        rasterize::fast::determine_visibility(&prepared, &view, &part, &mut frame, &mut within);
+        let prepared = raytrace::fast::prepare(&scene);
+        raytrace::fast::determine_visibility(&prepared, &view, &part, &mut frame, &mut within);
+        assert_eq!(within.outside, 0);
+    }
+}
+
+#[test]
+fn differing_pixels_are_numbered_in_the_whole_image() {
+    let scene = scene(vec![triangle([[-1.0, -1.0, -2.0], [1.0, -1.0, -2.0], [0.0, 1.0, -2.0]])]);
+    let camera = turned(Projection::Perspective, [0.0; 3], [0.0, 0.0, -1.0], [9, 8]);
+    let options = Options { samples: 2, crop: Some([3, 2, 4, 5].into()) };
+    let frame = rasterize::textbook::render(&View::new(&scene, &camera), &options);
+    let mut other = frame.clone();
+    // A sample of pixel (4, 6), the last column, and two of pixel (6, 2), the last row.
+    for (row, column) in [(9, 13), (12, 4), (13, 5)] {
+        other.set(row, column, 7, 1.0);
+    }
+    let comparison = compare(&frame, &other);
+    assert_eq!(comparison.visible.first_differing, [[4, 6], [6, 2]]);
+    assert_eq!(comparison.visible.differing_pixels, 2);
+    assert!(comparison.verdict().contains("first at (4, 6)"), "{}", comparison.verdict());
+    let classes = Classes::new(&frame, &other);
+    assert_eq!(classes.image(), [5, 4]);
+    assert!(classes.at(1, 4).differs() && classes.at(3, 0).differs());
+    let differing = Class::ALL.into_iter().filter(|class| class.differs());
+    assert_eq!(differing.map(|class| classes.count(class)).sum::<u64>(), 2);
+    assert_eq!((picture(&frame).dimensions(), mask(&frame).dimensions()), ((5, 4), (5, 4)));
+}
+
+#[test]
+#[should_panic(expected = "the frames show different views")]
+fn two_crops_of_one_size_are_not_compared() {
+    let camera = Camera::canonical(9, 9);
+    let frame = |row| {
+        let crop = Some(Crop { row, column: 0, height: 2, width: 2 });
+        Frame::new(&camera, &Options { crop, ..Options::default() })
+    };
+    compare(&frame(0), &frame(1));
+}

@@ -1,0 +1,173 @@
+//! Texture coordinates and what is drawn over them: object order interpolates, image order goes back
+//! to the hit, and both find the same place of the texture.
+
+use crate::four_renderers::RENDERERS;
+use bothways::common::glam::{DVec2, Vec2, Vec3};
+use bothways::common::{Camera, Frame, Object, Options, Scene, Shape, Triangle, View};
+use bothways::diff::compare;
+use bothways::formats::scene_file;
+use bothways::scenes::load;
+use bothways::{rasterize, raytrace};
+use bothways_test_support::{PROJECTIONS, scene, turned};
+use std::path::Path;
+
+/// Every form with a texture, all before one camera.
+const STILL_LIFE: &str = r##"
+[material.tiles]
+color = "#f0e0c0"
+specular = 0.3
+checker = { color = "#803010", divisions = [8, 6] }
+
+[material.floor]
+color = "#808080"
+checker = { color = "#f0f0f0", divisions = [1.5, 2] }
+
+[[object]]
+triangle = { a = [-3, -1, -2], b = [-1, -1, 1], c = [-3, 2, -3] }
+material = "tiles"
+
+[[object]]
+sphere = { center = [1.5, 0, 0], radius = 0.9 }
+material = "tiles"
+
+[[object]]
+generate = { kind = "torus", divisions = [24, 12] }
+material = "tiles"
+rotate = { axis = [1, 0, 0], degrees = 70 }
+
+[[object]]
+generate = { kind = "teapot", divisions = [3, 3] }
+material = "tiles"
+scale = 0.4
+translate = [0, 0.6, -1.5]
+
+[[object]]
+plane = { point = [0.3, -1, 0], normal = [0.1, 1, 0.05] }
+material = "floor"
+"##;
+
+fn still_life() -> Scene {
+    let file = scene_file::parse("still-life.toml", STILL_LIFE, Path::new(""));
+    file.expect("it is a scene").scene
+}
+
+/// Both orders' frames, with texture coordinates.
+fn both(view: &View, options: &Options) -> [Frame; 2] {
+    let mut frames = [(); 2].map(|()| Frame::new(view.camera, options).with_texture_coordinates());
+    let [by_object, by_image] = &mut frames;
+    let prepared = rasterize::fast::prepare(view.scene);
+    rasterize::fast::determine_visibility(&prepared, view, options, by_object, &mut ());
+    rasterize::shade(view, by_object);
+    let prepared = raytrace::fast::prepare(view.scene);
+    raytrace::fast::determine_visibility(&prepared, view, options, by_image, &mut ());
+    raytrace::shade(view, by_image);
+    frames
+}
+
+/// How far two texture coordinates are apart; 0 and 1 are the same longitude.
+fn apart(a: Vec2, b: Vec2) -> f32 {
+    let way = (a - b).abs();
+    way.x.min((1.0 - way.x).abs()).max(way.y)
+}
+
+#[test]
+fn both_orders_find_the_same_place_of_the_texture() {
+    let scene = still_life();
+    for projection in PROJECTIONS {
+        for (eye, samples) in [([1.0, 1.5, 6.0], 1), ([-2.0, 0.4, 3.0], 2), ([0.0, 4.0, 0.5], 1)] {
+            let camera = turned(projection, eye, [0.0; 3], [80, 60]);
+            let view = View::new(&scene, &camera);
+            let [by_object, by_image] = both(&view, &Options { samples, ..Options::default() });
+            let coordinates = by_object.texture_coordinates().iter();
+            let mut found = 0;
+            for (sample, (&a, &b)) in coordinates.zip(by_image.texture_coordinates()).enumerate() {
+                let size = 1_f32.max(a.abs().max_element());
+                assert!(apart(a, b) < 2e-5 * size, "{projection:?} {eye:?}: {a} {b} at {sample}");
+                found += usize::from(a != Vec2::ZERO);
+            }
+            assert!(found > 1000, "{found}");
+            let comparison = compare(&by_object, &by_image);
+            assert_eq!(comparison.color.differing_pixels, 0, "{projection:?} {eye:?}");
+        }
+    }
+}
+
+#[test]
+fn all_four_draw_the_pattern() {
+    let scene = still_life();
+    let plain: Vec<Object> = scene.objects().iter().map(without_checker).collect();
+    let plain = Scene::new(plain).unwrap();
+    for projection in PROJECTIONS {
+        let camera = turned(projection, [1.0, 1.5, 6.0], [0.0; 3], [40, 30]);
+        let (view, options) = (View::new(&scene, &camera), Options::default());
+        let frames = RENDERERS.map(|(_, render)| render(&view, &options));
+        for frame in &frames {
+            assert_eq!(compare(&frames[0], frame).color.differing_pixels, 0);
+            let without = RENDERERS[0].1(&View::new(&plain, &camera), &options);
+            assert!(compare(frame, &without).color.differing_pixels > 200, "a pattern is seen");
+        }
+    }
+}
+
+fn without_checker(object: &Object) -> Object {
+    let mut object = object.clone();
+    object.material.checker = None;
+    object
+}
+
+/// A long floor of one triangle: halfway up the picture is much less than halfway to its end.
+#[test]
+fn coordinates_are_right_in_perspective() {
+    let far = Triangle {
+        a: Vec3::new(-1.0, -1.0, -1.0),
+        b: Vec3::new(1.0, -1.0, -1.0),
+        c: Vec3::new(-1.0, -1.0, -9.0),
+    };
+    let scene = scene(vec![Shape::Triangle(far).into()]);
+    let camera = Camera::canonical(64, 64);
+    let grid = camera.sample_grid(1);
+    for frame in both(&View::new(&scene, &camera), &Options::default()) {
+        let mut seen = 0;
+        for (row, &y) in grid.y().iter().enumerate() {
+            for (column, &x) in grid.x().iter().enumerate() {
+                if frame.id(row, column).is_none() {
+                    continue;
+                }
+                // The viewing ray t·(x, y, −d) meets the floor y = −1; `c` is 8 behind `a`.
+                let t = -1.0 / y;
+                let depth = t * camera.distance();
+                let expected = DVec2::new(0.5 * (x * t + 1.0), (depth - 1.0) / 8.0);
+                let found = frame.texture_coordinates()[row * frame.width() + column].as_dvec2();
+                assert!((found - expected).abs().max_element() < 1e-6, "{found} {expected}");
+                seen += 1;
+            }
+        }
+        assert!(seen > 50, "{seen}");
+    }
+}
+
+#[test]
+fn a_frame_keeps_no_coordinates_unless_asked() {
+    let loaded = load("canonical").unwrap();
+    let camera = Camera::new(loaded.camera).unwrap();
+    let view = View::new(&loaded.scene, &camera);
+    let frame = RENDERERS[0].1(&view, &Options::default());
+    assert!(frame.texture_coordinates().is_empty());
+    let mut frame = frame.with_texture_coordinates();
+    frame.fit(&Camera::canonical(7, 5), &Options::default());
+    assert_eq!(frame.texture_coordinates().len(), 35, "another size forgets no wish");
+}
+
+#[test]
+fn a_mesh_without_coordinates_takes_no_checker() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("bare.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
+    let text = "[material.tiles]\nchecker = { color = '#000000', divisions = [4, 4] }\n\
+                [[object]]\nmesh = 'bare.obj'\nmaterial = 'tiles'\n";
+    let error = scene_file::parse("a.toml", text, folder.path()).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "a.toml:5:1: this material has a checker, and the mesh has no texture coordinates; export \
+         the mesh as OBJ with texture coordinates (vt), or choose a material without checker"
+    );
+}

@@ -1,0 +1,52 @@
+//! Small scenes.
+
+use crate::cameras::{PROJECTIONS, on_integers};
+use bothways_common::glam::{Vec2, Vec3};
+use bothways_common::{Camera, Mesh, Object, Scene, Shape, Triangle};
+
+/// One triangle.
+pub fn triangle(corners: [[f32; 3]; 3]) -> Object {
+    let [a, b, c] = corners.map(Vec3::from_array);
+    Shape::Triangle(Triangle { a, b, c }).into()
+}
+
+/// A scene of these.
+pub fn scene(objects: Vec<Object>) -> Scene {
+    Scene::new(objects).expect("it is a scene")
+}
+
+/// A mesh as an object.
+pub fn mesh(mesh: Mesh) -> Object {
+    Shape::Mesh(mesh).into()
+}
+
+/// Grids of squares of several sides, their corners on quarters of the camera's samples, and what they are.
+pub fn grids_on_quarters() -> impl Iterator<Item = (Scene, Camera, String)> {
+    let sides = [(0.25, 96), (0.5, 48), (1.0, 24), (2.0, 12), (4.0, 6), (9.0, 2)];
+    PROJECTIONS.into_iter().flat_map(move |projection| {
+        sides.into_iter().flat_map(move |(side, squares)| {
+            [Vec2::ZERO, Vec2::new(0.25, 0.5)].into_iter().map(move |shift| {
+                let what = format!("{projection:?}, squares of {side}, moved by {shift}");
+                (scene(vec![grid(side, squares, shift)]), on_integers(projection, 10), what)
+            })
+        })
+    })
+}
+
+/// The corners of a grid of squares in the plane z = −1, moved by `shift`, cut by both diagonals in turn.
+#[expect(clippy::cast_possible_truncation, reason = "small numbers")]
+fn grid(side: f32, squares: usize, shift: Vec2) -> Object {
+    let count = squares + 1;
+    let half = 0.5 * side * squares as f32;
+    let place = |k: usize| {
+        let [column, row] = [k % count, k / count].map(|index| side * index as f32 - half);
+        Vec3::new(column + shift.x, row + shift.y, -1.0)
+    };
+    let square = |k: usize| {
+        let a = (k / squares * count + k % squares) as u32;
+        let [b, c, d] = [a + 1, a + count as u32 + 1, a + count as u32];
+        if k.is_multiple_of(2) { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] }
+    };
+    let triangles = (0..squares * squares).flat_map(square).collect();
+    mesh(Mesh::new((0..count * count).map(place).collect(), triangles).expect("it is a mesh"))
+}
