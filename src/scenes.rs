@@ -11,7 +11,7 @@ pub use stream::{StreamedScene, open_stream};
 use crate::common::{CameraDescription, Object, Scene, SceneError, Shape};
 use crate::formats::mesh_file::{Format, ReadMeshError};
 use crate::formats::mesh_stream::StreamError;
-use crate::formats::scene_file::{self, SceneFileError, nearest_name};
+use crate::formats::scene_file::{self, ReadSceneError, nearest_name};
 use crate::formats::smooth;
 use std::path::Path;
 
@@ -130,7 +130,7 @@ pub enum LoadError {
     },
     /// The scene file is wrong.
     #[error(transparent)]
-    SceneFile(#[from] SceneFileError),
+    SceneFile(#[from] ReadSceneError),
     /// The mesh file is wrong.
     #[error(transparent)]
     Mesh(#[from] ReadMeshError),

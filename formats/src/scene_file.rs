@@ -27,7 +27,7 @@
 //! "##;
 //! let file = scene_file::parse("example.toml", text, Path::new(""))?;
 //! assert_eq!(file.scene.objects().len(), 2);
-//! # Ok::<(), scene_file::SceneFileError>(())
+//! # Ok::<(), scene_file::ReadSceneError>(())
 //! ```
 //!
 //! Every key is described where it is read: the camera's in `camera.rs`, an object's in
@@ -35,28 +35,29 @@
 //! goes unnoticed; every error knows its place in the text. Numbers are read as the nearest `f32`.
 
 mod camera;
+mod color;
+mod document;
 mod error;
 mod excerpt;
+mod light;
+mod material;
 mod object;
-mod reader;
+mod suggestion;
 mod transform;
 mod write;
 
-pub use error::{LocatedError, SceneFileError};
+pub use error::{LocatedError, ReadSceneError};
 pub use excerpt::Excerpt;
-pub use reader::nearest_name;
+pub use suggestion::nearest_name;
 pub use write::framed_mesh_toml;
 
-use crate::source::quote::quoted;
 use crate::source::regular_file;
-use bothways_common::Checker;
 use bothways_common::camera::CameraDescription;
-use bothways_common::look::color::linear_from_srgb;
-use bothways_common::scene::{Light, Material, Object, Scene, SceneError};
+use bothways_common::scene::{Object, Scene, SceneError};
+use document::{Item, Table};
 use error::Problem;
-use glam::Vec3;
-use reader::{Item, Table};
-use std::collections::BTreeMap;
+use light::lights;
+use material::{Materials, materials};
 use std::io::Read;
 use std::path::Path;
 use toml::de::DeTable;
@@ -79,7 +80,7 @@ pub struct SceneFile {
 /// # Errors
 ///
 /// Those of [`read_text`] and of [`parse`].
-pub fn read(path: &Path) -> Result<SceneFile, SceneFileError> {
+pub fn read(path: &Path) -> Result<SceneFile, ReadSceneError> {
     let text = read_text(path)?;
     parse(&path.display().to_string(), &text, path.parent().unwrap_or(Path::new("")))
 }
@@ -93,22 +94,22 @@ const MOST_BYTES: u64 = 8 << 20;
 /// # Errors
 ///
 /// A file that is not there, cannot be read, is a pipe or a device, is too large or is no text.
-pub fn read_text(path: &Path) -> Result<String, SceneFileError> {
-    let name = path.display().to_string();
+pub fn read_text(path: &Path) -> Result<String, ReadSceneError> {
+    let file = path.display().to_string();
     let mut bytes = Vec::new();
     // A byte more than may be read tells that there is too much, whatever the system says of its length.
     let read =
         regular_file(path).and_then(|file| file.take(MOST_BYTES + 1).read_to_end(&mut bytes));
     match read {
-        Err(source) => return Err(SceneFileError::Unreadable { name, source }),
-        Ok(_) if bytes.len() as u64 > MOST_BYTES => return Err(SceneFileError::TooLarge { name }),
+        Err(error) => return Err(ReadSceneError::Unreadable { file, error }),
+        Ok(_) if bytes.len() as u64 > MOST_BYTES => return Err(ReadSceneError::TooLarge { file }),
         Ok(_) => {}
     }
     String::from_utf8(bytes).map_err(|error| {
         let byte = error.utf8_error().valid_up_to();
         let before = &error.as_bytes()[..byte];
         let line = before.iter().filter(|&&byte| byte == b'\n').count() + 1;
-        SceneFileError::NotText { name, line, byte }
+        ReadSceneError::NotText { file, line, byte }
     })
 }
 
@@ -117,7 +118,7 @@ pub fn read_text(path: &Path) -> Result<String, SceneFileError> {
 /// # Errors
 ///
 /// The first thing found that is wrong, with its place: see [`LocatedError`].
-pub fn parse(name: &str, text: &str, folder: &Path) -> Result<SceneFile, SceneFileError> {
+pub fn parse(name: &str, text: &str, folder: &Path) -> Result<SceneFile, ReadSceneError> {
     let read = document(text, folder);
     read.map_err(|problem| problem.in_text(name, text).into())
 }
@@ -149,83 +150,6 @@ fn document(text: &str, folder: &Path) -> Result<SceneFile, Problem> {
     Ok(SceneFile { scene, camera: description, viewport_stated, warnings })
 }
 
-/// Materials by name; each has `color`, `specular`, `shininess` and `checker`, and may leave them out.
-type Materials = BTreeMap<String, Material>;
-
-fn materials(item: &Item) -> Result<Materials, Problem> {
-    item.entries()?.map(|item| Ok((item.name.clone(), material(&item)?))).collect()
-}
-
-fn material(item: &Item) -> Result<Material, Problem> {
-    let table = item.table(&["color", "specular", "shininess", "checker"])?;
-    let mut material = Material::default();
-    if let Some(item) = table.get("color") {
-        material.color = color(&item)?;
-    }
-    if let Some(item) = table.get("specular") {
-        material.specular = match item.not_negative()? {
-            specular if specular <= 1.0 => specular,
-            _ => {
-                let what = format!("is {}; it must be at most 1", item.written());
-                return Err(item.problem(what));
-            }
-        };
-    }
-    if let Some(item) = table.get("shininess") {
-        material.shininess = item.positive()?;
-    }
-    material.checker = table.get("checker").map(|item| checker(&item)).transpose()?;
-    Ok(material)
-}
-
-/// A pattern: its other `color`, and its `divisions`, the cells to a unit of the texture coordinate.
-fn checker(item: &Item) -> Result<Checker, Problem> {
-    const EXAMPLE: &str = "checker = { color = \"#202020\", divisions = [8, 8] }";
-    let table = item.table(&["color", "divisions"])?;
-    Ok(Checker {
-        color: color(&table.need("color", EXAMPLE)?)?,
-        divisions: table.need("divisions", EXAMPLE)?.positive_pair()?,
-    })
-}
-
-/// Lights; each has one of `directional`, `point` and `ambient`, and an `intensity`, else 1.
-fn lights(item: &Item) -> Result<Vec<Light>, Problem> {
-    item.tables()?.map(|item| light(&item)).collect()
-}
-
-fn light(item: &Item) -> Result<Light, Problem> {
-    const KINDS: [&str; 3] = ["directional", "point", "ambient"];
-    let table = item.table(&["directional", "point", "ambient", "intensity"])?;
-    let kind = exactly_one(&table, "a light", &KINDS, "directional = [-1, -2, -1]")?;
-    let intensity = table.get("intensity").map_or(Ok(1.0), |item| item.not_negative())?;
-    match kind.name.as_str() {
-        "directional" => Ok(Light::Directional { direction: kind.direction()?, intensity }),
-        "point" => Ok(Light::Point { position: kind.vector()?, intensity }),
-        _ if kind.flag()? => Ok(Light::Ambient { intensity }),
-        _ => Err(kind.problem("is false").help("write ambient = true, or remove this light")),
-    }
-}
-
-/// The one of these keys that a table has.
-fn exactly_one<'t>(
-    table: &Table<'t>,
-    name: &str,
-    keys: &[&str],
-    example: &str,
-) -> Result<Item<'t>, Problem> {
-    let present = table.present(keys);
-    let one_of = format!("one of {}", keys.join(", "));
-    match present[..] {
-        [key] => table.need(key, example),
-        [] => Err(Problem::new(table.span.clone(), format!("{name} needs {one_of}"))
-            .help(format!("write for example {example}"))),
-        [first, second, ..] => {
-            let message = format!("{name} takes only {one_of}, and this one has {first} already");
-            Err(Problem::new(table.place_of(second), message).help(format!("remove {second}")))
-        }
-    }
-}
-
 fn scene(
     list: &Item,
     materials: &Materials,
@@ -248,18 +172,5 @@ fn scene(
     })
 }
 
-/// A colour as screens show it, `"#rrggbb"`; linear from here on.
-fn color(item: &Item) -> Result<Vec3, Problem> {
-    let text = item.text()?;
-    let byte = |range| u8::from_str_radix(text.get(range)?, 16).ok();
-    // The parser of numbers would take a sign for a digit.
-    let digits = text.len() == 7 && text.chars().skip(1).all(|c| c.is_ascii_hexdigit());
-    let bytes =
-        (digits && text.starts_with('#')).then(|| Some([byte(1..3)?, byte(3..5)?, byte(5..7)?]));
-    match bytes.flatten() {
-        Some(bytes) => Ok(Vec3::from_array(bytes.map(linear_from_srgb))),
-        None => Err(item
-            .problem(format!("is {}; it must be a # and six hexadecimal digits", quoted(text)))
-            .help("write for example \"#c8553d\"")),
-    }
-}
+#[cfg(test)]
+mod tests;

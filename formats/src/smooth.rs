@@ -1,11 +1,13 @@
 //! Normals for meshes that bring none: smooth where faces meet at a small angle, with a crease where
 //! they meet at a large one.
 
-mod caps;
+mod facet;
+mod normal_tree;
 
 use bothways_common::scene::{Attribute, Mesh};
-use caps::Caps;
+use facet::Facet;
 use glam::{DVec3, Vec3};
+use normal_tree::NormalTree;
 use std::collections::HashMap;
 
 /// The angle between two faces, in degrees, beyond which the edge between them is meant to be seen.
@@ -20,7 +22,7 @@ pub const CREASE: f64 = 40.0;
 /// 1998, for the weights.
 ///
 /// ```
-/// use bothways_common::{generate::Kind, smooth};
+/// use bothways_formats::{generate::Kind, smooth};
 ///
 /// // The faces of a box meet at 90 degrees: each corner keeps the normal of its own face.
 /// let corners = Kind::Box.mesh([1, 1])?;
@@ -51,34 +53,23 @@ pub fn with_normals(mesh: Mesh, crease: f64) -> Mesh {
     mesh.with_normals(normals).expect("each corner names a normal that was made")
 }
 
-/// A triangle at one of its vertices.
-#[derive(Clone, Copy, Debug)]
-struct Facet {
-    /// Of unit length; zero if the triangle has no area.
-    normal: DVec3,
-    /// The normal times the triangle's angle at the vertex.
-    weighted: DVec3,
-    triangle: u32,
-    corner: u8,
-}
-
 /// From so many triangles around a vertex on, comparing each with each takes longer than sorting them.
 const MANY: usize = 64;
 
 /// Gives the corners around one vertex their normals.
 fn smooth_vertex(facets: &[Facet], least_cosine: f64, normals: &mut Attribute<Vec3>) {
-    let caps = (facets.len() >= MANY).then(|| Caps::new(facets));
+    let tree = (facets.len() >= MANY).then(|| NormalTree::new(facets));
     // Corners of one smooth patch share a normal: few values for many corners.
     let first = normals.values.len();
     let mut known = HashMap::new();
     for facet in facets.iter().filter(|facet| facet.normal != DVec3::ZERO) {
-        let sum = match &caps {
-            Some(caps) => caps.sum(facet.normal, least_cosine),
+        let sum = match &tree {
+            Some(tree) => tree.sum(facet.normal, least_cosine),
             None => sum_one_by_one(facets, facet, least_cosine),
         };
         let normal = sum.normalize_or(facet.normal).as_vec3();
         let next = normals.values.len();
-        let index = if caps.is_some() {
+        let index = if tree.is_some() {
             // Zero and minus zero are two keys, and one value: that costs a value.
             *known.entry(normal.to_array().map(f32::to_bits)).or_insert(next)
         } else {

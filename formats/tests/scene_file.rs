@@ -5,10 +5,10 @@ use bothways_common::{
     Camera, CameraDescription, Light, Material, Orientation, Plane, Projection, Shape, Sphere,
     Triangle,
 };
-use bothways_formats::scene_file::{self, SceneFile, SceneFileError};
+use bothways_formats::scene_file::{self, ReadSceneError, SceneFile};
 use std::path::Path;
 
-fn read(text: &str) -> Result<SceneFile, SceneFileError> {
+fn read(text: &str) -> Result<SceneFile, ReadSceneError> {
     scene_file::parse("scene.toml", text, Path::new(""))
 }
 

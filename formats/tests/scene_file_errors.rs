@@ -1,13 +1,13 @@
 //! What is said about scene files that are wrong, and where.
 
-use bothways_formats::scene_file::{self, LocatedError, SceneFile, SceneFileError};
+use bothways_formats::scene_file::{self, LocatedError, ReadSceneError, SceneFile};
 use proptest::prelude::*;
 use std::path::Path;
 
 fn read(text: &str) -> Result<SceneFile, LocatedError> {
     match scene_file::parse("scene.toml", text, Path::new("no-such-folder")) {
         Ok(file) => Ok(file),
-        Err(SceneFileError::Located(error)) => Err(error),
+        Err(ReadSceneError::Located(error)) => Err(error),
         Err(error) => panic!("a text has a place: {error}"),
     }
 }

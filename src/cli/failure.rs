@@ -1,6 +1,6 @@
 //! What the user is told when something went wrong.
 
-use bothways::formats::scene_file::{Excerpt, LocatedError, SceneFileError};
+use bothways::formats::scene_file::{Excerpt, LocatedError, ReadSceneError};
 use bothways::formats::source::quote::visible;
 use bothways::scenes::LoadError;
 use miette::{
@@ -67,7 +67,7 @@ impl fmt::Display for Failure {
 impl From<LoadError> for Failure {
     fn from(error: LoadError) -> Self {
         match error {
-            LoadError::SceneFile(SceneFileError::Located(error)) => {
+            LoadError::SceneFile(ReadSceneError::Located(error)) => {
                 Failure::InSceneFile(Box::new(Located::new(error)))
             }
             error => Failure::new(error.to_string()),
@@ -78,7 +78,7 @@ impl From<LoadError> for Failure {
 impl Located {
     fn new(error: LocatedError) -> Located {
         let (line, column) = error.line_and_column();
-        let place = format!("{}:{line}:{column}", visible(&error.name));
+        let place = format!("{}:{line}:{column}", visible(&error.file));
         let lines = Lines { excerpt: error.excerpt(), place };
         Located { error, lines }
     }

@@ -30,7 +30,7 @@ pub enum ReadObjError {
     },
     /// Nothing in the file has an area.
     #[error("{file}: no faces (`f` statements), so nothing to draw; export the mesh as polygons")]
-    NoFace {
+    NoFaces {
         /// The file.
         file: String,
     },
@@ -88,10 +88,10 @@ pub enum StatementFault {
         text: String,
     },
     /// A `v`, `vt` or `vn` has too few numbers.
-    #[error("too few coordinates for a {what}: {found} instead of {needed}")]
+    #[error("too few coordinates for a {kind}: {found} instead of {needed}")]
     MissingCoordinates {
         /// What needs them.
-        what: Element,
+        kind: IndexKind,
         /// How many it needs.
         needed: usize,
         /// How many there are.
@@ -110,26 +110,26 @@ pub enum StatementFault {
         text: String,
     },
     /// A face names something by the index 0.
-    #[error("the face names {what} 0, but they are counted from 1")]
+    #[error("the face names {kind} 0, but they are counted from 1")]
     IndexZero {
         /// What it names.
-        what: Element,
+        kind: IndexKind,
     },
     /// A face names something, counted back, from before the first.
-    #[error("the face names {what} {index}, counted back, but above it {}", Defined(*.defined))]
+    #[error("the face names {kind} {index}, counted back, but above it {}", Defined(*.defined))]
     UnknownAbove {
         /// What it names.
-        what: Element,
+        kind: IndexKind,
         /// By which negative index.
         index: i64,
         /// How many are defined above the face.
         defined: usize,
     },
     /// A face names something that the file does not define, neither above nor below.
-    #[error("the face names {what} {index}, but in the whole file {}", Defined(*.defined))]
+    #[error("the face names {kind} {index}, but in the whole file {}", Defined(*.defined))]
     Unknown {
         /// What it names.
-        what: Element,
+        kind: IndexKind,
         /// By which index.
         index: i64,
         /// How many the file defines.
@@ -164,9 +164,9 @@ pub enum StatementFault {
     },
 }
 
-/// What OBJ files number and faces name.
+/// What an index of a face names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Element {
+pub enum IndexKind {
     /// A position, `v`.
     Vertex,
     /// A texture coordinate, `vt`.
@@ -175,12 +175,12 @@ pub enum Element {
     Normal,
 }
 
-impl fmt::Display for Element {
+impl fmt::Display for IndexKind {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str(match self {
-            Element::Vertex => "vertex",
-            Element::TextureCoordinate => "texture coordinate",
-            Element::Normal => "normal",
+            IndexKind::Vertex => "vertex",
+            IndexKind::TextureCoordinate => "texture coordinate",
+            IndexKind::Normal => "normal",
         })
     }
 }

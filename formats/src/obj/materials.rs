@@ -16,71 +16,16 @@
 //! its three. `Ns 0` would light the whole surface; programs write it for matt ones, so it takes the
 //! highlight away.
 
-use super::lines::{Statements, Words};
-use super::{ObjFile, ReadObjError, StatementFault, is_text, number, without_mark};
-use crate::source::quote::{quote, quoted};
+use super::error::{ReadObjError, StatementFault};
+use super::file::ObjFile;
+use super::statements::Statements;
+use super::warning::MaterialWarning;
+use super::words::{Words, is_text, number};
+use crate::source::quote::quote;
 use bothways_common::look::color::linear_from_encoded;
-use bothways_common::scene::Material;
-use bothways_common::scene::Mesh;
+use bothways_common::scene::{Material, Mesh};
 use glam::Vec3;
-use std::fmt;
 use std::path::{Path, PathBuf};
-
-/// What is missing of a mesh's materials, so that it is drawn in the default one.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum MaterialWarning {
-    /// A material file is not there.
-    MissingLibrary {
-        /// The mesh's file.
-        file: String,
-        /// The material file, as the mesh's file names it.
-        library: String,
-    },
-    /// No material file defines these.
-    Undefined {
-        /// The mesh's file.
-        file: String,
-        /// Their names.
-        names: Vec<String>,
-    },
-    /// The mesh is streamed, so nobody asks for its materials.
-    Streamed {
-        /// The mesh's file.
-        file: String,
-    },
-}
-
-impl fmt::Display for MaterialWarning {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        /// More names say no more.
-        const MOST: usize = 3;
-        match self {
-            MaterialWarning::MissingLibrary { file, library } => write!(
-                f,
-                "{file}: there is no material file {} beside it; what needs it is drawn in light grey",
-                quoted(library)
-            ),
-            MaterialWarning::Undefined { file, names } => {
-                let some: Vec<String> = names.iter().take(MOST).map(|name| quoted(name)).collect();
-                let more = match names.len().saturating_sub(MOST) {
-                    0 => String::new(),
-                    more => format!(" and {more} more"),
-                };
-                let some = some.join(", ");
-                write!(
-                    f,
-                    "{file}: no material file defines {some}{more}; what is made of it is drawn in \
-                     light grey"
-                )
-            }
-            MaterialWarning::Streamed { file } => write!(
-                f,
-                "{file}: the materials of a mesh that is streamed are not read; all of it is drawn \
-                 in light grey"
-            ),
-        }
-    }
-}
 
 /// Gives a mesh the materials that it uses, from the files beside its own, and says what is missing.
 ///
@@ -145,7 +90,7 @@ fn library_files(folder: &Path, library: &str) -> Option<Vec<PathBuf>> {
 /// ```
 pub fn parse_materials(name: &str, bytes: &[u8]) -> Result<Vec<(String, Material)>, ReadObjError> {
     let mut materials = Vec::new();
-    for (line, words) in Statements::new(without_mark(bytes)) {
+    for (line, words) in Statements::new(bytes) {
         statement(&mut materials, words).map_err(|fault| ReadObjError::Statement {
             file: name.to_owned(),
             line,

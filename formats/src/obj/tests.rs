@@ -1,6 +1,9 @@
 //! What the reader takes, what it refuses, and in which words.
 
+use super::visitor::NONE;
 use super::*;
+use bothways_common::scene::Attribute;
+use glam::{Vec2, Vec3};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::select;
@@ -241,6 +244,53 @@ fn pieces() -> impl Strategy<Value = Vec<u8>> {
     vec(select(pieces.to_vec()), 0..60).prop_map(|pieces| pieces.concat())
 }
 
+/// Any number but NaN and infinities; both zeros and denormals among them.
+fn finite() -> impl Strategy<Value = f32> {
+    use proptest::num::f32::{NEGATIVE, NORMAL, POSITIVE, SUBNORMAL, ZERO};
+    POSITIVE | NEGATIVE | NORMAL | SUBNORMAL | ZERO
+}
+
+/// An attribute of so many triangles: possibly of none of them, possibly of only some.
+fn attribute<T: Copy + std::fmt::Debug>(
+    value: impl Strategy<Value = T>,
+    triangles: usize,
+) -> impl Strategy<Value = Attribute<T>> {
+    (vec(value, 1..9), vec([0_u32..12, 0..12, 0..12], triangles), any::<bool>()).prop_map(
+        |(values, mut corners, present)| {
+            for index in corners.as_flattened_mut() {
+                *index = if (*index as usize) < values.len() { *index } else { NONE };
+            }
+            let attribute = Attribute { values, corners };
+            // Values that no corner uses are not written.
+            let is_used = attribute.corners.as_flattened().iter().any(|&index| index != NONE);
+            if present && is_used { attribute } else { none() }
+        },
+    )
+}
+
+fn none<T>() -> Attribute<T> {
+    Attribute { values: Vec::new(), corners: Vec::new() }
+}
+
+fn any_mesh() -> impl Strategy<Value = Mesh> {
+    let position = [finite(), finite(), finite()].prop_map(Vec3::from);
+    let parts = (vec(position, 1..20), 1_usize..20).prop_flat_map(|(positions, triangles)| {
+        let vertex = 0..u32::try_from(positions.len()).unwrap();
+        let normal = [finite(), finite(), finite()].prop_map(Vec3::from);
+        let texture = [finite(), finite()].prop_map(Vec2::from);
+        (
+            Just(positions),
+            vec([vertex.clone(), vertex.clone(), vertex], triangles),
+            attribute(normal, triangles),
+            attribute(texture, triangles),
+        )
+    });
+    parts.prop_map(|(positions, triangles, normals, texture)| {
+        let mesh = Mesh::new(positions, triangles).unwrap().with_normals(normals).unwrap();
+        mesh.with_texture_coordinates(texture).unwrap()
+    })
+}
+
 proptest! {
     #[test]
     fn no_bytes_make_the_reader_panic(
@@ -248,5 +298,15 @@ proptest! {
     ) {
         // `Mesh` itself checks what is accepted.
         let _ = parse("a", &bytes);
+    }
+
+    #[test]
+    fn what_is_written_is_read_back_bit_for_bit(mesh in any_mesh()) {
+        let mut text = Vec::new();
+        write(&mesh, &mut text).unwrap();
+        let again = parse("again.obj", &text).unwrap();
+        // Printed, the two zeros differ.
+        let text = String::from_utf8_lossy(&text);
+        prop_assert_eq!(format!("{again:?}"), format!("{mesh:?}"), "{}", text);
     }
 }

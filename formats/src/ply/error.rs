@@ -27,7 +27,7 @@ pub enum ReadPlyError {
         fault: Box<HeaderFault>,
     },
     /// An element is wrong.
-    #[error("{file}: {element} {number} ({place}): {fault}")]
+    #[error("{file}: {element} {number} ({location}): {fault}")]
     Element {
         /// The file.
         file: String,
@@ -36,37 +36,37 @@ pub enum ReadPlyError {
         /// Which one of them, counted from 0 as the format does.
         number: u64,
         /// Where in the file the reader stopped.
-        place: Place,
+        location: Location,
         /// What is wrong with it.
         fault: Box<ElementFault>,
     },
     /// More follows than the header says.
     #[error(
-        "{file}: something follows the last element ({place}); \
+        "{file}: something follows the last element ({location}); \
          the header's counts or types do not fit the file, so export it again"
     )]
     Trailing {
         /// The file.
         file: String,
         /// Where it begins.
-        place: Place,
+        location: Location,
     },
 }
 
 /// Where in a PLY file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum Location {
     /// A byte of a binary file, counted from 0.
     Byte(u64),
     /// A line of an ASCII file, counted from 1.
     Line(u64),
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for Location {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
-            Place::Byte(byte) => write!(f, "byte {byte}"),
-            Place::Line(line) => write!(f, "line {line}"),
+            Location::Byte(byte) => write!(f, "byte {byte}"),
+            Location::Line(line) => write!(f, "line {line}"),
         }
     }
 }

@@ -18,7 +18,7 @@ pub(super) enum Encoding {
 
 /// The type of one value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Scalar {
+pub(super) enum ScalarType {
     I8,
     U8,
     I16,
@@ -29,18 +29,18 @@ pub(super) enum Scalar {
     F64,
 }
 
-impl Scalar {
+impl ScalarType {
     /// The format's first names, and those that say their size.
-    fn named(word: &str) -> Option<Scalar> {
+    fn named(word: &str) -> Option<ScalarType> {
         Some(match word {
-            "char" | "int8" => Scalar::I8,
-            "uchar" | "uint8" => Scalar::U8,
-            "short" | "int16" => Scalar::I16,
-            "ushort" | "uint16" => Scalar::U16,
-            "int" | "int32" => Scalar::I32,
-            "uint" | "uint32" => Scalar::U32,
-            "float" | "float32" => Scalar::F32,
-            "double" | "float64" => Scalar::F64,
+            "char" | "int8" => ScalarType::I8,
+            "uchar" | "uint8" => ScalarType::U8,
+            "short" | "int16" => ScalarType::I16,
+            "ushort" | "uint16" => ScalarType::U16,
+            "int" | "int32" => ScalarType::I32,
+            "uint" | "uint32" => ScalarType::U32,
+            "float" | "float32" => ScalarType::F32,
+            "double" | "float64" => ScalarType::F64,
             _ => return None,
         })
     }
@@ -48,15 +48,15 @@ impl Scalar {
     /// Bytes of one value in a binary file.
     pub(super) fn size(self) -> u64 {
         match self {
-            Scalar::I8 | Scalar::U8 => 1,
-            Scalar::I16 | Scalar::U16 => 2,
-            Scalar::I32 | Scalar::U32 | Scalar::F32 => 4,
-            Scalar::F64 => 8,
+            ScalarType::I8 | ScalarType::U8 => 1,
+            ScalarType::I16 | ScalarType::U16 => 2,
+            ScalarType::I32 | ScalarType::U32 | ScalarType::F32 => 4,
+            ScalarType::F64 => 8,
         }
     }
 
     fn is_integer(self) -> bool {
-        !matches!(self, Scalar::F32 | Scalar::F64)
+        !matches!(self, ScalarType::F32 | ScalarType::F64)
     }
 }
 
@@ -64,30 +64,30 @@ impl Scalar {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Property {
     pub(super) name: String,
-    pub(super) form: Form,
+    pub(super) kind: PropertyType,
 }
 
 /// One value, or a number of values and then so many.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Form {
-    One(Scalar),
-    List { length: Scalar, item: Scalar },
+pub(super) enum PropertyType {
+    Scalar(ScalarType),
+    List { length: ScalarType, item: ScalarType },
 }
 
 /// A kind of element: so many follow, in the order in which the header names the kinds.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Elements {
+pub(super) struct ElementGroup {
     pub(super) name: String,
     pub(super) count: u64,
     pub(super) properties: Vec<Property>,
 }
 
-impl Elements {
+impl ElementGroup {
     /// Bytes of one element in a binary file, if all have the same size.
     pub(super) fn stride(&self) -> Option<u64> {
-        let size = |property: &Property| match property.form {
-            Form::One(scalar) => Some(scalar.size()),
-            Form::List { .. } => None,
+        let size = |property: &Property| match property.kind {
+            PropertyType::Scalar(scalar) => Some(scalar.size()),
+            PropertyType::List { .. } => None,
         };
         self.properties.iter().map(size).sum()
     }
@@ -101,7 +101,7 @@ impl Elements {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Header {
     pub(super) encoding: Encoding,
-    pub(super) elements: Vec<Elements>,
+    pub(super) groups: Vec<ElementGroup>,
     /// How many vertices there are: few enough for an index of 32 bits.
     pub(super) vertices: u32,
     /// Where `x`, `y` and `z` stand among a vertex's properties.
@@ -174,7 +174,7 @@ impl<R: BufRead> Lines<'_, R> {
 #[derive(Default)]
 struct Draft {
     encoding: Option<Encoding>,
-    elements: Vec<Elements>,
+    groups: Vec<ElementGroup>,
     properties: usize,
 }
 
@@ -194,13 +194,15 @@ impl Draft {
             ["format", encoding, version] => self.format(encoding, version)?,
             ["element", name, count] => self.element(name, count)?,
             ["property", "list", length, item, name] => {
-                let [length, item] = [scalar(length)?, scalar(item)?];
+                let [length, item] = [scalar_type(length)?, scalar_type(item)?];
                 if !length.is_integer() {
                     return Err(HeaderFault::LengthNotInteger { name: quote::shown(name) });
                 }
-                self.property(name, Form::List { length, item })?;
+                self.property(name, PropertyType::List { length, item })?;
             }
-            ["property", kind, name] => self.property(name, Form::One(scalar(kind)?))?,
+            ["property", kind, name] => {
+                self.property(name, PropertyType::Scalar(scalar_type(kind)?))?
+            }
             ["end_header"] => return Ok(true),
             _ => return Err(unknown()),
         }
@@ -228,34 +230,34 @@ impl Draft {
         let Some(count) = whole(count) else {
             return Err(HeaderFault::NotACount { name: shown, text: quote(count.as_bytes()) });
         };
-        if self.elements.iter().any(|elements| elements.name == name) {
+        if self.groups.iter().any(|group| group.name == name) {
             return Err(HeaderFault::Twice { what: format!("element {shown}") });
         }
         self.check_last()?;
-        self.elements.push(Elements { name: name.to_owned(), count, properties: Vec::new() });
+        self.groups.push(ElementGroup { name: name.to_owned(), count, properties: Vec::new() });
         Ok(())
     }
 
-    fn property(&mut self, name: &str, form: Form) -> Result<(), HeaderFault> {
+    fn property(&mut self, name: &str, kind: PropertyType) -> Result<(), HeaderFault> {
         let shown = quote::shown(name);
-        let Some(elements) = self.elements.last_mut() else {
+        let Some(group) = self.groups.last_mut() else {
             return Err(HeaderFault::NoElement { name: shown });
         };
-        if elements.property(name).is_some() {
-            let what = format!("property {shown} of {}", quote::shown(&elements.name));
+        if group.property(name).is_some() {
+            let what = format!("property {shown} of {}", quote::shown(&group.name));
             return Err(HeaderFault::Twice { what });
         }
         self.properties += 1;
         if self.properties > MOST_PROPERTIES {
             return Err(HeaderFault::TooManyProperties { most: MOST_PROPERTIES });
         }
-        elements.properties.push(Property { name: name.to_owned(), form });
+        group.properties.push(Property { name: name.to_owned(), kind });
         Ok(())
     }
 
     /// An element without properties would take no bytes: any number of them could follow.
     fn check_last(&self) -> Result<(), HeaderFault> {
-        match self.elements.last() {
+        match self.groups.last() {
             Some(last) if last.properties.is_empty() => {
                 Err(HeaderFault::NoProperties { name: quote::shown(&last.name) })
             }
@@ -266,36 +268,28 @@ impl Draft {
     fn finish(self, bytes: u64, lines: u64) -> Result<Header, HeaderFault> {
         self.check_last()?;
         let encoding = self.encoding.ok_or(HeaderFault::NoFormat)?;
-        let named = |name| self.elements.iter().find(|elements| elements.name == name);
+        let named = |name| self.groups.iter().find(|group| group.name == name);
         let vertex = named("vertex").ok_or(HeaderFault::NoVertices)?;
         let face = named("face").filter(|face| face.count > 0).ok_or(HeaderFault::NoFaces)?;
         let vertices = u32::try_from(vertex.count).ok().filter(|&count| count < u32::MAX);
         let vertices = vertices.ok_or(HeaderFault::TooManyVertices { count: vertex.count })?;
         let coordinate = |name| match vertex.property(name) {
-            Some(k) if matches!(vertex.properties[k].form, Form::One(_)) => Ok(k),
+            Some(k) if matches!(vertex.properties[k].kind, PropertyType::Scalar(_)) => Ok(k),
             _ => Err(HeaderFault::NoCoordinate { name }),
         };
         let coordinates = [coordinate("x")?, coordinate("y")?, coordinate("z")?];
         let corners = face.property("vertex_indices").or_else(|| face.property("vertex_index"));
-        let is_index_list = |&k: &usize| match face.properties[k].form {
-            Form::List { item, .. } => item.is_integer(),
-            Form::One(_) => false,
+        let is_index_list = |&k: &usize| match face.properties[k].kind {
+            PropertyType::List { item, .. } => item.is_integer(),
+            PropertyType::Scalar(_) => false,
         };
         let corners = corners.filter(is_index_list).ok_or(HeaderFault::NoCorners)?;
-        Ok(Header {
-            encoding,
-            vertices,
-            coordinates,
-            corners,
-            bytes,
-            lines,
-            elements: self.elements,
-        })
+        Ok(Header { encoding, vertices, coordinates, corners, bytes, lines, groups: self.groups })
     }
 }
 
-fn scalar(word: &str) -> Result<Scalar, HeaderFault> {
-    Scalar::named(word).ok_or_else(|| HeaderFault::UnknownType { text: quote(word.as_bytes()) })
+fn scalar_type(word: &str) -> Result<ScalarType, HeaderFault> {
+    ScalarType::named(word).ok_or_else(|| HeaderFault::UnknownType { text: quote(word.as_bytes()) })
 }
 
 /// A number without a sign: `parse` alone would take `+1`.

@@ -2,6 +2,7 @@
 
 use super::header::Encoding;
 use super::*;
+use glam::Vec3;
 use proptest::collection::vec;
 use proptest::prelude::*;
 

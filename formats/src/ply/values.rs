@@ -1,32 +1,36 @@
 //! The values behind the header of a PLY file, one after another, in words or in bytes.
 
-use super::error::{ElementFault, Place};
-use super::header::{Encoding, Header, Scalar};
+use super::error::{ElementFault, Location};
+use super::header::{Encoding, Header, ScalarType};
 use crate::source::quote::{quote, shown};
 use std::io::{self, BufRead, ErrorKind, Seek};
 
 /// Why reading a value ended.
-pub(super) enum Stop {
+pub(super) enum ValueError {
     Io(io::Error),
     /// The input ends.
     End,
     Fault(ElementFault),
 }
 
-impl From<ElementFault> for Stop {
-    fn from(fault: ElementFault) -> Stop {
-        Stop::Fault(fault)
+impl From<ElementFault> for ValueError {
+    fn from(fault: ElementFault) -> ValueError {
+        ValueError::Fault(fault)
     }
 }
 
-impl From<io::Error> for Stop {
-    fn from(error: io::Error) -> Stop {
-        if error.kind() == ErrorKind::UnexpectedEof { Stop::End } else { Stop::Io(error) }
+impl From<io::Error> for ValueError {
+    fn from(error: io::Error) -> ValueError {
+        if error.kind() == ErrorKind::UnexpectedEof {
+            ValueError::End
+        } else {
+            ValueError::Io(error)
+        }
     }
 }
 
 /// Reads values from an input that stands behind the header.
-pub(super) struct Values<'a, R> {
+pub(super) struct ValueReader<'a, R> {
     input: &'a mut R,
     encoding: Encoding,
     /// Bytes before the next value.
@@ -41,17 +45,17 @@ pub(super) struct Values<'a, R> {
 /// No number needs more: longer words are none.
 const LONGEST_WORD: usize = 1024;
 
-impl<'a, R: BufRead + Seek> Values<'a, R> {
+impl<'a, R: BufRead + Seek> ValueReader<'a, R> {
     pub(super) fn new(input: &'a mut R, header: &Header, length: u64) -> Self {
         let (encoding, position, line) = (header.encoding, header.bytes, header.lines + 1);
-        Values { input, encoding, position, line, length, word: Vec::new() }
+        ValueReader { input, encoding, position, line, length, word: Vec::new() }
     }
 
     /// Where the reader is.
-    pub(super) fn place(&self) -> Place {
+    pub(super) fn location(&self) -> Location {
         match self.encoding {
-            Encoding::Ascii => Place::Line(self.line),
-            Encoding::LittleEndian | Encoding::BigEndian => Place::Byte(self.position),
+            Encoding::Ascii => Location::Line(self.line),
+            Encoding::LittleEndian | Encoding::BigEndian => Location::Byte(self.position),
         }
     }
 
@@ -72,7 +76,7 @@ impl<'a, R: BufRead + Seek> Values<'a, R> {
     }
 
     /// Finds the line of the next element.
-    pub(super) fn begin_element(&mut self) -> Result<(), Stop> {
+    pub(super) fn begin_element(&mut self) -> Result<(), ValueError> {
         while self.encoding == Encoding::Ascii && self.at_line_end()? == Some(true) {
             self.line += 1;
         }
@@ -80,7 +84,7 @@ impl<'a, R: BufRead + Seek> Values<'a, R> {
     }
 
     /// Ends the line of an element.
-    pub(super) fn end_element(&mut self) -> Result<(), Stop> {
+    pub(super) fn end_element(&mut self) -> Result<(), ValueError> {
         if self.encoding != Encoding::Ascii {
             return Ok(());
         }
@@ -98,13 +102,13 @@ impl<'a, R: BufRead + Seek> Values<'a, R> {
     }
 
     /// Whether nothing follows; blank lines are nothing.
-    pub(super) fn at_end(&mut self) -> Result<bool, Stop> {
+    pub(super) fn at_end(&mut self) -> Result<bool, ValueError> {
         self.begin_element()?;
         Ok(self.input.fill_buf()?.is_empty())
     }
 
     /// The next value as the nearest `f32`, which must be finite; messages call it `name`.
-    pub(super) fn coordinate(&mut self, name: &str, scalar: Scalar) -> Result<f32, Stop> {
+    pub(super) fn coordinate(&mut self, name: &str, scalar: ScalarType) -> Result<f32, ValueError> {
         let (rounded, value) = self.number(scalar)?;
         if rounded.is_finite() {
             return Ok(rounded);
@@ -122,7 +126,7 @@ impl<'a, R: BufRead + Seek> Values<'a, R> {
     }
 
     /// The next value, rounded to `f32` once, and as it is.
-    fn number(&mut self, scalar: Scalar) -> Result<(f32, f64), Stop> {
+    fn number(&mut self, scalar: ScalarType) -> Result<(f32, f64), ValueError> {
         #[expect(clippy::cast_possible_truncation, reason = "to the nearest, once")]
         #[expect(clippy::cast_precision_loss, reason = "to the nearest, once")]
         Ok(match (self.encoding, scalar) {
@@ -134,11 +138,11 @@ impl<'a, R: BufRead + Seek> Values<'a, R> {
                     parsed.ok_or_else(|| ElementFault::NotANumber { text: quote(&self.word) })?;
                 (rounded, rounded.into())
             }
-            (_, Scalar::F32) => {
+            (_, ScalarType::F32) => {
                 let value = f32::from_bits(u32::from_le_bytes(self.bytes()?));
                 (value, value.into())
             }
-            (_, Scalar::F64) => {
+            (_, ScalarType::F64) => {
                 let value = f64::from_bits(u64::from_le_bytes(self.bytes()?));
                 (value as f32, value)
             }
@@ -150,37 +154,37 @@ impl<'a, R: BufRead + Seek> Values<'a, R> {
     }
 
     /// The next value of an integer type.
-    pub(super) fn integer(&mut self, scalar: Scalar) -> Result<i64, Stop> {
+    pub(super) fn integer(&mut self, scalar: ScalarType) -> Result<i64, ValueError> {
         if self.encoding == Encoding::Ascii {
             return self.integer_in_words(scalar);
         }
         Ok(match scalar {
-            Scalar::I8 => i8::from_le_bytes(self.bytes()?).into(),
-            Scalar::U8 => u8::from_le_bytes(self.bytes()?).into(),
-            Scalar::I16 => i16::from_le_bytes(self.bytes()?).into(),
-            Scalar::U16 => u16::from_le_bytes(self.bytes()?).into(),
-            Scalar::I32 => i32::from_le_bytes(self.bytes()?).into(),
-            Scalar::U32 => u32::from_le_bytes(self.bytes()?).into(),
-            Scalar::F32 | Scalar::F64 => unreachable!("the header was checked"),
+            ScalarType::I8 => i8::from_le_bytes(self.bytes()?).into(),
+            ScalarType::U8 => u8::from_le_bytes(self.bytes()?).into(),
+            ScalarType::I16 => i16::from_le_bytes(self.bytes()?).into(),
+            ScalarType::U16 => u16::from_le_bytes(self.bytes()?).into(),
+            ScalarType::I32 => i32::from_le_bytes(self.bytes()?).into(),
+            ScalarType::U32 => u32::from_le_bytes(self.bytes()?).into(),
+            ScalarType::F32 | ScalarType::F64 => unreachable!("the header was checked"),
         })
     }
 
     /// Passes over a value.
-    pub(super) fn ignore(&mut self, scalar: Scalar) -> Result<(), Stop> {
+    pub(super) fn ignore(&mut self, scalar: ScalarType) -> Result<(), ValueError> {
         // Even what is not needed must be a number: otherwise the header does not fit the file.
         self.number(scalar).map(|_| ())
     }
 
-    fn integer_in_words(&mut self, scalar: Scalar) -> Result<i64, Stop> {
+    fn integer_in_words(&mut self, scalar: ScalarType) -> Result<i64, ValueError> {
         self.next_word()?;
         let range = match scalar {
-            Scalar::I8 => i8::MIN.into()..=i8::MAX.into(),
-            Scalar::U8 => 0..=u8::MAX.into(),
-            Scalar::I16 => i16::MIN.into()..=i16::MAX.into(),
-            Scalar::U16 => 0..=u16::MAX.into(),
-            Scalar::I32 => i32::MIN.into()..=i32::MAX.into(),
-            Scalar::U32 => 0..=u32::MAX.into(),
-            Scalar::F32 | Scalar::F64 => unreachable!("the header was checked"),
+            ScalarType::I8 => i8::MIN.into()..=i8::MAX.into(),
+            ScalarType::U8 => 0..=u8::MAX.into(),
+            ScalarType::I16 => i16::MIN.into()..=i16::MAX.into(),
+            ScalarType::U16 => 0..=u16::MAX.into(),
+            ScalarType::I32 => i32::MIN.into()..=i32::MAX.into(),
+            ScalarType::U32 => 0..=u32::MAX.into(),
+            ScalarType::F32 | ScalarType::F64 => unreachable!("the header was checked"),
         };
         let parsed: Option<i64> =
             str::from_utf8(&self.word).ok().and_then(|word| word.parse().ok());
@@ -191,7 +195,7 @@ impl<'a, R: BufRead + Seek> Values<'a, R> {
     }
 
     /// The next bytes, the least significant first.
-    fn bytes<const N: usize>(&mut self) -> Result<[u8; N], Stop> {
+    fn bytes<const N: usize>(&mut self) -> Result<[u8; N], ValueError> {
         let mut bytes = [0; N];
         self.input.read_exact(&mut bytes)?;
         self.position += N as u64;
@@ -202,11 +206,11 @@ impl<'a, R: BufRead + Seek> Values<'a, R> {
     }
 
     /// Takes the next word of the line.
-    fn next_word(&mut self) -> Result<(), Stop> {
+    fn next_word(&mut self) -> Result<(), ValueError> {
         match self.at_line_end()? {
             Some(true) => return Err(ElementFault::LineTooShort.into()),
             Some(false) => {}
-            None => return Err(Stop::End),
+            None => return Err(ValueError::End),
         }
         self.word.clear();
         loop {
@@ -229,7 +233,7 @@ impl<'a, R: BufRead + Seek> Values<'a, R> {
 
     /// Passes over blanks and tells whether the line ends then, taking its end; `None` at the end of
     /// the input.
-    fn at_line_end(&mut self) -> Result<Option<bool>, Stop> {
+    fn at_line_end(&mut self) -> Result<Option<bool>, ValueError> {
         loop {
             let bytes = self.input.fill_buf()?;
             let Some(&first) = bytes.first() else { return Ok(None) };

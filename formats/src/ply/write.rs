@@ -14,7 +14,8 @@ use std::io::{self, Write};
 /// Those of `out`, which should be buffered.
 ///
 /// ```
-/// use bothways_common::{Mesh, glam::Vec3, ply};
+/// use bothways_common::{Mesh, glam::Vec3};
+/// use bothways_formats::ply;
 ///
 /// let mesh = Mesh::new(vec![Vec3::ZERO, Vec3::X, 0.1 * Vec3::Y], vec![[0, 1, 2]])?;
 /// let mut file = Vec::new();

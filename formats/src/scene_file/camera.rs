@@ -13,9 +13,10 @@
 //! | `image` | `W`, `H` | 640 × 480 |
 //! | `background` | the colour of nothing | nearly black |
 
-use super::color;
+use super::color::color;
+use super::document::{Item, Table};
 use super::error::Problem;
-use super::reader::{Item, Table, suggestion};
+use super::suggestion::suggestion;
 use crate::source::quote::quoted;
 use bothways_common::camera::{Camera, CameraDescription, CameraError, Orientation, Projection};
 use bothways_common::raster::check_samples;
@@ -49,7 +50,7 @@ const KEYS: [&str; 13] = [
 /// Reads the table and makes sure that the camera can be used.
 pub(super) fn read(item: &Item) -> Result<CameraTable, Problem> {
     let table = item.table(&KEYS)?;
-    let misplaced = |error: CameraError| Problem::new(place(&table, &error), error.to_string());
+    let misplaced = |error: CameraError| Problem::new(span(&table, &error), error.to_string());
     let standard = CameraDescription::default();
     let image = table.get("image").map_or(Ok(standard.image), |item| item.counts())?;
     // Before the viewport is computed from it.
@@ -83,7 +84,7 @@ fn field_of_view(
         let message =
             format!("the viewport's size is stated by {first} already, so not by {second}");
         let help = "give fov, the vertical angle in degrees, or viewport = [vw, vh]";
-        return Err(Problem::new(table.place_of(second), message).help(help));
+        return Err(Problem::new(table.span_of(second), message).help(help));
     }
     let refused = |error: CameraError| match error {
         CameraError::FieldOfView { .. } => item
@@ -124,7 +125,7 @@ fn orientation(table: &Table) -> Result<Option<Orientation>, Problem> {
         let message =
             format!("the camera's frame is stated by {first} already, so not by {excess}");
         let help = "give look_at and up, or direction and up, or u, v and w";
-        return Err(Problem::new(table.place_of(excess), message).help(help));
+        return Err(Problem::new(table.span_of(excess), message).help(help));
     }
 
     if by_axes {
@@ -150,7 +151,7 @@ fn is_axis(key: &str) -> bool {
 }
 
 /// The key that a camera's error is about, or else the table.
-fn place(table: &Table, error: &CameraError) -> Range<usize> {
+fn span(table: &Table, error: &CameraError) -> Range<usize> {
     let keys: &[&str] = match error {
         CameraError::LooksAtItself { .. } => &["look_at"],
         CameraError::UpAlongView { .. } => &["up", "look_at", "direction"],

@@ -1,39 +1,39 @@
 //! Why a scene file is refused: always with the place in its text, if it has a text.
 
-use super::MOST_BYTES;
 use super::excerpt::Excerpt;
 use crate::source::Unreadable;
 use crate::source::quote::visible;
 use std::borrow::Cow;
 use std::fmt;
+use std::io;
 use std::ops::Range;
 
 /// Why a scene file could not be read.
 #[derive(Debug, thiserror::Error)]
-pub enum SceneFileError {
+pub enum ReadSceneError {
     /// There is no such file, it is none that can be read twice, or the system does not give it away.
-    #[error("{name}: {}", Unreadable::new(.source, "a scene file"))]
+    #[error("{file}: {}", Unreadable::new(.error, "a scene file"))]
     Unreadable {
         /// The file.
-        name: String,
-        /// What the system says.
-        source: std::io::Error,
+        file: String,
+        /// What the system says. The message says it too, so it is no
+        /// [source](std::error::Error::source) besides.
+        error: io::Error,
     },
     /// The file would take more memory than any scene needs.
     #[error(
-        "{name}: a scene file of more than {} MiB is not read; put its triangles into a mesh file \
-         (.obj, .ply) and name it in the scene",
-        MOST_BYTES >> 20
+        "{file}: a scene file of more than 8 MiB is not read; put its triangles into a mesh file \
+         (.obj, .ply) and name it in the scene"
     )]
     TooLarge {
         /// The file.
-        name: String,
+        file: String,
     },
     /// The file is no text.
-    #[error("{name} is not UTF-8 text: byte {byte} on line {line} begins no character")]
+    #[error("{file} is not UTF-8 text: byte {byte} on line {line} begins no character")]
     NotText {
         /// The file.
-        name: String,
+        file: String,
         /// The line, counted from 1.
         line: usize,
         /// The byte in the file, counted from 0.
@@ -51,7 +51,7 @@ pub enum SceneFileError {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LocatedError {
     /// What messages call the text.
-    pub name: String,
+    pub file: String,
     /// All of the text.
     pub text: String,
     /// The bytes of the text to underline.
@@ -83,7 +83,7 @@ impl LocatedError {
 impl fmt::Display for LocatedError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (line, column) = self.line_and_column();
-        write!(f, "{}:{line}:{column}: {}", visible(&self.name), self.message)?;
+        write!(f, "{}:{line}:{column}: {}", visible(&self.file), self.message)?;
         self.help.iter().try_for_each(|help| write!(f, "; {help}"))
     }
 }
@@ -107,12 +107,12 @@ impl Problem {
         Problem { help: Some(help.into()), ..self }
     }
 
-    pub(super) fn in_text(self, name: &str, text: &str) -> LocatedError {
+    pub(super) fn in_text(self, file: &str, text: &str) -> LocatedError {
         let Problem { span, message, help } = self;
         // Whatever it quotes, of this file or of one that it names.
         let (message, help) = (visible(&message).into_owned(), help.as_deref().map(visible));
         let help = help.map(Cow::into_owned);
-        LocatedError { name: name.to_owned(), text: text.to_owned(), span, message, help }
+        LocatedError { file: file.to_owned(), text: text.to_owned(), span, message, help }
     }
 }
 

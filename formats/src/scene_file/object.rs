@@ -12,16 +12,16 @@
 //!
 //! A `scale` is one factor, or `[x, y, z]`, one for each axis; negative ones mirror.
 
-use super::Materials;
+use super::document::{Item, Table};
 use super::error::Problem;
-use super::reader::{Item, Table, suggestion};
+use super::material::Materials;
+use super::suggestion::suggestion;
 use super::transform::{self, Transform};
 use crate::generate::Kind;
 use crate::mesh_file::{Format, ReadMeshError};
 use crate::smooth;
 use crate::source::quote::{quoted, shown};
-use bothways_common::scene::MeshMaterials;
-use bothways_common::scene::{Material, Object, Plane, Shape, Sphere, Triangle};
+use bothways_common::scene::{Material, MeshMaterials, Object, Plane, Shape, Sphere, Triangle};
 use std::path::Path;
 
 const SHAPES: [&str; 5] = ["triangle", "sphere", "plane", "mesh", "generate"];
@@ -36,7 +36,7 @@ pub(super) fn read(
 ) -> Result<Object, Problem> {
     let known = [&SHAPES[..], &["material"], &transform::KEYS].concat();
     let table = item.table(&known)?;
-    let stated = super::exactly_one(&table, "an object", &SHAPES, EXAMPLE)?;
+    let stated = table.exactly_one("an object", &SHAPES, EXAMPLE)?;
     let shape = match stated.name.as_str() {
         "triangle" => triangle(&stated)?,
         "sphere" => sphere(&stated)?,
@@ -60,7 +60,7 @@ fn check_pattern(object: &Table, shape: &Shape, material: &Material) -> Result<(
             if material.checker.is_some() && mesh.texture_coordinates().corners.is_empty() =>
         {
             let message = "this material has a checker, and the mesh has no texture coordinates";
-            Err(Problem::new(object.place_of("material"), message).help(
+            Err(Problem::new(object.span_of("material"), message).help(
                 "export the mesh as OBJ with texture coordinates (vt), or choose a material without \
                  checker",
             ))

@@ -1,10 +1,9 @@
 //! Where an object is put: scaled (by one factor, or one along each axis), then rotated, then
 //! translated, in `f64`, rounded to `f32` once.
 
+use super::document::{Item, Table};
 use super::error::Problem;
-use super::reader::{Item, Table};
-use bothways_common::scene::Mesh;
-use bothways_common::scene::{Plane, Shape, Sphere, Triangle};
+use bothways_common::scene::{Mesh, Plane, Shape, Sphere, Triangle};
 use glam::{DVec3, Vec3};
 use std::ops::Range;
 
@@ -55,7 +54,7 @@ impl Transform {
             scale,
             rotation,
             translation: translation.as_dvec3(),
-            span: object.place_of(first),
+            span: object.span_of(first),
             scale_span: object.get("scale").map_or(0..0, |item| item.span),
         }))
     }

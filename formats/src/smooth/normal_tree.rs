@@ -1,12 +1,12 @@
 //! The faces around one vertex, sorted by where their normals point, so that those within an angle of any
 //! direction are summed without looking at each.
 
-use super::Facet;
+use super::facet::Facet;
 use glam::DVec3;
 
 /// A tree of boxes around unit normals; in each, the sum of what belongs to them.
 #[derive(Debug)]
-pub(super) struct Caps {
+pub(super) struct NormalTree {
     /// Each followed by all of its first half, then all of its second.
     nodes: Vec<Node>,
     /// In the order of the nodes.
@@ -29,9 +29,9 @@ struct Node {
 /// Facets that are looked at one by one.
 const FEW: usize = 8;
 
-impl Caps {
+impl NormalTree {
     /// Those of facets with a normal.
-    pub(super) fn new(facets: &[Facet]) -> Caps {
+    pub(super) fn new(facets: &[Facet]) -> NormalTree {
         let mut facets: Vec<Facet> =
             facets.iter().copied().filter(|facet| facet.normal != DVec3::ZERO).collect();
         let mut nodes = Vec::new();
@@ -39,7 +39,7 @@ impl Caps {
         if count > 0 {
             build(&mut nodes, &mut facets, 0, count);
         }
-        Caps { nodes, facets }
+        NormalTree { nodes, facets }
     }
 
     /// The sum of the weighted normals of all faces whose normals' product with this one is at least so

@@ -1,9 +1,12 @@
-//! An OBJ file that is read from its beginning to its end several times, a statement at a time,
-//! so that it need not fit into memory.
+//! An OBJ or MTL file on disk, read in passes from its beginning to its end, one statement at a time. It does not
+//! need to fit into memory.
 
-use super::error::{Element, ReadObjError, StatementFault};
-use super::lines::{BufferedStatements, Words};
-use super::{Corner, MARK, MaterialWarning, Reader, Sink, is_text};
+use super::error::{IndexKind, ReadObjError, StatementFault};
+use super::parser::Parser;
+use super::statements::{BYTE_ORDER_MARK, BufferedStatements};
+use super::visitor::{Corner, Visitor};
+use super::warning::MaterialWarning;
+use super::words::{Words, is_text};
 use crate::source::{READ_AT_ONCE, regular_file};
 use glam::Vec3;
 use std::fs::File;
@@ -13,30 +16,30 @@ use std::path::Path;
 /// The longest statement that is read: a polygon of some million corners.
 const MOST_BYTES_A_STATEMENT: usize = 1 << 24;
 
-/// An OBJ file, and what its first pass found.
+/// An open OBJ or MTL file, and what the first pass over it found.
 #[derive(Debug)]
 pub(crate) struct ObjFile {
     name: String,
     input: BufReader<File>,
-    /// How many the file defines, for each [`Element`].
+    /// The number of definitions in the file, for each [`IndexKind`].
     total: [usize; 3],
     names_materials: bool,
 }
 
-/// Takes positions, or triangles, and leaves the rest.
-struct Visit<V, T> {
+/// Passes positions and triangles on, and ignores everything else.
+struct GeometryOnly<V, T> {
     vertex: V,
     triangle: T,
     names_materials: bool,
 }
 
-impl<V, T> Visit<V, T> {
+impl<V, T> GeometryOnly<V, T> {
     fn new(vertex: V, triangle: T) -> Self {
-        Visit { vertex, triangle, names_materials: false }
+        GeometryOnly { vertex, triangle, names_materials: false }
     }
 }
 
-impl<V: FnMut(Vec3), T: FnMut([u32; 3])> Sink for Visit<V, T> {
+impl<V: FnMut(Vec3), T: FnMut([u32; 3])> Visitor for GeometryOnly<V, T> {
     fn position(&mut self, position: Vec3) {
         (self.vertex)(position);
     }
@@ -51,6 +54,7 @@ impl<V: FnMut(Vec3), T: FnMut([u32; 3])> Sink for Visit<V, T> {
 }
 
 impl ObjFile {
+    /// Opens a file that can be read several times.
     pub(crate) fn open(path: &Path) -> Result<Self, ReadObjError> {
         let name = path.display().to_string();
         match regular_file(path) {
@@ -62,30 +66,30 @@ impl ObjFile {
         }
     }
 
-    /// The first pass: visits all vertices and counts what there is. Faces wait for the second, which
-    /// knows then whether what they name is defined anywhere.
+    /// The first pass: visits all vertices and counts all definitions. It skips faces: the next pass knows which
+    /// indices are defined.
     pub(crate) fn vertices(&mut self, visit: impl FnMut(Vec3)) -> Result<(), ReadObjError> {
-        let mut reader = Reader::new(Visit::new(visit, |_| ()), None);
+        let mut parser = Parser::new(GeometryOnly::new(visit, |_| ()), None);
         let read = |line, words: Words| match words.clone().next() {
             Some(b"f" | b"fo") => Ok(()),
             _ => {
-                reader.statement(line, words)?;
-                check_count(reader.defined[Element::Vertex as usize])
+                parser.statement(line, words)?;
+                check_count(parser.defined[IndexKind::Vertex as usize])
             }
         };
         let statements = self.statements(read)?;
-        self.total = reader.defined;
-        self.names_materials = reader.sink.names_materials;
+        self.total = parser.defined;
+        self.names_materials = parser.visitor.names_materials;
         if statements == 0 { Err(ReadObjError::Empty { file: self.name.clone() }) } else { Ok(()) }
     }
 
-    /// That the file names materials, if the first pass has found so: no pass reads them.
+    /// A warning if the first pass has found that the file names materials: no pass reads them.
     pub(crate) fn material_warning(&self) -> Option<MaterialWarning> {
         self.names_materials.then(|| MaterialWarning::Streamed { file: self.name.clone() })
     }
 
-    /// A later pass: visits all triangles in file order, each with three indices of vertices that the
-    /// first pass has visited.
+    /// A later pass: visits all triangles in file order. Their indices are those of vertices that the first pass
+    /// has visited.
     pub(crate) fn triangles(
         &mut self,
         mut visit: impl FnMut([u32; 3]),
@@ -95,27 +99,28 @@ impl ObjFile {
             found = true;
             visit(corners);
         };
-        let mut reader = Reader::new(Visit::new(|_| (), triangle), Some(self.total));
-        self.statements(|line, words| reader.statement(line, words))?;
-        if found { Ok(()) } else { Err(ReadObjError::NoFace { file: self.name.clone() }) }
+        let mut parser = Parser::new(GeometryOnly::new(|_| (), triangle), Some(self.total));
+        self.statements(|line, words| parser.statement(line, words))?;
+        if found { Ok(()) } else { Err(ReadObjError::NoFaces { file: self.name.clone() }) }
     }
 
-    /// How many bytes the file has.
+    /// The number of bytes in the file.
     pub(super) fn length(&self) -> Result<u64, ReadObjError> {
         let unreadable = |error| ReadObjError::Unreadable { file: self.name.clone(), error };
         Ok(self.input.get_ref().metadata().map_err(unreadable)?.len())
     }
 
-    /// Takes up all statements from the first on, and gives their number.
+    /// Calls `visit` with the line and the words of every statement, from the first on, and returns the number of
+    /// statements.
     pub(super) fn statements(
         &mut self,
-        mut statement: impl FnMut(usize, Words) -> Result<(), StatementFault>,
+        mut visit: impl FnMut(usize, Words) -> Result<(), StatementFault>,
     ) -> Result<usize, ReadObjError> {
         let ObjFile { name, input, .. } = self;
         let unreadable = |error| ReadObjError::Unreadable { file: name.clone(), error };
         input.rewind().map_err(unreadable)?;
-        if input.fill_buf().map_err(unreadable)?.starts_with(MARK) {
-            input.consume(MARK.len());
+        if input.fill_buf().map_err(unreadable)?.starts_with(BYTE_ORDER_MARK) {
+            input.consume(BYTE_ORDER_MARK.len());
         }
         let located = |line, fault| ReadObjError::Statement { file: name.clone(), line, fault };
         let mut statements = BufferedStatements::new(input);
@@ -130,14 +135,14 @@ impl ObjFile {
                 };
                 return Err(located(line, fault));
             }
-            statement(line, words).map_err(|fault| located(line, fault))?;
+            visit(line, words).map_err(|fault| located(line, fault))?;
             count += 1;
         }
         Ok(count)
     }
 }
 
-/// Every index that is valid fits into a `u32`, and is not the largest.
+/// Makes sure that every valid index fits into a `u32` and is not the largest one.
 fn check_count(vertices: usize) -> Result<(), StatementFault> {
     if u32::try_from(vertices).is_ok_and(|vertices| vertices < u32::MAX) {
         Ok(())

@@ -1,22 +1,22 @@
-//! A mesh that grows while an OBJ file is read.
+//! The mesh that an OBJ file describes, built while the file is parsed.
 
-use super::{Corner, NONE, Sink};
+use super::visitor::{Corner, NONE, Visitor};
 use bothways_common::scene::{Attribute, Mesh, MeshMaterials};
 use glam::{Vec2, Vec3};
 
-/// All of a mesh, while it is read.
+/// A mesh under construction.
 #[derive(Default)]
-pub(super) struct Parts {
+pub(super) struct MeshBuilder {
     positions: Vec<Vec3>,
     triangles: Vec<[u32; 3]>,
     texture_coordinates: Attribute<Vec2>,
     normals: Attribute<Vec3>,
     materials: MeshMaterials,
-    /// What the last `usemtl` says, until a face uses it; `Some(None)` is no name.
+    /// The material of the last `usemtl`, until a face uses it; `Some(None)` is a `usemtl` without a name.
     next_material: Option<Option<String>>,
 }
 
-impl Sink for Parts {
+impl Visitor for MeshBuilder {
     fn position(&mut self, position: Vec3) {
         self.positions.push(position);
     }
@@ -36,8 +36,8 @@ impl Sink for Parts {
         }
         self.triangles.push(corners.map(|[vertex, _, _]| vertex));
         let texture_coordinates = corners.map(|[_, texture_coordinate, _]| texture_coordinate);
-        carry(&mut self.texture_coordinates.corners, triangle, texture_coordinates);
-        carry(&mut self.normals.corners, triangle, corners.map(|[_, _, normal]| normal));
+        store(&mut self.texture_coordinates.corners, triangle, texture_coordinates);
+        store(&mut self.normals.corners, triangle, corners.map(|[_, _, normal]| normal));
     }
 
     fn material(&mut self, name: Option<String>) {
@@ -49,12 +49,13 @@ impl Sink for Parts {
     }
 }
 
-impl Parts {
+impl MeshBuilder {
+    /// Tells whether there is anything to draw.
     pub(super) fn has_triangles(&self) -> bool {
         !self.triangles.is_empty()
     }
 
-    /// The mesh, once all of it has been read and checked.
+    /// The mesh, after the whole file has been parsed and all indices have been checked.
     pub(super) fn finish(self) -> Mesh {
         let triangles = self.triangles.len();
         let normals = complete(self.normals, triangles);
@@ -67,15 +68,15 @@ impl Parts {
     }
 }
 
-/// Notes what the corners of a triangle carry, if they do; earlier triangles may have been silent.
-fn carry(list: &mut Vec<[u32; 3]>, triangle: usize, corners: [u32; 3]) {
+/// Stores the indices of a triangle's corners, if there are any. Triangles before it may have stored none.
+fn store(indices: &mut Vec<[u32; 3]>, triangle: usize, corners: [u32; 3]) {
     if corners != [NONE; 3] {
-        list.resize(triangle, [NONE; 3]);
-        list.push(corners);
+        indices.resize(triangle, [NONE; 3]);
+        indices.push(corners);
     }
 }
 
-/// Gives an attribute an entry for each triangle; one that no corner names vanishes.
+/// Gives an attribute an entry for each triangle, or removes its values if no corner has an index.
 fn complete<T>(mut attribute: Attribute<T>, triangles: usize) -> Attribute<T> {
     if attribute.corners.is_empty() {
         attribute.values = Vec::new();

@@ -1,8 +1,12 @@
-//! The statements of an OBJ file and the words of a statement, taken from its bytes without a copy.
+//! The statements of an OBJ or MTL file: its lines, where a backslash at the end of a line joins the next one.
 
+use super::words::Words;
 use std::io::{self, BufRead, Read};
 
-/// Walks through the statements of a file: its lines, where a backslash at the end joins the next.
+/// The byte order mark that some editors write before the first line.
+pub(super) const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
+/// Iterates over the statements of a file in memory, without a copy.
 ///
 /// Lines end with a line feed, with or without a carriage return before it.
 pub(super) struct Statements<'a> {
@@ -11,9 +15,9 @@ pub(super) struct Statements<'a> {
 }
 
 impl<'a> Statements<'a> {
-    /// All statements of a file, from its first line on.
+    /// All statements of a file, after its byte order mark if it has one.
     pub(super) fn new(bytes: &'a [u8]) -> Self {
-        Statements { rest: bytes, next_line: 1 }
+        Statements { rest: bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes), next_line: 1 }
     }
 }
 
@@ -30,20 +34,20 @@ impl<'a> Iterator for Statements<'a> {
         loop {
             let Some(length) = bytes[start..].iter().position(|&byte| byte == b'\n') else {
                 self.rest = &[];
-                return Some((first_line, Words { rest: bytes }));
+                return Some((first_line, Words::new(bytes)));
             };
             let end = start + length;
             self.next_line += 1;
             if !continues(&bytes[start..end]) {
                 self.rest = &bytes[end + 1..];
-                return Some((first_line, Words { rest: &bytes[..end] }));
+                return Some((first_line, Words::new(&bytes[..end])));
             }
             start = end + 1;
         }
     }
 }
 
-/// Takes the statements of a file out of a reader, one at a time, through a buffer of one statement.
+/// Reads the statements of a file one at a time, into a buffer that holds one statement.
 pub(super) struct BufferedStatements<R> {
     input: R,
     statement: Vec<u8>,
@@ -51,13 +55,14 @@ pub(super) struct BufferedStatements<R> {
 }
 
 impl<R: BufRead> BufferedStatements<R> {
-    /// All statements from here on.
+    /// All statements from the position of `input` on.
     pub(super) fn new(input: R) -> Self {
         BufferedStatements { input, statement: Vec::new(), next_line: 1 }
     }
 
-    /// As [`Statements::next`]; of a statement of more than `most` bytes, no more than one byte
-    /// too many.
+    /// Gives the next statement, as [`Statements::next`] does.
+    ///
+    /// A statement of more than `most` bytes is cut after `most + 1` bytes.
     pub(super) fn next(&mut self, most: usize) -> io::Result<Option<(usize, Words<'_>)>> {
         let first_line = self.next_line;
         self.statement.clear();
@@ -77,74 +82,15 @@ impl<R: BufRead> BufferedStatements<R> {
                 break;
             }
         }
-        Ok(Some((first_line, Words { rest: &self.statement })))
+        Ok(Some((first_line, Words::new(&self.statement))))
     }
 }
 
-/// Whether the line after this one belongs to the same statement.
+/// Tells whether the line after this one belongs to the same statement.
 fn continues(line: &[u8]) -> bool {
-    // A comment ends with its line, even if it ends with a folder's name.
-    let comment = || Words { rest: line }.any_comment();
-    line.strip_suffix(b"\r").unwrap_or(line).ends_with(b"\\") && !comment()
-}
-
-/// The words of a statement: what stands between blanks and joined line ends, up to a comment.
-#[derive(Clone)]
-pub(super) struct Words<'a> {
-    rest: &'a [u8],
-}
-
-impl<'a> Words<'a> {
-    /// What is left of the statement, as it stands, if it is not blank: a name, which may have blanks
-    /// and `#` in it.
-    pub(super) fn text(&self) -> Option<String> {
-        let text = self.rest.trim_ascii();
-        (!text.is_empty()).then(|| String::from_utf8_lossy(text).into_owned())
-    }
-
-    /// Bytes that are left of the statement.
-    pub(super) fn length(&self) -> usize {
-        self.rest.len()
-    }
-
-    fn any_comment(mut self) -> bool {
-        while let Some(word) = self.split_word() {
-            if word.starts_with(b"#") {
-                return true;
-            }
-        }
-        false
-    }
-
-    fn split_word(&mut self) -> Option<&'a [u8]> {
-        let start = self.rest.iter().position(|byte| !byte.is_ascii_whitespace())?;
-        let rest = &self.rest[start..];
-        let end = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
-        let (word, rest) = rest.split_at(end);
-        self.rest = rest;
-        Some(word)
-    }
-}
-
-impl<'a> Iterator for Words<'a> {
-    type Item = &'a [u8];
-
-    fn next(&mut self) -> Option<&'a [u8]> {
-        loop {
-            let word = self.split_word()?;
-            if word.starts_with(b"#") {
-                self.rest = &[];
-                return None;
-            }
-            // A line end inside a statement is a joined one, and the backslash there no letter.
-            let after = self.rest.strip_prefix(b"\r").unwrap_or(self.rest);
-            let joined = after.starts_with(b"\n");
-            let word = if joined { word.strip_suffix(b"\\").unwrap_or(word) } else { word };
-            if !word.is_empty() {
-                return Some(word);
-            }
-        }
-    }
+    // A comment ends with its line, even if its last character is a backslash, as after a folder's name.
+    let has_comment = || Words::new(line).has_comment();
+    line.strip_suffix(b"\r").unwrap_or(line).ends_with(b"\\") && !has_comment()
 }
 
 #[cfg(test)]

@@ -2,7 +2,8 @@
 //! checked, and values that turn into what is asked for or say why not.
 
 use super::error::Problem;
-use crate::source::quote::{listed, quoted, shown};
+use super::suggestion::suggestion;
+use crate::source::quote::{quoted, shown};
 use glam::Vec3;
 use std::ops::Range;
 use toml::Spanned;
@@ -63,7 +64,7 @@ impl<'t> Table<'t> {
 
     /// Where a key stands, to underline it rather than its value; the table itself if it is not
     /// there.
-    pub(super) fn place_of(&self, key: &str) -> Range<usize> {
+    pub(super) fn span_of(&self, key: &str) -> Range<usize> {
         self.entries.get_key_value(key).map_or(self.span.clone(), |(key, _)| key.span())
     }
 
@@ -71,8 +72,24 @@ impl<'t> Table<'t> {
     pub(super) fn present<'k>(&self, keys: &[&'k str]) -> Vec<&'k str> {
         let mut present: Vec<&str> =
             keys.iter().copied().filter(|key| self.entries.contains_key(*key)).collect();
-        present.sort_by_key(|key| self.place_of(key).start);
+        present.sort_by_key(|key| self.span_of(key).start);
         present
+    }
+
+    /// The item of the only one of these keys that the table has. Messages call the table `name`, and show `example`.
+    pub(super) fn exactly_one(&self, name: &str, keys: &[&str], example: &str) -> Read<Item<'t>> {
+        let present = self.present(keys);
+        let one_of = format!("one of {}", keys.join(", "));
+        match present[..] {
+            [key] => self.need(key, example),
+            [] => Err(Problem::new(self.span.clone(), format!("{name} needs {one_of}"))
+                .help(format!("write for example {example}"))),
+            [first, second, ..] => {
+                let message =
+                    format!("{name} takes only {one_of}, and this one has {first} already");
+                Err(Problem::new(self.span_of(second), message).help(format!("remove {second}")))
+            }
+        }
     }
 }
 
@@ -253,40 +270,6 @@ impl<'t> Item<'t> {
             other => kind(other).to_owned(),
         }
     }
-}
-
-/// Says which of the known names is meant, or which are known; `what` they are, in the plural.
-pub(super) fn suggestion<'k>(
-    what: &str,
-    word: &str,
-    known: impl IntoIterator<Item = &'k str> + Clone,
-) -> String {
-    match nearest_name(word, known.clone()) {
-        Some(name) => format!("did you mean {}?", quoted(name)),
-        None => format!("the {what} are {}", listed(known)),
-    }
-}
-
-/// The known name that somebody may have meant who wrote `word`, if one is near enough.
-///
-/// ```
-/// use bothways_formats::scene_file::nearest_name;
-///
-/// assert_eq!(nearest_name("spere", ["sphere", "plane"]), Some("sphere"));
-/// assert_eq!(nearest_name("cube", ["sphere", "plane"]), None);
-/// ```
-pub fn nearest_name<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Option<&'k str> {
-    // A slip in about every third letter; a swap of neighbours is one slip.
-    let near = |name: &str| {
-        let slips = strsim::damerau_levenshtein(&word.to_lowercase(), &name.to_lowercase());
-        (slips <= 1.max(name.chars().count() / 3)).then_some(slips)
-    };
-    // Quadratic in the word's length, so not for words that no name comes near.
-    if word.len() > 64 {
-        return None;
-    }
-    let rated = known.into_iter().filter_map(|name| near(name).map(|slips| (slips, name)));
-    rated.min_by_key(|(slips, _)| *slips).map(|(_, name)| name)
 }
 
 fn numbered<'t>(name: &str, elements: &'t DeArray<'t>) -> Vec<Item<'t>> {

@@ -1,0 +1,27 @@
+//! What the parser of OBJ files calls, and what it passes.
+
+use bothways_common::scene::Attribute;
+use glam::{Vec2, Vec3};
+
+/// Receives what the statements of a file define, in the order of the file.
+pub(super) trait Visitor {
+    /// A vertex.
+    fn position(&mut self, position: Vec3);
+    /// A texture coordinate.
+    fn texture_coordinate(&mut self, _value: Vec2) {}
+    /// A normal.
+    fn normal(&mut self, _normal: Vec3) {}
+    /// A triangle of a face.
+    fn triangle(&mut self, corners: [Corner; 3]);
+    /// The material of the triangles that follow; `None` ends the use of the material before it.
+    fn material(&mut self, _name: Option<String>) {}
+    /// A file that defines materials.
+    fn material_library(&mut self, _name: &str) {}
+}
+
+/// One corner of a face: the indices of its vertex, texture coordinate and normal, counted from 0, or [`NONE`].
+pub(super) type Corner = [u32; 3];
+
+/// The index that says that a corner has no texture coordinate or no normal: [`Attribute::NONE`], which is the same
+/// number for values of every type.
+pub(super) const NONE: u32 = Attribute::<()>::NONE;

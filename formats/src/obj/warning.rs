@@ -1,0 +1,60 @@
+//! What is missing of the materials of an OBJ file.
+
+use crate::source::quote::quoted;
+use std::fmt;
+
+/// What is missing of a mesh's materials, so that it is drawn in the default one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum MaterialWarning {
+    /// A material file is not there.
+    MissingLibrary {
+        /// The mesh's file.
+        file: String,
+        /// The material file, as the mesh's file names it.
+        library: String,
+    },
+    /// No material file defines these.
+    Undefined {
+        /// The mesh's file.
+        file: String,
+        /// Their names.
+        names: Vec<String>,
+    },
+    /// The mesh is streamed, so nobody asks for its materials.
+    Streamed {
+        /// The mesh's file.
+        file: String,
+    },
+}
+
+impl fmt::Display for MaterialWarning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        /// More names say no more.
+        const MOST: usize = 3;
+        match self {
+            MaterialWarning::MissingLibrary { file, library } => write!(
+                f,
+                "{file}: there is no material file {} beside it; what needs it is drawn in light grey",
+                quoted(library)
+            ),
+            MaterialWarning::Undefined { file, names } => {
+                let some: Vec<String> = names.iter().take(MOST).map(|name| quoted(name)).collect();
+                let more = match names.len().saturating_sub(MOST) {
+                    0 => String::new(),
+                    more => format!(" and {more} more"),
+                };
+                let some = some.join(", ");
+                write!(
+                    f,
+                    "{file}: no material file defines {some}{more}; what is made of it is drawn in \
+                     light grey"
+                )
+            }
+            MaterialWarning::Streamed { file } => write!(
+                f,
+                "{file}: the materials of a mesh that is streamed are not read; all of it is drawn \
+                 in light grey"
+            ),
+        }
+    }
+}

@@ -1,0 +1,202 @@
+//! A PLY file, read in passes, one value at a time. It does not need to fit into memory.
+
+use super::error::{ElementFault, ReadPlyError};
+use super::header::{ElementGroup, Header, HeaderError, PropertyType, ScalarType};
+use super::values::{ValueError, ValueReader};
+use crate::source::quote::shown;
+use crate::source::{READ_AT_ONCE, regular_file};
+use bothways_common::scene::Mesh;
+use glam::Vec3;
+use std::fs::File;
+use std::io::{BufRead, BufReader, Seek, SeekFrom};
+use std::path::Path;
+
+/// An open PLY file with its header, to be read in any number of passes.
+#[derive(Debug)]
+pub(crate) struct PlyFile<R> {
+    name: String,
+    header: Header,
+    input: R,
+    length: u64,
+}
+
+/// What a pass over a file visits; it skips the rest where it can.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Pass {
+    Vertices,
+    Triangles,
+    Everything,
+}
+
+impl PlyFile<BufReader<File>> {
+    /// Opens a file that can be read several times, and reads its header.
+    pub(crate) fn open(path: &Path) -> Result<Self, ReadPlyError> {
+        let file = path.display().to_string();
+        let opened = regular_file(path);
+        let opened =
+            opened.map_err(|error| ReadPlyError::Unreadable { file: file.clone(), error })?;
+        PlyFile::new(file, BufReader::with_capacity(READ_AT_ONCE, opened))
+    }
+}
+
+impl<R: BufRead + Seek> PlyFile<R> {
+    /// Reads the header.
+    pub(super) fn new(name: String, mut input: R) -> Result<Self, ReadPlyError> {
+        let unreadable = |error| ReadPlyError::Unreadable { file: name.clone(), error };
+        let length = input.seek(SeekFrom::End(0)).map_err(unreadable)?;
+        input.rewind().map_err(unreadable)?;
+        match Header::read(&mut input) {
+            Ok(header) => Ok(PlyFile { name, header, input, length }),
+            Err(HeaderError::Io(error)) => Err(unreadable(error)),
+            Err(HeaderError::Fault { line, fault }) => {
+                Err(ReadPlyError::Header { file: name, line, fault: Box::new(fault) })
+            }
+        }
+    }
+
+    /// Reads all elements into a mesh.
+    pub(super) fn mesh(&mut self) -> Result<Mesh, ReadPlyError> {
+        let (mut positions, mut triangles) = (Vec::new(), Vec::new());
+        self.visit(Pass::Everything, &mut |p| positions.push(p), &mut |t| triangles.push(t))?;
+        Ok(Mesh::new(positions, triangles).expect("the reader has checked numbers and indices"))
+    }
+
+    /// Visits all vertices, and does not read what follows them.
+    pub(crate) fn vertices(&mut self, mut visit: impl FnMut(Vec3)) -> Result<(), ReadPlyError> {
+        self.visit(Pass::Vertices, &mut visit, &mut |_| ())
+    }
+
+    /// Visits all triangles in file order, and reads the whole file but its vertices. The indices are those of
+    /// vertices that the header announces.
+    pub(crate) fn triangles(
+        &mut self,
+        mut visit: impl FnMut([u32; 3]),
+    ) -> Result<(), ReadPlyError> {
+        self.visit(Pass::Triangles, &mut |_| (), &mut visit)
+    }
+
+    /// Reads the elements that a pass needs, in file order, and visits vertices and triangles.
+    fn visit(
+        &mut self,
+        pass: Pass,
+        vertex: &mut impl FnMut(Vec3),
+        triangle: &mut impl FnMut([u32; 3]),
+    ) -> Result<(), ReadPlyError> {
+        let PlyFile { name, header, input, length } = self;
+        let unreadable = |error| ReadPlyError::Unreadable { file: name.clone(), error };
+        input.seek(SeekFrom::Start(header.bytes)).map_err(unreadable)?;
+        let mut values = ValueReader::new(input, header, *length);
+        for group in &header.groups {
+            let is_vertex = group.name == "vertex";
+            let stride = group.stride().filter(|_| pass != Pass::Everything);
+            let first = match stride.filter(|_| !is_vertex || pass == Pass::Triangles) {
+                Some(stride) if values.is_binary() => {
+                    values.skip(group.count, stride).map_err(unreadable)?
+                }
+                _ => 0,
+            };
+            for number in first..group.count {
+                let element = element(&mut values, header, group, vertex, triangle);
+                element.map_err(|error| located(name, group, number, &values, error))?;
+            }
+            if is_vertex && pass == Pass::Vertices {
+                return Ok(());
+            }
+        }
+        let location = values.location();
+        match values.at_end() {
+            Ok(true) => Ok(()),
+            Err(ValueError::Io(error)) => Err(unreadable(error)),
+            _ => Err(ReadPlyError::Trailing { file: name.clone(), location }),
+        }
+    }
+}
+
+/// Reads one element of any kind.
+fn element<R: BufRead + Seek>(
+    values: &mut ValueReader<R>,
+    header: &Header,
+    group: &ElementGroup,
+    vertex: &mut impl FnMut(Vec3),
+    triangle: &mut impl FnMut([u32; 3]),
+) -> Result<(), ValueError> {
+    values.begin_element()?;
+    let (is_vertex, is_face) = (group.name == "vertex", group.name == "face");
+    let mut position = [0.0; 3];
+    for (k, property) in group.properties.iter().enumerate() {
+        let axis = header.coordinates.iter().position(|&at| at == k).filter(|_| is_vertex);
+        match (property.kind, axis) {
+            (PropertyType::Scalar(scalar), Some(axis)) => {
+                position[axis] = values.coordinate(&property.name, scalar)?;
+            }
+            (PropertyType::Scalar(scalar), None) => values.ignore(scalar)?,
+            (PropertyType::List { length, item }, _) if is_face && k == header.corners => {
+                fan(values, length, item, header.vertices, triangle)?;
+            }
+            (PropertyType::List { length, item }, _) => {
+                let length = values.integer(length)?;
+                if length < 0 {
+                    let name = shown(&property.name);
+                    return Err(ElementFault::NegativeLength { name, length }.into());
+                }
+                (0..length).try_for_each(|_| values.ignore(item))?;
+            }
+        }
+    }
+    values.end_element()?;
+    if is_vertex {
+        vertex(position.into());
+    }
+    Ok(())
+}
+
+/// Reads one polygon and visits its fan. At most three of its corners are in memory at once.
+fn fan<R: BufRead + Seek>(
+    values: &mut ValueReader<R>,
+    length: ScalarType,
+    item: ScalarType,
+    vertices: u32,
+    triangle: &mut impl FnMut([u32; 3]),
+) -> Result<(), ValueError> {
+    let corners = values.integer(length)?;
+    if corners < 3 {
+        return Err(ElementFault::TooFewCorners { corners }.into());
+    }
+    let mut corner = || {
+        let index = values.integer(item)?;
+        match u32::try_from(index) {
+            Ok(known) if known < vertices => Ok(known),
+            _ => Err(ValueError::Fault(ElementFault::UnknownVertex { index, count: vertices })),
+        }
+    };
+    let (first, mut before) = (corner()?, corner()?);
+    for _ in 2..corners {
+        let next = corner()?;
+        triangle([first, before, next]);
+        before = next;
+    }
+    Ok(())
+}
+
+/// Adds the file and the location to an error.
+fn located<R: BufRead + Seek>(
+    name: &str,
+    group: &ElementGroup,
+    number: u64,
+    values: &ValueReader<R>,
+    error: ValueError,
+) -> ReadPlyError {
+    let fault = match error {
+        ValueError::Io(error) => return ReadPlyError::Unreadable { file: name.to_owned(), error },
+        ValueError::End => ElementFault::Truncated { count: group.count },
+        ValueError::Fault(fault) => fault,
+    };
+    let (file, element) = (name.to_owned(), shown(&group.name));
+    ReadPlyError::Element {
+        file,
+        element,
+        number,
+        location: values.location(),
+        fault: Box::new(fault),
+    }
+}

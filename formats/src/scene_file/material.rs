@@ -1,0 +1,54 @@
+//! The `[material.NAME]` tables.
+//!
+//! | key | what it says | without it |
+//! |---|---|---|
+//! | `color` | the diffuse colour, `"#rrggbb"` | light grey |
+//! | `specular` | the strength of the highlight, from 0 to 1 | 0 |
+//! | `shininess` | the exponent of the highlight | 32 |
+//! | `checker = { color, divisions }` | a pattern: its second colour, and its cells to a unit of the texture coordinates | one colour |
+
+use super::color::color;
+use super::document::Item;
+use super::error::Problem;
+use bothways_common::Checker;
+use bothways_common::scene::Material;
+use std::collections::BTreeMap;
+
+/// Materials by name; each has `color`, `specular`, `shininess` and `checker`, and may leave them out.
+pub(super) type Materials = BTreeMap<String, Material>;
+
+pub(super) fn materials(item: &Item) -> Result<Materials, Problem> {
+    item.entries()?.map(|item| Ok((item.name.clone(), material(&item)?))).collect()
+}
+
+fn material(item: &Item) -> Result<Material, Problem> {
+    let table = item.table(&["color", "specular", "shininess", "checker"])?;
+    let mut material = Material::default();
+    if let Some(item) = table.get("color") {
+        material.color = color(&item)?;
+    }
+    if let Some(item) = table.get("specular") {
+        material.specular = match item.not_negative()? {
+            specular if specular <= 1.0 => specular,
+            _ => {
+                let what = format!("is {}; it must be at most 1", item.written());
+                return Err(item.problem(what));
+            }
+        };
+    }
+    if let Some(item) = table.get("shininess") {
+        material.shininess = item.positive()?;
+    }
+    material.checker = table.get("checker").map(|item| checker(&item)).transpose()?;
+    Ok(material)
+}
+
+/// A pattern: its other `color`, and its `divisions`, the cells to a unit of the texture coordinate.
+fn checker(item: &Item) -> Result<Checker, Problem> {
+    const EXAMPLE: &str = "checker = { color = \"#202020\", divisions = [8, 8] }";
+    let table = item.table(&["color", "divisions"])?;
+    Ok(Checker {
+        color: color(&table.need("color", EXAMPLE)?)?,
+        divisions: table.need("divisions", EXAMPLE)?.positive_pair()?,
+    })
+}
