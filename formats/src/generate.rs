@@ -4,12 +4,12 @@
 //! outside, and texture coordinates. Points at quarter turns are exact. Sines and cosines come from
 //! one software library, so that the same mesh is the same bits everywhere.
 
-mod lattice;
 mod teapot;
+mod tessellation;
 
 use bothways_common::scene::Mesh;
 use glam::{DVec2, DVec3};
-use lattice::{Lattice, Vertex, turn};
+use tessellation::{Tessellation, Vertex, turn};
 
 /// The kinds of mesh that can be generated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -158,43 +158,43 @@ impl std::fmt::Display for Kind {
 }
 
 fn sphere([around, along]: [u32; 2]) -> Mesh {
-    let mut lattice = Lattice::default();
-    lattice.surface([around, along], |j, i| {
+    let mut mesh = Tessellation::default();
+    mesh.surface([around, along], |j, i| {
         // From the south pole up.
         let (minus_height, radius) = turn(i, 2 * along);
         let normal = on_circle(turn(j, around), radius, -minus_height);
         Vertex { position: normal, normal }
     });
-    lattice.finish()
+    mesh.finish()
 }
 
 fn cylinder([around, along]: [u32; 2]) -> Mesh {
-    let mut lattice = Lattice::default();
-    lattice.surface([around, along], |j, i| {
+    let mut mesh = Tessellation::default();
+    mesh.surface([around, along], |j, i| {
         let angle = turn(j, around);
         let position = on_circle(angle, 1.0, part(i, along));
         Vertex { position, normal: on_circle(angle, 1.0, 0.0) }
     });
-    cap(&mut lattice, around, 1.0);
-    cap(&mut lattice, around, -1.0);
-    lattice.finish()
+    cap(&mut mesh, around, 1.0);
+    cap(&mut mesh, around, -1.0);
+    mesh.finish()
 }
 
 fn cone([around, along]: [u32; 2]) -> Mesh {
-    let mut lattice = Lattice::default();
-    lattice.surface([around, along], |j, i| {
+    let mut mesh = Tessellation::default();
+    mesh.surface([around, along], |j, i| {
         let (angle, height) = (turn(j, around), part(i, along));
         // The side rises by 2 as it comes in by 1. At the apex each triangle has its own normal.
         let radius = 0.5 * (1.0 - height);
         Vertex { position: on_circle(angle, radius, height), normal: on_circle(angle, 2.0, 1.0) }
     });
-    cap(&mut lattice, around, -1.0);
-    lattice.finish()
+    cap(&mut mesh, around, -1.0);
+    mesh.finish()
 }
 
 /// A disc of radius 1 at a height, facing away from the origin.
-fn cap(lattice: &mut Lattice, around: u32, height: f64) {
-    lattice.surface([around, 1], |j, i| {
+fn cap(mesh: &mut Tessellation, around: u32, height: f64) {
+    mesh.surface([around, 1], |j, i| {
         // From the rim to the middle on top, from the middle to the rim below: both face outward.
         let at_rim = (i == 0) == (height > 0.0);
         let radius = if at_rim { 1.0 } else { 0.0 };
@@ -205,24 +205,24 @@ fn cap(lattice: &mut Lattice, around: u32, height: f64) {
 
 fn torus([around, tube]: [u32; 2]) -> Mesh {
     const TUBE: f64 = 0.4;
-    let mut lattice = Lattice::default();
-    lattice.surface([around, tube], |j, i| {
+    let mut mesh = Tessellation::default();
+    mesh.surface([around, tube], |j, i| {
         let (angle, (outward, up)) = (turn(j, around), turn(i, tube));
         Vertex {
             position: on_circle(angle, 1.0 + TUBE * outward, TUBE * up),
             normal: on_circle(angle, outward, up),
         }
     });
-    lattice.finish()
+    mesh.finish()
 }
 
 fn cuboid(divisions: [u32; 2]) -> Mesh {
-    let mut lattice = Lattice::default();
+    let mut mesh = Tessellation::default();
     for axis in 0..3 {
         for side in [-1.0, 1.0] {
             let others = [(axis + 1) % 3, (axis + 2) % 3];
             let divisions = others.map(|axis| divisions[usize::from(axis == 1)]);
-            lattice.surface(divisions, |j, i| {
+            mesh.surface(divisions, |j, i| {
                 // Right-handed axes seen from outside: the other two in order, mirrored behind.
                 let mut position = DVec3::ZERO;
                 position[axis] = side;
@@ -234,16 +234,16 @@ fn cuboid(divisions: [u32; 2]) -> Mesh {
             });
         }
     }
-    lattice.finish()
+    mesh.finish()
 }
 
 fn grid(divisions: [u32; 2]) -> Mesh {
-    let mut lattice = Lattice::default();
-    lattice.surface(divisions, |j, i| {
+    let mut mesh = Tessellation::default();
+    mesh.surface(divisions, |j, i| {
         let place = DVec2::new(part(j, divisions[0]), part(i, divisions[1]));
         Vertex { position: place.extend(0.0), normal: DVec3::Z }
     });
-    lattice.finish()
+    mesh.finish()
 }
 
 /// From −1 to 1 in `count` equal steps; exact for powers of two, and symmetric.

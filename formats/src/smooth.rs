@@ -36,14 +36,14 @@ pub fn with_normals(mesh: Mesh, crease: f64) -> Mesh {
         return mesh;
     }
     let faces: Vec<DVec3> = (0..mesh.triangles().len()).map(|k| face_normal(&mesh, k)).collect();
-    let around = Around::new(&mesh);
+    let corners = CornersByVertex::new(&mesh);
     let least_cosine = libm::cos(crease.to_radians());
     let mut normals =
         Attribute { values: Vec::new(), corners: vec![[Attribute::<Vec3>::NONE; 3]; faces.len()] };
     let mut facets = Vec::new();
     for vertex in 0..mesh.positions().len() {
         facets.clear();
-        facets.extend(around.corners_of(vertex).iter().map(|&(triangle, corner)| {
+        facets.extend(corners.of(vertex).iter().map(|&(triangle, corner)| {
             let normal = faces[triangle as usize];
             let angle = angle_at(&mesh, triangle as usize, corner as usize);
             Facet { normal, weighted: normal * angle, triangle, corner }
@@ -93,14 +93,14 @@ fn sum_one_by_one(facets: &[Facet], one: &Facet, least_cosine: f64) -> DVec3 {
 }
 
 /// The triangles around each vertex, and with which corner they are there.
-struct Around {
+struct CornersByVertex {
     starts: Vec<u32>,
     corners: Vec<(u32, u8)>,
 }
 
-impl Around {
+impl CornersByVertex {
     /// A counting sort of all corners by vertex.
-    fn new(mesh: &Mesh) -> Around {
+    fn new(mesh: &Mesh) -> CornersByVertex {
         let mut starts = vec![0_u32; mesh.positions().len() + 1];
         for vertex in mesh.triangles().iter().flatten() {
             starts[*vertex as usize + 1] += 1;
@@ -117,10 +117,10 @@ impl Around {
                 *place += 1;
             }
         }
-        Around { starts, corners }
+        CornersByVertex { starts, corners }
     }
 
-    fn corners_of(&self, vertex: usize) -> &[(u32, u8)] {
+    fn of(&self, vertex: usize) -> &[(u32, u8)] {
         &self.corners[self.starts[vertex] as usize..self.starts[vertex + 1] as usize]
     }
 }
@@ -208,7 +208,7 @@ mod tests {
     fn many_faces_around_a_vertex_are_smoothed_as_few_are() {
         let mesh = cone(500);
         let faces: Vec<_> = (0..mesh.triangles().len()).map(|k| face_normal(&mesh, k)).collect();
-        let around = Around::new(&mesh);
+        let corners = CornersByVertex::new(&mesh);
         for crease in [0.0, 1.0, CREASE, 90.0, 180.0] {
             let smooth = with_normals(mesh.clone(), crease);
             let least = libm::cos(crease.to_radians());
@@ -216,7 +216,7 @@ mod tests {
             for (triangle, vertices) in mesh.triangles().iter().enumerate() {
                 for (corner, vertex) in vertices.iter().enumerate() {
                     let mut sum = DVec3::ZERO;
-                    for &(other, there) in around.corners_of(*vertex as usize) {
+                    for &(other, there) in corners.of(*vertex as usize) {
                         let (own, face) = (faces[triangle], faces[other as usize]);
                         if own.dot(face) >= least || other as usize == triangle {
                             sum += face * angle_at(&mesh, other as usize, there.into());

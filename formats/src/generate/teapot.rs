@@ -8,7 +8,7 @@
 //! and those of handle and spout one row of cross-sections, mirrored. So they are written down: what
 //! belongs together shares its vertices by construction.
 
-use super::lattice::{Lattice, Vertex};
+use super::tessellation::{Tessellation, Vertex};
 use bothways_common::scene::Mesh;
 use glam::{DVec2, DVec3};
 
@@ -70,20 +70,20 @@ const SPOUT: &Curves<Section> = &[
 
 /// The teapot with `divisions` of each patch's two sides.
 pub(super) fn teapot([across, up]: [u32; 2]) -> Mesh {
-    let mut lattice = Lattice::default();
+    let mut mesh = Tessellation::default();
     for profile in [BODY, LID] {
-        revolve(&mut lattice, profile, [across, up]);
+        revolve(&mut mesh, profile, [across, up]);
     }
     for sections in [HANDLE, SPOUT] {
-        tube(&mut lattice, sections, [across, up]);
+        tube(&mut mesh, sections, [across, up]);
     }
-    lattice.finish()
+    mesh.finish()
 }
 
 /// Sweeps a profile, given from its upper or inner end, along four quarter arcs.
-fn revolve(lattice: &mut Lattice, profile: &Curves<[f64; 2]>, [across, up]: [u32; 2]) {
+fn revolve(mesh: &mut Tessellation, profile: &Curves<[f64; 2]>, [across, up]: [u32; 2]) {
     let steps = up * curve_count(profile);
-    lattice.surface([4 * across, steps], |j, i| {
+    mesh.surface([4 * across, steps], |j, i| {
         // The surface is wanted from below upwards, the profile runs down.
         let ([radius, height], [radius_change, height_change]) = follow(profile, steps - i, up);
         let (quarter, along) = (j / across % 4, j % across);
@@ -101,9 +101,9 @@ fn revolve(lattice: &mut Lattice, profile: &Curves<[f64; 2]>, [across, up]: [u32
 
 /// Runs cross-sections along handle or spout: a left and a right half that meet in the plane of
 /// symmetry.
-fn tube(lattice: &mut Lattice, sections: &Curves<Section>, [across, up]: [u32; 2]) {
+fn tube(mesh: &mut Tessellation, sections: &Curves<Section>, [across, up]: [u32; 2]) {
     let steps = up * curve_count(sections);
-    lattice.surface([2 * across, steps], |j, i| {
+    mesh.surface([2 * across, steps], |j, i| {
         let (half, along) = (j / across % 2, fraction(j % across, across));
         let (section, change) = follow(sections, i, up);
         // Each half is drawn from one end in the plane of symmetry to the other.

@@ -67,51 +67,55 @@ impl Transform {
     /// be none any more.
     pub(super) fn apply(&self, shape: Shape) -> Result<Shape, Problem> {
         Ok(match shape {
-            Shape::Triangle(Triangle { a, b, c }) => {
-                Shape::Triangle(Triangle { a: self.put(a)?, b: self.put(b)?, c: self.put(c)? })
-            }
-            Shape::Sphere(Sphere { center, radius }) => {
-                Shape::Sphere(Sphere { center: self.put(center)?, radius: self.stretch(radius)? })
-            }
-            Shape::Plane(Plane { point, normal }) => {
-                Shape::Plane(Plane { point: self.put(point)?, normal: self.turn_normal(normal)? })
-            }
-            Shape::Mesh(mesh) => Shape::Mesh(self.put_mesh(mesh)?),
+            Shape::Triangle(Triangle { a, b, c }) => Shape::Triangle(Triangle {
+                a: self.finite_position(a)?,
+                b: self.finite_position(b)?,
+                c: self.finite_position(c)?,
+            }),
+            Shape::Sphere(Sphere { center, radius }) => Shape::Sphere(Sphere {
+                center: self.finite_position(center)?,
+                radius: self.radius(radius)?,
+            }),
+            Shape::Plane(Plane { point, normal }) => Shape::Plane(Plane {
+                point: self.finite_position(point)?,
+                normal: self.plane_normal(normal)?,
+            }),
+            Shape::Mesh(mesh) => Shape::Mesh(self.mesh(mesh)?),
         })
     }
 
-    fn put(&self, position: Vec3) -> Result<Vec3, Problem> {
-        let place = self.place(position);
-        if place.is_finite() {
-            Ok(place)
+    fn finite_position(&self, position: Vec3) -> Result<Vec3, Problem> {
+        let placed = self.position(position);
+        if placed.is_finite() {
+            Ok(placed)
         } else {
-            Err(self.beyond(&format!("{:?}", position.to_array())))
+            Err(self.out_of_range(&format!("{:?}", position.to_array())))
         }
     }
 
-    fn put_mesh(&self, mesh: Mesh) -> Result<Mesh, Problem> {
-        let moved = mesh.map(|position| self.place(position), |normal| self.turn(normal));
-        let moved = moved.map_err(|_| self.beyond("a vertex"))?;
+    fn mesh(&self, mesh: Mesh) -> Result<Mesh, Problem> {
+        let moved = mesh.map(|position| self.position(position), |normal| self.normal(normal));
+        let moved = moved.map_err(|_| self.out_of_range("a vertex"))?;
         // A mirror turns counter-clockwise into clockwise: outside must stay outside.
         let mirrors = self.scale.x * self.scale.y * self.scale.z < 0.0;
         Ok(if mirrors { moved.turned_inside_out() } else { moved })
     }
 
-    fn beyond(&self, what: &str) -> Problem {
+    fn out_of_range(&self, what: &str) -> Problem {
         let message = format!("this puts {what} where no f32 number reaches");
         Problem::new(self.span.clone(), message).help("stay between -3.4e38 and 3.4e38")
     }
 
-    fn place(&self, position: Vec3) -> Vec3 {
+    fn position(&self, position: Vec3) -> Vec3 {
         let scaled = position.as_dvec3() * self.scale;
-        let turned = self.rotation.map_or(scaled, |rotation| rotation.turn(scaled));
+        let turned = self.rotation.map_or(scaled, |rotation| rotation.rotate(scaled));
         (turned + self.translation).as_vec3()
     }
 
     /// A normal, where its surface is put. Its length does not matter, and is chosen so that it fits.
     ///
     /// What is perpendicular to a surface is scaled by the reciprocals: `n·v = (n/s)·(s·v)`.
-    fn turn(&self, normal: Vec3) -> Vec3 {
+    fn normal(&self, normal: Vec3) -> Vec3 {
         let scaled = if self.is_uniform() {
             normal.as_dvec3()
         } else {
@@ -120,15 +124,15 @@ impl Transform {
             let size = scaled.abs().max_element();
             if size > 0.0 { scaled * (-size.log2().floor()).exp2() } else { scaled }
         };
-        let turned = self.rotation.map_or(scaled, |rotation| rotation.turn(scaled));
+        let turned = self.rotation.map_or(scaled, |rotation| rotation.rotate(scaled));
         let rounded = turned.as_vec3();
         if rounded.is_finite() { rounded } else { (0.5 * turned).as_vec3() }
     }
 
     /// The normal of a plane, which must stay one.
-    fn turn_normal(&self, normal: Vec3) -> Result<Vec3, Problem> {
-        match self.turn(normal) {
-            Vec3::ZERO => Err(self.beyond("the plane's normal")),
+    fn plane_normal(&self, normal: Vec3) -> Result<Vec3, Problem> {
+        match self.normal(normal) {
+            Vec3::ZERO => Err(self.out_of_range("the plane's normal")),
             normal => Ok(normal),
         }
     }
@@ -139,7 +143,7 @@ impl Transform {
         x == y && y == z && x > 0.0
     }
 
-    fn stretch(&self, radius: f32) -> Result<f32, Problem> {
+    fn radius(&self, radius: f32) -> Result<f32, Problem> {
         let [factor, y, z] = self.scale.abs().to_array();
         if factor != y || factor != z {
             let message =
@@ -169,7 +173,7 @@ impl Rotation {
     /// Counter-clockwise for whom the axis points at.
     ///
     /// The formula of Rodrigues (1840).
-    fn turn(&self, vector: DVec3) -> DVec3 {
+    fn rotate(&self, vector: DVec3) -> DVec3 {
         let Rotation { axis, sine, cosine } = *self;
         let along = axis * axis.dot(vector) * (1.0 - cosine);
         vector * cosine + axis.cross(vector) * sine + along
@@ -213,17 +217,17 @@ mod tests {
     fn normals_stay_perpendicular_under_any_scale() {
         let quarter = Some(rotation(DVec3::ONE.normalize(), 33.0));
         for scale in [[2.0, 3.0, 5.0], [-1.0, 1.0, 1.0], [1e-30, 4.0, 1e30], [-2.0, -3.0, -7.0]] {
-            let put = Transform { rotation: quarter, ..scaled(scale) };
+            let placed = Transform { rotation: quarter, ..scaled(scale) };
             // The plane 2x + 3y − z = 0 and two directions in it.
-            let normal = put.turn(Vec3::new(2.0, 3.0, -1.0)).as_dvec3().normalize();
+            let normal = placed.normal(Vec3::new(2.0, 3.0, -1.0)).as_dvec3().normalize();
             for within in [Vec3::new(1.0, 0.0, 2.0), Vec3::new(0.0, 1.0, 3.0)] {
-                let within = put.place(within).as_dvec3().normalize();
+                let within = placed.position(within).as_dvec3().normalize();
                 assert!(normal.dot(within).abs() < 1e-6, "{scale:?}: {normal} {within}");
             }
         }
         // On the side it was: a mirror in x turns (1, 0, 0) round.
-        assert!(scaled([-2.0, 1.0, 1.0]).turn(Vec3::X).x < 0.0);
-        let huge = scaled([1e-45, 1.0, 1.0]).turn(Vec3::new(f32::MAX, 1.0, 1.0));
+        assert!(scaled([-2.0, 1.0, 1.0]).normal(Vec3::X).x < 0.0);
+        let huge = scaled([1e-45, 1.0, 1.0]).normal(Vec3::new(f32::MAX, 1.0, 1.0));
         assert!(huge.is_finite() && huge.x > 0.0, "{huge}");
     }
 
@@ -238,12 +242,12 @@ mod tests {
         let whole = volume(&ball());
         assert!(whole > 0.0);
         for (scale, factor) in [([1.0, 2.0, 3.0], 6.0), ([-1.0, 2.0, 3.0], 6.0), ([-2.0; 3], 8.0)] {
-            let put = scaled(scale).put_mesh(ball()).unwrap();
-            assert!((volume(&put) / (factor * whole) - 1.0).abs() < 1e-5, "{scale:?}");
+            let placed = scaled(scale).mesh(ball()).unwrap();
+            assert!((volume(&placed) / (factor * whole) - 1.0).abs() < 1e-5, "{scale:?}");
             // Every corner's own normal looks outward still.
-            for triangle in 0..put.triangles().len() {
-                let Some(normals) = put.normals().of(triangle) else { continue };
-                for (corner, normal) in put.corners(triangle).iter().zip(normals) {
+            for triangle in 0..placed.triangles().len() {
+                let Some(normals) = placed.normals().of(triangle) else { continue };
+                for (corner, normal) in placed.corners(triangle).iter().zip(normals) {
                     assert!(corner.dot(normal) > 0.0, "{scale:?}: triangle {triangle}");
                 }
             }
@@ -252,7 +256,7 @@ mod tests {
 
     #[test]
     fn quarter_turns_are_exact() {
-        let about_y = |degrees| rotation(DVec3::Y, degrees).turn(DVec3::X);
+        let about_y = |degrees| rotation(DVec3::Y, degrees).rotate(DVec3::X);
         assert_eq!(about_y(90.0), DVec3::NEG_Z);
         assert_eq!(about_y(180.0), DVec3::NEG_X);
         assert_eq!(about_y(-90.0), DVec3::Z);
@@ -262,31 +266,31 @@ mod tests {
 
     #[test]
     fn a_third_of_a_turn_about_the_diagonal_swaps_the_axes() {
-        let turned = rotation(DVec3::ONE.normalize(), 120.0).turn(DVec3::X);
+        let turned = rotation(DVec3::ONE.normalize(), 120.0).rotate(DVec3::X);
         assert!((turned - DVec3::Y).length() < 1e-15, "{turned}");
     }
 
     #[test]
     fn objects_are_scaled_then_turned_then_moved() {
         // (1, 0, 0) · 2 = (2, 0, 0); a quarter turn about z makes it (0, 2, 0); + (5, 0, 0).
-        let put = transform(2.0, Some(rotation(DVec3::Z, 90.0)), DVec3::new(5.0, 0.0, 0.0));
-        assert_eq!(put.place(Vec3::X), Vec3::new(5.0, 2.0, 0.0));
-        assert_eq!(put.turn(Vec3::X), Vec3::Y);
+        let placed = transform(2.0, Some(rotation(DVec3::Z, 90.0)), DVec3::new(5.0, 0.0, 0.0));
+        assert_eq!(placed.position(Vec3::X), Vec3::new(5.0, 2.0, 0.0));
+        assert_eq!(placed.normal(Vec3::X), Vec3::Y);
     }
 
     #[test]
     fn numbers_are_rounded_once() {
         // 3·(1 + 2^-23) needs 25 bits: rounding before the translation would give another number.
         let [x, less] = [1.0 + f32::EPSILON, -3.0];
-        let put = transform(3.0, None, DVec3::new(f64::from(less), 0.0, 0.0));
-        assert_eq!(put.place(Vec3::new(x, 0.0, 0.0)).x, 3.0 * f32::EPSILON);
+        let placed = transform(3.0, None, DVec3::new(f64::from(less), 0.0, 0.0));
+        assert_eq!(placed.position(Vec3::new(x, 0.0, 0.0)).x, 3.0 * f32::EPSILON);
         assert_ne!(3.0 * x + less, 3.0 * f32::EPSILON);
     }
 
     #[test]
     fn a_huge_normal_still_fits_when_it_is_turned() {
-        let put = transform(1.0, Some(rotation(DVec3::Z, 45.0)), DVec3::ZERO);
-        let turned = put.turn(Vec3::new(f32::MAX, f32::MAX, 0.0));
+        let placed = transform(1.0, Some(rotation(DVec3::Z, 45.0)), DVec3::ZERO);
+        let turned = placed.normal(Vec3::new(f32::MAX, f32::MAX, 0.0));
         assert!(turned.is_finite() && turned.y > 0.0 && turned.x.abs() < 1e-6 * turned.y);
     }
 }

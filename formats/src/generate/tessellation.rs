@@ -16,7 +16,7 @@ pub(super) struct Vertex {
 /// A mesh in the making. Points at the same place become one vertex, whether they meet at a seam, at
 /// a pole or at the border of two surfaces; normals and texture coordinates stay apart.
 #[derive(Debug, Default)]
-pub(super) struct Lattice {
+pub(super) struct Tessellation {
     places: HashMap<[u32; 3], u32>,
     positions: Vec<Vec3>,
     triangles: Vec<[u32; 3]>,
@@ -24,7 +24,7 @@ pub(super) struct Lattice {
     texture_coordinates: Attribute<Vec2>,
 }
 
-impl Lattice {
+impl Tessellation {
     /// Adds a surface of `divisions[0]` × `divisions[1]` cells, each of two triangles, over `(j, i)`; `j`
     /// runs to the right and `i` up as seen from outside. Triangles without extent are left out.
     pub(super) fn surface(&mut self, divisions: [u32; 2], at: impl Fn(u32, u32) -> Vertex) {
@@ -51,7 +51,7 @@ impl Lattice {
         let mesh = Mesh::new(self.positions, self.triangles)
             .and_then(|mesh| mesh.with_normals(self.normals))
             .and_then(|mesh| mesh.with_texture_coordinates(self.texture_coordinates));
-        mesh.expect("a lattice names only vertices that it made")
+        mesh.expect("a tessellation names only vertices that it made")
     }
 
     fn vertex(&mut self, position: Vec3) -> u32 {
