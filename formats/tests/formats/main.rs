@@ -1,0 +1,6 @@
+//! The formats and generators against what is not their own code: formulas, another reader, and stated messages.
+
+mod generated_meshes;
+mod obj_against_tobj;
+mod scene_file;
+mod scene_file_errors;
