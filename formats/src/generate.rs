@@ -1,8 +1,9 @@
-//! Meshes from formulas: closed surfaces are watertight by index, seams and caps included.
+//! Generates meshes from formulas: spheres, cylinders, cones, tori, boxes, grids and the teapot.
 //!
-//! All have their middle at the origin, outward normals, counter-clockwise triangles as seen from
-//! outside, and texture coordinates. Points at quarter turns are exact. Sines and cosines come from
-//! one software library, so that the same mesh is the same bits everywhere.
+//! Closed surfaces are watertight by index: neighbours share their vertices, also at seams and caps. The teapot stands
+//! on the origin; all others have their centre there. Normals point outward, triangles are counter-clockwise as seen
+//! from outside, and all meshes have texture coordinates. Points at quarter turns are exact. Sines and cosines come from
+//! one software library, so that a mesh has the same bits on every machine.
 
 mod teapot;
 mod tessellation;
@@ -35,7 +36,7 @@ pub enum Kind {
 /// Why a mesh cannot be generated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum GenerateError {
-    /// Too few divisions for the form.
+    /// There are too few divisions for the shape.
     #[error("a {kind} needs divisions of at least {}, {}; these are {}, {}",
             .least[0], .least[1], .divisions[0], .divisions[1])]
     TooFew {
@@ -43,10 +44,10 @@ pub enum GenerateError {
         kind: Kind,
         /// As they were given.
         divisions: [u32; 2],
-        /// The least that make sense.
+        /// The fewest divisions of this kind.
         least: [u32; 2],
     },
-    /// More triangles than a scene can tell apart, or memory can hold.
+    /// There are too many divisions: the mesh would have more than [`MOST`] triangles.
     #[error("a {kind} with divisions {}, {} would have more than {MOST} triangles; take fewer",
             .divisions[0], .divisions[1])]
     TooMany {
@@ -61,7 +62,7 @@ pub enum GenerateError {
 pub const MOST: u64 = 100_000_000;
 
 impl Kind {
-    /// All kinds, by their names.
+    /// All kinds.
     pub const ALL: [Kind; 7] = [
         Kind::Sphere,
         Kind::Cylinder,
@@ -72,7 +73,7 @@ impl Kind {
         Kind::Teapot,
     ];
 
-    /// Its name in scene files and on the command line.
+    /// The name in scene files and on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Kind::Sphere => "sphere",
@@ -90,7 +91,7 @@ impl Kind {
         Kind::ALL.into_iter().find(|kind| kind.name() == name)
     }
 
-    /// Divisions that look good.
+    /// Divisions that look good, for scene files that state none.
     pub fn default_divisions(self) -> [u32; 2] {
         match self {
             Kind::Sphere => [64, 32],
@@ -102,7 +103,7 @@ impl Kind {
         }
     }
 
-    /// The fewest divisions that give the form.
+    /// The fewest divisions that give the shape.
     pub fn least_divisions(self) -> [u32; 2] {
         match self {
             Kind::Sphere => [3, 2],
@@ -112,11 +113,12 @@ impl Kind {
         }
     }
 
-    /// The mesh.
+    /// Generates the mesh. The variants of [`Kind`] say what the two divisions are.
     ///
     /// # Errors
     ///
-    /// Too few divisions for the form, or too many for anybody.
+    /// There are fewer divisions than [`Kind::least_divisions`], or so many that the mesh would have more than [`MOST`]
+    /// triangles.
     ///
     /// ```
     /// use bothways_formats::generate::Kind;
@@ -160,7 +162,7 @@ impl std::fmt::Display for Kind {
 fn sphere([around, along]: [u32; 2]) -> Mesh {
     let mut mesh = Tessellation::default();
     mesh.surface([around, along], |j, i| {
-        // From the south pole up.
+        // From the south pole to the north pole.
         let (minus_height, radius) = turn(i, 2 * along);
         let normal = on_circle(turn(j, around), radius, -minus_height);
         Vertex { position: normal, normal }
@@ -184,7 +186,7 @@ fn cone([around, along]: [u32; 2]) -> Mesh {
     let mut mesh = Tessellation::default();
     mesh.surface([around, along], |j, i| {
         let (angle, height) = (turn(j, around), part(i, along));
-        // The side rises by 2 as it comes in by 1. At the apex each triangle has its own normal.
+        // The side rises by 2 while its radius shrinks by 1. At the apex each triangle has a normal of its own.
         let radius = 0.5 * (1.0 - height);
         Vertex { position: on_circle(angle, radius, height), normal: on_circle(angle, 2.0, 1.0) }
     });
@@ -192,10 +194,10 @@ fn cone([around, along]: [u32; 2]) -> Mesh {
     mesh.finish()
 }
 
-/// A disc of radius 1 at a height, facing away from the origin.
+/// Adds a disc of radius 1 at a height, which faces away from the origin.
 fn cap(mesh: &mut Tessellation, around: u32, height: f64) {
     mesh.surface([around, 1], |j, i| {
-        // From the rim to the middle on top, from the middle to the rim below: both face outward.
+        // The upper disc runs from the rim to the middle, the lower one from the middle to the rim: both face outward.
         let at_rim = (i == 0) == (height > 0.0);
         let radius = if at_rim { 1.0 } else { 0.0 };
         let position = on_circle(turn(j, around), radius, height);
@@ -223,7 +225,7 @@ fn cuboid(divisions: [u32; 2]) -> Mesh {
             let others = [(axis + 1) % 3, (axis + 2) % 3];
             let divisions = others.map(|axis| divisions[usize::from(axis == 1)]);
             mesh.surface(divisions, |j, i| {
-                // Right-handed axes seen from outside: the other two in order, mirrored behind.
+                // The axes must be right-handed as seen from outside: on the negative side, one is mirrored.
                 let mut position = DVec3::ZERO;
                 position[axis] = side;
                 position[others[0]] = side * part(j, divisions[0]);
@@ -246,12 +248,12 @@ fn grid(divisions: [u32; 2]) -> Mesh {
     mesh.finish()
 }
 
-/// From −1 to 1 in `count` equal steps; exact for powers of two, and symmetric.
+/// The coordinate after `step` of `count` equal steps from −1 to 1: symmetric, and exact for powers of two.
 fn part(step: u32, count: u32) -> f64 {
     (2.0 * f64::from(step) - f64::from(count)) / f64::from(count)
 }
 
-/// A point of a circle around the y axis, from +x towards −z: to the right as seen from outside.
+/// A point of a circle around the y axis. The angle counts from +x towards −z: to the right as seen from outside.
 fn on_circle((cos, sin): (f64, f64), radius: f64, height: f64) -> DVec3 {
     DVec3::new(radius * cos, height, -radius * sin)
 }

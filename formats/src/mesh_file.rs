@@ -1,4 +1,4 @@
-//! Mesh files of any format that is read: which one a file is, its name says.
+//! Reads mesh files of any supported format. The extension of a file names its format.
 
 use crate::obj::{self, MaterialWarning, ReadObjError};
 use crate::ply::{self, ReadPlyError};
@@ -11,23 +11,23 @@ use std::path::Path;
 pub enum Format {
     /// Wavefront OBJ: [`obj`].
     Obj,
-    /// PLY, in words or in bytes: [`ply`].
+    /// PLY, ASCII or binary: [`ply`].
     Ply,
 }
 
 /// Why a mesh file could not be read.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadMeshError {
-    /// An OBJ file could not.
+    /// It is an OBJ file.
     #[error(transparent)]
     Obj(#[from] ReadObjError),
-    /// A PLY file could not.
+    /// It is a PLY file.
     #[error(transparent)]
     Ply(#[from] ReadPlyError),
 }
 
 impl Format {
-    /// The format that a file's extension names, in small or capital letters.
+    /// The format that a file's extension names, in lower or upper case; `None` for any other extension.
     pub fn of(path: &Path) -> Option<Format> {
         let extension = path.extension().and_then(OsStr::to_str)?;
         match extension.to_ascii_lowercase().as_str() {
@@ -41,7 +41,7 @@ impl Format {
     ///
     /// # Errors
     ///
-    /// What is wrong with the file, named by `path`.
+    /// The file cannot be read, or is wrong; messages call it by `path`.
     pub fn read(self, path: &Path) -> Result<Mesh, ReadMeshError> {
         Ok(match self {
             Format::Obj => obj::read(path)?,
@@ -49,12 +49,13 @@ impl Format {
         })
     }
 
-    /// Reads a mesh from a file of this format, with its materials if they have a place beside it:
-    /// those of an OBJ file do, and what is missing of them is told.
+    /// Reads a mesh from a file of this format, and its materials from the files beside it.
+    ///
+    /// OBJ files have such material files. Warnings name the materials that are missing. PLY files have none.
     ///
     /// # Errors
     ///
-    /// As for [`Format::read`], and for each material file that is there.
+    /// As for [`Format::read`], for the mesh file and for each material file that exists.
     pub fn read_with_materials(
         self,
         path: &Path,

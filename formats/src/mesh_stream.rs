@@ -1,9 +1,8 @@
-//! Meshes that are read from a file in passes, and never as a whole: for those that are larger than
-//! memory.
+//! Streams meshes that are larger than memory: a file is read in passes, never as a whole.
 //!
-//! Vertices stay in memory, 12 bytes each, because any face may name any of them. Faces pass by, as
-//! often as somebody asks for them. Only positions are read: no normals, texture coordinates or
-//! materials, which few of the triangles would ever show.
+//! Vertices stay in memory, 12 bytes each, because any face may name any of them. Faces are read again in every pass.
+//! Only positions are read, without normals, texture coordinates and materials: few triangles of so large a mesh
+//! would show them.
 
 use crate::mesh_file::{Format, ReadMeshError};
 use crate::obj::{MaterialWarning, ObjFile};
@@ -14,7 +13,27 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
-/// A mesh file of which only the vertices are in memory.
+/// An open mesh file. Only its vertices are in memory.
+///
+/// ```
+/// use bothways_formats::mesh_file::Format;
+/// use bothways_formats::mesh_stream::MeshStream;
+///
+/// # let name = format!("bothways-mesh-stream-{}.obj", std::process::id());
+/// # let path = std::env::temp_dir().join(name);
+/// std::fs::write(&path, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")?;
+///
+/// let mut stream = MeshStream::open(&path, Format::Obj)?;
+/// let mut highest = f32::NEG_INFINITY;
+/// let triangles = stream.for_each_triangle(|positions, vertices| {
+///     for vertex in vertices {
+///         highest = highest.max(positions.get(vertex).y);
+///     }
+/// })?;
+/// assert_eq!((triangles, highest), (1, 1.0));
+/// # std::fs::remove_file(&path)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct MeshStream {
     name: String,
@@ -32,10 +51,10 @@ enum Faces {
 /// Why a mesh cannot be streamed.
 #[derive(Debug, thiserror::Error)]
 pub enum StreamError {
-    /// What is wrong with the file.
+    /// The file cannot be read, or is wrong.
     #[error(transparent)]
     Mesh(#[from] ReadMeshError),
-    /// More triangles than ids.
+    /// The mesh has more triangles than there are ids.
     #[error("{file}: more than {} triangles, which is as many as can be told apart", u32::MAX - 1)]
     TooManyTriangles {
         /// The file.
@@ -48,7 +67,7 @@ impl MeshStream {
     ///
     /// # Errors
     ///
-    /// What is wrong with the file up to its last vertex; a pipe, which cannot be read twice.
+    /// The file cannot be read twice, as a pipe, or is wrong before the end of its last vertex.
     pub fn open(path: &Path, format: Format) -> Result<MeshStream, ReadMeshError> {
         let mut positions = Positions::default();
         let faces = match format {
@@ -66,17 +85,17 @@ impl MeshStream {
         Ok(MeshStream { name: path.display().to_string(), positions, faces, triangles: None })
     }
 
-    /// The vertices' positions.
+    /// The positions of the vertices.
     pub fn positions(&self) -> &Positions {
         &self.positions
     }
 
-    /// How many triangles there are, once somebody has read all of them.
+    /// The number of triangles; `None` before the first complete pass over them.
     pub fn triangles(&self) -> Option<u32> {
         self.triangles
     }
 
-    /// That the mesh has materials, if so: they are not read.
+    /// A warning if the file names materials: they are not read.
     pub fn material_warning(&self) -> Option<MaterialWarning> {
         match &self.faces {
             Faces::Obj(file) => file.material_warning(),
@@ -84,14 +103,14 @@ impl MeshStream {
         }
     }
 
-    /// Reads the faces once, from the first to the last, and shows each triangle's vertices; gives
+    /// Reads the faces once, from the first to the last, calls `visit` with the vertices of each triangle, and returns
     /// the number of triangles.
     ///
-    /// A triangle's place in this order is its id. All its vertices exist.
+    /// The number of a triangle in this order, counted from 0, is its id. All vertices that it names exist.
     ///
     /// # Errors
     ///
-    /// What is wrong with the file, or more triangles than ids; what was shown before is no use then.
+    /// The file is wrong, or has more triangles than there are ids. The triangles visited before are useless then.
     pub fn for_each_triangle(
         &mut self,
         mut visit: impl FnMut(&Positions, [u32; 3]),
@@ -116,8 +135,9 @@ impl MeshStream {
         }
     }
 
-    /// How many triangles there are, and the positions that they use, in the order of the vertices:
-    /// one pass over the faces, and one bit a vertex.
+    /// Returns the number of triangles, and the positions that they use, in the order of the vertices.
+    ///
+    /// This takes one pass over the faces, and one bit of memory for each vertex.
     ///
     /// # Errors
     ///
@@ -146,7 +166,7 @@ mod tests {
     use proptest::prelude::*;
     use proptest::sample::select;
 
-    /// A file's mesh in memory, and as it is streamed; `None` where it is refused.
+    /// The mesh of a file as the reader reads it, and as a stream reads it; `None` if the file is refused.
     fn both(name: &str, content: &[u8]) -> [Option<Mesh>; 2] {
         let folder = std::env::temp_dir().join(format!("bothways-stream-{}", std::process::id()));
         std::fs::create_dir_all(&folder).unwrap();
@@ -187,7 +207,7 @@ mod tests {
         std::fs::remove_file(&path).unwrap();
     }
 
-    /// Pieces that OBJ files are made of, and some that they are not.
+    /// Pieces of OBJ files, and some that do not occur in them.
     const PIECES: [&str; 22] = [
         "v 1 2 3\n",
         "v 1 0 0\r\n",

@@ -1,21 +1,23 @@
-//! Wavefront OBJ files: the reader and the writer of meshes.
+//! Reads and writes meshes as Wavefront OBJ files, and reads their material files.
 //!
-//! Of the format (Wavefront, "Advanced Visualizer" manual, appendix B1, "Object Files") the reader
-//! takes what describes triangles, and takes it strictly:
+//! # What is read
 //!
-//! - `v x y z`, `vt u [v]`, `vn x y z`: numbers round once, to the nearest `f32`. What follows (a
-//!   weight `w`, a colour) must be numbers and is ignored; `w` only weighs free-form curves.
-//! - `f` with corners `v`, `v/vt`, `v//vn`, `v/vt/vn`: a polygon of any size, cut into the fan
-//!   `(0, k, k + 1)` in file order. Indices count from 1, or back from what is defined above the
-//!   face. A positive index may name what only follows below, anywhere in the file: some programs
-//!   write faces first, and `tobj`, which the tests compare with, accepts it too.
-//! - `#` before a word begins a comment; a backslash before the end of a line joins the next line.
-//! - `usemtl` names the material of the faces below, `mtllib` a file that defines some: see
+//! The reader takes the part of the format that describes triangles (Wavefront, "Advanced Visualizer" manual,
+//! appendix B1, "Object Files"), and is strict about it:
+//!
+//! - `v x y z`, `vt u [v]`, `vn x y z`: each number is rounded once, to the nearest `f32`. What follows (a weight `w`,
+//!   a colour) must be numbers and is ignored; `w` is a weight for free-form curves only.
+//! - `f` with corners `v`, `v/vt`, `v//vn`, `v/vt/vn`: a polygon of any size, cut into the fan `(0, k, k + 1)` in file
+//!   order. A positive index counts from 1, a negative one counts back from the last definition above the face. A
+//!   positive index may name a definition further down in the file: some programs write faces first, and `tobj`,
+//!   which the tests compare with, accepts it too.
+//! - `#` at the beginning of a word begins a comment. A backslash at the end of a line joins the next line.
+//! - `usemtl` names the material of the faces below it, `mtllib` names a file that defines materials: see
 //!   [`read_with_materials`].
-//! - Names, groups, points, lines, free-form geometry and display settings are skipped. Anything else
-//!   is an error, `call` and `csh` too: they would run or include what is not here.
+//! - Names, groups, points, lines, free-form geometry and display settings are skipped. Any other statement is an
+//!   error, also `call` and `csh`: they would include another file or run a command.
 //!
-//! [`mesh_stream`](crate::mesh_stream) reads only vertices and triangles of a file.
+//! [`mesh_stream`](crate::mesh_stream) reads vertices and triangles alone, in passes.
 
 mod builder;
 mod error;
@@ -44,11 +46,11 @@ use std::path::Path;
 ///
 /// # Errors
 ///
-/// As for [`parse`], and a file that cannot be read; messages call the file by `path`.
+/// The file cannot be read, or one of the errors of [`parse`]; messages call the file by `path`.
 pub fn read(path: &Path) -> Result<Mesh, ReadObjError> {
     let mut file = ObjFile::open(path)?;
     let name = path.display().to_string();
-    // A statement at a time: a file that is none ends the reader early, and never fills the memory.
+    // One statement at a time: a file of another format ends the reader early, and does not fill the memory.
     if file.length()? > MOST_BYTES {
         return Err(ReadObjError::TooLarge { file: name });
     }
@@ -59,14 +61,14 @@ pub fn read(path: &Path) -> Result<Mesh, ReadObjError> {
     }
 }
 
-/// Reads a mesh from an OBJ file, and its colours from the material files beside it.
+/// Reads a mesh from an OBJ file, and its materials from the material files beside it.
 ///
-/// A material file that is not there, or that lacks a material, is no error: many meshes come without
-/// theirs. What is missing is told, and drawn in the material of the object.
+/// A missing material file or a missing material is a warning and no error: many meshes come without their material
+/// files. Triangles without a known material are drawn in the material of their object.
 ///
 /// # Errors
 ///
-/// As for [`read`], and for each material file that is there.
+/// As for [`read`], for the OBJ file and for each material file that exists.
 pub fn read_with_materials(path: &Path) -> Result<(Mesh, Vec<MaterialWarning>), ReadObjError> {
     let mut mesh = read(path)?;
     let warnings = materials::resolve(&mut mesh, path)?;
@@ -75,13 +77,12 @@ pub fn read_with_materials(path: &Path) -> Result<(Mesh, Vec<MaterialWarning>), 
 
 /// Reads a mesh from the bytes of an OBJ file, which messages call `name`.
 ///
-/// Normals and texture coordinates are there if any corner of a face names one. Materials have names,
-/// but are not known: they stand in other files.
+/// The mesh has normals or texture coordinates if any corner of a face names one. Its materials have names only: other
+/// files define them.
 ///
 /// # Errors
 ///
-/// A statement that is wrong or means nothing, an index of something that is not defined, a file
-/// without faces.
+/// A statement that is wrong or unknown, an index that is not defined, a file that is empty or has no faces.
 ///
 /// ```
 /// use bothways_formats::obj;
@@ -108,7 +109,7 @@ pub fn parse(name: &str, bytes: &[u8]) -> Result<Mesh, ReadObjError> {
     finish(name.to_owned(), parser)
 }
 
-/// Checks what faces name, once everything is defined.
+/// Checks the references to definitions further down, at the end of the file, and builds the mesh.
 fn finish(file: String, parser: Parser<MeshBuilder>) -> Result<Mesh, ReadObjError> {
     if let Err((line, fault)) = parser.check_forward() {
         return Err(ReadObjError::Statement { file, line, fault });
@@ -119,8 +120,8 @@ fn finish(file: String, parser: Parser<MeshBuilder>) -> Result<Mesh, ReadObjErro
     Ok(parser.visitor.finish())
 }
 
-/// The shortest definition, `vt 0` and a line end, has five bytes: so many bytes define fewer than
-/// 2³² − 1 things of any kind, and every index that is valid fits into a `u32` other than `NONE`.
+/// The most bytes of a file. The shortest definition, `vt 0` and a line end, has five bytes: a file of this size has
+/// fewer than 2³² − 1 definitions of any kind, and every valid index fits into a `u32` other than `NONE`.
 const MOST_BYTES: u64 = 1 << 34;
 
 #[cfg(test)]

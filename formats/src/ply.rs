@@ -1,16 +1,18 @@
-//! PLY files: the reader of meshes that scanners and sculpting programs write, and a writer.
+//! Reads and writes meshes as PLY files, which scanners and sculpting programs use.
 //!
-//! Of the format (Turk, "The PLY Polygon File Format", 1994) the reader takes all three encodings,
-//! and of what is in a file the triangles, strictly:
+//! # What is read
 //!
-//! - `x`, `y`, `z` of the element `vertex`, of any type: rounded once, to the nearest `f32`.
-//! - The list `vertex_indices` or `vertex_index` of the element `face`, of any integer types: a
-//!   polygon of any size, cut into the fan `(0, k, k + 1)` in file order. Indices count from 0.
-//! - Other properties and other elements are skipped, but must be there. Nothing may follow the last
-//!   element, because then the header does not fit the file.
+//! The reader takes all three encodings of the format (Turk, "The PLY Polygon File Format", 1994). It takes the part of
+//! a file that describes triangles, and is strict about it:
 //!
-//! A file is read value by value: no number that stands in it makes the reader take memory before
-//! the values that it announces have come.
+//! - `x`, `y`, `z` of the element `vertex`, of any type: each number is rounded once, to the nearest `f32`.
+//! - The list `vertex_indices` or `vertex_index` of the element `face`, of any integer types: a polygon of any size, cut
+//!   into the fan `(0, k, k + 1)` in file order. Indices count from 0.
+//! - Other properties and other elements are skipped, but must be complete. Nothing may follow the last element: the
+//!   header of such a file does not fit its content.
+//!
+//! A file is read value by value. A count in the file never makes the reader reserve memory before the values
+//! themselves have been read.
 
 mod error;
 mod file;
@@ -30,7 +32,7 @@ use std::path::Path;
 ///
 /// # Errors
 ///
-/// As for [`parse`], and a file that cannot be read; messages call the file by `path`.
+/// The file cannot be read, or one of the errors of [`parse`]; messages call the file by `path`.
 pub fn read(path: &Path) -> Result<Mesh, ReadPlyError> {
     PlyFile::open(path)?.mesh()
 }
@@ -39,7 +41,7 @@ pub fn read(path: &Path) -> Result<Mesh, ReadPlyError> {
 ///
 /// # Errors
 ///
-/// A header or an element that is wrong or missing, an index without a vertex, more than the header
+/// A header or an element that is wrong or missing, an index without a vertex, or more content than the header
 /// announces.
 ///
 /// ```

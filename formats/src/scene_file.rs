@@ -1,4 +1,4 @@
-//! The scene file: a scene and its camera, written in TOML.
+//! Reads and writes scene files: a scene and its camera, in TOML.
 //!
 //! ```
 //! use bothways_formats::scene_file;
@@ -30,9 +30,25 @@
 //! # Ok::<(), scene_file::ReadSceneError>(())
 //! ```
 //!
-//! Every key is described where it is read: the camera's in `camera.rs`, an object's in
-//! `object.rs`, the others here. An unknown key is an error, so that a slip of the keyboard never
-//! goes unnoticed; every error knows its place in the text. Numbers are read as the nearest `f32`.
+//! # Tables
+//!
+//! The tables are `[camera]`, `[material.NAME]`, `[[light]]` and `[[object]]`. The files `camera.rs`, `material.rs`,
+//! `light.rs` and `object.rs` describe their keys. An unknown key is an error, so that no typing error stays unnoticed.
+//! Numbers are read as the nearest `f32`.
+//!
+//! # Errors
+//!
+//! Every error in the text knows its line and its column, and often suggests a correction:
+//!
+//! ```
+//! use bothways_formats::scene_file;
+//! use std::path::Path;
+//!
+//! let text = "[[object]]\nspere = { center = [0, 0, 0], radius = 1 }\n";
+//! let error = scene_file::parse("example.toml", text, Path::new("")).unwrap_err();
+//! let message = r#"example.toml:2:1: object has no key "spere"; did you mean "sphere"?"#;
+//! assert_eq!(error.to_string(), message);
+//! ```
 
 mod camera;
 mod color;
@@ -62,16 +78,16 @@ use std::io::Read;
 use std::path::Path;
 use toml::de::DeTable;
 
-/// What a scene file says.
+/// The content of a scene file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneFile {
-    /// What there is to see.
+    /// The objects, lights and background.
     pub scene: Scene,
-    /// From where; [`Camera::new`](crate::Camera::new) accepts it.
+    /// The camera, which [`Camera::new`](bothways_common::Camera::new) accepts.
     pub camera: CameraDescription,
-    /// Whether the file states the viewport, so that another image size keeps both its sides.
+    /// Whether the file states the viewport. If so, another image size keeps both its sides.
     pub viewport_stated: bool,
-    /// What is missing, but no error: see [`crate::obj::MaterialWarning`].
+    /// Messages about missing materials: see [`MaterialWarning`](crate::obj::MaterialWarning).
     pub warnings: Vec<String>,
 }
 
@@ -85,19 +101,20 @@ pub fn read(path: &Path) -> Result<SceneFile, ReadSceneError> {
     parse(&path.display().to_string(), &text, path.parent().unwrap_or(Path::new("")))
 }
 
-/// The largest scene file: some 140,000 objects. While it is read, its tables take 70 times as much memory as
-/// their text, and up to 240 times where they are as short as can be: less than 2 GiB in any case.
+/// The most bytes of a scene file: some 140,000 objects. While a file is read, its tables take about 70 times as much
+/// memory as their text, and up to 240 times if they are very short: less than 2 GiB in any case. The message of
+/// [`ReadSceneError::TooLarge`] names this limit.
 const MOST_BYTES: u64 = 8 << 20;
 
-/// Reads the text of a scene file, for whoever needs it besides what it says.
+/// Reads the text of a scene file, without parsing it.
 ///
 /// # Errors
 ///
-/// A file that is not there, cannot be read, is a pipe or a device, is too large or is no text.
+/// The file does not exist, cannot be read, is a pipe or a device, is too large or is not UTF-8 text.
 pub fn read_text(path: &Path) -> Result<String, ReadSceneError> {
     let file = path.display().to_string();
     let mut bytes = Vec::new();
-    // A byte more than may be read tells that there is too much, whatever the system says of its length.
+    // One byte more than the limit shows that the file is too large, whatever length the system reports.
     let read =
         regular_file(path).and_then(|file| file.take(MOST_BYTES + 1).read_to_end(&mut bytes));
     match read {
@@ -117,7 +134,7 @@ pub fn read_text(path: &Path) -> Result<String, ReadSceneError> {
 ///
 /// # Errors
 ///
-/// The first thing found that is wrong, with its place: see [`LocatedError`].
+/// The first fault that is found, with its place in the text: see [`LocatedError`].
 pub fn parse(name: &str, text: &str, folder: &Path) -> Result<SceneFile, ReadSceneError> {
     let read = document(text, folder);
     read.map_err(|problem| problem.in_text(name, text).into())
@@ -150,6 +167,7 @@ fn document(text: &str, folder: &Path) -> Result<SceneFile, Problem> {
     Ok(SceneFile { scene, camera: description, viewport_stated, warnings })
 }
 
+/// Builds the scene from its `[[object]]` tables.
 fn scene(
     list: &Item,
     materials: &Materials,
@@ -164,7 +182,7 @@ fn scene(
             SceneError::NotFinite { object, .. }
             | SceneError::Radius { object, .. }
             | SceneError::NoNormal { object } => object,
-            // Nobody can say which object is one too many; the last one is certainly there.
+            // No single object is one too many. The last one is a place that exists.
             SceneError::TooManyPrimitives { .. } => items.len() - 1,
         };
         let span = items.get(index).map_or(list.span.clone(), |item| item.span.clone());

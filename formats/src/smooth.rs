@@ -1,5 +1,5 @@
-//! Normals for meshes that bring none: smooth where faces meet at a small angle, with a crease where
-//! they meet at a large one.
+//! Computes normals for meshes that have none: smooth where faces meet at a small angle, with a crease where they meet at
+//! a large angle.
 
 mod facet;
 mod normal_tree;
@@ -10,16 +10,16 @@ use glam::{DVec3, Vec3};
 use normal_tree::NormalTree;
 use std::collections::HashMap;
 
-/// The angle between two faces, in degrees, beyond which the edge between them is meant to be seen.
+/// The angle between two faces, in degrees, beyond which the edge between them is a visible crease.
 pub const CREASE: f64 = 40.0;
 
-/// The mesh with a normal at each corner: the mean of the normals of those faces around the vertex that
-/// are turned against the corner's own by at most `crease` degrees, each weighted by its angle there.
+/// Gives a mesh a normal at each corner: the weighted mean of the normals of the faces around its vertex.
 ///
-/// Corners of triangles without area get none. A mesh that has normals keeps them.
+/// The mean takes the faces whose normals differ from that of the corner's own face by at most `crease` degrees. The
+/// weight of a face is its angle at the vertex (Thürmer and Wüthrich, "Computing Vertex Normals from Polygonal Facets",
+/// Journal of Graphics Tools 3, 1998).
 ///
-/// Thürmer and Wüthrich, "Computing Vertex Normals from Polygonal Facets", Journal of Graphics Tools 3,
-/// 1998, for the weights.
+/// Corners of triangles without area get no normal. A mesh that has normals keeps them.
 ///
 /// ```
 /// use bothways_formats::{generate::Kind, smooth};
@@ -53,13 +53,13 @@ pub fn with_normals(mesh: Mesh, crease: f64) -> Mesh {
     mesh.with_normals(normals).expect("each corner names a normal that was made")
 }
 
-/// From so many triangles around a vertex on, comparing each with each takes longer than sorting them.
+/// The number of triangles around a vertex from which a tree is faster than a comparison of all pairs.
 const MANY: usize = 64;
 
-/// Gives the corners around one vertex their normals.
+/// Computes the normals of the corners around one vertex.
 fn smooth_vertex(facets: &[Facet], least_cosine: f64, normals: &mut Attribute<Vec3>) {
     let tree = (facets.len() >= MANY).then(|| NormalTree::new(facets));
-    // Corners of one smooth patch share a normal: few values for many corners.
+    // Corners of one smooth surface share a normal: few values for many corners.
     let first = normals.values.len();
     let mut known = HashMap::new();
     for facet in facets.iter().filter(|facet| facet.normal != DVec3::ZERO) {
@@ -70,7 +70,7 @@ fn smooth_vertex(facets: &[Facet], least_cosine: f64, normals: &mut Attribute<Ve
         let normal = sum.normalize_or(facet.normal).as_vec3();
         let next = normals.values.len();
         let index = if tree.is_some() {
-            // Zero and minus zero are two keys, and one value: that costs a value.
+            // 0 and −0 are two keys for equal normals: this only stores one more value.
             *known.entry(normal.to_array().map(f32::to_bits)).or_insert(next)
         } else {
             let equal = normals.values[first..].iter().position(|value| *value == normal);
@@ -84,7 +84,7 @@ fn smooth_vertex(facets: &[Facet], least_cosine: f64, normals: &mut Attribute<Ve
     }
 }
 
-/// The weighted normals of the faces that are turned against one of them by no more than the crease.
+/// The sum of the weighted normals of the faces whose normals differ from that of `one` by at most the crease.
 fn sum_one_by_one(facets: &[Facet], one: &Facet, least_cosine: f64) -> DVec3 {
     let gentle = facets.iter().filter(|other| {
         one.normal.dot(other.normal) >= least_cosine || other.triangle == one.triangle
@@ -92,14 +92,14 @@ fn sum_one_by_one(facets: &[Facet], one: &Facet, least_cosine: f64) -> DVec3 {
     gentle.map(|other| other.weighted).sum()
 }
 
-/// The triangles around each vertex, and with which corner they are there.
+/// The corners at each vertex: their triangles, and their numbers in the triangles.
 struct CornersByVertex {
     starts: Vec<u32>,
     corners: Vec<(u32, u8)>,
 }
 
 impl CornersByVertex {
-    /// A counting sort of all corners by vertex.
+    /// Sorts all corners by vertex, with a counting sort.
     fn new(mesh: &Mesh) -> CornersByVertex {
         let mut starts = vec![0_u32; mesh.positions().len() + 1];
         for vertex in mesh.triangles().iter().flatten() {
@@ -125,7 +125,7 @@ impl CornersByVertex {
     }
 }
 
-/// The unit normal of a triangle, zero if it has no area.
+/// The unit normal of a triangle; zero if the triangle has no area.
 fn face_normal(mesh: &Mesh, triangle: usize) -> DVec3 {
     let [a, b, c] = mesh.corners(triangle).map(Vec3::as_dvec3);
     (b - a).cross(c - a).normalize_or_zero()
@@ -189,8 +189,8 @@ mod tests {
         assert_eq!(with_normals(torus.clone(), CREASE), torus);
     }
 
-    /// A cone of so many sides, finely wrinkled, with a crease for every seventh side; its base is one
-    /// polygon, cut into a fan.
+    /// A cone of so many sides, with fine wrinkles and a crease at every seventh side. Its base is one polygon, cut into a
+    /// fan.
     fn cone(sides: u32) -> Mesh {
         let rim = (0..sides).map(|k| {
             let turn = std::f64::consts::TAU * f64::from(k) / f64::from(sides);
@@ -231,7 +231,7 @@ mod tests {
 
     #[test]
     fn a_polygon_of_many_corners_takes_no_longer_than_its_corners() {
-        // One by one it would be 10¹⁰ products: a minute and a half.
+        // A comparison of all pairs would take 10¹⁰ products: a minute and a half.
         let mesh = cone(100_000);
         let begun = std::time::Instant::now();
         let smooth = with_normals(mesh, CREASE);

@@ -1,4 +1,4 @@
-//! Files that are read: how they are opened, and why one cannot be.
+//! Opens files to read, and words the messages about files that cannot be read.
 
 pub mod quote;
 
@@ -6,22 +6,24 @@ use std::fs::{self, File, Metadata};
 use std::path::Path;
 use std::{fmt, io};
 
-/// What the system knows of a file, unless it is a folder: some systems call it a lack of permission
-/// when one is opened.
+/// Returns what the system knows about a file.
+///
+/// A folder is an error here: some systems report a lack of permission when a folder is opened.
 pub(crate) fn metadata(path: &Path) -> io::Result<Metadata> {
     let metadata = fs::metadata(path)?;
     if metadata.is_dir() { Err(io::ErrorKind::IsADirectory.into()) } else { Ok(metadata) }
 }
 
-/// Bytes that are read at a time.
+/// The size of read buffers, in bytes.
 pub const READ_AT_ONCE: usize = 1 << 18;
 
-/// Opens a file that can be read from any place, and more than once: no folder, and no pipe, which
-/// would wait for a writer.
+/// Opens a regular file, which can be read from any position and more than once.
+///
+/// Folders are refused, and pipes too: to open one would wait for a program that writes to it.
 ///
 /// # Errors
 ///
-/// `IsADirectory` for a folder, `NotSeekable` for what else is no file, and what the system says.
+/// `IsADirectory` for a folder, `NotSeekable` for a pipe or a device, and any error of the system.
 pub fn regular_file(path: &Path) -> io::Result<File> {
     if !metadata(path)?.is_file() {
         return Err(io::ErrorKind::NotSeekable.into());
@@ -29,7 +31,16 @@ pub fn regular_file(path: &Path) -> io::Result<File> {
     File::open(path)
 }
 
-/// The common failures in our words, the others in the system's.
+/// Displays why a file could not be read: common reasons in words of our own, others in those of the system.
+///
+/// ```
+/// use bothways_formats::source::Unreadable;
+/// use std::io::{Error, ErrorKind};
+///
+/// let error = Error::from(ErrorKind::IsADirectory);
+/// let message = Unreadable::new(&error, "an OBJ file").to_string();
+/// assert_eq!(message, "this is a folder, not an OBJ file");
+/// ```
 #[derive(Debug)]
 pub struct Unreadable<'a> {
     error: &'a io::Error,
@@ -37,7 +48,7 @@ pub struct Unreadable<'a> {
 }
 
 impl<'a> Unreadable<'a> {
-    /// Why a file was not read that should be of a format, such as "an OBJ file".
+    /// The reason `error`, for a file that was expected to be of a format, such as "an OBJ file".
     pub fn new(error: &'a io::Error, format: &'static str) -> Self {
         Unreadable { error, format }
     }

@@ -1,4 +1,4 @@
-//! Surfaces over a rectangle of parameters, put together to one mesh.
+//! Tessellates parametric surfaces, and joins them to one mesh.
 
 use bothways_common::scene::{Attribute, Mesh};
 use glam::{DVec3, Vec2, Vec3};
@@ -9,12 +9,12 @@ use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Vertex {
     pub(super) position: DVec3,
-    /// Outward; of any length.
+    /// Points outward; of any length.
     pub(super) normal: DVec3,
 }
 
-/// A mesh in the making. Points at the same place become one vertex, whether they meet at a seam, at
-/// a pole or at the border of two surfaces; normals and texture coordinates stay apart.
+/// A mesh under construction. Points at the same position become one vertex, whether they meet at a seam, at a pole or at
+/// the border of two surfaces. Normals and texture coordinates stay separate.
 #[derive(Debug, Default)]
 pub(super) struct Tessellation {
     places: HashMap<[u32; 3], u32>,
@@ -25,8 +25,8 @@ pub(super) struct Tessellation {
 }
 
 impl Tessellation {
-    /// Adds a surface of `divisions[0]` × `divisions[1]` cells, each of two triangles, over `(j, i)`; `j`
-    /// runs to the right and `i` up as seen from outside. Triangles without extent are left out.
+    /// Adds a surface of `divisions[0]` × `divisions[1]` cells, each of two triangles. `at(j, i)` gives its points: `j`
+    /// counts to the right and `i` up, as seen from outside. Triangles with two equal vertices are left out.
     pub(super) fn surface(&mut self, divisions: [u32; 2], at: impl Fn(u32, u32) -> Vertex) {
         let [across, up] = divisions;
         let first = index(self.normals.values.len());
@@ -55,7 +55,7 @@ impl Tessellation {
     }
 
     fn vertex(&mut self, position: Vec3) -> u32 {
-        // −0 and 0 are one place.
+        // −0 and 0 are the same position.
         let position = position + Vec3::ZERO;
         let next = index(self.positions.len());
         *self.places.entry(position.to_array().map(f32::to_bits)).or_insert_with(|| {
@@ -75,17 +75,16 @@ impl Tessellation {
     }
 }
 
-/// The cosine and sine of `step/count` of a turn: exact at quarter turns, and with the symmetries of
-/// the circle to the last bit.
+/// The cosine and the sine of `step/count` of a turn: exact at quarter turns, and symmetric to the last bit.
 pub(super) fn turn(step: u32, count: u32) -> (f64, f64) {
     let (step, count) = (u64::from(step % count), u64::from(count));
     let (octant, rest) = (8 * step / count, 8 * step % count);
-    // Odd octants are even ones in a mirror.
+    // Odd octants mirror even ones.
     let rest = if octant % 2 == 0 { rest } else { count - rest };
     #[expect(clippy::cast_precision_loss, reason = "both are below 2^35")]
     let angle = FRAC_PI_4 * (rest as f64 / count as f64);
     let (cos, sin) = if rest == count {
-        // Halfway both are √½, which rounding would tell apart.
+        // At 45 degrees both are √½; computed separately, they might be rounded differently.
         (FRAC_1_SQRT_2, FRAC_1_SQRT_2)
     } else {
         (libm::cos(angle), libm::sin(angle))
@@ -102,7 +101,7 @@ pub(super) fn turn(step: u32, count: u32) -> (f64, f64) {
     }
 }
 
-/// `step/count` of a texture's side.
+/// The texture coordinate `step/count`.
 fn fraction(step: u32, count: u32) -> f32 {
     #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is what is asked")]
     let part = (f64::from(step) / f64::from(count)) as f32;

@@ -2,7 +2,7 @@ use super::*;
 use glam::Vec3;
 use std::collections::HashMap;
 
-/// How often each directed edge occurs.
+/// The number of times that each directed edge occurs.
 fn directed_edges(mesh: &Mesh) -> HashMap<[u32; 2], u32> {
     let mut edges = HashMap::new();
     for &[a, b, c] in mesh.triangles() {
@@ -102,7 +102,7 @@ fn counts_are_as_expected() {
     assert_eq!(triangles(Kind::Box, [1, 1]), 12);
     assert_eq!(triangles(Kind::Cylinder, [8, 2]), 2 * 8 * 2 + 2 * 8);
     assert_eq!(triangles(Kind::Cone, [8, 2]), 2 * 8 + 8 + 8);
-    // Two triangles a cell, less those that vanish at the two poles, of lid and bottom.
+    // Two triangles in each cell, without those at the poles of lid and bottom that would have two equal vertices.
     assert_eq!(triangles(Kind::Teapot, [10, 10]), 32 * 200 - 2 * 40);
 }
 
@@ -111,7 +111,7 @@ fn the_teapot_s_parts_are_open_where_newell_left_them_open() {
     let mesh = Kind::Teapot.mesh([6, 6]).unwrap();
     let edges = directed_edges(&mesh);
     assert!(edges.values().all(|&count| count == 1), "no edge is used twice in one direction");
-    // The rim, the lid's border, and both ends of handle and spout.
+    // The rim, the border of the lid, and both ends of handle and spout.
     let border = edges.keys().filter(|[a, b]| !edges.contains_key(&[*b, *a])).count();
     assert_eq!(border, 4 * 6 + 4 * 6 + 4 * (2 * 6));
 }

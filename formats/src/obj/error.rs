@@ -1,34 +1,33 @@
-//! Why an OBJ file could not be read: which file, where in it, what is wrong there.
+//! Errors about OBJ and MTL files: each names the file, the line and the fault.
 
 use crate::source::Unreadable;
 use std::fmt;
 use std::io;
 
-/// Why an OBJ file could not be read.
+/// Why an OBJ or MTL file could not be read.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadObjError {
-    /// There is no such file, it is a folder, or the system does not give it away.
+    /// The file does not exist, is a folder or a pipe, or the system reports another error.
     #[error("{file}: {}", Unreadable::new(.error, "an OBJ file"))]
     Unreadable {
         /// The file.
         file: String,
-        /// What the system says. The message says it too, so it is no
-        /// [source](std::error::Error::source) besides.
+        /// The system's error. The message contains it, so it is not a [source](std::error::Error::source) as well.
         error: io::Error,
     },
-    /// The file is so large that its vertices might not be told apart by 32-bit indices.
+    /// The file is so large that 32-bit indices might not be enough for its vertices.
     #[error("{file}: an OBJ file of more than 16 GiB cannot be read; split it")]
     TooLarge {
         /// The file.
         file: String,
     },
-    /// The file has no bytes at all.
+    /// The file has no bytes.
     #[error("{file}: the file is empty")]
     Empty {
         /// The file.
         file: String,
     },
-    /// Nothing in the file has an area.
+    /// The file has no faces.
     #[error("{file}: no faces (`f` statements), so nothing to draw; export the mesh as polygons")]
     NoFaces {
         /// The file.
@@ -46,99 +45,99 @@ pub enum ReadObjError {
     },
 }
 
-/// What is wrong with a statement of an OBJ file.
+/// What is wrong with a statement of an OBJ or MTL file.
 ///
-/// Texts are quoted from the file: shortened if they are long, with `�` for what is not UTF-8.
+/// Texts are quoted from the file: shortened if they are long, with `�` in place of bytes that are not UTF-8.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum StatementFault {
-    /// The line does not begin like text.
+    /// The first word of the line is not text.
     #[error("this is not plain text, as an OBJ or MTL file must be (a binary or UTF-16 file?)")]
     NotText,
-    /// The statement's keyword is not one of the format, or one that includes other files.
+    /// The keyword is not one of the format, or it would include another file or run a command.
     #[error("there is no statement {keyword:?} that an OBJ file may have here")]
     UnknownKeyword {
         /// The keyword.
         keyword: String,
     },
-    /// The statement does not fit into the reader's buffer.
+    /// The statement does not fit into the buffer of the reader.
     #[error("a statement of more than {most} bytes is not read; cut the polygon up")]
     TooLong {
         /// The most bytes that it may have.
         most: usize,
     },
-    /// More vertices than indices of 32 bits can name.
+    /// There are more vertices than 32-bit indices can name.
     #[error("there are too many vertices; at most {} can be told apart", u32::MAX - 1)]
     TooManyVertices,
     /// A coordinate is not a number.
     #[error("{text:?} is not a number")]
     NotANumber {
-        /// What stands there.
+        /// The word of the file.
         text: String,
     },
-    /// A coordinate is NaN or infinite, in words.
+    /// A coordinate is NaN or infinite.
     #[error("{text:?} is not a finite number")]
     NotFinite {
-        /// What stands there.
+        /// The word of the file.
         text: String,
     },
     /// A coordinate is a number, but rounds to infinity.
     #[error("{text:?} is out of range: single precision ends at 3.4028235e38")]
     OutOfRange {
-        /// What stands there.
+        /// The word of the file.
         text: String,
     },
     /// A `v`, `vt` or `vn` has too few numbers.
     #[error("too few coordinates for a {kind}: {found} instead of {needed}")]
     MissingCoordinates {
-        /// What needs them.
+        /// What the statement defines.
         kind: IndexKind,
-        /// How many it needs.
+        /// The number of those needed.
         needed: usize,
-        /// How many there are.
+        /// The number of those found.
         found: usize,
     },
-    /// A face has no area.
+    /// A face has fewer than three corners.
     #[error("a face needs at least 3 corners, this one has {corners}")]
     TooFewCorners {
-        /// How many there are.
+        /// The number of those found.
         corners: usize,
     },
-    /// A corner of a face is not written as it must be.
+    /// A corner of a face has none of the forms of the format.
     #[error("{text:?} is not a corner; write one as v, v/vt, v//vn or v/vt/vn, in whole numbers")]
     NotACorner {
-        /// What stands there.
+        /// The word of the file.
         text: String,
     },
-    /// A face names something by the index 0.
+    /// An index of a face is 0.
     #[error("the face names {kind} 0, but they are counted from 1")]
     IndexZero {
-        /// What it names.
+        /// What the index names.
         kind: IndexKind,
     },
-    /// A face names something, counted back, from before the first.
+    /// A negative index of a face counts back beyond the first definition.
     #[error("the face names {kind} {index}, counted back, but above it {}", Defined(*.defined))]
     UnknownAbove {
-        /// What it names.
+        /// What the index names.
         kind: IndexKind,
-        /// By which negative index.
+        /// The negative index.
         index: i64,
-        /// How many are defined above the face.
+        /// The number of definitions above the face.
         defined: usize,
     },
-    /// A face names something that the file does not define, neither above nor below.
+    /// A positive index of a face is not defined anywhere in the file.
     #[error("the face names {kind} {index}, but in the whole file {}", Defined(*.defined))]
     Unknown {
-        /// What it names.
+        /// What the index names.
         kind: IndexKind,
-        /// By which index.
+        /// The index.
         index: i64,
-        /// How many the file defines.
+        /// The number of definitions in the file.
         defined: usize,
     },
-    /// A `newmtl` of an MTL file gives no name.
+    /// A `newmtl` of an MTL file has no name.
     #[error("newmtl needs the material's name")]
     NoName,
-    /// A statement of an MTL file describes nothing.
+    /// A statement of an MTL file stands before the first `newmtl`.
     #[error("{keyword} stands before the first newmtl, so it describes no material")]
     NoMaterial {
         /// The statement's keyword.
@@ -149,7 +148,7 @@ pub enum StatementFault {
     MissingNumbers {
         /// The statement's keyword.
         keyword: String,
-        /// How many, in words.
+        /// The number of those needed, in words.
         needed: &'static str,
     },
     /// A number of an MTL file is too small or too large.
@@ -157,9 +156,9 @@ pub enum StatementFault {
     OutOfBounds {
         /// The statement's keyword.
         keyword: String,
-        /// What stands there.
+        /// The word of the file.
         text: String,
-        /// What is allowed, in words.
+        /// The allowed range, in words.
         range: &'static str,
     },
 }
@@ -185,7 +184,7 @@ impl fmt::Display for IndexKind {
     }
 }
 
-/// "only 8 are defined", in good grammar for any number.
+/// Displays "only 8 are defined", with the right grammar for any number.
 struct Defined(usize);
 
 impl fmt::Display for Defined {

@@ -1,20 +1,19 @@
-//! Material files (MTL): the colours beside an OBJ file.
+//! Material files (MTL), which stand beside OBJ files.
 //!
-//! Of the format (Wavefront, "MTL Material Format", 1995) the reader takes, strictly,
+//! The reader takes this part of the format (Wavefront, "MTL Material Format", 1995), and is strict about it:
 //!
-//! - `newmtl name`, after which what follows describes this material; a name may contain blanks;
-//! - `Kd r g b` and `Ks r g b`, diffuse colour and highlight, from 0 to 1; green and blue may be left
-//!   out and are then like red;
-//! - `Ns s`, the exponent of the highlight, which the format defines with the half vector, as we do.
+//! - `newmtl name` begins a material, which the statements after it describe. A name may contain blanks.
+//! - `Kd r g b` and `Ks r g b` are the diffuse colour and the colour of the highlight, from 0 to 1. One number alone
+//!   is grey.
+//! - `Ns s` is the exponent of the highlight. The format defines it with the half vector, as we do.
 //!
-//! Everything else (ambient colour, transparency, maps, what other programs have added) is skipped.
+//! All other statements (ambient colour, transparency, maps, extensions of other programs) are skipped.
 //!
-//! The format does not say whether its colours are linear. Here `Kd` is taken as screens show it, as
-//! sRGB: the programs that most files were made with and for wrote these numbers to the screen as
-//! they stand, so that only then a surface that faces the light has the colour that its author saw.
-//! (Files of programs that write linear values look darker.) `Ks` becomes one strength, the mean of
-//! its three. `Ns 0` would light the whole surface; programs write it for matt ones, so it takes the
-//! highlight away.
+//! The format does not say whether its colours are linear. `Kd` is read as an sRGB colour: the programs that most of
+//! these files were made with and for wrote these numbers to the screen unchanged. So a surface that faces the light
+//! has the colour that its author saw. (Files of programs that write linear values look darker.) `Ks` becomes one
+//! strength, the mean of its three numbers. `Ns 0` would light the whole surface, but programs write it for matt
+//! surfaces. So it removes the highlight.
 
 use super::error::{ReadObjError, StatementFault};
 use super::file::ObjFile;
@@ -27,11 +26,11 @@ use bothways_common::scene::{Material, Mesh};
 use glam::Vec3;
 use std::path::{Path, PathBuf};
 
-/// Gives a mesh the materials that it uses, from the files beside its own, and says what is missing.
+/// Gives a mesh its materials, from the files beside its own, and returns warnings about missing ones.
 ///
 /// # Errors
 ///
-/// A material file that is there but cannot be read, or is wrong.
+/// A material file exists but cannot be read, or is wrong.
 pub(super) fn resolve(mesh: &mut Mesh, path: &Path) -> Result<Vec<MaterialWarning>, ReadObjError> {
     let mut warnings = Vec::new();
     let libraries = match mesh.materials() {
@@ -54,29 +53,29 @@ pub(super) fn resolve(mesh: &mut Mesh, path: &Path) -> Result<Vec<MaterialWarnin
     let named = mesh.materials().map_or(&[][..], |materials| materials.named());
     let undefined = named.iter().filter(|named| named.material.is_none());
     let names: Vec<String> = undefined.map(|named| named.name.clone()).collect();
-    // What is missing may be in the missing file: one warning says enough.
+    // The missing file may define the missing materials: one warning is enough.
     if !names.is_empty() && warnings.is_empty() {
         warnings.push(MaterialWarning::Undefined { file, names });
     }
     Ok(warnings)
 }
 
-/// The files that an `mtllib` names: one, whose name may have blanks in it, or several between blanks.
-/// `None` if one is not there.
+/// The files that an `mtllib` names: one file, whose name may contain blanks, or several files, separated by blanks.
+/// `None` if one of them does not exist.
 fn library_files(folder: &Path, library: &str) -> Option<Vec<PathBuf>> {
     let whole = folder.join(library);
     if whole.is_file() {
         return Some(vec![whole]);
     }
-    let there = |name: &str| Some(folder.join(name)).filter(|path| path.is_file());
-    library.split_whitespace().map(there).collect()
+    let existing = |name: &str| Some(folder.join(name)).filter(|path| path.is_file());
+    library.split_whitespace().map(existing).collect()
 }
 
 /// Reads materials and their names from the bytes of an MTL file, which messages call `name`.
 ///
 /// # Errors
 ///
-/// A statement that is wrong, with its line.
+/// A statement that is wrong.
 ///
 /// ```
 /// use bothways_formats::obj;
@@ -100,14 +99,14 @@ pub fn parse_materials(name: &str, bytes: &[u8]) -> Result<Vec<(String, Material
     Ok(finished(materials))
 }
 
-/// The same of a file, a statement at a time.
+/// Reads materials and their names from an MTL file, one statement at a time.
 fn read_materials(path: &Path) -> Result<Vec<(String, Material)>, ReadObjError> {
     let mut materials = Vec::new();
     ObjFile::open(path)?.statements(|_, words| statement(&mut materials, words))?;
     Ok(finished(materials))
 }
 
-/// What is to be said when everything has been: that `Ns 0` takes the highlight away.
+/// Removes the highlight of materials with `Ns 0`, at the end of a file.
 fn finished(mut materials: Vec<(String, Material)>) -> Vec<(String, Material)> {
     for (_, material) in &mut materials {
         if material.shininess == 0.0 {
@@ -118,6 +117,7 @@ fn finished(mut materials: Vec<(String, Material)>) -> Vec<(String, Material)> {
     materials
 }
 
+/// Parses one statement.
 fn statement(
     materials: &mut Vec<(String, Material)>,
     mut words: Words,
@@ -135,6 +135,7 @@ fn statement(
     Ok(())
 }
 
+/// Applies a statement to a material.
 fn describe(material: &mut Material, keyword: &[u8], words: Words) -> Result<(), StatementFault> {
     match keyword {
         b"Kd" => material.color = color(keyword, words)?.map(linear_from_encoded),
@@ -144,7 +145,7 @@ fn describe(material: &mut Material, keyword: &[u8], words: Words) -> Result<(),
     Ok(())
 }
 
-/// The material that a statement describes.
+/// The material that a statement describes: the one of the last `newmtl`.
 fn last<'a>(
     materials: &'a mut [(String, Material)],
     keyword: &[u8],
@@ -153,13 +154,13 @@ fn last<'a>(
     last.ok_or_else(|| StatementFault::NoMaterial { keyword: quote(keyword) })
 }
 
-/// One number, or three.
+/// Reads a colour: three numbers from 0 to 1, or one for a grey.
 fn color(keyword: &[u8], words: Words) -> Result<Vec3, StatementFault> {
     let mut values = Vec::with_capacity(3);
     for word in words.take(3) {
         match number(word)? {
             value if (0.0..=1.0).contains(&value) => values.push(value),
-            _ => return Err(beyond(keyword, word, "from 0 to 1")),
+            _ => return Err(out_of_bounds(keyword, word, "from 0 to 1")),
         }
     }
     match values[..] {
@@ -172,17 +173,17 @@ fn color(keyword: &[u8], words: Words) -> Result<Vec3, StatementFault> {
     }
 }
 
-/// One number that is not negative.
+/// Reads one number that is not negative.
 fn one_number(keyword: &[u8], mut words: Words) -> Result<f32, StatementFault> {
     let Some(word) = words.next() else {
         return Err(StatementFault::MissingNumbers { keyword: quote(keyword), needed: "a number" });
     };
     match number(word)? {
         value if value >= 0.0 => Ok(value),
-        _ => Err(beyond(keyword, word, "at least 0")),
+        _ => Err(out_of_bounds(keyword, word, "at least 0")),
     }
 }
 
-fn beyond(keyword: &[u8], word: &[u8], range: &'static str) -> StatementFault {
+fn out_of_bounds(keyword: &[u8], word: &[u8], range: &'static str) -> StatementFault {
     StatementFault::OutOfBounds { keyword: quote(keyword), text: quote(word), range }
 }

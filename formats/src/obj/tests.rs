@@ -1,4 +1,4 @@
-//! What the reader takes, what it refuses, and in which words.
+//! Files that the reader accepts, files that it refuses, and the messages.
 
 use super::visitor::NONE;
 use super::*;
@@ -10,19 +10,19 @@ use proptest::sample::select;
 use std::fs;
 use std::io;
 
-/// A square's vertices.
+/// The vertices of a square.
 const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 fn mesh(text: &str) -> Mesh {
     parse("mesh.obj", text.as_bytes()).unwrap()
 }
 
-/// The message that a file earns; the file is called `a`.
+/// The message about a file that is called `a`.
 fn message(text: impl AsRef<[u8]>) -> String {
     parse("a", text.as_ref()).unwrap_err().to_string()
 }
 
-/// The message that a statement earns below a square's vertices.
+/// The message about a statement that follows the vertices of a square.
 fn fault(statement: &str) -> String {
     let message = message(format!("{SQUARE}{statement}\nf 1 2 3\n"));
     message.strip_prefix("a:5: ").expect("the message names file and line").to_owned()
@@ -83,7 +83,7 @@ fn comments_need_not_be_utf8() {
 
 #[test]
 fn numbers_round_once_to_the_nearest() {
-    // Just above the middle between 1 and its successor; as an f64 it is that middle, a tie.
+    // Just above the middle between 1 and its successor. Rounded to `f64`, it is that middle, a tie.
     let text = "v 1.0000000596046448 1.00000005960464477540 0\nf 1 1 1\n";
     let position = mesh(text).positions()[0];
     assert_eq!(position.x, 1.0 + f32::EPSILON);
@@ -168,7 +168,7 @@ fn indices_of_nothing_say_how_many_there_are() {
         fault("f -4 -5 3"),
         "a:6: the face names vertex -5, counted back, but above it only 4 are defined"
     );
-    // The first of them is named, however far it is off.
+    // The message names the first of them.
     assert_eq!(
         fault("f 1 5 2\nf 7 9 4294967296\nf 1 2 6//1"),
         "a:7: the face names vertex 7, but in the whole file only 5 are defined"
@@ -190,7 +190,7 @@ fn files_that_cannot_be_read_say_why() {
     assert_eq!(message(&folder), "FOLDER: this is a folder, not an OBJ file");
     let path = folder.join("none.obj");
     assert_eq!(message(&path).replace('\\', "/"), "FOLDER/none.obj: there is no such file");
-    // A file of holes takes no room.
+    // A sparse file takes no space on disk.
     fs::File::create(&path).unwrap().set_len(MOST_BYTES + 1).unwrap();
     assert_eq!(
         message(&path).replace('\\', "/"),
@@ -213,7 +213,7 @@ fn messages_say_the_systems_reason_once() {
     assert_eq!(because(io::ErrorKind::TimedOut), "a: it cannot be read: timed out");
 }
 
-/// Pieces that OBJ files are made of, and some that they are not.
+/// Pieces of OBJ files, and some that do not occur in them.
 fn pieces() -> impl Strategy<Value = Vec<u8>> {
     let pieces: [&[u8]; 24] = [
         b"v ",
@@ -244,13 +244,13 @@ fn pieces() -> impl Strategy<Value = Vec<u8>> {
     vec(select(pieces.to_vec()), 0..60).prop_map(|pieces| pieces.concat())
 }
 
-/// Any number but NaN and infinities; both zeros and denormals among them.
+/// Any finite number, also −0 and denormals.
 fn finite() -> impl Strategy<Value = f32> {
     use proptest::num::f32::{NEGATIVE, NORMAL, POSITIVE, SUBNORMAL, ZERO};
     POSITIVE | NEGATIVE | NORMAL | SUBNORMAL | ZERO
 }
 
-/// An attribute of so many triangles: possibly of none of them, possibly of only some.
+/// An attribute for so many triangles. All, some or none of their corners use it.
 fn attribute<T: Copy + std::fmt::Debug>(
     value: impl Strategy<Value = T>,
     triangles: usize,
@@ -305,7 +305,7 @@ proptest! {
         let mut text = Vec::new();
         write(&mesh, &mut text).unwrap();
         let again = parse("again.obj", &text).unwrap();
-        // Printed, the two zeros differ.
+        // Compared as text, because 0 equals −0.
         let text = String::from_utf8_lossy(&text);
         prop_assert_eq!(format!("{again:?}"), format!("{mesh:?}"), "{}", text);
     }

@@ -3,24 +3,24 @@
 use crate::source::quote::quoted;
 use std::fmt;
 
-/// What is missing of a mesh's materials, so that it is drawn in the default one.
+/// What is missing of a mesh's materials. The triangles concerned are drawn in the default material.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum MaterialWarning {
-    /// A material file is not there.
+    /// A material file does not exist.
     MissingLibrary {
         /// The mesh's file.
         file: String,
         /// The material file, as the mesh's file names it.
         library: String,
     },
-    /// No material file defines these.
+    /// No material file defines these materials.
     Undefined {
         /// The mesh's file.
         file: String,
         /// Their names.
         names: Vec<String>,
     },
-    /// The mesh is streamed, so nobody asks for its materials.
+    /// The mesh is streamed, and streams do not read materials.
     Streamed {
         /// The mesh's file.
         file: String,
@@ -29,7 +29,7 @@ pub enum MaterialWarning {
 
 impl fmt::Display for MaterialWarning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        /// More names say no more.
+        /// The most names that the message lists.
         const MOST: usize = 3;
         match self {
             MaterialWarning::MissingLibrary { file, library } => write!(

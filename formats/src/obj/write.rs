@@ -1,4 +1,4 @@
-//! The OBJ writer.
+//! Writes OBJ files.
 
 use super::visitor::NONE;
 use bothways_common::scene::{Attribute, Mesh, MeshMaterials};
@@ -7,10 +7,10 @@ use std::io::{self, Write};
 
 /// Writes a mesh as an OBJ file that [`parse`](super::parse) reads back bit for bit.
 ///
-/// Numbers are written as the shortest decimals that stand for them alone. Triangles keep their
-/// order, positions and what corners carry their indices, materials their names. Values of an attribute that no corner
-/// carries are left out; a mesh without triangles and values that are not finite are written, but
-/// are refused when read.
+/// Numbers are written as the shortest decimals that read back as the same numbers. Triangles keep their order;
+/// positions, normals and texture coordinates keep their indices; materials keep their names. An attribute that no
+/// corner uses is left out. A mesh without triangles, and values that are not finite, are written, but the reader
+/// refuses them.
 ///
 /// # Errors
 ///
@@ -51,13 +51,13 @@ pub fn write(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
     for (triangle, &vertices) in mesh.triangles().iter().enumerate() {
         if let Some(span) = spans.next_if(|span| span.first == triangle) {
             let name = span.material.map(|place| &named[place as usize].name);
-            // Without a name it ends the use of the material before it.
+            // A `usemtl` without a name ends the use of the material before it.
             writeln!(out, "usemtl{}", name.map_or(String::new(), |name| format!(" {name}")))?;
         }
         write!(out, "f")?;
         for (corner, &vertex) in vertices.iter().enumerate() {
             let (texture, normal) =
-                (carried(texture, triangle, corner), carried(normals, triangle, corner));
+                (index_of(texture, triangle, corner), index_of(normals, triangle, corner));
             write_corner(out, vertex, texture, normal)?;
         }
         writeln!(out)?;
@@ -65,12 +65,13 @@ pub fn write(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
     Ok(())
 }
 
+/// Tells whether any corner has an index into an attribute.
 fn is_used<T>(attribute: &Attribute<T>) -> bool {
     attribute.corners.as_flattened().iter().any(|&index| index != NONE)
 }
 
-/// The index of what a corner carries, if it carries something.
-fn carried<T>(attribute: &Attribute<T>, triangle: usize, corner: usize) -> Option<u32> {
+/// The index of a corner's value of an attribute, if it has one.
+fn index_of<T>(attribute: &Attribute<T>, triangle: usize, corner: usize) -> Option<u32> {
     let corners = attribute.corners.get(triangle)?;
     Some(corners[corner]).filter(|&index| index != NONE)
 }
@@ -81,7 +82,7 @@ fn write_corner(
     texture: Option<u32>,
     normal: Option<u32>,
 ) -> io::Result<()> {
-    // OBJ counts from 1, and no index is the largest number: that one says that there is none.
+    // OBJ counts from 1. The sum cannot overflow: the largest number stands for no index.
     let vertex = vertex + 1;
     match (texture.map(|index| index + 1), normal.map(|index| index + 1)) {
         (None, None) => write!(out, " {vertex}"),
@@ -103,7 +104,8 @@ fn write_values<const N: usize>(
     writeln!(out)
 }
 
-/// The fewest digits that are read as the same number; a power of ten where zeros would fill lines.
+/// Displays a number with the fewest digits that read back as the same number, and with a power of ten where it would
+/// have many zeros.
 struct Shortest(f32);
 
 impl fmt::Display for Shortest {
@@ -123,7 +125,7 @@ mod tests {
     use glam::{Vec2, Vec3};
 
     #[test]
-    fn numbers_are_short_and_corners_name_what_they_carry() {
+    fn numbers_are_short_and_corners_have_their_indices() {
         let positions =
             vec![Vec3::new(-0.0, 0.1, f32::MAX), Vec3::splat(f32::MIN_POSITIVE), Vec3::NEG_Y];
         let normals = Attribute { values: vec![Vec3::Z], corners: vec![[0, 0, NONE], [NONE; 3]] };

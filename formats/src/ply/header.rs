@@ -1,18 +1,17 @@
-//! The header of a PLY file: how its values are written, and which elements follow with which
-//! properties.
+//! The header of a PLY file: the encoding of its values, and the elements and properties that follow.
 
 use super::error::HeaderFault;
 use crate::source::quote::{self, quote};
 use std::io::{self, BufRead, Read};
 
-/// How the values behind the header are written.
+/// The encoding of the values after the header.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Encoding {
-    /// In words, one element a line.
+    /// Words, with one element on each line.
     Ascii,
-    /// Least significant byte first.
+    /// Binary, with the least significant byte first.
     LittleEndian,
-    /// Most significant byte first.
+    /// Binary, with the most significant byte first.
     BigEndian,
 }
 
@@ -30,7 +29,7 @@ pub(super) enum ScalarType {
 }
 
 impl ScalarType {
-    /// The format's first names, and those that say their size.
+    /// The type of this name: one of the original names, or one with the number of bits.
     fn named(word: &str) -> Option<ScalarType> {
         Some(match word {
             "char" | "int8" => ScalarType::I8,
@@ -45,7 +44,7 @@ impl ScalarType {
         })
     }
 
-    /// Bytes of one value in a binary file.
+    /// The size of one value in a binary file, in bytes.
     pub(super) fn size(self) -> u64 {
         match self {
             ScalarType::I8 | ScalarType::U8 => 1,
@@ -60,21 +59,21 @@ impl ScalarType {
     }
 }
 
-/// What each element of a kind has.
+/// A property of all elements of one kind.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Property {
     pub(super) name: String,
     pub(super) kind: PropertyType,
 }
 
-/// One value, or a number of values and then so many.
+/// The type of a property: one value, or a list, which is a length followed by as many values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PropertyType {
     Scalar(ScalarType),
     List { length: ScalarType, item: ScalarType },
 }
 
-/// A kind of element: so many follow, in the order in which the header names the kinds.
+/// All elements of one kind. The groups follow one another in the order of the header.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct ElementGroup {
     pub(super) name: String,
@@ -83,7 +82,7 @@ pub(super) struct ElementGroup {
 }
 
 impl ElementGroup {
-    /// Bytes of one element in a binary file, if all have the same size.
+    /// The size of one element in a binary file, in bytes; `None` if the sizes differ.
     pub(super) fn stride(&self) -> Option<u64> {
         let size = |property: &Property| match property.kind {
             PropertyType::Scalar(scalar) => Some(scalar.size()),
@@ -92,40 +91,42 @@ impl ElementGroup {
         self.properties.iter().map(size).sum()
     }
 
+    /// The index of the property of this name.
     fn property(&self, name: &str) -> Option<usize> {
         self.properties.iter().position(|property| property.name == name)
     }
 }
 
-/// Everything that the header says, checked.
+/// The content of a header, checked.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Header {
     pub(super) encoding: Encoding,
     pub(super) groups: Vec<ElementGroup>,
-    /// How many vertices there are: few enough for an index of 32 bits.
+    /// The number of vertices, which 32-bit indices can name.
     pub(super) vertices: u32,
-    /// Where `x`, `y` and `z` stand among a vertex's properties.
+    /// The indices of `x`, `y` and `z` among the properties of a vertex.
     pub(super) coordinates: [usize; 3],
-    /// Where the list of corners stands among a face's properties.
+    /// The index of the list of corners among the properties of a face.
     pub(super) corners: usize,
-    /// Bytes up to the first element.
+    /// The number of bytes before the first element.
     pub(super) bytes: u64,
-    /// Lines up to the first element.
+    /// The number of lines before the first element.
     pub(super) lines: u64,
 }
 
-/// Why reading a header ended.
+/// Why a header could not be read.
 pub(super) enum HeaderError {
     Io(io::Error),
     Fault { line: u64, fault: HeaderFault },
 }
 
-/// The longest line that is read, and the most elements and properties: files have some tens.
+/// The most bytes of a line. Lines of real files have some tens.
 const MOST_BYTES_A_LINE: u64 = 4096;
+/// The most properties of all elements together. Real files have some tens.
 const MOST_PROPERTIES: usize = 4096;
 
 impl Header {
-    /// Reads the header; the input is left at its first element.
+    /// Reads the header, and leaves the input at the first element.
     pub(super) fn read(input: &mut impl BufRead) -> Result<Header, HeaderError> {
         let mut lines = Lines { input, line: 0, bytes: 0, text: Vec::new() };
         let mut draft = Draft::default();
@@ -141,7 +142,7 @@ impl Header {
     }
 }
 
-/// The lines of a header; a carriage return before the end of one belongs to the end.
+/// Reads the lines of a header. Lines end with a line feed, with or without a carriage return before it.
 struct Lines<'a, R> {
     input: &'a mut R,
     line: u64,
@@ -150,7 +151,7 @@ struct Lines<'a, R> {
 }
 
 impl<R: BufRead> Lines<'_, R> {
-    /// Takes up the next line, if there is one.
+    /// Reads the next line into `text`, and tells whether there was one.
     fn next(&mut self) -> Result<bool, HeaderError> {
         self.text.clear();
         let mut limited = self.input.take(MOST_BYTES_A_LINE);
@@ -170,7 +171,7 @@ impl<R: BufRead> Lines<'_, R> {
     }
 }
 
-/// A header that is being read.
+/// A header under construction.
 #[derive(Default)]
 struct Draft {
     encoding: Option<Encoding>,
@@ -179,7 +180,7 @@ struct Draft {
 }
 
 impl Draft {
-    /// Takes one line; true if it ends the header.
+    /// Parses one line, and tells whether it ends the header.
     fn statement(&mut self, line: u64, text: &[u8]) -> Result<bool, HeaderFault> {
         if line == 1 {
             return if text == b"ply" { Ok(false) } else { Err(HeaderFault::NotPly) };
@@ -209,6 +210,7 @@ impl Draft {
         Ok(false)
     }
 
+    /// Parses `format`.
     fn format(&mut self, encoding: &str, version: &str) -> Result<(), HeaderFault> {
         let known = match encoding {
             "ascii" => Encoding::Ascii,
@@ -225,6 +227,7 @@ impl Draft {
         }
     }
 
+    /// Parses `element`.
     fn element(&mut self, name: &str, count: &str) -> Result<(), HeaderFault> {
         let shown = quote::shown(name);
         let Some(count) = whole(count) else {
@@ -238,6 +241,7 @@ impl Draft {
         Ok(())
     }
 
+    /// Parses `property`.
     fn property(&mut self, name: &str, kind: PropertyType) -> Result<(), HeaderFault> {
         let shown = quote::shown(name);
         let Some(group) = self.groups.last_mut() else {
@@ -255,7 +259,8 @@ impl Draft {
         Ok(())
     }
 
-    /// An element without properties would take no bytes: any number of them could follow.
+    /// Makes sure that the last element has a property. An element without properties would take no bytes, so that the
+    /// file could announce any number of them.
     fn check_last(&self) -> Result<(), HeaderFault> {
         match self.groups.last() {
             Some(last) if last.properties.is_empty() => {
@@ -265,6 +270,7 @@ impl Draft {
         }
     }
 
+    /// Checks the whole header.
     fn finish(self, bytes: u64, lines: u64) -> Result<Header, HeaderFault> {
         self.check_last()?;
         let encoding = self.encoding.ok_or(HeaderFault::NoFormat)?;
@@ -292,7 +298,7 @@ fn scalar_type(word: &str) -> Result<ScalarType, HeaderFault> {
     ScalarType::named(word).ok_or_else(|| HeaderFault::UnknownType { text: quote(word.as_bytes()) })
 }
 
-/// A number without a sign: `parse` alone would take `+1`.
+/// Reads a whole number without a sign: `parse` alone would accept `+1`.
 fn whole(word: &str) -> Option<u64> {
     word.bytes().all(|byte| byte.is_ascii_digit()).then(|| word.parse().ok())?
 }

@@ -1,4 +1,4 @@
-//! What the reader takes, what it refuses, and in which words.
+//! Files that the reader accepts, files that it refuses, and the messages.
 
 use super::header::Encoding;
 use super::*;
@@ -6,7 +6,7 @@ use glam::Vec3;
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-/// A header with these lines between its first and its last.
+/// A header with these lines.
 fn header(encoding: &str, lines: &[&str]) -> String {
     format!("ply\nformat {encoding} 1.0\n{}\nend_header\n", lines.join("\n"))
 }
@@ -16,13 +16,13 @@ const FACES: &str = "property list uchar int vertex_indices";
 /// The corners of a square.
 const SQUARE: &str = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
 
-/// A square's vertices and some faces, in words.
+/// An ASCII file with the vertices of a square and some faces.
 fn square(faces: usize, lines: &str) -> String {
     let face = format!("element face {faces}");
     header("ascii", &["element vertex 4", XYZ, &face, FACES]) + SQUARE + lines
 }
 
-/// The message that a file earns; the file is called `a`.
+/// The message about a file that is called `a`.
 fn message(bytes: impl AsRef<[u8]>) -> String {
     parse("a", bytes.as_ref()).unwrap_err().to_string()
 }
@@ -38,7 +38,7 @@ fn polygons_become_fans_in_file_order() {
     assert_eq!(mesh.positions()[2], Vec3::new(1.0, 1.0, 0.0));
 }
 
-/// A file with every type, in one of the three encodings.
+/// A file with values of all types, in one of the three encodings.
 fn every_type(encoding: Encoding) -> Vec<u8> {
     let name = match encoding {
         Encoding::Ascii => "ascii",
@@ -103,7 +103,7 @@ fn all_types_are_read_in_all_encodings() {
             [Vec3::new(0.1, 0.0, 0.5), Vec3::new(0.0, 7.0, -0.25), Vec3::new(-2.0, -300.0, 4.0)];
         assert_eq!(mesh.positions(), expected, "{encoding:?}");
         assert_eq!(mesh.triangles(), [[2, 0, 1]], "{encoding:?}");
-        // In passes, the vertices are passed over or read through.
+        // One pass reads the vertices, the other skips them.
         let mut file = PlyFile::new("a".into(), Cursor::new(bytes.as_slice())).unwrap();
         let (mut positions, mut triangles) = (Vec::new(), Vec::new());
         for _ in 0..2 {
@@ -132,7 +132,7 @@ fn a_file_cut_short_anywhere_is_refused() {
 
 #[test]
 fn coordinates_round_once_to_the_nearest() {
-    // Just above the middle between 1 and its successor; as an f64 it is that middle, a tie.
+    // Just above the middle between 1 and its successor. Rounded to `f64`, it is that middle, a tie.
     let lines = square(1, "3 0 1 2").replace("1 1 0", "1.00000005960464477540 1e-60 1e-45");
     let position = parse("a", lines.as_bytes()).unwrap().positions()[2];
     assert_eq!(position.x, 1.0 + f32::EPSILON);

@@ -1,14 +1,14 @@
-//! The values behind the header of a PLY file, one after another, in words or in bytes.
+//! Reads the values after the header of a PLY file, one after another, in any encoding.
 
 use super::error::{ElementFault, Location};
 use super::header::{Encoding, Header, ScalarType};
 use crate::source::quote::{quote, shown};
 use std::io::{self, BufRead, ErrorKind, Seek};
 
-/// Why reading a value ended.
+/// Why a value could not be read.
 pub(super) enum ValueError {
     Io(io::Error),
-    /// The input ends.
+    /// The input has ended.
     End,
     Fault(ElementFault),
 }
@@ -29,20 +29,21 @@ impl From<io::Error> for ValueError {
     }
 }
 
-/// Reads values from an input that stands behind the header.
+/// Reads values from an input whose header has been read.
 pub(super) struct ValueReader<'a, R> {
     input: &'a mut R,
     encoding: Encoding,
-    /// Bytes before the next value.
+    /// The number of bytes before the next value.
     position: u64,
     /// The line of the next value, counted from 1.
     line: u64,
-    /// Bytes of the whole input.
+    /// The number of bytes of the whole input.
     length: u64,
+    /// The last word of an ASCII file.
     word: Vec<u8>,
 }
 
-/// No number needs more: longer words are none.
+/// The most bytes of a word. No number needs more: longer words are not numbers.
 const LONGEST_WORD: usize = 1024;
 
 impl<'a, R: BufRead + Seek> ValueReader<'a, R> {
@@ -51,7 +52,7 @@ impl<'a, R: BufRead + Seek> ValueReader<'a, R> {
         ValueReader { input, encoding, position, line, length, word: Vec::new() }
     }
 
-    /// Where the reader is.
+    /// The location of the next value.
     pub(super) fn location(&self) -> Location {
         match self.encoding {
             Encoding::Ascii => Location::Line(self.line),
@@ -59,8 +60,8 @@ impl<'a, R: BufRead + Seek> ValueReader<'a, R> {
         }
     }
 
-    /// Passes over `count` binary elements of one size without reading them; gives how many there are
-    /// at most before the input ends.
+    /// Skips `count` binary elements of `stride` bytes each, without reading them. Returns the number of skipped elements,
+    /// which is less than `count` if the input ends before the last one.
     pub(super) fn skip(&mut self, count: u64, stride: u64) -> io::Result<u64> {
         let whole = (self.length.saturating_sub(self.position) / stride).min(count);
         let bytes = whole * stride;
@@ -70,12 +71,12 @@ impl<'a, R: BufRead + Seek> ValueReader<'a, R> {
         Ok(whole)
     }
 
-    /// Whether elements of one size can be passed over.
+    /// Tells whether elements of equal size can be skipped.
     pub(super) fn is_binary(&self) -> bool {
         self.encoding != Encoding::Ascii
     }
 
-    /// Finds the line of the next element.
+    /// Moves to the line of the next element, over blank lines.
     pub(super) fn begin_element(&mut self) -> Result<(), ValueError> {
         while self.encoding == Encoding::Ascii && self.at_line_end()? == Some(true) {
             self.line += 1;
@@ -83,7 +84,7 @@ impl<'a, R: BufRead + Seek> ValueReader<'a, R> {
         Ok(())
     }
 
-    /// Ends the line of an element.
+    /// Makes sure that the line ends after an element.
     pub(super) fn end_element(&mut self) -> Result<(), ValueError> {
         if self.encoding != Encoding::Ascii {
             return Ok(());
@@ -101,22 +102,22 @@ impl<'a, R: BufRead + Seek> ValueReader<'a, R> {
         }
     }
 
-    /// Whether nothing follows; blank lines are nothing.
+    /// Tells whether nothing follows but blank lines.
     pub(super) fn at_end(&mut self) -> Result<bool, ValueError> {
         self.begin_element()?;
         Ok(self.input.fill_buf()?.is_empty())
     }
 
-    /// The next value as the nearest `f32`, which must be finite; messages call it `name`.
+    /// Reads a value as the nearest `f32`, which must be finite. Messages call the coordinate `name`.
     pub(super) fn coordinate(&mut self, name: &str, scalar: ScalarType) -> Result<f32, ValueError> {
         let (rounded, value) = self.number(scalar)?;
         if rounded.is_finite() {
             return Ok(rounded);
         }
-        let (in_words, name) = (self.encoding == Encoding::Ascii, shown(name));
-        let text = if in_words { quote(&self.word) } else { value.to_string() };
-        // Words may be too large even for an f64.
-        let has_digits = in_words && self.word.iter().any(u8::is_ascii_digit);
+        let (is_ascii, name) = (self.encoding == Encoding::Ascii, shown(name));
+        let text = if is_ascii { quote(&self.word) } else { value.to_string() };
+        // A word may be out of the range of `f64`, too.
+        let has_digits = is_ascii && self.word.iter().any(u8::is_ascii_digit);
         Err(if value.is_finite() || has_digits {
             ElementFault::OutOfRange { name, text }
         } else {
@@ -125,14 +126,14 @@ impl<'a, R: BufRead + Seek> ValueReader<'a, R> {
         .into())
     }
 
-    /// The next value, rounded to `f32` once, and as it is.
+    /// Reads a value. Returns it rounded once to `f32`, and as an `f64` for messages.
     fn number(&mut self, scalar: ScalarType) -> Result<(f32, f64), ValueError> {
         #[expect(clippy::cast_possible_truncation, reason = "to the nearest, once")]
         #[expect(clippy::cast_precision_loss, reason = "to the nearest, once")]
         Ok(match (self.encoding, scalar) {
             (Encoding::Ascii, _) => {
                 self.next_word()?;
-                // Rounding to f64 first could miss the nearest f32.
+                // Rounding to `f64` first could give a neighbour of the nearest `f32`.
                 let parsed = str::from_utf8(&self.word).ok().and_then(|word| word.parse().ok());
                 let rounded: f32 =
                     parsed.ok_or_else(|| ElementFault::NotANumber { text: quote(&self.word) })?;
@@ -153,10 +154,10 @@ impl<'a, R: BufRead + Seek> ValueReader<'a, R> {
         })
     }
 
-    /// The next value of an integer type.
+    /// Reads a value of an integer type.
     pub(super) fn integer(&mut self, scalar: ScalarType) -> Result<i64, ValueError> {
         if self.encoding == Encoding::Ascii {
-            return self.integer_in_words(scalar);
+            return self.ascii_integer(scalar);
         }
         Ok(match scalar {
             ScalarType::I8 => i8::from_le_bytes(self.bytes()?).into(),
@@ -169,13 +170,14 @@ impl<'a, R: BufRead + Seek> ValueReader<'a, R> {
         })
     }
 
-    /// Passes over a value.
+    /// Skips a value.
     pub(super) fn ignore(&mut self, scalar: ScalarType) -> Result<(), ValueError> {
-        // Even what is not needed must be a number: otherwise the header does not fit the file.
+        // A value that is not needed must be a number, too: otherwise the header does not fit the file.
         self.number(scalar).map(|_| ())
     }
 
-    fn integer_in_words(&mut self, scalar: ScalarType) -> Result<i64, ValueError> {
+    /// Reads a whole number in an ASCII file.
+    fn ascii_integer(&mut self, scalar: ScalarType) -> Result<i64, ValueError> {
         self.next_word()?;
         let range = match scalar {
             ScalarType::I8 => i8::MIN.into()..=i8::MAX.into(),
@@ -188,13 +190,13 @@ impl<'a, R: BufRead + Seek> ValueReader<'a, R> {
         };
         let parsed: Option<i64> =
             str::from_utf8(&self.word).ok().and_then(|word| word.parse().ok());
-        // Indices may be negative whatever the type says: the message about the index is the better.
+        // A negative number passes for every type: the message about a negative index is the better one.
         let fits = |value: &i64| *value < 0 || range.contains(value);
         let value = parsed.filter(fits);
         Ok(value.ok_or_else(|| ElementFault::NotAnInteger { text: quote(&self.word) })?)
     }
 
-    /// The next bytes, the least significant first.
+    /// Reads the bytes of a value, and returns them with the least significant byte first.
     fn bytes<const N: usize>(&mut self) -> Result<[u8; N], ValueError> {
         let mut bytes = [0; N];
         self.input.read_exact(&mut bytes)?;
@@ -205,7 +207,7 @@ impl<'a, R: BufRead + Seek> ValueReader<'a, R> {
         Ok(bytes)
     }
 
-    /// Takes the next word of the line.
+    /// Reads the next word of the line into `self.word`.
     fn next_word(&mut self) -> Result<(), ValueError> {
         match self.at_line_end()? {
             Some(true) => return Err(ElementFault::LineTooShort.into()),
@@ -231,8 +233,8 @@ impl<'a, R: BufRead + Seek> ValueReader<'a, R> {
         }
     }
 
-    /// Passes over blanks and tells whether the line ends then, taking its end; `None` at the end of
-    /// the input.
+    /// Skips blanks, and the end of the line if it follows. Tells whether the line has ended; `None` at the end of the
+    /// input.
     fn at_line_end(&mut self) -> Result<Option<bool>, ValueError> {
         loop {
             let bytes = self.input.fill_buf()?;

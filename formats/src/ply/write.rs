@@ -1,13 +1,13 @@
-//! The PLY writer.
+//! Writes PLY files.
 
 use bothways_common::scene::Mesh;
 use std::io::{self, Write};
 
-/// Writes a mesh's positions and triangles as a binary PLY file (least significant byte first), which
-/// [`parse`](super::parse) reads back bit for bit.
+/// Writes the positions and triangles of a mesh as a binary PLY file (little-endian), which [`parse`](super::parse)
+/// reads back bit for bit.
 ///
-/// Normals and texture coordinates are left out: they belong to the corners of triangles here, and to
-/// vertices in PLY, so that a mesh whose creases share vertices would have to be torn. So are materials.
+/// Materials, normals and texture coordinates are left out. Here normals and texture coordinates belong to the corners
+/// of triangles, in PLY to vertices: a mesh with creases would need duplicates of its vertices.
 ///
 /// # Errors
 ///
@@ -25,7 +25,7 @@ use std::io::{self, Write};
 /// ```
 pub fn write(mesh: &Mesh, out: &mut impl Write) -> io::Result<()> {
     let (vertices, faces) = (mesh.positions().len(), mesh.triangles().len());
-    // Many programs read indices as `int` alone.
+    // Many programs read indices only as `int`.
     let index = if i32::try_from(vertices).is_ok() { "int" } else { "uint" };
     write!(
         out,

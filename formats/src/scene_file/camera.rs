@@ -3,15 +3,15 @@
 //! | key | what it says | without it |
 //! |---|---|---|
 //! | `projection` | `"perspective"` or `"parallel"` | perspective |
-//! | `eye` | where the eye is | the origin |
-//! | `look_at` or `direction` | where it looks | down the negative z axis |
-//! | `up` | which way is up | +y |
-//! | `u`, `v`, `w` | instead of those: right, up and back | |
-//! | `distance` | `d` | 1 |
-//! | `viewport` | `vw`, `vh` | `[W/H, 1]` |
-//! | `fov` | instead of it: the vertical field of view in degrees, which is turned into `vh` at `d` | |
-//! | `image` | `W`, `H` | 640 × 480 |
-//! | `background` | the colour of nothing | nearly black |
+//! | `eye` | the position of the eye | the origin |
+//! | `look_at` or `direction` | the point or the direction in which it looks | −z |
+//! | `up` | the direction that is up in the image | +y |
+//! | `u`, `v`, `w` | instead of these: the axes of the camera frame, to the right, up and back | |
+//! | `distance` | `d`, the distance from the eye to the viewport | 1 |
+//! | `viewport` | `vw`, `vh`, the width and the height of the viewport | `[W/H, 1]` |
+//! | `fov` | instead of `viewport`: the vertical field of view in degrees, which gives `vh` at `d` | |
+//! | `image` | `W`, `H`, the width and the height of the image in pixels | 640 × 480 |
+//! | `background` | the colour where there is no object | nearly black |
 
 use super::color::color;
 use super::document::{Item, Table};
@@ -23,7 +23,7 @@ use bothways_common::raster::check_samples;
 use glam::Vec3;
 use std::ops::Range;
 
-/// What the table says.
+/// The content of the table.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct CameraTable {
     pub(super) description: CameraDescription,
@@ -47,13 +47,13 @@ const KEYS: [&str; 13] = [
     "background",
 ];
 
-/// Reads the table and makes sure that the camera can be used.
+/// Reads the table, and makes sure that [`Camera::new`] accepts the camera.
 pub(super) fn read(item: &Item) -> Result<CameraTable, Problem> {
     let table = item.table(&KEYS)?;
     let misplaced = |error: CameraError| Problem::new(span(&table, &error), error.to_string());
     let standard = CameraDescription::default();
     let image = table.get("image").map_or(Ok(standard.image), |item| item.counts())?;
-    // Before the viewport is computed from it.
+    // Checked first: the viewport is computed from it.
     check_samples(image, 1).map_err(CameraError::from).map_err(misplaced)?;
     let viewport = table.get("viewport").map(|item| item.pair()).transpose()?;
     let description = CameraDescription {
@@ -73,7 +73,7 @@ pub(super) fn read(item: &Item) -> Result<CameraTable, Problem> {
     Ok(CameraTable { description, viewport_stated: viewport.is_some(), background })
 }
 
-/// The camera with the viewport that its field of view needs.
+/// The camera with the viewport that a field of view gives.
 fn field_of_view(
     table: &Table,
     item: &Item,
@@ -97,7 +97,7 @@ fn field_of_view(
     camera.with_field_of_view(degrees).map_err(refused)
 }
 
-/// The viewport of height 1 on which the pixels of an image are squares.
+/// The viewport of height 1 on which the pixels of an image are square.
 pub(super) fn square_pixels([width, height]: [u32; 2]) -> [f32; 2] {
     [width as f32 / height as f32, 1.0]
 }
@@ -114,7 +114,7 @@ fn projection(item: &Item) -> Result<Projection, Problem> {
     }
 }
 
-/// The camera frame in whichever way it is stated, if it is.
+/// The camera frame as the table states it; `None` if it does not.
 fn orientation(table: &Table) -> Result<Option<Orientation>, Problem> {
     let stated = table.present(&["look_at", "direction", "u", "v", "w"]);
     let first = stated.first().copied();
@@ -150,7 +150,7 @@ fn is_axis(key: &str) -> bool {
     matches!(key, "u" | "v" | "w")
 }
 
-/// The key that a camera's error is about, or else the table.
+/// The place of the key that an error is about, or of the table.
 fn span(table: &Table, error: &CameraError) -> Range<usize> {
     let keys: &[&str] = match error {
         CameraError::LooksAtItself { .. } => &["look_at"],
@@ -162,7 +162,7 @@ fn span(table: &Table, error: &CameraError) -> Range<usize> {
         }
         CameraError::Size(_) => &["image"],
         CameraError::FieldOfView { .. } | CameraError::ParallelFieldOfView => &["fov"],
-        // Numbers were found finite and directions not zero when they were read.
+        // These cannot occur: the reader has refused numbers that are not finite and directions that are zero.
         CameraError::NotFinite { .. } | CameraError::NoDirection { .. } => &[],
     };
     let item = keys.iter().find_map(|key| table.get(key));

@@ -6,11 +6,11 @@ use crate::source::quote::quoted;
 use bothways_common::look::color::linear_from_srgb;
 use glam::Vec3;
 
-/// A colour as screens show it, `"#rrggbb"`; linear from here on.
+/// Reads a colour as screens show it, `"#rrggbb"`, and returns it as linear red, green and blue.
 pub(super) fn color(item: &Item) -> Result<Vec3, Problem> {
     let text = item.text()?;
     let byte = |range| u8::from_str_radix(text.get(range)?, 16).ok();
-    // The parser of numbers would take a sign for a digit.
+    // `from_str_radix` would accept a sign in place of a digit.
     let digits = text.len() == 7 && text.chars().skip(1).all(|c| c.is_ascii_hexdigit());
     let bytes =
         (digits && text.starts_with('#')).then(|| Some([byte(1..3)?, byte(3..5)?, byte(5..7)?]));

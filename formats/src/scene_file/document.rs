@@ -1,5 +1,7 @@
-//! Walking a TOML document by hand, so that every error has its place: tables whose keys are
-//! checked, and values that turn into what is asked for or say why not.
+//! Tables and values of a TOML document. Each knows its place in the text, so that every error has one.
+//!
+//! The crate `toml` parses the text. Its values are read by hand: so every message, also one about a negative radius or an
+//! unknown key, names the key, the place and often a correction.
 
 use super::error::Problem;
 use super::suggestion::suggestion;
@@ -9,14 +11,14 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeArray, DeInteger, DeTable, DeValue};
 
-/// A value of the file, or what is wrong with it.
+/// A value of the document, or what is wrong with it.
 type Read<T> = Result<T, Problem>;
 
-/// A table all of whose keys are known.
+/// A table in which all keys are known.
 #[derive(Debug)]
 pub(super) struct Table<'t> {
     entries: &'t DeTable<'t>,
-    /// What messages call it.
+    /// The name in messages.
     name: String,
     pub(super) span: Range<usize>,
 }
@@ -25,13 +27,13 @@ pub(super) struct Table<'t> {
 #[derive(Clone, Debug)]
 pub(super) struct Item<'t> {
     value: &'t DeValue<'t>,
-    /// What messages call it: its key, with the element's number behind it.
+    /// The name in messages: the key, followed by the number of the element, as in `eye[2]`.
     pub(super) name: String,
     pub(super) span: Range<usize>,
 }
 
 impl<'t> Table<'t> {
-    /// A table that may have the known keys and no others.
+    /// A table that may have only the known keys. Messages call it `name`.
     pub(super) fn new(
         entries: &'t DeTable<'t>,
         name: String,
@@ -54,7 +56,7 @@ impl<'t> Table<'t> {
         self.entries.get_key_value(key).map(|(key, value)| Item::of(key, value))
     }
 
-    /// The value of a key that the table must have; `example` shows one that has it.
+    /// The value of a key that the table must have. The message shows `example`.
     pub(super) fn need(&self, key: &str, example: &str) -> Read<Item<'t>> {
         self.get(key).ok_or_else(|| {
             Problem::new(self.span.clone(), format!("{} lacks {key}", shown(&self.name)))
@@ -62,13 +64,12 @@ impl<'t> Table<'t> {
         })
     }
 
-    /// Where a key stands, to underline it rather than its value; the table itself if it is not
-    /// there.
+    /// The place of a key, without its value; the place of the table if the key is missing.
     pub(super) fn span_of(&self, key: &str) -> Range<usize> {
         self.entries.get_key_value(key).map_or(self.span.clone(), |(key, _)| key.span())
     }
 
-    /// Those of the keys that the table has, in the order of the file.
+    /// The keys of this list that the table has, in the order of the file.
     pub(super) fn present<'k>(&self, keys: &[&'k str]) -> Vec<&'k str> {
         let mut present: Vec<&str> =
             keys.iter().copied().filter(|key| self.entries.contains_key(*key)).collect();
@@ -100,24 +101,24 @@ impl<'t> Item<'t> {
         Item { value: value.get_ref(), name, span: value.span() }
     }
 
-    /// Something that is wrong with this value: its name and the rest of the sentence.
+    /// A problem with this value. The message is the value's name, followed by `what`.
     pub(super) fn problem(&self, what: impl std::fmt::Display) -> Problem {
         Problem::new(self.span.clone(), format!("{} {what}", shown(&self.name)))
     }
 
-    /// A table with keys among those known.
+    /// A table that may have only the known keys.
     pub(super) fn table(&self, known: &[&str]) -> Read<Table<'t>> {
         let DeValue::Table(entries) = self.value else { return Err(self.not("a table")) };
         Table::new(entries, self.name.clone(), self.span.clone(), known)
     }
 
-    /// A table with any keys: those of the file's own choice.
+    /// The values of a table that may have any keys.
     pub(super) fn entries(&self) -> Read<impl Iterator<Item = Item<'t>> + use<'t>> {
         let DeValue::Table(entries) = self.value else { return Err(self.not("a table")) };
         Ok(entries.iter().map(|(key, value)| Item::of(key, value)))
     }
 
-    /// An array of tables, each written under a header of its own.
+    /// The elements of an array of tables, each with a header of its own.
     pub(super) fn tables(&self) -> Read<impl Iterator<Item = Item<'t>> + use<'t>> {
         let name = self.name.clone();
         let DeValue::Array(elements) = self.value else {
@@ -131,6 +132,7 @@ impl<'t> Item<'t> {
         }))
     }
 
+    /// A string.
     pub(super) fn text(&self) -> Read<&'t str> {
         match self.value {
             DeValue::String(text) => Ok(text),
@@ -138,6 +140,7 @@ impl<'t> Item<'t> {
         }
     }
 
+    /// `true` or `false`.
     pub(super) fn flag(&self) -> Read<bool> {
         match self.value {
             DeValue::Boolean(flag) => Ok(*flag),
@@ -145,10 +148,10 @@ impl<'t> Item<'t> {
         }
     }
 
-    /// The `f32` nearest to the number that is written, which is finite.
+    /// The `f32` nearest to the number that is written. It must be finite.
     pub(super) fn number(&self) -> Read<f32> {
         let number = match self.value {
-            // Both are written so that Rust reads them; straight to f32, so that they round once.
+            // Rust reads all forms that TOML allows. Parsed as `f32`, the number is rounded once.
             DeValue::Float(float) => float.as_str().parse().ok(),
             DeValue::Integer(integer) => nearest_number(integer),
             _ => return Err(self.not("a number")),
@@ -175,7 +178,7 @@ impl<'t> Item<'t> {
         }
     }
 
-    /// A whole number.
+    /// A whole number that is not negative.
     pub(super) fn count(&self) -> Read<u32> {
         let DeValue::Integer(integer) = self.value else {
             return Err(self.not("a whole number"));
@@ -186,6 +189,7 @@ impl<'t> Item<'t> {
         })
     }
 
+    /// Two numbers.
     pub(super) fn pair(&self) -> Read<[f32; 2]> {
         let [a, b] = self.elements("two numbers")?;
         Ok([a.number()?, b.number()?])
@@ -197,22 +201,24 @@ impl<'t> Item<'t> {
         Ok([a.positive()?, b.positive()?])
     }
 
+    /// Two whole numbers that are not negative.
     pub(super) fn counts(&self) -> Read<[u32; 2]> {
         let [a, b] = self.elements("two whole numbers")?;
         Ok([a.count()?, b.count()?])
     }
 
+    /// Three numbers.
     pub(super) fn vector(&self) -> Read<Vec3> {
         let [x, y, z] = self.elements("three numbers")?;
         Ok(Vec3::new(x.number()?, y.number()?, z.number()?))
     }
 
-    /// Whether it is one number, of whichever kind.
+    /// Tells whether the value is one number.
     pub(super) fn is_number(&self) -> bool {
         matches!(self.value, DeValue::Integer(_) | DeValue::Float(_))
     }
 
-    /// Three numbers, none of them 0.
+    /// Three numbers that are not 0.
     pub(super) fn not_zero_triple(&self) -> Read<[f32; 3]> {
         if !matches!(self.value, DeValue::Array(_)) {
             return Err(self.not("a number, or three numbers in brackets"));
@@ -228,7 +234,7 @@ impl<'t> Item<'t> {
         Ok([x.number()?, y.number()?, z.number()?])
     }
 
-    /// A vector that has a length.
+    /// Three numbers that are not all 0.
     pub(super) fn direction(&self) -> Read<Vec3> {
         match self.vector()? {
             Vec3::ZERO => {
@@ -239,7 +245,7 @@ impl<'t> Item<'t> {
         }
     }
 
-    /// Exactly so many elements.
+    /// The elements of an array of exactly `N`; `what` says so in messages.
     fn elements<const N: usize>(&self, what: &str) -> Read<[Item<'t>; N]> {
         let DeValue::Array(elements) = self.value else { return Err(self.not(what)) };
         let items = numbered(&self.name, elements);
@@ -249,10 +255,12 @@ impl<'t> Item<'t> {
         })
     }
 
+    /// The problem that the value has another type.
     fn not(&self, what: &str) -> Problem {
         self.problem(format!("is {}; it must be {what}", kind(self.value)))
     }
 
+    /// The problem that the number is not finite as an `f32`.
     fn not_finite(&self) -> Problem {
         let written = self.written();
         if written.contains("inf") || written.contains("nan") {
@@ -262,7 +270,7 @@ impl<'t> Item<'t> {
         }
     }
 
-    /// A number as the file has it, or what else it is.
+    /// A number as the file writes it, or the type of another value.
     pub(super) fn written(&self) -> String {
         match self.value {
             DeValue::Float(float) => shown(float.as_str()),
@@ -272,6 +280,7 @@ impl<'t> Item<'t> {
     }
 }
 
+/// The elements of an array, with their numbers in their names.
 fn numbered<'t>(name: &str, elements: &'t DeArray<'t>) -> Vec<Item<'t>> {
     let items = elements.iter().enumerate().map(|(index, element)| Item {
         value: element.get_ref(),
@@ -281,6 +290,7 @@ fn numbered<'t>(name: &str, elements: &'t DeArray<'t>) -> Vec<Item<'t>> {
     items.collect()
 }
 
+/// The nearest `f32` to a whole number of any radix.
 fn nearest_number(integer: &DeInteger) -> Option<f32> {
     if integer.radix() == 10 {
         integer.as_str().parse().ok()
@@ -289,6 +299,7 @@ fn nearest_number(integer: &DeInteger) -> Option<f32> {
     }
 }
 
+/// The type of a value, in words.
 fn kind(value: &DeValue) -> &'static str {
     match value {
         DeValue::String(_) => "a string",

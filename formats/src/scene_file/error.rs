@@ -1,4 +1,4 @@
-//! Why a scene file is refused: always with the place in its text, if it has a text.
+//! Errors about scene files: those in the text know their place.
 
 use super::excerpt::Excerpt;
 use crate::source::Unreadable;
@@ -11,16 +11,15 @@ use std::ops::Range;
 /// Why a scene file could not be read.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadSceneError {
-    /// There is no such file, it is none that can be read twice, or the system does not give it away.
+    /// The file does not exist, is a folder or a pipe, or the system reports another error.
     #[error("{file}: {}", Unreadable::new(.error, "a scene file"))]
     Unreadable {
         /// The file.
         file: String,
-        /// What the system says. The message says it too, so it is no
-        /// [source](std::error::Error::source) besides.
+        /// The system's error. The message contains it, so it is not a [source](std::error::Error::source) as well.
         error: io::Error,
     },
-    /// The file would take more memory than any scene needs.
+    /// The file is larger than any scene needs, and would take too much memory.
     #[error(
         "{file}: a scene file of more than 8 MiB is not read; put its triangles into a mesh file \
          (.obj, .ply) and name it in the scene"
@@ -29,14 +28,14 @@ pub enum ReadSceneError {
         /// The file.
         file: String,
     },
-    /// The file is no text.
+    /// The file is not UTF-8 text.
     #[error("{file} is not UTF-8 text: byte {byte} on line {line} begins no character")]
     NotText {
         /// The file.
         file: String,
         /// The line, counted from 1.
         line: usize,
-        /// The byte in the file, counted from 0.
+        /// The first wrong byte, counted from 0.
         byte: usize,
     },
     /// Something in the text is wrong.
@@ -44,15 +43,15 @@ pub enum ReadSceneError {
     Located(#[from] LocatedError),
 }
 
-/// What is wrong with a text, and where.
+/// What is wrong with the text of a scene file, and where.
 ///
-/// It displays as one line, `scene.toml:3:7: message; help`; its fields are what a tool needs that
-/// underlines the place.
+/// It is displayed as one line, `scene.toml:3:7: message; help`. Its fields serve tools that underline the place in the
+/// text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LocatedError {
-    /// What messages call the text.
+    /// The name of the text in messages.
     pub file: String,
-    /// All of the text.
+    /// The whole text.
     pub text: String,
     /// The bytes of the text to underline.
     pub span: Range<usize>,
@@ -63,18 +62,18 @@ pub struct LocatedError {
 }
 
 impl LocatedError {
-    /// The line and the column where the place begins, in characters, both counted from 1.
+    /// The line and the column at which the place begins, both counted from 1. Columns count characters.
     pub fn line_and_column(&self) -> (usize, usize) {
         let before = &self.text.as_bytes()[..self.span.start.min(self.text.len())];
         let line_start = before.iter().rposition(|&byte| byte == b'\n').map_or(0, |end| end + 1);
         let line = before.iter().filter(|&&byte| byte == b'\n').count() + 1;
         let in_line = String::from_utf8_lossy(&before[line_start..]);
-        // A byte order mark is no character that anybody sees.
+        // A byte order mark is not visible.
         let column = in_line.trim_start_matches('\u{feff}').chars().count() + 1;
         (line, column)
     }
 
-    /// The lines around the place, fit to be shown.
+    /// The lines around the place, safe to show on a terminal.
     pub fn excerpt(&self) -> Excerpt {
         Excerpt::around(&self.text, self.span.clone())
     }
@@ -90,7 +89,7 @@ impl fmt::Display for LocatedError {
 
 impl std::error::Error for LocatedError {}
 
-/// A [`LocatedError`] on its way out, before it learns the text's name.
+/// A [`LocatedError`] without the text and its name.
 #[derive(Debug)]
 pub(super) struct Problem {
     span: Range<usize>,
@@ -99,17 +98,20 @@ pub(super) struct Problem {
 }
 
 impl Problem {
+    /// A problem at a place in the text.
     pub(super) fn new(span: Range<usize>, message: impl Into<String>) -> Problem {
         Problem { span, message: message.into(), help: None }
     }
 
+    /// Adds what to do about it.
     pub(super) fn help(self, help: impl Into<String>) -> Problem {
         Problem { help: Some(help.into()), ..self }
     }
 
+    /// The error in a text that messages call `file`.
     pub(super) fn in_text(self, file: &str, text: &str) -> LocatedError {
         let Problem { span, message, help } = self;
-        // Whatever it quotes, of this file or of one that it names.
+        // The message may quote this file, or a mesh file that it names.
         let (message, help) = (visible(&message).into_owned(), help.as_deref().map(visible));
         let help = help.map(Cow::into_owned);
         LocatedError { file: file.to_owned(), text: text.to_owned(), span, message, help }
@@ -117,7 +119,7 @@ impl Problem {
 }
 
 impl From<toml::de::Error> for Problem {
-    /// The TOML parser's own words, which may quote the file.
+    /// The message of the TOML parser, which may quote the file.
     fn from(error: toml::de::Error) -> Problem {
         Problem::new(error.span().unwrap_or(0..0), error.message())
     }

@@ -1,16 +1,15 @@
-//! The lines around a place in a text, as a message shows them: short, and without what a terminal
-//! would obey.
+//! The lines around a place in a text, as messages show them: short, and safe to show on a terminal.
 
 use crate::source::quote::push_visible;
 use std::ops::Range;
 
-/// The lines around a place in a text, to underline it there.
+/// The lines around a place in a text, and the place within them.
 ///
-/// Of long lines there is a part, with `…` where it was cut; hidden characters are written out, as
+/// Long lines are cut, with `…` at the cuts. Invisible characters are written as escapes, as
 /// [`visible`](crate::source::quote::visible) does.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Excerpt {
-    /// The lines, with a line feed between each two.
+    /// The lines, separated by line feeds.
     pub text: String,
     /// The bytes of `text` to underline.
     pub span: Range<usize>,
@@ -18,14 +17,15 @@ pub struct Excerpt {
     pub first_line: usize,
 }
 
-/// Characters of a line that are shown before the place, and in all.
+/// The most characters that are shown before the place, if the line is cut.
 const BEFORE: usize = 40;
+/// The most characters of a line that are shown.
 const MOST: usize = 100;
-/// Lines that a place may go over; of a longer one, the first is shown.
+/// The most line feeds in a place. Of a longer place, only the first line is shown.
 const MOST_LINES: usize = 6;
 
 impl Excerpt {
-    /// The lines of a place and one on each side.
+    /// The lines of a place, the line before them and the line after them.
     pub(super) fn around(text: &str, span: Range<usize>) -> Excerpt {
         let start = floor(text, span.start);
         let end = floor(text, span.end).max(start);
@@ -38,7 +38,7 @@ impl Excerpt {
         let (first, last) = (line_start(start), line_end(end));
         let first = if first == 0 { 0 } else { line_start(first - 1) };
         let last = if last == text.len() { last } else { line_end(last + 1) };
-        // A file's last line end begins no line.
+        // The line feed at the end of a file does not begin another line.
         let lines = text[first..last].strip_suffix('\n').filter(|_| end < last);
         let lines = lines.unwrap_or(&text[first..last]);
 
@@ -54,7 +54,7 @@ impl Excerpt {
         excerpt
     }
 
-    /// Adds a line that begins at byte `at` of the whole text, in which the place is `place`.
+    /// Adds a line that begins at byte `at` of the whole text; `place` is the place in the whole text.
     fn add(&mut self, line: &str, at: usize, place: Range<usize>) {
         let line = line.strip_suffix('\r').unwrap_or(line);
         let (line, at) = match line.strip_prefix('\u{feff}') {
@@ -83,8 +83,7 @@ impl Excerpt {
         }
     }
 
-    /// The text's end stands for byte `at`: the place may begin here, and ends no sooner if it reaches so
-    /// far.
+    /// Moves the span: the end of the excerpt so far corresponds to byte `at` of the whole text.
     fn note(&mut self, at: usize, place: &Range<usize>) {
         if at <= place.start {
             self.span.start = self.text.len();
@@ -95,13 +94,13 @@ impl Excerpt {
     }
 }
 
-/// The last boundary of a character that is not beyond `at`.
+/// The last character boundary that is not after `at`.
 fn floor(text: &str, at: usize) -> usize {
     let at = at.min(text.len());
     (0..=at).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0)
 }
 
-/// The number of the line in which a byte lies, counted from 1.
+/// The number of the line that contains a byte, counted from 1.
 fn line_number(text: &str, at: usize) -> usize {
     text.as_bytes()[..at].iter().filter(|&&byte| byte == b'\n').count() + 1
 }

@@ -11,7 +11,7 @@ use super::document::Item;
 use super::error::Problem;
 use bothways_common::scene::Light;
 
-/// Lights; each has one of `directional`, `point` and `ambient`, and an `intensity`, else 1.
+/// Reads all lights. Each has exactly one of `directional`, `point` and `ambient`.
 pub(super) fn lights(item: &Item) -> Result<Vec<Light>, Problem> {
     item.tables()?.map(|item| light(&item)).collect()
 }

@@ -14,9 +14,10 @@ use bothways_common::Checker;
 use bothways_common::scene::Material;
 use std::collections::BTreeMap;
 
-/// Materials by name; each has `color`, `specular`, `shininess` and `checker`, and may leave them out.
+/// Materials by name.
 pub(super) type Materials = BTreeMap<String, Material>;
 
+/// Reads all materials.
 pub(super) fn materials(item: &Item) -> Result<Materials, Problem> {
     item.entries()?.map(|item| Ok((item.name.clone(), material(&item)?))).collect()
 }
@@ -43,7 +44,7 @@ fn material(item: &Item) -> Result<Material, Problem> {
     Ok(material)
 }
 
-/// A pattern: its other `color`, and its `divisions`, the cells to a unit of the texture coordinate.
+/// Reads a checker pattern.
 fn checker(item: &Item) -> Result<Checker, Problem> {
     const EXAMPLE: &str = "checker = { color = \"#202020\", divisions = [8, 8] }";
     let table = item.table(&["color", "divisions"])?;

@@ -1,16 +1,16 @@
-//! The `[[object]]` tables: one shape each, what it is made of, and where it is put.
+//! The `[[object]]` tables: each has one shape, a material and a transformation.
 //!
 //! | key | what it says |
 //! |---|---|
-//! | `triangle = { a, b, c }` | its corners |
-//! | `sphere = { center, radius }` | |
+//! | `triangle = { a, b, c }` | a triangle: its corners |
+//! | `sphere = { center, radius }` | a sphere |
 //! | `plane = { point, normal }` | an infinite plane |
-//! | `mesh = "bunny.obj"` | an OBJ (with its own colours) or PLY file, relative to the scene file |
-//! | `generate = { kind, divisions }` | a mesh that is computed: see [`Kind`] |
-//! | `material` | the name of a material, instead of those of a mesh file; light grey without it |
-//! | `scale`, `rotate = { axis, degrees }`, `translate` | where it is put, in this order |
+//! | `mesh = "bunny.obj"` | a mesh from an OBJ file, with its own materials, or a PLY file; the path is relative to the scene file |
+//! | `generate = { kind, divisions }` | a generated mesh: see [`Kind`] |
+//! | `material` | the name of a material, in place of those of a mesh file; light grey without it |
+//! | `scale`, `rotate = { axis, degrees }`, `translate` | the transformation, in this order |
 //!
-//! A `scale` is one factor, or `[x, y, z]`, one for each axis; negative ones mirror.
+//! A `scale` is one factor, or `[x, y, z]`, one for each axis; negative factors mirror.
 
 use super::document::{Item, Table};
 use super::error::Problem;
@@ -53,7 +53,7 @@ pub(super) fn read(
     Ok(Object { shape, material })
 }
 
-/// A pattern needs texture coordinates; it would silently be missing without them.
+/// Makes sure that an object with a pattern has texture coordinates: without them the pattern would silently be missing.
 fn check_pattern(object: &Table, shape: &Shape, material: &Material) -> Result<(), Problem> {
     match shape {
         Shape::Mesh(mesh)
@@ -69,6 +69,7 @@ fn check_pattern(object: &Table, shape: &Shape, material: &Material) -> Result<(
     }
 }
 
+/// The material of an object.
 fn material(object: &Table, materials: &Materials) -> Result<Material, Problem> {
     let Some(item) = object.get("material") else { return Ok(Material::default()) };
     let name = item.text()?;
@@ -82,7 +83,7 @@ fn material(object: &Table, materials: &Materials) -> Result<Material, Problem> 
     })
 }
 
-/// A name as TOML has it in a header: in quotation marks unless it is plain.
+/// A name as it is written in a TOML header: in quotation marks unless it is plain.
 fn key(name: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
     if !name.is_empty() && name.chars().all(plain) { shown(name) } else { quoted(name) }
@@ -108,7 +109,7 @@ fn plane(item: &Item) -> Result<Shape, Problem> {
     Ok(Shape::Plane(Plane { point, normal: table.need("normal", EXAMPLE)?.direction()? }))
 }
 
-/// A mesh file; `colored` with its own materials.
+/// Reads a mesh file, with its own materials if `colored`.
 fn mesh(
     item: &Item,
     folder: &Path,
@@ -132,6 +133,7 @@ fn mesh(
     Ok(Shape::Mesh(smooth::with_normals(mesh, smooth::CREASE)))
 }
 
+/// Generates a mesh.
 fn generated(item: &Item) -> Result<Shape, Problem> {
     const EXAMPLE: &str = "generate = { kind = \"torus\", divisions = [64, 32] }";
     let table = item.table(&["kind", "divisions"])?;

@@ -2,7 +2,7 @@
 
 use crate::source::quote::{listed, quoted};
 
-/// Says which of the known names is meant, or which are known; `what` they are, in the plural.
+/// Suggests the known name that is nearest to a word, or lists the known names, which are called `what`, in the plural.
 pub(super) fn suggestion<'k>(
     what: &str,
     word: &str,
@@ -14,7 +14,7 @@ pub(super) fn suggestion<'k>(
     }
 }
 
-/// The known name that somebody may have meant who wrote `word`, if one is near enough.
+/// Finds the known name that was probably meant by `word`, if one is similar enough.
 ///
 /// ```
 /// use bothways_formats::scene_file::nearest_name;
@@ -23,12 +23,12 @@ pub(super) fn suggestion<'k>(
 /// assert_eq!(nearest_name("cube", ["sphere", "plane"]), None);
 /// ```
 pub fn nearest_name<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Option<&'k str> {
-    // A slip in about every third letter; a swap of neighbours is one slip.
+    // One slip is allowed, or one for every three letters of the name. Two neighbours swapped are one slip.
     let near = |name: &str| {
         let slips = strsim::damerau_levenshtein(&word.to_lowercase(), &name.to_lowercase());
         (slips <= 1.max(name.chars().count() / 3)).then_some(slips)
     };
-    // Quadratic in the word's length, so not for words that no name comes near.
+    // The distance takes time quadratic in the length of the word. No name is near a very long one.
     if word.len() > 64 {
         return None;
     }

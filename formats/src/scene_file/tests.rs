@@ -1,4 +1,4 @@
-//! A scene file that is written reads back as what it was written from.
+//! A written scene file reads back as the camera and the path that it was written from.
 
 use super::write::camera_toml;
 use super::*;

@@ -1,5 +1,6 @@
-//! Where an object is put: scaled (by one factor, or one along each axis), then rotated, then
-//! translated, in `f64`, rounded to `f32` once.
+//! The transformation of an object: scaled (by one factor, or by one for each axis), then rotated, then translated.
+//!
+//! All of it is computed in `f64`, and each coordinate is rounded once to `f32`.
 
 use super::document::{Item, Table};
 use super::error::Problem;
@@ -7,22 +8,22 @@ use bothways_common::scene::{Mesh, Plane, Shape, Sphere, Triangle};
 use glam::{DVec3, Vec3};
 use std::ops::Range;
 
-/// The keys of an object's table that belong here.
+/// The keys of the transformation in an object's table.
 pub(super) const KEYS: [&str; 3] = ["scale", "rotate", "translate"];
 
-/// The world's coordinates from an object's own.
+/// A transformation from the coordinates of an object to those of the world.
 #[derive(Clone, Debug)]
 pub(super) struct Transform {
     scale: DVec3,
     rotation: Option<Rotation>,
     translation: DVec3,
-    /// Where the file states it.
+    /// Where the file states the first part of it.
     span: Range<usize>,
-    /// Where it states the scale.
+    /// Where the file states the scale.
     scale_span: Range<usize>,
 }
 
-/// One factor for all axes, or one for each. Negative ones mirror; zero would flatten.
+/// Reads one factor for all axes, or one for each axis. Negative factors mirror; zero would flatten.
 fn factors(item: &Item) -> Result<DVec3, Problem> {
     if item.is_number() {
         let factor = item.positive().map_err(|problem| {
@@ -44,7 +45,7 @@ struct Rotation {
 }
 
 impl Transform {
-    /// What an object's table states; `None` if nothing, so that its numbers stay as they are.
+    /// The transformation that an object's table states; `None` if it states none, so that no number changes.
     pub(super) fn read(object: &Table) -> Result<Option<Transform>, Problem> {
         let Some(&first) = object.present(&KEYS).first() else { return Ok(None) };
         let scale = object.get("scale").map_or(Ok(DVec3::ONE), |item| factors(&item))?;
@@ -59,12 +60,11 @@ impl Transform {
         }))
     }
 
-    /// The shape, where it is put.
+    /// Transforms a shape.
     ///
     /// # Errors
     ///
-    /// A coordinate that `f32` cannot hold, or a sphere that becomes too small to have a radius, or would
-    /// be none any more.
+    /// A coordinate is out of the range of `f32`, or a sphere gets a radius of 0 or becomes an ellipsoid.
     pub(super) fn apply(&self, shape: Shape) -> Result<Shape, Problem> {
         Ok(match shape {
             Shape::Triangle(Triangle { a, b, c }) => Shape::Triangle(Triangle {
@@ -96,7 +96,7 @@ impl Transform {
     fn mesh(&self, mesh: Mesh) -> Result<Mesh, Problem> {
         let moved = mesh.map(|position| self.position(position), |normal| self.normal(normal));
         let moved = moved.map_err(|_| self.out_of_range("a vertex"))?;
-        // A mirror turns counter-clockwise into clockwise: outside must stay outside.
+        // A mirror makes counter-clockwise triangles clockwise. They are turned, so that the outside stays outside.
         let mirrors = self.scale.x * self.scale.y * self.scale.z < 0.0;
         Ok(if mirrors { moved.turned_inside_out() } else { moved })
     }
@@ -112,15 +112,15 @@ impl Transform {
         (turned + self.translation).as_vec3()
     }
 
-    /// A normal, where its surface is put. Its length does not matter, and is chosen so that it fits.
+    /// Transforms a normal. Its length does not matter, and is chosen so that the result is in the range of `f32`.
     ///
-    /// What is perpendicular to a surface is scaled by the reciprocals: `n·v = (n/s)·(s·v)`.
+    /// A normal is scaled by the reciprocals, so that it stays perpendicular: `n·v = (n/s)·(s·v)`.
     fn normal(&self, normal: Vec3) -> Vec3 {
         let scaled = if self.is_uniform() {
             normal.as_dvec3()
         } else {
             let scaled = normal.as_dvec3() / self.scale;
-            // By a power of two, which rounds nothing.
+            // A power of two: the product is exact.
             let size = scaled.abs().max_element();
             if size > 0.0 { scaled * (-size.log2().floor()).exp2() } else { scaled }
         };
@@ -129,7 +129,7 @@ impl Transform {
         if rounded.is_finite() { rounded } else { (0.5 * turned).as_vec3() }
     }
 
-    /// The normal of a plane, which must stay one.
+    /// Transforms the normal of a plane, which must not become zero.
     fn plane_normal(&self, normal: Vec3) -> Result<Vec3, Problem> {
         match self.normal(normal) {
             Vec3::ZERO => Err(self.out_of_range("the plane's normal")),
@@ -137,7 +137,7 @@ impl Transform {
         }
     }
 
-    /// Whether normals keep their directions.
+    /// Tells whether the scale keeps the directions of normals.
     fn is_uniform(&self) -> bool {
         let DVec3 { x, y, z } = self.scale;
         x == y && y == z && x > 0.0
@@ -170,7 +170,7 @@ impl Rotation {
         Ok(Rotation { axis: axis / axis.length(), sine, cosine })
     }
 
-    /// Counter-clockwise for whom the axis points at.
+    /// Rotates a vector: counter-clockwise as seen by a viewer that the axis points at.
     ///
     /// The formula of Rodrigues (1840).
     fn rotate(&self, vector: DVec3) -> DVec3 {
@@ -180,7 +180,7 @@ impl Rotation {
     }
 }
 
-/// Exact for quarter turns, and the same on every machine.
+/// The sine and the cosine of an angle: exact for quarter turns, and the same on every machine.
 fn sine_and_cosine(degrees: f32) -> [f64; 2] {
     let degrees = f64::from(degrees).rem_euclid(360.0);
     let rest = (degrees % 90.0).to_radians();
@@ -225,7 +225,7 @@ mod tests {
                 assert!(normal.dot(within).abs() < 1e-6, "{scale:?}: {normal} {within}");
             }
         }
-        // On the side it was: a mirror in x turns (1, 0, 0) round.
+        // The normal stays on its side of the surface: a mirror in x reverses (1, 0, 0).
         assert!(scaled([-2.0, 1.0, 1.0]).normal(Vec3::X).x < 0.0);
         let huge = scaled([1e-45, 1.0, 1.0]).normal(Vec3::new(f32::MAX, 1.0, 1.0));
         assert!(huge.is_finite() && huge.x > 0.0, "{huge}");
@@ -244,7 +244,7 @@ mod tests {
         for (scale, factor) in [([1.0, 2.0, 3.0], 6.0), ([-1.0, 2.0, 3.0], 6.0), ([-2.0; 3], 8.0)] {
             let placed = scaled(scale).mesh(ball()).unwrap();
             assert!((volume(&placed) / (factor * whole) - 1.0).abs() < 1e-5, "{scale:?}");
-            // Every corner's own normal looks outward still.
+            // The normal of every corner still points outward.
             for triangle in 0..placed.triangles().len() {
                 let Some(normals) = placed.normals().of(triangle) else { continue };
                 for (corner, normal) in placed.corners(triangle).iter().zip(normals) {

@@ -1,14 +1,14 @@
-//! Writing a scene file: one mesh before one camera.
+//! Writes a scene file: one mesh and one camera.
 
 use super::camera::square_pixels;
 use bothways_common::camera::{CameraDescription, Orientation, Projection};
 use glam::Vec3;
 use std::fmt::Write;
 
-/// The scene file that shows one mesh file from a camera.
+/// Writes the text of a scene file that shows one mesh file from a camera.
 ///
-/// Reading it gives the same camera to the last bit. A viewport that follows from the image is left
-/// out, so that another image size changes it along.
+/// The text reads back as the same camera, bit for bit. A viewport that follows from the image is left out, so that
+/// another image size changes the viewport as well. The path `mesh` is relative to the folder of the scene file.
 ///
 /// ```
 /// use bothways_common::CameraDescription;
@@ -43,7 +43,7 @@ pub(super) fn camera_toml(camera: &CameraDescription) -> String {
             lines.extend([vector("u", u), vector("v", v), vector("w", w)]);
         }
     }
-    // `{:?}` writes the fewest digits that read back as the same number, and always as a decimal.
+    // `{:?}` writes the fewest digits that read back as the same number, always as a decimal number.
     lines.push(format!("distance = {distance:?}"));
     if viewport != square_pixels(image) {
         lines.push(format!("viewport = {viewport:?}"));

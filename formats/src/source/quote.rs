@@ -1,18 +1,20 @@
-//! Foreign words as messages show them: what stands in files, and what files are called.
+//! Prepares text from files, and names of files, for messages.
 //!
-//! A word of unknown origin may be as long as its file, move the cursor of a terminal, or turn its text
-//! around. Whoever shows one takes it from here.
+//! Text of unknown origin may be as long as its file, move the cursor of a terminal, or reverse the direction of the
+//! text around it. All messages quote such text with these functions.
 
 use std::borrow::Cow;
 use std::fmt::Write;
 
-/// Characters of a word that a message shows: longer words say no more.
+/// The most characters of a word that a message shows.
 pub const LONGEST_WORD: usize = 32;
-/// The names of a list that a message shows.
+/// The most names of a list that a message shows.
 const MOST_NAMES: usize = 16;
 
-/// A text in which every character is seen for what it is, on one line: those that move a cursor, change
-/// a terminal's state or turn text around are written as `\u{1b}`.
+/// Makes every character of a text visible, on one line.
+///
+/// Characters that move a cursor, change the state of a terminal or change the direction of text are written as
+/// escapes, such as `\u{1b}`.
 ///
 /// ```
 /// use bothways_formats::source::quote::visible;
@@ -31,7 +33,7 @@ pub fn visible(text: &str) -> Cow<'_, str> {
     Cow::Owned(shown)
 }
 
-/// Adds one character as [`visible`] shows it.
+/// Appends one character as [`visible`] shows it.
 pub(crate) fn push_visible(shown: &mut String, character: char) {
     if is_hidden(character) {
         write!(shown, "{}", character.escape_unicode()).expect("a string takes all");
@@ -40,7 +42,7 @@ pub(crate) fn push_visible(shown: &mut String, character: char) {
     }
 }
 
-/// A word as it stands in a message: [visible], and shortened if it is long.
+/// Makes a word [`visible`], and shortens it if it is long.
 ///
 /// ```
 /// use bothways_formats::source::quote::shown;
@@ -52,7 +54,7 @@ pub fn shown(word: &str) -> String {
     visible(&shortened(word)).into_owned()
 }
 
-/// The same in quotation marks, with `\` before what is special between them.
+/// Makes a word [`visible`] in quotation marks, with `\` before special characters, and shortens it if it is long.
 ///
 /// ```
 /// use bothways_formats::source::quote::quoted;
@@ -60,11 +62,11 @@ pub fn shown(word: &str) -> String {
 /// assert_eq!(quoted("6\" nail\r"), r#""6\" nail\r""#);
 /// ```
 pub fn quoted(word: &str) -> String {
-    // What is shown as it stands here is so in a message without quotation marks, too.
+    // `{:?}` leaves some characters as they are that `visible` escapes.
     visible(&format!("{:?}", shortened(word))).into_owned()
 }
 
-/// Names one after another; of many, the first and how many more there are.
+/// Lists names, separated by commas; of a long list, the first names and the number of the others.
 ///
 /// ```
 /// use bothways_formats::source::quote::listed;
@@ -82,10 +84,11 @@ pub fn listed<'n>(names: impl IntoIterator<Item = &'n str>) -> String {
     }
 }
 
-/// A word of a file's bytes, shortened if it is long, with `�` for what is not UTF-8; not yet fit to be
-/// shown.
+/// Turns bytes of a file into a word, shortened if it is long, with `�` in place of bytes that are not UTF-8.
+///
+/// The word is not [`visible`] yet: the message must make it so.
 pub(crate) fn quote(bytes: &[u8]) -> String {
-    // A character has at most four bytes, so this cuts none that would be shown.
+    // A character has at most four bytes, so this keeps all that are shown.
     let some = &bytes[..bytes.len().min(4 * LONGEST_WORD + 4)];
     shortened(&String::from_utf8_lossy(some)).into_owned()
 }
@@ -97,8 +100,8 @@ fn shortened(word: &str) -> Cow<'_, str> {
     }
 }
 
-/// Control characters of both sets, what sets the direction of text, what ends a line, and what has no
-/// place in a text: a byte order mark and tags.
+/// Tells whether a character is a control character, changes the direction of text, ends a line, is a byte order mark
+/// or is a tag.
 fn is_hidden(character: char) -> bool {
     match character {
         '\u{61c}' | '\u{200e}' | '\u{200f}' => true,
@@ -112,7 +115,7 @@ fn is_hidden(character: char) -> bool {
 mod tests {
     use super::*;
 
-    /// Unicode's `Bidi_Control`, and all characters of the category Cc.
+    /// The characters with Unicode's property `Bidi_Control`, and all characters of the category Cc.
     #[test]
     fn nothing_that_a_terminal_obeys_is_left() {
         let controls = (0..0x20).chain(0x7f..0xa0);
@@ -126,7 +129,7 @@ mod tests {
 
     #[test]
     fn letters_of_all_scripts_stay() {
-        // The last is an e and an accent of its own, as some file systems write é.
+        // The last one is an e and a separate accent, as some file systems write é.
         for text in ["Größe", "模型", "مجسم", "क्ष", "😀", "e\u{301}"] {
             assert_eq!(visible(text), text);
         }

@@ -1,5 +1,5 @@
-//! Generated meshes against what is not ourselves: volumes and areas by formula, surfaces by their
-//! equations, and the teapot as others publish it.
+//! Generated meshes against independent values: volumes and areas by formula, surfaces by their equations, and the teapot
+//! as it is published.
 
 use bothways_common::Mesh;
 use bothways_common::glam::{DVec3, Vec3};
@@ -21,7 +21,7 @@ fn corners(mesh: &Mesh) -> impl Iterator<Item = [DVec3; 3]> {
     (0..mesh.triangles().len()).map(|k| mesh.corners(k).map(Vec3::as_dvec3))
 }
 
-/// What the triangles enclose, counted outward.
+/// The volume that the triangles enclose; positive if they face outward.
 fn volume(mesh: &Mesh) -> f64 {
     corners(mesh).map(|[a, b, c]| a.cross(b).dot(c)).sum::<f64>() / 6.0
 }
@@ -30,7 +30,7 @@ fn area(mesh: &Mesh) -> f64 {
     corners(mesh).map(|[a, b, c]| (b - a).cross(c - a).length()).sum::<f64>() / 2.0
 }
 
-/// Equal but for coordinates that were rounded to `f32`.
+/// Checks that two numbers are equal, up to the rounding of coordinates to `f32`.
 fn assert_close(found: f64, expected: f64, what: &str) {
     assert!((found / expected - 1.0).abs() < 1e-6, "{what}: {found} instead of {expected}");
 }
@@ -41,13 +41,13 @@ fn polygon(corners: u32) -> f64 {
     n / 2.0 * (2.0 * PI / n).sin()
 }
 
-/// The length of its sides.
+/// The length of the sides of this polygon.
 fn side(corners: u32) -> f64 {
     2.0 * (PI / f64::from(corners)).sin()
 }
 
-/// A frustum between two such polygons, scaled to these radii and `height` apart: its volume and the
-/// area of its sides, which are plane.
+/// The volume of a frustum between two such polygons, scaled to these radii and `height` apart, and the area of its
+/// sides, which are flat.
 fn frustum(corners: u32, [r, s]: [f64; 2], height: f64) -> (f64, f64) {
     let volume = polygon(corners) * height / 3.0 * (r * r + r * s + s * s);
     // From the middle of a polygon to the middle of its side.
@@ -71,7 +71,7 @@ fn spheres_are_the_frusta_between_their_circles() {
         assert_close(area(&mesh), expected_area, "area");
         assert!(positions(&mesh).all(|p| (p.length() - 1.0).abs() < 1e-6));
     }
-    // And the finer, the nearer to the round one.
+    // A finer mesh is nearer to the round sphere.
     let fine = mesh(Kind::Sphere, [400, 200]);
     assert!((volume(&fine) / (4.0 / 3.0 * PI) - 1.0).abs() < 2e-4);
     assert!((area(&fine) / (4.0 * PI) - 1.0).abs() < 2e-4);
@@ -123,13 +123,13 @@ fn boxes_and_grids_are_flat_and_full() {
     }
 }
 
-/// Of the teapot's border, the rings that are no circle about its axis: the ends of handle and spout.
+/// The ends of handle and spout: the rings of the teapot's border that are not circles about its axis.
 fn ends_of_handle_and_spout(teapot: &Mesh) -> Vec<DVec3> {
     let edges = teapot.triangles().iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
     let edges: HashSet<[u32; 2]> = edges.collect();
     let border = edges.iter().filter(|&&[a, b]| !edges.contains(&[b, a]));
     let at = |vertex: u32| teapot.positions()[vertex as usize].as_dvec3();
-    // Rim and lid end at the height of 2.4, as the spout's mouth does.
+    // Rim, lid and the mouth of the spout end at the height of 2.4.
     border.map(|&[a, _]| at(a)).filter(|p| (p.y - 2.4).abs() > 1e-6).collect()
 }
 
@@ -137,10 +137,9 @@ fn ends_of_handle_and_spout(teapot: &Mesh) -> Vec<DVec3> {
 fn the_teapot_s_handle_and_spout_end_inside_its_body() {
     let teapot = mesh(Kind::Teapot, [20, 20]);
     let ends = ends_of_handle_and_spout(&teapot);
-    // Both ends of the handle and the lower end of the spout, of two halves each.
+    // Both ends of the handle and the lower end of the spout, each of two halves.
     assert_eq!(ends.len(), 3 * 2 * 20);
-    // The body's outline: what lies on neither side of the plane of symmetry, seen across it, belongs
-    // to the body alone.
+    // The outline of the body. Of all points with x = 0, only the body's have a z above 1.4.
     let mut outline: Vec<DVec3> =
         positions(&teapot).filter(|p| p.x.abs() < 1e-6 && p.z > 1.4 && p.y < 2.4).collect();
     outline.sort_by(|p, q| p.y.total_cmp(&q.y));
@@ -149,14 +148,14 @@ fn the_teapot_s_handle_and_spout_end_inside_its_body() {
         let [p, q] = [outline[above - 1], outline[above]];
         let body = p.z + (q.z - p.z) * (end.y - p.y) / (q.y - p.y);
         let beside = end.x.hypot(end.z) - body;
-        // The handle's lower end touches the body where it is widest; the outline has corners there.
+        // The lower end of the handle touches the body at its widest point, where the outline has corners.
         assert!(beside < 1e-3, "{end} is {beside} beside the body");
     }
 }
 
 #[test]
 fn the_teapot_is_the_published_one() {
-    // Points of the public `teapot.obj` of alecjacobson/common-3d-test-models, all but the axis' with a
+    // Points of the public `teapot.obj` of alecjacobson/common-3d-test-models. All but the one on the axis have a
     // coordinate that no other surface of the teapot reaches.
     const PUBLISHED: [[f64; 3]; 12] = [
         [0.0, 3.15, 0.0],  // the top of the knob
@@ -195,8 +194,7 @@ fn every_vertex_of_the_public_teapot_is_one_of_ours() {
     assert_eq!(ours.triangles().len(), theirs.triangles().len());
     for (one, other) in [(&ours, &theirs), (&theirs, &ours)] {
         for p in positions(one) {
-            // The file has six decimals, and its knob is drawn with arcs of 0.45/0.8 where all others,
-            // and ours, are of 0.56.
+            // The file has six decimals. Its knob has arcs of 0.45/0.8; all its other arcs, and ours, are of 0.56.
             let tolerance = if p.y > 2.7 { 1e-3 } else { 2e-6 };
             let near = positions(other).any(|q| (p - q).abs().max_element() < tolerance);
             assert!(near, "nothing at {p}");

@@ -1,4 +1,4 @@
-//! The OBJ reader against the crate `tobj`: the same triangles at the same places.
+//! The OBJ reader against the crate `tobj`: both read the same triangles at the same positions.
 
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
@@ -7,15 +7,15 @@ use std::{fs, io};
 use bothways_common::{Mesh, glam::Vec3};
 use bothways_formats::obj;
 
-/// Triangles as `tobj` sees them: their corners' positions, texture coordinates and normals, bit
-/// for bit. Where a corner has no texture coordinate or normal, `tobj` makes one up.
+/// Triangles as `tobj` reads them: the bits of the positions, texture coordinates and normals of their corners. `tobj`
+/// invents texture coordinates and normals for corners that have none.
 struct Oracle {
     positions: Vec<[[u32; 3]; 3]>,
     texture_coordinates: Vec<[[u32; 2]; 3]>,
     normals: Vec<[[u32; 3]; 3]>,
 }
 
-/// Reads with `tobj`; it starts a model at each `o`, `g` or `usemtl`, which follow one another.
+/// Reads a file with `tobj`. It begins a new model at each `o`, `g` or `usemtl`.
 fn read_with_tobj(bytes: &[u8]) -> Oracle {
     let options = tobj::LoadOptions { triangulate: true, ..tobj::LoadOptions::default() };
     let no_material = |_: &Path| Err(tobj::LoadError::OpenFileFailed);
@@ -39,7 +39,7 @@ fn triangles<const N: usize>(values: &[f32], indices: &[u32]) -> Vec<[[u32; N]; 
     triangles.iter().map(|triangle| triangle.map(value)).collect()
 }
 
-/// Checks a file's reading against the oracle's and gives it back.
+/// Reads a file, compares the mesh with that of the oracle, and returns it.
 fn check(name: &str, bytes: &[u8]) -> Mesh {
     let mesh = obj::parse(name, bytes).expect("the reader reads the file");
     let oracle = read_with_tobj(bytes);

@@ -1,4 +1,4 @@
-//! What scene files say.
+//! Scene files that are right, and the scenes and cameras that they describe.
 
 use bothways_common::glam::Vec3;
 use bothways_common::{
@@ -14,12 +14,12 @@ fn read(text: &str) -> Result<SceneFile, ReadSceneError> {
 
 const SPHERE: &str = "[[object]]\nsphere = { center = [0, 0, 0], radius = 1 }\n";
 
-/// A file with one sphere and these lines before it.
+/// Reads a file of these lines, followed by one sphere.
 fn with_sphere(text: &str) -> SceneFile {
     read(&format!("{text}\n{SPHERE}")).expect("it is right")
 }
 
-/// The shape of the one object of a file that has only these lines under its header.
+/// Reads a file of one object with these lines, and returns its shape.
 fn shape(lines: &str) -> Shape {
     let file = read(&format!("[[object]]\n{lines}")).expect("it is right");
     file.scene.objects()[0].shape.clone()
@@ -127,7 +127,7 @@ fn an_empty_list_of_objects_is_an_empty_scene() {
 
 #[test]
 fn numbers_are_the_nearest_f32() {
-    // Between two neighbours of 1: by way of f64 it would become a tie and go down to 1.
+    // Just above the middle between 1 and its successor. Rounded to `f64` first, it would be a tie and become 1.
     let text = "sphere = { center = [0, 0, 0], radius = 1.00000005960464477539062501 }";
     let Shape::Sphere(sphere) = shape(text) else { panic!("a sphere") };
     assert_eq!(sphere.radius, 1.0 + f32::EPSILON);
@@ -161,7 +161,7 @@ fn objects_are_scaled_then_turned_then_moved() {
     };
     assert_eq!(own.triangles(), moved.triangles());
     for (p, q) in own.positions().iter().zip(moved.positions()) {
-        // Scaling by 2 is exact, and so is a quarter turn; 5 − 2y is rounded once.
+        // Scaling by 2 and a quarter turn are exact; 5 − 2y is rounded once.
         assert_eq!(*q, Vec3::new(5.0 - 2.0 * p.y, 2.0 * p.x, 2.0 * p.z));
     }
     for (p, q) in own.normals().values.iter().zip(&moved.normals().values) {

@@ -1,4 +1,4 @@
-//! What is said about scene files that are wrong, and where.
+//! Scene files that are wrong: the messages, and the places that they name.
 
 use bothways_formats::scene_file::{self, LocatedError, ReadSceneError, SceneFile};
 use proptest::prelude::*;
@@ -12,7 +12,7 @@ fn read(text: &str) -> Result<SceneFile, LocatedError> {
     }
 }
 
-/// Checks for each text which part is underlined and what is said about it.
+/// Checks for each text which part is underlined, and the message.
 fn check_errors(cases: &[(&str, &str, &str)]) {
     for (text, underlined, message) in cases {
         let error = read(text).expect_err("it is wrong");
@@ -432,7 +432,7 @@ fn what_is_wrong_with_a_transform() {
 
 #[test]
 fn a_mesh_that_cannot_be_made_is_underlined() {
-    // The words are those of the OBJ reader and the generators.
+    // The OBJ reader and the generators word the messages.
     let missing = read("[[object]]\nmesh = 'bunny.obj'").unwrap_err();
     assert_eq!(&missing.text[missing.span.clone()], "'bunny.obj'");
     assert!(missing.message.contains("bunny.obj"), "{missing}");
@@ -488,7 +488,7 @@ sphere = { center = [0, 0, 0], radius = 1 }\nmaterial = 'clay'\n[[object]]\n
 generate = { kind = 'grid', divisions = [2, 2] }\nscale = 2\n
 rotate = { axis = [0, 1, 0], degrees = 30 }\n";
 
-/// A text is read or refused; where it is refused, the place is in it and can be shown.
+/// Checks that a text is read, or refused at a place that lies in the text.
 fn check_any(text: &str) {
     if let Err(error) = read(text) {
         assert!(!error.to_string().is_empty());
@@ -496,7 +496,7 @@ fn check_any(text: &str) {
     }
 }
 
-/// Pieces that scene files are made of, so that a heap of them gets past the parser at times.
+/// Pieces of scene files. Random sequences of them sometimes get past the TOML parser.
 fn word() -> impl Strategy<Value = String> {
     let pieces = [
         "[camera]\n",
