@@ -18,9 +18,8 @@ mod output;
 mod patience;
 mod pixel;
 mod progress;
-mod render;
+mod run;
 mod show_camera;
-mod stream;
 mod table;
 mod terminal;
 mod usage;
@@ -120,8 +119,8 @@ pub(crate) fn main() -> ExitCode {
 
 fn run(cli: Cli) -> Result<ExitCode, Failure> {
     match cli.command {
-        None => render::run(&cli.render),
-        Some(Command::Render(args)) => render::run(&args),
+        None => run::run(&cli.render),
+        Some(Command::Render(args)) => run::run(&args),
         Some(Command::Diff(args)) => diff::run(&args),
         Some(Command::Scenes { name }) => print_scenes(name.as_deref()),
         Some(Command::Cover(args)) => cover::run(&args),

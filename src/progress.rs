@@ -7,7 +7,7 @@
 use crate::common::observe::{Events, Observer};
 use crate::common::raster::Region;
 use crate::common::raster::Sample;
-use crate::orders::Order;
+use crate::orders::order::Order;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Somebody who is told of progress, from any thread; never twice of the same step.

@@ -106,10 +106,10 @@ impl Verified {
 /// let scene = bothways::scenes::load("canonical")?.scene;
 /// let camera = Camera::canonical(32, 32);
 /// let view = View::new(&scene, &camera);
-/// let drawn = orders::render(Order::Object, Method::Fast, &view, &RenderOptions::default());
+/// let drawn = orders::render(Order::Object, Method::Fast, &view, &RenderOptions::default())?;
 /// let verified = bothways::verify::verify(&view, &[drawn], 100, &|| ());
 /// assert!(verified.matches && verified.samples == 100);
-/// # Ok::<(), bothways::scenes::LoadError>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn verify(
     view: &View,

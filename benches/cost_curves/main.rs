@@ -113,7 +113,8 @@ fn measure(divisions: [u32; 2], [width, height]: [u32; 2]) -> (usize, [f64; 2]) 
     let times = COLORS.map(|(order, _)| {
         let options = RenderOptions { repeat: Some(REPEAT), ..RenderOptions::default() };
         let view = View::new(&scene, &camera);
-        let rendered = orders::render(order, Method::Fast, &view, &options);
+        let rendered =
+            orders::render(order, Method::Fast, &view, &options).expect("it is in memory");
         let time = rendered.times.expect("it was timed").visibility.median;
         println!("{}, {triangles} triangles, {width}x{height}: {time} ms", order.name());
         time

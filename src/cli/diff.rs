@@ -4,7 +4,6 @@ mod folders;
 
 use super::failure::Failure;
 use super::output::Staging;
-use super::render::write_rgb;
 use super::terminal;
 use anstyle::{AnsiColor, Style};
 use bothways::diff::foreign::{self, Aspect, Buffer, BufferComparison, Unit};
@@ -89,7 +88,7 @@ pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
     })?;
     if let Some(folder) = &args.folder {
         let mut staging = Staging::begin_with(folder, NAMES.map(str::to_owned).to_vec())?;
-        write_rgb(&mut staging, NAMES[0], &enlarged(comparison.picture()))?;
+        staging.write_rgb(NAMES[0], &enlarged(comparison.picture()))?;
         staging.commit()?;
     }
     let told = Told { files: [(&args.a, &a), (&args.b, &b)], comparison: &comparison };

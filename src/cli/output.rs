@@ -7,6 +7,7 @@
 
 mod file;
 mod hidden;
+mod png;
 mod sink;
 
 pub(super) use file::OutputFile;

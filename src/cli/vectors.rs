@@ -2,7 +2,6 @@
 
 use super::failure::Failure;
 use super::output::{Out, Staging};
-use super::render::write_png;
 use super::{npy, terminal};
 use bothways::common::Frame;
 use bothways::formats::obj;
@@ -11,7 +10,6 @@ use bothways::picture::mask;
 use bothways::vectors::{ENDINGS, Entry, Group, Vector, all, expected, index, json, readme};
 use bothways::wording::count;
 use clap::Args;
-use image::ColorType;
 use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -67,13 +65,12 @@ fn write_vector(staging: &mut Staging, vector: &Vector, frame: &Frame) -> Result
         ENDINGS.map(|ending| format!("{name}{ending}"));
     let scene = format!("# {point}\n\n{}", framed_mesh_toml(camera, &mesh_file));
     let json = json(vector, frame).map_err(|error| Failure::new(error.to_string()))?;
-    let mask = mask(frame);
     staging.write(&toml, |out| out.write_all(scene.as_bytes()))?;
     staging.write(&mesh_file, |out| obj::write(mesh, out))?;
     staging.write(&all, |out| out.write_all(json.as_bytes()))?;
     staging.write(&ids, |out: &mut Out| npy::write_ids(frame, out))?;
     staging.write(&distances, |out: &mut Out| npy::write_distances(frame, out))?;
-    write_png(staging, &seen, &mask, mask.dimensions(), ColorType::L8)
+    staging.write_grey(&seen, &mask(frame))
 }
 
 fn summary(entries: &[Entry], args: &VectorsArgs) -> String {

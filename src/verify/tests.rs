@@ -14,8 +14,8 @@ fn drawn(
     let frame = Options { samples, crop: None };
     let options = RenderOptions { frame, ..RenderOptions::default() };
     let view = View::new(&scene.scene, &camera);
-    let both =
-        [Order::Object, Order::Image].map(|order| render(order, Method::Fast, &view, &options));
+    let both = [Order::Object, Order::Image]
+        .map(|order| render(order, Method::Fast, &view, &options).unwrap());
     (scene, camera, both.into())
 }
 

@@ -16,8 +16,8 @@ use serde_json::{Value, json};
 /// What is told of all pixels adds up to what the whole frame did and saw.
 fn check_whole_picture(view: &View, options: &Options) {
     let once = RenderOptions { frame: *options, ..RenderOptions::default() };
-    let frames =
-        [Order::Object, Order::Image].map(|order| render(order, Method::Fast, view, &once));
+    let frames = [Order::Object, Order::Image]
+        .map(|order| render(order, Method::Fast, view, &once).unwrap());
     let mut work = [Work::default(); 2];
     let [width, height] = view.camera.image();
     for (i, j) in (0..height).flat_map(|i| (0..width).map(move |j| (i, j))) {

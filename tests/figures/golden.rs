@@ -123,9 +123,8 @@ fn a_slide_shows_every_kind_of_difference() {
     let [here, there] = [description, moved].map(|camera| Camera::new(camera).unwrap());
     let rendered = |order, camera| {
         let view = View::new(&loaded.scene, camera);
-        let mut rendered = render(order, Method::Textbook, &view, &RenderOptions::default());
-        rendered.times = None;
-        rendered
+        let options = RenderOptions { no_times: true, ..RenderOptions::default() };
+        render(order, Method::Textbook, &view, &options).unwrap()
     };
     let object_order = rendered(Order::Object, &here);
     let image_order = rendered(Order::Image, &there);

@@ -11,7 +11,7 @@ use bothways::formats::generate::Kind;
 use bothways::formats::mesh_file::Format;
 use bothways::formats::mesh_stream::MeshStream;
 use bothways::formats::obj;
-use bothways::orders::{Order, RenderOptions, render_stream};
+use bothways::orders::{self, Method, Order, RenderOptions, Source};
 use bothways::progress::{Progress, Stage};
 use bothways::rasterize::{self, stream::CHUNK, stream::Canvas, stream::Look};
 use bothways_test_support::{
@@ -26,6 +26,7 @@ use serde_json::Value;
 use std::fs;
 use std::path::Path;
 use std::sync::Mutex;
+use std::time::Duration;
 use tempfile::TempDir;
 
 const CHUNKS: [usize; 5] = [1, 2, 3, 7, 1000];
@@ -140,9 +141,10 @@ fn progress_is_told_chunk_by_chunk() {
     let mut stream = MeshStream::open(&path, Format::Obj).unwrap();
     // Of the first pass nobody knows how long it is.
     for (repeat, total) in [(None, 1), (None, 2), (Some(1), 6)] {
-        let (options, times) = (RenderOptions { repeat, ..options }, repeat.map(|_| 0.0));
-        let rendered =
-            render_stream(&mut stream, &camera, &Look::default(), &options, times).unwrap();
+        let options = RenderOptions { repeat, no_times: repeat.is_none(), ..options };
+        let (look, opening) = (&Look::default(), Duration::ZERO);
+        let source = Source::Stream { mesh: &mut stream, camera: &camera, look, opening };
+        let rendered = orders::render(Order::Object, Method::Fast, source, &options).unwrap();
         assert_eq!(rendered.work().map(|work| work.primitives), Some(triangles as u64));
         let steps = (0..=total).map(|done| (Stage::Rendering, done, total));
         let expected: Vec<_> = [(Stage::Preparing, 0, total)].into_iter().chain(steps).collect();

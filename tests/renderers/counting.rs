@@ -218,9 +218,9 @@ fn counts_may_be_left_out_or_too_many() {
     let view = View::new(&scene, &camera);
     for order in [Order::Object, Order::Image] {
         for method in [Method::Fast, Method::Textbook] {
-            let counted = orders::render(order, method, &view, &RenderOptions::default());
+            let counted = orders::render(order, method, &view, &RenderOptions::default()).unwrap();
             let without = RenderOptions { no_counts: true, ..RenderOptions::default() };
-            let without = orders::render(order, method, &view, &without);
+            let without = orders::render(order, method, &view, &without).unwrap();
             assert!(counted.work().is_some() && without.work().is_none());
             assert_eq!((without.work, &without.frame), (Counts::LeftOut, &counted.frame));
             let report = Report::new("ties", 4000, 1, &[without], None).to_json().unwrap();

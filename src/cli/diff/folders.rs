@@ -4,7 +4,6 @@
 use super::{DiffArgs, count_of};
 use crate::cli::failure::Failure;
 use crate::cli::output::Staging;
-use crate::cli::render::write_rgb;
 use crate::cli::terminal;
 use anstyle::{AnsiColor, Style};
 use bothways::diff::foreign::{self, BufferComparison};
@@ -27,7 +26,7 @@ pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
         if let (Some(staging), Ok(comparison)) = (&mut staging, &compared)
             && !comparison.equal
         {
-            write_rgb(staging, &picture_of(pair), &comparison.picture())?;
+            staging.write_rgb(&picture_of(pair), &comparison.picture())?;
         }
         rows.push(Row { pair, compared });
     }

@@ -1,12 +1,12 @@
 //! `bothways render`: from a scene to the output folder and the verdict.
 
-use super::args::{BuffersArg, MethodArg, RenderArgs};
+use super::args::{BuffersArg, MethodArg, OrderArg, RenderArgs};
 use super::camera::{camera, squashed};
 use super::failure::Failure;
 use super::output::{Out, Staging};
 use super::patience::Patience;
 use super::progress::Bar;
-use super::{memory, npy, stream, table, terminal};
+use super::{memory, npy, table, terminal};
 use bothways::common::raster::check_samples;
 use bothways::common::{Camera, View};
 use bothways::diff::{Classes, Comparison, compare};
@@ -15,30 +15,56 @@ use bothways::orders::{self, RenderOptions, Rendered};
 use bothways::picture::{enlarged, id_picture, mask, picture};
 use bothways::progress::Listener;
 use bothways::report::Report;
-use bothways::scenes::{self, LoadedScene};
+use bothways::scenes::{self, LoadedScene, OpenedScene};
 use bothways::verify::{self, Verified};
-use image::{ColorType, ImageEncoder, codecs::png::PngEncoder};
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Renders, writes and prints; 0 if both orders see the same (or one was asked for), 1 if not.
 pub(super) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
-    if args.method.stream {
-        return stream::run(args);
+    let stream = args.method.stream;
+    if stream {
+        check_stream(args)?;
     }
-    let loaded =
-        Bar::during("reading the scene", args, || scenes::load_for(&args.scene, args.camera.size))?;
+    let mut scene = Bar::during("reading the scene", args, || {
+        scenes::open(&args.scene, args.camera.size, stream)
+    })?;
     check_verify(args)?;
-    let (camera, staging, folder) = prepared_output(args, &loaded)?;
+    let (camera, staging, folder) = prepared_output(args, scene.loaded())?;
     let pool = thread_pool(args)?;
     let bar = Bar::of_run(args);
-    pool.install(|| Run::new(args, &loaded, &camera, bar.as_ref()).finish(staging, &folder, bar))
+    pool.install(|| {
+        let run = Run::new(args, &mut scene, &camera, bar.as_ref())?;
+        run.finish(staging, &folder, bar)
+    })
 }
 
-/// The camera, and where to write: before the work, so that nobody waits for pictures that cannot be
-/// written. Tells what the scene lacks, too.
-pub(super) fn prepared_output(
+/// Refuses what cannot be streamed.
+fn check_stream(args: &RenderArgs) -> Result<(), Failure> {
+    let order = match args.method.order {
+        OrderArg::Object => None,
+        OrderArg::Both => Some("both"),
+        OrderArg::Image => Some("image"),
+    };
+    if let Some(order) = order {
+        return Err(Failure::new(format!(
+            "--stream cannot be used with --order {order}: in image order every ray may need every \
+             triangle, so all must be in memory; give --order object, which needs one at a time"
+        )));
+    }
+    match args.method.method {
+        MethodArg::Fast => Ok(()),
+        MethodArg::Textbook => Err(Failure::new(
+            "--stream cannot be used with --method textbook, whose loop walks a scene in memory; \
+             leave one of them out",
+        )),
+    }
+}
+
+/// The camera and the output folder, checked before the work: no one waits for pictures that cannot be
+/// written. Warns of what the scene lacks, too.
+fn prepared_output(
     args: &RenderArgs,
     loaded: &LoadedScene,
 ) -> Result<(Camera, Staging, PathBuf), Failure> {
@@ -86,7 +112,7 @@ fn folder_name(name: &str) -> String {
 }
 
 /// The threads to render on.
-pub(super) fn thread_pool(args: &RenderArgs) -> Result<rayon::ThreadPool, Failure> {
+fn thread_pool(args: &RenderArgs) -> Result<rayon::ThreadPool, Failure> {
     rayon::ThreadPoolBuilder::new()
         .num_threads(args.method.threads.unwrap_or(0).into())
         .build()
@@ -94,69 +120,66 @@ pub(super) fn thread_pool(args: &RenderArgs) -> Result<rayon::ThreadPool, Failur
 }
 
 /// How an order is asked to run.
-pub(super) fn render_options<'a>(
-    args: &RenderArgs,
-    progress: Option<Listener<'a>>,
-) -> RenderOptions<'a> {
+fn render_options<'a>(args: &RenderArgs, progress: Option<Listener<'a>>) -> RenderOptions<'a> {
     RenderOptions {
         frame: args.method.options(),
         repeat: args.method.repeat,
         no_counts: args.output.no_counts,
+        no_times: args.output.no_times,
         progress,
     }
 }
 
 /// Everything that came of the rendering.
-pub(super) struct Run<'a> {
-    pub(super) args: &'a RenderArgs,
+struct Run<'a> {
+    args: &'a RenderArgs,
     /// The scene in one line.
-    pub(super) about: Option<&'a str>,
-    pub(super) rendered: Vec<Rendered>,
-    pub(super) comparison: Option<Comparison>,
-    pub(super) report: Report,
+    about: Option<&'a str>,
+    rendered: Vec<Rendered>,
+    comparison: Option<Comparison>,
+    report: Report,
 }
 
 impl<'a> Run<'a> {
     fn new(
         args: &'a RenderArgs,
-        loaded: &'a LoadedScene,
+        scene: &'a mut OpenedScene,
         camera: &Camera,
         bar: Option<&Bar>,
-    ) -> Run<'a> {
-        let view = View::new(&loaded.scene, camera);
+    ) -> Result<Run<'a>, Failure> {
         let listener = bar.map(|bar| move |progress| bar.show(progress));
         let options = render_options(args, listener.as_ref().map(|listener| listener as Listener));
         let method = args.method.method.into();
         let mut rendered = Vec::new();
         for &order in args.method.order.orders() {
-            let mut one = orders::render(order, method, &view, &options);
-            if args.output.no_times {
-                one.times = None;
-            }
-            rendered.push(one);
+            let one = orders::render(order, method, scene.source(camera), &options);
+            rendered.push(one.map_err(|error| Failure::new(error.to_string()))?);
         }
+        let scene = &*scene;
         bar.inspect(|bar| bar.say("comparing and drawing"));
         let comparison = match rendered.as_slice() {
             [object_order, image_order] => Some(compare(&object_order.frame, &image_order.frame)),
             _ => None,
         };
         let mut report = Report::new(
-            &loaded.name,
-            loaded.scene.primitive_count(),
+            &scene.loaded().name,
+            scene.primitive_count(),
             rayon::current_num_threads(),
             &rendered,
             comparison.as_ref(),
         );
-        report.verified = args.method.verify.map(|samples| {
+        if let (Some(samples), OpenedScene::InMemory(loaded)) = (args.method.verify, scene) {
+            let view = View::new(&loaded.scene, camera);
             let pixels_of = |one: &Rendered| verify::pixels(&one.frame, samples.into());
             let patience = Patience::new(rendered.iter().map(pixels_of).sum(), bar);
-            verify::verify(&view, &rendered, samples.into(), &|| patience.step())
-        });
-        Run { args, about: loaded.about(), rendered, comparison, report }
+            let verified = verify::verify(&view, &rendered, samples.into(), &|| patience.step());
+            report.verified = Some(verified);
+        }
+        Ok(Run { args, about: scene.loaded().about(), rendered, comparison, report })
     }
 
     /// Writes everything, and prints the report.
-    pub(super) fn finish(
+    fn finish(
         &self,
         mut staging: Staging,
         folder: &Path,
@@ -180,21 +203,14 @@ impl<'a> Run<'a> {
     fn write(&self, staging: &mut Staging, json: &str) -> Result<(), Failure> {
         for Rendered { order, frame, .. } in &self.rendered {
             let stem = order.file_stem();
-            write_rgb(staging, &format!("{stem}.png"), &picture(frame))?;
-            let mask = mask(frame);
-            write_png(
-                staging,
-                &format!("mask-{stem}.png"),
-                &mask,
-                mask.dimensions(),
-                ColorType::L8,
-            )?;
+            staging.write_rgb(&format!("{stem}.png"), &picture(frame))?;
+            staging.write_grey(&format!("mask-{stem}.png"), &mask(frame))?;
             if self.args.output.buffers == BuffersArg::Npy {
                 let ids = |out: &mut Out| npy::write_ids(frame, out);
                 staging.write(&format!("{stem}.ids.npy"), ids)?;
                 let distances = |out: &mut Out| npy::write_distances(frame, out);
                 staging.write(&format!("{stem}.t.npy"), distances)?;
-                write_rgb(staging, &format!("{stem}.ids.png"), &id_picture(frame))?;
+                staging.write_rgb(&format!("{stem}.ids.png"), &id_picture(frame))?;
             }
         }
         if let ([object_order, image_order], Some(comparison)) =
@@ -205,7 +221,7 @@ impl<'a> Run<'a> {
             // Of a crop it has the crop's size, as everything has.
             let whole = object_order.frame.crop().is_none();
             let difference = if whole { enlarged(difference) } else { difference };
-            write_rgb(staging, "difference.png", &difference)?;
+            staging.write_rgb("difference.png", &difference)?;
             let slide = Slide {
                 scene: &self.report.scene,
                 about: self.about,
@@ -215,7 +231,7 @@ impl<'a> Run<'a> {
                 image_order,
                 comparison,
             };
-            write_rgb(staging, "side-by-side.png", &slide.draw())?;
+            staging.write_rgb("side-by-side.png", &slide.draw())?;
         }
         staging.write("report.json", |out| out.write_all(json.as_bytes()))
     }
@@ -225,30 +241,6 @@ impl<'a> Run<'a> {
 fn status(comparison: Option<&Comparison>, verified: Option<&Verified>) -> u8 {
     let differs = !comparison.is_none_or(Comparison::matches);
     u8::from(differs || verified.is_some_and(|verified| !verified.matches))
-}
-
-/// Writes a picture as PNG.
-pub(super) fn write_rgb(
-    staging: &mut Staging,
-    name: &str,
-    picture: &image::RgbImage,
-) -> Result<(), Failure> {
-    write_png(staging, name, picture, picture.dimensions(), ColorType::Rgb8)
-}
-
-/// Writes one picture of this kind of colour.
-pub(super) fn write_png(
-    staging: &mut Staging,
-    name: &str,
-    bytes: &[u8],
-    (width, height): (u32, u32),
-    color: ColorType,
-) -> Result<(), Failure> {
-    staging.write(name, |out| {
-        PngEncoder::new(out)
-            .write_image(bytes, width, height, color.into())
-            .map_err(io::Error::other)
-    })
 }
 
 #[cfg(test)]

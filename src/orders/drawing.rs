@@ -1,0 +1,109 @@
+//! What can be drawn frame after frame: a scene in memory, or a mesh file that is read again for each.
+
+use super::renderer::Renderer;
+use crate::common::{Camera, Frame, Observer, Options, View};
+use crate::formats::mesh_stream::{MeshStream, StreamError};
+use crate::progress::Steps;
+use crate::rasterize::stream::{CHUNK, Canvas, Look};
+use std::convert::Infallible;
+
+/// A renderer with what it draws, and the frame it draws into.
+pub(super) trait Drawing {
+    /// Why a frame cannot be finished.
+    type Error;
+    /// Finds what is visible, and counts the steps of it.
+    fn draw<O: Observer>(&mut self, observer: &mut O, steps: &Steps) -> Result<(), Self::Error>;
+    /// Gives what is visible its normals and colours.
+    fn shade(&mut self);
+    /// What was drawn last.
+    fn into_frame(self) -> Frame;
+}
+
+/// A scene in memory.
+pub(super) struct InMemory<'a, R: Renderer> {
+    view: &'a View<'a>,
+    options: &'a Options,
+    prepared: R::Prepared,
+    frame: Frame,
+}
+
+impl<'a, R: Renderer> InMemory<'a, R> {
+    pub(super) fn new(
+        view: &'a View<'a>,
+        options: &'a Options,
+        prepared: R::Prepared,
+    ) -> InMemory<'a, R> {
+        InMemory { view, options, prepared, frame: Frame::new(view.camera, options) }
+    }
+}
+
+impl<R: Renderer> Drawing for InMemory<'_, R> {
+    type Error = Infallible;
+
+    fn draw<O: Observer>(&mut self, observer: &mut O, steps: &Steps) -> Result<(), Infallible> {
+        let InMemory { view, options, prepared, frame } = self;
+        match steps.watch() {
+            None => R::determine_visibility(prepared, view, options, frame, observer),
+            Some(watch) => {
+                let mut both = (observer.fork(), watch);
+                R::determine_visibility(prepared, view, options, frame, &mut both);
+                observer.join(both.0);
+            }
+        }
+        Ok(())
+    }
+
+    fn shade(&mut self) {
+        R::shade(self.view, &mut self.frame);
+    }
+
+    fn into_frame(self) -> Frame {
+        self.frame
+    }
+}
+
+/// A mesh file of which only the vertices are in memory, in object order.
+pub(super) struct Streamed<'a> {
+    mesh: &'a mut MeshStream,
+    camera: &'a Camera,
+    look: &'a Look,
+    canvas: Canvas,
+}
+
+impl<'a> Streamed<'a> {
+    pub(super) fn new(
+        mesh: &'a mut MeshStream,
+        camera: &'a Camera,
+        look: &'a Look,
+        options: &Options,
+    ) -> Streamed<'a> {
+        Streamed { mesh, camera, look, canvas: Canvas::new(camera, options) }
+    }
+}
+
+impl Drawing for Streamed<'_> {
+    type Error = StreamError;
+
+    /// One pass over the file: for each triangle, for each sample that it may affect.
+    fn draw<O: Observer>(&mut self, observer: &mut O, steps: &Steps) -> Result<(), StreamError> {
+        let mut pass = self.canvas.begin(self.camera, CHUNK, observer);
+        let (chunked, mut count) = (self.mesh.triangles().is_some(), 0_usize);
+        self.mesh.for_each_triangle(|positions, triangle| {
+            if chunked && count.is_multiple_of(CHUNK) {
+                steps.begin();
+            }
+            count += 1;
+            pass.draw(positions, triangle);
+        })?;
+        pass.finish(self.mesh.positions());
+        Ok(())
+    }
+
+    fn shade(&mut self) {
+        self.canvas.shade(self.mesh.positions(), self.camera, self.look);
+    }
+
+    fn into_frame(self) -> Frame {
+        self.canvas.into_frame()
+    }
+}

@@ -1,0 +1,97 @@
+//! The one door to both orders.
+
+use super::counts::Counting;
+use super::drawing::{InMemory, Streamed};
+use super::measure::{frames, measure, prepared};
+use super::options::RenderOptions;
+use super::order::{Method, Order};
+use super::rendered::Rendered;
+use super::renderer::{FastRasterizer, FastRayTracer, TextbookRasterizer, TextbookRayTracer};
+use super::source::Source;
+use super::times::Spread;
+use crate::formats::mesh_stream::StreamError;
+use crate::progress::Steps;
+use std::sync::atomic::AtomicU64;
+
+/// Renders a scene or a stream in one order, on the rayon pool that this is called in.
+///
+/// The work is counted in a frame of its own, before the timed ones, as long as it is at most
+/// [`most_steps`].
+///
+/// A stream is read once for every frame; its visibility holds the reading of all faces.
+///
+/// # Errors
+///
+/// What is wrong with the file of a stream; a scene in memory has no errors.
+///
+/// # Panics
+///
+/// If `repeat` is 0, the camera does not allow this number of samples, or a stream is not to be rendered in object
+/// order by the fast method.
+///
+/// ```
+/// use bothways::common::{Camera, View};
+/// use bothways::orders::{self, Method, Order, RenderOptions};
+///
+/// let scene = bothways::scenes::load("canonical")?.scene;
+/// let camera = Camera::canonical(32, 32);
+/// let told = |progress: bothways::progress::Progress| {
+///     eprintln!("{} of {}", progress.done, progress.total);
+/// };
+/// let options = RenderOptions { progress: Some(&told), ..RenderOptions::default() };
+/// let view = View::new(&scene, &camera);
+/// let rendered = orders::render(Order::Object, Method::Textbook, &view, &options)?;
+/// assert!(rendered.covered() > 0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn render<'a>(
+    order: Order,
+    method: Method,
+    source: impl Into<Source<'a>>,
+    options: &RenderOptions,
+) -> Result<Rendered, StreamError> {
+    let source = source.into();
+    let samples = options.frame.pixels(source.camera().image()).region(options.frame.samples);
+    let counting = Counting::new(options, samples.area() as u64);
+    let counting = match (method, &source) {
+        (Method::Textbook, Source::View(view)) => {
+            counting.of_all_tests(view.scene.primitive_count())
+        }
+        _ => counting,
+    };
+    let done = AtomicU64::new(0);
+    let (within_frame, frames) =
+        (source.steps_of_a_frame(order, method, &options.frame), frames(options, &counting));
+    let steps = Steps::new(order, options.progress, within_frame, frames, &done);
+    let (frame, work, times) = match source {
+        Source::View(view) => {
+            macro_rules! measured {
+                ($renderer:ty) => {
+                    measure(options, &counting, &steps, || {
+                        let (prepared, time) = prepared::<$renderer>(view.scene, options);
+                        (InMemory::<$renderer>::new(&view, &options.frame, prepared), time)
+                    })
+                };
+            }
+            let Ok(measured) = match (order, method) {
+                (Order::Object, Method::Fast) => measured!(FastRasterizer),
+                (Order::Object, Method::Textbook) => measured!(TextbookRasterizer),
+                (Order::Image, Method::Fast) => measured!(FastRayTracer),
+                (Order::Image, Method::Textbook) => measured!(TextbookRayTracer),
+            };
+            measured
+        }
+        Source::Stream { mesh, camera, look, opening } => {
+            assert_eq!(
+                (order, method),
+                (Order::Object, Method::Fast),
+                "every ray and every textbook needs the whole scene in memory"
+            );
+            measure(options, &counting, &steps, || {
+                let time = Spread::of(vec![opening.as_secs_f64() * 1e3]);
+                (Streamed::new(mesh, camera, look, &options.frame), time)
+            })?
+        }
+    };
+    Ok(Rendered { order, method, frame, work, times })
+}

@@ -1,0 +1,179 @@
+//! From a name to a scene and its camera.
+
+use super::built_in::{BUILT_IN, BuiltIn, names};
+use super::framing::{FrameMeshError, Framing};
+use super::studio;
+use crate::common::{CameraDescription, Object, Scene, SceneError, Shape};
+use crate::formats::mesh_file::{Format, ReadMeshError};
+use crate::formats::mesh_stream::StreamError;
+use crate::formats::scene_file::{self, ReadSceneError, nearest_name};
+use crate::formats::smooth;
+use std::path::Path;
+
+/// A scene, ready to be rendered.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoadedScene {
+    /// The built-in's name, or the file's without its folder and extension.
+    pub name: String,
+    /// What there is to see.
+    pub scene: Scene,
+    /// From where.
+    pub camera: CameraDescription,
+    /// Whether the viewport is stated, so that another image size keeps both its sides.
+    pub viewport_stated: bool,
+    /// The scene as a scene file; for a mesh file, the one that shows it.
+    pub toml: String,
+    /// What is missing, but no error.
+    pub warnings: Vec<String>,
+}
+
+impl LoadedScene {
+    /// The scene in one line: what the first line of its file says, if it is a comment.
+    ///
+    /// ```
+    /// let about = "The lecture's first camera before one triangle, one sphere and one plane.";
+    /// assert_eq!(bothways::scenes::load("canonical")?.about(), Some(about));
+    /// # Ok::<(), bothways::scenes::LoadError>(())
+    /// ```
+    pub fn about(&self) -> Option<&str> {
+        let comment = self.toml.lines().next()?.strip_prefix('#')?;
+        Some(comment.trim_start_matches('#').trim()).filter(|line| !line.is_empty())
+    }
+}
+
+/// Why a scene could not be loaded.
+#[derive(Debug, thiserror::Error)]
+pub enum LoadError {
+    /// No built-in scene has this name.
+    #[error(
+        "there is no built-in scene {name:?}; {}the built-in scenes are {}; a scene file (.toml) \
+         or a mesh file (.obj, .ply) can be named, too",
+        .meant.map_or(String::new(), |meant| format!("did you mean {meant:?}? ")),
+        names().join(", ")
+    )]
+    UnknownName {
+        /// What was asked for.
+        name: String,
+        /// The name that may have been meant.
+        meant: Option<&'static str>,
+    },
+    /// The file is of no kind that is read.
+    #[error(
+        "{path} is neither a scene file (.toml) nor a mesh file (.obj, .ply); no others are read"
+    )]
+    UnknownExtension {
+        /// What was asked for.
+        path: String,
+    },
+    /// The scene file is wrong.
+    #[error(transparent)]
+    SceneFile(#[from] ReadSceneError),
+    /// The mesh file is wrong.
+    #[error(transparent)]
+    Mesh(#[from] ReadMeshError),
+    /// The mesh file has more triangles than there are ids.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The mesh file cannot be streamed.
+    #[error(transparent)]
+    Stream(#[from] StreamError),
+    /// What is to be streamed is no mesh file.
+    #[error(
+        "only a mesh file (.obj, .ply) can be streamed, and {source_name:?} is none; render it in \
+         memory, without --stream, or name a mesh file"
+    )]
+    NotStreamed {
+        /// What was asked for.
+        source_name: String,
+    },
+    /// The mesh file is right, but no camera shows what is in it.
+    #[error("{path}: {error}")]
+    Framing {
+        /// The mesh file.
+        path: String,
+        /// Why.
+        error: FrameMeshError,
+    },
+}
+
+/// Loads a built-in scene by its name, a scene file, or a mesh file before a camera that frames it.
+///
+/// # Errors
+///
+/// An unknown name, listing the known ones; an unknown kind of file; what is wrong with the file.
+///
+/// ```
+/// let loaded = bothways::scenes::load("canonical")?;
+/// assert_eq!(loaded.camera.image, [480, 480]);
+/// # Ok::<(), bothways::scenes::LoadError>(())
+/// ```
+pub fn load(source: &str) -> Result<LoadedScene, LoadError> {
+    load_for(source, None)
+}
+
+/// The same for an image of this width and height: a mesh file is framed for its form. The cameras of other scenes
+/// stay as they are.
+///
+/// # Errors
+///
+/// As for [`load`].
+pub fn load_for(source: &str, image: Option<[u32; 2]>) -> Result<LoadedScene, LoadError> {
+    if let Some(built_in) = BUILT_IN.iter().find(|built_in| built_in.name == source) {
+        return load_built_in(built_in);
+    }
+    let path = Path::new(source);
+    if let Some(format) = Format::of(path) {
+        return load_mesh(path, format, &framing_for(image));
+    }
+    match path.extension() {
+        Some(extension) if extension.eq_ignore_ascii_case("toml") => load_scene_file(path),
+        None if !source.contains(['/', '\\']) => Err(LoadError::UnknownName {
+            name: source.to_owned(),
+            meant: nearest_name(source, BUILT_IN.iter().map(|built_in| built_in.name)),
+        }),
+        _ => Err(LoadError::UnknownExtension { path: source.to_owned() }),
+    }
+}
+
+fn load_built_in(built_in: &BuiltIn) -> Result<LoadedScene, LoadError> {
+    let toml = built_in.toml.to_owned();
+    let file = scene_file::parse(&format!("{}.toml", built_in.name), &toml, Path::new(""))?;
+    Ok(loaded(built_in.name.to_owned(), file, toml))
+}
+
+fn load_scene_file(path: &Path) -> Result<LoadedScene, LoadError> {
+    let toml = scene_file::read_text(path)?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let file = scene_file::parse(&path.display().to_string(), &toml, folder)?;
+    Ok(loaded(stem(path), file, toml))
+}
+
+fn loaded(name: String, file: scene_file::SceneFile, toml: String) -> LoadedScene {
+    let scene_file::SceneFile { scene, camera, viewport_stated, warnings } = file;
+    LoadedScene { name, scene, camera, viewport_stated, toml, warnings }
+}
+
+/// The standard view in an image of this size.
+pub(super) fn framing_for(image: Option<[u32; 2]>) -> Framing {
+    let standard = Framing::default();
+    Framing { image: image.unwrap_or(standard.image), ..standard }
+}
+
+fn load_mesh(path: &Path, format: Format, framing: &Framing) -> Result<LoadedScene, LoadError> {
+    let (mesh, missing) = format.read_with_materials(path)?;
+    let warnings = missing.iter().map(ToString::to_string).collect();
+    let shown = path.display().to_string();
+    let camera =
+        framing.camera(&mesh).map_err(|error| LoadError::Framing { path: shown.clone(), error })?;
+    let material = studio::material_for(mesh.materials().is_some());
+    let toml = studio::toml(&camera, &shown, material.is_some());
+    let shape = Shape::Mesh(smooth::with_normals(mesh, smooth::CREASE));
+    let object = Object { shape, material: material.unwrap_or_default() };
+    let scene = studio::lit(Scene::new(vec![object])?);
+    Ok(LoadedScene { name: stem(path), scene, camera, viewport_stated: false, toml, warnings })
+}
+
+/// The file's name without its folder and extension.
+pub(super) fn stem(path: &Path) -> String {
+    path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+}

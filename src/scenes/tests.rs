@@ -1,0 +1,86 @@
+//! What loads, and what is said of what does not.
+
+use super::built_in::names;
+use super::*;
+use crate::common::Camera;
+use crate::formats::scene_file;
+use std::path::Path;
+
+#[test]
+fn every_built_in_scene_loads_and_says_its_point() {
+    for BuiltIn { name, about, toml } in BUILT_IN {
+        let loaded = load(name).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!((loaded.name.as_str(), loaded.toml.as_str()), (*name, *toml));
+        assert!(loaded.scene.primitive_count() > 0, "{name}");
+        Camera::new(loaded.camera).unwrap();
+        assert_eq!(toml.lines().next(), Some(format!("# {about}").as_str()));
+        assert!(toml.lines().all(|line| line.len() <= 120), "{name}");
+    }
+    assert_eq!(BUILT_IN[0].name, DEFAULT);
+}
+
+#[test]
+fn no_built_in_scene_has_the_name_of_a_subcommand() {
+    let commands =
+        ["render", "diff", "pixel", "cover", "camera", "mesh", "scenes", "completions", "help"];
+    assert!(names().iter().all(|name| !commands.contains(name)));
+}
+
+#[test]
+fn many_has_about_a_hundred_thousand_triangles() {
+    let triangles = load("many").unwrap().scene.primitive_count();
+    assert!((90_000..110_000).contains(&triangles), "{triangles}");
+}
+
+#[test]
+fn an_unknown_name_lists_the_known_ones() {
+    let says = |name| load(name).unwrap_err().to_string();
+    let list = "the built-in scenes are lecture, canonical, ties, behind, slivers, overlap, \
+                inside, many; a scene file (.toml) or a mesh file (.obj, .ply) can be named, too";
+    let near = format!("there is no built-in scene \"lectuer\"; did you mean \"lecture\"? {list}");
+    assert_eq!(says("lectuer"), near);
+    assert_eq!(says("bunny"), format!("there is no built-in scene \"bunny\"; {list}"));
+    assert_eq!(says(""), format!("there is no built-in scene \"\"; {list}"));
+}
+
+#[test]
+fn an_unknown_kind_of_file_is_refused_by_name() {
+    for path in ["meshes/bunny.stl", "bunny.stl", "meshes/bunny"] {
+        let says = load(path).unwrap_err().to_string();
+        let reason =
+            "is neither a scene file (.toml) nor a mesh file (.obj, .ply); no others are read";
+        assert_eq!(says, format!("{path} {reason}"));
+    }
+}
+
+#[test]
+fn a_missing_scene_file_is_named() {
+    let says = load("no-such.toml").unwrap_err().to_string();
+    assert_eq!(says, "no-such.toml: there is no such file");
+}
+
+#[test]
+fn a_mesh_file_is_framed_and_its_scene_file_reads_back() {
+    let folder = std::env::temp_dir().join(format!("bothways-scenes-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let path = folder.join("a \"triangle\".OBJ");
+    std::fs::write(&path, "v 0.1 0 0\nv 1 0.3 0\nv 0 1 -0.7\nf 1 2 3\n").unwrap();
+
+    let loaded = load(path.to_str().unwrap()).unwrap();
+    assert_eq!(loaded.name, "a \"triangle\"");
+    assert!(!loaded.viewport_stated);
+    let again = scene_file::parse("again.toml", &loaded.toml, Path::new("")).unwrap();
+    assert_eq!((again.scene, again.camera), (loaded.scene, loaded.camera));
+    assert!(!again.viewport_stated);
+
+    let saved = folder.join("saved.toml");
+    std::fs::write(&saved, &loaded.toml).unwrap();
+    let from_file = load(saved.to_str().unwrap()).unwrap();
+    assert_eq!((from_file.name.as_str(), from_file.camera), ("saved", loaded.camera));
+    assert_eq!(from_file.toml, loaded.toml);
+
+    std::fs::write(&path, "v 1 1 1\nf 1 1 1\n").unwrap();
+    let says = load(path.to_str().unwrap()).unwrap_err().to_string();
+    assert!(says.ends_with("all triangles lie in one point, so no camera can frame them"));
+    std::fs::remove_dir_all(&folder).unwrap();
+}
