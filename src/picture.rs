@@ -4,9 +4,11 @@ use crate::common::Frame;
 use crate::common::frame::NO_PRIMITIVE;
 use crate::common::glam::Vec3;
 use crate::common::look::color::{linear_from_srgb, srgb_from_linear};
-use crate::diff::Class;
 use image::{GrayImage, RgbImage};
 use rayon::prelude::*;
+
+/// The sRGB colour of a pixel that shows nothing, where colours stand for something else than light.
+pub const NOTHING: [u8; 3] = [0x08, 0x0a, 0x0c];
 
 /// The picture: each pixel is the average of its samples in linear light, as an sRGB colour.
 pub fn picture(frame: &Frame) -> RgbImage {
@@ -27,7 +29,7 @@ pub fn id_picture(frame: &Frame) -> RgbImage {
 /// The sRGB colour of a primitive in an [`id_picture`], or of none.
 pub fn color_of_id(id: u32) -> [u8; 3] {
     if id == NO_PRIMITIVE {
-        return Class::Neither.color();
+        return NOTHING;
     }
     // Steps of the golden section around the circle of hues: any few ids in a row are as far apart as can be.
     const GOLDEN: u32 = 0x9e37_79b9;
@@ -171,14 +173,14 @@ mod tests {
             let alike = (0..2000).filter(|&id| apart(colors[id], colors[id + row]) <= 24).count();
             assert!(alike < 700, "{row}: {alike}");
         }
-        assert_eq!(color_of_id(NO_PRIMITIVE), Class::Neither.color());
+        assert_eq!(color_of_id(NO_PRIMITIVE), NOTHING);
         assert_eq!(color_of_id(0), colors[0]);
     }
 
     #[test]
     fn ids_are_shown_pixel_by_pixel() {
         let shown = id_picture(&frame(1, &[(0, 1)])).into_raw();
-        assert_eq!(shown, [Class::Neither.color(), color_of_id(0)].concat());
+        assert_eq!(shown, [NOTHING, color_of_id(0)].concat());
     }
 
     #[test]

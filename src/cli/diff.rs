@@ -112,7 +112,7 @@ fn color(text: &str) -> Result<[u8; 3], String> {
 
 /// What there is to tell.
 struct Told<'a> {
-    files: [(&'a PathBuf, &'a Buffer); 2],
+    files: [(&'a PathBuf, &'a Buffer<'a>); 2],
     comparison: &'a BufferComparison,
 }
 

@@ -9,7 +9,7 @@ use super::progress::Bar;
 use super::{memory, npy, table, terminal};
 use bothways::common::raster::check_samples;
 use bothways::common::{Camera, View};
-use bothways::diff::{Classes, Comparison, compare};
+use bothways::diff::{Comparison, compare_shown};
 use bothways::figure::Slide;
 use bothways::orders::{self, RenderOptions, Rendered};
 use bothways::picture::{enlarged, id_picture, mask, picture};
@@ -17,6 +17,7 @@ use bothways::progress::Listener;
 use bothways::report::Report;
 use bothways::scenes::{self, LoadedScene, OpenedScene};
 use bothways::verify::{self, Verified};
+use image::RgbImage;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -136,6 +137,8 @@ struct Run<'a> {
     /// The scene in one line.
     about: Option<&'a str>,
     rendered: Vec<Rendered>,
+    /// The picture of each.
+    pictures: Vec<RgbImage>,
     comparison: Option<Comparison>,
     report: Report,
 }
@@ -157,8 +160,12 @@ impl<'a> Run<'a> {
         }
         let scene = &*scene;
         bar.inspect(|bar| bar.say("comparing and drawing"));
-        let comparison = match rendered.as_slice() {
-            [object_order, image_order] => Some(compare(&object_order.frame, &image_order.frame)),
+        let pictures: Vec<RgbImage> = rendered.iter().map(|one| picture(&one.frame)).collect();
+        let comparison = match (rendered.as_slice(), pictures.as_slice()) {
+            ([object_order, image_order], [by_object, by_image]) => {
+                let frames = [&object_order.frame, &image_order.frame];
+                Some(compare_shown(frames, [by_object, by_image]))
+            }
             _ => None,
         };
         let mut report = Report::new(
@@ -175,7 +182,7 @@ impl<'a> Run<'a> {
             let verified = verify::verify(&view, &rendered, samples.into(), &|| patience.step());
             report.verified = Some(verified);
         }
-        Ok(Run { args, about: scene.loaded().about(), rendered, comparison, report })
+        Ok(Run { args, about: scene.loaded().about(), rendered, pictures, comparison, report })
     }
 
     /// Writes everything, and prints the report.
@@ -201,9 +208,9 @@ impl<'a> Run<'a> {
     }
 
     fn write(&self, staging: &mut Staging, json: &str) -> Result<(), Failure> {
-        for Rendered { order, frame, .. } in &self.rendered {
+        for (Rendered { order, frame, .. }, picture) in self.rendered.iter().zip(&self.pictures) {
             let stem = order.file_stem();
-            staging.write_rgb(&format!("{stem}.png"), &picture(frame))?;
+            staging.write_rgb(&format!("{stem}.png"), picture)?;
             staging.write_grey(&format!("mask-{stem}.png"), &mask(frame))?;
             if self.args.output.buffers == BuffersArg::Npy {
                 let ids = |out: &mut Out| npy::write_ids(frame, out);
@@ -213,11 +220,10 @@ impl<'a> Run<'a> {
                 staging.write_rgb(&format!("{stem}.ids.png"), &id_picture(frame))?;
             }
         }
-        if let ([object_order, image_order], Some(comparison)) =
-            (self.rendered.as_slice(), &self.comparison)
+        if let ([object_order, image_order], [by_object, by_image], Some(comparison)) =
+            (self.rendered.as_slice(), self.pictures.as_slice(), &self.comparison)
         {
-            let classes = Classes::new(&object_order.frame, &image_order.frame);
-            let difference = classes.picture(&picture(&object_order.frame));
+            let difference = comparison.classes().picture(by_object);
             // Of a crop it has the crop's size, as everything has.
             let whole = object_order.frame.crop().is_none();
             let difference = if whole { enlarged(difference) } else { difference };
@@ -229,6 +235,7 @@ impl<'a> Run<'a> {
                 threads: self.report.threads,
                 object_order,
                 image_order,
+                pictures: [by_object, by_image],
                 comparison,
             };
             staging.write_rgb("side-by-side.png", &slide.draw())?;
@@ -247,6 +254,7 @@ fn status(comparison: Option<&Comparison>, verified: Option<&Verified>) -> u8 {
 mod tests {
     use super::*;
     use bothways::common::{Frame, Options};
+    use bothways::diff::compare;
 
     #[test]
     fn no_scene_s_folder_lies_outside_of_out() {

@@ -1,8 +1,6 @@
 //! The difference as a picture: what each pixel says of the two orders.
 
-use super::{assert_same_raster, pixels};
-use crate::common::Frame;
-use crate::common::frame::NO_PRIMITIVE;
+use crate::picture::NOTHING;
 use image::{Rgb, RgbImage};
 
 /// What both orders say of a pixel, from the worst to the best; a pixel of several samples has the
@@ -45,30 +43,20 @@ impl Class {
     /// Its sRGB colour in a difference image. Pixels that are alike are greys, lit faintly by the
     /// picture; this is the middle one of them.
     ///
-    /// Told apart by everybody: Okabe and Ito, "Color Universal Design", 2008.
+    /// People with any colour vision can tell them apart: Okabe and Ito, "Color Universal Design", 2008.
     pub fn color(self) -> [u8; 3] {
         match self {
             Class::OnlyObjectOrder => [0xe6, 0x9f, 0x00],
             Class::OnlyImageOrder => [0x00, 0x72, 0xb2],
             Class::OtherPrimitive => [0xcc, 0x79, 0xa7],
             Class::Alike => [0x58; 3],
-            Class::Neither => [0x08, 0x0a, 0x0c],
+            Class::Neither => NOTHING,
         }
     }
 
     /// Whether the orders disagree.
     pub fn differs(self) -> bool {
         self < Class::Alike
-    }
-
-    fn of_sample(by_object: u32, by_image: u32) -> Class {
-        match (by_object, by_image) {
-            (NO_PRIMITIVE, NO_PRIMITIVE) => Class::Neither,
-            (_, NO_PRIMITIVE) => Class::OnlyObjectOrder,
-            (NO_PRIMITIVE, _) => Class::OnlyImageOrder,
-            (a, b) if a == b => Class::Alike,
-            _ => Class::OtherPrimitive,
-        }
     }
 }
 
@@ -80,26 +68,8 @@ pub struct Classes {
 }
 
 impl Classes {
-    /// Classifies what both orders saw of one view.
-    ///
-    /// # Panics
-    ///
-    /// If the frames differ in size, crop or samples.
-    pub fn new(object_order: &Frame, image_order: &Frame) -> Classes {
-        assert_same_raster(object_order, image_order);
-        let class_of = |[i, j]: [u32; 2]| {
-            let samples = object_order.samples_of(i as usize, j as usize);
-            let classes = samples.map(|sample| {
-                Class::of_sample(object_order.ids()[sample], image_order.ids()[sample])
-            });
-            classes.min().unwrap_or(Class::Neither)
-        };
-        let classes = object_order.pixels().map(class_of).collect();
-        Classes { image: object_order.image(), classes }
-    }
-
-    /// Classes that were found elsewhere, row by row.
-    pub(super) fn from_pixels(image: [u32; 2], classes: Vec<Class>) -> Classes {
+    /// Classes of all pixels, row by row.
+    pub(super) fn new(image: [u32; 2], classes: Vec<Class>) -> Classes {
         Classes { image, classes }
     }
 
@@ -151,4 +121,9 @@ fn faint_grey(Rgb([red, green, blue]): Rgb<u8>) -> Rgb<u8> {
     // The weights of Rec. 709, in 256ths.
     let light = (54 * u32::from(red) + 183 * u32::from(green) + 19 * u32::from(blue)) / 256;
     Rgb([u8::try_from(44 + 96 * light / 255).expect("at most 140"); 3])
+}
+
+/// All pixels `[i, j]` of an image, row by row.
+pub(super) fn pixels([width, height]: [u32; 2]) -> impl Iterator<Item = [u32; 2]> {
+    (0..height).flat_map(move |i| (0..width).map(move |j| [i, j]))
 }

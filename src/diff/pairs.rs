@@ -4,7 +4,8 @@
 //! begins with, `NAME.png` or `NAME.anything.npy`, and is held against the set's file of the same
 //! content. In other folders, files of the same name belong together.
 
-use super::foreign::{Content, read};
+use super::buffer::Content;
+use super::foreign::read;
 use serde::Deserialize;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -216,7 +217,7 @@ fn kind(folder: &Path, file: &str) -> &'static str {
     let named = KINDS.into_iter().find(|kind| file.ends_with(kind));
     named.unwrap_or_else(|| match read(&folder.join(file), None) {
         Ok(buffer) => match buffer.content() {
-            Content::Ids(_) => ".ids.npy",
+            Content::Ids(_) | Content::Frame(_) => ".ids.npy",
             Content::Distances(_) => ".t.npy",
             Content::Mask(_) | Content::Picture(_) => ".mask.png",
         },

@@ -2,7 +2,8 @@
 
 use super::*;
 use crate::common::glam::Vec3;
-use crate::common::{Camera, Options};
+use crate::common::{Camera, Frame, Options};
+use crate::picture::picture;
 
 /// A frame drawn by hand: a digit for each sample's primitive, `.` for nothing; all at depth 1.
 fn frame(samples: u32, rows: &[&str]) -> Frame {
@@ -114,7 +115,8 @@ fn frames_of_other_sizes_are_a_mistake() {
 fn the_worst_class_of_a_pixel_wins() {
     let object_order = frame(2, &["00110...", "00112..."]);
     let image_order = frame(2, &["00010.2.", "0011.1.."]);
-    let classes = Classes::new(&object_order, &image_order);
+    let comparison = compare(&object_order, &image_order);
+    let classes = comparison.classes();
     use Class::{Alike, OnlyImageOrder, OnlyObjectOrder, OtherPrimitive};
     let drawn: Vec<_> = (0..4).map(|j| classes.at(0, j)).collect();
     assert_eq!(drawn, [Alike, OtherPrimitive, OnlyObjectOrder, OnlyImageOrder]);
@@ -124,7 +126,8 @@ fn the_worst_class_of_a_pixel_wins() {
 fn the_difference_image_has_the_stated_colors() {
     let object_order = frame(1, &["0.00."]);
     let image_order = frame(1, &[".010."]);
-    let classes = Classes::new(&object_order, &image_order);
+    let comparison = compare(&object_order, &image_order);
+    let classes = comparison.classes();
     let picture = classes.picture(&picture(&object_order));
     let colors: Vec<_> = picture.pixels().map(|pixel| pixel.0).collect();
     assert_eq!(colors[0], [0xe6, 0x9f, 0x00]);

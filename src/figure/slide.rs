@@ -6,7 +6,6 @@ use super::text::{Figures, Style, Weight, draw, has, shortened, width};
 use crate::common::Work;
 use crate::diff::{Class, Classes, Comparison};
 use crate::orders::{Counts, Order, Rendered};
-use crate::picture::picture;
 use crate::wording::{count, grouped, milliseconds, pixels_shown};
 use image::{Rgb, RgbImage};
 use std::ops::RangeInclusive;
@@ -30,6 +29,8 @@ pub struct Slide<'a> {
     pub object_order: &'a Rendered,
     /// What image order saw.
     pub image_order: &'a Rendered,
+    /// The pictures of both, in this order.
+    pub pictures: [&'a RgbImage; 2],
     /// How the two compare.
     pub comparison: &'a Comparison,
 }
@@ -68,15 +69,14 @@ impl Slide<'_> {
     ///
     /// # Panics
     ///
-    /// If the two frames differ in size or samples.
+    /// If the pictures and the comparison are not of one size.
     pub fn draw(&self) -> RgbImage {
         let mut canvas = Canvas::new();
         self.title(&mut canvas);
-        let pictures = [self.object_order, self.image_order].map(|one| picture(&one.frame));
-        let classes = Classes::new(&self.object_order.frame, &self.image_order.frame);
+        let classes = self.comparison.classes();
         let size = fitted(classes.image(), PICTURE_FRAME);
         for ((rendered, picture), left) in
-            [self.object_order, self.image_order].into_iter().zip(&pictures).zip(COLUMNS)
+            [self.object_order, self.image_order].into_iter().zip(self.pictures).zip(COLUMNS)
         {
             let order = rendered.order;
             canvas.heading(left, order.name(), order.common_name(), order.loops());
@@ -87,8 +87,8 @@ impl Slide<'_> {
         let explanation =
             ["The same primitive at every sample?", "Ids are compared without tolerance."];
         canvas.heading(left, "difference", "", explanation);
-        canvas.picture(left, &marked_difference(&classes, &pictures[0], size));
-        self.legend(&mut canvas, left, &classes);
+        canvas.picture(left, &marked_difference(classes, self.pictures[0], size));
+        self.legend(&mut canvas, left, classes);
         self.verdict(&mut canvas);
         canvas.into_image()
     }

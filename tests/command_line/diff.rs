@@ -201,7 +201,7 @@ fn covers([a, b, c]: [[f64; 2]; 3], place: [f64; 2], inclusive: bool) -> bool {
 }
 
 /// A little rasterizer of flat scenes, which makes one mistake: the first triangle at a pixel stays.
-fn drawn(vector: &Vector, mistake: Mistake) -> Buffer {
+fn drawn(vector: &Vector, mistake: Mistake) -> Buffer<'static> {
     let (scene, camera) = (vector.scene(), vector.camera());
     let triangles = raster::triangles(&View::new(&scene, &camera)).unwrap();
     let [width, height] = camera.image();
@@ -227,7 +227,7 @@ fn drawn(vector: &Vector, mistake: Mistake) -> Buffer {
 }
 
 /// The same without ids.
-fn mask_of(buffer: &Buffer) -> Buffer {
+fn mask_of(buffer: &Buffer) -> Buffer<'static> {
     let Content::Ids(ids) = buffer.content() else { panic!("no ids") };
     Buffer::new(buffer.size(), 1, Content::Mask(ids.iter().map(Option::is_some).collect()))
 }

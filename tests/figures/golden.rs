@@ -128,6 +128,7 @@ fn a_slide_shows_every_kind_of_difference() {
     };
     let object_order = rendered(Order::Object, &here);
     let image_order = rendered(Order::Image, &there);
+    let pictures = [&object_order, &image_order].map(|one| bothways::picture::picture(&one.frame));
     let slide = Slide {
         scene: "canonical, with the eye moved for one of them",
         about: loaded.about(),
@@ -135,6 +136,7 @@ fn a_slide_shows_every_kind_of_difference() {
         threads: 1,
         object_order: &object_order,
         image_order: &image_order,
+        pictures: pictures.each_ref(),
         comparison: &compare(&object_order.frame, &image_order.frame),
     };
     check(&[("differing-side-by-side.png".into(), reduced(&slide.draw()))]);

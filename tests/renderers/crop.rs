@@ -10,7 +10,7 @@ use bothways::common::{
     Camera, CameraDescription, Crop, Frame, Mesh, Object, Options, Plane, Projection, Region,
     Scene, Shape, Sphere, View, Work,
 };
-use bothways::diff::{Class, Classes, compare};
+use bothways::diff::{Class, compare};
 use bothways::formats::generate::Kind;
 use bothways::picture::{mask, picture};
 use bothways::{rasterize, raytrace, scenes, vectors};
@@ -225,7 +225,7 @@ fn differing_pixels_are_numbered_in_the_whole_image() {
     assert_eq!(comparison.visible.first_differing, [[4, 6], [6, 2]]);
     assert_eq!(comparison.visible.differing_pixels, 2);
     assert!(comparison.verdict().contains("first at (4, 6)"), "{}", comparison.verdict());
-    let classes = Classes::new(&frame, &other);
+    let classes = comparison.classes();
     assert_eq!(classes.image(), [5, 4]);
     assert!(classes.at(1, 4).differs() && classes.at(3, 0).differs());
     let differing = Class::ALL.into_iter().filter(|class| class.differs());

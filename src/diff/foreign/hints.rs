@@ -3,14 +3,14 @@
 //! A hint is given only if its cause alone explains every difference. Where several do, all are
 //! given: nobody can tell a symmetric picture that is upside down from one that is moved.
 
-use super::look::Pair;
-use super::{Buffer, Content};
-use crate::diff::{Class, pixels};
+use crate::diff::buffer::{Buffer, Content};
+use crate::diff::classes::{Class, pixels};
+use crate::diff::look::Pair;
 use crate::wording::count;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Every cause that alone explains every difference, each in a sentence.
-pub(super) fn hints(pair: &Pair) -> Vec<String> {
+pub(in crate::diff) fn hints(pair: &Pair) -> Vec<String> {
     let both = [("A", pair.a), ("B", pair.b)];
     if let Some((name, _)) = both.into_iter().find(|(_, buffer)| is_empty(buffer)) {
         return vec![format!(
@@ -18,11 +18,11 @@ pub(super) fn hints(pair: &Pair) -> Vec<String> {
         )];
     }
     let mut hints = placements(pair);
-    if pair.a.samples != pair.b.samples {
+    if pair.a.samples() != pair.b.samples() {
         return hints;
     }
     let named = [("A", pair.a, "B", pair.b), ("B", pair.b, "A", pair.a)];
-    if let (Content::Ids(a), Content::Ids(b)) = (&pair.a.content, &pair.b.content) {
+    if let (Content::Ids(a), Content::Ids(b)) = (pair.a.content(), pair.b.content()) {
         hints.extend(renaming(a, b).map(|renaming| {
             format!(
                 "the ids correspond one to one ({renaming}): the same primitives, counted in another \
@@ -50,10 +50,10 @@ pub(super) fn hints(pair: &Pair) -> Vec<String> {
 
 /// All ways to turn or to move B by a pixel so that it agrees with A.
 fn placements(pair: &Pair) -> Vec<String> {
-    if pair.a.samples != 1 || pair.b.samples != 1 {
+    if pair.a.samples() != 1 || pair.b.samples() != 1 {
         return Vec::new();
     }
-    let turned = turns(pair.a.size).into_iter().filter(|(_, place)| agree(pair, place.as_ref()));
+    let turned = turns(pair.a.size()).into_iter().filter(|(_, place)| agree(pair, place.as_ref()));
     let turned = turned.map(|(name, _)| format!("B agrees with A once it is {name}"));
     let steps = [0, 1, -1];
     let moves = steps.into_iter().flat_map(|rows| steps.map(|columns| [rows, columns]));
@@ -93,19 +93,15 @@ fn turns([width, height]: [u32; 2]) -> Vec<(&'static str, Place)> {
     turns
 }
 
-fn index(pair: &Pair, [i, j]: [u32; 2]) -> usize {
-    i as usize * pair.a.size[0] as usize + j as usize
-}
-
 fn class(pair: &Pair, in_a: [u32; 2], in_b: [u32; 2]) -> Class {
-    pair.look(index(pair, in_a), index(pair, in_b)).class()
+    pair.look(in_a, in_b).class()
 }
 
 /// Whether each pixel of A agrees with the one of B at its other place, and something is seen in any
 /// of them.
 fn agree(pair: &Pair, place: &dyn Fn([u32; 2]) -> [u32; 2]) -> bool {
     let mut seen = false;
-    for in_a in pixels(pair.a.size) {
+    for in_a in pixels(pair.a.size()) {
         let class = class(pair, in_a, place(in_a));
         if class.differs() {
             return false;
@@ -118,14 +114,16 @@ fn agree(pair: &Pair, place: &dyn Fn([u32; 2]) -> [u32; 2]) -> bool {
 /// The same for what lies so many rows and columns farther in B. What leaves the picture or enters it
 /// has no partner; a difference there would be left unexplained, unless the place is empty.
 fn agree_moved(pair: &Pair, [rows, columns]: [i32; 2]) -> bool {
-    let [width, height] = pair.a.size;
+    let [width, height] = pair.a.size();
     let moved = |[i, j]: [u32; 2], sign: i32| {
         let i = i.checked_add_signed(sign * rows).filter(|&i| i < height)?;
         Some([i, j.checked_add_signed(sign * columns).filter(|&j| j < width)?])
     };
-    let empty = |buffer: &Buffer, pixel| buffer.covered(index(pair, pixel)) == Some(false);
+    let empty = |buffer: &Buffer, pixel| {
+        buffer.samples_of(pixel).all(|sample| buffer.covered(sample) == Some(false))
+    };
     let mut seen = false;
-    for pixel in pixels(pair.a.size) {
+    for pixel in pixels(pair.a.size()) {
         if let Some(in_b) = moved(pixel, 1) {
             let class = class(pair, pixel, in_b);
             if class.differs() {
@@ -210,11 +208,12 @@ fn lacks(name: &str, ids: &[u64], other: &str) -> String {
 
 /// What 0 was meant for, in a buffer that covers everything and would agree otherwise.
 fn zero_is_nothing(name: &str, buffer: &Buffer, other: &Buffer) -> Vec<String> {
-    let Content::Ids(ids) = &buffer.content else { return Vec::new() };
+    let Content::Ids(ids) = buffer.content() else { return Vec::new() };
     if ids.contains(&None) || !ids.contains(&Some(0)) {
         return Vec::new();
     }
-    let coverage = (0..).zip(ids).all(|(at, id)| other.covered(at) == Some(*id != Some(0)));
+    let mut pairs = buffer.all_samples().zip(other.all_samples());
+    let coverage = pairs.all(|(own, other_s)| other.covered(other_s) == Some(ids[own] != Some(0)));
     if !coverage {
         return Vec::new();
     }
@@ -222,7 +221,7 @@ fn zero_is_nothing(name: &str, buffer: &Buffer, other: &Buffer) -> Vec<String> {
     let nothing = "write the largest number of the type, or -1";
     let mut meant = Vec::new();
     let mut add = |what: String| meant.push(format!("in {name}, 0 stands for nothing: {what}"));
-    match &other.content {
+    match other.content() {
         Content::Ids(expected) => {
             let read = |first: u64| {
                 let with = |id: &Option<u64>| id.and_then(|id| id.checked_sub(first));
@@ -247,23 +246,18 @@ fn zero_is_nothing(name: &str, buffer: &Buffer, other: &Buffer) -> Vec<String> {
 }
 
 fn has_only_zeros(buffer: &Buffer) -> bool {
-    matches!(&buffer.content, Content::Ids(ids) if ids.iter().flatten().all(|&id| id == 0))
+    matches!(buffer.content(), Content::Ids(ids) if ids.iter().flatten().all(|&id| id == 0))
 }
 
 fn is_inverted(pair: &Pair) -> bool {
-    let differs = |sample| match [pair.a, pair.b].map(|buffer| buffer.covered(sample)) {
+    let mut pairs = pair.a.all_samples().zip(pair.b.all_samples());
+    pairs.all(|(a, b)| match [pair.a.covered(a), pair.b.covered(b)] {
         [Some(by_a), Some(by_b)] => by_a != by_b,
         _ => false,
-    };
-    (0..samples(pair.a)).all(differs)
+    })
 }
 
 /// Whether nothing is covered, as far as is known.
 fn is_empty(buffer: &Buffer) -> bool {
-    (0..samples(buffer)).all(|sample| buffer.covered(sample) == Some(false))
-}
-
-fn samples(buffer: &Buffer) -> usize {
-    let pixels: usize = buffer.size.iter().map(|&side| side as usize).product();
-    pixels * (buffer.samples as usize).pow(2)
+    buffer.all_samples().all(|sample| buffer.covered(sample) == Some(false))
 }

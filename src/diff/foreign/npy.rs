@@ -22,7 +22,7 @@ pub(super) fn read(
     mut input: impl Read,
     length: u64,
     background: Option<[u8; 3]>,
-) -> Result<Buffer, Problem> {
+) -> Result<Buffer<'static>, Problem> {
     let start = header_bytes(&mut input, length)?;
     let header = header(&start)?;
     let number = Number::of(&header.dtype())?;
@@ -314,7 +314,7 @@ impl<'a> Values<'a> {
     }
 
     /// One value a sample.
-    fn content(&self) -> Result<Content, String> {
+    fn content(&self) -> Result<Content<'static>, String> {
         let number = self.number;
         Ok(match number.kind {
             TypeChar::Bool => Content::Mask(self.bits().map(|bits| bits != 0).collect()),

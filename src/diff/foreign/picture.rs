@@ -1,8 +1,9 @@
 //! Pictures of any origin: PNG and what else the `image` crate reads.
 
+use super::png;
 use super::read::{Problem, ends_early};
-use super::{Buffer, Content, Covered, Picture, Pixels, png};
 use crate::common::raster::check_samples;
+use crate::diff::buffer::{Buffer, Content, Covered, Picture, Pixels};
 use crate::formats::source::quote::visible;
 use image::error::ImageError;
 use image::{
@@ -22,7 +23,7 @@ pub(super) fn read(
     length: u64,
     format: ImageFormat,
     background: Option<[u8; 3]>,
-) -> Result<Buffer, Problem> {
+) -> Result<Buffer<'static>, Problem> {
     match format {
         ImageFormat::Png => png::check(&mut input, length)?,
         ImageFormat::Bmp => check_runs(&mut input, length)?,
@@ -124,7 +125,7 @@ fn problem(error: ImageError, format: ImageFormat, length: u64) -> Problem {
     })
 }
 
-fn content(picture: DynamicImage, background: Option<[u8; 3]>) -> Result<Content, String> {
+fn content(picture: DynamicImage, background: Option<[u8; 3]>) -> Result<Content<'static>, String> {
     let color = picture.color();
     let covered = match (color.has_alpha(), color.has_color()) {
         (true, _) => Covered::ByAlpha,

@@ -1,7 +1,8 @@
 //! Reads a file of any origin, by what is in it and not by its name.
 
-use super::{Buffer, npy, picture};
+use super::{npy, picture};
 use crate::common::SizeError;
+use crate::diff::buffer::Buffer;
 use crate::formats::source::{READ_AT_ONCE, regular_file};
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
@@ -100,7 +101,7 @@ impl From<SizeError> for Problem {
 /// # Errors
 ///
 /// If the file cannot be read, or is none of these.
-pub fn read(path: &Path, background: Option<[u8; 3]>) -> Result<Buffer, ReadBufferError> {
+pub fn read(path: &Path, background: Option<[u8; 3]>) -> Result<Buffer<'static>, ReadBufferError> {
     let file = regular_file(path);
     let file = file.map_err(|error| ReadBufferError::Open { path: path.to_owned(), error })?;
     read_from(path, BufReader::with_capacity(READ_AT_ONCE, file), background)
@@ -118,7 +119,7 @@ pub fn read_from(
     path: &Path,
     mut input: impl BufRead + Seek,
     background: Option<[u8; 3]>,
-) -> Result<Buffer, ReadBufferError> {
+) -> Result<Buffer<'static>, ReadBufferError> {
     let path = || path.to_owned();
     let start = start(&mut input);
     let (start, length) = start.map_err(|error| ReadBufferError::Open { path: path(), error })?;

@@ -13,34 +13,34 @@ fn npy(descr: &str, fortran: bool, shape: &str, data: &[u8]) -> Vec<u8> {
     [b"\x93NUMPY\x01\x00", &length[..], header.as_bytes(), data].concat()
 }
 
-fn read_bytes(bytes: &[u8], background: Option<[u8; 3]>) -> Result<Buffer, String> {
+fn read_bytes(bytes: &[u8], background: Option<[u8; 3]>) -> Result<Buffer<'static>, String> {
     let home = tempfile::tempdir().unwrap();
     let path = home.path().join("file");
     std::fs::write(&path, bytes).unwrap();
     read(&path, background).map_err(|error| error.to_string())
 }
 
-fn read_npy(descr: &str, shape: &str, data: &[u8]) -> Buffer {
+fn read_npy(descr: &str, shape: &str, data: &[u8]) -> Buffer<'static> {
     read_bytes(&npy(descr, false, shape, data), None).unwrap()
 }
 
-fn read_image(image: impl Into<DynamicImage>, format: ImageFormat) -> Buffer {
+fn read_image(image: impl Into<DynamicImage>, format: ImageFormat) -> Buffer<'static> {
     let mut bytes = std::io::Cursor::new(Vec::new());
     image.into().write_to(&mut bytes, format).unwrap();
     read_bytes(bytes.get_ref(), None).unwrap()
 }
 
-fn ids(size: [u32; 2], drawn: &str) -> Buffer {
+fn ids(size: [u32; 2], drawn: &str) -> Buffer<'static> {
     let ids = drawn.chars().map(|letter| letter.to_digit(10).map(u64::from)).collect();
     Buffer::new(size, 1, Content::Ids(ids))
 }
 
-fn distances(t: &[f64]) -> Buffer {
+fn distances(t: &[f64]) -> Buffer<'static> {
     let width = u32::try_from(t.len()).unwrap();
     Buffer::new([width, 1], 1, Content::Distances(t.to_vec()))
 }
 
-fn colors(pixels: &[[f32; 4]], covered: Covered) -> Buffer {
+fn colors(pixels: &[[f32; 4]], covered: Covered) -> Buffer<'static> {
     let picture = Picture { pixels: Pixels::Steps(pixels.to_vec()), covered };
     Buffer::new([u32::try_from(pixels.len()).unwrap(), 1], 1, Content::Picture(picture))
 }
@@ -53,8 +53,8 @@ fn integers_of_every_size_are_ids_and_all_ones_are_nothing() {
         let little: Vec<u8> = [0, 5, -1].into_iter().flat_map(value).collect();
         let big: Vec<u8> =
             [0, 5, -1].into_iter().flat_map(|id| value(id).into_iter().rev()).collect();
-        assert_eq!(read_npy(&format!("'<{descr}'"), "(1, 3)", &little).content, expected);
-        assert_eq!(read_npy(&format!("'>{descr}'"), "(1, 3)", &big).content, expected);
+        assert_eq!(read_npy(&format!("'<{descr}'"), "(1, 3)", &little).content(), &expected);
+        assert_eq!(read_npy(&format!("'>{descr}'"), "(1, 3)", &big).content(), &expected);
     }
 }
 
@@ -62,21 +62,21 @@ fn integers_of_every_size_are_ids_and_all_ones_are_nothing() {
 fn floats_of_every_size_are_distances() {
     let expected = Content::Distances(vec![1.5, -2.0, f64::INFINITY]);
     let halves = [0x3e00_u16, 0xc000, 0x7c00].map(u16::to_le_bytes).concat();
-    assert_eq!(read_npy("'<f2'", "(1, 3)", &halves).content, expected);
+    assert_eq!(read_npy("'<f2'", "(1, 3)", &halves).content(), &expected);
     let singles = [1.5, -2.0, f32::INFINITY].map(f32::to_be_bytes).concat();
-    assert_eq!(read_npy("'>f4'", "(1, 3)", &singles).content, expected);
+    assert_eq!(read_npy("'>f4'", "(1, 3)", &singles).content(), &expected);
     let doubles = [1.5, -2.0, f64::INFINITY].map(f64::to_le_bytes).concat();
-    assert_eq!(read_npy("'<f8'", "(1, 3, 1)", &doubles).content, expected);
+    assert_eq!(read_npy("'<f8'", "(1, 3, 1)", &doubles).content(), &expected);
     // The smallest half, the largest, and one third.
     let halves = [0x0001_u16, 0x7bff, 0x3555].map(u16::to_le_bytes).concat();
     let expected = Content::Distances(vec![2.0_f64.powi(-24), 65_504.0, 0.333_251_953_125]);
-    assert_eq!(read_npy("'<f2'", "(1, 3)", &halves).content, expected);
+    assert_eq!(read_npy("'<f2'", "(1, 3)", &halves).content(), &expected);
 }
 
 #[test]
 fn booleans_are_masks_and_columns_may_come_first() {
     let mask = read_npy("'|b1'", "(2, 3)", &[1, 0, 0, 1, 1, 0]);
-    assert_eq!((mask.size, mask.kind()), ([3, 2], "mask"));
+    assert_eq!((mask.size(), mask.kind()), ([3, 2], "mask"));
     let fortran = npy("'|b1'", true, "(2, 3)", &[1, 1, 0, 1, 0, 0]);
     assert_eq!(read_bytes(&fortran, None), Ok(mask));
 }
@@ -84,7 +84,7 @@ fn booleans_are_masks_and_columns_may_come_first() {
 #[test]
 fn arrays_have_samples_or_channels() {
     let samples = read_npy("'|u1'", "(1, 2, 2, 2)", &[0, 1, 2, 3, 4, 5, 6, 255]);
-    assert_eq!((samples.size, samples.samples), ([2, 1], 2));
+    assert_eq!((samples.size(), samples.samples()), ([2, 1], 2));
     assert_eq!(samples.seen([0, 1]), "id 4, id 5, id 6, nothing");
 
     let rgb = read_npy("'|u1'", "(1, 2, 3)", &[1, 2, 3, 4, 5, 6]);
@@ -114,7 +114,7 @@ fn two_greys_are_a_mask_whatever_its_white_is() {
     for white in [1, 255] {
         let grey = GrayImage::from_raw(3, 1, vec![0, white, 0]).unwrap();
         let mask = read_image(grey, ImageFormat::Png);
-        assert_eq!(mask.content, Content::Mask(vec![false, true, false]));
+        assert_eq!(mask.content(), &Content::Mask(vec![false, true, false]));
     }
 }
 
@@ -178,7 +178,7 @@ fn bad_files_are_refused_with_their_reason() {
 #[test]
 fn shapes_may_have_the_l_of_python_2() {
     let buffer = read_npy("'|u1'", "(2L, 3L)", &[0, 1, 2, 3, 4, 5]);
-    assert_eq!((buffer.size, buffer.kind()), ([3, 2], "ids"));
+    assert_eq!((buffer.size(), buffer.kind()), ([3, 2], "ids"));
 }
 
 /// A PNG of these chunks.
@@ -341,7 +341,7 @@ fn common_mistakes_are_recognised() {
 }
 
 /// A mask of bools.
-fn mask(size: [u32; 2], drawn: &str) -> Buffer {
+fn mask(size: [u32; 2], drawn: &str) -> Buffer<'static> {
     Buffer::new(size, 1, Content::Mask(drawn.chars().map(|letter| letter == '#').collect()))
 }
 

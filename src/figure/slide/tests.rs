@@ -4,6 +4,7 @@ use super::*;
 use crate::common::{Camera, Frame, Options};
 use crate::diff::compare;
 use crate::orders::{Method, Spread, Times};
+use crate::picture::picture;
 
 fn rendered(order: Order, [width, height]: [u32; 2], count: u64, seen: bool) -> Rendered {
     let mut frame = Frame::new(&Camera::canonical(width, height), &Options::default());
@@ -29,6 +30,7 @@ fn slide(scene: &str, size: [u32; 2], count: u64, match_: bool) -> RgbImage {
     let object_order = rendered(Order::Object, size, count, true);
     let image_order = rendered(Order::Image, size, count, match_);
     let comparison = compare(&object_order.frame, &image_order.frame);
+    let pictures = [&object_order, &image_order].map(|one| picture(&one.frame));
     let slide = Slide {
         scene,
         about: Some(scene),
@@ -36,6 +38,7 @@ fn slide(scene: &str, size: [u32; 2], count: u64, match_: bool) -> RgbImage {
         threads: 128,
         object_order: &object_order,
         image_order: &image_order,
+        pictures: pictures.each_ref(),
         comparison: &comparison,
     };
     slide.draw()
@@ -65,8 +68,18 @@ fn the_line_about_the_scene_is_drawn_below_its_name() {
         let comparison = compare(&object_order.frame, &image_order.frame);
         let (primitives, threads) = (1, 1);
         let (object_order, image_order, comparison) = (&object_order, &image_order, &comparison);
-        let slide =
-            Slide { scene: "a", about, primitives, threads, object_order, image_order, comparison };
+        let pictures = [object_order, image_order].map(|one| picture(&one.frame));
+        let pictures = pictures.each_ref();
+        let slide = Slide {
+            scene: "a",
+            about,
+            primitives,
+            threads,
+            object_order,
+            image_order,
+            pictures,
+            comparison,
+        };
         let slide = slide.draw();
         [85..118, 120..152].map(|y| !is_blank(&slide, 72..400, y))
     };

@@ -1,59 +1,16 @@
 //! What two buffers have in common, and where they differ.
 
-use super::hints::hints;
+use super::aspect::{Aspect, Unit};
+use super::classes::{Class, Classes, pixels};
 use super::look::{Look, Pair};
-use super::{Buffer, Content};
-use crate::diff::{COLOR_TOLERANCE, Class, Classes, DEPTH_TOLERANCE, NAMED_PIXELS, pixels};
-use image::RgbImage;
+use super::tolerance::{COLOR_TOLERANCE, DEPTH_TOLERANCE};
+use image::{Rgb, RgbImage};
 use serde::Serialize;
 
-/// Something that two buffers may both tell of a pixel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Aspect {
-    /// Whether something is there.
-    Coverage,
-    /// Which primitive it is.
-    Ids,
-    /// How far it is.
-    T,
-    /// What it looks like.
-    #[serde(rename = "colour")]
-    Color,
-}
-
-impl Aspect {
-    pub(super) const ALL: [Aspect; 4] = [Aspect::Coverage, Aspect::Ids, Aspect::T, Aspect::Color];
-
-    /// What a sentence calls it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Aspect::Coverage => "coverage",
-            Aspect::Ids => "ids",
-            Aspect::T => "t",
-            Aspect::Color => "colour",
-        }
-    }
-
-    pub(super) fn is_in(self, buffer: &Buffer) -> bool {
-        match self {
-            Aspect::Coverage => buffer.has_coverage(),
-            Aspect::Ids => matches!(buffer.content, Content::Ids(_)),
-            Aspect::T => matches!(buffer.content, Content::Distances(_)),
-            Aspect::Color => matches!(buffer.content, Content::Picture(_)),
-        }
-    }
-}
-
-/// What coverage is counted in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Unit {
-    /// Each sample for itself; with one sample a pixel, that is a pixel.
-    Samples,
-    /// The files have different numbers of samples: a pixel is covered if one of its samples is.
-    Pixels,
-}
+/// It lights the difference image of buffers that have no picture.
+const MILD_GREY: Rgb<u8> = Rgb([117; 3]);
+/// How many differing pixels a comparison names.
+const NAMED_PIXELS: usize = 10;
 
 /// Why two buffers cannot be compared.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -83,7 +40,7 @@ pub enum Incomparable {
     },
 }
 
-/// Everything that is said about two buffers; what was not compared is `None`.
+/// Everything that is said of two buffers; a part that was not compared is `None`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BufferComparison {
     /// Width and height in pixels.
@@ -109,12 +66,13 @@ pub struct BufferComparison {
     /// What it looks like, where neither says that nothing is there.
     #[serde(rename = "colour")]
     pub color: Option<BufferColor>,
-    /// What the difference as a whole looks like, for whoever looks for its cause.
+    /// What the difference as a whole looks like: each sentence names a possible cause.
     pub hints: Vec<String>,
     #[serde(skip)]
     classes: Classes,
+    /// What the difference image is lit by.
     #[serde(skip)]
-    light: RgbImage,
+    pub(super) light: Option<RgbImage>,
 }
 
 /// Coverage of both, counted.
@@ -170,30 +128,33 @@ pub struct BufferColor {
     pub differing_pixels: u64,
 }
 
-/// Compares whatever both buffers tell.
+/// Compares whatever both buffers tell. The cause of a difference is not looked for, and nothing lights the
+/// difference image.
 ///
 /// # Errors
 ///
 /// If they differ in size, or have nothing in common.
-pub fn compare(a: &Buffer, b: &Buffer) -> Result<BufferComparison, Incomparable> {
-    if a.size != b.size {
-        return Err(Incomparable::Size { a: a.size, b: b.size });
+pub(super) fn compare(pair: &Pair) -> Result<BufferComparison, Incomparable> {
+    let &Pair { a, b, .. } = pair;
+    if a.size() != b.size() {
+        return Err(Incomparable::Size { a: a.size(), b: b.size() });
     }
-    let pair = Pair { a, b };
     let compared: Vec<Aspect> =
         Aspect::ALL.into_iter().filter(|&aspect| pair.compares(aspect)).collect();
     if compared.is_empty() {
         return Err(Incomparable::NothingInCommon { a: a.kind(), b: b.kind() });
     }
     let mut sums = Sums::default();
-    let mut classes = Vec::with_capacity(pixels(a.size).count());
-    for (index, pixel) in pixels(a.size).enumerate() {
-        classes.push(sums.add(pixel, pair.look(index, index)));
+    let [width, height] = a.size().map(|side| side as usize);
+    let mut classes = Vec::with_capacity(width * height);
+    let [top, left] = a.origin();
+    for pixel @ [i, j] in pixels(a.size()) {
+        classes.push(sums.add([top + i, left + j], &pair.look(pixel, pixel)));
     }
     let has = |aspect| compared.contains(&aspect);
     let coverage = has(Aspect::Coverage).then(|| sums.coverage(pair.unit()));
     Ok(BufferComparison {
-        size: a.size,
+        size: a.size(),
         equal: sums.differing_pixels == 0,
         not_compared: pair.not_compared(),
         differing_pixels: sums.differing_pixels,
@@ -205,10 +166,10 @@ pub fn compare(a: &Buffer, b: &Buffer) -> Result<BufferComparison, Incomparable>
         ids: has(Aspect::Ids).then_some(sums.ids),
         depth: has(Aspect::T).then_some(sums.depth),
         color: has(Aspect::Color).then_some(sums.color),
-        hints: if sums.differing_pixels == 0 { Vec::new() } else { hints(&pair) },
+        hints: Vec::new(),
         compared,
-        classes: Classes::from_pixels(a.size, classes),
-        light: if Aspect::Color.is_in(a) { a.light() } else { b.light() },
+        classes: Classes::new(a.size(), classes),
+        light: None,
     })
 }
 
@@ -216,7 +177,18 @@ impl BufferComparison {
     /// The difference image: orange and blue where only A or only B covers, pink where both cover
     /// and differ, grey where they agree, near black where neither covers.
     pub fn picture(&self) -> RgbImage {
-        self.classes.picture(&self.light)
+        match &self.light {
+            Some(light) => self.classes.picture(light),
+            None => {
+                let [width, height] = self.size;
+                self.classes.picture(&RgbImage::from_pixel(width, height, MILD_GREY))
+            }
+        }
+    }
+
+    /// What each pixel says.
+    pub fn classes(&self) -> &Classes {
+        &self.classes
     }
 }
 
@@ -236,7 +208,7 @@ struct Sums {
 }
 
 impl Sums {
-    fn add(&mut self, pixel: [u32; 2], look: Look) -> Class {
+    fn add(&mut self, pixel: [u32; 2], look: &Look) -> Class {
         self.only_a += look.only_a;
         self.only_b += look.only_b;
         self.both += look.both;

@@ -1,0 +1,356 @@
+//! What a comparison works on: a mask, ids, distances or a picture of any origin, or a frame.
+
+use super::aspect::Aspect;
+use super::classes::pixels;
+use crate::common::Frame;
+use crate::common::frame::NO_PRIMITIVE;
+use image::{Rgb, RgbImage};
+
+/// What a file of any origin, or a frame, says of each pixel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Buffer<'a> {
+    size: [u32; 2],
+    /// The row and the column of its first pixel in the whole image.
+    origin: [u32; 2],
+    samples: u32,
+    content: Content<'a>,
+}
+
+/// The values of a buffer: pixels row by row, the samples of a pixel together.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Content<'a> {
+    /// What is covered.
+    Mask(Vec<bool>),
+    /// Which primitive is seen, `None` for nothing.
+    Ids(Vec<Option<u64>>),
+    /// How far it is. Covered is what is at a finite distance: neither ±∞ nor NaN.
+    Distances(Vec<f64>),
+    /// What it looks like; always one sample a pixel.
+    Picture(Picture),
+    /// All that a frame tells: ids, distances, and the picture of its pixels.
+    Frame(Seen<'a>),
+}
+
+/// A frame, and its [`picture`](crate::picture::picture).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Seen<'a> {
+    frame: &'a Frame,
+    picture: &'a RgbImage,
+}
+
+/// Colours, and what they say of coverage.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// Red, green, blue and alpha in sRGB as stored; not premultiplied.
+    pub pixels: Pixels,
+    /// How coverage is read from them.
+    pub covered: Covered,
+}
+
+/// Red, green, blue and alpha of each pixel, in steps of 1/255.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Pixels {
+    /// Of 8 bits each.
+    Bytes(Vec<[u8; 4]>),
+    /// Finer.
+    Steps(Vec<[f32; 4]>),
+}
+
+impl Pixels {
+    /// How many pixels there are.
+    pub fn len(&self) -> usize {
+        match self {
+            Pixels::Bytes(pixels) => pixels.len(),
+            Pixels::Steps(pixels) => pixels.len(),
+        }
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// A pixel.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such pixel.
+    pub fn get(&self, pixel: usize) -> [f32; 4] {
+        match self {
+            Pixels::Bytes(pixels) => pixels[pixel].map(f32::from),
+            Pixels::Steps(pixels) => pixels[pixel],
+        }
+    }
+
+    /// All of them, in their order.
+    pub fn iter(&self) -> impl Iterator<Item = [f32; 4]> {
+        (0..self.len()).map(|pixel| self.get(pixel))
+    }
+}
+
+/// How a picture tells what is covered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Covered {
+    /// It does not: colours alone.
+    Unknown,
+    /// Where alpha is more than zero.
+    ByAlpha,
+    /// A grey picture: where it is not black.
+    ByLight,
+    /// Where the colour, rounded to 8 bits, is not this one.
+    ByBackground([u8; 3]),
+}
+
+impl<'a> Buffer<'a> {
+    /// A buffer of `size` = `[W, H]` pixels with `samples`² samples in each.
+    ///
+    /// # Panics
+    ///
+    /// If the content has another number of values, or a picture more than one sample a pixel.
+    pub fn new(size: [u32; 2], samples: u32, content: Content<'a>) -> Buffer<'a> {
+        let expected = size.iter().map(|&side| side as usize).product::<usize>();
+        let length = match &content {
+            Content::Mask(values) => values.len(),
+            Content::Ids(values) => values.len(),
+            Content::Distances(values) => values.len(),
+            Content::Picture(picture) => {
+                assert_eq!(samples, 1, "a picture has one sample a pixel");
+                picture.pixels.len()
+            }
+            Content::Frame(seen) => seen.frame.ids().len(),
+        };
+        assert_eq!(length, expected * (samples as usize).pow(2), "the values do not fill the size");
+        Buffer { size, origin: [0; 2], samples, content }
+    }
+
+    /// What a frame tells, without a copy of it.
+    ///
+    /// # Panics
+    ///
+    /// If the picture is of another size than the frame.
+    pub fn of_frame(frame: &'a Frame, picture: &'a RgbImage) -> Buffer<'a> {
+        let size = frame.image();
+        assert_eq!(size, [picture.width(), picture.height()], "the picture shows another frame");
+        let origin = frame.crop().map_or([0; 2], |crop| [crop.row, crop.column]);
+        let content = Content::Frame(Seen { frame, picture });
+        Buffer { size, origin, samples: frame.samples(), content }
+    }
+
+    /// Width and height in pixels.
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// The row and the column of its first pixel in the whole image; not 0 for a frame of a crop.
+    pub fn origin(&self) -> [u32; 2] {
+        self.origin
+    }
+
+    /// Samples along one side of a pixel.
+    pub fn samples(&self) -> u32 {
+        self.samples
+    }
+
+    /// Its values.
+    pub fn content(&self) -> &Content<'a> {
+        &self.content
+    }
+
+    /// Whether it tells what is covered.
+    pub fn has_coverage(&self) -> bool {
+        !matches!(&self.content, Content::Picture(picture) if picture.covered == Covered::Unknown)
+    }
+
+    /// Whether it tells this of its pixels.
+    pub fn tells(&self, aspect: Aspect) -> bool {
+        match (&self.content, aspect) {
+            (_, Aspect::Coverage) => self.has_coverage(),
+            (Content::Frame(_), _)
+            | (Content::Ids(_), Aspect::Ids)
+            | (Content::Distances(_), Aspect::T)
+            | (Content::Picture(_), Aspect::Color) => true,
+            _ => false,
+        }
+    }
+
+    /// What it is, as a message calls it.
+    pub fn kind(&self) -> &'static str {
+        match &self.content {
+            Content::Mask(_) => "mask",
+            Content::Ids(_) => "ids",
+            Content::Distances(_) => "distances t",
+            Content::Picture(picture) => match picture.covered {
+                Covered::Unknown => "picture without coverage",
+                Covered::ByAlpha => "picture with alpha",
+                Covered::ByLight => "grey picture",
+                Covered::ByBackground(_) => "picture with a background",
+            },
+            Content::Frame(_) => "frame",
+        }
+    }
+
+    /// What it says of pixel `(i, j)`, in a few words: `id 3`, `nothing`, `t 2.5`, `#c8553d`.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such pixel.
+    pub fn seen(&self, [i, j]: [u32; 2]) -> String {
+        let said: Vec<String> =
+            self.samples_of([i, j]).map(|sample| self.seen_at(sample)).collect();
+        let mut parts: Vec<String> = Vec::new();
+        // One after another, runs counted: a pixel may have thousands of samples.
+        for run in said.chunk_by(PartialEq::eq) {
+            parts.push(match run.len() {
+                1 => run[0].clone(),
+                length => format!("{} (x{length})", run[0]),
+            });
+        }
+        if parts.len() > 4 {
+            parts.truncate(4);
+            parts.push("...".into());
+        }
+        parts.join(", ")
+    }
+
+    fn seen_at(&self, sample: usize) -> String {
+        let nothing = || "nothing".to_owned();
+        match &self.content {
+            Content::Mask(mask) if mask[sample] => "covered".into(),
+            Content::Ids(ids) => ids[sample].map_or_else(nothing, |id| format!("id {id}")),
+            Content::Distances(t) if t[sample].is_finite() => {
+                format!("t {}", distance_text(t[sample]))
+            }
+            Content::Picture(picture) if self.covered(sample) != Some(false) => {
+                color_text(picture.pixels.get(sample), picture.covered == Covered::ByAlpha)
+            }
+            Content::Frame(_) => self.id(sample).map_or_else(nothing, |id| format!("id {id}")),
+            Content::Mask(_) | Content::Distances(_) | Content::Picture(_) => nothing(),
+        }
+    }
+
+    /// The number of a pixel, row by row.
+    fn pixel(&self, [i, j]: [u32; 2]) -> usize {
+        i as usize * self.size[0] as usize + j as usize
+    }
+
+    /// Where the samples of a pixel are kept: this is the number that the other functions take.
+    pub(super) fn samples_of(&self, pixel: [u32; 2]) -> impl Iterator<Item = usize> + use<> {
+        let n = self.samples as usize;
+        // A frame keeps rows of samples, a file the samples of a pixel together.
+        let (first, stride) = match &self.content {
+            Content::Frame(_) => {
+                let stride = n * self.size[0] as usize;
+                (n * (pixel[0] as usize * stride + pixel[1] as usize), stride)
+            }
+            _ => (self.pixel(pixel) * n * n, n),
+        };
+        (0..n).flat_map(move |row| (first + row * stride..).take(n))
+    }
+
+    /// All samples, pixel by pixel.
+    pub(super) fn all_samples(&self) -> impl Iterator<Item = usize> {
+        pixels(self.size).flat_map(|pixel| self.samples_of(pixel))
+    }
+
+    /// Whether a sample is covered; `None` if that is not known.
+    pub(super) fn covered(&self, sample: usize) -> Option<bool> {
+        match &self.content {
+            Content::Mask(mask) => Some(mask[sample]),
+            Content::Ids(ids) => Some(ids[sample].is_some()),
+            Content::Distances(t) => Some(t[sample].is_finite()),
+            Content::Picture(picture) => picture.covered(sample),
+            Content::Frame(seen) => Some(seen.frame.ids()[sample] != NO_PRIMITIVE),
+        }
+    }
+
+    /// The primitive at a sample; `None` for nothing, and for what is not known.
+    pub(super) fn id(&self, sample: usize) -> Option<u64> {
+        match &self.content {
+            Content::Ids(ids) => ids[sample],
+            Content::Frame(seen) => {
+                Some(seen.frame.ids()[sample]).filter(|id| *id != NO_PRIMITIVE).map(u64::from)
+            }
+            Content::Mask(_) | Content::Distances(_) | Content::Picture(_) => None,
+        }
+    }
+
+    /// The distance at a covered sample; NaN if it is not known.
+    pub(super) fn t(&self, sample: usize) -> f64 {
+        match &self.content {
+            Content::Distances(t) => t[sample],
+            Content::Frame(seen) => seen.frame.distances()[sample].into(),
+            Content::Mask(_) | Content::Ids(_) | Content::Picture(_) => f64::NAN,
+        }
+    }
+
+    /// The colour of a pixel, and whether it has alpha; `None` if the colour is not known, or is that of nothing.
+    pub(super) fn color(&self, pixel: [u32; 2]) -> Option<([f32; 4], bool)> {
+        match &self.content {
+            Content::Picture(picture) => {
+                let (index, has_alpha) = (self.pixel(pixel), picture.covered == Covered::ByAlpha);
+                let is_something = picture.covered(index) != Some(false);
+                is_something.then(|| (picture.pixels.get(index), has_alpha))
+            }
+            Content::Frame(seen) => {
+                let [red, green, blue] = seen.picture[(pixel[1], pixel[0])].0.map(f32::from);
+                Some(([red, green, blue, 255.0], false))
+            }
+            Content::Mask(_) | Content::Ids(_) | Content::Distances(_) => None,
+        }
+    }
+
+    /// Its picture, if it has one: a difference image is lit by it.
+    pub(super) fn light(&self) -> Option<RgbImage> {
+        let picture = match &self.content {
+            Content::Picture(picture) => picture,
+            Content::Frame(seen) => return Some(seen.picture.clone()),
+            Content::Mask(_) | Content::Ids(_) | Content::Distances(_) => return None,
+        };
+        let mut light = RgbImage::new(self.size[0], self.size[1]);
+        for (pixel, [red, green, blue, _]) in light.pixels_mut().zip(picture.pixels.iter()) {
+            *pixel = Rgb(bytes([red, green, blue]));
+        }
+        Some(light)
+    }
+}
+
+impl Picture {
+    fn covered(&self, pixel: usize) -> Option<bool> {
+        let [red, green, blue, alpha] = self.pixels.get(pixel);
+        match self.covered {
+            Covered::Unknown => None,
+            Covered::ByAlpha => Some(alpha > 0.0),
+            Covered::ByLight => Some(red != 0.0),
+            Covered::ByBackground(background) => Some(bytes([red, green, blue]) != background),
+        }
+    }
+}
+
+/// The nearest 8-bit values.
+pub(super) fn bytes<const N: usize>(steps: [f32; N]) -> [u8; N] {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "rounded, and clamped to a byte"
+    )]
+    steps.map(|step| step.round().clamp(0.0, 255.0) as u8)
+}
+
+/// A distance with just enough digits to tell it from its neighbours, in `f32` if it is one.
+pub fn distance_text(t: f64) -> String {
+    #[expect(clippy::cast_possible_truncation, reason = "only used if it changes nothing")]
+    let single = t as f32;
+    if f64::from(single) == t { single.to_string() } else { t.to_string() }
+}
+
+/// `#rrggbb`, or decimals where eight bits do not tell it all.
+fn color_text(color: [f32; 4], with_alpha: bool) -> String {
+    let channels = if with_alpha { &color[..] } else { &color[..3] };
+    if bytes(color).map(f32::from) == color {
+        return channels
+            .iter()
+            .fold("#".into(), |text, &c| text + &format!("{:02x}", bytes([c])[0]));
+    }
+    let decimals: Vec<String> = channels.iter().map(|channel| format!("{channel:.2}")).collect();
+    format!("({})", decimals.join(" "))
+}

@@ -1,0 +1,169 @@
+//! One pixel of A beside one of B: which of them covers it, and how far apart they are.
+
+use super::aspect::{Aspect, Unit};
+use super::buffer::{Buffer, Content};
+use super::classes::Class;
+use super::tolerance::{COLOR_TOLERANCE, DEPTH_TOLERANCE};
+
+/// What makes two pixels different.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Decides {
+    /// Everything that both tell.
+    Everything,
+    /// Coverage and ids alone: depth and colour are measured, and do not decide.
+    Visibility,
+}
+
+/// Two buffers of one size.
+pub(super) struct Pair<'a> {
+    pub(super) a: &'a Buffer<'a>,
+    pub(super) b: &'a Buffer<'a>,
+    decides: Decides,
+    unit: Unit,
+    /// Whether ids, distances and colours are compared.
+    ids: bool,
+    t: bool,
+    color: bool,
+    /// Whether both are frames, whose distances are `f32`.
+    frames: bool,
+}
+
+/// What two pixels say.
+pub(super) struct Look {
+    decides: Decides,
+    pub(super) only_a: u64,
+    pub(super) only_b: u64,
+    pub(super) both: u64,
+    pub(super) other_ids: u64,
+    /// The largest relative difference of t, and the two.
+    pub(super) depth: f64,
+    pub(super) t: [f64; 2],
+    pub(super) color: f32,
+}
+
+impl Look {
+    fn new(decides: Decides) -> Look {
+        let (only_a, only_b, both, other_ids) = (0, 0, 0, 0);
+        Look { decides, only_a, only_b, both, other_ids, depth: 0.0, t: [0.0; 2], color: 0.0 }
+    }
+
+    pub(super) fn class(&self) -> Class {
+        let measured = self.decides == Decides::Everything
+            && (self.depth > DEPTH_TOLERANCE || self.color > f32::from(COLOR_TOLERANCE));
+        match self {
+            Look { only_a: 1.., .. } => Class::OnlyObjectOrder,
+            Look { only_b: 1.., .. } => Class::OnlyImageOrder,
+            Look { other_ids: 1.., .. } => Class::OtherPrimitive,
+            _ if measured => Class::OtherPrimitive,
+            Look { both: 1.., .. } => Class::Alike,
+            _ => Class::Neither,
+        }
+    }
+
+    fn cover(&mut self, by_a: bool, by_b: bool) {
+        self.both += u64::from(by_a && by_b);
+        self.only_a += u64::from(by_a && !by_b);
+        self.only_b += u64::from(!by_a && by_b);
+    }
+}
+
+impl<'a> Pair<'a> {
+    pub(super) fn new(a: &'a Buffer<'a>, b: &'a Buffer<'a>, decides: Decides) -> Pair<'a> {
+        let unit = if a.samples() == b.samples() { Unit::Samples } else { Unit::Pixels };
+        let compares = |aspect| unit == Unit::Samples && a.tells(aspect) && b.tells(aspect);
+        let [ids, t, color] = [Aspect::Ids, Aspect::T, Aspect::Color].map(compares);
+        let frames = [a, b].iter().all(|one| matches!(one.content(), Content::Frame(_)));
+        Pair { a, b, decides, unit, ids, t, color, frames }
+    }
+
+    pub(super) fn unit(&self) -> Unit {
+        self.unit
+    }
+
+    pub(super) fn compares(&self, aspect: Aspect) -> bool {
+        match aspect {
+            Aspect::Coverage => self.a.has_coverage() && self.b.has_coverage(),
+            Aspect::Ids => self.ids,
+            Aspect::T => self.t,
+            Aspect::Color => self.color,
+        }
+    }
+
+    pub(super) fn not_compared(&self) -> Vec<String> {
+        let reason = |aspect: Aspect| match (self.a.tells(aspect), self.b.tells(aspect)) {
+            (true, false) => Some("only A tells".to_owned()),
+            (false, true) => Some("only B tells".to_owned()),
+            (true, true) if !self.compares(aspect) => {
+                let [a, b] = [self.a, self.b].map(Buffer::samples);
+                Some(format!("A has {a} x {a} samples a pixel, B {b} x {b}"))
+            }
+            _ => None,
+        };
+        let line = |aspect: Aspect| Some(format!("{}: {}", aspect.name(), reason(aspect)?));
+        Aspect::ALL.into_iter().filter_map(line).collect()
+    }
+
+    /// Compares a pixel of A with one of B.
+    pub(super) fn look(&self, in_a: [u32; 2], in_b: [u32; 2]) -> Look {
+        let mut look = Look::new(self.decides);
+        if self.unit == Unit::Pixels {
+            let any = |buffer: &Buffer, pixel| {
+                buffer.samples_of(pixel).any(|sample| buffer.covered(sample) == Some(true))
+            };
+            look.cover(any(self.a, in_a), any(self.b, in_b));
+            return look;
+        }
+        for (a, b) in self.a.samples_of(in_a).zip(self.b.samples_of(in_b)) {
+            self.look_at(a, b, &mut look);
+        }
+        if self.color
+            && let (Some(a), Some(b)) = (self.a.color(in_a), self.b.color(in_b))
+        {
+            look.color = color_difference(a, b);
+        }
+        look
+    }
+
+    /// Compares two samples.
+    fn look_at(&self, a: usize, b: usize, look: &mut Look) {
+        let (Some(covered_a), Some(covered_b)) = (self.a.covered(a), self.b.covered(b)) else {
+            // Colours alone: a pixel that agrees is shown, whatever it is.
+            look.both += 1;
+            return;
+        };
+        look.cover(covered_a, covered_b);
+        if !covered_a || !covered_b {
+            return;
+        }
+        if self.ids && self.a.id(a) != self.b.id(b) {
+            // The distances of two primitives may differ as they like.
+            look.other_ids += 1;
+        } else if self.t {
+            let t = [self.a.t(a), self.b.t(b)];
+            let difference = self.relative_difference(t);
+            if difference > look.depth {
+                (look.depth, look.t) = (difference, t);
+            }
+        }
+    }
+
+    /// The difference as a part of the larger; 0 of two zeros.
+    fn relative_difference(&self, [a, b]: [f64; 2]) -> f64 {
+        let larger = a.abs().max(b.abs());
+        if a == b {
+            0.0
+        } else if self.frames {
+            (a - b).abs() / larger
+        } else {
+            // Quotients first: the difference of two large `f64` numbers may be infinite.
+            (a / larger - b / larger).abs()
+        }
+    }
+}
+
+/// The largest difference in red, green, blue, and in alpha if both have it.
+fn color_difference((a, a_has_alpha): ([f32; 4], bool), (b, b_has_alpha): ([f32; 4], bool)) -> f32 {
+    let channels = if a_has_alpha && b_has_alpha { 4 } else { 3 };
+    let channels = a.into_iter().zip(b).take(channels);
+    channels.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
+}
