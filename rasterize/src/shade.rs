@@ -213,8 +213,8 @@ fn edge_function(view: &View, p: DVec3, q: DVec3, flat: DVec3) -> Linear {
             let side = -flat.dot(w).signum();
             let (u, v) = (view.camera.u(), view.camera.v());
             let slope = (p - q).cross(w);
-            let [at_centre, across, up] = [p.cross(q - p).dot(w), slope.dot(u), slope.dot(v)];
-            Linear { at_centre, across, up } * -side
+            let [at_center, across, up] = [p.cross(q - p).dot(w), slope.dot(u), slope.dot(v)];
+            Linear { at_center, across, up } * -side
         }
     }
 }

@@ -7,12 +7,8 @@ use crate::observe::EventSink;
 use std::fmt;
 use std::marker::PhantomData;
 
-/// One type parameter for the three that a loop is compiled for.
-///
-/// Functions that take `&mut impl Context` and use [`Context::simd`] are `#[inline(always)]`, as all vector code is.
-pub trait Context {
-    /// The vector instructions.
-    type Simd: Simd;
+/// What a function needs of a [`Context`] that has no vector code in it: it is compiled once for all widths of vectors.
+pub trait ScalarContext {
     /// Where events go: `()`, or `dyn Events`.
     type Sink: EventSink + ?Sized;
     /// Which faults there may be.
@@ -20,9 +16,6 @@ pub trait Context {
 
     /// Whether events go anywhere. A branch on it costs nothing.
     const WATCHED: bool = <Self::Sink as EventSink>::ENABLED;
-
-    /// The vector instructions.
-    fn simd(&self) -> Self::Simd;
 
     /// Where events go.
     fn sink(&mut self) -> &mut Self::Sink;
@@ -32,36 +25,68 @@ pub trait Context {
     fn has(fault: Planted) -> bool {
         Self::Fault::is(fault)
     }
+
+    /// The same with vector instructions.
+    #[inline(always)]
+    fn with_simd<S: Simd>(&mut self, simd: S) -> Parts<'_, S, Self::Sink, Self::Fault> {
+        Parts { simd, sink: self.sink(), fault: PhantomData }
+    }
+
+    /// The same without vector instructions.
+    #[inline(always)]
+    fn scalar(&mut self) -> Parts<'_, (), Self::Sink, Self::Fault> {
+        Parts { simd: (), sink: self.sink(), fault: PhantomData }
+    }
 }
 
-/// The only [`Context`]: its parts.
+/// One type parameter for the three that a loop is compiled for.
+///
+/// Functions that take `&mut impl Context` and use [`Context::simd`] are `#[inline(always)]`, as all vector code is.
+pub trait Context: ScalarContext {
+    /// The vector instructions.
+    type Simd: Simd;
+
+    /// The vector instructions.
+    fn simd(&self) -> Self::Simd;
+}
+
+/// The only [`Context`]: its parts. Without vector instructions, `S` is `()`.
 pub struct Parts<'a, S, E: ?Sized, F> {
     simd: S,
     sink: &'a mut E,
     fault: PhantomData<F>,
 }
 
-impl<'a, S: Simd, E: EventSink + ?Sized, F: Fault> Parts<'a, S, E, F> {
+impl<'a, S, E: EventSink + ?Sized, F: Fault> Parts<'a, S, E, F> {
     /// The context of a loop in `simd` instructions that tells `sink` of its events, with the faults of `F`.
     #[inline(always)]
     pub fn new(simd: S, sink: &'a mut E, _fault: F) -> Self {
+        Parts::of(simd, sink)
+    }
+
+    /// As [`Parts::new`], where `F` is known as a type alone.
+    #[inline(always)]
+    pub fn of(simd: S, sink: &'a mut E) -> Self {
         Parts { simd, sink, fault: PhantomData }
+    }
+}
+
+impl<S, E: EventSink + ?Sized, F: Fault> ScalarContext for Parts<'_, S, E, F> {
+    type Sink = E;
+    type Fault = F;
+
+    #[inline(always)]
+    fn sink(&mut self) -> &mut E {
+        self.sink
     }
 }
 
 impl<S: Simd, E: EventSink + ?Sized, F: Fault> Context for Parts<'_, S, E, F> {
     type Simd = S;
-    type Sink = E;
-    type Fault = F;
 
     #[inline(always)]
     fn simd(&self) -> S {
         self.simd
-    }
-
-    #[inline(always)]
-    fn sink(&mut self) -> &mut E {
-        self.sink
     }
 }
 

@@ -4,66 +4,66 @@
 //! Edge functions between such places are small multiples of a sixteenth: `f32` computes them without rounding, so that
 //! an edge through a sample costs no more than any other.
 
-use super::screen::Screen;
+use super::camera_map::CameraMap;
 use bothways_common::Projection;
 use bothways_common::engine::simd::{Simd, SimdBase, SimdFloat, f64x8, mask64x8};
 use glam::DVec3;
 
-/// What decides a sample on an edge between such places: half of the least edge function but 0, which is added
-/// to edges that own their samples, and taken from others.
+/// What decides a sample on an edge between such places: half of the least edge function other than 0. It is added
+/// to edges that own their samples, and subtracted from others.
 ///
 /// The contract moves the sample a little to the right, which adds a little of the edge function's slope across,
 /// and far less down, which adds far less of its slope down: an edge owns its samples if its slope across is
 /// positive, or is zero and its slope down positive.
 pub(super) const TIE: f32 = 1.0 / 32.0;
 
-/// A raster on which nothing is rounded from a vertex to its place.
+/// Tells which vertices are aligned, on a raster on which nothing is rounded from a vertex to its place.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct ExactRaster {
+pub(super) struct Alignment {
     projection: Projection,
     distance: f64,
-    /// From one column to the next on the viewport, and from one row to the next.
+    /// From one row to the next on the viewport, and from one column to the next.
     spacing: [f64; 2],
-    /// The column and row of the viewport's middle.
+    /// The row and column of the viewport's middle.
     middle: [f64; 2],
 }
 
-impl ExactRaster {
-    /// The raster of a camera's samples, if nothing is rounded on it.
+impl Alignment {
+    /// The test for a camera's raster, if nothing is rounded on it.
     ///
     /// The frame must run along the world's axes, to the last bit: then an offset along `u`, `v` or `w` is a
     /// coordinate, its sign changed or not, and a ray's direction and origin are those of the viewport. (A sum of
-    /// components will not do for the question: a component far below the last bit of 1 vanishes in it.) And if
+    /// components does not answer the question: a component far below the last bit of 1 vanishes in it.) And if
     /// `vw/W` has at most 10 bits, a sample's coordinate, half of it times an integer of 17 bits, is stored without
     /// rounding.
-    pub(super) fn new(screen: &Screen) -> Option<ExactRaster> {
-        let axes = [screen.u, screen.v, screen.w];
+    pub(super) fn new(map: &CameraMap) -> Option<Alignment> {
+        let axes = [map.u, map.v, map.w];
         if !axes.into_iter().all(is_axis) {
             return None;
         }
-        #[expect(clippy::cast_precision_loss, reason = "at most 65,536")]
-        let size = [screen.grid.width() as f64, screen.grid.height() as f64];
-        let [vw, vh] = screen.camera.viewport();
-        Some(ExactRaster {
-            projection: screen.projection(),
-            distance: screen.distance,
-            spacing: [short_quotient(vw, size[0])?, short_quotient(vh, size[1])?],
-            middle: screen.middle,
+        let [rows, columns] = map.raster.size().map(f64::from);
+        let [vw, vh] = map.camera.viewport();
+        Some(Alignment {
+            projection: map.projection(),
+            distance: map.distance,
+            spacing: [short_quotient(vh, rows)?, short_quotient(vw, columns)?],
+            middle: map.middle,
         })
     }
 
-    /// Where vertices lie exactly at a multiple of a quarter of a column (axis 0) or row (axis 1): the one next
-    /// to `place`, their computed column or row. `along` is their offset from the eye along `u` or `−v`, and
+    /// Which vertices lie exactly at a multiple of a quarter of a row (axis 0) or column (axis 1): the one next
+    /// to `place`, their computed row or column. `along` is their offset from the eye along `−v` or `u`, and
     /// `depth` along `−w`.
     ///
     /// With `r` along `u` (or `−v`) and `g` the distance of neighbours, the true column is `middle +
     /// r·d/(ζ·g)` (parallel: without `d/ζ`). Let `n/4` be the quarter nearest to the computed one: it is the
     /// true one if `m·g·ζ = 4·r·d` with the integer `m = n − 4·middle`. Both products are exact in `f64`: `m`
     /// has at most 19 bits where `place` is within 1.49·2¹⁶, `g` 10, `d` 24, and `r` and `ζ` are checked to
-    /// have 24 (for parallel rays nothing is multiplied but by a power of two). The computed place is then off by its own four roundings of at most 2¹⁸, less than 2⁻³³, so that fixed
-    /// point, whose units are at least 2⁻²², holds the quarter itself.
+    /// have 24 (for parallel rays nothing is multiplied but by a power of two). The computed place is then off by its
+    /// own four roundings of at most 2¹⁸, less than 2⁻³³, so that fixed point, whose units are at least 2⁻²², holds the
+    /// quarter itself.
     #[inline(always)]
-    pub(super) fn holds<S: Simd>(
+    pub(super) fn is_aligned<S: Simd>(
         &self,
         simd: S,
         axis: usize,
@@ -83,7 +83,7 @@ impl ExactRaster {
     }
 }
 
-/// Whether a vector is one of the world's axes, or against it: no other component than one of ±1, however small.
+/// Whether a vector is one of the world's axes or its opposite: one component of ±1, all others zero.
 fn is_axis(vector: DVec3) -> bool {
     [DVec3::X, DVec3::Y, DVec3::Z].contains(&vector.abs())
 }
@@ -95,7 +95,7 @@ fn short_quotient(side: f64, count: f64) -> Option<f64> {
     (has_few_bits && quotient * count == side).then_some(quotient)
 }
 
-/// Which numbers `f32` holds, too.
+/// Which numbers `f32` holds without rounding.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, reason = "the question is what survives it")]
 fn is_short<S: Simd>(simd: S, value: f64x8<S>) -> mask64x8<S> {

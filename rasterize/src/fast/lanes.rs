@@ -1,5 +1,4 @@
-//! Triangles side by side, one a lane: how they are gathered, sorted by size and handed on sixteen at a
-//! time.
+//! Triangles side by side, one a lane: gathered, sorted by size, and handed on sixteen at a time.
 
 use super::vertices::Vertex;
 use bothways_common::engine::simd::{
@@ -13,7 +12,7 @@ const ROOM: usize = 32;
 #[derive(Clone, Debug)]
 pub(super) struct Lanes {
     ids: [u32; ROOM],
-    /// Columns, rows and keys of the three corners.
+    /// Rows, columns and keys of the three corners.
     corners: [[[i32; ROOM]; 3]; 3],
     /// The flags that all three corners have.
     flags: [i32; ROOM],
@@ -41,19 +40,19 @@ impl Lanes {
     ) {
         self.count = count.min(16);
         for first in (0..self.count).step_by(4) {
-            // Lanes behind the last repeat it, and are not used.
+            // Lanes behind the last triangle repeat it, and are not used.
             let last = self.count - 1;
             let mut next = |lane: usize| triangle(last.min(first + lane));
-            // Spelled out, so that it is surely inlined.
+            // Written out, so that `next` is certainly inlined.
             let four = [next(0), next(1), next(2), next(3)];
             self.ids[first..first + 4].copy_from_slice(&four.map(|(id, _)| id));
             let mut common = i32x4::splat(simd, -1);
             for corner in 0..3 {
-                let [column, row, key, flags] =
+                let [row, column, key, flags] =
                     transposed(simd, four.map(|(_, corners)| corners[corner]));
-                let [columns, rows, keys] = &mut self.corners[corner];
-                column.store_slice(&mut columns[first..first + 4]);
+                let [rows, columns, keys] = &mut self.corners[corner];
                 row.store_slice(&mut rows[first..first + 4]);
+                column.store_slice(&mut columns[first..first + 4]);
                 key.store_slice(&mut keys[first..first + 4]);
                 common &= flags;
             }
@@ -61,7 +60,7 @@ impl Lanes {
         }
     }
 
-    /// Adds some of the other's triangles behind those that wait, of which there are less than sixteen.
+    /// Adds some triangles of `from` behind those that wait, which are fewer than sixteen.
     #[inline(always)]
     pub(super) fn add<S: Simd>(&mut self, simd: S, from: &Lanes, which: mask32x16<S>) {
         let at = self.count & 15;
@@ -94,7 +93,7 @@ impl Lanes {
         self.count = self.count.saturating_sub(16);
     }
 
-    /// The ids, of all sixteen lanes.
+    /// The ids of all sixteen lanes.
     #[inline(always)]
     pub(super) fn ids<S: Simd>(&self, simd: S) -> u32x16<S> {
         u32x16::from_slice(simd, &self.ids[..16])
@@ -105,7 +104,7 @@ impl Lanes {
         lanes_of(lanes).map(|lane| self.ids[lane])
     }
 
-    /// The fixed-point columns or rows of the three corners.
+    /// The fixed-point rows (axis 0) or columns (axis 1) of the three corners.
     #[inline(always)]
     pub(super) fn places<S: Simd>(&self, simd: S, axis: usize) -> [i32x16<S>; 3] {
         std::array::from_fn(|corner| load(simd, &self.corners[corner][axis]))
@@ -117,7 +116,7 @@ impl Lanes {
         std::array::from_fn(|corner| load(simd, &self.corners[corner][2]).bitcast())
     }
 
-    /// The flags that a triangle's corners share.
+    /// The flags that the corners of a triangle share.
     #[inline(always)]
     pub(super) fn flags<S: Simd>(&self, simd: S) -> i32x16<S> {
         load(simd, &self.flags)
@@ -132,7 +131,7 @@ impl Lanes {
     }
 }
 
-/// The numbers of the lanes that a mask has.
+/// The numbers of the lanes that are set in a mask.
 pub(super) fn lanes_of(mask: u64) -> impl Iterator<Item = usize> {
     let mut rest = mask & 0xffff;
     std::iter::from_fn(move || {
@@ -151,7 +150,7 @@ fn load<S: Simd>(simd: S, numbers: &[i32; ROOM]) -> i32x16<S> {
     i32x16::from_slice(simd, &numbers[..16])
 }
 
-/// Columns, rows, keys and flags of four vertices.
+/// Rows, columns, keys and flags of four vertices.
 #[inline(always)]
 fn transposed<S: Simd>(simd: S, vertices: [Vertex; 4]) -> [i32x4<S>; 4] {
     let [a, b, c, d] = vertices.map(|vertex| i32x4::load_array(simd, vertex));

@@ -1,12 +1,14 @@
-//! Sixteen triangles set up at a time: edge functions and depth as affine functions of the sample, in
+//! Sixteen triangles set up at a time: edge functions and depth as affine functions on the raster, in
 //! `f32`, with the error of their rounding.
 
 use super::aligned::TIE;
 use super::depth::KEY_ERROR;
 use super::lanes::{Lanes, lanes_of};
-use super::vertices::{ALIGNED, Raster};
+use super::size_class::MOST_SAMPLES_ACROSS;
+use super::vertices::{ALIGNED, FixedPointRaster};
 use bothways_common::Sign;
 use bothways_common::engine::fault::{Fault, Planted};
+use bothways_common::engine::roundoff::EPS24;
 use bothways_common::engine::simd::{
     Select, Simd, SimdBase, SimdInt, SimdMask, f32x16, i32x16, mask32x16,
 };
@@ -14,16 +16,10 @@ use bothways_common::observe::EventSink;
 use bothways_common::raster::Region;
 use bothways_common::raster::Sample;
 
-/// Boxes of more columns or rows than this are not for `f32`.
-pub(super) const MOST_SAMPLES_ACROSS: i32 = 256;
-
 /// Fixed-point units that a box of samples has room for around its vertices.
 pub(super) const BOX_MARGIN: i32 = 2;
 
-/// Half of 2⁻²³.
-const UNIT_ROUNDOFF: f32 = f32::EPSILON / 2.0;
-
-/// Sixteen triangles, ready to be drawn. Columns and rows within a triangle count from its box's first
+/// Sixteen triangles, ready to be drawn. Rows and columns within a triangle count from its box's first
 /// sample.
 #[derive(Clone, Debug)]
 pub(super) struct Setup {
@@ -36,15 +32,15 @@ pub(super) struct Setup {
     pub(super) error: [f32; 16],
     /// The key in the same form, NaN if it cannot be trusted: at the origin, across, down.
     pub(super) key: [[f32; 16]; 3],
-    /// The box of samples that the triangle may cover: first column and row, and how many.
-    pub(super) first_column: [i32; 16],
+    /// The box of samples that the triangle may cover: first row and column, and how many.
     pub(super) first_row: [i32; 16],
-    pub(super) columns: [i32; 16],
+    pub(super) first_column: [i32; 16],
     pub(super) rows: [i32; 16],
+    pub(super) columns: [i32; 16],
     /// The sign of the triangle's facing, ±1.
     pub(super) facing: [f32; 16],
-    /// Lanes that must be drawn another way: the facing is not certain.
-    pub(super) doubtful: u16,
+    /// Lanes that must be drawn another way, because the facing is not certain.
+    pub(super) uncertain: u16,
     /// Lanes whose keys cannot be trusted.
     pub(super) keyless: u16,
 }
@@ -54,83 +50,132 @@ impl Setup {
     ///
     /// # The errors, rounding by rounding
     ///
-    /// All lengths are in samples, `u = 2⁻²⁴`; `w` and `h` are the sides of the box of the vertices,
+    /// All lengths are in samples; `w` and `h` are the sides of the box of the vertices,
     /// widened by two fixed-point units on each side; `P = w·h`. The box's first sample lies in it, so
     /// the fixed-point differences below are at most `w` and `h`; they are exact integers, rounded once
     /// when they become `f32`.
     ///
     /// *Edge functions.* `C = dy·px − dx·py`: two products of 3 roundings each, at most `P`, and a
-    /// difference, which is the edge function at a point of the box and so at most `P`: `7uP`. `B·row`: 2
+    /// difference, which is the edge function at a point of the box and so at most `P`: `7ε₂₄P`. `B·row`: 2
     /// roundings; `C + B·row`, at most `P` again: one; `A·column`: 2; their sum: one (columns before rows
-    /// bring as much). Together `13uP`, to
-    /// which [`Raster::slack`] adds the error of the places, times `w + h`. The constants are larger by
+    /// bring as much). Together `13ε₂₄P`, to
+    /// which [`FixedPointRaster::slack`] adds the error of the places, times `w + h`. The constants are larger by
     /// more than the roundings of the bound.
     ///
-    /// *Facing.* The area is an edge function at a vertex, computed with at most `8uP`, of which one more
+    /// *Facing.* The area is an edge function at a vertex, computed with at most `8ε₂₄P`, of which one more
     /// place is off: `1.5` times the error of an edge function covers it.
     ///
     /// *Key.* With `E` the error of an edge function and `ε = E/area`, at most 2⁻⁴, the weights `λ_b =
     /// E_ca/area` and `λ_c` are off by `1.1·ε` for the numerator and, times the weight, `1.1·1.5·ε` for the
     /// area: `2.8·ε·(|k_b − k_a| + |k_c − k_a|)` in all, the weights of a covered sample summing up to at most
-    /// one. Edge functions are at most `P` in the box, and so are `A·column` and `B·row`. So with `κ = u·P·(|k_b −
-    /// k_a| + |k_c − k_a|)/area` the key at the origin brings `3κ` and twice `u·k_a`, each slope times its column
-    /// or row `2κ`, evaluation `κ` for each product and for each of two sums, and of `k_a` twice `u`: `11κ` in
-    /// all, also of aligned triangles. The vertices' keys bring `1.35u` of the largest one (see
-    /// [`Raster::place`]), their differences and the quotients `2.2u` of the differences: with what `k_a` brings,
-    /// `7.6u`.
+    /// one. Edge functions are at most `P` in the box, and so are `A·column` and `B·row`. So with `κ = ε₂₄·P·(|k_b −
+    /// k_a| + |k_c − k_a|)/area` the key at the origin brings `3κ` and twice `ε₂₄·k_a`, each slope times its column
+    /// or row `2κ`, evaluation `κ` for each product and for each of two sums, and of `k_a` twice `ε₂₄`: `11κ` in
+    /// all, also of aligned triangles. The vertices' keys bring `1.35ε₂₄` of the largest one (see
+    /// [`FixedPointRaster::place`]), their differences and the quotients `2.2ε₂₄` of the differences: with what `k_a` brings,
+    /// `7.6ε₂₄`.
     ///
     /// *Aligned triangles.* Places are multiples of a quarter of a sample without any error, so edge
     /// functions are multiples of 1/16, below 2¹⁷, and `f32` adds and multiplies them without rounding.
     /// [`TIE`] decides those that are zero; the key does without it.
     #[inline(always)]
-    pub(super) fn new<S: Simd, F: Fault>(simd: S, raster: &Raster, lanes: &Lanes) -> Setup {
-        let splat = |value: f32| f32x16::splat(simd, value);
-        let (x, y) = (lanes.places(simd, 0), lanes.places(simd, 1));
-        let keys = lanes.keys(simd);
-        let across_box = Side::new::<F>(simd, raster, 0, &x);
-        let down_box = Side::new::<F>(simd, raster, 1, &y);
-        let origin_x = across_box.first << raster.fraction_bits;
-        let origin_y = down_box.first << raster.fraction_bits;
-        let width = across_box.widened_length(simd, raster);
-        let height = down_box.widened_length(simd, raster);
-        let used = lanes.used(simd);
+    pub(super) fn new<S: Simd, F: Fault>(
+        simd: S,
+        raster: &FixedPointRaster,
+        lanes: &Lanes,
+    ) -> Setup {
+        let places = [lanes.places(simd, 0), lanes.places(simd, 1)];
+        let boxes = [
+            AxisBounds::new::<F>(simd, raster, 0, &places[0]),
+            AxisBounds::new::<F>(simd, raster, 1, &places[1]),
+        ];
+        let errors = Errors::new::<F>(simd, raster, lanes, &boxes);
+        let edges = EdgeFunctions::new::<F>(simd, raster, &places, &boxes, errors.aligned);
+        let keys = Keys::new::<F>(simd, lanes, &edges, &errors);
 
-        let product = width * height;
-        let rounding = splat(13.6 * UNIT_ROUNDOFF) * product;
+        let (used, zero) = (lanes.used(simd), i32x16::splat(simd, 0));
+        let flat = edges.area.simd_eq(f32x16::splat(simd, 0.0));
+        let certain = edges.area.simd_gt(f32x16::splat(simd, 1.5) * errors.edge) | errors.aligned;
+        let drawn = used & certain & !(errors.aligned & flat);
+        let [across, down] = [edges.across, edges.down];
+        let lanes_of = |mask: u64| u16::try_from(mask).expect("a mask has 16 lanes");
+        Setup {
+            ids: lanes.ids(simd).to_array(),
+            at_origin: arrays(edges.shifted()),
+            across: arrays(across),
+            down: arrays(down),
+            error: errors.edge.to_array(),
+            key: arrays(keys.functions(simd)),
+            first_row: boxes[0].first.to_array(),
+            first_column: boxes[1].first.to_array(),
+            rows: boxes[0].count.to_array(),
+            columns: drawn.select(boxes[1].count, zero).to_array(),
+            facing: edges.facing.to_array(),
+            uncertain: lanes_of((used & !certain).to_bitmask()),
+            keyless: lanes_of((drawn & !keys.trusted).to_bitmask()),
+        }
+    }
+}
+
+/// The errors of sixteen triangles; [`Setup::new`] derives them.
+struct Errors<S: Simd> {
+    /// Of an edge function.
+    edge: f32x16<S>,
+    /// What rounding alone contributes.
+    rounding: f32x16<S>,
+    /// The lanes that have no error: all corners are aligned.
+    aligned: mask32x16<S>,
+}
+
+impl<S: Simd> Errors<S> {
+    #[inline(always)]
+    fn new<F: Fault>(
+        simd: S,
+        raster: &FixedPointRaster,
+        lanes: &Lanes,
+        [down_box, across_box]: &[AxisBounds<S>; 2],
+    ) -> Self {
+        let splat = |value: f32| f32x16::splat(simd, value);
+        let height = down_box.widened_length(simd, raster);
+        let width = across_box.widened_length(simd, raster);
+        let rounding = splat(13.6 * EPS24) * (width * height);
         let error = splat(raster.slack) * (width + height) + rounding;
         let error = if F::is(Planted::InfiniteErrorBound) { splat(f32::INFINITY) } else { error };
         let aligned = lanes.flags(simd) & i32x16::splat(simd, ALIGNED);
         let aligned = aligned.simd_ne(i32x16::splat(simd, 0));
         let error = aligned.select(splat(0.0), error);
         let error = if F::is(Planted::ZeroErrorBound) { splat(0.0) } else { error };
+        Errors { edge: error, rounding, aligned }
+    }
+}
 
-        let unit = splat(raster.unit);
-        // From corner to corner, and from the box's first sample to each.
-        let dx = [
-            difference(x[1], x[0], unit),
-            difference(x[2], x[1], unit),
-            difference(x[0], x[2], unit),
-        ];
-        let dy = [
-            difference(y[1], y[0], unit),
-            difference(y[2], y[1], unit),
-            difference(y[0], y[2], unit),
-        ];
-        let px = [
-            difference(x[0], origin_x, unit),
-            difference(x[1], origin_x, unit),
-            difference(x[2], origin_x, unit),
-        ];
-        let py = [
-            difference(y[0], origin_y, unit),
-            difference(y[1], origin_y, unit),
-            difference(y[2], origin_y, unit),
-        ];
+/// The edge functions of sixteen triangles, opposite to `c`, `a`, `b`.
+struct EdgeFunctions<S: Simd> {
+    at_origin: [f32x16<S>; 3],
+    across: [f32x16<S>; 3],
+    down: [f32x16<S>; 3],
+    /// What aligned triangles add, to decide ties.
+    shift: [f32x16<S>; 3],
+    /// Twice the area, and its sign.
+    area: f32x16<S>,
+    facing: f32x16<S>,
+}
+
+impl<S: Simd> EdgeFunctions<S> {
+    #[inline(always)]
+    fn new<F: Fault>(
+        simd: S,
+        raster: &FixedPointRaster,
+        [y, x]: &[[i32x16<S>; 3]; 2],
+        [down_box, across_box]: &[AxisBounds<S>; 2],
+        aligned: mask32x16<S>,
+    ) -> Self {
+        let splat = |value: f32| f32x16::splat(simd, value);
+        let (unit, bits) = (splat(raster.unit), raster.fraction_bits);
+        let (dx, px) = differences(x, across_box.first << bits, unit);
+        let (dy, py) = differences(y, down_box.first << bits, unit);
         let area = dy[0] * dx[2] - dx[0] * dy[2];
         let facing = area.simd_lt(splat(0.0)).select(splat(-1.0), splat(1.0));
-        let area = area.abs();
-        let flat = area.simd_eq(splat(0.0));
-        let certain = area.simd_gt(splat(1.5) * error) | aligned;
 
         let mut at_origin = [splat(0.0); 3];
         let mut across = at_origin;
@@ -148,75 +193,157 @@ impl Setup {
             shift[k] = aligned.select(by, splat(0.0));
             at_origin[k] = (dy[k] * px[k] - dx[k] * py[k]) * facing;
         }
+        EdgeFunctions { at_origin, across, down, shift, area: area.abs(), facing }
+    }
 
-        let (to_b, to_c) = (keys[1] - keys[0], keys[2] - keys[0]);
-        let (key_b, key_c) = (to_b / area, to_c / area);
-        let key_at_origin = keys[0] + key_b * at_origin[2] + key_c * at_origin[0];
-        let key_across = key_b * across[2] + key_c * across[0];
-        let key_down = key_b * down[2] + key_c * down[0];
-        let largest = keys[0].max(keys[1]).max(keys[2]);
-        let least = keys[0].min(keys[1]).min(keys[2]);
-        let key_error = (splat(2.8) * error + splat(0.9) * rounding) / area
-            * (to_b.abs() + to_c.abs())
-            + splat(13.0 * UNIT_ROUNDOFF) * largest;
-        let mut keyed =
-            key_error.simd_le(splat(KEY_ERROR) * least) & (splat(16.0) * error).simd_le(area);
-        if F::is(Planted::ZeroErrorBound) {
-            keyed = used;
-        }
-        let drawn = used & certain & !(aligned & flat);
-        let columns = drawn.select(across_box.count, i32x16::splat(simd, 0));
-        let lanes_of = |mask: u64| u16::try_from(mask).expect("a mask has 16 lanes");
-        Setup {
-            ids: lanes.ids(simd).to_array(),
-            at_origin: arrays([
-                at_origin[0] + shift[0],
-                at_origin[1] + shift[1],
-                at_origin[2] + shift[2],
-            ]),
-            across: arrays(across),
-            down: arrays(down),
-            error: error.to_array(),
-            key: arrays([keyed.select(key_at_origin, splat(f32::NAN)), key_across, key_down]),
-            first_column: across_box.first.to_array(),
-            first_row: down_box.first.to_array(),
-            columns: columns.to_array(),
-            rows: down_box.count.to_array(),
-            facing: facing.to_array(),
-            doubtful: lanes_of((used & !certain).to_bitmask()),
-            keyless: lanes_of((drawn & !keyed).to_bitmask()),
-        }
+    /// The functions at the origin, with ties decided.
+    #[inline(always)]
+    fn shifted(&self) -> [f32x16<S>; 3] {
+        let (at_origin, shift) = (&self.at_origin, &self.shift);
+        [at_origin[0] + shift[0], at_origin[1] + shift[1], at_origin[2] + shift[2]]
     }
 }
 
-/// One triangle, ready to be drawn, as [`Setup`] has sixteen.
+/// The depth keys of sixteen triangles.
+struct Keys<S: Simd> {
+    at_origin: f32x16<S>,
+    across: f32x16<S>,
+    down: f32x16<S>,
+    /// The lanes whose keys are within [`KEY_ERROR`] of the true ones.
+    trusted: mask32x16<S>,
+}
+
+impl<S: Simd> Keys<S> {
+    #[inline(always)]
+    fn new<F: Fault>(simd: S, lanes: &Lanes, edges: &EdgeFunctions<S>, errors: &Errors<S>) -> Self {
+        let splat = |value: f32| f32x16::splat(simd, value);
+        let (keys, area) = (lanes.keys(simd), edges.area);
+        let (to_b, to_c) = (keys[1] - keys[0], keys[2] - keys[0]);
+        let (by_b, by_c) = (to_b / area, to_c / area);
+        let largest = keys[0].max(keys[1]).max(keys[2]);
+        let least = keys[0].min(keys[1]).min(keys[2]);
+        let error = (splat(2.8) * errors.edge + splat(0.9) * errors.rounding) / area
+            * (to_b.abs() + to_c.abs())
+            + splat(13.0 * EPS24) * largest;
+        let mut trusted =
+            error.simd_le(splat(KEY_ERROR) * least) & (splat(16.0) * errors.edge).simd_le(area);
+        if F::is(Planted::ZeroErrorBound) {
+            trusted = lanes.used(simd);
+        }
+        Keys {
+            at_origin: keys[0] + by_b * edges.at_origin[2] + by_c * edges.at_origin[0],
+            across: by_b * edges.across[2] + by_c * edges.across[0],
+            down: by_b * edges.down[2] + by_c * edges.down[0],
+            trusted,
+        }
+    }
+
+    /// The key as a function, NaN if it cannot be trusted: at the origin, across, down.
+    #[inline(always)]
+    fn functions(&self, simd: S) -> [f32x16<S>; 3] {
+        let nan = f32x16::splat(simd, f32::NAN);
+        [self.trusted.select(self.at_origin, nan), self.across, self.down]
+    }
+}
+
+#[inline(always)]
+fn arrays<S: Simd>([a, b, c]: [f32x16<S>; 3]) -> [[f32; 16]; 3] {
+    [a.to_array(), b.to_array(), c.to_array()]
+}
+
+/// Along one axis, the differences from corner to corner, and from the box's first sample to each corner.
+#[inline(always)]
+fn differences<S: Simd>(
+    places: &[i32x16<S>; 3],
+    origin: i32x16<S>,
+    unit: f32x16<S>,
+) -> ([f32x16<S>; 3], [f32x16<S>; 3]) {
+    let [a, b, c] = *places;
+    (
+        [difference(b, a, unit), difference(c, b, unit), difference(a, c, unit)],
+        [difference(a, origin, unit), difference(b, origin, unit), difference(c, origin, unit)],
+    )
+}
+
+/// The difference of two fixed-point places, in samples.
+#[inline(always)]
+fn difference<S: Simd>(to: i32x16<S>, from: i32x16<S>, unit: f32x16<S>) -> f32x16<S> {
+    (to - from).to_float::<f32x16<S>>() * unit
+}
+
+/// Along one axis, the boxes of sixteen triangles: the samples that they may cover, and the lengths
+/// between their outermost vertices.
+#[derive(Clone, Copy)]
+pub(super) struct AxisBounds<S: Simd> {
+    /// The first sample, and how many.
+    pub(super) first: i32x16<S>,
+    pub(super) count: i32x16<S>,
+    /// In fixed point; negative where it is 2³¹ or more.
+    length: i32x16<S>,
+}
+
+impl<S: Simd> AxisBounds<S> {
+    /// A vertex is at most half a unit and the margin, which is at most one unit, from its place.
+    #[inline(always)]
+    pub(super) fn new<F: Fault>(
+        simd: S,
+        raster: &FixedPointRaster,
+        axis: usize,
+        places: &[i32x16<S>; 3],
+    ) -> Self {
+        let splat = |value: i32| i32x16::splat(simd, value);
+        let bits = raster.fraction_bits;
+        let margin = if F::is(Planted::ShrunkBox) { -1 } else { BOX_MARGIN };
+        let low = places[0].min(places[1]).min(places[2]);
+        let high = places[0].max(places[1]).max(places[2]);
+        let first = ((low + splat((1 << bits) - 1 - margin)) >> bits).max(splat(0));
+        let last = ((high + splat(margin)) >> bits).min(splat(raster.size[axis] - 1));
+        AxisBounds { first, count: (last - first + splat(1)).max(splat(0)), length: high - low }
+    }
+
+    /// The length with two units on each side, in samples.
+    #[inline(always)]
+    fn widened_length(&self, simd: S, raster: &FixedPointRaster) -> f32x16<S> {
+        let length = self.length + i32x16::splat(simd, 2 * BOX_MARGIN);
+        length.to_float::<f32x16<S>>() * f32x16::splat(simd, raster.unit)
+    }
+
+    /// Whether it is no longer than `f32` takes.
+    #[inline(always)]
+    pub(super) fn is_short(&self, simd: S, raster: &FixedPointRaster) -> mask32x16<S> {
+        let most = i32x16::splat(simd, MOST_SAMPLES_ACROSS << raster.fraction_bits);
+        self.length.simd_lt(most) & self.length.simd_ge(i32x16::splat(simd, 0))
+    }
+}
+
+/// One triangle with its affine functions, as [`Setup`] has sixteen; or one strip of a plane.
 #[derive(Clone, Debug)]
-pub(super) struct Affine {
+pub(super) struct TriangleSetup {
     pub(super) id: u32,
     /// Edge functions: at the origin, a column across, a row down.
     pub(super) edges: [[f32; 3]; 3],
     pub(super) error: f32,
     /// The key likewise.
     pub(super) key: [f32; 3],
-    /// The sample from which columns and rows count.
+    /// The sample from which rows and columns count.
     pub(super) origin: Sample,
-    /// The samples that the triangle may cover: within 256 columns and rows of the origin.
+    /// The samples that the triangle may cover: within 256 rows and columns of the origin.
     pub(super) region: Region,
     /// The sign of the triangle's facing, ±1; 0 for a plane, which has no edges.
     pub(super) facing: f32,
 }
 
-impl Affine {
-    /// Tells of one test: the edge functions' signs as far as they are certain, in the orientation of
+impl TriangleSetup {
+    /// Emits one test: the edge functions' signs as far as they are certain, in the orientation of
     /// the contract.
-    pub(super) fn tell_test<O: EventSink + ?Sized>(
+    pub(super) fn emit_test(
         &self,
+        sink: &mut (impl EventSink + ?Sized),
         sample: Sample,
         edges: [f32; 3],
-        observer: &mut O,
     ) {
         let (id, error) = (self.id, self.error);
-        observer.sample_tested(sample, id);
+        sink.sample_tested(sample, id);
         let out = edges.iter().any(|edge| *edge < -error);
         let inside = edges.iter().all(|edge| *edge > error);
         if self.facing != 0.0 && (out || inside) {
@@ -225,7 +352,7 @@ impl Affine {
                 let sign = if on_edge { 0.0 } else { f64::from(self.facing * edge) };
                 (edge.abs() > error).then(|| Sign::of(sign))
             };
-            observer.edge_signs(sample, id, edges.map(sign));
+            sink.edge_signs(sample, id, edges.map(sign));
         }
     }
 }
@@ -233,13 +360,13 @@ impl Affine {
 impl Setup {
     /// The triangle of one lane.
     #[inline(always)]
-    pub(super) fn triangle(&self, lane: usize) -> Affine {
+    pub(super) fn triangle(&self, lane: usize) -> TriangleSetup {
         let lane = lane & 15;
         let edge = |k: usize| [self.at_origin[k][lane], self.across[k][lane], self.down[k][lane]];
         let from = |first: &[i32; 16]| first[lane].cast_unsigned() as usize;
-        let (column, row) = (from(&self.first_column), from(&self.first_row));
+        let (row, column) = (from(&self.first_row), from(&self.first_column));
         let rows = row..row + from(&self.rows);
-        Affine {
+        TriangleSetup {
             id: self.ids[lane],
             edges: [edge(0), edge(1), edge(2)],
             error: self.error[lane],
@@ -253,61 +380,5 @@ impl Setup {
     /// The ids of some lanes.
     pub(super) fn lanes(&self, mask: u16) -> impl Iterator<Item = u32> {
         lanes_of(mask.into()).map(|lane| self.ids[lane])
-    }
-}
-
-#[inline(always)]
-fn arrays<S: Simd>([a, b, c]: [f32x16<S>; 3]) -> [[f32; 16]; 3] {
-    [a.to_array(), b.to_array(), c.to_array()]
-}
-
-/// The difference of two fixed-point places, in samples.
-#[inline(always)]
-fn difference<S: Simd>(to: i32x16<S>, from: i32x16<S>, unit: f32x16<S>) -> f32x16<S> {
-    (to - from).to_float::<f32x16<S>>() * unit
-}
-
-/// Along one axis, the boxes of sixteen triangles: the samples that they may cover, and the lengths
-/// between their outermost vertices.
-#[derive(Clone, Copy)]
-pub(super) struct Side<S: Simd> {
-    /// The first sample, and how many.
-    pub(super) first: i32x16<S>,
-    pub(super) count: i32x16<S>,
-    /// In fixed point; negative where it is 2³¹ or more.
-    length: i32x16<S>,
-}
-
-impl<S: Simd> Side<S> {
-    /// A vertex is at most half a unit and the margin, which is at most one unit, from its place.
-    #[inline(always)]
-    pub(super) fn new<F: Fault>(
-        simd: S,
-        raster: &Raster,
-        axis: usize,
-        places: &[i32x16<S>; 3],
-    ) -> Self {
-        let splat = |value: i32| i32x16::splat(simd, value);
-        let bits = raster.fraction_bits;
-        let margin = if F::is(Planted::ShrunkBox) { -1 } else { BOX_MARGIN };
-        let low = places[0].min(places[1]).min(places[2]);
-        let high = places[0].max(places[1]).max(places[2]);
-        let first = ((low + splat((1 << bits) - 1 - margin)) >> bits).max(splat(0));
-        let last = ((high + splat(margin)) >> bits).min(splat(raster.size[axis] - 1));
-        Side { first, count: (last - first + splat(1)).max(splat(0)), length: high - low }
-    }
-
-    /// The length with two units on each side, in samples.
-    #[inline(always)]
-    fn widened_length(&self, simd: S, raster: &Raster) -> f32x16<S> {
-        let length = self.length + i32x16::splat(simd, 2 * BOX_MARGIN);
-        length.to_float::<f32x16<S>>() * f32x16::splat(simd, raster.unit)
-    }
-
-    /// Whether it is no longer than `f32` takes.
-    #[inline(always)]
-    pub(super) fn is_short(&self, simd: S, raster: &Raster) -> mask32x16<S> {
-        let most = i32x16::splat(simd, MOST_SAMPLES_ACROSS << raster.fraction_bits);
-        self.length.simd_lt(most) & self.length.simd_ge(i32x16::splat(simd, 0))
     }
 }

@@ -1,8 +1,8 @@
-//! The vertex stage: every vertex once a frame, to a fixed-point place on the raster and a depth key.
+//! The vertex stage: every vertex is mapped once a frame, to a fixed-point place on the raster and a depth key.
 
-use super::aligned::ExactRaster;
+use super::aligned::Alignment;
+use super::camera_map::CameraMap;
 use super::depth::{KeyScale, LARGEST_KEY};
-use super::screen::Screen;
 use bothways_common::Projection;
 use bothways_common::engine::simd::{
     Bytes, Select, Simd, SimdBase, SimdInterleaved, SimdMask, f32x16, f64x8, i32x4, i32x16,
@@ -10,11 +10,11 @@ use bothways_common::engine::simd::{
 };
 use glam::{DVec3, Vec3};
 
-/// One vertex on the raster: column and row in fixed point, the bits of its depth key (an `f32`), and
+/// One vertex on the raster: row and column in fixed point, the bits of its depth key (an `f32`), and
 /// flags.
 ///
-/// Columns and rows count in units of [`Raster::unit`] of a sample, 0 at the first sample, each within
-/// [`Raster::slack`] of the true one. They and the key mean something if [`ON_RASTER`] is set.
+/// Rows and columns count in units of [`FixedPointRaster::unit`] of a sample, 0 at the first sample, each within
+/// [`FixedPointRaster::slack`] of the true one. They and the key mean something if [`ON_RASTER`] is set.
 pub(super) type Vertex = [i32; 4];
 
 /// The place and the key can be trusted.
@@ -33,50 +33,49 @@ pub(super) const ALIGNED: i32 = 64;
 
 /// The fixed-point raster of one camera.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Raster {
-    /// Bits behind the point of a column or row.
+pub(super) struct FixedPointRaster {
+    /// Bits behind the point of a row or column.
     pub(super) fraction_bits: u32,
     /// One fixed-point unit, in samples.
     pub(super) unit: f32,
-    /// Columns and rows of samples.
+    /// Rows and columns of samples.
     pub(super) size: [i32; 2],
-    /// How far the fixed-point column or row of a vertex, less that of a sample, may be from the true
+    /// How far the fixed-point row or column of a vertex, less that of a sample, may be from the true
     /// difference: in samples, for the differences along two edges' ends together.
     pub(super) slack: f32,
     /// How depth is stored.
     pub(super) keys: KeyScale,
     /// Whether vertices can be trusted at all: the camera is not too extreme.
     trusted: bool,
-    /// The same without rounding, where there is none.
-    exact: Option<ExactRaster>,
+    /// Tells aligned vertices, where there may be any.
+    alignment: Option<Alignment>,
 }
 
-impl Raster {
+impl FixedPointRaster {
     /// Fixed point leaves room for places from half a picture before the first sample to half a
     /// picture behind the last: with `2^s` at least as large as both sides (and as the largest box that
     /// `f32` takes, 256), places are between `−2^(s − 1)` and `1.5·2^s`, so that `30 − s` bits remain.
     ///
-    /// A place is off by half a unit of rounding and by the screen's margin, which speaks of vertices
+    /// A place is off by half a unit of rounding and by the camera map's margin, which speaks of vertices
     /// and of the rays; vertices are trusted if the margin is no larger than one unit. An edge function
     /// between two vertices, at a sample in their triangle's box of `w × h` samples, moves by at most
     /// `2(w + h)` times the one for both vertices together and once `(w + h)` times the margin for the
     /// sample: `unit + 3·margin` in all, for each of `w` and `h`.
-    pub(super) fn new(screen: &Screen, keys: KeyScale) -> Raster {
-        let [width, height] = [screen.grid.width(), screen.grid.height()];
-        let bits = 30 - width.max(height).next_power_of_two().max(256).ilog2();
+    pub(super) fn new(map: &CameraMap, keys: KeyScale) -> FixedPointRaster {
+        let [rows, columns] = map.raster.size();
+        let bits = 30 - rows.max(columns).next_power_of_two().max(256).ilog2();
         let unit = 0.5f64.powi(bits.cast_signed());
-        let margin = screen.margin[0].max(screen.margin[1]);
-        let size = |side: usize| i32::try_from(side).expect("at most 65,536");
+        let margin = map.margin[0].max(map.margin[1]);
         #[expect(clippy::cast_possible_truncation, reason = "rounding is what is asked")]
         let slack = (1.01 * (unit + 3.0 * margin)) as f32;
-        Raster {
+        FixedPointRaster {
             fraction_bits: bits,
             unit: 0.5f32.powi(bits.cast_signed()),
-            size: [size(width), size(height)],
+            size: [rows, columns].map(u32::cast_signed),
             slack,
             keys,
             trusted: margin <= unit,
-            exact: ExactRaster::new(screen),
+            alignment: Alignment::new(map),
         }
     }
 
@@ -85,20 +84,20 @@ impl Raster {
     pub(super) fn place<S: Simd>(
         &self,
         simd: S,
-        screen: &Screen,
+        map: &CameraMap,
         positions: &[Vec3],
         vertices: &mut [Vertex],
     ) {
         let (positions, rest) = positions.as_chunks::<16>();
         let (vertices, last) = vertices.split_at_mut(16 * positions.len());
         for (positions, vertices) in positions.iter().zip(vertices.chunks_exact_mut(16)) {
-            self.place_sixteen(simd, screen, positions, vertices.as_flattened_mut());
+            self.place_sixteen(simd, map, positions, vertices.as_flattened_mut());
         }
         if !rest.is_empty() {
             let mut padded = [Vec3::ZERO; 16];
             padded[..rest.len()].copy_from_slice(rest);
             let mut placed = [[0; 4]; 16];
-            self.place_sixteen(simd, screen, &padded, placed.as_flattened_mut());
+            self.place_sixteen(simd, map, &padded, placed.as_flattened_mut());
             last.copy_from_slice(&placed[..rest.len()]);
         }
     }
@@ -107,7 +106,7 @@ impl Raster {
     fn place_sixteen<S: Simd>(
         &self,
         simd: S,
-        screen: &Screen,
+        map: &CameraMap,
         positions: &[Vec3; 16],
         vertices: &mut [i32],
     ) {
@@ -116,26 +115,26 @@ impl Raster {
             coordinates(simd, positions, 1),
             coordinates(simd, positions, 2),
         );
-        let upper = self.place_eight(simd, screen, [x.0, y.0, z.0]);
-        let lower = self.place_eight(simd, screen, [x.1, y.1, z.1]);
-        let columns = integers(upper.column, lower.column).to_array();
+        let upper = self.place_eight(simd, map, [x.0, y.0, z.0]);
+        let lower = self.place_eight(simd, map, [x.1, y.1, z.1]);
         let rows = integers(upper.row, lower.row).to_array();
+        let columns = integers(upper.column, lower.column).to_array();
         let keys = simd.narrow_f64x8(upper.key, lower.key).bitcast::<i32x16<S>>().to_array();
         let flags = integers(upper.flags, lower.flags).to_array();
         for (four, vertices) in vertices.chunks_exact_mut(16).enumerate() {
             let part = |lanes: &[i32; 16]| i32x4::from_slice(simd, &lanes[four * 4..four * 4 + 4]);
-            let parts = [part(&columns), part(&rows), part(&keys), part(&flags)];
+            let parts = [part(&rows), part(&columns), part(&keys), part(&flags)];
             i32x4::store_four_interleaved(parts, vertices);
         }
     }
 
-    /// The places of a box's corners, the keys of those (as `f32`) and the flags that they share; none
-    /// unless all of them are on the raster.
+    /// The places of a box's corners, their keys (as `f32`) and the flags that they share. Places and keys mean
+    /// something if all corners are on the raster.
     #[inline(always)]
     pub(super) fn place_corners<S: Simd>(
         &self,
         simd: S,
-        screen: &Screen,
+        map: &CameraMap,
         [low, high]: [Vec3; 2],
     ) -> Corners {
         let (low, high) = (low.as_dvec3(), high.as_dvec3());
@@ -144,9 +143,9 @@ impl Raster {
         let z = [low.z, low.z, low.z, low.z, high.z, high.z, high.z, high.z];
         let corners =
             [f64x8::load_array(simd, x), f64x8::load_array(simd, y), f64x8::load_array(simd, z)];
-        let placed = self.place_eight(simd, screen, corners);
-        let columns = integers(placed.column, placed.column).to_array();
+        let placed = self.place_eight(simd, map, corners);
         let rows = integers(placed.row, placed.row).to_array();
+        let columns = integers(placed.column, placed.column).to_array();
         let flags = integers(placed.flags, placed.flags).to_array();
         let keys = simd.narrow_f64x8(placed.key, placed.key).to_array();
         let ends = |places: &[i32; 16]| {
@@ -156,70 +155,110 @@ impl Raster {
             ]
         };
         Corners {
-            columns: ends(&columns),
             rows: ends(&rows),
+            columns: ends(&columns),
             nearest: keys.into_iter().fold(0.0, f32::max),
             flags: flags.into_iter().fold(-1, |common, flags| common & flags),
         }
     }
 
-    /// Columns and rows in fixed point, keys and flags of eight vertices.
-    ///
-    /// What is trusted, and why, says [`Screen::new`]: `ζ ≥ 2⁻¹⁰·s` for the depth `ζ` along the view.
-    /// Then `1/t = d/ζ` (perspective) is known to within 2⁻⁴¹ of itself, and a key that is at least 2⁻¹⁵ of it to
-    /// within 2⁻²⁶; `t` from the waypoint on (parallel) is known to within 2⁻⁴⁸ of the vertex' distance from
-    /// there, and a key that is at least 2⁻²⁰ of that to within 2⁻²⁷. Rounding to `f32` adds 2⁻²⁴.
+    /// Rows and columns in fixed point, keys and flags of eight vertices, given in the world.
     #[inline(always)]
     fn place_eight<S: Simd>(
         &self,
         simd: S,
-        screen: &Screen,
+        map: &CameraMap,
         [x, y, z]: [f64x8<S>; 3],
     ) -> Placed<S> {
         let splat = |value: f64| f64x8::splat(simd, value);
-        let eye = screen.camera.eye().as_dvec3();
+        let eye = map.camera.eye().as_dvec3();
         // Relative to the eye, as the contract says.
-        let (x, y, z) = (x - splat(eye.x), y - splat(eye.y), z - splat(eye.z));
+        let offset = [x - splat(eye.x), y - splat(eye.y), z - splat(eye.z)];
+        let projected = self.project(simd, map, offset);
+        let Projected { right, up, onto_viewport, key, .. } = projected;
+        let row = up * onto_viewport * splat(map.scale[0]) + splat(map.middle[0]);
+        let column = right * onto_viewport * splat(map.scale[1]) + splat(map.middle[1]);
+        let (on_raster, flags) = self.flags(simd, &projected, [row, column]);
+        let (scale, zero) = (splat(f64::from(1 << self.fraction_bits)), splat(0.0));
+        Placed {
+            row: on_raster.select(row * scale, zero),
+            column: on_raster.select(column * scale, zero),
+            key: on_raster.select(key, zero),
+            flags,
+        }
+    }
+
+    /// Eight vertices as the camera sees them.
+    ///
+    /// [`CameraMap::new`] says what is trusted, and why: `ζ ≥ 2⁻¹⁰·s` for the depth `ζ` along the view.
+    /// Then `1/t = d/ζ` (perspective) is known to within 2⁻⁴¹ of itself, and a key that is at least 2⁻¹⁵ of it to
+    /// within 2⁻²⁶; `t` from the local origin on (parallel) is known to within 2⁻⁴⁸ of the vertex' distance from
+    /// there, and a key that is at least 2⁻²⁰ of that to within 2⁻²⁷. Rounding to `f32` adds 2⁻²⁴.
+    #[inline(always)]
+    fn project<S: Simd>(&self, simd: S, map: &CameraMap, [x, y, z]: [f64x8<S>; 3]) -> Projected<S> {
+        let splat = |value: f64| f64x8::splat(simd, value);
         let along = |axis: DVec3| x * splat(axis.x) + y * splat(axis.y) + z * splat(axis.z);
         let extent = x.abs() + y.abs() + z.abs();
-        let depth = -along(screen.w);
-        let zero = splat(0.0);
-
+        let depth = -along(map.w);
         let behind = depth.simd_lt(extent * splat(-(-46f64).exp2()));
-        let in_front = depth.simd_ge(extent * splat((-10f64).exp2())) & depth.simd_gt(zero);
-        let (right, up, onto_viewport, key, least_key, safe) = match self.keys.projection {
+        let in_front = depth.simd_ge(extent * splat((-10f64).exp2())) & depth.simd_gt(splat(0.0));
+        let trusted = mask64x8::splat(simd, self.trusted);
+        match self.keys.projection {
             Projection::Perspective => {
-                let onto = splat(screen.distance) / depth;
-                let (right, up) = (along(screen.u), along(screen.v));
-                let key = onto - splat(self.keys.offset);
-                (right, up, onto, key, onto * splat((-15f64).exp2()), in_front)
+                let onto_viewport = splat(map.distance) / depth;
+                Projected {
+                    right: along(map.u),
+                    up: along(map.v),
+                    depth,
+                    onto_viewport,
+                    key: onto_viewport - splat(self.keys.offset),
+                    least_key: onto_viewport * splat((-15f64).exp2()),
+                    behind,
+                    safe: in_front & trusted,
+                }
             }
             Projection::Parallel => {
-                let [high, low] = screen.waypoint.parts();
+                let [high, low] = map.local.parts();
                 let x = x - splat(high.x) - splat(low.x);
                 let y = y - splat(high.y) - splat(low.y);
                 let z = z - splat(high.z) - splat(low.z);
                 let along = |axis: DVec3| x * splat(axis.x) + y * splat(axis.y) + z * splat(axis.z);
                 let extent = x.abs() + y.abs() + z.abs();
-                let close = extent.simd_le(splat(screen.trusted_extent));
-                let key = splat(self.keys.offset) + along(screen.w);
-                let least_key = extent * splat((-20f64).exp2());
-                (along(screen.u), along(screen.v), splat(1.0), key, least_key, in_front & close)
+                let close = extent.simd_le(splat(map.trusted_extent));
+                Projected {
+                    right: along(map.u),
+                    up: along(map.v),
+                    depth,
+                    onto_viewport: splat(1.0),
+                    key: splat(self.keys.offset) + along(map.w),
+                    least_key: extent * splat((-20f64).exp2()),
+                    behind,
+                    safe: in_front & close & trusted,
+                }
             }
-        };
-        let safe = safe & mask64x8::splat(simd, self.trusted);
-        let column = right * onto_viewport * splat(screen.scale[0]) + splat(screen.middle[0]);
-        let row = up * onto_viewport * splat(screen.scale[1]) + splat(screen.middle[1]);
+        }
+    }
+
+    /// Which of eight vertices are on the raster, and all flags.
+    #[inline(always)]
+    fn flags<S: Simd>(
+        &self,
+        simd: S,
+        projected: &Projected<S>,
+        [row, column]: [f64x8<S>; 2],
+    ) -> (mask64x8<S>, f64x8<S>) {
+        let splat = |value: f64| f64x8::splat(simd, value);
+        let Projected { right, up, depth, key, least_key, behind, safe, .. } = *projected;
         let key_trusted = key.simd_ge(least_key)
             & key.simd_ge(splat(1.0 / LARGEST_KEY))
             & key.simd_le(splat(LARGEST_KEY));
-
-        let [width, height] = self.size.map(f64::from);
-        let one = splat(1.0);
         let side = f64::from(1 << (30 - self.fraction_bits));
         let within =
             |place: f64x8<S>| place.simd_ge(splat(-0.5 * side)) & place.simd_lt(splat(1.49 * side));
         let on_raster = safe & key_trusted & within(column) & within(row);
+
+        let [height, width] = self.size.map(f64::from);
+        let (one, zero) = (splat(1.0), splat(0.0));
         let flag = |mask: mask64x8<S>, flag: i32| mask.select(splat(f64::from(flag)), zero);
         let mut flags = flag(on_raster, ON_RASTER)
             + flag(behind, BEHIND)
@@ -227,26 +266,38 @@ impl Raster {
             + flag(safe & column.simd_gt(splat(width)), RIGHT)
             + flag(safe & row.simd_lt(-one), ABOVE)
             + flag(safe & row.simd_gt(splat(height)), BELOW);
-        if let Some(exact) = &self.exact {
-            let across = exact.holds(simd, 0, [column, right, depth]);
-            let down = exact.holds(simd, 1, [row, -up, depth]);
-            let aligned = on_raster & across & down;
-            flags += flag(aligned, ALIGNED);
+        if let Some(alignment) = &self.alignment {
+            let down = alignment.is_aligned(simd, 0, [row, -up, depth]);
+            let across = alignment.is_aligned(simd, 1, [column, right, depth]);
+            flags += flag(on_raster & across & down, ALIGNED);
         }
-        let scale = splat(f64::from(1 << self.fraction_bits));
-        Placed {
-            column: on_raster.select(column * scale, zero),
-            row: on_raster.select(row * scale, zero),
-            key: on_raster.select(key, zero),
-            flags,
-        }
+        (on_raster, flags)
     }
+}
+
+/// Eight vertices as the camera sees them.
+#[derive(Clone, Copy)]
+struct Projected<S: Simd> {
+    /// The offset along `u` and `v`.
+    right: f64x8<S>,
+    up: f64x8<S>,
+    /// The depth from the eye along the view.
+    depth: f64x8<S>,
+    /// The factor that brings `right` and `up` onto the viewport.
+    onto_viewport: f64x8<S>,
+    /// The depth key, and the least one that is trusted.
+    key: f64x8<S>,
+    least_key: f64x8<S>,
+    /// Whether a vertex is certainly not in front of the eye.
+    behind: mask64x8<S>,
+    /// Whether its row and column can be trusted.
+    safe: mask64x8<S>,
 }
 
 /// Eight vertices, all numbers still `f64`.
 struct Placed<S: Simd> {
-    column: f64x8<S>,
     row: f64x8<S>,
+    column: f64x8<S>,
     key: f64x8<S>,
     flags: f64x8<S>,
 }
@@ -254,8 +305,8 @@ struct Placed<S: Simd> {
 /// What the eight corners of a box have in common.
 pub(super) struct Corners {
     /// The least and the greatest.
-    pub(super) columns: [i32; 2],
     pub(super) rows: [i32; 2],
+    pub(super) columns: [i32; 2],
     /// The largest key.
     pub(super) nearest: f32,
     /// The flags that all of them have.

@@ -44,8 +44,8 @@ impl Form {
                     }
                     Projection::Parallel => (ahead, 1.0),
                 };
-                let across = Linear { at_centre: -center.dot(u), across: scale, up: 0.0 };
-                let up = Linear { at_centre: -center.dot(v), across: 0.0, up: scale };
+                let across = Linear { at_center: -center.dot(u), across: scale, up: 0.0 };
+                let up = Linear { at_center: -center.dot(v), across: 0.0, up: scale };
                 Form::Round { center, radius, depth, across, up, axes: [u, v] }
             }
         }

@@ -7,10 +7,10 @@ use bothways_common::{Projection, View};
 use glam::{DVec2, DVec3};
 use std::ops::{Add, Mul};
 
-/// A function `at_centre + x·across + y·up`.
+/// A function `at_center + x·across + y·up`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Linear {
-    pub(super) at_centre: f64,
+    pub(super) at_center: f64,
     pub(super) across: f64,
     pub(super) up: f64,
 }
@@ -21,37 +21,37 @@ impl Linear {
         let camera = view.camera;
         match camera.projection() {
             Projection::Perspective => Linear {
-                at_centre: -camera.distance() * a.dot(camera.w()),
+                at_center: -camera.distance() * a.dot(camera.w()),
                 across: a.dot(camera.u()),
                 up: a.dot(camera.v()),
             },
-            Projection::Parallel => Linear { at_centre: -a.dot(camera.w()), across: 0.0, up: 0.0 },
+            Projection::Parallel => Linear { at_center: -a.dot(camera.w()), across: 0.0, up: 0.0 },
         }
     }
 
     /// `a · (O − p)`, where `O` is the origin of the viewing ray.
     pub(super) fn from_origin(view: &View, a: DVec3, p: DVec3) -> Linear {
-        let at_centre = -a.dot(p);
+        let at_center = -a.dot(p);
         match view.camera.projection() {
-            Projection::Perspective => Linear { at_centre, across: 0.0, up: 0.0 },
+            Projection::Perspective => Linear { at_center, across: 0.0, up: 0.0 },
             Projection::Parallel => {
-                Linear { at_centre, across: a.dot(view.camera.u()), up: a.dot(view.camera.v()) }
+                Linear { at_center, across: a.dot(view.camera.u()), up: a.dot(view.camera.v()) }
             }
         }
     }
 
     /// Its value at a place of the viewport.
     pub(super) fn at(&self, x: f64, y: f64) -> f64 {
-        self.at_centre + x * self.across + y * self.up
+        self.at_center + x * self.across + y * self.up
     }
 
     /// The product with a function that is constant, or of a constant one with this.
     fn times(self, other: Linear) -> Linear {
         // One of the two is always constant: of O and D, one changes over the viewport.
         Linear {
-            at_centre: self.at_centre * other.at_centre,
-            across: self.across * other.at_centre + self.at_centre * other.across,
-            up: self.up * other.at_centre + self.at_centre * other.up,
+            at_center: self.at_center * other.at_center,
+            across: self.across * other.at_center + self.at_center * other.across,
+            up: self.up * other.at_center + self.at_center * other.up,
         }
     }
 }
@@ -60,8 +60,8 @@ impl Mul<f64> for Linear {
     type Output = Linear;
 
     fn mul(self, factor: f64) -> Linear {
-        let Linear { at_centre, across, up } = self;
-        Linear { at_centre: at_centre * factor, across: across * factor, up: up * factor }
+        let Linear { at_center, across, up } = self;
+        Linear { at_center: at_center * factor, across: across * factor, up: up * factor }
     }
 }
 
@@ -70,7 +70,7 @@ impl Add for Linear {
 
     fn add(self, other: Linear) -> Linear {
         Linear {
-            at_centre: self.at_centre + other.at_centre,
+            at_center: self.at_center + other.at_center,
             across: self.across + other.across,
             up: self.up + other.up,
         }
@@ -168,9 +168,9 @@ mod tests {
     fn halfway_in_the_picture_is_nearer_on_the_triangle() {
         // From depth 1 to depth 3: the middle of the picture shows a quarter of the way.
         let at = |place: f64| {
-            let near = Linear { at_centre: 1.0, across: -1.0, up: 0.0 } * 3.0;
-            let far = Linear { at_centre: 0.0, across: 1.0, up: 0.0 };
-            let nothing = Linear { at_centre: 0.0, across: 0.0, up: 0.0 };
+            let near = Linear { at_center: 1.0, across: -1.0, up: 0.0 } * 3.0;
+            let far = Linear { at_center: 0.0, across: 1.0, up: 0.0 };
+            let nothing = Linear { at_center: 0.0, across: 0.0, up: 0.0 };
             let values = [DVec2::ZERO, DVec2::X, DVec2::ZERO];
             Quotient::interpolating([near, far, nothing], values).at(place, 0.0).0.x
         };

@@ -1,19 +1,20 @@
 //! Triangles over many samples: one triangle at a time, sixteen samples at once.
 
-use super::depth::NOTHING;
+use super::depth::{NOTHING, nearer_by};
 use super::lanes::lanes_of;
-use super::setup::Affine;
-use super::tile::{Picture, TileBuffer, nearer_by};
+use super::picture::Picture;
+use super::setup::TriangleSetup;
+use super::tile::TileBuffer;
+use bothways_common::engine::context::{Context, ScalarContext};
 use bothways_common::engine::fault::Fault;
 use bothways_common::engine::simd::{
     Select, Simd, SimdBase, SimdMask, f32x8, f32x16, mask32x16, u32x8, u32x16,
 };
-use bothways_common::observe::EventSink;
-use bothways_common::raster::Region;
-use bothways_common::raster::Sample;
+use bothways_common::observe::Events;
+use bothways_common::raster::{Region, Sample};
 
-/// One triangle, its numbers in every lane.
-struct Brush<S: Simd> {
+/// One triangle, its numbers broadcast to all lanes.
+struct Broadcast<S: Simd> {
     id: u32,
     edges: [[f32x16<S>; 3]; 3],
     error: f32x16<S>,
@@ -22,7 +23,7 @@ struct Brush<S: Simd> {
     outside: f32x16<S>,
 }
 
-/// Sixteen samples tested.
+/// Sixteen samples, tested: `inside ⊆ perhaps`.
 struct Tested<S: Simd> {
     values: [f32x16<S>; 3],
     inside: mask32x16<S>,
@@ -32,106 +33,109 @@ struct Tested<S: Simd> {
 
 /// Draws what of one triangle lies in the tile.
 #[inline(always)]
-pub(super) fn draw<S: Simd, O: EventSink + ?Sized, F: Fault>(
-    simd: S,
-    triangle: &Affine,
+pub(super) fn draw<C: Context>(
+    context: &mut C,
+    triangle: &TriangleSetup,
     picture: &Picture,
     buffer: &mut TileBuffer,
-    observer: &mut O,
 ) {
     let here = triangle.region.intersection(buffer.region());
     if here.columns.len() <= 8 {
-        draw_blocks::<8, S, O, F>(simd, triangle, here, picture, buffer, observer);
+        draw_blocks::<8, C>(context, triangle, here, picture, buffer);
     } else {
-        draw_blocks::<16, S, O, F>(simd, triangle, here, picture, buffer, observer);
+        draw_blocks::<16, C>(context, triangle, here, picture, buffer);
     }
 }
 
-/// Draws in blocks of `ACROSS` columns and as many rows as make sixteen samples: 16 or 8.
+/// Draws in blocks of sixteen samples, in `ACROSS` columns: 16 or 8.
 #[inline(always)]
-fn draw_blocks<const ACROSS: usize, S: Simd, O: EventSink + ?Sized, F: Fault>(
-    simd: S,
-    triangle: &Affine,
+fn draw_blocks<const ACROSS: usize, C: Context>(
+    context: &mut C,
+    triangle: &TriangleSetup,
     Region { rows, columns }: Region,
     picture: &Picture,
     buffer: &mut TileBuffer,
-    observer: &mut O,
 ) {
-    let brush = Brush::new(simd, triangle);
-    let lane_column = f32x16::load_array(simd, const { lane_places::<ACROSS>()[0] });
-    let lane_row = f32x16::load_array(simd, const { lane_places::<ACROSS>()[1] });
-    // Columns and rows from the triangle's origin.
-    let (first_column, first_row) = (triangle.origin.column, triangle.origin.row);
-    let end_column = f32x16::splat(simd, own(columns.end, first_column));
-    let end_row = f32x16::splat(simd, own(rows.end, first_row));
-    let first_rows = lane_row + own(rows.start, first_row);
+    let simd = context.simd();
+    let broadcast = Broadcast::new(simd, triangle);
+    let lane_row = f32x16::load_array(simd, const { lane_places::<ACROSS>()[0] });
+    let lane_column = f32x16::load_array(simd, const { lane_places::<ACROSS>()[1] });
+    // Rows and columns from the triangle's origin.
+    let Sample { row: first_row, column: first_column } = triangle.origin;
+    let end_row = f32x16::splat(simd, difference(rows.end, first_row));
+    let end_column = f32x16::splat(simd, difference(columns.end, first_column));
+    let first_rows = lane_row + difference(rows.start, first_row);
     let down = 16 / ACROSS;
-    let step = f32x16::splat(simd, const { own(16 / ACROSS, 0) });
+    let step = f32x16::splat(simd, const { difference(16 / ACROSS, 0) });
     let to_next = down * buffer.stride();
 
     // Most triangles have one column of blocks: what depends on columns is computed once.
     for column in columns.clone().step_by(ACROSS) {
-        let own_column = lane_column + own(column, first_column);
-        let at_top = brush.at_top(own_column, own_column.simd_lt(end_column));
-        let mut own_row = first_rows;
+        let lane_columns = lane_column + difference(column, first_column);
+        let at_top = broadcast.at_top(lane_columns, lane_columns.simd_lt(end_column));
+        let mut lane_rows = first_rows;
         let mut index = buffer.index(Sample { row: rows.start, column });
         for row in rows.clone().step_by(down) {
-            let in_rows = (ACROSS < 16).then(|| own_row.simd_lt(end_row));
-            let tested = brush.test(own_row, &at_top, in_rows);
+            let in_rows = (ACROSS < 16).then(|| lane_rows.simd_lt(end_row));
+            let tested = broadcast.test(lane_rows, &at_top, in_rows);
             let first = Sample { row, column };
-            if O::ENABLED {
+            if C::WATCHED {
                 let ends = [rows.end, columns.end];
-                tell::<ACROSS, S, O, F>(simd, triangle, buffer, observer, first, ends, &tested);
+                emit_tests::<ACROSS, C>(context, triangle, buffer, first, ends, &tested);
             }
             let doubt = if ACROSS == 8 {
-                keep_two_rows::<S, F>(simd, &brush, &tested, buffer, index)
+                keep_two_rows::<_, C::Fault>(simd, &broadcast, &tested, buffer, index)
             } else {
-                keep_row::<S, F>(simd, &brush, &tested, buffer, index)
+                keep_row::<_, C::Fault>(simd, &broadcast, &tested, buffer, index)
             };
             if doubt.any_true() {
                 let masks = [doubt.to_bitmask(), tested.inside.to_bitmask()];
-                let fragments = (brush.id, tested.keys.to_array());
-                leave_open::<ACROSS, O, F>(fragments, picture, buffer, first, masks, observer);
-                if buffer.is_twin::<O, F>(brush.id) {
+                let fragments = (broadcast.id, tested.keys.to_array());
+                let context = &mut context.scalar();
+                leave_open::<ACROSS, _>(context, fragments, picture, buffer, first, masks);
+                if buffer.is_duplicate::<C>(broadcast.id) {
                     return;
                 }
             }
-            own_row += step;
+            lane_rows += step;
             index += to_next;
         }
     }
 }
 
-/// A column or row of the picture, counted from a first one.
+/// A row or column of the picture, counted from a first one.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "at most 65,536")]
 #[expect(clippy::cast_precision_loss, reason = "at most 256")]
-const fn own(place: usize, first: usize) -> f32 {
+const fn difference(place: usize, first: usize) -> f32 {
     (place as i32 - first as i32) as f32
 }
 
-/// Columns and rows of the sixteen samples of a block.
+/// Rows and columns of the sixteen samples of a block.
 const fn lane_places<const ACROSS: usize>() -> [[f32; 16]; 2] {
     let mut places = [[0.0; 16]; 2];
     let mut lane = 0;
     while lane < 16 {
         #[expect(clippy::cast_precision_loss, reason = "at most 16")]
-        let place = [(lane % ACROSS) as f32, (lane / ACROSS) as f32];
+        let place = [(lane / ACROSS) as f32, (lane % ACROSS) as f32];
         (places[0][lane], places[1][lane]) = (place[0], place[1]);
         lane += 1;
     }
     places
 }
 
-impl<S: Simd> Brush<S> {
+impl<S: Simd> Broadcast<S> {
     #[inline(always)]
-    fn new(simd: S, Affine { id, edges: [a, b, c], error, key, .. }: &Affine) -> Self {
+    fn new(
+        simd: S,
+        TriangleSetup { id, edges: [a, b, c], error, key, .. }: &TriangleSetup,
+    ) -> Self {
         debug_assert!(error.is_finite(), "or lanes beyond the region would count");
         let in_lanes = |numbers: &[f32; 3]| {
             let [at_origin, across, down] = *numbers;
             [f32x16::splat(simd, at_origin), f32x16::splat(simd, across), f32x16::splat(simd, down)]
         };
-        Brush {
+        Broadcast {
             id: *id,
             edges: [in_lanes(a), in_lanes(b), in_lanes(c)],
             error: f32x16::splat(simd, *error),
@@ -140,8 +144,8 @@ impl<S: Simd> Brush<S> {
         }
     }
 
-    /// The edge functions and the key in the first row of the triangle's box. One edge function excludes what is not in
-    /// its columns.
+    /// The edge functions and the key in the first row of the triangle's box. One edge function excludes the samples
+    /// beside its columns.
     #[inline(always)]
     fn at_top(&self, column: f32x16<S>, in_columns: mask32x16<S>) -> [f32x16<S>; 4] {
         let ([a, b, c], key) = (&self.edges, &self.keys);
@@ -176,30 +180,30 @@ impl<S: Simd> Brush<S> {
     }
 }
 
-/// The depth test of one row of sixteen samples; tells which lanes are left open.
+/// The depth test of one row of sixteen samples. Returns the lanes that are left open.
 #[inline(always)]
 fn keep_row<S: Simd, F: Fault>(
     simd: S,
-    brush: &Brush<S>,
+    broadcast: &Broadcast<S>,
     tested: &Tested<S>,
     buffer: &mut TileBuffer,
     index: usize,
 ) -> mask32x16<S> {
     let (ids, keys) = buffer.from(index);
     let (ids, keys) = (&mut ids[..16], &mut keys[..16]);
-    let held = f32x16::from_slice(simd, keys);
-    let (replaces, doubt) = depth_test::<S, F>(tested, held);
-    replaces.select(tested.keys, held).store_slice(keys);
-    let shown = u32x16::from_slice(simd, ids);
-    replaces.select(u32x16::splat(simd, brush.id), shown).store_slice(ids);
+    let stored = f32x16::from_slice(simd, keys);
+    let (replaces, doubt) = depth_test::<S, F>(tested, stored);
+    replaces.select(tested.keys, stored).store_slice(keys);
+    let stored_ids = u32x16::from_slice(simd, ids);
+    replaces.select(u32x16::splat(simd, broadcast.id), stored_ids).store_slice(ids);
     doubt
 }
 
-/// The depth test of two rows of eight samples; tells which lanes are left open.
+/// The depth test of two rows of eight samples. Returns the lanes that are left open.
 #[inline(always)]
 fn keep_two_rows<S: Simd, F: Fault>(
     simd: S,
-    brush: &Brush<S>,
+    broadcast: &Broadcast<S>,
     tested: &Tested<S>,
     buffer: &mut TileBuffer,
     index: usize,
@@ -207,11 +211,11 @@ fn keep_two_rows<S: Simd, F: Fault>(
     let stride = buffer.stride();
     let (ids, keys) = buffer.from(index);
     let (ids, keys) = (&mut ids[..stride + 8], &mut keys[..stride + 8]);
-    let held = two_rows(simd, keys, stride);
-    let (replaces, doubt) = depth_test::<S, F>(tested, held);
+    let stored = two_rows(simd, keys, stride);
+    let (replaces, doubt) = depth_test::<S, F>(tested, stored);
     let (upper, lower) = simd.split_mask32x16(replaces);
     let (upper_keys, lower_keys) = simd.split_f32x16(tested.keys);
-    let id = u32x8::splat(simd, brush.id);
+    let id = u32x8::splat(simd, broadcast.id);
     for (start, mask, new) in [(0, upper, upper_keys), (stride, lower, lower_keys)] {
         let (ids, keys) = (&mut ids[start..start + 8], &mut keys[start..start + 8]);
         mask.select(new, f32x8::from_slice(simd, keys)).store_slice(keys);
@@ -229,15 +233,15 @@ fn two_rows<S: Simd>(simd: S, keys: &[f32], stride: usize) -> f32x16<S> {
     )
 }
 
-/// Which fragments are certainly nearest so far, and which samples are not decided.
+/// The fragments that are certainly nearest so far, and the samples that are not decided.
 #[inline(always)]
 fn depth_test<S: Simd, F: Fault>(
     tested: &Tested<S>,
-    held: f32x16<S>,
+    stored: f32x16<S>,
 ) -> (mask32x16<S>, mask32x16<S>) {
-    let nearer = tested.inside & tested.keys.simd_gt(held * nearer_by::<F>());
-    let farther = tested.inside & held.simd_gt(tested.keys * nearer_by::<F>());
-    // Who is inside is perhaps inside.
+    let nearer = tested.inside & tested.keys.simd_gt(stored * nearer_by::<F>());
+    let farther = tested.inside & stored.simd_gt(tested.keys * nearer_by::<F>());
+    // As inside ⊆ perhaps, this is the difference of two sets.
     (nearer, tested.perhaps ^ (nearer | farther))
 }
 
@@ -246,49 +250,49 @@ fn sample<const ACROSS: usize>(first: Sample, lane: usize) -> Sample {
     Sample { row: first.row + lane / ACROSS, column: first.column + lane % ACROSS }
 }
 
-/// Leaves some lanes to the judge: those of the first mask, which of the second are certainly covered. It takes
-/// copies, so that who calls it may keep everything in registers.
+/// Leaves some lanes to the judge: those of the mask `doubt`, of which those of `inside` are certainly covered. It takes
+/// copies, so that the caller can keep everything in registers.
 #[cold]
-fn leave_open<const ACROSS: usize, O: EventSink + ?Sized, F: Fault>(
+fn leave_open<const ACROSS: usize, C: ScalarContext>(
+    context: &mut C,
     (id, keys): (u32, [f32; 16]),
     picture: &Picture,
     buffer: &mut TileBuffer,
     first: Sample,
     [doubt, inside]: [u64; 2],
-    observer: &mut O,
 ) {
     for lane in lanes_of(doubt) {
         let at = buffer.index(sample::<ACROSS>(first, lane));
         let covered = inside >> lane & 1 == 1;
-        buffer.leave_open::<O, F>(picture, (at, id, keys[lane & 15]), covered, observer);
+        buffer.leave_open(context, picture, (at, id, keys[lane & 15]), covered);
     }
 }
 
-/// Tells of sixteen tests, and of the depth tests that follow.
+/// Emits sixteen tests, and the depth tests that follow.
 #[inline(always)]
-fn tell<const ACROSS: usize, S: Simd, O: EventSink + ?Sized, F: Fault>(
-    simd: S,
-    triangle: &Affine,
+fn emit_tests<const ACROSS: usize, C: Context>(
+    context: &mut C,
+    triangle: &TriangleSetup,
     buffer: &mut TileBuffer,
-    observer: &mut O,
     first: Sample,
     [end_row, end_column]: [usize; 2],
-    tested: &Tested<S>,
+    tested: &Tested<C::Simd>,
 ) {
-    if let Some(counts) = observer.counts() {
+    let simd = context.simd();
+    if let Some(counts) = context.sink().counts() {
         let (index, stride) = (buffer.index(first), buffer.stride());
         let (_, keys) = buffer.from(index);
-        let held = match ACROSS {
+        let stored = match ACROSS {
             8 => two_rows(simd, keys, stride),
             _ => f32x16::from_slice(simd, &keys[..16]),
         };
-        let (nearer, doubt) = depth_test::<S, F>(tested, held);
+        let (nearer, doubt) = depth_test::<_, C::Fault>(tested, stored);
         let certain = nearer | (tested.inside & !doubt);
-        let is_held = certain & !held.simd_eq(f32x16::splat(simd, NOTHING));
+        let meets_earlier = certain & !stored.simd_eq(f32x16::splat(simd, NOTHING));
         let (rows, columns) = (end_row - first.row, end_column - first.column);
         counts.tests += (rows.min(16 / ACROSS) * columns.min(ACROSS)) as u64;
         counts.fragments += u64::from(certain.to_bitmask().count_ones());
-        counts.depth_tests += u64::from(is_held.to_bitmask().count_ones());
+        counts.depth_tests += u64::from(meets_earlier.to_bitmask().count_ones());
         return;
     }
     let values = tested.values.map(SimdBase::to_array);
@@ -298,10 +302,10 @@ fn tell<const ACROSS: usize, S: Simd, O: EventSink + ?Sized, F: Fault>(
         if sample.row >= end_row || sample.column >= end_column {
             continue;
         }
-        triangle.tell_test(sample, values.map(|values| values[lane]), observer);
+        triangle.emit_test(context.sink(), sample, values.map(|values| values[lane]));
         if inside >> lane & 1 == 1 {
             let at = buffer.index(sample);
-            buffer.tell_certain::<O, F>(at, triangle.id, keys[lane], observer);
+            buffer.emit_certain(context, at, triangle.id, keys[lane]);
         }
     }
 }

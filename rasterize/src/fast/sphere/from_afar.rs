@@ -1,13 +1,13 @@
-//! A sphere far before a parallel camera, tested as [`super::round`] tests others, but from the waypoint: where it lies is
-//! known to as many digits as if the eye were near.
+//! A sphere far in front of a parallel camera, tested from the local origin: where it lies is known to as many digits
+//! as if the eye were near.
 
-use super::depth::{DepthInterval, UNIT_ROUNDOFF};
-use super::round::Covered;
+use super::hit::SphereHit;
 use bothways_common::Ray;
+use bothways_common::engine::roundoff::{EPS53, Interval};
 use glam::DVec3;
 
 /// Puts a ray into the equation of a sphere that lies before the eye as a whole: the near root is seen, whatever its
-/// sign. `center`, and the depth that comes of it, count from the waypoint.
+/// sign. `center`, and the depth that comes of it, count from the local.
 ///
 /// # The errors, rounding by rounding
 ///
@@ -18,9 +18,9 @@ use glam::DVec3;
 /// which the computed `B` may take one more `2δB²`, and one of itself; `A·C` by `A·δC`, 3 for `A` and one; their
 /// difference by one of both. The root `(−B − √…)/A` carries what its parts do, and 3 of `A`, the sum's and the
 /// quotient's. Constants are larger by one or more, or by a tenth.
-pub(super) fn covered(center: DVec3, radius: f64, ray: &Ray, exact: bool) -> Covered {
+pub(crate) fn hit(center: DVec3, radius: f64, ray: &Ray, exact: bool) -> SphereHit {
     const FLOOR: f64 = 1e-200;
-    let (unit, floor) = if exact { (UNIT_ROUNDOFF, FLOOR) } else { (0.0, 0.0) };
+    let (unit, floor) = if exact { (EPS53, FLOOR) } else { (0.0, 0.0) };
     let m = ray.origin - center;
     let a = ray.direction.length_squared();
     let b = m.dot(ray.direction);
@@ -34,16 +34,15 @@ pub(super) fn covered(center: DVec3, radius: f64, ray: &Ray, exact: bool) -> Cov
         + 8.0 * unit * (b * b + a * (distance_squared + radius_squared))
         + floor;
     if discriminant < -d_error {
-        return Covered::No;
+        return SphereHit::Miss;
     }
     // Written so that NaN is not known.
     if discriminant.partial_cmp(&d_error) != Some(std::cmp::Ordering::Greater) {
-        return Covered::Unknown;
+        return SphereHit::Unknown;
     }
     let root = discriminant.sqrt();
     let root_error = d_error / root + unit * root;
     let t = (-b - root) / a;
     let error = 1.01 * (b_error + root_error + 6.0 * unit * (b.abs() + root)) / a + floor;
-    let (low, high) = (t - error, t + error);
-    Covered::At(if low <= high { DepthInterval { low, high } } else { DepthInterval::UNKNOWN })
+    SphereHit::At(Interval::around(t, error).unwrap_or(Interval::ALL))
 }

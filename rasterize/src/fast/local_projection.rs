@@ -1,32 +1,32 @@
-//! A point on the way of the middle ray, from which what lies far from the eye is computed.
+//! Offsets from a point near the scene, for an eye that is far from it.
 
 use bothways_common::{Camera, Projection};
 use glam::DVec3;
 
-/// The point `t·D` of a parallel camera's middle ray `0 + t·D`, exactly.
+/// The local origin: the point `t·D` of a parallel camera's middle ray `0 + t·D`, exactly; or the eye itself.
 ///
 /// From an eye that is a million times as far from the scene as the scene is large, an offset has twenty bits less
-/// for where it is seen. But parallel rays may begin anywhere on their way: edge functions and places are the same
-/// for offsets from this point, which are short, and depths are less by `t`.
+/// for where it is seen. But parallel rays may begin anywhere on their line: edge functions and places are the same
+/// for offsets from the local origin, which are short, and depths are less by `t`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Waypoint {
+pub(super) struct LocalProjection {
     pub(super) t: f64,
-    /// The point is the sum of both, of which the second is not more than a rounding of the first.
+    /// The point is the sum of both; the second is at most a rounding of the first.
     high: DVec3,
     low: DVec3,
 }
 
-impl Waypoint {
+impl LocalProjection {
     /// The eye itself.
-    const EYE: Waypoint = Waypoint { t: 0.0, high: DVec3::ZERO, low: DVec3::ZERO };
+    const EYE: LocalProjection = LocalProjection { t: 0.0, high: DVec3::ZERO, low: DVec3::ZERO };
 
-    /// The middle of a scene's depth, if that lies far before a parallel camera; `bounds` are the corners of a box
-    /// around the scene.
-    pub(super) fn new(camera: &Camera, bounds: &[DVec3; 8]) -> Waypoint {
-        /// So many times as far as the scene is deep is far.
+    /// The middle of a scene's depth, if that lies far in front of a parallel camera; otherwise the eye. `bounds` are
+    /// the corners of a box around the scene.
+    pub(super) fn new(camera: &Camera, bounds: &[DVec3; 8]) -> LocalProjection {
+        /// An eye is far if its distance is more than so many times the depth of the scene.
         const FAR: f64 = 16.0;
         if camera.projection() == Projection::Perspective {
-            return Waypoint::EYE;
+            return LocalProjection::EYE;
         }
         let depth = |corner: &DVec3| -(*corner - camera.eye().as_dvec3()).dot(camera.w());
         let low = bounds.iter().map(depth).fold(f64::INFINITY, f64::min);
@@ -34,23 +34,23 @@ impl Waypoint {
         let t = f64::midpoint(low, high);
         // Written so that NaN and infinity, of a scene of planes alone, fail.
         if low > 0.0 && t > FAR * (high - low) && t < f64::MAX {
-            Waypoint::at(t, -camera.w())
+            LocalProjection::at(t, -camera.w())
         } else {
-            Waypoint::EYE
+            LocalProjection::EYE
         }
     }
 
-    fn at(t: f64, direction: DVec3) -> Waypoint {
+    fn at(t: f64, direction: DVec3) -> LocalProjection {
         let [x, y, z] = direction.to_array().map(|along| product(t, along));
-        Waypoint { t, high: DVec3::new(x[0], y[0], z[0]), low: DVec3::new(x[1], y[1], z[1]) }
+        LocalProjection { t, high: DVec3::new(x[0], y[0], z[0]), low: DVec3::new(x[1], y[1], z[1]) }
     }
 
-    /// The two parts of the point: subtracted one after the other they are what [`Waypoint::relative`] subtracts.
+    /// The two parts of the point: subtracted one after the other they are what [`LocalProjection::relative`] subtracts.
     pub(super) fn parts(&self) -> [DVec3; 2] {
         [self.high, self.low]
     }
 
-    /// What is given relative to the eye relative to this point, each coordinate rounded twice.
+    /// An offset from the eye as one from the local origin, each coordinate rounded twice.
     ///
     /// The second rounding is one of the result. The first is, too: either a coordinate and the point's are
     /// within a factor of two, and their difference is exact (Sterbenz, "Floating-Point Computation", 1974); or it is
@@ -90,11 +90,11 @@ mod tests {
     #[test]
     fn what_lies_on_the_ray_is_at_the_waypoint() {
         let direction = DVec3::new(0.6, 0.0, -0.8);
-        let waypoint = Waypoint::at(1e6 + 1.0 / 3.0, direction);
-        let [high, low] = waypoint.parts();
-        assert_eq!(waypoint.relative(high), -low);
+        let local = LocalProjection::at(1e6 + 1.0 / 3.0, direction);
+        let [high, low] = local.parts();
+        assert_eq!(local.relative(high), -low);
         assert!(low != DVec3::ZERO && low.length() < 1e-9);
         let beside = high + DVec3::new(0.0, 3.5, 0.0);
-        assert_eq!(waypoint.relative(beside).y, 3.5);
+        assert_eq!(local.relative(beside).y, 3.5);
     }
 }

@@ -1,61 +1,62 @@
-//! Neighbouring triangles of a mesh together: where they mostly lie in one tile, it takes them as they
-//! are, and looks at each of them once, when it draws them.
+//! Clusters of neighbouring triangles of a mesh. Most lie in one tile, which takes them as a whole and looks at each
+//! triangle once, when it draws it.
 
-use super::bins::Binning;
-use super::setup::BOX_MARGIN;
-use super::vertices::{ON_RASTER, OUT_OF_SIGHT};
+use super::tiling::Tiling;
+use crate::fast::camera_map::CameraMap;
+use crate::fast::setup::BOX_MARGIN;
+use crate::fast::vertices::{FixedPointRaster, ON_RASTER, OUT_OF_SIGHT};
 use bothways_common::engine::simd::Simd;
 use bothways_common::raster::Region;
 use bothways_common::{Mesh, Shape};
 use glam::{Vec3, Vec3A};
 use rayon::prelude::*;
 
-/// Triangles of a cluster: they are of one mesh and in one batch.
-pub(super) const CLUSTER: u32 = 32;
-/// A cluster that may lie in more tiles than this is taken apart: each would look at all of it.
+/// How many triangles a cluster has at most, all of one mesh and in one batch.
+pub(crate) const CLUSTER: u32 = 32;
+/// A cluster that may lie in more tiles than this is taken apart: every tile would look at all of it.
 const MOST_TILES: usize = 2;
 
-/// Fixed-point units that a cluster's box has room for around its corners.
+/// Fixed-point units by which a cluster's box is wider than its corners.
 const MARGIN: i32 = BOX_MARGIN + 4;
 
 /// A box around a cluster, its least and its greatest corner.
-pub(super) type Bounds = [Vec3; 2];
+pub(crate) type Bounds = [Vec3; 2];
 
 /// Some consecutive triangles of an object's [`Triangles`].
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Cluster {
-    /// The object, the place of the first triangle and how many there are.
-    pub(super) object: u32,
-    pub(super) first: u32,
-    pub(super) count: u32,
-    /// The samples that they may cover: first and last column, first and last row.
-    pub(super) bounds: [[u16; 2]; 2],
-    /// No depth key of theirs is larger, but for rounding.
-    pub(super) nearest: f32,
+pub(crate) struct Cluster {
+    /// The object, the index of the first triangle and how many there are.
+    pub(crate) object: u32,
+    pub(crate) first: u32,
+    pub(crate) count: u32,
+    /// The samples that they may cover: first and last row, first and last column.
+    pub(crate) bounds: [[u16; 2]; 2],
+    /// No depth key of theirs is larger, except for rounding.
+    pub(crate) nearest: f32,
 }
 
 /// Where a cluster may be seen.
 #[derive(Debug)]
-pub(super) enum Place {
+pub(crate) enum ClusterExtent {
     /// Nowhere.
-    Unseen,
+    Nowhere,
     /// In few tiles.
-    Near(Cluster),
+    FewTiles(Cluster),
     /// In many tiles, or it is not known where.
-    Scattered,
+    ManyTiles,
 }
 
-/// The triangles of one object in clusters; none for what is no mesh.
+/// The triangles of one object in clusters; none if the object is not a mesh.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Clusters {
+pub(crate) struct Clusters {
     bounds: Vec<Bounds>,
-    /// The triangles in another order than the mesh's, where the mesh's has no neighbours in a row.
+    /// The triangles in another order, if consecutive triangles of the mesh are not neighbours.
     sorted: Option<Sorted>,
 }
 
 #[derive(Clone, Debug)]
 struct Sorted {
-    /// Which triangles of the mesh.
+    /// The numbers of the triangles in the mesh.
     numbers: Vec<u32>,
     triangles: Vec<[u32; 3]>,
     /// The mesh's vertices in the order in which these triangles first have them.
@@ -64,27 +65,27 @@ struct Sorted {
 
 /// Triangles in the order of their clusters.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Triangles<'a> {
-    pub(super) corners: &'a [[u32; 3]],
+pub(crate) struct Triangles<'a> {
+    pub(crate) corners: &'a [[u32; 3]],
     numbers: Option<&'a [u32]>,
 }
 
 impl Triangles<'_> {
-    pub(super) const NONE: Triangles<'static> = Triangles { corners: &[], numbers: None };
+    pub(crate) const NONE: Triangles<'static> = Triangles { corners: &[], numbers: None };
 
-    /// The number in the mesh of the one at this place.
+    /// The number in the mesh of the triangle at this index.
     #[inline(always)]
-    pub(super) fn number(&self, place: u32) -> u32 {
+    pub(crate) fn number(&self, index: u32) -> u32 {
         match self.numbers {
-            None => place,
-            Some(numbers) => numbers[place as usize],
+            None => index,
+            Some(numbers) => numbers[index as usize],
         }
     }
 }
 
 impl Clusters {
-    /// Puts neighbours together.
-    pub(super) fn new(shape: &Shape) -> Clusters {
+    /// Clusters of neighbours.
+    pub(crate) fn new(shape: &Shape) -> Clusters {
         let Shape::Mesh(mesh) = shape else { return Clusters::default() };
         let (positions, triangles) = (mesh.positions(), mesh.triangles());
         let (bounds, is_coherent) = bounds(positions, triangles);
@@ -97,12 +98,12 @@ impl Clusters {
     }
 
     /// Boxes around the clusters, in their order.
-    pub(super) fn bounds(&self) -> &[Bounds] {
+    pub(crate) fn bounds(&self) -> &[Bounds] {
         &self.bounds
     }
 
     /// The object's triangles in the order of their clusters.
-    pub(super) fn triangles<'a>(&'a self, shape: &'a Shape) -> Triangles<'a> {
+    pub(crate) fn triangles<'a>(&'a self, shape: &'a Shape) -> Triangles<'a> {
         match (shape, &self.sorted) {
             (Shape::Mesh(_), Some(Sorted { numbers, triangles, .. })) => {
                 Triangles { corners: triangles, numbers: Some(numbers) }
@@ -113,15 +114,16 @@ impl Clusters {
     }
 
     /// The vertices of a mesh in the order in which the vertex stage takes them.
-    pub(super) fn positions<'a>(&'a self, mesh: &'a Mesh) -> &'a [Vec3] {
+    pub(crate) fn positions<'a>(&'a self, mesh: &'a Mesh) -> &'a [Vec3] {
         self.sorted.as_ref().map_or(mesh.positions(), |sorted| &sorted.positions)
     }
 }
 
-/// Boxes around clusters of consecutive triangles, and whether they are much smaller than those of
-/// triangles from anywhere would be.
+/// Boxes around clusters of consecutive triangles, and whether they are small: much smaller than boxes around
+/// triangles from anywhere in the mesh.
 fn bounds(positions: &[Vec3], triangles: &[[u32; 3]]) -> (Vec<Bounds>, bool) {
-    /// Sides of a cluster's box, in those of its triangles: a row of 16 pairs has 9, a square patch 4.
+    /// The sides of a cluster's box, as a multiple of those of its triangles' boxes: a row of 16 pairs has 9, a square
+    /// of them 4.
     const MOST_SIDES: f64 = 16.0;
     let around = |triangle: &[u32; 3]| {
         let [a, b, c] = triangle.map(|vertex| Vec3A::from(positions[vertex as usize]));
@@ -146,36 +148,37 @@ fn bounds(positions: &[Vec3], triangles: &[[u32; 3]]) -> (Vec<Bounds>, bool) {
 impl Sorted {
     /// Sorts triangles into clusters by halving, again and again, along the longest side.
     fn new(positions: &[Vec3], triangles: &[[u32; 3]]) -> Sorted {
-        let centre = |triangle: &[u32; 3]| {
+        let center = |triangle: &[u32; 3]| {
             triangle.iter().map(|vertex| Vec3A::from(positions[*vertex as usize]) / 3.0).sum()
         };
         let count = u32::try_from(triangles.len()).expect("ids are u32");
-        let mut all: Vec<(Vec3A, u32)> = triangles.par_iter().map(centre).zip(0..count).collect();
+        let mut all: Vec<(Vec3A, u32)> = triangles.par_iter().map(center).zip(0..count).collect();
         sort(&mut all);
         let numbers: Vec<u32> = all.into_iter().map(|(_, number)| number).collect();
         // Vertices come in this order, too: neighbours share lines of the cache.
-        let mut places = vec![u32::MAX; positions.len()];
+        let mut renumbered = vec![u32::MAX; positions.len()];
         let mut order = Vec::with_capacity(positions.len());
-        let mut place = |vertex: u32| {
-            let place = &mut places[vertex as usize];
-            if *place == u32::MAX {
-                *place = u32::try_from(order.len()).expect("vertices are u32");
+        let mut renumber = |vertex: u32| {
+            let number = &mut renumbered[vertex as usize];
+            if *number == u32::MAX {
+                *number = u32::try_from(order.len()).expect("vertices are u32");
                 order.push(vertex);
             }
-            *place
+            *number
         };
-        let sorted = numbers.iter().map(|number| triangles[*number as usize].map(&mut place));
+        let sorted = numbers.iter().map(|number| triangles[*number as usize].map(&mut renumber));
         let triangles = sorted.collect();
-        // Those of no triangle.
-        (0..u32::try_from(positions.len()).expect("vertices are u32")).for_each(|v| _ = place(v));
+        // Then the vertices of no triangle.
+        (0..u32::try_from(positions.len()).expect("vertices are u32"))
+            .for_each(|v| _ = renumber(v));
         let positions = order.iter().map(|vertex| positions[*vertex as usize]).collect();
         Sorted { numbers, triangles, positions }
     }
 }
 
-/// Puts points in an order in which every cluster is close together.
+/// Sorts points so that those of every cluster are close together.
 fn sort(points: &mut [(Vec3A, u32)]) {
-    /// Fewer than this are not worth a thread.
+    /// Fewer points than this are not worth a thread.
     const FEW: usize = 4096;
     let clusters = points.len().div_ceil(CLUSTER as usize);
     if clusters < 2 {
@@ -199,22 +202,22 @@ fn sort(points: &mut [(Vec3A, u32)]) {
 
 /// Finds where a cluster may be seen, from the corners of its box.
 ///
-/// What lies in a box in front of the eye is seen between the places of its corners. A corner's place is
+/// All points of a box in front of the eye are seen between the places of its corners. A corner's place is
 /// off by at most a unit and a half, and so is a vertex's: with three units more than a triangle's own box
 /// has, no triangle's box reaches over the cluster's.
 #[inline(always)]
-pub(super) fn place<S: Simd>(
+pub(crate) fn extent<S: Simd>(
     simd: S,
-    Binning { raster, screen, tiling, .. }: &Binning,
+    (map, raster, tiling): (&CameraMap, &FixedPointRaster, &Tiling),
     bounds: &Bounds,
     [object, first, count]: [u32; 3],
-) -> Place {
-    let corners = raster.place_corners(simd, screen, *bounds);
+) -> ClusterExtent {
+    let corners = raster.place_corners(simd, map, *bounds);
     if corners.flags & OUT_OF_SIGHT != 0 {
-        return Place::Unseen;
+        return ClusterExtent::Nowhere;
     }
     if corners.flags & ON_RASTER == 0 {
-        return Place::Scattered;
+        return ClusterExtent::ManyTiles;
     }
     let bits = raster.fraction_bits;
     let samples = |[low, high]: [i32; 2], size: i32| {
@@ -223,24 +226,24 @@ pub(super) fn place<S: Simd>(
         let sample = |place: i32| u16::try_from(place).expect("a side has at most 65,536 samples");
         (first <= last).then(|| [sample(first), sample(last)])
     };
-    let [width, height] = raster.size;
-    let (Some(columns), Some(rows)) =
-        (samples(corners.columns, width), samples(corners.rows, height))
+    let [height, width] = raster.size;
+    let (Some(rows), Some(columns)) =
+        (samples(corners.rows, height), samples(corners.columns, width))
     else {
-        return Place::Unseen;
+        return ClusterExtent::Nowhere;
     };
-    let bounds = [columns, rows];
+    let bounds = [rows, columns];
     if tiling.tiles(bounds).count() > MOST_TILES {
-        return Place::Scattered;
+        return ClusterExtent::ManyTiles;
     }
-    Place::Near(Cluster { object, first, count, bounds, nearest: corners.nearest })
+    ClusterExtent::FewTiles(Cluster { object, first, count, bounds, nearest: corners.nearest })
 }
 
 impl Cluster {
     /// The samples that it may cover.
-    pub(super) fn region(&self) -> Region {
+    pub(crate) fn region(&self) -> Region {
         let range = |[first, last]: [u16; 2]| first.into()..usize::from(last) + 1;
-        let [columns, rows] = self.bounds;
+        let [rows, columns] = self.bounds;
         Region { rows: range(rows), columns: range(columns) }
     }
 }

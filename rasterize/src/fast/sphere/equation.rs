@@ -1,21 +1,12 @@
-//! A sphere, tested by its equation at the samples of its bounding region.
+//! A sphere's equation along a ray, relative to the eye.
 
-use super::depth::{DepthInterval, UNIT_ROUNDOFF};
-use super::twofold::Twofold;
+use super::hit::SphereHit;
+use crate::fast::depth::depth_from_t;
+use crate::fast::high_precision::DoubleDouble;
+use bothways_common::engine::roundoff::EPS53;
 use bothways_common::{Projection, Ray};
 use glam::DVec3;
 use std::cmp::Ordering;
-
-/// What rounded arithmetic says of a sphere at a sample.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Covered {
-    /// Certainly, at this depth.
-    At(DepthInterval),
-    /// Certainly not.
-    No,
-    /// The judge must say.
-    Unknown,
-}
 
 /// Beneath this, products may have underflowed; it is far above what that can lose.
 const FLOOR: f64 = 1e-200;
@@ -23,36 +14,34 @@ const FLOOR: f64 = 1e-200;
 /// Tests a ray against a sphere: in `f64`, and where that leaves open whether it hits or leaves too few digits of where,
 /// with twice as many digits. `exact` says whether bounds hold or are (by a fault) zero.
 #[inline(always)]
-pub(super) fn covered(
+pub(crate) fn hit(
     projection: Projection,
     center: DVec3,
     radius: f64,
     ray: &Ray,
     exact: bool,
-) -> Covered {
+) -> SphereHit {
     /// Of `t`: that a depth key can be made of it.
     const ENOUGH: f64 = 1e-7;
     let answer = Equation::new(center, radius, ray, exact).answer();
     let answer = match answer {
         Answer::At { relative, .. } if relative <= ENOUGH => answer,
         Answer::No => answer,
-        _ if exact => twofold_answer(center, radius, ray),
+        _ if exact => high_precision_answer(center, radius, ray),
         _ => answer,
     };
     match answer {
-        Answer::At { t, relative } => {
-            Covered::At(DepthInterval::from_t(projection, t, 1.25 * relative))
-        }
-        Answer::No => Covered::No,
-        Answer::Unknown => Covered::Unknown,
+        Answer::At { t, relative } => SphereHit::At(depth_from_t(projection, t, 1.25 * relative)),
+        Answer::No => SphereHit::Miss,
+        Answer::Unknown => SphereHit::Unknown,
     }
 }
 
 /// Apart from the loop, which it would slow down.
 #[cold]
 #[inline(never)]
-fn twofold_answer(center: DVec3, radius: f64, ray: &Ray) -> Answer {
-    Equation::twofold(center, radius, ray).answer()
+fn high_precision_answer(center: DVec3, radius: f64, ray: &Ray) -> Answer {
+    Equation::in_high_precision(center, radius, ray).answer()
 }
 
 enum Answer {
@@ -90,7 +79,7 @@ impl Equation {
     /// `B̂² + A·Ĉ`. Each constant below is larger by one or more, for the roundings of the bounds.
     #[inline(always)]
     fn new(center: DVec3, radius: f64, ray: &Ray, exact: bool) -> Equation {
-        let unit = if exact { UNIT_ROUNDOFF } else { 0.0 };
+        let unit = if exact { EPS53 } else { 0.0 };
         let floor = if exact { FLOOR } else { 0.0 };
         let m = ray.origin - center;
         let a = ray.direction.length_squared();
@@ -118,16 +107,17 @@ impl Equation {
     /// `m` has none, a sum less than 4u², a product less than 8u². So `A` carries 8 + 2·4 of them; `B` as many of
     /// `B̂`; `C` 8 + 3·4 of `Ĉ`; `B²` 2·16 + 8; `A·C` 16 + 20 + 8; their difference four more: 48 of `B̂² + A·Ĉ`.
     /// Each constant below is larger by a fifth or more: for the roundings of sizes, and for products of errors.
-    fn twofold(center: DVec3, radius: f64, ray: &Ray) -> Equation {
-        const UU: f64 = UNIT_ROUNDOFF * UNIT_ROUNDOFF;
-        let d = ray.direction.to_array().map(Twofold::new);
-        let m: [Twofold; 3] =
-            std::array::from_fn(|k| Twofold::difference(ray.origin[k], center[k]));
-        let dot = |p: &[Twofold; 3], q: &[Twofold; 3]| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
-        let r = Twofold::new(radius);
+    fn in_high_precision(center: DVec3, radius: f64, ray: &Ray) -> Equation {
+        const SQUARE: f64 = EPS53 * EPS53;
+        let d = ray.direction.to_array().map(DoubleDouble::new);
+        let m: [DoubleDouble; 3] =
+            std::array::from_fn(|k| DoubleDouble::difference(ray.origin[k], center[k]));
+        let dot =
+            |p: &[DoubleDouble; 3], q: &[DoubleDouble; 3]| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+        let r = DoubleDouble::new(radius);
         let (a, b, m_squared, r_squared) = (dot(&d, &d), dot(&m, &d), dot(&m, &m), r * r);
         let is_on = begins_on(&m, radius);
-        let c = if is_on { Twofold::ZERO } else { m_squared - r_squared };
+        let c = if is_on { DoubleDouble::ZERO } else { m_squared - r_squared };
         let discriminant = b * b - a * c;
         let sizes = m.map(|coordinate| coordinate.high.abs());
         let b_size = DVec3::from_array(sizes).dot(ray.direction.abs());
@@ -135,12 +125,12 @@ impl Equation {
         Equation {
             a: a.high,
             b: b.high,
-            b_error: 20.0 * UU * b_size + FLOOR,
+            b_error: 20.0 * SQUARE * b_size + FLOOR,
             c: c.high,
-            c_error: if is_on { 0.0 } else { 24.0 * UU * c_size + FLOOR },
+            c_error: if is_on { 0.0 } else { 24.0 * SQUARE * c_size + FLOOR },
             discriminant: discriminant.high,
-            d_error: 64.0 * UU * (b_size * b_size + a.high * c_size) + FLOOR,
-            unit: UNIT_ROUNDOFF,
+            d_error: 64.0 * SQUARE * (b_size * b_size + a.high * c_size) + FLOOR,
+            unit: EPS53,
         }
     }
 
@@ -180,7 +170,7 @@ impl Equation {
 /// integers would sum to `4ˢ·R²`; but a square leaves 0 or 1 when divided by 4, so all three integers would be even,
 /// and that was not the last place. So coordinates are integers times `q`, at most `R` of them, and their squares and
 /// sums have at most 50 digits: plain arithmetic has no error.
-fn begins_on(m: &[Twofold; 3], radius: f64) -> bool {
+fn begins_on(m: &[DoubleDouble; 3], radius: f64) -> bool {
     let digits = radius.to_bits();
     // The leading digit's place, and how far beneath it the last one is.
     let leading = f64::from_bits(digits >> 52 << 52);
@@ -207,8 +197,7 @@ fn begins_on(m: &[Twofold; 3], radius: f64) -> bool {
 /// B₂)` 10; `s·(m₁ + m₂)` 1 + 2 + 3; the radii's product 3; their difference one more, 7; times `A` 3 + 7 + 1; the last
 /// difference one: 12 of all sizes. A root is off by less than `d_error/d` of itself, and one rounding. What is computed
 /// of these adds a few; constants are larger.
-pub(super) fn nearer([first, second]: [(DVec3, f64); 2], ray: &Ray) -> Option<Ordering> {
-    let u = UNIT_ROUNDOFF;
+pub(crate) fn nearer([first, second]: [(DVec3, f64); 2], ray: &Ray) -> Option<Ordering> {
     let d = ray.direction;
     let [one, other] =
         [first, second].map(|(center, radius)| Equation::new(center, radius, ray, true));
@@ -216,7 +205,7 @@ pub(super) fn nearer([first, second]: [(DVec3, f64); 2], ray: &Ray) -> Option<Or
     let (root, other_root) = (one.root()?, other.root()?);
     let roots = root + other_root;
     let roots_error =
-        (one.d_error / one.discriminant).max(other.d_error / other.discriminant) + 3.0 * u;
+        (one.d_error / one.discriminant).max(other.d_error / other.discriminant) + 3.0 * EPS53;
 
     let way = second.0 - first.0;
     let (delta, delta_size) = (way.dot(d), way.abs().dot(d.abs()));
@@ -229,13 +218,14 @@ pub(super) fn nearer([first, second]: [(DVec3, f64); 2], ray: &Ray) -> Option<Or
             + one.a * (way.abs().dot(sum_size) + less.abs() * more);
         let apart = side * difference / roots;
         // With room for the quotient: roots are certain to less than an eighth.
-        (apart, 1.2 * (15.0 * u * size + FLOOR) / roots + 1.2 * apart.abs() * roots_error)
+        (apart, 1.2 * (15.0 * EPS53 * size + FLOOR) / roots + 1.2 * apart.abs() * roots_error)
     } else {
         (side * roots, roots * roots_error)
     };
     let value = apart - delta;
-    let error = apart_error + 6.0 * u * delta_size + 4.0 * u * (apart.abs() + delta.abs()) + FLOOR;
-    (value.abs() > error * (1.0 + 16.0 * u)).then(|| value.total_cmp(&0.0))
+    let error =
+        apart_error + 6.0 * EPS53 * delta_size + 4.0 * EPS53 * (apart.abs() + delta.abs()) + FLOOR;
+    (value.abs() > error * (1.0 + 16.0 * EPS53)).then(|| value.total_cmp(&0.0))
 }
 
 impl Equation {
@@ -256,7 +246,7 @@ mod tests {
     use super::*;
 
     fn begins_on(m: [f64; 3], radius: f32) -> bool {
-        super::begins_on(&m.map(Twofold::new), radius.into())
+        super::begins_on(&m.map(DoubleDouble::new), radius.into())
     }
 
     #[test]

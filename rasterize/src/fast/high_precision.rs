@@ -8,17 +8,17 @@ use std::ops::{Add, Mul, Sub};
 /// "Tight and Rigorous Error Bounds for Basic Building Blocks of Double-Word Arithmetic", ACM Transactions on
 /// Mathematical Software 44, 2017: `AccurateDWPlusDW` and `DWTimesDW1`), unless something underflows.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Twofold {
+pub(super) struct DoubleDouble {
     pub(super) high: f64,
     low: f64,
 }
 
-impl Twofold {
-    pub(super) const ZERO: Twofold = Twofold { high: 0.0, low: 0.0 };
+impl DoubleDouble {
+    pub(super) const ZERO: DoubleDouble = DoubleDouble { high: 0.0, low: 0.0 };
 
     /// A number as it is.
     pub(super) fn new(number: f64) -> Self {
-        Twofold { high: number, low: 0.0 }
+        DoubleDouble { high: number, low: 0.0 }
     }
 
     /// The difference of two numbers, without error.
@@ -35,7 +35,7 @@ impl Twofold {
     fn sum(a: f64, b: f64) -> Self {
         let high = a + b;
         let of_b = high - a;
-        Twofold { high, low: (a - (high - of_b)) + (b - of_b) }
+        DoubleDouble { high, low: (a - (high - of_b)) + (b - of_b) }
     }
 
     /// Without error: Dekker, "A Floating-Point Technique for Extending the Available Precision", Numerische
@@ -49,32 +49,32 @@ impl Twofold {
         };
         let ((a1, a2), (b1, b2)) = (halves(a), halves(b));
         let high = a * b;
-        Twofold { high, low: ((a1 * b1 - high) + a1 * b2 + a2 * b1) + a2 * b2 }
+        DoubleDouble { high, low: ((a1 * b1 - high) + a1 * b2 + a2 * b1) + a2 * b2 }
     }
 }
 
-impl Add for Twofold {
-    type Output = Twofold;
+impl Add for DoubleDouble {
+    type Output = DoubleDouble;
 
-    fn add(self, other: Twofold) -> Twofold {
+    fn add(self, other: DoubleDouble) -> DoubleDouble {
         let (highs, lows) = (Self::sum(self.high, other.high), Self::sum(self.low, other.low));
         let first = Self::sum(highs.high, highs.low + lows.high);
         Self::sum(first.high, lows.low + first.low)
     }
 }
 
-impl Sub for Twofold {
-    type Output = Twofold;
+impl Sub for DoubleDouble {
+    type Output = DoubleDouble;
 
-    fn sub(self, other: Twofold) -> Twofold {
-        self + Twofold { high: -other.high, low: -other.low }
+    fn sub(self, other: DoubleDouble) -> DoubleDouble {
+        self + DoubleDouble { high: -other.high, low: -other.low }
     }
 }
 
-impl Mul for Twofold {
-    type Output = Twofold;
+impl Mul for DoubleDouble {
+    type Output = DoubleDouble;
 
-    fn mul(self, other: Twofold) -> Twofold {
+    fn mul(self, other: DoubleDouble) -> DoubleDouble {
         let highs = Self::product(self.high, other.high);
         let crosswise = self.high * other.low + self.low * other.high;
         Self::sum(highs.high, highs.low + crosswise)

@@ -1,30 +1,26 @@
 //! Triangles over few samples: sixteen triangles at a time, each testing one of its samples.
 
 use super::lanes::lanes_of;
+use super::picture::Picture;
 use super::setup::Setup;
-use super::tile::{Picture, TileBuffer};
-use bothways_common::engine::fault::Fault;
+use super::size_class::FEW_SAMPLES;
+use super::tile::TileBuffer;
+use bothways_common::engine::context::{Context, ScalarContext};
 use bothways_common::engine::simd::{
     Select, Simd, SimdBase, SimdInt, SimdMask, f32x16, i32x16, mask32x16, u32x16,
 };
-use bothways_common::observe::EventSink;
-
-/// Boxes of at most this many samples are drawn together, apart from larger ones: sixteen triangles take
-/// as long as the one with most samples.
-pub(super) const VERY_FEW_SAMPLES: u32 = 4;
-/// Boxes of at most this many samples are drawn here.
-pub(super) const MOST_SAMPLES: u32 = 16;
+use bothways_common::observe::Events;
 
 /// Draws what of the triangles lies in the tile.
 #[inline(always)]
-pub(super) fn draw<S: Simd, O: EventSink + ?Sized, F: Fault>(
-    simd: S,
+pub(super) fn draw<C: Context>(
+    context: &mut C,
     setup: &Setup,
     picture: &Picture,
     fragments: &mut Fragments,
     buffer: &mut TileBuffer,
-    observer: &mut O,
 ) {
+    let simd = context.simd();
     let ids = u32x16::load_array_ref(simd, &setup.ids);
     let load = |lanes: &[f32; 16]| f32x16::load_array_ref(simd, lanes);
     let edges: [_; 3] = std::array::from_fn(|k| {
@@ -32,17 +28,17 @@ pub(super) fn draw<S: Simd, O: EventSink + ?Sized, F: Fault>(
     });
     let error = load(&setup.error);
     let key = [load(&setup.key[0]), load(&setup.key[1]), load(&setup.key[2])];
-    let Walk { left, right, top, mut index, mut remaining, to_next_row } =
-        Walk::new(simd, setup, buffer);
+    let Scan { left, right, top, mut index, mut remaining, to_next_row } =
+        Scan::new(simd, setup, buffer);
     let one = i32x16::splat(simd, 1);
-    let (first, end) = (left.to_float::<f32x16<S>>(), right.to_float::<f32x16<S>>());
-    let (mut column, mut row) = (first, top.to_float::<f32x16<S>>());
+    let (first, end) = (left.to_float::<f32x16<C::Simd>>(), right.to_float::<f32x16<C::Simd>>());
+    let (mut row, mut column) = (top.to_float::<f32x16<C::Simd>>(), first);
     loop {
         let active = remaining.simd_gt(i32x16::splat(simd, 0));
         if !active.any_true() {
             break;
         }
-        let values: [f32x16<S>; 3] = std::array::from_fn(|k| {
+        let values: [f32x16<C::Simd>; 3] = std::array::from_fn(|k| {
             let (at_origin, across, down) = edges[k];
             (at_origin + down * row) + across * column
         });
@@ -50,14 +46,14 @@ pub(super) fn draw<S: Simd, O: EventSink + ?Sized, F: Fault>(
         let inside = active & least.simd_gt(error);
         let perhaps = active & least.simd_ge(-error);
         let keys = (key[0] + key[2] * row) + key[1] * column;
-        if O::ENABLED {
-            tell(setup, buffer, observer, active, &index.to_array(), &values);
+        if C::WATCHED {
+            emit_tests(context, setup, buffer, active, &index.to_array(), &values);
         }
         fragments.add(index, keys, ids, inside);
         let open = (perhaps & !inside).to_bitmask();
         if open != 0 {
             let fragments = (&index.to_array(), &keys.to_array());
-            leave_open::<O, F>(setup, picture, buffer, open, fragments, observer);
+            leave_open(&mut context.scalar(), setup, picture, buffer, (open, fragments));
         }
         // On to the next sample of each box, row by row.
         column += f32x16::splat(simd, 1.0);
@@ -67,33 +63,32 @@ pub(super) fn draw<S: Simd, O: EventSink + ?Sized, F: Fault>(
         index += wraps.select(to_next_row, one);
         remaining -= one;
     }
-    fragments.test_depth::<O, F>(picture, buffer, observer);
+    fragments.test_depth(context, picture, buffer);
 }
 
-/// Leaves to the judge whether some lanes' samples are covered.
+/// Leaves to the judge whether the samples of some lanes are covered.
 #[cold]
-fn leave_open<O: EventSink + ?Sized, F: Fault>(
+fn leave_open<C: ScalarContext>(
+    context: &mut C,
     setup: &Setup,
     picture: &Picture,
     buffer: &mut TileBuffer,
-    open: u64,
-    (index, keys): (&[i32; 16], &[f32; 16]),
-    observer: &mut O,
+    (open, (index, keys)): (u64, (&[i32; 16], &[f32; 16])),
 ) {
     for lane in lanes_of(open) {
         let fragment = (index[lane].cast_unsigned() as usize, setup.ids[lane], keys[lane]);
-        buffer.leave_open::<O, F>(picture, fragment, false, observer);
+        buffer.leave_open(context, picture, fragment, false);
     }
 }
 
-/// Most fragments of sixteen triangles.
-const MOST_FRAGMENTS: usize = 16 * MOST_SAMPLES as usize;
+/// Sixteen triangles have at most so many fragments.
+const MOST_FRAGMENTS: usize = 16 * FEW_SAMPLES as usize;
 
-/// Fragments that wait for their depth test: one loop over all of them is easier to foresee for the
-/// machine than one for each step.
+/// Fragments that wait for their depth test: the machine predicts the branches of one loop over all of them better
+/// than those of one loop for each step.
 #[derive(Debug)]
 pub(super) struct Fragments {
-    /// Each has room behind the last for sixteen more.
+    /// Each array has room for sixteen more behind the last fragment.
     index: [i32; MOST_FRAGMENTS + 16],
     keys: [f32; MOST_FRAGMENTS + 16],
     ids: [u32; MOST_FRAGMENTS + 16],
@@ -126,37 +121,37 @@ impl Fragments {
         self.count = from + inside.to_bitmask().count_ones() as usize;
     }
 
-    /// Tests the depth of all, and forgets them.
+    /// Tests the depth of all fragments, and forgets them.
     #[inline(always)]
-    fn test_depth<O: EventSink + ?Sized, F: Fault>(
+    fn test_depth<C: Context>(
         &mut self,
+        context: &mut C,
         picture: &Picture,
         buffer: &mut TileBuffer,
-        observer: &mut O,
     ) {
         let count = std::mem::take(&mut self.count).min(MOST_FRAGMENTS);
         let fragments = self.index[..count].iter().zip(&self.keys[..count]).zip(&self.ids[..count]);
         for ((index, key), id) in fragments {
             let fragment = (index.cast_unsigned() as usize, *id, *key);
-            buffer.fragment::<O, F>(picture, fragment, observer);
+            buffer.fragment(context, picture, fragment);
         }
     }
 }
 
-/// The samples of all boxes that lie in the tile.
-struct Walk<S: Simd> {
-    /// First and behind the last column, and first row, each within its box.
+/// The samples of sixteen boxes that lie in the tile, row by row.
+struct Scan<S: Simd> {
+    /// The first column, the one behind the last, and the first row, each counted within its box.
     left: i32x16<S>,
     right: i32x16<S>,
     top: i32x16<S>,
-    /// Where the first sample is kept, and from the last of a row to the first of the next.
+    /// The index of the first sample in the tile, and the step from the last of a row to the first of the next.
     index: i32x16<S>,
     to_next_row: i32x16<S>,
     /// How many samples.
     remaining: i32x16<S>,
 }
 
-impl<S: Simd> Walk<S> {
+impl<S: Simd> Scan<S> {
     #[inline(always)]
     fn new(simd: S, setup: &Setup, buffer: &TileBuffer) -> Self {
         let splat = |value: usize| {
@@ -165,14 +160,14 @@ impl<S: Simd> Walk<S> {
         let load = |lanes: &[i32; 16]| i32x16::load_array_ref(simd, lanes);
         let zero = splat(0);
         let (tile, stride) = (buffer.region(), splat(buffer.stride()));
-        let (column, row) = (load(&setup.first_column), load(&setup.first_row));
+        let (row, column) = (load(&setup.first_row), load(&setup.first_column));
         let left = (splat(tile.columns.start) - column).max(zero);
         let right = (splat(tile.columns.end) - column).min(load(&setup.columns));
         let top = (splat(tile.rows.start) - row).max(zero);
         let bottom = (splat(tile.rows.end) - row).min(load(&setup.rows));
-        let (width, height) = ((right - left).max(zero), (bottom - top).max(zero));
+        let (height, width) = ((bottom - top).max(zero), (right - left).max(zero));
         let first_row = row + top - splat(tile.rows.start);
-        Walk {
+        Scan {
             left,
             right,
             top,
@@ -183,17 +178,17 @@ impl<S: Simd> Walk<S> {
     }
 }
 
-/// Tells of the tests of one step.
+/// Emits the tests of one step.
 #[inline(always)]
-fn tell<S: Simd, O: EventSink + ?Sized>(
+fn emit_tests<C: Context>(
+    context: &mut C,
     setup: &Setup,
     buffer: &TileBuffer,
-    observer: &mut O,
-    active: mask32x16<S>,
+    active: mask32x16<C::Simd>,
     index: &[i32; 16],
-    values: &[f32x16<S>; 3],
+    values: &[f32x16<C::Simd>; 3],
 ) {
-    if let Some(counts) = observer.counts() {
+    if let Some(counts) = context.sink().counts() {
         counts.tests += u64::from(active.to_bitmask().count_ones());
         return;
     }
@@ -201,6 +196,6 @@ fn tell<S: Simd, O: EventSink + ?Sized>(
     for lane in lanes_of(active.to_bitmask()) {
         let at = index[lane].cast_unsigned() as usize;
         let edges = values.map(|values| values[lane]);
-        setup.triangle(lane).tell_test(buffer.sample(at), edges, observer);
+        setup.triangle(lane).emit_test(context.sink(), buffer.sample(at), edges);
     }
 }

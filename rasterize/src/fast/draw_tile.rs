@@ -1,0 +1,247 @@
+//! Draws all primitives of a tile: first the clusters, then batch by batch all other primitives, by their size
+//! classes.
+
+use super::depth::nearer_by;
+use super::few_samples::{self, Fragments};
+use super::geometry::Geometry;
+use super::lanes::Lanes;
+use super::picture::Picture;
+use super::search::bins::BatchBins;
+use super::search::clusters::Cluster;
+use super::search::finder::Finder;
+use super::setup::{AxisBounds, Setup};
+use super::size_class::{FEW_SAMPLES, SizeClass, VERY_FEW_SAMPLES};
+use super::tile::TileBuffer;
+use super::vertices::{ON_RASTER, OUT_OF_SIGHT};
+use super::{many_samples, one_primitive};
+use bothways_common::engine::context::ScalarContext;
+use bothways_common::engine::simd::{
+    Level, Simd, SimdBase, SimdMask, dispatch_with, i32x16, mask32x16,
+};
+use bothways_common::observe::Events;
+use std::ops::Range;
+
+/// All that the tiles of a frame share while they are drawn.
+pub(super) struct Drawing<'a> {
+    pub(super) geometry: &'a Geometry<'a>,
+    pub(super) picture: &'a Picture<'a>,
+    pub(super) bins: &'a [BatchBins],
+    pub(super) level: Level,
+}
+
+impl Drawing<'_> {
+    /// Draws all primitives of a tile. Returns whether it did: not if the event sink has enough.
+    pub(super) fn draw_tile<C: ScalarContext>(
+        &self,
+        context: &mut C,
+        tile: usize,
+        buffer: &mut TileBuffer,
+    ) -> bool {
+        let mut painter = Painter {
+            drawing: self,
+            finder: Finder::new(self.geometry),
+            gathered: Lanes::new(),
+            waiting: [Lanes::new(), Lanes::new(), Lanes::new()],
+            fragments: Fragments::new(),
+            large: Vec::new(),
+            buffer,
+            context,
+        };
+        painter.draw_clusters(tile);
+        for bins in self.bins {
+            for class in SizeClass::IN_LANES {
+                painter.draw_list(class, bins.list(tile, class));
+            }
+            let Painter { large, finder, .. } = &mut painter;
+            large.extend(bins.list(tile, SizeClass::Large).iter().map(|slot| finder.id(*slot)));
+            painter.draw_large();
+        }
+        painter.goes_on()
+    }
+}
+
+/// Draws into one tile.
+struct Painter<'a, 'b, C> {
+    drawing: &'a Drawing<'a>,
+    finder: Finder<'a>,
+    /// Triangles of a cluster, as they come.
+    gathered: Lanes,
+    /// Triangles of each of [`SizeClass::IN_LANES`] that wait until there are sixteen.
+    waiting: [Lanes; 3],
+    fragments: Fragments,
+    /// Primitives of the current batch that are drawn at its end.
+    large: Vec<u32>,
+    buffer: &'b mut TileBuffer,
+    context: &'b mut C,
+}
+
+impl<C: ScalarContext> Painter<'_, '_, C> {
+    /// Whether to go on: the event sink has not enough.
+    #[inline(always)]
+    fn goes_on(&mut self) -> bool {
+        !(C::WATCHED && self.context.sink().has_enough())
+    }
+
+    /// Draws the clusters that may be seen in the tile. The nearer half comes first, because clusters that it hides need
+    /// not be drawn. Otherwise clusters keep their order, in which neighbours share vertices.
+    fn draw_clusters(&mut self, tile: usize) {
+        let drawing = self.drawing;
+        let clusters = || drawing.bins.iter().flat_map(|bins| bins.clusters(tile));
+        let keys = || clusters().map(|cluster| cluster.nearest);
+        let (low, high) = (keys().fold(f32::INFINITY, f32::min), keys().fold(0.0, f32::max));
+        let middle = f32::midpoint(low, high);
+        for nearer in [true, false] {
+            for cluster in clusters().filter(|cluster| (cluster.nearest >= middle) == nearer) {
+                if !self.goes_on() {
+                    return;
+                }
+                // If the loops are watched, every triangle is an event.
+                if C::WATCHED || !self.hides(cluster) {
+                    self.sort_cluster(cluster);
+                }
+            }
+            for class in SizeClass::IN_LANES {
+                self.draw_waiting(class);
+            }
+        }
+        self.draw_large();
+    }
+
+    /// Whether all of a cluster in the tile is certainly farther than what is drawn there.
+    ///
+    /// The depth along the view is linear in space, and the largest key is that of the least depth. In a box, that is
+    /// at a corner, whose key is off by less than a fragment's key may be.
+    fn hides(&self, cluster: &Cluster) -> bool {
+        let here = cluster.region().intersection(self.buffer.region());
+        let farthest = cluster.nearest * nearer_by::<C::Fault>();
+        dispatch_with!(C::Fault, self.drawing.level, simd => self.buffer.is_nearer(simd, &here, farthest))
+    }
+
+    /// Looks at the triangles of a cluster, and lets those that may be seen in the tile wait for others of
+    /// their class.
+    fn sort_cluster(&mut self, cluster: &Cluster) {
+        let Cluster { object, first, count, .. } = *cluster;
+        let (first_id, triangles, vertices) = self.finder.object(object);
+        for first in (first..first + count).step_by(16) {
+            let sixteen = (cluster.first + count - first).min(16) as usize;
+            dispatch_with!(C::Fault, self.drawing.level, simd => {
+                self.gathered.fill(simd, sixteen, |lane| {
+                    let index = first + u32::try_from(lane).expect("there are sixteen lanes");
+                    let corners = triangles.corners[index as usize].map(|vertex| vertices[vertex as usize]);
+                    (first_id + triangles.number(index), corners)
+                });
+                self.sort(simd);
+            });
+            for class in SizeClass::IN_LANES {
+                if self.waiting[class as usize].are_full() {
+                    self.draw_waiting(class);
+                }
+            }
+        }
+    }
+
+    /// Sorts the gathered triangles by class.
+    #[inline(always)]
+    fn sort<S: Simd>(&mut self, simd: S) {
+        let (raster, lanes) = (self.drawing.geometry.raster, &self.gathered);
+        let splat = |value: i32| i32x16::splat(simd, value);
+        let flags = lanes.flags(simd) & splat(ON_RASTER | OUT_OF_SIGHT);
+        let on_raster = lanes.used(simd) & flags.simd_eq(splat(ON_RASTER));
+        let unknown = lanes.used(simd) & flags.simd_eq(splat(0));
+
+        let down = AxisBounds::new::<C::Fault>(simd, raster, 0, &lanes.places(simd, 0));
+        let across = AxisBounds::new::<C::Fault>(simd, raster, 1, &lanes.places(simd, 1));
+        let tile = self.buffer.region();
+        let overlaps = overlaps(simd, &down, &tile.rows) & overlaps(simd, &across, &tile.columns);
+        let here = on_raster & overlaps;
+        let short = down.is_short(simd, raster) & across.is_short(simd, raster);
+        let samples = down.count * across.count;
+        let few = samples.simd_le(splat(FEW_SAMPLES.cast_signed()));
+        let very_few = samples.simd_le(splat(VERY_FEW_SAMPLES.cast_signed()));
+        let small = here & short;
+        let by_class = [small & very_few, small & few & !very_few, small & !few];
+        for (waiting, which) in self.waiting.iter_mut().zip(by_class) {
+            // A mesh has hardly any triangles of some classes.
+            if which.any_true() {
+                waiting.add(simd, lanes, which);
+            }
+        }
+        let large = (here & !short | unknown).to_bitmask();
+        if large != 0 {
+            self.large.extend(lanes.ids_of(large));
+        }
+    }
+
+    /// Draws the triangles that wait, at most sixteen.
+    fn draw_waiting(&mut self, class: SizeClass) {
+        let Painter { drawing, waiting, fragments, large, buffer, context, .. } = self;
+        let lanes = &mut waiting[class as usize];
+        let count = lanes.count();
+        if count == 0 {
+            return;
+        }
+        dispatch_with!(C::Fault, drawing.level, simd => {
+            let context = &mut context.with_simd(simd);
+            let setup = Setup::new::<_, C::Fault>(simd, drawing.geometry.raster, lanes);
+            if class == SizeClass::Many {
+                let elsewhere = setup.uncertain | setup.keyless;
+                large.extend(setup.lanes(elsewhere));
+                for lane in (0..count).filter(|lane| elsewhere >> lane & 1 == 0) {
+                    let picture = drawing.picture;
+                    many_samples::draw(context, &setup.triangle(lane), picture, buffer);
+                }
+            } else {
+                if setup.uncertain != 0 {
+                    large.extend(setup.lanes(setup.uncertain));
+                }
+                let picture = drawing.picture;
+                few_samples::draw(context, &setup, picture, fragments, buffer);
+            }
+        });
+        lanes.advance();
+    }
+
+    /// Draws the triangles of a list.
+    fn draw_list(&mut self, class: SizeClass, list: &[u32]) {
+        for (slots, next) in list.chunks(16).zip((16..).step_by(16)) {
+            if !self.goes_on() {
+                return;
+            }
+            let Painter { drawing, waiting, finder, .. } = self;
+            let lanes = &mut waiting[class as usize];
+            dispatch_with!(C::Fault, drawing.level, simd => {
+                lanes.fill(simd, slots.len(), |lane| finder.triangle(slots[lane]));
+            });
+            // Larger triangles of a tile may lie anywhere in memory. Small ones are mostly neighbours, for which this
+            // would cost more than it saves.
+            if class == SizeClass::Many {
+                finder.look_ahead(list, next);
+            }
+            self.draw_waiting(class);
+        }
+    }
+
+    /// Draws the large primitives of a batch, and asks the judge about all that is left open.
+    fn draw_large(&mut self) {
+        let Painter { drawing, large, buffer, context, .. } = self;
+        if !large.is_empty() {
+            dispatch_with!(C::Fault, drawing.level, simd => {
+                one_primitive::draw(&mut context.with_simd(simd), large, drawing.picture, buffer);
+            });
+            large.clear();
+        }
+        buffer.settle(&mut context.scalar(), drawing.picture);
+    }
+}
+
+/// Whether sides of boxes overlap that of a tile.
+#[inline(always)]
+fn overlaps<S: Simd>(simd: S, side: &AxisBounds<S>, tile: &Range<usize>) -> mask32x16<S> {
+    let splat = |value: usize| {
+        i32x16::splat(simd, i32::try_from(value).expect("a side has at most 65,536 samples"))
+    };
+    let end = side.first + side.count;
+    side.count.simd_gt(splat(0))
+        & side.first.simd_lt(splat(tile.end))
+        & end.simd_gt(splat(tile.start))
+}

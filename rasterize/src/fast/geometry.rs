@@ -1,0 +1,20 @@
+//! The geometry of a frame, once the vertex stage is done.
+
+use super::camera_map::CameraMap;
+use super::search::clusters::Clusters;
+use super::search::tiling::Tiling;
+use super::vertices::{FixedPointRaster, Vertex};
+use bothways_common::View;
+
+/// What binning needs to know of the frame.
+pub(super) struct Geometry<'a> {
+    pub(super) view: &'a View<'a>,
+    pub(super) map: &'a CameraMap<'a>,
+    pub(super) raster: &'a FixedPointRaster,
+    pub(super) tiling: &'a Tiling,
+    /// All vertices, and for each object where its own begin.
+    pub(super) vertices: &'a [Vertex],
+    pub(super) first_vertices: &'a [usize],
+    /// The clusters of every object.
+    pub(super) clusters: &'a [Clusters],
+}

@@ -1,0 +1,83 @@
+//! What the vector paths leave, one primitive at a time, set up in `f64`: triangles that are large, reach to the eye's
+//! plane or are almost edge-on, and planes, both strip by strip; spheres, sample by sample.
+
+mod edges;
+pub(super) mod fragment_writer;
+pub(super) mod narrow;
+pub(super) mod strips;
+mod triangle;
+
+use super::bounds::region;
+use super::picture::Picture;
+use super::plane;
+use super::sphere::{Sphere, SphereHit};
+use super::tile::TileBuffer;
+use bothways_common::Primitive;
+use bothways_common::engine::context::{Context, ScalarContext};
+use bothways_common::engine::fault::Planted;
+use bothways_common::engine::roundoff::Interval;
+use bothways_common::observe::Events;
+use bothways_common::raster::{Region, Sample};
+use fragment_writer::FragmentWriter;
+
+/// Draws what of primitives' regions lies in the tile.
+#[inline(always)]
+pub(super) fn draw<C: Context>(
+    context: &mut C,
+    ids: &[u32],
+    picture: &Picture,
+    buffer: &mut TileBuffer,
+) {
+    // Several are looked up before they are drawn: so the machine waits for them together.
+    for ids in ids.chunks(8) {
+        if C::WATCHED && context.sink().has_enough() {
+            return;
+        }
+        let last = ids.len() - 1;
+        let primitives: [Primitive; 8] =
+            std::array::from_fn(|k| picture.view.primitive(ids[k.min(last)]));
+        for (id, primitive) in ids.iter().zip(primitives) {
+            draw_primitive(context, &mut FragmentWriter { id: *id, primitive, picture, buffer });
+        }
+    }
+}
+
+#[inline(always)]
+fn draw_primitive<C: Context>(context: &mut C, writer: &mut FragmentWriter) {
+    let region = region::<C::Fault>(&writer.primitive, writer.picture.map);
+    match writer.primitive {
+        Primitive::Triangle(corners) => triangle::draw(context, writer, &corners, &region),
+        Primitive::Sphere { .. } => draw_sphere(&mut context.scalar(), writer, &region),
+        Primitive::Plane { point, normal } => {
+            plane::draw(context, writer, [point, normal], &region);
+        }
+    }
+}
+
+fn draw_sphere<C: ScalarContext>(context: &mut C, writer: &mut FragmentWriter, region: &Region) {
+    let Primitive::Sphere { center, radius } = writer.primitive else { return };
+    let map = writer.picture.map;
+    let sphere = Sphere::new(map, center, radius, !C::has(Planted::ZeroErrorBound));
+    let here = region.intersection(writer.buffer.region());
+    for row in here.rows {
+        for column in here.columns.clone() {
+            let sample = Sample { row, column };
+            let ray = map.grid.ray(row, column);
+            context.sink().sample_tested(sample, writer.id);
+            let hit = if C::has(Planted::InfiniteErrorBound) {
+                SphereHit::Unknown
+            } else {
+                sphere.hit(&ray)
+            };
+            match hit {
+                SphereHit::At(depth) => writer.write(context, sample, depth),
+                SphereHit::Miss => {}
+                SphereHit::Unknown => {
+                    if writer.judge_covers(context, sample) {
+                        writer.write(context, sample, Interval::ALL);
+                    }
+                }
+            }
+        }
+    }
+}

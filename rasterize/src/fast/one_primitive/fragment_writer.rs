@@ -1,0 +1,47 @@
+//! One primitive while it is drawn into a tile.
+
+use crate::fast::many_samples;
+use crate::fast::picture::{Picture, judge_covers};
+use crate::fast::setup::TriangleSetup;
+use crate::fast::tile::{Incoming, TileBuffer};
+use bothways_common::Primitive;
+use bothways_common::engine::context::{Context, ScalarContext};
+use bothways_common::engine::roundoff::Interval;
+use bothways_common::raster::Sample;
+
+/// Writes fragments of one primitive into a tile.
+pub(crate) struct FragmentWriter<'a, 'b> {
+    pub(crate) id: u32,
+    pub(crate) primitive: Primitive,
+    pub(crate) picture: &'a Picture<'a>,
+    pub(crate) buffer: &'b mut TileBuffer,
+}
+
+impl FragmentWriter<'_, '_> {
+    /// Writes one fragment, if it passes its depth test.
+    pub(crate) fn write<C: ScalarContext>(
+        &mut self,
+        context: &mut C,
+        sample: Sample,
+        depth: Interval,
+    ) {
+        let (index, key) = (self.buffer.index(sample), self.picture.keys.key(depth));
+        let incoming = &mut Incoming { id: self.id, primitive: Some(self.primitive) };
+        self.buffer.settle_depth(&mut context.scalar(), self.picture, index, incoming, key);
+    }
+
+    /// Writes all fragments of one strip of the primitive, sixteen samples at a time.
+    #[inline(always)]
+    pub(crate) fn write_strip<C: Context>(&mut self, context: &mut C, strip: &TriangleSetup) {
+        many_samples::draw(context, strip, self.picture, self.buffer);
+    }
+
+    /// Asks the judge whether the primitive covers a sample that rounding leaves open.
+    pub(crate) fn judge_covers<C: ScalarContext>(
+        &mut self,
+        context: &mut C,
+        sample: Sample,
+    ) -> bool {
+        judge_covers(&mut context.scalar(), self.picture, sample, self.id, &self.primitive)
+    }
+}

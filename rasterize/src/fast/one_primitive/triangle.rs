@@ -1,0 +1,92 @@
+//! A triangle that is set up in `f64`.
+
+use super::edges::F64Setup;
+use super::fragment_writer::FragmentWriter;
+use super::narrow::narrow_triangle;
+use super::strips::{STRIP, strips};
+use bothways_common::engine::context::{Context, ScalarContext};
+use bothways_common::observe::Events;
+use bothways_common::raster::{Region, Sample};
+use bothways_common::{Projection, Sign};
+use glam::DVec3;
+
+/// Draws what of a triangle lies in the tile, strip by strip: sixteen samples at a time where `f32` is certain enough
+/// of depths, one by one elsewhere.
+#[inline(always)]
+pub(crate) fn draw<C: Context>(
+    context: &mut C,
+    writer: &mut FragmentWriter,
+    corners: &[DVec3; 3],
+    region: &Region,
+) {
+    let (map, keys) = (writer.picture.map, writer.picture.keys);
+    let judge = writer.picture.view.judge();
+    let Some(setup) = F64Setup::new::<C::Fault>(map, &judge, corners) else { return };
+    let here = region.intersection(writer.buffer.region());
+    for rows in strips(&here.rows, &region.rows, STRIP[0]) {
+        // A wide region is cut to what the edge functions leave of each strip.
+        let columns = if region.columns.len() > STRIP[1] {
+            let ys = [map.grid.y()[rows.start], map.grid.y()[rows.end - 1]];
+            setup.span(map, ys, &region.columns)
+        } else {
+            region.columns.clone()
+        };
+        for columns in strips(&here.columns, &columns, STRIP[1]) {
+            let strip = Region { rows: rows.clone(), columns };
+            let narrow =
+                narrow_triangle::<C::Fault>(map, keys, &setup, (writer.id, corners), &strip);
+            if let Some(triangle) = narrow {
+                writer.write_strip(context, &triangle);
+            } else {
+                draw_samples(&mut context.scalar(), writer, &setup, strip.intersection(&here));
+            }
+        }
+    }
+}
+
+/// Draws samples one by one.
+fn draw_samples<C: ScalarContext>(
+    context: &mut C,
+    writer: &mut FragmentWriter,
+    setup: &F64Setup,
+    here: Region,
+) {
+    let map = writer.picture.map;
+    let (xs, ys) = (map.grid.x(), map.grid.y());
+    let eye = map.depth_of_eye();
+    let [ab, bc, ca] = &setup.edges;
+    for row in here.rows {
+        let y = ys[row];
+        let on_row = [ab.on_row(y), bc.on_row(y), ca.on_row(y)];
+        let depth_on_row = setup.depth.on_row(y);
+        for column in here.columns.clone() {
+            let (x, sample) = (xs[column], Sample { row, column });
+            let e =
+                [on_row[0] + x * ab.across, on_row[1] + x * bc.across, on_row[2] + x * ca.across];
+            context.sink().sample_tested(sample, writer.id);
+            let out = e[0] < -ab.error || e[1] < -bc.error || e[2] < -ca.error;
+            let inside = e[0] > ab.error && e[1] > bc.error && e[2] > ca.error;
+            if out || inside {
+                context.sink().edge_signs(sample, writer.id, certain_signs(setup, &e));
+            }
+            if out || (!inside && !writer.judge_covers(context, sample)) {
+                continue;
+            }
+            let depth = setup.depth.at(depth_on_row, x);
+            // A perspective ray meets what it covers in front of the eye; a parallel one may not.
+            let behind = map.projection() == Projection::Parallel
+                && (depth.high < eye
+                    || (inside && depth.low <= eye && !writer.judge_covers(context, sample)));
+            if !behind {
+                writer.write(context, sample, depth);
+            }
+        }
+    }
+}
+
+/// The edges' signs as far as they are certain, in the orientation of the contract.
+fn certain_signs(setup: &F64Setup, e: &[f64; 3]) -> [Option<Sign>; 3] {
+    std::array::from_fn(|k| {
+        (e[k].abs() > setup.edges[k].error).then(|| Sign::of(setup.facing * e[k]))
+    })
+}

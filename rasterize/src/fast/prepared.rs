@@ -1,0 +1,127 @@
+//! What a moving camera would not repeat.
+
+use super::search::batches::{Batch, batches};
+use super::search::bins::BatchBins;
+use super::search::clusters::Clusters;
+use super::tile::TileBuffer;
+use super::vertices::Vertex;
+use bothways_common::engine::simd::{Level, best_level};
+use bothways_common::{Scene, Shape};
+use glam::DVec3;
+use rayon::prelude::*;
+use std::sync::Mutex;
+
+/// Rows and columns of a tile, as powers of two: its keys and ids fill a MiB. Of Full HD that makes 20, enough
+/// for some threads.
+const TILE: [u32; 2] = [8, 9];
+
+/// What a moving camera would not repeat: the scene cut into batches that threads can share, its meshes
+/// into clusters of neighbouring triangles, and how far it reaches.
+#[derive(Debug)]
+pub struct Prepared {
+    pub(super) batches: Vec<Batch>,
+    /// The clusters of every object.
+    pub(super) clusters: Vec<Clusters>,
+    pub(super) primitives: u32,
+    /// For each object, where its vertices begin among all of them; behind the last, how many there are.
+    pub(super) first_vertices: Vec<usize>,
+    /// The corners of a box around everything but planes.
+    pub(super) bounds: [DVec3; 8],
+    pub(super) has_planes: bool,
+    pub(super) level: Level,
+    pub(super) tile: [u32; 2],
+    /// Of the last frame: allocations for the next.
+    pub(super) recycled: Mutex<Recycled>,
+}
+
+/// Memory that one frame passes on to the next; its contents are not used again.
+#[derive(Debug, Default)]
+pub(super) struct Recycled {
+    pub(super) vertices: Vec<Vertex>,
+    pub(super) bins: Vec<BatchBins>,
+    pub(super) tiles: Vec<TileBuffer>,
+}
+
+/// Prepares a scene for any number of views of it.
+pub fn prepare(scene: &Scene) -> Prepared {
+    let primitives = scene.primitive_count();
+    let mut first_vertices = vec![0];
+    let mut bounds = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+    let mut has_planes = false;
+    for object in scene.objects() {
+        let mut include = |low: DVec3, high: DVec3| {
+            bounds = [bounds[0].min(low), bounds[1].max(high)];
+        };
+        let vertices = match &object.shape {
+            Shape::Mesh(mesh) => {
+                for position in mesh.positions() {
+                    include(position.as_dvec3(), position.as_dvec3());
+                }
+                mesh.positions().len()
+            }
+            Shape::Triangle(triangle) => {
+                for corner in [triangle.a, triangle.b, triangle.c] {
+                    include(corner.as_dvec3(), corner.as_dvec3());
+                }
+                3
+            }
+            Shape::Sphere(sphere) => {
+                let (center, radius) = (sphere.center.as_dvec3(), f64::from(sphere.radius));
+                include(center - radius, center + radius);
+                0
+            }
+            Shape::Plane(_) => {
+                has_planes = true;
+                0
+            }
+        };
+        first_vertices.push(first_vertices[first_vertices.len() - 1] + vertices);
+    }
+    let clusters = scene.objects().par_iter().map(|object| Clusters::new(&object.shape));
+    Prepared {
+        batches: batches(scene),
+        clusters: clusters.collect(),
+        primitives,
+        first_vertices,
+        bounds: corners(bounds),
+        has_planes,
+        level: best_level(),
+        tile: TILE,
+        recycled: Mutex::default(),
+    }
+}
+
+/// The corners of a box.
+pub(crate) fn corners(bounds: [DVec3; 2]) -> [DVec3; 8] {
+    std::array::from_fn(|k| {
+        DVec3::from_array(std::array::from_fn(|axis| bounds[k >> axis & 1][axis]))
+    })
+}
+
+impl Prepared {
+    /// The same as a part of a larger scene: it is drawn as the larger scene would draw it, to the last bit. `bounds`
+    /// are the corners of a box around that.
+    pub(crate) fn within(self, bounds: [DVec3; 8]) -> Prepared {
+        Prepared { bounds, ..self }
+    }
+
+    /// The same, drawn at another level of SIMD and in tiles of other rows and columns (powers of
+    /// two): for tests, which check that neither changes a bit.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn drawn_with(self, level: Level, tile: [u32; 2]) -> Prepared {
+        Prepared { level, tile, ..self }
+    }
+}
+
+impl Clone for Prepared {
+    fn clone(&self) -> Self {
+        Prepared {
+            batches: self.batches.clone(),
+            clusters: self.clusters.clone(),
+            first_vertices: self.first_vertices.clone(),
+            recycled: Mutex::default(),
+            ..*self
+        }
+    }
+}

@@ -1,0 +1,264 @@
+//! Lists for every tile of the primitives that may affect it, in scene order.
+
+use super::batches::{Batch, Piece};
+use super::clusters::{self, CLUSTER, Cluster, ClusterExtent};
+use super::tiling::Tiling;
+use crate::fast::bounds::region;
+use crate::fast::geometry::Geometry;
+use crate::fast::setup::BOX_MARGIN;
+use crate::fast::size_class::{FEW_SAMPLES, MOST_SAMPLES_ACROSS, SizeClass, VERY_FEW_SAMPLES};
+use crate::fast::vertices::{ON_RASTER, OUT_OF_SIGHT, Vertex};
+use bothways_common::Shape;
+use bothways_common::engine::context::{Context, ScalarContext};
+use bothways_common::engine::fault::{Fault, Planted};
+use bothways_common::engine::simd::{Simd, SimdBase, SimdMask, i32x4};
+use bothways_common::observe::Events;
+use bothways_common::raster::Region;
+use std::ops::Range;
+
+/// A primitive and the samples that it may cover.
+#[derive(Clone, Copy, Debug)]
+struct Entry {
+    /// The primitive's slot; see [`BatchBins::list`].
+    slot: u32,
+    /// Rows and columns: the first, and the last times 2¹⁶.
+    ends: [u32; 2],
+    /// Whether it must be drawn as [`SizeClass::Large`].
+    large: bool,
+}
+
+impl Entry {
+    /// # Panics
+    ///
+    /// If the region is empty.
+    fn new(slot: u32, region: &Region) -> Entry {
+        let index = |index: usize| u16::try_from(index).expect("a side has at most 65,536 samples");
+        let ends = |range: &Range<usize>| {
+            u32::from(index(range.start)) | u32::from(index(range.end - 1)) << 16
+        };
+        Entry { slot, ends: [ends(&region.rows), ends(&region.columns)], large: true }
+    }
+
+    fn region(&self) -> Region {
+        let range = |[first, last]: [u32; 2]| first as usize..last as usize + 1;
+        let [rows, columns] = self.bounds();
+        Region { rows: range(rows), columns: range(columns) }
+    }
+
+    /// First and last row, first and last column.
+    #[inline(always)]
+    fn bounds(&self) -> [[u32; 2]; 2] {
+        self.ends.map(|ends| [ends & 0xffff, ends >> 16])
+    }
+
+    /// The size class, without a branch: sizes come in no order that the machine could predict.
+    #[inline(always)]
+    fn class(&self) -> u32 {
+        let [rows, columns] = self.bounds();
+        let samples = (rows[1] - rows[0] + 1) * (columns[1] - columns[0] + 1);
+        const { assert!(SizeClass::Few as u32 == 1 && SizeClass::Many as u32 == 2) };
+        let by_samples = u32::from(samples > VERY_FEW_SAMPLES) + u32::from(samples > FEW_SAMPLES);
+        by_samples.max(u32::from(self.large) * SizeClass::Large as u32)
+    }
+
+    /// The list of this class of a tile.
+    #[inline(always)]
+    fn list(&self, tile: usize) -> usize {
+        tile * SizeClass::COUNT as usize + self.class() as usize
+    }
+
+    /// The list of this class of the only tile that the region meets, one that is drawn. The class is that
+    /// of the whole region: how a triangle is drawn does not depend on a crop.
+    #[inline(always)]
+    fn only_list(&self, tiling: &Tiling) -> Option<usize> {
+        tiling.only_tile(self.bounds()).map(|tile| self.list(tile))
+    }
+}
+
+/// The primitives of one batch: for each tile clusters of triangles, and for each class a list of ids.
+#[derive(Debug, Default)]
+pub(crate) struct BatchBins {
+    clusters: Vec<Vec<Cluster>>,
+    lists: Vec<Vec<u32>>,
+    /// The entries of some triangles at a time: they stay in the fastest cache until they go to their lists.
+    entries: Vec<Entry>,
+}
+
+impl BatchBins {
+    /// The clusters whose triangles may be seen in a tile.
+    pub(crate) fn clusters(&self, tile: usize) -> &[Cluster] {
+        &self.clusters[tile]
+    }
+
+    /// About how many primitives come to a tile.
+    pub(crate) fn work(&self, tile: usize) -> usize {
+        let lists = &self.lists[tile * SizeClass::COUNT as usize..][..SizeClass::COUNT as usize];
+        let clusters = self.clusters[tile].len() * CLUSTER as usize;
+        clusters + lists.iter().map(Vec::len).sum::<usize>()
+    }
+
+    /// The primitives of one class in a tile, other than those in clusters, by their slots: a slot is an id, if the
+    /// triangles of an object are counted in the order in which they are drawn.
+    pub(crate) fn list(&self, tile: usize, class: SizeClass) -> &[u32] {
+        &self.lists[tile * SizeClass::COUNT as usize + class as usize]
+    }
+
+    /// Finds the bounding region of every primitive of a batch, and the tiles that the region meets.
+    #[inline(always)]
+    pub(crate) fn fill<C: Context>(&mut self, context: &mut C, batch: &Batch, geometry: &Geometry) {
+        let tiles = geometry.tiling.count();
+        self.lists.resize_with(tiles * SizeClass::COUNT as usize, Vec::new);
+        self.lists.iter_mut().for_each(Vec::clear);
+        self.clusters.resize_with(tiles, Vec::new);
+        self.clusters.iter_mut().for_each(Vec::clear);
+        let scene = geometry.view.scene;
+        for piece in batch.pieces(scene) {
+            match &scene.objects()[piece.object].shape {
+                Shape::Mesh(_) => self.add_clusters(context, &piece, geometry),
+                Shape::Triangle(_) => {
+                    let first = geometry.first_vertices[piece.object];
+                    let corners = std::array::from_fn(|corner| geometry.vertices[first + corner]);
+                    self.entries.clear();
+                    self.enter(context, [piece.first_id; 2], &corners, geometry);
+                    self.add_entries(geometry.tiling);
+                }
+                Shape::Sphere(_) | Shape::Plane(_) => {
+                    self.entries.clear();
+                    self.enter_large(context, [piece.first_id; 2], geometry);
+                    self.add_entries(geometry.tiling);
+                }
+            }
+        }
+    }
+
+    /// Adds a piece of a mesh: clusters that lie in few tiles as they are, the triangles of others one by one.
+    #[inline(always)]
+    fn add_clusters<C: Context>(&mut self, context: &mut C, piece: &Piece, geometry: &Geometry) {
+        let shape = &geometry.view.scene.objects()[piece.object].shape;
+        let clusters = &geometry.clusters[piece.object];
+        let triangles = clusters.triangles(shape);
+        let vertices = &geometry.vertices[geometry.first_vertices[piece.object]..];
+        // Batches are cut between clusters.
+        let first_id = piece.first_id - piece.first;
+        let object = u32::try_from(piece.object).expect("there are fewer objects than ids");
+        let all = piece.first..piece.first + piece.count;
+        let on = (geometry.map, geometry.raster, geometry.tiling);
+        let bounds = &clusters.bounds()[(all.start / CLUSTER) as usize..];
+        for (first, bounds) in all.clone().step_by(CLUSTER as usize).zip(bounds) {
+            let indices = first..all.end.min(first + CLUSTER);
+            let cluster = [object, first, indices.end - first];
+            let extent = clusters::extent(context.simd(), on, bounds, cluster);
+            if C::WATCHED || matches!(extent, ClusterExtent::ManyTiles) {
+                self.entries.clear();
+                for index in indices {
+                    let id_and_slot = [first_id + triangles.number(index), first_id + index];
+                    let corners =
+                        triangles.corners[index as usize].map(|vertex| vertices[vertex as usize]);
+                    self.enter(context, id_and_slot, &corners, geometry);
+                }
+            }
+            match extent {
+                ClusterExtent::ManyTiles => self.add_entries(geometry.tiling),
+                ClusterExtent::Nowhere => {}
+                ClusterExtent::FewTiles(cluster) => {
+                    for tile in geometry.tiling.tiles(cluster.bounds) {
+                        self.clusters[tile].push(cluster);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Enters the samples that a triangle may cover, if there are any.
+    #[inline(always)]
+    fn enter<C: Context>(
+        &mut self,
+        context: &mut C,
+        [id, slot]: [u32; 2],
+        corners: &[Vertex; 3],
+        geometry: &Geometry,
+    ) {
+        let flags = corners[0][3] & corners[1][3] & corners[2][3];
+        if flags & (OUT_OF_SIGHT | ON_RASTER) == ON_RASTER {
+            let (entry, is_seen) = entry::<_, C::Fault>(context.simd(), slot, geometry, corners);
+            if C::WATCHED {
+                let drawn = geometry.tiling.region();
+                let region = if is_seen { entry.region().intersection(&drawn) } else { NOWHERE };
+                context.sink().primitive_begun(id, &region);
+            }
+            // Pushed whether it is seen or not, so that there is no branch to predict.
+            self.entries.push(entry);
+            self.entries.truncate(self.entries.len() - usize::from(!is_seen));
+        } else if flags & OUT_OF_SIGHT != 0 {
+            context.sink().primitive_begun(id, &NOWHERE);
+        } else {
+            self.enter_large(context, [id, slot], geometry);
+        }
+    }
+
+    /// Enters the samples that any primitive may cover, to be drawn as [`SizeClass::Large`].
+    fn enter_large<C: ScalarContext>(
+        &mut self,
+        context: &mut C,
+        [id, slot]: [u32; 2],
+        geometry: &Geometry,
+    ) {
+        let region = region::<C::Fault>(&geometry.view.primitive(id), geometry.map);
+        let drawn = region.intersection(&geometry.tiling.region());
+        context.sink().primitive_begun(id, &drawn);
+        if !drawn.is_empty() {
+            self.entries.push(Entry::new(slot, &region));
+        }
+    }
+
+    /// Puts all entries into the lists.
+    #[inline(always)]
+    fn add_entries(&mut self, tiling: &Tiling) {
+        for entry in &self.entries {
+            match entry.only_list(tiling) {
+                Some(list) => self.lists[list].push(entry.slot),
+                None => {
+                    for tile in tiling.tiles(entry.bounds()) {
+                        self.lists[entry.list(tile)].push(entry.slot);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// No sample at all.
+const NOWHERE: Region = Region { rows: 0..0, columns: 0..0 };
+
+/// The entry of a triangle of trusted vertices, and whether it may cover a sample that is drawn; see
+/// [`crate::fast::setup::AxisBounds`], which finds the same bounds.
+#[inline(always)]
+fn entry<S: Simd, F: Fault>(
+    simd: S,
+    slot: u32,
+    geometry: &Geometry,
+    corners: &[Vertex; 3],
+) -> (Entry, bool) {
+    let Geometry { raster, tiling, .. } = geometry;
+    let bits = raster.fraction_bits;
+    let margin = if F::is(Planted::ShrunkBox) { -1 } else { BOX_MARGIN };
+    let [height, width] = raster.size;
+    // Of the four numbers of a vertex, the first two are of interest.
+    let a = i32x4::load_array(simd, corners[0]);
+    let b = i32x4::load_array(simd, corners[1]);
+    let c = i32x4::load_array(simd, corners[2]);
+    let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+    let first = (low + i32x4::splat(simd, (1 << bits) - 1 - margin)) >> bits;
+    let first = first.max(i32x4::splat(simd, 0));
+    let last = (high + i32x4::splat(simd, margin)) >> bits;
+    let last = last.min(i32x4::load_array(simd, [height - 1, width - 1, 0, 0]));
+    let drawn = [&tiling.first, &tiling.last].map(|ends| i32x4::load_array_ref(simd, ends));
+    let is_seen = first.max(drawn[0]).simd_le(last.min(drawn[1])).to_bitmask() & 3 == 3;
+    let [rows, columns, ..] = (first | (last << 16)).to_array();
+    // Places span less than 2³² units: what wraps is negative.
+    let [tall, wide, ..] = (high - low).to_array();
+    let most = MOST_SAMPLES_ACROSS.cast_unsigned() << bits;
+    let large = tall.cast_unsigned().max(wide.cast_unsigned()) >= most;
+    let ends = [rows.cast_unsigned(), columns.cast_unsigned()];
+    (Entry { slot, ends, large }, is_seen)
+}

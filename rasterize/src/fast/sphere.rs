@@ -1,0 +1,61 @@
+//! A sphere, tested by its equation against the rays of samples.
+//!
+//! [`equation`] takes what it is given relative to the eye; [`from_afar`] takes it relative to the local origin.
+
+mod equation;
+mod from_afar;
+mod hit;
+
+pub(super) use equation::nearer;
+pub(super) use hit::SphereHit;
+
+use super::camera_map::CameraMap;
+use bothways_common::engine::roundoff::Interval;
+use bothways_common::{Projection, Ray};
+use glam::DVec3;
+
+/// A sphere, ready to be tested against rays.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sphere {
+    projection: Projection,
+    /// Relative to the eye.
+    center: DVec3,
+    /// Relative to the local origin.
+    local_center: DVec3,
+    radius: f64,
+    /// Whether the local origin is another point than the eye.
+    has_local_origin: bool,
+    /// Whether all of the sphere is certainly in front of the eye.
+    is_in_front: bool,
+    /// Whether bounds of rounding errors hold; with a planted fault they are zero.
+    exact: bool,
+}
+
+impl Sphere {
+    pub(super) fn new(map: &CameraMap, center: DVec3, radius: f64, exact: bool) -> Sphere {
+        let (extent, depth) = (center.abs().element_sum() + radius, -center.dot(map.w));
+        Sphere {
+            projection: map.projection(),
+            center,
+            local_center: map.local.relative(center),
+            radius,
+            has_local_origin: map.local.t > 0.0,
+            is_in_front: depth - radius >= extent * (-10f64).exp2(),
+            exact,
+        }
+    }
+
+    /// Whether a ray meets the sphere, and at what depth.
+    #[inline(always)]
+    pub(super) fn hit(&self, ray: &Ray) -> SphereHit {
+        let Sphere { projection, center, local_center, radius, exact, .. } = *self;
+        if self.has_local_origin && self.is_in_front {
+            return from_afar::hit(local_center, radius, ray, exact);
+        }
+        match equation::hit(projection, center, radius, ray, exact) {
+            // The depth from the eye is not that from the local origin.
+            SphereHit::At(_) if self.has_local_origin => SphereHit::At(Interval::ALL),
+            answer => answer,
+        }
+    }
+}
