@@ -3,7 +3,7 @@
 //! ```text
 //! once for a scene                      a hierarchy of boxes around the primitives     (build, tree)
 //! for each sample                       a tile of them at a time, their rays as one map        (rays)
-//!     for each primitive its ray may hit    boxes near to far, none beyond the hits   (walk, sieve)
+//!     for each primitive its ray may hit    boxes near to far, none beyond the hits   (walk, candidates)
 //!         if it covers the sample           edge functions, eight triangles at once     (setup, draw)
 //!             keep the nearest              keys as intervals that hold the true ones           (tile)
 //! ```
@@ -17,62 +17,59 @@
 //! For an observer each ray walks alone as well, as a tile of one: so what is told belongs to the ray, and
 //! depends on nothing else. The frame is that of the tiles, watched or not.
 
+mod affine;
 mod aligned;
-mod anchor;
+mod answer;
 mod any_ray;
-mod ball;
-mod build;
-mod corners;
+mod bounds;
+mod camera_map;
+mod depth;
 mod draw;
-mod leaf;
-mod precise;
-mod rays;
-mod rough;
-mod round;
+mod few_samples;
+mod high_precision;
+mod local_errors;
+mod local_projection;
+mod many_samples;
+mod one_primitive;
+mod plane;
+mod prepared;
+mod search;
 mod setup;
-mod sieve;
+mod size_class;
+mod sphere;
+mod store;
+mod straight_rays;
 mod tile;
-mod tree;
-mod walk;
+mod triangle;
+mod world_affine;
 
+use bothways_common::engine::context::{Parts, ScalarContext};
 use bothways_common::engine::fault::{Fault, Planted, Sound};
-use bothways_common::engine::simd::{Level, dispatch_with};
+use bothways_common::engine::simd::dispatch_with;
 use bothways_common::frame::{NO_PRIMITIVE, Tile};
 use bothways_common::observe::{Events, Observer};
 use bothways_common::{Frame, Options, Scene, View};
+use camera_map::CameraMap;
 use rayon::prelude::*;
-use rays::{LensKind, Rays};
+use search::build::build;
+use search::tile_frustum::FrustumTemplate;
+use search::walk::Walker;
 use std::ops::Range;
-use walk::Walker;
+use store::store;
 
 pub use any_ray::{Hit, WorldRay, first_hit};
-pub use build::Prepared;
+pub use prepared::Prepared;
 
 /// Samples along one side of a tile.
 const SIDE: usize = 32;
-/// Columns of samples that one thread takes up at a time.
-const SHARE: usize = 512;
+/// Columns of samples that one thread takes at a time, in a row of tiles.
+const CHUNK: usize = 512;
 
 /// Prepares a scene for any number of views of it: builds the hierarchy of boxes.
 ///
 /// Runs on the rayon pool that it is called in; the number of threads does not change the hierarchy.
 pub fn prepare(scene: &Scene) -> Prepared {
-    build::build(scene, SIDE)
-}
-
-impl Prepared {
-    /// The same, traced at another level of SIMD and in tiles of 16 × 16 or 32 × 32 samples: for tests,
-    /// which see that neither changes a bit.
-    ///
-    /// # Panics
-    ///
-    /// If `side` is another number.
-    #[doc(hidden)]
-    #[must_use]
-    pub fn drawn_with(self, level: Level, side: usize) -> Prepared {
-        assert!([16, 32].contains(&side), "tiles have 16 or 32 samples a side, not {side}");
-        Prepared { level, side, ..self }
-    }
+    build(scene, SIDE)
 }
 
 /// Renders a view of a prepared scene: what is seen at every sample, and its look.
@@ -132,12 +129,12 @@ pub fn determine_visibility_with_fault<F: Fault>(
     run(prepared, view, options, frame, &mut (), &const { Loops::new::<F>() });
 }
 
-/// The loops, sound or with faults in them. So [`run`], which is compiled for each observer, is not what takes
-/// long to compile.
+/// The loops over a chunk of the picture, sound or with faults in them. So [`run`], which is compiled for each
+/// observer, takes little time to compile.
 struct Loops {
     is: fn(Planted) -> bool,
-    watch: fn(&mut Walker, &LensKind, &Tile, &mut dyn Events),
-    trace: fn(&mut Walker, &LensKind, Tile),
+    watch: fn(&mut Walker, &FrustumTemplate, &Tile, &mut dyn Events),
+    trace: fn(&mut Walker, &FrustumTemplate, Tile),
 }
 
 static SOUND: Loops = Loops::new::<Sound>();
@@ -145,6 +142,15 @@ static SOUND: Loops = Loops::new::<Sound>();
 impl Loops {
     const fn new<F: Fault>() -> Loops {
         Loops { is: F::is, watch: watch::<F>, trace: trace::<F> }
+    }
+
+    /// What tiles of this size share.
+    fn template(&self, map: &CameraMap, side: usize) -> FrustumTemplate {
+        let mut template = FrustumTemplate::new(map, side);
+        if (self.is)(Planted::InfiniteMargin) {
+            template.distrust();
+        }
+        template
     }
 }
 
@@ -158,69 +164,75 @@ fn run<O: Observer>(
 ) {
     assert_eq!(prepared.primitives, view.scene.primitive_count(), "another scene was prepared");
     frame.fit(view.camera, options);
-    let rays = Rays::new(view, options.samples, walk::reach(prepared, view));
+    let map = CameraMap::new(view, options.samples, &prepared.bounds);
     // A box's last place matters to a ray alone: a fault there shows in tiles of one.
     let side = if (loops.is)(Planted::ShrunkBox) { 1 } else { prepared.side };
-    let (mut kind, mut kind_of_one) = (rays.lens_kind(side), rays.lens_kind(1));
-    if (loops.is)(Planted::InfiniteMargin) {
-        kind.distrust();
-        kind_of_one.distrust();
-    }
+    let (of_tile, of_ray) = (loops.template(&map, side), loops.template(&map, 1));
 
-    let (seen, shares): (&O, Vec<Tile>) = (observer, frame.tiles_mut(prepared.side, SHARE));
-    let dropped = (loops.is)(Planted::DroppedTile).then_some(shares.len() / 2);
-    let parts: Vec<O> = shares
+    let (shared, chunks): (&O, Vec<Tile>) = (observer, frame.tiles_mut(prepared.side, CHUNK));
+    let dropped = (loops.is)(Planted::DroppedTile).then_some(chunks.len() / 2);
+    let observers: Vec<O> = chunks
         .into_par_iter()
         .with_max_len(1)
         .enumerate()
         .map_init(
-            || Walker::new(prepared, &rays),
-            |walker, (index, share)| {
-                let mut observer = seen.fork();
+            || Walker::new(prepared, &map),
+            |walker, (index, chunk)| {
+                let mut observer = shared.fork();
                 if dropped == Some(index) {
-                    let Tile { ids, t, .. } = share;
-                    ids.into_iter().for_each(|ids| ids.fill(NO_PRIMITIVE));
-                    t.into_iter().for_each(|t| t.fill(f32::INFINITY));
+                    drop_chunk(chunk);
                 } else {
-                    if let Some(watcher) = observer.sink() {
-                        (loops.watch)(walker, &kind_of_one, &share, watcher);
+                    if let Some(sink) = observer.sink() {
+                        (loops.watch)(walker, &of_ray, &chunk, sink);
                     }
-                    (loops.trace)(walker, &kind, share);
+                    (loops.trace)(walker, &of_tile, chunk);
                 }
                 observer
             },
         )
         .collect();
-    parts.into_iter().for_each(|part| observer.join(part));
+    observers.into_iter().for_each(|part| observer.join(part));
 }
 
-/// Walks each ray of a share of the picture alone, for an observer, until that has enough.
-fn watch<F: Fault>(walker: &mut Walker, kind: &LensKind, share: &Tile, observer: &mut dyn Events) {
+/// A fault: nothing is seen in a chunk of the picture.
+fn drop_chunk(Tile { ids, t, .. }: Tile) {
+    ids.into_iter().for_each(|ids| ids.fill(NO_PRIMITIVE));
+    t.into_iter().for_each(|t| t.fill(f32::INFINITY));
+}
+
+/// Walks each ray of a chunk of the picture alone, for an observer, until that has enough.
+fn watch<F: Fault>(
+    walker: &mut Walker,
+    template: &FrustumTemplate,
+    chunk: &Tile,
+    sink: &mut dyn Events,
+) {
     dispatch_with!(F, walker.prepared.level, simd => {
-        for row in share.region.rows.clone() {
-            for column in share.region.columns.clone() {
-                if observer.has_enough() {
+        let mut context = Parts::<_, dyn Events, F>::of(simd, sink);
+        for row in chunk.region.rows.clone() {
+            for column in chunk.region.columns.clone() {
+                if context.sink().has_enough() {
                     return;
                 }
-                walker.walk::<_, dyn Events, F>(simd, kind, [row, column], [1, 1], observer);
+                walker.walk(&mut context, template, [row, column], [1, 1]);
             }
         }
     });
 }
 
-/// Traces the rays of a share of the picture, tile by tile. Of a tile at the border of a crop all rays are
-/// traced, so that the crop shows the bits of the whole picture, and those in the share are stored.
-fn trace<F: Fault>(walker: &mut Walker, kind: &LensKind, share: Tile) {
-    let Tile { region, mut ids, mut t } = share;
-    let (rays, side) = (walker.rays, kind.side);
+/// Traces the rays of a chunk of the picture, tile by tile. Of a tile at the border of a crop all rays are
+/// traced, so that the crop shows the bits of the whole picture, and those in the chunk are stored.
+fn trace<F: Fault>(walker: &mut Walker, template: &FrustumTemplate, chunk: Tile) {
+    let Tile { region, mut ids, mut t } = chunk;
+    let (map, side) = (walker.map, template.side);
     let tiles = |range: &Range<usize>| (range.start / side * side..range.end).step_by(side);
     dispatch_with!(F, walker.prepared.level, simd => {
         for top in tiles(&region.rows) {
             for left in tiles(&region.columns) {
-                let size =
-                    [rays.grid.height() - top, rays.grid.width() - left].map(|s| s.min(side));
-                walker.walk::<_, (), F>(simd, kind, [top, left], size, &mut ());
-                walker.tile.store(simd, rays, &region, &mut ids, &mut t);
+                let size = [map.grid.height() - top, map.grid.width() - left];
+                let size = size.map(|count| count.min(side));
+                walker.walk(&mut Parts::<_, (), F>::of(simd, &mut ()), template, [top, left], size);
+                store(simd, map, &walker.tile, &region, &mut ids, &mut t);
             }
         }
     });

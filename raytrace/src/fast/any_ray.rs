@@ -1,10 +1,13 @@
 //! Any ray, not only those of a picture.
 
-use super::build::Prepared;
-use super::rays::Rays;
-use super::walk::{self, Walker};
+use super::camera_map::CameraMap;
+use super::prepared::Prepared;
+use super::search::tile_frustum::FrustumTemplate;
+use super::search::walk::Walker;
+use super::store::store;
+use bothways_common::engine::context::{Context, Parts};
 use bothways_common::engine::fault::Sound;
-use bothways_common::engine::simd::{Simd, dispatch};
+use bothways_common::engine::simd::dispatch;
 use bothways_common::raster::Region;
 use bothways_common::{Camera, CameraDescription, Orientation, Scene, View};
 use glam::Vec3;
@@ -87,17 +90,22 @@ pub fn first_hit(prepared: &Prepared, scene: &Scene, ray: WorldRay) -> Option<Hi
     assert_eq!(prepared.primitives, scene.primitive_count(), "another scene was prepared");
     let camera = ray.camera();
     let view = View::new(scene, &camera);
-    let rays = Rays::new(&view, 1, walk::reach(prepared, &view));
-    let mut walker = Walker::new(prepared, &rays);
-    let distance = dispatch!(prepared.level, simd => alone(simd, &mut walker, &rays));
+    let map = CameraMap::new(&view, 1, &prepared.bounds);
+    let mut walker = Walker::new(prepared, &map);
+    let distance = dispatch!(prepared.level, simd => {
+        trace_alone(&mut Parts::new(simd, &mut (), Sound), &mut walker)
+    });
     walker.tile.seen().map(|id| Hit { id, distance })
 }
 
+/// Traces the only ray of a picture. Returns how far the hit is, if it is one.
 #[inline(always)]
-fn alone<S: Simd>(simd: S, walker: &mut Walker, rays: &Rays) -> f32 {
-    walker.walk::<S, (), Sound>(simd, &rays.lens_kind(1), [0, 0], [1, 1], &mut ());
+fn trace_alone<C: Context>(context: &mut C, walker: &mut Walker) -> f32 {
+    let template = FrustumTemplate::new(walker.map, 1);
+    walker.walk(context, &template, [0, 0], [1, 1]);
     let (mut id, mut distance) = ([0], [0.0]);
     let here = Region { rows: 0..1, columns: 0..1 };
-    walker.tile.store(simd, rays, &here, &mut [&mut id], &mut [&mut distance]);
+    let (ids, distances) = (&mut [&mut id[..]], &mut [&mut distance[..]]);
+    store(context.simd(), walker.map, &walker.tile, &here, ids, distances);
     distance[0]
 }

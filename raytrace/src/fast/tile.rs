@@ -1,16 +1,12 @@
-//! What the rays of one tile have hit so far.
+//! What the rays of one tile have hit so far: ids and depth keys, the depth test, and what is left open.
 
-use super::ball;
-use super::leaf::{self, Answer, Distance, Trust};
-use super::rays::{Lens, Rays};
-use bothways_common::engine::fault::{Fault, Planted};
-use bothways_common::engine::simd::{Select, Simd, SimdBase, SimdMask, f32x16, u32x16};
-use bothways_common::exact::CachedJudge;
-use bothways_common::frame::{NO_PRIMITIVE, stored_t};
-use bothways_common::observe::{EventSink, Question};
-use bothways_common::raster::{Region, Sample};
-use bothways_common::{Primitive, Projection};
-use std::ops::Range;
+use bothways_common::Primitive;
+use bothways_common::engine::context::ScalarContext;
+use bothways_common::engine::simd::{Simd, SimdBase, SimdMask, f32x16};
+use bothways_common::exact::{CachedJudge, Judge};
+use bothways_common::frame::NO_PRIMITIVE;
+use bothways_common::observe::Events;
+use bothways_common::raster::Sample;
 
 /// Samples along one side of a block: sixteen samples are tested at once.
 pub(super) const BLOCK: usize = 4;
@@ -35,22 +31,20 @@ pub(super) struct Tile {
     /// How many blocks have samples at which nothing was hit; the largest number until that is counted.
     open_blocks: u32,
     /// Whether anything was hit.
-    touched: bool,
+    pub(super) touched: bool,
     /// Blocks whose least low end must be found again.
     pub(super) dirty: u64,
-    /// The first row and column, and how many rows and columns there are in the picture.
-    row: usize,
-    column: usize,
-    height: usize,
-    width: usize,
+    /// The first row and column, and how many rows and columns of it there are in the picture.
+    pub(super) start: [usize; 2],
+    pub(super) size: [usize; 2],
     side: usize,
-    open: Vec<Open>,
-    memory: CachedJudge,
+    open: Vec<OpenFragment>,
+    pub(super) judge: CachedJudge,
 }
 
 /// A sample that one of eight triangles may cover, or be nearest at: rounding leaves it open.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Open {
+pub(super) struct OpenFragment {
     pub(super) index: u16,
     pub(super) lane: u8,
     /// Whether only its depth is open.
@@ -58,7 +52,7 @@ pub(super) struct Open {
 }
 
 impl Tile {
-    pub(super) fn new(rays: &Rays) -> Tile {
+    pub(super) fn new(judge: Judge) -> Tile {
         Tile {
             ids: Box::new([NO_PRIMITIVE; SAMPLES]),
             low: Box::new([0.0; SAMPLES]),
@@ -68,24 +62,22 @@ impl Tile {
             open_blocks: 0,
             touched: true,
             dirty: 0,
-            row: 0,
-            column: 0,
-            height: 0,
-            width: 0,
+            start: [0; 2],
+            size: [0; 2],
             side: 1,
             open: Vec::new(),
-            memory: CachedJudge::new(rays.view.judge()),
+            judge: CachedJudge::new(judge),
         }
     }
 
-    /// Starts a tile in which nothing is hit.
+    /// Starts a tile in which nothing is hit: at this row and column, with so many rows and columns in the picture.
     #[inline(always)]
     pub(super) fn begin(&mut self, start: [usize; 2], size: [usize; 2], side: usize) {
-        [self.row, self.column] = start;
-        if !self.touched && size == [self.height, self.width] && side == self.side {
+        self.start = start;
+        if !self.touched && size == self.size && side == self.side {
             return;
         }
-        [self.height, self.width] = size;
+        self.size = size;
         self.side = side;
         self.touched = false;
         let blocks = self.blocks();
@@ -121,9 +113,9 @@ impl Tile {
 
     /// The sample in the picture that is kept there, if it is one.
     pub(super) fn sample(&self, index: usize) -> Option<Sample> {
-        let (row, column) = place(self.side, index);
-        let inside = row < self.height && column < self.width;
-        inside.then_some(Sample { row: self.row + row, column: self.column + column })
+        let [row, column] = place(self.side, index);
+        let inside = row < self.size[0] && column < self.size[1];
+        inside.then_some(Sample { row: self.start[0] + row, column: self.start[1] + column })
     }
 
     /// Finds the farthest hit again where something was hit.
@@ -156,14 +148,14 @@ impl Tile {
         self.open_blocks <= 2
     }
 
-    /// Leaves a sample to [`Tile::settle`].
+    /// Leaves a sample to [`settle`](super::one_primitive::settle).
     #[cold]
     pub(super) fn leave_open(&mut self, index: usize, lane: usize, covered: bool) {
         #[expect(
             clippy::cast_possible_truncation,
             reason = "a tile has 1024 samples, a setup 8 lanes"
         )]
-        self.open.push(Open { index: index as u16, lane: lane as u8, covered });
+        self.open.push(OpenFragment { index: index as u16, lane: lane as u8, covered });
     }
 
     /// The same for lanes of a block from `from` on.
@@ -176,244 +168,66 @@ impl Tile {
         }
     }
 
-    /// Whether a flat primitive covers no sample of this camera at all; see [`CachedJudge::is_edge_on`].
+    /// Whether a triangle or plane covers no sample of this camera at all; see [`CachedJudge::is_edge_on`].
     pub(super) fn is_edge_on(&mut self, id: u32, primitive: &Primitive) -> bool {
-        self.memory.is_edge_on(id, primitive)
+        self.judge.is_edge_on(id, primitive)
     }
 
+    /// Whether fragments are left open.
     pub(super) fn has_open(&self) -> bool {
         !self.open.is_empty()
     }
 
-    /// Decides what was left open.
-    #[cold]
-    pub(super) fn settle<O: EventSink + ?Sized, F: Fault>(
-        &mut self,
-        rays: &Rays,
-        primitives: &[(u32, Primitive); 8],
-        observer: &mut O,
-    ) {
-        let open = std::mem::take(&mut self.open);
-        for Open { index, lane, covered } in &open {
-            let (id, primitive) = &primitives[usize::from(*lane)];
-            let index = usize::from(*index);
-            self.decide::<O, F>(rays, index, (*id, primitive), *covered, observer);
-        }
+    /// The fragments that are left open. The vector is given back to [`Tile::clear_open`].
+    pub(super) fn take_open(&mut self) -> Vec<OpenFragment> {
+        std::mem::take(&mut self.open)
+    }
+
+    /// Leaves no fragment open, and keeps the memory of the vector.
+    pub(super) fn clear_open(&mut self, open: Vec<OpenFragment>) {
         self.open = open;
         self.open.clear();
     }
 
-    /// Tests one ray against one primitive in `f64`, by the judge if need be, and keeps the nearer of it
-    /// and the hit so far. `covered` says that it is certainly covered, which was told already.
-    pub(super) fn decide<O: EventSink + ?Sized, F: Fault>(
+    /// Whether nothing is hit at a sample.
+    #[inline(always)]
+    pub(super) fn is_empty_at(&self, at: usize) -> bool {
+        self.high[at] == f32::NEG_INFINITY
+    }
+
+    /// Stores a fragment as the nearest one so far; its key lies between `low` and `high`.
+    #[inline(always)]
+    pub(super) fn keep(&mut self, at: usize, id: u32, [low, high]: [f32; 2]) {
+        self.low[at] = low;
+        self.high[at] = high;
+        self.ids[at] = id;
+        self.dirty |= 1 << (at / 16);
+    }
+
+    /// The depth test: keeps a fragment if it is certainly the nearest so far, and leaves it open if that, or whether
+    /// it is a fragment at all, is not certain.
+    #[inline(always)]
+    pub(super) fn fragment<C: ScalarContext>(
         &mut self,
-        rays: &Rays,
-        index: usize,
-        (id, primitive): (u32, &Primitive),
-        covered: bool,
-        observer: &mut O,
+        context: &mut C,
+        at: usize,
+        (lane, id): (usize, u32),
+        certain: bool,
+        [low, high]: [f32; 2],
     ) {
-        let Some(sample) = self.sample(index) else { return };
-        let ray = rays.grid.ray(sample.row, sample.column);
-        let trust = Trust::new::<F>();
-        let (answer, signs) = leaf::primitive(&ray, primitive, trust);
-        let distance = match answer {
-            Answer::Hit(distance) | Answer::Open(distance) => distance,
-            Answer::Miss => {
-                observer.edge_signs(sample, id, signs);
-                return;
+        let farther = high < self.low[at];
+        let nearer = certain && low > self.high[at];
+        let reported = C::WATCHED && certain && (farther || nearer);
+        if reported && let Some(sample) = self.sample(at) {
+            context.sink().fragment(sample, id);
+            if !self.is_empty_at(at) {
+                context.sink().depth_test(sample, id, self.ids[at], nearer);
             }
-        };
-        if covered {
-            // Only the depth is open.
-        } else if let Answer::Hit(_) = answer {
-            observer.edge_signs(sample, id, signs);
-        } else {
-            if self.memory.is_edge_on(id, primitive) {
-                return;
-            }
-            observer.judged(sample, Question::Coverage);
-            let coverage = rays.view.judge().coverage(primitive, &ray);
-            if let Some(edges) = coverage.edges {
-                observer.edge_signs(sample, id, edges.at_sample.map(Some));
-            }
-            if !coverage.covers || F::is(Planted::StrictComparison) {
-                return;
-            }
-        }
-        observer.fragment(sample, id);
-        let [low, high] = rays.keys(distance.low, distance.high);
-        let nothing = self.high[index] == f32::NEG_INFINITY;
-        let nearer = if nothing || low > self.high[index] {
-            true
-        } else if high < self.low[index] {
-            false
-        } else {
-            self.judge_nearer::<O, F>(rays, (sample, index), (id, primitive), distance, observer)
-        };
-        if !nothing {
-            observer.depth_test(sample, id, self.ids[index], nearer);
         }
         if nearer {
-            self.ids[index] = id;
-            self.low[index] = low;
-            self.high[index] = high;
-            self.dirty |= 1 << (index / 16);
-        }
-    }
-
-    /// Whether a primitive is seen rather than the hit so far: by `f64` if that is certain, or by the
-    /// judge.
-    fn judge_nearer<O: EventSink + ?Sized, F: Fault>(
-        &mut self,
-        rays: &Rays,
-        (sample, index): (Sample, usize),
-        challenger: (u32, &Primitive),
-        distance: Distance,
-        observer: &mut O,
-    ) -> bool {
-        let holder = self.ids[index];
-        let held = rays.view.primitive(holder);
-        let ray = rays.grid.ray(sample.row, sample.column);
-        let trust = Trust::new::<F>();
-        if let (Answer::Hit(other) | Answer::Open(other), _) = leaf::primitive(&ray, &held, trust) {
-            if distance.high < other.low {
-                return true;
-            }
-            if distance.low > other.high {
-                return false;
-            }
-        }
-        if let (
-            Primitive::Sphere { center, radius },
-            Primitive::Sphere { center: other, radius: other_radius },
-        ) = (*challenger.1, held)
-            && trust.is_sound()
-            && let Some(order) = ball::nearer([(center, radius), (other, other_radius)], &ray)
-        {
-            return order.is_lt();
-        }
-        observer.judged(sample, Question::Nearest);
-        if F::is(Planted::TiesToLast) {
-            let order = self.memory.compare(challenger, (holder, &held), &ray);
-            return order.decided.then(holder.cmp(&challenger.0)).is_lt();
-        }
-        self.memory.nearer(challenger, (holder, &held), &ray)
-    }
-
-    /// Writes ids and distances into a region of a frame, as much of it as the tile holds.
-    #[inline(always)]
-    pub(super) fn store<S: Simd>(
-        &self,
-        simd: S,
-        rays: &Rays,
-        region: &Region,
-        ids: &mut [&mut [u32]],
-        t: &mut [&mut [f32]],
-    ) {
-        // What the region holds of the tile, counted from the tile's first row and column.
-        let held = |first: usize, count: usize, of: &Range<usize>| {
-            of.start.saturating_sub(first)..(of.end - first).min(count)
-        };
-        let rows = held(self.row, self.height, &region.rows);
-        let columns = held(self.column, self.width, &region.columns);
-        let line = |row: usize| row + self.row - region.rows.start;
-        let place_in_line = |column: usize| column + self.column - region.columns.start;
-        if !self.touched {
-            let columns = place_in_line(columns.start)..place_in_line(columns.end);
-            for row in rows.map(line) {
-                ids[row][columns.clone()].fill(NO_PRIMITIVE);
-                t[row][columns.clone()].fill(f32::INFINITY);
-            }
-            return;
-        }
-        if self.side < BLOCK {
-            let (mut shown, mut far) = ([0; 16], [0.0; 16]);
-            self.store_block(simd, rays, 0, &mut shown, &mut far);
-            ids[line(0)][place_in_line(0)] = shown[0];
-            t[line(0)][place_in_line(0)] = far[0];
-            return;
-        }
-        for block in 0..self.blocks() {
-            let (top, left) = place(self.side, block * 16);
-            let rows = top.max(rows.start)..rows.end.min(top + BLOCK);
-            let columns = left.max(columns.start)..columns.end.min(left + BLOCK);
-            if rows.is_empty() || columns.is_empty() {
-                continue;
-            }
-            let (mut shown, mut far) = ([0; 16], [0.0; 16]);
-            self.store_block(simd, rays, block, &mut shown, &mut far);
-            let (wide, start) = (columns.len(), place_in_line(columns.start));
-            for row in rows {
-                let from = (row - top) * BLOCK + columns.start - left;
-                let (ids, t) = (&mut ids[line(row)], &mut t[line(row)]);
-                if wide == BLOCK {
-                    ids[start..start + BLOCK].copy_from_slice(&shown[from..from + BLOCK]);
-                    t[start..start + BLOCK].copy_from_slice(&far[from..from + BLOCK]);
-                } else {
-                    ids[start..start + wide].copy_from_slice(&shown[from..from + wide]);
-                    t[start..start + wide].copy_from_slice(&far[from..from + wide]);
-                }
-            }
-        }
-    }
-
-    /// Ids and distances of a block. A distance is taken from the middle of its key's interval if that is
-    /// narrow: within 0.75·10⁻⁶ of the true one, and three roundings of 2⁻²⁴.
-    #[inline(always)]
-    fn store_block<S: Simd>(
-        &self,
-        simd: S,
-        rays: &Rays,
-        block: usize,
-        ids: &mut [u32; 16],
-        t: &mut [f32; 16],
-    ) {
-        const NARROW: f32 = 1.5e-6;
-        let from = block * 16;
-        let low = f32x16::from_slice(simd, &self.low[from..from + 16]);
-        let high = f32x16::from_slice(simd, &self.high[from..from + 16]);
-        let nothing = high.simd_eq(f32x16::splat(simd, f32::NEG_INFINITY));
-        let middle = low * 0.5 + high * 0.5;
-        #[expect(clippy::cast_possible_truncation, reason = "one of the roundings")]
-        let scale = rays.scale as f32;
-        let distance = match rays.projection {
-            Projection::Perspective => f32x16::splat(simd, 1.0 / scale) / middle,
-            Projection::Parallel => -middle * (1.0 / scale),
-        };
-        // Far from overflow, underflow and their kin.
-        const ORDINARY: std::ops::Range<f32> = 1e-30..1e30;
-        let plain = ORDINARY.contains(&scale);
-        let sure = (high - low).simd_le(middle.abs() * NARROW)
-            & distance.simd_gt(f32x16::splat(simd, ORDINARY.start))
-            & distance.simd_lt(f32x16::splat(simd, ORDINARY.end));
-        let seen = u32x16::from_slice(simd, &self.ids[from..from + 16]);
-        nothing.select(u32x16::splat(simd, NO_PRIMITIVE), seen).store_array(ids);
-        nothing.select(f32x16::splat(simd, f32::INFINITY), distance).store_array(t);
-        let unsure = if plain { !(sure | nothing) } else { !nothing };
-        if unsure.any_true() {
-            self.find_distances(rays, from, unsure.to_bitmask(), ids, t);
-        }
-    }
-
-    #[cold]
-    fn find_distances(
-        &self,
-        rays: &Rays,
-        from: usize,
-        lanes: u64,
-        ids: &[u32; 16],
-        t: &mut [f32; 16],
-    ) {
-        for lane in (0..16).filter(|lane| lanes >> lane & 1 == 1) {
-            let Some(Sample { row, column }) = self.sample(from + lane) else { continue };
-            let (ray, primitive) = (rays.grid.ray(row, column), rays.view.primitive(ids[lane]));
-            let rounded = match leaf::primitive(&ray, &primitive, Trust::Sound).0 {
-                Answer::Hit(distance) | Answer::Open(distance) => distance.t(),
-                Answer::Miss => None,
-            };
-            let t = (&mut t[lane], rounded);
-            *t.0 = stored_t(t.1.unwrap_or_else(|| rays.view.judge().distance(&primitive, &ray)));
+            self.keep(at, id, [low, high]);
+        } else if !farther {
+            self.leave_open(at, lane, certain);
         }
     }
 
@@ -430,7 +244,7 @@ fn least<S: Simd>(lanes: f32x16<S>) -> f32 {
     simd.reduce_min_f32x16(lanes)
 }
 
-/// Where a sample is kept.
+/// The index at which a sample of a tile is kept.
 #[inline(always)]
 pub(super) fn index(side: usize, row: usize, column: usize) -> usize {
     let group = row / 16 * side.div_ceil(16) + column / 16;
@@ -438,25 +252,11 @@ pub(super) fn index(side: usize, row: usize, column: usize) -> usize {
     group * 256 + block * 16 + row % 4 * 4 + column % 4
 }
 
-/// The row and column that are kept there.
-pub(super) fn place(side: usize, index: usize) -> (usize, usize) {
+/// The row and column of the sample that is kept there.
+pub(super) fn place(side: usize, index: usize) -> [usize; 2] {
     let (group, block, lane) = (index / 256, index / 16 % 16, index % 16);
     let across = side.div_ceil(16);
     let row = group / across * 16 + block / 4 * 4 + lane / 4;
     let column = group % across * 16 + block % 4 * 4 + lane % 4;
-    (row, column)
-}
-
-impl Lens<'_> {
-    /// The place of a tile's column or row, from its middle.
-    #[inline(always)]
-    pub(super) fn offset(&self, place: usize) -> f32 {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_precision_loss,
-            reason = "halves of small integers"
-        )]
-        let offset = (place as f64 - self.kind.half) as f32;
-        offset
-    }
+    [row, column]
 }

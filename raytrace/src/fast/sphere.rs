@@ -1,14 +1,14 @@
 //! One ray against one sphere, and two spheres against each other along a ray.
 
-use super::leaf::{Answer, Distance, Trust, UNIT_ROUNDOFF};
-use super::precise::{self, Sum};
+mod from_afar;
+
+use super::answer::{Answer, FLOOR, Trust, distance_around};
 use bothways_common::Ray;
+use bothways_common::engine::roundoff::{EPS53, Interval};
 use glam::DVec3;
 use std::cmp::Ordering;
 
-/// Beneath this, products may have underflowed; it is far above what that can lose.
-const FLOOR: f64 = 1e-200;
-/// As a part of `t`: to know more of it is of no use.
+/// As a fraction of `t`: to know more of it is of no use.
 const ENOUGH: f64 = 1e-7;
 
 /// The answer for a sphere: in `f64`, and where that leaves it open or is not sure of enough digits, with twice as
@@ -16,11 +16,11 @@ const ENOUGH: f64 = 1e-7;
 #[inline(always)]
 pub(super) fn answer(ray: &Ray, center: DVec3, radius: f64, trust: Trust) -> Answer {
     match Passing::new(ray, center, radius, trust).answer(trust) {
-        Answer::Hit(Distance { low, high }) if high - low <= ENOUGH * high => {
-            Answer::Hit(Distance { low, high })
+        Answer::Hit(Interval { low, high }) if high - low <= ENOUGH * high => {
+            Answer::Hit(Interval { low, high })
         }
         open @ (Answer::Hit(_) | Answer::Open(_)) if !trust.is_sound() => open,
-        Answer::Hit(_) | Answer::Open(_) => precise_answer(ray, center, radius),
+        Answer::Hit(_) | Answer::Open(_) => from_afar::answer(ray, center, radius),
         Answer::Miss => Answer::Miss,
     }
 }
@@ -50,29 +50,28 @@ impl Passing {
     /// one or more, for the roundings of the bounds.
     #[inline(always)]
     fn new(ray: &Ray, center: DVec3, radius: f64, trust: Trust) -> Passing {
-        let u = UNIT_ROUNDOFF;
         let (m, d) = (ray.origin - center, ray.direction);
         let a = d.length_squared();
         let (k, k_size) = (m.dot(d) / a, m.abs().dot(d.abs()) / a);
         let f = m - k * d;
-        let f_error = 11.0 * u * (m.abs() + k_size * d.abs());
+        let f_error = 11.0 * EPS53 * (m.abs() + k_size * d.abs());
         let f_squared = f.length_squared();
         let radius_squared = radius * radius;
         let room_error = 2.0 * f.abs().dot(f_error)
             + f_error.length_squared()
-            + 5.0 * u * (f_squared + radius_squared)
+            + 5.0 * EPS53 * (f_squared + radius_squared)
             + FLOOR;
         let m_squared = m.length_squared();
         Passing {
             a,
             k,
-            k_error: trust.of(9.0 * u * k_size + FLOOR),
+            k_error: trust.of(9.0 * EPS53 * k_size + FLOOR),
             f,
             f_error,
             room: radius_squared - f_squared,
             room_error: trust.of(room_error),
             c: m_squared - radius_squared,
-            c_error: trust.of(7.0 * u * (m_squared + radius_squared) + FLOOR),
+            c_error: trust.of(7.0 * EPS53 * (m_squared + radius_squared) + FLOOR),
         }
     }
 
@@ -82,7 +81,7 @@ impl Passing {
     #[inline(always)]
     fn half(&self, trust: Trust) -> (f64, f64) {
         let half = (self.room.max(0.0) / self.a).sqrt();
-        (half, trust.of(self.room_error / (self.a * half) + 5.0 * UNIT_ROUNDOFF * half))
+        (half, trust.of(self.room_error / (self.a * half) + 5.0 * EPS53 * half))
     }
 
     #[inline(always)]
@@ -94,13 +93,13 @@ impl Passing {
         let (half, half_error) = self.half(trust);
         let k = self.k;
         let t = if inside { half - k } else { -half - k };
-        let error = self.k_error + half_error + trust.of(2.0 * UNIT_ROUNDOFF * (k.abs() + half));
+        let error = self.k_error + half_error + trust.of(2.0 * EPS53 * (k.abs() + half));
         if inside || (outside && k < -self.k_error && self.room > self.room_error) {
             let cancelled = outside && 2.5 * error > ENOUGH * t;
-            let distance = Distance::around(t, error);
+            let distance = distance_around(t, error);
             Answer::Hit(if cancelled { self.near_wall(half - k, error) } else { distance })
         } else {
-            Answer::Open(Distance::UNKNOWN)
+            Answer::Open(Interval::NOT_NEGATIVE)
         }
     }
 
@@ -108,82 +107,20 @@ impl Passing {
     /// nothing cancels.
     ///
     /// `A` brings 3 roundings, two quotients one each; a divisor that is off by ρ < ⅛ changes them by less than 1.2·ρ.
-    fn near_wall(&self, far: f64, far_error: f64) -> Distance {
+    fn near_wall(&self, far: f64, far_error: f64) -> Interval {
         let t = self.c / self.a / far;
         let relative = self.c_error / self.c + far_error / far;
         if relative < 0.125 {
-            Distance::around(t, t * (1.2 * relative + 7.0 * UNIT_ROUNDOFF))
+            distance_around(t, t * (1.2 * relative + 7.0 * EPS53))
         } else {
-            Distance::UNKNOWN
+            Interval::NOT_NEGATIVE
         }
     }
-}
 
-/// The answer from sums of products to twice as many digits: `A = D·D`, `B = m·D`, `C = m·m − r²` and, by Lagrange's
-/// identity, the discriminant `B² − A·C = A·r² − |m × D|²`.
-///
-/// `m` is the sum of two numbers without error, so its products are sums of twice as many; `m × D` and `A` are taken
-/// as they come out, and what they are off by goes into the bound. `r²` has 48 digits: no error.
-#[cold]
-#[inline(never)]
-fn precise_answer(ray: &Ray, center: DVec3, radius: f64) -> Answer {
-    let [dx, dy, dz] = ray.direction.to_array();
-    let [(mx, nx), (my, ny), (mz, nz)] =
-        std::array::from_fn(|k| precise::sum(ray.origin[k], -center[k]));
-    let a = Sum::of_products([dx, dy, dz], [dx, dy, dz]);
-    let b = Sum::of_products([mx, my, mz, nx, ny, nz], [dx, dy, dz, dx, dy, dz]);
-    let c = Sum::of_products(
-        [mx, my, mz, -radius, 2.0 * mx, 2.0 * my, 2.0 * mz, nx, ny, nz],
-        [mx, my, mz, radius, nx, ny, nz, nx, ny, nz],
-    );
-    let cross = [
-        Sum::of_products([my, -mz, ny, -nz], [dz, dy, dz, dy]),
-        Sum::of_products([mz, -mx, nz, -nx], [dx, dz, dx, dz]),
-        Sum::of_products([mx, -my, nx, -ny], [dy, dx, dy, dx]),
-    ];
-    let [x, y, z] = cross;
-    let r_squared = radius * radius;
-    let mut discriminant = Sum::of_products(
-        [a.high, a.low, -x.high, -y.high, -z.high, -2.0 * x.high, -2.0 * y.high, -2.0 * z.high],
-        [r_squared, r_squared, x.high, y.high, z.high, x.low, y.low, z.low],
-    );
-    // (h + l + e)² is h² + 2·h·l, and at most l² + 2·|h + l|·|e| + e² more.
-    let of_square = |sum: &Sum| {
-        let size = sum.high.abs() + sum.low.abs();
-        sum.low * sum.low + (2.0 * size + sum.error) * sum.error
-    };
-    let carried = a.error * r_squared + cross.iter().map(of_square).sum::<f64>();
-    discriminant.error += 1.1 * carried + FLOOR;
-    from_parts(&a, &b, &c, &discriminant)
-}
-
-/// The root that is seen, in the form in which nothing cancels, from parts that are certain to more than their
-/// leading halves: each is rounded to one, once.
-fn from_parts(a: &Sum, b: &Sum, c: &Sum, discriminant: &Sum) -> Answer {
-    let u = UNIT_ROUNDOFF;
-    let (outside, inside, on) = (c.is_positive(), c.is_negative(), c.is_zero());
-    let leaves = b.is_positive() || b.is_zero();
-    if (outside || on) && leaves || outside && discriminant.is_negative() {
-        return Answer::Miss;
+    /// Whether the ray begins inside, if that is certain.
+    fn sees_far_wall(&self) -> Option<bool> {
+        (self.c.abs() > self.c_error).then_some(self.c < 0.0)
     }
-    let near = outside && b.is_negative() && discriminant.is_positive();
-    if !(near || inside || on && b.is_negative()) {
-        return Answer::Open(Distance::UNKNOWN);
-    }
-    let root = discriminant.high.sqrt();
-    let root_error = discriminant.error / root + 2.0 * u * root;
-    let sum = b.high.abs() + root;
-    let sum_relative = (b.error + u * b.high.abs() + root_error) / sum + 2.0 * u;
-    let (t, relative) = if near || b.high > 0.0 {
-        let c_relative = c.error / c.high.abs() + u;
-        (c.high.abs() / sum, c_relative + sum_relative)
-    } else {
-        (sum / a.high, sum_relative + a.error / a.high + u)
-    };
-    // The quotient is one rounding more; a divisor that is off by ρ < ⅛ changes it by less than 1.2·ρ.
-    let relative = 1.25 * relative + 2.0 * u;
-    let known = relative < 0.125 && t > 0.0;
-    Answer::Hit(if known { Distance::around(t, t * relative) } else { Distance::UNKNOWN })
 }
 
 /// Which of two spheres, each with its centre and radius, is nearer along a ray that meets both, if `f64` is certain.
@@ -196,7 +133,6 @@ fn from_parts(a: &Sum, b: &Sum, c: &Sum, discriminant: &Sum) -> Answer {
 /// `κ` carries 1 + 1 + 2 + 3 + 1 roundings of `κ̂ = Σ|s|·|D|/A`, a coordinate of `g` 11 of `|s| + κ̂·|D|`, `f₁ + f₂` what
 /// its terms bring and one, the radii's product 3, the product of `g` and `f₁ + f₂` 3, the difference one.
 pub(super) fn nearer([first, second]: [(DVec3, f64); 2], ray: &Ray) -> Option<Ordering> {
-    let u = UNIT_ROUNDOFF;
     let trust = Trust::Sound;
     let [one, other] =
         [first, second].map(|(center, radius)| Passing::new(ray, center, radius, trust));
@@ -205,7 +141,7 @@ pub(super) fn nearer([first, second]: [(DVec3, f64); 2], ray: &Ray) -> Option<Or
     let d = ray.direction;
     let way = second.0 - first.0;
     let (kappa, kappa_size) = (way.dot(d) / one.a, way.abs().dot(d.abs()) / one.a);
-    let kappa_error = 9.0 * u * kappa_size + FLOOR;
+    let kappa_error = 9.0 * EPS53 * kappa_size + FLOOR;
     let (halves, halves_error) = (half + other_half, half_error + other_error);
     // Halves that are less than certain to an eighth say nothing.
     let certain = halves > 8.0 * halves_error;
@@ -215,30 +151,23 @@ pub(super) fn nearer([first, second]: [(DVec3, f64); 2], ray: &Ray) -> Option<Or
     let (apart, apart_error) = if far == other_far {
         let (less, more) = (first.1 - second.1, first.1 + second.1);
         let g = way - kappa * d;
-        let g_error = 12.0 * u * (way.abs() + kappa_size * d.abs());
+        let g_error = 12.0 * EPS53 * (way.abs() + kappa_size * d.abs());
         let sum = one.f + other.f;
-        let sum_error = one.f_error + other.f_error + 2.0 * u * sum.abs();
+        let sum_error = one.f_error + other.f_error + 2.0 * EPS53 * sum.abs();
         let difference = less * more - g.dot(sum);
         let difference_error = g_error.dot(sum.abs() + sum_error)
             + g.abs().dot(sum_error)
-            + 6.0 * u * (less.abs() * more + g.abs().dot(sum.abs()))
+            + 6.0 * EPS53 * (less.abs() * more + g.abs().dot(sum.abs()))
             + FLOOR;
         let below = one.a * halves;
         let apart = difference / below;
-        let relative = 1.2 * (halves_error / halves) + 6.0 * u;
+        let relative = 1.2 * (halves_error / halves) + 6.0 * EPS53;
         let error = 1.2 * difference_error / below + apart.abs() * relative;
         (if far { apart } else { -apart }, error)
     } else {
-        (if far { halves } else { -halves }, halves_error + 2.0 * u * halves)
+        (if far { halves } else { -halves }, halves_error + 2.0 * EPS53 * halves)
     };
     let value = apart - kappa;
-    let error = apart_error + kappa_error + 2.0 * u * (apart.abs() + kappa.abs());
-    (value.abs() > error * (1.0 + 32.0 * u)).then(|| value.total_cmp(&0.0))
-}
-
-impl Passing {
-    /// Whether the ray begins inside, if that is certain.
-    fn sees_far_wall(&self) -> Option<bool> {
-        (self.c.abs() > self.c_error).then_some(self.c < 0.0)
-    }
+    let error = apart_error + kappa_error + 2.0 * EPS53 * (apart.abs() + kappa.abs());
+    (value.abs() > error * (1.0 + 32.0 * EPS53)).then(|| value.total_cmp(&0.0))
 }

@@ -1,58 +1,58 @@
-//! Where the surface area heuristic would split a part: between bins of its primitives' middles.
+//! The surface area heuristic (SAH): where to split primitives in two, between bins of their centres.
 
-use super::items::{Box4, Item};
+use super::prim_ref::{Box4, PrimRef};
 use glam::Vec4;
 use rayon::prelude::*;
 
-/// Candidate splits along an axis, plus one.
+/// Bins along an axis: one more than there are candidate splits.
 pub(super) const BINS: usize = 16;
 
-/// Bins of parts with more primitives are filled by all threads.
+/// Bins of more primitives than this are filled by all threads.
 pub(super) const LARGE: usize = 1 << 17;
 
-/// How middles are sorted into bins.
+/// How centres are sorted into bins.
 #[derive(Clone, Copy)]
-pub(super) struct Grid {
+pub(super) struct BinMapping {
     low: Vec4,
     scale: Vec4,
 }
 
-impl Grid {
-    pub(super) fn new(middles: &Box4) -> Grid {
+impl BinMapping {
+    pub(super) fn new(centers: &Box4) -> BinMapping {
         #[expect(clippy::cast_precision_loss, reason = "it is 16")]
         let bins = BINS as f32;
         // An extent that overflows, and one that is nothing, puts everything into the first bin.
-        let scale = Vec4::splat(bins * 0.999) / (middles.high - middles.low);
-        Grid {
-            low: middles.low,
+        let scale = Vec4::splat(bins * 0.999) / (centers.high - centers.low);
+        BinMapping {
+            low: centers.low,
             scale: Vec4::select(scale.cmplt(Vec4::INFINITY), scale, Vec4::ZERO),
         }
     }
 
     #[inline(always)]
-    pub(super) fn bins(&self, middle: Vec4) -> [usize; 3] {
+    pub(super) fn bins(&self, center: Vec4) -> [usize; 3] {
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
             reason = "it is not negative, and the conversion saturates"
         )]
         let bin = |place: f32| (place as u32 as usize).min(BINS - 1);
-        let place = (middle - self.low) * self.scale;
+        let place = (center - self.low) * self.scale;
         [bin(place.x), bin(place.y), bin(place.z)]
     }
 }
 
-/// A split: primitives whose middle lies in a bin before this one, along one axis, go first.
+/// A split along one axis: primitives whose centre lies in a bin before this one go left.
 #[derive(Clone, Copy)]
-pub(super) struct SplitPlane {
-    pub(super) grid: Grid,
+pub(super) struct SahSplit {
+    pub(super) mapping: BinMapping,
     pub(super) axis: usize,
     pub(super) bin: usize,
-    /// The sum over both parts of half their area times their number of leaves.
+    /// The sum over both sides of half the area of the box, times the number of leaves.
     pub(super) cost: f64,
 }
 
-/// What lies in a bin.
+/// What lies in a bin: the box around it, and how many primitives.
 #[derive(Clone, Copy)]
 pub(super) struct Bin {
     bounds: Box4,
@@ -63,54 +63,54 @@ pub(super) type Bins = [[Bin; BINS]; 3];
 
 pub(super) const NO_BINS: Bins = [[Bin { bounds: Box4::EMPTY, count: 0 }; BINS]; 3];
 
-pub(super) fn fill_bins(items: &[Item], grid: &Grid) -> Bins {
-    if items.len() > LARGE {
-        let shares = items.par_chunks(LARGE / 4).map(|share| fill_bins(share, grid));
-        return shares.reduce(
+pub(super) fn fill_bins(prims: &[PrimRef], mapping: &BinMapping) -> Bins {
+    if prims.len() > LARGE {
+        let chunks = prims.par_chunks(LARGE / 4).map(|chunk| fill_bins(chunk, mapping));
+        return chunks.reduce(
             || NO_BINS,
-            |mut all, share| {
-                for (bin, more) in all.iter_mut().flatten().zip(share.as_flattened()) {
+            |mut all, chunk| {
+                for (bin, more) in all.iter_mut().flatten().zip(chunk.as_flattened()) {
                     bin.count += more.count;
-                    bin.bounds = bin.bounds.with(more.bounds.low, more.bounds.high);
+                    bin.bounds = bin.bounds.extended(more.bounds.low, more.bounds.high);
                 }
                 all
             },
         );
     }
     let mut bins = NO_BINS;
-    for item in items {
-        let places = grid.bins(item.middle());
+    for prim in prims {
+        let places = mapping.bins(prim.center());
         for axis in 0..3 {
             let bin = &mut bins[axis][places[axis]];
             bin.count += 1;
-            bin.bounds = bin.bounds.with(item.low, item.high);
+            bin.bounds = bin.bounds.extended(prim.low, prim.high);
         }
     }
     bins
 }
 
-/// The split that the surface area heuristic likes best; `None` if all middles are in one bin.
-pub(super) fn cheapest_plane(items: &[Item], middles: &Box4, most: usize) -> Option<SplitPlane> {
-    let grid = Grid::new(middles);
-    let bins = fill_bins(items, &grid);
-    let mut best: Option<SplitPlane> = None;
+/// The split that costs least; `None` if all centres are in one bin. A leaf has `most` primitives at most.
+pub(super) fn cheapest_split(prims: &[PrimRef], centers: &Box4, most: usize) -> Option<SahSplit> {
+    let mapping = BinMapping::new(centers);
+    let bins = fill_bins(prims, &mapping);
+    let mut best: Option<SahSplit> = None;
     for (axis, bins) in bins.iter().enumerate() {
         // From the right, the cost of what lies at or beyond each bin; then from the left.
         let mut beyond = [0.0; BINS];
         let (mut count, mut bounds) = (0, Box4::EMPTY);
         for k in (1..BINS).rev() {
             count += bins[k].count;
-            bounds = bounds.with(bins[k].bounds.low, bins[k].bounds.high);
+            bounds = bounds.extended(bins[k].bounds.low, bins[k].bounds.high);
             beyond[k] = leaves(count, most) * bounds.half_area();
         }
         let (mut count, mut bounds) = (0, Box4::EMPTY);
         for k in 1..BINS {
             count += bins[k - 1].count;
-            bounds = bounds.with(bins[k - 1].bounds.low, bins[k - 1].bounds.high);
+            bounds = bounds.extended(bins[k - 1].bounds.low, bins[k - 1].bounds.high);
             let cost = leaves(count, most) * bounds.half_area() + beyond[k];
-            let useful = count > 0 && count < items.len();
+            let useful = count > 0 && count < prims.len();
             if useful && best.is_none_or(|best| cost < best.cost) {
-                best = Some(SplitPlane { grid, axis, bin: k, cost });
+                best = Some(SahSplit { mapping, axis, bin: k, cost });
             }
         }
     }

@@ -1,22 +1,27 @@
-//! The corners of a leaf's triangles, whichever way it is stored.
+//! Leaves of triangles, in whichever way they are stored.
 
-use super::anchor::Anchor;
-use super::rays::Lens;
-use super::tree::{LEAF, Patch, Triangles};
+use super::tile_frustum::TileFrustum;
+use super::tree::{IndexedLeaf, LEAF, PlainLeaf};
+use crate::fast::local_projection::LocalProjection;
 use bothways_common::engine::simd::{Bytes, Simd, SimdBase, f32x16, mask32x16, u8x64, u32x16};
 
 /// Up to sixteen triangles.
-pub(super) trait Leaf {
+pub(crate) trait Leaf {
     fn ids(&self) -> &[u32; LEAF];
 
-    /// A vertex of one.
-    fn anchor(&self) -> [f32; 3];
+    /// A vertex of the first one.
+    fn first_vertex(&self) -> [f32; 3];
 
-    /// The columns of the three corners of each, and their rows, counted from the tile's first.
-    fn places<S: Simd>(&self, simd: S, lens: &Lens, anchor: &Anchor) -> [[f32x16<S>; 3]; 2];
+    /// The rows of the three corners of each, and their columns, counted from the tile's first.
+    fn project<S: Simd>(
+        &self,
+        simd: S,
+        frustum: &TileFrustum,
+        local: &LocalProjection,
+    ) -> [[f32x16<S>; 3]; 2];
 
-    /// Stores x, y, z of the first, second and third corners of some triangles, one triangle behind the other from a
-    /// place on. The other lanes up to sixteen are overwritten, too.
+    /// Stores x, y, z of the first, second and third corners of some triangles, one triangle behind the other from
+    /// index `at` on. The other lanes up to sixteen are overwritten, too.
     fn gather<S: Simd, const ROOM: usize>(
         &self,
         simd: S,
@@ -26,26 +31,31 @@ pub(super) trait Leaf {
     );
 }
 
-impl Leaf for Patch {
+impl Leaf for IndexedLeaf {
     #[inline(always)]
     fn ids(&self) -> &[u32; LEAF] {
         &self.ids
     }
 
     #[inline(always)]
-    fn anchor(&self) -> [f32; 3] {
+    fn first_vertex(&self) -> [f32; 3] {
         self.vertices.map(|row| row[0])
     }
 
     #[inline(always)]
-    fn places<S: Simd>(&self, simd: S, lens: &Lens, anchor: &Anchor) -> [[f32x16<S>; 3]; 2] {
+    fn project<S: Simd>(
+        &self,
+        simd: S,
+        frustum: &TileFrustum,
+        local: &LocalProjection,
+    ) -> [[f32x16<S>; 3]; 2] {
         let [x, y, z] = &self.vertices;
-        let [columns, rows] = anchor.places(simd, lens, [x, y, z]);
+        let [rows, columns] = local.project(simd, frustum, [x, y, z]);
         let corners = u8x64::from_slice(simd, self.corners.as_flattened());
         let [a, b, c] = bytes_of_corners(simd, corners);
         [
-            [columns.swizzle_dyn(a), columns.swizzle_dyn(b), columns.swizzle_dyn(c)],
             [rows.swizzle_dyn(a), rows.swizzle_dyn(b), rows.swizzle_dyn(c)],
+            [columns.swizzle_dyn(a), columns.swizzle_dyn(b), columns.swizzle_dyn(c)],
         ]
     }
 
@@ -69,23 +79,28 @@ impl Leaf for Patch {
     }
 }
 
-impl Leaf for Triangles {
+impl Leaf for PlainLeaf {
     #[inline(always)]
     fn ids(&self) -> &[u32; LEAF] {
         &self.ids
     }
 
     #[inline(always)]
-    fn anchor(&self) -> [f32; 3] {
+    fn first_vertex(&self) -> [f32; 3] {
         [self.corners[0][0], self.corners[1][0], self.corners[2][0]]
     }
 
     #[inline(always)]
-    fn places<S: Simd>(&self, simd: S, lens: &Lens, anchor: &Anchor) -> [[f32x16<S>; 3]; 2] {
+    fn project<S: Simd>(
+        &self,
+        simd: S,
+        frustum: &TileFrustum,
+        local: &LocalProjection,
+    ) -> [[f32x16<S>; 3]; 2] {
         let [ax, ay, az, bx, by, bz, cx, cy, cz] = &self.corners;
-        let [a, d] = anchor.places(simd, lens, [ax, ay, az]);
-        let [b, e] = anchor.places(simd, lens, [bx, by, bz]);
-        let [c, f] = anchor.places(simd, lens, [cx, cy, cz]);
+        let [a, d] = local.project(simd, frustum, [ax, ay, az]);
+        let [b, e] = local.project(simd, frustum, [bx, by, bz]);
+        let [c, f] = local.project(simd, frustum, [cx, cy, cz]);
         [[a, b, c], [d, e, f]]
     }
 
@@ -104,7 +119,8 @@ impl Leaf for Triangles {
     }
 }
 
-/// For each of three corners the bytes of a row of vertices that are each triangle's, from [`Patch::corners`].
+/// For each of three corners, the bytes of a row of vertices that belong to each triangle, from
+/// [`IndexedLeaf::corners`].
 #[inline(always)]
 fn bytes_of_corners<S: Simd>(simd: S, corners: u8x64<S>) -> [u8x64<S>; 3] {
     let within = u8x64::load_array(simd, const { pattern([0, 1, 2, 3], 0) });
@@ -120,7 +136,7 @@ fn bytes_of_corners<S: Simd>(simd: S, corners: u8x64<S>) -> [u8x64<S>; 3] {
     ]
 }
 
-/// Four bytes, sixteen times, each time `step` more, anew after every four times.
+/// Four bytes, sixteen times: each time `step` more, and again from the start after every four times.
 const fn pattern(four: [u8; 4], step: u8) -> [u8; 64] {
     let mut all = [0; 64];
     let mut k = 0;

@@ -1,5 +1,7 @@
 //! What a hierarchy must be.
 
+use super::super::tree::{LEAF, LeafCounts, NodeRef};
+use super::split::DEEP;
 use super::*;
 use bothways_common::{Mesh, Object, Plane, Shape, Sphere};
 use glam::Vec3;
@@ -16,18 +18,18 @@ fn built(scene: &Scene) -> Prepared {
 }
 
 /// The ids and the corners of a leaf's triangles.
-fn triangles(prepared: &Prepared, leaf: Child, count: usize) -> Vec<(u32, [Vec3; 3])> {
+fn triangles(prepared: &Prepared, leaf: NodeRef, count: usize) -> Vec<(u32, [Vec3; 3])> {
     let triangle = |lane: usize| match leaf.kind() {
-        Kind::Patch => {
-            let patch = &prepared.patches[leaf.index()];
-            let [a, b, c, last] = patch.corners[lane];
+        NodeKind::IndexedLeaf => {
+            let indexed = &prepared.indexed_leaves[leaf.index()];
+            let [a, b, c, last] = indexed.corners[lane];
             assert_eq!(last, 0);
             let vertex =
-                |byte: u8| Vec3::from_array(patch.vertices.map(|row| row[usize::from(byte / 4)]));
-            (patch.ids[lane], [a, b, c].map(vertex))
+                |byte: u8| Vec3::from_array(indexed.vertices.map(|row| row[usize::from(byte / 4)]));
+            (indexed.ids[lane], [a, b, c].map(vertex))
         }
-        Kind::Triangles => {
-            let leaf = &prepared.triangles[leaf.index()];
+        NodeKind::PlainLeaf => {
+            let leaf = &prepared.plain_leaves[leaf.index()];
             let corner =
                 |k: usize| Vec3::from_array([0, 1, 2].map(|axis| leaf.corners[3 * k + axis][lane]));
             (leaf.ids[lane], [0, 1, 2].map(corner))
@@ -55,7 +57,7 @@ fn inspect(prepared: &Prepared, scene: &Scene) -> (usize, Vec<u32>) {
             let inner = Bounds { low: side(0), high: side(3) };
             assert!(holds(inner.low, inner.high));
             let child = node.children[lane];
-            if child.kind() == Kind::Node {
+            if child.kind() == NodeKind::Node {
                 open.push((child, inner, depth + 1));
                 continue;
             }
@@ -88,7 +90,8 @@ fn nodes_are_filled() {
     let corner = |k: u32| Vec3::new((k * 37 % 101) as f32, (k * 53 % 97) as f32, (k % 89) as f32);
     for count in [9, 30, 70, 3000, 20_000] {
         let prepared = built(&mesh((0..count * 3).map(corner).collect()));
-        let children = prepared.nodes.len() - 1 + prepared.patches.len() + prepared.triangles.len();
+        let children =
+            prepared.nodes.len() - 1 + prepared.indexed_leaves.len() + prepared.plain_leaves.len();
         // Splitting the largest box until there are sixteen leaves them half empty.
         assert!(
             children >= 10 * (prepared.nodes.len() - 1),
@@ -102,7 +105,8 @@ fn nodes_are_filled() {
 fn nodes_are_filled_where_no_box_has_an_area() {
     let corner = |k: u16| Vec3::new(f32::from(k), 0.0, 0.0);
     let prepared = built(&mesh((0..3 * 3000).map(corner).collect()));
-    let children = prepared.nodes.len() - 1 + prepared.patches.len() + prepared.triangles.len();
+    let children =
+        prepared.nodes.len() - 1 + prepared.indexed_leaves.len() + prepared.plain_leaves.len();
     assert!(children >= 10 * (prepared.nodes.len() - 1), "{children} in {}", prepared.nodes.len());
 }
 
@@ -113,12 +117,12 @@ fn of_many_coincident_triangles_the_first_is_kept() {
 }
 
 #[test]
-fn twins_in_a_leaf_come_last() {
+fn duplicates_in_a_leaf_come_last() {
     let (a, b, c, d) = (Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z);
     let scene = mesh(vec![a, b, c, c, a, b, a, b, d, b, a, c]);
     let prepared = built(&scene);
-    assert_eq!(prepared.nodes[0].counts[0], Counts::new(4, 2));
-    assert_eq!(prepared.patches[0].ids[..2], [0, 2]);
+    assert_eq!(prepared.nodes[0].counts[0], LeafCounts::new(4, 2));
+    assert_eq!(prepared.indexed_leaves[0].ids[..2], [0, 2]);
 }
 
 #[test]

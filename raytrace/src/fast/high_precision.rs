@@ -1,24 +1,24 @@
 //! Sums of products to twice as many digits, for the few rays at which one `f64` has too few.
 
-use super::leaf::UNIT_ROUNDOFF;
+use bothways_common::engine::roundoff::EPS53;
 
 /// A number within `error` of `high + low`, where `low` is at most half of the last place of `high`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Sum {
+pub(super) struct DoubleDouble {
     pub(super) high: f64,
     pub(super) low: f64,
     /// Zero where nothing was lost.
     pub(super) error: f64,
 }
 
-impl Sum {
+impl DoubleDouble {
     /// The sum of products `p·q`.
     ///
     /// What rounding takes from each product and each partial sum is found without error, and added up
     /// (Ogita, Rump and Oishi, "Accurate Sum and Dot Product", SIAM Journal on Scientific Computing 26, 2005:
     /// `Dot2`). That is rounded: twice for each product, each time by less than a part in 2⁵³ of all that was
     /// found, whose sizes are added up as well. The bound has half as much again.
-    pub(super) fn of_products<const N: usize>(p: [f64; N], q: [f64; N]) -> Sum {
+    pub(super) fn of_products<const N: usize>(p: [f64; N], q: [f64; N]) -> DoubleDouble {
         /// Of smaller products, what is lost may underflow; it is far less than this itself.
         const TINY: f64 = 1e-250;
         let (mut high, mut low, mut lost) = (0.0, 0.0, 0.0_f64);
@@ -35,17 +35,17 @@ impl Sum {
                 underflow = TINY;
             }
         }
-        let error = 3.0 * (count + 1.0) * UNIT_ROUNDOFF * lost + underflow;
+        let error = 3.0 * (count + 1.0) * EPS53 * lost + underflow;
         let (high, low) = sum(high, low);
-        Sum { high, low, error }
+        DoubleDouble { high, low, error }
     }
 
     pub(super) fn is_positive(&self) -> bool {
-        self.high * (1.0 - 4.0 * UNIT_ROUNDOFF) > self.error
+        self.high * (1.0 - 4.0 * EPS53) > self.error
     }
 
     pub(super) fn is_negative(&self) -> bool {
-        -self.high * (1.0 - 4.0 * UNIT_ROUNDOFF) > self.error
+        -self.high * (1.0 - 4.0 * EPS53) > self.error
     }
 
     pub(super) fn is_zero(&self) -> bool {
@@ -83,13 +83,13 @@ mod tests {
     fn what_cancels_leaves_its_digits() {
         let e = f64::EPSILON;
         // (1 + e)² − 1 − 2e = e².
-        let sum = Sum::of_products([1.0 + e, -1.0, -2.0], [1.0 + e, 1.0, e]);
+        let sum = DoubleDouble::of_products([1.0 + e, -1.0, -2.0], [1.0 + e, 1.0, e]);
         assert_eq!((sum.high, sum.low), (e * e, 0.0));
         assert!(sum.is_positive() && !sum.is_negative() && !sum.is_zero());
-        let zero = Sum::of_products([3.0, 4.0, -5.0], [3.0, 4.0, 5.0]);
+        let zero = DoubleDouble::of_products([3.0, 4.0, -5.0], [3.0, 4.0, 5.0]);
         assert!(zero.is_zero() && !zero.is_positive());
         // Of products that underflow nothing is certain.
-        let tiny = Sum::of_products([1e-200], [1e-200]);
+        let tiny = DoubleDouble::of_products([1e-200], [1e-200]);
         assert!(!(tiny.is_zero() || tiny.is_positive() || tiny.is_negative()));
     }
 }

@@ -1,36 +1,35 @@
-//! What the hierarchy is built from: each primitive's box and id.
+//! What the hierarchy is built from: references to primitives, each with its box and id.
 
-use super::super::tree::Bounds;
+use crate::fast::search::tree::Bounds;
 use bothways_common::{Mesh, Plane, Scene, Shape, Sphere, Triangle};
 use glam::{Vec3, Vec4};
 use rayon::prelude::*;
 
-/// A primitive while the hierarchy is built: its box, and in the fourth lane of the low corner the bits
-/// of its id.
+/// A primitive while the hierarchy is built: its box, and the bits of its id in the fourth lane of the low corner.
 #[derive(Clone, Copy)]
-pub(super) struct Item {
+pub(super) struct PrimRef {
     pub(super) low: Vec4,
     pub(super) high: Vec4,
 }
 
-impl Item {
-    pub(super) fn new(bounds: &Bounds, id: u32) -> Item {
-        Item { low: bounds.low.extend(f32::from_bits(id)), high: bounds.high.extend(0.0) }
+impl PrimRef {
+    pub(super) fn new(bounds: &Bounds, id: u32) -> PrimRef {
+        PrimRef { low: bounds.low.extend(f32::from_bits(id)), high: bounds.high.extend(0.0) }
     }
 
     pub(super) fn id(&self) -> u32 {
         self.low.w.to_bits()
     }
 
-    /// The middle, taken in halves so that it is finite. Without the id: most are denormal numbers, and
+    /// The centre of the box, from halves, so that it is finite. Without the id: most ids are denormal numbers, and
     /// to multiply these takes a hundred times as long.
     #[inline(always)]
-    pub(super) fn middle(&self) -> Vec4 {
+    pub(super) fn center(&self) -> Vec4 {
         0.5 * self.low.with_w(0.0) + 0.5 * self.high
     }
 }
 
-/// Boxes in which the fourth lane means nothing.
+/// A box of which the fourth lane means nothing.
 #[derive(Clone, Copy)]
 pub(super) struct Box4 {
     pub(super) low: Vec4,
@@ -41,7 +40,7 @@ impl Box4 {
     pub(super) const EMPTY: Box4 = Box4 { low: Vec4::INFINITY, high: Vec4::NEG_INFINITY };
 
     #[inline(always)]
-    pub(super) fn with(self, low: Vec4, high: Vec4) -> Box4 {
+    pub(super) fn extended(self, low: Vec4, high: Vec4) -> Box4 {
         Box4 { low: self.low.min(low), high: self.high.max(high) }
     }
 
@@ -57,13 +56,14 @@ impl Box4 {
     }
 }
 
-/// The primitives of a scene, sorted by whether a box can bound them.
+/// The primitives of a scene, sorted by kind and by whether a box can bound them.
 #[derive(Default)]
 pub(super) struct Collected {
-    pub(super) triangles: Vec<Item>,
-    pub(super) round: Vec<Item>,
+    pub(super) triangles: Vec<PrimRef>,
+    pub(super) spheres: Vec<PrimRef>,
     pub(super) unbounded: Vec<u32>,
-    pub(super) spheres: Vec<(u32, f32)>,
+    /// The ids of the spheres, and the extent of each; see [`sphere`].
+    pub(super) extents: Vec<(u32, f32)>,
 }
 
 pub(super) fn collect(scene: &Scene) -> Collected {
@@ -81,10 +81,10 @@ pub(super) fn collect(scene: &Scene) -> Collected {
                     triangles.map(|(corners, id)| triangle(id, mesh_corners(mesh, corners))),
                 );
             }
-            Shape::Sphere(ball) => match sphere(first_id, ball) {
-                Some((item, extent)) => {
-                    all.round.push(item);
-                    all.spheres.push((first_id, extent));
+            Shape::Sphere(shape) => match sphere(first_id, shape) {
+                Some((prim, extent)) => {
+                    all.spheres.push(prim);
+                    all.extents.push((first_id, extent));
                 }
                 None => all.unbounded.push(first_id),
             },
@@ -98,8 +98,8 @@ pub(super) fn mesh_corners(mesh: &Mesh, corners: &[u32; 3]) -> [Vec3; 3] {
     corners.map(|vertex| mesh.positions()[vertex as usize])
 }
 
-pub(super) fn triangle(id: u32, [a, b, c]: [Vec3; 3]) -> Item {
-    Item::new(&Bounds { low: a.min(b).min(c), high: a.max(b).max(c) }, id)
+pub(super) fn triangle(id: u32, [a, b, c]: [Vec3; 3]) -> PrimRef {
+    PrimRef::new(&Bounds { low: a.min(b).min(c), high: a.max(b).max(c) }, id)
 }
 
 /// A sphere in its box, and its extent `e = max|center| + radius`; `None` if a corner of the box is
@@ -110,17 +110,17 @@ pub(super) fn triangle(id: u32, [a, b, c]: [Vec3; 3]) -> Item {
 /// box is therefore wider by 2⁻¹⁸·e. That is more than all roundings of the offsets (and of the box
 /// itself) as long as the eye is nearer to the origin than 2³⁰·e: two of at most 2⁻²³·e each, and 2⁻²¹·e.
 /// The walk tests spheres without their boxes, too, when the eye is farther.
-pub(super) fn sphere(id: u32, &Sphere { center, radius }: &Sphere) -> Option<(Item, f32)> {
+pub(super) fn sphere(id: u32, &Sphere { center, radius }: &Sphere) -> Option<(PrimRef, f32)> {
     let extent = center.abs().max_element() + radius;
     let half = Vec3::splat(radius + (-18f32).exp2() * extent);
     let bounds = Bounds { low: center - half, high: center + half };
     let finite = bounds.low.is_finite() && bounds.high.is_finite();
     // Below this, the margin itself would underflow.
     let representable = extent > (-100f32).exp2();
-    (finite && representable).then(|| (Item::new(&bounds, id), extent))
+    (finite && representable).then(|| (PrimRef::new(&bounds, id), extent))
 }
 
-/// Finds the corners of triangles, which mostly come in the order of the scene.
+/// Finds the corners of triangles; fast where they are asked for in the order of the scene.
 pub(super) struct Corners<'a> {
     scene: &'a Scene,
     ids: std::ops::Range<u32>,

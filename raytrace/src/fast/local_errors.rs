@@ -1,0 +1,82 @@
+//! How far off the rows and columns of a local projection may be, in all tiles.
+
+use super::world_affine::{LARGEST, upward};
+use bothways_common::engine::roundoff::EPS24;
+
+/// Columns beyond the tile for which errors are derived, and beyond any that is asked for.
+const BESIDE: f64 = 3.0;
+
+/// What the errors of local projections share in all tiles: those of a column times `t`, for each unit that a vertex
+/// may be away from the projection's own vertex along an axis, and besides; and those of a column.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LocalErrors {
+    away: f32,
+    at_vertex: f32,
+    rounding: f32,
+}
+
+/// What bounds the numbers of a map.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sizes {
+    /// Coordinates of points relative to the eye.
+    pub(super) reach: f64,
+    /// The sums of the coordinates of normals: those of columns and rows, and that of `t`, which is nothing if
+    /// nothing is divided by it.
+    pub(super) place: f64,
+    pub(super) t: f64,
+    /// Columns from the middle of the tile to a side.
+    pub(super) wide: f64,
+    /// By how much samples may be off, and all that is computed in `f64`: columns times `t`.
+    pub(super) exact: f64,
+}
+
+impl LocalErrors {
+    /// Nothing is known of places.
+    pub(super) const UNKNOWN: LocalErrors =
+        LocalErrors { away: f32::INFINITY, at_vertex: f32::INFINITY, rounding: f32::INFINITY };
+
+    /// # The errors, rounding by rounding
+    ///
+    /// `P` is the size of the leaf's box, of which no vertex is farther from the projection's vertex along an axis;
+    /// `S` and `T` are the sums of the coordinates of the normals of a column and of `t`, and `W` is the tile's half
+    /// width and 3. `u` is `ε₂₄`.
+    ///
+    /// *Columns times `t`.* A coordinate relative to the vertex carries one rounding, the normal's one, their product
+    /// one, their sum two, the sum with the vertex's one: six of `P·S`; the vertex's own column `o` carries one and
+    /// that of the sum. `6.5u·P·S + 2.1u·|o|` is more, with what is of second order. What underflows is less than the
+    /// smallest normal number, for a normal's coordinate times the distance of two vertices.
+    ///
+    /// *`t`.* Likewise, and its value at the vertex is at most `t + P·T`: `8.7u·P·T + 2.1u·t`.
+    ///
+    /// *Columns* up to `W`. `x̂/t̂ − x/t = (e_x − (x/t)·e_t)/t̂`. If that is less than 1/16, `e_t` is less than `t/40`
+    /// and `1/t̂` less than `1.026/t`; so `9u·P·(S + W·T)`, `2.5u·|o|` and 1.1 times the other errors, over a `t` that
+    /// is not larger than any of the leaf, are more. `W` times `2.2u`, which is left of `e_t`, twice `2.1u` for the
+    /// reciprocal and the product, `2u` for the first column's being counted from the tile's side, and `2u` for the
+    /// sum with this error, which follows: less than `12u·W`.
+    ///
+    /// *Columns beyond `W`*: the same relative error, so these are taken for columns outside of the tile, by more than
+    /// two.
+    pub(super) fn new(sizes: &Sizes) -> LocalErrors {
+        let Sizes { reach, place, t, wide, exact } = *sizes;
+        let away = place + (wide + BESIDE) * t;
+        let underflow = 4.0 * f64::from(f32::MIN_POSITIVE) * (1.0 + reach);
+        let is_ordinary = 2.0 * reach * away.max(1.0) < LARGEST;
+        let roundings = |count: f64, size: f64| upward(count * f64::from(EPS24) * size);
+        LocalErrors {
+            away: if is_ordinary { roundings(9.0, away) } else { f32::INFINITY },
+            at_vertex: upward(1.1 * (exact + underflow)),
+            rounding: roundings(12.0, wide + BESIDE),
+        }
+    }
+
+    /// How far a row or column may be off in a leaf of such a size, in which no `t` is less than `near`; `vertex` is
+    /// the row and column of the projection's vertex. At least `36·ε₂₄`. Infinite or NaN if numbers might overflow, or
+    /// vertices lie behind the eye.
+    #[inline(always)]
+    pub(super) fn of(&self, size: f32, vertex: [f32; 2], near: f32) -> f32 {
+        const ROUNDINGS: f32 = 1.0 + 8.0 * f32::EPSILON;
+        let near = if near > 0.0 { near } else { f32::NAN };
+        let vertex = vertex[0].abs().max(vertex[1].abs()) * (1.25 * f32::EPSILON);
+        (self.away * size + vertex + self.at_vertex) / near * ROUNDINGS + self.rounding
+    }
+}

@@ -1,0 +1,78 @@
+//! Projects the vertices of a leaf in `f32`: one of them in `f64`, and the others, which lie near it, by their offsets
+//! from it. So digits that the eye's distance takes are not missed.
+
+use super::search::tile_frustum::TileFrustum;
+use super::search::tree::LEAF;
+use super::world_affine::{WorldAffine, narrowed};
+use bothways_common::engine::simd::{Simd, SimdBase, f32x16};
+
+/// The map of [`super::camera_map`] about a vertex.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LocalProjection {
+    vertex: [f32; 3],
+    /// `t`, columns and rows times `t`, at points relative to the vertex.
+    map: [WorldAffine; 3],
+    /// How far a row or column may be off.
+    pub(super) error: f32,
+}
+
+impl LocalProjection {
+    /// For a leaf of which no vertex is farther from this one along any axis than `size`, nor has a `t` less than
+    /// `near`, as computed with [`super::search::box_culling`].
+    #[inline(always)]
+    pub(super) fn new(
+        frustum: &TileFrustum,
+        vertex: [f32; 3],
+        size: f32,
+        near: f32,
+    ) -> LocalProjection {
+        let template = frustum.template;
+        let [x, y, z] = [0, 1, 2].map(|axis| f64::from(vertex[axis]) - template.eye[axis]);
+        let at_vertex = |row: usize| {
+            let [nx, ny, nz] = frustum.rows[row];
+            narrowed(x * nx + y * ny + z * nz + frustum.shift[row])
+        };
+        let [t, column, row] = [at_vertex(0), at_vertex(1), at_vertex(2)];
+        let near = if template.parallel { 1.0 } else { template.boxes.nearest(near) };
+        let [of_t, across, down] = frustum.normals;
+        LocalProjection {
+            vertex,
+            map: [
+                WorldAffine { normal: of_t, offset: t },
+                WorldAffine { normal: across, offset: column },
+                WorldAffine { normal: down, offset: row },
+            ],
+            error: template.local.of(size, [row, column], near),
+        }
+    }
+
+    /// Whether rows and columns are known to far less than one; not so near the eye.
+    #[inline(always)]
+    pub(super) fn is_useful(&self) -> bool {
+        (0.0..1.0 / 16.0).contains(&self.error)
+    }
+
+    /// The rows and the columns where vertices are seen, counted from the tile's first.
+    #[inline(always)]
+    pub(super) fn project<S: Simd>(
+        &self,
+        simd: S,
+        frustum: &TileFrustum,
+        [x, y, z]: [&[f32; LEAF]; 3],
+    ) -> [f32x16<S>; 2] {
+        let from_vertex = [
+            f32x16::load_array_ref(simd, x) - self.vertex[0],
+            f32x16::load_array_ref(simd, y) - self.vertex[1],
+            f32x16::load_array_ref(simd, z) - self.vertex[2],
+        ];
+        let [t, across, down] = &self.map;
+        let (across, down) = (across.at(from_vertex), down.at(from_vertex));
+        let half = -frustum.centered(0);
+        if frustum.template.parallel {
+            [down + half, across + half]
+        } else {
+            let by_t = f32x16::splat(simd, 1.0) / t.at(from_vertex);
+            [down * by_t + half, across * by_t + half]
+        }
+    }
+}

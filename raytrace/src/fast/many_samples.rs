@@ -1,0 +1,217 @@
+//! Triangles over many samples: one triangle at sixteen blocks at once, then at the sixteen samples of each block that
+//! is left.
+
+use super::affine::Affine;
+use super::search::tile_frustum::TileFrustum;
+use super::setup::Setup;
+use super::tile::{Tile, place};
+use bothways_common::engine::simd::{Select, Simd, SimdBase, SimdMask, f32x16, u32x16};
+
+/// A setup, to be read lane by lane.
+pub(super) struct SetupArrays {
+    /// For each edge, and for the key: at the middle, across, down.
+    affine: [[[f32; 8]; 3]; 4],
+    error: [f32; 8],
+    key_error: [f32; 8],
+    rows: [[f32; 8]; 2],
+    columns: [[f32; 8]; 2],
+}
+
+impl SetupArrays {
+    #[inline(always)]
+    pub(super) fn new<S: Simd>(setup: &Setup<S>) -> SetupArrays {
+        let [ab, bc, ca] = &setup.edges;
+        SetupArrays {
+            affine: [arrays(ab), arrays(bc), arrays(ca), arrays(&setup.key)],
+            error: setup.error.to_array(),
+            key_error: setup.key_error.to_array(),
+            rows: [setup.rows[0].to_array(), setup.rows[1].to_array()],
+            columns: [setup.columns[0].to_array(), setup.columns[1].to_array()],
+        }
+    }
+}
+
+#[inline(always)]
+fn arrays<S: Simd>(affine: &Affine<S>) -> [[f32; 8]; 3] {
+    [affine.at_middle.to_array(), affine.across.to_array(), affine.down.to_array()]
+}
+
+/// The middles of the blocks of a group, from the middle of the first; and those of a block's samples, from its
+/// middle.
+const STEPS: [f32; 4] = [0.0, 4.0, 8.0, 12.0];
+const WITHIN: [f32; 4] = [-1.5, -0.5, 0.5, 1.5];
+
+#[inline(always)]
+fn columns<S: Simd>(simd: S, of: [f32; 4]) -> f32x16<S> {
+    let [a, b, c, d] = of;
+    f32x16::load_array(simd, [a, b, c, d, a, b, c, d, a, b, c, d, a, b, c, d])
+}
+
+#[inline(always)]
+fn rows<S: Simd>(simd: S, of: [f32; 4]) -> f32x16<S> {
+    let [a, b, c, d] = of;
+    f32x16::load_array(simd, [a, a, a, a, b, b, b, b, c, c, c, c, d, d, d, d])
+}
+
+/// Tests the triangle of one lane at the samples of the tile.
+#[inline(always)]
+pub(super) fn draw<S: Simd>(
+    simd: S,
+    frustum: &TileFrustum,
+    arrays: &SetupArrays,
+    lane: usize,
+    id: u32,
+    tile: &mut Tile,
+) {
+    let triangle = TriangleSetup::new(simd, frustum, arrays, lane, id);
+    let [ab, bc, ca] = &triangle.edges;
+    let key = &triangle.key;
+    let side = tile.side();
+    for group in 0..tile.blocks() / 16 {
+        let [top, left] = place(side, group * 256);
+        let by = rows(simd, STEPS) + (frustum.centered(top) + 1.5);
+        let bx = columns(simd, STEPS) + (frustum.centered(left) + 1.5);
+        let (v0, v1, v2, v3) = (ab.at(by, bx), bc.at(by, bx), ca.at(by, bx), key.at(by, bx));
+        // Blocks that are certainly outside of an edge or of the bounds, or hidden.
+        let outside = (v0 + ab.spread).simd_lt(triangle.minus_error)
+            | (v1 + bc.spread).simd_lt(triangle.minus_error)
+            | (v2 + ca.spread).simd_lt(triangle.minus_error);
+        let far = f32x16::from_slice(simd, &tile.block_far[group * 16..group * 16 + 16]);
+        let hidden = (v3 + key.spread + triangle.key_error).simd_lt(far);
+        let ([upper, lower], [first, last]) = (triangle.rows, triangle.columns);
+        let beside = bx.simd_lt(f32x16::splat(simd, first - 1.5))
+            | bx.simd_gt(f32x16::splat(simd, last + 1.5))
+            | by.simd_lt(f32x16::splat(simd, upper - 1.5))
+            | by.simd_gt(f32x16::splat(simd, lower + 1.5));
+        let mut left = !(outside | hidden | beside).to_bitmask() & 0xffff;
+        let values = [v0.to_array(), v1.to_array(), v2.to_array(), v3.to_array()];
+        while left != 0 {
+            let block = (left.trailing_zeros() & 15) as usize;
+            left &= left - 1;
+            let middle = [0, 1, 2, 3].map(|k| values[k][block]);
+            triangle.draw_block(simd, frustum, group * 16 + block, middle, tile);
+        }
+    }
+}
+
+/// One triangle and its affine functions, the same in every lane.
+struct TriangleSetup<S: Simd> {
+    id: u32,
+    lane: usize,
+    edges: [BlockAffine<S>; 3],
+    key: BlockAffine<S>,
+    error: f32x16<S>,
+    minus_error: f32x16<S>,
+    key_error: f32x16<S>,
+    /// The first and the last row that it may cover, and column, from the tile's middle.
+    rows: [f32; 2],
+    columns: [f32; 2],
+}
+
+impl<S: Simd> TriangleSetup<S> {
+    #[inline(always)]
+    fn new(
+        simd: S,
+        frustum: &TileFrustum,
+        arrays: &SetupArrays,
+        lane: usize,
+        id: u32,
+    ) -> TriangleSetup<S> {
+        let SetupArrays { affine, rows, columns, .. } = arrays;
+        let half = frustum.centered(0);
+        let error = f32x16::splat(simd, arrays.error[lane]);
+        TriangleSetup {
+            id,
+            lane,
+            edges: [
+                BlockAffine::new(simd, &affine[0], lane),
+                BlockAffine::new(simd, &affine[1], lane),
+                BlockAffine::new(simd, &affine[2], lane),
+            ],
+            key: BlockAffine::new(simd, &affine[3], lane),
+            error,
+            minus_error: -error,
+            key_error: f32x16::splat(simd, arrays.key_error[lane]),
+            rows: [rows[0][lane] + half, rows[1][lane] + half],
+            columns: [columns[0][lane] + half, columns[1][lane] + half],
+        }
+    }
+
+    /// Tests it at the samples of a block; `middle` holds the edge functions and the key in the block's middle.
+    #[inline(always)]
+    fn draw_block(
+        &self,
+        simd: S,
+        frustum: &TileFrustum,
+        block: usize,
+        middle: [f32; 4],
+        tile: &mut Tile,
+    ) {
+        let [ab, bc, ca] = &self.edges;
+        let e0 = ab.within + middle[0];
+        let e1 = bc.within + middle[1];
+        let e2 = ca.within + middle[2];
+        let keys = self.key.within + middle[3];
+        let least = e0.min(e1).min(e2);
+        let (low, high) = (keys - self.key_error, keys + self.key_error);
+        let from = block * 16;
+        let stored_low = f32x16::from_slice(simd, &tile.low[from..from + 16]);
+        let stored_high = f32x16::from_slice(simd, &tile.high[from..from + 16]);
+        let mut inside = least.simd_gt(self.error);
+        // Not the least of the three: it need not be NaN where one of them is.
+        let out = e0.simd_lt(self.minus_error)
+            | e1.simd_lt(self.minus_error)
+            | e2.simd_lt(self.minus_error);
+        let mut nowhere = out | high.simd_lt(stored_low);
+        if frustum.template.parallel {
+            let zero = f32x16::splat(simd, 0.0);
+            nowhere |= low.simd_gt(zero);
+            inside &= high.simd_lt(zero);
+        }
+        let nearer = inside & low.simd_gt(stored_high);
+        if nearer.any_true() {
+            nearer.select(low, stored_low).store_slice(&mut tile.low[from..from + 16]);
+            nearer.select(high, stored_high).store_slice(&mut tile.high[from..from + 16]);
+            let ids = u32x16::from_slice(simd, &tile.ids[from..from + 16]);
+            let ids = nearer.select(u32x16::splat(simd, self.id), ids);
+            ids.store_slice(&mut tile.ids[from..from + 16]);
+            tile.dirty |= 1 << block;
+        }
+        let open = !(nowhere | nearer).to_bitmask() & 0xffff;
+        if open != 0 {
+            tile.leave_all_open(from, open, self.lane, inside.to_bitmask());
+        }
+    }
+}
+
+/// An affine function of one triangle, in every lane.
+struct BlockAffine<S: Simd> {
+    at_middle: f32x16<S>,
+    across: f32x16<S>,
+    down: f32x16<S>,
+    /// From the middle of a block to its samples.
+    within: f32x16<S>,
+    /// At most how far from its value at the middle it is at a sample of the block.
+    spread: f32x16<S>,
+}
+
+impl<S: Simd> BlockAffine<S> {
+    #[inline(always)]
+    fn new(simd: S, of: &[[f32; 8]; 3], lane: usize) -> Self {
+        let [at_middle, across, down] = [of[0][lane], of[1][lane], of[2][lane]];
+        let (across, down) = (f32x16::splat(simd, across), f32x16::splat(simd, down));
+        BlockAffine {
+            at_middle: f32x16::splat(simd, at_middle),
+            across,
+            down,
+            within: across * columns(simd, WITHIN) + down * rows(simd, WITHIN),
+            spread: (across.abs() + down.abs()) * 1.500_001,
+        }
+    }
+
+    /// The values at rows and columns, counted from the tile's middle.
+    #[inline(always)]
+    fn at(&self, row: f32x16<S>, column: f32x16<S>) -> f32x16<S> {
+        (self.at_middle + self.down * row) + self.across * column
+    }
+}

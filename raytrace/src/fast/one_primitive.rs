@@ -1,0 +1,160 @@
+//! One primitive, ray by ray in `f64` and by the judge if need be: what the vector paths leave.
+
+use super::answer::{Answer, Trust};
+use super::bounds;
+use super::camera_map::CameraMap;
+use super::search::tile_frustum::TileFrustum;
+use super::tile::{OpenFragment, Tile, index};
+use super::{plane, sphere, triangle};
+use bothways_common::engine::context::ScalarContext;
+use bothways_common::engine::fault::Planted;
+use bothways_common::engine::roundoff::Interval;
+use bothways_common::observe::{Events, Question};
+use bothways_common::raster::Sample;
+use bothways_common::{Primitive, Ray, Sign};
+
+/// What rounded arithmetic says of a ray and a primitive; of a triangle, the signs of its edge functions, too.
+pub(super) fn answer(
+    ray: &Ray,
+    primitive: &Primitive,
+    trust: Trust,
+) -> (Answer, [Option<Sign>; 3]) {
+    match primitive {
+        Primitive::Triangle(corners) => triangle::answer(ray, corners, trust),
+        Primitive::Sphere { center, radius } => {
+            (sphere::answer(ray, *center, *radius, trust), [None; 3])
+        }
+        Primitive::Plane { point, normal } => {
+            (plane::answer(ray, *point, *normal, trust), [None; 3])
+        }
+    }
+}
+
+/// Tests a primitive at the samples of the tile that it may cover.
+pub(super) fn draw<C: ScalarContext>(
+    context: &mut C,
+    map: &CameraMap,
+    frustum: &TileFrustum,
+    (id, primitive): (u32, &Primitive),
+    tile: &mut Tile,
+) {
+    let [rows, columns] = match primitive {
+        Primitive::Sphere { center, radius } => bounds::of_sphere(frustum, *center, *radius),
+        _ => [[0, tile.side()]; 2],
+    };
+    for row in rows[0]..rows[1] {
+        for column in columns[0]..columns[1] {
+            let at = index(tile.side(), row, column);
+            if let Some(sample) = tile.sample(at) {
+                context.sink().sample_tested(sample, id);
+                decide(context, map, at, (id, primitive), false, tile);
+            }
+        }
+    }
+}
+
+/// Decides what the tile was left open by eight triangles.
+#[cold]
+pub(super) fn settle<C: ScalarContext>(
+    context: &mut C,
+    map: &CameraMap,
+    primitives: &[(u32, Primitive); 8],
+    tile: &mut Tile,
+) {
+    let open = tile.take_open();
+    for &OpenFragment { index, lane, covered } in &open {
+        let (id, primitive) = &primitives[usize::from(lane)];
+        decide(context, map, usize::from(index), (*id, primitive), covered, tile);
+    }
+    tile.clear_open(open);
+}
+
+/// Tests one ray against one primitive, and keeps the nearer of it and the hit so far. `covered` says that the sample
+/// is certainly covered, which was reported already.
+fn decide<C: ScalarContext>(
+    context: &mut C,
+    map: &CameraMap,
+    at: usize,
+    (id, primitive): (u32, &Primitive),
+    covered: bool,
+    tile: &mut Tile,
+) {
+    let Some(sample) = tile.sample(at) else { return };
+    let ray = map.grid.ray(sample.row, sample.column);
+    let (answer, signs) = answer(&ray, primitive, Trust::new::<C::Fault>());
+    let (Answer::Hit(distance) | Answer::Open(distance)) = answer else {
+        context.sink().edge_signs(sample, id, signs);
+        return;
+    };
+    if covered {
+        // Only the depth is open.
+    } else if let Answer::Hit(_) = answer {
+        context.sink().edge_signs(sample, id, signs);
+    } else {
+        if tile.is_edge_on(id, primitive) {
+            return;
+        }
+        context.sink().judged(sample, Question::Coverage);
+        let coverage = map.view.judge().coverage(primitive, &ray);
+        if let Some(edges) = coverage.edges {
+            context.sink().edge_signs(sample, id, edges.at_sample.map(Some));
+        }
+        if !coverage.covers || C::has(Planted::StrictComparison) {
+            return;
+        }
+    }
+    context.sink().fragment(sample, id);
+    let [low, high] = map.depth.keys(distance);
+    let empty = tile.is_empty_at(at);
+    let nearer = if empty || low > tile.high[at] {
+        true
+    } else if high < tile.low[at] {
+        false
+    } else {
+        is_nearer(context, map, (sample, at), (id, primitive, distance), tile)
+    };
+    if !empty {
+        context.sink().depth_test(sample, id, tile.ids[at], nearer);
+    }
+    if nearer {
+        tile.keep(at, id, [low, high]);
+    }
+}
+
+/// Whether an incoming primitive is seen rather than the stored one: by `f64` if that is certain, or by the judge.
+fn is_nearer<C: ScalarContext>(
+    context: &mut C,
+    map: &CameraMap,
+    (sample, at): (Sample, usize),
+    (id, incoming, distance): (u32, &Primitive, Interval),
+    tile: &mut Tile,
+) -> bool {
+    let stored_id = tile.ids[at];
+    let stored = map.view.primitive(stored_id);
+    let ray = map.grid.ray(sample.row, sample.column);
+    let trust = Trust::new::<C::Fault>();
+    if let (Answer::Hit(other) | Answer::Open(other), _) = answer(&ray, &stored, trust) {
+        if distance.high < other.low {
+            return true;
+        }
+        if distance.low > other.high {
+            return false;
+        }
+    }
+    if let (
+        Primitive::Sphere { center, radius },
+        Primitive::Sphere { center: other, radius: other_radius },
+    ) = (*incoming, stored)
+        && trust.is_sound()
+        && let Some(order) = sphere::nearer([(center, radius), (other, other_radius)], &ray)
+    {
+        return order.is_lt();
+    }
+    context.sink().judged(sample, Question::Nearest);
+    let (incoming, stored) = ((id, incoming), (stored_id, &stored));
+    if C::has(Planted::TiesToLast) {
+        let order = tile.judge.compare(incoming, stored, &ray);
+        return order.decided.then(stored_id.cmp(&id)).is_lt();
+    }
+    tile.judge.nearer(incoming, stored, &ray)
+}

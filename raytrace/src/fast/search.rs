@@ -1,0 +1,9 @@
+//! Finds the primitives that the rays of a tile may hit: the hierarchy, how it is built, and the walk through it.
+
+pub(crate) mod box_culling;
+pub(crate) mod build;
+mod candidates;
+mod leaf;
+pub(crate) mod tile_frustum;
+pub(crate) mod tree;
+pub(crate) mod walk;

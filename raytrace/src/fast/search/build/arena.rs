@@ -1,0 +1,52 @@
+//! The nodes of a hierarchy while it is built, and which primitives its leaves hold.
+
+use crate::fast::search::tree::{Bounds, LEAF_KINDS, LeafCounts, Node, NodeKind, NodeRef};
+
+/// Nodes and leaves of the hierarchy, or of a part of it, in depth-first order.
+#[derive(Default)]
+pub(super) struct Arena {
+    pub(super) nodes: Vec<Node>,
+    pub(super) leaves: [Vec<LeafRange>; LEAF_KINDS],
+}
+
+/// The primitives of a leaf.
+#[derive(Clone, Copy)]
+pub(super) struct LeafRange {
+    pub(super) first: u32,
+    pub(super) count: u8,
+}
+
+impl Arena {
+    /// Makes something a child of a node.
+    pub(super) fn attach(
+        &mut self,
+        node: usize,
+        bounds: &Bounds,
+        child: NodeRef,
+        counts: LeafCounts,
+    ) {
+        let node = &mut self.nodes[node];
+        node.counts[usize::from(node.used)] = counts;
+        node.push(bounds, child);
+    }
+
+    /// Appends a part that was built beside this one, and returns its first node.
+    pub(super) fn append(&mut self, part: Arena) -> NodeRef {
+        let (nodes, leaves) = (self.nodes.len(), self.leaf_counts());
+        self.nodes.extend(part.nodes.into_iter().map(|mut node| {
+            for child in &mut node.children[..usize::from(node.used)] {
+                *child = child.shifted(nodes, leaves);
+            }
+            node
+        }));
+        for (leaves, more) in self.leaves.iter_mut().zip(part.leaves) {
+            leaves.extend(more);
+        }
+        NodeRef::new(NodeKind::Node, nodes)
+    }
+
+    /// How many leaves of each kind there are.
+    pub(super) fn leaf_counts(&self) -> [usize; LEAF_KINDS] {
+        self.leaves.each_ref().map(Vec::len)
+    }
+}

@@ -1,0 +1,116 @@
+//! Leaves of triangles.
+
+use super::prim_ref::{Corners, PrimRef};
+use crate::fast::search::tree::{IndexedLeaf, LEAF, PlainLeaf};
+use bothways_common::engine::simd::{Simd, SimdBase, SimdMask, best_level, dispatch, f32x16};
+use bothways_common::scene::are_same_corners;
+use glam::Vec3;
+
+/// The distinct vertices of some triangles, and each triangle by the numbers of its vertices.
+pub(super) struct VertexSet {
+    vertices: [[f32; LEAF]; 3],
+    vertex_count: usize,
+    /// For each triangle, the numbers of its vertices.
+    corners: [[u8; 3]; LEAF],
+}
+
+impl VertexSet {
+    /// Of some triangles; `None` if they have too many vertices. Vertices are the same if their coordinates are equal.
+    pub(super) fn new(prims: &[PrimRef], corners: &mut Corners) -> Option<VertexSet> {
+        let mut set =
+            VertexSet { vertices: [[0.0; LEAF]; 3], vertex_count: 0, corners: [[0; 3]; LEAF] };
+        dispatch!(best_level(), simd => set.add(simd, prims, corners))?;
+        Some(set)
+    }
+
+    #[inline(always)]
+    fn add<S: Simd>(&mut self, simd: S, prims: &[PrimRef], corners: &mut Corners) -> Option<()> {
+        for (lane, prim) in prims.iter().enumerate() {
+            let [a, b, c] = corners.of(prim.id());
+            let numbers = [self.number(simd, a)?, self.number(simd, b)?, self.number(simd, c)?];
+            self.corners[lane] = numbers;
+        }
+        Some(())
+    }
+
+    /// The number of a vertex, which is added if it is new and there is room for it.
+    #[inline(always)]
+    fn number<S: Simd>(&mut self, simd: S, vertex: Vec3) -> Option<u8> {
+        let [x, y, z] = &mut self.vertices;
+        let same = f32x16::load_array_ref(simd, x).simd_eq(f32x16::splat(simd, vertex.x))
+            & f32x16::load_array_ref(simd, y).simd_eq(f32x16::splat(simd, vertex.y))
+            & f32x16::load_array_ref(simd, z).simd_eq(f32x16::splat(simd, vertex.z));
+        // Beyond the last is the origin.
+        let number = (same.to_bitmask().trailing_zeros() as usize).min(self.vertex_count);
+        if number == self.vertex_count {
+            if number == LEAF {
+                return None;
+            }
+            [x[number], y[number], z[number]] = vertex.to_array();
+            self.vertex_count += 1;
+        }
+        u8::try_from(number).ok()
+    }
+
+    fn leaf(&self, prims: &[PrimRef]) -> IndexedLeaf {
+        let vertices = self.vertices.map(|row| {
+            std::array::from_fn(|k| if k < self.vertex_count { row[k] } else { row[0] })
+        });
+        let mut leaf = IndexedLeaf { vertices, corners: [[0; 4]; LEAF], ids: [0; LEAF] };
+        for lane in 0..LEAF {
+            let from = if lane < prims.len() { lane } else { 0 };
+            let [a, b, c] = self.corners[from].map(|number| 4 * number);
+            leaf.corners[lane] = [a, b, c, 0];
+            leaf.ids[lane] = prims[from].id();
+        }
+        leaf
+    }
+}
+
+/// Orders the triangles of a leaf so that duplicates, which are never seen, come last: triangles with the corners of one
+/// that has a smaller id. Returns how many distinct ones there are.
+pub(super) fn put_duplicates_last(prims: &mut [PrimRef], corners: &mut Corners) -> usize {
+    let key = |prim: &PrimRef| {
+        let (low, high) = (prim.low.truncate(), prim.high.truncate());
+        let bits = low.to_array().into_iter().chain(high.to_array()).map(f32::to_bits);
+        bits.fold(0_u32, |key, bits| (key.rotate_left(5) ^ bits).wrapping_mul(0x9E37_79B9))
+    };
+    let mut keys = [0; LEAF];
+    for (to, prim) in keys.iter_mut().zip(&*prims) {
+        *to = key(prim);
+    }
+    if (1..prims.len()).all(|k| !keys[..k].contains(&keys[k])) {
+        return prims.len();
+    }
+    prims.sort_unstable_by_key(PrimRef::id);
+    let mut distinct = 0;
+    for k in 0..prims.len() {
+        let all = corners.of(prims[k].id());
+        let is_duplicate = |other: &PrimRef| are_same_corners(&corners.of(other.id()), &all);
+        if !prims[..distinct].iter().any(is_duplicate) {
+            prims[distinct..=k].rotate_right(1);
+            distinct += 1;
+        }
+    }
+    distinct
+}
+
+/// The leaf of some triangles that have few distinct vertices.
+pub(super) fn indexed_leaf(prims: &[PrimRef], corners: &mut Corners) -> IndexedLeaf {
+    VertexSet::new(prims, corners).expect("there are few").leaf(prims)
+}
+
+/// The leaf of any triangles.
+pub(super) fn plain_leaf(prims: &[PrimRef], corners: &mut Corners) -> PlainLeaf {
+    let mut leaf = PlainLeaf { corners: [[0.0; LEAF]; 9], ids: [0; LEAF] };
+    for lane in 0..LEAF {
+        let id = prims.get(lane).unwrap_or(&prims[0]).id();
+        leaf.ids[lane] = id;
+        for (corner, position) in corners.of(id).into_iter().enumerate() {
+            for axis in 0..3 {
+                leaf.corners[3 * corner + axis][lane] = position[axis];
+            }
+        }
+    }
+    leaf
+}

@@ -1,0 +1,156 @@
+//! The hierarchy as the walk reads it, a wide BVH: nodes of sixteen boxes, leaves of up to sixteen triangles, all as
+//! structures of arrays.
+
+use glam::Vec3;
+
+/// Boxes in a node.
+pub(crate) const WIDTH: usize = 16;
+/// Triangles in a leaf at most, and vertices of an indexed leaf.
+pub(crate) const LEAF: usize = 16;
+/// Spheres in a leaf at most.
+pub(crate) const SPHERES: usize = 8;
+
+/// Sixteen boxes, and the node or leaf in each.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub(crate) struct Node {
+    /// Low x, y, z and high x, y, z of each box: coordinates of the scene, or rounded outward.
+    pub(crate) bounds: [[f32; WIDTH]; 6],
+    pub(crate) children: [NodeRef; WIDTH],
+    pub(crate) counts: [LeafCounts; WIDTH],
+    pub(crate) used: u8,
+    /// Whether all its children are leaves.
+    pub(crate) only_leaves: bool,
+}
+
+/// Refers to a node or a leaf: its kind in two bits, its index in the others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct NodeRef(u32);
+
+/// What a [`NodeRef`] refers to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum NodeKind {
+    IndexedLeaf,
+    PlainLeaf,
+    Spheres,
+    Node,
+}
+
+/// How many kinds of leaves there are: all kinds before nodes.
+pub(crate) const LEAF_KINDS: usize = NodeKind::Node as usize;
+
+/// How many primitives a leaf has, and how many of them are distinct: duplicates of a triangle come behind these. Both
+/// less one, in four bits each.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct LeafCounts(u8);
+
+/// A leaf of triangles that share their vertices, as those of most meshes do. Unused lanes repeat the first triangle.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub(crate) struct IndexedLeaf {
+    /// x, y and z of the vertices, as they are stored in the world.
+    pub(crate) vertices: [[f32; LEAF]; 3],
+    /// For each triangle, at which byte of the rows its vertices `a`, `b` and `c` begin: four times their index. The
+    /// last byte is 0.
+    pub(crate) corners: [[u8; 4]; LEAF],
+    pub(crate) ids: [u32; LEAF],
+}
+
+/// A leaf of triangles with too many vertices for an indexed leaf. Unused lanes repeat the first triangle.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub(crate) struct PlainLeaf {
+    /// x, y, z of the first corners, of the second, of the third.
+    pub(crate) corners: [[f32; LEAF]; 9],
+    pub(crate) ids: [u32; LEAF],
+}
+
+/// An axis-aligned box in the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Bounds {
+    pub(crate) low: Vec3,
+    pub(crate) high: Vec3,
+}
+
+impl Bounds {
+    pub(crate) const EMPTY: Bounds = Bounds { low: Vec3::INFINITY, high: Vec3::NEG_INFINITY };
+
+    pub(crate) fn union(self, other: &Bounds) -> Bounds {
+        Bounds { low: self.low.min(other.low), high: self.high.max(other.high) }
+    }
+}
+
+impl NodeRef {
+    const BITS: u32 = 30;
+
+    pub(crate) fn new(kind: NodeKind, index: usize) -> NodeRef {
+        let index = u32::try_from(index).ok().filter(|index| index >> Self::BITS == 0);
+        let index = index.expect("a scene with more nodes does not fit in memory");
+        NodeRef((kind as u32) << Self::BITS | index)
+    }
+
+    #[inline(always)]
+    pub(crate) fn kind(self) -> NodeKind {
+        match self.0 >> Self::BITS {
+            0 => NodeKind::IndexedLeaf,
+            1 => NodeKind::PlainLeaf,
+            2 => NodeKind::Spheres,
+            _ => NodeKind::Node,
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn index(self) -> usize {
+        (self.0 & ((1 << Self::BITS) - 1)) as usize
+    }
+
+    /// The same in a hierarchy in which so many more nodes, and leaves of each kind, precede it.
+    pub(crate) fn shifted(self, nodes: usize, leaves: [usize; LEAF_KINDS]) -> NodeRef {
+        let kind = self.kind();
+        let by = leaves.get(kind as usize).copied().unwrap_or(nodes);
+        NodeRef::new(kind, self.index() + by)
+    }
+}
+
+impl Node {
+    pub(crate) fn empty() -> Node {
+        Node {
+            bounds: [[0.0; WIDTH]; 6],
+            children: [NodeRef(0); WIDTH],
+            counts: [LeafCounts::default(); WIDTH],
+            used: 0,
+            only_leaves: true,
+        }
+    }
+
+    pub(crate) fn push(&mut self, bounds: &Bounds, child: NodeRef) {
+        let lane = usize::from(self.used);
+        for axis in 0..3 {
+            self.bounds[axis][lane] = bounds.low[axis];
+            self.bounds[3 + axis][lane] = bounds.high[axis];
+        }
+        self.children[lane] = child;
+        self.only_leaves &= child.kind() != NodeKind::Node;
+        self.used += 1;
+    }
+}
+
+impl LeafCounts {
+    /// For `1 ≤ distinct ≤ all ≤ 16`.
+    pub(crate) fn new(all: usize, distinct: usize) -> LeafCounts {
+        let less_one = |count: usize| u8::try_from(count - 1).ok().filter(|less| *less < 16);
+        let [all, distinct] =
+            [all, distinct].map(|count| less_one(count).expect("sixteen at most"));
+        LeafCounts(all << 4 | distinct)
+    }
+
+    #[inline(always)]
+    pub(crate) fn all(self) -> usize {
+        usize::from(self.0 >> 4) + 1
+    }
+
+    #[inline(always)]
+    pub(crate) fn distinct(self) -> usize {
+        usize::from(self.0 & 15) + 1
+    }
+}

@@ -1,0 +1,308 @@
+//! The walk of a tile's rays through the hierarchy, near boxes first.
+
+use super::candidates::{CandidateQueue, EIGHT, Test, WaitingLeaf};
+use super::tile_frustum::{FrustumTemplate, TileFrustum};
+use super::tree::{LeafCounts, Node, NodeKind, NodeRef, WIDTH};
+use crate::fast::camera_map::CameraMap;
+use crate::fast::prepared::Prepared;
+use crate::fast::size_class::SizeClass;
+use crate::fast::tile::Tile;
+use crate::fast::{draw, one_primitive};
+use bothways_common::Primitive;
+use bothways_common::engine::context::{Context, ScalarContext};
+use bothways_common::engine::fault::Planted;
+use bothways_common::engine::simd::prefetch;
+use bothways_common::observe::Events;
+
+/// A node or leaf that is to be entered.
+#[derive(Clone, Copy, Debug)]
+struct StackEntry {
+    /// None of its primitives is nearer than this `t`, in the scale of the map.
+    near: f32,
+    /// The longest side of its box.
+    size: f32,
+    child: NodeRef,
+    counts: LeafCounts,
+}
+
+/// Walks tiles of one view through the hierarchy.
+#[derive(Debug)]
+pub(crate) struct Walker<'a> {
+    pub(crate) prepared: &'a Prepared,
+    pub(crate) map: &'a CameraMap<'a>,
+    pub(crate) tile: Tile,
+    /// What is tested without a box: planes, and spheres that no box can be trusted to hold, because
+    /// they are huge or the eye is so far away (those are in boxes, too).
+    unbounded: Vec<(u32, Primitive)>,
+    stack: Vec<StackEntry>,
+    queue: CandidateQueue,
+}
+
+impl<'a> Walker<'a> {
+    pub(crate) fn new(prepared: &'a Prepared, map: &'a CameraMap<'a>) -> Self {
+        let eye = map.view.camera.eye().as_dvec3();
+        let room = |extent: f32| f64::from(extent) * 30f64.exp2();
+        let spheres = prepared.extents.iter();
+        let loose = spheres.filter(|(_, extent)| eye.abs().max_element() > room(*extent));
+        let ids = prepared.unbounded.iter().chain(loose.map(|(id, _)| id));
+        let unbounded = ids.map(|&id| (id, map.view.primitive(id))).collect();
+        Walker {
+            prepared,
+            map,
+            tile: Tile::new(map.view.judge()),
+            unbounded,
+            stack: Vec::new(),
+            queue: CandidateQueue::new(),
+        }
+    }
+
+    /// Finds the first hits of a tile that starts at this row and column; so many rows and columns of it are in the
+    /// picture.
+    #[inline(always)]
+    pub(crate) fn walk<C: Context>(
+        &mut self,
+        context: &mut C,
+        template: &FrustumTemplate,
+        start: [usize; 2],
+        size: [usize; 2],
+    ) {
+        let frustum = template.frustum(start);
+        self.begin(context, &frustum, start, size);
+        // That of the last triangles that were drawn.
+        let mut class = SizeClass::Many;
+        let mut farthest = self.farthest(&frustum);
+        loop {
+            let Some(entry) = self.stack.pop() else {
+                if self.queue.is_empty() {
+                    break;
+                }
+                self.draw_candidates(context, &frustum, class, true);
+                continue;
+            };
+            if entry.near > farthest {
+                continue;
+            }
+            match entry.child.kind() {
+                NodeKind::Node => {
+                    self.enter(context, &frustum, entry.child.index(), farthest, class);
+                    continue;
+                }
+                NodeKind::IndexedLeaf | NodeKind::PlainLeaf => {
+                    let hurry =
+                        C::WATCHED || class == SizeClass::Many || self.tile.is_nearly_full();
+                    let is_full = self.add_leaf(context, &entry);
+                    if !(is_full || hurry) {
+                        continue;
+                    }
+                    class = self.draw_candidates(context, &frustum, class, hurry);
+                }
+                NodeKind::Spheres => self.draw_spheres(context, &frustum, &entry),
+            }
+            farthest = self.farthest(&frustum);
+        }
+        if C::WATCHED
+            && let Some(sample) = self.tile.sample(0)
+        {
+            context.sink().hit(sample, self.tile.seen());
+        }
+    }
+
+    /// Starts a tile: tests what no box bounds, and puts the roots on the stack.
+    #[inline(always)]
+    fn begin<C: Context>(
+        &mut self,
+        context: &mut C,
+        frustum: &TileFrustum,
+        start: [usize; 2],
+        size: [usize; 2],
+    ) {
+        self.tile.begin(start, size, frustum.template.side);
+        if C::WATCHED
+            && let Some(sample) = self.tile.sample(0)
+        {
+            context.sink().ray_begun(sample);
+        }
+        for (id, primitive) in &self.unbounded {
+            one_primitive::draw(
+                &mut context.scalar(),
+                self.map,
+                frustum,
+                (*id, primitive),
+                &mut self.tile,
+            );
+        }
+        if !self.unbounded.is_empty() {
+            self.tile.renew(context.simd());
+        }
+        self.stack.clear();
+        let root = |&child: &NodeRef| StackEntry {
+            near: f32::NEG_INFINITY,
+            size: f32::INFINITY,
+            child,
+            counts: LeafCounts::default(),
+        };
+        self.stack.extend(self.prepared.roots.iter().map(root));
+    }
+
+    /// The `t` of boxes and corners beyond which nothing can be seen.
+    #[inline(always)]
+    fn farthest(&self, frustum: &TileFrustum) -> f32 {
+        let template = frustum.template;
+        template.boxes.farthest(self.map.depth.farthest(self.tile.far, template.errors.t))
+    }
+
+    /// Adds a leaf of triangles to the queue. Returns whether the queue is full.
+    #[inline(always)]
+    fn add_leaf<C: ScalarContext>(&mut self, context: &mut C, entry: &StackEntry) -> bool {
+        let StackEntry { near, size, child, counts } = *entry;
+        let with_duplicates = C::has(Planted::TiesToLast);
+        let used = if with_duplicates { counts.all() } else { counts.distinct() };
+        if C::WATCHED {
+            self.report_leaf(context, child, used);
+        }
+        self.queue.add(WaitingLeaf { leaf: child, used, near, size })
+    }
+
+    /// Tests the spheres of a leaf.
+    #[inline(always)]
+    fn draw_spheres<C: Context>(
+        &mut self,
+        context: &mut C,
+        frustum: &TileFrustum,
+        entry: &StackEntry,
+    ) {
+        let count = entry.counts.all();
+        for &id in &self.prepared.sphere_leaves[entry.child.index()][..count] {
+            let sphere = self.map.view.primitive(id);
+            one_primitive::draw(
+                &mut context.scalar(),
+                self.map,
+                frustum,
+                (id, &sphere),
+                &mut self.tile,
+            );
+        }
+        self.tile.renew(context.simd());
+    }
+
+    /// Tests the leaves that have waited longest, and draws triangles, eight at a time; all leaves and triangles if
+    /// `hurry` asks for it, and all triangles if they are large. Takes and returns the size class of those that were
+    /// drawn last.
+    #[inline(always)]
+    fn draw_candidates<C: Context>(
+        &mut self,
+        context: &mut C,
+        frustum: &TileFrustum,
+        class: SizeClass,
+        hurry: bool,
+    ) -> SizeClass {
+        let test = match class {
+            // What is reported of a ray must not depend on the triangles that came before.
+            _ if C::WATCHED => Test::Edges,
+            SizeClass::VeryFew | SizeClass::Few => Test::Edges,
+            SizeClass::Many => Test::Bounds,
+        };
+        self.queue.test_leaves(context.simd(), self.prepared, frustum, test, hurry);
+        let mut largest = None;
+        loop {
+            let count = self.queue.count();
+            let all = hurry || largest == Some(SizeClass::Many);
+            if count == 0 || (count < EIGHT && !all) {
+                break;
+            }
+            let eight = self.queue.take_eight(context.simd());
+            let of = (&eight, (1 << count.min(EIGHT)) - 1);
+            let class = draw::draw(context, self.map, frustum, of, &mut self.tile);
+            largest = largest.max(Some(class));
+        }
+        largest.unwrap_or(class)
+    }
+
+    /// Reports that a ray alone is tested against triangles of a leaf.
+    fn report_leaf(&self, context: &mut impl ScalarContext, leaf: NodeRef, used: usize) {
+        let sink = context.sink();
+        if let Some(counts) = sink.counts() {
+            counts.tests += used as u64;
+            return;
+        }
+        let Some(sample) = self.tile.sample(0) else { return };
+        let ids = match leaf.kind() {
+            NodeKind::IndexedLeaf => &self.prepared.indexed_leaves[leaf.index()].ids,
+            _ => &self.prepared.plain_leaves[leaf.index()].ids,
+        };
+        ids.iter().take(used).for_each(|id| sink.sample_tested(sample, *id));
+    }
+
+    /// Tests the boxes of a node and pushes those that a ray of the tile may meet: near ones last, so that they come
+    /// first; leaves with triangles over very few samples in any order.
+    #[inline(always)]
+    fn enter<C: Context>(
+        &mut self,
+        context: &mut C,
+        frustum: &TileFrustum,
+        index: usize,
+        farthest: f32,
+        class: SizeClass,
+    ) {
+        if C::has(Planted::ForgottenNode) && index == self.prepared.nodes.len() / 2 {
+            return;
+        }
+        let shrunk;
+        let mut node = &self.prepared.nodes[index];
+        if C::has(Planted::ShrunkBox) {
+            shrunk = shrink(node);
+            node = &shrunk;
+        }
+        let boxes = frustum.template.boxes.test(context, &frustum.sides, node, farthest);
+        if C::WATCHED {
+            self.report_boxes(context, index, node, boxes.hit);
+        }
+        // Where leaves wait for others anyway, sorting them costs more than it saves.
+        let sorted = !(class == SizeClass::VeryFew && node.only_leaves);
+        let base = self.stack.len();
+        let mut hit = boxes.hit;
+        while hit != 0 {
+            let lane = (hit.trailing_zeros() & 15) as usize;
+            hit &= hit - 1;
+            let child = node.children[lane];
+            match child.kind() {
+                NodeKind::Node => prefetch(&self.prepared.nodes[child.index()]),
+                NodeKind::IndexedLeaf => prefetch(&self.prepared.indexed_leaves[child.index()]),
+                NodeKind::PlainLeaf => prefetch(&self.prepared.plain_leaves[child.index()]),
+                NodeKind::Spheres => {}
+            }
+            let (near, size) = (boxes.near[lane], boxes.size[lane]);
+            let entry = StackEntry { near, size, child, counts: node.counts[lane] };
+            self.stack.push(entry);
+            let mut place = self.stack.len() - 1;
+            while sorted && place > base && self.stack[place - 1].near < entry.near {
+                self.stack[place] = self.stack[place - 1];
+                place -= 1;
+            }
+            self.stack[place] = entry;
+        }
+    }
+
+    /// Reports which boxes of a node the only ray of a tile meets.
+    #[inline(always)]
+    fn report_boxes(&self, context: &mut impl ScalarContext, index: usize, node: &Node, hit: u64) {
+        let Some(sample) = self.tile.sample(0) else { return };
+        let sink = context.sink();
+        if let Some(counts) = sink.counts() {
+            counts.nodes += u64::from(node.used);
+            return;
+        }
+        for lane in 0..usize::from(node.used) {
+            let number = u32::try_from(index * WIDTH + lane).unwrap_or(u32::MAX);
+            sink.node_opened(sample, number, hit >> lane & 1 == 1);
+        }
+    }
+}
+
+/// A fault: boxes too small by the last place.
+fn shrink(node: &Node) -> Node {
+    let mut node = *node;
+    node.bounds[..3].as_flattened_mut().iter_mut().for_each(|low| *low = low.next_up());
+    node.bounds[3..].as_flattened_mut().iter_mut().for_each(|high| *high = high.next_down());
+    node
+}

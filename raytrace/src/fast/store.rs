@@ -1,0 +1,127 @@
+//! Writes the ids and distances of a tile into a frame.
+
+use super::answer::{Answer, Trust, narrow_middle};
+use super::camera_map::CameraMap;
+use super::one_primitive;
+use super::tile::{BLOCK, Tile, place};
+use bothways_common::Projection;
+use bothways_common::engine::simd::{Select, Simd, SimdBase, SimdMask, f32x16, u32x16};
+use bothways_common::frame::{NO_PRIMITIVE, stored_t};
+use bothways_common::raster::{Region, Sample};
+use std::ops::Range;
+
+/// Writes as much of a tile as a region of a frame holds.
+#[inline(always)]
+pub(super) fn store<S: Simd>(
+    simd: S,
+    map: &CameraMap,
+    tile: &Tile,
+    region: &Region,
+    ids: &mut [&mut [u32]],
+    t: &mut [&mut [f32]],
+) {
+    // What the region holds of the tile, counted from the tile's first row and column.
+    let held = |axis: usize, of: &Range<usize>| {
+        let (first, count) = (tile.start[axis], tile.size[axis]);
+        of.start.saturating_sub(first)..(of.end - first).min(count)
+    };
+    let (rows, columns) = (held(0, &region.rows), held(1, &region.columns));
+    let [top, left] = tile.start;
+    let line = |row: usize| row + top - region.rows.start;
+    let place_in_line = |column: usize| column + left - region.columns.start;
+    if !tile.touched {
+        let columns = place_in_line(columns.start)..place_in_line(columns.end);
+        for row in rows.map(line) {
+            ids[row][columns.clone()].fill(NO_PRIMITIVE);
+            t[row][columns.clone()].fill(f32::INFINITY);
+        }
+        return;
+    }
+    if tile.side() < BLOCK {
+        let (shown, far) = block_values(simd, map, tile, 0);
+        ids[line(0)][place_in_line(0)] = shown[0];
+        t[line(0)][place_in_line(0)] = far[0];
+        return;
+    }
+    for block in 0..tile.blocks() {
+        let [top, left] = place(tile.side(), block * 16);
+        let rows = top.max(rows.start)..rows.end.min(top + BLOCK);
+        let columns = left.max(columns.start)..columns.end.min(left + BLOCK);
+        if rows.is_empty() || columns.is_empty() {
+            continue;
+        }
+        let (shown, far) = block_values(simd, map, tile, block);
+        let (wide, start) = (columns.len(), place_in_line(columns.start));
+        for row in rows {
+            let from = (row - top) * BLOCK + columns.start - left;
+            let (ids, t) = (&mut ids[line(row)], &mut t[line(row)]);
+            if wide == BLOCK {
+                ids[start..start + BLOCK].copy_from_slice(&shown[from..from + BLOCK]);
+                t[start..start + BLOCK].copy_from_slice(&far[from..from + BLOCK]);
+            } else {
+                ids[start..start + wide].copy_from_slice(&shown[from..from + wide]);
+                t[start..start + wide].copy_from_slice(&far[from..from + wide]);
+            }
+        }
+    }
+}
+
+/// The ids and distances of a block. A distance is taken from the middle of its key's interval if that is
+/// narrow: within 0.75·10⁻⁶ of the true one, and three roundings of `ε₂₄`.
+#[inline(always)]
+fn block_values<S: Simd>(
+    simd: S,
+    map: &CameraMap,
+    tile: &Tile,
+    block: usize,
+) -> ([u32; 16], [f32; 16]) {
+    const NARROW: f32 = 1.5e-6;
+    let from = block * 16;
+    let low = f32x16::from_slice(simd, &tile.low[from..from + 16]);
+    let high = f32x16::from_slice(simd, &tile.high[from..from + 16]);
+    let nothing = high.simd_eq(f32x16::splat(simd, f32::NEG_INFINITY));
+    let middle = low * 0.5 + high * 0.5;
+    #[expect(clippy::cast_possible_truncation, reason = "one of the roundings")]
+    let scale = map.depth.scale as f32;
+    let distance = match map.depth.projection {
+        Projection::Perspective => f32x16::splat(simd, 1.0 / scale) / middle,
+        Projection::Parallel => -middle * (1.0 / scale),
+    };
+    // Far from overflow, underflow and their kin.
+    const ORDINARY: Range<f32> = 1e-30..1e30;
+    let plain = ORDINARY.contains(&scale);
+    let sure = (high - low).simd_le(middle.abs() * NARROW)
+        & distance.simd_gt(f32x16::splat(simd, ORDINARY.start))
+        & distance.simd_lt(f32x16::splat(simd, ORDINARY.end));
+    let seen = u32x16::from_slice(simd, &tile.ids[from..from + 16]);
+    let (mut ids, mut t) = ([0; 16], [0.0; 16]);
+    nothing.select(u32x16::splat(simd, NO_PRIMITIVE), seen).store_array(&mut ids);
+    nothing.select(f32x16::splat(simd, f32::INFINITY), distance).store_array(&mut t);
+    let unsure = if plain { !(sure | nothing) } else { !nothing };
+    if unsure.any_true() {
+        find_distances(map, tile, from, unsure.to_bitmask(), &ids, &mut t);
+    }
+    (ids, t)
+}
+
+/// Finds the distances of some lanes of a block again, in `f64` or by the judge.
+#[cold]
+fn find_distances(
+    map: &CameraMap,
+    tile: &Tile,
+    from: usize,
+    lanes: u64,
+    ids: &[u32; 16],
+    t: &mut [f32; 16],
+) {
+    for lane in (0..16).filter(|lane| lanes >> lane & 1 == 1) {
+        let Some(Sample { row, column }) = tile.sample(from + lane) else { continue };
+        let (ray, primitive) = (map.grid.ray(row, column), map.view.primitive(ids[lane]));
+        let rounded = match one_primitive::answer(&ray, &primitive, Trust::Sound).0 {
+            Answer::Hit(distance) | Answer::Open(distance) => narrow_middle(distance),
+            Answer::Miss => None,
+        };
+        let exact = || map.view.judge().distance(&primitive, &ray);
+        t[lane] = stored_t(rounded.unwrap_or_else(exact));
+    }
+}
