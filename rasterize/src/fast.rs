@@ -129,8 +129,8 @@ pub fn determine_visibility_with_fault<F: Fault>(
     run(prepared, view, options, frame, &mut (), &const { Loops::new::<F>() });
 }
 
-/// The loops, sound or with faults in them, watched or not. [`run`] calls them through pointers: it is compiled for each
-/// observer, and they are not.
+/// The loops, sound or with faults in them, watched or not. [`run`] calls them through pointers: it is compiled for
+/// each observer, and they are not.
 struct Loops {
     is: fn(Planted) -> bool,
     fill: fn(&mut BatchBins, &Batch, &Geometry, Level, Option<&mut dyn Events>),

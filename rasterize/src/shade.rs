@@ -1,4 +1,4 @@
-//! The look of what is seen: object order interpolates over each triangle what its corners carry,
+//! The look of what is seen. Object order interpolates the attributes of a triangle's corners,
 //! with weights that are functions on the viewport.
 
 mod form;
@@ -10,13 +10,14 @@ use bothways_common::look::texture::{self, TexturePoint};
 use bothways_common::{
     Frame, Material, Primitive, Projection, Ray, SampleGrid, Scene, Shape, View,
 };
-use form::{Form, Place};
+use form::{Form, HitPoint};
 use glam::{DVec2, DVec3, Vec2, Vec3};
-use quotient::{Linear, Quotient};
+use quotient::{Affine, Quotient};
 use rayon::prelude::*;
 
-/// Gives every sample its colour, by interpolation over the triangle that is seen there; its normal and its texture
-/// coordinate, too, if the frame keeps [them](Frame::with_normals) [both](Frame::with_texture_coordinates).
+/// Gives every sample its colour, by interpolation over the triangle that is seen there. If the frame keeps
+/// [normals](Frame::with_normals) or [texture coordinates](Frame::with_texture_coordinates), every sample gets these,
+/// too.
 ///
 /// # Panics
 ///
@@ -24,11 +25,11 @@ use rayon::prelude::*;
 pub fn shade(view: &View, frame: &mut Frame) {
     assert_eq!(frame.camera_image(), view.camera.image(), "the frame shows another view");
     let grid = view.camera.sample_grid(frame.samples());
-    frame.shading_rows().into_par_iter().for_each(|row| shade_row(view, &grid, row));
+    let step = sample_step(view, frame.samples());
+    frame.shading_rows().into_par_iter().for_each(|row| shade_row(view, &grid, step, row));
 }
 
-fn shade_row(view: &View, grid: &SampleGrid, mut row: ShadingRow) {
-    let step = sample_step(view, grid);
+fn shade_row(view: &View, grid: &SampleGrid, step: [f64; 2], mut row: ShadingRow) {
     // Neighbouring samples mostly show the same primitive: set it up once for the run.
     let mut run: Option<(u32, Surface)> = None;
     for (index, (column, &id)) in row.columns.zip(row.ids).enumerate() {
@@ -48,11 +49,11 @@ fn shade_row(view: &View, grid: &SampleGrid, mut row: ShadingRow) {
         };
         let (x, y) = (grid.x()[column], grid.y()[row.row]);
         let ray = view.camera.ray_through(x, y);
-        let place = surface.place([x, y], &ray, row.t[index]);
-        let normal = surface.normal(x, y, &place, ray.direction).as_vec3();
+        let hit = surface.hit_point([x, y], &ray, row.t[index]);
+        let normal = surface.normal(x, y, &hit, ray.direction).as_vec3();
         let to_viewer = -ray.direction.normalize().as_vec3();
-        let texture = surface.texture_point(view, x, y, &place, step);
-        let point = SurfacePoint { position: place.position, normal, to_viewer, texture };
+        let texture = surface.texture_point(view, x, y, &hit, step);
+        let point = SurfacePoint { position: hit.position, normal, to_viewer, texture };
         if let Some(kept) = &mut row.normals {
             kept[index] = normal;
         }
@@ -63,16 +64,10 @@ fn shade_row(view: &View, grid: &SampleGrid, mut row: ShadingRow) {
     }
 }
 
-/// The way from a sample to the next one across, and to the next one down.
-fn sample_step(view: &View, grid: &SampleGrid) -> [f64; 2] {
-    let [width, height] = view.camera.viewport();
-    [width / count(grid.width()), -height / count(grid.height())]
-}
-
-/// Of samples along a side.
-#[expect(clippy::cast_precision_loss, reason = "at most 65,536")]
-fn count(samples: usize) -> f64 {
-    samples as f64
+/// The way from a sample to the next one down, along `y`, and to the next one across, along `x`.
+fn sample_step(view: &View, samples: u32) -> [f64; 2] {
+    let [down, across] = view.camera.raster(samples).spacing();
+    [-down, across]
 }
 
 /// One visible primitive, set up for all samples at which it is seen.
@@ -84,21 +79,21 @@ struct Surface {
 }
 
 enum Texture {
-    /// Not there, or not needed.
+    /// There is none, or it is not needed.
     None,
-    /// Of a sphere.
-    Round,
-    /// Of a flat form: a function on the viewport.
+    /// That of a sphere.
+    Sphere,
+    /// That of a flat form: a function on the viewport.
     Flat(Quotient),
 }
 
 enum Normals {
     /// The same everywhere.
     Flat(DVec3),
-    /// Of a sphere.
-    Round,
+    /// Those of a sphere.
+    Sphere,
     /// Interpolated: the corners' normals, each with its weight, and the flat one.
-    Smooth { corners: [(DVec3, Linear); 3], flat: DVec3 },
+    Smooth { corners: [(DVec3, Affine); 3], flat: DVec3 },
 }
 
 impl Surface {
@@ -106,7 +101,7 @@ impl Surface {
         let (object, local) = view.scene.locate(id);
         let primitive = view.primitive(id);
         let normals = match primitive {
-            Primitive::Sphere { .. } => Normals::Round,
+            Primitive::Sphere { .. } => Normals::Sphere,
             Primitive::Plane { normal, .. } => Normals::Flat(normal),
             Primitive::Triangle([a, b, c]) => {
                 let flat = (b - a).cross(c - a);
@@ -132,9 +127,9 @@ impl Surface {
         Surface { material, form: Form::new(view, &primitive), normals, texture }
     }
 
-    /// What is seen at a sample of which this `t` is stored.
-    fn place(&self, [x, y]: [f64; 2], ray: &Ray, stored: f32) -> Place {
-        self.form.place([x, y], ray, stored.into())
+    /// The point that is seen at a sample, for which this `t` is stored.
+    fn hit_point(&self, [x, y]: [f64; 2], ray: &Ray, stored: f32) -> HitPoint {
+        self.form.hit_point([x, y], ray, stored.into())
     }
 
     /// The texture coordinate at a sample, and how it changes towards its neighbours.
@@ -143,17 +138,17 @@ impl Surface {
         view: &View,
         x: f64,
         y: f64,
-        place: &Place,
-        [across, down]: [f64; 2],
+        hit: &HitPoint,
+        [down, across]: [f64; 2],
     ) -> Option<TexturePoint> {
         let (coordinate, [along_x, along_y]) = match &self.texture {
             Texture::None => return None,
             Texture::Flat(quotient) => quotient.at(x, y),
-            Texture::Round => {
+            Texture::Sphere => {
                 // Near the sample the sphere is the plane that touches it there.
-                let normal = place.from_center;
+                let normal = hit.from_center;
                 let (coordinate, gradients) = texture::on_sphere(normal);
-                let touching = Quotient::on_plane(view, place.position, normal, gradients);
+                let touching = Quotient::on_plane(view, hit.position, normal, gradients);
                 (coordinate, touching.at(x, y).1)
             }
         };
@@ -161,12 +156,12 @@ impl Surface {
     }
 
     /// The unit normal at a sample, towards the viewer.
-    fn normal(&self, x: f64, y: f64, place: &Place, direction: DVec3) -> DVec3 {
+    fn normal(&self, x: f64, y: f64, hit: &HitPoint, direction: DVec3) -> DVec3 {
         let (flat, smooth) = match &self.normals {
             Normals::Flat(flat) => (*flat, *flat),
-            Normals::Round => (place.from_center, place.from_center),
+            Normals::Sphere => (hit.from_center, hit.from_center),
             Normals::Smooth { corners, flat } => {
-                let weighted = |(normal, weight): &(DVec3, Linear)| weight.at(x, y) * *normal;
+                let weighted = |(normal, weight): &(DVec3, Affine)| weight.at(x, y) * *normal;
                 (*flat, corners.iter().map(weighted).sum::<DVec3>())
             }
         };
@@ -179,7 +174,7 @@ impl Surface {
 impl Texture {
     fn new(view: &View, primitive: &Primitive, corners: Option<[DVec2; 3]>) -> Texture {
         match (*primitive, corners) {
-            (Primitive::Sphere { .. }, _) => Texture::Round,
+            (Primitive::Sphere { .. }, _) => Texture::Sphere,
             (Primitive::Plane { point, normal }, _) => {
                 let axes = texture::plane_axes(normal);
                 Texture::Flat(Quotient::on_plane(view, point, normal, axes))
@@ -195,26 +190,26 @@ impl Texture {
 
 /// The perspective-correct weights of a triangle's corners, up to a common factor: each is the edge
 /// function of the side opposite to its corner.
-fn weights(view: &View, [a, b, c]: [DVec3; 3], flat: DVec3) -> [Linear; 3] {
+fn weights(view: &View, [a, b, c]: [DVec3; 3], flat: DVec3) -> [Affine; 3] {
     [(b, c), (c, a), (a, b)].map(|(p, q)| edge_function(view, p, q, flat))
 }
 
 /// The edge function from `p` to `q`, positive inside of the triangle.
 ///
-/// It is made of the way from one to the other: seen from afar, `p × q` would be all rounding.
-fn edge_function(view: &View, p: DVec3, q: DVec3, flat: DVec3) -> Linear {
+/// It is computed from the difference `q − p`: seen from afar, `p × q` would be all rounding.
+fn edge_function(view: &View, p: DVec3, q: DVec3, flat: DVec3) -> Affine {
     let w = view.camera.w();
     match view.camera.projection() {
         Projection::Perspective => {
             let side = flat.dot(p).signum();
-            Linear::along_ray(view, p.cross(q - p)) * side
+            Affine::along_ray(view, p.cross(q - p)) * side
         }
         Projection::Parallel => {
             let side = -flat.dot(w).signum();
             let (u, v) = (view.camera.u(), view.camera.v());
             let slope = (p - q).cross(w);
             let [at_center, across, up] = [p.cross(q - p).dot(w), slope.dot(u), slope.dot(v)];
-            Linear { at_center, across, up } * -side
+            Affine { at_center, across, up } * -side
         }
     }
 }

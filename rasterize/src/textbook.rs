@@ -10,8 +10,7 @@
 //! }
 //! ```
 //!
-//! *Affects* is the exact predicate; *do something* is keeping the nearest primitive so far, which
-//! is what the frame is for: it is the z-buffer.
+//! *Affects* is the exact predicate. *Do something* is to keep the nearest primitive so far: the frame is the z-buffer.
 
 use bothways_common::observe::Observer;
 use bothways_common::raster::Sample;
@@ -53,10 +52,10 @@ pub fn determine_visibility(
                     continue;
                 }
                 observer.fragment(sample, id);
-                if let Some(holder) = frame.id(row, column) {
+                if let Some(stored) = frame.id(row, column) {
                     let nearer =
-                        judge.nearer((id, &primitive), (holder, &view.primitive(holder)), &ray);
-                    observer.depth_test(sample, id, holder, nearer);
+                        judge.nearer((id, &primitive), (stored, &view.primitive(stored)), &ray);
+                    observer.depth_test(sample, id, stored, nearer);
                     if !nearer {
                         continue;
                     }

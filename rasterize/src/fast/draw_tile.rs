@@ -30,7 +30,7 @@ pub(super) struct Drawing<'a> {
 }
 
 impl Drawing<'_> {
-    /// Draws all primitives of a tile. Returns whether it did: not if the event sink has enough.
+    /// Draws all primitives of a tile. Stops, and returns `false`, if the event sink has enough.
     pub(super) fn draw_tile<C: ScalarContext>(
         &self,
         context: &mut C,
@@ -64,7 +64,7 @@ impl Drawing<'_> {
 struct Painter<'a, 'b, C> {
     drawing: &'a Drawing<'a>,
     finder: Finder<'a>,
-    /// Triangles of a cluster, as they come.
+    /// Triangles of a cluster, in the order of the cluster.
     gathered: Lanes,
     /// Triangles of each of [`SizeClass::IN_LANES`] that wait until there are sixteen.
     waiting: [Lanes; 3],
@@ -76,14 +76,14 @@ struct Painter<'a, 'b, C> {
 }
 
 impl<C: ScalarContext> Painter<'_, '_, C> {
-    /// Whether to go on: the event sink has not enough.
+    /// Whether to go on; not if the event sink has enough.
     #[inline(always)]
     fn goes_on(&mut self) -> bool {
         !(C::WATCHED && self.context.sink().has_enough())
     }
 
-    /// Draws the clusters that may be seen in the tile. The nearer half comes first, because clusters that it hides need
-    /// not be drawn. Otherwise clusters keep their order, in which neighbours share vertices.
+    /// Draws the clusters that may be seen in the tile. The nearer ones come first, because clusters that they hide
+    /// need not be drawn. Otherwise clusters keep their order, in which neighbours share vertices.
     fn draw_clusters(&mut self, tile: usize) {
         let drawing = self.drawing;
         let clusters = || drawing.bins.iter().flat_map(|bins| bins.clusters(tile));
@@ -107,7 +107,7 @@ impl<C: ScalarContext> Painter<'_, '_, C> {
         self.draw_large();
     }
 
-    /// Whether all of a cluster in the tile is certainly farther than what is drawn there.
+    /// Whether the whole cluster is certainly farther, in the tile, than what is drawn there.
     ///
     /// The depth along the view is linear in space, and the largest key is that of the least depth. In a box, that is
     /// at a corner, whose key is off by less than a fragment's key may be.
@@ -117,8 +117,8 @@ impl<C: ScalarContext> Painter<'_, '_, C> {
         dispatch_with!(C::Fault, self.drawing.level, simd => self.buffer.is_nearer(simd, &here, farthest))
     }
 
-    /// Looks at the triangles of a cluster, and lets those that may be seen in the tile wait for others of
-    /// their class.
+    /// Looks at the triangles of a cluster. Those that may be seen in the tile wait until there are sixteen of their
+    /// size class.
     fn sort_cluster(&mut self, cluster: &Cluster) {
         let Cluster { object, first, count, .. } = *cluster;
         let (first_id, triangles, vertices) = self.finder.object(object);

@@ -6,7 +6,7 @@ use super::search::tiling::Tiling;
 use super::vertices::{FixedPointRaster, Vertex};
 use bothways_common::View;
 
-/// What binning needs to know of the frame.
+/// The map and the raster, the vertices on it, and the tiles.
 pub(super) struct Geometry<'a> {
     pub(super) view: &'a View<'a>,
     pub(super) map: &'a CameraMap<'a>,

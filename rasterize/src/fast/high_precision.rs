@@ -1,10 +1,10 @@
-//! Sums of two `f64`, for the few samples at which one has too few digits.
+//! Twice as many digits as an `f64` has, for the few samples that need them.
 
 use std::ops::{Add, Mul, Sub};
 
 /// `high + low`, where `low` is at most half of the last place of `high`.
 ///
-/// With `u = 2⁻⁵³`, a sum is off by less than 4u² of itself, a product by less than 8u² (Joldes, Muller and Popescu,
+/// A sum is off by less than 4ε₅₃² of itself, a product by less than 8ε₅₃² (Joldes, Muller and Popescu,
 /// "Tight and Rigorous Error Bounds for Basic Building Blocks of Double-Word Arithmetic", ACM Transactions on
 /// Mathematical Software 44, 2017: `AccurateDWPlusDW` and `DWTimesDW1`), unless something underflows.
 #[derive(Clone, Copy, Debug)]
@@ -16,7 +16,7 @@ pub(super) struct DoubleDouble {
 impl DoubleDouble {
     pub(super) const ZERO: DoubleDouble = DoubleDouble { high: 0.0, low: 0.0 };
 
-    /// A number as it is.
+    /// A number, without error.
     pub(super) fn new(number: f64) -> Self {
         DoubleDouble { high: number, low: 0.0 }
     }
@@ -26,22 +26,22 @@ impl DoubleDouble {
         Self::sum(a, -b)
     }
 
-    /// Whether an `f64` holds it, too.
+    /// Whether one `f64` holds it.
     pub(super) fn is_short(self) -> bool {
         self.low == 0.0
     }
 
-    /// Without error: Knuth, "The Art of Computer Programming", volume 2, 4.2.2.
+    /// The sum of two numbers, without error: Knuth, "The Art of Computer Programming", volume 2, 4.2.2.
     fn sum(a: f64, b: f64) -> Self {
         let high = a + b;
         let of_b = high - a;
         DoubleDouble { high, low: (a - (high - of_b)) + (b - of_b) }
     }
 
-    /// Without error: Dekker, "A Floating-Point Technique for Extending the Available Precision", Numerische
-    /// Mathematik 18, 1971.
+    /// The product of two numbers, without error: Dekker, "A Floating-Point Technique for Extending the Available
+    /// Precision", Numerische Mathematik 18, 1971.
     fn product(a: f64, b: f64) -> Self {
-        // Half of the digits each.
+        // Two numbers with half of the digits each.
         let halves = |number: f64| {
             let scaled = 134_217_729.0 * number;
             let leading = scaled - (scaled - number);

@@ -5,7 +5,7 @@ use bothways_common::engine::simd::{
     Bytes, Simd, SimdBase, SimdMask, f32x16, i32x4, i32x16, mask32x16, u32x16,
 };
 
-/// Sixteen lanes, and room behind them for sixteen more.
+/// Sixteen lanes, and room for sixteen more.
 const ROOM: usize = 32;
 
 /// Vertices of triangles that wait to be set up: the first sixteen together.
@@ -30,7 +30,7 @@ impl Lanes {
         self.count.min(16)
     }
 
-    /// Fills the lanes with so many triangles, at most sixteen: ids and corners.
+    /// Fills the lanes with `count` triangles, at most sixteen: ids and corners.
     #[inline(always)]
     pub(super) fn fill<S: Simd>(
         &mut self,

@@ -45,7 +45,7 @@ impl LocalProjection {
         LocalProjection { t, high: DVec3::new(x[0], y[0], z[0]), low: DVec3::new(x[1], y[1], z[1]) }
     }
 
-    /// The two parts of the point: subtracted one after the other they are what [`LocalProjection::relative`] subtracts.
+    /// The two parts of the point, which [`LocalProjection::relative`] subtracts one after the other.
     pub(super) fn parts(&self) -> [DVec3; 2] {
         [self.high, self.low]
     }
@@ -88,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn what_lies_on_the_ray_is_at_the_waypoint() {
+    fn what_lies_on_the_ray_is_at_the_local_origin() {
         let direction = DVec3::new(0.6, 0.0, -0.8);
         let local = LocalProjection::at(1e6 + 1.0 / 3.0, direction);
         let [high, low] = local.parts();

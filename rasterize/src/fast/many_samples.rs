@@ -250,8 +250,8 @@ fn sample<const ACROSS: usize>(first: Sample, lane: usize) -> Sample {
     Sample { row: first.row + lane / ACROSS, column: first.column + lane % ACROSS }
 }
 
-/// Leaves some lanes to the judge: those of the mask `doubt`, of which those of `inside` are certainly covered. It takes
-/// copies, so that the caller can keep everything in registers.
+/// Leaves some lanes to the judge: those of the mask `doubt`, of which those of `inside` are certainly covered. It
+/// takes copies, so that the caller can keep everything in registers.
 #[cold]
 fn leave_open<const ACROSS: usize, C: ScalarContext>(
     context: &mut C,

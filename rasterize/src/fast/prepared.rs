@@ -1,4 +1,4 @@
-//! What a moving camera would not repeat.
+//! What is prepared once for any number of views of a scene.
 
 use super::search::batches::{Batch, batches};
 use super::search::bins::BatchBins;
@@ -11,21 +11,21 @@ use glam::DVec3;
 use rayon::prelude::*;
 use std::sync::Mutex;
 
-/// Rows and columns of a tile, as powers of two: its keys and ids fill a MiB. Of Full HD that makes 20, enough
+/// Rows and columns of a tile, as powers of two: its keys and ids fill a MiB. Full HD has 20 tiles, enough
 /// for some threads.
 const TILE: [u32; 2] = [8, 9];
 
-/// What a moving camera would not repeat: the scene cut into batches that threads can share, its meshes
-/// into clusters of neighbouring triangles, and how far it reaches.
+/// What a moving camera would not repeat: the scene is cut into batches that threads can share, its meshes
+/// into clusters of neighbouring triangles, and a box around it is known.
 #[derive(Debug)]
 pub struct Prepared {
     pub(super) batches: Vec<Batch>,
     /// The clusters of every object.
     pub(super) clusters: Vec<Clusters>,
     pub(super) primitives: u32,
-    /// For each object, where its vertices begin among all of them; behind the last, how many there are.
+    /// The index of each object's first vertex among all vertices; at the end, the number of all vertices.
     pub(super) first_vertices: Vec<usize>,
-    /// The corners of a box around everything but planes.
+    /// The corners of a box around all objects that are not planes.
     pub(super) bounds: [DVec3; 8],
     pub(super) has_planes: bool,
     pub(super) level: Level,

@@ -72,8 +72,8 @@ impl Setup {
     /// k_a| + |k_c − k_a|)/area` the key at the origin brings `3κ` and twice `ε₂₄·k_a`, each slope times its column
     /// or row `2κ`, evaluation `κ` for each product and for each of two sums, and of `k_a` twice `ε₂₄`: `11κ` in
     /// all, also of aligned triangles. The vertices' keys bring `1.35ε₂₄` of the largest one (see
-    /// [`FixedPointRaster::place`]), their differences and the quotients `2.2ε₂₄` of the differences: with what `k_a` brings,
-    /// `7.6ε₂₄`.
+    /// [`FixedPointRaster::place`]), their differences and the quotients `2.2ε₂₄` of the differences: with what `k_a`
+    /// brings, `7.6ε₂₄`.
     ///
     /// *Aligned triangles.* Places are multiples of a quarter of a sample without any error, so edge
     /// functions are multiples of 1/16, below 2¹⁷, and `f32` adds and multiplies them without rounding.

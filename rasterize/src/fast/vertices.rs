@@ -40,14 +40,14 @@ pub(super) struct FixedPointRaster {
     pub(super) unit: f32,
     /// Rows and columns of samples.
     pub(super) size: [i32; 2],
-    /// How far the fixed-point row or column of a vertex, less that of a sample, may be from the true
-    /// difference: in samples, for the differences along two edges' ends together.
+    /// How far the difference of fixed-point rows or columns between a vertex and a sample may be from the true one:
+    /// in samples, for both ends of an edge together.
     pub(super) slack: f32,
     /// How depth is stored.
     pub(super) keys: KeyScale,
     /// Whether vertices can be trusted at all: the camera is not too extreme.
     trusted: bool,
-    /// Tells aligned vertices, where there may be any.
+    /// The test for aligned vertices, if there may be any.
     alignment: Option<Alignment>,
 }
 
@@ -56,8 +56,8 @@ impl FixedPointRaster {
     /// picture behind the last: with `2^s` at least as large as both sides (and as the largest box that
     /// `f32` takes, 256), places are between `−2^(s − 1)` and `1.5·2^s`, so that `30 − s` bits remain.
     ///
-    /// A place is off by half a unit of rounding and by the camera map's margin, which speaks of vertices
-    /// and of the rays; vertices are trusted if the margin is no larger than one unit. An edge function
+    /// A place is off by half a unit of rounding and by the camera map's margin, which holds for vertices
+    /// and for rays; vertices are trusted if the margin is no larger than one unit. An edge function
     /// between two vertices, at a sample in their triangle's box of `w × h` samples, moves by at most
     /// `2(w + h)` times the one for both vertices together and once `(w + h)` times the margin for the
     /// sample: `unit + 3·margin` in all, for each of `w` and `h`.

@@ -1,17 +1,17 @@
-//! Where on a primitive a sample lies, to the digits of an `f64`.
+//! The point of a primitive that is seen at a sample, to the digits of an `f64`.
 //!
-//! A stored `t` has 20 binary digits. From afar, these end before those of the surface begin.
+//! A stored `t` has 20 binary digits. From afar they are too few to tell the points of a surface apart.
 
-use super::quotient::Linear;
+use super::quotient::Affine;
 use bothways_common::{Primitive, Projection, Ray, View};
 use glam::DVec3;
 
-/// What is seen at one sample.
+/// The point that is seen at one sample.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
+pub(super) struct HitPoint {
     /// Relative to the eye.
     pub(super) position: DVec3,
-    /// Relative to the middle of a sphere; elsewhere the same.
+    /// Relative to the centre of a sphere; for other primitives, relative to the eye.
     pub(super) from_center: DVec3,
 }
 
@@ -19,13 +19,13 @@ pub(super) struct Place {
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Form {
     /// Seen at `t = −above/along`.
-    Flat { above: Linear, along: Linear },
-    /// The ray crosses the plane through the middle that faces the camera at `depth`, beside the middle by what
-    /// `across` and `up` are times `u` and `v`.
-    Round { center: DVec3, radius: f64, depth: f64, across: Linear, up: Linear, axes: [DVec3; 2] },
+    Flat { above: Affine, along: Affine },
+    /// The ray crosses the plane through the centre that faces the camera at `depth`, at `across·u + up·v` from the
+    /// centre.
+    Sphere { center: DVec3, radius: f64, depth: f64, across: Affine, up: Affine, axes: [DVec3; 2] },
 }
 
-/// How far a stored `t` may be from the true one, as a part of it.
+/// How far a stored `t` may be from the true one, as a fraction of it.
 const STORED: f64 = 2e-5;
 
 impl Form {
@@ -36,7 +36,7 @@ impl Form {
             Primitive::Sphere { center, radius } => {
                 let (u, v) = (view.camera.u(), view.camera.v());
                 let ahead = -center.dot(view.camera.w());
-                // A perspective ray is there at t = depth, as many times as far from the axis as on the viewport.
+                // A perspective ray is there at t = depth, and t times as far from the axis as on the viewport.
                 let (depth, scale) = match view.camera.projection() {
                     Projection::Perspective => {
                         let depth = ahead / view.camera.distance();
@@ -44,32 +44,32 @@ impl Form {
                     }
                     Projection::Parallel => (ahead, 1.0),
                 };
-                let across = Linear { at_center: -center.dot(u), across: scale, up: 0.0 };
-                let up = Linear { at_center: -center.dot(v), across: 0.0, up: scale };
-                Form::Round { center, radius, depth, across, up, axes: [u, v] }
+                let across = Affine { at_center: -center.dot(u), across: scale, up: 0.0 };
+                let up = Affine { at_center: -center.dot(v), across: 0.0, up: scale };
+                Form::Sphere { center, radius, depth, across, up, axes: [u, v] }
             }
         }
     }
 
     fn flat(view: &View, point: DVec3, normal: DVec3) -> Form {
         Form::Flat {
-            above: Linear::from_origin(view, normal, point),
-            along: Linear::along_ray(view, normal),
+            above: Affine::from_origin(view, normal, point),
+            along: Affine::along_ray(view, normal),
         }
     }
 
-    /// What is seen at a place of the viewport, of which this `t` is stored. That is taken where rounding leaves less:
-    /// where a surface is seen almost edge-on, and numbers are extreme.
-    pub(super) fn place(&self, [x, y]: [f64; 2], ray: &Ray, stored: f64) -> Place {
+    /// The point that is seen at a place of the viewport, for which the `t` of `stored` is stored. The stored one is
+    /// taken where rounding leaves less: where a surface is seen almost edge-on, and where numbers are extreme.
+    pub(super) fn hit_point(&self, [x, y]: [f64; 2], ray: &Ray, stored: f64) -> HitPoint {
         let is_close = |t: f64| (t - stored).abs() <= STORED * stored;
         let at = |t: f64| ray.origin + t * ray.direction;
         match self {
             Form::Flat { above, along } => {
                 let t = -above.at(x, y) / along.at(x, y);
                 let position = at(if is_close(t) { t } else { stored });
-                Place { position, from_center: position }
+                HitPoint { position, from_center: position }
             }
-            Form::Round { center, radius, depth, across, up, axes: [u, v] } => {
+            Form::Sphere { center, radius, depth, across, up, axes: [u, v] } => {
                 let beside = across.at(x, y) * *u + up.at(x, y) * *v;
                 let on = farther(
                     beside,
@@ -80,17 +80,17 @@ impl Form {
                 let t = depth + on;
                 if is_close(t) {
                     let from_center = beside + on * ray.direction;
-                    return Place { position: at(t), from_center };
+                    return HitPoint { position: at(t), from_center };
                 }
-                Place { position: at(stored), from_center: at(stored) - *center }
+                HitPoint { position: at(stored), from_center: at(stored) - *center }
             }
         }
     }
 }
 
-/// How much farther than at `beside` its middle a ray meets a sphere: the first time if it begins outside, so many
-/// lengths squared from the middle, the second time from inside, and where that is hard to say, the closer one to
-/// `about`.
+/// How much farther along a ray than the point `beside` the centre the ray meets a sphere. The first root counts if the
+/// ray begins outside, the second if it begins inside; `begins` is the squared distance of the ray's origin from the
+/// centre. Where that is not clear, the root closer to `about` counts.
 fn farther(beside: DVec3, radius: f64, ray: &Ray, [begins, about]: [f64; 2]) -> f64 {
     let (a, b) = (ray.direction.length_squared(), beside.dot(ray.direction));
     let square = radius * radius;

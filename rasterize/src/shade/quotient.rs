@@ -1,5 +1,5 @@
-//! Functions on the viewport: linear ones, and quotients of two, which is what a linear function on
-//! a flat form looks like from the eye.
+//! Functions on the viewport: affine ones, and quotients of two. Seen from the eye, an affine function on a flat form
+//! is such a quotient.
 //!
 //! Heckbert and Moreton, "Interpolation for Polygon Texture Mapping and Shading", 1991.
 
@@ -9,33 +9,33 @@ use std::ops::{Add, Mul};
 
 /// A function `at_center + x·across + y·up`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Linear {
+pub(super) struct Affine {
     pub(super) at_center: f64,
     pub(super) across: f64,
     pub(super) up: f64,
 }
 
-impl Linear {
+impl Affine {
     /// `a · D`, where `D` is the direction of the viewing ray.
-    pub(super) fn along_ray(view: &View, a: DVec3) -> Linear {
+    pub(super) fn along_ray(view: &View, a: DVec3) -> Affine {
         let camera = view.camera;
         match camera.projection() {
-            Projection::Perspective => Linear {
+            Projection::Perspective => Affine {
                 at_center: -camera.distance() * a.dot(camera.w()),
                 across: a.dot(camera.u()),
                 up: a.dot(camera.v()),
             },
-            Projection::Parallel => Linear { at_center: -a.dot(camera.w()), across: 0.0, up: 0.0 },
+            Projection::Parallel => Affine { at_center: -a.dot(camera.w()), across: 0.0, up: 0.0 },
         }
     }
 
     /// `a · (O − p)`, where `O` is the origin of the viewing ray.
-    pub(super) fn from_origin(view: &View, a: DVec3, p: DVec3) -> Linear {
+    pub(super) fn from_origin(view: &View, a: DVec3, p: DVec3) -> Affine {
         let at_center = -a.dot(p);
         match view.camera.projection() {
-            Projection::Perspective => Linear { at_center, across: 0.0, up: 0.0 },
+            Projection::Perspective => Affine { at_center, across: 0.0, up: 0.0 },
             Projection::Parallel => {
-                Linear { at_center, across: a.dot(view.camera.u()), up: a.dot(view.camera.v()) }
+                Affine { at_center, across: a.dot(view.camera.u()), up: a.dot(view.camera.v()) }
             }
         }
     }
@@ -45,10 +45,10 @@ impl Linear {
         self.at_center + x * self.across + y * self.up
     }
 
-    /// The product with a function that is constant, or of a constant one with this.
-    fn times(self, other: Linear) -> Linear {
-        // One of the two is always constant: of O and D, one changes over the viewport.
-        Linear {
+    /// The product of two functions, one of which is constant.
+    fn times(self, other: Affine) -> Affine {
+        // One of the two is always constant: either O or D changes over the viewport.
+        Affine {
             at_center: self.at_center * other.at_center,
             across: self.across * other.at_center + self.at_center * other.across,
             up: self.up * other.at_center + self.at_center * other.up,
@@ -56,20 +56,20 @@ impl Linear {
     }
 }
 
-impl Mul<f64> for Linear {
-    type Output = Linear;
+impl Mul<f64> for Affine {
+    type Output = Affine;
 
-    fn mul(self, factor: f64) -> Linear {
-        let Linear { at_center, across, up } = self;
-        Linear { at_center: at_center * factor, across: across * factor, up: up * factor }
+    fn mul(self, factor: f64) -> Affine {
+        let Affine { at_center, across, up } = self;
+        Affine { at_center: at_center * factor, across: across * factor, up: up * factor }
     }
 }
 
-impl Add for Linear {
-    type Output = Linear;
+impl Add for Affine {
+    type Output = Affine;
 
-    fn add(self, other: Linear) -> Linear {
-        Linear {
+    fn add(self, other: Affine) -> Affine {
+        Affine {
             at_center: self.at_center + other.at_center,
             across: self.across + other.across,
             up: self.up + other.up,
@@ -77,34 +77,34 @@ impl Add for Linear {
     }
 }
 
-/// Two quotients of linear functions with one denominator.
+/// Two quotients of affine functions with one denominator.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Quotient {
-    numerators: [Linear; 2],
-    denominator: Linear,
+    numerators: [Affine; 2],
+    denominator: Affine,
 }
 
 impl Quotient {
-    /// What has these values at the corners of a triangle, whose weights these are.
-    pub(super) fn interpolating(weights: [Linear; 3], values: [DVec2; 3]) -> Quotient {
+    /// The functions that have these values at the corners of a triangle with these weights.
+    pub(super) fn interpolating(weights: [Affine; 3], values: [DVec2; 3]) -> Quotient {
         let [a, b, c] = weights;
         let numerator = |k: usize| a * values[0][k] + b * values[1][k] + c * values[2][k];
         Quotient { numerators: [numerator(0), numerator(1)], denominator: a + b + c }
     }
 
-    /// The products of two vectors with the way from a point of a plane to what is seen of it.
+    /// The products of two vectors with the offset of the point that is seen from a given point of the plane.
     pub(super) fn on_plane(
         view: &View,
         point: DVec3,
         normal: DVec3,
         vectors: [DVec3; 2],
     ) -> Quotient {
-        let along = Linear::along_ray(view, normal);
-        let above = Linear::from_origin(view, normal, point);
-        // What is seen is O + t·D with t = −n·(O − p) / n·D.
+        let along = Affine::along_ray(view, normal);
+        let above = Affine::from_origin(view, normal, point);
+        // The point that is seen is O + t·D with t = −n·(O − p) / n·D.
         let numerator = |a: DVec3| {
             let (start, direction) =
-                (Linear::from_origin(view, a, point), Linear::along_ray(view, a));
+                (Affine::from_origin(view, a, point), Affine::along_ray(view, a));
             start.times(along) + above.times(direction) * -1.0
         };
         Quotient { numerators: vectors.map(numerator), denominator: along }
@@ -114,7 +114,7 @@ impl Quotient {
     pub(super) fn at(&self, x: f64, y: f64) -> (DVec2, [DVec2; 2]) {
         let below = self.denominator.at(x, y);
         let value = self.numerators.map(|above| above.at(x, y) / below);
-        let derivative = |slope: fn(&Linear) -> f64| {
+        let derivative = |slope: fn(&Affine) -> f64| {
             let [s, t] = [0, 1].map(|k| {
                 (slope(&self.numerators[k]) - value[k] * slope(&self.denominator)) / below
             });
@@ -168,9 +168,9 @@ mod tests {
     fn halfway_in_the_picture_is_nearer_on_the_triangle() {
         // From depth 1 to depth 3: the middle of the picture shows a quarter of the way.
         let at = |place: f64| {
-            let near = Linear { at_center: 1.0, across: -1.0, up: 0.0 } * 3.0;
-            let far = Linear { at_center: 0.0, across: 1.0, up: 0.0 };
-            let nothing = Linear { at_center: 0.0, across: 0.0, up: 0.0 };
+            let near = Affine { at_center: 1.0, across: -1.0, up: 0.0 } * 3.0;
+            let far = Affine { at_center: 0.0, across: 1.0, up: 0.0 };
+            let nothing = Affine { at_center: 0.0, across: 0.0, up: 0.0 };
             let values = [DVec2::ZERO, DVec2::X, DVec2::ZERO];
             Quotient::interpolating([near, far, nothing], values).at(place, 0.0).0.x
         };

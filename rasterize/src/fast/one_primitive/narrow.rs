@@ -142,8 +142,8 @@ pub(crate) fn narrow_plane(
     })
 }
 
-/// The key, if it is within [`KEY_ERROR`] of the true one at every sample that the primitive covers, a triangle of
-/// these corners or a plane.
+/// The key, if it is within [`KEY_ERROR`] of the true one at every sample that the primitive covers: a triangle with
+/// these corners, or a plane.
 fn key(
     strip: &Strip,
     keys: KeyScale,
@@ -164,9 +164,24 @@ fn key(
     });
     let error = key.error + (-48f64).exp2() * offset;
 
-    // The key at the farthest corner, if that is trusted: what is covered lies between corners, and its key
-    // between theirs.
-    let corners = corners.map_or([DVec3::NAN; 3], |corners| *corners);
+    let farthest = corners.and_then(|corners| key_of_farthest(map, keys, corners));
+    let least = (key.least(strip.size) - error).max(farthest.unwrap_or(f64::NEG_INFINITY));
+    let in_front = match keys.projection {
+        Projection::Perspective => true,
+        Projection::Parallel => {
+            let from_eye = keys.from_eye - key.largest(strip.size);
+            farthest.is_some() || from_eye > error + (-48f64).exp2() * keys.from_eye
+        }
+    };
+    let all = error + EVALUATION * key.most;
+    let is_certain = all <= 0.99 * f64::from(KEY_ERROR) * least;
+    let in_range = least >= 1.0 / LARGEST_KEY && key.most <= LARGEST_KEY;
+    (in_front && is_certain && in_range).then_some(key)
+}
+
+/// A lower bound of the key at the farthest corner of a triangle, if all corners are trusted: what is covered lies
+/// between the corners, and its key between theirs.
+fn key_of_farthest(map: &CameraMap, keys: KeyScale, corners: &[DVec3; 3]) -> Option<f64> {
     let most = |numbers: [f64; 3]| numbers[0].max(numbers[1]).max(numbers[2]);
     let depths = corners.map(|corner| -corner.dot(map.w));
     let extents = corners.map(|corner| corner.abs().element_sum());
@@ -174,8 +189,8 @@ fn key(
         // As `CameraMap::new` says: then 1/t and t are certain within 2⁻⁴¹ of themselves.
         *depth >= extent * (-10f64).exp2() && *depth > 0.0
     });
-    let least_of_corners = match keys.projection {
-        _ if !trusted => f64::NEG_INFINITY,
+    let offset = keys.offset;
+    trusted.then(|| match keys.projection {
         Projection::Perspective => {
             let near = map.distance / most(depths);
             near - offset - (-40f64).exp2() * near
@@ -187,17 +202,5 @@ fn key(
             let extent = most(near.map(|corner| corner.abs().element_sum()));
             offset - farthest - (-46f64).exp2() * (extent + offset)
         }
-    };
-    let least = (key.least(strip.size) - error).max(least_of_corners);
-    let in_front = match keys.projection {
-        Projection::Perspective => true,
-        Projection::Parallel => {
-            let from_eye = keys.from_eye - key.largest(strip.size);
-            trusted || from_eye > error + (-48f64).exp2() * keys.from_eye
-        }
-    };
-    let all = error + EVALUATION * key.most;
-    let is_certain = all <= 0.99 * f64::from(KEY_ERROR) * least;
-    let in_range = least >= 1.0 / LARGEST_KEY && key.most <= LARGEST_KEY;
-    (in_front && is_certain && in_range).then_some(key)
+    })
 }

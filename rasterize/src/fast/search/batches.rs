@@ -3,7 +3,7 @@
 use super::clusters::CLUSTER;
 use bothways_common::Scene;
 
-/// Primitives that one thread takes up at a time: at most, and at least if there are enough.
+/// How many primitives one thread takes up at a time: at most, and at least if there are enough.
 const MOST_IN_BATCH: u32 = 1 << 15;
 const LEAST_IN_BATCH: u32 = 1 << 10;
 
@@ -41,7 +41,7 @@ impl Batch {
     }
 }
 
-/// Cuts a scene into batches meshes only between clusters.
+/// Cuts a scene into batches; a mesh is cut only between clusters.
 pub(crate) fn batches(scene: &Scene) -> Vec<Batch> {
     // Some dozens of batches share well between threads.
     let most = (scene.primitive_count() / 64).clamp(LEAST_IN_BATCH, MOST_IN_BATCH);

@@ -75,7 +75,7 @@ impl Entry {
     }
 }
 
-/// The primitives of one batch: for each tile clusters of triangles, and for each class a list of ids.
+/// The primitives of one batch: for each tile clusters of triangles, and for each size class a list of slots.
 #[derive(Debug, Default)]
 pub(crate) struct BatchBins {
     clusters: Vec<Vec<Cluster>>,

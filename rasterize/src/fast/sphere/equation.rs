@@ -1,4 +1,4 @@
-//! A sphere's equation along a ray, relative to the eye.
+//! The equation of a sphere along a ray, relative to the eye.
 
 use super::hit::SphereHit;
 use crate::fast::depth::depth_from_t;
@@ -8,11 +8,11 @@ use bothways_common::{Projection, Ray};
 use glam::DVec3;
 use std::cmp::Ordering;
 
-/// Beneath this, products may have underflowed; it is far above what that can lose.
+/// A floor of all bounds: smaller products may have underflowed. It is far above the loss of that.
 const FLOOR: f64 = 1e-200;
 
-/// Tests a ray against a sphere: in `f64`, and where that leaves open whether it hits or leaves too few digits of where,
-/// with twice as many digits. `exact` says whether bounds hold or are (by a fault) zero.
+/// Tests a ray against a sphere: in `f64`; and with twice as many digits, where that leaves the hit open or has too few
+/// digits of `t`. `exact` says whether bounds hold or are (by a fault) zero.
 #[inline(always)]
 pub(crate) fn hit(
     projection: Projection,
@@ -21,7 +21,7 @@ pub(crate) fn hit(
     ray: &Ray,
     exact: bool,
 ) -> SphereHit {
-    /// Of `t`: that a depth key can be made of it.
+    /// The relative error of `t` from which a depth key can still be made.
     const ENOUGH: f64 = 1e-7;
     let answer = Equation::new(center, radius, ray, exact).answer();
     let answer = match answer {
@@ -37,7 +37,7 @@ pub(crate) fn hit(
     }
 }
 
-/// Apart from the loop, which it would slow down.
+/// Not inlined, because it would slow the loop down.
 #[cold]
 #[inline(never)]
 fn high_precision_answer(center: DVec3, radius: f64, ray: &Ray) -> Answer {
@@ -45,7 +45,7 @@ fn high_precision_answer(center: DVec3, radius: f64, ray: &Ray) -> Answer {
 }
 
 enum Answer {
-    /// The ray meets the sphere at `t`, which is off by at most this part of it.
+    /// The ray meets the sphere at `t`, which is off by at most this fraction of it.
     At {
         t: f64,
         relative: f64,
@@ -65,7 +65,7 @@ struct Equation {
     c_error: f64,
     discriminant: f64,
     d_error: f64,
-    /// Half of the last place of 1, or zero if bounds are.
+    /// `ε₅₃`, or zero if bounds are zero.
     unit: f64,
 }
 
@@ -100,11 +100,11 @@ impl Equation {
         }
     }
 
-    /// With twice as many digits, of which the leading half is kept in the end.
+    /// With twice as many digits; the leading half is kept in the end.
     ///
     /// # The errors, rounding by rounding
     ///
-    /// `m` has none, a sum less than 4u², a product less than 8u². So `A` carries 8 + 2·4 of them; `B` as many of
+    /// `m` has none, a sum less than 4ε₅₃², a product less than 8ε₅₃². So `A` carries 8 + 2·4 of them; `B` as many of
     /// `B̂`; `C` 8 + 3·4 of `Ĉ`; `B²` 2·16 + 8; `A·C` 16 + 20 + 8; their difference four more: 48 of `B̂² + A·Ĉ`.
     /// Each constant below is larger by a fifth or more: for the roundings of sizes, and for products of errors.
     fn in_high_precision(center: DVec3, radius: f64, ray: &Ray) -> Equation {
@@ -144,7 +144,7 @@ impl Equation {
         }
         let approaches = b < -b_error;
         let near = outside && approaches && discriminant > d_error;
-        // On the sphere, what is ahead is its far wall, if anything.
+        // A ray that begins on the sphere meets its far wall, or nothing.
         if !(near || inside || on && approaches) {
             return Answer::Unknown;
         }
@@ -172,7 +172,7 @@ impl Equation {
 /// sums have at most 50 digits: plain arithmetic has no error.
 fn begins_on(m: &[DoubleDouble; 3], radius: f64) -> bool {
     let digits = radius.to_bits();
-    // The leading digit's place, and how far beneath it the last one is.
+    // The place of the leading digit, and how many places lower the last digit is.
     let leading = f64::from_bits(digits >> 52 << 52);
     let beneath = 52 - u64::from((digits | 1 << 52).trailing_zeros());
     let q = leading * f64::from_bits((1023 - beneath) << 52);
@@ -187,8 +187,9 @@ fn begins_on(m: &[DoubleDouble; 3], radius: f64) -> bool {
 
 /// Which of two spheres, each with its centre and radius, is nearer along a ray that meets both, if `f64` is certain.
 ///
-/// Spheres that nearly touch have nearly all in common. So what is computed is `A·(t₁ − t₂) = σ₁·√d₁ − σ₂·√d₂ − Δ`,
-/// with `Δ = B₁ − B₂ = s·D` from the way `s` from the first centre to the second, and for two roots of one side
+/// Spheres that nearly touch have nearly all numbers in common. So the value that is computed is
+/// `A·(t₁ − t₂) = σ₁·√d₁ − σ₂·√d₂ − Δ`, with `Δ = B₁ − B₂ = s·D`, `s` from the first centre to the second, and for two
+/// roots of one side
 /// `√d₁ − √d₂ = (d₁ − d₂)/(√d₁ + √d₂)`, `d₁ − d₂ = Δ·(B₁ + B₂) − A·(s·(m₁ + m₂) − (r₁ − r₂)·(r₁ + r₂))`.
 ///
 /// # The errors, rounding by rounding
@@ -196,7 +197,7 @@ fn begins_on(m: &[DoubleDouble; 3], radius: f64) -> bool {
 /// `s` carries one, `Δ` 1 + 3 of `Δ̂ = Σ|s|·|D|`; `m₁ + m₂` 2 of `Σ|m|`; `B₁ + B₂` as their product with `D` 5; `Δ·(B₁ +
 /// B₂)` 10; `s·(m₁ + m₂)` 1 + 2 + 3; the radii's product 3; their difference one more, 7; times `A` 3 + 7 + 1; the last
 /// difference one: 12 of all sizes. A root is off by less than `d_error/d` of itself, and one rounding. What is computed
-/// of these adds a few; constants are larger.
+/// from these adds a few; constants are larger.
 pub(crate) fn nearer([first, second]: [(DVec3, f64); 2], ray: &Ray) -> Option<Ordering> {
     let d = ray.direction;
     let [one, other] =

@@ -6,19 +6,20 @@ use bothways_common::Ray;
 use bothways_common::engine::roundoff::{EPS53, Interval};
 use glam::DVec3;
 
-/// Puts a ray into the equation of a sphere that lies before the eye as a whole: the near root is seen, whatever its
-/// sign. `center`, and the depth that comes of it, count from the local.
+/// Puts a ray into the equation of a sphere, all of which lies in front of the eye: the near root is seen, whatever its
+/// sign. `center` and the resulting depth count from the local origin.
 ///
 /// # The errors, rounding by rounding
 ///
 /// `A = D·D`, `B = m·D`, `C = m·m − r²` and `m = O − center`. The centre carries two roundings of itself, which are not
 /// ones of `m`: beside the middle ray `O` and the centre cancel. With that one's own, a coordinate of `m` is off by at most
-/// `3u·s`, `s = |m| + |center|`. So `B` is off by 3 and 3 of `S = Σs·|D|`; `m·m` by 6 of `Σ|m|·s`, 9 of `u·Σs·s` and 3
+/// `3ε₅₃·s`, `s = |m| + |center|`. So `B` is off by 3 and 3 of `S = Σs·|D|`; `m·m` by 6 of `Σ|m|·s`, 9 of `ε₅₃·Σs·s` and 3
 /// of itself; `C` by one of itself and of `r²` besides. With these `δB` and `δC`, `B²` is off by `2|B|·δB + δB²`, of
 /// which the computed `B` may take one more `2δB²`, and one of itself; `A·C` by `A·δC`, 3 for `A` and one; their
 /// difference by one of both. The root `(−B − √…)/A` carries what its parts do, and 3 of `A`, the sum's and the
 /// quotient's. Constants are larger by one or more, or by a tenth.
 pub(crate) fn hit(center: DVec3, radius: f64, ray: &Ray, exact: bool) -> SphereHit {
+    /// A floor of all bounds: smaller products may have underflowed.
     const FLOOR: f64 = 1e-200;
     let (unit, floor) = if exact { (EPS53, FLOOR) } else { (0.0, 0.0) };
     let m = ray.origin - center;
@@ -36,7 +37,7 @@ pub(crate) fn hit(center: DVec3, radius: f64, ray: &Ray, exact: bool) -> SphereH
     if discriminant < -d_error {
         return SphereHit::Miss;
     }
-    // Written so that NaN is not known.
+    // Written so that NaN is unknown.
     if discriminant.partial_cmp(&d_error) != Some(std::cmp::Ordering::Greater) {
         return SphereHit::Unknown;
     }
