@@ -1,21 +1,21 @@
 //! Image order without the work that cannot matter.
 //!
 //! ```text
-//! once for a scene                      a hierarchy of boxes around the primitives     (build, tree)
-//! for each sample                       a tile of them at a time, their rays as one map        (rays)
-//!     for each primitive its ray may hit    boxes near to far, none beyond the hits   (walk, candidates)
-//!         if it covers the sample           edge functions, eight triangles at once     (setup, draw)
-//!             keep the nearest              keys as intervals that hold the true ones           (tile)
+//! once for a scene                      a hierarchy of boxes around the primitives            (search/build, tree)
+//! for each sample                       a tile of them at a time, with one map for its rays           (camera_map)
+//!     for each primitive its ray may hit    boxes near to far, none beyond the hits       (search/walk, candidates)
+//!         if it covers the sample           edge functions, eight triangles at once          (setup, few_, many_…)
+//!             keep the nearest              depth keys as intervals that hold the true ones           (depth, tile)
 //! ```
 //!
-//! Spheres and planes go ray by ray (`round`, `leaf`). Rounded arithmetic decides wherever its bound says
-//! that the sign is certain; the rest goes to the exact judge. Boxes, and triangles before they are set up, are
-//! dropped only when all rays of the tile certainly miss them or they are certainly farther than what all rays
-//! hit: to find that out, `f32` is enough (`rough`, `anchor`). Edges through samples need no judge where corners lie on
-//! quarters of samples (`aligned`).
+//! Spheres and planes are tested ray by ray (`one_primitive`). Rounded arithmetic decides wherever its bound says
+//! that the sign is certain; the exact judge decides the rest. A box is dropped, and a triangle before it is set up,
+//! only when all rays of the tile certainly miss it, or when it is certainly farther than what all rays hit. `f32` is
+//! enough to find that out (`search/box_culling`, `local_projection`). Edges through samples need no judge where
+//! corners lie on quarters of samples (`aligned`).
 //!
-//! For an observer each ray walks alone as well, as a tile of one: so what is told belongs to the ray, and
-//! depends on nothing else. The frame is that of the tiles, watched or not.
+//! For an observer, each ray is walked alone as well, as a tile of one. So what is reported belongs to the ray, and
+//! depends on nothing else. The frame is that of the tiles, whether they are watched or not.
 
 mod affine;
 mod aligned;
@@ -82,8 +82,8 @@ pub fn prepare(scene: &Scene) -> Prepared {
 /// use bothways_raytrace::common::{Camera, Options, Scene, Shape, Sphere, View, glam::Vec3};
 /// use bothways_raytrace::fast;
 ///
-/// let ball = Shape::Sphere(Sphere { center: Vec3::new(0.0, 0.0, -4.0), radius: 1.0 });
-/// let scene = Scene::new(vec![ball.into()])?;
+/// let sphere = Shape::Sphere(Sphere { center: Vec3::new(0.0, 0.0, -4.0), radius: 1.0 });
+/// let scene = Scene::new(vec![sphere.into()])?;
 /// let camera = Camera::canonical(5, 5);
 /// let prepared = fast::prepare(&scene);
 /// let frame = fast::render(&prepared, &View::new(&scene, &camera), &Options::default());
@@ -101,8 +101,8 @@ pub fn render(prepared: &Prepared, view: &View, options: &Options) -> Frame {
 
 /// Finds the primitive that is seen at every sample, and how far it is.
 ///
-/// Runs on the rayon pool that it is called in; the number of threads changes no bit of the frame and
-/// nothing that the observer is told.
+/// Runs on the rayon pool that it is called in; the number of threads changes no bit of the frame and no event that
+/// the observer gets.
 ///
 /// # Panics
 ///
@@ -200,7 +200,7 @@ fn drop_chunk(Tile { ids, t, .. }: Tile) {
     t.into_iter().for_each(|t| t.fill(f32::INFINITY));
 }
 
-/// Walks each ray of a chunk of the picture alone, for an observer, until that has enough.
+/// Walks each ray of a chunk of the picture alone, for an observer, until the observer has enough.
 fn watch<F: Fault>(
     walker: &mut Walker,
     template: &FrustumTemplate,

@@ -1,13 +1,13 @@
-//! The look of what is seen: image order goes back along each ray to the point that it hit.
+//! Shading: image order goes along each ray to the point that it hit.
 
 use bothways_common::frame::{NO_PRIMITIVE, ShadingRow};
 use bothways_common::look::shade::{SurfacePoint, color};
 use bothways_common::look::texture::{self, TexturePoint};
-use bothways_common::{Frame, Primitive, Projection, Ray, SampleGrid, Scene, Shape, View};
+use bothways_common::{Frame, Primitive, Projection, Raster, Ray, SampleGrid, Scene, Shape, View};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 use rayon::prelude::*;
 
-/// Gives every sample its colour, from the hit point of its ray; its normal and its texture coordinate, too, if the
+/// Gives every sample its colour, from the hit point of its ray; also its normal and its texture coordinate, if the
 /// frame keeps [them](Frame::with_normals) [both](Frame::with_texture_coordinates).
 ///
 /// # Panics
@@ -15,11 +15,12 @@ use rayon::prelude::*;
 /// If the frame does not show this view: another size, or ids that the scene does not have.
 pub fn shade(view: &View, frame: &mut Frame) {
     assert_eq!(frame.camera_image(), view.camera.image(), "the frame shows another view");
-    let grid = view.camera.sample_grid(frame.samples());
-    frame.shading_rows().into_par_iter().for_each(|row| shade_row(view, &grid, row));
+    let (grid, raster) =
+        (view.camera.sample_grid(frame.samples()), view.camera.raster(frame.samples()));
+    frame.shading_rows().into_par_iter().for_each(|row| shade_row(view, &grid, &raster, row));
 }
 
-fn shade_row(view: &View, grid: &SampleGrid, mut row: ShadingRow) {
+fn shade_row(view: &View, grid: &SampleGrid, raster: &Raster, mut row: ShadingRow) {
     let keeps_texture = row.texture_coordinates.is_some();
     for (index, (column, &id)) in row.columns.zip(row.ids).enumerate() {
         if id == NO_PRIMITIVE {
@@ -41,7 +42,7 @@ fn shade_row(view: &View, grid: &SampleGrid, mut row: ShadingRow) {
         let material = view.scene.objects()[object].material_of(local);
         let texture = if keeps_texture || material.checker.is_some() {
             let chart = texture_at(view, (id, &primitive), &hit);
-            chart.map(|chart| chart.seen_along(&ray, hit.t, view, grid))
+            chart.map(|chart| chart.seen_along(&ray, hit.t, view, raster))
         } else {
             None
         };
@@ -62,19 +63,19 @@ struct Hit {
     t: f64,
     /// Relative to the eye.
     position: DVec3,
-    /// Relative to the middle of a sphere; elsewhere the same.
+    /// Relative to the centre of a sphere; of other primitives, the same as `position`.
     from_center: DVec3,
 }
 
-/// How far a stored `t` may be from the true one, as a part of it.
-const STORED: f64 = 2e-5;
+/// How far a stored `t` may be from the true one, as a fraction of it.
+const STORED_ERROR: f64 = 2e-5;
 
 impl Hit {
-    /// What is known to be hit, found again in `f64`: from afar, the digits of the stored `t` end before those of
-    /// the surface begin.
+    /// Intersects the ray again, in `f64`, with the primitive that it is known to hit: far from the eye, the stored `t`
+    /// has too few digits to tell points of the surface apart.
     ///
-    /// Where the ray runs along the surface or numbers are extreme, rounding may leave less than is stored; then
-    /// that is taken.
+    /// Where the ray runs along the surface, or numbers are extreme, the new `t` may be worse than the stored one, which
+    /// is then used.
     fn new(primitive: &Primitive, ray: &Ray, stored: f32) -> Hit {
         let stored = f64::from(stored);
         let hit = match *primitive {
@@ -82,7 +83,7 @@ impl Hit {
             Primitive::Plane { point, normal } => Hit::on_plane(point, normal, ray),
             Primitive::Triangle(corners) => Hit::on_plane(corners[0], flat_normal(corners), ray),
         };
-        if (hit.t - stored).abs() <= STORED * stored {
+        if (hit.t - stored).abs() <= STORED_ERROR * stored {
             return hit;
         }
         let position = ray.origin + stored * ray.direction;
@@ -99,9 +100,9 @@ impl Hit {
         Hit { t, position, from_center: position }
     }
 
-    /// The ray comes nearest to the centre at `−k`, beside it by `f`; half of the way through the sphere nearer or
-    /// farther, it meets the sphere. From outside it is seen where it is nearer; from where rounding cannot tell, where
-    /// the stored `t` says.
+    /// The ray comes nearest to the centre at `t = −k`, where it passes beside it by `f`. It meets the sphere half of
+    /// the way through the sphere before and after that. An eye outside sees the nearer point; where rounding hides
+    /// whether the eye is outside, the stored `t` decides.
     fn on_sphere(center: DVec3, radius: f64, ray: &Ray, stored: f64) -> Hit {
         let (m, d) = (ray.origin - center, ray.direction);
         let a = d.length_squared();
@@ -129,7 +130,7 @@ fn normal_at(view: &View, (id, primitive): (u32, &Primitive), ray: &Ray, hit: &H
         }
     };
     let normal = smooth.unwrap_or(flat).normalize_or(flat.normalize_or_zero());
-    // The surface, not its smooth look, says which side is seen.
+    // The surface decides which side is seen, not its smooth normals.
     if flat.dot(ray.direction) > 0.0 { -normal } else { normal }
 }
 
@@ -145,24 +146,24 @@ fn corner_normals(scene: &Scene, id: u32) -> Option<[DVec3; 3]> {
     }
 }
 
-/// The normals at the corners, weighted.
+/// The sum of the normals at the corners, weighted.
 fn interpolate(corners: [DVec3; 3], flat: DVec3, hit: DVec3, normals: [DVec3; 3]) -> DVec3 {
     let [of_a, of_b, of_c] = areas(corners, flat, hit);
     let [at_a, at_b, at_c] = normals.map(DVec3::normalize_or_zero);
     of_a * at_a + of_b * at_b + of_c * at_c
 }
 
-/// The corners' weights up to a common factor: the areas that the hit point cuts the triangle into.
+/// The weights of the corners, up to a common factor: the areas into which the hit point divides the triangle.
 fn areas([a, b, c]: [DVec3; 3], flat: DVec3, hit: DVec3) -> [f64; 3] {
     [(b, c), (c, a), (a, b)].map(|(p, q)| (p - hit).cross(q - hit).dot(flat))
 }
 
-/// A surface's texture around one of its points.
+/// The texture of a surface around one of its points.
 struct Chart {
     coordinate: DVec2,
-    /// Where the two coordinates grow, and how fast.
+    /// The directions in which the two coordinates grow, and how fast.
     gradients: [DVec3; 2],
-    /// Of the surface; its length does not matter.
+    /// That of the surface; its length does not matter.
     normal: DVec3,
 }
 
@@ -191,7 +192,7 @@ fn triangle_chart(corners: [DVec3; 3], values: [DVec2; 3], hit: DVec3) -> Chart 
     let weights = areas(corners, normal, hit);
     let total: f64 = weights.iter().sum();
     let weighted = weights.iter().zip(values).map(|(&weight, value)| weight * value);
-    // The area opposite to a corner grows away from its side, as long as that side is.
+    // The area opposite to a corner grows away from its side, in proportion to the side's length.
     let [a, b, c] = corners;
     let growth = [c - b, a - c, b - a].map(|side| normal.cross(side));
     let gradient = |k: usize| {
@@ -207,16 +208,12 @@ fn triangle_chart(corners: [DVec3; 3], values: [DVec2; 3], hit: DVec3) -> Chart 
 impl Chart {
     /// What a ray that hits here, at `t`, sees of the texture.
     ///
-    /// The rays through the neighbouring samples meet the plane that touches the surface here a little
-    /// beside. Igehy, "Tracing Ray Differentials", SIGGRAPH 1999.
-    fn seen_along(&self, ray: &Ray, t: f64, view: &View, grid: &SampleGrid) -> TexturePoint {
+    /// The rays through the neighbouring samples meet the tangent plane of the surface a little
+    /// beside this point. Igehy, "Tracing Ray Differentials", SIGGRAPH 1999.
+    fn seen_along(&self, ray: &Ray, t: f64, view: &View, raster: &Raster) -> TexturePoint {
         let camera = view.camera;
-        let [width, height] = camera.viewport();
-        let steps = [
-            camera.u() * (width / count(grid.width())),
-            camera.v() * (-height / count(grid.height())),
-        ];
-        let [across, down] = steps.map(|step| {
+        let [of_row, of_column] = raster.spacing();
+        let [across, down] = [camera.u() * of_column, camera.v() * -of_row].map(|step| {
             // A parallel ray moves with its sample, a perspective one turns.
             let moved = match camera.projection() {
                 Projection::Perspective => t * step,
@@ -228,10 +225,4 @@ impl Chart {
         });
         TexturePoint::new(self.coordinate, across, down)
     }
-}
-
-/// Of samples along a side.
-#[expect(clippy::cast_precision_loss, reason = "at most 65,536")]
-fn count(samples: usize) -> f64 {
-    samples as f64
 }

@@ -10,8 +10,8 @@
 //! }
 //! ```
 //!
-//! *Affects* is the exact predicate; *do something* is keeping the nearest primitive so far, for
-//! which one variable is enough: the ray is finished before the next begins.
+//! *Affects* is the exact predicate. *Do something* is to keep the nearest primitive so far: one variable is
+//! enough for that, because a ray is finished before the next one begins.
 
 use bothways_common::observe::Observer;
 use bothways_common::raster::Sample;
@@ -54,9 +54,9 @@ pub fn determine_visibility(
                     continue;
                 }
                 observer.fragment(sample, id);
-                if let Some((holder, held)) = nearest {
-                    let nearer = judge.nearer((id, &primitive), (holder, &held), &ray);
-                    observer.depth_test(sample, id, holder, nearer);
+                if let Some((stored, held)) = nearest {
+                    let nearer = judge.nearer((id, &primitive), (stored, &held), &ray);
+                    observer.depth_test(sample, id, stored, nearer);
                     if !nearer {
                         continue;
                     }

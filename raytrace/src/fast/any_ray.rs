@@ -1,4 +1,4 @@
-//! Any ray, not only those of a picture.
+//! The first hit of any ray, not only of the rays of a picture.
 
 use super::camera_map::CameraMap;
 use super::prepared::Prepared;
@@ -17,14 +17,14 @@ use glam::Vec3;
 pub struct WorldRay {
     /// Where it begins.
     pub origin: Vec3,
-    /// Where it goes; its length does not matter.
+    /// Where it goes; the length does not matter.
     pub direction: Vec3,
 }
 
-/// What a ray meets first.
+/// The first primitive along a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
-    /// The primitive.
+    /// The id of the primitive.
     pub id: u32,
     /// How far it is from the ray's origin.
     pub distance: f32,
@@ -35,9 +35,9 @@ impl WorldRay {
     /// direction, `d = vw = vh = 1`, one pixel. Its up vector is the axis of the world that is most
     /// perpendicular to the ray, of equals the first of `y`, `z`, `x`.
     ///
-    /// It says what is exactly true of the ray: [`View::judge`] of it is the judge of
-    /// [`first_hit`]. A ray through an edge or a vertex belongs to what lies to its right, towards this
-    /// camera's `u`.
+    /// It states what is exactly true of the ray: the [`View::judge`] of this camera is the judge of
+    /// [`first_hit`]. A ray through an edge or a vertex belongs to the primitive on its right, towards the `u` of this
+    /// camera.
     ///
     /// # Panics
     ///
@@ -76,11 +76,11 @@ impl WorldRay {
 /// use bothways_raytrace::common::{Scene, Shape, Sphere, glam::Vec3};
 /// use bothways_raytrace::fast::{self, WorldRay};
 ///
-/// let ball = Shape::Sphere(Sphere { center: Vec3::new(5.0, 0.0, 0.0), radius: 2.0 });
-/// let scene = Scene::new(vec![ball.into()])?;
+/// let sphere = Shape::Sphere(Sphere { center: Vec3::new(5.0, 0.0, 0.0), radius: 2.0 });
+/// let scene = Scene::new(vec![sphere.into()])?;
 /// let prepared = fast::prepare(&scene);
 /// let to_the_right = WorldRay { origin: Vec3::ZERO, direction: Vec3::X };
-/// let hit = fast::first_hit(&prepared, &scene, to_the_right).expect("it meets the ball");
+/// let hit = fast::first_hit(&prepared, &scene, to_the_right).expect("it meets the sphere");
 /// assert_eq!((hit.id, hit.distance), (0, 3.0));
 /// let to_the_left = WorldRay { direction: Vec3::NEG_X, ..to_the_right };
 /// assert_eq!(fast::first_hit(&prepared, &scene, to_the_left), None);

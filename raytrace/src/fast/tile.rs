@@ -11,7 +11,7 @@ use bothways_common::raster::Sample;
 /// Samples along one side of a block: sixteen samples are tested at once.
 pub(super) const BLOCK: usize = 4;
 /// Samples along one side of the largest tile.
-pub(super) const LARGEST: usize = 32;
+const LARGEST: usize = 32;
 const SAMPLES: usize = LARGEST * LARGEST;
 const BLOCKS: usize = SAMPLES / 16;
 
@@ -52,6 +52,7 @@ pub(super) struct OpenFragment {
 }
 
 impl Tile {
+    /// A tile without samples; [`Tile::begin`] gives it some.
     pub(super) fn new(judge: Judge) -> Tile {
         Tile {
             ids: Box::new([NO_PRIMITIVE; SAMPLES]),
@@ -111,14 +112,14 @@ impl Tile {
         (self.side * self.side).div_ceil(16)
     }
 
-    /// The sample in the picture that is kept there, if it is one.
+    /// The sample of the picture that is kept at an index, if there is one.
     pub(super) fn sample(&self, index: usize) -> Option<Sample> {
         let [row, column] = place(self.side, index);
         let inside = row < self.size[0] && column < self.size[1];
         inside.then_some(Sample { row: self.start[0] + row, column: self.start[1] + column })
     }
 
-    /// Finds the farthest hit again where something was hit.
+    /// Updates the farthest hits where something was hit since the last time.
     #[inline(always)]
     pub(super) fn renew<S: Simd>(&mut self, simd: S) {
         if self.dirty == 0 {
@@ -142,7 +143,7 @@ impl Tile {
         self.far = least(far);
     }
 
-    /// Whether something was hit nearly everywhere, so that soon what lies farther need not be looked at.
+    /// Whether something was hit nearly everywhere, so that soon what lies farther can be skipped.
     #[inline(always)]
     pub(super) fn is_nearly_full(&self) -> bool {
         self.open_blocks <= 2
@@ -158,7 +159,7 @@ impl Tile {
         self.open.push(OpenFragment { index: index as u16, lane: lane as u8, covered });
     }
 
-    /// The same for lanes of a block from `from` on.
+    /// The same for the lanes of a block that starts at index `from`.
     #[cold]
     pub(super) fn leave_all_open(&mut self, from: usize, mut open: u64, lane: usize, inside: u64) {
         while open != 0 {
