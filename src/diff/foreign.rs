@@ -18,6 +18,7 @@ mod hints;
 mod npy;
 mod picture;
 mod png;
+mod problem;
 mod read;
 
 pub use super::aspect::{Aspect, Unit};

@@ -1,6 +1,6 @@
 //! NumPy arrays of any origin: every shape, order and number type that pixels come in.
 
-use super::read::{Problem, ends_early};
+use super::problem::{Problem, ends_early};
 use super::{Buffer, Content, Covered, Picture, Pixels};
 use crate::common::raster::{MAX_SAMPLES, check_samples};
 use crate::formats::source::quote::shown;

@@ -1,7 +1,7 @@
 //! Pictures of any origin: PNG and what else the `image` crate reads.
 
 use super::png;
-use super::read::{Problem, ends_early};
+use super::problem::{Problem, ends_early};
 use crate::common::raster::check_samples;
 use crate::diff::buffer::{Buffer, Content, Covered, Picture, Pixels};
 use crate::formats::source::quote::visible;

@@ -1,7 +1,7 @@
 //! What PNG files are made of, checked before they are decoded: the decoder panics on some palettes, and
 //! names damages without their place.
 
-use super::read::{Problem, ends_early};
+use super::problem::{Problem, ends_early};
 use std::io::{BufRead, Read, Seek, SeekFrom};
 
 /// Bytes of the signature before the first chunk.

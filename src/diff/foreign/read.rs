@@ -1,5 +1,6 @@
 //! Reads a file of any origin, by what is in it and not by its name.
 
+use super::problem::Problem;
 use super::{npy, picture};
 use crate::common::SizeError;
 use crate::diff::buffer::Buffer;
@@ -53,39 +54,6 @@ pub enum ReadBufferError {
         /// Its size, and the limit.
         error: SizeError,
     },
-}
-
-/// What is wrong with the content of a file, whatever its name.
-#[derive(Debug)]
-pub(super) enum Problem {
-    /// In the words of a message: what is wrong, and what would be right.
-    Content(String),
-    Size(SizeError),
-    /// The system does not give the file away.
-    Io(io::Error),
-}
-
-/// What is said of a file that has fewer bytes than it should.
-pub(super) fn ends_early(bytes: u64) -> String {
-    format!("the file ends early, after {bytes} bytes; copy it or write it again")
-}
-
-impl From<String> for Problem {
-    fn from(problem: String) -> Self {
-        Problem::Content(problem)
-    }
-}
-
-impl From<io::Error> for Problem {
-    fn from(error: io::Error) -> Self {
-        Problem::Io(error)
-    }
-}
-
-impl From<SizeError> for Problem {
-    fn from(error: SizeError) -> Self {
-        Problem::Size(error)
-    }
 }
 
 /// Reads a picture (PNG, PNM, BMP; 8 or 16 bits) or a NumPy array.
