@@ -31,7 +31,8 @@ use std::mem;
 /// each is a small part of the work, in some tens of megabytes.
 pub const CHUNK: usize = 1 << 18;
 
-/// What lasts from chunk to chunk and from pass to pass: what is seen at every sample, 52 bytes each.
+/// What lasts from chunk to chunk and from pass to pass: what is seen at every sample, 40 bytes each:
+/// half of them in the frame.
 #[derive(Debug)]
 pub struct Canvas {
     /// The chunk's while a pass is drawn, the whole mesh's in the end.

@@ -7,6 +7,7 @@ use super::output::Staging;
 use super::terminal;
 use anstyle::{AnsiColor, Style};
 use bothways::diff::foreign::{self, Aspect, Buffer, BufferComparison, Unit};
+use bothways::diff::pairs::reference;
 use bothways::diff::{COLOR_TOLERANCE, DEPTH_TOLERANCE};
 use bothways::formats::source::quote::visible;
 use bothways::picture::enlarged;
@@ -82,10 +83,11 @@ pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
         foreign::read(path, args.background).map_err(|error| Failure::new(error.to_string()))
     };
     let (a, b) = (read(&args.a)?, read(&args.b)?);
-    let comparison = foreign::compare(&a, &b).map_err(|error| {
-        let (a, b) = (args.a.display(), args.b.display());
-        Failure::new(format!("A = {a}, B = {b}: {error}"))
-    })?;
+    let comparison =
+        foreign::compare_with_reference(&a, &b, reference(&args.a, &args.b)).map_err(|error| {
+            let (a, b) = (args.a.display(), args.b.display());
+            Failure::new(format!("A = {a}, B = {b}: {error}"))
+        })?;
     if let Some(folder) = &args.folder {
         let mut staging = Staging::begin_with(folder, NAMES.map(str::to_owned).to_vec())?;
         staging.write_rgb(NAMES[0], &enlarged(comparison.picture()))?;

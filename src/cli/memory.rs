@@ -8,12 +8,16 @@ use bothways::wording::count;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Bytes that one order keeps for a sample: id, distance, normal and colour.
-const BYTES_PER_SAMPLE: u64 = 4 + 4 + 12 + 12;
+/// Bytes that a frame keeps for a sample: id, distance and colour.
+const BYTES_PER_SAMPLE: u64 = 4 + 4 + 12;
+/// Bytes that a stream keeps besides: id and distance of the chunks before, and the triangle's three vertices.
+const BYTES_PER_STREAMED_SAMPLE: u64 = 4 + 4 + 12;
 /// Bytes for a pixel while pictures are drawn and compressed: of both orders at once, where there are two
 /// (measured: 14), or of one.
 const BYTES_PER_PIXEL: [u64; 2] = [8, 16];
-/// For the program itself, and a slide of 1920 × 1080.
+/// For the program itself, and a slide of 1920 × 1080. What an order prepares (clusters, a hierarchy) and keeps from
+/// frame to frame (projected vertices, bins) is not counted: it depends on the scene, and is small beside a frame
+/// that is refused for its size.
 const BYTES_FOR_THE_REST: u64 = 32 << 20;
 
 /// From so many bytes on, a run says beforehand what it takes.
@@ -49,7 +53,8 @@ impl Need {
         let samples = pixels.region(options.samples).area() as u64;
         let pixels = u64::from(pixels.width) * u64::from(pixels.height);
         let orders = args.method.order.orders().len();
-        let bytes = samples * orders as u64 * BYTES_PER_SAMPLE
+        let streamed = if args.method.stream { BYTES_PER_STREAMED_SAMPLE } else { 0 };
+        let bytes = samples * orders as u64 * (BYTES_PER_SAMPLE + streamed)
             + pixels * BYTES_PER_PIXEL[orders - 1]
             + BYTES_FOR_THE_REST;
         Need { samples, bytes }

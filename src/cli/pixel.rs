@@ -114,6 +114,8 @@ impl Lesson<'_> {
         let camera = self.camera;
         let CameraDescription { viewport: [vw, vh], image: [width, height], distance: d, .. } =
             *camera.description();
+        // The formulas count with `f64`: so many digits give the same result on a calculator.
+        let [vw, vh, d] = [vw, vh, d].map(f64::from);
         let (i, j, n) = (self.args.row + 1, self.args.column + 1, self.args.samples);
         // The middle of the pixel, or of the first of the n parts of its sides.
         let half = if n == 1 { "1/2".into() } else { format!("1 + 1/{}", 2 * n) };

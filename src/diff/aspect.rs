@@ -41,3 +41,12 @@ pub enum Unit {
     /// The files have different numbers of samples: a pixel is covered if one of its samples is.
     Pixels,
 }
+
+/// One of two files, or of two folders.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// The first.
+    A,
+    /// The second.
+    B,
+}

@@ -21,7 +21,7 @@ mod png;
 mod problem;
 mod read;
 
-pub use super::aspect::{Aspect, Unit};
+pub use super::aspect::{Aspect, Side, Unit};
 pub use super::buffer::{Buffer, Content, Covered, Picture, Pixels, distance_text};
 pub use super::compare::{
     BufferColor, BufferComparison, BufferCoverage, BufferDepth, BufferIds, Incomparable,
@@ -36,11 +36,24 @@ use super::look::{Decides, Pair};
 ///
 /// If they differ in size, or have nothing in common.
 pub fn compare(a: &Buffer, b: &Buffer) -> Result<BufferComparison, Incomparable> {
+    compare_with_reference(a, b, None)
+}
+
+/// The same, where one of the two is known to be right: no cause is looked for in the way that it is written.
+///
+/// # Errors
+///
+/// As for [`compare`].
+pub fn compare_with_reference(
+    a: &Buffer,
+    b: &Buffer,
+    reference: Option<Side>,
+) -> Result<BufferComparison, Incomparable> {
     let pair = Pair::new(a, b, Decides::Everything);
     let mut comparison = super::compare::compare(&pair)?;
     comparison.light = a.light().or_else(|| b.light());
     if !comparison.equal {
-        comparison.hints = hints::hints(&pair);
+        comparison.hints = hints::hints(&pair, reference);
     }
     Ok(comparison)
 }

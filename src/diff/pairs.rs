@@ -4,18 +4,23 @@
 //! begins with, `NAME.png` or `NAME.anything.npy`, and is held against the set's file of the same
 //! content. In other folders, files of the same name belong together.
 
+use super::aspect::Side;
 use super::buffer::Content;
 use super::foreign::read;
+use crate::formats::source::regular_file;
 use serde::Deserialize;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::{fs, io};
+use std::{
+    fs,
+    io::{self, Read},
+};
 
 /// The files of two folders, side by side.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pairs {
     /// Which of the folders is a conformance set, if one is.
-    pub set: Option<Partners>,
+    pub set: Option<Side>,
     /// In the order of the set, or by name.
     pub pairs: Vec<Pair>,
     /// Scenes, or else files, that only B has.
@@ -24,15 +29,6 @@ pub struct Pairs {
     pub missing_in_b: Vec<String>,
     /// Files beside a set that belong to none of its scenes.
     pub ignored: Vec<String>,
-}
-
-/// One of the two folders.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Partners {
-    /// The first.
-    A,
-    /// The second.
-    B,
 }
 
 /// Two files that belong together.
@@ -96,6 +92,8 @@ const ENDINGS: [&str; 7] = ["png", "npy", "bmp", "pgm", "ppm", "pbm", "pnm"];
 /// A set's file for each kind of content.
 const KINDS: [&str; 3] = [".ids.npy", ".t.npy", ".mask.png"];
 const INDEX: &str = "index.json";
+/// No index is larger, whatever other programs call so.
+const LARGEST_INDEX: u64 = 1 << 24;
 
 /// What is read of a set's index.
 #[derive(Deserialize)]
@@ -144,12 +142,28 @@ impl Pairs {
     fn swapped(self) -> Pairs {
         let swap = |Pair { name, a, b, point }| Pair { name, a: b, b: a, point };
         Pairs {
-            set: self.set.map(|side| if side == Partners::B { Partners::A } else { Partners::B }),
+            set: self.set.map(|side| if side == Side::B { Side::A } else { Side::B }),
             pairs: self.pairs.into_iter().map(swap).collect(),
             missing_in_a: self.missing_in_b,
             missing_in_b: self.missing_in_a,
             ignored: self.ignored,
         }
+    }
+}
+
+/// Which of two files is of a written conformance set, if one alone is: its folder has the set's index, and the
+/// index the scene that its name begins with.
+pub fn reference(a: &Path, b: &Path) -> Option<Side> {
+    let is_of_set = |path: &Path| {
+        let scene = path.file_name()?.to_str()?.split('.').next()?.to_owned();
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+        let index = index(folder.unwrap_or(Path::new("."))).ok()??;
+        index.scenes.iter().any(|one| one.name == scene).then_some(())
+    };
+    match [a, b].map(|path| is_of_set(path).is_some()) {
+        [true, false] => Some(Side::A),
+        [false, true] => Some(Side::B),
+        _ => None,
     }
 }
 
@@ -173,7 +187,11 @@ fn buffers(folder: &Path) -> Result<BTreeSet<String>, PairsError> {
 /// The index of a conformance set, if the folder is one.
 fn index(folder: &Path) -> Result<Option<Index>, PairsError> {
     let path = folder.join(INDEX);
-    let Ok(text) = fs::read_to_string(&path) else { return Ok(None) };
+    let (mut text, file) = (String::new(), regular_file(&path));
+    let read = file.and_then(|file| file.take(LARGEST_INDEX).read_to_string(&mut text));
+    if read.is_err() {
+        return Ok(None);
+    }
     let Ok(value) = serde_json::from_str::<serde_json::Value>(&text) else { return Ok(None) };
     // Other programs have indexes, too.
     if value["set"] != "bothways" {
@@ -204,7 +222,7 @@ fn of_a_set(folder: &Path, files: &BTreeSet<String>, index: &Index) -> Pairs {
         }
     }
     Pairs {
-        set: Some(Partners::B),
+        set: Some(Side::B),
         pairs,
         missing_in_a: missing,
         missing_in_b: Vec::new(),

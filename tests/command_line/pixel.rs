@@ -243,3 +243,13 @@ fn one_pixel_of_a_picture_that_is_larger_than_memory_needs_its_own_samples_alone
     let text = String::from_utf8(output.stdout).unwrap();
     assert!(output.status.success() && text.ends_with("both orders saw what is nearest\n"));
 }
+
+#[test]
+fn lengths_have_the_digits_that_the_formulas_count_with() {
+    let args = ["pixel", "canonical", "1", "2", "--size", "5x3", "--viewport", "0.1,0.3"];
+    let output = Command::cargo_bin("bothways").unwrap().args(args).output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    let vw = f64::from(0.1_f32);
+    assert!(text.contains(&format!("=  {vw} ((3 - 1/2)/5 - 1/2) = 0\n")), "{text}");
+    assert!(text.contains(&format!("= -{} ((2 - 1/2)/3", f64::from(0.3_f32))), "{text}");
+}

@@ -25,6 +25,16 @@ fn every_kind_is_written_and_read_back() {
     }
 }
 
+#[test]
+fn a_name_in_ply_is_written_as_ply() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["m.ply", "M.PLY", ".ply", "-.ply"] {
+        let file = folder.path().join(name);
+        bothways(&["mesh", "box", "-o", file.to_str().unwrap()]).success().stdout("");
+        assert!(std::fs::read(&file).unwrap().starts_with(b"ply\n"), "{name}");
+    }
+}
+
 /// The corners of all triangles as the crate `tobj` reads them.
 fn corners_by_tobj(path: &str) -> Vec<[f32; 3]> {
     let (models, _) = tobj::load_obj(path, &tobj::LoadOptions::default()).expect("it is OBJ");

@@ -6,8 +6,9 @@ use crate::cli::failure::Failure;
 use crate::cli::output::Staging;
 use crate::cli::terminal;
 use anstyle::{AnsiColor, Style};
+use bothways::diff::foreign::Side;
 use bothways::diff::foreign::{self, BufferComparison};
-use bothways::diff::pairs::{Pair, Pairs, Partners};
+use bothways::diff::pairs::{Pair, Pairs};
 use bothways::formats::source::quote::visible;
 use bothways::wording::count;
 use serde::Serialize;
@@ -22,7 +23,7 @@ pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
     let mut staging = staging(args, &pairs)?;
     let mut rows = Vec::new();
     for pair in &pairs.pairs {
-        let compared = compared(args, pair);
+        let compared = compared(args, pair, pairs.set);
         if let (Some(staging), Ok(comparison)) = (&mut staging, &compared)
             && !comparison.equal
         {
@@ -49,12 +50,12 @@ fn picture_of(pair: &Pair) -> String {
     format!("{}.difference.png", pair.name)
 }
 
-fn compared(args: &DiffArgs, pair: &Pair) -> Result<BufferComparison, String> {
+fn compared(args: &DiffArgs, pair: &Pair, set: Option<Side>) -> Result<BufferComparison, String> {
     let read = |folder: &Path, file: &str| {
         foreign::read(&folder.join(file), args.background).map_err(|error| error.to_string())
     };
     let (a, b) = (read(&args.a, &pair.a)?, read(&args.b, &pair.b)?);
-    foreign::compare(&a, &b).map_err(|error| error.to_string())
+    foreign::compare_with_reference(&a, &b, set).map_err(|error| error.to_string())
 }
 
 /// What came of a pair.
@@ -139,7 +140,7 @@ impl Told<'_> {
     fn heading(&self) -> String {
         let bold = Style::new().bold();
         let mut text = String::new();
-        let folders = [("A", &self.args.a, Partners::A), ("B", &self.args.b, Partners::B)];
+        let folders = [("A", &self.args.a, Side::A), ("B", &self.args.b, Side::B)];
         for (name, folder, side) in folders {
             let is_set = self.pairs.set == Some(side);
             let what = if is_set { ": the conformance set" } else { "" };
@@ -192,10 +193,10 @@ impl Told<'_> {
         let file = |folder: &Path, file: &str| folder.join(file).display().to_string();
         let (a, b) = (file(&self.args.a, &row.pair.a), file(&self.args.b, &row.pair.b));
         let mut text = format!("next: bothways diff {a} {b} -o out/diff\n");
-        if let Some(Partners::A | Partners::B) = self.pairs.set {
+        if let Some(Side::A | Side::B) = self.pairs.set {
             let name = row.pair.name.split('.').next().unwrap_or_default();
             let folder = match self.pairs.set {
-                Some(Partners::A) => &self.args.a,
+                Some(Side::A) => &self.args.a,
                 _ => &self.args.b,
             };
             let scene = folder.join(format!("{name}.toml"));

@@ -41,7 +41,11 @@ impl OutputFile {
 
     /// What its name ends in, in small letters; where that says nothing, the name that it leads to.
     pub(in crate::cli) fn ending(&self) -> Option<String> {
-        let ending = |path: &Path| path.extension().map(OsStr::to_ascii_lowercase);
+        let ending = |path: &Path| {
+            // All of the name `.ply` is its ending.
+            let bare = || path.file_name()?.to_str()?.strip_prefix('.').map(OsStr::new);
+            path.extension().or_else(bare).map(OsStr::to_ascii_lowercase)
+        };
         let ending = ending(&self.name).or_else(|| match &self.place {
             Place::File(path) => ending(path),
             Place::Stdout | Place::Direct(_) => None,

@@ -3,14 +3,16 @@
 //! A hint is given only if its cause alone explains every difference. Where several do, all are
 //! given: nobody can tell a symmetric picture that is upside down from one that is moved.
 
+use crate::diff::aspect::Side;
 use crate::diff::buffer::{Buffer, Content};
 use crate::diff::classes::{Class, pixels};
 use crate::diff::look::Pair;
 use crate::wording::count;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Every cause that alone explains every difference, each in a sentence.
-pub(in crate::diff) fn hints(pair: &Pair) -> Vec<String> {
+/// Every cause that alone explains every difference, each in a sentence. A reference is right, and so is the way
+/// that it is written.
+pub(in crate::diff) fn hints(pair: &Pair, reference: Option<Side>) -> Vec<String> {
     let both = [("A", pair.a), ("B", pair.b)];
     if let Some((name, _)) = both.into_iter().find(|(_, buffer)| is_empty(buffer)) {
         return vec![format!(
@@ -32,11 +34,20 @@ pub(in crate::diff) fn hints(pair: &Pair) -> Vec<String> {
         hints.extend(lacking(a, b).map(|ids| lacks("B", &ids, "A")));
         hints.extend(lacking(b, a).map(|ids| lacks("A", &ids, "B")));
     }
+    let may_be_miswritten = |name: &str| match reference {
+        Some(Side::A) => name != "A",
+        Some(Side::B) => name != "B",
+        None => true,
+    };
     for (name, buffer, _, other) in named {
-        hints.extend(zero_is_nothing(name, buffer, other));
+        if may_be_miswritten(name) {
+            hints.extend(zero_is_nothing(name, buffer, other));
+        }
     }
     if is_inverted(pair) {
-        let of_integers = named.into_iter().find(|(_, buffer, ..)| has_only_zeros(buffer));
+        let of_integers = named
+            .into_iter()
+            .find(|(name, buffer, ..)| may_be_miswritten(name) && has_only_zeros(buffer));
         hints.push(match of_integers {
             Some((name, ..)) => format!(
                 "B covers exactly what A does not; if {name} is a mask of integers, its 0 is read as an \

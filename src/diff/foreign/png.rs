@@ -2,16 +2,20 @@
 //! names damages without their place.
 
 use super::problem::{Problem, ends_early};
+use crate::common::SizeError;
 use std::io::{BufRead, Read, Seek, SeekFrom};
 
 /// Bytes of the signature before the first chunk.
 const SIGNATURE: u64 = 8;
+/// Bytes in the chunk IHDR.
+const HEADER: u32 = 13;
 /// The most bytes of a palette: 256 colours.
 const LARGEST_PALETTE: u32 = 3 * 256;
 
 /// Walks through the chunks of a file of so many bytes.
 pub(super) fn check(input: &mut (impl BufRead + Seek), file_length: u64) -> Result<(), Problem> {
     let mut at = input.seek(SeekFrom::Start(SIGNATURE))?;
+    let mut found = Found::default();
     while at < file_length {
         let mut head = [0; 8];
         // Length, name and checksum.
@@ -29,31 +33,106 @@ pub(super) fn check(input: &mut (impl BufRead + Seek), file_length: u64) -> Resu
         if u64::from(length) > file_length - at - 12 {
             return Err(Problem::Content(ends_early(file_length)));
         }
-        let checksum = checksum(input, name, length)?;
+        let (checksum, start) = checksum(input, name, length)?;
         let mut stated = [0; 4];
         input.read_exact(&mut stated)?;
         chunk(name, length, at, checksum == u32::from_be_bytes(stated))?;
-        if &name == b"IEND" {
-            return Ok(());
+        match &name {
+            b"IHDR" if length == HEADER && at == SIGNATURE => found.header(start)?,
+            b"PLTE" => found.palette = true,
+            b"IDAT" => found.pixels()?,
+            b"IEND" => return found.end(),
+            _ => {}
         }
         at += 12 + u64::from(length);
     }
     Ok(())
 }
 
-/// The checksum over a chunk's name and content.
-fn checksum(input: &mut (impl BufRead + Seek), name: [u8; 4], length: u32) -> Result<u32, Problem> {
+/// The checksum over a chunk's name and content, and the content's first bytes.
+fn checksum(
+    input: &mut (impl BufRead + Seek),
+    name: [u8; 4],
+    length: u32,
+) -> Result<(u32, [u8; HEADER as usize]), Problem> {
     let mut hasher = crc32fast::Hasher::new();
     hasher.update(&name);
     let mut content = input.by_ref().take(length.into());
+    let (mut start, mut known) = ([0; HEADER as usize], 0);
     loop {
         let bytes = content.fill_buf()?;
         let count = bytes.len();
         if count == 0 {
-            return Ok(hasher.finalize());
+            return Ok((hasher.finalize(), start));
         }
         hasher.update(bytes);
+        let first = count.min(start.len() - known);
+        start[known..known + first].copy_from_slice(&bytes[..first]);
+        known += first;
         content.consume(count);
+    }
+}
+
+/// What was found of a file so far.
+#[derive(Default)]
+struct Found {
+    /// Whether the header was read, and is of a kind that needs a palette.
+    needs_palette: bool,
+    palette: bool,
+    any_pixels: bool,
+}
+
+impl Found {
+    /// Size, bit depth and colour type, as PNG has them (ISO/IEC 15948, 11.2.1).
+    fn header(&mut self, content: [u8; HEADER as usize]) -> Result<(), Problem> {
+        let [a, b, c, d, e, f, g, h, depth, color, ..] = content;
+        let (width, height) = (u32::from_be_bytes([a, b, c, d]), u32::from_be_bytes([e, f, g, h]));
+        if width == 0 || height == 0 {
+            return Err(SizeError::Empty { width, height }.into());
+        }
+        let depths: &[u8] = match color {
+            0 => &[1, 2, 4, 8, 16],
+            2 | 4 | 6 => &[8, 16],
+            3 => &[1, 2, 4, 8],
+            _ => {
+                return Err(Problem::Content(format!(
+                    "the header of the PNG has the colour type {color}, but only 0, 2, 3, 4 and 6 are known; \
+                     save the picture again"
+                )));
+            }
+        };
+        if !depths.contains(&depth) {
+            let known: Vec<String> = depths.iter().map(u8::to_string).collect();
+            return Err(Problem::Content(format!(
+                "the header of the PNG has the bit depth {depth}, but with colour type {color} only {} are \
+                 known; save the picture again",
+                known.join(", ")
+            )));
+        }
+        self.needs_palette = color == 3;
+        Ok(())
+    }
+
+    /// Pixels begin or go on.
+    fn pixels(&mut self) -> Result<(), Problem> {
+        self.any_pixels = true;
+        if self.needs_palette && !self.palette {
+            return Err(Problem::Content(
+                "the PNG has colour type 3, but no palette (no chunk PLTE) before its pixels; save the \
+                 picture again"
+                    .into(),
+            ));
+        }
+        Ok(())
+    }
+
+    fn end(&self) -> Result<(), Problem> {
+        if self.any_pixels {
+            return Ok(());
+        }
+        Err(Problem::Content(
+            "the PNG has no pixels (no chunk IDAT); copy the file or save it again".into(),
+        ))
     }
 }
 

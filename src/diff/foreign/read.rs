@@ -47,7 +47,14 @@ pub enum ReadBufferError {
         problem: String,
     },
     /// It has no pixels, or too many.
-    #[error("{}: {error}", .path.display())]
+    #[error(
+        "{}: {error}; {}",
+        .path.display(),
+        match error {
+            SizeError::Empty { .. } => "save it again",
+            SizeError::TooManySamples { .. } => "compare parts of it",
+        }
+    )]
     Size {
         /// The file.
         path: PathBuf,

@@ -229,6 +229,42 @@ fn damages_of_a_png_have_their_place() {
 }
 
 #[test]
+fn what_a_png_lacks_is_named() {
+    /// A header of one pixel.
+    fn header(width: u8, depth: u8, color: u8) -> [u8; 13] {
+        [0, 0, 0, width, 0, 0, 0, 1, depth, color, 0, 0, 0]
+    }
+    let pixels = [0x78, 0x01, 0x01, 2, 0, 0xfd, 0xff, 0, 1, 0, 3, 0, 2];
+    let said = |header: [u8; 13], pixels: &[(&[u8; 4], &[u8])]| {
+        let chunks = [&[(b"IHDR", &header[..])], pixels, &[(b"IEND", &[][..])]].concat();
+        read_bytes(&png(&chunks), None).map(|_| ()).unwrap_err()
+    };
+    let some: &[(&[u8; 4], &[u8])] = &[(b"IDAT", &pixels)];
+    let cases = [
+        (said(header(1, 8, 3), some), "colour type 3, but no palette (no chunk PLTE) before its"),
+        (
+            said(header(0, 8, 0), some),
+            "the image is 0x1; both sides need at least 1 pixel; save it",
+        ),
+        (said(header(1, 7, 2), some), "bit depth 7, but with colour type 2 only 8, 16 are known"),
+        (said(header(1, 8, 5), some), "colour type 5, but only 0, 2, 3, 4 and 6 are known"),
+        (said(header(1, 8, 0), &[]), "has no pixels (no chunk IDAT); copy the file or save it"),
+    ];
+    for (problem, said) in cases {
+        assert!(problem.contains(said), "{problem}");
+    }
+}
+
+#[test]
+fn a_picture_that_is_too_large_has_a_remedy() {
+    let wide = [&[0, 1, 0, 1][..], &[0, 0, 0, 1, 8, 0, 0, 0, 0]].concat();
+    let pixels = [0x78, 0x01, 0x01, 2, 0, 0xfd, 0xff, 0, 1, 0, 3, 0, 2];
+    let file = png(&[(b"IHDR", &wide), (b"IDAT", &pixels), (b"IEND", &[])]);
+    let problem = read_bytes(&file, None).unwrap_err();
+    assert!(problem.contains("is 65537x1 with") && problem.ends_with("; compare parts of it"));
+}
+
+#[test]
 fn few_bytes_claim_no_memory() {
     let problem = read_bytes(&palette_png([32_768, 32_768], &[0; 6]), None).unwrap_err();
     let said =
