@@ -1,4 +1,4 @@
-//! Which pixels a triangle in raster coordinates covers: the engineer's plain question.
+//! Which pixels a triangle in raster coordinates covers.
 //!
 //! Raster coordinates count in pixels, `x` to the right and `y` down from the image's top left
 //! corner, so that the centre of pixel `(i, j)` is `x = j + ½`, `y = i + ½`. A pixel is covered if
@@ -58,7 +58,7 @@ pub enum Place {
     Inside,
 }
 
-/// Why nobody can say what a triangle covers.
+/// Why it cannot be said what a triangle covers.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CoverError {
     /// A coordinate is NaN or infinite.

@@ -1,17 +1,44 @@
 //! One scene, rendered in object order (rasterization) and in image order (ray tracing), and the
 //! proof that both see the same.
 //!
-//! [`rasterize`] walks the objects, [`raytrace`] the pixels; both know only [`common`], which says
-//! what a scene is and what is true of one sample and one primitive. This crate knows both:
-//! [`orders`] runs and measures them, [`diff`] compares what they saw, [`picture`] and [`figure`]
-//! show it, [`report`] writes it down for programs, and [`scenes`] finds the scenes. [`cover`]
-//! answers for one triangle on a raster, [`pixel`] for one pixel of a scene, [`opengl`] gives a
-//! camera's matrices, [`verify`] holds samples of a picture against the textbook, and [`vectors`] is a
-//! conformance set for other renderers.
+//! [`rasterize`] walks the objects, [`raytrace`] the pixels. Both know only [`common`], which says
+//! what a scene is and what is true of one sample and one primitive. [`formats`] reads scenes and meshes. This
+//! crate knows all of them.
+//!
+//! # A tour
+//!
+//! A scene and a camera are plain data; a [`View`](common::View) is one seen from the other. [`orders`] renders a
+//! view in either order, counts the work and measures the time. [`diff`] compares what both saw.
+//!
+//! ```
+//! use bothways::common::{Camera, CameraDescription, View};
+//! use bothways::orders::{self, Method, Order, RenderOptions};
+//! use bothways::picture::{mask, picture};
+//! use bothways::{diff, scenes};
+//!
+//! let loaded = scenes::load("canonical")?;
+//! let camera = Camera::new(CameraDescription { image: [48, 48], ..loaded.camera })?;
+//! let view = View::new(&loaded.scene, &camera);
+//!
+//! let options = RenderOptions::default();
+//! let object_order = orders::render(Order::Object, Method::Fast, &view, &options)?;
+//! let image_order = orders::render(Order::Image, Method::Fast, &view, &options)?;
+//!
+//! let comparison = diff::compare(&object_order.frame, &image_order.frame);
+//! assert!(comparison.matches(), "{}", comparison.verdict());
+//! assert_eq!(mask(&object_order.frame), mask(&image_order.frame));
+//!
+//! let difference = comparison.classes().picture(&picture(&object_order.frame));
+//! assert_eq!(difference.dimensions(), (48, 48));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! The renderers can be called directly, too. Each has a `textbook`, the lecture's loop on one page, and a `fast` one
+//! that gives the same answers:
 //!
 //! ```
 //! use bothways::common::{Camera, Object, Options, Scene, Shape, Sphere, View, glam::Vec3};
-//! use bothways::{diff, rasterize, raytrace};
+//! use bothways::{rasterize, raytrace};
 //!
 //! let ball = Shape::Sphere(Sphere { center: Vec3::new(0.0, 0.0, -3.0), radius: 1.0 });
 //! let scene = Scene::new(vec![Object::from(ball)])?;
@@ -20,11 +47,22 @@
 //!
 //! let object_order = rasterize::textbook::render(&view, &Options::default());
 //! let image_order = raytrace::textbook::render(&view, &Options::default());
-//!
-//! let comparison = diff::compare(&object_order, &image_order);
-//! assert!(comparison.matches(), "{}", comparison.verdict());
+//! assert_eq!(object_order.ids(), image_order.ids());
 //! # Ok::<(), bothways::common::SceneError>(())
 //! ```
+//!
+//! # Where to find what
+//!
+//! - **Scenes**: [`scenes`] finds the built-in ones and loads files; [`formats`] reads OBJ, PLY and TOML and makes
+//!   meshes from formulas.
+//! - **Rendering**: [`orders`]; [`progress`] tells how far it is; [`verify`] computes samples of a picture by the
+//!   textbook as well.
+//! - **Comparing**: [`diff`], for frames and for files of any origin ([`diff::foreign`]); [`report`] writes the
+//!   result for programs.
+//! - **Showing**: [`picture`] and [`figure`]; [`wording`] writes numbers for people.
+//! - **Single questions**: [`cover`] answers for one triangle on a raster, [`pixel`] for one pixel of a scene,
+//!   [`opengl`] gives the matrices of a camera.
+//! - **Testing other renderers**: [`vectors`] is a conformance set.
 
 pub use bothways_common as common;
 pub use bothways_formats as formats;

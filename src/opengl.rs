@@ -1,13 +1,13 @@
-//! A camera as OpenGL's matrices, so that somebody can draw the same picture there.
+//! A camera as OpenGL's matrices, to draw the same picture with OpenGL.
 //!
 //! Matrices are rows of numbers, to be multiplied with columns: `clip = projection · view · (x, y, z,
 //! 1)`. With `glViewport(0, 0, W, H)` the centre of pixel `(i, j)` is OpenGL's window position `(j +
 //! ½, H − i − ½)`: its rows count from the bottom.
 //!
-//! Our rays have no near and no far plane, OpenGL's depth needs bounds. A perspective projection here
-//! has its far plane at infinity, and a near plane at a small part of `d`: what is nearer to the eye
-//! is cut off in OpenGL alone. A parallel one reaches from the eye to behind everything in the scene
-//! that has an end.
+//! Our rays have no near plane and no far plane, but OpenGL's depth needs bounds. A perspective projection here
+//! has its far plane at infinity, and a near plane at a small fraction of `d`: OpenGL alone cuts off
+//! what is nearer to the eye. A parallel projection reaches from the eye to behind everything in the
+//! scene but planes.
 
 use crate::common::glam::DVec3;
 use crate::common::{Camera, Primitive, Projection, View};

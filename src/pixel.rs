@@ -1,7 +1,7 @@
 //! Everything about one pixel: its viewing rays, what covers its samples, and what each order saw.
 //!
-//! What is true comes from the view's own judge, what was seen from the renderers' own loops,
-//! watched at this pixel alone: what is said here cannot disagree with the picture.
+//! The exact judge of the view says what is true. The renderers' own loops, observed at this pixel alone, say what
+//! was seen: the report cannot disagree with the picture.
 
 use crate::common::exact::{EdgeSigns, EdgeValues};
 use crate::common::observe::Question;
@@ -345,7 +345,7 @@ mod tests {
     use crate::common::{Camera, Projection};
     use crate::scenes;
 
-    /// What is told of a pixel is told of the picture, and not of something that was made for it.
+    /// A report of a pixel is true of the whole picture, not of a picture that was made for it.
     #[test]
     fn a_pixel_alone_is_answered_as_in_the_whole_picture() {
         for (name, projection) in [

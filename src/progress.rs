@@ -1,8 +1,8 @@
 //! How far a rendering has come, told while it runs.
 //!
-//! The fast renderers are told of frame by frame, and chunk by chunk where a mesh is streamed. The
-//! textbooks, which can take minutes for one frame, are told of step by step of their outer loop: by
-//! an observer, so that their page stays as it is and nothing is paid for where nobody asks.
+//! The fast renderers report frame by frame, and chunk by chunk where a mesh is streamed. The textbooks, which
+//! can take minutes for one frame, report each step of their outer loop. An observer does that: the page of a
+//! textbook stays as it is, and costs nothing where there is no listener.
 
 use crate::common::observe::{Events, Observer};
 use crate::common::raster::Region;
@@ -10,7 +10,7 @@ use crate::common::raster::Sample;
 use crate::orders::order::Order;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Somebody who is told of progress, from any thread; never twice of the same step.
+/// A function that is told of progress, from any thread; never twice of the same step.
 pub type Listener<'a> = &'a (dyn Fn(Progress) + Sync);
 
 /// How far one order has come.
@@ -58,8 +58,8 @@ impl<'a> Steps<'a> {
         Steps { order, listener, within_frame, frames, done }
     }
 
-    /// An observer that counts the steps of a frame; `None` where frames count as a whole, or nobody
-    /// listens.
+    /// An observer that counts the steps of a frame; `None` where frames count as a whole, or there is no
+    /// listener.
     pub(crate) fn watch(&self) -> Option<Watch<'a>> {
         (self.listener.is_some() && self.within_frame.is_some())
             .then_some(Watch { steps: *self, row: None })
@@ -83,7 +83,7 @@ impl<'a> Steps<'a> {
 
     fn tell(&self, stage: Stage, done: u64) {
         if let Some(listener) = self.listener {
-            // As often as that nobody renders; but it may be asked for.
+            // No run draws so many frames, but `--repeat` may ask for them.
             let total = self.frames.saturating_mul(self.within_frame.unwrap_or(1));
             listener(Progress { order: self.order, stage, done, total });
         }

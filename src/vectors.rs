@@ -1,4 +1,4 @@
-//! A conformance set for other people's renderers: small scenes with the one right answer to each.
+//! A conformance set for other renderers: small scenes with the one right answer to each.
 //!
 //! Every [`Vector`] makes one point, in triangles and one camera. [`all`] lists them, [`expected`]
 //! says what is seen, and the rest writes it down for programs in any language: [`raster`] in
@@ -104,7 +104,7 @@ impl Vector {
     }
 }
 
-/// The orders do not see the same: there is no answer to give away.
+/// The orders do not see the same, so the right answer is not known.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "the scene {scene:?}: {method} object order and image order {verdict}; nothing is written, \

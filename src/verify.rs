@@ -1,9 +1,9 @@
-//! Some samples of a picture answered by the textbook as well: a proof that costs little where the whole picture by the
-//! textbook would take days.
+//! Some samples of a picture computed by the textbook as well: a cheap proof where the whole picture by the textbook
+//! would take days.
 //!
-//! The fast renderers were held against the textbooks on many scenes, but perhaps not on this one. Where they might be
-//! wrong is where something is decided closely, so that samples are chosen there first: where the orders disagree, at
-//! exact ties, at silhouettes, at edges between primitives; and then anywhere.
+//! The fast renderers were tested against the textbooks on many scenes, but perhaps not on this one. They are most
+//! likely wrong where decisions are close. So samples are chosen there first: where the orders disagree, at exact ties,
+//! at silhouettes, at edges between primitives; and then anywhere.
 
 mod choice;
 

@@ -17,7 +17,7 @@ pub fn grouped(number: u64) -> String {
     grouped
 }
 
-/// A number of things; one of them loses the plural's s.
+/// A number of things; for one thing, without the plural's s.
 pub fn count(number: u64, things: &str) -> String {
     let things = if number == 1 { things.trim_end_matches('s') } else { things };
     format!("{} {things}", grouped(number))

@@ -46,11 +46,11 @@ impl Failure {
     pub(super) fn print(&self) {
         let red = anstyle::AnsiColor::Red.on_default().bold();
         let text = match self {
-            // Whatever a message quotes, no terminal shall obey it.
+            // A terminal must not obey anything that a message quotes.
             Failure::Plain(message) => format!("{red}error{red:#}: {}\n", visible(message)),
             Failure::InSceneFile(located) => located.drawn(),
         };
-        // If nobody can be told, the exit code still says it.
+        // If stderr is closed, the exit code still says it.
         let _ = anstream::stderr().write_all(text.as_bytes());
     }
 }

@@ -67,7 +67,7 @@ fn seconds_of_all(time: Duration, done: u64, total: u64) -> f64 {
     time.as_secs_f64() * total as f64 / done as f64
 }
 
-/// What a person is told who may have to wait so long.
+/// What is said of a run that takes so long.
 pub(super) fn advice(whole: Duration, args: &RenderArgs) -> String {
     let method = &args.method;
     let (why, first) = match (method.method, method.repeat) {

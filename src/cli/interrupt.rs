@@ -1,4 +1,4 @@
-//! Ctrl-C: whatever is half-written goes, and what was there before stays.
+//! Ctrl-C: half-written files are removed, and earlier files stay.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -23,7 +23,7 @@ struct State {
     unfinished: Vec<Unfinished>,
     /// Everything is written, and where it belongs: nothing can be taken back any more.
     placed: bool,
-    /// Somebody has pressed Ctrl-C since.
+    /// Ctrl-C was pressed since.
     asked: bool,
 }
 
@@ -65,7 +65,7 @@ pub(super) fn clean_up() {
 
 impl State {
     /// Whether a run is so near its end that it is let go on: all files are in place, and the exit code
-    /// tells what they hold. Who presses Ctrl-C again means it.
+    /// tells what they hold. A second Ctrl-C ends it.
     fn is_left_to_end(&mut self) -> bool {
         self.placed && !mem::replace(&mut self.asked, true)
     }

@@ -1,4 +1,4 @@
-//! What a run takes of memory, held against what there is, before it is too late to say so.
+//! The memory that a run takes, compared with what there is before the work begins.
 
 use super::args::RenderArgs;
 use super::failure::Failure;
@@ -63,7 +63,7 @@ impl Need {
     /// Also where memory has no end, the message has one.
     fn refusal(&self, most: Option<u64>) -> String {
         let (samples, need) = (count(self.samples, "samples"), gibibytes(self.bytes));
-        // Who has less than there is was given a limit (`ulimit -v`).
+        // A program that may have less than there is runs under a limit (`ulimit -v`).
         let than = match most.filter(|&most| self.bytes > most) {
             Some(most) => format!("than there is ({})", gibibytes(most)),
             None => "than this program may have".into(),
@@ -104,7 +104,7 @@ fn gibibytes(bytes: u64) -> String {
 fn can_be_reserved(bytes: u64) -> bool {
     let mut all = Vec::<u8>::new();
     let fits = usize::try_from(bytes).is_ok_and(|bytes| all.try_reserve_exact(bytes).is_ok());
-    // Used, lest the question be optimised away.
+    // Used, so that the compiler does not remove the question.
     std::hint::black_box(&mut all);
     fits
 }

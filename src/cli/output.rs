@@ -1,9 +1,8 @@
 //! The output folder: all files of a run appear together at its end, or none of them does.
 //!
-//! A folder that is new appears by one rename. In one that is there already (somebody may be in it, and
-//! other files stay) file by file is renamed, by one run at a time; the last of them, the report, is gone
-//! before the first is touched and comes when all are in place. So it is there only beside its own files,
-//! wherever a run is stopped.
+//! A new folder appears by one rename. In a folder that exists (a shell may be in it, and other files stay),
+//! one run at a time renames file by file. The last file, the report, is removed before the first is touched,
+//! and written when all are in place: wherever a run is stopped, a report lies beside its own files only.
 
 mod file;
 mod hidden;
@@ -40,7 +39,7 @@ const NAMES: [&str; 13] = [
     "report.json",
 ];
 
-/// Another run needs a moment to put its files into the same folder, never so long.
+/// Another run needs a moment to put its files into the same folder, but not so long.
 const PATIENCE: Duration = Duration::from_secs(30);
 
 /// Files that are written, but not yet where the user looks for them.
@@ -197,7 +196,7 @@ impl Staging {
         held.placed(self.hidden.as_ref().expect(HIDDEN).guard());
     }
 
-    /// A folder of a file's name is somebody else's: it is not replaced.
+    /// A folder that has a file's name is not of our making: it is not replaced.
     fn check_names(&self) -> Result<(), Failure> {
         let mut places = self.names.iter().map(|name| self.target.join(name));
         let taken = places.find(|place| place.is_dir());

@@ -13,7 +13,7 @@ const LONG: Duration = Duration::from_secs(60);
 
 /// Counts the steps.
 pub(super) struct Patience<'a> {
-    /// `None` if nobody wants to be told.
+    /// `None` with `--quiet`.
     bar: Option<&'a Bar<'a>>,
     total: u64,
     done: AtomicU64,

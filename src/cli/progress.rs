@@ -1,5 +1,5 @@
-//! The bar that shows, on a terminal, how far a long rendering has come and how long it still takes; and,
-//! wherever somebody may read it, the line that says that it will be long.
+//! The bar that shows, on a terminal, how far a long rendering has come and how long it still takes; and the
+//! line that says that it will be long, on a terminal or not.
 
 use super::args::RenderArgs;
 use super::forecast::{Forecast, advice, words};
@@ -14,7 +14,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-/// Who waits for less is not told.
+/// A run that is shorter shows no bar.
 const PATIENCE: Duration = Duration::from_millis(400);
 /// How often the time is counted on, whether or not a step is done.
 const TICK: Duration = Duration::from_millis(200);
@@ -33,10 +33,10 @@ pub(super) struct Bar<'a> {
 }
 
 impl Bar<'_> {
-    /// A bar that appears after a moment if stderr is a terminal that can erase it; `None` if nobody wants to
-    /// be told.
+    /// A bar that appears after a moment if stderr is a terminal that can erase it; `None` with
+    /// `--quiet`.
     ///
-    /// What goes to stdout does not matter: `bothways --json > report.json` has somebody waiting, too.
+    /// Where stdout goes does not matter: a person waits for `bothways --json > report.json`, too.
     pub(super) fn of_run(args: &RenderArgs) -> Option<Bar<'_>> {
         let erases = env::var_os("TERM").is_none_or(|terminal| terminal != "dumb");
         (!args.output.quiet).then(|| Bar::new(args, erases && stderr().is_terminal()))

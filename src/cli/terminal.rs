@@ -11,7 +11,7 @@ use std::io::{self, BufWriter, ErrorKind, IsTerminal, Write};
 ///
 /// A reader that has seen enough (`bothways | head`) is no failure.
 pub(super) fn print(text: &str) -> Result<(), Failure> {
-    // A file keeps every byte of the result; a terminal shall obey none of it but our colours.
+    // A file keeps every byte of the result; a terminal must obey none of it but our colours.
     let text = if io::stdout().is_terminal() { tame(text) } else { Cow::Borrowed(text) };
     let mut stdout = anstream::stdout().lock();
     printed(stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()))
@@ -70,12 +70,12 @@ fn color_sequence(text: &str) -> Option<usize> {
 pub(super) fn warn(warnings: &[String]) {
     let yellow = anstyle::AnsiColor::Yellow.on_default().bold();
     for warning in warnings {
-        // If nobody can be told, the result is the same.
+        // If stderr is closed, the result is the same.
         let _ = writeln!(anstream::stderr(), "{yellow}warning{yellow:#}: {}", visible(warning));
     }
 }
 
-/// How many characters fit beside each other: 80 where nobody can tell.
+/// How many characters fit beside each other: 80 where that is not known.
 pub(super) fn width() -> usize {
     terminal_size::terminal_size().map_or(80, |(width, _)| width.0.into())
 }

@@ -46,7 +46,7 @@ fn late(word: &str) -> String {
     format!("'{word}' is a subcommand, so it comes first: bothways {word}, then all else")
 }
 
-/// The subcommand that may have been meant by a word that can be no file and is no scene.
+/// The subcommand that a word may mean which is no file and no scene.
 fn meant(word: &str) -> Option<String> {
     let is_scene = BUILT_IN.iter().any(|scene| scene.name == word);
     if is_scene || word.contains(['.', '/', '\\']) {

@@ -127,7 +127,7 @@ impl<'a> Pair<'a> {
     /// Compares two samples.
     fn look_at(&self, a: usize, b: usize, look: &mut Look) {
         let (Some(covered_a), Some(covered_b)) = (self.a.covered(a), self.b.covered(b)) else {
-            // Colours alone: a pixel that agrees is shown, whatever it is.
+            // Colours alone: a pixel that agrees is drawn as alike.
             look.both += 1;
             return;
         };

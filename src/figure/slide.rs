@@ -140,7 +140,7 @@ impl Slide<'_> {
 
 /// A text of any length and in any letters, as far as it can be drawn on a line.
 fn line(text: &str) -> String {
-    // More than fits, and so few that nobody waits for an endless name.
+    // More than fits, and few enough that an endless name takes no time.
     const MOST: usize = 400;
     drawable(&text.chars().take(MOST).collect::<String>(), has)
 }

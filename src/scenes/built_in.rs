@@ -11,7 +11,7 @@ pub struct BuiltIn {
     pub toml: &'static str,
 }
 
-/// The name of the scene that is rendered when nobody names one.
+/// The name of the scene that is rendered when none is named.
 pub const DEFAULT: &str = "lecture";
 
 /// All built-in scenes, the default first.

@@ -17,7 +17,7 @@ shininess = 25
 ";
 
 /// Over the left shoulder as the standard view sees it, from the right, and a little from behind, so that nothing is
-/// black for somebody who walks around.
+/// black from any other side either.
 const LIGHTS: &str = "
 [[light]]
 directional = [0.3, -1.15, -0.8]

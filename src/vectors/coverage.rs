@@ -165,7 +165,7 @@ fn strip() -> Vector {
         .done()
 }
 
-/// A thousandth of a pixel, or so.
+/// About a thousandth of a pixel.
 const THIN: f32 = 1.0 / 1024.0;
 /// A hair: what is left of a pixel after sixteen halvings.
 const HAIR: f32 = 1.0 / 65_536.0;

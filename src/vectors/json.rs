@@ -122,7 +122,7 @@ fn depth_range(camera: &Camera, frame: &Frame) -> [f64; 2] {
     if most > 0.0 { [least / 2.0, most * 2.0] } else { [camera.distance(); 2] }
 }
 
-/// A row of a matrix; nobody needs to know of a negative zero.
+/// A row of a matrix, with 0 for −0.
 fn plain(row: [f64; 4]) -> [f64; 4] {
     row.map(|number| number + 0.0)
 }

@@ -1,4 +1,4 @@
-//! The set's `README.md`.
+//! The `README.md` of the set.
 
 use super::{Entry, Group};
 use std::fmt::Write;

@@ -134,7 +134,7 @@ fn is_stdout(_file: &Metadata) -> bool {
     false
 }
 
-/// Writes to what cannot be replaced. Whoever reads it may stop when they have seen enough.
+/// Writes to what cannot be replaced. Its reader may stop early.
 fn into_stream(
     stream: impl Write + 'static,
     content: impl FnOnce(&mut Out) -> io::Result<()>,
@@ -172,7 +172,7 @@ fn replace_within(
     let complete = hidden.path().join("file");
     let file = File::create(&complete)?;
     if let Ok(old) = fs::metadata(path) {
-        // Who may read the old one may read the new one, and nobody else.
+        // The new file gets the permissions of the old one.
         file.set_permissions(old.permissions())?;
     }
     fill(file, content)?;

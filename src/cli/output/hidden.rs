@@ -68,7 +68,7 @@ fn locked(folder: &Path) -> Option<File> {
 
 /// Removes the hidden folders of runs that no longer live.
 pub(super) fn remove_dead(folder: &Path) {
-    // What cannot be read or removed stays: it is in nobody's way.
+    // What cannot be read or removed stays: it does no harm.
     let Ok(entries) = fs::read_dir(folder) else { return };
     for entry in entries.flatten() {
         let ours = entry.file_name().to_string_lossy().starts_with(PREFIX);
@@ -92,7 +92,7 @@ fn is_old(folder: &Path) -> bool {
         && changed.is_ok_and(|changed| changed.elapsed().is_ok_and(|age| age > MOMENT))
 }
 
-/// The lock of a folder that is certainly ours and that nobody holds any more.
+/// The lock of a folder that is certainly ours and that no run holds any more.
 fn lock_of_dead(folder: &Path) -> Option<File> {
     let place = folder.join(LOCK);
     let is_own = |path: &Path| fs::symlink_metadata(path).ok();

@@ -1,7 +1,7 @@
-//! What a difference as a whole looks like: mistakes that every renderer makes once.
+//! What a difference as a whole looks like: common mistakes of renderers.
 //!
 //! A hint is given only if its cause alone explains every difference. Where several do, all are
-//! given: nobody can tell a symmetric picture that is upside down from one that is moved.
+//! given: a symmetric picture that is upside down may look like one that is moved.
 
 use crate::diff::aspect::Side;
 use crate::diff::buffer::{Buffer, Content};

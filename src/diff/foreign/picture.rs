@@ -110,7 +110,7 @@ fn problem(error: ImageError, format: ImageFormat, length: u64) -> Problem {
         ImageError::Unsupported(_) => {
             format!("this kind of {name} is not read; save it as a PNG of 8 or 16 bits a channel")
         }
-        // A PNG whose chunks are sound has damaged pixels, whatever its decoder calls them.
+        // A PNG with sound chunks has damaged pixels, whatever words its decoder uses.
         ImageError::Decoding(error) if format != ImageFormat::Png => {
             let said = std::error::Error::source(&error).map(ToString::to_string);
             let said = said.unwrap_or_else(|| "no reason given".into());

@@ -139,7 +139,7 @@ impl Found {
 /// Says what is wrong with a chunk.
 fn chunk(name: [u8; 4], length: u32, at: u64, is_intact: bool) -> Result<(), String> {
     let shown = String::from_utf8_lossy(&name);
-    // A small first letter: nobody needs this chunk for the pixels.
+    // A small first letter: the pixels do not need this chunk.
     if !is_intact && name[0].is_ascii_uppercase() {
         return Err(format!(
             "the chunk {shown} at byte {at} of the PNG has a wrong checksum, so the file is damaged; \

@@ -383,7 +383,7 @@ fn mask(size: [u32; 2], drawn: &str) -> Buffer<'static> {
 
 fn hints(a: &Buffer, b: &Buffer) -> Vec<String> {
     let hints = compare(a, b).unwrap().hints;
-    // Nobody can know which file comes first.
+    // Which file comes first is not known.
     assert_eq!(hints.len(), compare(b, a).unwrap().hints.len(), "{hints:?}");
     hints
 }
