@@ -98,7 +98,7 @@ pub fn cover(triangle: [Vec2; 3], image: [u32; 2]) -> Result<Cover, CoverError> 
     if let Some(corner) = triangle.iter().position(|corner| !corner.is_finite()) {
         return Err(CoverError::NotFinite { corner: corner + 1, value: triangle[corner] });
     }
-    let raster = Raster::new(triangle, image)?;
+    let raster = RasterView::new(triangle, image)?;
     let [columns, rows] = bounds(triangle, image);
     if raster.facing == Sign::Zero || columns.is_empty() || rows.is_empty() {
         return Ok(Cover { triangle, image, facing: raster.facing, rows: Vec::new() });
@@ -163,15 +163,15 @@ impl Row {
 }
 
 /// The triangle before the camera whose axes are the raster's.
-struct Raster {
+struct RasterView {
     camera: Camera,
     judge: Judge,
     corners: [DVec3; 3],
     facing: Sign,
 }
 
-impl Raster {
-    fn new(triangle: [Vec2; 3], image: [u32; 2]) -> Result<Raster, CameraError> {
+impl RasterView {
+    fn new(triangle: [Vec2; 3], image: [u32; 2]) -> Result<RasterView, CameraError> {
         let orientation = Orientation::Frame { u: Vec3::X, v: Vec3::NEG_Y, w: Vec3::NEG_Z };
         let camera = Camera::new(CameraDescription {
             projection: Projection::Parallel,
@@ -185,7 +185,7 @@ impl Raster {
         // Relative to the eye at (0, 0, −1), as a view would offset them.
         let corners = triangle.map(|corner| corner.extend(0.0).as_dvec3() - DVec3::NEG_Z);
         let facing = judge.facing(&corners, &camera.ray_through(0.0, 0.0));
-        Ok(Raster { camera, judge, corners, facing })
+        Ok(RasterView { camera, judge, corners, facing })
     }
 
     /// What the judge says of the triangle's edges at the centre of pixel `(i, j)`.

@@ -9,10 +9,10 @@
 
 mod aspect;
 mod buffer;
+mod buffer_pair;
 mod classes;
 mod compare;
 pub mod foreign;
-mod look;
 mod orders;
 pub mod pairs;
 mod tolerance;

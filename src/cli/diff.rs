@@ -93,8 +93,8 @@ pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
         staging.write_rgb(NAMES[0], &enlarged(comparison.picture()))?;
         staging.commit()?;
     }
-    let told = Told { files: [(&args.a, &a), (&args.b, &b)], comparison: &comparison };
-    let text = if args.json { told.json()? } else { told.text(args.folder.as_deref()) };
+    let report = FileReport { files: [(&args.a, &a), (&args.b, &b)], comparison: &comparison };
+    let text = if args.json { report.json()? } else { report.text(args.folder.as_deref()) };
     terminal::print(&text)?;
     Ok(ExitCode::from(u8::from(!comparison.equal)))
 }
@@ -113,7 +113,7 @@ fn color(text: &str) -> Result<[u8; 3], String> {
 }
 
 /// What there is to tell.
-struct Told<'a> {
+struct FileReport<'a> {
     files: [(&'a PathBuf, &'a Buffer<'a>); 2],
     comparison: &'a BufferComparison,
 }
@@ -134,7 +134,7 @@ struct JsonFile {
     samples: u32,
 }
 
-impl Told<'_> {
+impl FileReport<'_> {
     fn json(&self) -> Result<String, Failure> {
         let [a, b] = self.files.map(|(path, buffer)| JsonFile {
             file: path.display().to_string(),

@@ -155,14 +155,14 @@ impl Fields {
 
 /// A control group that this program is in, of version 1 or 2.
 #[derive(Debug)]
-struct Group {
+struct ControlGroup {
     folder: PathBuf,
     version: usize,
 }
 
 /// All groups that hold this program, from its own to the root: each may have a limit. In a container they
 /// may be seen as the root alone.
-fn groups(root: &Path) -> Vec<Group> {
+fn groups(root: &Path) -> Vec<ControlGroup> {
     let list = fs::read_to_string(root.join("proc/self/cgroup")).unwrap_or_default();
     let mut groups = Vec::new();
     for line in list.lines() {
@@ -177,12 +177,12 @@ fn groups(root: &Path) -> Vec<Group> {
         };
         let path = Path::new(path.trim_start_matches('/'));
         let folders = path.ancestors().map(|path| root.join(mounted).join(path));
-        groups.extend(folders.map(|folder| Group { folder, version }));
+        groups.extend(folders.map(|folder| ControlGroup { folder, version }));
     }
     groups
 }
 
-impl Group {
+impl ControlGroup {
     /// What a file says, which has one name in version 1 and another in version 2; `max` is no number.
     fn number(&self, names: [&str; 2]) -> Option<u64> {
         let text = fs::read_to_string(self.folder.join(names[self.version - 1])).ok()?;

@@ -1,8 +1,8 @@
 //! What two buffers have in common, and where they differ.
 
 use super::aspect::{Aspect, Unit};
+use super::buffer_pair::{BufferPair, PixelDifference};
 use super::classes::{Class, Classes, pixels};
-use super::look::{Look, Pair};
 use super::tolerance::{COLOR_TOLERANCE, DEPTH_TOLERANCE};
 use image::{Rgb, RgbImage};
 use serde::Serialize;
@@ -134,8 +134,8 @@ pub struct BufferColor {
 /// # Errors
 ///
 /// If they differ in size, or have nothing in common.
-pub(super) fn compare(pair: &Pair) -> Result<BufferComparison, Incomparable> {
-    let &Pair { a, b, .. } = pair;
+pub(super) fn compare(pair: &BufferPair) -> Result<BufferComparison, Incomparable> {
+    let &BufferPair { a, b, .. } = pair;
     if a.size() != b.size() {
         return Err(Incomparable::Size { a: a.size(), b: b.size() });
     }
@@ -149,7 +149,7 @@ pub(super) fn compare(pair: &Pair) -> Result<BufferComparison, Incomparable> {
     let mut classes = Vec::with_capacity(width * height);
     let [top, left] = a.origin();
     for pixel @ [i, j] in pixels(a.size()) {
-        classes.push(sums.add([top + i, left + j], &pair.look(pixel, pixel)));
+        classes.push(sums.add([top + i, left + j], &pair.compare_pixels(pixel, pixel)));
     }
     let has = |aspect| compared.contains(&aspect);
     let coverage = has(Aspect::Coverage).then(|| sums.coverage(pair.unit()));
@@ -208,22 +208,22 @@ struct Sums {
 }
 
 impl Sums {
-    fn add(&mut self, pixel: [u32; 2], look: &Look) -> Class {
-        self.only_a += look.only_a;
-        self.only_b += look.only_b;
-        self.both += look.both;
-        self.ids.differing_samples += look.other_ids;
-        self.ids.differing_pixels += u64::from(look.other_ids > 0);
-        self.depth.differing_pixels += u64::from(look.depth > DEPTH_TOLERANCE);
-        if look.depth > self.depth.max_relative_difference {
-            self.depth.max_relative_difference = look.depth;
-            (self.depth.at, self.depth.t) = (Some(pixel), Some(look.t));
+    fn add(&mut self, pixel: [u32; 2], found: &PixelDifference) -> Class {
+        self.only_a += found.only_a;
+        self.only_b += found.only_b;
+        self.both += found.both;
+        self.ids.differing_samples += found.other_ids;
+        self.ids.differing_pixels += u64::from(found.other_ids > 0);
+        self.depth.differing_pixels += u64::from(found.depth > DEPTH_TOLERANCE);
+        if found.depth > self.depth.max_relative_difference {
+            self.depth.max_relative_difference = found.depth;
+            (self.depth.at, self.depth.t) = (Some(pixel), Some(found.t));
         }
-        self.color.differing_pixels += u64::from(look.color > f32::from(COLOR_TOLERANCE));
-        if look.color > self.color.max_difference {
-            (self.color.max_difference, self.color.at) = (look.color, Some(pixel));
+        self.color.differing_pixels += u64::from(found.color > f32::from(COLOR_TOLERANCE));
+        if found.color > self.color.max_difference {
+            (self.color.max_difference, self.color.at) = (found.color, Some(pixel));
         }
-        let class = look.class();
+        let class = found.class();
         if class.differs() {
             self.differing_pixels += 1;
             let [low, high] = self.corners.unwrap_or([pixel; 2]);

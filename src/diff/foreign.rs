@@ -28,7 +28,7 @@ pub use super::compare::{
 };
 pub use read::{ReadBufferError, read, read_from};
 
-use super::look::{Decides, Pair};
+use super::buffer_pair::{BufferPair, Decides};
 
 /// Compares whatever both buffers tell, and looks for causes of the difference.
 ///
@@ -49,7 +49,7 @@ pub fn compare_with_reference(
     b: &Buffer,
     reference: Option<Side>,
 ) -> Result<BufferComparison, Incomparable> {
-    let pair = Pair::new(a, b, Decides::Everything);
+    let pair = BufferPair::new(a, b, Decides::Everything);
     let mut comparison = super::compare::compare(&pair)?;
     comparison.light = a.light().or_else(|| b.light());
     if !comparison.equal {

@@ -1,9 +1,9 @@
 //! Two frames of one view: do both orders see the same?
 
 use super::buffer::{Buffer, bytes};
+use super::buffer_pair::{BufferPair, Decides};
 use super::classes::Classes;
 use super::compare::{self, BufferComparison};
-use super::look::{Decides, Pair};
 use crate::common::Frame;
 use crate::picture::picture;
 use crate::wording::{count, grouped};
@@ -96,7 +96,7 @@ pub fn compare_shown(
     assert_eq!(a, b, "the frames show different views");
     let object_order = Buffer::of_frame(object_order, by_object);
     let image_order = Buffer::of_frame(image_order, by_image);
-    let pair = Pair::new(&object_order, &image_order, Decides::Visibility);
+    let pair = BufferPair::new(&object_order, &image_order, Decides::Visibility);
     Comparison::new(compare::compare(&pair).expect("frames of one view can be compared"))
 }
 

@@ -44,9 +44,9 @@ pub(super) fn measure<D: Drawing>(
         drawing.shade();
         return Ok((drawing.into_frame(), work, None));
     }
-    let run = |part| match part {
-        Part::Visibility => drawing.draw(&mut (), steps),
-        Part::Shading => {
+    let run = |phase| match phase {
+        Phase::Visibility => drawing.draw(&mut (), steps),
+        Phase::Shading => {
             drawing.shade();
             Ok(())
         }
@@ -55,9 +55,9 @@ pub(super) fn measure<D: Drawing>(
     Ok((drawing.into_frame(), work, Some(Times { prepare, visibility, shading })))
 }
 
-/// A part of rendering a frame.
+/// A phase of rendering a frame.
 #[derive(Clone, Copy)]
-pub(super) enum Part {
+pub(super) enum Phase {
     Visibility,
     Shading,
 }
@@ -67,25 +67,25 @@ pub(super) enum Part {
 pub(super) fn repeated<E>(
     repeat: Option<u32>,
     steps: &Steps,
-    mut run: impl FnMut(Part) -> Result<(), E>,
+    mut run: impl FnMut(Phase) -> Result<(), E>,
 ) -> Result<[Spread; 2], E> {
     let mut drawn = steps.frames_drawn();
-    let mut spread_of = |part| {
+    let mut spread_of = |phase| {
         // One more to warm up.
         let runs = repeat.map_or(1, |repeat| u64::from(repeat) + 1);
         let mut times = Vec::new();
         for _ in 0..runs {
-            let (done, time) = timed(|| run(part));
+            let (done, time) = timed(|| run(phase));
             done?;
             times.push(time);
-            if matches!(part, Part::Visibility) {
+            if matches!(phase, Phase::Visibility) {
                 drawn += 1;
                 steps.frames_done(drawn);
             }
         }
         Ok(Spread::of(times.split_off(usize::from(repeat.is_some()))))
     };
-    Ok([spread_of(Part::Visibility)?, spread_of(Part::Shading)?])
+    Ok([spread_of(Phase::Visibility)?, spread_of(Phase::Shading)?])
 }
 
 /// Prepares a scene, and tells how long that takes.

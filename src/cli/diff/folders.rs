@@ -29,14 +29,14 @@ pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
         {
             staging.write_rgb(&picture_of(pair), &comparison.picture())?;
         }
-        rows.push(Row { pair, compared });
+        rows.push(Compared { pair, compared });
     }
     if let Some(staging) = staging {
         staging.commit()?;
     }
-    let told = Told { args, pairs: &pairs, rows: &rows };
-    terminal::print(&if args.json { told.json()? } else { told.text() })?;
-    Ok(ExitCode::from(told.status()))
+    let report = FolderReport { args, pairs: &pairs, rows: &rows };
+    terminal::print(&if args.json { report.json()? } else { report.text() })?;
+    Ok(ExitCode::from(report.status()))
 }
 
 /// Where difference images go, if they are asked for.
@@ -59,16 +59,16 @@ fn compared(args: &DiffArgs, pair: &Pair, set: Option<Side>) -> Result<BufferCom
 }
 
 /// What came of a pair.
-struct Row<'a> {
+struct Compared<'a> {
     pair: &'a Pair,
     compared: Result<BufferComparison, String>,
 }
 
 /// What there is to tell.
-struct Told<'a> {
+struct FolderReport<'a> {
     args: &'a DiffArgs,
     pairs: &'a Pairs,
-    rows: &'a [Row<'a>],
+    rows: &'a [Compared<'a>],
 }
 
 /// All of it for programs.
@@ -93,7 +93,7 @@ struct JsonPair<'a> {
     comparison: Option<&'a BufferComparison>,
 }
 
-impl Told<'_> {
+impl FolderReport<'_> {
     fn status(&self) -> u8 {
         if self.rows.iter().any(|row| row.compared.is_err()) {
             return 2;
@@ -102,7 +102,7 @@ impl Told<'_> {
     }
 
     fn equal(&self) -> bool {
-        let equal = |row: &Row| row.compared.as_ref().is_ok_and(|comparison| comparison.equal);
+        let equal = |row: &Compared| row.compared.as_ref().is_ok_and(|comparison| comparison.equal);
         self.rows.iter().all(equal) && self.pairs.is_complete()
     }
 
@@ -172,7 +172,8 @@ impl Told<'_> {
     fn verdict(&self) -> String {
         let color = if self.equal() { AnsiColor::Green } else { AnsiColor::Yellow };
         let style = color.on_default().bold();
-        let number = |state: fn(&Row) -> bool| self.rows.iter().filter(|row| state(row)).count();
+        let number =
+            |state: fn(&Compared) -> bool| self.rows.iter().filter(|row| state(row)).count();
         let equal = number(|row| row.compared.as_ref().is_ok_and(|comparison| comparison.equal));
         let failed = number(|row| row.compared.is_err());
         let missing = self.pairs.missing_in_a.len() + self.pairs.missing_in_b.len();
@@ -188,7 +189,8 @@ impl Told<'_> {
 
     /// How to look at the first pair that differs.
     fn next_step(&self) -> String {
-        let differs = |row: &&Row| row.compared.as_ref().is_ok_and(|comparison| !comparison.equal);
+        let differs =
+            |row: &&Compared| row.compared.as_ref().is_ok_and(|comparison| !comparison.equal);
         let Some(row) = self.rows.iter().find(differs) else { return String::new() };
         let file = |folder: &Path, file: &str| folder.join(file).display().to_string();
         let (a, b) = (file(&self.args.a, &row.pair.a), file(&self.args.b, &row.pair.b));
@@ -210,7 +212,7 @@ impl Told<'_> {
     }
 }
 
-impl Row<'_> {
+impl Compared<'_> {
     /// What came of it, and of a scene that differs the point.
     fn words(&self) -> String {
         let comparison = match &self.compared {

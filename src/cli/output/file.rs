@@ -15,12 +15,12 @@ use std::path::{Path, PathBuf};
 pub(in crate::cli) struct OutputFile {
     /// As it was named.
     name: PathBuf,
-    place: Place,
+    destination: Destination,
 }
 
 /// Where the content goes.
 #[derive(Debug)]
-enum Place {
+enum Destination {
     /// Standard output, by `-` or by any other name.
     Stdout,
     /// A device, a pipe: written to as it is, and never replaced.
@@ -35,8 +35,8 @@ const MOST_LINKS: usize = 40;
 impl OutputFile {
     /// Finds out where a file of this name would go.
     pub(in crate::cli) fn find(name: &Path) -> Result<OutputFile, Failure> {
-        let file = |place| OutputFile { name: name.to_owned(), place };
-        place(name).map(file).map_err(|error| failure(name, &error))
+        let file = |destination| OutputFile { name: name.to_owned(), destination };
+        destination(name).map(file).map_err(|error| failure(name, &error))
     }
 
     /// What its name ends in, in small letters; where that says nothing, the name that it leads to.
@@ -46,16 +46,16 @@ impl OutputFile {
             let bare = || path.file_name()?.to_str()?.strip_prefix('.').map(OsStr::new);
             path.extension().or_else(bare).map(OsStr::to_ascii_lowercase)
         };
-        let ending = ending(&self.name).or_else(|| match &self.place {
-            Place::File(path) => ending(path),
-            Place::Stdout | Place::Direct(_) => None,
+        let ending = ending(&self.name).or_else(|| match &self.destination {
+            Destination::File(path) => ending(path),
+            Destination::Stdout | Destination::Direct(_) => None,
         });
         ending.map(|ending| ending.to_string_lossy().into_owned())
     }
 
     /// Whether it is standard output, so that nothing else should be printed there.
     pub(in crate::cli) fn is_stdout(&self) -> bool {
-        matches!(self.place, Place::Stdout)
+        matches!(self.destination, Destination::Stdout)
     }
 
     /// What messages call it.
@@ -72,21 +72,21 @@ impl OutputFile {
         &self,
         content: impl FnOnce(&mut Out) -> io::Result<()>,
     ) -> Result<(), Failure> {
-        let written = match &self.place {
-            Place::Stdout => into_stream(io::stdout().lock(), content),
-            Place::Direct(path) => {
+        let written = match &self.destination {
+            Destination::Stdout => into_stream(io::stdout().lock(), content),
+            Destination::Direct(path) => {
                 let opened = File::options().write(true).open(path);
                 opened.and_then(|file| into_stream(file, content))
             }
-            Place::File(path) => replace(path, content),
+            Destination::File(path) => replace(path, content),
         };
         written.map_err(|error| failure(&self.name, &error))
     }
 }
 
-fn place(name: &Path) -> io::Result<Place> {
+fn destination(name: &Path) -> io::Result<Destination> {
     if name == Path::new("-") {
-        return Ok(Place::Stdout);
+        return Ok(Destination::Stdout);
     }
     if name.as_os_str().is_empty() {
         return Err(io::Error::new(ErrorKind::InvalidInput, "the name is empty"));
@@ -94,10 +94,12 @@ fn place(name: &Path) -> io::Result<Place> {
     match fs::metadata(name) {
         Ok(there) if there.is_dir() => Err(ErrorKind::IsADirectory.into()),
         // The same file under two names must not be written twice, from two beginnings.
-        Ok(there) if is_stdout(&there) => Ok(Place::Stdout),
-        Ok(there) if !there.is_file() => Ok(Place::Direct(name.to_owned())),
-        Ok(_) => fs::canonicalize(name).map(Place::File),
-        Err(error) if error.kind() == ErrorKind::NotFound => end_of_links(name).map(Place::File),
+        Ok(there) if is_stdout(&there) => Ok(Destination::Stdout),
+        Ok(there) if !there.is_file() => Ok(Destination::Direct(name.to_owned())),
+        Ok(_) => fs::canonicalize(name).map(Destination::File),
+        Err(error) if error.kind() == ErrorKind::NotFound => {
+            end_of_links(name).map(Destination::File)
+        }
         Err(error) => Err(error),
     }
 }

@@ -5,14 +5,14 @@
 
 use crate::diff::aspect::Side;
 use crate::diff::buffer::{Buffer, Content};
+use crate::diff::buffer_pair::BufferPair;
 use crate::diff::classes::{Class, pixels};
-use crate::diff::look::Pair;
 use crate::wording::count;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Every cause that alone explains every difference, each in a sentence. A reference is right, and so is the way
 /// that it is written.
-pub(in crate::diff) fn hints(pair: &Pair, reference: Option<Side>) -> Vec<String> {
+pub(in crate::diff) fn hints(pair: &BufferPair, reference: Option<Side>) -> Vec<String> {
     let both = [("A", pair.a), ("B", pair.b)];
     if let Some((name, _)) = both.into_iter().find(|(_, buffer)| is_empty(buffer)) {
         return vec![format!(
@@ -60,7 +60,7 @@ pub(in crate::diff) fn hints(pair: &Pair, reference: Option<Side>) -> Vec<String
 }
 
 /// All ways to turn or to move B by a pixel so that it agrees with A.
-fn placements(pair: &Pair) -> Vec<String> {
+fn placements(pair: &BufferPair) -> Vec<String> {
     if pair.a.samples() != 1 || pair.b.samples() != 1 {
         return Vec::new();
     }
@@ -80,12 +80,12 @@ fn placements(pair: &Pair) -> Vec<String> {
 }
 
 /// Where a pixel of A lies in B.
-type Place = Box<dyn Fn([u32; 2]) -> [u32; 2]>;
+type Placement = Box<dyn Fn([u32; 2]) -> [u32; 2]>;
 
 /// What turns a picture onto itself, and how B is brought back.
-fn turns([width, height]: [u32; 2]) -> Vec<(&'static str, Place)> {
+fn turns([width, height]: [u32; 2]) -> Vec<(&'static str, Placement)> {
     let (last_i, last_j) = (height - 1, width - 1);
-    let mut turns: Vec<(&str, Place)> = vec![
+    let mut turns: Vec<(&str, Placement)> = vec![
         ("turned upside down", Box::new(move |[i, j]| [last_i - i, j])),
         ("turned left to right", Box::new(move |[i, j]| [i, last_j - j])),
         ("turned by 180 degrees", Box::new(move |[i, j]| [last_i - i, last_j - j])),
@@ -93,7 +93,7 @@ fn turns([width, height]: [u32; 2]) -> Vec<(&'static str, Place)> {
     if width == height {
         let last = last_i;
         let other_diagonal = "mirrored at the diagonal from the bottom left to the top right";
-        let square: [(&str, Place); 4] = [
+        let square: [(&str, Placement); 4] = [
             ("transposed (its rows are A's columns)", Box::new(|[i, j]| [j, i])),
             (other_diagonal, Box::new(move |[i, j]| [last - j, last - i])),
             ("turned by 90 degrees to the left", Box::new(move |[i, j]| [j, last - i])),
@@ -104,13 +104,13 @@ fn turns([width, height]: [u32; 2]) -> Vec<(&'static str, Place)> {
     turns
 }
 
-fn class(pair: &Pair, in_a: [u32; 2], in_b: [u32; 2]) -> Class {
-    pair.look(in_a, in_b).class()
+fn class(pair: &BufferPair, in_a: [u32; 2], in_b: [u32; 2]) -> Class {
+    pair.compare_pixels(in_a, in_b).class()
 }
 
 /// Whether each pixel of A agrees with the one of B at its other place, and something is seen in any
 /// of them.
-fn agree(pair: &Pair, place: &dyn Fn([u32; 2]) -> [u32; 2]) -> bool {
+fn agree(pair: &BufferPair, place: &dyn Fn([u32; 2]) -> [u32; 2]) -> bool {
     let mut seen = false;
     for in_a in pixels(pair.a.size()) {
         let class = class(pair, in_a, place(in_a));
@@ -124,7 +124,7 @@ fn agree(pair: &Pair, place: &dyn Fn([u32; 2]) -> [u32; 2]) -> bool {
 
 /// The same for what lies so many rows and columns farther in B. What leaves the picture or enters it
 /// has no partner; a difference there would be left unexplained, unless the place is empty.
-fn agree_moved(pair: &Pair, [rows, columns]: [i32; 2]) -> bool {
+fn agree_moved(pair: &BufferPair, [rows, columns]: [i32; 2]) -> bool {
     let [width, height] = pair.a.size();
     let moved = |[i, j]: [u32; 2], sign: i32| {
         let i = i.checked_add_signed(sign * rows).filter(|&i| i < height)?;
@@ -260,7 +260,7 @@ fn has_only_zeros(buffer: &Buffer) -> bool {
     matches!(buffer.content(), Content::Ids(ids) if ids.iter().flatten().all(|&id| id == 0))
 }
 
-fn is_inverted(pair: &Pair) -> bool {
+fn is_inverted(pair: &BufferPair) -> bool {
     let mut pairs = pair.a.all_samples().zip(pair.b.all_samples());
     pairs.all(|(a, b)| match [pair.a.covered(a), pair.b.covered(b)] {
         [Some(by_a), Some(by_b)] => by_a != by_b,

@@ -15,7 +15,7 @@ pub(super) enum Decides {
 }
 
 /// Two buffers of one size.
-pub(super) struct Pair<'a> {
+pub(super) struct BufferPair<'a> {
     pub(super) a: &'a Buffer<'a>,
     pub(super) b: &'a Buffer<'a>,
     decides: Decides,
@@ -29,7 +29,7 @@ pub(super) struct Pair<'a> {
 }
 
 /// What two pixels say.
-pub(super) struct Look {
+pub(super) struct PixelDifference {
     decides: Decides,
     pub(super) only_a: u64,
     pub(super) only_b: u64,
@@ -41,21 +41,30 @@ pub(super) struct Look {
     pub(super) color: f32,
 }
 
-impl Look {
-    fn new(decides: Decides) -> Look {
+impl PixelDifference {
+    fn new(decides: Decides) -> PixelDifference {
         let (only_a, only_b, both, other_ids) = (0, 0, 0, 0);
-        Look { decides, only_a, only_b, both, other_ids, depth: 0.0, t: [0.0; 2], color: 0.0 }
+        PixelDifference {
+            decides,
+            only_a,
+            only_b,
+            both,
+            other_ids,
+            depth: 0.0,
+            t: [0.0; 2],
+            color: 0.0,
+        }
     }
 
     pub(super) fn class(&self) -> Class {
         let measured = self.decides == Decides::Everything
             && (self.depth > DEPTH_TOLERANCE || self.color > f32::from(COLOR_TOLERANCE));
         match self {
-            Look { only_a: 1.., .. } => Class::OnlyObjectOrder,
-            Look { only_b: 1.., .. } => Class::OnlyImageOrder,
-            Look { other_ids: 1.., .. } => Class::OtherPrimitive,
+            PixelDifference { only_a: 1.., .. } => Class::OnlyObjectOrder,
+            PixelDifference { only_b: 1.., .. } => Class::OnlyImageOrder,
+            PixelDifference { other_ids: 1.., .. } => Class::OtherPrimitive,
             _ if measured => Class::OtherPrimitive,
-            Look { both: 1.., .. } => Class::Alike,
+            PixelDifference { both: 1.., .. } => Class::Alike,
             _ => Class::Neither,
         }
     }
@@ -67,13 +76,13 @@ impl Look {
     }
 }
 
-impl<'a> Pair<'a> {
-    pub(super) fn new(a: &'a Buffer<'a>, b: &'a Buffer<'a>, decides: Decides) -> Pair<'a> {
+impl<'a> BufferPair<'a> {
+    pub(super) fn new(a: &'a Buffer<'a>, b: &'a Buffer<'a>, decides: Decides) -> BufferPair<'a> {
         let unit = if a.samples() == b.samples() { Unit::Samples } else { Unit::Pixels };
         let compares = |aspect| unit == Unit::Samples && a.tells(aspect) && b.tells(aspect);
         let [ids, t, color] = [Aspect::Ids, Aspect::T, Aspect::Color].map(compares);
         let frames = [a, b].iter().all(|one| matches!(one.content(), Content::Frame(_)));
-        Pair { a, b, decides, unit, ids, t, color, frames }
+        BufferPair { a, b, decides, unit, ids, t, color, frames }
     }
 
     pub(super) fn unit(&self) -> Unit {
@@ -104,45 +113,45 @@ impl<'a> Pair<'a> {
     }
 
     /// Compares a pixel of A with one of B.
-    pub(super) fn look(&self, in_a: [u32; 2], in_b: [u32; 2]) -> Look {
-        let mut look = Look::new(self.decides);
+    pub(super) fn compare_pixels(&self, in_a: [u32; 2], in_b: [u32; 2]) -> PixelDifference {
+        let mut found = PixelDifference::new(self.decides);
         if self.unit == Unit::Pixels {
             let any = |buffer: &Buffer, pixel| {
                 buffer.samples_of(pixel).any(|sample| buffer.covered(sample) == Some(true))
             };
-            look.cover(any(self.a, in_a), any(self.b, in_b));
-            return look;
+            found.cover(any(self.a, in_a), any(self.b, in_b));
+            return found;
         }
         for (a, b) in self.a.samples_of(in_a).zip(self.b.samples_of(in_b)) {
-            self.look_at(a, b, &mut look);
+            self.compare_samples(a, b, &mut found);
         }
         if self.color
             && let (Some(a), Some(b)) = (self.a.color(in_a), self.b.color(in_b))
         {
-            look.color = color_difference(a, b);
+            found.color = color_difference(a, b);
         }
-        look
+        found
     }
 
     /// Compares two samples.
-    fn look_at(&self, a: usize, b: usize, look: &mut Look) {
+    fn compare_samples(&self, a: usize, b: usize, found: &mut PixelDifference) {
         let (Some(covered_a), Some(covered_b)) = (self.a.covered(a), self.b.covered(b)) else {
             // Colours alone: a pixel that agrees is drawn as alike.
-            look.both += 1;
+            found.both += 1;
             return;
         };
-        look.cover(covered_a, covered_b);
+        found.cover(covered_a, covered_b);
         if !covered_a || !covered_b {
             return;
         }
         if self.ids && self.a.id(a) != self.b.id(b) {
             // The distances of two primitives may differ as they like.
-            look.other_ids += 1;
+            found.other_ids += 1;
         } else if self.t {
             let t = [self.a.t(a), self.b.t(b)];
             let difference = self.relative_difference(t);
-            if difference > look.depth {
-                (look.depth, look.t) = (difference, t);
+            if difference > found.depth {
+                (found.depth, found.t) = (difference, t);
             }
         }
     }
