@@ -1,8 +1,8 @@
-//! What a frame costs that is only cleared: the id and distance of every pixel written once.
+//! Times a frame that is only cleared: the id and the distance of every pixel are written once.
 //!
-//! `cargo bench --bench memory_fill -- WxH THREADS REPEAT` prints the median, shortest and longest time in
-//! milliseconds, as `report.json` gives them: the floor under every renderer that writes full-size
-//! buffers. [`Frame::clear`] does the same on one thread.
+//! `cargo bench --bench memory_fill -- WxH THREADS REPEAT` prints the median, the shortest and the longest time in
+//! milliseconds, as `report.json` gives them. No renderer that writes buffers of this size can be faster.
+//! [`Frame::clear`] does the same on one thread.
 
 use bothways::common::frame::NO_PRIMITIVE;
 use bothways::common::{Camera, Frame, Options};
@@ -15,7 +15,7 @@ use std::time::Instant;
 const ROWS: usize = 64;
 
 fn main() -> ExitCode {
-    // Cargo itself adds one.
+    // Cargo adds the argument `--bench`.
     let words: Vec<String> = std::env::args().skip(1).filter(|word| word != "--bench").collect();
     let Some(([width, height], threads, repeat)) = read(&words) else {
         eprintln!("give WxH THREADS REPEAT, such as 1920x1080 2 15, and not {:?}", words.join(" "));
@@ -37,7 +37,7 @@ fn main() -> ExitCode {
     ExitCode::SUCCESS
 }
 
-/// Size, threads and repetitions; one thread and fifteen of each if nothing is said.
+/// Reads the size, the threads and the repetitions; without arguments they are 1920x1080, 1 and 15.
 fn read(words: &[String]) -> Option<([u32; 2], usize, u32)> {
     let [size, threads, repeat] = match words {
         [] => ["1920x1080", "1", "15"],
@@ -51,6 +51,7 @@ fn read(words: &[String]) -> Option<([u32; 2], usize, u32)> {
     (within && (1..=1024).contains(&threads) && repeat > 0).then_some((size, threads, repeat))
 }
 
+/// Clears a frame in parallel.
 fn fill(frame: &mut Frame) {
     let columns = frame.width();
     frame.tiles_mut(ROWS, columns).into_par_iter().for_each(|tile| {

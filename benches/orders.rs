@@ -1,10 +1,10 @@
-//! Both orders on one scene: what preparing costs, and what a frame costs.
+//! Times both orders on one scene: the preparation, and a frame.
 //!
-//! `prepare` is the work on the scene alone. `visibility` is one frame from clearing to all ids and
-//! distances in memory, 1920 × 1080 with one sample a pixel, into a frame that is reused; nothing else
-//! survives from one frame to the next. Both run on rayon's pool of all processors.
+//! `prepare` is the work on the scene alone. `visibility` is one frame of 1920 × 1080 pixels with one sample each: from
+//! clearing the frame until all ids and distances are in memory. The frame is reused; nothing else is kept from one frame
+//! to the next. Both run on rayon's pool of all processors.
 //!
-//! `cargo bench` runs them; the bunny needs `../shared/meshes` and is left out without it.
+//! `cargo bench` runs them. The bunny needs `../shared/meshes`, and is left out without it.
 
 use bothways::common::{Camera, CameraDescription, Frame, Options, View};
 use bothways::scenes::{LoadedScene, load};
@@ -18,12 +18,13 @@ fn main() {
 
 const BUNNY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/meshes/stanford-bunny.obj");
 
-/// What is drawn: the built-in scene `many`, and the bunny where it is.
+/// The built-in scene `many`, and the bunny if its file exists.
 fn scenes() -> &'static [&'static str] {
     let all = &["many", "bunny"];
     if Path::new(BUNNY).exists() { all } else { &all[..1] }
 }
 
+/// A scene, and its camera at full HD.
 fn scene(name: &str) -> (LoadedScene, Camera) {
     let scene = load(if name == "bunny" { BUNNY } else { name }).expect("the scene is there");
     let description = CameraDescription {

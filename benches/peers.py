@@ -6,11 +6,11 @@
     python3 benches/peers.py --markdown             # the same, and the table into docs/performance.md
 
 Our object order runs against Mesa llvmpipe, our image order against Intel Embree, each on the same mesh from
-the same camera: ../shared/peers says how, and what its programs time. Rounds alternate between ours and
-theirs, so that a machine that drifts drifts under both; a ratio is theirs over ours, above 1 where we are
-faster, and the table gives the median of the rounds. Beside them stands what filling the id and distance
-buffers costs with nothing drawn. Needs a quiet machine and, for the peers, what their README lists; what is
-missing is left out, and said.
+the same camera. ../shared/peers says how, and what its programs time. Rounds alternate between ours and
+theirs, so that changes of the machine's speed affect both. A ratio is their time over ours: above 1, ours is
+faster. The tables give the median of the rounds, and the time to clear the id and distance buffers. Let
+nothing else run on the machine. The README of the peers lists what they need; a message names each peer that
+is missing, and the tables leave it out.
 """
 import argparse
 import json
@@ -29,11 +29,11 @@ BUILD = ROOT / "target/peers"
 PAGE = ROOT / "docs/performance.md"
 BEGIN, END = "<!-- peers.py writes from here -->", "<!-- to here -->"
 
-# Triangles of generated meshes stand in mkmesh's own notation.
+# Generated meshes, in the notation of mkmesh.
 GENERATED = ["sphere:51x100", "sphere:501x1000", "sphere:1415x2828", "soup:100000"]
-# From so many triangles on, issue 4 asks for 6 times llvmpipe.
+# The summary against llvmpipe is over meshes of at least so many triangles.
 MANY = 50_000
-# An 8 M mesh costs seconds to load for every process: fewer rounds tell enough.
+# A mesh of at least so many triangles takes each process seconds to load, so that one round must do.
 LARGE = 4_000_000
 
 
@@ -96,13 +96,13 @@ def say(text):
 
 
 def run(*words, **more):
-    """What a program prints, as text."""
+    """Runs a program and returns its output."""
     done = subprocess.run([*map(str, words)], check=True, capture_output=True, text=True, **more)
     return done.stdout
 
 
 def write(path, text):
-    """The whole file at once."""
+    """Writes a file under a temporary name, then renames it."""
     path.parent.mkdir(parents=True, exist_ok=True)
     partial = path.with_name(path.name + ".partial")
     partial.write_text(text, encoding="utf-8")
@@ -137,7 +137,7 @@ def measure(options):
 
 
 def meshes(named, folder):
-    """OBJ files and generated meshes to draw."""
+    """The OBJ files and generated meshes to draw."""
     if not named:
         named = [str(path) for path in sorted(folder.glob("*.obj"))]
         if not named:
@@ -159,7 +159,7 @@ def meshes(named, folder):
 
 
 def build_peers(folder):
-    """Programs by name, each with what its absence would mean said; built into target/peers."""
+    """Builds the peers into target/peers, and returns the programs by name. A message names each that is missing."""
     if not folder.is_dir():
         say(f"{folder} is absent: no peers")
         return {}
@@ -191,7 +191,7 @@ def build_peers(folder):
 
 
 def build_ours():
-    """Our program, and the bench that fills memory, as Cargo names them."""
+    """Builds our program and the bench `memory_fill`, and returns their paths."""
     say("building ours")
     return (
         built("bothways", "build", "--release", "--bin", "bothways"),
@@ -200,7 +200,7 @@ def build_ours():
 
 
 def built(name, *words):
-    """Where Cargo put a program that it was asked to build."""
+    """Builds a program with Cargo, and returns its path."""
     messages = run("cargo", *words, "--locked", "--message-format", "json", cwd=ROOT).splitlines()
     messages = [json.loads(line) for line in messages if line.startswith("{")]
     made = [m["executable"] for m in messages if m.get("executable") and m["target"]["name"] == name]
@@ -211,7 +211,7 @@ def built(name, *words):
 
 
 def compare(spec, image, options, peers, ours, fill, folder):
-    """One mesh at one size: every renderer in turn, round by round."""
+    """Times one mesh at one image size: every renderer in turn, round by round."""
     name = re.sub(r"[^\w-]", "_", Path(spec).stem if spec.endswith(".obj") else spec)
     say(f"{name}, {image}")
     scene = folder / f"{name}.toml"
@@ -245,15 +245,15 @@ def compare(spec, image, options, peers, ours, fill, folder):
 
 
 def ours_on(program, order, scene, options, folder):
-    """Our report on one order."""
+    """Our report for one order."""
     words = ["render", "--order", order, "--threads", options.threads, "--repeat", options.repeats]
     report = json.loads(run(program, *words, "--json", "-o", folder / "out", scene))
     return report[f"{order}_order"]
 
 
 def llvmpipe(program, tri, image, options):
-    """The faster of its two ways to write ids."""
-    # With one thread of its own the application's works beside it: 0 is one core.
+    """The time of the faster of its two ways to write ids."""
+    # 1 is a thread besides that of the application; 0 is that of the application alone.
     threads = 0 if options.threads == 1 else options.threads
     chosen = {"LIBGL_ALWAYS_SOFTWARE": "1", "GALLIUM_DRIVER": "llvmpipe", "LP_NUM_THREADS": str(threads)}
     drawn = run(program, tri, "-", options.repeats, image, env={**os.environ, **chosen})
@@ -263,7 +263,7 @@ def llvmpipe(program, tri, image, options):
 
 
 def embree(program, tri, image, options):
-    """The fastest of its modes, watertight and not (m0 traces nothing); and its builds."""
+    """The times of its fastest modes, watertight and not (m0 traces nothing), and of its builds."""
     best = {}
     for line in run(program, tri, "-", options.repeats, image).splitlines():
         fields = line.split("|")
@@ -303,7 +303,7 @@ def median(row, key):
 
 
 def ratio(row, theirs, ours):
-    """Theirs over ours, the median of the rounds."""
+    """Their time over ours, as the median of the rounds."""
     pairs = list(zip(row["ms"].get(theirs, []), row["ms"].get(ours, [])))
     return statistics.median(a / b for a, b in pairs) if pairs else None
 

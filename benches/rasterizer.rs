@@ -1,9 +1,8 @@
-//! Object order, one thing swept at a time: triangles, pixels, threads, and how much is tied.
+//! Times object order. Each bench varies one quantity: triangles, pixels, threads, the cropped portion, or ties.
 //!
-//! What is timed is one frame of visibility, from clearing to all ids and distances in memory, into a
-//! frame and a prepared scene that are reused. Everything fills 1920 × 1080 pixels on one thread,
-//! unless the bench is about that. `cargo bench --bench rasterizer` runs all; `BOTHWAYS_LONG=1` adds the
-//! sphere of 8 million triangles.
+//! A time is that of one frame of visibility: from clearing the frame until all ids and distances are in memory. The frame
+//! and the prepared scene are reused. The image has 1920 × 1080 pixels and one thread draws it, unless the bench varies
+//! them. `cargo bench --bench rasterizer` runs all benches; `BOTHWAYS_LONG=1` adds the sphere of 8 million triangles.
 
 mod support;
 
@@ -11,7 +10,9 @@ use bothways::common::{Camera, Frame, Options, Scene, View};
 use bothways::rasterize::fast;
 use divan::Bencher;
 use divan::counter::ItemsCount;
-use support::{Copy, FULL_HD, Lying, MILLION, Part, camera, on_pixels, scene, sphere, squares};
+use support::{
+    Alignment, Duplicate, FULL_HD, MILLION, Portion, camera, on_pixels, scene, sphere, squares,
+};
 
 fn main() {
     divan::main();
@@ -23,12 +24,13 @@ fn spheres() -> &'static [[u32; 2]] {
     if std::env::var_os("BOTHWAYS_LONG").is_some() { all } else { &all[..3] }
 }
 
-/// Times one frame of visibility on so many threads.
+/// Times one frame of visibility of the whole image.
 fn time_visibility(bencher: Bencher, scene: &Scene, camera: &Camera, threads: usize) {
-    time_part(bencher, scene, camera, threads, &Options::default());
+    time_frame(bencher, scene, camera, threads, &Options::default());
 }
 
-fn time_part(bencher: Bencher, scene: &Scene, camera: &Camera, threads: usize, options: &Options) {
+/// Times one frame of visibility.
+fn time_frame(bencher: Bencher, scene: &Scene, camera: &Camera, threads: usize, options: &Options) {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     let view = View::new(scene, camera);
     let prepared = fast::prepare(scene);
@@ -41,7 +43,7 @@ fn time_part(bencher: Bencher, scene: &Scene, camera: &Camera, threads: usize, o
     });
 }
 
-/// Time against triangles at fixed pixels: no faster than linear. Items are triangles.
+/// Time against triangles, at the same number of pixels. It should grow at most linearly. Items are triangles.
 #[divan::bench(args = spheres())]
 fn triangles(bencher: Bencher, divisions: &[u32; 2]) {
     let mesh = sphere(*divisions);
@@ -50,7 +52,7 @@ fn triangles(bencher: Bencher, divisions: &[u32; 2]) {
     time_visibility(bencher, &scene([mesh]), &camera, 1);
 }
 
-/// Time against pixels at fixed triangles: no faster than linear. Items are pixels.
+/// Time against pixels, at the same number of triangles. It should grow at most linearly. Items are pixels.
 #[divan::bench(args = [[640, 360], [1280, 720], FULL_HD, [2560, 1440], [3840, 2160]])]
 fn pixels(bencher: Bencher, image: [u32; 2]) {
     let mesh = sphere([316, 159]);
@@ -67,27 +69,26 @@ fn threads(bencher: Bencher, threads: usize) {
     time_visibility(bencher, &scene([mesh]), &camera, threads);
 }
 
-/// A hundredth of the picture beside the whole one: every vertex is placed and every triangle looked at for
-/// both.
-#[divan::bench(args = [Part::Whole, Part::Hundredth])]
-fn crop(bencher: Bencher, part: Part) {
+/// A hundredth of the image against the whole image. Both transform every vertex and test every triangle.
+#[divan::bench(args = [Portion::Whole, Portion::Hundredth])]
+fn crop(bencher: Bencher, portion: Portion) {
     let mesh = sphere(MILLION);
     let camera = camera(&mesh, FULL_HD);
-    time_part(bencher, &scene([mesh]), &camera, 1, &part.options());
+    time_frame(bencher, &scene([mesh]), &camera, 1, &portion.options());
 }
 
-/// A mesh drawn twice: ties cost at most twice what the same without ties costs.
-#[divan::bench(args = [Copy::Tied, Copy::Behind], consts = [100, 1000])]
-fn twice<const AROUND: u32>(bencher: Bencher, copy: Copy) {
+/// A mesh drawn twice. With ties it should take at most twice as long as without ties.
+#[divan::bench(args = [Duplicate::Tied, Duplicate::Behind], consts = [100, 1000])]
+fn twice<const AROUND: u32>(bencher: Bencher, duplicate: Duplicate) {
     let mesh = sphere([AROUND, AROUND / 2 + 1]);
     let camera = camera(&mesh, FULL_HD);
-    time_visibility(bencher, &copy.with(mesh, &camera), &camera, 1);
+    time_visibility(bencher, &duplicate.with(mesh, &camera), &camera, 1);
 }
 
-/// A grid of squares with sides of so many pixels over the whole picture: that its edges pass through
-/// samples costs at most twice what they cost beside them.
-#[divan::bench(args = [Lying::Aligned, Lying::Shifted], consts = [2, 4, 8, 32, 100])]
-fn grid<const SIDE: u32>(bencher: Bencher, lying: Lying) {
-    let scene = scene([squares(SIDE, lying)]);
+/// A grid of squares over the whole image. With edges through samples it should take at most twice as long as with edges
+/// beside samples.
+#[divan::bench(args = [Alignment::Aligned, Alignment::Shifted], consts = [2, 4, 8, 32, 100])]
+fn grid<const SIDE: u32>(bencher: Bencher, alignment: Alignment) {
+    let scene = scene([squares(SIDE, alignment)]);
     time_visibility(bencher, &scene, &on_pixels(), 1);
 }

@@ -1,10 +1,9 @@
-//! Image order, one thing swept at a time: triangles, pixels, threads, how much is tied, and how much of the
-//! picture is asked for.
+//! Times image order. Each bench varies one quantity: triangles, pixels, threads, the cropped portion, ties, or the
+//! projection.
 //!
-//! As in `rasterizer`, what is timed is one frame of visibility at 1920 × 1080 pixels on one thread, into a
-//! frame and a prepared scene that are reused, unless the bench says otherwise; `prepare` times the building
-//! of the hierarchy. `cargo bench --bench ray_tracer` runs all; `BOTHWAYS_LONG=1` adds the sphere of 8 million
-//! triangles.
+//! A time is that of one frame of visibility, as in `rasterizer`: 1920 × 1080 pixels on one thread, into a frame and with a
+//! prepared scene that are reused, unless the bench varies them. `prepare` times the construction of the hierarchy.
+//! `cargo bench --bench ray_tracer` runs all benches; `BOTHWAYS_LONG=1` adds the sphere of 8 million triangles.
 
 mod support;
 
@@ -13,7 +12,9 @@ use bothways::raytrace::fast;
 use divan::Bencher;
 use divan::counter::ItemsCount;
 use rayon::ThreadPool;
-use support::{Copy, FULL_HD, Lying, MILLION, Part, camera, on_pixels, scene, sphere, squares};
+use support::{
+    Alignment, Duplicate, FULL_HD, MILLION, Portion, camera, on_pixels, scene, sphere, squares,
+};
 
 fn main() {
     divan::main();
@@ -30,7 +31,7 @@ fn pool(threads: usize) -> ThreadPool {
     pool.expect("there are threads")
 }
 
-/// Times one frame of visibility on so many threads.
+/// Times one frame of visibility.
 fn time_visibility(
     bencher: Bencher,
     scene: &Scene,
@@ -48,7 +49,7 @@ fn time_visibility(
     });
 }
 
-/// Building the hierarchy, on one thread and on two. Items are triangles.
+/// The construction of the hierarchy, on one thread and on two. Items are triangles.
 #[divan::bench(args = spheres(), consts = [1, 2])]
 fn prepare<const THREADS: usize>(bencher: Bencher, divisions: &[u32; 2]) {
     let mesh = sphere(*divisions);
@@ -57,7 +58,8 @@ fn prepare<const THREADS: usize>(bencher: Bencher, divisions: &[u32; 2]) {
     bencher.bench_local(|| pool.install(|| fast::prepare(&scene)));
 }
 
-/// Time against triangles at fixed pixels, on one thread and on two: it grows with the hierarchy's depth.
+/// Time against triangles, at the same number of pixels, on one thread and on two. It should grow with the depth of the
+/// hierarchy.
 #[divan::bench(args = spheres(), consts = [1, 2])]
 fn triangles<const THREADS: usize>(bencher: Bencher, divisions: &[u32; 2]) {
     let mesh = sphere(*divisions);
@@ -65,7 +67,7 @@ fn triangles<const THREADS: usize>(bencher: Bencher, divisions: &[u32; 2]) {
     time_visibility(bencher, &scene([mesh]), &camera, THREADS, &Options::default());
 }
 
-/// Time against pixels at fixed triangles: no faster than linear. Items are pixels.
+/// Time against pixels, at the same number of triangles. It should grow at most linearly. Items are pixels.
 #[divan::bench(args = [[640, 360], [1280, 720], FULL_HD, [3840, 2160]])]
 fn pixels(bencher: Bencher, image: [u32; 2]) {
     let mesh = sphere([316, 159]);
@@ -74,31 +76,31 @@ fn pixels(bencher: Bencher, image: [u32; 2]) {
     time_visibility(bencher, &scene([mesh]), &camera, 1, &Options::default());
 }
 
-/// A hundredth of the picture beside the whole one: at most a fiftieth of its time, and 0.1 ms.
-#[divan::bench(args = [Part::Whole, Part::Hundredth], consts = [1, 2])]
-fn crop<const THREADS: usize>(bencher: Bencher, part: Part) {
+/// A hundredth of the image against the whole image. It should take at most a fiftieth of the time, plus 0.1 ms.
+#[divan::bench(args = [Portion::Whole, Portion::Hundredth], consts = [1, 2])]
+fn crop<const THREADS: usize>(bencher: Bencher, portion: Portion) {
     let mesh = sphere(MILLION);
     let camera = camera(&mesh, FULL_HD);
-    time_visibility(bencher, &scene([mesh]), &camera, THREADS, &part.options());
+    time_visibility(bencher, &scene([mesh]), &camera, THREADS, &portion.options());
 }
 
-/// A mesh drawn twice: ties cost at most twice what the same without ties costs.
-#[divan::bench(args = [Copy::Tied, Copy::Behind], consts = [100, 1000])]
-fn twice<const AROUND: u32>(bencher: Bencher, copy: Copy) {
+/// A mesh drawn twice. With ties it should take at most twice as long as without ties.
+#[divan::bench(args = [Duplicate::Tied, Duplicate::Behind], consts = [100, 1000])]
+fn twice<const AROUND: u32>(bencher: Bencher, duplicate: Duplicate) {
     let mesh = sphere([AROUND, AROUND / 2 + 1]);
     let camera = camera(&mesh, FULL_HD);
-    time_visibility(bencher, &copy.with(mesh, &camera), &camera, 1, &Options::default());
+    time_visibility(bencher, &duplicate.with(mesh, &camera), &camera, 1, &Options::default());
 }
 
-/// A grid of squares with sides of so many pixels over the whole picture: that its edges pass through
-/// samples costs at most twice what they cost beside them.
-#[divan::bench(args = [Lying::Aligned, Lying::Shifted], consts = [2, 4, 8, 32, 100])]
-fn grid<const SIDE: u32>(bencher: Bencher, lying: Lying) {
-    let scene = scene([squares(SIDE, lying)]);
+/// A grid of squares over the whole image. With edges through samples it should take at most twice as long as with edges
+/// beside samples.
+#[divan::bench(args = [Alignment::Aligned, Alignment::Shifted], consts = [2, 4, 8, 32, 100])]
+fn grid<const SIDE: u32>(bencher: Bencher, alignment: Alignment) {
+    let scene = scene([squares(SIDE, alignment)]);
     time_visibility(bencher, &scene, &on_pixels(), 1, &Options::default());
 }
 
-/// The sphere of a million triangles by either camera, as large in both pictures.
+/// The sphere of a million triangles in both projections, of equal size in the images.
 #[divan::bench(args = [Projection::Perspective, Projection::Parallel])]
 fn projections(bencher: Bencher, projection: Projection) {
     let mesh = sphere(MILLION);
@@ -106,7 +108,7 @@ fn projections(bencher: Bencher, projection: Projection) {
     let description = perspective.description();
     let enlarged = match projection {
         Projection::Perspective => 1.0,
-        // The sphere's middle is the origin.
+        // The centre of the sphere is the origin.
         Projection::Parallel => description.eye.length() / description.distance,
     };
     let viewport = description.viewport.map(|side| side * enlarged);

@@ -1,7 +1,7 @@
-//! Check your own renderer: what it draws against the trusted answer, pixel by pixel, and why not.
+//! Checks a renderer against the trusted answer, pixel by pixel, and says why pixels differ.
 //!
-//! The renderer under test is naive on purpose: its triangles own all of their edges (`>= 0`), and
-//! the last one drawn wins. `cargo run --example check_own_renderer`
+//! The renderer under test is wrong on purpose: its triangles own all of their edges (`>= 0`), and the
+//! last one drawn wins. `cargo run --example check_own_renderer`
 
 use bothways::common::{Camera, Options, Scene, Shape, Triangle, View, glam::Vec3};
 use bothways::rasterize;
@@ -10,7 +10,7 @@ use bothways::rasterize;
 const TRIANGLES: [[[f32; 2]; 3]; 2] =
     [[[3.5, 3.5], [11.5, 3.5], [11.5, 11.5]], [[3.5, 3.5], [11.5, 11.5], [3.5, 11.5]]];
 
-/// Somebody's rasterizer: the last triangle that covers the middle of a pixel, edges included.
+/// The rasterizer under test: the last triangle that covers the centre of a pixel, edges included.
 fn own_renderer(row: u16, column: u16) -> Option<u32> {
     let [x, y] = [column, row].map(|index| f32::from(index) + 0.5);
     let covers = |[a, b, c]: [[f32; 2]; 3]| {
@@ -22,7 +22,7 @@ fn own_renderer(row: u16, column: u16) -> Option<u32> {
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    // At depth 16 one unit is one pixel, and 16 is a power of two: every sample's place is exact.
+    // At depth 16 one unit is one pixel. 16 is a power of two, so that the position of every sample is exact.
     let camera = Camera::canonical(16, 16);
     let in_world = |[x, y]: [f32; 2]| Vec3::new(x - 8.0, 8.0 - y, -16.0);
     let objects = TRIANGLES.map(|corners| {

@@ -1,5 +1,5 @@
-//! Writes a rough sphere as a binary PLY file, of as many triangles as you like: a mesh that is larger
-//! than memory is no more work than a small one. `bothways --order object --stream` draws it.
+//! Writes a rough sphere of any number of triangles as a binary PLY file. It may be larger than memory.
+//! `bothways --order object --stream` draws it.
 //!
 //! ```sh
 //! cargo run --example noisy_sphere -- 20000000 out/sphere.ply
@@ -14,7 +14,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let wanted: u32 = arguments.next().map_or(Ok(20_000), |count| count.parse())?;
     let path = arguments.next().unwrap_or("out/sphere.ply".into());
 
-    // Rows of quads from pole to pole, twice as many around: 4·rows² triangles.
+    // Rows of quads from pole to pole, with twice as many columns: 4·rows² triangles.
     let rows = (1..20_000).find(|rows| 4 * rows * rows >= wanted).ok_or("too many triangles")?;
     let columns = 2 * rows;
     let (vertices, triangles) = ((rows + 1) * columns, 2 * rows * columns);
@@ -46,14 +46,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(out.flush()?)
 }
 
-/// From 0 to 1, as if by chance.
+/// A pseudorandom number from 0 to 1.
 fn noise(number: u32) -> f32 {
     let mixed = (number ^ (number >> 15)).wrapping_mul(0x2c1b_3c6d);
     let mixed = (mixed ^ (mixed >> 12)).wrapping_mul(0x297a_2d39);
     (mixed >> 8) as f32 / (1 << 24) as f32
 }
 
-/// A part of so many turns.
+/// The angle after `step` of `steps` equal steps through so many turns, in radians.
 fn angle(step: u32, steps: u32, turns: f32) -> f32 {
     turns * std::f32::consts::TAU * step as f32 / steps as f32
 }

@@ -1,4 +1,4 @@
-//! One triangle, both orders: the same two loops, swapped, and the same pixels.
+//! Draws one triangle in both orders: the same two loops, swapped, give the same pixels.
 //!
 //! `cargo run --example one_triangle`
 
@@ -10,7 +10,7 @@ use bothways::{diff, rasterize, raytrace};
 const SIDE: u16 = 16;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    // The lecture's first camera; a plane at depth SIDE is SIDE x SIDE: one unit is one pixel.
+    // The lecture's first camera. At depth SIDE the viewport is SIDE x SIDE: one unit is one pixel.
     let camera = Camera::canonical(SIDE.into(), SIDE.into());
     let depth = -f32::from(SIDE);
     let [a, b, c] = [[-7.0, -6.0], [7.0, -3.0], [-1.0, 7.0]].map(|[x, y]| Vec3::new(x, y, depth));
@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// One row of a frame, two characters a pixel so that it looks square.
+/// One row of a frame, with two characters for each pixel, so that pixels look square.
 fn drawn(frame: &Frame, row: usize) -> String {
     let pixel = |column| if frame.id(row, column).is_some() { "# " } else { ". " };
     (0..frame.width()).map(pixel).collect()

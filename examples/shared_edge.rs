@@ -1,7 +1,7 @@
-//! A square cut along a diagonal that runs exactly through samples: who owns the cut?
+//! Draws two triangles that share an edge exactly through samples, and shows which triangle owns each sample.
 //!
-//! Its border runs through samples, too. Every sample is owned once, on the left and top but not on
-//! the right and bottom, so tiles laid side by side leave neither gap nor overlap.
+//! The border of their square runs through samples, too. Every sample has one owner. Left and top edges own
+//! their samples, right and bottom edges do not: adjacent tiles have neither gaps nor overlaps.
 //!
 //! `cargo run --example shared_edge`
 
@@ -11,7 +11,7 @@ use bothways::common::{Camera, Frame, Object, Options, Scene, Shape, Triangle, V
 use bothways::raytrace;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    // At depth 16 one unit is one pixel, and 16 is a power of two: every sample's place is exact.
+    // At depth 16 one unit is one pixel. 16 is a power of two, so that the position of every sample is exact.
     let camera = Camera::canonical(16, 16);
     let square = [[3.5, 3.5], [11.5, 3.5], [11.5, 11.5], [3.5, 11.5]];
     let [a, b, c, d] = square.map(|[x, y]| Vec3::new(x - 8.0, 8.0 - y, -16.0));
@@ -20,11 +20,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let scene = Scene::new(halves.to_vec())?;
     let view = View::new(&scene, &camera);
 
-    // An observer is told what the loops do; `Work` counts it.
+    // The loops tell an observer what they do. `Work` is an observer that counts.
     let (mut frame, mut work) = (Frame::new(&camera, &Options::default()), Work::default());
     raytrace::textbook::determine_visibility(&view, &Options::default(), &mut frame, &mut work);
 
-    // A sample of the closed half with an edge function of zero lies exactly on its border.
+    // A sample is exactly on the border of a half if an edge function is zero and no other one has the wrong sign.
     let grid = camera.sample_grid(1);
     let on_an_edge = |i, j| {
         view.primitives().any(|(_, half)| {

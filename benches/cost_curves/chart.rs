@@ -1,45 +1,45 @@
-//! A chart with logarithmic axes as SVG, readable on light pages and on dark ones.
+//! Draws charts with logarithmic axes as SVG, for light pages and dark ones.
 //!
-//! Both axes are stretched alike, so that whatever grows linearly rises by 45 degrees.
+//! Both axes have the same scale: a curve that grows linearly rises at 45 degrees.
 
 use std::fmt::Write;
 
-/// Pixels of a decade, on both axes.
+/// The length of a decade on both axes, in pixels.
 const DECADE: f64 = 130.0;
-/// Room to the left, above, to the right and below.
+/// The margins to the left, above, to the right and below, in pixels.
 const LEFT: f64 = 76.0;
 const ABOVE: f64 = 64.0;
 const RIGHT: f64 = 130.0;
 const BELOW: f64 = 84.0;
-/// How close two names may stand.
+/// The least distance between two names, in pixels.
 const LINE: f64 = 20.0;
 
-/// What is drawn.
+/// A chart.
 pub(crate) struct Chart {
     pub(crate) title: String,
-    /// What was held fixed.
+    /// The fixed conditions of the measurements.
     pub(crate) note: String,
     pub(crate) x: &'static str,
     pub(crate) y: &'static str,
     pub(crate) curves: Vec<Curve>,
 }
 
-/// One thing against another; a curve has at least two points, of positive numbers.
+/// A curve of at least two points, with positive coordinates.
 pub(crate) struct Curve {
     pub(crate) name: &'static str,
-    /// On light pages, and on dark ones.
+    /// The colours on light pages and on dark ones.
     pub(crate) colors: [&'static str; 2],
     pub(crate) points: Vec<[f64; 2]>,
 }
 
-/// What an axis shows, as powers of ten.
+/// The range of an axis, as logarithms to base 10.
 struct Axis {
     low: f64,
     high: f64,
 }
 
 impl Axis {
-    /// The shortest axis that begins and ends with a tick.
+    /// The shortest axis that begins and ends at a tick and contains all values.
     fn around(values: impl Iterator<Item = f64>) -> Axis {
         let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
             (low.min(value), high.max(value))
@@ -62,13 +62,13 @@ impl Axis {
     }
 }
 
-/// 1, 2 and 5 of each decade; nothing that is drawn here is smaller or larger.
+/// The values 1, 2 and 5 of each decade from 10⁻⁹ to 10¹².
 fn ticks() -> impl Iterator<Item = f64> {
     (-9..=12).flat_map(|power| [1.0, 2.0, 5.0].map(|digit| digit * 10f64.powi(power)))
 }
 
 impl Chart {
-    /// The picture, as the text of an SVG file.
+    /// The chart as the text of an SVG file.
     pub(crate) fn svg(&self) -> String {
         let values =
             |k: usize| self.curves.iter().flat_map(move |c| c.points.iter().map(move |p| p[k]));
@@ -133,7 +133,7 @@ impl Chart {
     }
 }
 
-/// Lines and numbers at the ticks.
+/// The lines and numbers at the ticks.
 fn grid(x: &Axis, y: &Axis) -> String {
     let mut svg = String::new();
     let (right, bottom) = (LEFT + x.length(), ABOVE + y.length());
@@ -157,7 +157,7 @@ fn grid(x: &Axis, y: &Axis) -> String {
             short(value)
         );
     };
-    // Side by side there is room for powers of ten alone.
+    // On the x axis there is room only for powers of ten.
     for tick in x.ticks().filter(|tick| tick.log10().fract().abs() < 1e-9) {
         text("middle", [LEFT + x.place(tick), bottom + 20.0], tick);
     }
@@ -167,18 +167,18 @@ fn grid(x: &Axis, y: &Axis) -> String {
     svg
 }
 
-/// A number as people write it beside an axis: 0.05, 20, 500 k, 2 M.
+/// A number as written beside an axis: 0.05, 20, 500 k, 2 M.
 fn short(value: f64) -> String {
     let (part, unit) = match value {
         1e6.. => (value / 1e6, " M"),
         1e3.. => (value / 1e3, " k"),
         _ => (value, ""),
     };
-    // Powers of ten below 1 are not exact.
+    // Powers of ten below 1 are not exact in binary.
     format!("{}{unit}", (part * 1e6).round() / 1e6)
 }
 
-/// Places of names, in the curves' order, moved up and down until no two lie over one another.
+/// The positions of the names, in the order of the curves, moved up and down so that neighbours do not overlap.
 fn apart(mut ends: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     let mut order: Vec<usize> = (0..ends.len()).collect();
     order.sort_by(|a, b| ends[*a][1].total_cmp(&ends[*b][1]));

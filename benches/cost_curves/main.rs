@@ -1,10 +1,11 @@
-//! Draws what a frame costs in both orders: time against triangles, and time against pixels.
+//! Draws the time of a frame in both orders as charts: against triangles, and against pixels.
 //!
-//! `cargo bench --bench cost_curves -- FOLDER` measures, prints every measurement, and writes
-//! `cost-triangles.svg` and `cost-pixels.svg`; without FOLDER, into `target/cost-curves`. One thread;
-//! a sphere that is seen whole; the median of some frames of visibility after a warm-up, as
-//! `render --repeat` measures them, and of several rounds over all points the least, so that what else the
-//! machine did for a while is not seen. `BOTHWAYS_LONG=1` goes on to 8 million triangles.
+//! `cargo bench --bench cost_curves -- FOLDER` measures, prints every measurement, and writes `cost-triangles.svg` and
+//! `cost-pixels.svg`; without FOLDER, into `target/cost-curves`.
+//!
+//! The scene is a sphere, which is wholly visible, on one thread. A measurement is the median of some frames of visibility
+//! after a warm-up, as `render --repeat` takes it. Each point of a chart is the least of several rounds over all points,
+//! so that short disturbances by other programs do not show. `BOTHWAYS_LONG=1` continues to 8 million triangles.
 
 mod chart;
 
@@ -18,23 +19,23 @@ use std::path::Path;
 use std::process::ExitCode;
 
 const FULL_HD: [u32; 2] = [1920, 1080];
-/// The sphere under the sweep of pixels: 100 thousand triangles.
+/// The divisions of the sphere for the chart against pixels: 100 thousand triangles.
 const FIXED: [u32; 2] = [316, 159];
 const REPEAT: u32 = 15;
 const ROUNDS: usize = 5;
 
-/// Around and along: from 80 triangles to 1 million, then 8 million.
+/// The divisions of the spheres for the chart against triangles: from 80 triangles to 1 million, then 8 million.
 const SPHERES: [[u32; 2]; 7] =
     [[10, 5], [32, 17], [100, 51], [178, 90], FIXED, [1000, 501], [2828, 1415]];
 const IMAGES: [[u32; 2]; 6] =
     [[160, 90], [320, 180], [640, 360], [1280, 720], FULL_HD, [3840, 2160]];
 
-/// The colours of the difference picture, the second lighter where the page is dark.
+/// The colours of the difference picture, on light pages and on dark ones.
 const COLORS: [(Order, [&str; 2]); 2] =
     [(Order::Object, ["#b87600", "#e69f00"]), (Order::Image, ["#0072b2", "#56b4e9"])];
 
 fn main() -> ExitCode {
-    // Cargo itself adds one.
+    // Cargo adds the argument `--bench`.
     let folder = std::env::args().skip(1).find(|word| word != "--bench");
     let default = concat!(env!("CARGO_MANIFEST_DIR"), "/target/cost-curves");
     let folder = folder.unwrap_or_else(|| default.into());
@@ -49,8 +50,9 @@ fn main() -> ExitCode {
     }
 }
 
+/// Measures, and writes both charts.
 fn draw(folder: &Path) -> std::io::Result<()> {
-    // Rather now than after minutes.
+    // Done first, because the measurements take minutes.
     std::fs::create_dir_all(folder)?;
     let level = format!("{:?}", best_level());
     let level = level.split('(').next().unwrap_or_default();
@@ -122,7 +124,7 @@ fn measure(divisions: [u32; 2], [width, height]: [u32; 2]) -> (usize, [f64; 2]) 
     (triangles, times)
 }
 
-/// Writes a file at once: nobody meets half of it.
+/// Writes a file under a temporary name, then renames it: no program can read half of it.
 fn write(folder: &Path, name: &str, text: &str) -> std::io::Result<()> {
     let partial = folder.join(format!(".{name}.partial"));
     std::fs::write(&partial, text)?;

@@ -1,4 +1,4 @@
-//! What the benches of both orders draw.
+//! Meshes, scenes and cameras for the benches of both orders.
 
 use bothways::common::glam::{Vec2, Vec3};
 use bothways::common::{Camera, CameraDescription, Crop, Mesh, Options, Projection, Scene, Shape};
@@ -6,9 +6,10 @@ use bothways::formats::generate::Kind;
 use bothways::scenes::Framing;
 
 pub(crate) const FULL_HD: [u32; 2] = [1920, 1080];
-/// The sphere of a million triangles.
+/// The divisions of a sphere of a million triangles.
 pub(crate) const MILLION: [u32; 2] = [1000, 501];
 
+/// A sphere with so many divisions around and from pole to pole.
 pub(crate) fn sphere(divisions: [u32; 2]) -> Mesh {
     Kind::Sphere.mesh(divisions).expect("a sphere has so many divisions")
 }
@@ -19,63 +20,65 @@ pub(crate) fn camera(mesh: &Mesh, image: [u32; 2]) -> Camera {
     Camera::new(framing.camera(mesh).expect("the mesh has a size")).expect("it is a camera")
 }
 
+/// A scene of meshes.
 pub(crate) fn scene(meshes: impl IntoIterator<Item = Mesh>) -> Scene {
     let objects = meshes.into_iter().map(|mesh| Shape::Mesh(mesh).into());
     Scene::new(objects.collect()).expect("it is a scene")
 }
 
-/// What another copy of a mesh is to the first.
+/// Where a second copy of a mesh lies.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Copy {
-    /// In the same place: every depth test is a tie.
+pub(crate) enum Duplicate {
+    /// At the same position: every depth test is a tie.
     Tied,
-    /// Moved away from the eye by a thousandth of the diagonal: no tie.
+    /// Farther from the eye by a thousandth of the diagonal: no depth test is a tie.
     Behind,
 }
 
-impl Copy {
-    /// Two copies of a sphere.
+impl Duplicate {
+    /// A scene of a sphere and its copy.
     pub(crate) fn with(self, mesh: Mesh, camera: &Camera) -> Scene {
-        // The unit sphere's box has a diagonal of 2·√3.
+        // The diagonal of the box around the unit sphere is 2·√3.
         let away = -camera.w().as_vec3() * (2.0 * 3f32.sqrt() / 1000.0);
         let moved = match self {
-            Copy::Tied => mesh.clone(),
-            Copy::Behind => mesh.clone().map(|p| p + away, |n| n).expect("it stays finite"),
+            Duplicate::Tied => mesh.clone(),
+            Duplicate::Behind => mesh.clone().map(|p| p + away, |n| n).expect("it stays finite"),
         };
         scene([mesh, moved])
     }
 }
 
-/// How much of the full HD picture is rendered.
+/// The portion of the image that is rendered, at full HD.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Part {
-    /// The frame.
+pub(crate) enum Portion {
+    /// The whole image.
     Whole,
-    /// The hundredth in its middle, where the mesh is.
+    /// A hundredth of the image, in its middle, where the mesh is.
     Hundredth,
 }
 
-impl Part {
+impl Portion {
+    /// The options that render this portion.
     pub(crate) fn options(self) -> Options {
         let middle = Crop { row: 486, column: 864, height: 108, width: 192 };
         let crop = match self {
-            Part::Whole => None,
-            Part::Hundredth => Some(middle),
+            Portion::Whole => None,
+            Portion::Hundredth => Some(middle),
         };
         Options { crop, ..Options::default() }
     }
 }
 
-/// How a grid of squares lies on the samples.
+/// How a grid of squares is aligned with the samples.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Lying {
-    /// Every corner on a sample, so that edges and diagonals pass through samples.
+pub(crate) enum Alignment {
+    /// Every corner is on a sample: edges and diagonals pass through samples.
     Aligned,
-    /// The same, moved by a third of a pixel to the right and down.
+    /// All corners are a third of a pixel to the right of a sample and below it.
     Shifted,
 }
 
-/// A camera before which one unit of the plane z = −1000 is one pixel.
+/// A camera for which one unit in the plane z = −1000 is one pixel.
 pub(crate) fn on_pixels() -> Camera {
     let description = CameraDescription {
         projection: Projection::Perspective,
@@ -87,16 +90,16 @@ pub(crate) fn on_pixels() -> Camera {
     Camera::new(description).expect("it is a camera")
 }
 
-/// Squares over the whole picture, their corners on samples before they are shifted.
-pub(crate) fn squares(side: u32, lying: Lying) -> Mesh {
-    let shift = match lying {
-        Lying::Aligned => Vec2::ZERO,
-        Lying::Shifted => Vec2::new(1.0 / 3.0, -1.0 / 3.0),
+/// A grid of squares over the whole image. The side of a square is in pixels.
+pub(crate) fn squares(side: u32, alignment: Alignment) -> Mesh {
+    let shift = match alignment {
+        Alignment::Aligned => Vec2::ZERO,
+        Alignment::Shifted => Vec2::new(1.0 / 3.0, -1.0 / 3.0),
     };
     let [columns, rows] = FULL_HD.map(|pixels| pixels.div_ceil(side));
     let corner = |k: u32| {
         let [column, row] = [k % (columns + 1), k / (columns + 1)].map(|step| (side * step) as f32);
-        // Samples lie in the middle of pixels.
+        // Samples are in the middle of pixels.
         let (x, y) = (column - 959.5 + shift.x, 539.5 - row + shift.y);
         Vec3::new(x, y, -1000.0)
     };

@@ -1,4 +1,4 @@
-//! The fast rasterizer sees what its textbook sees, at any SIMD level, in tiles of any size.
+//! The fast rasterizer gives the same picture as its textbook, at any SIMD level, in tiles of any size.
 #![no_main]
 
 use bothways_common::{Frame, View};

@@ -1,4 +1,4 @@
-//! The fast ray tracer sees what its textbook sees, at any SIMD level, in tiles of both sizes.
+//! The fast ray tracer gives the same picture as its textbook, at any SIMD level, in tiles of both sizes.
 #![no_main]
 
 use bothways_common::{Frame, View};

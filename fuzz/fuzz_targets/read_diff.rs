@@ -1,4 +1,4 @@
-//! Any bytes as a file to compare (PNG, BMP, PNM, NPY): a buffer that equals itself, or a message.
+//! Any bytes, read as a file to compare (PNG, BMP, PNM, NPY), give a buffer that equals itself, or a message.
 #![no_main]
 
 use bothways::diff::foreign::{Content, compare, read_from};
@@ -9,13 +9,14 @@ use std::path::Path;
 
 fuzz_target!(|bytes: &[u8]| {
     let background = (bytes.len() % 2 == 1).then_some([16, 20, 24]);
-    // What lies behind a wrong checksum would never be reached.
+    // With wrong checksums, the reader would never reach the content of the chunks.
     let bytes = with_checksums(bytes);
     match read_from(Path::new("a"), Cursor::new(&bytes), background) {
         Ok(buffer) => {
-            // Comparing takes its time where there are many pixels.
+            // A comparison of many pixels takes too long.
             let [width, height] = buffer.size();
-            let not_numbers = matches!(buffer.content(), Content::Distances(t) if t.iter().any(|t| t.is_nan()));
+            let not_numbers =
+                matches!(buffer.content(), Content::Distances(t) if t.iter().any(|t| t.is_nan()));
             if u64::from(width) * u64::from(height) <= 1 << 12 && !not_numbers {
                 if let Ok(comparison) = compare(&buffer, &buffer) {
                     assert!(comparison.equal);

@@ -1,4 +1,4 @@
-//! Any bytes as an MTL file: materials that can be drawn, or a message.
+//! Any bytes, read as an MTL file, give materials that can be drawn, or a message.
 #![no_main]
 
 use bothways_formats::obj;

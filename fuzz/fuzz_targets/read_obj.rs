@@ -1,4 +1,4 @@
-//! Any bytes as an OBJ file: a mesh, or a message.
+//! Any bytes, read as an OBJ file, give a mesh, or a message.
 #![no_main]
 
 use bothways_formats::obj;

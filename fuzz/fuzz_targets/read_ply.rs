@@ -1,4 +1,4 @@
-//! Any bytes as a PLY file: a mesh, or a message.
+//! Any bytes, read as a PLY file, give a mesh, or a message.
 #![no_main]
 
 use bothways_formats::ply;

@@ -1,4 +1,4 @@
-//! Any text as a scene file: a scene and a camera, or a message with its place.
+//! Any text, read as a scene file, gives a scene and a camera, or a message with its place.
 #![no_main]
 
 use bothways_common::Camera;
@@ -8,7 +8,7 @@ use libfuzzer_sys::{Corpus, fuzz_target};
 use std::path::Path;
 
 fuzz_target!(|text: &str| -> Corpus {
-    // A few bytes may ask for a hundred million triangles, as they may: that takes its time.
+    // A short text may rightly ask for a hundred million triangles, which takes too long here.
     if text.contains("divisions") && text.contains("generate") {
         return Corpus::Reject;
     }

@@ -1,15 +1,16 @@
-//! Objects from bytes, many of them made to share planes, edges and vertices with earlier ones.
+//! Turns bytes into objects. Many of them share planes, edges and vertices with earlier ones.
 
 use crate::numbers::Numbers;
 use bothways_common::glam::Vec3;
 use bothways_common::{Mesh, Object, Plane, Shape, Sphere, Triangle};
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
 
-/// The textbook, which is asked as well, tests every primitive at every sample.
+/// The most objects: the textbook tests every primitive at every sample.
 const MOST_OBJECTS: usize = 16;
+/// The most triangles of a mesh.
 const MOST_TRIANGLES: usize = 40;
 
-/// Objects as long as there are bytes.
+/// Makes objects until the bytes end.
 pub(crate) fn objects(bytes: &mut Unstructured, numbers: Numbers) -> Result<Vec<Object>> {
     let mut shapes: Vec<Shape> = Vec::new();
     while !bytes.is_empty() && shapes.len() < MOST_OBJECTS {
@@ -25,13 +26,13 @@ fn shape(bytes: &mut Unstructured, numbers: Numbers, before: &[Shape]) -> Result
     Ok(match bytes.int_in_range(0..=11)? {
         0..=2 => triangle(corners(bytes, numbers)?),
         3 | 4 => {
-            // In one of a few planes that others share.
+            // In one of a few planes that other triangles share.
             let z = -f32::from(bytes.int_in_range(1..=3_u8)?);
             triangle(corners(bytes, numbers)?.map(|corner| corner.with_z(z)))
         }
         5 => {
             let [a, b, c] = corners(bytes, numbers)?;
-            // Points, needles and collinear corners.
+            // Triangles with equal corners, needles and collinear corners.
             triangle(
                 [a, b, *bytes.choose(&[a, b, 0.5 * a + 0.5 * b, b + 1e-6 * (c - b)])?].map(tame),
             )
@@ -64,12 +65,12 @@ fn triangle([a, b, c]: [Vec3; 3]) -> Shape {
     Shape::Triangle(Triangle { a, b, c })
 }
 
-/// A sum of extreme numbers may be infinite.
+/// The corner, or the origin if it is not finite: a sum of extreme numbers may be infinite.
 fn tame(corner: Vec3) -> Vec3 {
     if corner.is_finite() { corner } else { Vec3::ZERO }
 }
 
-/// A mesh whose triangles take any of a few positions, or a regular grid of them.
+/// A mesh of a regular grid, or of triangles between any of a few positions.
 fn mesh(bytes: &mut Unstructured, numbers: Numbers) -> Result<Shape> {
     let mut triangles: Vec<[u32; 3]> = Vec::new();
     let mut positions = Vec::new();
@@ -98,7 +99,7 @@ fn mesh(bytes: &mut Unstructured, numbers: Numbers) -> Result<Shape> {
     Ok(Shape::Mesh(Mesh::new(positions, triangles).expect("positions are finite")))
 }
 
-/// An earlier shape again: the same, its corners turned round, or one coordinate moved by one bit.
+/// A copy of an earlier shape: equal, with its corners in another order, or with one coordinate moved by one bit.
 fn near_copy(bytes: &mut Unstructured, shape: Shape) -> Result<Shape> {
     let how = bytes.int_in_range(0..=5_u8)?;
     let nudged = |corner: Vec3| {
