@@ -50,7 +50,8 @@ const KEYS: [&str; 13] = [
 /// Reads the table, and makes sure that [`Camera::new`] accepts the camera.
 pub(super) fn read(item: &Item) -> Result<CameraTable, Problem> {
     let table = item.table(&KEYS)?;
-    let misplaced = |error: CameraError| Problem::new(span(&table, &error), error.to_string());
+    let misplaced =
+        |error: CameraError| Problem::new(span(&table, &error), message(&table, &error));
     let standard = CameraDescription::default();
     let image = table.get("image").map_or(Ok(standard.image), |item| item.counts())?;
     // Checked first: the viewport is computed from it.
@@ -79,7 +80,7 @@ fn field_of_view(
     item: &Item,
     camera: CameraDescription,
 ) -> Result<CameraDescription, Problem> {
-    let degrees = item.number()?;
+    let (degrees, precise) = item.number_and_f64()?;
     if let [first, second] = table.present(&["fov", "viewport"])[..] {
         let message =
             format!("the viewport's size is stated by {first} already, so not by {second}");
@@ -87,9 +88,18 @@ fn field_of_view(
         return Err(Problem::new(table.span_of(second), message).help(help));
     }
     let refused = |error: CameraError| match error {
-        CameraError::FieldOfView { .. } => item
-            .problem(format!("is {}; it must be greater than 0 and less than 180", item.written()))
-            .help("it is the vertical angle in degrees"),
+        CameraError::FieldOfView { .. } => {
+            let written = item.written();
+            let rounded = match precise {
+                0.0..180.0 if precise > 0.0 => {
+                    format!(", which single precision rounds to {degrees}")
+                }
+                _ => String::new(),
+            };
+            let range = "it must be greater than 0 and less than 180";
+            item.problem(format!("is {written}{rounded}; {range}"))
+                .help("it is the vertical angle in degrees")
+        }
         _ => item
             .problem("belongs to a perspective camera; parallel rays never part")
             .help("give viewport = [vw, vh] instead"),
@@ -150,13 +160,30 @@ fn is_axis(key: &str) -> bool {
     matches!(key, "u" | "v" | "w")
 }
 
+/// The message about an error. It names `fov` if the viewport follows from it.
+fn message(table: &Table, error: &CameraError) -> String {
+    let fov = table.get("fov").filter(|_| is_about_viewport(error));
+    fov.map_or(error.to_string(), |fov| format!("fov is {}, so {error}", fov.written()))
+}
+
+fn is_about_viewport(error: &CameraError) -> bool {
+    match error {
+        CameraError::OutOfRange { what, .. } => *what != DISTANCE,
+        CameraError::TooWide { .. } => true,
+        _ => false,
+    }
+}
+
+/// What [`CameraError::OutOfRange`] calls the distance.
+const DISTANCE: &str = "the distance";
+
 /// The place of the key that an error is about, or of the table.
 fn span(table: &Table, error: &CameraError) -> Range<usize> {
     let keys: &[&str] = match error {
         CameraError::LooksAtItself { .. } => &["look_at"],
         CameraError::UpAlongView { .. } => &["up", "look_at", "direction"],
         CameraError::NotAFrame { .. } => &["u"],
-        CameraError::OutOfRange { what: "the distance", .. } => &["distance"],
+        CameraError::OutOfRange { what: DISTANCE, .. } => &["distance"],
         CameraError::OutOfRange { .. } | CameraError::TooWide { .. } => {
             &["viewport", "fov", "distance", "image"]
         }

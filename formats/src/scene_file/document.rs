@@ -162,6 +162,16 @@ impl<'t> Item<'t> {
         }
     }
 
+    /// The `f32` nearest to the number that is written, and the nearest `f64` to show what the rounding changed.
+    pub(super) fn number_and_f64(&self) -> Read<(f32, f64)> {
+        let rounded = self.number()?;
+        let precise = match self.value {
+            DeValue::Float(float) => float.as_str().parse().ok(),
+            _ => None,
+        };
+        Ok((rounded, precise.unwrap_or(rounded.into())))
+    }
+
     /// A number greater than 0.
     pub(super) fn positive(&self) -> Read<f32> {
         match self.number()? {

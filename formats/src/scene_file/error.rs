@@ -111,11 +111,23 @@ impl Problem {
     /// The error in a text that messages call `file`.
     pub(super) fn in_text(self, file: &str, text: &str) -> LocatedError {
         let Problem { span, message, help } = self;
+        let span = on_last_line(text, span);
         // The message may quote this file, or a mesh file that it names.
         let (message, help) = (visible(&message).into_owned(), help.as_deref().map(visible));
         let help = help.map(Cow::into_owned);
         LocatedError { file: file.to_owned(), text: text.to_owned(), span, message, help }
     }
+}
+
+/// Moves an empty place on a blank line at the end of a text to the end of the last line that is not blank.
+fn on_last_line(text: &str, span: Range<usize>) -> Range<usize> {
+    let Some((before, after)) = text.split_at_checked(span.start).filter(|_| span.is_empty())
+    else {
+        return span;
+    };
+    let end = before.trim_end().len();
+    let is_line_blank = before[end..].contains('\n') && after.trim().is_empty();
+    if end > 0 && is_line_blank { end..end } else { span }
 }
 
 impl From<toml::de::Error> for Problem {

@@ -29,6 +29,7 @@ impl Excerpt {
     pub(super) fn around(text: &str, span: Range<usize>) -> Excerpt {
         let start = floor(text, span.start);
         let end = floor(text, span.end).max(start);
+        let (start, end) = if start == end { at_line_end(text, start) } else { (start, end) };
         let end = match text[start..end].match_indices('\n').nth(MOST_LINES) {
             None => end,
             Some(_) => start + text[start..].find('\n').unwrap_or(0),
@@ -94,6 +95,18 @@ impl Excerpt {
     }
 }
 
+/// The last visible character before an empty place at the end of a line, to underline it: nothing follows the place.
+/// Any other place stays empty.
+fn at_line_end(text: &str, at: usize) -> (usize, usize) {
+    let line_start = text[..at].rfind('\n').map_or(0, |feed| feed + 1);
+    let before = text[line_start..at].trim_end();
+    let is_end = text[at..].lines().next().is_none_or(|rest| rest.trim().is_empty());
+    match before.char_indices().next_back() {
+        Some((last, _)) if is_end => (line_start + last, line_start + before.len()),
+        _ => (at, at),
+    }
+}
+
 /// The last character boundary that is not after `at`.
 fn floor(text: &str, at: usize) -> usize {
     let at = at.min(text.len());
@@ -126,9 +139,18 @@ mod tests {
         assert_eq!(underlined(&excerpt), "wrong");
         let excerpt = around("\u{feff}wrong = 1\n", "wrong");
         assert_eq!((excerpt.text.as_str(), underlined(&excerpt)), ("wrong = 1", "wrong"));
-        let excerpt = Excerpt::around("a = ", 4..4);
-        assert_eq!((excerpt.text.as_str(), excerpt.span), ("a = ", 4..4));
         assert_eq!(Excerpt::around("", 0..0), Excerpt { first_line: 1, ..Excerpt::default() });
+    }
+
+    #[test]
+    fn an_empty_place_at_the_end_of_a_line_underlines_the_character_before_it() {
+        let excerpt = Excerpt::around("a = ", 4..4);
+        assert_eq!((excerpt.text.as_str(), excerpt.span), ("a = ", 2..3));
+        let excerpt = Excerpt::around("a = [1, é\r\nb = 2\n", 10..10);
+        assert_eq!((excerpt.text.as_str(), underlined(&excerpt)), ("a = [1, é\nb = 2", "é"));
+        for (text, at) in [("", 0), ("\n\n", 1), ("a = 1", 0), ("a = 1", 3)] {
+            assert!(Excerpt::around(text, at..at).span.is_empty(), "{at} in {text:?}");
+        }
     }
 
     #[test]

@@ -26,6 +26,8 @@ pub(super) struct Transform {
 /// Reads one factor for all axes, or one for each axis. Negative factors mirror; zero would flatten.
 fn factors(item: &Item) -> Result<DVec3, Problem> {
     if item.is_number() {
+        // A number that is not finite is a problem of its own, which a mirror does not solve.
+        item.number()?;
         let factor = item.positive().map_err(|problem| {
             problem.help("to mirror, give three factors, such as scale = [-1, 1, 1]")
         })?;

@@ -54,6 +54,22 @@ fn what_is_wrong_with_the_document() {
 }
 
 #[test]
+fn an_error_at_the_end_of_a_file_points_at_the_last_line() {
+    for (text, place, underlined) in [
+        ("a = \"\"\"b\nc\n", "2:2", "c"),
+        ("a = \"\"\"b\nc\n \n\n", "2:2", "c"),
+        ("[[object]]\nsphere = {\n", "2:11", "{"),
+        ("[camera]\neye = [0, 0,\n\n", "2:13", ","),
+        ("a = ", "1:5", "="),
+    ] {
+        let error = read(text).unwrap_err();
+        assert!(error.to_string().starts_with(&format!("scene.toml:{place}: ")), "{error}");
+        let excerpt = error.excerpt();
+        assert_eq!(&excerpt.text[excerpt.span.clone()], underlined, "{text:?}");
+    }
+}
+
+#[test]
 fn what_is_wrong_with_a_field_of_view() {
     check_errors(&[
         (
@@ -61,6 +77,36 @@ fn what_is_wrong_with_a_field_of_view() {
             "180",
             "2:7: fov is 180; it must be greater than 0 and less than 180; it is the vertical angle \
              in degrees",
+        ),
+        (
+            "[camera]\nfov = 179.9999999",
+            "179.9999999",
+            "2:7: fov is 179.9999999, which single precision rounds to 180; it must be greater than 0 and \
+             less than 180; it is the vertical angle in degrees",
+        ),
+        (
+            "[camera]\nfov = 1e-60",
+            "1e-60",
+            "2:7: fov is 1e-60, which single precision rounds to 0; it must be greater than 0 and less than \
+             180; it is the vertical angle in degrees",
+        ),
+        (
+            "[camera]\nfov = -1e-60",
+            "-1e-60",
+            "2:7: fov is -1e-60; it must be greater than 0 and less than 180; it is the vertical angle in \
+             degrees",
+        ),
+        (
+            "[camera]\nfov = 1e-30",
+            "1e-30",
+            "2:7: fov is 1e-30, so the viewport's width is 2.3271056e-32; it must be between 2^-64 and 2^64 \
+             (5.4e-20 to 1.8e19)",
+        ),
+        (
+            "[camera]\nfov = 179.9999",
+            "179.9999",
+            "2:7: fov is 179.9999, so the viewport is 2.8609038e6 x 2.1456778e6 at distance 1; its sides may \
+             be at most 2^20 (about 1e6) times the distance",
         ),
         ("[camera]\nfov = \"wide\"", "\"wide\"", "2:7: fov is a string; it must be a number"),
         (
@@ -86,9 +132,14 @@ fn what_is_wrong_with_a_scale() {
         ("scale = [1, 2]", "scale has 2 elements; it must be three numbers"),
         ("scale = -1", "scale is -1; it must be greater than 0; to mirror, give three factors"),
         ("scale = \"x\"", "scale is a string; it must be a number, or three"),
+        ("scale = 1e39", "scale is 1e39; it must be between -3.4e38 and 3.4e38"),
     ] {
         let error = read(&object(line)).unwrap_err().to_string();
         assert!(error.contains(message), "{error}");
+    }
+    for word in ["nan", "inf", "-inf"] {
+        let error = read(&object(&format!("scale = {word}"))).unwrap_err().to_string();
+        assert_eq!(error, format!("scene.toml:3:9: scale is {word}; it must be a finite number"));
     }
     let ball = "[[object]]\nsphere = { center = [0, 0, 0], radius = 1 }\nscale = [1, 2, 1]";
     let error = read(ball).unwrap_err().to_string();
