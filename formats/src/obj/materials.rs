@@ -1,4 +1,4 @@
-//! Material files (MTL), which stand beside OBJ files.
+//! Reads material files (MTL), which OBJ files name.
 //!
 //! The reader takes this part of the format (Wavefront, "MTL Material Format", 1995), and is strict about it:
 //!

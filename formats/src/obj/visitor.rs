@@ -1,4 +1,4 @@
-//! What the parser of OBJ files calls, and what it passes.
+//! The visitor that the parser of OBJ files calls, and the corners that it passes.
 
 use bothways_common::scene::Attribute;
 use glam::{Vec2, Vec3};

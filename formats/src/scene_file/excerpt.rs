@@ -95,7 +95,7 @@ impl Excerpt {
     }
 }
 
-/// The last visible character before an empty place at the end of a line, to underline it: nothing follows the place.
+/// The last visible character before an empty place at the end of a line: without it, there would be nothing to underline.
 /// Any other place stays empty.
 fn at_line_end(text: &str, at: usize) -> (usize, usize) {
     let line_start = text[..at].rfind('\n').map_or(0, |feed| feed + 1);
