@@ -12,9 +12,9 @@ use std::path::{Path, PathBuf};
 const BYTES_PER_SAMPLE: u64 = 4 + 4 + 12;
 /// Bytes that a stream keeps besides: id and distance of the chunks before, and the triangle's three vertices.
 const BYTES_PER_STREAMED_SAMPLE: u64 = 4 + 4 + 12;
-/// Bytes for a pixel while pictures are drawn and compressed: of both orders at once, where there are two
-/// (measured: 14), or of one.
-const BYTES_PER_PIXEL: [u64; 2] = [8, 16];
+/// Bytes for a pixel while pictures are drawn, compared and compressed: of one order, or of both at once (measured
+/// with 3000 × 3000 pixels: 12).
+const BYTES_PER_PIXEL: [u64; 2] = [8, 12];
 /// For the program itself, and a slide of 1920 × 1080. What an order prepares (clusters, a hierarchy) and keeps from
 /// frame to frame (projected vertices, bins) is not counted: it depends on the scene, and is small beside a frame
 /// that is refused for its size.
