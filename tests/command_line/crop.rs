@@ -51,7 +51,7 @@ fn the_command_line_writes_a_part_of_what_it_writes() {
     let home = tempfile::tempdir().unwrap();
     let at = |name: &str| home.path().join(name);
     for (line, samples) in
-        [("ties --size 40x32", 1), ("overlap --size 40x32 --samples 2 --method textbook", 2)]
+        [("ties --size 40x32", 1), ("behind --size 40x32 --samples 2 --method textbook", 2)]
     {
         bothways(&home, line, "whole");
         let heading = contains("crop of 7 x 11 pixels at (5, 30) in 40 x 32");
