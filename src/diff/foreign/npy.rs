@@ -4,6 +4,7 @@ use super::problem::{Problem, ends_early};
 use super::{Buffer, Content, Covered, Picture, Pixels};
 use crate::common::raster::{MAX_SAMPLES, check_samples};
 use crate::formats::source::quote::shown;
+use half::f16;
 use npyz::{DType, Endianness, NpyHeader, Order, TypeChar};
 use std::borrow::Cow;
 use std::io::Read;
@@ -248,25 +249,12 @@ impl Number {
     }
 
     fn float(self, bits: u64) -> f64 {
-        let low = |bits: u64| u32::try_from(bits).expect("no more bytes were read");
+        const READ: &str = "no more bytes were read";
         match self.bytes {
-            2 => half(low(bits)),
-            4 => f64::from(f32::from_bits(low(bits))),
+            2 => f16::from_bits(bits.try_into().expect(READ)).to_f64(),
+            4 => f64::from(f32::from_bits(bits.try_into().expect(READ))),
             _ => f64::from_bits(bits),
         }
-    }
-}
-
-/// A number of 16 bits: one for the sign, five for the exponent, ten for the fraction (IEEE 754).
-fn half(bits: u32) -> f64 {
-    let (exponent, fraction) = (bits >> 10 & 31, f64::from(bits & 1023));
-    let sign = if bits >> 15 == 0 { 1.0 } else { -1.0 };
-    // Every product here is exact.
-    sign * match exponent {
-        0 => fraction * 2.0_f64.powi(-24),
-        31 if fraction == 0.0 => f64::INFINITY,
-        31 => f64::NAN,
-        _ => (1024.0 + fraction) * 2.0_f64.powi(i32::try_from(exponent).expect("5 bits") - 25),
     }
 }
 
