@@ -32,7 +32,7 @@ pub enum OpenedScene {
     /// All of it is in memory.
     InMemory(LoadedScene),
     /// Its mesh is read again for every frame.
-    Streamed(Box<StreamedScene>),
+    Streamed(StreamedScene),
 }
 
 impl OpenedScene {
@@ -57,7 +57,7 @@ impl OpenedScene {
         match self {
             OpenedScene::InMemory(loaded) => Source::View(View::new(&loaded.scene, camera)),
             OpenedScene::Streamed(streamed) => {
-                let StreamedScene { mesh, look, opening, .. } = streamed.as_mut();
+                let StreamedScene { mesh, look, opening, .. } = streamed;
                 Source::Stream { mesh, camera, look, opening: *opening }
             }
         }
@@ -72,7 +72,7 @@ impl OpenedScene {
 /// As for [`load`](super::load) and [`open_stream`].
 pub fn open(source: &str, image: Option<[u32; 2]>, stream: bool) -> Result<OpenedScene, LoadError> {
     if stream {
-        open_stream(source, image).map(|streamed| OpenedScene::Streamed(Box::new(streamed)))
+        open_stream(source, image).map(OpenedScene::Streamed)
     } else {
         load_for(source, image).map(OpenedScene::InMemory)
     }
