@@ -43,7 +43,8 @@ fn about(length: f64) -> String {
 /// How a mesh is framed: from which side, and for which image.
 ///
 /// ```
-/// use bothways::common::{Camera, generate::Kind, glam::Vec3};
+/// use bothways::common::{Camera, glam::Vec3};
+/// use bothways::formats::generate::Kind;
 /// use bothways::scenes::Framing;
 ///
 /// let teapot = Kind::Teapot.mesh([10, 10])?;
@@ -97,7 +98,8 @@ const MOST_STEPS: u32 = 16;
 /// As for [`Framing::camera`].
 ///
 /// ```
-/// use bothways::common::{Camera, generate::Kind};
+/// use bothways::common::Camera;
+/// use bothways::formats::generate::Kind;
 ///
 /// let torus = Kind::Torus.mesh([24, 12])?;
 /// let camera = Camera::new(bothways::scenes::framed(&torus)?)?;
