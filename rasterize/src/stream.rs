@@ -6,11 +6,11 @@
 //!         keep the nearest              of the chunk's winners and those of all chunks before
 //! ```
 //!
-//! Object order needs one object at a time: what was drawn is not asked for again, except for the one
-//! triangle that each sample shows. So it is the same loop as in [`fast`], with a pause now and then.
+//! Object order needs one object at a time. A triangle that was drawn is not needed again, except for the one
+//! that each sample shows. So it is the same loop as in [`fast`], with a pause now and then.
 //!
 //! What is nearest is a minimum over a total order: by exact `t`, then by the nudged ray, then by id.
-//! A minimum over parts is the minimum over all, in whichever parts: the ids are those of the whole
+//! The minimum of the minima of all chunks is the minimum over all: the ids are those of the whole
 //! mesh in memory, for chunks of any size. Image order cannot do this: any ray may need any triangle.
 
 use crate::fast;
@@ -27,8 +27,8 @@ use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 use std::mem;
 
-/// Triangles of a chunk, unless a caller knows better: enough that clearing and merging a frame for
-/// each is a small part of the work, in some tens of megabytes.
+/// The usual number of triangles in a chunk: enough that clearing and merging a frame for each chunk is
+/// a small part of the work, in some tens of megabytes.
 pub const CHUNK: usize = 1 << 18;
 
 /// What lasts from chunk to chunk and from pass to pass: what is seen at every sample, 40 bytes each:
@@ -39,12 +39,12 @@ pub struct Canvas {
     frame: Frame,
     ids: Vec<u32>,
     t: Vec<f32>,
-    /// The three vertices of the triangle that a sample shows: nobody else remembers them.
+    /// The three vertices of the triangle that a sample shows: they are kept nowhere else.
     corners: Vec<[u32; 3]>,
     options: Options,
 }
 
-/// What a streamed mesh is made of, and what it is seen in.
+/// The material of a streamed mesh, and its light.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Look {
     /// Of all triangles.
@@ -56,7 +56,7 @@ pub struct Look {
 }
 
 impl Default for Look {
-    /// That of a scene that says nothing of it.
+    /// That of a scene that does not state it.
     fn default() -> Self {
         let Scene { lights, background, .. } = scene_of([], &Positions::default());
         Look { material: Material::default(), lights, background }
@@ -220,20 +220,20 @@ impl<O: Observer> Pass<'_, O> {
         let parts: Vec<O> = rows
             .into_par_iter()
             .zip(held.zip(drawn))
-            .map_init(begin, |memory, (row, (((ids, t), corners), (new_ids, new_t)))| {
+            .map_init(begin, |judge, (row, (((ids, t), corners), (new_ids, new_t)))| {
                 let mut depth_test =
-                    DepthTest { positions, view, grid, memory, observer: observer.fork() };
+                    DepthTest { positions, view, grid, judge, observer: observer.fork() };
                 for (index, (column, &local)) in columns.clone().zip(new_ids).enumerate() {
                     if local == NO_PRIMITIVE {
                         continue;
                     }
                     let triangle = chunk[local as usize];
-                    let challenger = Seen { id: first_id + local, t: new_t[index], triangle };
-                    let holder = Seen { id: ids[index], t: t[index], triangle: corners[index] };
-                    if depth_test.passes(Sample { row, column }, &challenger, &holder) {
-                        ids[index] = challenger.id;
-                        t[index] = challenger.t;
-                        corners[index] = challenger.triangle;
+                    let incoming = Seen { id: first_id + local, t: new_t[index], triangle };
+                    let stored = Seen { id: ids[index], t: t[index], triangle: corners[index] };
+                    if depth_test.passes(Sample { row, column }, &incoming, &stored) {
+                        ids[index] = incoming.id;
+                        t[index] = incoming.t;
+                        corners[index] = incoming.triangle;
                     }
                 }
                 depth_test.observer
@@ -269,36 +269,36 @@ struct Seen {
     triangle: [u32; 3],
 }
 
-/// Who decides between a winner of a chunk and one of the chunks before.
+/// The depth test between a winner of a chunk and one of the chunks before.
 struct DepthTest<'a, O> {
     positions: &'a Positions,
     view: &'a View<'a>,
     grid: &'a SampleGrid<'a>,
-    memory: &'a mut CachedJudge,
+    judge: &'a mut CachedJudge,
     observer: O,
 }
 
 impl<O: Observer> DepthTest<'_, O> {
-    /// Whether the challenger is seen rather than the holder, if there is one.
-    fn passes(&mut self, sample: Sample, challenger: &Seen, holder: &Seen) -> bool {
-        if holder.id == NO_PRIMITIVE {
+    /// Whether the incoming triangle is seen rather than the stored one, if there is one.
+    fn passes(&mut self, sample: Sample, incoming: &Seen, stored: &Seen) -> bool {
+        if stored.id == NO_PRIMITIVE {
             return true;
         }
-        let nearer = surely_nearer(challenger.t, holder.t)
-            .unwrap_or_else(|| self.judge(sample, challenger, holder));
-        self.observer.depth_test(sample, challenger.id, holder.id, nearer);
+        let nearer = surely_nearer(incoming.t, stored.t)
+            .unwrap_or_else(|| self.judge(sample, incoming, stored));
+        self.observer.depth_test(sample, incoming.id, stored.id, nearer);
         nearer
     }
 
     #[cold]
-    fn judge(&mut self, sample: Sample, challenger: &Seen, holder: &Seen) -> bool {
+    fn judge(&mut self, sample: Sample, incoming: &Seen, stored: &Seen) -> bool {
         self.observer.judged(sample, Question::Nearest);
         let ray = self.grid.ray(sample.row, sample.column);
-        let [first, second] = [challenger, holder].map(|seen| {
+        let [first, second] = [incoming, stored].map(|seen| {
             let corner = |vertex| self.view.offset(self.positions.get(vertex));
             Primitive::Triangle(seen.triangle.map(corner))
         });
-        self.memory.nearer((challenger.id, &first), (holder.id, &second), &ray)
+        self.judge.nearer((incoming.id, &first), (stored.id, &second), &ray)
     }
 }
 
@@ -309,16 +309,16 @@ impl<O: Observer> DepthTest<'_, O> {
 /// 2·10⁻⁵ leaves room for rounding. Where the smaller one is below 2⁻¹⁰⁰, its error is far below 2⁻¹⁰⁰·10⁻⁵ however it
 /// was rounded, and the larger alone must be above. A true `t` beyond `f32::MAX` is stored as that: as
 /// the larger one it is even larger, and two such are never in order.
-fn surely_nearer(challenger: f32, holder: f32) -> Option<bool> {
+fn surely_nearer(incoming: f32, stored: f32) -> Option<bool> {
     const DOUBT: f64 = 2e-5;
     /// 2⁻¹⁰⁰.
     const LEAST: f32 = f32::from_bits(27 << 23);
-    let (near, far) = (challenger.min(holder), challenger.max(holder));
+    let (near, far) = (incoming.min(stored), incoming.max(stored));
     let certain = far >= LEAST && f64::from(near) < f64::from(far) * (1.0 - DOUBT);
-    certain.then_some(challenger < holder)
+    certain.then_some(incoming < stored)
 }
 
-/// An observer of a chunk, who hears the ids of the whole mesh.
+/// An observer of a chunk that is told the ids of the whole mesh.
 struct Shifted<O> {
     inner: O,
     by: u32,
@@ -361,8 +361,8 @@ impl<O: Events> Events for Shifted<O> {
         self.inner.fragment(sample, primitive + self.by);
     }
 
-    fn depth_test(&mut self, sample: Sample, challenger: u32, holder: u32, replaced: bool) {
-        self.inner.depth_test(sample, challenger + self.by, holder + self.by, replaced);
+    fn depth_test(&mut self, sample: Sample, incoming: u32, stored: u32, replaced: bool) {
+        self.inner.depth_test(sample, incoming + self.by, stored + self.by, replaced);
     }
 
     fn judged(&mut self, sample: Sample, question: Question) {
