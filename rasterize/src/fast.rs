@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! for each primitive                    vertex stage, bounding region, bins       (vertices, search)
-//!     for each sample it may affect     tile by tile: a z-buffer stays in cache   (draw_tile, tile)
+//!     for each sample it may affect     tile by tile: a z-buffer stays in cache   (draw, tile)     
 //!         if it covers the sample       edge functions, affine on the raster      (setup)
 //!             keep the nearest          depth keys, affine on the raster          (depth, tile)
 //! ```
@@ -25,10 +25,11 @@
 
 mod affine;
 mod aligned;
+mod answer;
 mod bounds;
 mod camera_map;
 mod depth;
-mod draw_tile;
+mod draw;
 mod few_samples;
 mod geometry;
 mod high_precision;
@@ -43,7 +44,9 @@ mod search;
 mod setup;
 mod size_class;
 mod sphere;
+mod store;
 mod tile;
+mod triangle;
 mod vertices;
 
 pub(crate) use prepared::corners;
@@ -58,7 +61,7 @@ use bothways_common::observe::{Events, Observer};
 use bothways_common::{Frame, Options, Shape, View};
 use camera_map::CameraMap;
 use depth::KeyScale;
-use draw_tile::Drawing;
+use draw::Drawing;
 use geometry::Geometry;
 use glam::Vec3;
 use picture::Picture;
@@ -69,6 +72,7 @@ use search::bins::BatchBins;
 use search::tiling::Tiling;
 use std::cmp::Reverse;
 use std::sync::{Mutex, MutexGuard, PoisonError};
+use store::{store, store_nothing};
 use tile::TileBuffer;
 use vertices::{FixedPointRaster, Vertex};
 
@@ -82,8 +86,8 @@ use vertices::{FixedPointRaster, Vertex};
 /// use bothways_rasterize::common::{Camera, Options, Scene, Shape, Sphere, View, glam::Vec3};
 /// use bothways_rasterize::fast;
 ///
-/// let ball = Shape::Sphere(Sphere { center: Vec3::new(0.0, 0.0, -4.0), radius: 1.0 });
-/// let scene = Scene::new(vec![ball.into()])?;
+/// let sphere = Shape::Sphere(Sphere { center: Vec3::new(0.0, 0.0, -4.0), radius: 1.0 });
+/// let scene = Scene::new(vec![sphere.into()])?;
 /// let camera = Camera::canonical(5, 5);
 /// let prepared = fast::prepare(&scene);
 /// let frame = fast::render(&prepared, &View::new(&scene, &camera), &Options::default());
@@ -310,14 +314,14 @@ fn draw_tiles<O: Observer>(
             let (index, tile) = lock(&queue).next().expect("there are as many");
             let mut observer = shared.fork();
             if dropped == Some(index) || bins.iter().all(|bins| bins.work(index) == 0) {
-                TileBuffer::store_nothing(tile);
+                store_nothing(tile);
                 return (index, observer);
             }
             let buffer = lock(&free).pop().filter(|buffer| buffer.fits(tiling));
             let mut buffer = buffer.unwrap_or_else(|| TileBuffer::new(view, tiling));
             buffer.begin(view, &tile.region);
             (loops.draw_tile)(drawing, index, &mut buffer, observer.sink());
-            dispatch!(level, simd => buffer.store(simd, picture, tile));
+            dispatch!(level, simd => store(simd, picture, &mut buffer, tile));
             lock(&free).push(buffer);
             (index, observer)
         })

@@ -3,7 +3,7 @@
 use super::lanes::lanes_of;
 use super::picture::Picture;
 use super::setup::Setup;
-use super::size_class::FEW_SAMPLES;
+use super::size_class::FEW;
 use super::tile::TileBuffer;
 use bothways_common::engine::context::{Context, ScalarContext};
 use bothways_common::engine::simd::{
@@ -82,7 +82,7 @@ fn leave_open<C: ScalarContext>(
 }
 
 /// Sixteen triangles have at most so many fragments.
-const MOST_FRAGMENTS: usize = 16 * FEW_SAMPLES as usize;
+const MOST_FRAGMENTS: usize = 16 * FEW as usize;
 
 /// Fragments that wait for their depth test: the machine predicts the branches of one loop over all of them better
 /// than those of one loop for each step.

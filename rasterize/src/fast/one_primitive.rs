@@ -1,17 +1,18 @@
 //! What the vector paths leave, one primitive at a time, set up in `f64`: triangles that are large, reach to the eye's
 //! plane or are almost edge-on, and planes, both strip by strip; spheres, sample by sample.
 
-mod edges;
+pub(super) mod edges;
 pub(super) mod fragment_writer;
 pub(super) mod narrow;
 pub(super) mod strips;
-mod triangle;
 
+use super::answer::Answer;
 use super::bounds::region;
 use super::picture::Picture;
 use super::plane;
-use super::sphere::{Sphere, SphereHit};
+use super::sphere::Sphere;
 use super::tile::TileBuffer;
+use super::triangle;
 use bothways_common::Primitive;
 use bothways_common::engine::context::{Context, ScalarContext};
 use bothways_common::engine::fault::Planted;
@@ -64,15 +65,15 @@ fn draw_sphere<C: ScalarContext>(context: &mut C, writer: &mut FragmentWriter, r
             let sample = Sample { row, column };
             let ray = map.grid.ray(row, column);
             context.sink().sample_tested(sample, writer.id);
-            let hit = if C::has(Planted::InfiniteErrorBound) {
-                SphereHit::Unknown
+            let answer = if C::has(Planted::InfiniteErrorBound) {
+                Answer::Open
             } else {
-                sphere.hit(&ray)
+                sphere.answer(&ray)
             };
-            match hit {
-                SphereHit::At(depth) => writer.write(context, sample, depth),
-                SphereHit::Miss => {}
-                SphereHit::Unknown => {
+            match answer {
+                Answer::Hit(depth) => writer.write(context, sample, depth),
+                Answer::Miss => {}
+                Answer::Open => {
                     if writer.judge_covers(context, sample) {
                         writer.write(context, sample, Interval::ALL);
                     }

@@ -1,11 +1,11 @@
 //! How a primitive is drawn, by the number of samples in its box.
 
-/// Boxes of at most this many samples are drawn together, apart from larger ones: sixteen triangles take
+/// Triangles with boxes of at most this many samples are drawn apart from larger ones: sixteen triangles take
 /// as long as the one with most samples.
-pub(super) const VERY_FEW_SAMPLES: u32 = 4;
-/// Triangles over at most this many samples are drawn a triangle a lane.
-pub(super) const FEW_SAMPLES: u32 = 16;
-/// Boxes of more columns or rows than this are not for `f32`.
+pub(super) const VERY_FEW: u32 = 4;
+/// Triangles with boxes of at most this many samples are drawn one a lane.
+pub(super) const FEW: u32 = 16;
+/// Triangles with boxes of more rows or columns than this are not drawn from `f32` setups.
 pub(super) const MOST_SAMPLES_ACROSS: i32 = 256;
 
 /// How a primitive is drawn.

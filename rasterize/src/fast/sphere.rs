@@ -4,11 +4,10 @@
 
 mod equation;
 mod from_afar;
-mod hit;
 
 pub(super) use equation::nearer;
-pub(super) use hit::SphereHit;
 
+use super::answer::Answer;
 use super::camera_map::CameraMap;
 use bothways_common::engine::roundoff::Interval;
 use bothways_common::{Projection, Ray};
@@ -45,16 +44,16 @@ impl Sphere {
         }
     }
 
-    /// Whether a ray meets the sphere, and at what depth.
+    /// The answer for a ray.
     #[inline(always)]
-    pub(super) fn hit(&self, ray: &Ray) -> SphereHit {
+    pub(super) fn answer(&self, ray: &Ray) -> Answer {
         let Sphere { projection, center, local_center, radius, exact, .. } = *self;
         if self.has_local_origin && self.is_in_front {
-            return from_afar::hit(local_center, radius, ray, exact);
+            return from_afar::answer(local_center, radius, ray, exact);
         }
-        match equation::hit(projection, center, radius, ray, exact) {
+        match equation::answer(projection, center, radius, ray, exact) {
             // The depth from the eye is not that from the local origin.
-            SphereHit::At(_) if self.has_local_origin => SphereHit::At(Interval::ALL),
+            Answer::Hit(_) if self.has_local_origin => Answer::Hit(Interval::ALL),
             answer => answer,
         }
     }

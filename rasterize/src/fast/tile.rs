@@ -1,16 +1,14 @@
 //! One tile of the picture: its z-buffer, and the decisions that rounding left open.
 
-use super::depth::{NOTHING, Rank, distances, rank};
+use super::depth::{NOTHING, Rank, rank};
 use super::picture::{Picture, judge_covers};
 use super::search::tiling::Tiling;
 use super::sphere::nearer;
 use bothways_common::engine::context::ScalarContext;
 use bothways_common::engine::fault::Planted;
-use bothways_common::engine::simd::{
-    Select, Simd, SimdBase, SimdMask, f32x16, finish_streaming, stream, u32x16,
-};
+use bothways_common::engine::simd::{Simd, SimdBase, SimdMask, f32x16};
 use bothways_common::exact::CachedJudge;
-use bothways_common::frame::{NO_PRIMITIVE, Tile, stored_t};
+use bothways_common::frame::NO_PRIMITIVE;
 use bothways_common::observe::{Events, Question};
 use bothways_common::raster::{Region, Sample};
 use bothways_common::{Primitive, View};
@@ -366,83 +364,5 @@ impl TileBuffer {
     /// Whether a flat primitive covers no sample of this camera at all; see [`CachedJudge::is_edge_on`].
     pub(super) fn is_edge_on(&mut self, id: u32, primitive: &Primitive) -> bool {
         self.judge.is_edge_on(id, primitive)
-    }
-
-    /// Writes ids and distances into the frame, and leaves the tile ready for another.
-    #[inline(always)]
-    pub(super) fn store<S: Simd>(&mut self, simd: S, picture: &Picture, tile: Tile) {
-        for (row, (ids, t)) in tile.ids.into_iter().zip(tile.t).enumerate() {
-            let start = row * self.stride;
-            let (whole_ids, rest_ids) = ids.as_chunks_mut::<16>();
-            let (whole_t, rest_t) = t.as_chunks_mut::<16>();
-            let whole = 16 * whole_ids.len();
-            let from = (start..).step_by(16);
-            for ((ids, t), from) in whole_ids.iter_mut().zip(whole_t).zip(from) {
-                self.store_sixteen(simd, picture, from, ids, t);
-            }
-            if !rest_ids.is_empty() {
-                let (mut ids, mut t) = ([NO_PRIMITIVE; 16], [f32::INFINITY; 16]);
-                self.store_sixteen(simd, picture, start + whole, &mut ids, &mut t);
-                rest_ids.copy_from_slice(&ids[..rest_ids.len()]);
-                rest_t.copy_from_slice(&t[..rest_t.len()]);
-            }
-        }
-        finish_streaming();
-    }
-
-    /// Writes a tile in which nothing is seen.
-    pub(super) fn store_nothing(tile: Tile) {
-        for (ids, t) in tile.ids.into_iter().zip(tile.t) {
-            let (whole_ids, rest_ids) = ids.as_chunks_mut::<16>();
-            let (whole_t, rest_t) = t.as_chunks_mut::<16>();
-            for (ids, t) in whole_ids.iter_mut().zip(whole_t) {
-                stream([NO_PRIMITIVE; 16], ids);
-                stream([f32::INFINITY; 16], t);
-            }
-            rest_ids.fill(NO_PRIMITIVE);
-            rest_t.fill(f32::INFINITY);
-        }
-        finish_streaming();
-    }
-
-    #[inline(always)]
-    fn store_sixteen<S: Simd>(
-        &mut self,
-        simd: S,
-        picture: &Picture,
-        from: usize,
-        ids: &mut [u32; 16],
-        t: &mut [f32; 16],
-    ) {
-        let keys = f32x16::from_slice(simd, &self.keys[from..from + 16]);
-        let nothing = keys.simd_eq(f32x16::splat(simd, NOTHING));
-        if nothing.all_true() {
-            stream([NO_PRIMITIVE; 16], ids);
-            stream([f32::INFINITY; 16], t);
-            return;
-        }
-        f32x16::splat(simd, NOTHING).store_slice(&mut self.keys[from..from + 16]);
-        let (distances, unsure) = distances(simd, &picture.keys, keys);
-        let unsure = unsure & !nothing;
-        let mut distances =
-            nothing.select(f32x16::splat(simd, f32::INFINITY), distances).to_array();
-        let seen = u32x16::from_slice(simd, &self.ids[from..from + 16]);
-        let seen = nothing.select(u32x16::splat(simd, NO_PRIMITIVE), seen).to_array();
-        if unsure.any_true() {
-            self.judge_distances(picture, from, unsure.to_bitmask(), &mut distances);
-        }
-        stream(seen, ids);
-        stream(distances, t);
-    }
-
-    #[cold]
-    fn judge_distances(&self, picture: &Picture, from: usize, lanes: u64, t: &mut [f32; 16]) {
-        let judge = picture.view.judge();
-        for (lane, t) in t.iter_mut().enumerate().filter(|(lane, _)| lanes >> lane & 1 == 1) {
-            let Sample { row, column } = self.sample(from + lane);
-            let ray = picture.map.grid.ray(row, column);
-            let primitive = picture.view.primitive(self.ids[from + lane]);
-            *t = stored_t(judge.distance(&primitive, &ray));
-        }
     }
 }

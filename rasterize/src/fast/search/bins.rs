@@ -6,7 +6,7 @@ use super::tiling::Tiling;
 use crate::fast::bounds::region;
 use crate::fast::geometry::Geometry;
 use crate::fast::setup::BOX_MARGIN;
-use crate::fast::size_class::{FEW_SAMPLES, MOST_SAMPLES_ACROSS, SizeClass, VERY_FEW_SAMPLES};
+use crate::fast::size_class::{FEW, MOST_SAMPLES_ACROSS, SizeClass, VERY_FEW};
 use crate::fast::vertices::{ON_RASTER, OUT_OF_SIGHT, Vertex};
 use bothways_common::Shape;
 use bothways_common::engine::context::{Context, ScalarContext};
@@ -57,7 +57,7 @@ impl Entry {
         let [rows, columns] = self.bounds();
         let samples = (rows[1] - rows[0] + 1) * (columns[1] - columns[0] + 1);
         const { assert!(SizeClass::Few as u32 == 1 && SizeClass::Many as u32 == 2) };
-        let by_samples = u32::from(samples > VERY_FEW_SAMPLES) + u32::from(samples > FEW_SAMPLES);
+        let by_samples = u32::from(samples > VERY_FEW) + u32::from(samples > FEW);
         by_samples.max(u32::from(self.large) * SizeClass::Large as u32)
     }
 

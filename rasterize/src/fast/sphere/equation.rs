@@ -1,6 +1,6 @@
 //! The equation of a sphere along a ray, relative to the eye.
 
-use super::hit::SphereHit;
+use crate::fast::answer::Answer;
 use crate::fast::depth::depth_from_t;
 use crate::fast::high_precision::DoubleDouble;
 use bothways_common::engine::roundoff::EPS53;
@@ -14,43 +14,44 @@ const FLOOR: f64 = 1e-200;
 /// Tests a ray against a sphere: in `f64`; and with twice as many digits, where that leaves the hit open or has too few
 /// digits of `t`. `exact` says whether bounds hold or are (by a fault) zero.
 #[inline(always)]
-pub(crate) fn hit(
+pub(crate) fn answer(
     projection: Projection,
     center: DVec3,
     radius: f64,
     ray: &Ray,
     exact: bool,
-) -> SphereHit {
+) -> Answer {
     /// The relative error of `t` from which a depth key can still be made.
     const ENOUGH: f64 = 1e-7;
-    let answer = Equation::new(center, radius, ray, exact).answer();
-    let answer = match answer {
-        Answer::At { relative, .. } if relative <= ENOUGH => answer,
-        Answer::No => answer,
-        _ if exact => high_precision_answer(center, radius, ray),
-        _ => answer,
+    let hit = Equation::new(center, radius, ray, exact).first_hit();
+    let hit = match hit {
+        FirstHit::At { relative, .. } if relative <= ENOUGH => hit,
+        FirstHit::Miss => hit,
+        _ if exact => first_hit_in_high_precision(center, radius, ray),
+        _ => hit,
     };
-    match answer {
-        Answer::At { t, relative } => SphereHit::At(depth_from_t(projection, t, 1.25 * relative)),
-        Answer::No => SphereHit::Miss,
-        Answer::Unknown => SphereHit::Unknown,
+    match hit {
+        FirstHit::At { t, relative } => Answer::Hit(depth_from_t(projection, t, 1.25 * relative)),
+        FirstHit::Miss => Answer::Miss,
+        FirstHit::Unknown => Answer::Open,
     }
 }
 
 /// Not inlined, because it would slow the loop down.
 #[cold]
 #[inline(never)]
-fn high_precision_answer(center: DVec3, radius: f64, ray: &Ray) -> Answer {
-    Equation::in_high_precision(center, radius, ray).answer()
+fn first_hit_in_high_precision(center: DVec3, radius: f64, ray: &Ray) -> FirstHit {
+    Equation::in_high_precision(center, radius, ray).first_hit()
 }
 
-enum Answer {
+/// The first hit of a ray.
+enum FirstHit {
     /// The ray meets the sphere at `t`, which is off by at most this fraction of it.
     At {
         t: f64,
         relative: f64,
     },
-    No,
+    Miss,
     Unknown,
 }
 
@@ -135,18 +136,18 @@ impl Equation {
     }
 
     #[inline(always)]
-    fn answer(&self) -> Answer {
+    fn first_hit(&self) -> FirstHit {
         let Equation { a, b, b_error, c, c_error, discriminant, d_error, unit } = *self;
         let (outside, inside) = (c > c_error, c < -c_error);
         let on = c == 0.0 && c_error == 0.0;
         if (outside || on) && b > b_error || outside && discriminant < -d_error {
-            return Answer::No;
+            return FirstHit::Miss;
         }
         let approaches = b < -b_error;
         let near = outside && approaches && discriminant > d_error;
         // A ray that begins on the sphere meets its far wall, or nothing.
         if !(near || inside || on && approaches) {
-            return Answer::Unknown;
+            return FirstHit::Unknown;
         }
         // The form of the root in which nothing cancels, and the relative errors of its parts. Each part is
         // rounded once more at its end.
@@ -159,7 +160,7 @@ impl Equation {
         } else {
             (sum / a, sum_relative + 4.0 * unit)
         };
-        Answer::At { t, relative: relative + 3.0 * unit }
+        FirstHit::At { t, relative: relative + 3.0 * unit }
     }
 }
 

@@ -1,7 +1,7 @@
 //! A sphere far in front of a parallel camera, tested from the local origin: where it lies is known to as many digits
 //! as if the eye were near.
 
-use super::hit::SphereHit;
+use crate::fast::answer::Answer;
 use bothways_common::Ray;
 use bothways_common::engine::roundoff::{EPS53, Interval};
 use glam::DVec3;
@@ -18,7 +18,7 @@ use glam::DVec3;
 /// which the computed `B` may take one more `2δB²`, and one of itself; `A·C` by `A·δC`, 3 for `A` and one; their
 /// difference by one of both. The root `(−B − √…)/A` carries what its parts do, and 3 of `A`, the sum's and the
 /// quotient's. Constants are larger by one or more, or by a tenth.
-pub(crate) fn hit(center: DVec3, radius: f64, ray: &Ray, exact: bool) -> SphereHit {
+pub(crate) fn answer(center: DVec3, radius: f64, ray: &Ray, exact: bool) -> Answer {
     /// A floor of all bounds: smaller products may have underflowed.
     const FLOOR: f64 = 1e-200;
     let (unit, floor) = if exact { (EPS53, FLOOR) } else { (0.0, 0.0) };
@@ -35,15 +35,15 @@ pub(crate) fn hit(center: DVec3, radius: f64, ray: &Ray, exact: bool) -> SphereH
         + 8.0 * unit * (b * b + a * (distance_squared + radius_squared))
         + floor;
     if discriminant < -d_error {
-        return SphereHit::Miss;
+        return Answer::Miss;
     }
     // Written so that NaN is unknown.
     if discriminant.partial_cmp(&d_error) != Some(std::cmp::Ordering::Greater) {
-        return SphereHit::Unknown;
+        return Answer::Open;
     }
     let root = discriminant.sqrt();
     let root_error = d_error / root + unit * root;
     let t = (-b - root) / a;
     let error = 1.01 * (b_error + root_error + 6.0 * unit * (b.abs() + root)) / a + floor;
-    SphereHit::At(Interval::around(t, error).unwrap_or(Interval::ALL))
+    Answer::Hit(Interval::around(t, error).unwrap_or(Interval::ALL))
 }

@@ -1,9 +1,9 @@
 //! A triangle that is set up in `f64`.
 
-use super::edges::F64Setup;
-use super::fragment_writer::FragmentWriter;
-use super::narrow::narrow_triangle;
-use super::strips::{STRIP, strips};
+use super::one_primitive::edges::F64Setup;
+use super::one_primitive::fragment_writer::FragmentWriter;
+use super::one_primitive::narrow::narrow_triangle;
+use super::one_primitive::strips::{STRIP, strips};
 use bothways_common::engine::context::{Context, ScalarContext};
 use bothways_common::observe::Events;
 use bothways_common::raster::{Region, Sample};
@@ -13,7 +13,7 @@ use glam::DVec3;
 /// Draws what of a triangle lies in the tile, strip by strip: sixteen samples at a time where `f32` is certain enough
 /// of depths, one by one elsewhere.
 #[inline(always)]
-pub(crate) fn draw<C: Context>(
+pub(super) fn draw<C: Context>(
     context: &mut C,
     writer: &mut FragmentWriter,
     corners: &[DVec3; 3],

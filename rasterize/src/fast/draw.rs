@@ -10,7 +10,7 @@ use super::search::bins::BatchBins;
 use super::search::clusters::Cluster;
 use super::search::finder::Finder;
 use super::setup::{AxisBounds, Setup};
-use super::size_class::{FEW_SAMPLES, SizeClass, VERY_FEW_SAMPLES};
+use super::size_class::{FEW, SizeClass, VERY_FEW};
 use super::tile::TileBuffer;
 use super::vertices::{ON_RASTER, OUT_OF_SIGHT};
 use super::{many_samples, one_primitive};
@@ -156,8 +156,8 @@ impl<C: ScalarContext> Painter<'_, '_, C> {
         let here = on_raster & overlaps;
         let short = down.is_short(simd, raster) & across.is_short(simd, raster);
         let samples = down.count * across.count;
-        let few = samples.simd_le(splat(FEW_SAMPLES.cast_signed()));
-        let very_few = samples.simd_le(splat(VERY_FEW_SAMPLES.cast_signed()));
+        let few = samples.simd_le(splat(FEW.cast_signed()));
+        let very_few = samples.simd_le(splat(VERY_FEW.cast_signed()));
         let small = here & short;
         let by_class = [small & very_few, small & few & !very_few, small & !few];
         for (waiting, which) in self.waiting.iter_mut().zip(by_class) {

@@ -1,0 +1,96 @@
+//! Writes the ids and distances of a tile into a frame.
+
+use super::depth::{NOTHING, distances};
+use super::picture::Picture;
+use super::tile::TileBuffer;
+use bothways_common::engine::simd::{
+    Select, Simd, SimdBase, SimdMask, f32x16, finish_streaming, stream, u32x16,
+};
+use bothways_common::frame::{NO_PRIMITIVE, Tile, stored_t};
+use bothways_common::raster::Sample;
+
+/// Writes ids and distances into the frame, and leaves the buffer ready for another tile.
+#[inline(always)]
+pub(super) fn store<S: Simd>(simd: S, picture: &Picture, buffer: &mut TileBuffer, tile: Tile) {
+    for (row, (ids, t)) in tile.ids.into_iter().zip(tile.t).enumerate() {
+        let start = row * buffer.stride();
+        let (whole_ids, rest_ids) = ids.as_chunks_mut::<16>();
+        let (whole_t, rest_t) = t.as_chunks_mut::<16>();
+        let whole = 16 * whole_ids.len();
+        let from = (start..).step_by(16);
+        for ((ids, t), from) in whole_ids.iter_mut().zip(whole_t).zip(from) {
+            store_sixteen(simd, picture, buffer, from, (ids, t));
+        }
+        if !rest_ids.is_empty() {
+            let (mut ids, mut t) = ([NO_PRIMITIVE; 16], [f32::INFINITY; 16]);
+            store_sixteen(simd, picture, buffer, start + whole, (&mut ids, &mut t));
+            rest_ids.copy_from_slice(&ids[..rest_ids.len()]);
+            rest_t.copy_from_slice(&t[..rest_t.len()]);
+        }
+    }
+    finish_streaming();
+}
+
+/// Writes a tile in which nothing is seen.
+pub(super) fn store_nothing(tile: Tile) {
+    for (ids, t) in tile.ids.into_iter().zip(tile.t) {
+        let (whole_ids, rest_ids) = ids.as_chunks_mut::<16>();
+        let (whole_t, rest_t) = t.as_chunks_mut::<16>();
+        for (ids, t) in whole_ids.iter_mut().zip(whole_t) {
+            stream([NO_PRIMITIVE; 16], ids);
+            stream([f32::INFINITY; 16], t);
+        }
+        rest_ids.fill(NO_PRIMITIVE);
+        rest_t.fill(f32::INFINITY);
+    }
+    finish_streaming();
+}
+
+/// Writes sixteen samples of a row, from an index of the buffer on.
+#[inline(always)]
+fn store_sixteen<S: Simd>(
+    simd: S,
+    picture: &Picture,
+    buffer: &mut TileBuffer,
+    from: usize,
+    (ids, t): (&mut [u32; 16], &mut [f32; 16]),
+) {
+    let (stored_ids, stored_keys) = buffer.from(from);
+    let (stored_ids, stored_keys) = (&stored_ids[..16], &mut stored_keys[..16]);
+    let keys = f32x16::from_slice(simd, stored_keys);
+    let nothing = keys.simd_eq(f32x16::splat(simd, NOTHING));
+    if nothing.all_true() {
+        stream([NO_PRIMITIVE; 16], ids);
+        stream([f32::INFINITY; 16], t);
+        return;
+    }
+    f32x16::splat(simd, NOTHING).store_slice(stored_keys);
+    let seen = u32x16::from_slice(simd, stored_ids);
+    let seen = nothing.select(u32x16::splat(simd, NO_PRIMITIVE), seen).to_array();
+    let (distances, unsure) = distances(simd, &picture.keys, keys);
+    let unsure = unsure & !nothing;
+    let mut distances = nothing.select(f32x16::splat(simd, f32::INFINITY), distances).to_array();
+    if unsure.any_true() {
+        let first = buffer.sample(from);
+        judge_distances(picture, first, &seen, unsure.to_bitmask(), &mut distances);
+    }
+    stream(seen, ids);
+    stream(distances, t);
+}
+
+/// Asks the judge for the distances of some lanes: samples of one row, from `first` on.
+#[cold]
+fn judge_distances(
+    picture: &Picture,
+    first: Sample,
+    ids: &[u32; 16],
+    lanes: u64,
+    t: &mut [f32; 16],
+) {
+    let judge = picture.view.judge();
+    for (lane, t) in t.iter_mut().enumerate().filter(|(lane, _)| lanes >> lane & 1 == 1) {
+        let ray = picture.map.grid.ray(first.row, first.column + lane);
+        let primitive = picture.view.primitive(ids[lane]);
+        *t = stored_t(judge.distance(&primitive, &ray));
+    }
+}
