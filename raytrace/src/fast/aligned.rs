@@ -19,7 +19,7 @@ pub(super) const TIE: f32 = 1.0 / 32.0;
 
 /// Edge functions have at most this size, so that `f32` has 24 bits for them and for [`TIE`].
 const LARGEST: f64 = (1 << 17) as f64;
-/// Rows and columns farther out are not asked for.
+/// The corners of aligned triangles lie within this many rows and columns.
 const FARTHEST: f64 = (1 << 16) as f64;
 
 /// Eight triangles of which some are aligned.

@@ -73,7 +73,7 @@ pub(super) struct MapErrors {
 impl Reach {
     /// That of these bounds, for an eye.
     pub(super) fn new(bounds: &Bounds, eye: Vec3) -> Reach {
-        /// So many times as near as the eye must another origin be.
+        /// Another origin must be this many times as near as the eye.
         const WORTH: f64 = 8.0;
         let from = |point: Vec3| {
             let ends = [bounds.low, bounds.high];

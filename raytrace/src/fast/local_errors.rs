@@ -3,7 +3,7 @@
 use super::world_affine::{LARGEST, upward};
 use bothways_common::engine::roundoff::EPS24;
 
-/// Columns beyond the tile for which errors are derived, and beyond any that is asked for.
+/// Errors are derived for this many columns beyond the tile; none farther out is used.
 const BESIDE: f64 = 3.0;
 
 /// What the errors of local projections share in all tiles: those of a column times `t`, for each unit that a vertex

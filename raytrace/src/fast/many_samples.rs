@@ -88,8 +88,7 @@ pub(super) fn draw<S: Simd>(
         while left != 0 {
             let block = (left.trailing_zeros() & 15) as usize;
             left &= left - 1;
-            let middle = [0, 1, 2, 3].map(|k| values[k][block]);
-            triangle.draw_block(simd, frustum, group * 16 + block, middle, tile);
+            triangle.draw_block(simd, frustum, (group, block), &values, tile);
         }
     }
 }
@@ -137,24 +136,25 @@ impl<S: Simd> TriangleSetup<S> {
         }
     }
 
-    /// Tests it at the samples of a block; `middle` holds the edge functions and the key in the block's middle.
+    /// Tests it at the samples of a block of a group; `values` holds the edge functions and the key in the middles of
+    /// the group's blocks.
     #[inline(always)]
     fn draw_block(
         &self,
         simd: S,
         frustum: &TileFrustum,
-        block: usize,
-        middle: [f32; 4],
+        (group, block): (usize, usize),
+        values: &[[f32; 16]; 4],
         tile: &mut Tile,
     ) {
         let [ab, bc, ca] = &self.edges;
-        let e0 = ab.within + middle[0];
-        let e1 = bc.within + middle[1];
-        let e2 = ca.within + middle[2];
-        let keys = self.key.within + middle[3];
+        let e0 = ab.within + values[0][block];
+        let e1 = bc.within + values[1][block];
+        let e2 = ca.within + values[2][block];
+        let keys = self.key.within + values[3][block];
         let least = e0.min(e1).min(e2);
         let (low, high) = (keys - self.key_error, keys + self.key_error);
-        let from = block * 16;
+        let from = (group * 16 + block) * 16;
         let stored_low = f32x16::from_slice(simd, &tile.low[from..from + 16]);
         let stored_high = f32x16::from_slice(simd, &tile.high[from..from + 16]);
         let mut inside = least.simd_gt(self.error);
@@ -175,7 +175,7 @@ impl<S: Simd> TriangleSetup<S> {
             let ids = u32x16::from_slice(simd, &tile.ids[from..from + 16]);
             let ids = nearer.select(u32x16::splat(simd, self.id), ids);
             ids.store_slice(&mut tile.ids[from..from + 16]);
-            tile.dirty |= 1 << block;
+            tile.dirty |= 1 << (group * 16 + block);
         }
         let open = !(nowhere | nearer).to_bitmask() & 0xffff;
         if open != 0 {

@@ -38,7 +38,8 @@ pub(super) fn store<S: Simd>(
         return;
     }
     if tile.side() < BLOCK {
-        let (shown, far) = block_values(simd, map, tile, 0);
+        let (mut shown, mut far) = ([0; 16], [0.0; 16]);
+        block_values(simd, map, tile, 0, &mut shown, &mut far);
         ids[line(0)][place_in_line(0)] = shown[0];
         t[line(0)][place_in_line(0)] = far[0];
         return;
@@ -50,7 +51,8 @@ pub(super) fn store<S: Simd>(
         if rows.is_empty() || columns.is_empty() {
             continue;
         }
-        let (shown, far) = block_values(simd, map, tile, block);
+        let (mut shown, mut far) = ([0; 16], [0.0; 16]);
+        block_values(simd, map, tile, block, &mut shown, &mut far);
         let (wide, start) = (columns.len(), place_in_line(columns.start));
         for row in rows {
             let from = (row - top) * BLOCK + columns.start - left;
@@ -74,7 +76,9 @@ fn block_values<S: Simd>(
     map: &CameraMap,
     tile: &Tile,
     block: usize,
-) -> ([u32; 16], [f32; 16]) {
+    ids: &mut [u32; 16],
+    t: &mut [f32; 16],
+) {
     const NARROW: f32 = 1.5e-6;
     let from = block * 16;
     let low = f32x16::from_slice(simd, &tile.low[from..from + 16]);
@@ -87,21 +91,19 @@ fn block_values<S: Simd>(
         Projection::Perspective => f32x16::splat(simd, 1.0 / scale) / middle,
         Projection::Parallel => -middle * (1.0 / scale),
     };
-    // Far from overflow, underflow and their kin.
+    // Far from overflow and underflow.
     const ORDINARY: Range<f32> = 1e-30..1e30;
     let plain = ORDINARY.contains(&scale);
     let sure = (high - low).simd_le(middle.abs() * NARROW)
         & distance.simd_gt(f32x16::splat(simd, ORDINARY.start))
         & distance.simd_lt(f32x16::splat(simd, ORDINARY.end));
     let seen = u32x16::from_slice(simd, &tile.ids[from..from + 16]);
-    let (mut ids, mut t) = ([0; 16], [0.0; 16]);
-    nothing.select(u32x16::splat(simd, NO_PRIMITIVE), seen).store_array(&mut ids);
-    nothing.select(f32x16::splat(simd, f32::INFINITY), distance).store_array(&mut t);
+    nothing.select(u32x16::splat(simd, NO_PRIMITIVE), seen).store_array(ids);
+    nothing.select(f32x16::splat(simd, f32::INFINITY), distance).store_array(t);
     let unsure = if plain { !(sure | nothing) } else { !nothing };
     if unsure.any_true() {
-        find_distances(map, tile, from, unsure.to_bitmask(), &ids, &mut t);
+        find_distances(map, tile, from, unsure.to_bitmask(), ids, t);
     }
-    (ids, t)
 }
 
 /// Finds the distances of some lanes of a block again, in `f64` or by the judge.

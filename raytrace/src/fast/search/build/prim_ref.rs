@@ -120,7 +120,7 @@ pub(super) fn sphere(id: u32, &Sphere { center, radius }: &Sphere) -> Option<(Pr
     (finite && representable).then(|| (PrimRef::new(&bounds, id), extent))
 }
 
-/// Finds the corners of triangles; fast where they are asked for in the order of the scene.
+/// Finds the corners of triangles; this is fast in the order of the scene.
 pub(super) struct Corners<'a> {
     scene: &'a Scene,
     ids: std::ops::Range<u32>,
