@@ -66,8 +66,8 @@ mod tests {
 
     #[test]
     fn one_rounding_is_off_by_half_a_last_place() {
-        assert_eq!(1.0 + EPS53, 1.0);
-        assert!(1.0 + 1.001 * EPS53 > 1.0);
-        assert_eq!(1.0 + EPS24, 1.0);
+        let beyond = 1.001;
+        assert_eq!([1.0 + EPS53, 1.0 + beyond * EPS53], [1.0, 1.0_f64.next_up()]);
+        assert_eq!([1.0 + EPS24, 1.0 + EPS24.next_up()], [1.0, 1.0_f32.next_up()]);
     }
 }
