@@ -1,6 +1,9 @@
 //! The point of a primitive that is seen at a sample, to the digits of an `f64`.
 //!
 //! A stored `t` has 20 binary digits. From afar they are too few to tell the points of a surface apart.
+//!
+//! Functions here are `#[inline]`: where triangles are as small as samples, each sample sets up its own, and calls between
+//! codegen units take a fifth of the time of shading.
 
 use super::quotient::Affine;
 use bothways_common::{Primitive, Projection, Ray, View};
@@ -29,6 +32,7 @@ pub(super) enum Form {
 const STORED: f64 = 2e-5;
 
 impl Form {
+    #[inline]
     pub(super) fn new(view: &View, primitive: &Primitive) -> Form {
         match *primitive {
             Primitive::Triangle([a, b, c]) => Form::flat(view, a, (b - a).cross(c - a)),
@@ -51,6 +55,7 @@ impl Form {
         }
     }
 
+    #[inline]
     fn flat(view: &View, point: DVec3, normal: DVec3) -> Form {
         Form::Flat {
             above: Affine::from_origin(view, normal, point),
@@ -60,6 +65,7 @@ impl Form {
 
     /// The point that is seen at a place of the viewport, for which the `t` of `stored` is stored. The stored one is
     /// taken where rounding leaves less: where a surface is seen almost edge-on, and where numbers are extreme.
+    #[inline]
     pub(super) fn hit_point(&self, [x, y]: [f64; 2], ray: &Ray, stored: f64) -> HitPoint {
         let is_close = |t: f64| (t - stored).abs() <= STORED * stored;
         let at = |t: f64| ray.origin + t * ray.direction;
