@@ -59,7 +59,7 @@ pub struct Visible {
 pub struct Depth {
     /// The largest difference of a sample, as a part of the larger depth.
     pub max_relative_difference: f64,
-    /// Pixels with a sample beyond [`DEPTH_TOLERANCE`].
+    /// Pixels with a sample beyond [`DEPTH_TOLERANCE`](super::DEPTH_TOLERANCE).
     pub differing_pixels: u64,
 }
 
@@ -68,7 +68,7 @@ pub struct Depth {
 pub struct Color {
     /// The largest difference in red, green or blue, in steps of 8-bit sRGB.
     pub max_difference: u8,
-    /// Pixels beyond [`COLOR_TOLERANCE`].
+    /// Pixels beyond [`COLOR_TOLERANCE`](super::COLOR_TOLERANCE).
     pub differing_pixels: u64,
 }
 

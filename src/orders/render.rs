@@ -16,7 +16,7 @@ use std::sync::atomic::AtomicU64;
 /// Renders a scene or a stream in one order, on the rayon pool that this is called in.
 ///
 /// The work is counted in a frame of its own, before the timed ones, as long as it is at most
-/// [`most_steps`].
+/// [`most_steps`](super::most_steps).
 ///
 /// A stream is read once for every frame; its visibility holds the reading of all faces.
 ///
