@@ -30,7 +30,7 @@ pub struct Case {
     pub options: Options,
     /// The SIMD level: an index into those of the machine, modulo their number.
     pub level: usize,
-    /// The number of columns and of rows of a tile, as powers of two.
+    /// The number of rows and of columns of a tile, as powers of two.
     pub tile: [u32; 2],
     /// A camera that draws into the same frame first, so that its memory is not fresh.
     pub before: Option<Camera>,
