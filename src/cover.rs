@@ -1,14 +1,13 @@
-//! Which pixels a triangle in raster coordinates covers.
+//! The pixels that a triangle in raster coordinates covers.
 //!
 //! Raster coordinates count in pixels, `x` to the right and `y` down from the image's top left
 //! corner, so that the centre of pixel `(i, j)` is `x = j + ½`, `y = i + ½`. A pixel is covered if
 //! its centre is inside, or on a left or top edge (the top-left rule).
 //!
-//! **What is exact**: everything. The camera that is asked is a parallel one whose axes are the
-//! raster's (`u` = right, `v` = up = `−y`), with its eye over the origin: offsets from the eye *are*
-//! the raster coordinates as they are stored, `f32` of any size, and the pixels' centres are the
-//! rays' origins, without any rounding. Only a decimal that no `f32` holds, such as 0.1, is rounded,
-//! once, to the nearest: [`Cover::triangle`] says to what.
+//! **Exact parts**: everything. The camera of the test is a parallel camera with the axes of the raster (`u` = right,
+//! `v` = up = `−y`), with its eye over the origin: offsets from the eye *are* the stored raster coordinates, `f32` of
+//! any size, and the pixels' centres are the rays' origins, without any rounding. Only a decimal that is no exact
+//! `f32`, such as 0.1, is rounded, once, to the nearest `f32`: [`Cover::triangle`] holds the rounded corners.
 
 use crate::common::exact::EdgeSigns;
 use crate::common::glam::{DVec3, Vec2, Vec3};
@@ -17,34 +16,34 @@ use image::GrayImage;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// What a triangle covers.
+/// The coverage of a triangle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cover {
-    /// The corners that were judged.
+    /// The corners in the test.
     pub triangle: [Vec2; 3],
     /// The image's width and height.
     pub image: [u32; 2],
-    /// How the corners are seen, in their order: `Negative` is counter-clockwise, `Positive`
-    /// clockwise. `Zero` is a triangle without area, which covers nothing.
+    /// The orientation of the corners, in their order: `Negative` is counter-clockwise, `Positive` clockwise. `Zero`
+    /// is a triangle without area, which covers nothing.
     pub facing: Sign,
-    /// The rows in which it covers or touches a pixel's centre, from the top.
+    /// The rows in which the triangle covers or touches a pixel's centre, from the top.
     pub rows: Vec<Row>,
 }
 
-/// What a triangle covers in one row of pixels. A triangle has no gaps, so each is a run of columns.
+/// The coverage of a triangle in one row of pixels. A triangle has no gaps, so each field is a run of columns.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Row {
     /// The row from the top, counted from 0.
     pub i: u32,
-    /// The columns it covers.
+    /// The columns that the triangle covers.
     pub covered: Range<u32>,
-    /// The columns whose centres lie inside of all edges.
+    /// The columns with a centre inside all edges.
     pub inside: Range<u32>,
-    /// The columns whose centres lie inside or exactly on an edge or corner.
+    /// The columns with a centre inside the triangle or exactly on an edge or corner.
     pub touched: Range<u32>,
 }
 
-/// Where the centre of a pixel lies.
+/// The position of a pixel's centre.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// Outside: not covered.
@@ -54,19 +53,19 @@ pub enum Place {
         /// Whether the top-left rule gives the pixel to this triangle.
         covered: bool,
     },
-    /// Inside of all edges: covered.
+    /// Inside all edges: covered.
     Inside,
 }
 
-/// Why it cannot be said what a triangle covers.
+/// The reason why the coverage cannot be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CoverError {
     /// A coordinate is NaN or infinite.
     #[error("corner {corner} is {value}; give two finite numbers")]
     NotFinite {
-        /// Which corner, counted from 1.
+        /// The number of the corner, counted from 1.
         corner: usize,
-        /// As it was given.
+        /// The given value.
         value: Vec2,
     },
     /// The image is empty or too large.
@@ -76,12 +75,12 @@ pub enum CoverError {
 
 /// Finds the pixels of a `[width, height]` image that a triangle in raster coordinates covers.
 ///
-/// The corners may be anywhere, in either order. Both triangles of a shared edge together cover each
-/// pixel on it once.
+/// The corners may be anywhere, in either order. The two triangles of a shared edge together cover each pixel on the
+/// edge once.
 ///
 /// # Errors
 ///
-/// A corner that is not finite, or an image that no camera may have.
+/// An error for a corner that is not finite, or an image of a size that no camera allows.
 ///
 /// ```
 /// use bothways::common::glam::vec2;
@@ -109,7 +108,7 @@ pub fn cover(triangle: [Vec2; 3], image: [u32; 2]) -> Result<Cover, CoverError> 
 }
 
 impl Cover {
-    /// Where the centre of pixel `(i, j)` lies.
+    /// The position of the centre of pixel `(i, j)`.
     pub fn place(&self, i: u32, j: u32) -> Place {
         let Ok(index) = self.rows.binary_search_by_key(&i, |row| row.i) else {
             return Place::Outside;
@@ -122,17 +121,17 @@ impl Cover {
         matches!(self.place(i, j), Place::Inside | Place::OnEdge { covered: true })
     }
 
-    /// How many pixels are covered.
+    /// The number of covered pixels.
     pub fn covered(&self) -> u64 {
         self.rows.iter().map(|row| row.covered.len() as u64).sum()
     }
 
-    /// How many pixels' centres lie exactly on an edge or a corner.
+    /// The number of pixels with a centre exactly on an edge or a corner.
     pub fn on_edge(&self) -> u64 {
         self.rows.iter().map(|row| (row.touched.len() - row.inside.len()) as u64).sum()
     }
 
-    /// How many of these are covered.
+    /// The number of these pixels that are covered.
     pub fn on_edge_and_covered(&self) -> u64 {
         self.rows.iter().map(|row| (row.covered.len() - row.inside.len()) as u64).sum()
     }
@@ -150,7 +149,7 @@ impl Cover {
 }
 
 impl Row {
-    /// Where the centre of this row's pixel in column `j` lies.
+    /// The position of the centre of this row's pixel in column `j`.
     pub fn place(&self, j: u32) -> Place {
         if self.inside.contains(&j) {
             Place::Inside
@@ -162,7 +161,7 @@ impl Row {
     }
 }
 
-/// The triangle before the camera whose axes are the raster's.
+/// The triangle in front of the camera with the axes of the raster.
 struct RasterView {
     camera: Camera,
     judge: Judge,
@@ -182,13 +181,13 @@ impl RasterView {
             ..CameraDescription::default()
         })?;
         let judge = Judge::new(&camera);
-        // Relative to the eye at (0, 0, −1), as a view would offset them.
+        // The corners relative to the eye at (0, 0, −1), in the same way as the offsets of a view.
         let corners = triangle.map(|corner| corner.extend(0.0).as_dvec3() - DVec3::NEG_Z);
         let facing = judge.facing(&corners, &camera.ray_through(0.0, 0.0));
         Ok(RasterView { camera, judge, corners, facing })
     }
 
-    /// What the judge says of the triangle's edges at the centre of pixel `(i, j)`.
+    /// The judge's signs for the triangle's edges at the centre of pixel `(i, j)`.
     fn signs(&self, i: u32, j: u32) -> EdgeSigns {
         let ray = self.camera.ray_through(f64::from(j) + 0.5, -(f64::from(i) + 0.5));
         self.judge.edge_signs(&self.corners, &ray)
@@ -207,8 +206,8 @@ impl RasterView {
     }
 }
 
-/// The columns on one side of an edge. Along a row an edge function is affine, nudged or not, so its
-/// sign changes at most once: bisection with the exact sign finds where.
+/// The columns on one side of an edge. Along a row an edge function is affine, nudged or not, so its sign changes at
+/// most once: bisection with the exact sign finds the place.
 fn half(columns: &Range<u32>, holds: impl Fn(u32) -> bool) -> Range<u32> {
     let Range { start, end } = *columns;
     let at_start = holds(start);
@@ -232,7 +231,7 @@ fn overlap(a: &Range<u32>, b: &Range<u32>) -> Range<u32> {
     if start < end { start..end } else { 0..0 }
 }
 
-/// The columns and rows of the pixels whose centres may lie in the triangle.
+/// The ranges of the pixels with a centre that may lie in the triangle: first the columns, then the rows.
 ///
 /// `low − ½` is rounded, but rounding keeps order and whole numbers: no pixel gets lost.
 fn bounds(triangle: [Vec2; 3], image: [u32; 2]) -> [Range<u32>; 2] {

@@ -1,4 +1,4 @@
-//! Figures: what was rendered, arranged to be shown to people.
+//! Figures: rendered pictures, arranged for readers.
 
 mod fallback;
 mod resize;

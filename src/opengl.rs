@@ -1,13 +1,12 @@
 //! A camera as OpenGL's matrices, to draw the same picture with OpenGL.
 //!
-//! Matrices are rows of numbers, to be multiplied with columns: `clip = projection · view · (x, y, z,
-//! 1)`. With `glViewport(0, 0, W, H)` the centre of pixel `(i, j)` is OpenGL's window position `(j +
-//! ½, H − i − ½)`: its rows count from the bottom.
+//! Matrices are rows of numbers, to be multiplied with columns: `clip = projection · view · (x, y, z, 1)`. With
+//! `glViewport(0, 0, W, H)` the centre of pixel `(i, j)` is OpenGL's window position `(j + ½, H − i − ½)`: OpenGL
+//! counts rows from the bottom.
 //!
-//! Our rays have no near plane and no far plane, but OpenGL's depth needs bounds. A perspective projection here
-//! has its far plane at infinity, and a near plane at a small fraction of `d`: OpenGL alone cuts off
-//! what is nearer to the eye. A parallel projection reaches from the eye to behind everything in the
-//! scene but planes.
+//! Our rays have no near plane and no far plane, but OpenGL's depth needs bounds. A perspective projection here has
+//! its far plane at infinity, and a near plane at a small fraction of `d`: only OpenGL cuts off the parts nearer to
+//! the eye. A parallel projection reaches from the eye to a plane behind all primitives except planes.
 
 use crate::common::glam::DVec3;
 use crate::common::{Camera, Primitive, Projection, View};
@@ -15,7 +14,7 @@ use crate::common::{Camera, Primitive, Projection, View};
 /// Four rows of four numbers.
 pub type Matrix = [[f64; 4]; 4];
 
-/// How every matrix that is written for programs lies in its file: as a list of its rows.
+/// The layout of every matrix in files for programs: a list of its rows.
 pub const LAYOUT: &str = "row-major";
 
 /// OpenGL's matrices for one view.
@@ -25,13 +24,13 @@ pub struct Matrices {
     pub view: Matrix,
     /// `clip_from_camera` for depths from −1 (near) to 1 (far), OpenGL's default.
     pub projection: Matrix,
-    /// `clip_from_camera` for depths from 1 (near) to 0 (far), after `glClipControl(GL_LOWER_LEFT,
-    /// GL_ZERO_TO_ONE)`, with `glDepthFunc(GL_GREATER)` and `glClearDepth(0)`: floating-point depth
-    /// buffers resolve distances much better so.
+    /// `clip_from_camera` for depths from 1 (near) to 0 (far), after `glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE)`,
+    /// with `glDepthFunc(GL_GREATER)` and `glClearDepth(0)`: floating-point depth buffers resolve distances much
+    /// better in this direction.
     pub reversed: Matrix,
     /// The depth along `−w` of the near plane.
     pub near: f64,
-    /// The depth of the far plane; `None` is at infinity.
+    /// The depth of the far plane; `None` means infinity.
     pub far: Option<f64>,
 }
 
@@ -39,7 +38,7 @@ pub struct Matrices {
 /// stays exact.
 const NEAR: f64 = 1.0 / 1024.0;
 
-/// The matrices that draw a view's picture, with depths that leave out as little as can be.
+/// The matrices that draw a view's picture, with depths that leave out as little as possible.
 pub fn matrices(view: &View) -> Matrices {
     match view.camera.projection() {
         Projection::Perspective => between(view.camera, NEAR * view.camera.distance(), 0.0),
@@ -47,8 +46,8 @@ pub fn matrices(view: &View) -> Matrices {
     }
 }
 
-/// The matrices of a camera with stated depths: a perspective projection begins at `near` and has no
-/// end, a parallel one begins at the eye and ends at `far`.
+/// The matrices of a camera with stated depths: a perspective projection begins at `near` and has no end, a parallel
+/// projection begins at the eye and ends at `far`.
 pub fn between(camera: &Camera, near: f64, far: f64) -> Matrices {
     let [vw, vh] = camera.viewport();
     let view = camera_from_world(camera);
@@ -74,7 +73,7 @@ pub fn between(camera: &Camera, near: f64, far: f64) -> Matrices {
     }
 }
 
-/// The angles between opposite sides of a perspective viewport, across and down, in degrees.
+/// The angles between opposite sides of a perspective viewport, horizontal and vertical, in degrees.
 pub fn field_of_view(view: &View) -> Option<[f64; 2]> {
     let camera = view.camera;
     let angle = |side: f64| 2.0 * (side / 2.0).atan2(camera.distance()).to_degrees();
@@ -88,7 +87,7 @@ fn camera_from_world(camera: &Camera) -> Matrix {
     [row(camera.u()), row(camera.v()), row(camera.w()), [0.0, 0.0, 0.0, 1.0]]
 }
 
-/// A power of two that no triangle and no sphere lies behind.
+/// A power of two. No triangle and no sphere lies behind this depth.
 fn behind_everything(view: &View) -> f64 {
     let depth = |point: DVec3| -point.dot(view.camera.w());
     let depths = view.primitives().map(|(_, primitive)| match primitive {
@@ -97,7 +96,7 @@ fn behind_everything(view: &View) -> f64 {
         Primitive::Plane { .. } => 0.0,
     });
     let deepest = depths.fold(0.0, f64::max);
-    // Strictly behind, so that the farthest corner is not cut off.
+    // The depth is strictly behind, so that the farthest corner is not cut off.
     if deepest > 0.0 { (deepest.log2().floor() + 1.0).exp2() } else { 1.0 }
 }
 

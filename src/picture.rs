@@ -1,4 +1,4 @@
-//! What one frame looks like: its picture, its mask of coverage, and its ids as colours.
+//! The images of a frame: its picture, its mask of coverage, and its ids as colours.
 
 use crate::common::Frame;
 use crate::common::frame::NO_PRIMITIVE;
@@ -7,7 +7,7 @@ use crate::common::look::color::{linear_from_srgb, srgb_from_linear};
 use image::{GrayImage, RgbImage};
 use rayon::prelude::*;
 
-/// The sRGB colour of a pixel that shows nothing, where colours stand for something else than light.
+/// The sRGB colour of an uncovered pixel, in images with colours that do not represent light.
 pub const NOTHING: [u8; 3] = [0x08, 0x0a, 0x0c];
 
 /// The picture: each pixel is the average of its samples in linear light, as an sRGB colour.
@@ -15,31 +15,31 @@ pub fn picture(frame: &Frame) -> RgbImage {
     painted(frame, |sample| frame.colors()[sample])
 }
 
-/// The ids as colours: a primitive has the same colour wherever it is seen, near black is nothing. Each pixel is the
+/// The ids as colours: a primitive has the same colour in every pixel; near black is nothing. Each pixel is the
 /// average of its samples, as in the picture.
 ///
-/// Ids that follow one another, as neighbours in a mesh mostly do, have very different colours. There are more ids
-/// than colours, so two that lie far apart may look alike: programs read the ids themselves.
+/// Consecutive ids, which neighbours in a mesh mostly have, get very different colours. There are more ids than
+/// colours, so two distant ids may look alike: programs read the ids themselves.
 pub fn id_picture(frame: &Frame) -> RgbImage {
     painted(frame, |sample| {
         Vec3::from_array(color_of_id(frame.ids()[sample]).map(linear_from_srgb))
     })
 }
 
-/// The sRGB colour of a primitive in an [`id_picture`], or of none.
+/// The sRGB colour of a primitive in an [`id_picture`].
 pub fn color_of_id(id: u32) -> [u8; 3] {
     if id == NO_PRIMITIVE {
         return NOTHING;
     }
-    // Steps of the golden section around the circle of hues: any few ids in a row are as far apart as can be.
+    // Steps of the golden section around the circle of hues: a few consecutive ids are as far apart as possible.
     const GOLDEN: u32 = 0x9e37_79b9;
     let hue = 6.0 * part(id.wrapping_mul(GOLDEN));
-    // Ids that are a Fibonacci number apart have nearly one hue; so saturation and brightness are mixed.
+    // Two ids that differ by a Fibonacci number have nearly the same hue; so saturation and brightness are mixed.
     let mixed = (id ^ (id >> 15)).wrapping_mul(0x2c1b_3c6d);
     let mixed = (mixed ^ (mixed >> 12)).wrapping_mul(0x297a_2d39);
     let saturation = 0.35 + 0.5 * part(mixed << 16);
     let brightness = 0.6 + 0.4 * part(mixed);
-    // Red, green and blue are strongest a third of the circle apart.
+    // The maxima of red, green and blue are a third of the circle apart.
     [0.0, 4.0, 2.0].map(|from| {
         let away = ((hue + from) % 6.0 - 3.0).abs();
         let channel = brightness * (1.0 - saturation * (1.0 - (away - 1.0).clamp(0.0, 1.0)));
@@ -47,7 +47,7 @@ pub fn color_of_id(id: u32) -> [u8; 3] {
     })
 }
 
-/// A number of 32 bits as a part of all of them.
+/// A 32-bit number as a fraction of 2³².
 fn part(bits: u32) -> f64 {
     f64::from(bits) / 4_294_967_296.0
 }
@@ -58,7 +58,7 @@ fn srgb_byte(encoded: f64) -> u8 {
 }
 
 /// The picture, enlarged by the largest whole factor at which neither side is longer than 512 pixels, so that single
-/// pixels of a tiny one can be seen; a larger one stays as it is.
+/// pixels of a very small picture are visible; a larger picture stays unchanged.
 ///
 /// ```
 /// use bothways::picture::enlarged;
@@ -77,7 +77,7 @@ pub fn enlarged(picture: RgbImage) -> RgbImage {
     }
 }
 
-/// A picture of the colours that samples have, in linear light.
+/// A picture with the given colours of the samples, in linear light.
 fn painted(frame: &Frame, color: impl Fn(usize) -> Vec3 + Sync) -> RgbImage {
     let ([width, height], [top, left]) = (frame.image(), first_pixel(frame));
     let mut picture = RgbImage::new(width, height);
@@ -90,9 +90,9 @@ fn painted(frame: &Frame, color: impl Fn(usize) -> Vec3 + Sync) -> RgbImage {
     picture
 }
 
-/// The mask: 0 where no sample of a pixel is covered, 255 where all are.
+/// The mask: 0 where no sample of a pixel is covered, 255 where all samples are covered.
 ///
-/// In between it is `255·covered / N²`, rounded, but never 0 or 255: partial coverage stays visible.
+/// A partly covered pixel has `255·covered / N²`, rounded, but never 0 or 255: partial coverage stays visible.
 pub fn mask(frame: &Frame) -> GrayImage {
     let ([width, height], [top, left]) = (frame.image(), first_pixel(frame));
     let mut mask = GrayImage::new(width, height);
@@ -168,7 +168,7 @@ mod tests {
                 assert!(id + near >= 3000 || apart(color, other) > 24, "{id}: {color:?} {other:?}");
             }
         }
-        // Wherever the next row of a mesh begins, few of its triangles look like their neighbours.
+        // At the start of every row of a mesh, few triangles look like their neighbours.
         for row in 6..600 {
             let alike = (0..2000).filter(|&id| apart(colors[id], colors[id + row]) <= 24).count();
             assert!(alike < 700, "{row}: {alike}");

@@ -1,7 +1,7 @@
-//! Everything about one pixel: its viewing rays, what covers its samples, and what each order saw.
+//! A report on one pixel: its viewing rays, the primitives that cover its samples, and the results of both orders.
 //!
-//! The exact judge of the view says what is true. The renderers' own loops, observed at this pixel alone, say what
-//! was seen: the report cannot disagree with the picture.
+//! The exact judge of the view determines the truth. The renderers' own loops, observed at this pixel alone,
+//! determine the results: the report cannot disagree with the picture.
 
 use crate::common::exact::{EdgeSigns, EdgeValues};
 use crate::common::observe::Question;
@@ -17,64 +17,64 @@ use std::collections::hash_map::Entry;
 /// One sample of a pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SampleReport {
-    /// Where it is on the raster of samples.
+    /// The position on the raster of samples.
     pub sample: Sample,
-    /// Where it is on the viewport.
+    /// The position on the viewport.
     pub place: [f64; 2],
-    /// Its viewing ray, relative to the eye.
+    /// The viewing ray of the sample, relative to the eye.
     pub ray: Ray,
-    /// The primitives that cover it, near to far: the first one is seen.
+    /// The primitives that cover the sample, near to far: the first primitive is visible.
     pub covering: Vec<Covering>,
-    /// The triangles that it lies exactly on an edge of, but which do not own it.
+    /// The triangles with an edge exactly through the sample that do not cover the sample.
     pub touching: Vec<Touching>,
-    /// What object order answered.
+    /// The result of object order.
     pub object_order: Answer,
-    /// What image order answered.
+    /// The result of image order.
     pub image_order: Answer,
 }
 
 /// A primitive that covers a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Covering {
-    /// Its id.
+    /// The id of the primitive.
     pub id: u32,
-    /// The object it belongs to, counted from 0.
+    /// The object of the primitive, counted from 0.
     pub object: usize,
-    /// What it is.
+    /// The kind of the primitive.
     pub kind: &'static str,
-    /// Its distance in lengths of the ray's direction.
+    /// The distance of the primitive, in lengths of the ray's direction.
     pub t: f64,
     /// The signs of a triangle's edge functions.
     pub edges: Option<EdgeSigns>,
-    /// Their values.
+    /// The values of the edge functions.
     pub values: Option<EdgeValues>,
-    /// Why it comes behind the primitive before it; `None` for the first.
+    /// The reason why the primitive comes behind the primitive before it; `None` for the first.
     pub behind: Option<Behind>,
 }
 
 /// A triangle that has a sample on its boundary and does not cover it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Touching {
-    /// Its id.
+    /// The id of the triangle.
     pub id: u32,
-    /// The object it belongs to, counted from 0.
+    /// The object of the triangle, counted from 0.
     pub object: usize,
-    /// Its signs.
+    /// The signs of the triangle's edge functions.
     pub edges: EdgeSigns,
-    /// The values of its edge functions.
+    /// The values of the triangle's edge functions.
     pub values: EdgeValues,
 }
 
-/// Why one primitive comes behind another.
+/// The reason why one primitive comes behind another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Behind {
-    /// Its `t` is greater.
+    /// The `t` of this primitive is greater.
     Farther,
-    /// The same `t`, and the other is flat while this one is round.
+    /// Both have the same `t`; the other primitive is flat and this one is round.
     Round,
-    /// The same `t`, and the other is nearer on the nudged ray.
+    /// Both have the same `t`; the other primitive is nearer on the nudged ray.
     Nudged,
-    /// The same `t`, nudged or not, and the other comes first in the scene.
+    /// Both have the same `t`, nudged or not; the other primitive comes first in the scene.
     Later,
 }
 
@@ -90,34 +90,33 @@ impl Behind {
     }
 }
 
-/// What one order answered at a sample, and what it did there.
+/// The result of one order at a sample, and its work there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Answer {
-    /// The primitive that it saw.
+    /// The primitive that the order saw.
     pub id: Option<u32>,
-    /// How far it found it.
+    /// The distance that the order found.
     pub t: Option<f32>,
-    /// What its loops did at this sample. Its `primitives` are those whose bounding region holds the
-    /// sample.
+    /// The work of the order's loops at this sample. Its `primitives` are the primitives with a bounding region that
+    /// holds the sample.
     pub work: Work,
 }
 
 impl SampleReport {
-    /// Whether both orders saw what is true.
+    /// Whether both orders saw the true primitive.
     pub fn agrees(&self) -> bool {
         let truth = self.covering.first().map(|nearest| nearest.id);
         self.object_order.id == truth && self.image_order.id == truth
     }
 }
 
-/// Reports on every sample of pixel `(i, j)`, row by row. Both orders render a crop of this pixel alone, with all
-/// their machinery: what they answer and do at its samples is what they do in the whole picture, which takes
-/// more memory. (Only how often the judge is asked which is nearest may depend on the samples around.)
+/// Reports on every sample of pixel `(i, j)`, row by row. Both orders render a crop of this pixel alone, with the
+/// fast method: their results and their work at its samples are the same as in the whole picture, which needs more
+/// memory. (Only the number of the judge's depth decisions may depend on the neighbouring samples.)
 ///
 /// # Panics
 ///
-/// If the image has no such pixel, or [`check_samples`](crate::common::raster::check_samples) refuses
-/// the options.
+/// If the image has no such pixel, or [`check_samples`](crate::common::raster::check_samples) refuses the options.
 ///
 /// ```
 /// use bothways::common::{Camera, Options, Scene, Shape, Sphere, View, glam::Vec3};
@@ -149,7 +148,7 @@ pub fn report(view: &View, options: &Options, i: u32, j: u32) -> Vec<SampleRepor
     report.collect()
 }
 
-/// What both orders answer at each sample of the pixel.
+/// The results of both orders at each sample of the pixel.
 fn answers(view: &View, options: &Options, pixel: &Region) -> [Vec<Answer>; 2] {
     let object_order = watched(view, options, pixel, |frame, watch| {
         let prepared = rasterize::fast::prepare(view.scene);
@@ -168,7 +167,7 @@ fn samples(pixel: &Region) -> impl Iterator<Item = Sample> + use<> {
     rows.flat_map(move |row| columns.clone().map(move |column| Sample { row, column }))
 }
 
-/// What covers a sample, near to far, and what only touches it.
+/// The primitives that cover a sample, near to far, and the triangles that only touch it.
 fn truth(view: &View, ray: &Ray) -> (Vec<Covering>, Vec<Touching>) {
     let judge = view.judge();
     let values = |primitive: &Primitive| match primitive {
@@ -206,7 +205,7 @@ fn truth(view: &View, ray: &Ray) -> (Vec<Covering>, Vec<Touching>) {
     (covering.collect(), touching)
 }
 
-/// Whether a sample that is not covered lies on the boundary: no edge has it outside.
+/// Whether an uncovered sample lies on the boundary: the sample is not outside any edge.
 fn touches(edges: &EdgeSigns) -> bool {
     let outside = -edges.facing;
     edges.facing != outside && edges.in_front && !edges.at_sample.contains(&outside)
@@ -232,7 +231,7 @@ fn kind(shape: &Shape) -> &'static str {
     }
 }
 
-/// Renders, and tells what was answered and done at each sample of the pixel.
+/// Renders, and returns the result and the work at each sample of the pixel.
 fn watched(
     view: &View,
     options: &Options,
@@ -250,16 +249,16 @@ fn watched(
     answers.collect()
 }
 
-/// An observer that counts what happens at the samples of one pixel.
+/// An observer that counts the work at the samples of one pixel.
 #[derive(Clone, Debug)]
 struct Watch {
     pixel: Region,
-    /// Counts of squares of samples, as long as something happens there: in most parts of a picture nothing
-    /// does, and of a pixel of many samples each thread sees a small part at a time.
+    /// Counts for squares of samples, stored only for squares with work: most parts of a picture have none, and each
+    /// thread sees a small part of a pixel with many samples at a time.
     work: HashMap<[usize; 2], Vec<Work>>,
 }
 
-/// Samples along a side of such a square.
+/// The number of samples along a side of such a square.
 const SQUARE: usize = 16;
 
 impl Watch {
@@ -267,12 +266,12 @@ impl Watch {
         Watch { pixel: pixel.clone(), work: HashMap::new() }
     }
 
-    /// In which square a sample lies, and where in it.
+    /// The square of a sample, and the sample's index in the square.
     fn place(Sample { row, column }: Sample) -> ([usize; 2], usize) {
         ([row / SQUARE, column / SQUARE], row % SQUARE * SQUARE + column % SQUARE)
     }
 
-    /// What has happened at a sample.
+    /// The work at a sample so far.
     fn of(&self, sample: Sample) -> Work {
         let (square, place) = Watch::place(sample);
         self.work.get(&square).map_or(Work::default(), |work| work[place])
@@ -345,7 +344,7 @@ mod tests {
     use crate::common::{Camera, Projection};
     use crate::scenes;
 
-    /// A report of a pixel is true of the whole picture, not of a picture that was made for it.
+    /// The report of a pixel holds for the whole picture, not for a separate picture of the pixel.
     #[test]
     fn a_pixel_alone_is_answered_as_in_the_whole_picture() {
         for (name, projection) in [
@@ -363,7 +362,7 @@ mod tests {
                 let crop = Crop { row, column, height: 1, width: 1 };
                 let alone = Options { crop: Some(crop), ..whole };
                 let pixel = crop.region(whole.samples);
-                // How often the judge was asked depends on the samples around it.
+                // The number of the judge's decisions depends on the neighbouring samples.
                 let told = |options| {
                     answers(&view, options, &pixel).map(|answers| {
                         answers

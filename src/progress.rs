@@ -1,8 +1,8 @@
-//! How far a rendering has come, told while it runs.
+//! The progress of a rendering, reported while it runs.
 //!
-//! The fast renderers report frame by frame, and chunk by chunk where a mesh is streamed. The textbooks, which
-//! can take minutes for one frame, report each step of their outer loop. An observer does that: the page of a
-//! textbook stays as it is, and costs nothing where there is no listener.
+//! The fast renderers report frame by frame, and chunk by chunk if a mesh is streamed. The textbooks, which can take
+//! minutes for one frame, report each step of their outer loop. An observer reports the steps: the code of a textbook
+//! stays unchanged, and costs nothing without a listener.
 
 use crate::common::observe::{Events, Observer};
 use crate::common::raster::Region;
@@ -10,29 +10,30 @@ use crate::common::raster::Sample;
 use crate::orders::order::Order;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// A function that is told of progress, from any thread; never twice of the same step.
+/// A function that is called with the progress, from any thread; at most once for each step.
 pub type Listener<'a> = &'a (dyn Fn(Progress) + Sync);
 
-/// How far one order has come.
+/// The progress of one order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress {
-    /// Which order.
+    /// The order.
     pub order: Order,
-    /// What it does.
+    /// The stage of the order.
     pub stage: Stage,
-    /// Steps that are done, over all frames: none while the scene is prepared, in the end all.
+    /// The finished steps, over all frames: none while the scene is prepared, all at the end.
     pub done: u64,
-    /// All steps: for a textbook those of its outer loop, for a stream its chunks of triangles, otherwise
+    /// The number of all steps: the steps of a textbook's outer loop, the triangle chunks of a stream, otherwise
     /// frames.
     pub total: u64,
 }
 
-/// What an order does with a scene.
+/// The stages of an order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
-    /// What a moving camera would not repeat.
+    /// The work that a moving camera would not repeat.
     Preparing,
-    /// Frames: one that counts the work, one to warm up if there are to be several, and the timed ones.
+    /// The frames: one frame for the count of the work, one frame for the warm-up if there are several frames, and
+    /// the timed frames.
     Rendering,
 }
 
@@ -41,7 +42,7 @@ pub enum Stage {
 pub(crate) struct Steps<'a> {
     order: Order,
     listener: Option<Listener<'a>>,
-    /// Steps within a frame, where it is watched.
+    /// The number of steps within a frame, if the frame is observed.
     within_frame: Option<u64>,
     frames: u64,
     done: &'a AtomicU64,
@@ -58,8 +59,7 @@ impl<'a> Steps<'a> {
         Steps { order, listener, within_frame, frames, done }
     }
 
-    /// An observer that counts the steps of a frame; `None` where frames count as a whole, or there is no
-    /// listener.
+    /// An observer that counts the steps of a frame; `None` if frames count as a whole, or there is no listener.
     pub(crate) fn watch(&self) -> Option<Watch<'a>> {
         (self.listener.is_some() && self.within_frame.is_some())
             .then_some(Watch { steps: *self, row: None })
@@ -69,12 +69,12 @@ impl<'a> Steps<'a> {
         self.tell(Stage::Preparing, 0);
     }
 
-    /// How many frames are rendered.
+    /// The number of rendered frames.
     pub(crate) fn frames_drawn(&self) -> u64 {
         self.done.load(Ordering::Relaxed) / self.within_frame.unwrap_or(1).max(1)
     }
 
-    /// So many frames are rendered.
+    /// Reports this number of finished frames.
     pub(crate) fn frames_done(&self, frames: u64) {
         let done = frames.saturating_mul(self.within_frame.unwrap_or(1));
         self.done.store(done, Ordering::Relaxed);
@@ -83,16 +83,16 @@ impl<'a> Steps<'a> {
 
     fn tell(&self, stage: Stage, done: u64) {
         if let Some(listener) = self.listener {
-            // No run draws so many frames, but `--repeat` may ask for them.
+            // No run draws that number of frames, but `--repeat` may ask for it.
             let total = self.frames.saturating_mul(self.within_frame.unwrap_or(1));
             listener(Progress { order: self.order, stage, done, total });
         }
     }
 
-    /// One more step begins: those before it are done.
+    /// Begins one more step: the steps before it are finished.
     pub(crate) fn begin(&self) {
         let done = self.done.fetch_add(1, Ordering::Relaxed);
-        // The first of a frame was told with the frame before it.
+        // The first step of a frame is reported together with the previous frame.
         if !done.is_multiple_of(self.within_frame.unwrap_or(1)) {
             self.tell(Stage::Rendering, done);
         }

@@ -1,4 +1,4 @@
-//! `report.json`: everything that was found out, for programs.
+//! `report.json`: all results, for programs.
 
 use crate::common::Work;
 use crate::diff::{Color, Comparison, Coverage, Depth, Visible};
@@ -13,47 +13,47 @@ pub struct Report {
     pub scene: String,
     /// Width and height of the camera's image in pixels.
     pub size: [u32; 2],
-    /// Row, column, height and width of the part of it that was rendered, if it was not all. Pixels are
-    /// named as in the whole image.
+    /// Row, column, height and width of the rendered part of the image, if the run rendered a part. Pixels have the
+    /// same numbers as in the whole image.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub crop: Option<[u32; 4]>,
     /// Samples along one side of a pixel.
     pub samples: u32,
-    /// Threads that rendered.
+    /// The number of rendering threads.
     pub threads: usize,
-    /// Primitives in the scene.
+    /// The number of primitives in the scene.
     pub primitives: u32,
-    /// Which samples are covered; like the other parts of the comparison, `None` unless both orders
-    /// were rendered.
+    /// The comparison of covered samples; like the other parts of the comparison, `None` unless both orders were
+    /// rendered.
     pub coverage: Option<Coverage>,
-    /// Which primitive is seen.
+    /// The comparison of visible primitives.
     pub visible: Option<Visible>,
-    /// How far it is.
+    /// The comparison of depths.
     pub depth: Option<Depth>,
-    /// What it looks like.
+    /// The comparison of colours.
     #[serde(rename = "colour")]
     pub color: Option<Color>,
-    /// What the textbook says of some samples, if it was asked.
+    /// The textbook's check of some samples, if the run includes it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub verified: Option<Verified>,
-    /// What object order did, if it was rendered.
+    /// The work and times of object order, if it was rendered.
     pub object_order: Option<OrderReport>,
-    /// What image order did, if it was rendered.
+    /// The work and times of image order, if it was rendered.
     pub image_order: Option<OrderReport>,
 }
 
-/// What one order did.
+/// The work and times of one order.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct OrderReport {
-    /// How it was run.
+    /// The method.
     pub method: Method,
-    /// Work on the scene alone; times are `None` where they are left out.
+    /// The time of the work on the scene alone; times are `None` if the options leave them out.
     pub prepare_ms: Option<Spread>,
-    /// Finding what is visible, per frame.
+    /// The time for finding the visible primitives, per frame.
     pub visibility_ms: Option<Spread>,
-    /// Its normals and colours, per frame.
+    /// The time for normals and colours, per frame.
     pub shading_ms: Option<Spread>,
-    /// How much was done for one frame; `None` where that was not counted, because it was left out or is too much.
+    /// The work for one frame; `None` if the options leave it out, or there is too much work to count.
     pub work: Option<WorkReport>,
 }
 
@@ -72,11 +72,11 @@ pub struct WorkReport {
 }
 
 impl Report {
-    /// Reports what was rendered, one order or both, and how the two compare.
+    /// A report on the rendered orders, one or both, and on their comparison.
     ///
     /// # Panics
     ///
-    /// If nothing was rendered.
+    /// If there is no rendered order.
     pub fn new(
         scene: &str,
         primitives: u32,
@@ -107,7 +107,7 @@ impl Report {
     ///
     /// # Errors
     ///
-    /// Never for a report made by [`Report::new`]; `serde_json` allows for it.
+    /// No error for a report from [`Report::new`]; the type comes from `serde_json`.
     pub fn to_json(&self) -> serde_json::Result<String> {
         Ok(serde_json::to_string_pretty(self)? + "\n")
     }

@@ -1,8 +1,8 @@
-//! A conformance set for other renderers: small scenes with the one right answer to each.
+//! A conformance set for other renderers: small scenes, each with its only right answer.
 //!
-//! Every [`Vector`] makes one point, in triangles and one camera. [`all`] lists them, [`expected`]
-//! says what is seen, and the rest writes it down for programs in any language: [`raster`] in
-//! pixels, [`json()`] and [`readme()`] as text.
+//! Every [`Vector`] makes one point, with triangles and one camera. [`all`] lists the vectors, [`expected`] gives the
+//! expected frame, and the other functions write both for programs in any language: [`raster`] in pixels, [`json()`]
+//! and [`readme()`] as text.
 
 mod coverage;
 mod depth;
@@ -23,15 +23,15 @@ use crate::orders::{self, Method, Order, RenderOptions};
 /// One scene of the set.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Vector {
-    /// Its files' names begin with it.
+    /// The scene's name. The names of the scene's files begin with this name.
     pub name: &'static str,
-    /// What kind of difficulty it is.
+    /// The kind of difficulty.
     pub group: Group,
-    /// Its point, in a sentence.
+    /// The point of the scene, in one sentence.
     pub point: &'static str,
-    /// All its triangles; a primitive's id is its triangle's index.
+    /// All triangles of the scene; the id of a primitive is the index of its triangle.
     pub mesh: Mesh,
-    /// From where.
+    /// The camera of the scene.
     pub camera: CameraDescription,
 }
 
@@ -46,7 +46,7 @@ pub enum Group {
     SharedEdges,
     /// Triangles thinner than a pixel, or without area.
     Slivers,
-    /// Which of several triangles is seen.
+    /// Which of several triangles is visible.
     Depth,
     /// Triangles that reach behind the eye.
     Behind,
@@ -57,7 +57,7 @@ pub enum Group {
 }
 
 impl Group {
-    /// All of them.
+    /// All kinds of difficulty.
     pub const ALL: [Group; 8] = [
         Group::Edges,
         Group::Corners,
@@ -69,7 +69,7 @@ impl Group {
         Group::Extremes,
     ];
 
-    /// As files say it.
+    /// The name of this kind in files.
     pub fn name(self) -> &'static str {
         match self {
             Group::Edges => "edges",
@@ -84,7 +84,7 @@ impl Group {
     }
 }
 
-/// The endings of the files that a scene is written as, after its name.
+/// The endings of the files of a scene, after its name.
 pub const ENDINGS: [&str; 6] = [".toml", ".obj", ".json", ".ids.npy", ".t.npy", ".mask.png"];
 
 /// The whole set, group by group.
@@ -104,7 +104,7 @@ impl Vector {
     }
 }
 
-/// The orders do not see the same, so the right answer is not known.
+/// The orders see different primitives, so the right answer is unknown.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "the scene {scene:?}: {method} object order and image order {verdict}; nothing is written, \
@@ -116,11 +116,11 @@ pub struct Disagreement {
     verdict: String,
 }
 
-/// What is seen: the textbook's answer, if both orders give it, each in both ways.
+/// The expected frame: the textbook's answer, if both orders give the same answer, each in both methods.
 ///
 /// # Errors
 ///
-/// Any of the four renderers sees another primitive at some sample.
+/// An error if any of the four renderers sees another primitive at some sample.
 pub fn expected(vector: &Vector) -> Result<Frame, Disagreement> {
     let (scene, camera) = (vector.scene(), vector.camera());
     let view = View::new(&scene, &camera);

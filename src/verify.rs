@@ -1,9 +1,9 @@
-//! Some samples of a picture computed by the textbook as well: a cheap proof where the whole picture by the textbook
-//! would take days.
+//! A check of some samples of a picture with the textbook renderer: a cheap test if the textbook would take days for
+//! the whole picture.
 //!
-//! The fast renderers were tested against the textbooks on many scenes, but perhaps not on this one. They are most
-//! likely wrong where decisions are close. So samples are chosen there first: where the orders disagree, at exact ties,
-//! at silhouettes, at edges between primitives; and then anywhere.
+//! The fast renderers are tested against the textbooks on many scenes, but perhaps not on the present scene. Errors
+//! are most likely where decisions are close. So the check first chooses samples there: where the orders disagree, at
+//! exact ties, at silhouettes, at edges between primitives; and then samples anywhere.
 
 mod choice;
 
@@ -16,44 +16,46 @@ use crate::{rasterize, raytrace};
 use rayon::prelude::*;
 use serde::Serialize;
 
-/// How many wrong pixels are named.
+/// The number of wrong pixels that the report names.
 const NAMED_PIXELS: usize = 10;
 
-/// What came of it, in samples.
+/// The result of the check, counted in samples.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Verified {
-    /// How many were answered by the textbook as well.
+    /// The number of samples that the textbook also answered.
     pub samples: u64,
-    /// Of these, in pixels in which the orders see different primitives.
+    /// The samples in pixels in which the orders see different primitives.
     pub differing: u64,
-    /// In pixels with an exact tie: a sample on an edge of what is seen in or beside it, or two primitives equally near.
+    /// The samples in pixels with an exact tie: a sample on an edge of a primitive visible in the pixel or in a
+    /// neighbour, or two primitives equally near.
     pub ties: u64,
-    /// In pixels beside which something is covered where they are not, or the other way round.
+    /// The samples in uncovered pixels with a covered neighbour, and in covered pixels with an uncovered neighbour.
     pub silhouettes: u64,
-    /// In pixels beside which another primitive is seen.
+    /// The samples in pixels with a neighbour that shows another primitive.
     pub edges: u64,
-    /// Anywhere else.
+    /// The samples anywhere else.
     pub at_random: u64,
-    /// How object order compares with its textbook, if it was rendered.
+    /// The comparison of object order with its textbook, if object order was rendered.
     pub object_order: Option<Against>,
-    /// How image order compares with its textbook, if it was rendered.
+    /// The comparison of image order with its textbook, if image order was rendered.
     pub image_order: Option<Against>,
     /// Whether no sample differs.
     #[serde(rename = "match")]
     pub matches: bool,
 }
 
-/// One order against its textbook.
+/// The comparison of one order with its textbook.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Against {
-    /// Samples at which it sees another primitive, or one where there is none, or none where there is one.
+    /// The samples at which the order and its textbook see different primitives, or only one of them sees a
+    /// primitive.
     pub differing_samples: u64,
-    /// The first pixels of these, at most 10, as `[i, j]` of the whole image, row by row.
+    /// The first pixels with such samples, at most 10, as `[i, j]` of the whole image, row by row.
     pub first_differing: Vec<[u32; 2]>,
 }
 
 impl Verified {
-    /// What is said of it in one line.
+    /// The verdict in one line.
     pub fn verdict(&self) -> String {
         let samples = count(self.samples, "samples");
         if self.matches {
@@ -74,7 +76,7 @@ impl Verified {
         )
     }
 
-    /// Where the samples lie, in words.
+    /// The places of the samples, in words.
     pub fn places(&self) -> String {
         let all = [
             (self.differing, "where the orders differ"),
@@ -90,14 +92,14 @@ impl Verified {
     }
 }
 
-/// Answers about so many samples by the textbook, whole pixels of them, and compares.
+/// Computes about `samples` samples with the textbook, in whole pixels, and compares.
 ///
-/// Runs on the rayon pool that it is called in. The choice depends on the pictures alone, so that it is the same for any
-/// number of threads; `progress` is told after each pixel.
+/// This function runs on the current rayon pool. The choice of pixels depends on the pictures alone, and is the same
+/// for any number of threads. The function calls `progress` after each pixel.
 ///
 /// # Panics
 ///
-/// If nothing was rendered, or the frames are not of this view.
+/// If there is no rendered order, or the frames belong to another view.
 ///
 /// ```
 /// use bothways::common::{Camera, View};
@@ -140,13 +142,13 @@ pub fn verify(
     }
 }
 
-/// How many pixels of a frame are answered for so many samples: enough of them, or all.
+/// The number of pixels to check for this number of samples: enough pixels, or all pixels.
 pub fn pixels(frame: &Frame, samples: u64) -> u64 {
     let [width, height] = frame.image().map(u64::from);
     samples.div_ceil(u64::from(frame.samples()).pow(2)).min(width * height)
 }
 
-/// Holds one order's frame against its textbook, in the chosen pixels.
+/// Compares the frame of one order with its textbook, in the chosen pixels.
 fn against(
     view: &View,
     one: &Rendered,

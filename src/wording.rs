@@ -1,4 +1,4 @@
-//! Numbers as people read them: `1,234,567 samples`.
+//! Numbers in a form for readers: `1,234,567 samples`.
 
 use crate::common::Crop;
 
@@ -17,14 +17,14 @@ pub fn grouped(number: u64) -> String {
     grouped
 }
 
-/// A number of things; for one thing, without the plural's s.
+/// A number of things; for one thing, without the s of the plural.
 pub fn count(number: u64, things: &str) -> String {
     let things = if number == 1 { things.trim_end_matches('s') } else { things };
     format!("{} {things}", grouped(number))
 }
 
-/// The pixels that a picture shows: all of an image of this width and height, or a crop. `times` stands
-/// between two sides.
+/// The pixels of a picture: all pixels of an image of this width and height, or a crop. `times` stands between two
+/// sides.
 ///
 /// ```
 /// use bothways::{common::Crop, wording::pixels_shown};
@@ -42,7 +42,7 @@ pub fn pixels_shown([width, height]: [u32; 2], crop: Option<Crop>, times: &str) 
     format!("crop of {pixels} at ({}, {}) in {width} {times} {height}", crop.row, crop.column)
 }
 
-/// A time that is read at a glance: three significant digits, in milliseconds.
+/// A time in a short form: three significant digits, in milliseconds.
 pub fn milliseconds(time: f64) -> String {
     let decimals = match time {
         time if time < 9.995 => 2,

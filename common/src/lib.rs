@@ -26,8 +26,8 @@
 //!   lie, and cuts rectangles of them.
 //! - [`view`] puts both together: a [`View`] gives each [`Primitive`] relative to the eye.
 //! - [`exact`] decides. A [`Judge`] says whether a primitive covers a sample, and which of two is nearer, without error.
-//! - [`frame`] is what a renderer answers: an id and a `t` for every sample, and its color.
-//! - [`look`] gives a visible point its color, from a normal and a texture coordinate that each order finds for itself.
+//! - [`frame`] is what a renderer answers: an id and a `t` for every sample, and its colour.
+//! - [`look`] gives a visible point its colour, from a normal and a texture coordinate that each order finds for itself.
 //! - [`observe`] is how one watches the loops at work: a renderer sends events, an [`Observer`] makes counts, films or
 //!   lessons of them.
 //!

@@ -1,17 +1,17 @@
 //! Object order for meshes that are larger than memory.
 //!
 //! ```text
-//! for each triangle in the file         so many at a time: a chunk, drawn as a small scene of its own
+//! for each triangle in the file         one chunk at a time, drawn as a small scene of its own
 //!     for each sample it may affect     by `fast`, into a frame of the chunk
 //!         keep the nearest              of the chunk's winners and those of all chunks before
 //! ```
 //!
-//! Object order needs one object at a time. A triangle that was drawn is not needed again, except for the one
-//! that each sample shows. So it is the same loop as in [`fast`], with a pause now and then.
+//! Object order needs one object at a time. A drawn triangle is not needed again, unless a sample shows it. So this
+//! is the same loop as in [`fast`], with a pause after each chunk.
 //!
-//! What is nearest is a minimum over a total order: by exact `t`, then by the nudged ray, then by id.
-//! The minimum of the minima of all chunks is the minimum over all: the ids are those of the whole
-//! mesh in memory, for chunks of any size. Image order cannot do this: any ray may need any triangle.
+//! The nearest triangle is a minimum over a total order: by exact `t`, then by the nudged ray, then by id. The
+//! minimum of the minima of all chunks is the minimum over all triangles: the ids are the same as for the whole mesh
+//! in memory, for chunks of any size. Image order cannot do this: any ray may need any triangle.
 
 use crate::fast;
 use bothways_common::exact::CachedJudge;
@@ -27,19 +27,19 @@ use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 use std::mem;
 
-/// The usual number of triangles in a chunk: enough that clearing and merging a frame for each chunk is
-/// a small part of the work, in some tens of megabytes.
+/// The usual number of triangles in a chunk: at this number, clearing and merging a frame for each chunk is a small
+/// part of the work, in some tens of megabytes.
 pub const CHUNK: usize = 1 << 18;
 
-/// What lasts from chunk to chunk and from pass to pass: what is seen at every sample, 40 bytes each:
-/// half of them in the frame.
+/// The data that lasts from chunk to chunk and from pass to pass: the visible triangle at every sample, 40 bytes
+/// each: half of them in the frame.
 #[derive(Debug)]
 pub struct Canvas {
-    /// The chunk's while a pass is drawn, the whole mesh's in the end.
+    /// The frame of the chunk during a pass; the frame of the whole mesh at the end.
     frame: Frame,
     ids: Vec<u32>,
     t: Vec<f32>,
-    /// The three vertices of the triangle that a sample shows: they are kept nowhere else.
+    /// The three vertices of the triangle that a sample shows: they are stored only here.
     corners: Vec<[u32; 3]>,
     options: Options,
 }
@@ -47,23 +47,23 @@ pub struct Canvas {
 /// The material of a streamed mesh, and its light.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Look {
-    /// Of all triangles.
+    /// The material of all triangles.
     pub material: Material,
-    /// As in a [`Scene`].
+    /// The lights, as in a [`Scene`].
     pub lights: Vec<Light>,
-    /// As in a [`Scene`].
+    /// The background, as in a [`Scene`].
     pub background: Vec3,
 }
 
 impl Default for Look {
-    /// That of a scene that does not state it.
+    /// The look of a scene that does not state one.
     fn default() -> Self {
         let Scene { lights, background, .. } = scene_of([], &Positions::default());
         Look { material: Material::default(), lights, background }
     }
 }
 
-/// One pass over a mesh: takes its triangles one after another.
+/// One pass over a mesh, with the triangles one after another.
 #[derive(Debug)]
 pub struct Pass<'a, O> {
     camera: &'a Camera,
@@ -71,14 +71,14 @@ pub struct Pass<'a, O> {
     observer: &'a mut O,
     chunk: usize,
     waiting: Vec<[u32; 3]>,
-    /// The id of the first triangle that waits.
+    /// The id of the first waiting triangle.
     first_id: u32,
-    /// The corners of a box around all vertices, once it is needed.
+    /// The corners of a box around all vertices, from the first use on.
     bounds: Option<[DVec3; 8]>,
 }
 
 impl Canvas {
-    /// For pictures of this camera's size.
+    /// A canvas for pictures of this camera's size.
     ///
     /// # Panics
     ///
@@ -90,7 +90,7 @@ impl Canvas {
         Canvas { frame, ids, t, corners: vec![[0; 3]; count], options: *options }
     }
 
-    /// Begins a pass with nothing seen, which draws so many triangles at a time.
+    /// Begins a pass with an empty frame. Each chunk has `chunk` triangles.
     ///
     /// # Panics
     ///
@@ -116,11 +116,11 @@ impl Canvas {
         }
     }
 
-    /// Gives every sample its flat normal and its colour: only what is seen is asked for.
+    /// Computes the flat normal and the colour of every sample, for visible triangles only.
     ///
     /// # Panics
     ///
-    /// If the camera or the positions are not those of the last pass, which must have been finished.
+    /// If the camera or the positions are not those of the last pass, or that pass is not finished.
     pub fn shade(&mut self, positions: &Positions, camera: &Camera, look: &Look) {
         let seen = self.ids.iter().zip(&self.corners).filter(|(id, _)| **id != NO_PRIMITIVE);
         let mut visible: Vec<(u32, [u32; 3])> = seen.map(|(id, corners)| (*id, *corners)).collect();
@@ -130,7 +130,7 @@ impl Canvas {
         let Look { material, ref lights, background } = *look;
         let mut scene = checked(Object { shape, material });
         (scene.lights, scene.background) = (lights.clone(), background);
-        // The small scene counts what is seen only.
+        // The small scene contains only visible triangles.
         let ids = mem::take(&mut self.ids);
         self.put(&ids, |id| visible.partition_point(|&(seen, _)| seen < id));
         crate::shade(&View::new(&scene, camera), &mut self.frame);
@@ -138,17 +138,17 @@ impl Canvas {
         self.ids = ids;
     }
 
-    /// What is seen, once a pass is finished; its look, once it is shaded.
+    /// The frame: visible primitives after a pass, colours after shading.
     pub fn frame(&self) -> &Frame {
         &self.frame
     }
 
-    /// The same, without the rest of the canvas.
+    /// The frame, without the rest of the canvas.
     pub fn into_frame(self) -> Frame {
         self.frame
     }
 
-    /// Puts distances into the frame, and ids under other names.
+    /// Writes distances into the frame, and ids with other numbers.
     fn put(&mut self, ids: &[u32], renamed: impl Fn(u32) -> usize) {
         self.frame.clear();
         let width = self.frame.width();
@@ -162,8 +162,8 @@ impl Canvas {
 }
 
 impl<O: Observer> Pass<'_, O> {
-    /// Draws one triangle, the next of the mesh: its id is the number of those before it. It may wait
-    /// for others before it is drawn.
+    /// Draws the next triangle of the mesh: its id is the number of the earlier triangles. The triangle may wait for
+    /// others before it is drawn.
     ///
     /// # Panics
     ///
@@ -175,7 +175,7 @@ impl<O: Observer> Pass<'_, O> {
         }
     }
 
-    /// Draws what still waits, and puts ids and distances into the canvas's frame.
+    /// Draws the waiting triangles, and writes ids and distances into the canvas's frame.
     pub fn finish(mut self, positions: &Positions) {
         self.draw_chunk(positions);
         let ids = mem::take(&mut self.canvas.ids);
@@ -206,7 +206,7 @@ impl<O: Observer> Pass<'_, O> {
         self.waiting.clear();
     }
 
-    /// The depth test between the chunk's winners and those before.
+    /// The depth test between the winners of the chunk and the winners of the earlier chunks.
     fn merge(&mut self, positions: &Positions, view: &View) {
         let Canvas { frame, ids, t, corners, options } = &mut *self.canvas;
         let (frame, width, observer) = (&*frame, frame.width(), &*self.observer);
@@ -256,12 +256,12 @@ fn mesh_of(triangles: impl IntoIterator<Item = [u32; 3]>, positions: &Positions)
     let corners: Vec<Vec3> =
         triangles.into_iter().flatten().map(|vertex| positions.get(vertex)).collect();
     let count = u32::try_from(corners.len() / 3).expect("a chunk has fewer triangles than ids");
-    // Three times that is a vertex number, too, for up to 2³² / 3 triangles.
+    // Three times the count is also a valid vertex number, for up to 2³² / 3 triangles.
     let triangles = (0..count).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
     Shape::Mesh(Mesh::new(corners, triangles).expect("positions are finite, and all are there"))
 }
 
-/// What a sample shows.
+/// The triangle of a sample.
 #[derive(Clone, Copy, Debug)]
 struct Seen {
     id: u32,
@@ -269,7 +269,7 @@ struct Seen {
     triangle: [u32; 3],
 }
 
-/// The depth test between a winner of a chunk and one of the chunks before.
+/// The depth test between a winner of a chunk and a winner of the earlier chunks.
 struct DepthTest<'a, O> {
     positions: &'a Positions,
     view: &'a View<'a>,
@@ -279,7 +279,7 @@ struct DepthTest<'a, O> {
 }
 
 impl<O: Observer> DepthTest<'_, O> {
-    /// Whether the incoming triangle is seen rather than the stored one, if there is one.
+    /// Whether the incoming triangle is nearer than the stored triangle, if there is one.
     fn passes(&mut self, sample: Sample, incoming: &Seen, stored: &Seen) -> bool {
         if stored.id == NO_PRIMITIVE {
             return true;
@@ -318,7 +318,7 @@ fn surely_nearer(incoming: f32, stored: f32) -> Option<bool> {
     certain.then_some(incoming < stored)
 }
 
-/// An observer of a chunk that is told the ids of the whole mesh.
+/// An observer of a chunk that receives the ids of the whole mesh.
 struct Shifted<O> {
     inner: O,
     by: u32,
@@ -382,7 +382,7 @@ mod tests {
         assert_eq!(surely_nearer(1.000_03, 1.0), Some(false));
         assert_eq!(surely_nearer(f32::MAX, f32::MAX), None);
         assert_eq!(surely_nearer(f32::MAX, 1e38), Some(false));
-        // Stored denormals say little about what was rounded to them.
+        // Stored denormal numbers contain little information about the exact numbers.
         assert_eq!(surely_nearer(f32::from_bits(1), f32::from_bits(9)), None);
         assert_eq!(surely_nearer(f32::from_bits(1), 1e-20), Some(true));
     }

@@ -93,7 +93,7 @@ pub(super) struct MethodArgs {
 }
 
 impl MethodArgs {
-    /// What both orders are told.
+    /// The options for both orders.
     pub(super) fn options(&self) -> Options {
         Options { samples: self.samples, crop: self.crop }
     }
@@ -199,7 +199,7 @@ fn side(text: &str) -> Result<u32, String> {
     if text.is_empty() || !text.bytes().all(|byte| byte.is_ascii_digit()) {
         return Err(format!("'{text}' is not a number of pixels; write it like 640x480"));
     }
-    // Too many digits for a u32 are also too many pixels.
+    // A number with too many digits for a u32 also means too many pixels.
     match text.parse().unwrap_or(u32::MAX) {
         0 => Err("both sides need at least 1 pixel".into()),
         pixels if pixels > MAX_SIDE => {
@@ -218,14 +218,14 @@ pub(super) fn from_1(text: &str) -> Result<u32, String> {
     }
 }
 
-/// Four numbers of pixels; whether the image has them is not known yet.
+/// Four numbers of pixels. This function does not check whether the image has these pixels.
 fn crop(text: &str) -> Result<Crop, String> {
     let whole = |number: &str| {
         let digits = number.trim();
         if digits.is_empty() || !digits.bytes().all(|byte| byte.is_ascii_digit()) {
             return Err(format!("'{number}' is not a whole number from 0; give {CROP}"));
         }
-        // Only too many digits are left to go wrong.
+        // The only remaining error is too many digits.
         digits.parse::<u32>().map_err(|_| {
             format!("{digits} is out of range; an image has at most {MAX_SIDE} rows and columns")
         })
@@ -236,7 +236,7 @@ fn crop(text: &str) -> Result<Crop, String> {
     four.map(Crop::from).map_err(|_| format!("it has {given}, but needs four; give {CROP}"))
 }
 
-/// How a crop is written.
+/// The format of a crop.
 const CROP: &str = "ROW,COLUMN,HEIGHT,WIDTH in pixels of the image, such as 100,200,48,64";
 
 /// A row or a column.
@@ -244,7 +244,7 @@ pub(super) fn from_0(text: &str) -> Result<u32, String> {
     text.parse().map_err(|_| "give a whole number; pixels are counted from 0".into())
 }
 
-/// As many threads as a large machine has cores.
+/// A number of threads, up to the number of cores of a large machine.
 fn threads(text: &str) -> Result<u16, String> {
     match text.parse() {
         Ok(number @ 1..=1024) => Ok(number),

@@ -1,4 +1,4 @@
-//! The scene's camera with the changes that the command line asks for.
+//! The scene's camera with the changes from the command line.
 
 use super::args::CameraArgs;
 use super::failure::Failure;
@@ -63,7 +63,7 @@ fn orientation(stated: Orientation, target: Option<Vec3>, up: Option<Vec3>) -> O
     }
 }
 
-/// What the viewport is scaled by, so that what is looked at keeps its size in the picture.
+/// The factor for the viewport that keeps the size of the target in the picture.
 ///
 /// At a depth `z` a perspective camera sees a rectangle `z/d` times its viewport.
 fn scale_for(
@@ -90,7 +90,7 @@ fn scale_for(
     })
 }
 
-/// The middle of the box around everything that has an end.
+/// The middle of the box around all objects of finite size.
 fn middle(scene: &Scene) -> Option<DVec3> {
     let mut bounds: Option<[DVec3; 2]> = None;
     let mut include = |point: Vec3, radius: f32| {
@@ -115,13 +115,13 @@ fn middle(scene: &Scene) -> Option<DVec3> {
     bounds.map(|[low, high]| low.midpoint(high))
 }
 
-/// What to say about an image that was given another form than the viewport has: the picture looks
-/// squashed, which may be what is wanted.
+/// The warning for an image and a viewport with different aspect ratios: the picture looks squashed, which may be
+/// intended.
 pub(super) fn squashed(camera: &Camera, args: &CameraArgs) -> Option<String> {
     let CameraDescription { viewport: [vw, vh], image: [width, height], .. } =
         *camera.description();
     let square = camera.description().width_of_square_pixels();
-    // A rounded viewport, such as 1.33 x 1, is meant.
+    // A rounded viewport, such as 1.33 x 1, counts as intended.
     let fits = (vw / square - 1.0).abs() < 0.01;
     (args.size.is_some() && !fits).then(|| {
         let [vw, vh, square] = [vw, vh, square].map(readable);
@@ -132,7 +132,7 @@ pub(super) fn squashed(camera: &Camera, args: &CameraArgs) -> Option<String> {
     })
 }
 
-/// `--eye, --up`: what was given, for messages.
+/// The given options, for messages: `--eye, --up`.
 fn options_given(args: &CameraArgs) -> String {
     let given = [
         ("--size", args.size.is_some()),
@@ -232,7 +232,7 @@ mod tests {
         };
         let mut scene = loaded(look_at(Vec3::NEG_Z));
         assert_eq!(changed(&scene, &args).unwrap().viewport, [18.0, 6.0]);
-        // It states the viewport anew, whatever the scene does.
+        // The new viewport is stated, in every scene.
         scene.viewport_stated = true;
         assert_eq!(changed(&scene, &args).unwrap().viewport, [18.0, 6.0]);
         scene.camera.projection = Projection::Parallel;

@@ -1,7 +1,7 @@
-//! `bothways completions`: a script for a shell, which offers the built-in scenes, too.
+//! `bothways completions`: a completion script for a shell, with the names of the built-in scenes.
 //!
-//! `clap_complete` knows commands and options. What a SCENE may be it cannot know: it is a name or any
-//! file, so that a list of values would hide the files. The names are added to its scripts here.
+//! `clap_complete` knows commands and options. It cannot know the values of SCENE: a value is a name or any file, and
+//! a list of values would hide the files. This module adds the names to the scripts.
 
 use super::Cli;
 use bothways::scenes::{BUILT_IN, BuiltIn};
@@ -9,7 +9,7 @@ use clap::CommandFactory;
 use clap_complete::Shell;
 use std::fmt::Write;
 
-/// The subcommands that take a scene; without one, rendering does.
+/// The subcommands with a scene argument; without a subcommand, `render` runs.
 const TAKE_A_SCENE: [&str; 4] = ["render", "scenes", "pixel", "camera"];
 
 /// The script.
@@ -43,7 +43,7 @@ fn names() -> String {
     BUILT_IN.iter().map(|scene| scene.name).collect::<Vec<_>>().join(" ")
 }
 
-/// The list of words in each command's branch gets the names.
+/// The names go into the list of words in each command's branch.
 fn bash(script: &str) -> String {
     let mut takes_a_scene = false;
     let mut offered = String::new();
@@ -64,7 +64,7 @@ fn bash(script: &str) -> String {
     offered
 }
 
-/// Where a scene is asked for, the names are an alternative to files.
+/// At each scene argument, the names are an alternative to files.
 fn zsh(script: &str) -> String {
     let names = names();
     let either = format!(
@@ -96,7 +96,7 @@ fn fish(script: &str) -> String {
     offered
 }
 
-/// The block of each command begins with the names.
+/// Adds the names at the beginning of each command's block.
 fn blocks(script: &str, open: &str, close: &str, line_of: impl Fn(&BuiltIn) -> String) -> String {
     let names: String = BUILT_IN.iter().map(line_of).collect();
     let takes_a_scene = |line: &str| {
@@ -117,7 +117,8 @@ mod tests {
 
     #[test]
     fn scenes_are_offered_wherever_one_is_asked_for() {
-        // Once for each subcommand that takes one, and once without; the word itself may occur besides.
+        // Each name occurs once for each subcommand with a scene, and once without a subcommand; the word alone may
+        // occur elsewhere.
         for (shell, offer) in [
             (Shell::Bash, " slivers overlap "),
             (Shell::Zsh, " slivers overlap "),

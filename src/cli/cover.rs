@@ -35,7 +35,8 @@ pub(super) struct CoverArgs {
     /// The three corners: 'x,y x,y x,y', in quotes or without
     #[arg(value_name = "x,y x,y x,y", allow_hyphen_values = true)]
     corners: String,
-    // One argument each: a list of them would swallow options, since its words may begin with a hyphen.
+    // Three separate arguments: a list argument would take options as words, because its words may begin with a
+    // hyphen.
     #[arg(hide = true, allow_hyphen_values = true)]
     second: Option<String>,
     #[arg(hide = true, allow_hyphen_values = true)]
@@ -54,7 +55,7 @@ pub(super) struct CoverArgs {
     json: bool,
 }
 
-/// Judges, writes and prints.
+/// Computes the covered pixels, writes the mask and prints the result.
 pub(super) fn run(args: &CoverArgs) -> Result<ExitCode, Failure> {
     let words = [Some(&args.corners), args.second.as_ref(), args.third.as_ref()];
     let words: Vec<&str> = words.into_iter().flatten().map(String::as_str).collect();
@@ -79,7 +80,7 @@ pub(super) fn run(args: &CoverArgs) -> Result<ExitCode, Failure> {
             .map_err(io::Error::other)
     })?;
     if file.is_stdout() {
-        // The picture is the result; a person may still want to read about it.
+        // The picture is the result on stdout; the text for the user goes to stderr.
         anstream::eprint!("{text}");
     } else {
         terminal::print(&text)?;
@@ -87,7 +88,7 @@ pub(super) fn run(args: &CoverArgs) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Where the mask goes.
+/// The destination of the mask.
 fn mask_file(name: &Path, json: bool) -> Result<OutputFile, Failure> {
     let file = OutputFile::find(name)?;
     if file.is_stdout() && json {
@@ -119,7 +120,7 @@ fn corners(text: &str) -> Result<[Vec2; 3], Failure> {
 }
 
 fn heading(cover: &Cover) -> String {
-    // As short as reads back as what is stored.
+    // The fewest digits that read back as the stored number.
     let [a, b, c] = cover.triangle.map(|corner| format!("({}, {})", corner.x, corner.y));
     let [width, height] = cover.image;
     let facing = match cover.facing {
@@ -148,11 +149,11 @@ fn facing(cover: &Cover) -> &'static str {
     }
 }
 
-/// Rows that are drawn at most; more are a table, or a PNG file.
+/// The most rows of a drawing; more rows become a table, or a PNG file.
 const MOST_ROWS: usize = 100;
 
-/// The pixels that the triangle touches and a margin of one, drawn with two characters a pixel;
-/// `None` if they do not fit.
+/// A drawing of the pixels that the triangle touches, with a margin of one, two characters per pixel; `None` if the
+/// drawing does not fit.
 fn drawing(cover: &Cover, width: usize) -> Option<String> {
     let rows = around(cover.rows.iter().map(|row| [row.i, row.i]), cover.image[1])?;
     let touched = cover.rows.iter().map(|row| [row.touched.start, row.touched.end - 1]);
@@ -175,7 +176,7 @@ fn drawing(cover: &Cover, width: usize) -> Option<String> {
     Some(text)
 }
 
-/// From the least to the greatest, one more on both sides as far as the image goes.
+/// The range from the least to the greatest index, with one more on both sides within the image.
 fn around(runs: impl Iterator<Item = [u32; 2]>, side: u32) -> Option<RangeInclusive<u32>> {
     let [low, high] = runs.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])?;
     Some(low.saturating_sub(1)..=(high + 1).min(side - 1))
@@ -208,12 +209,12 @@ fn table(cover: &Cover) -> String {
     text
 }
 
-/// The first and the last column that is covered.
+/// The first and the last covered column.
 fn ends(row: &Row) -> Option<[u32; 2]> {
     (!row.covered.is_empty()).then(|| [row.covered.start, row.covered.end - 1])
 }
 
-/// What `--json` prints, in this order.
+/// The output of `--json`, in this order.
 #[derive(Debug, Serialize)]
 struct Report {
     triangle: [[f32; 2]; 3],

@@ -1,4 +1,4 @@
-//! `bothways diff A B`: where do two renderers differ, and how?
+//! `bothways diff A B`: a comparison of the output of two renderers.
 
 mod folders;
 
@@ -44,7 +44,7 @@ that begin with a scene's name, by what is in them: ids, distances or a mask.
 Exit codes: 0 equal in everything compared, 1 something differs or lacks its partner, 2 something went
 wrong.";
 
-/// The one file that is written.
+/// The only output file.
 const NAMES: [&str; 1] = ["difference.png"];
 
 /// What to compare.
@@ -66,7 +66,7 @@ pub(super) struct DiffArgs {
     json: bool,
 }
 
-/// Compares and prints; 0 if the files are equal in everything compared, 1 if not.
+/// Compares and prints; the exit code is 0 if the files are equal in all compared aspects, otherwise 1.
 pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
     match [&args.a, &args.b].map(|path| path.is_dir()) {
         [true, true] => return folders::run(args),
@@ -99,7 +99,7 @@ pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
     Ok(ExitCode::from(u8::from(!comparison.equal)))
 }
 
-/// A colour as screens show it.
+/// A colour in sRGB.
 fn color(text: &str) -> Result<[u8; 3], String> {
     let digits = text.strip_prefix('#').filter(|digits| digits.len() == 6);
     let bytes = digits
@@ -112,7 +112,7 @@ fn color(text: &str) -> Result<[u8; 3], String> {
     }
 }
 
-/// What there is to tell.
+/// The content of the report.
 struct FileReport<'a> {
     files: [(&'a PathBuf, &'a Buffer<'a>); 2],
     comparison: &'a BufferComparison,
@@ -162,7 +162,7 @@ impl FileReport<'_> {
         text
     }
 
-    /// The files, as they were understood.
+    /// The names and the kinds of the files.
     fn heading(&self) -> String {
         let bold = Style::new().bold();
         let mut text = String::new();
@@ -189,7 +189,7 @@ impl FileReport<'_> {
         names.join(", ")
     }
 
-    /// What was compared, and how closely.
+    /// The compared aspects, and the tolerances.
     fn judged(&self) -> String {
         let judged = |aspect: &Aspect| match aspect {
             Aspect::Coverage | Aspect::Ids => aspect.name().to_owned(),
@@ -303,7 +303,7 @@ fn count_of(number: usize, one: &str, several: &str) -> String {
     format!("{number} {}", if number == 1 { one } else { several })
 }
 
-/// What may be the cause; of several that explain everything, each may.
+/// The possible causes; if several causes explain everything, each of them is possible.
 fn hints(hints: &[String]) -> String {
     let mut text = String::new();
     match hints {
@@ -323,7 +323,7 @@ fn line(text: &mut String, content: std::fmt::Arguments) {
     writeln!(text, "{content}").expect("a string takes all");
 }
 
-/// With no more decimals than it has.
+/// A number without unnecessary decimals.
 fn number(steps: f32) -> String {
     if steps.fract() == 0.0 { format!("{steps}") } else { format!("{steps:.2}") }
 }

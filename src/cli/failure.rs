@@ -1,4 +1,4 @@
-//! What the user is told when something went wrong.
+//! The messages about errors.
 
 use bothways::formats::scene_file::{Excerpt, LocatedError, ReadSceneError};
 use bothways::formats::source::quote::visible;
@@ -10,26 +10,26 @@ use miette::{
 use std::fmt;
 use std::io::Write;
 
-/// One message that names the place and says what to do; the exit code is 2.
+/// One message that names the place and the remedy; the exit code is 2.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// A message that says it all.
+    /// A complete message.
     Plain(String),
     /// A place in a scene file.
     InSceneFile(Box<Located>),
 }
 
-/// A place in a scene file, as `miette` wants it.
+/// A place in a scene file, in the form for `miette`.
 #[derive(Debug)]
 pub(crate) struct Located {
     error: LocatedError,
     lines: Lines,
 }
 
-/// The lines around the place, which know where in the file they are.
+/// The lines around the place, with their position in the file.
 ///
-/// Never the whole file: `miette` panics where a place is beyond column 65,535, and shows whatever stands
-/// there as it is.
+/// This type never holds the whole file: `miette` panics if a place is beyond column 65,535, and prints the text of
+/// the file without changes.
 #[derive(Debug)]
 struct Lines {
     excerpt: Excerpt,
@@ -42,15 +42,15 @@ impl Failure {
         Failure::Plain(message.into())
     }
 
-    /// Prints it to stderr: in colour on a terminal, unless `NO_COLOR` says otherwise.
+    /// Prints the failure to stderr: in colour on a terminal, unless `NO_COLOR` is set.
     pub(super) fn print(&self) {
         let red = anstyle::AnsiColor::Red.on_default().bold();
         let text = match self {
-            // A terminal must not obey anything that a message quotes.
+            // A terminal must not execute control sequences in quoted text.
             Failure::Plain(message) => format!("{red}error{red:#}: {}\n", visible(message)),
             Failure::InSceneFile(located) => located.drawn(),
         };
-        // If stderr is closed, the exit code still says it.
+        // If stderr is closed, the exit code still reports the failure.
         let _ = anstream::stderr().write_all(text.as_bytes());
     }
 }

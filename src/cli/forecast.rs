@@ -1,36 +1,36 @@
-//! How long a run still takes, from how far it has come, and what to say if that is long.
+//! The remaining time of a run, estimated from its progress, and the message about a long run.
 
 use super::args::{MethodArg, RenderArgs};
 use bothways::orders::Order;
 use bothways::progress::{Progress, Stage};
 use std::time::Duration;
 
-/// A run that is expected to take longer is said to.
+/// A run with a longer expected time gets a message.
 const LONG: Duration = Duration::from_secs(60);
-/// What was done within less tells nothing of the rest.
+/// The shortest time that is enough for an estimate.
 const ENOUGH: Duration = Duration::from_secs(2);
 
-/// What is known of a run's pace. All times are counted from its beginning.
+/// The known pace of a run. All times start at the beginning of the run.
 #[derive(Debug, Default)]
 pub(super) struct Forecast {
-    /// The orders that come after this one; they are expected to take as long.
+    /// The number of orders after the present order; the forecast expects the same time for each.
     later: u32,
     order: Option<Order>,
-    /// When the order's first frame began.
+    /// The time at which the order's first frame began.
     begun: Duration,
-    /// When the last step was done, and how many were by then, of how many.
+    /// The time of the last step, the number of steps done by then, and the number of all steps.
     last: Option<(Duration, u64, u64)>,
     said: bool,
 }
 
 impl Forecast {
-    /// Of a run of so many orders.
+    /// The forecast of a run with this number of orders.
     pub(super) fn new(orders: usize) -> Forecast {
         Forecast { later: u32::try_from(orders).unwrap_or(1), ..Forecast::default() }
     }
 
-    /// Notes what was done by `now`. The first time that it makes the run a long one, tells how long it
-    /// takes as a whole.
+    /// Stores the progress at time `now`. The first time that the forecast makes the run a long one, this function
+    /// returns the time of the whole run.
     pub(super) fn note(&mut self, progress: Progress, now: Duration) -> Option<Duration> {
         let Progress { order, stage, done, total } = progress;
         if self.order != Some(order) {
@@ -40,7 +40,7 @@ impl Forecast {
             (self.begun, self.last) = (now, None);
             return None;
         }
-        // Threads tell of their steps in any order.
+        // Threads report their steps in any order.
         if self.last.is_none_or(|(_, most, _)| done > most) {
             self.last = Some((now, done, total));
         }
@@ -52,7 +52,7 @@ impl Forecast {
         Some(whole)
     }
 
-    /// How long the run takes from `now` on, if something tells.
+    /// The remaining time of the run from `now` on, if there is enough data.
     pub(super) fn left(&self, now: Duration) -> Option<Duration> {
         let (at, done, total) = self.last?;
         let order = seconds_of_all(at.checked_sub(self.begun)?, done, total);
@@ -61,13 +61,13 @@ impl Forecast {
     }
 }
 
-/// What all steps take, as these did.
+/// The time of all steps at the pace of the steps done.
 #[expect(clippy::cast_precision_loss, reason = "an estimate")]
 fn seconds_of_all(time: Duration, done: u64, total: u64) -> f64 {
     time.as_secs_f64() * total as f64 / done as f64
 }
 
-/// What is said of a run that takes so long.
+/// The message about a run of this length.
 pub(super) fn advice(whole: Duration, args: &RenderArgs) -> String {
     let method = &args.method;
     let (why, first) = match (method.method, method.repeat) {
@@ -86,7 +86,7 @@ pub(super) fn advice(whole: Duration, args: &RenderArgs) -> String {
     format!("this takes about {}{why}: {first}{}", words(whole), rest.trim_end())
 }
 
-/// A time as people say it, the less exactly the longer it is.
+/// A time in words, less exact for longer times.
 pub(super) fn words(time: Duration) -> String {
     let seconds = time.as_secs_f64().ceil();
     let [minutes, hours] = [60.0, 3600.0].map(|unit| (seconds / unit).round());
@@ -118,7 +118,7 @@ mod tests {
         assert_eq!(forecast.left(S(1)), None);
         forecast.note(at(Order::Object, 0), S(1));
         assert_eq!(forecast.note(at(Order::Object, 10), S(3)), None);
-        // 20 seconds each, from the first on.
+        // 20 seconds for each step, from the first step on.
         assert_eq!(forecast.left(S(3)), Some(S(38)));
         assert_eq!(forecast.left(S(5)), Some(S(36)));
         forecast.note(at(Order::Image, 0), S(21));

@@ -1,50 +1,51 @@
-//! Ctrl-C: half-written files are removed, and earlier files stay.
+//! Ctrl-C: the program removes half-written files, and keeps earlier files.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::{fs, mem, process};
 
-/// The exit code by which shells know an interrupted program.
+/// The exit code of an interrupted program in shells.
 const INTERRUPTED: i32 = 130;
-/// Each try removes all that was there when it began.
+/// The most attempts. Each attempt removes all files present at its beginning.
 const MOST_TRIES: usize = 50;
 
-/// A folder that goes if the program is interrupted.
+/// A folder that the program removes if it is interrupted.
 #[derive(Debug)]
 struct Unfinished {
     hidden: PathBuf,
-    /// Folders that were made for it, the innermost first; they go if they are empty.
+    /// Folders that were created for the hidden folder, the innermost first; the program removes them if they are
+    /// empty.
     created: Vec<PathBuf>,
 }
 
-/// What is to be done about Ctrl-C.
+/// The state for the handling of Ctrl-C.
 #[derive(Debug)]
 struct State {
     unfinished: Vec<Unfinished>,
-    /// Everything is written, and where it belongs: nothing can be taken back any more.
+    /// Everything is written and in its place: nothing can be undone any more.
     placed: bool,
-    /// Ctrl-C was pressed since.
+    /// Ctrl-C was pressed after that.
     asked: bool,
 }
 
 static STATE: Mutex<State> =
     Mutex::new(State { unfinished: Vec::new(), placed: false, asked: false });
 
-/// Keeps a folder known as unfinished while it lives.
+/// Marks a folder as unfinished until this value is dropped.
 #[derive(Debug)]
 pub(super) struct Guard(PathBuf);
 
-/// From here on, Ctrl-C removes unfinished folders before the program ends.
+/// Sets up Ctrl-C: from now on, it removes unfinished folders before the program ends.
 pub(super) fn clean_up() {
-    // Without a handler an interrupted run leaves a hidden folder: not worth refusing to run.
+    // Without a handler, an interrupted run leaves a hidden folder: this is no reason to refuse the run.
     let _ = ctrlc::set_handler(|| {
-        // Kept locked to the end: nothing more is begun, moved or finished.
+        // The lock is held to the end: no other thread begins, moves or finishes a file.
         let mut state = state();
         if state.is_left_to_end() {
             return;
         }
         for Unfinished { hidden, created } in &state.unfinished {
-            // Other threads go on writing: what they write meanwhile goes, too.
+            // Other threads continue to write: the loop also removes the files of these writes.
             for _ in 0..MOST_TRIES {
                 if fs::remove_dir_all(hidden).is_ok() {
                     break;
@@ -64,24 +65,24 @@ pub(super) fn clean_up() {
 }
 
 impl State {
-    /// Whether a run is so near its end that it is let go on: all files are in place, and the exit code
-    /// tells what they hold. A second Ctrl-C ends it.
+    /// Whether a run is so near its end that it may continue: all files are in place, and the exit code reports their
+    /// content. A second Ctrl-C ends the run.
     fn is_left_to_end(&mut self) -> bool {
         self.placed && !mem::replace(&mut self.asked, true)
     }
 }
 
-/// While this lives, Ctrl-C waits.
+/// A lock: Ctrl-C waits until this value is dropped.
 #[derive(Debug)]
 pub(super) struct Held(MutexGuard<'static, State>);
 
-/// Lets Ctrl-C wait for what must not stop half-way.
+/// Delays Ctrl-C during a step that must not stop half-way.
 pub(super) fn hold() -> Held {
     Held(state())
 }
 
 impl Held {
-    /// Notes a folder as unfinished, and what was made for it.
+    /// Registers a folder as unfinished, together with the folders created for it.
     pub(super) fn guard(&mut self, hidden: &Path, created: &[PathBuf]) -> Guard {
         let hidden = hidden.to_owned();
         let created = created.to_owned();
@@ -89,7 +90,7 @@ impl Held {
         Guard(hidden)
     }
 
-    /// Notes that all that a guard stands for is where it belongs.
+    /// Registers that all files of a guard are in their places.
     pub(super) fn placed(&mut self, guard: &Guard) {
         self.0.unfinished.retain(|one| one.hidden != guard.0);
         self.0.placed = true;

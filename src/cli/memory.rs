@@ -1,4 +1,4 @@
-//! The memory that a run takes, compared with what there is before the work begins.
+//! The memory that a run needs, compared with the available memory before the work begins.
 
 use super::args::RenderArgs;
 use super::failure::Failure;
@@ -8,22 +8,24 @@ use bothways::wording::count;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Bytes that a frame keeps for a sample: id, distance and colour.
+/// The bytes of a sample in a frame: id, distance and colour.
 const BYTES_PER_SAMPLE: u64 = 4 + 4 + 12;
-/// Bytes that a stream keeps besides: id and distance of the chunks before, and the triangle's three vertices.
+/// The additional bytes of a sample in a stream: id and distance of the earlier chunks, and the triangle's three
+/// vertices.
 const BYTES_PER_STREAMED_SAMPLE: u64 = 4 + 4 + 12;
-/// Bytes for a pixel while pictures are drawn, compared and compressed: of one order, or of both at once (measured
+/// The bytes of a pixel while pictures are drawn, compared and compressed: of one order, or of both at once (measured
 /// with 3000 × 3000 pixels: 12).
 const BYTES_PER_PIXEL: [u64; 2] = [8, 12];
-/// For the program itself, and a slide of 1920 × 1080. What an order prepares (clusters, a hierarchy) and keeps from
-/// frame to frame (projected vertices, bins) is not counted: it depends on the scene, and is small beside a frame
-/// that is refused for its size.
+/// The bytes for the program itself, and a slide of 1920 × 1080. The prepared data of an order (clusters, a
+/// hierarchy) and the data that it keeps from frame to frame (projected vertices, bins) are not counted: their size
+/// depends on the scene, and is small compared with a frame that is refused for its size.
 const BYTES_FOR_THE_REST: u64 = 32 << 20;
 
-/// From so many bytes on, a run says beforehand what it takes.
+/// From this number of bytes on, a run reports its memory in advance.
 const MUCH: u64 = 4 << 30;
 
-/// Refuses what does not fit; says what will take much of it, or more than is free.
+/// Refuses a run that does not fit into memory; warns about a run that needs much of the memory, or more than the
+/// free memory.
 pub(super) fn check(camera: &Camera, args: &RenderArgs) -> Result<(), Failure> {
     let need = Need::of(camera, args);
     let memory = Memory::read(Path::new("/"));
@@ -39,7 +41,7 @@ pub(super) fn check(camera: &Camera, args: &RenderArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What all frames and pictures of a run take.
+/// The memory of all frames and pictures of a run.
 #[derive(Debug)]
 struct Need {
     samples: u64,
@@ -60,10 +62,10 @@ impl Need {
         Need { samples, bytes }
     }
 
-    /// Also where memory has no end, the message has one.
+    /// The message is complete even if the limit of memory is unknown.
     fn refusal(&self, most: Option<u64>) -> String {
         let (samples, need) = (count(self.samples, "samples"), gibibytes(self.bytes));
-        // A program that may have less than there is runs under a limit (`ulimit -v`).
+        // If a program may have less memory than the machine has, a limit applies (`ulimit -v`).
         let than = match most.filter(|&most| self.bytes > most) {
             Some(most) => format!("than there is ({})", gibibytes(most)),
             None => "than this program may have".into(),
@@ -74,7 +76,7 @@ impl Need {
         )
     }
 
-    /// That it may not fit, if so.
+    /// The warning that the run may not fit, if this is possible.
     fn warning(&self, free: Option<u64>) -> Option<String> {
         let free = free.filter(|&free| self.bytes > free)?;
         let free = gibibytes(free);
@@ -93,33 +95,33 @@ impl Need {
     }
 }
 
-/// To a tenth.
+/// The number of gibibytes, rounded to a tenth.
 fn gibibytes(bytes: u64) -> String {
     let tenths = (u128::from(bytes) * 10 + (1 << 29)) >> 30;
     format!("{}.{} GiB", tenths / 10, tenths % 10)
 }
 
-/// Whether the system promises so much at once, where addresses are limited: one frame after the other
-/// might be promised, and the promise not kept.
+/// Whether the system can reserve this much memory at once, where addresses are limited: the system might grant one
+/// frame after another, and then fail to provide the memory.
 fn can_be_reserved(bytes: u64) -> bool {
     let mut all = Vec::<u8>::new();
     let fits = usize::try_from(bytes).is_ok_and(|bytes| all.try_reserve_exact(bytes).is_ok());
-    // Used, so that the compiler does not remove the question.
+    // The result is used, so that the compiler does not remove the allocation.
     std::hint::black_box(&mut all);
     fits
 }
 
-/// What memory there is, as far as the system tells.
+/// The available memory, as reported by the system.
 #[derive(Debug, Default, PartialEq, Eq)]
 struct Memory {
-    /// Bytes that this program can get at most, with all swap space, besides those that it has.
+    /// The most bytes that this program can get in addition to its present memory, with all swap space.
     most: Option<u64>,
-    /// Bytes that it gets without anything being swapped out.
+    /// The bytes that the program can get without swapping.
     free: Option<u64>,
 }
 
 impl Memory {
-    /// Asks the Linux kernel, whose files are below `root`. Elsewhere nothing is known.
+    /// Reads the files of the Linux kernel below `root`. On other systems the memory is unknown.
     fn read(root: &Path) -> Memory {
         let info = Fields(fs::read_to_string(root.join("proc/meminfo")).unwrap_or_default());
         let own = Fields(fs::read_to_string(root.join("proc/self/status")).unwrap_or_default());
@@ -137,13 +139,13 @@ impl Memory {
                 free = least(free, limit.saturating_sub(group.used()));
             }
         }
-        // The scene is read by now.
+        // The scene is already in memory at this point.
         let own = kibibytes(&own, "VmRSS:").unwrap_or(0);
         Memory { most: most.map(|most| most.saturating_sub(own)), free }
     }
 }
 
-/// A file of names and numbers, one a line.
+/// A file of names and numbers, one pair per line.
 struct Fields(String);
 
 impl Fields {
@@ -153,15 +155,15 @@ impl Fields {
     }
 }
 
-/// A control group that this program is in, of version 1 or 2.
+/// A control group of this program, of version 1 or 2.
 #[derive(Debug)]
 struct ControlGroup {
     folder: PathBuf,
     version: usize,
 }
 
-/// All groups that hold this program, from its own to the root: each may have a limit. In a container they
-/// may be seen as the root alone.
+/// All groups that contain this program, from its own group to the root: each group may have a limit. In a container,
+/// only the root may be visible.
 fn groups(root: &Path) -> Vec<ControlGroup> {
     let list = fs::read_to_string(root.join("proc/self/cgroup")).unwrap_or_default();
     let mut groups = Vec::new();
@@ -183,7 +185,7 @@ fn groups(root: &Path) -> Vec<ControlGroup> {
 }
 
 impl ControlGroup {
-    /// What a file says, which has one name in version 1 and another in version 2; `max` is no number.
+    /// The number in a file, which has one name in version 1 and another name in version 2; `max` is not a number.
     fn number(&self, names: [&str; 2]) -> Option<u64> {
         let text = fs::read_to_string(self.folder.join(names[self.version - 1])).ok()?;
         text.trim().parse().ok()
@@ -193,13 +195,13 @@ impl ControlGroup {
         self.number(["memory.limit_in_bytes", "memory.max"])
     }
 
-    /// How much swap space it may take besides, if that is limited.
+    /// The additional swap space of the group, if it is limited.
     fn swap(&self, limit: u64) -> Option<u64> {
         let stated = self.number(["memory.memsw.limit_in_bytes", "memory.swap.max"])?;
         Some(if self.version == 1 { stated.saturating_sub(limit) } else { stated })
     }
 
-    /// What is taken, without copies of files that can be read again.
+    /// The used memory, without copies of files that can be read again.
     fn used(&self) -> u64 {
         let used = self.number(["memory.usage_in_bytes", "memory.current"]).unwrap_or(0);
         let stat = Fields(fs::read_to_string(self.folder.join("memory.stat")).unwrap_or_default());
@@ -212,7 +214,7 @@ impl ControlGroup {
 mod tests {
     use super::*;
 
-    /// A system whose files say this.
+    /// The memory of a system with these files.
     fn memory(files: &[(&str, &str)]) -> Memory {
         let root = tempfile::tempdir().unwrap();
         let write = |(name, text): &(&str, &str)| {
@@ -251,7 +253,7 @@ mod tests {
             ("sys/fs/cgroup/user.slice/memory.swap.max", "0\n"),
         ];
         assert_eq!(memory(&limits), Memory { most: Some(2 * GIB), free: Some(GIB) });
-        // Without a limit to swap space, all of it.
+        // Without a limit on swap space, all swap space counts.
         assert_eq!(memory(&limits[..6]).most, Some(3 * GIB));
         let unlimited = Memory { most: Some(9 * GIB), free: Some(4 * GIB) };
         assert_eq!(memory(&limits[..3]), unlimited);
@@ -282,7 +284,7 @@ mod tests {
             "132,710,400 samples need at least 8.0 GiB of memory, more than there is (2.0 GiB); take a \
              smaller --size, a --crop of it, fewer --samples, or one --order alone"
         );
-        // There would be enough, but for a limit.
+        // The memory of the machine is enough, but a limit is too low.
         assert!(need.refusal(Some(20 * GIB)).contains(", more than this program may have; take"));
         assert_eq!(need.warning(Some(9 * GIB)), None);
         assert_eq!(

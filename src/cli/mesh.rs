@@ -42,7 +42,7 @@ pub(super) struct MeshArgs {
     file: PathBuf,
 }
 
-/// Generates, writes and says so.
+/// Generates the mesh, writes the file and prints a message.
 pub(super) fn run(args: &MeshArgs) -> Result<ExitCode, Failure> {
     let file = OutputFile::find(&args.file)?;
     let format = format(&file)?;
@@ -61,7 +61,7 @@ pub(super) fn run(args: &MeshArgs) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// The format that the file's name asks for; OBJ if it does not say.
+/// The format for the file's name; OBJ if the name has no ending.
 fn format(file: &OutputFile) -> Result<Format, Failure> {
     let Some(ending) = file.ending() else { return Ok(Format::Obj) };
     Format::of(Path::new(&format!("mesh.{ending}"))).ok_or_else(|| {

@@ -4,12 +4,12 @@ use bothways::common::Frame;
 use npyz::{AutoSerialize, NpyWriter, WriteOptions, WriterBuilder};
 use std::io::{self, Write};
 
-/// Writes the id of what is seen at each sample, all ones for nothing.
+/// Writes the id of the visible primitive at each sample, all ones for nothing.
 pub(super) fn write_ids(frame: &Frame, out: impl Write) -> io::Result<()> {
     write(frame, frame.ids(), out)
 }
 
-/// Writes how far it is, +∞ for nothing.
+/// Writes the distance of the visible primitive at each sample, +∞ for nothing.
 pub(super) fn write_distances(frame: &Frame, out: impl Write) -> io::Result<()> {
     write(frame, frame.distances(), out)
 }
@@ -24,7 +24,7 @@ fn write<T: AutoSerialize + Copy>(
     let shape = if n == 1 { vec![height, width] } else { vec![height, width, n, n] };
     let mut writer: NpyWriter<T, _> =
         WriteOptions::new().default_dtype().shape(&shape).writer(&mut out).begin_nd()?;
-    // A frame stores rows of samples; the array, the samples of one pixel after another.
+    // A frame stores rows of samples; the array stores the samples of one pixel after another.
     for [i, j] in frame.pixels() {
         for sample in frame.samples_of(i as usize, j as usize) {
             writer.push(&buffer[sample])?;

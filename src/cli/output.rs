@@ -1,8 +1,9 @@
-//! The output folder: all files of a run appear together at its end, or none of them does.
+//! The output folder: all files of a run appear together at its end, or no file appears.
 //!
-//! A new folder appears by one rename. In a folder that exists (a shell may be in it, and other files stay),
-//! one run at a time renames file by file. The last file, the report, is removed before the first is touched,
-//! and written when all are in place: wherever a run is stopped, a report lies beside its own files only.
+//! A new folder appears by one rename. In a folder that exists (a shell may use it, and other files stay), one run at
+//! a time renames file by file. The last file, the report, is removed before any other file moves, and written when
+//! all other files are in place: if a run stops at any point, the folder never shows a report together with the files
+//! of another run.
 
 mod file;
 mod hidden;
@@ -21,8 +22,8 @@ use std::path::{Path, PathBuf};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-/// Every file that `render` may write. Those that a run does not write are removed from the folder,
-/// so that it never shows a picture of one run beside the report of another. The report is the last.
+/// Every file that `render` may write. A run removes the files of this list that it does not write, so that the
+/// folder never shows a picture of one run together with the report of another. The report is the last file.
 const NAMES: [&str; 13] = [
     "object-order.png",
     "image-order.png",
@@ -39,30 +40,30 @@ const NAMES: [&str; 13] = [
     "report.json",
 ];
 
-/// Another run needs a moment to put its files into the same folder, but not so long.
+/// The longest wait for another run to move its files into the same folder.
 const PATIENCE: Duration = Duration::from_secs(30);
 
-/// Files that are written, but not yet where the user looks for them.
+/// Files that are written, but not yet in their final place.
 #[derive(Debug)]
 pub(super) struct Staging {
     target: PathBuf,
-    /// Beside a target that is to appear, within one that is there: either way files move by being renamed.
-    /// `None` once removed.
+    /// A folder next to a new target folder, or within an existing target folder: in both cases, a rename moves the
+    /// files. `None` after its removal.
     hidden: Option<Hidden>,
-    /// Folders that did not exist before, the innermost first.
+    /// Folders that the run created, the innermost first.
     created: Vec<PathBuf>,
-    /// Every file that this kind of run may write; no other file is touched.
+    /// Every file that this kind of run may write; the run changes no other file.
     names: Vec<String>,
     written: Vec<String>,
 }
 
 impl Staging {
-    /// Makes ready to write the target folder of `render`.
+    /// Prepares to write the target folder of `render`.
     pub(super) fn begin(target: &Path) -> Result<Staging, Failure> {
         Staging::begin_with(target, NAMES.map(str::to_owned).to_vec())
     }
 
-    /// The same for a run that may write other files. The last one of them tells that all are there.
+    /// The same for a run with other files. The presence of the last file shows that all files are complete.
     pub(super) fn begin_with(target: &Path, names: Vec<String>) -> Result<Staging, Failure> {
         if target == Path::new("-") {
             return Err(Failure::new(
@@ -77,20 +78,20 @@ impl Staging {
             names,
             written: Vec::new(),
         };
-        // Dropping the staging takes back what was made before the failure.
+        // Dropping the staging removes everything created before the failure.
         staging.make().map_err(|error| staging.failure(&error))?;
         staging.check_names()?;
         Ok(staging)
     }
 
-    /// Makes the hidden folder, and those above it that are missing.
+    /// Creates the hidden folder, and the missing folders above it.
     fn make(&mut self) -> io::Result<()> {
         let mut held = interrupt::hold();
         let home = self.home()?;
         self.created = missing_folders(&home);
         fs::create_dir_all(&home)?;
         if home != self.target {
-            // Other runs into this folder began when it was not there.
+            // Other runs with this target folder began before the folder existed.
             hidden::remove_dead(&self.target);
         }
         let hidden = Hidden::within(&home, &self.created, &mut held)?;
@@ -133,7 +134,7 @@ impl Staging {
         })
     }
 
-    /// Puts all files where they belong, in place of those of earlier runs.
+    /// Moves all files to their places, and replaces the files of earlier runs.
     pub(super) fn commit(mut self) -> Result<(), Failure> {
         let placed = self.place_folder().or_else(|_| self.place_files());
         placed.map_err(|error| self.failure(&error))?;
@@ -141,7 +142,8 @@ impl Staging {
         Ok(())
     }
 
-    /// Lets the whole folder appear by one rename, if there was none. If there is one by now, that fails.
+    /// Makes the whole folder appear by one rename, if the folder does not exist. If the folder exists by now, the
+    /// rename fails.
     fn place_folder(&self) -> io::Result<()> {
         if self.hidden_path().parent() == Some(&self.target) {
             return Err(ErrorKind::AlreadyExists.into());
@@ -152,14 +154,14 @@ impl Staging {
         Ok(())
     }
 
-    /// Moves file by file into a folder that is there.
+    /// Moves file by file into an existing folder.
     fn place_files(&self) -> io::Result<()> {
         fs::create_dir_all(&self.target)?;
         let _one_at_a_time = locked(&self.target)?;
         let mut held = interrupt::hold();
         let mut moves = Vec::new();
         self.replace(&mut moves).inspect_err(|_| {
-            // The last move first: an old file returns after the new one has left.
+            // The last move is undone first: an old file returns after the new file is gone.
             for (from, to) in moves.iter().rev() {
                 let _ = fs::rename(to, from);
             }
@@ -168,8 +170,8 @@ impl Staging {
         Ok(())
     }
 
-    /// Moves the old files away and the new ones in, and notes each move: the last file goes first, and
-    /// comes last.
+    /// Moves the old files away and the new files in, and records each move: the last file is moved away first, and
+    /// moved in last.
     fn replace(&self, moves: &mut Vec<(PathBuf, PathBuf)>) -> io::Result<()> {
         let (old, new) = (self.hidden_path().join("old"), self.new_files());
         fs::create_dir(&old)?;
@@ -179,7 +181,7 @@ impl Staging {
             io::Result::Ok(())
         };
         let steps = self.names.iter().map(|name| (name, self.written.contains(name)));
-        // What comes last is put away first.
+        // The file that is moved in last is moved away first.
         for (name, is_new) in self.names.last().map(|last| (last, false)).into_iter().chain(steps) {
             let place = self.target.join(name);
             if place.symlink_metadata().is_ok() {
@@ -196,7 +198,7 @@ impl Staging {
         held.placed(self.hidden.as_ref().expect(HIDDEN).guard());
     }
 
-    /// A folder that has a file's name is not of our making: it is not replaced.
+    /// Refuses a folder with the name of a file: this program did not create it, and does not replace it.
     fn check_names(&self) -> Result<(), Failure> {
         let mut places = self.names.iter().map(|name| self.target.join(name));
         let taken = places.find(|place| place.is_dir());
@@ -213,8 +215,8 @@ impl Staging {
         self.hidden.as_ref().expect(HIDDEN).path()
     }
 
-    /// Where the files wait: a folder that gets the permissions of any other, while the hidden one is the
-    /// user's alone.
+    /// The folder of the waiting files: it gets the usual permissions, while the hidden folder is private to the
+    /// user.
     fn new_files(&self) -> PathBuf {
         self.hidden_path().join(NEW)
     }
@@ -228,14 +230,14 @@ impl Staging {
 const NEW: &str = "new";
 const HIDDEN: &str = "the hidden folder is there until the end";
 
-/// The folders that have to be made for this one, the innermost first.
+/// The missing folders above and including this folder, the innermost first.
 fn missing_folders(folder: &Path) -> Vec<PathBuf> {
     let missing = |folder: &&Path| !folder.as_os_str().is_empty() && !folder.exists();
     folder.ancestors().take_while(missing).map(Path::to_owned).collect()
 }
 
-/// Waits until no other run moves files into a folder, and keeps others waiting. `None` where folders
-/// cannot be locked.
+/// Waits until no other run moves files into a folder, and makes other runs wait. `None` if the system cannot lock
+/// folders.
 fn locked(folder: &Path) -> io::Result<Option<File>> {
     let Ok(folder) = File::open(folder) else { return Ok(None) };
     let begun = Instant::now();
@@ -251,8 +253,8 @@ fn locked(folder: &Path) -> io::Result<Option<File>> {
     }
 }
 
-/// Why something cannot be written, in words where the system has only a number, and what to do: what
-/// helps against that, or `otherwise`.
+/// The reason why a file cannot be written, in words if the system has only a number, and a remedy: the remedy for
+/// this error, or `otherwise`.
 pub(super) fn reason(error: &io::Error, otherwise: &str) -> String {
     let (cause, help) = match error.kind() {
         ErrorKind::NotFound => ("there is no such folder", ""),
@@ -279,7 +281,7 @@ impl Drop for Staging {
     fn drop(&mut self) {
         self.hidden = None;
         for folder in &self.created {
-            // Only what is still empty goes.
+            // The call removes only empty folders.
             let _ = fs::remove_dir(folder);
         }
     }
@@ -344,7 +346,7 @@ mod tests {
         let mut staging = Staging::begin(home.path()).unwrap();
         write(&mut staging, "object-order.png", "new");
         write(&mut staging, "report.json", "new");
-        // Somebody takes the last file away: its move cannot succeed.
+        // The test removes the last file: the move of this file cannot succeed.
         fs::remove_file(staging.new_files().join("report.json")).unwrap();
         assert!(staging.commit().is_err());
         for name in ["object-order.png", "report.json"] {

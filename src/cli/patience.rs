@@ -1,29 +1,29 @@
-//! Steps of equal length, such as samples that the textbook answers: shown on a terminal, and said beforehand where they
-//! take long.
+//! Progress of steps of equal length, such as samples for the textbook: a bar on a terminal, and a message in advance
+//! if the steps take long.
 
 use super::forecast::words;
 use super::progress::Bar;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-/// After so long a good guess is possible.
+/// The time after which a good estimate is possible.
 const FIRST_LOOK: Duration = Duration::from_secs(3);
-/// What takes longer is said.
+/// A longer estimate gets a message.
 const LONG: Duration = Duration::from_secs(60);
 
-/// Counts the steps.
+/// A counter of steps.
 pub(super) struct Patience<'a> {
     /// `None` with `--quiet`.
     bar: Option<&'a Bar<'a>>,
     total: u64,
     done: AtomicU64,
     begun: Instant,
-    /// Steps that were done when it was guessed; 0 before.
+    /// The number of steps done at the time of the estimate; 0 before.
     guessed: AtomicU64,
 }
 
 impl<'a> Patience<'a> {
-    /// For so many samples that the textbook answers.
+    /// A counter for this number of samples that the textbook answers.
     pub(super) fn new(total: u64, bar: Option<&'a Bar<'a>>) -> Patience<'a> {
         if let Some(bar) = bar {
             bar.count("answering samples by the textbook", total);
@@ -32,7 +32,7 @@ impl<'a> Patience<'a> {
         Patience { bar, total, done, begun: Instant::now(), guessed }
     }
 
-    /// One more is done.
+    /// Counts one more step.
     pub(super) fn step(&self) {
         let Some(bar) = self.bar else { return };
         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;

@@ -1,4 +1,5 @@
-//! `bothways pixel`: the viewing ray of one pixel, derived; what covers it; what each order saw.
+//! `bothways pixel`: the viewing ray of one pixel, derived; the primitives that cover the pixel; the results of both
+//! orders.
 
 mod json;
 
@@ -52,7 +53,7 @@ pub(super) struct PixelArgs {
     json: bool,
 }
 
-/// Judges, renders and prints; 0 if both orders saw what is true.
+/// Computes the true result, renders and prints; the exit code is 0 if both orders saw the true primitives.
 pub(super) fn run(args: &PixelArgs) -> Result<ExitCode, Failure> {
     let loaded = scenes::load_for(&args.scene, args.camera.size)?;
     terminal::warn(&loaded.warnings);
@@ -77,7 +78,7 @@ pub(super) fn run(args: &PixelArgs) -> Result<ExitCode, Failure> {
     Ok(ExitCode::from(u8::from(!agree)))
 }
 
-/// All there is to tell.
+/// The content of the output.
 struct Lesson<'a> {
     scene: &'a str,
     camera: &'a Camera,
@@ -114,7 +115,7 @@ impl Lesson<'_> {
         let camera = self.camera;
         let CameraDescription { viewport: [vw, vh], image: [width, height], distance: d, .. } =
             *camera.description();
-        // The formulas count with `f64`: so many digits give the same result on a calculator.
+        // The formulas compute with `f64`: with this number of digits, a calculator gives the same result.
         let [vw, vh, d] = [vw, vh, d].map(f64::from);
         let (i, j, n) = (self.args.row + 1, self.args.column + 1, self.args.samples);
         // The middle of the pixel, or of the first of the n parts of its sides.
@@ -146,7 +147,7 @@ impl Lesson<'_> {
     }
 }
 
-/// What covers the sample, near to far, and what only touches it.
+/// The primitives that cover the sample, near to far, and the primitives that only touch it.
 fn truth(sample: &SampleReport) -> String {
     let mut text = match sample.covering.len() {
         0 => "\nno primitive covers it\n".into(),
@@ -180,8 +181,7 @@ fn truth(sample: &SampleReport) -> String {
     text
 }
 
-/// `E_ab -0.5, E_bc 0 (tie: a left edge, nudged to -), E_ca -2`, and the facing that they are held
-/// against.
+/// `E_ab -0.5, E_bc 0 (tie: a left edge, nudged to -), E_ca -2`, and the facing for the comparison.
 fn functions(edges: &EdgeSigns, values: &EdgeValues) -> String {
     let each = ["ab", "bc", "ca"].into_iter().enumerate();
     let words = each.map(|(index, name)| match values.sides[index] {
@@ -208,7 +208,7 @@ fn symbol(sign: Sign) -> &'static str {
     }
 }
 
-/// What both orders answered, and what they did for it.
+/// The results of both orders, and their work.
 fn answers(sample: &SampleReport) -> String {
     let orders = [(Order::Object, &sample.object_order), (Order::Image, &sample.image_order)];
     let mut text = String::from("\n");
@@ -238,7 +238,7 @@ fn work(work: &Work) -> String {
     if done.is_empty() { "nothing to do here".into() } else { done.join(", ") }
 }
 
-/// The ids that are seen at all samples, as they lie in the pixel.
+/// The visible ids at all samples, in the arrangement of the samples in the pixel.
 fn seen(samples: &[SampleReport], n: usize) -> String {
     let word = |sample: &SampleReport| match sample.object_order.id {
         _ if !sample.agrees() => "differ".into(),
@@ -255,7 +255,7 @@ fn seen(samples: &[SampleReport], n: usize) -> String {
     text
 }
 
-/// The ten digits of a distance that are certain, so that equal ones look equal.
+/// The ten certain digits of a distance, so that equal distances look equal.
 fn certain(t: f64) -> f64 {
     format!("{t:.9e}").parse().expect("a number is written as a number")
 }

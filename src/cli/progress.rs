@@ -1,5 +1,5 @@
-//! The bar that shows, on a terminal, how far a long rendering has come and how long it still takes; and the
-//! line that says that it will be long, on a terminal or not.
+//! The bar on a terminal with the progress and the remaining time of a long rendering; and the message about a long
+//! rendering, with or without a terminal.
 
 use super::args::RenderArgs;
 use super::forecast::{Forecast, advice, words};
@@ -14,35 +14,33 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-/// A run that is shorter shows no bar.
+/// The shortest time of a run with a bar.
 const PATIENCE: Duration = Duration::from_millis(400);
-/// How often the time is counted on, whether or not a step is done.
+/// The interval of time updates, with or without a finished step.
 const TICK: Duration = Duration::from_millis(200);
 
-/// A bar on stderr that is gone without a trace when this is dropped. Where stderr is no terminal nothing is
-/// drawn.
+/// A bar on stderr that disappears completely when this value is dropped. If stderr is no terminal, nothing is drawn.
 #[derive(Debug)]
 pub(super) struct Bar<'a> {
     args: &'a RenderArgs,
     bar: ProgressBar,
     begun: Instant,
     forecast: Arc<Mutex<Forecast>>,
-    /// Dropped to stop waiting.
+    /// Dropping the sender ends the wait.
     waiting: Option<Sender<()>>,
     appearing: Option<JoinHandle<()>>,
 }
 
 impl Bar<'_> {
-    /// A bar that appears after a moment if stderr is a terminal that can erase it; `None` with
-    /// `--quiet`.
+    /// A bar that appears after a moment if stderr is a terminal that can erase the bar; `None` with `--quiet`.
     ///
-    /// Where stdout goes does not matter: a person waits for `bothways --json > report.json`, too.
+    /// The destination of stdout does not matter: a user also waits for `bothways --json > report.json`.
     pub(super) fn of_run(args: &RenderArgs) -> Option<Bar<'_>> {
         let erases = env::var_os("TERM").is_none_or(|terminal| terminal != "dumb");
         (!args.output.quiet).then(|| Bar::new(args, erases && stderr().is_terminal()))
     }
 
-    /// Says what is being done while it is done, if that takes more than a moment.
+    /// Shows the name of a task during the task, if the task takes more than a moment.
     pub(super) fn during<T>(what: &'static str, args: &RenderArgs, work: impl FnOnce() -> T) -> T {
         let _bar = Bar::of_run(args).inspect(|bar| bar.say(what));
         work()
@@ -60,7 +58,7 @@ impl Bar<'_> {
         Bar { args, bar, begun: Instant::now(), forecast, waiting: Some(waiting), appearing }
     }
 
-    /// Shows what an order does, and how much of it is done.
+    /// Shows the stage of an order, and its progress.
     pub(super) fn show(&self, progress: Progress) {
         let whole = locked(&self.forecast).note(progress, self.begun.elapsed());
         let order = progress.order.name();
@@ -72,7 +70,7 @@ impl Bar<'_> {
             Stage::Rendering => {
                 if progress.done == 0 {
                     self.bar.set_style(self.with_bar());
-                    // Both names take the same room, so that the bar stays where it is.
+                    // Both names get the same width, so that the bar does not move.
                     let room = Order::Object.name().len();
                     self.bar.set_message(format!("{order:room$}"));
                     self.bar.set_length(progress.total);
@@ -86,7 +84,7 @@ impl Bar<'_> {
         }
     }
 
-    /// Shows how many steps of something are done, each of which is told of.
+    /// Shows the number of finished steps of a task. The task reports each step.
     pub(super) fn count(&self, what: &'static str, total: u64) {
         let style = style("{msg} [{bar:32}] {percent:>3} %, about {eta} left");
         self.bar.set_style(style.progress_chars("=> "));
@@ -96,28 +94,28 @@ impl Bar<'_> {
         self.bar.reset_eta();
     }
 
-    /// One more of them is done.
+    /// Counts one more finished step.
     pub(super) fn step(&self) {
         self.bar.inc(1);
     }
 
-    /// Does something, such as printing a line, while the bar is out of the way.
+    /// Runs a function, such as printing a line, while the bar is hidden.
     pub(super) fn suspend(&self, work: impl FnOnce()) {
         self.bar.suspend(work);
     }
 
-    /// Says what is done that has no steps.
+    /// Shows a task without steps.
     pub(super) fn say(&self, what: &'static str) {
         self.bar.set_style(without_bar());
         self.bar.set_message(what);
     }
 
-    /// Without colours, so that `NO_COLOR` needs no care.
+    /// The style without colours, so that `NO_COLOR` needs no extra code.
     fn with_bar(&self) -> ProgressStyle {
         let (forecast, begun) = (Arc::clone(&self.forecast), self.begun);
         let left = move |_: &ProgressState, out: &mut dyn Write| {
             if let Some(left) = locked(&forecast).left(begun.elapsed()) {
-                // A bar is not worth a failure.
+                // An error in drawing the bar is not reported.
                 let _ = write!(out, ", about {} left", words(left));
             }
         };
@@ -130,7 +128,7 @@ impl Drop for Bar<'_> {
     fn drop(&mut self) {
         self.waiting = None;
         if let Some(appearing) = self.appearing.take() {
-            // It has nothing that could fail, and a bar is not worth a failure.
+            // The thread cannot fail, and an error in drawing the bar is not reported.
             let _ = appearing.join();
         }
         self.bar.finish_and_clear();

@@ -22,7 +22,8 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Renders, writes and prints; 0 if both orders see the same (or one was asked for), 1 if not.
+/// Renders, writes and prints; the exit code is 0 if both orders see the same primitives (or if one order ran), 1
+/// otherwise.
 pub(super) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
     let stream = args.method.stream;
     if stream {
@@ -41,7 +42,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
     })
 }
 
-/// Refuses what cannot be streamed.
+/// Refuses options that do not work with a stream.
 fn check_stream(args: &RenderArgs) -> Result<(), Failure> {
     let order = match args.method.order {
         OrderArg::Object => None,
@@ -63,8 +64,8 @@ fn check_stream(args: &RenderArgs) -> Result<(), Failure> {
     }
 }
 
-/// The camera and the output folder, checked before the work: no one waits for pictures that cannot be
-/// written. Warns of what the scene lacks, too.
+/// The camera and the output folder, checked before the work: the user does not wait for pictures that cannot be
+/// written. This function also warns about missing parts of the scene.
 fn prepared_output(
     args: &RenderArgs,
     loaded: &LoadedScene,
@@ -90,7 +91,7 @@ fn prepared_output(
     Ok((camera, staging, folder))
 }
 
-/// Refuses to hold the textbook against itself.
+/// Refuses `--verify` with the textbook method: a comparison of the textbook with itself has no use.
 fn check_verify(args: &RenderArgs) -> Result<(), Failure> {
     if args.method.verify.is_some() && args.method.method == MethodArg::Textbook {
         return Err(Failure::new(
@@ -101,8 +102,8 @@ fn check_verify(args: &RenderArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The folder that a scene is written into, below `out`: its name, unless it would lead elsewhere (a file may
-/// be called `...toml`) or cannot be typed.
+/// The name of a scene's folder below `out`: the scene's name, unless that name leads to another folder (a file may
+/// have the name `...toml`) or cannot be typed.
 fn folder_name(name: &str) -> String {
     let typed = |c: char| if c.is_control() || "/\\:".contains(c) { '_' } else { c };
     if name.bytes().all(|byte| byte == b'.') {
@@ -112,7 +113,7 @@ fn folder_name(name: &str) -> String {
     }
 }
 
-/// The threads to render on.
+/// The thread pool for rendering.
 fn thread_pool(args: &RenderArgs) -> Result<rayon::ThreadPool, Failure> {
     rayon::ThreadPoolBuilder::new()
         .num_threads(args.method.threads.unwrap_or(0).into())
@@ -120,7 +121,7 @@ fn thread_pool(args: &RenderArgs) -> Result<rayon::ThreadPool, Failure> {
         .map_err(|error| Failure::new(format!("cannot start the threads: {error}")))
 }
 
-/// How an order is asked to run.
+/// The options for one order.
 fn render_options<'a>(args: &RenderArgs, progress: Option<Listener<'a>>) -> RenderOptions<'a> {
     RenderOptions {
         frame: args.method.options(),
@@ -131,13 +132,13 @@ fn render_options<'a>(args: &RenderArgs, progress: Option<Listener<'a>>) -> Rend
     }
 }
 
-/// Everything that came of the rendering.
+/// The results of the rendering.
 struct Run<'a> {
     args: &'a RenderArgs,
     /// The scene in one line.
     about: Option<&'a str>,
     rendered: Vec<Rendered>,
-    /// The picture of each.
+    /// The picture of each order.
     pictures: Vec<RgbImage>,
     comparison: Option<Comparison>,
     report: Report,
@@ -195,7 +196,7 @@ impl<'a> Run<'a> {
         let json = self.report.to_json().map_err(|error| Failure::new(error.to_string()))?;
         self.write(&mut staging, &json)?;
         staging.commit()?;
-        // Before something is printed to the same terminal.
+        // The bar ends before any text is printed to the same terminal.
         drop(bar);
 
         if self.args.output.json {
@@ -224,7 +225,7 @@ impl<'a> Run<'a> {
             (self.rendered.as_slice(), self.pictures.as_slice(), &self.comparison)
         {
             let difference = comparison.classes().picture(by_object);
-            // Of a crop it has the crop's size, as everything has.
+            // For a crop, the picture has the size of the crop, as all output has.
             let whole = object_order.frame.crop().is_none();
             let difference = if whole { enlarged(difference) } else { difference };
             staging.write_rgb("difference.png", &difference)?;
@@ -244,7 +245,7 @@ impl<'a> Run<'a> {
     }
 }
 
-/// The exit code of a run that went well: one order alone cannot differ, but from its textbook.
+/// The exit code of a run without errors: one order alone can differ from its textbook only.
 fn status(comparison: Option<&Comparison>, verified: Option<&Verified>) -> u8 {
     let differs = !comparison.is_none_or(Comparison::matches);
     u8::from(differs || verified.is_some_and(|verified| !verified.matches))

@@ -1,4 +1,4 @@
-//! `bothways camera`: a scene's camera in numbers, for other people's renderers.
+//! `bothways camera`: a scene's camera in numbers, for other renderers.
 
 use super::args::CameraArgs;
 use super::camera::camera;
@@ -43,7 +43,7 @@ pub(super) fn run(args: &ShowCameraArgs) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// What `--json` prints, in this order. What the camera stores as `f32` is written as short as reads
+/// The output of `--json`, in this order. Numbers that the camera stores as `f32` have the fewest digits that read
 /// back as the same `f32`.
 #[derive(Debug, Serialize)]
 struct Report {
@@ -152,18 +152,18 @@ pub(super) fn plain(vector: DVec3) -> [f64; 3] {
     (vector + DVec3::ZERO).to_array()
 }
 
-/// `(x, y, z)`, every number as short as reads back as the same.
+/// `(x, y, z)`, each number with the fewest digits that read back as the same number.
 pub(super) fn vector<T: std::fmt::Display>([x, y, z]: [T; 3]) -> String {
     format!("({x}, {y}, {z})")
 }
 
-/// The number as OpenGL stores it.
+/// The number in OpenGL's precision.
 #[expect(clippy::cast_possible_truncation, reason = "OpenGL's floats are f32")]
 fn single(number: f64) -> f32 {
     number as f32 + 0.0
 }
 
-/// Its rows, with the columns aligned.
+/// The rows of the matrix, with aligned columns.
 fn matrix(matrix: &Matrix) -> String {
     let words = matrix.map(|row| row.map(|number| format!("{:?}", single(number))));
     let width = words.as_flattened().iter().map(String::len).max().unwrap_or(0);

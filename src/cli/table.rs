@@ -1,4 +1,4 @@
-//! What `render` prints: a short table of what each order did, and the verdict.
+//! The output of `render`: a short table of the work of each order, and the verdict.
 
 use anstyle::{AnsiColor, Style};
 use bothways::common::{Crop, Work};
@@ -9,7 +9,7 @@ use bothways::wording::{count, grouped, milliseconds, pixels_shown};
 use std::fmt::Write;
 use std::path::Path;
 
-/// The table, for people.
+/// The table for readers.
 pub(super) fn table(
     report: &Report,
     rendered: &[Rendered],
@@ -115,7 +115,7 @@ fn rows(rendered: &[Rendered]) -> Vec<(&'static str, Vec<String>)> {
     rows
 }
 
-/// What the verdict does not judge, if it is more than rounding explains: a row of the table each.
+/// The differences that the verdict ignores, if they are more than rounding explains: one row of the table each.
 fn beyond_tolerance(comparison: &Comparison) -> String {
     let style = AnsiColor::Yellow.on_default();
     let mut text = String::new();

@@ -7,11 +7,11 @@ use serde::Serialize;
 use std::borrow::Cow;
 use std::io::{self, BufWriter, ErrorKind, IsTerminal, Write};
 
-/// Prints a text; its colours are kept on a terminal only, and not if `NO_COLOR` is set.
+/// Prints a text with colours only on a terminal, and only if `NO_COLOR` is not set.
 ///
-/// A reader that has seen enough (`bothways | head`) is no failure.
+/// A reader that stops early (`bothways | head`) is no failure.
 pub(super) fn print(text: &str) -> Result<(), Failure> {
-    // A file keeps every byte of the result; a terminal must obey none of it but our colours.
+    // A file keeps every byte of the result; on a terminal, only our colour sequences may have an effect.
     let text = if io::stdout().is_terminal() { tame(text) } else { Cow::Borrowed(text) };
     let mut stdout = anstream::stdout().lock();
     printed(stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()))
@@ -37,8 +37,8 @@ fn printed(result: io::Result<()>) -> Result<(), Failure> {
     }
 }
 
-/// A text of several lines in which a terminal obeys nothing but colours: scenes are printed as they are,
-/// and may hold anything.
+/// A text of several lines with no control sequence except colours: scenes are printed without other changes, and may
+/// contain any characters.
 pub(super) fn tame(text: &str) -> Cow<'_, str> {
     let kept = |c: char| c == '\n' || c == '\t';
     if visible(text).len() == text.len() {
@@ -59,14 +59,14 @@ pub(super) fn tame(text: &str) -> Cow<'_, str> {
     Cow::Owned(tamed)
 }
 
-/// The length of the sequence that sets colours and weights with which a text begins, if it does.
+/// The length of the sequence for colours and weights at the beginning of a text, if there is one.
 fn color_sequence(text: &str) -> Option<usize> {
     let numbers = text.strip_prefix("\u{1b}[")?;
     let end = numbers.find(|c: char| !c.is_ascii_digit() && c != ';')?;
     numbers[end..].starts_with('m').then_some(2 + end + 1)
 }
 
-/// Prints to stderr what is missing but stops nothing, in colour as [`print()`] does.
+/// Prints warnings to stderr, in colour in the same cases as [`print()`].
 pub(super) fn warn(warnings: &[String]) {
     let yellow = anstyle::AnsiColor::Yellow.on_default().bold();
     for warning in warnings {
@@ -75,7 +75,7 @@ pub(super) fn warn(warnings: &[String]) {
     }
 }
 
-/// How many characters fit beside each other: 80 where that is not known.
+/// The width of the terminal in characters: 80 if the width is unknown.
 pub(super) fn width() -> usize {
     terminal_size::terminal_size().map_or(80, |(width, _)| width.0.into())
 }

@@ -1,4 +1,4 @@
-//! Reading the command line, and what is said when a word is too many.
+//! Reading the command line, and the messages about unexpected words.
 
 use super::Cli;
 use super::failure::Failure;
@@ -9,12 +9,12 @@ use bothways::scenes::BUILT_IN;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser};
 
-/// The command line; help, version and nearly all mistakes are answered here, and end the program.
+/// The parsed command line; the parser prints help, version and nearly all errors here, and ends the program.
 ///
 /// # Errors
 ///
-/// A word after the scene, which the parser takes for a subcommand; a subcommand after options, and a
-/// mistyped one, which it takes for the scene.
+/// A word after the scene, which the parser takes for a subcommand; a subcommand after options; a mistyped
+/// subcommand, which the parser takes for the scene.
 pub(super) fn parse() -> Result<Cli, Failure> {
     let words: Vec<String> =
         std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned()).collect();
@@ -29,7 +29,8 @@ pub(super) fn parse() -> Result<Cli, Failure> {
     }
 }
 
-/// Prints what the parser says, help or a mistake, and ends the program. It quotes words of the command line.
+/// Prints the parser's text, which is help or an error, and ends the program. The text quotes words of the command
+/// line.
 fn exit(error: &clap::Error) -> ! {
     if error.use_stderr() {
         anstream::eprint!("{}", tame(&error.render().ansi().to_string()));
@@ -46,7 +47,7 @@ fn late(word: &str) -> String {
     format!("'{word}' is a subcommand, so it comes first: bothways {word}, then all else")
 }
 
-/// The subcommand that a word may mean which is no file and no scene.
+/// The subcommand that a word may mean, if the word is no file and no scene.
 fn meant(word: &str) -> Option<String> {
     let is_scene = BUILT_IN.iter().any(|scene| scene.name == word);
     if is_scene || word.contains(['.', '/', '\\']) {
@@ -57,7 +58,7 @@ fn meant(word: &str) -> Option<String> {
     nearest_name(word, names).map(str::to_owned)
 }
 
-/// What is said of a word that is neither a scene nor a command, if it resembles a command.
+/// The message about a word that is neither a scene nor a command, if the word resembles a command.
 fn mistyped(word: &str) -> Option<String> {
     let command = meant(word)?;
     let scene = nearest_name(word, BUILT_IN.iter().map(|scene| scene.name));
@@ -69,7 +70,7 @@ fn mistyped(word: &str) -> Option<String> {
     ))
 }
 
-/// What is said of a word after the scene.
+/// The message about a word after the scene.
 fn excess(error: &clap::Error, words: &[String]) -> Option<String> {
     let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidSubcommand) else {
         return None;
@@ -110,7 +111,7 @@ fn excess(error: &clap::Error, words: &[String]) -> Option<String> {
     Some(format!("'{}' is a word too many: {remedy}", visible(word)))
 }
 
-/// A word as a shell reads it.
+/// A word in the quotes of a shell.
 fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./,=+:".contains(c);
     if !word.is_empty() && word.chars().all(plain) {
@@ -153,11 +154,11 @@ mod tests {
         assert_eq!(says(&["bothways", "covr", "1,1 9,2 3,7", "--size", "9x9"]).unwrap(), cover);
         let vectors = mistyped("vectros").unwrap();
         assert!(vectors.contains("did you mean the command 'bothways vectors'?"), "{vectors}");
-        // No scene and no file is taken for a command.
+        // No scene and no file is mistaken for a command.
         for fine in ["inside", "many", "./pixle", "pixle.toml", "teapot", "lectrue"] {
             assert_eq!(mistyped(fine), None, "{fine}");
         }
-        // A scene is as near as a command.
+        // The name of a scene is as similar as the name of a command.
         let scene = mistyped("tover").unwrap();
         assert!(scene.contains("'bothways cover'"), "{scene}");
     }

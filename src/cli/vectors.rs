@@ -36,7 +36,7 @@ pub(super) struct VectorsArgs {
     json: bool,
 }
 
-/// Finds all answers, and writes all files or none.
+/// Computes all answers, and writes all files or no file.
 pub(super) fn run(args: &VectorsArgs) -> Result<ExitCode, Failure> {
     let vectors = all();
     let answers = vectors.iter().map(expected).collect::<Result<Vec<Frame>, _>>();

@@ -1,27 +1,27 @@
-//! What a comparison can be about.
+//! The aspects of a comparison.
 
 use serde::Serialize;
 
-/// Something that two buffers may both tell of a pixel.
+/// A property of a pixel that two buffers may both contain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Aspect {
-    /// Whether something is there.
+    /// Whether a primitive is visible.
     Coverage,
-    /// Which primitive it is.
+    /// Which primitive is visible.
     Ids,
-    /// How far it is.
+    /// The distance of the visible primitive.
     T,
-    /// What it looks like.
+    /// The colour of the pixel.
     #[serde(rename = "colour")]
     Color,
 }
 
 impl Aspect {
-    /// All of them, in the order in which they are reported.
+    /// All aspects, in the order of the report.
     pub const ALL: [Aspect; 4] = [Aspect::Coverage, Aspect::Ids, Aspect::T, Aspect::Color];
 
-    /// What a sentence calls it.
+    /// The name of the aspect in a sentence.
     pub fn name(self) -> &'static str {
         match self {
             Aspect::Coverage => "coverage",
@@ -32,13 +32,13 @@ impl Aspect {
     }
 }
 
-/// What coverage is counted in.
+/// The unit of coverage counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Unit {
-    /// Each sample for itself; with one sample a pixel, that is a pixel.
+    /// Each sample counts separately; with one sample per pixel, a sample is a pixel.
     Samples,
-    /// The files have different numbers of samples: a pixel is covered if one of its samples is.
+    /// The files have different numbers of samples: a pixel is covered if one of its samples is covered.
     Pixels,
 }
 

@@ -1,4 +1,4 @@
-//! What a comparison works on: a mask, ids, distances or a picture of any origin, or a frame.
+//! The input of a comparison: a mask, ids, distances or a picture of any origin, or a frame.
 
 use super::aspect::Aspect;
 use super::classes::pixels;
@@ -6,11 +6,11 @@ use crate::common::Frame;
 use crate::common::frame::NO_PRIMITIVE;
 use image::{Rgb, RgbImage};
 
-/// What a file of any origin, or a frame, says of each pixel.
+/// The values of each pixel of a frame, or of a file of any origin.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Buffer<'a> {
     size: [u32; 2],
-    /// The row and the column of its first pixel in the whole image.
+    /// The row and the column of the first pixel in the whole image.
     origin: [u32; 2],
     samples: u32,
     content: Content<'a>,
@@ -19,15 +19,15 @@ pub struct Buffer<'a> {
 /// The values of a buffer: pixels row by row, the samples of a pixel together.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Content<'a> {
-    /// What is covered.
+    /// Whether each sample is covered.
     Mask(Vec<bool>),
-    /// Which primitive is seen, `None` for nothing.
+    /// The visible primitive, `None` for nothing.
     Ids(Vec<Option<u64>>),
-    /// How far it is. Covered is what is at a finite distance: neither ±∞ nor NaN.
+    /// The distance. A sample at a finite distance is covered: neither ±∞ nor NaN.
     Distances(Vec<f64>),
-    /// What it looks like; always one sample a pixel.
+    /// The colours; always one sample per pixel.
     Picture(Picture),
-    /// All that a frame tells: ids, distances, and the picture of its pixels.
+    /// All values of a frame: ids, distances, and the picture of its pixels.
     Frame(Seen<'a>),
 }
 
@@ -38,26 +38,26 @@ pub struct Seen<'a> {
     picture: &'a RgbImage,
 }
 
-/// Colours, and what they say of coverage.
+/// Colours, and the way in which they determine coverage.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
     /// Red, green, blue and alpha in sRGB as stored; not premultiplied.
     pub pixels: Pixels,
-    /// How coverage is read from them.
+    /// The way in which the pixels determine coverage.
     pub covered: Covered,
 }
 
 /// Red, green, blue and alpha of each pixel, in steps of 1/255.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Pixels {
-    /// Of 8 bits each.
+    /// Four values of 8 bits each.
     Bytes(Vec<[u8; 4]>),
-    /// Finer.
+    /// Four values with a finer resolution than 8 bits.
     Steps(Vec<[f32; 4]>),
 }
 
 impl Pixels {
-    /// How many pixels there are.
+    /// The number of pixels.
     pub fn len(&self) -> usize {
         match self {
             Pixels::Bytes(pixels) => pixels.len(),
@@ -65,16 +65,16 @@ impl Pixels {
         }
     }
 
-    /// Whether there are none.
+    /// Whether there are no pixels.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// A pixel.
+    /// The colour of a pixel.
     ///
     /// # Panics
     ///
-    /// If there is no such pixel.
+    /// If the pixel does not exist.
     pub fn get(&self, pixel: usize) -> [f32; 4] {
         match self {
             Pixels::Bytes(pixels) => pixels[pixel].map(f32::from),
@@ -82,22 +82,22 @@ impl Pixels {
         }
     }
 
-    /// All of them, in their order.
+    /// All pixels, in their order.
     pub fn iter(&self) -> impl Iterator<Item = [f32; 4]> {
         (0..self.len()).map(|pixel| self.get(pixel))
     }
 }
 
-/// How a picture tells what is covered.
+/// The way in which a picture determines coverage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Covered {
-    /// It does not: colours alone.
+    /// The picture does not determine coverage: it has colours alone.
     Unknown,
-    /// Where alpha is more than zero.
+    /// A pixel is covered if alpha is more than zero.
     ByAlpha,
-    /// A grey picture: where it is not black.
+    /// A pixel of a grey picture is covered if it is not black.
     ByLight,
-    /// Where the colour, rounded to 8 bits, is not this one.
+    /// A pixel is covered if its colour, rounded to 8 bits, is not this colour.
     ByBackground([u8; 3]),
 }
 
@@ -106,7 +106,7 @@ impl<'a> Buffer<'a> {
     ///
     /// # Panics
     ///
-    /// If the content has another number of values, or a picture more than one sample a pixel.
+    /// If the content has another number of values, or a picture has more than one sample per pixel.
     pub fn new(size: [u32; 2], samples: u32, content: Content<'a>) -> Buffer<'a> {
         let expected = size.iter().map(|&side| side as usize).product::<usize>();
         let length = match &content {
@@ -123,11 +123,11 @@ impl<'a> Buffer<'a> {
         Buffer { size, origin: [0; 2], samples, content }
     }
 
-    /// What a frame tells, without a copy of it.
+    /// A buffer with the values of a frame, without a copy of the frame.
     ///
     /// # Panics
     ///
-    /// If the picture is of another size than the frame.
+    /// If the picture and the frame have different sizes.
     pub fn of_frame(frame: &'a Frame, picture: &'a RgbImage) -> Buffer<'a> {
         let size = frame.image();
         assert_eq!(size, [picture.width(), picture.height()], "the picture shows another frame");
@@ -141,7 +141,7 @@ impl<'a> Buffer<'a> {
         self.size
     }
 
-    /// The row and the column of its first pixel in the whole image; not 0 for a frame of a crop.
+    /// The row and the column of the first pixel in the whole image; not 0 for a frame of a crop.
     pub fn origin(&self) -> [u32; 2] {
         self.origin
     }
@@ -151,17 +151,17 @@ impl<'a> Buffer<'a> {
         self.samples
     }
 
-    /// Its values.
+    /// The values of the buffer.
     pub fn content(&self) -> &Content<'a> {
         &self.content
     }
 
-    /// Whether it tells what is covered.
+    /// Whether the buffer determines coverage.
     pub fn has_coverage(&self) -> bool {
         !matches!(&self.content, Content::Picture(picture) if picture.covered == Covered::Unknown)
     }
 
-    /// Whether it tells this of its pixels.
+    /// Whether the buffer contains this aspect of its pixels.
     pub fn tells(&self, aspect: Aspect) -> bool {
         match (&self.content, aspect) {
             (_, Aspect::Coverage) => self.has_coverage(),
@@ -173,7 +173,7 @@ impl<'a> Buffer<'a> {
         }
     }
 
-    /// What it is, as a message calls it.
+    /// The kind of the buffer, in the words of a message.
     pub fn kind(&self) -> &'static str {
         match &self.content {
             Content::Mask(_) => "mask",
@@ -189,16 +189,16 @@ impl<'a> Buffer<'a> {
         }
     }
 
-    /// What it says of pixel `(i, j)`, in a few words: `id 3`, `nothing`, `t 2.5`, `#c8553d`.
+    /// The values of pixel `(i, j)` in a few words: `id 3`, `nothing`, `t 2.5`, `#c8553d`.
     ///
     /// # Panics
     ///
-    /// If there is no such pixel.
+    /// If the pixel does not exist.
     pub fn seen(&self, [i, j]: [u32; 2]) -> String {
         let said: Vec<String> =
             self.samples_of([i, j]).map(|sample| self.seen_at(sample)).collect();
         let mut parts: Vec<String> = Vec::new();
-        // One after another, runs counted: a pixel may have thousands of samples.
+        // The values in order, with equal neighbours counted: a pixel may have thousands of samples.
         for run in said.chunk_by(PartialEq::eq) {
             parts.push(match run.len() {
                 1 => run[0].clone(),
@@ -233,10 +233,10 @@ impl<'a> Buffer<'a> {
         i as usize * self.size[0] as usize + j as usize
     }
 
-    /// Where the samples of a pixel are kept: this is the number that the other functions take.
+    /// The indices of the samples of a pixel. The other functions take these indices.
     pub(super) fn samples_of(&self, pixel: [u32; 2]) -> impl Iterator<Item = usize> + use<> {
         let n = self.samples as usize;
-        // A frame keeps rows of samples, a file the samples of a pixel together.
+        // A frame stores rows of samples; a file stores the samples of a pixel together.
         let (first, stride) = match &self.content {
             Content::Frame(_) => {
                 let stride = n * self.size[0] as usize;
@@ -252,7 +252,7 @@ impl<'a> Buffer<'a> {
         pixels(self.size).flat_map(|pixel| self.samples_of(pixel))
     }
 
-    /// Whether a sample is covered; `None` if that is not known.
+    /// Whether a sample is covered; `None` if this is unknown.
     pub(super) fn covered(&self, sample: usize) -> Option<bool> {
         match &self.content {
             Content::Mask(mask) => Some(mask[sample]),
@@ -263,7 +263,7 @@ impl<'a> Buffer<'a> {
         }
     }
 
-    /// The primitive at a sample; `None` for nothing, and for what is not known.
+    /// The primitive at a sample; `None` for nothing, and for an unknown primitive.
     pub(super) fn id(&self, sample: usize) -> Option<u64> {
         match &self.content {
             Content::Ids(ids) => ids[sample],
@@ -274,7 +274,7 @@ impl<'a> Buffer<'a> {
         }
     }
 
-    /// The distance at a covered sample; NaN if it is not known.
+    /// The distance at a covered sample; NaN if the distance is unknown.
     pub(super) fn t(&self, sample: usize) -> f64 {
         match &self.content {
             Content::Distances(t) => t[sample],
@@ -283,7 +283,8 @@ impl<'a> Buffer<'a> {
         }
     }
 
-    /// The colour of a pixel, and whether it has alpha; `None` if the colour is not known, or is that of nothing.
+    /// The colour of a pixel, and whether the colour has alpha; `None` if the colour is unknown, or the pixel is
+    /// uncovered.
     pub(super) fn color(&self, pixel: [u32; 2]) -> Option<([f32; 4], bool)> {
         match &self.content {
             Content::Picture(picture) => {
@@ -299,7 +300,7 @@ impl<'a> Buffer<'a> {
         }
     }
 
-    /// Its picture, if it has one: a difference image is lit by it.
+    /// The picture of the buffer, if there is one: this picture lights a difference image.
     pub(super) fn light(&self) -> Option<RgbImage> {
         let picture = match &self.content {
             Content::Picture(picture) => picture,
@@ -336,14 +337,14 @@ pub(super) fn bytes<const N: usize>(steps: [f32; N]) -> [u8; N] {
     steps.map(|step| step.round().clamp(0.0, 255.0) as u8)
 }
 
-/// A distance with just enough digits to tell it from its neighbours, in `f32` if it is one.
+/// A distance with just enough digits to distinguish it from its neighbours, as an `f32` if it is an `f32` number.
 pub fn distance_text(t: f64) -> String {
     #[expect(clippy::cast_possible_truncation, reason = "only used if it changes nothing")]
     let single = t as f32;
     if f64::from(single) == t { single.to_string() } else { t.to_string() }
 }
 
-/// `#rrggbb`, or decimals where eight bits do not tell it all.
+/// `#rrggbb`, or decimals if eight bits are not exact.
 fn color_text(color: [f32; 4], with_alpha: bool) -> String {
     let channels = if with_alpha { &color[..] } else { &color[..3] };
     if bytes(color).map(f32::from) == color {

@@ -1,14 +1,14 @@
-//! One pixel of A beside one of B: which of them covers it, and how far apart they are.
+//! The comparison of one pixel of A with one pixel of B: which of them is covered, and how far their values differ.
 
 use super::aspect::{Aspect, Unit};
 use super::buffer::{Buffer, Content};
 use super::classes::Class;
 use super::tolerance::{COLOR_TOLERANCE, DEPTH_TOLERANCE};
 
-/// What makes two pixels different.
+/// The aspects that make two pixels different.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Decides {
-    /// Everything that both tell.
+    /// All aspects that both buffers contain.
     Everything,
     /// Coverage and ids alone: depth and colour are measured, and do not decide.
     Visibility,
@@ -24,18 +24,18 @@ pub(super) struct BufferPair<'a> {
     ids: bool,
     t: bool,
     color: bool,
-    /// Whether both are frames, whose distances are `f32`.
+    /// Whether both buffers are frames. The distances of frames are `f32`.
     frames: bool,
 }
 
-/// What two pixels say.
+/// The differences between two pixels.
 pub(super) struct PixelDifference {
     decides: Decides,
     pub(super) only_a: u64,
     pub(super) only_b: u64,
     pub(super) both: u64,
     pub(super) other_ids: u64,
-    /// The largest relative difference of t, and the two.
+    /// The largest relative difference of `t`, and the two distances.
     pub(super) depth: f64,
     pub(super) t: [f64; 2],
     pub(super) color: f32,
@@ -112,7 +112,7 @@ impl<'a> BufferPair<'a> {
         Aspect::ALL.into_iter().filter_map(line).collect()
     }
 
-    /// Compares a pixel of A with one of B.
+    /// Compares a pixel of A with a pixel of B.
     pub(super) fn compare_pixels(&self, in_a: [u32; 2], in_b: [u32; 2]) -> PixelDifference {
         let mut found = PixelDifference::new(self.decides);
         if self.unit == Unit::Pixels {
@@ -136,7 +136,7 @@ impl<'a> BufferPair<'a> {
     /// Compares two samples.
     fn compare_samples(&self, a: usize, b: usize, found: &mut PixelDifference) {
         let (Some(covered_a), Some(covered_b)) = (self.a.covered(a), self.b.covered(b)) else {
-            // Colours alone: a pixel that agrees is drawn as alike.
+            // The buffers contain colours alone: a pixel with equal colours has the class for alike pixels.
             found.both += 1;
             return;
         };
@@ -145,7 +145,7 @@ impl<'a> BufferPair<'a> {
             return;
         }
         if self.ids && self.a.id(a) != self.b.id(b) {
-            // The distances of two primitives may differ as they like.
+            // The distances of two different primitives may differ by any amount.
             found.other_ids += 1;
         } else if self.t {
             let t = [self.a.t(a), self.b.t(b)];
@@ -156,7 +156,7 @@ impl<'a> BufferPair<'a> {
         }
     }
 
-    /// The difference as a part of the larger; 0 of two zeros.
+    /// The difference as a part of the larger distance; 0 for two zeros.
     fn relative_difference(&self, [a, b]: [f64; 2]) -> f64 {
         let larger = a.abs().max(b.abs());
         if a == b {
@@ -170,7 +170,7 @@ impl<'a> BufferPair<'a> {
     }
 }
 
-/// The largest difference in red, green, blue, and in alpha if both have it.
+/// The largest difference in red, green and blue, and in alpha if both colours have alpha.
 fn color_difference((a, a_has_alpha): ([f32; 4], bool), (b, b_has_alpha): ([f32; 4], bool)) -> f32 {
     let channels = if a_has_alpha && b_has_alpha { 4 } else { 3 };
     let channels = a.into_iter().zip(b).take(channels);

@@ -1,21 +1,21 @@
-//! The difference as a picture: what each pixel says of the two orders.
+//! The difference as a picture: a class for each pixel.
 
 use crate::picture::NOTHING;
 use image::{Rgb, RgbImage};
 
-/// What both orders say of a pixel, from the worst to the best; a pixel of several samples has the
-/// worst of theirs.
+/// The agreement of both orders at a pixel, from the worst class to the best; a pixel of several samples has the
+/// worst class of its samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Class {
-    /// Only object order covers it.
+    /// Only object order covers the pixel.
     OnlyObjectOrder,
-    /// Only image order covers it.
+    /// Only image order covers the pixel.
     OnlyImageOrder,
-    /// Both cover it and see different primitives.
+    /// Both orders cover the pixel and see different primitives.
     OtherPrimitive,
-    /// Both see the same primitive.
+    /// Both orders see the same primitive.
     Alike,
-    /// Neither sees anything.
+    /// Neither order sees a primitive.
     Neither,
 }
 
@@ -29,7 +29,7 @@ impl Class {
         Class::Neither,
     ];
 
-    /// What a legend calls it.
+    /// The name of the class in a legend.
     pub fn name(self) -> &'static str {
         match self {
             Class::OnlyObjectOrder => "only object order",
@@ -40,10 +40,10 @@ impl Class {
         }
     }
 
-    /// Its sRGB colour in a difference image. Pixels that are alike are greys, lit faintly by the
-    /// picture; this is the middle one of them.
+    /// The sRGB colour of the class in a difference image. Alike pixels are grey, lit faintly by the picture; this
+    /// colour is the middle grey.
     ///
-    /// People with any colour vision can tell them apart: Okabe and Ito, "Color Universal Design", 2008.
+    /// Readers with any colour vision can distinguish the colours: Okabe and Ito, "Color Universal Design", 2008.
     pub fn color(self) -> [u8; 3] {
         match self {
             Class::OnlyObjectOrder => [0xe6, 0x9f, 0x00],
@@ -60,7 +60,7 @@ impl Class {
     }
 }
 
-/// The class of every pixel of a picture; of a crop, its pixels are counted from its own corner.
+/// The class of every pixel of a picture; in a crop, pixels are counted from the corner of the crop.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Classes {
     image: [u32; 2],
@@ -68,7 +68,7 @@ pub struct Classes {
 }
 
 impl Classes {
-    /// Classes of all pixels, row by row.
+    /// The classes of all pixels, row by row.
     pub(super) fn new(image: [u32; 2], classes: Vec<Class>) -> Classes {
         Classes { image, classes }
     }
@@ -82,12 +82,12 @@ impl Classes {
     ///
     /// # Panics
     ///
-    /// If there is no such pixel.
+    /// If the pixel does not exist.
     pub fn at(&self, i: u32, j: u32) -> Class {
         self.classes[i as usize * self.image[0] as usize + j as usize]
     }
 
-    /// How many pixels are of a class.
+    /// The number of pixels of a class.
     pub fn count(&self, class: Class) -> u64 {
         self.classes.iter().filter(|&&other| other == class).count() as u64
     }
@@ -101,7 +101,7 @@ impl Classes {
     ///
     /// # Panics
     ///
-    /// If the picture is of another size.
+    /// If the picture has another size.
     pub fn picture(&self, lit_by: &RgbImage) -> RgbImage {
         assert_eq!([lit_by.width(), lit_by.height()], self.image, "the picture is of another size");
         let mut picture = RgbImage::new(self.image[0], self.image[1]);
@@ -116,7 +116,7 @@ impl Classes {
     }
 }
 
-/// A dark grey that lets the picture be recognised and no difference be overlooked.
+/// A dark grey: the reader recognises the picture and sees every difference.
 fn faint_grey(Rgb([red, green, blue]): Rgb<u8>) -> Rgb<u8> {
     // The weights of Rec. 709, in 256ths.
     let light = (54 * u32::from(red) + 183 * u32::from(green) + 19 * u32::from(blue)) / 256;

@@ -1,4 +1,4 @@
-//! What two buffers have in common, and where they differ.
+//! The common parts of two buffers, and their differences.
 
 use super::aspect::{Aspect, Unit};
 use super::buffer_pair::{BufferPair, PixelDifference};
@@ -7,15 +7,15 @@ use super::tolerance::{COLOR_TOLERANCE, DEPTH_TOLERANCE};
 use image::{Rgb, RgbImage};
 use serde::Serialize;
 
-/// It lights the difference image of buffers that have no picture.
+/// The light of the difference image of buffers without a picture.
 const MILD_GREY: Rgb<u8> = Rgb([117; 3]);
-/// How many differing pixels a comparison names.
+/// The number of differing pixels that a comparison names.
 const NAMED_PIXELS: usize = 10;
 
-/// Why two buffers cannot be compared.
+/// The reason why two buffers cannot be compared.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Incomparable {
-    /// They are not of one size.
+    /// The buffers have different sizes.
     #[error(
         "A is {} x {} pixels and B is {} x {}; compare files of one size{}",
         .a[0], .a[1], .b[0], .b[1],
@@ -27,58 +27,58 @@ pub enum Incomparable {
         /// Width and height of B.
         b: [u32; 2],
     },
-    /// They tell different things.
+    /// The buffers contain different aspects.
     #[error(
         "A ({a}) and B ({b}) have nothing in common to compare; \
          a picture without alpha tells what is covered with --background COLOR"
     )]
     NothingInCommon {
-        /// What A is.
+        /// The kind of A.
         a: &'static str,
-        /// What B is.
+        /// The kind of B.
         b: &'static str,
     },
 }
 
-/// Everything that is said of two buffers; a part that was not compared is `None`.
+/// The result of comparing two buffers; a part that was not compared is `None`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BufferComparison {
     /// Width and height in pixels.
     pub size: [u32; 2],
-    /// Whether they are equal in everything compared.
+    /// Whether the buffers are equal in all compared aspects.
     pub equal: bool,
-    /// What both tell, and was compared.
+    /// The aspects that both buffers contain and that were compared.
     pub compared: Vec<Aspect>,
-    /// What was not compared, and why.
+    /// The aspects that were not compared, and the reasons.
     pub not_compared: Vec<String>,
-    /// Pixels that differ in anything compared.
+    /// The number of pixels that differ in any compared aspect.
     pub differing_pixels: u64,
-    /// The first of them, at most 10, as `[i, j]`, row by row.
+    /// The first differing pixels, at most 10, as `[i, j]`, row by row.
     pub first_differing: Vec<[u32; 2]>,
-    /// The smallest rectangle around all of them: row, column, height, width.
+    /// The smallest rectangle around all differing pixels: row, column, height, width.
     pub region: Option<[u32; 4]>,
-    /// What is covered.
+    /// The comparison of coverage.
     pub coverage: Option<BufferCoverage>,
-    /// Which primitive is seen, where both cover.
+    /// The comparison of visible primitives, where both buffers cover.
     pub ids: Option<BufferIds>,
-    /// How far it is, where both cover.
+    /// The comparison of distances, where both buffers cover.
     pub depth: Option<BufferDepth>,
-    /// What it looks like, where neither says that nothing is there.
+    /// The comparison of colours, where neither buffer marks the pixel as uncovered.
     #[serde(rename = "colour")]
     pub color: Option<BufferColor>,
-    /// What the difference as a whole looks like: each sentence names a possible cause.
+    /// The possible causes of the difference as a whole: one sentence for each cause.
     pub hints: Vec<String>,
     #[serde(skip)]
     classes: Classes,
-    /// What the difference image is lit by.
+    /// The picture that lights the difference image.
     #[serde(skip)]
     pub(super) light: Option<RgbImage>,
 }
 
-/// Coverage of both, counted.
+/// The coverage of both buffers, counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct BufferCoverage {
-    /// What is counted.
+    /// The unit of the counts.
     pub unit: Unit,
     /// Covered in A.
     pub a: u64,
@@ -90,7 +90,7 @@ pub struct BufferCoverage {
     pub only_a: u64,
     /// Covered in B alone.
     pub only_b: u64,
-    /// Whether both cover the same.
+    /// Whether both buffers cover the same samples or pixels.
     #[serde(rename = "match")]
     pub matches: bool,
 }
@@ -98,42 +98,42 @@ pub struct BufferCoverage {
 /// Ids where both cover.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct BufferIds {
-    /// Samples in which both see something, but not the same primitive.
+    /// The number of samples in which both buffers show a primitive, but different primitives.
     pub differing_samples: u64,
-    /// Pixels with such a sample.
+    /// The number of pixels with such a sample.
     pub differing_pixels: u64,
 }
 
 /// Distances where both cover.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct BufferDepth {
-    /// The largest difference of a sample, as a part of the larger distance.
+    /// The largest relative difference of a sample, as a part of the larger distance.
     pub max_relative_difference: f64,
-    /// The first pixel `[i, j]` with it, if there is any difference.
+    /// The first pixel `[i, j]` with this difference, if there is any difference.
     pub at: Option<[u32; 2]>,
     /// The two distances there.
     pub t: Option<[f64; 2]>,
-    /// Pixels with a sample beyond [`DEPTH_TOLERANCE`].
+    /// The number of pixels with a sample beyond [`DEPTH_TOLERANCE`].
     pub differing_pixels: u64,
 }
 
-/// Colours where neither says that nothing is there.
+/// The colours where neither buffer marks the pixel as uncovered.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct BufferColor {
     /// The largest difference in red, green, blue (or alpha, if both have it), in steps of 1/255.
     pub max_difference: f32,
-    /// The first pixel `[i, j]` with it, if there is any difference.
+    /// The first pixel `[i, j]` with this difference, if there is any difference.
     pub at: Option<[u32; 2]>,
-    /// Pixels beyond [`COLOR_TOLERANCE`].
+    /// The number of pixels beyond [`COLOR_TOLERANCE`].
     pub differing_pixels: u64,
 }
 
-/// Compares whatever both buffers tell. The cause of a difference is not looked for, and nothing lights the
+/// Compares all aspects that both buffers contain. This function searches for no cause, and nothing lights the
 /// difference image.
 ///
 /// # Errors
 ///
-/// If they differ in size, or have nothing in common.
+/// If the buffers differ in size, or have no aspect in common.
 pub(super) fn compare(pair: &BufferPair) -> Result<BufferComparison, Incomparable> {
     let &BufferPair { a, b, .. } = pair;
     if a.size() != b.size() {
@@ -186,13 +186,13 @@ impl BufferComparison {
         }
     }
 
-    /// What each pixel says.
+    /// The class of each pixel.
     pub fn classes(&self) -> &Classes {
         &self.classes
     }
 }
 
-/// What has been seen so far.
+/// The state of the comparison so far.
 #[derive(Default)]
 struct Sums {
     only_a: u64,
@@ -203,7 +203,7 @@ struct Sums {
     color: BufferColor,
     differing_pixels: u64,
     first_differing: Vec<[u32; 2]>,
-    /// Of the rectangle around all that differ, both inside.
+    /// The corners of the rectangle around all differing pixels, both inside.
     corners: Option<[[u32; 2]; 2]>,
 }
 

@@ -1,7 +1,7 @@
-//! Two files of any origin: where does my renderer differ from yours, and how?
+//! A comparison of two files of any origin: where two renderers differ, and how.
 //!
-//! A [`Buffer`] is a mask, ids, distances or a picture, read from a PNG, PNM, BMP or NPY file by
-//! [`read`]. [`compare`] compares what both have: coverage and ids without tolerance, distances and
+//! A [`Buffer`] is a mask, ids, distances or a picture, read from a PNG, PNM, BMP or NPY file by [`read`].
+//! [`compare`] compares the aspects that both buffers contain: coverage and ids without tolerance, distances and
 //! colours within the tolerances of [`diff`](super).
 //!
 //! ```
@@ -30,20 +30,20 @@ pub use read::{ReadBufferError, read, read_from};
 
 use super::buffer_pair::{BufferPair, Decides};
 
-/// Compares whatever both buffers tell, and looks for causes of the difference.
+/// Compares all aspects that both buffers contain, and searches for causes of the difference.
 ///
 /// # Errors
 ///
-/// If they differ in size, or have nothing in common.
+/// If the buffers differ in size, or have no aspect in common.
 pub fn compare(a: &Buffer, b: &Buffer) -> Result<BufferComparison, Incomparable> {
     compare_with_reference(a, b, None)
 }
 
-/// The same, where one of the two is known to be right: no cause is looked for in the way that it is written.
+/// The same, if one of the two buffers is known to be right: the search leaves out causes in its encoding.
 ///
 /// # Errors
 ///
-/// As for [`compare`].
+/// The errors of [`compare`].
 pub fn compare_with_reference(
     a: &Buffer,
     b: &Buffer,

@@ -1,4 +1,4 @@
-//! Two frames of one view: do both orders see the same?
+//! The comparison of two frames of one view: whether both orders see the same primitives.
 
 use super::buffer::{Buffer, bytes};
 use super::buffer_pair::{BufferPair, Decides};
@@ -10,19 +10,19 @@ use crate::wording::{count, grouped};
 use image::RgbImage;
 use serde::Serialize;
 
-/// Everything that is said about two frames of one view.
+/// The result of comparing two frames of one view.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Comparison {
-    /// Which samples are covered.
+    /// The comparison of covered samples.
     pub coverage: Coverage,
-    /// Which primitive is seen.
+    /// The comparison of visible primitives.
     pub visible: Visible,
-    /// How far it is.
+    /// The comparison of depths.
     pub depth: Depth,
-    /// What it looks like.
+    /// The comparison of colours.
     #[serde(rename = "colour")]
     pub color: Color,
-    /// All of it, as of any two buffers.
+    /// The complete comparison, in the form for any two buffers.
     #[serde(skip)]
     details: BufferComparison,
 }
@@ -45,34 +45,34 @@ pub struct Coverage {
     pub matches: bool,
 }
 
-/// Pixels in which the orders do not see the same primitives.
+/// The pixels in which the orders see different primitives.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Visible {
-    /// Pixels in which the ids differ at any sample, coverage included.
+    /// The number of pixels in which the ids differ at any sample, coverage included.
     pub differing_pixels: u64,
-    /// The first of them, at most 10, as `[i, j]` of the whole image, row by row.
+    /// The first differing pixels, at most 10, as `[i, j]` of the whole image, row by row.
     pub first_differing: Vec<[u32; 2]>,
 }
 
 /// Depth where both orders see the same primitive.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Depth {
-    /// The largest difference of a sample, as a part of the larger depth.
+    /// The largest relative difference of a sample, as a part of the larger depth.
     pub max_relative_difference: f64,
-    /// Pixels with a sample beyond [`DEPTH_TOLERANCE`](super::DEPTH_TOLERANCE).
+    /// The number of pixels with a sample beyond [`DEPTH_TOLERANCE`](super::DEPTH_TOLERANCE).
     pub differing_pixels: u64,
 }
 
-/// Colour of the pixels, each the average of its samples.
+/// The colours of the pixels; each colour is the average of the pixel's samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Color {
     /// The largest difference in red, green or blue, in steps of 8-bit sRGB.
     pub max_difference: u8,
-    /// Pixels beyond [`COLOR_TOLERANCE`](super::COLOR_TOLERANCE).
+    /// The number of pixels beyond [`COLOR_TOLERANCE`](super::COLOR_TOLERANCE).
     pub differing_pixels: u64,
 }
 
-/// Compares what both orders saw of one view.
+/// Compares the frames of both orders for one view.
 ///
 /// # Panics
 ///
@@ -82,11 +82,11 @@ pub fn compare(object_order: &Frame, image_order: &Frame) -> Comparison {
     compare_shown([object_order, image_order], pictures.each_ref())
 }
 
-/// The same for frames whose pictures are drawn already.
+/// The same for frames with pictures that are already drawn.
 ///
 /// # Panics
 ///
-/// If the frames differ in size, crop or samples, or a picture is not of its frame's size.
+/// If the frames differ in size, crop or samples, or a picture and its frame have different sizes.
 pub fn compare_shown(
     frames @ [object_order, image_order]: [&Frame; 2],
     [by_object, by_image]: [&RgbImage; 2],
@@ -160,12 +160,12 @@ impl Comparison {
         format!("differ: the orders see different primitives in {pixels}{first}; {alone}")
     }
 
-    /// What each pixel says; of a crop, its pixels are counted from its own corner.
+    /// The class of each pixel; in a crop, pixels are counted from the corner of the crop.
     pub fn classes(&self) -> &Classes {
         self.details.classes()
     }
 
-    /// The same comparison as of any two buffers, with object order as A.
+    /// The comparison in the form for any two buffers, with object order as A.
     pub fn details(&self) -> &BufferComparison {
         &self.details
     }

@@ -1,8 +1,8 @@
-//! Which file of one folder belongs to which of another.
+//! The pairs of files in two folders.
 //!
-//! Beside a conformance set (see [`vectors`](crate::vectors)), a file belongs to the scene whose name it
-//! begins with, `NAME.png` or `NAME.anything.npy`, and is held against the set's file of the same
-//! content. In other folders, files of the same name belong together.
+//! Next to a conformance set (see [`vectors`](crate::vectors)), the name of a file begins with the name of its scene,
+//! as in `NAME.png` or `NAME.anything.npy`. The file is compared with the set's file of the same content. In other
+//! folders, files with the same name form a pair.
 
 use super::aspect::Side;
 use super::buffer::Content;
@@ -19,33 +19,33 @@ use std::{
 /// The files of two folders, side by side.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pairs {
-    /// Which of the folders is a conformance set, if one is.
+    /// The folder that is a conformance set, if one of the two is.
     pub set: Option<Side>,
-    /// In the order of the set, or by name.
+    /// The pairs, in the order of the set, or by name.
     pub pairs: Vec<Pair>,
-    /// Scenes, or else files, that only B has.
+    /// The scenes or files that only B contains.
     pub missing_in_a: Vec<String>,
-    /// Scenes, or else files, that only A has.
+    /// The scenes or files that only A contains.
     pub missing_in_b: Vec<String>,
-    /// Files beside a set that belong to none of its scenes.
+    /// The files next to a set that belong to none of its scenes.
     pub ignored: Vec<String>,
 }
 
 /// Two files that belong together.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pair {
-    /// What both are called: the file's name without its last ending, in a set the scene's and what is
-    /// compared.
+    /// The common name: the name of the file without its last ending; in a set, the name of the scene and the
+    /// compared aspect.
     pub name: String,
     /// The file in A.
     pub a: String,
     /// The file in B.
     pub b: String,
-    /// Of a scene of a set, its point.
+    /// The point of the scene, for a scene of a set.
     pub point: Option<String>,
 }
 
-/// Why two folders cannot be compared.
+/// The reason why two folders cannot be compared.
 #[derive(Debug, thiserror::Error)]
 pub enum PairsError {
     /// A folder cannot be listed.
@@ -53,10 +53,10 @@ pub enum PairsError {
     Folder {
         /// The folder.
         folder: PathBuf,
-        /// What the system says.
+        /// The error of the system.
         error: io::Error,
     },
-    /// A conformance set's index is damaged.
+    /// The index of a conformance set is damaged.
     #[error(
         "{} is not the index of a conformance set: {error}; write the set again with bothways vectors",
         .path.display()
@@ -64,10 +64,10 @@ pub enum PairsError {
     Index {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The error in the file.
         error: serde_json::Error,
     },
-    /// Nothing belongs together.
+    /// The folders have no pair of files.
     #[error(
         "no file of {} (PNG, PNM, BMP or NPY) belongs to one of {}: {}",
         .a.display(), .b.display(),
@@ -87,15 +87,15 @@ pub enum PairsError {
     },
 }
 
-/// The names of files that may be buffers end so.
+/// The endings of the names of files that may be buffers.
 const ENDINGS: [&str; 7] = ["png", "npy", "bmp", "pgm", "ppm", "pbm", "pnm"];
-/// A set's file for each kind of content.
+/// The set's file for each kind of content.
 const KINDS: [&str; 3] = [".ids.npy", ".t.npy", ".mask.png"];
 const INDEX: &str = "index.json";
-/// No index is larger, whatever other programs call so.
+/// The most bytes of an index. A larger file of this name belongs to another program.
 const LARGEST_INDEX: u64 = 1 << 24;
 
-/// What is read of a set's index.
+/// The part of a set's index that is read.
 #[derive(Deserialize)]
 struct Index {
     scenes: Vec<Scene>,
@@ -108,15 +108,15 @@ struct Scene {
 }
 
 impl Pairs {
-    /// Finds what belongs together in two folders.
+    /// Finds the pairs of files in two folders.
     ///
     /// # Errors
     ///
-    /// A folder that cannot be listed, a damaged index, or nothing that belongs together.
+    /// An error for a folder that cannot be listed, a damaged index, or folders without a pair.
     pub fn find(a: &Path, b: &Path) -> Result<Pairs, PairsError> {
         let (in_a, in_b) = (buffers(a)?, buffers(b)?);
         let pairs = match (index(a)?, index(b)?) {
-            // Two sets are two folders with the same names; one says what they are about.
+            // Two sets are two folders with the same names; the index of one set gives the points of the scenes.
             (Some(index), None) => of_a_set(b, &in_b, &index).swapped(),
             (None, Some(index)) => of_a_set(a, &in_a, &index),
             _ => by_name(&in_a, &in_b),
@@ -128,17 +128,17 @@ impl Pairs {
         Ok(pairs)
     }
 
-    /// Whether everything has its partner.
+    /// Whether every file has a partner.
     pub fn is_complete(&self) -> bool {
         self.missing_in_a.is_empty() && self.missing_in_b.is_empty()
     }
 
-    /// What is missing, if something is, in the plural.
+    /// The word for the missing things, in the plural.
     pub fn things(&self) -> &'static str {
         if self.set.is_some() { "scenes" } else { "files" }
     }
 
-    /// The same with the folders in the other order.
+    /// The same pairs with the folders in the other order.
     fn swapped(self) -> Pairs {
         let swap = |Pair { name, a, b, point }| Pair { name, a: b, b: a, point };
         Pairs {
@@ -151,8 +151,8 @@ impl Pairs {
     }
 }
 
-/// Which of two files is of a written conformance set, if one alone is: its folder has the set's index, and the
-/// index the scene that its name begins with.
+/// Which of two files is part of a conformance set, if exactly one is: its folder has the index of the set, and the
+/// index has the scene at the beginning of the file's name.
 pub fn reference(a: &Path, b: &Path) -> Option<Side> {
     let is_of_set = |path: &Path| {
         let scene = path.file_name()?.to_str()?.split('.').next()?.to_owned();
@@ -176,7 +176,7 @@ fn buffers(folder: &Path) -> Result<BTreeSet<String>, PairsError> {
         let path = entry.path();
         let ending = path.extension().and_then(|ending| ending.to_str()).map(str::to_lowercase);
         let may_be = ending.is_some_and(|ending| ENDINGS.contains(&ending.as_str()));
-        // A name that is no text has no partner in a set, and none that could be told.
+        // A name that is not valid text has no partner in a set, and no message could print the name of its partner.
         if let (true, true, Ok(name)) = (may_be, path.is_file(), entry.file_name().into_string()) {
             names.insert(name);
         }
@@ -193,14 +193,14 @@ fn index(folder: &Path) -> Result<Option<Index>, PairsError> {
         return Ok(None);
     }
     let Ok(value) = serde_json::from_str::<serde_json::Value>(&text) else { return Ok(None) };
-    // Other programs have indexes, too.
+    // Other programs also have files with this name.
     if value["set"] != "bothways" {
         return Ok(None);
     }
     serde_json::from_value(value).map(Some).map_err(|error| PairsError::Index { path, error })
 }
 
-/// Files of a folder beside the set, which is B.
+/// The pairs of a folder next to the set, which is B.
 fn of_a_set(folder: &Path, files: &BTreeSet<String>, index: &Index) -> Pairs {
     let mut left: BTreeSet<&String> = files.iter().collect();
     let (mut pairs, mut missing) = (Vec::new(), Vec::new());
@@ -230,7 +230,7 @@ fn of_a_set(folder: &Path, files: &BTreeSet<String>, index: &Index) -> Pairs {
     }
 }
 
-/// The set's file that a file is held against: by its name, else by what is in it.
+/// The set's file to compare with: chosen by the file's name, otherwise by its content.
 fn kind(folder: &Path, file: &str) -> &'static str {
     let named = KINDS.into_iter().find(|kind| file.ends_with(kind));
     named.unwrap_or_else(|| match read(&folder.join(file), None) {
@@ -239,7 +239,7 @@ fn kind(folder: &Path, file: &str) -> &'static str {
             Content::Distances(_) => ".t.npy",
             Content::Mask(_) | Content::Picture(_) => ".mask.png",
         },
-        // What is wrong with it is said when it is compared.
+        // The comparison itself reports the error in this file.
         Err(_) => ".mask.png",
     })
 }

@@ -1,11 +1,11 @@
-//! Frames that differ in one known way, and what the comparison says of them.
+//! Frames that differ in one known way, and the result of their comparison.
 
 use super::*;
 use crate::common::glam::Vec3;
 use crate::common::{Camera, Frame, Options};
 use crate::picture::picture;
 
-/// A frame drawn by hand: a digit for each sample's primitive, `.` for nothing; all at depth 1.
+/// A frame drawn by hand: a digit for the primitive of each sample, `.` for nothing; all primitives at depth 1.
 fn frame(samples: u32, rows: &[&str]) -> Frame {
     let side = |length: usize| u32::try_from(length).unwrap() / samples;
     let camera = Camera::canonical(side(rows[0].len()), side(rows.len()));

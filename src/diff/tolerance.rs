@@ -1,6 +1,6 @@
-//! How far depths and colours may lie apart.
+//! The tolerances for depths and colours.
 
-/// Two depths of one primitive differ beyond this part of the larger.
+/// Two depths of one primitive differ if their difference is more than this part of the larger depth.
 pub const DEPTH_TOLERANCE: f64 = 1e-5;
-/// Two colours differ beyond this many of the 255 steps of sRGB.
+/// Two colours differ if their difference is more than this number of the 255 steps of sRGB.
 pub const COLOR_TOLERANCE: u8 = 2;

@@ -1,15 +1,15 @@
-//! Names in letters that the typeface lacks: written in letters that it has.
+//! Names with letters that the typeface lacks: spelled in letters of the typeface.
 
 use deunicode::deunicode_char;
 
-/// The text with every letter that is not drawable spelled in Latin ones, as well as one can without knowing the
-/// language: 茶 becomes Cha. What has no such spelling is named by its number, as U+F0000.
+/// The text with every letter that the typeface lacks spelled in Latin letters, as well as that is possible without
+/// knowledge of the language: 茶 becomes Cha. A letter without such a spelling becomes its number, as in U+F0000.
 pub(super) fn drawable(text: &str, is_drawable: impl Fn(char) -> bool) -> String {
     let mut drawn = String::with_capacity(text.len());
     let mut was_spelled = false;
     for letter in text.chars() {
         if is_drawable(letter) {
-            // Words that were spelled end in a space, which no full stop needs.
+            // A spelled word ends in a space. A full stop after the word needs no space.
             if was_spelled && !letter.is_alphanumeric() {
                 drawn.truncate(drawn.trim_end().len());
             }

@@ -1,21 +1,21 @@
-//! Pictures in other sizes: enlarged so that pixels stay squares, reduced without losing light.
+//! Pictures in other sizes: enlarged so that pixels stay squares, reduced without loss of light.
 
 use crate::common::look::color::{linear_from_srgb, srgb_from_linear};
 use image::{Rgb, RgbImage};
 use std::ops::RangeInclusive;
 
-/// The size at which a picture is shown in a frame. It fills the frame, but where a whole factor comes near that, it
-/// is enlarged by this factor, so that all pixels are squares of one size.
+/// The size of a picture in a frame. The picture fills the frame; but if the largest whole factor nearly fills the
+/// frame, this factor enlarges the picture, so that all pixels are squares of one size.
 pub(super) fn fitted(picture: [u32; 2], frame: [u32; 2]) -> [u32; 2] {
     let factor = (frame[0] / picture[0]).min(frame[1] / picture[1]);
     let enlarged = picture.map(|side| side * factor);
-    // Near is seven eighths of a side.
+    // "Nearly" means seven eighths of a side.
     if (0..2).any(|axis| 8 * enlarged[axis] >= 7 * frame[axis]) {
         return enlarged;
     }
     let [width, height] = picture.map(u64::from);
     let [most_wide, most_high] = frame.map(u64::from);
-    // Of the two scales, the one that is tighter; the other side is rounded.
+    // The tighter of the two scales applies; the other side is rounded.
     let scaled = |side: u64, most: u64, of: u64| {
         u32::try_from(((2 * side * most + of) / (2 * of)).max(1)).expect("smaller than it was")
     };
@@ -26,7 +26,7 @@ pub(super) fn fitted(picture: [u32; 2], frame: [u32; 2]) -> [u32; 2] {
     }
 }
 
-/// The pixels of the reduced picture that a pixel of the original falls on, along one side.
+/// The pixels of the reduced picture that a pixel of the original overlaps, along one side.
 pub(super) fn footprint(pixel: u32, from: u32, to: u32) -> RangeInclusive<u32> {
     let position = |pixel: u64| pixel * u64::from(to);
     let (begin, end) = (position(u64::from(pixel)), position(u64::from(pixel) + 1));
@@ -34,7 +34,7 @@ pub(super) fn footprint(pixel: u32, from: u32, to: u32) -> RangeInclusive<u32> {
     index(begin)..=index(end - 1)
 }
 
-/// The picture in another size, as [`fitted`] gives it.
+/// The picture in another size, for a size from [`fitted`].
 pub(super) fn resized(picture: &RgbImage, size: [u32; 2]) -> RgbImage {
     let [width, height] = [picture.width(), picture.height()];
     if size[0].is_multiple_of(width) && size[1].is_multiple_of(height) {
@@ -46,8 +46,8 @@ pub(super) fn resized(picture: &RgbImage, size: [u32; 2]) -> RgbImage {
     averaged(picture, size)
 }
 
-/// The average, in linear light, of the area that each new pixel covers. Of a picture that is enlarged, pixels stay
-/// squares with sharp sides, and only what lies on a side is a mixture.
+/// The average, in linear light, of the area that each new pixel covers. In an enlarged picture, pixels stay squares
+/// with sharp sides; only the new pixels on a side are mixtures.
 fn averaged(picture: &RgbImage, [width, height]: [u32; 2]) -> RgbImage {
     let linear: Vec<f32> = (0..=u8::MAX).map(linear_from_srgb).collect();
     let columns = Overlaps::new(picture.width(), width);
@@ -74,7 +74,8 @@ fn add(sum: &mut [f32; 3], light: [f32; 3], share: f32) {
     sum.iter_mut().zip(light).for_each(|(sum, light)| *sum += share * light);
 }
 
-/// Which new pixels each old one falls on, along one side, and what share of each it fills.
+/// The new pixels that each old pixel overlaps, along one side, and the share of each new pixel that the old pixel
+/// fills.
 struct Overlaps {
     from: u32,
     to: u32,
@@ -87,7 +88,7 @@ impl Overlaps {
 
     fn of(&self, pixel: usize) -> impl Iterator<Item = (usize, f32)> + use<> {
         let (from, to) = (u64::from(self.from), u64::from(self.to));
-        // In units in which an old pixel is `to` long and a new one `from`.
+        // In units in which an old pixel is `to` long and a new pixel is `from` long.
         let (begin, end) = (pixel as u64 * to, (pixel as u64 + 1) * to);
         (begin / from..=(end - 1) / from).map(move |new| {
             let common = end.min((new + 1) * from) - begin.max(new * from);

@@ -1,4 +1,4 @@
-//! The slide that shows both orders side by side, with their difference and what they did.
+//! The slide that shows both orders side by side, with their difference and their work.
 
 use super::fallback::drawable;
 use super::resize::{fitted, footprint, resized};
@@ -11,27 +11,27 @@ use image::{Rgb, RgbImage};
 use std::ops::RangeInclusive;
 use tiny_skia::{Color, Paint, Pixmap, Rect, Transform};
 
-/// The slide's width and height in pixels, whatever the size of the pictures on it.
+/// The slide's width and height in pixels, for pictures of every size.
 pub const SLIDE_SIZE: [u32; 2] = [1920, 1080];
 
-/// What is shown on a slide.
+/// The content of a slide.
 #[derive(Clone, Copy, Debug)]
 pub struct Slide<'a> {
     /// The scene's name.
     pub scene: &'a str,
-    /// The scene in one line; what does not fit is left out.
+    /// The scene in one line; the slide leaves out the part that does not fit.
     pub about: Option<&'a str>,
     /// Primitives in the scene.
     pub primitives: u32,
-    /// Threads that rendered; shown where times are.
+    /// The number of rendering threads; the slide shows this number if it shows times.
     pub threads: usize,
-    /// What object order saw.
+    /// The result of object order.
     pub object_order: &'a Rendered,
-    /// What image order saw.
+    /// The result of image order.
     pub image_order: &'a Rendered,
-    /// The pictures of both, in this order.
+    /// The pictures of both orders: object order, image order.
     pub pictures: [&'a RgbImage; 2],
-    /// How the two compare.
+    /// The comparison of the two.
     pub comparison: &'a Comparison,
 }
 
@@ -51,7 +51,7 @@ const RIGHT: f32 = 1920.0 - MARGIN;
 
 /// Baselines and edges, from the top.
 const TITLE: f32 = 74.0;
-/// Of the line about the scene, where there is one, and of what is known of it.
+/// Baselines below the title: of the line about the scene, if there is one, and of the line with the scene's data.
 const BELOW_TITLE: [f32; 2] = [110.0, 144.0];
 const HEADING: f32 = 200.0;
 const FIRST_LOOP: f32 = 233.0;
@@ -61,7 +61,7 @@ const FIRST_ROW: f32 = 752.0;
 const ROW: f32 = 31.0;
 const RULE: f32 = 988.0;
 const VERDICT: f32 = 1035.0;
-/// The most a picture may measure: 4:3 fills it.
+/// The largest size of a picture: a 4:3 picture fills this frame.
 const PICTURE_FRAME: [u32; 2] = [568, 426];
 
 impl Slide<'_> {
@@ -69,7 +69,7 @@ impl Slide<'_> {
     ///
     /// # Panics
     ///
-    /// If the pictures and the comparison are not of one size.
+    /// If the pictures and the comparison have different sizes.
     pub fn draw(&self) -> RgbImage {
         let mut canvas = Canvas::new();
         self.title(&mut canvas);
@@ -138,14 +138,14 @@ impl Slide<'_> {
     }
 }
 
-/// A text of any length and in any letters, as far as it can be drawn on a line.
+/// A text of any length and in any letters, reduced to the part that can be drawn on one line.
 fn line(text: &str) -> String {
-    // More than fits, and few enough that an endless name takes no time.
+    // More letters than a line holds, and few enough that a very long name takes no time.
     const MOST: usize = 400;
     drawable(&text.chars().take(MOST).collect::<String>(), has)
 }
 
-/// What one order did: labels and figures, row by row.
+/// The work of one order: labels and figures, row by row.
 fn figures(rendered: &Rendered) -> Vec<(&'static str, String)> {
     let mut rows = match rendered.work {
         Counts::Counted(work) => counts(rendered.order, &work),
@@ -156,7 +156,7 @@ fn figures(rendered: &Rendered) -> Vec<(&'static str, String)> {
         Counts::LeftOut => vec![],
     };
     if let Some(times) = rendered.times {
-        // Not the time for shading: it is the same task in both orders, and would drown the others.
+        // The time for shading is left out: shading is the same task in both orders, and would hide the other times.
         rows.push(("time to prepare", milliseconds(times.prepare.median)));
         rows.push(("time for visibility", milliseconds(times.visibility.median)));
     }
@@ -188,8 +188,8 @@ fn difference(relative: f64) -> String {
     }
 }
 
-/// The difference image in its size on the slide, in which no differing pixel is overlooked: where
-/// it would be smaller, it is marked by a square of [`SMALLEST_MARK`] pixels.
+/// The difference image in its size on the slide. Every differing pixel is easy to see: where the pixel would be
+/// smaller, a square of [`SMALLEST_MARK`] pixels marks it.
 fn marked_difference(classes: &Classes, lit_by: &RgbImage, size: [u32; 2]) -> RgbImage {
     let mut picture = resized(&classes.picture(lit_by), size);
     let image = classes.image();
@@ -206,10 +206,10 @@ fn marked_difference(classes: &Classes, lit_by: &RgbImage, size: [u32; 2]) -> Rg
     picture
 }
 
-/// How large a differing pixel is shown at least.
+/// The smallest side of a differing pixel on the slide.
 const SMALLEST_MARK: u32 = 5;
 
-/// The range, made as long as a mark, within `0..side`.
+/// The range, widened to the length of a mark, within `0..side`.
 fn widened(range: RangeInclusive<u32>, side: u32) -> RangeInclusive<u32> {
     let missing = SMALLEST_MARK.saturating_sub(range.end() - range.start() + 1);
     let begin = range.start().saturating_sub(missing / 2);
@@ -230,7 +230,7 @@ impl Style {
     }
 }
 
-/// The slide while it is drawn.
+/// The slide during drawing.
 struct Canvas {
     pixels: Pixmap,
 }
@@ -251,7 +251,7 @@ impl Canvas {
         draw(&mut self.pixels, loops[1], left + inner, SECOND_LOOP, REGULAR.of(QUIET));
     }
 
-    /// A picture in the middle of its mat.
+    /// Draws a picture in the middle of its mat.
     fn picture(&mut self, left: f32, picture: &RgbImage) {
         let [frame_width, frame_height] = PICTURE_FRAME;
         let [wide, high] = PICTURE_FRAME.map(pixels);
@@ -276,21 +276,22 @@ impl Canvas {
         }
     }
 
-    /// A label on the left and a figure on the right.
+    /// Draws a label on the left and a figure on the right.
     fn row(&mut self, left: f32, right: f32, baseline: f32, label: &str, figure: &str) {
         let figure_width = self.right(right, baseline, figure, REGULAR);
         let room = right - left - figure_width - REGULAR.size;
         self.fitting(left, baseline, label, REGULAR.of(QUIET), room);
     }
 
-    /// A text that ends at `right`; gives its width.
+    /// Draws a text that ends at `right`, and returns its width.
     fn right(&mut self, right: f32, baseline: f32, text: &str, style: Style) -> f32 {
         let width = width(text, style);
         draw(&mut self.pixels, text, right - width, baseline, style);
         width
     }
 
-    /// A text that is set smaller if there is not enough room, and shortened if that is not enough.
+    /// Draws a text in the room given: in a smaller size if the room is too narrow, and shortened if that is not
+    /// enough.
     fn fitting(&mut self, left: f32, baseline: f32, text: &str, style: Style, room: f32) {
         const SMALLEST: f32 = 0.6;
         let scale = (room / width(text, style)).clamp(SMALLEST, 1.0);
@@ -299,7 +300,7 @@ impl Canvas {
         draw(&mut self.pixels, &text, left, baseline, style);
     }
 
-    /// A square of a colour that may be as dark as the slide.
+    /// Draws a square with a frame, because the colour may be as dark as the slide.
     fn framed(&mut self, x: f32, y: f32, side: f32, color: [u8; 3]) {
         self.rectangle(x - 1.0, y - 1.0, side + 2.0, side + 2.0, HAIRLINE);
         self.rectangle(x, y, side, side, color);

@@ -1,7 +1,7 @@
 //! Text for figures: the outlines of an embedded typeface, filled.
 //!
-//! Enough of typography for labels and numbers: kerning, and figures of one width where columns of
-//! numbers are to align. The typeface is Inter, under the SIL Open Font License (`assets/inter`).
+//! This is enough typography for labels and numbers: kerning, and figures of equal width for columns of numbers. The
+//! typeface is Inter, under the SIL Open Font License (`assets/inter`).
 
 use skrifa::charmap::Charmap;
 use skrifa::instance::{LocationRef, Size};
@@ -15,30 +15,30 @@ use skrifa::{FontRef, GlyphId16, MetadataProvider, Tag};
 use std::sync::LazyLock;
 use tiny_skia::{Color, FillRule, Paint, Path, PathBuilder, Pixmap, Transform};
 
-/// How heavy the letters are.
+/// The weight of the letters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Weight {
     Regular,
     SemiBold,
 }
 
-/// How a text is set.
+/// The style of a text.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Style {
     pub(super) weight: Weight,
     /// The em, in pixels.
     pub(super) size: f32,
-    /// sRGB.
+    /// The colour in sRGB.
     pub(super) color: [u8; 3],
     pub(super) figures: Figures,
 }
 
-/// How far figures stand apart.
+/// The widths of figures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Figures {
-    /// All equally wide, for columns of numbers.
+    /// All figures have equal width, for columns of numbers.
     Tabular,
-    /// Each as wide as it is, for figures in a sentence.
+    /// Each figure has its own width, for figures in a sentence.
     Proportional,
 }
 
@@ -47,7 +47,7 @@ pub(super) fn has(letter: char) -> bool {
     Weight::Regular.font().letters.map(letter).is_some()
 }
 
-/// How wide a text is, in pixels.
+/// The width of a text, in pixels.
 pub(super) fn width(text: &str, style: Style) -> f32 {
     style.weight.font().set(text, style.figures).width * style.weight.font().scale(style.size)
 }
@@ -62,7 +62,7 @@ pub(super) fn draw(canvas: &mut Pixmap, text: &str, x: f32, baseline: f32, style
     let mut paint = Paint::default();
     paint.set_color(Color::from_rgba8(red, green, blue, u8::MAX));
     let scale = font.scale(style.size);
-    // In a font, y goes up.
+    // In a font, y points up.
     let place = Transform::from_row(scale, 0.0, 0.0, -scale, x, baseline);
     canvas.fill_path(&path, &paint, FillRule::Winding, place, None);
 }
@@ -82,7 +82,7 @@ pub(super) fn shortened(text: &str, style: Style, limit: f32) -> String {
     }
 }
 
-/// One weight of the typeface, and the tables that say how its letters stand beside each other.
+/// One weight of the typeface, and the tables with the distances between its letters.
 struct Font {
     units_per_em: u16,
     letters: Charmap<'static>,
@@ -92,7 +92,7 @@ struct Font {
     kerning: Vec<PairPos<'static>>,
 }
 
-/// A line of glyphs in font units, each with its distance from the line's beginning.
+/// A line of glyphs in font units, each glyph with its distance from the beginning of the line.
 struct Line {
     glyphs: Vec<(GlyphId16, f32)>,
     width: f32,
@@ -128,7 +128,7 @@ impl Font {
         read(bytes).expect("the embedded font is sound")
     }
 
-    /// Pixels in a font unit.
+    /// The number of pixels in a font unit.
     fn scale(&self, size: f32) -> f32 {
         size / f32::from(self.units_per_em)
     }
@@ -146,9 +146,9 @@ impl Font {
         Line { glyphs, width }
     }
 
-    /// The glyph of a letter, or of a figure in its form.
+    /// The glyph of a letter, or of a figure in the requested form.
     fn glyph(&self, letter: char, figures: Figures) -> GlyphId16 {
-        // What the font lacks becomes glyph 0, a box.
+        // A letter that the font lacks becomes glyph 0, a box.
         let glyph = self.letters.map(letter).and_then(|glyph| glyph.try_into().ok());
         let glyph = glyph.unwrap_or(GlyphId16::NOTDEF);
         let tabular = figures == Figures::Tabular && letter.is_ascii_digit();
@@ -170,7 +170,7 @@ impl Font {
         })
     }
 
-    /// How much farther apart than usual two glyphs stand; negative is nearer.
+    /// The extra distance between two glyphs; a negative distance moves the glyphs nearer.
     fn kern(&self, left: GlyphId16, right: GlyphId16) -> f32 {
         let adjustment = self.kerning.iter().find_map(|table| match table {
             PairPos::Format1(table) => {
@@ -203,7 +203,7 @@ impl Font {
     }
 }
 
-/// The tables that say which form of a figure is as wide as all.
+/// The tables that map each figure to its form of equal width.
 fn tabular(font: &FontRef<'static>) -> Result<Vec<SingleSubst<'static>>, ReadError> {
     let table = font.gsub()?;
     let lookups = table.lookup_list()?.lookups();
@@ -216,7 +216,7 @@ fn tabular(font: &FontRef<'static>) -> Result<Vec<SingleSubst<'static>>, ReadErr
     Ok(tables)
 }
 
-/// The tables that say how far from each other letters stand.
+/// The tables with the distances between letters.
 fn kerning(font: &FontRef<'static>) -> Result<Vec<PairPos<'static>>, ReadError> {
     let table = font.gpos()?;
     let lookups = table.lookup_list()?.lookups();
@@ -229,7 +229,7 @@ fn kerning(font: &FontRef<'static>) -> Result<Vec<PairPos<'static>>, ReadError> 
     Ok(tables)
 }
 
-/// Which lookups make a feature; scripts that have one of their own are not drawn.
+/// The lookups of a feature. Scripts with a feature of their own are not drawn.
 fn lookup_indices(features: &FeatureList, name: Tag) -> Result<Vec<usize>, ReadError> {
     let found = features.feature_records().iter().find(|record| record.feature_tag() == name);
     let Some(found) = found else { return Ok(Vec::new()) };

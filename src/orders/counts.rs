@@ -1,25 +1,25 @@
-//! The work for a frame, counted as long as there is not too much of it.
+//! The work for a frame, counted up to a limit.
 
 use super::options::RenderOptions;
 use crate::common::Work;
 use crate::common::observe::budget::{Budget, WorkWithin};
 
-/// What was counted of the work for a frame.
+/// The counted work for a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Counts {
-    /// All of it.
+    /// The complete count.
     Counted(Work),
-    /// Nothing: it is more than so many steps, as [`Work::steps`] has them.
+    /// No count: the work is more than `most` steps, in the unit of [`Work::steps`].
     TooMany {
-        /// See [`most_steps`].
+        /// The limit, from [`most_steps`].
         most: u64,
     },
-    /// Nothing: it was not to be counted.
+    /// No count: the options turn counting off.
     LeftOut,
 }
 
-/// The number of steps at which counting is given up, for a frame of so many samples: 2¹⁰ a sample and 2²⁸ besides.
-/// As a rule a ray meets some hundred boxes and triangles; a scene with more could be counted for hours.
+/// The number of steps at which counting stops, for a frame with this number of samples: 2¹⁰ per sample plus 2²⁸.
+/// Usually a ray meets some hundred boxes and triangles; counting a scene with more could take hours.
 pub fn most_steps(samples: u64) -> u64 {
     (1 << 28) + (samples << 10)
 }
@@ -27,14 +27,14 @@ pub fn most_steps(samples: u64) -> u64 {
 /// Whether the work is counted.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Counting {
-    /// In a frame of its own, as long as it is at most so many steps.
+    /// The work is counted in a separate frame, up to `most` steps.
     AtMost { most: u64, samples: u64 },
-    /// It is not, for a reason that is known beforehand.
+    /// The work is not counted, for a reason known in advance.
     Not(Counts),
 }
 
 impl Counting {
-    /// For a frame of so many samples.
+    /// The way of counting for a frame with this number of samples.
     pub(super) fn new(options: &RenderOptions, samples: u64) -> Counting {
         if options.no_counts {
             return Counting::Not(Counts::LeftOut);
@@ -42,7 +42,7 @@ impl Counting {
         Counting::AtMost { most: most_steps(samples), samples }
     }
 
-    /// The same where every primitive is tested at every sample: then it is known beforehand whether that is too much.
+    /// The same where every primitive is tested at every sample: the number of steps is then known in advance.
     pub(super) fn of_all_tests(self, primitives: u32) -> Counting {
         match self {
             Counting::AtMost { most, samples }
@@ -54,12 +54,12 @@ impl Counting {
         }
     }
 
-    /// How many frames are drawn to count the work.
+    /// The number of frames drawn to count the work.
     pub(super) fn frames(&self) -> u64 {
         u64::from(matches!(self, Counting::AtMost { .. }))
     }
 
-    /// Counts the work of a frame that is drawn for it.
+    /// Counts the work of a separate frame.
     pub(super) fn count<E>(
         &self,
         draw: impl FnOnce(&mut WorkWithin) -> Result<(), E>,

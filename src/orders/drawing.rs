@@ -1,4 +1,4 @@
-//! What can be drawn frame after frame: a scene in memory, or a mesh file that is read again for each.
+//! A source that can be drawn frame after frame: a scene in memory, or a mesh file that is read again for each frame.
 
 use super::renderer::Renderer;
 use crate::common::{Camera, Frame, Observer, Options, View};
@@ -7,15 +7,15 @@ use crate::progress::Steps;
 use crate::rasterize::stream::{CHUNK, Canvas, Look};
 use std::convert::Infallible;
 
-/// A renderer with what it draws, and the frame it draws into.
+/// A renderer with its source and its frame.
 pub(super) trait Drawing {
-    /// Why a frame cannot be finished.
+    /// The reason why a frame cannot be finished.
     type Error;
-    /// Finds what is visible, and counts the steps of it.
+    /// Finds the visible primitives, and reports the steps.
     fn draw<O: Observer>(&mut self, observer: &mut O, steps: &Steps) -> Result<(), Self::Error>;
-    /// Gives what is visible its normals and colours.
+    /// Computes the normals and colours of the visible primitives.
     fn shade(&mut self);
-    /// What was drawn last.
+    /// The last frame.
     fn into_frame(self) -> Frame;
 }
 
@@ -62,7 +62,7 @@ impl<R: Renderer> Drawing for InMemory<'_, R> {
     }
 }
 
-/// A mesh file of which only the vertices are in memory, in object order.
+/// A mesh file in object order. Only its vertices are in memory.
 pub(super) struct Streamed<'a> {
     mesh: &'a mut MeshStream,
     camera: &'a Camera,
@@ -84,7 +84,7 @@ impl<'a> Streamed<'a> {
 impl Drawing for Streamed<'_> {
     type Error = StreamError;
 
-    /// One pass over the file: for each triangle, for each sample that it may affect.
+    /// Runs one pass over the file: for each triangle, for each sample that the triangle may affect.
     fn draw<O: Observer>(&mut self, observer: &mut O, steps: &Steps) -> Result<(), StreamError> {
         let mut pass = self.canvas.begin(self.camera, CHUNK, observer);
         let (chunked, mut count) = (self.mesh.triangles().is_some(), 0_usize);

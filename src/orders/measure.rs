@@ -1,4 +1,4 @@
-//! One path for everything that is drawn: it counts the work, measures times and tells progress.
+//! The common path of all rendering: it counts the work, measures times and reports progress.
 
 use super::counts::{Counting, Counts};
 use super::drawing::Drawing;
@@ -9,12 +9,12 @@ use crate::common::{Frame, Scene};
 use crate::progress::Steps;
 use std::time::{Duration, Instant};
 
-/// Preparing is repeated as often as a frame, but not after this much time.
+/// The preparation is repeated as often as a frame, but not after this much time.
 const PREPARE_BUDGET: Duration = Duration::from_secs(2);
-/// Work that takes no longer than this is done twice to be timed once: the first run warms memory and caches up.
+/// Work that takes no longer than this is done twice for one measured time: the first run warms up memory and caches.
 const WARM_UP_BUDGET: Duration = Duration::from_millis(200);
 
-/// How many frames are drawn: one that counts the work, one to warm up, and the timed ones.
+/// The number of frames: one frame for the count of the work, one frame for the warm-up, and the timed frames.
 pub(super) fn frames(options: &RenderOptions, counting: &Counting) -> u64 {
     if options.no_times {
         return 1;
@@ -22,7 +22,7 @@ pub(super) fn frames(options: &RenderOptions, counting: &Counting) -> u64 {
     counting.frames() + options.repeat.map_or(1, |repeat| 1 + u64::from(repeat))
 }
 
-/// Draws all frames of what `begin` prepares, which also tells how long preparing took.
+/// Draws all frames of the value that `begin` prepares. `begin` also returns the time of the preparation.
 pub(super) fn measure<D: Drawing>(
     options: &RenderOptions,
     counting: &Counting,
@@ -62,8 +62,8 @@ pub(super) enum Phase {
     Shading,
 }
 
-/// Draws the frames that are timed, after the one in which the work was counted. Visibility and shading are each
-/// repeated alone: other programs, with which ours is compared, have no shading between two frames either.
+/// Draws the timed frames, after the frame for the count of the work. Visibility and shading are each repeated alone:
+/// the programs that we compare with have no shading between two frames either.
 pub(super) fn repeated<E>(
     repeat: Option<u32>,
     steps: &Steps,
@@ -71,7 +71,7 @@ pub(super) fn repeated<E>(
 ) -> Result<[Spread; 2], E> {
     let mut drawn = steps.frames_drawn();
     let mut spread_of = |phase| {
-        // One more to warm up.
+        // One more run for the warm-up.
         let runs = repeat.map_or(1, |repeat| u64::from(repeat) + 1);
         let mut times = Vec::new();
         for _ in 0..runs {
@@ -88,21 +88,21 @@ pub(super) fn repeated<E>(
     Ok([spread_of(Phase::Visibility)?, spread_of(Phase::Shading)?])
 }
 
-/// Prepares a scene, and tells how long that takes.
+/// Prepares a scene, and returns the time of the preparation.
 pub(super) fn prepared<R: Renderer>(
     scene: &Scene,
     options: &RenderOptions,
 ) -> (R::Prepared, Spread) {
     let begun = Instant::now();
     let (mut prepared, first) = timed(|| R::prepare(scene));
-    // The first run was the warm-up; without `repeat`, too, unless a second one would take long.
+    // The first run is the warm-up; this also holds without `repeat`, unless a second run would take long.
     let repeat = options.repeat.unwrap_or(u32::from(begun.elapsed() < WARM_UP_BUDGET));
     if repeat == 0 || options.no_times {
         return (prepared, Spread::of(vec![first]));
     }
     let mut times = Vec::new();
     for _ in 0..repeat {
-        // Never two at once: they take much memory.
+        // Two prepared scenes never exist at once: they take much memory.
         drop(prepared);
         let (next, time) = timed(|| R::prepare(scene));
         prepared = next;

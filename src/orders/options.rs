@@ -1,21 +1,21 @@
-//! How an order is to be run.
+//! The options for one order.
 
 use crate::common::Options;
 use crate::progress::Listener;
 
-/// How an order is to be run. The default: one sample a pixel, the work counted, one frame timed, no listener.
+/// The options for one order. The default: one sample per pixel, the work counted, one frame timed, no listener.
 #[derive(Clone, Copy, Default)]
 pub struct RenderOptions<'a> {
-    /// What a frame holds.
+    /// The options of the frame.
     pub frame: Options,
-    /// With a number, everything is done once to warm up and then timed so many times, into the same
-    /// buffers; without, it is timed once, warmed up by what went before. Never 0.
+    /// With a number, each phase runs once for the warm-up and then this many times for measurement, into the same
+    /// buffers; without a number, each phase is timed once, warmed up by the phases before. Never 0.
     pub repeat: Option<u32>,
-    /// Whether the frame that counts the work is left out. It may take longer than those that are timed.
+    /// Whether to leave out the frame that counts the work. That frame may take longer than the timed frames.
     pub no_counts: bool,
-    /// Whether times are left out: then no frame is drawn to be timed, unless it is the only one.
+    /// Whether to leave out times. Then no frame is drawn for timing, unless it is the only frame.
     pub no_times: bool,
-    /// A function that is told how far the rendering has come; that changes no bit of the answer.
+    /// A function that is called with the progress of the rendering; the call changes no bit of the result.
     pub progress: Option<Listener<'a>>,
 }
 

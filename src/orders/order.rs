@@ -1,8 +1,8 @@
-//! Which loop is the outer one, and how it skips work.
+//! The two orders, by their outer loop, and the two methods, by the work that they skip.
 
 use serde::Serialize;
 
-/// Which loop is the outer one.
+/// The order, named after its outer loop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Order {
     /// For each object, for each pixel: rasterization.
@@ -12,7 +12,7 @@ pub enum Order {
 }
 
 impl Order {
-    /// The lecture's name for it.
+    /// The lecture's name for the order.
     pub fn name(self) -> &'static str {
         match self {
             Order::Object => "object order",
@@ -20,7 +20,7 @@ impl Order {
         }
     }
 
-    /// What everybody else calls it.
+    /// The usual name for the order.
     pub fn common_name(self) -> &'static str {
         match self {
             Order::Object => "rasterization",
@@ -28,7 +28,7 @@ impl Order {
         }
     }
 
-    /// The lecture's two loops, the outer one first.
+    /// The lecture's two loops, the outer loop first.
     pub fn loops(self) -> [&'static str; 2] {
         match self {
             Order::Object => ["for each object in the scene", "for each pixel it may affect"],
@@ -36,7 +36,7 @@ impl Order {
         }
     }
 
-    /// How its files' names begin or end.
+    /// The beginning or the end of the names of the order's files.
     pub fn file_stem(self) -> &'static str {
         match self {
             Order::Object => "object-order",
@@ -45,19 +45,19 @@ impl Order {
     }
 }
 
-/// How an order skips work that cannot matter.
+/// The method of skipping work that cannot affect the result.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Method {
-    /// With all its machinery.
+    /// The method with bounds and hierarchies.
     #[default]
     Fast,
-    /// Not at all: every primitive at every sample.
+    /// The method that skips nothing: every primitive at every sample.
     Textbook,
 }
 
 impl Method {
-    /// Its name on the command line and in reports.
+    /// The name of the method on the command line and in reports.
     pub fn name(self) -> &'static str {
         match self {
             Method::Fast => "fast",

@@ -1,4 +1,4 @@
-//! The one door to both orders.
+//! The common entry point of both orders.
 
 use super::counts::Counting;
 use super::drawing::{InMemory, Streamed};
@@ -13,21 +13,20 @@ use crate::formats::mesh_stream::StreamError;
 use crate::progress::Steps;
 use std::sync::atomic::AtomicU64;
 
-/// Renders a scene or a stream in one order, on the rayon pool that this is called in.
+/// Renders a scene or a stream in one order, on the current rayon pool.
 ///
-/// The work is counted in a frame of its own, before the timed ones, as long as it is at most
-/// [`most_steps`](super::most_steps).
+/// A separate frame before the timed frames counts the work, up to [`most_steps`](super::most_steps).
 ///
-/// A stream is read once for every frame; its visibility holds the reading of all faces.
+/// A stream is read once for every frame; the time for visibility includes the reading of all faces.
 ///
 /// # Errors
 ///
-/// What is wrong with the file of a stream; a scene in memory has no errors.
+/// An error in the file of a stream; a scene in memory has no errors.
 ///
 /// # Panics
 ///
-/// If `repeat` is 0, the camera does not allow this number of samples, or a stream is not to be rendered in object
-/// order by the fast method.
+/// If `repeat` is 0, the camera does not allow this number of samples, or the source is a stream and the order and
+/// the method are not object order and fast.
 ///
 /// ```
 /// use bothways::common::{Camera, View};

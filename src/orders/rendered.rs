@@ -1,4 +1,4 @@
-//! What one order saw, and what that cost.
+//! The result of one order, and its cost.
 
 use super::counts::Counts;
 use super::order::{Method, Order};
@@ -6,23 +6,23 @@ use super::times::Times;
 use crate::common::frame::NO_PRIMITIVE;
 use crate::common::{Frame, Work};
 
-/// What one order saw, and what it cost.
+/// The result of one order, and its cost.
 #[derive(Clone, Debug)]
 pub struct Rendered {
-    /// Which order it was.
+    /// The order.
     pub order: Order,
-    /// How it was run.
+    /// The method.
     pub method: Method,
-    /// What it saw.
+    /// The frame.
     pub frame: Frame,
-    /// How much was done for one frame.
+    /// The work for one frame.
     pub work: Counts,
-    /// How long it took; `None` if times are to be left out.
+    /// The times; `None` if the options leave out times.
     pub times: Option<Times>,
 }
 
 impl Rendered {
-    /// How many samples are covered.
+    /// The number of covered samples.
     pub fn covered(&self) -> u64 {
         self.frame.ids().iter().filter(|&&id| id != NO_PRIMITIVE).count() as u64
     }

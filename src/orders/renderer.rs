@@ -1,9 +1,9 @@
-//! The four renderers, seen as one.
+//! A common interface of the four renderers.
 
 use crate::common::{Frame, Observer, Options, Scene, View};
 use crate::{rasterize, raytrace};
 
-/// What the four renderers have in common.
+/// The common functions of the four renderers.
 pub(super) trait Renderer {
     type Prepared;
     fn prepare(scene: &Scene) -> Self::Prepared;

@@ -1,4 +1,4 @@
-//! What is rendered.
+//! The input of rendering.
 
 use super::order::{Method, Order};
 use crate::common::{Camera, Options, View};
@@ -6,20 +6,20 @@ use crate::formats::mesh_stream::MeshStream;
 use crate::rasterize::stream::{CHUNK, Look};
 use std::time::Duration;
 
-/// What is rendered.
+/// The input of rendering.
 #[derive(Debug)]
 pub enum Source<'a> {
     /// A scene in memory.
     View(View<'a>),
-    /// A mesh file of which only the vertices are in memory: for object order by the fast method.
+    /// A mesh file with only its vertices in memory, for object order with the fast method.
     Stream {
-        /// The file.
+        /// The mesh file.
         mesh: &'a mut MeshStream,
-        /// From where it is seen.
+        /// The camera.
         camera: &'a Camera,
-        /// Its material and its light.
+        /// The material and the light of the mesh.
         look: &'a Look,
-        /// How long it took to open the file and to read its vertices: it counts as preparing.
+        /// The time for opening the file and reading its vertices: this time is part of the preparation.
         opening: Duration,
     },
 }
@@ -38,8 +38,8 @@ impl Source<'_> {
         }
     }
 
-    /// The steps of one frame that can be told of, if there are any: of a textbook those of its outer loop, of a
-    /// stream its chunks of triangles.
+    /// The steps of one frame for the progress, if there are any: the steps of a textbook's outer loop, or the
+    /// triangle chunks of a stream.
     pub(super) fn steps_of_a_frame(
         &self,
         order: Order,
@@ -47,7 +47,7 @@ impl Source<'_> {
         options: &Options,
     ) -> Option<u64> {
         match (self, method, order) {
-            // Until all triangles were read once, their number is not known.
+            // The number of triangles is unknown until all triangles have been read once.
             (Source::Stream { mesh, .. }, ..) => {
                 mesh.triangles().map(|count| u64::from(count).div_ceil(CHUNK as u64).max(1))
             }

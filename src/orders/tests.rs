@@ -1,4 +1,4 @@
-//! Measuring changes nothing of what is measured.
+//! Measurement does not change the measured results.
 
 use super::measure::repeated;
 use super::*;
@@ -53,7 +53,7 @@ fn progress_is_told_to_the_end_and_changes_nothing() {
     let (scene, camera) = (two_balls(), Camera::canonical(9, 7));
     let view = View::new(&scene, &camera);
     let frame = Options { samples: 2, ..Options::default() };
-    // Steps within a frame: frames, primitives, or rows of samples.
+    // The steps within a frame: frames, primitives, or rows of samples.
     for (order, method, steps) in [
         (Order::Object, Method::Fast, 1),
         (Order::Object, Method::Textbook, 2),

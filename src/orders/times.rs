@@ -3,25 +3,25 @@
 use serde::Serialize;
 use std::time::Instant;
 
-/// How long the parts of a rendering took.
+/// The times of the parts of a rendering.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Times {
-    /// Work on the scene alone, which a moving camera would not repeat.
+    /// The work on the scene alone. A moving camera would not repeat this work.
     pub prepare: Spread,
-    /// Per frame: from the cleared frame to all ids and distances.
+    /// The work per frame from the cleared frame to all ids and distances.
     pub visibility: Spread,
-    /// Per frame: normals and colours of what is visible.
+    /// The work per frame on normals and colours of the visible primitives.
     pub shading: Spread,
 }
 
 /// Repeated measurements of one thing, in milliseconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Spread {
-    /// The middle one; of an even number, the mean of the middle two.
+    /// The median; of an even number, the mean of the two middle times.
     pub median: f64,
-    /// The shortest.
+    /// The shortest time.
     pub min: f64,
-    /// The longest.
+    /// The longest time.
     pub max: f64,
 }
 
@@ -30,7 +30,7 @@ impl Spread {
     ///
     /// # Panics
     ///
-    /// If there are none.
+    /// If there are no measurements.
     pub fn of(mut times: Vec<f64>) -> Spread {
         times.sort_by(f64::total_cmp);
         let rounded = |time: f64| (time * 1e4).round() / 1e4;
@@ -43,7 +43,7 @@ impl Spread {
     }
 }
 
-/// Does some work, and tells how many milliseconds it took.
+/// Runs a function, and returns its time in milliseconds.
 pub(super) fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
     let begun = Instant::now();
     let result = work();

@@ -3,15 +3,15 @@
 /// A scene that comes with the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BuiltIn {
-    /// What the command line calls it.
+    /// The name on the command line.
     pub name: &'static str,
-    /// Its point, in one sentence; the first line of its file says the same.
+    /// The point of the scene, in one sentence; the first line of the scene file has the same sentence.
     pub about: &'static str,
-    /// Its scene file.
+    /// The scene file.
     pub toml: &'static str,
 }
 
-/// The name of the scene that is rendered when none is named.
+/// The name of the default scene.
 pub const DEFAULT: &str = "lecture";
 
 /// All built-in scenes, the default first.

@@ -1,36 +1,36 @@
-//! A camera that shows all of a mesh, whatever its size and place.
+//! A camera that shows all of a mesh of any size and in any place.
 
 use crate::common::glam::{DVec3, Vec3};
 use crate::common::{CameraDescription, Mesh, Orientation};
 use crate::wording::readable;
 
-/// Why no camera frames a mesh.
+/// The reason why no camera frames a mesh.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FrameMeshError {
-    /// There is nothing to see.
+    /// The mesh has no triangle.
     #[error("there is no triangle to frame")]
     Empty,
-    /// What is to be seen has no size.
+    /// The mesh has no size.
     #[error("all triangles lie in one point, so no camera can frame them")]
     Point,
-    /// The eye would be where no `f32` number reaches.
+    /// The position of the eye would exceed the range of `f32`.
     #[error(
         "the triangles reach over {}, too far for a camera that sees them all; \
          scale them down in a scene file",
         about(*.diagonal)
     )]
     TooLarge {
-        /// The diagonal of their bounding box.
+        /// The diagonal of the triangles' bounding box.
         diagonal: f64,
     },
-    /// The triangles are so small where they lie that rounding moves the eye among them.
+    /// The triangles are so small relative to their distance from the origin that rounding moves the eye among them.
     #[error(
         "the triangles reach over {} only, too little for the numbers around them; \
          move them to the origin or scale them up in a scene file",
         about(*.diagonal)
     )]
     TooSmall {
-        /// The diagonal of their bounding box.
+        /// The diagonal of the triangles' bounding box.
         diagonal: f64,
     },
 }
@@ -40,7 +40,7 @@ fn about(length: f64) -> String {
     readable::<f64>(format!("{length:.2e}").parse().expect("a number is written as a number"))
 }
 
-/// How a mesh is framed: from which side, and for which image.
+/// The view for framing a mesh: the direction, and the image.
 ///
 /// ```
 /// use bothways::common::{Camera, glam::Vec3};
@@ -59,21 +59,21 @@ fn about(length: f64) -> String {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Framing {
-    /// From the mesh to the eye; its length does not matter.
+    /// The direction from the mesh to the eye; its length does not matter.
     pub towards_eye: Vec3,
-    /// Which way is up in the picture: any direction that is not along the view.
+    /// The up direction of the picture: any direction that is not along the view.
     pub up: Vec3,
-    /// The image's width and height in pixels; the viewport gets its form, and is 1 high.
+    /// The image's width and height in pixels; the viewport gets the same aspect ratio, and has height 1.
     pub image: [u32; 2],
-    /// `d`, from the eye to the viewport.
+    /// `d`, the distance from the eye to the viewport.
     pub distance: f32,
-    /// How much of the picture's width or height the mesh fills, whichever is tighter.
+    /// The part of the picture's width or height that the mesh fills; the tighter of the two decides.
     pub filled: f64,
 }
 
 impl Default for Framing {
-    /// From the right, above and in front, for a 640 × 480 image, through a lens that is a little longer than the
-    /// eye's, as for a portrait.
+    /// A view from the right, above and in front, for a 640 × 480 image, with a focal length that is a little longer
+    /// than that of the human eye, as for a portrait.
     fn default() -> Self {
         Framing {
             towards_eye: Vec3::new(1.0, 0.7, 1.5),
@@ -85,17 +85,17 @@ impl Default for Framing {
     }
 }
 
-/// How much of half the picture a mesh fills at most where the projection is made parallel.
+/// The part of half the picture that a mesh fills at most after a change to a parallel projection.
 const FILLED_IN_PARALLEL: f64 = 0.98;
 
-/// How often the place in the middle is looked for; few meshes take more than three steps.
+/// The most steps of the search for the middle; few meshes take more than three steps.
 const MOST_STEPS: u32 = 16;
 
-/// A camera that looks at a mesh from a little above and sees all of it, in the middle of a 640 × 480 image.
+/// A camera that looks at a mesh from a little above and sees the whole mesh, in the middle of a 640 × 480 image.
 ///
 /// # Errors
 ///
-/// As for [`Framing::camera`].
+/// The errors of [`Framing::camera`].
 ///
 /// ```
 /// use bothways::common::Camera;
@@ -111,11 +111,11 @@ pub fn framed(mesh: &Mesh) -> Result<CameraDescription, FrameMeshError> {
 }
 
 impl Framing {
-    /// The camera that sees all of a mesh, its picture in the middle. The mesh is what triangles use of its vertices.
+    /// The camera that sees the whole mesh in the middle of the picture. Only the vertices that triangles use count.
     ///
     /// # Errors
     ///
-    /// A mesh without triangles or without size, or one that leads out of the range of `f32`.
+    /// An error for a mesh without triangles or without size, or for a camera beyond the range of `f32`.
     ///
     /// # Panics
     ///
@@ -125,16 +125,16 @@ impl Framing {
         self.camera_of(used.map(|&vertex| mesh.positions()[vertex as usize]))
     }
 
-    /// The same camera for the positions that the mesh's triangles use, each at least once. They are gone through
-    /// several times.
+    /// The same camera for the positions that the mesh's triangles use, each position at least once. The function
+    /// iterates over the positions several times.
     ///
     /// # Errors
     ///
-    /// As for [`camera`](Framing::camera).
+    /// The errors of [`camera`](Framing::camera).
     ///
     /// # Panics
     ///
-    /// As for [`camera`](Framing::camera).
+    /// In the cases of [`camera`](Framing::camera).
     pub fn camera_of(
         &self,
         positions: impl Iterator<Item = Vec3> + Clone,
@@ -148,14 +148,14 @@ impl Framing {
         let axes = self.axes();
         let place = self.place_of_eye(&axes, diagonal, points.map(|point| point - center));
         let [u, v, w] = axes;
-        // The middle of the picture, as far away as the middle of the mesh.
+        // The point in the middle of the picture, as far away as the middle of the mesh.
         let middle = center + place.x * u + place.y * v;
         let (eye, target) = ((middle + place.z * w).as_vec3(), middle.as_vec3());
         if !eye.is_finite() {
             return Err(FrameMeshError::TooLarge { diagonal });
         }
-        // Where neighbouring f32 numbers are farther apart than the mesh is wide, both are rounded to somewhere
-        // else.
+        // If the distance between neighbouring f32 numbers is more than the width of the mesh, rounding moves both
+        // points to other places.
         let away = (eye.as_dvec3() - target.as_dvec3()).length();
         if (away / place.z - 1.0).abs() > 0.01 {
             return Err(FrameMeshError::TooSmall { diagonal });
@@ -170,7 +170,7 @@ impl Framing {
         })
     }
 
-    /// `u`, `v` and `w`.
+    /// The axes `u`, `v` and `w`.
     fn axes(&self) -> [DVec3; 3] {
         let w = self.towards_eye.as_dvec3().normalize();
         let u = self.up.as_dvec3().cross(w).normalize();
@@ -178,14 +178,15 @@ impl Framing {
         [u, w.cross(u), w]
     }
 
-    /// Where the eye is from the middle of the mesh, along the axes.
+    /// The position of the eye relative to the middle of the mesh, along the axes.
     ///
     /// A point at (x, y, z) along the axes is seen within ±s of the viewport's half width, at distance 1, from an eye
     /// at (X, Y, Z) if x + s·z ≤ X + s·Z and −x + s·z ≤ −X + s·Z. Of all points only the greatest left sides count, A
     /// and B: there is such an X if A + B ≤ 2·s·Z, and both sides touch the margin if they are equal and
     /// X = (A − B)/2. So it is with the height.
     ///
-    /// From there the mesh is seen in a parallel projection, too, in which the picture of what is far is larger.
+    /// From this position, a parallel projection also shows the whole mesh. In that projection, the picture of
+    /// distant parts is larger.
     fn place_of_eye(
         &self,
         axes: &[DVec3; 3],
@@ -201,7 +202,7 @@ impl Framing {
             let [right, left] = reach(slopes)[axis];
             (right + left) / (2.0 * slopes[axis])
         });
-        // A needle that points at the eye takes no room, but has a length.
+        // A needle that points at the eye has no width in the picture, but has a length.
         let mut away = across.max(down).max(diagonal);
         let flat = reach([0.0; 2]);
         for _ in 0..MOST_STEPS {
@@ -214,7 +215,7 @@ impl Framing {
             if needed <= away {
                 return DVec3::new(place[0], place[1], away);
             }
-            // A little more, so that the end is reached.
+            // A factor slightly above 1, so that the loop ends.
             away = needed * 1.001;
         }
         let place = in_the_middle(away, slopes, &half, reach);
@@ -222,11 +223,11 @@ impl Framing {
     }
 }
 
-/// Where the eye is along `u` and `v` if it is so far away that a mesh is seen within these slopes: so that what is
-/// left free is the same on both sides.
+/// The coordinates of the eye along `u` and `v`, at a distance at which a mesh fits within these slopes, with equal
+/// free space on both sides.
 ///
-/// At least one of the two is not tight. The slope at which it would be is a fixed point, which each step comes
-/// nearer to by the mesh's part of the distance.
+/// At least one of the two sides is not tight. The slope at which that side would be tight is a fixed point. The
+/// mesh's part of the distance is the factor by which each step reduces the distance to the fixed point.
 fn in_the_middle(
     away: f64,
     slopes: [f64; 2],
@@ -264,7 +265,7 @@ fn reach(
     })
 }
 
-/// The least and the greatest coordinates.
+/// The least and the greatest coordinates of the points.
 fn bounds(points: impl Iterator<Item = DVec3>) -> Option<(DVec3, DVec3)> {
     points.map(|p| (p, p)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
 }
@@ -280,7 +281,7 @@ mod tests {
         Mesh::new(positions, vec![[0, 1, 2]]).unwrap()
     }
 
-    /// What of the viewport's half width and half height a mesh takes: left, right, below, above.
+    /// The parts of the viewport's half width and half height that a mesh fills: left, right, below, above.
     fn sides(mesh: &Mesh, description: CameraDescription) -> [f64; 4] {
         let camera = Camera::new(description).unwrap();
         let half = camera.viewport().map(|side| side / 2.0);
@@ -300,7 +301,7 @@ mod tests {
         sides
     }
 
-    /// As `--projection parallel` makes it.
+    /// The camera that `--projection parallel` makes.
     fn parallel(camera: CameraDescription) -> CameraDescription {
         let Orientation::LookAt { target, .. } = camera.orientation else { unreachable!() };
         let scale = (target - camera.eye).length() / camera.distance;

@@ -13,22 +13,22 @@ use std::path::Path;
 /// A scene, ready to be rendered.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoadedScene {
-    /// The built-in's name, or the file's without its folder and extension.
+    /// The name of the built-in scene, or the file name without its folder and extension.
     pub name: String,
-    /// What there is to see.
+    /// The objects and lights.
     pub scene: Scene,
-    /// From where.
+    /// The scene's camera.
     pub camera: CameraDescription,
-    /// Whether the viewport is stated, so that another image size keeps both its sides.
+    /// Whether the scene file states the viewport. Another image size then keeps both sides of the viewport.
     pub viewport_stated: bool,
-    /// The scene as a scene file; for a mesh file, the one that shows it.
+    /// The scene file; for a mesh file, the scene file that shows the mesh.
     pub toml: String,
-    /// What is missing, but no error.
+    /// Missing parts that are no error.
     pub warnings: Vec<String>,
 }
 
 impl LoadedScene {
-    /// The scene in one line: what the first line of its file says, if it is a comment.
+    /// The scene in one line: the first line of its file, if that line is a comment.
     ///
     /// ```
     /// let about = "The lecture's first camera before one triangle, one sphere and one plane.";
@@ -41,7 +41,7 @@ impl LoadedScene {
     }
 }
 
-/// Why a scene could not be loaded.
+/// The reason why a scene could not be loaded.
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
     /// No built-in scene has this name.
@@ -52,23 +52,23 @@ pub enum LoadError {
         names().join(", ")
     )]
     UnknownName {
-        /// What was asked for.
+        /// The requested name.
         name: String,
-        /// The name that may have been meant.
+        /// The name that was probably meant.
         meant: Option<&'static str>,
     },
-    /// The file is of no kind that is read.
+    /// The file is of an unsupported kind.
     #[error(
         "{path} is neither a scene file (.toml) nor a mesh file (.obj, .ply); no others are read"
     )]
     UnknownExtension {
-        /// What was asked for.
+        /// The requested file.
         path: String,
     },
-    /// The scene file is wrong.
+    /// An error in the scene file.
     #[error(transparent)]
     SceneFile(#[from] ReadSceneError),
-    /// The mesh file is wrong.
+    /// An error in the mesh file.
     #[error(transparent)]
     Mesh(#[from] ReadMeshError),
     /// The mesh file has more triangles than there are ids.
@@ -77,30 +77,31 @@ pub enum LoadError {
     /// The mesh file cannot be streamed.
     #[error(transparent)]
     Stream(#[from] StreamError),
-    /// What is to be streamed is no mesh file.
+    /// The file to stream is not a mesh file.
     #[error(
         "only a mesh file (.obj, .ply) can be streamed, and {source_name:?} is none; render it in \
          memory, without --stream, or name a mesh file"
     )]
     NotStreamed {
-        /// What was asked for.
+        /// The requested name.
         source_name: String,
     },
-    /// The mesh file is right, but no camera shows what is in it.
+    /// The mesh file is correct, but no camera frames its mesh.
     #[error("{path}: {error}")]
     Framing {
         /// The mesh file.
         path: String,
-        /// Why.
+        /// The reason.
         error: FrameMeshError,
     },
 }
 
-/// Loads a built-in scene by its name, a scene file, or a mesh file before a camera that frames it.
+/// Loads a built-in scene by its name, a scene file, or a mesh file with a camera that frames the mesh.
 ///
 /// # Errors
 ///
-/// An unknown name, listing the known ones; an unknown kind of file; what is wrong with the file.
+/// An error for an unknown name, with a list of the known names; for an unknown kind of file; or for an error in the
+/// file.
 ///
 /// ```
 /// let loaded = bothways::scenes::load("canonical")?;
@@ -111,12 +112,12 @@ pub fn load(source: &str) -> Result<LoadedScene, LoadError> {
     load_for(source, None)
 }
 
-/// The same for an image of this width and height: a mesh file is framed for its form. The cameras of other scenes
-/// stay as they are.
+/// The same for an image of this width and height: the camera of a mesh file is framed for this aspect ratio. The
+/// cameras of other scenes stay unchanged.
 ///
 /// # Errors
 ///
-/// As for [`load`].
+/// The errors of [`load`].
 pub fn load_for(source: &str, image: Option<[u32; 2]>) -> Result<LoadedScene, LoadError> {
     if let Some(built_in) = BUILT_IN.iter().find(|built_in| built_in.name == source) {
         return load_built_in(built_in);

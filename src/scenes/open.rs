@@ -1,4 +1,4 @@
-//! A scene that is opened to be rendered: in memory, or as a stream, whose camera is the one that frames the same
+//! A scene opened for rendering: in memory, or as a stream. The camera of a stream is the camera that frames the same
 //! mesh in memory.
 
 use super::load::{LoadError, LoadedScene, framing_for, load_for, stem};
@@ -11,32 +11,32 @@ use crate::rasterize::stream::Look;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// A mesh that is streamed, before a camera that frames it.
+/// A streamed mesh with a camera that frames it.
 #[derive(Debug)]
 pub struct StreamedScene {
-    /// All but the mesh: its scene holds no object.
+    /// The loaded scene without the mesh: its scene holds no object.
     pub loaded: LoadedScene,
     /// The mesh.
     pub mesh: MeshStream,
-    /// How many triangles it has.
+    /// The number of triangles in the mesh.
     pub triangles: u32,
-    /// Its material and its light.
+    /// The material and the light of the mesh.
     pub look: Look,
-    /// How long all of that took.
+    /// The time for opening.
     pub opening: Duration,
 }
 
-/// A scene that is opened to be rendered.
+/// A scene opened for rendering.
 #[derive(Debug)]
 pub enum OpenedScene {
-    /// All of it is in memory.
+    /// The whole scene is in memory.
     InMemory(LoadedScene),
-    /// Its mesh is read again for every frame.
+    /// The mesh is read again for every frame.
     Streamed(StreamedScene),
 }
 
 impl OpenedScene {
-    /// All but the mesh that is streamed, if one is.
+    /// The loaded scene; the mesh of a stream is missing.
     pub fn loaded(&self) -> &LoadedScene {
         match self {
             OpenedScene::InMemory(loaded) => loaded,
@@ -44,7 +44,7 @@ impl OpenedScene {
         }
     }
 
-    /// How many primitives it has.
+    /// The number of primitives in the scene.
     pub fn primitive_count(&self) -> u32 {
         match self {
             OpenedScene::InMemory(loaded) => loaded.scene.primitive_count(),
@@ -52,7 +52,7 @@ impl OpenedScene {
         }
     }
 
-    /// The scene as a camera sees it, to be rendered.
+    /// The scene and a camera, as a source for rendering.
     pub fn source<'a>(&'a mut self, camera: &'a Camera) -> Source<'a> {
         match self {
             OpenedScene::InMemory(loaded) => Source::View(View::new(&loaded.scene, camera)),
@@ -64,12 +64,12 @@ impl OpenedScene {
     }
 }
 
-/// Opens a scene: a mesh file as a stream, or anything in memory. A mesh is framed for an image of this size, or of
-/// the usual one.
+/// Opens a scene: a mesh file as a stream, or any scene in memory. The camera of a mesh is framed for an image of
+/// this size, or of the default size.
 ///
 /// # Errors
 ///
-/// As for [`load`](super::load) and [`open_stream`].
+/// The errors of [`load`](super::load) and [`open_stream`].
 pub fn open(source: &str, image: Option<[u32; 2]>, stream: bool) -> Result<OpenedScene, LoadError> {
     if stream {
         open_stream(source, image).map(OpenedScene::Streamed)
@@ -78,12 +78,12 @@ pub fn open(source: &str, image: Option<[u32; 2]>, stream: bool) -> Result<Opene
     }
 }
 
-/// Opens a mesh file for streaming, reads its vertices, and looks at all of its faces once. It is framed for an
-/// image of this size, or of the usual one.
+/// Opens a mesh file for streaming, reads its vertices, and reads all of its faces once. The camera is framed for an
+/// image of this size, or of the default size.
 ///
 /// # Errors
 ///
-/// What is no mesh file; what is wrong with it; a mesh that no camera frames.
+/// An error for a file that is not a mesh file, for an error in the mesh file, or for a mesh that no camera frames.
 pub fn open_stream(source: &str, image: Option<[u32; 2]>) -> Result<StreamedScene, LoadError> {
     let begun = Instant::now();
     let path = Path::new(source);

@@ -1,7 +1,7 @@
-//! What a mesh file is shown in that says nothing of light: warm plaster before a slate wall, lit over the
-//! viewer's left shoulder.
+//! The surroundings of a mesh file without light: warm plaster in front of a slate wall, lit over the viewer's left
+//! shoulder.
 //!
-//! It is written down once, as it stands in the scene file that shows the mesh, and read from there.
+//! The scene file that shows the mesh contains this text; this module parses the same text.
 
 use crate::common::{CameraDescription, Material, Scene};
 use crate::formats::scene_file::{self, framed_mesh_toml};
@@ -16,8 +16,8 @@ specular = 0.12
 shininess = 25
 ";
 
-/// Over the left shoulder as the standard view sees it, from the right, and a little from behind, so that nothing is
-/// black from any other side either.
+/// One light comes over the left shoulder in the standard view, from the right, and a little from behind, so that
+/// nothing is black from any other side either.
 const LIGHTS: &str = "
 [[light]]
 directional = [0.3, -1.15, -0.8]
@@ -36,7 +36,7 @@ ambient = true
 intensity = 0.14
 ";
 
-/// The scene file that shows a mesh file from a camera; a mesh that brings its own materials keeps them.
+/// The scene file that shows a mesh file from a camera; a mesh with its own materials keeps them.
 pub(super) fn toml(camera: &CameraDescription, mesh: &str, plaster: bool) -> String {
     let file = framed_mesh_toml(camera, mesh);
     let (camera, object) = file.split_once("\n[[object]]\n").expect("it has one object");
@@ -44,7 +44,7 @@ pub(super) fn toml(camera: &CameraDescription, mesh: &str, plaster: bool) -> Str
     format!("{camera}{BACKGROUND}{material}{LIGHTS}\n[[object]]\n{object}{name}")
 }
 
-/// What a mesh is made of, unless it says so itself.
+/// The material of a mesh, unless the mesh has its own material.
 pub(super) fn material_for(has_its_own: bool) -> Option<Material> {
     (!has_its_own).then(|| sample().objects()[0].material)
 }
@@ -56,7 +56,7 @@ pub(super) fn lit(mut scene: Scene) -> Scene {
     scene
 }
 
-/// A scene that shows all of it.
+/// A scene with the complete studio.
 fn sample() -> Scene {
     let ball = "[[object]]\nsphere = { center = [0, 0, 0], radius = 1 }\nmaterial = \"plaster\"\n";
     let text = format!("[camera]\n{BACKGROUND}{PLASTER}{LIGHTS}\n{ball}");

@@ -1,4 +1,4 @@
-//! What loads, and what is said of what does not.
+//! Tests of loading, and of the messages for scenes that do not load.
 
 use super::built_in::names;
 use super::*;

@@ -1,4 +1,4 @@
-//! The scenes about coverage alone: edges, corners, shared edges and slivers, in pixels.
+//! The scenes that test coverage alone: edges, corners, shared edges and slivers, in pixels.
 
 use super::sketch::sketch;
 use super::{Group, Vector};
@@ -167,7 +167,7 @@ fn strip() -> Vector {
 
 /// About a thousandth of a pixel.
 const THIN: f32 = 1.0 / 1024.0;
-/// A hair: what is left of a pixel after sixteen halvings.
+/// The width of a pixel after sixteen halvings.
 const HAIR: f32 = 1.0 / 65_536.0;
 
 fn slivers() -> Vec<Vector> {

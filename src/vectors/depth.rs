@@ -1,5 +1,5 @@
-//! The scenes about which of several triangles is seen. Corners are `[x, y, depth]`; at depth 16
-//! one unit of the world is one pixel.
+//! The scenes that test which of several triangles is visible. Corners are `[x, y, depth]`; at depth 16 one unit of
+//! the world is one pixel.
 //!
 //! In a slanted plane, `1/depth` is linear in pixels: 1/32, 1/16 and 1/8 lie at distances 1 : 2.
 
@@ -34,7 +34,7 @@ fn order() -> Vec<Vector> {
     ]
 }
 
-/// A depth of 16, less a millionth of it.
+/// A depth of 16, less a millionth of 16.
 const ALMOST: f32 = 16.0 - 1.0 / 65_536.0;
 
 fn ties() -> Vec<Vector> {

@@ -1,4 +1,4 @@
-//! The scenes about size: very large, very small, very far, and cameras that are not straight.
+//! The scenes that test size: very large, very small, very far, and cameras that are not straight.
 
 use super::sketch::sketch;
 use super::{Group, Vector};

@@ -1,4 +1,4 @@
-//! The scenes about the eye: triangles that reach behind it, and parallel rays, which have none.
+//! The scenes that test the eye: triangles that reach behind the eye, and parallel rays, which have no eye.
 
 use super::sketch::sketch;
 use super::{Group, Vector};

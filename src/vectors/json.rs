@@ -1,7 +1,7 @@
-//! The set's JSON: one file a scene, and the index of all.
+//! The JSON of the set: one file for each scene, and the index of all scenes.
 //!
-//! Every number of a scene is an exact `f64`: read as a double it is the very number that was meant.
-//! The `t` that are seen are rounded to `f32`, and written as short as reads back as the same `f32`.
+//! Every number of a scene is an exact `f64`: a program that reads the number as a double gets exactly the same
+//! number. The visible `t` are rounded to `f32`, and written with the fewest digits that read back as the same `f32`.
 
 use super::{ENDINGS, Vector, raster};
 use crate::common::{Camera, Frame, Projection, View};
@@ -11,26 +11,26 @@ use serde::Serialize;
 /// A scene as the index lists it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Entry {
-    /// Its files' names begin with it.
+    /// The scene's name. The names of the scene's files begin with this name.
     pub name: &'static str,
-    /// What kind of difficulty it is.
+    /// The kind of difficulty.
     pub group: &'static str,
-    /// Its point, in a sentence.
+    /// The point of the scene, in one sentence.
     pub point: &'static str,
     /// Width and height in pixels.
     pub image: [u32; 2],
-    /// How many triangles there are.
+    /// The number of triangles.
     pub triangles: u32,
-    /// Whether its corners have exact raster coordinates.
+    /// Whether the scene's corners have exact raster coordinates.
     pub raster: bool,
-    /// How many samples are covered.
+    /// The number of covered samples.
     pub covered: u64,
-    /// Its files.
+    /// The files of the scene.
     pub files: Vec<String>,
 }
 
 impl Entry {
-    /// What the index says about a scene of which this frame is seen.
+    /// The index entry of a scene with this expected frame.
     pub fn new(vector: &Vector, frame: &Frame) -> Entry {
         let (scene, camera) = (vector.scene(), vector.camera());
         let seen = frame.ids().iter().filter(|&&id| id < scene.primitive_count());
@@ -51,7 +51,7 @@ impl Entry {
 ///
 /// # Errors
 ///
-/// Those of `serde_json`, of which there are none for these types.
+/// The errors of `serde_json`. These types cause none.
 pub fn index(entries: &[Entry]) -> serde_json::Result<String> {
     Ok(Fields::default()
         .one("set", "bothways")?
@@ -60,11 +60,11 @@ pub fn index(entries: &[Entry]) -> serde_json::Result<String> {
         .finish())
 }
 
-/// `NAME.json`: the scene, its raster coordinates, its matrices, and what is seen.
+/// `NAME.json`: the scene, its raster coordinates, its matrices, and the visible surface at each sample.
 ///
 /// # Errors
 ///
-/// As for [`index`].
+/// The errors of [`index`].
 pub fn json(vector: &Vector, frame: &Frame) -> serde_json::Result<String> {
     let (scene, camera) = (vector.scene(), vector.camera());
     let raster = raster::triangles(&View::new(&scene, &camera));
@@ -110,7 +110,7 @@ fn rows<T>(frame: &Frame, value: impl Fn(usize, usize) -> T) -> Vec<Vec<T>> {
     (0..frame.height()).map(row).collect()
 }
 
-/// Half of the least and twice the largest depth that is seen, so that no plane cuts any of it.
+/// Half of the least and twice the largest visible depth, so that the near and far planes cut nothing visible.
 fn depth_range(camera: &Camera, frame: &Frame) -> [f64; 2] {
     let unit = match camera.projection() {
         Projection::Perspective => camera.distance(),
@@ -127,7 +127,7 @@ fn plain(row: [f64; 4]) -> [f64; 4] {
     row.map(|number| number + 0.0)
 }
 
-/// A JSON object with a field a line, and long lists with an element a line.
+/// A JSON object with one field per line; long lists have one element per line.
 #[derive(Default)]
 struct Fields(Vec<String>);
 

@@ -1,4 +1,4 @@
-//! A scene's triangles in raster coordinates, where those exist exactly.
+//! The triangles of a scene in raster coordinates, where exact raster coordinates exist.
 
 use crate::common::glam::DVec3;
 use crate::common::scene::Primitive;
@@ -10,9 +10,9 @@ use crate::common::{Projection, View};
 /// Between the corners, `1/t` is linear in `x` and `y` for a perspective camera, `t` for a parallel
 /// one.
 ///
-/// They exist for a camera that looks straight down the negative z axis and triangles wholly in
-/// front of the eye, if every quotient and sum fits into an `f64`; else the answer is `None`: what
-/// is rounded is another scene.
+/// They exist if the camera looks straight down the negative z axis, all triangles are wholly in front of the eye,
+/// and every quotient and sum fits into an `f64`. Otherwise the answer is `None`: a scene with rounded coordinates is
+/// a different scene.
 pub fn triangles(view: &View) -> Option<Vec<[[f64; 3]; 3]>> {
     let camera = view.camera;
     if [camera.u(), camera.v(), camera.w()] != [DVec3::X, DVec3::Y, DVec3::Z] {
@@ -61,7 +61,7 @@ fn quotient(a: f64, b: f64) -> Option<f64> {
     (quotient.mul_add(b, -a) == 0.0).then_some(quotient)
 }
 
-/// Knuth's two-sum: what each summand lost.
+/// Knuth's two-sum: the rounding errors of the sum.
 fn sum(a: f64, b: f64) -> Option<f64> {
     let sum = a + b;
     let b_kept = sum - a;

@@ -3,7 +3,7 @@
 use super::{Entry, Group};
 use std::fmt::Write;
 
-/// What the files are and how to use them, and a list of all scenes.
+/// The description of the files and their use, and a list of all scenes.
 pub fn readme(entries: &[Entry]) -> String {
     let without: Vec<String> = entries
         .iter()

@@ -1,14 +1,14 @@
-//! Drawing the set's scenes: in pixels where that is what they are about, else in the world.
+//! A builder for the set's scenes: in pixels where pixels are the point of the scene, otherwise in the world.
 
 use super::{Group, Vector};
 use crate::common::glam::Vec3;
 use crate::common::{CameraDescription, Mesh, Orientation, Projection};
 
-/// The distance `d` of all straight cameras. Their viewport is as large as the image in pixels, so
-/// that at this depth one unit of the world is one pixel.
+/// The distance `d` of all straight cameras. Their viewport is as large as the image in pixels, so that at this depth
+/// one unit of the world is one pixel.
 pub(super) const DISTANCE: f32 = 16.0;
 
-/// A scene that is being drawn.
+/// A scene under construction.
 #[derive(Debug)]
 pub(super) struct Sketch {
     name: &'static str,
@@ -25,7 +25,7 @@ pub(super) fn sketch(group: Group, name: &'static str, point: &'static str) -> S
 }
 
 impl Sketch {
-    /// The size in pixels; before the first triangle, as pixels depend on it.
+    /// Sets the size in pixels. The call comes before the first triangle, because pixels depend on the size.
     pub(super) fn size(mut self, width: u16, height: u16) -> Sketch {
         assert!(self.corners.is_empty(), "{}: the size comes first", self.name);
         self.camera.image = [width.into(), height.into()];
@@ -33,62 +33,62 @@ impl Sketch {
         self
     }
 
-    /// With parallel rays.
+    /// Makes the viewing rays parallel.
     pub(super) fn parallel(mut self) -> Sketch {
         assert!(self.corners.is_empty(), "{}: the projection comes first", self.name);
         self.camera.projection = Projection::Parallel;
         self
     }
 
-    /// With pixels that are not square.
+    /// Sets a viewport with pixels that are not square.
     pub(super) fn viewport(mut self, viewport: [f32; 2]) -> Sketch {
         self.camera.viewport = viewport;
         self
     }
 
-    /// From anywhere.
+    /// Sets any eye and any target.
     pub(super) fn looking(mut self, eye: [f32; 3], target: [f32; 3]) -> Sketch {
         self.camera.eye = eye.into();
         self.camera.orientation = Orientation::LookAt { target: target.into(), up: Vec3::Y };
         self
     }
 
-    /// A triangle at the depth where a unit is a pixel; corners are `[x, y]` in pixels, right and
-    /// down, the middle of the first pixel at `[0.5, 0.5]`.
+    /// Adds a triangle at the depth where one unit is one pixel; corners are `[x, y]` in pixels, right and down, the
+    /// middle of the first pixel at `[0.5, 0.5]`.
     pub(super) fn flat(self, corners: [[f32; 2]; 3]) -> Sketch {
         self.pixels(corners.map(|[x, y]| [x, y, DISTANCE]))
     }
 
-    /// A triangle whose corners are `[x, y, depth]`, in pixels and in the world.
+    /// Adds a triangle with the corners `[x, y, depth]`: `x` and `y` in pixels, `depth` in units of the world.
     pub(super) fn pixels(mut self, corners: [[f32; 3]; 3]) -> Sketch {
         let corners = corners.map(|corner| self.in_world(corner));
         self.corners.extend(corners);
         self
     }
 
-    /// A triangle in the world.
+    /// Adds a triangle in the world.
     pub(super) fn world(mut self, corners: [[f32; 3]; 3]) -> Sketch {
         self.corners.extend(corners.map(Vec3::from_array));
         self
     }
 
-    /// Two triangles: a convex quadrilateral, cut from its first corner to its third.
+    /// Adds two triangles: a convex quadrilateral, divided from its first corner to its third.
     pub(super) fn flat_quad(self, [a, b, c, d]: [[f32; 2]; 4]) -> Sketch {
         self.flat([a, b, c]).flat([a, c, d])
     }
 
-    /// Two triangles of the world, cut alike.
+    /// Adds two triangles of the world: a quadrilateral, divided in the same way.
     pub(super) fn world_quad(self, [a, b, c, d]: [[f32; 3]; 4]) -> Sketch {
         self.world([a, b, c]).world([a, c, d])
     }
 
-    /// All that was drawn, larger or smaller about the eye; the picture stays the same.
+    /// Scales all triangles so far about the eye; the picture stays the same.
     pub(super) fn scaled(mut self, factor: f32) -> Sketch {
         self.corners.iter_mut().for_each(|corner| *corner *= factor);
         self
     }
 
-    /// The scene; corners in the same place become one vertex.
+    /// The finished scene; corners in the same place become one vertex.
     pub(super) fn done(self) -> Vector {
         let Sketch { name, group, point, camera, corners } = self;
         let mut positions: Vec<Vec3> = Vec::new();
@@ -117,7 +117,7 @@ impl Sketch {
         Vec3::new(self.exact(across), self.exact(up), -depth)
     }
 
-    /// A number that must not be rounded, or the scene would not be what was drawn.
+    /// A number as `f32`. Rounding is an error, because it would change the scene.
     fn exact(&self, number: f64) -> f32 {
         #[expect(clippy::cast_possible_truncation, reason = "nothing is lost, and that is checked")]
         let stored = number as f32;

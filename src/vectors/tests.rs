@@ -4,7 +4,7 @@ use super::*;
 use crate::common::{Sign, View};
 use std::collections::BTreeSet;
 
-/// One letter a triangle, a dot for nothing.
+/// The expected picture: one letter per triangle, a dot for nothing.
 fn drawn(name: &str) -> Vec<String> {
     let all = all();
     let vector = all.iter().find(|vector| vector.name == name).unwrap();
@@ -32,7 +32,7 @@ fn names_are_file_names_and_points_are_sentences() {
     assert!(groups.iter().map(|&group| order(group)).is_sorted());
 }
 
-/// How many pairs of a triangle and a sample lie exactly on an edge or a corner.
+/// The number of pairs of a triangle and a sample where the sample lies exactly on an edge or a corner.
 fn ties(vector: &Vector) -> usize {
     let (scene, camera) = (vector.scene(), vector.camera());
     let (view, grid) = (View::new(&scene, &camera), camera.sample_grid(1));

@@ -1,4 +1,4 @@
-//! Which pixels are worth the textbook's time.
+//! The choice of pixels for the textbook check.
 
 use crate::common::exact::Sign;
 use crate::common::{Frame, Primitive, View};
@@ -6,38 +6,40 @@ use rayon::prelude::*;
 use std::cmp::Ordering;
 use std::collections::{BTreeSet, BinaryHeap};
 
-/// A pixel to be answered by the textbook, and why.
+/// A pixel for the textbook check, and the reason for the choice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Choice {
-    /// Row and column in the whole image.
+    /// The row and the column in the whole image.
     pub pixel: [u32; 2],
-    /// The first reason that holds.
+    /// The first reason that applies.
     pub reason: Reason,
 }
 
-/// Why a pixel is chosen.
+/// The reason for the choice of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Reason {
     /// The orders see different primitives.
     Differs,
-    /// A sample lies exactly on an edge of a primitive that is seen in or beside it, or two are equally near.
+    /// A sample lies exactly on an edge of a primitive visible in the pixel or in a neighbour, or two primitives are
+    /// equally near.
     Tie,
-    /// Something is seen in it and nothing beside it, or the other way round.
+    /// The pixel shows a primitive and a neighbour shows nothing, or the other way round.
     Silhouette,
-    /// Another primitive is seen beside it.
+    /// A neighbour shows another primitive.
     Edge,
-    /// None.
+    /// No reason.
     Random,
 }
 
-/// One pixel in so many is left to chance: a renderer may be wrong where nothing looks close.
+/// One pixel in this number is random: a renderer may also be wrong where no decision looks close.
 const LEFT_TO_CHANCE: usize = 4;
-/// Ties are looked for among so many times the pixels that are wanted.
+/// The search for ties covers this multiple of the requested number of pixels.
 const CANDIDATES: usize = 16;
 
-/// Chooses pixels of a picture, given by what one order saw, or both: those where the orders differ; then at ties,
-/// silhouettes and edges in turn, up to three quarters; then anywhere. Each kind is spread over the picture, the same
-/// every time. All pixels, if there are no more.
+/// Chooses pixels of a picture, from the frame of one order or from both frames: pixels where the orders differ; then
+/// pixels at ties, silhouettes and edges in turn, up to three quarters; then pixels anywhere. Each kind is spread
+/// over the picture, the same in every run. If the picture has no more pixels than requested, the choice is all
+/// pixels.
 ///
 /// # Panics
 ///
@@ -74,14 +76,14 @@ pub fn choose(view: &View, frames: &[&Frame], pixels: usize) -> Vec<Choice> {
     chosen.all
 }
 
-/// The pixels that are chosen, each once.
+/// The chosen pixels, each once.
 struct Chosen {
     all: Vec<Choice>,
     pixels: BTreeSet<[u32; 2]>,
 }
 
 impl Chosen {
-    /// Takes from each kind in turn, until there are so many or no more.
+    /// Takes pixels from each kind in turn, up to the count, or until no pixel is left.
     fn take(&mut self, kinds: &[(Reason, Vec<[u32; 2]>)], count: usize) {
         let longest = kinds.iter().map(|(_, pixels)| pixels.len()).max().unwrap_or(0);
         for turn in 0..longest {
@@ -95,10 +97,10 @@ impl Chosen {
     }
 }
 
-/// Of the pixels that are offered, so many that look chosen by chance.
+/// A given number of the offered pixels, in a choice that looks random.
 struct Least {
     count: usize,
-    /// The largest number first.
+    /// A heap with the largest number at the top.
     heap: BinaryHeap<(u64, [u32; 2])>,
 }
 
@@ -122,8 +124,8 @@ impl Least {
     }
 }
 
-/// A number that looks random, another one for each number (the finalizer of `SplitMix64`: Steele, Lea and Flood,
-/// "Fast Splittable Pseudorandom Number Generators", OOPSLA 2014).
+/// A number that looks random, different for each input (the finalizer of `SplitMix64`: Steele, Lea and Flood, "Fast
+/// Splittable Pseudorandom Number Generators", OOPSLA 2014).
 fn scattered(number: u64) -> u64 {
     let mut bits = number.wrapping_add(0x9e37_79b9_7f4a_7c15);
     bits = (bits ^ bits >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -144,7 +146,7 @@ fn samples(frame: &Frame, [i, j]: [u32; 2]) -> impl Iterator<Item = [usize; 2]> 
     (top..top + n).flat_map(move |row| (left..left + n).map(move |column| [row, column]))
 }
 
-/// What is seen at a sample and those beside it, in the frame.
+/// The primitives at a sample and at its neighbours, within the frame.
 fn around(frame: &Frame, [row, column]: [usize; 2]) -> impl Iterator<Item = Option<u32>> {
     let region = frame.region();
     let beside = [
@@ -160,7 +162,7 @@ fn around(frame: &Frame, [row, column]: [usize; 2]) -> impl Iterator<Item = Opti
     inside.map(|[row, column]| frame.id(row, column))
 }
 
-/// Whether a silhouette runs through a pixel or beside it, or an edge.
+/// Whether a silhouette or an edge runs through a pixel or beside it.
 fn border(frame: &Frame, pixel: [u32; 2]) -> Option<Reason> {
     let mut found = None;
     for sample in samples(frame, pixel) {
@@ -177,8 +179,8 @@ fn border(frame: &Frame, pixel: [u32; 2]) -> Option<Reason> {
     found
 }
 
-/// Whether one of a pixel's samples lies exactly on an edge of what is seen there or beside it, inside of the others; or
-/// whether two of these are equally near.
+/// Whether one of the samples of a pixel lies exactly on an edge of a primitive visible there or in a neighbour,
+/// inside the primitive's other edges; or two of these primitives are equally near.
 fn is_tie(view: &View, frame: &Frame, pixel: [u32; 2]) -> bool {
     let (judge, grid) = (view.judge(), view.camera.sample_grid(frame.samples()));
     samples(frame, pixel).any(|sample| {

@@ -3,7 +3,7 @@ use crate::common::Camera;
 use crate::orders::{Method, RenderOptions, render};
 use crate::scenes::load;
 
-/// Both orders of a built-in scene, and its view's camera.
+/// Both orders of a built-in scene, and the camera of its view.
 fn drawn(
     name: &str,
     image: [u32; 2],

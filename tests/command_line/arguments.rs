@@ -1,6 +1,6 @@
-//! Command lines as they are typed.
+//! Command lines in the form that users type.
 
-/// The arguments of a command line, single quotes taken off, its comment left out.
+/// The arguments of a command line, without single quotes and without the comment.
 pub(crate) fn arguments(line: &str) -> Vec<String> {
     let mut words = vec![String::new()];
     let mut quoted = false;

@@ -1,6 +1,6 @@
-//! Whatever is wrong on the command line is named: what is said of every bad value of every option.
+//! Errors on the command line: the message about every bad value of every option.
 //!
-//! A message is one that a reader can act on: it names the value, and says what would be right.
+//! A message names the value and the remedy, so that a reader can act on it.
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -15,7 +15,7 @@ use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
 
-/// All that is typed, and how the messages begin.
+/// The tested command lines, and the beginnings of the messages.
 fn refused() -> impl Iterator<Item = (String, &'static str)> {
     let of_camera = camera::COMMANDS.iter().flat_map(|command| {
         camera::REFUSED.iter().map(move |(flags, message)| (format!("{command} {flags}"), *message))
@@ -30,7 +30,7 @@ fn bothways(home: &TempDir, args: &[String]) -> Command {
     command
 }
 
-/// Files that the lines name.
+/// The files that the command lines name.
 fn home() -> TempDir {
     let home = tempfile::tempdir().unwrap();
     let write = |name: &str, content: &[u8]| fs::write(home.path().join(name), content).unwrap();
@@ -47,7 +47,7 @@ fn names(folder: &Path) -> BTreeSet<String> {
     entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
 }
 
-/// The message without its label, its lines joined, and without the usage that may follow.
+/// The message without its label, with its lines joined, and without the usage text that may follow.
 fn message(stderr: &str) -> String {
     let first = stderr.split("\n\n").next().unwrap();
     let words: Vec<&str> = first.split_whitespace().collect();
@@ -68,7 +68,7 @@ fn bad_input_is_named_and_nothing_is_written() {
     }
 }
 
-/// The long options that a help text lists.
+/// The long options in a help text.
 fn options(help: &str) -> BTreeSet<&str> {
     let lines = help.lines().map(str::trim_start).filter(|line| line.starts_with('-'));
     let long = |line: &str| line.find("--").map(|at| at + 2);
@@ -89,14 +89,14 @@ fn no_option_is_left_out() {
     };
     let help = said(&["-h"]);
     let commands = help.split("Commands:").nth(1).unwrap().split("\n\n").next().unwrap();
-    // Lines that go on are indented more.
+    // Continued lines have a deeper indentation.
     let names = commands.lines().filter_map(|line| line.strip_prefix("  ")?.split(' ').next());
     let commands: Vec<&str> = names.filter(|name| !["", "help"].contains(name)).collect();
     assert!(commands.len() >= 9, "{commands:?}");
     for command in &commands {
         let help = said(&[command, "-h"]);
         let lines: Vec<Vec<String>> = refused().map(|(line, _)| arguments(&line)).collect();
-        // What begins with no subcommand is rendered.
+        // A command line without a subcommand is rendered.
         let of_command = lines.iter().filter(|words| match words[0].as_str() {
             word if commands.contains(&word) => word == *command,
             _ => *command == "render",

@@ -1,4 +1,4 @@
-//! The command line as people and scripts meet it.
+//! The command line, for users and for scripts.
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -11,7 +11,7 @@ use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
 
-/// `bothways` in a folder of its own.
+/// `bothways` in a separate folder.
 fn bothways(home: &TempDir, args: &[&str]) -> Command {
     let mut command = Command::cargo_bin("bothways").unwrap();
     command.current_dir(home).env_remove("RAYON_NUM_THREADS").args(args);
@@ -22,7 +22,7 @@ fn home() -> TempDir {
     tempfile::tempdir().unwrap()
 }
 
-/// Every file below a folder, with what is in it.
+/// Every file below a folder, with its content.
 fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut found = BTreeMap::new();
     for entry in fs::read_dir(folder).unwrap().map(Result::unwrap) {
@@ -161,7 +161,7 @@ fn without_times_every_run_writes_the_same() {
 
     let (mut one_thread, one_text) = run("third", "1");
     let (mut two_threads, two_text) = first;
-    // The number of threads is all that tells them apart.
+    // Only the number of threads differs between the two.
     let report = |files: &mut BTreeMap<String, Vec<u8>>| {
         String::from_utf8(files.remove("report.json").unwrap()).unwrap()
     };
@@ -223,7 +223,7 @@ fn buffers_are_numpy_arrays_of_pixels_and_samples() {
             let t: Vec<f32> = t.into_vec().unwrap();
             assert!(ids.iter().zip(&t).all(|(id, t)| (*id == u32::MAX) == t.is_infinite()));
 
-            // A pixel of the mask counts the samples that lie together in the array.
+            // A pixel of the mask counts the samples that are adjacent in the array.
             let mask = image::open(home.path().join(format!("mask-{order}.png"))).unwrap();
             let per_pixel = ids.len() / 24;
             for (pixel, samples) in mask.to_luma8().iter().zip(ids.chunks(per_pixel)) {
@@ -275,7 +275,7 @@ fn the_camera_can_be_changed() {
     assert_eq!(ids("changed", &["--projection", "perspective"]), plain);
 }
 
-/// Runs what must fail; it must say so on stderr, and touch nothing.
+/// Runs a command that must fail; it must report the error on stderr, and change no file.
 fn check_refused(home: &TempDir, args: &[&str], message: &str) {
     let before = files(home.path());
     let said = contains(message).and(contains("panicked").not());
@@ -290,7 +290,7 @@ fn bad_input_is_named_and_leaves_earlier_outputs_untouched() {
     fs::write(home.path().join("typo.toml"), "[camera]\neyes = [0, 0, 0]\n").unwrap();
     fs::write(home.path().join("file"), "no folder").unwrap();
 
-    // What is said of all else is in `bad_input`.
+    // The other messages are in `bad_input`.
     check_refused(&home, &["typo.toml"], "eyes");
     check_refused(&home, &["canonical", "--samples", "4000000000"], "at most 65536 samples");
     check_refused(&home, &["canonical", "--distance", "0"], "the distance is 0");

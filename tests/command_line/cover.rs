@@ -1,4 +1,4 @@
-//! `bothways cover` and its library function, held against all four renderers.
+//! `bothways cover` and its library function, compared with all four renderers.
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -101,7 +101,7 @@ fn numbers_are_as_short_as_they_read_back() {
     assert!(text.starts_with("triangle (0.1, 0) (8, 0.5) (4, 9.123457) on"), "{text}");
     let json = printed(&[corners, "--size", "8x8", "--json"]);
     assert!(json.contains("0.1,") && json.contains("9.123457\n"), "{json}");
-    // A program reads the very number that was judged.
+    // A program reads exactly the tested number.
     assert_eq!("9.123457".parse::<f32>(), "9.123456789".parse::<f32>());
 }
 

@@ -1,4 +1,4 @@
-//! `--crop`: the command line writes a part of what it writes of the whole picture.
+//! `--crop`: the output is a part of the output for the whole picture.
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -38,7 +38,7 @@ fn array(path: &Path) -> (Vec<u64>, Vec<u32>) {
     (shape, bits)
 }
 
-/// The values that an array of the whole image has in rows 5 to 15 and columns 30 to 36.
+/// The values of an array of the whole image in rows 5 to 15 and columns 30 to 36.
 fn part_of((shape, values): &(Vec<u64>, Vec<u32>)) -> Vec<u32> {
     let width = usize::try_from(shape[1]).unwrap();
     let per_pixel = values.len() / (width * usize::try_from(shape[0]).unwrap());
@@ -88,7 +88,7 @@ fn the_command_line_writes_a_part_of_what_it_writes() {
         assert_eq!((&part["crop"], &part["size"]), (&json!([5, 30, 11, 7]), &json!([40, 32])));
         assert_eq!(part["coverage"]["match"], true);
     }
-    // `diff` takes files of a crop as any others.
+    // `diff` accepts files of a crop in the same way as other files.
     let mut diff = Command::cargo_bin("bothways").unwrap();
     diff.current_dir(&home).args(["diff", "part/object-order.ids.npy", "part/image-order.ids.npy"]);
     diff.assert().code(0);

@@ -1,4 +1,4 @@
-//! `bothways diff` as a student meets it: real outputs against edited copies.
+//! `bothways diff` in the use of a student: real outputs compared with edited copies.
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -19,7 +19,7 @@ fn bothways(home: &TempDir, args: &[&str]) -> Command {
     command
 }
 
-/// A folder with `out/`, the canonical scene rendered small.
+/// A folder with `out/`, in which the canonical scene is rendered at a small size.
 fn rendered(samples: &str) -> TempDir {
     let home = tempfile::tempdir().unwrap();
     let args = ["canonical", "--size", "24x16", "--buffers", "npy", "--samples", samples];
@@ -27,7 +27,7 @@ fn rendered(samples: &str) -> TempDir {
     home
 }
 
-/// Copies a buffer, a number of pixel `(i, j)` replaced.
+/// Copies a buffer, and replaces a number of pixel `(i, j)`.
 fn edited<const N: usize>(home: &TempDir, name: &str, [i, j]: [usize; 2], number: [u8; N]) {
     let mut bytes = fs::read(home.path().join("out").join(name)).unwrap();
     let start = bytes.len() - N * (24 * 16 - 24 * i - j);
@@ -60,7 +60,7 @@ fn both_orders_are_equal_in_every_file() {
             let equal = contains("equal in everything compared");
             bothways(&home, &["diff", &files[0], &files[1]]).assert().code(0).stdout(equal);
         }
-        // Nothing was asked to be written.
+        // The command line does not ask for output.
         assert_eq!(count(home.path()), 1);
     }
 }
@@ -172,7 +172,7 @@ differ: 2 pixels of 8, in the bounding box from (0, 2) to (1, 2)
     bothways(&home, &["diff", "a.png", "b.png"]).assert().code(1).stdout(expected);
 }
 
-/// A mistake that a renderer makes.
+/// A mistake of a renderer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Mistake {
     None,
@@ -200,7 +200,7 @@ fn covers([a, b, c]: [[f64; 2]; 3], place: [f64; 2], inclusive: bool) -> bool {
     })
 }
 
-/// A little rasterizer of flat scenes, which makes one mistake: the first triangle at a pixel stays.
+/// A small rasterizer of flat scenes with one mistake: the first triangle at a pixel stays.
 fn drawn(vector: &Vector, mistake: Mistake) -> Buffer<'static> {
     let (scene, camera) = (vector.scene(), vector.camera());
     let triangles = raster::triangles(&View::new(&scene, &camera)).unwrap();
@@ -262,7 +262,7 @@ fn the_little_rasterizer_is_right_without_a_mistake() {
 
 #[test]
 fn hints_name_the_mistake_or_none() {
-    // What must be said of each, if anything is.
+    // The required hint for each mistake, if there is one.
     let named = [
         (Mistake::SamplesInCorners, ["moved 1 row up and 1 column to the left", "missed between"]),
         (Mistake::InclusiveEdges, ["inclusive edges have no hint of their own"; 2]),
@@ -343,7 +343,7 @@ fn a_whole_folder_is_held_against_the_vectors() {
     let two_sets = contains("204 of 204 pairs equal");
     bothways(&home, &["diff", "vectors", "vectors"]).assert().code(0).stdout(two_sets);
 
-    // A wrong one, a missing one, one that is none, and one that nobody asked for.
+    // A wrong picture, a missing picture, and a file that belongs to no scene and is no picture.
     let mask = vec![255; 64];
     let mask = image::GrayImage::from_raw(8, 8, mask).unwrap();
     mask.save(home.path().join("mine/square.png")).unwrap();
@@ -370,7 +370,7 @@ fn a_whole_folder_is_held_against_the_vectors() {
     assert!(square["point"].as_str().unwrap().starts_with("All sides lie on samples"));
     assert_eq!(pairs.iter().filter(|pair| pair["equal"] == false).count(), 1);
 
-    // What cannot be read stops no other, and is exit code 2.
+    // An unreadable file does not stop the comparison of other files, and the exit code is 2.
     fs::write(home.path().join("mine/hair.png"), "no picture").unwrap();
     let said = contains("hair.mask").and(contains("cannot be compared: mine/hair.png is neither"));
     let said = said.and(contains("66 of 68 pairs equal, 1 differs, 1 cannot be compared"));
@@ -382,7 +382,7 @@ fn the_set_is_never_blamed_for_how_it_is_written() {
     let home = with_vectors();
     let set = "vectors/far-off-corners.ids.npy";
     let mut ids = fs::read(home.path().join(set)).unwrap();
-    // The triangle 0 is culled: nothing is seen in its place. Ids follow the header of 128 bytes.
+    // The triangle 0 is culled: its pixels show nothing. Ids follow the header of 128 bytes.
     for id in ids[128..].chunks_exact_mut(4).filter(|id| *id == [0; 4]) {
         id.fill(u8::MAX);
     }
@@ -393,7 +393,7 @@ fn the_set_is_never_blamed_for_how_it_is_written() {
         let said = said.and(blamed.not());
         bothways(&home, &["diff", a, b]).assert().code(1).stdout(said);
     }
-    // Of files that may both be wrong, either may be.
+    // If neither file is known to be right, either file may be wrong.
     fs::copy(home.path().join(set), home.path().join("theirs.npy")).unwrap();
     let blamed = contains("in B, 0 stands for nothing").and(contains("never shows the primitive"));
     bothways(&home, &["diff", "mine.npy", "theirs.npy"]).assert().code(1).stdout(blamed);

@@ -1,4 +1,4 @@
-//! The program as people and scripts meet it: its commands, its texts, its files, and its manners at a terminal.
+//! The program for users and scripts: its commands, its texts, its files, and its behaviour at a terminal.
 
 mod arguments;
 mod bad_input;

@@ -1,4 +1,4 @@
-//! What stands on the disk afterwards: `-o FILE` and `-o DIR`, also when runs are stopped or meet.
+//! The files on the disk after a run: `-o FILE` and `-o DIR`, also if runs stop early or overlap.
 
 #![cfg(unix)]
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
@@ -21,7 +21,7 @@ fn home() -> TempDir {
     tempfile::tempdir().unwrap()
 }
 
-/// `bothways` in a folder of its own.
+/// `bothways` in a separate folder.
 fn bothways(home: &TempDir, args: &[&str]) -> Command {
     let mut command = Command::cargo_bin("bothways").unwrap();
     command.current_dir(home).args(args);
@@ -42,7 +42,7 @@ fn names(folder: &Path) -> Vec<String> {
     names
 }
 
-/// A sphere as the program makes it, and its OBJ file.
+/// A sphere from the program, and its OBJ file.
 fn ball() -> (Mesh, Vec<u8>) {
     let mesh = Kind::Sphere.mesh(Kind::Sphere.default_divisions()).unwrap();
     let mut text = Vec::new();
@@ -50,7 +50,7 @@ fn ball() -> (Mesh, Vec<u8>) {
     (mesh, text)
 }
 
-/// A pipe with a name, and what is read from it.
+/// A named pipe, and the text read from it.
 fn fifo(home: &TempDir, name: &str) -> thread::JoinHandle<Vec<u8>> {
     let path = home.path().join(name);
     assert!(process::Command::new("mkfifo").arg(&path).status().unwrap().success());
@@ -78,7 +78,7 @@ fn a_link_is_followed_and_stays_a_link() {
     }
     assert_eq!(names(home.path()), ["far.obj", "new.obj", "old.obj", "there"]);
     assert_eq!(names(&path("there")), ["new", "old.obj"]);
-    // Who could not read the old one cannot read the new one.
+    // A user without permission to read the old file has no permission to read the new file.
     assert_eq!(fs::metadata(path("there/old.obj")).unwrap().permissions().mode() & 0o777, 0o640);
 
     symlink("round.obj", path("round.obj")).unwrap();
@@ -107,7 +107,7 @@ fn a_pipe_and_a_device_are_written_to_and_stay() {
         assert!(fs::symlink_metadata(path(name)).unwrap().file_type().is_fifo(), "{name}");
     }
 
-    // As /dev/stdout: a link to a device.
+    // The same as /dev/stdout: a link to a device.
     symlink("/dev/null", path("null.obj")).unwrap();
     bothways(&home, &["mesh", "sphere", "-o", "null.obj"]).assert().code(0);
     assert!(path("null.obj").is_symlink());
@@ -119,7 +119,7 @@ fn a_pipe_and_a_device_are_written_to_and_stay() {
 fn a_minus_is_standard_output_whatever_that_is() {
     let (home, (_, text)) = (home(), ball());
     let own = home.path().join("stdout");
-    // A link of our own, so that the system's is in no danger.
+    // A separate link, so that the link of the system is safe.
     symlink("/dev/fd/1", &own).unwrap();
     for name in ["-", own.to_str().unwrap()] {
         let piped = bothways(&home, &["mesh", "sphere", "-o", name]).output().unwrap();
@@ -192,7 +192,7 @@ fn a_file_that_may_not_grow_is_named_with_what_to_do() {
     assert!(names(home.path()).is_empty());
 }
 
-/// The size that a folder's report states, if there is a report; then all files must be of its run.
+/// The size in the report of a folder, if there is a report; then all files must belong to the same run.
 fn whole_run(folder: &Path) -> Option<u64> {
     let report = fs::read(folder.join("report.json")).ok()?;
     let report: serde_json::Value = serde_json::from_slice(&report).unwrap();
@@ -220,7 +220,7 @@ fn runs_that_meet_in_a_folder_leave_the_files_of_one() {
     let folder = home.path().join("out");
     for round in 0..6 {
         if round % 2 == 0 {
-            // A folder that appears, and one that is there.
+            // A new folder, and an existing folder.
             let _ = fs::remove_dir_all(&folder);
         }
         let runs = ["4x4", "5x4", "6x4", "7x4"].map(|size| {
@@ -254,7 +254,7 @@ fn a_killed_run_leaves_no_report_beside_other_pictures_and_is_cleaned_up_after()
         whole_run(&folder);
     }
     let dead = || names(&folder).into_iter().filter(|name| name.starts_with(".bothways-")).count();
-    // One that certainly dies before it could tidy up.
+    // A run that is certainly killed before it can clean up.
     let mut child = started(&home, &["many", "--method", "textbook", "--quiet", "-o", "out"]);
     while dead() == 0 {
         thread::sleep(Duration::from_millis(5));
@@ -264,7 +264,7 @@ fn a_killed_run_leaves_no_report_beside_other_pictures_and_is_cleaned_up_after()
     child.wait().unwrap();
     assert!(dead() >= 1);
     assert!(run("7x4").wait().unwrap().success());
-    // One that was killed before it could lock its folder goes later.
+    // The folder of a run that was killed before its lock is removed later.
     let left = names(&folder).into_iter().filter(|name| !folder.join(name).is_dir());
     assert_eq!((whole_run(&folder), left.count()), (Some(7), 7));
     for name in names(&folder) {

@@ -1,4 +1,4 @@
-//! `bothways pixel` and its library function: true of the picture, pixel by pixel.
+//! `bothways pixel` and its library function: the report agrees with the picture, pixel by pixel.
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -13,7 +13,7 @@ use bothways::pixel::{Behind, report};
 use bothways::scenes;
 use serde_json::{Value, json};
 
-/// What is told of all pixels adds up to what the whole frame did and saw.
+/// The sum of all pixel reports equals the result and the work of the whole frame.
 fn check_whole_picture(view: &View, options: &Options) {
     let once = RenderOptions { frame: *options, ..RenderOptions::default() };
     let frames = [Order::Object, Order::Image]
@@ -63,7 +63,7 @@ fn all_pixels_together_are_the_picture() {
     }
 }
 
-/// Why each primitive at the middle of a 5 × 5 picture is behind the one before it.
+/// The reason why each primitive at the middle of a 5 × 5 picture is behind the one before it.
 fn reasons(objects: Vec<Object>) -> Vec<(u32, Option<Behind>)> {
     let (scene, camera) = (Scene::new(objects).unwrap(), Camera::canonical(5, 5));
     let samples = report(&View::new(&scene, &camera), &Options::default(), 2, 2);
@@ -200,7 +200,7 @@ fn numbers_are_as_short_as_they_read_back() {
     let args = ["ties", "8", "8", "--size=16x16", "--eye=0.1,2.1,4", "--viewport=1.3,0.7"];
     let text = printed(&[&args[..], &["--distance=0.6"]].concat());
     assert!(text.contains("origin    = eye = (0.1, 2.1, 4)\n"), "{text}");
-    // The formulas count with `f64`: with so many digits a calculator gives the same result.
+    // The formulas compute with `f64`: with this number of digits, a calculator gives the same result.
     let [vw, d] = [1.3_f32, 0.6].map(f64::from);
     assert!(text.contains(&format!(" =  {vw} ((9 - 1/2)/16 - 1/2)")), "{text}");
     assert!(text.contains(&format!("with d = {d}\n")), "{text}");

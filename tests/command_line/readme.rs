@@ -1,5 +1,5 @@
-//! Every command in the README does what it says: it runs, and ends well. And the picture in it is what the program
-//! draws today, counts and all.
+//! Every command in the README works: it runs, and ends without an error. And the picture in the README is the
+//! present output of the program, including the counts.
 //!
 //! After a change that moves pixels or counts, look at the new picture, and put it into `docs/`:
 //!
@@ -19,7 +19,7 @@ fn every_command_of_the_readme_runs() {
     let readme = std::fs::read_to_string(root.join("README.md")).unwrap();
     let shell = readme.split("```sh").skip(1).filter_map(|block| block.split("```").next());
     let lines = shell.flat_map(str::lines).filter(|line| line.starts_with("cargo run --release"));
-    // In a folder of its own, one below which `../shared` may be.
+    // A separate folder, below a folder that may contain `../shared`.
     let outside = tempfile::tempdir().unwrap();
     let inside = outside.path().join("clone");
     std::fs::create_dir_all(inside.join("out")).unwrap();
@@ -60,8 +60,8 @@ fn the_readme_s_picture_shows_what_the_program_counts() {
         fs::copy(drawn, published).unwrap();
         return;
     }
-    // A figure that is another one changes hundreds of pixels by far more than the tolerance for colours, within which
-    // machines round text.
+    // A wrong figure changes hundreds of pixels by far more than the tolerance for colours. Differences in the
+    // rounding of text are within the tolerance.
     let read = |path: &Path| foreign::read(path, None).unwrap();
     let comparison = foreign::compare(&read(&published), &read(&drawn)).unwrap();
     if !comparison.equal {

@@ -1,4 +1,4 @@
-//! What a person at a terminal sees and does: a progress bar that leaves no trace, and Ctrl-C.
+//! The program at a terminal: a progress bar that disappears completely, and Ctrl-C.
 #![cfg(target_os = "linux")]
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -14,7 +14,7 @@ use tempfile::TempDir;
 /// Long enough for the bar to appear, and short enough to wait for.
 const SLOW: [&str; 6] = ["many", "--method", "textbook", "--size", "8x6", "--no-times"];
 
-/// A pseudo terminal, 90 characters wide: what a person looks at, and what the program writes to.
+/// A pseudo terminal, 90 characters wide: the user reads it, and the program writes to it.
 fn terminal() -> (File, File) {
     let person = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).unwrap();
     grantpt(&person).unwrap();
@@ -33,14 +33,14 @@ fn bothways(home: &TempDir, args: &[&str]) -> Command {
     command
 }
 
-/// What appears on the terminal that is the program's stderr; its stdout is a pipe.
+/// The text on the terminal that is the program's stderr; the program's stdout is a pipe.
 fn seen_on_stderr(mut command: Command) -> String {
     let (mut person, program) = terminal();
     let child = command.stderr(program).spawn().unwrap();
     // The program's end closes with the program, but also with what was made to start it.
     drop(command);
     let mut seen = Vec::new();
-    // A terminal that nobody writes to any more reads as an error.
+    // A terminal without any remaining writer reads as an error.
     let mut piece = [0; 4096];
     while let Ok(count @ 1..) = person.read(&mut piece) {
         seen.extend_from_slice(&piece[..count]);
@@ -56,7 +56,7 @@ fn a_long_rendering_shows_how_far_it_is_and_erases_that() {
     let seen = seen_on_stderr(bothways(&home, &SLOW));
     assert!(seen.contains("object order [") && seen.contains("image order  ["), "{seen:?}");
     assert!(seen.contains(" %, ") && seen.contains(" s left"), "{seen:?}");
-    // Nothing but one line, drawn again and again, and in the end erased; no colours.
+    // The output is a single line, redrawn several times, and erased at the end; no colours.
     assert!(seen.ends_with("\r\u{1b}[2K") && !seen.contains('\n'), "{seen:?}");
     assert!(seen.split('\u{1b}').skip(1).all(|rest| rest.starts_with("[2K")), "{seen:?}");
 }
@@ -75,7 +75,7 @@ fn a_bar_needs_a_person_and_time() {
     assert_eq!(String::from_utf8(piped.stderr).unwrap(), "");
 }
 
-/// What is said first on stderr, as soon as it is said.
+/// The first text on stderr, as soon as it appears.
 fn first_line(child: &mut Child) -> String {
     let mut line = String::new();
     std::io::BufReader::new(child.stderr.take().unwrap()).read_line(&mut line).unwrap();
@@ -92,7 +92,7 @@ fn a_run_that_takes_much_memory_says_so_before_it_takes_it() {
     child.kill().unwrap();
     child.wait().unwrap();
     assert!(line.contains("132,710,400 samples "), "{line}");
-    // Where there is so much, or where there is not.
+    // The text with enough memory, or without.
     assert!(line.contains(" take 5.1 GiB of memory; ") || line.contains(" need at least 5.1 GiB "));
     assert!(line.contains("--crop") && line.contains("fewer --samples"), "{line}");
 }
@@ -113,12 +113,12 @@ fn a_run_of_more_than_a_minute_says_so_in_one_line_and_how_to_make_it_shorter() 
     assert!(number.parse::<u32>().unwrap() > 1 && ["min", "h", "days"].contains(&unit), "{line}");
 }
 
-/// Runs until something is in the output folder, and presses Ctrl-C then.
+/// Runs until the output folder contains a file, and then presses Ctrl-C.
 fn interrupted(home: &TempDir, args: &[&str]) -> Child {
     let child = bothways(home, args).spawn().unwrap();
     let begun = Instant::now();
     let hidden = |entry: fs::DirEntry| entry.file_name().to_string_lossy().starts_with(".bothways");
-    // Beside a folder that is to appear, in one that is there.
+    // A new folder, and an existing folder.
     let begun_in = |folder: &str| {
         let entries = fs::read_dir(home.path().join(folder));
         entries.is_ok_and(|mut entries| entries.any(|one| hidden(one.unwrap())))
@@ -139,7 +139,7 @@ fn an_interrupted_rendering_leaves_nothing_behind() {
     assert_eq!(String::from_utf8(output.stderr).unwrap(), "\ninterrupted: nothing was written\n");
     assert!(!home.path().join("out").exists());
 
-    // What was there stays.
+    // The earlier files stay.
     let report = home.path().join("out/many/report.json");
     fs::create_dir_all(report.parent().unwrap()).unwrap();
     fs::write(&report, "old").unwrap();
@@ -153,7 +153,7 @@ fn press_ctrl_c(child: &Child) {
     rustix::process::kill_process(id, rustix::process::Signal::INT).unwrap();
 }
 
-/// What is in a folder: the width of a picture in it, and whether there is a report, and no more.
+/// The content of a folder: the width of a picture in it, whether there is a report, and nothing else.
 fn width_in(folder: &Path) -> (u32, usize) {
     let (width, _) = image::image_dimensions(folder.join("object-order.png")).unwrap();
     let report = fs::read_to_string(folder.join("report.json")).unwrap();
@@ -186,7 +186,7 @@ fn the_exit_code_of_an_interrupted_run_tells_what_is_in_the_folder() {
                 assert_eq!(width_in(&folder), before, "{said}");
                 assert!(["", "\ninterrupted: nothing was written\n"].contains(&&*said), "{said}");
             }
-            // Before the program had begun.
+            // The signal came before the program began.
             None => assert_eq!(width_in(&folder), before),
             code => panic!("{code:?}: {said}"),
         }
@@ -201,7 +201,7 @@ fn a_run_that_waits_for_another_can_be_interrupted() {
     let folder = home.path().join("out");
     let run = |size| bothways(&home, &["canonical", "--size", size, "-o", "out"]).spawn().unwrap();
     assert!(run("4x8").wait().unwrap().success());
-    // As a run does that is moving its files.
+    // The same state as a run that moves its files.
     let other = File::open(&folder).unwrap();
     other.lock().unwrap();
     let written = || {

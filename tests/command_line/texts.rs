@@ -1,10 +1,10 @@
-//! Every text that the program prints, as a reader sees it.
+//! Every text that the program prints.
 //!
-//! What is expected stands here, but for the help texts, which are long: they lie in `snapshots/`.
-//! After a change that is meant, `INSTA_UPDATE=always cargo test --test command_line texts` rewrites those, and
-//! `cargo insta review` (from `cargo install cargo-insta`) the ones here.
+//! The expected texts are in this file, except the help texts, which are long: those are in `snapshots/`. After an
+//! intended change, `INSTA_UPDATE=always cargo test --test command_line texts` rewrites the help texts, and `cargo
+//! insta review` (from `cargo install cargo-insta`) the texts in this file.
 //!
-//! `cover`, `pixel` and `camera` have theirs in the files of their names.
+//! The texts of `cover`, `pixel` and `camera` are in the files with those names.
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -12,10 +12,10 @@ use assert_cmd::Command;
 use std::fs;
 use tempfile::TempDir;
 
-/// A picture whose counts are the definition of work: no method skips any.
+/// A picture with exact counts of work: the textbook method skips no work.
 const TEXTBOOK: [&str; 5] = ["--method", "textbook", "--no-times", "--threads", "1"];
 
-/// `bothways` in a folder of its own, for a reader whose terminal is 100 characters wide.
+/// `bothways` in a separate folder, on a terminal 100 characters wide.
 fn bothways(home: &TempDir, args: &[&str]) -> Command {
     let mut command = Command::cargo_bin("bothways").unwrap();
     command.current_dir(home).env("COLUMNS", "100").args(args);
@@ -26,13 +26,13 @@ fn home() -> TempDir {
     tempfile::tempdir().unwrap()
 }
 
-/// What is printed, with nothing on stderr.
+/// The text on stdout; stderr must be empty.
 fn printed(mut command: Command, code: i32) -> String {
     let assert = command.assert().code(code).stderr("");
     String::from_utf8(assert.get_output().stdout.clone()).unwrap()
 }
 
-/// What is said on stderr.
+/// The text on stderr.
 fn said(mut command: Command) -> String {
     String::from_utf8(command.assert().code(0).get_output().stderr.clone()).unwrap()
 }

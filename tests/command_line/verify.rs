@@ -1,4 +1,4 @@
-//! `render --verify N`: samples of a picture answered by the textbook as well.
+//! `render --verify N`: the textbook also answers some samples of a picture.
 
 use assert_cmd::Command;
 use predicates::prelude::*;

@@ -1,4 +1,4 @@
-//! What `cover` claims of a triangle on the raster, all four renderers see.
+//! All four renderers agree with `cover` about a triangle on the raster.
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -11,7 +11,7 @@ use bothways::cover::{Cover, cover};
 use bothways_test_support::{cases, scene};
 use proptest::prelude::*;
 
-/// A parallel camera in the middle of the image, whose axes are the raster's.
+/// A parallel camera in the middle of the image, with the axes of the raster.
 fn raster_camera([width, height]: [u32; 2]) -> Camera {
     let half = |side: u32| f32::from(u16::try_from(side).unwrap()) / 2.0;
     Camera::new(CameraDescription {

@@ -1,4 +1,4 @@
-//! The four renderers: each order's textbook and its fast one.
+//! The four renderers: the textbook renderer and the fast renderer of each order.
 
 use bothways::common::{Frame, Options, View};
 use bothways::{rasterize, raytrace};

@@ -1,5 +1,5 @@
-//! All four renderers on random scenes that are meant to hurt: degenerate, huge, tiny, behind the eye,
-//! edge-on, coplanar, duplicate, and with coordinates of few bits, so that exact ties abound.
+//! All four renderers on difficult random scenes: degenerate, huge, tiny, behind the eye, edge-on, coplanar,
+//! duplicate, and with coordinates of few bits, so that exact ties are frequent.
 
 use crate::four_renderers::{RENDERERS, all_agree};
 use bothways::common::glam::{Quat, Vec3};

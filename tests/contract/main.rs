@@ -1,7 +1,7 @@
-//! The contract: every renderer sees the same, and what exact arithmetic says.
+//! The contract: all renderers see the same primitives, and agree with exact arithmetic.
 //!
-//! Four renderers are held against one another, against rasterizers that share nothing with them, and against faults
-//! planted on purpose. `BOTHWAYS_LONG=1` tries fifty times as many random scenes, and other ones in every run.
+//! Four renderers are compared with one another, with rasterizers that share no code with them, and with deliberate
+//! faults. `BOTHWAYS_LONG=1` tests fifty times as many random scenes, and different scenes in every run.
 
 mod covered_triangles;
 mod four_renderers;

@@ -1,5 +1,5 @@
-//! The verdict can fail: each fault planted inside the visibility code of one order turns it to
-//! *differ*, and without the fault the same picture is a *match*.
+//! The verdict can fail: each deliberate fault in the visibility code of one order changes the verdict to *differ*,
+//! and without the fault the same picture is a *match*.
 
 use bothways::common::engine::fault::{Faulty, Planted, with};
 use bothways::common::glam::Vec3;

@@ -1,5 +1,5 @@
-//! Failures that others reported in public, rebuilt as scenes from their descriptions: each must be
-//! right here, in all four renderers.
+//! Failures that users of other programs reported in public, rebuilt as scenes from their descriptions: all four
+//! renderers must be right for each scene.
 
 use crate::four_renderers::{all_agree, owners};
 use bothways::common::glam::Vec3;

@@ -1,5 +1,5 @@
-//! Cameras whose frames run almost along the world's axes, before scenes on a lattice: what is exact in an aligned
-//! frame is not in a tilted one, however little it is tilted.
+//! Cameras with frames that run almost along the world's axes, in front of scenes on a lattice: numbers that are
+//! exact in an aligned frame are not exact in a tilted frame, even for a very small tilt.
 
 #![expect(clippy::cast_precision_loss, reason = "small numbers")]
 
@@ -49,7 +49,7 @@ fn tilted(
     Camera::new(description).expect("it is a camera")
 }
 
-/// Triangles whose corners lie at samples or between them, in planes at whole distances.
+/// Triangles with corners at samples or between samples, in planes at whole distances.
 fn lattice() -> impl Strategy<Value = Vec<Object>> {
     let halves = || (-10..=10_i8).prop_map(|twice| 0.5 * f32::from(twice));
     let corner = || (halves(), halves());

@@ -1,5 +1,5 @@
-//! The conformance set, as somebody else meets it: files alone, and a rasterizer of one page in
-//! rational numbers that never heard of this project's.
+//! The conformance set from the view of another project: files alone, and a rasterizer of one page in rational
+//! numbers that shares no code with this project.
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -200,7 +200,7 @@ fn determinant(a: &[Number; 3], b: &[Number; 3], c: &[Number; 3]) -> Number {
     &a[0] * minor(1, 2) + &a[1] * minor(2, 0) + &a[2] * minor(0, 1)
 }
 
-/// Straight cameras in perspective, whose viewport is the image in pixels.
+/// Straight cameras in perspective. The viewport is the image in pixels.
 fn is_straight(scene: &Value) -> bool {
     let axes = ["eye", "u", "v", "w"].map(|key| numbers(&scene[key]));
     let straight = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -387,7 +387,7 @@ fn the_readme_s_numbers_are_those_of_the_set() {
         assert!(readme.contains(&format!("`{name}`")), "{name}");
     }
 
-    // The lecture's formula, as it is written, in doubles.
+    // The lecture's formula without changes, in doubles.
     let mut rounded = Vec::new();
     for (vector, (_, scene)) in bothways::vectors::all().iter().zip(&scenes) {
         let ids = table(&scene["ids"], -1.0);

@@ -1,4 +1,4 @@
-//! Shared edges leave no hole and no overlap, and ties go where everybody expects them.
+//! Shared edges leave no hole and no overlap, and ties go to the expected triangle.
 
 use crate::four_renderers::{RENDERERS, all_agree, owners};
 use bothways::common::exact::Sign;

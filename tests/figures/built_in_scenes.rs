@@ -1,4 +1,4 @@
-//! The built-in scenes show what they say they show.
+//! The built-in scenes agree with their descriptions.
 
 use bothways::common::glam::{DVec3, Vec3};
 use bothways::common::{

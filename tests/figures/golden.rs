@@ -1,12 +1,11 @@
-//! Golden pictures: what the built-in scenes look like, as somebody has seen and approved it.
+//! Golden pictures: approved pictures of the built-in scenes.
 //!
-//! They lie in `tests/golden/` and are compared by our own diff, within its tolerance for colours: other
-//! machines round powers and text otherwise, by a step or two of 255. All is rendered by the textbooks,
-//! so that also the counts on the slides are what the definition of work says; slides are shown at a
-//! quarter of their size.
+//! The pictures are in `tests/golden/`. Our own diff compares them within its tolerance for colours: other machines
+//! round powers and text differently, by a step or two of 255. The textbooks render all pictures, so that the counts
+//! on the slides also agree with the definition of work; slides have a quarter of their size.
 //!
-//! A failure leaves the new picture and the difference in `target/tmp/golden/`. If the change is meant,
-//! look at the new pictures, rewrite the old ones, and review them like code:
+//! A failure leaves the new picture and the difference in `target/tmp/golden/`. If the change is intended, look at
+//! the new pictures, rewrite the old pictures, and review them like code:
 //!
 //! ```sh
 //! BOTHWAYS_WRITE_GOLDEN=1 cargo test --test figures golden

@@ -1,4 +1,4 @@
-//! Pictures: what is drawn looks as somebody has seen and approved it, and shows what it says it shows.
+//! Pictures: they agree with approved pictures, and with their descriptions.
 
 mod built_in_scenes;
 mod golden;

@@ -1,5 +1,5 @@
-//! Files that were made to do harm, or that programs wrote without care: every one ends in a message that
-//! somebody can read, in bounded time and memory, and no terminal obeys what is in it.
+//! Malicious files, and files of careless programs: every file ends in a readable message, in bounded time and
+//! memory, and its text sends no control sequence to the terminal.
 #![cfg(unix)]
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -10,7 +10,7 @@ use std::path::Path;
 use std::time::Duration;
 use tempfile::TempDir;
 
-/// Half of the largest file here: whoever reads it whole fails.
+/// Half of the largest file here: a reader of the whole file exceeds this limit.
 const MOST_MEMORY_KIB: u64 = 4 << 20;
 
 /// Runs the program in a folder, in limited memory and time.
@@ -204,7 +204,7 @@ fn no_terminal_obeys_what_a_file_says() {
     write(&home, "a.npy", [b"\x93NUMPY\x03\x00", &length[..], &[0, 0], header.as_bytes()].concat());
     check_tame(&refusal(&home, &["diff", "a.npy", "a.npy"]));
 
-    // Names of files, and of materials that nobody defines.
+    // Names of files, and of undefined materials.
     let name = format!("{ESCAPES}.obj");
     write(&home, &name, format!("usemtl {ESCAPES}\n{triangle}"));
     let (code, _, stderr) = bothways(&home, &[&name, "--size", "8x8", "-o", "out"]);

@@ -1,6 +1,6 @@
-//! Files as users bring them to the program: meshes, streams, and files that mean harm.
+//! The program on files from users: meshes, streams, and malicious files.
 //!
-//! What concerns the readers alone is tested in `formats/tests/`.
+//! The tests of the readers alone are in `formats/tests/`.
 
 mod hostile_files;
 mod mesh;

@@ -1,4 +1,4 @@
-//! `bothways mesh`, as a user calls it.
+//! `bothways mesh` on the command line.
 
 use assert_cmd::Command;
 use bothways::formats::generate::Kind;

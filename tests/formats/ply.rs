@@ -1,4 +1,4 @@
-//! PLY files, as a user meets them: everywhere where a mesh file is taken.
+//! PLY files on the command line: in all places where the program takes a mesh file.
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 

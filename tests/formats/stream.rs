@@ -1,4 +1,4 @@
-//! A mesh that is streamed shows what it shows in memory: the same ids, in chunks of any size.
+//! A streamed mesh gives the same picture as in memory: the same ids, in chunks of any size.
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -60,7 +60,7 @@ fn check(one: &Mesh, camera: &Camera, options: &Options, what: &str) {
         let what = format!("{what}, {chunk} triangles at a time");
         assert_same_visibility(&expected, &frame, &what);
         assert_eq!(compare(&expected, &frame).color.differing_pixels, 0, "{what}: colour");
-        // Each fragment but the first of a sample is compared once, whoever does it.
+        // Each fragment of a sample except the first is compared once, either in a chunk or in the merge.
         let counts = |work: &Work| [work.primitives, work.tests, work.fragments, work.depth_tests];
         assert_eq!(counts(&streamed), counts(&work), "{what}");
     }
@@ -139,7 +139,7 @@ fn progress_is_told_chunk_by_chunk() {
     };
     let options = RenderOptions { progress: Some(&listener), ..RenderOptions::default() };
     let mut stream = MeshStream::open(&path, Format::Obj).unwrap();
-    // Of the first pass nobody knows how long it is.
+    // The length of the first pass is unknown.
     for (repeat, total) in [(None, 1), (None, 2), (Some(1), 6)] {
         let options = RenderOptions { repeat, no_times: repeat.is_none(), ..options };
         let (look, opening) = (&Look::default(), Duration::ZERO);

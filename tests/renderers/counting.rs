@@ -1,4 +1,5 @@
-//! How work is counted: the same event by event as in sums, as long as it is within bounds, and to no harm of the frame.
+//! The counting of work: counts by event equal counts by sums, as long as the work is within bounds, and counting
+//! does not change the frame.
 
 use assert_cmd::Command;
 use bothways::common::glam::Vec3;
@@ -15,7 +16,7 @@ use bothways::{rasterize, raytrace, scenes};
 use bothways_test_support::{PROJECTIONS, mesh, scene, turned};
 use predicates::str::contains;
 
-/// Counts as [`Work`] does, but insists on every single event.
+/// An observer that counts as [`Work`] does, but requires every single event.
 #[derive(Clone, Debug, Default)]
 struct OneByOne(Work);
 
@@ -59,7 +60,7 @@ impl Events for OneByOne {
     }
 }
 
-/// Draws in one order with somebody who watches.
+/// Draws in one order with an observer.
 fn watched<O: Observer>(order: Order, view: &View, options: &Options, watcher: &mut O) -> Frame {
     let mut frame = Frame::new(view.camera, options);
     match order {
@@ -75,7 +76,7 @@ fn watched<O: Observer>(order: Order, view: &View, options: &Options, watcher: &
     frame
 }
 
-/// Needles through everything, each of them long and in its own direction.
+/// Needles through the whole scene, each of them long and in its own direction.
 fn needles(count: u32) -> Mesh {
     let mut state = 7_u64;
     let mut next = || {
@@ -178,7 +179,7 @@ fn counting_ends_soon_after_its_budget() {
     }
 }
 
-/// Hears what is counted within a budget, also beyond it.
+/// An observer that receives the counts within a budget, and also beyond it.
 struct Within<'a> {
     within: WorkWithin<'a>,
     heard: Work,
@@ -232,7 +233,7 @@ fn counts_may_be_left_out_or_too_many() {
 
 #[test]
 fn ten_thousand_triangles_in_one_place_take_little_memory() {
-    // What other tests of this process take is not to be counted.
+    // The memory of other tests in this process does not count.
     const ALONE: &str = "BOTHWAYS_TEST_ALONE";
     if std::env::var_os(ALONE).is_none() {
         let name = "counting::ten_thousand_triangles_in_one_place_take_little_memory";
@@ -266,7 +267,7 @@ fn ten_thousand_triangles_in_one_place_take_little_memory() {
     }
 }
 
-/// Kilobytes that this process had at most, where the system tells.
+/// The most memory of this process so far in kilobytes, if the system reports it.
 fn peak_memory() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;

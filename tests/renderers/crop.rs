@@ -1,4 +1,4 @@
-//! A part of the picture alone: the pixels of the whole one, bit for bit, in both orders.
+//! A part of the picture alone: its pixels equal the pixels of the whole picture, bit for bit, in both orders.
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -27,7 +27,7 @@ fn crops_of([width, height]: [u32; 2], seed: u64) -> Vec<Crop> {
     fixed.chain(some_crops([width, height], seed).take(5)).collect()
 }
 
-/// Renders the whole picture and its crops with all four, and compares.
+/// Renders the whole picture and its crops with all four renderers, and compares.
 fn check_all(view: &View, samples: u32, seed: u64, what: &str) {
     let options = Options { samples, ..Options::default() };
     for (name, render) in RENDERERS {
@@ -93,7 +93,7 @@ fn much() -> Scene {
     scene(vec![soup, textured(ball), textured(ground), mesh(teapot)])
 }
 
-/// Both `fast` renderers in one frame that is used again and again, on so many threads.
+/// Both `fast` renderers in one reused frame, on this number of threads.
 fn draw_both(view: &View, options: &Options, tile: [u32; 2], side: usize) -> [(Frame, Work); 2] {
     let level = bothways::common::engine::simd::best_level();
     let mut drawn = [(); 2].map(|()| {

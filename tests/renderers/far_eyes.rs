@@ -1,4 +1,4 @@
-//! What is seen from very far away looks as it does from near: in both orders, of every form.
+//! A scene from very far away looks the same as from near: in both orders, for every kind of object.
 
 use crate::four_renderers::RENDERERS;
 use bothways::common::glam::{DVec3, Vec3};
@@ -15,7 +15,7 @@ use bothways_test_support::PROJECTIONS;
 use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
 
-/// One of every form, about as large as 1, in several lights, all with patterns.
+/// One object of every kind, about as large as 1, in several lights, all with patterns.
 fn scene() -> Scene {
     let material = Material {
         color: Vec3::new(0.8, 0.3, 0.2),
@@ -104,7 +104,7 @@ fn a_parallel_picture_does_not_change_with_the_eye_s_distance() {
 fn a_perspective_picture_from_afar_is_the_parallel_one() {
     let scene = scene();
     let parallel = frames(&scene, description(Projection::Parallel, 16.0));
-    // What is nearer by 1 is larger by a part in so many: some of a pixel's border shows more of a pattern.
+    // A nearer object is larger by a small part: some border pixels show more of a pattern.
     for (away, room) in [(1e4, 8), (1e5, 2), (1e6, 1), (1e7, 1)] {
         let far = frames(&scene, description(Projection::Perspective, away));
         for (parallel, far) in parallel.iter().zip(&far) {
@@ -170,7 +170,7 @@ fn weights(corners: [DVec3; 3], ray: &Ray) -> [f64; 3] {
     [area(&b, &c), area(&c, &a), area(&a, &b)]
 }
 
-/// Holds normals, and texture coordinates of triangles, against exact numbers at some samples.
+/// Compares normals, and texture coordinates of triangles, with exact numbers at some samples.
 fn check_exactly(scene: &Scene, camera: &Camera, frame: &Frame, what: &str) {
     let view = View::new(scene, camera);
     let mut checked = [0; 2];

@@ -1,4 +1,4 @@
-//! The fast arithmetic decides: the exact judge is asked for almost nothing.
+//! The fast arithmetic makes nearly all decisions: the exact judge makes very few.
 
 use bothways::common::glam::Vec3;
 use bothways::common::{Camera, CameraDescription, Frame, Options, Orientation, Scene, View, Work};
@@ -6,7 +6,7 @@ use bothways::formats::obj;
 use bothways::{rasterize, raytrace, scenes};
 use std::path::Path;
 
-/// The bunny of `../shared`, if that is there.
+/// The bunny of `../shared`, if the file exists.
 fn bunny() -> Option<Scene> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/meshes/stanford-bunny.obj");
     if !path.exists() {
@@ -36,7 +36,7 @@ fn views() -> impl Iterator<Item = Camera> {
     })
 }
 
-/// Renders with both orders and counts how many decisions each left to the judge.
+/// Renders with both orders, and counts the decisions of the judge in each order.
 fn assert_the_judge_is_seldom_asked(scene: &Scene, camera: &Camera) {
     let prepared = (rasterize::fast::prepare(scene), raytrace::fast::prepare(scene));
     let (view, options) = (View::new(scene, camera), Options::default());

@@ -1,5 +1,5 @@
-//! Eyes that are far from what they see, up to a billion times its size: what is seen stays right, and what is skipped
-//! from near is skipped from afar, too.
+//! Eyes far from the scene, up to a billion times its size: the visible primitives stay right, and work skipped from
+//! near is also skipped from afar.
 
 #![expect(clippy::cast_possible_truncation, reason = "small numbers")]
 
@@ -12,11 +12,11 @@ use bothways::common::{
 use bothways::{rasterize, raytrace};
 use bothways_test_support::{PROJECTIONS, assert_same_visibility, mesh, scene};
 
-/// Where the eyes are, as seen from the scene: along an axis, along none, and almost along one.
+/// The directions of the eyes from the scene: along an axis, along no axis, and almost along one.
 const WAYS: [Vec3; 3] =
     [Vec3::new(0.0, 0.0, 1.0), Vec3::new(0.55, 0.4, 0.73), Vec3::new(1.0, 1e-4, 1e-9)];
 
-/// Numbers in 0 … 1, the same every time.
+/// Numbers in 0 … 1, the same in every run.
 fn scattered() -> impl FnMut() -> f32 {
     let mut state = 1_u64;
     move || {
@@ -30,7 +30,7 @@ fn point(next: &mut impl FnMut() -> f32) -> Vec3 {
     4.0 * Vec3::new(next() - 0.5, next() - 0.5, next() - 0.5)
 }
 
-/// Triangles of such a size, anywhere within 2 of the origin.
+/// Triangles of this size, anywhere within 2 of the origin.
 fn soup(count: usize, size: f32) -> Mesh {
     let mut next = scattered();
     let mut positions = Vec::new();
@@ -63,7 +63,7 @@ fn mixture(with_ground: bool) -> Scene {
     scene(objects)
 }
 
-/// A camera at so many times a way, whose picture is as wide as 5 there where it looks, which is the origin.
+/// A camera at a multiple of an offset. Its picture is 5 wide at the target, which is the origin.
 fn from_afar(projection: Projection, way: Vec3, distance: f32, image: [u32; 2]) -> Camera {
     let eye = distance * way;
     let wide = match projection {
@@ -100,7 +100,7 @@ fn the_fast_renderers_see_from_afar_what_the_textbooks_see() {
     }
 }
 
-/// What both orders count, and that they see the same.
+/// The counts of both orders; this function also checks that both orders see the same primitives.
 fn counted(scene: &Scene, camera: &Camera, what: &str) -> [Work; 2] {
     let (view, options) = (View::new(scene, camera), Options::default());
     let mut frames = [(); 2].map(|()| Frame::new(camera, &options));

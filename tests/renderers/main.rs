@@ -1,4 +1,5 @@
-//! What both orders do beyond ids: looks, counts, crops, distant eyes; and that no number of threads changes a bit.
+//! The results of both orders besides ids: looks, counts, crops, distant eyes; and the same bits for any number of
+//! threads.
 
 mod counting;
 mod crop;

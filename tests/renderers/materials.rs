@@ -1,5 +1,5 @@
-//! The colours of OBJ files: read as `tobj` reads them, drawn alike by both orders, and missed
-//! without a fuss.
+//! The colours of OBJ files: read in the same way as `tobj` reads them, drawn alike by both orders, and replaced if
+//! they are missing, with a warning.
 
 use crate::four_renderers::RENDERERS;
 use assert_cmd::Command;
@@ -158,7 +158,7 @@ fn both_orders_draw_each_triangle_in_its_own_material() {
 #[test]
 fn a_material_of_the_scene_file_is_used_instead() {
     let (folder, _) = cards();
-    // The file's own colours are not even read.
+    // The file's own colours are not read.
     fs::write(folder.path().join("cards.mtl"), "Kd what").unwrap();
     let text = "[material.gold]\ncolor = '#ffd700'\n[[object]]\nmesh = 'cards.obj'\n";
     let own = scene_file::parse("a.toml", text, folder.path()).unwrap_err().to_string();
@@ -211,7 +211,7 @@ fn a_missing_material_file_is_a_warning() {
     bothways(folder.path(), &[&small[..], &["--quiet"]].concat()).code(0).stderr("").stdout("");
     bothways(folder.path(), &["pixel", "cards.obj", "3", "4"]).code(0).stderr(says);
 
-    // No file, or a file that lacks some: their names are told.
+    // If a file is missing or lacks some materials, the warning names the materials.
     let undefined = CARDS.replace("mtllib cards.mtl more colours.mtl", "mtllib cards.mtl");
     fs::write(folder.path().join("cards.obj"), undefined).unwrap();
     fs::write(folder.path().join("cards.mtl"), "newmtl matt\nKd 1 1 1\n").unwrap();

@@ -1,4 +1,4 @@
-//! The fast ray tracer through a telescope, held against the other order: the textbook would take minutes.
+//! The fast ray tracer through a telescope, compared with the other order: the textbook would take minutes.
 
 use bothways::common::glam::Vec3;
 use bothways::common::{Camera, CameraDescription, Mesh, Options, Orientation, View};

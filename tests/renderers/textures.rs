@@ -1,5 +1,5 @@
-//! Texture coordinates and what is drawn over them: object order interpolates, image order goes back
-//! to the hit, and both find the same place of the texture.
+//! Texture coordinates and textures: object order interpolates, image order computes the coordinates at the hit, and
+//! both find the same place of the texture.
 
 use crate::four_renderers::RENDERERS;
 use bothways::common::glam::{DVec2, Vec2, Vec3};
@@ -11,7 +11,7 @@ use bothways::{rasterize, raytrace};
 use bothways_test_support::{PROJECTIONS, scene, turned};
 use std::path::Path;
 
-/// Every form with a texture, all before one camera.
+/// One textured object of every kind, all in front of one camera.
 const STILL_LIFE: &str = r##"
 [material.tiles]
 color = "#f0e0c0"
@@ -51,7 +51,7 @@ fn still_life() -> Scene {
     file.expect("it is a scene").scene
 }
 
-/// Both orders' frames, with texture coordinates.
+/// The frames of both orders, with texture coordinates.
 fn both(view: &View, options: &Options) -> [Frame; 2] {
     let mut frames = [(); 2].map(|()| Frame::new(view.camera, options).with_texture_coordinates());
     let [by_object, by_image] = &mut frames;
@@ -64,7 +64,7 @@ fn both(view: &View, options: &Options) -> [Frame; 2] {
     frames
 }
 
-/// How far two texture coordinates are apart; 0 and 1 are the same longitude.
+/// The distance between two texture coordinates; 0 and 1 are the same longitude.
 fn apart(a: Vec2, b: Vec2) -> f32 {
     let way = (a - b).abs();
     way.x.min((1.0 - way.x).abs()).max(way.y)

@@ -1,4 +1,4 @@
-//! No number of threads changes a bit of what either order draws, nor a count.
+//! The number of threads changes no bit of the pictures of either order, and no count.
 
 use bothways::common::{Frame, Options, View, Work};
 use bothways::{rasterize, raytrace};

@@ -1,14 +1,13 @@
 //! SIMD for both orders: vectors of a fixed number of lanes, and a run-time choice of how the machine
 //! computes them.
 //!
-//! Everything here is [`fearless_simd`]'s, gathered in one place. Code is written once, generic over
-//! [`Simd`], for sixteen lanes of `f32` (eight of `f64`); [`dispatch!`] runs it at a [`Level`]: AVX-512,
-//! AVX2, SSE4.2, SSE2, NEON, WebAssembly's SIMD, or plain scalars. The number of lanes never changes, and
-//! only operations that IEEE 754 rounds correctly are used (no fused multiply-add, no approximate
-//! reciprocal), so the level changes no bit of any result.
+//! All types here come from [`fearless_simd`]. Code is written once, generic over [`Simd`], for sixteen lanes of
+//! `f32` (eight of `f64`); [`dispatch!`] runs it at a [`Level`]: AVX-512, AVX2, SSE4.2, SSE2, NEON, WebAssembly's
+//! SIMD, or plain scalars. The number of lanes never changes, and the code uses only operations that IEEE 754 rounds
+//! correctly (no fused multiply-add, no approximate reciprocal), so the level changes no bit of any result.
 //!
-//! Functions between [`dispatch!`] and the vector operations must be `#[inline(always)]`, or they are
-//! compiled for the wrong level.
+//! Functions between [`dispatch!`] and the vector operations must be `#[inline(always)]`; otherwise they are compiled
+//! for the wrong level.
 
 pub use fearless_simd::prelude::*;
 pub use fearless_simd::{
@@ -16,7 +15,7 @@ pub use fearless_simd::{
     u8x64, u32x8, u32x16,
 };
 
-/// Asks the machine to bring a value into its cache, as it will soon be needed. Changes nothing else.
+/// Asks the machine to load a value into its cache before use. This function changes nothing else.
 #[inline(always)]
 pub fn prefetch<T>(soon: &T) {
     #[cfg(target_arch = "x86_64")]
@@ -33,8 +32,8 @@ pub fn prefetch<T>(soon: &T) {
     let _ = soon;
 }
 
-/// [`dispatch!`] for code that is generic over a [`Fault`](crate::engine::fault::Fault). With faults in it, it need not
-/// be fast, and is compiled for one level alone where there are several.
+/// [`dispatch!`] for code that is generic over a [`Fault`](crate::engine::fault::Fault). Code with faults may be
+/// slow: it is compiled for one level only, if there are several levels.
 #[macro_export]
 #[cfg(target_arch = "x86_64")]
 macro_rules! dispatch_with {
@@ -59,7 +58,7 @@ macro_rules! dispatch_with {
 
 pub use crate::dispatch_with;
 
-/// The least level, which needs no other code than the rest of a program does.
+/// The lowest level, which needs no more instructions than the other code of the program.
 #[doc(hidden)]
 #[cfg(target_arch = "x86_64")]
 pub fn least() -> impl Simd {
@@ -71,7 +70,7 @@ pub fn best_level() -> Level {
     Level::new()
 }
 
-/// Every level that this machine has, the best one first: for tests, which compare them.
+/// Every level of this machine, the best level first: for tests that compare the levels.
 pub fn levels() -> Vec<Level> {
     let best = Level::new();
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
@@ -87,8 +86,8 @@ pub fn levels() -> Vec<Level> {
     vec![best]
 }
 
-/// Writes sixteen numbers that are not needed again soon: past the caches, where the machine can. Call
-/// [`finish_streaming`] before other threads read them.
+/// Writes sixteen numbers that are not needed again soon: past the caches, if the machine supports this. Call
+/// [`finish_streaming`] before other threads read the numbers.
 #[inline(always)]
 #[cfg_attr(
     target_arch = "x86_64",
@@ -113,7 +112,7 @@ pub fn stream<T: Copy + Sixteen>(values: [T; 16], to: &mut [T; 16]) {
     *to = values;
 }
 
-/// Numbers of four bytes, all of whose bits are theirs.
+/// A four-byte number type in which every bit belongs to the value.
 pub trait Sixteen: sealed::Sealed {}
 impl Sixteen for f32 {}
 impl Sixteen for u32 {}
@@ -125,7 +124,7 @@ mod sealed {
     impl Sealed for u32 {}
 }
 
-/// Makes what was written by [`stream`] visible to other threads as any other write.
+/// Makes the writes of [`stream`] visible to other threads in the same way as other writes.
 #[inline(always)]
 #[cfg_attr(target_arch = "x86_64", expect(unsafe_code, reason = "a fence has no condition"))]
 pub fn finish_streaming() {

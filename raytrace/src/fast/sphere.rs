@@ -8,11 +8,11 @@ use bothways_common::engine::roundoff::{EPS53, Interval};
 use glam::DVec3;
 use std::cmp::Ordering;
 
-/// As a fraction of `t`: to know more of it is of no use.
+/// A sufficient relative precision of `t`: more precision has no use.
 const ENOUGH: f64 = 1e-7;
 
-/// The answer for a sphere: in `f64`, and where that leaves it open or is not sure of enough digits, with twice as
-/// many.
+/// The answer for a sphere: computed in `f64`, and with twice as many digits if `f64` leaves the answer or its
+/// precision uncertain.
 #[inline(always)]
 pub(super) fn answer(ray: &Ray, center: DVec3, radius: f64, trust: Trust) -> Answer {
     match Passing::new(ray, center, radius, trust).answer(trust) {
@@ -39,7 +39,7 @@ struct Passing {
     /// `r² − f·f`.
     room: f64,
     room_error: f64,
-    /// `m·m − r²`: whether the ray begins outside.
+    /// `m·m − r²`: its sign tells whether the ray begins outside.
     c: f64,
     c_error: f64,
 }
@@ -143,7 +143,7 @@ pub(super) fn nearer([first, second]: [(DVec3, f64); 2], ray: &Ray) -> Option<Or
     let (kappa, kappa_size) = (way.dot(d) / one.a, way.abs().dot(d.abs()) / one.a);
     let kappa_error = 9.0 * EPS53 * kappa_size + FLOOR;
     let (halves, halves_error) = (half + other_half, half_error + other_error);
-    // Halves that are less than certain to an eighth say nothing.
+    // If the error is more than an eighth of the halves, the comparison decides nothing.
     let certain = halves > 8.0 * halves_error;
     if !certain {
         return None;

@@ -1,4 +1,4 @@
-//! `-o FILE`: where the one file of a run goes, and how it gets there.
+//! `-o FILE`: the destination of the one file of a run, and the way of writing it.
 
 use super::hidden::Hidden;
 use super::sink::{Out, fill};
@@ -10,39 +10,39 @@ use std::fs::{self, File, Metadata};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-/// A file that is to be written, found before the work begins.
+/// A file to write. The destination is known before the work begins.
 #[derive(Debug)]
 pub(in crate::cli) struct OutputFile {
-    /// As it was named.
+    /// The name from the command line.
     name: PathBuf,
     destination: Destination,
 }
 
-/// Where the content goes.
+/// The destination of the content.
 #[derive(Debug)]
 enum Destination {
     /// Standard output, by `-` or by any other name.
     Stdout,
-    /// A device, a pipe: written to as it is, and never replaced.
+    /// A device or a pipe: the content is written directly, and the device is never replaced.
     Direct(PathBuf),
-    /// A file, at the end of all links: replaced once the new one is complete.
+    /// A file, after all links are followed: the complete new file replaces the old file.
     File(PathBuf),
 }
 
-/// As many links as Linux follows.
+/// The most links to follow, the same number as on Linux.
 const MOST_LINKS: usize = 40;
 
 impl OutputFile {
-    /// Finds out where a file of this name would go.
+    /// Finds the destination for a file name.
     pub(in crate::cli) fn find(name: &Path) -> Result<OutputFile, Failure> {
         let file = |destination| OutputFile { name: name.to_owned(), destination };
         destination(name).map(file).map_err(|error| failure(name, &error))
     }
 
-    /// What its name ends in, in small letters; where that says nothing, the name that it leads to.
+    /// The ending of the name, in small letters; if the name has no ending, the ending of the name that it links to.
     pub(in crate::cli) fn ending(&self) -> Option<String> {
         let ending = |path: &Path| {
-            // All of the name `.ply` is its ending.
+            // For the name `.ply`, the whole name is the ending.
             let bare = || path.file_name()?.to_str()?.strip_prefix('.').map(OsStr::new);
             path.extension().or_else(bare).map(OsStr::to_ascii_lowercase)
         };
@@ -53,12 +53,12 @@ impl OutputFile {
         ending.map(|ending| ending.to_string_lossy().into_owned())
     }
 
-    /// Whether it is standard output, so that nothing else should be printed there.
+    /// Whether the file is standard output. Then no other text may go to standard output.
     pub(in crate::cli) fn is_stdout(&self) -> bool {
         matches!(self.destination, Destination::Stdout)
     }
 
-    /// What messages call it.
+    /// The name in messages.
     pub(in crate::cli) fn said(&self) -> String {
         if self.name == Path::new("-") {
             "standard output".into()
@@ -67,7 +67,7 @@ impl OutputFile {
         }
     }
 
-    /// Writes it: a file under a temporary name beside it, renamed once it is complete.
+    /// Writes the content: to a temporary file in the same folder, which is renamed when it is complete.
     pub(in crate::cli) fn write(
         &self,
         content: impl FnOnce(&mut Out) -> io::Result<()>,
@@ -93,7 +93,7 @@ fn destination(name: &Path) -> io::Result<Destination> {
     }
     match fs::metadata(name) {
         Ok(there) if there.is_dir() => Err(ErrorKind::IsADirectory.into()),
-        // The same file under two names must not be written twice, from two beginnings.
+        // Two handles must not write to the same file from two positions.
         Ok(there) if is_stdout(&there) => Ok(Destination::Stdout),
         Ok(there) if !there.is_file() => Ok(Destination::Direct(name.to_owned())),
         Ok(_) => fs::canonicalize(name).map(Destination::File),
@@ -104,7 +104,7 @@ fn destination(name: &Path) -> io::Result<Destination> {
     }
 }
 
-/// The file that a name leads to, where none is yet.
+/// The file at the end of the links, if the file does not exist yet.
 fn end_of_links(name: &Path) -> io::Result<PathBuf> {
     if name.as_os_str().as_encoded_bytes().ends_with(b"/") {
         return Err(io::Error::new(ErrorKind::InvalidInput, "it names a folder"));
@@ -136,7 +136,7 @@ fn is_stdout(_file: &Metadata) -> bool {
     false
 }
 
-/// Writes to what cannot be replaced. Its reader may stop early.
+/// Writes to a stream, which cannot be replaced. Its reader may stop early.
 fn into_stream(
     stream: impl Write + 'static,
     content: impl FnOnce(&mut Out) -> io::Result<()>,
@@ -147,14 +147,14 @@ fn into_stream(
     }
 }
 
-/// Writes a new file in place of the old one, if there is one; makes the folders that are missing.
+/// Writes a new file in place of the old file, if there is one; creates the missing folders.
 fn replace(path: &Path, content: impl FnOnce(&mut Out) -> io::Result<()>) -> io::Result<()> {
     let folder = folder_of(path);
     let created = missing_folders(folder);
     let written = replace_within(folder, &created, path, content);
     if written.is_err() {
         for folder in &created {
-            // Only what is still empty goes.
+            // The call removes only empty folders.
             let _ = fs::remove_dir(folder);
         }
     }
@@ -181,7 +181,7 @@ fn replace_within(
     let mut held = interrupt::hold();
     fs::rename(&complete, path)?;
     held.placed(hidden.guard());
-    // Dropping what is hidden takes the lock that Ctrl-C waits for.
+    // Dropping the hidden folder takes the lock that Ctrl-C waits for.
     drop(held);
     Ok(())
 }

@@ -1,5 +1,5 @@
-//! The hidden folder in which files wait until all of them are complete, and what becomes of those that
-//! nobody will complete.
+//! The hidden folder of a run's files until all of them are complete, and the removal of hidden folders that
+//! interrupted runs left behind.
 
 use crate::cli::interrupt::{Guard, Held};
 use std::fs::{self, File};
@@ -8,31 +8,31 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 use tempfile::TempDir;
 
-/// How the names of such folders begin.
+/// The beginning of the names of hidden folders.
 const PREFIX: &str = ".bothways-";
-/// The file in each of them that its run keeps locked for as long as it lives, however it ends.
+/// The file in each hidden folder that its run keeps locked until the process ends, normally or not.
 const LOCK: &str = "lock";
-/// Its name until it is locked.
+/// The name of the lock file before the lock.
 const UNLOCKED: &str = "unlocked";
-/// What is in that file, so that no other program's folder is taken for one of ours.
+/// The content of the lock file. It distinguishes our folders from the folders of other programs.
 const MARK: &str =
     "A run of bothways keeps this file locked. Once nobody does, the folder may go.\n";
 
-/// A new folder is empty for less, even on a busy machine.
+/// The longest time for which a new folder of a live run is empty, even on a busy machine.
 const MOMENT: Duration = Duration::from_secs(600);
 
-/// A folder that is written into; it goes with this.
+/// A folder for writing; dropping this value removes the folder.
 #[derive(Debug)]
 pub(super) struct Hidden {
-    /// The first to go: some systems remove no file that is open.
+    /// The first field to drop: some systems remove no file that is open.
     _lock: Option<File>,
     folder: TempDir,
-    /// Removes it, and what was made for it, if the program is interrupted.
+    /// Removes the folder, and the folders created for it, if the program is interrupted.
     guard: Guard,
 }
 
 impl Hidden {
-    /// Makes one within a folder, and removes those that killed runs have left there.
+    /// Creates a hidden folder within a folder, and removes the hidden folders that killed runs left there.
     pub(super) fn within(
         folder: &Path,
         created: &[PathBuf],
@@ -54,9 +54,8 @@ impl Hidden {
     }
 }
 
-/// The lock file of a new folder. It gets its name once it is locked: under that name nobody ever finds it
-/// unlocked while the run lives. `None` where the system cannot do so: then the folder is removed by its own
-/// run alone.
+/// The lock file of a new folder. It gets its name after the lock: under that name the file is always locked while
+/// the run lives. `None` if the system cannot lock files: then only the folder's own run removes the folder.
 fn locked(folder: &Path) -> Option<File> {
     let unnamed = folder.join(UNLOCKED);
     let mut file = File::create(&unnamed).ok()?;
@@ -66,20 +65,20 @@ fn locked(folder: &Path) -> Option<File> {
     Some(file)
 }
 
-/// Removes the hidden folders of runs that no longer live.
+/// Removes the hidden folders of runs that no longer exist.
 pub(super) fn remove_dead(folder: &Path) {
-    // What cannot be read or removed stays: it does no harm.
+    // A folder that cannot be read or removed stays: it does no harm.
     let Ok(entries) = fs::read_dir(folder) else { return };
     for entry in entries.flatten() {
         let ours = entry.file_name().to_string_lossy().starts_with(PREFIX);
         if !ours {
             continue;
         }
-        // Locked as long as it is being removed, so that two runs do not remove it at once.
+        // The lock is held during the removal, so that two runs do not remove the folder at once.
         if let Some(_lock) = lock_of_dead(&entry.path()) {
             let _ = fs::remove_dir_all(entry.path());
         } else if is_old(&entry.path()) {
-            // Of a run that was killed before it could lock anything; this removes nothing that is not empty.
+            // The folder of a run that was killed before its lock; this removes only an empty folder.
             let _ = fs::remove_file(entry.path().join(UNLOCKED));
             let _ = fs::remove_dir(entry.path());
         }
@@ -92,7 +91,7 @@ fn is_old(folder: &Path) -> bool {
         && changed.is_ok_and(|changed| changed.elapsed().is_ok_and(|age| age > MOMENT))
 }
 
-/// The lock of a folder that is certainly ours and that no run holds any more.
+/// The lock of a folder that is certainly ours and that no run locks any more.
 fn lock_of_dead(folder: &Path) -> Option<File> {
     let place = folder.join(LOCK);
     let is_own = |path: &Path| fs::symlink_metadata(path).ok();

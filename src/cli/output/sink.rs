@@ -1,18 +1,18 @@
-//! What files are written through: it remembers why a write failed, which encoders say in words of their
-//! own, or not at all.
+//! The writer of all files: it stores the reason of a failed write, because encoders report that reason in their own
+//! words or not at all.
 
 use std::io::{self, BufWriter, ErrorKind, Write};
 
-/// What a file's content is written to.
+/// The writer of a file's content.
 pub(in crate::cli) type Out = BufWriter<Sink>;
 
-/// Takes bytes, and notes what the system said when it took no more.
+/// A writer that stores the system's error if a write fails.
 pub(in crate::cli) struct Sink {
     to: Box<dyn Write>,
     failed: Option<io::Error>,
 }
 
-/// Writes all of a content, and gives the system's own reason if that fails.
+/// Writes the whole content, and returns the system's own error if that fails.
 pub(super) fn fill(
     to: impl Write + 'static,
     content: impl FnOnce(&mut Out) -> io::Result<()>,
@@ -20,7 +20,7 @@ pub(super) fn fill(
     let mut out = BufWriter::new(Sink { to: Box::new(to), failed: None });
     let written = content(&mut out).and_then(|()| out.flush());
     written.map_err(|error| {
-        // What could not be written is not tried again.
+        // The writer does not try again to write the rest.
         let (sink, _) = out.into_parts();
         sink.failed.unwrap_or(error)
     })

@@ -1,7 +1,7 @@
 //! What a difference as a whole looks like: common mistakes of renderers.
 //!
-//! A hint is given only if its cause alone explains every difference. Where several do, all are
-//! given: a symmetric picture that is upside down may look like one that is moved.
+//! A hint is given only if its cause alone explains every difference. If several causes do, all hints are given: a
+//! symmetric picture that is upside down may look like a picture that is moved.
 
 use crate::diff::aspect::Side;
 use crate::diff::buffer::{Buffer, Content};
@@ -10,8 +10,8 @@ use crate::diff::classes::{Class, pixels};
 use crate::wording::count;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Every cause that alone explains every difference, each in a sentence. A reference is right, and so is the way
-/// that it is written.
+/// Every cause that alone explains every difference, one sentence each. A reference is right, and its encoding is
+/// right too.
 pub(in crate::diff) fn hints(pair: &BufferPair, reference: Option<Side>) -> Vec<String> {
     let both = [("A", pair.a), ("B", pair.b)];
     if let Some((name, _)) = both.into_iter().find(|(_, buffer)| is_empty(buffer)) {
@@ -59,7 +59,7 @@ pub(in crate::diff) fn hints(pair: &BufferPair, reference: Option<Side>) -> Vec<
     hints
 }
 
-/// All ways to turn or to move B by a pixel so that it agrees with A.
+/// All turns of B and all moves of B by one pixel after which B agrees with A.
 fn placements(pair: &BufferPair) -> Vec<String> {
     if pair.a.samples() != 1 || pair.b.samples() != 1 {
         return Vec::new();
@@ -79,10 +79,10 @@ fn placements(pair: &BufferPair) -> Vec<String> {
     turned.chain(moved).collect()
 }
 
-/// Where a pixel of A lies in B.
+/// The place in B of a pixel of A.
 type Placement = Box<dyn Fn([u32; 2]) -> [u32; 2]>;
 
-/// What turns a picture onto itself, and how B is brought back.
+/// The turns that map a picture onto itself, and the words for turning B back.
 fn turns([width, height]: [u32; 2]) -> Vec<(&'static str, Placement)> {
     let (last_i, last_j) = (height - 1, width - 1);
     let mut turns: Vec<(&str, Placement)> = vec![
@@ -108,8 +108,8 @@ fn class(pair: &BufferPair, in_a: [u32; 2], in_b: [u32; 2]) -> Class {
     pair.compare_pixels(in_a, in_b).class()
 }
 
-/// Whether each pixel of A agrees with the one of B at its other place, and something is seen in any
-/// of them.
+/// Whether each pixel of A agrees with the pixel of B at its other place, and at least one of these pixels shows
+/// something.
 fn agree(pair: &BufferPair, place: &dyn Fn([u32; 2]) -> [u32; 2]) -> bool {
     let mut seen = false;
     for in_a in pixels(pair.a.size()) {
@@ -122,8 +122,8 @@ fn agree(pair: &BufferPair, place: &dyn Fn([u32; 2]) -> [u32; 2]) -> bool {
     seen
 }
 
-/// The same for what lies so many rows and columns farther in B. What leaves the picture or enters it
-/// has no partner; a difference there would be left unexplained, unless the place is empty.
+/// The same for a picture B that lies `rows` and `columns` farther. A pixel that leaves or enters the picture has no
+/// partner; unless that pixel is empty, the move does not explain its difference.
 fn agree_moved(pair: &BufferPair, [rows, columns]: [i32; 2]) -> bool {
     let [width, height] = pair.a.size();
     let moved = |[i, j]: [u32; 2], sign: i32| {
@@ -163,8 +163,7 @@ fn steps_in_words([rows, columns]: [i32; 2]) -> String {
     rows.into_iter().chain(columns).collect::<Vec<_>>().join(" and ")
 }
 
-/// The ids of A and B side by side, if both cover the same, each id has one partner, and they are not
-/// the same.
+/// The renaming of ids between A and B, if both cover the same samples, each id has one partner, and some ids differ.
 fn renaming(a: &[Option<u64>], b: &[Option<u64>]) -> Option<String> {
     let (mut forth, mut back) = (BTreeMap::new(), BTreeMap::new());
     for (&a, &b) in a.iter().zip(b) {
@@ -194,14 +193,14 @@ fn listed(words: &[String]) -> String {
     }
 }
 
-/// The ids that one file shows and the other never does, if showing nothing or what is behind them
-/// instead is the only difference.
+/// The ids that one file shows and the other file never shows, if the only difference is that the other file shows
+/// nothing there, or the primitive behind.
 fn lacking(shows: &[Option<u64>], lacks: &[Option<u64>]) -> Option<Vec<u64>> {
     let differing = || shows.iter().zip(lacks).filter(|(one, other)| one != other);
     let lacking: Option<BTreeSet<u64>> = differing().map(|(one, _)| *one).collect();
     let lacking = lacking?;
     let shown: BTreeSet<u64> = shows.iter().copied().flatten().collect();
-    // What is seen in its place must be a primitive that the other file knows, too.
+    // The primitive visible in its place must also be a primitive that the other file knows.
     let explained = |id: &u64| shown.contains(id) && !lacking.contains(id);
     let holds = lacks.iter().flatten().all(explained);
     (holds && !lacking.is_empty()).then(|| lacking.into_iter().collect())
@@ -217,7 +216,7 @@ fn lacks(name: &str, ids: &[u64], other: &str) -> String {
     )
 }
 
-/// What 0 was meant for, in a buffer that covers everything and would agree otherwise.
+/// The meaning of 0 in a buffer that covers everything, if the buffers agree with that meaning and differ otherwise.
 fn zero_is_nothing(name: &str, buffer: &Buffer, other: &Buffer) -> Vec<String> {
     let Content::Ids(ids) = buffer.content() else { return Vec::new() };
     if ids.contains(&None) || !ids.contains(&Some(0)) {
@@ -268,7 +267,7 @@ fn is_inverted(pair: &BufferPair) -> bool {
     })
 }
 
-/// Whether nothing is covered, as far as is known.
+/// Whether nothing is covered, as far as the buffer tells.
 fn is_empty(buffer: &Buffer) -> bool {
     buffer.all_samples().all(|sample| buffer.covered(sample) == Some(false))
 }

@@ -1,4 +1,4 @@
-//! NumPy arrays of any origin: every shape, order and number type that pixels come in.
+//! NumPy arrays of any origin: every shape, order and number type of pixels.
 
 use super::problem::{Problem, ends_early};
 use super::{Buffer, Content, Covered, Picture, Pixels};
@@ -9,13 +9,13 @@ use npyz::{DType, Endianness, NpyHeader, Order, TypeChar};
 use std::borrow::Cow;
 use std::io::Read;
 
-/// The first bytes of every such file.
+/// The first bytes of every NPY file.
 pub(super) const MAGIC: &[u8] = b"\x93NUMPY";
-/// Brackets in a header, and brackets within brackets, far more than the dtype of a picture would need.
-/// The header's reader takes time that is exponential in their depth.
+/// The most brackets in a header, and the deepest nesting, far more than the dtype of a picture needs. The reader of
+/// the header takes time that is exponential in the depth.
 const MAX_BRACKETS: usize = 64;
 const MAX_DEPTH: usize = 8;
-/// Bytes of a header: NumPy itself reads no longer one unless told to.
+/// The most bytes of a header: NumPy itself refuses longer headers by default.
 const MAX_HEADER: usize = 10_000;
 
 /// Reads an array: a mask, ids, distances or colours, by shape and number type.
@@ -48,7 +48,7 @@ pub(super) fn read(
     Ok(Buffer::new(layout.size, layout.samples, content))
 }
 
-/// Room for so many bytes of a file, if there is any.
+/// Room for `bytes` bytes of a file, if the memory suffices.
 fn reserved(bytes: u64) -> Result<Vec<u8>, String> {
     let mut room = Vec::new();
     match usize::try_from(bytes).is_ok_and(|bytes| room.try_reserve_exact(bytes).is_ok()) {
@@ -57,8 +57,8 @@ fn reserved(bytes: u64) -> Result<Vec<u8>, String> {
     }
 }
 
-/// The header as it stands at the beginning of a file: the magic, two bytes of version, its length, and
-/// so many bytes more.
+/// The header at the beginning of a file: the magic, two bytes of version, the length of the text, and the text of
+/// that length.
 fn header_bytes(input: &mut impl Read, length: u64) -> Result<Vec<u8>, Problem> {
     let mut start = Vec::new();
     let mut take = |bytes: usize, start: &mut Vec<u8>| -> Result<(), Problem> {
@@ -89,12 +89,12 @@ fn header_bytes(input: &mut impl Read, length: u64) -> Result<Vec<u8>, Problem> 
     Ok(start)
 }
 
-/// Reads a header, and refuses what its reader would stumble over: brackets within brackets, and shapes
-/// with more numbers than memory.
+/// Reads a header, and refuses headers that the library fails on: deeply nested brackets, and shapes with more
+/// numbers than memory.
 fn header(bytes: &[u8]) -> Result<NpyHeader, String> {
     let begin = if bytes[6] == 1 { 10 } else { 12 };
     let text = String::from_utf8_lossy(&bytes[begin..]).into_owned();
-    // An array of numbers has a pair for its dictionary and one for its shape.
+    // An array of numbers has one pair of brackets for its dictionary and one for its shape.
     if text.matches(['(', '[', '{']).count() > MAX_BRACKETS || depth(&text) > MAX_DEPTH {
         return Err("the array's dtype has too many parts; save an array of plain numbers".into());
     }
@@ -103,7 +103,7 @@ fn header(bytes: &[u8]) -> Result<NpyHeader, String> {
         None => text,
     };
     let length = u32::try_from(text.len()).map_err(|error| error.to_string())?;
-    // Version 2 is version 1 with more room; version 3 may have any letters.
+    // Version 2 is version 1 with more room; version 3 allows all letters.
     let version = if bytes[6] == 3 { 3 } else { 2 };
     let again = [MAGIC, &[version, 0], &length.to_le_bytes(), text.as_bytes()].concat();
     NpyHeader::from_reader(&again[..]).map_err(|_| {
@@ -115,7 +115,7 @@ fn header(bytes: &[u8]) -> Result<NpyHeader, String> {
     })
 }
 
-/// How deep brackets are nested.
+/// The depth of nested brackets.
 fn depth(text: &str) -> usize {
     let mut depths = text.chars().scan(0_usize, |depth, letter| {
         match letter {
@@ -128,7 +128,7 @@ fn depth(text: &str) -> usize {
     depths.by_ref().max().unwrap_or(0)
 }
 
-/// What stands before the sides of a shape, the sides, and what stands behind them.
+/// The text before the sides of a shape, the sides, and the text after the sides.
 fn shape(header: &str) -> Option<(&str, &str, &str)> {
     let key = header.find("'shape'").or_else(|| header.find("\"shape\""))?;
     let begin = key + header[key..].find('(')? + 1;
@@ -136,7 +136,7 @@ fn shape(header: &str) -> Option<(&str, &str, &str)> {
     Some((&header[..begin], &header[begin..end], &header[end..]))
 }
 
-/// The sides of a shape without the `L` that Python 2 put behind long numbers.
+/// The sides of a shape without the `L` that Python 2 put after long numbers.
 fn checked(shape: &str) -> Result<Cow<'_, str>, String> {
     let sides: Vec<&str> = shape.split(',').map(str::trim).collect();
     let plain: Vec<&str> =
@@ -152,7 +152,7 @@ fn checked(shape: &str) -> Result<Cow<'_, str>, String> {
                 shown(side)
             ));
         }
-        // A side of 0 is left to the check of the size.
+        // The check of the size handles a side of 0.
         count = count.saturating_mul(side.parse::<u64>().unwrap_or(u64::MAX).max(1));
     }
     if count > 4 * MAX_SAMPLES {
@@ -165,7 +165,7 @@ fn checked(shape: &str) -> Result<Cow<'_, str>, String> {
     Ok(if plain == sides { Cow::Borrowed(shape) } else { Cow::Owned(plain.join(", ")) })
 }
 
-/// How the axes of an array become pixels, samples and channels.
+/// The mapping from the axes of an array to pixels, samples and channels.
 struct Layout {
     size: [u32; 2],
     samples: u32,
@@ -174,7 +174,7 @@ struct Layout {
 
 impl Layout {
     fn of(header: &NpyHeader) -> Result<Layout, String> {
-        // What does not fit is too large, and refused as such.
+        // A side that does not fit is too large, and the size check refuses it.
         let side = |length: u64| u32::try_from(length).unwrap_or(u32::MAX);
         let (height, width, samples, channels) = match *header.shape() {
             [height, width] => (height, width, 1, 1),
@@ -239,7 +239,7 @@ impl Number {
         if self.big_endian { bytes.iter().fold(0, push) } else { bytes.iter().rev().fold(0, push) }
     }
 
-    /// An integer of this type, and whether it is negative.
+    /// Whether an integer of this type is negative.
     fn is_negative(self, bits: u64) -> bool {
         self.kind == TypeChar::Int && bits >> (8 * self.bytes - 1) == 1
     }
@@ -301,7 +301,7 @@ impl<'a> Values<'a> {
         })
     }
 
-    /// One value a sample.
+    /// The content of an array with one value per sample.
     fn content(&self) -> Result<Content<'static>, String> {
         let number = self.number;
         Ok(match number.kind {

@@ -1,4 +1,4 @@
-//! Pictures of any origin: PNG and what else the `image` crate reads.
+//! Pictures of any origin: PNG and the other formats that the `image` crate reads.
 
 use super::png;
 use super::problem::{Problem, ends_early};
@@ -11,13 +11,13 @@ use image::{
 };
 use std::io::{BufRead, ErrorKind, Read, Seek};
 
-/// The memory that a picture may take while it is read. A grey one of 2³⁰ pixels fits, and one of 2²⁸
-/// pixels with four channels of 8 bits.
+/// The most memory that reading a picture may take. A grey picture of 2³⁰ pixels fits, and a picture of 2²⁸ pixels
+/// with four channels of 8 bits.
 const MOST_MEMORY: u64 = 2 << 30;
 /// The most pixels that two bytes of a run-length BMP can fill.
 const LONGEST_RUN: u64 = 255;
 
-/// Reads a picture of a format that is known.
+/// Reads a picture of a known format.
 pub(super) fn read(
     mut input: impl BufRead + Seek,
     length: u64,
@@ -46,7 +46,7 @@ pub(super) fn read(
     Ok(Buffer::new(size, 1, content(picture, background)?))
 }
 
-/// Decoded, and as a [`Buffer`] keeps it, a picture needs no more memory than it may.
+/// Checks that the decoded picture and its [`Buffer`] together fit into the permitted memory.
 fn check_memory([width, height]: [u32; 2], color: ColorType, kept: u8) -> Result<(), String> {
     let bytes = u64::from(width) * u64::from(height) * u64::from(color.bytes_per_pixel() + kept);
     if bytes <= MOST_MEMORY {
@@ -60,7 +60,7 @@ fn check_memory([width, height]: [u32; 2], color: ColorType, kept: u8) -> Result
     ))
 }
 
-/// Bytes that a pixel takes besides the decoded ones, until it is one of [`Pixels`].
+/// The bytes of a pixel besides the decoded bytes, until the pixel is part of [`Pixels`].
 fn kept(color: ColorType) -> u8 {
     if is_fine(color) { 8 + 16 } else { 4 }
 }
@@ -70,7 +70,7 @@ fn is_fine(color: ColorType) -> bool {
     color.bytes_per_pixel() > color.channel_count()
 }
 
-/// Refuses a run-length BMP that is far too short for its size: a few bytes may claim any.
+/// Refuses a run-length BMP that is far too short for its size: a file of a few bytes can claim any size.
 fn check_runs(input: &mut (impl BufRead + Seek), length: u64) -> Result<(), Problem> {
     let mut header = Vec::new();
     input.rewind()?;
@@ -91,7 +91,7 @@ fn check_runs(input: &mut (impl BufRead + Seek), length: u64) -> Result<(), Prob
     Ok(())
 }
 
-/// What a decoder says, in our words: the decoders' own name bytes of their formats, and no remedy.
+/// The message of a decoder in our words: the decoders' own messages name bytes of their formats, and no remedy.
 fn problem(error: ImageError, format: ImageFormat, length: u64) -> Problem {
     let name = match format {
         ImageFormat::Png => "PNG",
@@ -110,7 +110,7 @@ fn problem(error: ImageError, format: ImageFormat, length: u64) -> Problem {
         ImageError::Unsupported(_) => {
             format!("this kind of {name} is not read; save it as a PNG of 8 or 16 bits a channel")
         }
-        // A PNG with sound chunks has damaged pixels, whatever words its decoder uses.
+        // If all chunks of a PNG are sound, its pixels are damaged. The words of the decoder do not matter.
         ImageError::Decoding(error) if format != ImageFormat::Png => {
             let said = std::error::Error::source(&error).map(ToString::to_string);
             let said = said.unwrap_or_else(|| "no reason given".into());
@@ -148,7 +148,7 @@ fn content(picture: DynamicImage, background: Option<[u8; 3]>) -> Result<Content
     Ok(Content::Picture(Picture { pixels, covered }))
 }
 
-/// A grey picture that is black and one other value at most is a mask, be its white 1 or 255.
+/// A grey picture is a mask if its values are black and at most one other value, such as 1 or 255.
 fn mask(picture: &DynamicImage) -> Option<Vec<bool>> {
     fn two_values<T: Copy + Default + PartialEq>(values: &[T]) -> Option<Vec<bool>> {
         let black = T::default();

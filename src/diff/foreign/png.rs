@@ -1,5 +1,5 @@
-//! What PNG files are made of, checked before they are decoded: the decoder panics on some palettes, and
-//! names damages without their place.
+//! Checks of the chunks of PNG files before decoding: the decoder panics on some palettes, and reports damage without
+//! its place.
 
 use super::problem::{Problem, ends_early};
 use crate::common::SizeError;
@@ -7,12 +7,12 @@ use std::io::{BufRead, Read, Seek, SeekFrom};
 
 /// Bytes of the signature before the first chunk.
 const SIGNATURE: u64 = 8;
-/// Bytes in the chunk IHDR.
+/// The number of bytes in the chunk IHDR.
 const HEADER: u32 = 13;
 /// The most bytes of a palette: 256 colours.
 const LARGEST_PALETTE: u32 = 3 * 256;
 
-/// Walks through the chunks of a file of so many bytes.
+/// Walks through the chunks of a file of `file_length` bytes.
 pub(super) fn check(input: &mut (impl BufRead + Seek), file_length: u64) -> Result<(), Problem> {
     let mut at = input.seek(SeekFrom::Start(SIGNATURE))?;
     let mut found = Found::default();
@@ -73,17 +73,17 @@ fn checksum(
     }
 }
 
-/// What was found of a file so far.
+/// The state of the check so far.
 #[derive(Default)]
 struct Found {
-    /// Whether the header was read, and is of a kind that needs a palette.
+    /// Whether the header is read, and is of a kind that needs a palette.
     needs_palette: bool,
     palette: bool,
     any_pixels: bool,
 }
 
 impl Found {
-    /// Size, bit depth and colour type, as PNG has them (ISO/IEC 15948, 11.2.1).
+    /// Checks size, bit depth and colour type in the encoding of PNG (ISO/IEC 15948, 11.2.1).
     fn header(&mut self, content: [u8; HEADER as usize]) -> Result<(), Problem> {
         let [a, b, c, d, e, f, g, h, depth, color, ..] = content;
         let (width, height) = (u32::from_be_bytes([a, b, c, d]), u32::from_be_bytes([e, f, g, h]));
@@ -113,7 +113,7 @@ impl Found {
         Ok(())
     }
 
-    /// Pixels begin or go on.
+    /// Checks that the pixels begin or continue here.
     fn pixels(&mut self) -> Result<(), Problem> {
         self.any_pixels = true;
         if self.needs_palette && !self.palette {
@@ -136,10 +136,10 @@ impl Found {
     }
 }
 
-/// Says what is wrong with a chunk.
+/// Checks one chunk, and describes its error.
 fn chunk(name: [u8; 4], length: u32, at: u64, is_intact: bool) -> Result<(), String> {
     let shown = String::from_utf8_lossy(&name);
-    // A small first letter: the pixels do not need this chunk.
+    // If the first letter is small, the pixels do not need this chunk.
     if !is_intact && name[0].is_ascii_uppercase() {
         return Err(format!(
             "the chunk {shown} at byte {at} of the PNG has a wrong checksum, so the file is damaged; \

@@ -1,19 +1,19 @@
-//! What is wrong with a file, told by the reader of its format.
+//! Errors in a file, reported by the reader of its format.
 
 use crate::common::SizeError;
 use std::io;
 
-/// What is wrong with the content of a file, whatever its name.
+/// An error in the content of a file, without the name of the file.
 #[derive(Debug)]
 pub(super) enum Problem {
-    /// In the words of a message: what is wrong, and what would be right.
+    /// The text of a message: the error, and the remedy.
     Content(String),
     Size(SizeError),
-    /// The system does not give the file away.
+    /// The system cannot read the file.
     Io(io::Error),
 }
 
-/// What is said of a file that has fewer bytes than it should.
+/// The message for a file with fewer bytes than expected.
 pub(super) fn ends_early(bytes: u64) -> String {
     format!("the file ends early, after {bytes} bytes; copy it or write it again")
 }

@@ -1,4 +1,4 @@
-//! Reads a file of any origin, by what is in it and not by its name.
+//! Reads a file of any origin. The content determines the format, not the name.
 
 use super::problem::Problem;
 use super::{npy, picture};
@@ -8,18 +8,18 @@ use crate::formats::source::{READ_AT_ONCE, regular_file};
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
-/// Why a file could not be read as a buffer.
+/// The reason why a file cannot be read as a buffer.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadBufferError {
-    /// There is no such file, or it may not be read.
+    /// The file does not exist, or permission to read it is missing.
     #[error("cannot read {}: {}", .path.display(), reason(.error))]
     Open {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The error of the system.
         error: io::Error,
     },
-    /// Its first bytes are of no known format.
+    /// The first bytes of the file belong to no known format.
     #[error(
         "{} is neither a picture (PNG, PNM, BMP) nor a NumPy array (.npy); \
          save it as one of these",
@@ -29,7 +29,7 @@ pub enum ReadBufferError {
         /// The file.
         path: PathBuf,
     },
-    /// It is an archive of arrays.
+    /// The file is an archive of arrays.
     #[error(
         "{} is an archive, perhaps of NumPy arrays (.npz); save one array alone with numpy.save",
         .path.display()
@@ -38,15 +38,15 @@ pub enum ReadBufferError {
         /// The file.
         path: PathBuf,
     },
-    /// A picture or an array is damaged, of a kind that is not read, or too large.
+    /// A picture or an array is damaged, of an unsupported kind, or too large.
     #[error("{}: {problem}", .path.display())]
     Content {
         /// The file.
         path: PathBuf,
-        /// What is wrong, and what would be right.
+        /// The error, and the remedy.
         problem: String,
     },
-    /// It has no pixels, or too many.
+    /// The file has no pixels, or too many.
     #[error(
         "{}: {error}; {}",
         .path.display(),
@@ -58,14 +58,14 @@ pub enum ReadBufferError {
     Size {
         /// The file.
         path: PathBuf,
-        /// Its size, and the limit.
+        /// The size of the file, and the limit.
         error: SizeError,
     },
 }
 
 /// Reads a picture (PNG, PNM, BMP; 8 or 16 bits) or a NumPy array.
 ///
-/// `background` (in sRGB) tells what is not covered in pictures that have colours but no alpha.
+/// `background` (in sRGB) is the colour of uncovered pixels in pictures that have colours but no alpha.
 ///
 /// - One channel with no value but 0 and one other: a mask. More values: a grey picture, covered
 ///   where it is not 0. With alpha: covered where alpha is more than 0.
@@ -75,21 +75,20 @@ pub enum ReadBufferError {
 ///
 /// # Errors
 ///
-/// If the file cannot be read, or is none of these.
+/// If the file cannot be read, or has none of these formats.
 pub fn read(path: &Path, background: Option<[u8; 3]>) -> Result<Buffer<'static>, ReadBufferError> {
     let file = regular_file(path);
     let file = file.map_err(|error| ReadBufferError::Open { path: path.to_owned(), error })?;
     read_from(path, BufReader::with_capacity(READ_AT_ONCE, file), background)
 }
 
-/// Reads what an input holds, as [`read`] does; messages call it `path`.
+/// Reads the content of an input, as [`read`] does; messages use the name `path`.
 ///
-/// No number in it makes the reader take memory before the file is known to be of a format, and its size
-/// to be within bounds.
+/// No number in the input makes the reader allocate memory before the format is known and the size is within bounds.
 ///
 /// # Errors
 ///
-/// As for [`read`].
+/// The errors of [`read`].
 pub fn read_from(
     path: &Path,
     mut input: impl BufRead + Seek,
@@ -117,9 +116,9 @@ pub fn read_from(
     })
 }
 
-/// The first bytes of an input, which tell its format, and how many it has.
+/// The first bytes of an input, which determine the format, and the length of the input.
 fn start(input: &mut (impl BufRead + Seek)) -> io::Result<(Vec<u8>, u64)> {
-    /// As many as any format needs.
+    /// Enough bytes for every format.
     const MOST: u64 = 32;
     let length = input.seek(SeekFrom::End(0))?;
     input.rewind()?;
@@ -129,7 +128,7 @@ fn start(input: &mut (impl BufRead + Seek)) -> io::Result<(Vec<u8>, u64)> {
     Ok((start, length))
 }
 
-/// Why a file cannot be opened, in words where the system has only a number.
+/// The reason why a file cannot be opened, in words where the system has only a number.
 fn reason(error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::NotFound => "there is no such file".into(),

@@ -1,11 +1,11 @@
-//! Files and buffers made by hand, and what is said of them.
+//! Files and buffers made by hand, and the messages about them.
 
 use super::*;
 use image::{DynamicImage, GrayAlphaImage, GrayImage, ImageBuffer, ImageFormat, Luma, RgbaImage};
 use proptest::prelude::*;
 use std::path::Path;
 
-/// A NumPy array as any program may write it.
+/// A NumPy array in a form that any program may write.
 fn npy(descr: &str, fortran: bool, shape: &str, data: &[u8]) -> Vec<u8> {
     let fortran = if fortran { "True" } else { "False" };
     let header = format!("{{'descr': {descr}, 'fortran_order': {fortran}, 'shape': {shape}, }}\n");
@@ -67,7 +67,7 @@ fn floats_of_every_size_are_distances() {
     assert_eq!(read_npy("'>f4'", "(1, 3)", &singles).content(), &expected);
     let doubles = [1.5, -2.0, f64::INFINITY].map(f64::to_le_bytes).concat();
     assert_eq!(read_npy("'<f8'", "(1, 3, 1)", &doubles).content(), &expected);
-    // The smallest half, the largest, and one third.
+    // The smallest half float, the largest half float, and one third.
     let halves = [0x0001_u16, 0x7bff, 0x3555].map(u16::to_le_bytes).concat();
     let expected = Content::Distances(vec![2.0_f64.powi(-24), 65_504.0, 0.333_251_953_125]);
     assert_eq!(read_npy("'<f2'", "(1, 3)", &halves).content(), &expected);
@@ -181,7 +181,7 @@ fn shapes_may_have_the_l_of_python_2() {
     assert_eq!((buffer.size(), buffer.kind()), ([3, 2], "ids"));
 }
 
-/// A PNG of these chunks.
+/// A PNG with these chunks.
 fn png(chunks: &[(&[u8; 4], &[u8])]) -> Vec<u8> {
     let chunk = |(name, content): &(&[u8; 4], &[u8])| {
         let length = u32::try_from(content.len()).unwrap().to_be_bytes();
@@ -193,7 +193,7 @@ fn png(chunks: &[(&[u8; 4], &[u8])]) -> Vec<u8> {
     [b"\x89PNG\r\n\x1a\n", &chunks[..]].concat()
 }
 
-/// What is said of a PNG of so many pixels, 8 bits deep, with a palette.
+/// The message about a PNG of this size, 8 bits deep, with this palette.
 fn palette_png(size: [u32; 2], palette: &[u8]) -> Vec<u8> {
     let header = [&size[0].to_be_bytes()[..], &size[1].to_be_bytes(), &[8, 3, 0, 0, 0]].concat();
     // One row of one pixel: a zlib stream of one stored block.
@@ -383,7 +383,7 @@ fn mask(size: [u32; 2], drawn: &str) -> Buffer<'static> {
 
 fn hints(a: &Buffer, b: &Buffer) -> Vec<String> {
     let hints = compare(a, b).unwrap().hints;
-    // Which file comes first is not known.
+    // The hints do not depend on the order of the files.
     assert_eq!(hints.len(), compare(b, a).unwrap().hints.len(), "{hints:?}");
     hints
 }
@@ -403,7 +403,7 @@ fn every_turn_is_recognised_and_no_other() {
     for (drawn, name) in turned {
         let hints = hints(&a, &ids([3, 3], drawn));
         assert_eq!(hints[0], format!("B agrees with A once it is {name}"));
-        // Every id has another one in its place, too.
+        // Every id also has one other id in its place.
         assert_eq!(hints.len(), 2, "{hints:?}");
         assert!(hints[1].starts_with("the ids correspond one to one"), "{hints:?}");
     }
@@ -438,7 +438,7 @@ fn masks_are_not_told_to_be_saved_as_bool() {
     let (a, b) = (mask([2, 1], "#."), mask([2, 1], ".#"));
     assert!(hints(&a, &b).iter().all(|hint| !hint.contains("bool")));
     assert!(hints(&a, &b).contains(&"B covers exactly what A does not".to_owned()));
-    // 0 and 255 of a byte.
+    // The values 0 and 255 of a byte.
     let integers = ids([2, 1], ".0");
     assert!(hints(&a, &integers).iter().any(|hint| hint.contains("save it as bool")));
     let integers = ids([2, 1], "10");
@@ -464,7 +464,7 @@ fn a_primitive_that_is_missing_is_named_and_not_blamed_on_the_other_file() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(300))]
 
-    /// Whatever was damaged on the way: an answer, never a panic.
+    /// Any damage to a file gives an answer, never a panic.
     #[test]
     fn damaged_files_are_answered(
         which in 0..4_usize,

@@ -85,7 +85,7 @@ fn the_line_about_the_scene_is_drawn_below_its_name() {
     };
     assert_eq!(lines(None), [true, false]);
     assert_eq!(lines(Some("What there is to see.")), [true, true]);
-    // One that goes on and on takes no time, and no letter breaks it.
+    // A very long name takes no time, and every letter is handled.
     assert_eq!(lines(Some(&"茶壺\u{202e}\u{7}".repeat(200_000))), [true, true]);
 }
 

@@ -1,6 +1,6 @@
-//! The camera's flags, as `render`, `camera` and `pixel` take them.
+//! The camera's flags, for `render`, `camera` and `pixel`.
 
-/// What is typed behind each of [`COMMANDS`], and how the message begins.
+/// The arguments after each of [`COMMANDS`], and the beginning of the message.
 pub(super) const REFUSED: &[(&str, &str)] = &[
     ("--size 8", "invalid value '8' for '--size <WxH>': write it as WIDTHxHEIGHT, such as 640x480"),
     ("--size 0x8", "invalid value '0x8' for '--size <WxH>': both sides need at least 1 pixel"),
@@ -135,5 +135,5 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
     ),
 ];
 
-/// What takes the flags, all of the scene whose camera the messages name.
+/// The commands with camera flags, all for the scene with the camera that the messages name.
 pub(super) const COMMANDS: &[&str] = &["canonical", "camera canonical", "pixel canonical 1 1"];

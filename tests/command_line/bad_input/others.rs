@@ -1,6 +1,6 @@
-//! Every other command.
+//! The bad values of all other commands.
 
-/// What is typed, and how the message begins.
+/// The arguments, and the beginning of the message.
 pub(super) const REFUSED: &[(&str, &str)] = &[
     (
         "camera canonical --json=yes",
@@ -144,7 +144,7 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
         "cannot write into the folder file: a file is where a folder would be; choose another \
          one with -o",
     ),
-    // Everything else.
+    // All other commands.
     ("mesh", "the following required arguments were not provided: --output <FILE.obj> <KIND>"),
     ("mesh teapot", "the following required arguments were not provided: --output <FILE.obj>"),
     (

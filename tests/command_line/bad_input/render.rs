@@ -1,8 +1,8 @@
-//! What is rendered, how, and where to.
+//! The bad values of `render`: its scene, its options and its output.
 
-/// What is typed, and how the message begins.
+/// The arguments, and the beginning of the message.
 pub(super) const REFUSED: &[(&str, &str)] = &[
-    // The scene, wherever one is named.
+    // The scene, in every command with a scene.
     ("no-such-scene", "there is no built-in scene \"no-such-scene\"; the built-in scenes are"),
     (
         "lectuer",
@@ -53,7 +53,7 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
     ("pixle ties 3 4", "there is no command 'pixle'; did you mean 'bothways pixel ties 3 4'?"),
     ("scenes canonical ties", "unexpected argument 'ties' found"),
     ("camera canonical ties", "unexpected argument 'ties' found"),
-    // How to render, and where to.
+    // The options for rendering and for output.
     (
         "canonical --order both,object",
         "invalid value 'both,object' for '--order <ORDER>' [possible values: both, object, image]",

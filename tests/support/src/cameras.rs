@@ -1,4 +1,4 @@
-//! Cameras in few words.
+//! Short functions for cameras.
 
 use bothways_common::glam::Vec3;
 use bothways_common::{Camera, CameraDescription, Orientation, Projection};
@@ -19,7 +19,7 @@ pub fn camera(
     Camera::new(description).expect("it is a camera")
 }
 
-/// A camera from anywhere, looking at a point.
+/// A camera with any eye and any target.
 pub fn turned(projection: Projection, eye: [f32; 3], target: [f32; 3], image: [u32; 2]) -> Camera {
     let orientation = Orientation::LookAt { target: Vec3::from_array(target), up: Vec3::Y };
     let eye = Vec3::from_array(eye);
@@ -38,7 +38,7 @@ pub fn turned(projection: Projection, eye: [f32; 3], target: [f32; 3], image: [u
     Camera::new(description).expect("it is a camera")
 }
 
-/// A camera whose samples are the integer points from −`half` to `half`, one unit apart.
+/// A camera with samples at the integer points from −`half` to `half`, one unit apart.
 pub fn on_integers(projection: Projection, half: u32) -> Camera {
     let side = 2 * half + 1;
     camera(projection, [0.0; 3], [side as f32; 2], [side; 2])

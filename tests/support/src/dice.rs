@@ -2,7 +2,7 @@
 
 use bothways_common::glam::Vec3;
 
-/// Numbers that look random, the same every time.
+/// Numbers that look random, the same in every run.
 #[derive(Clone, Debug)]
 pub struct Dice(pub u64);
 
@@ -15,7 +15,7 @@ impl Dice {
         (self.0 >> 40) as f32 / (1_u64 << 24) as f32 * 2.0 - 1.0
     }
 
-    /// A point in the cube of these numbers.
+    /// A point in a cube; each coordinate is such a number.
     pub fn point(&mut self) -> Vec3 {
         Vec3::new(self.next(), self.next(), self.next())
     }

@@ -1,8 +1,8 @@
-//! Frames held against each other, and crops to render.
+//! Comparisons of frames, and crops to render.
 
 use bothways_common::{Crop, Frame};
 
-/// Ids equal; distances within the contract's 10⁻⁵.
+/// Asserts that ids are equal, and distances are within the contract's 10⁻⁵.
 pub fn assert_same_visibility(expected: &Frame, frame: &Frame, what: &str) {
     let width = expected.width();
     let place = |index: usize| (index / width, index % width);
@@ -15,7 +15,7 @@ pub fn assert_same_visibility(expected: &Frame, frame: &Frame, what: &str) {
     }
 }
 
-/// A crop shows what the whole frame shows there, to the last bit.
+/// Asserts that a crop equals this part of the whole frame, to the last bit.
 pub fn assert_is_part(whole: &Frame, part: &Frame, what: &str) {
     let crop = part.crop().expect("it is a crop");
     let ([width, height], n) = (part.image(), part.samples());
@@ -39,7 +39,7 @@ pub fn assert_is_part(whole: &Frame, part: &Frame, what: &str) {
     }
 }
 
-/// Crops of an image that look random, the same for the same seed.
+/// Crops of an image in places that look random, the same for the same seed.
 pub fn some_crops([width, height]: [u32; 2], seed: u64) -> impl Iterator<Item = Crop> {
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x5851_f42d_4c95_7f2d;
     let mut below = move |end: u32| {

@@ -1,5 +1,5 @@
-//! Random scenes that are meant to hurt: degenerate, huge, tiny, behind the eye, edge-on, coplanar, duplicate, and
-//! with coordinates of few bits, so that exact ties abound.
+//! Difficult random scenes: degenerate, huge, tiny, behind the eye, edge-on, coplanar, duplicate, and with
+//! coordinates of few bits, so that exact ties are frequent.
 
 use crate::cases;
 use bothways_common::glam::{Quat, Vec3};
@@ -10,10 +10,10 @@ use bothways_common::{
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRng, TestRunner};
 
-/// Gives `count` random scenes to a check: the same ones every time, so that a failure is found again; many more
-/// and other ones with `BOTHWAYS_LONG` set.
+/// Gives `count` random scenes to a check: the same scenes in every run, so that a failure can be repeated; many more
+/// and different scenes with `BOTHWAYS_LONG` set.
 pub fn for_each(numbers: Numbers, count: u32, check: impl Fn(&View, &Options)) {
-    // Several samples a pixel lie between the integers of few bits.
+    // With several samples per pixel, samples lie between the integers of few bits.
     let samples = match numbers {
         Numbers::FewBits => prop_oneof![9 => Just(1_u32), 1 => 2..4_u32].boxed(),
         Numbers::Ordinary | Numbers::Extreme => (1..4_u32).boxed(),
@@ -29,7 +29,7 @@ pub fn for_each(numbers: Numbers, count: u32, check: impl Fn(&View, &Options)) {
         .expect("all scenes pass");
 }
 
-/// The same cases in every run, or many more and other ones with `BOTHWAYS_LONG` set.
+/// The same cases in every run, or many more and different cases with `BOTHWAYS_LONG` set.
 pub fn runner(count: u32) -> TestRunner {
     let config = Config { cases: cases(count), failure_persistence: None, ..Config::default() };
     if cases(1) == 1 {
@@ -40,13 +40,13 @@ pub fn runner(count: u32) -> TestRunner {
     }
 }
 
-/// What a scene's coordinates look like.
+/// The kind of a scene's coordinates.
 #[derive(Clone, Copy, Debug)]
 pub enum Numbers {
     /// Integers from −4 to 4, and samples on integers: samples on edges and vertices, coplanar faces,
     /// equal distances.
     FewBits,
-    /// Anything of ordinary size.
+    /// Any number of ordinary size.
     Ordinary,
     /// From denormal to nearly infinite, mixed.
     Extreme,
@@ -81,7 +81,7 @@ fn shape(numbers: Numbers) -> impl Strategy<Value = Shape> {
         let c = [a, b, 0.5 * a + 0.5 * b][usize::from(kind)];
         Shape::Triangle(Triangle { a, b, c })
     });
-    // In a plane that others share.
+    // Corners in a plane that several triangles share.
     let coplanar = (corners(), -6..0_i8).prop_map(|((a, b, c), z)| {
         let z = f32::from(z);
         let [a, b, c] = [a, b, c].map(|p| Vec3::new(p.x, p.y, z));
@@ -108,7 +108,7 @@ fn shape(numbers: Numbers) -> impl Strategy<Value = Shape> {
     ]
 }
 
-/// Objects, some of them again with their corners turned round.
+/// Objects, some of them repeated with their corners in reverse order.
 pub fn objects(numbers: Numbers) -> impl Strategy<Value = Vec<Object>> {
     let doubled = (shape(numbers), 0..4_u8).prop_map(|(shape, copies)| {
         let turned = match (&shape, copies) {
@@ -126,7 +126,7 @@ pub fn objects(numbers: Numbers) -> impl Strategy<Value = Vec<Object>> {
     proptest::collection::vec(doubled, 1..7).prop_map(|objects| objects.concat())
 }
 
-/// A camera among such numbers.
+/// A camera with numbers of this kind.
 pub fn camera(numbers: Numbers) -> impl Strategy<Value = CameraDescription> {
     let projection = prop_oneof![Just(Projection::Perspective), Just(Projection::Parallel)];
     let straight = Just(Orientation::Frame { u: Vec3::X, v: Vec3::Y, w: Vec3::Z });
@@ -161,7 +161,7 @@ pub fn camera(numbers: Numbers) -> impl Strategy<Value = CameraDescription> {
         Numbers::FewBits => {
             prop_oneof![Just([5_u32, 5]), Just([9, 9]), Just([7, 3]), Just([1, 1])].boxed()
         }
-        // Some reach over the borders of tiles.
+        // Some crops reach over the borders of tiles.
         Numbers::Ordinary | Numbers::Extreme => prop_oneof![
             8 => (1..14_u32, 1..14_u32).prop_map(|(width, height)| [width, height]),
             1 => Just([70, 2]), 1 => Just([3, 67]), 1 => Just([140, 1])
@@ -171,7 +171,7 @@ pub fn camera(numbers: Numbers) -> impl Strategy<Value = CameraDescription> {
     (projection, point(numbers), orientation, lens, sides).prop_map(
         move |(projection, eye, orientation, [distance, width, height], image)| {
             let viewport = match numbers {
-                // A pixel is a unit of the viewport: its centres are integers.
+                // A pixel has the size of a unit of the viewport: the pixels' centres are integers.
                 Numbers::FewBits => image.map(|side| side as f32),
                 Numbers::Ordinary | Numbers::Extreme => [width, height],
             };

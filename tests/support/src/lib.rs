@@ -1,7 +1,7 @@
-//! What the tests of several packages share: small scenes, cameras, observers and comparisons.
+//! Shared code for the tests of several packages: small scenes, cameras, observers and comparisons.
 //!
-//! A caller's mistake panics, as in any test. The package knows `common` alone. What needs both orders lies beside the tests that use it, in
-//! `tests/contract/four_renderers.rs`.
+//! A caller's mistake panics, as in any test. This package depends on `common` alone. Shared code that needs both
+//! orders is next to the tests that use it, in `tests/contract/four_renderers.rs`.
 
 mod cameras;
 mod dice;
@@ -17,7 +17,7 @@ pub use frames::*;
 pub use observers::*;
 pub use scenes::*;
 
-/// How many cases a property test tries: fifty times as many with `BOTHWAYS_LONG` set.
+/// The number of cases of a property test: fifty times as many with `BOTHWAYS_LONG` set.
 pub fn cases(usual: u32) -> u32 {
     if std::env::var_os("BOTHWAYS_LONG").is_some() { usual * 50 } else { usual }
 }

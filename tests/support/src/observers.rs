@@ -6,7 +6,7 @@ use bothways_common::raster::Sample;
 use bothways_common::{Camera, Options, View};
 use std::cmp::Ordering;
 
-/// An observer that counts exact ties: of edges where they decide, and of distances.
+/// An observer that counts exact ties: of edges where the edges decide, and of distances.
 #[derive(Clone, Debug)]
 pub struct Ties<'a> {
     view: &'a View<'a>,
@@ -20,7 +20,7 @@ pub struct Ties<'a> {
 }
 
 impl<'a> Ties<'a> {
-    /// Nothing counted so far.
+    /// An observer with all counts at zero.
     pub fn new(view: &'a View<'a>, samples: u32) -> Self {
         Ties { view, samples, edge: 0, distance: 0, tested: 0 }
     }
@@ -61,12 +61,12 @@ impl Events for Ties<'_> {
 #[derive(Clone, Debug)]
 pub struct Owners {
     width: usize,
-    /// One for every sample, row by row.
+    /// One count for every sample, row by row.
     pub counts: Vec<u32>,
 }
 
 impl Owners {
-    /// Nothing counted so far.
+    /// An observer with all counts at zero.
     pub fn new(camera: &Camera, options: &Options) -> Self {
         let [width, height] = camera.image().map(|side| (side * options.samples) as usize);
         Owners { width, counts: vec![0; width * height] }

@@ -1,4 +1,4 @@
-//! One frame that is used again and again.
+//! Tests of one frame that several renderings reuse.
 
 use crate::cameras::{PROJECTIONS, turned};
 use crate::scenes::scene;
@@ -32,10 +32,10 @@ pub fn cameras() -> Vec<Camera> {
     all.collect()
 }
 
-/// How a renderer determines visibility.
+/// A function that determines visibility with a renderer.
 pub type Determine<'a> = &'a dyn Fn(&View, &Options, &mut Frame, &mut Work);
 
-/// Renders A, B, A, … into one frame and compares each with a fresh one, ids, distances and counts.
+/// Renders A, B, A, … into one frame and compares each result with a fresh frame: ids, distances and counts.
 pub fn check_repeats(prepared: Determine, fresh: Determine) {
     let scene = still_life();
     let cameras = cameras();

@@ -10,7 +10,7 @@ pub fn triangle(corners: [[f32; 3]; 3]) -> Object {
     Shape::Triangle(Triangle { a, b, c }).into()
 }
 
-/// A scene of these.
+/// A scene of these objects.
 pub fn scene(objects: Vec<Object>) -> Scene {
     Scene::new(objects).expect("it is a scene")
 }
@@ -20,10 +20,11 @@ pub fn mesh(mesh: Mesh) -> Object {
     Shape::Mesh(mesh).into()
 }
 
-/// Grids of squares of several sides, their corners on quarters of the camera's samples, and what they are.
+/// Grids of squares with several side lengths, each with its camera and its name. The corners are on quarters of the
+/// camera's samples.
 pub fn grids_on_quarters() -> impl Iterator<Item = (Scene, Camera, String)> {
-    // Each reaches beyond its picture. Of small squares a small picture shows as much, and the textbook tests all
-    // of them at all samples.
+    // Each grid reaches beyond its picture. For small squares, a small picture shows as much as a large one, and the
+    // textbook tests all squares at all samples.
     let sides =
         [(0.25, 52, 6), (0.5, 28, 6), (1.0, 24, 10), (2.0, 12, 10), (4.0, 6, 10), (9.0, 2, 10)];
     PROJECTIONS.into_iter().flat_map(move |projection| {
@@ -36,7 +37,7 @@ pub fn grids_on_quarters() -> impl Iterator<Item = (Scene, Camera, String)> {
     })
 }
 
-/// The corners of a grid of squares in the plane z = −1, moved by `shift`, cut by both diagonals in turn.
+/// The corners of a grid of squares in the plane z = −1, moved by `shift`, divided by both diagonals in turn.
 #[expect(clippy::cast_possible_truncation, reason = "small numbers")]
 fn grid(side: f32, squares: usize, shift: Vec2) -> Object {
     let count = squares + 1;

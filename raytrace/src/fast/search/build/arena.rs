@@ -1,4 +1,4 @@
-//! The nodes of a hierarchy while it is built, and which primitives its leaves hold.
+//! The nodes of a hierarchy under construction, and the primitives of its leaves.
 
 use crate::fast::search::tree::{Bounds, LEAF_KINDS, LeafCounts, Node, NodeKind, NodeRef};
 
@@ -17,7 +17,7 @@ pub(super) struct LeafRange {
 }
 
 impl Arena {
-    /// Makes something a child of a node.
+    /// Attaches a child to a node.
     pub(super) fn attach(
         &mut self,
         node: usize,
@@ -30,7 +30,7 @@ impl Arena {
         node.push(bounds, child);
     }
 
-    /// Appends a part that was built beside this one, and returns its first node.
+    /// Appends a part that was built separately, and returns its first node.
     pub(super) fn append(&mut self, part: Arena) -> NodeRef {
         let (nodes, leaves) = (self.nodes.len(), self.leaf_counts());
         self.nodes.extend(part.nodes.into_iter().map(|mut node| {
@@ -45,7 +45,7 @@ impl Arena {
         NodeRef::new(NodeKind::Node, nodes)
     }
 
-    /// How many leaves of each kind there are.
+    /// The number of leaves of each kind.
     pub(super) fn leaf_counts(&self) -> [usize; LEAF_KINDS] {
         self.leaves.each_ref().map(Vec::len)
     }

@@ -1,8 +1,8 @@
 //! Collapses binary trees into nodes of sixteen children, at the least cost. Each tree is built by one thread.
 //!
-//! Splitting the largest box until a node is full would leave most nodes at the bottom with few
-//! leaves. Dynamic programming finds the splits to make boxes of instead, as in Ylitie, Karras and Laine,
-//! "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", High-Performance Graphics, 2017.
+//! If the build split the largest box until a node is full, most nodes at the bottom would have few leaves. Instead,
+//! dynamic programming finds the best splits, as in Ylitie, Karras and Laine, "Efficient Incoherent Ray Traversal on
+//! GPUs Through Compressed Wide BVHs", High-Performance Graphics, 2017.
 
 use super::arena::{Arena, LeafRange};
 use super::leaves::{VertexSet, put_duplicates_last};
@@ -10,7 +10,7 @@ use super::prim_ref::Corners;
 use super::split::{BuildContext, BuildRecord, Split, split};
 use crate::fast::search::tree::{Bounds, LeafCounts, Node, NodeKind, NodeRef, WIDTH};
 
-/// A record that was split in two, down to the leaves. The root is the last node.
+/// A record that is split in two repeatedly, down to the leaves. The root is the last node.
 pub(super) struct BinaryTree {
     all: Vec<BinaryNode>,
 }
@@ -18,15 +18,15 @@ pub(super) struct BinaryTree {
 /// A node of a binary tree.
 struct BinaryNode {
     bounds: Bounds,
-    /// What the nodes under it cost at least, by the area of their boxes, if it becomes at most 1, 2, … children of a
-    /// node.
+    /// The least cost of the nodes under this node, by the area of their boxes, if this node becomes at most 1, 2, …
+    /// children of another node.
     costs: [f64; WIDTH],
     kind: BinaryKind,
 }
 
 enum BinaryKind {
     Leaf(LeafRange, NodeKind, LeafCounts),
-    /// The indices of its two halves.
+    /// The indices of the two halves of the node.
     Fork([usize; 2]),
 }
 
@@ -37,7 +37,7 @@ impl BinaryTree {
         tree
     }
 
-    /// Splits a record until leaves are left. Returns its index, which is the last.
+    /// Splits a record into leaves. Returns the index of its node, which is the last index.
     fn divide(&mut self, mut record: BuildRecord, context: &BuildContext) -> usize {
         let (bounds, weight) = (record.bounds.bounds(), record.bounds.half_area());
         while record.prims.len() > context.most() {
@@ -70,7 +70,7 @@ impl BinaryTree {
         self.all.len() - 1
     }
 
-    /// The costs of two halves together: as a node of this weight, or as several children of another node.
+    /// The costs of two halves together: as one node of this weight, or as several children of another node.
     fn costs(&self, weight: f64, halves: [usize; 2]) -> [f64; WIDTH] {
         let mut costs = [0.0; WIDTH];
         costs[0] = weight + self.cheapest_division(halves, WIDTH).1;
@@ -81,8 +81,8 @@ impl BinaryTree {
         costs
     }
 
-    /// How to divide so many children between two halves: how many the first half gets if that is cheapest, and the
-    /// cost.
+    /// The cheapest division of `children` children between two halves: the number of children for the first half,
+    /// and the cost.
     fn cheapest_division(&self, [left, right]: [usize; 2], children: usize) -> (usize, f64) {
         let (left, right) = (&self.all[left].costs, &self.all[right].costs);
         let mut best = (1, f64::INFINITY);
@@ -95,7 +95,7 @@ impl BinaryTree {
         best
     }
 
-    /// Adds the nodes and leaves that it collapses into to an arena. Returns the root.
+    /// Adds the collapsed nodes and leaves of the tree to an arena. Returns the root.
     pub(super) fn collapse(&self, arena: &mut Arena) -> (NodeRef, LeafCounts) {
         self.place(self.all.len() - 1, arena)
     }
@@ -120,7 +120,8 @@ impl BinaryTree {
         (NodeRef::new(NodeKind::Node, index), LeafCounts::default())
     }
 
-    /// Chooses the nodes that two halves become as so many children of a node, or fewer; as many as cost no more.
+    /// Chooses the nodes that represent two halves as at most `children` children of a node; of equal costs, the
+    /// choice with the most children.
     fn choose(&self, halves: [usize; 2], children: usize, into: &mut Vec<usize>) {
         let (first, _) = self.cheapest_division(halves, children);
         for (half, most) in halves.into_iter().zip([first, children - first]) {

@@ -1,4 +1,5 @@
-//! Grows a hierarchy from a record: all threads split it from the top, and each collapses what is left to it.
+//! Grows a hierarchy from a record: all threads split the record from the top, and each thread collapses its own
+//! part.
 
 use super::arena::Arena;
 use super::collapse::BinaryTree;
@@ -6,11 +7,11 @@ use super::split::{BuildContext, BuildRecord, Split, split};
 use crate::fast::search::tree::{Bounds, LeafCounts, Node, NodeKind, NodeRef, WIDTH};
 use rayon::prelude::*;
 
-/// Records with fewer primitives are built by one thread.
+/// One thread builds a record with fewer primitives than this.
 const SERIAL: usize = 4096;
 
-/// Builds the hierarchy of a record, from its first node on. If there are many primitives, splits the record with
-/// the largest box until a node is full.
+/// Builds the hierarchy of a record, beginning with its first node. If there are many primitives, this function
+/// splits the record with the largest box until a node is full.
 pub(super) fn grow(whole: BuildRecord, context: &BuildContext) -> (Arena, NodeRef, LeafCounts) {
     let mut arena = Arena::default();
     if whole.prims.len() < SERIAL {

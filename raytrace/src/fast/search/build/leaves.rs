@@ -6,7 +6,7 @@ use bothways_common::engine::simd::{Simd, SimdBase, SimdMask, best_level, dispat
 use bothways_common::scene::are_same_corners;
 use glam::Vec3;
 
-/// The distinct vertices of some triangles, and each triangle by the numbers of its vertices.
+/// The distinct vertices of some triangles, and each triangle as the numbers of its vertices.
 pub(super) struct VertexSet {
     vertices: [[f32; LEAF]; 3],
     vertex_count: usize,
@@ -15,7 +15,8 @@ pub(super) struct VertexSet {
 }
 
 impl VertexSet {
-    /// Of some triangles; `None` if they have too many vertices. Vertices are the same if their coordinates are equal.
+    /// The vertices of some triangles; `None` if there are too many. Vertices with equal coordinates are the same
+    /// vertex.
     pub(super) fn new(prims: &[PrimRef], corners: &mut Corners) -> Option<VertexSet> {
         let mut set =
             VertexSet { vertices: [[0.0; LEAF]; 3], vertex_count: 0, corners: [[0; 3]; LEAF] };
@@ -33,14 +34,14 @@ impl VertexSet {
         Some(())
     }
 
-    /// The number of a vertex, which is added if it is new and there is room for it.
+    /// The number of a vertex. A new vertex is added if there is room for it.
     #[inline(always)]
     fn number<S: Simd>(&mut self, simd: S, vertex: Vec3) -> Option<u8> {
         let [x, y, z] = &mut self.vertices;
         let same = f32x16::load_array_ref(simd, x).simd_eq(f32x16::splat(simd, vertex.x))
             & f32x16::load_array_ref(simd, y).simd_eq(f32x16::splat(simd, vertex.y))
             & f32x16::load_array_ref(simd, z).simd_eq(f32x16::splat(simd, vertex.z));
-        // Beyond the last is the origin.
+        // The slots after the last vertex hold the origin.
         let number = (same.to_bitmask().trailing_zeros() as usize).min(self.vertex_count);
         if number == self.vertex_count {
             if number == LEAF {
@@ -67,8 +68,8 @@ impl VertexSet {
     }
 }
 
-/// Orders the triangles of a leaf so that duplicates, which are never seen, come last: triangles with the corners of one
-/// that has a smaller id. Returns how many distinct ones there are.
+/// Orders the triangles of a leaf so that duplicates, which are never visible, come last: a duplicate has the same
+/// corners as a triangle with a smaller id. Returns the number of distinct triangles.
 pub(super) fn put_duplicates_last(prims: &mut [PrimRef], corners: &mut Corners) -> usize {
     let key = |prim: &PrimRef| {
         let (low, high) = (prim.low.truncate(), prim.high.truncate());
@@ -95,7 +96,7 @@ pub(super) fn put_duplicates_last(prims: &mut [PrimRef], corners: &mut Corners) 
     distinct
 }
 
-/// The leaf of some triangles that have few distinct vertices.
+/// The leaf of some triangles with few distinct vertices.
 pub(super) fn indexed_leaf(prims: &[PrimRef], corners: &mut Corners) -> IndexedLeaf {
     VertexSet::new(prims, corners).expect("there are few").leaf(prims)
 }

@@ -1,11 +1,11 @@
-//! What the hierarchy is built from: references to primitives, each with its box and id.
+//! The input of the build: references to primitives, each with its box and id.
 
 use crate::fast::search::tree::Bounds;
 use bothways_common::{Mesh, Plane, Scene, Shape, Sphere, Triangle};
 use glam::{Vec3, Vec4};
 use rayon::prelude::*;
 
-/// A primitive while the hierarchy is built: its box, and the bits of its id in the fourth lane of the low corner.
+/// A primitive during the build: its box, and the bits of its id in the fourth lane of the low corner.
 #[derive(Clone, Copy)]
 pub(super) struct PrimRef {
     pub(super) low: Vec4,
@@ -21,15 +21,15 @@ impl PrimRef {
         self.low.w.to_bits()
     }
 
-    /// The centre of the box, from halves, so that it is finite. Without the id: most ids are denormal numbers, and
-    /// to multiply these takes a hundred times as long.
+    /// The centre of the box, computed from halves, so that it is finite. The lane of the id is left out: most ids
+    /// are denormal numbers, and multiplying denormal numbers takes a hundred times as long.
     #[inline(always)]
     pub(super) fn center(&self) -> Vec4 {
         0.5 * self.low.with_w(0.0) + 0.5 * self.high
     }
 }
 
-/// A box of which the fourth lane means nothing.
+/// A box. Its fourth lane has no meaning.
 #[derive(Clone, Copy)]
 pub(super) struct Box4 {
     pub(super) low: Vec4,
@@ -115,7 +115,7 @@ pub(super) fn sphere(id: u32, &Sphere { center, radius }: &Sphere) -> Option<(Pr
     let half = Vec3::splat(radius + (-18f32).exp2() * extent);
     let bounds = Bounds { low: center - half, high: center + half };
     let finite = bounds.low.is_finite() && bounds.high.is_finite();
-    // Below this, the margin itself would underflow.
+    // Below this extent, the margin itself would underflow.
     let representable = extent > (-100f32).exp2();
     (finite && representable).then(|| (PrimRef::new(&bounds, id), extent))
 }

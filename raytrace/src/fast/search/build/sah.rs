@@ -1,4 +1,4 @@
-//! The surface area heuristic (SAH): where to split primitives in two, between bins of their centres.
+//! The surface area heuristic (SAH): the best split of primitives in two, between bins of their centres.
 
 use super::prim_ref::{Box4, PrimRef};
 use glam::Vec4;
@@ -7,10 +7,10 @@ use rayon::prelude::*;
 /// Bins along an axis: one more than there are candidate splits.
 pub(super) const BINS: usize = 16;
 
-/// Bins of more primitives than this are filled by all threads.
+/// All threads together fill the bins of more primitives than this.
 pub(super) const LARGE: usize = 1 << 17;
 
-/// How centres are sorted into bins.
+/// The mapping from centres to bins.
 #[derive(Clone, Copy)]
 pub(super) struct BinMapping {
     low: Vec4,
@@ -21,7 +21,7 @@ impl BinMapping {
     pub(super) fn new(centers: &Box4) -> BinMapping {
         #[expect(clippy::cast_precision_loss, reason = "it is 16")]
         let bins = BINS as f32;
-        // An extent that overflows, and one that is nothing, puts everything into the first bin.
+        // If an extent overflows or is zero, all primitives go into the first bin.
         let scale = Vec4::splat(bins * 0.999) / (centers.high - centers.low);
         BinMapping {
             low: centers.low,
@@ -42,7 +42,7 @@ impl BinMapping {
     }
 }
 
-/// A split along one axis: primitives whose centre lies in a bin before this one go left.
+/// A split along one axis: primitives with a centre in a bin before this one go left.
 #[derive(Clone, Copy)]
 pub(super) struct SahSplit {
     pub(super) mapping: BinMapping,
@@ -52,7 +52,7 @@ pub(super) struct SahSplit {
     pub(super) cost: f64,
 }
 
-/// What lies in a bin: the box around it, and how many primitives.
+/// The content of a bin: the box around the primitives, and the number of primitives.
 #[derive(Clone, Copy)]
 pub(super) struct Bin {
     bounds: Box4,
@@ -89,13 +89,13 @@ pub(super) fn fill_bins(prims: &[PrimRef], mapping: &BinMapping) -> Bins {
     bins
 }
 
-/// The split that costs least; `None` if all centres are in one bin. A leaf has `most` primitives at most.
+/// The cheapest split; `None` if all centres are in one bin. A leaf has at most `most` primitives.
 pub(super) fn cheapest_split(prims: &[PrimRef], centers: &Box4, most: usize) -> Option<SahSplit> {
     let mapping = BinMapping::new(centers);
     let bins = fill_bins(prims, &mapping);
     let mut best: Option<SahSplit> = None;
     for (axis, bins) in bins.iter().enumerate() {
-        // From the right, the cost of what lies at or beyond each bin; then from the left.
+        // First from the right, the cost of the primitives in or beyond each bin; then from the left.
         let mut beyond = [0.0; BINS];
         let (mut count, mut bounds) = (0, Box4::EMPTY);
         for k in (1..BINS).rev() {
@@ -117,7 +117,7 @@ pub(super) fn cheapest_split(prims: &[PrimRef], centers: &Box4, most: usize) -> 
     best
 }
 
-/// How many leaves so many primitives fill, with so many in each at most.
+/// The number of leaves for a number of primitives, with a given number of primitives per leaf at most.
 #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
 pub(super) fn leaves(count: usize, most: usize) -> f64 {
     count.div_ceil(most) as f64

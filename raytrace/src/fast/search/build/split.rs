@@ -1,4 +1,4 @@
-//! Splits primitives in two: where the surface area heuristic says, or by count.
+//! Splits primitives in two: at the place that the surface area heuristic chooses, or by count.
 
 use super::prim_ref::{Box4, Corners, PrimRef};
 use super::sah::{SahSplit, cheapest_split};
@@ -8,15 +8,15 @@ use bothways_common::Scene;
 /// From this depth on a record is halved by count, which bounds the depth of any hierarchy.
 pub(super) const DEEP: usize = 64;
 
-/// Some consecutive primitives that are to be built, the box around them and the box around their centres.
+/// Some consecutive primitives to build, with the box around them and the box around their centres.
 pub(super) struct BuildRecord<'a> {
     pub(super) prims: &'a mut [PrimRef],
     pub(super) bounds: Box4,
     centers: Box4,
-    /// The index of the first one among all.
+    /// The index of the first primitive among all primitives.
     pub(super) first: usize,
     depth: usize,
-    /// Whether duplicates of triangles were left out.
+    /// Whether duplicate triangles have been left out.
     distinct: bool,
 }
 
@@ -37,22 +37,22 @@ impl<'a> BuildRecord<'a> {
     }
 }
 
-/// What all records of one hierarchy share.
+/// The common data of all records of one hierarchy.
 pub(super) struct BuildContext<'a> {
-    /// Whether it is that of the spheres.
+    /// Whether the hierarchy is the hierarchy of the spheres.
     pub(super) spheres: bool,
     pub(super) scene: &'a Scene,
 }
 
 impl BuildContext<'_> {
-    /// How many primitives a leaf has at most.
+    /// The most primitives in a leaf.
     pub(super) fn most(&self) -> usize {
         if self.spheres { SPHERES } else { LEAF }
     }
 }
 
-/// What becomes of a record with more primitives than a leaf holds: it is divided in two, or its duplicates are left
-/// out.
+/// The result for a record with more primitives than a leaf holds: the record is divided in two, or its duplicates
+/// are left out.
 pub(super) enum Split<'a> {
     Halves([BuildRecord<'a>; 2]),
     Distinct(BuildRecord<'a>),
@@ -69,7 +69,8 @@ pub(super) fn split<'a>(record: BuildRecord<'a>, context: &BuildContext) -> Spli
         let count = leave_out_duplicates(prims, context);
         return Split::Distinct(BuildRecord::new(&mut prims[..count], first, depth, true));
     }
-    // All in one place, or too deep: any half is as good as any other, as long as it is whole leaves.
+    // All centres are in one place, or the depth is too great: then any half is equally good if it is a number of
+    // whole leaves.
     let half = (prims.len() / 2).next_multiple_of(context.most()).min(prims.len() - 1);
     let (left, right) = prims.split_at_mut(half);
     let left = BuildRecord::new(left, first, depth + 1, distinct);
@@ -107,12 +108,12 @@ fn partition<'a>(record: BuildRecord<'a>, best: &SahSplit) -> [BuildRecord<'a>; 
     [half(left_prims, first, left), half(right_prims, first + middle, right)]
 }
 
-/// Keeps the distinct triangles, each time the first in the scene, at the start, and returns how many there are: the
-/// duplicates are never seen.
+/// Moves the distinct triangles to the start, the first triangle in the scene of each group, and returns the number
+/// of distinct triangles: the duplicates are never visible.
 fn leave_out_duplicates(prims: &mut [PrimRef], context: &BuildContext) -> usize {
     let mut corners = Corners::new(context.scene);
     let mut bits = |prim: &PrimRef| {
-        // Adding 0 makes −0 and 0 one.
+        // Adding 0 makes −0 and 0 equal.
         let mut bits = corners.of(prim.id()).map(|v| (v + 0.0).to_array().map(f32::to_bits));
         bits.sort_unstable();
         bits

@@ -1,4 +1,4 @@
-//! What a hierarchy must be.
+//! The required properties of a hierarchy.
 
 use super::super::tree::{LEAF, LeafCounts, NodeRef};
 use super::split::DEEP;
@@ -36,13 +36,13 @@ fn triangles(prepared: &Prepared, leaf: NodeRef, count: usize) -> Vec<(u32, [Vec
         }
         kind => panic!("{kind:?} in a scene of triangles"),
     };
-    // Unused lanes repeat the first.
+    // Unused lanes repeat the first lane.
     assert!((count..LEAF).all(|lane| triangle(lane) == triangle(0)));
     (0..count).map(triangle).collect()
 }
 
-/// The depth of the hierarchy and the ids in it; checks that boxes hold what is under them, and leaves
-/// the triangles of the scene.
+/// The depth of the hierarchy and the ids in it; this function checks that boxes hold the nodes under them, and
+/// leaves the triangles of the scene.
 fn inspect(prepared: &Prepared, scene: &Scene) -> (usize, Vec<u32>) {
     let (mut deepest, mut ids) = (0, Vec::new());
     let mut open = vec![(prepared.roots[0], prepared.bounds, 0)];
@@ -92,7 +92,7 @@ fn nodes_are_filled() {
         let prepared = built(&mesh((0..count * 3).map(corner).collect()));
         let children =
             prepared.nodes.len() - 1 + prepared.indexed_leaves.len() + prepared.plain_leaves.len();
-        // Splitting the largest box until there are sixteen leaves them half empty.
+        // If the build splits the largest box until there are sixteen, the leaves are half empty.
         assert!(
             children >= 10 * (prepared.nodes.len() - 1),
             "{count}: {children} in {}",
@@ -127,7 +127,7 @@ fn duplicates_in_a_leaf_come_last() {
 
 #[test]
 fn triangles_with_one_middle_are_halved() {
-    // Nested, each around the origin.
+    // Nested triangles, each around the origin.
     let scene = mesh(
         (0..3 * 500_u16)
             .map(|k| {
