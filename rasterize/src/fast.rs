@@ -34,7 +34,7 @@ mod few_samples;
 mod geometry;
 mod high_precision;
 mod lanes;
-mod local_projection;
+mod local_origin;
 mod many_samples;
 mod one_primitive;
 mod picture;

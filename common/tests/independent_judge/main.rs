@@ -64,7 +64,7 @@ impl Court {
     /// Confirms every answer about one sample, or says which one is wrong.
     fn confirm(
         &self,
-        memory: &mut CachedJudge,
+        cached: &mut CachedJudge,
         primitives: &[(u32, Primitive)],
         ray: &Ray,
     ) -> Result<Tally, String> {
@@ -86,7 +86,7 @@ impl Court {
         for (index, &first) in covering.iter().enumerate() {
             for &second in &covering[index + 1..] {
                 tally.comparisons += 1;
-                let tie = self.confirm_precedence(memory, first, second, ray)?;
+                let tie = self.confirm_precedence(cached, first, second, ray)?;
                 tally.distance_ties += u64::from(tie);
             }
         }
@@ -97,7 +97,7 @@ impl Court {
     /// tells whether they tie.
     fn confirm_precedence(
         &self,
-        memory: &mut CachedJudge,
+        cached: &mut CachedJudge,
         first: (u32, &Primitive),
         second: (u32, &Primitive),
         ray: &Ray,
@@ -106,8 +106,8 @@ impl Court {
         let answers = [
             self.library.nearer(first, second, ray),
             !self.library.nearer(second, first, ray),
-            memory.nearer(first, second, ray),
-            !memory.nearer(second, first, ray),
+            cached.nearer(first, second, ray),
+            !cached.nearer(second, first, ray),
         ];
         if answers != [truth.first_is_seen; 4] {
             return Err(format!(
@@ -134,9 +134,9 @@ fn confirm_case(case: &Case) -> Result<Tally, String> {
     let (camera, scene) = (case.camera(), case.scene());
     let court = Court::new(&camera);
     let primitives: Vec<_> = View::new(&scene, &camera).primitives().collect();
-    let mut memory = CachedJudge::new(court.library);
+    let mut cached = CachedJudge::new(court.library);
     case.rays().iter().try_fold(Tally::default(), |sum, ray| {
-        Ok(sum.plus(court.confirm(&mut memory, &primitives, ray)?))
+        Ok(sum.plus(court.confirm(&mut cached, &primitives, ray)?))
     })
 }
 

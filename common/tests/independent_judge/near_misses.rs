@@ -148,9 +148,9 @@ fn search(cases: u32, pictures: impl Strategy<Value = Case>) -> Wrong {
         let [x, y] = case.points[0];
         let ray = camera.ray_through(x, y);
         count_wrong(&court, &primitives, &ray, &mut wrong);
-        let mut memory = CachedJudge::new(court.library);
+        let mut cached = CachedJudge::new(court.library);
         court
-            .confirm(&mut memory, &primitives, &ray)
+            .confirm(&mut cached, &primitives, &ray)
             .unwrap_or_else(|error| panic!("{error}\n{case:?}"));
     }
     println!("plain arithmetic on {} near misses: {wrong:?}", runner.config().cases);

@@ -1,6 +1,6 @@
 //! The map from the world to the raster of samples, and how far rounding may move a point on it.
 
-use super::local_projection::LocalProjection;
+use super::local_origin::LocalOrigin;
 use bothways_common::engine::fault::{Fault, Planted};
 use bothways_common::raster::Region;
 use bothways_common::{Camera, Projection, Raster, SampleGrid};
@@ -30,7 +30,7 @@ pub(super) struct CameraMap<'a> {
     /// How far a computed row or column of a trusted vertex may be off; see [`CameraMap::new`].
     pub(super) margin: [f64; 2],
     /// From where a parallel camera's offsets are computed.
-    pub(super) local: LocalProjection,
+    pub(super) local: LocalOrigin,
     /// How far from there, in the sum of its coordinates, a vertex of a parallel camera is trusted.
     pub(super) trusted_extent: f64,
 }
@@ -61,7 +61,7 @@ impl<'a> CameraMap<'a> {
     /// The margin takes `2⁻³⁶` and `2⁻⁴⁷`: more than 30 and 4 times that.
     ///
     /// Parallel. `p` is taken from the local origin, which lies on the middle ray, so that it is seen where it is;
-    /// its coordinates carry two roundings (see [`LocalProjection::relative`]) and `s` is the sum of these. `p·u` is
+    /// its coordinates carry two roundings (see [`LocalOrigin::relative`]) and `s` is the sum of these. `p·u` is
     /// off by `5.03ε₅₃·s`, frame and `O` by `2⁻⁴⁹·s`, and a trusted vertex has `s ≤ 2¹⁶·min(vw, vh)`, so a column is
     /// off by less than `2⁻³²·W`; the margin takes `2⁻³⁰`.
     ///
@@ -99,7 +99,7 @@ impl<'a> CameraMap<'a> {
             scale: [-rows / vh, columns / vw],
             middle: raster.middle(),
             margin: [margin(vh, rows), margin(vw, columns)],
-            local: LocalProjection::new(camera, bounds),
+            local: LocalOrigin::new(camera, bounds),
             trusted_extent: 16f64.exp2() * vw.min(vh),
         }
     }

@@ -11,7 +11,7 @@
 //!
 //! What is computed here is computed with rounding: [`MapErrors`] bounds what that does.
 
-use super::depth::DepthScale;
+use super::depth::KeyScale;
 use super::search::tree::Bounds;
 use bothways_common::engine::roundoff::EPS53;
 use bothways_common::{Projection, Raster, SampleGrid, View};
@@ -23,7 +23,7 @@ pub(super) struct CameraMap<'a> {
     pub(super) view: View<'a>,
     pub(super) grid: SampleGrid<'a>,
     pub(super) raster: Raster,
-    pub(super) depth: DepthScale,
+    pub(super) depth: KeyScale,
     pub(super) reach: Reach,
 }
 
@@ -104,7 +104,7 @@ impl<'a> CameraMap<'a> {
             Projection::Perspective => (camera.distance() / reach.from_eye).log2().floor().exp2(),
             Projection::Parallel => 1.0 / least(raster.spacing()),
         };
-        let depth = DepthScale { projection: camera.projection(), scale };
+        let depth = KeyScale { projection: camera.projection(), scale };
         CameraMap { view: *view, grid: camera.sample_grid(samples), raster, depth, reach }
     }
 

@@ -5,13 +5,13 @@ use bothways_common::engine::roundoff::{EPS53, Interval};
 
 /// How `t` becomes a key: `1/t` (perspective) or `−t` (parallel), `t` times a scale.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct DepthScale {
+pub(super) struct KeyScale {
     pub(super) projection: Projection,
     /// A power of two, or one over the spacing of samples: the first coordinate of the map is `t` times this.
     pub(super) scale: f64,
 }
 
-impl DepthScale {
+impl KeyScale {
     /// The key interval of an interval of `t`, widened to `f32`s: its low end, for what is far, and its high end.
     ///
     /// Four roundings in `f64` are far less than the last place of an `f32`, and one is the conversion's.

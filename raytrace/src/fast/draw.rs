@@ -9,9 +9,9 @@ use super::few_samples;
 use super::many_samples::{self, SetupArrays};
 use super::one_primitive;
 use super::search::tile_frustum::TileFrustum;
-use super::setup::{EightTriangles, Setup};
+use super::setup::{Setup, TrianglePacket};
 use super::size_class::{FEW, SizeClass, VERY_FEW};
-use super::tile::Tile;
+use super::tile::TileBuffer;
 use bothways_common::Sign;
 use bothways_common::engine::context::{Context, ScalarContext};
 use bothways_common::engine::simd::{Simd, SimdBase, SimdMask, f32x8};
@@ -24,8 +24,8 @@ pub(super) fn draw<C: Context>(
     context: &mut C,
     map: &CameraMap,
     frustum: &TileFrustum,
-    (eight, used): (&EightTriangles, u64),
-    tile: &mut Tile,
+    (eight, used): (&TrianglePacket, u64),
+    tile: &mut TileBuffer,
 ) -> SizeClass {
     let simd = context.simd();
     let setup = Setup::new(context, frustum, eight, used, tile.far);
@@ -68,9 +68,9 @@ pub(super) fn draw<C: Context>(
 fn judge_open<C: Context>(
     context: &mut C,
     map: &CameraMap,
-    eight: &EightTriangles,
+    eight: &TrianglePacket,
     mut doubtful: u64,
-    tile: &mut Tile,
+    tile: &mut TileBuffer,
 ) {
     while doubtful != 0 {
         let lane = (doubtful.trailing_zeros() & 7) as usize;
@@ -91,9 +91,9 @@ fn judge_open<C: Context>(
 fn report_edges<S: Simd>(
     context: &mut impl ScalarContext,
     setup: &Setup<S>,
-    eight: &EightTriangles,
+    eight: &TrianglePacket,
     used: u64,
-    tile: &Tile,
+    tile: &TileBuffer,
 ) {
     let sink = context.sink();
     if sink.counts().is_some() {

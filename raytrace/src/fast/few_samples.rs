@@ -1,8 +1,8 @@
 //! Triangles over few samples: a triangle a lane, one of its samples at a time.
 
 use super::search::tile_frustum::TileFrustum;
-use super::setup::{EightTriangles, Setup};
-use super::tile::{Tile, index};
+use super::setup::{Setup, TrianglePacket};
+use super::tile::{TileBuffer, index};
 use bothways_common::engine::context::Context;
 use bothways_common::engine::simd::{Select, Simd, SimdBase, SimdMask, f32x8};
 
@@ -12,9 +12,9 @@ pub(super) fn draw<C: Context>(
     context: &mut C,
     frustum: &TileFrustum,
     setup: &Setup<C::Simd>,
-    (eight, few): (&EightTriangles, u64),
+    (eight, few): (&TrianglePacket, u64),
     samples: f32x8<C::Simd>,
-    tile: &mut Tile,
+    tile: &mut TileBuffer,
 ) {
     let simd = context.simd();
     let half = f32x8::splat(simd, frustum.centered(0));

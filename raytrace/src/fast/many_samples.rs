@@ -4,7 +4,7 @@
 use super::affine::Affine;
 use super::search::tile_frustum::TileFrustum;
 use super::setup::Setup;
-use super::tile::{Tile, place};
+use super::tile::{TileBuffer, place};
 use bothways_common::engine::simd::{Select, Simd, SimdBase, SimdMask, f32x16, u32x16};
 
 /// A setup, to be read lane by lane.
@@ -61,7 +61,7 @@ pub(super) fn draw<S: Simd>(
     arrays: &SetupArrays,
     lane: usize,
     id: u32,
-    tile: &mut Tile,
+    tile: &mut TileBuffer,
 ) {
     let triangle = TriangleSetup::new(simd, frustum, arrays, lane, id);
     let [ab, bc, ca] = &triangle.edges;
@@ -145,7 +145,7 @@ impl<S: Simd> TriangleSetup<S> {
         frustum: &TileFrustum,
         (group, block): (usize, usize),
         values: &[[f32; 16]; 4],
-        tile: &mut Tile,
+        tile: &mut TileBuffer,
     ) {
         let [ab, bc, ca] = &self.edges;
         let e0 = ab.within + values[0][block];

@@ -4,7 +4,7 @@ use super::answer::{Answer, Trust};
 use super::bounds;
 use super::camera_map::CameraMap;
 use super::search::tile_frustum::TileFrustum;
-use super::tile::{OpenFragment, Tile, index};
+use super::tile::{OpenFragment, TileBuffer, index};
 use super::{plane, sphere, triangle};
 use bothways_common::engine::context::ScalarContext;
 use bothways_common::engine::fault::Planted;
@@ -36,7 +36,7 @@ pub(super) fn draw<C: ScalarContext>(
     map: &CameraMap,
     frustum: &TileFrustum,
     (id, primitive): (u32, &Primitive),
-    tile: &mut Tile,
+    tile: &mut TileBuffer,
 ) {
     let [rows, columns] = match primitive {
         Primitive::Sphere { center, radius } => bounds::of_sphere(frustum, *center, *radius),
@@ -59,7 +59,7 @@ pub(super) fn settle<C: ScalarContext>(
     context: &mut C,
     map: &CameraMap,
     primitives: &[(u32, Primitive); 8],
-    tile: &mut Tile,
+    tile: &mut TileBuffer,
 ) {
     let open = tile.take_open();
     for &OpenFragment { index, lane, covered } in &open {
@@ -77,7 +77,7 @@ fn decide<C: ScalarContext>(
     at: usize,
     (id, primitive): (u32, &Primitive),
     covered: bool,
-    tile: &mut Tile,
+    tile: &mut TileBuffer,
 ) {
     let Some(sample) = tile.sample(at) else { return };
     let ray = map.grid.ray(sample.row, sample.column);
@@ -127,7 +127,7 @@ fn is_nearer<C: ScalarContext>(
     map: &CameraMap,
     (sample, at): (Sample, usize),
     (id, incoming, distance): (u32, &Primitive, Interval),
-    tile: &mut Tile,
+    tile: &mut TileBuffer,
 ) -> bool {
     let stored_id = tile.ids[at];
     let stored = map.view.primitive(stored_id);

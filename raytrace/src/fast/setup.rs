@@ -18,7 +18,7 @@ use glam::Vec3;
 /// Eight triangles as they are stored in the world; the unused lanes hold any others. Of the corners: x, y, z of the
 /// first, of the second, of the third.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct EightTriangles {
+pub(super) struct TrianglePacket {
     pub(super) corners: [[f32; 8]; 9],
     pub(super) ids: [u32; 8],
 }
@@ -45,7 +45,7 @@ pub(super) struct Setup<S: Simd> {
     pub(super) doubtful: mask32x8<S>,
 }
 
-impl EightTriangles {
+impl TrianglePacket {
     /// One of the triangles, relative to the eye.
     pub(super) fn primitive(&self, view: &View, lane: usize) -> Primitive {
         Primitive::Triangle(std::array::from_fn(|corner| {
@@ -87,7 +87,7 @@ impl<S: Simd> Setup<S> {
     pub(super) fn new<C: Context<Simd = S>>(
         context: &C,
         frustum: &TileFrustum,
-        eight: &EightTriangles,
+        eight: &TrianglePacket,
         used: u64,
         far: f32,
     ) -> Self {
@@ -189,7 +189,7 @@ impl<S: Simd> Functions<S> {
         let (f, key_at_middle) = if parallel { (n[0], -along) } else { (along, n[0]) };
         let r = f64x8::splat(simd, 1.0) / f;
         let [e1, e2, e3] = if parallel {
-            [flat_edge(a, ab), flat_edge(b, bc), flat_edge(c, ca)]
+            [parallel_edge(a, ab), parallel_edge(b, bc), parallel_edge(c, ca)]
         } else {
             [edge(a, ab), edge(b, bc), edge(c, ca)]
         };
@@ -328,7 +328,7 @@ fn sample_error<C: Context>(context: &C, frustum: &TileFrustum) -> f32x8<C::Simd
 
 /// The corners' offsets from the eye.
 #[inline(always)]
-fn offsets<S: Simd>(simd: S, frustum: &TileFrustum, eight: &EightTriangles) -> Corners<S> {
+fn offsets<S: Simd>(simd: S, frustum: &TileFrustum, eight: &TrianglePacket) -> Corners<S> {
     let rows = eight.corners.as_flattened();
     let (ax, ay) = f32x16::from_slice(simd, &rows[..16]).widen();
     let (az, bx) = f32x16::from_slice(simd, &rows[16..32]).widen();
@@ -375,7 +375,7 @@ fn edge<S: Simd>(p: [f64x8<S>; 3], e: [f64x8<S>; 3]) -> [f64x8<S>; 3] {
 
 /// The same for parallel rays: `det(p − (0, δj, δi), e, (1, 0, 0))`.
 #[inline(always)]
-fn flat_edge<S: Simd>(p: [f64x8<S>; 3], e: [f64x8<S>; 3]) -> [f64x8<S>; 3] {
+fn parallel_edge<S: Simd>(p: [f64x8<S>; 3], e: [f64x8<S>; 3]) -> [f64x8<S>; 3] {
     [p[1] * e[2] - p[2] * e[1], -e[2], e[1]]
 }
 

@@ -15,7 +15,7 @@ const ENOUGH: f64 = 1e-7;
 /// precision uncertain.
 #[inline(always)]
 pub(super) fn answer(ray: &Ray, center: DVec3, radius: f64, trust: Trust) -> Answer {
-    match Passing::new(ray, center, radius, trust).answer(trust) {
+    match ClosestApproach::new(ray, center, radius, trust).answer(trust) {
         Answer::Hit(Interval { low, high }) if high - low <= ENOUGH * high => {
             Answer::Hit(Interval { low, high })
         }
@@ -30,7 +30,7 @@ pub(super) fn answer(ray: &Ray, center: DVec3, radius: f64, trust: Trust) -> Ans
 /// With `k = m·D/A`, `m = O − center`, it comes nearest to the centre at `t = −k`, where `f = m − k·D` remains; it
 /// meets the sphere at `t = −k ∓ √((r² − f·f)/A)`. Unlike the discriminant `B² − A·C`, `f·f` does not cancel for small
 /// spheres far away (Haines et al., "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019).
-struct Passing {
+struct ClosestApproach {
     a: f64,
     k: f64,
     k_error: f64,
@@ -44,12 +44,12 @@ struct Passing {
     c_error: f64,
 }
 
-impl Passing {
+impl ClosestApproach {
     /// `m` carries one rounding; `A` 3; `k` 1 + 3 + 3 + 1 of `k̂ = Σ|m|·|D|/A`; a coordinate of `f` at most 10 of
     /// `|m| + k̂·|D|`; `f·f` what its coordinates bring, and 3; `C = m·m − r²` 2 + 1 + 2 + 1. Constants are larger by
     /// one or more, for the roundings of the bounds.
     #[inline(always)]
-    fn new(ray: &Ray, center: DVec3, radius: f64, trust: Trust) -> Passing {
+    fn new(ray: &Ray, center: DVec3, radius: f64, trust: Trust) -> ClosestApproach {
         let (m, d) = (ray.origin - center, ray.direction);
         let a = d.length_squared();
         let (k, k_size) = (m.dot(d) / a, m.abs().dot(d.abs()) / a);
@@ -62,7 +62,7 @@ impl Passing {
             + 5.0 * EPS53 * (f_squared + radius_squared)
             + FLOOR;
         let m_squared = m.length_squared();
-        Passing {
+        ClosestApproach {
             a,
             k,
             k_error: trust.of(9.0 * EPS53 * k_size + FLOOR),
@@ -135,7 +135,7 @@ impl Passing {
 pub(super) fn nearer([first, second]: [(DVec3, f64); 2], ray: &Ray) -> Option<Ordering> {
     let trust = Trust::Sound;
     let [one, other] =
-        [first, second].map(|(center, radius)| Passing::new(ray, center, radius, trust));
+        [first, second].map(|(center, radius)| ClosestApproach::new(ray, center, radius, trust));
     let (far, other_far) = (one.sees_far_wall()?, other.sees_far_wall()?);
     let ((half, half_error), (other_half, other_error)) = (one.half(trust), other.half(trust));
     let d = ray.direction;

@@ -3,7 +3,7 @@
 use super::answer::{Answer, Trust, narrow_middle};
 use super::camera_map::CameraMap;
 use super::one_primitive;
-use super::tile::{BLOCK, Tile, place};
+use super::tile::{BLOCK, TileBuffer, place};
 use bothways_common::Projection;
 use bothways_common::engine::simd::{Select, Simd, SimdBase, SimdMask, f32x16, u32x16};
 use bothways_common::frame::{NO_PRIMITIVE, stored_t};
@@ -15,7 +15,7 @@ use std::ops::Range;
 pub(super) fn store<S: Simd>(
     simd: S,
     map: &CameraMap,
-    tile: &Tile,
+    tile: &TileBuffer,
     region: &Region,
     ids: &mut [&mut [u32]],
     t: &mut [&mut [f32]],
@@ -74,7 +74,7 @@ pub(super) fn store<S: Simd>(
 fn block_values<S: Simd>(
     simd: S,
     map: &CameraMap,
-    tile: &Tile,
+    tile: &TileBuffer,
     block: usize,
     ids: &mut [u32; 16],
     t: &mut [f32; 16],
@@ -110,7 +110,7 @@ fn block_values<S: Simd>(
 #[cold]
 fn find_distances(
     map: &CameraMap,
-    tile: &Tile,
+    tile: &TileBuffer,
     from: usize,
     lanes: u64,
     ids: &[u32; 16],

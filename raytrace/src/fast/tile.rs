@@ -20,7 +20,7 @@ const BLOCKS: usize = SAMPLES / 16;
 /// For each sample: what is hit, and an interval that holds its key, which is larger for what is nearer.
 /// Both ends are −∞ where nothing is hit, and +∞ beyond the picture, where nothing can be nearer.
 #[derive(Debug)]
-pub(super) struct Tile {
+pub(super) struct TileBuffer {
     pub(super) ids: Box<[u32; SAMPLES]>,
     pub(super) low: Box<[f32; SAMPLES]>,
     pub(super) high: Box<[f32; SAMPLES]>,
@@ -51,10 +51,10 @@ pub(super) struct OpenFragment {
     pub(super) covered: bool,
 }
 
-impl Tile {
-    /// A tile without samples; [`Tile::begin`] gives it some.
-    pub(super) fn new(judge: Judge) -> Tile {
-        Tile {
+impl TileBuffer {
+    /// A tile without samples; [`TileBuffer::begin`] gives it some.
+    pub(super) fn new(judge: Judge) -> TileBuffer {
+        TileBuffer {
             ids: Box::new([NO_PRIMITIVE; SAMPLES]),
             low: Box::new([0.0; SAMPLES]),
             high: Box::new([0.0; SAMPLES]),
@@ -179,7 +179,7 @@ impl Tile {
         !self.open.is_empty()
     }
 
-    /// The fragments that are left open. The vector is given back to [`Tile::clear_open`].
+    /// The fragments that are left open. The vector is given back to [`TileBuffer::clear_open`].
     pub(super) fn take_open(&mut self) -> Vec<OpenFragment> {
         std::mem::take(&mut self.open)
     }

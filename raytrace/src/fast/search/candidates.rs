@@ -9,7 +9,7 @@ use super::tile_frustum::TileFrustum;
 use super::tree::{LEAF, NodeKind, NodeRef};
 use crate::fast::local_projection::LocalProjection;
 use crate::fast::prepared::Prepared;
-use crate::fast::setup::EightTriangles;
+use crate::fast::setup::TrianglePacket;
 use bothways_common::engine::simd::{
     Simd, SimdBase, SimdFloat, SimdMask, f32x8, f32x16, mask32x16, u32x8, u32x16,
 };
@@ -135,9 +135,9 @@ impl CandidateQueue {
 
     /// Takes the next eight triangles from the queue; if there are fewer, others fill the lanes.
     #[inline(always)]
-    pub(crate) fn take_eight<S: Simd>(&mut self, simd: S) -> EightTriangles {
+    pub(crate) fn take_eight<S: Simd>(&mut self, simd: S) -> TrianglePacket {
         let first = self.first.min(ROOM - EIGHT);
-        let mut eight = EightTriangles { corners: [[0.0; EIGHT]; 9], ids: [0; EIGHT] };
+        let mut eight = TrianglePacket { corners: [[0.0; EIGHT]; 9], ids: [0; EIGHT] };
         let row = |row: usize| f32x8::from_slice(simd, &self.corners[row][first..first + EIGHT]);
         // In the pairs in which they are loaded later: then the machine can forward its stores to its loads.
         for (pair, to) in eight.corners.as_flattened_mut().chunks_exact_mut(2 * EIGHT).enumerate() {

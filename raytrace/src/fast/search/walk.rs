@@ -6,7 +6,7 @@ use super::tree::{LeafCounts, Node, NodeKind, NodeRef, WIDTH};
 use crate::fast::camera_map::CameraMap;
 use crate::fast::prepared::Prepared;
 use crate::fast::size_class::SizeClass;
-use crate::fast::tile::Tile;
+use crate::fast::tile::TileBuffer;
 use crate::fast::{draw, one_primitive};
 use bothways_common::Primitive;
 use bothways_common::engine::context::{Context, ScalarContext};
@@ -30,7 +30,7 @@ struct StackEntry {
 pub(crate) struct Walker<'a> {
     pub(crate) prepared: &'a Prepared,
     pub(crate) map: &'a CameraMap<'a>,
-    pub(crate) tile: Tile,
+    pub(crate) tile: TileBuffer,
     /// What is tested without a box: planes, and spheres that no box can be trusted to hold, because
     /// they are huge or the eye is so far away (those are in boxes, too).
     unbounded: Vec<(u32, Primitive)>,
@@ -49,7 +49,7 @@ impl<'a> Walker<'a> {
         Walker {
             prepared,
             map,
-            tile: Tile::new(map.view.judge()),
+            tile: TileBuffer::new(map.view.judge()),
             unbounded,
             stack: Vec::new(),
             queue: CandidateQueue::new(),
@@ -88,13 +88,13 @@ impl<'a> Walker<'a> {
                     continue;
                 }
                 NodeKind::IndexedLeaf | NodeKind::PlainLeaf => {
-                    let hurry =
+                    let flush =
                         C::WATCHED || class == SizeClass::Many || self.tile.is_nearly_full();
                     let is_full = self.add_leaf(context, &entry);
-                    if !(is_full || hurry) {
+                    if !(is_full || flush) {
                         continue;
                     }
-                    class = self.draw_candidates(context, &frustum, class, hurry);
+                    class = self.draw_candidates(context, &frustum, class, flush);
                 }
                 NodeKind::Spheres => self.draw_spheres(context, &frustum, &entry),
             }
@@ -186,7 +186,7 @@ impl<'a> Walker<'a> {
     }
 
     /// Tests the leaves that have waited longest, and draws triangles, eight at a time; all leaves and triangles if
-    /// `hurry` asks for it, and all triangles if they are large. Takes and returns the size class of those that were
+    /// `flush` asks for it, and all triangles if they are large. Takes and returns the size class of those that were
     /// drawn last.
     #[inline(always)]
     fn draw_candidates<C: Context>(
@@ -194,7 +194,7 @@ impl<'a> Walker<'a> {
         context: &mut C,
         frustum: &TileFrustum,
         class: SizeClass,
-        hurry: bool,
+        flush: bool,
     ) -> SizeClass {
         let test = match class {
             // What is reported of a ray must not depend on the triangles that came before.
@@ -202,11 +202,11 @@ impl<'a> Walker<'a> {
             SizeClass::VeryFew | SizeClass::Few => Test::Edges,
             SizeClass::Many => Test::Bounds,
         };
-        self.queue.test_leaves(context.simd(), self.prepared, frustum, test, hurry);
+        self.queue.test_leaves(context.simd(), self.prepared, frustum, test, flush);
         let mut largest = None;
         loop {
             let count = self.queue.count();
-            let all = hurry || largest == Some(SizeClass::Many);
+            let all = flush || largest == Some(SizeClass::Many);
             if count == 0 || (count < EIGHT && !all) {
                 break;
             }

@@ -9,24 +9,24 @@ use glam::DVec3;
 /// for where it is seen. But parallel rays may begin anywhere on their line: edge functions and places are the same
 /// for offsets from the local origin, which are short, and depths are less by `t`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct LocalProjection {
+pub(super) struct LocalOrigin {
     pub(super) t: f64,
     /// The point is the sum of both; the second is at most a rounding of the first.
     high: DVec3,
     low: DVec3,
 }
 
-impl LocalProjection {
+impl LocalOrigin {
     /// The eye itself.
-    const EYE: LocalProjection = LocalProjection { t: 0.0, high: DVec3::ZERO, low: DVec3::ZERO };
+    const EYE: LocalOrigin = LocalOrigin { t: 0.0, high: DVec3::ZERO, low: DVec3::ZERO };
 
     /// The middle of a scene's depth, if that lies far in front of a parallel camera; otherwise the eye. `bounds` are
     /// the corners of a box around the scene.
-    pub(super) fn new(camera: &Camera, bounds: &[DVec3; 8]) -> LocalProjection {
+    pub(super) fn new(camera: &Camera, bounds: &[DVec3; 8]) -> LocalOrigin {
         /// An eye is far if its distance is more than so many times the depth of the scene.
         const FAR: f64 = 16.0;
         if camera.projection() == Projection::Perspective {
-            return LocalProjection::EYE;
+            return LocalOrigin::EYE;
         }
         let depth = |corner: &DVec3| -(*corner - camera.eye().as_dvec3()).dot(camera.w());
         let low = bounds.iter().map(depth).fold(f64::INFINITY, f64::min);
@@ -34,18 +34,18 @@ impl LocalProjection {
         let t = f64::midpoint(low, high);
         // Written so that NaN and infinity, of a scene of planes alone, fail.
         if low > 0.0 && t > FAR * (high - low) && t < f64::MAX {
-            LocalProjection::at(t, -camera.w())
+            LocalOrigin::at(t, -camera.w())
         } else {
-            LocalProjection::EYE
+            LocalOrigin::EYE
         }
     }
 
-    fn at(t: f64, direction: DVec3) -> LocalProjection {
+    fn at(t: f64, direction: DVec3) -> LocalOrigin {
         let [x, y, z] = direction.to_array().map(|along| product(t, along));
-        LocalProjection { t, high: DVec3::new(x[0], y[0], z[0]), low: DVec3::new(x[1], y[1], z[1]) }
+        LocalOrigin { t, high: DVec3::new(x[0], y[0], z[0]), low: DVec3::new(x[1], y[1], z[1]) }
     }
 
-    /// The two parts of the point, which [`LocalProjection::relative`] subtracts one after the other.
+    /// The two parts of the point, which [`LocalOrigin::relative`] subtracts one after the other.
     pub(super) fn parts(&self) -> [DVec3; 2] {
         [self.high, self.low]
     }
@@ -90,7 +90,7 @@ mod tests {
     #[test]
     fn what_lies_on_the_ray_is_at_the_local_origin() {
         let direction = DVec3::new(0.6, 0.0, -0.8);
-        let local = LocalProjection::at(1e6 + 1.0 / 3.0, direction);
+        let local = LocalOrigin::at(1e6 + 1.0 / 3.0, direction);
         let [high, low] = local.parts();
         assert_eq!(local.relative(high), -low);
         assert!(low != DVec3::ZERO && low.length() < 1e-9);
