@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! for each primitive                    vertex stage, bounding region, bins       (vertices, search)
-//!     for each sample it may affect     tile by tile: a z-buffer stays in cache   (draw, tile)     
+//!     for each sample it may affect     tile by tile: a z-buffer stays in cache   (draw, tile)
 //!         if it covers the sample       edge functions, affine on the raster      (setup)
 //!             keep the nearest          depth keys, affine on the raster          (depth, tile)
 //! ```

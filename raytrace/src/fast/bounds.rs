@@ -34,8 +34,8 @@ pub(super) fn of_triangles<S: Simd>(
 /// columns where that is not `safe`.
 ///
 /// Where `t ≥ 2¹⁴·e`, a corner's column is off by at most `2⁻¹⁴·(1 + |x|)`, and in `f32` by four roundings
-/// more; so is that of a parallel camera where `e < 2⁻¹⁴`. Samples are off by less than 2⁻¹⁰, or the frustum
-/// would not be `small`. The margin is larger.
+/// more; so is that of a parallel camera where `e < 2⁻¹⁴`. Samples are off by less than 2⁻¹⁰, or
+/// `MapErrors::small` would be false. The margin is larger.
 #[inline(always)]
 fn between<S: Simd>(
     simd: S,

@@ -1,4 +1,4 @@
-//! Lists for every tile of the primitives that may affect it, in scene order.
+//! Lists for every tile of the primitives that may affect it, in the order of the clusters.
 
 use super::batches::{Batch, Piece};
 use super::clusters::{self, CLUSTER, Cluster, ClusterExtent};
