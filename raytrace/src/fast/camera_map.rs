@@ -141,21 +141,21 @@ impl<'a> CameraMap<'a> {
     /// # The errors, rounding by rounding
     ///
     /// Frames are orthonormal to within `8·ε₅₃`. Write `X`, `Y` for the largest coordinates on
-    /// the viewport, the tile's own included, `A` for the reach, `g` for the spacing of samples, `v` for `ε₅₃`.
+    /// the viewport, the tile's own included, `A` for the reach, `g` for the spacing of samples.
     ///
     /// *Perspective*, with `q = (d + X + Y)/d`. `D` is rounded by 3 in each coordinate of `X|u| + Y|v| +
-    /// d|w|`, which is at most `d·q`. The row of `t` is `−w/d`: non-orthonormality brings `8v + 8vq`, `D`
-    /// `3·√3·vq`, the row `√3·vq`: `24vq` of 1. The row of columns is `u/g + x·(w/(d·g))`, two
+    /// d|w|`, which is at most `d·q`. The row of `t` is `−w/d`: non-orthonormality brings `8·ε₅₃ + 8·ε₅₃·q`, `D`
+    /// `3·√3·ε₅₃·q`, the row `√3·ε₅₃·q`: `24·ε₅₃·q` of 1. The row of columns is `u/g + x·(w/(d·g))`, two
     /// roundings of `u` and five of `(x/d)·w`, whose coordinates' sums are at most `√3` and `√3·(q − 1)`: less
-    /// than `14v·q²d/g`; non-orthonormality `16v·q²d/g`, `D`
-    /// `10.5v·q²d/g`, the coordinates of the sample and the middle `2v·qd/g`: `48v·q²d/g`.
-    /// A vertex brings 3 roundings of `Σ|row|·A`, and the row its own: `4v·√3·A/d` for `t`,
-    /// `4v·2√3·q·A/g` for columns.
+    /// than `14·ε₅₃·q²d/g`; non-orthonormality `16·ε₅₃·q²d/g`, `D`
+    /// `10.5·ε₅₃·q²d/g`, the coordinates of the sample and the middle `2·ε₅₃·qd/g`: `48·ε₅₃·q²d/g`.
+    /// A vertex brings 3 roundings of `Σ|row|·A`, and the row its own: `4·ε₅₃·√3·A/d` for `t`,
+    /// `4·ε₅₃·2√3·q·A/g` for columns.
     /// A side's normal is rounded by 2 more, and its product with a point on the ray by 4: with
-    /// all that was said, `80v·q²d/g + 40v·q·h`.
+    /// all that was said, `80·ε₅₃·q²d/g + 40·ε₅₃·q·h`.
     ///
     /// *Parallel*, with `Q = X + Y + 4A`, where `|t| ≤ 4A` for all that boxes hold. `O` is rounded by 2, `u/g`
-    /// by 2, the shift by 2; with non-orthonormality `20v·Q/g` for a sample; a vertex brings `4v·(√3·A +
+    /// by 2, the shift by 2; with non-orthonormality `20·ε₅₃·Q/g` for a sample; a vertex brings `4·ε₅₃·(√3·A +
     /// 2X)/g`; a side 5 roundings more. The row of `t` is `−w/g`, alike.
     pub(super) fn errors(&self, half: f64) -> MapErrors {
         let g = least(self.raster.spacing());

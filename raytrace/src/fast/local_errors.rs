@@ -39,20 +39,20 @@ impl LocalErrors {
     ///
     /// `P` is the size of the leaf's box, of which no vertex is farther from the projection's vertex along an axis;
     /// `S` and `T` are the sums of the coordinates of the normals of a column and of `t`, and `W` is the tile's half
-    /// width and 3. `u` is `ε₂₄`.
+    /// width and 3.
     ///
     /// *Columns times `t`.* A coordinate relative to the vertex carries one rounding, the normal's one, their product
     /// one, their sum two, the sum with the vertex's one: six of `P·S`; the vertex's own column `o` carries one and
-    /// that of the sum. `6.5u·P·S + 2.1u·|o|` is more, with what is of second order. What underflows is less than the
+    /// that of the sum. `6.5·ε₂₄·P·S + 2.1·ε₂₄·|o|` is more, with what is of second order. What underflows is less than the
     /// smallest normal number, for a normal's coordinate times the distance of two vertices.
     ///
-    /// *`t`.* Likewise, and its value at the vertex is at most `t + P·T`: `8.7u·P·T + 2.1u·t`.
+    /// *`t`.* Likewise, and its value at the vertex is at most `t + P·T`: `8.7·ε₂₄·P·T + 2.1·ε₂₄·t`.
     ///
     /// *Columns* up to `W`. `x̂/t̂ − x/t = (e_x − (x/t)·e_t)/t̂`. If that is less than 1/16, `e_t` is less than `t/40`
-    /// and `1/t̂` less than `1.026/t`; so `9u·P·(S + W·T)`, `2.5u·|o|` and 1.1 times the other errors, over a `t` that
-    /// is not larger than any of the leaf, are more. `W` times `2.2u`, which is left of `e_t`, twice `2.1u` for the
-    /// reciprocal and the product, `2u` for the first column's being counted from the tile's side, and `2u` for the
-    /// sum with this error, which follows: less than `12u·W`.
+    /// and `1/t̂` less than `1.026/t`; so `9·ε₂₄·P·(S + W·T)`, `2.5·ε₂₄·|o|` and 1.1 times the other errors, over a `t` that
+    /// is not larger than any of the leaf, are more. `W` times `2.2·ε₂₄`, which is left of `e_t`, twice `2.1·ε₂₄` for the
+    /// reciprocal and the product, `2·ε₂₄` for the first column's being counted from the tile's side, and `2·ε₂₄` for the
+    /// sum with this error, which follows: less than `12·ε₂₄·W`.
     ///
     /// *Columns beyond `W`*: the same relative error, so these are taken for columns outside of the tile, by more than
     /// two.
