@@ -9,7 +9,7 @@ pub use error::CameraError;
 use crate::raster::{Raster, check_samples, viewport_coordinate};
 use glam::{DVec3, Vec3};
 
-/// How the world loses a dimension.
+/// How the camera projects the world onto its viewport.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
 pub enum Projection {
     /// All viewing rays start at the eye.
@@ -37,6 +37,9 @@ pub enum Orientation {
         up: Vec3,
     },
     /// The camera frame itself: right, up and back, perpendicular and right-handed.
+    ///
+    /// The lengths do not matter. Cosines between the axes may be up to 10⁻³ off 0: the camera keeps the direction of
+    /// `w`, makes `u` perpendicular to it, and computes `v` from both.
     Frame {
         /// Right.
         u: Vec3,
@@ -56,11 +59,13 @@ pub struct CameraDescription {
     pub eye: Vec3,
     /// Where the camera looks.
     pub orientation: Orientation,
-    /// The lecture's `d`: from the eye to the viewport.
+    /// The lecture's `d`: from the eye to the viewport, in lengths of the world, from 2⁻⁶⁴ to 2⁶⁴. No ray of a
+    /// parallel camera depends on it.
     pub distance: f32,
-    /// The viewport's width and height, the lecture's `vw` and `vh`.
+    /// The viewport's width and height, the lecture's `vw` and `vh`, in lengths of the world: from 2⁻⁶⁴ to 2⁶⁴, and at
+    /// most 2²⁰ times the distance.
     pub viewport: [f32; 2],
-    /// The image's width and height in pixels, the lecture's `W` and `H`.
+    /// The image's width and height in pixels, the lecture's `W` and `H`, as [`check_samples`] accepts them.
     pub image: [u32; 2],
 }
 
@@ -95,7 +100,7 @@ impl CameraDescription {
     ///
     /// # Errors
     ///
-    /// [`CameraError::FieldOfView`] and [`CameraError::ParallelFieldOfView`].
+    /// An angle that is not between 0 and 180 degrees, or a parallel camera, which has no field of view.
     ///
     /// ```
     /// use bothways_common::CameraDescription;
@@ -214,7 +219,7 @@ impl Camera {
         self.description.image
     }
 
-    /// The viewing ray through the middle of pixel `(i, j)`, relative to the eye.
+    /// The viewing ray through the middle of pixel `(i, j)`, relative to the eye and in the world's axes.
     ///
     /// With the lecture's numbers, which count pixels from 1:
     /// `x = vw·((j − ½)/W − ½)`, `y = −vh·((i − ½)/H − ½)`, direction `x·u + y·v − d·w`.
@@ -224,7 +229,7 @@ impl Camera {
         self.ray_through(viewport_coordinate(vw, j, width), -viewport_coordinate(vh, i, height))
     }
 
-    /// The viewing ray through the point `(x, y)` of the viewport, relative to the eye.
+    /// The viewing ray through the point `(x, y)` of the viewport, relative to the eye and in the world's axes.
     ///
     /// Its rounded numbers *are* the ray: every statement about visibility is about them.
     pub fn ray_through(&self, x: f64, y: f64) -> Ray {
@@ -260,9 +265,10 @@ impl Camera {
 /// Half a line: the points `origin + t·direction` with `t > 0`, the eye at the origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Where the ray begins: the eye itself (zero) for a perspective camera.
+    /// Where the ray begins: the eye itself (zero) for a perspective camera, and for a parallel camera a point of the
+    /// plane through the eye that is parallel to the viewport.
     pub origin: DVec3,
-    /// Where it goes; its length is the unit of `t`.
+    /// The way that the ray goes, in the world's axes; its length is the unit of `t`.
     pub direction: DVec3,
 }
 
@@ -295,7 +301,11 @@ impl SampleGrid<'_> {
         &self.y
     }
 
-    /// The viewing ray through a sample.
+    /// The viewing ray through a sample, relative to the eye and in the world's axes.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such row or column.
     pub fn ray(&self, row: usize, column: usize) -> Ray {
         self.camera.ray_through(self.x[column], self.y[row])
     }
@@ -421,7 +431,7 @@ mod tests {
     }
 
     #[test]
-    fn parallel_rays_start_on_the_viewport_s_plane_through_the_eye() {
+    fn parallel_rays_start_on_a_plane_through_the_eye() {
         let camera = Camera::new(CameraDescription {
             projection: Projection::Parallel,
             viewport: [4.0, 4.0],

@@ -56,26 +56,26 @@ pub struct Frame {
 /// A part of a frame that one thread may write: ids and distances of a rectangle of samples.
 #[derive(Debug)]
 pub struct Tile<'a> {
-    /// Where it lies in the frame.
+    /// Its samples, on the raster of the whole image.
     pub region: Region,
-    /// Its ids, a slice for each row.
+    /// Its ids, a slice for each row; [`NO_PRIMITIVE`] for nothing.
     pub ids: Vec<&'a mut [u32]>,
-    /// Its distances, a slice for each row.
+    /// Its `t`, a slice for each row; +∞ for nothing.
     pub t: Vec<&'a mut [f32]>,
 }
 
 /// One row of a frame during shading.
 #[derive(Debug)]
 pub struct ShadingRow<'a> {
-    /// The row's number from the top.
+    /// The row, on the raster of the whole image.
     pub row: usize,
-    /// The columns' numbers from the left.
+    /// The columns, on the raster of the whole image. All slices have one element for each.
     pub columns: Range<usize>,
-    /// What is seen.
+    /// The ids of the primitives that are seen; [`NO_PRIMITIVE`] for nothing.
     pub ids: &'a [u32],
-    /// How far it is.
+    /// Their `t`, in lengths of the viewing ray's direction; +∞ for nothing.
     pub t: &'a [f32],
-    /// Linear red, green and blue.
+    /// Linear red, green and blue, to be written.
     pub colors: &'a mut [Vec3],
     /// Unit normals towards the viewer, zero where nothing is seen; `None` unless the frame keeps them.
     pub normals: Option<&'a mut [Vec3]>,
@@ -84,7 +84,7 @@ pub struct ShadingRow<'a> {
 }
 
 impl Frame {
-    /// A frame in which nothing is seen.
+    /// A frame in which nothing is seen, and every colour is black.
     ///
     /// # Panics
     ///
@@ -107,19 +107,24 @@ impl Frame {
         }
     }
 
-    /// The same frame, with room for the normal of every sample: shading keeps them.
+    /// The same frame, with room for the normal of every sample, which shading then stores.
     pub fn with_normals(mut self) -> Frame {
         self.normals = vec![Vec3::ZERO; self.ids.len()];
         self
     }
 
-    /// The same frame, with room for the texture coordinate of every sample: shading keeps them.
+    /// The same frame, with room for the texture coordinate of every sample, which shading then stores.
     pub fn with_texture_coordinates(mut self) -> Frame {
         self.texture_coordinates = vec![Vec2::ZERO; self.ids.len()];
         self
     }
 
-    /// Makes the frame fit a camera and options. Its old content is meaningless afterwards.
+    /// Makes the frame fit a camera and options; one that fits already keeps its memory. Its content is meaningless
+    /// until it is cleared or drawn anew. Room for normals and texture coordinates stays, if it has any.
+    ///
+    /// # Panics
+    ///
+    /// As [`Frame::new`].
     pub fn fit(&mut self, camera: &Camera, options: &Options) {
         if self.camera_image != camera.image() || self.options != *options {
             let keeps = [!self.normals.is_empty(), !self.texture_coordinates.is_empty()];
@@ -133,7 +138,7 @@ impl Frame {
         }
     }
 
-    /// Clears the frame: nothing is seen.
+    /// Clears ids and distances: nothing is seen. Shading writes all the rest anew.
     pub fn clear(&mut self) {
         self.ids.fill(NO_PRIMITIVE);
         self.t.fill(f32::INFINITY);
@@ -187,7 +192,10 @@ impl Frame {
         (row - self.region.rows.start) * self.width() + column - self.region.columns.start
     }
 
-    /// The primitive that is seen at a sample.
+    /// The id of the primitive that is seen at a sample; `None` for nothing.
+    ///
+    /// Here and in [`Frame::t`] and [`Frame::set`], row and column are those of the whole image's raster, and must lie
+    /// in [`Frame::region`].
     pub fn id(&self, row: usize, column: usize) -> Option<u32> {
         match self.ids[self.index(row, column)] {
             NO_PRIMITIVE => None,
@@ -195,25 +203,25 @@ impl Frame {
         }
     }
 
-    /// How far it is, in lengths of the viewing ray's direction.
+    /// The distance `t` of what is seen at a sample, in lengths of the viewing ray's direction; `None` for nothing.
     pub fn t(&self, row: usize, column: usize) -> Option<f32> {
         let index = self.index(row, column);
         (self.ids[index] != NO_PRIMITIVE).then(|| self.t[index])
     }
 
-    /// Notes that a primitive is seen at a sample.
+    /// Stores that a primitive is seen at a sample, at the distance `t`, which is rounded by [`stored_t`].
     pub fn set(&mut self, row: usize, column: usize, id: u32, t: f64) {
         let index = self.index(row, column);
         self.ids[index] = id;
         self.t[index] = stored_t(t);
     }
 
-    /// All ids, [`NO_PRIMITIVE`] for nothing.
+    /// The ids of all samples, row by row from the top; [`NO_PRIMITIVE`] for nothing.
     pub fn ids(&self) -> &[u32] {
         &self.ids
     }
 
-    /// All distances, +∞ for nothing.
+    /// The distances `t` of all samples, in the order of [`Frame::ids`]; +∞ for nothing.
     pub fn distances(&self) -> &[f32] {
         &self.t
     }
@@ -224,7 +232,7 @@ impl Frame {
         &self.normals
     }
 
-    /// Linear red, green and blue of every sample.
+    /// Linear red, green and blue of every sample, in the order of [`Frame::ids`]; black before shading.
     pub fn colors(&self) -> &[Vec3] {
         &self.colors
     }

@@ -1,7 +1,7 @@
 //! What both orders of rendering share: what a scene *is*, and what is *true* of one sample and one primitive.
 //!
-//! How to find what is visible is not here. That is the business of the two renderers, `bothways-rasterize` (object
-//! order) and `bothways-raytrace` (image order), which both know this crate and never each other.
+//! How to find what is visible is not here. The two renderers do that, `bothways-rasterize` (object order) and
+//! `bothways-raytrace` (image order). Both know this crate, and neither knows the other.
 //!
 //! ```
 //! use bothways_common::{Camera, Object, Scene, Shape, Sphere, View, glam::Vec3};
@@ -11,7 +11,7 @@
 //! let camera = Camera::canonical(3, 3);
 //! let view = View::new(&scene, &camera);
 //!
-//! // Which primitives may cover a sample, a renderer has to find out. Here is only one.
+//! // A renderer has to find out which primitives may cover a sample. Here there is only one.
 //! let (ball, ray) = (view.primitive(0), camera.viewing_ray(1, 1));
 //! assert!(view.judge().covers(&ball, &ray));
 //! assert_eq!(view.judge().distance(&ball, &ray), 2.0);
@@ -39,7 +39,7 @@
 //! - `(x, y)` are real coordinates on the viewport, `x` along `u` (right), `y` along `v` (up).
 //! - A picture of `samples` × `samples` samples a pixel is a raster of `height·samples` rows and
 //!   `width·samples` columns; sample `(row, column)` of it lies in pixel `(row / samples,
-//!   column / samples)`. The sample's formula on that raster is the pixel's own.
+//!   column / samples)`. Its `(x, y)` follow from the formula for pixels, applied to the rows and columns of that raster.
 //! - Positions are stored as `f32` in the world and judged by their offset from the eye, one `f64`
 //!   subtraction a coordinate. From there on, the eye is the origin and the axes are the world's.
 //! - `t` counts in lengths of the viewing ray's direction; larger is farther.

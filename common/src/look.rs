@@ -1,4 +1,4 @@
-//! The look of what is seen: shading, texture coordinates and colors. What a look *is* stands here; where on a
+//! The look of what is seen: shading, texture coordinates and colours. What a look *is* stands here; where on a
 //! surface a sample lies is for each order to find out.
 
 pub mod color;

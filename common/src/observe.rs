@@ -84,7 +84,7 @@ pub trait Observer: Events + Send + Sync + Sized {
 
 /// An event sink: `()` or `dyn Events`. The innermost loops are compiled for these two, not anew for each observer.
 pub trait EventSink: Events {
-    /// Whether it is enabled: whether anything becomes of the events.
+    /// Whether events have any effect.
     const ENABLED: bool;
 }
 

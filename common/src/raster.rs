@@ -114,9 +114,9 @@ pub(crate) fn viewport_coordinate(extent: f64, index: u32, count: u32) -> f64 {
 /// One sample of the picture: its row and column on the raster of samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Sample {
-    /// From the top.
+    /// The row from the top, counted from 0.
     pub row: usize,
-    /// From the left.
+    /// The column from the left, counted from 0.
     pub column: usize,
 }
 

@@ -14,17 +14,17 @@ pub use shape::{Plane, Shape, Sphere, Triangle};
 
 use glam::Vec3;
 
-/// One object: a form and what it is made of.
+/// One object: a shape and what it is made of.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Object {
-    /// Its form.
+    /// Its shape, in the world.
     pub shape: Shape,
     /// What it is made of, unless a mesh names a material of its own.
     pub material: Material,
 }
 
 impl Object {
-    /// The material of one of its primitives, which are counted within the object.
+    /// The material of one of its primitives, which are counted from 0 within the object.
     pub fn material_of(&self, primitive: usize) -> &Material {
         match &self.shape {
             Shape::Mesh(mesh) => {
@@ -51,7 +51,7 @@ pub struct Scene {
     first_ids: Vec<u32>,
     /// Where light comes from.
     pub lights: Vec<Light>,
-    /// What is seen where nothing is, linear red, green and blue.
+    /// The colour where no primitive is seen, linear red, green and blue.
     pub background: Vec3,
 }
 
@@ -66,7 +66,7 @@ pub enum SceneError {
         /// Which of its properties.
         what: &'static str,
     },
-    /// A sphere without size.
+    /// A sphere's radius is not positive, or not finite.
     #[error("object {object}: the radius is {radius}; it must be greater than 0")]
     Radius {
         /// The object, counted from 0.
@@ -74,13 +74,13 @@ pub enum SceneError {
         /// As it was given.
         radius: f32,
     },
-    /// A plane without a direction.
+    /// A plane's normal is zero.
     #[error("object {object}: the plane's normal is zero; give a vector with a length")]
     NoNormal {
         /// The object, counted from 0.
         object: usize,
     },
-    /// More primitives than ids.
+    /// There are more primitives than ids.
     #[error("the scene has {primitives} primitives; at most {} can be told apart", u32::MAX - 1)]
     TooManyPrimitives {
         /// How many there are.
@@ -89,7 +89,8 @@ pub enum SceneError {
 }
 
 impl Scene {
-    /// Objects in their order, lit from the camera, before a dark background.
+    /// A scene of these objects in this order, lit from the camera, before a dark background. Set [`Scene::lights`] and
+    /// [`Scene::background`] for others.
     ///
     /// # Errors
     ///
@@ -139,7 +140,7 @@ impl Scene {
         (object, (id - self.first_ids[object]) as usize)
     }
 
-    /// The corners of a primitive that is a triangle, in the world.
+    /// The corners of a primitive that is a triangle, in the world; `None` for a sphere or a plane.
     ///
     /// # Panics
     ///

@@ -10,7 +10,7 @@ use glam::{DVec3, Vec3};
 pub struct View<'a> {
     /// What there is to see.
     pub scene: &'a Scene,
-    /// From where.
+    /// The camera that sees it.
     pub camera: &'a Camera,
 }
 

@@ -3,14 +3,15 @@
 use glam::Vec3;
 use std::fmt::{Display, LowerExp};
 
-/// A number in as few digits as tell it from others: with a power of ten where it is tiny or huge.
+/// A number in the fewest digits that read back as the same number, with a power of ten if its size is below 10⁻⁴, or
+/// 10⁶ or more.
 pub fn readable<T: Copy + Display + LowerExp + Into<f64>>(number: T) -> String {
     let size: f64 = number.into().abs();
     let is_short = size == 0.0 || (1e-4..1e6).contains(&size) || !size.is_finite();
     if is_short { format!("{number}") } else { format!("{number:e}") }
 }
 
-/// The same of three coordinates.
+/// A vector as `[x, y, z]`, with each coordinate as [`readable`] writes it.
 pub fn readable_vector(vector: Vec3) -> String {
     let [x, y, z] = vector.to_array().map(readable);
     format!("[{x}, {y}, {z}]")

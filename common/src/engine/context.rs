@@ -7,7 +7,7 @@ use crate::observe::EventSink;
 use std::fmt;
 use std::marker::PhantomData;
 
-/// What a function needs of a [`Context`] that has no vector code in it: it is compiled once for all widths of vectors.
+/// What a function without vector code needs of a [`Context`]: it is compiled once for all widths of vectors.
 pub trait ScalarContext {
     /// Where events go: `()`, or `dyn Events`.
     type Sink: EventSink + ?Sized;
@@ -50,7 +50,7 @@ pub trait Context: ScalarContext {
     fn simd(&self) -> Self::Simd;
 }
 
-/// The only [`Context`]: its parts. Without vector instructions, `S` is `()`.
+/// The only type that is a [`Context`]: a struct of its parts. Without vector instructions, `S` is `()`.
 pub struct Parts<'a, S, E: ?Sized, F> {
     simd: S,
     sink: &'a mut E,

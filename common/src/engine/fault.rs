@@ -30,7 +30,7 @@ pub enum Planted {
 
 /// A renderer's code is generic over whether faults are planted in it.
 pub trait Fault: Copy + Send + Sync {
-    /// Whether none ever is.
+    /// Whether no fault is ever planted.
     const SOUND: bool;
 
     /// Whether this fault is planted.

@@ -17,7 +17,8 @@ pub struct EdgeSigns {
     pub at_sample: [Sign; 3],
     /// The same with ties broken by the nudge, so never zero unless the triangle is edge-on.
     pub decided: [Sign; 3],
-    /// Whether the triangle's plane is met at `t > 0`.
+    /// Whether the ray of a parallel camera meets the triangle's plane at `t > 0`. Always true for a perspective camera,
+    /// for which the other signs imply `t > 0`.
     pub in_front: bool,
 }
 
@@ -30,8 +31,8 @@ impl EdgeSigns {
     }
 }
 
-/// A triangle's edge functions at a sample as numbers to show: each is computed without error, and rounded
-/// once. Their signs are those of [`EdgeSigns`].
+/// A triangle's edge functions at a sample as numbers to show. Each is computed without error and then rounded, to within
+/// 2⁻⁵² of itself. Their signs are those of [`EdgeSigns`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EdgeValues {
     /// The facing `F`.

@@ -25,7 +25,7 @@ impl Dyadic {
         Dyadic { mantissa: operation(self.at(exponent), other.at(exponent)), exponent }
     }
 
-    /// The number to within 2⁻⁶² of itself. It must lie within the range of `f64`.
+    /// The number to within 2⁻⁵² of itself: cut to 63 bits, then rounded. It must lie within the range of `f64`.
     pub(super) fn to_f64(&self) -> f64 {
         let excess = self.mantissa.bit_len().saturating_sub(63);
         let leading = i64::try_from(&self.mantissa >> excess).expect("63 bits are left");

@@ -2,8 +2,8 @@
 //!
 //! A predicate is written once, over [`Real`](super::real::Real). [`exactly!`] evaluates it in
 //! [`Bounded`](super::bounded::Bounded) arithmetic first. Where the bound leaves the sign open, it evaluates the
-//! predicate in [`Double`](super::double::Double) numbers, whose bound is smaller by 2⁻⁵³. Only where even that is not
-//! certain, it evaluates the predicate in [`Dyadic`](super::dyadic::Dyadic) numbers, which have no error (a
+//! predicate in [`Double`](super::double::Double) numbers, whose bound is about 2⁵³ times smaller. Only where even that
+//! is not certain, it evaluates the predicate in [`Dyadic`](super::dyadic::Dyadic) numbers, which have no error (a
 //! floating-point filter: Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
 //! Predicates", Discrete & Computational Geometry 18, 1997).
 

@@ -9,6 +9,9 @@ use glam::DVec3;
 
 /// Decides what is true of the samples of one camera.
 ///
+/// Primitives are given relative to the eye, as [`View::primitive`](crate::View::primitive) gives them, and rays are
+/// viewing rays of this camera.
+///
 /// ```
 /// use bothways_common::{Camera, Judge, Primitive, glam::DVec3};
 ///
@@ -33,10 +36,12 @@ impl Judge {
 
     /// Whether a primitive covers the sample that a viewing ray of this camera passes through.
     ///
-    /// A triangle covers what is inside of all its edges, in front of the eye, from both sides; a
-    /// sample on an edge belongs to the side on which it lies when moved infinitely little to the
-    /// right, and far less still down. A sphere covers what its near or, seen from inside, far wall
-    /// is behind; to touch is to miss. A plane covers what is on this side of its horizon.
+    /// - A triangle covers a sample that is inside all of its edges and has `t > 0`, seen from either side. A sample on
+    ///   an edge is on the side to which it comes when it is moved infinitely little to the right, and far less still
+    ///   down. A triangle that is seen edge-on covers nothing.
+    /// - A sphere covers a sample whose ray meets it at two points, at least one of them at `t > 0`. A ray that only
+    ///   touches the sphere misses it.
+    /// - A plane covers a sample whose ray meets it at one point, at `t > 0`.
     pub fn covers(&self, primitive: &Primitive, ray: &Ray) -> bool {
         match primitive {
             Primitive::Triangle(triangle) => {
@@ -94,7 +99,7 @@ impl Judge {
         cover::edge_values(self.projection, &self.nudge, triangle, ray)
     }
 
-    /// Compares the distances of two primitives that both cover the sample; `Less` is nearer.
+    /// Compares the distances of two primitives that both cover the sample; `Less` says that the first is nearer.
     pub fn compare(&self, first: &Primitive, second: &Primitive, ray: &Ray) -> Comparison {
         nearest::compare(self.projection, &self.nudge, first, second, ray)
     }
@@ -111,8 +116,8 @@ impl Judge {
         order.then(incoming_id.cmp(&stored_id)).is_lt()
     }
 
-    /// The distance of a primitive that covers the sample, in lengths of the ray's direction, to
-    /// within a few parts in 10¹⁰.
+    /// The distance `t` of a primitive that covers the sample, in lengths of the ray's direction, to within a few parts
+    /// in 10¹⁰ of itself.
     pub fn distance(&self, primitive: &Primitive, ray: &Ray) -> f64 {
         nearest::distance(primitive, ray)
     }
@@ -121,8 +126,8 @@ impl Judge {
 /// Whether a primitive covers a sample, and why.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Coverage {
-    /// Whether it does.
+    /// Whether the primitive covers the sample.
     pub covers: bool,
-    /// A triangle's signs.
+    /// The signs that decide it for a triangle; `None` for a sphere or a plane.
     pub edges: Option<EdgeSigns>,
 }

@@ -68,7 +68,7 @@ fn what_is_behind_the_eye_is_not_seen() {
 }
 
 #[test]
-fn to_touch_a_sphere_is_to_miss_it() {
+fn a_ray_that_touches_a_sphere_misses_it() {
     let camera = five_by_five(Projection::Parallel);
     let (judge, ray) = (Judge::new(&camera), camera.viewing_ray(2, 2));
     let ball = |x: f64| Primitive::Sphere { center: point(x, 0.0, -3.0), radius: 1.0 };

@@ -1,4 +1,4 @@
-//! Colors: linear values, which light adds up in, and the sRGB bytes of pictures.
+//! Colours: linear values, which light adds up in, and the sRGB bytes of pictures.
 
 /// An sRGB byte from a linear value in 0 … 1; values outside are clamped.
 ///

@@ -1,12 +1,12 @@
-//! Texture coordinates: what they mean on each form, and the pattern that is drawn over them.
+//! Texture coordinates: what they mean on each shape, and the pattern that is drawn over them.
 //!
 //! What a coordinate *is* stands here; how to find it at a sample is each order's own business.
 //!
-//! | form | its texture coordinate |
+//! | shape | its texture coordinate |
 //! |---|---|
 //! | triangle | (0, 0), (1, 0) and (0, 1) at `a`, `b` and `c` |
 //! | mesh | what its file or its generator gave to the corners; none where a corner has none |
-//! | sphere | the turn around the y axis from +x towards −z, and the latitude; from 0 to 1 both |
+//! | sphere | the turn around the y axis from +x towards −z, and the latitude; both from 0 to 1 |
 //! | plane | lengths of the world from the plane's point, to the right and up: see [`plane_axes`] |
 
 use crate::scene::material::Checker;
@@ -17,7 +17,7 @@ use std::f64::consts::{FRAC_1_PI, TAU};
 /// The texture coordinate of one sample, and how much of the texture the sample sees.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TexturePoint {
-    /// In the middle of the sample.
+    /// The coordinate of the surface point in the middle of the sample.
     pub coordinate: DVec2,
     /// Width and height of the part of the texture from one sample to the next, to first order.
     pub footprint: DVec2,
@@ -85,7 +85,8 @@ fn stripes(middle: f64, width: f64) -> f64 {
     (integral(middle + half) - integral(middle - half)) / (2.0 * half)
 }
 
-/// The texture coordinates at the corners of a triangle of this shape, if all three have one.
+/// The texture coordinates at the corners of a triangle of this shape, if all three have one. `local` counts the
+/// primitives of the shape from 0.
 pub fn corners(shape: &Shape, local: usize) -> Option<[DVec2; 3]> {
     match shape {
         Shape::Triangle(_) => Some([DVec2::ZERO, DVec2::X, DVec2::Y]),

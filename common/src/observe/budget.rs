@@ -1,9 +1,8 @@
-//! Counting that ends: how much there is to count is not known before.
+//! Counts work up to a limit, because nobody knows before how much there is to count.
 
 use crate::exact::Sign;
 use crate::observe::{Events, Observer, Question, Work};
-use crate::raster::Region;
-use crate::raster::Sample;
+use crate::raster::{Region, Sample};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A bound for what is counted of one frame, shared by all threads.
@@ -22,7 +21,7 @@ impl Budget {
 
 /// Counts work until a budget is spent.
 ///
-/// Whether it does depends on the work alone: neither on threads nor on time.
+/// Whether the budget is enough depends on the work alone: neither on threads nor on time.
 ///
 /// ```
 /// use bothways_common::observe::budget::{Budget, WorkWithin};

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-/// How a surface answers light.
+/// How a surface reflects light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
     /// Diffuse reflectance, linear red, green and blue in 0 … 1.
@@ -25,21 +25,21 @@ impl Default for Material {
 /// Where light comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Light {
-    /// The same from everywhere.
+    /// The same light from everywhere.
     Ambient {
         /// Its strength; 1 shows a material in its own colour.
         intensity: f32,
     },
     /// Parallel light, as from the sun.
     Directional {
-        /// The way the light goes.
+        /// The way that the light goes, in the world; its length does not matter.
         direction: Vec3,
         /// Its strength on a surface that faces it.
         intensity: f32,
     },
     /// Light from a point of the world; it does not fade with distance.
     Point {
-        /// Where it is.
+        /// Where it is, in the world.
         position: Vec3,
         /// Its strength on a surface that faces it.
         intensity: f32,

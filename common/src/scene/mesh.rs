@@ -37,7 +37,7 @@ impl<T: Copy> Attribute<T> {
     /// The index that says that a corner carries no value.
     pub const NONE: u32 = u32::MAX;
 
-    /// The values at a triangle's corners, if all three have one.
+    /// The values at a triangle's corners; `None` unless all three have one.
     pub fn of(&self, triangle: usize) -> Option<[T; 3]> {
         let corners = self.corners.get(triangle)?;
         let value = |corner: u32| self.values.get(corner as usize).copied();
@@ -53,7 +53,7 @@ pub enum MeshError {
     NotFinite {
         /// The vertex, counted from 0.
         vertex: usize,
-        /// Where it would be.
+        /// Its position, as it was given.
         position: Vec3,
     },
     /// A triangle names a vertex, normal or texture coordinate that does not exist.
@@ -201,7 +201,7 @@ impl Mesh {
         self.triangles[triangle].map(|vertex| self.positions[vertex as usize])
     }
 
-    fn check_attribute<T>(
+    fn check_attribute<T: Copy>(
         &self,
         what: &'static str,
         attribute: &Attribute<T>,
@@ -210,7 +210,7 @@ impl Mesh {
         if corners != triangles && corners != 0 {
             return Err(MeshError::CornerCount { what, corners, triangles });
         }
-        let named = |index: &u32| *index != u32::MAX;
+        let named = |index: &u32| *index != Attribute::<T>::NONE;
         for (triangle, corners) in attribute.corners.iter().enumerate() {
             for &index in corners.iter().filter(|index| named(index)) {
                 check_index(what, triangle, index, attribute.values.len())?;

@@ -1,4 +1,4 @@
-//! The form of an object, in the world.
+//! The shape of an object, in the world.
 
 use super::mesh::Mesh;
 use glam::Vec3;
@@ -19,7 +19,7 @@ pub struct Triangle {
 pub struct Sphere {
     /// Its middle.
     pub center: Vec3,
-    /// Positive.
+    /// Its radius, in lengths of the world; positive.
     pub radius: f32,
 }
 
@@ -32,16 +32,16 @@ pub struct Plane {
     pub normal: Vec3,
 }
 
-/// The form of one object.
+/// The shape of one object, in the world.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
-    /// One primitive.
+    /// A triangle: one primitive.
     Triangle(Triangle),
-    /// One primitive.
+    /// A sphere: one primitive.
     Sphere(Sphere),
-    /// One primitive.
+    /// An infinite plane: one primitive.
     Plane(Plane),
-    /// One primitive a triangle.
+    /// A triangle mesh: one primitive for each of its triangles.
     Mesh(Mesh),
 }
 

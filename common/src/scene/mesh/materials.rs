@@ -35,7 +35,7 @@ pub struct MaterialSpan {
 }
 
 impl MeshMaterials {
-    /// Notes a file that defines materials, under the name that the mesh's file gives it.
+    /// Adds a file that defines materials, under the name that the mesh's file gives it, unless it is there already.
     pub fn add_library(&mut self, name: &str) {
         if !self.libraries.iter().any(|known| known == name) {
             self.libraries.push(name.to_owned());
@@ -67,7 +67,7 @@ impl MeshMaterials {
         }
     }
 
-    /// Whether there is nothing to know.
+    /// Whether there are neither material files nor materials.
     pub fn is_empty(&self) -> bool {
         self.libraries.is_empty() && self.spans.is_empty()
     }
