@@ -11,9 +11,9 @@ use proptest::prelude::*;
 /// One small picture: every primitive is judged at every sample, and every two that cover it.
 #[derive(Clone, Debug)]
 pub(crate) struct Case {
-    /// Who looks.
+    /// The camera.
     pub(crate) camera: CameraDescription,
-    /// At what.
+    /// What the camera sees.
     pub(crate) shapes: Vec<Shape>,
     /// Points `(x, y)` of the viewport, beside the middles of the pixels.
     pub(crate) points: Vec<[f64; 2]>,
@@ -101,7 +101,7 @@ impl Placement {
     }
 }
 
-/// What has these coordinates in the camera's frame, in the world's axes.
+/// The vector with these coordinates in the camera's frame, in the world's axes.
 fn turned(camera: &Camera, in_frame: DVec3) -> DVec3 {
     in_frame.x * camera.u() + in_frame.y * camera.v() + in_frame.z * camera.w()
 }
@@ -114,7 +114,7 @@ pub(crate) fn pictures(
 ) -> impl Strategy<Value = Case> {
     (camera, shapes).prop_filter_map("an accepted camera", move |(description, shapes)| {
         let camera = Camera::new(description).ok()?;
-        let shapes = finite(shapes).iter().map(|s| placement.of_shape(&camera, s)).collect();
+        let shapes = accepted(shapes).iter().map(|s| placement.of_shape(&camera, s)).collect();
         Some(Case { camera: description, shapes, points: vec![[0.0, 0.0]] })
     })
 }
@@ -311,7 +311,7 @@ pub(crate) fn edge_on(
 }
 
 /// Those of the shapes that are accepted.
-fn finite(mut shapes: Vec<Shape>) -> Vec<Shape> {
+fn accepted(mut shapes: Vec<Shape>) -> Vec<Shape> {
     shapes.retain(|shape| Scene::new(vec![shape.clone().into()]).is_ok());
     shapes
 }

@@ -51,14 +51,14 @@ impl Tally {
 }
 
 /// Both judges of one camera.
-struct Court {
+struct Judges {
     library: Judge,
     truth: IndependentJudge,
 }
 
-impl Court {
-    fn new(camera: &Camera) -> Court {
-        Court { library: Judge::new(camera), truth: IndependentJudge::new(camera) }
+impl Judges {
+    fn new(camera: &Camera) -> Judges {
+        Judges { library: Judge::new(camera), truth: IndependentJudge::new(camera) }
     }
 
     /// Confirms every answer about one sample, or says which one is wrong.
@@ -132,11 +132,11 @@ impl Court {
 /// Confirms every answer about one picture.
 fn confirm_case(case: &Case) -> Result<Tally, String> {
     let (camera, scene) = (case.camera(), case.scene());
-    let court = Court::new(&camera);
+    let judges = Judges::new(&camera);
     let primitives: Vec<_> = View::new(&scene, &camera).primitives().collect();
-    let mut cached = CachedJudge::new(court.library);
+    let mut cached = CachedJudge::new(judges.library);
     case.rays().iter().try_fold(Tally::default(), |sum, ray| {
-        Ok(sum.plus(court.confirm(&mut cached, &primitives, ray)?))
+        Ok(sum.plus(judges.confirm(&mut cached, &primitives, ray)?))
     })
 }
 

@@ -7,7 +7,7 @@
 
 use crate::cases::{Case, few_bits, projection, triangle, turned_camera};
 use crate::judge::{Coverage, IndependentJudge, edge_function};
-use crate::{Court, confirm_case, runner};
+use crate::{Judges, confirm_case, runner};
 use bothways_common::exact::CachedJudge;
 use bothways_common::glam::{DVec3, Vec3};
 use bothways_common::{
@@ -42,10 +42,10 @@ struct Wrong {
 }
 
 /// Asks plain arithmetic and the exact judge the same questions about one sample.
-fn count_wrong(court: &Court, primitives: &[(u32, Primitive)], ray: &Ray, wrong: &mut Wrong) {
+fn count_wrong(judges: &Judges, primitives: &[(u32, Primitive)], ray: &Ray, wrong: &mut Wrong) {
     let mut covering = Vec::new();
     for (id, primitive) in primitives {
-        let Coverage { covers, on_edge } = court.truth.coverage(primitive, ray);
+        let Coverage { covers, on_edge } = judges.truth.coverage(primitive, ray);
         match primitive {
             Primitive::Triangle([a, b, c]) => {
                 let edges = [(a, b), (b, c), (c, a)];
@@ -68,7 +68,7 @@ fn count_wrong(court: &Court, primitives: &[(u32, Primitive)], ray: &Ray, wrong:
     }
     for (index, &first) in covering.iter().enumerate() {
         for &second in &covering[index + 1..] {
-            count_wrong_order(&court.truth, first, second, ray, wrong);
+            count_wrong_order(&judges.truth, first, second, ray, wrong);
         }
     }
 }
@@ -143,13 +143,13 @@ fn search(cases: u32, pictures: impl Strategy<Value = Case>) -> Wrong {
     for _ in 0..runner.config().cases {
         let case = pictures.new_tree(&mut runner).expect("cases are found").current();
         let (camera, scene) = (case.camera(), case.scene());
-        let court = Court::new(&camera);
+        let judges = Judges::new(&camera);
         let primitives: Vec<_> = View::new(&scene, &camera).primitives().collect();
         let [x, y] = case.points[0];
         let ray = camera.ray_through(x, y);
-        count_wrong(&court, &primitives, &ray, &mut wrong);
-        let mut cached = CachedJudge::new(court.library);
-        court
+        count_wrong(&judges, &primitives, &ray, &mut wrong);
+        let mut cached = CachedJudge::new(judges.library);
+        judges
             .confirm(&mut cached, &primitives, &ray)
             .unwrap_or_else(|error| panic!("{error}\n{case:?}"));
     }
