@@ -26,6 +26,9 @@ pub enum ReadMeshError {
     Ply(#[from] ReadPlyError),
 }
 
+/// The extensions of all formats, as messages list them.
+pub const EXTENSIONS: &str = ".obj, .ply";
+
 impl Format {
     /// The format that a file's extension names, in lower or upper case; `None` for any other extension.
     pub fn of(path: &Path) -> Option<Format> {

@@ -4,7 +4,7 @@ use super::built_in::{BUILT_IN, BuiltIn, names};
 use super::framing::{FrameMeshError, Framing};
 use super::studio;
 use crate::common::{CameraDescription, Object, Scene, SceneError, Shape};
-use crate::formats::mesh_file::{Format, ReadMeshError};
+use crate::formats::mesh_file::{EXTENSIONS, Format, ReadMeshError};
 use crate::formats::mesh_stream::StreamError;
 use crate::formats::scene_file::{self, ReadSceneError, nearest_name};
 use crate::formats::smooth;
@@ -47,7 +47,7 @@ pub enum LoadError {
     /// No built-in scene has this name.
     #[error(
         "there is no built-in scene {name:?}; {}the built-in scenes are {}; a scene file (.toml) \
-         or a mesh file (.obj, .ply) can be named, too",
+         or a mesh file ({EXTENSIONS}) can be named, too",
         .meant.map_or(String::new(), |meant| format!("did you mean {meant:?}? ")),
         names().join(", ")
     )]
@@ -59,7 +59,7 @@ pub enum LoadError {
     },
     /// The file is of an unsupported kind.
     #[error(
-        "{path} is neither a scene file (.toml) nor a mesh file (.obj, .ply); no others are read"
+        "{path} is neither a scene file (.toml) nor a mesh file ({EXTENSIONS}); no others are read"
     )]
     UnknownExtension {
         /// The requested file.
@@ -79,8 +79,8 @@ pub enum LoadError {
     Stream(#[from] StreamError),
     /// The file to stream is not a mesh file.
     #[error(
-        "only a mesh file (.obj, .ply) can be streamed, and {source_name:?} is none; render it in \
-         memory, without --stream, or name a mesh file"
+        "only a mesh file ({EXTENSIONS}) can be streamed, and {source_name:?} is none; render it \
+         in memory, without --stream, or name a mesh file"
     )]
     NotStreamed {
         /// The requested name.

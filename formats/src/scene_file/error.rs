@@ -1,6 +1,7 @@
 //! Errors about scene files: those in the text know their place.
 
 use super::excerpt::Excerpt;
+use crate::mesh_file::EXTENSIONS;
 use crate::source::Unreadable;
 use crate::source::quote::visible;
 use std::borrow::Cow;
@@ -22,7 +23,7 @@ pub enum ReadSceneError {
     /// The file is larger than any scene needs, and would take too much memory.
     #[error(
         "{file}: a scene file of more than 8 MiB is not read; put its triangles into a mesh file \
-         (.obj, .ply) and name it in the scene"
+         ({EXTENSIONS}) and name it in the scene"
     )]
     TooLarge {
         /// The file.
