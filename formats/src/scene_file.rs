@@ -32,9 +32,59 @@
 //!
 //! # Tables
 //!
-//! The tables are `[camera]`, `[material.NAME]`, `[[light]]` and `[[object]]`. The files `camera.rs`, `material.rs`,
-//! `light.rs` and `object.rs` describe their keys. An unknown key is an error, so that no typing error stays unnoticed.
-//! Numbers are read as the nearest `f32`.
+//! The tables are `[camera]`, `[material.NAME]`, `[[light]]` and `[[object]]`. Only an object is needed. An unknown key is
+//! an error, so that no typing error stays unnoticed. Numbers are read as the nearest `f32`, and must be finite.
+//!
+//! ## `[camera]`
+//!
+//! | key | what it says | without it |
+//! |---|---|---|
+//! | `projection` | `"perspective"` or `"parallel"` | perspective |
+//! | `eye` | the position of the eye | the origin |
+//! | `look_at` or `direction` | the point or the direction in which it looks | −z |
+//! | `up` | the direction that is up in the image | +y |
+//! | `u`, `v`, `w` | instead of these: the axes of the camera frame, to the right, up and back | |
+//! | `distance` | `d`, the distance from the eye to the viewport | 1 |
+//! | `viewport` | `vw`, `vh`, the width and the height of the viewport | `[W/H, 1]` |
+//! | `fov` | instead of `viewport`: the vertical field of view in degrees, which gives `vh` at `d` | |
+//! | `image` | `W`, `H`, the width and the height of the image in pixels | 640 × 480 |
+//! | `background` | the colour where there is no object | nearly black |
+//!
+//! ## `[material.NAME]`
+//!
+//! | key | what it says | without it |
+//! |---|---|---|
+//! | `color` | the diffuse colour, `"#rrggbb"` | light grey |
+//! | `specular` | the strength of the highlight, from 0 to 1 | 0 |
+//! | `shininess` | the exponent of the highlight | 32 |
+//! | `checker = { color, divisions }` | a pattern: its second colour, and its cells to a unit of the texture coordinates | one colour |
+//!
+//! ## `[[light]]`
+//!
+//! Each has exactly one of `directional`, `point` and `ambient`. A file without lights is lit from the camera.
+//!
+//! | key | what it says |
+//! |---|---|
+//! | `directional` | light from infinitely far away: the direction in which it shines |
+//! | `point` | light from a point: its position |
+//! | `ambient = true` | light from everywhere |
+//! | `intensity` | how strong it is; 1 without it |
+//!
+//! ## `[[object]]`
+//!
+//! Each has exactly one shape, and may have a material and a transformation.
+//!
+//! | key | what it says |
+//! |---|---|
+//! | `triangle = { a, b, c }` | a triangle: its corners |
+//! | `sphere = { center, radius }` | a sphere |
+//! | `plane = { point, normal }` | an infinite plane |
+//! | `mesh = "bunny.obj"` | a mesh from an OBJ file, with its own materials, or a PLY file; the path is relative to the scene file |
+//! | `generate = { kind, divisions }` | a generated mesh: see [`Kind`](crate::generate::Kind) |
+//! | `material` | the name of a material, in place of those of a mesh file; light grey without it |
+//! | `scale`, `rotate = { axis, degrees }`, `translate` | the transformation, in this order |
+//!
+//! A `scale` is one factor, or `[x, y, z]`, one for each axis; negative factors mirror.
 //!
 //! # Errors
 //!

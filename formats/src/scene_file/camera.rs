@@ -1,17 +1,4 @@
-//! The `[camera]` table.
-//!
-//! | key | what it says | without it |
-//! |---|---|---|
-//! | `projection` | `"perspective"` or `"parallel"` | perspective |
-//! | `eye` | the position of the eye | the origin |
-//! | `look_at` or `direction` | the point or the direction in which it looks | −z |
-//! | `up` | the direction that is up in the image | +y |
-//! | `u`, `v`, `w` | instead of these: the axes of the camera frame, to the right, up and back | |
-//! | `distance` | `d`, the distance from the eye to the viewport | 1 |
-//! | `viewport` | `vw`, `vh`, the width and the height of the viewport | `[W/H, 1]` |
-//! | `fov` | instead of `viewport`: the vertical field of view in degrees, which gives `vh` at `d` | |
-//! | `image` | `W`, `H`, the width and the height of the image in pixels | 640 × 480 |
-//! | `background` | the colour where there is no object | nearly black |
+//! The `[camera]` table. The documentation of [`scene_file`](super) lists its keys.
 
 use super::color::color;
 use super::document::{Item, Table};

@@ -1,11 +1,4 @@
-//! The `[[light]]` tables.
-//!
-//! | key | what it says |
-//! |---|---|
-//! | `directional` | light from infinitely far away: the direction in which it shines |
-//! | `point` | light from a point: its position |
-//! | `ambient = true` | light from everywhere |
-//! | `intensity` | how strong it is; 1 without it |
+//! The `[[light]]` tables. The documentation of [`scene_file`](super) lists their keys.
 
 use super::document::Item;
 use super::error::Problem;

@@ -1,11 +1,4 @@
-//! The `[material.NAME]` tables.
-//!
-//! | key | what it says | without it |
-//! |---|---|---|
-//! | `color` | the diffuse colour, `"#rrggbb"` | light grey |
-//! | `specular` | the strength of the highlight, from 0 to 1 | 0 |
-//! | `shininess` | the exponent of the highlight | 32 |
-//! | `checker = { color, divisions }` | a pattern: its second colour, and its cells to a unit of the texture coordinates | one colour |
+//! The `[material.NAME]` tables. The documentation of [`scene_file`](super) lists their keys.
 
 use super::color::color;
 use super::document::Item;

@@ -1,16 +1,4 @@
-//! The `[[object]]` tables: each has one shape, a material and a transformation.
-//!
-//! | key | what it says |
-//! |---|---|
-//! | `triangle = { a, b, c }` | a triangle: its corners |
-//! | `sphere = { center, radius }` | a sphere |
-//! | `plane = { point, normal }` | an infinite plane |
-//! | `mesh = "bunny.obj"` | a mesh from an OBJ file, with its own materials, or a PLY file; the path is relative to the scene file |
-//! | `generate = { kind, divisions }` | a generated mesh: see [`Kind`] |
-//! | `material` | the name of a material, in place of those of a mesh file; light grey without it |
-//! | `scale`, `rotate = { axis, degrees }`, `translate` | the transformation, in this order |
-//!
-//! A `scale` is one factor, or `[x, y, z]`, one for each axis; negative factors mirror.
+//! The `[[object]]` tables. The documentation of [`scene_file`](super) lists their keys.
 
 use super::document::{Item, Table};
 use super::error::Problem;
@@ -109,11 +97,11 @@ fn plane(item: &Item) -> Result<Shape, Problem> {
     Ok(Shape::Plane(Plane { point, normal: table.need("normal", EXAMPLE)?.direction()? }))
 }
 
-/// Reads a mesh file, with its own materials if `colored`.
+/// Reads a mesh file, with the materials that it names if `own_materials`.
 fn mesh(
     item: &Item,
     folder: &Path,
-    colored: bool,
+    own_materials: bool,
     warnings: &mut Vec<String>,
 ) -> Result<Shape, Problem> {
     let path = Path::new(item.text()?);
@@ -123,7 +111,7 @@ fn mesh(
     };
     let path = folder.join(path);
     let wrong = |error: ReadMeshError| Problem::new(item.span.clone(), error.to_string());
-    let mesh = if colored {
+    let mesh = if own_materials {
         let (mesh, missing) = format.read_with_materials(&path).map_err(wrong)?;
         warnings.extend(missing.iter().map(ToString::to_string));
         mesh
