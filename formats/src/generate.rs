@@ -15,16 +15,16 @@ use tessellation::{Tessellation, Vertex, turn};
 /// The kinds of mesh that can be generated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Kind {
-    /// Radius 1. Divisions: around, from pole to pole.
+    /// A sphere of radius 1. Divisions: around, from pole to pole.
     Sphere,
-    /// Radius 1, from y = −1 to 1, with caps. Divisions: around, along.
+    /// A cylinder of radius 1 around the y axis, from y = −1 to 1, with caps. Divisions: around, along.
     Cylinder,
-    /// Radius 1 at y = −1, its apex at y = 1, with its base. Divisions: around, along.
+    /// A cone of radius 1 at y = −1, with its apex at y = 1 and its base. Divisions: around, along.
     Cone,
     /// A ring of radius 1 around the y axis, its tube of radius 0.4. Divisions: around, around the
     /// tube.
     Torus,
-    /// From −1 to 1 along each axis. Divisions: along x and z, along y.
+    /// A cube from −1 to 1 along each axis. Divisions: along x and z, along y.
     Box,
     /// The square from −1 to 1 in the plane z = 0, facing +z. Divisions: across, up.
     Grid,
@@ -86,7 +86,7 @@ impl Kind {
         }
     }
 
-    /// The kind of this name.
+    /// The kind of this name; `None` for any other name.
     pub fn named(name: &str) -> Option<Kind> {
         Kind::ALL.into_iter().find(|kind| kind.name() == name)
     }

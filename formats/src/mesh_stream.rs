@@ -67,7 +67,7 @@ impl MeshStream {
     ///
     /// # Errors
     ///
-    /// The file cannot be read twice, as a pipe, or is wrong before the end of its last vertex.
+    /// The file cannot be read more than once, as a pipe cannot, or is wrong before the end of its last vertex.
     pub fn open(path: &Path, format: Format) -> Result<MeshStream, ReadMeshError> {
         let mut positions = Positions::default();
         let faces = match format {

@@ -26,7 +26,7 @@ pub struct Case {
     pub scene: Scene,
     /// The camera.
     pub camera: Camera,
-    /// The number of samples of a pixel.
+    /// One or two samples along a side of a pixel, and no crop.
     pub options: Options,
     /// The SIMD level: an index into those of the machine, modulo their number.
     pub level: usize,

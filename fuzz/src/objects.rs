@@ -99,7 +99,8 @@ fn mesh(bytes: &mut Unstructured, numbers: Numbers) -> Result<Shape> {
     Ok(Shape::Mesh(Mesh::new(positions, triangles).expect("positions are finite")))
 }
 
-/// A copy of an earlier shape: equal, with its corners in another order, or with one coordinate moved by one bit.
+/// A copy of an earlier shape: equal, with its corners in another order or one of them twice, or with one coordinate moved
+/// by one bit.
 fn near_copy(bytes: &mut Unstructured, shape: Shape) -> Result<Shape> {
     let how = bytes.int_in_range(0..=5_u8)?;
     let nudged = |corner: Vec3| {

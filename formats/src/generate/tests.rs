@@ -21,14 +21,14 @@ fn euler_characteristic(mesh: &Mesh) -> i64 {
     count(mesh.positions().len()) - count(edges.len()) + count(mesh.triangles().len())
 }
 
-/// Six times the volume that the triangles enclose; positive when they face outward.
+/// The volume that the triangles enclose; positive when they face outward.
 fn volume(mesh: &Mesh) -> f64 {
     let triangles = 0..mesh.triangles().len();
     let signed = |k| {
         let [a, b, c] = mesh.corners(k).map(Vec3::as_dvec3);
         a.cross(b).dot(c)
     };
-    triangles.map(signed).sum()
+    triangles.map(signed).sum::<f64>() / 6.0
 }
 
 fn assert_normals_fit(mesh: &Mesh, kind: Kind) {

@@ -101,7 +101,7 @@ impl<V: Visitor> Parser<V> {
     /// Turns an index as the file writes it into one that counts from 0.
     fn resolve(&mut self, line: usize, kind: IndexKind, index: i64) -> Result<u32, StatementFault> {
         let defined = self.defined[kind as usize];
-        // A slice is never longer than i64::MAX.
+        // No file has as many definitions as i64::MAX.
         let count = i64::try_from(defined).unwrap_or(i64::MAX);
         let from_zero = match index {
             0 => return Err(StatementFault::IndexZero { kind }),

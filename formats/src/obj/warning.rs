@@ -3,7 +3,8 @@
 use crate::source::quote::quoted;
 use std::fmt;
 
-/// What is missing of a mesh's materials. The triangles concerned are drawn in the default material.
+/// What is missing of a mesh's materials. Triangles without one are drawn in the material of their object, which is light
+/// grey unless it states another.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum MaterialWarning {
     /// A material file does not exist.

@@ -44,7 +44,7 @@ pub(super) struct ValueReader<'a, R> {
 }
 
 /// The most bytes of a word. No number needs more: longer words are not numbers.
-const LONGEST_WORD: usize = 1024;
+const MOST_BYTES_A_WORD: usize = 1024;
 
 impl<'a, R: BufRead + Seek> ValueReader<'a, R> {
     pub(super) fn new(input: &'a mut R, header: &Header, length: u64) -> Self {
@@ -219,12 +219,12 @@ impl<'a, R: BufRead + Seek> ValueReader<'a, R> {
             let bytes = self.input.fill_buf()?;
             let end = bytes.iter().position(u8::is_ascii_whitespace);
             let part = &bytes[..end.unwrap_or(bytes.len())];
-            let room = LONGEST_WORD + 1 - self.word.len();
+            let room = MOST_BYTES_A_WORD + 1 - self.word.len();
             self.word.extend_from_slice(&part[..part.len().min(room)]);
             let taken = part.len();
             let ended = end.is_some() || bytes.is_empty();
             self.input.consume(taken);
-            if self.word.len() > LONGEST_WORD {
+            if self.word.len() > MOST_BYTES_A_WORD {
                 return Err(ElementFault::NotANumber { text: quote(&self.word) }.into());
             }
             if ended {

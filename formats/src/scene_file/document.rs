@@ -1,7 +1,7 @@
 //! Tables and values of a TOML document. Each knows its place in the text, so that every error has one.
 //!
-//! The crate `toml` parses the text. Its values are read by hand: so every message, also one about a negative radius or an
-//! unknown key, names the key, the place and often a correction.
+//! The crate `toml` parses the text. Its values are read by hand, so that every message names the key, the place and often
+//! a correction, also one about a negative radius or an unknown key.
 
 use super::error::Problem;
 use super::suggestion::suggestion;
