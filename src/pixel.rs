@@ -213,10 +213,9 @@ fn touches(edges: &EdgeSigns) -> bool {
 
 fn behind(view: &View, nearer: &Primitive, primitive: &Primitive, ray: &Ray) -> Behind {
     let order = view.judge().compare(nearer, primitive, ray);
-    let round = |primitive: &Primitive| matches!(primitive, Primitive::Sphere { .. });
     match (order.at_sample, order.decided) {
         (Ordering::Equal, Ordering::Equal) => Behind::Later,
-        (Ordering::Equal, _) if round(nearer) != round(primitive) => Behind::Round,
+        (Ordering::Equal, _) if nearer.is_round() != primitive.is_round() => Behind::Round,
         (Ordering::Equal, _) => Behind::Nudged,
         _ => Behind::Farther,
     }

@@ -89,7 +89,7 @@ impl Hit {
         let position = ray.origin + stored * ray.direction;
         let center = match *primitive {
             Primitive::Sphere { center, .. } => center,
-            _ => DVec3::ZERO,
+            Primitive::Triangle(_) | Primitive::Plane { .. } => DVec3::ZERO,
         };
         Hit { t: stored, position, from_center: position - center }
     }

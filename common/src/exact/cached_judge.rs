@@ -157,8 +157,7 @@ impl CachedJudge {
 
     /// The comparison function of two flat primitives, from the cache if it is there.
     fn pair(&mut self, first: (u32, &Primitive), second: (u32, &Primitive)) -> Option<Pair> {
-        let flat = |primitive: &Primitive| !matches!(primitive, Primitive::Sphere { .. });
-        if !flat(first.1) || !flat(second.1) {
+        if first.1.is_round() || second.1.is_round() {
             return None;
         }
         if self.pairs.len() >= Self::MOST {

@@ -39,21 +39,23 @@ pub(super) fn compare(
     second: &Primitive,
     ray: &Ray,
 ) -> Comparison {
-    match (first, second) {
-        _ if are_identical(first, second) => Comparison::EQUAL,
-        (Primitive::Sphere { .. }, Primitive::Sphere { .. }) => {
+    if are_identical(first, second) {
+        return Comparison::EQUAL;
+    }
+    match (first.is_round(), second.is_round()) {
+        (true, true) => {
             let order = ordering(exactly!(sphere_against_sphere(first, second, ray)));
             Comparison { at_sample: order, decided: order }
         }
-        (Primitive::Sphere { .. }, _) => {
+        (true, false) => {
             let order = ordering(exactly!(sphere_against_flat(first, second, ray)));
             Comparison { at_sample: order, decided: order.then(Ordering::Greater) }
         }
-        (_, Primitive::Sphere { .. }) => {
+        (false, true) => {
             let order = ordering(exactly!(sphere_against_flat(second, first, ray))).reverse();
             Comparison { at_sample: order, decided: order.then(Ordering::Less) }
         }
-        _ => {
+        (false, false) => {
             let at_sample = ordering(exactly!(flat_against_flat(first, second, ray)));
             let along = |direction| {
                 ordering(exactly!(flat_against_flat_along(
@@ -72,8 +74,7 @@ pub(super) fn by_rounded_arithmetic(
     second: &Primitive,
     ray: &Ray,
 ) -> Option<Comparison> {
-    let is_round = |primitive: &Primitive| matches!(primitive, Primitive::Sphere { .. });
-    if is_round(first) || is_round(second) {
+    if first.is_round() || second.is_round() {
         return None;
     }
     let sign = flat_against_flat::<Bounded>(first, second, ray)?;
@@ -86,7 +87,7 @@ pub(super) fn distance(primitive: &Primitive, ray: &Ray) -> f64 {
     const CLOSE: f64 = 1e-10;
     let rounded = match *primitive {
         Primitive::Sphere { center, radius } => rounded_sphere_distance(center, radius, ray),
-        _ => {
+        Primitive::Triangle(_) | Primitive::Plane { .. } => {
             let Crossing { p, q, .. } = Crossing::<Bounded>::new(primitive, ray);
             p.over(q)
         }
@@ -97,7 +98,7 @@ pub(super) fn distance(primitive: &Primitive, ray: &Ray) -> f64 {
     match *primitive {
         Primitive::Sphere { center, radius } => doubled_sphere_distance(center, radius, ray)
             .unwrap_or_else(|| exact_sphere_distance(center, radius, ray)),
-        _ => {
+        Primitive::Triangle(_) | Primitive::Plane { .. } => {
             let Crossing { p, q, .. } = Crossing::<Dyadic>::new(primitive, ray);
             p.to_f64() / q.to_f64()
         }
@@ -169,6 +170,13 @@ fn flat_against_flat_along<R: Real>(
     Some(derivative.sign()? * first.q.sign()? * second.q.sign()?)
 }
 
+fn center_and_radius(sphere: &Primitive) -> (DVec3, f64) {
+    match *sphere {
+        Primitive::Sphere { center, radius } => (center, radius),
+        Primitive::Triangle(_) | Primitive::Plane { .. } => unreachable!("it is a sphere"),
+    }
+}
+
 /// A sphere's visible root: `t = (−B + side·√(B² − A·C))/A`, near side first.
 fn root_side<R: Real>(quadratic: &Quadratic<R>) -> Option<Sign> {
     // The eye outside of the sphere sees the near root; inside, and on it, only the far one is
@@ -182,7 +190,7 @@ fn root_side<R: Real>(quadratic: &Quadratic<R>) -> Option<Sign> {
 /// where the flat's point lies outside of the roots, and then the slope `X = A·p + B·q` says on which
 /// side of both.
 fn sphere_against_flat<R: Real>(sphere: &Primitive, flat: &Primitive, ray: &Ray) -> Option<Sign> {
-    let Primitive::Sphere { center, radius } = *sphere else { unreachable!("it is a sphere") };
+    let (center, radius) = center_and_radius(sphere);
     let quadratic = Quadratic::<R>::new(center, radius, ray);
     let Quadratic { a, b, c, .. } = &quadratic;
     let Crossing { p, q, .. } = Crossing::<R>::new(flat, ray);
@@ -213,10 +221,6 @@ fn sphere_against_sphere<R: Real>(
     second: &Primitive,
     ray: &Ray,
 ) -> Option<Sign> {
-    let center_and_radius = |sphere: &Primitive| match *sphere {
-        Primitive::Sphere { center, radius } => (center, radius),
-        _ => unreachable!("it is a sphere"),
-    };
     let [(center1, radius1), (center2, radius2)] = [first, second].map(center_and_radius);
     let first = Quadratic::<R>::new(center1, radius1, ray);
     let second = Quadratic::<R>::new(center2, radius2, ray);

@@ -9,7 +9,7 @@ pub enum Primitive {
     Triangle([DVec3; 3]),
     /// A sphere.
     Sphere {
-        /// Its middle.
+        /// Its centre.
         center: DVec3,
         /// Positive.
         radius: f64,
@@ -21,6 +21,18 @@ pub enum Primitive {
         /// Perpendicular to it, not of unit length.
         normal: DVec3,
     },
+}
+
+impl Primitive {
+    /// Whether it is round: a sphere. Every other primitive is flat: it lies in one plane. Of primitives that a ray
+    /// meets at the same `t`, flat ones are seen before round ones.
+    #[inline]
+    pub fn is_round(&self) -> bool {
+        match self {
+            Primitive::Sphere { .. } => true,
+            Primitive::Triangle(_) | Primitive::Plane { .. } => false,
+        }
+    }
 }
 
 /// Whether two triangles have the same corners, in any order. Then every ray that meets one meets the other at the

@@ -20,6 +20,7 @@ use bothways_common::engine::roundoff::Interval;
 use bothways_common::observe::Events;
 use bothways_common::raster::{Region, Sample};
 use fragment_writer::FragmentWriter;
+use glam::DVec3;
 
 /// Draws what of primitives' regions lies in the tile.
 #[inline(always)]
@@ -48,15 +49,21 @@ fn draw_primitive<C: Context>(context: &mut C, writer: &mut FragmentWriter) {
     let region = region::<C::Fault>(&writer.primitive, writer.picture.map);
     match writer.primitive {
         Primitive::Triangle(corners) => triangle::draw(context, writer, &corners, &region),
-        Primitive::Sphere { .. } => draw_sphere(&mut context.scalar(), writer, &region),
+        Primitive::Sphere { center, radius } => {
+            draw_sphere(&mut context.scalar(), writer, (center, radius), &region);
+        }
         Primitive::Plane { point, normal } => {
             plane::draw(context, writer, [point, normal], &region);
         }
     }
 }
 
-fn draw_sphere<C: ScalarContext>(context: &mut C, writer: &mut FragmentWriter, region: &Region) {
-    let Primitive::Sphere { center, radius } = writer.primitive else { return };
+fn draw_sphere<C: ScalarContext>(
+    context: &mut C,
+    writer: &mut FragmentWriter,
+    (center, radius): (DVec3, f64),
+    region: &Region,
+) {
     let map = writer.picture.map;
     let sphere = Sphere::new(map, center, radius, !C::has(Planted::ZeroErrorBound));
     let here = region.intersection(writer.buffer.region());

@@ -40,7 +40,7 @@ pub(super) fn draw<C: ScalarContext>(
 ) {
     let [rows, columns] = match primitive {
         Primitive::Sphere { center, radius } => bounds::of_sphere(frustum, *center, *radius),
-        _ => [[0, tile.side()]; 2],
+        Primitive::Triangle(_) | Primitive::Plane { .. } => [[0, tile.side()]; 2],
     };
     for row in rows[0]..rows[1] {
         for column in columns[0]..columns[1] {

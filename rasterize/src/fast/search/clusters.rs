@@ -109,7 +109,7 @@ impl Clusters {
                 Triangles { corners: triangles, numbers: Some(numbers) }
             }
             (Shape::Mesh(mesh), None) => Triangles { corners: mesh.triangles(), numbers: None },
-            _ => Triangles::NONE,
+            (Shape::Triangle(_) | Shape::Sphere(_) | Shape::Plane(_), _) => Triangles::NONE,
         }
     }
 

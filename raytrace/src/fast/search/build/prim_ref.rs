@@ -145,7 +145,9 @@ impl<'a> Corners<'a> {
                 mesh_corners(mesh, &mesh.triangles()[(id - self.ids.start) as usize])
             }
             Some(Shape::Triangle(Triangle { a, b, c })) => [*a, *b, *c],
-            _ => unreachable!("leaves of triangles hold triangles"),
+            Some(Shape::Sphere(_) | Shape::Plane(_)) | None => {
+                unreachable!("leaves of triangles hold triangles")
+            }
         }
     }
 }
