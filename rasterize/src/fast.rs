@@ -49,8 +49,8 @@ mod tile;
 mod triangle;
 mod vertices;
 
+pub use prepared::Prepared;
 pub(crate) use prepared::corners;
-pub use prepared::{Prepared, prepare};
 
 use bothways_common::engine::context::Parts;
 use bothways_common::engine::fault::{Fault, Planted, Sound};
@@ -58,7 +58,7 @@ use bothways_common::engine::memory::filled;
 use bothways_common::engine::simd::{Level, dispatch, dispatch_with};
 use bothways_common::frame;
 use bothways_common::observe::{Events, Observer};
-use bothways_common::{Frame, Options, Shape, View};
+use bothways_common::{Frame, Options, Scene, Shape, View};
 use camera_map::CameraMap;
 use depth::KeyScale;
 use draw::Drawing;
@@ -75,6 +75,13 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use store::{store, store_nothing};
 use tile::TileBuffer;
 use vertices::{FixedPointRaster, Vertex};
+
+/// Prepares a scene for any number of views of it: cuts it into batches, and its meshes into clusters.
+///
+/// Runs on the rayon pool that it is called in; the number of threads does not change what is prepared.
+pub fn prepare(scene: &Scene) -> Prepared {
+    Prepared::new(scene)
+}
 
 /// Renders a view of a prepared scene: what is seen at every sample, and its look.
 ///

@@ -42,55 +42,6 @@ pub(super) struct Recycled {
     pub(super) tiles: Vec<TileBuffer>,
 }
 
-/// Prepares a scene for any number of views of it.
-pub fn prepare(scene: &Scene) -> Prepared {
-    let primitives = scene.primitive_count();
-    let mut first_vertices = vec![0];
-    let mut bounds = [DVec3::INFINITY, DVec3::NEG_INFINITY];
-    let mut has_planes = false;
-    for object in scene.objects() {
-        let mut include = |low: DVec3, high: DVec3| {
-            bounds = [bounds[0].min(low), bounds[1].max(high)];
-        };
-        let vertices = match &object.shape {
-            Shape::Mesh(mesh) => {
-                for position in mesh.positions() {
-                    include(position.as_dvec3(), position.as_dvec3());
-                }
-                mesh.positions().len()
-            }
-            Shape::Triangle(triangle) => {
-                for corner in [triangle.a, triangle.b, triangle.c] {
-                    include(corner.as_dvec3(), corner.as_dvec3());
-                }
-                3
-            }
-            Shape::Sphere(sphere) => {
-                let (center, radius) = (sphere.center.as_dvec3(), f64::from(sphere.radius));
-                include(center - radius, center + radius);
-                0
-            }
-            Shape::Plane(_) => {
-                has_planes = true;
-                0
-            }
-        };
-        first_vertices.push(first_vertices[first_vertices.len() - 1] + vertices);
-    }
-    let clusters = scene.objects().par_iter().map(|object| Clusters::new(&object.shape));
-    Prepared {
-        batches: batches(scene),
-        clusters: clusters.collect(),
-        primitives,
-        first_vertices,
-        bounds: corners(bounds),
-        has_planes,
-        level: best_level(),
-        tile: TILE,
-        recycled: Mutex::default(),
-    }
-}
-
 /// The corners of a box.
 pub(crate) fn corners(bounds: [DVec3; 2]) -> [DVec3; 8] {
     std::array::from_fn(|k| {
@@ -99,6 +50,54 @@ pub(crate) fn corners(bounds: [DVec3; 2]) -> [DVec3; 8] {
 }
 
 impl Prepared {
+    pub(super) fn new(scene: &Scene) -> Prepared {
+        let primitives = scene.primitive_count();
+        let mut first_vertices = vec![0];
+        let mut bounds = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+        let mut has_planes = false;
+        for object in scene.objects() {
+            let mut include = |low: DVec3, high: DVec3| {
+                bounds = [bounds[0].min(low), bounds[1].max(high)];
+            };
+            let vertices = match &object.shape {
+                Shape::Mesh(mesh) => {
+                    for position in mesh.positions() {
+                        include(position.as_dvec3(), position.as_dvec3());
+                    }
+                    mesh.positions().len()
+                }
+                Shape::Triangle(triangle) => {
+                    for corner in [triangle.a, triangle.b, triangle.c] {
+                        include(corner.as_dvec3(), corner.as_dvec3());
+                    }
+                    3
+                }
+                Shape::Sphere(sphere) => {
+                    let (center, radius) = (sphere.center.as_dvec3(), f64::from(sphere.radius));
+                    include(center - radius, center + radius);
+                    0
+                }
+                Shape::Plane(_) => {
+                    has_planes = true;
+                    0
+                }
+            };
+            first_vertices.push(first_vertices[first_vertices.len() - 1] + vertices);
+        }
+        let clusters = scene.objects().par_iter().map(|object| Clusters::new(&object.shape));
+        Prepared {
+            batches: batches(scene),
+            clusters: clusters.collect(),
+            primitives,
+            first_vertices,
+            bounds: corners(bounds),
+            has_planes,
+            level: best_level(),
+            tile: TILE,
+            recycled: Mutex::default(),
+        }
+    }
+
     /// The same as a part of a larger scene: it is drawn as the larger scene would draw it, to the last bit. `bounds`
     /// are the corners of a box around that.
     pub(crate) fn within(self, bounds: [DVec3; 8]) -> Prepared {
