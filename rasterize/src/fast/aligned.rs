@@ -19,7 +19,7 @@ pub(super) const TIE: f32 = 1.0 / 32.0;
 
 /// Tells which vertices are aligned, on a raster on which nothing is rounded from a vertex to its place.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Alignment {
+pub(super) struct AlignmentTest {
     projection: Projection,
     distance: f64,
     /// From one row to the next on the viewport, and from one column to the next.
@@ -28,7 +28,7 @@ pub(super) struct Alignment {
     middle: [f64; 2],
 }
 
-impl Alignment {
+impl AlignmentTest {
     /// The test for a camera's raster, if nothing is rounded on it.
     ///
     /// The frame must run along the world's axes, to the last bit: then an offset along `u`, `v` or `w` is a
@@ -36,14 +36,14 @@ impl Alignment {
     /// components does not answer the question: a component far below the last bit of 1 vanishes in it.) And if
     /// `vw/W` has at most 10 bits, a sample's coordinate, half of it times an integer of 17 bits, is stored without
     /// rounding.
-    pub(super) fn new(map: &CameraMap) -> Option<Alignment> {
+    pub(super) fn new(map: &CameraMap) -> Option<AlignmentTest> {
         let axes = [map.u, map.v, map.w];
         if !axes.into_iter().all(is_axis) {
             return None;
         }
         let [rows, columns] = map.raster.size().map(f64::from);
         let [vw, vh] = map.camera.viewport();
-        Some(Alignment {
+        Some(AlignmentTest {
             projection: map.projection(),
             distance: map.distance,
             spacing: [short_quotient(vh, rows)?, short_quotient(vw, columns)?],

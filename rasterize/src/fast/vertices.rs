@@ -1,6 +1,6 @@
 //! The vertex stage: every vertex is mapped once a frame, to a fixed-point place on the raster and a depth key.
 
-use super::aligned::Alignment;
+use super::aligned::AlignmentTest;
 use super::camera_map::CameraMap;
 use super::depth::{KeyScale, LARGEST_KEY};
 use bothways_common::Projection;
@@ -48,7 +48,7 @@ pub(super) struct FixedPointRaster {
     /// Whether vertices can be trusted at all: the camera is not too extreme.
     trusted: bool,
     /// The test for aligned vertices, if there may be any.
-    alignment: Option<Alignment>,
+    alignment: Option<AlignmentTest>,
 }
 
 impl FixedPointRaster {
@@ -75,7 +75,7 @@ impl FixedPointRaster {
             slack,
             keys,
             trusted: margin <= unit,
-            alignment: Alignment::new(map),
+            alignment: AlignmentTest::new(map),
         }
     }
 

@@ -23,7 +23,7 @@ const LARGEST: f64 = (1 << 17) as f64;
 const FARTHEST: f64 = (1 << 16) as f64;
 
 /// Eight triangles of which some are aligned.
-pub(super) struct Aligned<S: Simd> {
+pub(super) struct AlignedTriangles<S: Simd> {
     /// Which.
     pub(super) which: mask32x8<S>,
     /// Their edge functions of `ab`, `bc`, `ca` on the raster, positive inside, never 0 at a sample.
@@ -34,7 +34,7 @@ pub(super) struct Aligned<S: Simd> {
     pub(super) edge_on: mask32x8<S>,
 }
 
-impl<S: Simd> Aligned<S> {
+impl<S: Simd> AlignedTriangles<S> {
     /// Finds the aligned ones among triangles, whose corners are given by their offsets from the eye and by the
     /// map. `None` if the camera's rays are not straight.
     ///
@@ -63,7 +63,7 @@ impl<S: Simd> Aligned<S> {
         let (e3, small3) = edge(context, frustum, c, ca, facing);
         let which = on_a & on_b & on_c & small1 & small2 & small3;
         let edge_on = area.simd_eq(f64x8::splat(simd, 0.0));
-        Some(Aligned {
+        Some(AlignedTriangles {
             which: mask32x8::from_bitmask(simd, which.to_bitmask()),
             edges: [e1, e2, e3],
             facing: facing.narrow(facing).split().0,

@@ -2,7 +2,7 @@
 //! in `f64` about the tile's middle and rounded to `f32`, with bounds of the error.
 
 use super::affine::Affine;
-use super::aligned::Aligned;
+use super::aligned::AlignedTriangles;
 use super::bounds;
 use super::search::tile_frustum::TileFrustum;
 use bothways_common::engine::context::Context;
@@ -99,8 +99,9 @@ impl<S: Simd> Setup<S> {
         // Edges.
         let mut functions = Functions::new(simd, frustum, &mapped);
         let blind = C::has(Planted::ZeroErrorBound);
-        let aligned = if blind { None } else { Aligned::new(context, frustum, &offsets, &mapped) };
-        if let Some(Aligned { which, edges: exact, .. }) = &aligned {
+        let aligned =
+            if blind { None } else { AlignedTriangles::new(context, frustum, &offsets, &mapped) };
+        if let Some(AlignedTriangles { which, edges: exact, .. }) = &aligned {
             let [ab, bc, ca] = &functions.edges;
             functions.edges =
                 [ab.or(&exact[0], *which), bc.or(&exact[1], *which), ca.or(&exact[2], *which)];
