@@ -10,7 +10,7 @@ use std::ops::{Add, Mul, Sub};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DoubleDouble {
     pub(super) high: f64,
-    low: f64,
+    pub(super) low: f64,
 }
 
 impl DoubleDouble {
@@ -40,7 +40,7 @@ impl DoubleDouble {
 
     /// The product of two numbers, without error: Dekker, "A Floating-Point Technique for Extending the Available
     /// Precision", Numerische Mathematik 18, 1971.
-    fn product(a: f64, b: f64) -> Self {
+    pub(super) fn product(a: f64, b: f64) -> Self {
         // Two numbers with half of the digits each.
         let halves = |number: f64| {
             let scaled = 134_217_729.0 * number;
@@ -78,5 +78,22 @@ impl Mul for DoubleDouble {
         let highs = Self::product(self.high, other.high);
         let crosswise = self.high * other.low + self.low * other.high;
         Self::sum(highs.high, highs.low + crosswise)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn products_lose_nothing() {
+        let product = |a: f64, b: f64| {
+            let DoubleDouble { high, low } = DoubleDouble::product(a, b);
+            [high, low]
+        };
+        // (1 + 2⁻⁵²)² = 1 + 2⁻⁵¹ + 2⁻¹⁰⁴.
+        let a = 1.0 + f64::EPSILON;
+        assert_eq!(product(a, a), [1.0 + 2.0 * f64::EPSILON, f64::EPSILON * f64::EPSILON]);
+        assert_eq!(product(3.0, -0.5), [-1.5, 0.0]);
     }
 }

@@ -1,5 +1,6 @@
 //! Offsets from a point near the scene, for an eye that is far from it.
 
+use super::high_precision::DoubleDouble;
 use bothways_common::{Camera, Projection};
 use glam::DVec3;
 
@@ -40,9 +41,11 @@ impl LocalOrigin {
         }
     }
 
+    /// Neither over- nor underflows: lengths are at most 2¹³⁰, coordinates of a frame 0 or at least 2⁻¹⁰⁰.
     fn at(t: f64, direction: DVec3) -> LocalOrigin {
-        let [x, y, z] = direction.to_array().map(|along| product(t, along));
-        LocalOrigin { t, high: DVec3::new(x[0], y[0], z[0]), low: DVec3::new(x[1], y[1], z[1]) }
+        let point = direction.to_array().map(|along| DoubleDouble::product(t, along));
+        let [high, low] = [point.map(|x| x.high), point.map(|x| x.low)].map(DVec3::from_array);
+        LocalOrigin { t, high, low }
     }
 
     /// The two parts of the point, which [`LocalOrigin::relative`] subtracts one after the other.
@@ -60,32 +63,9 @@ impl LocalOrigin {
     }
 }
 
-/// A product as the sum of its rounded value and the rest, both exact (Dekker, "A floating-point technique for extending
-/// the available precision", Numerische Mathematik 18, 1971). Neither over- nor underflows: lengths are at most 2¹³⁰,
-/// coordinates of a frame 0 or at least 2⁻¹⁰⁰.
-fn product(a: f64, b: f64) -> [f64; 2] {
-    let halves = |number: f64| {
-        let shifted = 134_217_729.0 * number;
-        let high = shifted - (shifted - number);
-        [high, number - high]
-    };
-    let ([a_high, a_low], [b_high, b_low]) = (halves(a), halves(b));
-    let high = a * b;
-    let low = ((a_high * b_high - high) + a_high * b_low + a_low * b_high) + a_low * b_low;
-    [high, low]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn products_lose_nothing() {
-        // (1 + 2⁻⁵²)² = 1 + 2⁻⁵¹ + 2⁻¹⁰⁴.
-        let a = 1.0 + f64::EPSILON;
-        assert_eq!(product(a, a), [1.0 + 2.0 * f64::EPSILON, f64::EPSILON * f64::EPSILON]);
-        assert_eq!(product(3.0, -0.5), [-1.5, 0.0]);
-    }
 
     #[test]
     fn what_lies_on_the_ray_is_at_the_local_origin() {
