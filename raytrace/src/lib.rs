@@ -83,7 +83,7 @@
 //! # What it promises
 //!
 //! - The ids are those of `textbook`, and those of the twin, at every sample. There is no tolerance.
-//! - The number of threads, the width of SIMD and the size of tiles change no bit of a frame, and no event.
+//! - The number of threads and the width of SIMD change no bit of a frame, and no event.
 //! - A crop has the bits of the whole picture.
 
 pub mod fast;

@@ -21,12 +21,13 @@ pub struct Prepared {
     pub(super) extents: Vec<(u32, f32)>,
     pub(super) primitives: u32,
     pub(super) level: Level,
+    /// Samples along one side of a tile.
     pub(super) side: usize,
 }
 
 impl Prepared {
-    /// The same, traced at another level of SIMD and in tiles of 16 × 16 or 32 × 32 samples: for tests,
-    /// which see that neither changes a bit.
+    /// The same, traced at another level of SIMD and in tiles of 16 × 16 or 32 × 32 samples: for tests. They check that
+    /// the level changes no bit of a frame, and that the tiles change no id and no event.
     ///
     /// # Panics
     ///

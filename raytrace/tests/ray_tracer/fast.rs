@@ -50,7 +50,7 @@ fn soups_of_all_sizes_from_everywhere() {
 }
 
 #[test]
-fn neither_simd_nor_tiles_nor_threads_change_a_bit() {
+fn simd_and_threads_change_no_bit_and_tiles_no_id() {
     let ball = Shape::Sphere(Sphere { center: Vec3::new(0.3, 0.2, 0.1), radius: 0.4 });
     let ground = Shape::Plane(Plane { point: Vec3::new(0.0, -0.9, 0.0), normal: Vec3::Y });
     let objects = vec![mesh(soup(400, 0.3)), ball.into(), ground.into()];
