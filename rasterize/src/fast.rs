@@ -87,7 +87,8 @@ pub fn prepare(scene: &Scene) -> Prepared {
 ///
 /// # Panics
 ///
-/// If the view's scene is not the one that was prepared.
+/// If the view's scene is not the one that was prepared, as far as the number of primitives tells, or [`Frame::new`]
+/// refuses the options.
 ///
 /// ```
 /// use bothways_rasterize::common::{Camera, Options, Scene, Shape, Sphere, View, glam::Vec3};
@@ -112,12 +113,15 @@ pub fn render(prepared: &Prepared, view: &View, options: &Options) -> Frame {
 
 /// Finds the primitive that is seen at every sample, and how far it is.
 ///
+/// Fits the frame to the view and writes ids and `t`s into it; [`shade`](fn@crate::shade) gives it its colours.
+///
 /// Runs on the rayon pool that it is called in; the number of threads changes no bit of the frame and
 /// nothing that the observer is told.
 ///
 /// # Panics
 ///
-/// If the view's scene is not the one that was prepared.
+/// If the view's scene is not the one that was prepared, as far as the number of primitives tells, or [`Frame::new`]
+/// refuses the options.
 pub fn determine_visibility(
     prepared: &Prepared,
     view: &View,

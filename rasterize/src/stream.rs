@@ -82,7 +82,7 @@ impl Canvas {
     ///
     /// # Panics
     ///
-    /// If the camera's image does not allow this number of samples.
+    /// If [`Frame::new`] refuses the options.
     pub fn new(camera: &Camera, options: &Options) -> Canvas {
         let frame = Frame::new(camera, options);
         let count = frame.ids().len();

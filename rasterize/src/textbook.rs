@@ -17,6 +17,10 @@ use bothways_common::raster::Sample;
 use bothways_common::{Frame, Options, View};
 
 /// Renders a view: what is seen at every sample, and its look.
+///
+/// # Panics
+///
+/// If [`Frame::new`] refuses the options.
 pub fn render(view: &View, options: &Options) -> Frame {
     let mut frame = Frame::new(view.camera, options);
     determine_visibility(view, options, &mut frame, &mut ());
@@ -25,6 +29,12 @@ pub fn render(view: &View, options: &Options) -> Frame {
 }
 
 /// Finds the primitive that is seen at every sample, and how far it is.
+///
+/// Fits the frame to the view and writes ids and `t`s into it; [`shade`](fn@crate::shade) gives it its colours.
+///
+/// # Panics
+///
+/// If [`Frame::new`] refuses the options.
 pub fn determine_visibility(
     view: &View,
     options: &Options,

@@ -14,8 +14,8 @@
 //! enough to find that out (`search/box_culling`, `local_projection`). Edges through samples need no judge where
 //! corners lie on quarters of samples (`aligned`).
 //!
-//! For an observer, each ray is walked alone as well, as a tile of one. So what is reported belongs to the ray, and
-//! depends on nothing else. The frame is that of the tiles, whether they are watched or not.
+//! For an observer, each ray is walked alone as well, as a tile of one. So the events belong to the ray, and
+//! depend on nothing else. The frame is that of the tiles, whether they are watched or not.
 
 mod affine;
 mod aligned;
@@ -76,7 +76,8 @@ pub fn prepare(scene: &Scene) -> Prepared {
 ///
 /// # Panics
 ///
-/// If the view's scene is not the one that was prepared.
+/// If the view's scene is not the one that was prepared, as far as the number of primitives tells, or [`Frame::new`]
+/// refuses the options.
 ///
 /// ```
 /// use bothways_raytrace::common::{Camera, Options, Scene, Shape, Sphere, View, glam::Vec3};
@@ -101,12 +102,15 @@ pub fn render(prepared: &Prepared, view: &View, options: &Options) -> Frame {
 
 /// Finds the primitive that is seen at every sample, and how far it is.
 ///
+/// Fits the frame to the view and writes ids and `t`s into it; [`shade`](fn@crate::shade) gives it its colours.
+///
 /// Runs on the rayon pool that it is called in; the number of threads changes no bit of the frame and no event that
 /// the observer gets.
 ///
 /// # Panics
 ///
-/// If the view's scene is not the one that was prepared.
+/// If the view's scene is not the one that was prepared, as far as the number of primitives tells, or [`Frame::new`]
+/// refuses the options.
 pub fn determine_visibility(
     prepared: &Prepared,
     view: &View,

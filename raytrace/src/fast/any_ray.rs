@@ -15,7 +15,7 @@ use glam::Vec3;
 /// Half a line in the world: what lies at `origin + t·direction` with `t > 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WorldRay {
-    /// Where it begins.
+    /// Where it begins, in the world.
     pub origin: Vec3,
     /// Where it goes; the length does not matter.
     pub direction: Vec3,
@@ -26,7 +26,7 @@ pub struct WorldRay {
 pub struct Hit {
     /// The id of the primitive.
     pub id: u32,
-    /// How far it is from the ray's origin.
+    /// How far it is from the ray's origin, in units of the world: the length of the ray's direction does not matter.
     pub distance: f32,
 }
 
@@ -69,8 +69,8 @@ impl WorldRay {
 ///
 /// # Panics
 ///
-/// If the scene is not the one that was prepared, a number of the ray is not finite, or its direction is
-/// zero.
+/// If the scene is not the one that was prepared, as far as the number of primitives tells, a number of the ray is not
+/// finite, or its direction is zero.
 ///
 /// ```
 /// use bothways_raytrace::common::{Scene, Shape, Sphere, glam::Vec3};
@@ -98,7 +98,7 @@ pub fn first_hit(prepared: &Prepared, scene: &Scene, ray: WorldRay) -> Option<Hi
     walker.tile.seen().map(|id| Hit { id, distance })
 }
 
-/// Traces the only ray of a picture. Returns how far the hit is, if it is one.
+/// Traces the only ray of a picture. Returns how far the hit is, or infinity if there is none.
 #[inline(always)]
 fn trace_alone<C: Context>(context: &mut C, walker: &mut Walker) -> f32 {
     let template = FrustumTemplate::new(walker.map, 1);
