@@ -30,7 +30,7 @@ pub(super) fn draw<C: Context>(
     let simd = context.simd();
     let setup = Setup::new(context, frustum, eight, used, tile.far);
     if C::WATCHED {
-        report_edges(context, &setup, eight, used, tile);
+        emit_edge_signs(context, &setup, eight, used, tile);
     }
     let alive = setup.alive.to_bitmask();
     if alive == 0 {
@@ -62,8 +62,8 @@ pub(super) fn draw<C: Context>(
     class
 }
 
-/// Decides in `f64`, or by the judge, what the vector paths left open; of triangles whose facing is doubtful, that is
-/// every sample.
+/// Decides in `f64`, or by the judge, what the vector paths left open. Triangles whose facing is doubtful are left open
+/// at every sample.
 #[inline(always)]
 fn judge_open<C: Context>(
     context: &mut C,
@@ -86,9 +86,9 @@ fn judge_open<C: Context>(
     }
 }
 
-/// Reports the signs of edge functions at the only sample of a tile, as far as they are certain.
+/// Emits the signs of edge functions at the only sample of a tile, as far as they are certain.
 #[cold]
-fn report_edges<S: Simd>(
+fn emit_edge_signs<S: Simd>(
     context: &mut impl ScalarContext,
     setup: &Setup<S>,
     eight: &TrianglePacket,

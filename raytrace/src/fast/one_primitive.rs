@@ -53,7 +53,7 @@ pub(super) fn draw<C: ScalarContext>(
     }
 }
 
-/// Decides what the tile was left open by eight triangles.
+/// Decides the fragments that eight triangles left open in the tile.
 #[cold]
 pub(super) fn settle<C: ScalarContext>(
     context: &mut C,
@@ -70,7 +70,7 @@ pub(super) fn settle<C: ScalarContext>(
 }
 
 /// Tests one ray against one primitive, and keeps the nearer of it and the hit so far. `covered` says that the sample
-/// is certainly covered, which was reported already.
+/// is certainly covered, and that its edge signs were emitted already.
 fn decide<C: ScalarContext>(
     context: &mut C,
     map: &CameraMap,

@@ -71,7 +71,8 @@ impl TileBuffer {
         }
     }
 
-    /// Starts a tile in which nothing is hit: at this row and column, with so many rows and columns in the picture.
+    /// Starts a tile in which nothing is hit. The tile begins at the row and column `start`; `size` is how many of its
+    /// rows and columns lie in the picture.
     #[inline(always)]
     pub(super) fn begin(&mut self, start: [usize; 2], size: [usize; 2], side: usize) {
         self.start = start;
@@ -218,8 +219,8 @@ impl TileBuffer {
     ) {
         let farther = high < self.low[at];
         let nearer = certain && low > self.high[at];
-        let reported = C::WATCHED && certain && (farther || nearer);
-        if reported && let Some(sample) = self.sample(at) {
+        let emits = C::WATCHED && certain && (farther || nearer);
+        if emits && let Some(sample) = self.sample(at) {
             context.sink().fragment(sample, id);
             if !self.is_empty_at(at) {
                 context.sink().depth_test(sample, id, self.ids[at], nearer);

@@ -56,8 +56,8 @@ impl<'a> Walker<'a> {
         }
     }
 
-    /// Finds the first hits of a tile that starts at this row and column; so many rows and columns of it are in the
-    /// picture.
+    /// Finds the first hits of the rays of a tile. The tile begins at the row and column `start`; `size` is how many
+    /// of its rows and columns lie in the picture.
     #[inline(always)]
     pub(crate) fn walk<C: Context>(
         &mut self,
@@ -68,7 +68,7 @@ impl<'a> Walker<'a> {
     ) {
         let frustum = template.frustum(start);
         self.begin(context, &frustum, start, size);
-        // That of the last triangles that were drawn.
+        // The size class of the triangles that were drawn last.
         let mut class = SizeClass::Many;
         let mut farthest = self.farthest(&frustum);
         loop {
@@ -158,7 +158,7 @@ impl<'a> Walker<'a> {
         let with_duplicates = C::has(Planted::TiesToLast);
         let used = if with_duplicates { counts.all() } else { counts.distinct() };
         if C::WATCHED {
-            self.report_leaf(context, child, used);
+            self.emit_tests(context, child, used);
         }
         self.queue.add(WaitingLeaf { leaf: child, used, near, size })
     }
@@ -197,7 +197,7 @@ impl<'a> Walker<'a> {
         flush: bool,
     ) -> SizeClass {
         let test = match class {
-            // What is reported of a ray must not depend on the triangles that came before.
+            // The events of a ray must not depend on the triangles that came before.
             _ if C::WATCHED => Test::Edges,
             SizeClass::VeryFew | SizeClass::Few => Test::Edges,
             SizeClass::Many => Test::Bounds,
@@ -218,8 +218,8 @@ impl<'a> Walker<'a> {
         largest.unwrap_or(class)
     }
 
-    /// Reports that a ray alone is tested against triangles of a leaf.
-    fn report_leaf(&self, context: &mut impl ScalarContext, leaf: NodeRef, used: usize) {
+    /// Emits the tests of a ray alone against the triangles of a leaf.
+    fn emit_tests(&self, context: &mut impl ScalarContext, leaf: NodeRef, used: usize) {
         let sink = context.sink();
         if let Some(counts) = sink.counts() {
             counts.tests += used as u64;
@@ -255,7 +255,7 @@ impl<'a> Walker<'a> {
         }
         let boxes = frustum.template.boxes.test(context, &frustum.sides, node, farthest);
         if C::WATCHED {
-            self.report_boxes(context, index, node, boxes.hit);
+            self.emit_boxes(context, index, node, boxes.hit);
         }
         // Where leaves wait for others anyway, sorting them costs more than it saves.
         let sorted = !(class == SizeClass::VeryFew && node.only_leaves);
@@ -283,9 +283,9 @@ impl<'a> Walker<'a> {
         }
     }
 
-    /// Reports which boxes of a node the only ray of a tile meets.
+    /// Emits which boxes of a node the only ray of a tile meets.
     #[inline(always)]
-    fn report_boxes(&self, context: &mut impl ScalarContext, index: usize, node: &Node, hit: u64) {
+    fn emit_boxes(&self, context: &mut impl ScalarContext, index: usize, node: &Node, hit: u64) {
         let Some(sample) = self.tile.sample(0) else { return };
         let sink = context.sink();
         if let Some(counts) = sink.counts() {
