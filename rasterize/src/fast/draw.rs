@@ -76,7 +76,7 @@ struct Painter<'a, 'b, C> {
 }
 
 impl<C: ScalarContext> Painter<'_, '_, C> {
-    /// Whether to go on; not if the event sink has enough.
+    /// Whether to go on: the event sink does not have enough yet.
     #[inline(always)]
     fn goes_on(&mut self) -> bool {
         !(C::WATCHED && self.context.sink().has_enough())
@@ -185,14 +185,14 @@ impl<C: ScalarContext> Painter<'_, '_, C> {
             let setup = Setup::new::<_, C::Fault>(simd, drawing.geometry.raster, lanes);
             if class == SizeClass::Many {
                 let elsewhere = setup.uncertain | setup.keyless;
-                large.extend(setup.lanes(elsewhere));
+                large.extend(setup.ids_of(elsewhere));
                 for lane in (0..count).filter(|lane| elsewhere >> lane & 1 == 0) {
                     let picture = drawing.picture;
                     many_samples::draw(context, &setup.triangle(lane), picture, buffer);
                 }
             } else {
                 if setup.uncertain != 0 {
-                    large.extend(setup.lanes(setup.uncertain));
+                    large.extend(setup.ids_of(setup.uncertain));
                 }
                 let picture = drawing.picture;
                 few_samples::draw(context, &setup, picture, fragments, buffer);

@@ -13,8 +13,7 @@ use bothways_common::engine::simd::{
     Select, Simd, SimdBase, SimdInt, SimdMask, f32x16, i32x16, mask32x16,
 };
 use bothways_common::observe::EventSink;
-use bothways_common::raster::Region;
-use bothways_common::raster::Sample;
+use bothways_common::raster::{Region, Sample};
 
 /// Fixed-point units that a box of samples has room for around its vertices.
 pub(super) const BOX_MARGIN: i32 = 2;
@@ -378,7 +377,7 @@ impl Setup {
     }
 
     /// The ids of some lanes.
-    pub(super) fn lanes(&self, mask: u16) -> impl Iterator<Item = u32> {
-        lanes_of(mask.into()).map(|lane| self.ids[lane])
+    pub(super) fn ids_of(&self, lanes: u16) -> impl Iterator<Item = u32> {
+        lanes_of(lanes.into()).map(|lane| self.ids[lane])
     }
 }

@@ -22,7 +22,7 @@ pub(super) const ON_RASTER: i32 = 1;
 /// Certainly not in front of the eye.
 pub(super) const BEHIND: i32 = 2;
 /// Certainly left of the first sample, right of the last, above, below; all in front of the eye.
-pub(super) const LEFT: i32 = 4;
+const LEFT: i32 = 4;
 const RIGHT: i32 = 8;
 const ABOVE: i32 = 16;
 const BELOW: i32 = 32;

@@ -138,7 +138,7 @@ fn sheet(z: f32) -> Mesh {
 }
 
 #[test]
-fn what_is_hidden_is_left_out_and_nothing_else() {
+fn leaving_out_hidden_clusters_changes_nothing() {
     let generated = |kind: Kind, divisions| kind.mesh(divisions).expect("it can be divided so");
     let ball = generated(Kind::Sphere, [24, 16]);
     let coarse = generated(Kind::Sphere, [10, 7]);
