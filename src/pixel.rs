@@ -5,8 +5,7 @@
 
 use crate::common::exact::{EdgeSigns, EdgeValues};
 use crate::common::observe::Question;
-use crate::common::raster::Region;
-use crate::common::raster::Sample;
+use crate::common::raster::{Region, Sample};
 use crate::common::{Crop, Events, Frame, Observer, Options, Primitive, Ray, Shape, View, Work};
 use crate::{rasterize, raytrace};
 use rayon::prelude::*;
@@ -19,7 +18,7 @@ use std::collections::hash_map::Entry;
 pub struct SampleReport {
     /// The position on the raster of samples.
     pub sample: Sample,
-    /// The position on the viewport.
+    /// The position on the viewport: `x` along `u`, `y` along `v`.
     pub place: [f64; 2],
     /// The viewing ray of the sample, relative to the eye.
     pub ray: Ray,
@@ -40,7 +39,7 @@ pub struct Covering {
     pub id: u32,
     /// The object of the primitive, counted from 0.
     pub object: usize,
-    /// The kind of the primitive.
+    /// The kind of the primitive, in words: `triangle`, `sphere`, `plane` or `triangle of a mesh`.
     pub kind: &'static str,
     /// The distance of the primitive, in lengths of the ray's direction.
     pub t: f64,

@@ -88,8 +88,8 @@ impl Pair {
 
 /// A judge with a cache of the pairs that it compared last.
 ///
-/// Its answers are those of [`Judge::nearer`]. They come sooner where the same two flat primitives meet at many
-/// samples.
+/// Its answers are those of [`Judge`]. They come sooner where the same two flat primitives meet at many samples. The
+/// cache knows primitives by their ids: an id must always mean the same primitive.
 #[derive(Debug)]
 pub struct CachedJudge {
     judge: Judge,
@@ -106,8 +106,7 @@ impl CachedJudge {
         CachedJudge { judge, pairs: HashMap::new(), unseen: HashMap::new() }
     }
 
-    /// Whether a flat primitive covers no sample of this camera at all: it is seen edge-on, or is a
-    /// plane that holds the eye or runs along the rays. Such primitives leave every fast test open.
+    /// [`Judge::is_edge_on`], of a primitive with an id. A primitive that is edge-on leaves every fast test open.
     pub fn is_edge_on(&mut self, id: u32, primitive: &Primitive) -> bool {
         if self.unseen.len() >= Self::MOST {
             self.unseen.clear();
@@ -116,7 +115,7 @@ impl CachedJudge {
         *self.unseen.entry(id).or_insert_with(|| judge.is_edge_on(primitive))
     }
 
-    /// [`Judge::nearer`]. An id must always mean the same primitive.
+    /// [`Judge::nearer`].
     pub fn nearer(
         &mut self,
         incoming: (u32, &Primitive),
