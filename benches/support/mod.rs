@@ -9,7 +9,7 @@ pub(crate) const FULL_HD: [u32; 2] = [1920, 1080];
 /// The divisions of a sphere of a million triangles.
 pub(crate) const MILLION: [u32; 2] = [1000, 501];
 
-/// A sphere with so many divisions around and from pole to pole.
+/// A sphere with this many divisions around the axis and from pole to pole.
 pub(crate) fn sphere(divisions: [u32; 2]) -> Mesh {
     Kind::Sphere.mesh(divisions).expect("a sphere has so many divisions")
 }
@@ -36,7 +36,7 @@ pub(crate) enum Duplicate {
 }
 
 impl Duplicate {
-    /// A scene of a sphere and its copy.
+    /// A scene of the unit sphere `mesh` and its copy.
     pub(crate) fn with(self, mesh: Mesh, camera: &Camera) -> Scene {
         // The diagonal of the box around the unit sphere is 2·√3.
         let away = -camera.w().as_vec3() * (2.0 * 3f32.sqrt() / 1000.0);

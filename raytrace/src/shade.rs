@@ -7,8 +7,8 @@ use bothways_common::{Frame, Primitive, Projection, Raster, Ray, SampleGrid, Sce
 use glam::{DVec2, DVec3, Vec2, Vec3};
 use rayon::prelude::*;
 
-/// Gives every sample its colour, from the hit point of its ray; also its normal and its texture coordinate, if the
-/// frame keeps [them](Frame::with_normals) [both](Frame::with_texture_coordinates).
+/// Gives every sample its colour, from the hit point of its ray. If the frame keeps [normals](Frame::with_normals) or
+/// [texture coordinates](Frame::with_texture_coordinates), every sample gets these, too.
 ///
 /// # Panics
 ///

@@ -11,7 +11,7 @@ use bothways_common::engine::simd::{
 };
 use bothways_common::observe::Events;
 
-/// Draws what of the triangles lies in the tile.
+/// Draws sixteen triangles, as far as they lie in the tile.
 #[inline(always)]
 pub(super) fn draw<C: Context>(
     context: &mut C,
@@ -81,7 +81,7 @@ fn leave_open<C: ScalarContext>(
     }
 }
 
-/// Sixteen triangles have at most so many fragments.
+/// The most fragments that sixteen triangles can have.
 const MOST_FRAGMENTS: usize = 16 * FEW as usize;
 
 /// Fragments that wait for their depth test: the machine predicts the branches of one loop over all of them better

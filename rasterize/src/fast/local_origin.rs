@@ -24,7 +24,7 @@ impl LocalOrigin {
     /// The middle of a scene's depth, if that lies far in front of a parallel camera; otherwise the eye. `bounds` are
     /// the corners of a box around the scene.
     pub(super) fn new(camera: &Camera, bounds: &[DVec3; 8]) -> LocalOrigin {
-        /// An eye is far if its distance is more than so many times the depth of the scene.
+        /// An eye is far if its distance is more than this many times the depth of the scene.
         const FAR: f64 = 16.0;
         if camera.projection() == Projection::Perspective {
             return LocalOrigin::EYE;

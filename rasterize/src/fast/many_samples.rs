@@ -31,7 +31,7 @@ struct Tested<S: Simd> {
     keys: f32x16<S>,
 }
 
-/// Draws what of one triangle lies in the tile.
+/// Draws one triangle, as far as it lies in the tile.
 #[inline(always)]
 pub(super) fn draw<C: Context>(
     context: &mut C,

@@ -22,7 +22,7 @@ use bothways_common::raster::{Region, Sample};
 use fragment_writer::FragmentWriter;
 use glam::DVec3;
 
-/// Draws what of primitives' regions lies in the tile.
+/// Draws primitives, as far as they lie in the tile.
 #[inline(always)]
 pub(super) fn draw<C: Context>(
     context: &mut C,
@@ -30,7 +30,7 @@ pub(super) fn draw<C: Context>(
     picture: &Picture,
     buffer: &mut TileBuffer,
 ) {
-    // Several are looked up before they are drawn: so the machine waits for them together.
+    // Eight primitives are looked up before the first is drawn, so that the machine waits for their memory only once.
     for ids in ids.chunks(8) {
         if C::WATCHED && context.sink().has_enough() {
             return;
@@ -58,6 +58,7 @@ fn draw_primitive<C: Context>(context: &mut C, writer: &mut FragmentWriter) {
     }
 }
 
+/// Draws a sphere, as far as it lies in the tile, sample by sample.
 fn draw_sphere<C: ScalarContext>(
     context: &mut C,
     writer: &mut FragmentWriter,

@@ -11,7 +11,7 @@ use bothways_common::observe::Events;
 use bothways_common::raster::{Region, Sample};
 use glam::DVec3;
 
-/// Draws what of a plane lies in the tile.
+/// Draws a plane, as far as it lies in the tile, strip by strip.
 #[inline(always)]
 pub(super) fn draw<C: Context>(
     context: &mut C,

@@ -50,6 +50,7 @@ pub(crate) fn corners(bounds: [DVec3; 2]) -> [DVec3; 8] {
 }
 
 impl Prepared {
+    /// What [`prepare`](super::prepare) returns.
     pub(super) fn new(scene: &Scene) -> Prepared {
         let primitives = scene.primitive_count();
         let mut first_vertices = vec![0];

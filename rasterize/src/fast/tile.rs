@@ -57,10 +57,10 @@ impl Incoming {
     }
 }
 
-/// Samples behind the end of a row.
+/// The samples of room behind the end of a row.
 const SPARE: usize = 16;
 
-/// At most so many fragments wait for the judge, in a quarter of a MiB.
+/// The most fragments that wait for the judge: they fill a quarter of a MiB.
 const MOST_OPEN: usize = 1 << 14;
 
 impl TileBuffer {

@@ -10,8 +10,8 @@ use bothways_common::raster::{Region, Sample};
 use bothways_common::{Projection, Sign};
 use glam::DVec3;
 
-/// Draws what of a triangle lies in the tile, strip by strip: sixteen samples at a time where `f32` is certain enough
-/// of depths, one by one elsewhere.
+/// Draws a triangle, as far as it lies in the tile, strip by strip: sixteen samples at a time where `f32` is certain
+/// enough of depths, one by one elsewhere.
 #[inline(always)]
 pub(super) fn draw<C: Context>(
     context: &mut C,

@@ -13,8 +13,8 @@ use bothways_common::engine::simd::{
 /// What decides a ray through an edge: half of the least edge function other than 0. It is added where the edge owns
 /// the ray, and subtracted where it does not.
 ///
-/// The contract moves the ray a little to the right, and far less down. An edge function grows with that, and so
-/// the edge owns the ray, if it grows to the right; or neither grows nor falls to the right, and grows downward.
+/// The contract moves the ray a little to the right, and far less down. So an edge owns the ray if its edge function
+/// grows to the right, or if it is the same to the right and grows downward.
 pub(super) const TIE: f32 = 1.0 / 32.0;
 
 /// Edge functions have at most this size, so that `f32` has 24 bits for them and for [`TIE`].
@@ -22,21 +22,21 @@ const LARGEST: f64 = (1 << 17) as f64;
 /// The corners of aligned triangles lie within this many rows and columns.
 const FARTHEST: f64 = (1 << 16) as f64;
 
-/// Eight triangles of which some are aligned.
+/// Eight triangles, of which some are aligned, as exact edge functions.
 pub(super) struct AlignedTriangles<S: Simd> {
-    /// Which.
+    /// The triangles that are aligned; the other lanes have no meaning.
     pub(super) which: mask32x8<S>,
-    /// Their edge functions of `ab`, `bc`, `ca` on the raster, positive inside, never 0 at a sample.
+    /// The edge functions of `ab`, `bc`, `ca` on the raster, positive inside, never 0 at a sample.
     pub(super) edges: [Affine<S>; 3],
-    /// Negative when the corners are seen counter-clockwise.
+    /// The sign of the facing, ±1: negative when the corners are seen counter-clockwise.
     pub(super) facing: f32x8<S>,
-    /// Those that are seen edge-on.
+    /// The triangles that are seen edge-on.
     pub(super) edge_on: mask32x8<S>,
 }
 
 impl<S: Simd> AlignedTriangles<S> {
-    /// Finds the aligned ones among triangles, whose corners are given by their offsets from the eye and by the
-    /// map. `None` if the camera's rays are not straight.
+    /// Finds the aligned triangles among eight. Their corners are given twice: as offsets from the eye, and as the map
+    /// gives them. `None` if the camera's rays are not straight.
     ///
     /// Places are multiples of a quarter without any error, so edge functions are multiples of a sixteenth. In
     /// front of the eye, an edge function on the raster has the sign of the one in space: it is that

@@ -44,10 +44,12 @@ pub(super) enum Trust {
 
 impl Trust {
     pub(super) fn new<F: Fault>() -> Trust {
-        match () {
-            () if F::is(Planted::ZeroErrorBound) => Trust::Blind,
-            () if F::is(Planted::InfiniteErrorBound) => Trust::None,
-            () => Trust::Sound,
+        if F::is(Planted::ZeroErrorBound) {
+            Trust::Blind
+        } else if F::is(Planted::InfiniteErrorBound) {
+            Trust::None
+        } else {
+            Trust::Sound
         }
     }
 

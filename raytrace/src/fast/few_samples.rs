@@ -60,9 +60,9 @@ pub(super) fn draw<C: Context>(
     }
 }
 
-/// What eight triangles are at one sample each.
+/// Eight triangles, each tested at one sample.
 struct Fragments<S: Simd> {
-    /// Which may cover the sample; and which of those do so for certain.
+    /// The lanes whose triangles may cover the sample, and those that certainly do.
     perhaps: u64,
     inside: u64,
     /// The ends of their keys.
@@ -71,7 +71,7 @@ struct Fragments<S: Simd> {
 }
 
 impl<S: Simd> Fragments<S> {
-    /// Those of the `active` triangles at a row and a column, counted from the tile's middle.
+    /// Tests the `active` triangles, each at a row and a column that are counted from the tile's middle.
     #[inline(always)]
     fn new(
         simd: S,

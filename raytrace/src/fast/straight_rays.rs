@@ -28,7 +28,7 @@ struct Along {
 }
 
 impl Along {
-    /// The coordinate along a unit vector that has no other component, not the least.
+    /// The coordinate along a unit vector; `None` if the vector has another component, however small.
     fn new(vector: DVec3) -> Option<Along> {
         let components = vector.to_array();
         let axis = components.iter().position(|component| *component != 0.0)?;
@@ -106,10 +106,11 @@ impl StraightRays {
     }
 }
 
-/// From each of some places to the next, if it has few bits and all are half of it times an odd or even number.
+/// The step from each of some places to the next. `None` unless the step has at most 10 bits and each place is, without
+/// rounding, half of it times an integer.
 fn step(places: &[f64]) -> Option<f64> {
     let (count, first) = (f64::from(u32::try_from(places.len()).ok()?), *places.first()?);
-    // The first lies (count − 1)/2 steps before the middle; of one alone there is no telling.
+    // The first lies (count − 1)/2 steps before the middle; one place alone tells no step.
     let step = if count > 1.0 { -2.0 * first / (count - 1.0) } else { return None };
     let has_few_bits = step.to_bits().trailing_zeros() >= f64::MANTISSA_DIGITS - 10;
     let from_middle = (0..).map(|place| 2.0 * f64::from(place) + 1.0 - count);

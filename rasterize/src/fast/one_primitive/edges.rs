@@ -15,7 +15,7 @@ use std::ops::Range;
 pub(crate) struct F64Setup {
     pub(crate) edges: [Affine; 3],
     pub(crate) depth: Affine,
-    /// The facing, ±1: what edge functions were multiplied with.
+    /// The sign of the facing, ±1, by which the edge functions were multiplied.
     pub(crate) facing: f64,
 }
 

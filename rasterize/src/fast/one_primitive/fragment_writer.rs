@@ -1,4 +1,4 @@
-//! One primitive while it is drawn into a tile.
+//! Writes the fragments of one primitive into a tile.
 
 use crate::fast::many_samples;
 use crate::fast::picture::{Picture, judge_covers};

@@ -16,7 +16,8 @@ pub(crate) const CLUSTER: u32 = 32;
 /// A cluster that may lie in more tiles than this is taken apart: every tile would look at all of it.
 const MOST_TILES: usize = 2;
 
-/// Fixed-point units by which a cluster's box is wider than its corners.
+/// Fixed-point units by which a cluster's box is wider than its corners; [`extent`] says why three more than a
+/// triangle's box would do.
 const MARGIN: i32 = BOX_MARGIN + 4;
 
 /// A box around a cluster, its least and its greatest corner.

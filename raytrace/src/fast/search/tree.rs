@@ -104,7 +104,7 @@ impl NodeRef {
         (self.0 & ((1 << Self::BITS) - 1)) as usize
     }
 
-    /// The same in a hierarchy in which so many more nodes, and leaves of each kind, precede it.
+    /// The same reference in a hierarchy in which this many more nodes, and leaves of each kind, precede it.
     pub(crate) fn shifted(self, nodes: usize, leaves: [usize; LEAF_KINDS]) -> NodeRef {
         let kind = self.kind();
         let by = leaves.get(kind as usize).copied().unwrap_or(nodes);
