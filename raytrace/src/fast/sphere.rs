@@ -1,6 +1,6 @@
 //! One ray against one sphere, and two spheres against each other along a ray.
 
-mod from_afar;
+mod in_high_precision;
 
 use super::answer::{Answer, FLOOR, Trust, distance_around};
 use bothways_common::Ray;
@@ -20,7 +20,7 @@ pub(super) fn answer(ray: &Ray, center: DVec3, radius: f64, trust: Trust) -> Ans
             Answer::Hit(Interval { low, high })
         }
         open @ (Answer::Hit(_) | Answer::Open(_)) if !trust.is_sound() => open,
-        Answer::Hit(_) | Answer::Open(_) => from_afar::answer(ray, center, radius),
+        Answer::Hit(_) | Answer::Open(_) => in_high_precision::answer(ray, center, radius),
         Answer::Miss => Answer::Miss,
     }
 }

@@ -1,7 +1,7 @@
 //! One ray against one sphere with twice as many digits: for spheres far away, nearly touched, or nearly at the eye.
 
-use super::super::answer::{Answer, FLOOR, distance_around};
-use super::super::high_precision::{self, DoubleDouble};
+use crate::fast::answer::{Answer, FLOOR, distance_around};
+use crate::fast::high_precision::{self, DoubleDouble};
 use bothways_common::Ray;
 use bothways_common::engine::roundoff::{EPS53, Interval};
 use glam::DVec3;
