@@ -12,6 +12,27 @@
 //! The nearest triangle is a minimum over a total order: by exact `t`, then by the nudged ray, then by id. The
 //! minimum of the minima of all chunks is the minimum over all triangles: the ids are the same as for the whole mesh
 //! in memory, for chunks of any size. Image order cannot do this: any ray may need any triangle.
+//!
+//! ```
+//! use bothways_rasterize::common::scene::Positions;
+//! use bothways_rasterize::common::{Camera, Options, glam::Vec3};
+//! use bothways_rasterize::stream::{Canvas, CHUNK, Look};
+//!
+//! let mut positions = Positions::default();
+//! for position in [[-9.0, -9.0, -4.0], [9.0, -9.0, -4.0], [0.0, 9.0, -4.0]] {
+//!     positions.push(Vec3::from_array(position));
+//! }
+//! let camera = Camera::canonical(5, 5);
+//! let mut canvas = Canvas::new(&camera, &Options::default());
+//! let mut observer = ();
+//! let mut pass = canvas.begin(&camera, CHUNK, &mut observer);
+//! // The triangles may come from anywhere, one at a time.
+//! pass.draw(&positions, [0, 1, 2]);
+//! pass.finish(&positions);
+//! canvas.shade(&positions, &camera, &Look::default());
+//! assert_eq!(canvas.frame().id(2, 2), Some(0));
+//! assert_eq!(canvas.frame().t(2, 2), Some(4.0));
+//! ```
 
 use crate::fast;
 use bothways_common::exact::CachedJudge;
@@ -31,8 +52,8 @@ use std::mem;
 /// part of the work, in some tens of megabytes.
 pub const CHUNK: usize = 1 << 18;
 
-/// The data that lasts from chunk to chunk and from pass to pass: the visible triangle at every sample, 40 bytes
-/// each: half of them in the frame.
+/// What lasts from chunk to chunk and from pass to pass: the visible triangle at every sample. It takes 40 bytes a
+/// sample, half of them in the frame.
 #[derive(Debug)]
 pub struct Canvas {
     /// The frame of the chunk during a pass; the frame of the whole mesh at the end.
