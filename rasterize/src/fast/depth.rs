@@ -108,7 +108,7 @@ pub(super) const LARGEST_KEY: f64 = (1_u128 << 100) as f64;
 pub(super) struct KeyScale {
     pub(super) projection: Projection,
     pub(super) offset: f64,
-    /// The `t` of a parallel camera whose key is 0, from the eye on; for a perspective camera the offset.
+    /// For a parallel camera, the `t` from the eye whose key is 0; for a perspective camera, the offset.
     pub(super) from_eye: f64,
 }
 

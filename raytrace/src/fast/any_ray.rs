@@ -65,7 +65,7 @@ impl WorldRay {
 }
 
 /// Finds the first primitive along any ray, exactly: what is seen at the middle of
-/// [`WorldRay::camera`]'s picture.
+/// [`WorldRay::camera`]'s picture. `None` if the ray meets nothing.
 ///
 /// # Panics
 ///

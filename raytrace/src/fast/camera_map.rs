@@ -71,7 +71,7 @@ pub(super) struct MapErrors {
 }
 
 impl Reach {
-    /// That of these bounds, for an eye.
+    /// How far these bounds reach, from an eye.
     pub(super) fn new(bounds: &Bounds, eye: Vec3) -> Reach {
         /// Another origin must be this many times as near as the eye.
         const WORTH: f64 = 8.0;

@@ -3,7 +3,7 @@
 use bothways_common::Projection;
 use bothways_common::engine::roundoff::{EPS53, Interval};
 
-/// How `t` becomes a key: `1/t` (perspective) or `−t` (parallel), `t` times a scale.
+/// How `t` becomes a key: `1/(s·t)` (perspective) or `−s·t` (parallel), with the scale `s`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct KeyScale {
     pub(super) projection: Projection,

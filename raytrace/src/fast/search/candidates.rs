@@ -39,7 +39,7 @@ pub(crate) struct WaitingLeaf {
     pub(crate) leaf: NodeRef,
     /// How many of its triangles count: the first ones.
     pub(crate) used: usize,
-    /// No vertex of them has a smaller `t`, as computed in `f32`.
+    /// None of their vertices has a smaller `t`, as computed in `f32`.
     pub(crate) near: f32,
     /// No two vertices are farther from each other along any axis.
     pub(crate) size: f32,

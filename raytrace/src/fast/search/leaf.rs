@@ -7,12 +7,13 @@ use bothways_common::engine::simd::{Bytes, Simd, SimdBase, f32x16, mask32x16, u8
 
 /// Up to sixteen triangles.
 pub(crate) trait Leaf {
+    /// The ids of the triangles; unused lanes repeat the first.
     fn ids(&self) -> &[u32; LEAF];
 
-    /// A vertex of the first one.
+    /// A vertex of the first triangle.
     fn first_vertex(&self) -> [f32; 3];
 
-    /// The rows of the three corners of each, and their columns, counted from the tile's first.
+    /// The rows of the three corners of each triangle, and their columns, counted from the tile's first.
     fn project<S: Simd>(
         &self,
         simd: S,

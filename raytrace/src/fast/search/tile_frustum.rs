@@ -31,7 +31,7 @@ pub(crate) struct FrustumTemplate {
     pub(crate) side: usize,
     pub(crate) half: f64,
     pub(crate) eye: [f64; 3],
-    /// The same rays without rounding, if there is none in them.
+    /// The same rays as exact numbers, if none of their numbers is rounded.
     pub(crate) straight: Option<StraightRays>,
     axes: Axes,
     /// Of the raster: from a row and a column to the next, and those of its middle.
