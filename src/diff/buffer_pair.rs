@@ -1,7 +1,7 @@
 //! The comparison of one pixel of A with one pixel of B: which of them is covered, and how far their values differ.
 
 use super::aspect::{Aspect, Unit};
-use super::buffer::{Buffer, Content};
+use super::buffer::Buffer;
 use super::classes::Class;
 use super::tolerance::{COLOR_TOLERANCE, DEPTH_TOLERANCE};
 
@@ -20,12 +20,10 @@ pub(super) struct BufferPair<'a> {
     pub(super) b: &'a Buffer<'a>,
     decides: Decides,
     unit: Unit,
-    /// Whether ids, distances and colours are compared.
+    /// Whether ids are compared; in the next two fields, distances and colours.
     ids: bool,
     t: bool,
     color: bool,
-    /// Whether both buffers are frames. The distances of frames are `f32`.
-    frames: bool,
 }
 
 /// The differences between two pixels.
@@ -81,8 +79,7 @@ impl<'a> BufferPair<'a> {
         let unit = if a.samples() == b.samples() { Unit::Samples } else { Unit::Pixels };
         let compares = |aspect| unit == Unit::Samples && a.tells(aspect) && b.tells(aspect);
         let [ids, t, color] = [Aspect::Ids, Aspect::T, Aspect::Color].map(compares);
-        let frames = [a, b].iter().all(|one| matches!(one.content(), Content::Frame(_)));
-        BufferPair { a, b, decides, unit, ids, t, color, frames }
+        BufferPair { a, b, decides, unit, ids, t, color }
     }
 
     pub(super) fn unit(&self) -> Unit {
@@ -149,25 +146,28 @@ impl<'a> BufferPair<'a> {
             found.other_ids += 1;
         } else if self.t {
             let t = [self.a.t(a), self.b.t(b)];
-            let difference = self.relative_difference(t);
+            let difference = relative_difference(t);
             if difference > found.depth {
                 (found.depth, found.t) = (difference, t);
             }
         }
     }
+}
 
-    /// The difference as a part of the larger distance; 0 for two zeros.
-    fn relative_difference(&self, [a, b]: [f64; 2]) -> f64 {
-        let larger = a.abs().max(b.abs());
-        if a == b {
-            0.0
-        } else if self.frames {
-            (a - b).abs() / larger
-        } else {
-            // Quotients first: the difference of two large `f64` numbers may be infinite.
-            (a / larger - b / larger).abs()
-        }
+/// The difference of two finite distances as a part of the larger absolute value, from 0 to 2; 0 for two zeros.
+///
+/// The difference and the quotient are each rounded once. Where the smaller is at least half the larger, the
+/// difference is exact.
+fn relative_difference([a, b]: [f64; 2]) -> f64 {
+    if a == b {
+        return 0.0;
     }
+    let larger = a.abs().max(b.abs());
+    // Two large numbers of opposite signs have an infinite difference, so numbers from 1 on are halved first. To halve
+    // is exact, except for denormals: beside a number from 1 on a denormal changes nothing, and two smaller numbers stay
+    // whole. So the result has the bits of `(a - b).abs() / larger` where that is finite, as it is for all `f32`.
+    let scale = if larger < 1.0 { 1.0 } else { 0.5 };
+    (a * scale - b * scale).abs() / (larger * scale)
 }
 
 /// The largest difference in red, green and blue, and in alpha if both colours have alpha.
@@ -175,4 +175,61 @@ fn color_difference((a, a_has_alpha): ([f32; 4], bool), (b, b_has_alpha): ([f32;
     let channels = if a_has_alpha && b_has_alpha { 4 } else { 3 };
     let channels = a.into_iter().zip(b).take(channels);
     channels.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_relative_difference_of_extreme_distances_is_exact() {
+        let (most, least) = (f64::MAX, f64::from_bits(1));
+        let cases = [
+            ([0.0, -0.0], 0.0),
+            ([3.0, 4.0], 0.25),
+            ([-4.0, 3.0], 1.75),
+            ([most, most], 0.0),
+            ([most, -most], 2.0),
+            ([most, 0.0], 1.0),
+            ([most, least], 1.0),
+            ([most, most.next_down()], f64::EPSILON / 2.0),
+            ([least, 0.0], 1.0),
+            ([least, -least], 2.0),
+            ([least, 2.0 * least], 0.5),
+            ([3.0 * least, 4.0 * least], 0.25),
+            ([1.0, 1.0_f64.next_down()], f64::EPSILON / 2.0),
+            ([1.0, least], 1.0),
+        ];
+        for ([a, b], expected) in cases {
+            assert_eq!(relative_difference([a, b]), expected, "{a:e} and {b:e}");
+            assert_eq!(relative_difference([b, a]), expected, "{b:e} and {a:e}");
+        }
+    }
+
+    #[test]
+    fn halving_changes_no_bit_for_distances_of_frames() {
+        let numbers = [
+            f32::from_bits(1),
+            f32::MIN_POSITIVE,
+            0.1,
+            1.0_f32.next_down(),
+            1.0,
+            3.3,
+            1e9,
+            f32::MAX,
+        ];
+        let numbers = numbers.map(|number| [number, number.next_up().min(f32::MAX)]);
+        for (a, b) in numbers
+            .as_flattened()
+            .iter()
+            .flat_map(|a| numbers.as_flattened().iter().map(move |b| (a, b)))
+        {
+            let [a, b] = [*a, *b].map(f64::from);
+            assert_eq!(
+                relative_difference([a, b]).to_bits(),
+                ((a - b).abs() / a.max(b)).to_bits(),
+                "{a:e} and {b:e}"
+            );
+        }
+    }
 }
