@@ -7,7 +7,7 @@
 //!
 //! # A tour
 //!
-//! A scene and a camera are plain data; a [`View`](common::View) is one seen from the other. [`orders`] renders a
+//! A scene and a camera are plain data; a [`View`](common::View) is the scene as the camera sees it. [`orders`] renders a
 //! view in either order, counts the work and measures the time. [`diff`] compares what both saw.
 //!
 //! ```

@@ -73,7 +73,7 @@ pub fn between(camera: &Camera, near: f64, far: f64) -> Matrices {
     }
 }
 
-/// The angles between opposite sides of a perspective viewport, horizontal and vertical, in degrees.
+/// The angles between opposite sides of the viewport, horizontal and vertical, in degrees; `None` for a parallel camera.
 pub fn field_of_view(view: &View) -> Option<[f64; 2]> {
     let camera = view.camera;
     let angle = |side: f64| 2.0 * (side / 2.0).atan2(camera.distance()).to_degrees();
@@ -87,7 +87,7 @@ fn camera_from_world(camera: &Camera) -> Matrix {
     [row(camera.u()), row(camera.v()), row(camera.w()), [0.0, 0.0, 0.0, 1.0]]
 }
 
-/// A power of two. No triangle and no sphere lies behind this depth.
+/// A depth behind all triangles and spheres: a power of two.
 fn behind_everything(view: &View) -> f64 {
     let depth = |point: DVec3| -point.dot(view.camera.w());
     let depths = view.primitives().map(|(_, primitive)| match primitive {

@@ -1,4 +1,4 @@
-//! Both orders behind one door: which to run, how, and what it cost.
+//! One function that renders a view in either order, counts the work and measures the time.
 
 mod counts;
 mod drawing;

@@ -66,7 +66,7 @@ impl<'a> Steps<'a> {
     }
 
     pub(crate) fn preparing(&self) {
-        self.tell(Stage::Preparing, 0);
+        self.report(Stage::Preparing, 0);
     }
 
     /// The number of rendered frames.
@@ -78,10 +78,10 @@ impl<'a> Steps<'a> {
     pub(crate) fn frames_done(&self, frames: u64) {
         let done = frames.saturating_mul(self.within_frame.unwrap_or(1));
         self.done.store(done, Ordering::Relaxed);
-        self.tell(Stage::Rendering, done);
+        self.report(Stage::Rendering, done);
     }
 
-    fn tell(&self, stage: Stage, done: u64) {
+    fn report(&self, stage: Stage, done: u64) {
         if let Some(listener) = self.listener {
             // No run draws that number of frames, but `--repeat` may ask for it.
             let total = self.frames.saturating_mul(self.within_frame.unwrap_or(1));
@@ -94,7 +94,7 @@ impl<'a> Steps<'a> {
         let done = self.done.fetch_add(1, Ordering::Relaxed);
         // The first step of a frame is reported together with the previous frame.
         if !done.is_multiple_of(self.within_frame.unwrap_or(1)) {
-            self.tell(Stage::Rendering, done);
+            self.report(Stage::Rendering, done);
         }
     }
 }
@@ -134,8 +134,8 @@ mod tests {
 
     #[test]
     fn rows_count_wherever_they_begin() {
-        let (told, done) = (Mutex::new(Vec::new()), AtomicU64::new(0));
-        let listener = |progress: Progress| told.lock().unwrap().push(progress.done);
+        let (reported, done) = (Mutex::new(Vec::new()), AtomicU64::new(0));
+        let listener = |progress: Progress| reported.lock().unwrap().push(progress.done);
         let steps = Steps::new(Order::Image, Some(&listener), Some(3), 1, &done);
         let mut watch = steps.watch().unwrap();
         steps.frames_done(0);
@@ -143,6 +143,6 @@ mod tests {
             (7..9).for_each(|column| watch.ray_begun(Sample { row, column }));
         }
         steps.frames_done(1);
-        assert_eq!(told.into_inner().unwrap(), [0, 1, 2, 3]);
+        assert_eq!(reported.into_inner().unwrap(), [0, 1, 2, 3]);
     }
 }

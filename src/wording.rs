@@ -42,7 +42,7 @@ pub fn pixels_shown([width, height]: [u32; 2], crop: Option<Crop>, times: &str) 
     format!("crop of {pixels} at ({}, {}) in {width} {times} {height}", crop.row, crop.column)
 }
 
-/// A time in a short form: three significant digits, in milliseconds.
+/// A time in milliseconds, with its unit: two decimals below 10 ms, one below 100 ms, none above.
 pub fn milliseconds(time: f64) -> String {
     let decimals = match time {
         time if time < 9.995 => 2,

@@ -141,9 +141,7 @@ impl FileReport<'_> {
             kind: buffer.kind(),
             samples: buffer.samples(),
         });
-        serde_json::to_string_pretty(&Json { a, b, comparison: self.comparison })
-            .map(|json| json + "\n")
-            .map_err(|error| Failure::new(error.to_string()))
+        terminal::json(&Json { a, b, comparison: self.comparison })
     }
 
     fn text(&self, folder: Option<&Path>) -> String {

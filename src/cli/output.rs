@@ -63,7 +63,7 @@ impl Staging {
         Staging::begin_with(target, NAMES.map(str::to_owned).to_vec())
     }
 
-    /// The same for a run with other files. The presence of the last file shows that all files are complete.
+    /// Prepares to write these files into the target folder. The presence of the last file shows that all are complete.
     pub(super) fn begin_with(target: &Path, names: Vec<String>) -> Result<Staging, Failure> {
         if target == Path::new("-") {
             return Err(Failure::new(

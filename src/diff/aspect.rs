@@ -45,8 +45,8 @@ pub enum Unit {
 /// One of two files, or of two folders.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
-    /// The first.
+    /// The first file or folder.
     A,
-    /// The second.
+    /// The second file or folder.
     B,
 }

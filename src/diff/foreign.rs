@@ -39,7 +39,8 @@ pub fn compare(a: &Buffer, b: &Buffer) -> Result<BufferComparison, Incomparable>
     compare_with_reference(a, b, None)
 }
 
-/// The same, if one of the two buffers is known to be right: the search leaves out causes in its encoding.
+/// Compares two buffers of which one may be known to be right: the search for causes leaves out errors in the encoding
+/// of the reference.
 ///
 /// # Errors
 ///

@@ -82,7 +82,7 @@ pub fn compare(object_order: &Frame, image_order: &Frame) -> Comparison {
     compare_shown([object_order, image_order], pictures.each_ref())
 }
 
-/// The same for frames with pictures that are already drawn.
+/// Compares the frames of both orders for one view, with pictures that are already drawn.
 ///
 /// # Panics
 ///

@@ -34,10 +34,10 @@ use std::sync::atomic::AtomicU64;
 ///
 /// let scene = bothways::scenes::load("canonical")?.scene;
 /// let camera = Camera::canonical(32, 32);
-/// let told = |progress: bothways::progress::Progress| {
+/// let listener = |progress: bothways::progress::Progress| {
 ///     eprintln!("{} of {}", progress.done, progress.total);
 /// };
-/// let options = RenderOptions { progress: Some(&told), ..RenderOptions::default() };
+/// let options = RenderOptions { progress: Some(&listener), ..RenderOptions::default() };
 /// let view = View::new(&scene, &camera);
 /// let rendered = orders::render(Order::Object, Method::Textbook, &view, &options)?;
 /// assert!(rendered.covered() > 0);

@@ -37,7 +37,7 @@ fn repeating_changes_neither_picture_nor_counts() {
 }
 
 #[test]
-fn the_largest_number_of_repetitions_is_no_smaller_one() {
+fn the_largest_number_of_repetitions_does_not_overflow() {
     let done = AtomicU64::new(0);
     let steps = Steps::new(Order::Object, None, None, 1, &done);
     let mut runs = 0;
@@ -49,7 +49,7 @@ fn the_largest_number_of_repetitions_is_no_smaller_one() {
 }
 
 #[test]
-fn progress_is_told_to_the_end_and_changes_nothing() {
+fn progress_is_reported_to_the_end_and_changes_nothing() {
     let (scene, camera) = (two_balls(), Camera::canonical(9, 7));
     let view = View::new(&scene, &camera);
     let frame = Options { samples: 2, ..Options::default() };
@@ -61,25 +61,25 @@ fn progress_is_told_to_the_end_and_changes_nothing() {
         (Order::Image, Method::Textbook, 14),
     ] {
         for (repeat, frames) in [(None, 2), (Some(1), 3), (Some(3), 5)] {
-            let told = Mutex::new(Vec::new());
-            let listener = |progress| told.lock().unwrap().push(progress);
+            let reported = Mutex::new(Vec::new());
+            let listener = |progress| reported.lock().unwrap().push(progress);
             let options = RenderOptions {
                 frame,
                 repeat,
                 progress: Some(&listener),
                 ..RenderOptions::default()
             };
-            let told_of = render(order, method, &view, &options).unwrap();
+            let observed = render(order, method, &view, &options).unwrap();
             let options = RenderOptions { progress: None, ..options };
             let alone = render(order, method, &view, &options).unwrap();
-            assert_eq!((told_of.frame, told_of.work), (alone.frame, alone.work));
+            assert_eq!((observed.frame, observed.work), (alone.frame, alone.work));
 
             let total = steps * frames;
             let step = |stage, done| Progress { order, stage, done, total };
             let rendering = (0..=total).map(|done| step(Stage::Rendering, done));
             let mut expected = vec![step(Stage::Preparing, 0)];
             expected.extend(rendering);
-            assert_eq!(told.into_inner().unwrap(), expected, "{order:?} {method:?}");
+            assert_eq!(reported.into_inner().unwrap(), expected, "{order:?} {method:?}");
         }
     }
 }

@@ -125,8 +125,8 @@ impl Framing {
         self.camera_of(used.map(|&vertex| mesh.positions()[vertex as usize]))
     }
 
-    /// The same camera for the positions that the mesh's triangles use, each position at least once. The function
-    /// iterates over the positions several times.
+    /// The camera that sees all of these positions in the middle of the picture: those that a mesh's triangles use, each
+    /// at least once. The function iterates over the positions several times.
     ///
     /// # Errors
     ///
@@ -185,8 +185,7 @@ impl Framing {
     /// and B: there is such an X if A + B ≤ 2·s·Z, and both sides touch the margin if they are equal and
     /// X = (A − B)/2. So it is with the height.
     ///
-    /// From this position, a parallel projection also shows the whole mesh. In that projection, the picture of
-    /// distant parts is larger.
+    /// From this position, a parallel projection also shows the whole mesh, although it shows distant parts larger.
     fn place_of_eye(
         &self,
         axes: &[DVec3; 3],

@@ -23,7 +23,7 @@ pub struct LoadedScene {
     pub viewport_stated: bool,
     /// The scene file; for a mesh file, the scene file that shows the mesh.
     pub toml: String,
-    /// Missing parts that are no error.
+    /// Messages about missing parts that are no error.
     pub warnings: Vec<String>,
 }
 
@@ -112,8 +112,8 @@ pub fn load(source: &str) -> Result<LoadedScene, LoadError> {
     load_for(source, None)
 }
 
-/// The same for an image of this width and height: the camera of a mesh file is framed for this aspect ratio. The
-/// cameras of other scenes stay unchanged.
+/// Loads a scene as [`load`] does, for an image of this width and height: the camera of a mesh file is framed for this
+/// aspect ratio. The cameras of other scenes stay unchanged.
 ///
 /// # Errors
 ///

@@ -22,7 +22,7 @@ pub struct StreamedScene {
     pub triangles: u32,
     /// The material and the light of the mesh.
     pub look: Look,
-    /// The time for opening.
+    /// The time for opening the file, reading it once, and framing the mesh.
     pub opening: Duration,
 }
 

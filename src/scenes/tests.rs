@@ -1,6 +1,5 @@
 //! Tests of loading, and of the messages for scenes that do not load.
 
-use super::built_in::names;
 use super::*;
 use crate::common::Camera;
 use crate::formats::scene_file;
@@ -17,13 +16,6 @@ fn every_built_in_scene_loads_and_says_its_point() {
         assert!(toml.lines().all(|line| line.len() <= 120), "{name}");
     }
     assert_eq!(BUILT_IN[0].name, DEFAULT);
-}
-
-#[test]
-fn no_built_in_scene_has_the_name_of_a_subcommand() {
-    let commands =
-        ["render", "diff", "pixel", "cover", "camera", "mesh", "scenes", "completions", "help"];
-    assert!(names().iter().all(|name| !commands.contains(name)));
 }
 
 #[test]

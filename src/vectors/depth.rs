@@ -34,7 +34,7 @@ fn order() -> Vec<Vector> {
     ]
 }
 
-/// A depth of 16, less a millionth of 16.
+/// A depth of 16, less 2⁻²⁰ of it: about a millionth.
 const ALMOST: f32 = 16.0 - 1.0 / 65_536.0;
 
 fn ties() -> Vec<Vector> {

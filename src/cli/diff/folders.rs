@@ -1,5 +1,5 @@
-//! `bothways diff FOLDER FOLDER`: every file of one folder against its partner in the other, a whole
-//! conformance set at once.
+//! `bothways diff FOLDER FOLDER`: a comparison of each file of one folder with its partner in the other, such as a whole
+//! conformance set.
 
 use super::{DiffArgs, count_of};
 use crate::cli::failure::Failure;
@@ -16,8 +16,8 @@ use std::fmt::Write;
 use std::path::Path;
 use std::process::ExitCode;
 
-/// Compares all pairs and prints a table; 0 if all are equal and none lacks its partner, 1 if not, 2 if
-/// a file cannot be compared.
+/// Compares all pairs and prints a table; the exit code is 0 if all pairs are equal and no file lacks its partner, 2 if
+/// a pair cannot be compared, otherwise 1.
 pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
     let pairs = Pairs::find(&args.a, &args.b).map_err(|error| Failure::new(error.to_string()))?;
     let mut staging = staging(args, &pairs)?;
@@ -39,7 +39,7 @@ pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
     Ok(ExitCode::from(report.status()))
 }
 
-/// Where difference images go, if they are asked for.
+/// The folder for difference images, if the command line names one.
 fn staging(args: &DiffArgs, pairs: &Pairs) -> Result<Option<Staging>, Failure> {
     let Some(folder) = &args.folder else { return Ok(None) };
     let names = pairs.pairs.iter().map(picture_of).collect();
@@ -58,20 +58,20 @@ fn compared(args: &DiffArgs, pair: &Pair, set: Option<Side>) -> Result<BufferCom
     foreign::compare_with_reference(&a, &b, set).map_err(|error| error.to_string())
 }
 
-/// What came of a pair.
+/// A pair, and the result of its comparison.
 struct Compared<'a> {
     pair: &'a Pair,
     compared: Result<BufferComparison, String>,
 }
 
-/// What there is to tell.
+/// The content of the report.
 struct FolderReport<'a> {
     args: &'a DiffArgs,
     pairs: &'a Pairs,
     rows: &'a [Compared<'a>],
 }
 
-/// All of it for programs.
+/// The report for programs.
 #[derive(Serialize)]
 struct Json<'a> {
     a: String,
@@ -187,7 +187,7 @@ impl FolderReport<'_> {
         format!("\n{style}{}{style:#}\n", words.join(", "))
     }
 
-    /// How to look at the first pair that differs.
+    /// The commands for a look at the first pair that differs.
     fn next_step(&self) -> String {
         let differs =
             |row: &&Compared| row.compared.as_ref().is_ok_and(|comparison| !comparison.equal);
@@ -195,11 +195,11 @@ impl FolderReport<'_> {
         let file = |folder: &Path, file: &str| folder.join(file).display().to_string();
         let (a, b) = (file(&self.args.a, &row.pair.a), file(&self.args.b, &row.pair.b));
         let mut text = format!("next: bothways diff {a} {b} -o out/diff\n");
-        if let Some(Side::A | Side::B) = self.pairs.set {
+        if let Some(side) = self.pairs.set {
             let name = row.pair.name.split('.').next().unwrap_or_default();
-            let folder = match self.pairs.set {
-                Some(Side::A) => &self.args.a,
-                _ => &self.args.b,
+            let folder = match side {
+                Side::A => &self.args.a,
+                Side::B => &self.args.b,
             };
             let scene = folder.join(format!("{name}.toml"));
             if let Some([i, j]) =
@@ -213,7 +213,7 @@ impl FolderReport<'_> {
 }
 
 impl Compared<'_> {
-    /// What came of it, and of a scene that differs the point.
+    /// The result in words, with the point of a scene that differs.
     fn words(&self) -> String {
         let comparison = match &self.compared {
             Ok(comparison) => comparison,

@@ -1,4 +1,4 @@
-//! What `pixel --json` prints.
+//! The output of `pixel --json`.
 
 use super::{Lesson, certain};
 use crate::cli::failure::Failure;
@@ -12,7 +12,7 @@ use bothways::report::WorkReport;
 use serde::{Serialize, Serializer};
 
 impl Lesson<'_> {
-    /// Prints everything, of all samples, one after the other: a million of them are gigabytes of text.
+    /// Prints the samples one after another: the text of a million samples takes gigabytes.
     pub(super) fn print_json(&self) -> Result<(), Failure> {
         let camera = self.camera;
         terminal::print_json(&PixelJson {
@@ -27,7 +27,7 @@ impl Lesson<'_> {
     }
 }
 
-/// What `--json` prints, in this order.
+/// The output of `--json`, in this order.
 #[derive(Debug, Serialize)]
 struct PixelJson<'a> {
     scene: &'a str,
@@ -78,7 +78,7 @@ struct TouchingJson {
     edges: EdgesJson,
 }
 
-/// Signs as -1, 0 and 1; their values; and what kind of edge the sample lies on.
+/// The signs as -1, 0 and 1, the values, and the kinds of the edges on which the sample lies.
 #[derive(Debug, Serialize)]
 struct EdgesJson {
     facing: i8,

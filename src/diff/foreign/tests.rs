@@ -193,7 +193,7 @@ fn png(chunks: &[(&[u8; 4], &[u8])]) -> Vec<u8> {
     [b"\x89PNG\r\n\x1a\n", &chunks[..]].concat()
 }
 
-/// The message about a PNG of this size, 8 bits deep, with this palette.
+/// A PNG that claims this size, with this palette and the data of one pixel.
 fn palette_png(size: [u32; 2], palette: &[u8]) -> Vec<u8> {
     let header = [&size[0].to_be_bytes()[..], &size[1].to_be_bytes(), &[8, 3, 0, 0, 0]].concat();
     // One row of one pixel: a zlib stream of one stored block.
