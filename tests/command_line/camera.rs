@@ -106,7 +106,7 @@ fn numbers_are_as_short_as_they_read_back() {
 }
 
 #[test]
-fn a_field_of_view_and_its_viewport_are_both_said() {
+fn a_field_of_view_and_its_viewport_are_both_printed() {
     let args = ["canonical", "--fov", "40", "--distance", "2", "--size", "320x160"];
     let output = camera(&args).assert().code(0).get_output().stdout.clone();
     let text = String::from_utf8(output).unwrap();

@@ -344,7 +344,7 @@ fn help_is_a_command_too() {
 }
 
 #[test]
-fn a_slip_of_the_keyboard_is_answered_with_what_was_meant() {
+fn a_mistyped_command_gets_a_suggestion() {
     let home = home();
     let said: [(&[&str], &str); 6] = [
         (&["pixle", "ties", "3", "4"], "did you mean 'bothways pixel ties 3 4'?"),

@@ -1,4 +1,4 @@
-//! `bothways cover` and its library function, compared with all four renderers.
+//! `bothways cover`: the drawing, the table, JSON and the mask.
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -115,7 +115,7 @@ fn corners_may_be_negative() {
 }
 
 #[test]
-fn three_points_are_three_points_in_quotes_or_not() {
+fn the_corners_may_be_one_argument_or_several() {
     let quoted = printed(&["-1,1 9,2 3,7", "--size", "10x8"]);
     for args in [
         ["-1,1", "9,2", "3,7", "--size", "10x8"].as_slice(),

@@ -47,7 +47,7 @@ fn part_of((shape, values): &(Vec<u64>, Vec<u32>)) -> Vec<u32> {
 }
 
 #[test]
-fn the_command_line_writes_a_part_of_what_it_writes() {
+fn the_files_of_a_crop_are_parts_of_the_files_of_the_whole() {
     let home = tempfile::tempdir().unwrap();
     let at = |name: &str| home.path().join(name);
     for (line, samples) in
@@ -95,7 +95,7 @@ fn the_command_line_writes_a_part_of_what_it_writes() {
 }
 
 #[test]
-fn one_order_alone_and_a_streamed_mesh() {
+fn one_order_alone_and_a_streamed_mesh_can_be_cropped() {
     let home = tempfile::tempdir().unwrap();
     let teapot = Kind::Teapot.mesh([5, 5]).unwrap();
     let mut file = Vec::new();

@@ -141,7 +141,7 @@ fn a_background_makes_a_mask_of_a_picture() {
 }
 
 #[test]
-fn the_text_reads_at_a_glance() {
+fn the_text_names_counts_pixels_and_hints() {
     let home = tempfile::tempdir().unwrap();
     let save = |name: &str, pixels: &[u8]| {
         let picture = image::GrayImage::from_raw(4, 2, pixels.to_vec()).unwrap();
@@ -200,7 +200,8 @@ fn covers([a, b, c]: [[f64; 2]; 3], place: [f64; 2], inclusive: bool) -> bool {
     })
 }
 
-/// A small rasterizer of flat scenes with one mistake: the first triangle at a pixel stays.
+/// The ids of a flat scene from a small rasterizer with one mistake. Of several triangles that cover a pixel, the first
+/// is seen.
 fn drawn(vector: &Vector, mistake: Mistake) -> Buffer<'static> {
     let (scene, camera) = (vector.scene(), vector.camera());
     let triangles = raster::triangles(&View::new(&scene, &camera)).unwrap();
@@ -226,7 +227,7 @@ fn drawn(vector: &Vector, mistake: Mistake) -> Buffer<'static> {
     Buffer::new([width, height], 1, Content::Ids(ids.collect()))
 }
 
-/// The same without ids.
+/// The coverage of a buffer of ids.
 fn mask_of(buffer: &Buffer) -> Buffer<'static> {
     let Content::Ids(ids) = buffer.content() else { panic!("no ids") };
     Buffer::new(buffer.size(), 1, Content::Mask(ids.iter().map(Option::is_some).collect()))
@@ -241,6 +242,7 @@ fn flat_vectors() -> Vec<Vector> {
     bothways::vectors::all().into_iter().filter(flat).collect()
 }
 
+/// The hints of the comparison between a rasterizer with a mistake and one without.
 fn hints(name: &str, mistake: Mistake, as_masks: bool) -> Vec<String> {
     let vector = flat_vectors().into_iter().find(|vector| vector.name == name).unwrap();
     let (mut right, mut wrong) = (drawn(&vector, Mistake::None), drawn(&vector, mistake));
@@ -251,7 +253,7 @@ fn hints(name: &str, mistake: Mistake, as_masks: bool) -> Vec<String> {
 }
 
 #[test]
-fn the_little_rasterizer_is_right_without_a_mistake() {
+fn the_small_rasterizer_is_right_without_a_mistake() {
     for vector in flat_vectors() {
         let expected = bothways::vectors::expected(&vector).unwrap();
         let ids = expected.ids().iter().map(|&id| (id != u32::MAX).then_some(u64::from(id)));
@@ -292,24 +294,24 @@ fn hints_name_the_mistake_or_none() {
 }
 
 #[test]
-fn misleading_hints_of_old_are_gone() {
-    // A transposed square picture was turned by 180 degrees.
+fn misleading_hints_of_earlier_versions_are_gone() {
+    // A transposed square picture got the hint that it was turned by 180 degrees.
     let transposed = hints("three-corners", Mistake::Transposed, false);
     assert!(transposed.len() == 1 && transposed[0].contains("transposed"), "{transposed:?}");
-    // Half a pixel on `square` was, too: as a mask it may be, and all that it may be is said.
+    // Samples in corners on `square` got the same hint alone. As a mask it may be right; so are others, which are given, too.
     let half = hints("square", Mistake::SamplesInCorners, true);
     for may_be in ["moved 1 row down and 1 column to the right", "180 degrees", "diagonal"] {
         assert!(half.iter().any(|hint| hint.contains(may_be)), "{half:?}");
     }
-    // Its two triangles tell more.
+    // The ids of the two triangles exclude it.
     let half = hints("square", Mistake::SamplesInCorners, false);
     assert!(half.len() == 2 && half[0].contains("diagonal"), "{half:?}");
     assert!(half[1].contains("moved 1 row down and 1 column to the right"), "{half:?}");
-    // Inclusive edges on `tiles` were "moved by 1 rows and 1 columns".
+    // Inclusive edges on `tiles` got the hint "moved by 1 rows and 1 columns".
     for as_masks in [true, false] {
         assert_eq!(hints("tiles", Mistake::InclusiveEdges, as_masks), [""; 0]);
     }
-    // Culling on `far-off-corners` blamed the reference alone, which "has the id 0".
+    // Culling on `far-off-corners` got only the hint that the id 0 of the reference stands for nothing.
     let culled = hints("far-off-corners", Mistake::CulledClockwise, false);
     assert!(culled.iter().any(|hint| hint.contains("culled")), "{culled:?}");
 }

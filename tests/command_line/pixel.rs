@@ -6,14 +6,15 @@ use assert_cmd::Command;
 use bothways::common::exact::Side;
 use bothways::common::glam::Vec3;
 use bothways::common::{
-    Camera, CameraDescription, Object, Options, Plane, Projection, Scene, Shape, Sphere, View, Work,
+    Camera, CameraDescription, Object, Observer, Options, Plane, Projection, Scene, Shape, Sphere,
+    View, Work,
 };
 use bothways::orders::{Method, Order, RenderOptions, render};
 use bothways::pixel::{Behind, report};
 use bothways::scenes;
 use serde_json::{Value, json};
 
-/// The sum of all pixel reports equals the result and the work of the whole frame.
+/// Asserts that the reports of all pixels together have the results and the work of the whole frame.
 fn check_whole_picture(view: &View, options: &Options) {
     let once = RenderOptions { frame: *options, ..RenderOptions::default() };
     let frames = [Order::Object, Order::Image]
@@ -28,23 +29,18 @@ fn check_whole_picture(view: &View, options: &Options) {
             for ((work, answer), one) in work.iter_mut().zip(answers).zip(&frames) {
                 assert_eq!(answer.id, one.frame.id(row, column));
                 assert_eq!(answer.t, one.frame.t(row, column));
-                add(work, answer.work);
+                work.join(answer.work);
             }
         }
     }
-    for (mut told, one) in work.into_iter().zip(&frames) {
-        // One region holds many samples.
+    for (mut sum, one) in work.into_iter().zip(&frames) {
+        // A frame counts a primitive once, the reports once for each sample in its region.
         let whole = *one.work().unwrap();
-        told.primitives = whole.primitives;
+        sum.primitives = whole.primitives;
         // When fragments are settled depends on how many are open around them.
-        told.judged_nearest = whole.judged_nearest;
-        assert_eq!(told, whole, "{}", one.order.name());
+        sum.judged_nearest = whole.judged_nearest;
+        assert_eq!(sum, whole, "{}", one.order.name());
     }
-}
-
-fn add(work: &mut Work, more: Work) {
-    use bothways::common::Observer;
-    work.join(more);
 }
 
 #[test]
@@ -188,7 +184,7 @@ fn the_edge_that_a_sample_lies_on_has_its_name() {
 }
 
 #[test]
-fn several_samples_are_told_as_a_grid() {
+fn the_ids_of_several_samples_are_printed_as_a_grid() {
     let text = printed(&["ties", "8", "8", "--size", "16x16", "--samples", "3"]);
     assert!(text.contains("(9 - 1 + 1/6)/16"), "{text}");
     let (_, grid) = text.split_once("the ids seen at all samples of the pixel\n").unwrap();

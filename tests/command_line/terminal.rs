@@ -62,7 +62,7 @@ fn a_long_rendering_shows_how_far_it_is_and_erases_that() {
 }
 
 #[test]
-fn a_bar_needs_a_person_and_time() {
+fn quick_runs_quiet_runs_dumb_terminals_and_pipes_get_no_bar() {
     let home = tempfile::tempdir().unwrap();
     let quick = ["canonical", "--size", "4x4"];
     assert_eq!(seen_on_stderr(bothways(&home, &quick)), "");

@@ -25,7 +25,7 @@ fn raster_camera([width, height]: [u32; 2]) -> Camera {
     .unwrap()
 }
 
-/// All four renderers cover what is claimed.
+/// Asserts that all four renderers cover exactly the pixels of `claimed`.
 fn check_renderers(claimed: &Cover) {
     let [a, b, c] = claimed.triangle.map(|corner| corner.extend(0.0));
     let scene = scene(vec![Shape::Triangle(Triangle { a, b, c }).into()]);
@@ -44,7 +44,7 @@ proptest! {
 
     /// Coordinates in halves put corners and edges on centres.
     #[test]
-    fn what_is_covered_is_what_the_renderers_see(
+    fn the_renderers_agree_with_cover_on_exact_ties(
         corners in prop::array::uniform6(-8i16..40),
         image in prop::array::uniform2(1u32..17),
     ) {
@@ -54,7 +54,7 @@ proptest! {
     }
 
     #[test]
-    fn so_it_is_for_any_numbers(
+    fn the_renderers_agree_with_cover_on_any_numbers(
         corners in prop::array::uniform6(-10f32..30.0),
         image in prop::array::uniform2(1u32..17),
     ) {

@@ -6,7 +6,7 @@ use bothways_test_support::{Owners, assert_same_visibility};
 
 pub(crate) type Render = fn(&View, &Options) -> Frame;
 
-/// One suite, four renderers.
+/// The name and the function of each renderer.
 pub(crate) const RENDERERS: [(&str, Render); 4] = [
     ("object order, textbook", rasterize::textbook::render),
     ("image order, textbook", raytrace::textbook::render),
@@ -18,7 +18,8 @@ pub(crate) const RENDERERS: [(&str, Render); 4] = [
     }),
 ];
 
-/// Renders with all four and compares ids, distances and normals' looks; gives the first's frame.
+/// Asserts that all four renderers agree in ids and, within the contract's tolerance, in distances; returns the frame
+/// of the first.
 pub(crate) fn all_agree(view: &View, options: &Options, what: &str) -> Frame {
     let frames = RENDERERS.map(|(name, render)| (name, render(view, options)));
     let (_, expected) = &frames[0];
@@ -28,7 +29,7 @@ pub(crate) fn all_agree(view: &View, options: &Options, what: &str) -> Frame {
     frames[0].1.clone()
 }
 
-/// How many primitives cover each sample, as each of the four renderers' loops meet them.
+/// The number of primitives that cover each sample, counted by an observer of each renderer.
 pub(crate) fn owners(view: &View, options: &Options) -> [(&'static str, Vec<u32>); 4] {
     let mut counts = [(); 4].map(|()| Owners::new(view.camera, options));
     let mut frame = Frame::new(view.camera, options);

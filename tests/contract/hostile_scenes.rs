@@ -13,7 +13,7 @@ use bothways_test_support::{Ties, assert_is_part, scene, some_crops, triangle};
 use proptest::prelude::*;
 use std::cell::Cell;
 
-/// Renders a part of the picture with all four.
+/// Asserts that each renderer draws a crop as it draws that part of the whole picture.
 fn check_a_crop(view: &View, options: &Options, seed: u64) {
     let crop = some_crops(view.camera.image(), seed).next();
     for (name, render) in RENDERERS {
@@ -22,14 +22,15 @@ fn check_a_crop(view: &View, options: &Options, seed: u64) {
     }
 }
 
-/// Runs the four renderers on random scenes and gives the shares of exact ties among the tests.
+/// Asserts that the four renderers agree on random scenes; returns the shares of exact edge ties and of exact distance
+/// ties among the tests of a primitive at a sample.
 fn agree_on(numbers: Numbers, count: u32) -> (f64, f64) {
     let (edge, distance, tested) = (Cell::new(0), Cell::new(0), Cell::new(0));
-    let crops = Cell::new(0);
+    let seed = Cell::new(0);
     hostile::for_each(numbers, count, |view, options| {
         all_agree(view, options, "a hostile scene");
-        crops.set(crops.get() + 1);
-        check_a_crop(view, options, crops.get());
+        seed.set(seed.get() + 1);
+        check_a_crop(view, options, seed.get());
         let mut ties = Ties::new(view, options.samples);
         let mut frame = Frame::new(view.camera, options);
         rasterize::textbook::determine_visibility(view, options, &mut frame, &mut ties);
@@ -60,18 +61,19 @@ fn scenes_of_few_bits_are_full_of_ties() {
 }
 
 #[test]
-fn scenes_of_ordinary_numbers() {
+fn the_renderers_agree_on_ordinary_numbers() {
     agree_on(Numbers::Ordinary, 500);
 }
 
 #[test]
-fn scenes_of_extreme_numbers() {
+fn the_renderers_agree_on_extreme_numbers() {
     agree_on(Numbers::Extreme, 700);
 }
 
 #[test]
 fn lanes_beyond_the_picture_are_not_judged() {
-    // Error bounds that overflow: every sample of the picture is left open, and nothing beside it.
+    // The error bounds overflow, so every sample of the picture is left to the judge. The lanes of SIMD beyond the
+    // last column belong to no sample: they must not be left to it.
     let look = |projection, eye, direction: [f32; 3], up: [f32; 3], image| {
         let orientation = Orientation::Direction {
             direction: Vec3::from_array(direction),
@@ -97,18 +99,18 @@ fn lanes_beyond_the_picture_are_not_judged() {
     }
 }
 
-/// All four renderers on one scene.
+/// Asserts that all four renderers agree on one scene.
 fn agree_on_one(scene: &Scene, description: CameraDescription, what: &str) {
     let camera = Camera::new(description).expect("it is a camera");
     all_agree(&View::new(scene, &camera), &Options::default(), what);
 }
 
-/// Ways from a point of a sphere to its middle, of whole length.
+/// Vectors from a point of a sphere towards its centre; their lengths are integers.
 const WAYS: [[f32; 3]; 5] =
     [[0.0, 0.0, -1.0], [1.0, 2.0, -2.0], [-2.0, 3.0, -6.0], [3.0, 0.0, -4.0], [-4.0, 4.0, -7.0]];
 
-/// Two spheres, of up to 10⁹ and more, that nearly have a point in common or everything, and the plane that nearly
-/// touches them there; before the eye, behind it, or on it.
+/// Two spheres with radii of up to 2³⁰ that share one point or nearly do, or that nearly coincide; in one case of five
+/// also the plane that touches them at that point. The point is in front of the eye, behind it, or the eye itself.
 fn nearly_touching() -> impl Strategy<Value = (Vec<Object>, CameraDescription, u32)> {
     let radius = || {
         prop_oneof![
@@ -126,19 +128,19 @@ fn nearly_touching() -> impl Strategy<Value = (Vec<Object>, CameraDescription, u
     let away =
         prop_oneof![2 => Just(0.0_f32), 2 => (-2..8_i8).prop_map(f32::from), 1 => 1.0..100.0_f32];
     let shapes = (0..WAYS.len(), [radius(), radius()], [0..4_u8, 0..4_u8, 0..4_u8], 0..5_u8);
-    let lens = (any::<bool>(), -6..3_i8, 0.0..6.3_f32, prop_oneof![Just(0.0_f32), -1.5..1.5_f32]);
-    (eye, away, shapes, lens, 1..3_u32).prop_map(
+    let look = (any::<bool>(), -6..3_i8, 0.0..6.3_f32, prop_oneof![Just(0.0_f32), -1.5..1.5_f32]);
+    (eye, away, shapes, look, 1..3_u32).prop_map(
         move |(
             eye,
             away,
             (way, [radius, other], near_by, kind),
-            (wide, zoom, yaw, pitch),
+            (perspective, zoom, yaw, pitch),
             samples,
         )| {
             let way = Vec3::from_array(WAYS[way]);
             let (ahead, length) = (way / way.length(), way.length());
             let point = eye + away * ahead;
-            // For radii of few digits, these are exact.
+            // For radii of few digits, these centres are exact.
             let ball = |radius: f32, near_by: u8| {
                 let center = point + radius / length * way;
                 Shape::Sphere(Sphere { center, radius: near(radius, near_by) })
@@ -155,7 +157,7 @@ fn nearly_touching() -> impl Strategy<Value = (Vec<Object>, CameraDescription, u
                     Shape::Sphere(Sphere { center, radius: *radius })
                 }
                 (2, _) => {
-                    // From the other side.
+                    // On the other side of the point.
                     Shape::Sphere(Sphere {
                         center: point - other / length * way,
                         radius: near(other, near_by[1]),
@@ -167,7 +169,7 @@ fn nearly_touching() -> impl Strategy<Value = (Vec<Object>, CameraDescription, u
             if kind == 4 {
                 shapes.push(Shape::Plane(Plane { point, normal: way }));
             }
-            // Towards the point, along the surface, or anywhere.
+            // About a quarter of the cameras look straight at the point (or away from it), the others anywhere.
             let turn = Quat::from_rotation_y(if yaw < 3.0 { 0.0 } else { yaw })
                 * Quat::from_rotation_x(pitch);
             let orientation = Orientation::Direction {
@@ -175,7 +177,8 @@ fn nearly_touching() -> impl Strategy<Value = (Vec<Object>, CameraDescription, u
                 up: turn * Vec3::new(0.25, 1.0, 0.125),
             };
             let side = f32::from(zoom).exp2();
-            let projection = if wide { Projection::Perspective } else { Projection::Parallel };
+            let projection =
+                if perspective { Projection::Perspective } else { Projection::Parallel };
             let description = CameraDescription {
                 projection,
                 eye,
@@ -190,7 +193,7 @@ fn nearly_touching() -> impl Strategy<Value = (Vec<Object>, CameraDescription, u
 }
 
 #[test]
-fn spheres_that_nearly_touch_each_other_or_the_eye() {
+fn the_renderers_agree_on_spheres_that_nearly_touch_each_other_or_the_eye() {
     let (seen, all) = (Cell::new(0), Cell::new(0));
     hostile::runner(1500)
         .run(&nearly_touching(), |(objects, description, samples)| {
@@ -210,7 +213,7 @@ fn spheres_that_nearly_touch_each_other_or_the_eye() {
 }
 
 #[test]
-fn spheres_are_not_left_to_the_judge() {
+fn at_most_one_test_of_a_sphere_in_twenty_is_left_to_the_judge() {
     let ball = |x: f32, y: f32, z: f32, radius: f32| {
         Shape::Sphere(Sphere { center: Vec3::new(x, y, z), radius })
     };
@@ -262,6 +265,7 @@ fn spheres_are_not_left_to_the_judge() {
             );
             for (order, work) in [("object order", by_object), ("image order", by_image)] {
                 let judged = work.judged_coverage + work.judged_nearest;
+                assert!(work.tests > 0, "{what}, {projection:?}, {order}");
                 assert!(
                     judged * 20 <= work.tests,
                     "{what}, {projection:?}, {order}: {judged} of {}",

@@ -27,7 +27,7 @@ fn camera(scene: &LoadedScene, projection: Projection, image: [u32; 2]) -> Camer
     Camera::new(CameraDescription { projection, viewport, image, ..was }).expect("it is a camera")
 }
 
-/// Renders with all four, and holds the fast pair's look against each other, too.
+/// Asserts that all four renderers agree, and that the fast pair also agrees in colour.
 fn check(scene: &LoadedScene, projection: Projection, image: [u32; 2], samples: u32) {
     let camera = camera(scene, projection, image);
     let (view, options) =
@@ -37,7 +37,8 @@ fn check(scene: &LoadedScene, projection: Projection, image: [u32; 2], samples: 
     check_looks(&view, &options, &what);
 }
 
-/// Coverage, ids, depth and colour of the fast pair, as `render` judges them.
+/// Asserts that the fast pair agrees: in coverage and ids exactly, in depth and colour within the tolerances of `diff`.
+/// Returns the frame of object order.
 fn check_looks(view: &View, options: &Options, what: &str) -> Frame {
     let [_, _, (_, object_order), (_, image_order)] = RENDERERS;
     let (object_order, image_order) = (object_order(view, options), image_order(view, options));
@@ -49,7 +50,7 @@ fn check_looks(view: &View, options: &Options, what: &str) -> Frame {
 }
 
 #[test]
-fn every_built_in_scene_in_every_way() {
+fn the_smaller_built_in_scenes_agree() {
     for built_in in BUILT_IN.iter().filter(|scene| scene.name != "many" && scene.name != "lecture")
     {
         let scene = load(built_in.name).expect("it is built in");
@@ -64,7 +65,7 @@ fn every_built_in_scene_in_every_way() {
 }
 
 #[test]
-fn the_large_scenes_at_small_sizes() {
+fn the_large_built_in_scenes_agree_at_small_sizes() {
     for name in ["many", "lecture"] {
         let scene = load(name).expect("it is built in");
         for projection in PROJECTIONS {
@@ -86,7 +87,7 @@ fn the_large_scenes_at_small_sizes() {
 }
 
 #[test]
-fn the_fast_pair_at_full_size() {
+fn the_fast_pair_agrees_at_full_size() {
     for built_in in BUILT_IN {
         let scene = load(built_in.name).expect("it is built in");
         for projection in PROJECTIONS {
@@ -125,7 +126,7 @@ fn the_scene_of_ties_is_full_of_them() {
 }
 
 #[test]
-fn one_prepared_scene_serves_any_camera() {
+fn one_prepared_scene_serves_several_cameras() {
     let scene = load("many").expect("it is built in");
     let prepared = (rasterize::fast::prepare(&scene.scene), raytrace::fast::prepare(&scene.scene));
     for (projection, image) in PROJECTIONS.into_iter().zip([[97, 61], [40, 80]]) {

@@ -21,6 +21,7 @@ struct Verdicts {
 const ALL_WELL: Verdicts = Verdicts { object_order: true, image_order: true };
 const CAUGHT: Verdicts = Verdicts { object_order: false, image_order: false };
 
+/// The verdicts with a fault in one order at a time; asserts that both orders match without it.
 fn verdicts(scene: &Scene, camera: &Camera, fault: Option<Planted>) -> Verdicts {
     let (view, options) = (View::new(scene, camera), Options::default());
     let drawn = |determine_visibility: &dyn Fn(&mut Frame)| {
@@ -114,7 +115,7 @@ fn an_error_bound_of_zero_differs() {
 
 #[test]
 fn bounds_without_end_change_nothing() {
-    // Then nothing is certain but what exact arithmetic says: slow, and right.
+    // Then only the exact predicates decide: slowly, but correctly.
     for fault in [Planted::InfiniteErrorBound, Planted::InfiniteMargin] {
         for name in ["canonical", "ties", "behind", "slivers", "overlap", "inside"] {
             let built_in = load(name).expect("it is built in");
@@ -148,7 +149,7 @@ fn a_forgotten_node_of_the_hierarchy_differs() {
     let mesh = Mesh::new(positions, cells.collect()).unwrap();
     let scene = scene(vec![Shape::Mesh(mesh).into()]);
     let camera = camera(Projection::Perspective, [0.0; 3], [2.0, 2.0], [32, 32]);
-    // Object order has no hierarchy to forget a node of.
+    // Object order has no hierarchy.
     let expected = Verdicts { object_order: true, image_order: false };
     assert_eq!(verdicts(&scene, &camera, Some(Planted::ForgottenNode)), expected);
 }

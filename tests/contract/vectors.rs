@@ -34,7 +34,7 @@ fn json(folder: &Path, name: &str) -> Value {
     serde_json::from_slice(&fs::read(folder.join(name)).unwrap()).unwrap()
 }
 
-/// Every scene's entry in the index, and its own file.
+/// The entry of each scene in the index, and the content of its JSON file.
 fn scenes(folder: &Path) -> Vec<(Value, Value)> {
     let index = json(folder, "index.json");
     let entries = index["scenes"].as_array().unwrap().clone();
@@ -54,13 +54,13 @@ fn numbers(value: &Value) -> Vec<f64> {
     list(value).iter().map(|number| number.as_f64().unwrap()).collect()
 }
 
-/// A table of numbers row by row, with `nothing` for null.
+/// The numbers of a table, row by row; `nothing` for null.
 fn table(value: &Value, nothing: f64) -> Vec<f64> {
     let rows = list(value).iter().flat_map(list);
     rows.map(|cell| if cell.is_null() { nothing } else { cell.as_f64().unwrap() }).collect()
 }
 
-/// The `f32` that is written in its shortest form, or nothing at infinity.
+/// The `f32` that a JSON number gives in its shortest form; infinity for null.
 fn single(value: &Value) -> f32 {
     if value.is_null() { f32::INFINITY } else { value.to_string().parse().unwrap() }
 }
@@ -96,14 +96,14 @@ impl Linear {
         Linear([&dx * (y - &a.y) - &dy * (x - &a.x), -dy, dx])
     }
 
-    /// −1 or 1, and 0 only if it is zero everywhere.
+    /// The sign of the function beside the sample; `Equal` only if the function is zero everywhere.
     fn sign(&self) -> Ordering {
         let decisive = self.0.iter().find(|number| !number.is_zero());
         decisive.map_or(Ordering::Equal, |number| number.cmp(&Number::zero()))
     }
 }
 
-/// How near the triangle is at a sample, if it covers it.
+/// The nearness of a triangle at a sample; `None` if the triangle does not cover the sample.
 fn nearness([a, b, c]: &[Corner; 3], x: &Number, y: &Number) -> Option<Linear> {
     let area = Linear::edge(a, b, &c.x, &c.y).0[0].clone();
     let edges = [(b, c), (c, a), (a, b)].map(|(p, q)| Linear::edge(p, q, x, y));
@@ -132,7 +132,7 @@ fn corners(triangle: &Value, interpolate: &str) -> [Corner; 3] {
     })
 }
 
-/// What is seen at a sample, and its `t`.
+/// The id of the visible triangle at a sample, and its `t`.
 fn seen(triangles: &[[Corner; 3]], interpolate: &str, i: u32, j: u32) -> Option<(u64, f64)> {
     let [x, y] = [j, i].map(|index| Number::from_float(f64::from(index) + 0.5).unwrap());
     let covering = (0..)
@@ -172,7 +172,7 @@ fn an_independent_rasterizer_sees_the_same() {
     assert!(checked > 1000, "only {checked} samples were covered");
 }
 
-/// How near a triangle of the world is along the ray of a sample, if it covers it.
+/// The nearness of a triangle of the world along the ray of a sample; `None` if the triangle does not cover the sample.
 ///
 /// The ray's direction is a sum `α·a + β·b + γ·c` of the corners; the sample is covered if all three
 /// are positive, and `1/t` is their sum, wherever the corners are. Like the direction they are linear
@@ -200,7 +200,7 @@ fn determinant(a: &[Number; 3], b: &[Number; 3], c: &[Number; 3]) -> Number {
     &a[0] * minor(1, 2) + &a[1] * minor(2, 0) + &a[2] * minor(0, 1)
 }
 
-/// Straight cameras in perspective. The viewport is the image in pixels.
+/// Whether the camera is a perspective camera at the origin, along the world's axes, with pixels of side 1.
 fn is_straight(scene: &Value) -> bool {
     let axes = ["eye", "u", "v", "w"].map(|key| numbers(&scene[key]));
     let straight = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -337,12 +337,12 @@ fn the_camera_writes_its_matrices_in_the_same_layout() {
 }
 
 #[test]
-fn distances_are_written_as_short_as_they_read_back() {
+fn distances_are_written_in_at_most_nine_digits() {
     let home = written();
     for (entry, scene) in scenes(home.path()) {
         for t in list(&scene["t"]).iter().flat_map(list).filter(|t| !t.is_null()) {
             let text = t.to_string();
-            // Nine digits tell every f32.
+            // Nine significant digits distinguish all `f32`.
             let digits = text.split('e').next().unwrap().trim_matches(['0', '.']);
             let digits = digits.chars().filter(char::is_ascii_digit).count();
             assert!(digits <= 9, "{}: {text}", entry["name"]);
@@ -350,7 +350,7 @@ fn distances_are_written_as_short_as_they_read_back() {
     }
 }
 
-/// What is seen if `x` and `y` are computed as the lecture writes them, rounding by rounding.
+/// The visible primitives if `x` and `y` are computed in `f64` in the order in which the lecture writes them.
 fn seen_with_the_lecture_s_formula(vector: &bothways::vectors::Vector) -> Vec<Option<u32>> {
     let (scene, camera) = (vector.scene(), vector.camera());
     let view = View::new(&scene, &camera);
@@ -400,7 +400,7 @@ fn the_readme_s_numbers_are_those_of_the_set() {
     let names = "`first-corner`, `room`, `parallel-behind` and `oblong-pixels`";
     assert!(readme.replace("\n ", "").contains(names), "{readme}");
 
-    // What was measured with OpenGL names scenes of the set, 22 of them.
+    // The section on OpenGL names 22 scenes of the set.
     let (_, opengl) = readme.split_once("## What OpenGL makes of it").unwrap();
     let (opengl, _) = opengl.split_once("\n## ").unwrap();
     let known = |name: &&str| scenes.iter().any(|(entry, _)| entry["name"] == **name);

@@ -9,7 +9,7 @@ use bothways::raytrace::textbook;
 use bothways::scenes::{LoadedScene, load, load_for};
 use std::collections::HashSet;
 
-/// The scene's camera with another image, and the parallel one that shows its target as large.
+/// The scene's camera with another image, and the parallel camera that shows the target at the same size.
 fn cameras(loaded: &LoadedScene, image: [u32; 2]) -> [Camera; 2] {
     let perspective = CameraDescription { image, ..loaded.camera };
     let Orientation::LookAt { target, .. } = loaded.camera.orientation else {
@@ -24,8 +24,9 @@ fn cameras(loaded: &LoadedScene, image: [u32; 2]) -> [Camera; 2] {
     [perspective, parallel].map(|description| Camera::new(description).expect("it is usable"))
 }
 
-/// Whether a ray meets the triangle's rim exactly. Good for numbers so short that nothing rounds.
-fn meets_rim(primitive: &Primitive, ray: &Ray) -> bool {
+/// Whether a ray meets the triangle's border exactly. This test is right where the numbers have so few bits that
+/// nothing is rounded.
+fn meets_border(primitive: &Primitive, ray: &Ray) -> bool {
     let Primitive::Triangle([a, b, c]) = *primitive else { return false };
     let edge = |p: DVec3, q: DVec3| (p - ray.origin).cross(q - ray.origin).dot(ray.direction);
     let edges = [edge(a, b), edge(b, c), edge(c, a)];
@@ -40,12 +41,12 @@ fn a_third_of_the_samples_of_ties_lie_on_edges_whatever_the_power_of_two() {
     for side in [64, 32, 16, 8, 4, 2, 1] {
         for camera in cameras(&loaded, [side, side]) {
             let view = View::new(&loaded.scene, &camera);
-            let on_rim = |i, j| {
+            let on_border = |i, j| {
                 let ray = camera.viewing_ray(i, j);
-                view.primitives().any(|(_, primitive)| meets_rim(&primitive, &ray))
+                view.primitives().any(|(_, primitive)| meets_border(&primitive, &ray))
             };
             let pixels = (0..side).flat_map(|i| (0..side).map(move |j| (i, j)));
-            let ties = pixels.filter(|&(i, j)| on_rim(i, j)).count();
+            let ties = pixels.filter(|&(i, j)| on_border(i, j)).count();
             let samples = (side * side) as usize;
             assert!(3 * ties >= samples, "{ties} of {samples}, {:?}", camera.projection());
         }
@@ -55,12 +56,12 @@ fn a_third_of_the_samples_of_ties_lie_on_edges_whatever_the_power_of_two() {
 #[test]
 fn no_projection_hides_what_a_scene_is_about() {
     // Of `behind`: the floor, the road, the banner, a wall and both balls.
-    for (name, most) in [("canonical", 3), ("behind", 6), ("overlap", 8), ("inside", 4)] {
+    for (name, least) in [("canonical", 3), ("behind", 6), ("overlap", 8), ("inside", 4)] {
         let loaded = load(name).unwrap();
         let image = [40, 30];
         let cameras = match loaded.camera.orientation {
             Orientation::LookAt { .. } => cameras(&loaded, image),
-            // As the command line finds it: what lies in the middle of the objects keeps its size.
+            // As the command line does: objects in the middle of the scene keep their size.
             _ => [(Projection::Perspective, 1.0), (Projection::Parallel, 4.0)].map(
                 |(projection, side)| {
                     let viewport = [side; 2];
@@ -74,7 +75,7 @@ fn no_projection_hides_what_a_scene_is_about() {
             let pixels = (0..30).flat_map(|row| (0..40).map(move |column| (row, column)));
             let ids = pixels.filter_map(|(row, column)| frame.id(row, column));
             let seen: HashSet<usize> = ids.map(|id| loaded.scene.locate(id).0).collect();
-            assert!(seen.len() >= most, "{name}, {:?}: {seen:?}", camera.projection());
+            assert!(seen.len() >= least, "{name}, {:?}: {seen:?}", camera.projection());
         }
     }
 }
@@ -109,15 +110,15 @@ fn the_fan_of_slivers_leaves_no_gap() {
     assert_eq!(in_fan, 316);
     for (_, primitive) in view.primitives().filter(|&(id, _)| loaded.scene.locate(id).0 > 0) {
         let Primitive::Triangle([_, b, c]) = primitive else { continue };
-        // One of the full picture's 480 pixels, as far away as the needle.
+        // The picture of full size has 480 rows; a pixel is 5.6 / 480 high at the needle's distance.
         thinnest = thinnest.min((b - c).length() / (5.6 / 480.0));
     }
     assert!(thinnest < 0.005, "{thinnest} pixels");
 }
 
 #[test]
-fn what_nobody_should_see_is_not_seen() {
-    // Such objects are magenta.
+fn the_magenta_objects_are_hidden() {
+    // In these scenes, the objects that no renderer may show are magenta.
     let is_hidden = |color: Vec3| color == Vec3::new(1.0, 0.0, 1.0);
     for name in ["behind", "overlap"] {
         let loaded = load(name).unwrap();
@@ -136,7 +137,7 @@ fn what_nobody_should_see_is_not_seen() {
 }
 
 #[test]
-fn mesh_files_of_the_wild_are_framed() {
+fn the_shared_meshes_are_framed() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/meshes");
     let Ok(files) = std::fs::read_dir(folder) else {
         println!("skipped: there is no folder {folder}");

@@ -25,7 +25,7 @@ use image::{RgbImage, imageops};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Scenes that show much in few pixels; `lecture` and `many` take long, and change with fashion.
+/// Scenes that show much in few pixels. `lecture` and `many` take long, and their looks change more often.
 const SCENES: [(&str, &str); 6] = [
     ("canonical", "48x48"),
     ("ties", "64x64"),
@@ -44,15 +44,19 @@ fn golden(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden").join(name)
 }
 
-/// Where pictures go that fail; tests that run at once have folders of their own.
+/// The folder for the pictures of failed tests. Tests that run at the same time use different names.
 fn workshop(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     fs::create_dir_all(&folder).unwrap();
     folder
 }
 
-/// Compares a picture with an approved one, or says how they differ and where to see it.
-fn held_against(approved: &Path, picture: &RgbImage, workshop: &Path) -> Result<(), String> {
+/// Compares a picture with the approved one.
+///
+/// # Errors
+///
+/// If they differ: by how much, and where the new picture and the difference are.
+fn compare_with(approved: &Path, picture: &RgbImage, workshop: &Path) -> Result<(), String> {
     let name = approved.file_name().unwrap().to_str().unwrap();
     let new = workshop.join(name);
     let difference = workshop.join(format!("difference-{name}"));
@@ -74,7 +78,7 @@ fn held_against(approved: &Path, picture: &RgbImage, workshop: &Path) -> Result<
     ))
 }
 
-/// Holds all pictures against the approved ones, or approves them.
+/// Compares all pictures with the approved ones, or replaces those.
 fn check(pictures: &[(String, RgbImage)]) {
     if writing() {
         for (name, picture) in pictures {
@@ -83,9 +87,9 @@ fn check(pictures: &[(String, RgbImage)]) {
         return;
     }
     let workshop = workshop("golden");
-    let held =
-        pictures.iter().map(|(name, picture)| held_against(&golden(name), picture, &workshop));
-    let failures: Vec<String> = held.filter_map(Result::err).collect();
+    let results =
+        pictures.iter().map(|(name, picture)| compare_with(&golden(name), picture, &workshop));
+    let failures: Vec<String> = results.filter_map(Result::err).collect();
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
@@ -149,14 +153,14 @@ fn a_picture_that_changes_is_noticed() {
     let workshop = workshop("golden-noticed");
     let approved = golden("canonical-object-order.png");
     let mut picture = image::open(&approved).unwrap().to_rgb8();
-    assert_eq!(held_against(&approved, &picture, &workshop), Ok(()));
+    assert_eq!(compare_with(&approved, &picture, &workshop), Ok(()));
     picture[(20, 30)].0[1] ^= 2;
-    assert_eq!(held_against(&approved, &picture, &workshop), Ok(()));
+    assert_eq!(compare_with(&approved, &picture, &workshop), Ok(()));
     picture[(20, 30)].0[1] ^= 8;
-    let failure = held_against(&approved, &picture, &workshop).unwrap_err();
+    let failure = compare_with(&approved, &picture, &workshop).unwrap_err();
     assert!(failure.starts_with("canonical-object-order.png: 1 pixel beyond"), "{failure}");
     assert!(workshop.join("difference-canonical-object-order.png").exists());
 
     let other = golden("behind-object-order.png");
-    assert!(held_against(&other, &picture, &workshop).unwrap_err().contains("is 48 x 48"));
+    assert!(compare_with(&other, &picture, &workshop).unwrap_err().contains("is 48 x 48"));
 }

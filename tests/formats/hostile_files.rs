@@ -122,7 +122,7 @@ fn pipes_and_devices_are_refused_and_not_waited_for() {
         let said = refusal(&home, &["diff", "a.pgm", &name]);
         assert!(said.contains("it is a pipe or a device; save it as a file first"), "{said}");
     }
-    // A material file that is none is as good as missing.
+    // A material file that is a device counts as missing.
     symlink("/dev/zero", home.path().join("zero.mtl")).unwrap();
     let obj = "mtllib zero.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n";
     write(&home, "a.obj", obj);
@@ -164,11 +164,11 @@ fn large_files_are_not_read_whole_to_be_refused() {
     }
 }
 
-/// What moves a cursor, sets a title, clears a screen and turns text around.
+/// Characters that clear a screen, set a title, change colours and reverse the direction of text.
 const ESCAPES: &str = "\u{1b}[2J\u{1b}]0;title\u{7}\u{9b}31m\u{202e}\u{2066}";
 
-/// Nothing is left that a terminal would obey.
-fn check_tame(text: &str) {
+/// Asserts that a text has escapes in place of the characters that control a terminal.
+fn assert_escaped(text: &str) {
     let obeyed = |c: char| {
         (c.is_control() && c != '\n')
             || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
@@ -178,7 +178,7 @@ fn check_tame(text: &str) {
 }
 
 #[test]
-fn no_terminal_obeys_what_a_file_says() {
+fn no_text_of_a_file_controls_the_terminal() {
     let home = tempfile::tempdir().unwrap();
     let soft = "\u{9b}31m\u{202e}";
     let scenes = [
@@ -191,31 +191,31 @@ fn no_terminal_obeys_what_a_file_says() {
     ];
     for scene in scenes {
         write(&home, "a.toml", scene);
-        check_tame(&refusal(&home, &["a.toml"]));
+        assert_escaped(&refusal(&home, &["a.toml"]));
     }
     let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     write(&home, "a.obj", format!("{triangle}v 1 {ESCAPES}\n"));
-    check_tame(&refusal(&home, &["a.obj"]));
+    assert_escaped(&refusal(&home, &["a.obj"]));
     let header = format!("ply\nformat ascii 1.0\nelement {soft} 1\n");
     write(&home, "a.ply", format!("{header}element vertex 1\nend_header\n"));
-    check_tame(&refusal(&home, &["a.ply"]));
+    assert_escaped(&refusal(&home, &["a.ply"]));
     let header = format!("{{'descr': '{soft}', 'fortran_order': False, 'shape': (1, 1), }}\n");
     let length = u16::try_from(header.len()).unwrap().to_le_bytes();
     write(&home, "a.npy", [b"\x93NUMPY\x03\x00", &length[..], &[0, 0], header.as_bytes()].concat());
-    check_tame(&refusal(&home, &["diff", "a.npy", "a.npy"]));
+    assert_escaped(&refusal(&home, &["diff", "a.npy", "a.npy"]));
 
     // Names of files, and of undefined materials.
     let name = format!("{ESCAPES}.obj");
     write(&home, &name, format!("usemtl {ESCAPES}\n{triangle}"));
     let (code, _, stderr) = bothways(&home, &[&name, "--size", "8x8", "-o", "out"]);
     assert_eq!(code, Some(0), "{stderr}");
-    check_tame(&stderr);
+    assert_escaped(&stderr);
     for missing in [format!("{ESCAPES}-.toml"), format!("{ESCAPES}-.obj"), ESCAPES.to_owned()] {
-        check_tame(&refusal(&home, &[&missing]));
+        assert_escaped(&refusal(&home, &[&missing]));
     }
     let name = format!("{ESCAPES}.pgm");
     write(&home, &name, "P2 1 1 1\n1\n");
     let (code, stdout, _) = bothways(&home, &["diff", &name, &name]);
     assert_eq!(code, Some(0));
-    check_tame(&stdout);
+    assert_escaped(&stdout);
 }

@@ -16,7 +16,7 @@ fn bothways(home: &TempDir, args: &[&str]) -> assert_cmd::assert::Assert {
     Command::cargo_bin("bothways").unwrap().current_dir(home).args(args).assert()
 }
 
-/// A mesh as a binary PLY file, the least significant byte first.
+/// A mesh as a binary little-endian PLY file.
 fn binary(mesh: &Mesh) -> Vec<u8> {
     let (vertices, faces) = (mesh.positions().len(), mesh.triangles().len());
     let header = format!(

@@ -31,12 +31,12 @@ use tempfile::TempDir;
 
 const CHUNKS: [usize; 5] = [1, 2, 3, 7, 1000];
 
-/// Draws a mesh in chunks; gives what is seen, and the work.
+/// The frame and the counts of a mesh that is drawn in chunks.
 fn streamed(mesh: &Mesh, camera: &Camera, options: &Options, chunk: usize) -> (Frame, Work) {
     let mut positions = Positions::default();
     mesh.positions().iter().for_each(|&position| positions.push(position));
     let (mut canvas, mut work) = (Canvas::new(camera, options), Work::default());
-    // From one pass to the next only allocations survive: the first looks elsewhere.
+    // Nothing of the first pass, which has another camera, may remain in the second.
     let away = turned(Projection::Parallel, [9.0, 9.0, 9.0], [0.0; 3], camera.image());
     for (camera, observer) in [(&away, &mut Work::default()), (camera, &mut work)] {
         let mut pass = canvas.begin(camera, chunk, observer);
@@ -95,7 +95,7 @@ fn coplanar_and_duplicated_triangles_keep_their_order() {
 }
 
 #[test]
-fn meshes_with_shared_vertices_are_streamed_as_they_are() {
+fn meshes_with_shared_vertices_give_the_same_frame() {
     for (kind, divisions) in [(Kind::Torus, [9, 6]), (Kind::Sphere, [8, 5]), (Kind::Box, [2, 2])] {
         let generated = kind.mesh(divisions).unwrap();
         let bare = Mesh::new(generated.positions().to_vec(), generated.triangles().to_vec());
@@ -115,7 +115,7 @@ fn meshes_with_shared_vertices_are_streamed_as_they_are() {
 }
 
 #[test]
-fn nothing_at_all_is_seen_of_no_triangles() {
+fn a_mesh_without_triangles_gives_an_empty_frame() {
     let camera = Camera::canonical(3, 2);
     let (frame, work) = streamed(&Mesh::default(), &camera, &Options::default(), 1);
     let scene = Scene::new(Vec::<Object>::new()).unwrap();
@@ -125,17 +125,17 @@ fn nothing_at_all_is_seen_of_no_triangles() {
 }
 
 #[test]
-fn progress_is_told_chunk_by_chunk() {
+fn progress_is_reported_chunk_by_chunk() {
     let home = tempfile::tempdir().unwrap();
     let path = home.path().join("long.obj");
     let triangles = CHUNK + 1;
     let text = ["v 0 0 -2\nv 1 0 -2\nv 0 1 -2\n", &"f 1 2 3\n".repeat(triangles)].concat();
     fs::write(&path, text).unwrap();
     let camera = Camera::canonical(4, 3);
-    let told = Mutex::new(Vec::new());
+    let reported = Mutex::new(Vec::new());
     let listener = |progress: Progress| {
         assert_eq!(progress.order, Order::Object);
-        told.lock().unwrap().push((progress.stage, progress.done, progress.total));
+        reported.lock().unwrap().push((progress.stage, progress.done, progress.total));
     };
     let options = RenderOptions { progress: Some(&listener), ..RenderOptions::default() };
     let mut stream = MeshStream::open(&path, Format::Obj).unwrap();
@@ -148,7 +148,7 @@ fn progress_is_told_chunk_by_chunk() {
         assert_eq!(rendered.work().map(|work| work.primitives), Some(triangles as u64));
         let steps = (0..=total).map(|done| (Stage::Rendering, done, total));
         let expected: Vec<_> = [(Stage::Preparing, 0, total)].into_iter().chain(steps).collect();
-        assert_eq!(told.lock().unwrap().split_off(0), expected);
+        assert_eq!(reported.lock().unwrap().split_off(0), expected);
     }
 }
 
@@ -175,7 +175,7 @@ fn hostile_mesh(extreme: bool) -> impl Strategy<Value = Mesh> {
 }
 
 #[test]
-fn hostile_meshes_are_streamed_as_they_are() {
+fn hostile_meshes_give_the_same_frame() {
     for (extreme, count) in [(false, 400), (true, 250)] {
         let config = Config { cases: cases(count), failure_persistence: None, ..Config::default() };
         let rng = TestRng::deterministic_rng(config.rng_algorithm);
@@ -210,18 +210,17 @@ fn json(path: &Path) -> Value {
 /// A torus as OBJ, with a vertex that no face uses, far away.
 fn torus(home: &TempDir) {
     let mesh = Kind::Torus.mesh([24, 12]).unwrap();
-    let mut text = b"v 900 900 900\n".to_vec();
     let mut positions = vec![Vec3::splat(900.0)];
     positions.extend(mesh.positions());
     let triangles = mesh.triangles().iter().map(|triangle| triangle.map(|index| index + 1));
     let mesh = Mesh::new(positions, triangles.collect()).unwrap();
-    text.clear();
+    let mut text = Vec::new();
     obj::write(&mesh, &mut text).unwrap();
     fs::write(home.path().join("torus.obj"), text).unwrap();
 }
 
 #[test]
-fn the_command_writes_what_it_writes_without_stream() {
+fn the_command_writes_the_same_files_with_and_without_stream() {
     let home = tempfile::tempdir().unwrap();
     torus(&home);
     for (k, options) in [
@@ -315,7 +314,7 @@ fn what_cannot_be_streamed_says_why_and_what_to_do() {
 
 #[cfg(unix)]
 #[test]
-fn a_pipe_is_refused_before_anybody_waits_for_it() {
+fn a_pipe_is_refused_and_not_waited_for() {
     let home = tempfile::tempdir().unwrap();
     let pipe = home.path().join("pipe.ply");
     let made = std::process::Command::new("mkfifo").arg(&pipe).status();

@@ -18,7 +18,7 @@ use bothways_test_support::{
     PROJECTIONS, assert_is_part, mesh, scene, some_crops, triangle, turned,
 };
 
-/// One pixel in each corner, the borders, odd ones in between, and everything.
+/// One pixel in each corner, the whole image, two borders, and five random crops.
 fn crops_of([width, height]: [u32; 2], seed: u64) -> Vec<Crop> {
     let corners = [[0, 0], [0, width - 1], [height - 1, 0], [height - 1, width - 1]];
     let corners = corners.map(|[row, column]| [row, column, 1, 1]);
@@ -27,7 +27,7 @@ fn crops_of([width, height]: [u32; 2], seed: u64) -> Vec<Crop> {
     fixed.chain(some_crops([width, height], seed).take(5)).collect()
 }
 
-/// Renders the whole picture and its crops with all four renderers, and compares.
+/// Asserts that each renderer draws some crops as it draws those parts of the whole picture.
 fn check_all(view: &View, samples: u32, seed: u64, what: &str) {
     let options = Options { samples, ..Options::default() };
     for (name, render) in RENDERERS {
@@ -40,7 +40,7 @@ fn check_all(view: &View, samples: u32, seed: u64, what: &str) {
 }
 
 #[test]
-fn built_in_scenes_from_everywhere() {
+fn crops_of_built_in_scenes_equal_the_whole() {
     let mut seed = 0;
     for name in ["overlap", "ties", "slivers", "inside", "behind"] {
         let scene = scenes::load(name).unwrap().scene;
@@ -57,7 +57,7 @@ fn built_in_scenes_from_everywhere() {
 }
 
 #[test]
-fn scenes_that_make_a_point() {
+fn crops_of_the_conformance_set_equal_the_whole() {
     for (seed, vector) in (0..).zip(vectors::all()) {
         let (scene, camera) = (vector.scene(), vector.camera());
         let small = CameraDescription { image: [13, 11], ..*camera.description() };
@@ -68,7 +68,7 @@ fn scenes_that_make_a_point() {
 }
 
 /// Triangles of all sizes, some behind the eye, a textured ball and a plane.
-fn much() -> Scene {
+fn mixed_scene() -> Scene {
     let number = |k: u32, step: f64| {
         #[expect(clippy::cast_possible_truncation, reason = "it looks random")]
         let number = (f64::from(k) * step).fract() as f32 - 0.5;
@@ -93,7 +93,8 @@ fn much() -> Scene {
     scene(vec![soup, textured(ball), textured(ground), mesh(teapot)])
 }
 
-/// Both `fast` renderers in one reused frame, on this number of threads.
+/// The frames and the counts of both `fast` renderers with tiles of these sizes. Each frame has held another crop, and is
+/// drawn twice.
 fn draw_both(view: &View, options: &Options, tile: [u32; 2], side: usize) -> [(Frame, Work); 2] {
     let level = bothways::common::engine::simd::best_level();
     let mut drawn = [(); 2].map(|()| {
@@ -114,8 +115,8 @@ fn draw_both(view: &View, options: &Options, tile: [u32; 2], side: usize) -> [(F
 }
 
 #[test]
-fn tiles_are_cut_and_threads_change_nothing() {
-    let (scene, image) = (much(), [203, 141]);
+fn crops_that_cut_tiles_equal_the_whole_on_any_number_of_threads() {
+    let (scene, image) = (mixed_scene(), [203, 141]);
     let mut seed = 100;
     for projection in PROJECTIONS {
         for eye in [[1.5, 1.0, 4.0], [0.1, -0.2, 0.3]] {
@@ -144,7 +145,7 @@ fn tiles_are_cut_and_threads_change_nothing() {
     }
 }
 
-/// The region that object order tells, and whether a sample outside of it is told of.
+/// The region of a crop, and the number of events that reach outside of it.
 #[derive(Clone, Debug)]
 struct Within {
     region: Region,
@@ -174,8 +175,8 @@ impl Events for Within {
 }
 
 #[test]
-fn observers_hear_of_the_crop_alone_in_the_numbers_of_the_whole() {
-    let scene = much();
+fn events_stay_inside_the_crop_and_number_samples_in_the_whole_image() {
+    let scene = mixed_scene();
     for projection in PROJECTIONS {
         let camera = turned(projection, [1.5, 1.0, 4.0], [0.0; 3], [26, 20]);
         let view = View::new(&scene, &camera);
@@ -194,7 +195,7 @@ fn observers_hear_of_the_crop_alone_in_the_numbers_of_the_whole() {
         }
         let [(by_object, object_work), (_, image_work)] = draw_both(&view, &part, [10, 6], 16);
         assert_eq!(by_object.region(), &region);
-        // One looks at every object for the smallest picture, the other at no ray that it does not need.
+        // Object order begins every primitive, however small the crop; image order begins the crop's rays alone.
         assert_eq!(object_work.primitives, u64::from(scene.primitive_count()));
         assert_eq!((image_work.rays, object_work.rays), (4 * 7 * 18, 0));
 

@@ -70,12 +70,12 @@ fn frames(scene: &Scene, description: CameraDescription) -> [Frame; 2] {
     [object_order, image_order].map(|render| render(&view, &Options::default()))
 }
 
-/// The largest difference of two pictures where both, and their neighbours, show the same primitive.
+/// The largest difference of two pictures in the pixels where both show the same primitive, in steps of 1/255.
 fn largest_difference(one: &Frame, other: &Frame) -> u8 {
-    let (pictures, width) = ([one, other].map(picture), one.width());
+    let pictures = [one, other].map(picture);
     let mut largest = 0;
     for (index, (a, b)) in pictures[0].pixels().zip(pictures[1].pixels()).enumerate() {
-        if one.ids()[index] != other.ids()[index] || index % width == 0 {
+        if one.ids()[index] != other.ids()[index] {
             continue;
         }
         let channels = a.0.iter().zip(b.0).map(|(a, b)| a.abs_diff(b));
@@ -212,7 +212,7 @@ fn check_exactly(scene: &Scene, camera: &Camera, frame: &Frame, what: &str) {
 }
 
 #[test]
-fn normals_and_texture_coordinates_from_afar_are_exact_ones() {
+fn normals_and_texture_coordinates_from_afar_agree_with_exact_numbers() {
     let scene = scene();
     let back = Vec3::new(0.48, 0.36, 0.8);
     for away in [1e4, 1e7] {

@@ -10,33 +10,19 @@ use bothways::common::{
     Scene, Shape, Sphere, View, Work,
 };
 use bothways::{rasterize, raytrace};
-use bothways_test_support::{PROJECTIONS, assert_same_visibility, mesh, scene};
+use bothways_test_support::{Dice, PROJECTIONS, assert_same_visibility, mesh, scene};
 
 /// The directions of the eyes from the scene: along an axis, along no axis, and almost along one.
 const WAYS: [Vec3; 3] =
     [Vec3::new(0.0, 0.0, 1.0), Vec3::new(0.55, 0.4, 0.73), Vec3::new(1.0, 1e-4, 1e-9)];
 
-/// Numbers in 0 … 1, the same in every run.
-fn scattered() -> impl FnMut() -> f32 {
-    let mut state = 1_u64;
-    move || {
-        state =
-            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 40) as f32 / (1 << 24) as f32
-    }
-}
-
-fn point(next: &mut impl FnMut() -> f32) -> Vec3 {
-    4.0 * Vec3::new(next() - 0.5, next() - 0.5, next() - 0.5)
-}
-
-/// Triangles of this size, anywhere within 2 of the origin.
+/// Triangles of this size, with coordinates from about −2 to 2.
 fn soup(count: usize, size: f32) -> Mesh {
-    let mut next = scattered();
+    let mut dice = Dice(1);
     let mut positions = Vec::new();
     for _ in 0..count {
-        let middle = point(&mut next);
-        positions.extend([(); 3].map(|()| middle + 0.25 * size * point(&mut next)));
+        let middle = 2.0 * dice.point();
+        positions.extend([(); 3].map(|()| middle + 0.5 * size * dice.point()));
     }
     let triangles = (0..count as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
     Mesh::new(positions, triangles).expect("it is a mesh")
@@ -44,7 +30,7 @@ fn soup(count: usize, size: f32) -> Mesh {
 
 /// Triangles of several sizes, two of them twice, some in one plane, balls and perhaps a ground.
 fn mixture(with_ground: bool) -> Scene {
-    let mut next = scattered();
+    let mut dice = Dice(1);
     let mut objects = vec![mesh(soup(60, 0.2)), mesh(soup(12, 3.0)), mesh(soup(2, 3.0))];
     let flat = |corner: Vec3| Vec3::new(corner.x, corner.y, 0.25);
     let mut in_one_plane = soup(8, 2.0).positions().to_vec();
@@ -52,7 +38,7 @@ fn mixture(with_ground: bool) -> Scene {
     let triangles = (0..8).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
     objects.push(mesh(Mesh::new(in_one_plane, triangles).expect("it is a mesh")));
     for radius in [0.05, 0.4, 0.9] {
-        objects.push(Shape::Sphere(Sphere { center: point(&mut next), radius }).into());
+        objects.push(Shape::Sphere(Sphere { center: 2.0 * dice.point(), radius }).into());
     }
     if with_ground {
         objects.push(Object::from(Shape::Plane(Plane {
@@ -100,7 +86,7 @@ fn the_fast_renderers_see_from_afar_what_the_textbooks_see() {
     }
 }
 
-/// The counts of both orders; this function also checks that both orders see the same primitives.
+/// The counts of both orders. Asserts that both orders see the same primitives.
 fn counted(scene: &Scene, camera: &Camera, what: &str) -> [Work; 2] {
     let (view, options) = (View::new(scene, camera), Options::default());
     let mut frames = [(); 2].map(|()| Frame::new(camera, &options));
@@ -163,8 +149,8 @@ fn a_perspective_eye_tests_from_afar_little_more_than_from_near() {
 }
 
 #[test]
-fn spheres_far_beside_the_middle_that_a_ray_hardly_meets() {
-    // A ray passes such a sphere's middle at the radius, as nearly as both can be stored.
+fn far_spheres_that_a_ray_nearly_touches() {
+    // The distance from such a sphere's centre to a viewing ray is its radius, as nearly as `f32` can store them.
     let description = CameraDescription {
         projection: Projection::Parallel,
         orientation: Orientation::Direction {

@@ -63,7 +63,7 @@ fn folder(files: &[(&str, &str)]) -> TempDir {
     folder
 }
 
-/// The mesh and its material files, which are named together, between blanks.
+/// A mesh and its two material files, which one line names with a blank between them.
 fn cards() -> (TempDir, PathBuf) {
     let text = CARDS.replace("more colours.mtl", "more.mtl");
     let folder = folder(&[("cards.obj", &text), ("cards.mtl", CARDS_MTL), ("more.mtl", MORE_MTL)]);

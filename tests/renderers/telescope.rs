@@ -7,13 +7,12 @@ use bothways_test_support::{Dice, PROJECTIONS, assert_same_visibility, mesh, sce
 
 #[test]
 fn triangles_between_samples_seen_through_a_telescope() {
-    // Samples lie so close together that single precision, in which triangles are sifted, cannot tell them
-    // apart without its error bound. Object order, which does not sift, says what is right: the textbook
-    // would take minutes.
+    // Samples lie so close together that the culling of triangles in single precision is right only with its error
+    // bound. Object order has no such culling.
     let mut hits = 0;
     for projection in PROJECTIONS {
         for (seed, size) in [3e-2_f32, 3e-3, 3e-4, 3e-5, 3e-6].into_iter().enumerate() {
-            // In the last, parallel distances differ by so little that the judge must decide nearly all.
+            // At the smallest size, parallel distances differ so little that the judge would decide nearly all of them.
             let clutters: &[fn(&mut Dice, f32) -> Mesh] =
                 if size > 1e-5 { &[dust, flakes] } else { &[dust] };
             for clutter in clutters {
@@ -40,7 +39,7 @@ fn triangles_between_samples_seen_through_a_telescope() {
     assert!(hits > 4000, "{hits}");
 }
 
-/// Triangles smaller than the distance between 128 samples in a row of this size, each by itself.
+/// Separate triangles, smaller than the distance between two of 128 samples in a row of length `size`.
 fn dust(dice: &mut Dice, size: f32) -> Mesh {
     let sample = size / 128.0;
     let corners = (0..8000).flat_map(|_| {

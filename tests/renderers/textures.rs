@@ -155,7 +155,7 @@ fn a_frame_keeps_no_coordinates_unless_asked() {
     assert!(frame.texture_coordinates().is_empty());
     let mut frame = frame.with_texture_coordinates();
     frame.fit(&Camera::canonical(7, 5), &Options::default());
-    assert_eq!(frame.texture_coordinates().len(), 35, "another size forgets no wish");
+    assert_eq!(frame.texture_coordinates().len(), 35, "a frame of another size keeps them, too");
 }
 
 #[test]

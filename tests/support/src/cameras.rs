@@ -1,4 +1,4 @@
-//! Short functions for cameras.
+//! Functions that make cameras from few numbers.
 
 use bothways_common::glam::Vec3;
 use bothways_common::{Camera, CameraDescription, Orientation, Projection};
@@ -6,7 +6,7 @@ use bothways_common::{Camera, CameraDescription, Orientation, Projection};
 /// Both projections.
 pub const PROJECTIONS: [Projection; 2] = [Projection::Perspective, Projection::Parallel];
 
-/// A camera at `eye` that looks down the negative z axis.
+/// A camera at `eye` that looks down the negative z axis, up along y, at a distance of 1 from its viewport.
 pub fn camera(
     projection: Projection,
     eye: [f32; 3],
@@ -19,7 +19,8 @@ pub fn camera(
     Camera::new(description).expect("it is a camera")
 }
 
-/// A camera with any eye and any target.
+/// A camera at `eye` that looks at `target`, with y up. The viewport's sides are 1.5 at a distance of 1 in perspective,
+/// and 6 for parallel rays.
 pub fn turned(projection: Projection, eye: [f32; 3], target: [f32; 3], image: [u32; 2]) -> Camera {
     let orientation = Orientation::LookAt { target: Vec3::from_array(target), up: Vec3::Y };
     let eye = Vec3::from_array(eye);

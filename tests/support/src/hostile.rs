@@ -108,7 +108,8 @@ fn shape(numbers: Numbers) -> impl Strategy<Value = Shape> {
     ]
 }
 
-/// Objects, some of them repeated with their corners in reverse order.
+/// Objects. Some are followed by a copy; some triangles by a copy with another first corner, or with the opposite
+/// orientation.
 pub fn objects(numbers: Numbers) -> impl Strategy<Value = Vec<Object>> {
     let doubled = (shape(numbers), 0..4_u8).prop_map(|(shape, copies)| {
         let turned = match (&shape, copies) {
