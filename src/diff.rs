@@ -13,13 +13,14 @@ mod buffer_pair;
 mod classes;
 mod compare;
 pub mod foreign;
+mod measures;
 mod orders;
 pub mod pairs;
 mod tolerance;
 
 pub use classes::{Class, Classes};
 pub use orders::{Color, Comparison, Coverage, Depth, Visible, compare, compare_shown};
-pub use tolerance::{COLOR_TOLERANCE, DEPTH_TOLERANCE};
+pub use tolerance::{COLOR_TOLERANCE, CompareOptions, DEPTH_TOLERANCE, Tolerances};
 
 #[cfg(test)]
 mod tests;

@@ -219,7 +219,7 @@ pub(super) fn from_1(text: &str) -> Result<u32, String> {
 }
 
 /// Four numbers of pixels. This function does not check whether the image has these pixels.
-fn crop(text: &str) -> Result<Crop, String> {
+pub(super) fn crop(text: &str) -> Result<Crop, String> {
     let whole = |number: &str| {
         let digits = number.trim();
         if digits.is_empty() || !digits.bytes().all(|byte| byte.is_ascii_digit()) {

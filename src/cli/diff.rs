@@ -1,6 +1,8 @@
 //! `bothways diff A B`: a comparison of the output of two renderers.
 
 mod folders;
+mod measures;
+mod options;
 
 use super::failure::Failure;
 use super::output::Staging;
@@ -8,11 +10,11 @@ use super::terminal;
 use anstyle::{AnsiColor, Style};
 use bothways::diff::foreign::{self, Aspect, Buffer, BufferComparison, Unit};
 use bothways::diff::pairs::reference;
-use bothways::diff::{COLOR_TOLERANCE, DEPTH_TOLERANCE};
 use bothways::formats::source::quote::visible;
 use bothways::picture::enlarged;
-use bothways::wording::{count, grouped};
+use bothways::wording::grouped;
 use clap::Args;
+use options::{ComparisonArgs, differing, ignored, short};
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -61,12 +63,14 @@ pub(super) struct DiffArgs {
     /// The colour of what is not covered, in pictures that have no alpha, such as #101418
     #[arg(long, value_name = "COLOR", value_parser = color)]
     background: Option<[u8; 3]>,
+    #[command(flatten)]
+    comparison: ComparisonArgs,
     /// Print the comparison as JSON
     #[arg(long)]
     json: bool,
 }
 
-/// Compares and prints; the exit code is 0 if the files are equal in all compared aspects, otherwise 1.
+/// Compares and prints; the exit code is 0 if the files are equal in all compared aspects, or equal enough, otherwise 1.
 pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
     match [&args.a, &args.b].map(|path| path.is_dir()) {
         [true, true] => return folders::run(args),
@@ -83,11 +87,11 @@ pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
         foreign::read(path, args.background).map_err(|error| Failure::new(error.to_string()))
     };
     let (a, b) = (read(&args.a)?, read(&args.b)?);
-    let comparison =
-        foreign::compare_with_reference(&a, &b, reference(&args.a, &args.b)).map_err(|error| {
-            let (a, b) = (args.a.display(), args.b.display());
-            Failure::new(format!("A = {a}, B = {b}: {error}"))
-        })?;
+    let options = args.comparison.options(reference(&args.a, &args.b));
+    let comparison = foreign::compare_with(&a, &b, &options).map_err(|error| {
+        let (a, b) = (args.a.display(), args.b.display());
+        Failure::new(format!("A = {a}, B = {b}: {error}"))
+    })?;
     if let Some(folder) = &args.folder {
         let mut staging = Staging::begin_with(folder, NAMES.map(str::to_owned).to_vec())?;
         staging.write_rgb(NAMES[0], &enlarged(comparison.picture()))?;
@@ -96,7 +100,7 @@ pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
     let report = FileReport { files: [(&args.a, &a), (&args.b, &b)], comparison: &comparison };
     let text = if args.json { report.json()? } else { report.text(args.folder.as_deref()) };
     terminal::print(&text)?;
-    Ok(ExitCode::from(u8::from(!comparison.equal)))
+    Ok(ExitCode::from(u8::from(!comparison.passes)))
 }
 
 /// A colour in sRGB.
@@ -147,10 +151,11 @@ impl FileReport<'_> {
     fn text(&self, folder: Option<&Path>) -> String {
         let mut text = self.heading();
         self.counts(&mut text);
+        text += &measures::text(self.comparison);
         self.largest(&mut text);
         self.first(&mut text);
         text += &hints(&self.comparison.hints);
-        let color = if self.comparison.equal { AnsiColor::Green } else { AnsiColor::Yellow };
+        let color = if self.comparison.passes { AnsiColor::Green } else { AnsiColor::Yellow };
         let style = color.on_default().bold();
         line(&mut text, format_args!("{style}{}{style:#}", self.verdict()));
         if let Some(folder) = folder {
@@ -178,6 +183,9 @@ impl FileReport<'_> {
         for what in &self.comparison.not_compared {
             line(&mut text, format_args!("not compared: {what}"));
         }
+        if let Some(ignored) = ignored(self.comparison) {
+            line(&mut text, format_args!("{ignored}"));
+        }
         text.push('\n');
         text
     }
@@ -189,15 +197,17 @@ impl FileReport<'_> {
 
     /// The compared aspects, and the tolerances.
     fn judged(&self) -> String {
+        let tolerances = self.comparison.tolerances;
         let judged = |aspect: &Aspect| match aspect {
             Aspect::Coverage | Aspect::Ids => aspect.name().to_owned(),
-            Aspect::T => format!("t (within {DEPTH_TOLERANCE:e})"),
-            Aspect::Color => format!("colour (within {COLOR_TOLERANCE}/255)"),
+            Aspect::T => format!("t (within {})", short(tolerances.t)),
+            Aspect::Color => format!("colour (within {}/255)", tolerances.color),
         };
         self.comparison.compared.iter().map(judged).collect::<Vec<_>>().join(", ")
     }
 
     fn counts(&self, text: &mut String) {
+        let tolerances = self.comparison.tolerances;
         let mut rows = Vec::new();
         if let Some(coverage) = self.comparison.coverage {
             let one_sample = self.files.iter().all(|(_, buffer)| buffer.samples() == 1);
@@ -218,12 +228,12 @@ impl FileReport<'_> {
         }
         if let Some(depth) = self.comparison.depth {
             rows.push((
-                format!("pixels with t beyond {DEPTH_TOLERANCE:e}"),
+                format!("pixels with t beyond {}", short(tolerances.t)),
                 depth.differing_pixels,
             ));
         }
         if let Some(color) = self.comparison.color {
-            let label = format!("pixels beyond {COLOR_TOLERANCE}/255 in colour");
+            let label = format!("pixels beyond {}/255 in colour", tolerances.color);
             rows.push((label, color.differing_pixels));
         }
         for (label, number) in rows {
@@ -284,15 +294,14 @@ impl FileReport<'_> {
         let Some([row, column, height, width]) = comparison.region else {
             return format!("equal in everything compared: {}", self.judged());
         };
-        let pixels = count(comparison.differing_pixels, "pixels");
-        let all = comparison.size.map(u64::from).iter().product();
         let (bottom, right) = (row + height - 1, column + width - 1);
         let place = if comparison.differing_pixels == 1 {
             format!("at ({row}, {column})")
         } else {
             format!("in the bounding box from ({row}, {column}) to ({bottom}, {right})")
         };
-        format!("differ: {pixels} of {}, {place}", grouped(all))
+        let verdict = if comparison.passes { "equal enough: they differ in" } else { "differ:" };
+        format!("{verdict} {}, {place}", differing(comparison))
     }
 }
 

@@ -3,7 +3,8 @@
 use super::aspect::{Aspect, Unit};
 use super::buffer::Buffer;
 use super::classes::Class;
-use super::tolerance::{COLOR_TOLERANCE, DEPTH_TOLERANCE};
+use super::tolerance::{CompareOptions, Tolerances};
+use crate::common::Crop;
 
 /// The aspects that make two pixels different.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,6 +20,8 @@ pub(super) struct BufferPair<'a> {
     pub(super) a: &'a Buffer<'a>,
     pub(super) b: &'a Buffer<'a>,
     decides: Decides,
+    tolerances: Tolerances,
+    ignored: &'a [Crop],
     unit: Unit,
     /// Whether ids are compared; in the next two fields, distances and colours.
     ids: bool,
@@ -29,6 +32,8 @@ pub(super) struct BufferPair<'a> {
 /// The differences between two pixels.
 pub(super) struct PixelDifference {
     decides: Decides,
+    tolerances: Tolerances,
+    is_ignored: bool,
     pub(super) only_a: u64,
     pub(super) only_b: u64,
     pub(super) both: u64,
@@ -40,10 +45,12 @@ pub(super) struct PixelDifference {
 }
 
 impl PixelDifference {
-    fn new(decides: Decides) -> PixelDifference {
+    fn new(decides: Decides, tolerances: Tolerances) -> PixelDifference {
         let (only_a, only_b, both, other_ids) = (0, 0, 0, 0);
         PixelDifference {
             decides,
+            tolerances,
+            is_ignored: false,
             only_a,
             only_b,
             both,
@@ -56,8 +63,9 @@ impl PixelDifference {
 
     pub(super) fn class(&self) -> Class {
         let measured = self.decides == Decides::Everything
-            && (self.depth > DEPTH_TOLERANCE || self.color > f32::from(COLOR_TOLERANCE));
+            && (self.has_other_depth() || self.has_other_color());
         match self {
+            PixelDifference { is_ignored: true, .. } => Class::Ignored,
             PixelDifference { only_a: 1.., .. } => Class::OnlyObjectOrder,
             PixelDifference { only_b: 1.., .. } => Class::OnlyImageOrder,
             PixelDifference { other_ids: 1.., .. } => Class::OtherPrimitive,
@@ -65,6 +73,16 @@ impl PixelDifference {
             PixelDifference { both: 1.., .. } => Class::Alike,
             _ => Class::Neither,
         }
+    }
+
+    /// Whether a difference of distances is beyond the tolerance.
+    pub(super) fn has_other_depth(&self) -> bool {
+        self.depth > self.tolerances.t
+    }
+
+    /// Whether the difference of the colours is beyond the tolerance.
+    pub(super) fn has_other_color(&self) -> bool {
+        self.color > self.tolerances.color
     }
 
     fn cover(&mut self, by_a: bool, by_b: bool) {
@@ -75,11 +93,18 @@ impl PixelDifference {
 }
 
 impl<'a> BufferPair<'a> {
+    /// A pair to compare by the usual tolerances.
     pub(super) fn new(a: &'a Buffer<'a>, b: &'a Buffer<'a>, decides: Decides) -> BufferPair<'a> {
         let unit = if a.samples() == b.samples() { Unit::Samples } else { Unit::Pixels };
         let compares = |aspect| unit == Unit::Samples && a.tells(aspect) && b.tells(aspect);
         let [ids, t, color] = [Aspect::Ids, Aspect::T, Aspect::Color].map(compares);
-        BufferPair { a, b, decides, unit, ids, t, color }
+        let (tolerances, ignored) = (Tolerances::default(), &[][..]);
+        BufferPair { a, b, decides, tolerances, ignored, unit, ids, t, color }
+    }
+
+    /// The same pair with other tolerances, and without the ignored pixels.
+    pub(super) fn with(self, options: &'a CompareOptions) -> BufferPair<'a> {
+        BufferPair { tolerances: options.tolerances, ignored: &options.ignored, ..self }
     }
 
     pub(super) fn unit(&self) -> Unit {
@@ -109,9 +134,31 @@ impl<'a> BufferPair<'a> {
         Aspect::ALL.into_iter().filter_map(line).collect()
     }
 
+    pub(super) fn tolerances(&self) -> Tolerances {
+        self.tolerances
+    }
+
+    /// The rectangles of pixels that are not compared.
+    pub(super) fn ignored(&self) -> &'a [Crop] {
+        self.ignored
+    }
+
+    /// Whether a pixel is not compared.
+    pub(super) fn ignores(&self, [i, j]: [u32; 2]) -> bool {
+        let holds =
+            |first: u32, count: u32, at: u32| at.checked_sub(first).is_some_and(|n| n < count);
+        self.ignored
+            .iter()
+            .any(|crop| holds(crop.row, crop.height, i) && holds(crop.column, crop.width, j))
+    }
+
     /// Compares a pixel of A with a pixel of B.
     pub(super) fn compare_pixels(&self, in_a: [u32; 2], in_b: [u32; 2]) -> PixelDifference {
-        let mut found = PixelDifference::new(self.decides);
+        let mut found = PixelDifference::new(self.decides, self.tolerances);
+        if self.ignores(in_a) || self.ignores(in_b) {
+            found.is_ignored = true;
+            return found;
+        }
         if self.unit == Unit::Pixels {
             let any = |buffer: &Buffer, pixel| {
                 buffer.samples_of(pixel).any(|sample| buffer.covered(sample) == Some(true))

@@ -17,10 +17,12 @@ pub enum Class {
     Alike,
     /// Neither order sees a primitive.
     Neither,
+    /// The pixel is not compared.
+    Ignored,
 }
 
 impl Class {
-    /// All classes, from the worst to the best.
+    /// The classes of compared pixels, from the worst to the best.
     pub const ALL: [Class; 5] = [
         Class::OnlyObjectOrder,
         Class::OnlyImageOrder,
@@ -37,6 +39,7 @@ impl Class {
             Class::OtherPrimitive => "different primitives",
             Class::Alike => "both alike",
             Class::Neither => "neither",
+            Class::Ignored => "not compared",
         }
     }
 
@@ -51,6 +54,8 @@ impl Class {
             Class::OtherPrimitive => [0xcc, 0x79, 0xa7],
             Class::Alike => [0x58; 3],
             Class::Neither => NOTHING,
+            // Half as bright as the bluish green of the same set: the eye goes to the differences.
+            Class::Ignored => [0x00, 0x4f, 0x3a],
         }
     }
 

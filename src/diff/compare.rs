@@ -3,7 +3,9 @@
 use super::aspect::{Aspect, Unit};
 use super::buffer_pair::{BufferPair, PixelDifference};
 use super::classes::{Class, Classes, pixels};
-use super::tolerance::{COLOR_TOLERANCE, DEPTH_TOLERANCE};
+use super::measures::Measures;
+use super::tolerance::Tolerances;
+use crate::common::{Crop, CropError};
 use image::{Rgb, RgbImage};
 use serde::Serialize;
 
@@ -27,6 +29,12 @@ pub enum Incomparable {
         /// Width and height of B.
         b: [u32; 2],
     },
+    /// A rectangle to ignore has no pixels, or some outside of the image.
+    #[error("--ignore: {}", .0.to_string().replace("the crop", "the rectangle"))]
+    Ignored(CropError),
+    /// The rectangles to ignore leave no pixel to compare.
+    #[error("every pixel is ignored, so that nothing is left to compare; ignore less")]
+    NothingLeft,
     /// The buffers contain different aspects.
     #[error(
         "A ({a}) and B ({b}) have nothing in common to compare; \
@@ -45,8 +53,18 @@ pub enum Incomparable {
 pub struct BufferComparison {
     /// Width and height in pixels.
     pub size: [u32; 2],
-    /// Whether the buffers are equal in all compared aspects.
+    /// Whether the buffers are equal in all compared aspects, within the tolerances.
     pub equal: bool,
+    /// Whether no more pixels differ than are allowed to.
+    pub passes: bool,
+    /// The number of differing pixels that are allowed.
+    pub allowed_pixels: u64,
+    /// The tolerances for measured values.
+    pub tolerances: Tolerances,
+    /// The rectangles that were not compared: row, column, height, width.
+    pub ignored: Vec<[u32; 4]>,
+    /// The number of pixels that were not compared.
+    pub ignored_pixels: u64,
     /// The aspects that both buffers contain and that were compared.
     pub compared: Vec<Aspect>,
     /// The aspects that were not compared, and the reasons.
@@ -66,6 +84,8 @@ pub struct BufferComparison {
     /// The comparison of colours, where neither buffer marks the pixel as uncovered.
     #[serde(rename = "colour")]
     pub color: Option<BufferColor>,
+    /// How far the buffers are apart as a whole; no measure decides anything.
+    pub measures: Measures,
     /// The possible causes of the difference as a whole: one sentence for each cause.
     pub hints: Vec<String>,
     #[serde(skip)]
@@ -113,7 +133,7 @@ pub struct BufferDepth {
     pub at: Option<[u32; 2]>,
     /// The two distances there.
     pub t: Option<[f64; 2]>,
-    /// The number of pixels with a sample beyond [`DEPTH_TOLERANCE`].
+    /// The number of pixels with a sample beyond the tolerance.
     pub differing_pixels: u64,
 }
 
@@ -124,16 +144,16 @@ pub struct BufferColor {
     pub max_difference: f32,
     /// The first pixel `[i, j]` with this difference, if there is any difference.
     pub at: Option<[u32; 2]>,
-    /// The number of pixels beyond [`COLOR_TOLERANCE`].
+    /// The number of pixels beyond the tolerance.
     pub differing_pixels: u64,
 }
 
-/// Compares all aspects that both buffers contain. This function searches for no cause, and nothing lights the
+/// Compares all aspects that both buffers contain. This function measures nothing, searches for no cause, and nothing lights the
 /// difference image.
 ///
 /// # Errors
 ///
-/// If the buffers differ in size, or have no aspect in common.
+/// If the buffers differ in size, have no aspect in common, or no such pixels as are to be ignored.
 pub(super) fn compare(pair: &BufferPair) -> Result<BufferComparison, Incomparable> {
     let &BufferPair { a, b, .. } = pair;
     if a.size() != b.size() {
@@ -144,6 +164,9 @@ pub(super) fn compare(pair: &BufferPair) -> Result<BufferComparison, Incomparabl
     if compared.is_empty() {
         return Err(Incomparable::NothingInCommon { a: a.kind(), b: b.kind() });
     }
+    for ignored in pair.ignored() {
+        ignored.check(a.size()).map_err(Incomparable::Ignored)?;
+    }
     let mut sums = Sums::default();
     let [width, height] = a.size().map(|side| side as usize);
     let mut classes = Vec::with_capacity(width * height);
@@ -151,11 +174,19 @@ pub(super) fn compare(pair: &BufferPair) -> Result<BufferComparison, Incomparabl
     for pixel @ [i, j] in pixels(a.size()) {
         classes.push(sums.add([top + i, left + j], &pair.compare_pixels(pixel, pixel)));
     }
+    if sums.ignored_pixels == classes.len() as u64 {
+        return Err(Incomparable::NothingLeft);
+    }
     let has = |aspect| compared.contains(&aspect);
     let coverage = has(Aspect::Coverage).then(|| sums.coverage(pair.unit()));
     Ok(BufferComparison {
         size: a.size(),
         equal: sums.differing_pixels == 0,
+        passes: sums.differing_pixels == 0,
+        allowed_pixels: 0,
+        tolerances: pair.tolerances(),
+        ignored: pair.ignored().iter().map(Crop::to_array).collect(),
+        ignored_pixels: sums.ignored_pixels,
         not_compared: pair.not_compared(),
         differing_pixels: sums.differing_pixels,
         first_differing: sums.first_differing,
@@ -166,6 +197,7 @@ pub(super) fn compare(pair: &BufferPair) -> Result<BufferComparison, Incomparabl
         ids: has(Aspect::Ids).then_some(sums.ids),
         depth: has(Aspect::T).then_some(sums.depth),
         color: has(Aspect::Color).then_some(sums.color),
+        measures: Measures::default(),
         hints: Vec::new(),
         compared,
         classes: Classes::new(a.size(), classes),
@@ -174,8 +206,15 @@ pub(super) fn compare(pair: &BufferPair) -> Result<BufferComparison, Incomparabl
 }
 
 impl BufferComparison {
+    /// The same comparison, which passes if at most this number of pixels differ.
+    pub(super) fn allowing(mut self, pixels: u64) -> BufferComparison {
+        self.allowed_pixels = pixels;
+        self.passes = self.differing_pixels <= pixels;
+        self
+    }
+
     /// The difference image: orange and blue where only A or only B covers, pink where both cover
-    /// and differ, grey where they agree, near black where neither covers.
+    /// and differ, grey where they agree, near black where neither covers, dark green where nothing is compared.
     pub fn picture(&self) -> RgbImage {
         match &self.light {
             Some(light) => self.classes.picture(light),
@@ -201,6 +240,7 @@ struct Sums {
     ids: BufferIds,
     depth: BufferDepth,
     color: BufferColor,
+    ignored_pixels: u64,
     differing_pixels: u64,
     first_differing: Vec<[u32; 2]>,
     /// The corners of the rectangle around all differing pixels, both inside.
@@ -214,16 +254,17 @@ impl Sums {
         self.both += found.both;
         self.ids.differing_samples += found.other_ids;
         self.ids.differing_pixels += u64::from(found.other_ids > 0);
-        self.depth.differing_pixels += u64::from(found.depth > DEPTH_TOLERANCE);
+        self.depth.differing_pixels += u64::from(found.has_other_depth());
         if found.depth > self.depth.max_relative_difference {
             self.depth.max_relative_difference = found.depth;
             (self.depth.at, self.depth.t) = (Some(pixel), Some(found.t));
         }
-        self.color.differing_pixels += u64::from(found.color > f32::from(COLOR_TOLERANCE));
+        self.color.differing_pixels += u64::from(found.has_other_color());
         if found.color > self.color.max_difference {
             (self.color.max_difference, self.color.at) = (found.color, Some(pixel));
         }
         let class = found.class();
+        self.ignored_pixels += u64::from(class == Class::Ignored);
         if class.differs() {
             self.differing_pixels += 1;
             let [low, high] = self.corners.unwrap_or([pixel; 2]);

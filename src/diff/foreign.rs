@@ -28,7 +28,11 @@ pub use super::compare::{
 };
 pub use read::{ReadBufferError, read, read_from};
 
+pub use super::measures::{BorderDistance, ColorMeasures, CoverageMeasures, Measures};
+pub use super::tolerance::{CompareOptions, Tolerances};
+
 use super::buffer_pair::{BufferPair, Decides};
+use super::measures;
 
 /// Compares all aspects that both buffers contain, and searches for causes of the difference.
 ///
@@ -50,11 +54,36 @@ pub fn compare_with_reference(
     b: &Buffer,
     reference: Option<Side>,
 ) -> Result<BufferComparison, Incomparable> {
-    let pair = BufferPair::new(a, b, Decides::Everything);
-    let mut comparison = super::compare::compare(&pair)?;
+    compare_with(a, b, &CompareOptions { reference, ..CompareOptions::default() })
+}
+
+/// The same with other tolerances, without some of the pixels, or with some differences allowed.
+///
+/// # Errors
+///
+/// The errors of [`compare`], and a rectangle to ignore that the buffers do not have.
+///
+/// ```
+/// use bothways::diff::foreign::{Buffer, CompareOptions, Content, compare_with};
+///
+/// let [mine, yours] = [2.0, 2.001].map(|t| Buffer::new([1, 1], 1, Content::Distances(vec![t])));
+/// let mut options = CompareOptions::default();
+/// assert!(!compare_with(&mine, &yours, &options)?.passes);
+/// options.tolerances.t = 1e-3;
+/// assert!(compare_with(&mine, &yours, &options)?.passes);
+/// # Ok::<(), bothways::diff::foreign::Incomparable>(())
+/// ```
+pub fn compare_with(
+    a: &Buffer,
+    b: &Buffer,
+    options: &CompareOptions,
+) -> Result<BufferComparison, Incomparable> {
+    let pair = BufferPair::new(a, b, Decides::Everything).with(options);
+    let mut comparison = super::compare::compare(&pair)?.allowing(options.allowed_pixels);
+    comparison.measures = measures::measure(&pair, &comparison);
     comparison.light = a.light().or_else(|| b.light());
     if !comparison.equal {
-        comparison.hints = hints::hints(&pair, reference);
+        comparison.hints = hints::hints(&pair, options.reference);
     }
     Ok(comparison)
 }

@@ -417,13 +417,67 @@ fn files_of_the_same_name_in_two_folders_are_compared() {
 }
 
 #[test]
+fn what_counts_as_equal_may_be_chosen() {
+    let home = rendered("1");
+    edited(&home, "object-order.ids.npy", [0, 3], 7_u32.to_le_bytes());
+    let files = ["diff", "out/object-order.ids.npy", "mine.npy"];
+    let with = |option: &[&str]| bothways(&home, &[&files[..], option].concat()).assert();
+    let allowed = "equal enough: they differ in 1 pixel of 384 (2 may), at (0, 3)\n";
+    with(&["--allow-pixels", "2"]).code(0).stdout(predicates::str::ends_with(allowed)).stderr("");
+    let ignored = contains("ignored: 8 pixels, of the rectangles 0,2,2,3 and 0,2,1,5\n")
+        .and(contains("equal in everything compared: coverage, ids\n"));
+    with(&["--ignore", "0,2,2,3", "--ignore", "0,2,1,5"]).code(0).stdout(ignored);
+    let more = contains("differ: 1 pixel of 380 compared, at (0, 3)");
+    with(&["--ignore", "1,2,2,2"]).code(1).stdout(more);
+    let report = json_of(&home, &[&files[..], &["--allow-pixels", "1"]].concat());
+    assert_eq!([&report["equal"], &report["passes"]], [false, true]);
+    assert_eq!(report["tolerances"], json!({ "t": 1e-5, "colour": 2.0 }));
+
+    // The same for all pairs of two folders.
+    let args = ["canonical", "--size", "24x16", "--buffers", "npy", "--quiet", "-o", "mine"];
+    bothways(&home, &args).assert().code(0);
+    fs::copy(home.path().join("mine.npy"), home.path().join("mine/object-order.ids.npy")).unwrap();
+    let said = contains("equal enough: 1 pixel of 384 (1 may) differ, first (0, 3)")
+        .and(contains("10 of 10 pairs equal enough"));
+    let folders = ["diff", "out", "mine"];
+    bothways(&home, &folders).args(["--allow-pixels", "1"]).assert().code(0).stdout(said);
+    bothways(&home, &folders).args(["--ignore", "0,3,1,1"]).assert().code(0);
+    bothways(&home, &folders).assert().code(1).stdout(contains("9 of 10 pairs equal, 1 differs"));
+}
+
+#[test]
+fn a_tolerance_decides_on_distances_and_colors() {
+    let home = rendered("1");
+    edited(&home, "object-order.t.npy", [8, 12], 2.5_f32.to_le_bytes());
+    let files = ["diff", "out/object-order.t.npy", "mine.npy"];
+    let equal = contains("equal in everything compared: coverage, t (within 0.5)\n");
+    bothways(&home, &files).assert().code(1);
+    bothways(&home, &files).args(["--tolerance", "0.5"]).assert().code(0).stdout(equal);
+    let pictures = ["diff", "out/object-order.png", "out/object-order.ids.png"];
+    let equal = contains("equal in everything compared: colour (within 255/255)\n");
+    bothways(&home, &pictures).assert().code(1);
+    bothways(&home, &pictures).args(["--color-tolerance", "255"]).assert().code(0).stdout(equal);
+}
+
+#[test]
 fn bad_input_is_named_and_nothing_is_written() {
     let home = rendered("1");
     let args = ["canonical", "--size", "16x24", "--quiet", "-o", "other"];
     bothways(&home, &args).assert().code(0);
     fs::write(home.path().join("text"), "no picture").unwrap();
     let ids = "out/object-order.ids.npy";
-    let refused: [(&[&str], &str); 7] = [
+    let refused: [(&[&str], &str); 12] = [
+        (
+            &[ids, ids, "--ignore", "0,20,16,5"],
+            "--ignore: the rectangle 0,20,16,5 ends at pixel (15, 24)",
+        ),
+        (
+            &[ids, ids, "--ignore", "0,0,1"],
+            "it has 3 numbers, but needs four; give ROW,COLUMN,HEIGHT",
+        ),
+        (&[ids, ids, "--allow-pixels", "-1"], "give a whole number of pixels, from 0"),
+        (&[ids, ids, "--tolerance", "-1"], "give a number from 0, such as 1e-4"),
+        (&[ids, ids, "--color-tolerance", "nan"], "give a number from 0; 255 is the difference of"),
         (&[ids, "missing.png"], "cannot read missing.png"),
         (&[ids, "text"], "text is neither a picture"),
         (&[ids, "out"], "out is a folder and out/object-order.ids.npy is none"),

@@ -1,6 +1,7 @@
 //! `bothways diff FOLDER FOLDER`: a comparison of each file of one folder with its partner in the other, such as a whole
 //! conformance set.
 
+use super::options::differing;
 use super::{DiffArgs, count_of};
 use crate::cli::failure::Failure;
 use crate::cli::output::Staging;
@@ -55,7 +56,7 @@ fn compared(args: &DiffArgs, pair: &Pair, set: Option<Side>) -> Result<BufferCom
         foreign::read(&folder.join(file), args.background).map_err(|error| error.to_string())
     };
     let (a, b) = (read(&args.a, &pair.a)?, read(&args.b, &pair.b)?);
-    foreign::compare_with_reference(&a, &b, set).map_err(|error| error.to_string())
+    foreign::compare_with(&a, &b, &args.comparison.options(set)).map_err(|error| error.to_string())
 }
 
 /// A pair, and the result of its comparison.
@@ -77,6 +78,7 @@ struct Json<'a> {
     a: String,
     b: String,
     equal: bool,
+    passes: bool,
     pairs: Vec<JsonPair<'a>>,
     missing_in_a: Vec<String>,
     missing_in_b: Vec<String>,
@@ -98,12 +100,17 @@ impl FolderReport<'_> {
         if self.rows.iter().any(|row| row.compared.is_err()) {
             return 2;
         }
-        u8::from(!self.equal())
+        u8::from(!self.passes())
     }
 
     fn equal(&self) -> bool {
-        let equal = |row: &Compared| row.compared.as_ref().is_ok_and(|comparison| comparison.equal);
-        self.rows.iter().all(equal) && self.pairs.is_complete()
+        self.rows.iter().all(|row| row.is(|comparison| comparison.equal))
+            && self.pairs.is_complete()
+    }
+
+    fn passes(&self) -> bool {
+        self.rows.iter().all(|row| row.is(|comparison| comparison.passes))
+            && self.pairs.is_complete()
     }
 
     fn json(&self) -> Result<String, Failure> {
@@ -119,6 +126,7 @@ impl FolderReport<'_> {
             a: self.args.a.display().to_string(),
             b: self.args.b.display().to_string(),
             equal: self.equal(),
+            passes: self.passes(),
             pairs: pairs.collect(),
             missing_in_a: self.pairs.missing_in_a.clone(),
             missing_in_b: self.pairs.missing_in_b.clone(),
@@ -170,16 +178,18 @@ impl FolderReport<'_> {
     }
 
     fn verdict(&self) -> String {
-        let color = if self.equal() { AnsiColor::Green } else { AnsiColor::Yellow };
+        let color = if self.passes() { AnsiColor::Green } else { AnsiColor::Yellow };
         let style = color.on_default().bold();
         let number =
             |state: fn(&Compared) -> bool| self.rows.iter().filter(|row| state(row)).count();
-        let equal = number(|row| row.compared.as_ref().is_ok_and(|comparison| comparison.equal));
+        let passing = number(|row| row.is(|comparison| comparison.passes));
+        let equal = number(|row| row.is(|comparison| comparison.equal));
         let failed = number(|row| row.compared.is_err());
         let missing = self.pairs.missing_in_a.len() + self.pairs.missing_in_b.len();
         let pairs = count(self.rows.len() as u64, "pairs");
-        let mut words = vec![format!("{equal} of {pairs} equal")];
-        let differ = self.rows.len() - equal - failed;
+        let enough = if passing > equal { " enough" } else { "" };
+        let mut words = vec![format!("{passing} of {pairs} equal{enough}")];
+        let differ = self.rows.len() - passing - failed;
         words.extend((differ > 0).then(|| count_of(differ, "differs", "differ")));
         let cannot = "cannot be compared";
         words.extend((failed > 0).then(|| count_of(failed, cannot, cannot)));
@@ -189,8 +199,7 @@ impl FolderReport<'_> {
 
     /// The commands for a look at the first pair that differs.
     fn next_step(&self) -> String {
-        let differs =
-            |row: &&Compared| row.compared.as_ref().is_ok_and(|comparison| !comparison.equal);
+        let differs = |row: &&Compared| row.is(|comparison| !comparison.passes);
         let Some(row) = self.rows.iter().find(differs) else { return String::new() };
         let file = |folder: &Path, file: &str| folder.join(file).display().to_string();
         let (a, b) = (file(&self.args.a, &row.pair.a), file(&self.args.b, &row.pair.b));
@@ -213,6 +222,11 @@ impl FolderReport<'_> {
 }
 
 impl Compared<'_> {
+    /// Whether the files were compared, and the comparison is in a state.
+    fn is(&self, state: fn(&BufferComparison) -> bool) -> bool {
+        self.compared.as_ref().is_ok_and(state)
+    }
+
     /// The result in words, with the point of a scene that differs.
     fn words(&self) -> String {
         let comparison = match &self.compared {
@@ -224,13 +238,14 @@ impl Compared<'_> {
             let dimmed = Style::new().dimmed();
             return format!("{dimmed}equal in {}{dimmed:#}", compared.join(", "));
         }
-        let [width, height] = comparison.size.map(u64::from);
-        let pixels = count(comparison.differing_pixels, "pixels");
+        let pixels = differing(comparison);
         let first = comparison.first_differing.first();
         let first = first.map_or(String::new(), |[i, j]| format!(", first ({i}, {j})"));
         let yellow = AnsiColor::Yellow.on_default();
         let point = self.pair.point.as_ref().map_or(String::new(), |point| format!(". {point}"));
-        let all = width * height;
-        format!("{yellow}{pixels} of {all} differ{yellow:#}{first}{point}")
+        if comparison.passes {
+            return format!("equal enough: {pixels} differ{first}");
+        }
+        format!("{yellow}{pixels} differ{yellow:#}{first}{point}")
     }
 }

@@ -1,6 +1,9 @@
 //! Files and buffers made by hand, and the messages about them.
 
+mod options;
+
 use super::*;
+use crate::diff::Class;
 use image::{DynamicImage, GrayAlphaImage, GrayImage, ImageBuffer, ImageFormat, Luma, RgbaImage};
 use proptest::prelude::*;
 use std::path::Path;

@@ -1,0 +1,147 @@
+//! Numbers that say how far two buffers are apart as a whole. A measure is never the verdict: one pixel on the wrong side
+//! of an edge changes no such number much, and is a mistake all the same.
+//!
+//! There is no ꟻLIP (Andersson et al., "FLIP: A Difference Evaluator for Alternating Images", 2020) among them. The
+//! permissive implementation in reach, the crate `nv-flip`, binds C++ of 2022, which needs a C++ compiler and `unsafe`
+//! beneath, and its result depends on a viewing distance that no file states.
+
+mod color;
+mod distance;
+mod similarity;
+
+pub use color::ColorMeasures;
+pub use distance::BorderDistance;
+
+use super::aspect::Aspect;
+use super::buffer::Buffer;
+use super::buffer_pair::BufferPair;
+use super::classes::{Class, pixels};
+use super::compare::BufferComparison;
+use serde::Serialize;
+
+/// The measures of a comparison; `None` for an aspect that was not compared.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Measures {
+    /// How far the masks are apart.
+    pub coverage: Option<CoverageMeasures>,
+    /// How far the colours are apart.
+    #[serde(rename = "colour")]
+    pub color: Option<ColorMeasures>,
+}
+
+/// How far two masks are apart.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct CoverageMeasures {
+    /// The number of pixels with a sample that only one of the two covers.
+    pub differing_pixels: u64,
+    /// What both cover as a part of what any of the two covers, in the unit of the counts; `None` if neither covers
+    /// anything, for then there is no evidence of any agreement.
+    pub intersection_over_union: Option<f64>,
+    /// The differing pixel that is farthest from the other mask; `None` if no pixel differs, or the other mask is
+    /// empty.
+    pub largest_border_distance: Option<BorderDistance>,
+}
+
+/// Measures all aspects that were compared.
+pub(super) fn measure(pair: &BufferPair, comparison: &BufferComparison) -> Measures {
+    let colors = pair.compares(Aspect::Color);
+    Measures {
+        coverage: comparison.coverage.map(|counted| {
+            let any = counted.both + counted.only_a + counted.only_b;
+            CoverageMeasures {
+                differing_pixels: [Class::OnlyObjectOrder, Class::OnlyImageOrder]
+                    .map(|class| comparison.classes().count(class))
+                    .iter()
+                    .sum(),
+                intersection_over_union: (any > 0).then(|| ratio(counted.both, any)),
+                largest_border_distance: largest_border_distance(pair, comparison),
+            }
+        }),
+        color: colors.then(|| color::measure(pair)).flatten(),
+    }
+}
+
+#[expect(clippy::cast_precision_loss, reason = "at most 2^30 samples")]
+fn ratio(part: u64, whole: u64) -> f64 {
+    part as f64 / whole as f64
+}
+
+/// The largest distance of a pixel that only one buffer covers from the pixels that the other one covers. Ignored pixels
+/// do not count as differing, but they are part of the masks.
+fn largest_border_distance(
+    pair: &BufferPair,
+    comparison: &BufferComparison,
+) -> Option<BorderDistance> {
+    let sides = [(Class::OnlyObjectOrder, pair.b), (Class::OnlyImageOrder, pair.a)];
+    let [top, left] = pair.a.origin();
+    let found = sides.into_iter().filter_map(|(class, other)| {
+        let classes = comparison.classes();
+        if classes.count(class) == 0 {
+            return None;
+        }
+        let mask: Vec<bool> = pixels(other.size()).map(|pixel| covers(other, pixel)).collect();
+        let is_wanted = |[i, j]: [u32; 2]| classes.at(i, j) == class;
+        let BorderDistance { pixels, at: [i, j] } =
+            distance::farthest(other.size(), &mask, is_wanted)?;
+        Some(BorderDistance { pixels, at: [top + i, left + j] })
+    });
+    // Of equal distances, the first pixel of A.
+    found.reduce(|most, other| if other.pixels > most.pixels { other } else { most })
+}
+
+/// Whether a buffer covers any sample of a pixel.
+fn covers(buffer: &Buffer, pixel: [u32; 2]) -> bool {
+    buffer.samples_of(pixel).any(|sample| buffer.covered(sample) == Some(true))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diff::foreign::{CompareOptions, Content, compare, compare_with};
+
+    fn mask(drawn: &[&str]) -> Buffer<'static> {
+        let size = [drawn[0].len(), drawn.len()].map(|side| u32::try_from(side).unwrap());
+        let mask = drawn.concat().chars().map(|letter| letter == '#').collect();
+        Buffer::new(size, 1, Content::Mask(mask))
+    }
+
+    fn measured(a: &[&str], b: &[&str]) -> CoverageMeasures {
+        compare(&mask(a), &mask(b)).unwrap().measures.coverage.unwrap()
+    }
+
+    #[test]
+    fn overlap_is_measured_and_two_empty_masks_overlap_in_nothing() {
+        let overlap = |a, b| measured(&[a], &[b]).intersection_over_union;
+        assert_eq!(overlap("####", "####"), Some(1.0));
+        assert_eq!(overlap("####", "##.."), Some(0.5));
+        assert_eq!(overlap("##..", "..##"), Some(0.0));
+        assert_eq!(overlap("##..", "...."), Some(0.0));
+        assert_eq!(overlap("....", "...."), None);
+    }
+
+    #[test]
+    fn the_farthest_pixel_is_measured_from_the_other_mask() {
+        let a = ["#.....", "......", "......", "#...#."];
+        let b = ["#.....", ".#....", "......", "#....."];
+        let farthest = |a: &[&str], b: &[&str]| measured(a, b).largest_border_distance;
+        // (3, 4) of A lies 4 columns from (3, 0) of B, and nearer, √(2² + 3²), to (1, 1).
+        let expected = Some(BorderDistance { pixels: 13.0_f64.sqrt(), at: [3, 4] });
+        assert_eq!(farthest(&a, &b), expected);
+        assert_eq!(farthest(&b, &a), expected);
+        assert_eq!(farthest(&a, &a), None);
+        let nothing = ["......"; 4];
+        assert_eq!(farthest(&a, &nothing), None);
+        assert_eq!(measured(&a, &nothing).differing_pixels, 3);
+    }
+
+    #[test]
+    fn an_ignored_pixel_does_not_differ_but_is_part_of_its_mask() {
+        let (a, b) = (mask(&["#....#"]), mask(&["#.#..."]));
+        let ignored = vec![[0, 2, 1, 1].into()];
+        let options = CompareOptions { ignored, ..CompareOptions::default() };
+        let measures = compare_with(&a, &b, &options).unwrap().measures.coverage.unwrap();
+        let expected = BorderDistance { pixels: 3.0, at: [0, 5] };
+        assert_eq!(measures.largest_border_distance, Some(expected));
+        assert_eq!((measures.differing_pixels, measures.intersection_over_union), (1, Some(0.5)));
+    }
+}
