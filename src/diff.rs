@@ -20,7 +20,9 @@ mod tolerance;
 
 pub use classes::{Class, Classes};
 pub use orders::{Color, Comparison, Coverage, Depth, Visible, compare, compare_shown};
-pub use tolerance::{COLOR_TOLERANCE, CompareOptions, DEPTH_TOLERANCE, Tolerances};
+pub use tolerance::{
+    COLOR_TOLERANCE, CompareOptions, DEPTH_TOLERANCE, NORMAL_TOLERANCE, Tolerances,
+};
 
 #[cfg(test)]
 mod tests;

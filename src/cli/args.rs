@@ -23,7 +23,7 @@ pub(super) struct RenderArgs {
 }
 
 /// What to change in the scene's camera.
-#[derive(Debug, Default, Args)]
+#[derive(Clone, Debug, Default, Args)]
 #[command(next_help_heading = "Camera")]
 pub(super) struct CameraArgs {
     /// The image in pixels; the viewport keeps its height, and gets the image's form unless the

@@ -133,7 +133,7 @@ pub(super) fn squashed(camera: &Camera, args: &CameraArgs) -> Option<String> {
 }
 
 /// The given options, for messages: `--eye, --up`.
-fn options_given(args: &CameraArgs) -> String {
+pub(super) fn options_given(args: &CameraArgs) -> String {
     let given = [
         ("--size", args.size.is_some()),
         ("--projection", args.projection.is_some()),

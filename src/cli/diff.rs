@@ -1,6 +1,7 @@
 //! `bothways diff A B`: a comparison of the output of two renderers.
 
 mod folders;
+mod inputs;
 mod measures;
 mod options;
 
@@ -14,6 +15,7 @@ use bothways::formats::source::quote::visible;
 use bothways::picture::enlarged;
 use bothways::wording::grouped;
 use clap::Args;
+use inputs::{InputArgs, ReadFile, SceneArgs};
 use options::{ComparisonArgs, differing, ignored, short};
 use serde::Serialize;
 use std::fmt::Write;
@@ -65,6 +67,10 @@ pub(super) struct DiffArgs {
     background: Option<[u8; 3]>,
     #[command(flatten)]
     comparison: ComparisonArgs,
+    #[command(flatten)]
+    inputs: InputArgs,
+    #[command(flatten)]
+    scene: SceneArgs,
     /// Print the comparison as JSON
     #[arg(long)]
     json: bool,
@@ -83,12 +89,13 @@ pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
             )));
         }
     }
-    let read = |path: &Path| {
-        foreign::read(path, args.background).map_err(|error| Failure::new(error.to_string()))
-    };
-    let (a, b) = (read(&args.a)?, read(&args.b)?);
+    let read = inputs::read(args)?;
+    for file in &read {
+        terminal::warn(&file.warnings());
+    }
+    let [a, b] = [&read[0].buffer, &read[1].buffer];
     let options = args.comparison.options(reference(&args.a, &args.b));
-    let comparison = foreign::compare_with(&a, &b, &options).map_err(|error| {
+    let comparison = foreign::compare_with(a, b, &options).map_err(|error| {
         let (a, b) = (args.a.display(), args.b.display());
         Failure::new(format!("A = {a}, B = {b}: {error}"))
     })?;
@@ -97,7 +104,8 @@ pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
         staging.write_rgb(NAMES[0], &enlarged(comparison.picture()))?;
         staging.commit()?;
     }
-    let report = FileReport { files: [(&args.a, &a), (&args.b, &b)], comparison: &comparison };
+    let notes = [&read[0], &read[1]].map(ReadFile::notes);
+    let report = FileReport { files: [(&args.a, a), (&args.b, b)], notes, comparison: &comparison };
     let text = if args.json { report.json()? } else { report.text(args.folder.as_deref()) };
     terminal::print(&text)?;
     Ok(ExitCode::from(u8::from(!comparison.passes)))
@@ -119,6 +127,8 @@ fn color(text: &str) -> Result<[u8; 3], String> {
 /// The content of the report.
 struct FileReport<'a> {
     files: [(&'a PathBuf, &'a Buffer<'a>); 2],
+    /// Which part of each file was read, and how.
+    notes: [String; 2],
     comparison: &'a BufferComparison,
 }
 
@@ -169,14 +179,15 @@ impl FileReport<'_> {
     fn heading(&self) -> String {
         let bold = Style::new().bold();
         let mut text = String::new();
-        for (name, (path, buffer)) in ["A", "B"].into_iter().zip(self.files) {
+        let files = ["A", "B"].into_iter().zip(self.files).zip(&self.notes);
+        for ((name, (path, buffer)), notes) in files {
             let samples = match buffer.samples() {
                 1 => String::new(),
                 n => format!(", {n} x {n} samples a pixel"),
             };
             let (path, kind) = (path.display().to_string(), buffer.kind());
             let path = visible(&path);
-            line(&mut text, format_args!("{bold}{name}{bold:#}  {path}: {kind}{samples}"));
+            line(&mut text, format_args!("{bold}{name}{bold:#}  {path}: {kind}{samples}{notes}"));
         }
         let [width, height] = self.comparison.size;
         line(&mut text, format_args!("\n{width} x {height} pixels, compared: {}", self.compared()));
@@ -201,6 +212,7 @@ impl FileReport<'_> {
         let judged = |aspect: &Aspect| match aspect {
             Aspect::Coverage | Aspect::Ids => aspect.name().to_owned(),
             Aspect::T => format!("t (within {})", short(tolerances.t)),
+            Aspect::Normals => format!("normals (within {} degrees)", tolerances.normals),
             Aspect::Color => format!("colour (within {}/255)", tolerances.color),
         };
         self.comparison.compared.iter().map(judged).collect::<Vec<_>>().join(", ")
@@ -232,6 +244,10 @@ impl FileReport<'_> {
                 depth.differing_pixels,
             ));
         }
+        if let Some(normals) = self.comparison.normals {
+            let label = format!("pixels with normals beyond {}°", tolerances.normals);
+            rows.push((label, normals.differing_pixels));
+        }
         if let Some(color) = self.comparison.color {
             let label = format!("pixels beyond {}/255 in colour", tolerances.color);
             rows.push((label, color.differing_pixels));
@@ -252,6 +268,18 @@ impl FileReport<'_> {
                 text,
                 format_args!(
                     "largest difference in t: {most:.1e} of it, at ({i}, {j}): A {a}, B {b}"
+                ),
+            );
+        }
+        if let Some(normals) = self.comparison.normals
+            && let Some(at @ [i, j]) = normals.at
+        {
+            let [a, b] = self.files.map(|(_, buffer)| buffer.seen(at));
+            let most = short(normals.max_degrees);
+            line(
+                text,
+                format_args!(
+                    "largest angle of normals: {most} degrees, at ({i}, {j}): A {a}, B {b}"
                 ),
             );
         }

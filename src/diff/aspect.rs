@@ -12,6 +12,8 @@ pub enum Aspect {
     Ids,
     /// The distance of the visible primitive.
     T,
+    /// The direction of the visible surface.
+    Normals,
     /// The colour of the pixel.
     #[serde(rename = "colour")]
     Color,
@@ -19,7 +21,8 @@ pub enum Aspect {
 
 impl Aspect {
     /// All aspects, in the order of the report.
-    pub const ALL: [Aspect; 4] = [Aspect::Coverage, Aspect::Ids, Aspect::T, Aspect::Color];
+    pub const ALL: [Aspect; 5] =
+        [Aspect::Coverage, Aspect::Ids, Aspect::T, Aspect::Normals, Aspect::Color];
 
     /// The name of the aspect in a sentence.
     pub fn name(self) -> &'static str {
@@ -27,6 +30,7 @@ impl Aspect {
             Aspect::Coverage => "coverage",
             Aspect::Ids => "ids",
             Aspect::T => "t",
+            Aspect::Normals => "normals",
             Aspect::Color => "colour",
         }
     }

@@ -25,6 +25,9 @@ pub enum Content<'a> {
     Ids(Vec<Option<u64>>),
     /// The distance. A sample at a finite distance is covered: neither ±∞ nor NaN.
     Distances(Vec<f64>),
+    /// The surface's normal, of any length; always one sample per pixel. A pixel is covered if its normal has a
+    /// direction: neither zero, ±∞ nor NaN.
+    Normals(Vec<[f32; 3]>),
     /// The colours; always one sample per pixel.
     Picture(Picture),
     /// All values of a frame: ids, distances, and the picture of its pixels.
@@ -106,13 +109,17 @@ impl<'a> Buffer<'a> {
     ///
     /// # Panics
     ///
-    /// If the content has another number of values, or a picture has more than one sample per pixel.
+    /// If the content has another number of values, or a picture or normals have more than one sample per pixel.
     pub fn new(size: [u32; 2], samples: u32, content: Content<'a>) -> Buffer<'a> {
         let expected = size.iter().map(|&side| side as usize).product::<usize>();
         let length = match &content {
             Content::Mask(values) => values.len(),
             Content::Ids(values) => values.len(),
             Content::Distances(values) => values.len(),
+            Content::Normals(values) => {
+                assert_eq!(samples, 1, "normals have one sample a pixel");
+                values.len()
+            }
             Content::Picture(picture) => {
                 assert_eq!(samples, 1, "a picture has one sample a pixel");
                 picture.pixels.len()
@@ -165,9 +172,11 @@ impl<'a> Buffer<'a> {
     pub fn tells(&self, aspect: Aspect) -> bool {
         match (&self.content, aspect) {
             (_, Aspect::Coverage) => self.has_coverage(),
-            (Content::Frame(_), _)
-            | (Content::Ids(_), Aspect::Ids)
+            // A frame keeps normals only on demand.
+            (Content::Frame(_), aspect) => aspect != Aspect::Normals,
+            (Content::Ids(_), Aspect::Ids)
             | (Content::Distances(_), Aspect::T)
+            | (Content::Normals(_), Aspect::Normals)
             | (Content::Picture(_), Aspect::Color) => true,
             _ => false,
         }
@@ -179,6 +188,7 @@ impl<'a> Buffer<'a> {
             Content::Mask(_) => "mask",
             Content::Ids(_) => "ids",
             Content::Distances(_) => "distances t",
+            Content::Normals(_) => "normals",
             Content::Picture(picture) => match picture.covered {
                 Covered::Unknown => "picture without coverage",
                 Covered::ByAlpha => "picture with alpha",
@@ -220,11 +230,18 @@ impl<'a> Buffer<'a> {
             Content::Distances(t) if t[sample].is_finite() => {
                 format!("t {}", distance_text(t[sample]))
             }
+            Content::Normals(normals) if self.covered(sample) == Some(true) => {
+                let [x, y, z] = normals[sample].map(|part| format!("{part:.4}"));
+                format!("normal ({x} {y} {z})")
+            }
             Content::Picture(picture) if self.covered(sample) != Some(false) => {
                 color_text(picture.pixels.get(sample), picture.covered == Covered::ByAlpha)
             }
             Content::Frame(_) => self.id(sample).map_or_else(nothing, |id| format!("id {id}")),
-            Content::Mask(_) | Content::Distances(_) | Content::Picture(_) => nothing(),
+            Content::Mask(_)
+            | Content::Distances(_)
+            | Content::Normals(_)
+            | Content::Picture(_) => nothing(),
         }
     }
 
@@ -258,6 +275,7 @@ impl<'a> Buffer<'a> {
             Content::Mask(mask) => Some(mask[sample]),
             Content::Ids(ids) => Some(ids[sample].is_some()),
             Content::Distances(t) => Some(t[sample].is_finite()),
+            Content::Normals(normals) => Some(has_direction(normals[sample])),
             Content::Picture(picture) => picture.covered(sample),
             Content::Frame(seen) => Some(seen.frame.ids()[sample] != NO_PRIMITIVE),
         }
@@ -270,7 +288,15 @@ impl<'a> Buffer<'a> {
             Content::Frame(seen) => {
                 Some(seen.frame.ids()[sample]).filter(|id| *id != NO_PRIMITIVE).map(u64::from)
             }
-            Content::Mask(_) | Content::Distances(_) | Content::Picture(_) => None,
+            _ => None,
+        }
+    }
+
+    /// The normal of a pixel; zero if the normal is unknown.
+    pub(super) fn normal(&self, sample: usize) -> [f32; 3] {
+        match &self.content {
+            Content::Normals(normals) => normals[sample],
+            _ => [0.0; 3],
         }
     }
 
@@ -279,7 +305,7 @@ impl<'a> Buffer<'a> {
         match &self.content {
             Content::Distances(t) => t[sample],
             Content::Frame(seen) => seen.frame.distances()[sample].into(),
-            Content::Mask(_) | Content::Ids(_) | Content::Picture(_) => f64::NAN,
+            _ => f64::NAN,
         }
     }
 
@@ -296,7 +322,7 @@ impl<'a> Buffer<'a> {
                 let [red, green, blue] = seen.picture[(pixel[1], pixel[0])].0.map(f32::from);
                 Some(([red, green, blue, 255.0], false))
             }
-            Content::Mask(_) | Content::Ids(_) | Content::Distances(_) => None,
+            _ => None,
         }
     }
 
@@ -305,7 +331,7 @@ impl<'a> Buffer<'a> {
         let picture = match &self.content {
             Content::Picture(picture) => picture,
             Content::Frame(seen) => return Some(seen.picture.clone()),
-            Content::Mask(_) | Content::Ids(_) | Content::Distances(_) => return None,
+            _ => return None,
         };
         let mut light = RgbImage::new(self.size[0], self.size[1]);
         for (pixel, [red, green, blue, _]) in light.pixels_mut().zip(picture.pixels.iter()) {
@@ -325,6 +351,10 @@ impl Picture {
             Covered::ByBackground(background) => Some(bytes([red, green, blue]) != background),
         }
     }
+}
+
+fn has_direction(normal: [f32; 3]) -> bool {
+    normal != [0.0; 3] && normal.iter().all(|part| part.is_finite())
 }
 
 /// The nearest 8-bit values.

@@ -5,6 +5,7 @@ use super::buffer::Buffer;
 use super::classes::Class;
 use super::tolerance::{CompareOptions, Tolerances};
 use crate::common::Crop;
+use crate::common::glam::DVec3;
 
 /// The aspects that make two pixels different.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,6 +27,7 @@ pub(super) struct BufferPair<'a> {
     /// Whether ids are compared; in the next two fields, distances and colours.
     ids: bool,
     t: bool,
+    normals: bool,
     color: bool,
 }
 
@@ -41,6 +43,8 @@ pub(super) struct PixelDifference {
     /// The largest relative difference of `t`, and the two distances.
     pub(super) depth: f64,
     pub(super) t: [f64; 2],
+    /// The angle between the normals, in degrees.
+    pub(super) angle: f64,
     pub(super) color: f32,
 }
 
@@ -57,13 +61,14 @@ impl PixelDifference {
             other_ids,
             depth: 0.0,
             t: [0.0; 2],
+            angle: 0.0,
             color: 0.0,
         }
     }
 
     pub(super) fn class(&self) -> Class {
         let measured = self.decides == Decides::Everything
-            && (self.has_other_depth() || self.has_other_color());
+            && (self.has_other_depth() || self.has_other_normal() || self.has_other_color());
         match self {
             PixelDifference { is_ignored: true, .. } => Class::Ignored,
             PixelDifference { only_a: 1.., .. } => Class::OnlyObjectOrder,
@@ -78,6 +83,11 @@ impl PixelDifference {
     /// Whether a difference of distances is beyond the tolerance.
     pub(super) fn has_other_depth(&self) -> bool {
         self.depth > self.tolerances.t
+    }
+
+    /// Whether the angle between the normals is beyond the tolerance.
+    pub(super) fn has_other_normal(&self) -> bool {
+        self.angle > self.tolerances.normals
     }
 
     /// Whether the difference of the colours is beyond the tolerance.
@@ -97,9 +107,10 @@ impl<'a> BufferPair<'a> {
     pub(super) fn new(a: &'a Buffer<'a>, b: &'a Buffer<'a>, decides: Decides) -> BufferPair<'a> {
         let unit = if a.samples() == b.samples() { Unit::Samples } else { Unit::Pixels };
         let compares = |aspect| unit == Unit::Samples && a.tells(aspect) && b.tells(aspect);
-        let [ids, t, color] = [Aspect::Ids, Aspect::T, Aspect::Color].map(compares);
+        let [ids, t, normals, color] =
+            [Aspect::Ids, Aspect::T, Aspect::Normals, Aspect::Color].map(compares);
         let (tolerances, ignored) = (Tolerances::default(), &[][..]);
-        BufferPair { a, b, decides, tolerances, ignored, unit, ids, t, color }
+        BufferPair { a, b, decides, tolerances, ignored, unit, ids, t, normals, color }
     }
 
     /// The same pair with other tolerances, and without the ignored pixels.
@@ -116,6 +127,7 @@ impl<'a> BufferPair<'a> {
             Aspect::Coverage => self.a.has_coverage() && self.b.has_coverage(),
             Aspect::Ids => self.ids,
             Aspect::T => self.t,
+            Aspect::Normals => self.normals,
             Aspect::Color => self.color,
         }
     }
@@ -197,6 +209,8 @@ impl<'a> BufferPair<'a> {
             if difference > found.depth {
                 (found.depth, found.t) = (difference, t);
             }
+        } else if self.normals {
+            found.angle = degrees(self.a.normal(a), self.b.normal(b));
         }
     }
 }
@@ -215,6 +229,12 @@ fn relative_difference([a, b]: [f64; 2]) -> f64 {
     // whole. So the result has the bits of `(a - b).abs() / larger` where that is finite, as it is for all `f32`.
     let scale = if larger < 1.0 { 1.0 } else { 0.5 };
     (a * scale - b * scale).abs() / (larger * scale)
+}
+
+/// The angle between two vectors, whatever their lengths: the arc tangent is accurate for small angles, too.
+fn degrees(a: [f32; 3], b: [f32; 3]) -> f64 {
+    let [a, b] = [a, b].map(|vector| DVec3::from_array(vector.map(f64::from)));
+    a.cross(b).length().atan2(a.dot(b)).to_degrees()
 }
 
 /// The largest difference in red, green and blue, and in alpha if both colours have alpha.

@@ -38,7 +38,8 @@ pub enum Incomparable {
     /// The buffers contain different aspects.
     #[error(
         "A ({a}) and B ({b}) have nothing in common to compare; \
-         a picture without alpha tells what is covered with --background COLOR"
+         a picture without alpha tells what is covered with --background COLOR, --channels chooses what of an \
+         EXR is read, and --normals says that colours are normals"
     )]
     NothingInCommon {
         /// The kind of A.
@@ -81,6 +82,8 @@ pub struct BufferComparison {
     pub ids: Option<BufferIds>,
     /// The comparison of distances, where both buffers cover.
     pub depth: Option<BufferDepth>,
+    /// The comparison of normals, where both buffers cover.
+    pub normals: Option<BufferNormals>,
     /// The comparison of colours, where neither buffer marks the pixel as uncovered.
     #[serde(rename = "colour")]
     pub color: Option<BufferColor>,
@@ -134,6 +137,17 @@ pub struct BufferDepth {
     /// The two distances there.
     pub t: Option<[f64; 2]>,
     /// The number of pixels with a sample beyond the tolerance.
+    pub differing_pixels: u64,
+}
+
+/// Normals where both cover.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct BufferNormals {
+    /// The largest angle between two normals of a pixel, in degrees.
+    pub max_degrees: f64,
+    /// The first pixel `[i, j]` with this angle, if any angle is more than 0.
+    pub at: Option<[u32; 2]>,
+    /// The number of pixels beyond the tolerance.
     pub differing_pixels: u64,
 }
 
@@ -196,6 +210,7 @@ pub(super) fn compare(pair: &BufferPair) -> Result<BufferComparison, Incomparabl
         coverage,
         ids: has(Aspect::Ids).then_some(sums.ids),
         depth: has(Aspect::T).then_some(sums.depth),
+        normals: has(Aspect::Normals).then_some(sums.normals),
         color: has(Aspect::Color).then_some(sums.color),
         measures: Measures::default(),
         hints: Vec::new(),
@@ -239,6 +254,7 @@ struct Sums {
     both: u64,
     ids: BufferIds,
     depth: BufferDepth,
+    normals: BufferNormals,
     color: BufferColor,
     ignored_pixels: u64,
     differing_pixels: u64,
@@ -258,6 +274,10 @@ impl Sums {
         if found.depth > self.depth.max_relative_difference {
             self.depth.max_relative_difference = found.depth;
             (self.depth.at, self.depth.t) = (Some(pixel), Some(found.t));
+        }
+        self.normals.differing_pixels += u64::from(found.has_other_normal());
+        if found.angle > self.normals.max_degrees {
+            (self.normals.max_degrees, self.normals.at) = (found.angle, Some(pixel));
         }
         self.color.differing_pixels += u64::from(found.has_other_color());
         if found.color > self.color.max_difference {

@@ -1,6 +1,7 @@
 //! A comparison of two files of any origin: where two renderers differ, and how.
 //!
-//! A [`Buffer`] is a mask, ids, distances or a picture, read from a PNG, PNM, BMP or NPY file by [`read`].
+//! A [`Buffer`] is a mask, ids, distances, normals or a picture, read from a PNG, PNM, BMP, JPEG, EXR or NPY file by
+//! [`read`].
 //! [`compare`] compares the aspects that both buffers contain: coverage and ids without tolerance, distances and
 //! colours within the tolerances of [`diff`](super).
 //!
@@ -14,8 +15,13 @@
 //! # Ok::<(), bothways::diff::foreign::Incomparable>(())
 //! ```
 
+mod channels;
+mod depth;
 mod hints;
+mod jpeg;
+mod normals;
 mod npy;
+mod open_exr;
 mod picture;
 mod png;
 mod problem;
@@ -24,9 +30,11 @@ mod read;
 pub use super::aspect::{Aspect, Side, Unit};
 pub use super::buffer::{Buffer, Content, Covered, Picture, Pixels, distance_text};
 pub use super::compare::{
-    BufferColor, BufferComparison, BufferCoverage, BufferDepth, BufferIds, Incomparable,
+    BufferColor, BufferComparison, BufferCoverage, BufferDepth, BufferIds, BufferNormals,
+    Incomparable,
 };
-pub use read::{ReadBufferError, read, read_from};
+pub use depth::{Depth, DepthError};
+pub use read::{ReadBuffer, ReadBufferError, ReadOptions, read, read_from, read_with};
 
 pub use super::measures::{BorderDistance, ColorMeasures, CoverageMeasures, Measures};
 pub use super::tolerance::{CompareOptions, Tolerances};

@@ -69,7 +69,7 @@ pub enum PairsError {
     },
     /// The folders have no pair of files.
     #[error(
-        "no file of {} (PNG, PNM, BMP or NPY) belongs to one of {}: {}",
+        "no file of {} (PNG, PNM, BMP, JPEG, EXR or NPY) belongs to one of {}: {}",
         .a.display(), .b.display(),
         if *.set {
             "call them NAME.png (a mask) or NAME.npy (ids), NAME being a scene's name"
@@ -88,7 +88,7 @@ pub enum PairsError {
 }
 
 /// The endings of the names of files that may be buffers.
-const ENDINGS: [&str; 7] = ["png", "npy", "bmp", "pgm", "ppm", "pbm", "pnm"];
+const ENDINGS: [&str; 10] = ["png", "npy", "exr", "bmp", "pgm", "ppm", "pbm", "pnm", "jpg", "jpeg"];
 /// The set's file for each kind of content.
 const KINDS: [&str; 3] = [".ids.npy", ".t.npy", ".mask.png"];
 const INDEX: &str = "index.json";
@@ -237,7 +237,7 @@ fn kind(folder: &Path, file: &str) -> &'static str {
         Ok(buffer) => match buffer.content() {
             Content::Ids(_) | Content::Frame(_) => ".ids.npy",
             Content::Distances(_) => ".t.npy",
-            Content::Mask(_) | Content::Picture(_) => ".mask.png",
+            Content::Mask(_) | Content::Normals(_) | Content::Picture(_) => ".mask.png",
         },
         // The comparison itself reports the error in this file.
         Err(_) => ".mask.png",

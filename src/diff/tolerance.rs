@@ -8,12 +8,17 @@ use serde::Serialize;
 pub const DEPTH_TOLERANCE: f64 = 1e-5;
 /// Two colours differ if their difference is more than this number of the 255 steps of sRGB.
 pub const COLOR_TOLERANCE: u8 = 2;
+/// Two normals differ if the angle between them is more than this number of degrees. Half-precision floats, in which
+/// many programs write normals, turn them by up to 0.03.
+pub const NORMAL_TOLERANCE: f64 = 0.1;
 
 /// The largest differences of measured values that still count as equal. Coverage and ids have no tolerance.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Tolerances {
     /// The part of the larger of two distances.
     pub t: f64,
+    /// Degrees between two normals.
+    pub normals: f64,
     /// Steps of the 255 of sRGB, in any channel.
     #[serde(rename = "colour")]
     pub color: f32,
@@ -21,7 +26,11 @@ pub struct Tolerances {
 
 impl Default for Tolerances {
     fn default() -> Tolerances {
-        Tolerances { t: DEPTH_TOLERANCE, color: f32::from(COLOR_TOLERANCE) }
+        Tolerances {
+            t: DEPTH_TOLERANCE,
+            normals: NORMAL_TOLERANCE,
+            color: f32::from(COLOR_TOLERANCE),
+        }
     }
 }
 

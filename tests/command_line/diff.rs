@@ -412,7 +412,8 @@ fn files_of_the_same_name_in_two_folders_are_compared() {
             .and(contains("6 are missing"));
     bothways(&home, &["diff", "out", "other"]).assert().code(1).stdout(said);
     fs::create_dir(home.path().join("empty")).unwrap();
-    let refused = contains("no file of out (PNG, PNM, BMP or NPY) belongs to one of empty");
+    let refused =
+        contains("no file of out (PNG, PNM, BMP, JPEG, EXR or NPY) belongs to one of empty");
     bothways(&home, &["diff", "out", "empty"]).assert().code(2).stdout("").stderr(refused);
 }
 

@@ -2,7 +2,7 @@
 //! conformance set.
 
 use super::options::differing;
-use super::{DiffArgs, count_of};
+use super::{DiffArgs, count_of, inputs};
 use crate::cli::failure::Failure;
 use crate::cli::output::Staging;
 use crate::cli::terminal;
@@ -14,7 +14,7 @@ use bothways::formats::source::quote::visible;
 use bothways::wording::count;
 use serde::Serialize;
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Compares all pairs and prints a table; the exit code is 0 if all pairs are equal and no file lacks its partner, 2 if
@@ -52,11 +52,25 @@ fn picture_of(pair: &Pair) -> String {
 }
 
 fn compared(args: &DiffArgs, pair: &Pair, set: Option<Side>) -> Result<BufferComparison, String> {
-    let read = |folder: &Path, file: &str| {
-        foreign::read(&folder.join(file), args.background).map_err(|error| error.to_string())
+    let paths = [args.a.join(&pair.a), args.b.join(&pair.b)];
+    let of_set = scene_of(args, pair, set);
+    let read =
+        inputs::read_pair(args, &paths, of_set.as_deref()).map_err(|error| error.to_string())?;
+    for file in &read {
+        terminal::warn(&file.warnings());
+    }
+    foreign::compare_with(&read[0].buffer, &read[1].buffer, &args.comparison.options(set))
+        .map_err(|error| error.to_string())
+}
+
+/// The scene file of a pair beside a conformance set.
+fn scene_of(args: &DiffArgs, pair: &Pair, set: Option<Side>) -> Option<PathBuf> {
+    let folder = match set? {
+        Side::A => &args.a,
+        Side::B => &args.b,
     };
-    let (a, b) = (read(&args.a, &pair.a)?, read(&args.b, &pair.b)?);
-    foreign::compare_with(&a, &b, &args.comparison.options(set)).map_err(|error| error.to_string())
+    let name = pair.name.split('.').next()?;
+    Some(folder.join(format!("{name}.toml")))
 }
 
 /// A pair, and the result of its comparison.
@@ -204,13 +218,7 @@ impl FolderReport<'_> {
         let file = |folder: &Path, file: &str| folder.join(file).display().to_string();
         let (a, b) = (file(&self.args.a, &row.pair.a), file(&self.args.b, &row.pair.b));
         let mut text = format!("next: bothways diff {a} {b} -o out/diff\n");
-        if let Some(side) = self.pairs.set {
-            let name = row.pair.name.split('.').next().unwrap_or_default();
-            let folder = match side {
-                Side::A => &self.args.a,
-                Side::B => &self.args.b,
-            };
-            let scene = folder.join(format!("{name}.toml"));
+        if let Some(scene) = scene_of(self.args, row.pair, self.pairs.set) {
             if let Some([i, j]) =
                 row.compared.as_ref().ok().and_then(|one| one.first_differing.first())
             {

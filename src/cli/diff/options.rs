@@ -16,6 +16,9 @@ pub(in crate::cli) struct ComparisonArgs {
     /// Colours are equal within so many of the 255 steps of sRGB, in each channel [default: 2]
     #[arg(long, value_name = "STEPS", value_parser = steps, allow_negative_numbers = true)]
     color_tolerance: Option<f32>,
+    /// Normals are equal within this angle [default: 0.1]
+    #[arg(long, value_name = "DEGREES", value_parser = degrees, allow_negative_numbers = true)]
+    normal_tolerance: Option<f64>,
     /// Files are equal enough, with exit code 0, if no more pixels than this differ
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = pixels,
           hide_default_value = true, allow_negative_numbers = true)]
@@ -32,6 +35,7 @@ impl ComparisonArgs {
         let usual = Tolerances::default();
         let tolerances = Tolerances {
             t: self.tolerance.unwrap_or(usual.t),
+            normals: self.normal_tolerance.unwrap_or(usual.normals),
             color: self.color_tolerance.unwrap_or(usual.color),
         };
         CompareOptions {
@@ -92,6 +96,13 @@ fn steps(text: &str) -> Result<f32, String> {
     }
 }
 
+fn degrees(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(number) if (0.0..=180.0).contains(&number) => Ok(number),
+        _ => Err("give an angle from 0 to 180 degrees".into()),
+    }
+}
+
 fn pixels(text: &str) -> Result<u64, String> {
     text.parse().map_err(|_| "give a whole number of pixels, from 0".into())
 }
@@ -111,6 +122,10 @@ mod tests {
     #[test]
     fn tolerances_are_numbers_from_0() {
         assert_eq!((tolerance("1e-4"), steps("0"), pixels("12")), (Ok(1e-4), Ok(0.0), Ok(12)));
+        assert_eq!(degrees("180"), Ok(180.0));
+        for bad in ["-1", "180.5", "x"] {
+            assert!(degrees(bad).is_err(), "{bad}");
+        }
         for bad in ["-1", "NaN", "inf", "x", "", "1e999"] {
             assert!(
                 tolerance(bad).is_err() && steps(bad).is_err() && pixels(bad).is_err(),

@@ -1,6 +1,8 @@
 //! NumPy arrays of any origin: every shape, order and number type of pixels.
 
+use super::normals::are_normals;
 use super::problem::{Problem, ends_early};
+use super::read::{ReadBuffer, ReadOptions};
 use super::{Buffer, Content, Covered, Picture, Pixels};
 use crate::common::raster::{MAX_SAMPLES, check_samples};
 use crate::formats::source::quote::shown;
@@ -18,12 +20,14 @@ const MAX_DEPTH: usize = 8;
 /// The most bytes of a header: NumPy itself refuses longer headers by default.
 const MAX_HEADER: usize = 10_000;
 
+const NOT_NORMALS: &str = "normals are arrays of floats of the shape H x W x 3; save them like that, or leave --normals out";
+
 /// Reads an array: a mask, ids, distances or colours, by shape and number type.
 pub(super) fn read(
     mut input: impl Read,
     length: u64,
-    background: Option<[u8; 3]>,
-) -> Result<Buffer<'static>, Problem> {
+    options: &ReadOptions,
+) -> Result<ReadBuffer, Problem> {
     let start = header_bytes(&mut input, length)?;
     let header = header(&start)?;
     let number = Number::of(&header.dtype())?;
@@ -42,10 +46,14 @@ pub(super) fn read(
     }
     let values = Values::new(&bytes, number, &header, layout.size);
     let content = match layout.channels {
+        3 if options.normals || are_normals(values.vectors()) => {
+            Content::Normals(values.normals()?)
+        }
+        _ if options.normals => return Err(Problem::Content(NOT_NORMALS.into())),
         1 => values.content()?,
-        channels => Content::Picture(values.picture(channels, background)?),
+        channels => Content::Picture(values.picture(channels, options.background)?),
     };
-    Ok(Buffer::new(layout.size, layout.samples, content))
+    Ok(Buffer::new(layout.size, layout.samples, content).into())
 }
 
 /// Room for `bytes` bytes of a file, if the memory suffices.
@@ -360,6 +368,22 @@ impl<'a> Values<'a> {
             (_, None) => Covered::Unknown,
         };
         Ok(Picture { pixels: Pixels::Steps(pixels), covered })
+    }
+
+    /// The vectors of an array of floats; nothing for other numbers.
+    fn vectors(&self) -> impl Iterator<Item = [f32; 3]> {
+        let is_float = self.number.kind == TypeChar::Float;
+        #[expect(clippy::cast_possible_truncation, reason = "far finer than the tolerance")]
+        let mut values =
+            self.bits().take_while(move |_| is_float).map(|bits| self.number.float(bits) as f32);
+        std::iter::from_fn(move || Some([values.next()?, values.next()?, values.next()?]))
+    }
+
+    fn normals(&self) -> Result<Vec<[f32; 3]>, String> {
+        match self.number.kind {
+            TypeChar::Float => Ok(self.vectors().collect()),
+            _ => Err(NOT_NORMALS.into()),
+        }
     }
 
     /// The pixel of a value, for a message.

@@ -1,19 +1,21 @@
 //! Pictures of any origin: PNG and the other formats that the `image` crate reads.
 
-use super::png;
 use super::problem::{Problem, ends_early};
+use super::read::{ReadBuffer, ReadOptions};
+use super::{jpeg, png};
 use crate::common::raster::check_samples;
 use crate::diff::buffer::{Buffer, Content, Covered, Picture, Pixels};
 use crate::formats::source::quote::visible;
 use image::error::ImageError;
 use image::{
-    ColorType, DynamicImage, GenericImageView, ImageDecoder, ImageFormat, ImageReader, Limits,
+    ColorType, DynamicImage, GenericImageView, GrayImage, ImageDecoder, ImageFormat, ImageReader,
+    Limits, Rgb,
 };
 use std::io::{BufRead, ErrorKind, Read, Seek};
 
 /// The most memory that reading a picture may take. A grey picture of 2³⁰ pixels fits, and a picture of 2²⁸ pixels
 /// with four channels of 8 bits.
-const MOST_MEMORY: u64 = 2 << 30;
+pub(super) const MOST_MEMORY: u64 = 2 << 30;
 /// The most pixels that two bytes of a run-length BMP can fill.
 const LONGEST_RUN: u64 = 255;
 
@@ -22,11 +24,19 @@ pub(super) fn read(
     mut input: impl BufRead + Seek,
     length: u64,
     format: ImageFormat,
-    background: Option<[u8; 3]>,
-) -> Result<Buffer<'static>, Problem> {
+    options: &ReadOptions,
+) -> Result<ReadBuffer, Problem> {
+    if options.normals {
+        return Err(Problem::Content(
+            "normals are read from floats; save them as NPY (H x W x 3) or EXR, or leave --normals out"
+                .into(),
+        ));
+    }
+    let mut has_palette = false;
     match format {
-        ImageFormat::Png => png::check(&mut input, length)?,
+        ImageFormat::Png => has_palette = png::check(&mut input, length)?,
         ImageFormat::Bmp => check_runs(&mut input, length)?,
+        ImageFormat::Jpeg => jpeg::check(&mut input, length)?,
         _ => {}
     }
     input.rewind()?;
@@ -40,10 +50,33 @@ pub(super) fn read(
     check_samples(size, 1)?;
     let color = decoder.color_type();
     // A grey picture may become a mask.
-    let kept = if color == ColorType::L8 || color == ColorType::L16 { 1 } else { kept(color) };
+    let mut kept = if color == ColorType::L8 || color == ColorType::L16 { 1 } else { kept(color) };
+    let mut warnings = Vec::new();
+    if format == ImageFormat::Jpeg {
+        jpeg::check_size(size, length)?;
+        warnings.push(jpeg::WARNING.into());
+        // A progressive JPEG is in memory as coefficients of two bytes, too.
+        kept += 2 * color.channel_count();
+    }
     check_memory(size, color, kept)?;
     let picture = DynamicImage::from_decoder(decoder).map_err(told)?;
-    Ok(Buffer::new(size, 1, content(picture, background)?))
+    let picture = if has_palette { without_palette(picture) } else { picture };
+    let content = content(picture, options.background)?;
+    Ok(ReadBuffer { warnings, ..Buffer::new(size, 1, content).into() })
+}
+
+/// A picture whose palette has grey colours alone is grey: programs save masks like that, to need only one bit.
+fn without_palette(picture: DynamicImage) -> DynamicImage {
+    match picture {
+        DynamicImage::ImageRgb8(colors)
+            if colors.pixels().all(|Rgb([red, green, blue])| red == green && green == blue) =>
+        {
+            let greys = colors.pixels().map(|pixel| pixel.0[0]).collect();
+            let grey = GrayImage::from_raw(colors.width(), colors.height(), greys);
+            DynamicImage::ImageLuma8(grey.expect("a grey for each pixel"))
+        }
+        picture => picture,
+    }
 }
 
 /// Checks that the decoded picture and its [`Buffer`] together fit into the permitted memory.
@@ -96,6 +129,7 @@ fn problem(error: ImageError, format: ImageFormat, length: u64) -> Problem {
     let name = match format {
         ImageFormat::Png => "PNG",
         ImageFormat::Bmp => "BMP",
+        ImageFormat::Jpeg => "JPEG",
         _ => "PNM",
     };
     Problem::Content(match error {

@@ -12,8 +12,9 @@ const HEADER: u32 = 13;
 /// The most bytes of a palette: 256 colours.
 const LARGEST_PALETTE: u32 = 3 * 256;
 
-/// Walks through the chunks of a file of `file_length` bytes.
-pub(super) fn check(input: &mut (impl BufRead + Seek), file_length: u64) -> Result<(), Problem> {
+/// Walks through the chunks of a file of `file_length` bytes. The result says whether the pixels are colours of a
+/// palette.
+pub(super) fn check(input: &mut (impl BufRead + Seek), file_length: u64) -> Result<bool, Problem> {
     let mut at = input.seek(SeekFrom::Start(SIGNATURE))?;
     let mut found = Found::default();
     while at < file_length {
@@ -41,12 +42,15 @@ pub(super) fn check(input: &mut (impl BufRead + Seek), file_length: u64) -> Resu
             b"IHDR" if length == HEADER && at == SIGNATURE => found.header(start)?,
             b"PLTE" => found.palette = true,
             b"IDAT" => found.pixels()?,
-            b"IEND" => return found.end(),
+            b"IEND" => {
+                found.end()?;
+                break;
+            }
             _ => {}
         }
         at += 12 + u64::from(length);
     }
-    Ok(())
+    Ok(found.needs_palette)
 }
 
 /// The checksum over a chunk's name and content, and the content's first bytes.

@@ -1,7 +1,7 @@
 //! Reads a file of any origin. The content determines the format, not the name.
 
 use super::problem::Problem;
-use super::{npy, picture};
+use super::{npy, open_exr, picture};
 use crate::common::SizeError;
 use crate::diff::buffer::Buffer;
 use crate::formats::source::{READ_AT_ONCE, regular_file};
@@ -21,7 +21,7 @@ pub enum ReadBufferError {
     },
     /// The first bytes of the file belong to no known format.
     #[error(
-        "{} is neither a picture (PNG, PNM, BMP) nor a NumPy array (.npy); \
+        "{} is neither a picture (PNG, PNM, BMP, JPEG, EXR) nor a NumPy array (.npy); \
          save it as one of these",
         .path.display()
     )]
@@ -63,7 +63,35 @@ pub enum ReadBufferError {
     },
 }
 
-/// Reads a picture (PNG, PNM, BMP; 8 or 16 bits) or a NumPy array.
+/// How files are read whose content alone does not say enough.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ReadOptions {
+    /// The colour (in sRGB) of uncovered pixels in pictures that have colours but no alpha.
+    pub background: Option<[u8; 3]>,
+    /// The channels to read of an EXR, by their names; if empty, those that its names suggest.
+    pub channels: Vec<String>,
+    /// Whether three floats of a pixel are a normal, whatever their values.
+    pub normals: bool,
+}
+
+/// A buffer, and what there is to say about how it was read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReadBuffer {
+    /// What the file holds.
+    pub buffer: Buffer<'static>,
+    /// Which parts of the file were read, in a few words each.
+    pub notes: Vec<String>,
+    /// What makes the content doubtful.
+    pub warnings: Vec<String>,
+}
+
+impl From<Buffer<'static>> for ReadBuffer {
+    fn from(buffer: Buffer<'static>) -> ReadBuffer {
+        ReadBuffer { buffer, notes: Vec::new(), warnings: Vec::new() }
+    }
+}
+
+/// Reads a picture (PNG, PNM, BMP, 8 or 16 bits; JPEG; EXR) or a NumPy array.
 ///
 /// `background` (in sRGB) is the colour of uncovered pixels in pictures that have colours but no alpha.
 ///
@@ -71,29 +99,43 @@ pub enum ReadBufferError {
 ///   where it is not 0. With alpha: covered where alpha is more than 0.
 /// - NPY of shape H×W or H×W×N×N: `bool` is a mask, integers are ids (all ones, -1 too, are
 ///   nothing), floats are distances (±∞ and NaN are nothing).
-/// - NPY of shape H×W×3 or H×W×4: sRGB colours, as `uint8`, `uint16` or floats from 0 to 1.
+/// - NPY of shape H×W×3 or H×W×4: sRGB colours, as `uint8`, `uint16` or floats from 0 to 1. Three floats are normals
+///   if some are negative and all are of unit length.
+/// - EXR: R, G, B (and A) are colours, linear and multiplied by alpha as OpenEXR has it, brought to sRGB; a single channel,
+///   or one with a known name (`Z`, `depth`, `id`, `object_id`, …): distances of floats, ids of integers; three
+///   (`normal.X`, …): normals.
 ///
 /// # Errors
 ///
 /// If the file cannot be read, or has none of these formats.
 pub fn read(path: &Path, background: Option<[u8; 3]>) -> Result<Buffer<'static>, ReadBufferError> {
-    let file = regular_file(path);
-    let file = file.map_err(|error| ReadBufferError::Open { path: path.to_owned(), error })?;
-    read_from(path, BufReader::with_capacity(READ_AT_ONCE, file), background)
+    let options = ReadOptions { background, ..ReadOptions::default() };
+    read_with(path, &options).map(|read| read.buffer)
 }
 
-/// Reads the content of an input, as [`read`] does; messages use the name `path`.
+/// The same with more to say about the file, and with what there is to say about how it was read.
+///
+/// # Errors
+///
+/// The errors of [`read`], and channels that cannot be chosen.
+pub fn read_with(path: &Path, options: &ReadOptions) -> Result<ReadBuffer, ReadBufferError> {
+    let file = regular_file(path);
+    let file = file.map_err(|error| ReadBufferError::Open { path: path.to_owned(), error })?;
+    read_from(path, BufReader::with_capacity(READ_AT_ONCE, file), options)
+}
+
+/// Reads the content of an input, as [`read_with`] does; messages use the name `path`.
 ///
 /// No number in the input makes the reader allocate memory before the format is known and the size is within bounds.
 ///
 /// # Errors
 ///
-/// The errors of [`read`].
+/// The errors of [`read_with`].
 pub fn read_from(
     path: &Path,
     mut input: impl BufRead + Seek,
-    background: Option<[u8; 3]>,
-) -> Result<Buffer<'static>, ReadBufferError> {
+    options: &ReadOptions,
+) -> Result<ReadBuffer, ReadBufferError> {
     let path = || path.to_owned();
     let start = start(&mut input);
     let (start, length) = start.map_err(|error| ReadBufferError::Open { path: path(), error })?;
@@ -101,11 +143,13 @@ pub fn read_from(
         return Err(ReadBufferError::Archive { path: path() });
     }
     let read = if start.starts_with(npy::MAGIC) {
-        npy::read(input, length, background)
+        npy::read(input, length, options)
+    } else if start.starts_with(open_exr::MAGIC) {
+        open_exr::read(input, length, options)
     } else if let Ok(format) = image::guess_format(&start)
         && format.reading_enabled()
     {
-        picture::read(input, length, format, background)
+        picture::read(input, length, format, options)
     } else {
         return Err(ReadBufferError::UnknownFormat { path: path() });
     };

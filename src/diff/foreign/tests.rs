@@ -1,6 +1,8 @@
 //! Files and buffers made by hand, and the messages about them.
 
+mod exr;
 mod options;
+mod pictures;
 
 use super::*;
 use crate::diff::Class;

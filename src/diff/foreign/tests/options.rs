@@ -32,7 +32,7 @@ fn a_tolerance_is_the_largest_difference_that_is_equal() {
 
 #[test]
 fn no_tolerance_touches_coverage_and_ids() {
-    let tolerances = Tolerances { t: 1e9, color: 1e9 };
+    let tolerances = Tolerances { t: 1e9, normals: 360.0, color: 1e9 };
     let options = CompareOptions { tolerances, ..CompareOptions::default() };
     let (a, b) = (ids([3, 1], "01."), ids([3, 1], "020"));
     assert_eq!(compare_with(&a, &b, &options).unwrap().differing_pixels, 2);
