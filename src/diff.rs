@@ -17,6 +17,7 @@ mod measures;
 mod orders;
 pub mod pairs;
 mod tolerance;
+pub mod why;
 
 pub use classes::{Class, Classes};
 pub use orders::{Color, Comparison, Coverage, Depth, Visible, compare, compare_shown};

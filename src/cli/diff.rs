@@ -4,11 +4,13 @@ mod folders;
 mod inputs;
 mod measures;
 mod options;
+mod why;
 
 use super::failure::Failure;
 use super::output::Staging;
 use super::terminal;
 use anstyle::{AnsiColor, Style};
+use bothways::common::View;
 use bothways::diff::foreign::{self, Aspect, Buffer, BufferComparison, Unit};
 use bothways::diff::pairs::reference;
 use bothways::formats::source::quote::visible;
@@ -21,6 +23,7 @@ use serde::Serialize;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use why::Why;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -48,8 +51,8 @@ that begin with a scene's name, by what is in them: ids, distances or a mask.
 Exit codes: 0 equal in everything compared, 1 something differs or lacks its partner, 2 something went
 wrong.";
 
-/// The only output file.
-const NAMES: [&str; 1] = ["difference.png"];
+/// The output files.
+const NAMES: [&str; 2] = ["difference.png", "reasons.png"];
 
 /// What to compare.
 #[derive(Debug, Args)]
@@ -71,6 +74,10 @@ pub(super) struct DiffArgs {
     inputs: InputArgs,
     #[command(flatten)]
     scene: SceneArgs,
+    /// Tell of this pixel alone why it differs: its row and column, counted from 0
+    #[arg(long, value_name = "ROW,COLUMN", value_parser = pixel, requires = "scene",
+          conflicts_with = "json", allow_hyphen_values = true)]
+    pixel: Option<[u32; 2]>,
     /// Print the comparison as JSON
     #[arg(long)]
     json: bool,
@@ -99,16 +106,47 @@ pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
         let (a, b) = (args.a.display(), args.b.display());
         Failure::new(format!("A = {a}, B = {b}: {error}"))
     })?;
+    let scene = inputs::scene_of_size(&args.scene, None, Some(a.size()))?;
+    let why = scene.as_ref().map(|(loaded, camera)| {
+        let view = View::new(&loaded.scene, camera);
+        Why::find(&view, [a, b], &comparison, why::arguments(&args.scene, a.size()))
+    });
+    let [width, height] = a.size();
+    if let Some([i, j]) = args.pixel.filter(|&[i, j]| i >= height || j >= width) {
+        return Err(Failure::new(format!(
+            "--pixel {i},{j}: there is no such pixel in {width}x{height}: rows go from 0 to {}, columns from 0 to {}",
+            height - 1,
+            width - 1
+        )));
+    }
     if let Some(folder) = &args.folder {
         let mut staging = Staging::begin_with(folder, NAMES.map(str::to_owned).to_vec())?;
         staging.write_rgb(NAMES[0], &enlarged(comparison.picture()))?;
+        if let Some(why) = &why {
+            staging.write_rgb(NAMES[1], &why.picture(&comparison))?;
+        }
         staging.commit()?;
     }
     let notes = [&read[0], &read[1]].map(ReadFile::notes);
-    let report = FileReport { files: [(&args.a, a), (&args.b, b)], notes, comparison: &comparison };
-    let text = if args.json { report.json()? } else { report.text(args.folder.as_deref()) };
+    let files = [(&args.a, a), (&args.b, b)];
+    let report = FileReport { files, notes, comparison: &comparison, why: why.as_ref() };
+    let text = match (args.pixel, &why) {
+        _ if args.json => report.json()?,
+        (Some(pixel), Some(why)) => why.pixel(pixel),
+        _ => report.text(args.folder.as_deref()),
+    };
     terminal::print(&text)?;
     Ok(ExitCode::from(u8::from(!comparison.passes)))
+}
+
+/// A row and a column.
+fn pixel(text: &str) -> Result<[u32; 2], String> {
+    let number = |text: &str| text.trim().parse::<u32>().ok();
+    let numbers = text.split_once(',').map(|(row, column)| [number(row), number(column)]);
+    match numbers {
+        Some([Some(row), Some(column)]) => Ok([row, column]),
+        _ => Err("write a row and a column, such as 12,40; both count from 0".into()),
+    }
 }
 
 /// A colour in sRGB.
@@ -130,6 +168,8 @@ struct FileReport<'a> {
     /// Which part of each file was read, and how.
     notes: [String; 2],
     comparison: &'a BufferComparison,
+    /// Why they differ, if their scene is known.
+    why: Option<&'a Why<'a>>,
 }
 
 /// The comparison for programs.
@@ -139,6 +179,8 @@ struct Json<'a> {
     b: JsonFile,
     #[serde(flatten)]
     comparison: &'a BufferComparison,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    why: Option<why::WhyJson>,
 }
 
 #[derive(Serialize)]
@@ -155,7 +197,7 @@ impl FileReport<'_> {
             kind: buffer.kind(),
             samples: buffer.samples(),
         });
-        terminal::json(&Json { a, b, comparison: self.comparison })
+        terminal::json(&Json { a, b, comparison: self.comparison, why: self.why.map(Why::json) })
     }
 
     fn text(&self, folder: Option<&Path>) -> String {
@@ -164,7 +206,10 @@ impl FileReport<'_> {
         text += &measures::text(self.comparison);
         self.largest(&mut text);
         self.first(&mut text);
-        text += &hints(&self.comparison.hints);
+        text += &match self.why {
+            Some(why) => why.text(),
+            None => hints(&self.comparison.hints),
+        };
         let color = if self.comparison.passes { AnsiColor::Green } else { AnsiColor::Yellow };
         let style = color.on_default().bold();
         line(&mut text, format_args!("{style}{}{style:#}", self.verdict()));

@@ -70,14 +70,6 @@ impl ReadFile {
     }
 }
 
-/// The scene and its camera, if the user names a scene.
-///
-/// Without `--size` the camera has the scene's image; [`scene_of_size`] has that of the files.
-#[expect(dead_code, reason = "for what the diff says about scenes")]
-pub(in crate::cli) fn scene(args: &DiffArgs) -> Result<Option<(LoadedScene, Camera)>, Failure> {
-    scene_of_size(&args.scene, None, None)
-}
-
 /// The scene that the user names, or another one if there is none; without `--size` its image has this size.
 pub(in crate::cli) fn scene_of_size(
     args: &SceneArgs,
@@ -142,9 +134,11 @@ pub(super) fn read_pair(
         Ok::<_, Failure>(ReadFile { buffer, path: path.clone(), has_channels, notes, warnings })
     };
     let [mut a, mut b] = [read(0)?, read(1)?];
-    let named =
-        scene_of_size(&args.scene, scene.filter(|_| !depth.is_empty()), Some(a.buffer.size()))?;
-    let camera = named.map(|(_, camera)| camera);
+    let camera = if depth.is_empty() {
+        None
+    } else {
+        scene_of_size(&args.scene, scene, Some(a.buffer.size()))?.map(|(_, camera)| camera)
+    };
     let files = [(0, &mut a), (1, &mut b)];
     for (side, file) in files {
         if let Some(depth) = of_side(depth, side).filter(|_| depth.len() == 2 || !is_t(&file.path))

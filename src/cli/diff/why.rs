@@ -1,0 +1,327 @@
+//! `bothways diff A B --scene SCENE`: why the files differ, by the scene that they show.
+
+use super::inputs::SceneArgs;
+use super::line;
+use crate::cli::args::ProjectionArg;
+use anstyle::Style;
+use bothways::common::{Camera, View};
+use bothways::diff::foreign::{Buffer, BufferComparison, Side};
+use bothways::diff::why::{
+    Explanation, Finding, Findings, PixelReason, Reason, ReasonKind, Reasons, find_conventions,
+    find_reasons,
+};
+use bothways::figure::{Entry, with_legend};
+use bothways::picture::enlarged;
+use bothways::wording::{count, grouped};
+use image::{Rgb, RgbImage};
+use serde::Serialize;
+
+/// Why two files differ.
+pub(super) struct Why<'a> {
+    camera: &'a Camera,
+    /// The scene and the camera's options, as they were given: what `bothways pixel` needs.
+    scene: String,
+    /// The conventions of A and of B, or why they cannot be found.
+    conventions: [Result<Findings, String>; 2],
+    /// The reasons of the differing pixels, or why there are none.
+    reasons: Result<Reasons, String>,
+}
+
+impl<'a> Why<'a> {
+    /// Searches for reasons and conventions.
+    pub(super) fn find(
+        view: &View<'a>,
+        [a, b]: [&Buffer; 2],
+        comparison: &BufferComparison,
+        scene: String,
+    ) -> Why<'a> {
+        let differing: Vec<[u32; 2]> =
+            comparison.classes().differing().map(|(pixel, _)| pixel).collect();
+        let conventions =
+            [a, b].map(|file| find_conventions(view, file).map_err(|error| error.to_string()));
+        let reasons = find_reasons(view, a, b, &differing).map_err(|error| error.to_string());
+        Why { camera: view.camera, scene, conventions, reasons }
+    }
+
+    /// The report as text: reasons, conventions, and the next step.
+    pub(super) fn text(&self) -> String {
+        let mut text = String::new();
+        match &self.reasons {
+            Ok(reasons) => self.table(reasons, &mut text),
+            Err(error) => line(&mut text, format_args!("no reasons: {error}")),
+        }
+        for (name, found) in ["A", "B"].into_iter().zip(&self.conventions) {
+            match found {
+                Ok(findings) => self.conventions_of(name, findings, &mut text),
+                Err(error) => line(&mut text, format_args!("no conventions of {name}: {error}")),
+            }
+        }
+        if let Some([i, j]) = self.telling() {
+            line(&mut text, format_args!("see why: bothways pixel {} {i} {j}", self.scene));
+        }
+        text
+    }
+
+    fn table(&self, reasons: &Reasons, text: &mut String) {
+        if reasons.pixels.is_empty() {
+            return;
+        }
+        let bold = Style::new().bold();
+        let head = format!(
+            "{bold}{:34}{:>12}{:>12}{:>12}{bold:#}",
+            "reasons", "A is wrong", "B is wrong", "both"
+        );
+        line(text, format_args!("{head}"));
+        for (kind, all) in reasons.counts() {
+            let wrong = |side: Option<Side>| {
+                let some = reasons.pixels.iter();
+                some.filter(|one| one.reason.kind() == kind && one.wrong == side).count() as u64
+            };
+            let numbers = [Some(Side::A), Some(Side::B), None].map(wrong);
+            let numbers = if reasons.is_partial() {
+                let looked: u64 = numbers.iter().sum();
+                numbers.map(|number| number * all / looked.max(1))
+            } else {
+                numbers
+            };
+            let [a, b, both] = numbers.map(grouped);
+            line(
+                text,
+                format_args!(
+                    "{:34}{a:>12}{b:>12}{both:>12}{}",
+                    kind.name(),
+                    farthest(reasons, kind)
+                ),
+            );
+        }
+        if reasons.is_partial() {
+            let looked = grouped(reasons.pixels.len() as u64);
+            line(
+                text,
+                format_args!(
+                    "({looked} pixels were looked at, spread evenly; the numbers are scaled)"
+                ),
+            );
+        }
+        text.push('\n');
+    }
+
+    fn conventions_of(&self, name: &str, findings: &Findings, text: &mut String) {
+        let Findings { pixels, differing, finding } = findings;
+        let all = grouped(*pixels);
+        let wrong = count(*differing, "pixels");
+        match finding {
+            Finding::True => line(
+                text,
+                format_args!("{name} shows what is true of the scene in all {all} pixels"),
+            ),
+            Finding::NoEvidence(reason) => {
+                line(text, format_args!("{name} is no evidence of conventions: {reason}"));
+            }
+            Finding::Unexplained => line(
+                text,
+                format_args!(
+                    "{name} is wrong in {wrong}, and no convention that is known here explains a tenth of them"
+                ),
+            ),
+            Finding::Explained(explanations) => {
+                self.explanations(name, *differing, explanations, text);
+            }
+        }
+    }
+
+    fn explanations(&self, name: &str, differing: u64, found: &[Explanation], text: &mut String) {
+        let wrong = count(differing, "pixels");
+        let guess = found[0].is_a_guess(differing);
+        let how = match (found.len(), guess) {
+            (1, false) => "one explanation fits best",
+            (1, true) => "a guess, which explains less than half",
+            (_, false) => "these explain equally much, and the files cannot tell which it is",
+            (_, true) => "guesses, which explain less than half",
+        };
+        line(text, format_args!("{name} is wrong in {wrong}; {how}:"));
+        for one in found {
+            let sentences = one.sentences(name, self.camera);
+            for (index, sentence) in sentences.iter().enumerate() {
+                let mark = if index == 0 { "-" } else { "  and" };
+                line(text, format_args!("  {mark} {sentence}"));
+            }
+            let (explained, remaining) = (grouped(one.explained), count(one.remaining, "pixels"));
+            let rest = if one.remaining == 0 {
+                "nothing remains".into()
+            } else {
+                format!("{remaining} remain")
+            };
+            line(text, format_args!("    explains {explained} of {}; {rest}", grouped(differing)));
+        }
+    }
+
+    /// The pixel that says most: one that the conventions of a file explain, else the first with a reason.
+    pub(super) fn telling(&self) -> Option<[u32; 2]> {
+        let explained = self.conventions.iter().flatten().find_map(|found| match &found.finding {
+            Finding::Explained(explanations) => explanations[0].telling,
+            _ => None,
+        });
+        let known =
+            |one: &&PixelReason| !matches!(one.reason, Reason::Unexplained | Reason::CannotTell);
+        let reasons = self.reasons.as_ref().map_or(&[][..], |reasons| &reasons.pixels);
+        let first = reasons.iter().find(known).or(reasons.first());
+        explained.or(first.map(|one| one.pixel))
+    }
+
+    /// The evidence of one pixel.
+    pub(super) fn pixel(&self, pixel: [u32; 2]) -> String {
+        let [i, j] = pixel;
+        let reasons = match &self.reasons {
+            Ok(reasons) => reasons,
+            Err(error) => return format!("no reason for ({i}, {j}): {error}\n"),
+        };
+        let found = reasons.pixels.iter().find(|one| one.pixel == pixel);
+        let Some(found) = found else {
+            return format!("the files do not differ at ({i}, {j}), or it was not looked at\n");
+        };
+        let wrong = match found.wrong {
+            Some(Side::A) => "A is wrong",
+            Some(Side::B) => "B is wrong",
+            None => "both are wrong",
+        };
+        let truth = found.truth.map_or("nothing".into(), |id| format!("id {id}"));
+        format!(
+            "({i}, {j}): {truth} is seen in truth; {wrong}: {}\nsee why: bothways pixel {} {i} {j}\n",
+            found.reason.sentence(),
+            self.scene
+        )
+    }
+
+    /// The pixels of each kind of reason.
+    pub(super) fn groups(&self) -> Vec<(ReasonKind, Vec<[u32; 2]>)> {
+        let Ok(reasons) = &self.reasons else { return Vec::new() };
+        let of = |kind: ReasonKind| {
+            let some = reasons.pixels.iter().filter(move |one| one.reason.kind() == kind);
+            (kind, some.map(|one| one.pixel).collect::<Vec<_>>())
+        };
+        let groups = ReasonKind::ALL.into_iter().map(of);
+        groups.filter(|(_, pixels)| !pixels.is_empty()).collect()
+    }
+
+    /// The difference image, coloured by reason, with a legend.
+    pub(super) fn picture(&self, comparison: &BufferComparison) -> RgbImage {
+        let mut picture = comparison.picture();
+        let groups = self.groups();
+        for (kind, pixels) in &groups {
+            for &[i, j] in pixels {
+                picture.put_pixel(j, i, Rgb(kind.color()));
+            }
+        }
+        let counts = self.reasons.as_ref().map_or(Vec::new(), Reasons::counts);
+        let entries: Vec<Entry> = counts
+            .into_iter()
+            .map(|(kind, pixels)| Entry { color: kind.color(), name: kind.name(), pixels })
+            .collect();
+        with_legend(&enlarged(picture), &entries)
+    }
+
+    /// The report for programs.
+    pub(super) fn json(&self) -> WhyJson {
+        WhyJson {
+            reasons: self.reasons.as_ref().ok().map(|reasons| {
+                let counts = reasons.counts().into_iter();
+                counts.map(|(kind, pixels)| ReasonJson { kind, pixels }).collect()
+            }),
+            a: self.file_json("A", &self.conventions[0]),
+            b: self.file_json("B", &self.conventions[1]),
+            telling: self.telling(),
+        }
+    }
+
+    fn file_json(&self, name: &str, found: &Result<Findings, String>) -> FileJson {
+        let (differing, finding, note, explanations) = match found {
+            Err(error) => (None, "not_searched", Some(error.clone()), &[][..]),
+            Ok(Findings { differing, finding, .. }) => match finding {
+                Finding::True => (Some(*differing), "true", None, &[][..]),
+                Finding::NoEvidence(reason) => {
+                    (Some(*differing), "no_evidence", Some(reason.clone()), &[][..])
+                }
+                Finding::Unexplained => (Some(*differing), "unexplained", None, &[][..]),
+                Finding::Explained(found) => {
+                    let guess = found[0].is_a_guess(*differing);
+                    (Some(*differing), if guess { "guess" } else { "explained" }, None, &found[..])
+                }
+            },
+        };
+        let explanations = explanations.iter().map(|one| ExplanationJson {
+            sentences: one.sentences(name, self.camera),
+            explained: one.explained,
+            remaining: one.remaining,
+        });
+        FileJson { wrong_pixels: differing, finding, note, explanations: explanations.collect() }
+    }
+}
+
+/// `, at most 0.004 pixels from an edge`.
+fn farthest(reasons: &Reasons, kind: ReasonKind) -> String {
+    let farthest = reasons.pixels.iter().filter_map(|one| match one.reason {
+        Reason::Rounding { pixels, .. } if kind == ReasonKind::Rounding => Some(pixels),
+        _ => None,
+    });
+    let farthest = farthest.fold(f64::NAN, f64::max);
+    if farthest.is_nan() {
+        String::new()
+    } else {
+        format!("  (at most {farthest:.2e} pixels away)")
+    }
+}
+
+/// Reasons and conventions for programs.
+#[derive(Serialize)]
+pub(super) struct WhyJson {
+    reasons: Option<Vec<ReasonJson>>,
+    a: FileJson,
+    b: FileJson,
+    telling: Option<[u32; 2]>,
+}
+
+#[derive(Serialize)]
+struct ReasonJson {
+    kind: ReasonKind,
+    pixels: u64,
+}
+
+#[derive(Serialize)]
+struct FileJson {
+    wrong_pixels: Option<u64>,
+    finding: &'static str,
+    note: Option<String>,
+    explanations: Vec<ExplanationJson>,
+}
+
+#[derive(Serialize)]
+struct ExplanationJson {
+    sentences: Vec<String>,
+    explained: u64,
+    remaining: u64,
+}
+
+/// The scene and the options of its camera, as `bothways pixel` takes them.
+pub(super) fn arguments(args: &SceneArgs, files: [u32; 2]) -> String {
+    let SceneArgs { scene, camera } = args;
+    let mut words: Vec<String> = scene.iter().cloned().collect();
+    let mut add = |name: &str, value: Option<String>| {
+        words.extend(value.map(|value| format!("--{name} {value}")));
+    };
+    let list = |numbers: &[f32]| numbers.iter().map(f32::to_string).collect::<Vec<_>>().join(",");
+    let [width, height] = camera.size.unwrap_or(files);
+    add("size", Some(format!("{width}x{height}")));
+    let projection = camera.projection.map(|projection| match projection {
+        ProjectionArg::Perspective => "perspective",
+        ProjectionArg::Parallel => "parallel",
+    });
+    add("projection", projection.map(str::to_owned));
+    add("eye", camera.eye.map(|eye| list(&eye.to_array())));
+    add("look-at", camera.look_at.map(|target| list(&target.to_array())));
+    add("up", camera.up.map(|up| list(&up.to_array())));
+    add("distance", camera.distance.map(|distance| distance.to_string()));
+    add("viewport", camera.viewport.map(|viewport| list(&viewport)));
+    add("fov", camera.fov.map(|fov| fov.to_string()));
+    words.join(" ")
+}

@@ -1,0 +1,25 @@
+//! Why do two renderings of one scene differ?
+//!
+//! - [`find_reasons`]: the reason for each differing pixel, decided by the exact judge.
+//! - [`find_conventions`]: what a renderer does otherwise as a whole; the scene is drawn again under each hypothesis.
+
+mod convention;
+mod draw;
+mod encoding;
+mod outline;
+mod pixels;
+mod rays;
+mod reason;
+mod search;
+mod sentence;
+
+pub use convention::{
+    Change, Convention, Depth, Edges, Faces, Field, Look, Placement, Rays, Sampling,
+};
+pub use encoding::{DistanceEncoding, Encoding, IdEncoding, NothingEncoding};
+pub use pixels::{PixelReason, ReasonError, Reasons, find_reasons};
+pub use reason::{Reason, ReasonKind};
+pub use search::{Explanation, Finding, Findings, SearchError, find_conventions};
+
+#[cfg(test)]
+mod tests;

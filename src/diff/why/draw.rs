@@ -1,0 +1,433 @@
+//! A picture of the scene as a renderer with other conventions draws it.
+//!
+//! The loop is the lecture's object order with bounding boxes. It decides in `f64` where the bound of the roundoff
+//! allows, and asks the exact judge elsewhere: a hypothesis is held against the pixels without noise of its own.
+
+use super::convention::{Convention, Depth, Edges, Faces};
+use super::outline::{
+    Area, TriangleOutline, area_of_sphere, area_of_triangle, plane_distance, whole,
+};
+use super::rays::ViewingRays;
+use crate::common::exact::Side;
+use crate::common::frame::NO_PRIMITIVE;
+use crate::common::glam::DVec3;
+use crate::common::{Judge, Primitive, Sign, View};
+use std::cmp::Ordering;
+
+/// What is seen of a scene in some rows of a picture.
+#[derive(Clone, Debug)]
+pub(super) struct Drawn {
+    width: usize,
+    /// The row numbers, ascending and equally spaced.
+    pub(super) rows: Vec<usize>,
+    /// The visible primitive of each pixel, row by row; `NO_PRIMITIVE` for nothing.
+    pub(super) ids: Vec<u32>,
+    /// Its distance `t`.
+    pub(super) t: Vec<f64>,
+}
+
+/// The rows of a picture that are drawn: every `step`-th, and the same number of rows above as below.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Rows {
+    pub(super) step: usize,
+}
+
+impl Rows {
+    pub(super) const ALL: Rows = Rows { step: 1 };
+
+    fn numbers(self, height: usize) -> Vec<usize> {
+        let first = (height - 1) % self.step / 2;
+        (first..height).step_by(self.step).collect()
+    }
+}
+
+/// Draws the scene under a convention; placement is left to the reader of the picture.
+pub(super) fn draw(view: &View, convention: &Convention, rows: Rows) -> Drawn {
+    let rays = ViewingRays::new(view.camera, convention);
+    let (width, height) = (rays.x.len(), rays.y.len());
+    let numbers = rows.numbers(height);
+    let count = numbers.len() * width;
+    let mut canvas = Canvas {
+        view,
+        judge: rays.judge(),
+        rays,
+        convention: *convention,
+        step: rows.step,
+        drawn: Drawn {
+            width,
+            rows: numbers,
+            ids: vec![NO_PRIMITIVE; count],
+            t: vec![f64::INFINITY; count],
+        },
+        errors: vec![0.0; count],
+    };
+    for (id, primitive) in view.primitives() {
+        canvas.add(id, &primitive);
+    }
+    canvas.drawn
+}
+
+/// The picture so far.
+struct Canvas<'a> {
+    view: &'a View<'a>,
+    rays: ViewingRays,
+    judge: Judge,
+    convention: Convention,
+    step: usize,
+    drawn: Drawn,
+    /// A bound for the error of each stored distance.
+    errors: Vec<f32>,
+}
+
+/// A primitive at a sample, by rounded arithmetic.
+enum Rounded {
+    Outside,
+    /// Covered, with `t` and the bound of its error.
+    Inside(f64, f64),
+    Uncertain,
+}
+
+impl Canvas<'_> {
+    fn add(&mut self, id: u32, primitive: &Primitive) {
+        match primitive {
+            Primitive::Triangle(corners) => {
+                let area = area_of_triangle(corners, &self.rays, 0.0);
+                if self.rows_of(&area).is_empty() || area.columns.is_empty() {
+                    return;
+                }
+                let Some(outline) = TriangleOutline::new(corners, &self.rays) else { return };
+                let culled = match self.convention.faces {
+                    Faces::Both => false,
+                    Faces::BackCulled => !outline.is_front,
+                    Faces::FrontCulled => outline.is_front,
+                };
+                if !culled {
+                    self.add_triangle(id, primitive, &outline, &area);
+                }
+            }
+            Primitive::Sphere { center, radius } => {
+                let area = area_of_sphere(*center, *radius, &self.rays, 0.0);
+                self.fill(id, primitive, &area, |canvas, row, column| {
+                    canvas.sphere(*center, *radius, row, column)
+                });
+            }
+            Primitive::Plane { point, normal } => {
+                let (numerator, denominator) =
+                    plane_distance(*point, *normal, normal.length(), &self.rays);
+                let area = whole(&self.rays);
+                self.fill(id, primitive, &area, |canvas, row, column| {
+                    let (x, y) = (canvas.rays.x[column], canvas.rays.y[row]);
+                    let [n, d] = [numerator.at(x, y), denominator.at(x, y)];
+                    if n.abs() <= numerator.error || d.abs() <= denominator.error {
+                        return Rounded::Uncertain;
+                    }
+                    if n / d < 0.0 {
+                        return Rounded::Outside;
+                    }
+                    let relative = numerator.error / n.abs() + denominator.error / d.abs();
+                    Rounded::Inside(n / d, 2.0 * relative * (n / d))
+                });
+            }
+        }
+    }
+
+    /// The indices of the drawn rows within an area.
+    fn rows_of(&self, area: &Area) -> std::ops::Range<usize> {
+        let first = self.drawn.rows.first().copied().unwrap_or(0);
+        let index = |row: usize| row.saturating_sub(first).div_ceil(self.step);
+        index(area.rows.start)..index(area.rows.end).min(self.drawn.rows.len())
+    }
+
+    fn fill(
+        &mut self,
+        id: u32,
+        primitive: &Primitive,
+        area: &Area,
+        rounded: impl Fn(&Self, usize, usize) -> Rounded,
+    ) {
+        for index in self.rows_of(area) {
+            let row = self.drawn.rows[index];
+            for column in area.columns.clone() {
+                let at = rounded(self, row, column);
+                self.keep(id, primitive, [index, column], at);
+            }
+        }
+    }
+
+    fn add_triangle(
+        &mut self,
+        id: u32,
+        primitive: &Primitive,
+        outline: &TriangleOutline,
+        area: &Area,
+    ) {
+        for index in self.rows_of(area) {
+            let row = self.drawn.rows[index];
+            let y = self.rays.y[row];
+            for column in self.columns_of(outline, y, area) {
+                let x = self.rays.x[column];
+                let rounded = rounded_triangle(outline, x, y);
+                self.keep(id, primitive, [index, column], rounded);
+            }
+        }
+    }
+
+    /// The columns of a row that may lie inside all edges.
+    fn columns_of(&self, outline: &TriangleOutline, y: f64, area: &Area) -> std::ops::Range<usize> {
+        // Below so many columns, to test them takes less time than to solve for their ends.
+        const FEW: usize = 12;
+        if area.columns.len() <= FEW {
+            return area.columns.clone();
+        }
+        let [mut low, mut high] = [f64::NEG_INFINITY, f64::INFINITY];
+        for edge in &outline.edges {
+            let rest = edge.constant + edge.along_y * y;
+            // With an edge function of this slope or less, the column does not matter.
+            if edge.along_x.abs() * self.rays.extent() <= edge.error {
+                if rest < -2.0 * edge.error {
+                    return 0..0;
+                }
+            } else {
+                let crossing = -rest / edge.along_x;
+                let slack = 2.0 * edge.error / edge.along_x.abs();
+                if edge.along_x > 0.0 {
+                    low = low.max(crossing - slack);
+                } else {
+                    high = high.min(crossing + slack);
+                }
+            }
+        }
+        let columns = super::outline::indices(&self.rays.x, [low, high], 1.0);
+        if low > high {
+            // The two ends are less than a pixel apart, or there is nothing between them.
+            let pixel = super::outline::indices(&self.rays.x, [high, low], 1.0);
+            if pixel.len() > 4 {
+                return 0..0;
+            }
+            return pixel.start.max(area.columns.start)..pixel.end.min(area.columns.end);
+        }
+        columns.start.max(area.columns.start)..columns.end.min(area.columns.end)
+    }
+
+    fn sphere(&self, center: DVec3, radius: f64, row: usize, column: usize) -> Rounded {
+        let ray = self.rays.ray(row, column);
+        let (offset, direction) = (center - ray.origin, ray.direction);
+        let [a, b] = [direction.length_squared(), offset.dot(direction)];
+        let c = offset.length_squared() - radius * radius;
+        let size = b * b + a * (offset.length_squared() + radius * radius);
+        let discriminant = b * b - a * c;
+        // Some ten roundings of terms that are no larger than `size`.
+        let error = size * 1e-14 + 1e-280;
+        if discriminant < -error {
+            return Rounded::Outside;
+        }
+        if discriminant <= error * 1e4 || c.abs() <= size / a * 1e-10 {
+            return Rounded::Uncertain;
+        }
+        let root = discriminant.sqrt();
+        let t = if c < 0.0 { b + root } else { b - root } / a;
+        if t < 0.0 { Rounded::Outside } else { Rounded::Inside(t, t * 1e-9) }
+    }
+
+    /// Keeps a primitive at a pixel, if it covers the sample and its depth wins.
+    fn keep(&mut self, id: u32, primitive: &Primitive, at: [usize; 2], rounded: Rounded) {
+        let [index, column] = at;
+        let ray = || self.rays.ray(self.drawn.rows[index], column);
+        let (t, error) = match rounded {
+            Rounded::Outside => return,
+            Rounded::Inside(t, error) => (t, error),
+            Rounded::Uncertain => {
+                if !covers(&self.judge, self.convention.edges, primitive, &ray()) {
+                    return;
+                }
+                let t = self.judge.distance(primitive, &ray());
+                // The judge rounds to within a few parts in 10¹⁰.
+                (t, t * 1e-9)
+            }
+        };
+        let pixel = index * self.drawn.width + column;
+        if self.wins(id, primitive, (t, error), pixel, at) {
+            self.drawn.ids[pixel] = id;
+            self.drawn.t[pixel] = t;
+            self.errors[pixel] = above(error);
+        }
+    }
+
+    fn wins(
+        &self,
+        id: u32,
+        primitive: &Primitive,
+        (t, error): (f64, f64),
+        pixel: usize,
+        [index, column]: [usize; 2],
+    ) -> bool {
+        let stored = self.drawn.ids[pixel];
+        if stored == NO_PRIMITIVE {
+            return true;
+        }
+        let depth = self.convention.depth;
+        match depth {
+            Depth::LastDrawn => return true,
+            Depth::FirstDrawn => return false,
+            _ => {}
+        }
+        let difference = t - self.drawn.t[pixel];
+        let order = if difference.abs() > error + f64::from(self.errors[pixel]) {
+            difference.total_cmp(&0.0)
+        } else {
+            let ray = self.rays.ray(self.drawn.rows[index], column);
+            let order = self.judge.compare(primitive, &self.view.primitive(stored), &ray);
+            if depth == Depth::Nearest { order.decided } else { order.at_sample }
+        };
+        match depth {
+            Depth::Farthest => order == Ordering::Greater,
+            Depth::LastOfEqual => order != Ordering::Greater,
+            // Primitives come in the order of their ids: the stored one is the first of the two.
+            _ => order.then(id.cmp(&stored)) == Ordering::Less,
+        }
+    }
+}
+
+fn rounded_triangle(outline: &TriangleOutline, x: f64, y: f64) -> Rounded {
+    let mut certain = true;
+    for edge in &outline.edges {
+        let value = edge.at(x, y);
+        if value < -edge.error {
+            return Rounded::Outside;
+        }
+        certain &= value > edge.error;
+    }
+    let (t, error) = outline.t(x, y);
+    if certain && t > error {
+        Rounded::Inside(t, error)
+    } else if certain && t < -error {
+        Rounded::Outside
+    } else {
+        Rounded::Uncertain
+    }
+}
+
+/// Whether a primitive covers a sample when these edges own theirs.
+pub(super) fn covers(
+    judge: &Judge,
+    edges: Edges,
+    primitive: &Primitive,
+    ray: &crate::common::Ray,
+) -> bool {
+    let Primitive::Triangle(corners) = primitive else { return judge.covers(primitive, ray) };
+    if edges == Edges::TopLeft {
+        return judge.covers(primitive, ray);
+    }
+    let signs = judge.edge_signs(corners, ray);
+    if signs.facing == Sign::Zero || !signs.in_front {
+        return false;
+    }
+    let values = judge.edge_values(corners, ray);
+    let owned = |side: Side| match edges {
+        Edges::TopLeft => matches!(side, Side::Left | Side::Top),
+        Edges::BottomLeft => matches!(side, Side::Left | Side::Bottom),
+        Edges::TopRight => matches!(side, Side::Right | Side::Top),
+        Edges::BottomRight => matches!(side, Side::Right | Side::Bottom),
+        Edges::Inclusive => true,
+        Edges::Exclusive => false,
+    };
+    signs.at_sample.iter().zip(values.sides).all(|(&sign, side)| match side {
+        Some(side) => owned(side),
+        None => sign == signs.facing,
+    })
+}
+
+/// The next `f32` above a bound.
+#[expect(clippy::cast_possible_truncation, reason = "rounded, then moved up")]
+fn above(error: f64) -> f32 {
+    (error as f32).next_up()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::common::{Camera, CameraDescription, Options, Projection};
+    use crate::diff::why::convention::{Change, Sampling};
+    use crate::scenes;
+
+    fn with_camera(name: &str, image: [u32; 2], check: impl Fn(&View)) {
+        let loaded = scenes::load(name).unwrap();
+        for projection in [Projection::Perspective, Projection::Parallel] {
+            let camera = CameraDescription { projection, image, ..loaded.camera };
+            check(&View::new(&loaded.scene, &Camera::new(camera).unwrap()));
+        }
+    }
+
+    fn line(drawn: &Drawn, index: usize) -> (&[u32], &[f64]) {
+        let line = index * drawn.width..(index + 1) * drawn.width;
+        (&drawn.ids[line.clone()], &drawn.t[line])
+    }
+
+    #[test]
+    fn under_our_conventions_it_draws_what_both_orders_draw() {
+        for scene in scenes::BUILT_IN {
+            with_camera(scene.name, [64, 48], |view| {
+                let drawn = draw(view, &Convention::default(), Rows::ALL);
+                let frame = crate::rasterize::fast::render(
+                    &crate::rasterize::fast::prepare(view.scene),
+                    view,
+                    &Options::default(),
+                );
+                assert_eq!(drawn.ids, frame.ids(), "{}", scene.name);
+                for (t, expected) in drawn.t.iter().zip(frame.distances()) {
+                    let expected = f64::from(*expected);
+                    assert!((t - expected).abs() <= 1e-6 * expected || *t == expected);
+                }
+            });
+        }
+    }
+
+    #[test]
+    fn some_rows_are_rows_of_the_whole_picture() {
+        with_camera("lecture", [64, 50], |view| {
+            let whole = draw(view, &Convention::default(), Rows::ALL);
+            let some = draw(view, &Convention::default(), Rows { step: 7 });
+            assert_eq!(some.rows, [0, 7, 14, 21, 28, 35, 42, 49]);
+            for (index, &row) in some.rows.iter().enumerate() {
+                assert_eq!(line(&some, index), line(&whole, row));
+            }
+        });
+    }
+
+    #[test]
+    fn a_sample_a_pixel_to_the_right_sees_the_next_pixel() {
+        with_camera("canonical", [64, 64], |view| {
+            let ours = draw(view, &Convention::default(), Rows::ALL);
+            let after = Convention::default().with(Change::Columns(Sampling::PixelAfter));
+            let after = draw(view, &after, Rows::ALL);
+            for row in 0..64 {
+                assert_eq!(line(&after, row).0[..63], line(&ours, row).0[1..]);
+            }
+        });
+    }
+
+    #[test]
+    fn every_change_of_rendering_changes_the_picture_of_some_scene() {
+        let mut unseen = Vec::new();
+        for change in Change::of_rendering(&Camera::canonical(64, 32)) {
+            let mut seen = false;
+            for name in ["lecture", "ties", "overlap", "behind", "slivers"] {
+                let loaded = scenes::load(name).unwrap();
+                for projection in [Projection::Perspective, Projection::Parallel] {
+                    let camera = CameraDescription { projection, image: [64, 64], ..loaded.camera };
+                    let camera = Camera::new(camera).unwrap();
+                    let view = View::new(&loaded.scene, &camera);
+                    let ours = draw(&view, &Convention::default(), Rows::ALL);
+                    let other = draw(&view, &Convention::default().with(change), Rows::ALL);
+                    seen |= other.ids != ours.ids;
+                }
+            }
+            if !seen {
+                unseen.push(change);
+            }
+        }
+        // Our ties differ from the first of equals only where a silhouette is met exactly.
+        let silhouettes = Change::Depth(Depth::FirstOfEqual);
+        assert_eq!(unseen, [silhouettes], "these changes are never seen");
+    }
+}

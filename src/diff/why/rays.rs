@@ -1,0 +1,126 @@
+//! The viewing rays of a renderer with other conventions.
+
+use super::convention::{Convention, Look, Rays};
+use crate::common::glam::DVec3;
+use crate::common::{Camera, CameraDescription, Judge, Projection, Ray};
+
+/// The viewing rays of a picture, one a pixel, relative to the eye.
+#[derive(Clone, Debug)]
+pub(super) struct ViewingRays {
+    /// `x` of each column and `y` of each row on the viewport.
+    pub(super) x: Vec<f64>,
+    pub(super) y: Vec<f64>,
+    pub(super) u: DVec3,
+    pub(super) v: DVec3,
+    pub(super) w: DVec3,
+    pub(super) projection: Projection,
+    /// Along `−w`; negative where the renderer looks backward. `d` for a perspective camera, 1 for a parallel one.
+    pub(super) distance: f64,
+    /// Whether the rays of a parallel camera begin at their own points of the viewport.
+    pub(super) spread: bool,
+    camera: Camera,
+}
+
+impl ViewingRays {
+    /// The rays of a camera under a convention. Under ours they have the bits of
+    /// [`Camera::viewing_ray`](crate::common::Camera::viewing_ray).
+    pub(super) fn new(camera: &Camera, convention: &Convention) -> ViewingRays {
+        let [width, height] = camera.image();
+        let [vw, vh] = convention.field.viewport(camera);
+        let projection = convention.rays.projection(camera.projection());
+        let length = match projection {
+            Projection::Perspective => camera.distance(),
+            Projection::Parallel => 1.0,
+        };
+        let description = CameraDescription { projection, ..*camera.description() };
+        let coordinates = |sampling: super::convention::Sampling, side: f64, n: u32| {
+            (0..n).map(move |index| sampling.coordinate(side, index, n))
+        };
+        ViewingRays {
+            x: coordinates(convention.columns, vw, width).collect(),
+            y: coordinates(convention.rows, vh, height).map(|y| -y).collect(),
+            u: camera.u(),
+            v: camera.v(),
+            w: camera.w(),
+            projection,
+            distance: if convention.look == Look::Backward { -length } else { length },
+            spread: convention.rays != Rays::OneOrigin,
+            camera: Camera::new(description).expect("only the projection is another"),
+        }
+    }
+
+    /// The ray of pixel `(i, j)`.
+    pub(super) fn ray(&self, i: usize, j: usize) -> Ray {
+        let across = self.x[j] * self.u + self.y[i] * self.v;
+        match self.projection {
+            Projection::Perspective => {
+                Ray { origin: DVec3::ZERO, direction: across - self.distance * self.w }
+            }
+            Projection::Parallel => Ray {
+                origin: if self.spread { across } else { DVec3::ZERO },
+                direction: -(self.distance * self.w),
+            },
+        }
+    }
+
+    /// The judge of these rays.
+    pub(super) fn judge(&self) -> Judge {
+        Judge::new(&self.camera)
+    }
+
+    /// The middle of all directions: along the axis.
+    pub(super) fn axis(&self) -> DVec3 {
+        -(self.distance * self.w)
+    }
+
+    /// The longest coordinate on the viewport.
+    pub(super) fn extent(&self) -> f64 {
+        let ends = |values: &[f64]| {
+            let [first, last] =
+                [values.first(), values.last()].map(|end| end.map_or(0.0, |x| x.abs()));
+            first.max(last)
+        };
+        ends(&self.x) + ends(&self.y)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diff::why::convention::{Change, Sampling};
+
+    #[test]
+    fn our_rays_have_the_bits_of_the_camera() {
+        for projection in [Projection::Perspective, Projection::Parallel] {
+            let description = CameraDescription {
+                projection,
+                distance: 0.7,
+                viewport: [1.3, 0.9],
+                image: [7, 5],
+                ..CameraDescription::default()
+            };
+            let camera = Camera::new(description).unwrap();
+            let rays = ViewingRays::new(&camera, &Convention::default());
+            for (i, j) in (0..5).flat_map(|i| (0..7).map(move |j| (i, j))) {
+                assert_eq!(rays.ray(i as usize, j as usize), camera.viewing_ray(i, j));
+            }
+        }
+    }
+
+    #[test]
+    fn a_renderer_that_looks_backward_sees_what_lies_behind() {
+        let camera = Camera::canonical(2, 2);
+        let behind = Convention::default().with(Change::Look(Look::Backward));
+        let ray = ViewingRays::new(&camera, &behind).ray(0, 0);
+        assert_eq!(ray.direction.to_array(), [-0.25, 0.25, 1.0]);
+    }
+
+    #[test]
+    fn samples_at_corners_lie_half_a_pixel_farther_left() {
+        let camera = Camera::canonical(4, 2);
+        let corner = Convention::default().with(Change::Columns(Sampling::Corner));
+        let rays = ViewingRays::new(&camera, &corner);
+        assert_eq!(rays.x, [-0.5, -0.25, 0.0, 0.25]);
+        assert_eq!(rays.y, camera.sample_grid(1).y());
+    }
+}

@@ -1,0 +1,414 @@
+//! The search for the conventions under which a file agrees with the scene.
+//!
+//! Each hypothesis is drawn. First every single change and every pair of changes on different axes is held against
+//! some rows of the file, with every placement; the best of them are drawn as a whole, and changes are added as long
+//! as each of them explains at least half of what is left. A change that explains less is left out again.
+
+use super::convention::{Change, Convention, Placement};
+use super::draw::{Drawn, Rows, draw};
+use super::encoding::{
+    DistanceEncoding, Encoding, Expected, IdEncoding, NothingEncoding, Observed, Score, Values,
+};
+use crate::common::View;
+use crate::common::frame::NO_PRIMITIVE;
+use crate::diff::buffer::Buffer;
+use rayon::prelude::*;
+use std::collections::HashSet;
+
+/// What a search found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Findings {
+    /// The number of pixels of the file.
+    pub pixels: u64,
+    /// The number of pixels that are not what is true of the scene.
+    pub differing: u64,
+    /// What was found.
+    pub finding: Finding,
+}
+
+/// What a search found.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Finding {
+    /// The file shows what is true of the scene.
+    True,
+    /// The file can say nothing about conventions; the reason, as a sentence.
+    NoEvidence(String),
+    /// These conventions explain pixels; all of them explain the same number.
+    Explained(Vec<Explanation>),
+    /// No convention explains as much as a tenth of the pixels.
+    Unexplained,
+}
+
+/// Conventions that explain differing pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Explanation {
+    /// Where and how the renderer samples, and what it draws.
+    pub convention: Convention,
+    /// What its numbers stand for.
+    pub encoding: Encoding,
+    /// The number of differing pixels that are as expected under these conventions.
+    pub explained: u64,
+    /// The number of pixels that differ under these conventions, too.
+    pub remaining: u64,
+    /// A pixel that is explained, as `[i, j]`.
+    pub telling: Option<[u32; 2]>,
+}
+
+impl Explanation {
+    /// Whether less than half of the differing pixels are explained.
+    pub fn is_a_guess(&self, differing: u64) -> bool {
+        self.explained * 2 < differing
+    }
+}
+
+/// Why a file cannot be searched for conventions.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum SearchError {
+    /// The file has colours alone, or several samples a pixel.
+    #[error("conventions are searched in masks, ids and distances of one sample a pixel")]
+    Kind,
+    /// No placement takes the file to the camera's image.
+    #[error(
+        "the file has {} x {} pixels and the camera {} x {}; give --size as the file has it",
+        .file[0], .file[1], .camera[0], .camera[1]
+    )]
+    Size {
+        /// Width and height of the file.
+        file: [u32; 2],
+        /// Width and height of the camera's image.
+        camera: [u32; 2],
+    },
+}
+
+/// Searches for the conventions under which a file agrees with a scene.
+///
+/// # Errors
+///
+/// If the file has colours alone or several samples a pixel, or its size is neither the camera's nor the camera's with
+/// rows and columns exchanged.
+pub fn find_conventions(view: &View, file: &Buffer) -> Result<Findings, SearchError> {
+    let observed = Observed::of(file).ok_or(SearchError::Kind)?;
+    let [width, height] = view.camera.image();
+    let placements: Vec<Placement> = Placement::ALL
+        .into_iter()
+        .filter(|placement| {
+            let size = if placement.swaps_sides() { [height, width] } else { [width, height] };
+            size == file.size()
+        })
+        .collect();
+    if placements.is_empty() {
+        return Err(SearchError::Size { file: file.size(), camera: [width, height] });
+    }
+    let truth = draw(view, &Convention::default(), Rows::ALL);
+    let pixels = u64::from(width) * u64::from(height);
+    let search = Search { view, observed: &observed, placements: &placements, truth: &truth };
+    let differing = search.differing_from_truth();
+    let finding = search.finding(differing);
+    Ok(Findings { pixels, differing, finding })
+}
+
+/// At least so many rows, and so many pixels, are looked at first.
+const FEWEST_ROWS: usize = 48;
+const FEWEST_PIXELS: usize = 60_000;
+/// Pairs are drawn as long as no more primitives are drawn than this.
+const MOST_PRIMITIVES: u64 = 40_000_000;
+/// So many of the best are drawn as a whole.
+const FINALISTS: usize = 8;
+/// The most changes that are added to one of them.
+const MOST_ADDED: usize = 3;
+
+/// The most explanations that are named.
+const MOST_EXPLANATIONS: usize = 4;
+
+/// Whether a hypothesis that leaves `simpler` pixels does as well as one with more parts that leaves `fewest`: the
+/// further parts explain less than half of what is left without them, or less than a thousandth of all.
+fn as_good(simpler: u64, fewest: u64, differing: u64) -> bool {
+    simpler < 2 * fewest || simpler.saturating_sub(fewest) <= differing / 1000
+}
+
+struct Search<'a> {
+    view: &'a View<'a>,
+    observed: &'a Observed,
+    placements: &'a [Placement],
+    truth: &'a Drawn,
+}
+
+/// A hypothesis and how well it does.
+#[derive(Clone, Copy, Debug)]
+struct Candidate {
+    convention: Convention,
+    encoding: Encoding,
+    score: Score,
+}
+
+impl Candidate {
+    fn rank(&self) -> (u64, usize) {
+        (self.score.differing, parts(&self.convention, &self.encoding))
+    }
+}
+
+/// How many choices are not ours.
+fn parts(convention: &Convention, encoding: &Encoding) -> usize {
+    let ours = Encoding::default();
+    convention.changes().len()
+        + usize::from(encoding.ids != ours.ids)
+        + usize::from(encoding.distances != ours.distances)
+        + usize::from(encoding.nothing != ours.nothing)
+}
+
+impl Search<'_> {
+    /// The pixels that are not as in the true picture; all of them if rows and columns are exchanged in a picture that is
+    /// not square.
+    fn differing_from_truth(&self) -> u64 {
+        if !self.placements.contains(&Placement::Upright) {
+            return self.truth.ids.len() as u64;
+        }
+        let expected = Expected::new(self.view, &Convention::default(), self.truth);
+        expected.score(self.observed, Placement::Upright, &Encoding::default()).differing
+    }
+
+    fn finding(&self, differing: u64) -> Finding {
+        if differing == 0 {
+            return Finding::True;
+        }
+        if let Some(reason) = self.no_evidence() {
+            return Finding::NoEvidence(reason);
+        }
+        let mut finalists = self.finalists();
+        finalists = self.improved(finalists, differing);
+        finalists.sort_by_key(Candidate::rank);
+        let explanations = self.best(&finalists, differing);
+        match explanations.first() {
+            Some(best) if best.explained * 10 >= differing => Finding::Explained(explanations),
+            _ => Finding::Unexplained,
+        }
+    }
+
+    /// Why the file cannot tell conventions, if it cannot.
+    fn no_evidence(&self) -> Option<String> {
+        let pixels = self.truth.ids.len() as u64;
+        let covered = self.observed.covered_count(NothingEncoding::Ours);
+        let seen = self.truth.ids.iter().filter(|&&id| id != NO_PRIMITIVE).count();
+        if covered == 0 {
+            Some(
+                "the file covers nothing, and every convention explains an empty picture equally"
+                    .into(),
+            )
+        } else if seen == 0 {
+            Some("the scene covers no pixel of this camera: are scene, camera and size those of the file?".into())
+        } else if matches!(self.observed.values, Values::Mask(_)) && covered == pixels {
+            Some(
+                "the mask covers every pixel, and so says nothing about conventions; compare ids"
+                    .into(),
+            )
+        } else {
+            None
+        }
+    }
+
+    /// The best hypotheses by some rows of the picture, with ours among them.
+    fn finalists(&self) -> Vec<Candidate> {
+        let [width, height] = self.view.camera.image().map(|side| side as usize);
+        let step = (width * height / FEWEST_PIXELS).min(height / FEWEST_ROWS).max(1);
+        let mut hypotheses = vec![Convention::default()];
+        let changes: Vec<Change> = Change::of_rendering(self.view.camera)
+            .into_iter()
+            .filter(|change| change.is_coarse())
+            .collect();
+        hypotheses.extend(changes.iter().map(|&change| Convention::default().with(change)));
+        let pairs = changes.len() * changes.len() / 2;
+        if pairs as u64 * u64::from(self.view.scene.primitive_count()) <= MOST_PRIMITIVES {
+            for (index, &one) in changes.iter().enumerate() {
+                let others = changes[index + 1..].iter().filter(|other| other.axis() != one.axis());
+                hypotheses.extend(others.map(|&other| Convention::default().with(one).with(other)));
+            }
+        }
+        let mut candidates: Vec<Candidate> = hypotheses
+            .par_iter()
+            .flat_map_iter(|convention| {
+                let drawn = draw(self.view, convention, Rows { step });
+                self.placed(*convention, &drawn)
+            })
+            .collect();
+        let mut chosen = vec![Convention::default()];
+        let mut choose = |candidates: &[Candidate]| {
+            let fresh: Vec<Convention> = candidates
+                .iter()
+                .map(|candidate| candidate.convention)
+                .filter(|convention| !chosen.contains(convention))
+                .take(FINALISTS)
+                .collect();
+            chosen.extend(fresh);
+        };
+        candidates.sort_by_key(Candidate::rank);
+        choose(&candidates);
+        candidates.sort_by_key(|candidate| {
+            (candidate.score.coverage, parts(&candidate.convention, &candidate.encoding))
+        });
+        choose(&candidates);
+        chosen.par_iter().map(|convention| self.drawn_whole(*convention)).collect()
+    }
+
+    /// The best reading of the file for each placement.
+    fn placed(&self, convention: Convention, drawn: &Drawn) -> Vec<Candidate> {
+        let expected = Expected::new(self.view, &convention, drawn);
+        let meanings = self.observed.meanings_of_nothing();
+        let placed = self.placements.iter().map(|&placement| {
+            let readings = meanings.iter().map(|&nothing| {
+                let encoding = expected.encoding(self.observed, placement, nothing);
+                let score = expected.score(self.observed, placement, &encoding);
+                Candidate { convention: Convention { placement, ..convention }, encoding, score }
+            });
+            readings.min_by_key(Candidate::rank).expect("one meaning of nothing is ours")
+        });
+        placed.collect()
+    }
+
+    /// The whole picture of a hypothesis, with ids in any order, too.
+    fn drawn_whole(&self, convention: Convention) -> Candidate {
+        let drawn;
+        let drawn = if (Convention { placement: Placement::Upright, ..convention })
+            == Convention::default()
+        {
+            self.truth
+        } else {
+            drawn = draw(self.view, &convention, Rows::ALL);
+            &drawn
+        };
+        let expected = Expected::new(self.view, &convention, drawn);
+        let placement = convention.placement;
+        let readings = self.observed.meanings_of_nothing().into_iter().flat_map(|nothing| {
+            let encoding = expected.encoding(self.observed, placement, nothing);
+            let mut encodings = vec![encoding];
+            if matches!(self.observed.values, Values::Ids(_)) {
+                encodings.push(Encoding { ids: IdEncoding::OneToOne, ..encoding });
+            }
+            encodings
+        });
+        let scored = readings.map(|encoding| {
+            let score = expected.score(self.observed, placement, &encoding);
+            Candidate { convention, encoding, score }
+        });
+        scored.min_by_key(Candidate::rank).expect("one meaning of nothing is ours")
+    }
+
+    /// Adds changes to the best of the finalists, and takes back those that explain too little.
+    fn improved(&self, mut finalists: Vec<Candidate>, differing: u64) -> Vec<Candidate> {
+        let changes = Change::of_rendering(self.view.camera);
+        finalists.sort_by_key(Candidate::rank);
+        let mut all = finalists.clone();
+        let ours = finalists.iter().find(|one| one.convention.changes().is_empty()).copied();
+        let mut starts: Vec<Candidate> = finalists.iter().take(2).copied().collect();
+        starts
+            .extend(ours.filter(|ours| starts.iter().all(|one| one.convention != ours.convention)));
+        for start in starts {
+            let mut best = start;
+            for _ in 0..MOST_ADDED {
+                if best.score.differing == 0 {
+                    break;
+                }
+                let taken: HashSet<usize> =
+                    best.convention.changes().into_iter().map(Change::axis).collect();
+                let added: Vec<Candidate> = changes
+                    .par_iter()
+                    .filter(|change| !taken.contains(&change.axis()))
+                    .map(|&change| self.drawn_whole(best.convention.with(change)))
+                    .collect();
+                let Some(next) = added.iter().min_by_key(|one| one.rank()).copied() else { break };
+                all.extend(added);
+                if as_good(best.score.differing, next.score.differing, differing) {
+                    break;
+                }
+                best = next;
+            }
+        }
+        let best = all.iter().min_by_key(|one| one.rank()).copied();
+        if let Some(best) = best {
+            all.extend(self.simplified(best, differing));
+        }
+        all
+    }
+
+    /// The candidate without the changes that explain less than half of what is left without them.
+    fn simplified(&self, mut best: Candidate, differing: u64) -> Option<Candidate> {
+        let mut simpler = None;
+        for change in best.convention.changes() {
+            let without = self.drawn_whole(best.convention.without(change));
+            if as_good(without.score.differing, best.score.differing, differing) {
+                best = without;
+                simpler = Some(without);
+            }
+        }
+        simpler
+    }
+
+    /// The explanations that leave as few pixels as the best one, simplest first.
+    fn best(&self, candidates: &[Candidate], differing: u64) -> Vec<Explanation> {
+        let fewest = candidates.iter().map(|one| one.score.differing).min().unwrap_or(differing);
+        let good = |one: &&Candidate| as_good(one.score.differing, fewest, differing);
+        let parts = |one: &Candidate| parts(&one.convention, &one.encoding);
+        let simplest = candidates.iter().filter(good).map(parts).min().unwrap_or(0);
+        if simplest == 0 {
+            return Vec::new();
+        }
+        let mut chosen: Vec<Candidate> =
+            candidates.iter().filter(good).filter(|one| parts(one) == simplest).copied().collect();
+        chosen.sort_by_key(Candidate::rank);
+        let least = chosen.first().map_or(0, |one| one.score.differing);
+        let mut explanations: Vec<Explanation> = Vec::new();
+        for one in chosen {
+            let is_known = explanations
+                .iter()
+                .any(|other| other.convention == one.convention && other.encoding == one.encoding);
+            let is_near = one.score.differing <= least + differing / 1000;
+            if is_near && !is_known && explanations.len() < MOST_EXPLANATIONS {
+                explanations.push(self.explanation(&one, differing));
+            }
+        }
+        explanations
+    }
+
+    fn explanation(&self, candidate: &Candidate, differing: u64) -> Explanation {
+        let Candidate { convention, encoding, score } = *candidate;
+        Explanation {
+            convention,
+            encoding,
+            explained: differing.saturating_sub(score.differing),
+            remaining: score.differing,
+            telling: self.telling(candidate),
+        }
+    }
+
+    /// The middle one of the explained pixels.
+    fn telling(&self, candidate: &Candidate) -> Option<[u32; 2]> {
+        if !self.placements.contains(&Placement::Upright) {
+            return None;
+        }
+        let mut wrong = vec![false; self.truth.ids.len()];
+        let ours = Expected::new(self.view, &Convention::default(), self.truth);
+        let none = Encoding::default();
+        ours.each(self.observed, Placement::Upright, &none, |_, index, differs, _| {
+            wrong[index] = differs;
+        });
+        let drawn = draw(self.view, &candidate.convention, Rows::ALL);
+        let expected = Expected::new(self.view, &candidate.convention, &drawn);
+        let placement = candidate.convention.placement;
+        expected.each(self.observed, placement, &candidate.encoding, |_, index, differs, _| {
+            wrong[index] &= !differs;
+        });
+        let explained: Vec<usize> = (0..wrong.len()).filter(|&index| wrong[index]).collect();
+        let index = *explained.get(explained.len() / 2)?;
+        let width = self.view.camera.image()[0] as usize;
+        let number = |side: usize| u32::try_from(side).expect("at most 2^16");
+        Some([number(index / width), number(index % width)])
+    }
+}
+
+impl Encoding {
+    /// Whether the numbers of a file stand for what ours stand for.
+    pub fn is_ours(&self) -> bool {
+        self.ids == IdEncoding::FromZero
+            && self.distances == DistanceEncoding::T
+            && self.nothing == NothingEncoding::Ours
+    }
+}

@@ -1,0 +1,297 @@
+//! Conventions in sentences that a student can act on.
+
+use super::convention::{
+    Change, Convention, Depth, Edges, Faces, Field, Look, Placement, Rays, Sampling,
+};
+use super::encoding::{DistanceEncoding, Encoding, IdEncoding, NothingEncoding};
+use super::search::Explanation;
+use crate::common::{Camera, Projection};
+use crate::wording::readable;
+
+impl Explanation {
+    /// The explanation in sentences, one for each part; `name` is the name of the file.
+    pub fn sentences(&self, name: &str, camera: &Camera) -> Vec<String> {
+        let mut sentences: Vec<String> = of_convention(&self.convention, camera)
+            .iter()
+            .map(|part| with_name(part, name))
+            .collect();
+        sentences.extend(of_encoding(&self.encoding).iter().map(|part| with_name(part, name)));
+        sentences
+    }
+}
+
+fn with_name(sentence: &str, name: &str) -> String {
+    format!("{name} {sentence}")
+}
+
+fn of_convention(convention: &Convention, camera: &Camera) -> Vec<String> {
+    let mut changes = convention.changes();
+    let mut sentences = Vec::new();
+    // One mistake on both axes is one mistake.
+    if convention.columns == convention.rows
+        && let Some(both) = sampling_of_both(convention.columns)
+    {
+        changes.retain(|change| !matches!(change, Change::Columns(_) | Change::Rows(_)));
+        sentences.push(both);
+    }
+    let parts = changes.into_iter().map(|change| sentence(change, camera));
+    parts.chain(sentences).collect()
+}
+
+fn sampling_of_both(sampling: Sampling) -> Option<String> {
+    let words = match sampling {
+        Sampling::Middle => return None,
+        Sampling::Corner => "samples pixel corners (top left): in its loop, add 1/2 to i and j",
+        Sampling::FarCorner => {
+            "samples pixel corners (bottom right): in its loop, subtract 1/2 from i and j (is it a principal \
+             point of the integer grid, (W - 1)/2, together with pixel centres at j + 1/2?)"
+        }
+        Sampling::BorderToBorder => {
+            "divides by W - 1 and H - 1: its first and last samples lie on the border of the viewport; take \
+             (j + 1/2)/W and (i + 1/2)/H"
+        }
+        Sampling::OneFewer => "divides by W - 1 and H - 1: divide j + 1/2 by W, and i + 1/2 by H",
+        Sampling::PixelBefore => {
+            "is moved by one pixel to the right and down: do its i and j count from 1 where 0 is meant?"
+        }
+        Sampling::PixelAfter => {
+            "is moved by one pixel to the left and up: do its i and j count from 0 where 1 is meant?"
+        }
+    };
+    Some(words.into())
+}
+
+fn sentence(change: Change, camera: &Camera) -> String {
+    match change {
+        Change::Placement(placement) => of_placement(placement).into(),
+        Change::Columns(sampling) => of_sampling(sampling, ["j", "W", "column", "left", "right"]),
+        Change::Rows(sampling) => of_sampling(sampling, ["i", "H", "row", "top", "bottom"]),
+        Change::Field(field) => of_field(field).into(),
+        Change::Look(Look::Backward | Look::Forward) => {
+            "looks along +w, and sees what lies behind the eye: the direction is x u + y v - d w"
+                .into()
+        }
+        Change::Rays(rays) => of_rays(rays, camera).into(),
+        Change::Edges(edges) => of_edges(edges).into(),
+        Change::Faces(faces) => of_faces(faces).into(),
+        Change::Depth(depth) => of_depth(depth).into(),
+    }
+}
+
+fn of_placement(placement: Placement) -> &'static str {
+    match placement {
+        Placement::Upright => "is upright",
+        Placement::UpsideDown => {
+            "is upside down: its rows count from the bottom, or its +v points down (y = -vh ((i + 1/2)/H - 1/2), \
+             with i from the top)"
+        }
+        Placement::LeftToRight => {
+            "is mirrored left to right: its +u points to the left (u = up x w, of unit length), or its columns \
+             count from the right"
+        }
+        Placement::HalfTurn => {
+            "is turned by 180 degrees: its rows count from the bottom and its columns from the right, or both \
+             axes of its camera point the other way"
+        }
+        Placement::Transposed => {
+            "has rows and columns exchanged: it is written by columns, or [j][i] for [i][j]"
+        }
+        Placement::TurnedLeft => "is turned by 90 degrees to the left",
+        Placement::TurnedRight => "is turned by 90 degrees to the right",
+        Placement::OtherDiagonal => {
+            "has rows and columns exchanged, and both count from the other end"
+        }
+    }
+}
+
+fn of_sampling(sampling: Sampling, [index, sides, thing, first, last]: [&str; 5]) -> String {
+    match sampling {
+        Sampling::Middle => format!("samples the middle of each {thing}"),
+        Sampling::Corner => format!(
+            "samples the {first} edge of each pixel, not its middle: in its loop, add 1/2 to {index}"
+        ),
+        Sampling::FarCorner => format!(
+            "samples the {last} edge of each pixel, not its middle: in its loop, subtract 1/2 from {index} (is its \
+             principal point ({sides} - 1)/2 instead of {sides}/2?)"
+        ),
+        Sampling::BorderToBorder => format!(
+            "divides {index} by {sides} - 1, so that the first and the last {thing} lie on the border of the \
+             viewport: take ({index} + 1/2)/{sides}"
+        ),
+        Sampling::OneFewer => format!("divides {index} + 1/2 by {sides} - 1: divide by {sides}"),
+        Sampling::PixelBefore => {
+            format!(
+                "shows each {thing} one pixel too far to the {last}: its {index} is 1 too small"
+            )
+        }
+        Sampling::PixelAfter => {
+            format!(
+                "shows each {thing} one pixel too far to the {first}: its {index} is 1 too large"
+            )
+        }
+    }
+}
+
+fn of_field(field: Field) -> &'static str {
+    match field {
+        Field::AsStated => "has the camera's viewport",
+        Field::VerticalAsHorizontal => {
+            "takes the vertical field of view for the horizontal one: its viewport is vh wide and vh H/W high"
+        }
+        Field::HorizontalAsVertical => {
+            "takes the horizontal field of view for the vertical one: its viewport is vw high and vw W/H wide"
+        }
+        Field::AspectLeftOut => {
+            "leaves out the form of the image: its viewport is vh wide as well; multiply x by W/H"
+        }
+        Field::AspectInverted => {
+            "has the form of the image upside down: it multiplies x by H/W for W/H"
+        }
+        Field::Double => {
+            "has a viewport twice as wide and as high: half of vw and vh is missing (x goes from -vw/2 to vw/2), or \
+             the tangent is of the whole angle instead of its half"
+        }
+        Field::Half => {
+            "has a viewport half as wide and as high: vw and vh are halved twice, or the tangent is of a quarter \
+             instead of half the angle"
+        }
+    }
+}
+
+fn of_rays(rays: Rays, camera: &Camera) -> &'static str {
+    match (rays, camera.projection()) {
+        (Rays::AsStated, _) => "has the camera's rays",
+        (Rays::OtherProjection, Projection::Parallel) => {
+            "draws a perspective picture for a parallel camera: all rays go along -w, and begin at eye + x u + y v"
+        }
+        (Rays::OtherProjection, Projection::Perspective) => {
+            "draws a parallel picture for a perspective camera: all rays begin at the eye, along x u + y v - d w"
+        }
+        (Rays::OneOrigin, _) => {
+            "lets all parallel rays begin at the eye, so that every pixel sees the same: begin at eye + x u + y v"
+        }
+    }
+}
+
+fn of_edges(edges: Edges) -> &'static str {
+    match edges {
+        Edges::TopLeft => "has the top-left rule",
+        Edges::BottomLeft => {
+            "has a bottom-left rule: level edges own their samples below the inside (a top-left rule in rows that \
+             count from the bottom, as OpenGL has it)"
+        }
+        Edges::TopRight => {
+            "has a top-right rule: right edges own their samples, and left ones do not"
+        }
+        Edges::BottomRight => {
+            "has a bottom-right rule: right and bottom edges own their samples, not left and top ones"
+        }
+        Edges::Inclusive => {
+            "covers samples exactly on any edge (>= in all three edge functions): two triangles draw a shared edge \
+             twice; the top-left rule gives it one owner"
+        }
+        Edges::Exclusive => {
+            "covers no sample exactly on an edge (> in all three edge functions): a shared edge has holes; the \
+             top-left rule gives it one owner"
+        }
+    }
+}
+
+fn of_faces(faces: Faces) -> &'static str {
+    match faces {
+        Faces::Both => "draws both sides",
+        Faces::BackCulled => {
+            "culls back faces: triangles with their corners clockwise as seen are missing; both sides are seen here"
+        }
+        Faces::FrontCulled => {
+            "culls front faces: triangles with their corners counter-clockwise as seen are missing; both sides are \
+             seen here (or its test has the opposite sign)"
+        }
+    }
+}
+
+fn of_depth(depth: Depth) -> &'static str {
+    match depth {
+        Depth::Nearest => "shows the nearest",
+        Depth::FirstOfEqual => "shows the first drawn of equally near primitives, always",
+        Depth::LastOfEqual => {
+            "shows the last drawn of equally near primitives (<= for < in its depth test)"
+        }
+        Depth::Farthest => "shows the farthest primitive: its depth test has the opposite sign",
+        Depth::LastDrawn => "has no depth test: the last drawn primitive is seen",
+        Depth::FirstDrawn => {
+            "keeps the first drawn primitive, however far it is: its depth test never replaces"
+        }
+    }
+}
+
+fn of_encoding(encoding: &Encoding) -> Vec<String> {
+    let mut sentences = Vec::new();
+    match encoding.ids {
+        IdEncoding::FromZero => {}
+        IdEncoding::FromOne => sentences.push("counts ids from 1: subtract 1".to_owned()),
+        IdEncoding::FromTheEnd => {
+            sentences
+                .push("counts ids from the end of the scene: the first primitive has id 0".into());
+        }
+        IdEncoding::OfObjects => {
+            sentences.push("writes the number of the object, not of the primitive".into());
+        }
+        IdEncoding::OneToOne => sentences.push(
+            "numbers the primitives in another order: its ids and ours correspond one to one"
+                .into(),
+        ),
+    }
+    sentences.extend(of_distances(encoding.distances));
+    match encoding.nothing {
+        NothingEncoding::Ours => {}
+        NothingEncoding::Inverted => {
+            sentences.push("is inverted: it covers exactly what is not covered".into());
+        }
+        NothingEncoding::Number(number) => sentences.push(format!(
+            "writes {} for nothing; ids have all ones there (or -1), distances infinity (or NaN)",
+            readable(number)
+        )),
+    }
+    sentences
+}
+
+fn of_distances(encoding: DistanceEncoding) -> Option<String> {
+    use DistanceEncoding as D;
+    let words = match encoding {
+        D::T => return None,
+        D::AlongAxis => "holds depths along the axis, t d; t counts in lengths of the ray's direction: divide by d".into(),
+        D::AlongRay => {
+            "holds distances along the ray, t |(x, y, -d)|; t counts in lengths of the ray's direction: divide by \
+             its length"
+                .into()
+        }
+        D::NegativeT => "holds -t: change the sign".into(),
+        D::NegativeAlongAxis => "holds the z of the camera's axes, -t d: change the sign, and divide by d".into(),
+        D::NegativeAlongRay => {
+            "holds -t |(x, y, -d)|: change the sign, and divide by the length of the ray's direction".into()
+        }
+        D::Window { near, far } => format!(
+            "holds OpenGL's window depth for the planes {} and {}: t d = {0} {1} / ({1} - ({1} - {0}) depth)",
+            digits(near),
+            digits(far)
+        ),
+        D::ReversedWindow { near, far } => format!(
+            "holds reversed window depth (1 at the near plane {}, 0 at the far plane {}): t d = {0} {1} / ({0} + \
+             ({1} - {0}) depth)",
+            digits(near),
+            digits(far)
+        ),
+    };
+    Some(words)
+}
+
+/// A number of three digits, which are certain.
+fn digits(number: f64) -> String {
+    if number >= 1e9 {
+        return "infinity".into();
+    }
+    format!("{number:.2e}")
+        .parse::<f64>()
+        .map_or_else(|_| number.to_string(), |short| short.to_string())
+}

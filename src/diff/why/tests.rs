@@ -1,0 +1,128 @@
+//! Mistakes are planted one at a time and in pairs, and must be named.
+
+use super::draw::{Rows, draw};
+use super::*;
+use crate::common::frame::NO_PRIMITIVE;
+use crate::common::{Camera, CameraDescription, Projection, View};
+use crate::diff::buffer::{Buffer, Content};
+use crate::scenes;
+
+/// The file of a renderer with these conventions.
+fn file(view: &View, convention: &Convention, of_ids: bool) -> Buffer<'static> {
+    let drawn = draw(view, convention, Rows::ALL);
+    let [width, height] = view.camera.image().map(|side| side as usize);
+    let swaps = convention.placement.swaps_sides();
+    let size = if swaps { [height, width] } else { [width, height] };
+    let pixels = (0..width * height).map(|index| {
+        let [i, j] =
+            convention.placement.pixel([index / size[0], index % size[0]], [width, height]);
+        drawn.ids[i * width + j]
+    });
+    let ids: Vec<Option<u64>> =
+        pixels.map(|id| (id != NO_PRIMITIVE).then_some(id.into())).collect();
+    let content = if of_ids {
+        Content::Ids(ids)
+    } else {
+        Content::Mask(ids.iter().map(Option::is_some).collect())
+    };
+    Buffer::new(size.map(|side| u32::try_from(side).unwrap()), 1, content)
+}
+
+fn with_scene<T>(
+    name: &str,
+    image: [u32; 2],
+    projection: Projection,
+    run: impl Fn(&View) -> T,
+) -> T {
+    let loaded = scenes::load_for(name, Some(image)).unwrap();
+    let mut description = CameraDescription { projection, image, ..loaded.camera };
+    description.viewport[0] = description.width_of_square_pixels();
+    if projection == Projection::Parallel {
+        description.viewport = description.viewport.map(|side| 3.0 * side);
+    }
+    let camera = Camera::new(description).unwrap();
+    run(&View::new(&loaded.scene, &camera))
+}
+
+/// Whether the search names what was planted, besides nothing but what gives the same picture; or says that there is
+/// nothing to name, in a picture that is right or empty.
+fn is_named(view: &View, planted: &Convention, of_ids: bool) -> bool {
+    let file = file(view, planted, of_ids);
+    let drawn = |convention: &Convention| {
+        let upright = Convention { placement: Placement::Upright, ..*convention };
+        draw(view, &upright, Rows::ALL).ids
+    };
+    match find_conventions(view, &file).unwrap().finding {
+        Finding::True => drawn(planted) == drawn(&Convention::default()),
+        Finding::NoEvidence(_) => drawn(planted).iter().all(|&id| id == NO_PRIMITIVE),
+        Finding::Explained(found) => {
+            let all = found.iter().map(|one| one.convention);
+            found[0].remaining == 0
+                && all.clone().any(|one| one == *planted)
+                && all
+                    .filter(|one| one.placement == planted.placement)
+                    .all(|one| drawn(&one) == drawn(planted))
+        }
+        Finding::Unexplained => false,
+    }
+}
+
+/// Triangles of both windings, one behind the other, and some behind the eye; no symmetry.
+fn heap(projection: Projection, image: [u32; 2], run: impl Fn(&View)) {
+    let mut dice = bothways_test_support::Dice(7);
+    let mut objects: Vec<crate::common::Object> = Vec::new();
+    for _ in 0..60 {
+        let middle = 1.4 * dice.point();
+        let mut corner = || middle + 0.6 * dice.point();
+        let [a, b, c] = [corner(), corner(), corner()];
+        objects.push(crate::common::Shape::Triangle(crate::common::Triangle { a, b, c }).into());
+    }
+    let scene = crate::common::Scene::new(objects).unwrap();
+    let camera = CameraDescription {
+        projection,
+        eye: crate::common::glam::Vec3::new(0.3, 0.2, 1.1),
+        viewport: [2.0, 1.5],
+        image,
+        ..CameraDescription::default()
+    };
+    let camera = Camera::new(camera).unwrap();
+    run(&View::new(&scene, &camera));
+}
+
+#[test]
+fn every_pair_of_changes_on_different_axes_is_named_from_ids() {
+    for projection in [Projection::Perspective, Projection::Parallel] {
+        heap(projection, [56, 40], |view| {
+            let mut changes = Change::of_rendering(view.camera);
+            changes.retain(|change| change.is_coarse());
+            changes.extend([Placement::UpsideDown, Placement::LeftToRight].map(Change::Placement));
+            let mut missed = Vec::new();
+            for (index, &one) in changes.iter().enumerate() {
+                for &other in changes[..index].iter().filter(|other| other.axis() != one.axis()) {
+                    let planted = Convention::default().with(other).with(one);
+                    if !is_named(view, &planted, true) {
+                        missed.push(planted.changes());
+                    }
+                }
+            }
+            assert!(missed.is_empty(), "{projection:?}: {} {missed:#?}", missed.len());
+        });
+    }
+}
+
+#[test]
+fn every_change_alone_is_named_from_ids() {
+    for (scene, projection) in
+        [("lecture", Projection::Perspective), ("lecture", Projection::Parallel)]
+    {
+        with_scene(scene, [96, 64], projection, |view| {
+            let mut changes = Change::of_rendering(view.camera);
+            changes
+                .extend(Placement::ALL[1..].iter().map(|&placement| Change::Placement(placement)));
+            for change in changes {
+                let planted = Convention::default().with(change);
+                assert!(is_named(view, &planted, true), "{change:?} in {projection:?}");
+            }
+        });
+    }
+}
