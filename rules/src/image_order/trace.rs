@@ -1,0 +1,57 @@
+//! The loop of every rule: for each sample in the picture, for each object that its ray may hit, keep the nearest.
+
+use super::hierarchy::Hierarchy;
+use crate::samples::Samples;
+use bothways_common::Frame;
+use bothways_common::frame::stored_t;
+use glam::Vec3;
+use rayon::prelude::*;
+
+/// One primitive, in the world.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Shape {
+    Triangle([Vec3; 3]),
+    Sphere { center: Vec3, radius: f32 },
+    Plane { point: Vec3, normal: Vec3 },
+}
+
+/// A rule at work.
+pub(super) trait Tracer: Sync {
+    /// A ray in the rule's arithmetic.
+    type Ray;
+
+    /// The ray through a sample.
+    fn ray(&self, row: usize, column: usize) -> Self::Ray;
+    /// The least positive `t` at which a ray hits a primitive.
+    fn hit(&self, ray: &Self::Ray, shape: &Shape) -> Option<f64>;
+}
+
+/// How many rows and columns of samples one thread draws at a time.
+const TILE: usize = 16;
+
+/// Traces all rays. Of equal hits, the first in the scene is seen.
+pub(super) fn trace<T: Tracer>(
+    tracer: &T,
+    hierarchy: &Hierarchy,
+    samples: &Samples,
+    frame: &mut Frame,
+) {
+    frame.tiles_mut(TILE, TILE).into_par_iter().for_each(|mut tile| {
+        let region = tile.region.clone();
+        for (in_tile, row) in region.rows.clone().enumerate() {
+            for (at, column) in region.columns.clone().enumerate() {
+                // The search is in f64 whatever the rule: it must not lose what the rule hits.
+                let path = samples.ray(row, column);
+                let ray = tracer.ray(row, column);
+                let mut nearest = (f64::INFINITY, u32::MAX);
+                hierarchy.walk(&path, samples.camera().eye(), &mut nearest, |shape| {
+                    tracer.hit(&ray, shape)
+                });
+                if nearest.0.is_finite() {
+                    tile.ids[in_tile][at] = nearest.1;
+                    tile.t[in_tile][at] = stored_t(nearest.0);
+                }
+            }
+        }
+    });
+}
