@@ -18,6 +18,7 @@ mod output;
 mod patience;
 mod pixel;
 mod progress;
+mod rules;
 mod run;
 mod show_camera;
 mod table;
@@ -45,6 +46,7 @@ Examples:
   bothways huge.ply --order object --stream  a mesh that is larger than memory
   bothways render --repeat 20 --json         measured times, for a program to read
   bothways scenes                            what is built in
+  bothways ties --object-rules inclusive     what an ordinary renderer gets wrong
   bothways diff a.png b.png                  which pixels of two files differ, and how
   bothways pixel ties 20 30                  why a pixel shows what it shows
   bothways cover '1,1 9,2 3,7' --size 10x8   which pixels a triangle covers
@@ -75,6 +77,9 @@ enum Command {
         /// A built-in scene, or a scene or mesh file: prints its TOML
         name: Option<String>,
     },
+    /// List the rules of ordinary renderers that either order can have, and what each gets wrong
+    #[command(after_help = rules::EXAMPLES)]
+    Rules(rules::RulesArgs),
     /// Tell which pixels a triangle in raster coordinates covers, exactly
     #[command(after_help = cover::EXAMPLES)]
     Cover(cover::CoverArgs),
@@ -123,6 +128,7 @@ fn run(cli: Cli) -> Result<ExitCode, Failure> {
         Some(Command::Render(args)) => run::run(&args),
         Some(Command::Diff(args)) => diff::run(&args),
         Some(Command::Scenes { name }) => print_scenes(name.as_deref()),
+        Some(Command::Rules(args)) => rules::run(&args),
         Some(Command::Cover(args)) => cover::run(&args),
         Some(Command::Pixel(args)) => pixel::run(&args),
         Some(Command::Camera(args)) => show_camera::run(&args),

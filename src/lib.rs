@@ -57,6 +57,7 @@
 //!   meshes from formulas.
 //! - **Rendering**: [`orders`]; [`progress`] tells how far it is; [`verify`] computes samples of a picture by the
 //!   textbook as well.
+//! - **Ordinary renderers**: [`rules`], to compare with the exact ones; [`orders::Rules`] sets them.
 //! - **Comparing**: [`diff`], for frames and for files of any origin ([`diff::foreign`]); [`report`] writes the
 //!   result for programs.
 //! - **Showing**: [`picture`] and [`figure`]; [`wording`] writes numbers for people.
@@ -68,6 +69,7 @@ pub use bothways_common as common;
 pub use bothways_formats as formats;
 pub use bothways_rasterize as rasterize;
 pub use bothways_raytrace as raytrace;
+pub use bothways_rules as rules;
 
 pub mod cover;
 pub mod diff;

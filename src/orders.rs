@@ -1,4 +1,4 @@
-//! One function that renders a view in either order, counts the work and measures the time.
+//! One function that renders a view in either order and by any rules, counts the work and measures the time.
 
 mod counts;
 mod drawing;
@@ -8,6 +8,7 @@ pub(crate) mod order;
 mod render;
 mod rendered;
 mod renderer;
+mod rules;
 mod source;
 mod times;
 
@@ -16,6 +17,7 @@ pub use options::RenderOptions;
 pub use order::{Method, Order};
 pub use render::render;
 pub use rendered::Rendered;
+pub use rules::{Rule, Rules};
 pub use source::Source;
 pub use times::{Spread, Times};
 

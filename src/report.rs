@@ -2,7 +2,7 @@
 
 use crate::common::Work;
 use crate::diff::{Color, Comparison, Coverage, Depth, Visible};
-use crate::orders::{Method, Order, Rendered, Spread};
+use crate::orders::{Method, Order, Rendered, Rule, Spread};
 use crate::verify::Verified;
 use serde::Serialize;
 
@@ -47,13 +47,16 @@ pub struct Report {
 pub struct OrderReport {
     /// The method.
     pub method: Method,
+    /// The rule of an ordinary renderer that decided, as on the command line; absent if it is exact.
+    #[serde(rename = "rules", skip_serializing_if = "Option::is_none")]
+    pub rule: Option<Rule>,
     /// The time of the work on the scene alone; times are `None` if the options leave them out.
     pub prepare_ms: Option<Spread>,
     /// The time for finding the visible primitives, per frame.
     pub visibility_ms: Option<Spread>,
     /// The time for normals and colours, per frame.
     pub shading_ms: Option<Spread>,
-    /// The work for one frame; `None` if the options leave it out, or there is too much work to count.
+    /// The work for one frame; `None` if the options or the rules leave it out, or there is too much work to count.
     pub work: Option<WorkReport>,
 }
 
@@ -118,6 +121,7 @@ impl OrderReport {
         let times = rendered.times;
         OrderReport {
             method: rendered.method,
+            rule: rendered.rule,
             prepare_ms: times.map(|times| times.prepare),
             visibility_ms: times.map(|times| times.visibility),
             shading_ms: times.map(|times| times.shading),

@@ -16,7 +16,7 @@ pub struct About {
 pub enum ParseRuleError {
     /// There is no rule of this name.
     #[error(
-        "there is no such rule of {order}; choose one of {known} ('bothways rules' explains them)"
+        "there is no such rule of {order}; choose exact or one of {known} ('bothways rules' explains them)"
     )]
     Unknown {
         /// The order that was to have the rule.

@@ -3,10 +3,12 @@
 use bothways::common::glam::Vec3;
 use bothways::common::raster::{MAX_SAMPLES, MAX_SIDE};
 use bothways::common::{Crop, Options, Projection};
-use bothways::orders::{Method, Order};
+use bothways::orders::{Method, Order, Rules};
+use bothways::rules::{ParseRuleError, image_order, object_order};
 use bothways::wording::count;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
+use std::str::FromStr;
 
 /// What to render, how, and where to.
 #[derive(Debug, Args)]
@@ -66,6 +68,14 @@ pub(super) struct MethodArgs {
     /// With all machinery, or the lecture's double loop
     #[arg(long, value_enum, default_value_t = MethodArg::Fast)]
     pub(super) method: MethodArg,
+    /// Give object order the rules of an ordinary rasterizer, to see what they get wrong; 'bothways rules' lists them
+    #[arg(long, value_name = "RULE", default_value = "exact",
+          value_parser = rules::<object_order::Rule>)]
+    pub(super) object_rules: RulesArg<object_order::Rule>,
+    /// Give image order the rules of an ordinary ray tracer
+    #[arg(long, value_name = "RULE", default_value = "exact",
+          value_parser = rules::<image_order::Rule>)]
+    pub(super) image_rules: RulesArg<image_order::Rule>,
     /// Samples a pixel: an N×N regular grid
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = from_1,
           allow_negative_numbers = true)]
@@ -96,6 +106,11 @@ impl MethodArgs {
     /// The options for both orders.
     pub(super) fn options(&self) -> Options {
         Options { samples: self.samples, crop: self.crop }
+    }
+
+    /// The rules of both orders.
+    pub(super) fn rules(&self) -> Rules {
+        Rules { object_order: self.object_rules.rule(), image_order: self.image_rules.rule() }
     }
 }
 
@@ -177,6 +192,22 @@ impl From<MethodArg> for Method {
     }
 }
 
+/// The rules of one order.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum RulesArg<R> {
+    Exact,
+    Ordinary(R),
+}
+
+impl<R> RulesArg<R> {
+    fn rule(self) -> Option<R> {
+        match self {
+            RulesArg::Exact => None,
+            RulesArg::Ordinary(rule) => Some(rule),
+        }
+    }
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum BuffersArg {
     /// No buffers
@@ -215,6 +246,14 @@ pub(super) fn from_1(text: &str) -> Result<u32, String> {
     match text.parse() {
         Ok(number @ 1..) => Ok(number),
         _ => Err(format!("give a whole number from 1 to {most}")),
+    }
+}
+
+/// `exact`, or a rule of an ordinary renderer.
+fn rules<R: FromStr<Err = ParseRuleError>>(text: &str) -> Result<RulesArg<R>, ParseRuleError> {
+    match text {
+        "exact" => Ok(RulesArg::Exact),
+        rule => rule.parse().map(RulesArg::Ordinary),
     }
 }
 

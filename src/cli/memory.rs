@@ -13,6 +13,8 @@ const BYTES_PER_SAMPLE: u64 = 4 + 4 + 12;
 /// The additional bytes of a sample in a stream: id and distance of the earlier chunks, and the triangle's three
 /// vertices.
 const BYTES_PER_STREAMED_SAMPLE: u64 = 4 + 4 + 12;
+/// The additional bytes of a sample in object order with the rules of an ordinary renderer: the depth buffer.
+const BYTES_PER_RULED_SAMPLE: u64 = 8;
 /// The bytes of a pixel while pictures are drawn, compared and compressed: of one order, or of both at once (measured
 /// with 3000 × 3000 pixels: 12).
 const BYTES_PER_PIXEL: [u64; 2] = [8, 12];
@@ -56,7 +58,10 @@ impl Need {
         let pixels = u64::from(pixels.width) * u64::from(pixels.height);
         let orders = args.method.order.orders().len();
         let streamed = if args.method.stream { BYTES_PER_STREAMED_SAMPLE } else { 0 };
+        let ruled =
+            if args.method.rules().object_order.is_some() { BYTES_PER_RULED_SAMPLE } else { 0 };
         let bytes = samples * orders as u64 * (BYTES_PER_SAMPLE + streamed)
+            + samples * ruled
             + pixels * BYTES_PER_PIXEL[orders - 1]
             + BYTES_FOR_THE_REST;
         Need { samples, bytes }

@@ -11,7 +11,7 @@ use bothways::common::raster::check_samples;
 use bothways::common::{Camera, View};
 use bothways::diff::{Comparison, compare_shown};
 use bothways::figure::Slide;
-use bothways::orders::{self, RenderOptions, Rendered};
+use bothways::orders::{self, Order, RenderOptions, Rendered};
 use bothways::picture::{enlarged, id_picture, mask, picture};
 use bothways::progress::Listener;
 use bothways::report::Report;
@@ -25,6 +25,7 @@ use std::process::ExitCode;
 /// Renders, writes and prints; the exit code is 0 if both orders see the same primitives (or if one order ran), 1
 /// otherwise.
 pub(super) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
+    check_rules(args)?;
     let stream = args.method.stream;
     if stream {
         check_stream(args)?;
@@ -40,6 +41,32 @@ pub(super) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
         let run = Run::new(args, &mut scene, &camera, bar.as_ref())?;
         run.finish(staging, &folder, bar)
     })
+}
+
+/// Refuses options that do not work with the rules of ordinary renderers.
+fn check_rules(args: &RenderArgs) -> Result<(), Failure> {
+    for order in [Order::Object, Order::Image] {
+        let Some(rule) = args.method.rules().of(order) else { continue };
+        let given = format!("{} {rule}", rule.option());
+        let refused = if !args.method.order.orders().contains(&order) {
+            format!("{given} is for {}, which --order leaves out; drop one of them", order.name())
+        } else if args.method.method == MethodArg::Textbook {
+            format!(
+                "{given} cannot be used with --method textbook, which is exact; leave one of them out"
+            )
+        } else if args.method.stream {
+            format!("{given} cannot be used with --stream, which is exact; leave one of them out")
+        } else if args.method.verify.is_some() {
+            format!(
+                "{given} cannot be used with --verify, which holds exact renderers against their textbook; \
+                 leave one of them out"
+            )
+        } else {
+            continue;
+        };
+        return Err(Failure::new(refused));
+    }
+    Ok(())
 }
 
 /// Refuses options that do not work with a stream.
@@ -125,6 +152,7 @@ fn thread_pool(args: &RenderArgs) -> Result<rayon::ThreadPool, Failure> {
 fn render_options<'a>(args: &RenderArgs, progress: Option<Listener<'a>>) -> RenderOptions<'a> {
     RenderOptions {
         frame: args.method.options(),
+        rules: args.method.rules(),
         repeat: args.method.repeat,
         no_counts: args.output.no_counts,
         no_times: args.output.no_times,

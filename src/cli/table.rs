@@ -16,12 +16,16 @@ pub(super) fn table(
     comparison: Option<&Comparison>,
     folder: &Path,
 ) -> String {
+    let names: Vec<String> = rendered.iter().map(Rendered::name).collect();
+    let wide = column_width(&names);
     let mut text = heading(report, rendered);
+    let method = rendered.first().map_or("", |one| one.method.name());
+    line(&mut text, method, &names, wide);
     for (label, figures) in rows(rendered) {
-        line(&mut text, label, &figures);
+        line(&mut text, label, &figures, wide);
     }
     if let Some(comparison) = comparison {
-        text += &beyond_tolerance(comparison);
+        text += &beyond_tolerance(comparison, wide);
     }
     text.push('\n');
     for one in rendered {
@@ -55,6 +59,12 @@ fn verdict_style(matches: bool) -> Style {
 const LABEL_WIDTH: usize = 26;
 const COLUMN_WIDTH: usize = 18;
 
+/// The width of every column; rules make the names longer.
+fn column_width(names: &[String]) -> usize {
+    let longest = names.iter().map(String::len).max().unwrap_or(0);
+    COLUMN_WIDTH.max(longest + 2)
+}
+
 fn heading(report: &Report, rendered: &[Rendered]) -> String {
     let bold = Style::new().bold();
     let pixels = pixels_shown(report.size, report.crop.map(Crop::from), "x");
@@ -69,15 +79,13 @@ fn heading(report: &Report, rendered: &[Rendered]) -> String {
         text += &count(report.threads as u64, "threads");
     }
     text += "\n\n";
-    let names: Vec<String> = rendered.iter().map(|one| one.order.name().into()).collect();
-    line(&mut text, rendered.first().map_or("", |one| one.method.name()), &names);
     text
 }
 
-fn line(text: &mut String, label: &str, figures: &[String]) {
+fn line(text: &mut String, label: &str, figures: &[String], wide: usize) {
     write!(text, "{label:LABEL_WIDTH$}").expect("a string takes all");
     for figure in figures {
-        write!(text, "{figure:>COLUMN_WIDTH$}").expect("a string takes all");
+        write!(text, "{figure:>wide$}").expect("a string takes all");
     }
     text.push('\n');
 }
@@ -116,13 +124,13 @@ fn rows(rendered: &[Rendered]) -> Vec<(&'static str, Vec<String>)> {
 }
 
 /// The differences that the verdict ignores, if they are more than rounding explains: one row of the table each.
-fn beyond_tolerance(comparison: &Comparison) -> String {
+fn beyond_tolerance(comparison: &Comparison, wide: usize) -> String {
     let style = AnsiColor::Yellow.on_default();
     let mut text = String::new();
     let mut row = |label: String, pixels: u64, most: String| {
         if pixels > 0 {
             let figure = format!("{}, by at most {most}", count(pixels, "pixels"));
-            let wide = 2 * COLUMN_WIDTH;
+            let wide = 2 * wide;
             writeln!(text, "{style}{label:LABEL_WIDTH$}{figure:>wide$}{style:#}")
                 .expect("a string takes all");
         }
@@ -146,10 +154,11 @@ mod tests {
     fn what_is_beyond_tolerance_has_its_rows() {
         let nothing = Frame::new(&Camera::canonical(2, 2), &Options::default());
         let mut comparison = compare(&nothing, &nothing);
-        assert_eq!(beyond_tolerance(&comparison), "");
+        assert_eq!(beyond_tolerance(&comparison, COLUMN_WIDTH), "");
         comparison.depth = Depth { max_relative_difference: 0.5, differing_pixels: 1 };
         comparison.color = Color { max_difference: 108, differing_pixels: 12_345 };
-        let plain = anstream::adapter::strip_str(&beyond_tolerance(&comparison)).to_string();
+        let plain =
+            anstream::adapter::strip_str(&beyond_tolerance(&comparison, COLUMN_WIDTH)).to_string();
         assert_eq!(
             plain,
             "depths beyond 1e-5                  1 pixel, by at most 5.0e-1\n\

@@ -79,7 +79,7 @@ impl Slide<'_> {
             [self.object_order, self.image_order].into_iter().zip(self.pictures).zip(COLUMNS)
         {
             let order = rendered.order;
-            canvas.heading(left, order.name(), order.common_name(), order.loops());
+            canvas.heading(left, &rendered.name(), order.common_name(), order.loops());
             canvas.picture(left, &resized(picture, size));
             canvas.rows(left, &figures(rendered));
         }
@@ -244,8 +244,8 @@ impl Canvas {
     }
 
     fn heading(&mut self, left: f32, name: &str, common_name: &str, loops: [&str; 2]) {
-        draw(&mut self.pixels, name, left, HEADING, HEADING_STYLE);
-        self.right(left + COLUMN_WIDTH, HEADING, common_name, REGULAR.of(QUIET));
+        let taken = self.right(left + COLUMN_WIDTH, HEADING, common_name, REGULAR.of(QUIET));
+        self.fitting(left, HEADING, name, HEADING_STYLE, COLUMN_WIDTH - taken - REGULAR.size);
         let inner = if common_name.is_empty() { 0.0 } else { 32.0 };
         draw(&mut self.pixels, loops[0], left, FIRST_LOOP, REGULAR.of(QUIET));
         draw(&mut self.pixels, loops[1], left + inner, SECOND_LOOP, REGULAR.of(QUIET));

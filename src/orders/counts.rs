@@ -1,6 +1,7 @@
 //! The work for a frame, counted up to a limit.
 
 use super::options::RenderOptions;
+use super::order::Order;
 use crate::common::Work;
 use crate::common::observe::budget::{Budget, WorkWithin};
 
@@ -14,7 +15,7 @@ pub enum Counts {
         /// The limit, from [`most_steps`].
         most: u64,
     },
-    /// No count: the options turn counting off.
+    /// No count: the options turn counting off, or the order has the rules of an ordinary renderer.
     LeftOut,
 }
 
@@ -35,8 +36,8 @@ pub(super) enum Counting {
 
 impl Counting {
     /// The way of counting for a frame with this number of samples.
-    pub(super) fn new(options: &RenderOptions, samples: u64) -> Counting {
-        if options.no_counts {
+    pub(super) fn new(options: &RenderOptions, order: Order, samples: u64) -> Counting {
+        if options.no_counts || options.rules.of(order).is_some() {
             return Counting::Not(Counts::LeftOut);
         }
         Counting::AtMost { most: most_steps(samples), samples }

@@ -21,6 +21,7 @@ pub(super) trait Drawing {
 
 /// A scene in memory.
 pub(super) struct InMemory<'a, R: Renderer> {
+    renderer: R,
     view: &'a View<'a>,
     options: &'a Options,
     prepared: R::Prepared,
@@ -29,11 +30,12 @@ pub(super) struct InMemory<'a, R: Renderer> {
 
 impl<'a, R: Renderer> InMemory<'a, R> {
     pub(super) fn new(
+        renderer: R,
         view: &'a View<'a>,
         options: &'a Options,
         prepared: R::Prepared,
     ) -> InMemory<'a, R> {
-        InMemory { view, options, prepared, frame: Frame::new(view.camera, options) }
+        InMemory { renderer, view, options, prepared, frame: Frame::new(view.camera, options) }
     }
 }
 
@@ -41,12 +43,12 @@ impl<R: Renderer> Drawing for InMemory<'_, R> {
     type Error = Infallible;
 
     fn draw<O: Observer>(&mut self, observer: &mut O, steps: &Steps) -> Result<(), Infallible> {
-        let InMemory { view, options, prepared, frame } = self;
+        let InMemory { renderer, view, options, prepared, frame } = self;
         match steps.watch() {
-            None => R::determine_visibility(prepared, view, options, frame, observer),
+            None => renderer.determine_visibility(prepared, view, options, frame, observer),
             Some(watch) => {
                 let mut both = (observer.fork(), watch);
-                R::determine_visibility(prepared, view, options, frame, &mut both);
+                renderer.determine_visibility(prepared, view, options, frame, &mut both);
                 observer.join(both.0);
             }
         }
@@ -54,7 +56,7 @@ impl<R: Renderer> Drawing for InMemory<'_, R> {
     }
 
     fn shade(&mut self) {
-        R::shade(self.view, &mut self.frame);
+        self.renderer.shade(self.view, &mut self.frame);
     }
 
     fn into_frame(self) -> Frame {

@@ -90,11 +90,12 @@ pub(super) fn repeated<E>(
 
 /// Prepares a scene, and returns the time of the preparation.
 pub(super) fn prepared<R: Renderer>(
+    renderer: &R,
     scene: &Scene,
     options: &RenderOptions,
 ) -> (R::Prepared, Spread) {
     let begun = Instant::now();
-    let (mut prepared, first) = timed(|| R::prepare(scene));
+    let (mut prepared, first) = timed(|| renderer.prepare(scene));
     // The first run is the warm-up; this also holds without `repeat`, unless a second run would take long.
     let repeat = options.repeat.unwrap_or(u32::from(begun.elapsed() < WARM_UP_BUDGET));
     if repeat == 0 || options.no_times {
@@ -104,7 +105,7 @@ pub(super) fn prepared<R: Renderer>(
     for _ in 0..repeat {
         // Two prepared scenes never exist at once: they take much memory.
         drop(prepared);
-        let (next, time) = timed(|| R::prepare(scene));
+        let (next, time) = timed(|| renderer.prepare(scene));
         prepared = next;
         times.push(time);
         if begun.elapsed() > PREPARE_BUDGET {

@@ -1,13 +1,17 @@
 //! The options for one order.
 
+use super::rules::Rules;
 use crate::common::Options;
 use crate::progress::Listener;
 
-/// The options for one order. The default: one sample per pixel, the work counted, one frame timed, no listener.
+/// The options for one order. The default: one sample per pixel, exact rules, the work counted, one frame timed, no listener.
 #[derive(Clone, Copy, Default)]
 pub struct RenderOptions<'a> {
     /// The options of the frame.
     pub frame: Options,
+    /// The rules of ordinary renderers that take the place of the exact ones, in an order that has some. The work of
+    /// such an order is not counted.
+    pub rules: Rules,
     /// With a number, each phase runs once for the warm-up and then this many times for measurement, into the same
     /// buffers; without a number, each phase is timed once, warmed up by the phases before. Never 0.
     pub repeat: Option<u32>,
@@ -21,11 +25,12 @@ pub struct RenderOptions<'a> {
 
 impl std::fmt::Debug for RenderOptions<'_> {
     fn fmt(&self, formatter: &mut std::fmt::Formatter) -> std::fmt::Result {
-        let RenderOptions { frame, repeat, no_counts, no_times, progress } = self;
+        let RenderOptions { frame, rules, repeat, no_counts, no_times, progress } = self;
         let progress = progress.map(|_| "a listener");
         formatter
             .debug_struct("RenderOptions")
             .field("frame", frame)
+            .field("rules", rules)
             .field("repeat", repeat)
             .field("no_counts", no_counts)
             .field("no_times", no_times)

@@ -6,7 +6,11 @@ use super::measure::{frames, measure, prepared};
 use super::options::RenderOptions;
 use super::order::{Method, Order};
 use super::rendered::Rendered;
-use super::renderer::{FastRasterizer, FastRayTracer, TextbookRasterizer, TextbookRayTracer};
+use super::renderer::{
+    FastRasterizer, FastRayTracer, OrdinaryRasterizer, OrdinaryRayTracer, TextbookRasterizer,
+    TextbookRayTracer,
+};
+use super::rules::Rule;
 use super::source::Source;
 use super::times::Spread;
 use crate::formats::mesh_stream::StreamError;
@@ -25,8 +29,8 @@ use std::sync::atomic::AtomicU64;
 ///
 /// # Panics
 ///
-/// If `repeat` is 0, the camera does not allow this number of samples, or the source is a stream and the order and
-/// the method are not object order and fast.
+/// If `repeat` is 0, the camera does not allow this number of samples, the order has a rule and the method is not fast,
+/// or the source is a stream and it is not object order, fast and exact.
 ///
 /// ```
 /// use bothways::common::{Camera, View};
@@ -50,8 +54,10 @@ pub fn render<'a>(
     options: &RenderOptions,
 ) -> Result<Rendered, StreamError> {
     let source = source.into();
+    let rule = options.rules.of(order);
+    assert!(rule.is_none() || method == Method::Fast, "a textbook has the exact rules");
     let samples = options.frame.pixels(source.camera().image()).region(options.frame.samples);
-    let counting = Counting::new(options, samples.area() as u64);
+    let counting = Counting::new(options, order, samples.area() as u64);
     let counting = match (method, &source) {
         (Method::Textbook, Source::View(view)) => {
             counting.of_all_tests(view.scene.primitive_count())
@@ -65,25 +71,27 @@ pub fn render<'a>(
     let (frame, work, times) = match source {
         Source::View(view) => {
             macro_rules! measured {
-                ($renderer:ty) => {
+                ($renderer:expr) => {
                     measure(options, &counting, &steps, || {
-                        let (prepared, time) = prepared::<$renderer>(view.scene, options);
-                        (InMemory::<$renderer>::new(&view, &options.frame, prepared), time)
+                        let (prepared, time) = prepared(&$renderer, view.scene, options);
+                        (InMemory::new($renderer, &view, &options.frame, prepared), time)
                     })
                 };
             }
-            let Ok(measured) = match (order, method) {
-                (Order::Object, Method::Fast) => measured!(FastRasterizer),
-                (Order::Object, Method::Textbook) => measured!(TextbookRasterizer),
-                (Order::Image, Method::Fast) => measured!(FastRayTracer),
-                (Order::Image, Method::Textbook) => measured!(TextbookRayTracer),
+            let Ok(measured) = match (rule, order, method) {
+                (Some(Rule::Object(rule)), ..) => measured!(OrdinaryRasterizer(rule)),
+                (Some(Rule::Image(rule)), ..) => measured!(OrdinaryRayTracer(rule)),
+                (None, Order::Object, Method::Fast) => measured!(FastRasterizer),
+                (None, Order::Object, Method::Textbook) => measured!(TextbookRasterizer),
+                (None, Order::Image, Method::Fast) => measured!(FastRayTracer),
+                (None, Order::Image, Method::Textbook) => measured!(TextbookRayTracer),
             };
             measured
         }
         Source::Stream { mesh, camera, look, opening } => {
             assert_eq!(
-                (order, method),
-                (Order::Object, Method::Fast),
+                (order, method, rule),
+                (Order::Object, Method::Fast, None),
                 "every ray and every textbook needs the whole scene in memory"
             );
             measure(options, &counting, &steps, || {
@@ -92,5 +100,5 @@ pub fn render<'a>(
             })?
         }
     };
-    Ok(Rendered { order, method, frame, work, times })
+    Ok(Rendered { order, method, rule, frame, work, times })
 }

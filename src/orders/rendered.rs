@@ -2,6 +2,7 @@
 
 use super::counts::Counts;
 use super::order::{Method, Order};
+use super::rules::Rule;
 use super::times::Times;
 use crate::common::frame::NO_PRIMITIVE;
 use crate::common::{Frame, Work};
@@ -13,6 +14,8 @@ pub struct Rendered {
     pub order: Order,
     /// The method.
     pub method: Method,
+    /// The rule of an ordinary renderer that decided; `None` is exact.
+    pub rule: Option<Rule>,
     /// The frame.
     pub frame: Frame,
     /// The work for one frame.
@@ -22,6 +25,12 @@ pub struct Rendered {
 }
 
 impl Rendered {
+    /// The order, with its rule unless that is exact: "object order, snapped:8".
+    pub fn name(&self) -> String {
+        let order = self.order.name();
+        self.rule.map_or(order.into(), |rule| format!("{order}, {rule}"))
+    }
+
     /// The number of covered samples.
     pub fn covered(&self) -> u64 {
         self.frame.ids().iter().filter(|&&id| id != NO_PRIMITIVE).count() as u64

@@ -1,20 +1,22 @@
-//! A common interface of the four renderers.
+//! A common interface of the four renderers, and of the ordinary ones of the rules.
 
 use crate::common::{Frame, Observer, Options, Scene, View};
+use crate::rules::{image_order, object_order};
 use crate::{rasterize, raytrace};
 
-/// The common functions of the four renderers.
+/// The common functions of all renderers.
 pub(super) trait Renderer {
     type Prepared;
-    fn prepare(scene: &Scene) -> Self::Prepared;
+    fn prepare(&self, scene: &Scene) -> Self::Prepared;
     fn determine_visibility(
+        &self,
         prepared: &Self::Prepared,
         view: &View,
         options: &Options,
         frame: &mut Frame,
         observer: &mut impl Observer,
     );
-    fn shade(view: &View, frame: &mut Frame);
+    fn shade(&self, view: &View, frame: &mut Frame);
 }
 
 macro_rules! renderer {
@@ -24,11 +26,12 @@ macro_rules! renderer {
         impl Renderer for $name {
             type Prepared = $order::fast::Prepared;
 
-            fn prepare(scene: &Scene) -> Self::Prepared {
+            fn prepare(&self, scene: &Scene) -> Self::Prepared {
                 $order::fast::prepare(scene)
             }
 
             fn determine_visibility(
+                &self,
                 prepared: &Self::Prepared,
                 view: &View,
                 options: &Options,
@@ -38,7 +41,7 @@ macro_rules! renderer {
                 $order::fast::determine_visibility(prepared, view, options, frame, observer);
             }
 
-            fn shade(view: &View, frame: &mut Frame) {
+            fn shade(&self, view: &View, frame: &mut Frame) {
                 $order::shade(view, frame);
             }
         }
@@ -49,9 +52,10 @@ macro_rules! renderer {
         impl Renderer for $name {
             type Prepared = ();
 
-            fn prepare(_scene: &Scene) {}
+            fn prepare(&self, _scene: &Scene) {}
 
             fn determine_visibility(
+                &self,
                 (): &(),
                 view: &View,
                 options: &Options,
@@ -61,7 +65,7 @@ macro_rules! renderer {
                 $order::textbook::determine_visibility(view, options, frame, observer);
             }
 
-            fn shade(view: &View, frame: &mut Frame) {
+            fn shade(&self, view: &View, frame: &mut Frame) {
                 $order::shade(view, frame);
             }
         }
@@ -72,3 +76,53 @@ renderer! { FastRasterizer: fast rasterize }
 renderer! { TextbookRasterizer: textbook rasterize }
 renderer! { FastRayTracer: fast raytrace }
 renderer! { TextbookRayTracer: textbook raytrace }
+
+/// An ordinary rasterizer. It tells nothing to observers.
+pub(super) struct OrdinaryRasterizer(pub(super) object_order::Rule);
+
+impl Renderer for OrdinaryRasterizer {
+    type Prepared = ();
+
+    fn prepare(&self, _scene: &Scene) {}
+
+    fn determine_visibility(
+        &self,
+        (): &(),
+        view: &View,
+        options: &Options,
+        frame: &mut Frame,
+        _observer: &mut impl Observer,
+    ) {
+        object_order::determine_visibility(view, options, self.0, frame);
+    }
+
+    fn shade(&self, view: &View, frame: &mut Frame) {
+        object_order::shade(view, self.0, frame);
+    }
+}
+
+/// An ordinary ray tracer. It tells nothing to observers.
+pub(super) struct OrdinaryRayTracer(pub(super) image_order::Rule);
+
+impl Renderer for OrdinaryRayTracer {
+    type Prepared = image_order::Prepared;
+
+    fn prepare(&self, scene: &Scene) -> image_order::Prepared {
+        image_order::prepare(scene)
+    }
+
+    fn determine_visibility(
+        &self,
+        prepared: &image_order::Prepared,
+        view: &View,
+        options: &Options,
+        frame: &mut Frame,
+        _observer: &mut impl Observer,
+    ) {
+        image_order::determine_visibility(prepared, view, options, self.0, frame);
+    }
+
+    fn shade(&self, view: &View, frame: &mut Frame) {
+        image_order::shade(view, self.0, frame);
+    }
+}

@@ -47,6 +47,11 @@ pub const BUILT_IN: &[BuiltIn] = &[
         toml: include_str!("../../scenes/overlap.toml"),
     },
     BuiltIn {
+        name: "parallel",
+        about: "A staircase of blocks and balls before a parallel camera: equal things are equally large.",
+        toml: include_str!("../../scenes/parallel.toml"),
+    },
+    BuiltIn {
         name: "inside",
         about: "A closed mesh seen from within: every pixel is covered, or the surface leaks.",
         toml: include_str!("../../scenes/inside.toml"),

@@ -10,6 +10,7 @@ mod diff;
 mod output;
 mod pixel;
 mod readme;
+mod rules;
 mod terminal;
 mod texts;
 mod verify;

@@ -321,7 +321,7 @@ fn a_squashed_picture_has_a_hint() {
 #[test]
 fn short_help() {
     let commands =
-        ["render", "diff", "scenes", "cover", "pixel", "camera", "mesh", "vectors", "completions"];
+        ["render", "diff", "scenes", "rules", "cover", "pixel", "camera", "mesh", "vectors", "completions"];
     insta::assert_snapshot!("help", printed(bothways(&home(), &["-h"]), 0));
     for command in commands {
         let help = printed(bothways(&home(), &[command, "-h"]), 0);

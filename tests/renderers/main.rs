@@ -9,6 +9,7 @@ mod filter;
 mod four_renderers;
 mod from_afar;
 mod materials;
+mod rules;
 mod telescope;
 mod textures;
 mod threads;

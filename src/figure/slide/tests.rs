@@ -23,7 +23,7 @@ fn rendered(order: Order, [width, height]: [u32; 2], count: u64, seen: bool) -> 
     };
     let spread = Spread { median: 12_345.0, min: 1.0, max: 99_999.0 };
     let times = Some(Times { prepare: spread, visibility: spread, shading: spread });
-    Rendered { order, method: Method::Fast, frame, work: Counts::Counted(work), times }
+    Rendered { order, method: Method::Fast, rule: None, frame, work: Counts::Counted(work), times }
 }
 
 fn slide(scene: &str, size: [u32; 2], count: u64, match_: bool) -> RgbImage {

@@ -1,0 +1,230 @@
+//! The rules of ordinary renderers: each differs from the exact ones where it should, and nowhere else.
+
+use bothways::common::glam::Vec3;
+use bothways::common::{
+    Camera, CameraDescription, Crop, Frame, Object, Options, Orientation, Plane, Projection, Scene,
+    Shape, Sphere, Triangle, View,
+};
+use bothways::diff::compare;
+use bothways::orders::{self, Method, Order, RenderOptions, Rendered, Rule, Rules};
+use bothways::rules::{image_order, object_order};
+use bothways::scenes::load;
+use bothways_test_support::hostile::{Numbers, for_each};
+
+fn options(rules: Rules) -> RenderOptions<'static> {
+    RenderOptions { rules, no_times: true, no_counts: true, ..RenderOptions::default() }
+}
+
+fn rules_of(rule: Rule) -> Rules {
+    match rule {
+        Rule::Object(rule) => Rules { object_order: Some(rule), ..Rules::default() },
+        Rule::Image(rule) => Rules { image_order: Some(rule), ..Rules::default() },
+    }
+}
+
+fn rendered(view: &View, order: Order, rules: Rules, frame: Options) -> Rendered {
+    let options = RenderOptions { frame, ..options(rules) };
+    orders::render(order, Method::Fast, view, &options).expect("the scene is in memory")
+}
+
+/// The frames of a rule and of the exact renderer of the same order.
+fn both(view: &View, rule: Rule) -> [Frame; 2] {
+    let order = rule.order();
+    [rules_of(rule), Rules::default()]
+        .map(|rules| rendered(view, order, rules, Options::default()).frame)
+}
+
+fn parse(text: &str) -> Rule {
+    match text.parse() {
+        Ok(rule) => Rule::Object(rule),
+        Err(_) => Rule::Image(text.parse().expect("a rule")),
+    }
+}
+
+#[test]
+fn every_rule_differs_on_its_scene() {
+    for rule in Rule::examples() {
+        let loaded = load(rule.scene()).expect("it is built in");
+        let camera = Camera::new(loaded.camera).expect("it is a camera");
+        let view = View::new(&loaded.scene, &camera);
+        let [ruled, exact] = both(&view, rule);
+        let comparison = compare(&ruled, &exact);
+        assert!(!comparison.matches(), "{rule:?} on {}", rule.scene());
+        // Most of the picture still has to be recognisable, unless the convention moves all of it.
+        let differing = comparison.classes().differing().count();
+        let pixels = ruled.ids().len();
+        let moves_all = ["flip-rows", "one-origin"].contains(&rule.about().form);
+        assert!(moves_all || 2 * differing < pixels, "{rule:?}: {differing} of {pixels}");
+    }
+}
+
+/// Triangles, a sphere and a plane in general position, large enough that no rounding matters.
+fn plain_scene() -> Scene {
+    let corners = [[-2.1, -1.3, -5.2], [1.7, -0.9, -4.1], [0.2, 1.9, -6.3], [2.9, 1.1, -7.7]];
+    let [a, b, c, d] = corners.map(Vec3::from_array);
+    let sphere = Sphere { center: Vec3::new(-1.9, 1.6, -6.0), radius: 0.9 };
+    let plane = Plane { point: Vec3::new(0.0, -2.0, 0.0), normal: Vec3::new(0.05, 1.0, 0.1) };
+    let shapes = [
+        Shape::Triangle(Triangle { a, b, c }),
+        Shape::Triangle(Triangle { a: b, b: d, c }),
+        Shape::Sphere(sphere),
+        Shape::Plane(plane),
+    ];
+    Scene::new(shapes.map(Object::from).into()).expect("it is a scene")
+}
+
+fn plain_camera(projection: Projection) -> Camera {
+    let side = if projection == Projection::Parallel { 6.0 } else { 1.0 };
+    Camera::new(CameraDescription {
+        projection,
+        eye: Vec3::new(0.1, 0.2, 0.3),
+        orientation: Orientation::LookAt { target: Vec3::new(0.0, 0.0, -5.0), up: Vec3::Y },
+        viewport: [side; 2],
+        image: [61, 47],
+        ..CameraDescription::default()
+    })
+    .expect("it is a camera")
+}
+
+#[test]
+fn what_only_rounds_or_breaks_ties_equals_exact_where_nothing_is_close() {
+    for projection in [Projection::Perspective, Projection::Parallel] {
+        let (scene, camera) = (plain_scene(), plain_camera(projection));
+        let view = View::new(&scene, &camera);
+        for text in ["float32", "inclusive", "exclusive", "snapped:16", "near-clip:0.01", "depth24"]
+        {
+            let [ruled, exact] = both(&view, parse(text));
+            assert_eq!(ruled.ids(), exact.ids(), "{text}, {projection:?}");
+            assert_near(&ruled, &exact, text);
+        }
+        for text in ["moller-trumbore", "watertight", "float32"] {
+            let rule = Rule::Image(text.parse().expect("a rule"));
+            let [ruled, exact] = both(&view, rule);
+            assert_eq!(ruled.ids(), exact.ids(), "{text}, {projection:?}");
+            assert_near(&ruled, &exact, text);
+        }
+    }
+}
+
+/// Distances and colours are within the tolerance of the diff.
+fn assert_near(ruled: &Frame, exact: &Frame, text: &str) {
+    let comparison = compare(ruled, exact);
+    assert_eq!(comparison.depth.differing_pixels, 0, "{text}: {:?}", comparison.depth);
+    assert_eq!(comparison.color.differing_pixels, 0, "{text}: {:?}", comparison.color);
+}
+
+#[test]
+fn a_perspective_camera_has_one_origin() {
+    let (scene, camera) = (plain_scene(), plain_camera(Projection::Perspective));
+    let [ruled, exact] = both(&View::new(&scene, &camera), parse("one-origin"));
+    assert_eq!(ruled.ids(), exact.ids());
+    let camera = plain_camera(Projection::Parallel);
+    let [ruled, exact] = both(&View::new(&scene, &camera), parse("one-origin"));
+    assert!(ruled.ids().iter().all(|&id| id == ruled.ids()[0]));
+    assert_ne!(ruled.ids(), exact.ids());
+}
+
+#[test]
+fn flipped_rows_are_the_same_rows() {
+    let (scene, camera) = (plain_scene(), plain_camera(Projection::Perspective));
+    let [ruled, exact] = both(&View::new(&scene, &camera), parse("flip-rows"));
+    for (row, column) in (0..47).flat_map(|row| (0..61).map(move |column| (row, column))) {
+        assert_eq!(ruled.id(row, column), exact.id(46 - row, column));
+        assert_eq!(ruled.t(row, column), exact.t(46 - row, column));
+    }
+    let flipped = ruled.colors().chunks(61).rev().flatten();
+    let most = flipped.zip(exact.colors()).map(|(&one, &other)| (one - other).abs().max_element());
+    assert!(most.fold(0.0, f32::max) < 1e-3);
+}
+
+#[test]
+fn corners_are_sampled_half_a_pixel_up_and_left() {
+    let half_square = |x: f32, y: f32| {
+        let corner = |x, y| Vec3::new(x, y, -1.0);
+        let (a, b, c) = (corner(x, y), corner(x + 0.25, y), corner(x, y - 0.25));
+        Shape::Triangle(Triangle { a, b, c })
+    };
+    let scene = Scene::new(vec![half_square(-0.25, 0.25).into()]).expect("it is a scene");
+    let camera = Camera::canonical(8, 8);
+    let view = View::new(&scene, &camera);
+    // The right angle is at the corner of pixel (2, 2), the legs are two pixels long: the legs own their samples, the
+    // diagonal does not.
+    for rule in [Rule::Object(object_order::Rule::Corner), Rule::Image(image_order::Rule::Corner)] {
+        let [ruled, _] = both(&view, rule);
+        let sketch: Vec<String> = (1..6)
+            .map(|row| {
+                let seen = |column| if ruled.id(row, column).is_some() { '#' } else { '.' };
+                (1..6).map(seen).collect()
+            })
+            .collect();
+        assert_eq!(sketch, [".....", ".##..", ".#...", ".....", "....."], "{rule:?}");
+    }
+}
+
+#[test]
+fn fill_rules_differ_on_ties_alone() {
+    let loaded = load("ties").expect("it is built in");
+    let camera = Camera::new(loaded.camera).expect("it is a camera");
+    let view = View::new(&loaded.scene, &camera);
+    let [inclusive, exact] = both(&view, parse("inclusive"));
+    let exclusive = both(&view, parse("exclusive"))[0].clone();
+    let covered = |frame: &Frame| frame.ids().iter().filter(|&&id| id != u32::MAX).count();
+    assert!(covered(&exclusive) < covered(&exact) && covered(&exact) < covered(&inclusive));
+    // Snapping moves no vertex of this scene: each lies on a pixel's corner or middle.
+    let snapped = both(&view, parse("snapped:8"))[0].clone();
+    assert_eq!(snapped.ids(), exact.ids());
+}
+
+#[test]
+fn what_is_near_is_cut_away() {
+    let sphere = Shape::Sphere(Sphere { center: Vec3::new(0.0, 0.0, -2.0), radius: 1.0 });
+    let scene = Scene::new(vec![sphere.into()]).expect("it is a scene");
+    let camera = Camera::canonical(9, 9);
+    let view = View::new(&scene, &camera);
+    let seen = |text| both(&view, parse(text))[0].t(4, 4);
+    assert_eq!(seen("near-clip:0.5"), Some(1.0));
+    assert_eq!(seen("near-clip:1.5"), Some(3.0), "the inside");
+    assert_eq!(seen("near-clip:4"), None);
+}
+
+#[test]
+fn threads_and_crops_change_nothing() {
+    let loaded = load("overlap").expect("it is built in");
+    let camera = CameraDescription { image: [160, 120], ..loaded.camera };
+    let camera = Camera::new(camera).expect("it is a camera");
+    let view = View::new(&loaded.scene, &camera);
+    for rule in Rule::examples() {
+        let draw = |threads, crop| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let options = Options { samples: 2, crop };
+            pool.install(|| rendered(&view, rule.order(), rules_of(rule), options).frame)
+        };
+        let whole = draw(1, None);
+        assert_eq!(whole, draw(3, None), "{rule:?}");
+        let crop = Crop { row: 37, column: 41, height: 11, width: 23 };
+        let part = draw(2, Some(crop));
+        for [i, j] in part.pixels().map(|pixel| pixel.map(|index| index as usize)) {
+            let pairs = part.samples_of(i, j).zip(whole.samples_of(i, j));
+            for (own, in_whole) in pairs {
+                assert_eq!(part.ids()[own], whole.ids()[in_whole], "{rule:?} at {i}, {j}");
+                assert_eq!(part.distances()[own], whole.distances()[in_whole]);
+                assert_eq!(part.colors()[own], whole.colors()[in_whole]);
+            }
+        }
+    }
+}
+
+#[test]
+fn every_rule_survives_hostile_scenes() {
+    for numbers in [Numbers::FewBits, Numbers::Ordinary, Numbers::Extreme] {
+        for_each(numbers, 40, |view, frame| {
+            for rule in Rule::examples() {
+                let frame = rendered(view, rule.order(), rules_of(rule), *frame).frame;
+                let ids = frame.ids().iter();
+                assert!(ids.zip(frame.distances()).all(|(&id, &t)| {
+                    if id == u32::MAX { t == f32::INFINITY } else { t > 0.0 && t.is_finite() }
+                }));
+            }
+        });
+    }
+}
