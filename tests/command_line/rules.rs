@@ -62,9 +62,27 @@ fn every_command_of_the_list_differs() {
 fn the_table_names_the_rules() {
     let args = ["ties", "--no-times", "--no-counts"];
     let with = |rules: &[&str], code| printed(&[&args, rules].concat(), code);
-    insta::assert_snapshot!(with(&["--object-rules", "inclusive"], 1), @"");
+    insta::assert_snapshot!(with(&["--object-rules", "inclusive"], 1), @r"
+    ties: 522 primitives, 64 x 64 pixels, 1 sample a pixel
+
+    fast                        object order, inclusive              image order
+    samples covered                               4,096                    4,032
+    colours beyond 2 of 255                    118 pixels, by at most 125 of 255
+
+    differ: the orders see different primitives in 784 pixels, first at (0, 4); 64 samples are covered by one of them only
+    written to out/ties
+    ");
     insta::assert_snapshot!(
-        with(&["--object-rules", "snapped:8", "--image-rules", "moller-trumbore"], 1), @"");
+        with(&["--object-rules", "snapped:8", "--image-rules", "moller-trumbore"], 1), @r"
+    ties: 522 primitives, 64 x 64 pixels, 1 sample a pixel
+
+    fast                             object order, snapped:8  image order, moller-trumbore
+    samples covered                                    4,032                         4,096
+    colours beyond 2 of 255                              108 pixels, by at most 125 of 255
+
+    differ: the orders see different primitives in 774 pixels, first at (0, 4); 64 samples are covered by one of them only
+    written to out/ties
+    ");
     // Without rules, nothing changes.
     let exact = ["--object-rules", "exact", "--image-rules", "exact"];
     assert_eq!(with(&exact, 0), with(&[], 0));
@@ -105,5 +123,37 @@ fn what_cannot_be_is_refused() {
     ]
     .map(|rules| refused(&[&["ties"], rules].concat()))
     .into();
-    insta::assert_snapshot!(messages.join("---\n"), @"");
+    insta::assert_snapshot!(messages.join("---\n"), @r"
+    error: invalid value 'watertight' for '--object-rules <RULE>': there is no such rule of object order; choose exact or one of float32, inclusive, exclusive, snapped:B, corner, near-clip:Z, depth24 ('bothways rules' explains them)
+
+    For more information, try '--help'.
+    ---
+    error: invalid value 'snapped:17' for '--object-rules <RULE>': snapped:B takes a whole number of bits from 0 to 16, such as snapped:8
+
+    For more information, try '--help'.
+    ---
+    error: invalid value 'near-clip' for '--object-rules <RULE>': near-clip:Z takes a positive depth along the axis of view, such as near-clip:0.5
+
+    For more information, try '--help'.
+    ---
+    error: invalid value 'corner:1' for '--image-rules <RULE>': corner takes no number; write it as corner
+
+    For more information, try '--help'.
+    ---
+    error: invalid value 'jittered:x' for '--image-rules <RULE>': jittered:SEED takes a whole number from 0 to 18446744073709551615, such as jittered:7
+
+    For more information, try '--help'.
+    ---
+    error: invalid value 'snapped' for '--image-rules <RULE>': there is no such rule of image order; choose exact or one of moller-trumbore, watertight, float32, corner, one-origin, flip-rows, jittered:SEED ('bothways rules' explains them)
+
+    For more information, try '--help'.
+    ---
+    error: --image-rules corner is for image order, which --order leaves out; drop one of them
+    ---
+    error: --object-rules corner cannot be used with --method textbook, which is exact; leave one of them out
+    ---
+    error: --object-rules corner cannot be used with --stream, which is exact; leave one of them out
+    ---
+    error: --image-rules one-origin cannot be used with --verify, which holds exact renderers against their textbook; leave one of them out
+    ");
 }

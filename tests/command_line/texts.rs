@@ -320,8 +320,18 @@ fn a_squashed_picture_has_a_hint() {
 
 #[test]
 fn short_help() {
-    let commands =
-        ["render", "diff", "scenes", "rules", "cover", "pixel", "camera", "mesh", "vectors", "completions"];
+    let commands = [
+        "render",
+        "diff",
+        "scenes",
+        "rules",
+        "cover",
+        "pixel",
+        "camera",
+        "mesh",
+        "vectors",
+        "completions",
+    ];
     insta::assert_snapshot!("help", printed(bothways(&home(), &["-h"]), 0));
     for command in commands {
         let help = printed(bothways(&home(), &[command, "-h"]), 0);

@@ -20,6 +20,10 @@ pub(super) trait Rasterizer: Sync {
     fn map(&self) -> &CameraMap<Self::Real>;
     /// The depth along the axis of view that must be exceeded.
     fn near(&self) -> f64;
+    /// A position of the world in the camera's axes.
+    fn vertex(&self, world: Vec3) -> Vertex {
+        self.map().vertex(world)
+    }
     /// A triangle that was clipped, in the camera's axes; `None` if it covers nothing.
     fn set_up(&self, corners: [Vertex; 3]) -> Option<Self::Triangle>;
     /// What the depth buffer holds for a sphere or a plane at this `t`.
@@ -127,7 +131,7 @@ fn set_up<A: Rasterizer>(
         Shape::Sphere(sphere) => return vec![set_up_sphere(rule, id, *sphere, picture)],
         Shape::Plane(plane) => return vec![set_up_plane(rule, id, *plane, picture)],
     };
-    let vertices = corners.map(|corner| rule.map().vertex(corner));
+    let vertices = corners.map(|corner| rule.vertex(corner));
     if !vertices.iter().flatten().all(|coordinate| coordinate.is_finite()) {
         // Beyond the numbers of the rule's arithmetic.
         return Vec::new();

@@ -11,8 +11,9 @@ pub(super) type Vertex = [f64; 3];
 /// The map of a camera, in the arithmetic of a rule.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CameraMap<R> {
-    eye: Vector<R>,
-    axes: [Vector<R>; 3],
+    pub(super) eye: Vector<R>,
+    /// Right, up and away.
+    pub(super) axes: [Vector<R>; 3],
     pub(super) projection: Projection,
     /// The factors from `x/depth` and `y/depth` (of a parallel camera, from `x` and `y`) to −1…1 over the picture.
     pub(super) to_device: [R; 2],

@@ -1,17 +1,20 @@
 //! `snapped:B`: vertices rounded to 1/2^B pixel, then integer edge functions with the top-left rule, as GPUs do.
 //!
-//! Positions are computed in `f32`, divided by the depth through its inverse, and moved to the raster. From the rounding
-//! on, coverage is exact: shared vertices round alike, so shared edges leave no gap. Depths are linear over the raster,
-//! in `f32`, from the vertices as they were before the rounding. Spheres and planes, which have no vertices, are solved
-//! in `f32`.
+//! Positions are computed in `f32` in the order in which Mesa's llvmpipe computes them, so that it rounds the same numbers:
+//! dot products from their last term, the inverse of the depth, and a fused multiply-add to the raster, whose `y` counts
+//! from below as in OpenGL. From the rounding on, coverage is exact: shared vertices round alike, so shared edges leave
+//! no gap. Depths are linear over the raster, in `f32`, from the vertices as they were before the rounding. Spheres and
+//! planes, which have no vertices, are solved in `f32`.
 //!
 //! 8 bits are what desktop hardware has; Vulkan asks for at least 4 (`subPixelPrecisionBits`).
 
 use super::draw::{Fragment, Fragments, Rasterizer};
 use super::float_edges::least_depth;
 use super::projection::{CameraMap, Vertex, covering};
+use crate::real::{minus, position};
 use crate::samples::{Samples, whole};
 use bothways_common::{Projection, Region};
+use glam::Vec3;
 
 /// A rasterizer that snaps.
 #[derive(Debug)]
@@ -26,24 +29,27 @@ pub(super) fn rule(samples: Samples<'_>, bits: u8) -> Snapped<'_> {
 }
 
 impl Snapped<'_> {
-    /// The column and the row of a vertex in `f32`.
+    /// The place of a vertex on the raster in `f32`: to the right of its left side, and up from its lower side.
     #[expect(clippy::cast_possible_truncation, reason = "the rule is to round to f32")]
     fn raster(&self, [x, y, depth]: Vertex) -> [f32; 2] {
-        let (x, y) = (x as f32 * self.map.to_device[0], -y as f32 * self.map.to_device[1]);
         let inverse = match self.map.projection {
             Projection::Perspective => 1.0 / depth as f32,
             Projection::Parallel => 1.0,
         };
-        let [half_width, half_height] = self.map.half;
-        [x * inverse * half_width + half_width, y * inverse * half_height + half_height]
+        [0, 1].map(|axis| {
+            let device = [x, y][axis] as f32 * self.map.to_device[axis] * inverse;
+            device.mul_add(self.map.half[axis], self.map.half[axis])
+        })
     }
 
-    /// The nearest point of the grid, in half steps of it: the middle of a pixel is a whole number of half steps even
-    /// where the grid has no point there.
+    /// The nearest point of the grid, in half steps of it, from the upper left corner: the middle of a pixel is a whole
+    /// number of half steps even where the grid has no point there.
     #[expect(clippy::cast_possible_truncation, reason = "the guard band bounds it")]
     fn snapped(&self, at: [f32; 2]) -> [i64; 2] {
         let steps = f32::from(self.bits).exp2();
-        at.map(|coordinate| 2 * (coordinate * steps).round_ties_even() as i64)
+        let [x, y] = at.map(|coordinate| 2 * (coordinate * steps).round_ties_even() as i64);
+        let [height, _] = self.samples.size();
+        [x, (i64::from(height) << (self.bits + 1)) - y]
     }
 }
 
@@ -61,6 +67,11 @@ impl Rasterizer for Snapped<'_> {
 
     fn near(&self) -> f64 {
         least_depth(&self.samples)
+    }
+
+    fn vertex(&self, world: Vec3) -> Vertex {
+        let [x, y, z] = minus(position(world), self.map.eye);
+        self.map.axes.map(|[a, b, c]: [f32; 3]| f64::from(a * x + (b * y + c * z)))
     }
 
     fn set_up(&self, corners: [Vertex; 3]) -> Option<Triangle> {
@@ -126,7 +137,7 @@ struct DepthPlane {
     from: [f32; 2],
     start: f32,
     right: f32,
-    down: f32,
+    up: f32,
 }
 
 impl DepthPlane {
@@ -136,12 +147,12 @@ impl DepthPlane {
         let inverse = 1.0 / (bx * cy - by * cx);
         let (to_b, to_c) = (linear[1] - linear[0], linear[2] - linear[0]);
         let right = (to_b * cy - to_c * by) * inverse;
-        let down = (to_c * bx - to_b * cx) * inverse;
-        DepthPlane { from: a, start: linear[0], right, down }
+        let up = (to_c * bx - to_b * cx) * inverse;
+        DepthPlane { from: a, start: linear[0], right, up }
     }
 
     fn at(self, [x, y]: [f32; 2]) -> f32 {
-        self.start + self.right * (x - self.from[0]) + self.down * (y - self.from[1])
+        self.start + self.right * (x - self.from[0]) + self.up * (y - self.from[1])
     }
 }
 
@@ -171,8 +182,9 @@ impl Fragments for Triangle {
             }
         }
         #[expect(clippy::cast_possible_truncation, reason = "rows and columns are below 2^16")]
-        let at = [column, row].map(|index| whole(index) as f32 + 0.5);
-        let t = f64::from(self.map.t(self.depth.at(at)));
+        let [x, y] = [column, row].map(|index| whole(index) as f32 + 0.5);
+        let height = 2.0 * self.map.half[1];
+        let t = f64::from(self.map.t(self.depth.at([x, height - y])));
         // The depth of a needle, extrapolated to a sample beside it, may lie behind the eye.
         let t = if t > 0.0 { t } else { f64::INFINITY };
         Some(Fragment { key: t.min(f64::MAX), t: t.min(f64::MAX) })
@@ -192,10 +204,11 @@ mod tests {
             let rule = rule(Samples::new(&camera, 1, Place::Middle), bits);
             rule.snapped([1.3, 2.5])
         };
-        // In half steps: 1.3 pixels are 1 pixel of 1 step, and 333/256 pixels; 2.5 goes to the even pixel.
+        // In half steps: 1.3 pixels are 1 pixel, 3/2 pixels or 333/256 pixels from the left; 2.5 from below goes to the even 2,
+        // which is 2 from above, or stays.
         assert_eq!(at(0), [2, 4]);
-        assert_eq!(at(1), [6, 10]);
-        assert_eq!(at(8), [2 * 333, 2 * 640]);
+        assert_eq!(at(1), [6, 6]);
+        assert_eq!(at(8), [2 * 333, 2 * 384]);
     }
 
     #[test]
