@@ -160,6 +160,7 @@ fn the_built_in_scenes() {
     behind     Triangles, spheres and planes that reach behind the eye, and some that lie there.
     slivers    Needles down to thousandths of a pixel, and a fan of them that leaves no gap.
     overlap    Coplanar and duplicated faces, of which the first in the scene is always seen.
+    parallel   A staircase of blocks and balls before a parallel camera: equal things are equally large.
     inside     A closed mesh seen from within: every pixel is covered, or the surface leaks.
     many       A necklace of some 100,000 triangles, so that searching well pays.
     ");

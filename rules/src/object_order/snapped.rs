@@ -69,6 +69,14 @@ impl Rasterizer for Snapped<'_> {
         least_depth(&self.samples)
     }
 
+    fn key(&self, t: f64) -> f64 {
+        let linear = match self.map.projection {
+            Projection::Perspective => 1.0 / (t * f64::from(self.map.distance)),
+            Projection::Parallel => t,
+        };
+        key(self.map.projection, linear)
+    }
+
     fn vertex(&self, world: Vec3) -> Vertex {
         let [x, y, z] = minus(position(world), self.map.eye);
         self.map.axes.map(|[a, b, c]: [f32; 3]| f64::from(a * x + (b * y + c * z)))
@@ -131,6 +139,14 @@ impl Edge {
     }
 }
 
+/// What the depth buffer holds: the linear depth, the nearer the smaller. (`t`, its inverse, would be rounded again.)
+fn key(projection: Projection, linear: f64) -> f64 {
+    match projection {
+        Projection::Perspective => -linear,
+        Projection::Parallel => linear,
+    }
+}
+
 /// The linear depth as a function of the raster, in `f32`.
 #[derive(Clone, Copy, Debug)]
 struct DepthPlane {
@@ -184,10 +200,14 @@ impl Fragments for Triangle {
         #[expect(clippy::cast_possible_truncation, reason = "rows and columns are below 2^16")]
         let [x, y] = [column, row].map(|index| whole(index) as f32 + 0.5);
         let height = 2.0 * self.map.half[1];
-        let t = f64::from(self.map.t(self.depth.at([x, height - y])));
-        // The depth of a needle, extrapolated to a sample beside it, may lie behind the eye.
-        let t = if t > 0.0 { t } else { f64::INFINITY };
-        Some(Fragment { key: t.min(f64::MAX), t: t.min(f64::MAX) })
+        let linear = self.depth.at([x, height - y]);
+        let t = f64::from(self.map.t(linear));
+        if t > 0.0 {
+            return Some(Fragment { key: key(self.map.projection, f64::from(linear)), t });
+        }
+        // The depth of a needle, extrapolated to a sample beside it, may lie behind the eye: such a sample is the
+        // farthest.
+        Some(Fragment { key: f64::MAX, t: f64::MAX })
     }
 }
 
