@@ -28,7 +28,7 @@ fn many_has_about_a_hundred_thousand_triangles() {
 fn an_unknown_name_lists_the_known_ones() {
     let says = |name| load(name).unwrap_err().to_string();
     let list = "the built-in scenes are lecture, canonical, ties, behind, slivers, overlap, \
-                inside, many; a scene file (.toml) or a mesh file (.obj, .ply) can be named, too";
+                parallel, inside, many; a scene file (.toml) or a mesh file (.obj, .ply) can be named, too";
     let near = format!("there is no built-in scene \"lectuer\"; did you mean \"lecture\"? {list}");
     assert_eq!(says("lectuer"), near);
     assert_eq!(says("bunny"), format!("there is no built-in scene \"bunny\"; {list}"));
