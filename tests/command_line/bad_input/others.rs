@@ -2,6 +2,9 @@
 
 /// The arguments, and the beginning of the message.
 pub(super) const REFUSED: &[(&str, &str)] = &[
+    // Of `rules`.
+    ("rules ties", "unexpected argument 'ties' found"),
+    ("rules --json=yes", "unexpected value 'yes' for '--json' found; no more were expected"),
     (
         "camera canonical --json=yes",
         "unexpected value 'yes' for '--json' found; no more were expected",

@@ -24,6 +24,23 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
         "empty.obj",
         "empty.obj: no faces (`f` statements), so nothing to draw; export the mesh as polygons",
     ),
+    // The rules of ordinary renderers.
+    (
+        "ties --object-rules exakt",
+        "invalid value 'exakt' for '--object-rules <RULE>': there is no such rule of object order; choose exact or",
+    ),
+    (
+        "ties --object-rules near-clip:nan",
+        "invalid value 'near-clip:nan' for '--object-rules <RULE>': near-clip:Z takes a positive depth",
+    ),
+    (
+        "ties --image-rules snapped:8",
+        "invalid value 'snapped:8' for '--image-rules <RULE>': there is no such rule of image order; choose exact or",
+    ),
+    (
+        "render ties --image-rules corner --order object",
+        "--image-rules corner is for image order, which --order leaves out; drop one of them",
+    ),
     (
         "render no-such-scene",
         "there is no built-in scene \"no-such-scene\"; the built-in scenes are",
