@@ -32,24 +32,33 @@ Examples:
   bothways diff out/canonical/mask-object-order.png mine.png   coverage
   bothways diff yours.png mine.png --background '#101418'      colours, and what is not background
   bothways diff a.npy b.npy -o out/diff                        writes out/diff/difference.png
-  bothways diff mine out/vectors                               a whole folder: each NAME.png or NAME.npy
-                                                               of mine, and which scenes it lacks
+  bothways diff t.npy mine.exr --channels Z --depth axis --scene canonical
+                                          a depth along the axis, as t
+  bothways diff a.png b.png --allow-pixels 3 --ignore 0,0,20,640
+                                          equal enough, but for the first 20 rows
+  bothways diff mine out/vectors          a whole folder: each NAME.png or NAME.npy of mine, and which
+                                          scenes it lacks
 
 Files:
   PNG, PNM or BMP    one channel: a mask or grey picture, covered where it is not 0;
                      with alpha: covered where alpha is not 0; RGB: colours alone
+  JPEG               the same, with a warning: JPEG changes pixels
   NPY, H x W         bool: a mask; integers: ids, all ones (or -1) for nothing;
                      floats: distances t, infinity (or NaN) for nothing;
                      with N x N samples a pixel, H x W x N x N
-  NPY, H x W x 3|4   colours in sRGB: uint8, uint16, or floats from 0 to 1
+  NPY, H x W x 3|4   colours in sRGB: uint8, uint16, or floats from 0 to 1;
+                     three floats of unit length, some negative: normals
+  EXR                R, G, B and A: colours, linear, brought to sRGB; a single channel or one of a known
+                     name: distances (Z, depth), ids (id, object_id), normals (normal.X and so on)
 
-Coverage and ids are compared exactly, t within 1e-5 of the larger, colours within 2/255.
+Coverage and ids are compared exactly; distances, normals and colours within tolerances. Measures such as
+intersection over union, PSNR and SSIM are told, but never decide: a wrong pixel moves none of them much.
 
 Of two folders, files of the same name are compared; beside a conformance set (bothways vectors), those
 that begin with a scene's name, by what is in them: ids, distances or a mask.
 
-Exit codes: 0 equal in everything compared, 1 something differs or lacks its partner, 2 something went
-wrong.";
+Exit codes: 0 equal in everything compared (or equal enough), 1 something differs or lacks its partner,
+2 something went wrong.";
 
 /// The output files.
 const NAMES: [&str; 2] = ["difference.png", "reasons.png"];

@@ -3,7 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use assert_cmd::Command;
-use bothways::common::View;
+use bothways::common::{Projection, View};
 use bothways::diff::foreign::{Buffer, Content, compare};
 use bothways::vectors::{Group, Vector, raster};
 use predicates::prelude::*;
@@ -160,6 +160,9 @@ pixels covered in B                        3
 in both                                    2
 only in A                                  1
 only in B                                  1
+
+intersection over union               0.5000
+farthest from the other mask    1 px, at (0, 2)
 
 first pixels (row, column) that differ:
   (0, 2)  A covered  B nothing
@@ -458,6 +461,144 @@ fn a_tolerance_decides_on_distances_and_colors() {
     let equal = contains("equal in everything compared: colour (within 255/255)\n");
     bothways(&home, &pictures).assert().code(1);
     bothways(&home, &pictures).args(["--color-tolerance", "255"]).assert().code(0).stdout(equal);
+}
+
+/// The distances of the canonical scene, each changed by its pixel, as another file.
+fn changed_t(home: &TempDir, name: &str, change: impl Fn([usize; 2], f32) -> f32) {
+    let mut bytes = fs::read(home.path().join("out/object-order.t.npy")).unwrap();
+    let start = bytes.len() - 4 * 24 * 16;
+    for (index, number) in bytes[start..].chunks_exact_mut(4).enumerate() {
+        let t = f32::from_le_bytes(number.try_into().unwrap());
+        number.copy_from_slice(&change([index / 24, index % 24], t).to_le_bytes());
+    }
+    fs::write(home.path().join(name), bytes).unwrap();
+}
+
+#[test]
+fn distances_of_other_meanings_become_t_with_the_scene() {
+    let home = tempfile::tempdir().unwrap();
+    let camera = ["--distance", "2", "--viewport", "3,2"];
+    let args = ["canonical", "--size", "24x16", "--buffers", "npy", "--quiet", "-o", "out"];
+    bothways(&home, &args).args(camera).assert().code(0);
+    changed_t(&home, "axis.npy", |_, t| 2.0 * t);
+    changed_t(&home, "ray.npy", |[i, j], t| {
+        let (x, y) = ((2.0 * j as f32 - 23.0) / 16.0, (2.0 * i as f32 - 15.0) / 16.0);
+        t * (x * x + y * y + 4.0).sqrt()
+    });
+    // Near 1 and far 100 along the axis; what is not seen has the depth 1.
+    let window = |z: f32| if z.is_finite() { (1.0 / z - 1.0) / (1.0 / 100.0 - 1.0) } else { 1.0 };
+    changed_t(&home, "opengl.npy", |_, t| window(2.0 * t));
+    changed_t(&home, "reversed.npy", |_, t| 1.0 - window(2.0 * t));
+    for (file, meaning, note) in [
+        ("axis.npy", "axis", "distances t (from distances along the axis)"),
+        ("ray.npy", "ray", "distances t (from distances along the ray)"),
+        ("opengl.npy", "opengl:1,100", "distances t (from depths of OpenGL)"),
+        ("reversed.npy", "opengl:100,1", "distances t (from reversed depths of OpenGL)"),
+    ] {
+        let files = ["diff", "out/object-order.t.npy", file, "--tolerance", "1e-3"];
+        let with = |more: &[&str]| bothways(&home, &files).args(more).assert();
+        let scene = [&["--depth", meaning, "--scene", "canonical"][..], &camera].concat();
+        let said = contains("A  out/object-order.t.npy: distances t\n").and(contains(note));
+        with(&scene).code(0).stdout(said).stderr("");
+        // Both files may be said of, each by itself.
+        with(&[&["--depth", "t"], &scene[..]].concat()).code(0);
+        with(&[]).code(1);
+        let why = "only with the camera do";
+        with(&["--depth", meaning]).code(2).stdout("").stderr(contains(why));
+    }
+    let parallel = ["--depth", "opengl:1,inf", "--scene", "canonical", "--projection", "parallel"];
+    let refused =
+        contains("with an infinite plane is of a perspective camera, but this one is parallel");
+    let args = ["diff", "out/object-order.t.npy", "opengl.npy"];
+    bothways(&home, &args).args(parallel).assert().code(2).stderr(refused);
+    let refused =
+        contains("opengl.npy: the camera's image is 8x8, and the file has 24 x 16 pixels");
+    let other = ["--depth", "axis", "--scene", "canonical", "--size", "8x8"];
+    bothways(&home, &args).args(other).assert().code(2).stderr(refused);
+    let refused = contains("axis.npy: the depth at (0, 0) is").and(contains("goes from 0 to 1"));
+    let args = ["diff", "axis.npy", "axis.npy", "--depth", "opengl:1,9", "--scene", "canonical"];
+    bothways(&home, &args).assert().code(2).stderr(refused);
+}
+
+#[test]
+fn distances_beside_a_set_become_t_by_its_scenes() {
+    let home = tempfile::tempdir().unwrap();
+    bothways(&home, &["vectors", "-o", "vectors"]).assert().code(0);
+    let mine = home.path().join("mine");
+    fs::create_dir(&mine).unwrap();
+    for vector in bothways::vectors::all() {
+        let mut bytes = fs::read(home.path().join(format!("vectors/{}.t.npy", vector.name))).unwrap();
+        let camera = vector.camera();
+        let [width, height] = camera.image().map(|side| side as usize);
+        let unit = match camera.projection() {
+            Projection::Perspective => camera.distance(),
+            Projection::Parallel => 1.0,
+        };
+        let start = bytes.len() - 4 * width * height;
+        for number in bytes[start..].chunks_exact_mut(4) {
+            let t = f32::from_le_bytes(number.try_into().unwrap());
+            #[expect(clippy::cast_possible_truncation, reason = "as a renderer stores it")]
+            number.copy_from_slice(&((f64::from(t) * unit) as f32).to_le_bytes());
+        }
+        fs::write(mine.join(format!("{}.npy", vector.name)), bytes).unwrap();
+    }
+    let args = ["diff", "mine", "vectors", "--depth", "axis"];
+    let said = contains("68 of 68 pairs equal\n");
+    bothways(&home, &args).assert().code(0).stdout(said).stderr("");
+    let args = ["diff", "mine", "vectors", "--depth", "ray"];
+    bothways(&home, &args).assert().code(1).stdout(contains(" differ"));
+}
+
+#[test]
+fn an_exr_is_compared_by_the_channels_that_are_chosen() {
+    use exr::prelude::*;
+    let home = rendered("1");
+    let ids = fs::read(home.path().join("out/object-order.ids.npy")).unwrap();
+    let ids: Vec<u32> = ids[ids.len() - 4 * 24 * 16..]
+        .chunks_exact(4)
+        .map(|id| u32::from_le_bytes(id.try_into().unwrap()))
+        .collect();
+    let depth = vec![1.0; ids.len()];
+    let channels = AnyChannels::sort(SmallVec::from_vec(vec![
+        AnyChannel::new("object_id", FlatSamples::U32(ids)),
+        AnyChannel::new("Z", FlatSamples::F32(depth)),
+    ]));
+    let layer = Layer::new((24, 16), LayerAttributes::default(), Encoding::FAST_LOSSLESS, channels);
+    Image::from_layer(layer).write().to_file(home.path().join("mine.exr")).unwrap();
+
+    let files = ["diff", "out/object-order.ids.npy", "mine.exr"];
+    let refused = contains(
+        "mine.exr: choose what to read of it with --channels NAME[,NAME...]; its channels are Z, object_id",
+    );
+    bothways(&home, &files).assert().code(2).stdout("").stderr(refused);
+    let said = contains("B  mine.exr: ids (channel object_id; not read: Z)\n")
+        .and(contains("equal in everything compared: coverage, ids\n"));
+    let args = ["--channels", "object_id"];
+    bothways(&home, &files).args(args).assert().code(0).stdout(said).stderr("");
+    let both = ["diff", "mine.exr", "mine.exr", "--channels", "Z", "--channels", "object_id"];
+    let said = contains("A  mine.exr: distances t (channel Z;").and(contains("B  mine.exr: ids"));
+    bothways(&home, &both).assert().code(1).stdout(said);
+}
+
+#[test]
+fn a_jpeg_is_compared_with_a_warning() {
+    let home = rendered("1");
+    let mask = image::open(home.path().join("out/mask-object-order.png")).unwrap();
+    mask.save(home.path().join("mask.jpg")).unwrap();
+    let warning = contains("warning: mask.jpg: JPEG changes pixels, most of all at edges");
+    let args = ["diff", "out/mask-object-order.png", "mask.jpg"];
+    bothways(&home, &args).assert().stderr(warning);
+}
+
+#[test]
+fn two_empty_masks_are_no_evidence() {
+    let home = tempfile::tempdir().unwrap();
+    image::GrayImage::new(4, 2).save(home.path().join("empty.png")).unwrap();
+    let args = ["diff", "empty.png", "empty.png"];
+    let said = contains("intersection over union       no evidence: neither covers anything\n");
+    bothways(&home, &args).assert().code(0).stdout(said);
+    let report = json_of(&home, &args);
+    assert_eq!(report["measures"]["coverage"]["intersection_over_union"], Value::Null);
 }
 
 #[test]

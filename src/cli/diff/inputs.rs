@@ -89,7 +89,9 @@ pub(in crate::cli) fn scene_of_size(
     let camera_args = CameraArgs { size: args.camera.size.or(size), ..args.camera.clone() };
     let loaded = scenes::load_for(&source, camera_args.size)?;
     terminal::warn(&loaded.warnings);
-    let camera = camera(&loaded, &camera_args)?;
+    // A message names the options that the user gave, and not the size of the files.
+    let camera = camera(&loaded, &camera_args)
+        .map_err(|error| camera(&loaded, &args.camera).err().unwrap_or(error))?;
     Ok(Some((loaded, camera)))
 }
 
