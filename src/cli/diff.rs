@@ -36,8 +36,8 @@ Examples:
                                           a depth along the axis, as t
   bothways diff a.png b.png --allow-pixels 3 --ignore 0,0,20,640
                                           equal enough, but for the first 20 rows
-  bothways diff mine out/vectors          a whole folder: each NAME.png or NAME.npy of mine, and which
-                                          scenes it lacks
+  bothways diff mine out/vectors          a whole folder: each NAME.png or NAME.npy of mine, and
+                                          which scenes it lacks
 
 Files:
   PNG, PNM or BMP    one channel: a mask or grey picture, covered where it is not 0;
@@ -48,17 +48,19 @@ Files:
                      with N x N samples a pixel, H x W x N x N
   NPY, H x W x 3|4   colours in sRGB: uint8, uint16, or floats from 0 to 1;
                      three floats of unit length, some negative: normals
-  EXR                R, G, B and A: colours, linear, brought to sRGB; a single channel or one of a known
-                     name: distances (Z, depth), ids (id, object_id), normals (normal.X and so on)
+  EXR                R, G, B and A: colours, linear, brought to sRGB; a single channel, or one of
+                     a known name: distances (Z, depth), ids (id, object_id), normals (normal.X)
 
-Coverage and ids are compared exactly; distances, normals and colours within tolerances. Measures such as
-intersection over union, PSNR and SSIM are told, but never decide: a wrong pixel moves none of them much.
+Coverage and ids are compared exactly; distances, normals and colours within tolerances.
+Measures such as intersection over union, PSNR and SSIM are told, but never decide: one wrong
+pixel changes them little.
 
-Of two folders, files of the same name are compared; beside a conformance set (bothways vectors), those
-that begin with a scene's name, by what is in them: ids, distances or a mask.
+Of two folders, files of the same name are compared; beside a conformance set (bothways vectors),
+those that begin with a scene's name, by what is in them: ids, distances or a mask. --depth takes
+the scenes of the set.
 
-Exit codes: 0 equal in everything compared (or equal enough), 1 something differs or lacks its partner,
-2 something went wrong.";
+Exit codes: 0 equal in everything compared (or equal enough), 1 something differs or lacks its
+partner, 2 something went wrong.";
 
 /// The output files.
 const NAMES: [&str; 2] = ["difference.png", "reasons.png"];
@@ -77,6 +79,9 @@ pub(super) struct DiffArgs {
     /// The colour of what is not covered, in pictures that have no alpha, such as #101418
     #[arg(long, value_name = "COLOR", value_parser = color)]
     background: Option<[u8; 3]>,
+    /// Print the comparison as JSON
+    #[arg(long)]
+    json: bool,
     #[command(flatten)]
     comparison: ComparisonArgs,
     #[command(flatten)]
@@ -85,11 +90,8 @@ pub(super) struct DiffArgs {
     scene: SceneArgs,
     /// Tell of this pixel alone why it differs: its row and column, counted from 0
     #[arg(long, value_name = "ROW,COLUMN", value_parser = pixel, requires = "scene",
-          conflicts_with = "json", allow_hyphen_values = true)]
+          conflicts_with = "json", allow_hyphen_values = true, help_heading = "Scene")]
     pixel: Option<[u32; 2]>,
-    /// Print the comparison as JSON
-    #[arg(long)]
-    json: bool,
 }
 
 /// Compares and prints; the exit code is 0 if the files are equal in all compared aspects, or equal enough, otherwise 1.
@@ -107,7 +109,7 @@ pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
     }
     let read = inputs::read(args)?;
     for file in &read {
-        terminal::warn(&file.warnings());
+        terminal::warn(&file.named_warnings());
     }
     let [a, b] = [&read[0].buffer, &read[1].buffer];
     let options = args.comparison.options(reference(&args.a, &args.b));
@@ -136,9 +138,9 @@ pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
         }
         staging.commit()?;
     }
-    let notes = [&read[0], &read[1]].map(ReadFile::notes);
     let files = [(&args.a, a), (&args.b, b)];
-    let report = FileReport { files, notes, comparison: &comparison, why: why.as_ref() };
+    let report =
+        FileReport { files, read: &read, comparison: &comparison, why: why.as_ref() };
     let text = match (args.pixel, &why) {
         _ if args.json => report.json()?,
         (Some(pixel), Some(why)) => why.pixel(pixel),
@@ -174,8 +176,8 @@ fn color(text: &str) -> Result<[u8; 3], String> {
 /// The content of the report.
 struct FileReport<'a> {
     files: [(&'a PathBuf, &'a Buffer<'a>); 2],
-    /// Which part of each file was read, and how.
-    notes: [String; 2],
+    /// The same files, with how they were read.
+    read: &'a [ReadFile; 2],
     comparison: &'a BufferComparison,
     /// Why they differ, if their scene is known.
     why: Option<&'a Why<'a>>,
@@ -184,8 +186,8 @@ struct FileReport<'a> {
 /// The comparison for programs.
 #[derive(Serialize)]
 struct Json<'a> {
-    a: JsonFile,
-    b: JsonFile,
+    a: JsonFile<'a>,
+    b: JsonFile<'a>,
     #[serde(flatten)]
     comparison: &'a BufferComparison,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -193,19 +195,27 @@ struct Json<'a> {
 }
 
 #[derive(Serialize)]
-struct JsonFile {
+struct JsonFile<'a> {
     file: String,
     kind: &'static str,
     samples: u32,
+    notes: &'a [String],
+    warnings: &'a [String],
 }
 
 impl FileReport<'_> {
     fn json(&self) -> Result<String, Failure> {
-        let [a, b] = self.files.map(|(path, buffer)| JsonFile {
-            file: path.display().to_string(),
-            kind: buffer.kind(),
-            samples: buffer.samples(),
-        });
+        let file = |side: usize| {
+            let ((path, buffer), read) = (self.files[side], &self.read[side]);
+            JsonFile {
+                file: path.display().to_string(),
+                kind: buffer.kind(),
+                samples: buffer.samples(),
+                notes: &read.notes,
+                warnings: &read.warnings,
+            }
+        };
+        let [a, b] = [file(0), file(1)];
         terminal::json(&Json { a, b, comparison: self.comparison, why: self.why.map(Why::json) })
     }
 
@@ -233,14 +243,14 @@ impl FileReport<'_> {
     fn heading(&self) -> String {
         let bold = Style::new().bold();
         let mut text = String::new();
-        let files = ["A", "B"].into_iter().zip(self.files).zip(&self.notes);
-        for ((name, (path, buffer)), notes) in files {
+        let files = ["A", "B"].into_iter().zip(self.files).zip(self.read);
+        for ((name, (path, buffer)), read) in files {
             let samples = match buffer.samples() {
                 1 => String::new(),
                 n => format!(", {n} x {n} samples a pixel"),
             };
             let (path, kind) = (path.display().to_string(), buffer.kind());
-            let path = visible(&path);
+            let (path, notes) = (visible(&path), read.notes_in_words());
             line(&mut text, format_args!("{bold}{name}{bold:#}  {path}: {kind}{samples}{notes}"));
         }
         let [width, height] = self.comparison.size;

@@ -244,6 +244,10 @@ fn equal_pictures() {
 
     pixels beyond 2/255 in colour              0
 
+    mean difference in colour              0/255
+    root mean square                       0/255
+    PSNR                                infinite
+
     equal in everything compared: colour (within 2/255)
     ");
 }
@@ -263,6 +267,9 @@ fn different_distances() {
     only in A                                  1
     only in B                                  0
     pixels with t beyond 1e-5                 13
+
+    intersection over union               0.9285
+    farthest from the other mask            1 px, at (1, 3)
 
     largest difference in t: 1.6e-1 of it, at (2, 0): A 6, B 7.125
     first pixels (row, column) that differ:
@@ -295,6 +302,9 @@ fn different_ids() {
     only in A                                  1
     only in B                                  0
     in both, but other ids                     0
+
+    intersection over union               0.9285
+    farthest from the other mask            1 px, at (1, 3)
 
     first pixels (row, column) that differ:
       (1, 3)  A id 1  B nothing

@@ -57,7 +57,7 @@ fn compared(args: &DiffArgs, pair: &Pair, set: Option<Side>) -> Result<BufferCom
     let read =
         inputs::read_pair(args, &paths, of_set.as_deref()).map_err(|error| error.to_string())?;
     for file in &read {
-        terminal::warn(&file.warnings());
+        terminal::warn(&file.named_warnings());
     }
     foreign::compare_with(&read[0].buffer, &read[1].buffer, &args.comparison.options(set))
         .map_err(|error| error.to_string())

@@ -51,18 +51,20 @@ pub(super) struct ReadFile {
     pub(super) buffer: Buffer<'static>,
     path: PathBuf,
     has_channels: bool,
-    notes: Vec<String>,
-    warnings: Vec<String>,
+    /// Which part of the file was read, and how.
+    pub(super) notes: Vec<String>,
+    /// What makes the content doubtful.
+    pub(super) warnings: Vec<String>,
 }
 
 impl ReadFile {
     /// What makes the content doubtful, with the name of the file.
-    pub(super) fn warnings(&self) -> Vec<String> {
+    pub(super) fn named_warnings(&self) -> Vec<String> {
         self.warnings.iter().map(|warning| format!("{}: {warning}", self.path.display())).collect()
     }
 
     /// ` (channel Z; not read: R, G, B)`, or nothing.
-    pub(super) fn notes(&self) -> String {
+    pub(super) fn notes_in_words(&self) -> String {
         match &self.notes[..] {
             [] => String::new(),
             notes => format!(" ({})", visible(&notes.join("; "))),
@@ -143,9 +145,12 @@ pub(super) fn read_pair(
     };
     let files = [(0, &mut a), (1, &mut b)];
     for (side, file) in files {
-        if let Some(depth) = of_side(depth, side).filter(|_| depth.len() == 2 || !is_t(&file.path))
-        {
-            convert(file, *depth, camera.as_ref())?;
+        match of_side(depth, side) {
+            Some(_) if depth.len() == 1 && is_t(&file.path) => {
+                file.notes.push("t by its name".into());
+            }
+            Some(depth) => convert(file, *depth, camera.as_ref())?,
+            None => {}
         }
     }
     Ok([a, b])

@@ -14,36 +14,41 @@ pub(super) fn text(comparison: &BufferComparison) -> String {
     if rows.is_empty() {
         return String::new();
     }
-    let lines = rows.iter().map(|[label, value]| format!("{label:30}{value:>14}\n"));
+    let line = |[label, value, more]: &[String; 3]| format!("{label:30}{value:>14}{more}\n");
+    let lines = rows.iter().map(line);
     lines.collect::<String>() + "\n"
 }
 
-fn of_coverage(coverage: &CoverageMeasures) -> Vec<[String; 2]> {
+fn of_coverage(coverage: &CoverageMeasures) -> Vec<[String; 3]> {
     let CoverageMeasures { intersection_over_union, largest_border_distance, .. } = coverage;
     let overlap = match intersection_over_union {
-        Some(part) => rounded_down(*part, 4),
+        Some(part) => rounded_down(*part),
         None => "no evidence: neither covers anything".into(),
     };
-    let mut rows = vec![["intersection over union".to_owned(), overlap]];
+    let mut rows = vec![row("intersection over union", overlap)];
     rows.extend(largest_border_distance.map(|farthest| {
         let [i, j] = farthest.at;
-        let pixels = short(farthest.pixels);
-        ["farthest from the other mask".to_owned(), format!("{pixels} px, at ({i}, {j})")]
+        let pixels = format!("{} px", short(farthest.pixels));
+        ["farthest from the other mask".to_owned(), pixels, format!(", at ({i}, {j})")]
     }));
     rows
 }
 
-fn of_color(color: &ColorMeasures) -> Vec<[String; 2]> {
+fn of_color(color: &ColorMeasures) -> Vec<[String; 3]> {
     let [mean, rms] =
         [color.mean_difference, color.rms_difference].map(|steps| format!("{}/255", short(steps)));
     let psnr = color.psnr.map_or("infinite".into(), |psnr| format!("{psnr:.2} dB"));
     let mut rows = vec![
-        ["mean difference in colour".to_owned(), mean],
-        ["root mean square".to_owned(), rms],
-        ["PSNR".to_owned(), psnr],
+        row("mean difference in colour", mean),
+        row("root mean square", rms),
+        row("PSNR", psnr),
     ];
-    rows.extend(color.ssim.map(|ssim| ["SSIM".to_owned(), rounded_down(ssim, 4)]));
+    rows.extend(color.ssim.map(|ssim| row("SSIM", rounded_down(ssim))));
     rows
+}
+
+fn row(label: &str, value: String) -> [String; 3] {
+    [label.to_owned(), value, String::new()]
 }
 
 /// Three decimals at most.
@@ -53,10 +58,9 @@ fn short(number: f64) -> String {
     if number > 0.0 && without_zeros == "0" { "below 0.001".into() } else { without_zeros.into() }
 }
 
-/// A part of 1 with decimals; nothing but 1 itself is shown as 1.
-fn rounded_down(part: f64, decimals: i32) -> String {
-    let scale = 10.0_f64.powi(decimals);
-    let part = (part * scale).floor() / scale;
+/// A part of 1 with four decimals; nothing but 1 itself is shown as 1.
+fn rounded_down(part: f64) -> String {
+    let part = (part * 1e4).floor() / 1e4;
     if part == 1.0 { "1".into() } else { format!("{part:.4}") }
 }
 
@@ -72,7 +76,7 @@ mod tests {
 
     #[test]
     fn only_1_looks_like_1() {
-        let shown = [1.0, 0.999_999, 0.5, -0.1].map(|part| rounded_down(part, 4));
+        let shown = [1.0, 0.999_999, 0.5, -0.1].map(|part| rounded_down(part));
         assert_eq!(shown, ["1", "0.9999", "0.5000", "-0.1000"]);
     }
 }
