@@ -70,7 +70,7 @@ enum Command {
     Render(Box<RenderArgs>),
     /// Compare two masks, pictures or buffers of any origin
     #[command(after_help = diff::EXAMPLES)]
-    Diff(diff::DiffArgs),
+    Diff(Box<diff::DiffArgs>),
     /// List the built-in scenes, or print one as TOML
     #[command(after_help = SCENES_EXAMPLES)]
     Scenes {

@@ -7,6 +7,7 @@ use super::measures::Measures;
 use super::tolerance::Tolerances;
 use crate::common::{Crop, CropError};
 use image::{Rgb, RgbImage};
+use rayon::prelude::*;
 use serde::Serialize;
 
 /// The light of the difference image of buffers without a picture.
@@ -181,13 +182,7 @@ pub(super) fn compare(pair: &BufferPair) -> Result<BufferComparison, Incomparabl
     for ignored in pair.ignored() {
         ignored.check(a.size()).map_err(Incomparable::Ignored)?;
     }
-    let mut sums = Sums::default();
-    let [width, height] = a.size().map(|side| side as usize);
-    let mut classes = Vec::with_capacity(width * height);
-    let [top, left] = a.origin();
-    for pixel @ [i, j] in pixels(a.size()) {
-        classes.push(sums.add([top + i, left + j], &pair.compare_pixels(pixel, pixel)));
-    }
+    let (sums, classes) = all_pixels(pair);
     if sums.ignored_pixels == classes.len() as u64 {
         return Err(Incomparable::NothingLeft);
     }
@@ -218,6 +213,29 @@ pub(super) fn compare(pair: &BufferPair) -> Result<BufferComparison, Incomparabl
         classes: Classes::new(a.size(), classes),
         light: None,
     })
+}
+
+/// Compares each pixel of A with the same pixel of B, several rows at once.
+fn all_pixels(pair: &BufferPair) -> (Sums, Vec<Class>) {
+    /// Few enough that all processors have work, and enough that handing it out costs nothing.
+    const ROWS: u32 = 16;
+    let ([width, height], [top, left]) = (pair.a.size(), pair.a.origin());
+    let mut classes = vec![Class::Neither; width as usize * height as usize];
+    let bands = classes.par_chunks_mut((ROWS * width) as usize);
+    let firsts: Vec<u32> = (0..height).step_by(ROWS as usize).collect();
+    let sums: Vec<Sums> = bands
+        .zip(firsts)
+        .map(|(classes, first)| {
+            let mut sums = Sums::default();
+            for ([i, j], class) in pixels([width, height - first]).zip(classes) {
+                let pixel = [first + i, j];
+                let found = pair.compare_pixels(pixel, pixel);
+                *class = sums.add([top + pixel[0], left + j], &found);
+            }
+            sums
+        })
+        .collect();
+    (sums.into_iter().fold(Sums::default(), Sums::followed_by), classes)
 }
 
 impl BufferComparison {
@@ -287,16 +305,54 @@ impl Sums {
         self.ignored_pixels += u64::from(class == Class::Ignored);
         if class.differs() {
             self.differing_pixels += 1;
-            let [low, high] = self.corners.unwrap_or([pixel; 2]);
-            let both = |a: [u32; 2], b: [u32; 2], pick: fn(u32, u32) -> u32| {
-                [pick(a[0], b[0]), pick(a[1], b[1])]
-            };
-            self.corners = Some([both(low, pixel, u32::min), both(high, pixel, u32::max)]);
+            self.include(pixel);
             if self.first_differing.len() < NAMED_PIXELS {
                 self.first_differing.push(pixel);
             }
         }
         class
+    }
+
+    /// The sums over these rows, and over others below.
+    fn followed_by(mut self, below: Sums) -> Sums {
+        self.only_a += below.only_a;
+        self.only_b += below.only_b;
+        self.both += below.both;
+        self.ids.differing_samples += below.ids.differing_samples;
+        self.ids.differing_pixels += below.ids.differing_pixels;
+        self.ignored_pixels += below.ignored_pixels;
+        self.differing_pixels += below.differing_pixels;
+        // Of equal maxima, the first is named.
+        let pixels = self.depth.differing_pixels + below.depth.differing_pixels;
+        if below.depth.max_relative_difference > self.depth.max_relative_difference {
+            self.depth = below.depth;
+        }
+        self.depth.differing_pixels = pixels;
+        let pixels = self.normals.differing_pixels + below.normals.differing_pixels;
+        if below.normals.max_degrees > self.normals.max_degrees {
+            self.normals = below.normals;
+        }
+        self.normals.differing_pixels = pixels;
+        let pixels = self.color.differing_pixels + below.color.differing_pixels;
+        if below.color.max_difference > self.color.max_difference {
+            self.color = below.color;
+        }
+        self.color.differing_pixels = pixels;
+        let named = NAMED_PIXELS - self.first_differing.len();
+        self.first_differing.extend(below.first_differing.into_iter().take(named));
+        for corner in below.corners.into_iter().flatten() {
+            self.include(corner);
+        }
+        self
+    }
+
+    /// Extends the rectangle to a pixel.
+    fn include(&mut self, pixel: [u32; 2]) {
+        let [low, high] = self.corners.unwrap_or([pixel; 2]);
+        let both = |a: [u32; 2], b: [u32; 2], pick: fn(u32, u32) -> u32| {
+            [pick(a[0], b[0]), pick(a[1], b[1])]
+        };
+        self.corners = Some([both(low, pixel, u32::min), both(high, pixel, u32::max)]);
     }
 
     fn coverage(&self, unit: Unit) -> BufferCoverage {

@@ -218,12 +218,10 @@ impl FolderReport<'_> {
         let file = |folder: &Path, file: &str| folder.join(file).display().to_string();
         let (a, b) = (file(&self.args.a, &row.pair.a), file(&self.args.b, &row.pair.b));
         let mut text = format!("next: bothways diff {a} {b} -o out/diff\n");
-        if let Some(scene) = scene_of(self.args, row.pair, self.pairs.set) {
-            if let Some([i, j]) =
-                row.compared.as_ref().ok().and_then(|one| one.first_differing.first())
-            {
-                text += &format!("why:  bothways pixel {} {i} {j}\n", scene.display());
-            }
+        let first = row.compared.as_ref().ok().and_then(|one| one.first_differing.first());
+        let scene = scene_of(self.args, row.pair, self.pairs.set);
+        if let (Some(scene), Some([i, j])) = (scene, first) {
+            text += &format!("why:  bothways pixel {} {i} {j}\n", scene.display());
         }
         text
     }

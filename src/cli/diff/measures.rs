@@ -76,7 +76,7 @@ mod tests {
 
     #[test]
     fn only_1_looks_like_1() {
-        let shown = [1.0, 0.999_999, 0.5, -0.1].map(|part| rounded_down(part));
+        let shown = [1.0, 0.999_999, 0.5, -0.1].map(rounded_down);
         assert_eq!(shown, ["1", "0.9999", "0.5000", "-0.1000"]);
     }
 }

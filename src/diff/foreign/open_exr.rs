@@ -1,4 +1,4 @@
-//! OpenEXR pictures of any origin: colours, ids, distances and normals in channels that are chosen by name.
+//! EXR pictures of any origin: colours, ids, distances and normals in channels that are chosen by name.
 
 use super::channels::{Channel, Choice, Meaning, choose, listed};
 use super::picture::MOST_MEMORY;

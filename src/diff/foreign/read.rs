@@ -101,7 +101,7 @@ impl From<Buffer<'static>> for ReadBuffer {
 ///   nothing), floats are distances (±∞ and NaN are nothing).
 /// - NPY of shape H×W×3 or H×W×4: sRGB colours, as `uint8`, `uint16` or floats from 0 to 1. Three floats are normals
 ///   if some are negative and all are of unit length.
-/// - EXR: R, G, B (and A) are colours, linear and multiplied by alpha as OpenEXR has it, brought to sRGB; a single channel,
+/// - EXR: R, G, B (and A) are colours, linear and multiplied by alpha as this format has it, brought to sRGB; a single channel,
 ///   or one with a known name (`Z`, `depth`, `id`, `object_id`, …): distances of floats, ids of integers; three
 ///   (`normal.X`, …): normals.
 ///

@@ -1,4 +1,4 @@
-//! OpenEXR files, made by the library that reads them.
+//! EXR files, made by the library that reads them.
 
 use super::*;
 use crate::diff::buffer::bytes;

@@ -80,3 +80,27 @@ fn rectangles_to_ignore_lie_in_the_image() {
     assert!(problem(&[[0, 0, 0, 1]]).contains("holds no pixel"));
     assert!(problem(&[[0, 0, 2, 3], [0, 3, 2, 1]]).contains("nothing is left to compare"));
 }
+
+#[test]
+fn many_rows_give_what_few_give() {
+    // Differences in the first and the last of many rows, with equal maxima, and more than are named.
+    let rows = |t: &dyn Fn(usize, usize) -> f64| {
+        let t = (0..100).flat_map(|i| (0..3).map(move |j| t(i, j)));
+        Buffer::new([3, 100], 1, Content::Distances(t.collect()))
+    };
+    let a = rows(&|_, _| 1.0);
+    let b = rows(&|i, j| match (i, j) {
+        (20 | 90, 1) => 2.0,
+        (95, 2) => f64::INFINITY,
+        (30..40, 0) => 1.25,
+        _ => 1.0,
+    });
+    let comparison = compare(&a, &b).unwrap();
+    let depth = comparison.depth.unwrap();
+    assert_eq!((depth.max_relative_difference, depth.at), (0.5, Some([20, 1])));
+    assert_eq!((depth.differing_pixels, comparison.differing_pixels), (12, 13));
+    assert_eq!(comparison.region, Some([20, 0, 76, 3]));
+    assert_eq!((comparison.first_differing.len(), comparison.first_differing[9]), (10, [38, 0]));
+    let coverage = comparison.coverage.unwrap();
+    assert_eq!((coverage.both, coverage.only_a), (299, 1));
+}
