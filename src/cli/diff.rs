@@ -114,8 +114,9 @@ pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
     let [a, b] = [&read[0].buffer, &read[1].buffer];
     let options = args.comparison.options(reference(&args.a, &args.b));
     let comparison = foreign::compare_with(a, b, &options).map_err(|error| {
-        let (a, b) = (args.a.display(), args.b.display());
-        Failure::new(format!("A = {a}, B = {b}: {error}"))
+        let (a_path, b_path) = (args.a.display(), args.b.display());
+        let cause = why::of_sizes(&args.scene, [a, b]);
+        Failure::new(format!("A = {a_path}, B = {b_path}: {error}{cause}"))
     })?;
     let scene = inputs::scene_of_size(&args.scene, None, Some(a.size()))?;
     let why = scene.as_ref().map(|(loaded, camera)| {

@@ -1,6 +1,6 @@
 //! `bothways diff A B --scene SCENE`: why the files differ, by the scene that they show.
 
-use super::inputs::SceneArgs;
+use super::inputs::{self, SceneArgs};
 use super::line;
 use crate::cli::args::ProjectionArg;
 use anstyle::Style;
@@ -300,6 +300,28 @@ struct ExplanationJson {
     sentences: Vec<String>,
     explained: u64,
     remaining: u64,
+}
+
+/// What may explain that two files have different sizes, in words behind the error; empty if nothing does.
+pub(super) fn of_sizes(args: &SceneArgs, [a, b]: [&Buffer; 2]) -> String {
+    let sides = |file: &Buffer| file.size().map(i64::from);
+    let [more_columns, more_rows] = [0, 1].map(|side| sides(b)[side] - sides(a)[side]);
+    if more_columns.abs() <= 1 && more_rows.abs() <= 1 && [more_columns, more_rows] != [0, 0] {
+        return "; a loop that includes its end (<= for <), or leaves it out, makes one row or column too many or \
+                too few"
+            .into();
+    }
+    let Ok(Some((loaded, camera))) = inputs::scene_of_size(args, None, Some(a.size())) else {
+        return String::new();
+    };
+    let view = View::new(&loaded.scene, &camera);
+    let Ok(found) = find_conventions(&view, b) else { return String::new() };
+    match &found.finding {
+        Finding::Explained(found) if found[0].remaining == 0 => {
+            format!("; {}", found[0].sentences("B", &camera).join(", and "))
+        }
+        _ => String::new(),
+    }
 }
 
 /// The scene and the options of its camera, as `bothways pixel` takes them.
