@@ -15,6 +15,8 @@ use std::path::{Path, PathBuf};
 pub(in crate::cli) struct OutputFile {
     /// The name from the command line.
     name: PathBuf,
+    /// The option that names the file.
+    option: &'static str,
     destination: Destination,
 }
 
@@ -33,10 +35,18 @@ enum Destination {
 const MOST_LINKS: usize = 40;
 
 impl OutputFile {
-    /// Finds the destination for a file name.
+    /// Finds the destination for the file name of `-o`.
     pub(in crate::cli) fn find(name: &Path) -> Result<OutputFile, Failure> {
-        let file = |destination| OutputFile { name: name.to_owned(), destination };
-        destination(name).map(file).map_err(|error| failure(name, &error))
+        OutputFile::find_for("-o", name)
+    }
+
+    /// Finds the destination for the file name of another option.
+    pub(in crate::cli) fn find_for(
+        option: &'static str,
+        name: &Path,
+    ) -> Result<OutputFile, Failure> {
+        let file = |destination| OutputFile { name: name.to_owned(), option, destination };
+        destination(name).map(file).map_err(|error| failure(option, name, &error))
     }
 
     /// The ending of the name, in small letters; if the name has no ending, the ending of the name that it links to.
@@ -80,7 +90,7 @@ impl OutputFile {
             }
             Destination::File(path) => replace(path, content),
         };
-        written.map_err(|error| failure(&self.name, &error))
+        written.map_err(|error| failure(self.option, &self.name, &error))
     }
 }
 
@@ -186,11 +196,11 @@ fn replace_within(
     Ok(())
 }
 
-fn failure(name: &Path, error: &io::Error) -> Failure {
+fn failure(option: &str, name: &Path, error: &io::Error) -> Failure {
     if name == Path::new("-") {
-        let reason = reason(error, "name a file with -o");
+        let reason = reason(error, &format!("name a file with {option}"));
         return Failure::new(format!("cannot write to standard output: {reason}"));
     }
-    let reason = reason(error, "choose another file with -o");
+    let reason = reason(error, &format!("choose another file with {option}"));
     Failure::new(format!("cannot write {}: {reason}", name.display()))
 }
