@@ -15,6 +15,7 @@ mod compare;
 pub mod foreign;
 mod measures;
 mod orders;
+pub mod page;
 pub mod pairs;
 mod tolerance;
 pub mod why;
