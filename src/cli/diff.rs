@@ -1,6 +1,7 @@
 //! `bothways diff A B`: a comparison of the output of two renderers.
 
 mod folders;
+mod html;
 mod inputs;
 mod measures;
 mod options;
@@ -36,6 +37,8 @@ Examples:
                                           a depth along the axis, as t
   bothways diff a.png b.png --allow-pixels 3 --ignore 0,0,20,640
                                           equal enough, but for the first 20 rows
+  bothways diff a.png b.png --html out/diff.html
+                                          a page: slider, blink, zoom, values
   bothways diff mine out/vectors          a whole folder: each NAME.png or NAME.npy of mine, and
                                           which scenes it lacks
 
@@ -79,6 +82,10 @@ pub(super) struct DiffArgs {
     /// The colour of what is not covered, in pictures that have no alpha, such as #101418
     #[arg(long, value_name = "COLOR", value_parser = color)]
     background: Option<[u8; 3]>,
+    /// Write the comparison as a page for a browser: slider, blink, linked zoom, values, a filter; - is
+    /// standard output
+    #[arg(long, value_name = "FILE.html")]
+    html: Option<PathBuf>,
     /// Print the comparison as JSON
     #[arg(long)]
     json: bool,
@@ -96,6 +103,7 @@ pub(super) struct DiffArgs {
 
 /// Compares and prints; the exit code is 0 if the files are equal in all compared aspects, or equal enough, otherwise 1.
 pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
+    let html = html::Html::find(args)?;
     match [&args.a, &args.b].map(|path| path.is_dir()) {
         [true, true] => return folders::run(args),
         [false, false] => {}
@@ -139,15 +147,16 @@ pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
         }
         staging.commit()?;
     }
+    html.write(args, [a, b], &comparison, |_| {})?;
     let files = [(&args.a, a), (&args.b, b)];
     let report =
         FileReport { files, read: &read, comparison: &comparison, why: why.as_ref() };
     let text = match (args.pixel, &why) {
         _ if args.json => report.json()?,
-        (Some(pixel), Some(why)) => why.pixel(pixel),
-        _ => report.text(args.folder.as_deref()),
+        (Some(pixel), Some(why)) => why.pixel(pixel) + &html.written(),
+        _ => report.text(args.folder.as_deref()) + &html.written(),
     };
-    terminal::print(&text)?;
+    html.print(&text)?;
     Ok(ExitCode::from(u8::from(!comparison.passes)))
 }
 

@@ -7,6 +7,7 @@ mod command_line;
 mod cover;
 mod crop;
 mod diff;
+mod diff_page;
 mod output;
 mod pixel;
 mod readme;
