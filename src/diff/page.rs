@@ -48,7 +48,7 @@ pub struct Page<'a> {
     pub comparison: &'a BufferComparison,
     /// The heading: whether A and B differ, in one sentence.
     pub verdict: String,
-    /// Whether the verdict is good: usually, whether A and B are equal.
+    /// Whether the verdict is good: usually, whether no more pixels differ than are allowed to.
     pub good: bool,
     /// The differing pixels by class or by reason. A pixel in several groups has the colour of the first one that is
     /// shown.
@@ -95,7 +95,7 @@ impl<'a> Page<'a> {
             buffers,
             comparison,
             verdict: summary::verdict(comparison),
-            good: comparison.equal,
+            good: comparison.passes,
             groups: Group::of_classes(comparison),
             findings: comparison.hints.clone(),
             figures: summary::figures(comparison, buffers),

@@ -22,6 +22,8 @@ pub(super) enum Kind {
     U64,
     F32,
     F64,
+    /// Three `f32` an element.
+    F32x3,
     /// Four bytes an element.
     U8x4,
     /// Four `f32` an element.
@@ -37,6 +39,7 @@ impl Kind {
             Kind::U64 => "u64",
             Kind::F32 => "f32",
             Kind::F64 => "f64",
+            Kind::F32x3 => "f32x3",
             Kind::U8x4 => "u8x4",
             Kind::F32x4 => "f32x4",
         }
@@ -48,6 +51,7 @@ impl Kind {
             Kind::U8 => 1,
             Kind::U32 | Kind::F32 | Kind::U8x4 => 4,
             Kind::U64 | Kind::F64 => 8,
+            Kind::F32x3 => 12,
             Kind::F32x4 => 16,
         }
     }

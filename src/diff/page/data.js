@@ -4,15 +4,16 @@ const byId = (id) => document.getElementById(id);
 const facts = JSON.parse(byId("facts").textContent);
 const [width, height] = facts.size;
 
-// The types of array elements: a view, how many of its numbers an element has, and the bytes of an element.
+// The types of array elements: a view of their numbers, and the bytes of an element.
 const KINDS = {
-  u8: [Uint8Array, 1, 1],
-  u32: [Uint32Array, 1, 4],
-  u64: [BigUint64Array, 1, 8],
-  f32: [Float32Array, 1, 4],
-  f64: [Float64Array, 1, 8],
-  u8x4: [Uint8Array, 4, 4],
-  f32x4: [Float32Array, 4, 16],
+  u8: [Uint8Array, 1],
+  u32: [Uint32Array, 4],
+  u64: [BigUint64Array, 8],
+  f32: [Float32Array, 4],
+  f64: [Float64Array, 8],
+  f32x3: [Float32Array, 12],
+  u8x4: [Uint8Array, 4],
+  f32x4: [Float32Array, 16],
 };
 
 // Reads an array: Base64, deflated, planes of bytes, each byte less the one that was expected (see arrays.rs).
@@ -22,7 +23,7 @@ async function readArray(id, kind, base) {
   for (let at = 0; at < packed.length; at++) packed[at] = letters.charCodeAt(at);
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
   const planes = new Uint8Array(await new Response(stream).arrayBuffer());
-  const [View, , bytes] = KINDS[kind];
+  const [View, bytes] = KINDS[kind];
   const elements = planes.length / bytes;
   const read = new Uint8Array(planes.length);
   const expected = base && new Uint8Array(base.buffer);
@@ -103,7 +104,7 @@ function colorAt(side, pixel) {
 
 // One sample in words.
 function sampleText(side, sample) {
-  const { ids, t, covered, color } = side.read;
+  const { ids, t, normals, covered, color } = side.read;
   const parts = [];
   if (ids) {
     const id = ids[sample];
@@ -115,7 +116,8 @@ function sampleText(side, sample) {
     parts.push(`t ${distanceText(t[sample], t instanceof Float32Array)}`);
   }
   if (covered && !covered[sample]) return "nothing";
-  if (covered && !color) return "covered";
+  if (normals) parts.push(`normal (${[0, 1, 2].map((axis) => normals[3 * sample + axis].toFixed(4)).join(" ")})`);
+  if (covered && !color && !normals) return "covered";
   return parts.join(", ");
 }
 

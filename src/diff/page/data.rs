@@ -32,7 +32,7 @@ struct SideFacts {
     samples: u32,
     /// Whether the colours have alpha.
     alpha: bool,
-    /// The arrays of this side: `ids`, `t`, `color` or `covered`, with the type of their elements.
+    /// The arrays of this side: `ids`, `t`, `normals`, `color` or `covered`, with the type of their elements.
     arrays: Vec<ArrayFacts>,
 }
 
@@ -181,6 +181,10 @@ fn arrays(buffer: &Buffer) -> Vec<(&'static str, Array)> {
     if buffer.tells(Aspect::T) {
         arrays.push(("t", distances(buffer)));
     }
+    if buffer.tells(Aspect::Normals) {
+        let normals = buffer.all_samples().map(|sample| stored::<3, 12>(buffer.normal(sample)));
+        arrays.push(("normals", Array::new(Kind::F32x3, normals)));
+    }
     if buffer.tells(Aspect::Color) {
         arrays.push(("color", colors(buffer)));
     }
@@ -227,12 +231,14 @@ fn colors(buffer: &Buffer) -> Array {
     if all().all(|color| bytes(color).map(f32::from) == color) {
         return Array::new(Kind::U8x4, all().map(bytes));
     }
-    let fine = |color: [f32; 4]| {
-        let mut stored = [0; 16];
-        for (four, channel) in stored.chunks_exact_mut(4).zip(color) {
-            four.copy_from_slice(&channel.to_le_bytes());
-        }
-        stored
-    };
-    Array::new(Kind::F32x4, all().map(fine))
+    Array::new(Kind::F32x4, all().map(stored::<4, 16>))
+}
+
+/// The bytes of some numbers.
+fn stored<const N: usize, const BYTES: usize>(numbers: [f32; N]) -> [u8; BYTES] {
+    let mut stored = [0; BYTES];
+    for (four, number) in stored.chunks_exact_mut(4).zip(numbers) {
+        four.copy_from_slice(&number.to_le_bytes());
+    }
+    stored
 }

@@ -3,7 +3,7 @@
 use crate::diff::aspect::Aspect;
 use crate::diff::classes::Class;
 use crate::diff::compare::BufferComparison;
-use crate::diff::tolerance::{COLOR_TOLERANCE, DEPTH_TOLERANCE};
+use crate::diff::tolerance::Tolerances;
 
 /// Some of the differing pixels: a class, or a reason.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -40,19 +40,21 @@ impl Group {
         let (name, explanation) = match class {
             Class::OnlyObjectOrder => ("covered in A only".into(), None),
             Class::OnlyImageOrder => ("covered in B only".into(), None),
-            _ => other_values(&comparison.compared),
+            _ => other_values(&comparison.compared, &comparison.tolerances),
         };
         Group { name, explanation, color: class.color(), pixels: Vec::new() }
     }
 }
 
 /// The name of the pixels that agree in coverage, or whose coverage is unknown, and what makes them differ.
-fn other_values(compared: &[Aspect]) -> (String, Option<String>) {
+fn other_values(compared: &[Aspect], tolerances: &Tolerances) -> (String, Option<String>) {
+    let Tolerances { t, normals, color } = tolerances;
     let of = |aspect: &Aspect| match aspect {
         Aspect::Ids => Some(("ids", None)),
-        Aspect::T => Some(("t", Some(format!("t beyond {DEPTH_TOLERANCE:e} of the larger")))),
-        Aspect::Color => Some(("colours", Some(format!("a colour beyond {COLOR_TOLERANCE}/255")))),
-        _ => None,
+        Aspect::T => Some(("t", Some(format!("t beyond {t:e} of the larger")))),
+        Aspect::Color => Some(("colours", Some(format!("a colour beyond {color}/255")))),
+        Aspect::Normals => Some(("normals", Some(format!("normals more than {normals}° apart")))),
+        Aspect::Coverage => None,
     };
     let (names, meanings): (Vec<_>, Vec<_>) = compared.iter().filter_map(of).unzip();
     let meanings: Vec<String> = meanings.into_iter().flatten().collect();

@@ -42,6 +42,14 @@ pub(super) fn shown(buffers: [&Buffer; 2]) -> [Shown; 2] {
         } else if buffer.tells(Aspect::T) {
             let picture = averaged(buffer, |sample| range.grey(buffer.t(sample)));
             Shown { picture, note: note(&range.note()) }
+        } else if buffer.tells(Aspect::Normals) {
+            let color = |sample| match buffer.covered(sample) {
+                Some(true) => buffer.normal(sample).map(direction),
+                _ => NOTHING,
+            };
+            let note =
+                note("red, green and blue are x, y and z from -1 to 1; near black is nothing");
+            Shown { picture: averaged(buffer, color), note }
         } else {
             let white = |sample| match buffer.covered(sample) {
                 Some(true) => [u8::MAX; 3],
@@ -105,6 +113,12 @@ fn averaged(buffer: &Buffer, color: impl Fn(usize) -> [u8; 3]) -> RgbImage {
         *shown = Rgb((light / count).to_array().map(srgb_from_linear));
     }
     picture
+}
+
+/// A component of a normal as a part of a colour.
+fn direction(component: f32) -> u8 {
+    let [byte] = bytes([127.5 + 127.5 * component]);
+    byte
 }
 
 /// An id that has a colour. Ids of more than 32 bits share the colours of others.

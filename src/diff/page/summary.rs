@@ -5,7 +5,7 @@ use super::template::escaped;
 use crate::diff::aspect::{Aspect, Unit};
 use crate::diff::buffer::Buffer;
 use crate::diff::compare::BufferComparison;
-use crate::diff::tolerance::{COLOR_TOLERANCE, DEPTH_TOLERANCE};
+use crate::diff::tolerance::Tolerances;
 use crate::formats::source::quote::visible;
 use crate::wording::{count, grouped};
 use std::io::{self, Write};
@@ -22,7 +22,8 @@ pub(super) fn verdict(comparison: &BufferComparison) -> String {
         1 => format!("at ({row}, {column})"),
         _ => format!("from ({row}, {column}) to ({bottom}, {right})"),
     };
-    format!("differ: {pixels} of {all}, {place}")
+    let verdict = if comparison.passes { "equal enough: they differ in" } else { "differ:" };
+    format!("{verdict} {pixels} of {all}, {place}")
 }
 
 /// The counts of a comparison.
@@ -47,14 +48,53 @@ pub(super) fn figures(
     if let Some(ids) = comparison.ids {
         add("in both, other ids".into(), ids.differing_samples);
     }
+    let tolerances = comparison.tolerances;
     if let Some(depth) = comparison.depth {
-        add(format!("pixels with t beyond {DEPTH_TOLERANCE:e}"), depth.differing_pixels);
+        add(format!("pixels with t beyond {:e}", tolerances.t), depth.differing_pixels);
+    }
+    if let Some(normals) = comparison.normals {
+        let label = format!("pixels with normals beyond {}°", tolerances.normals);
+        add(label, normals.differing_pixels);
     }
     if let Some(color) = comparison.color {
-        let label = format!("pixels beyond {COLOR_TOLERANCE}/255 in colour");
+        let label = format!("pixels beyond {}/255 in colour", tolerances.color);
         add(label, color.differing_pixels);
     }
+    if comparison.ignored_pixels > 0 {
+        add("pixels ignored".into(), comparison.ignored_pixels);
+    }
+    figures.extend(measures(comparison));
     figures
+}
+
+/// How far A and B are apart as a whole.
+fn measures(comparison: &BufferComparison) -> Vec<(String, String)> {
+    let mut measures = Vec::new();
+    let mut add = |label: &str, value| measures.push((label.to_owned(), value));
+    if let Some(coverage) = comparison.measures.coverage {
+        if let Some(part) = coverage.intersection_over_union {
+            add("intersection over union", rounded_down(part));
+        }
+        if let Some(farthest) = coverage.largest_border_distance {
+            let ([i, j], pixels) = (farthest.at, farthest.pixels);
+            add("farthest from the other mask", format!("{pixels:.1} pixels, at ({i}, {j})"));
+        }
+    }
+    if let Some(color) = comparison.measures.color {
+        if let Some(psnr) = color.psnr {
+            add("PSNR", format!("{psnr:.2} dB"));
+        }
+        if let Some(ssim) = color.ssim {
+            add("SSIM", rounded_down(ssim));
+        }
+    }
+    measures
+}
+
+/// A part of 1 with four decimals; nothing but 1 itself is shown as 1.
+fn rounded_down(part: f64) -> String {
+    let digits = (part * 1e4).floor() / 1e4;
+    if digits == 1.0 { "1".into() } else { format!("{digits:.4}") }
 }
 
 /// Writes the summary as HTML.
@@ -99,7 +139,8 @@ fn write_figures(page: &Page, out: &mut impl Write) -> io::Result<()> {
 /// The size, and what was compared and what was not.
 fn compared(comparison: &BufferComparison) -> String {
     let [width, height] = comparison.size;
-    let names: Vec<String> = comparison.compared.iter().map(name).collect();
+    let names = comparison.compared.iter().map(|aspect| name(*aspect, &comparison.tolerances));
+    let names: Vec<String> = names.collect();
     let mut text = format!("{width} × {height} pixels; compared: {}", names.join(", "));
     for what in &comparison.not_compared {
         text += &format!("; not compared: {what}");
@@ -108,10 +149,11 @@ fn compared(comparison: &BufferComparison) -> String {
 }
 
 /// An aspect with its tolerance.
-fn name(aspect: &Aspect) -> String {
+fn name(aspect: Aspect, tolerances: &Tolerances) -> String {
     match aspect {
-        Aspect::T => format!("t (within {DEPTH_TOLERANCE:e})"),
-        Aspect::Color => format!("colour (within {COLOR_TOLERANCE}/255)"),
-        other => other.name().to_owned(),
+        Aspect::Coverage | Aspect::Ids => aspect.name().to_owned(),
+        Aspect::T => format!("t (within {:e})", tolerances.t),
+        Aspect::Normals => format!("normals (within {}°)", tolerances.normals),
+        Aspect::Color => format!("colour (within {}/255)", tolerances.color),
     }
 }

@@ -2,7 +2,10 @@
 
 use super::arrays::tests::read;
 use super::*;
-use crate::diff::foreign::{Content, Covered, Picture, Pixels, compare};
+use crate::diff::foreign::{
+    CompareOptions, Content, Covered, Picture, Pixels, compare, compare_with,
+};
+use crate::picture::NOTHING;
 use serde_json::{Value, json};
 
 /// A row of ids, or of the ids of some samples a pixel.
@@ -100,6 +103,32 @@ fn numbers_take_as_many_bytes_as_they_need() {
     let large = ids(1, &[Some(1 << 40)]);
     let html = page_of(&large, &large);
     assert_eq!(read(script(&html, "a-ids"), 8, None), (1_u64 << 40).to_le_bytes());
+}
+
+#[test]
+fn normals_are_colors_and_values() {
+    let normals = |x| Buffer::new([2, 1], 1, Content::Normals(vec![[x, 0.0, 1.0], [0.0; 3]]));
+    let (a, b) = (normals(0.0), normals(-1.0));
+    let html = page_of(&a, &b);
+    let arrays = &facts(&html)["sides"][0]["arrays"];
+    assert_eq!(arrays[0], json!({ "name": "normals", "kind": "f32x3", "from_a": false }));
+    assert_eq!(read(script(&html, "a-normals"), 12, None)[8..12], 1.0_f32.to_le_bytes());
+    let groups = &facts(&html)["groups"];
+    assert_eq!(groups[0]["name"], "in both, other normals");
+    assert_eq!(groups[0]["explanation"], "normals more than 0.1° apart");
+    let [shown, _] = super::shown::shown([&a, &b]);
+    assert_eq!(shown.picture.into_raw(), [[128, 128, 255], NOTHING].concat());
+}
+
+#[test]
+fn what_is_allowed_to_differ_is_no_failure() {
+    let (a, b) = (ids(1, &[Some(0), Some(1)]), ids(1, &[Some(0), None]));
+    let options = CompareOptions { allowed_pixels: 1, ..CompareOptions::default() };
+    let comparison = compare_with(&a, &b, &options).unwrap();
+    let html = written(&Page::new(["a", "b"], [&a, &b], &comparison).unwrap());
+    let verdict = "equal enough: they differ in 1 pixel of 2, at (0, 1)</h1>";
+    assert!(html.contains(&format!("<h1 class=\"good\">{verdict}")));
+    assert!(html.contains("<dt>intersection over union</dt><dd>0.5000</dd>"));
 }
 
 #[test]
