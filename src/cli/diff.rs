@@ -149,8 +149,7 @@ pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
     }
     html.write(args, [a, b], &comparison, |_| {})?;
     let files = [(&args.a, a), (&args.b, b)];
-    let report =
-        FileReport { files, read: &read, comparison: &comparison, why: why.as_ref() };
+    let report = FileReport { files, read: &read, comparison: &comparison, why: why.as_ref() };
     let text = match (args.pixel, &why) {
         _ if args.json => report.json()?,
         (Some(pixel), Some(why)) => why.pixel(pixel) + &html.written(),
