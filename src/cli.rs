@@ -10,6 +10,7 @@ mod cover;
 mod diff;
 mod failure;
 mod forecast;
+mod fuzz;
 mod interrupt;
 mod memory;
 mod mesh;
@@ -95,6 +96,9 @@ enum Command {
     /// Write a conformance set for other renderers: small scenes and what is seen of each
     #[command(after_help = vectors::EXAMPLES)]
     Vectors(vectors::VectorsArgs),
+    /// Draw random hostile scenes by all four renderers, and shrink what they disagree on
+    #[command(after_help = fuzz::EXAMPLES)]
+    Fuzz(fuzz::FuzzArgs),
     /// Print a completion script for a shell
     #[command(after_help = COMPLETIONS_EXAMPLES)]
     Completions {
@@ -134,6 +138,7 @@ fn run(cli: Cli) -> Result<ExitCode, Failure> {
         Some(Command::Camera(args)) => show_camera::run(&args),
         Some(Command::Mesh(args)) => mesh::run(&args),
         Some(Command::Vectors(args)) => vectors::run(&args),
+        Some(Command::Fuzz(args)) => fuzz::run(&args),
         Some(Command::Completions { shell }) => print_completions(shell),
     }
 }

@@ -284,7 +284,7 @@ pub(super) fn from_0(text: &str) -> Result<u32, String> {
 }
 
 /// A number of threads, up to the number of cores of a large machine.
-fn threads(text: &str) -> Result<u16, String> {
+pub(super) fn threads(text: &str) -> Result<u16, String> {
     match text.parse() {
         Ok(number @ 1..=1024) => Ok(number),
         _ => Err("give a whole number from 1 to 1024".into()),

@@ -1,6 +1,7 @@
-//! Ctrl-C: the program removes half-written files, and keeps earlier files.
+//! Ctrl-C: the program removes half-written files, and keeps earlier files. A run that can end early is asked first.
 
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::{fs, mem, process};
 
@@ -26,10 +27,21 @@ struct State {
     placed: bool,
     /// Ctrl-C was pressed after that.
     asked: bool,
+    /// The first Ctrl-C asks the run to end early.
+    asks_first: bool,
 }
 
 static STATE: Mutex<State> =
-    Mutex::new(State { unfinished: Vec::new(), placed: false, asked: false });
+    Mutex::new(State { unfinished: Vec::new(), placed: false, asked: false, asks_first: false });
+
+/// Whether the run is asked to end early.
+static ENDS_EARLY: AtomicBool = AtomicBool::new(false);
+
+/// From now on, the first Ctrl-C only sets this value, and the run ends by itself. A second one ends the program.
+pub(super) fn first_asks() -> &'static AtomicBool {
+    state().asks_first = true;
+    &ENDS_EARLY
+}
 
 /// Marks a folder as unfinished until this value is dropped.
 #[derive(Debug)]
@@ -41,7 +53,11 @@ pub(super) fn clean_up() {
     let _ = ctrlc::set_handler(|| {
         // The lock is held to the end: no other thread begins, moves or finishes a file.
         let mut state = state();
-        if state.is_left_to_end() {
+        if state.asks_first {
+            if !ENDS_EARLY.swap(true, Ordering::Relaxed) {
+                return;
+            }
+        } else if state.is_left_to_end() {
             return;
         }
         for Unfinished { hidden, created } in &state.unfinished {
@@ -113,7 +129,8 @@ mod tests {
 
     #[test]
     fn only_a_run_whose_files_are_in_place_goes_on_and_once() {
-        let mut state = State { unfinished: Vec::new(), placed: false, asked: false };
+        let unfinished = Vec::new();
+        let mut state = State { unfinished, placed: false, asked: false, asks_first: false };
         assert!(!state.is_left_to_end());
         state.placed = true;
         assert!(state.is_left_to_end());

@@ -341,6 +341,7 @@ fn short_help() {
         "camera",
         "mesh",
         "vectors",
+        "fuzz",
         "completions",
     ];
     insta::assert_snapshot!("help", printed(bothways(&home(), &["-h"]), 0));

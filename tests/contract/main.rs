@@ -5,6 +5,7 @@
 
 mod covered_triangles;
 mod four_renderers;
+mod fuzzing;
 mod hostile_scenes;
 mod orders_agree;
 mod planted_faults;

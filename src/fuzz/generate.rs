@@ -1,0 +1,153 @@
+//! Random hostile scenes: close calls on purpose.
+//!
+//! A scene has one [`Style`] of numbers. Where numbers have few bits, corners and edges lie exactly on samples, faces are
+//! coplanar, distances equal. Objects are placed as the camera sees them ([`Stage`]), so that most of them are in the
+//! picture; some are not, or reach behind the eye.
+
+mod camera;
+mod meshes;
+mod shapes;
+mod stage;
+
+use super::case::Case;
+use super::dice::Dice;
+use crate::common::{Camera, Crop, Shape};
+use stage::Stage;
+
+/// The style of a scene's numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Style {
+    /// Multiples of a fraction of a pixel, at a few depths: ties everywhere.
+    Lattice,
+    /// The same, with some numbers one bit off: near misses everywhere.
+    NearLattice,
+    /// Any numbers of ordinary size.
+    Free,
+    /// From denormal to nearly infinite, mixed with the others.
+    Extreme,
+}
+
+/// The size of a picture, and what there is time for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Scale {
+    /// Up to 16 pixels a side.
+    Tiny,
+    /// Up to 64: the textbooks draw all of it.
+    Small,
+    /// Several tiles a side.
+    Medium,
+    /// About a thousand pixels a side, or a strip that is longer.
+    Large,
+}
+
+/// Scene number `scene` of a seed: always the same, and always accepted.
+///
+/// ```
+/// let case = bothways::fuzz::generate(7, 123);
+/// assert!(case.accepted().is_some());
+/// assert_eq!(case, bothways::fuzz::generate(7, 123));
+/// ```
+pub fn generate(seed: u64, scene: u64) -> Case {
+    generate_with(&mut Dice::new(seed, scene))
+}
+
+pub(super) fn generate_with(dice: &mut Dice) -> Case {
+    let scale = dice.weighted(&[
+        (40, Scale::Tiny),
+        (35, Scale::Small),
+        (15, Scale::Medium),
+        (10, Scale::Large),
+    ]);
+    let style = dice.weighted(&[
+        (40, Style::Lattice),
+        (15, Style::NearLattice),
+        (25, Style::Free),
+        // There exact arithmetic decides nearly everything, which takes its time.
+        (if scale == Scale::Large { 2 } else { 20 }, Style::Extreme),
+    ]);
+    let samples = dice.weighted(&[(12, 1), (2, 2), (1, 3), (1, 4)]);
+    let samples = if scale == Scale::Large && !dice.once_in(4) { 1 } else { samples };
+    let (description, camera) = loop {
+        let description = camera::description(dice, style, scale);
+        // Few of them are refused, such as those that look along their up.
+        if let Ok(camera) = Camera::new(description) {
+            break (description, camera);
+        }
+    };
+    let mut stage = Stage::new(dice, &camera, style, samples);
+    let shapes = shapes(&mut stage, scale);
+    let crop = stage.dice.once_in(10).then(|| crop(stage.dice, description.image));
+    let case = Case { shapes, camera: description, samples, crop };
+    debug_assert!(case.accepted().is_some(), "{case:?}");
+    case
+}
+
+/// The objects of a scene, some of them nearly the same as earlier ones.
+fn shapes(stage: &mut Stage, scale: Scale) -> Vec<Shape> {
+    let most = match scale {
+        Scale::Tiny => 6,
+        Scale::Small => 10,
+        Scale::Medium | Scale::Large => 8,
+    };
+    let count = 1 + stage.dice.below(most);
+    let mut shapes: Vec<Shape> = Vec::new();
+    while shapes.len() < count {
+        if !shapes.is_empty() && stage.dice.once_in(5) {
+            let earlier = shapes[stage.dice.below(shapes.len())].clone();
+            shapes.push(shapes::near_copy(stage, earlier));
+            continue;
+        }
+        match stage.dice.weighted(&[(6, 0), (1, 1), (1, 2), (3, 3)]) {
+            0 => shapes.extend(shapes::triangles(stage)),
+            1 => shapes.extend(shapes::spheres(stage)),
+            2 => shapes.push(shapes::plane(stage)),
+            _ => shapes.push(meshes::mesh(stage, scale)),
+        }
+    }
+    shapes
+}
+
+/// Any part of an image.
+fn crop(dice: &mut Dice, [width, height]: [u32; 2]) -> Crop {
+    let mut part = |length: u32| {
+        let size = dice.size(1..=length);
+        let first = dice.below((length - size) as usize + 1);
+        [u32::try_from(first).expect("it is within the image"), size]
+    };
+    let ([column, width], [row, height]) = (part(width), part(height));
+    Crop { row, column, height, width }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::common::Projection;
+    use std::collections::HashSet;
+
+    #[test]
+    fn scenes_of_a_seed_are_accepted_and_of_all_kinds() {
+        let mut kinds = HashSet::new();
+        let mut largest = 0;
+        for scene in 0..400 {
+            let case = generate(3, scene);
+            assert!(case.accepted().is_some(), "scene {scene}: {case:?}");
+            let pixels = case.pixels();
+            largest = largest.max(pixels.width * pixels.height);
+            kinds.insert(match case.camera.projection {
+                Projection::Perspective => "perspective",
+                Projection::Parallel => "parallel",
+            });
+            kinds.insert(if case.crop.is_some() { "crop" } else { "no crop" });
+            kinds.insert(if case.samples == 1 { "one sample" } else { "several samples" });
+            kinds.extend(case.shapes.iter().map(|shape| match shape {
+                Shape::Triangle(_) => "triangle",
+                Shape::Sphere(_) => "sphere",
+                Shape::Plane(_) => "plane",
+                Shape::Mesh(mesh) if mesh.triangles().len() > 5000 => "large mesh",
+                Shape::Mesh(_) => "mesh",
+            }));
+        }
+        assert_eq!(kinds.len(), 11, "{kinds:?}");
+        assert!(largest > 500_000, "{largest}");
+    }
+}

@@ -1,0 +1,86 @@
+//! Fewer primitives.
+
+use super::Shrinker;
+use crate::common::{Mesh, Shape};
+use crate::fuzz::case::Case;
+
+/// Removes primitives: halves of them, then ever smaller parts, down to single ones. Triangles of meshes become objects of
+/// their own, unless the disagreement needs the mesh.
+pub(super) fn shrink(shrinker: &mut Shrinker) {
+    shrinker.try_change(|case| Some(case.without_meshes()));
+    let count = |shrinker: &Shrinker| {
+        usize::try_from(shrinker.case.primitives()).expect("primitives are in memory")
+    };
+    let mut part = count(shrinker).div_ceil(2);
+    while part > 0 {
+        let mut first = 0;
+        let mut helped = false;
+        while first < count(shrinker) && count(shrinker) > 1 {
+            let removed = first..first + part;
+            if shrinker.try_change(|case| Some(kept(case, |id| !removed.contains(&id)))) {
+                helped = true;
+            } else {
+                first += part;
+            }
+        }
+        part = if helped && part == 1 { 1 } else { part / 2 };
+    }
+    shrinker.try_change(|case| Some(case.without_meshes()));
+}
+
+/// The case with some of its primitives, chosen by their ids.
+fn kept(case: &Case, is_kept: impl Fn(usize) -> bool) -> Case {
+    let mut id = 0;
+    let mut shapes = Vec::new();
+    for shape in &case.shapes {
+        let ids = id..id + shape.primitive_count();
+        id = ids.end;
+        match shape {
+            Shape::Mesh(mesh) => shapes.extend(part_of(mesh, |local| is_kept(ids.start + local))),
+            other if is_kept(ids.start) => shapes.push(other.clone()),
+            _ => {}
+        }
+    }
+    Case { shapes, ..case.clone() }
+}
+
+/// A mesh of some of a mesh's triangles and the vertices that they name, in their order; `None` if no triangle is left.
+fn part_of(mesh: &Mesh, is_kept: impl Fn(usize) -> bool) -> Option<Shape> {
+    let triangles = mesh.triangles().iter().enumerate();
+    let triangles: Vec<[u32; 3]> =
+        triangles.filter(|(local, _)| is_kept(*local)).map(|(_, corners)| *corners).collect();
+    let mut named: Vec<u32> = triangles.iter().flatten().copied().collect();
+    named.sort_unstable();
+    named.dedup();
+    let place = |vertex: u32| {
+        let place = named.binary_search(&vertex).expect("it is one of those that are named");
+        u32::try_from(place).expect("there are no more than before")
+    };
+    let positions = named.iter().map(|vertex| mesh.positions()[*vertex as usize]).collect();
+    let triangles: Vec<[u32; 3]> =
+        triangles.into_iter().map(|corners| corners.map(place)).collect();
+    if triangles.is_empty() {
+        return None;
+    }
+    Some(Shape::Mesh(Mesh::new(positions, triangles).expect("it is a part of a mesh")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fuzz::generate;
+
+    #[test]
+    fn what_is_kept_stays_as_it_is() {
+        for scene in 0..50 {
+            let case = generate(5, scene);
+            let (before, _) = case.accepted().unwrap();
+            let third = kept(&case, |id| id % 3 == 1);
+            let (after, _) = third.accepted().unwrap();
+            assert_eq!(u64::from(after.primitive_count()), (case.primitives() + 1) / 3);
+            for id in 0..after.primitive_count() {
+                assert_eq!(after.triangle(id), before.triangle(3 * id + 1), "scene {scene}");
+            }
+        }
+    }
+}
