@@ -22,9 +22,9 @@ use std::time::Duration;
 use std::{env, panic};
 
 pub(super) const EXAMPLES: &str = "\
-Both fast renderers draw each scene; both textbooks draw it too, or a part of it where that would take
-long. If two of the four see different primitives at a sample, or one panics, the scene is shrunk
-and written as a scene file. The scene of a number depends on the seed and that number alone.
+Both fast renderers draw each scene; both textbooks draw it too, or a part of it where that would
+take long. If two of the four see different primitives at a sample, or one panics, the scene is
+shrunk and written as a scene file. A scene depends on the seed and its own number alone.
 
 Examples:
   bothways fuzz                                    for a minute, with a new seed, which is printed

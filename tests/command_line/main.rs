@@ -8,6 +8,7 @@ mod cover;
 mod crop;
 mod diff;
 mod diff_page;
+mod fuzz;
 mod output;
 mod pixel;
 mod readme;

@@ -227,3 +227,26 @@ fn a_run_that_waits_for_another_can_be_interrupted() {
     assert_eq!(child.wait().unwrap().code(), Some(0));
     assert_eq!(width_in(&folder), (6, 7));
 }
+
+#[test]
+fn ctrl_c_ends_fuzzing_with_the_summary_of_what_was_done() {
+    let home = tempfile::tempdir().unwrap();
+    let args = ["fuzz", "--seconds", "3600", "--threads", "1", "--seed", "5"];
+    let child = bothways(&home, &args).spawn().unwrap();
+    // Long enough for the program to begin; the scenes take far longer.
+    std::thread::sleep(Duration::from_secs(1));
+    press_ctrl_c(&child);
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130));
+    assert_eq!(String::from_utf8(output.stderr).unwrap(), "");
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.contains(" pixels, ") && text.contains(", 0 disagreements\n"), "{text}");
+    assert!(text.ends_with("; seed 5; ended by Ctrl-C\n"), "{text}");
+}
+
+#[test]
+fn fuzzing_shows_how_far_it_is_and_erases_that() {
+    let home = tempfile::tempdir().unwrap();
+    let seen = seen_on_stderr(bothways(&home, &["fuzz", "--scenes", "4", "--seed", "5"]));
+    assert!(seen.contains(" pixels, ") && seen.ends_with("\r\u{1b}[2K"), "{seen:?}");
+}

@@ -143,9 +143,9 @@ fn assert_small(finding: &Finding, primitives: u64, pixels: u32) {
 
 #[test]
 fn sound_renderers_agree() {
-    let summary = run(150, &Renderers::sound());
-    assert_eq!((summary.scenes, summary.disagreements, summary.ended_early), (150, 0, false));
-    assert!(summary.pixels > 1_000_000 && summary.textbook_pixels > 50_000, "{summary:?}");
+    let summary = run(60, &Renderers::sound());
+    assert_eq!((summary.scenes, summary.disagreements, summary.ended_early), (60, 0, false));
+    assert!(summary.pixels > 500_000 && summary.textbook_pixels > 20_000, "{summary:?}");
     assert!(summary.exact_ties > 10_000 && summary.exact_fallbacks > 1000, "{summary:?}");
 }
 
@@ -228,14 +228,21 @@ fn a_fault_that_only_meshes_show_keeps_its_mesh() {
 #[test]
 fn panics_are_found() {
     let broken = broken(|view, _, frame| {
-        let is_large = |mesh: &Mesh| mesh.positions().iter().any(|p| p.x.abs() > 1e6);
+        let is_large = |mesh: &Mesh| mesh.positions().iter().any(|p| p.x.abs() > 100.0);
         let shapes = view.scene.objects().iter().map(|object| &object.shape);
         for shape in shapes {
             assert!(!matches!(shape, Shape::Mesh(mesh) if is_large(mesh)), "x is too large");
         }
         draw(view, frame, covers, nearer, |_| true);
     });
-    let finding = smallest(400, &broken);
+    // Their messages are results here.
+    let usual = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |info| {
+        if !fuzz::is_watched() {
+            usual(info);
+        }
+    }));
+    let finding = smallest(200, &broken);
     assert_small(&finding, 1, 1);
     let message = finding.disagreement.to_string();
     assert_eq!(message, "object order (fast) panicked: x is too large");

@@ -11,7 +11,14 @@ pub(super) fn description(dice: &mut Dice, style: Style, scale: Scale) -> Camera
     let image = image(dice, scale);
     let (distance, viewport) = lens(dice, style, image);
     let orientation = orientation(dice, style);
-    CameraDescription { projection, eye: eye(dice, style), orientation, distance, viewport, image }
+    CameraDescription {
+        projection,
+        eye: eye(dice, style, scale),
+        orientation,
+        distance,
+        viewport,
+        image,
+    }
 }
 
 /// The width and height of an image.
@@ -26,12 +33,12 @@ fn image(dice: &mut Dice, scale: Scale) -> [u32; 2] {
     if dice.once_in(4) { [height, width] } else { [width, height] }
 }
 
-fn eye(dice: &mut Dice, style: Style) -> Vec3 {
+fn eye(dice: &mut Dice, style: Style, scale: Scale) -> Vec3 {
     let few = |dice: &mut Dice| dice.within(-8..=8) as f32;
     match style {
         _ if dice.once_in(2) => Vec3::ZERO,
         // So far that a coordinate keeps few bits, or none.
-        _ if dice.once_in(10) => {
+        _ if !scale.is_large() && dice.once_in(10) => {
             let far = exp2(dice.within(8..=if style == Style::Extreme { 120 } else { 26 }));
             far * Vec3::new(few(dice), few(dice), few(dice))
         }

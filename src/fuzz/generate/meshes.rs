@@ -13,7 +13,7 @@ pub(super) fn mesh(stage: &mut Stage, scale: Scale) -> Shape {
     let mesh = match stage.dice.below(8) {
         0 | 1 => fan(stage),
         2..=4 => grid(stage, most),
-        5 => soup(stage, most.min(200)),
+        5 => soup(stage, most.min(if scale.is_large() { 20 } else { 200 })),
         6 => cloud(stage, most),
         _ => closed(stage, most),
     };

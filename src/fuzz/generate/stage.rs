@@ -1,7 +1,7 @@
 //! What the camera sees, as a place to put things: points by their position in the picture and their depth.
 
-use super::Style;
 use super::camera::exp2;
+use super::{Scale, Style};
 use crate::common::glam::{DVec3, Vec3};
 use crate::common::{Camera, Projection};
 use crate::fuzz::dice::Dice;
@@ -14,6 +14,8 @@ pub(super) struct Stage<'a> {
     pub(super) style: Style,
     /// Fractions of a pixel in which a lattice counts: 2 for half pixels.
     steps: f64,
+    /// Whether corners may lie on the eye.
+    has_corners_on_eye: bool,
     /// The depths at which most of a lattice's faces lie.
     depths: [f64; 3],
 }
@@ -33,13 +35,14 @@ impl<'a> Stage<'a> {
         camera: &'a Camera,
         style: Style,
         samples: u32,
+        scale: Scale,
     ) -> Stage<'a> {
         // Samples lie on odd multiples of half their spacing.
         let steps = dice.one_of(&[2.0, 2.0, 4.0, 1.0]) * f64::from(samples);
         let distance = camera.distance();
         let depth = |dice: &mut Dice| distance * f64::from(exp2(dice.within(-1..=5)));
         let depths = [distance, depth(dice), depth(dice)];
-        Stage { dice, camera, style, steps, depths }
+        Stage { dice, camera, style, steps, has_corners_on_eye: !scale.is_large(), depths }
     }
 
     /// The width and the height of the image in pixels.
@@ -110,10 +113,10 @@ impl<'a> Stage<'a> {
             return Vec3::new(self.extreme(), self.extreme(), self.extreme());
         }
         let point = match self.dice.below(40) {
-            0 => self.camera.eye(),
+            0 if self.has_corners_on_eye => self.camera.eye(),
             // Behind, mirrored in the eye for a perspective camera.
             1 | 2 => self.at(Place { depth: -place.depth, ..place }),
-            3 => self.at(Place { depth: 0.0, ..place }),
+            3 if self.has_corners_on_eye => self.at(Place { depth: 0.0, ..place }),
             _ => self.at(place),
         };
         self.nudged(point)
@@ -177,7 +180,7 @@ mod tests {
             };
             let camera = Camera::new(description).unwrap();
             let mut dice = Dice::new(0, 0);
-            let stage = Stage::new(&mut dice, &camera, Style::Lattice, 1);
+            let stage = Stage::new(&mut dice, &camera, Style::Lattice, 1, Scale::Tiny);
             let point = stage.at(Place { row: 5.5, column: 2.5, depth: 6.0 });
             // The centre of pixel (5, 2), three times as far as the viewport.
             let ray = camera.viewing_ray(5, 2);
