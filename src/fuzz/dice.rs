@@ -47,6 +47,12 @@ impl Dice {
         low + (high - low) * self.0.f64()
     }
 
+    /// The same in single precision.
+    #[expect(clippy::cast_possible_truncation, reason = "rounding is what is asked")]
+    pub(super) fn single(&mut self, low: f64, high: f64) -> f32 {
+        self.real(low, high) as f32
+    }
+
     /// Any 32 bits.
     pub(super) fn bits(&mut self) -> u32 {
         self.0.u32(..)

@@ -106,7 +106,7 @@ fn smallest(scenes: u64, renderers: &Renderers) -> Finding {
     let (stop, found) = (AtomicBool::new(false), Mutex::new(0));
     let listener = |event: Event| {
         if let Event::Found(_) = event {
-            let mut found = found.lock().unwrap();
+            let mut found = found.lock().expect("no thread panics with it");
             *found += 1;
             stop.store(*found >= 3, Ordering::Relaxed);
         }

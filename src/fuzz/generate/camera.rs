@@ -44,7 +44,7 @@ fn eye(dice: &mut Dice, style: Style, scale: Scale) -> Vec3 {
         }
         Style::Lattice | Style::NearLattice => 0.5 * Vec3::new(few(dice), few(dice), few(dice)),
         Style::Free | Style::Extreme => {
-            Vec3::new(dice.real(-4.0, 4.0) as f32, dice.real(-4.0, 4.0) as f32, few(dice))
+            Vec3::new(dice.single(-4.0, 4.0), dice.single(-4.0, 4.0), few(dice))
         }
     }
 }
@@ -77,9 +77,9 @@ fn orientation(dice: &mut Dice, style: Style) -> Orientation {
             }
         }
         _ => {
-            let turn = Quat::from_rotation_y(dice.real(0.0, 6.3) as f32)
-                * Quat::from_rotation_x(dice.real(-1.5, 1.5) as f32)
-                * Quat::from_rotation_z(dice.real(-3.0, 3.0) as f32);
+            let turn = Quat::from_rotation_y(dice.single(0.0, 6.3))
+                * Quat::from_rotation_x(dice.single(-1.5, 1.5))
+                * Quat::from_rotation_z(dice.single(-3.0, 3.0));
             Orientation::Direction { direction: turn * Vec3::NEG_Z, up: turn * Vec3::Y }
         }
     }
@@ -105,7 +105,7 @@ fn lens(dice: &mut Dice, style: Style, image: [u32; 2]) -> (f32, [f32; 2]) {
         return (distance, [width * pixel, height * pixel * stretched]);
     }
     // As people choose them: square pixels, seldom others.
-    let side = dice.real(0.3, 3.0) as f32;
+    let side = dice.single(0.3, 3.0);
     (1.0, [side * width / height, side * stretched])
 }
 

@@ -137,7 +137,7 @@ impl<'a> Stage<'a> {
         let few = self.dice.within(-16..=16) as f32;
         let number = match self.dice.below(6) {
             0 => few,
-            1 => self.dice.real(-4.0, 4.0) as f32,
+            1 => self.dice.single(-4.0, 4.0),
             2 => exp2(self.dice.within(-149..=127)).copysign(few),
             // Numbers of few bits and of sizes at which error bounds overflow or vanish.
             3 => {
