@@ -245,3 +245,46 @@ fn whole(text: &str) -> Result<u64, String> {
         _ => Err(format!("give a whole number from 0 to {MOST}")),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bothways::fuzz::{Disagreement, Size, Witness, generate};
+    use bothways::orders::{Method, Order};
+
+    #[test]
+    fn a_finding_is_written_as_soon_as_it_is_there() {
+        let folder = tempfile::tempdir().unwrap();
+        let args = FuzzArgs {
+            seconds: None,
+            scenes: None,
+            seed: None,
+            first: 0,
+            threads: None,
+            folder: folder.path().join("new"),
+            json: false,
+        };
+        let case = generate(7, 2);
+        let size = Size::of(&case);
+        let renderer = Witness { order: Order::Image, method: Method::Fast, counted: false };
+        let disagreement = Disagreement::Panic { renderer, message: "planted".into() };
+        let finding = Finding {
+            seed: 7,
+            scene: 2,
+            original: size,
+            shrunk: size,
+            steps: 0,
+            disagreement,
+            case: case.clone(),
+        };
+        let watch = Watch::new(&args);
+        watch.take(Event::Found(&finding));
+        watch.finish().unwrap();
+        let file = args.folder.join("seed-7-scene-2.toml");
+        let read = bothways::scenes::load(file.to_str().unwrap()).unwrap();
+        assert_eq!(read.camera, case.camera);
+        assert!(
+            read.toml.starts_with("# scene 2 of seed 7: image order (fast) panicked: planted\n")
+        );
+    }
+}
