@@ -20,8 +20,7 @@
 //!
 //! The cargo-fuzz targets in `fuzz/` are the other half. There, coverage feedback steers arbitrary bytes into rare branches of
 //! one fast renderer at a time, at all SIMD levels and sizes of tiles, on small pictures. Here, a generator makes close calls
-//! on purpose and draws whole pictures of many tiles as users do, tens of millions of pixels a second, with the
-//! program as it is installed.
+//! on purpose and draws whole pictures of many tiles as users do, with the program as it is installed.
 
 mod case;
 mod check;
