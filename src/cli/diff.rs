@@ -147,7 +147,11 @@ pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
         }
         staging.commit()?;
     }
-    html.write(args, [a, b], &comparison, |_| {})?;
+    html.write(args, [a, b], &comparison, |page| {
+        if let Some(why) = &why {
+            why.fill(page);
+        }
+    })?;
     let files = [(&args.a, a), (&args.b, b)];
     let report = FileReport { files, read: &read, comparison: &comparison, why: why.as_ref() };
     let text = match (args.pixel, &why) {

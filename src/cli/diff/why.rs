@@ -6,6 +6,7 @@ use crate::cli::args::ProjectionArg;
 use anstyle::Style;
 use bothways::common::{Camera, View};
 use bothways::diff::foreign::{Buffer, BufferComparison, Side};
+use bothways::diff::page::{Group, Page};
 use bothways::diff::why::{
     Explanation, Finding, Findings, PixelReason, Reason, ReasonKind, Reasons, find_conventions,
     find_reasons,
@@ -39,7 +40,15 @@ impl<'a> Why<'a> {
             comparison.classes().differing().map(|(pixel, _)| pixel).collect();
         let conventions =
             [a, b].map(|file| find_conventions(view, file).map_err(|error| error.to_string()));
-        let reasons = find_reasons(view, a, b, &differing).map_err(|error| error.to_string());
+        let mut reasons = find_reasons(view, a, b, &differing).map_err(|error| error.to_string());
+        for (side, found) in [Side::A, Side::B].into_iter().zip(&conventions) {
+            if let (Ok(reasons), Ok(Findings { differing, finding: Finding::Explained(found), .. })) =
+                (&mut reasons, found)
+                && !found[0].is_a_guess(*differing)
+            {
+                reasons.explained_by(side, &found[0]);
+            }
+        }
         Why { camera: view.camera, scene, conventions, reasons }
     }
 
@@ -159,7 +168,7 @@ impl<'a> Why<'a> {
     /// The pixel that says most: one that the conventions of a file explain, else the first with a reason.
     pub(super) fn telling(&self) -> Option<[u32; 2]> {
         let explained = self.conventions.iter().flatten().find_map(|found| match &found.finding {
-            Finding::Explained(explanations) => explanations[0].telling,
+            Finding::Explained(explanations) => explanations[0].telling(),
             _ => None,
         });
         let known =
@@ -219,6 +228,31 @@ impl<'a> Why<'a> {
             .map(|(kind, pixels)| Entry { color: kind.color(), name: kind.name(), pixels })
             .collect();
         with_legend(&enlarged(picture), &entries)
+    }
+
+    /// Puts reasons, conventions and the next step into a page.
+    pub(super) fn fill(&self, page: &mut Page) {
+        let groups = self.groups();
+        if !groups.is_empty() {
+            let group = |(kind, pixels): (ReasonKind, Vec<[u32; 2]>)| Group {
+                name: kind.name().into(),
+                explanation: None,
+                color: kind.color(),
+                pixels,
+            };
+            page.groups = groups.into_iter().map(group).collect();
+        }
+        let mut findings = Vec::new();
+        for (name, found) in ["A", "B"].into_iter().zip(&self.conventions) {
+            let mut text = String::new();
+            match found {
+                Ok(found) => self.conventions_of(name, found, &mut text),
+                Err(error) => line(&mut text, format_args!("no conventions of {name}: {error}")),
+            }
+            findings.extend(text.lines().map(|line| line.trim().to_owned()));
+        }
+        page.findings = findings;
+        page.why = Some(format!("bothways pixel {}", self.scene));
     }
 
     /// The report for programs.

@@ -326,7 +326,8 @@ impl<'a> Expected<'a> {
         }
     }
 
-    /// The pixels in which the file differs from the picture, among the drawn rows.
+    /// The pixels in which the file differs from the picture, among the drawn rows. Names of a few primitives are no
+    /// numbering: then all pixels differ, and more.
     pub(super) fn score(
         &self,
         observed: &Observed,
@@ -334,22 +335,25 @@ impl<'a> Expected<'a> {
         encoding: &Encoding,
     ) -> Score {
         let mut score = Score::default();
-        self.each(observed, placement, encoding, |_, _, differs, covers_otherwise| {
+        let renaming = self.each(observed, placement, encoding, |_, differs, covers_otherwise| {
             score.differing += u64::from(differs);
             score.coverage += u64::from(covers_otherwise);
         });
+        if encoding.ids == IdEncoding::OneToOne && !renaming.is_general() {
+            score.differing = u64::MAX;
+        }
         score
     }
 
-    /// Tells of every drawn pixel: its row and column in the picture, the index in the file, whether the two
-    /// differ, and whether they differ in coverage.
+    /// Tells of every drawn pixel: the index in the file, whether the two differ, and whether they differ in coverage.
+    /// Returns the names of the primitives, if they have names of their own.
     pub(super) fn each(
         &self,
         observed: &Observed,
         placement: Placement,
         encoding: &Encoding,
-        mut tell: impl FnMut([usize; 2], usize, bool, bool),
-    ) {
+        mut tell: impl FnMut(usize, bool, bool),
+    ) -> Renaming {
         let place = Place::new(placement, self.size());
         let width = self.rays.x.len();
         let mut renaming = Renaming::default();
@@ -371,9 +375,10 @@ impl<'a> Expected<'a> {
                     let probe = Probe { pixel, index, row, column };
                     !self.agrees(observed, &probe, encoding)
                 };
-                tell([row, column], index, differs, covered != expected);
+                tell(index, differs, covered != expected);
             }
         }
+        renaming
     }
 
     /// Whether the file should show something where a primitive is visible. If 0 is nothing and ids count from 0, the
@@ -458,12 +463,18 @@ impl Place {
 
 /// A name in the file for each primitive, as far as it was met. A first meeting explains nothing: it differs.
 #[derive(Default)]
-struct Renaming {
+pub(super) struct Renaming {
     forth: HashMap<u32, u64>,
     back: HashMap<u64, u32>,
 }
 
 impl Renaming {
+    /// Whether at least half of the primitives, and two of them, have another number than ours.
+    fn is_general(&self) -> bool {
+        let renamed = self.forth.iter().filter(|&(&id, &name)| u64::from(id) != name).count();
+        renamed >= 2 && 2 * renamed >= self.forth.len()
+    }
+
     fn holds(&mut self, id: u32, name: Option<u64>) -> bool {
         let Some(name) = name else { return false };
         match (self.forth.entry(id), self.back.entry(name)) {
@@ -519,6 +530,18 @@ mod tests {
         (0..60_u32).for_each(|i| t.push(f64::from(i) + 0.5));
         assert_eq!(repeated(&t), Some(1e30));
         assert_eq!(repeated(&t[40..]), None);
+    }
+
+    #[test]
+    fn a_few_exchanged_ids_are_no_numbering() {
+        let named = |names: &[(u32, u64)]| {
+            let mut renaming = Renaming::default();
+            names.iter().for_each(|&(id, name)| _ = renaming.holds(id, Some(name)));
+            renaming.is_general()
+        };
+        assert!(named(&[(0, 5), (1, 3), (2, 2)]));
+        assert!(!named(&[(0, 0), (1, 1), (2, 2), (3, 4), (4, 3)]));
+        assert!(!named(&[(0, 1)]));
     }
 
     #[test]

@@ -10,6 +10,7 @@ use super::encoding::{NothingEncoding, Observed, Values};
 use super::outline::{Linear, TriangleOutline, area_of_sphere, area_of_triangle, whole};
 use super::rays::ViewingRays;
 use super::reason::{Reason, ReasonKind};
+use super::search::Explanation;
 use crate::common::frame::NO_PRIMITIVE;
 use crate::common::{Camera, Judge, Primitive, Ray, Sign, View};
 use crate::diff::aspect::Side;
@@ -70,6 +71,8 @@ const MOST_PIXELS: usize = 1 << 18;
 /// The farthest that rounding moves an edge, in pixels: graphics APIs promise at least four bits below the pixel, so a
 /// corner moves by at most 1/32 pixel along each axis.
 const REACH: f64 = std::f64::consts::SQRT_2 / 32.0;
+/// The farthest that a sample lies from another point of its pixel, if it lies in the middle.
+const WITHIN_A_PIXEL: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// Distances closer than this part of them are exchanged by rounding: 24 bits of window depth resolve a depth z to
 /// z/(near·2²⁴) of it, which is this for z = 1000·near.
 const DEPTH_REACH: f64 = 6e-5;
@@ -103,6 +106,20 @@ pub fn find_reasons(
 }
 
 impl Reasons {
+    /// Gives the pixels that the conventions of a file explain to these, unless a tie or rounding explains them.
+    pub fn explained_by(&mut self, file: Side, explanation: &Explanation) {
+        if !explanation.is_coarse() {
+            return;
+        }
+        let explained: HashSet<[u32; 2]> = explanation.pixels.iter().copied().collect();
+        for one in &mut self.pixels {
+            let exact = matches!(one.reason.kind(), ReasonKind::Tie | ReasonKind::DistanceTie);
+            if one.wrong == Some(file) && !exact && explained.contains(&one.pixel) {
+                one.reason = Reason::Convention;
+            }
+        }
+    }
+
     /// The number of pixels of each kind that occurs, scaled to all differing pixels if only some were looked at.
     pub fn counts(&self) -> Vec<(ReasonKind, u64)> {
         let of = |kind| self.pixels.iter().filter(|one| one.reason.kind() == kind).count() as u64;
@@ -138,6 +155,9 @@ struct Shown {
     shows_front: bool,
     /// The least depth along the axis at which it agrees with the truth.
     nearest: f64,
+    /// Whether meshes may stand in the place of spheres: their outlines lie inside, so that no sample is gained, and
+    /// the triangles have ids of their own.
+    may_hold_meshes: bool,
 }
 
 impl<'a> Finder<'a> {
@@ -298,25 +318,27 @@ impl<'a> Finder<'a> {
     /// Why a primitive that covers the sample is missing there.
     fn lost(&self, file: &Shown, id: u32, sample: &Sample) -> Option<Reason> {
         let primitive = self.view.primitive(id);
-        let (of_outline, is_back) = match &primitive {
+        let (outline, is_back) = match &primitive {
             Primitive::Triangle(corners) => self.lost_triangle(id, corners, sample),
             Primitive::Sphere { center, radius } => {
                 let (pixels, across) = self.sphere_distance(center, *radius, sample);
-                (of_sphere(id, pixels, across), None)
+                let may_be_mesh = file.may_hold_meshes && pixels <= SAGITTA * across;
+                (Outline::of(id, pixels, may_be_mesh), None)
             }
-            Primitive::Plane { .. } => (None, None),
+            Primitive::Plane { .. } => (Outline::default(), None),
         };
         let culled =
             is_back.filter(|&is_back| if is_back { !file.shows_back } else { !file.shows_front });
         let depth = self.judge.distance(&primitive, &sample.ray) * self.rays.distance.abs();
-        of_outline
+        let is_before = depth < file.nearest && file.nearest.is_finite();
+        let near_plane = is_before.then_some(Reason::NearPlane { primitive: id, depth });
+        let behind = self.reaches_behind(&primitive);
+        outline
+            .close
             .or(culled.map(|is_back| Reason::Culled { primitive: id, is_back }))
-            .or_else(|| {
-                self.reaches_behind(&primitive).then_some(Reason::BehindTheEye { primitive: id })
-            })
-            .or_else(|| {
-                (depth < file.nearest).then_some(Reason::NearPlane { primitive: id, depth })
-            })
+            .or(near_plane)
+            .or(behind.then_some(Reason::BehindTheEye { primitive: id }))
+            .or(outline.far)
     }
 
     /// The reason in a triangle's outline, and whether it is a back face.
@@ -325,18 +347,19 @@ impl<'a> Finder<'a> {
         id: u32,
         corners: &[crate::common::glam::DVec3; 3],
         sample: &Sample,
-    ) -> (Option<Reason>, Option<bool>) {
+    ) -> (Outline, Option<bool>) {
         let signs = self.judge.edge_signs(corners, &sample.ray);
         let ties = signs.at_sample.iter().filter(|&&sign| sign == Sign::Zero).count();
         let is_back = Some(signs.facing == Sign::Positive);
         let reason = match ties {
-            0 => TriangleOutline::new(corners, &self.rays).and_then(|outline| {
-                let distances = outline.edges.map(|edge| self.pixels(&edge, sample));
-                let pixels = distances.into_iter().fold(f64::INFINITY, f64::min);
-                (pixels <= REACH).then_some(Reason::Rounding { primitive: id, pixels })
-            }),
-            1 => Some(Reason::EdgeTie { primitive: id }),
-            _ => Some(Reason::CornerTie { primitive: id }),
+            0 => {
+                TriangleOutline::new(corners, &self.rays).map_or_else(Outline::default, |outline| {
+                    let distances = outline.edges.map(|edge| self.pixels(&edge, sample));
+                    Outline::of(id, distances.into_iter().fold(f64::INFINITY, f64::min), false)
+                })
+            }
+            1 => Outline { close: Some(Reason::EdgeTie { primitive: id }), far: None },
+            _ => Outline { close: Some(Reason::CornerTie { primitive: id }), far: None },
         };
         (reason, is_back)
     }
@@ -362,13 +385,12 @@ impl<'a> Finder<'a> {
                     (true, 0) => None,
                     (true, 1) => Some(Reason::EdgeTie { primitive: id }),
                     (true, _) => Some(Reason::CornerTie { primitive: id }),
-                    (false, _) => (farthest <= REACH)
-                        .then_some(Reason::Rounding { primitive: id, pixels: farthest }),
+                    (false, _) => Outline::of(id, farthest, false).any(),
                 }
             }
             Primitive::Sphere { center, radius } => {
                 let (pixels, _) = self.sphere_distance(center, *radius, sample);
-                (pixels <= REACH).then_some(Reason::Rounding { primitive: id, pixels })
+                Outline::of(id, pixels, false).any()
             }
             Primitive::Plane { .. } => None,
         }
@@ -424,11 +446,29 @@ impl<'a> Finder<'a> {
     }
 }
 
-fn of_sphere(id: u32, pixels: f64, radius: f64) -> Option<Reason> {
-    if pixels <= REACH {
-        Some(Reason::Rounding { primitive: id, pixels })
-    } else {
-        (pixels <= SAGITTA * radius).then_some(Reason::Tessellation { primitive: id, pixels })
+/// What an outline near a sample explains.
+#[derive(Default)]
+struct Outline {
+    /// A tie, or rounding.
+    close: Option<Reason>,
+    /// A sample elsewhere in the pixel, or a mesh in the place of a sphere.
+    far: Option<Reason>,
+}
+
+impl Outline {
+    /// Of an outline that is so many pixels away.
+    fn of(primitive: u32, pixels: f64, may_be_mesh: bool) -> Outline {
+        let close = (pixels <= REACH).then_some(Reason::Rounding { primitive, pixels });
+        let far = if may_be_mesh {
+            Some(Reason::Tessellation { primitive, pixels })
+        } else {
+            (pixels <= WITHIN_A_PIXEL).then_some(Reason::Elsewhere { primitive, pixels })
+        };
+        Outline { close, far }
+    }
+
+    fn any(self) -> Option<Reason> {
+        self.close.or(self.far)
     }
 }
 
@@ -455,8 +495,13 @@ impl Shown {
         truth: &Drawn,
         observed: Option<Observed>,
     ) -> Shown {
-        let mut shown =
-            Shown { observed: None, shows_back: false, shows_front: false, nearest: f64::INFINITY };
+        let mut shown = Shown {
+            observed: None,
+            shows_back: false,
+            shows_front: false,
+            nearest: f64::INFINITY,
+            may_hold_meshes: false,
+        };
         let Some(observed) = observed else { return shown };
         let mut seen = HashSet::new();
         for (index, &id) in truth.ids.iter().enumerate() {
@@ -473,6 +518,11 @@ impl Shown {
                 shown.shows_front |= !is_back;
             }
         }
+        let gains = |index: usize| {
+            truth.ids[index] == NO_PRIMITIVE && observed.covered(index, NothingEncoding::Ours)
+        };
+        shown.may_hold_meshes =
+            !matches!(observed.values, Values::Ids(_)) && !(0..truth.ids.len()).any(gains);
         shown.observed = Some(observed);
         shown
     }
@@ -488,7 +538,7 @@ fn agrees(observed: &Observed, index: usize, id: u32, t: f64) -> bool {
     }
 }
 
-/// For each of the pixels, the primitives that cover its sample, or whose outline lies within [`REACH`].
+/// For each of the pixels, the primitives that cover its sample, or whose outline lies within a pixel.
 fn near(view: &View, rays: &ViewingRays, judge: &Judge, chosen: &[[u32; 2]]) -> Vec<Vec<u32>> {
     const NONE: u32 = u32::MAX;
     let width = rays.x.len();
@@ -519,9 +569,9 @@ fn near(view: &View, rays: &ViewingRays, judge: &Judge, chosen: &[[u32; 2]]) -> 
         };
         // Below these values a sample lies farther than the reach outside of an edge.
         let least = outline.map(|outline| {
-            outline
-                .edges
-                .map(|edge| -REACH * (edge.along_x * column).hypot(edge.along_y * row) - edge.error)
+            outline.edges.map(|edge| {
+                -WITHIN_A_PIXEL * (edge.along_x * column).hypot(edge.along_y * row) - edge.error
+            })
         });
         for i in area.rows.filter(|&i| in_row[i]) {
             for j in area.columns.clone() {

@@ -60,6 +60,16 @@ pub enum Reason {
         /// The distance from the sample to the outline, in pixels.
         pixels: f64,
     },
+    /// The sample lies within a pixel of the outline of a primitive: the renderer sampled elsewhere in the pixel, or the
+    /// primitive lies elsewhere by less than a pixel.
+    Elsewhere {
+        /// The primitive.
+        primitive: u32,
+        /// The distance from the sample to the outline, in pixels.
+        pixels: f64,
+    },
+    /// The conventions of the renderer as a whole explain the pixel.
+    Convention,
     /// What the file holds does not tell: colours alone.
     CannotTell,
     /// None of these.
@@ -84,6 +94,10 @@ pub enum ReasonKind {
     Clipped,
     /// A sphere drawn as a mesh.
     Tessellation,
+    /// Less than a pixel from an edge, and farther than rounding reaches.
+    Elsewhere,
+    /// The conventions of the renderer as a whole.
+    Convention,
     /// The files do not tell.
     CannotTell,
     /// No reason was found.
@@ -92,7 +106,7 @@ pub enum ReasonKind {
 
 impl ReasonKind {
     /// All kinds, in the order of the report.
-    pub const ALL: [ReasonKind; 9] = [
+    pub const ALL: [ReasonKind; 11] = [
         ReasonKind::Tie,
         ReasonKind::DistanceTie,
         ReasonKind::Rounding,
@@ -100,6 +114,8 @@ impl ReasonKind {
         ReasonKind::Culled,
         ReasonKind::Clipped,
         ReasonKind::Tessellation,
+        ReasonKind::Elsewhere,
+        ReasonKind::Convention,
         ReasonKind::CannotTell,
         ReasonKind::Unexplained,
     ];
@@ -114,6 +130,8 @@ impl ReasonKind {
             ReasonKind::Culled => "culled face",
             ReasonKind::Clipped => "clipped near or behind the eye",
             ReasonKind::Tessellation => "sphere against its mesh",
+            ReasonKind::Elsewhere => "sampled elsewhere in the pixel",
+            ReasonKind::Convention => "conventions, see below",
             ReasonKind::CannotTell => "cannot tell from these files",
             ReasonKind::Unexplained => "unexplained",
         }
@@ -130,6 +148,8 @@ impl ReasonKind {
             ReasonKind::Culled => [0x00, 0x72, 0xb2],
             ReasonKind::Clipped => [0x56, 0xb4, 0xe9],
             ReasonKind::Tessellation => [0xd5, 0x5e, 0x00],
+            ReasonKind::Elsewhere => [0xb2, 0x9b, 0xff],
+            ReasonKind::Convention => [0xff, 0xd2, 0xb8],
             ReasonKind::CannotTell => [0x99, 0x99, 0x99],
             ReasonKind::Unexplained => [0xff, 0xff, 0xff],
         }
@@ -147,6 +167,8 @@ impl Reason {
             Reason::Culled { .. } => ReasonKind::Culled,
             Reason::BehindTheEye { .. } | Reason::NearPlane { .. } => ReasonKind::Clipped,
             Reason::Tessellation { .. } => ReasonKind::Tessellation,
+            Reason::Elsewhere { .. } => ReasonKind::Elsewhere,
+            Reason::Convention => ReasonKind::Convention,
             Reason::CannotTell => ReasonKind::CannotTell,
             Reason::Unexplained => ReasonKind::Unexplained,
         }
@@ -196,6 +218,14 @@ impl Reason {
                 "the sample lies {} pixels from the outline of sphere {primitive}: a mesh stands in its place",
                 short(*pixels)
             ),
+            Reason::Elsewhere { primitive, pixels } => format!(
+                "the sample lies {} pixels from the outline of id {primitive}, farther than rounding reaches: the \
+                 renderer sampled elsewhere in the pixel, or placed the outline elsewhere",
+                short(*pixels)
+            ),
+            Reason::Convention => {
+                "the conventions of the renderer as a whole explain it: see the report of all pixels".into()
+            }
             Reason::CannotTell => {
                 "the files hold colours here, which do not tell what was seen".into()
             }
@@ -206,7 +236,9 @@ impl Reason {
     /// The reason that explains two facts at once is the one that asks for more.
     pub(super) fn worse(self, other: Reason) -> Reason {
         let rank = |reason: &Reason| match reason {
-            Reason::Rounding { pixels, .. } | Reason::Tessellation { pixels, .. } => *pixels,
+            Reason::Rounding { pixels, .. }
+            | Reason::Elsewhere { pixels, .. }
+            | Reason::Tessellation { pixels, .. } => *pixels,
             Reason::DistanceRounding { relative, .. } => *relative,
             _ => 0.0,
         };

@@ -40,7 +40,7 @@ pub enum Finding {
 }
 
 /// Conventions that explain differing pixels.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Explanation {
     /// Where and how the renderer samples, and what it draws.
     pub convention: Convention,
@@ -50,11 +50,21 @@ pub struct Explanation {
     pub explained: u64,
     /// The number of pixels that differ under these conventions, too.
     pub remaining: u64,
-    /// A pixel that is explained, as `[i, j]`.
-    pub telling: Option<[u32; 2]>,
+    /// The explained pixels `[i, j]`, row by row; none if the file has another size than the camera's image.
+    pub pixels: Vec<[u32; 2]>,
 }
 
 impl Explanation {
+    /// The middle one of the explained pixels.
+    pub fn telling(&self) -> Option<[u32; 2]> {
+        self.pixels.get(self.pixels.len() / 2).copied()
+    }
+
+    /// Whether the explanation is more than a rule for exact ties.
+    pub fn is_coarse(&self) -> bool {
+        !self.encoding.is_ours() || self.convention.changes().into_iter().any(Change::is_coarse)
+    }
+
     /// Whether less than half of the differing pixels are explained.
     pub fn is_a_guess(&self, differing: u64) -> bool {
         self.explained * 2 < differing
@@ -375,32 +385,31 @@ impl Search<'_> {
             encoding,
             explained: differing.saturating_sub(score.differing),
             remaining: score.differing,
-            telling: self.telling(candidate),
+            pixels: self.explained(candidate),
         }
     }
 
-    /// The middle one of the explained pixels.
-    fn telling(&self, candidate: &Candidate) -> Option<[u32; 2]> {
+    /// The pixels that differ under our conventions, and not under these.
+    fn explained(&self, candidate: &Candidate) -> Vec<[u32; 2]> {
         if !self.placements.contains(&Placement::Upright) {
-            return None;
+            return Vec::new();
         }
         let mut wrong = vec![false; self.truth.ids.len()];
         let ours = Expected::new(self.view, &Convention::default(), self.truth);
         let none = Encoding::default();
-        ours.each(self.observed, Placement::Upright, &none, |_, index, differs, _| {
+        ours.each(self.observed, Placement::Upright, &none, |index, differs, _| {
             wrong[index] = differs;
         });
         let drawn = draw(self.view, &candidate.convention, Rows::ALL);
         let expected = Expected::new(self.view, &candidate.convention, &drawn);
         let placement = candidate.convention.placement;
-        expected.each(self.observed, placement, &candidate.encoding, |_, index, differs, _| {
+        expected.each(self.observed, placement, &candidate.encoding, |index, differs, _| {
             wrong[index] &= !differs;
         });
-        let explained: Vec<usize> = (0..wrong.len()).filter(|&index| wrong[index]).collect();
-        let index = *explained.get(explained.len() / 2)?;
         let width = self.view.camera.image()[0] as usize;
         let number = |side: usize| u32::try_from(side).expect("at most 2^16");
-        Some([number(index / width), number(index % width)])
+        let explained = (0..wrong.len()).filter(|&index| wrong[index]);
+        explained.map(|index| [number(index / width), number(index % width)]).collect()
     }
 }
 
