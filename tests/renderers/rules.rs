@@ -6,7 +6,13 @@ use bothways::common::{
     Shape, Sphere, Triangle, View,
 };
 use bothways::diff::compare;
+use bothways::diff::foreign::{Buffer, Side};
+use bothways::diff::why::{
+    Change, Edges, Explanation, Finding, Placement, Rays, ReasonKind, Sampling, find_conventions,
+    find_reasons,
+};
 use bothways::orders::{self, Method, Order, RenderOptions, Rendered, Rule, Rules};
+use bothways::picture::picture;
 use bothways::rules::{image_order, object_order};
 use bothways::scenes::load;
 use bothways_test_support::hostile::{Numbers, for_each};
@@ -231,5 +237,71 @@ fn every_rule_survives_hostile_scenes() {
                 }));
             }
         });
+    }
+}
+
+/// What the diff must say of a rule.
+enum Named {
+    /// One of the best explanations has this part.
+    Change(Change),
+    /// Nine of ten differing pixels have one of these reasons.
+    Reasons(&'static [ReasonKind]),
+}
+
+fn expected(rule: Rule) -> Named {
+    use ReasonKind::{Clipped, DistanceRounding, DistanceTie, Elsewhere, Rounding, Tie};
+    match rule {
+        Rule::Object(rule) => match rule {
+            object_order::Rule::Float32 | object_order::Rule::Snapped { .. } => {
+                Named::Reasons(&[Rounding, Tie])
+            }
+            object_order::Rule::Inclusive => Named::Change(Change::Edges(Edges::Inclusive)),
+            object_order::Rule::Exclusive => Named::Change(Change::Edges(Edges::Exclusive)),
+            object_order::Rule::Corner => Named::Change(Change::Rows(Sampling::Corner)),
+            object_order::Rule::NearClip { .. } => Named::Reasons(&[Clipped]),
+            object_order::Rule::Depth24 => Named::Reasons(&[DistanceTie, DistanceRounding]),
+        },
+        Rule::Image(rule) => match rule {
+            image_order::Rule::MollerTrumbore | image_order::Rule::Watertight => {
+                Named::Change(Change::Edges(Edges::Inclusive))
+            }
+            image_order::Rule::Float32 => Named::Reasons(&[Rounding, Tie]),
+            image_order::Rule::Corner => Named::Change(Change::Columns(Sampling::Corner)),
+            image_order::Rule::OneOrigin => Named::Change(Change::Rays(Rays::OneOrigin)),
+            image_order::Rule::FlipRows => Named::Change(Change::Placement(Placement::UpsideDown)),
+            image_order::Rule::Jittered { .. } => {
+                Named::Reasons(&[Elsewhere, Rounding, DistanceRounding])
+            }
+        },
+    }
+}
+
+#[test]
+fn the_diff_names_every_rule_on_its_scene() {
+    for rule in Rule::examples() {
+        let loaded = load(rule.scene()).expect("it is built in");
+        let camera = Camera::new(loaded.camera).expect("it is a camera");
+        let view = View::new(&loaded.scene, &camera);
+        let frames = both(&view, rule);
+        let pictures = frames.each_ref().map(picture);
+        let [ruled, exact] = [0, 1].map(|side| Buffer::of_frame(&frames[side], &pictures[side]));
+        match expected(rule) {
+            Named::Change(change) => {
+                let found = find_conventions(&view, &ruled).expect("it has ids").finding;
+                let Finding::Explained(found) = found else { panic!("{rule}: {found:?}") };
+                let is_named = |one: &Explanation| one.convention.changes().contains(&change);
+                assert!(found.iter().any(is_named), "{rule}: {found:?}");
+            }
+            Named::Reasons(kinds) => {
+                let comparison = compare(&frames[0], &frames[1]);
+                let differing: Vec<[u32; 2]> =
+                    comparison.classes().differing().map(|(pixel, _)| pixel).collect();
+                let reasons = find_reasons(&view, &ruled, &exact, &differing).expect("of one size");
+                assert!(reasons.pixels.iter().all(|one| one.wrong == Some(Side::A)), "{rule}");
+                let named = reasons.pixels.iter().filter(|one| kinds.contains(&one.reason.kind()));
+                let (named, all) = (named.count(), reasons.pixels.len());
+                assert!(10 * named >= 9 * all, "{rule}: {named} of {all}, {:?}", reasons.counts());
+            }
+        }
     }
 }

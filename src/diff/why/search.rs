@@ -287,17 +287,19 @@ impl Search<'_> {
         };
         let expected = Expected::new(self.view, &convention, drawn);
         let placement = convention.placement;
-        let readings = self.observed.meanings_of_nothing().into_iter().flat_map(|nothing| {
+        let scored = self.observed.meanings_of_nothing().into_iter().flat_map(|nothing| {
             let encoding = expected.encoding(self.observed, placement, nothing);
-            let mut encodings = vec![encoding];
-            if matches!(self.observed.values, Values::Ids(_)) {
-                encodings.push(Encoding { ids: IdEncoding::OneToOne, ..encoding });
-            }
-            encodings
-        });
-        let scored = readings.map(|encoding| {
-            let score = expected.score(self.observed, placement, &encoding);
-            Candidate { convention, encoding, score }
+            let with = |encoding: Encoding| {
+                let score = expected.score(self.observed, placement, &encoding);
+                Candidate { convention, encoding, score }
+            };
+            let own = with(encoding);
+            // Where primitives have other numbers, more pixels differ than in coverage alone.
+            let ids_differ = own.score.differing > 2 * own.score.coverage;
+            let is_ids = matches!(self.observed.values, Values::Ids(_));
+            let one_to_one = (is_ids && ids_differ)
+                .then(|| with(Encoding { ids: IdEncoding::OneToOne, ..encoding }));
+            std::iter::once(own).chain(one_to_one)
         });
         scored.min_by_key(Candidate::rank).expect("one meaning of nothing is ours")
     }
@@ -309,6 +311,10 @@ impl Search<'_> {
         let mut all = finalists.clone();
         let ours = finalists.iter().find(|one| one.convention.changes().is_empty()).copied();
         let mut starts: Vec<Candidate> = finalists.iter().take(2).copied().collect();
+        // More parts cannot do better than what explains all.
+        if starts[0].score.differing == 0 {
+            return all;
+        }
         starts
             .extend(ours.filter(|ours| starts.iter().all(|one| one.convention != ours.convention)));
         for start in starts {

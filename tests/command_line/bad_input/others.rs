@@ -134,6 +134,15 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
          ten-thousandth of the distance",
     ),
     (
+        "diff a.pgm a.pgm --scene canonical --pixel 12",
+        "invalid value '12' for '--pixel <ROW,COLUMN>': write a row and a column, such as 12,40; both count \
+         from 0",
+    ),
+    (
+        "diff a.pgm a.pgm --html page.png",
+        "cannot write page.png: a page is an .html file, and .png is none; end the name in .html",
+    ),
+    (
         "diff a.pgm a.pgm --color-tolerance nan",
         "invalid value 'nan' for '--color-tolerance <STEPS>': give a number from 0; 255 is the \
          difference of black and white",
