@@ -7,12 +7,15 @@
 use super::convention::Convention;
 use super::draw::{Drawn, Rows, draw};
 use super::encoding::{NothingEncoding, Observed, Values};
-use super::outline::{Linear, TriangleOutline, area_of_sphere, area_of_triangle, whole};
+use super::outline::{
+    Linear, TriangleOutline, area_of_sphere, area_of_triangle, plane_distance, whole,
+};
 use super::rays::ViewingRays;
 use super::reason::{Reason, ReasonKind};
 use super::search::Explanation;
 use crate::common::frame::NO_PRIMITIVE;
-use crate::common::{Camera, Judge, Primitive, Ray, Sign, View};
+use crate::common::glam::DVec3;
+use crate::common::{Camera, Judge, Primitive, Projection, Ray, Sign, View};
 use crate::diff::aspect::Side;
 use crate::diff::buffer::Buffer;
 use crate::diff::tolerance::DEPTH_TOLERANCE;
@@ -287,15 +290,21 @@ impl<'a> Finder<'a> {
         covering
     }
 
-    /// Whether the plane of a triangle that does not cover the sample lies before a primitive that does.
+    /// Whether a primitive that does not cover the sample, but nearly does, lies before one that does: the plane of a
+    /// triangle, the middle of a sphere.
     fn lies_before(&self, shown: u32, id: u32, sample: &Sample) -> bool {
         let [shown, id] = [shown, id].map(|id| self.view.primitive(id));
-        let (Primitive::Triangle(corners), t) = (shown, self.judge.distance(&id, &sample.ray))
-        else {
-            return false;
-        };
-        let outline = TriangleOutline::new(&corners, &self.rays);
-        outline.is_some_and(|outline| outline.t(sample.x, sample.y).0 <= t)
+        let t = self.judge.distance(&id, &sample.ray);
+        match &shown {
+            Primitive::Triangle(corners) => TriangleOutline::new(corners, &self.rays)
+                .is_some_and(|outline| outline.t(sample.x, sample.y).0 <= t),
+            Primitive::Sphere { center, .. } => {
+                let Ray { origin, direction } = sample.ray;
+                (*center - origin).dot(direction) / direction.length_squared() <= t
+            }
+            // What nearly covers it begins at the horizon, infinitely far away.
+            Primitive::Plane { .. } => false,
+        }
     }
 
     /// Why the farther of two primitives that both cover a sample is shown: a tie, or nearly one.
@@ -312,7 +321,36 @@ impl<'a> Finder<'a> {
         let [near, far] =
             [one, other].map(|primitive| self.judge.distance(&primitive, &sample.ray));
         let relative = (far - near) / far;
-        (relative <= DEPTH_REACH).then_some(Reason::DistanceRounding { primitives, relative })
+        if relative <= DEPTH_REACH {
+            return Some(Reason::DistanceRounding { primitives, relative });
+        }
+        let pixels = self.intersection_distance([&one, &other], sample);
+        (pixels <= WITHIN_A_PIXEL).then_some(Reason::Elsewhere { primitive: shown, pixels })
+    }
+
+    /// The distance from the sample to the line on which two primitives are equally far, in pixels; infinite if one of
+    /// them has no distance half a pixel away.
+    fn intersection_distance(&self, primitives: [&Primitive; 2], sample: &Sample) -> f64 {
+        let difference = |dx: f64, dy: f64| {
+            let ray = self.ray_beside(sample, dx, dy);
+            let [near, far] = primitives.map(|primitive| self.judge.distance(primitive, &ray));
+            far - near
+        };
+        let [column, row] = self.spacing();
+        let [half_x, half_y] = [column / 2.0, row / 2.0];
+        let slope = (difference(half_x, 0.0) - difference(-half_x, 0.0))
+            .hypot(difference(0.0, half_y) - difference(0.0, -half_y));
+        let pixels = difference(0.0, 0.0).abs() / slope;
+        if pixels.is_nan() { f64::INFINITY } else { pixels }
+    }
+
+    /// The ray of a point beside the sample, on the viewport.
+    fn ray_beside(&self, sample: &Sample, dx: f64, dy: f64) -> Ray {
+        let (Ray { origin, direction }, step) = (sample.ray, dx * self.rays.u + dy * self.rays.v);
+        match self.rays.projection {
+            Projection::Perspective => Ray { origin, direction: direction + step },
+            Projection::Parallel => Ray { origin: origin + step, direction },
+        }
     }
 
     /// Why a primitive that covers the sample is missing there.
@@ -325,7 +363,9 @@ impl<'a> Finder<'a> {
                 let may_be_mesh = file.may_hold_meshes && pixels <= SAGITTA * across;
                 (Outline::of(id, pixels, may_be_mesh), None)
             }
-            Primitive::Plane { .. } => (Outline::default(), None),
+            Primitive::Plane { point, normal } => {
+                (Outline::of(id, self.horizon_distance(*point, *normal, sample), false), None)
+            }
         };
         let culled =
             is_back.filter(|&is_back| if is_back { !file.shows_back } else { !file.shows_front });
@@ -337,6 +377,7 @@ impl<'a> Finder<'a> {
             .close
             .or(culled.map(|is_back| Reason::Culled { primitive: id, is_back }))
             .or(near_plane)
+            .or(outline.far.filter(|reason| reason.kind() == ReasonKind::Elsewhere))
             .or(behind.then_some(Reason::BehindTheEye { primitive: id }))
             .or(outline.far)
     }
@@ -345,7 +386,7 @@ impl<'a> Finder<'a> {
     fn lost_triangle(
         &self,
         id: u32,
-        corners: &[crate::common::glam::DVec3; 3],
+        corners: &[DVec3; 3],
         sample: &Sample,
     ) -> (Outline, Option<bool>) {
         let signs = self.judge.edge_signs(corners, &sample.ray);
@@ -392,7 +433,9 @@ impl<'a> Finder<'a> {
                 let (pixels, _) = self.sphere_distance(center, *radius, sample);
                 Outline::of(id, pixels, false).any()
             }
-            Primitive::Plane { .. } => None,
+            Primitive::Plane { point, normal } => {
+                Outline::of(id, self.horizon_distance(*point, *normal, sample), false).any()
+            }
         }
     }
 
@@ -404,22 +447,10 @@ impl<'a> Finder<'a> {
     }
 
     /// The distance from the sample to the outline of a sphere, and the radius, in pixels.
-    fn sphere_distance(
-        &self,
-        center: &crate::common::glam::DVec3,
-        radius: f64,
-        sample: &Sample,
-    ) -> (f64, f64) {
+    fn sphere_distance(&self, center: &DVec3, radius: f64, sample: &Sample) -> (f64, f64) {
         let [column, row] = self.spacing();
         let value = |dx: f64, dy: f64| {
-            let (origin, direction) = match self.rays.projection {
-                crate::common::Projection::Perspective => {
-                    (sample.ray.origin, sample.ray.direction + dx * self.rays.u + dy * self.rays.v)
-                }
-                crate::common::Projection::Parallel => {
-                    (sample.ray.origin + dx * self.rays.u + dy * self.rays.v, sample.ray.direction)
-                }
-            };
+            let Ray { origin, direction } = self.ray_beside(sample, dx, dy);
             let offset = *center - origin;
             let along = offset.dot(direction) / direction.length();
             // How far the ray passes from the middle, in radii.
@@ -429,6 +460,13 @@ impl<'a> Finder<'a> {
         let slope = (value(half_x, 0.0) - value(-half_x, 0.0))
             .hypot(value(0.0, half_y) - value(0.0, -half_y));
         ((1.0 - value(0.0, 0.0)).abs() / slope, 1.0 / slope)
+    }
+
+    /// The distance from the sample to the horizon of a plane, in pixels; infinite for a parallel camera, which sees none.
+    fn horizon_distance(&self, point: DVec3, normal: DVec3, sample: &Sample) -> f64 {
+        let (_, along) = plane_distance(point, normal, normal.length(), &self.rays);
+        let pixels = self.pixels(&along, sample);
+        if pixels.is_nan() { f64::INFINITY } else { pixels }
     }
 
     fn spacing(&self) -> [f64; 2] {
@@ -441,7 +479,8 @@ impl<'a> Finder<'a> {
                 corners.iter().any(|corner| corner.dot(self.rays.w) >= 0.0)
             }
             Primitive::Sphere { center, radius } => center.dot(self.rays.w) + radius >= 0.0,
-            Primitive::Plane { .. } => true,
+            // Every plane does, which explains nothing.
+            Primitive::Plane { .. } => false,
         }
     }
 }
@@ -586,9 +625,16 @@ fn near(view: &View, rays: &ViewingRays, judge: &Judge, chosen: &[[u32; 2]]) -> 
                         .zip(least)
                         .all(|(edge, least)| edge.at(rays.x[j], rays.y[i]) >= least),
                     _ => match &primitive {
-                        // The reach around a sphere's outline is judged later.
-                        Primitive::Sphere { .. } => true,
-                        _ => judge.covers(&primitive, &rays.ray(i, j)),
+                        Primitive::Plane { point, normal } => {
+                            judge.covers(&primitive, &rays.ray(i, j)) || {
+                                let (_, along) =
+                                    plane_distance(*point, *normal, normal.length(), rays);
+                                let slope = (along.along_x * column).hypot(along.along_y * row);
+                                along.at(rays.x[j], rays.y[i]).abs() <= WITHIN_A_PIXEL * slope
+                            }
+                        }
+                        // The distance to a sphere's outline is judged later.
+                        Primitive::Sphere { .. } | Primitive::Triangle(_) => true,
                     },
                 };
                 if is_near {

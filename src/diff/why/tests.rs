@@ -44,25 +44,28 @@ fn with_scene<T>(
     run(&View::new(&loaded.scene, &camera))
 }
 
-/// Whether the search names what was planted, besides nothing but what gives the same picture; or says that there is
-/// nothing to name, in a picture that is right or empty.
+/// Whether the search names what was planted, besides nothing but what gives nearly the same picture; or says that
+/// there is nothing to name, in a picture that is right or empty.
 fn is_named(view: &View, planted: &Convention, of_ids: bool) -> bool {
     let file = file(view, planted, of_ids);
     let drawn = |convention: &Convention| {
         let upright = Convention { placement: Placement::Upright, ..*convention };
         draw(view, &upright, Rows::ALL).ids
     };
-    match find_conventions(view, &file).unwrap().finding {
+    let findings = find_conventions(view, &file).unwrap();
+    let differing = findings.differing;
+    match findings.finding {
         Finding::True => drawn(planted) == drawn(&Convention::default()),
         Finding::NoEvidence(_) => drawn(planted).iter().all(|&id| id == NO_PRIMITIVE),
         Finding::Explained(found) => {
-            let all = found.iter().map(|one| one.convention);
-            found[0].remaining == 0
-                // A simpler convention that draws the same is as good.
-                && all.clone().any(|one| one == *planted || one.changes().len() < planted.changes().len())
-                && all
-                    .filter(|one| one.placement == planted.placement)
-                    .all(|one| drawn(&one) == drawn(planted))
+            // A simpler convention that leaves less than a thousandth is better.
+            let is_simpler = |one: &Explanation| {
+                one.remaining * 1000 <= differing
+                    && one.convention.changes().len() < planted.changes().len()
+            };
+            let is_planted = |one: &Explanation| one.convention == *planted && one.remaining == 0;
+            found.iter().all(|one| one.remaining * 1000 <= differing)
+                && found.iter().any(|one| is_planted(one) || is_simpler(one))
         }
         Finding::Unexplained => false,
     }

@@ -4,6 +4,22 @@
 pub(super) const REFUSED: &[(&str, &str)] = &[
     // Of `rules`.
     ("rules ties", "unexpected argument 'ties' found"),
+    ("fuzz --json=yes", "unexpected value 'yes' for '--json' found; no more were expected"),
+    (
+        "fuzz --seconds 0",
+        "invalid value '0' for '--seconds <S>': give a number of seconds greater than 0, at most a year",
+    ),
+    ("fuzz --scenes 0", "invalid value '0' for '--scenes <N>': give a whole number from 1 to"),
+    ("fuzz --seed -1", "invalid value '-1' for '--seed <K>': give a whole number from 0 to"),
+    ("fuzz --first x", "invalid value 'x' for '--first <N>': give a whole number from 0 to"),
+    (
+        "fuzz --threads 0",
+        "invalid value '0' for '--threads <N>': give a whole number from 1 to 1024",
+    ),
+    (
+        "fuzz --scenes 1 --output file",
+        "cannot write into the folder file: a file is where a folder would be; choose another one with -o",
+    ),
     ("rules --json=yes", "unexpected value 'yes' for '--json' found; no more were expected"),
     (
         "camera canonical --json=yes",
