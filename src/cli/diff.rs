@@ -246,8 +246,11 @@ impl FileReport<'_> {
         let style = color.on_default().bold();
         line(&mut text, format_args!("{style}{}{style:#}", self.verdict()));
         if let Some(folder) = folder {
-            let (dimmed, file) = (Style::new().dimmed(), folder.join(NAMES[0]));
-            line(&mut text, format_args!("{dimmed}written to {}{dimmed:#}", file.display()));
+            let dimmed = Style::new().dimmed();
+            let written = if self.why.is_some() { &NAMES[..] } else { &NAMES[..1] };
+            let files: Vec<String> =
+                written.iter().map(|name| folder.join(name).display().to_string()).collect();
+            line(&mut text, format_args!("{dimmed}written to {}{dimmed:#}", files.join(" and ")));
         }
         text
     }

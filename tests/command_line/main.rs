@@ -8,6 +8,7 @@ mod cover;
 mod crop;
 mod diff;
 mod diff_page;
+mod diff_why;
 mod fuzz;
 mod output;
 mod pixel;

@@ -16,18 +16,18 @@ use tempfile::TempDir;
 const TEXTBOOK: [&str; 5] = ["--method", "textbook", "--no-times", "--threads", "1"];
 
 /// `bothways` in a separate folder, on a terminal 100 characters wide.
-fn bothways(home: &TempDir, args: &[&str]) -> Command {
+pub(crate) fn bothways(home: &TempDir, args: &[&str]) -> Command {
     let mut command = Command::cargo_bin("bothways").unwrap();
     command.current_dir(home).env("COLUMNS", "100").args(args);
     command
 }
 
-fn home() -> TempDir {
+pub(crate) fn home() -> TempDir {
     tempfile::tempdir().unwrap()
 }
 
 /// The text on stdout; stderr must be empty.
-fn printed(mut command: Command, code: i32) -> String {
+pub(crate) fn printed(mut command: Command, code: i32) -> String {
     let assert = command.assert().code(code).stderr("");
     String::from_utf8(assert.get_output().stdout.clone()).unwrap()
 }

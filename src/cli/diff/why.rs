@@ -75,6 +75,7 @@ impl<'a> Why<'a> {
         if reasons.pixels.is_empty() {
             return;
         }
+        text.push('\n');
         let bold = Style::new().bold();
         let head = format!(
             "{bold}{:34}{:>12}{:>12}{:>12}{bold:#}",
@@ -155,11 +156,11 @@ impl<'a> Why<'a> {
                 let mark = if index == 0 { "-" } else { "  and" };
                 line(text, format_args!("  {mark} {sentence}"));
             }
-            let (explained, remaining) = (grouped(one.explained), count(one.remaining, "pixels"));
-            let rest = if one.remaining == 0 {
-                "nothing remains".into()
-            } else {
-                format!("{remaining} remain")
+            let explained = grouped(one.explained);
+            let rest = match one.remaining {
+                0 => "nothing remains".into(),
+                1 => "1 pixel remains".into(),
+                more => format!("{} pixels remain", grouped(more)),
             };
             line(text, format_args!("    explains {explained} of {}; {rest}", grouped(differing)));
         }

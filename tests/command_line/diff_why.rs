@@ -1,0 +1,110 @@
+//! `diff --scene`: why two files differ.
+
+use crate::texts::{bothways, home, printed};
+use assert_cmd::Command;
+use tempfile::TempDir;
+
+/// A folder with ids of a scene by the exact rules (`image-order`) and by those of an ordinary rasterizer.
+fn by_rule(rule: &str, scene: &str, size: &str) -> TempDir {
+    let home = home();
+    let args = [
+        scene,
+        "--size",
+        size,
+        "--object-rules",
+        rule,
+        "--buffers",
+        "npy",
+        "--no-counts",
+        "--quiet",
+        "-o",
+        "r",
+    ];
+    bothways(&home, &args).assert().code(1);
+    home
+}
+
+/// The message on stderr; nothing is printed.
+fn refused(mut command: Command) -> String {
+    let assert = command.assert().code(2).stdout("");
+    String::from_utf8(assert.get_output().stderr.clone()).unwrap()
+}
+
+const EXACT: &str = "r/image-order.ids.npy";
+const RULED: &str = "r/object-order.ids.npy";
+
+#[test]
+fn samples_at_pixel_corners_are_named() {
+    let home = by_rule("corner", "lecture", "96x72");
+    let args = ["diff", EXACT, RULED, "--scene", "lecture"];
+    insta::assert_snapshot!("why_corner", printed(bothways(&home, &args), 1));
+}
+
+#[test]
+fn what_fits_equally_well_is_named_too() {
+    let home = by_rule("inclusive", "ties", "64x64");
+    let args = ["diff", EXACT, RULED, "--scene", "ties", "-o", "out"];
+    insta::assert_snapshot!("why_equally_well", printed(bothways(&home, &args), 1));
+    let names = ["difference.png", "reasons.png"];
+    assert!(names.iter().all(|name| home.path().join("out").join(name).is_file()));
+}
+
+#[test]
+fn one_pixel_has_its_evidence() {
+    let home = by_rule("float32", "slivers", "640x480");
+    let of = |pixel: &str, code: i32| {
+        printed(
+            bothways(&home, &["diff", EXACT, RULED, "--scene", "slivers", "--pixel", pixel]),
+            code,
+        )
+    };
+    insta::assert_snapshot!("why_pixel", of("241,318", 1));
+    insta::assert_snapshot!("why_equal_pixel", of("0,0", 1));
+    let outside = ["diff", EXACT, RULED, "--scene", "slivers", "--pixel", "480,0"];
+    insta::assert_snapshot!("why_no_such_pixel", refused(bothways(&home, &outside)));
+}
+
+#[test]
+fn files_of_other_sizes_are_explained_where_something_does() {
+    let home = by_rule("corner", "lecture", "96x72");
+    let rendered = |size: &str, out: &str| {
+        let args = [
+            "lecture",
+            "--size",
+            size,
+            "--order",
+            "image",
+            "--buffers",
+            "npy",
+            "--no-counts",
+            "--quiet",
+            "-o",
+            out,
+        ];
+        bothways(&home, &args).assert().code(0);
+    };
+    rendered("97x72", "wide");
+    let args = ["diff", EXACT, "wide/image-order.ids.npy"];
+    insta::assert_snapshot!("why_sizes", refused(bothways(&home, &args)));
+}
+
+#[test]
+fn json_has_reasons_and_conventions() {
+    let home = by_rule("corner", "lecture", "96x72");
+    let args = ["diff", EXACT, RULED, "--scene", "lecture", "--json"];
+    let json: serde_json::Value =
+        serde_json::from_str(&printed(bothways(&home, &args), 1)).unwrap();
+    let why = &json["why"];
+    assert_eq!(why["a"]["finding"], "true");
+    assert_eq!(why["b"]["finding"], "explained");
+    let sentences = why["b"]["explanations"][0]["sentences"].as_array().unwrap();
+    assert_eq!(sentences.len(), 1);
+    let kinds: Vec<&str> = why["reasons"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|one| one["kind"].as_str().unwrap())
+        .collect();
+    assert!(kinds.contains(&"convention"), "{kinds:?}");
+    assert!(why["telling"].is_array());
+}
