@@ -1,5 +1,7 @@
 //! `diff --scene`: why two files differ.
 
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 use crate::texts::{bothways, home, printed};
 use assert_cmd::Command;
 use tempfile::TempDir;

@@ -245,12 +245,22 @@ impl<'a> Why<'a> {
         }
         let mut findings = Vec::new();
         for (name, found) in ["A", "B"].into_iter().zip(&self.conventions) {
-            let mut text = String::new();
             match found {
-                Ok(found) => self.conventions_of(name, found, &mut text),
-                Err(error) => line(&mut text, format_args!("no conventions of {name}: {error}")),
+                Ok(Findings { differing, finding: Finding::Explained(found), .. }) => {
+                    let all = found.iter().map(|one| {
+                        let parts = one.sentences(name, self.camera).join("; and ");
+                        let explained = grouped(one.explained);
+                        format!("{parts} (explains {explained} of {} pixels)", grouped(*differing))
+                    });
+                    findings.push(all.collect::<Vec<_>>().join(", or: "));
+                }
+                Ok(found) => {
+                    let mut text = String::new();
+                    self.conventions_of(name, found, &mut text);
+                    findings.push(text.trim().to_owned());
+                }
+                Err(error) => findings.push(format!("no conventions of {name}: {error}")),
             }
-            findings.extend(text.lines().map(|line| line.trim().to_owned()));
         }
         page.findings = findings;
         page.why = Some(format!("bothways pixel {}", self.scene));
