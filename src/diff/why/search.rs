@@ -201,7 +201,8 @@ impl Search<'_> {
         let seen = self.truth.ids.iter().filter(|&&id| id != NO_PRIMITIVE).count();
         if covered == 0 {
             Some(
-                "the file covers nothing, and every convention explains an empty picture equally"
+                "the file covers nothing; to look the other way (along +w), to cull or clip everything, and never to hit \
+                 explain that equally well"
                     .into(),
             )
         } else if seen == 0 {
