@@ -4,20 +4,23 @@
 //! - [`find_conventions`]: what a renderer does otherwise as a whole; the scene is drawn again under each hypothesis.
 
 mod convention;
+mod distances;
 mod draw;
 mod encoding;
+mod near;
 mod outline;
 mod pixels;
 mod rays;
 mod reason;
 mod search;
 mod sentence;
+mod shown;
 
 pub use convention::{
     Change, Convention, Depth, Edges, Faces, Field, Look, Placement, Rays, Sampling,
 };
 pub use encoding::{DistanceEncoding, Encoding, IdEncoding, NothingEncoding};
-pub use pixels::{PixelReason, ReasonError, Reasons, find_reasons};
+pub use pixels::{PixelReason, ReasonError, Reasons, Wrong, find_reasons};
 pub use reason::{Reason, ReasonKind};
 pub use search::{Explanation, Finding, Findings, SearchError, find_conventions};
 

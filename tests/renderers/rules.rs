@@ -6,10 +6,10 @@ use bothways::common::{
     Shape, Sphere, Triangle, View,
 };
 use bothways::diff::compare;
-use bothways::diff::foreign::{Buffer, Side};
+use bothways::diff::foreign::Buffer;
 use bothways::diff::why::{
-    Change, Edges, Explanation, Finding, Placement, Rays, ReasonKind, Sampling, find_conventions,
-    find_reasons,
+    Change, Edges, Explanation, Finding, Placement, Rays, ReasonKind, Sampling, Wrong,
+    find_conventions, find_reasons,
 };
 use bothways::orders::{self, Method, Order, RenderOptions, Rendered, Rule, Rules};
 use bothways::picture::picture;
@@ -297,7 +297,7 @@ fn the_diff_names_every_rule_on_its_scene() {
                 let differing: Vec<[u32; 2]> =
                     comparison.classes().differing().map(|(pixel, _)| pixel).collect();
                 let reasons = find_reasons(&view, &ruled, &exact, &differing).expect("of one size");
-                assert!(reasons.pixels.iter().all(|one| one.wrong == Some(Side::A)), "{rule}");
+                assert!(reasons.pixels.iter().all(|one| one.wrong == Wrong::A), "{rule}");
                 let named = reasons.pixels.iter().filter(|one| kinds.contains(&one.reason.kind()));
                 let (named, all) = (named.count(), reasons.pixels.len());
                 assert!(10 * named >= 9 * all, "{rule}: {named} of {all}, {:?}", reasons.counts());

@@ -5,11 +5,11 @@ use super::line;
 use crate::cli::args::ProjectionArg;
 use anstyle::Style;
 use bothways::common::{Camera, View};
-use bothways::diff::foreign::{Buffer, BufferComparison, Side};
+use bothways::diff::foreign::{Buffer, BufferComparison};
 use bothways::diff::page::{Group, Page};
 use bothways::diff::why::{
-    Explanation, Finding, Findings, PixelReason, Reason, ReasonKind, Reasons, find_conventions,
-    find_reasons,
+    Explanation, Finding, Findings, PixelReason, Reason, ReasonKind, Reasons, Wrong,
+    find_conventions, find_reasons,
 };
 use bothways::figure::{Entry, with_legend};
 use bothways::picture::enlarged;
@@ -41,7 +41,7 @@ impl<'a> Why<'a> {
         let conventions =
             [a, b].map(|file| find_conventions(view, file).map_err(|error| error.to_string()));
         let mut reasons = find_reasons(view, a, b, &differing).map_err(|error| error.to_string());
-        for (side, found) in [Side::A, Side::B].into_iter().zip(&conventions) {
+        for (side, found) in [Wrong::A, Wrong::B].into_iter().zip(&conventions) {
             if let (Ok(reasons), Ok(Findings { differing, finding: Finding::Explained(found), .. })) =
                 (&mut reasons, found)
                 && !found[0].is_a_guess(*differing)
@@ -76,33 +76,20 @@ impl<'a> Why<'a> {
             return;
         }
         text.push('\n');
+        let mut columns =
+            vec![("A is wrong", Wrong::A), ("B is wrong", Wrong::B), ("both", Wrong::Both)];
+        if reasons.pixels.iter().any(|one| one.wrong == Wrong::Neither) {
+            columns.push(("neither", Wrong::Neither));
+        }
+        let heads: String = columns.iter().map(|(head, _)| format!("{head:>12}")).collect();
         let bold = Style::new().bold();
-        let head = format!(
-            "{bold}{:34}{:>12}{:>12}{:>12}{bold:#}",
-            "reasons", "A is wrong", "B is wrong", "both"
-        );
-        line(text, format_args!("{head}"));
-        for (kind, all) in reasons.counts() {
-            let wrong = |side: Option<Side>| {
-                let some = reasons.pixels.iter();
-                some.filter(|one| one.reason.kind() == kind && one.wrong == side).count() as u64
+        line(text, format_args!("{bold}{:34}{heads}{bold:#}", "reasons"));
+        for kind in reasons.counts().into_iter().map(|(kind, _)| kind) {
+            let number = |&(_, wrong): &(&str, Wrong)| {
+                format!("{:>12}", grouped(reasons.count(kind, wrong)))
             };
-            let numbers = [Some(Side::A), Some(Side::B), None].map(wrong);
-            let numbers = if reasons.is_partial() {
-                let looked: u64 = numbers.iter().sum();
-                numbers.map(|number| number * all / looked.max(1))
-            } else {
-                numbers
-            };
-            let [a, b, both] = numbers.map(grouped);
-            line(
-                text,
-                format_args!(
-                    "{:34}{a:>12}{b:>12}{both:>12}{}",
-                    kind.name(),
-                    farthest(reasons, kind)
-                ),
-            );
+            let numbers: String = columns.iter().map(number).collect();
+            line(text, format_args!("{:34}{numbers}{}", kind.name(), farthest(reasons, kind)));
         }
         if reasons.is_partial() {
             let looked = grouped(reasons.pixels.len() as u64);
@@ -191,9 +178,10 @@ impl<'a> Why<'a> {
             return format!("the files do not differ at ({i}, {j}), or it was not looked at\n");
         };
         let wrong = match found.wrong {
-            Some(Side::A) => "A is wrong",
-            Some(Side::B) => "B is wrong",
-            None => "both are wrong",
+            Wrong::A => "A is wrong",
+            Wrong::B => "B is wrong",
+            Wrong::Both => "both are wrong",
+            Wrong::Neither => "neither is known to be wrong",
         };
         let truth = found.truth.map_or("nothing".into(), |id| format!("id {id}"));
         format!(

@@ -70,6 +70,8 @@ pub enum Reason {
     },
     /// The conventions of the renderer as a whole explain the pixel.
     Convention,
+    /// Both files agree with the truth within tolerance, and differ from one another by more.
+    WithinTolerance,
     /// What the file holds does not tell: colours alone.
     CannotTell,
     /// None of these.
@@ -98,6 +100,8 @@ pub enum ReasonKind {
     Elsewhere,
     /// The conventions of the renderer as a whole.
     Convention,
+    /// Both files are right within tolerance.
+    WithinTolerance,
     /// The files do not tell.
     CannotTell,
     /// No reason was found.
@@ -106,7 +110,7 @@ pub enum ReasonKind {
 
 impl ReasonKind {
     /// All kinds, in the order of the report.
-    pub const ALL: [ReasonKind; 11] = [
+    pub const ALL: [ReasonKind; 12] = [
         ReasonKind::Tie,
         ReasonKind::DistanceTie,
         ReasonKind::Rounding,
@@ -116,6 +120,7 @@ impl ReasonKind {
         ReasonKind::Tessellation,
         ReasonKind::Elsewhere,
         ReasonKind::Convention,
+        ReasonKind::WithinTolerance,
         ReasonKind::CannotTell,
         ReasonKind::Unexplained,
     ];
@@ -132,6 +137,7 @@ impl ReasonKind {
             ReasonKind::Tessellation => "sphere against its mesh",
             ReasonKind::Elsewhere => "sampled elsewhere in the pixel",
             ReasonKind::Convention => "conventions, see below",
+            ReasonKind::WithinTolerance => "both right within tolerance",
             ReasonKind::CannotTell => "cannot tell from these files",
             ReasonKind::Unexplained => "unexplained",
         }
@@ -150,6 +156,7 @@ impl ReasonKind {
             ReasonKind::Tessellation => [0xd5, 0x5e, 0x00],
             ReasonKind::Elsewhere => [0xb2, 0x9b, 0xff],
             ReasonKind::Convention => [0xff, 0xd2, 0xb8],
+            ReasonKind::WithinTolerance => [0xc8, 0xc8, 0xc8],
             ReasonKind::CannotTell => [0x99, 0x99, 0x99],
             ReasonKind::Unexplained => [0xff, 0xff, 0xff],
         }
@@ -169,6 +176,7 @@ impl Reason {
             Reason::Tessellation { .. } => ReasonKind::Tessellation,
             Reason::Elsewhere { .. } => ReasonKind::Elsewhere,
             Reason::Convention => ReasonKind::Convention,
+            Reason::WithinTolerance => ReasonKind::WithinTolerance,
             Reason::CannotTell => ReasonKind::CannotTell,
             Reason::Unexplained => ReasonKind::Unexplained,
         }
@@ -225,6 +233,9 @@ impl Reason {
             ),
             Reason::Convention => {
                 "the conventions of the renderer as a whole explain it: see the report of all pixels".into()
+            }
+            Reason::WithinTolerance => {
+                "each lies within tolerance of the true distance, on either side of it".into()
             }
             Reason::CannotTell => {
                 "the files hold colours here, which do not tell what was seen".into()

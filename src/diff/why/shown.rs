@@ -1,0 +1,68 @@
+//! What a file shows as a whole, as far as it agrees with the truth: the reasons of single pixels ask for it.
+
+use super::draw::Drawn;
+use super::encoding::{NothingEncoding, Observed, Values};
+use super::rays::ViewingRays;
+use crate::common::frame::NO_PRIMITIVE;
+use crate::common::{Judge, Primitive, Sign, View};
+use crate::diff::tolerance::DEPTH_TOLERANCE;
+use std::collections::HashSet;
+
+/// What a file shows, and what it shows nowhere.
+pub(super) struct Shown {
+    pub(super) observed: Observed,
+    /// Whether it shows any face with its corners clockwise as seen, and any with its corners counter-clockwise.
+    pub(super) shows_back: bool,
+    pub(super) shows_front: bool,
+    /// The least depth along the axis at which it agrees with the truth; infinite if it agrees nowhere.
+    pub(super) nearest: f64,
+    /// Whether meshes may stand in the place of spheres: their outlines lie inside, so that no sample is gained, and
+    /// the triangles have ids of their own.
+    pub(super) may_hold_meshes: bool,
+}
+
+impl Shown {
+    pub(super) fn new(
+        view: &View,
+        rays: &ViewingRays,
+        judge: &Judge,
+        truth: &Drawn,
+        observed: Observed,
+    ) -> Shown {
+        let (mut shows_back, mut shows_front, mut nearest) = (false, false, f64::INFINITY);
+        let mut seen = HashSet::new();
+        for (index, &id) in truth.ids.iter().enumerate() {
+            if id == NO_PRIMITIVE || !agrees(&observed, index, id, truth.t[index]) {
+                continue;
+            }
+            nearest = nearest.min(truth.t[index] * rays.distance.abs());
+            if seen.insert(id)
+                && let Primitive::Triangle(corners) = view.primitive(id)
+            {
+                let ray = rays.ray(index / rays.x.len(), index % rays.x.len());
+                let is_back = judge.facing(&corners, &ray) == Sign::Positive;
+                shows_back |= is_back;
+                shows_front |= !is_back;
+            }
+        }
+        let gains = |index: usize| {
+            truth.ids[index] == NO_PRIMITIVE && observed.covered(index, NothingEncoding::Ours)
+        };
+        let may_hold_meshes =
+            !matches!(observed.values, Values::Ids(_)) && !(0..truth.ids.len()).any(gains);
+        Shown { observed, shows_back, shows_front, nearest, may_hold_meshes }
+    }
+}
+
+fn agrees(observed: &Observed, index: usize, id: u32, t: f64) -> bool {
+    match &observed.values {
+        Values::Mask(mask) => mask[index],
+        Values::Ids(ids) => ids[index] == Some(id.into()),
+        Values::Distances(distances) => is_same_distance(distances[index], t),
+    }
+}
+
+/// Whether two distances are equal within the tolerance of the diff.
+pub(super) fn is_same_distance(one: f64, other: f64) -> bool {
+    (one - other).abs() <= DEPTH_TOLERANCE * one.abs().max(other.abs())
+}
