@@ -232,6 +232,7 @@ impl Camera {
     /// The viewing ray through the point `(x, y)` of the viewport, relative to the eye and in the world's axes.
     ///
     /// Its rounded numbers *are* the ray: every statement about visibility is about them.
+    #[inline]
     pub fn ray_through(&self, x: f64, y: f64) -> Ray {
         let across = x * self.u + y * self.v;
         match self.projection() {
@@ -306,6 +307,7 @@ impl SampleGrid<'_> {
     /// # Panics
     ///
     /// If there is no such row or column.
+    #[inline]
     pub fn ray(&self, row: usize, column: usize) -> Ray {
         self.camera.ray_through(self.x[column], self.y[row])
     }

@@ -25,6 +25,7 @@ pub struct Object {
 
 impl Object {
     /// The material of one of its primitives, which are counted from 0 within the object.
+    #[inline]
     pub fn material_of(&self, primitive: usize) -> &Material {
         match &self.shape {
             Shape::Mesh(mesh) => {
@@ -134,6 +135,7 @@ impl Scene {
     /// # Panics
     ///
     /// If there is no primitive of this id.
+    #[inline]
     pub fn locate(&self, id: u32) -> (usize, usize) {
         assert!(id < self.primitive_count(), "there is no primitive {id}");
         let object = self.first_ids.partition_point(|&first| first <= id) - 1;

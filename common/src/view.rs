@@ -22,6 +22,7 @@ impl<'a> View<'a> {
 
     /// A position of the world relative to the eye: one subtraction a coordinate, which *is* the
     /// vertex from here on.
+    #[inline]
     pub fn offset(&self, position: Vec3) -> DVec3 {
         position.as_dvec3() - self.camera.eye().as_dvec3()
     }
@@ -31,6 +32,7 @@ impl<'a> View<'a> {
     /// # Panics
     ///
     /// If there is no primitive of this id.
+    #[inline]
     pub fn primitive(&self, id: u32) -> Primitive {
         let (object, local) = self.scene.locate(id);
         self.primitive_of(&self.scene.objects()[object].shape, local)
@@ -50,6 +52,7 @@ impl<'a> View<'a> {
         Judge::new(self.camera)
     }
 
+    #[inline]
     fn primitive_of(&self, shape: &Shape, local: usize) -> Primitive {
         match shape {
             Shape::Triangle(Triangle { a, b, c }) => {

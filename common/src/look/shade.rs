@@ -23,12 +23,14 @@ pub struct SurfacePoint {
 /// `eye` is where the eye is in the world. Colours above 1 are left to the picture to clamp.
 ///
 /// Blinn, "Models of Light Reflection for Computer Synthesized Pictures", SIGGRAPH 1977.
+#[inline]
 pub fn color(point: &SurfacePoint, material: &Material, lights: &[Light], eye: Vec3) -> Vec3 {
     let plain = Material { color: reflectance(point, material), ..*material };
     lights.iter().map(|light| lit_by(light, point, &plain, eye)).sum()
 }
 
 /// The material's colour at this point of its pattern.
+#[inline]
 fn reflectance(point: &SurfacePoint, material: &Material) -> Vec3 {
     match (&material.checker, &point.texture) {
         (Some(checker), Some(texture)) => {
@@ -38,6 +40,7 @@ fn reflectance(point: &SurfacePoint, material: &Material) -> Vec3 {
     }
 }
 
+#[inline]
 fn lit_by(light: &Light, point: &SurfacePoint, material: &Material, eye: Vec3) -> Vec3 {
     let (to_light, intensity) = match *light {
         Light::Ambient { intensity } => return material.color * intensity,

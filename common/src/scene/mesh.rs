@@ -197,6 +197,7 @@ impl Mesh {
     /// # Panics
     ///
     /// If there is no such triangle.
+    #[inline]
     pub fn corners(&self, triangle: usize) -> [Vec3; 3] {
         self.triangles[triangle].map(|vertex| self.positions[vertex as usize])
     }
