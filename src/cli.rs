@@ -5,12 +5,14 @@
 
 mod args;
 mod camera;
+mod check;
 mod completions;
 mod cover;
 mod diff;
 mod failure;
 mod forecast;
 mod fuzz;
+mod grade;
 mod interrupt;
 mod memory;
 mod mesh;
@@ -49,6 +51,7 @@ Examples:
   bothways scenes                            what is built in
   bothways ties --object-rules inclusive     what an ordinary renderer gets wrong
   bothways diff a.png b.png                  which pixels of two files differ, and how
+  bothways check mine                        a whole renderer at once: which scenes, and why
   bothways pixel ties 20 30                  why a pixel shows what it shows
   bothways cover '1,1 9,2 3,7' --size 10x8   which pixels a triangle covers
 
@@ -72,6 +75,12 @@ enum Command {
     /// Compare two masks, pictures or buffers of any origin
     #[command(after_help = diff::EXAMPLES)]
     Diff(Box<diff::DiffArgs>),
+    /// Hold a renderer's pictures of a whole conformance set to the truth, and sum up the causes
+    #[command(after_help = check::EXAMPLES)]
+    Check(check::CheckArgs),
+    /// Give marks for pictures of one scene: how much is right, and the likely mistake
+    #[command(after_help = grade::EXAMPLES)]
+    Grade(Box<grade::GradeArgs>),
     /// List the built-in scenes, or print one as TOML
     #[command(after_help = SCENES_EXAMPLES)]
     Scenes {
@@ -131,6 +140,8 @@ fn run(cli: Cli) -> Result<ExitCode, Failure> {
         None => run::run(&cli.render),
         Some(Command::Render(args)) => run::run(&args),
         Some(Command::Diff(args)) => diff::run(&args),
+        Some(Command::Check(args)) => check::run(&args),
+        Some(Command::Grade(args)) => grade::run(&args),
         Some(Command::Scenes { name }) => print_scenes(name.as_deref()),
         Some(Command::Rules(args)) => rules::run(&args),
         Some(Command::Cover(args)) => cover::run(&args),

@@ -63,7 +63,8 @@
 //! - **Showing**: [`picture`] and [`figure`]; [`wording`] writes numbers for people.
 //! - **Single questions**: [`cover`] answers for one triangle on a raster, [`pixel`] for one pixel of a scene,
 //!   [`opengl`] gives the matrices of a camera.
-//! - **Testing other renderers**: [`vectors`] is a conformance set; [`fuzz`] draws random scenes by all four renderers, and
+//! - **Testing other renderers**: [`vectors`] is a conformance set, [`check`] holds a renderer to it, [`grade`] gives
+//!   marks for one scene; [`fuzz`] draws random scenes by all four renderers, and
 //!   shrinks what they disagree on.
 
 pub use bothways_common as common;
@@ -72,10 +73,12 @@ pub use bothways_rasterize as rasterize;
 pub use bothways_raytrace as raytrace;
 pub use bothways_rules as rules;
 
+pub mod check;
 pub mod cover;
 pub mod diff;
 pub mod figure;
 pub mod fuzz;
+pub mod grade;
 pub mod opengl;
 pub mod orders;
 pub mod picture;

@@ -174,7 +174,7 @@ fn pixel(text: &str) -> Result<[u32; 2], String> {
 }
 
 /// A colour in sRGB.
-fn color(text: &str) -> Result<[u8; 3], String> {
+pub(super) fn color(text: &str) -> Result<[u8; 3], String> {
     let digits = text.strip_prefix('#').filter(|digits| digits.len() == 6);
     let bytes = digits
         .filter(|digits| digits.bytes().all(|digit| digit.is_ascii_hexdigit()))

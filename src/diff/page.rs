@@ -25,6 +25,7 @@ mod summary;
 mod template;
 
 pub use groups::Group;
+pub(crate) use {data::write_data_uri, shown::shown, template::escaped};
 
 use super::compare::BufferComparison;
 use super::foreign::Buffer;

@@ -49,7 +49,7 @@ pub struct Pair {
 #[derive(Debug, thiserror::Error)]
 pub enum PairsError {
     /// A folder cannot be listed.
-    #[error("cannot list the folder {}: {error}", .folder.display())]
+    #[error("cannot list the folder {}: {}", .folder.display(), reason(.error))]
     Folder {
         /// The folder.
         folder: PathBuf,
@@ -85,6 +85,25 @@ pub enum PairsError {
         /// Whether one of them is a conformance set.
         set: bool,
     },
+    /// A folder has no file of any scene of the set.
+    #[error(
+        "no file of {} (PNG, PNM, BMP, JPEG, EXR or NPY) has the name of a scene of the set; call them NAME.png (a mask) \
+         or NAME.npy (ids or distances), NAME being a scene's name, as bothways vectors writes them",
+        .folder.display()
+    )]
+    NoFiles {
+        /// The folder.
+        folder: PathBuf,
+    },
+}
+
+/// The reason for which a folder cannot be listed, in words.
+fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "there is no such folder".into(),
+        io::ErrorKind::NotADirectory => "it is a file, not a folder".into(),
+        _ => error.to_string(),
+    }
 }
 
 /// The endings of the names of files that may be buffers.
@@ -98,13 +117,16 @@ const LARGEST_INDEX: u64 = 1 << 24;
 /// The part of a set's index that is read.
 #[derive(Deserialize)]
 struct Index {
-    scenes: Vec<Scene>,
+    scenes: Vec<SetScene>,
 }
 
-#[derive(Deserialize)]
-struct Scene {
-    name: String,
-    point: String,
+/// A scene of a conformance set, as the index of the set names it.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+pub struct SetScene {
+    /// The name of the scene.
+    pub name: String,
+    /// The point of the scene, in one sentence.
+    pub point: String,
 }
 
 impl Pairs {
@@ -117,8 +139,8 @@ impl Pairs {
         let (in_a, in_b) = (buffers(a)?, buffers(b)?);
         let pairs = match (index(a)?, index(b)?) {
             // Two sets are two folders with the same names; the index of one set gives the points of the scenes.
-            (Some(index), None) => of_a_set(b, &in_b, &index).swapped(),
-            (None, Some(index)) => of_a_set(a, &in_a, &index),
+            (Some(index), None) => of_a_set(b, &in_b, &index.scenes).swapped(),
+            (None, Some(index)) => of_a_set(a, &in_a, &index.scenes),
             _ => by_name(&in_a, &in_b),
         };
         if pairs.pairs.is_empty() {
@@ -149,6 +171,28 @@ impl Pairs {
             ignored: self.ignored,
         }
     }
+}
+
+/// The scenes of the conformance set in a folder; `None` if the folder is no set.
+///
+/// # Errors
+///
+/// An error for a damaged index.
+pub fn scenes_of_set(folder: &Path) -> Result<Option<Vec<SetScene>>, PairsError> {
+    Ok(index(folder)?.map(|index| index.scenes))
+}
+
+/// The files of a folder, A, that show scenes of a set, B.
+///
+/// # Errors
+///
+/// An error for a folder that cannot be listed, or that has no file of any scene.
+pub fn files_of_set(folder: &Path, scenes: &[SetScene]) -> Result<Pairs, PairsError> {
+    let pairs = of_a_set(folder, &buffers(folder)?, scenes);
+    if pairs.pairs.is_empty() {
+        return Err(PairsError::NoFiles { folder: folder.to_owned() });
+    }
+    Ok(pairs)
 }
 
 /// Which of two files is part of a conformance set, if exactly one is: its folder has the index of the set, and the
@@ -201,10 +245,10 @@ fn index(folder: &Path) -> Result<Option<Index>, PairsError> {
 }
 
 /// The pairs of a folder next to the set, which is B.
-fn of_a_set(folder: &Path, files: &BTreeSet<String>, index: &Index) -> Pairs {
+fn of_a_set(folder: &Path, files: &BTreeSet<String>, scenes: &[SetScene]) -> Pairs {
     let mut left: BTreeSet<&String> = files.iter().collect();
     let (mut pairs, mut missing) = (Vec::new(), Vec::new());
-    for Scene { name, point } in &index.scenes {
+    for SetScene { name, point } in scenes {
         let of_scene = |file: &&String| file.split('.').next() == Some(name.as_str());
         let own: Vec<&String> = files.iter().filter(of_scene).collect();
         if own.is_empty() {

@@ -2,6 +2,7 @@
 //!
 //! - [`find_reasons`]: the reason for each differing pixel, decided by the exact judge.
 //! - [`find_conventions`]: what a renderer does otherwise as a whole; the scene is drawn again under each hypothesis.
+//! - [`find_common_conventions`]: the same by several pictures of one renderer.
 
 mod convention;
 mod distances;
@@ -15,6 +16,8 @@ mod reason;
 mod search;
 mod sentence;
 mod shown;
+mod size;
+mod together;
 
 pub use convention::{
     Change, Convention, Depth, Edges, Faces, Field, Look, Placement, Rays, Sampling,
@@ -23,6 +26,8 @@ pub use encoding::{DistanceEncoding, Encoding, IdEncoding, NothingEncoding};
 pub use pixels::{PixelReason, ReasonError, Reasons, Wrong, find_reasons};
 pub use reason::{Reason, ReasonKind};
 pub use search::{Explanation, Finding, Findings, SearchError, find_conventions};
+pub use size::cause_of_size;
+pub use together::{CommonExplanation, Rendering, find_common_conventions};
 
 #[cfg(test)]
 mod tests;

@@ -3,6 +3,7 @@
 mod arguments;
 mod bad_input;
 mod camera;
+mod check;
 mod command_line;
 mod cover;
 mod crop;

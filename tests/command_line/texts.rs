@@ -334,6 +334,8 @@ fn short_help() {
     let commands = [
         "render",
         "diff",
+        "check",
+        "grade",
         "scenes",
         "rules",
         "cover",

@@ -8,7 +8,7 @@ use bothways::common::{Camera, View};
 use bothways::diff::foreign::{Buffer, BufferComparison};
 use bothways::diff::page::{Group, Page};
 use bothways::diff::why::{
-    Explanation, Finding, Findings, PixelReason, Reason, ReasonKind, Reasons, Wrong,
+    Explanation, Finding, Findings, PixelReason, Reason, ReasonKind, Reasons, Wrong, cause_of_size,
     find_conventions, find_reasons,
 };
 use bothways::figure::{Entry, with_legend};
@@ -337,24 +337,10 @@ struct ExplanationJson {
 
 /// What may explain that two files have different sizes, in words behind the error; empty if nothing does.
 pub(super) fn of_sizes(args: &SceneArgs, [a, b]: [&Buffer; 2]) -> String {
-    let sides = |file: &Buffer| file.size().map(i64::from);
-    let [more_columns, more_rows] = [0, 1].map(|side| sides(b)[side] - sides(a)[side]);
-    if more_columns.abs() <= 1 && more_rows.abs() <= 1 && [more_columns, more_rows] != [0, 0] {
-        return "; a loop that includes its end (<= for <), or leaves it out, makes one row or column too many or \
-                too few"
-            .into();
-    }
-    let Ok(Some((loaded, camera))) = inputs::scene_of_size(args, None, Some(a.size())) else {
-        return String::new();
-    };
-    let view = View::new(&loaded.scene, &camera);
-    let Ok(found) = find_conventions(&view, b) else { return String::new() };
-    match &found.finding {
-        Finding::Explained(found) if found[0].remaining == 0 => {
-            format!("; {}", found[0].sentences("B", &camera).join(", and "))
-        }
-        _ => String::new(),
-    }
+    let scene = inputs::scene_of_size(args, None, Some(a.size())).ok().flatten();
+    let view = scene.as_ref().map(|(loaded, camera)| View::new(&loaded.scene, camera));
+    let cause = cause_of_size("B", b, a.size(), view.as_ref());
+    cause.map_or(String::new(), |cause| format!("; {cause}"))
 }
 
 /// The scene and the options of its camera, as `bothways pixel` takes them.

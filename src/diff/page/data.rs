@@ -77,10 +77,16 @@ fn write_picture(
     out: &mut impl Write,
 ) -> io::Result<()> {
     let caption = escaped(caption);
-    write!(out, "<figure><img id=\"picture-{id}\" alt=\"{caption}\" src=\"data:image/png;base64,")?;
-    write_base64(&png(picture)?, out)?;
+    write!(out, "<figure><img id=\"picture-{id}\" alt=\"{caption}\" src=\"")?;
+    write_data_uri(picture, out)?;
     let note = note.map(|note| format!(" <span class=\"note\">{}</span>", escaped(note)));
     writeln!(out, "\"><figcaption>{caption}{}</figcaption></figure>", note.unwrap_or_default())
+}
+
+/// Writes a picture as a PNG in the address itself.
+pub(crate) fn write_data_uri(picture: &RgbImage, out: &mut impl Write) -> io::Result<()> {
+    out.write_all(b"data:image/png;base64,")?;
+    write_base64(&png(picture)?, out)
 }
 
 fn png(picture: &RgbImage) -> io::Result<Vec<u8>> {

@@ -17,14 +17,14 @@ const FAR: f64 = 60.0;
 const MOST_DISTANCES: usize = 1 << 16;
 
 /// A buffer as a picture.
-pub(super) struct Shown {
-    pub(super) picture: RgbImage,
+pub(crate) struct Shown {
+    pub(crate) picture: RgbImage,
     /// How to read the picture, if its colours are not those of the file.
     pub(super) note: Option<String>,
 }
 
 /// The pictures of A and B. Equal values have equal colours in both.
-pub(super) fn shown(buffers: [&Buffer; 2]) -> [Shown; 2] {
+pub(crate) fn shown(buffers: [&Buffer; 2]) -> [Shown; 2] {
     let range = Range::of(buffers);
     buffers.map(|buffer| {
         let average = match buffer.samples() {

@@ -45,7 +45,7 @@ fn title(page: &Page) -> String {
 }
 
 /// A text that stands for itself in HTML, between tags and in quoted attributes.
-pub(super) fn escaped(text: &str) -> Cow<'_, str> {
+pub(crate) fn escaped(text: &str) -> Cow<'_, str> {
     if !text.contains(['&', '<', '>', '"', '\'']) {
         return Cow::Borrowed(text);
     }

@@ -30,12 +30,12 @@ impl<'a> SampleDistances<'a> {
     }
 
     /// The distance to the line on which a function is zero.
-    pub(super) fn to_zero(&self, function: &Linear) -> f64 {
+    pub(super) fn to_zero(self, function: &Linear) -> f64 {
         function.at(self.x, self.y).abs() / slope_of(function, self.spacing)
     }
 
     /// The distance to the outline of a sphere, and the radius.
-    pub(super) fn to_sphere(&self, center: DVec3, radius: f64) -> (f64, f64) {
+    pub(super) fn to_sphere(self, center: DVec3, radius: f64) -> (f64, f64) {
         // How far the ray passes from the middle, in radii: 1 on the outline.
         let passes = |ray: Ray| {
             let offset = center - ray.origin;
@@ -47,7 +47,7 @@ impl<'a> SampleDistances<'a> {
     }
 
     /// The distance to the horizon of a plane; infinite for a parallel camera, which sees none.
-    pub(super) fn to_horizon(&self, point: DVec3, normal: DVec3) -> f64 {
+    pub(super) fn to_horizon(self, point: DVec3, normal: DVec3) -> f64 {
         let (_, along) = plane_distance(point, normal, normal.length(), self.rays);
         let pixels = self.to_zero(&along);
         if pixels.is_nan() { f64::INFINITY } else { pixels }
@@ -55,7 +55,7 @@ impl<'a> SampleDistances<'a> {
 
     /// The distance to the line on which two primitives are equally far; infinite if one of them has no distance half a
     /// pixel away.
-    pub(super) fn to_intersection(&self, judge: &Judge, primitives: [&Primitive; 2]) -> f64 {
+    pub(super) fn to_intersection(self, judge: &Judge, primitives: [&Primitive; 2]) -> f64 {
         let difference = |ray: Ray| {
             let [one, other] = primitives.map(|primitive| judge.distance(primitive, &ray));
             one - other

@@ -349,8 +349,9 @@ impl<'a> Finder<'a> {
                 (Outline::of(id, sample.distances.to_horizon(*point, *normal), false), None)
             }
         };
-        let culled =
-            is_back.filter(|&is_back| if is_back { !file.shows_back } else { !file.shows_front });
+        // Where no face is shown at all, much else explains that one is missing.
+        let faces = [file.shows_front, file.shows_back];
+        let culled = is_back.filter(|&is_back| faces == [is_back, !is_back]);
         let depth = self.judge.distance(&primitive, sample.ray()) * self.rays.distance.abs();
         let is_before = depth < file.nearest && file.nearest.is_finite();
         let near_plane = is_before.then_some(Reason::NearPlane { primitive: id, depth });

@@ -34,7 +34,7 @@ pub enum Reason {
         /// The difference as a part of the distance.
         relative: f64,
     },
-    /// The primitive faces away (or towards the eye), and no such face is shown anywhere.
+    /// The primitive faces away (or towards the eye), and no such face is shown anywhere, but others are.
     Culled {
         /// The triangle.
         primitive: u32,

@@ -11,20 +11,33 @@ use crate::wording::readable;
 impl Explanation {
     /// The explanation in sentences, one for each part; `name` is the name of the file.
     pub fn sentences(&self, name: &str, camera: &Camera) -> Vec<String> {
-        let mut sentences: Vec<String> = of_convention(&self.convention, camera)
-            .iter()
-            .map(|part| with_name(part, name))
-            .collect();
-        sentences.extend(of_encoding(&self.encoding).iter().map(|part| with_name(part, name)));
-        sentences
+        let mut parts = of_convention(&self.convention, camera.projection());
+        parts.extend(of_encoding(&self.encoding));
+        parts.iter().map(|part| with_name(part, name)).collect()
     }
+}
+
+/// The conventions of a renderer in sentences. A change of the rays concerns the cameras of one projection; `encodings`
+/// are those of masks, of ids and of distances.
+pub(super) fn of_renderer(
+    name: &str,
+    convention: &Convention,
+    rays_of: Option<Projection>,
+    encodings: &[Encoding; 3],
+) -> Vec<String> {
+    let mut parts = of_convention(convention, rays_of.unwrap_or(Projection::Parallel));
+    for (kind, encoding) in ["masks", "ids", "distances"].into_iter().zip(encodings) {
+        let of_kind = of_encoding(encoding);
+        parts.extend(of_kind.into_iter().map(|part| format!("{part} (in its {kind})")));
+    }
+    parts.iter().map(|part| with_name(part, name)).collect()
 }
 
 fn with_name(sentence: &str, name: &str) -> String {
     format!("{name} {sentence}")
 }
 
-fn of_convention(convention: &Convention, camera: &Camera) -> Vec<String> {
+fn of_convention(convention: &Convention, projection: Projection) -> Vec<String> {
     let mut changes = convention.changes();
     let mut sentences = Vec::new();
     // One mistake on both axes is one mistake.
@@ -34,7 +47,7 @@ fn of_convention(convention: &Convention, camera: &Camera) -> Vec<String> {
         changes.retain(|change| !matches!(change, Change::Columns(_) | Change::Rows(_)));
         sentences.push(both);
     }
-    let parts = changes.into_iter().map(|change| sentence(change, camera));
+    let parts = changes.into_iter().map(|change| sentence(change, projection));
     parts.chain(sentences).collect()
 }
 
@@ -61,7 +74,7 @@ fn sampling_of_both(sampling: Sampling) -> Option<String> {
     Some(words.into())
 }
 
-fn sentence(change: Change, camera: &Camera) -> String {
+fn sentence(change: Change, projection: Projection) -> String {
     match change {
         Change::Placement(placement) => of_placement(placement).into(),
         Change::Columns(sampling) => of_sampling(sampling, ["j", "W", "column", "left", "right"]),
@@ -71,7 +84,7 @@ fn sentence(change: Change, camera: &Camera) -> String {
             "looks along +w, and sees what lies behind the eye: the direction is x u + y v - d w"
                 .into()
         }
-        Change::Rays(rays) => of_rays(rays, camera).into(),
+        Change::Rays(rays) => of_rays(rays, projection).into(),
         Change::Edges(edges) => of_edges(edges).into(),
         Change::Faces(faces) => of_faces(faces).into(),
         Change::Depth(depth) => of_depth(depth).into(),
@@ -158,8 +171,8 @@ fn of_field(field: Field) -> &'static str {
     }
 }
 
-fn of_rays(rays: Rays, camera: &Camera) -> &'static str {
-    match (rays, camera.projection()) {
+fn of_rays(rays: Rays, projection: Projection) -> &'static str {
+    match (rays, projection) {
         (Rays::AsStated, _) => "has the camera's rays",
         (Rays::OtherProjection, Projection::Parallel) => {
             "draws a perspective picture for a parallel camera: all rays go along -w, and begin at eye + x u + y v"

@@ -1,4 +1,4 @@
-//! The camera's flags, for `render`, `camera`, `pixel` and `diff`.
+//! The camera's flags, for `render`, `camera`, `pixel`, `grade` and `diff`.
 
 /// The arguments after each of [`COMMANDS`], and the beginning of the message.
 pub(super) const REFUSED: &[(&str, &str)] = &[
@@ -136,5 +136,10 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
 ];
 
 /// The commands with camera flags, all for the scene with the camera that the messages name.
-pub(super) const COMMANDS: &[&str] =
-    &["canonical", "camera canonical", "pixel canonical 1 1", "diff a.pgm a.pgm --scene canonical"];
+pub(super) const COMMANDS: &[&str] = &[
+    "canonical",
+    "camera canonical",
+    "pixel canonical 1 1",
+    "grade canonical a.pgm",
+    "diff a.pgm a.pgm --scene canonical",
+];

@@ -25,6 +25,40 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
         "camera canonical --json=yes",
         "unexpected value 'yes' for '--json' found; no more were expected",
     ),
+    // A whole renderer.
+    ("check", "the following required arguments were not provided: <THEIRS>"),
+    ("check no-such", "cannot list the folder no-such: there is no such folder"),
+    ("check a.pgm", "cannot list the folder a.pgm: it is a file, not a folder"),
+    (
+        "check .",
+        "no file of . (PNG, PNM, BMP, JPEG, EXR or NPY) has the name of a scene of the set",
+    ),
+    ("check . .", ". is no conformance set: it has no index.json of one"),
+    (
+        "check . --background red",
+        "invalid value 'red' for '--background <COLOR>': write a # and six hexadecimal digits",
+    ),
+    (
+        "check . --html file/check.html",
+        "cannot write file/check.html: a file is where a folder would be; choose another file with --html",
+    ),
+    ("check . --json=yes", "unexpected value 'yes' for '--json' found; no more were expected"),
+    // A course.
+    ("grade", "the following required arguments were not provided: <SCENE> <FILE>..."),
+    ("grade canonical", "the following required arguments were not provided: <FILE>..."),
+    ("grade no-such a.pgm", "there is no built-in scene \"no-such\""),
+    (
+        "grade canonical a.pgm --csv file/marks.csv",
+        "cannot write file/marks.csv: a file is where a folder would be; choose another file with --csv",
+    ),
+    (
+        "grade canonical a.pgm --background red",
+        "invalid value 'red' for '--background <COLOR>': write a # and six hexadecimal digits",
+    ),
+    (
+        "grade canonical a.pgm --json=yes",
+        "unexpected value 'yes' for '--json' found; no more were expected",
+    ),
     // One pixel.
     ("pixel", "the following required arguments were not provided: <SCENE> <ROW> <COLUMN>"),
     ("pixel canonical 1", "the following required arguments were not provided: <COLUMN>"),

@@ -1,0 +1,318 @@
+//! A renderer's pictures of a conformance set: which scenes it gets wrong, and why.
+//!
+//! [`check`] reads a folder of masks, ids or distances whose names begin with those of the set's scenes, holds each to the
+//! exact picture of its scene, and looks for the causes: conventions that explain many scenes at once
+//! ([`find_common_conventions`]), then the reasons of the pixels of each scene ([`find_reasons`]).
+//!
+//! ```no_run
+//! use bothways::check::{self, ConformanceSet};
+//! use std::path::Path;
+//!
+//! let checked = check::check(Path::new("mine"), &ConformanceSet::BuiltIn, None)?;
+//! println!("{}", checked.verdict());
+//! # Ok::<(), bothways::check::CheckError>(())
+//! ```
+
+mod page;
+mod set;
+
+pub use set::{ConformanceSet, SetError};
+
+use crate::common::raster::check_samples;
+use crate::common::{Camera, Options, Scene, View};
+use crate::diff::foreign::{Aspect, Side};
+use crate::diff::foreign::{
+    Buffer, BufferComparison, Content, ReadOptions, compare_with_reference, read_with,
+};
+use crate::diff::pairs::{PairsError, files_of_set};
+use crate::diff::why::{
+    CommonExplanation, ReasonKind, Rendering, find_common_conventions, find_reasons,
+};
+use crate::orders::{self, Method, Order, RenderOptions};
+use crate::wording::count;
+use std::path::Path;
+
+/// What was found of a renderer.
+#[derive(Debug)]
+pub struct Check {
+    /// The files, in the order of the set.
+    pub files: Vec<CheckedFile>,
+    /// The scenes of the set without a file.
+    pub missing: Vec<String>,
+    /// The files that belong to no scene.
+    pub ignored: Vec<String>,
+    /// The causes, those of most files first.
+    pub causes: Vec<Cause>,
+}
+
+/// A file of the renderer.
+#[derive(Debug)]
+pub struct CheckedFile {
+    /// The name of the scene.
+    pub scene: String,
+    /// The name of the file in its folder.
+    pub file: String,
+    /// The point of the scene.
+    pub point: String,
+    /// What the file and the truth look like, if the file can be compared.
+    pub compared: Result<Compared, String>,
+}
+
+/// A file that was compared with the truth.
+#[derive(Debug)]
+pub struct Compared {
+    /// The content of the file.
+    pub theirs: Buffer<'static>,
+    /// The same of the exact picture.
+    pub truth: Buffer<'static>,
+    /// Their comparison: A is the file, B the truth.
+    pub comparison: BufferComparison,
+}
+
+/// Why files are wrong.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Cause {
+    /// Sentences about the renderer, one for each part; several lists if they explain equally much.
+    pub alternatives: Vec<Vec<String>>,
+    /// How sure it is.
+    pub certainty: Certainty,
+    /// The indices of the files.
+    pub files: Vec<usize>,
+}
+
+/// How sure a cause is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Certainty {
+    /// It explains every pixel of its files, and at least half of all files that are wrong.
+    Convention,
+    /// It explains every pixel of its files, but less than half of all files that are wrong.
+    Guess,
+    /// It is the reason of most differing pixels of its files.
+    Reason,
+    /// There is no explanation.
+    Unknown,
+}
+
+/// The reason why a folder cannot be checked.
+#[derive(Debug, thiserror::Error)]
+pub enum CheckError {
+    /// The folder cannot be listed, or has no files of the set's scenes.
+    #[error(transparent)]
+    Pairs(#[from] PairsError),
+    /// The set cannot be read.
+    #[error(transparent)]
+    Set(#[from] SetError),
+}
+
+/// Checks a folder of pictures. `background` (in sRGB) is the colour of what is not covered in pictures that have no
+/// alpha.
+///
+/// # Errors
+///
+/// If the folder or the set cannot be read, or the folder has no file of any scene. A file that cannot be read or
+/// compared is a row of the result.
+pub fn check(
+    theirs: &Path,
+    set: &ConformanceSet,
+    background: Option<[u8; 3]>,
+) -> Result<Check, CheckError> {
+    let scenes = set.scenes()?;
+    let found = files_of_set(theirs, &scenes)?;
+    let mut files = Vec::new();
+    let mut loaded: Vec<(Scene, Camera)> = Vec::new();
+    for pair in found.pairs {
+        let point = pair.point.unwrap_or_default();
+        let scene = pair.name.split('.').next().unwrap_or_default().to_owned();
+        let (content, camera) = set.load(&scene)?;
+        let compared = compared(&theirs.join(&pair.a), &content, &camera, background);
+        files.push(CheckedFile { scene, file: pair.a, point, compared });
+        loaded.push((content, camera));
+    }
+    let views: Vec<View> = loaded.iter().map(|(scene, camera)| View::new(scene, camera)).collect();
+    let causes = causes(&files, &views);
+    Ok(Check { files, missing: found.missing_in_a, ignored: found.ignored, causes })
+}
+
+/// Compares a file with the exact picture of its scene.
+fn compared(
+    path: &Path,
+    scene: &Scene,
+    camera: &Camera,
+    background: Option<[u8; 3]>,
+) -> Result<Compared, String> {
+    let options = ReadOptions { background, ..ReadOptions::default() };
+    let theirs = read_with(path, &options).map_err(|error| error.to_string())?.buffer;
+    let truth = truth(&View::new(scene, camera), &theirs)?;
+    let comparison = compare_with_reference(&theirs, &truth, Some(Side::B))
+        .map_err(|error| format!("A is the file, B the scene: {error}"))?;
+    Ok(Compared { theirs, truth, comparison })
+}
+
+/// The exact picture of a scene, with the content and the samples of a file.
+///
+/// # Errors
+///
+/// If the image has no such samples, or the file has colours alone.
+pub(crate) fn truth(view: &View, like: &Buffer) -> Result<Buffer<'static>, String> {
+    let samples = like.samples();
+    check_samples(view.camera.image(), samples).map_err(|error| error.to_string())?;
+    if !like.has_coverage() {
+        return Err("the file has colours alone, and colours do not tell what is covered; save a mask, ids or \
+                    distances, or name the colour of what is not covered with --background"
+            .into());
+    }
+    let frame = Options { samples, crop: None };
+    let options = RenderOptions { frame, no_counts: true, no_times: true, ..Default::default() };
+    let rendered = orders::render(Order::Object, Method::Fast, view, &options);
+    let frame = rendered.expect("only a stream has errors").frame;
+    let covered = |id: &u32| *id != crate::common::frame::NO_PRIMITIVE;
+    let content = if like.tells(Aspect::Ids) {
+        let id = |id: &u32| covered(id).then_some(u64::from(*id));
+        Content::Ids(frame.ids().iter().map(id).collect())
+    } else if like.tells(Aspect::T) {
+        Content::Distances(frame.distances().iter().map(|&t| t.into()).collect())
+    } else {
+        Content::Mask(frame.ids().iter().map(covered).collect())
+    };
+    Ok(Buffer::new(view.camera.image(), samples, content))
+}
+
+/// The causes of what is wrong, and the files of each.
+fn causes(files: &[CheckedFile], views: &[View]) -> Vec<Cause> {
+    let compared: Vec<(usize, &Compared)> = files
+        .iter()
+        .enumerate()
+        .filter_map(|(at, file)| Some((at, file.compared.as_ref().ok()?)))
+        .collect();
+    let wrong: Vec<usize> = compared
+        .iter()
+        .filter(|(_, compared)| !compared.comparison.equal)
+        .map(|&(at, _)| at)
+        .collect();
+    if wrong.is_empty() {
+        return Vec::new();
+    }
+    let renderings: Vec<Rendering> = compared
+        .iter()
+        .map(|&(at, compared)| Rendering { view: &views[at], file: &compared.theirs })
+        .collect();
+    let common = find_common_conventions(&renderings);
+    let mut causes: Vec<Cause> = Vec::new();
+    let mut left = wrong.clone();
+    if let Some(first) = common.first() {
+        let agrees = |at: usize| {
+            let index = compared.iter().position(|&(other, _)| other == at);
+            index.is_some_and(|index| first.agrees[index])
+        };
+        let (explained, others) = left.into_iter().partition(|&at| agrees(at));
+        left = others;
+        let is_a_guess = first.is_a_guess(wrong.len());
+        causes.push(Cause {
+            alternatives: common
+                .iter()
+                .map(|one: &CommonExplanation| one.sentences("it"))
+                .collect(),
+            certainty: if is_a_guess { Certainty::Guess } else { Certainty::Convention },
+            files: explained,
+        });
+    }
+    for at in left {
+        let compared = files[at].compared.as_ref().expect("it was compared");
+        let (sentence, certainty) = of_pixels(&views[at], compared);
+        match causes
+            .iter_mut()
+            .find(|cause| cause.certainty == certainty && cause.alternatives[0][0] == sentence)
+        {
+            Some(cause) => cause.files.push(at),
+            None => causes.push(Cause {
+                alternatives: vec![vec![sentence]],
+                certainty,
+                files: vec![at],
+            }),
+        }
+    }
+    causes.sort_by_key(|cause| {
+        (cause.certainty == Certainty::Unknown, std::cmp::Reverse(cause.files.len()))
+    });
+    causes
+}
+
+/// The reason of most differing pixels of a file.
+fn of_pixels(view: &View, compared: &Compared) -> (String, Certainty) {
+    let differing: Vec<[u32; 2]> =
+        compared.comparison.classes().differing().map(|(pixel, _)| pixel).collect();
+    let reasons = match find_reasons(view, &compared.theirs, &compared.truth, &differing) {
+        Ok(reasons) => reasons,
+        Err(error) => return (format!("unexplained: {error}"), Certainty::Unknown),
+    };
+    let known = |kind: ReasonKind| {
+        !matches!(
+            kind,
+            ReasonKind::Unexplained | ReasonKind::CannotTell | ReasonKind::WithinTolerance
+        )
+    };
+    let most = reasons.counts().into_iter().max_by_key(|&(_, pixels)| pixels);
+    match most {
+        Some((kind, pixels)) if known(kind) && 2 * pixels > reasons.differing => {
+            (format!("most of the pixels: {}", kind.name()), Certainty::Reason)
+        }
+        _ => ("unexplained by what is known here".into(), Certainty::Unknown),
+    }
+}
+
+impl Check {
+    /// Whether the file of each scene is there, and right.
+    pub fn passes(&self) -> bool {
+        self.missing.is_empty() && self.files.iter().all(CheckedFile::is_right)
+    }
+
+    /// The number of files that are right.
+    pub fn right(&self) -> usize {
+        self.files.iter().filter(|file| file.is_right()).count()
+    }
+
+    /// The number of files that cannot be compared.
+    pub fn unreadable(&self) -> usize {
+        self.files.iter().filter(|file| file.compared.is_err()).count()
+    }
+
+    /// The result in one sentence: `52 of 68 fail: it samples pixel corners …`.
+    pub fn verdict(&self) -> String {
+        let all = self.files.len() + self.missing.len();
+        let failing = all - self.right();
+        if failing == 0 {
+            return format!("all {all} are right");
+        }
+        let mut why: Vec<String> = self.causes.first().map(Cause::short).into_iter().collect();
+        let others = self.causes.len().saturating_sub(1) as u64;
+        why.extend((others > 0).then(|| count(others, "other causes")));
+        let cannot = self.unreadable() as u64;
+        why.extend((cannot > 0).then(|| format!("{cannot} cannot be compared")));
+        let missing = self.missing.len() as u64;
+        why.extend((missing > 0).then(|| format!("{missing} missing")));
+        let fail = if failing == 1 { "fails" } else { "fail" };
+        format!("{failing} of {all} {fail}: {}", why.join("; "))
+    }
+}
+
+impl CheckedFile {
+    /// Whether the file shows what is true of its scene.
+    pub fn is_right(&self) -> bool {
+        self.compared.as_ref().is_ok_and(|compared| compared.comparison.equal)
+    }
+}
+
+impl Cause {
+    /// The cause in one line.
+    pub fn short(&self) -> String {
+        let one = |sentences: &Vec<String>| sentences.join(", and ");
+        let all = self.alternatives.iter().map(one).collect::<Vec<_>>().join("; or: ");
+        match self.certainty {
+            Certainty::Guess => format!("a guess: {all}"),
+            Certainty::Convention | Certainty::Reason | Certainty::Unknown => all,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,281 @@
+//! `bothways check THEIRS [VECTORS]`: a renderer held to a whole conformance set.
+
+use super::diff::color;
+use super::failure::Failure;
+use super::output::OutputFile;
+use super::terminal;
+use anstyle::{AnsiColor, Style};
+use bothways::check::{Certainty, Check, CheckedFile, ConformanceSet, check};
+use bothways::formats::source::quote::visible;
+use bothways::wording::{count, grouped};
+use clap::Args;
+use serde::Serialize;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+pub(super) const EXAMPLES: &str = "\
+Draw the scenes of the set with a renderer of your own, and save each as NAME.png (a mask) or
+NAME.npy (ids or distances), NAME being the scene's name. Each is held to the exact picture of its
+scene, and what is wrong is summed up by cause: conventions that explain many scenes at once, then
+the reasons of each scene.
+
+Examples:
+  bothways vectors -o vectors               the scenes, as files to draw
+  bothways check mine                       my pictures of them, in the folder mine
+  bothways check mine --html check.html     and a page with each picture that is wrong
+  bothways check mine vectors --json        a set in a folder; for a program to read
+
+Exit codes: 0 every scene is there and right, 1 some are wrong or missing, 2 a file cannot be read
+or compared, or something else went wrong.";
+
+/// What to check.
+#[derive(Debug, Args)]
+pub(super) struct CheckArgs {
+    /// The folder of the renderer's pictures: masks, ids or distances
+    theirs: PathBuf,
+    /// The folder of a conformance set, as 'bothways vectors' writes it; the built-in set if not given
+    vectors: Option<PathBuf>,
+    /// The colour of what is not covered, in pictures that have no alpha, such as #101418
+    #[arg(long, value_name = "COLOR", value_parser = color)]
+    background: Option<[u8; 3]>,
+    /// Write the result as a page for a browser, with each picture that is wrong beside the truth; - is
+    /// standard output
+    #[arg(long, value_name = "FILE.html", conflicts_with = "json")]
+    html: Option<PathBuf>,
+    /// Print the result as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Checks and prints.
+pub(super) fn run(args: &CheckArgs) -> Result<ExitCode, Failure> {
+    let page = args.html.as_deref().map(|name| OutputFile::find_for("--html", name)).transpose()?;
+    let set = match &args.vectors {
+        Some(folder) => ConformanceSet::Folder(folder.clone()),
+        None => ConformanceSet::BuiltIn,
+    };
+    let checked = check(&args.theirs, &set, args.background)
+        .map_err(|error| Failure::new(error.to_string()))?;
+    let report = Report { args, checked: &checked };
+    let mut text = if args.json { report.json()? } else { report.text() };
+    let mut is_on_stdout = false;
+    if let Some(page) = &page {
+        let title = [args.theirs.display().to_string(), report.set()];
+        page.write(|out| checked.write_page([&title[0], &title[1]], out))?;
+        is_on_stdout = page.is_stdout();
+        if !is_on_stdout {
+            let dimmed = Style::new().dimmed();
+            text += &format!("{dimmed}page written to {}{dimmed:#}\n", page.said());
+        }
+    }
+    if is_on_stdout {
+        anstream::eprint!("{text}");
+    } else {
+        terminal::print(&text)?;
+    }
+    Ok(ExitCode::from(match (checked.passes(), checked.unreadable()) {
+        (true, _) => 0,
+        (false, 0) => 1,
+        (false, _) => 2,
+    }))
+}
+
+/// The content of the report.
+struct Report<'a> {
+    args: &'a CheckArgs,
+    checked: &'a Check,
+}
+
+/// The report for programs.
+#[derive(Serialize)]
+struct Json<'a> {
+    theirs: String,
+    set: String,
+    passes: bool,
+    verdict: String,
+    right: usize,
+    missing: &'a [String],
+    causes: Vec<CauseJson<'a>>,
+    files: Vec<FileJson<'a>>,
+}
+
+#[derive(Serialize)]
+struct CauseJson<'a> {
+    certainty: &'static str,
+    /// Each explains as much as the others.
+    alternatives: &'a [Vec<String>],
+    files: Vec<&'a str>,
+}
+
+#[derive(Serialize)]
+struct FileJson<'a> {
+    scene: &'a str,
+    file: &'a str,
+    point: &'a str,
+    right: bool,
+    differing_pixels: Option<u64>,
+    first_differing: Option<[u32; 2]>,
+    error: Option<&'a str>,
+}
+
+impl Report<'_> {
+    fn set(&self) -> String {
+        match &self.args.vectors {
+            Some(folder) => folder.display().to_string(),
+            None => "the built-in set".into(),
+        }
+    }
+
+    fn json(&self) -> Result<String, Failure> {
+        let Check { files, missing, causes, .. } = self.checked;
+        let cause = |cause: &'_ bothways::check::Cause| match cause.certainty {
+            Certainty::Convention => "convention",
+            Certainty::Guess => "guess",
+            Certainty::Reason => "reason",
+            Certainty::Unknown => "unknown",
+        };
+        terminal::json(&Json {
+            theirs: self.args.theirs.display().to_string(),
+            set: self.set(),
+            passes: self.checked.passes(),
+            verdict: self.checked.verdict(),
+            right: self.checked.right(),
+            missing,
+            causes: causes
+                .iter()
+                .map(|one| CauseJson {
+                    certainty: cause(one),
+                    alternatives: &one.alternatives,
+                    files: one.files.iter().map(|&at| files[at].file.as_str()).collect(),
+                })
+                .collect(),
+            files: files.iter().map(file_json).collect(),
+        })
+    }
+
+    fn text(&self) -> String {
+        let bold = Style::new().bold();
+        let theirs = self.args.theirs.display().to_string();
+        let (theirs, set) = (visible(&theirs).into_owned(), self.set());
+        let mut text = format!("{bold}{theirs}{bold:#}, held to {}\n", visible(&set));
+        text += &self.causes();
+        text += &self.files();
+        text += &self.missing();
+        let color = if self.checked.passes() { AnsiColor::Green } else { AnsiColor::Yellow };
+        let style = color.on_default().bold();
+        text += &format!("\n{style}{}{style:#}\n", visible(&self.checked.verdict()));
+        text + &self.next_step()
+    }
+
+    fn causes(&self) -> String {
+        let causes = &self.checked.causes;
+        if causes.is_empty() {
+            return String::new();
+        }
+        let wrong: usize = causes.iter().map(|cause| cause.files.len()).sum();
+        let bold = Style::new().bold();
+        let mut text = format!("\n{bold}causes{bold:#}\n");
+        for cause in causes {
+            let number = format!("{} of {wrong}", cause.files.len());
+            let mut lines = Vec::new();
+            for parts in &cause.alternatives {
+                let lead = if lines.is_empty() { "" } else { "or " };
+                lines.extend(parts.iter().enumerate().map(|(index, part)| match index {
+                    0 => format!("{lead}{part}"),
+                    _ => format!("  and {part}"),
+                }));
+            }
+            if cause.certainty == Certainty::Guess {
+                lines.insert(0, "a guess, which explains less than half:".into());
+            }
+            for (index, line) in lines.iter().enumerate() {
+                let number = if index == 0 { number.as_str() } else { "" };
+                text += &format!("{number:>10}  {}\n", visible(line));
+            }
+        }
+        text
+    }
+
+    /// The files that are wrong, a line each.
+    fn files(&self) -> String {
+        let wrong: Vec<(usize, &CheckedFile)> =
+            self.checked.files.iter().enumerate().filter(|(_, file)| !file.is_right()).collect();
+        let name = |file: &CheckedFile| visible(&file.file).into_owned();
+        let widest =
+            wrong.iter().map(|(_, file)| name(file).chars().count()).max().unwrap_or_default();
+        let mut text = if wrong.is_empty() { String::new() } else { "\n".to_owned() };
+        for (at, file) in wrong {
+            text += &format!("{:widest$}  {}\n", name(file), self.words(at, file));
+        }
+        text
+    }
+
+    fn words(&self, at: usize, file: &CheckedFile) -> String {
+        let comparison = match &file.compared {
+            Ok(compared) => &compared.comparison,
+            Err(error) => return format!("cannot be compared: {}", visible(error)),
+        };
+        let pixels = count(comparison.differing_pixels, "pixels");
+        let all = grouped(comparison.size.map(u64::from).iter().product());
+        let first = comparison.first_differing.first();
+        let first = first.map_or(String::new(), |[i, j]| format!(", first ({i}, {j})"));
+        let cause = self.checked.causes.iter().find(|cause| cause.files.contains(&at));
+        let point = match cause.map(|cause| cause.certainty) {
+            Some(Certainty::Convention) => String::new(),
+            _ => format!(". {}", visible(&file.point)),
+        };
+        format!("{pixels} of {all} differ{first}{point}")
+    }
+
+    fn missing(&self) -> String {
+        let Check { missing, ignored, .. } = self.checked;
+        let mut text = String::new();
+        if !missing.is_empty() {
+            let number = count(missing.len() as u64, "scenes");
+            let names: Vec<String> =
+                missing.iter().map(|name| visible(name).into_owned()).collect();
+            text += &format!("\nno file of {number}: {}\n", names.join(", "));
+        }
+        if let Some(first) = ignored.first() {
+            let files = count(ignored.len() as u64, "files");
+            text += &format!("\nof no scene, and left out: {files}, such as {}\n", visible(first));
+        }
+        text
+    }
+
+    /// The commands for a look at the first file that is wrong.
+    fn next_step(&self) -> String {
+        let wrong = |file: &&CheckedFile| file.compared.is_ok() && !file.is_right();
+        let Some(file) = self.checked.files.iter().find(wrong) else { return String::new() };
+        let theirs = self.args.theirs.join(&file.file).display().to_string();
+        let (theirs, scene) = (visible(&theirs), visible(&file.scene));
+        let (first, folder) = match &self.args.vectors {
+            Some(folder) => (String::new(), folder.display().to_string()),
+            None => ("bothways vectors; ".to_owned(), "out/vectors".to_owned()),
+        };
+        let folder = visible(&folder);
+        let ending =
+            file.compared.as_ref().map_or("mask.png", |compared| match compared.theirs.kind() {
+                "ids" => "ids.npy",
+                "distances" => "t.npy",
+                _ => "mask.png",
+            });
+        format!(
+            "next: {first}bothways diff {theirs} {folder}/{scene}.{ending} --scene {folder}/{scene}.toml\n"
+        )
+    }
+}
+
+fn file_json(file: &CheckedFile) -> FileJson<'_> {
+    let comparison = file.compared.as_ref().ok().map(|compared| &compared.comparison);
+    FileJson {
+        scene: &file.scene,
+        file: &file.file,
+        point: &file.point,
+        right: file.is_right(),
+        differing_pixels: comparison.map(|comparison| comparison.differing_pixels),
+        first_differing: comparison
+            .and_then(|comparison| comparison.first_differing.first().copied()),
+        error: file.compared.as_ref().err().map(String::as_str),
+    }
+}

@@ -1,0 +1,94 @@
+//! `check` and `grade`: a whole renderer, and a whole course.
+
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use crate::texts::{bothways, home, printed};
+use serde_json::Value;
+use std::fs;
+use tempfile::TempDir;
+
+/// A folder with the conformance set in `vectors`, and its masks, turned upside down, in `mine`.
+fn upside_down() -> TempDir {
+    let home = home();
+    bothways(&home, &["vectors", "-o", "vectors"]).assert().code(0);
+    fs::create_dir(home.path().join("mine")).unwrap();
+    for entry in fs::read_dir(home.path().join("vectors")).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_str().unwrap();
+        if let Some(scene) = name.strip_suffix(".mask.png") {
+            let mask = image::open(&path).unwrap().flipv();
+            mask.save(home.path().join("mine").join(format!("{scene}.png"))).unwrap();
+        }
+    }
+    home
+}
+
+#[test]
+fn a_renderer_is_summed_up_by_cause() {
+    let home = upside_down();
+    fs::remove_file(home.path().join("mine/fan.png")).unwrap();
+    insta::assert_snapshot!("check", printed(bothways(&home, &["check", "mine"]), 1));
+    let json = printed(bothways(&home, &["check", "mine", "vectors", "--json"]), 1);
+    let json: Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(json["causes"][0]["certainty"], "convention");
+    assert_eq!(json["missing"], serde_json::json!(["fan"]));
+    assert_eq!(json["set"], "vectors");
+    let files = json["files"].as_array().unwrap();
+    let wrong = files.iter().filter(|file| file["right"] == false).count();
+    assert_eq!(json["causes"][0]["files"].as_array().unwrap().len(), wrong);
+}
+
+#[test]
+fn the_set_itself_passes_and_a_page_is_written() {
+    let home = upside_down();
+    let args = ["check", "vectors", "vectors", "--html", "check.html"];
+    let said = printed(bothways(&home, &args), 0);
+    assert!(
+        said.contains("all 204 are right") && said.ends_with("page written to check.html\n"),
+        "{said}"
+    );
+    let page = fs::read_to_string(home.path().join("check.html")).unwrap();
+    assert!(page.starts_with("<!doctype html>") && page.ends_with("</html>\n"));
+}
+
+/// Files of the canonical scene: one right, one from another eye, one that is none, one of another size.
+fn handed_in() -> TempDir {
+    let home = home();
+    let drawn = |out: &str, code: i32, more: &[&str]| {
+        let args = ["canonical", "--buffers", "npy", "--no-counts", "--quiet", "-o", out];
+        bothways(&home, &[&args[..], more].concat()).assert().code(code);
+    };
+    drawn("ada", 0, &["--size", "60x40"]);
+    drawn("bob", 1, &["--size", "60x40", "--object-rules", "corner"]);
+    drawn("cy", 0, &["--size", "40x40"]);
+    fs::write(home.path().join("dee.npy"), "not an array").unwrap();
+    home
+}
+
+const FILES: [&str; 4] =
+    ["ada/object-order.ids.npy", "bob/object-order.ids.npy", "cy/object-order.ids.npy", "dee.npy"];
+
+#[test]
+fn a_course_is_graded() {
+    let home = handed_in();
+    let args =
+        [&["grade", "canonical", "--size", "60x40", "--csv", "marks.csv"], &FILES[..]].concat();
+    insta::assert_snapshot!("grade", printed(bothways(&home, &args), 1));
+    let table = fs::read_to_string(home.path().join("marks.csv")).unwrap();
+    insta::assert_snapshot!("grade_table", table);
+    let args = [&["grade", "canonical", "--size", "60x40", "--json"], &FILES[..1]].concat();
+    let json: Value = serde_json::from_str(&printed(bothways(&home, &args), 0)).unwrap();
+    assert_eq!(json["grades"][0]["score"], 100.0);
+    assert_eq!(json["formula"], "score = 100 (right + explained / 2^mistakes) / seen");
+}
+
+#[test]
+fn a_table_on_standard_output_is_alone_there() {
+    let home = handed_in();
+    let args = [&["grade", "canonical", "--size", "60x40", "--csv", "-"], &FILES[..1]].concat();
+    let assert = bothways(&home, &args).assert().code(0);
+    let output = assert.get_output();
+    let (table, said) = (&output.stdout, String::from_utf8(output.stderr.clone()).unwrap());
+    assert!(table.starts_with(b"file,verdict,score"), "{}", String::from_utf8_lossy(table));
+    assert!(said.contains("1 of 1 file right"), "{said}");
+}
