@@ -32,6 +32,7 @@ mod renderers;
 mod scene_files;
 mod shrink;
 mod summary;
+mod watch;
 
 pub use case::Case;
 pub use check::{Checked, Disagreement, Witness};
@@ -49,6 +50,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
+use watch::Watch;
 
 /// The findings that a run shrinks. A renderer with a fault may fail in every scene.
 const MOST_FINDINGS: usize = 10;
@@ -58,7 +60,7 @@ const MOST_FINDINGS: usize = 10;
 pub enum Limit {
     /// After this many scenes.
     Scenes(u64),
-    /// After this time. Scenes that have begun are finished, and findings are shrunk.
+    /// After this time. Scenes that have begun are finished, and findings are shrunk; see [`Event::Overdue`].
     Time(Duration),
 }
 
@@ -75,6 +77,8 @@ pub struct Options<'a> {
     pub threads: Option<NonZero<usize>>,
     /// Ends the run early once it is true.
     pub stop: Option<&'a AtomicBool>,
+    /// A scene that takes longer is told of, and so is a run that should have ended so long ago.
+    pub patience: Duration,
     /// Is told of every scene and of every finding, in the order in which they end.
     pub listener: Option<&'a (dyn Fn(Event) + Sync)>,
 }
@@ -88,6 +92,7 @@ impl Default for Options<'_> {
             limit: Limit::Scenes(1000),
             threads: None,
             stop: None,
+            patience: Duration::from_secs(10),
             listener: None,
         }
     }
@@ -107,6 +112,11 @@ pub enum Event<'a> {
     Checked(&'a Checked),
     /// A disagreement is shrunk.
     Found(&'a Finding),
+    /// The scene of this number takes long; told once.
+    Slow(u64),
+    /// The run should have ended, and scenes that had begun have not: the summary so far, with their numbers; told once.
+    /// The run goes on until they end. Whoever cannot wait ends the program.
+    Overdue(&'a Summary),
 }
 
 /// Draws random scenes by all four renderers, until the limit or an order to stop.
@@ -115,17 +125,20 @@ pub enum Event<'a> {
 /// The scenes of the first ten disagreements are shrunk.
 pub fn run(options: &Options, renderers: &Renderers) -> Summary {
     let threads = options.threads.or_else(|| thread::available_parallelism().ok());
+    let threads = threads.map_or(1, NonZero::get);
     let run = Run {
         options,
         renderers,
         begun: Instant::now(),
         next: AtomicU64::new(options.first),
         summary: Mutex::new(Summary::new(options.seed, options.first)),
+        watch: Watch::new(threads),
     };
     thread::scope(|scope| {
-        for _ in 0..threads.map_or(1, NonZero::get) {
+        for _ in 0..threads {
             scope.spawn(|| run.work());
         }
+        run.watch();
     });
     let mut summary = run.summary.into_inner().unwrap_or_else(PoisonError::into_inner);
     summary.ended_early = is_stopped(options);
@@ -145,24 +158,54 @@ struct Run<'a> {
     /// The number of the next scene.
     next: AtomicU64,
     summary: Mutex<Summary>,
+    watch: Watch,
 }
 
 impl Run<'_> {
     /// Takes scene after scene, on one thread: the renderers find a pool of this thread alone.
     fn work(&self) {
+        let _guard = self.watch.guard();
         let pool = ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
         let pool = pool.expect("a pool of the current thread needs no other");
         pool.install(|| {
             while let Some(number) = self.next_scene() {
+                let _guard = self.watch.scene(number);
                 self.check(number);
             }
         });
     }
 
+    /// Tells of scenes that take long, until the other threads have ended.
+    fn watch(&self) {
+        let mut since_the_end: Option<Instant> = None;
+        let mut is_told = false;
+        while self.watch.goes_on(self.options.patience) {
+            for scene in self.watch.slow(self.options.patience) {
+                self.tell(Event::Slow(scene));
+            }
+            if since_the_end.is_none() && self.is_over() {
+                since_the_end = Some(Instant::now());
+            }
+            let is_late = since_the_end.is_some_and(|end| end.elapsed() >= self.options.patience);
+            if is_late && !is_told {
+                is_told = true;
+                let mut summary = self.with_summary(|summary| summary.clone());
+                summary.unfinished = self.watch.scenes();
+                summary.ended_early = is_stopped(self.options);
+                self.tell(Event::Overdue(&summary));
+            }
+        }
+    }
+
+    /// Whether no more scenes begin, because of time or of an order to stop.
+    fn is_over(&self) -> bool {
+        let late = matches!(self.options.limit, Limit::Time(time) if self.begun.elapsed() >= time);
+        late || is_stopped(self.options)
+    }
+
     fn next_scene(&self) -> Option<u64> {
         let Options { first, limit, .. } = *self.options;
-        let late = matches!(limit, Limit::Time(time) if self.begun.elapsed() >= time);
-        if late || is_stopped(self.options) {
+        if self.is_over() {
             return None;
         }
         let number = self.next.fetch_add(1, Ordering::Relaxed);

@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
-use std::{env, panic};
+use std::{env, panic, process};
 
 pub(super) const EXAMPLES: &str = "\
 Both fast renderers draw each scene; both textbooks draw it too, or a part of it where that would
@@ -32,8 +32,8 @@ Examples:
   bothways fuzz --seed 7 --scenes 1000             the same scenes on every machine
   bothways fuzz --seed 7 --first 123 --scenes 1    one of them again
 
-Exit codes: 0 no disagreement, 1 disagreements, 2 something went wrong, 130 ended by Ctrl-C without
-a disagreement.";
+Exit codes: 0 no disagreement, 1 disagreements, 2 something went wrong or a scene did not end,
+130 ended by Ctrl-C without a disagreement.";
 
 /// How long a run takes if nothing is said.
 const SECONDS: f64 = 60.0;
@@ -47,7 +47,7 @@ const INTERRUPTED: u8 = 130;
 /// What to draw, and for how long.
 #[derive(Debug, Args)]
 pub(super) struct FuzzArgs {
-    /// Draw scenes for S seconds [default: 60]; what has begun then is finished
+    /// Draw scenes for S seconds [default: 60]; what has begun then has ten seconds more
     #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true,
           conflicts_with = "scenes")]
     seconds: Option<f64>,
@@ -81,7 +81,7 @@ pub(super) fn run(args: &FuzzArgs) -> Result<ExitCode, Failure> {
         Some(scenes) => Limit::Scenes(scenes.into()),
         None => Limit::Time(Duration::from_secs_f64(args.seconds.unwrap_or(SECONDS))),
     };
-    let watch = Watch::new(args);
+    let watch = Watch::new(args, seed);
     let listener = |event: Event| watch.take(event);
     let options = Options {
         seed,
@@ -90,16 +90,27 @@ pub(super) fn run(args: &FuzzArgs) -> Result<ExitCode, Failure> {
         threads: args.threads.and_then(|threads| NonZero::new(threads.into())),
         stop: Some(interrupt::first_asks()),
         listener: Some(&listener),
+        ..Options::default()
     };
     let summary = without_messages_of_caught_panics(|| fuzz(&options, &Renderers::sound()));
     let written = watch.finish();
-    terminal::print(&if args.json { json(&summary, args)? } else { text(&summary) })?;
+    print(&summary, args)?;
     written?;
-    Ok(ExitCode::from(match summary {
+    Ok(ExitCode::from(status(&summary)))
+}
+
+fn print(summary: &Summary, args: &FuzzArgs) -> Result<(), Failure> {
+    terminal::print(&if args.json { json(summary, args)? } else { text(summary) })
+}
+
+/// The exit code.
+fn status(summary: &Summary) -> u8 {
+    match summary {
         Summary { disagreements: 1.., .. } => 1,
+        Summary { unfinished, .. } if !unfinished.is_empty() => 2,
         Summary { ended_early: true, .. } => INTERRUPTED,
         _ => 0,
-    }))
+    }
 }
 
 /// A renderer's panic is a result, and the message is a part of it.
@@ -119,6 +130,7 @@ fn without_messages_of_caught_panics<T>(run: impl FnOnce() -> T) -> T {
 /// Shows the progress, and writes findings as soon as they are there.
 struct Watch<'a> {
     args: &'a FuzzArgs,
+    seed: u64,
     bar: ProgressBar,
     state: Mutex<State>,
 }
@@ -132,7 +144,7 @@ struct State {
 }
 
 impl<'a> Watch<'a> {
-    fn new(args: &'a FuzzArgs) -> Watch<'a> {
+    fn new(args: &'a FuzzArgs, seed: u64) -> Watch<'a> {
         let erases = env::var_os("TERM").is_none_or(|terminal| terminal != "dumb");
         let target = if erases && stderr().is_terminal() {
             ProgressDrawTarget::stderr()
@@ -143,7 +155,7 @@ impl<'a> Watch<'a> {
         let bar = ProgressBar::with_draw_target(None, target)
             .with_style(style.expect("the template is right"));
         bar.set_message("drawing");
-        Watch { args, bar, state: Mutex::default() }
+        Watch { args, seed, bar, state: Mutex::default() }
     }
 
     fn take(&self, event: Event) {
@@ -170,7 +182,26 @@ impl<'a> Watch<'a> {
                 });
                 state.failure = state.failure.take().or(written.err());
             }
+            Event::Slow(scene) => self.bar.suspend(|| {
+                let text = format!(
+                    "note: scene {scene} takes long; it alone: {}\n",
+                    again(self.seed, scene)
+                );
+                // If stderr is closed, the run still ends.
+                let _ = anstream::stderr().write_all(text.as_bytes());
+            }),
+            Event::Overdue(summary) => self.end(summary),
         }
+    }
+
+    /// Ends the program with the summary so far: threads that draw cannot be stopped.
+    fn end(&self, summary: &Summary) -> ! {
+        self.bar.finish_and_clear();
+        let printed = print(summary, self.args);
+        if let Err(failure) = &printed {
+            failure.print();
+        }
+        process::exit(if printed.is_ok() { status(summary).into() } else { 2 })
     }
 
     /// Removes the progress; fails if a finding could not be written.
@@ -179,6 +210,11 @@ impl<'a> Watch<'a> {
         let state = self.state.into_inner().unwrap_or_else(PoisonError::into_inner);
         state.failure.map_or(Ok(()), Err)
     }
+}
+
+/// The command that draws one scene of a seed.
+fn again(seed: u64, scene: u64) -> String {
+    format!("bothways fuzz --seed {seed} --first {scene} --scenes 1")
 }
 
 fn stem(finding: &Finding) -> String {
@@ -200,7 +236,15 @@ fn write(finding: &Finding, folder: &Path) -> Result<(), Failure> {
 fn text(summary: &Summary) -> String {
     let (bold, dimmed) = (anstyle::Style::new().bold(), anstyle::Style::new().dimmed());
     let early = if summary.ended_early { "; ended by Ctrl-C" } else { "" };
-    format!("{bold}{}{bold:#}\n{dimmed}{}{early}{dimmed:#}\n", summary.verdict(), summary.about())
+    let mut text = format!(
+        "{bold}{}{bold:#}\n{dimmed}{}{early}{dimmed:#}\n",
+        summary.verdict(),
+        summary.about()
+    );
+    for &scene in &summary.unfinished {
+        text += &format!("scene {scene} did not end; it alone: {}\n", again(summary.seed, scene));
+    }
+    text
 }
 
 /// The summary, with the file and the command of each finding.
@@ -277,7 +321,7 @@ mod tests {
             disagreement,
             case: case.clone(),
         };
-        let watch = Watch::new(&args);
+        let watch = Watch::new(&args, 7);
         watch.take(Event::Found(&finding));
         watch.finish().unwrap();
         let file = args.folder.join("seed-7-scene-2.toml");

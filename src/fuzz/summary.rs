@@ -26,6 +26,8 @@ pub struct Summary {
     pub disagreements: u64,
     /// Whether the run was stopped before its limit.
     pub ended_early: bool,
+    /// The numbers of scenes that had begun and did not end in time; they are not counted.
+    pub unfinished: Vec<u64>,
     /// The first of the disagreements, shrunk, by the numbers of their scenes. Whoever writes them also knows their files.
     #[serde(skip)]
     pub findings: Vec<Finding>,
@@ -91,6 +93,7 @@ impl Summary {
             exact_fallbacks: 0,
             disagreements: 0,
             ended_early: false,
+            unfinished: Vec::new(),
             findings: Vec::new(),
         }
     }

@@ -48,6 +48,7 @@ fn a_summary_for_programs() {
       "exact_fallbacks": 49,
       "disagreements": 0,
       "ended_early": false,
+      "unfinished": [],
       "findings": []
     }
     "#);

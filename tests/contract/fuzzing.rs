@@ -8,6 +8,7 @@ use bothways::rasterize;
 use std::num::NonZero;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 /// Whether a primitive covers a sample, in a renderer that may be wrong.
 type Covers = fn(&Judge, &Primitive, &Ray) -> bool;
@@ -262,4 +263,39 @@ fn a_finding_is_drawn_again_from_its_files() {
     let Case { samples, crop, .. } = finding.case;
     let again = Case { shapes, camera: read.camera, samples, crop };
     assert_eq!(again, finding.case);
+}
+
+#[test]
+fn a_scene_that_does_not_end_is_named() {
+    static IS_RELEASED: AtomicBool = AtomicBool::new(false);
+    let stuck = Renderers::sound().with(Order::Image, Method::Fast, |_, _, _, _| {
+        while !IS_RELEASED.load(Ordering::Relaxed) {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    });
+    let events: Mutex<Vec<String>> = Mutex::default();
+    let listener = |event: Event| {
+        let mut events = events.lock().unwrap();
+        match event {
+            Event::Slow(scene) => events.push(format!("slow {scene}")),
+            Event::Overdue(Summary { unfinished, .. }) => {
+                events.push(format!("overdue {unfinished:?}"));
+                IS_RELEASED.store(true, Ordering::Relaxed);
+            }
+            Event::Checked(_) | Event::Found(_) => {}
+        }
+    };
+    let options = fuzz::Options {
+        seed: 7,
+        first: 40,
+        limit: Limit::Time(Duration::from_millis(1)),
+        threads: NonZero::new(1),
+        patience: Duration::from_millis(30),
+        listener: Some(&listener),
+        ..fuzz::Options::default()
+    };
+    let summary = fuzz::run(&options, &stuck);
+    assert_eq!(events.into_inner().unwrap(), ["slow 40", "overdue [40]"]);
+    // In the end it ended.
+    assert!(summary.unfinished.is_empty() && summary.scenes == 1);
 }
