@@ -11,6 +11,7 @@ mod stage;
 
 use super::case::Case;
 use super::dice::Dice;
+use crate::common::glam::Vec3;
 use crate::common::{Camera, Crop, Shape};
 use stage::Stage;
 
@@ -85,7 +86,10 @@ pub(super) fn generate_with(dice: &mut Dice) -> Case {
     let mut stage = Stage::new(dice, &camera, style, samples, scale);
     let shapes = shapes(&mut stage, scale);
     let crop = stage.dice.once_in(10).then(|| crop(stage.dice, description.image));
-    let case = Case { shapes, camera: description, samples, crop };
+    let mut case = Case { shapes, camera: description, samples, crop };
+    if let Some(area) = drawable_area(&case, &camera) {
+        case.crop = Some(part_of(stage.dice, case.pixels(), area));
+    }
     debug_assert!(case.accepted().is_some(), "{case:?}");
     case
 }
@@ -113,6 +117,44 @@ fn shapes(stage: &mut Stage, scale: Scale) -> Vec<Shape> {
         }
     }
     shapes
+}
+
+/// The tests of triangles that reach behind the eye for which there is time: image order tests each at every sample near
+/// it, one after the other.
+const TESTS_BEHIND: u64 = 300_000_000;
+
+/// The number of pixels that can be drawn within seconds, if these are not all.
+fn drawable_area(case: &Case, camera: &Camera) -> Option<u64> {
+    let depth = |point: Vec3| -(point.as_dvec3() - camera.eye().as_dvec3()).dot(camera.w());
+    let reaches_behind = |corners: &[Vec3; 3]| {
+        corners.iter().any(|corner| depth(*corner) <= 0.0)
+            && corners.iter().any(|corner| depth(*corner) > 0.0)
+    };
+    let count = |shape: &Shape| match shape {
+        Shape::Mesh(mesh) => {
+            let all = (0..mesh.triangles().len()).map(|triangle| mesh.corners(triangle));
+            all.filter(reaches_behind).count() as u64
+        }
+        Shape::Triangle(_) | Shape::Sphere(_) | Shape::Plane(_) => 1,
+    };
+    let behind: u64 = case.shapes.iter().map(count).sum();
+    let a_pixel = behind * u64::from(case.samples).pow(2);
+    let pixels = case.pixels();
+    let all = u64::from(pixels.height) * u64::from(pixels.width);
+    (a_pixel.saturating_mul(all) > TESTS_BEHIND).then(|| (TESTS_BEHIND / a_pixel).max(1))
+}
+
+/// A rectangle of about this many pixels, anywhere in another one.
+fn part_of(dice: &mut Dice, all: Crop, area: u64) -> Crop {
+    let side = u32::try_from(area.isqrt()).expect("less than all pixels").max(1);
+    let height = side.min(all.height);
+    let width = u32::try_from(area / u64::from(height)).expect("less than all pixels");
+    let width = width.clamp(1, all.width);
+    let mut first = |from: u32, free: u32| {
+        from + u32::try_from(dice.below(free as usize + 1)).expect("it is within the image")
+    };
+    let (row, column) = (first(all.row, all.height - height), first(all.column, all.width - width));
+    Crop { row, column, height, width }
 }
 
 /// Any part of an image.
