@@ -268,6 +268,7 @@ fn a_finding_is_drawn_again_from_its_files() {
 #[test]
 fn a_scene_that_does_not_end_is_named() {
     static IS_RELEASED: AtomicBool = AtomicBool::new(false);
+    static IS_STOPPED: AtomicBool = AtomicBool::new(false);
     let stuck = Renderers::sound().with(Order::Image, Method::Fast, |_, _, _, _| {
         while !IS_RELEASED.load(Ordering::Relaxed) {
             std::thread::sleep(Duration::from_millis(1));
@@ -277,7 +278,10 @@ fn a_scene_that_does_not_end_is_named() {
     let listener = |event: Event| {
         let mut events = events.lock().unwrap();
         match event {
-            Event::Slow(scene) => events.push(format!("slow {scene}")),
+            Event::Slow(scene) => {
+                events.push(format!("slow {scene}"));
+                IS_STOPPED.store(true, Ordering::Relaxed);
+            }
             Event::Overdue(Summary { unfinished, .. }) => {
                 events.push(format!("overdue {unfinished:?}"));
                 IS_RELEASED.store(true, Ordering::Relaxed);
@@ -288,8 +292,8 @@ fn a_scene_that_does_not_end_is_named() {
     let options = fuzz::Options {
         seed: 7,
         first: 40,
-        limit: Limit::Time(Duration::from_millis(1)),
         threads: NonZero::new(1),
+        stop: Some(&IS_STOPPED),
         patience: Duration::from_millis(30),
         listener: Some(&listener),
         ..fuzz::Options::default()
