@@ -5,6 +5,7 @@ use super::classes::pixels;
 use crate::common::Frame;
 use crate::common::frame::NO_PRIMITIVE;
 use image::{Rgb, RgbImage};
+use std::ops::Range;
 
 /// The values of each pixel of a frame, or of a file of any origin.
 #[derive(Clone, Debug, PartialEq)]
@@ -281,6 +282,35 @@ impl<'a> Buffer<'a> {
         }
     }
 
+    /// The covered ones of up to 64 pixels of a row, if the other buffer is of the same kind and has the same bits there;
+    /// both have one sample a pixel. Pixels of colours alone count as covered.
+    pub(super) fn equal_run(&self, other: &Buffer, row: u32, columns: Range<u32>) -> Option<u64> {
+        let [first, end] = [columns.start, columns.end].map(|j| self.pixel([row, j]));
+        let run = first..end;
+        match (&self.content, &other.content) {
+            (Content::Mask(a), Content::Mask(b)) => {
+                let (a, b) = (&a[run.clone()], &b[run]);
+                (a == b).then(|| packed(a))
+            }
+            (Content::Ids(a), Content::Ids(b)) => {
+                equal(&a[run.clone()], &b[run], |a, b| a == b, |id| id.is_some())
+            }
+            (Content::Distances(a), Content::Distances(b)) => {
+                let same = |a: &f64, b: &f64| a.to_bits() == b.to_bits();
+                equal(&a[run.clone()], &b[run], same, |t| t.is_finite())
+            }
+            (Content::Picture(a), Content::Picture(b)) if a.covered == b.covered => {
+                let (Pixels::Bytes(of_a), Pixels::Bytes(of_b)) = (&a.pixels, &b.pixels) else {
+                    return None;
+                };
+                let (of_a, of_b) = (&of_a[run.clone()], &of_b[run.clone()]);
+                let covered = |at: usize| a.covered(at) != Some(false);
+                (of_a == of_b).then(|| bits(run.map(covered)))
+            }
+            _ => None,
+        }
+    }
+
     /// The primitive at a sample; `None` for nothing, and for an unknown primitive.
     pub(super) fn id(&self, sample: usize) -> Option<u64> {
         match &self.content {
@@ -384,4 +414,33 @@ fn color_text(color: [f32; 4], with_alpha: bool) -> String {
     }
     let decimals: Vec<String> = channels.iter().map(|channel| format!("{channel:.2}")).collect();
     format!("({})", decimals.join(" "))
+}
+
+/// Which of these values are covered, if both runs are the same. Every pair is looked at, without a branch.
+fn equal<T>(
+    a: &[T],
+    b: &[T],
+    same: impl Fn(&T, &T) -> bool,
+    covered: impl Fn(&T) -> bool,
+) -> Option<u64> {
+    let is_equal = a.iter().zip(b).fold(true, |all, (a, b)| all & same(a, b));
+    is_equal.then(|| bits(a.iter().map(covered)))
+}
+
+/// A bit for each of up to 64 values, the first one lowest.
+fn bits(values: impl Iterator<Item = bool>) -> u64 {
+    values.enumerate().fold(0, |bits, (at, value)| bits | u64::from(value) << at)
+}
+
+/// The same for values in memory, eight at once: the product has the lowest bit of byte `k` in bit `56 + k`, and nothing
+/// carries into it.
+fn packed(values: &[bool]) -> u64 {
+    let (eights, rest) = values.as_chunks::<8>();
+    let byte = |eight: &[bool; 8]| {
+        u64::from_le_bytes(eight.map(u8::from)).wrapping_mul(0x0102_0408_1020_4080) >> 56
+    };
+    let first =
+        eights.iter().enumerate().fold(0, |bits, (at, eight)| bits | byte(eight) << (8 * at));
+    // All 64 leave no rest, and no place to shift it to.
+    if rest.is_empty() { first } else { first | bits(rest.iter().copied()) << (8 * eights.len()) }
 }

@@ -6,6 +6,7 @@ use super::classes::Class;
 use super::tolerance::{CompareOptions, Tolerances};
 use crate::common::Crop;
 use crate::common::glam::DVec3;
+use std::ops::Range;
 
 /// The aspects that make two pixels different.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -162,6 +163,15 @@ impl<'a> BufferPair<'a> {
         self.ignored
             .iter()
             .any(|crop| holds(crop.row, crop.height, i) && holds(crop.column, crop.width, j))
+    }
+
+    /// The covered ones of up to 64 pixels of a row, if A and B have the same bits there, and so differ in nothing. `None`
+    /// if they may differ: each pixel is to be compared. Pixels of colours alone count as covered.
+    pub(super) fn equal_run(&self, row: u32, columns: Range<u32>) -> Option<u64> {
+        if self.unit == Unit::Pixels || self.a.samples() != 1 || !self.ignored.is_empty() {
+            return None;
+        }
+        self.a.equal_run(self.b, row, columns)
     }
 
     /// Compares a pixel of A with a pixel of B.

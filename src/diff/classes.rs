@@ -2,6 +2,7 @@
 
 use crate::picture::NOTHING;
 use image::{Rgb, RgbImage};
+use rayon::prelude::*;
 
 /// The agreement of both orders at a pixel, from the worst class to the best; a pixel of several samples has the
 /// worst class of its samples.
@@ -69,18 +70,126 @@ impl Class {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Classes {
     image: [u32; 2],
-    classes: Vec<Class>,
+    /// The bits of the codes of all pixels, 64 pixels of a row in a word; the last word of a row may have fewer. Where
+    /// nothing differs only the first plane has ones, so that the pages of the others are never touched.
+    planes: [Vec<u64>; 3],
+}
+
+/// The pixels of a word.
+pub(super) const WORD: u32 = u64::BITS;
+
+/// The classes of up to 64 pixels of a row.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Word([u64; 3]);
+
+impl Word {
+    /// Pixels that are alike where a bit is 1, and empty elsewhere.
+    pub(super) fn alike(bits: u64) -> Word {
+        Word([bits, 0, 0])
+    }
+
+    /// Sets the class of a pixel, which must not be set yet.
+    pub(super) fn put(&mut self, pixel: u32, class: Class) {
+        for (plane, bits) in self.0.iter_mut().enumerate() {
+            *bits |= (class.code() >> plane & 1) << pixel;
+        }
+    }
+
+    fn class(self, pixel: u32) -> Class {
+        Class::of_code([0, 1, 2].map(|plane| self.0[plane] >> pixel & 1))
+    }
+
+    /// The pixels of a class that differs.
+    fn differing(self) -> u64 {
+        let [low, middle, high] = self.0;
+        middle | (high & !low)
+    }
+
+    /// The pixels of a class.
+    fn of_class(self, class: Class) -> u64 {
+        let bit = |plane: usize| class.code() >> plane & 1 == 1;
+        (0..3).fold(u64::MAX, |all, plane| {
+            all & if bit(plane) { self.0[plane] } else { !self.0[plane] }
+        })
+    }
+}
+
+impl Class {
+    /// The number of the class in the planes; [`Class::Neither`] is 0, [`Class::Alike`] is 1.
+    fn code(self) -> u64 {
+        match self {
+            Class::Neither => 0b000,
+            Class::Alike => 0b001,
+            Class::OnlyObjectOrder => 0b010,
+            Class::OnlyImageOrder => 0b011,
+            Class::OtherPrimitive => 0b100,
+            Class::Ignored => 0b101,
+        }
+    }
+
+    /// The class of a code, its lowest bit first.
+    fn of_code(code: [u64; 3]) -> Class {
+        match code {
+            [0, 0, 0] => Class::Neither,
+            [1, 0, 0] => Class::Alike,
+            [0, 1, 0] => Class::OnlyObjectOrder,
+            [1, 1, 0] => Class::OnlyImageOrder,
+            [0, 0, 1] => Class::OtherPrimitive,
+            _ => Class::Ignored,
+        }
+    }
+}
+
+/// Some rows of classes, to be written.
+pub(super) struct Rows<'a> {
+    /// The number of the first row, and of the rows.
+    pub(super) first: u32,
+    pub(super) count: u32,
+    planes: [&'a mut [u64]; 3],
+    words: usize,
+}
+
+impl Rows<'_> {
+    /// Writes the word at a place: its row, counted from the first, and its number in the row.
+    pub(super) fn write(&mut self, row: u32, word: u32, classes: Word) {
+        let index = row as usize * self.words + word as usize;
+        for (plane, bits) in self.planes.iter_mut().zip(classes.0) {
+            // What is 0 is never written: see `Classes::planes`.
+            if bits != 0 {
+                plane[index] = bits;
+            }
+        }
+    }
 }
 
 impl Classes {
-    /// The classes of all pixels, row by row.
-    pub(super) fn new(image: [u32; 2], classes: Vec<Class>) -> Classes {
-        Classes { image, classes }
+    /// The classes that a function writes, several rows at once, and what it returns for the rows, from top to bottom.
+    pub(super) fn written<T: Send>(
+        image: [u32; 2],
+        rows: u32,
+        write: impl Fn(&mut Rows) -> T + Sync,
+    ) -> (Classes, Vec<T>) {
+        let (words, height) = (words_of(image), image[1]);
+        let mut planes = [0, 1, 2].map(|_| vec![0; words * height as usize]);
+        let band = rows as usize * words;
+        let [low, middle, high] = planes.each_mut().map(|plane| plane.par_chunks_mut(band));
+        let firsts: Vec<u32> = (0..height).step_by(rows as usize).collect();
+        let written =
+            low.zip(middle).zip(high).zip(firsts).map(|(((low, middle), high), first)| {
+                let count = rows.min(height - first);
+                write(&mut Rows { first, count, planes: [low, middle, high], words })
+            });
+        let written = written.collect();
+        (Classes { image, planes }, written)
     }
 
     /// The image's width and height in pixels.
     pub fn image(&self) -> [u32; 2] {
         self.image
+    }
+
+    fn word(&self, index: usize) -> Word {
+        Word([0, 1, 2].map(|plane| self.planes[plane][index]))
     }
 
     /// The class of a pixel.
@@ -89,17 +198,44 @@ impl Classes {
     ///
     /// If the pixel does not exist.
     pub fn at(&self, i: u32, j: u32) -> Class {
-        self.classes[i as usize * self.image[0] as usize + j as usize]
+        let [width, height] = self.image;
+        assert!(i < height && j < width, "there is no pixel ({i}, {j}) in {width} x {height}");
+        self.word(i as usize * words_of(self.image) + (j / WORD) as usize).class(j % WORD)
     }
 
     /// The number of pixels of a class.
     pub fn count(&self, class: Class) -> u64 {
-        self.classes.iter().filter(|&&other| other == class).count() as u64
+        if class == Class::Neither {
+            // The rest of a row's last word has the code of this class, too.
+            let all: u64 = self.image.map(u64::from).iter().product();
+            let others = Class::ALL.into_iter().chain([Class::Ignored]);
+            let others = others.filter(|&other| other != class).map(|other| self.count(other));
+            return all - others.sum::<u64>();
+        }
+        let ones = |index: usize| u64::from(self.word(index).of_class(class).count_ones());
+        (0..self.planes[0].len()).map(ones).sum()
     }
 
     /// The pixels `[i, j]` in which the orders disagree, row by row, each with its class.
     pub fn differing(&self) -> impl Iterator<Item = ([u32; 2], Class)> {
-        pixels(self.image).zip(self.classes.iter().copied()).filter(|(_, class)| class.differs())
+        let words = 0..u32::try_from(words_of(self.image)).expect("fewer than columns");
+        let places = (0..self.image[1]).flat_map(move |i| words.clone().map(move |word| (i, word)));
+        places.enumerate().flat_map(|(index, (i, number))| {
+            let word = self.word(index);
+            let mut bits = word.differing();
+            std::iter::from_fn(move || {
+                let pixel = bits.trailing_zeros();
+                (bits != 0).then(|| {
+                    bits &= bits - 1;
+                    ([i, number * WORD + pixel], word.class(pixel))
+                })
+            })
+        })
+    }
+
+    /// The class of every pixel, row by row.
+    fn all(&self) -> impl Iterator<Item = Class> {
+        pixels(self.image).map(|[i, j]| self.at(i, j))
     }
 
     /// The difference image; `lit_by` is the picture of either order.
@@ -111,7 +247,7 @@ impl Classes {
         assert_eq!([lit_by.width(), lit_by.height()], self.image, "the picture is of another size");
         let mut picture = RgbImage::new(self.image[0], self.image[1]);
         let lit = picture.pixels_mut().zip(lit_by.pixels());
-        for ((pixel, light), class) in lit.zip(&self.classes) {
+        for ((pixel, light), class) in lit.zip(self.all()) {
             *pixel = match class {
                 Class::Alike => faint_grey(*light),
                 class => Rgb(class.color()),
@@ -128,7 +264,54 @@ fn faint_grey(Rgb([red, green, blue]): Rgb<u8>) -> Rgb<u8> {
     Rgb([u8::try_from(44 + 96 * light / 255).expect("at most 140"); 3])
 }
 
+/// The words of a row.
+fn words_of([width, _]: [u32; 2]) -> usize {
+    width.div_ceil(WORD) as usize
+}
+
 /// All pixels `[i, j]` of an image, row by row.
 pub(super) fn pixels([width, height]: [u32; 2]) -> impl Iterator<Item = [u32; 2]> {
     (0..height).flat_map(move |i| (0..width).map(move |j| [i, j]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_class_is_found_again_in_rows_of_any_width() {
+        let kinds = [
+            Class::Neither,
+            Class::Alike,
+            Class::OnlyObjectOrder,
+            Class::OnlyImageOrder,
+            Class::OtherPrimitive,
+            Class::Ignored,
+        ];
+        for width in [1, 63, 64, 65, 130] {
+            let image = [width, 7];
+            let class = |i: u32, j: u32| kinds[(5 * i + j * (j + i)) as usize % kinds.len()];
+            let (classes, firsts) = Classes::written(image, 3, |rows| {
+                for i in 0..rows.count {
+                    for word in 0..width.div_ceil(WORD) {
+                        let mut classes = Word::default();
+                        for pixel in 0..WORD.min(width - word * WORD) {
+                            classes.put(pixel, class(rows.first + i, word * WORD + pixel));
+                        }
+                        rows.write(i, word, classes);
+                    }
+                }
+                rows.first
+            });
+            assert_eq!(firsts, [0, 3, 6]);
+            assert!(pixels(image).all(|[i, j]| classes.at(i, j) == class(i, j)), "{width}");
+            for kind in kinds {
+                let expected = pixels(image).filter(|&[i, j]| class(i, j) == kind).count();
+                assert_eq!(classes.count(kind), expected as u64, "{width}, {kind:?}");
+            }
+            let all = pixels(image).map(|[i, j]| ([i, j], class(i, j)));
+            let expected: Vec<_> = all.filter(|(_, class)| class.differs()).collect();
+            assert_eq!(classes.differing().collect::<Vec<_>>(), expected, "{width}");
+        }
+    }
 }

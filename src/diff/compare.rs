@@ -2,12 +2,11 @@
 
 use super::aspect::{Aspect, Unit};
 use super::buffer_pair::{BufferPair, PixelDifference};
-use super::classes::{Class, Classes, pixels};
+use super::classes::{Class, Classes, WORD, Word};
 use super::measures::Measures;
 use super::tolerance::Tolerances;
 use crate::common::{Crop, CropError};
 use image::{Rgb, RgbImage};
-use rayon::prelude::*;
 use serde::Serialize;
 
 /// The light of the difference image of buffers without a picture.
@@ -183,7 +182,7 @@ pub(super) fn compare(pair: &BufferPair) -> Result<BufferComparison, Incomparabl
         ignored.check(a.size()).map_err(Incomparable::Ignored)?;
     }
     let (sums, classes) = all_pixels(pair);
-    if sums.ignored_pixels == classes.len() as u64 {
+    if sums.ignored_pixels == a.size().map(u64::from).iter().product::<u64>() {
         return Err(Incomparable::NothingLeft);
     }
     let has = |aspect| compared.contains(&aspect);
@@ -210,31 +209,37 @@ pub(super) fn compare(pair: &BufferPair) -> Result<BufferComparison, Incomparabl
         measures: Measures::default(),
         hints: Vec::new(),
         compared,
-        classes: Classes::new(a.size(), classes),
+        classes,
         light: None,
     })
 }
 
 /// Compares each pixel of A with the same pixel of B, several rows at once.
-fn all_pixels(pair: &BufferPair) -> (Sums, Vec<Class>) {
+fn all_pixels(pair: &BufferPair) -> (Sums, Classes) {
     /// Few enough that all processors have work, and enough that handing it out costs nothing.
     const ROWS: u32 = 16;
-    let ([width, height], [top, left]) = (pair.a.size(), pair.a.origin());
-    let mut classes = vec![Class::Neither; width as usize * height as usize];
-    let bands = classes.par_chunks_mut((ROWS * width) as usize);
-    let firsts: Vec<u32> = (0..height).step_by(ROWS as usize).collect();
-    let sums: Vec<Sums> = bands
-        .zip(firsts)
-        .map(|(classes, first)| {
-            let mut sums = Sums::default();
-            for ([i, j], class) in pixels([width, height - first]).zip(classes) {
-                let pixel = [first + i, j];
-                let found = pair.compare_pixels(pixel, pixel);
-                *class = sums.add([top + pixel[0], left + j], &found);
+    let (size @ [width, _], [top, left]) = (pair.a.size(), pair.a.origin());
+    let (classes, sums) = Classes::written(size, ROWS, |rows| {
+        let mut sums = Sums::default();
+        for row in 0..rows.count {
+            let i = rows.first + row;
+            for (word, first) in (0..width).step_by(WORD as usize).enumerate() {
+                let columns = first..width.min(first + WORD);
+                let mut classes = Word::default();
+                if let Some(covered) = pair.equal_run(i, columns.clone()) {
+                    sums.both += u64::from(covered.count_ones());
+                    classes = Word::alike(covered);
+                } else {
+                    for j in columns {
+                        let found = pair.compare_pixels([i, j], [i, j]);
+                        classes.put(j - first, sums.add([top + i, left + j], &found));
+                    }
+                }
+                rows.write(row, u32::try_from(word).expect("fewer than columns"), classes);
             }
-            sums
-        })
-        .collect();
+        }
+        sums
+    });
     (sums.into_iter().fold(Sums::default(), Sums::followed_by), classes)
 }
 
@@ -364,6 +369,66 @@ impl Sums {
             only_a: self.only_a,
             only_b: self.only_b,
             matches: self.only_a + self.only_b == 0,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diff::buffer::{Buffer, Content, Covered, Picture, Pixels};
+    use crate::diff::buffer_pair::Decides;
+    use crate::diff::classes::pixels;
+
+    /// Two buffers of each kind; the second one differs in about one value of twenty.
+    fn pairs(size: [u32; 2]) -> Vec<[Buffer<'static>; 2]> {
+        let mut dice = fastrand::Rng::with_seed(7);
+        let count = (size[0] * size[1]) as usize;
+        let mut two = |kind: u32| {
+            let first: Vec<u8> = (0..count).map(|_| dice.u8(0..4)).collect();
+            let other = |&value: &u8| if dice.u8(0..20) == 0 { dice.u8(0..4) } else { value };
+            let second: Vec<u8> = first.iter().map(other).collect();
+            [first, second].map(|values| Buffer::new(size, 1, content(kind, &values)))
+        };
+        (0..6).map(&mut two).collect()
+    }
+
+    fn content(kind: u32, values: &[u8]) -> Content<'static> {
+        let picture = |covered| {
+            let colors = values.iter().map(|&value| [value, 0, 7, value % 2]);
+            Content::Picture(Picture { pixels: Pixels::Bytes(colors.collect()), covered })
+        };
+        let numbers = [0.0, -0.0, 1.5, f64::NAN];
+        match kind {
+            0 => Content::Mask(values.iter().map(|&value| value > 1).collect()),
+            1 => Content::Ids(values.iter().map(|id| id.checked_sub(1).map(u64::from)).collect()),
+            2 => Content::Distances(values.iter().map(|&at| numbers[at as usize]).collect()),
+            3 => picture(Covered::Unknown),
+            4 => picture(Covered::ByAlpha),
+            _ => picture(Covered::ByBackground([2, 0, 7])),
+        }
+    }
+
+    #[test]
+    fn runs_of_equal_pixels_are_compared_as_single_ones() {
+        for size in [[1, 40], [63, 5], [64, 33], [130, 20]] {
+            for [a, b] in &pairs(size) {
+                for [a, b] in [[a, a], [a, b]] {
+                    let pair = BufferPair::new(a, b, Decides::Everything);
+                    let (found, classes) = all_pixels(&pair);
+                    let mut sums = Sums::default();
+                    for pixel in pixels(size) {
+                        let class = sums.add(pixel, &pair.compare_pixels(pixel, pixel));
+                        assert_eq!(classes.at(pixel[0], pixel[1]), class, "{}", a.kind());
+                    }
+                    let numbers = |sums: &Sums| {
+                        let Sums { both, only_a, only_b, differing_pixels, .. } = *sums;
+                        (both, only_a, only_b, differing_pixels, sums.corners)
+                    };
+                    assert_eq!(numbers(&found), numbers(&sums), "{}", a.kind());
+                    assert_eq!(found.first_differing, sums.first_differing, "{}", a.kind());
+                }
+            }
         }
     }
 }
