@@ -1,10 +1,18 @@
-//! Times the comparison of two files that are in memory: masks of 3840 × 2160 pixels, beside a comparison of as many
-//! bytes for equality; and ids, distances and colours of the same size.
+//! Times the comparison of two buffers that are in memory: masks of 3840 × 2160 pixels, beside a comparison of as many
+//! bytes for equality; ids, distances and colours of the same size; and two frames, which hold all three.
 //!
-//! The two differ in one pixel of a thousand. Measures and the search for causes are part of each comparison.
+//! The two differ in one pixel of a thousand, or in none (`equal`). `compared` counts and classifies every pixel;
+//! `measured` also measures (the distance of masks, SSIM and PSNR of colours) and searches for causes, as `diff` does.
+//! `RAYON_NUM_THREADS=1` shows one core.
 
-use bothways::diff::foreign::{Buffer, Content, Covered, Picture, Pixels, compare};
+use bothways::common::{Camera, Frame, View};
+use bothways::diff::foreign::{
+    Buffer, CompareOptions, Content, Covered, Picture, Pixels, compare_with,
+};
+use bothways::orders::{self, Method, Order, RenderOptions};
+use bothways::{picture, scenes};
 use divan::{Bencher, black_box};
+use image::RgbImage;
 
 fn main() {
     divan::main();
@@ -42,13 +50,27 @@ fn distances(second: bool) -> Buffer<'static> {
     Buffer::new(SIZE, 1, Content::Distances(values(second, t)))
 }
 
-fn picture(second: bool) -> Buffer<'static> {
+fn colors(second: bool) -> Buffer<'static> {
     let color = |pixel: u32, other| {
         let [low, high, ..] = pixel.to_le_bytes();
         [low, high, if other { 255 } else { 0 }, 255]
     };
     let pixels = Pixels::Bytes(values(second, color));
     Buffer::new(SIZE, 1, Content::Picture(Picture { pixels, covered: Covered::Unknown }))
+}
+
+/// Two frames of the scene `many`, one in object order and one in image order, with their pictures.
+fn frames() -> [(Frame, RgbImage); 2] {
+    let loaded = scenes::load_for("many", Some(SIZE)).expect("it is built in");
+    let camera = Camera::new(loaded.camera).expect("its camera is one");
+    let view = View::new(&loaded.scene, &camera);
+    let options = RenderOptions { no_counts: true, no_times: true, ..RenderOptions::default() };
+    [Order::Object, Order::Image].map(|order| {
+        let rendered = orders::render(order, Method::Fast, &view, &options);
+        let frame = rendered.expect("only a stream has errors").frame;
+        let picture = picture::picture(&frame);
+        (frame, picture)
+    })
 }
 
 /// As many bytes as a mask has, for equality: what any comparison takes at least.
@@ -59,32 +81,71 @@ fn equal_bytes(bencher: Bencher) {
     bencher.bench_local(|| black_box(&bytes) == black_box(&same));
 }
 
-#[divan::bench]
-fn equal_masks(bencher: Bencher) {
-    let (a, b) = (mask(false), mask(false));
-    bencher.bench_local(|| compare(&a, &b));
+/// Two buffers that are made once, and a comparison of them.
+fn bench(bencher: Bencher, buffers: [Buffer; 2], only_compares: bool) {
+    let [a, b] = buffers;
+    let options = CompareOptions { only_compares, ..CompareOptions::default() };
+    bencher.bench_local(|| compare_with(&a, &b, &options));
 }
 
-#[divan::bench]
-fn masks(bencher: Bencher) {
-    let (a, b) = (mask(false), mask(true));
-    bencher.bench_local(|| compare(&a, &b));
+#[divan::bench_group]
+mod compared {
+    use super::*;
+
+    #[divan::bench]
+    fn equal_masks(bencher: Bencher) {
+        bench(bencher, [mask(false), mask(false)], true);
+    }
+
+    #[divan::bench]
+    fn masks(bencher: Bencher) {
+        bench(bencher, [mask(false), mask(true)], true);
+    }
+
+    #[divan::bench]
+    fn ids_of_files(bencher: Bencher) {
+        bench(bencher, [ids(false), ids(true)], true);
+    }
+
+    #[divan::bench]
+    fn distances_of_files(bencher: Bencher) {
+        bench(bencher, [distances(false), distances(true)], true);
+    }
+
+    #[divan::bench]
+    fn pictures(bencher: Bencher) {
+        bench(bencher, [colors(false), colors(true)], true);
+    }
+
+    #[divan::bench]
+    fn frames_of_ids_distances_and_colors(bencher: Bencher) {
+        let frames = frames();
+        let buffers = frames.each_ref().map(|(frame, picture)| Buffer::of_frame(frame, picture));
+        bench(bencher, buffers, true);
+    }
 }
 
-#[divan::bench]
-fn ids_of_files(bencher: Bencher) {
-    let (a, b) = (ids(false), ids(true));
-    bencher.bench_local(|| compare(&a, &b));
-}
+#[divan::bench_group]
+mod measured {
+    use super::*;
 
-#[divan::bench]
-fn distances_of_files(bencher: Bencher) {
-    let (a, b) = (distances(false), distances(true));
-    bencher.bench_local(|| compare(&a, &b));
-}
+    #[divan::bench]
+    fn masks(bencher: Bencher) {
+        bench(bencher, [mask(false), mask(true)], false);
+    }
 
-#[divan::bench]
-fn pictures(bencher: Bencher) {
-    let (a, b) = (picture(false), picture(true));
-    bencher.bench_local(|| compare(&a, &b));
+    #[divan::bench]
+    fn ids_of_files(bencher: Bencher) {
+        bench(bencher, [ids(false), ids(true)], false);
+    }
+
+    #[divan::bench]
+    fn distances_of_files(bencher: Bencher) {
+        bench(bencher, [distances(false), distances(true)], false);
+    }
+
+    #[divan::bench]
+    fn pictures(bencher: Bencher) {
+        bench(bencher, [colors(false), colors(true)], false);
+    }
 }

@@ -5,6 +5,7 @@ use super::classes::pixels;
 use crate::common::Frame;
 use crate::common::frame::NO_PRIMITIVE;
 use image::{Rgb, RgbImage};
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// The values of each pixel of a frame, or of a file of any origin.
@@ -311,6 +312,16 @@ impl<'a> Buffer<'a> {
         }
     }
 
+    /// Whether any sample of each pixel is covered, row by row.
+    pub(super) fn covered_pixels(&self) -> Cow<'_, [bool]> {
+        if let (Content::Mask(mask), 1) = (&self.content, self.samples) {
+            return Cow::Borrowed(mask);
+        }
+        let covers =
+            |pixel| self.samples_of(pixel).any(|sample| self.covered(sample) == Some(true));
+        Cow::Owned(pixels(self.size).map(covers).collect())
+    }
+
     /// The primitive at a sample; `None` for nothing, and for an unknown primitive.
     pub(super) fn id(&self, sample: usize) -> Option<u64> {
         match &self.content {
@@ -437,7 +448,10 @@ fn bits(values: impl Iterator<Item = bool>) -> u64 {
 fn packed(values: &[bool]) -> u64 {
     let (eights, rest) = values.as_chunks::<8>();
     let byte = |eight: &[bool; 8]| {
-        u64::from_le_bytes(eight.map(u8::from)).wrapping_mul(0x0102_0408_1020_4080) >> 56
+        let [a, b, c, d, e, f, g, h] = *eight;
+        let bytes =
+            [a.into(), b.into(), c.into(), d.into(), e.into(), f.into(), g.into(), h.into()];
+        u64::from_le_bytes(bytes).wrapping_mul(0x0102_0408_1020_4080) >> 56
     };
     let first =
         eights.iter().enumerate().fold(0, |bits, (at, eight)| bits | byte(eight) << (8 * at));

@@ -88,10 +88,13 @@ pub fn compare_with(
 ) -> Result<BufferComparison, Incomparable> {
     let pair = BufferPair::new(a, b, Decides::Everything).with(options);
     let mut comparison = super::compare::compare(&pair)?.allowing(options.allowed_pixels);
+    if options.only_compares {
+        return Ok(comparison);
+    }
     comparison.measures = measures::measure(&pair, &comparison);
     comparison.light = a.light().or_else(|| b.light());
     if !comparison.equal {
-        comparison.hints = hints::hints(&pair, options.reference);
+        comparison.hints = hints::hints(&pair, comparison.classes(), options.reference);
     }
     Ok(comparison)
 }

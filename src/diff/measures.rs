@@ -2,8 +2,8 @@
 //! of an edge changes no such number much, and is a mistake all the same.
 //!
 //! There is no ꟻLIP (Andersson et al., "FLIP: A Difference Evaluator for Alternating Images", 2020) among them. The
-//! permissive implementation in reach, the crate `nv-flip`, binds C++ of 2022, which needs a C++ compiler and `unsafe`
-//! beneath, and its result depends on a viewing distance that no file states.
+//! permissive implementation in reach, the crate `nv-flip`, binds C++, which needs a C++ compiler and `unsafe` beneath, and its
+//! result depends on a viewing distance that no file states.
 
 mod color;
 mod distance;
@@ -13,9 +13,8 @@ pub use color::ColorMeasures;
 pub use distance::BorderDistance;
 
 use super::aspect::Aspect;
-use super::buffer::Buffer;
 use super::buffer_pair::BufferPair;
-use super::classes::{Class, pixels};
+use super::classes::Class;
 use super::compare::BufferComparison;
 use serde::Serialize;
 
@@ -49,16 +48,22 @@ pub(super) fn measure(pair: &BufferPair, comparison: &BufferComparison) -> Measu
         coverage: comparison.coverage.map(|counted| {
             let any = counted.both + counted.only_a + counted.only_b;
             CoverageMeasures {
-                differing_pixels: [Class::OnlyObjectOrder, Class::OnlyImageOrder]
-                    .map(|class| comparison.classes().count(class))
-                    .iter()
-                    .sum(),
+                differing_pixels: covered_otherwise(comparison),
                 intersection_over_union: (any > 0).then(|| ratio(counted.both, any)),
                 largest_border_distance: largest_border_distance(pair, comparison),
             }
         }),
         color: colors.then(|| color::measure(pair)).flatten(),
     }
+}
+
+/// The number of pixels with a sample that only one of the two covers.
+fn covered_otherwise(comparison: &BufferComparison) -> u64 {
+    if comparison.equal {
+        return 0;
+    }
+    let classes = [Class::OnlyObjectOrder, Class::OnlyImageOrder];
+    classes.map(|class| comparison.classes().count(class)).iter().sum()
 }
 
 #[expect(clippy::cast_precision_loss, reason = "at most 2^30 samples")]
@@ -75,29 +80,24 @@ fn largest_border_distance(
     let sides = [(Class::OnlyObjectOrder, pair.b), (Class::OnlyImageOrder, pair.a)];
     let [top, left] = pair.a.origin();
     let found = sides.into_iter().filter_map(|(class, other)| {
-        let classes = comparison.classes();
-        if classes.count(class) == 0 {
+        let differing = comparison.classes().differing();
+        let wanted: Vec<[u32; 2]> =
+            differing.filter(|&(_, of)| of == class).map(|(pixel, _)| pixel).collect();
+        if wanted.is_empty() {
             return None;
         }
-        let mask: Vec<bool> = pixels(other.size()).map(|pixel| covers(other, pixel)).collect();
-        let is_wanted = |[i, j]: [u32; 2]| classes.at(i, j) == class;
         let BorderDistance { pixels, at: [i, j] } =
-            distance::farthest(other.size(), &mask, is_wanted)?;
+            distance::farthest(other.size(), &other.covered_pixels(), &wanted)?;
         Some(BorderDistance { pixels, at: [top + i, left + j] })
     });
     // Of equal distances, the first pixel of A.
     found.reduce(|most, other| if other.pixels > most.pixels { other } else { most })
 }
 
-/// Whether a buffer covers any sample of a pixel.
-fn covers(buffer: &Buffer, pixel: [u32; 2]) -> bool {
-    buffer.samples_of(pixel).any(|sample| buffer.covered(sample) == Some(true))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diff::foreign::{CompareOptions, Content, compare, compare_with};
+    use crate::diff::foreign::{Buffer, CompareOptions, Content, compare, compare_with};
 
     fn mask(drawn: &[&str]) -> Buffer<'static> {
         let size = [drawn[0].len(), drawn.len()].map(|side| u32::try_from(side).unwrap());

@@ -45,4 +45,7 @@ pub struct CompareOptions {
     pub ignored: Vec<Crop>,
     /// Which of the two buffers is known to be right, if one is.
     pub reference: Option<Side>,
+    /// Whether nothing is measured and no cause is searched for: counts and classes alone, which take a fraction of the
+    /// time.
+    pub only_compares: bool,
 }

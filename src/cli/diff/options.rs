@@ -43,6 +43,7 @@ impl ComparisonArgs {
             allowed_pixels: self.allow_pixels,
             ignored: self.ignore.clone(),
             reference,
+            only_compares: false,
         }
     }
 }

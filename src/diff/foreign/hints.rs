@@ -6,21 +6,26 @@
 use crate::diff::aspect::Side;
 use crate::diff::buffer::{Buffer, Content};
 use crate::diff::buffer_pair::BufferPair;
-use crate::diff::classes::{Class, pixels};
+use crate::diff::classes::{Class, Classes, pixels};
 use crate::wording::count;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Every cause that alone explains every difference, one sentence each. A reference is right, and its encoding is
 /// right too.
-pub(in crate::diff) fn hints(pair: &BufferPair, reference: Option<Side>) -> Vec<String> {
+pub(in crate::diff) fn hints(
+    pair: &BufferPair,
+    differing: &Classes,
+    reference: Option<Side>,
+) -> Vec<String> {
     let both = [("A", pair.a), ("B", pair.b)];
     if let Some((name, _)) = both.into_iter().find(|(_, buffer)| is_empty(buffer)) {
         return vec![format!(
             "{name} covers nothing: is all of it culled, cut off, behind the eye, or missed between samples?"
         )];
     }
-    let mut hints = placements(pair);
-    if pair.a.samples() != pair.b.samples() {
+    let mut hints = placements(pair, differing);
+    // The others look at all values, and so at those of ignored pixels, too.
+    if pair.a.samples() != pair.b.samples() || !pair.ignored().is_empty() {
         return hints;
     }
     let named = [("A", pair.a, "B", pair.b), ("B", pair.b, "A", pair.a)];
@@ -60,15 +65,20 @@ pub(in crate::diff) fn hints(pair: &BufferPair, reference: Option<Side>) -> Vec<
 }
 
 /// All turns of B and all moves of B by one pixel after which B agrees with A.
-fn placements(pair: &BufferPair) -> Vec<String> {
+fn placements(pair: &BufferPair, classes: &Classes) -> Vec<String> {
     if pair.a.samples() != 1 || pair.b.samples() != 1 {
         return Vec::new();
     }
-    let turned = turns(pair.a.size()).into_iter().filter(|(_, place)| agree(pair, place.as_ref()));
+    // What explains every difference explains the first ones: most placements are refuted by a few pixels.
+    let first: Vec<[u32; 2]> = classes.differing().map(|(pixel, _)| pixel).take(REFUTING).collect();
+    let turned = turns(pair.a.size())
+        .into_iter()
+        .filter(|(_, place)| first.iter().all(|&in_a| !class(pair, in_a, place(in_a)).differs()))
+        .filter(|(_, place)| agree(pair, place.as_ref()));
     let turned = turned.map(|(name, _)| format!("B agrees with A once it is {name}"));
     let steps = [0, 1, -1];
     let moves = steps.into_iter().flat_map(|rows| steps.map(|columns| [rows, columns]));
-    let moved = moves.skip(1).filter(|&by| agree_moved(pair, by));
+    let moved = moves.skip(1).filter(|&by| agree_moved(pair, by, &first));
     let moved = moved.map(|by| {
         let back = by.map(|step: i32| -step);
         format!(
@@ -78,6 +88,9 @@ fn placements(pair: &BufferPair) -> Vec<String> {
     });
     turned.chain(moved).collect()
 }
+
+/// The differing pixels that are looked at first.
+const REFUTING: usize = 256;
 
 /// The place in B of a pixel of A.
 type Placement = Box<dyn Fn([u32; 2]) -> [u32; 2]>;
@@ -124,7 +137,7 @@ fn agree(pair: &BufferPair, place: &dyn Fn([u32; 2]) -> [u32; 2]) -> bool {
 
 /// The same for a picture B that lies `rows` and `columns` farther. A pixel that leaves or enters the picture has no
 /// partner; unless that pixel is empty, the move does not explain its difference.
-fn agree_moved(pair: &BufferPair, [rows, columns]: [i32; 2]) -> bool {
+fn agree_moved(pair: &BufferPair, [rows, columns]: [i32; 2], first: &[[u32; 2]]) -> bool {
     let [width, height] = pair.a.size();
     let moved = |[i, j]: [u32; 2], sign: i32| {
         let i = i.checked_add_signed(sign * rows).filter(|&i| i < height)?;
@@ -133,6 +146,11 @@ fn agree_moved(pair: &BufferPair, [rows, columns]: [i32; 2]) -> bool {
     let empty = |buffer: &Buffer, pixel| {
         buffer.samples_of(pixel).all(|sample| buffer.covered(sample) == Some(false))
     };
+    let is_refuted =
+        |&pixel: &[u32; 2]| moved(pixel, 1).is_some_and(|in_b| class(pair, pixel, in_b).differs());
+    if first.iter().any(is_refuted) {
+        return false;
+    }
     let mut seen = false;
     for pixel in pixels(pair.a.size()) {
         if let Some(in_b) = moved(pixel, 1) {
@@ -166,7 +184,13 @@ fn steps_in_words([rows, columns]: [i32; 2]) -> String {
 /// The renaming of ids between A and B, if both cover the same samples, each id has one partner, and some ids differ.
 fn renaming(a: &[Option<u64>], b: &[Option<u64>]) -> Option<String> {
     let (mut forth, mut back) = (BTreeMap::new(), BTreeMap::new());
+    let mut last = (None, None);
     for (&a, &b) in a.iter().zip(b) {
+        // Neighbours mostly show the same.
+        if (a, b) == last {
+            continue;
+        }
+        last = (a, b);
         match (a, b) {
             (None, None) => {}
             (Some(a), Some(b)) => {
@@ -199,11 +223,16 @@ fn lacking(shows: &[Option<u64>], lacks: &[Option<u64>]) -> Option<Vec<u64>> {
     let differing = || shows.iter().zip(lacks).filter(|(one, other)| one != other);
     let lacking: Option<BTreeSet<u64>> = differing().map(|(one, _)| *one).collect();
     let lacking = lacking?;
-    let shown: BTreeSet<u64> = shows.iter().copied().flatten().collect();
+    let shown: BTreeSet<u64> = runs(shows).copied().flatten().collect();
     // The primitive visible in its place must also be a primitive that the other file knows.
     let explained = |id: &u64| shown.contains(id) && !lacking.contains(id);
-    let holds = lacks.iter().flatten().all(explained);
+    let holds = runs(lacks).flatten().all(explained);
     (holds && !lacking.is_empty()).then(|| lacking.into_iter().collect())
+}
+
+/// The values, each run of equal ones once.
+fn runs(values: &[Option<u64>]) -> impl Iterator<Item = &Option<u64>> {
+    values.chunk_by(PartialEq::eq).map(|run| &run[0])
 }
 
 fn lacks(name: &str, ids: &[u64], other: &str) -> String {

@@ -16,25 +16,32 @@ pub struct BorderDistance {
 /// The distance in a column without a pixel of the mask.
 const FAR: u32 = u32::MAX;
 
-/// The first of the wanted pixels that are farthest from the mask; `None` if there is no wanted pixel, or the mask is
-/// empty.
+/// The first of the wanted pixels, which are listed row by row, that are farthest from the mask; `None` if there is no
+/// wanted pixel, or the mask is empty.
 pub(super) fn farthest(
     size: [u32; 2],
     mask: &[bool],
-    is_wanted: impl Fn([u32; 2]) -> bool,
+    wanted: &[[u32; 2]],
 ) -> Option<BorderDistance> {
     let width = size[0] as usize;
     let in_columns = distances_in_columns(width, mask);
     let mut envelope = Envelope::default();
     let mut most: Option<(u64, [u32; 2])> = None;
-    for (i, row) in (0..size[1]).zip(in_columns.chunks_exact(width)) {
-        let mut wanted = (0..size[0]).filter(|&j| is_wanted([i, j])).peekable();
-        if wanted.peek().is_none() {
-            continue;
-        }
-        envelope.enclose(row);
-        for j in wanted {
-            let squared = envelope.at(j.into())?;
+    for of_row in wanted.chunk_by(|one, other| one[0] == other[0]) {
+        let row = &in_columns[of_row[0][0] as usize * width..][..width];
+        // Most differing pixels lie close to the mask: it costs less to look beside them than to enclose a row.
+        let mut steps = 0;
+        let mut is_enclosed = false;
+        for &[i, j] in of_row {
+            if !is_enclosed && steps > width {
+                envelope.enclose(row);
+                is_enclosed = true;
+            }
+            let squared = if is_enclosed {
+                envelope.at(j.into())?
+            } else {
+                nearest_beside(row, j as usize, &mut steps)?
+            };
             if most.is_none_or(|(largest, _)| squared > largest) {
                 most = Some((squared, [i, j]));
             }
@@ -42,6 +49,27 @@ pub(super) fn farthest(
     }
     #[expect(clippy::cast_precision_loss, reason = "at most twice 2^32")]
     most.map(|(squared, at)| BorderDistance { pixels: (squared as f64).sqrt(), at })
+}
+
+/// The square of the distance of a pixel from the mask, by the distances in the columns, nearest columns first; counts
+/// the columns that are looked at.
+fn nearest_beside(row: &[u32], column: usize, steps: &mut usize) -> Option<u64> {
+    let mut nearest: Option<u64> = None;
+    for away in 0..row.len() {
+        let across = (away as u64).pow(2);
+        if nearest.is_some_and(|nearest| nearest <= across) {
+            break;
+        }
+        *steps += 1;
+        let beside = [column.checked_sub(away), Some(column + away)];
+        for at in beside.into_iter().flatten() {
+            if let Some(&distance) = row.get(at).filter(|&&distance| distance != FAR) {
+                let squared = across + u64::from(distance).pow(2);
+                nearest = Some(nearest.map_or(squared, |nearest| nearest.min(squared)));
+            }
+        }
+    }
+    nearest
 }
 
 /// For each pixel, the number of rows to the nearest pixel of the mask in its column.
@@ -146,9 +174,16 @@ mod tests {
             let count = (width * height) as usize;
             let mask: Vec<bool> = seeds[..count].iter().map(|seed| seed % 40 < density / 4).collect();
             let expected = by_all_pairs([width, height], &mask);
+            // All pixels at once: then rows are enclosed.
+            let all: Vec<[u32; 2]> =
+                (0..width * height).map(|index| [index / width, index % width]).collect();
+            let most = expected.iter().flatten().max().copied();
+            let first = most.and_then(|_| expected.iter().position(|squared| *squared == most));
+            let found = farthest([width, height], &mask, &all);
+            prop_assert_eq!(found.map(|found| found.at), first.map(|index| all[index]));
             for (index, expected) in (0..width * height).zip(expected) {
                 let pixel = [index / width, index % width];
-                let found = farthest([width, height], &mask, |other| other == pixel);
+                let found = farthest([width, height], &mask, &[pixel]);
                 let squared = found.map(|found| found.pixels.powi(2).round());
                 #[expect(clippy::cast_precision_loss, reason = "small")]
                 let expected = expected.map(|squared| squared as f64);
