@@ -5,7 +5,7 @@
 //! `measured` also measures (the distance of masks, SSIM and PSNR of colours) and searches for causes, as `diff` does.
 //! `RAYON_NUM_THREADS=1` shows one core.
 
-use bothways::common::{Camera, Frame, View};
+use bothways::common::{Camera, CameraDescription, Frame, View};
 use bothways::diff::foreign::{
     Buffer, CompareOptions, Content, Covered, Picture, Pixels, compare_with,
 };
@@ -62,7 +62,8 @@ fn colors(second: bool) -> Buffer<'static> {
 /// Two frames of the scene `many`, one in object order and one in image order, with their pictures.
 fn frames() -> [(Frame, RgbImage); 2] {
     let loaded = scenes::load_for("many", Some(SIZE)).expect("it is built in");
-    let camera = Camera::new(loaded.camera).expect("its camera is one");
+    let camera = CameraDescription { image: SIZE, ..loaded.camera };
+    let camera = Camera::new(camera).expect("its camera is one");
     let view = View::new(&loaded.scene, &camera);
     let options = RenderOptions { no_counts: true, no_times: true, ..RenderOptions::default() };
     [Order::Object, Order::Image].map(|order| {

@@ -283,9 +283,15 @@ impl<'a> Buffer<'a> {
         }
     }
 
-    /// The covered ones of up to 64 pixels of a row, if the other buffer is of the same kind and has the same bits there;
-    /// both have one sample a pixel. Pixels of colours alone count as covered.
-    pub(super) fn equal_run(&self, other: &Buffer, row: u32, columns: Range<u32>) -> Option<u64> {
+    /// The covered ones of up to 64 pixels of a row, if the other buffer is of the same kind and differs there by no more
+    /// than is known of others; both have one sample a pixel. Pixels of colours alone count as covered.
+    pub(super) fn alike_run(
+        &self,
+        other: &Buffer,
+        row: u32,
+        columns: Range<u32>,
+        known: Known,
+    ) -> Option<u64> {
         let [first, end] = [columns.start, columns.end].map(|j| self.pixel([row, j]));
         let run = first..end;
         match (&self.content, &other.content) {
@@ -294,19 +300,31 @@ impl<'a> Buffer<'a> {
                 (a == b).then(|| packed(a))
             }
             (Content::Ids(a), Content::Ids(b)) => {
-                equal(&a[run.clone()], &b[run], |a, b| a == b, |id| id.is_some())
+                let (a, b) = (&a[run.clone()], &b[run]);
+                all(a, b, |a, b| a == b).then(|| bits(a.iter().map(Option::is_some)))
             }
             (Content::Distances(a), Content::Distances(b)) => {
-                let same = |a: &f64, b: &f64| a.to_bits() == b.to_bits();
-                equal(&a[run.clone()], &b[run], same, |t| t.is_finite())
+                let (a, b) = (&a[run.clone()], &b[run]);
+                let alike = |a: &f64, b: &f64| known.covers_distances(*a, *b);
+                all(a, b, alike).then(|| bits(a.iter().map(|t| t.is_finite())))
             }
             (Content::Picture(a), Content::Picture(b)) if a.covered == b.covered => {
                 let (Pixels::Bytes(of_a), Pixels::Bytes(of_b)) = (&a.pixels, &b.pixels) else {
                     return None;
                 };
-                let (of_a, of_b) = (&of_a[run.clone()], &of_b[run.clone()]);
                 let covered = |at: usize| a.covered(at) != Some(false);
-                (of_a == of_b).then(|| bits(run.map(covered)))
+                let is_same = of_a[run.clone()] == of_b[run.clone()];
+                is_same.then(|| bits(run.map(covered)))
+            }
+            (Content::Frame(a), Content::Frame(b)) => {
+                let ids = [a, b].map(|seen| &seen.frame.ids()[run.clone()]);
+                let t = [a, b].map(|seen| &seen.frame.distances()[run.clone()]);
+                let bytes = 3 * run.start..3 * run.end;
+                let colors = [a, b].map(|seen| &seen.picture.as_raw()[bytes.clone()]);
+                let is_alike = ids[0] == ids[1]
+                    && all(t[0], t[1], |a, b| known.covers_distances((*a).into(), (*b).into()))
+                    && all(colors[0], colors[1], |a, b| known.covers_steps(a.abs_diff(*b)));
+                is_alike.then(|| bits(ids[0].iter().map(|&id| id != NO_PRIMITIVE)))
             }
             _ => None,
         }
@@ -427,15 +445,33 @@ fn color_text(color: [f32; 4], with_alpha: bool) -> String {
     format!("({})", decimals.join(" "))
 }
 
-/// Which of these values are covered, if both runs are the same. Every pair is looked at, without a branch.
-fn equal<T>(
-    a: &[T],
-    b: &[T],
-    same: impl Fn(&T, &T) -> bool,
-    covered: impl Fn(&T) -> bool,
-) -> Option<u64> {
-    let is_equal = a.iter().zip(b).fold(true, |all, (a, b)| all & same(a, b));
-    is_equal.then(|| bits(a.iter().map(covered)))
+/// The largest differences that are known of other pixels, and are within the tolerances.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Known {
+    /// The relative difference of distances.
+    pub(super) t: f64,
+    /// The difference of colours, in steps of 1/255.
+    pub(super) color: f32,
+}
+
+impl Known {
+    /// Whether two distances certainly differ by no more: nothing and nothing, equal ones, or close ones. The bound is a
+    /// little smaller than what is known, as both sides round.
+    fn covers_distances(self, a: f64, b: f64) -> bool {
+        const SMALLER: f64 = 1.0 - 8.0 * f64::EPSILON;
+        let is_close = (a - b).abs() <= a.abs().max(b.abs()) * self.t * SMALLER;
+        let are_finite = a.is_finite() & b.is_finite();
+        (a.to_bits() == b.to_bits()) | (is_close & are_finite)
+    }
+
+    fn covers_steps(self, steps: u8) -> bool {
+        f32::from(steps) <= self.color
+    }
+}
+
+/// Whether a condition holds for all pairs. Every pair is looked at, without a branch.
+fn all<T>(a: &[T], b: &[T], holds: impl Fn(&T, &T) -> bool) -> bool {
+    a.iter().zip(b).fold(true, |all, (a, b)| all & holds(a, b))
 }
 
 /// A bit for each of up to 64 values, the first one lowest.
@@ -443,18 +479,31 @@ fn bits(values: impl Iterator<Item = bool>) -> u64 {
     values.enumerate().fold(0, |bits, (at, value)| bits | u64::from(value) << at)
 }
 
-/// The same for values in memory, eight at once: the product has the lowest bit of byte `k` in bit `56 + k`, and nothing
-/// carries into it.
+/// The same for values in memory, eight at once.
 fn packed(values: &[bool]) -> u64 {
-    let (eights, rest) = values.as_chunks::<8>();
-    let byte = |eight: &[bool; 8]| {
-        let [a, b, c, d, e, f, g, h] = *eight;
-        let bytes =
-            [a.into(), b.into(), c.into(), d.into(), e.into(), f.into(), g.into(), h.into()];
-        u64::from_le_bytes(bytes).wrapping_mul(0x0102_0408_1020_4080) >> 56
+    let Ok(values) = <&[bool; 64]>::try_from(values) else {
+        return bits(values.iter().copied());
     };
-    let first =
-        eights.iter().enumerate().fold(0, |bits, (at, eight)| bits | byte(eight) << (8 * at));
-    // All 64 leave no rest, and no place to shift it to.
-    if rest.is_empty() { first } else { first | bits(rest.iter().copied()) << (8 * eights.len()) }
+    let (eights, _) = values.as_chunks::<8>();
+    let word = |[a, b, c, d, e, f, g, h]: [bool; 8]| {
+        u64::from_le_bytes([
+            a.into(),
+            b.into(),
+            c.into(),
+            d.into(),
+            e.into(),
+            f.into(),
+            g.into(),
+            h.into(),
+        ])
+    };
+    // Value `8m + k` is bit `m` of byte `k`, …
+    let gathered = eights.iter().enumerate().fold(0, |all, (m, eight)| all | word(*eight) << m);
+    // … and becomes bit `k` of byte `m`: a transposition of 8 × 8 bits (Warren, "Hacker's Delight", 2012, section 7-3).
+    [(7, 0x00AA_00AA_00AA_00AA), (14, 0x0000_CCCC_0000_CCCC), (28, 0x0000_0000_F0F0_F0F0)]
+        .into_iter()
+        .fold(gathered, |bits, (shift, mask)| {
+            let exchanged = (bits ^ (bits >> shift)) & mask;
+            bits ^ exchanged ^ (exchanged << shift)
+        })
 }

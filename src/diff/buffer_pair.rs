@@ -1,7 +1,7 @@
 //! The comparison of one pixel of A with one pixel of B: which of them is covered, and how far their values differ.
 
 use super::aspect::{Aspect, Unit};
-use super::buffer::Buffer;
+use super::buffer::{Buffer, Known};
 use super::classes::Class;
 use super::tolerance::{CompareOptions, Tolerances};
 use crate::common::Crop;
@@ -165,13 +165,18 @@ impl<'a> BufferPair<'a> {
             .any(|crop| holds(crop.row, crop.height, i) && holds(crop.column, crop.width, j))
     }
 
-    /// The covered ones of up to 64 pixels of a row, if A and B have the same bits there, and so differ in nothing. `None`
-    /// if they may differ: each pixel is to be compared. Pixels of colours alone count as covered.
-    pub(super) fn equal_run(&self, row: u32, columns: Range<u32>) -> Option<u64> {
+    /// The covered ones of up to 64 pixels of a row, if A and B are alike there and no value differs by more than is known
+    /// of others, so that these pixels count and change nothing else. `None` if that may not be so: each pixel is to be
+    /// compared. Pixels of colours alone count as covered.
+    pub(super) fn alike_run(&self, row: u32, columns: Range<u32>, known: Known) -> Option<u64> {
         if self.unit == Unit::Pixels || self.a.samples() != 1 || !self.ignored.is_empty() {
             return None;
         }
-        self.a.equal_run(self.b, row, columns)
+        let known = Known {
+            t: known.t.min(self.tolerances.t),
+            color: known.color.min(self.tolerances.color),
+        };
+        self.a.alike_run(self.b, row, columns, known)
     }
 
     /// Compares a pixel of A with a pixel of B.

@@ -1,6 +1,7 @@
 //! The common parts of two buffers, and their differences.
 
 use super::aspect::{Aspect, Unit};
+use super::buffer::Known;
 use super::buffer_pair::{BufferPair, PixelDifference};
 use super::classes::{Class, Classes, WORD, Word};
 use super::measures::Measures;
@@ -8,6 +9,7 @@ use super::tolerance::Tolerances;
 use crate::common::{Crop, CropError};
 use image::{Rgb, RgbImage};
 use serde::Serialize;
+use std::ops::Range;
 
 /// The light of the difference image of buffers without a picture.
 const MILD_GREY: Rgb<u8> = Rgb([117; 3]);
@@ -225,22 +227,39 @@ fn all_pixels(pair: &BufferPair) -> (Sums, Classes) {
             let i = rows.first + row;
             for (word, first) in (0..width).step_by(WORD as usize).enumerate() {
                 let columns = first..width.min(first + WORD);
-                let mut classes = Word::default();
-                if let Some(covered) = pair.equal_run(i, columns.clone()) {
+                let known = Known {
+                    t: sums.depth.max_relative_difference,
+                    color: sums.color.max_difference,
+                };
+                let classes = if let Some(covered) = pair.alike_run(i, columns.clone(), known) {
                     sums.both += u64::from(covered.count_ones());
-                    classes = Word::alike(covered);
+                    Word::alike(covered)
                 } else {
-                    for j in columns {
-                        let found = pair.compare_pixels([i, j], [i, j]);
-                        classes.put(j - first, sums.add([top + i, left + j], &found));
-                    }
-                }
+                    single_pixels(pair, i, columns, [top, left], &mut sums)
+                };
                 rows.write(row, u32::try_from(word).expect("fewer than columns"), classes);
             }
         }
         sums
     });
     (sums.into_iter().fold(Sums::default(), Sums::followed_by), classes)
+}
+
+/// Compares up to 64 pixels of a row, one after the other.
+#[inline(never)]
+fn single_pixels(
+    pair: &BufferPair,
+    i: u32,
+    columns: Range<u32>,
+    [top, left]: [u32; 2],
+    sums: &mut Sums,
+) -> Word {
+    let mut classes = Word::default();
+    for (pixel, j) in (0..).zip(columns) {
+        let found = pair.compare_pixels([i, j], [i, j]);
+        classes.put(pixel, sums.add([top + i, left + j], &found));
+    }
+    classes
 }
 
 impl BufferComparison {
