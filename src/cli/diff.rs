@@ -127,9 +127,13 @@ pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
         Failure::new(format!("A = {a_path}, B = {b_path}: {error}{cause}"))
     })?;
     let scene = inputs::scene_of_size(&args.scene, None, Some(a.size()))?;
+    let by_sample = why::BySample::new([a, b], &options, scene.as_ref().map(|(_, camera)| camera))?;
     let why = scene.as_ref().map(|(loaded, camera)| {
-        let view = View::new(&loaded.scene, camera);
-        Why::find(&view, [a, b], &comparison, why::arguments(&args.scene, a.size()))
+        let words = why::arguments(&args.scene, a.size());
+        match &by_sample {
+            Some(fine) => fine.why(&loaded.scene, words),
+            None => Why::find(&View::new(&loaded.scene, camera), [a, b], &comparison, words),
+        }
     });
     let [width, height] = a.size();
     if let Some([i, j]) = args.pixel.filter(|&[i, j]| i >= height || j >= width) {
@@ -143,7 +147,8 @@ pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
         let mut staging = Staging::begin_with(folder, NAMES.map(str::to_owned).to_vec())?;
         staging.write_rgb(NAMES[0], &enlarged(comparison.picture()))?;
         if let Some(why) = &why {
-            staging.write_rgb(NAMES[1], &why.picture(&comparison))?;
+            let comparison = by_sample.as_ref().map_or(&comparison, |fine| fine.comparison());
+            staging.write_rgb(NAMES[1], &why.picture(comparison))?;
         }
         staging.commit()?;
     }

@@ -160,6 +160,32 @@ impl<'a> Buffer<'a> {
         self.samples
     }
 
+    /// The same buffer with each sample as a pixel of its own: what a camera of so many more pixels sees. `None` for a
+    /// frame.
+    #[must_use]
+    pub fn samples_as_pixels(&self) -> Option<Buffer<'a>> {
+        let [width, height] = self.size;
+        let n = self.samples;
+        // The samples of a pixel are stored together.
+        let order = || {
+            (0..height * n).flat_map(move |row| {
+                (0..width * n).map(move |column| {
+                    let pixel = (row / n) as usize * width as usize + (column / n) as usize;
+                    (pixel * n as usize + (row % n) as usize) * n as usize + (column % n) as usize
+                })
+            })
+        };
+        let content = match &self.content {
+            Content::Mask(mask) => Content::Mask(order().map(|sample| mask[sample]).collect()),
+            Content::Ids(ids) => Content::Ids(order().map(|sample| ids[sample]).collect()),
+            Content::Distances(t) => Content::Distances(order().map(|sample| t[sample]).collect()),
+            // These have one sample a pixel.
+            Content::Normals(_) | Content::Picture(_) => self.content.clone(),
+            Content::Frame(_) => return None,
+        };
+        Some(Buffer::new([width * n, height * n], 1, content))
+    }
+
     /// The values of the buffer.
     pub fn content(&self) -> &Content<'a> {
         &self.content

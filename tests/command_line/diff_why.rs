@@ -110,3 +110,22 @@ fn json_has_reasons_and_conventions() {
     assert!(kinds.contains(&"convention"), "{kinds:?}");
     assert!(why["telling"].is_array());
 }
+
+#[test]
+fn several_samples_a_pixel_are_explained_one_by_one() {
+    let home = home();
+    let args = ["ties", "--size", "16x16", "--samples", "2", "--object-rules", "inclusive"];
+    let more = ["--buffers", "npy", "--no-counts", "--quiet", "-o", "r"];
+    bothways(&home, &[&args[..], &more].concat()).assert().code(1);
+    let of = |more: &[&str]| {
+        let args = ["diff", EXACT, RULED, "--scene", "ties"];
+        printed(bothways(&home, &[&args[..], more].concat()), 1)
+    };
+    insta::assert_snapshot!("why_samples", of(&["-o", "out"]));
+    insta::assert_snapshot!("why_pixel_of_samples", of(&["--pixel", "8,8"]));
+    assert!(home.path().join("out/reasons.png").is_file());
+    let json: serde_json::Value = serde_json::from_str(&of(&["--json"])).unwrap();
+    assert_eq!(json["why"]["samples"], 2);
+    let [row, column] = [0, 1].map(|axis| json["why"]["telling"][axis].as_u64().unwrap());
+    assert!(row < 16 && column < 16);
+}

@@ -3,9 +3,10 @@
 use super::inputs::{self, SceneArgs};
 use super::line;
 use crate::cli::args::ProjectionArg;
+use crate::cli::failure::Failure;
 use anstyle::Style;
-use bothways::common::{Camera, View};
-use bothways::diff::foreign::{Buffer, BufferComparison};
+use bothways::common::{Camera, CameraDescription, Crop, Scene, View};
+use bothways::diff::foreign::{Buffer, BufferComparison, CompareOptions, compare_with};
 use bothways::diff::page::{Group, Page};
 use bothways::diff::why::{
     Explanation, Finding, Findings, PixelReason, Reason, ReasonKind, Reasons, Wrong, cause_of_size,
@@ -17,9 +18,65 @@ use bothways::wording::{count, grouped};
 use image::{Rgb, RgbImage};
 use serde::Serialize;
 
+/// Two files of several samples a pixel, and their scene, with each sample as a pixel of its own.
+pub(super) struct BySample {
+    samples: u32,
+    files: [Buffer<'static>; 2],
+    camera: Camera,
+    comparison: BufferComparison,
+}
+
+impl BySample {
+    /// `None` if there is one sample a pixel, or no scene to explain anything with.
+    pub(super) fn new(
+        [a, b]: [&Buffer<'static>; 2],
+        options: &CompareOptions,
+        camera: Option<&Camera>,
+    ) -> Result<Option<BySample>, Failure> {
+        let samples = a.samples();
+        let Some(camera) = camera.filter(|_| samples > 1 && b.samples() == samples) else {
+            return Ok(None);
+        };
+        let (Some(a), Some(b)) = (a.samples_as_pixels(), b.samples_as_pixels()) else {
+            return Ok(None);
+        };
+        let image = camera.image().map(|side| side * samples);
+        let camera = Camera::new(CameraDescription { image, ..*camera.description() })
+            .map_err(|error| Failure::new(error.to_string()))?;
+        let scaled = |crop: &Crop| Crop {
+            row: crop.row * samples,
+            column: crop.column * samples,
+            height: crop.height * samples,
+            width: crop.width * samples,
+        };
+        let ignored = options.ignored.iter().map(scaled).collect();
+        let options = CompareOptions { ignored, only_compares: true, ..options.clone() };
+        let comparison = compare_with(&a, &b, &options)
+            .map_err(|error| Failure::new(format!("sample by sample: {error}")))?;
+        Ok(Some(BySample { samples, files: [a, b], camera, comparison }))
+    }
+
+    /// Why the samples differ.
+    pub(super) fn why<'a>(&'a self, scene: &'a Scene, words: String) -> Why<'a> {
+        let [a, b] = &self.files;
+        let view = View::new(scene, &self.camera);
+        let samples = self.samples;
+        let words = format!("{words} --samples {samples}");
+        let why = Why::find(&view, [a, b], &self.comparison, words);
+        Why { samples, ..why }
+    }
+
+    /// The comparison of samples.
+    pub(super) fn comparison(&self) -> &BufferComparison {
+        &self.comparison
+    }
+}
+
 /// Why two files differ.
 pub(super) struct Why<'a> {
     camera: &'a Camera,
+    /// Samples along a side of a pixel. If there are several, each counts as a pixel in what follows.
+    samples: u32,
     /// The scene and the camera's options, as they were given: what `bothways pixel` needs.
     scene: String,
     /// The conventions of A and of B, or why they cannot be found.
@@ -49,7 +106,7 @@ impl<'a> Why<'a> {
                 reasons.explained_by(side, &found[0]);
             }
         }
-        Why { camera: view.camera, scene, conventions, reasons }
+        Why { camera: view.camera, samples: 1, scene, conventions, reasons }
     }
 
     /// The report as text: reasons, conventions, and the next step.
@@ -65,10 +122,25 @@ impl<'a> Why<'a> {
                 Err(error) => line(&mut text, format_args!("no conventions of {name}: {error}")),
             }
         }
-        if let Some([i, j]) = self.telling() {
-            line(&mut text, format_args!("see why: bothways pixel {} {i} {j}", self.scene));
+        if let Some(sample) = self.telling() {
+            line(&mut text, format_args!("{}", self.command(self.pixel_of(sample))));
         }
         text
+    }
+
+    /// The pixel of a sample.
+    fn pixel_of(&self, sample: [u32; 2]) -> [u32; 2] {
+        sample.map(|number| number / self.samples)
+    }
+
+    /// The command that derives a pixel.
+    fn command(&self, [i, j]: [u32; 2]) -> String {
+        format!("see why: bothways pixel {} {i} {j}", self.scene)
+    }
+
+    /// What is counted: pixels, or samples.
+    fn things(&self) -> &'static str {
+        if self.samples == 1 { "pixels" } else { "samples" }
     }
 
     fn table(&self, reasons: &Reasons, text: &mut String) {
@@ -83,7 +155,8 @@ impl<'a> Why<'a> {
         }
         let heads: String = columns.iter().map(|(head, _)| format!("{head:>12}")).collect();
         let bold = Style::new().bold();
-        line(text, format_args!("{bold}{:34}{heads}{bold:#}", "reasons"));
+        let head = if self.samples == 1 { "reasons" } else { "reasons, by sample" };
+        line(text, format_args!("{bold}{head:34}{heads}{bold:#}"));
         for kind in reasons.counts().into_iter().map(|(kind, _)| kind) {
             let number = |&(_, wrong): &(&str, Wrong)| {
                 format!("{:>12}", grouped(reasons.count(kind, wrong)))
@@ -96,7 +169,8 @@ impl<'a> Why<'a> {
             line(
                 text,
                 format_args!(
-                    "({looked} pixels were looked at, spread evenly; the numbers are scaled)"
+                    "({looked} {} were looked at, spread evenly; the numbers are scaled)",
+                    self.things()
                 ),
             );
         }
@@ -106,11 +180,12 @@ impl<'a> Why<'a> {
     fn conventions_of(&self, name: &str, findings: &Findings, text: &mut String) {
         let Findings { pixels, differing, finding } = findings;
         let all = grouped(*pixels);
-        let wrong = count(*differing, "pixels");
+        let things = self.things();
+        let wrong = count(*differing, things);
         match finding {
             Finding::True => line(
                 text,
-                format_args!("{name} shows what is true of the scene in all {all} pixels"),
+                format_args!("{name} shows what is true of the scene in all {all} {things}"),
             ),
             Finding::NoEvidence(reason) => {
                 line(text, format_args!("{name} is no evidence of conventions: {reason}"));
@@ -128,7 +203,7 @@ impl<'a> Why<'a> {
     }
 
     fn explanations(&self, name: &str, differing: u64, found: &[Explanation], text: &mut String) {
-        let wrong = count(differing, "pixels");
+        let wrong = count(differing, self.things());
         let guess = found[0].is_a_guess(differing);
         let how = match (found.len(), guess) {
             (1, false) => "one explanation fits best",
@@ -146,8 +221,8 @@ impl<'a> Why<'a> {
             let explained = grouped(one.explained);
             let rest = match one.remaining {
                 0 => "nothing remains".into(),
-                1 => "1 pixel remains".into(),
-                more => format!("{} pixels remain", grouped(more)),
+                1 => format!("{} remains", count(1, self.things())),
+                more => format!("{} remain", count(more, self.things())),
             };
             line(text, format_args!("    explains {explained} of {}; {rest}", grouped(differing)));
         }
@@ -173,10 +248,16 @@ impl<'a> Why<'a> {
             Ok(reasons) => reasons,
             Err(error) => return format!("no reason for ({i}, {j}): {error}\n"),
         };
-        let found = reasons.pixels.iter().find(|one| one.pixel == pixel);
-        let Some(found) = found else {
+        let of_pixel = reasons.pixels.iter().filter(|one| self.pixel_of(one.pixel) == pixel);
+        let found: Vec<String> = of_pixel.map(|one| self.evidence(one)).collect();
+        if found.is_empty() {
             return format!("the files do not differ at ({i}, {j}), or it was not looked at\n");
-        };
+        }
+        found.concat() + &self.command(pixel) + "\n"
+    }
+
+    /// Why one pixel, or one sample, differs.
+    fn evidence(&self, found: &PixelReason) -> String {
         let wrong = match found.wrong {
             Wrong::A => "A is wrong",
             Wrong::B => "B is wrong",
@@ -184,11 +265,16 @@ impl<'a> Why<'a> {
             Wrong::Neither => "neither is known to be wrong",
         };
         let truth = found.truth.map_or("nothing".into(), |id| format!("id {id}"));
-        format!(
-            "({i}, {j}): {truth} is seen in truth; {wrong}: {}\nsee why: bothways pixel {} {i} {j}\n",
-            found.reason.sentence(),
-            self.scene
-        )
+        let [i, j] = self.pixel_of(found.pixel);
+        let sample = match self.samples {
+            1 => String::new(),
+            samples => {
+                let [row, column] = found.pixel.map(|number| number % samples);
+                format!(", sample ({row}, {column}) of it")
+            }
+        };
+        let reason = found.reason.sentence();
+        format!("({i}, {j}){sample}: {truth} is seen in truth; {wrong}: {reason}\n")
     }
 
     /// The pixels of each kind of reason.
@@ -223,11 +309,13 @@ impl<'a> Why<'a> {
     pub(super) fn fill(&self, page: &mut Page) {
         let groups = self.groups();
         if !groups.is_empty() {
-            let group = |(kind, pixels): (ReasonKind, Vec<[u32; 2]>)| Group {
-                name: kind.name().into(),
-                explanation: None,
-                color: kind.color(),
-                pixels,
+            let group = |(kind, samples): (ReasonKind, Vec<[u32; 2]>)| {
+                let mut pixels: Vec<[u32; 2]> =
+                    samples.into_iter().map(|sample| self.pixel_of(sample)).collect();
+                pixels.sort_unstable();
+                pixels.dedup();
+                let (name, color) = (kind.name().into(), kind.color());
+                Group { name, explanation: None, color, pixels }
             };
             page.groups = groups.into_iter().map(group).collect();
         }
@@ -238,7 +326,10 @@ impl<'a> Why<'a> {
                     let all = found.iter().map(|one| {
                         let parts = one.sentences(name, self.camera).join("; and ");
                         let explained = grouped(one.explained);
-                        format!("{parts} (explains {explained} of {} pixels)", grouped(*differing))
+                        format!(
+                            "{parts} (explains {explained} of {})",
+                            count(*differing, self.things())
+                        )
                     });
                     findings.push(all.collect::<Vec<_>>().join(", or: "));
                 }
@@ -263,7 +354,8 @@ impl<'a> Why<'a> {
             }),
             a: self.file_json("A", &self.conventions[0]),
             b: self.file_json("B", &self.conventions[1]),
-            telling: self.telling(),
+            samples: self.samples,
+            telling: self.telling().map(|sample| self.pixel_of(sample)),
         }
     }
 
@@ -311,6 +403,8 @@ pub(super) struct WhyJson {
     reasons: Option<Vec<ReasonJson>>,
     a: FileJson,
     b: FileJson,
+    /// Samples along a side of a pixel; if there are several, samples are counted.
+    samples: u32,
     telling: Option<[u32; 2]>,
 }
 

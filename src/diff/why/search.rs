@@ -339,11 +339,28 @@ impl Search<'_> {
                 best = next;
             }
         }
+        let fewest = all.iter().map(|one| one.score.differing).min().unwrap_or(differing);
+        if fewest * 2 > differing {
+            all.extend(self.tie_rules(&changes));
+        }
         let best = all.iter().min_by_key(|one| one.rank()).copied();
         if let Some(best) = best {
             all.extend(self.simplified(best, differing));
         }
         all
+    }
+
+    /// Pairs of rules for exact ties: who owns an edge, and who is seen of equally near ones. One alone may explain nothing.
+    fn tie_rules(&self, changes: &[Change]) -> Vec<Candidate> {
+        let rules: Vec<Change> =
+            changes.iter().copied().filter(|change| !change.is_coarse()).collect();
+        let pairs: Vec<[Change; 2]> = rules
+            .iter()
+            .flat_map(|&one| rules.iter().map(move |&other| [one, other]))
+            .filter(|[one, other]| one.axis() < other.axis())
+            .collect();
+        let ours = Convention::default();
+        pairs.par_iter().map(|&[one, other]| self.drawn_whole(ours.with(one).with(other))).collect()
     }
 
     /// The candidate without the changes that explain less than half of what is left without them.
