@@ -24,7 +24,7 @@ pub use convention::{
 };
 pub use encoding::{DistanceEncoding, Encoding, IdEncoding, NothingEncoding};
 pub use pixels::{PixelReason, ReasonError, Reasons, Wrong, find_reasons};
-pub use reason::{Reason, ReasonKind};
+pub use reason::{Reason, ReasonKind, TieRules};
 pub use search::{Explanation, Finding, Findings, SearchError, find_conventions};
 pub use size::cause_of_size;
 pub use together::{CommonExplanation, Rendering, find_common_conventions};

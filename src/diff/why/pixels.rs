@@ -4,14 +4,14 @@
 //! kinds of facts: each primitive that should hide it was lost, and what is shown but does not cover the sample was
 //! gained. Each fact has its reason; the pixel has the one that asks for more.
 
-use super::convention::Convention;
+use super::convention::{Convention, Edges};
 use super::distances::SampleDistances;
-use super::draw::{Drawn, Rows, draw};
+use super::draw::{Drawn, Rows, covers, draw};
 use super::encoding::{NothingEncoding, Observed, Values};
 use super::near::near_primitives;
 use super::outline::TriangleOutline;
 use super::rays::ViewingRays;
-use super::reason::{Reason, ReasonKind};
+use super::reason::{Reason, ReasonKind, TieRules};
 use super::search::Explanation;
 use super::shown::{Shown, is_same_distance};
 use crate::common::frame::NO_PRIMITIVE;
@@ -382,8 +382,7 @@ impl<'a> Finder<'a> {
                     Outline::of(id, distances.into_iter().fold(f64::INFINITY, f64::min), false)
                 })
             }
-            1 => Outline { close: Some(Reason::EdgeTie { primitive: id }), far: None },
-            _ => Outline { close: Some(Reason::CornerTie { primitive: id }), far: None },
+            _ => Outline { close: Some(self.tie(id, corners, sample)), far: None },
         };
         (reason, is_back)
     }
@@ -407,8 +406,7 @@ impl<'a> Finder<'a> {
                 }
                 match (farthest == 0.0, ties) {
                     (true, 0) => None,
-                    (true, 1) => Some(Reason::EdgeTie { primitive: id }),
-                    (true, _) => Some(Reason::CornerTie { primitive: id }),
+                    (true, _) => Some(self.tie(id, corners, sample)),
                     (false, _) => Outline::of(id, farthest, false).any(),
                 }
             }
@@ -419,6 +417,28 @@ impl<'a> Finder<'a> {
             Primitive::Plane { point, normal } => {
                 Outline::of(id, sample.distances.to_horizon(*point, *normal), false).any()
             }
+        }
+    }
+
+    /// The tie of a triangle whose edge or corner lies exactly on the sample, and the rules that decide it otherwise.
+    fn tie(&self, id: u32, corners: &[DVec3; 3], sample: &Sample) -> Reason {
+        let primitive = Primitive::Triangle(*corners);
+        let covers = |edges| covers(&self.judge, edges, &primitive, sample.ray());
+        let owns = covers(Edges::TopLeft);
+        let others = [
+            Edges::BottomLeft,
+            Edges::TopRight,
+            Edges::BottomRight,
+            Edges::Inclusive,
+            Edges::Exclusive,
+        ];
+        let others = others.map(|edges| Some(edges).filter(|&edges| covers(edges) != owns));
+        let rules = TieRules { owns, others };
+        let sides = self.judge.edge_values(corners, sample.ray()).sides;
+        let mut on_edges = sides.into_iter().flatten();
+        match (on_edges.next(), on_edges.next()) {
+            (Some(side), None) => Reason::EdgeTie { primitive: id, side, rules },
+            _ => Reason::CornerTie { primitive: id, rules },
         }
     }
 

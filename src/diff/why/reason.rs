@@ -1,5 +1,7 @@
 //! The reasons for which a renderer shows something else at a sample than is true.
 
+use super::convention::Edges;
+use crate::common::exact::Side;
 use serde::Serialize;
 
 /// Why a renderer shows something else at a sample than is true.
@@ -9,11 +11,17 @@ pub enum Reason {
     EdgeTie {
         /// The triangle.
         primitive: u32,
+        /// The side of the triangle on which the edge lies, as seen.
+        side: Side,
+        /// The rules that decide as the renderer did.
+        rules: TieRules,
     },
     /// The sample lies exactly on a corner of a triangle.
     CornerTie {
         /// The triangle.
         primitive: u32,
+        /// The rules that decide as the renderer did.
+        rules: TieRules,
     },
     /// Two primitives are met at exactly the same distance.
     DistanceTie {
@@ -76,6 +84,41 @@ pub enum Reason {
     CannotTell,
     /// None of these.
     Unexplained,
+}
+
+/// How rules other than the top-left rule decide an exact tie.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TieRules {
+    /// Whether the top-left rule gives the sample to the triangle.
+    pub owns: bool,
+    /// The rules that decide otherwise, in the order of [`Edges`].
+    pub others: [Option<Edges>; 5],
+}
+
+impl TieRules {
+    /// Who owns the sample, and by which rules the other does.
+    fn sentence(self, primitive: u32) -> String {
+        let name = |edges: Edges| match edges {
+            Edges::TopLeft => "top-left",
+            Edges::BottomLeft => "bottom-left",
+            Edges::TopRight => "top-right",
+            Edges::BottomRight => "bottom-right",
+            Edges::Inclusive => "inclusive",
+            Edges::Exclusive => "exclusive",
+        };
+        let [ours, theirs] = if self.owns {
+            ["gives it to", "does not"]
+        } else {
+            ["keeps it from", "gives it"]
+        };
+        let others: Vec<&str> = self.others.into_iter().flatten().map(name).collect();
+        let others = match &others[..] {
+            [] => "no other edge rule decides otherwise".to_owned(),
+            [one] => format!("a rule that is {one} {theirs}"),
+            [first @ .., last] => format!("a rule that is {} or {last} {theirs}", first.join(", ")),
+        };
+        format!("the top-left rule {ours} id {primitive}; {others}")
+    }
 }
 
 /// The kinds of reasons, for counting and for colours.
@@ -185,14 +228,14 @@ impl Reason {
     /// The reason as a sentence about the renderer that is wrong.
     pub fn sentence(&self) -> String {
         match self {
-            Reason::EdgeTie { primitive } => format!(
-                "the sample lies exactly on an edge of id {primitive}: the top-left rule decides here, and another \
-                 rule there"
-            ),
-            Reason::CornerTie { primitive } => format!(
-                "the sample lies exactly on a corner of id {primitive}: the top-left rule decides here, and another \
-                 rule there"
-            ),
+            Reason::EdgeTie { primitive, side, rules } => {
+                let (side, decision) = (side.name(), rules.sentence(*primitive));
+                format!("the sample lies exactly on a {side} edge of id {primitive}: {decision}")
+            }
+            Reason::CornerTie { primitive, rules } => {
+                let decision = rules.sentence(*primitive);
+                format!("the sample lies exactly on a corner of id {primitive}: {decision}")
+            }
             Reason::DistanceTie { primitives: [seen, shown] } => format!(
                 "ids {seen} and {shown} are met at exactly the same distance: of equals the one is seen here, and \
                  the other there"
@@ -274,8 +317,10 @@ mod tests {
 
     #[test]
     fn of_two_reasons_the_one_that_asks_for_more_counts() {
-        let (tie, near) =
-            (Reason::EdgeTie { primitive: 1 }, Reason::Rounding { primitive: 2, pixels: 0.01 });
+        let (tie, near) = (
+            Reason::DistanceTie { primitives: [1, 3] },
+            Reason::Rounding { primitive: 2, pixels: 0.01 },
+        );
         let far = Reason::Rounding { primitive: 3, pixels: 0.03 };
         assert_eq!(tie.worse(near), near);
         assert_eq!(near.worse(tie), near);
