@@ -338,9 +338,13 @@ impl<'a> Buffer<'a> {
                 let (Pixels::Bytes(of_a), Pixels::Bytes(of_b)) = (&a.pixels, &b.pixels) else {
                     return None;
                 };
+                if of_a[run.clone()] != of_b[run.clone()] {
+                    return None;
+                }
                 let covered = |at: usize| a.covered(at) != Some(false);
-                let is_same = of_a[run.clone()] == of_b[run.clone()];
-                is_same.then(|| bits(run.map(covered)))
+                // Of colours alone, nothing tells otherwise.
+                let is_unknown = a.covered == Covered::Unknown;
+                Some(bits(run.map(|at| is_unknown || covered(at))))
             }
             (Content::Frame(a), Content::Frame(b)) => {
                 let ids = [a, b].map(|seen| &seen.frame.ids()[run.clone()]);

@@ -137,7 +137,8 @@ pub(super) fn read_pair(
         let has_channels = !notes.is_empty();
         Ok::<_, Failure>(ReadFile { buffer, path: path.clone(), has_channels, notes, warnings })
     };
-    let [mut a, mut b] = [read(0)?, read(1)?];
+    let (a, b) = rayon::join(|| read(0), || read(1));
+    let [mut a, mut b] = [a?, b?];
     let camera = if depth.is_empty() {
         None
     } else {

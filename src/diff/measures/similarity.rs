@@ -21,22 +21,49 @@ pub(super) fn sums(band: &Band, rows: Range<usize>) -> (f64, f64) {
         return (windows, similarities);
     }
     let weights = weights();
+    let equal = band.channels.each_ref().map(|channel| equal_parts(channel, band.width));
     for row in rows {
         let above = (row - RADIUS) * band.width;
         let place = above..above + WINDOW * band.width;
         let counted = counted(&band.compared[place.clone()], band.width);
-        for [a, b] in &band.channels {
+        for ([a, b], equal) in band.channels.iter().zip(&equal) {
             let [a, b] = [&a[place.clone()], &b[place.clone()]];
-            // Equal windows are perfectly similar.
-            let is_equal = a == b;
-            let row = if is_equal { Vec::new() } else { similarity(a, b, band.width, &weights) };
-            for middle in counted.iter().copied() {
-                windows += 1.0;
-                similarities += if is_equal { 1.0 } else { row[middle] };
+            for of_part in counted.chunk_by(|one, other| one / PART == other / PART) {
+                let part = of_part[0] / PART;
+                windows += f64_of(of_part.len());
+                // Equal windows are perfectly similar.
+                if (row - RADIUS..row + RADIUS + 1).all(|row| equal[row][part]) {
+                    similarities += f64_of(of_part.len());
+                    continue;
+                }
+                let first = part * PART;
+                let columns = first..(first + PART + WINDOW - 1).min(band.width);
+                let found = similarity([a, b], band.width, columns, &weights);
+                similarities += of_part.iter().map(|middle| found[middle - first]).sum::<f64>();
             }
         }
     }
     (windows, similarities)
+}
+
+/// The windows beside one another of which it is known whether they are equal as a whole.
+const PART: usize = 64;
+
+/// For each row and for each part of the windows of a row, whether a channel is equal there.
+fn equal_parts([a, b]: &[Vec<f32>; 2], width: usize) -> Vec<Vec<bool>> {
+    let of_row = |(a, b): (&[f32], &[f32])| {
+        let part = |first: usize| {
+            let columns = first..(first + PART + WINDOW - 1).min(width);
+            a[columns.clone()] == b[columns]
+        };
+        (0..width).step_by(PART).map(part).collect()
+    };
+    a.chunks_exact(width).zip(b.chunks_exact(width)).map(of_row).collect()
+}
+
+#[expect(clippy::cast_precision_loss, reason = "at most 2^16 windows")]
+fn f64_of(windows: usize) -> f64 {
+    windows as f64
 }
 
 /// A Gaussian over the pixels of a row of a window; its sum is 1.
@@ -57,11 +84,17 @@ fn counted(compared: &[bool], width: usize) -> Vec<usize> {
     windows.filter(|(_, holes)| !holes.contains(&true)).map(|(column, _)| column).collect()
 }
 
-/// The similarity of all windows in a row of windows, by the column of their left edge.
-fn similarity(a: &[f32], b: &[f32], width: usize, weights: &[f64; WINDOW]) -> Vec<f64> {
+/// The similarity of all windows that lie in some columns of a row of windows, by the column of their left edge.
+fn similarity(
+    [a, b]: [&[f32]; 2],
+    width: usize,
+    place: Range<usize>,
+    weights: &[f64; WINDOW],
+) -> Vec<f64> {
     // The means of a, b, a², b² and ab: first over columns, then over rows.
-    let mut columns = [(); 5].map(|()| vec![0.0; width]);
+    let mut columns = [(); 5].map(|()| vec![0.0; place.len()]);
     for ((a, b), weight) in a.chunks_exact(width).zip(b.chunks_exact(width)).zip(weights) {
+        let [a, b] = [&a[place.clone()], &b[place.clone()]];
         for (column, (a, b)) in a.iter().zip(b).enumerate() {
             let [a, b] = [*a, *b].map(f64::from);
             let products = [a, b, a * a, b * b, a * b];
@@ -71,7 +104,7 @@ fn similarity(a: &[f32], b: &[f32], width: usize, weights: &[f64; WINDOW]) -> Ve
         }
     }
     let means = columns.map(|column| {
-        let mut means = vec![0.0; width + 1 - WINDOW];
+        let mut means = vec![0.0; place.len() + 1 - WINDOW];
         for (offset, weight) in weights.iter().enumerate() {
             for (mean, value) in means.iter_mut().zip(&column[offset..]) {
                 *mean += weight * value;

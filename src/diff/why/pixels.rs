@@ -349,9 +349,11 @@ impl<'a> Finder<'a> {
                 (Outline::of(id, sample.distances.to_horizon(*point, *normal), false), None)
             }
         };
-        // Where no face is shown at all, much else explains that one is missing.
+        // Where no face is shown at all, much else explains that one is missing; and so where only slivers are.
         let faces = [file.shows_front, file.shows_back];
-        let culled = is_back.filter(|&is_back| faces == [is_back, !is_back]);
+        let lacks = [file.lacks_front, file.lacks_back];
+        let culled =
+            is_back.filter(|&is_back| faces == [is_back, !is_back] && lacks[usize::from(is_back)]);
         let depth = self.judge.distance(&primitive, sample.ray()) * self.rays.distance.abs();
         let is_before = depth < file.nearest && file.nearest.is_finite();
         let near_plane = is_before.then_some(Reason::NearPlane { primitive: id, depth });

@@ -106,11 +106,8 @@ impl TieRules {
             Edges::Inclusive => "inclusive",
             Edges::Exclusive => "exclusive",
         };
-        let [ours, theirs] = if self.owns {
-            ["gives it to", "does not"]
-        } else {
-            ["keeps it from", "gives it"]
-        };
+        let [ours, theirs] =
+            if self.owns { ["gives it to", "does not"] } else { ["keeps it from", "gives it"] };
         let others: Vec<&str> = self.others.into_iter().flatten().map(name).collect();
         let others = match &others[..] {
             [] => "no other edge rule decides otherwise".to_owned(),

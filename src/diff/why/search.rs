@@ -217,10 +217,24 @@ impl Search<'_> {
         }
     }
 
+    /// The rows by which hypotheses are judged first.
+    fn some_rows(&self) -> Rows {
+        let [width, height] = self.view.camera.image().map(|side| side as usize);
+        Rows { step: (width * height / FEWEST_PIXELS).min(height / FEWEST_ROWS).max(1) }
+    }
+
+    /// The pixels that differ under a convention in some rows, with the best reading of the file.
+    fn on_some_rows(&self, convention: Convention) -> u64 {
+        let upright = Convention { placement: Placement::Upright, ..convention };
+        let drawn = draw(self.view, &upright, self.some_rows());
+        let placed = self.placed(upright, &drawn).into_iter();
+        let own = placed.filter(|one| one.convention.placement == convention.placement);
+        own.map(|one| one.score.differing).min().unwrap_or(u64::MAX)
+    }
+
     /// The best hypotheses by some rows of the picture, with ours among them.
     fn finalists(&self) -> Vec<Candidate> {
-        let [width, height] = self.view.camera.image().map(|side| side as usize);
-        let step = (width * height / FEWEST_PIXELS).min(height / FEWEST_ROWS).max(1);
+        let rows = self.some_rows();
         let mut hypotheses = vec![Convention::default()];
         let changes: Vec<Change> = Change::of_rendering(self.view.camera)
             .into_iter()
@@ -237,7 +251,7 @@ impl Search<'_> {
         let mut candidates: Vec<Candidate> = hypotheses
             .par_iter()
             .flat_map_iter(|convention| {
-                let drawn = draw(self.view, convention, Rows { step });
+                let drawn = draw(self.view, convention, rows);
                 self.placed(*convention, &drawn)
             })
             .collect();
@@ -326,10 +340,16 @@ impl Search<'_> {
                 }
                 let taken: HashSet<usize> =
                     best.convention.changes().into_iter().map(Change::axis).collect();
+                let on_rows = self.on_some_rows(best.convention);
                 let added: Vec<Candidate> = changes
                     .par_iter()
                     .filter(|change| !taken.contains(&change.axis()))
-                    .map(|&change| self.drawn_whole(best.convention.with(change)))
+                    .map(|&change| (change, best.convention.with(change)))
+                    // What makes some rows no better is not drawn as a whole; few samples lie on ties.
+                    .filter(|(change, with)| {
+                        !change.is_coarse() || self.on_some_rows(*with) < on_rows
+                    })
+                    .map(|(_, with)| self.drawn_whole(with))
                     .collect();
                 let Some(next) = added.iter().min_by_key(|one| one.rank()).copied() else { break };
                 all.extend(added);

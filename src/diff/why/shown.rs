@@ -1,7 +1,9 @@
 //! What a file shows as a whole, as far as it agrees with the truth: the reasons of single pixels ask for it.
 
+use super::distances::SampleDistances;
 use super::draw::Drawn;
 use super::encoding::{NothingEncoding, Observed, Values};
+use super::outline::TriangleOutline;
 use super::rays::ViewingRays;
 use crate::common::frame::NO_PRIMITIVE;
 use crate::common::{Judge, Primitive, Sign, View};
@@ -14,6 +16,9 @@ pub(super) struct Shown {
     /// Whether it shows any face with its corners clockwise as seen, and any with its corners counter-clockwise.
     pub(super) shows_back: bool,
     pub(super) shows_front: bool,
+    /// Whether it shows nothing or another primitive more than a pixel within such a face.
+    pub(super) lacks_back: bool,
+    pub(super) lacks_front: bool,
     /// The least depth along the axis at which it agrees with the truth; infinite if it agrees nowhere.
     pub(super) nearest: f64,
     /// Whether meshes may stand in the place of spheres: their outlines lie inside, so that no sample is gained, and
@@ -30,9 +35,18 @@ impl Shown {
         observed: Observed,
     ) -> Shown {
         let (mut shows_back, mut shows_front, mut nearest) = (false, false, f64::INFINITY);
+        let (mut lacks_back, mut lacks_front) = (false, false);
         let mut seen = HashSet::new();
         for (index, &id) in truth.ids.iter().enumerate() {
-            if id == NO_PRIMITIVE || !agrees(&observed, index, id, truth.t[index]) {
+            if id == NO_PRIMITIVE {
+                continue;
+            }
+            if !agrees(&observed, index, id, truth.t[index]) {
+                let at = [index / rays.x.len(), index % rays.x.len()];
+                if let Some(is_back) = well_within(view, rays, at, id) {
+                    lacks_back |= is_back;
+                    lacks_front |= !is_back;
+                }
                 continue;
             }
             nearest = nearest.min(truth.t[index] * rays.distance.abs());
@@ -50,8 +64,25 @@ impl Shown {
         };
         let may_hold_meshes =
             !matches!(observed.values, Values::Ids(_)) && !(0..truth.ids.len()).any(gains);
-        Shown { observed, shows_back, shows_front, nearest, may_hold_meshes }
+        Shown {
+            observed,
+            shows_back,
+            shows_front,
+            lacks_back,
+            lacks_front,
+            nearest,
+            may_hold_meshes,
+        }
     }
+}
+
+/// Whether a triangle that is seen at a sample is a back face; `None` if its outline is within a pixel.
+fn well_within(view: &View, rays: &ViewingRays, at: [usize; 2], id: u32) -> Option<bool> {
+    let Primitive::Triangle(corners) = view.primitive(id) else { return None };
+    let outline = TriangleOutline::new(&corners, rays)?;
+    let distances = SampleDistances::new(view.camera, rays, at);
+    let is_within = outline.edges.iter().all(|edge| distances.to_zero(edge) > 1.0);
+    is_within.then_some(!outline.is_front)
 }
 
 fn agrees(observed: &Observed, index: usize, id: u32, t: f64) -> bool {
