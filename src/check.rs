@@ -20,13 +20,13 @@ pub use set::{ConformanceSet, SetError};
 
 use crate::common::raster::check_samples;
 use crate::common::{Camera, Options, Scene, View};
-use crate::diff::foreign::{Aspect, Side};
+use crate::diff::foreign::Aspect;
 use crate::diff::foreign::{
-    Buffer, BufferComparison, Content, ReadOptions, compare_with_reference, read_with,
+    Buffer, BufferComparison, CompareOptions, Content, ReadOptions, compare_with, read_with,
 };
 use crate::diff::pairs::{PairsError, files_of_set};
 use crate::diff::why::{
-    CommonExplanation, ReasonKind, Rendering, find_common_conventions, find_reasons,
+    CommonExplanation, ReasonKind, Rendering, cause_of_size, find_common_conventions, find_reasons,
 };
 use crate::orders::{self, Method, Order, RenderOptions};
 use crate::wording::count;
@@ -142,9 +142,19 @@ fn compared(
 ) -> Result<Compared, String> {
     let options = ReadOptions { background, ..ReadOptions::default() };
     let theirs = read_with(path, &options).map_err(|error| error.to_string())?.buffer;
-    let truth = truth(&View::new(scene, camera), &theirs)?;
-    let comparison = compare_with_reference(&theirs, &truth, Some(Side::B))
-        .map_err(|error| format!("A is the file, B the scene: {error}"))?;
+    let view = View::new(scene, camera);
+    let (size, image) = (theirs.size(), camera.image());
+    if size != image {
+        let cause = cause_of_size("it", &theirs, image, Some(&view));
+        let cause = cause.map_or(String::new(), |cause| format!("; {cause}"));
+        let [[width, height], [of_scene, rows]] = [size, image];
+        return Err(format!(
+            "it has {width} x {height} pixels, and the scene {of_scene} x {rows}{cause}"
+        ));
+    }
+    let truth = truth(&view, &theirs)?;
+    let options = CompareOptions { only_compares: true, ..CompareOptions::default() };
+    let comparison = compare_with(&theirs, &truth, &options).map_err(|error| error.to_string())?;
     Ok(Compared { theirs, truth, comparison })
 }
 
@@ -196,7 +206,10 @@ fn causes(files: &[CheckedFile], views: &[View]) -> Vec<Cause> {
         .iter()
         .map(|&(at, compared)| Rendering { view: &views[at], file: &compared.theirs })
         .collect();
-    let common = find_common_conventions(&renderings);
+    let mut common = find_common_conventions(&renderings);
+    // What explains other files is another cause, of which nothing is said.
+    let first = common.first().map(|one| one.agrees.clone());
+    common.retain(|one| Some(&one.agrees) == first.as_ref());
     let mut causes: Vec<Cause> = Vec::new();
     let mut left = wrong.clone();
     if let Some(first) = common.first() {
@@ -239,6 +252,10 @@ fn causes(files: &[CheckedFile], views: &[View]) -> Vec<Cause> {
 
 /// The reason of most differing pixels of a file.
 fn of_pixels(view: &View, compared: &Compared) -> (String, Certainty) {
+    if compared.theirs.samples() != 1 {
+        let sentence = "unexplained: several samples a pixel are not searched for causes here";
+        return (sentence.into(), Certainty::Unknown);
+    }
     let differing: Vec<[u32; 2]> =
         compared.comparison.classes().differing().map(|(pixel, _)| pixel).collect();
     let reasons = match find_reasons(view, &compared.theirs, &compared.truth, &differing) {
@@ -281,7 +298,7 @@ impl Check {
         let all = self.files.len() + self.missing.len();
         let failing = all - self.right();
         if failing == 0 {
-            return format!("all {all} are right");
+            return format!("all {all} files are right");
         }
         let mut why: Vec<String> = self.causes.first().map(Cause::short).into_iter().collect();
         let others = self.causes.len().saturating_sub(1) as u64;

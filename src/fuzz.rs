@@ -77,7 +77,7 @@ pub struct Options<'a> {
     pub threads: Option<NonZero<usize>>,
     /// Ends the run early once it is true.
     pub stop: Option<&'a AtomicBool>,
-    /// A scene that takes longer is told of, and so is a run that should have ended so long ago.
+    /// A scene that takes longer is told of, and so is a run that time or an order to stop should have ended so long ago.
     pub patience: Duration,
     /// Is told of every scene and of every finding, in the order in which they end.
     pub listener: Option<&'a (dyn Fn(Event) + Sync)>,
@@ -199,8 +199,12 @@ impl Run<'_> {
 
     /// Whether no more scenes begin, because of time or of an order to stop.
     fn is_over(&self) -> bool {
-        let late = matches!(self.options.limit, Limit::Time(time) if self.begun.elapsed() >= time);
-        late || is_stopped(self.options)
+        self.is_late(Duration::ZERO) || is_stopped(self.options)
+    }
+
+    /// Whether the time of the run has ended so long ago.
+    fn is_late(&self, by: Duration) -> bool {
+        matches!(self.options.limit, Limit::Time(time) if self.begun.elapsed() >= time + by)
     }
 
     fn next_scene(&self) -> Option<u64> {
@@ -234,7 +238,8 @@ impl Run<'_> {
 
     fn shrunk(&self, number: u64, case: Case, disagreement: Disagreement) -> Finding {
         let original = Size::of(&case);
-        let is_stopped = || is_stopped(self.options);
+        // What is found late is shrunk for as long as the run may be late.
+        let is_stopped = || is_stopped(self.options) || self.is_late(self.options.patience / 2);
         let shrunk = shrink::shrink(case, disagreement, self.renderers, &is_stopped);
         Finding {
             seed: self.options.seed,

@@ -8,7 +8,8 @@
 //!
 //! where `seen` counts the pixels that the scene or the file covers, `right` those of them in which the file shows what
 //! the scene does, and `explained` the wrong pixels that have an explanation, if at least half of them have one: by
-//! `mistakes` conventions, or by exact ties and rounding, which count as one mistake. So one mistake that explains everything
+//! `mistakes` conventions, or by reasons of single pixels (exact ties, rounding, culled or clipped faces, a mesh for a sphere),
+//! which together count as one mistake. So one mistake that explains everything
 //! gives half of the credit back, two give a quarter; a guess gives nothing.
 //!
 //! ```
@@ -33,7 +34,6 @@ use crate::diff::why::{
     find_reasons,
 };
 use crate::wording::count;
-use serde::Serialize;
 
 /// The formula of the score, in one line.
 pub const FORMULA: &str = "score = 100 (right + explained / 2^mistakes) / seen";
@@ -56,8 +56,7 @@ pub struct Grade {
 }
 
 /// How a file is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// Every pixel is right.
     Right,
@@ -182,7 +181,7 @@ fn explain(
         reasons.explained_by(Wrong::A, best);
     }
     let counts = reasons.counts();
-    let explained: u64 = counts.iter().filter(|(kind, _)| explains(*kind)).map(|one| one.1).sum();
+    let explained = reasons.count_of(explains);
     let by_conventions = conventions.first().map_or(0, |best| best.explained);
     let explained = explained.max(by_conventions).min(comparison.differing_pixels);
     let is_evidence = !matches!(found.finding, Finding::NoEvidence(_));
@@ -191,7 +190,8 @@ fn explain(
     }
     let sentences: Vec<Vec<String>> =
         conventions.iter().map(|one| one.sentences("it", view.camera)).collect();
-    let parts = sentences.first().map_or(0, Vec::len).max(usize::from(grade.explained > 0));
+    let parts = sentences.first().map_or(1, Vec::len);
+    let parts = if grade.explained > 0 { parts } else { 0 };
     grade.mistakes = u32::try_from(parts).expect("there are few axes");
     grade.likely_mistake = match (&sentences[..], &found.finding) {
         ([_, ..], _) => alternatives(&sentences),

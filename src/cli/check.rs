@@ -6,6 +6,7 @@ use super::output::OutputFile;
 use super::terminal;
 use anstyle::{AnsiColor, Style};
 use bothways::check::{Certainty, Check, CheckedFile, ConformanceSet, check};
+use bothways::diff::foreign::Content;
 use bothways::formats::source::quote::visible;
 use bothways::wording::{count, grouped};
 use clap::Args;
@@ -255,13 +256,16 @@ impl Report<'_> {
         };
         let folder = visible(&folder);
         let ending =
-            file.compared.as_ref().map_or("mask.png", |compared| match compared.theirs.kind() {
-                "ids" => "ids.npy",
-                "distances" => "t.npy",
+            file.compared.as_ref().map_or("mask.png", |compared| match compared.truth.content() {
+                Content::Ids(_) => "ids.npy",
+                Content::Distances(_) => "t.npy",
                 _ => "mask.png",
             });
+        let background = self.args.background.map_or(String::new(), |[red, green, blue]| {
+            format!(" --background '#{red:02x}{green:02x}{blue:02x}'")
+        });
         format!(
-            "next: {first}bothways diff {theirs} {folder}/{scene}.{ending} --scene {folder}/{scene}.toml\n"
+            "next: {first}bothways diff {theirs} {folder}/{scene}.{ending} --scene {folder}/{scene}.toml{background}\n"
         )
     }
 }

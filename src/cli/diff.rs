@@ -132,7 +132,7 @@ pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
         let words = why::arguments(&args.scene, a.size());
         match &by_sample {
             Some(fine) => fine.why(&loaded.scene, words),
-            None => Why::find(&View::new(&loaded.scene, camera), [a, b], &comparison, words),
+            None => Why::find(&View::new(&loaded.scene, camera), [a, b], &comparison, words, 1),
         }
     });
     let [width, height] = a.size();

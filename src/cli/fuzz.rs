@@ -190,18 +190,21 @@ impl<'a> Watch<'a> {
                 // If stderr is closed, the run still ends.
                 let _ = anstream::stderr().write_all(text.as_bytes());
             }),
-            Event::Overdue(summary) => self.end(summary),
+            Event::Overdue(summary) => self.end(summary, &state),
         }
     }
 
     /// Ends the program with the summary so far: threads that draw cannot be stopped.
-    fn end(&self, summary: &Summary) -> ! {
+    fn end(&self, summary: &Summary, state: &State) -> ! {
         self.bar.finish_and_clear();
+        // No finding is being written: `take` holds the lock of the state.
         let printed = print(summary, self.args);
-        if let Err(failure) = &printed {
+        let failures = [state.failure.as_ref(), printed.as_ref().err()];
+        for failure in failures.into_iter().flatten() {
             failure.print();
         }
-        process::exit(if printed.is_ok() { status(summary).into() } else { 2 })
+        let failed = failures.iter().any(Option::is_some);
+        process::exit(if failed { 2 } else { status(summary).into() })
     }
 
     /// Removes the progress; fails if a finding could not be written.

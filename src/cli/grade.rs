@@ -27,8 +27,8 @@ Each file is a mask, ids or distances of the scene, one sample a pixel. Its scor
 seen        pixels that the scene or the file covers
 right       those of them in which the file shows what the scene does
 explained   wrong pixels that have an explanation, if at least half of them have one: conventions,
-            or exact ties and rounding
-mistakes    how many conventions it takes to explain them; at least 1
+            or exact ties, rounding, culled or clipped faces, a mesh for a sphere
+mistakes    how many conventions it takes to explain them; 1 if it takes none
 So one mistake that explains everything gives half of the credit back, two give a quarter; a guess
 gives nothing. A file that cannot be read, or has another size, is a row without a score.
 

@@ -489,9 +489,11 @@ impl Known {
     /// little smaller than what is known, as both sides round.
     fn covers_distances(self, a: f64, b: f64) -> bool {
         const SMALLER: f64 = 1.0 - 8.0 * f64::EPSILON;
-        let is_close = (a - b).abs() <= a.abs().max(b.abs()) * self.t * SMALLER;
-        let are_finite = a.is_finite() & b.is_finite();
-        (a.to_bits() == b.to_bits()) | (is_close & are_finite)
+        let larger = a.abs().max(b.abs());
+        let is_close = (a - b).abs() <= larger * self.t * SMALLER;
+        // Where nothing under- or overflows; `max` leaves out NaN.
+        let is_ordinary = (larger > 1e-290) & (larger < 1e290) & !a.is_nan() & !b.is_nan();
+        (a.to_bits() == b.to_bits()) | (is_close & is_ordinary)
     }
 
     fn covers_steps(self, steps: u8) -> bool {

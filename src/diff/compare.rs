@@ -404,8 +404,8 @@ mod tests {
         let mut dice = fastrand::Rng::with_seed(7);
         let count = (size[0] * size[1]) as usize;
         let mut two = |kind: u32| {
-            let first: Vec<u8> = (0..count).map(|_| dice.u8(0..4)).collect();
-            let other = |&value: &u8| if dice.u8(0..20) == 0 { dice.u8(0..4) } else { value };
+            let first: Vec<u8> = (0..count).map(|_| dice.u8(0..8)).collect();
+            let other = |&value: &u8| if dice.u8(0..20) == 0 { dice.u8(0..8) } else { value };
             let second: Vec<u8> = first.iter().map(other).collect();
             [first, second].map(|values| Buffer::new(size, 1, content(kind, &values)))
         };
@@ -417,7 +417,7 @@ mod tests {
             let colors = values.iter().map(|&value| [value, 0, 7, value % 2]);
             Content::Picture(Picture { pixels: Pixels::Bytes(colors.collect()), covered })
         };
-        let numbers = [0.0, -0.0, 1.5, f64::NAN];
+        let numbers = [1.0, 1.0 + 1e-7, 1.5, f64::NAN, -0.0, 0.0, 4e-320, 5e-320];
         match kind {
             0 => Content::Mask(values.iter().map(|&value| value > 1).collect()),
             1 => Content::Ids(values.iter().map(|id| id.checked_sub(1).map(u64::from)).collect()),
@@ -446,6 +446,8 @@ mod tests {
                     };
                     assert_eq!(numbers(&found), numbers(&sums), "{}", a.kind());
                     assert_eq!(found.first_differing, sums.first_differing, "{}", a.kind());
+                    assert_eq!((found.ids, found.depth), (sums.ids, sums.depth), "{}", a.kind());
+                    assert_eq!(found.color, sums.color, "{}", a.kind());
                 }
             }
         }

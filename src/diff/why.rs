@@ -23,7 +23,7 @@ pub use convention::{
     Change, Convention, Depth, Edges, Faces, Field, Look, Placement, Rays, Sampling,
 };
 pub use encoding::{DistanceEncoding, Encoding, IdEncoding, NothingEncoding};
-pub use pixels::{PixelReason, ReasonError, Reasons, Wrong, find_reasons};
+pub use pixels::{PixelReason, ReasonError, Reasons, Wrong, find_reasons, find_reasons_of_samples};
 pub use reason::{Reason, ReasonKind, TieRules};
 pub use search::{Explanation, Finding, Findings, SearchError, find_conventions};
 pub use size::cause_of_size;

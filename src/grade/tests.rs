@@ -64,7 +64,8 @@ fn what_is_not_explained_gives_nothing_back() {
     });
     let grade = graded(noise.collect());
     assert_eq!(grade.verdict, Verdict::Unexplained);
-    assert!(grade.score() < 75.0 && grade.explained * 4 < grade.seen - grade.right, "{grade:?}");
+    assert_eq!((grade.explained, grade.mistakes), (0, 0), "{grade:?}");
+    assert!(grade.score() < 75.0, "{grade:?}");
     let nothing = graded(vec![None; 2400]);
     assert_eq!((nothing.score(), nothing.mistakes), (0.0, 0));
     assert!(nothing.likely_mistake.starts_with("no evidence"), "{}", nothing.likely_mistake);

@@ -10,7 +10,7 @@ use bothways::diff::foreign::{Buffer, BufferComparison, CompareOptions, compare_
 use bothways::diff::page::{Group, Page};
 use bothways::diff::why::{
     Explanation, Finding, Findings, PixelReason, Reason, ReasonKind, Reasons, Wrong, cause_of_size,
-    find_conventions, find_reasons,
+    find_conventions, find_reasons_of_samples,
 };
 use bothways::figure::{Entry, with_legend};
 use bothways::picture::enlarged;
@@ -40,9 +40,12 @@ impl BySample {
         let (Some(a), Some(b)) = (a.samples_as_pixels(), b.samples_as_pixels()) else {
             return Ok(None);
         };
-        let image = camera.image().map(|side| side * samples);
-        let camera = Camera::new(CameraDescription { image, ..*camera.description() })
-            .map_err(|error| Failure::new(error.to_string()))?;
+        // Another size has its own message, and what is too large is not looked at sample by sample.
+        if camera.image().map(|side| side * samples) != a.size() {
+            return Ok(None);
+        }
+        let description = CameraDescription { image: a.size(), ..*camera.description() };
+        let Ok(camera) = Camera::new(description) else { return Ok(None) };
         let scaled = |crop: &Crop| Crop {
             row: crop.row * samples,
             column: crop.column * samples,
@@ -62,8 +65,7 @@ impl BySample {
         let view = View::new(scene, &self.camera);
         let samples = self.samples;
         let words = format!("{words} --samples {samples}");
-        let why = Why::find(&view, [a, b], &self.comparison, words);
-        Why { samples, ..why }
+        Why::find(&view, [a, b], &self.comparison, words, samples)
     }
 
     /// The comparison of samples.
@@ -92,12 +94,14 @@ impl<'a> Why<'a> {
         [a, b]: [&Buffer; 2],
         comparison: &BufferComparison,
         scene: String,
+        samples: u32,
     ) -> Why<'a> {
         let differing: Vec<[u32; 2]> =
             comparison.classes().differing().map(|(pixel, _)| pixel).collect();
         let conventions =
             [a, b].map(|file| find_conventions(view, file).map_err(|error| error.to_string()));
-        let mut reasons = find_reasons(view, a, b, &differing).map_err(|error| error.to_string());
+        let mut reasons = find_reasons_of_samples(view, a, b, &differing, samples)
+            .map_err(|error| error.to_string());
         for (side, found) in [Wrong::A, Wrong::B].into_iter().zip(&conventions) {
             if let (Ok(reasons), Ok(Findings { differing, finding: Finding::Explained(found), .. })) =
                 (&mut reasons, found)
@@ -106,7 +110,7 @@ impl<'a> Why<'a> {
                 reasons.explained_by(side, &found[0]);
             }
         }
-        Why { camera: view.camera, samples: 1, scene, conventions, reasons }
+        Why { camera: view.camera, samples, scene, conventions, reasons }
     }
 
     /// The report as text: reasons, conventions, and the next step.
@@ -211,7 +215,11 @@ impl<'a> Why<'a> {
             (_, false) => "these explain equally much, and the files cannot tell which it is",
             (_, true) => "guesses, which explain less than half",
         };
-        line(text, format_args!("{name} is wrong in {wrong}; {how}:"));
+        let unit = match self.samples {
+            1 => String::new(),
+            n => format!(" (i and j count samples here, and W and H are {n} times as large)"),
+        };
+        line(text, format_args!("{name} is wrong in {wrong}; {how}{unit}:"));
         for one in found {
             let sentences = one.sentences(name, self.camera);
             for (index, sentence) in sentences.iter().enumerate() {

@@ -4,7 +4,7 @@
 use super::outline::{Linear, plane_distance};
 use super::rays::ViewingRays;
 use crate::common::glam::DVec3;
-use crate::common::{Camera, Judge, Primitive, Projection, Ray};
+use crate::common::{Judge, Primitive, Projection, Ray};
 
 /// A sample, and the lengths of a pixel.
 #[derive(Clone, Copy, Debug)]
@@ -19,13 +19,13 @@ pub(super) struct SampleDistances<'a> {
 
 impl<'a> SampleDistances<'a> {
     /// Of the sample in the middle of a pixel.
-    pub(super) fn new(camera: &Camera, rays: &'a ViewingRays, [i, j]: [usize; 2]) -> Self {
+    pub(super) fn new(rays: &'a ViewingRays, [i, j]: [usize; 2]) -> Self {
         SampleDistances {
             rays,
             ray: rays.ray(i, j),
             x: rays.x[j],
             y: rays.y[i],
-            spacing: spacing(camera),
+            spacing: rays.spacing(),
         }
     }
 
@@ -82,12 +82,6 @@ impl<'a> SampleDistances<'a> {
     }
 }
 
-/// The distance between two columns and between two rows on the viewport.
-pub(super) fn spacing(camera: &Camera) -> [f64; 2] {
-    let ([vw, vh], [width, height]) = (camera.viewport(), camera.image().map(f64::from));
-    [vw / width, vh / height]
-}
-
 /// The change of a function from one pixel to the next, in the direction in which it changes most.
 pub(super) fn slope_of(function: &Linear, [column, row]: [f64; 2]) -> f64 {
     (function.along_x * column).hypot(function.along_y * row)
@@ -96,7 +90,7 @@ pub(super) fn slope_of(function: &Linear, [column, row]: [f64; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::common::CameraDescription;
+    use crate::common::{Camera, CameraDescription};
     use crate::diff::why::convention::Convention;
     use crate::diff::why::outline::TriangleOutline;
 
@@ -114,7 +108,7 @@ mod tests {
         };
         let camera = Camera::new(description).unwrap();
         let rays = ViewingRays::new(&camera, &Convention::default());
-        check(&rays, &SampleDistances::new(&camera, &rays, pixel));
+        check(&rays, &SampleDistances::new(&rays, pixel));
     }
 
     #[test]

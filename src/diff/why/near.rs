@@ -1,6 +1,6 @@
 //! The primitives at or near the samples of some pixels, found primitive by primitive.
 
-use super::distances::{slope_of, spacing};
+use super::distances::slope_of;
 use super::outline::{
     Area, Linear, TriangleOutline, area_of_sphere, area_of_triangle, plane_distance, whole,
 };
@@ -19,7 +19,7 @@ pub(super) fn near_primitives(
     reach: f64,
 ) -> Vec<Vec<u32>> {
     let slots = Slots::new(rays, pixels);
-    let (judge, spacing) = (rays.judge(), spacing(view.camera));
+    let (judge, spacing) = (rays.judge(), rays.spacing());
     let mut near = vec![Vec::new(); pixels.len()];
     for (id, primitive) in view.primitives() {
         let Some((area, region)) = Region::new(&primitive, rays, spacing, reach) else { continue };

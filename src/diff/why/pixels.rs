@@ -105,6 +105,22 @@ pub fn find_reasons(
     b: &Buffer,
     differing: &[[u32; 2]],
 ) -> Result<Reasons, ReasonError> {
+    find_reasons_of_samples(view, a, b, differing, 1)
+}
+
+/// The same where the pixels of both files and of the camera's image are the samples of larger pixels, `samples` ×
+/// `samples` each (see [`Buffer::samples_as_pixels`]): lengths are in these larger pixels.
+///
+/// # Errors
+///
+/// The errors of [`find_reasons`].
+pub fn find_reasons_of_samples(
+    view: &View,
+    a: &Buffer,
+    b: &Buffer,
+    differing: &[[u32; 2]],
+    samples: u32,
+) -> Result<Reasons, ReasonError> {
     for (name, file) in [("A", a), ("B", b)] {
         if file.samples() != 1 {
             return Err(ReasonError::Samples { name, samples: file.samples() });
@@ -115,7 +131,7 @@ pub fn find_reasons(
     }
     let step = differing.len().div_ceil(MOST_PIXELS).max(1);
     let chosen: Vec<[u32; 2]> = differing.iter().step_by(step).copied().collect();
-    let finder = Finder::new(view, [a, b], &chosen);
+    let finder = Finder::new(view, [a, b], &chosen, samples);
     let pixels = (0..chosen.len()).into_par_iter().map(|slot| finder.pixel(chosen[slot], slot));
     Ok(Reasons { pixels: pixels.collect(), differing: differing.len() as u64 })
 }
@@ -140,6 +156,11 @@ impl Reasons {
         let of = |kind| self.scaled(|one| one.reason.kind() == kind);
         let counts = ReasonKind::ALL.into_iter().map(|kind| (kind, of(kind)));
         counts.filter(|&(_, count)| count > 0).collect()
+    }
+
+    /// The number of pixels of the kinds for which a condition holds, scaled likewise.
+    pub fn count_of(&self, holds: impl Fn(ReasonKind) -> bool) -> u64 {
+        self.scaled(|one| holds(one.reason.kind()))
     }
 
     /// The same for one kind in one of the files.
@@ -172,9 +193,14 @@ struct Finder<'a> {
 }
 
 impl<'a> Finder<'a> {
-    fn new(view: &'a View<'a>, files: [&Buffer; 2], chosen: &[[u32; 2]]) -> Finder<'a> {
+    fn new(
+        view: &'a View<'a>,
+        files: [&Buffer; 2],
+        chosen: &[[u32; 2]],
+        samples: u32,
+    ) -> Finder<'a> {
         let truth = draw(view, &Convention::default(), Rows::ALL);
-        let rays = ViewingRays::new(view.camera, &Convention::default());
+        let rays = ViewingRays::new(view.camera, &Convention::default()).of_samples(samples);
         let judge = rays.judge();
         let files = files.map(|file| {
             Observed::of(file).map(|observed| Shown::new(view, &rays, &judge, &truth, observed))
@@ -187,7 +213,7 @@ impl<'a> Finder<'a> {
         let at @ [i, j] = pixel.map(|number| number as usize);
         let index = i * self.rays.x.len() + j;
         let truth = Some(self.truth.ids[index]).filter(|&id| id != NO_PRIMITIVE);
-        let distances = SampleDistances::new(self.view.camera, &self.rays, at);
+        let distances = SampleDistances::new(&self.rays, at);
         let sample = Sample { distances, truth, near: &self.near[slot] };
         // For each file `None` if it does not tell, `Some(None)` if it is right.
         let [a, b] = self

@@ -18,6 +18,8 @@ pub(super) struct ViewingRays {
     pub(super) distance: f64,
     /// Whether the rays of a parallel camera begin at their own points of the viewport.
     pub(super) spread: bool,
+    /// How many rows and columns of rays a pixel has.
+    samples: u32,
     camera: Camera,
 }
 
@@ -45,8 +47,21 @@ impl ViewingRays {
             projection,
             distance: if convention.look == Look::Backward { -length } else { length },
             spread: convention.rays != Rays::OneOrigin,
+            samples: 1,
             camera: Camera::new(description).expect("only the projection is another"),
         }
+    }
+
+    /// The same rays as samples of larger pixels, `samples` × `samples` each.
+    pub(super) fn of_samples(self, samples: u32) -> ViewingRays {
+        ViewingRays { samples, ..self }
+    }
+
+    /// The width and the height of a pixel on the viewport.
+    pub(super) fn spacing(&self) -> [f64; 2] {
+        let ([vw, vh], [width, height]) =
+            (self.camera.viewport(), self.camera.image().map(f64::from));
+        [vw / width, vh / height].map(|side| side * f64::from(self.samples))
     }
 
     /// The ray of pixel `(i, j)`.

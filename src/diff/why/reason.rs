@@ -42,7 +42,8 @@ pub enum Reason {
         /// The difference as a part of the distance.
         relative: f64,
     },
-    /// The primitive faces away (or towards the eye), and no such face is shown anywhere, but others are.
+    /// The primitive faces away (or towards the eye), and no such face is shown anywhere, though
+    /// others are, and such faces are missing more than a pixel within their outlines.
     Culled {
         /// The triangle.
         primitive: u32,

@@ -80,7 +80,7 @@ impl Shown {
 fn well_within(view: &View, rays: &ViewingRays, at: [usize; 2], id: u32) -> Option<bool> {
     let Primitive::Triangle(corners) = view.primitive(id) else { return None };
     let outline = TriangleOutline::new(&corners, rays)?;
-    let distances = SampleDistances::new(view.camera, rays, at);
+    let distances = SampleDistances::new(rays, at);
     let is_within = outline.edges.iter().all(|edge| distances.to_zero(edge) > 1.0);
     is_within.then_some(!outline.is_front)
 }
@@ -89,11 +89,25 @@ fn agrees(observed: &Observed, index: usize, id: u32, t: f64) -> bool {
     match &observed.values {
         Values::Mask(mask) => mask[index],
         Values::Ids(ids) => ids[index] == Some(id.into()),
-        Values::Distances(distances) => is_same_distance(distances[index], t),
+        Values::Distances(distances) => {
+            distances[index].is_finite() && is_same_distance(distances[index], t)
+        }
     }
 }
 
-/// Whether two distances are equal within the tolerance of the diff.
+/// Whether two finite distances are equal within the tolerance of the diff.
 pub(super) fn is_same_distance(one: f64, other: f64) -> bool {
     (one - other).abs() <= DEPTH_TOLERANCE * one.abs().max(other.abs())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_agrees_with_no_distance() {
+        let values = Values::Distances(vec![2.0, f64::INFINITY, f64::NAN]);
+        let observed = Observed { size: [3, 1], values };
+        assert_eq!([0, 1, 2].map(|index| agrees(&observed, index, 0, 2.0)), [true, false, false]);
+    }
 }

@@ -49,7 +49,8 @@ impl CommonExplanation {
 }
 
 /// Searches for the conventions of a renderer: those under which most of its pictures agree with their scenes. Several
-/// are found if equally many pictures agree, none if no convention does better than ours.
+/// are found if equally many pictures agree, none if no convention
+/// does better than ours by more than one picture in thirty-two.
 ///
 /// Pictures that hold colours alone or several samples a pixel agree with nothing.
 pub fn find_common_conventions(renderings: &[Rendering]) -> Vec<CommonExplanation> {
