@@ -1,11 +1,8 @@
-//! `bothways diff` in the use of a student: real outputs compared with edited copies.
+//! `bothways diff` of two files in the use of a student: real outputs compared with edited copies, and what counts as equal.
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use assert_cmd::Command;
-use bothways::common::{Projection, View};
-use bothways::diff::foreign::{Buffer, Content, compare};
-use bothways::vectors::{Group, Vector, raster};
 use predicates::prelude::*;
 use predicates::str::contains;
 use serde_json::{Value, json};
@@ -13,14 +10,14 @@ use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
 
-fn bothways(home: &TempDir, args: &[&str]) -> Command {
+pub(crate) fn bothways(home: &TempDir, args: &[&str]) -> Command {
     let mut command = Command::cargo_bin("bothways").unwrap();
     command.current_dir(home).args(args);
     command
 }
 
 /// A folder with `out/`, in which the canonical scene is rendered at a small size.
-fn rendered(samples: &str) -> TempDir {
+pub(crate) fn rendered(samples: &str) -> TempDir {
     let home = tempfile::tempdir().unwrap();
     let args = ["canonical", "--size", "24x16", "--buffers", "npy", "--samples", samples];
     bothways(&home, &args).args(["--quiet", "-o", "out"]).assert().code(0);
@@ -35,12 +32,12 @@ fn edited<const N: usize>(home: &TempDir, name: &str, [i, j]: [usize; 2], number
     fs::write(home.path().join("mine.npy"), bytes).unwrap();
 }
 
-fn json_of(home: &TempDir, args: &[&str]) -> Value {
+pub(crate) fn json_of(home: &TempDir, args: &[&str]) -> Value {
     let output = bothways(home, args).arg("--json").output().unwrap();
     serde_json::from_slice(&output.stdout).unwrap()
 }
 
-fn count(folder: &Path) -> usize {
+pub(crate) fn count(folder: &Path) -> usize {
     fs::read_dir(folder).unwrap().count()
 }
 
@@ -175,251 +172,6 @@ differ: 2 pixels of 8, in the bounding box from (0, 2) to (1, 2)
     bothways(&home, &["diff", "a.png", "b.png"]).assert().code(1).stdout(expected);
 }
 
-/// A mistake of a renderer.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Mistake {
-    None,
-    SamplesInCorners,
-    InclusiveEdges,
-    CulledClockwise,
-    Transposed,
-    TurnedUpsideDown,
-}
-
-/// Twice the signed area of `a`, `b`, `c`, positive if they are clockwise as seen; exact for the small
-/// dyadic numbers of the vectors used here.
-fn area(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
-    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-}
-
-/// Whether a triangle, clockwise, covers a place.
-fn covers([a, b, c]: [[f64; 2]; 3], place: [f64; 2], inclusive: bool) -> bool {
-    [(a, b), (b, c), (c, a)].into_iter().all(|(p, q)| {
-        let edge = area(p, q, place);
-        let (right, down) = (q[0] - p[0], q[1] - p[1]);
-        // Clockwise with y down, a left edge goes up and a top edge to the right.
-        let owned = down < 0.0 || (down == 0.0 && right > 0.0);
-        edge > 0.0 || (edge == 0.0 && (owned || inclusive))
-    })
-}
-
-/// The ids of a flat scene from a small rasterizer with one mistake. Of several triangles that cover a pixel, the first
-/// is seen.
-fn drawn(vector: &Vector, mistake: Mistake) -> Buffer<'static> {
-    let (scene, camera) = (vector.scene(), vector.camera());
-    let triangles = raster::triangles(&View::new(&scene, &camera)).unwrap();
-    let [width, height] = camera.image();
-    let id = |i: u32, j: u32| {
-        let half = if mistake == Mistake::SamplesInCorners { 0.0 } else { 0.5 };
-        let place = [f64::from(j) + half, f64::from(i) + half];
-        let seen = triangles.iter().position(|corners| {
-            let [a, b, c] = corners.map(|[x, y, _]| [x, y]);
-            let facing = area(a, b, c);
-            let culled = mistake == Mistake::CulledClockwise && facing > 0.0;
-            let triangle = if facing > 0.0 { [a, b, c] } else { [a, c, b] };
-            facing != 0.0 && !culled && covers(triangle, place, mistake == Mistake::InclusiveEdges)
-        });
-        seen.map(|id| id as u64)
-    };
-    let pixels = (0..height).flat_map(|i| (0..width).map(move |j| (i, j)));
-    let ids = pixels.map(|(i, j)| match mistake {
-        Mistake::Transposed => id(j, i),
-        Mistake::TurnedUpsideDown => id(height - 1 - i, j),
-        _ => id(i, j),
-    });
-    Buffer::new([width, height], 1, Content::Ids(ids.collect()))
-}
-
-/// The coverage of a buffer of ids.
-fn mask_of(buffer: &Buffer) -> Buffer<'static> {
-    let Content::Ids(ids) = buffer.content() else { panic!("no ids") };
-    Buffer::new(buffer.size(), 1, Content::Mask(ids.iter().map(Option::is_some).collect()))
-}
-
-/// The flat scenes of the set: no depth, and corners with few bits.
-fn flat_vectors() -> Vec<Vector> {
-    let flat = |vector: &Vector| {
-        let groups = [Group::Edges, Group::Corners, Group::SharedEdges];
-        groups.contains(&vector.group) || vector.name == "far-off-corners"
-    };
-    bothways::vectors::all().into_iter().filter(flat).collect()
-}
-
-/// The hints of the comparison between a rasterizer with a mistake and one without.
-fn hints(name: &str, mistake: Mistake, as_masks: bool) -> Vec<String> {
-    let vector = flat_vectors().into_iter().find(|vector| vector.name == name).unwrap();
-    let (mut right, mut wrong) = (drawn(&vector, Mistake::None), drawn(&vector, mistake));
-    if as_masks {
-        (right, wrong) = (mask_of(&right), mask_of(&wrong));
-    }
-    compare(&wrong, &right).unwrap().hints
-}
-
-#[test]
-fn the_small_rasterizer_is_right_without_a_mistake() {
-    for vector in flat_vectors() {
-        let expected = bothways::vectors::expected(&vector).unwrap();
-        let ids = expected.ids().iter().map(|&id| (id != u32::MAX).then_some(u64::from(id)));
-        let expected = Content::Ids(ids.collect());
-        assert_eq!(drawn(&vector, Mistake::None).content(), &expected, "{}", vector.name);
-    }
-}
-
-#[test]
-fn hints_name_the_mistake_or_none() {
-    // The required hint for each mistake, if there is one.
-    let named = [
-        (Mistake::SamplesInCorners, ["moved 1 row up and 1 column to the left", "missed between"]),
-        (Mistake::InclusiveEdges, ["inclusive edges have no hint of their own"; 2]),
-        (Mistake::CulledClockwise, ["culled"; 2]),
-        (Mistake::Transposed, ["transposed"; 2]),
-        (Mistake::TurnedUpsideDown, ["turned upside down"; 2]),
-    ];
-    let mut wrongly_named = Vec::new();
-    for vector in flat_vectors() {
-        let right = drawn(&vector, Mistake::None);
-        for (mistake, names) in named {
-            if mistake == Mistake::Transposed && right.size()[0] != right.size()[1] {
-                continue;
-            }
-            let wrong = drawn(&vector, mistake);
-            for (right, wrong) in [(mask_of(&right), mask_of(&wrong)), (right.clone(), wrong)] {
-                let comparison = compare(&right, &wrong).unwrap();
-                let says = |hint: &String| names.iter().any(|name| hint.contains(name));
-                let named = comparison.hints.iter().any(says);
-                if !comparison.equal && !comparison.hints.is_empty() && !named {
-                    wrongly_named.push((vector.name, mistake, comparison.hints));
-                }
-            }
-        }
-    }
-    assert!(wrongly_named.is_empty(), "{wrongly_named:#?}");
-}
-
-#[test]
-fn misleading_hints_of_earlier_versions_are_gone() {
-    // A transposed square picture got the hint that it was turned by 180 degrees.
-    let transposed = hints("three-corners", Mistake::Transposed, false);
-    assert!(transposed.len() == 1 && transposed[0].contains("transposed"), "{transposed:?}");
-    // Samples in corners on `square` got the same hint alone. As a mask it may be right; so are others, which are given, too.
-    let half = hints("square", Mistake::SamplesInCorners, true);
-    for may_be in ["moved 1 row down and 1 column to the right", "180 degrees", "diagonal"] {
-        assert!(half.iter().any(|hint| hint.contains(may_be)), "{half:?}");
-    }
-    // The ids of the two triangles exclude it.
-    let half = hints("square", Mistake::SamplesInCorners, false);
-    assert!(half.len() == 2 && half[0].contains("diagonal"), "{half:?}");
-    assert!(half[1].contains("moved 1 row down and 1 column to the right"), "{half:?}");
-    // Inclusive edges on `tiles` got the hint "moved by 1 rows and 1 columns".
-    for as_masks in [true, false] {
-        assert_eq!(hints("tiles", Mistake::InclusiveEdges, as_masks), [""; 0]);
-    }
-    // Culling on `far-off-corners` got only the hint that the id 0 of the reference stands for nothing.
-    let culled = hints("far-off-corners", Mistake::CulledClockwise, false);
-    assert!(culled.iter().any(|hint| hint.contains("culled")), "{culled:?}");
-}
-
-/// A folder with the conformance set in `vectors`, and another renderer's files in `mine`.
-fn with_vectors() -> TempDir {
-    let home = tempfile::tempdir().unwrap();
-    bothways(&home, &["vectors", "-o", "vectors"]).assert().code(0);
-    let mine = home.path().join("mine");
-    fs::create_dir(&mine).unwrap();
-    for vector in bothways::vectors::all() {
-        let (name, from) = (vector.name, |ending| format!("vectors/{}{ending}", vector.name));
-        // Masks as PNG under the scene's name, ids of one scene under a name of their own.
-        fs::copy(home.path().join(from(".mask.png")), mine.join(format!("{name}.png"))).unwrap();
-        if name == "tiles" {
-            let to = mine.join("tiles.drawn.npy");
-            fs::copy(home.path().join(from(".ids.npy")), to).unwrap();
-        }
-    }
-    home
-}
-
-#[test]
-fn a_whole_folder_is_held_against_the_vectors() {
-    let home = with_vectors();
-    let all = contains("68 of 69 pairs").not().and(contains("69 of 69 pairs equal"));
-    let said = all.and(contains("tiles.ids ")).and(contains("tiles.mask "));
-    bothways(&home, &["diff", "mine", "vectors"]).assert().code(0).stdout(said).stderr("");
-    let turned = contains("A  vectors: the conformance set");
-    bothways(&home, &["diff", "vectors", "mine"]).assert().code(0).stdout(turned);
-    let two_sets = contains("204 of 204 pairs equal");
-    bothways(&home, &["diff", "vectors", "vectors"]).assert().code(0).stdout(two_sets);
-
-    // A wrong picture, a missing picture, and a file that belongs to no scene and is no picture.
-    let mask = vec![255; 64];
-    let mask = image::GrayImage::from_raw(8, 8, mask).unwrap();
-    mask.save(home.path().join("mine/square.png")).unwrap();
-    fs::remove_file(home.path().join("mine/left-edge.png")).unwrap();
-    fs::write(home.path().join("mine/notes.png"), "no picture").unwrap();
-    let said = contains(
-        "39 pixels of 64 differ, first (0, 0). All sides lie on samples: a square of 5 x 5",
-    )
-    .and(contains("A lacks 1 scene: left-edge\n"))
-    .and(contains("not of the set, and left out: 1 file, such as notes.png"))
-    .and(contains("67 of 68 pairs equal, 1 differs, 1 is missing"))
-    .and(contains("next: bothways diff mine/square.png vectors/square.mask.png -o out/diff"))
-    .and(contains("why:  bothways pixel vectors/square.toml 0 0"));
-    let args = ["diff", "mine", "vectors"];
-    bothways(&home, &args).args(["-o", "out"]).assert().code(1).stdout(said).stderr("");
-    let picture = image::open(home.path().join("out/square.mask.difference.png")).unwrap();
-    assert_eq!((picture.width(), count(&home.path().join("out"))), (8, 1));
-
-    let report = json_of(&home, &args);
-    assert_eq!((&report["equal"], &report["missing_in_a"]), (&json!(false), &json!(["left-edge"])));
-    let pairs = report["pairs"].as_array().unwrap();
-    let square = pairs.iter().find(|pair| pair["name"] == "square.mask").unwrap();
-    assert_eq!((&square["equal"], &square["differing_pixels"]), (&json!(false), &json!(39)));
-    assert!(square["point"].as_str().unwrap().starts_with("All sides lie on samples"));
-    assert_eq!(pairs.iter().filter(|pair| pair["equal"] == false).count(), 1);
-
-    // An unreadable file does not stop the comparison of other files, and the exit code is 2.
-    fs::write(home.path().join("mine/hair.png"), "no picture").unwrap();
-    let said = contains("hair.mask").and(contains("cannot be compared: mine/hair.png is neither"));
-    let said = said.and(contains("66 of 68 pairs equal, 1 differs, 1 cannot be compared"));
-    bothways(&home, &args).assert().code(2).stdout(said);
-}
-
-#[test]
-fn the_set_is_never_blamed_for_how_it_is_written() {
-    let home = with_vectors();
-    let set = "vectors/far-off-corners.ids.npy";
-    let mut ids = fs::read(home.path().join(set)).unwrap();
-    // The triangle 0 is culled: its pixels show nothing. Ids follow the header of 128 bytes.
-    for id in ids[128..].chunks_exact_mut(4).filter(|id| *id == [0; 4]) {
-        id.fill(u8::MAX);
-    }
-    fs::write(home.path().join("mine.npy"), ids).unwrap();
-    for (a, b, one) in [("mine.npy", set, "A"), (set, "mine.npy", "B")] {
-        let said = contains(format!("{one} never shows the primitive 0 of"));
-        let blamed = contains("0 stands for nothing").or(contains("save it as bool"));
-        let said = said.and(blamed.not());
-        bothways(&home, &["diff", a, b]).assert().code(1).stdout(said);
-    }
-    // If neither file is known to be right, either file may be wrong.
-    fs::copy(home.path().join(set), home.path().join("theirs.npy")).unwrap();
-    let blamed = contains("in B, 0 stands for nothing").and(contains("never shows the primitive"));
-    bothways(&home, &["diff", "mine.npy", "theirs.npy"]).assert().code(1).stdout(blamed);
-}
-
-#[test]
-fn files_of_the_same_name_in_two_folders_are_compared() {
-    let home = rendered("1");
-    let args = ["canonical", "--size", "24x16", "--no-times", "--quiet", "-o", "other"];
-    bothways(&home, &args).assert().code(0);
-    let said =
-        contains("B lacks 6 files: image-order.ids.npy, image-order.ids.png, image-order.t.npy, ")
-            .and(contains("mask-object-order"))
-            .and(contains("6 are missing"));
-    bothways(&home, &["diff", "out", "other"]).assert().code(1).stdout(said);
-    fs::create_dir(home.path().join("empty")).unwrap();
-    let refused =
-        contains("no file of out (PNG, PNM, BMP, JPEG, EXR or NPY) belongs to one of empty");
-    bothways(&home, &["diff", "out", "empty"]).assert().code(2).stdout("").stderr(refused);
-}
-
 #[test]
 fn what_counts_as_equal_may_be_chosen() {
     let home = rendered("1");
@@ -524,36 +276,6 @@ fn distances_of_other_meanings_become_t_with_the_scene() {
         contains("axis.npy: the depth at (3, 10) is 4.538").and(contains("goes from 0 to 1"));
     let args = ["diff", "axis.npy", "axis.npy", "--depth", "opengl:1,9", "--scene", "canonical"];
     bothways(&home, &args).assert().code(2).stderr(refused);
-}
-
-#[test]
-fn distances_beside_a_set_become_t_by_its_scenes() {
-    let home = tempfile::tempdir().unwrap();
-    bothways(&home, &["vectors", "-o", "vectors"]).assert().code(0);
-    let mine = home.path().join("mine");
-    fs::create_dir(&mine).unwrap();
-    for vector in bothways::vectors::all() {
-        let mut bytes =
-            fs::read(home.path().join(format!("vectors/{}.t.npy", vector.name))).unwrap();
-        let camera = vector.camera();
-        let [width, height] = camera.image().map(|side| side as usize);
-        let unit = match camera.projection() {
-            Projection::Perspective => camera.distance(),
-            Projection::Parallel => 1.0,
-        };
-        let start = bytes.len() - 4 * width * height;
-        for number in bytes[start..].chunks_exact_mut(4) {
-            let t = f32::from_le_bytes(number.try_into().unwrap());
-            #[expect(clippy::cast_possible_truncation, reason = "as a renderer stores it")]
-            number.copy_from_slice(&((f64::from(t) * unit) as f32).to_le_bytes());
-        }
-        fs::write(mine.join(format!("{}.npy", vector.name)), bytes).unwrap();
-    }
-    let args = ["diff", "mine", "vectors", "--depth", "axis"];
-    let said = contains("68 of 68 pairs equal\n");
-    bothways(&home, &args).assert().code(0).stdout(said).stderr("");
-    let args = ["diff", "mine", "vectors", "--depth", "ray"];
-    bothways(&home, &args).assert().code(1).stdout(contains(" differ"));
 }
 
 #[test]

@@ -8,6 +8,8 @@ mod command_line;
 mod cover;
 mod crop;
 mod diff;
+mod diff_folders;
+mod diff_hints;
 mod diff_page;
 mod diff_why;
 mod fuzz;
