@@ -82,71 +82,45 @@ fn equal_bytes(bencher: Bencher) {
     bencher.bench_local(|| black_box(&bytes) == black_box(&same));
 }
 
-/// Two buffers that are made once, and a comparison of them.
-fn bench(bencher: Bencher, buffers: [Buffer; 2], only_compares: bool) {
-    let [a, b] = buffers;
+/// What is compared.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Kind {
+    EqualMasks,
+    Masks,
+    Ids,
+    Distances,
+    Pictures,
+    /// Ids, distances and colours.
+    Frames,
+}
+
+const KINDS: [Kind; 6] =
+    [Kind::EqualMasks, Kind::Masks, Kind::Ids, Kind::Distances, Kind::Pictures, Kind::Frames];
+
+/// Times a comparison of two buffers that are made once.
+fn bench(bencher: Bencher, kind: Kind, only_compares: bool) {
+    let frames = (kind == Kind::Frames).then(frames);
+    let [a, b] = match kind {
+        Kind::EqualMasks => [mask(false), mask(false)],
+        Kind::Masks => [false, true].map(mask),
+        Kind::Ids => [false, true].map(ids),
+        Kind::Distances => [false, true].map(distances),
+        Kind::Pictures => [false, true].map(colors),
+        Kind::Frames => {
+            let frames = frames.as_ref().expect("they were drawn");
+            frames.each_ref().map(|(frame, picture)| Buffer::of_frame(frame, picture))
+        }
+    };
     let options = CompareOptions { only_compares, ..CompareOptions::default() };
     bencher.bench_local(|| compare_with(&a, &b, &options));
 }
 
-#[divan::bench_group]
-mod compared {
-    use super::*;
-
-    #[divan::bench]
-    fn equal_masks(bencher: Bencher) {
-        bench(bencher, [mask(false), mask(false)], true);
-    }
-
-    #[divan::bench]
-    fn masks(bencher: Bencher) {
-        bench(bencher, [mask(false), mask(true)], true);
-    }
-
-    #[divan::bench]
-    fn ids_of_files(bencher: Bencher) {
-        bench(bencher, [ids(false), ids(true)], true);
-    }
-
-    #[divan::bench]
-    fn distances_of_files(bencher: Bencher) {
-        bench(bencher, [distances(false), distances(true)], true);
-    }
-
-    #[divan::bench]
-    fn pictures(bencher: Bencher) {
-        bench(bencher, [colors(false), colors(true)], true);
-    }
-
-    #[divan::bench]
-    fn frames_of_ids_distances_and_colors(bencher: Bencher) {
-        let frames = frames();
-        let buffers = frames.each_ref().map(|(frame, picture)| Buffer::of_frame(frame, picture));
-        bench(bencher, buffers, true);
-    }
+#[divan::bench(args = KINDS)]
+fn compared(bencher: Bencher, kind: Kind) {
+    bench(bencher, kind, true);
 }
 
-#[divan::bench_group]
-mod measured {
-    use super::*;
-
-    #[divan::bench]
-    fn masks(bencher: Bencher) {
-        bench(bencher, [mask(false), mask(true)], false);
-    }
-
-    #[divan::bench]
-    fn ids_of_files(bencher: Bencher) {
-        bench(bencher, [ids(false), ids(true)], false);
-    }
-
-    #[divan::bench]
-    fn distances_of_files(bencher: Bencher) {
-        bench(bencher, [distances(false), distances(true)], false);
-    }
-
-    #[divan::bench]
-    fn pictures(bencher: Bencher) {
-        bench(bencher, [colors(false), colors(true)], false);
-    }
+#[divan::bench(args = KINDS)]
+fn measured(bencher: Bencher, kind: Kind) {
+    bench(bencher, kind, false);
 }

@@ -26,7 +26,8 @@ use crate::diff::foreign::{
 };
 use crate::diff::pairs::{PairsError, files_of_set};
 use crate::diff::why::{
-    CommonExplanation, ReasonKind, Rendering, cause_of_size, find_common_conventions, find_reasons,
+    CommonExplanation, ReasonKind, Rendering, alternatives, check_size, find_common_conventions,
+    find_reasons,
 };
 use crate::orders::{self, Method, Order, RenderOptions};
 use crate::wording::count;
@@ -143,15 +144,7 @@ fn compared(
     let options = ReadOptions { background, ..ReadOptions::default() };
     let theirs = read_with(path, &options).map_err(|error| error.to_string())?.buffer;
     let view = View::new(scene, camera);
-    let (size, image) = (theirs.size(), camera.image());
-    if size != image {
-        let cause = cause_of_size("it", &theirs, image, Some(&view));
-        let cause = cause.map_or(String::new(), |cause| format!("; {cause}"));
-        let [[width, height], [of_scene, rows]] = [size, image];
-        return Err(format!(
-            "it has {width} x {height} pixels, and the scene {of_scene} x {rows}{cause}"
-        ));
-    }
+    check_size(&view, &theirs).map_err(|error| error.to_string())?;
     let truth = truth(&view, &theirs)?;
     let options = CompareOptions { only_compares: true, ..CompareOptions::default() };
     let comparison = compare_with(&theirs, &truth, &options).map_err(|error| error.to_string())?;
@@ -322,8 +315,7 @@ impl CheckedFile {
 impl Cause {
     /// The cause in one line.
     pub fn short(&self) -> String {
-        let one = |sentences: &Vec<String>| sentences.join(", and ");
-        let all = self.alternatives.iter().map(one).collect::<Vec<_>>().join("; or: ");
+        let all = alternatives(&self.alternatives);
         match self.certainty {
             Certainty::Guess => format!("a guess: {all}"),
             Certainty::Convention | Certainty::Reason | Certainty::Unknown => all,

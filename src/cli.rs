@@ -4,6 +4,7 @@
 //! [`run`].
 
 mod args;
+mod beside;
 mod camera;
 mod check;
 mod completions;

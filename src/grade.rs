@@ -30,10 +30,11 @@ use crate::check::truth;
 use crate::common::View;
 use crate::diff::foreign::{Buffer, BufferComparison, Side, compare_with_reference};
 use crate::diff::why::{
-    Explanation, Finding, Findings, ReasonKind, Wrong, cause_of_size, find_conventions,
-    find_reasons,
+    Explanation, Finding, Findings, OtherSize, ReasonKind, alternatives, check_size,
+    find_conventions, find_reasons,
 };
 use crate::wording::count;
+use serde::Serialize;
 
 /// The formula of the score, in one line.
 pub const FORMULA: &str = "score = 100 (right + explained / 2^mistakes) / seen";
@@ -56,7 +57,8 @@ pub struct Grade {
 }
 
 /// How a file is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Verdict {
     /// Every pixel is right.
     Right,
@@ -97,18 +99,8 @@ impl Grade {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum GradeError {
     /// The file has another size than the camera's image.
-    #[error(
-        "the file has {} x {} pixels, and the scene {} x {}{cause}",
-        .file[0], .file[1], .scene[0], .scene[1]
-    )]
-    Size {
-        /// Width and height of the file.
-        file: [u32; 2],
-        /// Width and height of the camera's image.
-        scene: [u32; 2],
-        /// What may be the cause, in words behind the sizes; or empty.
-        cause: String,
-    },
+    #[error(transparent)]
+    Size(#[from] OtherSize),
     /// The file cannot be held to the scene.
     #[error("{0}")]
     Content(String),
@@ -120,12 +112,7 @@ pub enum GradeError {
 ///
 /// If the file has another size than the camera's image, several samples a pixel, or colours alone.
 pub fn grade(view: &View, file: &Buffer) -> Result<Grade, GradeError> {
-    let (size, scene) = (file.size(), view.camera.image());
-    if size != scene {
-        let cause = cause_of_size("it", file, scene, Some(view));
-        let cause = cause.map_or(String::new(), |cause| format!("; {cause}"));
-        return Err(GradeError::Size { file: size, scene, cause });
-    }
+    check_size(view, file)?;
     if file.samples() != 1 {
         let samples = file.samples();
         return Err(GradeError::Content(format!(
@@ -178,7 +165,7 @@ fn explain(
         .expect("what conventions are searched in has reasons");
     let conventions = explanations(&found);
     if let Some(best) = conventions.first() {
-        reasons.explained_by(Wrong::A, best);
+        reasons.explained_by(Side::A, best);
     }
     let counts = reasons.counts();
     let explained = reasons.count_of(explains);
@@ -230,11 +217,6 @@ fn explains(kind: ReasonKind) -> bool {
         | ReasonKind::CannotTell
         | ReasonKind::Unexplained => false,
     }
-}
-
-fn alternatives(sentences: &[Vec<String>]) -> String {
-    let one = |parts: &Vec<String>| parts.join(", and ");
-    sentences.iter().map(one).collect::<Vec<_>>().join("; or: ")
 }
 
 /// `12 pixels: exact tie on an edge or corner; 3 pixels: unexplained`.

@@ -156,7 +156,7 @@ fn write_legend(out: &mut impl Write) -> io::Result<()> {
 fn write_picture(caption: &str, picture: &RgbImage, out: &mut impl Write) -> io::Result<()> {
     let (width, height) = picture.dimensions();
     let step = (SHOWN / width.max(height).max(1)).max(1);
-    let [width, height] = [width, height].map(|side| (side * step).min(4 * SHOWN));
+    let [width, height] = [width, height].map(|side| side * step);
     write!(out, "<figure><img alt=\"{caption}\" width=\"{width}\" height=\"{height}\" src=\"")?;
     write_data_uri(picture, out)?;
     writeln!(out, "\"><figcaption>{caption}</figcaption></figure>")

@@ -88,7 +88,9 @@ fn parallel_cameras_drawn_in_perspective_are_a_cause() {
         mask(&frame(vector, camera, None))
     };
     let checked = checked(&masks(wrong));
-    let (alternatives, ..) = first_cause(&checked);
+    let (alternatives, certainty, files) = first_cause(&checked);
+    assert_eq!((alternatives.len(), certainty), (1, Certainty::Convention), "{alternatives:?}");
+    assert_eq!(files, 68 - checked.right());
     assert!(
         alternatives[0][0].starts_with("it draws a perspective picture for a parallel camera"),
         "{alternatives:?}"

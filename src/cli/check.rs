@@ -1,8 +1,8 @@
 //! `bothways check THEIRS [VECTORS]`: a renderer held to a whole conformance set.
 
+use super::beside::{Beside, PAGE};
 use super::diff::color;
 use super::failure::Failure;
-use super::output::OutputFile;
 use super::terminal;
 use anstyle::{AnsiColor, Style};
 use bothways::check::{Certainty, Check, CheckedFile, ConformanceSet, check};
@@ -50,7 +50,7 @@ pub(super) struct CheckArgs {
 
 /// Checks and prints.
 pub(super) fn run(args: &CheckArgs) -> Result<ExitCode, Failure> {
-    let page = args.html.as_deref().map(|name| OutputFile::find_for("--html", name)).transpose()?;
+    let page = Beside::find(PAGE, args.html.as_deref())?;
     let set = match &args.vectors {
         Some(folder) => ConformanceSet::Folder(folder.clone()),
         None => ConformanceSet::BuiltIn,
@@ -58,22 +58,9 @@ pub(super) fn run(args: &CheckArgs) -> Result<ExitCode, Failure> {
     let checked = check(&args.theirs, &set, args.background)
         .map_err(|error| Failure::new(error.to_string()))?;
     let report = Report { args, checked: &checked };
-    let mut text = if args.json { report.json()? } else { report.text() };
-    let mut is_on_stdout = false;
-    if let Some(page) = &page {
-        let title = [args.theirs.display().to_string(), report.set()];
-        page.write(|out| checked.write_page([&title[0], &title[1]], out))?;
-        is_on_stdout = page.is_stdout();
-        if !is_on_stdout {
-            let dimmed = Style::new().dimmed();
-            text += &format!("{dimmed}page written to {}{dimmed:#}\n", page.said());
-        }
-    }
-    if is_on_stdout {
-        anstream::eprint!("{text}");
-    } else {
-        terminal::print(&text)?;
-    }
+    let title = [args.theirs.display().to_string(), report.set()];
+    page.write(|out| checked.write_page([&title[0], &title[1]], out))?;
+    page.print(&if args.json { report.json()? } else { report.text() + &page.written() })?;
     Ok(ExitCode::from(match (checked.passes(), checked.unreadable()) {
         (true, _) => 0,
         (false, 0) => 1,

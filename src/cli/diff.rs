@@ -103,7 +103,7 @@ pub(super) struct DiffArgs {
 
 /// Compares and prints; the exit code is 0 if the files are equal in all compared aspects, or equal enough, otherwise 1.
 pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
-    let html = html::Html::find(args)?;
+    let page = html::find(args)?;
     match [&args.a, &args.b].map(|path| path.is_dir()) {
         [true, true] => return folders::run(args),
         [false, false] => {}
@@ -152,7 +152,7 @@ pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
         }
         staging.commit()?;
     }
-    html.write(args, [a, b], &comparison, |page| {
+    html::write(&page, args, [a, b], &comparison, |page| {
         if let Some(why) = &why {
             why.fill(page);
         }
@@ -161,10 +161,10 @@ pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
     let report = FileReport { files, read: &read, comparison: &comparison, why: why.as_ref() };
     let text = match (args.pixel, &why) {
         _ if args.json => report.json()?,
-        (Some(pixel), Some(why)) => why.pixel(pixel) + &html.written(),
-        _ => report.text(args.folder.as_deref()) + &html.written(),
+        (Some(pixel), Some(why)) => why.pixel(pixel) + &page.written(),
+        _ => report.text(args.folder.as_deref()) + &page.written(),
     };
-    html.print(&text)?;
+    page.print(&text)?;
     Ok(ExitCode::from(u8::from(!comparison.passes)))
 }
 

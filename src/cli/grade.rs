@@ -1,10 +1,10 @@
 //! `bothways grade SCENE FILE…`: marks for pictures of one scene.
 
 use super::args::CameraArgs;
+use super::beside::{Beside, TABLE};
 use super::camera::camera;
 use super::diff::color;
 use super::failure::Failure;
-use super::output::OutputFile;
 use super::terminal;
 use anstyle::{AnsiColor, Style};
 use bothways::common::View;
@@ -62,27 +62,18 @@ pub(super) struct GradeArgs {
 
 /// Grades and prints.
 pub(super) fn run(args: &GradeArgs) -> Result<ExitCode, Failure> {
-    let table = args.csv.as_deref().map(|name| OutputFile::find_for("--csv", name)).transpose()?;
+    let table = Beside::find(TABLE, args.csv.as_deref())?;
     let loaded = scenes::load_for(&args.scene, args.camera.size)?;
     terminal::warn(&loaded.warnings);
     let camera = camera(&loaded, &args.camera)?;
     let view = View::new(&loaded.scene, &camera);
     let rows: Vec<Row> = args.files.iter().map(|path| Row::new(path, args, &view)).collect();
-    let mut text = if args.json { terminal::json(&json(&rows))? } else { text(&rows) };
-    let mut is_on_stdout = false;
-    if let Some(table) = &table {
-        table.write(|out| write_csv(&rows, out))?;
-        is_on_stdout = table.is_stdout();
-        if !is_on_stdout {
-            let dimmed = Style::new().dimmed();
-            text += &format!("{dimmed}table written to {}{dimmed:#}\n", table.said());
-        }
-    }
-    if is_on_stdout {
-        anstream::eprint!("{text}");
+    table.write(|out| write_csv(&rows, out))?;
+    table.print(&if args.json {
+        terminal::json(&json(&rows))?
     } else {
-        terminal::print(&text)?;
-    }
+        text(&rows) + &table.written()
+    })?;
     let all_right = rows.iter().all(Row::is_right);
     Ok(ExitCode::from(u8::from(!all_right)))
 }
@@ -98,7 +89,8 @@ struct Row {
 #[derive(Serialize)]
 struct Record<'a> {
     file: &'a str,
-    verdict: &'a str,
+    /// Nothing for a file that cannot be graded.
+    verdict: Option<Verdict>,
     score: Option<f64>,
     seen: Option<u64>,
     right: Option<u64>,
@@ -130,7 +122,7 @@ impl Row {
         let grade = self.grade.as_ref().ok();
         Record {
             file: &self.file,
-            verdict: grade.map_or("not graded", |grade| grade.verdict.name()),
+            verdict: grade.map(|grade| grade.verdict),
             score: grade.map(Grade::score),
             seen: grade.map(|grade| grade.seen),
             right: grade.map(|grade| grade.right),
@@ -154,6 +146,7 @@ fn text(rows: &[Row]) -> String {
     let mut text = format!("{bold}{:>5}  {:16}  file{bold:#}\n", "score", "verdict");
     for row in rows {
         let Record { verdict, score, likely_mistake, .. } = row.record();
+        let verdict = verdict.map_or("not graded", Verdict::name);
         let score = score.map_or("-".into(), |score| format!("{score:.1}"));
         let color = if row.is_right() { AnsiColor::Green } else { AnsiColor::Yellow };
         let style = color.on_default();

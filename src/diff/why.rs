@@ -26,7 +26,8 @@ pub use encoding::{DistanceEncoding, Encoding, IdEncoding, NothingEncoding};
 pub use pixels::{PixelReason, ReasonError, Reasons, Wrong, find_reasons, find_reasons_of_samples};
 pub use reason::{Reason, ReasonKind, TieRules};
 pub use search::{Explanation, Finding, Findings, SearchError, find_conventions};
-pub use size::cause_of_size;
+pub use sentence::alternatives;
+pub use size::{OtherSize, cause_of_size, check_size};
 pub use together::{CommonExplanation, Rendering, find_common_conventions};
 
 #[cfg(test)]

@@ -97,3 +97,16 @@ fn other_sizes_have_no_grade_and_perhaps_a_cause() {
     assert!(error.contains("a loop that includes its end"), "{error}");
     assert!(of([10, 10], vec![None; 100]).ends_with("and the scene 60 x 40"));
 }
+
+#[test]
+fn a_mistake_beside_others_is_explained_in_part() {
+    // Counted from 1, and a quarter of the picture lost.
+    let mut ids: Vec<_> = ids().into_iter().map(|id| id.map(|id| id + 1)).collect();
+    let seen = ids.iter().flatten().count();
+    let lost = ids.iter_mut().filter(|id| id.is_some()).skip(seen / 2).take(seen / 4);
+    lost.for_each(|id| *id = None);
+    let grade = graded(ids);
+    assert_eq!((grade.verdict, grade.mistakes), (Verdict::PartlyExplained, 1), "{grade:?}");
+    assert!(grade.likely_mistake.starts_with("it counts ids from 1"), "{grade:?}");
+    assert!(grade.score() < 50.0 && grade.score() > 35.0, "{grade:?}");
+}

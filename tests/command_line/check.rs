@@ -39,6 +39,21 @@ fn a_renderer_is_summed_up_by_cause() {
 }
 
 #[test]
+fn the_next_step_compares_what_the_file_holds() {
+    let home = upside_down();
+    let mine = home.path().join("mine");
+    fs::remove_dir_all(&mine).unwrap();
+    fs::create_dir(&mine).unwrap();
+    // The distances of another scene of the same size.
+    let other = home.path().join("vectors/top-edge.t.npy");
+    fs::copy(other, mine.join("one-triangle.npy")).unwrap();
+    let said = printed(bothways(&home, &["check", "mine", "vectors"]), 1);
+    let next = "next: bothways diff mine/one-triangle.npy vectors/one-triangle.t.npy --scene \
+                vectors/one-triangle.toml\n";
+    assert!(said.ends_with(next), "{said}");
+}
+
+#[test]
 fn the_set_itself_passes_and_a_page_is_written() {
     let home = upside_down();
     let args = ["check", "vectors", "vectors", "--html", "check.html"];

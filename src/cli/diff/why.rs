@@ -6,7 +6,7 @@ use crate::cli::args::ProjectionArg;
 use crate::cli::failure::Failure;
 use anstyle::Style;
 use bothways::common::{Camera, CameraDescription, Crop, Scene, View};
-use bothways::diff::foreign::{Buffer, BufferComparison, CompareOptions, compare_with};
+use bothways::diff::foreign::{Buffer, BufferComparison, CompareOptions, Side, compare_with};
 use bothways::diff::page::{Group, Page};
 use bothways::diff::why::{
     Explanation, Finding, Findings, PixelReason, Reason, ReasonKind, Reasons, Wrong, cause_of_size,
@@ -102,7 +102,7 @@ impl<'a> Why<'a> {
             [a, b].map(|file| find_conventions(view, file).map_err(|error| error.to_string()));
         let mut reasons = find_reasons_of_samples(view, a, b, &differing, samples)
             .map_err(|error| error.to_string());
-        for (side, found) in [Wrong::A, Wrong::B].into_iter().zip(&conventions) {
+        for (side, found) in [Side::A, Side::B].into_iter().zip(&conventions) {
             if let (Ok(reasons), Ok(Findings { differing, finding: Finding::Explained(found), .. })) =
                 (&mut reasons, found)
                 && !found[0].is_a_guess(*differing)

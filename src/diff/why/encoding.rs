@@ -21,6 +21,21 @@ pub struct Encoding {
     pub nothing: NothingEncoding,
 }
 
+impl Encoding {
+    /// Whether the numbers of a file stand for what ours stand for.
+    pub fn is_ours(&self) -> bool {
+        self.parts() == 0
+    }
+
+    /// How many of them do not.
+    pub(super) fn parts(&self) -> usize {
+        let ours = Encoding::default();
+        usize::from(self.ids != ours.ids)
+            + usize::from(self.distances != ours.distances)
+            + usize::from(self.nothing != ours.nothing)
+    }
+}
+
 /// The number of a primitive.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum IdEncoding {

@@ -17,6 +17,7 @@ use super::shown::{Shown, is_same_distance};
 use crate::common::frame::NO_PRIMITIVE;
 use crate::common::glam::DVec3;
 use crate::common::{Judge, Primitive, Ray, Sign, View};
+use crate::diff::aspect::Side;
 use crate::diff::buffer::Buffer;
 use rayon::prelude::*;
 use std::cmp::Ordering;
@@ -138,14 +139,18 @@ pub fn find_reasons_of_samples(
 
 impl Reasons {
     /// Gives the pixels of a file that its conventions explain to these, unless an exact tie explains them.
-    pub fn explained_by(&mut self, file: Wrong, explanation: &Explanation) {
+    pub fn explained_by(&mut self, file: Side, explanation: &Explanation) {
+        let wrong = match file {
+            Side::A => Wrong::A,
+            Side::B => Wrong::B,
+        };
         if !explanation.is_coarse() {
             return;
         }
         let explained: HashSet<[u32; 2]> = explanation.pixels.iter().copied().collect();
         for one in &mut self.pixels {
             let exact = matches!(one.reason.kind(), ReasonKind::Tie | ReasonKind::DistanceTie);
-            if one.wrong == file && !exact && explained.contains(&one.pixel) {
+            if one.wrong == wrong && !exact && explained.contains(&one.pixel) {
                 one.reason = Reason::Convention;
             }
         }

@@ -69,12 +69,12 @@ pub enum Reason {
         /// The distance from the sample to the outline, in pixels.
         pixels: f64,
     },
-    /// The sample lies within a pixel of the outline of a primitive: the renderer sampled elsewhere in the pixel, or the
+    /// The sample lies within a pixel of the outline of a primitive, or of where it meets another one: the renderer sampled elsewhere in the pixel, or the
     /// primitive lies elsewhere by less than a pixel.
     Elsewhere {
         /// The primitive.
         primitive: u32,
-        /// The distance from the sample to the outline, in pixels.
+        /// The distance from the sample to that line, in pixels.
         pixels: f64,
     },
     /// The conventions of the renderer as a whole explain the pixel.
@@ -268,7 +268,7 @@ impl Reason {
                 short(*pixels)
             ),
             Reason::Elsewhere { primitive, pixels } => format!(
-                "the sample lies {} pixels from the outline of id {primitive}, farther than rounding reaches: the \
+                "the sample lies {} pixels from where id {primitive} ends or meets another, farther than rounding reaches: the \
                  renderer sampled elsewhere in the pixel, or placed the outline elsewhere",
                 short(*pixels)
             ),

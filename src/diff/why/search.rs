@@ -6,9 +6,7 @@
 
 use super::convention::{Change, Convention, Placement};
 use super::draw::{Drawn, Rows, draw};
-use super::encoding::{
-    DistanceEncoding, Encoding, Expected, IdEncoding, NothingEncoding, Observed, Score, Values,
-};
+use super::encoding::{Encoding, Expected, IdEncoding, NothingEncoding, Observed, Score, Values};
 use crate::common::View;
 use crate::common::frame::NO_PRIMITIVE;
 use crate::diff::buffer::Buffer;
@@ -159,11 +157,7 @@ impl Candidate {
 
 /// How many choices are not ours.
 fn parts(convention: &Convention, encoding: &Encoding) -> usize {
-    let ours = Encoding::default();
-    convention.changes().len()
-        + usize::from(encoding.ids != ours.ids)
-        + usize::from(encoding.distances != ours.distances)
-        + usize::from(encoding.nothing != ours.nothing)
+    convention.changes().len() + encoding.parts()
 }
 
 impl Search<'_> {
@@ -454,14 +448,5 @@ impl Search<'_> {
         let number = |side: usize| u32::try_from(side).expect("at most 2^16");
         let explained = (0..wrong.len()).filter(|&index| wrong[index]);
         explained.map(|index| [number(index / width), number(index % width)]).collect()
-    }
-}
-
-impl Encoding {
-    /// Whether the numbers of a file stand for what ours stand for.
-    pub fn is_ours(&self) -> bool {
-        self.ids == IdEncoding::FromZero
-            && self.distances == DistanceEncoding::T
-            && self.nothing == NothingEncoding::Ours
     }
 }

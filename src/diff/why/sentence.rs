@@ -33,6 +33,12 @@ pub(super) fn of_renderer(
     parts.iter().map(|part| with_name(part, name)).collect()
 }
 
+/// Explanations that explain equally much, each a sentence or several, in one line.
+pub fn alternatives(explanations: &[Vec<String>]) -> String {
+    let one = |sentences: &Vec<String>| sentences.join(", and ");
+    explanations.iter().map(one).collect::<Vec<_>>().join("; or: ")
+}
+
 fn with_name(sentence: &str, name: &str) -> String {
     format!("{name} {sentence}")
 }

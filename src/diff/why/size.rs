@@ -26,3 +26,30 @@ pub fn cause_of_size(
         _ => None,
     }
 }
+
+/// A file that has another size than the picture of its scene.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the file has {} x {} pixels, and the scene {} x {}{cause}", .file[0], .file[1], .scene[0], .scene[1])]
+pub struct OtherSize {
+    /// Width and height of the file.
+    pub file: [u32; 2],
+    /// Width and height of the camera's image.
+    pub scene: [u32; 2],
+    /// What may be the cause, in words behind the sizes; or empty.
+    pub cause: String,
+}
+
+/// Checks that a file has the size of the camera's image.
+///
+/// # Errors
+///
+/// If it has another one.
+pub fn check_size(view: &View, file: &Buffer) -> Result<(), OtherSize> {
+    let (size, scene) = (file.size(), view.camera.image());
+    if size == scene {
+        return Ok(());
+    }
+    let cause = cause_of_size("it", file, scene, Some(view));
+    let cause = cause.map_or(String::new(), |cause| format!("; {cause}"));
+    Err(OtherSize { file: size, scene, cause })
+}

@@ -130,3 +130,35 @@ fn every_change_alone_is_named_from_ids() {
         });
     }
 }
+
+#[test]
+fn culled_faces_are_named_in_ids_and_in_distances() {
+    let vector = crate::vectors::all().into_iter().find(|vector| vector.name == "winding").unwrap();
+    let scene = vector.scene();
+    let camera = CameraDescription { image: [64, 32], ..vector.camera };
+    let camera = Camera::new(camera).unwrap();
+    let view = View::new(&scene, &camera);
+    let culled = Convention::default().with(Change::Faces(Faces::BackCulled));
+    let [drawn, truth] = [culled, Convention::default()].map(|one| draw(&view, &one, Rows::ALL));
+    let width = camera.image()[0];
+    let number = |side: usize| u32::try_from(side).unwrap();
+    let differing: Vec<[u32; 2]> = (0..truth.ids.len())
+        .filter(|&index| truth.ids[index] != drawn.ids[index])
+        .map(|index| [number(index) / width, number(index) % width])
+        .collect();
+    assert!(!differing.is_empty());
+    let id = |&id: &u32| (id != NO_PRIMITIVE).then_some(u64::from(id));
+    let files = [&drawn, &truth].map(|picture| {
+        [Content::Ids(picture.ids.iter().map(id).collect()), Content::Distances(picture.t.clone())]
+            .map(|content| Buffer::new(camera.image(), 1, content))
+    });
+    let [of_files, of_truth] = &files;
+    for (file, truth) in of_files.iter().zip(of_truth) {
+        let reasons = find_reasons(&view, file, truth, &differing).unwrap();
+        // At its edges a tie or rounding explains as much.
+        let culled = reasons.count_of(|kind| kind == ReasonKind::Culled);
+        let close = reasons.count_of(|kind| matches!(kind, ReasonKind::Tie | ReasonKind::Rounding));
+        assert_eq!(culled + close, differing.len() as u64, "{:?}", reasons.counts());
+        assert!(culled > 4 * close, "{}: {:?}", file.kind(), reasons.counts());
+    }
+}

@@ -146,14 +146,8 @@ impl Fit {
 
     /// How many choices are not ours.
     fn parts(&self) -> usize {
-        let ours = Encoding::default();
-        let of = |encoding: &Encoding| {
-            usize::from(encoding.ids != ours.ids)
-                + usize::from(encoding.distances != ours.distances)
-                + usize::from(encoding.nothing != ours.nothing)
-        };
         let changes = self.hypothesis.convention.changes().len();
-        changes + self.encodings.iter().map(of).sum::<usize>()
+        changes + self.encodings.iter().map(Encoding::parts).sum::<usize>()
     }
 
     /// Smaller is better: most pictures, then the simplest.

@@ -42,6 +42,10 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
         "check . --html file/check.html",
         "cannot write file/check.html: a file is where a folder would be; choose another file with --html",
     ),
+    (
+        "check . --html check.png",
+        "cannot write check.png: a page is an .html file, and .png is none; end the name in .html",
+    ),
     ("check . --json=yes", "unexpected value 'yes' for '--json' found; no more were expected"),
     // A course.
     ("grade", "the following required arguments were not provided: <SCENE> <FILE>..."),
@@ -50,6 +54,10 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
     (
         "grade canonical a.pgm --csv file/marks.csv",
         "cannot write file/marks.csv: a file is where a folder would be; choose another file with --csv",
+    ),
+    (
+        "grade canonical a.pgm --csv marks.xlsx",
+        "cannot write marks.xlsx: a table is a .csv file, and .xlsx is none; end the name in .csv",
     ),
     (
         "grade canonical a.pgm --background red",
