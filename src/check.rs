@@ -30,7 +30,7 @@ use crate::diff::why::{
     find_reasons,
 };
 use crate::orders::{self, Method, Order, RenderOptions};
-use crate::wording::count;
+use crate::wording::{count, grouped};
 use std::path::Path;
 
 /// What was found of a renderer.
@@ -309,6 +309,17 @@ impl CheckedFile {
     /// Whether the file shows what is true of its scene.
     pub fn is_right(&self) -> bool {
         self.compared.as_ref().is_ok_and(|compared| compared.comparison.equal)
+    }
+}
+
+impl Compared {
+    /// How many pixels differ, and the first: `16 pixels of 64 differ, first (1, 3)`.
+    pub fn words(&self) -> String {
+        let pixels = count(self.comparison.differing_pixels, "pixels");
+        let all = grouped(self.comparison.size.map(u64::from).iter().product());
+        let first = self.comparison.first_differing.first();
+        let first = first.map_or(String::new(), |[i, j]| format!(", first ({i}, {j})"));
+        format!("{pixels} of {all} differ{first}")
     }
 }
 

@@ -65,18 +65,7 @@ impl Check {
     }
 
     fn write_missing(&self, out: &mut impl Write) -> io::Result<()> {
-        if self.missing.is_empty() {
-            return Ok(());
-        }
-        let number = count(self.missing.len() as u64, "scenes");
-        let names: Vec<String> =
-            self.missing.iter().map(|name| visible(name).into_owned()).collect();
-        let names = names.join(", ");
-        writeln!(
-            out,
-            "<section>\n<h2>Missing</h2>\n<p>{number}: {}</p>\n</section>",
-            escaped(&names)
-        )
+        write_names("Missing", "scenes", self.missing.iter().map(String::as_str), out)
     }
 
     fn write_files(&self, out: &mut impl Write) -> io::Result<()> {
@@ -91,19 +80,8 @@ impl Check {
             }
             out.write_all(b"</div>\n</section>\n")?;
         }
-        let right: Vec<&str> = self
-            .files
-            .iter()
-            .filter(|file| file.is_right())
-            .map(|file| file.file.as_str())
-            .collect();
-        if right.is_empty() {
-            return Ok(());
-        }
-        let number = count(right.len() as u64, "files");
-        let names: Vec<String> = right.iter().map(|name| visible(name).into_owned()).collect();
-        let names = names.join(", ");
-        writeln!(out, "<section>\n<h2>Right</h2>\n<p>{number}: {}</p>\n</section>", escaped(&names))
+        let right = self.files.iter().filter(|file| file.is_right());
+        write_names("Right", "files", right.map(|file| file.file.as_str()), out)
     }
 
     fn write_file(&self, at: usize, file: &CheckedFile, out: &mut impl Write) -> io::Result<()> {
@@ -124,14 +102,26 @@ impl Check {
         write_picture("truth", &truth.picture, out)?;
         write_picture("difference", &comparison.picture(), out)?;
         writeln!(out, "</div>")?;
-        let all = grouped(comparison.size.map(u64::from).iter().product());
-        let differing = count(comparison.differing_pixels, "pixels");
-        let first = comparison.first_differing.first();
-        let first = first.map_or(String::new(), |[i, j]| format!(", first ({i}, {j})"));
         let cause = self.causes.iter().position(|cause| cause.files.contains(&at));
         let cause = cause.map_or(String::new(), |cause| format!("; cause {}", cause + 1));
-        writeln!(out, "<p>{differing} of {all} differ{first}{cause}</p>\n</article>")
+        writeln!(out, "<p>{}{cause}</p>\n</article>", compared.words())
     }
+}
+
+/// A list of names under a title, if there are any.
+fn write_names<'a>(
+    title: &str,
+    things: &str,
+    names: impl Iterator<Item = &'a str>,
+    out: &mut impl Write,
+) -> io::Result<()> {
+    let names: Vec<String> = names.map(|name| visible(name).into_owned()).collect();
+    if names.is_empty() {
+        return Ok(());
+    }
+    let number = count(names.len() as u64, things);
+    let names = names.join(", ");
+    writeln!(out, "<section>\n<h2>{title}</h2>\n<p>{number}: {}</p>\n</section>", escaped(&names))
 }
 
 /// What the colours of the difference images mean.

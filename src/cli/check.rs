@@ -8,7 +8,7 @@ use anstyle::{AnsiColor, Style};
 use bothways::check::{Certainty, Check, CheckedFile, ConformanceSet, check};
 use bothways::diff::foreign::Content;
 use bothways::formats::source::quote::visible;
-use bothways::wording::{count, grouped};
+use bothways::wording::count;
 use clap::Args;
 use serde::Serialize;
 use std::path::PathBuf;
@@ -199,20 +199,16 @@ impl Report<'_> {
     }
 
     fn words(&self, at: usize, file: &CheckedFile) -> String {
-        let comparison = match &file.compared {
-            Ok(compared) => &compared.comparison,
+        let compared = match &file.compared {
+            Ok(compared) => compared,
             Err(error) => return format!("cannot be compared: {}", visible(error)),
         };
-        let pixels = count(comparison.differing_pixels, "pixels");
-        let all = grouped(comparison.size.map(u64::from).iter().product());
-        let first = comparison.first_differing.first();
-        let first = first.map_or(String::new(), |[i, j]| format!(", first ({i}, {j})"));
         let cause = self.checked.causes.iter().find(|cause| cause.files.contains(&at));
         let point = match cause.map(|cause| cause.certainty) {
             Some(Certainty::Convention) => String::new(),
             _ => format!(". {}", visible(&file.point)),
         };
-        format!("{pixels} of {all} differ{first}{point}")
+        compared.words() + &point
     }
 
     fn missing(&self) -> String {
