@@ -96,7 +96,7 @@ fn heap(projection: Projection, image: [u32; 2], run: impl Fn(&View)) {
 #[test]
 fn every_pair_of_changes_on_different_axes_is_named_from_ids() {
     for projection in [Projection::Perspective, Projection::Parallel] {
-        heap(projection, [56, 40], |view| {
+        heap(projection, [40, 28], |view| {
             let mut changes = Change::of_rendering(view.camera);
             changes.retain(|change| change.is_coarse());
             changes.extend([Placement::UpsideDown, Placement::LeftToRight].map(Change::Placement));
