@@ -10,7 +10,7 @@ use super::{memory, npy, table, terminal};
 use bothways::common::raster::check_samples;
 use bothways::common::{Camera, View};
 use bothways::diff::{Comparison, compare_shown};
-use bothways::figure::Slide;
+use bothways::figure::{Slide, Theme};
 use bothways::orders::{self, Order, RenderOptions, Rendered};
 use bothways::picture::{enlarged, id_picture, mask, picture};
 use bothways::progress::Listener;
@@ -21,6 +21,9 @@ use image::RgbImage;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+
+/// The width of the slide beside the pictures, in pixels.
+const SLIDE_WIDTH: u32 = 1920;
 
 /// Renders, writes and prints; the exit code is 0 if both orders see the same primitives (or if one order ran), 1
 /// otherwise.
@@ -267,7 +270,7 @@ impl<'a> Run<'a> {
                 pictures: [by_object, by_image],
                 comparison,
             };
-            staging.write_rgb("side-by-side.png", &slide.draw())?;
+            staging.write_rgb("side-by-side.png", &slide.draw(Theme::Dark).pixels(SLIDE_WIDTH))?;
         }
         staging.write("report.json", |out| out.write_all(json.as_bytes()))
     }

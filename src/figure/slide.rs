@@ -1,18 +1,16 @@
 //! The slide that shows both orders side by side, with their difference and their work.
 
+use super::drawing::{Anchor, CANVAS, Drawing, Ink};
 use super::fallback::drawable;
 use super::resize::{fitted, footprint, resized};
-use super::text::{Figures, Style, Weight, draw, has, shortened, width};
+use super::text::{Figures, Style, Weight, has};
+use super::theme::{Role, Theme};
 use crate::common::Work;
 use crate::diff::{Class, Classes, Comparison};
 use crate::orders::{Counts, Order, Rendered};
 use crate::wording::{count, grouped, milliseconds, pixels_shown};
 use image::{Rgb, RgbImage};
 use std::ops::RangeInclusive;
-use tiny_skia::{Color, Paint, Pixmap, Rect, Transform};
-
-/// The slide's width and height in pixels, for pictures of every size.
-pub const SLIDE_SIZE: [u32; 2] = [1920, 1080];
 
 /// The content of a slide.
 #[derive(Clone, Copy, Debug)]
@@ -35,32 +33,24 @@ pub struct Slide<'a> {
     pub comparison: &'a Comparison,
 }
 
-const BACKGROUND: [u8; 3] = [0x10, 0x14, 0x18];
-const MAT: [u8; 3] = [0x0b, 0x0e, 0x11];
-const HAIRLINE: [u8; 3] = [0x2a, 0x32, 0x3a];
-const BRIGHT: [u8; 3] = [0xee, 0xf1, 0xf4];
-const QUIET: [u8; 3] = [0xa0, 0xac, 0xb7];
-const MATCH: [u8; 3] = [0x62, 0xc9, 0xa4];
-const DIFFER: [u8; 3] = [0xe6, 0x9f, 0x00];
-
-const MARGIN: f32 = 72.0;
+const MARGIN: f64 = 72.0;
 /// The left edges of the three columns.
-const COLUMNS: [f32; 3] = [MARGIN, 676.0, 1280.0];
-const COLUMN_WIDTH: f32 = 568.0;
-const RIGHT: f32 = 1920.0 - MARGIN;
+const COLUMNS: [f64; 3] = [MARGIN, 676.0, 1280.0];
+const COLUMN_WIDTH: f64 = 568.0;
+const RIGHT: f64 = CANVAS[0] - MARGIN;
 
 /// Baselines and edges, from the top.
-const TITLE: f32 = 74.0;
+const TITLE: f64 = 74.0;
 /// Baselines below the title: of the line about the scene, if there is one, and of the line with the scene's data.
-const BELOW_TITLE: [f32; 2] = [110.0, 144.0];
-const HEADING: f32 = 200.0;
-const FIRST_LOOP: f32 = 233.0;
-const SECOND_LOOP: f32 = 263.0;
-const PICTURES: f32 = 286.0;
-const FIRST_ROW: f32 = 752.0;
-const ROW: f32 = 31.0;
-const RULE: f32 = 988.0;
-const VERDICT: f32 = 1035.0;
+const BELOW_TITLE: [f64; 2] = [110.0, 144.0];
+const HEADING: f64 = 200.0;
+const FIRST_LOOP: f64 = 233.0;
+const SECOND_LOOP: f64 = 263.0;
+const PICTURES: f64 = 286.0;
+const FIRST_ROW: f64 = 752.0;
+const ROW: f64 = 31.0;
+const RULE: f64 = 988.0;
+const VERDICT: f64 = 1035.0;
 /// The largest size of a picture: a 4:3 picture fills this frame.
 const PICTURE_FRAME: [u32; 2] = [568, 426];
 
@@ -70,8 +60,10 @@ impl Slide<'_> {
     /// # Panics
     ///
     /// If the pictures and the comparison have different sizes.
-    pub fn draw(&self) -> RgbImage {
-        let mut canvas = Canvas::new();
+    pub fn draw(&self, theme: Theme) -> Drawing {
+        let title = format!("{}: object order and image order", line(self.scene));
+        let drawing = Drawing::new(&title, &self.comparison.verdict(), theme.background());
+        let mut canvas = Canvas { drawing, theme };
         self.title(&mut canvas);
         let classes = self.comparison.classes();
         let size = fitted(classes.image(), PICTURE_FRAME);
@@ -80,17 +72,17 @@ impl Slide<'_> {
         {
             let order = rendered.order;
             canvas.heading(left, &rendered.name(), order.common_name(), order.loops());
-            canvas.picture(left, &resized(picture, size));
+            canvas.picture(left, resized(picture, size));
             canvas.rows(left, &figures(rendered));
         }
         let [_, _, left] = COLUMNS;
         let explanation =
             ["The same primitive at every sample?", "Ids are compared without tolerance."];
         canvas.heading(left, "difference", "", explanation);
-        canvas.picture(left, &marked_difference(classes, self.pictures[0], size));
+        canvas.picture(left, marked_difference(classes, self.pictures[0], size));
         self.legend(&mut canvas, left, classes);
         self.verdict(&mut canvas);
-        canvas.into_image()
+        canvas.drawing
     }
 
     fn title(&self, canvas: &mut Canvas) {
@@ -107,16 +99,17 @@ impl Slide<'_> {
             facts += &format!("   ·   {}", count(self.threads as u64, "threads"));
         }
         let room = RIGHT - MARGIN;
-        canvas.fitting(MARGIN, TITLE, &line(self.scene), TITLE_STYLE, room);
-        let about = self.about.map(line).map(|about| (about, BRIGHT));
-        let lines = about.into_iter().chain([(facts, QUIET)]);
+        let theme = canvas.theme;
+        canvas.fitting(MARGIN, TITLE, &line(self.scene), theme.title(), room);
+        let about = self.about.map(line).map(|about| (about, theme.bright()));
+        let lines = about.into_iter().chain([(facts, theme.quiet())]);
         for ((text, color), baseline) in lines.zip(BELOW_TITLE) {
             canvas.fitting(MARGIN, baseline, &text, SENTENCE.of(color), room);
         }
     }
 
-    fn legend(&self, canvas: &mut Canvas, left: f32, classes: &Classes) {
-        const SWATCH: f32 = 18.0;
+    fn legend(&self, canvas: &mut Canvas, left: f64, classes: &Classes) {
+        const SWATCH: f64 = 18.0;
         let mut baseline = FIRST_ROW;
         for class in Class::ALL {
             canvas.framed(left, baseline - 17.0, SWATCH, class.color());
@@ -131,10 +124,11 @@ impl Slide<'_> {
     }
 
     fn verdict(&self, canvas: &mut Canvas) {
-        let color = if self.comparison.matches() { MATCH } else { DIFFER };
-        canvas.rectangle(MARGIN, RULE, RIGHT - MARGIN, 1.0, HAIRLINE);
-        let verdict = self.comparison.verdict();
-        canvas.fitting(MARGIN, VERDICT, &verdict, VERDICT_STYLE.of(color), RIGHT - MARGIN);
+        let theme = canvas.theme;
+        let role = if self.comparison.matches() { Role::Good } else { Role::Object };
+        canvas.rectangle(MARGIN, RULE, RIGHT - MARGIN, 1.0, theme.hairline());
+        let (verdict, style) = (self.comparison.verdict(), theme.title().sized(32.0));
+        canvas.fitting(MARGIN, VERDICT, &verdict, style.of(theme.of(role)), RIGHT - MARGIN);
     }
 }
 
@@ -216,59 +210,44 @@ fn widened(range: RangeInclusive<u32>, side: u32) -> RangeInclusive<u32> {
     begin..=(range.end() + missing.div_ceil(2)).min(side - 1)
 }
 
-const REGULAR: Style =
-    Style { weight: Weight::Regular, size: 23.0, color: BRIGHT, figures: Figures::Tabular };
-const SENTENCE: Style = Style { figures: Figures::Proportional, ..REGULAR };
-const SEMI_BOLD: Style = Style { weight: Weight::SemiBold, ..SENTENCE };
-const TITLE_STYLE: Style = Style { size: 46.0, ..SEMI_BOLD };
-const HEADING_STYLE: Style = Style { size: 30.0, ..SEMI_BOLD };
-const VERDICT_STYLE: Style = Style { size: 32.0, ..SEMI_BOLD };
-
-impl Style {
-    fn of(self, color: [u8; 3]) -> Style {
-        Style { color, ..self }
-    }
-}
+/// The letters of rows and sentences; each has the colour of its theme.
+const ROWS: Style = Style { figures: Figures::Tabular, ..SENTENCE };
+const SENTENCE: Style =
+    Style { weight: Weight::Regular, size: 23.0, color: [0; 3], figures: Figures::Proportional };
 
 /// The slide during drawing.
 struct Canvas {
-    pixels: Pixmap,
+    drawing: Drawing,
+    theme: Theme,
 }
 
 impl Canvas {
-    fn new() -> Canvas {
-        let [width, height] = SLIDE_SIZE;
-        let mut pixels = Pixmap::new(width, height).expect("the slide has a size");
-        pixels.fill(opaque(BACKGROUND));
-        Canvas { pixels }
-    }
-
-    fn heading(&mut self, left: f32, name: &str, common_name: &str, loops: [&str; 2]) {
-        let taken = self.right(left + COLUMN_WIDTH, HEADING, common_name, REGULAR.of(QUIET));
-        self.fitting(left, HEADING, name, HEADING_STYLE, COLUMN_WIDTH - taken - REGULAR.size);
+    fn heading(&mut self, left: f64, name: &str, common_name: &str, loops: [&str; 2]) {
+        let (quiet, bright) = (self.theme.quiet(), self.theme.heading());
+        let taken = self.right(left + COLUMN_WIDTH, HEADING, common_name, SENTENCE.of(quiet));
+        let room = COLUMN_WIDTH - taken - f64::from(SENTENCE.size);
+        self.fitting(left, HEADING, name, bright.sized(30.0), room);
         let inner = if common_name.is_empty() { 0.0 } else { 32.0 };
-        draw(&mut self.pixels, loops[0], left, FIRST_LOOP, REGULAR.of(QUIET));
-        draw(&mut self.pixels, loops[1], left + inner, SECOND_LOOP, REGULAR.of(QUIET));
-    }
-
-    /// Draws a picture in the middle of its mat.
-    fn picture(&mut self, left: f32, picture: &RgbImage) {
-        let [frame_width, frame_height] = PICTURE_FRAME;
-        let [wide, high] = PICTURE_FRAME.map(pixels);
-        self.rectangle(left, PICTURES, wide, high, MAT);
-        let x = whole(left) + (frame_width - picture.width()) / 2;
-        let y = whole(PICTURES) + (frame_height - picture.height()) / 2;
-        let [wide, high] = [picture.width(), picture.height()].map(pixels);
-        self.rectangle(pixels(x) - 1.0, pixels(y) - 1.0, wide + 2.0, high + 2.0, HAIRLINE);
-        let stride = SLIDE_SIZE[0] as usize;
-        let canvas = self.pixels.pixels_mut();
-        for (column, row, Rgb([red, green, blue])) in picture.enumerate_pixels() {
-            let index = (y + row) as usize * stride + (x + column) as usize;
-            canvas[index] = tiny_skia::ColorU8::from_rgba(*red, *green, *blue, 255).premultiply();
+        for ([x, baseline], text) in
+            [[left, FIRST_LOOP], [left + inner, SECOND_LOOP]].into_iter().zip(loops)
+        {
+            self.drawing.text([x, baseline], Anchor::Left, text, SENTENCE.of(quiet));
         }
     }
 
-    fn rows(&mut self, left: f32, rows: &[(&str, String)]) {
+    /// Draws a picture in the middle of its mat.
+    fn picture(&mut self, left: f64, picture: RgbImage) {
+        let frame = PICTURE_FRAME.map(f64::from);
+        self.rectangle(left, PICTURES, frame[0], frame[1], self.theme.mat());
+        let [width, height] = [picture.width(), picture.height()];
+        let x = left + f64::from((PICTURE_FRAME[0] - width) / 2);
+        let y = PICTURES + f64::from((PICTURE_FRAME[1] - height) / 2);
+        let size = [width, height].map(f64::from);
+        self.rectangle(x - 1.0, y - 1.0, size[0] + 2.0, size[1] + 2.0, self.theme.hairline());
+        self.drawing.picture(picture, [x, y], size);
+    }
+
+    fn rows(&mut self, left: f64, rows: &[(&str, String)]) {
         let mut baseline = FIRST_ROW;
         for (label, figure) in rows {
             self.row(left, left + COLUMN_WIDTH, baseline, label, figure);
@@ -277,62 +256,30 @@ impl Canvas {
     }
 
     /// Draws a label on the left and a figure on the right.
-    fn row(&mut self, left: f32, right: f32, baseline: f32, label: &str, figure: &str) {
-        let figure_width = self.right(right, baseline, figure, REGULAR);
-        let room = right - left - figure_width - REGULAR.size;
-        self.fitting(left, baseline, label, REGULAR.of(QUIET), room);
+    fn row(&mut self, left: f64, right: f64, baseline: f64, label: &str, figure: &str) {
+        let taken = self.right(right, baseline, figure, ROWS.of(self.theme.bright()));
+        let room = right - left - taken - f64::from(ROWS.size);
+        self.fitting(left, baseline, label, ROWS.of(self.theme.quiet()), room);
     }
 
     /// Draws a text that ends at `right`, and returns its width.
-    fn right(&mut self, right: f32, baseline: f32, text: &str, style: Style) -> f32 {
-        let width = width(text, style);
-        draw(&mut self.pixels, text, right - width, baseline, style);
-        width
+    fn right(&mut self, right: f64, baseline: f64, text: &str, style: Style) -> f64 {
+        self.drawing.text([right, baseline], Anchor::Right, text, style)
     }
 
-    /// Draws a text in the room given: in a smaller size if the room is too narrow, and shortened if that is not
-    /// enough.
-    fn fitting(&mut self, left: f32, baseline: f32, text: &str, style: Style, room: f32) {
-        const SMALLEST: f32 = 0.6;
-        let scale = (room / width(text, style)).clamp(SMALLEST, 1.0);
-        let style = Style { size: style.size * scale, ..style };
-        let text = shortened(text, style, room + 0.5);
-        draw(&mut self.pixels, &text, left, baseline, style);
+    fn fitting(&mut self, left: f64, baseline: f64, text: &str, style: Style, room: f64) {
+        self.drawing.fitting([left, baseline], Anchor::Left, text, style, room);
     }
 
     /// Draws a square with a frame, because the colour may be as dark as the slide.
-    fn framed(&mut self, x: f32, y: f32, side: f32, color: [u8; 3]) {
-        self.rectangle(x - 1.0, y - 1.0, side + 2.0, side + 2.0, HAIRLINE);
+    fn framed(&mut self, x: f64, y: f64, side: f64, color: [u8; 3]) {
+        self.rectangle(x - 1.0, y - 1.0, side + 2.0, side + 2.0, self.theme.hairline());
         self.rectangle(x, y, side, side, color);
     }
 
-    fn rectangle(&mut self, x: f32, y: f32, width: f32, height: f32, color: [u8; 3]) {
-        let mut paint = Paint::default();
-        paint.set_color(opaque(color));
-        if let Some(rectangle) = Rect::from_xywh(x, y, width, height) {
-            self.pixels.fill_rect(rectangle, &paint, Transform::identity(), None);
-        }
+    fn rectangle(&mut self, x: f64, y: f64, width: f64, height: f64, color: [u8; 3]) {
+        self.drawing.rectangle([x, y], [width, height], Ink::new(color));
     }
-
-    fn into_image(self) -> RgbImage {
-        let bytes = self.pixels.pixels().iter().flat_map(|p| [p.red(), p.green(), p.blue()]);
-        let [width, height] = SLIDE_SIZE;
-        RgbImage::from_raw(width, height, bytes.collect()).expect("three bytes a pixel")
-    }
-}
-
-fn opaque([red, green, blue]: [u8; 3]) -> Color {
-    Color::from_rgba8(red, green, blue, u8::MAX)
-}
-
-#[expect(clippy::cast_precision_loss, reason = "places on the slide are small")]
-fn pixels(count: u32) -> f32 {
-    count as f32
-}
-
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small and positive")]
-fn whole(place: f32) -> u32 {
-    place as u32
 }
 
 #[cfg(test)]

@@ -12,30 +12,31 @@ use skrifa::raw::tables::gsub::{SingleSubst, SubstitutionSubtables};
 use skrifa::raw::tables::layout::{ClassDef, FeatureList};
 use skrifa::raw::{ReadError, TableProvider};
 use skrifa::{FontRef, GlyphId16, MetadataProvider, Tag};
+use std::fmt::Write;
 use std::sync::LazyLock;
 use tiny_skia::{Color, FillRule, Paint, Path, PathBuilder, Pixmap, Transform};
 
 /// The weight of the letters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Weight {
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Weight {
     Regular,
     SemiBold,
 }
 
 /// The style of a text.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Style {
-    pub(super) weight: Weight,
+pub(crate) struct Style {
+    pub(crate) weight: Weight,
     /// The em, in pixels.
-    pub(super) size: f32,
+    pub(crate) size: f32,
     /// The colour in sRGB.
-    pub(super) color: [u8; 3],
-    pub(super) figures: Figures,
+    pub(crate) color: [u8; 3],
+    pub(crate) figures: Figures,
 }
 
 /// The widths of figures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Figures {
+pub(crate) enum Figures {
     /// All figures have equal width, for columns of numbers.
     Tabular,
     /// Each figure has its own width, for figures in a sentence.
@@ -54,17 +55,38 @@ pub(super) fn width(text: &str, style: Style) -> f32 {
 
 /// Draws a text from `x` to the right; its letters stand on `baseline`.
 pub(super) fn draw(canvas: &mut Pixmap, text: &str, x: f32, baseline: f32, style: Style) {
-    let font = style.weight.font();
-    let Some(path) = font.outline(&font.set(text, style.figures)) else {
-        return;
-    };
+    let Some(path) = path(text, style) else { return };
     let [red, green, blue] = style.color;
     let mut paint = Paint::default();
     paint.set_color(Color::from_rgba8(red, green, blue, u8::MAX));
-    let scale = font.scale(style.size);
+    let scale = scale(style);
     // In a font, y points up.
     let place = Transform::from_row(scale, 0.0, 0.0, -scale, x, baseline);
     canvas.fill_path(&path, &paint, FillRule::Winding, place, None);
+}
+
+/// The number of pixels in a unit of the font.
+pub(super) fn scale(style: Style) -> f32 {
+    style.weight.font().scale(style.size)
+}
+
+/// The outlines of a text in units of the font; `y` points up. `None` if there is nothing to see.
+pub(super) fn path(text: &str, style: Style) -> Option<Path> {
+    let font = style.weight.font();
+    font.outline(&font.set(text, style.figures))
+}
+
+/// The glyphs of a text, each with its distance from the beginning in units of the font.
+pub(super) fn glyphs(text: &str, style: Style) -> Vec<(u16, f32)> {
+    let line = style.weight.font().set(text, style.figures);
+    line.glyphs.into_iter().map(|(glyph, x)| (glyph.to_u16(), x)).collect()
+}
+
+/// The outline of a glyph in units of the font, as SVG writes a path; empty if there is nothing to see.
+pub(super) fn outline(weight: Weight, glyph: u16) -> String {
+    let mut pen = SvgPen(String::new());
+    weight.font().draw_glyph(GlyphId16::new(glyph), &mut pen);
+    pen.0
 }
 
 /// The text itself if it is narrow enough, else its beginning and an ellipsis.
@@ -194,12 +216,16 @@ impl Font {
         let mut pen = Pen { path: PathBuilder::new(), x: 0.0 };
         for &(glyph, x) in &line.glyphs {
             pen.x = x;
-            let settings = DrawSettings::unhinted(Size::unscaled(), LocationRef::default());
-            if let Some(outline) = self.outlines.get(glyph.into()) {
-                outline.draw(settings, &mut pen).expect("the embedded font is sound");
-            }
+            self.draw_glyph(glyph, &mut pen);
         }
         pen.path.finish()
+    }
+
+    fn draw_glyph(&self, glyph: GlyphId16, pen: &mut impl OutlinePen) {
+        let settings = DrawSettings::unhinted(Size::unscaled(), LocationRef::default());
+        if let Some(outline) = self.outlines.get(glyph.into()) {
+            outline.draw(settings, pen).expect("the embedded font is sound");
+        }
     }
 }
 
@@ -262,6 +288,42 @@ impl OutlinePen for Pen {
 
     fn close(&mut self) {
         self.path.close();
+    }
+}
+
+/// Writes the outline of a glyph as SVG does.
+struct SvgPen(String);
+
+impl SvgPen {
+    fn write(&mut self, letter: char, numbers: &[f32]) {
+        self.0.push(letter);
+        for (place, number) in numbers.iter().enumerate() {
+            // The font's coordinates are whole numbers.
+            let space = if place == 0 { "" } else { " " };
+            let _ = write!(self.0, "{space}{number:.0}");
+        }
+    }
+}
+
+impl OutlinePen for SvgPen {
+    fn move_to(&mut self, x: f32, y: f32) {
+        self.write('M', &[x, y]);
+    }
+
+    fn line_to(&mut self, x: f32, y: f32) {
+        self.write('L', &[x, y]);
+    }
+
+    fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
+        self.write('Q', &[x1, y1, x, y]);
+    }
+
+    fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
+        self.write('C', &[x1, y1, x2, y2, x, y]);
+    }
+
+    fn close(&mut self) {
+        self.0.push('Z');
     }
 }
 

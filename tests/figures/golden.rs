@@ -17,7 +17,7 @@ use assert_cmd::Command;
 use bothways::common::glam::Vec3;
 use bothways::common::{Camera, CameraDescription, View};
 use bothways::diff::{compare, foreign};
-use bothways::figure::Slide;
+use bothways::figure::{Slide, Theme};
 use bothways::orders::{Method, Order, RenderOptions, render};
 use bothways::scenes::load;
 use bothways::wording::count;
@@ -142,7 +142,7 @@ fn a_slide_shows_every_kind_of_difference() {
         pictures: pictures.each_ref(),
         comparison: &compare(&object_order.frame, &image_order.frame),
     };
-    check(&[("differing-side-by-side.png".into(), reduced(&slide.draw()))]);
+    check(&[("differing-side-by-side.png".into(), reduced(&slide.draw(Theme::Dark).pixels(1920)))]);
 }
 
 #[test]

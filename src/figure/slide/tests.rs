@@ -41,7 +41,7 @@ fn slide(scene: &str, size: [u32; 2], count: u64, match_: bool) -> RgbImage {
         pictures: pictures.each_ref(),
         comparison: &comparison,
     };
-    slide.draw()
+    slide.draw(Theme::Dark).pixels(1920)
 }
 
 #[test]
@@ -80,7 +80,7 @@ fn the_line_about_the_scene_is_drawn_below_its_name() {
             pictures,
             comparison,
         };
-        let slide = slide.draw();
+        let slide = slide.draw(Theme::Dark).pixels(1920);
         [85..118, 120..152].map(|y| !is_blank(&slide, 72..400, y))
     };
     assert_eq!(lines(None), [true, false]);
@@ -91,7 +91,7 @@ fn the_line_about_the_scene_is_drawn_below_its_name() {
 
 /// Whether nothing is drawn in an upright strip.
 fn is_blank(slide: &RgbImage, x: std::ops::Range<u32>, y: std::ops::Range<u32>) -> bool {
-    y.into_iter().all(|y| x.clone().all(|x| slide.get_pixel(x, y).0 == BACKGROUND))
+    y.into_iter().all(|y| x.clone().all(|x| slide.get_pixel(x, y).0 == Theme::Dark.background()))
 }
 
 #[test]
@@ -104,7 +104,7 @@ fn margins_and_gutters_stay_blank() {
         ("tall", [3, 2000], 999_999_999_999_999, false),
     ] {
         let slide = slide(scene, size, count, match_);
-        assert_eq!([slide.width(), slide.height()], SLIDE_SIZE);
+        assert_eq!([slide.width(), slide.height()], [1920, 1080]);
         for x in [0..70, 1850..1920] {
             assert!(is_blank(&slide, x, 0..1080), "{scene}: a margin");
         }

@@ -1,0 +1,344 @@
+//! A drawing: shapes, texts and pictures on a canvas of 1920 × 1080 units, with two outputs: the text of an SVG file,
+//! and a picture of pixels.
+//!
+//! Both outputs walk the same list of items, so that they show the same. Every shape is clipped before it gets into
+//! the list: no output ever sees an extreme coordinate.
+
+mod clip;
+mod pixels;
+mod svg;
+
+use super::text::{self, Style};
+use clip::Rectangle;
+use image::RgbImage;
+
+/// The canvas's width and height in units; in a picture of this size a unit is a pixel.
+pub const CANVAS: [f64; 2] = [1920.0, 1080.0];
+
+/// A colour in sRGB and how opaque it is, from 0 to 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Ink {
+    pub(crate) color: [u8; 3],
+    pub(crate) alpha: f64,
+}
+
+impl Ink {
+    pub(crate) const fn new(color: [u8; 3]) -> Ink {
+        Ink { color, alpha: 1.0 }
+    }
+
+    pub(crate) const fn alpha(self, alpha: f64) -> Ink {
+        Ink { alpha, ..self }
+    }
+}
+
+/// How a line is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Pen {
+    pub(crate) ink: Ink,
+    /// In units.
+    pub(crate) width: f64,
+    /// The lengths of a dash and of a gap, in units.
+    pub(crate) dash: Option<[f64; 2]>,
+}
+
+impl Pen {
+    pub(crate) const fn new(color: [u8; 3], width: f64) -> Pen {
+        Pen { ink: Ink::new(color), width, dash: None }
+    }
+
+    pub(crate) const fn dashed(self, dash: f64, gap: f64) -> Pen {
+        Pen { dash: Some([dash, gap]), ..self }
+    }
+
+    pub(crate) const fn alpha(self, alpha: f64) -> Pen {
+        Pen { ink: self.ink.alpha(alpha), ..self }
+    }
+}
+
+/// Which point of a text stands at the given place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Anchor {
+    Left,
+    Middle,
+    Right,
+}
+
+/// One item of a drawing, clipped, in units from the top left.
+#[derive(Clone, Debug)]
+enum Item {
+    Fill { outline: Vec<[f64; 2]>, ink: Ink },
+    Line { points: Vec<[f64; 2]>, closed: bool, pen: Pen },
+    Disc { center: [f64; 2], radius: f64, ink: Ink },
+    Text(Text),
+    Picture { picture: RgbImage, corners: Corners, alpha: f64 },
+}
+
+/// Where three corners of a picture lie: the top left one, the top right one, the bottom left one.
+type Corners = [[f64; 2]; 3];
+
+/// A line of text in a drawing.
+#[derive(Clone, Debug)]
+pub(crate) struct Text {
+    pub(crate) text: String,
+    /// The left end of the line that the letters stand on.
+    pub(crate) left: f64,
+    pub(crate) baseline: f64,
+    pub(crate) style: Style,
+    /// The colour of the line around the letters, where they stand on a picture.
+    pub(crate) halo: Option<[u8; 3]>,
+}
+
+impl Text {
+    /// What the letters may ink: left, top, right and bottom.
+    fn extent(&self) -> [f64; 4] {
+        let (size, width) =
+            (f64::from(self.style.size), f64::from(text::width(&self.text, self.style)));
+        [self.left, self.baseline - 0.76 * size, self.left + width, self.baseline + 0.2 * size]
+    }
+}
+
+/// A drawing.
+#[derive(Clone, Debug)]
+pub struct Drawing {
+    title: String,
+    description: String,
+    items: Vec<Item>,
+    window: Rectangle,
+}
+
+impl Drawing {
+    /// A canvas of one colour. The title and the description are for those who cannot see the picture.
+    pub(crate) fn new(title: &str, description: &str, background: [u8; 3]) -> Drawing {
+        let mut drawing = Drawing {
+            title: title.into(),
+            description: description.into(),
+            items: Vec::new(),
+            window: Rectangle::CANVAS,
+        };
+        drawing.rectangle([0.0, 0.0], CANVAS, Ink::new(background));
+        drawing
+    }
+
+    /// The text of an SVG file. Its texts are outlines: it needs no fonts.
+    pub fn svg(&self) -> String {
+        svg::write(self)
+    }
+
+    /// A picture so many pixels wide, with the form of the canvas.
+    ///
+    /// # Panics
+    ///
+    /// If the width is 0, or more than 2¹⁴.
+    pub fn pixels(&self, width: u32) -> RgbImage {
+        pixels::draw(self, width)
+    }
+
+    /// What is wrong with the texts: which of them leave the canvas, and which overlap.
+    pub fn faults(&self) -> Vec<String> {
+        let texts: Vec<&Text> = self
+            .items
+            .iter()
+            .filter_map(|item| if let Item::Text(text) = item { Some(text) } else { None })
+            .collect();
+        let mut faults = Vec::new();
+        for (number, text) in texts.iter().enumerate() {
+            let [left, top, right, bottom] = text.extent();
+            if left < 0.0 || top < 0.0 || right > CANVAS[0] || bottom > CANVAS[1] {
+                faults.push(format!("'{}' leaves the canvas", text.text));
+            }
+            for other in &texts[..number] {
+                let [other_left, other_top, other_right, other_bottom] = other.extent();
+                if left < other_right
+                    && other_left < right
+                    && top < other_bottom
+                    && other_top < bottom
+                {
+                    faults.push(format!("'{}' overlaps '{}'", text.text, other.text));
+                }
+            }
+        }
+        faults
+    }
+
+    /// Draws what follows only within a rectangle, given by its top left corner and its size; `None` is the whole canvas.
+    pub(crate) fn window(&mut self, window: Option<([f64; 2], [f64; 2])>) {
+        self.window = window.map_or(Rectangle::CANVAS, |(corner, size)| {
+            Rectangle::new(corner, size).within(&Rectangle::CANVAS)
+        });
+    }
+
+    pub(crate) fn rectangle(&mut self, [x, y]: [f64; 2], [width, height]: [f64; 2], ink: Ink) {
+        let (right, bottom) = (x + width, y + height);
+        self.polygon(&[[x, y], [right, y], [right, bottom], [x, bottom]], ink);
+    }
+
+    /// Draws the frame of a rectangle. The middle of the pen runs along its sides.
+    pub(crate) fn frame(&mut self, [x, y]: [f64; 2], [width, height]: [f64; 2], pen: Pen) {
+        let (right, bottom) = (x + width, y + height);
+        self.closed_line(&[[x, y], [right, y], [right, bottom], [x, bottom]], pen);
+    }
+
+    /// Fills a polygon. Points that are not finite are left out.
+    pub(crate) fn polygon(&mut self, points: &[[f64; 2]], ink: Ink) {
+        let outline = self.window.clipped(points);
+        if outline.len() >= 3 {
+            self.items.push(Item::Fill { outline, ink });
+        }
+    }
+
+    /// Draws a line from point to point. Where a point is not finite, the line is interrupted.
+    pub(crate) fn line(&mut self, points: &[[f64; 2]], pen: Pen) {
+        for points in self.window.parts(points) {
+            self.items.push(Item::Line { points, closed: false, pen });
+        }
+    }
+
+    /// Draws the outline of a polygon.
+    pub(crate) fn closed_line(&mut self, points: &[[f64; 2]], pen: Pen) {
+        if points.iter().all(|point| self.window.holds(*point)) {
+            self.items.push(Item::Line { points: points.to_vec(), closed: true, pen });
+        } else {
+            let around: Vec<[f64; 2]> = points.iter().chain(points.first()).copied().collect();
+            self.line(&around, pen);
+        }
+    }
+
+    pub(crate) fn disc(&mut self, center: [f64; 2], radius: f64, ink: Ink) {
+        if self.window.holds_disc(center, radius) {
+            self.items.push(Item::Disc { center, radius, ink });
+        } else {
+            self.polygon(&circle(center, radius), ink);
+        }
+    }
+
+    pub(crate) fn ring(&mut self, center: [f64; 2], radius: f64, pen: Pen) {
+        self.closed_line(&circle(center, radius), pen);
+    }
+
+    /// A line with a head at its end.
+    pub(crate) fn arrow(&mut self, from: [f64; 2], to: [f64; 2], pen: Pen) {
+        let along = [to[0] - from[0], to[1] - from[1]];
+        let length = along[0].hypot(along[1]);
+        let head = (4.0 * pen.width + 6.0).min(0.6 * length);
+        if length.is_nan() || length < 1e-6 {
+            return;
+        }
+        let unit = along.map(|part| part / length);
+        let neck = [to[0] - head * unit[0], to[1] - head * unit[1]];
+        let half = 0.42 * head;
+        self.line(&[from, neck], pen);
+        self.polygon(
+            &[
+                to,
+                [neck[0] - half * unit[1], neck[1] + half * unit[0]],
+                [neck[0] + half * unit[1], neck[1] - half * unit[0]],
+            ],
+            pen.ink,
+        );
+    }
+
+    /// Fills a rectangle with lines that rise to the right: a second sign beside a colour.
+    pub(crate) fn hatch(
+        &mut self,
+        [x, y]: [f64; 2],
+        [width, height]: [f64; 2],
+        gap: f64,
+        pen: Pen,
+    ) {
+        let before = self.window;
+        self.window = Rectangle::new([x, y], [width, height]).within(&before);
+        // The lines go through the canvas's multiples of the gap, so that neighbours continue one another.
+        let first = ((x + y) / gap).ceil();
+        let last = ((x + width + y + height) / gap).floor();
+        let mut step = first;
+        while step <= last {
+            let sum = step * gap;
+            self.line(&[[sum - y, y], [sum - y - height, y + height]], pen);
+            step += 1.0;
+        }
+        self.window = before;
+    }
+
+    /// Writes a line of text, and gives its width.
+    pub(crate) fn text(
+        &mut self,
+        [x, baseline]: [f64; 2],
+        anchor: Anchor,
+        text: &str,
+        style: Style,
+    ) -> f64 {
+        self.text_with_halo([x, baseline], anchor, text, style, None)
+    }
+
+    /// Writes a line of text on a picture, with a line around its letters.
+    pub(crate) fn text_with_halo(
+        &mut self,
+        [x, baseline]: [f64; 2],
+        anchor: Anchor,
+        text: &str,
+        style: Style,
+        halo: Option<[u8; 3]>,
+    ) -> f64 {
+        let width = f64::from(text::width(text, style));
+        let left = match anchor {
+            Anchor::Left => x,
+            Anchor::Middle => x - 0.5 * width,
+            Anchor::Right => x - width,
+        };
+        if !text.is_empty() {
+            self.items.push(Item::Text(Text { text: text.into(), left, baseline, style, halo }));
+        }
+        width
+    }
+
+    /// Writes a line of text in the room given: smaller if the room is too narrow, and shortened if that is not enough.
+    pub(crate) fn fitting(
+        &mut self,
+        [x, baseline]: [f64; 2],
+        anchor: Anchor,
+        text: &str,
+        style: Style,
+        room: f64,
+    ) -> f64 {
+        const SMALLEST: f64 = 0.6;
+        let scale = (room / f64::from(text::width(text, style))).clamp(SMALLEST, 1.0);
+        #[expect(clippy::cast_possible_truncation, reason = "a size of letters")]
+        let style = Style { size: style.size * scale as f32, ..style };
+        #[expect(clippy::cast_possible_truncation, reason = "a length on the canvas")]
+        let text = text::shortened(text, style, room as f32 + 0.5);
+        self.text([x, baseline], anchor, &text, style)
+    }
+
+    /// Draws a picture in an upright frame.
+    pub(crate) fn picture(
+        &mut self,
+        picture: RgbImage,
+        [x, y]: [f64; 2],
+        [width, height]: [f64; 2],
+    ) {
+        self.tilted_picture(picture, [[x, y], [x + width, y], [x, y + height]], 1.0);
+    }
+
+    /// Draws a picture as a parallelogram. One that reaches far beyond the canvas is left out.
+    pub(crate) fn tilted_picture(&mut self, picture: RgbImage, corners: Corners, alpha: f64) {
+        const FAR: f64 = 8192.0;
+        if corners.iter().flatten().all(|part| part.abs() <= FAR) && !picture.is_empty() {
+            self.items.push(Item::Picture { picture, corners, alpha });
+        }
+    }
+}
+
+/// A circle as a polygon whose sides nobody sees.
+fn circle([x, y]: [f64; 2], radius: f64) -> Vec<[f64; 2]> {
+    const SIDES: u32 = 96;
+    (0..SIDES)
+        .map(|side| {
+            let angle = std::f64::consts::TAU * f64::from(side) / f64::from(SIDES);
+            [x + radius * angle.cos(), y + radius * angle.sin()]
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests;
