@@ -11,6 +11,7 @@ mod completions;
 mod cover;
 mod diff;
 mod failure;
+mod figure;
 mod forecast;
 mod fuzz;
 mod grade;
@@ -52,6 +53,7 @@ Examples:
   bothways scenes                            what is built in
   bothways ties --object-rules inclusive     what an ordinary renderer gets wrong
   bothways diff a.png b.png                  which pixels of two files differ, and how
+  bothways figure camera                     a drawing of the camera and its rays, for a slide
   bothways check mine                        a whole renderer at once: which scenes, and why
   bothways pixel ties 20 30                  why a pixel shows what it shows
   bothways cover '1,1 9,2 3,7' --size 10x8   which pixels a triangle covers
@@ -82,6 +84,9 @@ enum Command {
     /// Give marks for pictures of one scene: how much is right, and the likely mistake
     #[command(after_help = grade::EXAMPLES)]
     Grade(Box<grade::GradeArgs>),
+    /// Draw a figure for a lecture: camera, samples and edges, rays, work, and more, as SVG or PNG
+    #[command(after_help = figure::examples())]
+    Figure(Box<figure::FigureArgs>),
     /// List the built-in scenes, or print one as TOML
     #[command(after_help = SCENES_EXAMPLES)]
     Scenes {
@@ -143,6 +148,7 @@ fn run(cli: Cli) -> Result<ExitCode, Failure> {
         Some(Command::Diff(args)) => diff::run(&args),
         Some(Command::Check(args)) => check::run(&args),
         Some(Command::Grade(args)) => grade::run(&args),
+        Some(Command::Figure(args)) => figure::run(&args),
         Some(Command::Scenes { name }) => print_scenes(name.as_deref()),
         Some(Command::Rules(args)) => rules::run(&args),
         Some(Command::Cover(args)) => cover::run(&args),

@@ -1,14 +1,20 @@
-//! Figures: rendered pictures, arranged for readers.
+//! Figures: rendered pictures, and drawings of what the renderers do, arranged for readers.
 
 mod drawing;
 mod fallback;
+mod kinds;
 mod legend;
+mod project;
 mod resize;
+mod sheet;
 mod slide;
+mod subject;
 mod text;
 mod theme;
 
 pub use drawing::{CANVAS, Drawing};
+pub use kinds::{Kind, WorkMap, work_maps};
 pub use legend::{Entry, with_legend};
 pub use slide::Slide;
+pub use subject::{FigureError, Subject};
 pub use theme::Theme;

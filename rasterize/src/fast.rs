@@ -37,6 +37,7 @@ mod lanes;
 mod local_origin;
 mod many_samples;
 mod one_primitive;
+mod partition;
 mod picture;
 mod plane;
 mod prepared;
@@ -49,6 +50,7 @@ mod tile;
 mod triangle;
 mod vertices;
 
+pub use partition::ClusterBox;
 pub use prepared::Prepared;
 pub(crate) use prepared::corners;
 

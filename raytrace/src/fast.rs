@@ -31,6 +31,7 @@ mod local_errors;
 mod local_projection;
 mod many_samples;
 mod one_primitive;
+mod partition;
 mod plane;
 mod prepared;
 mod search;
@@ -58,6 +59,7 @@ use std::ops::Range;
 use store::store;
 
 pub use any_ray::{Hit, WorldRay, first_hit};
+pub use partition::HierarchyBox;
 pub use prepared::Prepared;
 
 /// Samples along one side of a tile.

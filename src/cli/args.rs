@@ -200,7 +200,7 @@ pub(super) enum RulesArg<R> {
 }
 
 impl<R> RulesArg<R> {
-    fn rule(self) -> Option<R> {
+    pub(super) fn rule(self) -> Option<R> {
         match self {
             RulesArg::Exact => None,
             RulesArg::Ordinary(rule) => Some(rule),
@@ -250,7 +250,9 @@ pub(super) fn from_1(text: &str) -> Result<u32, String> {
 }
 
 /// `exact`, or a rule of an ordinary renderer.
-fn rules<R: FromStr<Err = ParseRuleError>>(text: &str) -> Result<RulesArg<R>, ParseRuleError> {
+pub(super) fn rules<R: FromStr<Err = ParseRuleError>>(
+    text: &str,
+) -> Result<RulesArg<R>, ParseRuleError> {
     match text {
         "exact" => Ok(RulesArg::Exact),
         rule => rule.parse().map(RulesArg::Ordinary),

@@ -10,7 +10,7 @@ use clap_complete::Shell;
 use std::fmt::Write;
 
 /// The subcommands with a scene argument; without a subcommand, `render` runs.
-const TAKE_A_SCENE: [&str; 5] = ["render", "grade", "scenes", "pixel", "camera"];
+const TAKE_A_SCENE: [&str; 6] = ["render", "figure", "grade", "scenes", "pixel", "camera"];
 
 /// The script.
 pub(super) fn script(shell: Shell) -> String {

@@ -310,6 +310,62 @@ impl Drawing {
         self.text([x, baseline], anchor, &text, style)
     }
 
+    /// Writes a label beside a point, where it meets no other text and stays in the window; with a thin line to the point
+    /// if it stands far off. Where there is no room at all, nothing is written.
+    pub(crate) fn label(
+        &mut self,
+        point: [f64; 2],
+        text: &str,
+        style: Style,
+        halo: Option<[u8; 3]>,
+    ) {
+        const DIRECTIONS: [[f64; 2]; 8] = [
+            [1.0, -0.6],
+            [-1.0, -0.6],
+            [1.0, 0.9],
+            [-1.0, 0.9],
+            [0.0, -1.0],
+            [0.0, 1.3],
+            [1.0, 0.2],
+            [-1.0, 0.2],
+        ];
+        let (size, width) = (f64::from(style.size), f64::from(text::width(text, style)));
+        for distance in [16.0, 34.0, 60.0, 95.0, 140.0] {
+            for [across, down] in DIRECTIONS {
+                let left = point[0] + across * distance - 0.5 * width * (1.0 - across);
+                let baseline = point[1] + down * distance + 0.35 * size;
+                let label = Text { text: text.into(), left, baseline, style, halo };
+                if self.is_free(&label) {
+                    if distance > 40.0 {
+                        let end = [left.clamp(point[0] - width, point[0]), baseline - 0.3 * size];
+                        let end =
+                            [if across < 0.0 { left + width } else { end[0].max(left) }, end[1]];
+                        let pen = Pen::new(style.color, 1.2).alpha(0.7);
+                        self.line(&[point, end], pen);
+                    }
+                    self.items.push(Item::Text(label));
+                    return;
+                }
+            }
+        }
+    }
+
+    /// Whether a text lies within the window and meets no other.
+    fn is_free(&self, label: &Text) -> bool {
+        const APART: f64 = 4.0;
+        let [left, top, right, bottom] = label.extent();
+        self.window.holds([left - APART, top - APART])
+            && self.window.holds([right + APART, bottom + APART])
+            && self.items.iter().all(|item| {
+                let Item::Text(other) = item else { return true };
+                let [other_left, other_top, other_right, other_bottom] = other.extent();
+                left - APART >= other_right
+                    || other_left >= right + APART
+                    || top - APART >= other_bottom
+                    || other_top >= bottom + APART
+            })
+    }
+
     /// Draws a picture in an upright frame.
     pub(crate) fn picture(
         &mut self,

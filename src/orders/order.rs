@@ -12,6 +12,9 @@ pub enum Order {
 }
 
 impl Order {
+    /// Both orders, in the order of the lecture.
+    pub const ALL: [Order; 2] = [Order::Object, Order::Image];
+
     /// The lecture's name for the order.
     pub fn name(self) -> &'static str {
         match self {

@@ -1,0 +1,178 @@
+//! `bothways figure`: a drawing of what the renderers do with a scene, as SVG or PNG.
+
+use super::args::{CameraArgs, RulesArg, from_1, rules};
+use super::camera::camera;
+use super::failure::Failure;
+use super::output::OutputFile;
+use super::terminal;
+use bothways::common::View;
+use bothways::common::raster::check_samples;
+use bothways::figure::{Drawing, Kind, Subject, Theme};
+use bothways::formats::scene_file::nearest_name;
+use bothways::orders::Rules;
+use bothways::rules::{image_order, object_order};
+use bothways::scenes::{self, DEFAULT};
+use clap::Args;
+use image::ImageFormat;
+use std::io::{Cursor, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+pub(super) fn examples() -> String {
+    let mut text = String::from("Kinds:\n");
+    for kind in Kind::ALL {
+        text += &format!("  {:17}{}\n", kind.name(), kind.about());
+    }
+    text + EXAMPLES
+}
+
+const EXAMPLES: &str = "
+Every figure is drawn from a render of the scene. It is 16:9; the same input gives the same bytes.
+
+Examples:
+  bothways figure camera                              the lecture's scene, into out/figures
+  bothways figure camera lecture -o camera.png        as a PNG, 1920 pixels wide
+  bothways figure grid ties --pixel 20,30             the samples around one pixel
+  bothways figure camera inside --theme light -o -    SVG to standard output, for white paper
+  bothways figure reasons ties --object-rules inclusive";
+
+/// The width of a PNG, if no other is given.
+const WIDTH: u32 = 1920;
+
+/// What to draw, and where to.
+#[derive(Debug, Args)]
+pub(super) struct FigureArgs {
+    /// What the figure shows; the kinds are listed below
+    #[arg(value_parser = kind)]
+    kind: Kind,
+    /// A built-in scene, a .toml scene file, or a mesh file (framed automatically)
+    #[arg(default_value = DEFAULT)]
+    scene: String,
+    #[command(flatten)]
+    camera: CameraArgs,
+    /// The pixel to look at, its row from the top and its column from the left, both from 0; for the kind camera it can
+    /// be given several times. If it is left out, the figure chooses a telling one
+    #[arg(long, value_name = "ROW,COLUMN", value_parser = pixel, allow_hyphen_values = true)]
+    pixel: Vec<[u32; 2]>,
+    /// Samples a pixel: an N×N regular grid, for the kinds that show samples or pictures
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = from_1,
+          allow_negative_numbers = true)]
+    samples: u32,
+    /// Give object order the rules of an ordinary rasterizer, for the kinds that compare
+    #[arg(long, value_name = "RULE", default_value = "exact",
+          value_parser = rules::<object_order::Rule>)]
+    object_rules: RulesArg<object_order::Rule>,
+    /// Give image order the rules of an ordinary ray tracer
+    #[arg(long, value_name = "RULE", default_value = "exact",
+          value_parser = rules::<image_order::Rule>)]
+    image_rules: RulesArg<image_order::Rule>,
+    /// dark, for projectors in dim rooms, or light, for paper
+    #[arg(long, default_value = "dark", value_parser = theme)]
+    theme: Theme,
+    /// The width of a PNG in pixels; its height is nine sixteenths of it
+    #[arg(long, value_name = "PIXELS", default_value_t = WIDTH, value_parser = width,
+          allow_negative_numbers = true)]
+    width: u32,
+    /// The file, SVG or PNG as its name ends; - is standard output, as SVG [default: out/figures/SCENE-KIND.svg]
+    #[arg(short = 'o', long = "output", value_name = "FILE.svg")]
+    file: Option<PathBuf>,
+}
+
+/// How the drawing is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Format {
+    Svg,
+    Png,
+}
+
+/// Draws the figure, writes it and says where it is.
+pub(super) fn run(args: &FigureArgs) -> Result<ExitCode, Failure> {
+    let named = args.file.as_deref().map(OutputFile::find).transpose()?;
+    let format = named.as_ref().map_or(Ok(Format::Svg), format)?;
+    let loaded = scenes::load_for(&args.scene, args.camera.size)?;
+    terminal::warn(&loaded.warnings);
+    let camera = camera(&loaded, &args.camera)?;
+    check_samples(camera.image(), args.samples)
+        .map_err(|error| Failure::new(format!("--samples {}: {error}", args.samples)))?;
+    let subject = Subject {
+        name: &loaded.name,
+        about: loaded.about(),
+        view: View::new(&loaded.scene, &camera),
+        pixels: &args.pixel,
+        samples: args.samples,
+        rules: Rules {
+            object_order: args.object_rules.rule(),
+            image_order: args.image_rules.rule(),
+        },
+        theme: args.theme,
+    };
+    let drawing = args.kind.draw(&subject).map_err(|error| {
+        Failure::new(format!("cannot draw {} of '{}': {error}", args.kind, loaded.name))
+    })?;
+    let file = match named {
+        Some(file) => file,
+        None => OutputFile::find(&default_file(&loaded.name, args.kind))?,
+    };
+    write(&drawing, &file, format, args.width)?;
+    anstream::eprintln!("wrote {}", file.said());
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Where a figure goes if nobody says where.
+fn default_file(scene: &str, kind: Kind) -> PathBuf {
+    PathBuf::from(format!("out/figures/{scene}-{kind}.svg"))
+}
+
+fn format(file: &OutputFile) -> Result<Format, Failure> {
+    match file.ending().as_deref() {
+        None | Some("svg") => Ok(Format::Svg),
+        Some("png") => Ok(Format::Png),
+        Some(ending) => Err(Failure::new(format!(
+            "cannot write {}: a figure is written as SVG or PNG, and .{ending} is neither; end the name in .svg or \
+             .png",
+            file.said()
+        ))),
+    }
+}
+
+fn write(drawing: &Drawing, file: &OutputFile, format: Format, width: u32) -> Result<(), Failure> {
+    let bytes = match format {
+        Format::Svg => drawing.svg().into_bytes(),
+        Format::Png => {
+            let mut png = Cursor::new(Vec::new());
+            let written = drawing.pixels(width).write_to(&mut png, ImageFormat::Png);
+            written
+                .map_err(|error| Failure::new(format!("cannot write {}: {error}", file.said())))?;
+            png.into_inner()
+        }
+    };
+    file.write(|out| out.write_all(&bytes))
+}
+
+fn kind(name: &str) -> Result<Kind, String> {
+    Kind::named(name).ok_or_else(|| {
+        let names = Kind::ALL.map(Kind::name);
+        let suggestion = nearest_name(name, names)
+            .map_or(String::new(), |near| format!("did you mean {near}? "));
+        format!("{suggestion}the kinds are {}", names.join(", "))
+    })
+}
+
+fn theme(name: &str) -> Result<Theme, String> {
+    name.parse()
+}
+
+/// A row and a column.
+fn pixel(text: &str) -> Result<[u32; 2], String> {
+    let number = |text: &str| text.trim().parse::<u32>().ok();
+    let both = text.split_once(',').and_then(|(row, column)| Some([number(row)?, number(column)?]));
+    both.ok_or_else(|| "give ROW,COLUMN in whole numbers counted from 0, such as 20,30".into())
+}
+
+/// The width of a picture.
+fn width(text: &str) -> Result<u32, String> {
+    match text.parse() {
+        Ok(width @ 160..=7680) => Ok(width),
+        _ => Err("give a whole number of pixels from 160 to 7680".into()),
+    }
+}

@@ -1,0 +1,149 @@
+//! The kinds of figures, one file each.
+
+mod both;
+mod camera;
+mod counts;
+mod depth_complexity;
+mod edge_functions;
+mod grid;
+mod hierarchy;
+mod order;
+mod patch;
+mod ray;
+mod reasons;
+mod side_by_side;
+mod work;
+mod zoom;
+
+pub use work::{WorkMap, work_maps};
+
+use super::drawing::Drawing;
+use super::subject::{FigureError, Subject};
+use std::fmt;
+
+/// What a figure shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Kind {
+    /// The lecture's drawing: eye, u, v, w, viewport, viewing rays and what they hit.
+    Camera,
+    /// A magnified patch: samples, edges, signs of the edge functions, the tie rule at work.
+    Grid,
+    /// Three half-planes of one triangle, and their intersection.
+    EdgeFunctions,
+    /// One pixel's ray: every crossing at its t, the boxes it opened, what was tested, what won.
+    Ray,
+    /// Heat maps of the work at each pixel: both orders, textbook and fast, on one scale.
+    Work,
+    /// Boxes of the ray tracer by level, clusters and tiles of the rasterizer, over the picture.
+    Hierarchy,
+    /// Pixels coloured by when each order decided them.
+    Order,
+    /// How many primitives cover each sample.
+    DepthComplexity,
+    /// Both pictures, their difference and their work: the slide of render.
+    SideBySide,
+    /// A patch of all buffers of both orders, around a differing or a chosen pixel.
+    Zoom,
+    /// Why the orders differ when one of them has other rules, pixel by pixel.
+    Reasons,
+}
+
+impl Kind {
+    /// All kinds, in the order of a lecture.
+    pub const ALL: [Kind; 11] = [
+        Kind::Camera,
+        Kind::Grid,
+        Kind::EdgeFunctions,
+        Kind::Ray,
+        Kind::Work,
+        Kind::Hierarchy,
+        Kind::Order,
+        Kind::DepthComplexity,
+        Kind::SideBySide,
+        Kind::Zoom,
+        Kind::Reasons,
+    ];
+
+    /// The name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::Camera => "camera",
+            Kind::Grid => "grid",
+            Kind::EdgeFunctions => "edge-functions",
+            Kind::Ray => "ray",
+            Kind::Work => "work",
+            Kind::Hierarchy => "hierarchy",
+            Kind::Order => "order",
+            Kind::DepthComplexity => "depth-complexity",
+            Kind::SideBySide => "side-by-side",
+            Kind::Zoom => "zoom",
+            Kind::Reasons => "reasons",
+        }
+    }
+
+    /// The kind of this name.
+    pub fn named(name: &str) -> Option<Kind> {
+        Kind::ALL.into_iter().find(|kind| kind.name() == name)
+    }
+
+    /// What the figure shows, in one line.
+    pub fn about(self) -> &'static str {
+        match self {
+            Kind::Camera => {
+                "the lecture's drawing: eye, u, v, w, viewport, viewing rays and what they hit"
+            }
+            Kind::Grid => {
+                "a magnified patch: samples, edges, signs of the edge functions, the tie rule at work"
+            }
+            Kind::EdgeFunctions => "three half-planes of one triangle, and their intersection",
+            Kind::Ray => {
+                "one pixel's ray: every crossing at its t, the boxes it opened, what was tested, what won"
+            }
+            Kind::Work => {
+                "heat maps of the work at each pixel: both orders, textbook and fast, on one scale"
+            }
+            Kind::Hierarchy => {
+                "boxes of the ray tracer by level, clusters and tiles of the rasterizer, over the picture"
+            }
+            Kind::Order => "pixels coloured by when each order decided them",
+            Kind::DepthComplexity => "how many primitives cover each sample",
+            Kind::SideBySide => {
+                "both pictures, their difference and their work: the slide of render"
+            }
+            Kind::Zoom => {
+                "a patch of all buffers of both orders, around a differing or a chosen pixel"
+            }
+            Kind::Reasons => {
+                "why the orders differ when one of them has other rules, pixel by pixel"
+            }
+        }
+    }
+
+    /// Draws the figure.
+    ///
+    /// # Errors
+    ///
+    /// A chosen pixel that the image does not have, and scenes that show nothing of what the figure is about.
+    pub fn draw(self, subject: &Subject) -> Result<Drawing, FigureError> {
+        subject.check()?;
+        match self {
+            Kind::Camera => camera::draw(subject),
+            Kind::Grid => grid::draw(subject),
+            Kind::EdgeFunctions => edge_functions::draw(subject),
+            Kind::Ray => ray::draw(subject),
+            Kind::Work => work::draw(subject),
+            Kind::Hierarchy => hierarchy::draw(subject),
+            Kind::Order => order::draw(subject),
+            Kind::DepthComplexity => depth_complexity::draw(subject),
+            Kind::SideBySide => side_by_side::draw(subject),
+            Kind::Zoom => zoom::draw(subject),
+            Kind::Reasons => reasons::draw(subject),
+        }
+    }
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}

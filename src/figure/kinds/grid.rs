@@ -1,0 +1,366 @@
+//! A magnified patch of the picture: samples, the edges of a triangle, which samples it covers, the signs of its edge
+//! functions, and the tie rule at work.
+
+use super::patch::Patch;
+use crate::common::exact::EdgeSigns;
+use crate::common::{Frame, Primitive, Sign, View};
+use crate::figure::drawing::{Anchor, Drawing, Ink, Pen};
+use crate::figure::project::Projector;
+use crate::figure::sheet::{MARGIN, RIGHT, Sheet, TOP};
+use crate::figure::subject::{FigureError, Subject};
+use crate::figure::theme::{Role, Theme};
+use crate::wording::count;
+use std::collections::BTreeSet;
+
+/// The room of the patch: its top left corner, its width and height.
+const ROOM: ([f64; 2], [f64; 2]) = ([MARGIN, TOP], [1176.0, 800.0]);
+/// Where the words begin.
+const WORDS: f64 = 1290.0;
+/// Rows and columns of the patch, as far as the image has them.
+const SIZE: [usize; 2] = [8, 12];
+
+pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
+    let view = &subject.view;
+    let frame = subject.frame();
+    let (pixel, id) = match subject.pixel() {
+        Some(pixel) => (pixel, at_or_near(&frame, pixel)),
+        None => telling(view, &frame).ok_or_else(nothing)?,
+    };
+    let id = id.ok_or_else(nothing)?;
+    let primitive = view.primitive(id);
+    let is_triangle = matches!(primitive, Primitive::Triangle(_));
+    let point = if is_triangle {
+        "A triangle covers a sample if its three edge functions have the sign of its facing F there; 0 is a tie."
+    } else {
+        "A sample is covered if its viewing ray hits the primitive: what lies between samples is never asked."
+    };
+    let mut sheet = Sheet::new(subject, "Which samples does it cover?", point);
+    let patch = Patch::around(pixel, view.camera.image(), SIZE, ROOM);
+    let cells = cells(view, &patch, &primitive);
+    draw_cells(&mut sheet, &patch, &cells, &frame, id);
+    draw_outlines(&mut sheet, view, &patch, &frame, id);
+    draw_samples(&mut sheet, &patch, &cells);
+    words(&mut sheet, subject, &patch, &cells, id);
+    Ok(sheet.drawing)
+}
+
+fn nothing() -> FigureError {
+    FigureError::new(
+        "nothing is seen near these samples; choose a pixel at the edge of something with --pixel ROW,COLUMN",
+    )
+}
+
+/// A sample of the patch.
+struct Cell {
+    pixel: [usize; 2],
+    covered: bool,
+    edges: Option<EdgeSigns>,
+}
+
+impl Cell {
+    fn is_tie(&self) -> bool {
+        self.edges.is_some_and(|edges| on_boundary(&edges))
+    }
+}
+
+/// Whether a sample lies on the triangle's boundary: on an edge, and outside none.
+fn on_boundary(edges: &EdgeSigns) -> bool {
+    edges.facing != Sign::Zero
+        && edges.at_sample.contains(&Sign::Zero)
+        && !edges.at_sample.contains(&-edges.facing)
+}
+
+fn cells(view: &View, patch: &Patch, primitive: &Primitive) -> Vec<Cell> {
+    let judge = view.judge();
+    let grid = view.camera.sample_grid(1);
+    patch
+        .pixels()
+        .map(|[row, column]| {
+            let coverage = judge.coverage(primitive, &grid.ray(row, column));
+            Cell { pixel: [row, column], covered: coverage.covers, edges: coverage.edges }
+        })
+        .collect()
+}
+
+/// The primitive of the pixel, or of the nearest pixel around it that shows something.
+fn at_or_near(frame: &Frame, [i, j]: [u32; 2]) -> Option<u32> {
+    let (i, j) = (i64::from(i), i64::from(j));
+    let within = |at: i64, side: usize| usize::try_from(at).ok().filter(|at| *at < side);
+    let around = (-4..=4).flat_map(|down| (-6..=6).map(move |right| (down, right)));
+    let mut around: Vec<(i64, i64)> = around.collect();
+    around.sort_by_key(|(down, right)| down * down + right * right);
+    around.into_iter().find_map(|(down, right)| {
+        frame.id(within(i + down, frame.height())?, within(j + right, frame.width())?)
+    })
+}
+
+/// A pixel where something is decided, and the primitive to look at there: best a tie, else the edge of an object; the
+/// one nearest to the middle.
+fn telling(view: &View, frame: &Frame) -> Option<([u32; 2], Option<u32>)> {
+    const MOST: usize = 4000;
+    let (height, width) = (frame.height(), frame.width());
+    let is_triangle = |id: u32| matches!(view.primitive(id), Primitive::Triangle(_));
+    let mut borders: Vec<([usize; 2], u32, bool)> = Vec::new();
+    for row in 0..height {
+        for column in 0..width {
+            let here = frame.id(row, column);
+            let right = if column + 1 < width { frame.id(row, column + 1) } else { here };
+            let below = if row + 1 < height { frame.id(row + 1, column) } else { here };
+            for other in [right, below] {
+                if here == other {
+                    continue;
+                }
+                let object = |id: Option<u32>| id.map(|id| view.scene.locate(id).0);
+                let outline = object(here) != object(other);
+                borders
+                    .extend(here.into_iter().chain(other).map(|id| ([row, column], id, outline)));
+            }
+        }
+    }
+    let middle = [height as f64 / 2.0, width as f64 / 2.0];
+    let far = |[row, column]: [usize; 2]| (row as f64 - middle[0]).hypot(column as f64 - middle[1]);
+    let step = borders.len().div_ceil(MOST).max(1);
+    let judge = view.judge();
+    let grid = view.camera.sample_grid(1);
+    let looked: Vec<&([usize; 2], u32, bool)> = borders.iter().step_by(step).collect();
+    let is_tie = |([row, column], id, _): &([usize; 2], u32, bool)| {
+        let edges = judge.coverage(&view.primitive(*id), &grid.ray(*row, *column)).edges;
+        edges.is_some_and(|edges| on_boundary(&edges))
+    };
+    let nearest = |wanted: &dyn Fn(&([usize; 2], u32, bool)) -> bool| {
+        let wanted = looked.iter().filter(|border| wanted(border));
+        wanted.min_by(|a, b| far(a.0).total_cmp(&far(b.0))).copied()
+    };
+    let found = nearest(&|border| is_triangle(border.1) && is_tie(border))
+        .or_else(|| nearest(&|border| is_triangle(border.1) && border.2))
+        .or_else(|| nearest(&|border| border.2))
+        .or_else(|| nearest(&|_| true))?;
+    let whole = |part: usize| u32::try_from(part).expect("within the image");
+    Some((found.0.map(whole), Some(found.1)))
+}
+
+/// The ground of each pixel: what covers it in the picture.
+fn draw_cells(sheet: &mut Sheet, patch: &Patch, cells: &[Cell], frame: &Frame, id: u32) {
+    let theme = sheet.theme;
+    let drawing = &mut sheet.drawing;
+    for cell in cells {
+        let corner = patch.corner(cell.pixel);
+        let size = [patch.cell; 2];
+        let seen = frame.id(cell.pixel[0], cell.pixel[1]);
+        drawing.rectangle(corner, size, Ink::new(theme.mat()));
+        if cell.covered {
+            drawing.rectangle(corner, size, theme.ink(Role::Good).alpha(0.34));
+        } else if let Some(other) = seen.filter(|other| *other != id) {
+            drawing.rectangle(
+                corner,
+                size,
+                Ink::new(theme.category(3 + other as usize % 4)).alpha(0.13),
+            );
+        }
+    }
+    patch.draw_lines(drawing, Pen::new(theme.hairline(), 1.5));
+}
+
+/// The outlines of all primitives that are seen in the patch, and of the one that is looked at.
+fn draw_outlines(sheet: &mut Sheet, view: &View, patch: &Patch, frame: &Frame, id: u32) {
+    const MOST: usize = 400;
+    let theme = sheet.theme;
+    let projector = Projector { camera: view.camera };
+    let seen: BTreeSet<u32> =
+        patch.pixels().filter_map(|[row, column]| frame.id(row, column)).collect();
+    patch.window(&mut sheet.drawing);
+    let place = |line: Vec<[f64; 2]>| -> Vec<[f64; 2]> {
+        line.into_iter().map(|at| patch.place(at)).collect()
+    };
+    for other in seen.into_iter().filter(|other| *other != id).take(MOST) {
+        for line in projector.outline(&view.primitive(other)) {
+            sheet.drawing.line(&place(line), Pen::new(theme.quiet(), 1.5).alpha(0.55));
+        }
+    }
+    let lines = projector.outline(&view.primitive(id));
+    let is_triangle = matches!(view.primitive(id), Primitive::Triangle(_));
+    for (line, (color, name)) in lines.into_iter().zip(edges(theme).into_iter().cycle()) {
+        let line = place(line);
+        sheet.drawing.line(&line, Pen::new(color, 5.0));
+        if is_triangle && let Some(at) = patch.middle_within(&line) {
+            let style = theme.text().semi_bold().of(color);
+            sheet.drawing.label(at, name, style, Some(theme.mat()));
+        }
+    }
+    sheet.drawing.window(None);
+}
+
+/// The colours and names of the edges. Their signs stand in this order, too, so that no colour is needed.
+pub(super) fn edges(theme: Theme) -> [([u8; 3], &'static str); 3] {
+    [(theme.of(Role::Object), "ab"), (theme.of(Role::Image), "bc"), (theme.of(Role::Camera), "ca")]
+}
+
+fn sign(sign: Sign) -> &'static str {
+    match sign {
+        Sign::Negative => "−",
+        Sign::Zero => "0",
+        Sign::Positive => "+",
+    }
+}
+
+fn draw_samples(sheet: &mut Sheet, patch: &Patch, cells: &[Cell]) {
+    let theme = sheet.theme;
+    let drawing = &mut sheet.drawing;
+    let radius = 0.075 * patch.cell;
+    for cell in cells {
+        let [x, y] = patch.middle(cell.pixel);
+        let tie = cell.is_tie();
+        let color = if tie { theme.of(Role::Focus) } else { theme.bright() };
+        if tie {
+            let corner = patch.corner(cell.pixel).map(|part| part + 3.0);
+            drawing.frame(corner, [patch.cell - 6.0; 2], Pen::new(color, 3.5));
+        }
+        if cell.covered {
+            drawing.disc([x, y], radius, Ink::new(color));
+        } else {
+            drawing.ring([x, y], radius, Pen::new(color, 2.5));
+        }
+        if tie {
+            // The nudge: a little to the right, and less down.
+            drawing.arrow(
+                [x, y],
+                [x + 0.3 * patch.cell, y + 0.1 * patch.cell],
+                Pen::new(color, 2.5),
+            );
+        }
+        let Some(signs) = cell.edges else { continue };
+        let size = f64_to_size(0.21 * patch.cell);
+        for (place, (at, (edge, _))) in signs.at_sample.into_iter().zip(edges(theme)).enumerate() {
+            let x = x + (place as f64 - 1.0) * 0.24 * patch.cell;
+            let strong = theme.text().semi_bold().sized(size).of(edge);
+            let baseline = y + 0.42 * patch.cell;
+            drawing.text_with_halo(
+                [x, baseline],
+                Anchor::Middle,
+                sign(at),
+                strong,
+                Some(theme.mat()),
+            );
+        }
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "a size of letters")]
+fn f64_to_size(size: f64) -> f32 {
+    size.clamp(12.0, 26.0) as f32
+}
+
+fn words(sheet: &mut Sheet, subject: &Subject, patch: &Patch, cells: &[Cell], id: u32) {
+    let theme = sheet.theme;
+    let width = RIGHT - WORDS;
+    let (text, quiet) = (theme.text(), theme.label());
+    let (object, _) = subject.view.scene.locate(id);
+    let covered = cells.iter().filter(|cell| cell.covered).count() as u64;
+    let mut y = TOP + 26.0;
+    let heading = theme.heading().of(theme.of(Role::Good));
+    let kind = kind(&subject.view.primitive(id));
+    y = sheet.lines(
+        [WORDS, y],
+        width,
+        40.0,
+        &[(&format!("{kind} {id}, of object {object}"), heading)],
+    );
+    let rows = format!(
+        "rows {} to {}, columns {} to {}",
+        patch.first[0],
+        patch.first[0] + patch.size[0] - 1,
+        patch.first[1],
+        patch.first[1] + patch.size[1] - 1
+    );
+    let covers = format!("It covers {} of {} samples here.", covered, cells.len());
+    y = sheet.lines([WORDS, y], width, 36.0, &[(&rows, quiet), (&covers, text)]);
+    y += 14.0;
+    y = legend(sheet, [WORDS, y], cells);
+    let Some(facing) = cells.iter().find_map(|cell| cell.edges).map(|edges| edges.facing) else {
+        return;
+    };
+    y += 10.0;
+    let seen = match facing {
+        Sign::Negative => "corners are seen counter-clockwise",
+        Sign::Positive => "corners are seen clockwise",
+        Sign::Zero => "seen exactly edge-on: covers nothing",
+    };
+    let facing = format!("Facing F = {}: its {seen}.", sign(facing));
+    y = sheet.paragraph([WORDS, y], width, 34.0, &facing, text);
+    y = sheet.paragraph(
+        [WORDS, y],
+        width,
+        34.0,
+        "Below each sample: the signs of E_ab, E_bc and E_ca there, in this order.",
+        text,
+    );
+    y += 14.0;
+    ties(sheet, [WORDS, y], cells);
+}
+
+fn legend(sheet: &mut Sheet, [x, y]: [f64; 2], cells: &[Cell]) -> f64 {
+    let theme = sheet.theme;
+    let mut y = y;
+    let has_ties = cells.iter().any(Cell::is_tie);
+    let rows = [
+        ("a sample that it covers", true, false),
+        ("a sample that it does not cover", false, false),
+        ("a tie: exactly on an edge", true, true),
+    ];
+    for (name, covered, tie) in rows.into_iter().filter(|row| has_ties || !row.2) {
+        let center = [x + 14.0, y - 8.0];
+        let color = if tie { theme.of(Role::Focus) } else { theme.bright() };
+        if covered {
+            sheet.drawing.disc(center, 7.0, Ink::new(color));
+        } else {
+            sheet.drawing.ring(center, 7.0, Pen::new(color, 2.5));
+        }
+        if tie {
+            sheet.drawing.frame([x, y - 22.0], [28.0; 2], Pen::new(color, 2.5));
+        }
+        sheet.drawing.text([x + 44.0, y], Anchor::Left, name, theme.text());
+        y += 36.0;
+    }
+    y
+}
+
+/// The tie rule, with the ties of this patch.
+fn ties(sheet: &mut Sheet, [x, y]: [f64; 2], cells: &[Cell]) {
+    let theme = sheet.theme;
+    let width = RIGHT - x;
+    let ties: Vec<&Cell> = cells.iter().filter(|cell| cell.is_tie()).collect();
+    if ties.is_empty() {
+        let none = "No sample of this patch lies exactly on an edge. Where one does, the tie rule decides: see the \
+                    scene ties.";
+        sheet.paragraph([x, y], width, 32.0, none, theme.label());
+        return;
+    }
+    let owned = ties.iter().filter(|cell| cell.covered).count();
+    let heading = theme.heading().sized(27.0).of(theme.of(Role::Focus));
+    let mut y = sheet.lines([x, y], width, 38.0, &[("The tie rule at work", heading)]);
+    let rule = "The sample is moved a little to the right, and less down (the arrow). The side that it comes to \
+                decides: left and top edges own it.";
+    y = sheet.paragraph([x, y], width, 34.0, rule, theme.text());
+    let here = format!("{} here; {owned} of them covered.", count(ties.len() as u64, "ties"));
+    y = sheet.paragraph([x, y], width, 34.0, &here, theme.text());
+    let Some((cell, edges)) = ties.iter().find_map(|cell| Some((cell, cell.edges?))) else {
+        return;
+    };
+    let names = ["E_ab", "E_bc", "E_ca"];
+    let decided: Vec<String> = (0..3)
+        .filter(|edge| edges.at_sample[*edge] == Sign::Zero)
+        .map(|edge| format!("{} = 0 becomes {}", names[edge], sign(edges.decided[edge])))
+        .collect();
+    let verdict = if cell.covered { "covered" } else { "not covered" };
+    let [row, column] = cell.pixel;
+    let example = format!("Pixel ({row}, {column}): {}, so it is {verdict}.", decided.join(", "));
+    sheet.paragraph([x, y], width, 34.0, &example, theme.text());
+}
+
+fn kind(primitive: &Primitive) -> &'static str {
+    match primitive {
+        Primitive::Triangle(_) => "triangle",
+        Primitive::Sphere { .. } => "sphere",
+        Primitive::Plane { .. } => "plane",
+    }
+}

@@ -1,0 +1,220 @@
+//! How each order finds quickly what matters: the boxes of the ray tracer's hierarchy by level, the rasterizer's
+//! clusters and tiles, over the picture.
+
+use super::counts::fit;
+use crate::common::glam::{DVec3, Vec3};
+use crate::figure::drawing::{Anchor, Drawing, Ink, Pen};
+use crate::figure::project::Projector;
+use crate::figure::sheet::{MARGIN, Sheet, TOP};
+use crate::figure::subject::{FigureError, Subject, small_picture};
+use crate::figure::theme::{Role, Theme};
+use crate::wording::{count, grouped};
+use crate::{rasterize, raytrace};
+use image::RgbImage;
+use raytrace::fast::HierarchyBox;
+
+const PANEL: [f64; 2] = [560.0, 330.0];
+const TOPS: [f64; 2] = [TOP + 44.0, TOP + 440.0];
+const STEP: f64 = 608.0;
+/// The most boxes of which a panel shows all edges, and the most that it shows at all.
+const WHOLE: usize = 160;
+const MOST: usize = 1200;
+
+pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
+    let view = &subject.view;
+    let theme = subject.theme;
+    let boxes = raytrace::fast::prepare(view.scene).boxes();
+    let prepared = rasterize::fast::prepare(view.scene);
+    let clusters = prepared.cluster_boxes(view.scene);
+    if boxes.is_empty() {
+        return Err(FigureError::new(
+            "the scene has planes alone, and nothing bounds a plane; draw another scene",
+        ));
+    }
+    let point = "Image order asks a box before what is in it; object order asks a cluster before its triangles.";
+    let mut sheet = Sheet::new(subject, "Boxes, so that most is never looked at", point);
+    let picture = faded(&small_picture(view, 1120), theme);
+    let image = Role::Image;
+    for (column, (name, level)) in levels(&boxes).into_iter().enumerate() {
+        let of_level: Vec<[Vec3; 2]> =
+            boxes.iter().filter(|one| level.holds(one)).map(|one| [one.low, one.high]).collect();
+        let corner = [MARGIN + column as f64 * STEP, TOPS[0]];
+        panel(
+            &mut sheet,
+            subject,
+            &picture,
+            corner,
+            (&format!("image order: {name}"), "boxes", image),
+            &of_level,
+        );
+    }
+    let of_clusters: Vec<[Vec3; 2]> = clusters.iter().map(|one| [one.low, one.high]).collect();
+    let corner = [MARGIN, TOPS[1]];
+    let name = "object order: clusters";
+    panel(&mut sheet, subject, &picture, corner, (name, "clusters", Role::Object), &of_clusters);
+    tiles(&mut sheet, subject, &picture, prepared.tile(), [MARGIN + STEP, TOPS[1]]);
+    numbers(&mut sheet, subject, &boxes, clusters.len(), [MARGIN + 2.0 * STEP, TOPS[1]]);
+    Ok(sheet.drawing)
+}
+
+/// Which boxes a panel shows.
+#[derive(Clone, Copy, Debug)]
+enum Level {
+    At(usize),
+    Leaves,
+}
+
+impl Level {
+    fn holds(self, one: &HierarchyBox) -> bool {
+        match self {
+            Level::At(level) => one.level == level,
+            Level::Leaves => one.primitives.is_some(),
+        }
+    }
+}
+
+/// The first level, one in the middle, and the leaves: as far as they are different.
+fn levels(boxes: &[HierarchyBox]) -> Vec<(String, Level)> {
+    let deepest = boxes.iter().map(|one| one.level).max().unwrap_or(0);
+    let name = |level: usize| format!("level {}", level + 1);
+    let mut levels = Vec::new();
+    if deepest >= 1 {
+        levels.push((name(0), Level::At(0)));
+    }
+    if deepest >= 2 {
+        levels.push((name(deepest / 2), Level::At(deepest / 2)));
+    }
+    levels.push(("leaves".into(), Level::Leaves));
+    levels
+}
+
+/// The picture, so pale that lines over it are seen.
+fn faded(picture: &RgbImage, theme: Theme) -> RgbImage {
+    let mut faded = picture.clone();
+    for pixel in faded.pixels_mut() {
+        for (channel, mat) in pixel.0.iter_mut().zip(theme.mat()) {
+            *channel =
+                u8::try_from((u16::from(*channel) * 2 + u16::from(mat) * 3) / 5).unwrap_or(mat);
+        }
+    }
+    faded
+}
+
+fn panel(
+    sheet: &mut Sheet,
+    subject: &Subject,
+    picture: &RgbImage,
+    corner: [f64; 2],
+    (name, things, role): (&str, &str, Role),
+    boxes: &[[Vec3; 2]],
+) {
+    let theme = sheet.theme;
+    sheet.heading(corner, PANEL[0], name, &count(boxes.len() as u64, things));
+    let (at, size) = fit(sheet, picture.clone(), corner, PANEL);
+    let projector = Projector { camera: subject.view.camera };
+    let [width, height] = subject.view.camera.image().map(f64::from);
+    let place = |[column, row]: [f64; 2]| {
+        [at[0] + column / width * size[0], at[1] + row / height * size[1]]
+    };
+    sheet.drawing.window(Some((at, size)));
+    let few = boxes.len() <= WHOLE;
+    let pen =
+        Pen::new(theme.of(role), if few { 1.8 } else { 1.0 }).alpha(if few { 0.95 } else { 0.7 });
+    for bounds in boxes.iter().step_by(boxes.len().div_ceil(MOST).max(1)) {
+        let corners = corners(subject, *bounds);
+        if few {
+            for (from, to) in edges() {
+                if let Some([from, to]) = projector.segment(corners[from], corners[to]) {
+                    sheet.drawing.line(&[place(from), place(to)], pen);
+                }
+            }
+            continue;
+        }
+        // Of many boxes, the rectangle around each on the raster.
+        let seen: Option<Vec<[f64; 2]>> =
+            corners.iter().map(|corner| projector.place(*corner)).collect();
+        let Some(seen) = seen else { continue };
+        let end = |axis: usize, pick: fn(f64, f64) -> f64| {
+            seen.iter().map(|at| at[axis]).reduce(pick).unwrap_or(0.0)
+        };
+        let (low, high) =
+            ([end(0, f64::min), end(1, f64::min)], [end(0, f64::max), end(1, f64::max)]);
+        let around = [low, [high[0], low[1]], high, [low[0], high[1]]].map(place);
+        sheet.drawing.closed_line(&around, pen);
+    }
+    sheet.drawing.window(None);
+}
+
+/// The corners of a box, relative to the eye.
+fn corners(subject: &Subject, bounds: [Vec3; 2]) -> [DVec3; 8] {
+    std::array::from_fn(|k| {
+        let axis = |axis: usize| bounds[k >> axis & 1][axis];
+        subject.view.offset(Vec3::new(axis(0), axis(1), axis(2)))
+    })
+}
+
+/// The pairs of corners that an edge joins: they differ in one axis.
+fn edges() -> impl Iterator<Item = (usize, usize)> {
+    (0..8)
+        .flat_map(|from: usize| (0..3).map(move |axis| (from, from | 1 << axis)))
+        .filter(|(from, to)| from != to)
+}
+
+/// The tiles of the rasterizer: each thread draws one at a time.
+fn tiles(
+    sheet: &mut Sheet,
+    subject: &Subject,
+    picture: &RgbImage,
+    tile: [usize; 2],
+    corner: [f64; 2],
+) {
+    let theme = sheet.theme;
+    let [width, height] = subject.view.camera.image().map(|side| side as usize);
+    let number = height.div_ceil(tile[0]) * width.div_ceil(tile[1]);
+    sheet.heading(corner, PANEL[0], "object order: tiles", &count(number as u64, "tiles"));
+    let (at, size) = fit(sheet, picture.clone(), corner, PANEL);
+    let pen = Pen::new(theme.of(Role::Object), 2.5);
+    for row in (tile[0]..height).step_by(tile[0]) {
+        let y = at[1] + row as f64 / height as f64 * size[1];
+        sheet.drawing.line(&[[at[0], y], [at[0] + size[0], y]], pen);
+    }
+    for column in (tile[1]..width).step_by(tile[1]) {
+        let x = at[0] + column as f64 / width as f64 * size[0];
+        sheet.drawing.line(&[[x, at[1]], [x, at[1] + size[1]]], pen);
+    }
+    sheet.drawing.frame(at, size, pen);
+}
+
+fn numbers(
+    sheet: &mut Sheet,
+    subject: &Subject,
+    boxes: &[HierarchyBox],
+    clusters: usize,
+    [x, y]: [f64; 2],
+) {
+    let theme = sheet.theme;
+    sheet.heading([x, y], PANEL[0], "in numbers", "");
+    let deepest = boxes.iter().map(|one| one.level).max().unwrap_or(0);
+    let leaves = boxes.iter().filter(|one| one.primitives.is_some()).count();
+    let mut rows: Vec<(String, String)> = Vec::new();
+    for level in 0..=deepest {
+        let here = boxes.iter().filter(|one| one.level == level).count();
+        rows.push((format!("boxes of level {}", level + 1), grouped(here as u64)));
+    }
+    if rows.len() > 5 {
+        let more = rows.len() - 5;
+        rows.truncate(5);
+        rows.push((format!("and {more} more levels"), String::new()));
+    }
+    rows.push(("leaves".into(), grouped(leaves as u64)));
+    rows.push(("clusters of at most 32 triangles".into(), grouped(clusters as u64)));
+    rows.push(("primitives".into(), grouped(subject.view.scene.primitive_count().into())));
+    let step = 40.0;
+    for (row, (name, figure)) in rows.iter().enumerate() {
+        let baseline = y + 30.0 + row as f64 * step;
+        let style = theme.text();
+        sheet.drawing.text([x, baseline], Anchor::Left, name, style.of(theme.quiet()));
+        sheet.drawing.text([x + PANEL[0], baseline], Anchor::Right, figure, style.tabular());
+        sheet.drawing.rectangle([x, baseline + 11.0], [PANEL[0], 1.0], Ink::new(theme.hairline()));
+    }
+}

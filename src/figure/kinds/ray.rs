@@ -1,0 +1,330 @@
+//! One pixel's ray: every crossing at its `t`, the boxes that it opened, what was tested, and what won.
+
+use crate::common::glam::{DVec3, Vec3};
+use crate::common::observe::{Events, Observer};
+use crate::common::raster::Sample;
+use crate::common::{Crop, Frame, Options, Ray, View};
+use crate::figure::drawing::{Anchor, Drawing, Ink, Pen};
+use crate::figure::resize::{fitted, resized};
+use crate::figure::sheet::{MARGIN, RIGHT, Sheet, TOP, number};
+use crate::figure::subject::{FigureError, Subject, small_picture};
+use crate::figure::theme::{Role, ramp};
+use crate::pixel::{self, SampleReport};
+use crate::raytrace::{self, fast::HierarchyBox};
+use crate::wording::{count, grouped};
+use std::collections::HashMap;
+
+const PICTURE: ([f64; 2], [f64; 2]) = ([MARGIN, TOP + 44.0], [520.0, 340.0]);
+/// The words beside the picture.
+const WORDS: [f64; 2] = [MARGIN + 568.0, TOP + 44.0];
+/// The axis of `t`: from where to where, and its height.
+const AXIS: [f64; 2] = [MARGIN + 250.0, RIGHT - 40.0];
+const AXIS_TOP: f64 = 640.0;
+const AXIS_Y: f64 = 880.0;
+/// The most levels of boxes that have a row of their own.
+const ROWS: usize = 5;
+
+pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
+    let view = &subject.view;
+    let pixel = subject.pixel().map_or_else(|| telling(view), Ok)?;
+    let [i, j] = pixel;
+    let report = pixel::report(view, &Options::default(), i, j).remove(0);
+    let prepared = raytrace::fast::prepare(view.scene);
+    let path = Path::of(view, &prepared, pixel);
+    let boxes: HashMap<u32, HierarchyBox> =
+        prepared.boxes().into_iter().map(|one| (one.number, one)).collect();
+    let point = "The ray asks boxes first, then the primitives in those it enters; the crossing with the least t > 0 is seen.";
+    let mut sheet = Sheet::new(subject, &format!("The viewing ray of pixel ({i}, {j})"), point);
+    picture(&mut sheet, subject, pixel);
+    words(&mut sheet, subject, &report, &path);
+    let entered: Vec<(HierarchyBox, [f64; 2])> = path
+        .opened
+        .iter()
+        .filter(|(_, entered)| *entered)
+        .filter_map(|(number, _)| {
+            let one = boxes.get(number)?;
+            Some((*one, interval(view, &report.ray, one)?))
+        })
+        .collect();
+    axis(&mut sheet, &report, &entered);
+    Ok(sheet.drawing)
+}
+
+/// The pixel with the most crossings; of several, the one nearest to the middle.
+fn telling(view: &View) -> Result<[u32; 2], FigureError> {
+    use super::counts::{Counted, Counts};
+    let mut counts = Counts::new(view.camera.image(), Counted::Fragments);
+    super::work::watch(view, crate::orders::Order::Object, &mut counts);
+    let [width, height] = view.camera.image();
+    let middle = [f64::from(height) / 2.0, f64::from(width) / 2.0];
+    let far = |[i, j]: [u32; 2]| (f64::from(i) - middle[0]).hypot(f64::from(j) - middle[1]);
+    let pixels = (0..height).flat_map(|i| (0..width).map(move |j| [i, j]));
+    // More than a handful of crossings is more than a slide shows well.
+    let crossings = |[i, j]: [u32; 2]| counts.at(i as usize, j as usize).min(5);
+    pixels
+        .filter(|pixel| crossings(*pixel) > 0)
+        .min_by(|a, b| crossings(*b).cmp(&crossings(*a)).then(far(*a).total_cmp(&far(*b))))
+        .ok_or_else(|| {
+            FigureError::new(
+                "no ray hits anything; choose a pixel with --pixel ROW,COLUMN to see a miss",
+            )
+        })
+}
+
+/// What the fast ray tracer did for one ray.
+#[derive(Clone, Debug, Default)]
+struct Path {
+    sample: Option<Sample>,
+    opened: Vec<(u32, bool)>,
+    tested: u64,
+    judged: u64,
+}
+
+impl Path {
+    fn of(view: &View, prepared: &raytrace::fast::Prepared, [i, j]: [u32; 2]) -> Path {
+        let crop = Crop { row: i, column: j, height: 1, width: 1 };
+        let options = Options { crop: Some(crop), ..Options::default() };
+        let mut frame = Frame::new(view.camera, &options);
+        let sample = Sample { row: i as usize, column: j as usize };
+        let mut path = Path { sample: Some(sample), ..Path::default() };
+        raytrace::fast::determine_visibility(prepared, view, &options, &mut frame, &mut path);
+        path
+    }
+}
+
+impl Observer for Path {
+    fn fork(&self) -> Self {
+        Path { sample: self.sample, ..Path::default() }
+    }
+
+    fn join(&mut self, part: Self) {
+        self.opened.extend(part.opened);
+        self.tested += part.tested;
+        self.judged += part.judged;
+    }
+}
+
+impl Events for Path {
+    fn node_opened(&mut self, sample: Sample, node: u32, entered: bool) {
+        if self.sample == Some(sample) {
+            self.opened.push((node, entered));
+        }
+    }
+
+    fn sample_tested(&mut self, sample: Sample, _primitive: u32) {
+        self.tested += u64::from(self.sample == Some(sample));
+    }
+
+    fn judged(&mut self, sample: Sample, _question: crate::common::observe::Question) {
+        self.judged += u64::from(self.sample == Some(sample));
+    }
+}
+
+/// From which `t` to which a ray is in a box.
+fn interval(view: &View, ray: &Ray, one: &HierarchyBox) -> Option<[f64; 2]> {
+    let [low, high]: [DVec3; 2] = [one.low, one.high].map(|corner: Vec3| view.offset(corner));
+    let (mut enter, mut leave) = (0.0_f64, f64::INFINITY);
+    for axis in 0..3 {
+        let (origin, along) = (ray.origin[axis], ray.direction[axis]);
+        if along != 0.0 {
+            let (a, b) = ((low[axis] - origin) / along, (high[axis] - origin) / along);
+            enter = enter.max(a.min(b));
+            leave = leave.min(a.max(b));
+        }
+    }
+    (enter <= leave && enter.is_finite()).then_some([enter, leave])
+}
+
+/// The picture with the pixel marked.
+fn picture(sheet: &mut Sheet, subject: &Subject, [i, j]: [u32; 2]) {
+    let theme = sheet.theme;
+    let (corner, room) = PICTURE;
+    sheet.heading(corner, room[0], "the pixel", "");
+    let picture = small_picture(&subject.view, 1040);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a size on the canvas"
+    )]
+    let most = room.map(|side| side as u32);
+    let size = fitted([picture.width(), picture.height()], most);
+    let [width, height] = size.map(f64::from);
+    sheet.drawing.picture(resized(&picture, size), corner, [width, height]);
+    sheet.border(corner, [width, height]);
+    let image = subject.view.camera.image().map(f64::from);
+    let x = corner[0] + (f64::from(j) + 0.5) / image[0] * width;
+    let y = corner[1] + (f64::from(i) + 0.5) / image[1] * height;
+    sheet.drawing.window(Some((corner, [width, height])));
+    for (pen, reach) in
+        [(Pen::new(theme.background(), 7.0), 31.0), (Pen::new(theme.of(Role::Focus), 3.5), 30.0)]
+    {
+        sheet.drawing.ring([x, y], 14.0, pen);
+        for [across, down] in [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]] {
+            let from = [x + 14.0 * across, y + 14.0 * down];
+            sheet.drawing.line(&[from, [x + reach * across, y + reach * down]], pen);
+        }
+    }
+    sheet.drawing.window(None);
+}
+
+fn words(sheet: &mut Sheet, subject: &Subject, report: &SampleReport, path: &Path) {
+    let theme = sheet.theme;
+    let [x, top] = WORDS;
+    let width = RIGHT - x;
+    let vector = |vector: DVec3| {
+        format!("({}, {}, {})", number(vector.x, 4), number(vector.y, 4), number(vector.z, 4))
+    };
+    let eye = subject.view.camera.eye().as_dvec3();
+    let entered = path.opened.iter().filter(|(_, entered)| *entered).count() as u64;
+    let all = subject.view.scene.primitive_count();
+    let seen = match report.covering.first() {
+        None => "It crosses nothing: the background is seen.".to_owned(),
+        Some(nearest) => {
+            format!("Seen: {} {}, at t = {}.", nearest.kind, nearest.id, number(nearest.t, 6))
+        }
+    };
+    sheet.heading([x, top], width, "what it met", "");
+    let crossings = count(report.covering.len() as u64, "crossings");
+    let rays = format!(
+        "r(t) = p + t d,  p = {},  d = {}",
+        vector(eye + report.ray.origin),
+        vector(report.ray.direction)
+    );
+    let boxes = format!(
+        "{} tested, {} entered",
+        count(path.opened.len() as u64, "boxes"),
+        grouped(entered)
+    );
+    let tested = format!(
+        "{} tested; the textbook tests all {}",
+        count(path.tested, "primitives"),
+        grouped(all.into())
+    );
+    let judged = format!("{} left to the exact judge", count(path.judged, "decisions"));
+    let text = theme.text();
+    let rows = [
+        (rays.as_str(), text),
+        (&boxes, text),
+        (&tested, text),
+        (&judged, text),
+        (&crossings, text),
+        (&seen, text.semi_bold().of(theme.of(Role::Good))),
+    ];
+    sheet.lines([x, top + 34.0], width, 50.0, &rows);
+}
+
+/// The axis of `t`, with boxes above it and crossings on it.
+fn axis(sheet: &mut Sheet, report: &SampleReport, entered: &[(HierarchyBox, [f64; 2])]) {
+    let theme = sheet.theme;
+    let crossings: Vec<f64> = report.covering.iter().map(|covering| covering.t).collect();
+    let nearest = crossings.first().copied();
+    let boxes = entered.iter().flat_map(|(_, ends)| ends.iter().copied()).filter(|t| t.is_finite());
+    let farthest = crossings.iter().copied().chain(boxes).fold(0.0, f64::max);
+    // A far crossing, such as a floor near its horizon, must not squeeze the others.
+    let most = match nearest {
+        Some(near) if farthest > 12.0 * near => 12.0 * near,
+        _ if farthest > 0.0 => farthest,
+        _ => 1.0,
+    };
+    let place = |t: f64| AXIS[0] + (AXIS[1] - AXIS[0]) * (t / (1.06 * most)).min(1.0);
+    levels(sheet, entered, &place);
+    let line = Pen::new(theme.bright(), 3.0);
+    sheet.drawing.arrow([AXIS[0] - 24.0, AXIS_Y], [AXIS[1] + 36.0, AXIS_Y], line);
+    sheet.drawing.text(
+        [AXIS[1] + 30.0, AXIS_Y - 16.0],
+        Anchor::Middle,
+        "t",
+        theme.text().semi_bold(),
+    );
+    sheet.drawing.disc([AXIS[0], AXIS_Y], 8.0, theme.ink(Role::Camera));
+    sheet.drawing.text([AXIS[0], AXIS_Y + 40.0], Anchor::Middle, "0", theme.label());
+    sheet.drawing.text([MARGIN, AXIS_Y + 8.0], Anchor::Left, "crossings", theme.text());
+    let behind = Pen::new(theme.quiet(), 3.0);
+    for (place_in_order, covering) in report.covering.iter().enumerate().rev() {
+        let x = place(covering.t);
+        let winner = place_in_order == 0;
+        sheet.drawing.disc(
+            [x, AXIS_Y],
+            if winner { 13.0 } else { 9.0 },
+            Ink::new(theme.background()),
+        );
+        if winner {
+            sheet.drawing.disc([x, AXIS_Y], 11.0, theme.ink(Role::Good));
+        } else {
+            sheet.drawing.ring([x, AXIS_Y], 7.0, behind);
+        }
+    }
+    labels(sheet, report, &place);
+}
+
+/// The names of the crossings below the axis: those that fit, nearest first, in two rows.
+fn labels(sheet: &mut Sheet, report: &SampleReport, place: &impl Fn(f64) -> f64) {
+    let theme = sheet.theme;
+    let mut free = [AXIS[0] + 30.0, AXIS[0] + 30.0];
+    let mut left_out = 0_u64;
+    for (number_in_order, covering) in report.covering.iter().enumerate() {
+        let x = place(covering.t);
+        let style = theme.label();
+        let style =
+            if number_in_order == 0 { style.semi_bold().of(theme.of(Role::Good)) } else { style };
+        let text = format!("id {}: t = {}", covering.id, number(covering.t, 5));
+        let half = 0.5 * f64::from(crate::figure::text::width(&text, style));
+        let middle = x.clamp(AXIS[0] + half, RIGHT - half);
+        let Some(row) = (0..2).find(|row| middle - half >= free[*row]) else {
+            left_out += 1;
+            continue;
+        };
+        free[row] = middle + half + 22.0;
+        let baseline = AXIS_Y + 46.0 + 34.0 * row as f64;
+        sheet
+            .drawing
+            .line(&[[x, AXIS_Y + 16.0], [x, baseline - 20.0]], Pen::new(theme.quiet(), 1.2));
+        sheet.drawing.text([middle, baseline], Anchor::Middle, &text, style);
+    }
+    if left_out > 0 {
+        let more = format!("and {}", count(left_out, "more crossings"));
+        sheet.drawing.text([MARGIN, AXIS_Y + 80.0], Anchor::Left, &more, theme.label());
+    }
+}
+
+/// The boxes that the ray entered, a row a level.
+fn levels(sheet: &mut Sheet, entered: &[(HierarchyBox, [f64; 2])], place: &impl Fn(f64) -> f64) {
+    let theme = sheet.theme;
+    if entered.is_empty() {
+        let none = "It enters no box: planes have none, and nothing else is near.";
+        sheet.drawing.text([MARGIN, AXIS_TOP + 30.0], Anchor::Left, none, theme.label());
+        return;
+    }
+    let deepest = entered.iter().map(|(one, _)| one.level).max().unwrap_or(0);
+    let rows = (deepest + 1).min(ROWS);
+    let step = ((AXIS_Y - 50.0 - AXIS_TOP) / rows as f64).min(44.0);
+    let top = AXIS_Y - 46.0 - step * rows as f64;
+    sheet.heading(
+        [MARGIN, top - 6.0],
+        RIGHT - MARGIN,
+        "boxes that it entered",
+        "from where to where the ray is in each",
+    );
+    for row in 0..rows {
+        let y = top + step * row as f64;
+        // The last row stands for all deeper levels.
+        let here = |level: usize| level == row || (row + 1 == rows && level > row);
+        let of_row: Vec<&(HierarchyBox, [f64; 2])> =
+            entered.iter().filter(|(one, _)| here(one.level)).collect();
+        let name = format!("level {}: {}", row + 1, grouped(of_row.len() as u64));
+        sheet.drawing.text(
+            [MARGIN, y + 0.72 * step],
+            Anchor::Left,
+            &name,
+            theme.text().sized(23.0),
+        );
+        let color = ramp(0.25 + 0.65 * row as f64 / rows as f64);
+        for (_, [enter, leave]) in of_row {
+            let (from, to) = (place(*enter), place(*leave));
+            let corner = [from, y + 0.16 * step];
+            let size = [(to - from).max(2.5), 0.68 * step];
+            sheet.drawing.rectangle(corner, size, Ink::new(color).alpha(0.35));
+            sheet.drawing.frame(corner, size, Pen::new(color, 1.5));
+        }
+    }
+}

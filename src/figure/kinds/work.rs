@@ -1,0 +1,160 @@
+//! Heat maps of the work at each sample, for both orders, textbook and fast, on one scale.
+
+use super::counts::{Counted, Counts, heat_map, scale_bar};
+use crate::common::observe::Observer;
+use crate::common::{Frame, Options, View};
+use crate::figure::drawing::{Anchor, Drawing};
+use crate::figure::sheet::{MARGIN, RIGHT, Sheet, TOP, number};
+use crate::figure::subject::{FigureError, Subject};
+use crate::orders::{Method, Order};
+use crate::wording::{count, grouped};
+use crate::{rasterize, raytrace};
+
+/// The room of a map and of the words beside it.
+const CELL: [f64; 2] = [876.0, 330.0];
+const MAP: [f64; 2] = [430.0, 330.0];
+const TOPS: [f64; 2] = [TOP + 44.0, TOP + 440.0];
+const LEFTS: [f64; 2] = [MARGIN, MARGIN + 900.0];
+
+/// The work at each sample of a picture.
+#[derive(Clone, Debug)]
+pub struct WorkMap {
+    /// The order.
+    pub order: Order,
+    /// The method.
+    pub method: Method,
+    /// Rows and columns.
+    pub size: [usize; 2],
+    /// Primitives and boxes tested at each sample, row by row.
+    pub counts: Vec<u64>,
+}
+
+/// Counts the work at each sample, for both orders, textbook and fast: primitives and boxes tested, each ray and each
+/// primitive by itself. The textbooks need no run: they test every primitive at every sample.
+pub fn work_maps(view: &View) -> Vec<WorkMap> {
+    let all = [Method::Textbook, Method::Fast]
+        .into_iter()
+        .flat_map(|method| Order::ALL.map(move |order| (order, method)));
+    all.map(|(order, method)| {
+        let counts = counted(view, order, method);
+        let [width, height] = view.camera.image().map(|side| side as usize);
+        let counts = match counts {
+            Some(counts) => counts.all().collect(),
+            None => vec![u64::from(view.scene.primitive_count()); width * height],
+        };
+        WorkMap { order, method, size: [height, width], counts }
+    })
+    .collect()
+}
+
+/// The counts of a run; `None` for a textbook, whose counts are all the same.
+fn counted(view: &View, order: Order, method: Method) -> Option<Counts> {
+    (method == Method::Fast).then(|| {
+        let mut counts = Counts::new(view.camera.image(), Counted::Tests);
+        watch(view, order, &mut counts);
+        counts
+    })
+}
+
+/// Renders by the fast method for an observer.
+pub(super) fn watch(view: &View, order: Order, observer: &mut impl Observer) {
+    let options = Options::default();
+    let mut frame = Frame::new(view.camera, &options);
+    match order {
+        Order::Object => {
+            let prepared = rasterize::fast::prepare(view.scene);
+            rasterize::fast::determine_visibility(&prepared, view, &options, &mut frame, observer);
+        }
+        Order::Image => {
+            let prepared = raytrace::fast::prepare(view.scene);
+            raytrace::fast::determine_visibility(&prepared, view, &options, &mut frame, observer);
+        }
+    }
+}
+
+pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
+    let view = &subject.view;
+    let point = "The work of the algorithm, each primitive and each ray by itself; a timed frame shares much of it.";
+    let mut sheet = Sheet::new(subject, "How much work is a pixel?", point);
+    let maps = work_maps(view);
+    let most = maps.iter().flat_map(|map| map.counts.iter().copied()).max().unwrap_or(1).max(1);
+    for (place, map) in maps.iter().enumerate() {
+        let corner = [LEFTS[place % 2], TOPS[place / 2]];
+        let name = format!("{}, {}", map.order.name(), map.method.name());
+        sheet.heading(corner, CELL[0], &name, "");
+        let counts = counted(view, map.order, map.method);
+        let counts = counts.unwrap_or_else(|| Counts::same(view.camera.image(), map.counts[0]));
+        heat_map(&mut sheet, &counts, corner, MAP, |count| shade(count, most));
+        words(&mut sheet, map, [corner[0] + MAP[0] + 28.0, corner[1] + 34.0]);
+    }
+    let ticks = ticks(most);
+    let wide = RIGHT - MARGIN - 330.0;
+    let y = 956.0;
+    sheet.drawing.text(
+        [MARGIN, y + 14.0],
+        Anchor::Left,
+        "tests at a pixel, in equal ratios:",
+        sheet.theme.label(),
+    );
+    bar(&mut sheet, [MARGIN + 330.0, y], wide, &ticks, most);
+    Ok(sheet.drawing)
+}
+
+/// The place on the ramp, in equal ratios, so that 1 and the greatest number are its ends.
+fn shade(count: u64, most: u64) -> f64 {
+    (1.0 + count as f64).ln() / (1.0 + most as f64).ln()
+}
+
+/// Powers of ten up to the greatest number.
+fn ticks(most: u64) -> Vec<u64> {
+    let mut ticks: Vec<u64> = (0..20)
+        .map(|power| 10_u64.saturating_pow(power))
+        .take_while(|tick| *tick <= most)
+        .collect();
+    ticks.insert(0, 0);
+    ticks
+}
+
+/// The scale, with a number at each power of ten.
+fn bar(sheet: &mut Sheet, [x, y]: [f64; 2], width: f64, ticks: &[u64], most: u64) {
+    scale_bar(sheet, [x, y], width, &[]);
+    let mut free = x;
+    for tick in ticks {
+        let at = x + width * shade(*tick, most);
+        let style = sheet.theme.label().sized(19.0);
+        let half = 0.5 * f64::from(crate::figure::text::width(&grouped(*tick), style));
+        let middle = at.clamp(x + half, x + width - half);
+        if middle - half >= free {
+            sheet.drawing.text([middle, y + 38.0], Anchor::Middle, &grouped(*tick), style);
+            free = middle + half + 14.0;
+        }
+    }
+}
+
+fn words(sheet: &mut Sheet, map: &WorkMap, [x, y]: [f64; 2]) {
+    let theme = sheet.theme;
+    let width = CELL[0] - MAP[0] - 28.0;
+    let total: u64 = map.counts.iter().sum();
+    let most = map.counts.iter().copied().max().unwrap_or(0);
+    let mean = total as f64 / map.counts.len() as f64;
+    let (what, unit) = match (map.order, map.method) {
+        (Order::Image, Method::Fast) => ("primitives and boxes tested", "tests"),
+        _ => ("primitives tested", "tests"),
+    };
+    let bold = theme.heading().sized(34.0);
+    let mut y = sheet.lines([x, y], width, 40.0, &[(&grouped(total), bold)]);
+    y = sheet.lines([x, y], width, 44.0, &[(what, theme.text().of(theme.quiet()))]);
+    let lines = match map.method {
+        Method::Textbook => vec![
+            format!("{} at every pixel:", count(most, unit)),
+            "every primitive, everywhere,".into(),
+            "by the definition of the loop".into(),
+        ],
+        Method::Fast => vec![
+            format!("{} a pixel on average", number(mean, 3)),
+            format!("{} at most", grouped(most)),
+        ],
+    };
+    let lines: Vec<_> = lines.iter().map(|line| (line.as_str(), theme.text())).collect();
+    sheet.lines([x, y], width, 36.0, &lines);
+}

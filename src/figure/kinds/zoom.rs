@@ -1,0 +1,149 @@
+//! A patch of all buffers of both orders: colour, ids, distances, coverage.
+
+use super::both::{Both, both};
+use super::patch::Patch;
+use crate::common::Frame;
+use crate::figure::drawing::{Anchor, Drawing, Ink, Pen};
+use crate::figure::sheet::{MARGIN, Sheet, TOP, number};
+use crate::figure::subject::{FigureError, Subject};
+use crate::figure::theme::{Role, ramp};
+use crate::picture::color_of_id;
+use crate::wording::count;
+use image::RgbImage;
+
+/// Rows and columns of the patch, as far as the image has them.
+const SIZE: [usize; 2] = [12, 16];
+const ROOM: [f64; 2] = [420.0, 316.0];
+const STEP: f64 = 452.0;
+const TOPS: [f64; 2] = [TOP + 50.0, TOP + 440.0];
+const BUFFERS: [&str; 4] = ["colour", "ids", "distance t", "coverage"];
+
+pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
+    let both = both(subject)?;
+    let pixel = subject.pixel().unwrap_or_else(|| telling(&both));
+    let image = subject.view.camera.image();
+    let [i, j] = pixel;
+    let differing = both.comparison.visible.differing_pixels;
+    let point = if differing == 0 {
+        "Both orders write the same ids and the same coverage; colours and distances agree within rounding.".to_owned()
+    } else {
+        let pixels = count(differing, "pixels");
+        format!(
+            "The orders see different primitives in {pixels} of the picture; here they are framed."
+        )
+    };
+    let mut sheet = Sheet::new(subject, &format!("All buffers around pixel ({i}, {j})"), &point);
+    let range = distances(&both, &Patch::around(pixel, image, SIZE, ([0.0; 2], ROOM)));
+    for (row, rendered) in [&both.object_order, &both.image_order].into_iter().enumerate() {
+        for (column, buffer) in BUFFERS.into_iter().enumerate() {
+            let corner = [MARGIN + column as f64 * STEP, TOPS[row]];
+            let patch = Patch::around(pixel, image, SIZE, (corner, ROOM));
+            let heading = if column == 0 { rendered.name() } else { String::new() };
+            let note = if column == 0 { "" } else { buffer };
+            sheet.heading(
+                corner,
+                ROOM[0],
+                if column == 0 { &heading } else { buffer },
+                if column == 0 { buffer } else { "" },
+            );
+            let _ = note;
+            let picture = &both.pictures[row];
+            cells(&mut sheet, &patch, &rendered.frame, picture, column, range);
+            mark(&mut sheet, &patch, &both);
+        }
+    }
+    legend(&mut sheet, range, pixel, image);
+    Ok(sheet.drawing)
+}
+
+/// The first differing pixel; if there is none, an outline near the middle.
+fn telling(both: &Both) -> [u32; 2] {
+    if let Some(pixel) = both.comparison.visible.first_differing.first() {
+        return *pixel;
+    }
+    let frame = &both.object_order.frame;
+    let (height, width) = (frame.height(), frame.width());
+    let far = |row: usize, column: usize| {
+        (row as f64 - height as f64 / 2.0).hypot(column as f64 - width as f64 / 2.0)
+    };
+    let places = (0..height).flat_map(|row| (1..width).map(move |column| (row, column)));
+    let outline = places.filter(|(row, column)| {
+        frame.id(*row, *column).is_some() != frame.id(*row, *column - 1).is_some()
+    });
+    let nearest = outline.min_by(|a, b| far(a.0, a.1).total_cmp(&far(b.0, b.1)));
+    let (row, column) = nearest.unwrap_or((height / 2, width / 2));
+    [row, column].map(|part| u32::try_from(part).expect("within the image"))
+}
+
+/// The least and the greatest distance in the patch.
+fn distances(both: &Both, patch: &Patch) -> [f64; 2] {
+    let frame = &both.object_order.frame;
+    let all = patch.pixels().filter_map(|[row, column]| frame.t(row, column)).map(f64::from);
+    all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], t| [low.min(t), high.max(t)])
+}
+
+/// Draws one buffer of the patch, pixel by pixel.
+fn cells(
+    sheet: &mut Sheet,
+    patch: &Patch,
+    frame: &Frame,
+    picture: &RgbImage,
+    buffer: usize,
+    [low, high]: [f64; 2],
+) {
+    let theme = sheet.theme;
+    for [row, column] in patch.pixels() {
+        let (corner, size) = (patch.corner([row, column]), [patch.cell; 2]);
+        let side = |part: usize| u32::try_from(part).expect("within the image");
+        let color = match buffer {
+            0 => Some(picture.get_pixel(side(column), side(row)).0),
+            1 => frame.id(row, column).map(color_of_id),
+            2 => frame.t(row, column).map(|t| {
+                let span = if high > low { high - low } else { 1.0 };
+                ramp(0.06 + 0.94 * (f64::from(t) - low) / span)
+            }),
+            _ => frame.id(row, column).map(|_| theme.bright()),
+        };
+        sheet.drawing.rectangle(corner, size, Ink::new(color.unwrap_or(theme.mat())));
+        if color.is_none() {
+            sheet.drawing.hatch(corner, size, 9.0, Pen::new(theme.hairline(), 1.2));
+        }
+    }
+    patch.draw_lines(&mut sheet.drawing, Pen::new(theme.background(), 1.0));
+}
+
+/// Frames the pixels in which the orders differ.
+fn mark(sheet: &mut Sheet, patch: &Patch, both: &Both) {
+    let color = sheet.theme.of(Role::Focus);
+    let classes = both.comparison.classes();
+    for [row, column] in patch.pixels() {
+        let side = |part: usize| u32::try_from(part).expect("within the image");
+        if classes.at(side(row), side(column)).differs() {
+            let corner = patch.corner([row, column]).map(|part| part + 1.0);
+            sheet.drawing.frame(
+                corner,
+                [patch.cell - 2.0; 2],
+                Pen::new(sheet.theme.background(), 5.0),
+            );
+            sheet.drawing.frame(corner, [patch.cell - 2.0; 2], Pen::new(color, 3.0));
+        }
+    }
+}
+
+fn legend(sheet: &mut Sheet, [low, high]: [f64; 2], pixel: [u32; 2], image: [u32; 2]) {
+    let theme = sheet.theme;
+    let y = 986.0;
+    let patch = Patch::around(pixel, image, SIZE, ([0.0; 2], ROOM));
+    let rows = format!(
+        "rows {} to {}, columns {} to {};  hatched: nothing is seen",
+        patch.first[0],
+        patch.first[0] + patch.size[0] - 1,
+        patch.first[1],
+        patch.first[1] + patch.size[1] - 1
+    );
+    sheet.drawing.text([MARGIN, y], Anchor::Left, &rows, theme.label());
+    if low <= high {
+        let range = format!("t from {} (dark) to {} (light)", number(low, 5), number(high, 5));
+        sheet.drawing.text([MARGIN + 2.0 * STEP, y], Anchor::Left, &range, theme.label());
+    }
+}
