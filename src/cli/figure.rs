@@ -12,6 +12,7 @@ use bothways::formats::scene_file::nearest_name;
 use bothways::orders::Rules;
 use bothways::rules::{image_order, object_order};
 use bothways::scenes::{self, DEFAULT};
+use bothways::wording::count;
 use clap::Args;
 use image::ImageFormat;
 use std::io::{Cursor, Write};
@@ -54,7 +55,7 @@ pub(super) struct FigureArgs {
     /// be given several times. If it is left out, the figure chooses a telling one
     #[arg(long, value_name = "ROW,COLUMN", value_parser = pixel, allow_hyphen_values = true)]
     pixel: Vec<[u32; 2]>,
-    /// Samples a pixel: an N×N regular grid, for the kinds that show samples or pictures
+    /// Samples a pixel: an N×N regular grid, for the kind side-by-side
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = from_1,
           allow_negative_numbers = true)]
     samples: u32,
@@ -87,6 +88,7 @@ enum Format {
 
 /// Draws the figure, writes it and says where it is.
 pub(super) fn run(args: &FigureArgs) -> Result<ExitCode, Failure> {
+    check(args)?;
     let named = args.file.as_deref().map(OutputFile::find).transpose()?;
     let format = named.as_ref().map_or(Ok(Format::Svg), format)?;
     let loaded = scenes::load_for(&args.scene, args.camera.size)?;
@@ -116,6 +118,37 @@ pub(super) fn run(args: &FigureArgs) -> Result<ExitCode, Failure> {
     write(&drawing, &file, format, args.width)?;
     anstream::eprintln!("wrote {}", file.said());
     Ok(ExitCode::SUCCESS)
+}
+
+/// Refuses options that would change nothing in a figure of this kind.
+fn check(args: &FigureArgs) -> Result<(), Failure> {
+    let kind = args.kind;
+    let refused = |option: &str, why: &str| {
+        let kinds = Kind::ALL.into_iter().filter(|kind| match option {
+            "--pixel" => kind.most_pixels() > 0,
+            "--samples" => kind.takes_samples(),
+            _ => kind.compares(),
+        });
+        let kinds: Vec<&str> = kinds.map(Kind::name).collect();
+        Failure::new(format!("{option} {why}, and {kind} does not; it is for {}", kinds.join(", ")))
+    };
+    let ordinary = args.object_rules.rule().is_some() || args.image_rules.rule().is_some();
+    match kind.most_pixels() {
+        0 if !args.pixel.is_empty() => Err(refused("--pixel", "chooses what a figure looks at")),
+        most if args.pixel.len() > most => Err(Failure::new(format!(
+            "{kind} looks at {}, but --pixel is given {} times",
+            count(most as u64, "pixels"),
+            args.pixel.len()
+        ))),
+        _ if args.samples > 1 && !kind.takes_samples() => {
+            Err(refused("--samples", "changes figures that show pictures by sample"))
+        }
+        _ if ordinary && !kind.compares() => Err(refused(
+            "--object-rules and --image-rules",
+            "change figures that compare the orders",
+        )),
+        _ => Ok(()),
+    }
 }
 
 /// Where a figure goes if nobody says where.

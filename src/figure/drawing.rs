@@ -310,38 +310,35 @@ impl Drawing {
         self.text([x, baseline], anchor, &text, style)
     }
 
-    /// Writes a label beside a point, where it meets no other text and stays in the window; with a thin line to the point
-    /// if it stands far off. Where there is no room at all, nothing is written.
+    /// Writes a label beside a point, where it meets no other text and stays in the window: as near as possible, best in
+    /// the preferred direction (across, down), with a thin line to the point if it stands far off. Where there is no room
+    /// at all, nothing is written.
     pub(crate) fn label(
         &mut self,
         point: [f64; 2],
+        prefer: [f64; 2],
         text: &str,
         style: Style,
         halo: Option<[u8; 3]>,
     ) {
-        const DIRECTIONS: [[f64; 2]; 8] = [
-            [1.0, -0.6],
-            [-1.0, -0.6],
-            [1.0, 0.9],
-            [-1.0, 0.9],
-            [0.0, -1.0],
-            [0.0, 1.3],
-            [1.0, 0.2],
-            [-1.0, 0.2],
-        ];
+        let mut directions: Vec<[f64; 2]> = (0..16)
+            .map(|step| std::f64::consts::TAU * f64::from(step) / 16.0)
+            .map(|angle| [angle.cos(), angle.sin()])
+            .collect();
+        let along = |direction: &[f64; 2]| direction[0] * prefer[0] + direction[1] * prefer[1];
+        directions.sort_by(|a, b| along(b).total_cmp(&along(a)));
         let (size, width) = (f64::from(style.size), f64::from(text::width(text, style)));
         for distance in [16.0, 34.0, 60.0, 95.0, 140.0] {
-            for [across, down] in DIRECTIONS {
+            for [across, down] in &directions {
+                // The side or the corner of the text that faces the point is so far from it.
                 let left = point[0] + across * distance - 0.5 * width * (1.0 - across);
-                let baseline = point[1] + down * distance + 0.35 * size;
+                let baseline = point[1] + down * (distance + 0.45 * size) + 0.35 * size;
                 let label = Text { text: text.into(), left, baseline, style, halo };
                 if self.is_free(&label) {
                     if distance > 40.0 {
-                        let end = [left.clamp(point[0] - width, point[0]), baseline - 0.3 * size];
-                        let end =
-                            [if across < 0.0 { left + width } else { end[0].max(left) }, end[1]];
-                        let pen = Pen::new(style.color, 1.2).alpha(0.7);
-                        self.line(&[point, end], pen);
+                        let end = [left + 0.5 * width * (1.0 - across), baseline - 0.35 * size];
+                        let end = [end[0], end[1] - down * 0.6 * size];
+                        self.line(&[point, end], Pen::new(style.color, 1.2).alpha(0.7));
                     }
                     self.items.push(Item::Text(label));
                     return;

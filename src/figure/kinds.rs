@@ -119,6 +119,30 @@ impl Kind {
         }
     }
 
+    /// How many chosen pixels the figure can look at.
+    pub fn most_pixels(self) -> usize {
+        match self {
+            Kind::Camera => 4,
+            Kind::Grid | Kind::EdgeFunctions | Kind::Ray | Kind::Zoom => 1,
+            Kind::Work
+            | Kind::Hierarchy
+            | Kind::Order
+            | Kind::DepthComplexity
+            | Kind::SideBySide
+            | Kind::Reasons => 0,
+        }
+    }
+
+    /// Whether the figure compares the orders: then rules of ordinary renderers show in it.
+    pub fn compares(self) -> bool {
+        matches!(self, Kind::SideBySide | Kind::Zoom | Kind::Reasons)
+    }
+
+    /// Whether the figure shows pictures of several samples a pixel.
+    pub fn takes_samples(self) -> bool {
+        self == Kind::SideBySide
+    }
+
     /// Draws the figure.
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 //! What a figure is drawn of, and why it cannot be drawn.
 
 use super::theme::Theme;
-use crate::common::{Camera, Crop, Frame, Options, View};
+use crate::common::{Camera, Frame, Options, View};
 use crate::orders::Rules;
 use crate::picture::picture;
 use crate::rasterize;
@@ -71,11 +71,6 @@ impl Subject<'_> {
     /// What is seen, one sample a pixel.
     pub(crate) fn frame(&self) -> Frame {
         seen(&self.view, &Options::default())
-    }
-
-    /// What is seen of a part of the picture.
-    pub(crate) fn part(&self, crop: Crop) -> Frame {
-        seen(&self.view, &Options { crop: Some(crop), ..Options::default() })
     }
 }
 

@@ -39,8 +39,6 @@ pub(crate) enum Role {
     Image,
     /// What agrees, what is covered, what won.
     Good,
-    /// What is wrong, or lies behind.
-    Bad,
     /// What is looked at now: the chosen pixel and its ray.
     Focus,
     /// The camera's own: eye, viewport, frame.
@@ -95,38 +93,10 @@ impl Theme {
             (Theme::Light, Role::Image) => [0x00, 0x72, 0xb2],
             (Theme::Dark, Role::Good) => [0x62, 0xc9, 0xa4],
             (Theme::Light, Role::Good) => [0x00, 0x7a, 0x59],
-            (Theme::Dark, Role::Bad) => [0xd5, 0x5e, 0x00],
-            (Theme::Light, Role::Bad) => [0xb8, 0x45, 0x00],
             (Theme::Dark, Role::Focus) => [0xf0, 0xe4, 0x42],
             (Theme::Light, Role::Focus) => [0xb0, 0x3a, 0x86],
             (Theme::Dark, Role::Camera) => [0xcc, 0x79, 0xa7],
             (Theme::Light, Role::Camera) => [0x9c, 0x3f, 0x75],
-        }
-    }
-
-    /// The colour of the category with this number: the colours repeat after eight.
-    pub(crate) fn category(self, number: usize) -> [u8; 3] {
-        const DARK: [[u8; 3]; 7] = [
-            [0xe6, 0x9f, 0x00],
-            [0x56, 0xb4, 0xe9],
-            [0x00, 0x9e, 0x73],
-            [0xf0, 0xe4, 0x42],
-            [0x2f, 0x8f, 0xd0],
-            [0xd5, 0x5e, 0x00],
-            [0xcc, 0x79, 0xa7],
-        ];
-        const LIGHT: [[u8; 3]; 7] = [
-            [0xe6, 0x9f, 0x00],
-            [0x56, 0xb4, 0xe9],
-            [0x00, 0x9e, 0x73],
-            [0xd8, 0xc9, 0x1a],
-            [0x00, 0x72, 0xb2],
-            [0xd5, 0x5e, 0x00],
-            [0xcc, 0x79, 0xa7],
-        ];
-        match self {
-            Theme::Dark => DARK[number % DARK.len()],
-            Theme::Light => LIGHT[number % LIGHT.len()],
         }
     }
 

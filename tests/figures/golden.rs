@@ -17,8 +17,8 @@ use assert_cmd::Command;
 use bothways::common::glam::Vec3;
 use bothways::common::{Camera, CameraDescription, View};
 use bothways::diff::{compare, foreign};
-use bothways::figure::{Slide, Theme};
-use bothways::orders::{Method, Order, RenderOptions, render};
+use bothways::figure::{Kind, Slide, Subject, Theme};
+use bothways::orders::{Method, Order, RenderOptions, Rules, render};
 use bothways::scenes::load;
 use bothways::wording::count;
 use image::{RgbImage, imageops};
@@ -143,6 +143,28 @@ fn a_slide_shows_every_kind_of_difference() {
         comparison: &compare(&object_order.frame, &image_order.frame),
     };
     check(&[("differing-side-by-side.png".into(), reduced(&slide.draw(Theme::Dark).pixels(1920)))]);
+}
+
+#[test]
+fn the_figures_look_as_they_did() {
+    let loaded = load("canonical").unwrap();
+    let description = CameraDescription { image: [32, 24], ..loaded.camera };
+    let camera = Camera::new(description).unwrap();
+    let figure = |kind: Kind| {
+        // A mistake to see, where figures compare.
+        let object_order = Some("corner".parse().unwrap()).filter(|_| kind.compares());
+        let subject = Subject {
+            name: "canonical",
+            about: loaded.about(),
+            view: View::new(&loaded.scene, &camera),
+            pixels: &[],
+            samples: 1,
+            rules: Rules { object_order, image_order: None },
+            theme: Theme::Dark,
+        };
+        (format!("figure-{kind}.png"), kind.draw(&subject).unwrap().pixels(480))
+    };
+    check(&Kind::ALL.map(figure));
 }
 
 #[test]

@@ -2,3 +2,4 @@
 
 mod built_in_scenes;
 mod golden;
+mod kinds;

@@ -3,7 +3,7 @@
 
 use crate::common::glam::{DVec3, Vec3};
 use crate::common::{
-    Camera, CameraDescription, Crop, Frame, Options, Orientation, Projection, Ray, View,
+    Camera, CameraDescription, Crop, Frame, Options, Orientation, Projection, Ray, Shape, View,
 };
 use crate::figure::drawing::{Anchor, Drawing, Ink, Pen};
 use crate::figure::project::Projector;
@@ -195,13 +195,13 @@ fn enlargement(camera: &Camera, nearest: f64, deepest: f64) -> f64 {
         return 1.0;
     }
     let [width, height] = camera.viewport();
-    let wanted = 0.16 * deepest / width.max(height).max(0.5 * camera.distance());
+    let wanted = 0.3 * deepest / width.max(height).max(0.5 * camera.distance());
     let most = 0.8 * nearest / camera.distance();
     let steps = (0..24).flat_map(|power| [1.0, 2.0, 5.0].map(|digit| digit * 10f64.powi(power)));
     steps.take_while(|step| *step <= wanted && *step <= most).last().unwrap_or(1.0)
 }
 
-/// Points that a coarse grid of rays hits.
+/// Points that a coarse grid of rays hits: of planes only if there is nothing else, because a plane has no end.
 fn hits(view: &View) -> Vec<DVec3> {
     let description = CameraDescription { image: [24, 18], ..*view.camera.description() };
     let Ok(camera) = Camera::new(description) else { return Vec::new() };
@@ -209,9 +209,17 @@ fn hits(view: &View) -> Vec<DVec3> {
     let grid = camera.sample_grid(1);
     let hit = |(row, column)| {
         let ray: Ray = grid.ray(row, column);
-        frame.t(row, column).map(|t| ray.origin + f64::from(t) * ray.direction)
+        let (id, t) = (frame.id(row, column)?, frame.t(row, column)?);
+        let (object, _) = view.scene.locate(id);
+        let is_plane = matches!(view.scene.objects()[object].shape, Shape::Plane(_));
+        Some((is_plane, ray.origin + f64::from(t) * ray.direction))
     };
-    samples(&frame).filter_map(hit).collect()
+    let hits: Vec<(bool, DVec3)> = samples(&frame).filter_map(hit).collect();
+    let only_planes = hits.iter().all(|(is_plane, _)| *is_plane);
+    hits.into_iter()
+        .filter(|(is_plane, _)| only_planes || !is_plane)
+        .map(|(_, point)| point)
+        .collect()
 }
 
 /// The view from outside: a parallel camera to the right of, above and behind the scene's camera.
@@ -225,7 +233,7 @@ struct Outside {
 impl Outside {
     fn new(subject: &Subject, points: &[DVec3]) -> Option<Outside> {
         let own = subject.view.camera;
-        let back = (0.86 * own.u() + 0.40 * own.v() + 0.34 * own.w()).normalize();
+        let back = (0.72 * own.u() + 0.36 * own.v() + 0.52 * own.w()).normalize();
         let right = own.v().cross(back).normalize();
         let up = back.cross(right);
         let extent = |axis: DVec3| {
@@ -316,7 +324,8 @@ fn outside(
     points.extend(stage.origins);
     points.extend(&stage.seen);
     points.extend(rays.iter().map(|ray| stage.end(ray, camera)));
-    points.push(DVec3::ZERO);
+    let axis = 0.6 * (stage.viewport[1] - stage.viewport[0]).length();
+    points.extend([DVec3::ZERO, axis * camera.w(), axis * camera.u(), axis * camera.v()]);
     let outside = Outside::new(subject, &points).ok_or_else(|| {
         FigureError::new("the scene is too large or too small to be drawn from outside")
     })?;
@@ -350,7 +359,14 @@ fn outside(
     for ray in rays {
         let Some(t) = ray.t() else { continue };
         let label = format!("t = {}", number(t, 4));
-        label_at(drawing, outside.place(stage.end(ray, camera)), &label, theme, ray.color);
+        label_at(
+            drawing,
+            outside.place(stage.end(ray, camera)),
+            [0.7, 0.5],
+            &label,
+            theme,
+            ray.color,
+        );
     }
     drawing.window(None);
     sheet.border(corner, size);
@@ -467,14 +483,22 @@ fn outside_labels(
     camera: &Camera,
     theme: Theme,
 ) {
-    label_at(drawing, outside.place(DVec3::ZERO), "eye", theme, theme.of(Role::Camera));
+    label_at(
+        drawing,
+        outside.place(DVec3::ZERO),
+        [-0.4, 1.0],
+        "eye",
+        theme,
+        theme.of(Role::Camera),
+    );
     let [vw, vh] = camera.viewport().map(|side| number(side, 4));
     let [a, b, c, d] = stage.viewport.map(|corner| outside.place(corner));
-    let _ = (c, d);
+    let bottom = if c[1] > d[1] { c } else { d };
     let top = if a[1] < b[1] { a } else { b };
     label_at(
         drawing,
         top,
+        [-0.6, -1.0],
         &format!("viewport, vw × vh = {vw} × {vh}"),
         theme,
         theme.of(Role::Camera),
@@ -484,12 +508,13 @@ fn outside_labels(
             "drawn {} times as far and as large: its rays are the same",
             number(stage.enlarged, 3)
         );
-        label_at(drawing, d, &note, theme, theme.of(Role::Camera));
+        label_at(drawing, bottom, [0.0, 1.0], &note, theme, theme.of(Role::Camera));
     }
     let middle = outside.place(0.5 * stage.middle());
     label_at(
         drawing,
         middle,
+        [0.2, 1.0],
         &format!("d = {}", number(camera.distance(), 4)),
         theme,
         theme.of(Role::Camera),
@@ -497,8 +522,15 @@ fn outside_labels(
 }
 
 /// A label beside a point, where it meets no other.
-fn label_at(drawing: &mut Drawing, point: [f64; 2], text: &str, theme: Theme, color: [u8; 3]) {
-    drawing.label(point, text, theme.label().of(color).semi_bold(), Some(theme.mat()));
+fn label_at(
+    drawing: &mut Drawing,
+    point: [f64; 2],
+    prefer: [f64; 2],
+    text: &str,
+    theme: Theme,
+    color: [u8; 3],
+) {
+    drawing.label(point, prefer, text, theme.label().of(color).semi_bold(), Some(theme.mat()));
 }
 
 /// The view from the side, as the lecture draws it: `−w` to the right, `v` up, in the column of the first pixel.
@@ -553,15 +585,16 @@ fn from_the_side(sheet: &mut Sheet, subject: &Subject, stage: &Stage, ray: &View
         drawing.disc(place(stage.end(ray, camera)), 6.5, Ink::new(focus));
     }
     drawing.disc(eye, 8.0, theme.ink(Role::Camera));
-    label_at(drawing, eye, "eye", theme, theme.of(Role::Camera));
-    label_at(drawing, place(top), "viewport", theme, theme.of(Role::Camera));
+    label_at(drawing, eye, [-0.3, 1.0], "eye", theme, theme.of(Role::Camera));
+    label_at(drawing, place(top), [0.0, -1.0], "viewport", theme, theme.of(Role::Camera));
     if ray.t().is_some() {
-        label_at(drawing, place(stage.end(ray, camera)), "hit", theme, focus);
+        label_at(drawing, place(stage.end(ray, camera)), [0.8, -0.5], "hit", theme, focus);
     }
     let ray_middle = place(0.5 * (ray.at(reach(stage, camera)) + stage.end(ray, camera)));
-    label_at(drawing, ray_middle, "r(t) = p + t d", theme, focus);
+    label_at(drawing, ray_middle, [0.0, -1.0], "r(t) = p + t d", theme, focus);
     drawing.label(
-        [corner[0] + size[0] - 30.0, eye[1]],
+        [corner[0] + size[0] - 34.0, eye[1]],
+        [0.0, 1.0],
         "−w",
         theme.label().semi_bold(),
         Some(theme.mat()),

@@ -148,10 +148,9 @@ pub(super) fn fit(
     )]
     let most = room.map(|side| side as u32);
     let size = fitted([picture.width(), picture.height()], most).map(f64::from);
-    let at = [(corner[0] + 0.5 * (room[0] - size[0])).floor(), corner[1]];
-    sheet.drawing.picture(picture, at, size);
-    sheet.border(at, size);
-    (at, size)
+    sheet.drawing.picture(picture, corner, size);
+    sheet.border(corner, size);
+    (corner, size)
 }
 
 /// A bar with the colours of the ramp, and numbers below it at equal steps.

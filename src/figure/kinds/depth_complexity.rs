@@ -32,13 +32,9 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
     let most = counts.most().max(1);
     let (corner, size) = MAP;
     let mean = counts.total() as f64 / counts.pixels() as f64;
-    sheet.heading(
-        corner,
-        size[0],
-        "primitives that cover the sample",
-        &format!("mean {}", number(mean, 3)),
-    );
     let place = heat_map(&mut sheet, &counts, corner, size, |count| shade(count, most));
+    let note = format!("mean {}", number(mean, 3));
+    sheet.heading(corner, place.1[0].max(560.0), "primitives that cover the sample", &note);
     scale_bar(&mut sheet, [place.0[0], place.0[1] + place.1[1] + 16.0], place.1[0], &[0, most]);
     histogram(&mut sheet, &counts, most);
     Ok(sheet.drawing)

@@ -11,8 +11,6 @@ use crate::figure::theme::{Role, Theme};
 use image::{Rgb, RgbImage};
 use std::collections::BTreeMap;
 
-/// The room of a panel.
-const PANEL: [f64; 2] = [426.0, 520.0];
 const PANEL_TOP: f64 = TOP + 46.0;
 /// The most samples along a side at which the functions are evaluated.
 const MOST: usize = 142;
@@ -28,29 +26,29 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
         "A triangle is three half-planes",
         "Each edge function is positive on one side of its edge's line; the triangle is where all three agree.",
     );
-    let patch = Extent::of(view, &corners, &frame, id);
-    let values = Values::new(view, &corners, &patch);
+    let extent = Extent::of(view, &corners, &frame, id);
+    let values = Values::new(view, &corners, &extent);
     let theme = sheet.theme;
+    let panels = Panels::new(&extent);
     for (number, (color, name)) in edges(theme).into_iter().enumerate() {
-        let corner = [MARGIN + number as f64 * (PANEL[0] + 24.0), PANEL_TOP];
-        sheet.heading(corner, PANEL[0], &format!("E_{name}"), "");
-        let place = patch.placed(corner);
-        let picture = values.ramp(number, theme);
-        sheet.drawing.picture(picture, place.corner, place.size);
+        let corner = panels.corner(number);
+        sheet.heading(corner, panels.room[0], &format!("E_{name}"), "");
+        let place = extent.placed(corner, panels.room);
+        sheet.drawing.picture(values.ramp(number, theme), place.corner, place.size);
         sheet.drawing.window(Some((place.corner, place.size)));
         hatch(&mut sheet, &values, number, &place);
         zero_line(&mut sheet, &values, number, &place, color);
         sheet.drawing.window(None);
         outline(&mut sheet, view, &corners, &place, number);
         sheet.border(place.corner, place.size);
-        let below = place.corner[1] + place.size[1] + 40.0;
         let [from, to] = [&name[..1], &name[1..]];
         let formula = format!("E_{name} = det({from} − p, {to} − p, d)");
-        sheet.drawing.fitting([corner[0], below], Anchor::Left, &formula, theme.text(), PANEL[0]);
+        let ([x, y], room) = panels.words(&place);
+        sheet.drawing.fitting([x, y], Anchor::Left, &formula, theme.text(), room);
     }
-    let corner = [MARGIN + 3.0 * (PANEL[0] + 24.0), PANEL_TOP];
-    sheet.heading(corner, PANEL[0], "all three", "");
-    let place = patch.placed(corner);
+    let corner = panels.corner(3);
+    sheet.heading(corner, panels.room[0], "all three", "");
+    let place = extent.placed(corner, panels.room);
     sheet.drawing.picture(values.covered(theme), place.corner, place.size);
     sheet.drawing.window(Some((place.corner, place.size)));
     for (number, (color, _)) in edges(theme).into_iter().enumerate() {
@@ -58,11 +56,46 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
     }
     sheet.drawing.window(None);
     sheet.border(place.corner, place.size);
-    let below = place.corner[1] + place.size[1] + 40.0;
-    let count = format!("triangle {id}");
-    sheet.drawing.fitting([corner[0], below], Anchor::Left, &count, theme.text(), PANEL[0]);
-    legend(&mut sheet, below + 46.0);
+    let ([x, y], room) = panels.words(&place);
+    let (object, _) = view.scene.locate(id);
+    let name = format!("triangle {id} of object {object}");
+    sheet.drawing.fitting([x, y], Anchor::Left, &name, theme.text(), room);
+    let samples = format!("{} × {} samples", values.columns, values.rows);
+    if panels.beside {
+        sheet.drawing.fitting([x, y + 36.0], Anchor::Left, &samples, theme.label(), room);
+    }
+    legend(&mut sheet, 922.0);
     Ok(sheet.drawing)
+}
+
+/// Where the four panels lie: in one row if the extent is high, in two rows with the words beside them if it is wide.
+struct Panels {
+    room: [f64; 2],
+    beside: bool,
+}
+
+impl Panels {
+    fn new(extent: &Extent) -> Panels {
+        let [width, height] = extent.size();
+        let beside = width > 1.15 * height;
+        Panels { room: if beside { [560.0, 306.0] } else { [426.0, 560.0] }, beside }
+    }
+
+    fn corner(&self, number: usize) -> [f64; 2] {
+        let (column, row) = if self.beside { (number % 2, number / 2) } else { (number, 0) };
+        let step = if self.beside { 900.0 } else { 450.0 };
+        [MARGIN + column as f64 * step, PANEL_TOP + row as f64 * 364.0]
+    }
+
+    /// Where the words about a panel begin, and how wide they may be.
+    fn words(&self, place: &Place) -> ([f64; 2], f64) {
+        let ([x, y], [width, height]) = (place.corner, place.size);
+        if self.beside {
+            ([x + width + 24.0, y + 30.0], 876.0 - width - 24.0)
+        } else {
+            ([x, y + height + 42.0], self.room[0])
+        }
+    }
 }
 
 /// The triangle to draw: that of the chosen pixel, else the one that most pixels show.
@@ -147,11 +180,10 @@ impl Extent {
     }
 
     /// Where it lies in the panel with this corner.
-    fn placed(&self, corner: [f64; 2]) -> Place {
+    fn placed(&self, corner: [f64; 2], room: [f64; 2]) -> Place {
         let size = self.size();
-        let scale = (PANEL[0] / size[0]).min(PANEL[1] / size[1]);
+        let scale = (room[0] / size[0]).min(room[1] / size[1]);
         let drawn = size.map(|side| (side * scale).round());
-        let corner = [(corner[0] + 0.5 * (PANEL[0] - drawn[0])).round(), corner[1]];
         Place { corner, size: drawn, first: self.low, scale }
     }
 }
@@ -230,8 +262,7 @@ impl Values {
         self.picture(|index| {
             let value = self.values[index][edge] / if greatest > 0.0 { greatest } else { 1.0 };
             let step = (value.abs() * STEPS).ceil() / STEPS;
-            let role = if value < 0.0 { Role::Image } else { Role::Object };
-            mixed(theme.mat(), theme.of(role), 0.12 + 0.7 * step)
+            mixed(theme.mat(), side_color(theme, value), 0.12 + 0.7 * step)
         })
     }
 
@@ -302,7 +333,13 @@ fn outline(sheet: &mut Sheet, view: &View, corners: &[DVec3; 3], place: &Place, 
         let name = ["a", "b", "c"][corner];
         let Some(at) = projector.place(corners[corner]) else { continue };
         sheet.drawing.disc(place.of(at), 6.0, Ink::new(theme.bright()));
-        sheet.drawing.label(place.of(at), name, theme.text().semi_bold(), Some(theme.mat()));
+        sheet.drawing.label(
+            place.of(at),
+            [0.5, -1.0],
+            name,
+            theme.text().semi_bold(),
+            Some(theme.mat()),
+        );
     }
     sheet.drawing.window(None);
 }
@@ -314,8 +351,8 @@ fn legend(sheet: &mut Sheet, y: f64) {
     let mut step = -STEPS;
     while step <= STEPS {
         if step != 0.0 {
-            let role = if step < 0.0 { Role::Image } else { Role::Object };
-            let color = mixed(theme.mat(), theme.of(role), 0.12 + 0.7 * step.abs() / STEPS);
+            let color =
+                mixed(theme.mat(), side_color(theme, step), 0.12 + 0.7 * step.abs() / STEPS);
             let place = if step < 0.0 { step + STEPS } else { step + STEPS - 1.0 };
             sheet.drawing.rectangle([left + place * width, y], [width, 24.0], Ink::new(color));
         }
@@ -327,9 +364,14 @@ fn legend(sheet: &mut Sheet, y: f64) {
         "negative, hatched: outside of this edge      positive: inside      the thick line: 0";
     let x = left + steps * width + 24.0;
     sheet.drawing.fitting([x, y + 20.0], Anchor::Left, words, theme.label(), RIGHT - x);
-    let note = "With the ray r(t) = p + t d through a sample. On this slide each function has the sign that makes the \
-                inside positive; on the raster all three are affine, so their level lines are straight and evenly spaced.";
-    sheet.paragraph([left, y + 66.0], RIGHT - left, 30.0, note, theme.label());
+    let note = "r(t) = p + t d is the ray through a sample. Here each function has the sign that makes the inside positive. \
+                On the raster all three are affine: their level lines are straight and evenly spaced.";
+    sheet.drawing.fitting([left, y + 60.0], Anchor::Left, note, theme.label(), RIGHT - left);
+}
+
+/// The colour of the side on which a function has this sign.
+fn side_color(theme: Theme, value: f64) -> [u8; 3] {
+    if value < 0.0 { theme.quiet() } else { theme.of(Role::Good) }
 }
 
 /// A colour between two others.

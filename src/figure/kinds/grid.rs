@@ -10,7 +10,7 @@ use crate::figure::sheet::{MARGIN, RIGHT, Sheet, TOP};
 use crate::figure::subject::{FigureError, Subject};
 use crate::figure::theme::{Role, Theme};
 use crate::wording::count;
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 
 /// The room of the patch: its top left corner, its width and height.
 const ROOM: ([f64; 2], [f64; 2]) = ([MARGIN, TOP], [1176.0, 800.0]);
@@ -37,9 +37,10 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
     let mut sheet = Sheet::new(subject, "Which samples does it cover?", point);
     let patch = Patch::around(pixel, view.camera.image(), SIZE, ROOM);
     let cells = cells(view, &patch, &primitive);
-    draw_cells(&mut sheet, &patch, &cells, &frame, id);
+    draw_cells(&mut sheet, &patch, &cells, &frame);
     draw_outlines(&mut sheet, view, &patch, &frame, id);
     draw_samples(&mut sheet, &patch, &cells);
+    name_edges(&mut sheet, view, &patch, id);
     words(&mut sheet, subject, &patch, &cells, id);
     Ok(sheet.drawing)
 }
@@ -94,53 +95,80 @@ fn at_or_near(frame: &Frame, [i, j]: [u32; 2]) -> Option<u32> {
     })
 }
 
-/// A pixel where something is decided, and the primitive to look at there: best a tie, else the edge of an object; the
-/// one nearest to the middle.
+/// A border between two primitives in the picture.
+#[derive(Clone, Copy, Debug)]
+struct Border {
+    /// Row and column of the pixel on its left or above it, and of the one on the other side.
+    pixels: [[usize; 2]; 2],
+    /// One of the primitives.
+    id: u32,
+    /// Whether different objects meet, or an object and nothing.
+    outline: bool,
+}
+
+/// A pixel where something is decided, and the primitive to look at there: best a tie of a triangle, else the outline of
+/// an object; of those a primitive of many pixels, and near the middle.
 fn telling(view: &View, frame: &Frame) -> Option<([u32; 2], Option<u32>)> {
     const MOST: usize = 4000;
-    let (height, width) = (frame.height(), frame.width());
+    let borders = borders(view, frame);
+    let mut pixels: HashMap<u32, usize> = HashMap::new();
+    frame.ids().iter().for_each(|id| *pixels.entry(*id).or_default() += 1);
+    let middle = [frame.height() as f64 / 2.0, frame.width() as f64 / 2.0];
+    let far = |[row, column]: [usize; 2]| (row as f64 - middle[0]).hypot(column as f64 - middle[1]);
+    let judge = view.judge();
+    let grid = view.camera.sample_grid(1);
     let is_triangle = |id: u32| matches!(view.primitive(id), Primitive::Triangle(_));
-    let mut borders: Vec<([usize; 2], u32, bool)> = Vec::new();
+    let at = |pixel: [usize; 2], border: &Border| {
+        judge.coverage(&view.primitive(border.id), &grid.ray(pixel[0], pixel[1]))
+    };
+    let is_tie = |border: &Border| {
+        at(border.pixels[0], border).edges.is_some_and(|edges| on_boundary(&edges))
+    };
+    // What lies behind the other goes on behind it: there is no edge of its own to see.
+    let ends = |border: &Border| {
+        let [here, there] = border.pixels.map(|pixel| at(pixel, border).covers);
+        here != there
+    };
+    // A triangle of two dozen pixels fills the patch; more do not matter.
+    let seen = |border: &Border| pixels.get(&border.id).copied().unwrap_or(0).min(24);
+    let rank = |border: &Border| {
+        let triangle = is_triangle(border.id);
+        let ends = ends(border);
+        (triangle && is_tie(border), triangle && ends, ends && border.outline, seen(border))
+    };
+    let step = borders.len().div_ceil(MOST).max(1);
+    let best = borders
+        .iter()
+        .step_by(step)
+        .max_by(|a, b| rank(a).cmp(&rank(b)).then(far(b.pixels[0]).total_cmp(&far(a.pixels[0]))))?;
+    let whole = |part: usize| u32::try_from(part).expect("within the image");
+    Some((best.pixels[0].map(whole), Some(best.id)))
+}
+
+fn borders(view: &View, frame: &Frame) -> Vec<Border> {
+    let (height, width) = (frame.height(), frame.width());
+    let object = |id: Option<u32>| id.map(|id| view.scene.locate(id).0);
+    let mut borders = Vec::new();
     for row in 0..height {
         for column in 0..width {
             let here = frame.id(row, column);
             let right = if column + 1 < width { frame.id(row, column + 1) } else { here };
             let below = if row + 1 < height { frame.id(row + 1, column) } else { here };
-            for other in [right, below] {
-                if here == other {
+            for (other, there) in [(right, [row, column + 1]), (below, [row + 1, column])] {
+                if other == here {
                     continue;
                 }
-                let object = |id: Option<u32>| id.map(|id| view.scene.locate(id).0);
                 let outline = object(here) != object(other);
-                borders
-                    .extend(here.into_iter().chain(other).map(|id| ([row, column], id, outline)));
+                let of = |id| Border { pixels: [[row, column], there], id, outline };
+                borders.extend(here.into_iter().chain(other).map(of));
             }
         }
     }
-    let middle = [height as f64 / 2.0, width as f64 / 2.0];
-    let far = |[row, column]: [usize; 2]| (row as f64 - middle[0]).hypot(column as f64 - middle[1]);
-    let step = borders.len().div_ceil(MOST).max(1);
-    let judge = view.judge();
-    let grid = view.camera.sample_grid(1);
-    let looked: Vec<&([usize; 2], u32, bool)> = borders.iter().step_by(step).collect();
-    let is_tie = |([row, column], id, _): &([usize; 2], u32, bool)| {
-        let edges = judge.coverage(&view.primitive(*id), &grid.ray(*row, *column)).edges;
-        edges.is_some_and(|edges| on_boundary(&edges))
-    };
-    let nearest = |wanted: &dyn Fn(&([usize; 2], u32, bool)) -> bool| {
-        let wanted = looked.iter().filter(|border| wanted(border));
-        wanted.min_by(|a, b| far(a.0).total_cmp(&far(b.0))).copied()
-    };
-    let found = nearest(&|border| is_triangle(border.1) && is_tie(border))
-        .or_else(|| nearest(&|border| is_triangle(border.1) && border.2))
-        .or_else(|| nearest(&|border| border.2))
-        .or_else(|| nearest(&|_| true))?;
-    let whole = |part: usize| u32::try_from(part).expect("within the image");
-    Some((found.0.map(whole), Some(found.1)))
+    borders
 }
 
 /// The ground of each pixel: what covers it in the picture.
-fn draw_cells(sheet: &mut Sheet, patch: &Patch, cells: &[Cell], frame: &Frame, id: u32) {
+fn draw_cells(sheet: &mut Sheet, patch: &Patch, cells: &[Cell], frame: &Frame) {
     let theme = sheet.theme;
     let drawing = &mut sheet.drawing;
     for cell in cells {
@@ -150,12 +178,8 @@ fn draw_cells(sheet: &mut Sheet, patch: &Patch, cells: &[Cell], frame: &Frame, i
         drawing.rectangle(corner, size, Ink::new(theme.mat()));
         if cell.covered {
             drawing.rectangle(corner, size, theme.ink(Role::Good).alpha(0.34));
-        } else if let Some(other) = seen.filter(|other| *other != id) {
-            drawing.rectangle(
-                corner,
-                size,
-                Ink::new(theme.category(3 + other as usize % 4)).alpha(0.13),
-            );
+        } else if seen.is_some() {
+            drawing.rectangle(corner, size, Ink::new(theme.quiet()).alpha(0.16));
         }
     }
     patch.draw_lines(drawing, Pen::new(theme.hairline(), 1.5));
@@ -178,13 +202,24 @@ fn draw_outlines(sheet: &mut Sheet, view: &View, patch: &Patch, frame: &Frame, i
         }
     }
     let lines = projector.outline(&view.primitive(id));
-    let is_triangle = matches!(view.primitive(id), Primitive::Triangle(_));
-    for (line, (color, name)) in lines.into_iter().zip(edges(theme).into_iter().cycle()) {
-        let line = place(line);
-        sheet.drawing.line(&line, Pen::new(color, 5.0));
-        if is_triangle && let Some(at) = patch.middle_within(&line) {
-            let style = theme.text().semi_bold().of(color);
-            sheet.drawing.label(at, name, style, Some(theme.mat()));
+    for (line, (color, _)) in lines.into_iter().zip(edges(theme).into_iter().cycle()) {
+        sheet.drawing.line(&place(line), Pen::new(color, 5.0));
+    }
+    sheet.drawing.window(None);
+}
+
+/// The names of a triangle's edges, beside them.
+fn name_edges(sheet: &mut Sheet, view: &View, patch: &Patch, id: u32) {
+    let theme = sheet.theme;
+    let primitive = view.primitive(id);
+    let Primitive::Triangle([a, b, c]) = primitive else { return };
+    let projector = Projector { camera: view.camera };
+    patch.window(&mut sheet.drawing);
+    for ((from, to), (color, name)) in [(a, b), (b, c), (c, a)].into_iter().zip(edges(theme)) {
+        let Some(line) = projector.segment(from, to) else { continue };
+        if let Some(at) = patch.middle_within(&line.map(|at| patch.place(at))) {
+            let style = theme.text().semi_bold().sized(28.0).of(color);
+            sheet.drawing.label(at, [1.0, -0.6], name, style, Some(theme.mat()));
         }
     }
     sheet.drawing.window(None);
@@ -229,9 +264,9 @@ fn draw_samples(sheet: &mut Sheet, patch: &Patch, cells: &[Cell]) {
             );
         }
         let Some(signs) = cell.edges else { continue };
-        let size = f64_to_size(0.21 * patch.cell);
+        let size = letters(0.25 * patch.cell);
         for (place, (at, (edge, _))) in signs.at_sample.into_iter().zip(edges(theme)).enumerate() {
-            let x = x + (place as f64 - 1.0) * 0.24 * patch.cell;
+            let x = x + (place as f64 - 1.0) * 0.26 * patch.cell;
             let strong = theme.text().semi_bold().sized(size).of(edge);
             let baseline = y + 0.42 * patch.cell;
             drawing.text_with_halo(
@@ -246,8 +281,8 @@ fn draw_samples(sheet: &mut Sheet, patch: &Patch, cells: &[Cell]) {
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "a size of letters")]
-fn f64_to_size(size: f64) -> f32 {
-    size.clamp(12.0, 26.0) as f32
+fn letters(size: f64) -> f32 {
+    size.clamp(12.0, 30.0) as f32
 }
 
 fn words(sheet: &mut Sheet, subject: &Subject, patch: &Patch, cells: &[Cell], id: u32) {
@@ -301,25 +336,46 @@ fn words(sheet: &mut Sheet, subject: &Subject, patch: &Patch, cells: &[Cell], id
 fn legend(sheet: &mut Sheet, [x, y]: [f64; 2], cells: &[Cell]) -> f64 {
     let theme = sheet.theme;
     let mut y = y;
-    let has_ties = cells.iter().any(Cell::is_tie);
-    let rows = [
-        ("a sample that it covers", true, false),
-        ("a sample that it does not cover", false, false),
-        ("a tie: exactly on an edge", true, true),
-    ];
-    for (name, covered, tie) in rows.into_iter().filter(|row| has_ties || !row.2) {
-        let center = [x + 14.0, y - 8.0];
-        let color = if tie { theme.of(Role::Focus) } else { theme.bright() };
-        if covered {
-            sheet.drawing.disc(center, 7.0, Ink::new(color));
-        } else {
-            sheet.drawing.ring(center, 7.0, Pen::new(color, 2.5));
-        }
-        if tie {
-            sheet.drawing.frame([x, y - 22.0], [28.0; 2], Pen::new(color, 2.5));
-        }
+    let mut row = |draw: &dyn Fn(&mut Drawing, [f64; 2]), name: &str| {
+        draw(&mut sheet.drawing, [x + 14.0, y - 8.0]);
         sheet.drawing.text([x + 44.0, y], Anchor::Left, name, theme.text());
         y += 36.0;
+    };
+    let square = |drawing: &mut Drawing, [x, y]: [f64; 2], ink: Ink| {
+        drawing.rectangle([x - 14.0, y - 14.0], [28.0; 2], Ink::new(theme.mat()));
+        drawing.rectangle([x - 14.0, y - 14.0], [28.0; 2], ink);
+        drawing.frame([x - 14.0, y - 14.0], [28.0; 2], Pen::new(theme.hairline(), 1.5));
+    };
+    row(
+        &|drawing, at| {
+            square(drawing, at, theme.ink(Role::Good).alpha(0.34));
+            drawing.disc(at, 7.0, Ink::new(theme.bright()));
+        },
+        "a sample that it covers",
+    );
+    row(
+        &|drawing, at| {
+            square(drawing, at, Ink::new(theme.quiet()).alpha(0.16));
+            drawing.ring(at, 7.0, Pen::new(theme.bright(), 2.5));
+        },
+        "not covered: another primitive is seen",
+    );
+    row(
+        &|drawing, at| {
+            square(drawing, at, Ink::new(theme.mat()));
+            drawing.ring(at, 7.0, Pen::new(theme.bright(), 2.5));
+        },
+        "not covered: nothing is seen",
+    );
+    if cells.iter().any(Cell::is_tie) {
+        let focus = theme.of(Role::Focus);
+        row(
+            &|drawing, at| {
+                drawing.frame(at.map(|part| part - 13.0), [26.0; 2], Pen::new(focus, 2.5));
+                drawing.disc(at, 7.0, Ink::new(focus));
+            },
+            "a tie: exactly on an edge",
+        );
     }
     y
 }

@@ -109,8 +109,8 @@ fn panel(
     boxes: &[[Vec3; 2]],
 ) {
     let theme = sheet.theme;
-    sheet.heading(corner, PANEL[0], name, &count(boxes.len() as u64, things));
     let (at, size) = fit(sheet, picture.clone(), corner, PANEL);
+    sheet.heading(corner, size[0].max(400.0), name, &count(boxes.len() as u64, things));
     let projector = Projector { camera: subject.view.camera };
     let [width, height] = subject.view.camera.image().map(f64::from);
     let place = |[column, row]: [f64; 2]| {
@@ -171,8 +171,9 @@ fn tiles(
     let theme = sheet.theme;
     let [width, height] = subject.view.camera.image().map(|side| side as usize);
     let number = height.div_ceil(tile[0]) * width.div_ceil(tile[1]);
-    sheet.heading(corner, PANEL[0], "object order: tiles", &count(number as u64, "tiles"));
     let (at, size) = fit(sheet, picture.clone(), corner, PANEL);
+    let tiles = count(number as u64, "tiles");
+    sheet.heading(corner, size[0].max(400.0), "object order: tiles", &tiles);
     let pen = Pen::new(theme.of(Role::Object), 2.5);
     for row in (tile[0]..height).step_by(tile[0]) {
         let y = at[1] + row as f64 / height as f64 * size[1];

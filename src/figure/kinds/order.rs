@@ -15,9 +15,9 @@ use crate::{rasterize, raytrace};
 use image::{Rgb, RgbImage};
 use std::collections::HashMap;
 
-const MAP: [f64; 2] = [560.0, 320.0];
+const MAP: [f64; 2] = [700.0, 320.0];
 const TOPS: [f64; 2] = [TOP + 44.0, TOP + 424.0];
-const LEFTS: [f64; 2] = [MARGIN + 300.0, MARGIN + 1040.0];
+const LEFTS: [f64; 2] = [MARGIN + 300.0, MARGIN + 1060.0];
 /// The most tests of a textbook's run: then a picture of fewer pixels is drawn.
 const MOST_TESTS: u64 = 12_000_000;
 
@@ -46,10 +46,10 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
                     clock
                 }
             };
-            let note = count(clock.steps, "steps");
-            sheet.heading(corner, MAP[0], order.name(), &note);
             let image = if row == 0 { small.image() } else { view.camera.image() };
-            fit(&mut sheet, clock.picture(image, theme), corner, MAP);
+            let (_, size) = fit(&mut sheet, clock.picture(image, theme), corner, MAP);
+            let note = count(clock.steps, "steps");
+            sheet.heading(corner, size[0].max(400.0), order.name(), &note);
         }
     }
     let y = 944.0;

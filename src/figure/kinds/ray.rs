@@ -14,12 +14,17 @@ use crate::raytrace::{self, fast::HierarchyBox};
 use crate::wording::{count, grouped};
 use std::collections::HashMap;
 
-const PICTURE: ([f64; 2], [f64; 2]) = ([MARGIN, TOP + 44.0], [520.0, 340.0]);
+const PICTURE: ([f64; 2], [f64; 2]) = ([MARGIN, TOP + 44.0], [540.0, 372.0]);
 /// The words beside the picture.
-const WORDS: [f64; 2] = [MARGIN + 568.0, TOP + 44.0];
+const WORDS: [f64; 2] = [MARGIN + 590.0, TOP + 44.0];
+const WORDS_WIDTH: f64 = 640.0;
+/// The table of crossings.
+const TABLE: [f64; 2] = [MARGIN + 1290.0, TOP + 44.0];
+/// The most rows of the table.
+const MOST_ROWS: usize = 8;
 /// The axis of `t`: from where to where, and its height.
 const AXIS: [f64; 2] = [MARGIN + 250.0, RIGHT - 40.0];
-const AXIS_TOP: f64 = 640.0;
+const AXIS_TOP: f64 = 690.0;
 const AXIS_Y: f64 = 880.0;
 /// The most levels of boxes that have a row of their own.
 const ROWS: usize = 5;
@@ -170,7 +175,7 @@ fn picture(sheet: &mut Sheet, subject: &Subject, [i, j]: [u32; 2]) {
 fn words(sheet: &mut Sheet, subject: &Subject, report: &SampleReport, path: &Path) {
     let theme = sheet.theme;
     let [x, top] = WORDS;
-    let width = RIGHT - x;
+    let width = WORDS_WIDTH;
     let vector = |vector: DVec3| {
         format!("({}, {}, {})", number(vector.x, 4), number(vector.y, 4), number(vector.z, 4))
     };
@@ -184,12 +189,8 @@ fn words(sheet: &mut Sheet, subject: &Subject, report: &SampleReport, path: &Pat
         }
     };
     sheet.heading([x, top], width, "what it met", "");
-    let crossings = count(report.covering.len() as u64, "crossings");
-    let rays = format!(
-        "r(t) = p + t d,  p = {},  d = {}",
-        vector(eye + report.ray.origin),
-        vector(report.ray.direction)
-    );
+    let origin = format!("p = {}", vector(eye + report.ray.origin));
+    let direction = format!("d = {}", vector(report.ray.direction));
     let boxes = format!(
         "{} tested, {} entered",
         count(path.opened.len() as u64, "boxes"),
@@ -203,14 +204,43 @@ fn words(sheet: &mut Sheet, subject: &Subject, report: &SampleReport, path: &Pat
     let judged = format!("{} left to the exact judge", count(path.judged, "decisions"));
     let text = theme.text();
     let rows = [
-        (rays.as_str(), text),
+        ("r(t) = p + t d", text),
+        (origin.as_str(), text),
+        (&direction, text),
         (&boxes, text),
         (&tested, text),
         (&judged, text),
-        (&crossings, text),
         (&seen, text.semi_bold().of(theme.of(Role::Good))),
     ];
     sheet.lines([x, top + 34.0], width, 50.0, &rows);
+    table(sheet, report);
+}
+
+/// The crossings, near to far.
+fn table(sheet: &mut Sheet, report: &SampleReport) {
+    let theme = sheet.theme;
+    let [x, top] = TABLE;
+    let width = RIGHT - x;
+    let all = report.covering.len();
+    sheet.heading([x, top], width, "crossings", &grouped(all as u64));
+    let shown = if all > MOST_ROWS { MOST_ROWS - 1 } else { all };
+    for (row, covering) in report.covering.iter().take(shown).enumerate() {
+        let baseline = top + 34.0 + 44.0 * row as f64;
+        let style =
+            if row == 0 { theme.text().semi_bold().of(theme.of(Role::Good)) } else { theme.text() };
+        let t = format!("t = {}", number(covering.t, 6));
+        let taken = sheet.drawing.text([x + width, baseline], Anchor::Right, &t, style.tabular());
+        let name = format!("{}  {}", covering.id, covering.kind);
+        sheet.drawing.fitting([x, baseline], Anchor::Left, &name, style, width - taken - 20.0);
+    }
+    if all > shown {
+        let more = format!("and {} more behind them", grouped((all - shown) as u64));
+        let baseline = top + 34.0 + 44.0 * shown as f64;
+        sheet.drawing.text([x, baseline], Anchor::Left, &more, theme.label());
+    }
+    if all == 0 {
+        sheet.drawing.text([x, top + 34.0], Anchor::Left, "none", theme.text());
+    }
 }
 
 /// The axis of `t`, with boxes above it and crossings on it.
@@ -261,7 +291,6 @@ fn axis(sheet: &mut Sheet, report: &SampleReport, entered: &[(HierarchyBox, [f64
 fn labels(sheet: &mut Sheet, report: &SampleReport, place: &impl Fn(f64) -> f64) {
     let theme = sheet.theme;
     let mut free = [AXIS[0] + 30.0, AXIS[0] + 30.0];
-    let mut left_out = 0_u64;
     for (number_in_order, covering) in report.covering.iter().enumerate() {
         let x = place(covering.t);
         let style = theme.label();
@@ -271,7 +300,6 @@ fn labels(sheet: &mut Sheet, report: &SampleReport, place: &impl Fn(f64) -> f64)
         let half = 0.5 * f64::from(crate::figure::text::width(&text, style));
         let middle = x.clamp(AXIS[0] + half, RIGHT - half);
         let Some(row) = (0..2).find(|row| middle - half >= free[*row]) else {
-            left_out += 1;
             continue;
         };
         free[row] = middle + half + 22.0;
@@ -280,10 +308,6 @@ fn labels(sheet: &mut Sheet, report: &SampleReport, place: &impl Fn(f64) -> f64)
             .drawing
             .line(&[[x, AXIS_Y + 16.0], [x, baseline - 20.0]], Pen::new(theme.quiet(), 1.2));
         sheet.drawing.text([middle, baseline], Anchor::Middle, &text, style);
-    }
-    if left_out > 0 {
-        let more = format!("and {}", count(left_out, "more crossings"));
-        sheet.drawing.text([MARGIN, AXIS_Y + 80.0], Anchor::Left, &more, theme.label());
     }
 }
 

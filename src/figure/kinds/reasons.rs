@@ -5,7 +5,6 @@ use super::counts::fit;
 use crate::diff::foreign::Buffer;
 use crate::diff::why::{ReasonKind, Reasons, find_reasons};
 use crate::figure::drawing::{Anchor, Drawing, Ink, Pen};
-use crate::figure::resize::fitted;
 use crate::figure::sheet::{MARGIN, RIGHT, Sheet, TOP};
 use crate::figure::subject::{FigureError, Subject};
 use crate::wording::{count, grouped};
@@ -19,7 +18,7 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
     let differing: Vec<[u32; 2]> =
         both.comparison.classes().differing().map(|(pixel, _)| pixel).collect();
     let [a, b] = [&both.object_order, &both.image_order].map(crate::orders::Rendered::name);
-    let title = format!("Why do they differ? {a} and {b}");
+    let title = format!("Why do {a} and {b} differ?");
     let point = if differing.is_empty() {
         "They agree in every pixel: there is nothing to explain. Give one of them other rules with --object-rules.".into()
     } else {
@@ -44,7 +43,6 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
 fn map(sheet: &mut Sheet, both: &Both, reasons: &Reasons) {
     let theme = sheet.theme;
     let (corner, room) = ROOM;
-    sheet.heading(corner, room[0], "where they differ", "each pixel in the colour of its reason");
     let mut picture: RgbImage = both.pictures[1].clone();
     for pixel in picture.pixels_mut() {
         for (channel, mat) in pixel.0.iter_mut().zip(theme.mat()) {
@@ -55,17 +53,16 @@ fn map(sheet: &mut Sheet, both: &Both, reasons: &Reasons) {
         let [i, j] = found.pixel;
         picture.put_pixel(j, i, Rgb(found.reason.kind().color()));
     }
-    let image = [picture.width(), picture.height()];
+    let columns = f64::from(picture.width());
     let (at, size) = fit(sheet, picture, corner, room);
+    sheet.heading(
+        corner,
+        size[0].max(700.0),
+        "where they differ",
+        "each pixel in the colour of its reason",
+    );
     // A pixel that is smaller than a mark gets a ring around it, if there are few.
-    let cell = size[0] / f64::from(image[0]);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a size on the canvas"
-    )]
-    let drawn = fitted(image, room.map(|side| side as u32));
-    debug_assert!((f64::from(drawn[0]) - size[0]).abs() < 1.0);
+    let cell = size[0] / columns;
     if cell < 5.0 && reasons.pixels.len() <= 200 {
         for found in &reasons.pixels {
             let [i, j] = found.pixel.map(f64::from);
@@ -114,11 +111,11 @@ fn table(sheet: &mut Sheet, both: &Both, reasons: &Reasons) {
         let [i, j] = found.pixel;
         let sentence = found.reason.sentence();
         let text = format!("({i}, {j}): {}", in_names(&sentence, &names));
-        let lines = text.len() as f64 / 42.0 + 1.0;
-        if y + 30.0 * lines > 960.0 {
+        let lines = text.len() as f64 / 40.0 + 1.0;
+        if y + 34.0 * lines > 960.0 {
             break;
         }
-        y = sheet.paragraph([WORDS, y], width, 30.0, &text, theme.label());
+        y = sheet.paragraph([WORDS, y], width, 34.0, &text, theme.text());
         y += 12.0;
     }
 }

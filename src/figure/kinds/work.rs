@@ -93,7 +93,7 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
     sheet.drawing.text(
         [MARGIN, y + 14.0],
         Anchor::Left,
-        "tests at a pixel, in equal ratios:",
+        "tests at a pixel, logarithmic:",
         sheet.theme.label(),
     );
     bar(&mut sheet, [MARGIN + 330.0, y], wide, &ticks, most);

@@ -2,7 +2,7 @@
 
 use super::both::{Both, both};
 use super::patch::Patch;
-use crate::common::Frame;
+use crate::common::{Frame, View};
 use crate::figure::drawing::{Anchor, Drawing, Ink, Pen};
 use crate::figure::sheet::{MARGIN, Sheet, TOP, number};
 use crate::figure::subject::{FigureError, Subject};
@@ -20,7 +20,7 @@ const BUFFERS: [&str; 4] = ["colour", "ids", "distance t", "coverage"];
 
 pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
     let both = both(subject)?;
-    let pixel = subject.pixel().unwrap_or_else(|| telling(&both));
+    let pixel = subject.pixel().unwrap_or_else(|| telling(&subject.view, &both));
     let image = subject.view.camera.image();
     let [i, j] = pixel;
     let differing = both.comparison.visible.differing_pixels;
@@ -38,15 +38,10 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
         for (column, buffer) in BUFFERS.into_iter().enumerate() {
             let corner = [MARGIN + column as f64 * STEP, TOPS[row]];
             let patch = Patch::around(pixel, image, SIZE, (corner, ROOM));
-            let heading = if column == 0 { rendered.name() } else { String::new() };
-            let note = if column == 0 { "" } else { buffer };
-            sheet.heading(
-                corner,
-                ROOM[0],
-                if column == 0 { &heading } else { buffer },
-                if column == 0 { buffer } else { "" },
-            );
-            let _ = note;
+            match column {
+                0 => sheet.heading(corner, ROOM[0], &rendered.name(), buffer),
+                _ => sheet.heading(corner, ROOM[0], buffer, ""),
+            }
             let picture = &both.pictures[row];
             cells(&mut sheet, &patch, &rendered.frame, picture, column, range);
             mark(&mut sheet, &patch, &both);
@@ -57,7 +52,7 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
 }
 
 /// The first differing pixel; if there is none, an outline near the middle.
-fn telling(both: &Both) -> [u32; 2] {
+fn telling(view: &View, both: &Both) -> [u32; 2] {
     if let Some(pixel) = both.comparison.visible.first_differing.first() {
         return *pixel;
     }
@@ -66,9 +61,12 @@ fn telling(both: &Both) -> [u32; 2] {
     let far = |row: usize, column: usize| {
         (row as f64 - height as f64 / 2.0).hypot(column as f64 - width as f64 / 2.0)
     };
-    let places = (0..height).flat_map(|row| (1..width).map(move |column| (row, column)));
-    let outline = places.filter(|(row, column)| {
-        frame.id(*row, *column).is_some() != frame.id(*row, *column - 1).is_some()
+    let object =
+        |row: usize, column: usize| frame.id(row, column).map(|id| view.scene.locate(id).0);
+    let places = (1..height).flat_map(|row| (1..width).map(move |column| (row, column)));
+    let outline = places.filter(|&(row, column)| {
+        let here = object(row, column);
+        here != object(row, column - 1) || here != object(row - 1, column)
     });
     let nearest = outline.min_by(|a, b| far(a.0, a.1).total_cmp(&far(b.0, b.1)));
     let (row, column) = nearest.unwrap_or((height / 2, width / 2));

@@ -1,0 +1,131 @@
+//! Every kind of figure over every built-in scene: no text overlaps another or leaves the picture, the same input gives
+//! the same bytes, and a second renderer draws the SVG as we draw the pixels.
+
+use bothways::common::{Camera, CameraDescription, Projection, Scene, View};
+use bothways::figure::{Drawing, Kind, Subject, Theme, work_maps};
+use bothways::orders::{Method, Order, RenderOptions, Rules, render};
+use bothways::scenes::{BUILT_IN, load};
+use image::RgbImage;
+use resvg::tiny_skia::{Pixmap, Transform};
+use resvg::usvg::{Options, Tree};
+
+/// The size of the images in these figures.
+const IMAGE: [u32; 2] = [28, 21];
+
+fn camera(scene: &str, projection: Projection) -> (Scene, Camera) {
+    let loaded = load(scene).unwrap();
+    let mut description = CameraDescription { image: IMAGE, ..loaded.camera };
+    if projection != description.projection {
+        description.projection = projection;
+        // Wide enough to see something, whatever the scene is.
+        description.viewport =
+            if projection == Projection::Parallel { [8.0, 6.0] } else { [1.6, 1.2] };
+    }
+    (loaded.scene, Camera::new(description).unwrap())
+}
+
+fn draw(kind: Kind, name: &str, (scene, camera): &(Scene, Camera), theme: Theme) -> Drawing {
+    let subject = Subject {
+        name,
+        about: None,
+        view: View::new(scene, camera),
+        pixels: &[],
+        samples: 1,
+        rules: Rules::default(),
+        theme,
+    };
+    kind.draw(&subject).unwrap_or_else(|error| panic!("{kind} of {name}: {error}"))
+}
+
+/// The picture that another renderer makes of an SVG file.
+fn by_resvg(svg: &str, width: u32) -> RgbImage {
+    let tree = Tree::from_str(svg, &Options::default()).expect("the file is well-formed");
+    let scale = width as f32 / tree.size().width();
+    let mut pixels = Pixmap::new(width, width * 9 / 16).unwrap();
+    resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixels.as_mut());
+    RgbImage::from_fn(width, width * 9 / 16, |x, y| {
+        let pixel = pixels.pixel(x, y).unwrap();
+        image::Rgb([pixel.red(), pixel.green(), pixel.blue()])
+    })
+}
+
+/// The mean difference of two pictures in steps of 255, and the part of pixels that differ by more than 64.
+fn difference(one: &RgbImage, other: &RgbImage) -> (f64, f64) {
+    let pixels = || one.pixels().zip(other.pixels());
+    let steps = |(a, b): (&image::Rgb<u8>, &image::Rgb<u8>)| {
+        (0..3).map(|channel| a[channel].abs_diff(b[channel])).max().unwrap_or(0)
+    };
+    let count = pixels().count() as f64;
+    let mean = pixels().map(|pair| f64::from(steps(pair))).sum::<f64>() / count;
+    (mean, pixels().filter(|pair| steps(*pair) > 64).count() as f64 / count)
+}
+
+#[test]
+fn no_text_of_a_figure_overlaps_another_or_leaves_the_picture() {
+    let mut faults = Vec::new();
+    for scene in BUILT_IN {
+        for projection in [Projection::Perspective, Projection::Parallel] {
+            let subject = camera(scene.name, projection);
+            for kind in Kind::ALL {
+                // The textbook's run over a hundred thousand primitives takes seconds, and its words are the same.
+                if kind == Kind::Order && subject.0.primitive_count() > 10_000 {
+                    continue;
+                }
+                let drawing = draw(kind, scene.name, &subject, Theme::Dark);
+                let found = drawing.faults().into_iter();
+                faults.extend(
+                    found.map(|fault| format!("{kind} of {}, {projection:?}: {fault}", scene.name)),
+                );
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+#[test]
+fn another_renderer_draws_the_svg_as_we_draw_the_pixels() {
+    for (scene, theme) in [("canonical", Theme::Dark), ("ties", Theme::Light)] {
+        let subject = camera(scene, Projection::Perspective);
+        for kind in Kind::ALL {
+            let drawing = draw(kind, scene, &subject, theme);
+            // Where enlarged pixels of a picture meet, each rounds to a side of its own.
+            let (mean, part) = difference(&drawing.pixels(640), &by_resvg(&drawing.svg(), 640));
+            assert!(
+                mean < 2.0 && part < 0.012,
+                "{kind} of {scene}: {mean:.2} of 255, {part:.4} of the pixels"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_same_input_gives_the_same_bytes() {
+    let subject = camera("slivers", Projection::Perspective);
+    for kind in Kind::ALL {
+        let svg = || draw(kind, "slivers", &subject, Theme::Dark).svg();
+        assert_eq!(svg(), svg(), "{kind}");
+    }
+}
+
+#[test]
+fn the_work_of_all_pixels_is_the_work_of_the_report() {
+    for projection in [Projection::Perspective, Projection::Parallel] {
+        let (scene, camera) = camera("overlap", projection);
+        let view = View::new(&scene, &camera);
+        for map in work_maps(&view) {
+            let options = RenderOptions { no_times: true, ..RenderOptions::default() };
+            let rendered = render(map.order, map.method, &view, &options).unwrap();
+            let work = rendered.work().expect("it is counted");
+            let total: u64 = map.counts.iter().sum();
+            assert_eq!(total, work.tests + work.nodes, "{:?} {:?}", map.order, map.method);
+            assert_eq!(map.counts.len(), map.size[0] * map.size[1]);
+        }
+        let maps = work_maps(&view);
+        let uneven = |order: Order| {
+            let fast = maps.iter().find(|map| map.order == order && map.method == Method::Fast);
+            let counts = &fast.expect("both orders are counted").counts;
+            counts.iter().min() < counts.iter().max()
+        };
+        assert!(uneven(Order::Object) && uneven(Order::Image));
+    }
+}
