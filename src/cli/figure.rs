@@ -3,11 +3,12 @@
 use super::args::{CameraArgs, RulesArg, from_1, rules};
 use super::camera::camera;
 use super::failure::Failure;
-use super::output::OutputFile;
+use super::npy;
+use super::output::{OutputFile, Staging};
 use super::terminal;
 use bothways::common::View;
 use bothways::common::raster::check_samples;
-use bothways::figure::{Drawing, Kind, Subject, Theme};
+use bothways::figure::{Drawing, Kind, Subject, Theme, WorkMap, work_maps};
 use bothways::formats::scene_file::nearest_name;
 use bothways::orders::Rules;
 use bothways::rules::{image_order, object_order};
@@ -16,7 +17,7 @@ use bothways::wording::count;
 use clap::Args;
 use image::ImageFormat;
 use std::io::{Cursor, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 pub(super) fn examples() -> String {
@@ -70,6 +71,9 @@ pub(super) struct FigureArgs {
     /// dark, for projectors in dim rooms, or light, for paper
     #[arg(long, default_value = "dark", value_parser = theme)]
     theme: Theme,
+    /// For the kind work: also write the counts as NumPy arrays into this folder, H×W, u64, one file an order and method
+    #[arg(long, value_name = "DIR")]
+    counts: Option<PathBuf>,
     /// The width of a PNG in pixels; its height is nine sixteenths of it
     #[arg(long, value_name = "PIXELS", default_value_t = WIDTH, value_parser = width,
           allow_negative_numbers = true)]
@@ -116,6 +120,9 @@ pub(super) fn run(args: &FigureArgs) -> Result<ExitCode, Failure> {
         None => OutputFile::find(&default_file(&loaded.name, args.kind))?,
     };
     write(&drawing, &file, format, args.width)?;
+    if let Some(folder) = &args.counts {
+        write_counts(&subject.view, folder)?;
+    }
     anstream::eprintln!("wrote {}", file.said());
     Ok(ExitCode::SUCCESS)
 }
@@ -139,6 +146,9 @@ fn check(args: &FigureArgs) -> Result<(), Failure> {
             "{kind} looks at {}, but --pixel is given {} times",
             count(most as u64, "pixels"),
             args.pixel.len()
+        ))),
+        _ if args.counts.is_some() && kind != Kind::Work => Err(Failure::new(format!(
+            "--counts writes what the kind work shows, and {kind} shows no work; draw work"
         ))),
         _ if args.samples > 1 && !kind.takes_samples() => {
             Err(refused("--samples", "changes figures that show pictures by sample"))
@@ -180,6 +190,19 @@ fn write(drawing: &Drawing, file: &OutputFile, format: Format, width: u32) -> Re
         }
     };
     file.write(|out| out.write_all(&bytes))
+}
+
+/// Writes the counts of each order and method as an array.
+fn write_counts(view: &View, folder: &Path) -> Result<(), Failure> {
+    let maps = work_maps(view);
+    let name = |map: &WorkMap| format!("{}.{}.work.npy", map.order.file_stem(), map.method.name());
+    let mut staging = Staging::begin_for("--counts", folder, maps.iter().map(name).collect())?;
+    for map in &maps {
+        staging.write(&name(map), |out| npy::write_counts(map.size, &map.counts, out))?;
+    }
+    staging.commit()?;
+    anstream::eprintln!("wrote {}", folder.display());
+    Ok(())
 }
 
 fn kind(name: &str) -> Result<Kind, String> {

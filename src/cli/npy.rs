@@ -14,6 +14,20 @@ pub(super) fn write_distances(frame: &Frame, out: impl Write) -> io::Result<()> 
     write(frame, frame.distances(), out)
 }
 
+/// Writes a number for each pixel, row by row, in so many rows and columns.
+pub(super) fn write_counts(
+    [height, width]: [usize; 2],
+    counts: &[u64],
+    mut out: impl Write,
+) -> io::Result<()> {
+    let shape = [height as u64, width as u64];
+    let mut writer: NpyWriter<u64, _> =
+        WriteOptions::new().default_dtype().shape(&shape).writer(&mut out).begin_nd()?;
+    writer.extend(counts.iter().copied())?;
+    writer.finish()?;
+    out.flush()
+}
+
 fn write<T: AutoSerialize + Copy>(
     frame: &Frame,
     buffer: &[T],

@@ -47,6 +47,8 @@ const PATIENCE: Duration = Duration::from_secs(30);
 #[derive(Debug)]
 pub(super) struct Staging {
     target: PathBuf,
+    /// The option that names the folder.
+    option: &'static str,
     /// A folder next to a new target folder, or within an existing target folder: in both cases, a rename moves the
     /// files. `None` after its removal.
     hidden: Option<Hidden>,
@@ -65,14 +67,24 @@ impl Staging {
 
     /// Prepares to write these files into the target folder. The presence of the last file shows that all are complete.
     pub(super) fn begin_with(target: &Path, names: Vec<String>) -> Result<Staging, Failure> {
+        Staging::begin_for("-o", target, names)
+    }
+
+    /// The same for the folder of another option.
+    pub(super) fn begin_for(
+        option: &'static str,
+        target: &Path,
+        names: Vec<String>,
+    ) -> Result<Staging, Failure> {
         if target == Path::new("-") {
-            return Err(Failure::new(
-                "-o - is standard output, which takes one file, and here a folder of files is \
-                 written; name a folder (one that is called - as ./-)",
-            ));
+            return Err(Failure::new(format!(
+                "{option} - is standard output, which takes one file, and here a folder of files is \
+                 written; name a folder (one that is called - as ./-)"
+            )));
         }
         let mut staging = Staging {
             target: target.to_owned(),
+            option,
             hidden: None,
             created: Vec::new(),
             names,
@@ -129,7 +141,7 @@ impl Staging {
         self.written.push(name.into());
         result.map_err(|error| {
             let place = self.target.join(name);
-            let reason = reason(&error, "choose another folder with -o");
+            let reason = reason(&error, &format!("choose another folder with {}", self.option));
             Failure::new(format!("cannot write {}: {reason}", place.display()))
         })
     }
@@ -206,7 +218,8 @@ impl Staging {
             let place = place.display();
             Err(Failure::new(format!(
                 "{place} is a folder, where a file would be written; \
-                 move it, or choose another output folder with -o"
+                 move it, or choose another output folder with {}",
+                self.option
             )))
         })
     }
@@ -222,7 +235,8 @@ impl Staging {
     }
 
     fn failure(&self, error: &io::Error) -> Failure {
-        let (folder, reason) = (self.target.display(), reason(error, "choose another one with -o"));
+        let remedy = format!("choose another one with {}", self.option);
+        let (folder, reason) = (self.target.display(), reason(error, &remedy));
         Failure::new(format!("cannot write into the folder {folder}: {reason}"))
     }
 }

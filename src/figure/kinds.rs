@@ -7,6 +7,8 @@ mod depth_complexity;
 mod edge_functions;
 mod grid;
 mod hierarchy;
+mod image;
+mod interest;
 mod order;
 mod patch;
 mod ray;
@@ -24,6 +26,8 @@ use std::fmt;
 /// What a figure shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Kind {
+    /// What an image is: rows and columns of pixels, each with a colour.
+    Image,
     /// The lecture's drawing: eye, u, v, w, viewport, viewing rays and what they hit.
     Camera,
     /// A magnified patch: samples, edges, signs of the edge functions, the tie rule at work.
@@ -50,7 +54,8 @@ pub enum Kind {
 
 impl Kind {
     /// All kinds, in the order of a lecture.
-    pub const ALL: [Kind; 11] = [
+    pub const ALL: [Kind; 12] = [
+        Kind::Image,
         Kind::Camera,
         Kind::Grid,
         Kind::EdgeFunctions,
@@ -67,6 +72,7 @@ impl Kind {
     /// The name on the command line.
     pub fn name(self) -> &'static str {
         match self {
+            Kind::Image => "image",
             Kind::Camera => "camera",
             Kind::Grid => "grid",
             Kind::EdgeFunctions => "edge-functions",
@@ -89,6 +95,7 @@ impl Kind {
     /// What the figure shows, in one line.
     pub fn about(self) -> &'static str {
         match self {
+            Kind::Image => "what an image is: rows and columns of pixels, each with a colour",
             Kind::Camera => {
                 "the lecture's drawing: eye, u, v, w, viewport, viewing rays and what they hit"
             }
@@ -123,7 +130,7 @@ impl Kind {
     pub fn most_pixels(self) -> usize {
         match self {
             Kind::Camera => 4,
-            Kind::Grid | Kind::EdgeFunctions | Kind::Ray | Kind::Zoom => 1,
+            Kind::Image | Kind::Grid | Kind::EdgeFunctions | Kind::Ray | Kind::Zoom => 1,
             Kind::Work
             | Kind::Hierarchy
             | Kind::Order
@@ -151,6 +158,7 @@ impl Kind {
     pub fn draw(self, subject: &Subject) -> Result<Drawing, FigureError> {
         subject.check()?;
         match self {
+            Kind::Image => image::draw(subject),
             Kind::Camera => camera::draw(subject),
             Kind::Grid => grid::draw(subject),
             Kind::EdgeFunctions => edge_functions::draw(subject),

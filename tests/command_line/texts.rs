@@ -336,6 +336,7 @@ fn short_help() {
         "diff",
         "check",
         "grade",
+        "figure",
         "scenes",
         "rules",
         "cover",

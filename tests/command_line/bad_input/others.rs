@@ -100,6 +100,75 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
         "pixel canonical 1 1 --json=yes",
         "unexpected value 'yes' for '--json' found; no more were expected",
     ),
+    // Figures.
+    ("figure", "the following required arguments were not provided: <KIND>"),
+    (
+        "figure edge-function",
+        "invalid value 'edge-function' for '<KIND>': did you mean edge-functions? the kinds are image, camera",
+    ),
+    ("figure camera no-such", "there is no built-in scene \"no-such\""),
+    (
+        "figure grid ties --pixel 64,0",
+        "cannot draw grid of 'ties': there is no pixel (64, 0) in an image of 64x64: rows go from 0 to 63, columns \
+         from 0 to 63",
+    ),
+    (
+        "figure grid ties --pixel 1",
+        "invalid value '1' for '--pixel <ROW,COLUMN>': give ROW,COLUMN in whole numbers counted from 0",
+    ),
+    (
+        "figure grid ties --pixel 1,1 --pixel 2,2",
+        "grid looks at 1 pixel, but --pixel is given 2 times",
+    ),
+    (
+        "figure work ties --pixel 1,1",
+        "--pixel chooses what a figure looks at, and work does not; it is for image, camera, grid",
+    ),
+    (
+        "figure grid ties --samples 0",
+        "invalid value '0' for '--samples <N>': give a whole number from 1",
+    ),
+    (
+        "figure grid ties --samples 2",
+        "--samples changes figures that show pictures by sample, and grid does not; it is for side-by-side",
+    ),
+    (
+        "figure grid ties --object-rules corner",
+        "--object-rules and --image-rules change figures that compare the orders, and grid does not; it is for \
+         side-by-side, zoom, reasons",
+    ),
+    (
+        "figure zoom ties --object-rules no-such",
+        "invalid value 'no-such' for '--object-rules <RULE>'",
+    ),
+    (
+        "figure zoom ties --image-rules no-such",
+        "invalid value 'no-such' for '--image-rules <RULE>'",
+    ),
+    (
+        "figure grid ties --theme blue",
+        "invalid value 'blue' for '--theme <THEME>': 'blue' is no theme; there are dark and light",
+    ),
+    (
+        "figure grid ties --width 10",
+        "invalid value '10' for '--width <PIXELS>': give a whole number of pixels from 160 to 7680",
+    ),
+    (
+        "figure grid ties --counts there",
+        "--counts writes what the kind work shows, and grid shows no work; draw work",
+    ),
+    (
+        "figure work ties --size 8x8 -o w.svg --counts file",
+        "cannot write into the folder file: a file is where a folder would be; choose another one with --counts",
+    ),
+    (
+        "figure grid ties -o figure.jpg",
+        "cannot write figure.jpg: a figure is written as SVG or PNG, and .jpg is neither; end the name in .svg or .png",
+    ),
+    (
+        "figure grid ties -o file/figure.svg",
+        "cannot write file/figure.svg: a file is where a folder would be; choose another file with -o",
+    ),
     // One triangle.
     ("cover", "the following required arguments were not provided: --size <WxH> <x,y x,y x,y>"),
     ("cover '1,1 9,2 3,7'", "the following required arguments were not provided: --size <WxH>"),
