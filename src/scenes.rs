@@ -5,12 +5,14 @@ mod built_in;
 mod framing;
 mod load;
 mod open;
+mod projection;
 mod studio;
 
 pub use built_in::{BUILT_IN, BuiltIn, DEFAULT};
 pub use framing::{FrameMeshError, Framing, framed};
 pub use load::{LoadError, LoadedScene, load, load_for};
 pub use open::{OpenedScene, StreamedScene, open, open_stream};
+pub use projection::with_projection;
 
 #[cfg(test)]
 mod tests;

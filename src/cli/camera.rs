@@ -2,11 +2,9 @@
 
 use super::args::CameraArgs;
 use super::failure::Failure;
-use bothways::common::glam::{DVec3, Vec3};
-use bothways::common::{
-    Camera, CameraDescription, CameraError, Orientation, Projection, Scene, Shape,
-};
-use bothways::scenes::LoadedScene;
+use bothways::common::glam::Vec3;
+use bothways::common::{Camera, CameraDescription, CameraError, Orientation, Projection};
+use bothways::scenes::{LoadedScene, with_projection};
 use bothways::wording::readable;
 
 /// The camera to render with.
@@ -35,8 +33,7 @@ fn changed(loaded: &LoadedScene, args: &CameraArgs) -> Result<CameraDescription,
             camera.viewport[0] = camera.width_of_square_pixels();
         }
         if projection != camera.projection {
-            let scale = scale_for(projection, &camera, &loaded.scene)?;
-            camera.viewport = camera.viewport.map(|side| rounded(f64::from(side) * scale));
+            camera = with_projection(&camera, projection, &loaded.scene)?;
         }
     }
     camera.projection = projection;
@@ -61,58 +58,6 @@ fn orientation(stated: Orientation, target: Option<Vec3>, up: Option<Vec3>) -> O
         }
         (None, Orientation::Frame { .. }) => stated,
     }
-}
-
-/// The factor for the viewport that keeps the size of the target in the picture.
-///
-/// At a depth `z` a perspective camera sees a rectangle `z/d` times its viewport.
-fn scale_for(
-    projection: Projection,
-    camera: &CameraDescription,
-    scene: &Scene,
-) -> Result<f64, CameraError> {
-    let depth = match camera.orientation {
-        Orientation::LookAt { target, .. } => {
-            Some((target.as_dvec3() - camera.eye.as_dvec3()).length())
-        }
-        Orientation::Direction { .. } | Orientation::Frame { .. } => {
-            let back = Camera::new(*camera)?.w();
-            middle(scene).map(|middle| -(middle - camera.eye.as_dvec3()).dot(back))
-        }
-    };
-    let ratio = match depth {
-        Some(depth) if depth > 0.0 => depth / f64::from(camera.distance),
-        _ => 1.0,
-    };
-    Ok(match projection {
-        Projection::Parallel => ratio,
-        Projection::Perspective => 1.0 / ratio,
-    })
-}
-
-/// The middle of the box around all objects of finite size.
-fn middle(scene: &Scene) -> Option<DVec3> {
-    let mut bounds: Option<[DVec3; 2]> = None;
-    let mut include = |point: Vec3, radius: f32| {
-        let (point, radius) = (point.as_dvec3(), DVec3::splat(radius.into()));
-        let [low, high] = bounds.unwrap_or([point; 2]);
-        bounds = Some([low.min(point - radius), high.max(point + radius)]);
-    };
-    for object in scene.objects() {
-        match &object.shape {
-            Shape::Triangle(triangle) => {
-                [triangle.a, triangle.b, triangle.c].into_iter().for_each(|p| include(p, 0.0));
-            }
-            Shape::Sphere(sphere) => include(sphere.center, sphere.radius),
-            Shape::Mesh(mesh) => {
-                // A file may define vertices that no triangle uses.
-                let used = mesh.triangles().iter().flatten();
-                used.for_each(|&vertex| include(mesh.positions()[vertex as usize], 0.0));
-            }
-            Shape::Plane(_) => {}
-        }
-    }
-    bounds.map(|[low, high]| low.midpoint(high))
 }
 
 /// The warning for an image and a viewport with different aspect ratios: the picture looks squashed, which may be
@@ -148,16 +93,11 @@ pub(super) fn options_given(args: &CameraArgs) -> String {
     names.collect::<Vec<_>>().join(", ")
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "the camera stores f32, and checks its range")]
-fn rounded(value: f64) -> f32 {
-    value as f32
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::args::ProjectionArg;
     use super::*;
-    use bothways::common::{Plane, Sphere};
+    use bothways::common::{Plane, Scene, Shape, Sphere};
 
     fn loaded(camera: CameraDescription) -> LoadedScene {
         let plane = Shape::Plane(Plane { point: Vec3::ZERO, normal: Vec3::Y });

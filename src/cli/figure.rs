@@ -119,9 +119,12 @@ pub(super) fn run(args: &FigureArgs) -> Result<ExitCode, Failure> {
         Some(file) => file,
         None => OutputFile::find(&default_file(&loaded.name, args.kind))?,
     };
+    let counts = args.counts.as_deref().map(|folder| staged_counts(&subject.view, folder));
+    let counts = counts.transpose()?;
     write(&drawing, &file, format, args.width)?;
-    if let Some(folder) = &args.counts {
-        write_counts(&subject.view, folder)?;
+    if let (Some(counts), Some(folder)) = (counts, &args.counts) {
+        counts.commit()?;
+        anstream::eprintln!("wrote {}", folder.display());
     }
     anstream::eprintln!("wrote {}", file.said());
     Ok(ExitCode::SUCCESS)
@@ -192,17 +195,15 @@ fn write(drawing: &Drawing, file: &OutputFile, format: Format, width: u32) -> Re
     file.write(|out| out.write_all(&bytes))
 }
 
-/// Writes the counts of each order and method as an array.
-fn write_counts(view: &View, folder: &Path) -> Result<(), Failure> {
+/// The counts of each order and method as arrays, ready to be moved into their folder.
+fn staged_counts(view: &View, folder: &Path) -> Result<Staging, Failure> {
     let maps = work_maps(view);
     let name = |map: &WorkMap| format!("{}.{}.work.npy", map.order.file_stem(), map.method.name());
     let mut staging = Staging::begin_for("--counts", folder, maps.iter().map(name).collect())?;
     for map in &maps {
         staging.write(&name(map), |out| npy::write_counts(map.size, &map.counts, out))?;
     }
-    staging.commit()?;
-    anstream::eprintln!("wrote {}", folder.display());
-    Ok(())
+    Ok(staging)
 }
 
 fn kind(name: &str) -> Result<Kind, String> {

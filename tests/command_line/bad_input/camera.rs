@@ -140,6 +140,7 @@ pub(super) const COMMANDS: &[&str] = &[
     "canonical",
     "camera canonical",
     "pixel canonical 1 1",
+    "figure image canonical",
     "grade canonical a.pgm",
     "diff a.pgm a.pgm --scene canonical",
 ];
