@@ -12,6 +12,7 @@ mod cover;
 mod diff;
 mod failure;
 mod figure;
+mod film;
 mod forecast;
 mod fuzz;
 mod grade;
@@ -56,6 +57,7 @@ Examples:
   bothways figure camera                     a drawing of the camera and its rays, for a slide
   bothways check mine                        a whole renderer at once: which scenes, and why
   bothways pixel ties 20 30                  why a pixel shows what it shows
+  bothways film lecture                      both orders at work, as a film
   bothways cover '1,1 9,2 3,7' --size 10x8   which pixels a triangle covers
 
 Exit codes: 0 both orders see the same, 1 they differ, 2 something went wrong.";
@@ -102,6 +104,9 @@ enum Command {
     /// Derive one pixel's viewing ray; tell what covers it, and what each order saw and did there
     #[command(after_help = pixel::EXAMPLES)]
     Pixel(Box<pixel::PixelArgs>),
+    /// Film both orders at work on one picture, on one clock of work done: GIF, PNG, MP4 or frames
+    #[command(after_help = film::EXAMPLES)]
+    Film(Box<film::FilmArgs>),
     /// Print a scene's camera: eye, frame, viewport, field of view, OpenGL matrices
     #[command(after_help = show_camera::EXAMPLES)]
     Camera(Box<show_camera::ShowCameraArgs>),
@@ -153,6 +158,7 @@ fn run(cli: Cli) -> Result<ExitCode, Failure> {
         Some(Command::Rules(args)) => rules::run(&args),
         Some(Command::Cover(args)) => cover::run(&args),
         Some(Command::Pixel(args)) => pixel::run(&args),
+        Some(Command::Film(args)) => film::run(&args),
         Some(Command::Camera(args)) => show_camera::run(&args),
         Some(Command::Mesh(args)) => mesh::run(&args),
         Some(Command::Vectors(args)) => vectors::run(&args),

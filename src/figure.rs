@@ -3,6 +3,7 @@
 mod drawing;
 mod fallback;
 mod kinds;
+mod film_page;
 mod legend;
 mod project;
 mod resize;
@@ -14,6 +15,7 @@ mod theme;
 
 pub use drawing::{CANVAS, Drawing};
 pub use kinds::{Kind, WorkMap, work_maps};
+pub(crate) use film_page::{CodeLine, FilmHalf, FilmPage};
 pub use legend::{Entry, with_legend};
 pub use slide::Slide;
 pub use subject::{FigureError, Subject};

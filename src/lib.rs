@@ -60,7 +60,7 @@
 //! - **Ordinary renderers**: [`rules`], to compare with the exact ones; [`orders::Rules`] sets them.
 //! - **Comparing**: [`diff`], for frames and for files of any origin ([`diff::foreign`]); [`report`] writes the
 //!   result for programs.
-//! - **Showing**: [`picture`] and [`figure`]; [`wording`] writes numbers for people.
+//! - **Showing**: [`picture`] and [`figure`]; [`film`] shows both orders at work; [`wording`] writes numbers for people.
 //! - **Single questions**: [`cover`] answers for one triangle on a raster, [`pixel`] for one pixel of a scene,
 //!   [`opengl`] gives the matrices of a camera.
 //! - **Testing other renderers**: [`vectors`] is a conformance set, [`check`] holds a renderer to it, [`grade`] gives
@@ -77,6 +77,7 @@ pub mod check;
 pub mod cover;
 pub mod diff;
 pub mod figure;
+pub mod film;
 pub mod fuzz;
 pub mod grade;
 pub mod opengl;

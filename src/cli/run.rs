@@ -134,7 +134,7 @@ fn check_verify(args: &RenderArgs) -> Result<(), Failure> {
 
 /// The name of a scene's folder below `out`: the scene's name, unless that name leads to another folder (a file may
 /// have the name `...toml`) or cannot be typed.
-fn folder_name(name: &str) -> String {
+pub(super) fn folder_name(name: &str) -> String {
     let typed = |c: char| if c.is_control() || "/\\:".contains(c) { '_' } else { c };
     if name.bytes().all(|byte| byte == b'.') {
         "scene".into()

@@ -1,0 +1,219 @@
+//! `bothways film`: both orders draw one picture, as a GIF, an animated PNG, a video or a folder of frames.
+
+mod progress;
+mod target;
+mod video;
+
+use super::args::{CameraArgs, MethodArg};
+use super::camera::{camera, squashed};
+use super::failure::Failure;
+use super::run::folder_name;
+use super::terminal;
+use bothways::common::View;
+use bothways::figure::Theme;
+use bothways::film::{
+    Film, Length, MOST_SECONDS, WIDTH_STEP, WIDTHS, default_size, rates,
+};
+use bothways::scenes;
+use bothways::wording::{count, grouped};
+use clap::Args;
+use progress::Progress;
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use target::Target;
+
+pub(super) const EXAMPLES: &str = "\
+Both orders share one clock, which counts the work done: a step is a pair of an object and a pixel that is
+tested, or a box of the hierarchy.
+
+Examples:
+  bothways film lecture                          into out/films/lecture.gif
+  bothways film lecture --method fast -o fast.gif
+  bothways film canonical --seconds 12 --theme light -o canonical.png      an animated PNG
+  bothways film ties --size 16x16 -o frames/     numbered frames, frames/frame-0001.png and so on
+  bothways film lecture --width 1920 -o lecture.mp4                        where ffmpeg is installed
+
+Exit codes: 0 both orders see the same, 1 they differ, 2 something went wrong.";
+
+/// What to film, how, and where to.
+#[derive(Debug, Args)]
+pub(super) struct FilmArgs {
+    /// A built-in scene, a .toml scene file, or a mesh file (framed automatically)
+    scene: String,
+    #[command(flatten)]
+    camera: CameraArgs,
+    /// The lecture's double loop, or with all machinery
+    #[arg(long, value_enum, default_value_t = MethodArg::Textbook)]
+    method: MethodArg,
+    /// How long both orders draw
+    #[arg(long, value_name = "S", default_value_t = 8.0, value_parser = seconds,
+          allow_negative_numbers = true)]
+    seconds: f64,
+    /// How long the finished picture stays at the end, in seconds
+    #[arg(long, value_name = "S", default_value_t = 2.0, value_parser = pause,
+          allow_negative_numbers = true)]
+    pause: f64,
+    /// Frames a second: 1, 2, 4, 5, 10, 20, 25 or 50, which last whole hundredths of a second
+    #[arg(long, value_name = "N", default_value_t = 25, value_parser = rate,
+          allow_negative_numbers = true)]
+    fps: u32,
+    /// The width of the film in pixels, a multiple of 32; its height is nine sixteenths of it
+    #[arg(long, value_name = "N", default_value_t = 960, value_parser = width,
+          allow_negative_numbers = true)]
+    width: u32,
+    /// dark for dim rooms, light for bright ones
+    #[arg(long, value_name = "THEME", default_value = "dark")]
+    theme: Theme,
+    /// A .gif, .png (animated) or .mp4 (by ffmpeg) file, or a folder for numbered frames; - is standard
+    /// output, which gets a GIF [default: out/films/NAME.gif]
+    #[arg(short = 'o', long = "output", value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Print the facts as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Records, draws, writes and prints; the exit code is 0 if both orders see the same.
+pub(super) fn run(args: &FilmArgs) -> Result<ExitCode, Failure> {
+    let length = Length::new(args.seconds, args.fps, args.pause)
+        .map_err(|error| Failure::new(format!("--seconds, --fps and --pause: {error}")))?;
+    let loaded = scenes::load_for(&args.scene, args.camera.size)?;
+    terminal::warn(&loaded.warnings);
+    let method = args.method.into();
+    let size = args.camera.size.unwrap_or_else(|| default_size(loaded.camera.image, method));
+    let camera = camera(&loaded, &CameraArgs { size: Some(size), ..args.camera.clone() })?;
+    let output = args.output.clone().unwrap_or_else(|| {
+        Path::new("out").join("films").join(folder_name(&loaded.name) + ".gif")
+    });
+    let target = Target::find(&output, length)?;
+    if args.json && target.is_stdout() {
+        return Err(Failure::new(
+            "--json and the film would both go to standard output; name a file with -o",
+        ));
+    }
+    if let Some(hint) = squashed(&camera, &args.camera) {
+        anstream::eprintln!("hint: {hint}");
+    }
+    let mut progress = Progress::new(length.frames());
+    progress.say("watching both orders");
+    let view = View::new(&loaded.scene, &camera);
+    let film = Film::record(&loaded.name, &view, method, length)
+        .map_err(|error| Failure::new(format!("a film of {}: {error}", loaded.name)))?;
+    let bytes = target.write(&film, args.theme, args.width, &mut progress)?;
+    progress.finish();
+    let facts = Facts::new(args, &loaded.name, &film, &target, bytes, size);
+    facts.print(args.json, target.is_stdout())?;
+    Ok(ExitCode::from(u8::from(!film.comparison().matches())))
+}
+
+/// What is said about a film that is written.
+#[derive(Debug, Serialize)]
+struct Facts {
+    scene: String,
+    file: String,
+    format: &'static str,
+    method: &'static str,
+    /// The picture's width and height.
+    size: [u32; 2],
+    width: u32,
+    height: u32,
+    frames_per_second: u32,
+    /// The frames that differ; the last one stays for the pause.
+    frames: u32,
+    pause_frames: u32,
+    seconds: f64,
+    bytes: u64,
+    steps: Steps,
+    verdict: String,
+    matches: bool,
+}
+
+/// The steps of both orders.
+#[derive(Debug, Serialize)]
+struct Steps {
+    object_order: u64,
+    image_order: u64,
+}
+
+impl Facts {
+    fn new(
+        args: &FilmArgs,
+        scene: &str,
+        film: &Film,
+        target: &Target,
+        bytes: u64,
+        size: [u32; 2],
+    ) -> Facts {
+        let ([object_order, image_order], length) = (film.steps(), film.length());
+        Facts {
+            scene: scene.into(),
+            file: target.said(),
+            format: target.format(),
+            method: bothways::orders::Method::from(args.method).name(),
+            size,
+            width: args.width,
+            height: args.width / 16 * 9,
+            frames_per_second: length.rate(),
+            frames: length.frames(),
+            pause_frames: length.pause(),
+            seconds: length.seconds(),
+            bytes,
+            steps: Steps { object_order, image_order },
+            verdict: film.comparison().verdict(),
+            matches: film.comparison().matches(),
+        }
+    }
+
+    fn print(&self, json: bool, film_is_printed: bool) -> Result<(), Failure> {
+        if json {
+            return terminal::print(&terminal::json(self)?);
+        }
+        let Steps { object_order, image_order } = &self.steps;
+        let text = format!(
+            "{}\n{} at {} a second, {} s, {} x {} pixels, {} bytes; {} in object order, {} in image order\n{}\n",
+            self.file,
+            count(self.frames.into(), "frames"),
+            self.frames_per_second,
+            self.seconds,
+            self.width,
+            self.height,
+            grouped(self.bytes),
+            count(*object_order, "steps"),
+            grouped(*image_order),
+            self.verdict,
+        );
+        if film_is_printed {
+            anstream::eprint!("{text}");
+            return Ok(());
+        }
+        terminal::print(&text)
+    }
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(seconds) if seconds > 0.0 && seconds <= MOST_SECONDS => Ok(seconds),
+        _ => Err(format!("give a number of seconds greater than 0, at most {MOST_SECONDS}")),
+    }
+}
+
+fn pause(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(seconds) if (0.0..=MOST_SECONDS).contains(&seconds) => Ok(seconds),
+        _ => Err(format!("give a number of seconds from 0 to {MOST_SECONDS}")),
+    }
+}
+
+fn rate(text: &str) -> Result<u32, String> {
+    let rate = text.parse().ok().filter(|rate| Length::new(1.0, *rate, 0.0).is_ok());
+    rate.ok_or_else(|| format!("choose {}: a GIF counts hundredths of a second", rates()))
+}
+
+fn width(text: &str) -> Result<u32, String> {
+    let [least, most] = WIDTHS;
+    match text.parse() {
+        Ok(width) if (least..=most).contains(&width) && width % WIDTH_STEP == 0 => Ok(width),
+        _ => Err(format!("give a multiple of {WIDTH_STEP} from {least} to {most}, such as 960 or 1920")),
+    }
+}

@@ -1,0 +1,274 @@
+//! Films: both orders draw one picture, on one clock of work done.
+//!
+//! A step of the clock is a pair of a primitive and a sample that is tested, or a box of the hierarchy: what
+//! [`Work`](crate::common::Work) counts as `tests` and `nodes`. Frame `k` of `F` shows both pictures after `k/F` of the
+//! steps that the longer order takes. So a film is honest about who is ahead when; it says nothing about seconds, as a
+//! step of one order may take longer than one of the other.
+//!
+//! What is shown comes from the loops that render: they run once more for an observer, which records every change of
+//! the stored picture, and where the loops are at each frame. The last frame shows the rendered pictures.
+//!
+//! ```
+//! use bothways::common::{Camera, CameraDescription, View};
+//! use bothways::figure::Theme;
+//! use bothways::film::{Film, Length};
+//! use bothways::orders::Method;
+//! use bothways::scenes;
+//!
+//! let loaded = scenes::load("canonical")?;
+//! let camera = Camera::new(CameraDescription { image: [16, 16], ..loaded.camera })?;
+//! let view = View::new(&loaded.scene, &camera);
+//! let film = Film::record(&loaded.name, &view, Method::Textbook, Length::new(1.0, 10, 0.5)?)?;
+//! let gif = film.write_gif(Vec::new(), Theme::Dark, 480, &mut |_| {})?;
+//! assert!(gif.starts_with(b"GIF89a"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod apng;
+mod change;
+mod code;
+mod frames;
+mod gif;
+mod length;
+mod palette;
+mod recorder;
+mod shots;
+mod size;
+mod track;
+
+pub use frames::Frames;
+pub use length::{FRAME_RATES, Length, LengthError, MOST_FRAMES, MOST_SECONDS, rates};
+pub use recorder::{Line, Position};
+pub use shots::{OrderShot, Shot, Shots};
+pub use size::default_size;
+
+use crate::common::View;
+use crate::diff::{Comparison, compare_shown};
+use crate::figure::Theme;
+use crate::orders::{self, Method, Order, RenderOptions, Rendered};
+use crate::wording::grouped;
+use image::RgbImage;
+use std::io;
+use track::Track;
+
+/// The most steps that one order may take in a film by the textbook: about a minute of work.
+const MOST_STEPS: u64 = 1 << 30;
+/// The most pixels of a picture in a film: more than 1920 × 1080.
+const MOST_PIXELS: u64 = 1 << 21;
+/// The narrowest and the widest film.
+pub const WIDTHS: [u32; 2] = [480, 3840];
+/// The width of a film is a multiple of this: then its height is even, as video needs it.
+pub const WIDTH_STEP: u32 = 32;
+
+/// A film of a scene.
+#[derive(Debug)]
+pub struct Film<'a> {
+    scene: String,
+    view: View<'a>,
+    method: Method,
+    length: Length,
+    /// The clock at each frame.
+    moments: Vec<u64>,
+    tracks: [Track; 2],
+    /// The pixels finished at each frame.
+    finished: Vec<[u64; 2]>,
+    comparison: Comparison,
+}
+
+/// Why there is no film of a scene.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum FilmError {
+    /// The loops take too long to be shown.
+    #[error(
+        "the textbook would take {} steps, {} objects at {} pixels, and a film shows at most {}; {advice}",
+        grouped(*.steps), grouped((*.primitives).into()), grouped(*.pixels), grouped(MOST_STEPS)
+    )]
+    TooManySteps {
+        /// The steps of each order.
+        steps: u64,
+        /// The primitives of the scene.
+        primitives: u32,
+        /// The pixels of the picture.
+        pixels: u64,
+        /// What to do.
+        advice: String,
+    },
+    /// The fast method takes more steps than are counted.
+    #[error(
+        "{} takes more than {} steps, too many for a film; take a smaller --size", .order.name(),
+        grouped(*.most)
+    )]
+    Uncounted {
+        /// The order.
+        order: Order,
+        /// The most steps that are counted.
+        most: u64,
+    },
+    /// The picture has too many pixels.
+    #[error(
+        "a film shows pictures of at most {} pixels, and {}x{} has {}; take a smaller --size",
+        grouped(MOST_PIXELS), size[0], size[1], grouped(u64::from(size[0]) * u64::from(size[1]))
+    )]
+    TooManyPixels {
+        /// Width and height.
+        size: [u32; 2],
+    },
+}
+
+impl<'a> Film<'a> {
+    /// Renders a view in both orders, one sample a pixel, and records both.
+    ///
+    /// # Errors
+    ///
+    /// Each [`FilmError`]: scene or picture are too large.
+    pub fn record(
+        scene: &str,
+        view: &View<'a>,
+        method: Method,
+        length: Length,
+    ) -> Result<Film<'a>, FilmError> {
+        check(view, method)?;
+        let render = |order| rendered(order, method, view);
+        let (object_order, image_order) =
+            rayon::join(|| render(Order::Object), || render(Order::Image));
+        let rendered = [object_order?, image_order?];
+        let works = counted(&rendered)?;
+        let longest = works.iter().map(track::steps).max().unwrap_or(0);
+        let moments = moments(longest, length.frames());
+        let record = |k: usize| Track::record(view, &rendered[k], &works[k], &moments);
+        let (object_order, image_order) = rayon::join(|| record(0), || record(1));
+        let tracks = [object_order, image_order];
+        let pictures = tracks.each_ref().map(|track| &track.picture);
+        let comparison = compare_shown(rendered.each_ref().map(|one| &one.frame), pictures);
+        let mut film = Film {
+            scene: scene.into(),
+            view: *view,
+            method,
+            length,
+            moments,
+            tracks,
+            finished: Vec::new(),
+            comparison,
+        };
+        film.finished =
+            film.shots([0; 3]).map(|shot| shot.orders.map(|order| order.finished)).collect();
+        Ok(film)
+    }
+
+    /// What each frame shows. Pixels that store nothing yet have the colour `nothing`.
+    pub fn shots(&self, nothing: [u8; 3]) -> Shots<'_> {
+        Shots::new(&self.moments, &self.tracks, nothing)
+    }
+
+    /// The frames as pictures of this width.
+    ///
+    /// # Panics
+    ///
+    /// If the width is not within [`WIDTHS`], or no multiple of [`WIDTH_STEP`].
+    pub fn frames(&self, theme: Theme, width: u32) -> Frames<'_> {
+        assert!((WIDTHS[0]..=WIDTHS[1]).contains(&width) && width.is_multiple_of(WIDTH_STEP));
+        Frames::new(self, theme, width)
+    }
+
+    /// Writes the film as a GIF with a palette of its own, and gives the writer back. `progress` gets the number of
+    /// each frame that is written.
+    ///
+    /// # Errors
+    ///
+    /// Those of the writer.
+    ///
+    /// # Panics
+    ///
+    /// As [`Film::frames`].
+    pub fn write_gif<W: io::Write>(
+        &self,
+        out: W,
+        theme: Theme,
+        width: u32,
+        progress: &mut dyn FnMut(u32),
+    ) -> io::Result<W> {
+        gif::write(self, out, theme, width, progress)
+    }
+
+    /// Writes the film as an animated PNG; programs that do not know these show the finished picture.
+    ///
+    /// # Errors
+    ///
+    /// Those of the writer.
+    ///
+    /// # Panics
+    ///
+    /// As [`Film::frames`].
+    pub fn write_apng<W: io::Write>(
+        &self,
+        out: W,
+        theme: Theme,
+        width: u32,
+        progress: &mut dyn FnMut(u32),
+    ) -> io::Result<()> {
+        apng::write(self, out, theme, width, progress)
+    }
+
+    /// The comparison of both orders.
+    pub fn comparison(&self) -> &Comparison {
+        &self.comparison
+    }
+
+    /// The length.
+    pub fn length(&self) -> Length {
+        self.length
+    }
+
+    /// All steps of object order and of image order.
+    pub fn steps(&self) -> [u64; 2] {
+        self.tracks.each_ref().map(|track| track.steps)
+    }
+
+    /// The finished pictures of object order and of image order.
+    pub fn pictures(&self) -> [&RgbImage; 2] {
+        self.tracks.each_ref().map(|track| &track.picture)
+    }
+}
+
+/// Refuses what would take too long, before it is rendered.
+fn check(view: &View, method: Method) -> Result<(), FilmError> {
+    let size = view.camera.image();
+    let pixels = u64::from(size[0]) * u64::from(size[1]);
+    if pixels > MOST_PIXELS {
+        return Err(FilmError::TooManyPixels { size });
+    }
+    let primitives = view.scene.primitive_count();
+    let steps = pixels * u64::from(primitives);
+    if method == Method::Fast || steps <= MOST_STEPS {
+        return Ok(());
+    }
+    let smaller = size::within(size, MOST_STEPS / u64::from(primitives));
+    let fits = smaller.map(|[width, height]| format!(", or a --size of at most {width}x{height}"));
+    let advice = format!("take --method fast{}", fits.unwrap_or_default());
+    Err(FilmError::TooManySteps { steps, primitives, pixels, advice })
+}
+
+fn rendered(order: Order, method: Method, view: &View) -> Result<Rendered, FilmError> {
+    let options = RenderOptions { no_times: true, ..RenderOptions::default() };
+    Ok(orders::render(order, method, view, &options).expect("a scene in memory has no errors"))
+}
+
+/// The work of both orders.
+fn counted(rendered: &[Rendered; 2]) -> Result<[crate::common::Work; 2], FilmError> {
+    let count = |one: &Rendered| match one.work {
+        orders::Counts::Counted(work) => Ok(work),
+        orders::Counts::TooMany { most } => Err(FilmError::Uncounted { order: one.order, most }),
+        orders::Counts::LeftOut => unreachable!("the work is counted"),
+    };
+    let [object_order, image_order] = rendered;
+    Ok([count(object_order)?, count(image_order)?])
+}
+
+/// The clock at each of so many frames: the last shows all.
+fn moments(longest: u64, frames: u32) -> Vec<u64> {
+    let at = |frame: u32| u128::from(longest) * u128::from(frame) / u128::from(frames);
+    (1..=frames).map(|frame| u64::try_from(at(frame)).expect("a part of the steps")).collect()
+}
+
+#[cfg(test)]
+mod tests;
