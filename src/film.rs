@@ -5,8 +5,8 @@
 //! steps that the longer order takes. So a film is honest about who is ahead when; it says nothing about seconds, as a
 //! step of one order may take longer than one of the other.
 //!
-//! What is shown comes from the loops that render: they run once more for an observer, which records every change of
-//! the stored picture, and where the loops are at each frame. The last frame shows the rendered pictures.
+//! What is shown comes from the loops that render: they run for an observer, which records every change of the stored
+//! picture, and where the loops are at each frame. The last frame shows the rendered pictures.
 //!
 //! ```
 //! use bothways::common::{Camera, CameraDescription, View};
@@ -45,11 +45,11 @@ pub use size::default_size;
 use crate::common::View;
 use crate::diff::{Comparison, compare_shown};
 use crate::figure::Theme;
-use crate::orders::{self, Method, Order, RenderOptions, Rendered};
+use crate::orders::{Method, Order};
 use crate::wording::grouped;
 use image::RgbImage;
 use std::io;
-use track::Track;
+use track::{Loops, Track};
 
 /// The most steps that one order may take in a film by the textbook: about a minute of work.
 const MOST_STEPS: u64 = 1 << 30;
@@ -93,16 +93,14 @@ pub enum FilmError {
         /// What to do.
         advice: String,
     },
-    /// The fast method takes more steps than are counted.
+    /// Even the fast method takes too long to be shown.
     #[error(
-        "{} takes more than {} steps, too many for a film; take a smaller --size", .order.name(),
-        grouped(*.most)
+        "the fast method takes {} steps, and a film shows at most {}; take a smaller --size",
+        grouped(*.steps), grouped(MOST_STEPS)
     )]
-    Uncounted {
-        /// The order.
-        order: Order,
-        /// The most steps that are counted.
-        most: u64,
+    FastTakesLong {
+        /// The steps of the longer order.
+        steps: u64,
     },
     /// The picture has too many pixels.
     #[error(
@@ -128,18 +126,19 @@ impl<'a> Film<'a> {
         length: Length,
     ) -> Result<Film<'a>, FilmError> {
         check(view, method)?;
-        let render = |order| rendered(order, method, view);
+        let loops = |order| Loops::new(order, method, *view);
         let (object_order, image_order) =
-            rayon::join(|| render(Order::Object), || render(Order::Image));
-        let rendered = [object_order?, image_order?];
-        let works = counted(&rendered)?;
-        let longest = works.iter().map(track::steps).max().unwrap_or(0);
+            rayon::join(|| loops(Order::Object), || loops(Order::Image));
+        let longest = object_order.steps.max(image_order.steps);
+        if longest > MOST_STEPS {
+            return Err(FilmError::FastTakesLong { steps: longest });
+        }
         let moments = moments(longest, length.frames());
-        let record = |k: usize| Track::record(view, &rendered[k], &works[k], &moments);
-        let (object_order, image_order) = rayon::join(|| record(0), || record(1));
+        let ((by_object, object_order), (by_image, image_order)) =
+            rayon::join(|| object_order.record(&moments), || image_order.record(&moments));
         let tracks = [object_order, image_order];
         let pictures = tracks.each_ref().map(|track| &track.picture);
-        let comparison = compare_shown(rendered.each_ref().map(|one| &one.frame), pictures);
+        let comparison = compare_shown([&by_object, &by_image], pictures);
         let mut film = Film {
             scene: scene.into(),
             view: *view,
@@ -246,22 +245,6 @@ fn check(view: &View, method: Method) -> Result<(), FilmError> {
     let fits = smaller.map(|[width, height]| format!(", or a --size of at most {width}x{height}"));
     let advice = format!("take --method fast{}", fits.unwrap_or_default());
     Err(FilmError::TooManySteps { steps, primitives, pixels, advice })
-}
-
-fn rendered(order: Order, method: Method, view: &View) -> Result<Rendered, FilmError> {
-    let options = RenderOptions { no_times: true, ..RenderOptions::default() };
-    Ok(orders::render(order, method, view, &options).expect("a scene in memory has no errors"))
-}
-
-/// The work of both orders.
-fn counted(rendered: &[Rendered; 2]) -> Result<[crate::common::Work; 2], FilmError> {
-    let count = |one: &Rendered| match one.work {
-        orders::Counts::Counted(work) => Ok(work),
-        orders::Counts::TooMany { most } => Err(FilmError::Uncounted { order: one.order, most }),
-        orders::Counts::LeftOut => unreachable!("the work is counted"),
-    };
-    let [object_order, image_order] = rendered;
-    Ok([count(object_order)?, count(image_order)?])
 }
 
 /// The clock at each of so many frames: the last shows all.

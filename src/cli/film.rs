@@ -11,9 +11,7 @@ use super::run::folder_name;
 use super::terminal;
 use bothways::common::View;
 use bothways::figure::Theme;
-use bothways::film::{
-    Film, Length, MOST_SECONDS, WIDTH_STEP, WIDTHS, default_size, rates,
-};
+use bothways::film::{Film, Length, MOST_SECONDS, WIDTH_STEP, WIDTHS, default_size, rates};
 use bothways::scenes;
 use bothways::wording::{count, grouped};
 use clap::Args;
@@ -83,9 +81,10 @@ pub(super) fn run(args: &FilmArgs) -> Result<ExitCode, Failure> {
     let method = args.method.into();
     let size = args.camera.size.unwrap_or_else(|| default_size(loaded.camera.image, method));
     let camera = camera(&loaded, &CameraArgs { size: Some(size), ..args.camera.clone() })?;
-    let output = args.output.clone().unwrap_or_else(|| {
-        Path::new("out").join("films").join(folder_name(&loaded.name) + ".gif")
-    });
+    let output = args
+        .output
+        .clone()
+        .unwrap_or_else(|| Path::new("out").join("films").join(folder_name(&loaded.name) + ".gif"));
     let target = Target::find(&output, length)?;
     if args.json && target.is_stdout() {
         return Err(Failure::new(
@@ -214,6 +213,8 @@ fn width(text: &str) -> Result<u32, String> {
     let [least, most] = WIDTHS;
     match text.parse() {
         Ok(width) if (least..=most).contains(&width) && width % WIDTH_STEP == 0 => Ok(width),
-        _ => Err(format!("give a multiple of {WIDTH_STEP} from {least} to {most}, such as 960 or 1920")),
+        _ => Err(format!(
+            "give a multiple of {WIDTH_STEP} from {least} to {most}, such as 960 or 1920"
+        )),
     }
 }

@@ -43,7 +43,6 @@ pub(crate) struct FilmHalf<'a> {
     pub(crate) lit: usize,
     /// The pixels that look as in the finished picture.
     pub(crate) finished: u64,
-    pub(crate) done: bool,
 }
 
 /// A line of code, and the value of its variable.
@@ -60,14 +59,14 @@ const PANEL: f64 = 888.0;
 /// The left edges of both panels.
 const PANELS: [f64; 2] = [MARGIN, RIGHT - PANEL];
 const TITLE: f64 = 56.0;
-const HEADING: f64 = 108.0;
-const PICTURE: f64 = 124.0;
+const HEADING: f64 = 104.0;
+const PICTURE: f64 = 130.0;
 const PICTURE_HEIGHT: f64 = 528.0;
-const CODE: f64 = 666.0;
-const LINE: f64 = 32.0;
-const CLOCK: f64 = 868.0;
+const CODE: f64 = 670.0;
+const LINE: f64 = 34.0;
+const CLOCK: f64 = 880.0;
 /// The top and the bottom of the curves.
-const CURVES: [f64; 2] = [888.0, 1048.0];
+const CURVES: [f64; 2] = [898.0, 1052.0];
 
 impl FilmPage<'_> {
     /// The colour of a pixel that stores nothing yet.
@@ -78,7 +77,8 @@ impl FilmPage<'_> {
     /// The colours of a page without its pictures.
     pub(crate) fn colors(theme: Theme) -> Vec<[u8; 3]> {
         let roles = [Role::Object, Role::Image, Role::Good, Role::Bad, Role::Focus];
-        let plain = [theme.background(), theme.mat(), theme.hairline(), theme.bright(), theme.quiet()];
+        let plain =
+            [theme.background(), theme.mat(), theme.hairline(), theme.bright(), theme.quiet()];
         plain.into_iter().chain(roles.map(|role| theme.of(role))).collect()
     }
 
@@ -119,7 +119,8 @@ impl FilmPage<'_> {
         let common = theme.text().of(theme.quiet());
         let at = [left + 30.0 + wide + 16.0, HEADING];
         page.drawing.text(at, Anchor::Left, half.order.common_name(), common);
-        let finished = format!("{} of {} finished", grouped(half.finished), count(self.pixels, "pixels"));
+        let finished =
+            format!("{} of {} finished", grouped(half.finished), count(self.pixels, "pixels"));
         let style = theme.text().tabular();
         page.drawing.text([left + PANEL, HEADING], Anchor::Right, &finished, style);
     }
@@ -138,9 +139,8 @@ impl FilmPage<'_> {
         let (theme, [top, bottom]) = (page.theme, CURVES);
         let drawing = &mut page.drawing;
         drawing.rectangle([MARGIN, top], [RIGHT - MARGIN, bottom - top], Ink::new(theme.mat()));
-        let across = |frame: usize| {
-            MARGIN + (RIGHT - MARGIN) * exact(frame as u64) / f64::from(self.frames)
-        };
+        let across =
+            |frame: usize| MARGIN + (RIGHT - MARGIN) * exact(frame as u64) / f64::from(self.frames);
         let now = across(self.finished.len());
         drawing.rectangle([MARGIN, bottom - 2.0], [now - MARGIN, 4.0], Ink::new(theme.bright()));
         let up = |finished: u64| {
@@ -207,7 +207,8 @@ impl Page {
         let unit = CANVAS[0] / f64::from(self.width);
         self.drawing.rectangle([left, PICTURE], [PANEL, PICTURE_HEIGHT], Ink::new(theme.mat()));
         let (width, height) = half.picture.dimensions();
-        let size = enlarged([width, height], [PANEL, PICTURE_HEIGHT].map(|side| whole(side / unit)));
+        let size =
+            enlarged([width, height], [PANEL, PICTURE_HEIGHT].map(|side| whole(side / unit)));
         let size = size.map(|side| f64::from(side) * unit);
         // A whole number of the film's pixels from the edges.
         let corner = [
@@ -266,7 +267,8 @@ impl Page {
             self.drawing.polygon(&[[to, y], [from, y - HALF], [from, y + HALF]], ink);
         }
         let x = left + x;
-        self.drawing.polygon(&[[x, top - 2.0], [x - HALF, top - LONG], [x + HALF, top - LONG]], ink);
+        self.drawing
+            .polygon(&[[x, top - 2.0], [x - HALF, top - LONG], [x + HALF, top - LONG]], ink);
     }
 
     fn code(&mut self, half: &FilmHalf, left: f64) {
@@ -275,20 +277,21 @@ impl Page {
         let theme = self.theme;
         for (number, line) in half.lines.iter().enumerate() {
             let top = CODE + LINE * exact(number as u64);
-            let baseline = top + 24.0;
+            let baseline = top + 27.0;
             let is_lit = number == half.lit;
             if is_lit {
                 let ink = theme.ink(role(half.order));
                 self.drawing.rectangle([left, top], [PANEL, LINE], ink.alpha(0.24));
-                let [low, high] = [top + 7.0, top + LINE - 7.0];
+                let [low, high] = [top + 8.0, top + LINE - 8.0];
                 let middle = 0.5 * (low + high);
-                self.drawing.polygon(&[[left + 6.0, low], [left + 20.0, middle], [left + 6.0, high]], ink);
+                self.drawing
+                    .polygon(&[[left + 6.0, low], [left + 20.0, middle], [left + 6.0, high]], ink);
             }
-            let style = theme.text().sized(26.0);
+            let style = theme.text().sized(28.0);
             let style = if is_lit { style.semi_bold() } else { style.of(theme.quiet()) };
             let indent = left + 30.0 + INDENT * exact(line.indent as u64);
             self.drawing.text([indent, baseline], Anchor::Left, line.code, style);
-            let style = theme.text().sized(26.0).tabular();
+            let style = theme.text().sized(28.0).tabular();
             let at = [left + VARIABLES, baseline];
             self.drawing.fitting(at, Anchor::Left, &line.variable, style, PANEL - VARIABLES - 8.0);
         }

@@ -34,7 +34,11 @@ fn facts(film: &Film, pixels: u64) -> String {
         Method::Textbook => "one step: one pair is tested",
         Method::Fast => "one step: one pair or one box is tested",
     };
-    format!("{objects} × {}   ·   {how}   ·   method {}", count(pixels, "pixels"), film.method.name())
+    format!(
+        "{objects} × {}   ·   {how}   ·   method {}",
+        count(pixels, "pixels"),
+        film.method.name()
+    )
 }
 
 fn half<'a>(film: &Film, order: Order, shot: &'a OrderShot) -> FilmHalf<'a> {
@@ -52,7 +56,6 @@ fn half<'a>(film: &Film, order: Order, shot: &'a OrderShot) -> FilmHalf<'a> {
             .collect(),
         lit: line as usize,
         finished: shot.finished,
-        done: shot.done,
     }
 }
 
@@ -93,7 +96,11 @@ fn variables(film: &Film, order: Order, shot: &OrderShot) -> [String; 5] {
         Some(id) if line == Line::Keep => format!("object {}", grouped(id.into())),
         _ => String::new(),
     };
-    let end = if shot.done { format!("done after {}", count(shot.steps, "steps")) } else { String::new() };
+    let end = if shot.done {
+        format!("done after {}", count(shot.steps, "steps"))
+    } else {
+        String::new()
+    };
     [outer, inner, affects.into(), keep, end]
 }
 

@@ -40,7 +40,9 @@ pub enum LengthError {
         rate: u32,
     },
     /// The seconds are no length.
-    #[error("a film takes more than 0 and at most {MOST_SECONDS} seconds, and its pause at least 0")]
+    #[error(
+        "a film takes more than 0 and at most {MOST_SECONDS} seconds, and its pause at least 0"
+    )]
     Seconds,
     /// Too many frames.
     #[error(
@@ -70,7 +72,8 @@ impl Length {
         if !FRAME_RATES.contains(&rate) {
             return Err(LengthError::Rate { rate });
         }
-        let valid = seconds > 0.0 && seconds <= MOST_SECONDS && (0.0..=MOST_SECONDS).contains(&pause);
+        let valid =
+            seconds > 0.0 && seconds <= MOST_SECONDS && (0.0..=MOST_SECONDS).contains(&pause);
         if !valid {
             return Err(LengthError::Seconds);
         }

@@ -58,7 +58,10 @@ impl ColorBox {
             let (low, high) = values.fold((u8::MAX, 0), |(low, high), v| (low.min(v), high.max(v)));
             high.saturating_sub(low)
         };
-        (0..3).map(|channel| (channel, range(channel))).max_by_key(|(_, range)| *range).unwrap_or((0, 0))
+        (0..3)
+            .map(|channel| (channel, range(channel)))
+            .max_by_key(|(_, range)| *range)
+            .unwrap_or((0, 0))
     }
 
     fn weight(&self) -> f64 {
@@ -159,8 +162,8 @@ mod tests {
         let mut palette = Palette::new(&histogram, &[[1, 2, 3]]);
         assert_eq!((palette.colors().len(), palette.transparent()), (21, 21));
         for color in picture.pixels().map(|pixel| pixel.0).chain([[1, 2, 3]]) {
-            let number = palette.nearest(color);
-            assert_eq!(palette.colors()[usize::from(number)], color);
+            let number = usize::from(palette.nearest(color));
+            assert_eq!(palette.colors()[number], color);
         }
     }
 
@@ -172,10 +175,15 @@ mod tests {
         let exact = [[255, 0, 255]];
         let mut palette = Palette::new(&histogram, &exact);
         assert_eq!(palette.colors().len(), 255);
-        assert_eq!(palette.colors()[usize::from(palette.nearest(exact[0]))], exact[0]);
+        let number = usize::from(palette.nearest(exact[0]));
+        assert_eq!(palette.colors()[number], exact[0]);
         for pixel in picture.pixels() {
-            let near = palette.colors()[usize::from(palette.nearest(pixel.0))];
-            assert!(near.iter().zip(pixel.0).all(|(a, b)| a.abs_diff(b) <= 17), "{pixel:?} {near:?}");
+            let number = usize::from(palette.nearest(pixel.0));
+            let near = palette.colors()[number];
+            assert!(
+                near.iter().zip(pixel.0).all(|(a, b)| a.abs_diff(b) <= 17),
+                "{pixel:?} {near:?}"
+            );
         }
     }
 }

@@ -189,6 +189,11 @@ pub(super) struct Survey {
 }
 
 impl Survey {
+    /// The steps so far.
+    pub(super) fn steps(&self) -> u64 {
+        self.steps
+    }
+
     fn step(&mut self, sample: Sample) {
         self.first.get_or_insert(sample);
         self.steps += 1;

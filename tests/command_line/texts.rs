@@ -341,6 +341,7 @@ fn short_help() {
         "rules",
         "cover",
         "pixel",
+        "film",
         "camera",
         "mesh",
         "vectors",

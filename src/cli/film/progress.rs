@@ -16,7 +16,8 @@ impl Progress {
     pub(super) fn new(frames: u32) -> Progress {
         let erases = env::var_os("TERM").is_none_or(|terminal| terminal != "dumb");
         let is_seen = erases && stderr().is_terminal();
-        let target = if is_seen { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
+        let target =
+            if is_seen { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
         let style = ProgressStyle::with_template("{msg}, {elapsed}");
         let bar = ProgressBar::with_draw_target(None, target)
             .with_style(style.expect("the template is right"));

@@ -97,7 +97,9 @@ impl Target {
                     io::copy(&mut made.open()?, &mut out).map(|_| ())
                 })?;
             }
-            Target::Folder(folder) => write_folder(folder, film, theme, width, &written, &mut show)?,
+            Target::Folder(folder) => {
+                write_folder(folder, film, theme, width, &written, &mut show)?
+            }
         }
         Ok(written.get())
     }
@@ -156,11 +158,8 @@ fn write_folder(
         }
         show(number);
     }
-    let about = format!(
-        "{} frames, {} a second\n",
-        length.frames() + length.pause(),
-        length.rate()
-    );
+    let about =
+        format!("{} frames, {} a second\n", length.frames() + length.pause(), length.rate());
     staging.write(LAST, |out| out.write_all(about.as_bytes()))?;
     staging.commit()
 }

@@ -1,4 +1,4 @@
-//! The camera's flags, for `render`, `camera`, `pixel`, `grade` and `diff`.
+//! The camera's flags, for `render`, `camera`, `pixel`, `film`, `grade` and `diff`.
 
 /// The arguments after each of [`COMMANDS`], and the beginning of the message.
 pub(super) const REFUSED: &[(&str, &str)] = &[
@@ -141,6 +141,7 @@ pub(super) const COMMANDS: &[&str] = &[
     "camera canonical",
     "pixel canonical 1 1",
     "figure image canonical",
+    "film canonical",
     "grade canonical a.pgm",
     "diff a.pgm a.pgm --scene canonical",
 ];

@@ -169,6 +169,70 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
         "figure grid ties -o file/figure.svg",
         "cannot write file/figure.svg: a file is where a folder would be; choose another file with -o",
     ),
+    // A film.
+    ("film", "the following required arguments were not provided: <SCENE>"),
+    ("film no-such", "there is no built-in scene \"no-such\""),
+    (
+        "film canonical --method slow",
+        "invalid value 'slow' for '--method <METHOD>' [possible values: fast, textbook]",
+    ),
+    (
+        "film canonical --seconds 0",
+        "invalid value '0' for '--seconds <S>': give a number of seconds greater than 0, at most 600",
+    ),
+    (
+        "film canonical --seconds nan",
+        "invalid value 'nan' for '--seconds <S>': give a number of seconds greater than 0, at most 600",
+    ),
+    (
+        "film canonical --pause -1",
+        "invalid value '-1' for '--pause <S>': give a number of seconds from 0 to 600",
+    ),
+    (
+        "film canonical --fps 30",
+        "invalid value '30' for '--fps <N>': choose 1, 2, 4, 5, 10, 20, 25 or 50: a GIF counts hundredths \
+         of a second",
+    ),
+    (
+        "film canonical --seconds 600 --fps 50",
+        "--seconds, --fps and --pause: the film would have 30100 frames, and 10000 are the most; choose \
+         fewer seconds, or fewer frames a second",
+    ),
+    (
+        "film canonical --width 1000",
+        "invalid value '1000' for '--width <N>': give a multiple of 32 from 480 to 3840, such as 960 or 1920",
+    ),
+    (
+        "film canonical --theme red",
+        "invalid value 'red' for '--theme <THEME>': 'red' is no theme; there are dark and light",
+    ),
+    (
+        "film canonical -o film.webp",
+        "cannot write film.webp: a film is a .gif, an animated .png, an .mp4, or a folder of frames, and \
+         .webp is none; end the name in one of them, or in / for a folder",
+    ),
+    (
+        "film canonical --output file/film.gif",
+        "cannot write file/film.gif: a file is where a folder would be; choose another file with -o",
+    ),
+    (
+        "film canonical -o file/",
+        "cannot write into the folder file/: a file is where a folder would be; choose another one with -o",
+    ),
+    (
+        "film canonical -o - --json",
+        "--json and the film would both go to standard output; name a file with -o",
+    ),
+    (
+        "film canonical --json=yes",
+        "unexpected value 'yes' for '--json' found; no more were expected",
+    ),
+    (
+        "film canonical --size 4000x4000",
+        "a film of canonical: a film shows pictures of at most 2,097,152 pixels, and 4000x4000 has \
+         16,000,000; take a smaller --size",
+    ),
+    ("film many --size 640x480", "a film of many: the textbook would take 3"),
     // One triangle.
     ("cover", "the following required arguments were not provided: --size <WxH> <x,y x,y x,y>"),
     ("cover '1,1 9,2 3,7'", "the following required arguments were not provided: --size <WxH>"),
