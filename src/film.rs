@@ -6,7 +6,9 @@
 //! step of one order may take longer than one of the other.
 //!
 //! What is shown comes from the loops that render: they run for an observer, which records every change of the stored
-//! picture, and where the loops are at each frame. The last frame shows the rendered pictures.
+//! picture, and where the loops are at each frame. The last frame shows the rendered pictures. For an observer, the fast
+//! renderers tell their events tile after tile, whatever the threads, and the fast ray tracer, which walks its hierarchy
+//! with many rays at once, walks it with each ray alone: a film shows, as the counts do, what each ray needs.
 //!
 //! ```
 //! use bothways::common::{Camera, CameraDescription, View};

@@ -22,15 +22,16 @@ use std::process::ExitCode;
 use target::Target;
 
 pub(super) const EXAMPLES: &str = "\
-Both orders share one clock, which counts the work done: a step is a pair of an object and a pixel that is
-tested, or a box of the hierarchy.
+Both orders share one clock, which counts the work done. One step is a pair of an object and a
+pixel that is tested, or by the fast method a box of the hierarchy. Without --size the picture is
+small, so that its pixels are seen.
 
 Examples:
-  bothways film lecture                          into out/films/lecture.gif
-  bothways film lecture --method fast -o fast.gif
-  bothways film canonical --seconds 12 --theme light -o canonical.png      an animated PNG
-  bothways film ties --size 16x16 -o frames/     numbered frames, frames/frame-0001.png and so on
-  bothways film lecture --width 1920 -o lecture.mp4                        where ffmpeg is installed
+  bothways film lecture                              into out/films/lecture.gif
+  bothways film lecture --method fast -o fast.gif    with bounds and hierarchies
+  bothways film canonical --theme light -o light.png an animated PNG
+  bothways film ties --size 16x16 -o frames/         frames/frame-0001.png and so on
+  bothways film overlap --width 1920 -o overlap.mp4  where ffmpeg is installed
 
 Exit codes: 0 both orders see the same, 1 they differ, 2 something went wrong.";
 
@@ -39,8 +40,6 @@ Exit codes: 0 both orders see the same, 1 they differ, 2 something went wrong.";
 pub(super) struct FilmArgs {
     /// A built-in scene, a .toml scene file, or a mesh file (framed automatically)
     scene: String,
-    #[command(flatten)]
-    camera: CameraArgs,
     /// The lecture's double loop, or with all machinery
     #[arg(long, value_enum, default_value_t = MethodArg::Textbook)]
     method: MethodArg,
@@ -70,17 +69,25 @@ pub(super) struct FilmArgs {
     /// Print the facts as JSON
     #[arg(long)]
     json: bool,
+    // Last, because its heading holds for what follows.
+    #[command(flatten)]
+    camera: CameraArgs,
 }
 
 /// Records, draws, writes and prints; the exit code is 0 if both orders see the same.
 pub(super) fn run(args: &FilmArgs) -> Result<ExitCode, Failure> {
     let length = Length::new(args.seconds, args.fps, args.pause)
         .map_err(|error| Failure::new(format!("--seconds, --fps and --pause: {error}")))?;
-    let loaded = scenes::load_for(&args.scene, args.camera.size)?;
+    let mut loaded = scenes::load_for(&args.scene, args.camera.size)?;
     terminal::warn(&loaded.warnings);
     let method = args.method.into();
-    let size = args.camera.size.unwrap_or_else(|| default_size(loaded.camera.image, method));
-    let camera = camera(&loaded, &CameraArgs { size: Some(size), ..args.camera.clone() })?;
+    if args.camera.size.is_none() {
+        loaded.camera.image = default_size(loaded.camera.image, method);
+        if !loaded.viewport_stated {
+            loaded.camera.viewport[0] = loaded.camera.width_of_square_pixels();
+        }
+    }
+    let camera = camera(&loaded, &args.camera)?;
     let output = args
         .output
         .clone()
@@ -101,7 +108,7 @@ pub(super) fn run(args: &FilmArgs) -> Result<ExitCode, Failure> {
         .map_err(|error| Failure::new(format!("a film of {}: {error}", loaded.name)))?;
     let bytes = target.write(&film, args.theme, args.width, &mut progress)?;
     progress.finish();
-    let facts = Facts::new(args, &loaded.name, &film, &target, bytes, size);
+    let facts = Facts::new(args, &loaded.name, &film, &target, bytes);
     facts.print(args.json, target.is_stdout())?;
     Ok(ExitCode::from(u8::from(!film.comparison().matches())))
 }
@@ -136,14 +143,8 @@ struct Steps {
 }
 
 impl Facts {
-    fn new(
-        args: &FilmArgs,
-        scene: &str,
-        film: &Film,
-        target: &Target,
-        bytes: u64,
-        size: [u32; 2],
-    ) -> Facts {
+    fn new(args: &FilmArgs, scene: &str, film: &Film, target: &Target, bytes: u64) -> Facts {
+        let size = film.pictures()[0].dimensions().into();
         let ([object_order, image_order], length) = (film.steps(), film.length());
         Facts {
             scene: scene.into(),

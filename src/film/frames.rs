@@ -7,9 +7,6 @@ use image::RgbImage;
 use rayon::prelude::*;
 use std::collections::VecDeque;
 
-/// The frames that are drawn at once, by all threads.
-const BATCH: usize = 16;
-
 /// The frames of a film as pictures, one after another.
 #[derive(Debug)]
 pub struct Frames<'a> {
@@ -32,7 +29,9 @@ impl Iterator for Frames<'_> {
 
     fn next(&mut self) -> Option<RgbImage> {
         if self.drawn.is_empty() {
-            let batch: Vec<Shot> = self.shots.by_ref().take(BATCH).collect();
+            // As many at once as there are threads to draw them.
+            let threads = rayon::current_num_threads();
+            let batch: Vec<Shot> = self.shots.by_ref().take(threads).collect();
             let draw = |shot: &Shot| self.film.draw(shot, self.theme, self.width);
             self.drawn = batch.par_iter().map(draw).collect::<Vec<_>>().into();
         }

@@ -154,9 +154,13 @@ mod tests {
     use super::*;
     use image::Rgb;
 
+    fn byte(number: u32) -> u8 {
+        u8::try_from(number).unwrap()
+    }
+
     #[test]
     fn few_colors_stay_as_they_are() {
-        let picture = RgbImage::from_fn(20, 10, |x, _| Rgb([10 * x as u8, 3, 200]));
+        let picture = RgbImage::from_fn(20, 10, |x, _| Rgb([10 * byte(x), 3, 200]));
         let mut histogram = Histogram::default();
         histogram.add(&picture);
         let mut palette = Palette::new(&histogram, &[[1, 2, 3]]);
@@ -169,7 +173,7 @@ mod tests {
 
     #[test]
     fn many_colors_become_near_ones() {
-        let picture = RgbImage::from_fn(256, 256, |x, y| Rgb([x as u8, y as u8, 77]));
+        let picture = RgbImage::from_fn(256, 256, |x, y| Rgb([byte(x), byte(y), 77]));
         let mut histogram = Histogram::default();
         histogram.add(&picture);
         let exact = [[255, 0, 255]];

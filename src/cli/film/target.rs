@@ -105,13 +105,16 @@ impl Target {
     }
 }
 
-/// A name that ends in a slash, has no ending, or belongs to a folder that is there.
+/// A name that ends in a slash, belongs to a folder that is there, or has no ending and belongs to nothing.
 fn is_folder(path: &Path) -> bool {
-    let ends = path.as_os_str().as_encoded_bytes().last();
-    let slash = ends.is_some_and(|byte| std::path::is_separator(char::from(*byte)));
-    let bare = path.extension().is_none() && path.file_name().is_some() && path != Path::new("-");
-    let bare = bare && !path.exists();
-    slash || path.is_dir() || bare
+    let last = path.as_os_str().as_encoded_bytes().last();
+    if last.is_some_and(|byte| std::path::is_separator(char::from(*byte))) || path.is_dir() {
+        return true;
+    }
+    let name = path.file_name().unwrap_or_default().as_encoded_bytes();
+    // `.gif` is an ending without a name, and `-` is standard output.
+    let has_ending = name.contains(&b'.') || path == Path::new("-");
+    !has_ending && !name.is_empty() && path.symlink_metadata().is_err()
 }
 
 /// The file of a folder that is written last: the folder is complete if it is there.

@@ -1,6 +1,7 @@
 //! A film as a video, by the program `ffmpeg`, which gets the frames through a pipe.
 
 use crate::cli::failure::Failure;
+use crate::cli::interrupt::{self, Guard};
 use bothways::figure::Theme;
 use bothways::film::Film;
 use std::fs::File;
@@ -19,6 +20,8 @@ pub(super) struct Video;
 /// A video, complete, in a folder of its own.
 pub(super) struct Made {
     folder: TempDir,
+    /// Removes the folder if the program is interrupted.
+    _guard: Guard,
 }
 
 impl Made {
@@ -51,7 +54,8 @@ impl Video {
         show: &mut dyn FnMut(u32),
     ) -> Result<Made, Failure> {
         let folder = tempfile::tempdir().map_err(|error| failed(&error.to_string()))?;
-        let made = Made { folder };
+        let guard = interrupt::hold().guard(folder.path(), &[]);
+        let made = Made { folder, _guard: guard };
         let size = format!("{width}x{}", width / 16 * 9);
         let rate = film.length().rate().to_string();
         let mut child = Command::new(FFMPEG)
