@@ -152,12 +152,12 @@ impl<'a> Film<'a> {
             comparison,
         };
         film.finished =
-            film.shots([0; 3]).map(|shot| shot.orders.map(|order| order.finished)).collect();
+            film.shots([[0; 3]; 2]).map(|shot| shot.orders.map(|order| order.finished)).collect();
         Ok(film)
     }
 
-    /// What each frame shows. Pixels that store nothing yet have the colour `nothing`.
-    pub fn shots(&self, nothing: [u8; 3]) -> Shots<'_> {
+    /// What each frame shows. Where pixels store nothing yet, there is a chequerboard of the colours `nothing`.
+    pub fn shots(&self, nothing: [[u8; 3]; 2]) -> Shots<'_> {
         Shots::new(&self.moments, &self.tracks, nothing)
     }
 

@@ -3,7 +3,7 @@
 use super::drawing::{Anchor, CANVAS, Drawing, Ink, Pen};
 use super::fallback::drawable;
 use super::resize::fitted;
-use super::text::has;
+use super::text::{has, width};
 use super::theme::{Role, Theme};
 use crate::orders::Order;
 use crate::wording::{count, grouped};
@@ -69,9 +69,12 @@ const CLOCK: f64 = 880.0;
 const CURVES: [f64; 2] = [898.0, 1052.0];
 
 impl FilmPage<'_> {
-    /// The colour of a pixel that stores nothing yet.
-    pub(crate) fn nothing(theme: Theme) -> [u8; 3] {
-        theme.mat()
+    /// The colours of pixels that store nothing yet: those of a faint chequerboard.
+    pub(crate) fn nothing(theme: Theme) -> [[u8; 3]; 2] {
+        match theme {
+            Theme::Dark => [theme.mat(), [0x1a, 0x20, 0x26]],
+            Theme::Light => [theme.background(), [0xe3, 0xe7, 0xeb]],
+        }
     }
 
     /// The colours of a page without its pictures.
@@ -79,7 +82,8 @@ impl FilmPage<'_> {
         let roles = [Role::Object, Role::Image, Role::Good, Role::Bad, Role::Focus];
         let plain =
             [theme.background(), theme.mat(), theme.hairline(), theme.bright(), theme.quiet()];
-        plain.into_iter().chain(roles.map(|role| theme.of(role))).collect()
+        let roles = roles.map(|role| theme.of(role));
+        plain.into_iter().chain(Self::nothing(theme)).chain(roles).collect()
     }
 
     /// Draws the frame, for a film so many pixels wide: there, a pixel of the picture is a square of whole pixels.
@@ -165,10 +169,13 @@ impl FilmPage<'_> {
         let Some(verdict) = &self.verdict else { return };
         let theme = page.theme;
         let role = if self.matches { Role::Good } else { Role::Bad };
-        let style = theme.title().sized(40.0).of(theme.of(role));
-        let at = [0.5 * CANVAS[0], 0.5 * (CURVES[0] + CURVES[1]) + 14.0];
-        let halo = Some(theme.mat());
-        page.drawing.text_with_halo(at, Anchor::Middle, verdict, style, halo);
+        let style = theme.title().sized(38.0).of(theme.of(role));
+        let [middle, baseline] = [0.5 * CANVAS[0], 0.5 * (CURVES[0] + CURVES[1]) + 13.0];
+        // A plate, so that no curve runs through the letters.
+        let width = f64::from(width(verdict, style)) + 48.0;
+        let plate = [middle - 0.5 * width, baseline - 44.0];
+        page.drawing.rectangle(plate, [width, 62.0], Ink::new(theme.mat()));
+        page.drawing.text([middle, baseline], Anchor::Middle, verdict, style);
     }
 }
 

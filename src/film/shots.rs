@@ -18,7 +18,7 @@ pub struct Shot {
 /// What a frame of a film shows of one order.
 #[derive(Clone, Debug)]
 pub struct OrderShot {
-    /// The picture so far; a pixel that stores nothing yet has the colour that was given for that.
+    /// The picture so far; where pixels store nothing yet, a chequerboard of the colours that were given for that.
     pub picture: RgbImage,
     /// The steps so far.
     pub steps: u64,
@@ -42,8 +42,12 @@ pub struct Shots<'a> {
 }
 
 impl<'a> Shots<'a> {
-    pub(super) fn new(moments: &'a [u64], tracks: &'a [Track; 2], nothing: [u8; 3]) -> Shots<'a> {
-        let players = tracks.each_ref().map(|track| Player::new(track, Rgb(nothing)));
+    pub(super) fn new(
+        moments: &'a [u64],
+        tracks: &'a [Track; 2],
+        nothing: [[u8; 3]; 2],
+    ) -> Shots<'a> {
+        let players = tracks.each_ref().map(|track| Player::new(track, nothing.map(Rgb)));
         Shots { moments, players, given: 0 }
     }
 }
@@ -71,9 +75,13 @@ struct Player<'a> {
 }
 
 impl<'a> Player<'a> {
-    fn new(track: &'a Track, nothing: Rgb<u8>) -> Player<'a> {
+    fn new(track: &'a Track, nothing: [Rgb<u8>; 2]) -> Player<'a> {
+        // Viewers know a chequerboard as a sign for nothing, and no scene's background looks like it.
+        const CELLS: u32 = 16;
         let (width, height) = track.picture.dimensions();
-        let picture = RgbImage::from_pixel(width, height, nothing);
+        let cell = (width.max(height) / CELLS).max(1);
+        let is_dark = |x: u32, y: u32| (x / cell + y / cell).is_multiple_of(2);
+        let picture = RgbImage::from_fn(width, height, |x, y| nothing[usize::from(is_dark(x, y))]);
         Player { track, picture, played: 0, finished: 0 }
     }
 

@@ -39,7 +39,7 @@ fn the_last_frame_shows_the_rendered_pictures_and_the_counts_are_those_of_the_re
         with_view(scene, image, projection, |view| {
             for method in BOTH {
                 let film = Film::record(scene, view, method, length(30)).unwrap();
-                let shots: Vec<Shot> = film.shots([1, 2, 3]).collect();
+                let shots: Vec<Shot> = film.shots([[1, 2, 3], [4, 5, 6]]).collect();
                 assert_eq!(shots.len(), 30);
                 for (k, order) in [Order::Object, Order::Image].into_iter().enumerate() {
                     let rendered = rendered(order, method, view);
@@ -70,7 +70,7 @@ fn the_clock_goes_on_and_nothing_finished_is_undone() {
         for method in BOTH {
             let film = Film::record("lecture", view, method, length(40)).unwrap();
             let longest = film.steps().into_iter().max().unwrap();
-            let shots: Vec<Shot> = film.shots([0; 3]).collect();
+            let shots: Vec<Shot> = film.shots([[0; 3]; 2]).collect();
             for (k, shot) in (1..).zip(&shots) {
                 assert_eq!((shot.frame, shot.clock), (k, longest * u64::from(k) / 40));
                 for (order, all) in shot.orders.iter().zip(film.steps()) {
@@ -140,7 +140,7 @@ fn each_frame_shows_the_step_of_its_clock() {
             &mut frame,
             &mut logs[1],
         );
-        for shot in film.shots([0; 3]) {
+        for shot in film.shots([[0; 3]; 2]) {
             for (order, log) in shot.orders.iter().zip(&logs) {
                 if order.done {
                     assert_eq!(order.steps, log.0.len() as u64);
@@ -273,7 +273,7 @@ fn no_text_of_a_page_leaves_it_or_overlaps_another() {
         with_view(scene, image, Projection::Perspective, |view| {
             for method in BOTH {
                 let film = Film::record(scene, view, method, length(9)).unwrap();
-                for shot in film.shots([0; 3]) {
+                for shot in film.shots([[0; 3]; 2]) {
                     let drawing = code::page(&film, &shot).draw(Theme::Dark, 960);
                     assert_eq!(drawing.faults(), Vec::<String>::new(), "{scene}");
                 }
