@@ -27,6 +27,7 @@ mod progress;
 mod rules;
 mod run;
 mod show_camera;
+mod slides;
 mod table;
 mod terminal;
 mod usage;
@@ -58,6 +59,7 @@ Examples:
   bothways check mine                        a whole renderer at once: which scenes, and why
   bothways pixel ties 20 30                  why a pixel shows what it shows
   bothways film lecture                      both orders at work, as a film
+  bothways slides                            the whole set for a lecture, into out/slides
   bothways cover '1,1 9,2 3,7' --size 10x8   which pixels a triangle covers
 
 Exit codes: 0 both orders see the same, 1 they differ, 2 something went wrong.";
@@ -89,6 +91,9 @@ enum Command {
     /// Draw a figure for a lecture: camera, samples and edges, rays, work, and more, as SVG or PNG
     #[command(after_help = figure::examples())]
     Figure(Box<figure::FigureArgs>),
+    /// Draw the whole set of slides for a lecture, with a page to leaf through them
+    #[command(after_help = slides::EXAMPLES)]
+    Slides(slides::SlidesArgs),
     /// List the built-in scenes, or print one as TOML
     #[command(after_help = SCENES_EXAMPLES)]
     Scenes {
@@ -154,6 +159,7 @@ fn run(cli: Cli) -> Result<ExitCode, Failure> {
         Some(Command::Check(args)) => check::run(&args),
         Some(Command::Grade(args)) => grade::run(&args),
         Some(Command::Figure(args)) => figure::run(&args),
+        Some(Command::Slides(args)) => slides::run(&args),
         Some(Command::Scenes { name }) => print_scenes(name.as_deref()),
         Some(Command::Rules(args)) => rules::run(&args),
         Some(Command::Cover(args)) => cover::run(&args),

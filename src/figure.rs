@@ -2,21 +2,23 @@
 
 mod drawing;
 mod fallback;
-mod kinds;
 mod film_page;
+mod kinds;
 mod legend;
 mod project;
 mod resize;
 mod sheet;
 mod slide;
+mod still_page;
 mod subject;
 mod text;
 mod theme;
 
 pub use drawing::{CANVAS, Drawing};
-pub use kinds::{Kind, WorkMap, work_maps};
 pub(crate) use film_page::{CodeLine, FilmHalf, FilmPage};
+pub use kinds::{Kind, WorkMap, work_maps};
 pub use legend::{Entry, with_legend};
 pub use slide::Slide;
+pub(crate) use still_page::{Still, StillPage};
 pub use subject::{FigureError, Subject};
 pub use theme::Theme;

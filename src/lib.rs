@@ -87,6 +87,7 @@ pub mod pixel;
 pub mod progress;
 pub mod report;
 pub mod scenes;
+pub mod slides;
 pub mod vectors;
 pub mod verify;
 pub mod wording;

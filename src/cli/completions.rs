@@ -10,8 +10,7 @@ use clap_complete::Shell;
 use std::fmt::Write;
 
 /// The subcommands with a scene argument; without a subcommand, `render` runs.
-const TAKE_A_SCENE: [&str; 7] =
-    ["render", "figure", "film", "grade", "scenes", "pixel", "camera"];
+const TAKE_A_SCENE: [&str; 7] = ["render", "figure", "film", "grade", "scenes", "pixel", "camera"];
 
 /// The script.
 pub(super) fn script(shell: Shell) -> String {

@@ -1,6 +1,6 @@
 //! `bothways film`: both orders draw one picture, as a GIF, an animated PNG, a video or a folder of frames.
 
-mod progress;
+pub(super) mod progress;
 mod target;
 mod video;
 

@@ -1,8 +1,8 @@
 //! One order's two loops in the lecture's words, with stills of its picture.
 
-use super::drawing::{Anchor, Drawing, Ink};
+use super::drawing::{Anchor, Drawing};
 use super::resize::{fitted, resized};
-use super::sheet::{MARGIN, RIGHT, Sheet, TOP};
+use super::sheet::{MARGIN, Sheet, TOP};
 use super::subject::Subject;
 use super::theme::{Role, Theme};
 use crate::orders::Order;
@@ -50,8 +50,13 @@ impl StillPage<'_> {
         let mut sheet = Sheet::new(self.subject, title, point);
         self.code(&mut sheet);
         for (number, still) in self.stills.iter().take(4).enumerate() {
-            let corner = [LEFT + (number % 2) as f64 * 560.0, TOP + 44.0 + (number / 2) as f64 * 402.0];
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a size on the canvas")]
+            let corner =
+                [LEFT + (number % 2) as f64 * 560.0, TOP + 44.0 + (number / 2) as f64 * 402.0];
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "a size on the canvas"
+            )]
             let most = STILL.map(|side| side as u32);
             let size = fitted([still.picture.width(), still.picture.height()], most);
             let drawn = size.map(f64::from);
@@ -101,6 +106,5 @@ impl StillPage<'_> {
         let y = sheet.lines([MARGIN, y], width, 44.0, &[(self.facts, theme.text())]);
         let nothing = "Chequered: nothing is stored there yet.";
         sheet.lines([MARGIN, y], width, 44.0, &[(nothing, theme.label())]);
-        let _ = (RIGHT, Ink::new(theme.mat()));
     }
 }

@@ -39,6 +39,8 @@ pub(crate) enum Role {
     Image,
     /// What agrees, what is covered, what won.
     Good,
+    /// What is wrong.
+    Bad,
     /// What is looked at now: the chosen pixel and its ray.
     Focus,
     /// The camera's own: eye, viewport, frame.
@@ -93,6 +95,8 @@ impl Theme {
             (Theme::Light, Role::Image) => [0x00, 0x72, 0xb2],
             (Theme::Dark, Role::Good) => [0x62, 0xc9, 0xa4],
             (Theme::Light, Role::Good) => [0x00, 0x7a, 0x59],
+            (Theme::Dark, Role::Bad) => [0xd5, 0x5e, 0x00],
+            (Theme::Light, Role::Bad) => [0xb8, 0x45, 0x00],
             (Theme::Dark, Role::Focus) => [0xf0, 0xe4, 0x42],
             (Theme::Light, Role::Focus) => [0xb0, 0x3a, 0x86],
             (Theme::Dark, Role::Camera) => [0xcc, 0x79, 0xa7],

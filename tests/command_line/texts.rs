@@ -337,6 +337,7 @@ fn short_help() {
         "check",
         "grade",
         "figure",
+        "slides",
         "scenes",
         "rules",
         "cover",

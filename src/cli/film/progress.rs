@@ -1,6 +1,7 @@
 //! The progress of a film, on a terminal only.
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::borrow::Cow;
 use std::env;
 use std::io::{IsTerminal, stderr};
 use std::time::Duration;
@@ -12,8 +13,8 @@ pub(in crate::cli) struct Progress {
 }
 
 impl Progress {
-    /// The progress of a film with so many frames.
-    pub(super) fn new(frames: u32) -> Progress {
+    /// The progress of a film with so many frames, or of something else.
+    pub(in crate::cli) fn new(frames: u32) -> Progress {
         let erases = env::var_os("TERM").is_none_or(|terminal| terminal != "dumb");
         let is_seen = erases && stderr().is_terminal();
         let target =
@@ -25,7 +26,7 @@ impl Progress {
         Progress { bar, frames }
     }
 
-    pub(super) fn say(&self, what: &'static str) {
+    pub(in crate::cli) fn say(&self, what: impl Into<Cow<'static, str>>) {
         self.bar.set_message(what);
     }
 
@@ -34,7 +35,7 @@ impl Progress {
         self.bar.set_message(format!("frame {number} of {}", self.frames));
     }
 
-    pub(super) fn finish(&self) {
+    pub(in crate::cli) fn finish(&self) {
         self.bar.finish_and_clear();
     }
 }

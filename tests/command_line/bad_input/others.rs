@@ -233,6 +233,17 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
          16,000,000; take a smaller --size",
     ),
     ("film many --size 640x480", "a film of many: the textbook would take 3"),
+    // Slides.
+    ("slides no-such", "there is no built-in scene \"no-such\""),
+    ("slides canonical --theme blue", "invalid value 'blue' for '--theme <THEME>'"),
+    (
+        "slides canonical --no-films=yes",
+        "unexpected value 'yes' for '--no-films' found; no more were expected",
+    ),
+    (
+        "slides canonical -o file",
+        "cannot write into the folder file: a file is where a folder would be; choose another one with -o",
+    ),
     // One triangle.
     ("cover", "the following required arguments were not provided: --size <WxH> <x,y x,y x,y>"),
     ("cover '1,1 9,2 3,7'", "the following required arguments were not provided: --size <WxH>"),

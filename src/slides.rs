@@ -1,0 +1,99 @@
+//! The whole set of slides for a lecture, in its order: figures, films, captions and the lecturer's notes.
+//!
+//! ```no_run
+//! use bothways::figure::Theme;
+//! use bothways::scenes;
+//! use bothways::slides::Deck;
+//!
+//! let scenes = vec![scenes::load("lecture")?];
+//! let deck = Deck::new(&scenes, Theme::Dark, true)?;
+//! for slide in deck.slides() {
+//!     println!("{}: {}", slide.file, slide.caption);
+//! }
+//! std::fs::write("index.html", deck.page())?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod content;
+mod page;
+mod stills;
+
+pub use content::{Content, SlideError};
+
+use crate::figure::Theme;
+use crate::scenes::LoadedScene;
+use content::{Plan, plans};
+
+/// A set of slides.
+#[derive(Debug)]
+pub struct Deck<'a> {
+    theme: Theme,
+    slides: Vec<Slide<'a>>,
+}
+
+/// One slide of a set.
+#[derive(Debug)]
+pub struct Slide<'a> {
+    /// The name of its file.
+    pub file: String,
+    /// What it shows, in a few words.
+    pub title: String,
+    /// What to see in it, in a sentence.
+    pub caption: &'static str,
+    /// What the lecturer may say.
+    pub notes: &'static str,
+    plan: Plan<'a>,
+}
+
+impl<'a> Deck<'a> {
+    /// The set for some scenes: the whole lecture with the first one, then a chapter for each of the others.
+    ///
+    /// # Errors
+    ///
+    /// A built-in scene of the set that cannot be loaded.
+    pub fn new(
+        scenes: &'a [LoadedScene],
+        theme: Theme,
+        films: bool,
+    ) -> Result<Deck<'a>, SlideError> {
+        let plans = plans(scenes, films)?;
+        let slides = plans.into_iter().enumerate().map(|(number, planned)| {
+            // A scene may have any name; a file may not.
+            let typed = |letter: char| {
+                if letter.is_control() || "/\\:\"<>|?*".contains(letter) { '_' } else { letter }
+            };
+            let name: String = planned.name.chars().map(typed).collect();
+            let file = format!("{:02}-{name}.{}", number + 1, planned.plan.ending());
+            let (title, caption, notes) = (planned.title, planned.caption, planned.notes);
+            Slide { file, title, caption, notes, plan: planned.plan }
+        });
+        Ok(Deck { theme, slides: slides.collect() })
+    }
+
+    /// The slides in their order.
+    pub fn slides(&self) -> &[Slide<'a>] {
+        &self.slides
+    }
+
+    /// Draws a slide.
+    ///
+    /// # Errors
+    ///
+    /// A scene that has nothing of what the slide shows.
+    pub fn draw(&self, slide: &Slide) -> Result<Content, SlideError> {
+        slide.plan.draw(self.theme)
+    }
+
+    /// A page to leaf through the slides by keys. It loads nothing but the files beside it.
+    pub fn page(&self) -> String {
+        page::page(self)
+    }
+
+    /// What is in the folder, as a text.
+    pub fn readme(&self) -> String {
+        page::readme(self)
+    }
+}
+
+#[cfg(test)]
+mod tests;
