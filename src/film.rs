@@ -3,7 +3,8 @@
 //! A step of the clock is a pair of a primitive and a sample that is tested, or a box of the hierarchy: what
 //! [`Work`](crate::common::Work) counts as `tests` and `nodes`. Frame `k` of `F` shows both pictures after `k/F` of the
 //! steps that the longer order takes. So a film is honest about who is ahead when; it says nothing about seconds, as a
-//! step of one order may take longer than one of the other.
+//! step of one order may take longer than one of the other. Building the hierarchy of image order, and placing vertices
+//! and filling bins in object order, are no steps: the counts of work do not have them either.
 //!
 //! What is shown comes from the loops that render: they run for an observer, which records every change of the stored
 //! picture, and where the loops are at each frame. The last frame shows the rendered pictures. For an observer, the fast
