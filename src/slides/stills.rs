@@ -28,8 +28,8 @@ pub(super) fn draw(subject: &Subject, order: Order) -> Result<Drawing, SlideErro
     let stills = film.shots(StillPage::nothing(subject.theme)).map(|shot| {
         let [object_order, image_order] = shot.orders;
         let of_order = if index == 0 { object_order } else { image_order };
-        let part = ["1/4", "1/2", "3/4", "all"][(shot.frame - 1) as usize % 4];
-        Still { picture: of_order.picture, name: format!("after {part} of the steps") }
+        let part = ["1/4 of the", "1/2 of the", "3/4 of the", "all"][(shot.frame - 1) as usize % 4];
+        Still { picture: of_order.picture, name: format!("after {part} steps") }
     });
     let [width, height] = image;
     let facts = format!(

@@ -78,7 +78,7 @@ fn an_svg_file_escapes_what_people_write_and_defines_each_letter_once() {
     assert!(svg.contains("a &quot;description&quot; &amp; more</desc>"));
     assert!(svg.contains("aria-label=\"a&lt;b &amp; &quot;aa&quot;\""));
     assert_eq!(svg.matches("<path id=\"r").count(), 5);
-    assert_eq!(svg.matches("<use ").count(), 7);
+    assert_eq!(svg.matches("<use ").count(), 8);
 }
 
 #[test]
