@@ -1,6 +1,6 @@
 //! `report.json`: all results, for programs.
 
-use crate::common::Work;
+use crate::common::{Executed, Work};
 use crate::diff::{Color, Comparison, Coverage, Depth, Visible};
 use crate::orders::{Method, Order, Rendered, Rule, Spread};
 use crate::verify::Verified;
@@ -56,8 +56,12 @@ pub struct OrderReport {
     pub visibility_ms: Option<Spread>,
     /// The time for normals and colours, per frame.
     pub shading_ms: Option<Spread>,
-    /// The work for one frame; `None` if the options or the rules leave it out, or there is too much work to count.
+    /// The work of the algorithm for one frame, for every primitive or ray alone; `None` if the options or the rules
+    /// leave it out, or there is too much work to count.
     pub work: Option<WorkReport>,
+    /// What a timed frame executed, tile by tile; `None` if the method is not fast or has the rules of an ordinary
+    /// renderer, or no frame was drawn unobserved.
+    pub executed: Option<ExecutedReport>,
 }
 
 /// The counts of [`Work`], under the same names.
@@ -72,6 +76,31 @@ pub struct WorkReport {
     pub depth_tests: u64,
     pub judged_coverage: u64,
     pub judged_nearest: u64,
+}
+
+/// The counts of [`Executed`], under the same names. Counters that an order does not have are absent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[expect(missing_docs, reason = "documented where they are counted, in Executed")]
+pub struct ExecutedReport {
+    pub tiles: u64,
+    pub tiles_skipped: u64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub nodes_opened: Option<u64>,
+    pub boxes_tested: u64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub leaves_opened: Option<u64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub binned: Option<u64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clusters: Option<u64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clusters_skipped: Option<u64>,
+    pub triangles: u64,
+    pub set_ups: u64,
+    pub one_by_one: u64,
+    pub lane_steps: u64,
+    pub blocks: u64,
+    pub single_samples: u64,
 }
 
 impl Report {
@@ -126,6 +155,9 @@ impl OrderReport {
             visibility_ms: times.map(|times| times.visibility),
             shading_ms: times.map(|times| times.shading),
             work: rendered.work().copied().map(WorkReport::from),
+            executed: rendered
+                .executed
+                .map(|executed| ExecutedReport::new(rendered.order, executed)),
         }
     }
 }
@@ -141,6 +173,28 @@ impl From<Work> for WorkReport {
             depth_tests: work.depth_tests,
             judged_coverage: work.judged_coverage,
             judged_nearest: work.judged_nearest,
+        }
+    }
+}
+
+impl ExecutedReport {
+    fn new(order: Order, executed: Executed) -> ExecutedReport {
+        let of = |owner: Order, count: u64| (order == owner).then_some(count);
+        ExecutedReport {
+            tiles: executed.tiles,
+            tiles_skipped: executed.tiles_skipped,
+            nodes_opened: of(Order::Image, executed.nodes_opened),
+            boxes_tested: executed.boxes_tested,
+            leaves_opened: of(Order::Image, executed.leaves_opened),
+            binned: of(Order::Object, executed.binned),
+            clusters: of(Order::Object, executed.clusters),
+            clusters_skipped: of(Order::Object, executed.clusters_skipped),
+            triangles: executed.triangles,
+            set_ups: executed.set_ups,
+            one_by_one: executed.one_by_one,
+            lane_steps: executed.lane_steps,
+            blocks: executed.blocks,
+            single_samples: executed.single_samples,
         }
     }
 }

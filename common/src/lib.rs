@@ -65,7 +65,7 @@ pub use camera::{
 };
 pub use exact::{Judge, Sign};
 pub use frame::{Frame, Options};
-pub use observe::{Events, Observer, Work};
+pub use observe::{Events, Executed, Observer, Work};
 pub use raster::{Crop, CropError, Raster, Region, Sample, SizeError};
 pub use scene::{
     Checker, Light, Material, Mesh, MeshError, Object, Plane, Primitive, Scene, SceneError, Shape,

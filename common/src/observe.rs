@@ -1,6 +1,12 @@
 //! The events of the loops, and who receives them. Counts, heat maps, films and lessons are all made from these.
+//!
+//! There are two sorts of counts. [`Work`] counts events: the work of the algorithm, for each primitive or ray alone.
+//! [`Executed`] is what the loops of a fast renderer executed for a frame, tile by tile.
 
 pub mod budget;
+mod executed;
+
+pub use executed::Executed;
 
 use crate::exact::Sign;
 use crate::raster::{Region, Sample};
@@ -171,7 +177,11 @@ impl<A: Events, B: Events> Events for (A, B) {
     }
 }
 
-/// Counts of events. Neither threads nor the width of SIMD change them.
+/// The work of the algorithm: counts of events, for each primitive or ray alone. Neither threads nor the width of SIMD
+/// change them.
+///
+/// A fast renderer does less than this for a frame, because it draws tiles of many samples at once and skips what is
+/// hidden. [`Executed`] counts what it does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Work {
     /// Primitives that the outer loop of object order began.

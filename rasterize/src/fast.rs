@@ -59,7 +59,7 @@ use bothways_common::engine::fault::{Fault, Planted, Sound};
 use bothways_common::engine::memory::filled;
 use bothways_common::engine::simd::{Level, dispatch, dispatch_with};
 use bothways_common::frame;
-use bothways_common::observe::{Events, Observer};
+use bothways_common::observe::{Events, Executed, Observer};
 use bothways_common::{Frame, Options, Scene, Shape, View};
 use camera_map::CameraMap;
 use depth::KeyScale;
@@ -113,11 +113,12 @@ pub fn render(prepared: &Prepared, view: &View, options: &Options) -> Frame {
     frame
 }
 
-/// Finds the primitive that is seen at every sample, and how far it is.
+/// Finds the primitive that is seen at every sample, and how far it is. Returns what was executed for it; only without
+/// an observer, that is with `()`, hidden clusters are skipped.
 ///
 /// Fits the frame to the view and writes ids and `t`s into it; [`shade`](fn@crate::shade) gives it its colours.
 ///
-/// Runs on the rayon pool that it is called in; the number of threads changes no bit of the frame and
+/// Runs on the rayon pool that it is called in; the number of threads changes no bit of the frame, no count and
 /// nothing that the observer is told.
 ///
 /// # Panics
@@ -130,8 +131,8 @@ pub fn determine_visibility(
     options: &Options,
     frame: &mut Frame,
     observer: &mut impl Observer,
-) {
-    run(prepared, view, options, frame, observer, &SOUND);
+) -> Executed {
+    run(prepared, view, options, frame, observer, &SOUND)
 }
 
 /// [`determine_visibility`] with faults in it, for tests of the verdict.
@@ -150,7 +151,7 @@ pub fn determine_visibility_with_fault<F: Fault>(
 /// each observer, and they are not.
 struct Loops {
     is: fn(Planted) -> bool,
-    fill: fn(&mut BatchBins, &Batch, &Geometry, Level, Option<&mut dyn Events>),
+    fill: fn(&mut BatchBins, &Batch, &Geometry, Level, Option<&mut dyn Events>) -> Executed,
     draw_tile: fn(&Drawing, usize, &mut TileBuffer, Option<&mut dyn Events>),
 }
 
@@ -168,11 +169,11 @@ fn fill<F: Fault>(
     geometry: &Geometry,
     level: Level,
     sink: Option<&mut dyn Events>,
-) {
+) -> Executed {
     dispatch_with!(F, level, simd => match sink {
         None => bins.fill(&mut Parts::<_, _, F>::of(simd, &mut ()), batch, geometry),
         Some(sink) => bins.fill(&mut Parts::<_, _, F>::of(simd, sink), batch, geometry),
-    });
+    })
 }
 
 fn draw_tile<F: Fault>(
@@ -199,7 +200,7 @@ fn run<O: Observer>(
     frame: &mut Frame,
     observer: &mut O,
     loops: &Loops,
-) {
+) -> Executed {
     assert_eq!(prepared.primitives, view.scene.primitive_count(), "another scene was prepared");
     frame.fit(view.camera, options);
     let grid = view.camera.sample_grid(options.samples);
@@ -225,12 +226,13 @@ fn run<O: Observer>(
         first_vertices: &prepared.first_vertices,
         clusters: &prepared.clusters,
     };
-    bin_primitives(prepared, &geometry, bins, observer, loops);
+    let mut executed = bin_primitives(prepared, &geometry, bins, observer, loops);
 
     let picture = Picture { view, map: &map, keys };
     let drawing = Drawing { geometry: &geometry, picture: &picture, bins, level: prepared.level };
-    draw_tiles(&drawing, frame, tiles, observer, loops);
+    executed += draw_tiles(&drawing, frame, tiles, observer, loops);
     *lock(&prepared.recycled) = recycled;
+    executed
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
@@ -285,20 +287,30 @@ fn bin_primitives<O: Observer>(
     bins: &mut Vec<BatchBins>,
     observer: &mut O,
     loops: &Loops,
-) {
+) -> Executed {
     bins.resize_with(prepared.batches.len(), BatchBins::default);
     let shared: &O = observer;
-    let forks: Vec<O> = prepared
+    let forks: Vec<(O, Executed)> = prepared
         .batches
         .par_iter()
         .zip(bins)
         .map(|(batch, bins)| {
             let mut observer = shared.fork();
-            (loops.fill)(bins, batch, geometry, prepared.level, observer.sink());
-            observer
+            let executed = (loops.fill)(bins, batch, geometry, prepared.level, observer.sink());
+            (observer, executed)
         })
         .collect();
-    forks.into_iter().for_each(|fork| observer.join(fork));
+    join(observer, forks)
+}
+
+/// Takes back what the observers of all parts have seen, and returns what was executed for all of them.
+fn join<O: Observer>(observer: &mut O, parts: impl IntoIterator<Item = (O, Executed)>) -> Executed {
+    let mut executed = Executed::default();
+    for (part, of_part) in parts {
+        observer.join(part);
+        executed += of_part;
+    }
+    executed
 }
 
 /// Draws every tile, and stores it in the frame. `buffers` are those of earlier frames, and become those of this one.
@@ -308,7 +320,7 @@ fn draw_tiles<O: Observer>(
     buffers: &mut Vec<TileBuffer>,
     observer: &mut O,
     loops: &Loops,
-) {
+) -> Executed {
     let Drawing { geometry: &Geometry { view, tiling, .. }, picture, bins, level } = *drawing;
     let shared: &O = observer;
     let tiles: Vec<frame::Tile> = frame.tiles_mut(tiling.rows, tiling.columns);
@@ -320,7 +332,7 @@ fn draw_tiles<O: Observer>(
     });
     let (count, queue) = (queue.len(), Mutex::new(queue.into_iter()));
     let free = Mutex::new(std::mem::take(buffers));
-    let mut forks: Vec<(usize, O)> = (0..count)
+    let mut forks: Vec<(usize, (O, Executed))> = (0..count)
         .into_par_iter()
         .with_max_len(1)
         .map(|_| {
@@ -328,18 +340,19 @@ fn draw_tiles<O: Observer>(
             let mut observer = shared.fork();
             if dropped == Some(index) || bins.iter().all(|bins| bins.work(index) == 0) {
                 store_nothing(tile);
-                return (index, observer);
+                return (index, (observer, Executed::default().of_one_tile()));
             }
             let buffer = lock(&free).pop().filter(|buffer| buffer.fits(tiling));
             let mut buffer = buffer.unwrap_or_else(|| TileBuffer::new(view, tiling));
             buffer.begin(view, &tile.region);
             (loops.draw_tile)(drawing, index, &mut buffer, observer.sink());
             dispatch!(level, simd => store(simd, picture, &mut buffer, tile));
+            let executed = buffer.executed.of_one_tile();
             lock(&free).push(buffer);
-            (index, observer)
+            (index, (observer, executed))
         })
         .collect();
-    forks.sort_unstable_by_key(|(index, _)| *index);
-    forks.into_iter().for_each(|(_, fork)| observer.join(fork));
     *buffers = free.into_inner().unwrap_or_default();
+    forks.sort_unstable_by_key(|(index, _)| *index);
+    join(observer, forks.into_iter().map(|(_, fork)| fork))
 }

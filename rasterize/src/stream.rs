@@ -37,7 +37,7 @@
 use crate::fast;
 use bothways_common::exact::CachedJudge;
 use bothways_common::frame::NO_PRIMITIVE;
-use bothways_common::observe::{Events, Observer, Question};
+use bothways_common::observe::{Events, Executed, Observer, Question};
 use bothways_common::raster::{Region, Sample};
 use bothways_common::scene::Positions;
 use bothways_common::{
@@ -96,6 +96,8 @@ pub struct Pass<'a, O> {
     first_id: u32,
     /// The corners of a box around all vertices, from the first use on.
     bounds: Option<[DVec3; 8]>,
+    /// What was executed for the chunks so far.
+    executed: Executed,
 }
 
 impl Canvas {
@@ -134,6 +136,7 @@ impl Canvas {
             waiting: Vec::new(),
             first_id: 0,
             bounds: None,
+            executed: Executed::default(),
         }
     }
 
@@ -196,12 +199,14 @@ impl<O: Observer> Pass<'_, O> {
         }
     }
 
-    /// Draws the waiting triangles, and writes ids and distances into the canvas's frame.
-    pub fn finish(mut self, positions: &Positions) {
+    /// Draws the waiting triangles, and writes ids and distances into the canvas's frame. Returns what was executed for
+    /// all chunks together.
+    pub fn finish(mut self, positions: &Positions) -> Executed {
         self.draw_chunk(positions);
         let ids = mem::take(&mut self.canvas.ids);
         self.canvas.put(&ids, |id| id as usize);
         self.canvas.ids = ids;
+        self.executed
     }
 
     fn draw_chunk(&mut self, positions: &Positions) {
@@ -219,7 +224,8 @@ impl<O: Observer> Pass<'_, O> {
             }))
         });
         let prepared = fast::prepare(&scene).within(bounds);
-        fast::determine_visibility(&prepared, &view, options, frame, &mut observer);
+        self.executed +=
+            fast::determine_visibility(&prepared, &view, options, frame, &mut observer);
         self.observer.join(observer.inner);
         self.merge(positions, &view);
         let drawn = u32::try_from(self.waiting.len()).expect("a scene has fewer primitives");

@@ -48,7 +48,7 @@ use bothways_common::engine::context::{Parts, ScalarContext};
 use bothways_common::engine::fault::{Fault, Planted, Sound};
 use bothways_common::engine::simd::dispatch_with;
 use bothways_common::frame::{NO_PRIMITIVE, Tile};
-use bothways_common::observe::{Events, Observer};
+use bothways_common::observe::{Events, Executed, Observer};
 use bothways_common::{Frame, Options, Scene, View};
 use camera_map::CameraMap;
 use rayon::prelude::*;
@@ -102,12 +102,13 @@ pub fn render(prepared: &Prepared, view: &View, options: &Options) -> Frame {
     frame
 }
 
-/// Finds the primitive that is seen at every sample, and how far it is.
+/// Finds the primitive that is seen at every sample, and how far it is. Returns what was executed for its tiles; the
+/// rays that are walked alone for an observer do not count.
 ///
 /// Fits the frame to the view and writes ids and `t`s into it; [`shade`](fn@crate::shade) gives it its colours.
 ///
-/// Runs on the rayon pool that it is called in; the number of threads changes no bit of the frame and no event that
-/// the observer gets.
+/// Runs on the rayon pool that it is called in; the number of threads changes no bit of the frame, no count and no
+/// event that the observer gets.
 ///
 /// # Panics
 ///
@@ -119,8 +120,8 @@ pub fn determine_visibility(
     options: &Options,
     frame: &mut Frame,
     observer: &mut impl Observer,
-) {
-    run(prepared, view, options, frame, observer, &SOUND);
+) -> Executed {
+    run(prepared, view, options, frame, observer, &SOUND)
 }
 
 /// [`determine_visibility`] with faults in it, for tests of the verdict.
@@ -140,7 +141,7 @@ pub fn determine_visibility_with_fault<F: Fault>(
 struct Loops {
     is: fn(Planted) -> bool,
     watch: fn(&mut Walker, &FrustumTemplate, &Tile, &mut dyn Events),
-    trace: fn(&mut Walker, &FrustumTemplate, Tile),
+    trace: fn(&mut Walker, &FrustumTemplate, Tile) -> Executed,
 }
 
 static SOUND: Loops = Loops::new::<Sound>();
@@ -167,7 +168,7 @@ fn run<O: Observer>(
     frame: &mut Frame,
     observer: &mut O,
     loops: &Loops,
-) {
+) -> Executed {
     assert_eq!(prepared.primitives, view.scene.primitive_count(), "another scene was prepared");
     frame.fit(view.camera, options);
     let map = CameraMap::new(view, options.samples, &prepared.bounds);
@@ -177,7 +178,7 @@ fn run<O: Observer>(
 
     let (shared, chunks): (&O, Vec<Tile>) = (observer, frame.tiles_mut(prepared.side, CHUNK));
     let dropped = (loops.is)(Planted::DroppedTile).then_some(chunks.len() / 2);
-    let observers: Vec<O> = chunks
+    let parts: Vec<(O, Executed)> = chunks
         .into_par_iter()
         .with_max_len(1)
         .enumerate()
@@ -187,17 +188,21 @@ fn run<O: Observer>(
                 let mut observer = shared.fork();
                 if dropped == Some(index) {
                     drop_chunk(chunk);
-                } else {
-                    if let Some(sink) = observer.sink() {
-                        (loops.watch)(walker, &of_ray, &chunk, sink);
-                    }
-                    (loops.trace)(walker, &of_tile, chunk);
+                    return (observer, Executed::default());
                 }
-                observer
+                if let Some(sink) = observer.sink() {
+                    (loops.watch)(walker, &of_ray, &chunk, sink);
+                }
+                (observer, (loops.trace)(walker, &of_tile, chunk))
             },
         )
         .collect();
-    observers.into_iter().for_each(|part| observer.join(part));
+    let mut executed = Executed::default();
+    for (part, of_part) in parts {
+        observer.join(part);
+        executed += of_part;
+    }
+    executed
 }
 
 /// A fault: nothing is seen in a chunk of the picture.
@@ -228,7 +233,8 @@ fn watch<F: Fault>(
 
 /// Traces the rays of a chunk of the picture, tile by tile. Of a tile at the border of a crop all rays are
 /// traced, so that the crop shows the bits of the whole picture, and those in the chunk are stored.
-fn trace<F: Fault>(walker: &mut Walker, template: &FrustumTemplate, chunk: Tile) {
+fn trace<F: Fault>(walker: &mut Walker, template: &FrustumTemplate, chunk: Tile) -> Executed {
+    let mut executed = Executed::default();
     let Tile { region, mut ids, mut t } = chunk;
     let (map, side) = (walker.map, template.side);
     let tiles = |range: &Range<usize>| (range.start / side * side..range.end).step_by(side);
@@ -239,7 +245,9 @@ fn trace<F: Fault>(walker: &mut Walker, template: &FrustumTemplate, chunk: Tile)
                 let size = size.map(|count| count.min(side));
                 walker.walk(&mut Parts::<_, (), F>::of(simd, &mut ()), template, [top, left], size);
                 store(simd, map, &walker.tile, &region, &mut ids, &mut t);
+                executed += walker.tile.executed.of_one_tile();
             }
         }
     });
+    executed
 }

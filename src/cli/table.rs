@@ -1,7 +1,7 @@
 //! The output of `render`: a short table of the work of each order, and the verdict.
 
 use anstyle::{AnsiColor, Style};
-use bothways::common::{Crop, Work};
+use bothways::common::{Crop, Executed, Work};
 use bothways::diff::{COLOR_TOLERANCE, Comparison, DEPTH_TOLERANCE};
 use bothways::orders::{Counts, Rendered, Spread, Times};
 use bothways::report::Report;
@@ -21,7 +21,14 @@ pub(super) fn table(
     let mut text = heading(report, rendered);
     let method = rendered.first().map_or("", |one| one.method.name());
     line(&mut text, method, &names, wide);
-    for (label, figures) in rows(rendered) {
+    line(&mut text, "samples covered", &each(rendered, |one| grouped(one.covered())), wide);
+    for (heading, rows) in sections(rendered) {
+        writeln!(text, "{heading}").expect("a string takes all");
+        for (label, figures) in rows {
+            line(&mut text, &format!("  {label}"), &figures, wide);
+        }
+    }
+    for (label, figures) in times(rendered) {
         line(&mut text, label, &figures, wide);
     }
     if let Some(comparison) = comparison {
@@ -56,7 +63,7 @@ fn verdict_style(matches: bool) -> Style {
     color.on_default().bold()
 }
 
-const LABEL_WIDTH: usize = 26;
+const LABEL_WIDTH: usize = 28;
 const COLUMN_WIDTH: usize = 18;
 
 /// The width of every column; rules make the names longer.
@@ -90,37 +97,85 @@ fn line(text: &mut String, label: &str, figures: &[String], wide: usize) {
     text.push('\n');
 }
 
-fn rows(rendered: &[Rendered]) -> Vec<(&'static str, Vec<String>)> {
-    let each =
-        |figure: &dyn Fn(&Rendered) -> String| rendered.iter().map(figure).collect::<Vec<_>>();
-    let counts = |figure: fn(&Work) -> u64| {
-        each(&|one| match one.work().map(figure) {
+/// A label, and a figure for each order.
+type Row = (&'static str, Vec<String>);
+
+fn each(rendered: &[Rendered], figure: impl Fn(&Rendered) -> String) -> Vec<String> {
+    rendered.iter().map(figure).collect()
+}
+
+/// The rows under their headings. The two sorts of counts never stand under one.
+fn sections(rendered: &[Rendered]) -> Vec<(&'static str, Vec<Row>)> {
+    let mut sections = Vec::new();
+    if rendered.iter().any(|one| one.work().is_some()) {
+        sections.push((ALGORITHM, work(rendered)));
+    }
+    if rendered.iter().any(|one| one.executed.is_some()) {
+        sections.push((EXECUTED, executed(rendered)));
+    }
+    sections
+}
+
+const ALGORITHM: &str = "work of the algorithm, for each primitive or ray alone";
+const EXECUTED: &str = "executed for a frame, by tiles";
+
+fn work(rendered: &[Rendered]) -> Vec<Row> {
+    let row = |label, figure: fn(&Work) -> u64| {
+        let figures = each(rendered, |one| match one.work().map(figure) {
             None => "not counted".into(),
             Some(0) => "-".into(),
             Some(number) => grouped(number),
-        })
+        });
+        (label, figures)
     };
-    let mut rows = vec![("samples covered", each(&|one| grouped(one.covered())))];
-    if rendered.iter().any(|one| one.work().is_some()) {
-        rows.extend([
-            ("primitives", counts(|work| work.primitives)),
-            ("rays", counts(|work| work.rays)),
-            ("boxes tested", counts(|work| work.nodes)),
-            ("primitive x sample tested", counts(|work| work.tests)),
-            ("of these, covered", counts(|work| work.fragments)),
-            ("depth comparisons", counts(|work| work.depth_tests)),
-            ("left to the exact judge", counts(|work| work.judged_coverage + work.judged_nearest)),
-        ]);
-    }
-    let times = |figure: fn(&Times) -> Spread| {
-        each(&|one| one.times.map_or("-".into(), |times| milliseconds(figure(&times).median)))
+    vec![
+        row("primitives", |work| work.primitives),
+        row("rays", |work| work.rays),
+        row("boxes tested", |work| work.nodes),
+        row("primitive x sample tested", |work| work.tests),
+        row("of these, covered", |work| work.fragments),
+        row("depth comparisons", |work| work.depth_tests),
+        row("left to the exact judge", |work| work.judged_coverage + work.judged_nearest),
+    ]
+}
+
+fn executed(rendered: &[Rendered]) -> Vec<Row> {
+    let row = |label, figure: fn(&Executed) -> u64| {
+        let figures = each(rendered, |one| match one.executed.as_ref().map(figure) {
+            None | Some(0) => "-".into(),
+            Some(number) => grouped(number),
+        });
+        (label, figures)
     };
-    if rendered.iter().any(|one| one.times.is_some()) {
-        rows.push(("time to prepare", times(|times| times.prepare)));
-        rows.push(("time for visibility", times(|times| times.visibility)));
-        rows.push(("time for shading", times(|times| times.shading)));
+    vec![
+        row("tiles", |executed| executed.tiles),
+        row("of these, skipped", |executed| executed.tiles_skipped),
+        row("nodes opened", |executed| executed.nodes_opened),
+        row("boxes tested", |executed| executed.boxes_tested),
+        row("clusters in tiles", |executed| executed.clusters),
+        row("of these, skipped", |executed| executed.clusters_skipped),
+        row("triangles looked at", |executed| executed.triangles),
+        row("of these, set up", |executed| executed.set_ups),
+        row("primitives one by one", |executed| executed.one_by_one),
+        row("steps of small triangles", |executed| executed.lane_steps),
+        row("blocks of 16 samples", |executed| executed.blocks),
+        row("samples one by one", |executed| executed.single_samples),
+    ]
+}
+
+fn times(rendered: &[Rendered]) -> Vec<Row> {
+    if rendered.iter().all(|one| one.times.is_none()) {
+        return vec![];
     }
-    rows
+    let row = |label, figure: fn(&Times) -> Spread| {
+        let time = |times| milliseconds(figure(&times).median);
+        (label, each(rendered, |one| one.times.map_or("-".into(), time)))
+    };
+    vec![
+        row("time to prepare", |times| times.prepare),
+        row("time for visibility", |times| times.visibility),
+        row("time for shading", |times| times.shading),
+    ]
 }
 
 /// The differences that the verdict ignores, if they are more than rounding explains: one row of the table each.

@@ -1,14 +1,16 @@
-//! The slide that shows both orders side by side, with their difference and their work.
+//! The slide that shows both orders side by side, with their difference, their work and what they executed.
+
+mod figures;
 
 use super::drawing::{Anchor, CANVAS, Drawing, Ink};
 use super::fallback::drawable;
 use super::resize::{fitted, footprint, resized};
 use super::text::{Figures, Style, Weight, has};
 use super::theme::{Role, Theme};
-use crate::common::Work;
 use crate::diff::{Class, Classes, Comparison};
-use crate::orders::{Counts, Order, Rendered};
-use crate::wording::{count, grouped, milliseconds, pixels_shown};
+use crate::orders::Rendered;
+use crate::wording::{count, pixels_shown};
+use figures::{Group, figures};
 use image::{Rgb, RgbImage};
 use std::ops::RangeInclusive;
 
@@ -49,6 +51,9 @@ const SECOND_LOOP: f64 = 263.0;
 const PICTURES: f64 = 286.0;
 const FIRST_ROW: f64 = 752.0;
 const ROW: f64 = 31.0;
+/// The width of the first of two groups of rows, and the room between them.
+const FIRST_GROUP: f64 = 302.0;
+const GROUP_GAP: f64 = 26.0;
 const RULE: f64 = 988.0;
 const VERDICT: f64 = 1035.0;
 /// The largest size of a picture: a 4:3 picture fills this frame.
@@ -73,7 +78,7 @@ impl Slide<'_> {
             let order = rendered.order;
             canvas.heading(left, &rendered.name(), order.common_name(), order.loops());
             canvas.picture(left, resized(picture, size));
-            canvas.rows(left, &figures(rendered));
+            canvas.groups(left, &figures(rendered));
         }
         let [_, _, left] = COLUMNS;
         let explanation =
@@ -114,13 +119,15 @@ impl Slide<'_> {
         for class in Class::ALL {
             canvas.framed(left, baseline - 17.0, SWATCH, class.color());
             let pixels = count(classes.count(class), "pixels");
-            canvas.row(left + SWATCH + 14.0, left + COLUMN_WIDTH, baseline, class.name(), &pixels);
+            let ends = [left + SWATCH + 14.0, left + COLUMN_WIDTH];
+            canvas.row(ends, baseline, class.name(), &pixels, ROWS);
             baseline += ROW;
         }
         let depth = difference(self.comparison.depth.max_relative_difference);
-        canvas.row(left, left + COLUMN_WIDTH, baseline, "depths differ by at most", &depth);
+        let ends = [left, left + COLUMN_WIDTH];
+        canvas.row(ends, baseline, "depths differ by at most", &depth, ROWS);
         let color = format!("{} of 255", self.comparison.color.max_difference);
-        canvas.row(left, left + COLUMN_WIDTH, baseline + ROW, "colours differ by at most", &color);
+        canvas.row(ends, baseline + ROW, "colours differ by at most", &color, ROWS);
     }
 
     fn verdict(&self, canvas: &mut Canvas) {
@@ -137,41 +144,6 @@ fn line(text: &str) -> String {
     // More letters than a line holds, and few enough that a very long name takes no time.
     const MOST: usize = 400;
     drawable(&text.chars().take(MOST).collect::<String>(), has)
-}
-
-/// The work of one order: labels and figures, row by row.
-fn figures(rendered: &Rendered) -> Vec<(&'static str, String)> {
-    let mut rows = match rendered.work {
-        Counts::Counted(work) => counts(rendered.order, &work),
-        Counts::TooMany { most } => vec![
-            ("work for a frame", "not counted".into()),
-            ("it is more than", format!("{} steps", grouped(most))),
-        ],
-        Counts::LeftOut => vec![],
-    };
-    if let Some(times) = rendered.times {
-        // The time for shading is left out: shading is the same task in both orders, and would hide the other times.
-        rows.push(("time to prepare", milliseconds(times.prepare.median)));
-        rows.push(("time for visibility", milliseconds(times.visibility.median)));
-    }
-    rows
-}
-
-fn counts(order: Order, work: &Work) -> Vec<(&'static str, String)> {
-    let Work { primitives, rays, nodes, tests, fragments, depth_tests, .. } = *work;
-    let judged = work.judged_coverage + work.judged_nearest;
-    let (outer, boxes) = match order {
-        Order::Object => (("primitives", primitives), None),
-        Order::Image => (("rays", rays), Some(nodes)),
-    };
-    vec![
-        (outer.0, grouped(outer.1)),
-        ("boxes tested", boxes.map_or("–".into(), grouped)),
-        ("primitive × sample tested", grouped(tests)),
-        ("of these, covered", grouped(fragments)),
-        ("depth comparisons", grouped(depth_tests)),
-        ("left to the exact judge", grouped(judged)),
-    ]
 }
 
 fn difference(relative: f64) -> String {
@@ -247,19 +219,44 @@ impl Canvas {
         self.drawing.picture(picture, [x, y], size);
     }
 
-    fn rows(&mut self, left: f64, rows: &[(&str, String)]) {
+    /// Draws one group of rows over the whole column, or two beside each other in smaller letters.
+    fn groups(&mut self, left: f64, groups: &[Group]) {
+        let right = left + COLUMN_WIDTH;
+        match groups {
+            [one, two] => {
+                let narrow = ROWS.sized(20.0);
+                self.group([left, left + FIRST_GROUP], one, narrow);
+                self.group([left + FIRST_GROUP + GROUP_GAP, right], two, narrow);
+            }
+            groups => groups.iter().for_each(|group| self.group([left, right], group, ROWS)),
+        }
+    }
+
+    fn group(&mut self, [left, right]: [f64; 2], Group { heading, rows }: &Group, style: Style) {
         let mut baseline = FIRST_ROW;
+        if let Some(heading) = heading {
+            let style = style.of(self.theme.bright()).semi_bold();
+            self.fitting(left, baseline, heading, style, right - left);
+            baseline += ROW;
+        }
         for (label, figure) in rows {
-            self.row(left, left + COLUMN_WIDTH, baseline, label, figure);
+            self.row([left, right], baseline, label, figure, style);
             baseline += ROW;
         }
     }
 
     /// Draws a label on the left and a figure on the right.
-    fn row(&mut self, left: f64, right: f64, baseline: f64, label: &str, figure: &str) {
-        let taken = self.right(right, baseline, figure, ROWS.of(self.theme.bright()));
-        let room = right - left - taken - f64::from(ROWS.size);
-        self.fitting(left, baseline, label, ROWS.of(self.theme.quiet()), room);
+    fn row(
+        &mut self,
+        [left, right]: [f64; 2],
+        baseline: f64,
+        label: &str,
+        figure: &str,
+        style: Style,
+    ) {
+        let taken = self.right(right, baseline, figure, style.of(self.theme.bright()));
+        let room = right - left - taken - 0.5 * f64::from(style.size);
+        self.fitting(left, baseline, label, style.of(self.theme.quiet()), room);
     }
 
     /// Draws a text that ends at `right`, and returns its width.

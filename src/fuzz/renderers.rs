@@ -32,10 +32,10 @@ impl Renderers {
                 Box::new(|view, options, frame, close| {
                     use $order::fast::{determine_visibility, prepare};
                     let prepared = prepare(view.scene);
-                    match close {
+                    let _ = match close {
                         None => determine_visibility(&prepared, view, options, frame, &mut ()),
                         Some(close) => determine_visibility(&prepared, view, options, frame, close),
-                    }
+                    };
                 })
             };
         }

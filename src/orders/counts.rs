@@ -1,11 +1,12 @@
-//! The work for a frame, counted up to a limit.
+//! The work of the algorithm for a frame, counted up to a limit.
 
 use super::options::RenderOptions;
 use super::order::Order;
 use crate::common::Work;
 use crate::common::observe::budget::{Budget, WorkWithin};
 
-/// The counted work for a frame.
+/// The counted work of the algorithm for a frame. What the frame executed is another count:
+/// [`Executed`](crate::common::Executed).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Counts {
     /// The complete count.
@@ -61,9 +62,9 @@ impl Counting {
     }
 
     /// Counts the work of a separate frame.
-    pub(super) fn count<E>(
+    pub(super) fn count<T, E>(
         &self,
-        draw: impl FnOnce(&mut WorkWithin) -> Result<(), E>,
+        draw: impl FnOnce(&mut WorkWithin) -> Result<T, E>,
     ) -> Result<Counts, E> {
         match *self {
             Counting::Not(counts) => Ok(counts),

@@ -1,7 +1,7 @@
 //! A source that can be drawn frame after frame: a scene in memory, or a mesh file that is read again for each frame.
 
 use super::renderer::Renderer;
-use crate::common::{Camera, Frame, Observer, Options, View};
+use crate::common::{Camera, Executed, Frame, Observer, Options, View};
 use crate::formats::mesh_stream::{MeshStream, StreamError};
 use crate::progress::Steps;
 use crate::rasterize::stream::{CHUNK, Canvas, Look};
@@ -11,8 +11,12 @@ use std::convert::Infallible;
 pub(super) trait Drawing {
     /// The reason why a frame cannot be finished.
     type Error;
-    /// Finds the visible primitives, and reports the steps.
-    fn draw<O: Observer>(&mut self, observer: &mut O, steps: &Steps) -> Result<(), Self::Error>;
+    /// Finds the visible primitives, and reports the steps. A fast renderer returns what it executed.
+    fn draw<O: Observer>(
+        &mut self,
+        observer: &mut O,
+        steps: &Steps,
+    ) -> Result<Option<Executed>, Self::Error>;
     /// Computes the normals and colours of the visible primitives.
     fn shade(&mut self);
     /// The last frame.
@@ -42,17 +46,23 @@ impl<'a, R: Renderer> InMemory<'a, R> {
 impl<R: Renderer> Drawing for InMemory<'_, R> {
     type Error = Infallible;
 
-    fn draw<O: Observer>(&mut self, observer: &mut O, steps: &Steps) -> Result<(), Infallible> {
+    fn draw<O: Observer>(
+        &mut self,
+        observer: &mut O,
+        steps: &Steps,
+    ) -> Result<Option<Executed>, Infallible> {
         let InMemory { renderer, view, options, prepared, frame } = self;
-        match steps.watch() {
+        let executed = match steps.watch() {
             None => renderer.determine_visibility(prepared, view, options, frame, observer),
             Some(watch) => {
                 let mut both = (observer.fork(), watch);
-                renderer.determine_visibility(prepared, view, options, frame, &mut both);
+                let executed =
+                    renderer.determine_visibility(prepared, view, options, frame, &mut both);
                 observer.join(both.0);
+                executed
             }
-        }
-        Ok(())
+        };
+        Ok(executed)
     }
 
     fn shade(&mut self) {
@@ -87,7 +97,11 @@ impl Drawing for Streamed<'_> {
     type Error = StreamError;
 
     /// Runs one pass over the file: for each triangle, for each sample that the triangle may affect.
-    fn draw<O: Observer>(&mut self, observer: &mut O, steps: &Steps) -> Result<(), StreamError> {
+    fn draw<O: Observer>(
+        &mut self,
+        observer: &mut O,
+        steps: &Steps,
+    ) -> Result<Option<Executed>, StreamError> {
         let mut pass = self.canvas.begin(self.camera, CHUNK, observer);
         let (chunked, mut count) = (self.mesh.triangles().is_some(), 0_usize);
         self.mesh.for_each_triangle(|positions, triangle| {
@@ -97,8 +111,7 @@ impl Drawing for Streamed<'_> {
             count += 1;
             pass.draw(positions, triangle);
         })?;
-        pass.finish(self.mesh.positions());
-        Ok(())
+        Ok(Some(pass.finish(self.mesh.positions())))
     }
 
     fn shade(&mut self) {

@@ -5,7 +5,7 @@ use super::drawing::Drawing;
 use super::options::RenderOptions;
 use super::renderer::Renderer;
 use super::times::{Spread, Times, timed};
-use crate::common::{Frame, Scene};
+use crate::common::{Executed, Frame, Scene};
 use crate::progress::Steps;
 use std::time::{Duration, Instant};
 
@@ -14,21 +14,33 @@ const PREPARE_BUDGET: Duration = Duration::from_secs(2);
 /// Work that takes no longer than this is done twice for one measured time: the first run warms up memory and caches.
 const WARM_UP_BUDGET: Duration = Duration::from_millis(200);
 
-/// The number of frames: one frame for the count of the work, one frame for the warm-up, and the timed frames.
-pub(super) fn frames(options: &RenderOptions, counting: &Counting) -> u64 {
+/// The number of frames: one frame for the count of the work, one frame for the warm-up, and the timed frames. Without
+/// times, one more frame is drawn where none is counted, or where it is cheap and tells what a frame executes.
+pub(super) fn frames(options: &RenderOptions, counting: &Counting, is_cheap: bool) -> u64 {
+    let counted = counting.frames();
     if options.no_times {
-        return 1;
+        return counted + u64::from(counted == 0 || is_cheap);
     }
-    counting.frames() + options.repeat.map_or(1, |repeat| 1 + u64::from(repeat))
+    counted + options.repeat.map_or(1, |repeat| 1 + u64::from(repeat))
 }
 
-/// Draws all frames of the value that `begin` prepares. `begin` also returns the time of the preparation.
+/// What [`measure`] finds out.
+pub(super) struct Measured {
+    pub(super) frame: Frame,
+    pub(super) work: Counts,
+    pub(super) executed: Option<Executed>,
+    pub(super) times: Option<Times>,
+}
+
+/// Draws all frames of the value that `begin` prepares; their number is that of [`frames`]. `begin` also returns the time
+/// of the preparation.
 pub(super) fn measure<D: Drawing>(
     options: &RenderOptions,
     counting: &Counting,
+    frames: u64,
     steps: &Steps,
     begin: impl FnOnce() -> (D, Spread),
-) -> Result<(Frame, Counts, Option<Times>), D::Error> {
+) -> Result<Measured, D::Error> {
     steps.preparing();
     let (mut drawing, prepare) = begin();
 
@@ -36,23 +48,25 @@ pub(super) fn measure<D: Drawing>(
     let work = counting.count(|work| drawing.draw(work, steps))?;
     steps.frames_done(counting.frames());
 
+    let mut executed = None;
     if options.no_times {
-        if counting.frames() == 0 {
-            drawing.draw(&mut (), steps)?;
-            steps.frames_done(1);
+        if frames > counting.frames() {
+            executed = drawing.draw(&mut (), steps)?;
+            steps.frames_done(frames);
         }
         drawing.shade();
-        return Ok((drawing.into_frame(), work, None));
+        return Ok(Measured { frame: drawing.into_frame(), work, executed, times: None });
     }
-    let run = |phase| match phase {
-        Phase::Visibility => drawing.draw(&mut (), steps),
-        Phase::Shading => {
-            drawing.shade();
-            Ok(())
+    let run = |phase| {
+        match phase {
+            Phase::Visibility => executed = drawing.draw(&mut (), steps)?,
+            Phase::Shading => drawing.shade(),
         }
+        Ok(())
     };
     let [visibility, shading] = repeated(options.repeat, steps, run)?;
-    Ok((drawing.into_frame(), work, Some(Times { prepare, visibility, shading })))
+    let times = Some(Times { prepare, visibility, shading });
+    Ok(Measured { frame: drawing.into_frame(), work, executed, times })
 }
 
 /// A phase of rendering a frame.

@@ -15,9 +15,11 @@ pub struct RenderOptions<'a> {
     /// With a number, each phase runs once for the warm-up and then this many times for measurement, into the same
     /// buffers; without a number, each phase is timed once, warmed up by the phases before. Never 0.
     pub repeat: Option<u32>,
-    /// Whether to leave out the frame that counts the work. That frame may take longer than the timed frames.
+    /// Whether to leave out the frame that counts the work of the algorithm. That frame may take longer than the timed
+    /// frames. What a frame executed is counted in any case, in the frame itself.
     pub no_counts: bool,
-    /// Whether to leave out times. Then no frame is drawn for timing, unless it is the only frame.
+    /// Whether to leave out times. Then no frame is repeated for timing: at most one is drawn beside the frame that
+    /// counts.
     pub no_times: bool,
     /// A function that is called with the progress of the rendering; the call changes no bit of the result.
     pub progress: Option<Listener<'a>>,

@@ -2,7 +2,7 @@
 
 use super::counts::Counting;
 use super::drawing::{InMemory, Streamed};
-use super::measure::{frames, measure, prepared};
+use super::measure::{Measured, frames, measure, prepared};
 use super::options::RenderOptions;
 use super::order::{Method, Order};
 use super::rendered::Rendered;
@@ -19,7 +19,8 @@ use std::sync::atomic::AtomicU64;
 
 /// Renders a scene or a stream in one order, on the current rayon pool.
 ///
-/// A separate frame before the timed frames counts the work, up to [`most_steps`](super::most_steps).
+/// A separate frame before the timed frames counts the work of the algorithm, up to [`most_steps`](super::most_steps).
+/// What the frame executed is counted in the timed frames themselves.
 ///
 /// A stream is read once for every frame; the time for visibility includes the reading of all faces.
 ///
@@ -65,14 +66,15 @@ pub fn render<'a>(
         _ => counting,
     };
     let done = AtomicU64::new(0);
-    let (within_frame, frames) =
-        (source.steps_of_a_frame(order, method, &options.frame), frames(options, &counting));
+    let is_cheap = matches!((method, rule, &source), (Method::Fast, None, Source::View(_)));
+    let frames = frames(options, &counting, is_cheap);
+    let within_frame = source.steps_of_a_frame(order, method, &options.frame);
     let steps = Steps::new(order, options.progress, within_frame, frames, &done);
-    let (frame, work, times) = match source {
+    let Measured { frame, work, executed, times } = match source {
         Source::View(view) => {
             macro_rules! measured {
                 ($renderer:expr) => {
-                    measure(options, &counting, &steps, || {
+                    measure(options, &counting, frames, &steps, || {
                         let (prepared, time) = prepared(&$renderer, view.scene, options);
                         (InMemory::new($renderer, &view, &options.frame, prepared), time)
                     })
@@ -94,11 +96,11 @@ pub fn render<'a>(
                 (Order::Object, Method::Fast, None),
                 "every ray and every textbook needs the whole scene in memory"
             );
-            measure(options, &counting, &steps, || {
+            measure(options, &counting, frames, &steps, || {
                 let time = Spread::of(vec![opening.as_secs_f64() * 1e3]);
                 (Streamed::new(mesh, camera, look, &options.frame), time)
             })?
         }
     };
-    Ok(Rendered { order, method, rule, frame, work, times })
+    Ok(Rendered { order, method, rule, frame, work, executed, times })
 }

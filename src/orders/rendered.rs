@@ -5,7 +5,7 @@ use super::order::{Method, Order};
 use super::rules::Rule;
 use super::times::Times;
 use crate::common::frame::NO_PRIMITIVE;
-use crate::common::{Frame, Work};
+use crate::common::{Executed, Frame, Work};
 
 /// The result of one order, and its cost.
 #[derive(Clone, Debug)]
@@ -18,8 +18,12 @@ pub struct Rendered {
     pub rule: Option<Rule>,
     /// The frame.
     pub frame: Frame,
-    /// The work for one frame.
+    /// The work of the algorithm for one frame: what every primitive or ray needs alone.
     pub work: Counts,
+    /// What the last timed frame executed; without times, another frame that nothing observes. `None` if the method is
+    /// not fast or has the rules of an ordinary renderer, or if the options leave out the times of a stream but not
+    /// its counts: its file is not read again for this.
+    pub executed: Option<Executed>,
     /// The times; `None` if the options leave out times.
     pub times: Option<Times>,
 }

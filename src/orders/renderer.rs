@@ -1,6 +1,6 @@
 //! A common interface of the four renderers, and of the ordinary ones of the rules.
 
-use crate::common::{Frame, Observer, Options, Scene, View};
+use crate::common::{Executed, Frame, Observer, Options, Scene, View};
 use crate::rules::{image_order, object_order};
 use crate::{rasterize, raytrace};
 
@@ -8,6 +8,7 @@ use crate::{rasterize, raytrace};
 pub(super) trait Renderer {
     type Prepared;
     fn prepare(&self, scene: &Scene) -> Self::Prepared;
+    /// Finds the visible primitives. A fast renderer returns what it executed.
     fn determine_visibility(
         &self,
         prepared: &Self::Prepared,
@@ -15,7 +16,7 @@ pub(super) trait Renderer {
         options: &Options,
         frame: &mut Frame,
         observer: &mut impl Observer,
-    );
+    ) -> Option<Executed>;
     fn shade(&self, view: &View, frame: &mut Frame);
 }
 
@@ -37,8 +38,10 @@ macro_rules! renderer {
                 options: &Options,
                 frame: &mut Frame,
                 observer: &mut impl Observer,
-            ) {
-                $order::fast::determine_visibility(prepared, view, options, frame, observer);
+            ) -> Option<Executed> {
+                let executed =
+                    $order::fast::determine_visibility(prepared, view, options, frame, observer);
+                Some(executed)
             }
 
             fn shade(&self, view: &View, frame: &mut Frame) {
@@ -61,8 +64,9 @@ macro_rules! renderer {
                 options: &Options,
                 frame: &mut Frame,
                 observer: &mut impl Observer,
-            ) {
+            ) -> Option<Executed> {
                 $order::textbook::determine_visibility(view, options, frame, observer);
+                None
             }
 
             fn shade(&self, view: &View, frame: &mut Frame) {
@@ -92,8 +96,9 @@ impl Renderer for OrdinaryRasterizer {
         options: &Options,
         frame: &mut Frame,
         _observer: &mut impl Observer,
-    ) {
+    ) -> Option<Executed> {
         object_order::determine_visibility(view, options, self.0, frame);
+        None
     }
 
     fn shade(&self, view: &View, frame: &mut Frame) {
@@ -118,8 +123,9 @@ impl Renderer for OrdinaryRayTracer {
         options: &Options,
         frame: &mut Frame,
         _observer: &mut impl Observer,
-    ) {
+    ) -> Option<Executed> {
         image_order::determine_visibility(prepared, view, options, self.0, frame);
+        None
     }
 
     fn shade(&self, view: &View, frame: &mut Frame) {

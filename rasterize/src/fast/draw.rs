@@ -95,9 +95,12 @@ impl<C: ScalarContext> Painter<'_, '_, C> {
                 if !self.goes_on() {
                     return;
                 }
+                self.buffer.executed.clusters += 1;
                 // If the loops are watched, every triangle is an event.
                 if C::WATCHED || !self.hides(cluster) {
                     self.sort_cluster(cluster);
+                } else {
+                    self.buffer.executed.clusters_skipped += 1;
                 }
             }
             for class in SizeClass::IN_LANES {
@@ -121,6 +124,7 @@ impl<C: ScalarContext> Painter<'_, '_, C> {
     /// size class.
     fn sort_cluster(&mut self, cluster: &Cluster) {
         let Cluster { object, first, count, .. } = *cluster;
+        self.buffer.executed.triangles += u64::from(count);
         let (first_id, triangles, vertices) = self.finder.object(object);
         for first in (first..first + count).step_by(16) {
             let sixteen = (cluster.first + count - first).min(16) as usize;
@@ -180,6 +184,7 @@ impl<C: ScalarContext> Painter<'_, '_, C> {
         if count == 0 {
             return;
         }
+        buffer.executed.set_ups += count as u64;
         dispatch_with!(C::Fault, drawing.level, simd => {
             let context = &mut context.with_simd(simd);
             let setup = Setup::new::<_, C::Fault>(simd, drawing.geometry.raster, lanes);
@@ -207,7 +212,8 @@ impl<C: ScalarContext> Painter<'_, '_, C> {
             if !self.goes_on() {
                 return;
             }
-            let Painter { drawing, waiting, finder, .. } = self;
+            let Painter { drawing, waiting, finder, buffer, .. } = self;
+            buffer.executed.triangles += slots.len() as u64;
             let lanes = &mut waiting[class as usize];
             dispatch_with!(C::Fault, drawing.level, simd => {
                 lanes.fill(simd, slots.len(), |lane| finder.triangle(slots[lane]));
@@ -225,6 +231,7 @@ impl<C: ScalarContext> Painter<'_, '_, C> {
     fn draw_large(&mut self) {
         let Painter { drawing, large, buffer, context, .. } = self;
         if !large.is_empty() {
+            buffer.executed.one_by_one += large.len() as u64;
             dispatch_with!(C::Fault, drawing.level, simd => {
                 one_primitive::draw(&mut context.with_simd(simd), large, drawing.picture, buffer);
             });

@@ -33,11 +33,13 @@ pub(super) fn draw<C: Context>(
     let one = i32x16::splat(simd, 1);
     let (first, end) = (left.to_float::<f32x16<C::Simd>>(), right.to_float::<f32x16<C::Simd>>());
     let (mut row, mut column) = (top.to_float::<f32x16<C::Simd>>(), first);
+    let mut steps = 0;
     loop {
         let active = remaining.simd_gt(i32x16::splat(simd, 0));
         if !active.any_true() {
             break;
         }
+        steps += 1;
         let values: [f32x16<C::Simd>; 3] = std::array::from_fn(|k| {
             let (at_origin, across, down) = edges[k];
             (at_origin + down * row) + across * column
@@ -63,6 +65,7 @@ pub(super) fn draw<C: Context>(
         index += wraps.select(to_next_row, one);
         remaining -= one;
     }
+    buffer.executed.lane_steps += steps;
     fragments.test_depth(context, picture, buffer);
 }
 

@@ -68,6 +68,7 @@ fn draw_blocks<const ACROSS: usize, C: Context>(
     let down = 16 / ACROSS;
     let step = f32x16::splat(simd, const { difference(16 / ACROSS, 0) });
     let to_next = down * buffer.stride();
+    let blocks_down = rows.len().div_ceil(down);
 
     // Most triangles have one column of blocks: what depends on columns is computed once.
     for column in columns.clone().step_by(ACROSS) {
@@ -94,12 +95,14 @@ fn draw_blocks<const ACROSS: usize, C: Context>(
                 let context = &mut context.scalar();
                 leave_open::<ACROSS, _>(context, fragments, picture, buffer, first, masks);
                 if buffer.is_duplicate::<C>(broadcast.id) {
+                    buffer.executed.blocks += ((row - rows.start) / down + 1) as u64;
                     return;
                 }
             }
             lane_rows += step;
             index += to_next;
         }
+        buffer.executed.blocks += blocks_down as u64;
     }
 }
 

@@ -68,6 +68,7 @@ fn draw_sphere<C: ScalarContext>(
     let map = writer.picture.map;
     let sphere = Sphere::new(map, center, radius, !C::has(Planted::ZeroErrorBound));
     let here = region.intersection(writer.buffer.region());
+    writer.buffer.executed.single_samples += here.area() as u64;
     for row in here.rows {
         for column in here.columns.clone() {
             let sample = Sample { row, column };

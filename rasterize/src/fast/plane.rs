@@ -45,6 +45,7 @@ fn draw_samples<C: ScalarContext>(
     depth: &Affine,
     here: Region,
 ) {
+    writer.buffer.executed.single_samples += here.area() as u64;
     let map = writer.picture.map;
     let (side, eye) = (sign_in_front(map.projection()), map.depth_of_eye());
     let (xs, ys) = (map.grid.x(), map.grid.y());

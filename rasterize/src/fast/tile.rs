@@ -9,7 +9,7 @@ use bothways_common::engine::fault::Planted;
 use bothways_common::engine::simd::{Simd, SimdBase, SimdMask, f32x16};
 use bothways_common::exact::CachedJudge;
 use bothways_common::frame::NO_PRIMITIVE;
-use bothways_common::observe::{Events, Question};
+use bothways_common::observe::{Events, Executed, Question};
 use bothways_common::raster::{Region, Sample};
 use bothways_common::{Primitive, View};
 use std::cmp::Ordering;
@@ -32,6 +32,8 @@ pub(super) struct TileBuffer {
     /// The last two ids that were compared (at first, those of no primitive), and whether they are the same
     /// triangle twice.
     compared: ([u32; 2], bool),
+    /// What was executed for the tile.
+    pub(super) executed: Executed,
 }
 
 /// A fragment, or a sample that may be one, that waits for the judge.
@@ -77,6 +79,7 @@ impl TileBuffer {
             open: Vec::new(),
             tied: None,
             compared: ([NO_PRIMITIVE; 2], false),
+            executed: Executed::default(),
         }
     }
 
@@ -91,6 +94,7 @@ impl TileBuffer {
         self.tied = None;
         self.compared = ([NO_PRIMITIVE; 2], false);
         self.region = region.clone();
+        self.executed = Executed::default();
     }
 
     /// Forgets what was drawn into the tile.

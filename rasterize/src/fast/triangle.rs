@@ -51,6 +51,7 @@ fn draw_samples<C: ScalarContext>(
     setup: &F64Setup,
     here: Region,
 ) {
+    writer.buffer.executed.single_samples += here.area() as u64;
     let map = writer.picture.map;
     let (xs, ys) = (map.grid.x(), map.grid.y());
     let eye = map.depth_of_eye();

@@ -22,11 +22,13 @@ pub(super) fn draw<C: Context>(
     let [first, last] = setup.columns;
     let (mut column, mut row) = (first, setup.rows[0]);
     let mut done = zero;
+    let mut steps = 0;
     loop {
         let active = samples.simd_gt(done).to_bitmask() & few;
         if active == 0 {
             break;
         }
+        steps += 1;
         let Fragments { mut perhaps, inside, low, high } = Fragments::new(
             simd,
             setup,
@@ -58,6 +60,7 @@ pub(super) fn draw<C: Context>(
         column = wraps.select(first, column);
         row += wraps.select(one, zero);
     }
+    tile.executed.lane_steps += steps;
 }
 
 /// Eight triangles, each tested at one sample.

@@ -84,6 +84,7 @@ pub(super) fn draw<S: Simd>(
             | by.simd_lt(f32x16::splat(simd, upper - 1.5))
             | by.simd_gt(f32x16::splat(simd, lower + 1.5));
         let mut left = !(outside | hidden | beside).to_bitmask() & 0xffff;
+        tile.executed.blocks += u64::from(left.count_ones());
         let values = [v0.to_array(), v1.to_array(), v2.to_array(), v3.to_array()];
         while left != 0 {
             let block = (left.trailing_zeros() & 15) as usize;

@@ -42,6 +42,10 @@ pub(super) fn draw<C: ScalarContext>(
         Primitive::Sphere { center, radius } => bounds::of_sphere(frustum, *center, *radius),
         Primitive::Triangle(_) | Primitive::Plane { .. } => [[0, tile.side()]; 2],
     };
+    let in_picture = |[start, end]: [usize; 2], count: usize| end.min(count).saturating_sub(start);
+    let samples = in_picture(rows, tile.size[0]) * in_picture(columns, tile.size[1]);
+    tile.executed.one_by_one += 1;
+    tile.executed.single_samples += samples as u64;
     for row in rows[0]..rows[1] {
         for column in columns[0]..columns[1] {
             let at = index(tile.side(), row, column);

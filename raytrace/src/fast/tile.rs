@@ -5,7 +5,7 @@ use bothways_common::engine::context::ScalarContext;
 use bothways_common::engine::simd::{Simd, SimdBase, SimdMask, f32x16};
 use bothways_common::exact::{CachedJudge, Judge};
 use bothways_common::frame::NO_PRIMITIVE;
-use bothways_common::observe::Events;
+use bothways_common::observe::{Events, Executed};
 use bothways_common::raster::Sample;
 
 /// Samples along one side of a block: sixteen samples are tested at once.
@@ -40,6 +40,8 @@ pub(super) struct TileBuffer {
     side: usize,
     open: Vec<OpenFragment>,
     pub(super) judge: CachedJudge,
+    /// What was executed for the tile.
+    pub(super) executed: Executed,
 }
 
 /// A sample that one of eight triangles may cover, or be nearest at: rounding leaves it open.
@@ -68,6 +70,7 @@ impl TileBuffer {
             side: 1,
             open: Vec::new(),
             judge: CachedJudge::new(judge),
+            executed: Executed::default(),
         }
     }
 
@@ -76,6 +79,7 @@ impl TileBuffer {
     #[inline(always)]
     pub(super) fn begin(&mut self, start: [usize; 2], size: [usize; 2], side: usize) {
         self.start = start;
+        self.executed = Executed::default();
         if !self.touched && size == self.size && side == self.side {
             return;
         }

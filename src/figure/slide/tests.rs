@@ -1,9 +1,9 @@
 //! Slides of extreme pictures: the size never changes, and no text runs into another.
 
 use super::*;
-use crate::common::{Camera, Frame, Options};
+use crate::common::{Camera, Executed, Frame, Options, Work};
 use crate::diff::compare;
-use crate::orders::{Method, Spread, Times};
+use crate::orders::{Counts, Method, Order, Spread, Times};
 use crate::picture::picture;
 
 fn rendered(order: Order, [width, height]: [u32; 2], count: u64, seen: bool) -> Rendered {
@@ -23,7 +23,19 @@ fn rendered(order: Order, [width, height]: [u32; 2], count: u64, seen: bool) -> 
     };
     let spread = Spread { median: 12_345.0, min: 1.0, max: 99_999.0 };
     let times = Some(Times { prepare: spread, visibility: spread, shading: spread });
-    Rendered { order, method: Method::Fast, rule: None, frame, work: Counts::Counted(work), times }
+    let executed = Executed {
+        tiles: count,
+        nodes_opened: count,
+        boxes_tested: count,
+        clusters_skipped: count,
+        set_ups: count,
+        blocks: count / 2,
+        lane_steps: count / 2,
+        single_samples: count,
+        ..Executed::default()
+    };
+    let (work, executed) = (Counts::Counted(work), Some(executed));
+    Rendered { order, method: Method::Fast, rule: None, frame, work, executed, times }
 }
 
 fn slide(scene: &str, size: [u32; 2], count: u64, match_: bool) -> RgbImage {
@@ -51,13 +63,31 @@ fn times_are_those_of_the_table_without_shading() {
     times.prepare.median = 1.5;
     times.visibility.median = 22.25;
     times.shading.median = 333.0;
-    let rows = figures(&rendered);
-    let (counts, times) = rows.split_at(6);
-    assert!(counts.iter().all(|(label, _)| !label.contains("time")));
+    let [work, executed] = figures(&rendered).try_into().ok().expect("there are two groups");
+    let has_times = |group: &Group| group.rows.iter().any(|(label, _)| label.contains("time"));
+    assert!(!has_times(&work));
     let expected = [("time to prepare", "1.50 ms"), ("time for visibility", "22.2 ms")];
-    assert_eq!(times, expected.map(|(label, time)| (label, time.to_owned())));
+    let expected = expected.map(|(label, time)| (label, time.to_owned()));
+    assert_eq!(executed.rows[executed.rows.len() - 2..], expected);
     rendered.times = None;
-    assert_eq!(figures(&rendered), counts);
+    assert!(!figures(&rendered).iter().any(has_times));
+}
+
+#[test]
+fn the_two_sorts_of_counts_stand_apart_under_their_names() {
+    let headings = |rendered: &Rendered| {
+        let headings = figures(rendered).into_iter().map(|group| group.heading);
+        headings.map(Option::unwrap_or_default).collect::<Vec<_>>()
+    };
+    let object_order = rendered(Order::Object, [4, 3], 20, true);
+    let two = ["work for each primitive alone", "executed in 20 tiles"];
+    assert_eq!(headings(&object_order), two);
+    let mut image_order = rendered(Order::Image, [4, 3], 1, true);
+    assert_eq!(headings(&image_order), ["work for each ray alone", "executed in 1 tile"]);
+    image_order.executed = None;
+    assert_eq!(headings(&image_order), ["work for each ray alone"]);
+    image_order.work = Counts::LeftOut;
+    assert_eq!(headings(&image_order), [""]);
 }
 
 #[test]
@@ -117,12 +147,16 @@ fn margins_and_gutters_stay_blank() {
 
 #[test]
 fn work_that_was_not_counted_has_its_rows() {
-    let of = |work| Rendered { work, ..rendered(Order::Image, [4, 4], 1, true) };
-    let rows = figures(&of(Counts::TooMany { most: 1_074_790_400 }));
+    let of = |work| {
+        let (executed, rendered) = (None, rendered(Order::Image, [4, 4], 1, true));
+        let [group] = figures(&Rendered { work, executed, ..rendered }).try_into().ok().unwrap();
+        group
+    };
+    let Group { heading, rows } = of(Counts::TooMany { most: 1_074_790_400 });
     let shown = rows.iter().take(2).map(|(label, figure)| format!("{label}: {figure}"));
     let expected = ["work for a frame: not counted", "it is more than: 1,074,790,400 steps"];
-    assert_eq!(shown.collect::<Vec<_>>(), expected);
-    assert!(figures(&of(Counts::LeftOut)).iter().all(|(label, _)| label.starts_with("time")));
+    assert_eq!((shown.collect::<Vec<_>>(), heading), (expected.map(String::from).to_vec(), None));
+    assert!(of(Counts::LeftOut).rows.iter().all(|(label, _)| label.starts_with("time")));
 }
 
 #[test]

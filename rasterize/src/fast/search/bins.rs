@@ -12,7 +12,7 @@ use bothways_common::Shape;
 use bothways_common::engine::context::{Context, ScalarContext};
 use bothways_common::engine::fault::{Fault, Planted};
 use bothways_common::engine::simd::{Simd, SimdBase, SimdMask, i32x4};
-use bothways_common::observe::Events;
+use bothways_common::observe::{Events, Executed};
 use bothways_common::raster::Region;
 use std::ops::Range;
 
@@ -103,9 +103,16 @@ impl BatchBins {
         &self.lists[tile * SizeClass::COUNT as usize + class as usize]
     }
 
-    /// Finds the bounding region of every primitive of a batch, and the tiles that the region meets.
+    /// Finds the bounding region of every primitive of a batch, and the tiles that the region meets. Returns what was
+    /// executed for the batch.
     #[inline(always)]
-    pub(crate) fn fill<C: Context>(&mut self, context: &mut C, batch: &Batch, geometry: &Geometry) {
+    pub(crate) fn fill<C: Context>(
+        &mut self,
+        context: &mut C,
+        batch: &Batch,
+        geometry: &Geometry,
+    ) -> Executed {
+        let mut executed = Executed::default();
         let tiles = geometry.tiling.count();
         self.lists.resize_with(tiles * SizeClass::COUNT as usize, Vec::new);
         self.lists.iter_mut().for_each(Vec::clear);
@@ -114,8 +121,9 @@ impl BatchBins {
         let scene = geometry.view.scene;
         for piece in batch.pieces(scene) {
             match &scene.objects()[piece.object].shape {
-                Shape::Mesh(_) => self.add_clusters(context, &piece, geometry),
+                Shape::Mesh(_) => self.add_clusters(context, &piece, geometry, &mut executed),
                 Shape::Triangle(_) => {
+                    executed.binned += 1;
                     let first = geometry.first_vertices[piece.object];
                     let corners = std::array::from_fn(|corner| geometry.vertices[first + corner]);
                     self.entries.clear();
@@ -123,17 +131,25 @@ impl BatchBins {
                     self.add_entries(geometry.tiling);
                 }
                 Shape::Sphere(_) | Shape::Plane(_) => {
+                    executed.binned += 1;
                     self.entries.clear();
                     self.enter_large(context, [piece.first_id; 2], geometry);
                     self.add_entries(geometry.tiling);
                 }
             }
         }
+        executed
     }
 
     /// Adds a piece of a mesh: clusters that lie in few tiles as they are, the triangles of others one by one.
     #[inline(always)]
-    fn add_clusters<C: Context>(&mut self, context: &mut C, piece: &Piece, geometry: &Geometry) {
+    fn add_clusters<C: Context>(
+        &mut self,
+        context: &mut C,
+        piece: &Piece,
+        geometry: &Geometry,
+        executed: &mut Executed,
+    ) {
         let shape = &geometry.view.scene.objects()[piece.object].shape;
         let clusters = &geometry.clusters[piece.object];
         let triangles = clusters.triangles(shape);
@@ -147,6 +163,7 @@ impl BatchBins {
         for (first, bounds) in all.clone().step_by(CLUSTER as usize).zip(bounds) {
             let indices = first..all.end.min(first + CLUSTER);
             let cluster = [object, first, indices.end - first];
+            executed.boxes_tested += 1;
             let extent = clusters::extent(context.simd(), on, bounds, cluster);
             if C::WATCHED || matches!(extent, ClusterExtent::ManyTiles) {
                 self.entries.clear();
@@ -158,7 +175,10 @@ impl BatchBins {
                 }
             }
             match extent {
-                ClusterExtent::ManyTiles => self.add_entries(geometry.tiling),
+                ClusterExtent::ManyTiles => {
+                    executed.binned += u64::from(cluster[2]);
+                    self.add_entries(geometry.tiling);
+                }
                 ClusterExtent::Nowhere => {}
                 ClusterExtent::FewTiles(cluster) => {
                     for tile in geometry.tiling.tiles(cluster.bounds) {

@@ -157,6 +157,8 @@ impl<'a> Walker<'a> {
         let StackEntry { near, size, child, counts } = *entry;
         let with_duplicates = C::has(Planted::TiesToLast);
         let used = if with_duplicates { counts.all() } else { counts.distinct() };
+        self.tile.executed.leaves_opened += 1;
+        self.tile.executed.triangles += used as u64;
         if C::WATCHED {
             self.emit_tests(context, child, used);
         }
@@ -210,8 +212,9 @@ impl<'a> Walker<'a> {
             if count == 0 || (count < EIGHT && !all) {
                 break;
             }
-            let eight = self.queue.take_eight(context.simd());
-            let of = (&eight, (1 << count.min(EIGHT)) - 1);
+            let (eight, used) = (self.queue.take_eight(context.simd()), count.min(EIGHT));
+            self.tile.executed.set_ups += used as u64;
+            let of = (&eight, (1 << used) - 1);
             let class = draw::draw(context, self.map, frustum, of, &mut self.tile);
             largest = largest.max(Some(class));
         }
@@ -253,6 +256,8 @@ impl<'a> Walker<'a> {
             shrunk = shrink(node);
             node = &shrunk;
         }
+        self.tile.executed.nodes_opened += 1;
+        self.tile.executed.boxes_tested += u64::from(node.used);
         let boxes = frustum.template.boxes.test(context, &frustum.sides, node, farthest);
         if C::WATCHED {
             self.emit_boxes(context, index, node, boxes.hit);
