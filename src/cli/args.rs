@@ -128,8 +128,9 @@ pub(super) struct OutputArgs {
     /// Leave measured times out, so that every run writes the same
     #[arg(long)]
     pub(super) no_times: bool,
-    /// Leave the work uncounted. It is counted in a frame of its own, which takes longer than those that are
-    /// timed; beyond 2^28 steps and 2^10 a sample that is given up
+    /// Leave the work of the algorithm uncounted. It is counted in a frame of its own, which takes longer than those
+    /// that are timed; beyond 2^28 steps and 2^10 a sample that is given up. What a timed frame executed is counted in
+    /// that frame
     #[arg(long)]
     pub(super) no_counts: bool,
     /// Print nothing but errors

@@ -121,7 +121,8 @@ fn the_report_has_every_key() {
     for order in ["object_order", "image_order"] {
         let order = &report[order];
         let times = ["prepare_ms", "visibility_ms", "shading_ms"];
-        assert_eq!(keys(order), ["method", "prepare_ms", "shading_ms", "visibility_ms", "work"]);
+        let counts_and_times = ["prepare_ms", "shading_ms", "visibility_ms", "work"];
+        assert_eq!(keys(order), [&["executed", "method"][..], &counts_and_times].concat());
         assert_eq!(order["method"], "fast");
         for time in times.map(|time| &order[time]) {
             assert_eq!(keys(time), ["max", "median", "min"]);
@@ -129,6 +130,7 @@ fn the_report_has_every_key() {
             assert!(number("min") <= number("median") && number("median") <= number("max"));
         }
         assert!(order["work"]["tests"].as_u64().unwrap() > 0);
+        assert!(order["executed"]["tiles"].as_u64().unwrap() > 0);
     }
     assert!(report["object_order"]["work"]["primitives"].as_u64().unwrap() > 0);
     assert_eq!(report["image_order"]["work"]["rays"], 12 * 8 * 4);

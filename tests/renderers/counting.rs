@@ -278,11 +278,15 @@ fn the_command_line_leaves_counts_out() {
         let output = command.args(more).assert().success().get_output().stdout.clone();
         String::from_utf8(output).unwrap()
     };
+    let (algorithm, executed) = ("work of the algorithm", "executed for a frame");
     let counted = run(&[]);
-    assert!(counted.contains("boxes tested") && counted.contains("left to the exact judge"));
+    assert!(counted.contains(algorithm) && counted.contains("left to the exact judge"));
+    assert!(counted.contains(executed) && counted.contains("tiles"));
+    // What a frame executes is counted by itself, and costs nothing to count.
     let without = run(&["--no-counts"]);
     assert!(without.contains("samples covered") && without.contains("match"), "{without}");
-    for row in ["primitives  ", "rays", "boxes", "tested", "judge", "not counted"] {
+    assert!(without.contains(executed) && without.contains("tiles"), "{without}");
+    for row in [algorithm, "primitives  ", "rays", "sample tested", "judge", "not counted"] {
         assert!(!without.contains(row), "{row}: {without}");
     }
     let report: serde_json::Value = serde_json::from_str(&run(&["--no-counts", "--json"])).unwrap();

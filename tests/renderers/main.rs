@@ -3,6 +3,7 @@
 
 mod counting;
 mod crop;
+mod executed;
 mod far_eyes;
 mod filter;
 #[path = "../contract/four_renderers.rs"]
