@@ -1,4 +1,4 @@
-//! The output of `render`: a short table of the work of each order, and the verdict.
+//! The output of `render`: a short table of what each order needs, executes and takes, and the verdict.
 
 use anstyle::{AnsiColor, Style};
 use bothways::common::{Crop, Executed, Work};
@@ -120,14 +120,8 @@ const ALGORITHM: &str = "work of the algorithm, for each primitive or ray alone"
 const EXECUTED: &str = "executed for a frame, by tiles";
 
 fn work(rendered: &[Rendered]) -> Vec<Row> {
-    let row = |label, figure: fn(&Work) -> u64| {
-        let figures = each(rendered, |one| match one.work().map(figure) {
-            None => "not counted".into(),
-            Some(0) => "-".into(),
-            Some(number) => grouped(number),
-        });
-        (label, figures)
-    };
+    let row =
+        |label, figure: fn(&Work) -> u64| counts(label, rendered, |one| one.work().map(figure));
     vec![
         row("primitives", |work| work.primitives),
         row("rays", |work| work.rays),
@@ -141,11 +135,7 @@ fn work(rendered: &[Rendered]) -> Vec<Row> {
 
 fn executed(rendered: &[Rendered]) -> Vec<Row> {
     let row = |label, figure: fn(&Executed) -> u64| {
-        let figures = each(rendered, |one| match one.executed.as_ref().map(figure) {
-            None | Some(0) => "-".into(),
-            Some(number) => grouped(number),
-        });
-        (label, figures)
+        counts(label, rendered, |one| one.executed.as_ref().map(figure))
     };
     vec![
         row("tiles", |executed| executed.tiles),
@@ -161,6 +151,19 @@ fn executed(rendered: &[Rendered]) -> Vec<Row> {
         row("blocks of 16 samples", |executed| executed.blocks),
         row("samples one by one", |executed| executed.single_samples),
     ]
+}
+
+fn counts(
+    label: &'static str,
+    rendered: &[Rendered],
+    count: impl Fn(&Rendered) -> Option<u64>,
+) -> Row {
+    let figures = each(rendered, |one| match count(one) {
+        None => "not counted".into(),
+        Some(0) => "-".into(),
+        Some(number) => grouped(number),
+    });
+    (label, figures)
 }
 
 fn times(rendered: &[Rendered]) -> Vec<Row> {
@@ -216,8 +219,8 @@ mod tests {
             anstream::adapter::strip_str(&beyond_tolerance(&comparison, COLUMN_WIDTH)).to_string();
         assert_eq!(
             plain,
-            "depths beyond 1e-5                  1 pixel, by at most 5.0e-1\n\
-             colours beyond 2 of 255   12,345 pixels, by at most 108 of 255\n"
+            "depths beyond 1e-5                    1 pixel, by at most 5.0e-1\n\
+             colours beyond 2 of 255     12,345 pixels, by at most 108 of 255\n"
         );
         assert!(comparison.matches());
     }

@@ -52,7 +52,7 @@ const PICTURES: f64 = 286.0;
 const FIRST_ROW: f64 = 752.0;
 const ROW: f64 = 31.0;
 /// The width of the first of two groups of rows, and the room between them.
-const FIRST_GROUP: f64 = 302.0;
+const FIRST_GROUP: f64 = 294.0;
 const GROUP_GAP: f64 = 26.0;
 const RULE: f64 = 988.0;
 const VERDICT: f64 = 1035.0;

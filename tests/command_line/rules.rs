@@ -65,9 +65,22 @@ fn the_table_names_the_rules() {
     insta::assert_snapshot!(with(&["--object-rules", "inclusive"], 1), @r"
     ties: 522 primitives, 64 x 64 pixels, 1 sample a pixel
 
-    fast                        object order, inclusive              image order
-    samples covered                               4,096                    4,032
-    colours beyond 2 of 255                    118 pixels, by at most 125 of 255
+    fast                          object order, inclusive              image order
+    samples covered                                 4,096                    4,032
+    executed for a frame, by tiles
+      tiles                                   not counted                        4
+      of these, skipped                       not counted                        -
+      nodes opened                            not counted                       10
+      boxes tested                            not counted                      118
+      clusters in tiles                       not counted                        -
+      of these, skipped                       not counted                        -
+      triangles looked at                     not counted                      838
+      of these, set up                        not counted                      592
+      primitives one by one                   not counted                        -
+      steps of small triangles                not counted                       73
+      blocks of 16 samples                    not counted                      804
+      samples one by one                      not counted                        -
+    colours beyond 2 of 255                      118 pixels, by at most 125 of 255
 
     differ: the orders see different primitives in 784 pixels, first at (0, 4); 64 samples are covered by one of them only
     written to out/ties
@@ -76,9 +89,9 @@ fn the_table_names_the_rules() {
         with(&["--object-rules", "snapped:8", "--image-rules", "moller-trumbore"], 1), @r"
     ties: 522 primitives, 64 x 64 pixels, 1 sample a pixel
 
-    fast                             object order, snapped:8  image order, moller-trumbore
-    samples covered                                    4,032                         4,096
-    colours beyond 2 of 255                              108 pixels, by at most 125 of 255
+    fast                               object order, snapped:8  image order, moller-trumbore
+    samples covered                                      4,032                         4,096
+    colours beyond 2 of 255                                108 pixels, by at most 125 of 255
 
     differ: the orders see different primitives in 774 pixels, first at (0, 4); 64 samples are covered by one of them only
     written to out/ties

@@ -49,15 +49,16 @@ fn a_verdict_of_both_orders() {
     insta::assert_snapshot!(rendered(&["canonical", "--size", "12x12"]), @r"
     canonical: 3 primitives, 12 x 12 pixels, 1 sample a pixel
 
-    textbook                        object order       image order
-    samples covered                           91                91
-    primitives                                 3                 -
-    rays                                       -               144
-    boxes tested                               -                 -
-    primitive x sample tested                432               432
-    of these, covered                        127               127
-    depth comparisons                         36                36
-    left to the exact judge                    -                 -
+    textbook                          object order       image order
+    samples covered                             91                91
+    work of the algorithm, for each primitive or ray alone
+      primitives                                 3                 -
+      rays                                       -               144
+      boxes tested                               -                 -
+      primitive x sample tested                432               432
+      of these, covered                        127               127
+      depth comparisons                         36                36
+      left to the exact judge                    -                 -
 
     match: both orders cover the same 91 samples and see the same primitive in each
     written to out/canonical
@@ -69,15 +70,16 @@ fn one_order_alone() {
     insta::assert_snapshot!(rendered(&["canonical", "--size", "12x12", "--order", "image", "--samples", "2"]), @r"
     canonical: 3 primitives, 12 x 12 pixels, 2 x 2 samples a pixel
 
-    textbook                         image order
-    samples covered                          373
-    primitives                                 -
-    rays                                     576
-    boxes tested                               -
-    primitive x sample tested              1,728
-    of these, covered                        536
-    depth comparisons                        163
-    left to the exact judge                    -
+    textbook                           image order
+    samples covered                            373
+    work of the algorithm, for each primitive or ray alone
+      primitives                                 -
+      rays                                     576
+      boxes tested                               -
+      primitive x sample tested              1,728
+      of these, covered                        536
+      depth comparisons                        163
+      left to the exact judge                    -
 
     written to out/canonical
     ");
@@ -129,7 +131,8 @@ fn the_report_in_its_stated_order() {
           "depth_tests": 36,
           "judged_coverage": 0,
           "judged_nearest": 0
-        }
+        },
+        "executed": null
       },
       "image_order": {
         "method": "textbook",
@@ -145,7 +148,8 @@ fn the_report_in_its_stated_order() {
           "depth_tests": 36,
           "judged_coverage": 0,
           "judged_nearest": 0
-        }
+        },
+        "executed": null
       }
     }
     "#);

@@ -60,13 +60,14 @@ fn of_work(order: Order, work: &Work) -> Vec<Row> {
     vec![
         (outer.0, grouped(outer.1)),
         ("boxes tested", boxes.map_or("–".into(), grouped)),
-        ("primitive × sample tested", grouped(tests)),
+        ("primitive × sample", grouped(tests)),
         ("of these, covered", grouped(fragments)),
         ("depth comparisons", grouped(depth_tests)),
         ("left to the exact judge", grouped(judged)),
     ]
 }
 
+/// A batch is up to sixteen pairs of a primitive and a sample, tested at once.
 fn of_executed(order: Order, executed: &Executed) -> Vec<Row> {
     let search = match order {
         Order::Object => ("clusters skipped", executed.clusters_skipped),
@@ -76,7 +77,7 @@ fn of_executed(order: Order, executed: &Executed) -> Vec<Row> {
         search,
         ("boxes tested", executed.boxes_tested),
         ("triangles set up", executed.set_ups),
-        ("batches of samples", executed.blocks + executed.lane_steps),
+        ("batches tested", executed.blocks + executed.lane_steps),
         ("samples one by one", executed.single_samples),
     ];
     rows.map(|(label, count)| (label, grouped(count))).to_vec()
