@@ -10,6 +10,7 @@ mod check;
 mod completions;
 mod cover;
 mod diff;
+mod exr;
 mod failure;
 mod figure;
 mod film;

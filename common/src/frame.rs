@@ -144,6 +144,11 @@ impl Frame {
         self.t.fill(f32::INFINITY);
     }
 
+    /// The options that it was made for.
+    pub fn options(&self) -> Options {
+        self.options
+    }
+
     /// Its width and height in pixels: the image's, or the crop's.
     pub fn image(&self) -> [u32; 2] {
         let Crop { width, height, .. } = self.options.pixels(self.camera_image);

@@ -122,7 +122,7 @@ pub(super) struct OutputArgs {
     /// this one does not write are removed, other files are left alone
     #[arg(short = 'o', long = "output", value_name = "DIR")]
     pub(super) folder: Option<PathBuf>,
-    /// Also write ids and distances as NumPy arrays, and a picture coloured by id
+    /// Also write what each order saw at every sample, for other programs to read
     #[arg(long, value_enum, default_value_t = BuffersArg::None)]
     pub(super) buffers: BuffersArg,
     /// Leave measured times out, so that every run writes the same
@@ -213,8 +213,11 @@ impl<R> RulesArg<R> {
 pub(super) enum BuffersArg {
     /// No buffers
     None,
-    /// .npy files
+    /// NumPy arrays, .npy: ids and distances of each order, and pictures coloured by id
     Npy,
+    /// One OpenEXR, buffers.exr, with layers for each order: colours, normals, depths, t, ids (and as colours), coverage
+    /// and work. Several samples a pixel make it so many times as wide and high: nothing is averaged
+    Exr,
 }
 
 pub(super) fn size(text: &str) -> Result<[u32; 2], String> {

@@ -1,6 +1,6 @@
 //! The memory that a run needs, compared with the available memory before the work begins.
 
-use super::args::RenderArgs;
+use super::args::{BuffersArg, RenderArgs};
 use super::failure::Failure;
 use super::terminal;
 use bothways::common::Camera;
@@ -15,6 +15,10 @@ const BYTES_PER_SAMPLE: u64 = 4 + 4 + 12;
 const BYTES_PER_STREAMED_SAMPLE: u64 = 4 + 4 + 12;
 /// The additional bytes of a sample in object order with the rules of an ordinary renderer: the depth buffer.
 const BYTES_PER_RULED_SAMPLE: u64 = 8;
+/// The additional bytes of a sample for `--buffers exr`: a normal, and its work as it is stored.
+const BYTES_PER_EXR_SAMPLE: u64 = 12 + 4;
+/// The bytes of a sample while its work is counted, in one order at a time.
+const BYTES_PER_COUNTED_SAMPLE: u64 = 8 + 8;
 /// The bytes of a pixel while pictures are drawn, compared and compressed: of one order, or of both at once (measured
 /// with 3000 × 3000 pixels: 12).
 const BYTES_PER_PIXEL: [u64; 2] = [8, 12];
@@ -60,8 +64,11 @@ impl Need {
         let streamed = if args.method.stream { BYTES_PER_STREAMED_SAMPLE } else { 0 };
         let ruled =
             if args.method.rules().object_order.is_some() { BYTES_PER_RULED_SAMPLE } else { 0 };
-        let bytes = samples * orders as u64 * (BYTES_PER_SAMPLE + streamed)
-            + samples * ruled
+        let exr = args.output.buffers == BuffersArg::Exr;
+        let (kept, counted) =
+            if exr { (BYTES_PER_EXR_SAMPLE, BYTES_PER_COUNTED_SAMPLE) } else { (0, 0) };
+        let bytes = samples * orders as u64 * (BYTES_PER_SAMPLE + streamed + kept)
+            + samples * (ruled + counted)
             + pixels * BYTES_PER_PIXEL[orders - 1]
             + BYTES_FOR_THE_REST;
         Need { samples, bytes }

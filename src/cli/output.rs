@@ -13,18 +13,19 @@ mod sink;
 pub(super) use file::OutputFile;
 pub(super) use sink::Out;
 
+use super::exr;
 use super::failure::Failure;
 use super::interrupt;
 use hidden::Hidden;
 use std::fs::{self, File, TryLockError};
-use std::io::{self, ErrorKind};
+use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 /// Every file that `render` may write. A run removes the files of this list that it does not write, so that the
 /// folder never shows a picture of one run together with the report of another. The report is the last file.
-const NAMES: [&str; 13] = [
+const NAMES: [&str; 14] = [
     "object-order.png",
     "image-order.png",
     "mask-object-order.png",
@@ -37,6 +38,7 @@ const NAMES: [&str; 13] = [
     "image-order.ids.npy",
     "image-order.t.npy",
     "image-order.ids.png",
+    exr::NAME,
     "report.json",
 ];
 
@@ -134,10 +136,30 @@ impl Staging {
         name: &str,
         content: impl FnOnce(&mut Out) -> io::Result<()>,
     ) -> Result<(), Failure> {
+        self.write_with(name, |file| sink::fill(file, content))
+    }
+
+    /// Writes one of the files by a function that also moves back within it.
+    pub(super) fn write_seekable(
+        &mut self,
+        name: &str,
+        content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+    ) -> Result<(), Failure> {
+        self.write_with(name, |file| {
+            let mut out = BufWriter::new(file);
+            content(&mut out).and_then(|()| out.flush())
+        })
+    }
+
+    fn write_with(
+        &mut self,
+        name: &str,
+        fill: impl FnOnce(File) -> io::Result<()>,
+    ) -> Result<(), Failure> {
         let known = self.names.iter().any(|known| known == name);
         debug_assert!(known, "{name} would never be replaced or removed");
         let path = self.new_files().join(name);
-        let result = File::create(path).and_then(|file| sink::fill(file, content));
+        let result = File::create(path).and_then(fill);
         self.written.push(name.into());
         result.map_err(|error| {
             let place = self.target.join(name);
@@ -304,7 +326,6 @@ impl Drop for Staging {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::io::Write;
 
     fn write(staging: &mut Staging, name: &str, text: &str) {
         staging.write(name, |out| out.write_all(text.as_bytes())).unwrap();

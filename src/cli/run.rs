@@ -6,7 +6,7 @@ use super::failure::Failure;
 use super::output::{Out, Staging};
 use super::patience::Patience;
 use super::progress::Bar;
-use super::{memory, npy, table, terminal};
+use super::{exr, memory, npy, table, terminal};
 use bothways::common::raster::check_samples;
 use bothways::common::{Camera, View};
 use bothways::diff::{Comparison, compare_shown};
@@ -159,6 +159,7 @@ fn render_options<'a>(args: &RenderArgs, progress: Option<Listener<'a>>) -> Rend
         repeat: args.method.repeat,
         no_counts: args.output.no_counts,
         no_times: args.output.no_times,
+        normals: args.output.buffers == BuffersArg::Exr,
         progress,
     }
 }
@@ -172,6 +173,9 @@ struct Run<'a> {
     /// The picture of each order.
     pictures: Vec<RgbImage>,
     comparison: Option<Comparison>,
+    camera: &'a Camera,
+    /// The work at each sample of each order, for `buffers.exr` and where it was counted.
+    works: Vec<Option<Vec<f32>>>,
     report: Report,
 }
 
@@ -179,7 +183,7 @@ impl<'a> Run<'a> {
     fn new(
         args: &'a RenderArgs,
         scene: &'a mut OpenedScene,
-        camera: &Camera,
+        camera: &'a Camera,
         bar: Option<&Bar>,
     ) -> Result<Run<'a>, Failure> {
         let listener = bar.map(|bar| move |progress| bar.show(progress));
@@ -214,7 +218,15 @@ impl<'a> Run<'a> {
             let verified = verify::verify(&view, &rendered, samples.into(), &|| patience.step());
             report.verified = Some(verified);
         }
-        Ok(Run { args, about: scene.loaded().about(), rendered, pictures, comparison, report })
+        let works = match scene {
+            OpenedScene::InMemory(loaded) if args.output.buffers == BuffersArg::Exr => {
+                let view = View::new(&loaded.scene, camera);
+                rendered.iter().map(|one| exr::work(&view, one)).collect()
+            }
+            _ => vec![None; rendered.len()],
+        };
+        let about = scene.loaded().about();
+        Ok(Run { args, about, rendered, pictures, comparison, camera, works, report })
     }
 
     /// Writes everything, and prints the report.
@@ -237,6 +249,15 @@ impl<'a> Run<'a> {
             terminal::print(&table::table(&self.report, &self.rendered, comparison, folder))?;
         }
         Ok(ExitCode::from(status(self.comparison.as_ref(), self.report.verified.as_ref())))
+    }
+
+    /// The layers of `buffers.exr`.
+    fn layers(&self) -> impl Iterator<Item = exr::Layer<'_>> {
+        self.rendered.iter().zip(&self.works).map(|(one, work)| exr::Layer {
+            order: one.order,
+            frame: &one.frame,
+            work: work.as_deref(),
+        })
     }
 
     fn write(&self, staging: &mut Staging, json: &str) -> Result<(), Failure> {
@@ -271,6 +292,10 @@ impl<'a> Run<'a> {
                 comparison,
             };
             staging.write_rgb("side-by-side.png", &slide.draw(Theme::Dark).pixels(SLIDE_WIDTH))?;
+        }
+        if self.args.output.buffers == BuffersArg::Exr {
+            let layers: Vec<exr::Layer> = self.layers().collect();
+            staging.write_seekable(exr::NAME, |out| exr::write(&layers, self.camera, out))?;
         }
         staging.write("report.json", |out| out.write_all(json.as_bytes()))
     }

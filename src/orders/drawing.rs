@@ -1,5 +1,6 @@
 //! A source that can be drawn frame after frame: a scene in memory, or a mesh file that is read again for each frame.
 
+use super::options::RenderOptions;
 use super::renderer::Renderer;
 use crate::common::{Camera, Executed, Frame, Observer, Options, View};
 use crate::formats::mesh_stream::{MeshStream, StreamError};
@@ -36,10 +37,13 @@ impl<'a, R: Renderer> InMemory<'a, R> {
     pub(super) fn new(
         renderer: R,
         view: &'a View<'a>,
-        options: &'a Options,
+        options: &'a RenderOptions,
         prepared: R::Prepared,
     ) -> InMemory<'a, R> {
-        InMemory { renderer, view, options, prepared, frame: Frame::new(view.camera, options) }
+        let RenderOptions { frame: ref options, normals, .. } = *options;
+        let frame = Frame::new(view.camera, options);
+        let frame = if normals { frame.with_normals() } else { frame };
+        InMemory { renderer, view, options, prepared, frame }
     }
 }
 
@@ -87,9 +91,11 @@ impl<'a> Streamed<'a> {
         mesh: &'a mut MeshStream,
         camera: &'a Camera,
         look: &'a Look,
-        options: &Options,
+        options: &RenderOptions,
     ) -> Streamed<'a> {
-        Streamed { mesh, camera, look, canvas: Canvas::new(camera, options) }
+        let canvas = Canvas::new(camera, &options.frame);
+        let canvas = if options.normals { canvas.with_normals() } else { canvas };
+        Streamed { mesh, camera, look, canvas }
     }
 }
 

@@ -76,7 +76,7 @@ pub fn render<'a>(
                 ($renderer:expr) => {
                     measure(options, &counting, frames, &steps, || {
                         let (prepared, time) = prepared(&$renderer, view.scene, options);
-                        (InMemory::new($renderer, &view, &options.frame, prepared), time)
+                        (InMemory::new($renderer, &view, options, prepared), time)
                     })
                 };
             }
@@ -98,7 +98,7 @@ pub fn render<'a>(
             );
             measure(options, &counting, frames, &steps, || {
                 let time = Spread::of(vec![opening.as_secs_f64() * 1e3]);
-                (Streamed::new(mesh, camera, look, &options.frame), time)
+                (Streamed::new(mesh, camera, look, options), time)
             })?
         }
     };

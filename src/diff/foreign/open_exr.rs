@@ -48,11 +48,13 @@ pub(super) fn read(
     let header = &reader.meta_data().headers[layer];
     let size = size(header)?;
     check_header(header, size, length, chosen.len() as u64)?;
+    let mut notes = vec![notes(&choice, &all)];
+    notes.extend(crop(header));
     let places: Vec<usize> = chosen.iter().map(|part| part.place).collect();
     let values = Values::read(reader, layer, size, &places).map_err(told)?;
     let Some(values) = values else { return Err(Problem::Content(ends_early(length))) };
     let content = content(values, &choice, size, options)?;
-    Ok(ReadBuffer { notes: vec![notes(&choice, &all)], ..Buffer::new(size, 1, content).into() })
+    Ok(ReadBuffer { notes, ..Buffer::new(size, 1, content).into() })
 }
 
 /// `its channels R, G, B; not read: Z`.
@@ -100,25 +102,35 @@ impl Part {
     }
 }
 
-/// The size of the picture, if its pixels fill it.
+/// The size of the picture, or of the part of it that the file holds.
 fn size(header: &Header) -> Result<[u32; 2], Problem> {
     let (data, shown) = (header.data_window(), header.shared_attributes.display_window);
     let side = |length: usize| u32::try_from(length).unwrap_or(u32::MAX);
     let size = [side(data.size.0), side(data.size.1)];
     check_samples(size, 1)?;
-    if data != shown {
+    // A data window within the display window is a crop: its own pixels are read, and the notes say where they lie.
+    if !shown.contains(data) {
         let place = |window: ::exr::meta::attribute::IntegerBounds| {
             let (Vec2(x, y), Vec2(width, height)) = (window.position, window.size);
             format!("{width} x {height} from ({y}, {x}) on")
         };
         return Err(Problem::Content(format!(
-            "its data window ({}) is not its display window ({}), so that pixels are missing or too many; \
-             save it without a crop",
+            "its data window ({}) is not its display window ({}), and reaches beyond it, so that pixels are too many; \
+             save it without overscan",
             place(data),
             place(shown)
         )));
     }
     Ok(size)
+}
+
+/// Which part of the picture the file holds, if not all of it.
+fn crop(header: &Header) -> Option<String> {
+    let (data, shown) = (header.data_window(), header.shared_attributes.display_window);
+    let Vec2(column, row) = data.position - shown.position;
+    let Vec2(width, height) = shown.size;
+    let whole = format!("its crop at ({row}, {column}) of {width} x {height}");
+    (data != shown).then_some(whole)
 }
 
 /// Refuses what the library cannot decode, and sizes that the file cannot fill or that fill too much memory.

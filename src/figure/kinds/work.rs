@@ -2,6 +2,7 @@
 
 use super::counts::{Counted, Counts, heat_map, scale_bar};
 use crate::common::observe::Observer;
+use crate::common::raster::Region;
 use crate::common::{Frame, Options, View};
 use crate::figure::drawing::{Anchor, Drawing};
 use crate::figure::sheet::{MARGIN, RIGHT, Sheet, TOP, number};
@@ -47,6 +48,22 @@ pub fn work_maps(view: &View) -> Vec<WorkMap> {
     .collect()
 }
 
+/// Counts the work of the fast method at each sample of a frame with these options, row by row: primitives and boxes
+/// tested, each ray and each primitive by itself.
+///
+/// # Panics
+///
+/// As [`Frame::new`].
+pub fn work_at_samples(view: &View, order: Order, options: &Options) -> Vec<u64> {
+    let raster = view.camera.image().map(|side| side * options.samples);
+    let mut counts = Counts::new(raster, Counted::Tests);
+    watch_with(view, order, options, &mut counts);
+    let Region { rows, columns } = options.pixels(view.camera.image()).region(options.samples);
+    rows.flat_map(|row| columns.clone().map(move |column| [row, column]))
+        .map(|[row, column]| counts.at(row, column))
+        .collect()
+}
+
 /// The counts of a run; `None` for a textbook, whose counts are all the same.
 fn counted(view: &View, order: Order, method: Method) -> Option<Counts> {
     (method == Method::Fast).then(|| {
@@ -58,16 +75,19 @@ fn counted(view: &View, order: Order, method: Method) -> Option<Counts> {
 
 /// Renders by the fast method for an observer.
 pub(super) fn watch(view: &View, order: Order, observer: &mut impl Observer) {
-    let options = Options::default();
-    let mut frame = Frame::new(view.camera, &options);
+    watch_with(view, order, &Options::default(), observer);
+}
+
+fn watch_with(view: &View, order: Order, options: &Options, observer: &mut impl Observer) {
+    let mut frame = Frame::new(view.camera, options);
     match order {
         Order::Object => {
             let prepared = rasterize::fast::prepare(view.scene);
-            rasterize::fast::determine_visibility(&prepared, view, &options, &mut frame, observer);
+            rasterize::fast::determine_visibility(&prepared, view, options, &mut frame, observer);
         }
         Order::Image => {
             let prepared = raytrace::fast::prepare(view.scene);
-            raytrace::fast::determine_visibility(&prepared, view, &options, &mut frame, observer);
+            raytrace::fast::determine_visibility(&prepared, view, options, &mut frame, observer);
         }
     }
 }

@@ -166,19 +166,31 @@ fn damaged_files_end_in_one_message() {
 }
 
 #[test]
-fn a_crop_within_a_larger_picture_is_refused() {
+fn a_crop_is_read_and_overscan_is_refused() {
+    let read = |shown: usize, position| {
+        let bytes = with_windows(shown, position);
+        read_exr(&bytes, &[], false)
+    };
+    let crop = read(4, 1).unwrap();
+    assert_eq!(crop.buffer.size(), [3, 2]);
+    assert_eq!(crop.notes, ["channel Z", "its crop at (0, 1) of 4 x 2"]);
+    let said = "its data window (3 x 2 from (0, 1) on) is not its display window (3 x 2 from (0, 0) on)";
+    for problem in [read(3, 1).unwrap_err(), read(4, -1).unwrap_err().replace("-1", "1").replace("4 x 2", "3 x 2")] {
+        assert!(problem.contains(said), "{problem}");
+    }
+}
+
+/// A file of 3 x 2 pixels that begin at a column, shown in a window of another width.
+fn with_windows(shown: usize, column: i32) -> Vec<u8> {
     let channels =
         AnyChannels::sort([AnyChannel::new("Z", floats(&[1.0; 6]))].into_iter().collect());
-    let attributes = LayerAttributes::default().with_position(Vec2(1, 0));
+    let attributes = LayerAttributes::default().with_position(Vec2(column, 0));
     let layer = Layer::new((3, 2), attributes, Encoding::UNCOMPRESSED, channels);
     let mut bytes = std::io::Cursor::new(Vec::new());
     let mut image = Image::from_layer(layer);
-    image.attributes.display_window = IntegerBounds::from_dimensions((4, 2));
+    image.attributes.display_window = IntegerBounds::from_dimensions((shown, 2));
     image.write().to_buffered(&mut bytes).unwrap();
-    let problem = read_exr(bytes.get_ref(), &[], false).unwrap_err();
-    let said =
-        "its data window (3 x 2 from (0, 1) on) is not its display window (4 x 2 from (0, 0) on)";
-    assert!(problem.contains(said), "{problem}");
+    bytes.into_inner()
 }
 
 proptest! {
