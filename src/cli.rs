@@ -29,6 +29,7 @@ mod rules;
 mod run;
 mod show_camera;
 mod slides;
+mod sweep;
 mod table;
 mod terminal;
 mod usage;
@@ -125,6 +126,9 @@ enum Command {
     /// Draw random hostile scenes by all four renderers, and shrink what they disagree on
     #[command(after_help = fuzz::EXAMPLES)]
     Fuzz(fuzz::FuzzArgs),
+    /// Measure what both orders cost as a scene grows, and draw it: slopes, and where the orders cross
+    #[command(after_help = sweep::EXAMPLES)]
+    Sweep(sweep::SweepArgs),
     /// Print a completion script for a shell
     #[command(after_help = COMPLETIONS_EXAMPLES)]
     Completions {
@@ -170,6 +174,7 @@ fn run(cli: Cli) -> Result<ExitCode, Failure> {
         Some(Command::Mesh(args)) => mesh::run(&args),
         Some(Command::Vectors(args)) => vectors::run(&args),
         Some(Command::Fuzz(args)) => fuzz::run(&args),
+        Some(Command::Sweep(args)) => sweep::run(&args),
         Some(Command::Completions { shell }) => print_completions(shell),
     }
 }

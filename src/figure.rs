@@ -1,5 +1,6 @@
 //! Figures: rendered pictures, and drawings of what the renderers do, arranged for readers.
 
+mod chart;
 mod drawing;
 mod fallback;
 mod film_page;
@@ -14,6 +15,7 @@ mod subject;
 mod text;
 mod theme;
 
+pub use chart::sweep_chart;
 pub use drawing::{CANVAS, Drawing};
 pub(crate) use film_page::{CodeLine, FilmHalf, FilmPage};
 pub use kinds::{Kind, WorkMap, work_at_samples, work_maps};

@@ -88,6 +88,7 @@ pub mod progress;
 pub mod report;
 pub mod scenes;
 pub mod slides;
+pub mod sweep;
 pub mod vectors;
 pub mod verify;
 pub mod wording;

@@ -23,12 +23,16 @@ pub(crate) struct Sheet {
 impl Sheet {
     /// An empty figure: its title, the facts of its scene, and at the foot the sentence that says what to see.
     pub(crate) fn new(subject: &Subject, title: &str, point: &str) -> Sheet {
-        let theme = subject.theme;
-        let description = format!("{}. {point}", subject.facts());
+        Sheet::titled(subject.theme, title, &subject.facts(), point)
+    }
+
+    /// The same for a figure that is not of a scene.
+    pub(crate) fn titled(theme: Theme, title: &str, facts: &str, point: &str) -> Sheet {
+        let description = format!("{facts}. {point}");
         let mut drawing = Drawing::new(title, &description, theme.background());
         let room = RIGHT - MARGIN;
         drawing.fitting([MARGIN, 82.0], Anchor::Left, title, theme.title(), room);
-        let facts = drawable(&subject.facts(), has);
+        let facts = drawable(facts, has);
         drawing.fitting(
             [MARGIN, 126.0],
             Anchor::Left,

@@ -351,6 +351,7 @@ fn short_help() {
         "mesh",
         "vectors",
         "fuzz",
+        "sweep",
         "completions",
     ];
     insta::assert_snapshot!("help", printed(bothways(&home(), &["-h"]), 0));

@@ -188,8 +188,8 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
         "--verify holds the fast method against the textbook, which --method textbook is; leave one of them out",
     ),
     (
-        "canonical --buffers exr",
-        "invalid value 'exr' for '--buffers <BUFFERS>' [possible values: none, npy]",
+        "canonical --buffers tiff",
+        "invalid value 'tiff' for '--buffers <BUFFERS>' [possible values: none, npy, exr]",
     ),
     ("canonical --quiet --json", "the argument '--quiet' cannot be used with '--json'"),
     ("canonical --quiet=yes", "unexpected value 'yes' for '--quiet' found; no more were expected"),
