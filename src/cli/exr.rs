@@ -52,7 +52,10 @@ pub(super) struct Layer<'a> {
 pub(super) fn work(view: &View, rendered: &Rendered) -> Option<Vec<f32>> {
     rendered.work()?;
     let Rendered { order, method, frame, .. } = rendered;
-    #[expect(clippy::cast_precision_loss, reason = "counts below 2^24 are exact, greater ones are nearly so")]
+    #[expect(
+        clippy::cast_precision_loss,
+        reason = "counts below 2^24 are exact, greater ones are nearly so"
+    )]
     let work = match method {
         // By the definition of the loop, every primitive is tested at every sample.
         Method::Textbook => vec![view.scene.primitive_count() as f32; frame.ids().len()],
@@ -180,9 +183,7 @@ fn channels<'a>(layer: &Layer<'a>, camera: &Camera) -> Vec<Channel<'a>> {
         float("depth.Z", Box::new(move |at| (f64::from(t[at]) * ray) as f32)),
         float("coverage", Box::new(move |at| if t[at].is_finite() { 1.0 } else { 0.0 })),
     ];
-    for (axis, [color, normal]) in
-        [["R", "X"], ["G", "Y"], ["B", "Z"]].into_iter().enumerate()
-    {
+    for (axis, [color, normal]) in [["R", "X"], ["G", "Y"], ["B", "Z"]].into_iter().enumerate() {
         let part = move |at: usize| linear_from_srgb(color_of_id(ids[at])[axis]);
         channels.push(float(color, Box::new(move |at| colors[at][axis])));
         channels.push(float(&format!("id_color.{color}"), Box::new(part)));

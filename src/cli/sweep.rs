@@ -96,17 +96,12 @@ pub(super) fn run(args: &SweepArgs) -> Result<ExitCode, Failure> {
     // A run of minutes must not learn at its end that it cannot write.
     drop(Staging::begin_with(&args.folder, file_names())?);
     let axes = if args.axes.is_empty() { Axis::ALL.to_vec() } else { args.axes.clone() };
-    let plan = Plan {
-        image: args.size,
-        most: args.most,
-        times: !args.no_times,
-        rounds: args.rounds,
-    };
+    let plan =
+        Plan { image: args.size, most: args.most, times: !args.no_times, rounds: args.rounds };
     let conditions = if args.no_times { String::new() } else { conditions(args.threads) };
     let mut table = begun(args, &plan, &conditions)?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(args.threads.into()).build();
-    let pool =
-        pool.map_err(|error| Failure::new(format!("cannot start the threads: {error}")))?;
+    let pool = pool.map_err(|error| Failure::new(format!("cannot start the threads: {error}")))?;
     pool.install(|| measure(args, &plan, &axes, &mut table))?;
 
     let summaries: Vec<Summary> = axes
@@ -148,12 +143,7 @@ fn begun(args: &SweepArgs, plan: &Plan, conditions: &str) -> Result<Table, Failu
 }
 
 /// Carries out what is missing. The file is complete after each measurement.
-fn measure(
-    args: &SweepArgs,
-    plan: &Plan,
-    axes: &[Axis],
-    table: &mut Table,
-) -> Result<(), Failure> {
+fn measure(args: &SweepArgs, plan: &Plan, axes: &[Axis], table: &mut Table) -> Result<(), Failure> {
     let mut tasks = plan.tasks(axes);
     let all = tasks.len();
     tasks.retain(|task| !table.has(task));

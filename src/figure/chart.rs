@@ -52,7 +52,8 @@ fn facts(summary: &Summary, conditions: &str, [width, height]: [u32; 2]) -> Stri
     if summary.axis != Axis::Pixels {
         facts += &format!("   ·   {width} × {height} pixels");
     }
-    facts + "   ·   "
+    facts
+        + "   ·   "
         + match summary.quantity {
             Quantity::Steps => "counted: the same on every machine",
             Quantity::Milliseconds => conditions,
@@ -134,9 +135,7 @@ impl Plot {
         let theme = sheet.theme;
         sheet.mat(CORNER, SIZE);
         let bottom = CORNER[1] + SIZE[1];
-        let pen = |tick| {
-            Pen::new(theme.hairline(), if is_power_of_ten(tick) { 1.6 } else { 0.7 })
-        };
+        let pen = |tick| Pen::new(theme.hairline(), if is_power_of_ten(tick) { 1.6 } else { 0.7 });
         for tick in self.x.ticks() {
             let x = self.x.place(tick);
             sheet.drawing.line(&[[x, CORNER[1]], [x, bottom]], pen(tick));
@@ -302,7 +301,9 @@ fn marker(
 ) {
     let mut fill = |size: f64, ink: Ink| match order {
         Order::Object => drawing.disc([x, y], size, ink),
-        Order::Image => drawing.rectangle([x - 0.88 * size, y - 0.88 * size], [1.76 * size; 2], ink),
+        Order::Image => {
+            drawing.rectangle([x - 0.88 * size, y - 0.88 * size], [1.76 * size; 2], ink)
+        }
     };
     fill(8.0, Ink::new(color));
     if let Some(ground) = ground {

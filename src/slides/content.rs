@@ -2,10 +2,11 @@
 
 use super::stills;
 use crate::common::{Camera, Projection, View};
-use crate::figure::{Drawing, Kind, Subject, Theme};
+use crate::figure::{Drawing, Kind, Subject, Theme, sweep_chart};
 use crate::film::{Film, Length, default_size};
 use crate::orders::{Method, Order, Rules};
 use crate::scenes::{self, LoadedScene};
+use crate::sweep::{self, Axis, Bench, Quantity, Summary, Table};
 use thiserror::Error;
 
 /// A slide that is drawn.
@@ -56,7 +57,12 @@ enum What {
     Figure(Kind),
     Stills(Order),
     Film(Method),
+    Sweep(Axis),
 }
+
+/// The image and the most triangles of the cost curves: they take seconds.
+const SWEEP_IMAGE: [u32; 2] = [320, 180];
+const MOST_TRIANGLES: u64 = 100_000;
 
 /// The width of a film on a slide.
 const FILM_WIDTH: u32 = 960;
@@ -64,7 +70,7 @@ const FILM_WIDTH: u32 = 960;
 impl Plan<'_> {
     pub(super) fn ending(&self) -> &'static str {
         match self.what {
-            What::Figure(_) | What::Stills(_) => "svg",
+            What::Figure(_) | What::Stills(_) | What::Sweep(_) => "svg",
             What::Film(_) => "gif",
         }
     }
@@ -104,6 +110,7 @@ impl Plan<'_> {
                 stills::draw(&subject, order).map(Box::new).map(Content::Drawing)
             }
             What::Film(method) => film(&subject, method).map_err(|error| wrong(&error)),
+            What::Sweep(axis) => sweep(axis, theme),
         }
     }
 }
@@ -112,6 +119,24 @@ fn film(subject: &Subject, method: Method) -> Result<Content, Box<dyn std::error
     let length = Length::new(8.0, 25, 2.0)?;
     let film = Film::record(subject.name, &subject.view, method, length)?;
     Ok(Content::Film(film.write_gif(Vec::new(), subject.theme, FILM_WIDTH, &mut |_| {})?))
+}
+
+/// A cost curve: steps, which are the same on every machine.
+fn sweep(axis: Axis, theme: Theme) -> Result<Content, SlideError> {
+    let plan = sweep::Plan {
+        image: SWEEP_IMAGE,
+        most: MOST_TRIANGLES,
+        times: false,
+        ..sweep::Plan::default()
+    };
+    let (mut bench, mut table) = (Bench::default(), Table::default());
+    for task in plan.tasks(&[axis]) {
+        table.insert(task, bench.measure(&task));
+    }
+    let summary = Summary::of(&table, axis, Quantity::Steps)
+        .ok_or_else(|| SlideError(format!("a sweep of {} has no points", axis.name())))?;
+    let drawing = sweep_chart(&summary, "counted, so the same on every machine", plan.image, theme);
+    Ok(Content::Drawing(Box::new(drawing)))
 }
 
 impl<'a> Planned<'a> {
@@ -223,6 +248,20 @@ fn lecture(first: &LoadedScene, films: bool) -> Result<Vec<Planned<'_>>, SlideEr
             given(),
             figure(Kind::Order),
         ),
+        Planned::new(
+            "cost-triangles",
+            "Cost: more triangles",
+            WORDS.triangles,
+            given(),
+            What::Sweep(Axis::Triangles),
+        ),
+        Planned::new(
+            "cost-pixels",
+            "Cost: more pixels",
+            WORDS.pixels,
+            given(),
+            What::Sweep(Axis::Pixels),
+        ),
         Planned::new("agree", "Both orders agree", WORDS.agree, given(), figure(Kind::SideBySide)),
         Planned::new(
             "reasons",
@@ -318,7 +357,7 @@ impl Plan<'_> {
             What::Stills(_) | What::Film(Method::Textbook) => {
                 loaded.scene.primitive_count() <= 60_000
             }
-            What::Figure(_) | What::Film(Method::Fast) => true,
+            What::Figure(_) | What::Film(Method::Fast) | What::Sweep(_) => true,
         }
     }
 }
@@ -338,6 +377,8 @@ struct Words {
     work: [&'static str; 2],
     hierarchy: [&'static str; 2],
     order: [&'static str; 2],
+    triangles: [&'static str; 2],
+    pixels: [&'static str; 2],
     agree: [&'static str; 2],
     reasons: [&'static str; 2],
     zoom: [&'static str; 2],
@@ -409,6 +450,15 @@ const WORDS: Words = Words {
         "The pixels in the order in which each loop decided them.",
         "This is the swap of the loops, seen as colour: objects on one side, lines on the other. With tiles and hierarchies the \
          patterns change, and the picture stays the same.",
+    ],
+    triangles: [
+        "The textbooks grow with the triangles; the fast renderers hardly do.",
+        "Steps are counted, so this chart is the same on every machine. A slope of 1 means: twice the triangles, twice the \
+         work. Ask what a hierarchy must do so that the slope is near 0, and what no hierarchy can avoid.",
+    ],
+    pixels: [
+        "With more pixels every loop has more to do.",
+        "Here no hierarchy helps: each pixel is decided at least once. For times, run bothways sweep on the machine in the room.",
     ],
     agree: [
         "Both orders cover the same samples and see the same primitive in each.",

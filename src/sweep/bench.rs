@@ -129,8 +129,12 @@ impl Stage {
         macro_rules! draw {
             ($draw:path $(, $prepared:expr)?) => {
                 match work {
-                    Some(work) => $draw($($prepared,)? &view, &options, frame, work),
-                    None => $draw($($prepared,)? &view, &options, frame, &mut ()),
+                    Some(work) => {
+                        $draw($($prepared,)? &view, &options, frame, work);
+                    }
+                    None => {
+                        $draw($($prepared,)? &view, &options, frame, &mut ());
+                    }
                 }
             };
         }

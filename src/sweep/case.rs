@@ -59,9 +59,9 @@ impl Axis {
         let cases: Vec<Case> = match self {
             Axis::Triangles => SPHERES.map(|rings| Case::sphere(self, rings, image)).into(),
             Axis::Pixels => IMAGES.map(|image| Case::sphere(self, FIXED_SPHERE, image)).into(),
-            Axis::DepthComplexity => (0..=10)
-                .map(|power| Case::layers(self, LAYER, 1 << power, image))
-                .collect(),
+            Axis::DepthComplexity => {
+                (0..=10).map(|power| Case::layers(self, LAYER, 1 << power, image)).collect()
+            }
             Axis::TriangleSize => {
                 AREAS.map(|area| Case::layers(self, cells_of(area, image), 1, image)).into()
             }
@@ -107,8 +107,7 @@ const IMAGES: [[u32; 2]; 11] = [
 /// The columns and rows of a layer.
 const LAYER: [u32; 2] = [16, 9];
 /// The areas of triangles, in pixels.
-const AREAS: [f64; 12] =
-    [0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1e3, 3e3, 1e4, 3e4, 1e5];
+const AREAS: [f64; 12] = [0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1e3, 3e3, 1e4, 3e4, 1e5];
 
 /// One scene of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -213,7 +212,11 @@ fn layered([columns, rows]: [u32; 2], layers: u32, viewport: [f32; 2]) -> Mesh {
 /// The columns and rows of square cells whose triangles have about this area.
 fn cells_of(pixels: f64, image: [u32; 2]) -> [u32; 2] {
     let side = (2.0 * pixels).sqrt() / OVERSCAN;
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most thousands")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "at most thousands"
+    )]
     image.map(|length| ((f64::from(length) / side).round() as u32).max(1))
 }
 

@@ -132,10 +132,8 @@ fn meeting(pairs: &[[Point; 2]]) -> (f64, f64) {
         }
         let part = before / (before - after);
         let between = |from: f64, to: f64| (from.ln() + part * (to.ln() - from.ln())).exp();
-        meetings.push((
-            between(two[0][0].x, two[1][0].x),
-            between(two[0][0].value, two[1][0].value),
-        ));
+        meetings
+            .push((between(two[0][0].x, two[1][0].x), between(two[0][0].value, two[1][0].value)));
     }
     meetings[meetings.len() / 2]
 }

@@ -87,9 +87,13 @@ impl Plan {
                     if method == Method::Textbook && round > 0 && pairs > TIMED_BY_TEXTBOOK {
                         continue;
                     }
-                    tasks.extend(
-                        Order::ALL.map(|order| Task { case, order, method, quantity, round }),
-                    );
+                    tasks.extend(Order::ALL.map(|order| Task {
+                        case,
+                        order,
+                        method,
+                        quantity,
+                        round,
+                    }));
                 }
             }
         }

@@ -77,9 +77,10 @@ fn what_holds_by_definition_is_what_a_run_counts() {
         }
     }
     let large = Plan { image: [640, 360], ..plan };
-    let textbook = large.tasks(&[Axis::Triangles]).into_iter().find(|task| {
-        task.method == Method::Textbook && task.case.triangles == 100
-    });
+    let textbook = large
+        .tasks(&[Axis::Triangles])
+        .into_iter()
+        .find(|task| task.method == Method::Textbook && task.case.triangles == 100);
     let known = bench.measure(&textbook.unwrap());
     assert_eq!(known, Measured { value: 23_040_100.0, source: Source::ByDefinition });
 }
@@ -223,12 +224,22 @@ fn the_texts_of_charts_do_not_overlap() {
                 (point.least, point.most) = (point.value, 1.3 * point.value);
             }
         }
-        times.fast = Crossing::At { x: steps.curves[0].points[2].x, value: 0.1, first: true, sharp: true };
+        times.fast =
+            Crossing::At { x: steps.curves[0].points[2].x, value: 0.1, first: true, sharp: true };
         for summary in [&steps, &times] {
             for theme in [Theme::Dark, Theme::Light] {
-                let drawing = sweep_chart(summary, "1 thread of 2 · a processor", SMALL.image, theme);
-                assert_eq!(drawing.faults(), Vec::<String>::new(), "{axis:?} {:?}", summary.quantity);
-                assert_eq!(drawing.svg(), sweep_chart(summary, "1 thread of 2 · a processor", SMALL.image, theme).svg());
+                let drawing =
+                    sweep_chart(summary, "1 thread of 2 · a processor", SMALL.image, theme);
+                assert_eq!(
+                    drawing.faults(),
+                    Vec::<String>::new(),
+                    "{axis:?} {:?}",
+                    summary.quantity
+                );
+                assert_eq!(
+                    drawing.svg(),
+                    sweep_chart(summary, "1 thread of 2 · a processor", SMALL.image, theme).svg()
+                );
             }
         }
     }

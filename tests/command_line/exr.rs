@@ -14,8 +14,20 @@ use tempfile::TempDir;
 
 /// The channels of one order.
 const CHANNELS: [&str; 14] = [
-    "B", "G", "R", "coverage", "depth.Z", "id", "id_color.B", "id_color.G", "id_color.R", "normal.X",
-    "normal.Y", "normal.Z", "t", "work",
+    "B",
+    "G",
+    "R",
+    "coverage",
+    "depth.Z",
+    "id",
+    "id_color.B",
+    "id_color.G",
+    "id_color.R",
+    "normal.X",
+    "normal.Y",
+    "normal.Z",
+    "t",
+    "work",
 ];
 
 fn bothways(home: &TempDir, line: &str) -> Command {
@@ -159,7 +171,9 @@ fn an_exr_says_only_what_is_known() {
 #[test]
 fn diff_reads_the_layers_by_their_channels() {
     let home = tempfile::tempdir().unwrap();
-    bothways(&home, "ties --object-rules inclusive --size 40x32 --buffers npy -o npy").assert().code(1);
+    bothways(&home, "ties --object-rules inclusive --size 40x32 --buffers npy -o npy")
+        .assert()
+        .code(1);
     bothways(&home, "ties --size 40x32 --buffers exr -o .").assert().code(0);
     let asked = contains("choose what to read of it with --channels NAME[,NAME...]; its channels");
     bothways(&home, "diff buffers.exr buffers.exr").assert().code(2).stderr(asked);

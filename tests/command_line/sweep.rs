@@ -91,7 +91,8 @@ fn an_interrupted_run_goes_on_where_it_stopped() {
     assert!(whole.contains("thread of"));
 
     // What an interruption leaves: some measurements, and no more.
-    let kept: Vec<&str> = whole.lines().enumerate().filter(|(n, _)| n % 3 != 2).map(|(_, l)| l).collect();
+    let kept: Vec<&str> =
+        whole.lines().enumerate().filter(|(n, _)| n % 3 != 2).map(|(_, l)| l).collect();
     fs::write(home.path().join("sweep.csv"), kept.join("\n") + "\n").unwrap();
     sweep(&home, &line).code(0);
     let again = csv(&home, ".");

@@ -491,23 +491,50 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
          one with -o",
     ),
     ("vectors --json=yes", "unexpected value 'yes' for '--json' found; no more were expected"),
-    ("sweep triangels", "invalid value 'triangels' for '[AXIS]...': there is no axis 'triangels'; the axes are"),
-    ("sweep --size 9000x9000", "invalid value '9000x9000' for '--size <WxH>': the image of a sweep may have at most"),
-    ("sweep --size 640", "invalid value '640' for '--size <WxH>': write it as WIDTHxHEIGHT, such as 640x480"),
-    ("sweep --most 11M", "invalid value '11M' for '--most <N>': give a number of triangles from 100 to 10M"),
-    ("sweep --most -5", "invalid value '-5' for '--most <N>': give a number of triangles from 100 to 10M"),
+    (
+        "sweep triangels",
+        "invalid value 'triangels' for '[AXIS]...': there is no axis 'triangels'; the axes are",
+    ),
+    (
+        "sweep --size 9000x9000",
+        "invalid value '9000x9000' for '--size <WxH>': the image of a sweep may have at most",
+    ),
+    (
+        "sweep --size 640",
+        "invalid value '640' for '--size <WxH>': write it as WIDTHxHEIGHT, such as 640x480",
+    ),
+    (
+        "sweep --most 11M",
+        "invalid value '11M' for '--most <N>': give a number of triangles from 100 to 10M",
+    ),
+    (
+        "sweep --most -5",
+        "invalid value '-5' for '--most <N>': give a number of triangles from 100 to 10M",
+    ),
     ("sweep --rounds 0", "invalid value '0' for '--rounds <N>': give a whole number from 1 to 100"),
-    ("sweep --threads 0", "invalid value '0' for '--threads <N>': give a whole number from 1 to 1024"),
-    ("sweep --no-times=yes", "unexpected value 'yes' for '--no-times' found; no more were expected"),
+    (
+        "sweep --threads 0",
+        "invalid value '0' for '--threads <N>': give a whole number from 1 to 1024",
+    ),
+    (
+        "sweep --no-times=yes",
+        "unexpected value 'yes' for '--no-times' found; no more were expected",
+    ),
     ("sweep --fresh=yes", "unexpected value 'yes' for '--fresh' found; no more were expected"),
-    ("sweep --theme blue", "invalid value 'blue' for '--theme <THEME>': 'blue' is no theme; there are dark and light"),
+    (
+        "sweep --theme blue",
+        "invalid value 'blue' for '--theme <THEME>': 'blue' is no theme; there are dark and light",
+    ),
     ("sweep --png=yes", "unexpected value 'yes' for '--png' found; no more were expected"),
     ("sweep --json=yes", "unexpected value 'yes' for '--json' found; no more were expected"),
     (
         "sweep --output file",
         "cannot write into the folder file: a file is where a folder would be; choose another one with -o",
     ),
-    ("sweep -o -", "-o - is standard output, which takes one file, and here a folder of files is written"),
+    (
+        "sweep -o -",
+        "-o - is standard output, which takes one file, and here a folder of files is written",
+    ),
     ("completions", "the following required arguments were not provided: <SHELL>"),
     (
         "completions tcsh",

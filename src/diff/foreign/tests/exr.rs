@@ -174,8 +174,12 @@ fn a_crop_is_read_and_overscan_is_refused() {
     let crop = read(4, 1).unwrap();
     assert_eq!(crop.buffer.size(), [3, 2]);
     assert_eq!(crop.notes, ["channel Z", "its crop at (0, 1) of 4 x 2"]);
-    let said = "its data window (3 x 2 from (0, 1) on) is not its display window (3 x 2 from (0, 0) on)";
-    for problem in [read(3, 1).unwrap_err(), read(4, -1).unwrap_err().replace("-1", "1").replace("4 x 2", "3 x 2")] {
+    let said =
+        "its data window (3 x 2 from (0, 1) on) is not its display window (3 x 2 from (0, 0) on)";
+    for problem in [
+        read(3, 1).unwrap_err(),
+        read(4, -1).unwrap_err().replace("-1", "1").replace("4 x 2", "3 x 2"),
+    ] {
         assert!(problem.contains(said), "{problem}");
     }
 }
