@@ -67,6 +67,16 @@ fn one_triangle_over_one_tile_is_set_up_once_and_tested_in_64_blocks() {
 }
 
 #[test]
+fn a_triangle_drawn_twice_is_found_out_at_its_first_block() {
+    let twice = || [one_triangle(OVER_ALL), one_triangle(OVER_ALL)].concat();
+    let by_object = executed(Order::Object, twice(), [32, 32]);
+    assert_eq!((by_object.triangles, by_object.set_ups, by_object.blocks), (2, 2, 65));
+    // A leaf knows its duplicates from the start.
+    let by_image = executed(Order::Image, twice(), [32, 32]);
+    assert_eq!((by_image.triangles, by_image.set_ups, by_image.blocks), (1, 1, 64));
+}
+
+#[test]
 fn a_small_triangle_takes_a_step_for_each_sample_between_its_corners() {
     // Between its corners are samples 11 and 12 of either axis.
     let corners = [[10.6, 10.6], [10.6, 12.4], [12.4, 10.6]];

@@ -78,7 +78,7 @@ fn of_executed(order: Order, executed: &Executed) -> Vec<Row> {
         ("boxes tested", executed.boxes_tested),
         ("triangles set up", executed.set_ups),
         ("batches tested", executed.blocks + executed.lane_steps),
-        ("samples one by one", executed.single_samples),
+        ("single samples", executed.single_samples),
     ];
     rows.map(|(label, count)| (label, grouped(count))).to_vec()
 }
