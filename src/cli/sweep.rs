@@ -21,7 +21,7 @@ use std::thread::available_parallelism;
 pub(super) const EXAMPLES: &str = "\
 Axes:
   triangles         of a sphere that is seen whole, from 100 up to --most
-  pixels            of the image, from 3,600 to 3.7 million, for a sphere of 10,000 triangles
+  pixels            of the image, from 576 to 2.4 million, for a sphere of 10,000 triangles
   depth-complexity  opaque layers behind one another, from 1 to 1024
   triangle-size     pixels a triangle, from 0.3 to 100,000, for one layer over the picture
 
@@ -52,13 +52,14 @@ pub(super) struct SweepArgs {
     #[arg(value_name = "AXIS", value_parser = axis)]
     axes: Vec<Axis>,
     /// The image, where it does not grow itself; up to 2^24 pixels
-    #[arg(long, value_name = "WxH", default_value = "640x360", value_parser = image)]
+    #[arg(long, value_name = "WxH", default_value = "480x270", value_parser = image)]
     size: [u32; 2],
-    /// The most triangles, from 100 to 10M; k and M stand for thousands and millions
+    /// The most triangles, where they grow, from 100 to 10M; k and M stand for thousands and millions
     #[arg(long, value_name = "N", default_value = "1M", value_parser = most,
           allow_negative_numbers = true)]
     most: u64,
-    /// How often each time is measured, at different moments; the least counts
+    /// How often each time is measured, at different moments; the least counts. A textbook is timed once, and only where
+    /// that takes seconds at most
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = rounds,
           allow_negative_numbers = true)]
     rounds: u32,

@@ -8,12 +8,14 @@ use crate::orders::{Method, Order};
 use crate::sweep::{Axis, Crossing, Curve, Quantity, Slope, Source, Summary, short};
 
 /// The corner of the plot and its size.
-const CORNER: [f64; 2] = [MARGIN + 104.0, TOP + 6.0];
+const CORNER: [f64; 2] = [MARGIN + 104.0, TOP + 12.0];
 const SIZE: [f64; 2] = [1270.0, BOTTOM - 84.0 - CORNER[1]];
 /// Where the names of the curves begin, beside the plot.
 const NAMES: f64 = CORNER[0] + SIZE[0] + 44.0;
 /// The height of a name and its slope.
 const NAME: f64 = 66.0;
+/// The height of what explains lines and markers, below the names.
+const SIGNS: f64 = 104.0;
 /// A curve that ends before this part of the plot is named beside its end, in the plot.
 const ENDS_EARLY: f64 = 0.62;
 
@@ -24,13 +26,14 @@ pub fn sweep_chart(summary: &Summary, conditions: &str, image: [u32; 2], theme: 
         Sheet::titled(theme, &title, &facts(summary, conditions, image), &point(summary));
     let plot = Plot::around(summary);
     plot.grid(&mut sheet, summary);
-    plot.reference(&mut sheet);
+    plot.reference(&mut sheet, summary);
     // Of curves that coincide, the one with gaps is drawn last, so that both are seen.
     for curve in summary.curves.iter().rev() {
         plot.curve(&mut sheet, curve);
     }
     plot.crossing(&mut sheet, summary);
     plot.names(&mut sheet, summary);
+    signs(&mut sheet, summary);
     sheet.drawing
 }
 
@@ -163,18 +166,17 @@ impl Plot {
         sheet.drawing.text(middle, Anchor::Middle, summary.axis.unit(), style);
     }
 
-    /// Faint lines that rise as what grows linearly does, one for each power of ten, and a name for one of them.
-    fn reference(&self, sheet: &mut Sheet) {
+    /// Faint lines that rise as what grows linearly does, one for each second power of ten. Larger triangles are fewer:
+    /// there the lines fall.
+    fn reference(&self, sheet: &mut Sheet, summary: &Summary) {
         let theme = sheet.theme;
         sheet.drawing.window(Some((CORNER, SIZE)));
         let pen = Pen::new(theme.quiet(), 1.2).dashed(2.0, 9.0).alpha(0.75);
         let (low, high) = (10_f64.powf(self.x.low), 10_f64.powf(self.x.high));
-        #[expect(clippy::cast_possible_truncation, reason = "a number of decades")]
-        let (first, last) =
-            ((self.y.low - self.x.high).floor() as i32, (self.y.high - self.x.low).ceil() as i32);
-        for power in (first..=last).filter(|power| power % 2 == 0) {
+        let rises = if summary.axis == Axis::TriangleSize { -1 } else { 1 };
+        for power in (-24..=24).step_by(2) {
             let rate = 10_f64.powi(power);
-            let line = [[low, low * rate], [high, high * rate]];
+            let line = [low, high].map(|x| [x, x.powi(rises) * rate]);
             sheet.drawing.line(&line.map(|point| self.place(point)), pen);
         }
         sheet.drawing.window(None);
@@ -229,7 +231,8 @@ impl Plot {
                 ends.iter().filter(|(_, end)| (end[0] < early) == is_inside).copied().collect();
             group.sort_by(|(_, a), (_, b)| a[1].total_cmp(&b[1]));
             let heights: Vec<f64> = group.iter().map(|(_, end)| end[1] - 0.5 * NAME).collect();
-            let range = [CORNER[1], CORNER[1] + SIZE[1] - NAME];
+            let range =
+                [CORNER[1], CORNER[1] + SIZE[1] - NAME - if is_inside { 0.0 } else { SIGNS }];
             for ((curve, end), top) in group.iter().zip(apart(heights, range)) {
                 let left = if is_inside { end[0] + 56.0 } else { NAMES };
                 self.name(sheet, curve, *end, [left, top]);
@@ -257,6 +260,30 @@ impl Plot {
         write(top + 27.0, &name, style);
         let grows = curve.slope.map_or("no slope: too few points".into(), grows);
         write(top + 54.0, &grows, theme.label());
+    }
+}
+
+/// Explains the lines and markers that have no name, at the foot of the names.
+fn signs(sheet: &mut Sheet, summary: &Summary) {
+    let has = |source| {
+        summary.curves.iter().any(|curve| curve.points.iter().any(|point| point.source == source))
+    };
+    let dotted = match summary.axis {
+        Axis::TriangleSize => "dotted: half of it for twice the size",
+        _ => "dotted: twice as much, twice the cost",
+    };
+    let mut lines = vec![dotted];
+    if has(Source::ByDefinition) {
+        lines.push("hollow: by definition, without a run");
+    }
+    if has(Source::Measured) {
+        lines.push("bars: up to the slowest round");
+    }
+    let style = sheet.theme.label();
+    let mut baseline = CORNER[1] + SIZE[1] - 30.0 * (lines.len() - 1) as f64;
+    for line in lines {
+        sheet.drawing.fitting([NAMES, baseline], Anchor::Left, line, style, RIGHT - NAMES);
+        baseline += 30.0;
     }
 }
 

@@ -49,12 +49,13 @@ impl Axis {
         match self {
             Axis::Triangles => "a sphere, seen whole",
             Axis::Pixels => "a sphere of 10,000 triangles",
-            Axis::DepthComplexity => "opaque layers of 288 triangles, the farthest first",
+            Axis::DepthComplexity => "opaque layers of 80 triangles, the farthest first",
             Axis::TriangleSize => "one layer over the whole picture",
         }
     }
 
-    /// The scenes along the axis, of at most so many triangles, in an image of this size where the image does not grow.
+    /// The scenes along the axis: of at most so many triangles, where they grow; in an image of this size, where it does
+    /// not grow.
     pub(super) fn cases(self, most: u64, image: [u32; 2]) -> Vec<Case> {
         let cases: Vec<Case> = match self {
             Axis::Triangles => SPHERES.map(|rings| Case::sphere(self, rings, image)).into(),
@@ -66,8 +67,10 @@ impl Axis {
                 AREAS.map(|area| Case::layers(self, cells_of(area, image), 1, image)).into()
             }
         };
-        let mut cases: Vec<Case> =
-            cases.into_iter().filter(|case| case.triangles <= most).collect();
+        let mut cases: Vec<Case> = cases
+            .into_iter()
+            .filter(|case| self == Axis::Pixels || case.triangles <= most)
+            .collect();
         cases.sort_by(|a, b| a.x.total_cmp(&b.x));
         // In a small image, several sizes may come down to the same cells.
         cases.dedup_by(|a, b| a.x.to_bits() == b.x.to_bits());
@@ -86,26 +89,28 @@ impl FromStr for Axis {
     }
 }
 
-/// The rings of the spheres: half a power of ten from one to the next, from 100 triangles to 10 million.
-const SPHERES: [u32; 11] = [5, 9, 16, 28, 50, 89, 158, 281, 500, 889, 1581];
+/// The rings of the spheres: a third of a power of ten from one to the next, from 100 triangles to 10 million.
+const SPHERES: [u32; 16] = [5, 7, 11, 16, 23, 34, 50, 73, 108, 158, 232, 341, 500, 734, 1077, 1581];
 /// The rings of the sphere of 10 thousand triangles.
 const FIXED_SPHERE: u32 = 50;
 /// Images of the same form, whose pixels double from one to the next, or nearly so.
-const IMAGES: [[u32; 2]; 11] = [
-    [80, 45],
-    [112, 63],
-    [160, 90],
-    [224, 126],
-    [320, 180],
-    [448, 252],
-    [640, 360],
-    [912, 513],
-    [1280, 720],
-    [1808, 1017],
-    [2560, 1440],
+const IMAGES: [[u32; 2]; 13] = [
+    [32, 18],
+    [48, 27],
+    [64, 36],
+    [96, 54],
+    [128, 72],
+    [192, 108],
+    [256, 144],
+    [384, 216],
+    [512, 288],
+    [768, 432],
+    [1024, 576],
+    [1536, 864],
+    [2048, 1152],
 ];
 /// The columns and rows of a layer.
-const LAYER: [u32; 2] = [16, 9];
+const LAYER: [u32; 2] = [8, 5];
 /// The areas of triangles, in pixels.
 const AREAS: [f64; 12] = [0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1e3, 3e3, 1e4, 3e4, 1e5];
 

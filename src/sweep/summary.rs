@@ -89,9 +89,9 @@ impl Summary {
             Method::Textbook => self.textbook,
         };
         let unit = self.axis.unit();
-        let takes = match self.quantity {
-            Quantity::Steps => "takes fewer steps",
-            Quantity::Milliseconds => "is faster",
+        let (takes, much) = match self.quantity {
+            Quantity::Steps => ("takes fewer steps", "many steps"),
+            Quantity::Milliseconds => ("is faster", "long"),
         };
         let order = |first: bool| if first { Order::Object } else { Order::Image }.name();
         match crossing {
@@ -103,12 +103,13 @@ impl Summary {
                 }
             },
             Crossing::None { first, by: [least, most] } => {
-                let by = if most / least < 1.1 {
-                    format!("{} times", factor(most))
-                } else {
-                    format!("{} to {} times", factor(least), factor(most))
+                let by = match (least, most) {
+                    _ if most / least < 1.1 => factor(most),
+                    (..1.05, _) => format!("up to {}", factor(most)),
+                    _ => format!("{} to {}", factor(least), factor(most)),
                 };
-                format!("no crossing in this range: {} {takes}, by {by}", order(first))
+                let order = order(!first);
+                format!("no crossing in this range: {order} takes {by} times as {much}")
             }
             Crossing::At { x, first, sharp, .. } => {
                 let about = if sharp { "about " } else { "somewhere near " };

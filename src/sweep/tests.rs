@@ -56,8 +56,10 @@ fn hidden_layers_cost_image_order_little() {
 
 #[test]
 fn larger_triangles_are_fewer() {
-    let [_, image_order, textbooks @ ..] = slopes(Axis::TriangleSize);
-    assert!(textbooks.iter().all(|slope| (slope + 1.0).abs() < 0.05), "{textbooks:?}");
+    let [_, image_order, textbook, other] = slopes(Axis::TriangleSize);
+    assert!((textbook + 1.0).abs() < 0.01, "{textbook}");
+    // Where two triangles fill the picture, the rays of the outer loop are a third of the steps.
+    assert!((-1.0..-0.85).contains(&other), "{other}");
     assert!((-0.5..0.0).contains(&image_order), "{image_order}");
 }
 
@@ -115,7 +117,7 @@ fn a_table_is_read_back_and_says_why_it_is_refused() {
     for (damaged, said) in [
         ("", "line 1 is not what a sweep writes (its columns are others)"),
         ("x,y\n1,2\n", "line 1 is not what a sweep writes (its columns are others)"),
-        (&text[..text.len() - 40], "line 34 is not"),
+        (&text[..text.len() - 40], "line 29 is not"),
         (&text.replacen("counted", "guessed", 1), "line 2 is not what a sweep writes (its value"),
         (&text.replacen(",1,counted", ",-1,counted", 1), "line 2 is not what a sweep writes (its"),
     ] {
@@ -194,7 +196,7 @@ fn sentences_say_no_more_than_is_seen() {
         (
             Quantity::Milliseconds,
             Crossing::None { first: true, by: [1.2, 31.0] },
-            "no crossing in this range: object order is faster, by 1.2 to 31 times",
+            "no crossing in this range: image order takes 1.2 to 31 times as long",
         ),
         (
             Quantity::Milliseconds,
