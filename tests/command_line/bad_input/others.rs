@@ -166,7 +166,7 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
         "cannot write figure.jpg: a figure is written as SVG or PNG, and .jpg is neither; end the name in .svg or .png",
     ),
     (
-        "figure grid ties -o file/figure.svg",
+        "figure grid ties --output file/figure.svg",
         "cannot write file/figure.svg: a file is where a folder would be; choose another file with -o",
     ),
     // A film.
@@ -241,7 +241,7 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
         "unexpected value 'yes' for '--no-films' found; no more were expected",
     ),
     (
-        "slides canonical -o file",
+        "slides canonical --output file",
         "cannot write into the folder file: a file is where a folder would be; choose another one with -o",
     ),
     // One triangle.
