@@ -52,7 +52,7 @@ pub(super) struct SweepArgs {
     #[arg(value_name = "AXIS", value_parser = axis)]
     axes: Vec<Axis>,
     /// The image, where it does not grow itself; up to 2^24 pixels
-    #[arg(long, value_name = "WxH", default_value = "480x270", value_parser = image)]
+    #[arg(long, value_name = "WxH", default_value = "320x180", value_parser = image)]
     size: [u32; 2],
     /// The most triangles, where they grow, from 100 to 10M; k and M stand for thousands and millions
     #[arg(long, value_name = "N", default_value = "1M", value_parser = most,
