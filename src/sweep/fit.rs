@@ -49,6 +49,8 @@ pub enum Crossing {
         first: bool,
         /// The factors where they are apart.
         by: [f64; 2],
+        /// Whether they are apart at every point.
+        everywhere: bool,
     },
     /// They cross once.
     At {
@@ -106,7 +108,7 @@ pub(super) fn crossing(first: &[Point], second: &[Point], alike: f64) -> Crossin
             let by = factors.fold([f64::INFINITY, 0.0], |[least, most]: [f64; 2], factor| {
                 [least.min(factor), most.max(factor)]
             });
-            Crossing::None { first: is_first(at), by }
+            Crossing::None { first: is_first(at), by, everywhere: apart.len() == pairs.len() }
         }
         (&[[before, after]], Some(_)) => {
             let (x, value) = meeting(&pairs[before..=after]);

@@ -102,14 +102,19 @@ impl Summary {
                     "too close to tell which order is faster, anywhere in this range".into()
                 }
             },
-            Crossing::None { first, by: [least, most] } => {
+            Crossing::None { first, by: [least, most], everywhere } => {
                 let by = match (least, most) {
                     _ if most / least < 1.1 => factor(most),
                     (..1.05, _) => format!("up to {}", factor(most)),
                     _ => format!("{} to {}", factor(least), factor(most)),
                 };
                 let order = order(!first);
-                format!("no crossing in this range: {order} takes {by} times as {much}")
+                let range = if everywhere {
+                    "no crossing in this range"
+                } else {
+                    "where the orders can be told apart"
+                };
+                format!("{range}: {order} takes {by} times as {much}")
             }
             Crossing::At { x, first, sharp, .. } => {
                 let about = if sharp { "about " } else { "somewhere near " };

@@ -158,7 +158,7 @@ fn a_crossing_is_named_only_where_it_is_seen() {
     };
     assert!((x - 4.0).abs() < 1e-9 && (value - 4.0).abs() < 1e-9 && !first && !sharp);
     let none = crossing(&[1.0, 2.0, 4.0], &[4.0, 4.0, 8.0]);
-    assert_eq!(none, Crossing::None { first: true, by: [2.0, 4.0] });
+    assert_eq!(none, Crossing::None { first: true, by: [2.0, 4.0], everywhere: true });
     // A difference of a hundredth is none.
     assert_eq!(crossing(&[1.0, 2.0], &[1.01, 1.99]), Crossing::Alike);
     let several = crossing(&[1.0, 4.0, 1.0, 4.0], &[2.0, 2.0, 2.0, 2.0]);
@@ -168,7 +168,8 @@ fn a_crossing_is_named_only_where_it_is_seen() {
     let (mut noisy, steady) = (points(&[1.0, 1.0, 3.0]), points(&[2.0, 2.0, 2.0]));
     noisy[2].least = 1.9;
     noisy[2].most = 9.0;
-    assert!(matches!(fit::crossing(&noisy, &steady, 1.1), Crossing::None { first: true, .. }));
+    let seen = fit::crossing(&noisy, &steady, 1.1);
+    assert!(matches!(seen, Crossing::None { first: true, everywhere: false, .. }), "{seen:?}");
 }
 
 #[test]
@@ -195,8 +196,13 @@ fn sentences_say_no_more_than_is_seen() {
         ),
         (
             Quantity::Milliseconds,
-            Crossing::None { first: true, by: [1.2, 31.0] },
+            Crossing::None { first: true, by: [1.2, 31.0], everywhere: true },
             "no crossing in this range: image order takes 1.2 to 31 times as long",
+        ),
+        (
+            Quantity::Milliseconds,
+            Crossing::None { first: false, by: [1.15, 4.8], everywhere: false },
+            "where the orders can be told apart: object order takes 1.1 to 4.8 times as long",
         ),
         (
             Quantity::Milliseconds,
