@@ -1,6 +1,8 @@
 //! Every kind of figure over every built-in scene: no text overlaps another or leaves the picture, the same input gives
 //! the same bytes, and a second renderer draws the SVG as we draw the pixels.
 
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 use bothways::common::{Camera, CameraDescription, Projection, Scene, View};
 use bothways::figure::{Drawing, Kind, Subject, Theme, work_maps};
 use bothways::orders::{Method, Order, RenderOptions, Rules, render};

@@ -58,7 +58,7 @@ fn histogram(sheet: &mut Sheet, counts: &Counts, most: u64) {
     let step = (size[1] / bars as f64).min(64.0);
     for (count, samples) in samples.iter().enumerate() {
         let y = corner[1] + count as f64 * step;
-        let more = count + 1 == bars && most as usize >= bars;
+        let more = count + 1 == bars && most >= bars as u64;
         let name = if more { format!("≥ {count}") } else { count.to_string() };
         let baseline = y + 0.62 * step;
         let label = theme.text().tabular().sized(if step < 40.0 { 19.0 } else { 24.0 });
