@@ -309,12 +309,13 @@ fn role(order: Order) -> Role {
     }
 }
 
-/// Fast curves are drawn through, textbooks have gaps; those of image order are shorter.
+/// Fast curves are thick. Textbooks are thin, and that of object order has gaps, which show the other where both
+/// coincide.
 fn pen(curve: &Curve, color: [u8; 3]) -> Pen {
     match (curve.method, curve.order) {
-        (Method::Fast, _) => Pen::new(color, 4.0),
+        (Method::Fast, _) => Pen::new(color, 4.5),
         (Method::Textbook, Order::Object) => Pen::new(color, 3.0).dashed(18.0, 18.0),
-        (Method::Textbook, Order::Image) => Pen::new(color, 3.0),
+        (Method::Textbook, Order::Image) => Pen::new(color, 2.2),
     }
 }
 

@@ -117,7 +117,7 @@ fn a_table_is_read_back_and_says_why_it_is_refused() {
     for (damaged, said) in [
         ("", "line 1 is not what a sweep writes (its columns are others)"),
         ("x,y\n1,2\n", "line 1 is not what a sweep writes (its columns are others)"),
-        (&text[..text.len() - 40], "line 29 is not"),
+        (&text[..text.len() - 40], "line 31 is not"),
         (&text.replacen("counted", "guessed", 1), "line 2 is not what a sweep writes (its value"),
         (&text.replacen(",1,counted", ",-1,counted", 1), "line 2 is not what a sweep writes (its"),
     ] {
