@@ -215,7 +215,7 @@ pub(super) enum BuffersArg {
     None,
     /// NumPy arrays, .npy: ids and distances of each order, and pictures coloured by id
     Npy,
-    /// One OpenEXR, buffers.exr, with layers for each order: colours, normals, depths, t, ids (and as colours), coverage
+    /// One EXR file, buffers.exr, with layers for each order: colours, normals, depths, t, ids (and as colours), coverage
     /// and work. Several samples a pixel make it so many times as wide and high: nothing is averaged
     Exr,
 }

@@ -1,4 +1,4 @@
-//! Buffers as one OpenEXR: what each order saw at every sample, in channels that are named after the order.
+//! Buffers as one EXR file: what each order saw at every sample, in channels that are named after the order.
 //!
 //! All channels have one size, so that every viewer opens the file: several samples a pixel are several pixels here.
 //! Ids are integers of 32 bits, all else is floats of 32 bits; zip loses no bit of either.

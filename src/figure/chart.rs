@@ -161,7 +161,7 @@ impl Plot {
             Quantity::Milliseconds => "milliseconds a frame",
         };
         let style = theme.text();
-        sheet.drawing.text([MARGIN, CORNER[1] - 18.0], Anchor::Left, name, style);
+        sheet.drawing.text([CORNER[0], CORNER[1] - 16.0], Anchor::Left, name, style);
         let middle = [CORNER[0] + 0.5 * SIZE[0], bottom + 66.0];
         sheet.drawing.text(middle, Anchor::Middle, summary.axis.unit(), style);
     }
