@@ -10,7 +10,8 @@ use clap_complete::Shell;
 use std::fmt::Write;
 
 /// The subcommands with a scene argument; without a subcommand, `render` runs.
-const TAKE_A_SCENE: [&str; 7] = ["render", "figure", "film", "grade", "scenes", "pixel", "camera"];
+const TAKE_A_SCENE: [&str; 8] =
+    ["render", "grade", "figure", "slides", "scenes", "pixel", "film", "camera"];
 
 /// The script.
 pub(super) fn script(shell: Shell) -> String {
@@ -71,7 +72,8 @@ fn zsh(script: &str) -> String {
         "_alternative \"scenes\\:built-in scene\\:({names})\" \"files\\:scene or mesh file\\:_files\""
     );
     let of_line = |line: &str| {
-        let asks = ["scene -- ", "name -- "].iter().any(|argument| line.contains(argument));
+        let asks =
+            ["scene -- ", "scenes -- ", "name -- "].iter().any(|argument| line.contains(argument));
         match line.strip_suffix(":_default' \\") {
             Some(start) if asks => format!("{start}:{{{either}}}' \\\n"),
             _ => format!("{line}\n"),
@@ -136,7 +138,7 @@ mod tests {
         let takes = |command: &clap::Command| {
             command
                 .get_positionals()
-                .any(|word| ["scene", "name"].contains(&word.get_id().as_str()))
+                .any(|word| ["scene", "scenes", "name"].contains(&word.get_id().as_str()))
         };
         let root = Cli::command();
         let taking: Vec<&str> =

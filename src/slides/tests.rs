@@ -3,7 +3,7 @@ use crate::scenes;
 
 fn small(name: &str) -> LoadedScene {
     let mut loaded = scenes::load(name).unwrap();
-    loaded.camera.image = [24, 18];
+    loaded.camera.image = [16, 12];
     loaded
 }
 
