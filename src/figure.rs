@@ -18,7 +18,7 @@ mod theme;
 pub use chart::sweep_chart;
 pub use drawing::{CANVAS, Drawing};
 pub(crate) use film_page::{CodeLine, FilmHalf, FilmPage};
-pub use kinds::{Kind, WorkMap, work_at_samples, work_maps};
+pub use kinds::{Kind, WorkMap, work_at_samples, work_figure, work_maps};
 pub use legend::{Entry, with_legend};
 pub use slide::Slide;
 pub(crate) use still_page::{Still, StillPage};

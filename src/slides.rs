@@ -58,9 +58,9 @@ impl<'a> Deck<'a> {
     ) -> Result<Deck<'a>, SlideError> {
         let plans = plans(scenes, films)?;
         let slides = plans.into_iter().enumerate().map(|(number, planned)| {
-            // A scene may have any name; a file may not.
+            // A scene may have any name; a file that pages and texts link to may not.
             let typed = |letter: char| {
-                if letter.is_control() || "/\\:\"<>|?*".contains(letter) { '_' } else { letter }
+                if letter.is_alphanumeric() || "-_.".contains(letter) { letter } else { '_' }
             };
             let name: String = planned.name.chars().map(typed).collect();
             let file = format!("{:02}-{name}.{}", number + 1, planned.plan.ending());
@@ -73,6 +73,11 @@ impl<'a> Deck<'a> {
     /// The slides in their order.
     pub fn slides(&self) -> &[Slide<'a>] {
         &self.slides
+    }
+
+    /// Leaves out the slide with this file: the page and the text beside it do not name it.
+    pub fn leave_out(&mut self, file: &str) {
+        self.slides.retain(|slide| slide.file != file);
     }
 
     /// Draws a slide.

@@ -5,10 +5,11 @@ use super::camera::camera;
 use super::failure::Failure;
 use super::npy;
 use super::output::{OutputFile, Staging};
+use super::run::folder_name;
 use super::terminal;
 use bothways::common::View;
 use bothways::common::raster::check_samples;
-use bothways::figure::{Drawing, Kind, Subject, Theme, WorkMap, work_maps};
+use bothways::figure::{Drawing, Kind, Subject, Theme, WorkMap, work_figure, work_maps};
 use bothways::formats::scene_file::nearest_name;
 use bothways::orders::Rules;
 use bothways::rules::{image_order, object_order};
@@ -97,6 +98,10 @@ pub(super) fn run(args: &FigureArgs) -> Result<ExitCode, Failure> {
     let format = named.as_ref().map_or(Ok(Format::Svg), format)?;
     let loaded = scenes::load_for(&args.scene, args.camera.size)?;
     terminal::warn(&loaded.warnings);
+    let file = match named {
+        Some(file) => file,
+        None => OutputFile::find(&default_file(&loaded.name, args.kind))?,
+    };
     let camera = camera(&loaded, &args.camera)?;
     check_samples(camera.image(), args.samples)
         .map_err(|error| Failure::new(format!("--samples {}: {error}", args.samples)))?;
@@ -112,15 +117,16 @@ pub(super) fn run(args: &FigureArgs) -> Result<ExitCode, Failure> {
         },
         theme: args.theme,
     };
-    let drawing = args.kind.draw(&subject).map_err(|error| {
+    let (drawing, counts) = match &args.counts {
+        None => (args.kind.draw(&subject), None),
+        Some(folder) => {
+            let maps = work_maps(&subject.view);
+            (Ok(work_figure(&subject, &maps)), Some(staged_counts(&maps, folder)?))
+        }
+    };
+    let drawing = drawing.map_err(|error| {
         Failure::new(format!("cannot draw {} of '{}': {error}", args.kind, loaded.name))
     })?;
-    let file = match named {
-        Some(file) => file,
-        None => OutputFile::find(&default_file(&loaded.name, args.kind))?,
-    };
-    let counts = args.counts.as_deref().map(|folder| staged_counts(&subject.view, folder));
-    let counts = counts.transpose()?;
     write(&drawing, &file, format, args.width)?;
     if let (Some(counts), Some(folder)) = (counts, &args.counts) {
         counts.commit()?;
@@ -166,7 +172,7 @@ fn check(args: &FigureArgs) -> Result<(), Failure> {
 
 /// Where a figure goes if nobody says where.
 fn default_file(scene: &str, kind: Kind) -> PathBuf {
-    PathBuf::from(format!("out/figures/{scene}-{kind}.svg"))
+    PathBuf::from(format!("out/figures/{}-{kind}.svg", folder_name(scene)))
 }
 
 fn format(file: &OutputFile) -> Result<Format, Failure> {
@@ -196,11 +202,10 @@ fn write(drawing: &Drawing, file: &OutputFile, format: Format, width: u32) -> Re
 }
 
 /// The counts of each order and method as arrays, ready to be moved into their folder.
-fn staged_counts(view: &View, folder: &Path) -> Result<Staging, Failure> {
-    let maps = work_maps(view);
+fn staged_counts(maps: &[WorkMap], folder: &Path) -> Result<Staging, Failure> {
     let name = |map: &WorkMap| format!("{}.{}.work.npy", map.order.file_stem(), map.method.name());
     let mut staging = Staging::begin_for("--counts", folder, maps.iter().map(name).collect())?;
-    for map in &maps {
+    for map in maps {
         staging.write(&name(map), |out| npy::write_counts(map.size, &map.counts, out))?;
     }
     Ok(staging)

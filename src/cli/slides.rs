@@ -43,8 +43,11 @@ pub(super) struct SlidesArgs {
     folder: PathBuf,
 }
 
-/// The most slides of a set: their names are known, so that a later set can remove them.
+/// The file that lists a set's slides, so that a later set can remove them, and its first line.
 const LIST: &str = "slides.txt";
+const MARK: &str = "# what bothways slides wrote here";
+/// The files of every set beside its slides.
+const BESIDE: [&str; 3] = ["README.md", LIST, "index.html"];
 
 /// Draws all slides, writes them and says where they are.
 pub(super) fn run(args: &SlidesArgs) -> Result<ExitCode, Failure> {
@@ -53,50 +56,79 @@ pub(super) fn run(args: &SlidesArgs) -> Result<ExitCode, Failure> {
     for scene in &loaded {
         terminal::warn(&scene.warnings);
     }
-    let deck = Deck::new(&loaded, args.theme, !args.no_films)
+    let mut deck = Deck::new(&loaded, args.theme, !args.no_films)
         .map_err(|error| Failure::new(error.to_string()))?;
-    let mut staging = Staging::begin_with(&args.folder, names(&deck, args))?;
+    let earlier = earlier(args)?;
+    let mut staging = Staging::begin_with(&args.folder, names(&deck, &earlier))?;
     let progress = Progress::new(0);
     let all = deck.slides().len();
+    let mut left_out = Vec::new();
     for (number, slide) in deck.slides().iter().enumerate() {
         progress.say(format!("slide {} of {all}: {}", number + 1, slide.title));
-        let content = deck.draw(slide).map_err(|error| {
-            Failure::new(format!("cannot draw the slide '{}': {error}", slide.title))
-        })?;
-        let bytes = match content {
-            Content::Drawing(drawing) => drawing.svg().into_bytes(),
-            Content::Film(film) => film,
+        let bytes = match deck.draw(slide) {
+            Ok(Content::Drawing(drawing)) => drawing.svg().into_bytes(),
+            Ok(Content::Film(film)) => film,
+            // A scene may have nothing of what one slide is about: the others are drawn.
+            Err(error) => {
+                left_out.push((slide.file.clone(), format!("no slide '{}': {error}", slide.title)));
+                continue;
+            }
         };
         staging.write(&slide.file, |out| out.write_all(&bytes))?;
     }
+    progress.finish();
+    for (file, warning) in &left_out {
+        anstream::eprintln!("warning: {warning}");
+        deck.leave_out(file);
+    }
     staging.write("README.md", |out| out.write_all(deck.readme().as_bytes()))?;
-    let list: String = deck.slides().iter().map(|slide| format!("{}\n", slide.file)).collect();
+    let files: String = deck.slides().iter().map(|slide| format!("{}\n", slide.file)).collect();
+    let list = format!("{MARK}\n{files}");
     staging.write(LIST, |out| out.write_all(list.as_bytes()))?;
     // Last: where there is a page, all of its slides are there.
     staging.write("index.html", |out| out.write_all(deck.page().as_bytes()))?;
     staging.commit()?;
-    progress.finish();
     let page = args.folder.join("index.html");
     terminal::print(&format!("{}\n", page.display()))?;
-    anstream::eprintln!("wrote {} into {}", count(all as u64, "slides"), args.folder.display());
+    anstream::eprintln!(
+        "wrote {} into {}",
+        count(deck.slides().len() as u64, "slides"),
+        args.folder.display()
+    );
     Ok(ExitCode::SUCCESS)
 }
 
-/// The names of all files of this set, and of the set that the folder holds: those are replaced or removed.
-fn names(deck: &Deck, args: &SlidesArgs) -> Vec<String> {
+/// The names of the slides that the folder holds from an earlier run. A folder with a README or a page that no such run
+/// wrote is refused: they are not ours to replace.
+fn earlier(args: &SlidesArgs) -> Result<Vec<String>, Failure> {
+    let list = std::fs::read_to_string(args.folder.join(LIST)).unwrap_or_default();
+    let mut lines = list.lines();
+    if lines.next() == Some(MARK) {
+        return Ok(lines.filter(|name| is_slide(name)).map(str::to_owned).collect());
+    }
+    match BESIDE.into_iter().map(|name| args.folder.join(name)).find(|path| path.exists()) {
+        None => Ok(Vec::new()),
+        Some(taken) => Err(Failure::new(format!(
+            "{} is not of an earlier run of slides, and would be replaced; choose another folder with -o",
+            taken.display()
+        ))),
+    }
+}
+
+/// Whether a name is one that slides have: nothing else is ever removed.
+fn is_slide(name: &str) -> bool {
+    let numbered = name.len() > 3 && name.as_bytes()[..2].iter().all(u8::is_ascii_digit);
+    numbered && !name.contains(['/', '\\']) && (name.ends_with(".svg") || name.ends_with(".gif"))
+}
+
+/// The names of all files of this set and of the earlier one: those are replaced or removed.
+fn names(deck: &Deck, earlier: &[String]) -> Vec<String> {
     let mut names: Vec<String> = deck.slides().iter().map(|slide| slide.file.clone()).collect();
-    let earlier = std::fs::read_to_string(args.folder.join(LIST)).unwrap_or_default();
-    let is_slide = |name: &&str| {
-        let numbered = name.len() > 3 && name.as_bytes()[..2].iter().all(u8::is_ascii_digit);
-        numbered
-            && !name.contains(['/', '\\'])
-            && (name.ends_with(".svg") || name.ends_with(".gif"))
-    };
-    for name in earlier.lines().filter(is_slide) {
-        if !names.iter().any(|known| known == name) {
-            names.push(name.into());
+    for name in earlier {
+        if !names.contains(name) {
+            names.push(name.clone());
         }
     }
-    names.extend(["README.md", LIST, "index.html"].map(str::to_owned));
+    names.extend(BESIDE.map(str::to_owned));
     names
 }

@@ -17,7 +17,7 @@ mod side_by_side;
 mod work;
 mod zoom;
 
-pub use work::{WorkMap, work_at_samples, work_maps};
+pub use work::{WorkMap, work_at_samples, work_figure, work_maps};
 
 use super::drawing::Drawing;
 use super::subject::{FigureError, Subject};

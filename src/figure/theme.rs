@@ -6,6 +6,7 @@
 
 use super::drawing::Ink;
 use super::text::{Figures, Style, Weight};
+use image::RgbImage;
 use std::str::FromStr;
 
 /// The colours of a figure.
@@ -182,4 +183,27 @@ pub(crate) fn ramp(place: f64) -> [u8; 3] {
         let mixed = (from + part * (to - from)).round() as u8;
         mixed
     })
+}
+
+/// A colour between two others.
+pub(crate) fn mixed(from: [u8; 3], to: [u8; 3], part: f64) -> [u8; 3] {
+    [0, 1, 2].map(|channel| {
+        let value = f64::from(from[channel]) * (1.0 - part) + f64::from(to[channel]) * part;
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "from 0 to 255"
+        )]
+        let value = value.round() as u8;
+        value
+    })
+}
+
+/// A picture so pale that what is drawn over it stands out: this part of it, the rest is the ground of panels.
+pub(crate) fn faded(picture: &RgbImage, theme: Theme, part: f64) -> RgbImage {
+    let mut faded = picture.clone();
+    for pixel in faded.pixels_mut() {
+        pixel.0 = mixed(theme.mat(), pixel.0, part);
+    }
+    faded
 }

@@ -305,7 +305,7 @@ fn lecture(first: &LoadedScene, films: bool) -> Result<Vec<Planned<'_>>, SlideEr
 fn chapter(scene: &LoadedScene, films: bool) -> Vec<Planned<'_>> {
     let kinds = [
         (Kind::SideBySide, "both orders", WORDS.agree),
-        (Kind::Camera, "the camera", WORDS.perspective),
+        (Kind::Camera, "the camera", WORDS.camera),
         (Kind::DepthComplexity, "depth complexity", WORDS.depth),
         (Kind::Work, "work", WORDS.work),
         (Kind::Hierarchy, "skipping work", WORDS.hierarchy),
@@ -368,6 +368,7 @@ struct Words {
     object_order: [&'static str; 2],
     image_order: [&'static str; 2],
     perspective: [&'static str; 2],
+    camera: [&'static str; 2],
     parallel: [&'static str; 2],
     edges: [&'static str; 2],
     grid: [&'static str; 2],
@@ -411,6 +412,10 @@ const WORDS: Words = Words {
         "Parallel: all viewing rays have the same direction.",
         "Compare with the slide before: origin and direction have swapped roles. Lengths do not shrink with distance, so \
          engineers measure in such drawings.",
+    ],
+    camera: [
+        "The camera of this scene, and what some of its rays hit.",
+        "Ask which projection it is before reading the title: do the rays meet in a point, or have they one direction?",
     ],
     edges: [
         "A triangle is the intersection of three half-planes.",

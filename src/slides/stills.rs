@@ -33,7 +33,7 @@ pub(super) fn draw(subject: &Subject, order: Order) -> Result<Drawing, SlideErro
     });
     let [width, height] = image;
     let facts = format!(
-        "{} objects × {} pixels = {} steps",
+        "{} primitives × {} pixels = {} steps",
         grouped(view.scene.primitive_count().into()),
         grouped(u64::from(width) * u64::from(height)),
         grouped(film.steps()[index])

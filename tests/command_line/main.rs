@@ -19,6 +19,7 @@ mod output;
 mod pixel;
 mod readme;
 mod rules;
+mod slides;
 mod sweep;
 mod terminal;
 mod texts;

@@ -9,7 +9,7 @@ use crate::figure::drawing::{Anchor, Drawing, Ink, Pen};
 use crate::figure::project::Projector;
 use crate::figure::sheet::{BOTTOM, MARGIN, RIGHT, Sheet, TOP, number};
 use crate::figure::subject::{FigureError, Subject, seen, small_picture};
-use crate::figure::theme::{Role, Theme};
+use crate::figure::theme::{Role, Theme, mixed};
 use crate::picture::picture;
 use crate::pixel::{self, SampleReport};
 use std::collections::BTreeMap;
@@ -137,6 +137,8 @@ struct Stage {
     viewport: [DVec3; 4],
     /// How many times as far, and as large, as the camera's own viewport it is drawn.
     enlarged: f64,
+    /// Whether the viewport of a parallel camera is drawn nearer than it is.
+    nearer: bool,
     /// Where the rays of those corners start.
     origins: [DVec3; 4],
     /// Points of what is seen, and how far each ray is drawn that hits nothing.
@@ -169,6 +171,7 @@ impl Stage {
             Projection::Parallel => own.min(0.45 * deepest),
         };
         Stage {
+            nearer: camera.projection() == Projection::Parallel && reach < own,
             viewport: rays.map(|ray| ray.origin + reach * ray.direction),
             enlarged,
             origins: rays.map(|ray| ray.origin),
@@ -330,7 +333,12 @@ fn outside(
         FigureError::new("the scene is too large or too small to be drawn from outside")
     })?;
     let (corner, size) = OUTSIDE;
-    sheet.heading(corner, size[0], "from outside", "dashed: behind something");
+    let [width, height] = camera.image();
+    let note = match grid_step(width.max(height)) {
+        1 => "dashed: behind something".to_owned(),
+        step => format!("a cell of the grid is {step} × {step} pixels; dashed: behind something"),
+    };
+    sheet.heading(corner, size[0], "from outside", &note);
     let theme = sheet.theme;
     let drawing = &mut sheet.drawing;
     drawing.picture(faded(&picture(&outside.frame), &outside.frame, theme), corner, size);
@@ -510,6 +518,10 @@ fn outside_labels(
         );
         label_at(drawing, bottom, [0.0, 1.0], &note, theme, theme.of(Role::Camera));
     }
+    if stage.nearer {
+        let note = "drawn nearer than d: no ray depends on d";
+        label_at(drawing, bottom, [0.0, 1.0], note, theme, theme.of(Role::Camera));
+    }
     let middle = outside.place(0.5 * stage.middle());
     label_at(
         drawing,
@@ -670,21 +682,11 @@ fn formulas(sheet: &mut Sheet, subject: &Subject, ray: &ViewingRay) {
 
 /// The picture from outside, paler than what is drawn over it.
 fn faded(picture: &image::RgbImage, frame: &Frame, theme: Theme) -> image::RgbImage {
-    let mat = theme.mat();
     let mut faded = picture.clone();
     for (x, y, pixel) in faded.enumerate_pixels_mut() {
         let seen = frame.id(y as usize, x as usize).is_some();
         let part = if seen { 0.62 } else { 0.0 };
-        for (channel, mat) in pixel.0.iter_mut().zip(mat) {
-            let mixed = part * f64::from(*channel) + (1.0 - part) * f64::from(mat);
-            #[expect(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "from 0 to 255"
-            )]
-            let mixed = mixed.round() as u8;
-            *channel = mixed;
-        }
+        pixel.0 = mixed(theme.mat(), pixel.0, part);
     }
     faded
 }

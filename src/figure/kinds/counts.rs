@@ -3,7 +3,7 @@
 use crate::common::observe::{Events, Observer};
 use crate::common::raster::Sample;
 use crate::figure::drawing::{Anchor, Ink, Pen};
-use crate::figure::resize::fitted;
+use crate::figure::resize::{fitted, resized};
 use crate::figure::sheet::Sheet;
 use crate::figure::theme::ramp;
 use crate::wording::grouped;
@@ -39,17 +39,6 @@ impl Counts {
         Counts { height: height as usize, width: width as usize, counted, squares: HashMap::new() }
     }
 
-    /// The same count everywhere.
-    pub(super) fn same(image: [u32; 2], count: u64) -> Counts {
-        let mut counts = Counts::new(image, Counted::Tests);
-        for row in 0..counts.height.div_ceil(SQUARE) {
-            for column in 0..counts.width.div_ceil(SQUARE) {
-                counts.squares.insert([row, column], vec![count; SQUARE * SQUARE]);
-            }
-        }
-        counts
-    }
-
     fn add(&mut self, Sample { row, column }: Sample) {
         let square = self.squares.entry([row / SQUARE, column / SQUARE]);
         square.or_insert_with(|| vec![0; SQUARE * SQUARE])
@@ -67,16 +56,9 @@ impl Counts {
             .flat_map(move |row| (0..self.width).map(move |column| self.at(row, column)))
     }
 
-    pub(super) fn most(&self) -> u64 {
-        self.all().max().unwrap_or(0)
-    }
-
-    pub(super) fn total(&self) -> u64 {
-        self.all().sum()
-    }
-
-    pub(super) fn pixels(&self) -> usize {
-        self.height * self.width
+    /// Rows and columns.
+    pub(super) fn size(&self) -> [usize; 2] {
+        [self.height, self.width]
     }
 }
 
@@ -119,17 +101,17 @@ impl Events for Counts {
     }
 }
 
-/// Draws counts as a picture in a room; `shade` gives the place on the ramp. Gives the picture's corner and size.
+/// Draws counts, of so many rows and columns, as a picture in a room; `shade` gives the place on the ramp. Gives the picture's corner and size.
 pub(super) fn heat_map(
     sheet: &mut Sheet,
-    counts: &Counts,
+    (size, counts): ([usize; 2], &[u64]),
     corner: [f64; 2],
     room: [f64; 2],
     shade: impl Fn(u64) -> f64,
 ) -> ([f64; 2], [f64; 2]) {
     let side = |side: usize| u32::try_from(side).expect("an image's side");
-    let picture = RgbImage::from_fn(side(counts.width), side(counts.height), |x, y| {
-        Rgb(ramp(shade(counts.at(y as usize, x as usize))))
+    let picture = RgbImage::from_fn(side(size[1]), side(size[0]), |x, y| {
+        Rgb(ramp(shade(counts[y as usize * size[1] + x as usize])))
     });
     fit(sheet, picture, corner, room)
 }
@@ -147,7 +129,15 @@ pub(super) fn fit(
         reason = "a size on the canvas"
     )]
     let most = room.map(|side| side as u32);
-    let size = fitted([picture.width(), picture.height()], most).map(f64::from);
+    let drawn = fitted([picture.width(), picture.height()], most);
+    let size = drawn.map(f64::from);
+    // More than two pixels for each unit are more than any screen shows, and make large files.
+    let finest = drawn.map(|side| 2 * side);
+    let picture = if picture.width() > finest[0] || picture.height() > finest[1] {
+        resized(&picture, finest)
+    } else {
+        picture
+    };
     sheet.drawing.picture(picture, corner, size);
     sheet.border(corner, size);
     (corner, size)

@@ -29,10 +29,11 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
     );
     let point = "Depth complexity: how many surfaces lie behind one another at a sample. Only the nearest is seen.";
     let mut sheet = Sheet::new(subject, "How many primitives cover each sample?", point);
-    let most = counts.most().max(1);
+    let (image, counts): ([usize; 2], Vec<u64>) = (counts.size(), counts.all().collect());
+    let most = counts.iter().copied().max().unwrap_or(0).max(1);
     let (corner, size) = MAP;
-    let mean = counts.total() as f64 / counts.pixels() as f64;
-    let place = heat_map(&mut sheet, &counts, corner, size, |count| shade(count, most));
+    let mean = counts.iter().sum::<u64>() as f64 / counts.len() as f64;
+    let place = heat_map(&mut sheet, (image, &counts), corner, size, |count| shade(count, most));
     let note = format!("mean {}", number(mean, 3));
     sheet.heading(corner, place.1[0].max(560.0), "primitives that cover the sample", &note);
     scale_bar(&mut sheet, [place.0[0], place.0[1] + place.1[1] + 16.0], place.1[0], &[0, most]);
@@ -45,13 +46,13 @@ fn shade(count: u64, most: u64) -> f64 {
     count as f64 / most as f64
 }
 
-fn histogram(sheet: &mut Sheet, counts: &Counts, most: u64) {
+fn histogram(sheet: &mut Sheet, counts: &[u64], most: u64) {
     let theme = sheet.theme;
     let (corner, size) = BARS;
     sheet.heading(corner, size[0], "how often", "samples");
     let bars = usize::try_from(most).unwrap_or(usize::MAX).min(MOST_BARS - 1) + 1;
     let mut samples = vec![0_u64; bars];
-    for count in counts.all() {
+    for count in counts.iter().copied() {
         samples[usize::try_from(count).unwrap_or(usize::MAX).min(bars - 1)] += 1;
     }
     let greatest = samples.iter().copied().max().unwrap_or(1).max(1);

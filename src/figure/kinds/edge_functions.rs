@@ -2,12 +2,12 @@
 
 use super::grid::edges;
 use crate::common::glam::DVec3;
-use crate::common::{Frame, Primitive, Ray, View};
+use crate::common::{Frame, Primitive, Projection, Ray, View};
 use crate::figure::drawing::{Anchor, Drawing, Ink, Pen};
 use crate::figure::project::Projector;
 use crate::figure::sheet::{MARGIN, RIGHT, Sheet, TOP};
 use crate::figure::subject::{FigureError, Subject};
-use crate::figure::theme::{Role, Theme};
+use crate::figure::theme::{Role, Theme, mixed};
 use image::{Rgb, RgbImage};
 use std::collections::BTreeMap;
 
@@ -21,11 +21,15 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
     let view = &subject.view;
     let frame = subject.frame();
     let (id, corners) = triangle(subject, &frame)?;
-    let mut sheet = Sheet::new(
-        subject,
-        "A triangle is three half-planes",
-        "Each edge function is positive on one side of its edge's line; the triangle is where all three agree.",
-    );
+    let point = match view.camera.projection() {
+        Projection::Perspective => {
+            "Each edge function is positive on one side of its edge's line; the triangle is where all three agree."
+        }
+        Projection::Parallel => {
+            "Each edge function is positive on one side of its edge's line; the triangle is where all three agree, and t > 0."
+        }
+    };
+    let mut sheet = Sheet::new(subject, "A triangle is three half-planes", point);
     let extent = Extent::of(view, &corners, &frame, id);
     let values = Values::new(view, &corners, &extent);
     let theme = sheet.theme;
@@ -372,18 +376,4 @@ fn legend(sheet: &mut Sheet, y: f64) {
 /// The colour of the side on which a function has this sign.
 fn side_color(theme: Theme, value: f64) -> [u8; 3] {
     if value < 0.0 { theme.quiet() } else { theme.of(Role::Good) }
-}
-
-/// A colour between two others.
-fn mixed(from: [u8; 3], to: [u8; 3], part: f64) -> [u8; 3] {
-    [0, 1, 2].map(|channel| {
-        let value = f64::from(from[channel]) * (1.0 - part) + f64::from(to[channel]) * part;
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "from 0 to 255"
-        )]
-        let value = value.round() as u8;
-        value
-    })
 }

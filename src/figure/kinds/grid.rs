@@ -3,7 +3,7 @@
 
 use super::patch::Patch;
 use crate::common::exact::EdgeSigns;
-use crate::common::{Frame, Primitive, Sign, View};
+use crate::common::{Frame, Primitive, Projection, Sign, View};
 use crate::figure::drawing::{Anchor, Drawing, Ink, Pen};
 use crate::figure::project::Projector;
 use crate::figure::sheet::{MARGIN, RIGHT, Sheet, TOP};
@@ -24,12 +24,20 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
     let frame = subject.frame();
     let (pixel, id) = match subject.pixel() {
         Some(pixel) => (pixel, at_or_near(&frame, pixel)),
-        None => telling(view, &frame).ok_or_else(nothing)?,
+        None => telling(view, &frame).unwrap_or_else(|| {
+            // One primitive fills the picture, or nothing does.
+            let middle = [frame.height() / 2, frame.width() / 2];
+            let middle = middle.map(|part| u32::try_from(part).expect("within the image"));
+            (middle, at_or_near(&frame, middle))
+        }),
     };
     let id = id.ok_or_else(nothing)?;
     let primitive = view.primitive(id);
     let is_triangle = matches!(primitive, Primitive::Triangle(_));
-    let point = if is_triangle {
+    let parallel = view.camera.projection() == Projection::Parallel;
+    let point = if is_triangle && parallel {
+        "A triangle covers a sample if its three edge functions have the sign of its facing F there, and t > 0; 0 is a tie."
+    } else if is_triangle {
         "A triangle covers a sample if its three edge functions have the sign of its facing F there; 0 is a tie."
     } else {
         "A sample is covered if its viewing ray hits the primitive: what lies between samples is never asked."
@@ -67,6 +75,7 @@ impl Cell {
 /// Whether a sample lies on the triangle's boundary: on an edge, and outside none.
 fn on_boundary(edges: &EdgeSigns) -> bool {
     edges.facing != Sign::Zero
+        && edges.in_front
         && edges.at_sample.contains(&Sign::Zero)
         && !edges.at_sample.contains(&-edges.facing)
 }
@@ -201,9 +210,17 @@ fn draw_outlines(sheet: &mut Sheet, view: &View, patch: &Patch, frame: &Frame, i
             sheet.drawing.line(&place(line), Pen::new(theme.quiet(), 1.5).alpha(0.55));
         }
     }
-    let lines = projector.outline(&view.primitive(id));
-    for (line, (color, _)) in lines.into_iter().zip(edges(theme).into_iter().cycle()) {
-        sheet.drawing.line(&place(line), Pen::new(color, 5.0));
+    let own = view.primitive(id);
+    if let Primitive::Triangle([a, b, c]) = own {
+        for ((from, to), (color, _)) in [(a, b), (b, c), (c, a)].into_iter().zip(edges(theme)) {
+            if let Some(line) = projector.segment(from, to) {
+                sheet.drawing.line(&place(line.to_vec()), Pen::new(color, 5.0));
+            }
+        }
+    } else {
+        for line in projector.outline(&own) {
+            sheet.drawing.line(&place(line), Pen::new(theme.of(Role::Good), 5.0));
+        }
     }
     sheet.drawing.window(None);
 }

@@ -7,7 +7,7 @@ use crate::figure::drawing::{Anchor, Drawing, Ink, Pen};
 use crate::figure::project::Projector;
 use crate::figure::sheet::{MARGIN, Sheet, TOP};
 use crate::figure::subject::{FigureError, Subject, small_picture};
-use crate::figure::theme::{Role, Theme};
+use crate::figure::theme::{Role, faded};
 use crate::wording::{count, grouped};
 use crate::{rasterize, raytrace};
 use image::RgbImage;
@@ -33,7 +33,7 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
     }
     let point = "Image order asks a box before what is in it; object order asks a cluster before its triangles.";
     let mut sheet = Sheet::new(subject, "Boxes, so that most is never looked at", point);
-    let picture = faded(&small_picture(view, 1120), theme);
+    let picture = faded(&small_picture(view, 1120), theme, 0.4);
     let image = Role::Image;
     for (column, (name, level)) in levels(&boxes).into_iter().enumerate() {
         let of_level: Vec<[Vec3; 2]> =
@@ -88,18 +88,6 @@ fn levels(boxes: &[HierarchyBox]) -> Vec<(String, Level)> {
     levels
 }
 
-/// The picture, so pale that lines over it are seen.
-fn faded(picture: &RgbImage, theme: Theme) -> RgbImage {
-    let mut faded = picture.clone();
-    for pixel in faded.pixels_mut() {
-        for (channel, mat) in pixel.0.iter_mut().zip(theme.mat()) {
-            *channel =
-                u8::try_from((u16::from(*channel) * 2 + u16::from(mat) * 3) / 5).unwrap_or(mat);
-        }
-    }
-    faded
-}
-
 fn panel(
     sheet: &mut Sheet,
     subject: &Subject,
@@ -110,7 +98,12 @@ fn panel(
 ) {
     let theme = sheet.theme;
     let (at, size) = fit(sheet, picture.clone(), corner, PANEL);
-    sheet.heading(corner, size[0].max(400.0), name, &count(boxes.len() as u64, things));
+    let every = boxes.len().div_ceil(MOST).max(1);
+    let note = match every {
+        1 => count(boxes.len() as u64, things),
+        every => format!("{}, 1 in {every} drawn", grouped(boxes.len() as u64)),
+    };
+    sheet.heading(corner, size[0].max(400.0), name, &note);
     let projector = Projector { camera: subject.view.camera };
     let [width, height] = subject.view.camera.image().map(f64::from);
     let place = |[column, row]: [f64; 2]| {
@@ -120,20 +113,21 @@ fn panel(
     let few = boxes.len() <= WHOLE;
     let pen =
         Pen::new(theme.of(role), if few { 1.8 } else { 1.0 }).alpha(if few { 0.95 } else { 0.7 });
-    for bounds in boxes.iter().step_by(boxes.len().div_ceil(MOST).max(1)) {
+    for bounds in boxes.iter().step_by(every) {
         let corners = corners(subject, *bounds);
-        if few {
+        let seen: Option<Vec<[f64; 2]>> =
+            corners.iter().map(|corner| projector.place(*corner)).collect();
+        // A box that reaches behind the eye has no rectangle around it: its edges are drawn.
+        let seen = seen.filter(|_| !few);
+        let Some(seen) = seen else {
             for (from, to) in edges() {
                 if let Some([from, to]) = projector.segment(corners[from], corners[to]) {
                     sheet.drawing.line(&[place(from), place(to)], pen);
                 }
             }
             continue;
-        }
+        };
         // Of many boxes, the rectangle around each on the raster.
-        let seen: Option<Vec<[f64; 2]>> =
-            corners.iter().map(|corner| projector.place(*corner)).collect();
-        let Some(seen) = seen else { continue };
         let end = |axis: usize, pick: fn(f64, f64) -> f64| {
             seen.iter().map(|at| at[axis]).reduce(pick).unwrap_or(0.0)
         };
@@ -205,10 +199,10 @@ fn numbers(
     if rows.len() > 5 {
         let more = rows.len() - 5;
         rows.truncate(5);
-        rows.push((format!("and {more} more levels"), String::new()));
+        rows.push((format!("and {}", count(more as u64, "more levels")), String::new()));
     }
     rows.push(("leaves".into(), grouped(leaves as u64)));
-    rows.push(("clusters of at most 32 triangles".into(), grouped(clusters as u64)));
+    rows.push(("clusters of triangles".into(), grouped(clusters as u64)));
     rows.push(("primitives".into(), grouped(subject.view.scene.primitive_count().into())));
     let step = 40.0;
     for (row, (name, figure)) in rows.iter().enumerate() {

@@ -28,26 +28,23 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
     let mut sheet = Sheet::new(subject, "When is a pixel decided?", point);
     let small = smaller(view);
     for (row, method) in [Method::Textbook, Method::Fast].into_iter().enumerate() {
+        let camera = match method {
+            Method::Textbook => small.as_ref(),
+            Method::Fast => Some(view.camera),
+        };
         let y = TOPS[row] + 0.5 * MAP[1];
-        let [_, height] = if row == 0 { small.image() } else { view.camera.image() };
-        let width = if row == 0 { small.image()[0] } else { view.camera.image()[0] };
-        let words = [
-            (method.name(), theme.heading()),
-            (&*format!("{width} × {height} pixels"), theme.label()),
-        ];
+        let size = camera.map(Camera::image);
+        let size = size.map_or("would take too long".into(), |[width, height]| {
+            format!("{width} × {height} pixels")
+        });
+        let words = [(method.name(), theme.heading()), (&*size, theme.label())];
         sheet.lines([MARGIN, y], 280.0, 36.0, &words);
+        let Some(camera) = camera else { continue };
         for (column, order) in Order::ALL.into_iter().enumerate() {
             let corner = [LEFTS[column], TOPS[row]];
-            let clock = match method {
-                Method::Textbook => textbook(&View::new(view.scene, &small), order),
-                Method::Fast => {
-                    let mut clock = Clock::new(order);
-                    watch_in_order(view, order, &mut clock);
-                    clock
-                }
-            };
-            let image = if row == 0 { small.image() } else { view.camera.image() };
-            let (_, size) = fit(&mut sheet, clock.picture(image, theme), corner, MAP);
+            let clock = clock(&View::new(view.scene, camera), order, method);
+            let picture = clock.picture(camera.image(), theme);
+            let (_, size) = fit(&mut sheet, picture, corner, MAP);
             let note = count(clock.steps, "steps");
             sheet.heading(corner, size[0].max(400.0), order.name(), &note);
         }
@@ -67,44 +64,59 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
     sheet.drawing.text(
         [MARGIN, y + 14.0],
         Anchor::Left,
-        "a step: one primitive,",
+        "a step: one primitive or one",
         label.sized(19.0),
     );
     sheet.drawing.text(
         [MARGIN, y + 40.0],
         Anchor::Left,
-        "or one box, is tested",
+        "box is tested; plain: nothing",
         label.sized(19.0),
     );
     Ok(sheet.drawing)
 }
 
-/// The camera with an image so small that the textbook ends soon.
-fn smaller(view: &View) -> Camera {
+/// The camera with an image so small that the textbook ends soon; `None` if that would be hardly a picture.
+fn smaller(view: &View) -> Option<Camera> {
+    const FEWEST: u64 = 48;
     let [width, height] = view.camera.image();
-    let pixels = u64::from(width) * u64::from(height);
-    let most = (MOST_TESTS / u64::from(view.scene.primitive_count()).max(1)).max(64);
-    let scale = (most as f64 / pixels as f64).sqrt().min(1.0);
+    let most = MOST_TESTS / u64::from(view.scene.primitive_count()).max(1);
+    let scale = (most as f64 / (f64::from(width) * f64::from(height))).sqrt().min(1.0);
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         reason = "smaller than a side"
     )]
-    let image = [width, height].map(|side| ((f64::from(side) * scale) as u32).max(1));
-    Camera::new(CameraDescription { image, ..*view.camera.description() })
-        .expect("a smaller image is allowed")
+    let [mut width, mut height] =
+        [width, height].map(|side| ((f64::from(side) * scale) as u32).max(1));
+    // A picture of one row or column is still too long.
+    let longest = u32::try_from(most.max(1)).unwrap_or(u32::MAX);
+    (width, height) =
+        (width.min(longest / height.min(longest)), height.min(longest / width.min(longest)));
+    let image = [width.max(1), height.max(1)];
+    let pixels = u64::from(image[0]) * u64::from(image[1]);
+    let whole = view.camera.image() == image;
+    (pixels <= most.max(1) && (whole || pixels >= FEWEST)).then(|| {
+        Camera::new(CameraDescription { image, ..*view.camera.description() })
+            .expect("a smaller image is allowed")
+    })
 }
 
-fn textbook(view: &View, order: Order) -> Clock {
+/// Renders, and gives when each pixel was decided.
+fn clock(view: &View, order: Order, method: Method) -> Clock {
+    let mut clock = Clock::new(order);
+    if method == Method::Fast {
+        watch_in_order(view, order, &mut clock);
+        return clock;
+    }
     let options = Options::default();
     let mut frame = Frame::new(view.camera, &options);
-    let mut clock = Clock::new(order);
     match order {
         Order::Object => {
-            rasterize::textbook::determine_visibility(view, &options, &mut frame, &mut clock)
+            rasterize::textbook::determine_visibility(view, &options, &mut frame, &mut clock);
         }
         Order::Image => {
-            raytrace::textbook::determine_visibility(view, &options, &mut frame, &mut clock)
+            raytrace::textbook::determine_visibility(view, &options, &mut frame, &mut clock);
         }
     }
     clock
@@ -125,19 +137,34 @@ fn watch_in_order(view: &View, order: Order, clock: &mut Clock) {
 struct Clock {
     order: Order,
     steps: u64,
-    decided: HashMap<Sample, u64>,
+    /// For squares of samples, as far as anything is decided there: the steps before; [`NEVER`] for nothing.
+    decided: HashMap<[usize; 2], Vec<u64>>,
 }
+
+/// No step.
+const NEVER: u64 = u64::MAX;
+/// The side of a square of samples that are stored together.
+const SQUARE: usize = 16;
 
 impl Clock {
     fn new(order: Order) -> Clock {
         Clock { order, steps: 0, decided: HashMap::new() }
     }
 
+    /// When a sample was decided.
+    fn at(&mut self, Sample { row, column }: Sample) -> &mut u64 {
+        let square = self.decided.entry([row / SQUARE, column / SQUARE]);
+        let square = square.or_insert_with(|| vec![NEVER; SQUARE * SQUARE]);
+        &mut square[row % SQUARE * SQUARE + column % SQUARE]
+    }
+
     fn picture(&self, [width, height]: [u32; 2], theme: Theme) -> RgbImage {
         RgbImage::from_fn(width, height, |x, y| {
-            let decided = self.decided.get(&Sample { row: y as usize, column: x as usize });
-            let part = |at: &u64| *at as f64 / self.steps.max(1) as f64;
-            Rgb(decided.map_or(theme.mat(), |at| ramp(part(at))))
+            let (row, column) = (y as usize, x as usize);
+            let square = self.decided.get(&[row / SQUARE, column / SQUARE]);
+            let at = square.map_or(NEVER, |square| square[row % SQUARE * SQUARE + column % SQUARE]);
+            let part = at as f64 / self.steps.max(1) as f64;
+            Rgb(if at == NEVER { theme.mat() } else { ramp(part) })
         })
     }
 }
@@ -149,7 +176,12 @@ impl Observer for Clock {
 
     fn join(&mut self, part: Self) {
         let before = self.steps;
-        self.decided.extend(part.decided.into_iter().map(|(sample, at)| (sample, before + at)));
+        for (square, decided) in part.decided {
+            let stored = self.decided.entry(square).or_insert_with(|| vec![NEVER; SQUARE * SQUARE]);
+            for (stored, at) in stored.iter_mut().zip(decided).filter(|(_, at)| *at != NEVER) {
+                *stored = before + at;
+            }
+        }
         self.steps += part.steps;
     }
 }
@@ -165,19 +197,23 @@ impl Events for Clock {
 
     fn fragment(&mut self, sample: Sample, _primitive: u32) {
         if self.order == Order::Object {
-            self.decided.entry(sample).or_insert(self.steps);
+            let steps = self.steps;
+            let at = self.at(sample);
+            *at = steps.min(*at);
         }
     }
 
     fn depth_test(&mut self, sample: Sample, _incoming: u32, _stored: u32, replaced: bool) {
         if self.order == Order::Object && replaced {
-            self.decided.insert(sample, self.steps);
+            let steps = self.steps;
+            *self.at(sample) = steps;
         }
     }
 
     fn hit(&mut self, sample: Sample, primitive: Option<u32>) {
         if self.order == Order::Image && primitive.is_some() {
-            self.decided.insert(sample, self.steps);
+            let steps = self.steps;
+            *self.at(sample) = steps;
         }
     }
 }

@@ -9,7 +9,7 @@ use crate::figure::resize::{fitted, resized};
 use crate::figure::sheet::{MARGIN, RIGHT, Sheet, TOP, number};
 use crate::figure::subject::{FigureError, Subject, small_picture};
 use crate::figure::theme::{Role, ramp};
-use crate::pixel::{self, SampleReport};
+use crate::pixel::{self, Covering, SampleReport};
 use crate::raytrace::{self, fast::HierarchyBox};
 use crate::wording::{count, grouped};
 use std::collections::HashMap;
@@ -256,7 +256,14 @@ fn axis(sheet: &mut Sheet, report: &SampleReport, entered: &[(HierarchyBox, [f64
         _ if farthest > 0.0 => farthest,
         _ => 1.0,
     };
-    let place = |t: f64| AXIS[0] + (AXIS[1] - AXIS[0]) * (t / (1.06 * most)).min(1.0);
+    let end = 1.06 * most;
+    let place = |t: f64| AXIS[0] + (AXIS[1] - AXIS[0]) * (t / end).min(1.0);
+    let shown: Vec<&Covering> = report.covering.iter().filter(|one| one.t <= end).collect();
+    if shown.len() < report.covering.len() {
+        let farther = format!("{} farther", grouped((report.covering.len() - shown.len()) as u64));
+        let at = [AXIS[1] + 8.0, AXIS_Y - 20.0];
+        sheet.drawing.text(at, Anchor::Right, &farther, theme.label());
+    }
     levels(sheet, entered, &place);
     let line = Pen::new(theme.bright(), 3.0);
     sheet.drawing.arrow([AXIS[0] - 24.0, AXIS_Y], [AXIS[1] + 36.0, AXIS_Y], line);
@@ -270,7 +277,7 @@ fn axis(sheet: &mut Sheet, report: &SampleReport, entered: &[(HierarchyBox, [f64
     sheet.drawing.text([AXIS[0], AXIS_Y + 40.0], Anchor::Middle, "0", theme.label());
     sheet.drawing.text([MARGIN, AXIS_Y + 8.0], Anchor::Left, "crossings", theme.text());
     let behind = Pen::new(theme.quiet(), 3.0);
-    for (place_in_order, covering) in report.covering.iter().enumerate().rev() {
+    for (place_in_order, covering) in shown.iter().enumerate().rev() {
         let x = place(covering.t);
         let winner = place_in_order == 0;
         sheet.drawing.disc(
@@ -284,14 +291,14 @@ fn axis(sheet: &mut Sheet, report: &SampleReport, entered: &[(HierarchyBox, [f64
             sheet.drawing.ring([x, AXIS_Y], 7.0, behind);
         }
     }
-    labels(sheet, report, &place);
+    labels(sheet, &shown, &place);
 }
 
 /// The names of the crossings below the axis: those that fit, nearest first, in two rows.
-fn labels(sheet: &mut Sheet, report: &SampleReport, place: &impl Fn(f64) -> f64) {
+fn labels(sheet: &mut Sheet, shown: &[&Covering], place: &impl Fn(f64) -> f64) {
     let theme = sheet.theme;
     let mut free = [AXIS[0] + 30.0, AXIS[0] + 30.0];
-    for (number_in_order, covering) in report.covering.iter().enumerate() {
+    for (number_in_order, covering) in shown.iter().enumerate() {
         let x = place(covering.t);
         let style = theme.label();
         let style =
@@ -335,7 +342,8 @@ fn levels(sheet: &mut Sheet, entered: &[(HierarchyBox, [f64; 2])], place: &impl 
         let here = |level: usize| level == row || (row + 1 == rows && level > row);
         let of_row: Vec<&(HierarchyBox, [f64; 2])> =
             entered.iter().filter(|(one, _)| here(one.level)).collect();
-        let name = format!("level {}: {}", row + 1, grouped(of_row.len() as u64));
+        let deeper = if row + 1 == rows && deepest >= rows { " and deeper" } else { "" };
+        let name = format!("level {}{deeper}: {}", row + 1, grouped(of_row.len() as u64));
         sheet.drawing.text(
             [MARGIN, y + 0.72 * step],
             Anchor::Left,

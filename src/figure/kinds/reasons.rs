@@ -7,8 +7,9 @@ use crate::diff::why::{ReasonKind, Reasons, find_reasons};
 use crate::figure::drawing::{Anchor, Drawing, Ink, Pen};
 use crate::figure::sheet::{MARGIN, RIGHT, Sheet, TOP};
 use crate::figure::subject::{FigureError, Subject};
+use crate::figure::theme::faded;
 use crate::wording::{count, grouped};
-use image::{Rgb, RgbImage};
+use image::Rgb;
 
 const ROOM: ([f64; 2], [f64; 2]) = ([MARGIN, TOP + 44.0], [1090.0, 750.0]);
 const WORDS: f64 = 1220.0;
@@ -43,12 +44,7 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
 fn map(sheet: &mut Sheet, both: &Both, reasons: &Reasons) {
     let theme = sheet.theme;
     let (corner, room) = ROOM;
-    let mut picture: RgbImage = both.pictures[1].clone();
-    for pixel in picture.pixels_mut() {
-        for (channel, mat) in pixel.0.iter_mut().zip(theme.mat()) {
-            *channel = u8::try_from((u16::from(*channel) + u16::from(mat) * 2) / 3).unwrap_or(mat);
-        }
-    }
+    let mut picture = faded(&both.pictures[1], theme, 0.34);
     for found in &reasons.pixels {
         let [i, j] = found.pixel;
         picture.put_pixel(j, i, Rgb(found.reason.kind().color()));

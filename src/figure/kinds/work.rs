@@ -36,12 +36,11 @@ pub fn work_maps(view: &View) -> Vec<WorkMap> {
     let all = [Method::Textbook, Method::Fast]
         .into_iter()
         .flat_map(|method| Order::ALL.map(move |order| (order, method)));
+    let [width, height] = view.camera.image().map(|side| side as usize);
     all.map(|(order, method)| {
-        let counts = counted(view, order, method);
-        let [width, height] = view.camera.image().map(|side| side as usize);
-        let counts = match counts {
-            Some(counts) => counts.all().collect(),
-            None => vec![u64::from(view.scene.primitive_count()); width * height],
+        let counts = match method {
+            Method::Fast => work_at_samples(view, order, &Options::default()),
+            Method::Textbook => vec![u64::from(view.scene.primitive_count()); width * height],
         };
         WorkMap { order, method, size: [height, width], counts }
     })
@@ -64,15 +63,6 @@ pub fn work_at_samples(view: &View, order: Order, options: &Options) -> Vec<u64>
         .collect()
 }
 
-/// The counts of a run; `None` for a textbook, whose counts are all the same.
-fn counted(view: &View, order: Order, method: Method) -> Option<Counts> {
-    (method == Method::Fast).then(|| {
-        let mut counts = Counts::new(view.camera.image(), Counted::Tests);
-        watch(view, order, &mut counts);
-        counts
-    })
-}
-
 /// Renders by the fast method for an observer.
 pub(super) fn watch(view: &View, order: Order, observer: &mut impl Observer) {
     watch_with(view, order, &Options::default(), observer);
@@ -93,18 +83,19 @@ fn watch_with(view: &View, order: Order, options: &Options, observer: &mut impl 
 }
 
 pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
-    let view = &subject.view;
+    Ok(work_figure(subject, &work_maps(&subject.view)))
+}
+
+/// Draws maps of work that are counted already: the figure of [`Kind::Work`](crate::figure::Kind::Work).
+pub fn work_figure(subject: &Subject, maps: &[WorkMap]) -> Drawing {
     let point = "The work of the algorithm, each primitive and each ray by itself; a timed frame shares much of it.";
     let mut sheet = Sheet::new(subject, "How much work is a pixel?", point);
-    let maps = work_maps(view);
     let most = maps.iter().flat_map(|map| map.counts.iter().copied()).max().unwrap_or(1).max(1);
     for (place, map) in maps.iter().enumerate() {
         let corner = [LEFTS[place % 2], TOPS[place / 2]];
         let name = format!("{}, {}", map.order.name(), map.method.name());
         sheet.heading(corner, CELL[0], &name, "");
-        let counts = counted(view, map.order, map.method);
-        let counts = counts.unwrap_or_else(|| Counts::same(view.camera.image(), map.counts[0]));
-        heat_map(&mut sheet, &counts, corner, MAP, |count| shade(count, most));
+        heat_map(&mut sheet, (map.size, &map.counts), corner, MAP, |count| shade(count, most));
         words(&mut sheet, map, [corner[0] + MAP[0] + 28.0, corner[1] + 34.0]);
     }
     let ticks = ticks(most);
@@ -117,7 +108,7 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
         sheet.theme.label(),
     );
     bar(&mut sheet, [MARGIN + 330.0, y], wide, &ticks, most);
-    Ok(sheet.drawing)
+    sheet.drawing
 }
 
 /// The place on the ramp, in equal ratios, so that 1 and the greatest number are its ends.

@@ -24,17 +24,10 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
     let pixel = subject.pixel().unwrap_or_else(|| telling(&subject.view, &both));
     let image = subject.view.camera.image();
     let [i, j] = pixel;
-    let differing = both.comparison.visible.differing_pixels;
-    let point = if differing == 0 {
-        "Both orders write the same ids and the same coverage; colours and distances agree within rounding.".to_owned()
-    } else {
-        let pixels = count(differing, "pixels");
-        format!(
-            "The orders see different primitives in {pixels} of the picture; here they are framed."
-        )
-    };
+    let patch = Patch::around(pixel, image, SIZE, ([0.0; 2], ROOM));
+    let point = point(&both, &patch);
     let mut sheet = Sheet::new(subject, &format!("All buffers around pixel ({i}, {j})"), &point);
-    let range = distances(&both, &Patch::around(pixel, image, SIZE, ([0.0; 2], ROOM)));
+    let range = distances(&both, &patch);
     for (row, rendered) in [&both.object_order, &both.image_order].into_iter().enumerate() {
         for (column, buffer) in BUFFERS.into_iter().enumerate() {
             let corner = [MARGIN + column as f64 * STEP, TOPS[row]];
@@ -50,6 +43,31 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
     }
     legend(&mut sheet, range, pixel, image);
     Ok(sheet.drawing)
+}
+
+/// What there is to see, in a sentence.
+fn point(both: &Both, patch: &Patch) -> String {
+    let comparison = &both.comparison;
+    let here = patch.pixels().filter(|pixel| differs(both, *pixel)).count() as u64;
+    let within = comparison.depth.differing_pixels == 0 && comparison.color.differing_pixels == 0;
+    match (comparison.visible.differing_pixels, here) {
+        (0, _) if within => {
+            "Both orders write the same ids and the same coverage; colours and distances agree within rounding.".into()
+        }
+        (0, _) => "Both orders write the same ids and the same coverage; their colours or distances differ.".into(),
+        (all, 0) => format!("The orders see different primitives in {}, none of them here.", count(all, "pixels")),
+        (all, here) => format!(
+            "The orders see different primitives in {} of the picture; the {} here are framed.",
+            count(all, "pixels"),
+            crate::wording::grouped(here)
+        ),
+    }
+}
+
+/// Whether the orders see different primitives in a pixel.
+fn differs(both: &Both, [row, column]: [usize; 2]) -> bool {
+    let side = |part: usize| u32::try_from(part).expect("within the image");
+    both.comparison.classes().at(side(row), side(column)).differs()
 }
 
 /// The first differing pixel; if there is none, an outline near the middle.
@@ -100,10 +118,8 @@ fn cells(
 /// Frames the pixels in which the orders differ.
 fn mark(sheet: &mut Sheet, patch: &Patch, both: &Both) {
     let color = sheet.theme.of(Role::Focus);
-    let classes = both.comparison.classes();
     for [row, column] in patch.pixels() {
-        let side = |part: usize| u32::try_from(part).expect("within the image");
-        if classes.at(side(row), side(column)).differs() {
+        if differs(both, [row, column]) {
             let corner = patch.corner([row, column]).map(|part| part + 1.0);
             sheet.drawing.frame(
                 corner,
