@@ -1,5 +1,7 @@
 //! `slides` replaces what an earlier run wrote, and nothing else.
 
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 use assert_cmd::Command;
 use predicates::str::contains;
 use std::fs;
