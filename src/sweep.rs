@@ -6,6 +6,7 @@
 //! into words. Counts are the same on every machine, times are not: they are never mixed in one chart.
 //!
 //! ```
+//! use bothways::orders::Method;
 //! use bothways::sweep::{Axis, Bench, Plan, Quantity, Summary, Table};
 //!
 //! let plan = Plan { image: [40, 30], most: 1000, times: false, ..Plan::default() };
@@ -15,7 +16,8 @@
 //!     table.insert(task, bench.measure(&task));
 //! }
 //! let summary = Summary::of(&table, Axis::Triangles, Quantity::Steps).expect("there are points");
-//! let textbook = summary.curves[1].slope.expect("there are enough points");
+//! let textbook = summary.curves.iter().find(|curve| curve.method == Method::Textbook);
+//! let textbook = textbook.and_then(|curve| curve.slope).expect("there are enough points");
 //! assert!((textbook.value - 1.0).abs() < 0.01, "every triangle at every sample");
 //! ```
 
