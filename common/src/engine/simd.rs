@@ -3,7 +3,7 @@
 //!
 //! All types here come from [`fearless_simd`]. Code is written once, generic over [`Simd`], for sixteen lanes of
 //! `f32` (eight of `f64`); [`dispatch!`] runs it at a [`Level`]: AVX-512, AVX2, SSE4.2, SSE2, NEON, WebAssembly's
-//! SIMD, or plain scalars. The number of lanes never changes, and the code uses only operations that IEEE 754 rounds
+//! SIMD, or plain scalars. (A clone leaves SSE4.2 out, see `.cargo/config.toml`: it takes SSE2 in its place.) The number of lanes never changes, and the code uses only operations that IEEE 754 rounds
 //! correctly (no fused multiply-add, no approximate reciprocal), so the level changes no bit of any result.
 //!
 //! Functions between [`dispatch!`] and the vector operations must be `#[inline(always)]`; otherwise they are compiled
