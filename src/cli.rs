@@ -29,6 +29,7 @@ mod rules;
 mod run;
 mod show_camera;
 mod slides;
+mod status_line;
 mod sweep;
 mod table;
 mod terminal;

@@ -47,7 +47,7 @@ pub use size::default_size;
 
 use crate::common::View;
 use crate::diff::{Comparison, compare_shown};
-use crate::figure::Theme;
+use crate::figure::{Theme, within};
 use crate::orders::{Method, Order};
 use crate::wording::grouped;
 use image::RgbImage;
@@ -244,7 +244,7 @@ fn check(view: &View, method: Method) -> Result<(), FilmError> {
     if method == Method::Fast || steps <= MOST_STEPS {
         return Ok(());
     }
-    let smaller = size::within(size, MOST_STEPS / u64::from(primitives));
+    let smaller = within(size, MOST_STEPS / u64::from(primitives));
     let fits = smaller.map(|[width, height]| format!(", or a --size of at most {width}x{height}"));
     let advice = format!("take --method fast{}", fits.unwrap_or_default());
     Err(FilmError::TooManySteps { steps, primitives, pixels, advice })

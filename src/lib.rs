@@ -86,6 +86,7 @@ pub mod picture;
 pub mod pixel;
 pub mod progress;
 pub mod report;
+mod sample_map;
 pub mod scenes;
 pub mod slides;
 pub mod sweep;

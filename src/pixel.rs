@@ -7,11 +7,10 @@ use crate::common::exact::{EdgeSigns, EdgeValues};
 use crate::common::observe::Question;
 use crate::common::raster::{Region, Sample};
 use crate::common::{Crop, Events, Frame, Observer, Options, Primitive, Ray, Shape, View, Work};
+use crate::sample_map::SampleMap;
 use crate::{rasterize, raytrace};
 use rayon::prelude::*;
 use std::cmp::Ordering;
-use std::collections::HashMap;
-use std::collections::hash_map::Entry;
 
 /// One sample of a pixel.
 #[derive(Clone, Debug, PartialEq)]
@@ -242,7 +241,7 @@ fn watched(
     let answers = samples(pixel).map(|sample @ Sample { row, column }| Answer {
         id: frame.id(row, column),
         t: frame.t(row, column),
-        work: watch.of(sample),
+        work: watch.work.get(sample),
     });
     answers.collect()
 }
@@ -251,36 +250,18 @@ fn watched(
 #[derive(Clone, Debug)]
 struct Watch {
     pixel: Region,
-    /// Counts for squares of samples, stored only for squares with work: most parts of a picture have none, and each
-    /// thread sees a small part of a pixel with many samples at a time.
-    work: HashMap<[usize; 2], Vec<Work>>,
+    work: SampleMap<Work>,
 }
-
-/// The number of samples along a side of such a square.
-const SQUARE: usize = 16;
 
 impl Watch {
     fn new(pixel: &Region) -> Watch {
-        Watch { pixel: pixel.clone(), work: HashMap::new() }
-    }
-
-    /// The square of a sample, and the sample's index in the square.
-    fn place(Sample { row, column }: Sample) -> ([usize; 2], usize) {
-        ([row / SQUARE, column / SQUARE], row % SQUARE * SQUARE + column % SQUARE)
-    }
-
-    /// The work at a sample so far.
-    fn of(&self, sample: Sample) -> Work {
-        let (square, place) = Watch::place(sample);
-        self.work.get(&square).map_or(Work::default(), |work| work[place])
+        Watch { pixel: pixel.clone(), work: SampleMap::new(Work::default()) }
     }
 
     fn tell(&mut self, sample: Sample, event: impl FnOnce(&mut Work)) {
         let Region { rows, columns } = &self.pixel;
         if rows.contains(&sample.row) && columns.contains(&sample.column) {
-            let (square, place) = Watch::place(sample);
-            let nothing = || vec![Work::default(); SQUARE * SQUARE];
-            event(&mut self.work.entry(square).or_insert_with(nothing)[place]);
+            event(self.work.get_mut(sample));
         }
     }
 }
@@ -291,16 +272,7 @@ impl Observer for Watch {
     }
 
     fn join(&mut self, part: Self) {
-        for (square, more) in part.work {
-            match self.work.entry(square) {
-                Entry::Vacant(place) => {
-                    place.insert(more);
-                }
-                Entry::Occupied(work) => {
-                    work.into_mut().iter_mut().zip(more).for_each(|(work, more)| work.join(more));
-                }
-            }
-        }
+        self.work.join(part.work, |work, more| work.join(more));
     }
 }
 

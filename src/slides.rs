@@ -17,6 +17,7 @@
 mod content;
 mod page;
 mod stills;
+mod words;
 
 pub use content::{Content, SlideError};
 

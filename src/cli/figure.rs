@@ -16,8 +16,7 @@ use bothways::rules::{image_order, object_order};
 use bothways::scenes::{self, DEFAULT};
 use bothways::wording::count;
 use clap::Args;
-use image::ImageFormat;
-use std::io::{Cursor, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -70,7 +69,7 @@ pub(super) struct FigureArgs {
           value_parser = rules::<image_order::Rule>)]
     image_rules: RulesArg<image_order::Rule>,
     /// dark, for projectors in dim rooms, or light, for paper
-    #[arg(long, default_value = "dark", value_parser = theme)]
+    #[arg(long, default_value = "dark")]
     theme: Theme,
     /// For the kind work: also write the counts as NumPy arrays into this folder, H×W, u64, one file an order and method
     #[arg(long, value_name = "DIR")]
@@ -190,13 +189,7 @@ fn format(file: &OutputFile) -> Result<Format, Failure> {
 fn write(drawing: &Drawing, file: &OutputFile, format: Format, width: u32) -> Result<(), Failure> {
     let bytes = match format {
         Format::Svg => drawing.svg().into_bytes(),
-        Format::Png => {
-            let mut png = Cursor::new(Vec::new());
-            let written = drawing.pixels(width).write_to(&mut png, ImageFormat::Png);
-            written
-                .map_err(|error| Failure::new(format!("cannot write {}: {error}", file.said())))?;
-            png.into_inner()
-        }
+        Format::Png => drawing.png(width),
     };
     file.write(|out| out.write_all(&bytes))
 }
@@ -218,10 +211,6 @@ fn kind(name: &str) -> Result<Kind, String> {
             .map_or(String::new(), |near| format!("did you mean {near}? "));
         format!("{suggestion}the kinds are {}", names.join(", "))
     })
-}
-
-fn theme(name: &str) -> Result<Theme, String> {
-    name.parse()
 }
 
 /// A row and a column.

@@ -1,6 +1,5 @@
 //! `bothways film`: both orders draw one picture, as a GIF, an animated PNG, a video or a folder of frames.
 
-pub(super) mod progress;
 mod target;
 mod video;
 
@@ -8,6 +7,7 @@ use super::args::{CameraArgs, MethodArg};
 use super::camera::{camera, squashed};
 use super::failure::Failure;
 use super::run::folder_name;
+use super::status_line::StatusLine;
 use super::terminal;
 use bothways::common::View;
 use bothways::figure::Theme;
@@ -15,7 +15,6 @@ use bothways::film::{Film, Length, MOST_SECONDS, WIDTH_STEP, WIDTHS, default_siz
 use bothways::scenes;
 use bothways::wording::{count, grouped};
 use clap::Args;
-use progress::Progress;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -101,13 +100,13 @@ pub(super) fn run(args: &FilmArgs) -> Result<ExitCode, Failure> {
     if let Some(hint) = squashed(&camera, &args.camera) {
         anstream::eprintln!("hint: {hint}");
     }
-    let mut progress = Progress::new(length.frames());
-    progress.say("watching both orders");
+    let line = StatusLine::new("watching both orders");
     let view = View::new(&loaded.scene, &camera);
     let film = Film::record(&loaded.name, &view, method, length)
         .map_err(|error| Failure::new(format!("a film of {}: {error}", loaded.name)))?;
-    let bytes = target.write(&film, args.theme, args.width, &mut progress)?;
-    progress.finish();
+    let show = |number| line.say(format!("frame {number} of {}", length.frames()));
+    let bytes = target.write(&film, args.theme, args.width, &show)?;
+    drop(line);
     let facts = Facts::new(args, &loaded.name, &film, &target, bytes);
     facts.print(args.json, target.is_stdout())?;
     Ok(ExitCode::from(u8::from(!film.comparison().matches())))

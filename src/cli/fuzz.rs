@@ -3,23 +3,23 @@
 use super::args::{from_1, threads};
 use super::failure::Failure;
 use super::output::{OutputFile, Staging};
+use super::status_line::StatusLine;
 use super::{interrupt, terminal};
 use bothways::fuzz::{
     Checked, Event, Finding, Limit, Options, Renderers, Summary, command, run as fuzz, scene_files,
 };
 use bothways::wording::{count, grouped};
 use clap::Args;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
 use std::collections::hash_map::RandomState;
 use std::hash::BuildHasher;
-use std::io::{IsTerminal, Write, stderr};
+use std::io::Write;
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
-use std::{env, panic, process};
+use std::{panic, process};
 
 pub(super) const EXAMPLES: &str = "\
 Both fast renderers draw each scene; both textbooks draw it too, or a part of it where that would
@@ -131,7 +131,7 @@ fn without_messages_of_caught_panics<T>(run: impl FnOnce() -> T) -> T {
 struct Watch<'a> {
     args: &'a FuzzArgs,
     seed: u64,
-    bar: ProgressBar,
+    line: StatusLine,
     state: Mutex<State>,
 }
 
@@ -145,17 +145,7 @@ struct State {
 
 impl<'a> Watch<'a> {
     fn new(args: &'a FuzzArgs, seed: u64) -> Watch<'a> {
-        let erases = env::var_os("TERM").is_none_or(|terminal| terminal != "dumb");
-        let target = if erases && stderr().is_terminal() {
-            ProgressDrawTarget::stderr()
-        } else {
-            ProgressDrawTarget::hidden()
-        };
-        let style = ProgressStyle::with_template("{msg}, {elapsed}");
-        let bar = ProgressBar::with_draw_target(None, target)
-            .with_style(style.expect("the template is right"));
-        bar.set_message("drawing");
-        Watch { args, seed, bar, state: Mutex::default() }
+        Watch { args, seed, line: StatusLine::new("drawing"), state: Mutex::default() }
     }
 
     fn take(&self, event: Event) {
@@ -165,8 +155,7 @@ impl<'a> Watch<'a> {
                 state.scenes += 1;
                 state.pixels += pixels;
                 let drawn = [count(state.scenes, "scenes"), grouped(state.pixels)];
-                self.bar.set_message(format!("{}, {} pixels", drawn[0], drawn[1]));
-                self.bar.tick();
+                self.line.say(format!("{}, {} pixels", drawn[0], drawn[1]));
             }
             Event::Found(finding) => {
                 let written = write(finding, &self.args.folder);
@@ -175,14 +164,14 @@ impl<'a> Watch<'a> {
                     Ok(()) => format!("see it with: {}", command(finding, &path)),
                     Err(failure) => failure.to_string(),
                 };
-                self.bar.suspend(|| {
+                self.line.suspend(|| {
                     let text = format!("{}\n  {end}\n", finding.about());
                     // If stderr is closed, the summary still counts the disagreement.
                     let _ = anstream::stderr().write_all(terminal::tame(&text).as_bytes());
                 });
                 state.failure = state.failure.take().or(written.err());
             }
-            Event::Slow(scene) => self.bar.suspend(|| {
+            Event::Slow(scene) => self.line.suspend(|| {
                 let text = format!(
                     "note: scene {scene} takes long; it alone: {}\n",
                     again(self.seed, scene)
@@ -196,7 +185,7 @@ impl<'a> Watch<'a> {
 
     /// Ends the program with the summary so far: threads that draw cannot be stopped.
     fn end(&self, summary: &Summary, state: &State) -> ! {
-        self.bar.finish_and_clear();
+        self.line.finish();
         // No finding is being written: `take` holds the lock of the state.
         let printed = print(summary, self.args);
         let failures = [state.failure.as_ref(), printed.as_ref().err()];
@@ -209,7 +198,7 @@ impl<'a> Watch<'a> {
 
     /// Removes the progress; fails if a finding could not be written.
     fn finish(self) -> Result<(), Failure> {
-        self.bar.finish_and_clear();
+        drop(self.line);
         let state = self.state.into_inner().unwrap_or_else(PoisonError::into_inner);
         state.failure.map_or(Ok(()), Err)
     }

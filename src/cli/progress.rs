@@ -3,12 +3,11 @@
 
 use super::args::RenderArgs;
 use super::forecast::{Forecast, advice, words};
+use super::status_line::is_erasable;
 use bothways::orders::Order;
 use bothways::progress::{Progress, Stage};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
-use std::env;
 use std::fmt::Write;
-use std::io::{IsTerminal, stderr};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
@@ -36,8 +35,7 @@ impl Bar<'_> {
     ///
     /// The destination of stdout does not matter: a user also waits for `bothways --json > report.json`.
     pub(super) fn of_run(args: &RenderArgs) -> Option<Bar<'_>> {
-        let erases = env::var_os("TERM").is_none_or(|terminal| terminal != "dumb");
-        (!args.output.quiet).then(|| Bar::new(args, erases && stderr().is_terminal()))
+        (!args.output.quiet).then(|| Bar::new(args, is_erasable()))
     }
 
     /// Shows the name of a task during the task, if the task takes more than a moment.

@@ -1,8 +1,8 @@
 //! `bothways slides`: the whole set of slides for a lecture, into a folder.
 
 use super::failure::Failure;
-use super::film::progress::Progress;
 use super::output::Staging;
+use super::status_line::StatusLine;
 use super::terminal;
 use bothways::figure::Theme;
 use bothways::scenes::{self, DEFAULT, LoadedScene};
@@ -60,11 +60,11 @@ pub(super) fn run(args: &SlidesArgs) -> Result<ExitCode, Failure> {
         .map_err(|error| Failure::new(error.to_string()))?;
     let earlier = earlier(args)?;
     let mut staging = Staging::begin_with(&args.folder, names(&deck, &earlier))?;
-    let progress = Progress::new(0);
+    let line = StatusLine::new("drawing");
     let all = deck.slides().len();
     let mut left_out = Vec::new();
     for (number, slide) in deck.slides().iter().enumerate() {
-        progress.say(format!("slide {} of {all}: {}", number + 1, slide.title));
+        line.say(format!("slide {} of {all}: {}", number + 1, slide.title));
         let bytes = match deck.draw(slide) {
             Ok(Content::Drawing(drawing)) => drawing.svg().into_bytes(),
             Ok(Content::Film(film)) => film,
@@ -76,7 +76,7 @@ pub(super) fn run(args: &SlidesArgs) -> Result<ExitCode, Failure> {
         };
         staging.write(&slide.file, |out| out.write_all(&bytes))?;
     }
-    progress.finish();
+    drop(line);
     for (file, warning) in &left_out {
         anstream::eprintln!("warning: {warning}");
         deck.leave_out(file);

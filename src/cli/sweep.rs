@@ -5,15 +5,14 @@ mod report;
 use super::args::{from_1, size, threads};
 use super::failure::Failure;
 use super::output::{OutputFile, Staging};
+use super::status_line::StatusLine;
 use super::terminal;
 use bothways::common::engine::simd::best_level;
 use bothways::figure::{Theme, sweep_chart};
 use bothways::sweep::{Axis, Bench, Plan, Quantity, Summary, Table, json};
 use clap::Args;
-use image::ImageFormat;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::fs;
-use std::io::{Cursor, ErrorKind, IsTerminal, Write, stderr};
+use std::io::{ErrorKind, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::thread::available_parallelism;
@@ -33,7 +32,7 @@ Every measurement goes to sweep.csv at once. A run that was interrupted goes on 
 it is started again; with more triangles or more rounds it measures only what is missing.
 
 Examples:
-  bothways sweep                                     all axes, into out/sweep; a minute or two
+  bothways sweep                                     all axes, into out/sweep; about a minute
   bothways sweep triangles --most 10M --rounds 5     on to ten million triangles
   bothways sweep --no-times                          counts alone: the same bytes on every machine
   bothways sweep pixels --theme light --png -o charts
@@ -49,7 +48,7 @@ const MOST_PIXELS: u64 = 1 << 24;
 #[derive(Debug, Args)]
 pub(super) struct SweepArgs {
     /// What grows; all axes if none is given
-    #[arg(value_name = "AXIS", value_parser = axis)]
+    #[arg(value_name = "AXIS")]
     axes: Vec<Axis>,
     /// The image, where it does not grow itself; up to 2^24 pixels
     #[arg(long, value_name = "WxH", default_value = "320x180", value_parser = image)]
@@ -74,7 +73,7 @@ pub(super) struct SweepArgs {
     #[arg(long)]
     fresh: bool,
     /// dark, for projectors in dim rooms, or light, for paper
-    #[arg(long, default_value = "dark", value_parser = theme)]
+    #[arg(long, default_value = "dark")]
     theme: Theme,
     /// Also write each chart as a PNG, 1920 pixels wide
     #[arg(long)]
@@ -152,30 +151,16 @@ fn measure(args: &SweepArgs, plan: &Plan, axes: &[Axis], table: &mut Table) -> R
         return Ok(());
     }
     let file = OutputFile::find(&args.folder.join(CSV))?;
-    let bar = bar(all as u64, (all - tasks.len()) as u64);
+    let line = StatusLine::with_steps(all as u64, (all - tasks.len()) as u64);
     let mut bench = Bench::default();
     for task in tasks {
         let x = bothways::sweep::short(task.case.x);
-        bar.set_message(format!("{x} {}", task.case.axis.unit()));
+        line.say(format!("{x} {}", task.case.axis.unit()));
         table.insert(task, bench.measure(&task));
         file.write(|out| out.write_all(table.csv().as_bytes()))?;
-        bar.inc(1);
+        line.step();
     }
-    bar.finish_and_clear();
     Ok(())
-}
-
-/// A bar on a terminal; nothing elsewhere.
-fn bar(all: u64, done: u64) -> ProgressBar {
-    let target = if stderr().is_terminal() {
-        ProgressDrawTarget::stderr()
-    } else {
-        ProgressDrawTarget::hidden()
-    };
-    let bar = ProgressBar::with_draw_target(Some(all), target).with_position(done);
-    let style = ProgressStyle::with_template("[{bar:32}] {pos} of {len}, {elapsed}: {msg}");
-    bar.set_style(style.expect("the template is right").progress_chars("=> "));
-    bar
 }
 
 /// Writes the table, the JSON and the charts; charts of an earlier run that this one does not draw are removed.
@@ -191,10 +176,7 @@ fn write(
         let name = chart_name(summary.axis, summary.quantity);
         staging.write(&format!("{name}.svg"), |out| out.write_all(drawing.svg().as_bytes()))?;
         if args.png {
-            let mut png = Cursor::new(Vec::new());
-            let drawn = drawing.pixels(WIDTH).write_to(&mut png, ImageFormat::Png);
-            drawn.map_err(|error| Failure::new(format!("cannot write {name}.png: {error}")))?;
-            staging.write(&format!("{name}.png"), |out| out.write_all(png.get_ref()))?;
+            staging.write(&format!("{name}.png"), |out| out.write_all(&drawing.png(WIDTH)))?;
         }
     }
     staging.write(CSV, |out| out.write_all(table.csv().as_bytes()))?;
@@ -238,14 +220,6 @@ fn processor() -> String {
     let name = info.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": "));
     let name = name.map_or(std::env::consts::ARCH, |(_, name)| name);
     name.split_whitespace().collect::<Vec<_>>().join(" ")
-}
-
-fn axis(name: &str) -> Result<Axis, String> {
-    name.parse()
-}
-
-fn theme(name: &str) -> Result<Theme, String> {
-    name.parse()
 }
 
 fn image(text: &str) -> Result<[u32; 2], String> {

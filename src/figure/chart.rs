@@ -1,6 +1,7 @@
 //! A chart of a sweep: curves on logarithmic axes, with their slopes, and the place where the orders cross.
 
 use super::drawing::{Anchor, Drawing, Ink, Pen};
+use super::marks::mark;
 use super::sheet::{BOTTOM, MARGIN, RIGHT, Sheet, TOP};
 use super::text::{self, Style};
 use super::theme::{Role, Theme};
@@ -184,7 +185,7 @@ impl Plot {
 
     fn curve(&self, sheet: &mut Sheet, curve: &Curve) {
         let theme = sheet.theme;
-        let color = theme.of(role(curve.order));
+        let color = theme.of(curve.order.into());
         let places: Vec<[f64; 2]> =
             curve.points.iter().map(|point| self.place([point.x, point.value])).collect();
         sheet.drawing.line(&places, pen(curve, color));
@@ -242,7 +243,7 @@ impl Plot {
 
     fn name(&self, sheet: &mut Sheet, curve: &Curve, end: [f64; 2], [left, top]: [f64; 2]) {
         let theme = sheet.theme;
-        let color = theme.of(role(curve.order));
+        let color = theme.of(curve.order.into());
         let leader = [[end[0] + 14.0, end[1]], [left - 10.0, top + 0.5 * NAME - 2.0]];
         sheet.drawing.line(&leader, Pen::new(color, 1.4).alpha(0.8));
         let name = format!("{}, {}", curve.order.name(), curve.method.name());
@@ -302,13 +303,6 @@ fn fitting_size(text: &str, style: Style, room: f64) -> f32 {
     fitting.min(style.size)
 }
 
-fn role(order: Order) -> Role {
-    match order {
-        Order::Object => Role::Object,
-        Order::Image => Role::Image,
-    }
-}
-
 /// Fast curves are thick. Textbooks are thin, and that of object order has gaps, which show the other where both
 /// coincide.
 fn pen(curve: &Curve, color: [u8; 3]) -> Pen {
@@ -319,23 +313,17 @@ fn pen(curve: &Curve, color: [u8; 3]) -> Pen {
     }
 }
 
-/// A disc for object order, a square for image order; hollow with this ground.
+/// The mark of an order; hollow with this ground.
 fn marker(
     drawing: &mut Drawing,
-    [x, y]: [f64; 2],
+    at: [f64; 2],
     order: Order,
     color: [u8; 3],
     ground: Option<[u8; 3]>,
 ) {
-    let mut fill = |size: f64, ink: Ink| match order {
-        Order::Object => drawing.disc([x, y], size, ink),
-        Order::Image => {
-            drawing.rectangle([x - 0.88 * size, y - 0.88 * size], [1.76 * size; 2], ink)
-        }
-    };
-    fill(8.0, Ink::new(color));
+    mark(drawing, order, at, 8.0, Ink::new(color));
     if let Some(ground) = ground {
-        fill(5.0, Ink::new(ground));
+        mark(drawing, order, at, 5.0, Ink::new(ground));
     }
 }
 

@@ -10,7 +10,8 @@ mod svg;
 
 use super::text::{self, Style};
 use clip::Rectangle;
-use image::RgbImage;
+use image::{ImageFormat, RgbImage};
+use std::io::Cursor;
 
 /// The canvas's width and height in units; in a picture of this size a unit is a pixel.
 pub const CANVAS: [f64; 2] = [1920.0, 1080.0];
@@ -132,6 +133,18 @@ impl Drawing {
     /// If the width is 0, or more than 2¹⁴.
     pub fn pixels(&self, width: u32) -> RgbImage {
         pixels::draw(self, width)
+    }
+
+    /// The same as a PNG.
+    ///
+    /// # Panics
+    ///
+    /// As [`Drawing::pixels`].
+    pub fn png(&self, width: u32) -> Vec<u8> {
+        let mut png = Cursor::new(Vec::new());
+        let written = self.pixels(width).write_to(&mut png, ImageFormat::Png);
+        written.expect("a picture with pixels is a PNG, and memory takes it");
+        png.into_inner()
     }
 
     /// What is wrong with the texts: which of them leave the canvas, and which overlap.

@@ -2,6 +2,7 @@
 
 use super::drawing::{Anchor, CANVAS, Drawing, Ink, Pen};
 use super::fallback::drawable;
+use super::marks::mark;
 use super::resize::fitted;
 use super::text::{has, width};
 use super::theme::{Role, Theme};
@@ -69,21 +70,13 @@ const CLOCK: f64 = 880.0;
 const CURVES: [f64; 2] = [898.0, 1052.0];
 
 impl FilmPage<'_> {
-    /// The colours of pixels that store nothing yet: those of a faint chequerboard.
-    pub(crate) fn nothing(theme: Theme) -> [[u8; 3]; 2] {
-        match theme {
-            Theme::Dark => [theme.mat(), [0x1a, 0x20, 0x26]],
-            Theme::Light => [theme.background(), [0xe3, 0xe7, 0xeb]],
-        }
-    }
-
     /// The colours of a page without its pictures.
     pub(crate) fn colors(theme: Theme) -> Vec<[u8; 3]> {
         let roles = [Role::Object, Role::Image, Role::Good, Role::Bad, Role::Focus];
         let plain =
             [theme.background(), theme.mat(), theme.hairline(), theme.bright(), theme.quiet()];
         let roles = roles.map(|role| theme.of(role));
-        plain.into_iter().chain(Self::nothing(theme)).chain(roles).collect()
+        plain.into_iter().chain(theme.nothing()).chain(roles).collect()
     }
 
     /// Draws the frame, for a film so many pixels wide: there, a pixel of the picture is a square of whole pixels.
@@ -116,8 +109,9 @@ impl FilmPage<'_> {
 
     fn heading(&self, page: &mut Page, half: &FilmHalf, left: f64) {
         let theme = page.theme;
-        let style = theme.heading().sized(32.0).of(theme.of(role(half.order)));
-        mark(&mut page.drawing, half.order, [left + 10.0, HEADING - 11.0], theme);
+        let style = theme.heading().sized(32.0).of(theme.of(half.order.into()));
+        let ink = theme.ink(half.order.into());
+        mark(&mut page.drawing, half.order, [left + 10.0, HEADING - 11.0], 10.0, ink);
         let name = half.order.name();
         let wide = page.drawing.text([left + 30.0, HEADING], Anchor::Left, name, style);
         let common = theme.text().of(theme.quiet());
@@ -151,7 +145,7 @@ impl FilmPage<'_> {
             bottom - 4.0 - (bottom - top - 12.0) * exact(finished) / exact(self.pixels.max(1))
         };
         for (which, half) in self.halves.iter().enumerate() {
-            let pen = Pen::new(theme.of(role(half.order)), 5.0);
+            let pen = Pen::new(theme.of(half.order.into()), 5.0);
             // The dashes of image order tell the curves apart without colour.
             let pen = if half.order == Order::Image { pen.dashed(16.0, 12.0) } else { pen };
             let shares = self.finished.iter().map(|both| both[which]);
@@ -160,7 +154,7 @@ impl FilmPage<'_> {
             let points: Vec<[f64; 2]> = points.collect();
             drawing.line(&points, pen);
             if let Some(&head) = points.last() {
-                mark(drawing, half.order, head, theme);
+                mark(drawing, half.order, head, 10.0, theme.ink(half.order.into()));
             }
         }
     }
@@ -176,22 +170,6 @@ impl FilmPage<'_> {
         let plate = [middle - 0.5 * width, baseline - 44.0];
         page.drawing.rectangle(plate, [width, 62.0], Ink::new(theme.mat()));
         page.drawing.text([middle, baseline], Anchor::Middle, verdict, style);
-    }
-}
-
-fn role(order: Order) -> Role {
-    match order {
-        Order::Object => Role::Object,
-        Order::Image => Role::Image,
-    }
-}
-
-/// The sign of an order: a disc for object order, a square for image order.
-fn mark(drawing: &mut Drawing, order: Order, [x, y]: [f64; 2], theme: Theme) {
-    let ink = theme.ink(role(order));
-    match order {
-        Order::Object => drawing.disc([x, y], 10.0, ink),
-        Order::Image => drawing.rectangle([x - 9.0, y - 9.0], [18.0, 18.0], ink),
     }
 }
 
@@ -287,7 +265,7 @@ impl Page {
             let baseline = top + 27.0;
             let is_lit = number == half.lit;
             if is_lit {
-                let ink = theme.ink(role(half.order));
+                let ink = theme.ink(half.order.into());
                 self.drawing.rectangle([left, top], [PANEL, LINE], ink.alpha(0.24));
                 let [low, high] = [top + 8.0, top + LINE - 8.0];
                 let middle = 0.5 * (low + high);

@@ -26,6 +26,20 @@ pub(super) fn fitted(picture: [u32; 2], frame: [u32; 2]) -> [u32; 2] {
     }
 }
 
+/// The largest size of the form of another that has at most so many pixels, if there is one.
+pub(crate) fn within([width, height]: [u32; 2], pixels: u64) -> Option<[u32; 2]> {
+    let [wide, high] = [width, height].map(f64::from);
+    #[expect(clippy::cast_precision_loss, reason = "a number of pixels")]
+    let scale = (pixels as f64 / (wide * high)).sqrt();
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a side smaller than it was"
+    )]
+    let size = [wide, high].map(|side| (side * scale) as u32);
+    (size[0] > 0 && size[1] > 0).then_some(size)
+}
+
 /// The pixels of the reduced picture that a pixel of the original overlaps, along one side.
 pub(super) fn footprint(pixel: u32, from: u32, to: u32) -> RangeInclusive<u32> {
     let position = |pixel: u64| pixel * u64::from(to);

@@ -2,9 +2,11 @@
 
 use super::drawing::{Anchor, CANVAS, Drawing, Ink, Pen};
 use super::fallback::drawable;
+use super::resize::{fitted, resized};
 use super::subject::Subject;
 use super::text::{self, Style, has};
 use super::theme::Theme;
+use image::RgbImage;
 
 /// The margin at the left and at the right.
 pub(crate) const MARGIN: f64 = 72.0;
@@ -65,6 +67,27 @@ impl Sheet {
         self.drawing.frame(corner, size, Pen::new(self.theme.hairline(), 2.0));
     }
 
+    /// Draws a picture as large as it fits into a room, and gives its size.
+    pub(crate) fn picture(
+        &mut self,
+        picture: RgbImage,
+        corner: [f64; 2],
+        room: [f64; 2],
+    ) -> [f64; 2] {
+        let size = drawn_size([picture.width(), picture.height()], room);
+        // More than two pixels for each unit are more than any screen shows, and make large files.
+        let finest = size.map(|side| 2 * side);
+        let picture = if picture.width() > finest[0] || picture.height() > finest[1] {
+            resized(&picture, finest)
+        } else {
+            picture
+        };
+        let size = size.map(f64::from);
+        self.drawing.picture(picture, corner, size);
+        self.border(corner, size);
+        size
+    }
+
     /// Writes lines of text one below the other, and gives the baseline of the line after them.
     pub(crate) fn lines(
         &mut self,
@@ -97,6 +120,16 @@ impl Sheet {
         }
         baseline
     }
+}
+
+/// The size in units with which [`Sheet::picture`] draws an image of this width and height into a room.
+pub(crate) fn drawn_size(image: [u32; 2], room: [f64; 2]) -> [u32; 2] {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a size on the canvas"
+    )]
+    fitted(image, room.map(|side| side as u32))
 }
 
 /// A text in lines that are at most so wide.

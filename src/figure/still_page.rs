@@ -1,10 +1,9 @@
 //! One order's two loops in the lecture's words, with stills of its picture.
 
 use super::drawing::{Anchor, Drawing};
-use super::resize::{fitted, resized};
 use super::sheet::{MARGIN, Sheet, TOP};
 use super::subject::Subject;
-use super::theme::{Role, Theme};
+use super::theme::Role;
 use crate::orders::Order;
 use image::RgbImage;
 
@@ -30,11 +29,6 @@ const STILL: [f64; 2] = [520.0, 340.0];
 const LEFT: f64 = 760.0;
 
 impl StillPage<'_> {
-    /// The colours of the chequerboard where pixels store nothing yet.
-    pub(crate) fn nothing(theme: Theme) -> [[u8; 3]; 2] {
-        [theme.mat(), theme.background()]
-    }
-
     /// Draws the page.
     pub(crate) fn draw(&self) -> Drawing {
         let (title, point) = match self.order {
@@ -52,17 +46,8 @@ impl StillPage<'_> {
         for (number, still) in self.stills.iter().take(4).enumerate() {
             let corner =
                 [LEFT + (number % 2) as f64 * 560.0, TOP + 44.0 + (number / 2) as f64 * 402.0];
-            #[expect(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "a size on the canvas"
-            )]
-            let most = STILL.map(|side| side as u32);
-            let size = fitted([still.picture.width(), still.picture.height()], most);
-            let drawn = size.map(f64::from);
             sheet.heading(corner, STILL[0], &still.name, "");
-            sheet.drawing.picture(resized(&still.picture, size), corner, drawn);
-            sheet.border(corner, drawn);
+            sheet.picture(still.picture.clone(), corner, STILL);
         }
         sheet.drawing
     }
@@ -74,10 +59,7 @@ impl StillPage<'_> {
             Order::Object => ["for each object in the scene {", "for each pixel in the image {"],
             Order::Image => ["for each pixel in the image {", "for each object in the scene {"],
         };
-        let role = match self.order {
-            Order::Object => Role::Object,
-            Order::Image => Role::Image,
-        };
+        let role = Role::from(self.order);
         let lines = [
             (0.0, outer),
             (1.0, inner),

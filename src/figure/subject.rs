@@ -1,7 +1,7 @@
 //! What a figure is drawn of, and why it cannot be drawn.
 
 use super::theme::Theme;
-use crate::common::{Camera, Frame, Options, View};
+use crate::common::{Camera, CameraDescription, Frame, Options, View};
 use crate::orders::Rules;
 use crate::picture::picture;
 use crate::rasterize;
@@ -79,6 +79,12 @@ pub(crate) fn seen(view: &View, options: &Options) -> Frame {
     rasterize::fast::render(&rasterize::fast::prepare(view.scene), view, options)
 }
 
+/// The camera with a smaller image.
+pub(crate) fn with_image(camera: &Camera, image: [u32; 2]) -> Camera {
+    Camera::new(CameraDescription { image, ..*camera.description() })
+        .expect("a smaller image is allowed")
+}
+
 /// The picture of a view in at most so many pixels along a side, with the form of its image.
 pub(crate) fn small_picture(view: &View, most: u32) -> RgbImage {
     let image = view.camera.image();
@@ -90,8 +96,6 @@ pub(crate) fn small_picture(view: &View, most: u32) -> RgbImage {
         let scaled = (u64::from(side) * u64::from(most)).div_ceil(longest.into());
         u32::try_from(scaled).expect("smaller than it was").max(1)
     };
-    let description =
-        crate::common::CameraDescription { image: image.map(side), ..*view.camera.description() };
-    let camera = Camera::new(description).expect("a smaller image is allowed");
+    let camera = with_image(view.camera, image.map(side));
     picture(&seen(&View::new(view.scene, &camera), &Options::default()))
 }

@@ -87,6 +87,14 @@ impl Theme {
         }
     }
 
+    /// The colours of pixels that store nothing yet: those of a faint chequerboard.
+    pub(crate) fn nothing(self) -> [[u8; 3]; 2] {
+        match self {
+            Theme::Dark => [self.mat(), [0x1a, 0x20, 0x26]],
+            Theme::Light => [self.background(), [0xe3, 0xe7, 0xeb]],
+        }
+    }
+
     /// The colour of a meaning. Light ones are darkened on white, so that lines and letters in them stay legible.
     pub(crate) fn of(self, role: Role) -> [u8; 3] {
         match (self, role) {

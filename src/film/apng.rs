@@ -15,27 +15,20 @@ pub(super) fn write<W: Write>(
     width: u32,
     progress: &mut dyn FnMut(u32),
 ) -> io::Result<()> {
-    let length = film.length();
     let last = film.last_frame(theme, width);
     let mut encoder = Encoder::new(out, last.width(), last.height());
     encoder.set_color(ColorType::Rgba);
     encoder.set_depth(BitDepth::Eight);
     encoder.set_compression(Compression::Balanced);
-    encoder.set_animated(length.frames(), 0).map_err(failed)?;
+    encoder.set_animated(film.length().frames(), 0).map_err(failed)?;
     encoder.set_sep_def_img(true).map_err(failed)?;
     let mut writer = encoder.write_header().map_err(failed)?;
     writer.write_image_data(&opaque(&last)).map_err(failed)?;
-    let mut before: Option<RgbImage> = None;
-    for (number, picture) in (1..).zip(film.frames(theme, width)) {
-        let delay = length.hundredths() * length.shown(number);
-        // A delay is a fraction of two numbers of 16 bits.
-        let delay = u16::try_from(delay).unwrap_or(u16::MAX);
+    film.each_frame(theme, width, progress, |before, picture, delay| {
         writer.set_frame_delay(delay, 100).map_err(failed)?;
         writer.set_dispose_op(DisposeOp::None).map_err(failed)?;
-        write_frame(&mut writer, before.as_ref(), &picture).map_err(failed)?;
-        before = Some(picture);
-        progress(number);
-    }
+        write_frame(&mut writer, before, picture).map_err(failed)
+    })?;
     writer.finish().map_err(failed)
 }
 

@@ -2,10 +2,11 @@
 
 use super::shots::{Shot, Shots};
 use super::{Film, code};
-use crate::figure::{FilmPage, Theme};
+use crate::figure::Theme;
 use image::RgbImage;
 use rayon::prelude::*;
 use std::collections::VecDeque;
+use std::io;
 
 /// The frames of a film as pictures, one after another.
 #[derive(Debug)]
@@ -19,7 +20,7 @@ pub struct Frames<'a> {
 
 impl<'a> Frames<'a> {
     pub(super) fn new(film: &'a Film<'a>, theme: Theme, width: u32) -> Frames<'a> {
-        let shots = film.shots(FilmPage::nothing(theme));
+        let shots = film.shots(theme.nothing());
         Frames { film, theme, width, shots, drawn: VecDeque::new() }
     }
 }
@@ -40,9 +41,29 @@ impl Iterator for Frames<'_> {
 }
 
 impl Film<'_> {
+    /// Draws the frames one after another for a function that gets the frame before, the frame, and how long it stays, in
+    /// hundredths of a second. Tells `progress` each frame's number, from 1.
+    pub(super) fn each_frame(
+        &self,
+        theme: Theme,
+        width: u32,
+        progress: &mut dyn FnMut(u32),
+        mut write: impl FnMut(Option<&RgbImage>, &RgbImage, u16) -> io::Result<()>,
+    ) -> io::Result<()> {
+        let mut before = None;
+        for (number, picture) in (1..).zip(self.frames(theme, width)) {
+            let delay = self.length.hundredths() * self.length.shown(number);
+            // A delay has 16 bits in both formats: eleven minutes.
+            write(before.as_ref(), &picture, u16::try_from(delay).unwrap_or(u16::MAX))?;
+            before = Some(picture);
+            progress(number);
+        }
+        Ok(())
+    }
+
     /// The last frame: the finished picture.
     pub(super) fn last_frame(&self, theme: Theme, width: u32) -> RgbImage {
-        let last = self.shots(FilmPage::nothing(theme)).last().expect("a film has a frame");
+        let last = self.shots(theme.nothing()).last().expect("a film has a frame");
         self.draw(&last, theme, width)
     }
 
@@ -51,7 +72,7 @@ impl Film<'_> {
         const SOME: usize = 12;
         let all = self.moments.len();
         let chosen = |number: usize| (number + 1) * SOME / all > number * SOME / all;
-        let shots = self.shots(FilmPage::nothing(theme)).enumerate();
+        let shots = self.shots(theme.nothing()).enumerate();
         let shots: Vec<Shot> =
             shots.filter(|(number, _)| chosen(*number)).map(|(_, shot)| shot).collect();
         shots.par_iter().map(|shot| self.draw(shot, theme, width)).collect()

@@ -1,8 +1,8 @@
 //! A film as a GIF: one palette for all frames, and of each frame only what changed.
 
+use super::Film;
 use super::change::{changed, pixels};
 use super::palette::{Histogram, Palette};
-use super::{Film, frames::Frames};
 use crate::figure::{FilmPage, Theme};
 use gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
 use image::RgbImage;
@@ -19,22 +19,13 @@ pub(super) fn write<W: Write>(
     let mut palette = palette(film, theme, width);
     let mut colors: Vec<u8> = palette.colors().as_flattened().to_vec();
     colors.extend([0; 3]);
-    let mut frames: Frames = film.frames(theme, width);
-    let mut before: Option<RgbImage> = None;
-    let height = width / 16 * 9;
-    let [width, height] = [width, height].map(side);
-    let mut encoder = Encoder::new(out, width, height, &colors).map_err(failed)?;
+    let [wide, high] = [width, width / 16 * 9].map(side);
+    let mut encoder = Encoder::new(out, wide, high, &colors).map_err(failed)?;
     encoder.set_repeat(Repeat::Infinite).map_err(failed)?;
-    for number in 1..=film.length().frames() {
-        let picture = frames.next().expect("as many frames as the film has");
-        let mut frame = frame(before.as_ref(), &picture, &mut palette);
-        let delay = film.length().hundredths() * film.length().shown(number);
-        // A GIF counts to eleven minutes.
-        frame.delay = u16::try_from(delay).unwrap_or(u16::MAX);
-        encoder.write_frame(&frame).map_err(failed)?;
-        before = Some(picture);
-        progress(number);
-    }
+    film.each_frame(theme, width, progress, |before, picture, delay| {
+        let frame = Frame { delay, ..frame(before, picture, &mut palette) };
+        encoder.write_frame(&frame).map_err(failed)
+    })?;
     encoder.into_inner().map_err(failed)
 }
 

@@ -40,17 +40,3 @@ pub fn default_size([width, height]: [u32; 2], method: Method) -> [u32; 2] {
     let high = even.or(exact.iter().find(large)).copied().or(fitting.clone().next()).unwrap_or(1);
     [wide(high).clamp(1, most_wide), high].map(|side| u32::try_from(side).expect("a small side"))
 }
-
-/// The largest size of the form of another that has at most so many pixels, if there is one.
-pub(super) fn within([width, height]: [u32; 2], pixels: u64) -> Option<[u32; 2]> {
-    let [wide, high] = [width, height].map(f64::from);
-    #[expect(clippy::cast_precision_loss, reason = "a number of pixels")]
-    let scale = (pixels as f64 / (wide * high)).sqrt();
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a side smaller than it was"
-    )]
-    let size = [wide, high].map(|side| (side * scale) as u32);
-    (size[0] > 0 && size[1] > 0).then_some(size)
-}

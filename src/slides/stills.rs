@@ -25,7 +25,7 @@ pub(super) fn draw(subject: &Subject, order: Order) -> Result<Drawing, SlideErro
         Order::Object => 0,
         Order::Image => 1,
     };
-    let stills = film.shots(StillPage::nothing(subject.theme)).map(|shot| {
+    let stills = film.shots(subject.theme.nothing()).map(|shot| {
         let [object_order, image_order] = shot.orders;
         let of_order = if index == 0 { object_order } else { image_order };
         let part = ["1/4 of the", "1/2 of the", "3/4 of the", "all"][(shot.frame - 1) as usize % 4];

@@ -1,6 +1,5 @@
 //! Where a film goes, and in which form: the name of the file tells.
 
-use super::progress::Progress;
 use super::video::Video;
 use crate::cli::failure::Failure;
 use crate::cli::output::{OutputFile, Staging};
@@ -78,10 +77,10 @@ impl Target {
         film: &Film,
         theme: Theme,
         width: u32,
-        progress: &mut Progress,
+        progress: &dyn Fn(u32),
     ) -> Result<u64, Failure> {
         let written = Cell::new(0);
-        let mut show = |number| progress.frame(number);
+        let mut show = |number| progress(number);
         match self {
             Target::Gif(file) => file.write(|out| {
                 let out = Counted { out, written: &written };

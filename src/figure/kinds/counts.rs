@@ -3,13 +3,11 @@
 use crate::common::observe::{Events, Observer};
 use crate::common::raster::Sample;
 use crate::figure::drawing::{Anchor, Ink, Pen};
-use crate::figure::resize::{fitted, resized};
 use crate::figure::sheet::Sheet;
 use crate::figure::theme::ramp;
+use crate::sample_map::SampleMap;
 use crate::wording::grouped;
 use image::{Rgb, RgbImage};
-use std::collections::HashMap;
-use std::collections::hash_map::Entry;
 
 /// What is counted at a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,34 +18,32 @@ pub(super) enum Counted {
     Tests,
 }
 
-/// The side of a square of samples that are stored together.
-const SQUARE: usize = 16;
-
-/// An observer that counts at each sample. Squares of samples are stored only where something happens: each thread
-/// sees a small part of the picture.
+/// An observer that counts at each sample.
 #[derive(Clone, Debug)]
 pub(super) struct Counts {
     height: usize,
     width: usize,
     counted: Counted,
-    squares: HashMap<[usize; 2], Vec<u64>>,
+    counts: SampleMap<u64>,
 }
 
 impl Counts {
     /// Nothing counted yet; the size is that of a camera's image, width and height.
     pub(super) fn new([width, height]: [u32; 2], counted: Counted) -> Counts {
-        Counts { height: height as usize, width: width as usize, counted, squares: HashMap::new() }
+        Counts {
+            height: height as usize,
+            width: width as usize,
+            counted,
+            counts: SampleMap::new(0),
+        }
     }
 
-    fn add(&mut self, Sample { row, column }: Sample) {
-        let square = self.squares.entry([row / SQUARE, column / SQUARE]);
-        square.or_insert_with(|| vec![0; SQUARE * SQUARE])
-            [row % SQUARE * SQUARE + column % SQUARE] += 1;
+    fn add(&mut self, sample: Sample) {
+        *self.counts.get_mut(sample) += 1;
     }
 
     pub(super) fn at(&self, row: usize, column: usize) -> u64 {
-        let square = self.squares.get(&[row / SQUARE, column / SQUARE]);
-        square.map_or(0, |square| square[row % SQUARE * SQUARE + column % SQUARE])
+        self.counts.get(Sample { row, column })
     }
 
     /// All counts, row by row.
@@ -64,20 +60,11 @@ impl Counts {
 
 impl Observer for Counts {
     fn fork(&self) -> Self {
-        Counts { squares: HashMap::new(), ..*self }
+        Counts { counts: SampleMap::new(0), ..*self }
     }
 
     fn join(&mut self, part: Self) {
-        for (square, more) in part.squares {
-            match self.squares.entry(square) {
-                Entry::Vacant(place) => {
-                    place.insert(more);
-                }
-                Entry::Occupied(counts) => {
-                    counts.into_mut().iter_mut().zip(more).for_each(|(count, more)| *count += more);
-                }
-            }
-        }
+        self.counts.join(part.counts, |count, more| *count += more);
     }
 }
 
@@ -101,46 +88,20 @@ impl Events for Counts {
     }
 }
 
-/// Draws counts, of so many rows and columns, as a picture in a room; `shade` gives the place on the ramp. Gives the picture's corner and size.
+/// Draws counts, of so many rows and columns, as a picture in a room; `shade` gives the place on the ramp. Gives the
+/// picture's size.
 pub(super) fn heat_map(
     sheet: &mut Sheet,
     (size, counts): ([usize; 2], &[u64]),
     corner: [f64; 2],
     room: [f64; 2],
     shade: impl Fn(u64) -> f64,
-) -> ([f64; 2], [f64; 2]) {
+) -> [f64; 2] {
     let side = |side: usize| u32::try_from(side).expect("an image's side");
     let picture = RgbImage::from_fn(side(size[1]), side(size[0]), |x, y| {
         Rgb(ramp(shade(counts[y as usize * size[1] + x as usize])))
     });
-    fit(sheet, picture, corner, room)
-}
-
-/// Draws a picture as large as it fits into a room, and gives its corner and size.
-pub(super) fn fit(
-    sheet: &mut Sheet,
-    picture: RgbImage,
-    corner: [f64; 2],
-    room: [f64; 2],
-) -> ([f64; 2], [f64; 2]) {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a size on the canvas"
-    )]
-    let most = room.map(|side| side as u32);
-    let drawn = fitted([picture.width(), picture.height()], most);
-    let size = drawn.map(f64::from);
-    // More than two pixels for each unit are more than any screen shows, and make large files.
-    let finest = drawn.map(|side| 2 * side);
-    let picture = if picture.width() > finest[0] || picture.height() > finest[1] {
-        resized(&picture, finest)
-    } else {
-        picture
-    };
-    sheet.drawing.picture(picture, corner, size);
-    sheet.border(corner, size);
-    (corner, size)
+    sheet.picture(picture, corner, room)
 }
 
 /// A bar with the colours of the ramp, and numbers below it at equal steps.

@@ -33,10 +33,10 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
     let most = counts.iter().copied().max().unwrap_or(0).max(1);
     let (corner, size) = MAP;
     let mean = counts.iter().sum::<u64>() as f64 / counts.len() as f64;
-    let place = heat_map(&mut sheet, (image, &counts), corner, size, |count| shade(count, most));
+    let drawn = heat_map(&mut sheet, (image, &counts), corner, size, |count| shade(count, most));
     let note = format!("mean {}", number(mean, 3));
-    sheet.heading(corner, place.1[0].max(560.0), "primitives that cover the sample", &note);
-    scale_bar(&mut sheet, [place.0[0], place.0[1] + place.1[1] + 16.0], place.1[0], &[0, most]);
+    sheet.heading(corner, drawn[0].max(560.0), "primitives that cover the sample", &note);
+    scale_bar(&mut sheet, [corner[0], corner[1] + drawn[1] + 16.0], drawn[0], &[0, most]);
     histogram(&mut sheet, &counts, most);
     Ok(sheet.drawing)
 }

@@ -1,6 +1,7 @@
 //! A magnified patch of the picture: samples, the edges of a triangle, which samples it covers, the signs of its edge
 //! functions, and the tie rule at work.
 
+use super::interest::{best_border, on_boundary};
 use super::patch::Patch;
 use crate::common::exact::EdgeSigns;
 use crate::common::{Frame, Primitive, Projection, Sign, View};
@@ -10,7 +11,7 @@ use crate::figure::sheet::{MARGIN, RIGHT, Sheet, TOP};
 use crate::figure::subject::{FigureError, Subject};
 use crate::figure::theme::{Role, Theme};
 use crate::wording::count;
-use std::collections::{BTreeSet, HashMap};
+use std::collections::BTreeSet;
 
 /// The room of the patch: its top left corner, its width and height.
 const ROOM: ([f64; 2], [f64; 2]) = ([MARGIN, TOP], [1176.0, 800.0]);
@@ -24,12 +25,15 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
     let frame = subject.frame();
     let (pixel, id) = match subject.pixel() {
         Some(pixel) => (pixel, at_or_near(&frame, pixel)),
-        None => telling(view, &frame).unwrap_or_else(|| {
+        None => match best_border(view, &frame) {
+            Some((pixel, id)) => (pixel, Some(id)),
             // One primitive fills the picture, or nothing does.
-            let middle = [frame.height() / 2, frame.width() / 2];
-            let middle = middle.map(|part| u32::try_from(part).expect("within the image"));
-            (middle, at_or_near(&frame, middle))
-        }),
+            None => {
+                let middle = view.camera.image().map(|side| side / 2);
+                let middle = [middle[1], middle[0]];
+                (middle, at_or_near(&frame, middle))
+            }
+        },
     };
     let id = id.ok_or_else(nothing)?;
     let primitive = view.primitive(id);
@@ -72,14 +76,6 @@ impl Cell {
     }
 }
 
-/// Whether a sample lies on the triangle's boundary: on an edge, and outside none.
-fn on_boundary(edges: &EdgeSigns) -> bool {
-    edges.facing != Sign::Zero
-        && edges.in_front
-        && edges.at_sample.contains(&Sign::Zero)
-        && !edges.at_sample.contains(&-edges.facing)
-}
-
 fn cells(view: &View, patch: &Patch, primitive: &Primitive) -> Vec<Cell> {
     let judge = view.judge();
     let grid = view.camera.sample_grid(1);
@@ -102,78 +98,6 @@ fn at_or_near(frame: &Frame, [i, j]: [u32; 2]) -> Option<u32> {
     around.into_iter().find_map(|(down, right)| {
         frame.id(within(i + down, frame.height())?, within(j + right, frame.width())?)
     })
-}
-
-/// A border between two primitives in the picture.
-#[derive(Clone, Copy, Debug)]
-struct Border {
-    /// Row and column of the pixel on its left or above it, and of the one on the other side.
-    pixels: [[usize; 2]; 2],
-    /// One of the primitives.
-    id: u32,
-    /// Whether different objects meet, or an object and nothing.
-    outline: bool,
-}
-
-/// A pixel where something is decided, and the primitive to look at there: best a tie of a triangle, else the outline of
-/// an object; of those a primitive of many pixels, and near the middle.
-fn telling(view: &View, frame: &Frame) -> Option<([u32; 2], Option<u32>)> {
-    const MOST: usize = 4000;
-    let borders = borders(view, frame);
-    let mut pixels: HashMap<u32, usize> = HashMap::new();
-    frame.ids().iter().for_each(|id| *pixels.entry(*id).or_default() += 1);
-    let middle = [frame.height() as f64 / 2.0, frame.width() as f64 / 2.0];
-    let far = |[row, column]: [usize; 2]| (row as f64 - middle[0]).hypot(column as f64 - middle[1]);
-    let judge = view.judge();
-    let grid = view.camera.sample_grid(1);
-    let is_triangle = |id: u32| matches!(view.primitive(id), Primitive::Triangle(_));
-    let at = |pixel: [usize; 2], border: &Border| {
-        judge.coverage(&view.primitive(border.id), &grid.ray(pixel[0], pixel[1]))
-    };
-    let is_tie = |border: &Border| {
-        at(border.pixels[0], border).edges.is_some_and(|edges| on_boundary(&edges))
-    };
-    // What lies behind the other goes on behind it: there is no edge of its own to see.
-    let ends = |border: &Border| {
-        let [here, there] = border.pixels.map(|pixel| at(pixel, border).covers);
-        here != there
-    };
-    // A triangle of two dozen pixels fills the patch; more do not matter.
-    let seen = |border: &Border| pixels.get(&border.id).copied().unwrap_or(0).min(24);
-    let rank = |border: &Border| {
-        let triangle = is_triangle(border.id);
-        let ends = ends(border);
-        (triangle && is_tie(border), triangle && ends, ends && border.outline, seen(border))
-    };
-    let step = borders.len().div_ceil(MOST).max(1);
-    let best = borders
-        .iter()
-        .step_by(step)
-        .max_by(|a, b| rank(a).cmp(&rank(b)).then(far(b.pixels[0]).total_cmp(&far(a.pixels[0]))))?;
-    let whole = |part: usize| u32::try_from(part).expect("within the image");
-    Some((best.pixels[0].map(whole), Some(best.id)))
-}
-
-fn borders(view: &View, frame: &Frame) -> Vec<Border> {
-    let (height, width) = (frame.height(), frame.width());
-    let object = |id: Option<u32>| id.map(|id| view.scene.locate(id).0);
-    let mut borders = Vec::new();
-    for row in 0..height {
-        for column in 0..width {
-            let here = frame.id(row, column);
-            let right = if column + 1 < width { frame.id(row, column + 1) } else { here };
-            let below = if row + 1 < height { frame.id(row + 1, column) } else { here };
-            for (other, there) in [(right, [row, column + 1]), (below, [row + 1, column])] {
-                if other == here {
-                    continue;
-                }
-                let outline = object(here) != object(other);
-                let of = |id| Border { pixels: [[row, column], there], id, outline };
-                borders.extend(here.into_iter().chain(other).map(of));
-            }
-        }
-    }
-    borders
 }
 
 /// The ground of each pixel: what covers it in the picture.
@@ -317,13 +241,7 @@ fn words(sheet: &mut Sheet, subject: &Subject, patch: &Patch, cells: &[Cell], id
         40.0,
         &[(&format!("{kind} {id}, of object {object}"), heading)],
     );
-    let rows = format!(
-        "rows {} to {}, columns {} to {}",
-        patch.first[0],
-        patch.first[0] + patch.size[0] - 1,
-        patch.first[1],
-        patch.first[1] + patch.size[1] - 1
-    );
+    let rows = patch.name();
     let covers = format!("It covers {} of {} samples here.", covered, cells.len());
     y = sheet.lines([WORDS, y], width, 36.0, &[(&rows, quiet), (&covers, text)]);
     y += 14.0;

@@ -1,7 +1,6 @@
 //! How each order finds quickly what matters: the boxes of the ray tracer's hierarchy by level, the rasterizer's
 //! clusters and tiles, over the picture.
 
-use super::counts::fit;
 use crate::common::glam::{DVec3, Vec3};
 use crate::figure::drawing::{Anchor, Drawing, Ink, Pen};
 use crate::figure::project::Projector;
@@ -97,7 +96,7 @@ fn panel(
     boxes: &[[Vec3; 2]],
 ) {
     let theme = sheet.theme;
-    let (at, size) = fit(sheet, picture.clone(), corner, PANEL);
+    let size = sheet.picture(picture.clone(), corner, PANEL);
     let every = boxes.len().div_ceil(MOST).max(1);
     let note = match every {
         1 => count(boxes.len() as u64, things),
@@ -107,9 +106,9 @@ fn panel(
     let projector = Projector { camera: subject.view.camera };
     let [width, height] = subject.view.camera.image().map(f64::from);
     let place = |[column, row]: [f64; 2]| {
-        [at[0] + column / width * size[0], at[1] + row / height * size[1]]
+        [corner[0] + column / width * size[0], corner[1] + row / height * size[1]]
     };
-    sheet.drawing.window(Some((at, size)));
+    sheet.drawing.window(Some((corner, size)));
     let few = boxes.len() <= WHOLE;
     let pen =
         Pen::new(theme.of(role), if few { 1.8 } else { 1.0 }).alpha(if few { 0.95 } else { 0.7 });
@@ -165,19 +164,19 @@ fn tiles(
     let theme = sheet.theme;
     let [width, height] = subject.view.camera.image().map(|side| side as usize);
     let number = height.div_ceil(tile[0]) * width.div_ceil(tile[1]);
-    let (at, size) = fit(sheet, picture.clone(), corner, PANEL);
+    let size = sheet.picture(picture.clone(), corner, PANEL);
     let tiles = count(number as u64, "tiles");
     sheet.heading(corner, size[0].max(400.0), "object order: tiles", &tiles);
     let pen = Pen::new(theme.of(Role::Object), 2.5);
     for row in (tile[0]..height).step_by(tile[0]) {
-        let y = at[1] + row as f64 / height as f64 * size[1];
-        sheet.drawing.line(&[[at[0], y], [at[0] + size[0], y]], pen);
+        let y = corner[1] + row as f64 / height as f64 * size[1];
+        sheet.drawing.line(&[[corner[0], y], [corner[0] + size[0], y]], pen);
     }
     for column in (tile[1]..width).step_by(tile[1]) {
-        let x = at[0] + column as f64 / width as f64 * size[0];
-        sheet.drawing.line(&[[x, at[1]], [x, at[1] + size[1]]], pen);
+        let x = corner[0] + column as f64 / width as f64 * size[0];
+        sheet.drawing.line(&[[x, corner[1]], [x, corner[1] + size[1]]], pen);
     }
-    sheet.drawing.frame(at, size, pen);
+    sheet.drawing.frame(corner, size, pen);
 }
 
 fn numbers(

@@ -3,7 +3,6 @@
 use super::interest::outline;
 use super::patch::Patch;
 use crate::figure::drawing::{Anchor, Drawing, Ink, Pen};
-use crate::figure::resize::{fitted, resized};
 use crate::figure::sheet::{MARGIN, RIGHT, Sheet, TOP};
 use crate::figure::subject::{FigureError, Subject};
 use crate::figure::theme::Role;
@@ -24,15 +23,8 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
     let mut sheet = Sheet::new(subject, "An image is rows and columns of pixels", point);
     let patch = Patch::around(pixel, [width, height], SIZE, PATCH);
     whole(&mut sheet, &picture, &patch);
-    let note = format!(
-        "rows {} to {}, columns {} to {}",
-        patch.first[0],
-        patch.first[0] + patch.size[0] - 1,
-        patch.first[1],
-        patch.first[1] + patch.size[1] - 1
-    );
     let (corner, size) = patch.extent();
-    sheet.heading([corner[0], PATCH.0[1]], size[0], "some of them", &note);
+    sheet.heading([corner[0], PATCH.0[1]], size[0], "some of them", &patch.name());
     cells(&mut sheet, &picture, &patch);
     let theme = sheet.theme;
     let y = PICTURE.0[1] + PICTURE.1[1] + 60.0;
@@ -53,16 +45,8 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
 fn whole(sheet: &mut Sheet, picture: &RgbImage, patch: &Patch) {
     let (corner, room) = PICTURE;
     let image = [picture.width(), picture.height()];
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a size on the canvas"
-    )]
-    let drawn = fitted(image, room.map(|side| side as u32));
-    let size = drawn.map(f64::from);
     sheet.heading(corner, room[0], "the whole image", "");
-    sheet.drawing.picture(resized(picture, drawn), corner, size);
-    sheet.border(corner, size);
+    let size = sheet.picture(picture.clone(), corner, room);
     let scale = [size[0] / f64::from(image[0]), size[1] / f64::from(image[1])];
     let at = [
         corner[0] + patch.first[1] as f64 * scale[0],

@@ -1,25 +1,31 @@
 //! When each order decided each pixel: the pixels coloured by the work that was done before.
 
-use super::counts::{fit, scale_bar};
+use super::counts::scale_bar;
 use super::work::watch;
 use crate::common::observe::{Events, Observer};
 use crate::common::raster::Sample;
-use crate::common::{Camera, CameraDescription, Frame, Options, View};
-use crate::figure::drawing::{Anchor, Drawing};
-use crate::figure::sheet::{MARGIN, RIGHT, Sheet, TOP};
-use crate::figure::subject::{FigureError, Subject};
+use crate::common::{Camera, Frame, Options, View};
+use crate::figure::drawing::{Anchor, Drawing, Ink, Pen};
+use crate::figure::marks::mark;
+use crate::figure::resize::within;
+use crate::figure::sheet::{MARGIN, RIGHT, Sheet, TOP, drawn_size};
+use crate::figure::subject::{FigureError, Subject, with_image};
 use crate::figure::theme::{Theme, ramp};
 use crate::orders::{Method, Order};
+use crate::sample_map::SampleMap;
 use crate::wording::count;
 use crate::{rasterize, raytrace};
 use image::{Rgb, RgbImage};
-use std::collections::HashMap;
 
-const MAP: [f64; 2] = [700.0, 320.0];
+/// The room of a map; the maps of a row stand side by side, with the curves at their right.
+const MAP: [f64; 2] = [520.0, 320.0];
 const TOPS: [f64; 2] = [TOP + 44.0, TOP + 424.0];
-const LEFTS: [f64; 2] = [MARGIN + 300.0, MARGIN + 1060.0];
+const LEFT: f64 = MARGIN + 272.0;
+const GAP: f64 = 44.0;
+/// The least width of a map's heading.
+const HEADING: f64 = 400.0;
 /// The most tests of a textbook's run: then a picture of fewer pixels is drawn.
-const MOST_TESTS: u64 = 12_000_000;
+const MOST_TESTS: u64 = 40_000_000;
 
 pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
     let view = &subject.view;
@@ -27,31 +33,44 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
     let point = "Object order goes through the scene, image order through the picture; at the end both show the same.";
     let mut sheet = Sheet::new(subject, "When is a pixel decided?", point);
     let small = smaller(view);
+    // Both rows have the same columns, though their pictures may have other sizes.
+    let widths = small.iter().chain([view.camera]).map(|camera| drawn_size(camera.image(), MAP)[0]);
+    let column = widths.map(f64::from).fold(HEADING, f64::max);
     for (row, method) in [Method::Textbook, Method::Fast].into_iter().enumerate() {
         let camera = match method {
             Method::Textbook => small.as_ref(),
             Method::Fast => Some(view.camera),
         };
-        let y = TOPS[row] + 0.5 * MAP[1];
+        let top = TOPS[row];
         let size = camera.map(Camera::image);
         let size = size.map_or("would take too long".into(), |[width, height]| {
             format!("{width} × {height} pixels")
         });
         let words = [(method.name(), theme.heading()), (&*size, theme.label())];
-        sheet.lines([MARGIN, y], 280.0, 36.0, &words);
+        sheet.lines([MARGIN, top + 0.5 * MAP[1]], LEFT - MARGIN - 20.0, 36.0, &words);
         let Some(camera) = camera else { continue };
-        for (column, order) in Order::ALL.into_iter().enumerate() {
-            let corner = [LEFTS[column], TOPS[row]];
-            let clock = clock(&View::new(view.scene, camera), order, method);
-            let picture = clock.picture(camera.image(), theme);
-            let (_, size) = fit(&mut sheet, picture, corner, MAP);
-            let note = count(clock.steps, "steps");
-            sheet.heading(corner, size[0].max(400.0), order.name(), &note);
+        let view = View::new(view.scene, camera);
+        let (object_order, image_order) = rayon::join(
+            || clock(&view, Order::Object, method),
+            || clock(&view, Order::Image, method),
+        );
+        let clocks = [object_order, image_order];
+        let mut left = LEFT;
+        for clock in &clocks {
+            let size = sheet.picture(clock.picture(camera.image(), theme), [left, top], MAP);
+            sheet.heading(
+                [left, top],
+                size[0].max(HEADING),
+                clock.order.name(),
+                &count(clock.steps, "steps"),
+            );
+            left += column + GAP;
         }
+        curves(&mut sheet, &clocks, camera.image(), [left, top]);
     }
     let y = 944.0;
     let label = theme.label();
-    let x = LEFTS[0];
+    let x = LEFT;
     scale_bar(&mut sheet, [x, y], RIGHT - x, &[]);
     sheet.drawing.text([x, y + 40.0], Anchor::Left, "decided first", label);
     sheet.drawing.text(
@@ -76,30 +95,51 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
     Ok(sheet.drawing)
 }
 
+/// How many pixels each order has decided after which part of its steps.
+fn curves(sheet: &mut Sheet, clocks: &[Clock; 2], image: [u32; 2], corner: [f64; 2]) {
+    let theme = sheet.theme;
+    let size = [RIGHT - corner[0], MAP[1]];
+    sheet.heading(corner, size[0], "pixels decided", "by the steps done");
+    sheet.mat(corner, size);
+    for clock in clocks {
+        let color = theme.of(clock.order.into());
+        let line: Vec<[f64; 2]> = clock
+            .course(image)
+            .into_iter()
+            .map(|[steps, pixels]| {
+                [corner[0] + steps * size[0], corner[1] + (0.97 - 0.92 * pixels) * size[1]]
+            })
+            .collect();
+        let pen = Pen::new(color, 4.0);
+        sheet
+            .drawing
+            .line(&line, if clock.order == Order::Image { pen.dashed(14.0, 10.0) } else { pen });
+        // Each mark has a place of its own, so that curves that coincide are told apart.
+        let (third, side) = match clock.order {
+            Order::Object => (2, [0.7, 1.0]),
+            Order::Image => (1, [-0.7, -1.0]),
+        };
+        let at = line[third * line.len() / 3];
+        mark(&mut sheet.drawing, clock.order, at, 10.0, Ink::new(color));
+        sheet.drawing.window(Some((corner, size)));
+        let style = theme.label().of(color).semi_bold();
+        sheet.drawing.label(at, side, clock.order.name(), style, Some(theme.mat()));
+        sheet.drawing.window(None);
+    }
+    sheet.border(corner, size);
+}
+
 /// The camera with an image so small that the textbook ends soon; `None` if that would be hardly a picture.
 fn smaller(view: &View) -> Option<Camera> {
     const FEWEST: u64 = 48;
-    let [width, height] = view.camera.image();
     let most = MOST_TESTS / u64::from(view.scene.primitive_count()).max(1);
-    let scale = (most as f64 / (f64::from(width) * f64::from(height))).sqrt().min(1.0);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "smaller than a side"
-    )]
-    let [mut width, mut height] =
-        [width, height].map(|side| ((f64::from(side) * scale) as u32).max(1));
-    // A picture of one row or column is still too long.
-    let longest = u32::try_from(most.max(1)).unwrap_or(u32::MAX);
-    (width, height) =
-        (width.min(longest / height.min(longest)), height.min(longest / width.min(longest)));
-    let image = [width.max(1), height.max(1)];
-    let pixels = u64::from(image[0]) * u64::from(image[1]);
-    let whole = view.camera.image() == image;
-    (pixels <= most.max(1) && (whole || pixels >= FEWEST)).then(|| {
-        Camera::new(CameraDescription { image, ..*view.camera.description() })
-            .expect("a smaller image is allowed")
-    })
+    let image = view.camera.image();
+    let pixels = |[width, height]: [u32; 2]| u64::from(width) * u64::from(height);
+    if pixels(image) <= most {
+        return Some(*view.camera);
+    }
+    let image = within(image, most).filter(|image| pixels(*image) >= FEWEST)?;
+    Some(with_image(view.camera, image))
 }
 
 /// Renders, and gives when each pixel was decided.
@@ -137,32 +177,38 @@ fn watch_in_order(view: &View, order: Order, clock: &mut Clock) {
 struct Clock {
     order: Order,
     steps: u64,
-    /// For squares of samples, as far as anything is decided there: the steps before; [`NEVER`] for nothing.
-    decided: HashMap<[usize; 2], Vec<u64>>,
+    /// The steps before each sample was decided; [`NEVER`] for nothing.
+    decided: SampleMap<u64>,
 }
 
 /// No step.
 const NEVER: u64 = u64::MAX;
-/// The side of a square of samples that are stored together.
-const SQUARE: usize = 16;
 
 impl Clock {
     fn new(order: Order) -> Clock {
-        Clock { order, steps: 0, decided: HashMap::new() }
+        Clock { order, steps: 0, decided: SampleMap::new(NEVER) }
     }
 
-    /// When a sample was decided.
-    fn at(&mut self, Sample { row, column }: Sample) -> &mut u64 {
-        let square = self.decided.entry([row / SQUARE, column / SQUARE]);
-        let square = square.or_insert_with(|| vec![NEVER; SQUARE * SQUARE]);
-        &mut square[row % SQUARE * SQUARE + column % SQUARE]
+    /// The part of the pixels that are decided after some parts of the steps, of those that show something.
+    fn course(&self, [width, height]: [u32; 2]) -> Vec<[f64; 2]> {
+        const PARTS: usize = 120;
+        let samples = (0..height as usize)
+            .flat_map(|row| (0..width as usize).map(move |column| Sample { row, column }));
+        let mut decided: Vec<u64> =
+            samples.map(|sample| self.decided.get(sample)).filter(|at| *at != NEVER).collect();
+        decided.sort_unstable();
+        (0..=PARTS)
+            .map(|part| {
+                let steps = part as f64 / PARTS as f64;
+                let so_far = decided.partition_point(|at| *at as f64 <= steps * self.steps as f64);
+                [steps, so_far as f64 / decided.len().max(1) as f64]
+            })
+            .collect()
     }
 
     fn picture(&self, [width, height]: [u32; 2], theme: Theme) -> RgbImage {
         RgbImage::from_fn(width, height, |x, y| {
-            let (row, column) = (y as usize, x as usize);
-            let square = self.decided.get(&[row / SQUARE, column / SQUARE]);
-            let at = square.map_or(NEVER, |square| square[row % SQUARE * SQUARE + column % SQUARE]);
+            let at = self.decided.get(Sample { row: y as usize, column: x as usize });
             let part = at as f64 / self.steps.max(1) as f64;
             Rgb(if at == NEVER { theme.mat() } else { ramp(part) })
         })
@@ -176,12 +222,11 @@ impl Observer for Clock {
 
     fn join(&mut self, part: Self) {
         let before = self.steps;
-        for (square, decided) in part.decided {
-            let stored = self.decided.entry(square).or_insert_with(|| vec![NEVER; SQUARE * SQUARE]);
-            for (stored, at) in stored.iter_mut().zip(decided).filter(|(_, at)| *at != NEVER) {
-                *stored = before + at;
+        self.decided.join(part.decided, |decided, at| {
+            if at != NEVER {
+                *decided = before + at;
             }
-        }
+        });
         self.steps += part.steps;
     }
 }
@@ -197,23 +242,20 @@ impl Events for Clock {
 
     fn fragment(&mut self, sample: Sample, _primitive: u32) {
         if self.order == Order::Object {
-            let steps = self.steps;
-            let at = self.at(sample);
-            *at = steps.min(*at);
+            let decided = self.decided.get_mut(sample);
+            *decided = self.steps.min(*decided);
         }
     }
 
     fn depth_test(&mut self, sample: Sample, _incoming: u32, _stored: u32, replaced: bool) {
         if self.order == Order::Object && replaced {
-            let steps = self.steps;
-            *self.at(sample) = steps;
+            *self.decided.get_mut(sample) = self.steps;
         }
     }
 
     fn hit(&mut self, sample: Sample, primitive: Option<u32>) {
         if self.order == Order::Image && primitive.is_some() {
-            let steps = self.steps;
-            *self.at(sample) = steps;
+            *self.decided.get_mut(sample) = self.steps;
         }
     }
 }

@@ -44,6 +44,15 @@ impl Patch {
             .flat_map(move |row| (first[1]..first[1] + size[1]).map(move |column| [row, column]))
     }
 
+    /// Its rows and columns in words.
+    pub(super) fn name(&self) -> String {
+        let [rows, columns] = [0, 1].map(|axis| {
+            let first = self.first[axis];
+            format!("{first} to {}", first + self.size[axis] - 1)
+        });
+        format!("rows {rows}, columns {columns}")
+    }
+
     /// The place on the canvas of a place on the raster: column and row, in pixels from the top left of the image.
     pub(super) fn place(&self, [column, row]: [f64; 2]) -> [f64; 2] {
         [

@@ -5,7 +5,6 @@ use crate::common::observe::{Events, Observer};
 use crate::common::raster::Sample;
 use crate::common::{Crop, Frame, Options, Ray, View};
 use crate::figure::drawing::{Anchor, Drawing, Ink, Pen};
-use crate::figure::resize::{fitted, resized};
 use crate::figure::sheet::{MARGIN, RIGHT, Sheet, TOP, number};
 use crate::figure::subject::{FigureError, Subject, small_picture};
 use crate::figure::theme::{Role, ramp};
@@ -146,16 +145,7 @@ fn picture(sheet: &mut Sheet, subject: &Subject, [i, j]: [u32; 2]) {
     let (corner, room) = PICTURE;
     sheet.heading(corner, room[0], "the pixel", "");
     let picture = small_picture(&subject.view, 1040);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a size on the canvas"
-    )]
-    let most = room.map(|side| side as u32);
-    let size = fitted([picture.width(), picture.height()], most);
-    let [width, height] = size.map(f64::from);
-    sheet.drawing.picture(resized(&picture, size), corner, [width, height]);
-    sheet.border(corner, [width, height]);
+    let [width, height] = sheet.picture(picture, corner, room);
     let image = subject.view.camera.image().map(f64::from);
     let x = corner[0] + (f64::from(j) + 0.5) / image[0] * width;
     let y = corner[1] + (f64::from(i) + 0.5) / image[1] * height;

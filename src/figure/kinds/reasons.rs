@@ -1,7 +1,6 @@
 //! Why both orders differ, pixel by pixel, when one of them has the rules of an ordinary renderer.
 
 use super::both::{Both, both};
-use super::counts::fit;
 use crate::diff::foreign::Buffer;
 use crate::diff::why::{ReasonKind, Reasons, find_reasons};
 use crate::figure::drawing::{Anchor, Drawing, Ink, Pen};
@@ -50,7 +49,7 @@ fn map(sheet: &mut Sheet, both: &Both, reasons: &Reasons) {
         picture.put_pixel(j, i, Rgb(found.reason.kind().color()));
     }
     let columns = f64::from(picture.width());
-    let (at, size) = fit(sheet, picture, corner, room);
+    let size = sheet.picture(picture, corner, room);
     sheet.heading(
         corner,
         size[0].max(700.0),
@@ -62,7 +61,7 @@ fn map(sheet: &mut Sheet, both: &Both, reasons: &Reasons) {
     if cell < 5.0 && reasons.pixels.len() <= 200 {
         for found in &reasons.pixels {
             let [i, j] = found.pixel.map(f64::from);
-            let middle = [at[0] + (j + 0.5) * cell, at[1] + (i + 0.5) * cell];
+            let middle = [corner[0] + (j + 0.5) * cell, corner[1] + (i + 0.5) * cell];
             sheet.drawing.ring(middle, 7.0, Pen::new(found.reason.kind().color(), 2.0));
         }
     }

@@ -135,13 +135,7 @@ fn legend(sheet: &mut Sheet, [low, high]: [f64; 2], pixel: [u32; 2], image: [u32
     let theme = sheet.theme;
     let y = 986.0;
     let patch = Patch::around(pixel, image, SIZE, ([0.0; 2], ROOM));
-    let rows = format!(
-        "rows {} to {}, columns {} to {};  hatched: nothing is seen",
-        patch.first[0],
-        patch.first[0] + patch.size[0] - 1,
-        patch.first[1],
-        patch.first[1] + patch.size[1] - 1
-    );
+    let rows = format!("{};  hatched: nothing is seen", patch.name());
     sheet.drawing.text([MARGIN, y], Anchor::Left, &rows, theme.label());
     if low <= high {
         let range = format!("t from {} (dark) to {} (light)", number(low, 5), number(high, 5));
