@@ -40,7 +40,9 @@ mod size;
 mod track;
 
 pub use frames::Frames;
-pub use length::{FRAME_RATES, Length, LengthError, MOST_FRAMES, MOST_SECONDS, rates};
+pub use length::{
+    FASTEST_IN_BROWSERS, FRAME_RATES, Length, LengthError, MOST_FRAMES, MOST_SECONDS, rates,
+};
 pub use recorder::{Line, Position};
 pub use shots::{OrderShot, Shot, Shots};
 pub use size::default_size;

@@ -30,7 +30,7 @@ Examples:
   bothways film lecture --method fast -o fast.gif    with bounds and hierarchies
   bothways film canonical --theme light -o light.png an animated PNG
   bothways film ties --size 16x16 -o frames/         frames/frame-0001.png and so on
-  bothways film overlap --width 1920 -o overlap.mp4  where ffmpeg is installed
+  bothways film overlap --fps 100 -o overlap.mp4     where ffmpeg is installed
 
 Exit codes: 0 both orders see the same, 1 they differ, 2 something went wrong.";
 
@@ -50,7 +50,7 @@ pub(super) struct FilmArgs {
     #[arg(long, value_name = "S", default_value_t = 2.0, value_parser = pause,
           allow_negative_numbers = true)]
     pause: f64,
-    /// Frames a second: 1, 2, 4, 5, 10, 20, 25 or 50, which last whole hundredths of a second
+    /// Frames a second: 1, 2, 4, 5, 10, 20, 25 or 50; 100 in a video or a folder
     #[arg(long, value_name = "N", default_value_t = 25, value_parser = rate,
           allow_negative_numbers = true)]
     fps: u32,

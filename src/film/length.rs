@@ -1,8 +1,12 @@
 //! How long a film is: frames, their time, and the pause at the end.
 
 /// The frames a second that a film may have. A GIF counts the time of a frame in hundredths of a second, so these
-/// divide 100; and 100 itself is left out, because browsers show frames of a hundredth of a second ten times as long.
-pub const FRAME_RATES: [u32; 8] = [1, 2, 4, 5, 10, 20, 25, 50];
+/// divide 100.
+pub const FRAME_RATES: [u32; 9] = [1, 2, 4, 5, 10, 20, 25, 50, 100];
+
+/// The most frames a second of a GIF or an animated PNG: browsers show frames of a hundredth of a second ten times as
+/// long.
+pub const FASTEST_IN_BROWSERS: u32 = 50;
 
 /// The longest film in seconds, without the pause at its end.
 pub const MOST_SECONDS: f64 = 600.0;
@@ -136,7 +140,7 @@ mod tests {
             assert_eq!(length.hundredths() * rate, 100);
         }
         let problem = Length::new(1.0, 24, 0.0).unwrap_err().to_string();
-        assert!(problem.ends_with("choose 1, 2, 4, 5, 10, 20, 25 or 50"), "{problem}");
+        assert!(problem.ends_with("choose 1, 2, 4, 5, 10, 20, 25, 50 or 100"), "{problem}");
     }
 
     #[test]

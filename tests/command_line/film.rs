@@ -98,6 +98,18 @@ fn a_folder_holds_the_frames_of_one_film() {
     assert_eq!(size, (480, 270));
 }
 
+/// Frames of a hundredth of a second are right where no browser shows them.
+#[test]
+fn a_folder_may_have_a_hundred_frames_a_second() {
+    let home = home();
+    let quick = ["film", "canonical", "--size", "8x6", "--viewport", "1.333,1", "--width", "480"];
+    let mut command = bothways(&home, &quick);
+    command.args(["--seconds", "0.05", "--pause", "0", "--fps", "100", "-o", "quick/"]);
+    printed(command, 0);
+    let about = fs::read_to_string(home.path().join("quick/frames.txt")).unwrap();
+    assert_eq!(about, "5 frames, 100 a second\n");
+}
+
 #[test]
 fn a_video_needs_a_program() {
     let home = home();

@@ -4,7 +4,7 @@ use super::video::Video;
 use crate::cli::failure::Failure;
 use crate::cli::output::{OutputFile, Staging};
 use bothways::figure::Theme;
-use bothways::film::{Film, Length};
+use bothways::film::{FASTEST_IN_BROWSERS, Film, Length};
 use image::RgbImage;
 use std::cell::Cell;
 use std::fs;
@@ -28,6 +28,21 @@ impl Target {
             return Ok(Target::Folder(path.to_owned()));
         }
         let file = OutputFile::find(path)?;
+        let target = Target::of_file(file)?;
+        let in_browsers = matches!(target, Target::Gif(_) | Target::Apng(_));
+        if in_browsers && length.rate() > FASTEST_IN_BROWSERS {
+            return Err(Failure::new(format!(
+                "--fps {}: browsers show such short frames of a {} ten times as long; choose {FASTEST_IN_BROWSERS}, or \
+                 write an .mp4 or a folder of frames",
+                length.rate(),
+                if matches!(target, Target::Gif(_)) { "GIF" } else { "PNG" }
+            )));
+        }
+        Ok(target)
+    }
+
+    /// The form that the name of a file tells.
+    fn of_file(file: OutputFile) -> Result<Target, Failure> {
         match file.ending().as_deref() {
             Some("gif") => Ok(Target::Gif(file)),
             Some("png" | "apng") => Ok(Target::Apng(file)),

@@ -190,8 +190,13 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
     ),
     (
         "film canonical --fps 30",
-        "invalid value '30' for '--fps <N>': choose 1, 2, 4, 5, 10, 20, 25 or 50: a GIF counts hundredths \
-         of a second",
+        "invalid value '30' for '--fps <N>': choose 1, 2, 4, 5, 10, 20, 25, 50 or 100: a GIF counts \
+         hundredths of a second",
+    ),
+    (
+        "film canonical --fps 100 --output fast.gif",
+        "--fps 100: browsers show such short frames of a GIF ten times as long; choose 50, or write an .mp4 or \
+         a folder of frames",
     ),
     (
         "film canonical --seconds 600 --fps 50",
