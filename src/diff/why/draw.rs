@@ -197,10 +197,10 @@ impl Canvas<'_> {
                 }
             }
         }
-        let columns = super::outline::indices(&self.rays.x, [low, high], 1.0);
+        let columns = self.rays.x.indices([low, high], 1.0);
         if low > high {
             // The two ends are less than a pixel apart, or there is nothing between them.
-            let pixel = super::outline::indices(&self.rays.x, [high, low], 1.0);
+            let pixel = self.rays.x.indices([high, low], 1.0);
             if pixel.len() > 4 {
                 return 0..0;
             }

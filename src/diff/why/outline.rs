@@ -169,13 +169,31 @@ pub(super) struct Area {
 
 /// The pixels whose samples a triangle may cover, and `margin` pixels around them.
 pub(super) fn area_of_triangle(corners: &[DVec3; 3], rays: &ViewingRays, margin: f64) -> Area {
-    area(corners.iter().map(|&corner| project(corner, 0.0, rays)), rays, margin)
+    let [mut low, mut high] = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+    for &corner in corners {
+        let Some(place) = project(corner, rays) else { return whole(rays) };
+        for axis in 0..2 {
+            low[axis] = low[axis].min(place[axis]);
+            high[axis] = high[axis].max(place[axis]);
+        }
+    }
+    within(low, high, rays, margin)
 }
 
 /// The same for a sphere.
 pub(super) fn area_of_sphere(center: DVec3, radius: f64, rays: &ViewingRays, margin: f64) -> Area {
     // Wider than the sphere by far more than roundoff.
-    area(std::iter::once(project(center, radius * 1.0001, rays)), rays, margin)
+    match project_ball(center, radius * 1.0001, rays) {
+        Some([low, high]) => within(low, high, rays, margin),
+        None => whole(rays),
+    }
+}
+
+fn within(low: [f64; 2], high: [f64; 2], rays: &ViewingRays, margin: f64) -> Area {
+    Area {
+        rows: rays.y.indices([low[1], high[1]], margin),
+        columns: rays.x.indices([low[0], high[0]], margin),
+    }
 }
 
 /// All pixels.
@@ -183,74 +201,37 @@ pub(super) fn whole(rays: &ViewingRays) -> Area {
     Area { rows: 0..rays.y.len(), columns: 0..rays.x.len() }
 }
 
-/// The least and the largest `x` and `y` on the viewport of a point, or of a ball around it; `None` if parts of it
-/// lie beside or behind the eye.
-fn project(point: DVec3, radius: f64, rays: &ViewingRays) -> Option<[[f64; 2]; 2]> {
+/// The place on the viewport of a point; `None` if it lies beside or behind the eye.
+fn project(point: DVec3, rays: &ViewingRays) -> Option<[f64; 2]> {
     let place = [point.dot(rays.u), point.dot(rays.v)];
     if rays.projection == Projection::Parallel {
-        return rays.spread.then(|| place.map(|at| [at - radius, at + radius]));
+        return rays.spread.then_some(place);
     }
     // point = t·D: its depth along the axis is t·d.
     let depth = -point.dot(rays.w) / rays.distance;
+    is_in_front(depth, point.length(), rays).then(|| place.map(|at| at / depth))
+}
+
+/// Whether the nearest part of something, at this depth along the axis, lies in front of the eye, and so far that
+/// rounding moves it by much less than a pixel.
+fn is_in_front(near: f64, length: f64, rays: &ViewingRays) -> bool {
+    near > length / rays.distance.abs() * 1e-9
+}
+
+/// The least and the largest `x` and `y` of a ball on the viewport; `None` if parts of it lie beside or behind the eye.
+fn project_ball(point: DVec3, radius: f64, rays: &ViewingRays) -> Option<[[f64; 2]; 2]> {
+    let place = [point.dot(rays.u), point.dot(rays.v)];
+    if rays.projection == Projection::Parallel {
+        return rays.spread.then(|| [place.map(|at| at - radius), place.map(|at| at + radius)]);
+    }
+    let depth = -point.dot(rays.w) / rays.distance;
     let [near, far] = [-1.0, 1.0].map(|side| depth + side * radius / rays.distance.abs());
-    // In front, and so far that rounding moves the point by much less than a pixel.
-    let smallest = (point.length() + radius) / rays.distance.abs() * 1e-9;
-    if near <= smallest || near.is_nan() {
+    if !is_in_front(near, point.length() + radius, rays) {
         return None;
     }
-    Some(place.map(|at| {
-        let ends =
-            [(at - radius) / near, (at - radius) / far, (at + radius) / near, (at + radius) / far];
-        [
-            ends.into_iter().fold(f64::INFINITY, f64::min),
-            ends.into_iter().fold(f64::NEG_INFINITY, f64::max),
-        ]
-    }))
-}
-
-fn area(
-    places: impl Iterator<Item = Option<[[f64; 2]; 2]>>,
-    rays: &ViewingRays,
-    margin: f64,
-) -> Area {
-    let mut box_ = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
-    for place in places {
-        let Some(place) = place else { return whole(rays) };
-        for (side, [low, high]) in box_.iter_mut().zip(place) {
-            *side = [side[0].min(low), side[1].max(high)];
-        }
-    }
-    let [x, y] = box_;
-    Area { rows: indices(&rays.y, y, margin), columns: indices(&rays.x, x, margin) }
-}
-
-/// The indices of equally spaced coordinates within `[low, high]`, and a few around them.
-pub(super) fn indices(coordinates: &[f64], [low, high]: [f64; 2], margin: f64) -> Range<usize> {
-    let count = coordinates.len();
-    let (Some(&first), Some(&last)) = (coordinates.first(), coordinates.last()) else {
-        return 0..0;
-    };
-    if count == 1 {
-        return 0..1;
-    }
-    #[expect(clippy::cast_precision_loss, reason = "at most 2^16")]
-    let spacing = (last - first) / (count - 1) as f64;
-    let [a, b] = [low, high].map(|at| (at - first) / spacing);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a number below 0 or NaN becomes 0, one above the count becomes the largest"
-    )]
-    let index = |at: f64| at as usize;
-    let [begin, end] = [a.min(b) - margin - 0.01, a.max(b) + margin + 0.01];
-    if a.is_nan() || b.is_nan() {
-        return 0..count;
-    }
-    if end < 0.0 {
-        return 0..0;
-    }
-    let end = index(end).saturating_add(1).min(count);
-    index(begin.ceil()).min(end)..end
+    let low = place.map(|at| ((at - radius) / near).min((at - radius) / far));
+    let high = place.map(|at| ((at + radius) / near).max((at + radius) / far));
+    Some([low, high])
 }
 
 #[cfg(test)]
@@ -258,20 +239,6 @@ mod tests {
     use super::*;
     use crate::common::Camera;
     use crate::diff::why::convention::Convention;
-
-    #[test]
-    fn indices_are_those_between_two_coordinates() {
-        let four = [-3.0, -1.0, 1.0, 3.0];
-        assert_eq!(indices(&four, [-1.0, 1.0], 0.0), 1..3);
-        assert_eq!(indices(&four, [-0.5, 0.5], 0.0), 2..2);
-        assert_eq!(indices(&four, [-0.5, 0.5], 1.0), 1..3);
-        assert_eq!(indices(&four, [-90.0, 90.0], 0.0), 0..4);
-        assert_eq!(indices(&four, [5.0, 90.0], 0.0), 4..4);
-        assert_eq!(indices(&four, [-90.0, -5.0], 0.0), 0..0);
-        assert_eq!(indices(&four, [f64::NAN, 0.0], 0.0), 0..4);
-        let descending = [3.0, 1.0, -1.0, -3.0];
-        assert_eq!(indices(&descending, [-1.0, 0.0], 0.0), 2..3);
-    }
 
     #[test]
     fn a_triangle_s_functions_have_their_values() {

@@ -3,13 +3,14 @@
 use super::convention::{Convention, Look, Rays};
 use crate::common::glam::DVec3;
 use crate::common::{Camera, CameraDescription, Judge, Projection, Ray};
+use std::ops::{Index, Range};
 
 /// The viewing rays of a picture, one a pixel, relative to the eye.
 #[derive(Clone, Debug)]
 pub(super) struct ViewingRays {
     /// `x` of each column and `y` of each row on the viewport.
-    pub(super) x: Vec<f64>,
-    pub(super) y: Vec<f64>,
+    pub(super) x: Coordinates,
+    pub(super) y: Coordinates,
     pub(super) u: DVec3,
     pub(super) v: DVec3,
     pub(super) w: DVec3,
@@ -18,6 +19,8 @@ pub(super) struct ViewingRays {
     pub(super) distance: f64,
     /// Whether the rays of a parallel camera begin at their own points of the viewport.
     pub(super) spread: bool,
+    axis: DVec3,
+    extent: f64,
     /// How many rows and columns of rays a pixel has.
     samples: u32,
     camera: Camera,
@@ -38,14 +41,19 @@ impl ViewingRays {
         let coordinates = |sampling: super::convention::Sampling, side: f64, n: u32| {
             (0..n).map(move |index| sampling.coordinate(side, index, n))
         };
+        let x = Coordinates::new(coordinates(convention.columns, vw, width).collect());
+        let y = Coordinates::new(coordinates(convention.rows, vh, height).map(|y| -y).collect());
+        let distance = if convention.look == Look::Backward { -length } else { length };
         ViewingRays {
-            x: coordinates(convention.columns, vw, width).collect(),
-            y: coordinates(convention.rows, vh, height).map(|y| -y).collect(),
+            extent: x.longest() + y.longest(),
+            axis: -(distance * camera.w()),
+            x,
+            y,
             u: camera.u(),
             v: camera.v(),
             w: camera.w(),
             projection,
-            distance: if convention.look == Look::Backward { -length } else { length },
+            distance,
             spread: convention.rays != Rays::OneOrigin,
             samples: 1,
             camera: Camera::new(description).expect("only the projection is another"),
@@ -85,17 +93,76 @@ impl ViewingRays {
 
     /// The middle of all directions: along the axis.
     pub(super) fn axis(&self) -> DVec3 {
-        -(self.distance * self.w)
+        self.axis
     }
 
-    /// The longest coordinate on the viewport.
+    /// The longest coordinates on the viewport, added.
     pub(super) fn extent(&self) -> f64 {
-        let ends = |values: &[f64]| {
-            let [first, last] =
-                [values.first(), values.last()].map(|end| end.map_or(0.0, |x| x.abs()));
-            first.max(last)
-        };
-        ends(&self.x) + ends(&self.y)
+        self.extent
+    }
+}
+
+/// Equally spaced coordinates.
+#[derive(Clone, Debug)]
+pub(super) struct Coordinates {
+    values: Vec<f64>,
+    /// The inverse of the distance between two of them.
+    per_spacing: f64,
+}
+
+impl Coordinates {
+    fn new(values: Vec<f64>) -> Coordinates {
+        let (first, last) = (values.first().unwrap_or(&0.0), values.last().unwrap_or(&0.0));
+        #[expect(clippy::cast_precision_loss, reason = "at most 2^16")]
+        let per_spacing = values.len().saturating_sub(1) as f64 / (last - first);
+        Coordinates { values, per_spacing }
+    }
+
+    /// How many there are.
+    pub(super) fn len(&self) -> usize {
+        self.values.len()
+    }
+
+    fn longest(&self) -> f64 {
+        let ends = [self.values.first(), self.values.last()];
+        ends.into_iter().flatten().map(|end| end.abs()).fold(0.0, f64::max)
+    }
+
+    /// The indices of those within `[low, high]`, and a few around them.
+    pub(super) fn indices(&self, [low, high]: [f64; 2], margin: f64) -> Range<usize> {
+        let count = self.values.len();
+        if count <= 1 {
+            return 0..count;
+        }
+        let [a, b] = [low, high].map(|at| (at - self.values[0]) * self.per_spacing);
+        if a.is_nan() || b.is_nan() {
+            return 0..count;
+        }
+        // A hundredth of a pixel is far more than the roundoff.
+        let [begin, end] = [a.min(b) - margin - 0.01, a.max(b) + margin + 0.01];
+        if end < 0.0 {
+            return 0..0;
+        }
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a number below 0 becomes 0, one above all integers the largest"
+        )]
+        let whole = |at: f64| at as usize;
+        let end = whole(end).saturating_add(1).min(count);
+        // The next whole number, without a call where the processor has no instruction for it.
+        let below = whole(begin);
+        #[expect(clippy::cast_precision_loss, reason = "beyond 2^53 there is no fraction")]
+        let begin = if (below as f64) < begin { below.saturating_add(1) } else { below };
+        begin.min(end)..end
+    }
+}
+
+impl Index<usize> for Coordinates {
+    type Output = f64;
+
+    fn index(&self, index: usize) -> &f64 {
+        &self.values[index]
     }
 }
 
@@ -103,6 +170,20 @@ impl ViewingRays {
 mod tests {
     use super::*;
     use crate::diff::why::convention::{Change, Sampling};
+
+    #[test]
+    fn indices_are_those_between_two_coordinates() {
+        let four = Coordinates::new(vec![-3.0, -1.0, 1.0, 3.0]);
+        assert_eq!(four.indices([-1.0, 1.0], 0.0), 1..3);
+        assert_eq!(four.indices([-0.5, 0.5], 0.0), 2..2);
+        assert_eq!(four.indices([-0.5, 0.5], 1.0), 1..3);
+        assert_eq!(four.indices([-90.0, 90.0], 0.0), 0..4);
+        assert_eq!(four.indices([5.0, 90.0], 0.0), 4..4);
+        assert_eq!(four.indices([-90.0, -5.0], 0.0), 0..0);
+        assert_eq!(four.indices([f64::NAN, 0.0], 0.0), 0..4);
+        let descending = Coordinates::new(vec![3.0, 1.0, -1.0, -3.0]);
+        assert_eq!(descending.indices([-1.0, 0.0], 0.0), 2..3);
+    }
 
     #[test]
     fn our_rays_have_the_bits_of_the_camera() {
@@ -135,7 +216,7 @@ mod tests {
         let camera = Camera::canonical(4, 2);
         let corner = Convention::default().with(Change::Columns(Sampling::Corner));
         let rays = ViewingRays::new(&camera, &corner);
-        assert_eq!(rays.x, [-0.5, -0.25, 0.0, 0.25]);
-        assert_eq!(rays.y, camera.sample_grid(1).y());
+        assert_eq!(rays.x.values, [-0.5, -0.25, 0.0, 0.25]);
+        assert_eq!(rays.y.values, camera.sample_grid(1).y());
     }
 }
