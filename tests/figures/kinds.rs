@@ -69,10 +69,6 @@ fn no_text_of_a_figure_overlaps_another_or_leaves_the_picture() {
         for projection in [Projection::Perspective, Projection::Parallel] {
             let subject = camera(scene.name, projection);
             for kind in Kind::ALL {
-                // The textbook's run over a hundred thousand primitives takes seconds, and its words are the same.
-                if kind == Kind::Order && subject.0.primitive_count() > 10_000 {
-                    continue;
-                }
                 let drawing = draw(kind, scene.name, &subject, Theme::Dark);
                 let found = drawing.faults().into_iter();
                 faults.extend(
