@@ -3,6 +3,7 @@
 use super::aspect::Aspect;
 use super::classes::pixels;
 use crate::common::Frame;
+use crate::common::engine::simd::{Simd, SimdBase, SimdMask, best_level, dispatch, u8x64};
 use crate::common::frame::NO_PRIMITIVE;
 use image::{Rgb, RgbImage};
 use std::borrow::Cow;
@@ -323,7 +324,7 @@ impl<'a> Buffer<'a> {
         match (&self.content, &other.content) {
             (Content::Mask(a), Content::Mask(b)) => {
                 let (a, b) = (&a[run.clone()], &b[run]);
-                (a == b).then(|| packed(a))
+                dispatch!(best_level(), simd => (a == b).then(|| packed(simd, a)))
             }
             (Content::Ids(a), Content::Ids(b)) => {
                 let (a, b) = (&a[run.clone()], &b[run]);
@@ -358,6 +359,20 @@ impl<'a> Buffer<'a> {
             }
             _ => None,
         }
+    }
+
+    /// The number of covered pixels of a row in which two masks of one sample a pixel are alike; stores a bit for each, 64
+    /// pixels in a word. `None` if they are not, or if these are no masks.
+    pub(super) fn alike_row(&self, other: &Buffer, row: u32, words: &mut Vec<u64>) -> Option<u64> {
+        let (Content::Mask(a), Content::Mask(b)) = (&self.content, &other.content) else {
+            return None;
+        };
+        let first = self.pixel([row, 0]);
+        let run = first..first + self.size[0] as usize;
+        words.clear();
+        words.reserve(run.len().div_ceil(64));
+        let [a, b] = [&a[run.clone()], &b[run]];
+        dispatch!(best_level(), simd => packed_if_equal(simd, a, b, words))
     }
 
     /// Whether any sample of each pixel is covered, row by row.
@@ -511,31 +526,33 @@ fn bits(values: impl Iterator<Item = bool>) -> u64 {
     values.enumerate().fold(0, |bits, (at, value)| bits | u64::from(value) << at)
 }
 
-/// The same for values in memory, eight at once.
-fn packed(values: &[bool]) -> u64 {
-    let Ok(values) = <&[bool; 64]>::try_from(values) else {
+/// Packs values into words of 64 bits, and counts the true ones; `None` if others are not equal to them.
+#[inline(always)]
+fn packed_if_equal<S: Simd>(
+    simd: S,
+    values: &[bool],
+    others: &[bool],
+    words: &mut Vec<u64>,
+) -> Option<u64> {
+    let (mut count, mut differing) = (0, 0);
+    for (values, others) in values.chunks(64).zip(others.chunks(64)) {
+        let (bits, other) = (packed(simd, values), packed(simd, others));
+        differing |= bits ^ other;
+        count += u64::from(bits.count_ones());
+        words.push(bits);
+    }
+    (differing == 0).then_some(count)
+}
+
+/// A bit for each of up to 64 values in memory, the first one lowest.
+#[inline(always)]
+fn packed<S: Simd>(simd: S, values: &[bool]) -> u64 {
+    let Some(values) = values.first_chunk::<64>() else {
         return bits(values.iter().copied());
     };
-    let (eights, _) = values.as_chunks::<8>();
-    let word = |[a, b, c, d, e, f, g, h]: [bool; 8]| {
-        u64::from_le_bytes([
-            a.into(),
-            b.into(),
-            c.into(),
-            d.into(),
-            e.into(),
-            f.into(),
-            g.into(),
-            h.into(),
-        ])
-    };
-    // Value `8m + k` is bit `m` of byte `k`, …
-    let gathered = eights.iter().enumerate().fold(0, |all, (m, eight)| all | word(*eight) << m);
-    // … and becomes bit `k` of byte `m`: a transposition of 8 × 8 bits (Warren, "Hacker's Delight", 2012, section 7-3).
-    [(7, 0x00AA_00AA_00AA_00AA), (14, 0x0000_CCCC_0000_CCCC), (28, 0x0000_0000_F0F0_F0F0)]
-        .into_iter()
-        .fold(gathered, |bits, (shift, mask)| {
-            let exchanged = (bits ^ (bits >> shift)) & mask;
-            bits ^ exchanged ^ (exchanged << shift)
-        })
+    let mut bytes = [0; 64];
+    for (byte, value) in bytes.iter_mut().zip(values) {
+        *byte = u8::from(*value);
+    }
+    u8x64::from_slice(simd, &bytes).simd_gt(0).to_bitmask()
 }

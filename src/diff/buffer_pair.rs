@@ -165,11 +165,22 @@ impl<'a> BufferPair<'a> {
             .any(|crop| holds(crop.row, crop.height, i) && holds(crop.column, crop.width, j))
     }
 
+    /// Whether pixels may be compared several at a time: each is one sample, and none is ignored.
+    fn compares_whole_runs(&self) -> bool {
+        self.unit == Unit::Samples && self.a.samples() == 1 && self.ignored.is_empty()
+    }
+
+    /// The number of covered pixels of a row in which two masks are alike; stores a bit for each, 64 pixels in a word. `None`
+    /// if they are not, or if these are no masks.
+    pub(super) fn alike_row(&self, row: u32, words: &mut Vec<u64>) -> Option<u64> {
+        self.compares_whole_runs().then(|| self.a.alike_row(self.b, row, words))?
+    }
+
     /// The covered ones of up to 64 pixels of a row, if A and B are alike there and no value differs by more than is known
     /// of others, so that these pixels count and change nothing else. `None` if that may not be so: each pixel is to be
     /// compared. Pixels of colours alone count as covered.
     pub(super) fn alike_run(&self, row: u32, columns: Range<u32>, known: Known) -> Option<u64> {
-        if self.unit == Unit::Pixels || self.a.samples() != 1 || !self.ignored.is_empty() {
+        if !self.compares_whole_runs() {
             return None;
         }
         let known = Known {

@@ -150,6 +150,17 @@ pub(super) struct Rows<'a> {
 }
 
 impl Rows<'_> {
+    /// Writes the words of a row in which nothing differs: pixels are alike where a bit is 1, and empty elsewhere.
+    pub(super) fn write_alike(&mut self, row: u32, words: &[u64]) {
+        let first = row as usize * self.words;
+        for (stored, &bits) in self.planes[0][first..].iter_mut().zip(words) {
+            // What is 0 is never written: see `Classes::planes`.
+            if bits != 0 {
+                *stored = bits;
+            }
+        }
+    }
+
     /// Writes the word at a place: its row, counted from the first, and its number in the row.
     pub(super) fn write(&mut self, row: u32, word: u32, classes: Word) {
         let index = row as usize * self.words + word as usize;

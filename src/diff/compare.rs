@@ -223,8 +223,14 @@ fn all_pixels(pair: &BufferPair) -> (Sums, Classes) {
     let (size @ [width, _], [top, left]) = (pair.a.size(), pair.a.origin());
     let (classes, sums) = Classes::written(size, ROWS, |rows| {
         let mut sums = Sums::default();
+        let mut words = Vec::new();
         for row in 0..rows.count {
             let i = rows.first + row;
+            if let Some(covered) = pair.alike_row(i, &mut words) {
+                sums.both += covered;
+                rows.write_alike(row, &words);
+                continue;
+            }
             for (word, first) in (0..width).step_by(WORD as usize).enumerate() {
                 let columns = first..width.min(first + WORD);
                 let known = Known {
