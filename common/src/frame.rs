@@ -4,7 +4,6 @@ use crate::camera::Camera;
 use crate::engine::memory::filled;
 use crate::raster::{Crop, Region, check_samples};
 use glam::{Vec2, Vec3};
-use std::ops::Range;
 
 /// How to render, the same for both orders.
 ///
@@ -46,6 +45,9 @@ pub struct Frame {
     region: Region,
     ids: Vec<u32>,
     t: Vec<f32>,
+    /// sRGB bytes, for each pixel.
+    picture: Vec<[u8; 3]>,
+    /// Empty unless they are asked for.
     colors: Vec<Vec3>,
     /// Empty unless they are asked for.
     normals: Vec<Vec3>,
@@ -64,19 +66,20 @@ pub struct Tile<'a> {
     pub t: Vec<&'a mut [f32]>,
 }
 
-/// One row of a frame during shading.
+/// One row of a frame's pixels during shading: as many rows of samples as a pixel has. All slices but the picture's
+/// hold these rows one after another.
 #[derive(Debug)]
-pub struct ShadingRow<'a> {
-    /// The row, on the raster of the whole image.
-    pub row: usize,
-    /// The columns, on the raster of the whole image. All slices have one element for each.
-    pub columns: Range<usize>,
+pub struct ShadingBand<'a> {
+    /// The samples, on the raster of the whole image.
+    pub region: Region,
     /// The ids of the primitives that are seen; [`NO_PRIMITIVE`] for nothing.
     pub ids: &'a [u32],
     /// Their `t`, in lengths of the viewing ray's direction; +∞ for nothing.
     pub t: &'a [f32],
-    /// Linear red, green and blue, to be written.
-    pub colors: &'a mut [Vec3],
+    /// The sRGB bytes of the pixels, to be written.
+    pub picture: &'a mut [[u8; 3]],
+    /// Linear red, green and blue; `None` unless the frame keeps them.
+    pub colors: Option<&'a mut [Vec3]>,
     /// Unit normals towards the viewer, zero where nothing is seen; `None` unless the frame keeps them.
     pub normals: Option<&'a mut [Vec3]>,
     /// Texture coordinates, zero where there are none; `None` unless the frame keeps them.
@@ -84,7 +87,7 @@ pub struct ShadingRow<'a> {
 }
 
 impl Frame {
-    /// A frame in which nothing is seen, and every colour is black.
+    /// A frame in which nothing is seen, and every pixel is black.
     ///
     /// # Panics
     ///
@@ -101,10 +104,17 @@ impl Frame {
             region,
             ids: filled(NO_PRIMITIVE, count),
             t: filled(f32::INFINITY, count),
-            colors: vec![Vec3::ZERO; count],
+            picture: vec![[0; 3]; pixels.width as usize * pixels.height as usize],
+            colors: Vec::new(),
             normals: Vec::new(),
             texture_coordinates: Vec::new(),
         }
+    }
+
+    /// The same frame, with room for the linear colour of every sample, which shading then stores.
+    pub fn with_colors(mut self) -> Frame {
+        self.colors = vec![Vec3::ZERO; self.ids.len()];
+        self
     }
 
     /// The same frame, with room for the normal of every sample, which shading then stores.
@@ -120,20 +130,23 @@ impl Frame {
     }
 
     /// Makes the frame fit a camera and options; one that fits already keeps its memory. Its content is meaningless
-    /// until it is cleared or drawn anew. Room for normals and texture coordinates stays, if it has any.
+    /// until it is cleared or drawn anew. Room for colours, normals and texture coordinates stays, if it has any.
     ///
     /// # Panics
     ///
     /// As [`Frame::new`].
     pub fn fit(&mut self, camera: &Camera, options: &Options) {
         if self.camera_image != camera.image() || self.options != *options {
-            let keeps = [!self.normals.is_empty(), !self.texture_coordinates.is_empty()];
-            *self = Frame::new(camera, options);
-            if keeps[0] {
-                self.normals = vec![Vec3::ZERO; self.ids.len()];
+            let was = std::mem::replace(self, Frame::new(camera, options));
+            let count = self.ids.len();
+            if !was.colors.is_empty() {
+                self.colors = vec![Vec3::ZERO; count];
             }
-            if keeps[1] {
-                self.texture_coordinates = vec![Vec2::ZERO; self.ids.len()];
+            if !was.normals.is_empty() {
+                self.normals = vec![Vec3::ZERO; count];
+            }
+            if !was.texture_coordinates.is_empty() {
+                self.texture_coordinates = vec![Vec2::ZERO; count];
             }
         }
     }
@@ -237,7 +250,14 @@ impl Frame {
         &self.normals
     }
 
-    /// Linear red, green and blue of every sample, in the order of [`Frame::ids`]; black before shading.
+    /// The picture: the sRGB bytes of every pixel, row by row from the top; black before shading. A pixel is the
+    /// average of its samples, in linear light.
+    pub fn picture(&self) -> &[[u8; 3]] {
+        &self.picture
+    }
+
+    /// Linear red, green and blue of every sample, in the order of [`Frame::ids`]; black before shading. Empty unless
+    /// [`Frame::with_colors`] asked for them.
     pub fn colors(&self) -> &[Vec3] {
         &self.colors
     }
@@ -283,20 +303,23 @@ impl Frame {
         tiles
     }
 
-    /// The frame's rows, for shading.
-    pub fn shading_rows(&mut self) -> Vec<ShadingRow<'_>> {
-        let width = self.width();
+    /// The frame's rows of pixels, for shading.
+    pub fn shading_bands(&mut self) -> Vec<ShadingBand<'_>> {
+        let samples = self.options.samples as usize;
+        let (width, size) = (self.width(), self.width() * samples);
         let Region { rows, columns } = self.region.clone();
-        let seen = self.ids.chunks(width).zip(self.t.chunks(width));
-        let mut normals = self.normals.chunks_mut(width);
-        let mut texture_coordinates = self.texture_coordinates.chunks_mut(width);
-        rows.zip(seen.zip(self.colors.chunks_mut(width)))
-            .map(|(row, ((ids, t), colors))| ShadingRow {
-                row,
-                columns: columns.clone(),
+        let seen = self.ids.chunks(size).zip(self.t.chunks(size));
+        let mut colors = self.colors.chunks_mut(size);
+        let mut normals = self.normals.chunks_mut(size);
+        let mut texture_coordinates = self.texture_coordinates.chunks_mut(size);
+        rows.step_by(samples)
+            .zip(seen.zip(self.picture.chunks_mut(width / samples)))
+            .map(|(row, ((ids, t), picture))| ShadingBand {
+                region: Region { rows: row..row + samples, columns: columns.clone() },
                 ids,
                 t,
-                colors,
+                picture,
+                colors: colors.next(),
                 normals: normals.next(),
                 texture_coordinates: texture_coordinates.next(),
             })
@@ -361,9 +384,9 @@ mod tests {
         assert_eq!(frame.id(3, 6), Some(9));
         assert_eq!(frame.samples_of(1, 3).collect::<Vec<_>>(), [2, 3, 6, 7]);
         assert_eq!(frame.ids()[6], 9);
-        let rows = frame.shading_rows();
-        let rows: Vec<_> = rows.iter().map(|row| (row.row, row.columns.clone())).collect();
-        assert_eq!(rows, [(2, 4..8), (3, 4..8)]);
+        let bands = frame.shading_bands();
+        assert_eq!((bands.len(), bands[0].picture.len(), bands[0].ids.len()), (1, 2, 8));
+        assert_eq!(bands[0].region, Region { rows: 2..4, columns: 4..8 });
     }
 
     #[test]

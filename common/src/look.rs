@@ -1,6 +1,9 @@
 //! The look of what is seen: shading, texture coordinates and colours. What a look *is* stands here; where on a
 //! surface a sample lies is for each order to find out.
 
+pub mod bands;
 pub mod color;
+pub mod lanes;
+mod power;
 pub mod shade;
 pub mod texture;

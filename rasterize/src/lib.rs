@@ -86,4 +86,4 @@ pub mod textbook;
 
 pub use bothways_common as common;
 pub use bothways_common::{Frame, Options, View};
-pub use shade::shade;
+pub use shade::{shade, shade_with};

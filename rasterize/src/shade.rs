@@ -4,67 +4,40 @@
 mod form;
 mod quotient;
 
-use bothways_common::frame::{NO_PRIMITIVE, ShadingRow};
-use bothways_common::look::shade::{SurfacePoint, color};
-use bothways_common::look::texture::{self, TexturePoint};
-use bothways_common::{
-    Frame, Material, Primitive, Projection, Ray, SampleGrid, Scene, Shape, View,
-};
-use form::{Form, HitPoint};
-use glam::{DVec2, DVec3, Vec2, Vec3};
+use bothways_common::engine::simd::{Level, Simd, SimdBase, best_level, f64x8};
+use bothways_common::look::bands::{self, Points, Samples, Surfaces, Wanted};
+use bothways_common::look::lanes::{DVec3x8, Lanes, each};
+use bothways_common::look::texture::{self, TexturePoints};
+use bothways_common::{Frame, Primitive, Projection, Scene, Shape, View};
+use form::{Form, HitPoints};
+use glam::{DVec2, DVec3};
 use quotient::{Affine, Quotient};
-use rayon::prelude::*;
 
-/// Gives every sample its colour, by interpolation over the triangle that is seen there. If the frame keeps
-/// [normals](Frame::with_normals) or [texture coordinates](Frame::with_texture_coordinates), every sample gets these,
-/// too.
+/// Gives a frame its picture, by interpolation over the triangle that is seen at each sample. If the frame keeps
+/// [linear colours](Frame::with_colors), [normals](Frame::with_normals) or
+/// [texture coordinates](Frame::with_texture_coordinates), every sample gets these, too.
 ///
 /// # Panics
 ///
 /// If the frame does not show this view: another size, or ids that the scene does not have.
 pub fn shade(view: &View, frame: &mut Frame) {
-    assert_eq!(frame.camera_image(), view.camera.image(), "the frame shows another view");
-    let grid = view.camera.sample_grid(frame.samples());
-    let step = sample_step(view, frame.samples());
-    frame.shading_rows().into_par_iter().for_each(|row| shade_row(view, &grid, step, row));
+    shade_with(view, frame, best_level());
 }
 
-fn shade_row(view: &View, grid: &SampleGrid, step: [f64; 2], mut row: ShadingRow) {
-    // Neighbouring samples mostly show the same primitive: set it up once for the run.
-    let mut run: Option<(u32, Surface)> = None;
-    for (index, (column, &id)) in row.columns.zip(row.ids).enumerate() {
-        if id == NO_PRIMITIVE {
-            row.colors[index] = view.scene.background;
-            if let Some(kept) = &mut row.normals {
-                kept[index] = Vec3::ZERO;
-            }
-            if let Some(kept) = &mut row.texture_coordinates {
-                kept[index] = Vec2::ZERO;
-            }
-            continue;
-        }
-        let surface = match &run {
-            Some((of, surface)) if *of == id => surface,
-            _ => &run.insert((id, Surface::new(view, id, row.texture_coordinates.is_some()))).1,
-        };
-        let (x, y) = (grid.x()[column], grid.y()[row.row]);
-        let ray = view.camera.ray_through(x, y);
-        let hit = surface.hit_point([x, y], &ray, row.t[index]);
-        let normal = surface.normal(x, y, &hit, ray.direction).as_vec3();
-        let to_viewer = -ray.direction.normalize().as_vec3();
-        let texture = surface.texture_point(view, x, y, &hit, step);
-        let point = SurfacePoint { position: hit.position, normal, to_viewer, texture };
-        if let Some(kept) = &mut row.normals {
-            kept[index] = normal;
-        }
-        if let Some(kept) = &mut row.texture_coordinates {
-            kept[index] = texture.map_or(Vec2::ZERO, |texture| texture.stored());
-        }
-        row.colors[index] = color(&point, &surface.material, &view.scene.lights, view.camera.eye());
-    }
+/// [`shade`] with the vector instructions of this level, for tests that compare the levels.
+#[doc(hidden)]
+pub fn shade_with(view: &View, frame: &mut Frame, level: Level) {
+    let samples = frame.samples();
+    bands::shade(view, frame, &Interpolated { view, step: sample_step(view, samples) }, level);
 }
 
-/// The way from a sample to the next one down, along `y`, and to the next one across, along `x`.
+/// The surfaces of a view as object order finds them.
+struct Interpolated<'a> {
+    view: &'a View<'a>,
+    /// The way from a sample to the next one down, along `y`, and to the next one across, along `x`.
+    step: [f64; 2],
+}
+
 fn sample_step(view: &View, samples: u32) -> [f64; 2] {
     let [down, across] = view.camera.raster(samples).spacing();
     [-down, across]
@@ -72,8 +45,8 @@ fn sample_step(view: &View, samples: u32) -> [f64; 2] {
 
 /// One visible primitive, set up for all samples at which it is seen.
 struct Surface {
-    material: Material,
-    form: Form,
+    /// `None` where only the normals of a flat form are wanted.
+    form: Option<Form>,
     normals: Normals,
     texture: Texture,
 }
@@ -90,84 +63,133 @@ enum Texture {
 enum Normals {
     /// The same everywhere.
     Flat(DVec3),
-    /// Those of a sphere.
-    Sphere,
-    /// Interpolated: the corners' normals, each with its weight, and the flat one.
-    Smooth { corners: [(DVec3, Affine); 3], flat: DVec3 },
+    /// Those of a sphere; the reciprocal of its radius.
+    Sphere(f64),
+    /// Interpolated: each coordinate is a function on the viewport. And the flat one.
+    Smooth { coordinates: [Affine; 3], flat: DVec3 },
 }
 
-impl Surface {
-    fn new(view: &View, id: u32, keeps_texture: bool) -> Surface {
+impl Surfaces for Interpolated<'_> {
+    type Surface = Surface;
+
+    fn set_up(&self, id: u32, wanted: Wanted) -> Surface {
+        let view = self.view;
         let (object, local) = view.scene.locate(id);
         let primitive = view.primitive(id);
-        let normals = match primitive {
-            Primitive::Sphere { .. } => Normals::Sphere,
-            Primitive::Plane { normal, .. } => Normals::Flat(normal),
-            Primitive::Triangle([a, b, c]) => {
-                let flat = (b - a).cross(c - a);
-                match corner_normals(view.scene, object, local) {
-                    None => Normals::Flat(flat),
-                    Some([at_a, at_b, at_c]) => {
-                        let [of_a, of_b, of_c] = weights(view, [a, b, c], flat);
-                        Normals::Smooth {
-                            corners: [(at_a, of_a), (at_b, of_b), (at_c, of_c)],
-                            flat,
-                        }
-                    }
-                }
-            }
-        };
+        let normals = Normals::new(view, &primitive, corner_normals(view.scene, object, local));
         let object = &view.scene.objects()[object];
-        let material = *object.material_of(local);
-        let texture = if keeps_texture || material.checker.is_some() {
+        let has_pattern = object.material_of(local).checker.is_some();
+        let texture = if wanted.texture_coordinates || has_pattern {
             Texture::new(view, &primitive, texture::corners(&object.shape, local))
         } else {
             Texture::None
         };
-        Surface { material, form: Form::new(view, &primitive), normals, texture }
+        let is_sphere = matches!(primitive, Primitive::Sphere { .. });
+        let form = (is_sphere || wanted.positions).then(|| Form::new(view, &primitive));
+        Surface { form, normals, texture }
     }
 
-    /// The point that is seen at a sample, for which this `t` is stored.
-    fn hit_point(&self, [x, y]: [f64; 2], ray: &Ray, stored: f32) -> HitPoint {
-        self.form.hit_point([x, y], ray, stored.into())
+    #[inline(always)]
+    fn at<S: Simd>(&self, simd: S, surface: &Surface, samples: &Samples<S>) -> Points<S> {
+        let hit = match &surface.form {
+            Some(form) => form.hit_points(simd, samples),
+            None => HitPoints::nowhere(simd),
+        };
+        let normal = surface.normals.at(simd, samples, &hit);
+        let texture = self.texture_points(simd, &surface.texture, samples, &hit);
+        Points { position: hit.position, normal, texture }
     }
+}
 
-    /// The texture coordinate at a sample, and how it changes towards its neighbours.
-    fn texture_point(
+impl Interpolated<'_> {
+    /// The texture coordinates at some samples, and how they change towards their neighbours.
+    #[inline(always)]
+    fn texture_points<S: Simd>(
         &self,
-        view: &View,
-        x: f64,
-        y: f64,
-        hit: &HitPoint,
-        [down, across]: [f64; 2],
-    ) -> Option<TexturePoint> {
-        let (coordinate, [along_x, along_y]) = match &self.texture {
+        simd: S,
+        texture: &Texture,
+        samples: &Samples<S>,
+        hit: &HitPoints<S>,
+    ) -> Option<TexturePoints<S>> {
+        let (coordinate, [along_x, along_y]) = match texture {
             Texture::None => return None,
-            Texture::Flat(quotient) => quotient.at(x, y),
-            Texture::Sphere => {
-                // Near the sample the sphere is the plane that touches it there.
-                let normal = hit.from_center;
-                let (coordinate, gradients) = texture::on_sphere(normal);
-                let touching = Quotient::on_plane(view, hit.position, normal, gradients);
-                (coordinate, touching.at(x, y).1)
-            }
+            Texture::Flat(quotient) => quotient.at(simd, samples.x, samples.y),
+            Texture::Sphere => self.on_sphere(simd, samples, hit),
         };
-        Some(TexturePoint::new(coordinate, across * along_x, down * along_y))
+        let [down, across] = each!(k in [0, 1] => f64x8::splat(simd, self.step[k]));
+        Some(TexturePoints::new(
+            coordinate,
+            each!(k in [0, 1] => along_x[k] * across),
+            each!(k in [0, 1] => along_y[k] * down),
+        ))
     }
 
-    /// The unit normal at a sample, towards the viewer.
-    fn normal(&self, x: f64, y: f64, hit: &HitPoint, direction: DVec3) -> DVec3 {
-        let (flat, smooth) = match &self.normals {
-            Normals::Flat(flat) => (*flat, *flat),
-            Normals::Sphere => (hit.from_center, hit.from_center),
-            Normals::Smooth { corners, flat } => {
-                let weighted = |(normal, weight): &(DVec3, Affine)| weight.at(x, y) * *normal;
-                (*flat, corners.iter().map(weighted).sum::<DVec3>())
+    /// Near a sample the sphere is the plane that touches it there.
+    #[inline(always)]
+    fn on_sphere<S: Simd>(
+        &self,
+        simd: S,
+        samples: &Samples<S>,
+        hit: &HitPoints<S>,
+    ) -> ([f64x8<S>; 2], [[f64x8<S>; 2]; 2]) {
+        let (coordinate, gradients) = texture::on_sphere_lanes(simd, hit.from_center);
+        let changes: [[DVec2; 2]; 8] = std::array::from_fn(|lane| {
+            let (position, normal) = (hit.position.lane(lane), hit.from_center.lane(lane));
+            let gradients = gradients.map(|gradient| gradient.lane(lane));
+            let touching = Quotient::on_plane(self.view, position, normal, gradients);
+            touching.changes(samples.x[lane], samples.y[lane])
+        });
+        let of = |axis: usize, k: usize| f64x8::from_fn(simd, |lane| changes[lane][axis][k]);
+        (coordinate, each!(axis in [0, 1] => each!(k in [0, 1] => of(axis, k))))
+    }
+}
+
+impl Normals {
+    #[inline]
+    fn new(view: &View, primitive: &Primitive, corners: Option<[DVec3; 3]>) -> Normals {
+        match *primitive {
+            Primitive::Sphere { radius, .. } => Normals::Sphere(1.0 / radius),
+            Primitive::Plane { normal, .. } => Normals::Flat(normal.normalize_or_zero()),
+            Primitive::Triangle([a, b, c]) => {
+                let normal = (b - a).cross(c - a);
+                let flat = normal.normalize_or_zero();
+                let Some(at) = corners else { return Normals::Flat(flat) };
+                let of = weights(view, [a, b, c], normal);
+                // All weights times one number change no direction; with this one they keep clear of overflow.
+                let scale = 1.0 / (of[0] + of[1] + of[2]).largest(view);
+                let scale = if scale.is_finite() { scale } else { 1.0 };
+                let of = of.map(|weight| weight * scale);
+                let coordinate = |k: usize| of[0] * at[0][k] + of[1] * at[1][k] + of[2] * at[2][k];
+                Normals::Smooth { coordinates: [0, 1, 2].map(coordinate), flat }
+            }
+        }
+    }
+
+    /// The normals at some samples, towards the viewer.
+    #[inline(always)]
+    fn at<S: Simd>(&self, simd: S, samples: &Samples<S>, hit: &HitPoints<S>) -> DVec3x8<S> {
+        /// Corners' normals that cancel each other leave the flat one.
+        const CANCELLED: f64 = 1e-15;
+        let (flat, normal) = match self {
+            Normals::Flat(flat) => {
+                let flat = DVec3x8::splat(simd, *flat);
+                (flat, flat)
+            }
+            Normals::Sphere(scale) => {
+                let normal = hit.from_center * f64x8::splat(simd, *scale);
+                (normal, normal)
+            }
+            Normals::Smooth { coordinates, flat } => {
+                let flat = DVec3x8::splat(simd, *flat);
+                let [x, y, z] = each!(k in [0, 1, 2] => coordinates[k].lanes(simd, samples));
+                let smooth = Lanes { x, y, z };
+                let is_direction = smooth.max_magnitude().simd_gt(f64x8::splat(simd, CANCELLED));
+                (flat, smooth.or(is_direction, flat))
             }
         };
-        let normal = smooth.normalize_or(flat.normalize_or_zero());
         // The surface, not its smooth look, says which side is seen.
-        if flat.dot(direction) > 0.0 { -normal } else { normal }
+        let is_back = flat.dot(samples.rays.direction).simd_gt(f64x8::splat(simd, 0.0));
+        normal.negated_where(is_back)
     }
 }
 
@@ -190,6 +212,7 @@ impl Texture {
 
 /// The perspective-correct weights of a triangle's corners, up to a common factor: each is the edge
 /// function of the side opposite to its corner.
+#[inline]
 fn weights(view: &View, [a, b, c]: [DVec3; 3], flat: DVec3) -> [Affine; 3] {
     [(b, c), (c, a), (a, b)].map(|(p, q)| edge_function(view, p, q, flat))
 }
@@ -197,6 +220,7 @@ fn weights(view: &View, [a, b, c]: [DVec3; 3], flat: DVec3) -> [Affine; 3] {
 /// The edge function from `p` to `q`, positive inside of the triangle.
 ///
 /// It is computed from the difference `q − p`: seen from afar, `p × q` would be all rounding.
+#[inline]
 fn edge_function(view: &View, p: DVec3, q: DVec3, flat: DVec3) -> Affine {
     let w = view.camera.w();
     match view.camera.projection() {
@@ -214,6 +238,7 @@ fn edge_function(view: &View, p: DVec3, q: DVec3, flat: DVec3) -> Affine {
     }
 }
 
+#[inline]
 fn corner_normals(scene: &Scene, object: usize, local: usize) -> Option<[DVec3; 3]> {
     match &scene.objects()[object].shape {
         Shape::Mesh(mesh) => {

@@ -113,9 +113,9 @@ impl Canvas {
         Canvas { frame, ids, t, corners: vec![[0; 3]; count], options: *options }
     }
 
-    /// The same canvas, whose frame keeps the normal of every sample.
-    pub fn with_normals(self) -> Canvas {
-        Canvas { frame: self.frame.with_normals(), ..self }
+    /// The same canvas, whose frame keeps the linear colour and the normal of every sample.
+    pub fn with_colors_and_normals(self) -> Canvas {
+        Canvas { frame: self.frame.with_colors().with_normals(), ..self }
     }
 
     /// Begins a pass with an empty frame. Each chunk has `chunk` triangles.

@@ -1,228 +1,327 @@
-//! Shading: image order goes along each ray to the point that it hit.
+//! The look of what is seen. Image order goes along each ray to the point that it hit.
 
-use bothways_common::frame::{NO_PRIMITIVE, ShadingRow};
-use bothways_common::look::shade::{SurfacePoint, color};
-use bothways_common::look::texture::{self, TexturePoint};
-use bothways_common::{Frame, Primitive, Projection, Raster, Ray, SampleGrid, Scene, Shape, View};
-use glam::{DVec2, DVec3, Vec2, Vec3};
-use rayon::prelude::*;
+use bothways_common::engine::simd::{
+    Level, Select, Simd, SimdBase, SimdFloat, best_level, f64x8,
+};
+use bothways_common::look::bands::{self, Points, Samples, Surfaces, Wanted};
+use bothways_common::look::lanes::{DVec3x8, each};
+use bothways_common::look::texture::{self, TexturePoints};
+use bothways_common::{Frame, Primitive, Projection, Scene, Shape, View};
+use glam::{DVec2, DVec3, Vec3};
 
-/// Gives every sample its colour, from the hit point of its ray. If the frame keeps [normals](Frame::with_normals) or
+/// Gives a frame its picture, from the hit point of each sample's ray. If the frame keeps
+/// [linear colours](Frame::with_colors), [normals](Frame::with_normals) or
 /// [texture coordinates](Frame::with_texture_coordinates), every sample gets these, too.
 ///
 /// # Panics
 ///
 /// If the frame does not show this view: another size, or ids that the scene does not have.
 pub fn shade(view: &View, frame: &mut Frame) {
-    assert_eq!(frame.camera_image(), view.camera.image(), "the frame shows another view");
-    let (grid, raster) =
-        (view.camera.sample_grid(frame.samples()), view.camera.raster(frame.samples()));
-    frame.shading_rows().into_par_iter().for_each(|row| shade_row(view, &grid, &raster, row));
+    shade_with(view, frame, best_level());
 }
 
-fn shade_row(view: &View, grid: &SampleGrid, raster: &Raster, mut row: ShadingRow) {
-    let keeps_texture = row.texture_coordinates.is_some();
-    for (index, (column, &id)) in row.columns.zip(row.ids).enumerate() {
-        if id == NO_PRIMITIVE {
-            row.colors[index] = view.scene.background;
-            if let Some(kept) = &mut row.normals {
-                kept[index] = Vec3::ZERO;
-            }
-            if let Some(kept) = &mut row.texture_coordinates {
-                kept[index] = Vec2::ZERO;
-            }
-            continue;
-        }
-        let ray = grid.ray(row.row, column);
-        let primitive = view.primitive(id);
-        let hit = Hit::new(&primitive, &ray, row.t[index]);
-        let to_viewer = -ray.direction.normalize();
-        let normal = normal_at(view, (id, &primitive), &ray, &hit).as_vec3();
+/// [`shade`] with the vector instructions of this level, for tests that compare the levels.
+#[doc(hidden)]
+pub fn shade_with(view: &View, frame: &mut Frame, level: Level) {
+    bands::shade(view, frame, &AtHits { view, steps: steps(view, frame.samples()) }, level);
+}
+
+/// The surfaces of a view as image order finds them.
+struct AtHits<'a> {
+    view: &'a View<'a>,
+    /// The way on the viewport from a sample to the next one across, and to the next one down.
+    steps: [DVec3; 2],
+}
+
+fn steps(view: &View, samples: u32) -> [DVec3; 2] {
+    let [of_row, of_column] = view.camera.raster(samples).spacing();
+    [view.camera.u() * of_column, view.camera.v() * -of_row]
+}
+
+/// One visible primitive.
+struct Surface {
+    form: Form,
+    /// The flat normal; zero for a sphere.
+    flat: DVec3,
+    /// The normals of a triangle's corners, if it looks smooth.
+    smooth: Option<[DVec3; 3]>,
+    texture: Texture,
+}
+
+enum Form {
+    Sphere { center: DVec3, radius: f64 },
+    Plane { point: DVec3, normal: DVec3 },
+    /// `normal` is the cross product of two sides; `dual` is it divided by the square of its length.
+    Triangle { corners: [DVec3; 3], normal: DVec3, dual: DVec3 },
+}
+
+enum Texture {
+    /// There is none, or it is not needed.
+    None,
+    Sphere,
+    /// The directions in which the two coordinates grow.
+    Plane([DVec3; 2]),
+    /// The coordinates at the corners, and the directions in which they grow.
+    Triangle { corners: [DVec2; 3], gradients: [DVec3; 2] },
+}
+
+impl Surfaces for AtHits<'_> {
+    type Surface = Surface;
+
+    fn set_up(&self, id: u32, wanted: Wanted) -> Surface {
+        let view = self.view;
         let (object, local) = view.scene.locate(id);
-        let material = view.scene.objects()[object].material_of(local);
-        let texture = if keeps_texture || material.checker.is_some() {
-            let chart = texture_at(view, (id, &primitive), &hit);
-            chart.map(|chart| chart.seen_along(&ray, hit.t, view, raster))
+        let form = Form::new(&view.primitive(id));
+        let smooth = corner_normals(view.scene, object, local);
+        let object = &view.scene.objects()[object];
+        let has_pattern = object.material_of(local).checker.is_some();
+        let texture = if wanted.texture_coordinates || has_pattern {
+            Texture::new(&form, texture::corners(&object.shape, local))
         } else {
-            None
+            Texture::None
         };
-        let to_viewer = to_viewer.as_vec3();
-        let point = SurfacePoint { position: hit.position, normal, to_viewer, texture };
-        if let Some(kept) = &mut row.normals {
-            kept[index] = normal;
-        }
-        if let Some(kept) = &mut row.texture_coordinates {
-            kept[index] = texture.map_or(Vec2::ZERO, |texture| texture.stored());
-        }
-        row.colors[index] = color(&point, material, &view.scene.lights, view.camera.eye());
+        Surface { flat: form.flat_normal(), form, smooth, texture }
+    }
+
+    #[inline(always)]
+    fn at<S: Simd>(&self, simd: S, surface: &Surface, samples: &Samples<S>) -> Points<S> {
+        let hit = surface.form.hits(simd, samples);
+        let weights = match &surface.form {
+            Form::Triangle { corners, dual, .. } => Some(areas(simd, corners, *dual, hit.position)),
+            Form::Sphere { .. } | Form::Plane { .. } => None,
+        };
+        let normal = surface.normals(simd, samples, &hit, weights);
+        let texture = self.texture_points(simd, surface, samples, &hit, weights);
+        Points { position: hit.position, normal, texture }
     }
 }
 
-/// Where a ray hits a primitive.
-struct Hit {
-    t: f64,
+/// Where eight rays hit a primitive.
+#[derive(Clone, Copy)]
+struct Hits<S: Simd> {
+    t: f64x8<S>,
     /// Relative to the eye.
-    position: DVec3,
+    position: DVec3x8<S>,
     /// Relative to the centre of a sphere; of other primitives, the same as `position`.
-    from_center: DVec3,
+    from_center: DVec3x8<S>,
 }
 
-/// How far a stored `t` may be from the true one, as a fraction of it.
-const STORED_ERROR: f64 = 2e-5;
+impl Form {
+    #[inline]
+    fn new(primitive: &Primitive) -> Form {
+        match *primitive {
+            Primitive::Sphere { center, radius } => Form::Sphere { center, radius },
+            Primitive::Plane { point, normal } => Form::Plane { point, normal },
+            Primitive::Triangle(corners) => {
+                let [a, b, c] = corners;
+                let normal = (b - a).cross(c - a);
+                Form::Triangle { corners, normal, dual: normal / normal.length_squared() }
+            }
+        }
+    }
 
-impl Hit {
-    /// Intersects the ray again, in `f64`, with the primitive that it is known to hit: far from the eye, the stored `t`
+    /// The unit normal of a flat form.
+    #[inline]
+    fn flat_normal(&self) -> DVec3 {
+        match *self {
+            Form::Sphere { .. } => DVec3::ZERO,
+            Form::Plane { normal, .. } | Form::Triangle { normal, .. } => normal.normalize_or_zero(),
+        }
+    }
+
+    /// Intersects rays again, in `f64`, with the primitive that they are known to hit: far from the eye, the stored `t`
     /// has too few digits to tell points of the surface apart.
     ///
-    /// Where the ray runs along the surface, or numbers are extreme, the new `t` may be worse than the stored one, which
+    /// Where a ray runs along the surface, or numbers are extreme, the new `t` may be worse than the stored one, which
     /// is then used.
-    fn new(primitive: &Primitive, ray: &Ray, stored: f32) -> Hit {
-        let stored = f64::from(stored);
-        let hit = match *primitive {
-            Primitive::Sphere { center, radius } => Hit::on_sphere(center, radius, ray, stored),
-            Primitive::Plane { point, normal } => Hit::on_plane(point, normal, ray),
-            Primitive::Triangle(corners) => Hit::on_plane(corners[0], flat_normal(corners), ray),
-        };
-        if (hit.t - stored).abs() <= STORED_ERROR * stored {
-            return hit;
+    #[inline(always)]
+    fn hits<S: Simd>(&self, simd: S, samples: &Samples<S>) -> Hits<S> {
+        match *self {
+            Form::Sphere { center, radius } => on_sphere(simd, center, radius, samples),
+            Form::Plane { point, normal } => on_plane(simd, point, normal, samples),
+            Form::Triangle { corners: [a, ..], normal, .. } => on_plane(simd, a, normal, samples),
         }
-        let position = ray.origin + stored * ray.direction;
-        let center = match *primitive {
-            Primitive::Sphere { center, .. } => center,
-            Primitive::Triangle(_) | Primitive::Plane { .. } => DVec3::ZERO,
+    }
+}
+
+#[inline(always)]
+fn on_plane<S: Simd>(simd: S, point: DVec3, normal: DVec3, samples: &Samples<S>) -> Hits<S> {
+    let [point, normal] = each!(vector in [point, normal] => DVec3x8::splat(simd, vector));
+    let t = normal.dot(point - samples.rays.origin) / normal.dot(samples.rays.direction);
+    let t = samples.is_close(simd, t).select(t, samples.t);
+    let position = samples.points_at(t);
+    Hits { t, position, from_center: position }
+}
+
+/// A ray comes nearest to the centre at `t = −k`, where it passes beside it by `f`. It meets the sphere half of
+/// the way through the sphere before and after that. An eye outside sees the nearer point; where rounding hides
+/// whether the eye is outside, the stored `t` decides.
+#[inline(always)]
+fn on_sphere<S: Simd>(simd: S, center: DVec3, radius: f64, samples: &Samples<S>) -> Hits<S> {
+    let splat = |number: f64| f64x8::splat(simd, number);
+    let center = DVec3x8::splat(simd, center);
+    let (m, d) = (samples.rays.origin - center, samples.rays.direction);
+    let a = d.dot(d);
+    let k = m.dot(d) / a;
+    let f = m - d * k;
+    let (zero, square) = (splat(0.0), splat(radius * radius));
+    let rest = square - f.dot(f);
+    let half = (rest.simd_gt(zero).select(rest, zero) / a).sqrt();
+    let begins = m.dot(m);
+    let is_clear = (begins - square).abs().simd_gt(splat(1e-12) * (begins + square));
+    let outside = is_clear.select(begins - square, zero - (samples.t + k));
+    let half = outside.simd_gt(zero).select(-half, half);
+    let t = half - k;
+    let is_close = samples.is_close(simd, t);
+    let t = is_close.select(t, samples.t);
+    let position = samples.points_at(t);
+    Hits { t, position, from_center: (f + d * half).or(is_close, position - center) }
+}
+
+impl Surface {
+    /// The normals at some hit points, towards the viewer.
+    #[inline(always)]
+    fn normals<S: Simd>(
+        &self,
+        simd: S,
+        samples: &Samples<S>,
+        hit: &Hits<S>,
+        weights: Option<[f64x8<S>; 3]>,
+    ) -> DVec3x8<S> {
+        /// Corners' normals that cancel each other leave the flat one.
+        const CANCELLED: f64 = 1e-15;
+        let flat = match self.form {
+            Form::Sphere { radius, .. } => hit.from_center * f64x8::splat(simd, 1.0 / radius),
+            Form::Plane { .. } | Form::Triangle { .. } => DVec3x8::splat(simd, self.flat),
         };
-        Hit { t: stored, position, from_center: position - center }
-    }
-
-    fn on_plane(point: DVec3, normal: DVec3, ray: &Ray) -> Hit {
-        let t = normal.dot(point - ray.origin) / normal.dot(ray.direction);
-        let position = ray.origin + t * ray.direction;
-        Hit { t, position, from_center: position }
-    }
-
-    /// The ray comes nearest to the centre at `t = −k`, where it passes beside it by `f`. It meets the sphere half of
-    /// the way through the sphere before and after that. An eye outside sees the nearer point; where rounding hides
-    /// whether the eye is outside, the stored `t` decides.
-    fn on_sphere(center: DVec3, radius: f64, ray: &Ray, stored: f64) -> Hit {
-        let (m, d) = (ray.origin - center, ray.direction);
-        let a = d.length_squared();
-        let k = m.dot(d) / a;
-        let f = m - k * d;
-        let half = ((radius * radius - f.length_squared()).max(0.0) / a).sqrt();
-        let (begins, square) = (m.length_squared(), radius * radius);
-        let is_clear = (begins - square).abs() > 1e-12 * (begins + square);
-        let is_near = if is_clear { begins > square } else { stored + k < 0.0 };
-        let half = if is_near { -half } else { half };
-        let t = half - k;
-        Hit { t, position: ray.origin + t * d, from_center: f + half * d }
+        let normal = match (&self.smooth, weights) {
+            (Some(normals), Some([of_a, of_b, of_c])) => {
+                let [at_a, at_b, at_c] = each!(k in [0, 1, 2] => DVec3x8::splat(simd, normals[k]));
+                let smooth = at_a * of_a + at_b * of_b + at_c * of_c;
+                let is_direction = smooth.max_magnitude().simd_gt(f64x8::splat(simd, CANCELLED));
+                smooth.or(is_direction, flat)
+            }
+            _ => flat,
+        };
+        // The surface decides which side is seen, not its smooth normals.
+        let is_back = flat.dot(samples.rays.direction).simd_gt(f64x8::splat(simd, 0.0));
+        normal.negated_where(is_back)
     }
 }
 
-/// The unit normal of a primitive at a hit point, towards the viewer.
-fn normal_at(view: &View, (id, primitive): (u32, &Primitive), ray: &Ray, hit: &Hit) -> DVec3 {
-    let (flat, smooth) = match *primitive {
-        Primitive::Sphere { .. } => (hit.from_center, None),
-        Primitive::Plane { normal, .. } => (normal, None),
-        Primitive::Triangle(corners) => {
-            let flat = flat_normal(corners);
-            let normals = corner_normals(view.scene, id);
-            (flat, normals.map(|normals| interpolate(corners, flat, hit.position, normals)))
-        }
-    };
-    let normal = smooth.unwrap_or(flat).normalize_or(flat.normalize_or_zero());
-    // The surface decides which side is seen, not its smooth normals.
-    if flat.dot(ray.direction) > 0.0 { -normal } else { normal }
-}
-
-fn flat_normal([a, b, c]: [DVec3; 3]) -> DVec3 {
-    (b - a).cross(c - a)
-}
-
-fn corner_normals(scene: &Scene, id: u32) -> Option<[DVec3; 3]> {
-    let (object, local) = scene.locate(id);
+#[inline]
+fn corner_normals(scene: &Scene, object: usize, local: usize) -> Option<[DVec3; 3]> {
     match &scene.objects()[object].shape {
-        Shape::Mesh(mesh) => Some(mesh.normals().of(local)?.map(Vec3::as_dvec3)),
+        Shape::Mesh(mesh) => {
+            let normals = mesh.normals().of(local)?.map(Vec3::as_dvec3);
+            Some(normals.map(DVec3::normalize_or_zero))
+        }
         Shape::Triangle(_) | Shape::Sphere(_) | Shape::Plane(_) => None,
     }
 }
 
-/// The sum of the normals at the corners, weighted.
-fn interpolate(corners: [DVec3; 3], flat: DVec3, hit: DVec3, normals: [DVec3; 3]) -> DVec3 {
-    let [of_a, of_b, of_c] = areas(corners, flat, hit);
-    let [at_a, at_b, at_c] = normals.map(DVec3::normalize_or_zero);
-    of_a * at_a + of_b * at_b + of_c * at_c
+/// The weights of the corners: the areas into which the hit points divide the triangle, as fractions of its own.
+#[inline(always)]
+fn areas<S: Simd>(
+    simd: S,
+    corners: &[DVec3; 3],
+    dual: DVec3,
+    hit: DVec3x8<S>,
+) -> [f64x8<S>; 3] {
+    let dual = DVec3x8::splat(simd, dual);
+    let [a, b, c] = each!(k in [0, 1, 2] => DVec3x8::splat(simd, corners[k]) - hit);
+    [b.cross(c).dot(dual), c.cross(a).dot(dual), a.cross(b).dot(dual)]
 }
 
-/// The weights of the corners, up to a common factor: the areas into which the hit point divides the triangle.
-fn areas([a, b, c]: [DVec3; 3], flat: DVec3, hit: DVec3) -> [f64; 3] {
-    [(b, c), (c, a), (a, b)].map(|(p, q)| (p - hit).cross(q - hit).dot(flat))
+impl Texture {
+    #[inline]
+    fn new(form: &Form, corners: Option<[DVec2; 3]>) -> Texture {
+        match (form, corners) {
+            (Form::Sphere { .. }, _) => Texture::Sphere,
+            (Form::Plane { normal, .. }, _) => Texture::Plane(texture::plane_axes(*normal)),
+            (Form::Triangle { corners: [a, b, c], dual, .. }, Some(values)) => {
+                // The area opposite to a corner grows away from its side, in proportion to the side's length.
+                let growth = [*c - *b, *a - *c, *b - *a].map(|side| dual.cross(side));
+                let gradient = |k: usize| {
+                    growth.iter().zip(values).map(|(&growth, value)| growth * value[k]).sum()
+                };
+                Texture::Triangle { corners: values, gradients: [gradient(0), gradient(1)] }
+            }
+            (Form::Triangle { .. }, None) => Texture::None,
+        }
+    }
 }
 
-/// The texture of a surface around one of its points.
-struct Chart {
-    coordinate: DVec2,
+/// The texture of surfaces around some of their points.
+struct Charts<S: Simd> {
+    coordinate: [f64x8<S>; 2],
     /// The directions in which the two coordinates grow, and how fast.
-    gradients: [DVec3; 2],
-    /// That of the surface; its length does not matter.
-    normal: DVec3,
+    gradients: [DVec3x8<S>; 2],
+    /// Those of the surface; their lengths do not matter.
+    normal: DVec3x8<S>,
 }
 
-/// The texture of a primitive around a hit point.
-fn texture_at(view: &View, (id, primitive): (u32, &Primitive), hit: &Hit) -> Option<Chart> {
-    match *primitive {
-        Primitive::Sphere { .. } => {
-            let (coordinate, gradients) = texture::on_sphere(hit.from_center);
-            Some(Chart { coordinate, gradients, normal: hit.from_center })
-        }
-        Primitive::Plane { point, normal } => {
-            let gradients = texture::plane_axes(normal);
-            let coordinate = DVec2::from(gradients.map(|axis| axis.dot(hit.position - point)));
-            Some(Chart { coordinate, gradients, normal })
-        }
-        Primitive::Triangle(corners) => {
-            let (object, local) = view.scene.locate(id);
-            let values = texture::corners(&view.scene.objects()[object].shape, local)?;
-            Some(triangle_chart(corners, values, hit.position))
-        }
+impl AtHits<'_> {
+    /// The texture at some hit points.
+    #[inline(always)]
+    fn texture_points<S: Simd>(
+        &self,
+        simd: S,
+        surface: &Surface,
+        samples: &Samples<S>,
+        hit: &Hits<S>,
+        weights: Option<[f64x8<S>; 3]>,
+    ) -> Option<TexturePoints<S>> {
+        let splat = |vector: DVec3| DVec3x8::splat(simd, vector);
+        let charts = match (&surface.texture, &surface.form, weights) {
+            (Texture::Sphere, ..) => {
+                let (coordinate, gradients) = texture::on_sphere_lanes(simd, hit.from_center);
+                Charts { coordinate, gradients, normal: hit.from_center }
+            }
+            (Texture::Plane(axes), Form::Plane { point, normal }, _) => {
+                let gradients = each!(k in [0, 1] => splat(axes[k]));
+                let beside = hit.position - splat(*point);
+                let coordinate = each!(k in [0, 1] => gradients[k].dot(beside));
+                Charts { coordinate, gradients, normal: splat(*normal) }
+            }
+            (Texture::Triangle { corners, gradients }, _, Some([of_a, of_b, of_c])) => {
+                let total = of_a + of_b + of_c;
+                let coordinate = each!(k in [0, 1] => {
+                    let [a, b, c] =
+                        each!(corner in [0, 1, 2] => f64x8::splat(simd, corners[corner][k]));
+                    (a * of_a + b * of_b + c * of_c) / total
+                });
+                let gradients = each!(k in [0, 1] => splat(gradients[k]));
+                Charts { coordinate, gradients, normal: splat(surface.flat) }
+            }
+            _ => return None,
+        };
+        Some(self.seen_along(simd, &charts, samples, hit.t))
     }
-}
 
-fn triangle_chart(corners: [DVec3; 3], values: [DVec2; 3], hit: DVec3) -> Chart {
-    let normal = flat_normal(corners);
-    let weights = areas(corners, normal, hit);
-    let total: f64 = weights.iter().sum();
-    let weighted = weights.iter().zip(values).map(|(&weight, value)| weight * value);
-    // The area opposite to a corner grows away from its side, in proportion to the side's length.
-    let [a, b, c] = corners;
-    let growth = [c - b, a - c, b - a].map(|side| normal.cross(side));
-    let gradient = |k: usize| {
-        growth.iter().zip(values).map(|(&growth, value)| growth * value[k]).sum::<DVec3>() / total
-    };
-    Chart {
-        coordinate: weighted.sum::<DVec2>() / total,
-        gradients: [gradient(0), gradient(1)],
-        normal,
-    }
-}
-
-impl Chart {
-    /// What a ray that hits here, at `t`, sees of the texture.
+    /// What rays that hit here, at `t`, see of the texture.
     ///
     /// The rays through the neighbouring samples meet the tangent plane of the surface a little
     /// beside this point. Igehy, "Tracing Ray Differentials", SIGGRAPH 1999.
-    fn seen_along(&self, ray: &Ray, t: f64, view: &View, raster: &Raster) -> TexturePoint {
-        let camera = view.camera;
-        let [of_row, of_column] = raster.spacing();
-        let [across, down] = [camera.u() * of_column, camera.v() * -of_row].map(|step| {
+    #[inline(always)]
+    fn seen_along<S: Simd>(
+        &self,
+        simd: S,
+        charts: &Charts<S>,
+        samples: &Samples<S>,
+        t: f64x8<S>,
+    ) -> TexturePoints<S> {
+        let [across, down] = each!(axis in [0, 1] => {
+            let step = DVec3x8::splat(simd, self.steps[axis]);
             // A parallel ray moves with its sample, a perspective one turns.
-            let moved = match camera.projection() {
-                Projection::Perspective => t * step,
+            let moved = match self.view.camera.projection() {
+                Projection::Perspective => step * t,
                 Projection::Parallel => step,
             };
-            let farther = -self.normal.dot(moved) / self.normal.dot(ray.direction);
-            let beside = moved + farther * ray.direction;
-            DVec2::from(self.gradients.map(|gradient| gradient.dot(beside)))
+            let farther = -(charts.normal.dot(moved) / charts.normal.dot(samples.rays.direction));
+            let beside = moved + samples.rays.direction * farther;
+            each!(k in [0, 1] => charts.gradients[k].dot(beside))
         });
-        TexturePoint::new(self.coordinate, across, down)
+        TexturePoints::new(charts.coordinate, across, down)
     }
 }

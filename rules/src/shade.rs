@@ -4,57 +4,98 @@
 //! here asks whether the ray really meets the primitive there.
 
 use crate::samples::Samples;
-use bothways_common::frame::{NO_PRIMITIVE, ShadingRow};
-use bothways_common::look::shade::{SurfacePoint, color};
-use bothways_common::look::texture::{self, TexturePoint};
-use bothways_common::{Frame, Primitive, Projection, Ray, Shape, View};
-use glam::{DVec2, DVec3, Vec2, Vec3};
-use rayon::prelude::*;
+use bothways_common::engine::simd::{Simd, SimdBase, best_level, f64x8};
+use bothways_common::look::bands::{self, Points, Rays, Surfaces, Wanted};
+use bothways_common::look::lanes::DVec3x8;
+use bothways_common::look::texture::{self, TexturePoints};
+use bothways_common::{Camera, Frame, Primitive, Projection, Ray, Sample, Shape, View};
+use glam::{DVec2, DVec3};
 
-/// Gives every sample its colour; also its normal and its texture coordinate, if the frame keeps them.
+/// Gives a frame its picture; also all else that it keeps of the look of what is seen.
 pub(crate) fn shade(view: &View, samples: &Samples, frame: &mut Frame) {
-    assert_eq!(frame.camera_image(), view.camera.image(), "the frame shows another view");
-    frame.shading_rows().into_par_iter().for_each(|row| shade_row(view, samples, row));
+    bands::shade(view, frame, &AsSeen { view, samples }, best_level());
 }
 
-fn shade_row(view: &View, samples: &Samples, mut row: ShadingRow) {
-    for (index, (column, &id)) in row.columns.zip(row.ids).enumerate() {
-        let (color, normal, coordinate) = if id == NO_PRIMITIVE {
-            (view.scene.background, Vec3::ZERO, Vec2::ZERO)
-        } else {
-            let ray = samples.ray(row.row, column);
-            look(view, samples, &ray, id, f64::from(row.t[index]))
-        };
-        row.colors[index] = color;
-        if let Some(kept) = &mut row.normals {
-            kept[index] = normal;
+/// The surfaces of a view as a rule sees them.
+struct AsSeen<'a> {
+    view: &'a View<'a>,
+    samples: &'a Samples<'a>,
+}
+
+impl Surfaces for AsSeen<'_> {
+    /// Its id.
+    type Surface = u32;
+
+    fn rays<S: Simd>(
+        &self,
+        simd: S,
+        _camera: &Camera,
+        first: Sample,
+        _viewport: [f64x8<S>; 2],
+    ) -> Rays<S> {
+        let [_, columns] = self.samples.size();
+        let rays: [Ray; 8] = std::array::from_fn(|lane| {
+            self.samples.ray(first.row, (first.column + lane).min(columns as usize - 1))
+        });
+        Rays {
+            origin: DVec3x8::from_fn(simd, |lane| rays[lane].origin),
+            direction: DVec3x8::from_fn(simd, |lane| rays[lane].direction),
         }
-        if let Some(kept) = &mut row.texture_coordinates {
-            kept[index] = coordinate;
+    }
+
+    fn set_up(&self, id: u32, _wanted: Wanted) -> u32 {
+        id
+    }
+
+    fn at<S: Simd>(&self, simd: S, id: &u32, samples: &bands::Samples<S>) -> Points<S> {
+        let seen: [Seen; 8] = std::array::from_fn(|lane| {
+            let rays = &samples.rays;
+            let ray = Ray { origin: rays.origin.lane(lane), direction: rays.direction.lane(lane) };
+            self.seen(&ray, *id, samples.t[lane])
+        });
+        let lanes = |of: fn(&Texture) -> DVec2| {
+            [0, 1].map(|k| {
+                f64x8::from_fn(simd, |lane| seen[lane].texture.as_ref().map_or(0.0, |t| of(t)[k]))
+            })
+        };
+        let texture = seen[0].texture.is_some().then(|| {
+            TexturePoints::new(lanes(|of| of.coordinate), lanes(|of| of.across), lanes(|of| of.down))
+        });
+        Points {
+            position: DVec3x8::from_fn(simd, |lane| seen[lane].position),
+            normal: DVec3x8::from_fn(simd, |lane| seen[lane].normal),
+            texture,
         }
     }
 }
 
-/// Colour, normal and texture coordinate of a primitive, seen along a ray at `t`.
-fn look(view: &View, samples: &Samples, ray: &Ray, id: u32, t: f64) -> (Vec3, Vec3, Vec2) {
-    let point =
-        Point { view, id, primitive: view.primitive(id), position: ray.origin + t * ray.direction };
-    let normal = point.normal(ray.direction);
-    let texture = point.texture().map(|(coordinate, gradients)| {
-        let [across, down] = steps(samples, ray, t, normal)
-            .map(|step| DVec2::from(gradients.map(|gradient| gradient.dot(step))));
-        TexturePoint::new(coordinate, across, down)
-    });
-    let surface = SurfacePoint {
-        position: point.position,
-        normal: normal.as_vec3(),
-        to_viewer: -ray.direction.normalize().as_vec3(),
-        texture,
-    };
-    let (object, local) = view.scene.locate(id);
-    let material = view.scene.objects()[object].material_of(local);
-    let coordinate = texture.map_or(Vec2::ZERO, |texture| texture.stored());
-    (color(&surface, material, &view.scene.lights, view.camera.eye()), surface.normal, coordinate)
+/// What is seen at one sample.
+struct Seen {
+    position: DVec3,
+    normal: DVec3,
+    texture: Option<Texture>,
+}
+
+/// A texture coordinate, and how it changes to the neighbouring samples.
+struct Texture {
+    coordinate: DVec2,
+    across: DVec2,
+    down: DVec2,
+}
+
+impl AsSeen<'_> {
+    /// What a primitive looks like along a ray at `t`.
+    fn seen(&self, ray: &Ray, id: u32, t: f64) -> Seen {
+        let (view, position) = (self.view, ray.origin + t * ray.direction);
+        let point = Point { view, id, primitive: view.primitive(id), position };
+        let normal = point.normal(ray.direction);
+        let texture = point.texture().map(|(coordinate, gradients)| {
+            let [across, down] = steps(self.samples, ray, t, normal)
+                .map(|step| DVec2::from(gradients.map(|gradient| gradient.dot(step))));
+            Texture { coordinate, across, down }
+        });
+        Seen { position, normal, texture }
+    }
 }
 
 /// How the point moves from a sample to the next one across, and to the next one down, on the tangent plane.

@@ -8,20 +8,20 @@ use bothways::wording::count;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The bytes of a sample in a frame: id, distance and colour.
-const BYTES_PER_SAMPLE: u64 = 4 + 4 + 12;
+/// The bytes of a sample in a frame: id and distance.
+const BYTES_PER_SAMPLE: u64 = 4 + 4;
 /// The additional bytes of a sample in a stream: id and distance of the earlier chunks, and the triangle's three
 /// vertices.
 const BYTES_PER_STREAMED_SAMPLE: u64 = 4 + 4 + 12;
 /// The additional bytes of a sample in object order with the rules of an ordinary renderer: the depth buffer.
 const BYTES_PER_RULED_SAMPLE: u64 = 8;
-/// The additional bytes of a sample for `--buffers exr`: a normal, and its work as it is stored.
-const BYTES_PER_EXR_SAMPLE: u64 = 12 + 4;
+/// The additional bytes of a sample for `--buffers exr`: a linear colour, a normal, and its work as it is stored.
+const BYTES_PER_EXR_SAMPLE: u64 = 12 + 12 + 4;
 /// The bytes of a sample while its work is counted, in one order at a time.
 const BYTES_PER_COUNTED_SAMPLE: u64 = 8 + 8;
-/// The bytes of a pixel while pictures are drawn, compared and compressed: of one order, or of both at once (measured
-/// with 3000 × 3000 pixels: 12).
-const BYTES_PER_PIXEL: [u64; 2] = [8, 12];
+/// The bytes of a pixel in the frames' pictures, and while pictures are drawn, compared and compressed: of one order, or
+/// of both at once (measured with 3000 × 3000 pixels without the frames: 12).
+const BYTES_PER_PIXEL: [u64; 2] = [3 + 8, 6 + 12];
 /// The bytes for the program itself, and a slide of 1920 × 1080. The prepared data of an order (clusters, a
 /// hierarchy) and the data that it keeps from frame to frame (projected vertices, bins) are not counted: their size
 /// depends on the scene, and is small compared with a frame that is refused for its size.

@@ -159,7 +159,7 @@ fn render_options<'a>(args: &RenderArgs, progress: Option<Listener<'a>>) -> Rend
         repeat: args.method.repeat,
         no_counts: args.output.no_counts,
         no_times: args.output.no_times,
-        normals: args.output.buffers == BuffersArg::Exr,
+        colors_and_normals: args.output.buffers == BuffersArg::Exr,
         progress,
     }
 }

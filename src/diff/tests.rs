@@ -1,7 +1,6 @@
 //! Frames that differ in one known way, and the result of their comparison.
 
 use super::*;
-use crate::common::glam::Vec3;
 use crate::common::{Camera, Frame, Options};
 use crate::picture::picture;
 
@@ -99,7 +98,7 @@ fn depth_is_reported_and_does_not_decide() {
 #[test]
 fn color_is_reported_and_does_not_decide() {
     let (object_order, mut image_order) = (frame(1, &["00"]), frame(1, &["00"]));
-    image_order.shading_rows()[0].colors[1] = Vec3::new(0.0, 1.0, 0.0);
+    image_order.shading_bands()[0].picture[1] = [0, 255, 0];
     let comparison = compare(&object_order, &image_order);
     assert!(comparison.matches());
     assert_eq!(comparison.color, Color { max_difference: 255, differing_pixels: 1 });

@@ -18,7 +18,7 @@ pub(super) trait Drawing {
         observer: &mut O,
         steps: &Steps,
     ) -> Result<Option<Executed>, Self::Error>;
-    /// Computes the normals and colours of the visible primitives.
+    /// Computes the look of the visible primitives.
     fn shade(&mut self);
     /// The last frame.
     fn into_frame(self) -> Frame;
@@ -40,9 +40,9 @@ impl<'a, R: Renderer> InMemory<'a, R> {
         options: &'a RenderOptions,
         prepared: R::Prepared,
     ) -> InMemory<'a, R> {
-        let RenderOptions { frame: ref options, normals, .. } = *options;
+        let RenderOptions { frame: ref options, colors_and_normals, .. } = *options;
         let frame = Frame::new(view.camera, options);
-        let frame = if normals { frame.with_normals() } else { frame };
+        let frame = if colors_and_normals { frame.with_colors().with_normals() } else { frame };
         InMemory { renderer, view, options, prepared, frame }
     }
 }
@@ -94,7 +94,8 @@ impl<'a> Streamed<'a> {
         options: &RenderOptions,
     ) -> Streamed<'a> {
         let canvas = Canvas::new(camera, &options.frame);
-        let canvas = if options.normals { canvas.with_normals() } else { canvas };
+        let canvas =
+            if options.colors_and_normals { canvas.with_colors_and_normals() } else { canvas };
         Streamed { mesh, camera, look, canvas }
     }
 }

@@ -21,15 +21,16 @@ pub struct RenderOptions<'a> {
     /// Whether to leave out times. Then no frame is repeated for timing: at most one is drawn beside the frame that
     /// counts.
     pub no_times: bool,
-    /// Whether shading also stores the normal of every sample, for [`Frame::normals`](crate::common::Frame::normals).
-    pub normals: bool,
+    /// Whether shading also stores the linear colour and the normal of every sample, for
+    /// [`Frame::colors`](crate::common::Frame::colors) and [`Frame::normals`](crate::common::Frame::normals).
+    pub colors_and_normals: bool,
     /// A function that is called with the progress of the rendering; the call changes no bit of the result.
     pub progress: Option<Listener<'a>>,
 }
 
 impl std::fmt::Debug for RenderOptions<'_> {
     fn fmt(&self, formatter: &mut std::fmt::Formatter) -> std::fmt::Result {
-        let RenderOptions { frame, rules, repeat, no_counts, no_times, normals, progress } = self;
+        let RenderOptions { frame, rules, repeat, no_counts, no_times, progress, .. } = self;
         let progress = progress.map(|_| "a listener");
         formatter
             .debug_struct("RenderOptions")
@@ -38,7 +39,7 @@ impl std::fmt::Debug for RenderOptions<'_> {
             .field("repeat", repeat)
             .field("no_counts", no_counts)
             .field("no_times", no_times)
-            .field("normals", normals)
+            .field("colors_and_normals", &self.colors_and_normals)
             .field("progress", &progress)
             .finish()
     }

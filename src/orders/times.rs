@@ -10,7 +10,7 @@ pub struct Times {
     pub prepare: Spread,
     /// The work per frame from the cleared frame to all ids and distances.
     pub visibility: Spread,
-    /// The work per frame on normals and colours of the visible primitives.
+    /// The work per frame on the look of the visible primitives: normals, textures, light and the picture.
     pub shading: Spread,
 }
 

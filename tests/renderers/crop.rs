@@ -100,7 +100,7 @@ fn draw_both(view: &View, options: &Options, tile: [u32; 2], side: usize) -> [(F
     let mut drawn = [(); 2].map(|()| {
         let elsewhere = Options { crop: Some([0, 1, 3, 5].into()), ..*options };
         let frame = Frame::new(view.camera, &elsewhere);
-        (frame.with_normals().with_texture_coordinates(), Work::default())
+        (frame.with_colors().with_normals().with_texture_coordinates(), Work::default())
     });
     let [(by_object, object_work), (by_image, image_work)] = &mut drawn;
     let prepared = rasterize::fast::prepare(view.scene).drawn_with(level, tile);

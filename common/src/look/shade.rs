@@ -1,84 +1,211 @@
-//! The look of a surface point: one function for both orders, which each bring their own normals
+//! The look of surface points: one function for both orders, which each bring their own normals
 //! and texture coordinates.
 
-use crate::look::texture::TexturePoint;
+use crate::engine::simd::{Select, Simd, SimdBase, f32x16};
+use crate::look::lanes::{DVec3x8, Lanes, Vec3x16, each};
+use crate::look::power::power;
 use crate::scene::material::{Light, Material};
+use crate::view::View;
 use glam::{DVec3, Vec3};
 
-/// What is seen at one sample.
+/// What is seen at sixteen samples.
+#[derive(Clone, Copy, Debug)]
+pub struct SurfacePoints<S: Simd> {
+    /// Where they are, relative to the eye: two times eight, in `f64`, because the eye may be far away. Only points
+    /// of light need it.
+    pub positions: [DVec3x8<S>; 2],
+    /// Unit normals, towards the viewer.
+    pub normals: Vec3x16<S>,
+    /// Unit directions towards the viewer, against the viewing rays.
+    pub to_viewer: Vec3x16<S>,
+    /// The fraction of the material's pattern that has the second colour.
+    pub fraction: f32x16<S>,
+}
+
+/// The lights of a view, prepared for all its samples.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lighting {
+    ambient: f32,
+    lamps: Vec<Lamp>,
+}
+
+/// A light that comes from somewhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SurfacePoint {
-    /// Where it is, relative to the eye. The eye may be far away, hence `f64`.
-    pub position: DVec3,
-    /// Unit normal, towards the viewer.
-    pub normal: Vec3,
-    /// Unit direction towards the viewer, against the viewing ray.
-    pub to_viewer: Vec3,
-    /// Where it is on its texture; without a texture point no pattern is drawn.
-    pub texture: Option<TexturePoint>,
+struct Lamp {
+    place: Place,
+    intensity: f32,
 }
 
-/// The linear colour of a surface point: ambient light, Lambert's cosine and a Blinn–Phong highlight.
-///
-/// `eye` is where the eye is in the world. Colours above 1 are left to the picture to clamp.
-///
-/// Blinn, "Models of Light Reflection for Computer Synthesized Pictures", SIGGRAPH 1977.
-#[inline]
-pub fn color(point: &SurfacePoint, material: &Material, lights: &[Light], eye: Vec3) -> Vec3 {
-    let plain = Material { color: reflectance(point, material), ..*material };
-    lights.iter().map(|light| lit_by(light, point, &plain, eye)).sum()
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Place {
+    /// Far away, in this unit direction.
+    Towards(Vec3),
+    /// Here, relative to the eye.
+    At(DVec3),
+    /// Where the viewing ray begins.
+    AtCamera,
 }
 
-/// The material's colour at this point of its pattern.
-#[inline]
-fn reflectance(point: &SurfacePoint, material: &Material) -> Vec3 {
-    match (&material.checker, &point.texture) {
-        (Some(checker), Some(texture)) => {
-            material.color.lerp(checker.color, checker.fraction(texture))
+impl Lighting {
+    /// The lights of the view's scene, around its eye.
+    pub fn new(view: &View) -> Lighting {
+        let (mut ambient, mut lamps) = (0.0, Vec::new());
+        for light in &view.scene.lights {
+            let (place, intensity) = match *light {
+                Light::Ambient { intensity } => {
+                    ambient += intensity;
+                    continue;
+                }
+                Light::Directional { direction, intensity } => {
+                    (Place::Towards(-direction.normalize_or_zero()), intensity)
+                }
+                Light::Point { position, intensity } => {
+                    (Place::At(view.offset(position)), intensity)
+                }
+                Light::AtCamera { intensity } => (Place::AtCamera, intensity),
+            };
+            lamps.push(Lamp { place, intensity });
         }
-        _ => material.color,
+        Lighting { ambient, lamps }
+    }
+
+    /// Whether [`Lighting::colors`] needs to know where the points are.
+    pub fn needs_positions(&self) -> bool {
+        self.lamps.iter().any(|lamp| matches!(lamp.place, Place::At(_)))
+    }
+
+    /// The linear red, green and blue of surface points of one material: ambient light, Lambert's cosine and a
+    /// Blinn–Phong highlight. Colours above 1 are left to the picture to clamp.
+    ///
+    /// Blinn, "Models of Light Reflection for Computer Synthesized Pictures", SIGGRAPH 1977.
+    #[inline(always)]
+    pub fn colors<S: Simd>(
+        &self,
+        simd: S,
+        points: &SurfacePoints<S>,
+        material: &Material,
+    ) -> [f32x16<S>; 3] {
+        let splat = |value: f32| f32x16::splat(simd, value);
+        let mut diffuse = splat(self.ambient);
+        let mut highlights = splat(0.0);
+        for Lamp { place, intensity } in &self.lamps {
+            let to_light = match place {
+                Place::Towards(direction) => {
+                    let Vec3 { x, y, z } = *direction;
+                    Lanes { x: splat(x), y: splat(y), z: splat(z) }
+                }
+                Place::At(light) => {
+                    let light = DVec3x8::splat(simd, *light);
+                    let [low, high] = each!(k in [0, 1] => light - points.positions[k]);
+                    low.narrow(high).normalized(simd)
+                }
+                Place::AtCamera => points.to_viewer,
+            };
+            let cosine = points.normals.dot(to_light);
+            let is_lit = cosine.simd_gt(splat(0.0));
+            let intensity = is_lit.select(splat(*intensity), splat(0.0));
+            diffuse += intensity * is_lit.select(cosine, splat(0.0));
+            if material.specular != 0.0 {
+                highlights += intensity * highlight(simd, points, to_light, material.shininess);
+            }
+        }
+        let highlights = highlights * splat(material.specular);
+        let colors = reflectance(simd, material, points.fraction);
+        each!(k in [0, 1, 2] => colors[k] * diffuse + highlights)
     }
 }
 
-#[inline]
-fn lit_by(light: &Light, point: &SurfacePoint, material: &Material, eye: Vec3) -> Vec3 {
-    let (to_light, intensity) = match *light {
-        Light::Ambient { intensity } => return material.color * intensity,
-        Light::Directional { direction, intensity } => (-direction, intensity),
-        Light::Point { position, intensity } => {
-            let to_light = (position.as_dvec3() - eye.as_dvec3()) - point.position;
-            (to_light.as_vec3(), intensity)
-        }
-        Light::AtCamera { intensity } => (point.to_viewer, intensity),
-    };
-    let to_light = to_light.normalize_or_zero();
-    let cosine = point.normal.dot(to_light);
-    if cosine <= 0.0 {
-        return Vec3::ZERO;
+/// Blinn's highlight: the cosine between the normal and halfway from the light to the viewer, to the power of the
+/// shininess. It is found from the square of the cosine, without a root.
+#[inline(always)]
+fn highlight<S: Simd>(
+    simd: S,
+    points: &SurfacePoints<S>,
+    to_light: Vec3x16<S>,
+    shininess: f32,
+) -> f32x16<S> {
+    let halfway = to_light + points.to_viewer;
+    let along = points.normals.dot(halfway);
+    let zero = f32x16::splat(simd, 0.0);
+    let along = along.simd_gt(zero).select(along, zero);
+    let square = along * along / halfway.dot(halfway);
+    power(simd, square, f32x16::splat(simd, 0.5 * shininess))
+}
+
+/// The material's colour where so much of its pattern has the second colour.
+#[inline(always)]
+fn reflectance<S: Simd>(simd: S, material: &Material, fraction: f32x16<S>) -> [f32x16<S>; 3] {
+    let own = material.color.to_array();
+    match &material.checker {
+        None => each!(k in [0, 1, 2] => f32x16::splat(simd, own[k])),
+        Some(checker) => each!(k in [0, 1, 2] => {
+            let step = f32x16::splat(simd, checker.color[k] - own[k]);
+            f32x16::splat(simd, own[k]) + step * fraction
+        }),
     }
-    let halfway = (to_light + point.to_viewer).normalize_or_zero();
-    let highlight = point.normal.dot(halfway).max(0.0).powf(material.shininess);
-    intensity * (material.color * cosine + Vec3::splat(material.specular * highlight))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::camera::Camera;
+    use crate::engine::simd::{dispatch, levels};
+    use crate::scene::Scene;
+
+    /// The colours of a point in front of the eye that faces it, at every level of SIMD.
+    fn colors(material: &Material, light: Light) -> Vec<[f32; 3]> {
+        let mut scene = Scene::new(Vec::new()).unwrap();
+        scene.lights = vec![light];
+        let camera = Camera::canonical(1, 1);
+        let lighting = Lighting::new(&View::new(&scene, &camera));
+        let of_level = |level| {
+            dispatch!(level, simd => {
+                let [zero, one] = [0.0, 1.0].map(|value| f32x16::splat(simd, value));
+                let towards = Lanes { x: zero, y: zero, z: one };
+                let points = SurfacePoints {
+                    positions: [DVec3x8::splat(simd, -DVec3::Z); 2],
+                    normals: towards,
+                    to_viewer: towards,
+                    fraction: zero,
+                };
+                lighting.colors(simd, &points, material).map(|channel| channel[3])
+            })
+        };
+        levels().into_iter().map(of_level).collect()
+    }
 
     #[test]
     fn a_surface_that_faces_the_light_shows_its_color() {
-        let point = SurfacePoint {
-            position: -DVec3::Z,
-            normal: Vec3::Z,
-            to_viewer: Vec3::Z,
-            texture: None,
-        };
         let material = Material { color: Vec3::new(0.5, 0.25, 0.0), ..Material::default() };
-        let lit = |direction| {
-            let light = Light::Directional { direction, intensity: 1.0 };
-            color(&point, &material, &[light], Vec3::ZERO)
-        };
-        assert_eq!(lit(-Vec3::Z), material.color);
-        assert_eq!(lit(Vec3::Z), Vec3::ZERO);
+        let eye = Camera::canonical(1, 1).eye();
+        let shown = [
+            Light::Ambient { intensity: 1.0 },
+            Light::Directional { direction: Vec3::new(0.0, 0.0, -2.0), intensity: 1.0 },
+            Light::AtCamera { intensity: 1.0 },
+            Light::Point { position: eye, intensity: 1.0 },
+        ];
+        for light in shown {
+            for color in colors(&material, light) {
+                assert_eq!(color, [0.5, 0.25, 0.0], "{light:?}");
+            }
+        }
+        let behind = Light::Directional { direction: Vec3::Z, intensity: 1.0 };
+        assert!(colors(&material, behind).iter().all(|color| *color == [0.0; 3]));
+        let nowhere = Light::Directional { direction: Vec3::ZERO, intensity: 1.0 };
+        assert!(colors(&material, nowhere).iter().all(|color| *color == [0.0; 3]));
+    }
+
+    #[test]
+    fn a_highlight_is_the_cosine_halfway_to_the_power_of_the_shininess() {
+        let material =
+            Material { color: Vec3::ZERO, specular: 0.5, shininess: 20.0, checker: None };
+        for degrees in [0.0_f32, 10.0, 45.0, 80.0] {
+            let (sine, cosine) = degrees.to_radians().sin_cos();
+            let direction = Vec3::new(sine, 0.0, -cosine);
+            let expected = 0.5 * (degrees.to_radians() / 2.0).cos().powf(20.0);
+            for [red, ..] in colors(&material, Light::Directional { direction, intensity: 1.0 }) {
+                assert!((red - expected).abs() < 1e-5, "{degrees}: {red} {expected}");
+            }
+        }
     }
 }

@@ -9,35 +9,37 @@
 //! | sphere | the turn around the y axis from +x towards −z, and the latitude; both from 0 to 1 |
 //! | plane | lengths of the world from the plane's point, to the right and up: see [`plane_axes`] |
 
+use crate::engine::simd::{Select, Simd, SimdBase, SimdFloat, f64x8};
+use crate::look::lanes::{DVec3x8, each};
 use crate::scene::material::Checker;
 use crate::scene::shape::Shape;
 use glam::{DVec2, DVec3, Vec2};
 use std::f64::consts::{FRAC_1_PI, TAU};
 
-/// The texture coordinate of one sample, and how much of the texture the sample sees.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TexturePoint {
-    /// The coordinate of the surface point in the middle of the sample.
-    pub coordinate: DVec2,
+/// The texture coordinates of eight samples, and how much of the texture each sample sees.
+#[derive(Clone, Copy, Debug)]
+pub struct TexturePoints<S: Simd> {
+    /// The coordinates of the surface points in the middle of the samples.
+    pub coordinate: [f64x8<S>; 2],
     /// Width and height of the part of the texture from one sample to the next, to first order.
-    pub footprint: DVec2,
+    pub footprint: [f64x8<S>; 2],
 }
 
-impl TexturePoint {
-    /// A coordinate that changes by so much from a sample to the next one across, and to the next one
-    /// down.
-    pub fn new(coordinate: DVec2, across: DVec2, down: DVec2) -> TexturePoint {
-        TexturePoint { coordinate, footprint: across.abs() + down.abs() }
-    }
-
-    /// The coordinate as a frame keeps it.
-    pub fn stored(&self) -> Vec2 {
-        self.coordinate.as_vec2()
+impl<S: Simd> TexturePoints<S> {
+    /// Coordinates that change by so much from a sample to the next one across, and to the next one down.
+    #[inline(always)]
+    pub fn new(
+        coordinate: [f64x8<S>; 2],
+        across: [f64x8<S>; 2],
+        down: [f64x8<S>; 2],
+    ) -> TexturePoints<S> {
+        let footprint = each!(k in [0, 1] => across[k].abs() + down[k].abs());
+        TexturePoints { coordinate, footprint }
     }
 }
 
 impl Checker {
-    /// The fraction of a sample's footprint that has the pattern's second colour, from 0 to 1.
+    /// The fraction of a sample's footprint that has the pattern's second colour, from 0 to 1, for each of eight.
     ///
     /// The pattern is averaged over the sample's footprint. So it turns grey towards the horizon
     /// where cells become smaller than samples, and it is a continuous function of the coordinate: two orders
@@ -45,44 +47,35 @@ impl Checker {
     ///
     /// Williams, "Pyramidal Parametrics", SIGGRAPH 1983, for why; the average of stripes is exact
     /// here, from their integral.
-    ///
-    /// ```
-    /// use bothways_common::glam::{DVec2, Vec3};
-    /// use bothways_common::Checker;
-    /// use bothways_common::look::texture::TexturePoint;
-    ///
-    /// let checker = Checker { color: Vec3::X, divisions: [4.0, 4.0] };
-    /// let fraction = |x, y| {
-    ///     let small = DVec2::splat(0.001);
-    ///     checker.fraction(&TexturePoint { coordinate: DVec2::new(x, y), footprint: small })
-    /// };
-    /// assert_eq!((fraction(0.1, 0.1), fraction(0.3, 0.1), fraction(0.3, 0.3)), (0.0, 1.0, 0.0));
-    /// assert_eq!(fraction(0.25, 0.1), 0.5);
-    /// ```
-    pub fn fraction(&self, point: &TexturePoint) -> f32 {
-        let divisions = Vec2::from(self.divisions).as_dvec2();
-        let (middle, width) = (point.coordinate * divisions, point.footprint * divisions);
-        let average = stripes(middle.x, width.x) * stripes(middle.y, width.y);
-        #[expect(clippy::cast_possible_truncation, reason = "a fraction needs no more than f32")]
-        let fraction = (0.5 - 0.5 * average) as f32;
-        fraction.clamp(0.0, 1.0)
+    #[inline(always)]
+    pub fn fraction<S: Simd>(&self, simd: S, points: &TexturePoints<S>) -> f64x8<S> {
+        let [across, up] = each!(k in [0, 1] => {
+            let divisions = f64x8::splat(simd, self.divisions[k].into());
+            stripes(simd, points.coordinate[k] * divisions, points.footprint[k] * divisions)
+        });
+        let half = f64x8::splat(simd, 0.5);
+        let fraction = half - half * (across * up);
+        let [zero, one] = each!(value in [0.0, 1.0] => f64x8::splat(simd, value));
+        let fraction = fraction.simd_gt(zero).select(fraction, zero);
+        fraction.simd_lt(one).select(fraction, one)
     }
 }
 
 /// The average, over an interval, of stripes that are 1 from 0 to 1, −1 from 1 to 2, and so on.
-fn stripes(middle: f64, width: f64) -> f64 {
+#[inline(always)]
+fn stripes<S: Simd>(simd: S, middle: f64x8<S>, width: f64x8<S>) -> f64x8<S> {
     /// Below it the difference of integrals would be all rounding.
     const LEAST: f64 = 1e-9;
-    if !middle.is_finite() || !width.is_finite() {
-        // At a pole, or beyond all numbers: every stripe is seen at once.
-        return 0.0;
-    }
+    let splat = |value: f64| f64x8::splat(simd, value);
+    let (half, one, two) = (splat(0.5), splat(1.0), splat(2.0));
     // The integral rises and falls between 0 and 1 with a period of 2.
-    let integral = |at: f64| 1.0 - (at - 2.0 * (0.5 * at).floor() - 1.0).abs();
+    let integral = |at: f64x8<S>| one - (at - two * (half * at).floor() - one).abs();
     // Near 0, so that adding half of the width loses nothing.
-    let middle = middle - 2.0 * (0.5 * middle).floor();
-    let half = 0.5 * width.max(LEAST);
-    (integral(middle + half) - integral(middle - half)) / (2.0 * half)
+    let near = middle - two * (half * middle).floor();
+    let wide = half * width.simd_gt(splat(LEAST)).select(width, splat(LEAST));
+    let average = (integral(near + wide) - integral(near - wide)) / (two * wide);
+    // At a pole, or beyond all numbers: every stripe is seen at once.
+    (middle.is_finite() & width.is_finite()).select(average, splat(0.0))
 }
 
 /// The texture coordinates at the corners of a triangle of this shape, if all three have one. `local` counts the
@@ -122,15 +115,34 @@ pub fn on_sphere(offset: DVec3) -> (DVec2, [DVec3; 2]) {
     (coordinate, [east / (TAU * from_axis), north * (FRAC_1_PI / radius)])
 }
 
+/// [`on_sphere`] for eight points.
+#[inline(always)]
+pub fn on_sphere_lanes<S: Simd>(
+    simd: S,
+    offsets: DVec3x8<S>,
+) -> ([f64x8<S>; 2], [DVec3x8<S>; 2]) {
+    let all: [_; 8] = std::array::from_fn(|lane| on_sphere(offsets.lane(lane)));
+    let coordinate = each!(k in [0, 1] => f64x8::from_fn(simd, |lane| all[lane].0[k]));
+    let gradients = each!(k in [0, 1] => DVec3x8::from_fn(simd, |lane| all[lane].1[k]));
+    (coordinate, gradients)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::engine::simd::{best_level, dispatch};
     use glam::Vec3;
 
-    fn fraction(divisions: [f32; 2], coordinate: [f64; 2], footprint: f64) -> f32 {
-        let footprint = DVec2::splat(footprint);
-        let point = TexturePoint { coordinate: coordinate.into(), footprint };
-        Checker { color: Vec3::ZERO, divisions }.fraction(&point)
+    fn fraction(divisions: [f32; 2], coordinate: [f64; 2], footprint: f64) -> f64 {
+        let checker = Checker { color: Vec3::ZERO, divisions };
+        dispatch!(best_level(), simd => {
+            let splat = |value: f64| f64x8::splat(simd, value);
+            let points = TexturePoints {
+                coordinate: coordinate.map(splat),
+                footprint: [splat(footprint); 2],
+            };
+            checker.fraction(simd, &points)[3]
+        })
     }
 
     #[test]
@@ -147,7 +159,7 @@ mod tests {
         let at = |k: i32| fraction([3.0, 5.0], [f64::from(k) * 1e-4, 0.1], footprint);
         // From one colour to the other takes a whole footprint: 100 steps.
         assert!((-20_000..20_000).all(|k| (at(k) - at(k + 1)).abs() < 0.011));
-        assert!((0..10_000).any(|k| at(k) == 0.0) && (0..10_000).any(|k| at(k) == 1.0));
+        assert!((0..10_000).any(|k| at(k) < 1e-9) && (0..10_000).any(|k| at(k) > 1.0 - 1e-9));
     }
 
     #[test]

@@ -6,16 +6,28 @@
 //! codegen units take a fifth of the time of shading.
 
 use super::quotient::Affine;
-use bothways_common::{Primitive, Projection, Ray, View};
+use bothways_common::engine::simd::{Select, Simd, SimdBase, SimdFloat, f64x8};
+use bothways_common::look::bands::Samples;
+use bothways_common::look::lanes::{DVec3x8, each};
+use bothways_common::{Primitive, Projection, View};
 use glam::DVec3;
 
-/// The point that is seen at one sample.
+/// The points that are seen at eight samples.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct HitPoint {
+pub(super) struct HitPoints<S: Simd> {
     /// Relative to the eye.
-    pub(super) position: DVec3,
+    pub(super) position: DVec3x8<S>,
     /// Relative to the centre of a sphere; for other primitives, relative to the eye.
-    pub(super) from_center: DVec3,
+    pub(super) from_center: DVec3x8<S>,
+}
+
+impl<S: Simd> HitPoints<S> {
+    /// Points that nobody asks for.
+    #[inline(always)]
+    pub(super) fn nowhere(simd: S) -> Self {
+        let zero = DVec3x8::splat(simd, DVec3::ZERO);
+        HitPoints { position: zero, from_center: zero }
+    }
 }
 
 /// A primitive as functions on the viewport.
@@ -27,9 +39,6 @@ pub(super) enum Form {
     /// centre.
     Sphere { center: DVec3, radius: f64, depth: f64, across: Affine, up: Affine, axes: [DVec3; 2] },
 }
-
-/// How far a stored `t` may be from the true one, as a fraction of it.
-const STORED: f64 = 2e-5;
 
 impl Form {
     #[inline]
@@ -63,32 +72,35 @@ impl Form {
         }
     }
 
-    /// The point that is seen at a place of the viewport, for which the `t` of `stored` is stored. The stored one is
-    /// taken where rounding leaves less: where a surface is seen almost edge-on, and where numbers are extreme.
-    #[inline]
-    pub(super) fn hit_point(&self, [x, y]: [f64; 2], ray: &Ray, stored: f64) -> HitPoint {
-        let is_close = |t: f64| (t - stored).abs() <= STORED * stored;
-        let at = |t: f64| ray.origin + t * ray.direction;
+    /// The points that are seen at some samples. The stored `t` is taken where rounding leaves less: where a surface is
+    /// seen almost edge-on, and where numbers are extreme.
+    #[inline(always)]
+    pub(super) fn hit_points<S: Simd>(&self, simd: S, samples: &Samples<S>) -> HitPoints<S> {
         match self {
             Form::Flat { above, along } => {
-                let t = -above.at(x, y) / along.at(x, y);
-                let position = at(if is_close(t) { t } else { stored });
-                HitPoint { position, from_center: position }
+                let t = -above.lanes(simd, samples) / along.lanes(simd, samples);
+                let t = samples.is_close(simd, t).select(t, samples.t);
+                let position = samples.points_at(t);
+                HitPoints { position, from_center: position }
             }
-            Form::Sphere { center, radius, depth, across, up, axes: [u, v] } => {
-                let beside = across.at(x, y) * *u + up.at(x, y) * *v;
+            Form::Sphere { center, radius, depth, across, up, axes } => {
+                let [u, v] = each!(k in [0, 1] => DVec3x8::splat(simd, axes[k]));
+                let (center, depth) =
+                    (DVec3x8::splat(simd, *center), f64x8::splat(simd, *depth));
+                let beside = u * across.lanes(simd, samples) + v * up.lanes(simd, samples);
+                let from = samples.rays.origin - center;
                 let on = farther(
+                    simd,
                     beside,
                     *radius,
-                    ray,
-                    [center.distance_squared(ray.origin), stored - depth],
+                    samples,
+                    [from.dot(from), samples.t - depth],
                 );
                 let t = depth + on;
-                if is_close(t) {
-                    let from_center = beside + on * ray.direction;
-                    return HitPoint { position: at(t), from_center };
-                }
-                HitPoint { position: at(stored), from_center: at(stored) - *center }
+                let is_close = samples.is_close(simd, t);
+                let position = samples.points_at(is_close.select(t, samples.t));
+                let from_center = beside + samples.rays.direction * on;
+                HitPoints { position, from_center: from_center.or(is_close, position - center) }
             }
         }
     }
@@ -97,12 +109,22 @@ impl Form {
 /// How much farther along a ray than the point `beside` the centre the ray meets a sphere. The first root counts if the
 /// ray begins outside, the second if it begins inside; `begins` is the squared distance of the ray's origin from the
 /// centre. Where that is not clear, the root closer to `about` counts.
-fn farther(beside: DVec3, radius: f64, ray: &Ray, [begins, about]: [f64; 2]) -> f64 {
-    let (a, b) = (ray.direction.length_squared(), beside.dot(ray.direction));
-    let square = radius * radius;
-    let root = (b * b - a * (beside.length_squared() - square)).max(0.0).sqrt();
-    let is_clear = (begins - square).abs() > 1e-12 * (begins + square);
-    let first = if is_clear { begins > square } else { about * a + b < 0.0 };
-    let root = if first { -root } else { root };
+#[inline(always)]
+fn farther<S: Simd>(
+    simd: S,
+    beside: DVec3x8<S>,
+    radius: f64,
+    samples: &Samples<S>,
+    [begins, about]: [f64x8<S>; 2],
+) -> f64x8<S> {
+    let splat = |number: f64| f64x8::splat(simd, number);
+    let direction = samples.rays.direction;
+    let (a, b) = (direction.dot(direction), beside.dot(direction));
+    let (zero, square) = (splat(0.0), splat(radius * radius));
+    let discriminant = b * b - a * (beside.dot(beside) - square);
+    let root = discriminant.simd_gt(zero).select(discriminant, zero).sqrt();
+    let is_clear = (begins - square).abs().simd_gt(splat(1e-12) * (begins + square));
+    let outside = is_clear.select(begins - square, zero - (about * a + b));
+    let root = outside.simd_gt(zero).select(-root, root);
     (root - b) / a
 }

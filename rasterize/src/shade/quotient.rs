@@ -6,6 +6,9 @@
 //! Functions here are `#[inline]`: where triangles are as small as samples, each sample sets up its own, and calls between
 //! codegen units take a fifth of the time of shading.
 
+use bothways_common::engine::simd::{Simd, SimdBase, f64x8};
+use bothways_common::look::bands::Samples;
+use bothways_common::look::lanes::each;
 use bothways_common::{Projection, View};
 use glam::{DVec2, DVec3};
 use std::ops::{Add, Mul};
@@ -49,6 +52,28 @@ impl Affine {
     #[inline]
     pub(super) fn at(&self, x: f64, y: f64) -> f64 {
         self.at_center + x * self.across + y * self.up
+    }
+
+    /// Its values at some samples.
+    #[inline(always)]
+    pub(super) fn lanes<S: Simd>(&self, simd: S, samples: &Samples<S>) -> f64x8<S> {
+        self.at_places(simd, samples.x, samples.y)
+    }
+
+    /// Its values at some places of the viewport.
+    #[inline(always)]
+    fn at_places<S: Simd>(&self, simd: S, x: f64x8<S>, y: f64x8<S>) -> f64x8<S> {
+        let Affine { at_center, across, up } = *self;
+        let [at_center, across, up] =
+            each!(number in [at_center, across, up] => f64x8::splat(simd, number));
+        at_center + x * across + y * up
+    }
+
+    /// No value on the viewport has a larger magnitude.
+    #[inline]
+    pub(super) fn largest(&self, view: &View) -> f64 {
+        let [width, height] = view.camera.viewport();
+        self.at_center.abs() + 0.5 * (width * self.across.abs() + height * self.up.abs())
     }
 
     /// The product of two functions, one of which is constant.
@@ -121,26 +146,59 @@ impl Quotient {
         Quotient { numerators: vectors.map(numerator), denominator: along }
     }
 
-    /// Both values at a place of the viewport, and their derivatives along `x` and along `y`.
+    /// Both values at some places of the viewport, and their derivatives along `x` and along `y`.
+    #[inline(always)]
+    pub(super) fn at<S: Simd>(
+        &self,
+        simd: S,
+        x: f64x8<S>,
+        y: f64x8<S>,
+    ) -> ([f64x8<S>; 2], [[f64x8<S>; 2]; 2]) {
+        let below = self.denominator.at_places(simd, x, y);
+        let value = each!(k in [0, 1] => self.numerators[k].at_places(simd, x, y) / below);
+        let slopes = |line: &Affine| [line.across, line.up];
+        let derivatives = each!(axis in [0, 1] => {
+            let of_denominator = f64x8::splat(simd, slopes(&self.denominator)[axis]);
+            each!(k in [0, 1] => {
+                let of_numerator = f64x8::splat(simd, slopes(&self.numerators[k])[axis]);
+                (of_numerator - value[k] * of_denominator) / below
+            })
+        });
+        (value, derivatives)
+    }
+
+    /// The derivatives along `x` and along `y` at one place.
     #[inline]
-    pub(super) fn at(&self, x: f64, y: f64) -> (DVec2, [DVec2; 2]) {
+    pub(super) fn changes(&self, x: f64, y: f64) -> [DVec2; 2] {
         let below = self.denominator.at(x, y);
         let value = self.numerators.map(|above| above.at(x, y) / below);
         let derivative = |slope: fn(&Affine) -> f64| {
-            let [s, t] = [0, 1].map(|k| {
+            DVec2::from([0, 1].map(|k| {
                 (slope(&self.numerators[k]) - value[k] * slope(&self.denominator)) / below
-            });
-            DVec2::new(s, t)
+            }))
         };
-        (value.into(), [derivative(|line| line.across), derivative(|line| line.up)])
+        [derivative(|line| line.across), derivative(|line| line.up)]
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use bothways_common::engine::simd::{best_level, dispatch};
     use bothways_common::{Camera, CameraDescription, Scene};
     use glam::Vec3;
+
+    /// The values at one place, and the derivatives along `x` and along `y`.
+    fn at(quotient: &Quotient, x: f64, y: f64) -> (DVec2, [DVec2; 2]) {
+        dispatch!(best_level(), simd => {
+            let [x_lanes, y_lanes] = [x, y].map(|place| f64x8::splat(simd, place));
+            let (value, along) = quotient.at(simd, x_lanes, y_lanes);
+            let of_lane = |pair: [f64x8<_>; 2]| DVec2::from(pair.map(|lanes| lanes[5]));
+            let along = along.map(of_lane);
+            assert_eq!(along, quotient.changes(x, y));
+            (of_lane(value), along)
+        })
+    }
 
     fn camera(projection: Projection) -> Camera {
         let description = CameraDescription {
@@ -166,7 +224,7 @@ mod tests {
                 DVec2::new(vectors[0].dot(way), vectors[1].dot(way))
             };
             let (x, y) = (0.2, -0.3);
-            let (value, [along_x, along_y]) = quotient.at(x, y);
+            let (value, [along_x, along_y]) = at(&quotient, x, y);
             assert!((value - expected(x, y)).length() < 1e-13, "{projection:?}");
             let (h, middle) = (1e-5, |a: DVec2, b: DVec2| (a - b) / 2e-5);
             let expected_x = middle(expected(x + h, y), expected(x - h, y));
@@ -184,7 +242,7 @@ mod tests {
             let far = Affine { at_center: 0.0, across: 1.0, up: 0.0 };
             let nothing = Affine { at_center: 0.0, across: 0.0, up: 0.0 };
             let values = [DVec2::ZERO, DVec2::X, DVec2::ZERO];
-            Quotient::interpolating([near, far, nothing], values).at(place, 0.0).0.x
+            at(&Quotient::interpolating([near, far, nothing], values), place, 0.0).0.x
         };
         assert_eq!((at(0.0), at(0.5), at(1.0)), (0.0, 0.25, 1.0));
     }

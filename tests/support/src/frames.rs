@@ -24,11 +24,14 @@ pub fn assert_is_part(whole: &Frame, part: &Frame, what: &str) {
     let bits = |frame: &Frame, sample: usize| {
         let (t, texture) = (frame.distances()[sample], frame.texture_coordinates().get(sample));
         let normal = frame.normals().get(sample).map(|normal| normal.to_array().map(f32::to_bits));
-        let color = frame.colors()[sample].to_array().map(f32::to_bits);
+        let color = frame.colors().get(sample).map(|color| color.to_array().map(f32::to_bits));
         let texture = texture.map(|texture| texture.to_array().map(f32::to_bits));
         (frame.ids()[sample], t.to_bits(), normal, color, texture)
     };
+    let mut pixels = part.picture().iter();
     for [i, j] in part.pixels().map(|pixel| pixel.map(|place| place as usize)) {
+        let in_whole = i * whole.image()[0] as usize + j;
+        assert_eq!(pixels.next(), whole.picture().get(in_whole), "{what}: {crop}, ({i}, {j})");
         for (here, there) in part.samples_of(i, j).zip(whole.samples_of(i, j)) {
             assert_eq!(
                 bits(part, here),

@@ -1,0 +1,166 @@
+//! Vectors of space in SIMD lanes: of eight samples in `f64`, of sixteen in `f32`.
+
+use crate::engine::simd::{Select, Simd, SimdBase, SimdFloat, SimdNarrow, f32x16, f64x8, mask64x8};
+use glam::DVec3;
+use std::ops::{Add, Mul, Sub};
+
+/// The values of an expression for each of some others, as an array: `each!(k in [0, 1] => a[k] * b[k])`. With vectors,
+/// an array's own `map` is slow: its function is compiled without the instructions of the level.
+#[macro_export]
+#[doc(hidden)]
+macro_rules! each {
+    ($name:ident in [$($value:expr),+ $(,)?] => $of:expr) => {
+        [$({
+            let $name = $value;
+            $of
+        }),+]
+    };
+}
+
+pub use crate::each;
+
+/// Three coordinates, each for several samples.
+#[derive(Clone, Copy, Debug)]
+pub struct Lanes<T> {
+    /// The first coordinate.
+    pub x: T,
+    /// The second coordinate.
+    pub y: T,
+    /// The third coordinate.
+    pub z: T,
+}
+
+/// A vector of space for each of eight samples.
+pub type DVec3x8<S> = Lanes<f64x8<S>>;
+/// A vector of space for each of sixteen samples.
+pub type Vec3x16<S> = Lanes<f32x16<S>>;
+
+impl<T: Add<Output = T>> Add for Lanes<T> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Lanes { x: self.x + other.x, y: self.y + other.y, z: self.z + other.z }
+    }
+}
+
+impl<T: Sub<Output = T>> Sub for Lanes<T> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Lanes { x: self.x - other.x, y: self.y - other.y, z: self.z - other.z }
+    }
+}
+
+/// Each vector times its own factor.
+impl<T: Copy + Mul<Output = T>> Mul<T> for Lanes<T> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, factor: T) -> Self {
+        Lanes { x: self.x * factor, y: self.y * factor, z: self.z * factor }
+    }
+}
+
+impl<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T>> Lanes<T> {
+    /// The scalar product, from left to right.
+    #[inline(always)]
+    pub fn dot(self, other: Self) -> T {
+        self.x * other.x + self.y * other.y + self.z * other.z
+    }
+
+    /// The cross product.
+    #[inline(always)]
+    pub fn cross(self, other: Self) -> Self {
+        Lanes {
+            x: self.y * other.z - self.z * other.y,
+            y: self.z * other.x - self.x * other.z,
+            z: self.x * other.y - self.y * other.x,
+        }
+    }
+}
+
+impl<S: Simd> DVec3x8<S> {
+    /// The same vector for all samples.
+    #[inline(always)]
+    pub fn splat(simd: S, vector: DVec3) -> Self {
+        let DVec3 { x, y, z } = vector;
+        let [x, y, z] = each!(coordinate in [x, y, z] => f64x8::splat(simd, coordinate));
+        Lanes { x, y, z }
+    }
+
+    /// A vector for each sample.
+    #[inline(always)]
+    pub fn from_fn(simd: S, of: impl Fn(usize) -> DVec3) -> Self {
+        let mut coordinates = [[0.0; 8]; 3];
+        for lane in 0..8 {
+            let vector = of(lane);
+            coordinates[0][lane] = vector.x;
+            coordinates[1][lane] = vector.y;
+            coordinates[2][lane] = vector.z;
+        }
+        let [x, y, z] = each!(k in [0, 1, 2] => f64x8::from_slice(simd, &coordinates[k]));
+        Lanes { x, y, z }
+    }
+
+    /// The vector of one sample.
+    #[inline(always)]
+    pub fn lane(&self, lane: usize) -> DVec3 {
+        DVec3::new(self.x[lane], self.y[lane], self.z[lane])
+    }
+
+    /// These where the mask is set, the others elsewhere.
+    #[inline(always)]
+    pub fn or(self, mask: mask64x8<S>, other: Self) -> Self {
+        Lanes {
+            x: mask.select(self.x, other.x),
+            y: mask.select(self.y, other.y),
+            z: mask.select(self.z, other.z),
+        }
+    }
+
+    /// Against the directions where the mask is set.
+    #[inline(always)]
+    pub fn negated_where(self, mask: mask64x8<S>) -> Self {
+        Lanes { x: -self.x, y: -self.y, z: -self.z }.or(mask, self)
+    }
+
+    /// The largest of the coordinates' magnitudes.
+    #[inline(always)]
+    pub fn max_magnitude(self) -> f64x8<S> {
+        self.x.abs().max(self.y.abs()).max(self.z.abs())
+    }
+
+    /// Sixteen vectors of two times eight, each coordinate rounded to `f32`.
+    #[inline(always)]
+    pub fn narrow(self, high: Self) -> Vec3x16<S> {
+        Lanes {
+            x: self.x.narrow(high.x),
+            y: self.y.narrow(high.y),
+            z: self.z.narrow(high.z),
+        }
+    }
+}
+
+impl<S: Simd> Vec3x16<S> {
+    /// Against the directions.
+    #[inline(always)]
+    pub fn negated(self) -> Self {
+        Lanes { x: -self.x, y: -self.y, z: -self.z }
+    }
+
+    /// The vectors with length 1; zero where the square of a length is 0, infinite or not a number.
+    #[inline(always)]
+    pub fn normalized(self, simd: S) -> Self {
+        let square = self.dot(self);
+        let zero = f32x16::splat(simd, 0.0);
+        let is_length = square.simd_gt(zero) & square.simd_lt(f32x16::splat(simd, f32::INFINITY));
+        let factor = f32x16::splat(simd, 1.0) / square.sqrt();
+        Lanes {
+            x: is_length.select(self.x * factor, zero),
+            y: is_length.select(self.y * factor, zero),
+            z: is_length.select(self.z * factor, zero),
+        }
+    }
+}

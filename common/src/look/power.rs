@@ -1,0 +1,104 @@
+//! Powers in SIMD, with a derived bound.
+
+use crate::engine::simd::{Bytes, Select, Simd, SimdBase, SimdFloat, SimdInt, f32x16, i32x16};
+use std::f32::consts::{FRAC_1_SQRT_2, LN_2, LOG2_E};
+
+/// `base^exponent` for a base in 0 … 1 and a positive exponent; a base above 1 counts as 1, and what is not a number
+/// as 0.
+///
+/// The result is within 2⁻²¹ of the true power, absolutely. The derivation, with `ε = 2⁻²⁴` for one rounding:
+///
+/// - `base = 2^e · m` with `m` between √½ and √2, exactly. `f = m − 1` is exact, too. With `s = f / (2 + f)`, `|s| ≤
+///   0.1716`, is `log₂ m = 2/ln 2 · (s + s³/3 + s⁵/5 + s⁷/7 + s⁹/9 + …)`. The terms that are left out are at most
+///   `s¹⁰/11 / (1 − s²) < 2.1·10⁻⁹ < ε/28` of the sum. `s` has two roundings, the polynomial of `s²` less than three
+///   more (all that follows its leading 1 is below 0.011), and two products: a relative error below `8ε`. The sum with
+///   `e` adds one rounding; where `e ≠ 0`, the sum is at least ½ and no smaller than `|log₂ m|`, so the error of
+///   `log₂ base` stays below `9ε`, relatively.
+/// - `y = exponent · log₂ base` has a relative error of less than `10ε`, and is raised to −126 if it is below that.
+/// - `y = n + g` with `|g| ≤ ½`, exactly. `2^g = e^{g ln 2}` is summed up to the seventh power; what is left out is less
+///   than `0.3466⁸/8! · 1.04 < 5.4·10⁻⁹ < ε/11`. The argument's two roundings weigh `0.35 · 2ε`, those of Horner's
+///   scheme less than `2.6ε` in all: less than `4ε`. The scaling by `2^n` is exact.
+/// - An absolute error `δ` of `y` is a relative error of about `δ ln 2` of the power. So the error is at most
+///   `2^y · (10ε · |y| ln 2 + 4ε) ≤ 10ε/e + 4ε < 8ε = 2⁻²¹`, as `2^y · |y| ln 2 ≤ 1/e`. Where `y` was raised to
+///   −126, both the result and the true power are below 2⁻¹²⁵.
+#[inline(always)]
+pub(crate) fn power<S: Simd>(simd: S, base: f32x16<S>, exponent: f32x16<S>) -> f32x16<S> {
+    let splat = |value: f32| f32x16::splat(simd, value);
+    let is_normal = base.simd_ge(splat(f32::MIN_POSITIVE));
+    let base = base.simd_lt(splat(1.0)).select(base, splat(1.0));
+
+    let bits: i32x16<S> = base.bitcast();
+    let root_half = i32x16::splat(simd, FRAC_1_SQRT_2.to_bits().cast_signed());
+    let e = (bits - root_half) >> 23;
+    let m: f32x16<S> = (bits - (e << 23)).bitcast();
+    let f = m - splat(1.0);
+    let s = f / (f + splat(2.0));
+    let square = s * s;
+    let mut sum = splat(1.0 / 9.0);
+    for coefficient in [1.0 / 7.0, 1.0 / 5.0, 1.0 / 3.0, 1.0] {
+        sum = sum * square + splat(coefficient);
+    }
+    let logarithm = s * sum * splat(2.0 * LOG2_E) + e.to_float::<f32x16<S>>();
+
+    let y = exponent * logarithm;
+    let y = y.simd_gt(splat(-126.0)).select(y, splat(-126.0));
+    let n = y.round_ties_even();
+    let g = (y - n) * splat(LN_2);
+    let mut sum = splat(1.0 / 5040.0);
+    for coefficient in [1.0 / 720.0, 1.0 / 120.0, 1.0 / 24.0, 1.0 / 6.0, 1.0 / 2.0, 1.0, 1.0] {
+        sum = sum * g + splat(coefficient);
+    }
+    let scaled: i32x16<S> = sum.bitcast::<i32x16<S>>() + (n.to_int::<i32x16<S>>() << 23);
+    is_normal.select(scaled.bitcast(), splat(0.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::simd::{Level, dispatch, levels};
+
+    fn powers(level: Level, bases: [f32; 16], exponent: f32) -> [f32; 16] {
+        dispatch!(level, simd => {
+            let base = f32x16::from_slice(simd, &bases);
+            power(simd, base, f32x16::splat(simd, exponent)).to_array()
+        })
+    }
+
+    #[test]
+    fn powers_are_within_their_bound_at_every_level() {
+        let exponents = [1e-6, 0.01, 1.0 / 2.4, 1.0, 2.0, 3.7, 25.0, 120.0, 5000.0, 1e6, f32::MAX];
+        let mut worst = 0.0_f64;
+        for exponent in exponents {
+            for step in 0..20_000_u32 {
+                // All exponents of two, and close to 1 all numbers.
+                let bits = |lane: u32| {
+                    let at = 16 * step + lane;
+                    if step < 2000 { 0x3f80_0000 - at } else { (at - 32_000) * 3678 }
+                };
+                let bases: [f32; 16] = std::array::from_fn(|lane| {
+                    f32::from_bits(bits(u32::try_from(lane).unwrap()).min(0x3f80_0000))
+                });
+                let all = levels().into_iter().map(|level| powers(level, bases, exponent));
+                let all: Vec<[f32; 16]> = all.collect();
+                assert!(all.iter().all(|one| one.map(f32::to_bits) == all[0].map(f32::to_bits)));
+                for (base, found) in bases.into_iter().zip(all[0]) {
+                    if base >= f32::MIN_POSITIVE {
+                        let exact = f64::from(base).powf(f64::from(exponent));
+                        worst = worst.max((f64::from(found) - exact).abs());
+                    }
+                }
+            }
+        }
+        println!("largest error: 2^{:.2}", worst.log2());
+        assert!(worst < f64::from(2f32.powi(-21)), "{worst}");
+    }
+
+    #[test]
+    fn what_is_no_base_is_0_or_1() {
+        let mut bases = [0.0; 16];
+        bases[..6].copy_from_slice(&[f32::NAN, -1.0, 1.0, 1.5, f32::INFINITY, 1e-40]);
+        for level in levels() {
+            assert_eq!(powers(level, bases, 2.5)[..7], [0.0, 0.0, 1.0, 1.0, 1.0, 0.0, 0.0]);
+        }
+    }
+}
