@@ -52,8 +52,9 @@ impl<'a> View<'a> {
         Judge::new(self.camera)
     }
 
+    /// A primitive of a shape of the scene, relative to the eye; `local` counts the shape's primitives from 0.
     #[inline]
-    fn primitive_of(&self, shape: &Shape, local: usize) -> Primitive {
+    pub(crate) fn primitive_of(&self, shape: &Shape, local: usize) -> Primitive {
         match shape {
             Shape::Triangle(Triangle { a, b, c }) => {
                 Primitive::Triangle([*a, *b, *c].map(|corner| self.offset(corner)))

@@ -5,10 +5,10 @@ mod form;
 mod quotient;
 
 use bothways_common::engine::simd::{Level, Simd, SimdBase, best_level, f64x8};
-use bothways_common::look::bands::{self, Points, Samples, Surfaces, Wanted};
+use bothways_common::look::bands::{self, Points, Samples, Seen, Surfaces, Wanted};
 use bothways_common::look::lanes::{DVec3x8, Lanes, each};
 use bothways_common::look::texture::{self, TexturePoints};
-use bothways_common::{Frame, Primitive, Projection, Scene, Shape, View};
+use bothways_common::{Frame, Primitive, Projection, View};
 use form::{Form, HitPoints};
 use glam::{DVec2, DVec3};
 use quotient::{Affine, Quotient};
@@ -61,31 +61,29 @@ enum Texture {
 }
 
 enum Normals {
-    /// The same everywhere.
+    /// The same everywhere, towards the viewer.
     Flat(DVec3),
     /// Those of a sphere; the reciprocal of its radius.
     Sphere(f64),
-    /// Interpolated: each coordinate is a function on the viewport. And the flat one.
-    Smooth { coordinates: [Affine; 3], flat: DVec3 },
+    /// Interpolated: each coordinate is a function on the viewport. And the flat one, unless the corners' are alike
+    /// enough never to cancel each other.
+    Smooth { coordinates: [Affine; 3], flat: Option<DVec3> },
 }
 
 impl Surfaces for Interpolated<'_> {
     type Surface = Surface;
 
-    fn set_up(&self, id: u32, wanted: Wanted) -> Surface {
-        let view = self.view;
-        let (object, local) = view.scene.locate(id);
-        let primitive = view.primitive(id);
-        let normals = Normals::new(view, &primitive, corner_normals(view.scene, object, local));
-        let object = &view.scene.objects()[object];
-        let has_pattern = object.material_of(local).checker.is_some();
-        let texture = if wanted.texture_coordinates || has_pattern {
-            Texture::new(view, &primitive, texture::corners(&object.shape, local))
+    #[inline(always)]
+    fn set_up(&self, seen: &Seen, wanted: Wanted) -> Surface {
+        let (view, primitive) = (self.view, &seen.primitive);
+        let normals = Normals::new(view, primitive, seen.corner_normals());
+        let texture = if wanted.texture_coordinates || seen.material.checker.is_some() {
+            Texture::new(view, primitive, seen.corner_coordinates())
         } else {
             Texture::None
         };
         let is_sphere = matches!(primitive, Primitive::Sphere { .. });
-        let form = (is_sphere || wanted.positions).then(|| Form::new(view, &primitive));
+        let form = (is_sphere || wanted.positions).then(|| Form::new(view, primitive));
         Surface { form, normals, texture }
     }
 
@@ -145,22 +143,28 @@ impl Interpolated<'_> {
 }
 
 impl Normals {
-    #[inline]
+    #[inline(always)]
     fn new(view: &View, primitive: &Primitive, corners: Option<[DVec3; 3]>) -> Normals {
         match *primitive {
             Primitive::Sphere { radius, .. } => Normals::Sphere(1.0 / radius),
-            Primitive::Plane { normal, .. } => Normals::Flat(normal.normalize_or_zero()),
+            Primitive::Plane { point, normal } => {
+                let flat = normal.normalize_or_zero();
+                Normals::Flat(flat * side_seen(view, point, flat))
+            }
             Primitive::Triangle([a, b, c]) => {
                 let normal = (b - a).cross(c - a);
-                let flat = normal.normalize_or_zero();
-                let Some(at) = corners else { return Normals::Flat(flat) };
-                let of = weights(view, [a, b, c], normal);
+                // The surface, not its smooth look, says which side is seen.
+                let side = side_seen(view, a, normal);
+                let flat = normal.normalize_or_zero() * side;
+                let Some([at_a, at_b, at_c]) = corners else { return Normals::Flat(flat) };
+                let [of_a, of_b, of_c] = weights(view, [a, b, c], normal);
                 // All weights times one number change no direction; with this one they keep clear of overflow.
-                let scale = 1.0 / (of[0] + of[1] + of[2]).largest(view);
-                let scale = if scale.is_finite() { scale } else { 1.0 };
-                let of = of.map(|weight| weight * scale);
-                let coordinate = |k: usize| of[0] * at[0][k] + of[1] * at[1][k] + of[2] * at[2][k];
-                Normals::Smooth { coordinates: [0, 1, 2].map(coordinate), flat }
+                let scale = 1.0 / (of_a + of_b + of_c).largest(view);
+                let scale = if scale.is_finite() { side * scale } else { side };
+                let coordinate = |k: usize| of_a * at_a[k] + of_b * at_b[k] + of_c * at_c[k];
+                let coordinates = each!(k in [0, 1, 2] => coordinate(k) * scale);
+                let apart = at_a.dot(at_b).min(at_b.dot(at_c)).min(at_c.dot(at_a));
+                Normals::Smooth { coordinates, flat: (apart < 0.1).then_some(flat) }
             }
         }
     }
@@ -170,27 +174,33 @@ impl Normals {
     fn at<S: Simd>(&self, simd: S, samples: &Samples<S>, hit: &HitPoints<S>) -> DVec3x8<S> {
         /// Corners' normals that cancel each other leave the flat one.
         const CANCELLED: f64 = 1e-15;
-        let (flat, normal) = match self {
-            Normals::Flat(flat) => {
-                let flat = DVec3x8::splat(simd, *flat);
-                (flat, flat)
-            }
+        let zero = f64x8::splat(simd, 0.0);
+        match self {
+            Normals::Flat(flat) => DVec3x8::splat(simd, *flat),
             Normals::Sphere(scale) => {
                 let normal = hit.from_center * f64x8::splat(simd, *scale);
-                (normal, normal)
+                normal.negated_where(normal.dot(samples.rays.direction).simd_gt(zero))
             }
             Normals::Smooth { coordinates, flat } => {
-                let flat = DVec3x8::splat(simd, *flat);
                 let [x, y, z] = each!(k in [0, 1, 2] => coordinates[k].lanes(simd, samples));
                 let smooth = Lanes { x, y, z };
+                let Some(flat) = flat else { return smooth };
                 let is_direction = smooth.max_magnitude().simd_gt(f64x8::splat(simd, CANCELLED));
-                (flat, smooth.or(is_direction, flat))
+                smooth.or(is_direction, DVec3x8::splat(simd, *flat))
             }
-        };
-        // The surface, not its smooth look, says which side is seen.
-        let is_back = flat.dot(samples.rays.direction).simd_gt(f64x8::splat(simd, 0.0));
-        normal.negated_where(is_back)
+        }
     }
+}
+
+/// 1 if a normal of a flat form through a point is towards the viewer, −1 if it is away.
+#[inline(always)]
+fn side_seen(view: &View, point: DVec3, normal: DVec3) -> f64 {
+    let away = match view.camera.projection() {
+        // Every ray that meets the form goes to the same side of it.
+        Projection::Perspective => normal.dot(point) > 0.0,
+        Projection::Parallel => normal.dot(-view.camera.w()) > 0.0,
+    };
+    if away { -1.0 } else { 1.0 }
 }
 
 impl Texture {
@@ -211,39 +221,28 @@ impl Texture {
 }
 
 /// The perspective-correct weights of a triangle's corners, up to a common factor: each is the edge
-/// function of the side opposite to its corner.
-#[inline]
+/// function of the side opposite to its corner, positive inside of the triangle.
+///
+/// The function from `p` to `q` is computed from the difference `q − p`: seen from afar, `p × q` would be all rounding.
+#[inline(always)]
 fn weights(view: &View, [a, b, c]: [DVec3; 3], flat: DVec3) -> [Affine; 3] {
-    [(b, c), (c, a), (a, b)].map(|(p, q)| edge_function(view, p, q, flat))
+    let inside = side_seen(view, a, flat);
+    each!(side in [[b, c], [c, a], [a, b]] => {
+        let [p, q] = side;
+        edge_function(view, p, q) * -inside
+    })
 }
 
-/// The edge function from `p` to `q`, positive inside of the triangle.
-///
-/// It is computed from the difference `q − p`: seen from afar, `p × q` would be all rounding.
-#[inline]
-fn edge_function(view: &View, p: DVec3, q: DVec3, flat: DVec3) -> Affine {
-    let w = view.camera.w();
+/// The edge function from `p` to `q`, positive inside of a triangle that is seen from its back.
+#[inline(always)]
+fn edge_function(view: &View, p: DVec3, q: DVec3) -> Affine {
     match view.camera.projection() {
-        Projection::Perspective => {
-            let side = flat.dot(p).signum();
-            Affine::along_ray(view, p.cross(q - p)) * side
-        }
+        Projection::Perspective => Affine::along_ray(view, p.cross(q - p)),
         Projection::Parallel => {
-            let side = -flat.dot(w).signum();
-            let (u, v) = (view.camera.u(), view.camera.v());
+            let (u, v, w) = (view.camera.u(), view.camera.v(), view.camera.w());
             let slope = (p - q).cross(w);
             let [at_center, across, up] = [p.cross(q - p).dot(w), slope.dot(u), slope.dot(v)];
-            Affine { at_center, across, up } * -side
+            Affine { at_center, across, up } * -1.0
         }
-    }
-}
-
-#[inline]
-fn corner_normals(scene: &Scene, object: usize, local: usize) -> Option<[DVec3; 3]> {
-    match &scene.objects()[object].shape {
-        Shape::Mesh(mesh) => {
-            Some(mesh.normals().of(local)?.map(|normal| normal.as_dvec3().normalize_or_zero()))
-        }
-        Shape::Triangle(_) | Shape::Sphere(_) | Shape::Plane(_) => None,
     }
 }

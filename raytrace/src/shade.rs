@@ -1,13 +1,11 @@
 //! The look of what is seen. Image order goes along each ray to the point that it hit.
 
-use bothways_common::engine::simd::{
-    Level, Select, Simd, SimdBase, SimdFloat, best_level, f64x8,
-};
-use bothways_common::look::bands::{self, Points, Samples, Surfaces, Wanted};
+use bothways_common::engine::simd::{Level, Select, Simd, SimdBase, SimdFloat, best_level, f64x8};
+use bothways_common::look::bands::{self, Points, Samples, Seen, Surfaces, Wanted};
 use bothways_common::look::lanes::{DVec3x8, each};
 use bothways_common::look::texture::{self, TexturePoints};
-use bothways_common::{Frame, Primitive, Projection, Scene, Shape, View};
-use glam::{DVec2, DVec3, Vec3};
+use bothways_common::{Frame, Primitive, Projection, View};
+use glam::{DVec2, DVec3};
 
 /// Gives a frame its picture, from the hit point of each sample's ray. If the frame keeps
 /// [linear colours](Frame::with_colors), [normals](Frame::with_normals) or
@@ -49,10 +47,20 @@ struct Surface {
 }
 
 enum Form {
-    Sphere { center: DVec3, radius: f64 },
-    Plane { point: DVec3, normal: DVec3 },
+    Sphere {
+        center: DVec3,
+        radius: f64,
+    },
+    Plane {
+        point: DVec3,
+        normal: DVec3,
+    },
     /// `normal` is the cross product of two sides; `dual` is it divided by the square of its length.
-    Triangle { corners: [DVec3; 3], normal: DVec3, dual: DVec3 },
+    Triangle {
+        corners: [DVec3; 3],
+        normal: DVec3,
+        dual: DVec3,
+    },
 }
 
 enum Texture {
@@ -62,25 +70,24 @@ enum Texture {
     /// The directions in which the two coordinates grow.
     Plane([DVec3; 2]),
     /// The coordinates at the corners, and the directions in which they grow.
-    Triangle { corners: [DVec2; 3], gradients: [DVec3; 2] },
+    Triangle {
+        corners: [DVec2; 3],
+        gradients: [DVec3; 2],
+    },
 }
 
 impl Surfaces for AtHits<'_> {
     type Surface = Surface;
 
-    fn set_up(&self, id: u32, wanted: Wanted) -> Surface {
-        let view = self.view;
-        let (object, local) = view.scene.locate(id);
-        let form = Form::new(&view.primitive(id));
-        let smooth = corner_normals(view.scene, object, local);
-        let object = &view.scene.objects()[object];
-        let has_pattern = object.material_of(local).checker.is_some();
-        let texture = if wanted.texture_coordinates || has_pattern {
-            Texture::new(&form, texture::corners(&object.shape, local))
+    #[inline(always)]
+    fn set_up(&self, seen: &Seen, wanted: Wanted) -> Surface {
+        let form = Form::new(&seen.primitive);
+        let texture = if wanted.texture_coordinates || seen.material.checker.is_some() {
+            Texture::new(&form, seen.corner_coordinates())
         } else {
             Texture::None
         };
-        Surface { flat: form.flat_normal(), form, smooth, texture }
+        Surface { flat: form.flat_normal(), form, smooth: seen.corner_normals(), texture }
     }
 
     #[inline(always)]
@@ -107,7 +114,7 @@ struct Hits<S: Simd> {
 }
 
 impl Form {
-    #[inline]
+    #[inline(always)]
     fn new(primitive: &Primitive) -> Form {
         match *primitive {
             Primitive::Sphere { center, radius } => Form::Sphere { center, radius },
@@ -121,11 +128,13 @@ impl Form {
     }
 
     /// The unit normal of a flat form.
-    #[inline]
+    #[inline(always)]
     fn flat_normal(&self) -> DVec3 {
         match *self {
             Form::Sphere { .. } => DVec3::ZERO,
-            Form::Plane { normal, .. } | Form::Triangle { normal, .. } => normal.normalize_or_zero(),
+            Form::Plane { normal, .. } | Form::Triangle { normal, .. } => {
+                normal.normalize_or_zero()
+            }
         }
     }
 
@@ -209,32 +218,16 @@ impl Surface {
     }
 }
 
-#[inline]
-fn corner_normals(scene: &Scene, object: usize, local: usize) -> Option<[DVec3; 3]> {
-    match &scene.objects()[object].shape {
-        Shape::Mesh(mesh) => {
-            let normals = mesh.normals().of(local)?.map(Vec3::as_dvec3);
-            Some(normals.map(DVec3::normalize_or_zero))
-        }
-        Shape::Triangle(_) | Shape::Sphere(_) | Shape::Plane(_) => None,
-    }
-}
-
 /// The weights of the corners: the areas into which the hit points divide the triangle, as fractions of its own.
 #[inline(always)]
-fn areas<S: Simd>(
-    simd: S,
-    corners: &[DVec3; 3],
-    dual: DVec3,
-    hit: DVec3x8<S>,
-) -> [f64x8<S>; 3] {
+fn areas<S: Simd>(simd: S, corners: &[DVec3; 3], dual: DVec3, hit: DVec3x8<S>) -> [f64x8<S>; 3] {
     let dual = DVec3x8::splat(simd, dual);
     let [a, b, c] = each!(k in [0, 1, 2] => DVec3x8::splat(simd, corners[k]) - hit);
     [b.cross(c).dot(dual), c.cross(a).dot(dual), a.cross(b).dot(dual)]
 }
 
 impl Texture {
-    #[inline]
+    #[inline(always)]
     fn new(form: &Form, corners: Option<[DVec2; 3]>) -> Texture {
         match (form, corners) {
             (Form::Sphere { .. }, _) => Texture::Sphere,

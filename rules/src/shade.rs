@@ -43,8 +43,8 @@ impl Surfaces for AsSeen<'_> {
         }
     }
 
-    fn set_up(&self, id: u32, _wanted: Wanted) -> u32 {
-        id
+    fn set_up(&self, seen: &bands::Seen, _wanted: Wanted) -> u32 {
+        seen.id
     }
 
     fn at<S: Simd>(&self, simd: S, id: &u32, samples: &bands::Samples<S>) -> Points<S> {
@@ -59,7 +59,11 @@ impl Surfaces for AsSeen<'_> {
             })
         };
         let texture = seen[0].texture.is_some().then(|| {
-            TexturePoints::new(lanes(|of| of.coordinate), lanes(|of| of.across), lanes(|of| of.down))
+            TexturePoints::new(
+                lanes(|of| of.coordinate),
+                lanes(|of| of.across),
+                lanes(|of| of.down),
+            )
         });
         Points {
             position: DVec3x8::from_fn(simd, |lane| seen[lane].position),

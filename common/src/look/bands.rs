@@ -7,17 +7,18 @@
 
 use crate::camera::{Camera, Projection, SampleGrid};
 use crate::engine::simd::{
-    Level, Simd, SimdBase, SimdNarrow, dispatch, f64x8, mask64x8,
+    Level, Simd, SimdBase, SimdMask, SimdNarrow, dispatch, f64x8, mask64x8, u32x16,
 };
 use crate::frame::{Frame, NO_PRIMITIVE, ShadingBand};
 use crate::look::color::{srgb_from_linear, srgb_of_sixteen};
 use crate::look::lanes::{DVec3x8, Lanes, Vec3x16, each};
 use crate::look::shade::{Lighting, SurfacePoints};
-use crate::look::texture::TexturePoints;
+use crate::look::texture::{self, TexturePoints};
 use crate::raster::Sample;
 use crate::scene::material::Material;
+use crate::scene::{Object, Primitive, Shape};
 use crate::view::View;
-use glam::{DVec3, Vec2, Vec3};
+use glam::{DVec2, DVec3, Vec2, Vec3};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -29,15 +30,56 @@ pub trait Surfaces: Sync {
     /// The viewing rays through eight samples that follow one another in a row: those of the camera, unless a renderer
     /// has others. There may be fewer samples; the lanes that are left over have any values.
     #[inline(always)]
-    fn rays<S: Simd>(&self, simd: S, camera: &Camera, _first: Sample, [x, y]: [f64x8<S>; 2]) -> Rays<S> {
+    fn rays<S: Simd>(
+        &self,
+        simd: S,
+        camera: &Camera,
+        _first: Sample,
+        [x, y]: [f64x8<S>; 2],
+    ) -> Rays<S> {
         Rays::of_camera(simd, camera, [x, y])
     }
 
-    /// Sets up a primitive.
-    fn set_up(&self, id: u32, wanted: Wanted) -> Self::Surface;
+    /// Sets up a primitive. Where triangles are as small as samples, most of the time goes here: `#[inline(always)]`.
+    fn set_up(&self, seen: &Seen, wanted: Wanted) -> Self::Surface;
 
     /// What a primitive looks like at eight samples, at which it is seen. Lanes at which it is not have any values.
     fn at<S: Simd>(&self, simd: S, surface: &Self::Surface, samples: &Samples<S>) -> Points<S>;
+}
+
+/// A primitive that is seen somewhere.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen<'a> {
+    /// Its id.
+    pub id: u32,
+    /// The primitive, relative to the eye.
+    pub primitive: Primitive,
+    /// The object that it belongs to.
+    pub object: &'a Object,
+    /// Its number among the object's primitives, from 0.
+    pub local: usize,
+    /// The material that it has there.
+    pub material: &'a Material,
+}
+
+impl Seen<'_> {
+    /// The unit normals at the corners of a triangle that has some.
+    #[inline(always)]
+    pub fn corner_normals(&self) -> Option<[DVec3; 3]> {
+        match &self.object.shape {
+            Shape::Mesh(mesh) => {
+                let [a, b, c] = mesh.normals().of(self.local)?;
+                Some(each!(normal in [a, b, c] => normal.as_dvec3().normalize_or_zero()))
+            }
+            Shape::Triangle(_) | Shape::Sphere(_) | Shape::Plane(_) => None,
+        }
+    }
+
+    /// The texture coordinates at the corners of a triangle that has some.
+    #[inline]
+    pub fn corner_coordinates(&self) -> Option<[DVec2; 3]> {
+        texture::corners(&self.object.shape, self.local)
+    }
 }
 
 /// What is needed to know of surfaces besides their normals.
@@ -153,18 +195,20 @@ struct Look<'a, A> {
 const CHUNK: usize = 256;
 /// What vectors may write beyond the last sample.
 const BEYOND: usize = 16;
-/// Visible primitives that are kept, by the last bits of their ids: neighbours of a row are mostly seen in the next one,
-/// too.
-const KEPT: usize = 1024;
+/// The hashes of ids under which visible primitives are kept: those of a row are mostly seen in the next one, too.
+const HASHES: usize = 1 << HASH_BITS;
+const HASH_BITS: u32 = 12;
+/// From so many kept primitives on, a new chunk begins with none.
+const MANY_KEPT: usize = HASHES;
 
 /// What a thread works with. It decides no bit of the result.
 struct Desk<'a, T> {
-    /// The ids of the primitives in `kept`.
-    ids: Vec<u32>,
-    kept: Vec<Option<Kept<'a, T>>>,
+    /// For each hash, the id that came last, and its place in `kept`.
+    places: Vec<(u32, u32)>,
+    kept: Vec<Kept<'a, T>>,
     chunk: Box<Chunk>,
-    /// Where the chunk's runs of samples end, and the material of each; `None` where nothing is seen.
-    runs: Vec<(usize, Option<&'a Material>)>,
+    /// The samples of the chunk in runs of one primitive each.
+    runs: Vec<Run>,
     /// Of each pixel of the row, the sum over its samples.
     sums: Vec<Vec3>,
 }
@@ -174,10 +218,20 @@ struct Kept<'a, T> {
     material: &'a Material,
 }
 
+/// Samples of a row, one after another, that show the same primitive.
+#[derive(Clone, Copy)]
+struct Run {
+    /// The first sample after them.
+    end: usize,
+    /// The primitive's place in `kept`; `None` where nothing is seen.
+    place: Option<u32>,
+}
+
 /// Numbers of the samples of a chunk.
 struct Chunk {
     x: [f64; CHUNK + BEYOND],
     t: [f64; CHUNK + BEYOND],
+    origin: [[f64; CHUNK + BEYOND]; 3],
     direction: [[f64; CHUNK + BEYOND]; 3],
     position: [[f64; CHUNK + BEYOND]; 3],
     normal: [[f64; CHUNK + BEYOND]; 3],
@@ -191,11 +245,12 @@ impl<'a, T> Desk<'a, T> {
         const WIDE: usize = CHUNK + BEYOND;
         let pixels = look.grid.width() / look.samples;
         Desk {
-            ids: vec![NO_PRIMITIVE; KEPT],
-            kept: std::iter::repeat_with(|| None).take(KEPT).collect(),
+            places: vec![(NO_PRIMITIVE, 0); HASHES],
+            kept: Vec::new(),
             chunk: Box::new(Chunk {
                 x: [0.0; WIDE],
                 t: [0.0; WIDE],
+                origin: [[0.0; WIDE]; 3],
                 direction: [[0.0; WIDE]; 3],
                 position: [[0.0; WIDE]; 3],
                 normal: [[0.0; WIDE]; 3],
@@ -208,18 +263,75 @@ impl<'a, T> Desk<'a, T> {
         }
     }
 
-    /// A visible primitive, set up.
-    #[inline]
-    fn surface<A: Surfaces<Surface = T>>(&mut self, look: &Look<'a, A>, id: u32) -> &Kept<'a, T> {
-        let place = id as usize % KEPT;
-        if self.ids[place] != id {
-            let (object, local) = look.view.scene.locate(id);
-            let material = look.view.scene.objects()[object].material_of(local);
-            let surface = look.surfaces.set_up(id, look.wanted);
-            self.ids[place] = id;
-            self.kept[place] = Some(Kept { surface, material });
+    /// Finds the runs of a chunk, and sets up their primitives, unless they are kept.
+    ///
+    /// All are set up before the first is used: so the memory that they lie in is fetched for several at once.
+    #[inline(always)]
+    fn find_runs<S: Simd, A: Surfaces<Surface = T>>(
+        &mut self,
+        simd: S,
+        look: &Look<'a, A>,
+        ids: &[u32],
+    ) {
+        if self.kept.len() >= MANY_KEPT {
+            self.kept.clear();
+            self.places.fill((NO_PRIMITIVE, 0));
         }
-        self.kept[place].as_ref().expect("it is kept with its id")
+        self.runs.clear();
+        // The ends of the runs: where an id differs from the next one. Vectors find sixteen at a time.
+        let mut at = 0;
+        while at + 16 < ids.len() {
+            let [these, next] =
+                each!(at in [at, at + 1] => u32x16::from_slice(simd, &ids[at..at + 16]));
+            let mut ends = these.simd_ne(next).to_bitmask();
+            while ends != 0 {
+                let last = at + ends.trailing_zeros() as usize;
+                ends &= ends - 1;
+                self.end_run(look, ids, last);
+            }
+            at += 16;
+        }
+        for last in at..ids.len() {
+            if ids.get(last + 1) != Some(&ids[last]) {
+                self.end_run(look, ids, last);
+            }
+        }
+    }
+
+    /// Adds the run of samples that ends with this one.
+    #[inline(always)]
+    fn end_run<A: Surfaces<Surface = T>>(&mut self, look: &Look<'a, A>, ids: &[u32], last: usize) {
+        let id = ids[last];
+        let place = (id != NO_PRIMITIVE).then(|| self.place_of(look, id));
+        self.runs.push(Run { end: last + 1, place });
+    }
+
+    /// The place in `kept` of a visible primitive.
+    #[inline(always)]
+    fn place_of<A: Surfaces<Surface = T>>(&mut self, look: &Look<'a, A>, id: u32) -> u32 {
+        // The golden ratio of 2³² spreads neighbours best (Knuth, "The Art of Computer Programming", 6.4).
+        let hash = (id.wrapping_mul(0x9e37_79b9) >> (u32::BITS - HASH_BITS)) as usize;
+        let (kept, place) = self.places[hash];
+        if kept == id { place } else { self.set_up(look, id, hash) }
+    }
+
+    #[inline(never)]
+    fn set_up<A: Surfaces<Surface = T>>(
+        &mut self,
+        look: &Look<'a, A>,
+        id: u32,
+        hash: usize,
+    ) -> u32 {
+        let scene = look.view.scene;
+        let (object, local) = scene.locate(id);
+        let object = &scene.objects()[object];
+        let primitive = look.view.primitive_of(&object.shape, local);
+        let material = object.material_of(local);
+        let seen = Seen { id, primitive, object, local, material };
+        let place = u32::try_from(self.kept.len()).expect("few are kept");
+        self.kept.push(Kept { surface: look.surfaces.set_up(&seen, look.wanted), material });
+        self.places[hash] = (id, place);
+        place
     }
 }
 
@@ -231,7 +343,11 @@ fn eight<S: Simd>(simd: S, numbers: &[f64], at: usize) -> f64x8<S> {
 
 /// The next eight vectors.
 #[inline(always)]
-fn eight_vectors<S: Simd>(simd: S, [x, y, z]: &[[f64; CHUNK + BEYOND]; 3], at: usize) -> DVec3x8<S> {
+fn eight_vectors<S: Simd>(
+    simd: S,
+    [x, y, z]: &[[f64; CHUNK + BEYOND]; 3],
+    at: usize,
+) -> DVec3x8<S> {
     Lanes { x: eight(simd, x, at), y: eight(simd, y, at), z: eight(simd, z, at) }
 }
 
@@ -282,83 +398,114 @@ impl<'a, A: Surfaces> Look<'a, A> {
         let width = band.region.columns.len();
         let stored = line * width + within.start..line * width + within.end;
         let (ids, first) = (&band.ids[stored.clone()], band.region.columns.start + within.start);
-        if ids.iter().all(|&id| id == NO_PRIMITIVE) {
+        let mut kept = band.texture_coordinates.as_mut().map(|kept| &mut kept[stored.clone()]);
+        if is_nothing(ids) {
             desk.runs.clear();
-            desk.runs.push((ids.len(), None));
-        } else {
-            let columns = first..first + ids.len();
-            desk.chunk.x[..ids.len()].copy_from_slice(&self.grid.x()[columns]);
-            for (wide, t) in desk.chunk.t.iter_mut().zip(&band.t[stored.clone()]) {
-                *wide = f64::from(*t);
+            desk.runs.push(Run { end: ids.len(), place: None });
+            if let Some(kept) = &mut kept {
+                kept.fill(Vec2::ZERO);
             }
-            let kept = band.texture_coordinates.as_mut().map(|kept| &mut kept[stored.clone()]);
-            self.find_points(simd, desk, Sample { row, column: first }, ids, kept);
+        } else {
+            desk.find_runs(simd, self, ids);
+            self.find_rays(simd, desk, Sample { row, column: first }, &band.t[stored.clone()]);
+            self.find_points(simd, desk, row, kept);
         }
         let normals = band.normals.as_mut().map(|kept| &mut kept[stored.clone()]);
         self.light(simd, desk, normals);
         self.write(desk, band, within, stored);
     }
 
-    /// What is seen at the samples of a chunk: fills its positions, normals and fractions, and its runs.
+    /// Where the samples of a chunk are, their viewing rays and their `t`, from the first to the last sample at which
+    /// something is seen.
+    #[inline(always)]
+    fn find_rays<S: Simd>(
+        &self,
+        simd: S,
+        desk: &mut Desk<'a, A::Surface>,
+        start: Sample,
+        stored: &[f32],
+    ) {
+        let (camera, runs, chunk) = (self.view.camera, &desk.runs, &mut *desk.chunk);
+        let nothing_until = match runs[..] {
+            [Run { end, place: None }, ..] => end,
+            _ => 0,
+        };
+        let nothing_from = match runs[..] {
+            [.., Run { end, .. }, Run { place: None, .. }] => end,
+            _ => stored.len(),
+        };
+        let seen = nothing_until..nothing_from;
+        let columns = start.column + seen.start..start.column + seen.end;
+        chunk.x[seen.clone()].copy_from_slice(&self.grid.x()[columns]);
+        for (wide, t) in chunk.t[seen.clone()].iter_mut().zip(&stored[seen.clone()]) {
+            *wide = f64::from(*t);
+        }
+        let y = f64x8::splat(simd, self.grid.y()[start.row]);
+        for at in seen.step_by(8) {
+            let sample = Sample { column: start.column + at, ..start };
+            let rays = self.surfaces.rays(simd, camera, sample, [eight(simd, &chunk.x, at), y]);
+            store_eight(rays.direction, &mut chunk.direction, at);
+            if camera.projection() == Projection::Parallel {
+                store_eight(rays.origin, &mut chunk.origin, at);
+            }
+        }
+    }
+
+    /// What is seen at the samples of a chunk: fills its positions, normals and fractions.
     #[inline(always)]
     fn find_points<S: Simd>(
         &self,
         simd: S,
         desk: &mut Desk<'a, A::Surface>,
-        first: Sample,
-        ids: &[u32],
+        row: usize,
         mut texture_coordinates: Option<&mut [Vec2]>,
     ) {
-        desk.runs.clear();
-        let mut begin = 0;
-        while let Some(&id) = ids.get(begin) {
-            let rest = &ids[begin..];
-            let end = begin + rest.iter().position(|&other| other != id).unwrap_or(rest.len());
-            let material = if id == NO_PRIMITIVE {
-                if let Some(kept) = &mut texture_coordinates {
-                    kept[begin..end].fill(Vec2::ZERO);
-                }
-                None
-            } else {
-                Some(self.find_run(simd, desk, id, first, begin..end, &mut texture_coordinates))
-            };
-            match desk.runs.last_mut() {
-                Some((last, same)) if same_material(*same, material) => *last = end,
-                _ => desk.runs.push((end, material)),
-            }
+        let (kept, chunk, mut begin) = (&desk.kept, &mut *desk.chunk, 0);
+        for &Run { end, place } in &desk.runs {
+            let run = begin..end;
             begin = end;
+            if let Some(place) = place {
+                let kept = &kept[place as usize];
+                self.find_run(simd, chunk, kept, row, run, &mut texture_coordinates);
+            } else if let Some(kept) = &mut texture_coordinates {
+                kept[run].fill(Vec2::ZERO);
+            }
         }
     }
 
-    /// The same for one primitive; returns its material.
+    /// The same for one run.
     #[inline(always)]
     fn find_run<S: Simd>(
         &self,
         simd: S,
-        desk: &mut Desk<'a, A::Surface>,
-        id: u32,
-        Sample { row, column: first }: Sample,
+        chunk: &mut Chunk,
+        Kept { surface, material }: &Kept<'a, A::Surface>,
+        row: usize,
         run: Range<usize>,
         texture_coordinates: &mut Option<&mut [Vec2]>,
-    ) -> &'a Material {
-        let (material, y) = (desk.surface(self, id).material, self.grid.y()[row]);
-        let kept = desk.kept[id as usize % KEPT].as_ref().expect("it was set up");
-        let chunk = &mut *desk.chunk;
+    ) {
+        let y = f64x8::splat(simd, self.grid.y()[row]);
         for at in run.clone().step_by(8) {
-            let (x, y) = (eight(simd, &chunk.x, at), f64x8::splat(simd, y));
-            let first = Sample { row, column: first + at };
-            let rays = self.surfaces.rays(simd, self.view.camera, first, [x, y]);
-            let samples = Samples { x, y, rays, t: eight(simd, &chunk.t, at) };
-            let points = self.surfaces.at(simd, &kept.surface, &samples);
+            let rays = Rays {
+                // All perspective rays begin at the eye.
+                origin: match self.view.camera.projection() {
+                    Projection::Perspective => DVec3x8::splat(simd, DVec3::ZERO),
+                    Projection::Parallel => eight_vectors(simd, &chunk.origin, at),
+                },
+                direction: eight_vectors(simd, &chunk.direction, at),
+            };
+            let samples =
+                Samples { x: eight(simd, &chunk.x, at), y, rays, t: eight(simd, &chunk.t, at) };
+            let points = self.surfaces.at(simd, surface, &samples);
             // What is written beyond the run is overwritten by the next one.
             store_eight(points.normal, &mut chunk.normal, at);
-            store_eight(rays.direction, &mut chunk.direction, at);
             if self.wanted.positions {
                 store_eight(points.position, &mut chunk.position, at);
             }
             if let Some(checker) = &material.checker {
                 let none = f64x8::splat(simd, 0.0);
-                let fraction = points.texture.map_or(none, |texture| checker.fraction(simd, &texture));
+                let fraction =
+                    points.texture.map_or(none, |texture| checker.fraction(simd, &texture));
                 fraction.store_slice(&mut chunk.fraction[at..at + 8]);
             }
             if let Some(kept) = texture_coordinates {
@@ -374,7 +521,6 @@ impl<'a, A: Surfaces> Look<'a, A> {
                 }
             }
         }
-        material
     }
 
     /// Lights the samples of a chunk: fills its colours and, where a pixel has one sample, its bytes.
@@ -391,7 +537,9 @@ impl<'a, A: Surfaces> Look<'a, A> {
             u32::from_le_bytes([red, green, blue, 0])
         };
         let (chunk, mut begin) = (&mut *desk.chunk, 0);
-        for &(end, material) in &desk.runs {
+        let material_of = |run: &Run| run.place.map(|place| desk.kept[place as usize].material);
+        for runs in desk.runs.chunk_by(|a, b| same_material(material_of(a), material_of(b))) {
+            let (end, material) = (runs[runs.len() - 1].end, material_of(&runs[0]));
             let Some(material) = material else {
                 for (to, channel) in chunk.color.iter_mut().zip(background.to_array()) {
                     to[begin..end].fill(channel);
@@ -404,9 +552,11 @@ impl<'a, A: Surfaces> Look<'a, A> {
                 continue;
             };
             for at in (begin..end).step_by(16) {
-                let [low, high] = each!(at in [at, at + 8] => eight_vectors(simd, &chunk.direction, at));
+                let [low, high] =
+                    each!(at in [at, at + 8] => eight_vectors(simd, &chunk.direction, at));
                 let to_viewer = low.narrow(high).normalized(simd).negated();
-                let [low, high] = each!(at in [at, at + 8] => eight_vectors(simd, &chunk.normal, at));
+                let [low, high] =
+                    each!(at in [at, at + 8] => eight_vectors(simd, &chunk.normal, at));
                 let normal = low.narrow(high).normalized(simd);
                 let fraction = eight(simd, &chunk.fraction, at);
                 let points = SurfacePoints {
@@ -462,6 +612,13 @@ impl<'a, A: Surfaces> Look<'a, A> {
             }
         }
     }
+}
+
+/// Whether nothing is seen at any of some samples.
+#[inline(always)]
+fn is_nothing(ids: &[u32]) -> bool {
+    // Without a branch for each sample, vectors compare them.
+    ids.chunks(64).all(|ids| ids.iter().fold(true, |all, &id| all & (id == NO_PRIMITIVE)))
 }
 
 /// Whether two runs can be lit together.

@@ -135,11 +135,7 @@ impl<S: Simd> DVec3x8<S> {
     /// Sixteen vectors of two times eight, each coordinate rounded to `f32`.
     #[inline(always)]
     pub fn narrow(self, high: Self) -> Vec3x16<S> {
-        Lanes {
-            x: self.x.narrow(high.x),
-            y: self.y.narrow(high.y),
-            z: self.z.narrow(high.z),
-        }
+        Lanes { x: self.x.narrow(high.x), y: self.y.narrow(high.y), z: self.z.narrow(high.z) }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The look of surface points: one function for both orders, which each bring their own normals
 //! and texture coordinates.
 
-use crate::engine::simd::{Select, Simd, SimdBase, f32x16};
+use crate::engine::simd::{Select, Simd, SimdBase, SimdMask, f32x16};
 use crate::look::lanes::{DVec3x8, Lanes, Vec3x16, each};
 use crate::look::power::power;
 use crate::scene::material::{Light, Material};
@@ -103,6 +103,9 @@ impl Lighting {
             };
             let cosine = points.normals.dot(to_light);
             let is_lit = cosine.simd_gt(splat(0.0));
+            if is_lit.all_false() {
+                continue;
+            }
             let intensity = is_lit.select(splat(*intensity), splat(0.0));
             diffuse += intensity * is_lit.select(cosine, splat(0.0));
             if material.specular != 0.0 {

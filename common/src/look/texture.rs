@@ -117,10 +117,7 @@ pub fn on_sphere(offset: DVec3) -> (DVec2, [DVec3; 2]) {
 
 /// [`on_sphere`] for eight points.
 #[inline(always)]
-pub fn on_sphere_lanes<S: Simd>(
-    simd: S,
-    offsets: DVec3x8<S>,
-) -> ([f64x8<S>; 2], [DVec3x8<S>; 2]) {
+pub fn on_sphere_lanes<S: Simd>(simd: S, offsets: DVec3x8<S>) -> ([f64x8<S>; 2], [DVec3x8<S>; 2]) {
     let all: [_; 8] = std::array::from_fn(|lane| on_sphere(offsets.lane(lane)));
     let coordinate = each!(k in [0, 1] => f64x8::from_fn(simd, |lane| all[lane].0[k]));
     let gradients = each!(k in [0, 1] => DVec3x8::from_fn(simd, |lane| all[lane].1[k]));

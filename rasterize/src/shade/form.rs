@@ -85,17 +85,11 @@ impl Form {
             }
             Form::Sphere { center, radius, depth, across, up, axes } => {
                 let [u, v] = each!(k in [0, 1] => DVec3x8::splat(simd, axes[k]));
-                let (center, depth) =
-                    (DVec3x8::splat(simd, *center), f64x8::splat(simd, *depth));
+                let (center, depth) = (DVec3x8::splat(simd, *center), f64x8::splat(simd, *depth));
                 let beside = u * across.lanes(simd, samples) + v * up.lanes(simd, samples);
                 let from = samples.rays.origin - center;
-                let on = farther(
-                    simd,
-                    beside,
-                    *radius,
-                    samples,
-                    [from.dot(from), samples.t - depth],
-                );
+                let on =
+                    farther(simd, beside, *radius, samples, [from.dot(from), samples.t - depth]);
                 let t = depth + on;
                 let is_close = samples.is_close(simd, t);
                 let position = samples.points_at(is_close.select(t, samples.t));

@@ -3,7 +3,7 @@
 //!
 //! Heckbert and Moreton, "Interpolation for Polygon Texture Mapping and Shading", 1991.
 //!
-//! Functions here are `#[inline]`: where triangles are as small as samples, each sample sets up its own, and calls between
+//! Functions here are `#[inline(always)]`: where triangles are as small as samples, each sample sets up its own, and calls between
 //! codegen units take a fifth of the time of shading.
 
 use bothways_common::engine::simd::{Simd, SimdBase, f64x8};
@@ -23,7 +23,7 @@ pub(super) struct Affine {
 
 impl Affine {
     /// `a · D`, where `D` is the direction of the viewing ray.
-    #[inline]
+    #[inline(always)]
     pub(super) fn along_ray(view: &View, a: DVec3) -> Affine {
         let camera = view.camera;
         match camera.projection() {
@@ -37,7 +37,7 @@ impl Affine {
     }
 
     /// `a · (O − p)`, where `O` is the origin of the viewing ray.
-    #[inline]
+    #[inline(always)]
     pub(super) fn from_origin(view: &View, a: DVec3, p: DVec3) -> Affine {
         let at_center = -a.dot(p);
         match view.camera.projection() {
@@ -49,9 +49,9 @@ impl Affine {
     }
 
     /// Its value at a place of the viewport.
-    #[inline]
+    #[inline(always)]
     pub(super) fn at(&self, x: f64, y: f64) -> f64 {
-        self.at_center + x * self.across + y * self.up
+        (self.at_center + y * self.up) + x * self.across
     }
 
     /// Its values at some samples.
@@ -66,18 +66,18 @@ impl Affine {
         let Affine { at_center, across, up } = *self;
         let [at_center, across, up] =
             each!(number in [at_center, across, up] => f64x8::splat(simd, number));
-        at_center + x * across + y * up
+        (at_center + y * up) + x * across
     }
 
     /// No value on the viewport has a larger magnitude.
-    #[inline]
+    #[inline(always)]
     pub(super) fn largest(&self, view: &View) -> f64 {
         let [width, height] = view.camera.viewport();
         self.at_center.abs() + 0.5 * (width * self.across.abs() + height * self.up.abs())
     }
 
     /// The product of two functions, one of which is constant.
-    #[inline]
+    #[inline(always)]
     fn times(self, other: Affine) -> Affine {
         // One of the two is always constant: either O or D changes over the viewport.
         Affine {
@@ -91,7 +91,7 @@ impl Affine {
 impl Mul<f64> for Affine {
     type Output = Affine;
 
-    #[inline]
+    #[inline(always)]
     fn mul(self, factor: f64) -> Affine {
         let Affine { at_center, across, up } = self;
         Affine { at_center: at_center * factor, across: across * factor, up: up * factor }
@@ -101,7 +101,7 @@ impl Mul<f64> for Affine {
 impl Add for Affine {
     type Output = Affine;
 
-    #[inline]
+    #[inline(always)]
     fn add(self, other: Affine) -> Affine {
         Affine {
             at_center: self.at_center + other.at_center,
@@ -120,7 +120,7 @@ pub(super) struct Quotient {
 
 impl Quotient {
     /// The functions that have these values at the corners of a triangle with these weights.
-    #[inline]
+    #[inline(always)]
     pub(super) fn interpolating(weights: [Affine; 3], values: [DVec2; 3]) -> Quotient {
         let [a, b, c] = weights;
         let numerator = |k: usize| a * values[0][k] + b * values[1][k] + c * values[2][k];
@@ -128,7 +128,7 @@ impl Quotient {
     }
 
     /// The products of two vectors with the offset of the point that is seen from a given point of the plane.
-    #[inline]
+    #[inline(always)]
     pub(super) fn on_plane(
         view: &View,
         point: DVec3,
@@ -168,7 +168,7 @@ impl Quotient {
     }
 
     /// The derivatives along `x` and along `y` at one place.
-    #[inline]
+    #[inline(always)]
     pub(super) fn changes(&self, x: f64, y: f64) -> [DVec2; 2] {
         let below = self.denominator.at(x, y);
         let value = self.numerators.map(|above| above.at(x, y) / below);
