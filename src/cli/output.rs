@@ -17,6 +17,7 @@ use super::exr;
 use super::failure::Failure;
 use super::interrupt;
 use hidden::Hidden;
+use rayon::prelude::*;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -59,6 +60,34 @@ pub(super) struct Staging {
     /// Every file that this kind of run may write; the run changes no other file.
     names: Vec<String>,
     written: Vec<String>,
+}
+
+/// One of the files of a run, and what writes its content.
+pub(super) struct NewFile<'a> {
+    name: String,
+    fill: Box<dyn FnOnce(File) -> io::Result<()> + Send + 'a>,
+}
+
+impl<'a> NewFile<'a> {
+    /// A file with this content.
+    pub(super) fn new(
+        name: impl Into<String>,
+        content: impl FnOnce(&mut Out) -> io::Result<()> + Send + 'a,
+    ) -> NewFile<'a> {
+        NewFile { name: name.into(), fill: Box::new(|file| sink::fill(file, content)) }
+    }
+
+    /// A file whose writer also moves back within it.
+    pub(super) fn seekable(
+        name: impl Into<String>,
+        content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()> + Send + 'a,
+    ) -> NewFile<'a> {
+        let fill = |file| {
+            let mut out = BufWriter::new(file);
+            content(&mut out).and_then(|()| out.flush())
+        };
+        NewFile { name: name.into(), fill: Box::new(fill) }
+    }
 }
 
 impl Staging {
@@ -139,29 +168,34 @@ impl Staging {
         self.write_with(name, |file| sink::fill(file, content))
     }
 
-    /// Writes one of the files by a function that also moves back within it.
-    pub(super) fn write_seekable(
-        &mut self,
-        name: &str,
-        content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
-    ) -> Result<(), Failure> {
-        self.write_with(name, |file| {
-            let mut out = BufWriter::new(file);
-            content(&mut out).and_then(|()| out.flush())
-        })
-    }
-
     fn write_with(
         &mut self,
+        name: &str,
+        fill: impl FnOnce(File) -> io::Result<()>,
+    ) -> Result<(), Failure> {
+        let result = self.create(name, fill);
+        self.written.push(name.into());
+        result
+    }
+
+    /// Writes several of the files at once, on the current rayon pool. The first of those that cannot be written is the
+    /// failure.
+    pub(super) fn write_all(&mut self, files: Vec<NewFile>) -> Result<(), Failure> {
+        self.written.extend(files.iter().map(|file| file.name.clone()));
+        let create = |file: NewFile| self.create(&file.name, file.fill);
+        let results: Vec<_> = files.into_par_iter().with_max_len(1).map(create).collect();
+        results.into_iter().collect()
+    }
+
+    fn create(
+        &self,
         name: &str,
         fill: impl FnOnce(File) -> io::Result<()>,
     ) -> Result<(), Failure> {
         let known = self.names.iter().any(|known| known == name);
         debug_assert!(known, "{name} would never be replaced or removed");
         let path = self.new_files().join(name);
-        let result = File::create(path).and_then(fill);
-        self.written.push(name.into());
-        result.map_err(|error| {
+        File::create(path).and_then(fill).map_err(|error| {
             let place = self.target.join(name);
             let reason = reason(&error, &format!("choose another folder with {}", self.option));
             Failure::new(format!("cannot write {}: {reason}", place.display()))

@@ -3,7 +3,7 @@
 use super::args::{BuffersArg, MethodArg, OrderArg, RenderArgs};
 use super::camera::{camera, squashed};
 use super::failure::Failure;
-use super::output::{Out, Staging};
+use super::output::{NewFile, Out, Staging};
 use super::patience::Patience;
 use super::progress::Bar;
 use super::{exr, memory, npy, table, terminal};
@@ -237,7 +237,8 @@ impl<'a> Run<'a> {
         bar: Option<Bar>,
     ) -> Result<ExitCode, Failure> {
         let json = self.report.to_json().map_err(|error| Failure::new(error.to_string()))?;
-        self.write(&mut staging, &json)?;
+        let layers: Vec<exr::Layer> = self.layers().collect();
+        staging.write_all(self.files(&json, &layers))?;
         staging.commit()?;
         // The bar ends before any text is printed to the same terminal.
         drop(bar);
@@ -260,27 +261,12 @@ impl<'a> Run<'a> {
         })
     }
 
-    fn write(&self, staging: &mut Staging, json: &str) -> Result<(), Failure> {
-        for (Rendered { order, frame, .. }, picture) in self.rendered.iter().zip(&self.pictures) {
-            let stem = order.file_stem();
-            staging.write_rgb(&format!("{stem}.png"), picture)?;
-            staging.write_grey(&format!("mask-{stem}.png"), &mask(frame))?;
-            if self.args.output.buffers == BuffersArg::Npy {
-                let ids = |out: &mut Out| npy::write_ids(frame, out);
-                staging.write(&format!("{stem}.ids.npy"), ids)?;
-                let distances = |out: &mut Out| npy::write_distances(frame, out);
-                staging.write(&format!("{stem}.t.npy"), distances)?;
-                staging.write_rgb(&format!("{stem}.ids.png"), &id_picture(frame))?;
-            }
-        }
+    /// The files of the run, those first that take longest.
+    fn files<'b>(&'b self, json: &'b str, layers: &'b [exr::Layer<'b>]) -> Vec<NewFile<'b>> {
+        let mut files = Vec::new();
         if let ([object_order, image_order], [by_object, by_image], Some(comparison)) =
             (self.rendered.as_slice(), self.pictures.as_slice(), &self.comparison)
         {
-            let difference = comparison.classes().picture(by_object);
-            // For a crop, the picture has the size of the crop, as all output has.
-            let whole = object_order.frame.crop().is_none();
-            let difference = if whole { enlarged(difference) } else { difference };
-            staging.write_rgb("difference.png", &difference)?;
             let slide = Slide {
                 scene: &self.report.scene,
                 about: self.about,
@@ -291,13 +277,34 @@ impl<'a> Run<'a> {
                 pictures: [by_object, by_image],
                 comparison,
             };
-            staging.write_rgb("side-by-side.png", &slide.draw(Theme::Dark).pixels(SLIDE_WIDTH))?;
+            files.push(NewFile::rgb("side-by-side.png", move || {
+                slide.draw(Theme::Dark).pixels(SLIDE_WIDTH)
+            }));
+            files.push(NewFile::rgb("difference.png", move || {
+                let difference = comparison.classes().picture(by_object);
+                // For a crop, the picture has the size of the crop, as all output has.
+                let whole = object_order.frame.crop().is_none();
+                if whole { enlarged(difference) } else { difference }
+            }));
         }
         if self.args.output.buffers == BuffersArg::Exr {
-            let layers: Vec<exr::Layer> = self.layers().collect();
-            staging.write_seekable(exr::NAME, |out| exr::write(&layers, self.camera, out))?;
+            let content = |out: &mut _| exr::write(layers, self.camera, out);
+            files.push(NewFile::seekable(exr::NAME, content));
         }
-        staging.write("report.json", |out| out.write_all(json.as_bytes()))
+        for (Rendered { order, frame, .. }, picture) in self.rendered.iter().zip(&self.pictures) {
+            let stem = order.file_stem();
+            files.push(NewFile::finished_rgb(format!("{stem}.png"), picture));
+            files.push(NewFile::grey(format!("mask-{stem}.png"), || mask(frame)));
+            if self.args.output.buffers == BuffersArg::Npy {
+                files.push(NewFile::rgb(format!("{stem}.ids.png"), || id_picture(frame)));
+                let ids = |out: &mut Out| npy::write_ids(frame, out);
+                files.push(NewFile::new(format!("{stem}.ids.npy"), ids));
+                let distances = |out: &mut Out| npy::write_distances(frame, out);
+                files.push(NewFile::new(format!("{stem}.t.npy"), distances));
+            }
+        }
+        files.push(NewFile::new("report.json", |out| out.write_all(json.as_bytes())));
+        files
     }
 }
 

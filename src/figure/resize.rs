@@ -73,9 +73,11 @@ fn averaged(picture: &RgbImage, [width, height]: [u32; 2]) -> RgbImage {
         narrow.fill([0.0; 3]);
         for (j, Rgb(pixel)) in row.enumerate() {
             let light = pixel.map(|channel| linear[usize::from(channel)]);
-            columns.of(j).for_each(|(x, share)| add(&mut narrow[x], light, share));
+            for &(x, share) in columns.of(j) {
+                add(&mut narrow[x], light, share);
+            }
         }
-        for (y, share) in rows.of(i) {
+        for &(y, share) in rows.of(i) {
             let sums = &mut sums[y * width as usize..][..width as usize];
             sums.iter_mut().zip(&narrow).for_each(|(sum, light)| add(sum, *light, share));
         }
@@ -91,27 +93,35 @@ fn add(sum: &mut [f32; 3], light: [f32; 3], share: f32) {
 /// The new pixels that each old pixel overlaps, along one side, and the share of each new pixel that the old pixel
 /// fills.
 struct Overlaps {
-    from: u32,
-    to: u32,
+    /// Those of all old pixels, one after another.
+    all: Vec<(usize, f32)>,
+    /// Where those of each old pixel end.
+    ends: Vec<usize>,
 }
 
 impl Overlaps {
     fn new(from: u32, to: u32) -> Overlaps {
-        Overlaps { from, to }
+        let (from, to) = (u64::from(from), u64::from(to));
+        let (mut all, mut ends) = (Vec::new(), Vec::new());
+        for pixel in 0..from {
+            // In units in which an old pixel is `to` long and a new pixel is `from` long.
+            let (begin, end) = (pixel * to, (pixel + 1) * to);
+            all.extend((begin / from..=(end - 1) / from).map(|new| {
+                let common = end.min((new + 1) * from) - begin.max(new * from);
+                #[expect(clippy::cast_precision_loss, reason = "a share needs no more than f32")]
+                let share = common as f32 / from as f32;
+                #[expect(clippy::cast_possible_truncation, reason = "an index that fits a side")]
+                let new = new as usize;
+                (new, share)
+            }));
+            ends.push(all.len());
+        }
+        Overlaps { all, ends }
     }
 
-    fn of(&self, pixel: usize) -> impl Iterator<Item = (usize, f32)> + use<> {
-        let (from, to) = (u64::from(self.from), u64::from(self.to));
-        // In units in which an old pixel is `to` long and a new pixel is `from` long.
-        let (begin, end) = (pixel as u64 * to, (pixel as u64 + 1) * to);
-        (begin / from..=(end - 1) / from).map(move |new| {
-            let common = end.min((new + 1) * from) - begin.max(new * from);
-            #[expect(clippy::cast_precision_loss, reason = "a share needs no more than f32")]
-            let share = common as f32 / from as f32;
-            #[expect(clippy::cast_possible_truncation, reason = "an index that fits a side")]
-            let new = new as usize;
-            (new, share)
-        })
+    fn of(&self, pixel: usize) -> &[(usize, f32)] {
+        let begin = pixel.checked_sub(1).map_or(0, |before| self.ends[before]);
+        &self.all[begin..self.ends[pixel]]
     }
 }
 

@@ -72,19 +72,23 @@ impl Slide<'_> {
         self.title(&mut canvas);
         let classes = self.comparison.classes();
         let size = fitted(classes.image(), PICTURE_FRAME);
-        for ((rendered, picture), left) in
-            [self.object_order, self.image_order].into_iter().zip(self.pictures).zip(COLUMNS)
-        {
+        let [by_object, by_image] = self.pictures;
+        let (shown, difference) = rayon::join(
+            || rayon::join(|| resized(by_object, size), || resized(by_image, size)),
+            || marked_difference(classes, by_object, size),
+        );
+        let orders = [(self.object_order, shown.0), (self.image_order, shown.1)];
+        for ((rendered, picture), left) in orders.into_iter().zip(COLUMNS) {
             let order = rendered.order;
             canvas.heading(left, &rendered.name(), order.common_name(), order.loops());
-            canvas.picture(left, resized(picture, size));
+            canvas.picture(left, picture);
             canvas.groups(left, &figures(rendered));
         }
         let [_, _, left] = COLUMNS;
         let explanation =
             ["The same primitive at every sample?", "Ids are compared without tolerance."];
         canvas.heading(left, "difference", "", explanation);
-        canvas.picture(left, marked_difference(classes, self.pictures[0], size));
+        canvas.picture(left, difference);
         self.legend(&mut canvas, left, classes);
         self.verdict(&mut canvas);
         canvas.drawing
