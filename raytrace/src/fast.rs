@@ -140,7 +140,7 @@ pub fn determine_visibility_with_fault<F: Fault>(
 /// observer, takes little time to compile.
 struct Loops {
     is: fn(Planted) -> bool,
-    watch: fn(&mut Walker, &FrustumTemplate, &Tile, &mut dyn Events),
+    watch: fn(&mut Walker, [&FrustumTemplate; 2], &Tile, &mut dyn Events),
     trace: fn(&mut Walker, &FrustumTemplate, Tile) -> Executed,
 }
 
@@ -191,7 +191,7 @@ fn run<O: Observer>(
                     return (observer, Executed::default());
                 }
                 if let Some(sink) = observer.sink() {
-                    (loops.watch)(walker, &of_ray, &chunk, sink);
+                    (loops.watch)(walker, [&of_tile, &of_ray], &chunk, sink);
                 }
                 (observer, (loops.trace)(walker, &of_tile, chunk))
             },
@@ -211,21 +211,35 @@ fn drop_chunk(Tile { ids, t, .. }: Tile) {
     t.into_iter().for_each(|t| t.fill(f32::INFINITY));
 }
 
-/// Walks each ray of a chunk of the picture alone, for an observer, until the observer has enough.
+/// Walks each ray of a chunk of the picture alone, for an observer, until the observer has enough. For an observer that
+/// only counts, the rays of a tile that certainly meet no box at all are counted without a walk.
 fn watch<F: Fault>(
     walker: &mut Walker,
-    template: &FrustumTemplate,
+    [of_tile, of_ray]: [&FrustumTemplate; 2],
     chunk: &Tile,
     sink: &mut dyn Events,
 ) {
     dispatch_with!(F, walker.prepared.level, simd => {
         let mut context = Parts::<_, dyn Events, F>::of(simd, sink);
-        for row in chunk.region.rows.clone() {
-            for column in chunk.region.columns.clone() {
-                if context.sink().has_enough() {
-                    return;
+        let only_counts = context.sink().counts().is_some();
+        let side = if only_counts { of_tile.side } else { usize::MAX };
+        for part in chunk.region.tiles(side, side) {
+            if only_counts {
+                let frustum = of_tile.frustum([part.rows.start, part.columns.start]);
+                let missed = walker.boxes_all_missed(&context, &frustum, of_ray);
+                if let (Some(boxes), Some(counts)) = (missed, context.sink().counts()) {
+                    counts.rays += part.area() as u64;
+                    counts.nodes += boxes * part.area() as u64;
+                    continue;
                 }
-                walker.walk(&mut context, template, [row, column], [1, 1]);
+            }
+            for row in part.rows {
+                for column in part.columns.clone() {
+                    if context.sink().has_enough() {
+                        return;
+                    }
+                    walker.walk(&mut context, of_ray, [row, column], [1, 1]);
+                }
             }
         }
     });

@@ -187,11 +187,7 @@ impl Staging {
         results.into_iter().collect()
     }
 
-    fn create(
-        &self,
-        name: &str,
-        fill: impl FnOnce(File) -> io::Result<()>,
-    ) -> Result<(), Failure> {
+    fn create(&self, name: &str, fill: impl FnOnce(File) -> io::Result<()>) -> Result<(), Failure> {
         let known = self.names.iter().any(|known| known == name);
         debug_assert!(known, "{name} would never be replaced or removed");
         let path = self.new_files().join(name);

@@ -1,7 +1,7 @@
 //! The difference as a picture: a class for each pixel.
 
 use crate::picture::NOTHING;
-use image::{Rgb, RgbImage};
+use image::RgbImage;
 use rayon::prelude::*;
 
 /// The agreement of both orders at a pixel, from the worst class to the best; a pixel of several samples has the
@@ -244,11 +244,6 @@ impl Classes {
         })
     }
 
-    /// The class of every pixel, row by row.
-    fn all(&self) -> impl Iterator<Item = Class> {
-        pixels(self.image).map(|[i, j]| self.at(i, j))
-    }
-
     /// The difference image; `lit_by` is the picture of either order.
     ///
     /// # Panics
@@ -257,22 +252,31 @@ impl Classes {
     pub fn picture(&self, lit_by: &RgbImage) -> RgbImage {
         assert_eq!([lit_by.width(), lit_by.height()], self.image, "the picture is of another size");
         let mut picture = RgbImage::new(self.image[0], self.image[1]);
-        let lit = picture.pixels_mut().zip(lit_by.pixels());
-        for ((pixel, light), class) in lit.zip(self.all()) {
-            *pixel = match class {
-                Class::Alike => faint_grey(*light),
-                class => Rgb(class.color()),
-            };
-        }
+        let row = 3 * self.image[0] as usize;
+        let rows = picture.par_chunks_exact_mut(row).zip(lit_by.par_chunks_exact(row));
+        rows.enumerate().for_each(|(i, (pixels, lights))| {
+            let words = pixels.chunks_mut(3 * WORD as usize).zip(lights.chunks(3 * WORD as usize));
+            for (number, (pixels, lights)) in words.enumerate() {
+                let word = self.word(i * words_of(self.image) + number);
+                let pixels =
+                    pixels.as_chunks_mut::<3>().0.iter_mut().zip(lights.as_chunks::<3>().0);
+                for (k, (pixel, light)) in (0..).zip(pixels) {
+                    *pixel = match word.class(k) {
+                        Class::Alike => faint_grey(*light),
+                        class => class.color(),
+                    };
+                }
+            }
+        });
         picture
     }
 }
 
 /// A dark grey: the reader recognises the picture and sees every difference.
-fn faint_grey(Rgb([red, green, blue]): Rgb<u8>) -> Rgb<u8> {
+fn faint_grey([red, green, blue]: [u8; 3]) -> [u8; 3] {
     // The weights of Rec. 709, in 256ths.
     let light = (54 * u32::from(red) + 183 * u32::from(green) + 19 * u32::from(blue)) / 256;
-    Rgb([u8::try_from(44 + 96 * light / 255).expect("at most 140"); 3])
+    [u8::try_from(44 + 96 * light / 255).expect("at most 140"); 3]
 }
 
 /// The words of a row.

@@ -87,15 +87,15 @@ fn first_line(child: &mut Child) -> String {
 #[test]
 fn a_run_that_takes_much_memory_says_so_before_it_takes_it() {
     let home = tempfile::tempdir().unwrap();
-    // 3840 · 2160 · 4² samples of 20 bytes in two orders: 5.3 GB.
-    let large = ["canonical", "--size", "3840x2160", "--viewport", "16,9", "--samples", "4"];
+    // 3840 · 2160 · 6² samples of 8 bytes in two orders, and 18 bytes a pixel: 5.0 GB.
+    let large = ["canonical", "--size", "3840x2160", "--viewport", "16,9", "--samples", "6"];
     let mut child = bothways(&home, &large).spawn().unwrap();
     let line = first_line(&mut child);
     child.kill().unwrap();
     child.wait().unwrap();
-    assert!(line.contains("132,710,400 samples "), "{line}");
+    assert!(line.contains("298,598,400 samples "), "{line}");
     // The text with enough memory, or without.
-    assert!(line.contains(" take 5.1 GiB of memory; ") || line.contains(" need at least 5.1 GiB "));
+    assert!(line.contains(" take 4.6 GiB of memory; ") || line.contains(" need at least 4.6 GiB "));
     assert!(line.contains("--crop") && line.contains("fewer --samples"), "{line}");
 }
 

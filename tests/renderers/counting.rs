@@ -2,6 +2,7 @@
 //! does not change the frame.
 
 use assert_cmd::Command;
+use bothways::common::frame::NO_PRIMITIVE;
 use bothways::common::glam::Vec3;
 use bothways::common::observe::budget::{Budget, WorkWithin};
 use bothways::common::observe::{Events, Question};
@@ -126,6 +127,35 @@ fn sums_are_those_of_the_events() {
             }
         }
     }
+}
+
+/// Tiles of rays that miss all boxes are counted without a walk; the sums are those of the walk.
+#[test]
+fn rays_that_miss_everything_count_what_they_test() {
+    let somewhere = |mesh: &Mesh, by: Vec3| {
+        let positions = mesh.positions().iter().map(|position| 0.2 * position + by).collect();
+        Mesh::new(positions, mesh.triangles().to_vec()).expect("it is a mesh")
+    };
+    let needles = needles(500);
+    let mut missed = 0;
+    for (k, by) in
+        [[0.0; 3], [1.5, 0.5, 0.0], [0.0, 0.0, 2.6], [-0.4, 0.2, 40.0]].iter().enumerate()
+    {
+        let scene = scene(vec![mesh(somewhere(&needles, Vec3::from(*by)))]);
+        for projection in PROJECTIONS {
+            for distance in [0.3, 3.0, 1e3, 1e6] {
+                let camera =
+                    turned(projection, [0.1 * distance, 0.0, distance], [0.0; 3], [230, 170]);
+                let (view, options) = (View::new(&scene, &camera), Options::default());
+                let (mut sums, mut events) = (Work::default(), OneByOne::default());
+                let frame = watched(Order::Image, &view, &options, &mut sums);
+                watched(Order::Image, &view, &options, &mut events);
+                assert_eq!(sums, events.0, "mesh {k}, {projection:?} from {distance}");
+                missed += frame.ids().iter().filter(|&&id| id == NO_PRIMITIVE).count();
+            }
+        }
+    }
+    assert!(missed > 1_000_000, "{missed}");
 }
 
 #[test]

@@ -1,22 +1,38 @@
 //! Memory for what is as large as a picture or a mesh.
 
+use rayon::prelude::*;
+use std::mem::MaybeUninit;
+
 /// From so many bytes on, large pages are asked for: two of 2 MiB are certain to fit.
-#[cfg(target_os = "linux")]
 const LARGE: usize = 6 << 20;
+/// So many bytes are written by one thread.
+const PART: usize = 1 << 20;
 
 /// A vector of equal values, as `vec![value; count]`, on large pages if the system has some to give: its
-/// addresses take less time to find.
-pub fn filled<T: Copy>(value: T, count: usize) -> Vec<T> {
+/// addresses take less time to find. All threads of the current rayon pool write it: most of the time goes to pages that
+/// the system clears at the first write.
+pub fn filled<T: Copy + Send + Sync>(value: T, count: usize) -> Vec<T> {
     let mut values = Vec::with_capacity(count);
     // Before anything is written: pages are chosen by the first write.
     #[cfg(target_os = "linux")]
     ask_for_large_pages(values.spare_capacity_mut());
-    values.resize(count, value);
+    if count.saturating_mul(size_of::<T>()) < LARGE {
+        values.resize(count, value);
+        return values;
+    }
+    let room = &mut values.spare_capacity_mut()[..count];
+    let part = (PART / size_of::<T>()).max(1);
+    room.par_chunks_mut(part).for_each(|part| part.fill(MaybeUninit::new(value)));
+    // SAFETY: the first `count` values were just written.
+    #[expect(unsafe_code, reason = "threads cannot extend one vector")]
+    unsafe {
+        values.set_len(count);
+    }
     values
 }
 
 #[cfg(target_os = "linux")]
-fn ask_for_large_pages<T>(memory: &mut [std::mem::MaybeUninit<T>]) {
+fn ask_for_large_pages<T>(memory: &mut [MaybeUninit<T>]) {
     use rustix::mm::{Advice, madvise};
     let page = rustix::param::page_size();
     let size = size_of_val(memory);

@@ -76,8 +76,10 @@ impl Events for WorkWithin<'_> {
     fn has_enough(&mut self) -> bool {
         let steps = self.work.steps();
         let more = steps - self.told;
-        self.told = steps;
-        let before = if more > 0 {
+        // Threads that tell of every step wait for one another. What is not told yet is not lost: a budget that seems
+        // to be enough without it is asked again, and at the end all the work decides.
+        let before = if more > self.budget.most >> 16 {
+            self.told = steps;
             self.budget.spent.fetch_add(more, Ordering::Relaxed)
         } else {
             self.budget.spent.load(Ordering::Relaxed)

@@ -126,13 +126,7 @@ impl BoxCulling {
         farthest: f32,
     ) -> BoxHits {
         let simd = context.simd();
-        let [ox, oy, oz] = self.origin;
-        let [lx, ly, lz, hx, hy, hz] = &node.bounds;
-        let boxes = [
-            [f32x16::load_array_ref(simd, lx) - ox, f32x16::load_array_ref(simd, hx) - ox],
-            [f32x16::load_array_ref(simd, ly) - oy, f32x16::load_array_ref(simd, hy) - oy],
-            [f32x16::load_array_ref(simd, lz) - oz, f32x16::load_array_ref(simd, hz) - oz],
-        ];
+        let boxes = self.from_origin(simd, node);
         let [left, right, upper, lower] = sides;
         let across = left.extreme(&boxes, true).min(right.extreme(&boxes, true));
         let down = upper.extreme(&boxes, true).min(lower.extreme(&boxes, true));
@@ -147,6 +141,58 @@ impl BoxCulling {
             near: near.to_array(),
             size: longest_side(simd, node).to_array(),
         }
+    }
+
+    /// Whether [`BoxCulling::test`] certainly drops all boxes of a node for each ray of a tile that is tested alone, as a
+    /// tile of one. `of_ray` is what these tiles of one share, `sides` are those of the whole tile.
+    ///
+    /// With `f` the exact function of one of the tile's sides, and `g` that of the same side of one of its rays, `f − g`
+    /// is `t` (of a parallel camera: 1) times the columns or rows between the two sides. These are at least 0, because
+    /// [`MapErrors::wide`] is half of a tile and the same rest for tiles of any size, but for the rounding of `wide`,
+    /// which is far less than 2⁻⁴⁴ and so makes less than the error of a side. Where the box is in front of the eye,
+    /// its `t` is at least 0, too. So if `e` and `r` are the errors of sides of the tile and of a ray, and the largest
+    /// value of `f` in the box is computed to be below `−e − 3r`, the exact one is below `−3r`, that of `g` below `−2r`,
+    /// and is computed to be below `−r`, where the test drops the box. What it computes of `t` does not depend on the
+    /// ray.
+    ///
+    /// [`MapErrors::wide`]: crate::fast::camera_map::MapErrors::wide
+    #[inline(always)]
+    pub(crate) fn all_rays_miss<C: Context>(
+        &self,
+        context: &C,
+        (sides, parallel): (&[WorldAffine; 4], bool),
+        of_ray: &BoxCulling,
+        node: &Node,
+    ) -> bool {
+        let simd = context.simd();
+        let splat = |value: f32| f32x16::splat(simd, value);
+        let boxes = self.from_origin(simd, node);
+        let [left, right, upper, lower] = sides;
+        let across = left.extreme(&boxes, true).min(right.extreme(&boxes, true));
+        let down = upper.extreme(&boxes, true).min(lower.extreme(&boxes, true));
+        let room = (self.sides_error + (3.0 * of_ray.sides_error).next_up()).next_up();
+        let beside = across.min(down).simd_lt(splat(-room));
+        let in_front = if parallel {
+            f32::NEG_INFINITY
+        } else {
+            upward(f64::from(self.t_error) - self.t_at_origin).next_up()
+        };
+        let (near, far) = (self.t.extreme(&boxes, false), self.t.extreme(&boxes, true));
+        let beside = beside & near.simd_ge(splat(in_front));
+        let missed = beside | far.simd_lt(splat(of_ray.least_t));
+        (!missed).to_bitmask() & ((1 << node.used) - 1) == 0
+    }
+
+    /// The low and the high sides of a node's boxes along each axis, counted from the origin.
+    #[inline(always)]
+    fn from_origin<S: Simd>(&self, simd: S, node: &Node) -> [[f32x16<S>; 2]; 3] {
+        let [ox, oy, oz] = self.origin;
+        let [lx, ly, lz, hx, hy, hz] = &node.bounds;
+        [
+            [f32x16::load_array_ref(simd, lx) - ox, f32x16::load_array_ref(simd, hx) - ox],
+            [f32x16::load_array_ref(simd, ly) - oy, f32x16::load_array_ref(simd, hy) - oy],
+            [f32x16::load_array_ref(simd, lz) - oz, f32x16::load_array_ref(simd, hz) - oz],
+        ]
     }
 }
 

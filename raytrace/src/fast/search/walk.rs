@@ -107,6 +107,31 @@ impl<'a> Walker<'a> {
         }
     }
 
+    /// How many boxes each ray of a tile tests when it is walked alone, if every ray certainly misses all of them.
+    #[inline(always)]
+    pub(crate) fn boxes_all_missed<C: Context>(
+        &self,
+        context: &C,
+        frustum: &TileFrustum,
+        of_ray: &FrustumTemplate,
+    ) -> Option<u64> {
+        let is_node = |root: &NodeRef| matches!(root.kind(), NodeKind::Node);
+        if !self.unbounded.is_empty() || !self.prepared.roots.iter().all(is_node) {
+            return None;
+        }
+        let template = frustum.template;
+        let rays = (&frustum.sides, template.parallel);
+        let nodes = self.prepared.roots.iter().map(|root| &self.prepared.nodes[root.index()]);
+        let mut boxes = 0;
+        for node in nodes {
+            if !template.boxes.all_rays_miss(context, rays, &of_ray.boxes, node) {
+                return None;
+            }
+            boxes += u64::from(node.used);
+        }
+        Some(boxes)
+    }
+
     /// Starts a tile: tests what no box bounds, and puts the roots on the stack.
     #[inline(always)]
     fn begin<C: Context>(
