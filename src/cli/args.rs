@@ -125,6 +125,10 @@ pub(super) struct OutputArgs {
     /// Also write what each order saw at every sample, for other programs to read
     #[arg(long, value_enum, default_value_t = BuffersArg::None)]
     pub(super) buffers: BuffersArg,
+    /// Write only these of the files, separated by commas, and draw only what they need; buffers as --buffers says. The
+    /// work of the algorithm is counted only for the report (also that of --json) and the slide
+    #[arg(long, value_name = "WHAT", value_enum, value_delimiter = ',')]
+    pub(super) only: Vec<OnlyArg>,
     /// Leave measured times out, so that every run writes the same
     #[arg(long)]
     pub(super) no_times: bool,
@@ -139,6 +143,34 @@ pub(super) struct OutputArgs {
     /// Print the report as JSON instead of the table
     #[arg(long)]
     pub(super) json: bool,
+}
+
+impl OutputArgs {
+    /// Whether this file is to be written.
+    pub(super) fn wants(&self, what: OnlyArg) -> bool {
+        self.only.is_empty() || self.only.contains(&what)
+    }
+
+    /// Whether the work of the algorithm is to be counted.
+    pub(super) fn counts(&self) -> bool {
+        let shown = self.json
+            || [OnlyArg::Report, OnlyArg::Slide].map(|what| self.wants(what)) != [false; 2];
+        shown && !self.no_counts
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum OnlyArg {
+    /// The picture of each order, object-order.png and image-order.png
+    Picture,
+    /// The coverage of each order, mask-object-order.png and mask-image-order.png
+    Mask,
+    /// Where the orders differ, difference.png
+    Difference,
+    /// Both orders side by side, side-by-side.png
+    Slide,
+    /// All numbers, report.json
+    Report,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -1,6 +1,6 @@
 //! `bothways render`: from a scene to the output folder and the verdict.
 
-use super::args::{BuffersArg, MethodArg, OrderArg, RenderArgs};
+use super::args::{BuffersArg, MethodArg, OnlyArg, OrderArg, RenderArgs};
 use super::camera::{camera, squashed};
 use super::failure::Failure;
 use super::output::{NewFile, Out, Staging};
@@ -157,7 +157,7 @@ fn render_options<'a>(args: &RenderArgs, progress: Option<Listener<'a>>) -> Rend
         frame: args.method.options(),
         rules: args.method.rules(),
         repeat: args.method.repeat,
-        no_counts: args.output.no_counts,
+        no_counts: !args.output.counts(),
         no_times: args.output.no_times,
         colors_and_normals: args.output.buffers == BuffersArg::Exr,
         progress,
@@ -263,6 +263,7 @@ impl<'a> Run<'a> {
 
     /// The files of the run, those first that take longest.
     fn files<'b>(&'b self, json: &'b str, layers: &'b [exr::Layer<'b>]) -> Vec<NewFile<'b>> {
+        let wants = |what| self.args.output.wants(what);
         let mut files = Vec::new();
         if let ([object_order, image_order], [by_object, by_image], Some(comparison)) =
             (self.rendered.as_slice(), self.pictures.as_slice(), &self.comparison)
@@ -277,15 +278,19 @@ impl<'a> Run<'a> {
                 pictures: [by_object, by_image],
                 comparison,
             };
-            files.push(NewFile::rgb("side-by-side.png", move || {
-                slide.draw(Theme::Dark).pixels(SLIDE_WIDTH)
-            }));
-            files.push(NewFile::rgb("difference.png", move || {
+            if wants(OnlyArg::Slide) {
+                let picture = move || slide.draw(Theme::Dark).pixels(SLIDE_WIDTH);
+                files.push(NewFile::rgb("side-by-side.png", picture));
+            }
+            let difference = move || {
                 let difference = comparison.classes().picture(by_object);
                 // For a crop, the picture has the size of the crop, as all output has.
                 let whole = object_order.frame.crop().is_none();
                 if whole { enlarged(difference) } else { difference }
-            }));
+            };
+            if wants(OnlyArg::Difference) {
+                files.push(NewFile::rgb("difference.png", difference));
+            }
         }
         if self.args.output.buffers == BuffersArg::Exr {
             let content = |out: &mut _| exr::write(layers, self.camera, out);
@@ -293,8 +298,12 @@ impl<'a> Run<'a> {
         }
         for (Rendered { order, frame, .. }, picture) in self.rendered.iter().zip(&self.pictures) {
             let stem = order.file_stem();
-            files.push(NewFile::finished_rgb(format!("{stem}.png"), picture));
-            files.push(NewFile::grey(format!("mask-{stem}.png"), || mask(frame)));
+            if wants(OnlyArg::Picture) {
+                files.push(NewFile::finished_rgb(format!("{stem}.png"), picture));
+            }
+            if wants(OnlyArg::Mask) {
+                files.push(NewFile::grey(format!("mask-{stem}.png"), || mask(frame)));
+            }
             if self.args.output.buffers == BuffersArg::Npy {
                 files.push(NewFile::rgb(format!("{stem}.ids.png"), || id_picture(frame)));
                 let ids = |out: &mut Out| npy::write_ids(frame, out);
@@ -303,7 +312,9 @@ impl<'a> Run<'a> {
                 files.push(NewFile::new(format!("{stem}.t.npy"), distances));
             }
         }
-        files.push(NewFile::new("report.json", |out| out.write_all(json.as_bytes())));
+        if wants(OnlyArg::Report) {
+            files.push(NewFile::new("report.json", |out| out.write_all(json.as_bytes())));
+        }
         files
     }
 }

@@ -51,6 +51,9 @@ pub(super) fn footprint(pixel: u32, from: u32, to: u32) -> RangeInclusive<u32> {
 /// The picture in another size, for a size from [`fitted`].
 pub(super) fn resized(picture: &RgbImage, size: [u32; 2]) -> RgbImage {
     let [width, height] = [picture.width(), picture.height()];
+    if size == [width, height] {
+        return picture.clone();
+    }
     if size[0].is_multiple_of(width) && size[1].is_multiple_of(height) {
         let (across, down) = (size[0] / width, size[1] / height);
         return RgbImage::from_fn(size[0], size[1], |x, y| {
@@ -67,7 +70,9 @@ fn averaged(picture: &RgbImage, [width, height]: [u32; 2]) -> RgbImage {
     let columns = Overlaps::new(picture.width(), width);
     let rows = Overlaps::new(picture.height(), height);
 
-    let mut sums = vec![[0.0_f32; 3]; width as usize * height as usize];
+    // Written at once: pages of zeros that are read first cost a round to all threads at their first write.
+    let mut sums = Vec::new();
+    sums.resize(width as usize * height as usize, [0.0_f32; 3]);
     let mut narrow = vec![[0.0_f32; 3]; width as usize];
     for (i, row) in picture.rows().enumerate() {
         narrow.fill([0.0; 3]);
@@ -82,8 +87,11 @@ fn averaged(picture: &RgbImage, [width, height]: [u32; 2]) -> RgbImage {
             sums.iter_mut().zip(&narrow).for_each(|(sum, light)| add(sum, *light, share));
         }
     }
-    let bytes = sums.into_iter().flat_map(|sum| sum.map(srgb_from_linear)).collect();
-    RgbImage::from_raw(width, height, bytes).expect("three bytes a pixel")
+    let mut resized = RgbImage::new(width, height);
+    for (pixel, [red, green, blue]) in resized.as_chunks_mut::<3>().0.iter_mut().zip(sums) {
+        *pixel = [srgb_from_linear(red), srgb_from_linear(green), srgb_from_linear(blue)];
+    }
+    resized
 }
 
 fn add(sum: &mut [f32; 3], light: [f32; 3], share: f32) {

@@ -289,3 +289,29 @@ fn a_scene_file_of_dots_stays_below_the_out_folder() {
         fs::remove_dir_all(home.path().join("out")).unwrap();
     }
 }
+
+#[test]
+fn only_the_wanted_files_are_written() {
+    let home = home();
+    let render = |more: &[&str]| {
+        let args = [&["canonical", "--size", "8x6", "--no-times", "-o", "out"], more].concat();
+        let output = bothways(&home, &args).assert().success().get_output().stdout.clone();
+        (names(&home.path().join("out")), String::from_utf8(output).unwrap())
+    };
+    let (all, table) = render(&[]);
+    assert_eq!(all.len(), 7);
+    assert!(table.contains("work of the algorithm"));
+    // The files of the earlier run go, too.
+    let (pictures, table) = render(&["--only", "picture"]);
+    assert_eq!(pictures, ["image-order.png", "object-order.png"]);
+    assert!(!table.contains("work of the algorithm") && table.contains("match"), "{table}");
+    let masks = ["mask-image-order.png", "mask-object-order.png"];
+    assert_eq!(render(&["--only", "mask,report"]).0, [&masks[..], &["report.json"]].concat());
+    let (slide, table) = render(&["--only", "slide", "--only", "difference"]);
+    assert_eq!(slide, ["difference.png", "side-by-side.png"]);
+    assert!(table.contains("work of the algorithm"));
+    let (ids, _) = render(&["--only", "mask", "--order", "image", "--buffers", "npy"]);
+    assert_eq!(ids.len(), 4, "{ids:?}");
+    let (_, json) = render(&["--only", "picture", "--json"]);
+    assert!(json.contains("depth_tests"), "{json}");
+}

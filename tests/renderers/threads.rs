@@ -1,7 +1,9 @@
-//! The number of threads changes no bit of the pictures of either order, and no count.
+//! Neither the number of threads nor the level of SIMD changes a bit of the pictures of either order, or a count.
 
-use bothways::common::{Frame, Options, View, Work};
-use bothways::{rasterize, raytrace};
+use bothways::common::engine::simd::levels;
+use bothways::common::{Camera, Frame, Options, View, Work};
+use bothways::{rasterize, raytrace, scenes};
+use bothways_test_support::PROJECTIONS;
 use bothways_test_support::repeats::{cameras, still_life};
 
 #[test]
@@ -32,6 +34,42 @@ fn threads_never_change_a_bit() {
         let one = with_threads(1);
         for threads in [2, 3, 7] {
             assert_eq!(with_threads(threads), one, "{threads} threads");
+        }
+    }
+}
+
+/// Pictures are wider than what is shaded at once. The scenes have triangles, smooth and flat ones, spheres, planes,
+/// patterns and all sorts of light.
+#[test]
+fn no_level_of_simd_changes_a_bit_of_what_is_shaded() {
+    for (name, samples) in [("lecture", 1), ("overlap", 1), ("inside", 2)] {
+        let loaded = scenes::load(name).unwrap();
+        for projection in PROJECTIONS {
+            let mut description = loaded.camera;
+            (description.image, description.projection) =
+                ([520 / samples, 210 / samples], projection);
+            let camera = Camera::new(description).unwrap();
+            let view = View::new(&loaded.scene, &camera);
+            let options = Options { samples, ..Options::default() };
+            let empty = Frame::new(&camera, &options);
+            let empty = empty.with_colors().with_normals().with_texture_coordinates();
+            let (mut object, mut image) = (empty.clone(), empty);
+            let prepared = rasterize::fast::prepare(&loaded.scene);
+            rasterize::fast::determine_visibility(&prepared, &view, &options, &mut object, &mut ());
+            let prepared = raytrace::fast::prepare(&loaded.scene);
+            raytrace::fast::determine_visibility(&prepared, &view, &options, &mut image, &mut ());
+            let shaded = |level| {
+                let (mut object, mut image) = (object.clone(), image.clone());
+                rasterize::shade_with(&view, &mut object, level);
+                raytrace::shade_with(&view, &mut image, level);
+                [object, image]
+            };
+            let all: Vec<_> = levels().into_iter().map(shaded).collect();
+            let colors = all[0][0].picture().iter().collect::<std::collections::HashSet<_>>();
+            assert!(colors.len() > 100, "{name}, {projection:?}: {} colours", colors.len());
+            for other in &all[1..] {
+                assert!(*other == all[0], "{name}, {projection:?}");
+            }
         }
     }
 }

@@ -553,14 +553,14 @@ impl<'a, A: Surfaces> Look<'a, A> {
             };
             for at in (begin..end).step_by(16) {
                 let [low, high] =
-                    each!(at in [at, at + 8] => eight_vectors(simd, &chunk.direction, at));
+                    each!(half in [at, at + 8] => eight_vectors(simd, &chunk.direction, half));
                 let to_viewer = low.narrow(high).normalized(simd).negated();
                 let [low, high] =
-                    each!(at in [at, at + 8] => eight_vectors(simd, &chunk.normal, at));
+                    each!(half in [at, at + 8] => eight_vectors(simd, &chunk.normal, half));
                 let normal = low.narrow(high).normalized(simd);
                 let fraction = eight(simd, &chunk.fraction, at);
                 let points = SurfacePoints {
-                    positions: each!(at in [at, at + 8] => eight_vectors(simd, &chunk.position, at)),
+                    positions: each!(half in [at, at + 8] => eight_vectors(simd, &chunk.position, half)),
                     normals: normal,
                     to_viewer,
                     fraction: fraction.narrow(eight(simd, &chunk.fraction, at + 8)),

@@ -93,15 +93,12 @@ impl<S: Simd> DVec3x8<S> {
     /// A vector for each sample.
     #[inline(always)]
     pub fn from_fn(simd: S, of: impl Fn(usize) -> DVec3) -> Self {
-        let mut coordinates = [[0.0; 8]; 3];
-        for lane in 0..8 {
-            let vector = of(lane);
-            coordinates[0][lane] = vector.x;
-            coordinates[1][lane] = vector.y;
-            coordinates[2][lane] = vector.z;
+        let vectors: [DVec3; 8] = std::array::from_fn(of);
+        Lanes {
+            x: f64x8::from_fn(simd, |lane| vectors[lane].x),
+            y: f64x8::from_fn(simd, |lane| vectors[lane].y),
+            z: f64x8::from_fn(simd, |lane| vectors[lane].z),
         }
-        let [x, y, z] = each!(k in [0, 1, 2] => f64x8::from_slice(simd, &coordinates[k]));
-        Lanes { x, y, z }
     }
 
     /// The vector of one sample.

@@ -60,14 +60,14 @@ fn grey(out: &mut Out, picture: &GrayImage) -> io::Result<()> {
     png(out, picture, picture.dimensions(), ColorType::L8)
 }
 
-/// One filter for all rows: trying all for each row takes longer than all the rest.
+/// One filter for all rows: of our pictures it makes files as small as the best filter for each row, in less time.
 fn png(
     out: &mut Out,
     bytes: &[u8],
     (width, height): (u32, u32),
     color: ColorType,
 ) -> io::Result<()> {
-    PngEncoder::new_with_quality(out, CompressionType::Fast, FilterType::Up)
+    PngEncoder::new_with_quality(out, CompressionType::Fast, FilterType::Paeth)
         .write_image(bytes, width, height, color.into())
         .map_err(io::Error::other)
 }

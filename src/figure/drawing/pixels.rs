@@ -134,17 +134,21 @@ impl Canvas {
     }
 
     fn into_image(self) -> RgbImage {
-        let bytes = self.pixels.pixels().iter().flat_map(|p| [p.red(), p.green(), p.blue()]);
-        let (width, height) = (self.pixels.width(), self.pixels.height());
-        RgbImage::from_raw(width, height, bytes.collect()).expect("three bytes a pixel")
+        let mut image = RgbImage::new(self.pixels.width(), self.pixels.height());
+        // The background is opaque, and so are all pixels.
+        let from = self.pixels.data().as_chunks::<4>().0;
+        for (to, &[red, green, blue, _]) in image.as_chunks_mut::<3>().0.iter_mut().zip(from) {
+            *to = [red, green, blue];
+        }
+        image
     }
 }
 
 fn pixmap(picture: &RgbImage) -> Pixmap {
     let mut pixels = Pixmap::new(picture.width(), picture.height()).expect("a picture has pixels");
-    for (to, from) in pixels.pixels_mut().iter_mut().zip(picture.pixels()) {
-        let [red, green, blue] = from.0;
-        *to = tiny_skia::ColorU8::from_rgba(red, green, blue, u8::MAX).premultiply();
+    let from = picture.as_chunks::<3>().0;
+    for (to, &[red, green, blue]) in pixels.data_mut().as_chunks_mut::<4>().0.iter_mut().zip(from) {
+        *to = [red, green, blue, u8::MAX];
     }
     pixels
 }

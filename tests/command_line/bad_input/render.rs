@@ -191,6 +191,10 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
         "canonical --buffers tiff",
         "invalid value 'tiff' for '--buffers <BUFFERS>' [possible values: none, npy, exr]",
     ),
+    (
+        "canonical --only masks",
+        "invalid value 'masks' for '--only <WHAT>' [possible values: picture, mask, difference, slide, report]",
+    ),
     ("canonical --quiet --json", "the argument '--quiet' cannot be used with '--json'"),
     ("canonical --quiet=yes", "unexpected value 'yes' for '--quiet' found; no more were expected"),
     ("canonical --json=yes", "unexpected value 'yes' for '--json' found; no more were expected"),

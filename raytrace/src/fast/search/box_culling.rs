@@ -126,7 +126,7 @@ impl BoxCulling {
         farthest: f32,
     ) -> BoxHits {
         let simd = context.simd();
-        let boxes = self.from_origin(simd, node);
+        let boxes = self.boxes_of(simd, node);
         let [left, right, upper, lower] = sides;
         let across = left.extreme(&boxes, true).min(right.extreme(&boxes, true));
         let down = upper.extreme(&boxes, true).min(lower.extreme(&boxes, true));
@@ -166,7 +166,7 @@ impl BoxCulling {
     ) -> bool {
         let simd = context.simd();
         let splat = |value: f32| f32x16::splat(simd, value);
-        let boxes = self.from_origin(simd, node);
+        let boxes = self.boxes_of(simd, node);
         let [left, right, upper, lower] = sides;
         let across = left.extreme(&boxes, true).min(right.extreme(&boxes, true));
         let down = upper.extreme(&boxes, true).min(lower.extreme(&boxes, true));
@@ -185,7 +185,7 @@ impl BoxCulling {
 
     /// The low and the high sides of a node's boxes along each axis, counted from the origin.
     #[inline(always)]
-    fn from_origin<S: Simd>(&self, simd: S, node: &Node) -> [[f32x16<S>; 2]; 3] {
+    fn boxes_of<S: Simd>(&self, simd: S, node: &Node) -> [[f32x16<S>; 2]; 3] {
         let [ox, oy, oz] = self.origin;
         let [lx, ly, lz, hx, hy, hz] = &node.bounds;
         [
