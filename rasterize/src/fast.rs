@@ -54,6 +54,7 @@ pub use partition::ClusterBox;
 pub use prepared::Prepared;
 pub(crate) use prepared::corners;
 
+use bothways_common::engine::any_observer::AnyObserver;
 use bothways_common::engine::context::Parts;
 use bothways_common::engine::fault::{Fault, Planted, Sound};
 use bothways_common::engine::memory::filled;
@@ -147,8 +148,7 @@ pub fn determine_visibility_with_fault<F: Fault>(
     run(prepared, view, options, frame, &mut (), &const { Loops::new::<F>() });
 }
 
-/// The loops, sound or with faults in them, watched or not. [`run`] calls them through pointers: it is compiled for
-/// each observer, and they are not.
+/// The loops, sound or with faults in them, watched or not. [`run`] calls them through pointers: it is compiled once.
 struct Loops {
     is: fn(Planted) -> bool,
     fill: fn(&mut BatchBins, &Batch, &Geometry, Level, Option<&mut dyn Events>) -> Executed,
@@ -170,9 +170,16 @@ fn fill<F: Fault>(
     level: Level,
     sink: Option<&mut dyn Events>,
 ) -> Executed {
-    dispatch_with!(F, level, simd => match sink {
-        None => bins.fill(&mut Parts::<_, _, F>::of(simd, &mut ()), batch, geometry),
-        Some(sink) => bins.fill(&mut Parts::<_, _, F>::of(simd, sink), batch, geometry),
+    // Nobody watches a renderer with faults, so that code is never compiled.
+    if const { F::SOUND }
+        && let Some(sink) = sink
+    {
+        return dispatch_with!(F, level, simd => {
+            bins.fill(&mut Parts::<_, _, F>::of(simd, sink), batch, geometry)
+        });
+    }
+    dispatch_with!(F, level, simd => {
+        bins.fill(&mut Parts::<_, _, F>::of(simd, &mut ()), batch, geometry)
     })
 }
 
@@ -182,7 +189,9 @@ fn draw_tile<F: Fault>(
     buffer: &mut TileBuffer,
     sink: Option<&mut dyn Events>,
 ) {
-    if let Some(sink) = sink {
+    if const { F::SOUND }
+        && let Some(sink) = sink
+    {
         if drawing.draw_tile(&mut Parts::<_, _, F>::of((), sink), tile, buffer) {
             return;
         }
@@ -193,12 +202,12 @@ fn draw_tile<F: Fault>(
 }
 
 /// The outer loop: the vertex stage, then all batches of primitives, then all tiles.
-fn run<O: Observer>(
+fn run(
     prepared: &Prepared,
     view: &View,
     options: &Options,
     frame: &mut Frame,
-    observer: &mut O,
+    observer: &mut dyn AnyObserver,
     loops: &Loops,
 ) -> Executed {
     assert_eq!(prepared.primitives, view.scene.primitive_count(), "another scene was prepared");
@@ -281,78 +290,63 @@ fn place_vertices(
 }
 
 /// Lists for every batch which of its primitives may affect which tile.
-fn bin_primitives<O: Observer>(
+fn bin_primitives(
     prepared: &Prepared,
     geometry: &Geometry,
     bins: &mut Vec<BatchBins>,
-    observer: &mut O,
+    observer: &mut dyn AnyObserver,
     loops: &Loops,
 ) -> Executed {
     bins.resize_with(prepared.batches.len(), BatchBins::default);
-    let shared: &O = observer;
-    let forks: Vec<(O, Executed)> = prepared
-        .batches
-        .par_iter()
-        .zip(bins)
-        .map(|(batch, bins)| {
-            let mut observer = shared.fork();
-            let executed = (loops.fill)(bins, batch, geometry, prepared.level, observer.sink());
-            (observer, executed)
-        })
-        .collect();
-    join(observer, forks)
-}
-
-/// Takes back what the observers of all parts have seen, and returns what was executed for all of them.
-fn join<O: Observer>(observer: &mut O, parts: impl IntoIterator<Item = (O, Executed)>) -> Executed {
     let mut executed = Executed::default();
-    for (part, of_part) in parts {
-        observer.join(part);
-        executed += of_part;
-    }
+    observer.in_parts(bins.len(), &mut |parts| {
+        let batches = prepared.batches.par_iter().zip(bins.par_iter_mut()).zip(parts);
+        let of_batches = batches.map(|((batch, bins), part)| {
+            (loops.fill)(bins, batch, geometry, prepared.level, part.sink())
+        });
+        executed = of_batches.sum();
+    });
     executed
 }
 
 /// Draws every tile, and stores it in the frame. `buffers` are those of earlier frames, and become those of this one.
-fn draw_tiles<O: Observer>(
+fn draw_tiles(
     drawing: &Drawing,
     frame: &mut Frame,
     buffers: &mut Vec<TileBuffer>,
-    observer: &mut O,
+    observer: &mut dyn AnyObserver,
     loops: &Loops,
 ) -> Executed {
     let Drawing { geometry: &Geometry { view, tiling, .. }, picture, bins, level } = *drawing;
-    let shared: &O = observer;
-    let tiles: Vec<frame::Tile> = frame.tiles_mut(tiling.rows, tiling.columns);
+    let mut tiles: Vec<frame::Tile> = frame.tiles_mut(tiling.rows, tiling.columns);
     let dropped = (loops.is)(Planted::DroppedTile).then_some(tiles.len() / 2);
-    // Tiles with most to draw come first, so that all threads end at about the same time.
-    let mut queue: Vec<(usize, frame::Tile)> = tiles.into_iter().enumerate().collect();
-    queue.sort_by_cached_key(|(index, _)| {
-        Reverse(bins.iter().map(|bins| bins.work(*index)).sum::<usize>())
-    });
-    let (count, queue) = (queue.len(), Mutex::new(queue.into_iter()));
     let free = Mutex::new(std::mem::take(buffers));
-    let mut forks: Vec<(usize, (O, Executed))> = (0..count)
-        .into_par_iter()
-        .with_max_len(1)
-        .map(|_| {
-            let (index, tile) = lock(&queue).next().expect("there are as many");
-            let mut observer = shared.fork();
+    let mut executed = Executed::default();
+    observer.in_parts(tiles.len(), &mut |parts| {
+        // Tiles with most to draw come first, so that all threads end at about the same time.
+        let mut queue: Vec<_> =
+            std::mem::take(&mut tiles).into_iter().zip(parts).enumerate().collect();
+        queue.sort_by_cached_key(|(index, _)| {
+            Reverse(bins.iter().map(|bins| bins.work(*index)).sum::<usize>())
+        });
+        let (count, queue) = (queue.len(), Mutex::new(queue.into_iter()));
+        let of_tiles = (0..count).into_par_iter().with_max_len(1).map(|_| {
+            let (index, (tile, part)) = lock(&queue).next().expect("there are as many");
             if dropped == Some(index) || bins.iter().all(|bins| bins.work(index) == 0) {
                 store_nothing(tile);
-                return (index, (observer, Executed::default().of_one_tile()));
+                return Executed::default().of_one_tile();
             }
             let buffer = lock(&free).pop().filter(|buffer| buffer.fits(tiling));
             let mut buffer = buffer.unwrap_or_else(|| TileBuffer::new(view, tiling));
             buffer.begin(view, &tile.region);
-            (loops.draw_tile)(drawing, index, &mut buffer, observer.sink());
+            (loops.draw_tile)(drawing, index, &mut buffer, part.sink());
             dispatch!(level, simd => store(simd, picture, &mut buffer, tile));
             let executed = buffer.executed.of_one_tile();
             lock(&free).push(buffer);
-            (index, (observer, executed))
-        })
-        .collect();
+            executed
+        });
+        executed = of_tiles.sum();
+    });
     *buffers = free.into_inner().unwrap_or_default();
-    forks.sort_unstable_by_key(|(index, _)| *index);
-    join(observer, forks.into_iter().map(|(_, fork)| fork))
+    executed
 }

@@ -44,6 +44,7 @@ mod tile;
 mod triangle;
 mod world_affine;
 
+use bothways_common::engine::any_observer::{AnyObserver, PartObserver};
 use bothways_common::engine::context::{Parts, ScalarContext};
 use bothways_common::engine::fault::{Fault, Planted, Sound};
 use bothways_common::engine::simd::dispatch_with;
@@ -136,8 +137,8 @@ pub fn determine_visibility_with_fault<F: Fault>(
     run(prepared, view, options, frame, &mut (), &const { Loops::new::<F>() });
 }
 
-/// The loops over a chunk of the picture, sound or with faults in them. So [`run`], which is compiled for each
-/// observer, takes little time to compile.
+/// The loops over a chunk of the picture, sound or with faults in them. [`run`] calls them through pointers: it is
+/// compiled once.
 struct Loops {
     is: fn(Planted) -> bool,
     watch: fn(&mut Walker, [&FrustumTemplate; 2], &Tile, &mut dyn Events),
@@ -161,12 +162,12 @@ impl Loops {
     }
 }
 
-fn run<O: Observer>(
+fn run(
     prepared: &Prepared,
     view: &View,
     options: &Options,
     frame: &mut Frame,
-    observer: &mut O,
+    observer: &mut dyn AnyObserver,
     loops: &Loops,
 ) -> Executed {
     assert_eq!(prepared.primitives, view.scene.primitive_count(), "another scene was prepared");
@@ -176,32 +177,25 @@ fn run<O: Observer>(
     let side = if (loops.is)(Planted::ShrunkBox) { 1 } else { prepared.side };
     let (of_tile, of_ray) = (loops.template(&map, side), loops.template(&map, 1));
 
-    let (shared, chunks): (&O, Vec<Tile>) = (observer, frame.tiles_mut(prepared.side, CHUNK));
+    let mut chunks: Vec<Tile> = frame.tiles_mut(prepared.side, CHUNK);
     let dropped = (loops.is)(Planted::DroppedTile).then_some(chunks.len() / 2);
-    let parts: Vec<(O, Executed)> = chunks
-        .into_par_iter()
-        .with_max_len(1)
-        .enumerate()
-        .map_init(
-            || Walker::new(prepared, &map),
-            |walker, (index, chunk)| {
-                let mut observer = shared.fork();
-                if dropped == Some(index) {
-                    drop_chunk(chunk);
-                    return (observer, Executed::default());
-                }
-                if let Some(sink) = observer.sink() {
-                    (loops.watch)(walker, [&of_tile, &of_ray], &chunk, sink);
-                }
-                (observer, (loops.trace)(walker, &of_tile, chunk))
-            },
-        )
-        .collect();
     let mut executed = Executed::default();
-    for (part, of_part) in parts {
-        observer.join(part);
-        executed += of_part;
-    }
+    observer.in_parts(chunks.len(), &mut |parts| {
+        let draw = |walker: &mut Walker, (index, (chunk, part)): (_, (Tile, &mut _))| {
+            if dropped == Some(index) {
+                drop_chunk(chunk);
+                return Executed::default();
+            }
+            if let Some(sink) = PartObserver::sink(part) {
+                (loops.watch)(walker, [&of_tile, &of_ray], &chunk, sink);
+            }
+            (loops.trace)(walker, &of_tile, chunk)
+        };
+        let chunks = std::mem::take(&mut chunks).into_par_iter().zip(parts);
+        let each = chunks.with_max_len(1).enumerate();
+        let of_chunks = each.map_init(|| Walker::new(prepared, &map), draw);
+        executed = of_chunks.sum();
+    });
     executed
 }
 
@@ -219,6 +213,10 @@ fn watch<F: Fault>(
     chunk: &Tile,
     sink: &mut dyn Events,
 ) {
+    // Nobody watches a renderer with faults, so that code is never compiled.
+    if const { !F::SOUND } {
+        return;
+    }
     dispatch_with!(F, walker.prepared.level, simd => {
         let mut context = Parts::<_, dyn Events, F>::of(simd, sink);
         let only_counts = context.sink().counts().is_some();

@@ -1,5 +1,6 @@
 //! What the loops of a fast renderer executed for a frame.
 
+use std::iter::Sum;
 use std::ops::AddAssign;
 
 /// What the loops of a fast renderer executed for one frame, tile by tile, with all that they shared and skipped.
@@ -79,5 +80,14 @@ impl AddAssign for Executed {
         self.lane_steps += part.lane_steps;
         self.blocks += part.blocks;
         self.single_samples += part.single_samples;
+    }
+}
+
+impl Sum for Executed {
+    fn sum<I: Iterator<Item = Executed>>(parts: I) -> Executed {
+        parts.fold(Executed::default(), |mut sum, part| {
+            sum += part;
+            sum
+        })
     }
 }
