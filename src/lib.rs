@@ -2,8 +2,8 @@
 //! proof that both see the same.
 //!
 //! [`rasterize`] walks the objects, [`raytrace`] the pixels. Both know only [`common`], which says
-//! what a scene is and what is true of one sample and one primitive. [`formats`] reads scenes and meshes. This
-//! crate knows all of them.
+//! what a scene is and what is true of one sample and one primitive. [`formats`] reads scenes and meshes.
+//! [`bothways_lab`] knows all of them; this crate shows them under one name, and adds the program.
 //!
 //! # A tour
 //!
@@ -73,23 +73,8 @@ pub use bothways_rasterize as rasterize;
 pub use bothways_raytrace as raytrace;
 pub use bothways_rules as rules;
 
-pub mod check;
-pub mod cover;
-pub mod diff;
-pub mod figure;
-pub mod film;
-pub mod fuzz;
-pub mod grade;
-pub mod opengl;
-pub mod orders;
-pub mod picture;
-pub mod pixel;
-pub mod progress;
-pub mod report;
-mod sample_map;
-pub mod scenes;
-pub mod slides;
-pub mod sweep;
-pub mod vectors;
-pub mod verify;
-pub mod wording;
+#[doc(inline)]
+pub use bothways_lab::{
+    check, cover, diff, figure, film, fuzz, grade, opengl, orders, picture, pixel, progress,
+    report, scenes, slides, sweep, vectors, verify, wording,
+};

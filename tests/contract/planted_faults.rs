@@ -1,7 +1,7 @@
 //! The verdict can fail: each deliberate fault in the visibility code of one order changes the verdict to *differ*,
 //! and without the fault the same picture is a *match*.
 
-use bothways::common::engine::fault::{Faulty, Planted, with};
+use bothways::common::engine::fault::{Planted, with};
 use bothways::common::glam::Vec3;
 use bothways::common::{
     Camera, CameraDescription, Frame, Mesh, Object, Options, Projection, Scene, Shape, View,
@@ -9,6 +9,7 @@ use bothways::common::{
 use bothways::diff::compare;
 use bothways::scenes::load;
 use bothways::{rasterize, raytrace};
+use bothways_test_faults as faults;
 use bothways_test_support::{PROJECTIONS, camera, on_integers, scene, triangle, turned};
 
 /// Whether both orders match when object order, or image order, has a fault.
@@ -38,14 +39,8 @@ fn verdicts(scene: &Scene, camera: &Camera, fault: Option<Planted>) -> Verdicts 
     };
     let sound = (drawn(&rasterized), drawn(&traced));
     assert!(compare(&sound.0, &sound.1).matches(), "without a fault the orders match");
-    let rasterized = |frame: &mut Frame| {
-        let (prepared, options) = (&prepared.0, &options);
-        rasterize::fast::determine_visibility_with_fault(prepared, &view, options, frame, Faulty);
-    };
-    let traced = |frame: &mut Frame| {
-        let (prepared, options) = (&prepared.1, &options);
-        raytrace::fast::determine_visibility_with_fault(prepared, &view, options, frame, Faulty);
-    };
+    let rasterized = |frame: &mut Frame| faults::rasterize(&prepared.0, &view, &options, frame);
+    let traced = |frame: &mut Frame| faults::raytrace(&prepared.1, &view, &options, frame);
     let broken = with(fault, || (drawn(&rasterized), drawn(&traced)));
     Verdicts {
         object_order: compare(&broken.0, &sound.1).matches(),

@@ -6,8 +6,8 @@
 //! into words. Counts are the same on every machine, times are not: they are never mixed in one chart.
 //!
 //! ```
-//! use bothways::orders::Method;
-//! use bothways::sweep::{Axis, Bench, Plan, Quantity, Summary, Table};
+//! use bothways_lab::orders::Method;
+//! use bothways_lab::sweep::{Axis, Bench, Plan, Quantity, Summary, Table};
 //!
 //! let plan = Plan { image: [40, 30], most: 1000, times: false, ..Plan::default() };
 //! let mut bench = Bench::default();

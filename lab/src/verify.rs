@@ -102,14 +102,14 @@ impl Verified {
 /// If there is no rendered order, or the frames belong to another view.
 ///
 /// ```
-/// use bothways::common::{Camera, View};
-/// use bothways::orders::{self, Method, Order, RenderOptions};
+/// use bothways_lab::common::{Camera, View};
+/// use bothways_lab::orders::{self, Method, Order, RenderOptions};
 ///
-/// let scene = bothways::scenes::load("canonical")?.scene;
+/// let scene = bothways_lab::scenes::load("canonical")?.scene;
 /// let camera = Camera::canonical(32, 32);
 /// let view = View::new(&scene, &camera);
 /// let drawn = orders::render(Order::Object, Method::Fast, &view, &RenderOptions::default())?;
-/// let verified = bothways::verify::verify(&view, &[drawn], 100, &|| ());
+/// let verified = bothways_lab::verify::verify(&view, &[drawn], 100, &|| ());
 /// assert!(verified.matches && verified.samples == 100);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

@@ -27,7 +27,7 @@ pub fn count(number: u64, things: &str) -> String {
 /// sides.
 ///
 /// ```
-/// use bothways::{common::Crop, wording::pixels_shown};
+/// use bothways_lab::{common::Crop, wording::pixels_shown};
 ///
 /// let crop = Crop { row: 486, column: 864, height: 108, width: 192 };
 /// assert_eq!(pixels_shown([1920, 1080], None, "x"), "1920 x 1080 pixels");

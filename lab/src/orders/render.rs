@@ -34,12 +34,12 @@ use std::sync::atomic::AtomicU64;
 /// or the source is a stream and it is not object order, fast and exact.
 ///
 /// ```
-/// use bothways::common::{Camera, View};
-/// use bothways::orders::{self, Method, Order, RenderOptions};
+/// use bothways_lab::common::{Camera, View};
+/// use bothways_lab::orders::{self, Method, Order, RenderOptions};
 ///
-/// let scene = bothways::scenes::load("canonical")?.scene;
+/// let scene = bothways_lab::scenes::load("canonical")?.scene;
 /// let camera = Camera::canonical(32, 32);
-/// let listener = |progress: bothways::progress::Progress| {
+/// let listener = |progress: bothways_lab::progress::Progress| {
 ///     eprintln!("{} of {}", progress.done, progress.total);
 /// };
 /// let options = RenderOptions { progress: Some(&listener), ..RenderOptions::default() };

@@ -32,8 +32,8 @@ impl LoadedScene {
     ///
     /// ```
     /// let about = "The lecture's first camera before one triangle, one sphere and one plane.";
-    /// assert_eq!(bothways::scenes::load("canonical")?.about(), Some(about));
-    /// # Ok::<(), bothways::scenes::LoadError>(())
+    /// assert_eq!(bothways_lab::scenes::load("canonical")?.about(), Some(about));
+    /// # Ok::<(), bothways_lab::scenes::LoadError>(())
     /// ```
     pub fn about(&self) -> Option<&str> {
         let comment = self.toml.lines().next()?.strip_prefix('#')?;
@@ -104,9 +104,9 @@ pub enum LoadError {
 /// file.
 ///
 /// ```
-/// let loaded = bothways::scenes::load("canonical")?;
+/// let loaded = bothways_lab::scenes::load("canonical")?;
 /// assert_eq!(loaded.camera.image, [480, 480]);
-/// # Ok::<(), bothways::scenes::LoadError>(())
+/// # Ok::<(), bothways_lab::scenes::LoadError>(())
 /// ```
 pub fn load(source: &str) -> Result<LoadedScene, LoadError> {
     load_for(source, None)

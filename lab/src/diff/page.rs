@@ -4,8 +4,8 @@
 //! in `page/`: `data.js` reads the values, `views.js` draws the pictures, `page.js` obeys the reader.
 //!
 //! ```
-//! use bothways::diff::foreign::{Buffer, Content, compare};
-//! use bothways::diff::page::Page;
+//! use bothways_lab::diff::foreign::{Buffer, Content, compare};
+//! use bothways_lab::diff::page::Page;
 //!
 //! let mine = Buffer::new([3, 1], 1, Content::Mask(vec![true, true, false]));
 //! let yours = Buffer::new([3, 1], 1, Content::Ids(vec![Some(0), None, Some(4)]));

@@ -13,8 +13,8 @@ const ROOM: [u32; 2] = [444, 264];
 /// meant to lie on samples do.
 ///
 /// ```
-/// use bothways::film::default_size;
-/// use bothways::orders::Method;
+/// use bothways_lab::film::default_size;
+/// use bothways_lab::orders::Method;
 ///
 /// let size = |form| default_size(form, Method::Textbook);
 /// assert_eq!(size([640, 480]), [88, 66]);

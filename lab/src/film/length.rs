@@ -17,12 +17,12 @@ pub const MOST_FRAMES: u32 = 10_000;
 /// The length of a film.
 ///
 /// ```
-/// use bothways::film::Length;
+/// use bothways_lab::film::Length;
 ///
 /// let length = Length::new(8.0, 25, 2.0)?;
 /// assert_eq!((length.frames(), length.pause()), (200, 50));
 /// assert_eq!(length.hundredths(), 4);
-/// # Ok::<(), bothways::film::LengthError>(())
+/// # Ok::<(), bothways_lab::film::LengthError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Length {

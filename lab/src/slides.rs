@@ -1,9 +1,9 @@
 //! The whole set of slides for a lecture, in its order: figures, films, captions and the lecturer's notes.
 //!
 //! ```no_run
-//! use bothways::figure::Theme;
-//! use bothways::scenes;
-//! use bothways::slides::Deck;
+//! use bothways_lab::figure::Theme;
+//! use bothways_lab::scenes;
+//! use bothways_lab::slides::Deck;
 //!
 //! let scenes = vec![scenes::load("lecture")?];
 //! let deck = Deck::new(&scenes, Theme::Dark, true)?;

@@ -12,11 +12,11 @@
 //! with many rays at once, walks it with each ray alone: a film shows, as the counts do, what each ray needs.
 //!
 //! ```
-//! use bothways::common::{Camera, CameraDescription, View};
-//! use bothways::figure::Theme;
-//! use bothways::film::{Film, Length};
-//! use bothways::orders::Method;
-//! use bothways::scenes;
+//! use bothways_lab::common::{Camera, CameraDescription, View};
+//! use bothways_lab::figure::Theme;
+//! use bothways_lab::film::{Film, Length};
+//! use bothways_lab::orders::Method;
+//! use bothways_lab::scenes;
 //!
 //! let loaded = scenes::load("canonical")?;
 //! let camera = Camera::new(CameraDescription { image: [16, 16], ..loaded.camera })?;

@@ -6,13 +6,13 @@
 //! colours within the tolerances of [`diff`](super).
 //!
 //! ```
-//! use bothways::diff::foreign::{Buffer, Content, compare};
+//! use bothways_lab::diff::foreign::{Buffer, Content, compare};
 //!
 //! let mine = Buffer::new([3, 1], 1, Content::Mask(vec![true, true, false]));
 //! let yours = Buffer::new([3, 1], 1, Content::Ids(vec![Some(0), None, Some(4)]));
 //! let comparison = compare(&mine, &yours)?;
 //! assert_eq!(comparison.first_differing, [[0, 1], [0, 2]]);
-//! # Ok::<(), bothways::diff::foreign::Incomparable>(())
+//! # Ok::<(), bothways_lab::diff::foreign::Incomparable>(())
 //! ```
 
 mod channels;
@@ -72,14 +72,14 @@ pub fn compare_with_reference(
 /// The errors of [`compare`], and a rectangle to ignore that the buffers do not have.
 ///
 /// ```
-/// use bothways::diff::foreign::{Buffer, CompareOptions, Content, compare_with};
+/// use bothways_lab::diff::foreign::{Buffer, CompareOptions, Content, compare_with};
 ///
 /// let [mine, yours] = [2.0, 2.001].map(|t| Buffer::new([1, 1], 1, Content::Distances(vec![t])));
 /// let mut options = CompareOptions::default();
 /// assert!(!compare_with(&mine, &yours, &options)?.passes);
 /// options.tolerances.t = 1e-3;
 /// assert!(compare_with(&mine, &yours, &options)?.passes);
-/// # Ok::<(), bothways::diff::foreign::Incomparable>(())
+/// # Ok::<(), bothways_lab::diff::foreign::Incomparable>(())
 /// ```
 pub fn compare_with(
     a: &Buffer,

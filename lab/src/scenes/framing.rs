@@ -43,9 +43,9 @@ fn about(length: f64) -> String {
 /// The view for framing a mesh: the direction, and the image.
 ///
 /// ```
-/// use bothways::common::{Camera, glam::Vec3};
-/// use bothways::formats::generate::Kind;
-/// use bothways::scenes::Framing;
+/// use bothways_lab::common::{Camera, glam::Vec3};
+/// use bothways_lab::formats::generate::Kind;
+/// use bothways_lab::scenes::Framing;
 ///
 /// let teapot = Kind::Teapot.mesh([10, 10])?;
 /// let from_above = Framing {
@@ -98,11 +98,11 @@ const MOST_STEPS: u32 = 16;
 /// The errors of [`Framing::camera`].
 ///
 /// ```
-/// use bothways::common::Camera;
-/// use bothways::formats::generate::Kind;
+/// use bothways_lab::common::Camera;
+/// use bothways_lab::formats::generate::Kind;
 ///
 /// let torus = Kind::Torus.mesh([24, 12])?;
-/// let camera = Camera::new(bothways::scenes::framed(&torus)?)?;
+/// let camera = Camera::new(bothways_lab::scenes::framed(&torus)?)?;
 /// assert_eq!(camera.image(), [640, 480]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

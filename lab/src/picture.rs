@@ -74,7 +74,7 @@ fn srgb_byte(encoded: f64) -> u8 {
 /// pixels of a very small picture are visible; a larger picture stays unchanged.
 ///
 /// ```
-/// use bothways::picture::enlarged;
+/// use bothways_lab::picture::enlarged;
 ///
 /// let size = |side| enlarged(image::RgbImage::new(side, side / 2)).dimensions();
 /// assert_eq!([size(64), size(200), size(640)], [(512, 256), (400, 200), (640, 320)]);

@@ -83,15 +83,15 @@ pub enum CoverError {
 /// An error for a corner that is not finite, or an image of a size that no camera allows.
 ///
 /// ```
-/// use bothways::common::glam::vec2;
-/// use bothways::cover::cover;
+/// use bothways_lab::common::glam::vec2;
+/// use bothways_lab::cover::cover;
 ///
 /// // The hypotenuse passes through the centres of (0, 3), (1, 2), (2, 1), (3, 0): a right edge.
 /// let cover = cover([vec2(0.0, 0.0), vec2(0.0, 4.0), vec2(4.0, 0.0)], [4, 4])?;
 /// let row = |i| (0..4).map(|j| if cover.covers(i, j) { '#' } else { '.' }).collect::<String>();
 /// assert_eq!([row(0), row(1), row(2), row(3)], ["###.", "##..", "#...", "...."]);
 /// assert_eq!((cover.covered(), cover.on_edge(), cover.on_edge_and_covered()), (6, 4, 0));
-/// # Ok::<(), bothways::cover::CoverError>(())
+/// # Ok::<(), bothways_lab::cover::CoverError>(())
 /// ```
 pub fn cover(triangle: [Vec2; 3], image: [u32; 2]) -> Result<Cover, CoverError> {
     if let Some(corner) = triangle.iter().position(|corner| !corner.is_finite()) {

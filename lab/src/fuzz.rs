@@ -9,7 +9,7 @@
 //! threads.
 //!
 //! ```
-//! use bothways::fuzz::{self, Limit, Options, Renderers};
+//! use bothways_lab::fuzz::{self, Limit, Options, Renderers};
 //!
 //! let options = Options { seed: 7, limit: Limit::Scenes(20), ..Options::default() };
 //! let summary = fuzz::run(&options, &Renderers::sound());

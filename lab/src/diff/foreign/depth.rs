@@ -75,8 +75,8 @@ impl Depth {
     /// If the camera's image has another size, or a number is none of this meaning.
     ///
     /// ```
-    /// use bothways::common::{Camera, CameraDescription};
-    /// use bothways::diff::foreign::{Buffer, Content, Depth};
+    /// use bothways_lab::common::{Camera, CameraDescription};
+    /// use bothways_lab::diff::foreign::{Buffer, Content, Depth};
     ///
     /// let camera = CameraDescription { distance: 2.0, image: [1, 1], ..Default::default() };
     /// let along_the_axis = Buffer::new([1, 1], 1, Content::Distances(vec![6.0]));

@@ -52,9 +52,9 @@ impl Scale {
 /// Scene number `scene` of a seed: always the same, and always accepted.
 ///
 /// ```
-/// let case = bothways::fuzz::generate(7, 123);
+/// let case = bothways_lab::fuzz::generate(7, 123);
 /// assert!(case.accepted().is_some());
-/// assert_eq!(case, bothways::fuzz::generate(7, 123));
+/// assert_eq!(case, bothways_lab::fuzz::generate(7, 123));
 /// ```
 pub fn generate(seed: u64, scene: u64) -> Case {
     generate_with(&mut Dice::new(seed, scene))

@@ -13,9 +13,9 @@
 //! gives half of the credit back, two give a quarter; a guess gives nothing.
 //!
 //! ```
-//! use bothways::common::{Camera, CameraDescription, View};
-//! use bothways::diff::foreign::{Buffer, Content};
-//! use bothways::{grade, scenes};
+//! use bothways_lab::common::{Camera, CameraDescription, View};
+//! use bothways_lab::diff::foreign::{Buffer, Content};
+//! use bothways_lab::{grade, scenes};
 //!
 //! let loaded = scenes::load("canonical")?;
 //! let camera = Camera::new(CameraDescription { image: [24, 16], ..loaded.camera })?;

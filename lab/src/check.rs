@@ -5,12 +5,12 @@
 //! ([`find_common_conventions`]), then the reasons of the pixels of each scene ([`find_reasons`]).
 //!
 //! ```no_run
-//! use bothways::check::{self, ConformanceSet};
+//! use bothways_lab::check::{self, ConformanceSet};
 //! use std::path::Path;
 //!
 //! let checked = check::check(Path::new("mine"), &ConformanceSet::BuiltIn, None)?;
 //! println!("{}", checked.verdict());
-//! # Ok::<(), bothways::check::CheckError>(())
+//! # Ok::<(), bothways_lab::check::CheckError>(())
 //! ```
 
 mod page;
