@@ -277,9 +277,9 @@ fn expected(rule: Rule) -> Named {
     }
 }
 
-#[test]
-fn the_diff_names_every_rule_on_its_scene() {
-    for rule in Rule::examples() {
+/// Asserts that the diff names every rule of an order on the rule's own scene.
+fn check_names(order: Order) {
+    for rule in Rule::examples().into_iter().filter(|rule| rule.order() == order) {
         let loaded = load(rule.scene()).expect("it is built in");
         let camera = Camera::new(loaded.camera).expect("it is a camera");
         let view = View::new(&loaded.scene, &camera);
@@ -305,4 +305,14 @@ fn the_diff_names_every_rule_on_its_scene() {
             }
         }
     }
+}
+
+#[test]
+fn the_diff_names_every_rule_of_object_order_on_its_scene() {
+    check_names(Order::Object);
+}
+
+#[test]
+fn the_diff_names_every_rule_of_image_order_on_its_scene() {
+    check_names(Order::Image);
 }

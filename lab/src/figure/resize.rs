@@ -78,13 +78,13 @@ fn averaged(picture: &RgbImage, [width, height]: [u32; 2]) -> RgbImage {
         narrow.fill([0.0; 3]);
         for (j, Rgb(pixel)) in row.enumerate() {
             let light = pixel.map(|channel| linear[usize::from(channel)]);
-            for &(x, share) in columns.of(j) {
-                add(&mut narrow[x], light, share);
+            for &(x, fraction) in columns.of(j) {
+                add(&mut narrow[x], light, fraction);
             }
         }
-        for &(y, share) in rows.of(i) {
+        for &(y, fraction) in rows.of(i) {
             let sums = &mut sums[y * width as usize..][..width as usize];
-            sums.iter_mut().zip(&narrow).for_each(|(sum, light)| add(sum, *light, share));
+            sums.iter_mut().zip(&narrow).for_each(|(sum, light)| add(sum, *light, fraction));
         }
     }
     let mut resized = RgbImage::new(width, height);
@@ -94,11 +94,11 @@ fn averaged(picture: &RgbImage, [width, height]: [u32; 2]) -> RgbImage {
     resized
 }
 
-fn add(sum: &mut [f32; 3], light: [f32; 3], share: f32) {
-    sum.iter_mut().zip(light).for_each(|(sum, light)| *sum += share * light);
+fn add(sum: &mut [f32; 3], light: [f32; 3], fraction: f32) {
+    sum.iter_mut().zip(light).for_each(|(sum, light)| *sum += fraction * light);
 }
 
-/// The new pixels that each old pixel overlaps, along one side, and the share of each new pixel that the old pixel
+/// The new pixels that each old pixel overlaps, along one side, and the fraction of each new pixel that the old pixel
 /// fills.
 struct Overlaps {
     /// Those of all old pixels, one after another.
@@ -116,11 +116,11 @@ impl Overlaps {
             let (begin, end) = (pixel * to, (pixel + 1) * to);
             all.extend((begin / from..=(end - 1) / from).map(|new| {
                 let common = end.min((new + 1) * from) - begin.max(new * from);
-                #[expect(clippy::cast_precision_loss, reason = "a share needs no more than f32")]
-                let share = common as f32 / from as f32;
+                #[expect(clippy::cast_precision_loss, reason = "a fraction needs no more than f32")]
+                let fraction = common as f32 / from as f32;
                 #[expect(clippy::cast_possible_truncation, reason = "an index that fits a side")]
                 let new = new as usize;
-                (new, share)
+                (new, fraction)
             }));
             ends.push(all.len());
         }

@@ -165,7 +165,7 @@ fn leaving_out_hidden_clusters_changes_nothing() {
     ] {
         let scene = scene(meshes.into_iter().map(mesh).collect());
         for projection in PROJECTIONS {
-            for (eye, size) in [([0.3, 0.2, 3.0], [64, 48]), ([0.2, 0.1, 0.9], [21, 30])] {
+            for (eye, size) in [([0.3, 0.2, 3.0], [44, 33]), ([0.2, 0.1, 0.9], [21, 30])] {
                 let camera = turned(projection, eye, [0.0; 3], size);
                 let (view, options) = (View::new(&scene, &camera), Options::default());
                 let expected = textbook::render(&view, &options);
