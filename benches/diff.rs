@@ -34,7 +34,7 @@ fn values<T>(second: bool, value: impl Fn(u32, bool) -> T) -> Vec<T> {
 
 fn mask(second: bool) -> Buffer<'static> {
     let mask = values(second, |pixel, other| is_drawn(pixel) != other);
-    Buffer::new(SIZE, 1, Content::Mask(mask))
+    Buffer::new(SIZE, 1, Content::Mask(mask.into()))
 }
 
 fn ids(second: bool) -> Buffer<'static> {

@@ -175,7 +175,8 @@ pub(crate) fn truth(view: &View, like: &Buffer) -> Result<Buffer<'static>, Strin
     } else if like.tells(Aspect::T) {
         Content::Distances(frame.distances().iter().map(|&t| t.into()).collect())
     } else {
-        Content::Mask(frame.ids().iter().map(covered).collect())
+        let mask: Vec<bool> = frame.ids().iter().map(covered).collect();
+        Content::Mask(mask.into())
     };
     Ok(Buffer::new(view.camera.image(), samples, content))
 }

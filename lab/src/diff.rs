@@ -7,6 +7,7 @@
 //! [`foreign`] reads and compares files of any origin, and [`pairs`] finds those of two folders that
 //! belong together.
 
+mod alike;
 mod aspect;
 mod buffer;
 mod buffer_pair;

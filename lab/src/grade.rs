@@ -20,7 +20,7 @@
 //! let loaded = scenes::load("canonical")?;
 //! let camera = Camera::new(CameraDescription { image: [24, 16], ..loaded.camera })?;
 //! let view = View::new(&loaded.scene, &camera);
-//! let nothing = Buffer::new([24, 16], 1, Content::Mask(vec![false; 24 * 16]));
+//! let nothing = Buffer::new([24, 16], 1, Content::Mask(vec![false; 24 * 16].into()));
 //! let grade = grade::grade(&view, &nothing)?;
 //! assert_eq!((grade.right, grade.score()), (0, 0.0));
 //! # Ok::<(), Box<dyn std::error::Error>>(())

@@ -64,7 +64,8 @@ fn drawn(vector: &Vector, mistake: Mistake) -> Buffer<'static> {
 /// The coverage of a buffer of ids.
 fn mask_of(buffer: &Buffer) -> Buffer<'static> {
     let Content::Ids(ids) = buffer.content() else { panic!("no ids") };
-    Buffer::new(buffer.size(), 1, Content::Mask(ids.iter().map(Option::is_some).collect()))
+    let mask: Vec<bool> = ids.iter().map(Option::is_some).collect();
+    Buffer::new(buffer.size(), 1, Content::Mask(mask.into()))
 }
 
 /// The flat scenes of the set: no depth, and corners with few bits.

@@ -3,11 +3,10 @@
 use super::aspect::Aspect;
 use super::classes::pixels;
 use crate::common::Frame;
-use crate::common::engine::simd::{Simd, SimdBase, SimdMask, best_level, dispatch, u8x64};
 use crate::common::frame::NO_PRIMITIVE;
 use image::{Rgb, RgbImage};
 use std::borrow::Cow;
-use std::ops::Range;
+use std::sync::Arc;
 
 /// The values of each pixel of a frame, or of a file of any origin.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,8 +21,8 @@ pub struct Buffer<'a> {
 /// The values of a buffer: pixels row by row, the samples of a pixel together.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Content<'a> {
-    /// Whether each sample is covered.
-    Mask(Vec<bool>),
+    /// Whether each sample is covered. A comparison of equal masks shares them.
+    Mask(Arc<Vec<bool>>),
     /// The visible primitive, `None` for nothing.
     Ids(Vec<Option<u64>>),
     /// The distance. A sample at a finite distance is covered: neither ±∞ nor NaN.
@@ -40,8 +39,8 @@ pub enum Content<'a> {
 /// A frame, and its [`picture`](crate::picture::picture).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Seen<'a> {
-    frame: &'a Frame,
-    picture: &'a RgbImage,
+    pub(super) frame: &'a Frame,
+    pub(super) picture: &'a RgbImage,
 }
 
 /// Colours, and the way in which they determine coverage.
@@ -177,7 +176,10 @@ impl<'a> Buffer<'a> {
             })
         };
         let content = match &self.content {
-            Content::Mask(mask) => Content::Mask(order().map(|sample| mask[sample]).collect()),
+            Content::Mask(mask) => {
+                let mask: Vec<bool> = order().map(|sample| mask[sample]).collect();
+                Content::Mask(mask.into())
+            }
             Content::Ids(ids) => Content::Ids(order().map(|sample| ids[sample]).collect()),
             Content::Distances(t) => Content::Distances(order().map(|sample| t[sample]).collect()),
             // These have one sample a pixel.
@@ -275,7 +277,7 @@ impl<'a> Buffer<'a> {
     }
 
     /// The number of a pixel, row by row.
-    fn pixel(&self, [i, j]: [u32; 2]) -> usize {
+    pub(super) fn pixel(&self, [i, j]: [u32; 2]) -> usize {
         i as usize * self.size[0] as usize + j as usize
     }
 
@@ -308,71 +310,6 @@ impl<'a> Buffer<'a> {
             Content::Picture(picture) => picture.covered(sample),
             Content::Frame(seen) => Some(seen.frame.ids()[sample] != NO_PRIMITIVE),
         }
-    }
-
-    /// The covered ones of up to 64 pixels of a row, if the other buffer is of the same kind and differs there by no more
-    /// than is known of others; both have one sample a pixel. Pixels of colours alone count as covered.
-    pub(super) fn alike_run(
-        &self,
-        other: &Buffer,
-        row: u32,
-        columns: Range<u32>,
-        known: Known,
-    ) -> Option<u64> {
-        let [first, end] = [columns.start, columns.end].map(|j| self.pixel([row, j]));
-        let run = first..end;
-        match (&self.content, &other.content) {
-            (Content::Mask(a), Content::Mask(b)) => {
-                let (a, b) = (&a[run.clone()], &b[run]);
-                dispatch!(best_level(), simd => (a == b).then(|| packed(simd, a)))
-            }
-            (Content::Ids(a), Content::Ids(b)) => {
-                let (a, b) = (&a[run.clone()], &b[run]);
-                all(a, b, |a, b| a == b).then(|| bits(a.iter().map(Option::is_some)))
-            }
-            (Content::Distances(a), Content::Distances(b)) => {
-                let (a, b) = (&a[run.clone()], &b[run]);
-                let alike = |a: &f64, b: &f64| known.covers_distances(*a, *b);
-                all(a, b, alike).then(|| bits(a.iter().map(|t| t.is_finite())))
-            }
-            (Content::Picture(a), Content::Picture(b)) if a.covered == b.covered => {
-                let (Pixels::Bytes(of_a), Pixels::Bytes(of_b)) = (&a.pixels, &b.pixels) else {
-                    return None;
-                };
-                if of_a[run.clone()] != of_b[run.clone()] {
-                    return None;
-                }
-                let covered = |at: usize| a.covered(at) != Some(false);
-                // Of colours alone, nothing tells otherwise.
-                let is_unknown = a.covered == Covered::Unknown;
-                Some(bits(run.map(|at| is_unknown || covered(at))))
-            }
-            (Content::Frame(a), Content::Frame(b)) => {
-                let ids = [a, b].map(|seen| &seen.frame.ids()[run.clone()]);
-                let t = [a, b].map(|seen| &seen.frame.distances()[run.clone()]);
-                let bytes = 3 * run.start..3 * run.end;
-                let colors = [a, b].map(|seen| &seen.picture.as_raw()[bytes.clone()]);
-                let is_alike = ids[0] == ids[1]
-                    && all(t[0], t[1], |a, b| known.covers_distances((*a).into(), (*b).into()))
-                    && all(colors[0], colors[1], |a, b| known.covers_steps(a.abs_diff(*b)));
-                is_alike.then(|| bits(ids[0].iter().map(|&id| id != NO_PRIMITIVE)))
-            }
-            _ => None,
-        }
-    }
-
-    /// The number of covered pixels of a row in which two masks of one sample a pixel are alike; stores a bit for each, 64
-    /// pixels in a word. `None` if they are not, or if these are no masks.
-    pub(super) fn alike_row(&self, other: &Buffer, row: u32, words: &mut Vec<u64>) -> Option<u64> {
-        let (Content::Mask(a), Content::Mask(b)) = (&self.content, &other.content) else {
-            return None;
-        };
-        let first = self.pixel([row, 0]);
-        let run = first..first + self.size[0] as usize;
-        words.clear();
-        words.reserve(run.len().div_ceil(64));
-        let [a, b] = [&a[run.clone()], &b[run]];
-        dispatch!(best_level(), simd => packed_if_equal(simd, a, b, words))
     }
 
     /// Whether any sample of each pixel is covered, row by row.
@@ -446,7 +383,7 @@ impl<'a> Buffer<'a> {
 }
 
 impl Picture {
-    fn covered(&self, pixel: usize) -> Option<bool> {
+    pub(super) fn covered(&self, pixel: usize) -> Option<bool> {
         let [red, green, blue, alpha] = self.pixels.get(pixel);
         match self.covered {
             Covered::Unknown => None,
@@ -488,71 +425,4 @@ fn color_text(color: [f32; 4], with_alpha: bool) -> String {
     }
     let decimals: Vec<String> = channels.iter().map(|channel| format!("{channel:.2}")).collect();
     format!("({})", decimals.join(" "))
-}
-
-/// The largest differences that are known of other pixels, and are within the tolerances.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Known {
-    /// The relative difference of distances.
-    pub(super) t: f64,
-    /// The difference of colours, in steps of 1/255.
-    pub(super) color: f32,
-}
-
-impl Known {
-    /// Whether two distances certainly differ by no more: nothing and nothing, equal ones, or close ones. The bound is a
-    /// little smaller than what is known, as both sides round.
-    fn covers_distances(self, a: f64, b: f64) -> bool {
-        const SMALLER: f64 = 1.0 - 8.0 * f64::EPSILON;
-        let larger = a.abs().max(b.abs());
-        let is_close = (a - b).abs() <= larger * self.t * SMALLER;
-        // Where nothing under- or overflows; `max` leaves out NaN.
-        let is_ordinary = (larger > 1e-290) & (larger < 1e290) & !a.is_nan() & !b.is_nan();
-        (a.to_bits() == b.to_bits()) | (is_close & is_ordinary)
-    }
-
-    fn covers_steps(self, steps: u8) -> bool {
-        f32::from(steps) <= self.color
-    }
-}
-
-/// Whether a condition holds for all pairs. Every pair is looked at, without a branch.
-fn all<T>(a: &[T], b: &[T], holds: impl Fn(&T, &T) -> bool) -> bool {
-    a.iter().zip(b).fold(true, |all, (a, b)| all & holds(a, b))
-}
-
-/// A bit for each of up to 64 values, the first one lowest.
-fn bits(values: impl Iterator<Item = bool>) -> u64 {
-    values.enumerate().fold(0, |bits, (at, value)| bits | u64::from(value) << at)
-}
-
-/// Packs values into words of 64 bits, and counts the true ones; `None` if others are not equal to them.
-#[inline(always)]
-fn packed_if_equal<S: Simd>(
-    simd: S,
-    values: &[bool],
-    others: &[bool],
-    words: &mut Vec<u64>,
-) -> Option<u64> {
-    let (mut count, mut differing) = (0, 0);
-    for (values, others) in values.chunks(64).zip(others.chunks(64)) {
-        let (bits, other) = (packed(simd, values), packed(simd, others));
-        differing |= bits ^ other;
-        count += u64::from(bits.count_ones());
-        words.push(bits);
-    }
-    (differing == 0).then_some(count)
-}
-
-/// A bit for each of up to 64 values in memory, the first one lowest.
-#[inline(always)]
-fn packed<S: Simd>(simd: S, values: &[bool]) -> u64 {
-    let Some(values) = values.first_chunk::<64>() else {
-        return bits(values.iter().copied());
-    };
-    let mut bytes = [0; 64];
-    for (byte, value) in bytes.iter_mut().zip(values) {
-        *byte = u8::from(*value);
-    }
-    u8x64::from_slice(simd, &bytes).simd_gt(0).to_bitmask()
 }

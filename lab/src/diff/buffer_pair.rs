@@ -1,12 +1,14 @@
 //! The comparison of one pixel of A with one pixel of B: which of them is covered, and how far their values differ.
 
+use super::alike::Known;
 use super::aspect::{Aspect, Unit};
-use super::buffer::{Buffer, Known};
+use super::buffer::Buffer;
 use super::classes::Class;
 use super::tolerance::{CompareOptions, Tolerances};
 use crate::common::Crop;
 use crate::common::glam::DVec3;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// The aspects that make two pixels different.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -168,6 +170,12 @@ impl<'a> BufferPair<'a> {
     /// Whether pixels may be compared several at a time: each is one sample, and none is ignored.
     fn compares_whole_runs(&self) -> bool {
         self.unit == Unit::Samples && self.a.samples() == 1 && self.ignored.is_empty()
+    }
+
+    /// The values of two masks that are equal everywhere, and how many of them are covered; `None` if they differ, or if
+    /// these are no masks.
+    pub(super) fn equal_mask(&self) -> Option<(&Arc<Vec<bool>>, u64)> {
+        self.compares_whole_runs().then(|| self.a.equal_mask(self.b))?
     }
 
     /// The number of covered pixels of a row in which two masks are alike; stores a bit for each, 64 pixels in a word. `None`

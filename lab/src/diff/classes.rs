@@ -1,8 +1,10 @@
 //! The difference as a picture: a class for each pixel.
 
+use super::alike::packed_bits;
 use crate::picture::NOTHING;
 use image::RgbImage;
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// The agreement of both orders at a pixel, from the worst class to the best; a pixel of several samples has the
 /// worst class of its samples.
@@ -67,19 +69,36 @@ impl Class {
 }
 
 /// The class of every pixel of a picture; in a crop, pixels are counted from the corner of the crop.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub struct Classes {
     image: [u32; 2],
+    stored: Stored,
+}
+
+/// How classes are stored.
+#[derive(Clone, Debug)]
+enum Stored {
     /// The bits of the codes of all pixels, 64 pixels of a row in a word; the last word of a row may have fewer. Where
     /// nothing differs only the first plane has ones, so that the pages of the others are never touched.
-    planes: [Vec<u64>; 3],
+    Planes([Vec<u64>; 3]),
+    /// Two equal masks: pixels are alike where the mask is true, and empty elsewhere. To pack them would take longer than
+    /// to compare them, and most comparisons never ask for the class of an equal pixel.
+    EqualMask(Arc<Vec<bool>>),
 }
+
+impl PartialEq for Classes {
+    fn eq(&self, other: &Classes) -> bool {
+        self.image == other.image && self.words().eq(other.words())
+    }
+}
+
+impl Eq for Classes {}
 
 /// The pixels of a word.
 pub(super) const WORD: u32 = u64::BITS;
 
 /// The classes of up to 64 pixels of a row.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Word([u64; 3]);
 
 impl Word {
@@ -154,7 +173,7 @@ impl Rows<'_> {
     pub(super) fn write_alike(&mut self, row: u32, words: &[u64]) {
         let first = row as usize * self.words;
         for (stored, &bits) in self.planes[0][first..].iter_mut().zip(words) {
-            // What is 0 is never written: see `Classes::planes`.
+            // What is 0 is never written: see `Stored::Planes`.
             if bits != 0 {
                 *stored = bits;
             }
@@ -165,7 +184,7 @@ impl Rows<'_> {
     pub(super) fn write(&mut self, row: u32, word: u32, classes: Word) {
         let index = row as usize * self.words + word as usize;
         for (plane, bits) in self.planes.iter_mut().zip(classes.0) {
-            // What is 0 is never written: see `Classes::planes`.
+            // What is 0 is never written: see `Stored::Planes`.
             if bits != 0 {
                 plane[index] = bits;
             }
@@ -174,6 +193,11 @@ impl Rows<'_> {
 }
 
 impl Classes {
+    /// The classes of two equal masks, of which this is one.
+    pub(super) fn of_equal(image: [u32; 2], mask: &Arc<Vec<bool>>) -> Classes {
+        Classes { image, stored: Stored::EqualMask(Arc::clone(mask)) }
+    }
+
     /// The classes that a function writes, several rows at once, and what it returns for the rows, from top to bottom.
     pub(super) fn written<T: Send>(
         image: [u32; 2],
@@ -191,7 +215,7 @@ impl Classes {
                 write(&mut Rows { first, count, planes: [low, middle, high], words })
             });
         let written = written.collect();
-        (Classes { image, planes }, written)
+        (Classes { image, stored: Stored::Planes(planes) }, written)
     }
 
     /// The image's width and height in pixels.
@@ -199,8 +223,22 @@ impl Classes {
         self.image
     }
 
+    /// A word by its number, row by row.
     fn word(&self, index: usize) -> Word {
-        Word([0, 1, 2].map(|plane| self.planes[plane][index]))
+        match &self.stored {
+            Stored::Planes(planes) => Word(planes.each_ref().map(|plane| plane[index])),
+            Stored::EqualMask(mask) => {
+                let (width, words) = (self.image[0] as usize, words_of(self.image));
+                let first = index % words * WORD as usize;
+                let row = &mask[index / words * width..][..width];
+                Word::alike(packed_bits(&row[first..width.min(first + WORD as usize)]))
+            }
+        }
+    }
+
+    /// All words, row by row.
+    fn words(&self) -> impl Iterator<Item = Word> {
+        (0..words_of(self.image) * self.image[1] as usize).map(|index| self.word(index))
     }
 
     /// The class of a pixel.
@@ -223,14 +261,18 @@ impl Classes {
             let others = others.filter(|&other| other != class).map(|other| self.count(other));
             return all - others.sum::<u64>();
         }
-        let ones = |index: usize| u64::from(self.word(index).of_class(class).count_ones());
-        (0..self.planes[0].len()).map(ones).sum()
+        self.words().map(|word| u64::from(word.of_class(class).count_ones())).sum()
     }
 
     /// The pixels `[i, j]` in which the orders disagree, row by row, each with its class.
     pub fn differing(&self) -> impl Iterator<Item = ([u32; 2], Class)> {
         let words = 0..u32::try_from(words_of(self.image)).expect("fewer than columns");
-        let places = (0..self.image[1]).flat_map(move |i| words.clone().map(move |word| (i, word)));
+        let rows = match self.stored {
+            Stored::Planes(_) => 0..self.image[1],
+            // Nothing differs.
+            Stored::EqualMask(_) => 0..0,
+        };
+        let places = rows.flat_map(move |i| words.clone().map(move |word| (i, word)));
         places.enumerate().flat_map(|(index, (i, number))| {
             let word = self.word(index);
             let mut bits = word.differing();
@@ -327,6 +369,37 @@ mod tests {
             let all = pixels(image).map(|[i, j]| ([i, j], class(i, j)));
             let expected: Vec<_> = all.filter(|(_, class)| class.differs()).collect();
             assert_eq!(classes.differing().collect::<Vec<_>>(), expected, "{width}");
+        }
+    }
+
+    #[test]
+    fn equal_masks_have_the_classes_that_they_would_have_pixel_by_pixel() {
+        for width in [1, 63, 64, 65, 130] {
+            let image = [width, 5];
+            let mask: Vec<bool> = pixels(image).map(|[i, j]| (3 * i + j * j) % 7 < 3).collect();
+            let of = |covered: bool| if covered { Class::Alike } else { Class::Neither };
+            let (written, _) = Classes::written(image, 2, |rows| {
+                for i in 0..rows.count {
+                    let first = ((rows.first + i) * width) as usize;
+                    for word in 0..width.div_ceil(WORD) {
+                        let mut classes = Word::default();
+                        for pixel in 0..WORD.min(width - word * WORD) {
+                            let at = first + (word * WORD + pixel) as usize;
+                            classes.put(pixel, of(mask[at]));
+                        }
+                        rows.write(i, word, classes);
+                    }
+                }
+            });
+            let shared = Classes::of_equal(image, &Arc::new(mask));
+            assert_eq!(shared, written, "{width}");
+            for class in Class::ALL {
+                assert_eq!(shared.count(class), written.count(class), "{width}, {class:?}");
+            }
+            assert!(pixels(image).all(|[i, j]| shared.at(i, j) == written.at(i, j)), "{width}");
+            assert_eq!(shared.differing().count(), 0, "{width}");
+            let light = RgbImage::from_pixel(width, 5, image::Rgb([9, 200, 30]));
+            assert_eq!(shared.picture(&light), written.picture(&light), "{width}");
         }
     }
 }

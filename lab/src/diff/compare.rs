@@ -1,7 +1,7 @@
 //! The common parts of two buffers, and their differences.
 
+use super::alike::Known;
 use super::aspect::{Aspect, Unit};
-use super::buffer::Known;
 use super::buffer_pair::{BufferPair, PixelDifference};
 use super::classes::{Class, Classes, WORD, Word};
 use super::measures::Measures;
@@ -221,6 +221,9 @@ fn all_pixels(pair: &BufferPair) -> (Sums, Classes) {
     /// Few enough that all processors have work, and enough that handing it out costs nothing.
     const ROWS: u32 = 16;
     let (size @ [width, _], [top, left]) = (pair.a.size(), pair.a.origin());
+    if let Some((mask, both)) = pair.equal_mask() {
+        return (Sums { both, ..Sums::default() }, Classes::of_equal(size, mask));
+    }
     let (classes, sums) = Classes::written(size, ROWS, |rows| {
         let mut sums = Sums::default();
         let mut words = Vec::new();
@@ -425,7 +428,10 @@ mod tests {
         };
         let numbers = [1.0, 1.0 + 1e-7, 1.5, f64::NAN, -0.0, 0.0, 4e-320, 5e-320];
         match kind {
-            0 => Content::Mask(values.iter().map(|&value| value > 1).collect()),
+            0 => {
+                let mask: Vec<bool> = values.iter().map(|&value| value > 1).collect();
+                Content::Mask(mask.into())
+            }
             1 => Content::Ids(values.iter().map(|id| id.checked_sub(1).map(u64::from)).collect()),
             2 => Content::Distances(values.iter().map(|&at| numbers[at as usize]).collect()),
             3 => picture(Covered::Unknown),

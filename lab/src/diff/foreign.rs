@@ -8,7 +8,7 @@
 //! ```
 //! use bothways_lab::diff::foreign::{Buffer, Content, compare};
 //!
-//! let mine = Buffer::new([3, 1], 1, Content::Mask(vec![true, true, false]));
+//! let mine = Buffer::new([3, 1], 1, Content::Mask(vec![true, true, false].into()));
 //! let yours = Buffer::new([3, 1], 1, Content::Ids(vec![Some(0), None, Some(4)]));
 //! let comparison = compare(&mine, &yours)?;
 //! assert_eq!(comparison.first_differing, [[0, 1], [0, 2]]);

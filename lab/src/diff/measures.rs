@@ -101,8 +101,8 @@ mod tests {
 
     fn mask(drawn: &[&str]) -> Buffer<'static> {
         let size = [drawn[0].len(), drawn.len()].map(|side| u32::try_from(side).unwrap());
-        let mask = drawn.concat().chars().map(|letter| letter == '#').collect();
-        Buffer::new(size, 1, Content::Mask(mask))
+        let mask: Vec<bool> = drawn.concat().chars().map(|letter| letter == '#').collect();
+        Buffer::new(size, 1, Content::Mask(mask.into()))
     }
 
     fn measured(a: &[&str], b: &[&str]) -> CoverageMeasures {

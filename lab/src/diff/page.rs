@@ -7,7 +7,7 @@
 //! use bothways_lab::diff::foreign::{Buffer, Content, compare};
 //! use bothways_lab::diff::page::Page;
 //!
-//! let mine = Buffer::new([3, 1], 1, Content::Mask(vec![true, true, false]));
+//! let mine = Buffer::new([3, 1], 1, Content::Mask(vec![true, true, false].into()));
 //! let yours = Buffer::new([3, 1], 1, Content::Ids(vec![Some(0), None, Some(4)]));
 //! let comparison = compare(&mine, &yours)?;
 //! let page = Page::new(["mine", "yours"], [&mine, &yours], &comparison)?;

@@ -171,7 +171,7 @@ fn convert(file: &mut ReadFile, depth: Depth, camera: Option<&Camera>) -> Result
         )));
     };
     // The buffer is replaced whole.
-    let nothing = Buffer::new([1, 1], 1, Content::Mask(vec![false]));
+    let nothing = Buffer::new([1, 1], 1, Content::Mask(vec![false].into()));
     let buffer = std::mem::replace(&mut file.buffer, nothing);
     file.buffer =
         depth.to_t(buffer, camera).map_err(|error| Failure::new(format!("{path}: {error}")))?;

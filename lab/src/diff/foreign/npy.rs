@@ -313,7 +313,9 @@ impl<'a> Values<'a> {
     fn content(&self) -> Result<Content<'static>, String> {
         let number = self.number;
         Ok(match number.kind {
-            TypeChar::Bool => Content::Mask(self.bits().map(|bits| bits != 0).collect()),
+            TypeChar::Bool => {
+                Content::Mask(self.bits().map(|bits| bits != 0).collect::<Vec<_>>().into())
+            }
             TypeChar::Float => {
                 Content::Distances(self.bits().map(|bits| number.float(bits)).collect())
             }

@@ -336,7 +336,8 @@ fn picture(
     if let [grey] = channels {
         let lit = grey.iter().copied().find(|&value| value != 0.0).unwrap_or_default();
         if grey.iter().all(|&value| value == 0.0 || value == lit) {
-            return Ok(Content::Mask(grey.iter().map(|&value| value != 0.0).collect()));
+            let mask: Vec<bool> = grey.iter().map(|&value| value != 0.0).collect();
+            return Ok(Content::Mask(mask.into()));
         }
     }
     let pixel = |at: usize| {

@@ -169,7 +169,7 @@ fn content(picture: DynamicImage, background: Option<[u8; 3]>) -> Result<Content
     if covered == Covered::ByLight
         && let Some(mask) = mask(&picture)
     {
-        return Ok(Content::Mask(mask));
+        return Ok(Content::Mask(mask.into()));
     }
     check_memory(picture.dimensions().into(), color, kept(color))?;
     let pixels = if is_fine(color) {

@@ -119,7 +119,7 @@ fn two_greys_are_a_mask_whatever_its_white_is() {
     for white in [1, 255] {
         let grey = GrayImage::from_raw(3, 1, vec![0, white, 0]).unwrap();
         let mask = read_image(grey, ImageFormat::Png);
-        assert_eq!(mask.content(), &Content::Mask(vec![false, true, false]));
+        assert_eq!(mask.content(), &Content::Mask(vec![false, true, false].into()));
     }
 }
 
@@ -383,7 +383,8 @@ fn common_mistakes_are_recognised() {
 
 /// A mask of bools.
 fn mask(size: [u32; 2], drawn: &str) -> Buffer<'static> {
-    Buffer::new(size, 1, Content::Mask(drawn.chars().map(|letter| letter == '#').collect()))
+    let mask: Vec<bool> = drawn.chars().map(|letter| letter == '#').collect();
+    Buffer::new(size, 1, Content::Mask(mask.into()))
 }
 
 fn hints(a: &Buffer, b: &Buffer) -> Vec<String> {

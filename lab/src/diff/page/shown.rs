@@ -234,7 +234,7 @@ mod tests {
 
     #[test]
     fn masks_are_white_on_dark_and_samples_are_averaged() {
-        let mask = Buffer::new([2, 1], 2, Content::Mask([[true; 4], [false; 4]].concat()));
+        let mask = Buffer::new([2, 1], 2, Content::Mask([[true; 4], [false; 4]].concat().into()));
         let half = vec![Some(3), Some(3), None, None, Some(3), Some(3), Some(3), Some(3)];
         let ids = Buffer::new([2, 1], 2, Content::Ids(half));
         let [mask, ids] = shown([&mask, &ids]);

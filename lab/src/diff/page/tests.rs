@@ -171,7 +171,7 @@ fn the_page_asks_for_nothing() {
 #[test]
 fn the_summary_tells_what_was_compared() {
     let a = ids(1, &[Some(0), Some(1), None]);
-    let b = Buffer::new([3, 1], 1, Content::Mask(vec![true, false, false]));
+    let b = Buffer::new([3, 1], 1, Content::Mask(vec![true, false, false].into()));
     let html = page_of(&a, &b);
     for text in [
         "<h1 class=\"bad\">differ: 1 pixel of 3, at (0, 1)</h1>",
@@ -190,9 +190,9 @@ fn beyond_a_size_values_are_left_out_and_the_page_says_so() {
     // 64 x 64 samples a pixel: 4,097 pixels have more than 4096 x 4096.
     let many = |pixels: u32| {
         let covered = vec![true; pixels as usize * 64 * 64];
-        Buffer::new([pixels, 1], 64, Content::Mask(covered))
+        Buffer::new([pixels, 1], 64, Content::Mask(covered.into()))
     };
-    let (a, b) = (many(4097), Buffer::new([4097, 1], 1, Content::Mask(vec![true; 4097])));
+    let (a, b) = (many(4097), Buffer::new([4097, 1], 1, Content::Mask(vec![true; 4097].into())));
     let html = page_of(&a, &b);
     let facts = facts(&html);
     let said = "The values are left out: beyond 16,777,216 samples, a page has the pictures alone.";
@@ -203,7 +203,7 @@ fn beyond_a_size_values_are_left_out_and_the_page_says_so() {
 
 #[test]
 fn pictures_that_no_browser_draws_are_refused() {
-    let wide = || Buffer::new([16_385, 1], 1, Content::Mask(vec![false; 16_385]));
+    let wide = || Buffer::new([16_385, 1], 1, Content::Mask(vec![false; 16_385].into()));
     let (a, b) = (wide(), wide());
     let comparison = compare(&a, &b).unwrap();
     let refused = Page::new(["a", "b"], [&a, &b], &comparison).unwrap_err();

@@ -23,7 +23,7 @@ fn file(view: &View, convention: &Convention, of_ids: bool) -> Buffer<'static> {
     let content = if of_ids {
         Content::Ids(ids)
     } else {
-        Content::Mask(ids.iter().map(Option::is_some).collect())
+        Content::Mask(ids.iter().map(Option::is_some).collect::<Vec<_>>().into())
     };
     Buffer::new(size.map(|side| u32::try_from(side).unwrap()), 1, content)
 }

@@ -53,7 +53,7 @@ fn channels_are_read_by_their_names() {
     assert_eq!(content("Z"), Content::Distances(vec![2.5, f64::INFINITY]));
     assert_eq!(content("object_id"), Content::Ids(vec![Some(7), None]));
     assert_eq!(content("half"), Content::Distances(vec![1.5, -2.0]));
-    assert_eq!(content("mask"), Content::Mask(vec![false, true]));
+    assert_eq!(content("mask"), Content::Mask(vec![false, true].into()));
     let read = read_exr(&file, &["Z"], false).unwrap();
     assert_eq!(read.notes, ["channel Z; not read: half, mask, object_id"]);
     let problem = read_exr(&file, &[], false).unwrap_err();

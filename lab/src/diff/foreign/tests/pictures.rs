@@ -36,7 +36,7 @@ fn tiny_png(depth: u8, color: u8, palette: &[u8], row: &[u8]) -> Vec<u8> {
 
 #[test]
 fn bilevel_pictures_and_grey_palettes_are_masks() {
-    let expected = Content::Mask(vec![false, true, true, false]);
+    let expected = Content::Mask(vec![false, true, true, false].into());
     let read = |bytes: &[u8]| read_bytes(bytes, None).unwrap();
     assert_eq!(read(&tiny_png(1, 0, &[], &[0b0110_0000])).content(), &expected);
     assert_eq!(read(&tiny_png(2, 0, &[], &[0b0011_1100])).content(), &expected);

@@ -1,0 +1,162 @@
+//! Runs of pixels in which two buffers are alike: whole masks, rows of masks, and up to 64 pixels of anything.
+
+use super::buffer::{Buffer, Content, Covered, Pixels};
+use crate::common::engine::simd::{Simd, SimdBase, SimdMask, best_level, dispatch, u8x64};
+use crate::common::frame::NO_PRIMITIVE;
+use rayon::prelude::*;
+use std::ops::Range;
+use std::sync::Arc;
+
+impl Buffer<'_> {
+    /// The covered ones of up to 64 pixels of a row, if the other buffer is of the same kind and differs there by no more
+    /// than is known of others; both have one sample a pixel. Pixels of colours alone count as covered.
+    pub(super) fn alike_run(
+        &self,
+        other: &Buffer,
+        row: u32,
+        columns: Range<u32>,
+        known: Known,
+    ) -> Option<u64> {
+        let [first, end] = [columns.start, columns.end].map(|j| self.pixel([row, j]));
+        let run = first..end;
+        match (self.content(), other.content()) {
+            (Content::Mask(a), Content::Mask(b)) => {
+                let (a, b) = (&a[run.clone()], &b[run]);
+                dispatch!(best_level(), simd => (a == b).then(|| packed(simd, a)))
+            }
+            (Content::Ids(a), Content::Ids(b)) => {
+                let (a, b) = (&a[run.clone()], &b[run]);
+                all(a, b, |a, b| a == b).then(|| bits(a.iter().map(Option::is_some)))
+            }
+            (Content::Distances(a), Content::Distances(b)) => {
+                let (a, b) = (&a[run.clone()], &b[run]);
+                let alike = |a: &f64, b: &f64| known.covers_distances(*a, *b);
+                all(a, b, alike).then(|| bits(a.iter().map(|t| t.is_finite())))
+            }
+            (Content::Picture(a), Content::Picture(b)) if a.covered == b.covered => {
+                let (Pixels::Bytes(of_a), Pixels::Bytes(of_b)) = (&a.pixels, &b.pixels) else {
+                    return None;
+                };
+                if of_a[run.clone()] != of_b[run.clone()] {
+                    return None;
+                }
+                let covered = |at: usize| a.covered(at) != Some(false);
+                // Of colours alone, nothing tells otherwise.
+                let is_unknown = a.covered == Covered::Unknown;
+                Some(bits(run.map(|at| is_unknown || covered(at))))
+            }
+            (Content::Frame(a), Content::Frame(b)) => {
+                let ids = [a, b].map(|seen| &seen.frame.ids()[run.clone()]);
+                let t = [a, b].map(|seen| &seen.frame.distances()[run.clone()]);
+                let bytes = 3 * run.start..3 * run.end;
+                let colors = [a, b].map(|seen| &seen.picture.as_raw()[bytes.clone()]);
+                let is_alike = ids[0] == ids[1]
+                    && all(t[0], t[1], |a, b| known.covers_distances((*a).into(), (*b).into()))
+                    && all(colors[0], colors[1], |a, b| known.covers_steps(a.abs_diff(*b)));
+                is_alike.then(|| bits(ids[0].iter().map(|&id| id != NO_PRIMITIVE)))
+            }
+            _ => None,
+        }
+    }
+
+    /// The values of a mask that is equal to the other one, and how many of them are covered; `None` if they differ
+    /// anywhere, or if these are no masks.
+    pub(super) fn equal_mask(&self, other: &Buffer) -> Option<(&Arc<Vec<bool>>, u64)> {
+        /// Few enough that all processors have work, and enough that handing it out costs nothing.
+        const AT_ONCE: usize = 1 << 16;
+        let (Content::Mask(a), Content::Mask(b)) = (self.content(), other.content()) else {
+            return None;
+        };
+        let parts = a.par_chunks(AT_ONCE).zip(b.par_chunks(AT_ONCE));
+        let covered = parts
+            .map(|(a, b)| dispatch!(best_level(), simd => packed_if_equal(simd, [a, b], |_| {})));
+        let covered = covered.try_reduce(|| 0, |one, other| Some(one + other))?;
+        Some((a, covered))
+    }
+
+    /// The number of covered pixels of a row in which two masks of one sample a pixel are alike; stores a bit for each, 64
+    /// pixels in a word. `None` if they are not, or if these are no masks.
+    pub(super) fn alike_row(&self, other: &Buffer, row: u32, words: &mut Vec<u64>) -> Option<u64> {
+        let (Content::Mask(a), Content::Mask(b)) = (self.content(), other.content()) else {
+            return None;
+        };
+        let first = self.pixel([row, 0]);
+        let run = first..first + self.size()[0] as usize;
+        words.clear();
+        words.reserve(run.len().div_ceil(64));
+        let [a, b] = [&a[run.clone()], &b[run]];
+        dispatch!(best_level(), simd => packed_if_equal(simd, [a, b], |word| words.push(word)))
+    }
+}
+
+/// The largest differences that are known of other pixels, and are within the tolerances.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Known {
+    /// The relative difference of distances.
+    pub(super) t: f64,
+    /// The difference of colours, in steps of 1/255.
+    pub(super) color: f32,
+}
+
+impl Known {
+    /// Whether two distances certainly differ by no more: nothing and nothing, equal ones, or close ones. The bound is a
+    /// little smaller than what is known, as both sides round.
+    fn covers_distances(self, a: f64, b: f64) -> bool {
+        const SMALLER: f64 = 1.0 - 8.0 * f64::EPSILON;
+        let larger = a.abs().max(b.abs());
+        let is_close = (a - b).abs() <= larger * self.t * SMALLER;
+        // Where nothing under- or overflows; `max` leaves out NaN.
+        let is_ordinary = (larger > 1e-290) & (larger < 1e290) & !a.is_nan() & !b.is_nan();
+        (a.to_bits() == b.to_bits()) | (is_close & is_ordinary)
+    }
+
+    fn covers_steps(self, steps: u8) -> bool {
+        f32::from(steps) <= self.color
+    }
+}
+
+/// Whether a condition holds for all pairs. Every pair is looked at, without a branch.
+fn all<T>(a: &[T], b: &[T], holds: impl Fn(&T, &T) -> bool) -> bool {
+    a.iter().zip(b).fold(true, |all, (a, b)| all & holds(a, b))
+}
+
+/// A bit for each of up to 64 values, the first one lowest.
+fn bits(values: impl Iterator<Item = bool>) -> u64 {
+    values.enumerate().fold(0, |bits, (at, value)| bits | u64::from(value) << at)
+}
+
+/// Packs values into words of 64 bits, which the caller may keep, and counts the true ones; `None` if others are not equal
+/// to them.
+#[inline(always)]
+fn packed_if_equal<S: Simd>(
+    simd: S,
+    [values, others]: [&[bool]; 2],
+    mut keep: impl FnMut(u64),
+) -> Option<u64> {
+    let (mut count, mut differing) = (0, 0);
+    for (values, others) in values.chunks(64).zip(others.chunks(64)) {
+        let (bits, other) = (packed(simd, values), packed(simd, others));
+        differing |= bits ^ other;
+        count += u64::from(bits.count_ones());
+        keep(bits);
+    }
+    (differing == 0).then_some(count)
+}
+
+/// A bit for each of up to 64 values in memory, the first one lowest, by the vectors of this processor.
+pub(super) fn packed_bits(values: &[bool]) -> u64 {
+    dispatch!(best_level(), simd => packed(simd, values))
+}
+
+/// A bit for each of up to 64 values in memory, the first one lowest.
+#[inline(always)]
+fn packed<S: Simd>(simd: S, values: &[bool]) -> u64 {
+    let Some(values) = values.first_chunk::<64>() else {
+        return bits(values.iter().copied());
+    };
+    let mut bytes = [0; 64];
+    for (byte, value) in bytes.iter_mut().zip(values) {
+        *byte = u8::from(*value);
+    }
+    u8x64::from_slice(simd, &bytes).simd_gt(0).to_bitmask()
+}
