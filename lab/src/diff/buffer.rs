@@ -4,7 +4,8 @@ use super::aspect::Aspect;
 use super::classes::pixels;
 use crate::common::Frame;
 use crate::common::frame::NO_PRIMITIVE;
-use image::{Rgb, RgbImage};
+use image::RgbImage;
+use rayon::prelude::*;
 use std::borrow::Cow;
 use std::sync::Arc;
 
@@ -84,6 +85,20 @@ impl Pixels {
         match self {
             Pixels::Bytes(pixels) => pixels[pixel].map(f32::from),
             Pixels::Steps(pixels) => pixels[pixel],
+        }
+    }
+
+    /// Red, green and blue of a pixel, rounded to 8 bits.
+    pub(super) fn rounded(&self, pixel: usize) -> [u8; 3] {
+        match self {
+            Pixels::Bytes(pixels) => {
+                let [red, green, blue, _] = pixels[pixel];
+                [red, green, blue]
+            }
+            Pixels::Steps(pixels) => {
+                let [red, green, blue, _] = pixels[pixel];
+                bytes([red, green, blue])
+            }
         }
     }
 
@@ -375,21 +390,23 @@ impl<'a> Buffer<'a> {
             _ => return None,
         };
         let mut light = RgbImage::new(self.size[0], self.size[1]);
-        for (pixel, [red, green, blue, _]) in light.pixels_mut().zip(picture.pixels.iter()) {
-            *pixel = Rgb(bytes([red, green, blue]));
-        }
+        let width = self.size[0] as usize;
+        light.par_chunks_exact_mut(3 * width).enumerate().for_each(|(i, row)| {
+            for (j, pixel) in row.as_chunks_mut().0.iter_mut().enumerate() {
+                *pixel = picture.pixels.rounded(i * width + j);
+            }
+        });
         Some(light)
     }
 }
 
 impl Picture {
     pub(super) fn covered(&self, pixel: usize) -> Option<bool> {
-        let [red, green, blue, alpha] = self.pixels.get(pixel);
         match self.covered {
             Covered::Unknown => None,
-            Covered::ByAlpha => Some(alpha > 0.0),
-            Covered::ByLight => Some(red != 0.0),
-            Covered::ByBackground(background) => Some(bytes([red, green, blue]) != background),
+            Covered::ByAlpha => Some(self.pixels.get(pixel)[3] > 0.0),
+            Covered::ByLight => Some(self.pixels.get(pixel)[0] != 0.0),
+            Covered::ByBackground(background) => Some(self.pixels.rounded(pixel) != background),
         }
     }
 }

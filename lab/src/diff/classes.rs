@@ -107,6 +107,11 @@ impl Word {
         Word([bits, 0, 0])
     }
 
+    /// Makes pixels alike, which must have no class yet.
+    pub(super) fn put_alike(&mut self, bits: u64) {
+        self.0[0] |= bits;
+    }
+
     /// Sets the class of a pixel, which must not be set yet.
     pub(super) fn put(&mut self, pixel: u32, class: Class) {
         for (plane, bits) in self.0.iter_mut().enumerate() {

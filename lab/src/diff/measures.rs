@@ -5,6 +5,7 @@
 //! permissive implementation in reach, the crate `nv-flip`, binds C++, which needs a C++ compiler and `unsafe` beneath, and its
 //! result depends on a viewing distance that no file states.
 
+mod band;
 mod color;
 mod distance;
 mod similarity;

@@ -8,8 +8,7 @@ use crate::diff::buffer::{Buffer, Content, Covered, Picture, Pixels};
 use crate::formats::source::quote::visible;
 use image::error::ImageError;
 use image::{
-    ColorType, DynamicImage, GenericImageView, GrayImage, ImageDecoder, ImageFormat, ImageReader,
-    Limits, Rgb,
+    ColorType, DynamicImage, GrayImage, ImageDecoder, ImageFormat, ImageReader, Limits, Rgb,
 };
 use std::io::{BufRead, ErrorKind, Read, Seek};
 
@@ -171,15 +170,26 @@ fn content(picture: DynamicImage, background: Option<[u8; 3]>) -> Result<Content
     {
         return Ok(Content::Mask(mask.into()));
     }
-    check_memory(picture.dimensions().into(), color, kept(color))?;
+    check_memory([picture.width(), picture.height()], color, kept(color))?;
     let pixels = if is_fine(color) {
         // Sixteen bits hold eight exactly: 65,535 / 255 = 257.
         let steps = |pixel: &image::Rgba<u16>| pixel.0.map(|value| f32::from(value) / 257.0);
         Pixels::Steps(picture.into_rgba16().pixels().map(steps).collect())
     } else {
-        Pixels::Bytes(picture.pixels().map(|(_, _, pixel)| pixel.0).collect())
+        Pixels::Bytes(bytes(picture))
     };
     Ok(Content::Picture(Picture { pixels, covered }))
+}
+
+/// Red, green, blue and alpha of each pixel of a picture of 8 bits a channel.
+fn bytes(picture: DynamicImage) -> Vec<[u8; 4]> {
+    match picture {
+        DynamicImage::ImageRgb8(colors) => {
+            let colors = colors.as_chunks().0.iter();
+            colors.map(|&[red, green, blue]| [red, green, blue, u8::MAX]).collect()
+        }
+        picture => picture.into_rgba8().as_chunks().0.to_vec(),
+    }
 }
 
 /// A grey picture is a mask if its values are black and at most one other value, such as 1 or 255.

@@ -1,9 +1,11 @@
 //! The mean differences of colours.
 
+use super::band::Band;
 use super::similarity;
 use crate::diff::buffer_pair::BufferPair;
 use rayon::prelude::*;
 use serde::Serialize;
+use std::ops::Range;
 
 /// The rows that are measured at once, so that a large picture takes little memory.
 const BAND: u32 = 64;
@@ -25,14 +27,6 @@ pub struct ColorMeasures {
     /// K₁ = 0.01, K₂ = 0.03, L = 255, with weights as for a population. The mean over all windows and over red, green
     /// and blue, each by itself.
     pub ssim: Option<f64>,
-}
-
-/// The colours of both buffers in some rows: three planes each, and which pixels are compared.
-pub(super) struct Band {
-    pub(super) width: usize,
-    /// For each channel, the values of A and of B.
-    pub(super) channels: [[Vec<f32>; 2]; 3],
-    pub(super) compared: Vec<bool>,
 }
 
 /// Measures all compared colours; `None` if there are none.
@@ -70,24 +64,30 @@ impl Sums {
         let [_, height] = pair.a.size();
         let (end, margin) = ((start + BAND).min(height), similarity::MARGIN);
         let [first, last] = [start.saturating_sub(margin), (end + margin).min(height)];
-        let band = Band::new(pair, first, last);
+        let Some(band) = Band::new(pair, first..last) else { return Sums::default() };
         let mut sums = Sums::default();
-        let own = (start - first) as usize * band.width..(end - first) as usize * band.width;
-        for [a, b] in &band.channels {
-            let values =
-                a[own.clone()].iter().zip(&b[own.clone()]).zip(&band.compared[own.clone()]);
-            for ((a, b), _) in values.filter(|(_, compared)| **compared) {
-                let difference = f64::from(*a) - f64::from(*b);
-                sums.values += 1.0;
-                sums.absolute += difference.abs();
-                sums.squares += difference.powi(2);
-            }
-        }
+        sums.add_differences(&band, (start - first) as usize..(end - first) as usize);
         // The rows of middles, counted in the band: a window may not reach out of the picture.
         let begin = start.max(margin) - first;
         let end = end.min(height.saturating_sub(margin)).saturating_sub(first);
         (sums.windows, sums.similarities) = similarity::sums(&band, begin as usize..end as usize);
         sums
+    }
+
+    /// Adds the differences of the compared pixels in some rows of a band.
+    fn add_differences(&mut self, band: &Band, rows: Range<usize>) {
+        for channel in 0..3 {
+            for row in rows.clone() {
+                self.values += band.compared_in(row);
+                // Equal colours add nothing but their number.
+                for at in band.perhaps_differing(row).filter(|&at| band.is_compared(at)) {
+                    let [a, b] = band.colors.map(|colors| f64::from(colors.value(at, channel)));
+                    let difference = a - b;
+                    self.absolute += difference.abs();
+                    self.squares += difference.powi(2);
+                }
+            }
+        }
     }
 
     fn plus(self, other: Sums) -> Sums {
@@ -98,33 +98,6 @@ impl Sums {
             windows: self.windows + other.windows,
             similarities: self.similarities + other.similarities,
         }
-    }
-}
-
-impl Band {
-    /// The rows from `first` on, up to `last` and without it.
-    fn new(pair: &BufferPair, first: u32, last: u32) -> Band {
-        let [width, _] = pair.a.size();
-        let count = ((last - first) * width) as usize;
-        let mut band = Band {
-            width: width as usize,
-            channels: std::array::from_fn(|_| [0, 1].map(|_| Vec::with_capacity(count))),
-            compared: Vec::with_capacity(count),
-        };
-        for pixel in (first..last).flat_map(|i| (0..width).map(move |j| [i, j])) {
-            let colors = [pair.a, pair.b].map(|buffer| buffer.color(pixel));
-            let colors = match colors {
-                [Some((a, _)), Some((b, _))] if !pair.ignores(pixel) => Some([a, b]),
-                _ => None,
-            };
-            band.compared.push(colors.is_some());
-            let [a, b] = colors.unwrap_or_default();
-            for (channel, planes) in band.channels.iter_mut().enumerate() {
-                planes[0].push(a[channel]);
-                planes[1].push(b[channel]);
-            }
-        }
-        band
     }
 }
 
@@ -169,6 +142,29 @@ mod tests {
             assert!((found.ssim.unwrap() - ssim).abs() < 1e-9, "{found:?}");
             assert!(close(found.psnr.unwrap(), psnr), "{found:?}");
             assert!(close(found.mean_difference, mean), "{found:?}");
+        }
+    }
+
+    #[test]
+    fn few_differences_are_measured_as_if_every_pixel_were_looked_at() {
+        for size @ [width, _] in [[150, 80], [64, 70], [75, 12]] {
+            let a = picture(size, 0, Covered::Unknown);
+            let Content::Picture(Picture { pixels: Pixels::Bytes(mut pixels), covered }) =
+                a.content().clone()
+            else {
+                panic!("no bytes")
+            };
+            for at in [3, 63, 64, 4 * width + 74, 11 * width - 1, 9 * width + 10] {
+                pixels[at as usize][1] ^= 0x5a;
+            }
+            // Pictures that are stored in different ways are looked at as a whole.
+            let steps = pixels.iter().map(|color| color.map(f32::from)).collect();
+            let [few, all] = [Pixels::Bytes(pixels), Pixels::Steps(steps)].map(|pixels| {
+                let b = Content::Picture(Picture { pixels, covered });
+                measured(&a, &Buffer::new(size, 1, b))
+            });
+            assert!(few.unwrap().ssim.unwrap() < 1.0, "{few:?}");
+            assert_eq!(few, all, "{size:?}");
         }
     }
 
