@@ -91,6 +91,24 @@ fn files_of_other_sizes_are_explained_where_something_does() {
 }
 
 #[test]
+fn rows_for_columns_are_said_from_two_files_alone() {
+    let home = home();
+    let picture = |name: &str, turned: bool| {
+        let lit = |i: u32, j: u32| if i < 2 && j > 3 || i == j { 255 } else { 0 };
+        let [width, height] = if turned { [5, 7] } else { [7, 5] };
+        let mask = image::GrayImage::from_fn(width, height, |x, y| {
+            image::Luma([if turned { lit(x, y) } else { lit(y, x) }])
+        });
+        mask.save(home.path().join(name)).unwrap();
+    };
+    picture("a.png", false);
+    picture("b.png", true);
+    let expected = "error: A = a.png, B = b.png: A is 7 x 5 pixels and B is 5 x 7; compare files of one size (are rows \
+                    and columns swapped?); B agrees with A once it is transposed (its rows are A's columns)\n";
+    assert_eq!(refused(bothways(&home, &["diff", "a.png", "b.png"])), expected);
+}
+
+#[test]
 fn json_has_reasons_and_conventions() {
     let home = by_rule("corner", "lecture", "96x72");
     let args = ["diff", EXACT, RULED, "--scene", "lecture", "--json"];

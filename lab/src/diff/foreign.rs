@@ -23,6 +23,7 @@ mod normals;
 mod npy;
 mod open_exr;
 mod picture;
+mod placements;
 mod png;
 mod problem;
 mod read;
@@ -34,6 +35,7 @@ pub use super::compare::{
     Incomparable,
 };
 pub use depth::{Depth, DepthError};
+pub use placements::exchanged_sides;
 pub use read::{ReadBuffer, ReadBufferError, ReadOptions, read, read_from, read_with};
 
 pub use super::measures::{BorderDistance, ColorMeasures, CoverageMeasures, Measures};

@@ -6,7 +6,9 @@ use crate::cli::args::ProjectionArg;
 use crate::cli::failure::Failure;
 use anstyle::Style;
 use bothways::common::{Camera, CameraDescription, Crop, Scene, View};
-use bothways::diff::foreign::{Buffer, BufferComparison, CompareOptions, Side, compare_with};
+use bothways::diff::foreign::{
+    Buffer, BufferComparison, CompareOptions, Side, compare_with, exchanged_sides,
+};
 use bothways::diff::page::{Group, Page};
 use bothways::diff::why::{
     Explanation, Finding, Findings, PixelReason, Reason, ReasonKind, Reasons, Wrong, cause_of_size,
@@ -441,8 +443,10 @@ struct ExplanationJson {
 pub(super) fn of_sizes(args: &SceneArgs, [a, b]: [&Buffer; 2]) -> String {
     let scene = inputs::scene_of_size(args, None, Some(a.size())).ok().flatten();
     let view = scene.as_ref().map(|(loaded, camera)| View::new(&loaded.scene, camera));
-    let cause = cause_of_size("B", b, a.size(), view.as_ref());
-    cause.map_or(String::new(), |cause| format!("; {cause}"))
+    // With the scene, each file can be held to what is true; without it, only to the other file.
+    let by_scene = cause_of_size("B", b, a.size(), view.as_ref());
+    let causes = by_scene.map_or_else(|| exchanged_sides(a, b), |cause| vec![cause]);
+    if causes.is_empty() { String::new() } else { format!("; {}", causes.join(", or ")) }
 }
 
 /// The scene and the options of its camera, as `bothways pixel` takes them.

@@ -3,11 +3,11 @@
 //! A hint is given only if its cause alone explains every difference. If several causes do, all hints are given: a
 //! symmetric picture that is upside down may look like a picture that is moved.
 
+use super::placements::placements;
 use crate::diff::aspect::Side;
 use crate::diff::buffer::{Buffer, Content};
 use crate::diff::buffer_pair::BufferPair;
-use crate::diff::classes::{Class, Classes, pixels};
-use crate::wording::count;
+use crate::diff::classes::Classes;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Every cause that alone explains every difference, one sentence each. A reference is right, and its encoding is
@@ -62,123 +62,6 @@ pub(in crate::diff) fn hints(
         });
     }
     hints
-}
-
-/// All turns of B and all moves of B by one pixel after which B agrees with A.
-fn placements(pair: &BufferPair, classes: &Classes) -> Vec<String> {
-    if pair.a.samples() != 1 || pair.b.samples() != 1 {
-        return Vec::new();
-    }
-    // What explains every difference explains the first ones: most placements are refuted by a few pixels.
-    let first: Vec<[u32; 2]> = classes.differing().map(|(pixel, _)| pixel).take(REFUTING).collect();
-    let turned = turns(pair.a.size())
-        .into_iter()
-        .filter(|(_, place)| first.iter().all(|&in_a| !class(pair, in_a, place(in_a)).differs()))
-        .filter(|(_, place)| agree(pair, place.as_ref()));
-    let turned = turned.map(|(name, _)| format!("B agrees with A once it is {name}"));
-    let steps = [0, 1, -1];
-    let moves = steps.into_iter().flat_map(|rows| steps.map(|columns| [rows, columns]));
-    let moved = moves.skip(1).filter(|&by| agree_moved(pair, by, &first));
-    let moved = moved.map(|by| {
-        let back = by.map(|step: i32| -step);
-        format!(
-            "B agrees with A once it is moved {}; where edges lie on samples, half a pixel does that",
-            steps_in_words(back)
-        )
-    });
-    turned.chain(moved).collect()
-}
-
-/// The differing pixels that are looked at first.
-const REFUTING: usize = 256;
-
-/// The place in B of a pixel of A.
-type Placement = Box<dyn Fn([u32; 2]) -> [u32; 2]>;
-
-/// The turns that map a picture onto itself, and the words for turning B back.
-fn turns([width, height]: [u32; 2]) -> Vec<(&'static str, Placement)> {
-    let (last_i, last_j) = (height - 1, width - 1);
-    let mut turns: Vec<(&str, Placement)> = vec![
-        ("turned upside down", Box::new(move |[i, j]| [last_i - i, j])),
-        ("turned left to right", Box::new(move |[i, j]| [i, last_j - j])),
-        ("turned by 180 degrees", Box::new(move |[i, j]| [last_i - i, last_j - j])),
-    ];
-    if width == height {
-        let last = last_i;
-        let other_diagonal = "mirrored at the diagonal from the bottom left to the top right";
-        let square: [(&str, Placement); 4] = [
-            ("transposed (its rows are A's columns)", Box::new(|[i, j]| [j, i])),
-            (other_diagonal, Box::new(move |[i, j]| [last - j, last - i])),
-            ("turned by 90 degrees to the left", Box::new(move |[i, j]| [j, last - i])),
-            ("turned by 90 degrees to the right", Box::new(move |[i, j]| [last - j, i])),
-        ];
-        turns.extend(square);
-    }
-    turns
-}
-
-fn class(pair: &BufferPair, in_a: [u32; 2], in_b: [u32; 2]) -> Class {
-    pair.compare_pixels(in_a, in_b).class()
-}
-
-/// Whether each pixel of A agrees with the pixel of B at its other place, and at least one of these pixels shows
-/// something.
-fn agree(pair: &BufferPair, place: &dyn Fn([u32; 2]) -> [u32; 2]) -> bool {
-    let mut seen = false;
-    for in_a in pixels(pair.a.size()) {
-        let class = class(pair, in_a, place(in_a));
-        if class.differs() {
-            return false;
-        }
-        seen |= class == Class::Alike;
-    }
-    seen
-}
-
-/// The same for a picture B that lies `rows` and `columns` farther. A pixel that leaves or enters the picture has no
-/// partner; unless that pixel is empty, the move does not explain its difference.
-fn agree_moved(pair: &BufferPair, [rows, columns]: [i32; 2], first: &[[u32; 2]]) -> bool {
-    let [width, height] = pair.a.size();
-    let moved = |[i, j]: [u32; 2], sign: i32| {
-        let i = i.checked_add_signed(sign * rows).filter(|&i| i < height)?;
-        Some([i, j.checked_add_signed(sign * columns).filter(|&j| j < width)?])
-    };
-    let empty = |buffer: &Buffer, pixel| {
-        buffer.samples_of(pixel).all(|sample| buffer.covered(sample) == Some(false))
-    };
-    let is_refuted =
-        |&pixel: &[u32; 2]| moved(pixel, 1).is_some_and(|in_b| class(pair, pixel, in_b).differs());
-    if first.iter().any(is_refuted) {
-        return false;
-    }
-    let mut seen = false;
-    for pixel in pixels(pair.a.size()) {
-        if let Some(in_b) = moved(pixel, 1) {
-            let class = class(pair, pixel, in_b);
-            if class.differs() {
-                return false;
-            }
-            seen |= class == Class::Alike;
-        }
-        let explained = (moved(pixel, 1).is_some() || empty(pair.a, pixel))
-            && (moved(pixel, -1).is_some() || empty(pair.b, pixel));
-        if !explained && class(pair, pixel, pixel).differs() {
-            return false;
-        }
-    }
-    seen
-}
-
-/// `1 row up and 1 column to the left`.
-fn steps_in_words([rows, columns]: [i32; 2]) -> String {
-    let words = |steps: i32, things: &str, [back, forth]: [&str; 2]| {
-        let direction = if steps < 0 { back } else { forth };
-        let number = count(steps.unsigned_abs().into(), things);
-        (steps != 0).then(|| format!("{number} {direction}"))
-    };
-    let rows = words(rows, "rows", ["up", "down"]);
-    let columns = words(columns, "columns", ["to the left", "to the right"]);
-    rows.into_iter().chain(columns).collect::<Vec<_>>().join(" and ")
 }
 
 /// The renaming of ids between A and B, if both cover the same samples, each id has one partner, and some ids differ.

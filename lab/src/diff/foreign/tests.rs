@@ -440,6 +440,44 @@ fn what_enters_at_the_border_is_explained_by_no_move() {
 }
 
 #[test]
+fn a_move_by_several_pixels_is_recognised_where_none_by_one_explains() {
+    let drawn = |rows: &str| ids([6, 5], &rows.replace(' ', ""));
+    let a = drawn("...... .01... .23... ...... ......");
+    let moved = |rows: &str| hints(&a, &drawn(rows));
+    let said = moved("...... ...... ...... ...01. ...23.");
+    assert_eq!(said, ["B agrees with A once it is moved 2 rows up and 2 columns to the left"]);
+    let said = moved("01.... 23.... ...... ...... ......");
+    let one = "moved 1 row down and 1 column to the right; where edges lie on samples, half a pixel does that";
+    assert_eq!(said, [format!("B agrees with A once it is {one}")]);
+    assert_eq!(
+        moved("...... ....01 ....23 ...... ......")[0],
+        "B agrees with A once it is moved 3 columns to the left"
+    );
+    // A part that leaves the picture is no move.
+    assert_eq!(moved("...... ...... ...... ...... ...01."), [""; 0]);
+}
+
+#[test]
+fn rows_for_columns_in_a_picture_that_is_not_square_are_recognised() {
+    let a = ids([3, 2], "012.45");
+    for (drawn, name) in [
+        ("0.1425", "transposed (its rows are A's columns)"),
+        ("5241.0", "mirrored at the diagonal from the bottom left to the top right"),
+        (".04152", "turned by 90 degrees to the left"),
+        ("25140.", "turned by 90 degrees to the right"),
+    ] {
+        let b = ids([2, 3], drawn);
+        assert_eq!(
+            exchanged_sides(&a, &b),
+            [format!("B agrees with A once it is {name}")],
+            "{drawn}"
+        );
+    }
+    assert!(exchanged_sides(&a, &ids([2, 3], "0.1.25")).is_empty());
+    assert!(exchanged_sides(&a, &a).is_empty());
+}
+
+#[test]
 fn masks_are_not_told_to_be_saved_as_bool() {
     let (a, b) = (mask([2, 1], "#."), mask([2, 1], ".#"));
     assert!(hints(&a, &b).iter().all(|hint| !hint.contains("bool")));
