@@ -85,6 +85,10 @@ impl Placement {
 }
 
 /// The coordinate on the viewport of the `j`-th of `n` columns or rows: `((j + offset)/(n − fewer) − ½)` of the side.
+///
+/// A pinhole camera with a principal point `c` and pixel centres at `j + s` has `(j + s − c)/n`. With `s = 0`, which is the
+/// integer grid, the middle is `c = (n − 1)/2`, and `c = n/2` is [`Corner`](Sampling::Corner); with `s = ½` it is
+/// `c = n/2`, and `c = (n − 1)/2` is [`FarCorner`](Sampling::FarCorner). No picture tells these from each other.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Sampling {
     /// `(j + ½)/n`: the middle of the pixel.
@@ -426,6 +430,27 @@ mod tests {
         assert_eq!(at(Sampling::PixelBefore), [-1.0, 7.0]);
         assert_eq!(at(Sampling::PixelAfter), [3.0, 11.0]);
         assert!(!Sampling::BorderToBorder.is_possible(1));
+    }
+
+    #[test]
+    fn a_principal_point_off_by_half_a_pixel_samples_corners() {
+        for n in [1_u32, 4, 7, 640] {
+            let (n_real, side) = (f64::from(n), 3.0);
+            let [of_grid, of_centres] = [(n_real - 1.0) / 2.0, n_real / 2.0];
+            for (sampling, centre, point) in [
+                (Sampling::Middle, 0.0, of_grid),
+                (Sampling::Corner, 0.0, of_centres),
+                (Sampling::Middle, 0.5, of_centres),
+                (Sampling::FarCorner, 0.5, of_grid),
+            ] {
+                for index in 0..n {
+                    // All but the quotient is exact.
+                    let expected =
+                        side * (2.0 * (f64::from(index) + centre - point)) / (2.0 * n_real);
+                    assert_eq!(sampling.coordinate(side, index, n), expected, "{sampling:?}");
+                }
+            }
+        }
     }
 
     #[test]

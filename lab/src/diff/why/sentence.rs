@@ -60,10 +60,13 @@ fn of_convention(convention: &Convention, projection: Projection) -> Vec<String>
 fn sampling_of_both(sampling: Sampling) -> Option<String> {
     let words = match sampling {
         Sampling::Middle => return None,
-        Sampling::Corner => "samples pixel corners (top left): in its loop, add 1/2 to i and j",
+        Sampling::Corner => {
+            "samples pixel corners (top left): in its loop, add 1/2 to i and j (a principal point of W/2 and H/2 with \
+             pixel centres at whole numbers is the same picture)"
+        }
         Sampling::FarCorner => {
-            "samples pixel corners (bottom right): in its loop, subtract 1/2 from i and j (is it a principal \
-             point of the integer grid, (W - 1)/2, together with pixel centres at j + 1/2?)"
+            "samples pixel corners (bottom right): in its loop, subtract 1/2 from i and j (a principal point of the \
+             integer grid, (W - 1)/2 and (H - 1)/2, with pixel centres at j + 1/2 and i + 1/2 is the same picture)"
         }
         Sampling::BorderToBorder => {
             "divides by W - 1 and H - 1: its first and last samples lie on the border of the viewport; take \
@@ -83,8 +86,10 @@ fn sampling_of_both(sampling: Sampling) -> Option<String> {
 fn sentence(change: Change, projection: Projection) -> String {
     match change {
         Change::Placement(placement) => of_placement(placement).into(),
-        Change::Columns(sampling) => of_sampling(sampling, ["j", "W", "column", "left", "right"]),
-        Change::Rows(sampling) => of_sampling(sampling, ["i", "H", "row", "top", "bottom"]),
+        Change::Columns(sampling) => {
+            of_sampling(sampling, ["j", "W", "cx", "column", "left", "right"])
+        }
+        Change::Rows(sampling) => of_sampling(sampling, ["i", "H", "cy", "row", "top", "bottom"]),
         Change::Field(field) => of_field(field).into(),
         Change::Look(Look::Backward | Look::Forward) => {
             "looks along +w, and sees what lies behind the eye: the direction is x u + y v - d w"
@@ -123,15 +128,17 @@ fn of_placement(placement: Placement) -> &'static str {
     }
 }
 
-fn of_sampling(sampling: Sampling, [index, sides, thing, first, last]: [&str; 5]) -> String {
+fn of_sampling(sampling: Sampling, [index, sides, point, thing, first, last]: [&str; 6]) -> String {
     match sampling {
         Sampling::Middle => format!("samples the middle of each {thing}"),
         Sampling::Corner => format!(
-            "samples the {first} edge of each pixel, not its middle: in its loop, add 1/2 to {index}"
+            "samples the {first} edge of each pixel, not its middle: in its loop, add 1/2 to {index} (a principal \
+             point {point} = {sides}/2 with pixel centres at whole numbers is the same picture)"
         ),
         Sampling::FarCorner => format!(
-            "samples the {last} edge of each pixel, not its middle: in its loop, subtract 1/2 from {index} (is its \
-             principal point ({sides} - 1)/2 instead of {sides}/2?)"
+            "samples the {last} edge of each pixel, not its middle: in its loop, subtract 1/2 from {index} (a \
+             principal point of the integer grid, {point} = ({sides} - 1)/2, with pixel centres at {index} + 1/2 is \
+             the same picture)"
         ),
         Sampling::BorderToBorder => format!(
             "divides {index} by {sides} - 1, so that the first and the last {thing} lie on the border of the \
@@ -313,4 +320,43 @@ fn digits(number: f64) -> String {
     format!("{number:.2e}")
         .parse::<f64>()
         .map_or_else(|_| number.to_string(), |short| short.to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The sentences of a convention.
+    fn sentences(changes: &[Change]) -> Vec<String> {
+        let convention = changes.iter().fold(Convention::default(), |all, &one| all.with(one));
+        of_convention(&convention, Projection::Perspective)
+    }
+
+    #[test]
+    fn a_principal_point_that_is_off_by_half_a_pixel_is_named_with_the_sampling_that_is_the_same() {
+        let point = "a principal point";
+        for (sampling, both, columns, rows) in [
+            (Sampling::Corner, "of W/2 and H/2", "cx = W/2", "cy = H/2"),
+            (
+                Sampling::FarCorner,
+                "of the integer grid, (W - 1)/2 and (H - 1)/2",
+                "of the integer grid, cx = (W - 1)/2",
+                "of the integer grid, cy = (H - 1)/2",
+            ),
+        ] {
+            let [of_columns, of_rows] = [Change::Columns(sampling), Change::Rows(sampling)];
+            for (changes, named) in [
+                (vec![of_columns, of_rows], both),
+                (vec![of_columns], columns),
+                (vec![of_rows], rows),
+            ] {
+                let said = sentences(&changes);
+                assert!(
+                    said.len() == 1 && said[0].contains(&format!("({point} {named}")),
+                    "{said:?}"
+                );
+                assert!(said[0].ends_with("is the same picture)"), "{said:?}");
+            }
+        }
+    }
 }
