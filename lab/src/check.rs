@@ -13,11 +13,13 @@
 //! # Ok::<(), bothways_lab::check::CheckError>(())
 //! ```
 
+mod causes;
 mod page;
 mod set;
 
 pub use set::{ConformanceSet, SetError};
 
+use crate::common::frame::NO_PRIMITIVE;
 use crate::common::raster::check_samples;
 use crate::common::{Camera, Options, Scene, View};
 use crate::diff::foreign::Aspect;
@@ -25,10 +27,7 @@ use crate::diff::foreign::{
     Buffer, BufferComparison, CompareOptions, Content, ReadOptions, compare_with, read_with,
 };
 use crate::diff::pairs::{PairsError, files_of_set};
-use crate::diff::why::{
-    CommonExplanation, ReasonKind, Rendering, alternatives, check_size, find_common_conventions,
-    find_reasons,
-};
+use crate::diff::why::{alternatives, check_size};
 use crate::orders::{self, Method, Order, RenderOptions};
 use crate::wording::{count, grouped};
 use std::path::Path;
@@ -56,7 +55,23 @@ pub struct CheckedFile {
     /// The point of the scene.
     pub point: String,
     /// What the file and the truth look like, if the file can be compared.
-    pub compared: Result<Compared, String>,
+    pub compared: Result<Compared, NotCompared>,
+}
+
+/// Why a file was not compared with the truth.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NotCompared {
+    /// The reason, as a sentence.
+    pub reason: String,
+    /// The content of the file, if it has as many rows as the picture of its scene has columns, and as many columns as
+    /// that has rows: what the renderer does otherwise in all its pictures may explain it.
+    pub exchanged: Option<Buffer<'static>>,
+}
+
+impl From<String> for NotCompared {
+    fn from(reason: String) -> NotCompared {
+        NotCompared { reason, exchanged: None }
+    }
 }
 
 /// A file that was compared with the truth.
@@ -129,8 +144,7 @@ pub fn check(
         files.push(CheckedFile { scene, file: pair.a, point, compared });
         loaded.push((content, camera));
     }
-    let views: Vec<View> = loaded.iter().map(|(scene, camera)| View::new(scene, camera)).collect();
-    let causes = causes(&files, &views);
+    let causes = causes::find(&files, &loaded);
     Ok(Check { files, missing: found.missing_in_a, ignored: found.ignored, causes })
 }
 
@@ -140,11 +154,15 @@ fn compared(
     scene: &Scene,
     camera: &Camera,
     background: Option<[u8; 3]>,
-) -> Result<Compared, String> {
+) -> Result<Compared, NotCompared> {
     let options = ReadOptions { background, ..ReadOptions::default() };
     let theirs = read_with(path, &options).map_err(|error| error.to_string())?.buffer;
     let view = View::new(scene, camera);
-    check_size(&view, &theirs).map_err(|error| error.to_string())?;
+    if let Err(error) = check_size(&view, &theirs) {
+        let [width, height] = camera.image();
+        let exchanged = (theirs.size() == [height, width]).then_some(theirs);
+        return Err(NotCompared { reason: error.to_string(), exchanged });
+    }
     let truth = truth(&view, &theirs)?;
     let options = CompareOptions { only_compares: true, ..CompareOptions::default() };
     let comparison = compare_with(&theirs, &truth, &options).map_err(|error| error.to_string())?;
@@ -168,107 +186,19 @@ pub(crate) fn truth(view: &View, like: &Buffer) -> Result<Buffer<'static>, Strin
     let options = RenderOptions { frame, no_counts: true, no_times: true, ..Default::default() };
     let rendered = orders::render(Order::Object, Method::Fast, view, &options);
     let frame = rendered.expect("only a stream has errors").frame;
-    let covered = |id: &u32| *id != crate::common::frame::NO_PRIMITIVE;
+    // A frame stores rows of samples, a file the samples of a pixel together.
+    let order = || frame.pixels().flat_map(|[i, j]| frame.samples_of(i as usize, j as usize));
+    let ids = || order().map(|sample| frame.ids()[sample]);
+    let covered = |id: u32| id != NO_PRIMITIVE;
     let content = if like.tells(Aspect::Ids) {
-        let id = |id: &u32| covered(id).then_some(u64::from(*id));
-        Content::Ids(frame.ids().iter().map(id).collect())
+        Content::Ids(ids().map(|id| covered(id).then_some(id.into())).collect())
     } else if like.tells(Aspect::T) {
-        Content::Distances(frame.distances().iter().map(|&t| t.into()).collect())
+        Content::Distances(order().map(|sample| frame.distances()[sample].into()).collect())
     } else {
-        let mask: Vec<bool> = frame.ids().iter().map(covered).collect();
+        let mask: Vec<bool> = ids().map(covered).collect();
         Content::Mask(mask.into())
     };
     Ok(Buffer::new(view.camera.image(), samples, content))
-}
-
-/// The causes of what is wrong, and the files of each.
-fn causes(files: &[CheckedFile], views: &[View]) -> Vec<Cause> {
-    let compared: Vec<(usize, &Compared)> = files
-        .iter()
-        .enumerate()
-        .filter_map(|(at, file)| Some((at, file.compared.as_ref().ok()?)))
-        .collect();
-    let wrong: Vec<usize> = compared
-        .iter()
-        .filter(|(_, compared)| !compared.comparison.equal)
-        .map(|&(at, _)| at)
-        .collect();
-    if wrong.is_empty() {
-        return Vec::new();
-    }
-    let renderings: Vec<Rendering> = compared
-        .iter()
-        .map(|&(at, compared)| Rendering { view: &views[at], file: &compared.theirs })
-        .collect();
-    let mut common = find_common_conventions(&renderings);
-    // What explains other files is another cause, of which nothing is said.
-    let first = common.first().map(|one| one.agrees.clone());
-    common.retain(|one| Some(&one.agrees) == first.as_ref());
-    let mut causes: Vec<Cause> = Vec::new();
-    let mut left = wrong.clone();
-    if let Some(first) = common.first() {
-        let agrees = |at: usize| {
-            let index = compared.iter().position(|&(other, _)| other == at);
-            index.is_some_and(|index| first.agrees[index])
-        };
-        let (explained, others) = left.into_iter().partition(|&at| agrees(at));
-        left = others;
-        let is_a_guess = first.is_a_guess(wrong.len());
-        causes.push(Cause {
-            alternatives: common
-                .iter()
-                .map(|one: &CommonExplanation| one.sentences("it"))
-                .collect(),
-            certainty: if is_a_guess { Certainty::Guess } else { Certainty::Convention },
-            files: explained,
-        });
-    }
-    for at in left {
-        let compared = files[at].compared.as_ref().expect("it was compared");
-        let (sentence, certainty) = of_pixels(&views[at], compared);
-        match causes
-            .iter_mut()
-            .find(|cause| cause.certainty == certainty && cause.alternatives[0][0] == sentence)
-        {
-            Some(cause) => cause.files.push(at),
-            None => causes.push(Cause {
-                alternatives: vec![vec![sentence]],
-                certainty,
-                files: vec![at],
-            }),
-        }
-    }
-    causes.sort_by_key(|cause| {
-        (cause.certainty == Certainty::Unknown, std::cmp::Reverse(cause.files.len()))
-    });
-    causes
-}
-
-/// The reason of most differing pixels of a file.
-fn of_pixels(view: &View, compared: &Compared) -> (String, Certainty) {
-    if compared.theirs.samples() != 1 {
-        let sentence = "unexplained: several samples a pixel are not searched for causes here";
-        return (sentence.into(), Certainty::Unknown);
-    }
-    let differing: Vec<[u32; 2]> =
-        compared.comparison.classes().differing().map(|(pixel, _)| pixel).collect();
-    let reasons = match find_reasons(view, &compared.theirs, &compared.truth, &differing) {
-        Ok(reasons) => reasons,
-        Err(error) => return (format!("unexplained: {error}"), Certainty::Unknown),
-    };
-    let known = |kind: ReasonKind| {
-        !matches!(
-            kind,
-            ReasonKind::Unexplained | ReasonKind::CannotTell | ReasonKind::WithinTolerance
-        )
-    };
-    let most = reasons.counts().into_iter().max_by_key(|&(_, pixels)| pixels);
-    match most {
-        Some((kind, pixels)) if known(kind) && 2 * pixels > reasons.differing => {
-            (format!("most of the pixels: {}", kind.name()), Certainty::Reason)
-        }
-        _ => ("unexplained by what is known here".into(), Certainty::Unknown),
-    }
 }
 
 impl Check {
@@ -282,9 +212,15 @@ impl Check {
         self.files.iter().filter(|file| file.is_right()).count()
     }
 
-    /// The number of files that cannot be compared.
+    /// The number of files that cannot be compared, and that no cause explains.
     pub fn unreadable(&self) -> usize {
-        self.files.iter().filter(|file| file.compared.is_err()).count()
+        let files = self.files.iter().enumerate();
+        files.filter(|(at, file)| file.compared.is_err() && self.cause_of(*at).is_none()).count()
+    }
+
+    /// The place of the cause of a file among all causes, if it has one.
+    pub fn cause_of(&self, file: usize) -> Option<usize> {
+        self.causes.iter().position(|cause| cause.files.contains(&file))
     }
 
     /// The result in one sentence: `52 of 68 fail: it samples pixel corners …`.

@@ -199,11 +199,12 @@ impl Report<'_> {
     }
 
     fn words(&self, at: usize, file: &CheckedFile) -> String {
-        let compared = match &file.compared {
-            Ok(compared) => compared,
-            Err(error) => return format!("cannot be compared: {}", visible(error)),
+        let cause = self.checked.cause_of(at).map(|cause| &self.checked.causes[cause]);
+        let compared = match (&file.compared, cause) {
+            (Ok(compared), _) => compared,
+            (Err(error), Some(_)) => return visible(&error.reason).into_owned(),
+            (Err(error), None) => return format!("cannot be compared: {}", visible(&error.reason)),
         };
-        let cause = self.checked.causes.iter().find(|cause| cause.files.contains(&at));
         let point = match cause.map(|cause| cause.certainty) {
             Some(Certainty::Convention) => String::new(),
             _ => format!(". {}", visible(&file.point)),
@@ -263,6 +264,6 @@ fn file_json(file: &CheckedFile) -> FileJson<'_> {
         differing_pixels: comparison.map(|comparison| comparison.differing_pixels),
         first_differing: comparison
             .and_then(|comparison| comparison.first_differing.first().copied()),
-        error: file.compared.as_ref().err().map(String::as_str),
+        error: file.compared.as_ref().err().map(|error| error.reason.as_str()),
     }
 }

@@ -88,11 +88,14 @@ impl Check {
         let (name, point) = (visible(&file.file), visible(&file.point));
         let (name, point) = (escaped(&name), escaped(&point));
         writeln!(out, "<article>\n<h3>{name}</h3>\n<p class=\"point\">{point}</p>")?;
+        let cause = self.cause_of(at);
+        let cause = cause.map_or(String::new(), |cause| format!("; cause {}", cause + 1));
         let compared = match &file.compared {
             Ok(compared) => compared,
             Err(error) => {
-                let error = visible(error);
-                return writeln!(out, "<p class=\"bad\">{}</p>\n</article>", escaped(&error));
+                let reason = visible(&error.reason);
+                let reason = escaped(&reason);
+                return writeln!(out, "<p class=\"bad\">{reason}{cause}</p>\n</article>");
             }
         };
         let comparison = &compared.comparison;
@@ -102,8 +105,6 @@ impl Check {
         write_picture("truth", &truth.picture, out)?;
         write_picture("difference", &comparison.picture(), out)?;
         writeln!(out, "</div>")?;
-        let cause = self.causes.iter().position(|cause| cause.files.contains(&at));
-        let cause = cause.map_or(String::new(), |cause| format!("; cause {}", cause + 1));
         writeln!(out, "<p>{}{cause}</p>\n</article>", compared.words())
     }
 }

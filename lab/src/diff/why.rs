@@ -13,6 +13,7 @@ mod outline;
 mod pixels;
 mod rays;
 mod reason;
+mod samples;
 mod search;
 mod sentence;
 mod shown;
@@ -25,6 +26,7 @@ pub use convention::{
 pub use encoding::{DistanceEncoding, Encoding, IdEncoding, NothingEncoding};
 pub use pixels::{PixelReason, ReasonError, Reasons, Wrong, find_reasons, find_reasons_of_samples};
 pub use reason::{Reason, ReasonKind, TieRules};
+pub use samples::camera_of_samples;
 pub use search::{Explanation, Finding, Findings, SearchError, find_conventions};
 pub use sentence::alternatives;
 pub use size::{OtherSize, cause_of_size, check_size};

@@ -5,14 +5,14 @@ use super::line;
 use crate::cli::args::ProjectionArg;
 use crate::cli::failure::Failure;
 use anstyle::Style;
-use bothways::common::{Camera, CameraDescription, Crop, Scene, View};
+use bothways::common::{Camera, Crop, Scene, View};
 use bothways::diff::foreign::{
     Buffer, BufferComparison, CompareOptions, Side, compare_with, exchanged_sides,
 };
 use bothways::diff::page::{Group, Page};
 use bothways::diff::why::{
-    Explanation, Finding, Findings, PixelReason, Reason, ReasonKind, Reasons, Wrong, cause_of_size,
-    find_conventions, find_reasons_of_samples,
+    Explanation, Finding, Findings, PixelReason, Reason, ReasonKind, Reasons, Wrong,
+    camera_of_samples, cause_of_size, find_conventions, find_reasons_of_samples,
 };
 use bothways::figure::{Entry, with_legend};
 use bothways::picture::enlarged;
@@ -43,11 +43,10 @@ impl BySample {
             return Ok(None);
         };
         // Another size has its own message, and what is too large is not looked at sample by sample.
-        if camera.image().map(|side| side * samples) != a.size() {
+        let camera = camera_of_samples(camera, samples);
+        let Some(camera) = camera.filter(|camera| camera.image() == a.size()) else {
             return Ok(None);
-        }
-        let description = CameraDescription { image: a.size(), ..*camera.description() };
-        let Ok(camera) = Camera::new(description) else { return Ok(None) };
+        };
         let scaled = |crop: &Crop| Crop {
             row: crop.row * samples,
             column: crop.column * samples,
