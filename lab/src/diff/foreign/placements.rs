@@ -1,5 +1,6 @@
 //! Turns and moves after which one picture agrees with another.
 
+use crate::diff::aspect::Aspect;
 use crate::diff::buffer::Buffer;
 use crate::diff::buffer_pair::{BufferPair, Decides};
 use crate::diff::classes::{Class, Classes, pixels};
@@ -129,7 +130,9 @@ fn agree(pair: &BufferPair, place: &dyn Fn([u32; 2]) -> [u32; 2]) -> bool {
 }
 
 /// The same for a picture B that lies `rows` and `columns` farther. A pixel that leaves or enters the picture has no
-/// partner; unless that pixel is empty, the move does not explain its difference.
+/// partner; unless that pixel is empty, the move does not explain its difference. Where a move is by more than a pixel, what
+/// leaves or enters must be empty even if it does not differ, as far as coverage is known: a half that is missing would
+/// look like the other half, moved.
 fn agree_moved(pair: &BufferPair, [rows, columns]: [i32; 2], first: &[[u32; 2]]) -> bool {
     let [width, height] = pair.a.size();
     let moved = |[i, j]: [u32; 2], sign: i32| {
@@ -147,6 +150,7 @@ fn agree_moved(pair: &BufferPair, [rows, columns]: [i32; 2], first: &[[u32; 2]])
     if first.iter().any(is_refuted) {
         return false;
     }
+    let is_strict = rows.abs().max(columns.abs()) > 1 && pair.compares(Aspect::Coverage);
     let mut seen = false;
     for pixel in pixels(pair.a.size()) {
         if let Some(in_b) = moved(pixel, 1) {
@@ -158,7 +162,7 @@ fn agree_moved(pair: &BufferPair, [rows, columns]: [i32; 2], first: &[[u32; 2]])
         }
         let explained = (moved(pixel, 1).is_some() || empty(pair.a, pixel))
             && (moved(pixel, -1).is_some() || empty(pair.b, pixel));
-        if !explained && class(pair, pixel, pixel).differs() {
+        if !explained && (is_strict || class(pair, pixel, pixel).differs()) {
             return false;
         }
     }
