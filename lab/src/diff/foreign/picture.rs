@@ -113,8 +113,9 @@ fn check_runs(input: &mut (impl BufRead + Seek), length: u64) -> Result<(), Prob
     let number = |at: usize| header[at..at + 4].try_into().map_or(0, i32::from_le_bytes);
     let ([width, height], compression) = ([number(18), number(22)], number(30));
     let runs = matches!(compression, 1 | 2) && number(14) >= 40;
-    let pixels = u64::from(width.unsigned_abs()) * u64::from(height.unsigned_abs());
-    if runs && pixels > length * LONGEST_RUN {
+    // The height is negative if the rows come from the top.
+    let [width, height] = [width, height].map(i32::unsigned_abs);
+    if runs && u64::from(width) * u64::from(height) > length * LONGEST_RUN {
         return Err(Problem::Content(format!(
             "a run-length BMP of {length} bytes cannot fill {width} x {height} pixels; if the file is \
              complete, save it as PNG"

@@ -1,6 +1,7 @@
 //! Files and buffers made by hand, and the messages about them.
 
 mod exr;
+mod hostile;
 mod options;
 mod pictures;
 
