@@ -36,6 +36,19 @@ fn a_renderer_is_summed_up_by_cause() {
     let files = json["files"].as_array().unwrap();
     let wrong = files.iter().filter(|file| file["right"] == false).count();
     assert_eq!(json["causes"][0]["files"].as_array().unwrap().len(), wrong);
+    // Where most files are noise, what explains the others is a guess.
+    let mut dice = fastrand::Rng::with_seed(3);
+    let mut entries: Vec<_> = fs::read_dir(home.path().join("mine")).unwrap().collect();
+    entries.sort_by_key(|entry| entry.as_ref().unwrap().file_name());
+    for entry in entries.into_iter().skip(14) {
+        let path = entry.unwrap().path();
+        let mut mask = image::open(&path).unwrap().into_luma8();
+        mask.pixels_mut().for_each(|pixel| pixel.0 = [if dice.bool() { 255 } else { 0 }]);
+        mask.save(&path).unwrap();
+    }
+    let said = printed(bothways(&home, &["check", "mine"]), 1);
+    assert!(said.contains("a guess, which explains less than half:"), "{said}");
+    assert!(said.contains("a guess: it is upside down"), "{said}");
 }
 
 #[test]
@@ -50,6 +63,19 @@ fn the_next_step_compares_what_the_file_holds() {
     let said = printed(bothways(&home, &["check", "mine", "vectors"]), 1);
     let next = "next: bothways diff mine/one-triangle.npy vectors/one-triangle.t.npy --scene \
                 vectors/one-triangle.toml\n";
+    assert!(said.ends_with(next), "{said}");
+    // Colours alone tell what is covered by their background, here nothing of the left half.
+    let (mine, background) = (home.path().join("mine"), image::Rgb([16, 20, 24]));
+    fs::remove_file(mine.join("one-triangle.npy")).unwrap();
+    let mask = image::open(home.path().join("vectors/one-triangle.mask.png")).unwrap();
+    let half =
+        |x: u32, _: u32| if 2 * x < mask.width() { background } else { image::Rgb([200; 3]) };
+    let picture = image::RgbImage::from_fn(mask.width(), mask.height(), half);
+    picture.save(mine.join("one-triangle.png")).unwrap();
+    let args = ["check", "mine", "vectors", "--background", "#101418"];
+    let said = printed(bothways(&home, &args), 1);
+    let next = "next: bothways diff mine/one-triangle.png vectors/one-triangle.mask.png --scene \
+                vectors/one-triangle.toml --background '#101418'\n";
     assert!(said.ends_with(next), "{said}");
 }
 
