@@ -68,8 +68,7 @@ impl Buffer<'_> {
             return None;
         };
         let parts = a.par_chunks(AT_ONCE).zip(b.par_chunks(AT_ONCE));
-        let covered = parts
-            .map(|(a, b)| dispatch!(best_level(), simd => packed_if_equal(simd, [a, b], |_| {})));
+        let covered = parts.map(|(a, b)| dispatch!(best_level(), _simd => covered_if_equal(a, b)));
         let covered = covered.try_reduce(|| 0, |one, other| Some(one + other))?;
         Some((a, covered))
     }
@@ -85,7 +84,7 @@ impl Buffer<'_> {
         words.clear();
         words.reserve(run.len().div_ceil(64));
         let [a, b] = [&a[run.clone()], &b[run]];
-        dispatch!(best_level(), simd => packed_if_equal(simd, [a, b], |word| words.push(word)))
+        dispatch!(best_level(), simd => packed_if_equal(simd, [a, b], words))
     }
 }
 
@@ -125,20 +124,45 @@ fn bits(values: impl Iterator<Item = bool>) -> u64 {
     values.enumerate().fold(0, |bits, (at, value)| bits | u64::from(value) << at)
 }
 
-/// Packs values into words of 64 bits, which the caller may keep, and counts the true ones; `None` if others are not equal
-/// to them.
+/// The number of true ones among values; `None` if others are not equal to them. What was compared is counted while it is in
+/// the nearest cache.
+#[inline(always)]
+fn covered_if_equal(values: &[bool], others: &[bool]) -> Option<u64> {
+    /// The sums of so many columns are counted beside one another, in bytes.
+    const LANES: usize = 64;
+    /// So many values at once: no sum is more than a byte holds, and twice as many bytes fit into that cache.
+    const AT_ONCE: usize = 128 * LANES;
+    let mut count = 0;
+    for (values, others) in values.chunks(AT_ONCE).zip(others.chunks(AT_ONCE)) {
+        if values != others {
+            return None;
+        }
+        let (lines, rest) = values.as_chunks::<LANES>();
+        let mut sums = [0_u8; LANES];
+        for line in lines {
+            for (sum, value) in sums.iter_mut().zip(line) {
+                *sum += u8::from(*value);
+            }
+        }
+        let all = sums.into_iter().chain(rest.iter().copied().map(u8::from));
+        count += all.map(u64::from).sum::<u64>();
+    }
+    Some(count)
+}
+
+/// Packs values into words of 64 bits, and counts the true ones; `None` if others are not equal to them.
 #[inline(always)]
 fn packed_if_equal<S: Simd>(
     simd: S,
     [values, others]: [&[bool]; 2],
-    mut keep: impl FnMut(u64),
+    words: &mut Vec<u64>,
 ) -> Option<u64> {
     let (mut count, mut differing) = (0, 0);
     for (values, others) in values.chunks(64).zip(others.chunks(64)) {
         let (bits, other) = (packed(simd, values), packed(simd, others));
         differing |= bits ^ other;
         count += u64::from(bits.count_ones());
-        keep(bits);
+        words.push(bits);
     }
     (differing == 0).then_some(count)
 }

@@ -451,6 +451,29 @@ mod tests {
     }
 
     #[test]
+    fn equal_masks_of_any_size_are_counted_and_one_other_pixel_is_found() {
+        for size in [[1, 1], [63, 3], [640, 480], [257, 130]] {
+            let count = (size[0] * size[1]) as usize;
+            for every in [1, 2, 7] {
+                let mask: Vec<bool> = (0..count).map(|at| at % every == 0).collect();
+                let buffer =
+                    |mask: &[bool]| Buffer::new(size, 1, Content::Mask(mask.to_vec().into()));
+                let a = buffer(&mask);
+                let pair = BufferPair::new(&a, &a, Decides::Everything);
+                assert_eq!(pair.equal_mask().unwrap().1, count.div_ceil(every) as u64);
+                for at in [0, count / 2, count - 1] {
+                    let mut other = mask.clone();
+                    other[at] ^= true;
+                    let b = buffer(&other);
+                    let pair = BufferPair::new(&a, &b, Decides::Everything);
+                    assert!(pair.equal_mask().is_none(), "{size:?}, {at}");
+                    assert_eq!(all_pixels(&pair).0.differing_pixels, 1);
+                }
+            }
+        }
+    }
+
+    #[test]
     fn runs_of_equal_pixels_are_compared_as_single_ones() {
         for size in [[1, 40], [63, 5], [64, 33], [130, 20]] {
             for [a, b] in &pairs(size) {
