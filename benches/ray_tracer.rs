@@ -1,5 +1,5 @@
-//! Times image order. Each bench varies one quantity: triangles, pixels, threads, the cropped portion, ties, or the
-//! projection.
+//! Times image order. Each bench varies one quantity: triangles, pixels, threads, the cropped portion, ties, the
+//! projection, or the kind of primitives.
 //!
 //! A time is that of one frame of visibility, as in `rasterizer`: 1920 × 1080 pixels on one thread, into a frame and with a
 //! prepared scene that are reused, unless the bench varies them. `prepare` times the construction of the hierarchy.
@@ -7,13 +7,17 @@
 
 mod support;
 
-use bothways::common::{Camera, CameraDescription, Frame, Options, Projection, Scene, View};
+use bothways::common::glam::Vec3;
+use bothways::common::{
+    Camera, CameraDescription, Frame, Mesh, Options, Projection, Scene, Shape, Sphere, View,
+};
 use bothways::raytrace::fast;
 use divan::Bencher;
 use divan::counter::ItemsCount;
 use rayon::ThreadPool;
 use support::{
-    Alignment, Duplicate, FULL_HD, MILLION, Portion, camera, on_pixels, scene, sphere, squares,
+    Alignment, Duplicate, FULL_HD, MILLION, Portion, camera, on_pixels, planes, scene, sphere,
+    squares, thousand_spheres,
 };
 
 fn main() {
@@ -115,4 +119,57 @@ fn projections(bencher: Bencher, projection: Projection) {
     let description = CameraDescription { projection, viewport, ..*description };
     let camera = Camera::new(description).expect("it is a camera");
     time_visibility(bencher, &scene([mesh]), &camera, 1, &Options::default());
+}
+
+/// What is not a small triangle in front of the eye.
+#[derive(Clone, Copy, Debug)]
+enum Kind {
+    Spheres,
+    /// One sphere around the eye.
+    Ball,
+    Planes,
+    /// One plane.
+    Ground,
+    /// Triangles that reach behind the eye, in a plane below it.
+    Floor,
+    /// Triangles that reach behind the eye, and that it sees almost edge-on.
+    EdgeOn,
+}
+
+impl Kind {
+    fn scene(self) -> Scene {
+        match self {
+            Kind::Spheres => thousand_spheres(),
+            Kind::Ball => ball(),
+            Kind::Planes => planes(300),
+            Kind::Ground => planes(1),
+            Kind::Floor => scene([strips(100, 300.0)]),
+            Kind::EdgeOn => scene([strips(100, 1e-12)]),
+        }
+    }
+}
+
+/// A sphere around the eye of [`on_pixels`].
+fn ball() -> Scene {
+    let ball = Sphere { center: Vec3::new(100.0, 0.0, -500.0), radius: 900.0 };
+    Scene::new(vec![Shape::Sphere(ball).into()]).expect("it is a scene")
+}
+
+/// Strips of triangles from far before the eye to far behind it, in a plane so far below it.
+fn strips(count: u16, below: f32) -> Mesh {
+    let corner = |k: u16| {
+        let (x, z) = (100.0 * f32::from(k / 2) - 50.0 * f32::from(count), f32::from(k % 2) - 0.5);
+        Vec3::new(x, -below, 20_000.0 * z)
+    };
+    let first = |k: u16| u32::from(2 * k);
+    let triangles = (0..count).map(first).flat_map(|a| [[a, a + 1, a + 3], [a, a + 3, a + 2]]);
+    Mesh::new((0..2 * count + 2).map(corner).collect(), triangles.collect()).expect("it is a mesh")
+}
+
+/// Spheres, planes, and triangles that reach behind the eye.
+#[divan::bench(args = [
+    Kind::Spheres, Kind::Ball, Kind::Planes, Kind::Ground, Kind::Floor, Kind::EdgeOn,
+])]
+fn kinds(bencher: Bencher, kind: Kind) {
+    time_visibility(bencher, &kind.scene(), &on_pixels(), 1, &Options::default());
 }

@@ -1,7 +1,9 @@
 //! Meshes, scenes and cameras for the benches of both orders.
 
 use bothways::common::glam::{Vec2, Vec3};
-use bothways::common::{Camera, CameraDescription, Crop, Mesh, Options, Projection, Scene, Shape};
+use bothways::common::{
+    Camera, CameraDescription, Crop, Mesh, Options, Plane, Projection, Scene, Shape, Sphere,
+};
 use bothways::formats::generate::Kind;
 use bothways::scenes::Framing;
 
@@ -110,4 +112,32 @@ pub(crate) fn squares(side: u32, alignment: Alignment) -> Mesh {
     };
     let positions = (0..(columns + 1) * (rows + 1)).map(corner).collect();
     Mesh::new(positions, (0..columns * rows).flat_map(square).collect()).expect("it is a mesh")
+}
+
+/// A thousand spheres in a box in front of the camera of [`on_pixels`], of 20 to 100 units, along a spiral that turns
+/// by the golden angle.
+pub(crate) fn thousand_spheres() -> Scene {
+    let sphere = |k: u16| {
+        let part = f32::from(k) / 1000.0;
+        let (sin, cos) = (2.399_963 * f32::from(k)).sin_cos();
+        let across = 500.0 * part.sqrt();
+        let depth = 1000.0 + 1000.0 * (0.618_034 * f32::from(k)).fract();
+        let center = Vec3::new(1.8 * across * cos, across * sin, -depth);
+        let radius = 20.0 + 80.0 * (0.754_878 * f32::from(k)).fract();
+        Shape::Sphere(Sphere { center, radius }).into()
+    };
+    Scene::new((0..1000).map(sphere).collect()).expect("it is a scene")
+}
+
+/// Planes over the image of [`on_pixels`], through points in front of the eye, with normals in all directions.
+pub(crate) fn planes(count: u16) -> Scene {
+    let plane = |k: u16| {
+        let part = (f32::from(k) + 0.5) / f32::from(count);
+        let (sin, cos) = (2.399_963 * f32::from(k)).sin_cos();
+        let across = (1.0 - part * part).sqrt();
+        let point = Vec3::new(0.0, 0.0, -1000.0 - 1000.0 * (0.618_034 * f32::from(k)).fract());
+        let normal = Vec3::new(across * cos, across * sin, part);
+        Shape::Plane(Plane { point, normal }).into()
+    };
+    Scene::new((0..count).map(plane).collect()).expect("it is a scene")
 }
