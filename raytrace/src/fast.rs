@@ -42,6 +42,7 @@ mod store;
 mod straight_rays;
 mod tile;
 mod triangle;
+mod viewport_affine;
 mod world_affine;
 
 use bothways_common::engine::any_observer::{AnyObserver, PartObserver};
@@ -52,6 +53,7 @@ use bothways_common::frame::{NO_PRIMITIVE, Tile};
 use bothways_common::observe::{Events, Executed, Observer};
 use bothways_common::{Frame, Options, Scene, View};
 use camera_map::CameraMap;
+use one_primitive::unbounded::Unbounded;
 use rayon::prelude::*;
 use search::build::build;
 use search::tile_frustum::FrustumTemplate;
@@ -173,6 +175,7 @@ fn run(
     assert_eq!(prepared.primitives, view.scene.primitive_count(), "another scene was prepared");
     frame.fit(view.camera, options);
     let map = CameraMap::new(view, options.samples, &prepared.bounds);
+    let unbounded = Unbounded::for_tiles(prepared, &map);
     // A box's last place matters to a ray alone: a fault there shows in tiles of one.
     let side = if (loops.is)(Planted::ShrunkBox) { 1 } else { prepared.side };
     let (of_tile, of_ray) = (loops.template(&map, side), loops.template(&map, 1));
@@ -193,7 +196,7 @@ fn run(
         };
         let chunks = std::mem::take(&mut chunks).into_par_iter().zip(parts);
         let each = chunks.with_max_len(1).enumerate();
-        let of_chunks = each.map_init(|| Walker::new(prepared, &map), draw);
+        let of_chunks = each.map_init(|| Walker::new(prepared, &map, &unbounded), draw);
         executed = of_chunks.sum();
     });
     executed

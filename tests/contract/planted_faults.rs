@@ -4,7 +4,8 @@
 use bothways::common::engine::fault::{Planted, with};
 use bothways::common::glam::Vec3;
 use bothways::common::{
-    Camera, CameraDescription, Frame, Mesh, Object, Options, Projection, Scene, Shape, View,
+    Camera, CameraDescription, Frame, Mesh, Object, Options, Plane, Projection, Scene, Shape,
+    Sphere, View,
 };
 use bothways::diff::compare;
 use bothways::scenes::load;
@@ -123,6 +124,55 @@ fn bounds_without_end_change_nothing() {
                 assert_eq!(found, ALL_WELL, "{fault:?}, {name}, {projection:?}");
             }
         }
+    }
+}
+
+/// Planes and spheres, and triangles that reach behind the eye, some of them nearly edge-on.
+fn large_and_round() -> Scene {
+    let at = |x: f32, y: f32, z: f32| Vec3::new(x, y, z);
+    let plane = |point, normal| Shape::Plane(Plane { point, normal }).into();
+    let sphere = |center, radius| Shape::Sphere(Sphere { center, radius }).into();
+    let mut objects = vec![
+        plane(at(0.0, -1.0, 0.0), Vec3::Y),
+        plane(at(1.0, 0.0, -6.0), at(0.3, 0.4, 1.0)),
+        plane(at(1e-9, 0.0, 0.0), Vec3::X),
+        sphere(at(0.0, 0.0, -4.0), 1.0),
+        sphere(at(0.0, 0.5, -4.0), 0.5),
+        sphere(at(0.0, 1.0, 0.0), 1.0),
+        sphere(at(2.0, 1.0, 1.0), 3.0),
+    ];
+    objects.extend([
+        triangle([[-2.0, -0.5, -3.0], [2.0, -0.5, -3.0], [0.0, -0.25, 5.0]]),
+        triangle([[-2.0, 1e-12, -3.0], [2.0, 0.0, -3.0], [0.0, 0.0, 5.0]]),
+        triangle([[1.0, 2.0, -3.0], [-2.0, -4.0, 6.0], [0.5, 0.25, -1.0]]),
+    ]);
+    scene(objects)
+}
+
+#[test]
+fn bounds_without_end_change_nothing_of_planes_and_spheres() {
+    let scene = large_and_round();
+    for fault in [Planted::InfiniteErrorBound, Planted::InfiniteMargin] {
+        for projection in PROJECTIONS {
+            let camera = turned(projection, [0.0; 3], [0.1, 0.0, -1.0], [35, 19]);
+            assert_eq!(verdicts(&scene, &camera, Some(fault)), ALL_WELL, "{fault:?}");
+        }
+    }
+}
+
+#[test]
+fn an_error_bound_of_zero_of_planes_differs_in_image_order() {
+    // One plane, given by many points and normals.
+    let planes = (1..9_u8).map(|k| {
+        let k = f32::from(k);
+        let point = Vec3::new(2.0 * k, 1.0 - k, -8.0 - k);
+        Shape::Plane(Plane { point, normal: k * Vec3::ONE }).into()
+    });
+    let scene = scene(planes.collect());
+    for projection in PROJECTIONS {
+        let camera = turned(projection, [2.3, 2.9, 4.1], [0.1, 0.2, 0.3], [64, 64]);
+        let verdicts = verdicts(&scene, &camera, Some(Planted::ZeroErrorBound));
+        assert!(!verdicts.image_order, "{projection:?}");
     }
 }
 

@@ -1,6 +1,7 @@
 //! The first hit of any ray, not only of the rays of a picture.
 
 use super::camera_map::CameraMap;
+use super::one_primitive::unbounded::Unbounded;
 use super::prepared::Prepared;
 use super::search::tile_frustum::FrustumTemplate;
 use super::search::walk::Walker;
@@ -91,7 +92,8 @@ pub fn first_hit(prepared: &Prepared, scene: &Scene, ray: WorldRay) -> Option<Hi
     let camera = ray.camera();
     let view = View::new(scene, &camera);
     let map = CameraMap::new(&view, 1, &prepared.bounds);
-    let mut walker = Walker::new(prepared, &map);
+    let unbounded = Unbounded::for_rays(prepared, &map);
+    let mut walker = Walker::new(prepared, &map, &unbounded);
     let distance = dispatch!(prepared.level, simd => {
         trace_alone(&mut Parts::new(simd, &mut (), Sound), &mut walker)
     });

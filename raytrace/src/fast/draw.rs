@@ -55,7 +55,7 @@ pub(super) fn draw<C: Context>(
     while many != 0 {
         let lane = (many.trailing_zeros() & 7) as usize;
         many &= many - 1;
-        many_samples::draw(simd, frustum, &arrays, lane, eight.ids[lane], tile);
+        many_samples::draw(simd, frustum, &arrays.lane(lane), (lane, eight.ids[lane]), tile);
     }
     judge_open(context, map, eight, doubtful, tile);
     tile.renew(simd);

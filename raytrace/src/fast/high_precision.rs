@@ -12,25 +12,36 @@ pub(super) struct DoubleDouble {
 }
 
 impl DoubleDouble {
+    pub(super) const ZERO: DoubleDouble = DoubleDouble::exact(0.0);
+
+    pub(super) const fn exact(number: f64) -> DoubleDouble {
+        DoubleDouble { high: number, low: 0.0, error: 0.0 }
+    }
+
     /// The sum of products `p·q`.
+    pub(super) fn of_products<const N: usize>(p: [f64; N], q: [f64; N]) -> DoubleDouble {
+        DoubleDouble::sum_of_products(p.into_iter().zip(q))
+    }
+
+    /// The sum of products.
     ///
     /// What rounding takes from each product and each partial sum is found without error, and added up
     /// (Ogita, Rump and Oishi, "Accurate Sum and Dot Product", SIAM Journal on Scientific Computing 26, 2005:
     /// `Dot2`). That is rounded: twice for each product, each time by less than a part in 2⁵³ of all that was
     /// found, whose sizes are added up as well. The bound has half as much again.
-    pub(super) fn of_products<const N: usize>(p: [f64; N], q: [f64; N]) -> DoubleDouble {
+    #[inline(always)]
+    pub(super) fn sum_of_products(products: impl IntoIterator<Item = (f64, f64)>) -> DoubleDouble {
         /// Of smaller products, what is lost may underflow; it is far less than this itself.
         const TINY: f64 = 1e-250;
         let (mut high, mut low, mut lost) = (0.0, 0.0, 0.0_f64);
-        let mut underflow = 0.0;
-        #[expect(clippy::cast_precision_loss, reason = "there are few")]
-        let count = N as f64;
-        for (p, q) in p.into_iter().zip(q) {
+        let (mut underflow, mut count) = (0.0, 0.0);
+        for (p, q) in products {
             let (product, of_product) = product(p, q);
             let (sum, of_sum) = sum(high, product);
             high = sum;
             low += of_product + of_sum;
             lost += of_product.abs() + of_sum.abs();
+            count += 1.0;
             if product.abs() < TINY && p != 0.0 && q != 0.0 {
                 underflow = TINY;
             }
@@ -50,6 +61,14 @@ impl DoubleDouble {
 
     pub(super) fn is_zero(&self) -> bool {
         self.high == 0.0 && self.error == 0.0
+    }
+}
+
+impl std::ops::Neg for DoubleDouble {
+    type Output = DoubleDouble;
+
+    fn neg(self) -> DoubleDouble {
+        DoubleDouble { high: -self.high, low: -self.low, error: self.error }
     }
 }
 

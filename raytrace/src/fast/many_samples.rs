@@ -1,5 +1,5 @@
-//! Triangles over many samples: one triangle at sixteen blocks at once, then at the sixteen samples of each block that
-//! is left.
+//! Triangles over many samples, and planes: one of them at sixteen blocks at once, then at the sixteen samples of each
+//! block that is left.
 
 use super::affine::Affine;
 use super::search::tile_frustum::TileFrustum;
@@ -31,6 +31,36 @@ impl SetupArrays {
     }
 }
 
+/// The setup of one triangle, or plane.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FlatSetup {
+    /// For each edge, and for the key: at the middle, across, down.
+    pub(super) affine: [[f32; 3]; 4],
+    pub(super) error: f32,
+    pub(super) key_error: f32,
+    /// The first row of the tile that it may cover, and the last; likewise columns.
+    pub(super) rows: [f32; 2],
+    pub(super) columns: [f32; 2],
+}
+
+impl SetupArrays {
+    /// The setup of one lane.
+    #[inline(always)]
+    pub(super) fn lane(&self, lane: usize) -> FlatSetup {
+        let of = |k: usize| {
+            let [at_middle, across, down] = &self.affine[k];
+            [at_middle[lane], across[lane], down[lane]]
+        };
+        FlatSetup {
+            affine: [of(0), of(1), of(2), of(3)],
+            error: self.error[lane],
+            key_error: self.key_error[lane],
+            rows: [self.rows[0][lane], self.rows[1][lane]],
+            columns: [self.columns[0][lane], self.columns[1][lane]],
+        }
+    }
+}
+
 #[inline(always)]
 fn arrays<S: Simd>(affine: &Affine<S>) -> [[f32; 8]; 3] {
     [affine.at_middle.to_array(), affine.across.to_array(), affine.down.to_array()]
@@ -38,32 +68,32 @@ fn arrays<S: Simd>(affine: &Affine<S>) -> [[f32; 8]; 3] {
 
 /// The middles of the blocks of a group, from the middle of the first; and those of a block's samples, from its
 /// middle.
-const STEPS: [f32; 4] = [0.0, 4.0, 8.0, 12.0];
-const WITHIN: [f32; 4] = [-1.5, -0.5, 0.5, 1.5];
+pub(super) const STEPS: [f32; 4] = [0.0, 4.0, 8.0, 12.0];
+pub(super) const WITHIN: [f32; 4] = [-1.5, -0.5, 0.5, 1.5];
 
+/// The columns of sixteen places, four times the same four; and their rows.
 #[inline(always)]
-fn columns<S: Simd>(simd: S, of: [f32; 4]) -> f32x16<S> {
+pub(super) fn columns<S: Simd>(simd: S, of: [f32; 4]) -> f32x16<S> {
     let [a, b, c, d] = of;
     f32x16::load_array(simd, [a, b, c, d, a, b, c, d, a, b, c, d, a, b, c, d])
 }
 
 #[inline(always)]
-fn rows<S: Simd>(simd: S, of: [f32; 4]) -> f32x16<S> {
+pub(super) fn rows<S: Simd>(simd: S, of: [f32; 4]) -> f32x16<S> {
     let [a, b, c, d] = of;
     f32x16::load_array(simd, [a, a, a, a, b, b, b, b, c, c, c, c, d, d, d, d])
 }
 
-/// Tests the triangle of one lane at the samples of the tile.
+/// Tests a triangle or plane at the samples of the tile. What is left open is left so in this `lane`.
 #[inline(always)]
 pub(super) fn draw<S: Simd>(
     simd: S,
     frustum: &TileFrustum,
-    arrays: &SetupArrays,
-    lane: usize,
-    id: u32,
+    setup: &FlatSetup,
+    (lane, id): (usize, u32),
     tile: &mut TileBuffer,
 ) {
-    let triangle = TriangleSetup::new(simd, frustum, arrays, lane, id);
+    let triangle = TriangleSetup::new(simd, frustum, setup, (lane, id));
     let [ab, bc, ca] = &triangle.edges;
     let key = &triangle.key;
     let side = tile.side();
@@ -94,7 +124,7 @@ pub(super) fn draw<S: Simd>(
     }
 }
 
-/// One triangle and its affine functions, the same in every lane.
+/// One triangle or plane and its affine functions, the same in every lane.
 struct TriangleSetup<S: Simd> {
     id: u32,
     lane: usize,
@@ -113,27 +143,26 @@ impl<S: Simd> TriangleSetup<S> {
     fn new(
         simd: S,
         frustum: &TileFrustum,
-        arrays: &SetupArrays,
-        lane: usize,
-        id: u32,
+        setup: &FlatSetup,
+        (lane, id): (usize, u32),
     ) -> TriangleSetup<S> {
-        let SetupArrays { affine, rows, columns, .. } = arrays;
+        let FlatSetup { affine, rows, columns, .. } = setup;
         let half = frustum.centered(0);
-        let error = f32x16::splat(simd, arrays.error[lane]);
+        let error = f32x16::splat(simd, setup.error);
         TriangleSetup {
             id,
             lane,
             edges: [
-                BlockAffine::new(simd, &affine[0], lane),
-                BlockAffine::new(simd, &affine[1], lane),
-                BlockAffine::new(simd, &affine[2], lane),
+                BlockAffine::new(simd, &affine[0]),
+                BlockAffine::new(simd, &affine[1]),
+                BlockAffine::new(simd, &affine[2]),
             ],
-            key: BlockAffine::new(simd, &affine[3], lane),
+            key: BlockAffine::new(simd, &affine[3]),
             error,
             minus_error: -error,
-            key_error: f32x16::splat(simd, arrays.key_error[lane]),
-            rows: [rows[0][lane] + half, rows[1][lane] + half],
-            columns: [columns[0][lane] + half, columns[1][lane] + half],
+            key_error: f32x16::splat(simd, setup.key_error),
+            rows: [rows[0] + half, rows[1] + half],
+            columns: [columns[0] + half, columns[1] + half],
         }
     }
 
@@ -198,8 +227,7 @@ struct BlockAffine<S: Simd> {
 
 impl<S: Simd> BlockAffine<S> {
     #[inline(always)]
-    fn new(simd: S, of: &[[f32; 8]; 3], lane: usize) -> Self {
-        let [at_middle, across, down] = [of[0][lane], of[1][lane], of[2][lane]];
+    fn new(simd: S, &[at_middle, across, down]: &[f32; 3]) -> Self {
         let (across, down) = (f32x16::splat(simd, across), f32x16::splat(simd, down));
         BlockAffine {
             at_middle: f32x16::splat(simd, at_middle),

@@ -1,17 +1,26 @@
-//! One primitive, ray by ray in `f64` and by the judge if need be: what the vector paths leave.
+//! One primitive at a time, for what is set up in `f64`: planes and spheres. Ray by ray in `f64`, and by the judge if need be, for what the vector paths leave.
+
+pub(super) mod flat;
+pub(super) mod narrow;
+#[cfg(test)]
+mod tests;
+pub(super) mod unbounded;
 
 use super::answer::{Answer, Trust};
 use super::bounds;
 use super::camera_map::CameraMap;
 use super::search::tile_frustum::TileFrustum;
 use super::tile::{OpenFragment, TileBuffer, index};
-use super::{plane, sphere, triangle};
-use bothways_common::engine::context::ScalarContext;
+use super::{many_samples, plane, sphere, triangle};
+use bothways_common::engine::context::{Context, ScalarContext};
 use bothways_common::engine::fault::Planted;
 use bothways_common::engine::roundoff::Interval;
 use bothways_common::observe::{Events, Question};
 use bothways_common::raster::Sample;
 use bothways_common::{Primitive, Ray, Sign};
+use flat::FlatFunctions;
+use narrow::narrow;
+use unbounded::Unbounded;
 
 /// What rounded arithmetic says of a ray and a primitive; of a triangle, the signs of its edge functions, too.
 pub(super) fn answer(
@@ -30,7 +39,59 @@ pub(super) fn answer(
     }
 }
 
-/// Tests a primitive at the samples of the tile that it may cover.
+/// Tests what no box bounds at the samples of the tile.
+#[inline(always)]
+pub(super) fn draw_unbounded<C: Context>(
+    context: &mut C,
+    map: &CameraMap,
+    frustum: &TileFrustum,
+    unbounded: &Unbounded,
+    tile: &mut TileBuffer,
+) {
+    if C::WATCHED || !tile.has_groups() {
+        let all = unbounded.primitives.iter();
+        all.for_each(|one| draw(&mut context.scalar(), map, frustum, (one.0, &one.1), tile));
+        return tile.renew(context.simd());
+    }
+    let farthest = unbounded.farthest_key(context, frustum, tile.far);
+    for group in 0..unbounded.groups() {
+        let mut visible = unbounded.visible(context, frustum, group, farthest);
+        while visible != 0 {
+            let lane = (visible.trailing_zeros() & 7) as usize;
+            visible &= visible - 1;
+            let (index, functions) = &unbounded.planes[8 * group + lane];
+            let (id, primitive) = &unbounded.primitives[*index];
+            draw_flat(context, frustum, functions, (0, *id), tile);
+            if tile.has_open() {
+                settle(&mut context.scalar(), map, &[(*id, *primitive); 8], tile);
+            }
+            tile.renew(context.simd());
+        }
+    }
+    for index in &unbounded.others {
+        let (id, primitive) = &unbounded.primitives[*index];
+        draw(&mut context.scalar(), map, frustum, (*id, primitive), tile);
+        tile.renew(context.simd());
+    }
+}
+
+/// Tests a flat primitive at the samples of a tile, sixteen at a time. What is left open is left so in this `lane`.
+#[inline(always)]
+pub(super) fn draw_flat<C: Context>(
+    context: &mut C,
+    frustum: &TileFrustum,
+    functions: &FlatFunctions,
+    (lane, id): (usize, u32),
+    tile: &mut TileBuffer,
+) {
+    tile.executed.one_by_one += 1;
+    let trust = Trust::new::<C::Fault>();
+    if let Some(setup) = narrow(functions, frustum, trust, tile.far) {
+        many_samples::draw(context.simd(), frustum, &setup, (lane, id), tile);
+    }
+}
+
+/// Tests a primitive at the samples of the tile that it may cover, one by one.
 pub(super) fn draw<C: ScalarContext>(
     context: &mut C,
     map: &CameraMap,

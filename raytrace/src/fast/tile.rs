@@ -117,6 +117,11 @@ impl TileBuffer {
         (self.side * self.side).div_ceil(16)
     }
 
+    /// Whether the tile has groups of sixteen blocks; one of a ray alone has not.
+    pub(super) fn has_groups(&self) -> bool {
+        self.side >= 4 * BLOCK
+    }
+
     /// The sample of the picture that is kept at an index, if there is one.
     pub(super) fn sample(&self, index: usize) -> Option<Sample> {
         let [row, column] = place(self.side, index);

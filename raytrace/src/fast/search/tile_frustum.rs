@@ -15,8 +15,9 @@ pub(crate) struct TileFrustum<'a> {
     /// The map: a row for `t`, one for columns, one for rows; and what is added.
     pub(crate) rows: [[f64; 3]; 3],
     pub(crate) shift: [f64; 3],
-    /// The row and column of the tile's middle.
+    /// The row and column of the tile's middle, and its `x` and `y` on the viewport.
     pub(crate) middle: [f64; 2],
+    pub(crate) viewport: [f64; 2],
     /// The map's rows in `f32`.
     pub(crate) normals: [[f32; 3]; 3],
     /// The tile's sides: not negative, but for [`BoxCulling::sides_error`], where one of its rays meets a box.
@@ -35,7 +36,7 @@ pub(crate) struct FrustumTemplate {
     pub(crate) straight: Option<StraightRays>,
     axes: Axes,
     /// Of the raster: from a row and a column to the next, and those of its middle.
-    spacing: [f64; 2],
+    pub(crate) spacing: [f64; 2],
     middle: [f64; 2],
     pub(crate) errors: MapErrors,
     /// What boxes need, and what vertices need.
@@ -100,7 +101,8 @@ impl FrustumTemplate {
         ];
         let normals = [t, across, down].map(|row| row.as_vec3().to_array());
         let rows = [t.to_array(), across.to_array(), down.to_array()];
-        TileFrustum { template: self, rows, shift, middle, normals, sides }
+        let viewport = [x, y];
+        TileFrustum { template: self, rows, shift, middle, viewport, normals, sides }
     }
 }
 

@@ -4,11 +4,11 @@ use super::candidates::{CandidateQueue, EIGHT, Test, WaitingLeaf};
 use super::tile_frustum::{FrustumTemplate, TileFrustum};
 use super::tree::{LeafCounts, Node, NodeKind, NodeRef, WIDTH};
 use crate::fast::camera_map::CameraMap;
+use crate::fast::one_primitive::unbounded::Unbounded;
 use crate::fast::prepared::Prepared;
 use crate::fast::size_class::SizeClass;
 use crate::fast::tile::TileBuffer;
 use crate::fast::{draw, one_primitive};
-use bothways_common::Primitive;
 use bothways_common::engine::context::{Context, ScalarContext};
 use bothways_common::engine::fault::Planted;
 use bothways_common::engine::simd::prefetch;
@@ -31,21 +31,17 @@ pub(crate) struct Walker<'a> {
     pub(crate) prepared: &'a Prepared,
     pub(crate) map: &'a CameraMap<'a>,
     pub(crate) tile: TileBuffer,
-    /// What is tested without a box: planes, and spheres that no box can be trusted to hold, because
-    /// they are huge or the eye is so far away (those are in boxes, too).
-    unbounded: Vec<(u32, Primitive)>,
+    unbounded: &'a Unbounded,
     stack: Vec<StackEntry>,
     queue: CandidateQueue,
 }
 
 impl<'a> Walker<'a> {
-    pub(crate) fn new(prepared: &'a Prepared, map: &'a CameraMap<'a>) -> Self {
-        let eye = map.view.camera.eye().as_dvec3();
-        let room = |extent: f32| f64::from(extent) * 30f64.exp2();
-        let spheres = prepared.extents.iter();
-        let loose = spheres.filter(|(_, extent)| eye.abs().max_element() > room(*extent));
-        let ids = prepared.unbounded.iter().chain(loose.map(|(id, _)| id));
-        let unbounded = ids.map(|&id| (id, map.view.primitive(id))).collect();
+    pub(crate) fn new(
+        prepared: &'a Prepared,
+        map: &'a CameraMap<'a>,
+        unbounded: &'a Unbounded,
+    ) -> Self {
         Walker {
             prepared,
             map,
@@ -116,7 +112,7 @@ impl<'a> Walker<'a> {
         of_ray: &FrustumTemplate,
     ) -> Option<u64> {
         let is_node = |root: &NodeRef| matches!(root.kind(), NodeKind::Node);
-        if !self.unbounded.is_empty() || !self.prepared.roots.iter().all(is_node) {
+        if !self.unbounded.primitives.is_empty() || !self.prepared.roots.iter().all(is_node) {
             return None;
         }
         let template = frustum.template;
@@ -147,17 +143,9 @@ impl<'a> Walker<'a> {
         {
             context.sink().ray_begun(sample);
         }
-        for (id, primitive) in &self.unbounded {
-            one_primitive::draw(
-                &mut context.scalar(),
-                self.map,
-                frustum,
-                (*id, primitive),
-                &mut self.tile,
-            );
-        }
-        if !self.unbounded.is_empty() {
-            self.tile.renew(context.simd());
+        if !self.unbounded.primitives.is_empty() {
+            let (unbounded, tile) = (self.unbounded, &mut self.tile);
+            one_primitive::draw_unbounded(context, self.map, frustum, unbounded, tile);
         }
         self.stack.clear();
         let root = |&child: &NodeRef| StackEntry {
