@@ -177,6 +177,19 @@ fn an_error_bound_of_zero_of_planes_differs_in_image_order() {
 }
 
 #[test]
+fn an_error_bound_of_zero_of_triangles_that_are_nearly_edge_on_differs_in_image_order() {
+    // Triangles of one plane, which the eye sees at a very small angle.
+    let triangles = (0..12_u8).map(|k| {
+        let k = f32::from(k);
+        let on_plane = |x: f32, z: f32| [x, 1e-6, z];
+        triangle([on_plane(-3.0 - k, -3.0), on_plane(3.0 + 0.3 * k, -9.0), on_plane(0.1 * k, 7.0)])
+    });
+    let scene = scene(triangles.collect());
+    let camera = turned(Projection::Perspective, [0.0; 3], [0.1, 0.0, -1.0], [64, 64]);
+    assert!(!verdicts(&scene, &camera, Some(Planted::ZeroErrorBound)).image_order);
+}
+
+#[test]
 fn ties_to_the_last_primitive_differ() {
     let twice = scene([square(), square()].concat());
     for projection in PROJECTIONS {

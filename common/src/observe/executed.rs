@@ -43,8 +43,8 @@ pub struct Executed {
     /// Both orders: those of the triangles that were set up, in lanes: sixteen at a time in object order, eight in image
     /// order.
     pub set_ups: u64,
-    /// Both orders: primitives drawn one by one in `f64`, each once for each tile. Spheres and planes; in object order
-    /// also triangles that are large, reach behind the eye, or whose set-up in lanes was too uncertain.
+    /// Both orders: primitives drawn one by one in `f64`, each once for each tile. Spheres, planes, and triangles whose
+    /// set-up in lanes was too uncertain; in object order also those that are large or reach behind the eye.
     pub one_by_one: u64,
     /// Both orders: steps of batches of small triangles. In one step every triangle of a batch (of sixteen in object
     /// order, of eight in image order) is tested at one of its samples.

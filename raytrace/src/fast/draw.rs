@@ -1,19 +1,23 @@
 //! Eight triangles against the samples of a tile.
 //!
 //! Over few samples: eight triangles at a time, each at one of its samples. Over more: one triangle at a
-//! time, first at sixteen blocks at once, then at the sixteen samples of each block that is left.
+//! time, first at sixteen blocks at once, then at the sixteen samples of each block that is left. Triangles whose facing
+//! is doubtful, because they are nearly edge-on or huge, are set up alone for that.
 
 use super::aligned::TIE;
+use super::answer::Trust;
 use super::camera_map::CameraMap;
 use super::few_samples;
-use super::many_samples::{self, SetupArrays};
-use super::one_primitive;
+use super::many_samples::{self, FlatSetup, SetupArrays};
+use super::one_primitive::flat::FlatFunctions;
+use super::one_primitive::{self, narrow::narrow};
 use super::search::tile_frustum::TileFrustum;
 use super::setup::{Setup, TrianglePacket};
 use super::size_class::{FEW, SizeClass, VERY_FEW};
 use super::tile::TileBuffer;
 use bothways_common::Sign;
 use bothways_common::engine::context::{Context, ScalarContext};
+use bothways_common::engine::fault::Fault;
 use bothways_common::engine::simd::{Simd, SimdBase, SimdMask, f32x8};
 use bothways_common::observe::Events;
 
@@ -45,9 +49,9 @@ pub(super) fn draw<C: Context>(
     if few != 0 {
         few_samples::draw(context, frustum, &setup, (eight, few), samples, tile);
     }
-    let mut many = alive & !few & !doubtful;
+    let mut many = alive & !few;
     let very_few = samples.simd_le(f32x8::splat(simd, VERY_FEW)).to_bitmask();
-    let class = match (many, few & !very_few) {
+    let class = match (many & !doubtful, few & !very_few) {
         (0, 0) => SizeClass::VeryFew,
         (0, _) => SizeClass::Few,
         _ => SizeClass::Many,
@@ -55,35 +59,58 @@ pub(super) fn draw<C: Context>(
     while many != 0 {
         let lane = (many.trailing_zeros() & 7) as usize;
         many &= many - 1;
-        many_samples::draw(simd, frustum, &arrays.lane(lane), (lane, eight.ids[lane]), tile);
+        let setup = if doubtful >> lane & 1 == 1 {
+            set_up_alone::<C::Fault>(map, frustum, (eight, lane), tile)
+        } else {
+            Some(arrays.lane(lane))
+        };
+        if let Some(setup) = setup {
+            many_samples::draw(simd, frustum, &setup, (lane, eight.ids[lane]), tile);
+        }
     }
-    judge_open(context, map, eight, doubtful, tile);
+    if tile.has_open() {
+        settle_open(context, map, eight, tile);
+    }
     tile.renew(simd);
     class
 }
 
-/// Decides in `f64`, or by the judge, what the vector paths left open. Triangles whose facing is doubtful are left open
-/// at every sample.
+/// Sets up a triangle of which eight at a time are not certain; `None` if it cannot be seen in the tile, or is left open
+/// at all of its samples.
+#[cold]
+#[inline(never)]
+fn set_up_alone<F: Fault>(
+    map: &CameraMap,
+    frustum: &TileFrustum,
+    (eight, lane): (&TrianglePacket, usize),
+    tile: &mut TileBuffer,
+) -> Option<FlatSetup> {
+    let id = eight.ids[lane];
+    let primitive = || eight.primitive(&map.view, lane);
+    if tile.has_groups() {
+        tile.executed.one_by_one += 1;
+        let functions = tile.flats.get(id, || FlatFunctions::new(map, &primitive()));
+        if let Some(functions) = functions {
+            return narrow(functions, frustum, Trust::new::<F>(), tile.far);
+        }
+    }
+    if !tile.is_edge_on(id, &primitive()) {
+        (0..tile.blocks() * 16).for_each(|sample| tile.leave_open(sample, lane, false));
+    }
+    None
+}
+
+/// Decides in `f64`, or by the judge, what the vector paths left open.
 #[inline(always)]
-fn judge_open<C: Context>(
+fn settle_open<C: Context>(
     context: &mut C,
     map: &CameraMap,
     eight: &TrianglePacket,
-    mut doubtful: u64,
     tile: &mut TileBuffer,
 ) {
-    while doubtful != 0 {
-        let lane = (doubtful.trailing_zeros() & 7) as usize;
-        doubtful &= doubtful - 1;
-        if !tile.is_edge_on(eight.ids[lane], &eight.primitive(&map.view, lane)) {
-            (0..tile.blocks() * 16).for_each(|sample| tile.leave_open(sample, lane, false));
-        }
-    }
-    if tile.has_open() {
-        let primitives =
-            std::array::from_fn(|lane| (eight.ids[lane], eight.primitive(&map.view, lane)));
-        one_primitive::settle(&mut context.scalar(), map, &primitives, tile);
-    }
+    let primitives =
+        std::array::from_fn(|lane| (eight.ids[lane], eight.primitive(&map.view, lane)));
+    one_primitive::settle(&mut context.scalar(), map, &primitives, tile);
 }
 
 /// Emits the signs of edge functions at the only sample of a tile, as far as they are certain.

@@ -1,4 +1,5 @@
-//! One primitive at a time, for what is set up in `f64`: planes and spheres. Ray by ray in `f64`, and by the judge if need be, for what the vector paths leave.
+//! One primitive at a time, for what is set up in `f64`: planes, spheres, and triangles that eight at a time are not
+//! certain of. Ray by ray in `f64`, and by the judge if need be, for what the vector paths leave.
 
 pub(super) mod flat;
 pub(super) mod narrow;

@@ -1,5 +1,6 @@
 //! What the rays of one tile have hit so far: ids and depth keys, the depth test, and what is left open.
 
+use super::one_primitive::flat::FlatCache;
 use bothways_common::Primitive;
 use bothways_common::engine::context::ScalarContext;
 use bothways_common::engine::simd::{Simd, SimdBase, SimdMask, f32x16};
@@ -40,6 +41,8 @@ pub(super) struct TileBuffer {
     side: usize,
     open: Vec<OpenFragment>,
     pub(super) judge: CachedJudge,
+    /// Triangles that were set up alone.
+    pub(super) flats: FlatCache,
     /// What was executed for the tile.
     pub(super) executed: Executed,
 }
@@ -70,6 +73,7 @@ impl TileBuffer {
             side: 1,
             open: Vec::new(),
             judge: CachedJudge::new(judge),
+            flats: FlatCache::default(),
             executed: Executed::default(),
         }
     }

@@ -1,9 +1,9 @@
-//! Planes in pictures of whole tiles: the vector paths that take
+//! Planes and triangles that reach behind the eye, in pictures of whole tiles: the vector paths that take
 //! sixteen samples of one of them at a time. The textbook says what is right.
 
 use bothways_common::engine::simd::levels;
 use bothways_common::glam::Vec3;
-use bothways_common::{Camera, Frame, Object, Options, Plane, Shape, View};
+use bothways_common::{Camera, Frame, Object, Options, Plane, Shape, Triangle, View};
 use bothways_raytrace::{fast, textbook};
 use bothways_test_support::{
     Dice, PROJECTIONS, assert_same_visibility, camera, on_integers, scene, turned,
@@ -33,6 +33,10 @@ fn check(objects: &[Object], camera: &Camera, what: &str) {
 
 fn plane(point: Vec3, normal: Vec3) -> Object {
     Shape::Plane(Plane { point, normal }).into()
+}
+
+fn triangle([a, b, c]: [Vec3; 3]) -> Object {
+    Shape::Triangle(Triangle { a, b, c }).into()
 }
 
 /// A number of few bits, so that what is made of such numbers meets samples exactly.
@@ -101,5 +105,56 @@ fn planes_that_nearly_hold_the_eye() {
             check(std::slice::from_ref(one), &camera, &format!("{one:?}, {projection:?}"));
         }
         check(&planes, &camera, "all of them");
+    }
+}
+
+#[test]
+fn triangles_that_reach_behind_the_eye() {
+    let mut dice = Dice(14);
+    for far in [1.0, 30.0, 1e6] {
+        let triangles = (0..30).map(|k| {
+            let round = |p: Vec3| if k % 3 == 0 { p.round() } else { p };
+            let behind = dice.point() * far + far * Vec3::Z;
+            let ahead = [(); 2].map(|()| 3.0 * dice.point() - 4.0 * Vec3::Z);
+            triangle([behind, ahead[0], ahead[1]].map(round))
+        });
+        let triangles: Vec<Object> = triangles.collect();
+        for projection in PROJECTIONS {
+            let camera = turned(projection, [0.0; 3], [0.1, 0.2, -3.0], [67, 35]);
+            check(&triangles, &camera, &format!("{far}, {projection:?}"));
+            let camera = on_integers(projection, 17);
+            check(&triangles, &camera, &format!("{far}, {projection:?}, on integers"));
+        }
+    }
+}
+
+#[test]
+fn triangles_that_are_nearly_edge_on() {
+    // The eye is a little beside the plane of each, in all digits from many to none, or two corners lie nearly opposite
+    // to each other.
+    let mut dice = Dice(15);
+    for projection in PROJECTIONS {
+        let camera = turned(projection, [0.0; 3], [0.1, 0.2, -3.0], [67, 35]);
+        let beside = match projection {
+            bothways_common::Projection::Perspective => dice.point(),
+            bothways_common::Projection::Parallel => camera.w().as_vec3(),
+        };
+        let triangles = (0..60_i16).map(|k| {
+            let little = (-0.8 * f32::from(k)).exp2();
+            let (one, other) = (dice.point(), dice.point() - Vec3::Z);
+            match k % 3 {
+                // Its plane nearly holds a line through the eye.
+                0 => triangle([one, one - 4.0 * beside, other + little * dice.point()]),
+                1 => triangle([one, -2.0 * one + little * dice.point(), other]),
+                _ => {
+                    triangle([3.0 * other, 5.0 * other + little * one, 2.0 * other - little * one])
+                }
+            }
+        });
+        let triangles: Vec<Object> = triangles.collect();
+        for part in triangles.chunks(6) {
+            check(part, &camera, &format!("{part:?}, {projection:?}"));
+        }
+        check(&triangles, &camera, "all of them");
     }
 }

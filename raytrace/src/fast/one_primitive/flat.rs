@@ -7,6 +7,7 @@ use crate::fast::viewport_affine::{RayAffine, ViewportAffine};
 use bothways_common::engine::roundoff::EPS53;
 use bothways_common::{Camera, Primitive, Projection};
 use glam::DVec3;
+use std::collections::HashMap;
 
 /// Edge functions and key of a flat primitive.
 #[derive(Clone, Copy, Debug)]
@@ -55,6 +56,29 @@ impl FlatFunctions {
         };
         // Two roundings of the factor, and those of its bound.
         Some(FlatFunctions { edges, key: key.times(factor, relative + 4.0 * EPS53) })
+    }
+}
+
+/// The functions of the triangles that were set up last.
+#[derive(Debug, Default)]
+pub(crate) struct FlatCache {
+    functions: HashMap<u32, Option<FlatFunctions>>,
+}
+
+impl FlatCache {
+    /// It holds this many triangles, a megabyte, and is emptied when it is full.
+    const MOST: usize = 1 << 12;
+
+    /// The functions of a triangle with an id, which must always mean the same one.
+    pub(crate) fn get(
+        &mut self,
+        id: u32,
+        new: impl FnOnce() -> Option<FlatFunctions>,
+    ) -> Option<&FlatFunctions> {
+        if self.functions.len() >= Self::MOST {
+            self.functions.clear();
+        }
+        self.functions.entry(id).or_insert_with(new).as_ref()
     }
 }
 

@@ -9,7 +9,8 @@ use crate::fast::tile::TileBuffer;
 use bothways_common::engine::context::{Context, Parts};
 use bothways_common::engine::fault::Sound;
 use bothways_common::engine::simd::{best_level, dispatch};
-use bothways_common::{Camera, Plane, Projection, Ray, Scene, Shape, View};
+use bothways_common::glam::Vec3;
+use bothways_common::{Camera, Plane, Projection, Ray, Scene, Shape, Triangle, View};
 use bothways_test_support::{Dice, PROJECTIONS, turned};
 
 const SIDE: usize = 32;
@@ -106,4 +107,24 @@ fn check_all(seed: u64, shape: impl Fn(&mut Dice) -> Shape) {
 #[test]
 fn planes_are_decided_at_nearly_all_samples() {
     check_all(2, |dice| Shape::Plane(Plane { point: dice.point(), normal: dice.point() }));
+}
+
+#[test]
+fn triangles_are_decided_at_nearly_all_samples_however_they_lie() {
+    check_all(3, |dice| {
+        let size = 30f32.powf(2.0 * dice.next());
+        let [a, b, c] = [(); 3].map(|()| size * dice.point());
+        Shape::Triangle(Triangle { a, b, c })
+    });
+    // Nearly through the eye of one of the cameras.
+    check_all(4, |dice| {
+        let little = (-20.0 - 10.0 * dice.next()).exp2();
+        let eye = Vec3::new(0.1, 0.2, 0.3);
+        let (one, other) = (dice.point(), dice.point());
+        Shape::Triangle(Triangle {
+            a: eye + one,
+            b: eye - 3.0 * one + little * dice.point(),
+            c: eye + other,
+        })
+    });
 }
