@@ -177,6 +177,25 @@ fn an_error_bound_of_zero_of_planes_differs_in_image_order() {
 }
 
 #[test]
+fn an_error_bound_of_zero_of_spheres_differs_in_image_order() {
+    // Spheres before a plane that they nearly touch, or reach through, by a last place.
+    for projection in PROJECTIONS {
+        let camera = camera(projection, [0.0; 3], [0.5, 0.5], [33, 33]);
+        let is_caught = |k: u8| {
+            let (depth, radius) = (5.0 + 0.37 * f32::from(k), 1.0 + 0.11 * f32::from(k));
+            let center = Vec3::new(0.0, 0.0, -depth);
+            let point = Vec3::new(0.0, 0.0, radius - depth);
+            let scene = scene(vec![
+                Shape::Plane(Plane { point, normal: Vec3::Z }).into(),
+                Shape::Sphere(Sphere { center, radius }).into(),
+            ]);
+            !verdicts(&scene, &camera, Some(Planted::ZeroErrorBound)).image_order
+        };
+        assert!((0..40).any(is_caught), "{projection:?}");
+    }
+}
+
+#[test]
 fn an_error_bound_of_zero_of_triangles_that_are_nearly_edge_on_differs_in_image_order() {
     // Triangles of one plane, which the eye sees at a very small angle.
     let triangles = (0..12_u8).map(|k| {

@@ -11,6 +11,7 @@ use super::answer::{Answer, Trust};
 use super::bounds;
 use super::camera_map::CameraMap;
 use super::search::tile_frustum::TileFrustum;
+use super::sphere::in_blocks::SphereSetup;
 use super::tile::{OpenFragment, TileBuffer, index};
 use super::{many_samples, plane, sphere, triangle};
 use bothways_common::engine::context::{Context, ScalarContext};
@@ -71,9 +72,35 @@ pub(super) fn draw_unbounded<C: Context>(
     }
     for index in &unbounded.others {
         let (id, primitive) = &unbounded.primitives[*index];
-        draw(&mut context.scalar(), map, frustum, (*id, primitive), tile);
-        tile.renew(context.simd());
+        draw_round(context, map, frustum, (*id, primitive), tile);
     }
+}
+
+/// Tests a sphere at the samples of the tile, sixteen at a time where rays are not traced alone.
+#[inline(always)]
+pub(super) fn draw_round<C: Context>(
+    context: &mut C,
+    map: &CameraMap,
+    frustum: &TileFrustum,
+    (id, primitive): (u32, &Primitive),
+    tile: &mut TileBuffer,
+) {
+    let setup = match primitive {
+        Primitive::Sphere { center, radius } if !C::WATCHED && tile.has_groups() => {
+            SphereSetup::new(map, frustum, (*center, *radius), Trust::new::<C::Fault>())
+        }
+        _ => None,
+    };
+    if let Some(setup) = setup {
+        tile.executed.one_by_one += 1;
+        setup.draw(context.simd(), frustum, id, tile);
+        if tile.has_open() {
+            settle(&mut context.scalar(), map, &[(id, *primitive); 8], tile);
+        }
+    } else {
+        draw(&mut context.scalar(), map, frustum, (id, primitive), tile);
+    }
+    tile.renew(context.simd());
 }
 
 /// Tests a flat primitive at the samples of a tile, sixteen at a time. What is left open is left so in this `lane`.

@@ -1,5 +1,6 @@
 //! One ray against one sphere, and two spheres against each other along a ray.
 
+pub(super) mod in_blocks;
 mod in_high_precision;
 
 use super::answer::{Answer, FLOOR, Trust, distance_around};

@@ -1,9 +1,9 @@
-//! Planes and triangles that reach behind the eye, in pictures of whole tiles: the vector paths that take
+//! Spheres, planes, and triangles that reach behind the eye, in pictures of whole tiles: the vector paths that take
 //! sixteen samples of one of them at a time. The textbook says what is right.
 
 use bothways_common::engine::simd::levels;
 use bothways_common::glam::Vec3;
-use bothways_common::{Camera, Frame, Object, Options, Plane, Shape, Triangle, View};
+use bothways_common::{Camera, Frame, Object, Options, Plane, Shape, Sphere, Triangle, View};
 use bothways_raytrace::{fast, textbook};
 use bothways_test_support::{
     Dice, PROJECTIONS, assert_same_visibility, camera, on_integers, scene, turned,
@@ -33,6 +33,10 @@ fn check(objects: &[Object], camera: &Camera, what: &str) {
 
 fn plane(point: Vec3, normal: Vec3) -> Object {
     Shape::Plane(Plane { point, normal }).into()
+}
+
+fn sphere(center: Vec3, radius: f32) -> Object {
+    Shape::Sphere(Sphere { center, radius }).into()
 }
 
 fn triangle([a, b, c]: [Vec3; 3]) -> Object {
@@ -156,5 +160,112 @@ fn triangles_that_are_nearly_edge_on() {
             check(part, &camera, &format!("{part:?}, {projection:?}"));
         }
         check(&triangles, &camera, "all of them");
+    }
+}
+
+#[test]
+fn spheres_of_all_sizes_everywhere() {
+    let mut dice = Dice(16);
+    for (count, size) in [(1, 2.0), (30, 0.6), (100, 0.1)] {
+        let spheres = (0..count).map(|_| {
+            let radius = size * (0.1 + dice.next().abs());
+            sphere(3.0 * dice.point() - 2.0 * Vec3::Z, radius)
+        });
+        let spheres: Vec<Object> = spheres.collect();
+        for projection in PROJECTIONS {
+            for eye in [[0.0, 0.0, 3.0], [0.1, -0.2, 0.05], [-40.0, 3.0, 20.0]] {
+                let camera = turned(projection, eye, [0.02, 0.01, -2.0], [67, 35]);
+                let what = format!("{count} spheres of {size}, {projection:?} from {eye:?}");
+                check(&spheres, &camera, &what);
+            }
+        }
+    }
+}
+
+#[test]
+fn spheres_around_the_eye_and_through_it() {
+    let mut dice = Dice(17);
+    for scale in [1.0, 1e-9, 1e9] {
+        let mut center = || (4.0 * dice.point()).round() * scale;
+        let spheres = (0..16).map(|k| {
+            let center = center();
+            let distance = center.length().max(scale);
+            // Through the eye as nearly as `f32` says, a last place beside it, around it, beside it.
+            sphere(center, [distance, distance.next_up(), 1.5 * distance, 0.5 * distance][k % 4])
+        });
+        let spheres: Vec<Object> = spheres.collect();
+        for projection in PROJECTIONS {
+            let camera = on_integers(projection, 17);
+            for one in &spheres {
+                check(std::slice::from_ref(one), &camera, &format!("{one:?}, {projection:?}"));
+            }
+            check(&spheres, &camera, &format!("all of them, {scale}, {projection:?}"));
+        }
+    }
+}
+
+#[test]
+fn silhouettes_through_samples() {
+    // Of parallel rays on integers, circles with integer centres and radii that meet many of them; and spheres
+    // that touch rays of whole length.
+    let circles = [(0.0, 0.0, 5.0), (3.0, -2.0, 10.0), (-4.0, 1.0, 13.0), (0.0, 0.0, 17.0)];
+    let balls: Vec<Object> =
+        circles.map(|(x, y, r)| sphere(Vec3::new(x, y, -20.0), r)).into_iter().collect();
+    for objects in balls.chunks(1).chain([&balls[..]]) {
+        check(objects, &on_integers(bothways_common::Projection::Parallel, 18), "circles");
+    }
+    let mut dice = Dice(18);
+    let ways = [[3.0, 4.0, -12.0], [-4.0, 6.0, -12.0], [8.0, -9.0, -12.0], [0.0, 5.0, -12.0]];
+    for way in ways.map(Vec3::from_array) {
+        // A vector of whole length across the ray.
+        let across = Vec3::new(way.y, -way.x, 0.0) / if way.x == 0.0 { 5.0 } else { 1.0 };
+        let length = f64::from(across.x).hypot(f64::from(across.y));
+        let whole = if length.fract() == 0.0 { across } else { Vec3::new(12.0, 0.0, way.x) };
+        let unit = f64::from(whole.length());
+        for _ in 0..8 {
+            let (far, out) = (dice.next().abs() * 1e6, dice.next().abs() * 1e6);
+            let (far, out) = (far.round() + 1.0, out.round() + 1.0);
+            #[expect(clippy::cast_possible_truncation, reason = "it has few digits")]
+            let radius = (unit * f64::from(out)) as f32;
+            let ball = sphere(far * way + out * whole, radius);
+            let description = bothways_common::CameraDescription {
+                distance: 12.0,
+                viewport: [35.0; 2],
+                image: [35; 2],
+                ..Default::default()
+            };
+            let camera = Camera::new(description).expect("it is a camera");
+            check(&[ball], &camera, &format!("{way}, {far}, {out}"));
+        }
+    }
+}
+
+#[test]
+fn spheres_that_touch_and_nearly_coincide() {
+    let mut dice = Dice(19);
+    for scale in [1.0, 1e6] {
+        let spheres = (0..10).flat_map(|k| {
+            let center = scale * (3.0 * dice.point() - 5.0 * Vec3::Z);
+            let radius = scale * (0.5 + dice.next().abs());
+            let other = match k % 3 {
+                0 => sphere(center, radius.next_up()),
+                1 => sphere(center + 0.5 * radius * Vec3::X, 0.5 * radius),
+                _ => sphere(center + 1e-6 * scale * dice.point(), radius),
+            };
+            [sphere(center, radius), other]
+        });
+        let mut objects: Vec<Object> = spheres.collect();
+        objects.push(plane(scale * Vec3::new(0.0, -1.0, 0.0), Vec3::Y));
+        for projection in PROJECTIONS {
+            let description = bothways_common::CameraDescription {
+                projection,
+                viewport: if scale == 1.0 { [2.0, 1.0] } else { [4e6, 2e6] },
+                distance: if scale == 1.0 { 1.0 } else { 1e6 },
+                image: [66, 33],
+                ..Default::default()
+            };
+            let camera = Camera::new(description).expect("it is a camera");
+            check(&objects, &camera, &format!("{scale}, {projection:?}"));
+        }
     }
 }

@@ -2,15 +2,19 @@
 
 use super::draw_flat;
 use super::flat::FlatFunctions;
+use crate::fast::answer::Trust;
 use crate::fast::camera_map::CameraMap;
 use crate::fast::prepare;
 use crate::fast::search::tile_frustum::FrustumTemplate;
+use crate::fast::sphere::in_blocks::SphereSetup;
 use crate::fast::tile::TileBuffer;
 use bothways_common::engine::context::{Context, Parts};
 use bothways_common::engine::fault::Sound;
 use bothways_common::engine::simd::{best_level, dispatch};
 use bothways_common::glam::Vec3;
-use bothways_common::{Camera, Plane, Projection, Ray, Scene, Shape, Triangle, View};
+use bothways_common::{
+    Camera, Plane, Primitive, Projection, Ray, Scene, Shape, Sphere, Triangle, View,
+};
 use bothways_test_support::{Dice, PROJECTIONS, turned};
 
 const SIDE: usize = 32;
@@ -54,8 +58,14 @@ fn draw<C: Context>(
 ) {
     let frustum = template.frustum(tile.start);
     let primitive = map.view.primitive(0);
-    let functions = FlatFunctions::new(map, &primitive).expect("it is not edge-on");
-    draw_flat(context, &frustum, &functions, (0, 0), tile);
+    if let Primitive::Sphere { center, radius } = primitive {
+        let setup = SphereSetup::new(map, &frustum, (center, radius), Trust::Sound);
+        let setup = setup.expect("the eye is certainly outside, or inside");
+        setup.draw(context.simd(), &frustum, 0, tile);
+    } else {
+        let functions = FlatFunctions::new(map, &primitive).expect("it is not edge-on");
+        draw_flat(context, &frustum, &functions, (0, 0), tile);
+    }
 }
 
 fn check_tile(map: &CameraMap, tile: &mut TileBuffer, tested: &mut Tested) {
@@ -102,6 +112,14 @@ fn check_all(seed: u64, shape: impl Fn(&mut Dice) -> Shape) {
         }
         assert!(all.open * 500 < all.samples, "{all:?} from {}", camera.eye());
     }
+}
+
+#[test]
+fn spheres_are_decided_at_nearly_all_samples() {
+    check_all(1, |dice| {
+        let radius = 0.02 + dice.next().powi(2);
+        Shape::Sphere(Sphere { center: 1.5 * dice.point(), radius })
+    });
 }
 
 #[test]

@@ -189,15 +189,8 @@ impl<'a> Walker<'a> {
         let count = entry.counts.all();
         for &id in &self.prepared.sphere_leaves[entry.child.index()][..count] {
             let sphere = self.map.view.primitive(id);
-            one_primitive::draw(
-                &mut context.scalar(),
-                self.map,
-                frustum,
-                (id, &sphere),
-                &mut self.tile,
-            );
+            one_primitive::draw_round(context, self.map, frustum, (id, &sphere), &mut self.tile);
         }
-        self.tile.renew(context.simd());
     }
 
     /// Tests the leaves that have waited longest, and draws triangles, eight at a time; all leaves and triangles if
