@@ -153,11 +153,33 @@ impl<S: Simd> Setup<S> {
         let out = (ab.at_middle + ab.spread(half) + self.error).simd_lt(zero)
             | (bc.at_middle + bc.spread(half) + self.error).simd_lt(zero)
             | (ca.at_middle + ca.spread(half) + self.error).simd_lt(zero);
-        let out = out & !self.doubtful;
+        let mut out = out & !self.doubtful;
+        // Of a ray alone all signs are told to an observer.
+        if frustum.template.side > 1 && self.doubtful.any_true() {
+            out |= self.doubtful & self.between_edges(simd, half);
+        }
         let nearest = self.key.at_middle + key_spread + self.key_error;
         let hidden = nearest.simd_lt(f32x8::splat(simd, far));
         let empty = self.columns[1].simd_lt(self.columns[0]) | self.rows[1].simd_lt(self.rows[0]);
         self.alive &= !(out | hidden | empty);
+    }
+}
+
+impl<S: Simd> Setup<S> {
+    /// Triangles of which, whatever their facing is, two edge functions certainly have different signs in all of the tile.
+    ///
+    /// They were divided by the facing as computed, and so were their errors. Its sign may be wrong, but it is the same
+    /// for all three. Comparisons with NaN are false.
+    #[inline(always)]
+    fn between_edges(&self, simd: S, half: f32x8<S>) -> mask32x8<S> {
+        let mut positive = mask32x8::splat(simd, false);
+        let mut negative = positive;
+        for edge in &self.edges {
+            let room = edge.spread(half) + self.error;
+            positive |= edge.at_middle.simd_gt(room);
+            negative |= edge.at_middle.simd_lt(-room);
+        }
+        positive & negative
     }
 }
 
@@ -258,8 +280,13 @@ impl<S: Simd> ErrorBounds<S> {
         let [ab, bc, ca] = &functions.edges;
         let middle = ab.at_middle.abs().max(bc.at_middle.abs()).max(ca.at_middle.abs());
         let slope = ab.spread(half).max(bc.spread(half)).max(ca.spread(half));
-        let edge =
+        let mut edge =
             (middle * 6.2 + slope * 7.2) * EPS24 + m * (e * 49.0 + m * eps * 12.3) * by_f + floor;
+        let certain = size.simd_gt(f_error);
+        if !certain.all_true() {
+            // A facing that is no normal number in `f32` is not known well enough to divide by.
+            edge = size.simd_lt(floor).select(f32x8::splat(simd, f32::INFINITY), edge);
+        }
 
         let key = &mut functions.key;
         let key_spread = key.spread(half);
@@ -279,7 +306,7 @@ impl<S: Simd> ErrorBounds<S> {
             edge,
             key: known.select(key_error, f32x8::splat(simd, f32::INFINITY)),
             key_spread,
-            certain: size.simd_gt(f_error),
+            certain,
         }
     }
 }

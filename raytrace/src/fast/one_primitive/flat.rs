@@ -66,8 +66,8 @@ pub(crate) struct FlatCache {
 }
 
 impl FlatCache {
-    /// It holds this many triangles, a megabyte, and is emptied when it is full.
-    const MOST: usize = 1 << 12;
+    /// It holds this many triangles, some megabytes, and is emptied when it is full.
+    const MOST: usize = 1 << 14;
 
     /// The functions of a triangle with an id, which must always mean the same one.
     pub(crate) fn get(
