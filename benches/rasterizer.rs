@@ -1,17 +1,23 @@
-//! Times object order. Each bench varies one quantity: triangles, pixels, threads, the cropped portion, or ties.
+//! Times object order. Each bench varies one quantity: triangles, pixels, threads, the cropped portion, ties, spheres,
+//! planes, or how ordinary a scene is.
 //!
 //! A time is that of one frame of visibility: from clearing the frame until all ids and distances are in memory. The frame
 //! and the prepared scene are reused. The image has 1920 × 1080 pixels and one thread draws it, unless the bench varies
 //! them. `cargo bench --bench rasterizer` runs all benches; `BOTHWAYS_LONG=1` adds the sphere of 8 million triangles.
 
+#[path = "support/pathological.rs"]
+mod pathological_scenes;
 mod support;
 
-use bothways::common::{Camera, Frame, Options, Scene, View};
+use bothways::common::glam::Vec3;
+use bothways::common::{Camera, Frame, Options, Scene, Shape, Sphere, View};
 use bothways::rasterize::fast;
 use divan::Bencher;
 use divan::counter::ItemsCount;
+use pathological_scenes::Case;
 use support::{
-    Alignment, Duplicate, FULL_HD, MILLION, Portion, camera, on_pixels, scene, sphere, squares,
+    Alignment, Duplicate, FULL_HD, MILLION, Portion, camera, on_pixels, planes, scene, sphere,
+    squares, thousand_spheres,
 };
 
 fn main() {
@@ -91,4 +97,43 @@ fn twice<const AROUND: u32>(bencher: Bencher, duplicate: Duplicate) {
 fn grid<const SIDE: u32>(bencher: Bencher, alignment: Alignment) {
     let scene = scene([squares(SIDE, alignment)]);
     time_visibility(bencher, &scene, &on_pixels(), 1);
+}
+
+/// A sphere that fills the whole image, one in its middle, and a thousand.
+#[divan::bench(args = [Spheres::Filling, Spheres::One, Spheres::Thousand])]
+fn spheres(bencher: Bencher, spheres: Spheres) {
+    time_visibility(bencher, &spheres.scene(), &Camera::canonical(1920, 1080), 1);
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Spheres {
+    Filling,
+    One,
+    Thousand,
+}
+
+impl Spheres {
+    fn scene(self) -> Scene {
+        let sphere =
+            |z: f32| Shape::Sphere(Sphere { center: Vec3::new(0.1, 0.05, z), radius: 1.0 });
+        match self {
+            Spheres::Filling => Scene::new(vec![sphere(-1.4).into()]).expect("it is a scene"),
+            Spheres::One => Scene::new(vec![sphere(-4.0).into()]).expect("it is a scene"),
+            Spheres::Thousand => thousand_spheres(),
+        }
+    }
+}
+
+/// Planes over the whole image.
+#[divan::bench]
+fn full_screen_planes(bencher: Bencher) {
+    time_visibility(bencher, &planes(300), &Camera::canonical(1920, 1080), 1);
+}
+
+/// Scenes that are meant to hurt, each beside an ordinary one. Items are pairs of a triangle and a sample that it covers:
+/// a pair should take at most 20 times as long as an ordinary one.
+#[divan::bench(args = Case::ALL)]
+fn pathological(bencher: Bencher, case: &Case) {
+    let (scene, covered) = case.scene();
+    time_visibility(bencher.counter(ItemsCount::new(covered)), &scene, &on_pixels(), 1);
 }
