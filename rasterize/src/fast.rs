@@ -15,7 +15,7 @@
 //! - Triangles over more samples are drawn one at a time, sixteen samples at once (`many_samples`).
 //! - Everything else is set up in `f64`, one primitive at a time (`one_primitive`): planes, and triangles that are
 //!   larger still or reach behind the eye. They are drawn strip by strip, sixteen samples at once wherever `f32` is
-//!   certain enough. Spheres go sample by sample (`sphere`).
+//!   certain enough. Spheres are drawn row by row, sixteen samples at once in `f64` (`sphere`).
 //!
 //! The first two work in `f32`, from vertices in fixed point (`vertices`).
 //!

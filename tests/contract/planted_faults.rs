@@ -4,7 +4,7 @@
 use bothways::common::engine::fault::{Planted, with};
 use bothways::common::glam::Vec3;
 use bothways::common::{
-    Camera, CameraDescription, Frame, Mesh, Object, Options, Plane, Projection, Scene, Shape,
+    Camera, CameraDescription, Frame, Mesh, Object, Options, Orientation, Plane, Projection, Scene, Shape,
     Sphere, View,
 };
 use bothways::diff::compare;
@@ -106,6 +106,33 @@ fn an_error_bound_of_zero_differs() {
             CAUGHT,
             "{projection:?}"
         );
+    }
+}
+
+/// A camera that sees the silhouette of a sphere so large that its rays differ by a few roundings: 3² + 4² = 5², so that
+/// the middle ray touches the sphere.
+fn magnified_silhouette(projection: Projection) -> (Scene, Camera) {
+    let sphere = Sphere { center: Vec3::new(3.0, 4.0, -13.0), radius: 5.0 };
+    let up = Vec3::new(0.3, 1.0, 0.0);
+    let description = CameraDescription {
+        projection,
+        orientation: Orientation::Direction { direction: Vec3::NEG_Z, up },
+        viewport: [f32::from(2_i8).powi(-49); 2],
+        image: [48, 32],
+        ..CameraDescription::default()
+    };
+    let camera = Camera::new(description).expect("it is a camera");
+    (scene(vec![Shape::Sphere(sphere).into()]), camera)
+}
+
+#[test]
+fn an_error_bound_of_zero_differs_at_the_silhouette_of_a_sphere() {
+    for projection in PROJECTIONS {
+        let (scene, camera) = magnified_silhouette(projection);
+        let zero = verdicts(&scene, &camera, Some(Planted::ZeroErrorBound));
+        assert!(!zero.object_order, "{projection:?}");
+        let infinite = verdicts(&scene, &camera, Some(Planted::InfiniteErrorBound));
+        assert_eq!(infinite, ALL_WELL, "{projection:?}");
     }
 }
 

@@ -49,7 +49,7 @@ pub struct Executed {
     /// Both orders: steps of batches of small triangles. In one step every triangle of a batch (of sixteen in object
     /// order, of eight in image order) is tested at one of its samples.
     pub lane_steps: u64,
-    /// Both orders: blocks of sixteen samples at which one triangle or plane, or sphere in image order, was tested at once.
+    /// Both orders: blocks of sixteen samples at which one triangle, plane or sphere was tested at once.
     pub blocks: u64,
     /// Both orders: samples at which primitives drawn one by one were tested in `f64`, one sample at a time.
     pub single_samples: u64,

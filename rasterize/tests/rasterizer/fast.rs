@@ -28,7 +28,7 @@ const BUILT_IN: [&str; 5] = [
 ];
 
 /// Draws with a prepared scene; also tells the work.
-fn draw(prepared: &Prepared, view: &View, options: &Options) -> (Frame, Work) {
+pub(super) fn draw(prepared: &Prepared, view: &View, options: &Options) -> (Frame, Work) {
     let mut frame = Frame::new(view.camera, options);
     let mut work = Work::default();
     fast::determine_visibility(prepared, view, options, &mut frame, &mut work);
@@ -40,7 +40,7 @@ fn draw(prepared: &Prepared, view: &View, options: &Options) -> (Frame, Work) {
 }
 
 /// Numbers in 0 … 1 that look random: the golden ratio's multiples, as a low-discrepancy sequence.
-fn scattered(count: usize) -> impl Iterator<Item = [f32; 3]> {
+pub(super) fn scattered(count: usize) -> impl Iterator<Item = [f32; 3]> {
     let part = |k: usize, step: f64| (k as f64 * step).fract() as f32;
     (1..=count)
         .map(move |k| [part(k, 0.618_033_988), part(k, 0.754_877_666), part(k, 0.569_840_291)])
@@ -61,7 +61,7 @@ fn all_sizes(count: usize) -> Scene {
     scene(vec![mesh(Mesh::new(positions, triangles).expect("it is a mesh"))])
 }
 
-fn every_way_to_draw() -> impl Iterator<Item = (Level, [u32; 2])> {
+pub(super) fn every_way_to_draw() -> impl Iterator<Item = (Level, [u32; 2])> {
     let tiles = [[8, 9], [6, 10], [3, 3], [0, 4], [5, 0], [16, 16]];
     let of_levels = levels().into_iter().map(move |level| (level, tiles[0]));
     of_levels.chain(tiles.map(|tile| (best_level(), tile)))
@@ -112,7 +112,7 @@ fn no_number_of_threads_changes_a_bit() {
 }
 
 /// A view against the textbook; gives the work of the fast one.
-fn check(scene: &Scene, camera: &Camera, what: &str) -> Work {
+pub(super) fn check(scene: &Scene, camera: &Camera, what: &str) -> Work {
     let (view, options) = (View::new(scene, camera), Options::default());
     let expected = textbook::render(&view, &options);
     let (frame, work) = draw(&fast::prepare(scene), &view, &options);

@@ -5,3 +5,4 @@
 mod fast;
 mod frames;
 mod hostile_scenes;
+mod spheres;

@@ -25,7 +25,17 @@ impl FragmentWriter<'_, '_> {
         sample: Sample,
         depth: Interval,
     ) {
-        let (index, key) = (self.buffer.index(sample), self.picture.keys.key(depth));
+        self.write_key(context, sample, self.picture.keys.key(depth));
+    }
+
+    /// Writes one fragment with this depth key, if it passes its depth test.
+    pub(crate) fn write_key<C: ScalarContext>(
+        &mut self,
+        context: &mut C,
+        sample: Sample,
+        key: f32,
+    ) {
+        let index = self.buffer.index(sample);
         let incoming = &mut Incoming { id: self.id, primitive: Some(self.primitive) };
         self.buffer.settle_depth(&mut context.scalar(), self.picture, index, incoming, key);
     }

@@ -171,7 +171,7 @@ impl Equation {
 /// integers would sum to `4ˢ·R²`; but a square leaves 0 or 1 when divided by 4, so all three integers would be even,
 /// and that was not the last place. So coordinates are integers times `q`, at most `R` of them, and their squares and
 /// sums have at most 50 digits: plain arithmetic has no error.
-fn begins_on(m: &[DoubleDouble; 3], radius: f64) -> bool {
+pub(super) fn begins_on(m: &[DoubleDouble; 3], radius: f64) -> bool {
     let digits = radius.to_bits();
     // The place of the leading digit, and how many places lower the last digit is.
     let leading = f64::from_bits(digits >> 52 << 52);
