@@ -25,7 +25,7 @@ fn main() {
 }
 
 /// Divisions of spheres: 10 thousand, 100 thousand, 1 million and 8 million triangles.
-fn spheres() -> &'static [[u32; 2]] {
+fn divisions() -> &'static [[u32; 2]] {
     let all = &[[100, 51], [316, 159], MILLION, [2828, 1415]];
     if std::env::var_os("BOTHWAYS_LONG").is_some() { all } else { &all[..3] }
 }
@@ -50,7 +50,7 @@ fn time_frame(bencher: Bencher, scene: &Scene, camera: &Camera, threads: usize, 
 }
 
 /// Time against triangles, at the same number of pixels. It should grow at most linearly. Items are triangles.
-#[divan::bench(args = spheres())]
+#[divan::bench(args = divisions())]
 fn triangles(bencher: Bencher, divisions: &[u32; 2]) {
     let mesh = sphere(*divisions);
     let camera = camera(&mesh, FULL_HD);
