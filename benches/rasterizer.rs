@@ -102,7 +102,7 @@ fn grid<const SIDE: u32>(bencher: Bencher, alignment: Alignment) {
 /// A sphere that fills the whole image, one in its middle, and a thousand.
 #[divan::bench(args = [Spheres::Filling, Spheres::One, Spheres::Thousand])]
 fn spheres(bencher: Bencher, spheres: Spheres) {
-    time_visibility(bencher, &spheres.scene(), &Camera::canonical(1920, 1080), 1);
+    time_visibility(bencher, &spheres.scene(), &on_pixels(), 1);
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -114,11 +114,14 @@ enum Spheres {
 
 impl Spheres {
     fn scene(self) -> Scene {
-        let sphere =
-            |z: f32| Shape::Sphere(Sphere { center: Vec3::new(0.1, 0.05, z), radius: 1.0 });
+        let sphere = |z: f32, radius: f32| {
+            let center = Vec3::new(100.0, 50.0, z);
+            Scene::new(vec![Shape::Sphere(Sphere { center, radius }).into()])
+                .expect("it is a scene")
+        };
         match self {
-            Spheres::Filling => Scene::new(vec![sphere(-1.4).into()]).expect("it is a scene"),
-            Spheres::One => Scene::new(vec![sphere(-4.0).into()]).expect("it is a scene"),
+            Spheres::Filling => sphere(-3000.0, 2500.0),
+            Spheres::One => sphere(-4000.0, 1000.0),
             Spheres::Thousand => thousand_spheres(),
         }
     }
@@ -127,7 +130,7 @@ impl Spheres {
 /// Planes over the whole image.
 #[divan::bench]
 fn full_screen_planes(bencher: Bencher) {
-    time_visibility(bencher, &planes(300), &Camera::canonical(1920, 1080), 1);
+    time_visibility(bencher, &planes(300), &on_pixels(), 1);
 }
 
 /// Scenes that are meant to hurt, each beside an ordinary one. Items are pairs of a triangle and a sample that it covers:

@@ -128,7 +128,9 @@ fn place(k: u32) -> Vec2 {
 
 /// A number from 0 to 1 that looks random.
 fn part(k: u32, step: f64) -> f32 {
-    (f64::from(k + 1) * step).fract() as f32
+    #[expect(clippy::cast_possible_truncation, reason = "it looks random")]
+    let number = (f64::from(k + 1) * step).fract() as f32;
+    number
 }
 
 /// A direction, at this part of a full turn.

@@ -4,8 +4,8 @@
 use bothways::common::engine::fault::{Planted, with};
 use bothways::common::glam::Vec3;
 use bothways::common::{
-    Camera, CameraDescription, Frame, Mesh, Object, Options, Orientation, Plane, Projection, Scene, Shape,
-    Sphere, View,
+    Camera, CameraDescription, Frame, Mesh, Object, Options, Orientation, Plane, Projection, Scene,
+    Shape, Sphere, View,
 };
 use bothways::diff::compare;
 use bothways::scenes::load;
