@@ -392,15 +392,15 @@ impl Search<'_> {
 
     /// The explanations that leave as few pixels as the best one, simplest first.
     fn best(&self, candidates: &[Candidate], differing: u64) -> Vec<Explanation> {
-        let fewest = candidates.iter().map(|one| one.score.differing).min().unwrap_or(differing);
-        let good = |one: &&Candidate| as_good(one.score.differing, fewest, differing);
         let parts = |one: &Candidate| parts(&one.convention, &one.encoding);
-        let simplest = candidates.iter().filter(good).map(parts).min().unwrap_or(0);
-        if simplest == 0 {
-            return Vec::new();
-        }
+        // Our own conventions explain nothing.
+        let others = || candidates.iter().filter(|one| parts(one) > 0);
+        let fewest = others().map(|one| one.score.differing).min().unwrap_or(differing);
+        let good = |one: &&Candidate| as_good(one.score.differing, fewest, differing);
+        let simplest = others().filter(good).map(parts).min();
+        let is_simplest = |one: &&Candidate| Some(parts(one)) == simplest;
         let mut chosen: Vec<Candidate> =
-            candidates.iter().filter(good).filter(|one| parts(one) == simplest).copied().collect();
+            others().filter(good).filter(is_simplest).copied().collect();
         chosen.sort_by_key(Candidate::rank);
         let least = chosen.first().map_or(0, |one| one.score.differing);
         let mut explanations: Vec<Explanation> = Vec::new();

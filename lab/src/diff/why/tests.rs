@@ -175,3 +175,27 @@ fn culled_faces_are_named_in_ids_and_in_distances() {
         assert!(culled > 4 * close, "{}: {:?}", file.kind(), reasons.counts());
     }
 }
+
+#[test]
+fn what_explains_a_third_is_a_guess() {
+    with_scene("ties", [64, 64], Projection::Perspective, |view| {
+        let planted = Convention::default().with(Change::Edges(Edges::Inclusive));
+        let [truth, drawn] =
+            [Convention::default(), planted].map(|one| draw(view, &one, Rows::ALL).ids);
+        let mut ids: Vec<Option<u64>> =
+            drawn.iter().map(|&id| (id != NO_PRIMITIVE).then_some(id.into())).collect();
+        let by_planted = (0..ids.len()).filter(|&at| drawn[at] != truth[at]).count();
+        // Twice as many pixels are wrong for no reason.
+        let elsewhere = (0..ids.len()).map(|k| 1021 * k % ids.len());
+        let others: Vec<usize> = elsewhere.filter(|&at| drawn[at] == truth[at]).collect();
+        assert!(by_planted > 10 && others.len() > 2 * by_planted);
+        for (k, &at) in others[..2 * by_planted].iter().enumerate() {
+            ids[at] = Some(1_000_000 + k as u64);
+        }
+        let file = Buffer::new(view.camera.image(), 1, Content::Ids(ids));
+        let findings = find_conventions(view, &file).unwrap();
+        let Finding::Explained(found) = &findings.finding else { panic!("{findings:?}") };
+        assert!(found.iter().any(|one| one.convention == planted), "{found:?}");
+        assert!(found.iter().all(|one| one.is_a_guess(findings.differing)), "{found:?}");
+    });
+}
