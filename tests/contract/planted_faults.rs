@@ -130,7 +130,7 @@ fn an_error_bound_of_zero_differs_at_the_silhouette_of_a_sphere() {
     for projection in PROJECTIONS {
         let (scene, camera) = magnified_silhouette(projection);
         let zero = verdicts(&scene, &camera, Some(Planted::ZeroErrorBound));
-        assert!(!zero.object_order, "{projection:?}");
+        assert_eq!(zero, CAUGHT, "{projection:?}");
         let infinite = verdicts(&scene, &camera, Some(Planted::InfiniteErrorBound));
         assert_eq!(infinite, ALL_WELL, "{projection:?}");
     }
@@ -200,25 +200,6 @@ fn an_error_bound_of_zero_of_planes_differs_in_image_order() {
         let camera = turned(projection, [2.3, 2.9, 4.1], [0.1, 0.2, 0.3], [64, 64]);
         let verdicts = verdicts(&scene, &camera, Some(Planted::ZeroErrorBound));
         assert!(!verdicts.image_order, "{projection:?}");
-    }
-}
-
-#[test]
-fn an_error_bound_of_zero_of_spheres_differs_in_image_order() {
-    // Spheres before a plane that they nearly touch, or reach through, by a last place.
-    for projection in PROJECTIONS {
-        let camera = camera(projection, [0.0; 3], [0.5, 0.5], [33, 33]);
-        let is_caught = |k: u8| {
-            let (depth, radius) = (5.0 + 0.37 * f32::from(k), 1.0 + 0.11 * f32::from(k));
-            let center = Vec3::new(0.0, 0.0, -depth);
-            let point = Vec3::new(0.0, 0.0, radius - depth);
-            let scene = scene(vec![
-                Shape::Plane(Plane { point, normal: Vec3::Z }).into(),
-                Shape::Sphere(Sphere { center, radius }).into(),
-            ]);
-            !verdicts(&scene, &camera, Some(Planted::ZeroErrorBound)).image_order
-        };
-        assert!((0..40).any(is_caught), "{projection:?}");
     }
 }
 

@@ -259,7 +259,9 @@ fn the_report_has_both_sorts_of_counts_each_under_its_name() {
         let mut expected = [&both[..], own].concat();
         expected.sort_unstable();
         assert_eq!(names, expected);
-        for (name, count) in executed.iter().filter(|(name, _)| !name.ends_with("skipped")) {
+        // Hardly any sample is tested alone, here perhaps none.
+        let is_certain = |name: &str| !name.ends_with("skipped") && name != "single_samples";
+        for (name, count) in executed.iter().filter(|(name, _)| is_certain(name)) {
             assert!(count.as_u64().unwrap() > 0, "{name}: {executed:?}");
         }
         // The algorithm's work for each primitive or ray alone is far more.

@@ -35,7 +35,7 @@ pub(super) fn placements(pair: &BufferPair, classes: &Classes) -> Vec<String> {
 /// the picture is not square, the two cannot be compared otherwise.
 ///
 /// ```
-/// use bothways::diff::foreign::{Buffer, Content, exchanged_sides};
+/// use bothways_lab::diff::foreign::{Buffer, Content, exchanged_sides};
 ///
 /// let mask = |size, mask: [bool; 2]| Buffer::new(size, 1, Content::Mask(mask.to_vec().into()));
 /// let (level, upright) = (mask([2, 1], [true, false]), mask([1, 2], [true, false]));

@@ -7,8 +7,8 @@ use crate::common::{Camera, CameraDescription};
 /// sees.
 ///
 /// ```
-/// use bothways::common::Camera;
-/// use bothways::diff::why::camera_of_samples;
+/// use bothways_lab::common::Camera;
+/// use bothways_lab::diff::why::camera_of_samples;
 ///
 /// let fine = camera_of_samples(&Camera::canonical(4, 3), 2).expect("it is small");
 /// assert_eq!(fine.image(), [8, 6]);
