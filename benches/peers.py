@@ -6,7 +6,8 @@
     python3 benches/peers.py --markdown             # the same, and the table into docs/performance.md
 
 Our object order runs against Mesa llvmpipe, our image order against Intel Embree, each on the same mesh from
-the same camera. ../shared/peers says how, and what its programs time. Rounds alternate between ours and
+the same camera. ../shared/peers says how, and what its programs time. A picture in colour runs against llvmpipe with the
+same lights in its fragment shader (gl_shaded.cpp). Rounds alternate between ours and
 theirs, so that changes of the machine's speed affect both. A ratio is their time over ours: above 1, ours is
 faster. The tables give the median of the rounds, and the time to clear the id and distance buffers. Let
 nothing else run on the machine. The README of the peers lists what they need; a message names each peer that
@@ -33,6 +34,29 @@ BEGIN, END = "<!-- peers.py writes from here -->", "<!-- to here -->"
 GENERATED = ["sphere:51x100", "sphere:501x1000", "sphere:1415x2828", "soup:100000"]
 # The summary against llvmpipe is over meshes of at least so many triangles.
 MANY = 50_000
+# The lights and the material of a framed mesh file (lab/src/scenes/studio.rs); gl_shaded.cpp has the same.
+STUDIO = """
+[material.plaster]
+color = "#e6c9a5"
+specular = 0.12
+shininess = 25
+
+[[light]]
+directional = [0.3, -1.15, -0.8]
+intensity = 0.78
+
+[[light]]
+directional = [-1, -0.3, 0.1]
+intensity = 0.2
+
+[[light]]
+directional = [0.2, -0.4, 1]
+intensity = 0.15
+
+[[light]]
+ambient = true
+intensity = 0.14
+"""
 # A mesh of at least so many triangles takes each process seconds to load, so that one round must do.
 LARGE = 4_000_000
 
@@ -168,19 +192,22 @@ def build_peers(folder):
         say("no g++: no peers")
         return {}
     flags = ["-O3", "-march=native", "-mprefer-vector-width=512", "-fopenmp-simd", "-std=c++17"]
+    gl, mesa = ["-lEGL", "-lGL"], "llvmpipe (libegl-dev libgl-dev libgl1-mesa-dri)"
     sources = {
-        "mkmesh": ("mkmesh.cpp", [], "meshes"),
-        "llvmpipe": ("gl_raster.cpp", ["-lEGL", "-lGL"], "llvmpipe (libegl-dev libgl-dev libgl1-mesa-dri)"),
-        "embree": ("embree_primary.cpp", ["-lembree3", "-lpthread"], "Embree (libembree-dev libtbb-dev)"),
+        "mkmesh": (folder / "mkmesh.cpp", [], "meshes"),
+        "llvmpipe": (folder / "gl_raster.cpp", gl, mesa),
+        "llvmpipe_lit": (ROOT / "benches/gl_shaded.cpp", [f"-I{folder}", *gl], mesa),
+        "embree": (folder / "embree_primary.cpp", ["-lembree3", "-lpthread"], "Embree (libembree-dev libtbb-dev)"),
     }
     BUILD.mkdir(parents=True, exist_ok=True)
     programs = {}
     for name, (source, libraries, what) in sources.items():
-        program, newest = BUILD / name, max(path.stat().st_mtime for path in folder.glob("*.*"))
+        program = BUILD / name
+        newest = max(path.stat().st_mtime for path in [source, *folder.glob("*.*")])
         if not program.exists() or program.stat().st_mtime < newest:
             say(f"building {name}")
             built = subprocess.run(
-                [compiler, *flags, "-o", str(program), str(folder / source), *libraries],
+                [compiler, *flags, "-o", str(program), str(source), *libraries],
                 capture_output=True, text=True,
             )
             if built.returncode != 0:
@@ -216,7 +243,8 @@ def compare(spec, image, options, peers, ours, fill, folder):
     say(f"{name}, {image}")
     scene = folder / f"{name}.toml"
     run(sys.executable, options.shared / "peers/scene.py", peers["mkmesh"], spec, name, image, folder)
-    tri = scene.with_suffix(".tri")
+    tri, lit = scene.with_suffix(".tri"), folder / f"{name}.lit.toml"
+    lit.write_text(in_studio(scene.read_text(encoding="utf-8")), encoding="utf-8")
     triangles = int.from_bytes(tri.read_bytes()[8:12], "little")
     times = {}
 
@@ -231,6 +259,12 @@ def compare(spec, image, options, peers, ours, fill, folder):
             note("object", report["visibility_ms"]["median"])
             if "llvmpipe" in peers:
                 note("llvmpipe", llvmpipe(peers["llvmpipe"], tri, image, options))
+            for order in ("object", "image") if options.order == "both" else ("object",):
+                shaded = ours_on(ours, order, lit, options, folder)
+                note(f"{order}_shading", shaded["shading_ms"]["median"])
+                note(f"{order}_lit", shaded["visibility_ms"]["median"] + shaded["shading_ms"]["median"])
+            if "llvmpipe_lit" in peers:
+                note("llvmpipe_lit", llvmpipe_lit(peers["llvmpipe_lit"], tri, image, options))
         if options.order != "object":
             report = ours_on(ours, "image", scene, options, folder)
             note("image", report["visibility_ms"]["median"])
@@ -251,12 +285,30 @@ def ours_on(program, order, scene, options, folder):
     return report[f"{order}_order"]
 
 
-def llvmpipe(program, tri, image, options):
-    """The time of the faster of its two ways to write ids."""
+def in_studio(scene):
+    """The same scene in the light of a framed mesh file."""
+    scene = scene.replace("[[object]]", "[[object]]\nmaterial = \"plaster\"")
+    camera, _, objects = scene.partition("\n[[object]]")
+    return f"{camera}background = \"#36424b\"\n{STUDIO}\n[[object]]{objects}"
+
+
+def llvmpipe_on(options):
+    """The environment in which OpenGL is llvmpipe."""
     # 1 is a thread besides that of the application; 0 is that of the application alone.
     threads = 0 if options.threads == 1 else options.threads
     chosen = {"LIBGL_ALWAYS_SOFTWARE": "1", "GALLIUM_DRIVER": "llvmpipe", "LP_NUM_THREADS": str(threads)}
-    drawn = run(program, tri, "-", options.repeats, image, env={**os.environ, **chosen})
+    return {**os.environ, **chosen}
+
+
+def llvmpipe_lit(program, tri, image, options):
+    """The time of a picture in colour."""
+    words = run(program, tri, options.repeats, image, env=llvmpipe_on(options)).split()
+    return float(words[words.index("median") + 1])
+
+
+def llvmpipe(program, tri, image, options):
+    """The time of the faster of its two ways to write ids."""
+    drawn = run(program, tri, "-", options.repeats, image, env=llvmpipe_on(options))
     lines = drawn.splitlines()
     lines = [line.split("|") for line in lines if "|primid|" in line or "|vid|" in line]
     return min(float(line[6].removeprefix("median ")) for line in lines)
@@ -348,6 +400,25 @@ def object_order(rows):
     yield table(["object order", "llvmpipe", "ratio", "memory fill", "ours over fill"], rows, cells)
     many = [row for row in rows if row["triangles"] >= MANY]
     yield from summary(f"From {MANY:,} triangles on, the", many, "llvmpipe", "object", 1)
+    yield from shading(rows, many)
+
+
+def shading(rows, many):
+    """A picture in colour: shading beside visibility, and both together beside llvmpipe."""
+
+    def cells(row):
+        cells = []
+        for order in ("object", "image"):
+            cells += [shown(median(row, f"{order}_shading")), shown(ratio(row, f"{order}_shading", order))]
+        times = [shown(median(row, key)) for key in ("object_lit", "llvmpipe_lit")]
+        return [*cells, *times, shown(ratio(row, "llvmpipe_lit", "object_lit"), 1)]
+
+    yield table(
+        ["shading in object order", "over visibility", "in image order", "over visibility", "object order in colour",
+         "llvmpipe in colour", "ratio"],
+        rows, cells,
+    )
+    yield from summary(f"In colour, from {MANY:,} triangles on, the", many, "llvmpipe_lit", "object_lit", 1)
 
 
 def image_order(rows):
