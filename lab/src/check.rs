@@ -2,7 +2,8 @@
 //!
 //! [`check`] reads a folder of masks, ids or distances whose names begin with those of the set's scenes, holds each to the
 //! exact picture of its scene, and looks for the causes: conventions that explain many scenes at once
-//! ([`find_common_conventions`]), then the reasons of the pixels of each scene ([`find_reasons`]).
+//! ([`find_common_conventions`](crate::diff::why::find_common_conventions)), then the reasons of the pixels of each scene
+//! ([`find_reasons`](crate::diff::why::find_reasons)).
 //!
 //! ```no_run
 //! use bothways_lab::check::{self, ConformanceSet};

@@ -5,160 +5,25 @@
 //! [`Surfaces`]. Every number belongs to its sample alone: neither neighbours nor threads nor the width of SIMD change
 //! a bit of it.
 
-use crate::camera::{Camera, Projection, SampleGrid};
-use crate::engine::simd::{
-    Level, Simd, SimdBase, SimdMask, SimdNarrow, dispatch, f64x8, mask64x8, u32x16,
-};
+mod desk;
+mod surfaces;
+
+use crate::camera::{Projection, SampleGrid};
+use crate::engine::simd::{Level, Simd, SimdBase, SimdNarrow, dispatch, f64x8};
 use crate::frame::{Frame, NO_PRIMITIVE, ShadingBand};
 use crate::look::color::{srgb_from_linear, srgb_of_sixteen};
-use crate::look::lanes::{DVec3x8, Lanes, Vec3x16, each};
+use crate::look::lanes::{DVec3x8, Vec3x16, each};
 use crate::look::shade::{Lighting, SurfacePoints};
-use crate::look::texture::{self, TexturePoints};
+use crate::look::texture::TexturePoints;
 use crate::raster::Sample;
 use crate::scene::material::Material;
-use crate::scene::{Object, Primitive, Shape};
 use crate::view::View;
-use glam::{DVec2, DVec3, Vec2, Vec3};
+use desk::{CHUNK, Chunk, Desk, Kept, Run, Setting, eight, eight_vectors, store_eight};
+use glam::{DVec3, Vec2, Vec3};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// How a renderer finds out what its surfaces look like.
-pub trait Surfaces: Sync {
-    /// A visible primitive, set up for all samples at which it is seen.
-    type Surface: Send;
-
-    /// The viewing rays through eight samples that follow one another in a row: those of the camera, unless a renderer
-    /// has others. There may be fewer samples; the lanes that are left over have any values.
-    #[inline(always)]
-    fn rays<S: Simd>(
-        &self,
-        simd: S,
-        camera: &Camera,
-        _first: Sample,
-        [x, y]: [f64x8<S>; 2],
-    ) -> Rays<S> {
-        Rays::of_camera(simd, camera, [x, y])
-    }
-
-    /// Sets up a primitive. Where triangles are as small as samples, most of the time goes here: `#[inline(always)]`.
-    fn set_up(&self, seen: &Seen, wanted: Wanted) -> Self::Surface;
-
-    /// What a primitive looks like at eight samples, at which it is seen. Lanes at which it is not have any values.
-    fn at<S: Simd>(&self, simd: S, surface: &Self::Surface, samples: &Samples<S>) -> Points<S>;
-}
-
-/// A primitive that is seen somewhere.
-#[derive(Clone, Copy, Debug)]
-pub struct Seen<'a> {
-    /// Its id.
-    pub id: u32,
-    /// The primitive, relative to the eye.
-    pub primitive: Primitive,
-    /// The object that it belongs to.
-    pub object: &'a Object,
-    /// Its number among the object's primitives, from 0.
-    pub local: usize,
-    /// The material that it has there.
-    pub material: &'a Material,
-}
-
-impl Seen<'_> {
-    /// The unit normals at the corners of a triangle that has some.
-    #[inline(always)]
-    pub fn corner_normals(&self) -> Option<[DVec3; 3]> {
-        match &self.object.shape {
-            Shape::Mesh(mesh) => {
-                let [a, b, c] = mesh.normals().of(self.local)?;
-                Some(each!(normal in [a, b, c] => normal.as_dvec3().normalize_or_zero()))
-            }
-            Shape::Triangle(_) | Shape::Sphere(_) | Shape::Plane(_) => None,
-        }
-    }
-
-    /// The texture coordinates at the corners of a triangle that has some.
-    #[inline]
-    pub fn corner_coordinates(&self) -> Option<[DVec2; 3]> {
-        texture::corners(&self.object.shape, self.local)
-    }
-}
-
-/// What is needed to know of surfaces besides their normals.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Wanted {
-    /// Where their points are.
-    pub positions: bool,
-    /// Their texture coordinates, even where no pattern is drawn.
-    pub texture_coordinates: bool,
-}
-
-/// Eight samples of a row.
-#[derive(Clone, Copy, Debug)]
-pub struct Samples<S: Simd> {
-    /// Where they are on the viewport.
-    pub x: f64x8<S>,
-    /// Where their row is on the viewport.
-    pub y: f64x8<S>,
-    /// Their viewing rays.
-    pub rays: Rays<S>,
-    /// The `t` that is stored of what is seen.
-    pub t: f64x8<S>,
-}
-
-/// Eight viewing rays.
-#[derive(Clone, Copy, Debug)]
-pub struct Rays<S: Simd> {
-    /// Where they begin, relative to the eye.
-    pub origin: DVec3x8<S>,
-    /// Where they go.
-    pub direction: DVec3x8<S>,
-}
-
-impl<S: Simd> Rays<S> {
-    /// [`Camera::ray_through`] for eight points of the viewport, with the same bits.
-    #[inline(always)]
-    pub fn of_camera(simd: S, camera: &Camera, [x, y]: [f64x8<S>; 2]) -> Rays<S> {
-        let [u, v] = each!(axis in [camera.u(), camera.v()] => DVec3x8::splat(simd, axis));
-        let across = u * x + v * y;
-        match camera.projection() {
-            Projection::Perspective => Rays {
-                origin: DVec3x8::splat(simd, DVec3::ZERO),
-                direction: across - DVec3x8::splat(simd, camera.distance() * camera.w()),
-            },
-            Projection::Parallel => {
-                Rays { origin: across, direction: DVec3x8::splat(simd, -camera.w()) }
-            }
-        }
-    }
-}
-
-/// What is seen at eight samples.
-#[derive(Clone, Copy, Debug)]
-pub struct Points<S: Simd> {
-    /// Where it is, relative to the eye; anything unless positions are wanted.
-    pub position: DVec3x8<S>,
-    /// Normals towards the viewer, of any length between 2⁻⁶⁰ and 2⁶⁰.
-    pub normal: DVec3x8<S>,
-    /// Texture coordinates, where there are any and they are wanted or a pattern is drawn.
-    pub texture: Option<TexturePoints<S>>,
-}
-
-/// The largest part of a stored `t` by which it may differ from the true one, with room: a `t` that is computed anew
-/// and differs by more is worse than the stored one, because the ray runs along the surface or numbers are extreme.
-pub const STORED_ERROR: f64 = 2e-5;
-
-impl<S: Simd> Samples<S> {
-    /// Whether a `t` that was computed anew is better than the stored one: close to it, but of more digits.
-    #[inline(always)]
-    pub fn is_close(&self, simd: S, t: f64x8<S>) -> mask64x8<S> {
-        (t - self.t).abs().simd_le(f64x8::splat(simd, STORED_ERROR) * self.t)
-    }
-
-    /// The points of the viewing rays at these `t`.
-    #[inline(always)]
-    pub fn points_at(&self, t: f64x8<S>) -> DVec3x8<S> {
-        self.rays.origin + self.rays.direction * t
-    }
-}
+pub use surfaces::{Points, Rays, STORED_ERROR, Samples, Seen, Surfaces, Wanted};
 
 /// Gives a frame its picture, and all else that it keeps of the look of what is seen.
 ///
@@ -173,190 +38,23 @@ pub fn shade(view: &View, frame: &mut Frame, surfaces: &impl Surfaces, level: Le
         texture_coordinates: !frame.texture_coordinates().is_empty(),
     };
     let samples = frame.samples() as usize;
-    let look = Look { view, grid, lighting, surfaces, wanted, samples };
+    let setting = Setting { view, surfaces, wanted };
+    let look = Look { setting, grid, lighting, samples };
+    // A pixel of one sample has no sum.
+    let sums = if samples > 1 { look.grid.width() / samples } else { 0 };
     frame.shading_bands().into_par_iter().for_each_init(
-        || Desk::new(&look),
+        || Desk::new(sums),
         |desk, mut band| dispatch!(level, simd => look.shade_band(simd, desk, &mut band)),
     );
 }
 
 /// What all samples of a picture share.
 struct Look<'a, A> {
-    view: &'a View<'a>,
+    setting: Setting<'a, A>,
     grid: SampleGrid<'a>,
     lighting: Lighting,
-    surfaces: &'a A,
-    wanted: Wanted,
     /// Along one side of a pixel.
     samples: usize,
-}
-
-/// The most samples of a row that are shaded together: what is kept of them stays in the innermost cache.
-const CHUNK: usize = 256;
-/// What vectors may write beyond the last sample.
-const BEYOND: usize = 16;
-/// The hashes of ids under which visible primitives are kept: those of a row are mostly seen in the next one, too.
-const HASHES: usize = 1 << HASH_BITS;
-const HASH_BITS: u32 = 12;
-/// From so many kept primitives on, a new chunk begins with none.
-const MANY_KEPT: usize = HASHES;
-
-/// What a thread works with. It decides no bit of the result.
-struct Desk<'a, T> {
-    /// For each hash, the id that came last, and its place in `kept`.
-    places: Vec<(u32, u32)>,
-    kept: Vec<Kept<'a, T>>,
-    chunk: Box<Chunk>,
-    /// The samples of the chunk in runs of one primitive each.
-    runs: Vec<Run>,
-    /// Of each pixel of the row, the sum over its samples.
-    sums: Vec<Vec3>,
-}
-
-struct Kept<'a, T> {
-    surface: T,
-    material: &'a Material,
-}
-
-/// Samples of a row, one after another, that show the same primitive.
-#[derive(Clone, Copy)]
-struct Run {
-    /// The first sample after them.
-    end: usize,
-    /// The primitive's place in `kept`; `None` where nothing is seen.
-    place: Option<u32>,
-}
-
-/// Numbers of the samples of a chunk.
-struct Chunk {
-    x: [f64; CHUNK + BEYOND],
-    t: [f64; CHUNK + BEYOND],
-    origin: [[f64; CHUNK + BEYOND]; 3],
-    direction: [[f64; CHUNK + BEYOND]; 3],
-    position: [[f64; CHUNK + BEYOND]; 3],
-    normal: [[f64; CHUNK + BEYOND]; 3],
-    fraction: [f64; CHUNK + BEYOND],
-    color: [[f32; CHUNK + BEYOND]; 3],
-    bytes: [u32; CHUNK + BEYOND],
-}
-
-impl<'a, T> Desk<'a, T> {
-    fn new<A: Surfaces<Surface = T>>(look: &Look<'a, A>) -> Self {
-        const WIDE: usize = CHUNK + BEYOND;
-        let pixels = look.grid.width() / look.samples;
-        Desk {
-            places: vec![(NO_PRIMITIVE, 0); HASHES],
-            kept: Vec::new(),
-            chunk: Box::new(Chunk {
-                x: [0.0; WIDE],
-                t: [0.0; WIDE],
-                origin: [[0.0; WIDE]; 3],
-                direction: [[0.0; WIDE]; 3],
-                position: [[0.0; WIDE]; 3],
-                normal: [[0.0; WIDE]; 3],
-                fraction: [0.0; WIDE],
-                color: [[0.0; WIDE]; 3],
-                bytes: [0; WIDE],
-            }),
-            runs: Vec::new(),
-            sums: if look.samples > 1 { vec![Vec3::ZERO; pixels] } else { Vec::new() },
-        }
-    }
-
-    /// Finds the runs of a chunk, and sets up their primitives, unless they are kept.
-    ///
-    /// All are set up before the first is used: so the memory that they lie in is fetched for several at once.
-    #[inline(always)]
-    fn find_runs<S: Simd, A: Surfaces<Surface = T>>(
-        &mut self,
-        simd: S,
-        look: &Look<'a, A>,
-        ids: &[u32],
-    ) {
-        if self.kept.len() >= MANY_KEPT {
-            self.kept.clear();
-            self.places.fill((NO_PRIMITIVE, 0));
-        }
-        self.runs.clear();
-        // The ends of the runs: where an id differs from the next one. Vectors find sixteen at a time.
-        let mut at = 0;
-        while at + 16 < ids.len() {
-            let [these, next] =
-                each!(at in [at, at + 1] => u32x16::from_slice(simd, &ids[at..at + 16]));
-            let mut ends = these.simd_ne(next).to_bitmask();
-            while ends != 0 {
-                let last = at + ends.trailing_zeros() as usize;
-                ends &= ends - 1;
-                self.end_run(look, ids, last);
-            }
-            at += 16;
-        }
-        for last in at..ids.len() {
-            if ids.get(last + 1) != Some(&ids[last]) {
-                self.end_run(look, ids, last);
-            }
-        }
-    }
-
-    /// Adds the run of samples that ends with this one.
-    #[inline(always)]
-    fn end_run<A: Surfaces<Surface = T>>(&mut self, look: &Look<'a, A>, ids: &[u32], last: usize) {
-        let id = ids[last];
-        let place = (id != NO_PRIMITIVE).then(|| self.place_of(look, id));
-        self.runs.push(Run { end: last + 1, place });
-    }
-
-    /// The place in `kept` of a visible primitive.
-    #[inline(always)]
-    fn place_of<A: Surfaces<Surface = T>>(&mut self, look: &Look<'a, A>, id: u32) -> u32 {
-        // The golden ratio of 2³² spreads neighbours best (Knuth, "The Art of Computer Programming", 6.4).
-        let hash = (id.wrapping_mul(0x9e37_79b9) >> (u32::BITS - HASH_BITS)) as usize;
-        let (kept, place) = self.places[hash];
-        if kept == id { place } else { self.set_up(look, id, hash) }
-    }
-
-    #[inline(never)]
-    fn set_up<A: Surfaces<Surface = T>>(
-        &mut self,
-        look: &Look<'a, A>,
-        id: u32,
-        hash: usize,
-    ) -> u32 {
-        let scene = look.view.scene;
-        let (object, local) = scene.locate(id);
-        let object = &scene.objects()[object];
-        let primitive = look.view.primitive_of(&object.shape, local);
-        let material = object.material_of(local);
-        let seen = Seen { id, primitive, object, local, material };
-        let place = u32::try_from(self.kept.len()).expect("few are kept");
-        self.kept.push(Kept { surface: look.surfaces.set_up(&seen, look.wanted), material });
-        self.places[hash] = (id, place);
-        place
-    }
-}
-
-/// The next eight numbers.
-#[inline(always)]
-fn eight<S: Simd>(simd: S, numbers: &[f64], at: usize) -> f64x8<S> {
-    f64x8::from_slice(simd, &numbers[at..at + 8])
-}
-
-/// The next eight vectors.
-#[inline(always)]
-fn eight_vectors<S: Simd>(
-    simd: S,
-    [x, y, z]: &[[f64; CHUNK + BEYOND]; 3],
-    at: usize,
-) -> DVec3x8<S> {
-    Lanes { x: eight(simd, x, at), y: eight(simd, y, at), z: eight(simd, z, at) }
-}
-
-#[inline(always)]
-fn store_eight<S: Simd>(vectors: DVec3x8<S>, to: &mut [[f64; CHUNK + BEYOND]; 3], at: usize) {
-    let [to_x, to_y, to_z] = to;
-    vectors.x.store_slice(&mut to_x[at..at + 8]);
-    vectors.y.store_slice(&mut to_y[at..at + 8]);
-    vectors.z.store_slice(&mut to_z[at..at + 8]);
 }
 
 impl<'a, A: Surfaces> Look<'a, A> {
@@ -406,7 +104,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
                 kept.fill(Vec2::ZERO);
             }
         } else {
-            desk.find_runs(simd, self, ids);
+            desk.find_runs(simd, &self.setting, ids);
             self.find_rays(simd, desk, Sample { row, column: first }, &band.t[stored.clone()]);
             self.find_points(simd, desk, row, kept);
         }
@@ -425,7 +123,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
         start: Sample,
         stored: &[f32],
     ) {
-        let (camera, runs, chunk) = (self.view.camera, &desk.runs, &mut *desk.chunk);
+        let (camera, runs, chunk) = (self.setting.view.camera, &desk.runs, &mut *desk.chunk);
         let nothing_until = match runs[..] {
             [Run { end, place: None }, ..] => end,
             _ => 0,
@@ -443,7 +141,8 @@ impl<'a, A: Surfaces> Look<'a, A> {
         let y = f64x8::splat(simd, self.grid.y()[start.row]);
         for at in seen.step_by(8) {
             let sample = Sample { column: start.column + at, ..start };
-            let rays = self.surfaces.rays(simd, camera, sample, [eight(simd, &chunk.x, at), y]);
+            let rays =
+                self.setting.surfaces.rays(simd, camera, sample, [eight(simd, &chunk.x, at), y]);
             store_eight(rays.direction, &mut chunk.direction, at);
             if camera.projection() == Projection::Parallel {
                 store_eight(rays.origin, &mut chunk.origin, at);
@@ -488,7 +187,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
         for at in run.clone().step_by(8) {
             let rays = Rays {
                 // All perspective rays begin at the eye.
-                origin: match self.view.camera.projection() {
+                origin: match self.setting.view.camera.projection() {
                     Projection::Perspective => DVec3x8::splat(simd, DVec3::ZERO),
                     Projection::Parallel => eight_vectors(simd, &chunk.origin, at),
                 },
@@ -496,10 +195,10 @@ impl<'a, A: Surfaces> Look<'a, A> {
             };
             let samples =
                 Samples { x: eight(simd, &chunk.x, at), y, rays, t: eight(simd, &chunk.t, at) };
-            let points = self.surfaces.at(simd, surface, &samples);
+            let points = self.setting.surfaces.at(simd, surface, &samples);
             // What is written beyond the run is overwritten by the next one.
             store_eight(points.normal, &mut chunk.normal, at);
-            if self.wanted.positions {
+            if self.setting.wanted.positions {
                 store_eight(points.position, &mut chunk.position, at);
             }
             if let Some(checker) = &material.checker {
@@ -531,7 +230,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
         desk: &mut Desk<'a, A::Surface>,
         mut normals: Option<&mut [Vec3]>,
     ) {
-        let background = self.view.scene.background;
+        let background = self.setting.view.scene.background;
         let background_bytes = {
             let [red, green, blue] = background.to_array().map(srgb_from_linear);
             u32::from_le_bytes([red, green, blue, 0])

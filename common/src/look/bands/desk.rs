@@ -1,0 +1,193 @@
+//! What a thread works with while it shades: the samples of a chunk, and the primitives that are seen there.
+
+use super::surfaces::{Seen, Surfaces, Wanted};
+use crate::engine::simd::{Simd, SimdBase, SimdMask, f64x8, u32x16};
+use crate::frame::NO_PRIMITIVE;
+use crate::look::lanes::{DVec3x8, Lanes, each};
+use crate::scene::material::Material;
+use crate::view::View;
+use glam::Vec3;
+
+/// The most samples of a row that are shaded together: what is kept of them stays in the innermost cache.
+pub(super) const CHUNK: usize = 256;
+/// What vectors may write beyond the last sample.
+const BEYOND: usize = 16;
+/// The hashes of ids under which visible primitives are kept: those of a row are mostly seen in the next one, too.
+const HASHES: usize = 1 << HASH_BITS;
+const HASH_BITS: u32 = 12;
+/// From so many kept primitives on, a new chunk begins with none.
+const MANY_KEPT: usize = HASHES;
+
+/// Whose surfaces are set up, and what of them is needed.
+pub(super) struct Setting<'a, A> {
+    pub(super) view: &'a View<'a>,
+    pub(super) surfaces: &'a A,
+    pub(super) wanted: Wanted,
+}
+
+/// What a thread works with. It decides no bit of the result.
+pub(super) struct Desk<'a, T> {
+    /// For each hash, the id that came last, and its place in `kept`.
+    places: Vec<(u32, u32)>,
+    pub(super) kept: Vec<Kept<'a, T>>,
+    pub(super) chunk: Box<Chunk>,
+    /// The samples of the chunk in runs of one primitive each.
+    pub(super) runs: Vec<Run>,
+    /// Of each pixel of the row, the sum over its samples; none where a pixel has one sample.
+    pub(super) sums: Vec<Vec3>,
+}
+
+pub(super) struct Kept<'a, T> {
+    pub(super) surface: T,
+    pub(super) material: &'a Material,
+}
+
+/// Samples of a row, one after another, that show the same primitive.
+#[derive(Clone, Copy)]
+pub(super) struct Run {
+    /// The first sample after them.
+    pub(super) end: usize,
+    /// The primitive's place in `kept`; `None` where nothing is seen.
+    pub(super) place: Option<u32>,
+}
+
+/// Numbers of the samples of a chunk.
+pub(super) struct Chunk {
+    pub(super) x: [f64; CHUNK + BEYOND],
+    pub(super) t: [f64; CHUNK + BEYOND],
+    pub(super) origin: [[f64; CHUNK + BEYOND]; 3],
+    pub(super) direction: [[f64; CHUNK + BEYOND]; 3],
+    pub(super) position: [[f64; CHUNK + BEYOND]; 3],
+    pub(super) normal: [[f64; CHUNK + BEYOND]; 3],
+    pub(super) fraction: [f64; CHUNK + BEYOND],
+    pub(super) color: [[f32; CHUNK + BEYOND]; 3],
+    pub(super) bytes: [u32; CHUNK + BEYOND],
+}
+
+impl<'a, T> Desk<'a, T> {
+    /// With room for the sums of so many pixels.
+    pub(super) fn new(sums: usize) -> Self {
+        const WIDE: usize = CHUNK + BEYOND;
+        Desk {
+            places: vec![(NO_PRIMITIVE, 0); HASHES],
+            kept: Vec::new(),
+            chunk: Box::new(Chunk {
+                x: [0.0; WIDE],
+                t: [0.0; WIDE],
+                origin: [[0.0; WIDE]; 3],
+                direction: [[0.0; WIDE]; 3],
+                position: [[0.0; WIDE]; 3],
+                normal: [[0.0; WIDE]; 3],
+                fraction: [0.0; WIDE],
+                color: [[0.0; WIDE]; 3],
+                bytes: [0; WIDE],
+            }),
+            runs: Vec::new(),
+            sums: vec![Vec3::ZERO; sums],
+        }
+    }
+
+    /// Finds the runs of a chunk, and sets up their primitives, unless they are kept.
+    ///
+    /// All are set up before the first is used: so the memory that they lie in is fetched for several at once.
+    #[inline(always)]
+    pub(super) fn find_runs<S: Simd, A: Surfaces<Surface = T>>(
+        &mut self,
+        simd: S,
+        setting: &Setting<'a, A>,
+        ids: &[u32],
+    ) {
+        if self.kept.len() >= MANY_KEPT {
+            self.kept.clear();
+            self.places.fill((NO_PRIMITIVE, 0));
+        }
+        self.runs.clear();
+        // The ends of the runs: where an id differs from the next one. Vectors find sixteen at a time.
+        let mut at = 0;
+        while at + 16 < ids.len() {
+            let [these, next] =
+                each!(at in [at, at + 1] => u32x16::from_slice(simd, &ids[at..at + 16]));
+            let mut ends = these.simd_ne(next).to_bitmask();
+            while ends != 0 {
+                let last = at + ends.trailing_zeros() as usize;
+                ends &= ends - 1;
+                self.end_run(setting, ids, last);
+            }
+            at += 16;
+        }
+        for last in at..ids.len() {
+            if ids.get(last + 1) != Some(&ids[last]) {
+                self.end_run(setting, ids, last);
+            }
+        }
+    }
+
+    /// Adds the run of samples that ends with this one.
+    #[inline(always)]
+    fn end_run<A: Surfaces<Surface = T>>(
+        &mut self,
+        setting: &Setting<'a, A>,
+        ids: &[u32],
+        last: usize,
+    ) {
+        let id = ids[last];
+        let place = (id != NO_PRIMITIVE).then(|| self.place_of(setting, id));
+        self.runs.push(Run { end: last + 1, place });
+    }
+
+    /// The place in `kept` of a visible primitive.
+    #[inline(always)]
+    fn place_of<A: Surfaces<Surface = T>>(&mut self, setting: &Setting<'a, A>, id: u32) -> u32 {
+        // The golden ratio of 2³² spreads neighbours best (Knuth, "The Art of Computer Programming", 6.4).
+        let hash = (id.wrapping_mul(0x9e37_79b9) >> (u32::BITS - HASH_BITS)) as usize;
+        let (kept, place) = self.places[hash];
+        if kept == id { place } else { self.set_up(setting, id, hash) }
+    }
+
+    #[inline(never)]
+    fn set_up<A: Surfaces<Surface = T>>(
+        &mut self,
+        setting: &Setting<'a, A>,
+        id: u32,
+        hash: usize,
+    ) -> u32 {
+        let scene = setting.view.scene;
+        let (object, local) = scene.locate(id);
+        let object = &scene.objects()[object];
+        let primitive = setting.view.primitive_of(&object.shape, local);
+        let material = object.material_of(local);
+        let seen = Seen { id, primitive, object, local, material };
+        let place = u32::try_from(self.kept.len()).expect("few are kept");
+        self.kept.push(Kept { surface: setting.surfaces.set_up(&seen, setting.wanted), material });
+        self.places[hash] = (id, place);
+        place
+    }
+}
+
+/// The next eight numbers.
+#[inline(always)]
+pub(super) fn eight<S: Simd>(simd: S, numbers: &[f64], at: usize) -> f64x8<S> {
+    f64x8::from_slice(simd, &numbers[at..at + 8])
+}
+
+/// The next eight vectors.
+#[inline(always)]
+pub(super) fn eight_vectors<S: Simd>(
+    simd: S,
+    [x, y, z]: &[[f64; CHUNK + BEYOND]; 3],
+    at: usize,
+) -> DVec3x8<S> {
+    Lanes { x: eight(simd, x, at), y: eight(simd, y, at), z: eight(simd, z, at) }
+}
+
+#[inline(always)]
+pub(super) fn store_eight<S: Simd>(
+    vectors: DVec3x8<S>,
+    to: &mut [[f64; CHUNK + BEYOND]; 3],
+    at: usize,
+) {
+    let [to_x, to_y, to_z] = to;
+    vectors.x.store_slice(&mut to_x[at..at + 8]);
+    vectors.y.store_slice(&mut to_y[at..at + 8]);
+    vectors.z.store_slice(&mut to_z[at..at + 8]);
+}
