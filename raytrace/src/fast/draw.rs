@@ -45,7 +45,7 @@ pub(super) fn draw<C: Context>(
     let height = setup.rows[1] - setup.rows[0] + 1.0;
     let samples = width * height;
     let few = samples.simd_le(f32x8::splat(simd, FEW)).to_bitmask() & alive & !doubtful;
-    let arrays = SetupArrays::new(&setup);
+    let mut arrays = SetupArrays::new(&setup);
     if few != 0 {
         few_samples::draw(context, frustum, &setup, (eight, few), samples, tile);
     }
@@ -56,17 +56,14 @@ pub(super) fn draw<C: Context>(
         (0, _) => SizeClass::Few,
         _ => SizeClass::Many,
     };
+    if many & doubtful != 0 {
+        many &=
+            !set_up_alone::<C::Fault>(map, frustum, (eight, many & doubtful), &mut arrays, tile);
+    }
     while many != 0 {
         let lane = (many.trailing_zeros() & 7) as usize;
         many &= many - 1;
-        let setup = if doubtful >> lane & 1 == 1 {
-            set_up_alone::<C::Fault>(map, frustum, (eight, lane), tile)
-        } else {
-            Some(arrays.lane(lane))
-        };
-        if let Some(setup) = setup {
-            many_samples::draw(simd, frustum, &setup, (lane, eight.ids[lane]), tile);
-        }
+        many_samples::draw(simd, frustum, &arrays, (lane, eight.ids[lane]), tile);
     }
     if tile.has_open() {
         settle_open(context, map, eight, tile);
@@ -75,11 +72,30 @@ pub(super) fn draw<C: Context>(
     class
 }
 
-/// Sets up a triangle of which eight at a time are not certain; `None` if it cannot be seen in the tile, or is left open
-/// at all of its samples.
+/// Sets up those triangles, each alone, of which eight at a time are not certain. Returns those that are not to be drawn:
+/// they cannot be seen in the tile, or are left open at all of its samples.
 #[cold]
 #[inline(never)]
 fn set_up_alone<F: Fault>(
+    map: &CameraMap,
+    frustum: &TileFrustum,
+    (eight, mut doubtful): (&TrianglePacket, u64),
+    arrays: &mut SetupArrays,
+    tile: &mut TileBuffer,
+) -> u64 {
+    let mut done = 0;
+    while doubtful != 0 {
+        let lane = (doubtful.trailing_zeros() & 7) as usize;
+        doubtful &= doubtful - 1;
+        match one_alone::<F>(map, frustum, (eight, lane), tile) {
+            Some(setup) => arrays.replace(lane, &setup),
+            None => done |= 1 << lane,
+        }
+    }
+    done
+}
+
+fn one_alone<F: Fault>(
     map: &CameraMap,
     frustum: &TileFrustum,
     (eight, lane): (&TrianglePacket, usize),

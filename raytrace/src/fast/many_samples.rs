@@ -8,6 +8,7 @@ use super::tile::{TileBuffer, place};
 use bothways_common::engine::simd::{Select, Simd, SimdBase, SimdMask, f32x16, u32x16};
 
 /// A setup, to be read lane by lane.
+#[derive(Default)]
 pub(super) struct SetupArrays {
     /// For each edge, and for the key: at the middle, across, down.
     affine: [[[f32; 8]; 3]; 4],
@@ -31,7 +32,7 @@ impl SetupArrays {
     }
 }
 
-/// The setup of one triangle, or plane.
+/// The setup of one triangle or plane.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FlatSetup {
     /// For each edge, and for the key: at the middle, across, down.
@@ -44,19 +45,23 @@ pub(super) struct FlatSetup {
 }
 
 impl SetupArrays {
-    /// The setup of one lane.
-    #[inline(always)]
-    pub(super) fn lane(&self, lane: usize) -> FlatSetup {
-        let of = |k: usize| {
-            let [at_middle, across, down] = &self.affine[k];
-            [at_middle[lane], across[lane], down[lane]]
-        };
-        FlatSetup {
-            affine: [of(0), of(1), of(2), of(3)],
-            error: self.error[lane],
-            key_error: self.key_error[lane],
-            rows: [self.rows[0][lane], self.rows[1][lane]],
-            columns: [self.columns[0][lane], self.columns[1][lane]],
+    /// The setup of one triangle or plane, in its lane.
+    pub(super) fn of_one(lane: usize, setup: &FlatSetup) -> SetupArrays {
+        let mut arrays = SetupArrays::default();
+        arrays.replace(lane, setup);
+        arrays
+    }
+
+    /// Replaces what is in a lane.
+    pub(super) fn replace(&mut self, lane: usize, setup: &FlatSetup) {
+        for (to, of) in self.affine.iter_mut().zip(setup.affine) {
+            to.iter_mut().zip(of).for_each(|(to, of)| to[lane] = of);
+        }
+        self.error[lane] = setup.error;
+        self.key_error[lane] = setup.key_error;
+        for end in [0, 1] {
+            self.rows[end][lane] = setup.rows[end];
+            self.columns[end][lane] = setup.columns[end];
         }
     }
 }
@@ -84,12 +89,12 @@ pub(super) fn rows<S: Simd>(simd: S, of: [f32; 4]) -> f32x16<S> {
     f32x16::load_array(simd, [a, a, a, a, b, b, b, b, c, c, c, c, d, d, d, d])
 }
 
-/// Tests a triangle or plane at the samples of the tile. What is left open is left so in this `lane`.
+/// Tests the triangle or plane of one lane at the samples of the tile.
 #[inline(always)]
 pub(super) fn draw<S: Simd>(
     simd: S,
     frustum: &TileFrustum,
-    setup: &FlatSetup,
+    setup: &SetupArrays,
     (lane, id): (usize, u32),
     tile: &mut TileBuffer,
 ) {
@@ -143,26 +148,26 @@ impl<S: Simd> TriangleSetup<S> {
     fn new(
         simd: S,
         frustum: &TileFrustum,
-        setup: &FlatSetup,
+        setup: &SetupArrays,
         (lane, id): (usize, u32),
     ) -> TriangleSetup<S> {
-        let FlatSetup { affine, rows, columns, .. } = setup;
+        let SetupArrays { affine, rows, columns, .. } = setup;
         let half = frustum.centered(0);
-        let error = f32x16::splat(simd, setup.error);
+        let error = f32x16::splat(simd, setup.error[lane]);
         TriangleSetup {
             id,
             lane,
             edges: [
-                BlockAffine::new(simd, &affine[0]),
-                BlockAffine::new(simd, &affine[1]),
-                BlockAffine::new(simd, &affine[2]),
+                BlockAffine::new(simd, &affine[0], lane),
+                BlockAffine::new(simd, &affine[1], lane),
+                BlockAffine::new(simd, &affine[2], lane),
             ],
-            key: BlockAffine::new(simd, &affine[3]),
+            key: BlockAffine::new(simd, &affine[3], lane),
             error,
             minus_error: -error,
-            key_error: f32x16::splat(simd, setup.key_error),
-            rows: [rows[0] + half, rows[1] + half],
-            columns: [columns[0] + half, columns[1] + half],
+            key_error: f32x16::splat(simd, setup.key_error[lane]),
+            rows: [rows[0][lane] + half, rows[1][lane] + half],
+            columns: [columns[0][lane] + half, columns[1][lane] + half],
         }
     }
 
@@ -227,7 +232,8 @@ struct BlockAffine<S: Simd> {
 
 impl<S: Simd> BlockAffine<S> {
     #[inline(always)]
-    fn new(simd: S, &[at_middle, across, down]: &[f32; 3]) -> Self {
+    fn new(simd: S, of: &[[f32; 8]; 3], lane: usize) -> Self {
+        let [at_middle, across, down] = [of[0][lane], of[1][lane], of[2][lane]];
         let (across, down) = (f32x16::splat(simd, across), f32x16::splat(simd, down));
         BlockAffine {
             at_middle: f32x16::splat(simd, at_middle),

@@ -10,10 +10,11 @@ pub(super) mod unbounded;
 use super::answer::{Answer, Trust};
 use super::bounds;
 use super::camera_map::CameraMap;
+use super::many_samples::{self, SetupArrays};
 use super::search::tile_frustum::TileFrustum;
 use super::sphere::in_blocks::SphereSetup;
 use super::tile::{OpenFragment, TileBuffer, index};
-use super::{many_samples, plane, sphere, triangle};
+use super::{plane, sphere, triangle};
 use bothways_common::engine::context::{Context, ScalarContext};
 use bothways_common::engine::fault::Planted;
 use bothways_common::engine::roundoff::Interval;
@@ -115,6 +116,7 @@ pub(super) fn draw_flat<C: Context>(
     tile.executed.one_by_one += 1;
     let trust = Trust::new::<C::Fault>();
     if let Some(setup) = narrow(functions, frustum, trust, tile.far) {
+        let setup = SetupArrays::of_one(lane, &setup);
         many_samples::draw(context.simd(), frustum, &setup, (lane, id), tile);
     }
 }
