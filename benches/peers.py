@@ -34,29 +34,6 @@ BEGIN, END = "<!-- peers.py writes from here -->", "<!-- to here -->"
 GENERATED = ["sphere:51x100", "sphere:501x1000", "sphere:1415x2828", "soup:100000"]
 # The summary against llvmpipe is over meshes of at least so many triangles.
 MANY = 50_000
-# The lights and the material of a framed mesh file (lab/src/scenes/studio.rs); gl_shaded.cpp has the same.
-STUDIO = """
-[material.plaster]
-color = "#e6c9a5"
-specular = 0.12
-shininess = 25
-
-[[light]]
-directional = [0.3, -1.15, -0.8]
-intensity = 0.78
-
-[[light]]
-directional = [-1, -0.3, 0.1]
-intensity = 0.2
-
-[[light]]
-directional = [0.2, -0.4, 1]
-intensity = 0.15
-
-[[light]]
-ambient = true
-intensity = 0.14
-"""
 # A mesh of at least so many triangles takes each process seconds to load, so that one round must do.
 LARGE = 4_000_000
 
@@ -244,7 +221,7 @@ def compare(spec, image, options, peers, ours, fill, folder):
     scene = folder / f"{name}.toml"
     run(sys.executable, options.shared / "peers/scene.py", peers["mkmesh"], spec, name, image, folder)
     tri, lit = scene.with_suffix(".tri"), folder / f"{name}.lit.toml"
-    lit.write_text(in_studio(scene.read_text(encoding="utf-8")), encoding="utf-8")
+    lit.write_text(in_studio(ours, scene), encoding="utf-8")
     triangles = int.from_bytes(tri.read_bytes()[8:12], "little")
     times = {}
 
@@ -285,11 +262,14 @@ def ours_on(program, order, scene, options, folder):
     return report[f"{order}_order"]
 
 
-def in_studio(scene):
-    """The same scene in the light of a framed mesh file."""
-    scene = scene.replace("[[object]]", "[[object]]\nmaterial = \"plaster\"")
-    camera, _, objects = scene.partition("\n[[object]]")
-    return f"{camera}background = \"#36424b\"\n{STUDIO}\n[[object]]{objects}"
+def in_studio(program, scene):
+    """The same scene in the light of a framed mesh file, which gl_shaded.cpp has, too."""
+    triangle = scene.with_name("triangle.obj")
+    triangle.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", encoding="utf-8")
+    framed = run(program, "scenes", triangle.name, cwd=scene.parent)
+    camera, _, _ = scene.read_text(encoding="utf-8").partition("\n[[object]]")
+    studio = framed[framed.index("background"):].replace(triangle.name, scene.with_suffix(".obj").name)
+    return f"{camera}{studio}"
 
 
 def llvmpipe_on(options):
