@@ -12,7 +12,7 @@
 //!
 //! *Affects* is the exact predicate. *Do something* is to keep the nearest primitive so far: the frame is the z-buffer.
 
-use bothways_common::observe::Observer;
+use bothways_common::observe::Events;
 use bothways_common::raster::Sample;
 use bothways_common::{Frame, Options, View};
 
@@ -39,7 +39,7 @@ pub fn determine_visibility(
     view: &View,
     options: &Options,
     frame: &mut Frame,
-    observer: &mut impl Observer,
+    observer: &mut dyn Events,
 ) {
     frame.fit(view.camera, options);
     frame.clear();

@@ -13,7 +13,7 @@
 //! *Affects* is the exact predicate. *Do something* is to keep the nearest primitive so far: one variable is
 //! enough for that, because a ray is finished before the next one begins.
 
-use bothways_common::observe::Observer;
+use bothways_common::observe::Events;
 use bothways_common::raster::Sample;
 use bothways_common::{Frame, Options, View};
 
@@ -40,7 +40,7 @@ pub fn determine_visibility(
     view: &View,
     options: &Options,
     frame: &mut Frame,
-    observer: &mut impl Observer,
+    observer: &mut dyn Events,
 ) {
     frame.fit(view.camera, options);
     frame.clear();
