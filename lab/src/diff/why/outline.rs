@@ -34,6 +34,11 @@ const ROUNDOFF: f64 = 1.0 / (1_u64 << 45) as f64;
 /// What keeps a bound above zero where products underflow.
 const FLOOR: f64 = 1e-280;
 
+/// The sum of a vector's coordinates without their signs: at least its length, and found without a root.
+fn at_least_length(v: DVec3) -> f64 {
+    v.abs().element_sum()
+}
+
 /// A triangle on the raster.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TriangleOutline {
@@ -57,8 +62,10 @@ impl TriangleOutline {
             Projection::Parallel => normal.dot(axis),
         };
         let bound = match rays.projection {
-            Projection::Perspective => a.length() * b.length() * c.length(),
-            Projection::Parallel => (b - a).length() * (c - a).length() * axis.length(),
+            Projection::Perspective => at_least_length(a) * at_least_length(b) * at_least_length(c),
+            Projection::Parallel => {
+                at_least_length(b - a) * at_least_length(c - a) * at_least_length(axis)
+            }
         };
         let negative = if facing.abs() > bound * ROUNDOFF + FLOOR {
             facing < 0.0
@@ -103,7 +110,11 @@ fn edge_function(p: DVec3, q: DVec3, rays: &ViewingRays) -> Linear {
             constant: cross.dot(axis),
             along_x: cross.dot(rays.u),
             along_y: cross.dot(rays.v),
-            error: p.length() * q.length() * (axis.length() + extent) * ROUNDOFF + FLOOR,
+            error: at_least_length(p)
+                * at_least_length(q)
+                * (at_least_length(axis) + extent)
+                * ROUNDOFF
+                + FLOOR,
         },
         // (p − O) × (q − O) = p × q + (q − p) × O
         Projection::Parallel => {
@@ -113,7 +124,10 @@ fn edge_function(p: DVec3, q: DVec3, rays: &ViewingRays) -> Linear {
                 constant: cross.dot(axis),
                 along_x: spread * turned.dot(rays.u),
                 along_y: spread * turned.dot(rays.v),
-                error: (p.length() + extent) * (q.length() + extent) * axis.length() * ROUNDOFF
+                error: (at_least_length(p) + extent)
+                    * (at_least_length(q) + extent)
+                    * at_least_length(axis)
+                    * ROUNDOFF
                     + FLOOR,
             }
         }
@@ -123,7 +137,7 @@ fn edge_function(p: DVec3, q: DVec3, rays: &ViewingRays) -> Linear {
 /// The numerator and the denominator of `t = n·(a − O)/(n·D)`.
 fn distance(a: DVec3, b: DVec3, c: DVec3, rays: &ViewingRays) -> (Linear, Linear) {
     let normal = (b - a).cross(c - a);
-    let area = (b - a).length() * (c - a).length();
+    let area = at_least_length(b - a) * at_least_length(c - a);
     plane_distance(a, normal, area, rays)
 }
 
@@ -148,15 +162,18 @@ pub(super) fn plane_distance(
     };
     let (to_plane, along_axis) = (normal.dot(point), normal.dot(axis));
     match (rays.projection, rays.spread) {
-        (Projection::Perspective, _) => {
-            (constant(to_plane, point.length()), along(along_axis, axis.length(), 1.0))
-        }
-        (Projection::Parallel, true) => {
-            (along(to_plane, point.length(), -1.0), constant(along_axis, axis.length()))
-        }
-        (Projection::Parallel, false) => {
-            (constant(to_plane, point.length()), constant(along_axis, axis.length()))
-        }
+        (Projection::Perspective, _) => (
+            constant(to_plane, at_least_length(point)),
+            along(along_axis, at_least_length(axis), 1.0),
+        ),
+        (Projection::Parallel, true) => (
+            along(to_plane, at_least_length(point), -1.0),
+            constant(along_axis, at_least_length(axis)),
+        ),
+        (Projection::Parallel, false) => (
+            constant(to_plane, at_least_length(point)),
+            constant(along_axis, at_least_length(axis)),
+        ),
     }
 }
 
@@ -209,7 +226,7 @@ fn project(point: DVec3, rays: &ViewingRays) -> Option<[f64; 2]> {
     }
     // point = t·D: its depth along the axis is t·d.
     let depth = -point.dot(rays.w) / rays.distance;
-    is_in_front(depth, point.length(), rays).then(|| place.map(|at| at / depth))
+    is_in_front(depth, at_least_length(point), rays).then(|| place.map(|at| at / depth))
 }
 
 /// Whether the nearest part of something, at this depth along the axis, lies in front of the eye, and so far that
@@ -226,7 +243,7 @@ fn project_ball(point: DVec3, radius: f64, rays: &ViewingRays) -> Option<[[f64; 
     }
     let depth = -point.dot(rays.w) / rays.distance;
     let [near, far] = [-1.0, 1.0].map(|side| depth + side * radius / rays.distance.abs());
-    if !is_in_front(near, point.length() + radius, rays) {
+    if !is_in_front(near, at_least_length(point) + radius, rays) {
         return None;
     }
     let low = place.map(|at| ((at - radius) / near).min((at - radius) / far));
