@@ -6,7 +6,7 @@ use bothways::common::{
     Shape, Sphere, Triangle, View,
 };
 use bothways::diff::compare;
-use bothways::diff::foreign::Buffer;
+use bothways::diff::foreign::{Buffer, Content};
 use bothways::diff::why::{
     Change, Edges, Explanation, Finding, Placement, Rays, ReasonKind, Sampling, Wrong,
     find_conventions, find_reasons,
@@ -315,4 +315,63 @@ fn the_diff_names_every_rule_of_object_order_on_its_scene() {
 #[test]
 fn the_diff_names_every_rule_of_image_order_on_its_scene() {
     check_names(Order::Image);
+}
+
+/// The ids of a frame, each row from right to left.
+fn mirrored(frame: &Frame, [width, height]: [u32; 2]) -> Buffer<'static> {
+    let rows = frame.ids().chunks(width as usize);
+    let ids =
+        rows.flat_map(|row| row.iter().rev()).map(|&id| (id != u32::MAX).then_some(id.into()));
+    Buffer::new([width, height], 1, Content::Ids(ids.collect()))
+}
+
+/// Asserts that the diff names every rule of an order together with a second mistake: its rows run from right to left.
+fn check_names_in_a_mirror(order: Order) {
+    for rule in Rule::examples().into_iter().filter(|rule| rule.order() == order) {
+        let loaded = load(rule.scene()).expect("it is built in");
+        // What is left over pixel by pixel is so in a small picture, too.
+        let divisor = if matches!(expected(rule), Named::Reasons(_)) { 4 } else { 1 };
+        let image = loaded.camera.image.map(|side| side / divisor);
+        let camera =
+            Camera::new(CameraDescription { image, ..loaded.camera }).expect("it is a camera");
+        let view = View::new(&loaded.scene, &camera);
+        let [ruled, exact] = both(&view, rule);
+        let file = mirrored(&ruled, camera.image());
+        let found = find_conventions(&view, &file).expect("it has ids").finding;
+        let Finding::Explained(found) = found else { panic!("{rule} in a mirror: {found:?}") };
+        let by_rule =
+            ruled.ids().iter().zip(exact.ids()).filter(|(one, other)| one != other).count();
+        // All pixels of one colour have no sides.
+        let is_uniform = ruled.ids().iter().all(|&id| id == ruled.ids()[0]);
+        let is_named = |one: &Explanation| match expected(rule) {
+            Named::Change(change) if is_uniform => one.convention.changes() == [change],
+            // Upside down, too, makes it half a turn.
+            Named::Change(Change::Placement(_)) => one.convention.placement == Placement::HalfTurn,
+            Named::Change(change) => {
+                one.convention.placement == Placement::LeftToRight
+                    && one.convention.changes().contains(&change)
+            }
+            // What the rule itself does is left over, pixel by pixel.
+            Named::Reasons(_) => {
+                one.convention.placement == Placement::LeftToRight
+                    && one.remaining <= by_rule as u64
+            }
+        };
+        let found_instead: Vec<_> =
+            found.iter().map(|one| (one.convention.changes(), one.remaining)).collect();
+        assert!(
+            found.iter().any(is_named),
+            "{rule}, {by_rule} pixels by itself: {found_instead:?}"
+        );
+    }
+}
+
+#[test]
+fn the_diff_names_every_rule_of_object_order_in_a_mirror() {
+    check_names_in_a_mirror(Order::Object);
+}
+
+#[test]
+fn the_diff_names_every_rule_of_image_order_in_a_mirror() {
+    check_names_in_a_mirror(Order::Image);
 }

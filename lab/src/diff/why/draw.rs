@@ -3,16 +3,17 @@
 //! The loop is the lecture's object order with bounding boxes. It decides in `f64` where the bound of the roundoff
 //! allows, and asks the exact judge elsewhere: a hypothesis is held against the pixels without noise of its own.
 
-use super::convention::{Convention, Depth, Edges, Faces};
+use super::convention::{Convention, Depth, Edges, Faces, Look};
 use super::outline::{
     Area, TriangleOutline, area_of_sphere, area_of_triangle, plane_distance, whole,
 };
 use super::rays::ViewingRays;
-use crate::common::exact::Side;
+use crate::common::exact::{CachedJudge, Comparison, Side};
 use crate::common::frame::NO_PRIMITIVE;
 use crate::common::glam::DVec3;
-use crate::common::{Judge, Primitive, Sign, View};
+use crate::common::{Judge, Primitive, Projection, Ray, Sign, View};
 use std::cmp::Ordering;
+use std::ops::Range;
 
 /// What is seen of a scene in some rows of a picture.
 #[derive(Clone, Debug)]
@@ -24,6 +25,15 @@ pub(super) struct Drawn {
     pub(super) ids: Vec<u32>,
     /// Its distance `t`.
     pub(super) t: Vec<f64>,
+}
+
+impl Drawn {
+    /// Gives every pixel what the first one sees.
+    fn repeat_first(&mut self) {
+        let (Some(&id), Some(&t)) = (self.ids.first(), self.t.first()) else { return };
+        self.ids.fill(id);
+        self.t.fill(t);
+    }
 }
 
 /// The rows of a picture that are drawn: every `step`-th, and the same number of rows above as below.
@@ -50,6 +60,7 @@ pub(super) fn draw(view: &View, convention: &Convention, rows: Rows) -> Drawn {
     let mut canvas = Canvas {
         view,
         judge: rays.judge(),
+        pairs: CachedJudge::new(rays.judge()),
         rays,
         convention: *convention,
         step: rows.step,
@@ -64,7 +75,36 @@ pub(super) fn draw(view: &View, convention: &Convention, rows: Rows) -> Drawn {
     for (id, primitive) in view.primitives() {
         canvas.add(id, &primitive);
     }
+    if canvas.rays.are_one() {
+        canvas.drawn.repeat_first();
+    }
     canvas.drawn
+}
+
+/// The same picture for each primitive that rounding in `f32` cannot tell from the one that is seen, where the rays of
+/// all pixels are one. Another rounding of that one ray is no other convention, although it changes every pixel.
+pub(super) fn equally_near(view: &View, convention: &Convention, drawn: &Drawn) -> Vec<Drawn> {
+    /// The largest relative difference of two distances that another rounding may exchange.
+    const CLOSE: f64 = 1e-5;
+    let rays = ViewingRays::new(view.camera, convention);
+    let (Some(&seen), Some(&nearest)) = (drawn.ids.first(), drawn.t.first()) else {
+        return Vec::new();
+    };
+    if !rays.are_one() || seen == NO_PRIMITIVE {
+        return Vec::new();
+    }
+    let (ray, judge) = (rays.ray(0, 0), rays.judge());
+    let others = view.primitives().filter(|(id, _)| *id != seen);
+    let on_the_ray = others.filter(|(_, primitive)| judge.covers(primitive, &ray));
+    on_the_ray
+        .map(|(id, primitive)| (id, judge.distance(&primitive, &ray)))
+        .filter(|(_, t)| (t - nearest).abs() <= CLOSE * nearest)
+        .map(|(id, t)| Drawn {
+            ids: vec![id; drawn.ids.len()],
+            t: vec![t; drawn.t.len()],
+            ..drawn.clone()
+        })
+        .collect()
 }
 
 /// The picture so far.
@@ -72,6 +112,8 @@ struct Canvas<'a> {
     view: &'a View<'a>,
     rays: ViewingRays,
     judge: Judge,
+    /// Compares the planes of two primitives once for all pixels.
+    pairs: CachedJudge,
     convention: Convention,
     step: usize,
     drawn: Drawn,
@@ -131,11 +173,17 @@ impl Canvas<'_> {
         }
     }
 
-    /// The indices of the drawn rows within an area.
-    fn rows_of(&self, area: &Area) -> std::ops::Range<usize> {
+    /// The indices of the drawn rows within an area. Where all rays are one, the first pixel stands for all.
+    fn rows_of(&self, area: &Area) -> Range<usize> {
         let first = self.drawn.rows.first().copied().unwrap_or(0);
         let index = |row: usize| row.saturating_sub(first).div_ceil(self.step);
-        index(area.rows.start)..index(area.rows.end).min(self.drawn.rows.len())
+        let count = if self.rays.are_one() { 1 } else { self.drawn.rows.len() };
+        index(area.rows.start)..index(area.rows.end).min(count)
+    }
+
+    /// The columns within an area that are drawn.
+    fn columns(&self, area: &Area) -> Range<usize> {
+        if self.rays.are_one() { 0..1 } else { area.columns.clone() }
     }
 
     fn fill(
@@ -147,7 +195,7 @@ impl Canvas<'_> {
     ) {
         for index in self.rows_of(area) {
             let row = self.drawn.rows[index];
-            for column in area.columns.clone() {
+            for column in self.columns(area) {
                 let at = rounded(self, row, column);
                 self.keep(id, primitive, [index, column], at);
             }
@@ -173,11 +221,11 @@ impl Canvas<'_> {
     }
 
     /// The columns of a row that may lie inside all edges.
-    fn columns_of(&self, outline: &TriangleOutline, y: f64, area: &Area) -> std::ops::Range<usize> {
+    fn columns_of(&self, outline: &TriangleOutline, y: f64, area: &Area) -> Range<usize> {
         // Below so many columns, to test them takes less time than to solve for their ends.
         const FEW: usize = 12;
-        if area.columns.len() <= FEW {
-            return area.columns.clone();
+        if area.columns.len() <= FEW || self.rays.are_one() {
+            return self.columns(area);
         }
         let [mut low, mut high] = [f64::NEG_INFINITY, f64::INFINITY];
         for edge in &outline.edges {
@@ -254,7 +302,7 @@ impl Canvas<'_> {
     }
 
     fn wins(
-        &self,
+        &mut self,
         id: u32,
         primitive: &Primitive,
         (t, error): (f64, f64),
@@ -276,7 +324,7 @@ impl Canvas<'_> {
             difference.total_cmp(&0.0)
         } else {
             let ray = self.rays.ray(self.drawn.rows[index], column);
-            let order = self.judge.compare(primitive, &self.view.primitive(stored), &ray);
+            let order = self.compare((id, primitive), stored, &ray);
             if depth == Depth::Nearest { order.decided } else { order.at_sample }
         };
         match depth {
@@ -284,6 +332,19 @@ impl Canvas<'_> {
             Depth::LastOfEqual => order != Ordering::Greater,
             // Primitives come in the order of their ids: the stored one is the first of the two.
             _ => order.then(id.cmp(&stored)) == Ordering::Less,
+        }
+    }
+}
+
+impl Canvas<'_> {
+    /// Which of two primitives is nearer along a ray.
+    fn compare(&mut self, incoming: (u32, &Primitive), stored: u32, ray: &Ray) -> Comparison {
+        let held = self.view.primitive(stored);
+        // The cache has the parallel rays of a camera in mind, which do not run backward.
+        if self.rays.projection == Projection::Parallel && self.convention.look == Look::Backward {
+            self.judge.compare(incoming.1, &held, ray)
+        } else {
+            self.pairs.compare(incoming, (stored, &held), ray)
         }
     }
 }
@@ -308,12 +369,7 @@ fn rounded_triangle(outline: &TriangleOutline, x: f64, y: f64) -> Rounded {
 }
 
 /// Whether a primitive covers a sample when these edges own theirs.
-pub(super) fn covers(
-    judge: &Judge,
-    edges: Edges,
-    primitive: &Primitive,
-    ray: &crate::common::Ray,
-) -> bool {
+pub(super) fn covers(judge: &Judge, edges: Edges, primitive: &Primitive, ray: &Ray) -> bool {
     let Primitive::Triangle(corners) = primitive else { return judge.covers(primitive, ray) };
     if edges == Edges::TopLeft {
         return judge.covers(primitive, ray);
@@ -346,7 +402,8 @@ fn above(error: f64) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::common::{Camera, CameraDescription, Options, Projection};
+    use crate::common::glam::Vec3;
+    use crate::common::{Camera, CameraDescription, Object, Options, Scene, Shape, Triangle};
     use crate::diff::why::convention::{Change, Sampling};
     use crate::scenes;
 
@@ -379,6 +436,53 @@ mod tests {
                     assert!((t - expected).abs() <= 1e-6 * expected || *t == expected);
                 }
             });
+        }
+    }
+
+    #[test]
+    fn under_every_convention_the_nearest_is_what_the_exact_judge_says() {
+        // Triangles in one plane, and one beside it by less than rounding sees; the same behind the eye.
+        let triangle = |[x, y, off]: [f32; 3], side: f32| {
+            let corner = |x: f32, y: f32| Vec3::new(x, y, side * (2.0 + 0.25 * x + off));
+            let [a, b, c] = [corner(x, y), corner(x + 1.5, y), corner(x, y + 1.25)];
+            Object::from(Shape::Triangle(Triangle { a, b, c }))
+        };
+        let off = 2.0 * f32::EPSILON;
+        let places =
+            [[-0.75, -0.5, 0.0], [-0.75, -0.5, off], [-0.5, -0.75, 0.0], [-1.0, -0.25, 0.0]];
+        let sides = [-1.0, 1.0].into_iter();
+        let objects = sides.flat_map(|side| places.map(|place| triangle(place, side)));
+        let scene = Scene::new(objects.collect()).unwrap();
+        for projection in [Projection::Perspective, Projection::Parallel] {
+            let image = [16, 12];
+            let camera = CameraDescription { projection, image, ..CameraDescription::default() };
+            let camera = Camera::new(camera).unwrap();
+            let view = &View::new(&scene, &camera);
+            let primitives: Vec<_> = view.primitives().collect();
+            for change in Change::of_rendering(view.camera) {
+                let convention = Convention::default().with(change);
+                if convention.depth != Depth::Nearest || convention.faces != Faces::Both {
+                    continue;
+                }
+                let drawn = draw(view, &convention, Rows::ALL);
+                let rays = ViewingRays::new(view.camera, &convention);
+                let judge = rays.judge();
+                for (index, &id) in drawn.ids.iter().enumerate() {
+                    let ray = rays.ray(index / drawn.width, index % drawn.width);
+                    let mut nearest: Option<&(u32, Primitive)> = None;
+                    for one in &primitives {
+                        if covers(&judge, convention.edges, &one.1, &ray)
+                            && nearest.is_none_or(|held| {
+                                judge.nearer((one.0, &one.1), (held.0, &held.1), &ray)
+                            })
+                        {
+                            nearest = Some(one);
+                        }
+                    }
+                    let expected = nearest.map_or(NO_PRIMITIVE, |one| one.0);
+                    assert_eq!(id, expected, "{change:?} at {index}");
+                }
+            }
         }
     }
 

@@ -86,6 +86,11 @@ impl ViewingRays {
         }
     }
 
+    /// Whether all pixels have the same ray.
+    pub(super) fn are_one(&self) -> bool {
+        self.projection == Projection::Parallel && !self.spread
+    }
+
     /// The judge of these rays.
     pub(super) fn judge(&self) -> Judge {
         Judge::new(&self.camera)

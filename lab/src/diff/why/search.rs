@@ -5,7 +5,7 @@
 //! as each of them explains at least half of what is left. A change that explains less is left out again.
 
 use super::convention::{Change, Convention, Placement};
-use super::draw::{Drawn, Rows, draw};
+use super::draw::{Drawn, Rows, draw, equally_near};
 use super::encoding::{Encoding, Expected, IdEncoding, NothingEncoding, Observed, Score, Values};
 use crate::common::View;
 use crate::common::frame::NO_PRIMITIVE;
@@ -217,10 +217,25 @@ impl Search<'_> {
         Rows { step: (width * height / FEWEST_PIXELS).min(height / FEWEST_ROWS).max(1) }
     }
 
+    /// The scene under a convention. Where one ray decides every pixel, and rounding decides what it sees, the primitive
+    /// that the file shows is right.
+    fn drawn(&self, convention: &Convention, rows: Rows) -> Drawn {
+        let drawn = draw(self.view, convention, rows);
+        let as_near = equally_near(self.view, convention, &drawn);
+        if as_near.is_empty() {
+            return drawn;
+        }
+        let fit = |one: &Drawn| {
+            let ranks = self.placed(*convention, one);
+            ranks.iter().map(Candidate::rank).min()
+        };
+        std::iter::once(drawn).chain(as_near).min_by_key(fit).expect("one is drawn")
+    }
+
     /// The pixels that differ under a convention in some rows, with the best reading of the file.
     fn on_some_rows(&self, convention: Convention) -> u64 {
         let upright = Convention { placement: Placement::Upright, ..convention };
-        let drawn = draw(self.view, &upright, self.some_rows());
+        let drawn = self.drawn(&upright, self.some_rows());
         let placed = self.placed(upright, &drawn).into_iter();
         let own = placed.filter(|one| one.convention.placement == convention.placement);
         own.map(|one| one.score.differing).min().unwrap_or(u64::MAX)
@@ -245,7 +260,7 @@ impl Search<'_> {
         let mut candidates: Vec<Candidate> = hypotheses
             .par_iter()
             .flat_map_iter(|convention| {
-                let drawn = draw(self.view, convention, rows);
+                let drawn = self.drawn(convention, rows);
                 self.placed(*convention, &drawn)
             })
             .collect();
@@ -291,7 +306,7 @@ impl Search<'_> {
         {
             self.truth
         } else {
-            drawn = draw(self.view, &convention, Rows::ALL);
+            drawn = self.drawn(&convention, Rows::ALL);
             &drawn
         };
         let expected = Expected::new(self.view, &convention, drawn);
@@ -318,14 +333,18 @@ impl Search<'_> {
         let changes = Change::of_rendering(self.view.camera);
         finalists.sort_by_key(Candidate::rank);
         let mut all = finalists.clone();
-        let ours = finalists.iter().find(|one| one.convention.changes().is_empty()).copied();
         let mut starts: Vec<Candidate> = finalists.iter().take(2).copied().collect();
         // More parts cannot do better than what explains all.
         if starts[0].score.differing == 0 {
             return all;
         }
-        starts
-            .extend(ours.filter(|ours| starts.iter().all(|one| one.convention != ours.convention)));
+        // Where many samples are ties, conventions that move them do better than ours until the rule for ties is found.
+        let placed = self.ours_in_place();
+        for ours in [Convention::default(), placed] {
+            if starts.iter().all(|one| one.convention != ours) {
+                starts.push(self.drawn_whole(ours));
+            }
+        }
         for start in starts {
             let mut best = start;
             for _ in 0..MOST_ADDED {
@@ -355,7 +374,7 @@ impl Search<'_> {
         }
         let fewest = all.iter().map(|one| one.score.differing).min().unwrap_or(differing);
         if fewest * 2 > differing {
-            all.extend(self.tie_rules(&changes));
+            all.extend(self.tie_rules(placed, &changes));
         }
         let best = all.iter().min_by_key(|one| one.rank()).copied();
         if let Some(best) = best {
@@ -364,8 +383,16 @@ impl Search<'_> {
         all
     }
 
-    /// Pairs of rules for exact ties: who owns an edge, and who is seen of equally near ones. One alone may explain nothing.
-    fn tie_rules(&self, changes: &[Change]) -> Vec<Candidate> {
+    /// Our conventions, with the placement under which they fit best.
+    fn ours_in_place(&self) -> Convention {
+        let placed = self.placed(Convention::default(), self.truth);
+        let best = placed.iter().min_by_key(|one| one.rank()).expect("one placement fits the file");
+        best.convention
+    }
+
+    /// Pairs of rules for exact ties besides a convention: who owns an edge, and who is seen of equally near ones. One
+    /// alone may explain nothing.
+    fn tie_rules(&self, besides: Convention, changes: &[Change]) -> Vec<Candidate> {
         let rules: Vec<Change> =
             changes.iter().copied().filter(|change| !change.is_coarse()).collect();
         let pairs: Vec<[Change; 2]> = rules
@@ -373,8 +400,10 @@ impl Search<'_> {
             .flat_map(|&one| rules.iter().map(move |&other| [one, other]))
             .filter(|[one, other]| one.axis() < other.axis())
             .collect();
-        let ours = Convention::default();
-        pairs.par_iter().map(|&[one, other]| self.drawn_whole(ours.with(one).with(other))).collect()
+        pairs
+            .par_iter()
+            .map(|&[one, other]| self.drawn_whole(besides.with(one).with(other)))
+            .collect()
     }
 
     /// The candidate without the changes that explain less than half of what is left without them.
@@ -438,7 +467,7 @@ impl Search<'_> {
         ours.each(self.observed, Placement::Upright, &none, |index, differs, _| {
             wrong[index] = differs;
         });
-        let drawn = draw(self.view, &candidate.convention, Rows::ALL);
+        let drawn = self.drawn(&candidate.convention, Rows::ALL);
         let expected = Expected::new(self.view, &candidate.convention, &drawn);
         let placement = candidate.convention.placement;
         expected.each(self.observed, placement, &candidate.encoding, |index, differs, _| {
