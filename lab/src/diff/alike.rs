@@ -34,10 +34,14 @@ impl Buffer<'_> {
                 all(a, b, alike).then(|| bits(a.iter().map(|t| t.is_finite())))
             }
             (Content::Picture(a), Content::Picture(b)) if a.covered == b.covered => {
-                let (Pixels::Bytes(of_a), Pixels::Bytes(of_b)) = (&a.pixels, &b.pixels) else {
-                    return None;
+                let are_equal = match (&a.pixels, &b.pixels) {
+                    (Pixels::Bytes(a), Pixels::Bytes(b)) => a[run.clone()] == b[run.clone()],
+                    (of_a @ Pixels::Opaque(_), of_b @ Pixels::Opaque(_)) => {
+                        of_a.opaque()[run.clone()] == of_b.opaque()[run.clone()]
+                    }
+                    _ => false,
                 };
-                if of_a[run.clone()] != of_b[run.clone()] {
+                if !are_equal {
                     return None;
                 }
                 let covered = |at: usize| a.covered(at) != Some(false);

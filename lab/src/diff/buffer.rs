@@ -56,6 +56,8 @@ pub struct Picture {
 /// Red, green, blue and alpha of each pixel, in steps of 1/255.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Pixels {
+    /// Red, green and blue of 8 bits each, and no alpha: opaque.
+    Opaque(Arc<RgbImage>),
     /// Four values of 8 bits each.
     Bytes(Vec<[u8; 4]>),
     /// Four values with a finer resolution than 8 bits.
@@ -66,8 +68,17 @@ impl Pixels {
     /// The number of pixels.
     pub fn len(&self) -> usize {
         match self {
+            Pixels::Opaque(_) => self.opaque().len(),
             Pixels::Bytes(pixels) => pixels.len(),
             Pixels::Steps(pixels) => pixels.len(),
+        }
+    }
+
+    /// The colours of opaque pixels of 8 bits; none of others.
+    pub(super) fn opaque(&self) -> &[[u8; 3]] {
+        match self {
+            Pixels::Opaque(pixels) => pixels.as_raw().as_chunks().0,
+            _ => &[],
         }
     }
 
@@ -83,6 +94,10 @@ impl Pixels {
     /// If the pixel does not exist.
     pub fn get(&self, pixel: usize) -> [f32; 4] {
         match self {
+            Pixels::Opaque(_) => {
+                let [red, green, blue] = self.opaque()[pixel];
+                [red, green, blue, u8::MAX].map(f32::from)
+            }
             Pixels::Bytes(pixels) => pixels[pixel].map(f32::from),
             Pixels::Steps(pixels) => pixels[pixel],
         }
@@ -91,6 +106,7 @@ impl Pixels {
     /// Red, green and blue of a pixel, rounded to 8 bits.
     pub(super) fn rounded(&self, pixel: usize) -> [u8; 3] {
         match self {
+            Pixels::Opaque(_) => self.opaque()[pixel],
             Pixels::Bytes(pixels) => {
                 let [red, green, blue, _] = pixels[pixel];
                 [red, green, blue]
@@ -291,6 +307,17 @@ impl<'a> Buffer<'a> {
         }
     }
 
+    /// The pixels of a picture of 8 bits that tells colours alone.
+    pub(super) fn colors_alone(&self) -> Option<&[[u8; 3]]> {
+        match &self.content {
+            Content::Picture(Picture {
+                pixels: pixels @ Pixels::Opaque(_),
+                covered: Covered::Unknown,
+            }) => Some(pixels.opaque()),
+            _ => None,
+        }
+    }
+
     /// The number of a pixel, row by row.
     pub(super) fn pixel(&self, [i, j]: [u32; 2]) -> usize {
         i as usize * self.size[0] as usize + j as usize
@@ -382,7 +409,17 @@ impl<'a> Buffer<'a> {
         }
     }
 
-    /// The picture of the buffer, if there is one: this picture lights a difference image.
+    /// What lights a difference image: the picture of the buffer, if there is one.
+    pub(super) fn difference_light(&self) -> Option<Arc<RgbImage>> {
+        match &self.content {
+            Content::Picture(Picture { pixels: Pixels::Opaque(pixels), .. }) => {
+                Some(pixels.clone())
+            }
+            _ => self.light().map(Arc::new),
+        }
+    }
+
+    /// The picture of the buffer, if there is one.
     pub(super) fn light(&self) -> Option<RgbImage> {
         let picture = match &self.content {
             Content::Picture(picture) => picture,

@@ -32,6 +32,8 @@ pub(super) struct BufferPair<'a> {
     t: bool,
     normals: bool,
     color: bool,
+    /// The pixels of two pictures that tell colours alone.
+    colors_alone: Option<[&'a [[u8; 3]]; 2]>,
 }
 
 /// The differences between two pixels.
@@ -113,7 +115,21 @@ impl<'a> BufferPair<'a> {
         let [ids, t, normals, color] =
             [Aspect::Ids, Aspect::T, Aspect::Normals, Aspect::Color].map(compares);
         let (tolerances, ignored) = (Tolerances::default(), &[][..]);
-        BufferPair { a, b, decides, tolerances, ignored, unit, ids, t, normals, color }
+        let colors_alone = a.colors_alone().zip(b.colors_alone()).map(<[_; 2]>::from);
+        let colors_alone = colors_alone.filter(|_| a.samples() == 1 && b.samples() == 1);
+        BufferPair {
+            a,
+            b,
+            decides,
+            tolerances,
+            ignored,
+            unit,
+            ids,
+            t,
+            normals,
+            color,
+            colors_alone,
+        }
     }
 
     /// The same pair with other tolerances, and without the ignored pixels.
@@ -205,6 +221,14 @@ impl<'a> BufferPair<'a> {
             found.is_ignored = true;
             return found;
         }
+        if let Some([a, b]) = self.colors_alone {
+            // A pixel with equal colours has the class for alike pixels.
+            found.both = 1;
+            let [a, b] = [a[self.a.pixel(in_a)], b[self.b.pixel(in_b)]];
+            let channels = [0, 1, 2].map(|channel| a[channel].abs_diff(b[channel]));
+            found.color = channels.into_iter().max().map_or(0.0, f32::from);
+            return found;
+        }
         if self.unit == Unit::Pixels {
             let any = |buffer: &Buffer, pixel| {
                 buffer.samples_of(pixel).any(|sample| buffer.covered(sample) == Some(true))
@@ -226,7 +250,7 @@ impl<'a> BufferPair<'a> {
     /// Compares two samples.
     fn compare_samples(&self, a: usize, b: usize, found: &mut PixelDifference) {
         let (Some(covered_a), Some(covered_b)) = (self.a.covered(a), self.b.covered(b)) else {
-            // The buffers contain colours alone: a pixel with equal colours has the class for alike pixels.
+            // The buffers contain colours alone.
             found.both += 1;
             return;
         };

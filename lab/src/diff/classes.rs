@@ -123,6 +123,12 @@ impl Word {
         Class::of_code([0, 1, 2].map(|plane| self.0[plane] >> pixel & 1))
     }
 
+    /// The pixels of the first `count` that are not alike.
+    fn not_alike(self, count: usize) -> u64 {
+        let all = if count < 64 { (1 << count) - 1 } else { u64::MAX };
+        all & !self.of_class(Class::Alike)
+    }
+
     /// The pixels of a class that differs.
     fn differing(self) -> u64 {
         let [low, middle, high] = self.0;
@@ -298,20 +304,28 @@ impl Classes {
     /// If the picture has another size.
     pub fn picture(&self, lit_by: &RgbImage) -> RgbImage {
         assert_eq!([lit_by.width(), lit_by.height()], self.image, "the picture is of another size");
+        let lights = lit_by.as_raw().as_chunks::<3>().0;
+        self.lit(|pixel| lights[pixel])
+    }
+
+    /// The same with the light of each pixel, by its number, row by row.
+    pub(super) fn lit(&self, light: impl Fn(usize) -> [u8; 3] + Sync) -> RgbImage {
         let mut picture = RgbImage::new(self.image[0], self.image[1]);
-        let row = 3 * self.image[0] as usize;
-        let rows = picture.par_chunks_exact_mut(row).zip(lit_by.par_chunks_exact(row));
-        rows.enumerate().for_each(|(i, (pixels, lights))| {
-            let words = pixels.chunks_mut(3 * WORD as usize).zip(lights.chunks(3 * WORD as usize));
-            for (number, (pixels, lights)) in words.enumerate() {
+        let width = self.image[0] as usize;
+        picture.par_chunks_exact_mut(3 * width).enumerate().for_each(|(i, pixels)| {
+            let words = pixels.as_chunks_mut::<3>().0.chunks_mut(WORD as usize);
+            for (number, pixels) in words.enumerate() {
                 let word = self.word(i * words_of(self.image) + number);
-                let pixels =
-                    pixels.as_chunks_mut::<3>().0.iter_mut().zip(lights.as_chunks::<3>().0);
-                for (k, (pixel, light)) in (0..).zip(pixels) {
-                    *pixel = match word.class(k) {
-                        Class::Alike => faint_grey(*light),
-                        class => class.color(),
-                    };
+                let first = i * width + number * WORD as usize;
+                for (at, pixel) in (first..).zip(pixels.iter_mut()) {
+                    *pixel = faint_grey(light(at));
+                }
+                // Most pixels of most pictures are alike.
+                let mut others = word.not_alike(pixels.len());
+                while others != 0 {
+                    let k = others.trailing_zeros();
+                    pixels[k as usize] = word.class(k).color();
+                    others &= others - 1;
                 }
             }
         });
@@ -321,9 +335,21 @@ impl Classes {
 
 /// A dark grey: the reader recognises the picture and sees every difference.
 fn faint_grey([red, green, blue]: [u8; 3]) -> [u8; 3] {
+    /// The grey of each light.
+    const GREYS: [u8; 256] = {
+        let mut greys = [0; 256];
+        let mut light = 0;
+        while light < 256 {
+            #[expect(clippy::cast_possible_truncation, reason = "at most 140")]
+            let grey = (44 + 96 * light / 255) as u8;
+            greys[light] = grey;
+            light += 1;
+        }
+        greys
+    };
     // The weights of Rec. 709, in 256ths.
     let light = (54 * u32::from(red) + 183 * u32::from(green) + 19 * u32::from(blue)) / 256;
-    [u8::try_from(44 + 96 * light / 255).expect("at most 140"); 3]
+    [GREYS[light as usize & 255]; 3]
 }
 
 /// The words of a row.

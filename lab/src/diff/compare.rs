@@ -7,12 +7,13 @@ use super::classes::{Class, Classes, WORD, Word};
 use super::measures::Measures;
 use super::tolerance::Tolerances;
 use crate::common::{Crop, CropError};
-use image::{Rgb, RgbImage};
+use image::RgbImage;
 use serde::Serialize;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// The light of the difference image of buffers without a picture.
-const MILD_GREY: Rgb<u8> = Rgb([117; 3]);
+const MILD_GREY: [u8; 3] = [117; 3];
 /// The number of differing pixels that a comparison names.
 const NAMED_PIXELS: usize = 10;
 
@@ -97,7 +98,7 @@ pub struct BufferComparison {
     classes: Classes,
     /// The picture that lights the difference image.
     #[serde(skip)]
-    pub(super) light: Option<RgbImage>,
+    pub(super) light: Option<Arc<RgbImage>>,
 }
 
 /// The coverage of both buffers, counted.
@@ -294,10 +295,7 @@ impl BufferComparison {
     pub fn picture(&self) -> RgbImage {
         match &self.light {
             Some(light) => self.classes.picture(light),
-            None => {
-                let [width, height] = self.size;
-                self.classes.picture(&RgbImage::from_pixel(width, height, MILD_GREY))
-            }
+            None => self.classes.lit(|_| MILD_GREY),
         }
     }
 

@@ -94,7 +94,7 @@ pub fn compare_with(
         return Ok(comparison);
     }
     comparison.measures = measures::measure(&pair, &comparison);
-    comparison.light = a.light().or_else(|| b.light());
+    comparison.light = a.difference_light().or_else(|| b.difference_light());
     if !comparison.equal {
         comparison.hints = hints::hints(&pair, comparison.classes(), options.reference);
     }

@@ -177,20 +177,12 @@ fn content(picture: DynamicImage, background: Option<[u8; 3]>) -> Result<Content
         let steps = |pixel: &image::Rgba<u16>| pixel.0.map(|value| f32::from(value) / 257.0);
         Pixels::Steps(picture.into_rgba16().pixels().map(steps).collect())
     } else {
-        Pixels::Bytes(bytes(picture))
+        match picture {
+            DynamicImage::ImageRgb8(colors) => Pixels::Opaque(colors.into()),
+            picture => Pixels::Bytes(picture.into_rgba8().as_chunks().0.to_vec()),
+        }
     };
     Ok(Content::Picture(Picture { pixels, covered }))
-}
-
-/// Red, green, blue and alpha of each pixel of a picture of 8 bits a channel.
-fn bytes(picture: DynamicImage) -> Vec<[u8; 4]> {
-    match picture {
-        DynamicImage::ImageRgb8(colors) => {
-            let colors = colors.as_chunks().0.iter();
-            colors.map(|&[red, green, blue]| [red, green, blue, u8::MAX]).collect()
-        }
-        picture => picture.into_rgba8().as_chunks().0.to_vec(),
-    }
 }
 
 /// A grey picture is a mask if its values are black and at most one other value, such as 1 or 255.

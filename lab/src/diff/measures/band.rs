@@ -23,6 +23,7 @@ impl<'a> Colors<'a> {
     fn of(buffer: &'a Buffer) -> Option<Colors<'a>> {
         match buffer.content() {
             Content::Picture(picture) => Some(match &picture.pixels {
+                Pixels::Opaque(_) => Colors::Rgb(picture.pixels.opaque()),
                 Pixels::Bytes(colors) => Colors::Rgba(colors),
                 Pixels::Steps(colors) => Colors::Steps(colors),
             }),
@@ -81,6 +82,20 @@ fn differing<T: PartialEq>(one: &[T], other: &[T]) -> Range<usize> {
     first..last + 1
 }
 
+/// The sums of the absolute and of the squared differences of red, green and blue.
+fn differences_of_bytes<const N: usize>(a: &[[u8; N]], b: &[[u8; N]]) -> [f64; 2] {
+    let (mut absolute, mut squares) = (0_u32, 0_u32);
+    // At most 64 pixels: the sums stay far below 2^32.
+    for (a, b) in a.iter().zip(b) {
+        for channel in 0..3 {
+            let difference = u32::from(a[channel].abs_diff(b[channel]));
+            absolute += difference;
+            squares += difference * difference;
+        }
+    }
+    [absolute.into(), squares.into()]
+}
+
 fn copy(to: &mut [f32], from: impl Iterator<Item = f32>) {
     for (to, from) in to.iter_mut().zip(from) {
         *to = from;
@@ -118,11 +133,6 @@ impl<'a> Band<'a> {
         Some(Band { width, colors, compared: compared(pair, rows.clone()), differing })
     }
 
-    /// The number of rows.
-    pub(super) fn rows(&self) -> usize {
-        self.differing.len() / self.parts()
-    }
-
     /// The pixels of a row.
     pub(super) fn row(&self, row: usize) -> Range<usize> {
         row * self.width..(row + 1) * self.width
@@ -139,15 +149,36 @@ impl<'a> Band<'a> {
         self.differing[row * self.parts() + part].clone()
     }
 
-    /// Pixels of a row among which are all whose colours differ.
-    pub(super) fn perhaps_differing(&self, row: usize) -> impl Iterator<Item = usize> {
+    /// The sums of the absolute and of the squared differences of red, green and blue of some pixels.
+    pub(super) fn differences(&self, pixels: Range<usize>) -> [f64; 2] {
+        let [a, b] = self.colors.map(|colors| colors.part(pixels.clone()));
+        // Sums of whole numbers, exact in any order, and found by vectors.
+        match (a, b) {
+            (Colors::Rgba(a), Colors::Rgba(b)) => differences_of_bytes(a, b),
+            (Colors::Rgb(a), Colors::Rgb(b)) => differences_of_bytes(a, b),
+            _ => {
+                let mut sums = [0.0; 2];
+                for (pixel, channel) in (0..pixels.len()).flat_map(|at| [0, 1, 2].map(|k| (at, k)))
+                {
+                    let [a, b] = [a, b].map(|colors| f64::from(colors.value(pixel, channel)));
+                    let difference = a - b;
+                    sums[0] += difference.abs();
+                    sums[1] += difference.powi(2);
+                }
+                sums
+            }
+        }
+    }
+
+    /// Pixels of a row among which are all whose colours differ, part by part.
+    pub(super) fn perhaps_differing(&self, row: usize) -> impl Iterator<Item = Range<usize>> {
         let of_part = move |part: usize| {
             let columns = self.differing(row, part);
             let first = row * self.width + part * PART;
             // What lies in the next part comes with that.
             first + columns.start.min(PART)..first + columns.end.min(PART)
         };
-        (0..self.parts()).flat_map(of_part)
+        (0..self.parts()).map(of_part)
     }
 
     /// Whether a pixel is compared.

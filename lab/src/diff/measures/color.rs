@@ -76,16 +76,19 @@ impl Sums {
 
     /// Adds the differences of the compared pixels in some rows of a band.
     fn add_differences(&mut self, band: &Band, rows: Range<usize>) {
-        for channel in 0..3 {
-            for row in rows.clone() {
-                self.values += band.compared_in(row);
-                // Equal colours add nothing but their number.
-                for at in band.perhaps_differing(row).filter(|&at| band.is_compared(at)) {
-                    let [a, b] = band.colors.map(|colors| f64::from(colors.value(at, channel)));
-                    let difference = a - b;
-                    self.absolute += difference.abs();
-                    self.squares += difference.powi(2);
-                }
+        for row in rows {
+            self.values += 3.0 * band.compared_in(row);
+            // Equal colours add nothing but their number.
+            for part in band.perhaps_differing(row) {
+                let [absolute, squares] = match band.is_compared_whole() {
+                    true => band.differences(part),
+                    false => {
+                        let compared = part.filter(|&at| band.is_compared(at));
+                        compared.map(|at| band.differences(at..at + 1)).fold([0.0; 2], added)
+                    }
+                };
+                self.absolute += absolute;
+                self.squares += squares;
             }
         }
     }
@@ -101,6 +104,10 @@ impl Sums {
     }
 }
 
+fn added([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
+    [a + c, b + d]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -113,7 +120,8 @@ mod tests {
             u8::try_from((7 * i * i + 13 * j * (c + 1) + disturbed) % 256).unwrap()
         };
         let pixel = |i, j| [channel(i, j, 0), channel(i, j, 1), channel(i, j, 2), 255];
-        let pixels = (0..height).flat_map(|i| (0..width).map(move |j| pixel(i, j))).collect();
+        let pixels = (0..height).flat_map(|i| (0..width).map(move |j| pixel(i, j)));
+        let pixels = pixels.collect();
         let content = Content::Picture(Picture { pixels: Pixels::Bytes(pixels), covered });
         Buffer::new([width, height], 1, content)
     }
@@ -191,7 +199,8 @@ mod tests {
         else {
             panic!("no bytes")
         };
-        pixels.iter_mut().skip(11).step_by(12).for_each(|pixel| *pixel = [1, 2, 3, 255]);
+        let changed = pixels.iter_mut();
+        changed.skip(11).step_by(12).for_each(|pixel| *pixel = [1, 2, 3, 255]);
         let covered = Covered::ByBackground([1, 2, 3]);
         let picture = Picture { pixels: Pixels::Bytes(pixels), covered };
         let without = Buffer::new([12, 11], 1, Content::Picture(picture));

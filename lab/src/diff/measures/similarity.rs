@@ -19,39 +19,30 @@ const REACH: usize = PART + WINDOW - 1;
 /// Only windows that are compared whole count.
 pub(super) fn sums(band: &Band, rows: Range<usize>) -> (f64, f64) {
     let (mut windows, mut similarities) = (0.0, 0.0);
-    if band.width < WINDOW {
-        return (windows, similarities);
-    }
     let weights = weights();
-    let mut planes = Planes::new(band);
-    let all = band.is_compared_whole().then(|| (0..=band.width - WINDOW).collect::<Vec<_>>());
-    for row in rows {
-        let of_windows = row - RADIUS..row + RADIUS + 1;
-        let some;
-        let counted = match &all {
-            Some(all) => all,
-            None => {
-                some = counted(band, of_windows.clone());
-                &some
+    let mut planes = Planes::new();
+    for part in 0..band.parts() {
+        let first = part * PART;
+        let lefts = first..(first + PART).min((band.width + 1).saturating_sub(WINDOW));
+        planes.begin();
+        for row in rows.clone().take_while(|_| !lefts.is_empty()) {
+            let of_windows = row - RADIUS..row + RADIUS + 1;
+            let holes = holes(band, of_windows.clone(), lefts.clone());
+            let counts = |left: usize| !holes[left - first];
+            let count = 3.0 * f64_of(lefts.clone().filter(|&left| counts(left)).count());
+            windows += count;
+            // Equal windows are perfectly similar.
+            let differing = differing(band, of_windows.clone(), part);
+            if differing.is_empty() {
+                similarities += count;
+                continue;
             }
-        };
-        let parts = || counted.chunk_by(|one, other| one / PART == other / PART);
-        for channel in 0..3 {
-            for of_part in parts() {
-                let part = of_part[0] / PART;
-                windows += f64_of(of_part.len());
-                // Equal windows are perfectly similar.
-                let differing = differing(band, of_windows.clone(), part);
-                if differing.is_empty() {
-                    similarities += f64_of(of_part.len());
-                    continue;
-                }
-                planes.fill(band, of_windows.clone(), part);
-                let reaching = differing.start.saturating_sub(WINDOW - 1)..differing.end.min(PART);
-                let found =
-                    planes.similarity(channel, [of_windows.start, part], &weights, reaching);
-                let first = part * PART;
-                similarities += of_part.iter().map(|middle| found[middle - first]).sum::<f64>();
+            planes.fill(band, of_windows.clone(), part);
+            let reaching = differing.start.saturating_sub(WINDOW - 1)..differing.end.min(PART);
+            for channel in 0..3 {
+                let found = planes.similarity(channel, row - RADIUS, &weights, reaching.clone());
+                let counted = lefts.clone().filter(|&left| counts(left));
+                similarities += counted.map(|left| found[left - first]).sum::<f64>();
             }
         }
     }
@@ -73,125 +64,136 @@ fn weights() -> [f64; WINDOW] {
     bells.map(|bell| bell / sum)
 }
 
-/// The windows of some rows that are compared whole, by the column of their left edge.
-fn counted(band: &Band, rows: Range<usize>) -> Vec<usize> {
-    let mut holes = vec![false; band.width];
-    for row in rows {
-        for (hole, pixel) in holes.iter_mut().zip(band.row(row)) {
-            *hole |= !band.is_compared(pixel);
-        }
+/// For each window of some rows, by the column of its left edge counted from the first, whether a pixel of it is not
+/// compared.
+fn holes(band: &Band, rows: Range<usize>, lefts: Range<usize>) -> [bool; PART] {
+    let mut holes = [false; PART];
+    if band.is_compared_whole() {
+        return holes;
     }
-    let windows = holes.windows(WINDOW).enumerate();
-    windows.filter(|(_, holes)| !holes.contains(&true)).map(|(column, _)| column).collect()
+    for (hole, left) in holes.iter_mut().zip(lefts) {
+        let mut pixels = rows.clone().flat_map(|row| {
+            let first = band.row(row).start + left;
+            first..first + WINDOW
+        });
+        *hole = pixels.any(|pixel| !band.is_compared(pixel));
+    }
+    holes
 }
 
-/// The values of a part of a row as numbers: for each channel those of A and of B.
-type Values = [[[f32; REACH]; 2]; 3];
+/// The values of a part of a row as numbers, for a channel: `a`, `b`, `a² + b²` and `ab`.
+type Values = [[f64; REACH]; 4];
 
-/// The values of the parts of a band that are not equal.
+/// The values of a part in the eleven rows of its windows.
 struct Planes {
-    width: usize,
-    parts: usize,
-    /// For each row and each of its parts the place of its values, if they were asked for.
-    places: Vec<Option<usize>>,
-    values: Vec<Values>,
+    /// The row that is in each place, if one is.
+    rows: [Option<usize>; WINDOW],
+    /// Row `r` is in place `r mod 11`.
+    values: Vec<[Values; 3]>,
 }
 
 impl Planes {
-    fn new(band: &Band) -> Planes {
-        let places = vec![None; band.rows() * band.parts()];
-        Planes { width: band.width, parts: band.parts(), places, values: Vec::new() }
+    fn new() -> Planes {
+        Planes { rows: [None; WINDOW], values: vec![[[[0.0; REACH]; 4]; 3]; WINDOW] }
     }
 
-    fn columns(&self, part: usize) -> Range<usize> {
-        part * PART..(part * PART + REACH).min(self.width)
+    /// Begins another part.
+    fn begin(&mut self) {
+        self.rows = [None; WINDOW];
     }
 
-    /// Reads a part of some rows, unless it is there.
+    /// Reads a part of some rows, unless they are there.
     fn fill(&mut self, band: &Band, rows: Range<usize>, part: usize) {
-        let columns = self.columns(part);
+        let columns = part * PART..(part * PART + REACH).min(band.width);
         for row in rows {
-            let place = &mut self.places[row * self.parts + part];
-            if place.is_some() {
+            let place = row % WINDOW;
+            if self.rows[place].replace(row) == Some(row) {
                 continue;
             }
-            *place = Some(self.values.len());
-            let first = row * self.width;
-            let mut read: Values = [[[0.0; REACH]; 2]; 3];
-            for (channel, values) in read.iter_mut().enumerate() {
-                for (colors, values) in band.colors.iter().zip(values) {
+            let first = row * band.width;
+            for (channel, values) in self.values[place].iter_mut().enumerate() {
+                let mut read = [[0.0; REACH]; 2];
+                for (colors, values) in band.colors.iter().zip(&mut read) {
                     colors.copy(first + columns.start..first + columns.end, channel, values);
                 }
+                dispatch!(best_level(), _simd => products(values, &read));
             }
-            self.values.push(read);
         }
     }
 
-    /// The similarity of all windows that begin in a part, by the column of their left edge. `first` is their first row;
+    /// The similarity of all windows that begin in the part, by the column of their left edge. `first` is their first row;
     /// only some of them differ.
     fn similarity(
         &self,
         channel: usize,
-        [first, part]: [usize; 2],
+        first: usize,
         weights: &[f64; WINDOW],
         differing: Range<usize>,
     ) -> [f64; PART] {
-        let rows = std::array::from_fn(|row| {
-            let place = self.places[(first + row) * self.parts + part];
-            &self.values[place.expect("it was filled")][channel]
-        });
+        let rows = std::array::from_fn(|row| &self.values[(first + row) % WINDOW][channel]);
         dispatch!(best_level(), _simd => similarity(&rows, weights, differing))
     }
 }
 
-/// The similarities of the windows in eleven rows of A and of B, of which only some differ: equal ones have 1 to the last bit,
-/// as numerator and denominator are the same number. Vectors compute several windows at once; each has the bits that it
+/// Computes the values of a row from those of A and of B.
+#[inline(always)]
+fn products([of_a, of_b, squares, products]: &mut Values, [a, b]: &[[f32; REACH]; 2]) {
+    for at in 0..REACH {
+        let [a, b] = [a[at], b[at]].map(f64::from);
+        (of_a[at], of_b[at]) = (a, b);
+        squares[at] = a * a + b * b;
+        products[at] = a * b;
+    }
+}
+
+/// The similarities of the windows in eleven rows, of which only some differ: equal ones have 1 to the last bit, as
+/// numerator and denominator are the same number. Vectors compute several windows at once; each has the bits that it
 /// has alone.
 #[inline(always)]
 fn similarity(
-    rows: &[&[[f32; REACH]; 2]; WINDOW],
+    rows: &[&Values; WINDOW],
     weights: &[f64; WINDOW],
     differing: Range<usize>,
 ) -> [f64; PART] {
-    // The means of a, b, a², b² and ab: first over columns, then over rows.
-    let mut columns = [[0.0; REACH]; 5];
+    // The means of the values: first over columns, then over rows. Two rows that are equally far from the middle have
+    // one weight, two columns, too.
     let reached = differing.start..differing.end + WINDOW - 1;
-    for (&[of_a, of_b], &weight) in rows.iter().zip(weights) {
-        let [a, b] = [&of_a[reached.clone()], &of_b[reached.clone()]];
-        let [sum_a, sum_b, sum_aa, sum_bb, sum_ab] =
-            columns.each_mut().map(|sums| &mut sums[reached.clone()]);
-        add(sum_a, weight, [a, b], |a, _| a);
-        add(sum_b, weight, [a, b], |_, b| b);
-        add(sum_aa, weight, [a, b], |a, _| a * a);
-        add(sum_bb, weight, [a, b], |_, b| b * b);
-        add(sum_ab, weight, [a, b], |a, b| a * b);
-    }
-    let mut means = [[0.0; PART]; 5];
-    for (means, columns) in means.iter_mut().zip(&columns) {
-        for (offset, weight) in weights.iter().enumerate() {
-            let columns = &columns[differing.start + offset..];
-            for (mean, value) in means[differing.clone()].iter_mut().zip(columns) {
-                *mean += weight * value;
+    let count = differing.len();
+    let mut means = [[0.0; PART]; 4];
+    for (plane, means) in means.iter_mut().enumerate() {
+        let of_row = |row: usize| &rows[row][plane][reached.clone()];
+        let mut columns = [0.0; REACH];
+        let columns = &mut columns[..reached.len()];
+        for (above, &weight) in weights[..RADIUS].iter().enumerate() {
+            let pairs = of_row(above).iter().zip(of_row(WINDOW - 1 - above));
+            for (column, (above, below)) in columns.iter_mut().zip(pairs) {
+                *column += weight * (above + below);
             }
+        }
+        for (column, middle) in columns.iter_mut().zip(of_row(RADIUS)) {
+            *column += weights[RADIUS] * middle;
+        }
+        let means = &mut means[differing.clone()];
+        let beginning = |offset: usize| &columns[offset..][..count];
+        for (left, &weight) in weights[..RADIUS].iter().enumerate() {
+            let pairs = beginning(left).iter().zip(beginning(WINDOW - 1 - left));
+            for (mean, (left, right)) in means.iter_mut().zip(pairs) {
+                *mean += weight * (left + right);
+            }
+        }
+        for (mean, middle) in means.iter_mut().zip(beginning(RADIUS)) {
+            *mean += weights[RADIUS] * middle;
         }
     }
     let mut similarities = [1.0; PART];
-    let [a, b, aa, bb, ab] = means.each_ref().map(|means| &means[differing.clone()]);
+    let [a, b, squares, ab] = means.each_ref().map(|means| &means[differing.clone()]);
     for (at, similarity) in similarities[differing.clone()].iter_mut().enumerate() {
-        let (product, squares) = (a[at] * b[at], a[at] * a[at] + b[at] * b[at]);
-        let (covariance, variances) = (ab[at] - product, aa[at] + bb[at] - squares);
+        let (product, of_means) = (a[at] * b[at], a[at] * a[at] + b[at] * b[at]);
+        let (covariance, variances) = (ab[at] - product, squares[at] - of_means);
         *similarity =
-            (2.0 * product + C1) * (2.0 * covariance + C2) / ((squares + C1) * (variances + C2));
+            (2.0 * product + C1) * (2.0 * covariance + C2) / ((of_means + C1) * (variances + C2));
     }
     similarities
-}
-
-/// Adds a value of each column, times a weight.
-#[inline(always)]
-fn add(sums: &mut [f64], weight: f64, [a, b]: [&[f32]; 2], value: impl Fn(f64, f64) -> f64) {
-    for ((sum, a), b) in sums.iter_mut().zip(a).zip(b) {
-        *sum += weight * value(f64::from(*a), f64::from(*b));
-    }
 }
 
 #[cfg(test)]
@@ -203,8 +205,12 @@ mod tests {
     fn every_level_of_vectors_and_every_part_gives_the_same_bits() {
         let mut dice = fastrand::Rng::with_seed(5);
         let mut value = || f32::from(dice.u8(..));
-        let rows: [[[f32; REACH]; 2]; WINDOW] =
-            std::array::from_fn(|_| [(); 2].map(|()| [(); REACH].map(|()| value())));
+        let rows: [Values; WINDOW] = std::array::from_fn(|_| {
+            let read = [(); 2].map(|()| [(); REACH].map(|()| value()));
+            let mut values = [[0.0; REACH]; 4];
+            products(&mut values, &read);
+            values
+        });
         let (rows, weights) = (rows.each_ref(), weights());
         let all = similarity(&rows, &weights, 0..PART);
         for level in levels() {
