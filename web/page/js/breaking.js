@@ -1,0 +1,143 @@
+// @ts-check
+// Break it: rules of ordinary renderers on either side, and the reason for each pixel that disagrees.
+
+/** @typedef {{name: string, what: string, reproduces: string, scene?: string}} Rule */
+/** @type {{object: Rule[], image: Rule[]}} */
+let rules = { object: [], image: [] };
+
+/**
+ * @typedef {object} Why
+ * @property {{reason: string, count: number}[]} counts
+ * @property {Uint8Array} index  For every pixel: 0 if the orders agree, otherwise its reason's place, counted from 1.
+ * @property {string} [sentence]  What the convention finder says of the whole picture.
+ */
+/** @type {(Why & {width: number, height: number}) | null} */
+let why = null;
+let whyFor = "";
+
+/** Colours of reasons: the first four are those of Okabe and Ito that the page does not use for something else here. */
+const REASON_COLOURS = ["#E69F00", "#56B4E9", "#CC79A7", "#009E73", "#F0E442", "#0072B2", "#D55E00", "#999999"];
+
+async function listRules() {
+  try {
+    rules = await engine.call("rules");
+  } catch (error) {
+    showTrouble(messageOf(error));
+    return;
+  }
+  for (const order of /** @type {OrderName[]} */ (["object", "image"])) {
+    selectById(`${order}-rule`).replaceChildren(make("option", { value: "" }, "exact"), ...rules[order].map(({ name }) => make("option", { value: name }, name)));
+  }
+  showRules();
+}
+
+function showRules() {
+  const texts = [];
+  /** @type {string | undefined} */
+  let scene;
+  for (const order of /** @type {OrderName[]} */ (["object", "image"])) {
+    const name = state[`${order}Rule`];
+    selectById(`${order}-rule`).value = name;
+    byId(`${order}-rule-name`).textContent = name || "exact";
+    const rule = rules[order].find((one) => one.name === name);
+    if (rule) {
+      texts.push(`${name}: ${rule.what} It reproduces ${rule.reproduces}.`);
+      scene ??= rule.scene;
+    }
+  }
+  byId("rule-text").textContent = texts.join(" ") || "Both orders are exact: they agree in every pixel.";
+  const button = byId("rule-scene");
+  button.hidden = !scene || scene === state.scene;
+  button.textContent = scene ? `Open ${scene}, where it shows` : "";
+  button.dataset.scene = scene ?? "";
+}
+
+const askWhy = debounced(120, async () => {
+  if (viewOf(state.chapter) !== "break" || !state.camera || !drawn) return;
+  const { camera } = state;
+  const wantedFor = JSON.stringify([state.scene, camera, rulesNow()]);
+  if (wantedFor === whyFor) return;
+  whyFor = wantedFor;
+  try {
+    const answer = await engine.call("why", { camera, height: camera.height, width: camera.width, ...rulesNow() });
+    if (wantedFor !== whyFor) return;
+    why = { ...answer, width: camera.width, height: camera.height };
+    showWhy();
+  } catch (error) {
+    whyFor = "";
+    why = null;
+    byId("finder").textContent = messageOf(error);
+  }
+});
+
+function showWhy() {
+  if (!why || !drawn || drawn.width !== why.width || drawn.height !== why.height) return;
+  const rgba = new Uint8ClampedArray(4 * why.index.length);
+  const inks = REASON_COLOURS.map((ink) => [1, 3, 5].map((at) => parseInt(ink.slice(at, at + 2), 16)));
+  const ground = isDark() ? 20 : 46;
+  for (let index = 0; index < why.index.length; index++) {
+    const reason = why.index[index];
+    // What agrees is lit faintly by the picture.
+    const lit = ground + 0.14 * drawn.object.rgba[4 * index + 1];
+    const ink = reason ? inks[(reason - 1) % inks.length] : [lit, lit, lit];
+    rgba.set([...ink, 255], 4 * index);
+  }
+  fillSheet("reasons", rgba, why.width, why.height);
+  showPictures();
+  byId("reasons").replaceChildren(...why.counts.map(({ reason, count: pixels }, place) => {
+    const swatch = make("span", { class: "swatch" });
+    swatch.style.background = REASON_COLOURS[place % REASON_COLOURS.length];
+    return make("li", {}, swatch, reason, make("span", { class: "number quiet" }, counted(pixels, "pixel")));
+  }));
+  byId("finder").textContent = why.sentence ?? "";
+  touchReason(state.pixel);
+}
+
+let touched = "";
+
+/** The sentence for a pixel, when it is touched. @param {Pixel | null} pixel */
+async function touchReason(pixel) {
+  if (viewOf(state.chapter) !== "break" || !pixel || !why || !state.camera) return;
+  const key = `${whyFor} ${pixel}`;
+  if (key === touched) return;
+  touched = key;
+  const holder = byId("reason-text");
+  const reason = why.index[pixel[0] * why.width + pixel[1]];
+  if (!reason) {
+    holder.textContent = seenAt(pixel);
+    return;
+  }
+  holder.textContent = `${seenAt(pixel)}. ${why.counts[reason - 1]?.reason ?? ""}`;
+  await lookUpReason(key, pixel);
+}
+
+/** One request at a time; of those that come meanwhile the last is asked. @param {string} key @param {Pixel} pixel */
+async function lookUpReason(key, [row, column]) {
+  if (askingReason || !state.camera) return;
+  askingReason = true;
+  try {
+    const { sentence } = await engine.call("reason", { row, column, camera: state.camera, height: state.camera.height, width: state.camera.width, ...rulesNow() });
+    if (key === touched && sentence) {
+      byId("reason-text").textContent = `${seenAt([row, column])}. ${sentence}`;
+      say(sentence);
+    }
+  } catch {
+    // The reason's name is shown already.
+  }
+  askingReason = false;
+}
+let askingReason = false;
+
+function beginBreaking() {
+  selectById("object-rule").addEventListener("change", (event) => change({ objectRule: /** @type {HTMLSelectElement} */ (event.target).value }));
+  selectById("image-rule").addEventListener("change", (event) => change({ imageRule: /** @type {HTMLSelectElement} */ (event.target).value }));
+  byId("rule-scene").addEventListener("click", () => {
+    const { scene } = byId("rule-scene").dataset;
+    if (scene) openScene({ name: scene }).then(() => change({ byHand: false }));
+  });
+  onDrawn(askWhy);
+  watch(["chapter", "objectRule", "imageRule", "scene"], showRules);
+  watch(["chapter"], askWhy);
+  watch(["pixel"], () => touchReason(state.pixel));
+  document.addEventListener("themechange", showWhy);
+}

@@ -1,0 +1,40 @@
+// @ts-check
+// Begins: the page's parts first, then the engine, then the scene that the address asks for.
+
+async function begin() {
+  beginTheme();
+  beginChapters();
+  beginPictures();
+  beginVerdict();
+  beginCameraPanel();
+  beginLoops();
+  beginMicroscope();
+  beginNeighbourhood();
+  beginSharedEdge();
+  beginOutside();
+  beginBreaking();
+  beginQuiz();
+  beginQuestions();
+  beginWork();
+  beginFiles();
+  beginSaving();
+  beginKeys();
+  beginDrawing();
+  showChapter();
+  const first = new Promise((resolve) => onDrawn(() => resolve(undefined)));
+  await followLink();
+  if (state.camera) await first;
+  document.documentElement.dataset.running = "yes";
+  showPictures();
+  await listScenes();
+  listRules();
+  beginLinks();
+}
+
+begin().then(
+  () => (document.documentElement.dataset.ready = "yes"),
+  (error) => {
+    showTrouble(`This page cannot run here: ${messageOf(error)}`);
+    throw error;
+  },
+);

@@ -1,0 +1,115 @@
+// @ts-check
+// Opens scenes, and moves their camera.
+
+/** The pivot about which the camera turns. */
+let pivot = /** @type {Vector} */ ([0, 0, 0]);
+
+/**
+ * Opens a built-in scene or a file; the engine's words say what is wrong with it.
+ * @param {{name: string} | {file: {name: string, bytes: ArrayBuffer}}} what
+ * @param {{byHand?: boolean, camera?: Partial<Camera>}} [options]
+ * @returns {Promise<boolean>}
+ */
+async function openScene(what, { byHand = false, camera = {} } = {}) {
+  const own = "file" in what;
+  /** @type {Opened} */
+  let opened;
+  try {
+    opened = await engine.call("open", what);
+  } catch (error) {
+    showTrouble(messageOf(error));
+    say(messageOf(error));
+    return false;
+  }
+  showTrouble((opened.warnings ?? []).join("\n"));
+  const started = { ...opened.camera, ...camera };
+  pivot = opened.target ?? add(started.eye, scaled(unit(started.direction), 4));
+  change({
+    opened, own, byHand: byHand || state.byHand, scene: opened.name, camera: started,
+    pixel: pixelWithin(started, state.pixel),
+  });
+  say(`scene ${opened.name} is open`);
+  return true;
+}
+
+/**
+ * The pixel if the image has it, otherwise the one in the middle.
+ * @param {Camera} camera
+ * @param {Pixel | null} pixel
+ * @returns {Pixel}
+ */
+function pixelWithin({ height, width }, pixel) {
+  if (pixel && pixel[0] < height && pixel[1] < width) return pixel;
+  return [Math.floor(height / 2), Math.floor(width / 2)];
+}
+
+/** @param {Partial<Camera>} patch */
+function moveCamera(patch) {
+  if (!state.camera) return;
+  const camera = { ...state.camera, ...patch };
+  for (const key of /** @type {const} */ (["eye", "direction", "up"])) camera[key] = /** @type {Vector} */ (camera[key].map(tidy));
+  for (const key of /** @type {const} */ (["vw", "vh", "d"])) camera[key] = tidy(camera[key]);
+  change({ camera, pixel: pixelWithin(camera, state.pixel) });
+}
+
+/**
+ * Turns the camera about its pivot.
+ * @param {number} right  The angle about the up vector, in radians.
+ * @param {number} down  The angle about the camera's right.
+ */
+function orbit(right, down) {
+  if (!state.camera) return;
+  const { eye, direction, up } = state.camera;
+  const axis = unit(up);
+  const level = unit(cross(direction, axis));
+  // The direction stays away from the up vector: there the frame would turn over.
+  const fromUp = Math.acos(clamp(dot(unit(direction), axis), -1, 1));
+  const tilt = clamp(down, fromUp - Math.PI + 0.05, fromUp - 0.05);
+  /** @param {Vector} vector */
+  const turn = (vector) => turned(turned(vector, level, -tilt), axis, -right);
+  const direct = turn(direction);
+  moveCamera({ eye: add(pivot, turn(subtract(eye, pivot))), direction: direct });
+}
+
+/**
+ * Moves the eye towards the pivot; a parallel camera sees a smaller or larger part of the world instead.
+ * @param {number} factor  Less than 1 is nearer.
+ */
+function approach(factor) {
+  if (!state.camera) return;
+  const { eye, vw, vh, projection } = state.camera;
+  if (projection === "parallel") moveCamera({ vw: vw * factor, vh: vh * factor });
+  else moveCamera({ eye: add(pivot, scaled(subtract(eye, pivot), factor)) });
+}
+
+function cameraBack() {
+  if (!state.opened) return;
+  pivot = state.opened.target ?? pivot;
+  change({ camera: state.opened.camera, pixel: pixelWithin(state.opened.camera, state.pixel) });
+  say("the scene's own camera");
+}
+
+/** The lecture's first camera. Its viewport is 1 by 1, so the image becomes as wide as it is high. */
+function canonicalCamera() {
+  if (!state.camera) return;
+  moveCamera({ eye: [0, 0, 0], direction: [0, 0, -1], up: [0, 1, 0], vw: 1, vh: 1, d: 1, projection: "perspective", width: state.camera.height });
+  say("the canonical camera: eye at the origin, looking down the negative z axis");
+}
+
+/**
+ * Changes the projection as the program does: eye and frame stay, the viewport is scaled.
+ * @param {ProjectionName} projection
+ */
+async function project(projection) {
+  if (!state.camera || state.camera.projection === projection) return;
+  try {
+    change({ camera: await engine.call("projected", { camera: state.camera, projection }) });
+    say(`${projection} projection`);
+  } catch (error) {
+    showTrouble(messageOf(error));
+  }
+}
+
+/** @param {Camera} one @param {Camera} other */
+const sameCamera = (one, other) => JSON.stringify(one, cameraKeys) === JSON.stringify(other, cameraKeys);
+const cameraKeys = ["eye", "direction", "up", "vw", "vh", "d", "projection", "height", "width", "0", "1", "2"];

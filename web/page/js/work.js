@@ -1,0 +1,146 @@
+// @ts-check
+// Work and cost: live counters, and where the costs of the two orders cross.
+
+/** What the sliders can choose. */
+const TRIANGLES = [12, 48, 120, 300, 800, 2000, 5000, 12000, 30000, 80000, 200000];
+const IMAGES = [[30, 40], [60, 80], [120, 160], [180, 240], [240, 320], [360, 480], [480, 640]];
+
+/** @typedef {{counts: {label: string, object: number | null, image: number | null}[], steps: {object: number, image: number}, ms: {object: number, image: number}, triangles: number}} Cost */
+
+/** What was measured so far: by image, then by triangles. @type {Map<string, Map<number, Cost>>} */
+const costs = new Map();
+let measuring = false;
+
+const chosenImage = () => IMAGES[Number(inputById("work-pixels").value)];
+const chosenTriangles = () => TRIANGLES[Number(inputById("work-triangles").value)];
+
+/** @param {number[]} image */
+function costsOf(image) {
+  const key = image.join("x");
+  let found = costs.get(key);
+  if (!found) costs.set(key, (found = new Map()));
+  return found;
+}
+
+/** Measures what is chosen, then the rest of the curve, nearest first, until something else is chosen. */
+async function measure() {
+  showWork();
+  if (measuring || viewOf(state.chapter) !== "work") return;
+  measuring = true;
+  for (;;) {
+    if (viewOf(state.chapter) !== "work") break;
+    const [image, chosen] = [chosenImage(), chosenTriangles()];
+    const known = costsOf(image);
+    const next = [...TRIANGLES].sort((one, other) => Math.abs(Math.log(one / chosen)) - Math.abs(Math.log(other / chosen))).find((triangles) => !known.has(triangles) && (triangles === chosen || triangles <= 80000));
+    if (next === undefined) break;
+    try {
+      known.set(next, await engine.call("work", { triangles: next, height: image[0], width: image[1] }));
+    } catch (error) {
+      showTrouble(messageOf(error));
+      break;
+    }
+    showWork();
+  }
+  measuring = false;
+}
+
+function showWork() {
+  const [image, chosen] = [chosenImage(), chosenTriangles()];
+  outputFor("work-triangles", grouped(chosen));
+  outputFor("work-pixels", `${image[1]} × ${image[0]}`);
+  const cost = costsOf(image).get(chosen);
+  fillCounts(byId("work-counts"), cost ? [...cost.counts, { label: "steps", ...cost.steps }] : []);
+  drawChart();
+  if (!cost) return;
+  const { object, image: ray } = cost.steps;
+  const [less, more] = object < ray ? ["Object order", "image order"] : ["Image order", "object order"];
+  const text = object === ray ? "Both orders take equally many steps." : `${less} takes fewer steps here: ${grouped(Math.min(object, ray))}, and ${more} ${grouped(Math.max(object, ray))}. A step is counted, so it is the same on every machine; it is no unit of time.`;
+  byId("chart-text").textContent = `${text} This frame: object order ${milliseconds(cost.ms.object)}, image order ${milliseconds(cost.ms.image)} in this browser.`;
+  say(text);
+}
+
+/** @param {string} id @param {string} text */
+function outputFor(id, text) {
+  /** @type {HTMLElement} */ (document.querySelector(`output[for="${id}"]`)).textContent = text;
+  inputById(id).setAttribute("aria-valuetext", text);
+}
+
+/** Steps against triangles, both on a scale of powers of ten. */
+function drawChart() {
+  const canvas = canvasById("chart");
+  const prepared = canvas.offsetParent && prepareCanvas(canvas);
+  if (!prepared) return;
+  const { context, width, height } = prepared;
+  const known = [...costsOf(chosenImage())].sort(([one], [other]) => one - other);
+  const em = letterSize();
+  const [left, right, top, bottom] = [4.2 * em, width - 1.2 * em, 1.2 * em, height - 3 * em];
+  const values = known.flatMap(([, { steps }]) => [steps.object, steps.image]).filter((value) => value > 0);
+  const least = Math.floor(Math.log10(Math.min(...values, 1e4)));
+  const most = Math.ceil(Math.log10(Math.max(...values, 1e5)));
+  const [first, last] = [Math.log10(TRIANGLES[0]), Math.log10(TRIANGLES[TRIANGLES.length - 1])];
+  /** @param {number} triangles */
+  const x = (triangles) => left + ((Math.log10(triangles) - first) / (last - first)) * (right - left);
+  /** @param {number} steps */
+  const y = (steps) => bottom - ((Math.log10(steps) - least) / (most - least || 1)) * (bottom - top);
+  context.font = `${0.85 * em}px ${colour("text")}`;
+  context.fillStyle = colour("quiet");
+  context.strokeStyle = colour("hairline");
+  context.lineWidth = 1;
+  context.textAlign = "right";
+  context.textBaseline = "middle";
+  for (let power = least; power <= most; power++) {
+    rule(context, left, y(10 ** power), right, y(10 ** power));
+    context.fillText(grouped10(power), left - 0.5 * em, y(10 ** power));
+  }
+  context.textAlign = "center";
+  context.textBaseline = "top";
+  for (const triangles of [100, 1000, 10000, 100000]) {
+    rule(context, x(triangles), top, x(triangles), bottom);
+    context.fillText(grouped(triangles), x(triangles), bottom + 0.4 * em);
+  }
+  context.fillText("triangles", (left + right) / 2, bottom + 1.6 * em);
+  context.textAlign = "left";
+  context.fillText("steps", left + 0.4 * em, top - 0.9 * em);
+  context.strokeStyle = colour("bright");
+  context.setLineDash([3, 4]);
+  rule(context, x(chosenTriangles()), top, x(chosenTriangles()), bottom);
+  context.setLineDash([]);
+  for (const order of /** @type {OrderName[]} */ (["object", "image"])) drawCurve(context, order, known.map(([triangles, { steps }]) => [x(triangles), y(Math.max(1, steps[order]))]));
+}
+
+/** @param {CanvasRenderingContext2D} context @param {OrderName} order @param {number[][]} points */
+function drawCurve(context, order, points) {
+  context.strokeStyle = context.fillStyle = colour(order);
+  context.lineWidth = 2.5;
+  context.beginPath();
+  points.forEach(([x, y], index) => context[index ? "lineTo" : "moveTo"](x, y));
+  context.stroke();
+  const em = letterSize();
+  for (const [x, y] of points) drawMark(context, order, x, y, 0.32 * em);
+  const end = points[points.length - 1];
+  if (!end) return;
+  context.textAlign = "right";
+  context.textBaseline = "bottom";
+  context.font = `600 ${0.95 * em}px ${colour("text")}`;
+  const other = order === "object" ? -0.5 * em : 1.6 * em;
+  context.fillText(ORDERS[order][0], end[0], end[1] + other);
+}
+
+/** @param {CanvasRenderingContext2D} context @param {number} x @param {number} y @param {number} a @param {number} b */
+function rule(context, x, y, a, b) {
+  context.beginPath();
+  context.moveTo(x, y);
+  context.lineTo(a, b);
+  context.stroke();
+}
+
+/** @param {number} power */
+const grouped10 = (power) => (power < 6 ? grouped(10 ** power) : power < 9 ? `${grouped(10 ** (power - 6))} million` : `10^${power}`);
+
+function beginWork() {
+  inputById("work-triangles").max = String(TRIANGLES.length - 1);
+  inputById("work-pixels").max = String(IMAGES.length - 1);
+  for (const id of ["work-triangles", "work-pixels"]) byId(id).addEventListener("input", measure);
+  drawWhenShown(canvasById("chart"), drawChart);
+  watch(["chapter"], measure);
+}
