@@ -45,7 +45,7 @@ function showRules() {
       scene ??= rule.scene;
     }
   }
-  byId("rule-text").textContent = texts.join(" ") || "Both orders are exact: they agree in every pixel.";
+  byId("rule-text").textContent = texts.join(" ") || "Both orders follow the exact rules.";
   const button = byId("rule-scene");
   button.hidden = !scene || scene === state.scene;
   button.textContent = scene ? `Open ${scene}, where it shows` : "";

@@ -30,9 +30,9 @@ function dial(label, words, read, write, { least } = {}) {
 
 /** The sliders get room around the values of the scene that is open. */
 function rangeDials() {
-  const { camera, target } = state.opened ?? {};
+  const { camera } = state.opened ?? {};
   if (!camera) return;
-  const away = Math.max(4, 2.5 * lengthOf(subtract(camera.eye, target ?? [0, 0, 0])));
+  const away = Math.max(4, 2.5 * lengthOf(subtract(camera.eye, pivotOf(camera))));
   for (const { slider, read } of dials) {
     const value = Math.abs(read(camera));
     const isSize = slider.min === "0.01";
@@ -54,19 +54,22 @@ function showCamera() {
   if (document.activeElement !== byId("image-width")) inputById("image-width").value = String(camera.width);
   setChoice("projection", camera.projection);
   setChoice("projection-outside", camera.projection);
-  byId("camera-formula").textContent = camera.projection === "perspective"
-    ? "perspective: all viewing rays begin at the eye. origin = eye, direction = x u + y v − d w"
-    : "parallel: all viewing rays have the same direction. origin = eye + x u + y v, direction = −w";
+  byId("camera-formula").replaceChildren(...rich(camera.projection === "perspective"
+    ? "perspective: all viewing rays begin at the eye. origin = eye, direction = x *u* + y *v* − d *w*"
+    : "parallel: all viewing rays have the same direction. origin = eye + x *u* + y *v*, direction = −*w*"));
 }
 
-/** The image keeps the viewport's height, and the viewport gets the image's form, as on the command line. */
+/** Another size of the image. The viewport keeps its height; where pixels were square, they stay so. */
 function resizeImage() {
   const [height, width] = [inputById("image-height"), inputById("image-width")];
   if (!state.camera || !height.validity.valid || !width.validity.valid || !height.value || !width.value) {
     showCamera();
     return;
   }
-  moveCamera({ height: height.valueAsNumber, width: width.valueAsNumber, vw: (state.camera.vh * width.valueAsNumber) / height.valueAsNumber });
+  const { camera } = state;
+  const square = Math.abs((camera.vw * camera.height) / (camera.vh * camera.width) - 1) < 1e-6;
+  const [rows, columns] = [height.valueAsNumber, width.valueAsNumber];
+  moveCamera({ height: rows, width: columns, vw: square ? (camera.vh * columns) / rows : camera.vw });
 }
 
 function beginCameraPanel() {

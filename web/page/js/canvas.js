@@ -21,6 +21,13 @@ function prepareCanvas(canvas) {
 /** The size of the page's letters, for what is drawn. */
 const letterSize = () => parseFloat(getComputedStyle(document.documentElement).fontSize);
 
+/** Tells the style sheets how high the bars above and below are. */
+function measureBars() {
+  const bars = /** @type {[string, HTMLElement][]} */ ([["--head", /** @type {HTMLElement} */ (document.querySelector(".bar"))], ["--foot", byId("verdict")]]);
+  const observer = new ResizeObserver(() => bars.forEach(([property, bar]) => document.documentElement.style.setProperty(property, `${bar.offsetHeight}px`)));
+  bars.forEach(([, bar]) => observer.observe(bar));
+}
+
 /** @type {Map<Element, () => void>} */
 const redraws = new Map();
 const resizes = new ResizeObserver((entries) => {

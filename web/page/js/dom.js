@@ -40,6 +40,16 @@ function make(tag, attributes = {}, ...children) {
 }
 
 /**
+ * A text with its signs: `*d*` is a vector, in bold as the lecture writes it, and `_ab_` stands below the line.
+ * @param {string} text
+ * @returns {(Node | string)[]}
+ */
+const rich = (text) => text.split(/(\*[^*]+\*|_[^_]+_)/).map((part) => {
+  if (/^\*.+\*$/.test(part)) return make("b", { class: "vector" }, part.slice(1, -1));
+  return /^_.+_$/.test(part) ? make("sub", {}, part.slice(1, -1)) : part;
+});
+
+/**
  * Makes an element of SVG.
  * @param {string} tag
  * @param {Record<string, string | number>} attributes

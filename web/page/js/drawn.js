@@ -18,6 +18,18 @@ function onDrawn(listener) {
   drawnListeners.push(listener);
 }
 
+let telling = false;
+
+/** Shows what was drawn with the next frame of the screen, while the worker draws on. */
+function tellDrawn() {
+  if (telling) return;
+  telling = true;
+  requestAnimationFrame(() => {
+    telling = false;
+    for (const listener of drawnListeners) listener();
+  });
+}
+
 /** The rules that hold in this chapter: only "Break it" has others than the exact ones. */
 function rulesNow() {
   const breaking = viewOf(state.chapter) === "break";
@@ -37,12 +49,11 @@ async function drawAgain() {
       framesDrawn++;
       if (troubleIsOfDrawing) showTrouble("");
       troubleIsOfDrawing = false;
-      for (const listener of drawnListeners) listener();
+      tellDrawn();
     } catch (error) {
       showTrouble(messageOf(error));
       troubleIsOfDrawing = true;
     }
-    await new Promise((resolve) => requestAnimationFrame(resolve));
   }
   underWay = false;
   restful();
@@ -51,7 +62,7 @@ let troubleIsOfDrawing = false;
 
 /** Counts the work once the camera rests, where that is quick. */
 const restful = debounced(350, () => {
-  if (drawn && !drawn.verdict.counts && drawn.object.ms + drawn.image.ms < 120) countWork();
+  if (drawn && !drawn.object.work && took(drawn.object) + took(drawn.image) < 120) countWork();
 });
 
 /** Counts what the loops do for the picture that is shown. */
@@ -63,7 +74,7 @@ async function countWork() {
     const rendered = await engine.call("render", { camera, height: camera.height, width: camera.width, counts: true, ...rulesNow() });
     if (camera === state.camera) {
       drawn = { ...rendered, height: camera.height, width: camera.width };
-      for (const listener of drawnListeners) listener();
+      tellDrawn();
     }
   } catch (error) {
     showTrouble(messageOf(error));
@@ -71,6 +82,9 @@ async function countWork() {
   underWay = false;
   if (wanted) drawAgain();
 }
+
+/** What an order took for its frame, in milliseconds. @param {OrderPicture} picture */
+const took = ({ ms: { visibility, shading } }) => visibility + shading;
 
 function beginDrawing() {
   watch(["camera", "objectRule", "imageRule"], drawAgain);

@@ -90,7 +90,7 @@ async function followLink() {
   if (pixel) change({ pixel: /** @type {Pixel} */ (pixel.map((place) => Math.max(0, Math.round(place)))) });
   const isFile = /\.(obj|ply|toml)$/i.test(scene);
   const own = state.own && state.scene === scene;
-  if (own && state.opened) change({ camera: { ...state.opened.camera, ...camera } });
+  if (own && state.opened) change({ camera: patched(state.opened.camera, camera) });
   else if (isFile || !(await openScene({ name: scene }, { camera, byHand: Boolean(parts.get("scene")) && scene !== chapter.scene }))) {
     if (!state.opened) await openScene({ name: "lecture" });
     showTrouble(`the link is about the scene ${scene}: open that file, or drop it on this page`);

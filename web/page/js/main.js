@@ -3,6 +3,7 @@
 
 async function begin() {
   beginTheme();
+  measureBars();
   beginChapters();
   beginPictures();
   beginVerdict();

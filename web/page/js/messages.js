@@ -18,39 +18,43 @@
  * @property {ProjectionName} projection
  * @property {number} height
  * @property {number} width
+ * @property {Vector} [look_at]  Stands for the direction, as long as nothing has moved the camera.
+ * @property {Vector} [u]  With `v` and `w`: stand for direction and up.
+ * @property {Vector} [v]
+ * @property {Vector} [w]
  */
 
 /**
  * @typedef {object} Opened
  * @property {string} name
- * @property {string} [about]
+ * @property {string | null} sentence
  * @property {Camera} camera
- * @property {Vector} [target]  The pivot of orbiting.
  * @property {number} objects
+ * @property {number} primitives
  * @property {number} triangles
- * @property {number} [primitives]
- * @property {number} [size]
- * @property {string[]} [warnings]
+ * @property {string[]} warnings
  */
 
-/** @typedef {{rgba: Uint8ClampedArray, ids: Uint32Array, ms: number}} OrderPicture */
+/** @typedef {{rgba: Uint8ClampedArray, ids: Uint32Array, ms: {visibility: number, shading: number}, work: Record<string, number> | null}} OrderPicture */
 
 /**
  * @typedef {object} Verdict
+ * @property {string} text
+ * @property {boolean} equal
  * @property {boolean} coverageEqual
  * @property {boolean} idsEqual
  * @property {number} pixels
- * @property {number} covered
+ * @property {[number, number]} covered  In object order, in image order.
  * @property {number} differ
- * @property {string} [sentence]
- * @property {{object: Record<string, number>, image: Record<string, number>}} [counts]
+ * @property {number} onlyObject
+ * @property {number} onlyImage
  */
 
 /**
  * @typedef {object} Rendered
  * @property {OrderPicture} object
  * @property {OrderPicture} image
- * @property {{rgba: Uint8ClampedArray, counts?: Record<string, number>}} difference
+ * @property {{rgba: Uint8ClampedArray, ms: number}} difference
  * @property {Verdict} verdict
  */
 

@@ -30,7 +30,7 @@ async function look() {
 }
 
 /** @param {string} symbol @param {...(string | Node)} lines */
-const definition = (symbol, ...lines) => [make("dt", {}, symbol), make("dd", {}, ...lines.map((line) => (typeof line === "string" ? make("span", {}, line) : line)))];
+const definition = (symbol, ...lines) => [make("dt", {}, ...rich(symbol)), make("dd", {}, ...lines.map((line) => (typeof line === "string" ? make("span", {}, ...rich(line)) : line)))];
 
 /**
  * The lecture's formulas with this camera's numbers. The lecture counts from 1, the page from 0.
@@ -50,9 +50,9 @@ function showRay(report, camera) {
       ...definition("x", `= vw ((j − ½)/W − ½) = ${short(camera.vw)} ((${j} − ½)/${width} − ½)`, value(`= ${whole(x)}`)),
       ...definition("y", `= −vh ((i − ½)/H − ½) = −${short(camera.vh)} ((${i} − ½)/${height} − ½)`, value(`= ${whole(y)}`)),
       ...(perspective
-        ? [...definition("p", "= eye", value(`= ${vectorText(report.eye, 9)}`)), ...definition("d", `= x u + y v − d w, with d = ${short(camera.d)}`, value(`= ${vectorText(direction, 9)}`))]
-        : [...definition("p", "= eye + x u + y v", value(`= ${vectorText(add(report.eye, origin), 9)}`)), ...definition("d", "= −w", value(`= ${vectorText(direction, 9)}`))]),
-      ...definition("r(t)", "= p + t d, with t > 0")),
+        ? [...definition("*p*", "= eye", value(`= ${vectorText(report.eye, 9)}`)), ...definition("*d*", `= x *u* + y *v* − d *w*, with d = ${short(camera.d)}`, value(`= ${vectorText(direction, 9)}`))]
+        : [...definition("*p*", "= eye + x *u* + y *v*", value(`= ${vectorText(add(report.eye, origin), 9)}`)), ...definition("*d*", "= −*w*", value(`= ${vectorText(direction, 9)}`))]),
+      ...definition("*r*(t)", "= *p* + t *d*, with t > 0")),
     make("p", { class: report.agree ? "right" : "wrong" }, report.agree ? `Both orders saw ${report.at[0].object_order.id === null ? "nothing" : `id ${report.at[0].object_order.id}`} here, which is what is nearest.` : "The orders did not both see what is nearest."));
 }
 
@@ -100,7 +100,7 @@ function showEdges({ covering, touching }) {
     holder.replaceChildren(make("p", { class: "quiet" }, "No triangle covers or touches this sample."));
     return;
   }
-  const head = make("tr", {}, ...["", "E_ab", "E_bc", "E_ca", "facing F", ""].map((text) => make("th", { scope: "col" }, text)));
+  const head = make("tr", {}, ...["", "E_ab_", "E_bc_", "E_ca_", "facing F", ""].map((text) => make("th", { scope: "col" }, ...rich(text))));
   const rows = flat.slice(0, 10).map((triangle) => {
     const covers = covering.includes(triangle);
     return make("tr", {}, make("th", { scope: "row" }, `id ${grouped(triangle.id)}`), ...edgeCells(triangle.edges), make("td", { class: covers ? "right" : "quiet" }, covers ? "covers" : "only touches"));

@@ -127,7 +127,7 @@ function beginPictures() {
   onDrawn(() => {
     if (!drawn) return;
     const { width, height } = drawn;
-    document.documentElement.style.setProperty("--aspect", `${width} / ${height}`);
+    document.documentElement.style.setProperty("--aspect", String(width / height));
     fillSheet("object", drawn.object.rgba, width, height);
     fillSheet("image", drawn.image.rgba, width, height);
     fillSheet("difference", drawn.difference.rgba, width, height);

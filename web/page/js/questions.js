@@ -41,7 +41,7 @@ async function askQuestion() {
   buttonById("question-hint").disabled = question.hints.length === 0;
   byId("question-text").replaceChildren(make("h3", {}, question.title), ...question.text.map((paragraph) => make("p", {}, paragraph)));
   byId("question-fields").replaceChildren(...question.fields.map(({ name, label: text }) =>
-    make("label", { class: "field" }, make("span", {}, text), make("input", { type: "text", inputmode: "decimal", autocomplete: "off", "data-field": name, spellcheck: false, required: true, placeholder: "a number or a fraction" }))));
+    make("label", { class: "field" }, make("span", {}, text), make("input", { type: "text", inputmode: "decimal", autocomplete: "off", "data-field": name, spellcheck: false, required: true, placeholder: "−3/8" }))));
 }
 
 const questionFields = () => /** @type {HTMLInputElement[]} */ ([...byId("question-fields").querySelectorAll("input")]);

@@ -26,7 +26,7 @@ function drawQuiz() {
   const { width, height } = quiz;
   for (const [id, { rgba }] of /** @type {const} */ ([["quiz-truth", quiz.truth], ["quiz-drawn", quiz.renderer], ["quiz-difference", quiz.difference]])) {
     const canvas = canvasById(id);
-    canvas.style.aspectRatio = `${width} / ${height}`;
+    canvas.style.setProperty("--form", String(width / height));
     canvas.style.imageRendering = "pixelated";
     paintPixels(canvas, rgba, width, height);
   }

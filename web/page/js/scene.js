@@ -21,9 +21,9 @@ async function openScene(what, { byHand = false, camera = {} } = {}) {
     say(messageOf(error));
     return false;
   }
-  showTrouble((opened.warnings ?? []).join("\n"));
-  const started = { ...opened.camera, ...camera };
-  pivot = opened.target ?? add(started.eye, scaled(unit(started.direction), 4));
+  showTrouble(opened.warnings.join("\n"));
+  pivot = pivotOf(opened.camera);
+  const started = patched(opened.camera, camera);
   change({
     opened, own, byHand: byHand || state.byHand, scene: opened.name, camera: started,
     pixel: pixelWithin(started, state.pixel),
@@ -43,10 +43,25 @@ function pixelWithin({ height, width }, pixel) {
   return [Math.floor(height / 2), Math.floor(width / 2)];
 }
 
+/** What the scene's camera looks at, or a point before it. @param {Camera} camera @returns {Vector} */
+const pivotOf = ({ eye, direction, look_at: target }) => target ?? add(eye, scaled(unit(direction), Math.max(lengthOf(eye), 4)));
+
+/**
+ * The camera with other values. Where it stands or looks elsewhere, direction and up say so, and no longer what it looked at.
+ * @param {Camera} camera
+ * @param {Partial<Camera>} patch
+ * @returns {Camera}
+ */
+function patched(camera, patch) {
+  if (!patch.eye && !patch.direction && !patch.up) return { ...camera, ...patch };
+  const { look_at: _target, u: _u, v: _v, w: _w, ...rest } = camera;
+  return { ...rest, ...patch };
+}
+
 /** @param {Partial<Camera>} patch */
 function moveCamera(patch) {
   if (!state.camera) return;
-  const camera = { ...state.camera, ...patch };
+  const camera = patched(state.camera, patch);
   for (const key of /** @type {const} */ (["eye", "direction", "up"])) camera[key] = /** @type {Vector} */ (camera[key].map(tidy));
   for (const key of /** @type {const} */ (["vw", "vh", "d"])) camera[key] = tidy(camera[key]);
   change({ camera, pixel: pixelWithin(camera, state.pixel) });
@@ -84,7 +99,7 @@ function approach(factor) {
 
 function cameraBack() {
   if (!state.opened) return;
-  pivot = state.opened.target ?? pivot;
+  pivot = pivotOf(state.opened.camera);
   change({ camera: state.opened.camera, pixel: pixelWithin(state.opened.camera, state.pixel) });
   say("the scene's own camera");
 }
@@ -103,13 +118,10 @@ function canonicalCamera() {
 async function project(projection) {
   if (!state.camera || state.camera.projection === projection) return;
   try {
-    change({ camera: await engine.call("projected", { camera: state.camera, projection }) });
+    const { camera } = await engine.call("camera", { camera: state.camera, projection });
+    change({ camera });
     say(`${projection} projection`);
   } catch (error) {
     showTrouble(messageOf(error));
   }
 }
-
-/** @param {Camera} one @param {Camera} other */
-const sameCamera = (one, other) => JSON.stringify(one, cameraKeys) === JSON.stringify(other, cameraKeys);
-const cameraKeys = ["eye", "direction", "up", "vw", "vh", "d", "projection", "height", "width", "0", "1", "2"];

@@ -3,36 +3,39 @@
 
 /** Names of counts, in words. @type {Record<string, string>} */
 const COUNT_NAMES = {
-  primitives: "primitives begun", rays: "rays begun", nodes: "box tests", tests: "primitive tests", fragments: "covered samples (fragments)",
-  depth_tests: "depth comparisons", judged_coverage: "coverage asked of the exact judge", judged_nearest: "nearness asked of the exact judge", steps: "steps",
+  primitives: "primitives begun", rays: "rays begun", nodes: "box tests", tests: "primitive tests", fragments: "covered (fragments)",
+  depth_tests: "depth comparisons", judged_coverage: "coverage judged exactly", judged_nearest: "nearness judged exactly", steps: "steps",
 };
 
 /** The classes of a difference with their colours, as in all outputs of the program. */
 const CLASSES = /** @type {const} */ ([
-  ["both_alike", "both alike", "#808080"], ["only_object", "only object order covers", "#E69F00"], ["only_image", "only image order covers", "#0072B2"],
-  ["other_primitive", "both cover, other primitives", "#CC79A7"],
+  ["both_alike", "both alike", "#808080"], ["only_object", "only object order", "#E69F00"], ["only_image", "only image order", "#0072B2"],
+  ["other_primitive", "other primitive", "#CC79A7"],
 ]);
 
 function showVerdict() {
   if (!drawn) return;
   const { verdict, object, image } = drawn;
-  const match = verdict.idsEqual && verdict.coverageEqual;
+  const match = verdict.equal;
   const bar = byId("verdict");
   bar.dataset.match = match ? "yes" : "no";
   /** @type {HTMLElement} */ (bar.querySelector(".sign")).textContent = match ? "=" : "≠";
-  const sentence = verdict.sentence ?? (match ? `Both orders see the same at all ${counted(verdict.pixels, "pixel")}.` : `${counted(verdict.differ, "pixel")} of ${grouped(verdict.pixels)} differ.`);
+  const sentence = verdict.text;
   if (byId("verdict-text").textContent !== sentence) {
     byId("verdict-text").textContent = sentence;
     say(sentence);
   }
-  const facts = [`${grouped(verdict.covered)} of ${counted(verdict.pixels, "pixel")} covered`, `${grouped(verdict.differ)} ${verdict.differ === 1 ? "differs" : "differ"}`,
-    `object order ${milliseconds(object.ms)}`, `image order ${milliseconds(image.ms)}`];
+  const [byObject, byImage] = verdict.covered;
+  const covered = byObject === byImage ? grouped(byObject) : `${grouped(byObject)} and ${grouped(byImage)}`;
+  const facts = [state.scene, `${covered} of ${counted(verdict.pixels, "pixel")} covered`, `ids differ in ${grouped(verdict.differ)}`,
+    `object order ${milliseconds(took(object))}`, `image order ${milliseconds(took(image))}`];
   byId("verdict-facts").textContent = facts.join("  ·  ");
-  const classes = drawn.difference.counts;
+  const other = verdict.differ - verdict.onlyObject - verdict.onlyImage;
+  const classes = /** @type {Record<string, number>} */ ({ both_alike: byObject - verdict.onlyObject - other, only_object: verdict.onlyObject, only_image: verdict.onlyImage, other_primitive: other });
   byId("classes").replaceChildren(...CLASSES.map(([key, words, ink]) => {
     const swatch = make("span", { class: "swatch" });
     swatch.style.background = ink;
-    return make("li", {}, swatch, words, classes ? make("span", { class: "number" }, grouped(classes[key] ?? 0)) : null);
+    return make("li", {}, swatch, words, make("span", { class: "number" }, grouped(classes[key])));
   }));
   showCounts();
 }
@@ -41,9 +44,15 @@ function showVerdict() {
 const milliseconds = (ms) => `${ms < 10 ? ms.toFixed(1) : Math.round(ms)} ms`;
 
 function showCounts() {
-  const counts = drawn?.verdict.counts;
-  byId("count").hidden = Boolean(counts);
-  fillCounts(byId("counts"), counts ? Object.keys({ ...counts.object, ...counts.image }).map((key) => ({ label: key, object: counts.object[key], image: counts.image[key] })) : []);
+  const [object, image] = [drawn?.object.work, drawn?.image.work];
+  const keys = Object.keys({ ...object, ...image }).filter((key) => object?.[key] || image?.[key]);
+  byId("count-offer").hidden = keys.length > 0;
+  byId("work-done").hidden = keys.length === 0;
+  /** @type {HTMLElement} */ (byId("counts").querySelector("thead")).replaceChildren(make("tr", {}, make("td"), ...keys.map((key) => make("th", { scope: "col" }, COUNT_NAMES[key] ?? key.replaceAll("_", " ")))));
+  const rows = /** @type {[OrderName, Record<string, number> | null | undefined][]} */ ([["object", object], ["image", image]]).map(([order, work]) => make("tr", {},
+    make("th", { scope: "row", class: order }, make("span", { class: `mark ${order === "object" ? "disc" : "square"}` }), ORDERS[order][0]),
+    ...keys.map((key) => make("td", {}, work ? grouped(work[key] ?? 0) : "–"))));
+  /** @type {HTMLElement} */ (byId("counts").querySelector("tbody")).replaceChildren(...rows);
 }
 
 /**

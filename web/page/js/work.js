@@ -73,7 +73,7 @@ function drawChart() {
   const { context, width, height } = prepared;
   const known = [...costsOf(chosenImage())].sort(([one], [other]) => one - other);
   const em = letterSize();
-  const [left, right, top, bottom] = [4.2 * em, width - 1.2 * em, 1.2 * em, height - 3 * em];
+  const [left, right, top, bottom] = [6 * em, width - 1.2 * em, 1.2 * em, height - 3 * em];
   const values = known.flatMap(([, { steps }]) => [steps.object, steps.image]).filter((value) => value > 0);
   const least = Math.floor(Math.log10(Math.min(...values, 1e4)));
   const most = Math.ceil(Math.log10(Math.max(...values, 1e5)));
@@ -105,11 +105,15 @@ function drawChart() {
   context.setLineDash([3, 4]);
   rule(context, x(chosenTriangles()), top, x(chosenTriangles()), bottom);
   context.setLineDash([]);
-  for (const order of /** @type {OrderName[]} */ (["object", "image"])) drawCurve(context, order, known.map(([triangles, { steps }]) => [x(triangles), y(Math.max(1, steps[order]))]));
+  const atEnd = known[known.length - 1]?.[1].steps;
+  for (const order of /** @type {OrderName[]} */ (["object", "image"])) {
+    const isHigher = atEnd ? atEnd[order] >= atEnd[order === "object" ? "image" : "object"] : true;
+    drawCurve(context, order, known.map(([triangles, { steps }]) => [x(triangles), y(Math.max(1, steps[order]))]), isHigher);
+  }
 }
 
-/** @param {CanvasRenderingContext2D} context @param {OrderName} order @param {number[][]} points */
-function drawCurve(context, order, points) {
+/** @param {CanvasRenderingContext2D} context @param {OrderName} order @param {number[][]} points @param {boolean} isHigher  Its name stands above, or below. */
+function drawCurve(context, order, points, isHigher) {
   context.strokeStyle = context.fillStyle = colour(order);
   context.lineWidth = 2.5;
   context.beginPath();
@@ -122,8 +126,7 @@ function drawCurve(context, order, points) {
   context.textAlign = "right";
   context.textBaseline = "bottom";
   context.font = `600 ${0.95 * em}px ${colour("text")}`;
-  const other = order === "object" ? -0.5 * em : 1.6 * em;
-  context.fillText(ORDERS[order][0], end[0], end[1] + other);
+  context.fillText(ORDERS[order][0], end[0], end[1] + (isHigher ? -0.6 * em : 1.9 * em));
 }
 
 /** @param {CanvasRenderingContext2D} context @param {number} x @param {number} y @param {number} a @param {number} b */
