@@ -1,0 +1,53 @@
+//! The open scene, and the list of all messages.
+
+use crate::answer::Answer;
+use crate::messages::{open, render, scenes};
+use crate::stage::Stage;
+use serde::de::DeserializeOwned;
+
+/// A file that was given to the page.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct File<'a> {
+    pub(crate) bytes: &'a [u8],
+}
+
+/// Answers messages, one after another. It keeps the scene that was opened last.
+#[derive(Debug, Default)]
+pub struct Engine {
+    pub(crate) stage: Option<Stage>,
+}
+
+impl Engine {
+    /// Answers a message: its name, its arguments as a JSON object, and the bytes of the file that it comes with.
+    ///
+    /// # Errors
+    ///
+    /// A text for the reader of the page, in the words of the command line: what is wrong, and what to do.
+    pub fn call(
+        &mut self,
+        name: &str,
+        arguments: &str,
+        file: Option<&[u8]>,
+    ) -> Result<Answer, String> {
+        let file = file.map(|bytes| File { bytes });
+        match name {
+            "scenes" => Ok(scenes::answer()),
+            "open" => open::answer(self, &parsed(name, arguments)?, file),
+            "camera" => open::camera(self, &parsed(name, arguments)?),
+            "render" => render::answer(self.stage()?, &parsed(name, arguments)?),
+            _ => Err(format!("the page sent the message {name:?}, which the module does not know")),
+        }
+    }
+
+    /// The open scene.
+    pub(crate) fn stage(&mut self) -> Result<&mut Stage, String> {
+        self.stage.as_mut().ok_or_else(|| "no scene is open; open one first".into())
+    }
+}
+
+/// The arguments of a message.
+fn parsed<T: DeserializeOwned>(name: &str, arguments: &str) -> Result<T, String> {
+    serde_json::from_str(arguments).map_err(|error| {
+        format!("the page sent the message {name:?} with wrong arguments: {error}")
+    })
+}

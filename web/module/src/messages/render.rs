@@ -1,0 +1,175 @@
+//! `render`: both orders from one camera, their difference, and the verdict.
+
+use crate::answer::{Answer, Buffer, entry};
+use crate::camera::{CameraJson, FrameJson};
+use crate::clock::timed;
+use crate::stage::Stage;
+use bothways_lab::common::{Camera, Frame, Work};
+use bothways_lab::diff::{self, Comparison};
+use bothways_lab::orders::{Order, Rule};
+use bothways_lab::picture::{color_of_id, picture};
+use bothways_lab::report::WorkReport;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, json};
+
+/// How to render.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "camelCase")]
+pub(crate) struct Render {
+    /// The camera; the last one if there is none.
+    #[serde(default)]
+    camera: Option<CameraJson>,
+    /// Another size of the image than the camera's; the viewport stays.
+    #[serde(default)]
+    height: Option<u32>,
+    #[serde(default)]
+    width: Option<u32>,
+    /// The rule of an ordinary renderer, as on the command line; exact without it.
+    #[serde(default)]
+    object_rule: Option<String>,
+    #[serde(default)]
+    image_rule: Option<String>,
+    #[serde(default)]
+    look: Look,
+    /// Whether the work is counted, in a separate frame.
+    #[serde(default)]
+    counts: bool,
+    /// Whether the answer has the distances, too.
+    #[serde(default)]
+    distances: bool,
+}
+
+/// What the pictures show.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Look {
+    /// Light and material.
+    #[default]
+    Shaded,
+    /// A colour for each primitive.
+    Ids,
+}
+
+#[derive(Serialize)]
+struct Verdict {
+    text: String,
+    equal: bool,
+    #[serde(rename = "coverageEqual")]
+    coverage_equal: bool,
+    #[serde(rename = "idsEqual")]
+    ids_equal: bool,
+    pixels: u64,
+    covered: [u64; 2],
+    differ: u64,
+    #[serde(rename = "onlyObject")]
+    only_object: u64,
+    #[serde(rename = "onlyImage")]
+    only_image: u64,
+    #[serde(rename = "firstDiffering")]
+    first_differing: Vec<[u32; 2]>,
+    #[serde(rename = "colourDifference")]
+    colour_difference: u8,
+    #[serde(rename = "depthDifference")]
+    depth_difference: f64,
+}
+
+pub(crate) fn answer(stage: &mut Stage, render: &Render) -> Result<Answer, String> {
+    stage.camera = camera(stage, render)?;
+    let rules = rules(render)?;
+    let mut parts = Map::new();
+    entry(&mut parts, "camera", CameraJson::new(stage.camera.description()));
+    entry(&mut parts, "frame", FrameJson::new(&stage.camera));
+    for (order, rule) in Order::ALL.into_iter().zip(rules) {
+        let ((), visibility) = timed(|| stage.determine_visibility(order, rule, &mut ()));
+        let ((), shading) = timed(|| stage.shade(order, rule));
+        let work = if render.counts && rule.is_none() { Some(counted(stage, order)) } else { None };
+        let times = json!({ "visibility": visibility, "shading": shading });
+        entry(&mut parts, key(order), json!({ "ms": times, "work": work }));
+    }
+    let [object_order, image_order] = &stage.frames;
+    let (comparison, compared) = timed(|| diff::compare(object_order, image_order));
+    entry(&mut parts, "difference", json!({ "ms": compared }));
+    entry(&mut parts, "verdict", Verdict::new(&comparison));
+    let mut answer = Answer::new(parts);
+    for (order, frame) in Order::ALL.into_iter().zip(&stage.frames) {
+        let at = |what: &str| format!("{}.{what}", key(order));
+        answer = answer
+            .with(at("rgba"), Buffer::U8(shown(frame, render.look)))
+            .with(at("ids"), Buffer::U32(frame.ids().to_vec()));
+        if render.distances {
+            answer = answer.with(at("t"), Buffer::F32(frame.distances().to_vec()));
+        }
+    }
+    let difference = comparison.classes().picture(&picture(&stage.frames[0]));
+    let pixels = difference.pixels().flat_map(|pixel| opaque(pixel.0));
+    Ok(answer.with("difference.rgba", Buffer::U8(pixels.collect())))
+}
+
+/// The name of an order in messages.
+pub(crate) fn key(order: Order) -> &'static str {
+    match order {
+        Order::Object => "object",
+        Order::Image => "image",
+    }
+}
+
+fn camera(stage: &Stage, render: &Render) -> Result<Camera, String> {
+    let last = || *stage.camera.description();
+    let mut description = render.camera.as_ref().map_or_else(last, CameraJson::description);
+    if let (Some(height), Some(width)) = (render.height, render.width) {
+        description.image = [width, height];
+    }
+    Camera::new(description).map_err(|error| error.to_string())
+}
+
+fn rules(render: &Render) -> Result<[Option<Rule>; 2], String> {
+    fn parsed<T: std::str::FromStr<Err: ToString>>(
+        text: Option<&String>,
+    ) -> Result<Option<T>, String> {
+        let given = text.filter(|text| *text != "exact" && !text.is_empty());
+        given.map(|text| text.parse().map_err(|error: T::Err| error.to_string())).transpose()
+    }
+    let object_order = parsed(render.object_rule.as_ref())?.map(Rule::Object);
+    let image_order = parsed(render.image_rule.as_ref())?.map(Rule::Image);
+    Ok([object_order, image_order])
+}
+
+/// The counted work of a separate frame.
+fn counted(stage: &mut Stage, order: Order) -> WorkReport {
+    let mut work = Work::default();
+    stage.determine_visibility(order, None, &mut work);
+    work.into()
+}
+
+/// The picture of a frame with four bytes for each pixel.
+fn shown(frame: &Frame, look: Look) -> Vec<u8> {
+    match look {
+        Look::Shaded => frame.picture().iter().flat_map(|&color| opaque(color)).collect(),
+        Look::Ids => frame.ids().iter().flat_map(|&id| opaque(color_of_id(id))).collect(),
+    }
+}
+
+fn opaque([red, green, blue]: [u8; 3]) -> [u8; 4] {
+    [red, green, blue, u8::MAX]
+}
+
+impl Verdict {
+    fn new(comparison: &Comparison) -> Verdict {
+        let coverage = comparison.coverage;
+        let [width, height] = comparison.classes().image().map(u64::from);
+        Verdict {
+            text: comparison.verdict(),
+            equal: comparison.matches(),
+            coverage_equal: coverage.matches,
+            ids_equal: comparison.visible.differing_pixels == 0,
+            pixels: width * height,
+            covered: [coverage.object_order, coverage.image_order],
+            differ: comparison.visible.differing_pixels,
+            only_object: coverage.only_object_order,
+            only_image: coverage.only_image_order,
+            first_differing: comparison.visible.first_differing.clone(),
+            colour_difference: comparison.color.max_difference,
+            depth_difference: comparison.depth.max_relative_difference,
+        }
+    }
+}
