@@ -19,12 +19,7 @@ let whyFor = "";
 const REASON_COLOURS = ["#E69F00", "#56B4E9", "#CC79A7", "#009E73", "#F0E442", "#0072B2", "#D55E00", "#999999"];
 
 async function listRules() {
-  try {
-    rules = await engine.call("rules");
-  } catch (error) {
-    showTrouble(messageOf(error));
-    return;
-  }
+  rules = await engine.call("rules");
   for (const order of /** @type {OrderName[]} */ (["object", "image"])) {
     selectById(`${order}-rule`).replaceChildren(make("option", { value: "" }, "exact"), ...rules[order].map(({ name }) => make("option", { value: name }, name)));
   }

@@ -65,4 +65,8 @@ function beginFiles() {
     if (file) openFile(file);
   });
   watch(["scene", "own"], showSceneChoice);
+  watch(["opened"], () => {
+    const { opened } = state;
+    if (opened) byId("scene-text").textContent = `${opened.sentence ?? opened.name} (${counted(opened.objects, "object")}, ${counted(opened.primitives, "primitive")})`;
+  });
 }

@@ -117,6 +117,8 @@ class Half {
   drawCursor(context, cell, step) {
     const { steps } = /** @type {Recording} */ (this.record);
     const [x, y] = [steps.column[step] * cell, steps.row[step] * cell];
+    const outline = outlines.get(steps.object[step]);
+    if (outline && steps.result[step] !== RESULT.missed && steps.result[step] !== RESULT.entered) drawOutline(context, outline, cell, colour(this.order));
     const covered = steps.result[step] !== RESULT.none && steps.result[step] !== RESULT.missed;
     for (const [line, ink] of /** @type {const} */ ([[7, "#000"], [3.5, "#f0e442"]])) {
       context.strokeStyle = ink;
@@ -130,6 +132,25 @@ class Half {
     context.beginPath();
     context.arc(x + cell / 2, y + cell / 2, radius, 0, 2 * Math.PI);
     if (covered) context.fill();
+    context.stroke();
+  }
+}
+
+/**
+ * The outline of the object that a step is about.
+ * @param {CanvasRenderingContext2D} context
+ * @param {number[][]} outline  In raster coordinates.
+ * @param {number} cell
+ * @param {string} ink
+ */
+function drawOutline(context, outline, cell, ink) {
+  context.lineJoin = "round";
+  for (const [line, pen] of /** @type {const} */ ([[4.5, "#000a"], [2, ink]])) {
+    context.strokeStyle = pen;
+    context.lineWidth = line;
+    context.beginPath();
+    outline.forEach(([x, y], index) => context[index ? "lineTo" : "moveTo"](x * cell, y * cell));
+    context.closePath();
     context.stroke();
   }
 }

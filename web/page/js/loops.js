@@ -27,6 +27,8 @@ async function record() {
     if (wantedFor !== recordedFor) return;
     halves.object.load(new Recording(object, size));
     halves.image.load(new Recording(image, size));
+    outlines = await findOutlines(camera, size);
+    if (wantedFor !== recordedFor) return;
     clockEnd = Math.max(object.count, image.count);
     noteSteps("");
   } catch (error) {
@@ -40,6 +42,21 @@ async function record() {
   change({ step: clamp(state.step, 0, clockEnd) });
   drawMarks();
   showStep();
+}
+
+/** The outlines of triangles on the image of the steps, by id. @type {Map<number, number[][]>} */
+let outlines = new Map();
+
+/** @param {Camera} camera @param {number} size */
+async function findOutlines(camera, size) {
+  try {
+    const middle = Math.floor(size / 2);
+    /** @type {Neighbourhood} */
+    const { triangles } = await engine.call("neighbourhood", { row: middle, column: middle, radius: middle, camera });
+    return new Map(triangles.map(({ id, corners: points }) => [id, points]));
+  } catch {
+    return new Map();
+  }
 }
 
 /** @param {string} text */

@@ -28,7 +28,7 @@ async function begin() {
   document.documentElement.dataset.running = "yes";
   showPictures();
   await listScenes();
-  listRules();
+  listRules().catch((error) => console.warn(messageOf(error)));
   beginLinks();
 }
 

@@ -88,7 +88,7 @@ function showAlong(report) {
   const rows = covering.map(({ id, object, kind, t, behind }, place) =>
     make("tr", {}, make("th", { scope: "row" }, `id ${grouped(id)}`), make("td", {}, `${kind}, object ${object}`), make("td", {}, `t = ${short(t, 10)}`),
       make("td", { class: place === 0 ? "right" : "quiet" }, place === 0 ? "seen" : String(behind ?? "farther"))));
-  holder.replaceChildren(picture, make("div", { class: "edges" }, make("table", {}, make("tbody", {}, ...rows.slice(0, 12)))),
+  holder.replaceChildren(picture, make("div", { class: "edges", role: "region", "aria-label": "Along the ray", tabindex: 0 }, make("table", {}, make("tbody", {}, ...rows.slice(0, 12)))),
     rows.length > 12 ? make("p", { class: "quiet" }, `and ${rows.length - 12} more`) : make("span"));
 }
 
@@ -100,14 +100,14 @@ function showEdges({ covering, touching }) {
     holder.replaceChildren(make("p", { class: "quiet" }, "No triangle covers or touches this sample."));
     return;
   }
-  const head = make("tr", {}, ...["", "E_ab_", "E_bc_", "E_ca_", "facing F", ""].map((text) => make("th", { scope: "col" }, ...rich(text))));
+  const head = make("tr", {}, ...["", "E_ab_", "E_bc_", "E_ca_", "facing F", ""].map((text) => (text ? make("th", { scope: "col" }, ...rich(text)) : make("td"))));
   const rows = flat.slice(0, 10).map((triangle) => {
     const covers = covering.includes(triangle);
     return make("tr", {}, make("th", { scope: "row" }, `id ${grouped(triangle.id)}`), ...edgeCells(triangle.edges), make("td", { class: covers ? "right" : "quiet" }, covers ? "covers" : "only touches"));
   });
   holder.replaceChildren(
     make("p", { class: "quiet" }, "A triangle covers a sample if its edge functions have the sign of its facing F. Where one is 0, the sample is moved infinitely little to the right, and far less down: left and top edges own it."),
-    make("div", { class: "edges" }, make("table", {}, make("thead", {}, head), make("tbody", {}, ...rows))));
+    make("div", { class: "edges", role: "region", "aria-label": "Edge functions", tabindex: 0 }, make("table", {}, make("thead", {}, head), make("tbody", {}, ...rows))));
 }
 
 /**

@@ -32,7 +32,7 @@ const askOutside = debounced(30, async () => {
 });
 
 /** Where a ray that hits nothing is cut off. @param {Outside} outside */
-const farAway = (outside) => 2.2 * Math.max(lengthOf(subtract(outside.eye, pivot)), lengthOf(subtract(outside.eye, outside.corners[0])));
+const farAway = (outside) => 1.5 * Math.max(lengthOf(subtract(outside.eye, pivot)), lengthOf(subtract(outside.eye, outside.corners[0])));
 
 /** @param {Outside} outside @param {ViewingRay} ray @returns {DrawnRay} */
 function drawnRay(outside, { row, column, origin, direction, point }) {
@@ -89,6 +89,7 @@ function drawOutside(part = 1) {
   }
   drawObjects(context, map, outside, observerNow);
   drawRays(context, map, rays, state.rays === "one");
+  if (state.rays !== "one") drawRays(context, map, rays.filter(({ row, column }) => row === state.pixel?.[0] && column === state.pixel[1]), true);
   drawCamera(context, map, outside, state.camera, state.pixel);
 }
 

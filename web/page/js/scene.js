@@ -25,10 +25,10 @@ async function openScene(what, { byHand = false, camera = {} } = {}) {
   pivot = pivotOf(opened.camera);
   const started = patched(opened.camera, camera);
   change({
-    opened, own, byHand: byHand || state.byHand, scene: opened.name, camera: started,
+    opened, own, byHand: byHand || state.byHand, scene: own ? what.file.name : opened.name, camera: started,
     pixel: pixelWithin(started, state.pixel),
   });
-  say(`scene ${opened.name} is open`);
+  say(`scene ${state.scene} is open`);
   return true;
 }
 

@@ -261,13 +261,14 @@ function label(context, text, x, y, ink, align, style = "400") {
 
 /** @param {CanvasRenderingContext2D} context @param {StageMap} map @param {DrawnRay[]} rays @param {boolean} strong */
 function drawRays(context, map, rays, strong) {
-  context.strokeStyle = colour("focus");
+  // One ray has the colour of what is looked at; many are quiet, so that what they hit stands out.
+  context.strokeStyle = colour(strong ? "focus" : "bright");
   context.fillStyle = colour("good");
-  context.lineWidth = strong ? 2.6 : 1.1;
+  context.lineWidth = strong ? 2.6 : 1;
   for (const ray of rays) {
     const line = map.line(ray.origin, ray.end);
     if (!line) continue;
-    context.globalAlpha = strong ? 1 : 0.75;
+    context.globalAlpha = strong ? 1 : ray.hit ? 0.5 : 0.22;
     // What leaves the scene fades out.
     context.setLineDash(ray.hit ? [] : [5, 4]);
     context.beginPath();
