@@ -97,7 +97,8 @@ function showChapter() {
   buttonById("previous-chapter").disabled = place === 0;
   buttonById("next-chapter").disabled = place === CHAPTERS.length - 1;
   const about = byId("chapter-scene");
-  about.hidden = !chapter.scene || chapter.scene === state.scene || !state.opened;
+  // The other views make the same point with any scene.
+  about.hidden = chapter.view !== "pixel" || chapter.scene === state.scene || !state.opened;
   if (!about.hidden && chapter.scene) {
     /** @type {HTMLElement} */ (about.querySelector("span")).textContent = `You look at ${state.scene}; this chapter was written about another scene.`;
     /** @type {HTMLElement} */ (about.querySelector("button")).textContent = `Open ${chapter.scene}`;

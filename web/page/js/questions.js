@@ -40,8 +40,24 @@ async function askQuestion() {
   byId("question-hints").replaceChildren();
   buttonById("question-hint").disabled = question.hints.length === 0;
   byId("question-text").replaceChildren(make("h3", {}, question.title), ...question.text.map((paragraph) => make("p", {}, paragraph)));
-  byId("question-fields").replaceChildren(...question.fields.map(({ name, label: text }) =>
-    make("label", { class: "field" }, make("span", {}, text), make("input", { type: "text", inputmode: "decimal", autocomplete: "off", "data-field": name, spellcheck: false, required: true, placeholder: "−3/8" }))));
+  byId("question-fields").replaceChildren(...fieldRows(question.fields));
+}
+
+/**
+ * A field for each number that is asked; those of one vector stand in one row.
+ * @param {Question["fields"]} fields
+ */
+function fieldRows(fields) {
+  /** @type {Map<string, HTMLElement>} */
+  const rows = new Map();
+  for (const { name, label: text } of fields) {
+    const [, vector, axis] = /^(.+) ([xyz])$/.exec(text) ?? [null, text, ""];
+    const input = make("input", { type: "text", inputmode: "text", autocomplete: "off", "data-field": name, "aria-label": text, spellcheck: "false", required: true, placeholder: axis || "−3/8" });
+    const row = rows.get(vector) ?? make("div", { class: "field" }, make("span", {}, vector));
+    row.append(input);
+    rows.set(vector, row);
+  }
+  return rows.values();
 }
 
 const questionFields = () => /** @type {HTMLInputElement[]} */ ([...byId("question-fields").querySelectorAll("input")]);
