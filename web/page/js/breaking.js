@@ -32,9 +32,13 @@ function showRules() {
   let scene;
   for (const order of /** @type {OrderName[]} */ (["object", "image"])) {
     const name = state[`${order}Rule`];
-    selectById(`${order}-rule`).value = name;
     byId(`${order}-rule-name`).textContent = name || "exact";
-    const rule = rules[order].find((one) => one.name === name);
+    const [kind, number] = name.split(":");
+    const rule = rules[order].find((one) => one.name.split(":")[0] === kind);
+    selectById(`${order}-rule`).value = rule?.name ?? "";
+    const field = inputById(`${order}-rule-number`);
+    field.hidden = !rule?.name.includes(":");
+    if (document.activeElement !== field) field.value = number ?? rule?.name.split(":")[1] ?? "";
     if (rule) {
       texts.push(`${name}: ${rule.what} It reproduces ${rule.reproduces}.`);
       scene ??= rule.scene;
@@ -124,8 +128,13 @@ async function lookUpReason(key, [row, column]) {
 let askingReason = false;
 
 function beginBreaking() {
-  selectById("object-rule").addEventListener("change", (event) => change({ objectRule: /** @type {HTMLSelectElement} */ (event.target).value }));
-  selectById("image-rule").addEventListener("change", (event) => change({ imageRule: /** @type {HTMLSelectElement} */ (event.target).value }));
+  for (const order of /** @type {OrderName[]} */ (["object", "image"])) {
+    const select = selectById(`${order}-rule`);
+    const number = inputById(`${order}-rule-number`);
+    select.addEventListener("change", () => change({ [`${order}Rule`]: select.value }));
+    // As on the command line: the name, a colon, and the number.
+    number.addEventListener("change", () => change({ [`${order}Rule`]: `${select.value.split(":")[0]}:${number.value || 0}` }));
+  }
   byId("rule-scene").addEventListener("click", () => {
     const { scene } = byId("rule-scene").dataset;
     if (scene) openScene({ name: scene }).then(() => change({ byHand: false }));

@@ -109,6 +109,25 @@ class Half {
   }
 
   /**
+   * The pixels that the inner loop of object order has asked for the object so far: with boxes they are few.
+   * @param {CanvasRenderingContext2D} context
+   * @param {number} cell
+   * @param {number} step
+   */
+  drawTrail(context, cell, step) {
+    const { steps } = /** @type {Recording} */ (this.record);
+    context.fillStyle = colour("object");
+    for (let asked = step; asked >= 0 && steps.object[asked] === steps.object[step]; asked--) {
+      const radius = Math.min(cell * 0.09, 4);
+      context.beginPath();
+      context.arc((steps.column[asked] + 0.5) * cell, (steps.row[asked] + 0.5) * cell, Math.max(radius, 1), 0, 2 * Math.PI);
+      context.globalAlpha = 0.8;
+      context.fill();
+    }
+    context.globalAlpha = 1;
+  }
+
+  /**
    * The pixel of a step, and the row or the object's pixels that its outer loop is about.
    * @param {CanvasRenderingContext2D} context
    * @param {number} cell
@@ -119,6 +138,7 @@ class Half {
     const [x, y] = [steps.column[step] * cell, steps.row[step] * cell];
     const outline = outlines.get(steps.object[step]);
     if (outline && steps.result[step] !== RESULT.missed && steps.result[step] !== RESULT.entered) drawOutline(context, outline, cell, colour(this.order));
+    if (this.order === "object") this.drawTrail(context, cell, step);
     const covered = steps.result[step] !== RESULT.none && steps.result[step] !== RESULT.missed;
     for (const [line, ink] of /** @type {const} */ ([[7, "#000"], [3.5, "#f0e442"]])) {
       context.strokeStyle = ink;

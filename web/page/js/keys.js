@@ -15,7 +15,9 @@ const KEYS = [
   [[",", "."], "steps: one back, one on; with Shift: to the next object or row"],
   [["Home", "End"], "steps: to the start, to the end"],
   [["s"], "steps: swap the loops"],
+  [["m"], "steps: every pair, bounding boxes, hierarchy"],
   [["1", "2", "3"], "steps: object order, image order, both"],
+  [["r"], "from outside: other rays; break it: the next rule of object order, with Shift of image order"],
   [["h"], "questions: the next hint"],
   [["n"], "questions and quiz: another one"],
   [["?"], "this list; Esc closes it"],
@@ -57,9 +59,25 @@ function obeyStepKey(key, onControl) {
   else if (key === "." || key === ",") stepBy(key === "." ? 1 : -1);
   else if (key === ">" || key === "<" || key === ":" || key === ";") toMark(key === ">" || key === ":" ? 1 : -1);
   else if (key === "s") swapLoops();
+  else if (key === "m") change({ method: after(/** @type {const} */ (["textbook", "boxes", "hierarchy"]), state.method) });
   else if (key === "1" || key === "2" || key === "3") change({ loops: /** @type {const} */ (["object", "image", "both"])[Number(key) - 1] });
   else return false;
   return true;
+}
+
+/**
+ * The value after this one, and after the last the first.
+ * @template T
+ * @param {readonly T[]} values
+ * @param {T} value
+ */
+const after = (values, value) => values[(values.indexOf(value) + 1) % values.length];
+
+/** @param {OrderName} order */
+function nextRule(order) {
+  const names = ["", ...rules[order].map(({ name }) => name)];
+  change({ [`${order}Rule`]: after(names, state[`${order}Rule`]) });
+  say(`${ORDERS[order][0]}: ${state[`${order}Rule`] || "exact"}`);
 }
 
 /** @param {string} key @returns {boolean} */
@@ -71,6 +89,8 @@ function obeyLetter(key) {
   else if (key === "h" && view === "questions") giveHint();
   else if (key === "n" && (view === "questions" || view === "quiz")) change({ seed: newSeed() });
   else if (WITHOUT_SCENE.has(view)) return false;
+  else if (key === "r" && view === "outside") change({ rays: after(/** @type {const} */ (["one", "row", "column", "all"]), state.rays) });
+  else if (view === "break" && (key === "r" || key === "R")) nextRule(key === "r" ? "object" : "image");
   else if (key === "+" || key === "=") approach(1 / 1.12);
   else if (key === "-") approach(1.12);
   else if (key === "0" && view === "outside") byId("outside-back").click();

@@ -171,8 +171,9 @@ function swapLoops() {
       const here = items.map((item) => item.getBoundingClientRect().top);
       [[0, 1], [1, 0]].forEach(([now, before]) => {
         const shift = places[before] - here[now];
-        const indent = now === 0 ? "1.1em" : "-1.1em";
-        items[now].animate([{ transform: `translate(${indent}, ${shift}px)` }, { transform: "none" }], { duration: 900, easing: "cubic-bezier(.6, 0, .2, 1)" });
+        // They pass each other: the one that moves up swings out to the right.
+        const [indent, swing] = now === 0 ? [1.1, 3] : [-1.1, -0.5];
+        items[now].animate([{ transform: `translate(${indent}em, ${shift}px)` }, { transform: `translate(${swing}em, ${shift / 2}px)` }, { transform: "none" }], { duration: 1000, easing: "ease-in-out" });
       });
       halves[to].canvas.animate([{ opacity: 0.25 }, { opacity: 1 }], { duration: 900 });
     });

@@ -53,4 +53,8 @@ function beginTheme() {
   byId("theme").addEventListener("click", toggleTheme);
   byId("present").addEventListener("click", togglePresenting);
   prefersDark.addEventListener("change", applyTheme);
+  // Escape leaves the full screen, and with it the mode.
+  document.addEventListener("fullscreenchange", () => {
+    if (!document.fullscreenElement && document.documentElement.dataset.presenting !== undefined) togglePresenting();
+  });
 }

@@ -27,8 +27,8 @@ function showVerdict() {
   }
   const [byObject, byImage] = verdict.covered;
   const covered = byObject === byImage ? grouped(byObject) : `${grouped(byObject)} and ${grouped(byImage)}`;
-  const facts = [state.scene, `${covered} of ${counted(verdict.pixels, "pixel")} covered`, `ids differ in ${grouped(verdict.differ)}`,
-    `object order ${milliseconds(took(object))}`, `image order ${milliseconds(took(image))}`];
+  const facts = [state.scene, `covered ${covered} of ${grouped(verdict.pixels)}`, `ids differ in ${grouped(verdict.differ)}`,
+    `object order ${milliseconds(took(object))}, image order ${milliseconds(took(image))}`];
   byId("verdict-facts").textContent = facts.join("  ·  ");
   const other = verdict.differ - verdict.onlyObject - verdict.onlyImage;
   const classes = /** @type {Record<string, number>} */ ({ both_alike: byObject - verdict.onlyObject - other, only_object: verdict.onlyObject, only_image: verdict.onlyImage, other_primitive: other });
