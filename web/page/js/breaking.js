@@ -7,7 +7,7 @@ let rules = { object: [], image: [] };
 
 /**
  * @typedef {object} Why
- * @property {{reason: string, count: number}[]} counts
+ * @property {{reason: string, count: number, colour: [number, number, number]}[]} counts
  * @property {Uint8Array} index  For every pixel: 0 if the orders agree, otherwise its reason's place, counted from 1.
  * @property {string} [sentence]  What the convention finder says of the whole picture.
  */
@@ -15,13 +15,13 @@ let rules = { object: [], image: [] };
 let why = null;
 let whyFor = "";
 
-/** Colours of reasons: the first four are those of Okabe and Ito that the page does not use for something else here. */
-const REASON_COLOURS = ["#E69F00", "#56B4E9", "#CC79A7", "#009E73", "#F0E442", "#0072B2", "#D55E00", "#999999"];
-
 async function listRules() {
   rules = await engine.call("rules");
   for (const order of /** @type {OrderName[]} */ (["object", "image"])) {
-    selectById(`${order}-rule`).replaceChildren(make("option", { value: "" }, "exact"), ...rules[order].map(({ name }) => make("option", { value: name }, name)));
+    selectById(`${order}-rule`).replaceChildren(
+      make("option", { value: "" }, "exact"),
+      ...rules[order].map(({ name }) => make("option", { value: name }, name)),
+    );
   }
   showRules();
 }
@@ -72,22 +72,23 @@ const askWhy = debounced(120, async () => {
 function showWhy() {
   if (!why || !drawn || drawn.width !== why.width || drawn.height !== why.height) return;
   const rgba = new Uint8ClampedArray(4 * why.index.length);
-  const inks = REASON_COLOURS.map((ink) => [1, 3, 5].map((at) => parseInt(ink.slice(at, at + 2), 16)));
   const ground = isDark() ? 20 : 46;
   for (let index = 0; index < why.index.length; index++) {
     const reason = why.index[index];
     // What agrees is lit faintly by the picture.
     const lit = ground + 0.14 * drawn.object.rgba[4 * index + 1];
-    const ink = reason ? inks[(reason - 1) % inks.length] : [lit, lit, lit];
+    const ink = reason ? why.counts[reason - 1].colour : [lit, lit, lit];
     rgba.set([...ink, 255], 4 * index);
   }
   fillSheet("reasons", rgba, why.width, why.height);
   showPictures();
-  byId("reasons").replaceChildren(...why.counts.map(({ reason, count: pixels }, place) => {
-    const swatch = make("span", { class: "swatch" });
-    swatch.style.background = REASON_COLOURS[place % REASON_COLOURS.length];
-    return make("li", {}, swatch, reason, make("span", { class: "number quiet" }, counted(pixels, "pixel")));
-  }));
+  byId("reasons").replaceChildren(
+    ...why.counts.map(({ reason, count: pixels, colour: ink }) => {
+      const swatch = make("span", { class: "swatch" });
+      swatch.style.background = `rgb(${ink.join(" ")})`;
+      return make("li", {}, swatch, reason, make("span", { class: "number quiet" }, counted(pixels, "pixel")));
+    }),
+  );
   byId("finder").textContent = why.sentence ?? "";
   touchReason(state.pixel);
 }
@@ -115,7 +116,14 @@ async function lookUpReason(key, [row, column]) {
   if (askingReason || !state.camera) return;
   askingReason = true;
   try {
-    const { sentence } = await engine.call("reason", { row, column, camera: state.camera, height: state.camera.height, width: state.camera.width, ...rulesNow() });
+    const { sentence } = await engine.call("reason", {
+      row,
+      column,
+      camera: state.camera,
+      height: state.camera.height,
+      width: state.camera.width,
+      ...rulesNow(),
+    });
     if (key === touched && sentence) {
       byId("reason-text").textContent = `${seenAt([row, column])}. ${sentence}`;
       say(sentence);
@@ -133,7 +141,9 @@ function beginBreaking() {
     const number = inputById(`${order}-rule-number`);
     select.addEventListener("change", () => change({ [`${order}Rule`]: select.value }));
     // As on the command line: the name, a colon, and the number.
-    number.addEventListener("change", () => change({ [`${order}Rule`]: `${select.value.split(":")[0]}:${number.value || 0}` }));
+    number.addEventListener("change", () =>
+      change({ [`${order}Rule`]: `${select.value.split(":")[0]}:${number.value || 0}` }),
+    );
   }
   byId("rule-scene").addEventListener("click", () => {
     const { scene } = byId("rule-scene").dataset;

@@ -22,7 +22,8 @@ function dial(label, words, read, write, { least } = {}) {
     if (state.camera) moveCamera(write(state.camera, Number(slider.value)));
   });
   number.addEventListener("change", () => {
-    if (state.camera && number.value !== "" && number.validity.valid) moveCamera(write(state.camera, number.valueAsNumber));
+    if (state.camera && number.value !== "" && number.validity.valid)
+      moveCamera(write(state.camera, number.valueAsNumber));
     else showCamera();
   });
   return make("div", { class: "dial" }, make("span", {}, label), slider, number);
@@ -36,7 +37,9 @@ function rangeDials() {
   for (const { slider, read } of dials) {
     const value = Math.abs(read(camera));
     const isSize = slider.min === "0.01";
-    const most = isSize ? Math.max(3, 3 * value) : Math.max(slider.dataset.range === "turn" ? Math.max(1, lengthOf(camera.direction)) : away, value);
+    const most = isSize
+      ? Math.max(3, 3 * value)
+      : Math.max(slider.dataset.range === "turn" ? Math.max(1, lengthOf(camera.direction)) : away, value);
     if (!isSize) slider.min = String(-most);
     slider.max = String(most);
   }
@@ -54,9 +57,13 @@ function showCamera() {
   if (document.activeElement !== byId("image-width")) inputById("image-width").value = String(camera.width);
   setChoice("projection", camera.projection);
   setChoice("projection-outside", camera.projection);
-  byId("camera-formula").replaceChildren(...rich(camera.projection === "perspective"
-    ? "perspective: all viewing rays begin at the eye. origin = eye, direction = x *u* + y *v* − d *w*"
-    : "parallel: all viewing rays have the same direction. origin = eye + x *u* + y *v*, direction = −*w*"));
+  byId("camera-formula").replaceChildren(
+    ...rich(
+      camera.projection === "perspective"
+        ? "perspective: all viewing rays begin at the eye. origin = eye, direction = x *u* + y *v* − d *w*"
+        : "parallel: all viewing rays have the same direction. origin = eye + x *u* + y *v*, direction = −*w*",
+    ),
+  );
 }
 
 /** Another size of the image. The viewport keeps its height; where pixels were square, they stay so. */
@@ -76,15 +83,31 @@ function beginCameraPanel() {
   for (const holder of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("[data-vector]"))) {
     const key = /** @type {"eye" | "direction" | "up"} */ (holder.dataset.vector);
     ["x", "y", "z"].forEach((axis, index) => {
-      const row = dial(axis, `${key} ${axis}`, (camera) => camera[key][index],
-        (camera, value) => ({ [key]: camera[key].map((old, place) => (place === index ? value : old)) }));
+      const row = dial(
+        axis,
+        `${key} ${axis}`,
+        (camera) => camera[key][index],
+        (camera, value) => ({ [key]: camera[key].map((old, place) => (place === index ? value : old)) }),
+      );
       if (key !== "eye") /** @type {HTMLElement} */ (row.querySelector("input")).dataset.range = "turn";
       holder.append(row);
     });
   }
   const sizes = /** @type {HTMLElement} */ (document.querySelector("[data-sizes]"));
-  for (const [key, words] of /** @type {const} */ ([["vw", "width of the viewport"], ["vh", "height of the viewport"], ["d", "distance from the eye to the viewport"]])) {
-    sizes.append(dial(key, words, (camera) => camera[key], (_, value) => ({ [key]: Math.max(0.01, value) }), { least: 0.01 }));
+  for (const [key, words] of /** @type {const} */ ([
+    ["vw", "width of the viewport"],
+    ["vh", "height of the viewport"],
+    ["d", "distance from the eye to the viewport"],
+  ])) {
+    sizes.append(
+      dial(
+        key,
+        words,
+        (camera) => camera[key],
+        (_, value) => ({ [key]: Math.max(0.01, value) }),
+        { least: 0.01 },
+      ),
+    );
   }
   byId("image-height").addEventListener("change", resizeImage);
   byId("image-width").addEventListener("change", resizeImage);

@@ -23,8 +23,13 @@ const letterSize = () => parseFloat(getComputedStyle(document.documentElement).f
 
 /** Tells the style sheets how high the bars above and below are. */
 function measureBars() {
-  const bars = /** @type {[string, HTMLElement][]} */ ([["--head", /** @type {HTMLElement} */ (document.querySelector(".bar"))], ["--foot", byId("verdict")]]);
-  const observer = new ResizeObserver(() => bars.forEach(([property, bar]) => document.documentElement.style.setProperty(property, `${bar.offsetHeight}px`)));
+  const bars = /** @type {[string, HTMLElement][]} */ ([
+    ["--head", /** @type {HTMLElement} */ (document.querySelector(".bar"))],
+    ["--foot", byId("verdict")],
+  ]);
+  const observer = new ResizeObserver(() =>
+    bars.forEach(([property, bar]) => document.documentElement.style.setProperty(property, `${bar.offsetHeight}px`)),
+  );
   bars.forEach(([, bar]) => observer.observe(bar));
 }
 

@@ -35,7 +35,9 @@ function make(tag, attributes = {}, ...children) {
   for (const [key, value] of Object.entries(attributes)) {
     if (value !== false) element.setAttribute(key, value === true ? "" : String(value));
   }
-  element.append(...children.filter((child) => child !== null).map((child) => (child instanceof Node ? child : String(child))));
+  element.append(
+    ...children.filter((child) => child !== null).map((child) => (child instanceof Node ? child : String(child))),
+  );
   return element;
 }
 
@@ -44,10 +46,11 @@ function make(tag, attributes = {}, ...children) {
  * @param {string} text
  * @returns {(Node | string)[]}
  */
-const rich = (text) => text.split(/(\*[^*]+\*|_[^_]+_)/).map((part) => {
-  if (/^\*.+\*$/.test(part)) return make("b", { class: "vector" }, part.slice(1, -1));
-  return /^_.+_$/.test(part) ? make("sub", {}, part.slice(1, -1)) : part;
-});
+const rich = (text) =>
+  text.split(/(\*[^*]+\*|_[^_]+_)/).map((part) => {
+    if (/^\*.+\*$/.test(part)) return make("b", { class: "vector" }, part.slice(1, -1));
+    return /^_.+_$/.test(part) ? make("sub", {}, part.slice(1, -1)) : part;
+  });
 
 /**
  * Makes an element of SVG.

@@ -44,7 +44,12 @@ async function drawAgain() {
     wanted = false;
     const { camera } = state;
     try {
-      const rendered = await engine.call("render", { camera, height: camera.height, width: camera.width, ...rulesNow() });
+      const rendered = await engine.call("render", {
+        camera,
+        height: camera.height,
+        width: camera.width,
+        ...rulesNow(),
+      });
       drawn = { ...rendered, height: camera.height, width: camera.width };
       framesDrawn++;
       if (troubleIsOfDrawing) showTrouble("");
@@ -71,7 +76,13 @@ async function countWork() {
   if (!camera || underWay) return;
   underWay = true;
   try {
-    const rendered = await engine.call("render", { camera, height: camera.height, width: camera.width, counts: true, ...rulesNow() });
+    const rendered = await engine.call("render", {
+      camera,
+      height: camera.height,
+      width: camera.width,
+      counts: true,
+      ...rulesNow(),
+    });
     if (camera === state.camera) {
       drawn = { ...rendered, height: camera.height, width: camera.width };
       tellDrawn();

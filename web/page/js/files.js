@@ -7,7 +7,9 @@ const LARGEST_FILE = 64 * 2 ** 20;
 /** @param {File} file */
 async function openFile(file) {
   if (file.size > LARGEST_FILE) {
-    showTrouble(`${file.name}: the file has ${grouped(file.size / 2 ** 20)} MiB, and this page reads at most ${LARGEST_FILE / 2 ** 20} MiB; the program bothways takes larger ones`);
+    showTrouble(
+      `${file.name}: the file has ${grouped(file.size / 2 ** 20)} MiB, and this page reads at most ${LARGEST_FILE / 2 ** 20} MiB; the program bothways takes larger ones`,
+    );
     return;
   }
   if (!/\.(obj|ply|toml)$/i.test(file.name)) {
@@ -25,13 +27,18 @@ async function openFile(file) {
 /** The built-in scenes, and the file that is open. */
 async function listScenes() {
   const scenes = await engine.call("scenes");
-  selectById("scene").replaceChildren(...scenes.map((/** @type {{name: string, title?: string, sentence?: string}} */ { name, sentence }) => make("option", { value: name, title: sentence ?? "" }, name)));
+  selectById("scene").replaceChildren(
+    ...scenes.map((/** @type {{name: string, title?: string, sentence?: string}} */ { name, sentence }) =>
+      make("option", { value: name, title: sentence ?? "" }, name),
+    ),
+  );
   showSceneChoice();
 }
 
 function showSceneChoice() {
   const select = selectById("scene");
-  if (![...select.options].some(({ value }) => value === state.scene)) select.append(make("option", { value: state.scene, "data-own": true }, state.scene));
+  if (![...select.options].some(({ value }) => value === state.scene))
+    select.append(make("option", { value: state.scene, "data-own": true }, state.scene));
   select.value = state.scene;
 }
 
@@ -67,6 +74,8 @@ function beginFiles() {
   watch(["scene", "own"], showSceneChoice);
   watch(["opened"], () => {
     const { opened } = state;
-    if (opened) byId("scene-text").textContent = `${opened.sentence ?? opened.name} (${counted(opened.objects, "object")}, ${counted(opened.primitives, "primitive")})`;
+    if (opened)
+      byId("scene-text").textContent =
+        `${opened.sentence ?? opened.name} (${counted(opened.objects, "object")}, ${counted(opened.primitives, "primitive")})`;
   });
 }

@@ -2,7 +2,10 @@
 // One order in the view of the steps: its pseudocode with the current line, its picture, its counters.
 
 /** The orders' names, and those by which everybody knows them. */
-const ORDERS = /** @type {const} */ ({ object: ["object order", "rasterization"], image: ["image order", "ray tracing"] });
+const ORDERS = /** @type {const} */ ({
+  object: ["object order", "rasterization"],
+  image: ["image order", "ray tracing"],
+});
 
 /** One half of the view. */
 class Half {
@@ -17,15 +20,32 @@ class Half {
     this.tally = make("dl", { class: "tally" });
     this.progress = make("span", { class: "number" });
     this.sheet = document.createElement("canvas");
-    this.root = make("section", { class: `half ${order}`, "aria-label": ORDERS[order][0] },
-      make("div", { class: "half-title" }, make("span", { class: `mark ${order === "object" ? "disc" : "square"}` }), make("b", {}, ORDERS[order][0]), make("span", { class: "quiet" }, ORDERS[order][1]), this.progress),
-      this.code, make("div", { class: "mat" }, this.canvas), this.words, this.tally);
+    this.root = make(
+      "section",
+      { class: `half ${order}`, "aria-label": ORDERS[order][0] },
+      make(
+        "div",
+        { class: "half-title" },
+        make("span", { class: `mark ${order === "object" ? "disc" : "square"}` }),
+        make("b", {}, ORDERS[order][0]),
+        make("span", { class: "quiet" }, ORDERS[order][1]),
+        this.progress,
+      ),
+      this.code,
+      make("div", { class: "mat" }, this.canvas),
+      this.words,
+      this.tally,
+    );
     this.done = 0;
     drawWhenShown(this.canvas, () => this.draw());
     this.canvas.addEventListener("click", (event) => {
       const box = this.canvas.getBoundingClientRect();
       const { size } = this.record ?? { size: 0 };
-      const place = /** @type {Pixel} */ ([event.clientY - box.top, event.clientX - box.left].map((at, axis) => Math.floor((at / (axis ? box.width : box.height)) * size)));
+      const place = /** @type {Pixel} */ (
+        [event.clientY - box.top, event.clientX - box.left].map((at, axis) =>
+          Math.floor((at / (axis ? box.width : box.height)) * size),
+        )
+      );
       const step = this.record?.firstAt(place);
       if (step !== null && step !== undefined) change({ step: step + 1 });
     });
@@ -34,7 +54,11 @@ class Half {
   /** @param {Recording | null} record */
   load(record) {
     this.record = record;
-    this.code.replaceChildren(...(record?.steps.pseudocode ?? []).map((line, number) => make("li", {}, make("span", {}, "  ".repeat(number % 4) + line), make("span", {}))));
+    this.code.replaceChildren(
+      ...(record?.steps.pseudocode ?? []).map((line, number) =>
+        make("li", {}, make("span", {}, "  ".repeat(number % 4) + line), make("span", {})),
+      ),
+    );
   }
 
   /** Shows the half after so many steps. @param {number} clock */
@@ -52,11 +76,16 @@ class Half {
     });
     this.words.textContent = last < 0 ? "Nothing is tested yet." : stepWords(steps, last);
     const { tests, covered, comparisons, boxes } = this.record.tally(this.done);
-    const rows = /** @type {[string, number][]} */ ([["tests", tests], ["covered", covered], ["comparisons", comparisons]]);
+    const rows = /** @type {[string, number][]} */ ([
+      ["tests", tests],
+      ["covered", covered],
+      ["comparisons", comparisons],
+    ]);
     if (state.method === "hierarchy" && this.order === "image") rows.push(["boxes", boxes]);
-    const size2 = this.record.size ** 2;
-    if (state.method !== "textbook" && finished && steps.kinds) rows.push(["pairs skipped", steps.kinds.length * size2 - tests]);
-    this.tally.replaceChildren(...rows.map(([label, value]) => make("div", {}, make("dt", {}, label), make("dd", {}, grouped(value)))));
+    if (finished && steps.skipped > 0) rows.push(["pairs skipped", steps.skipped]);
+    this.tally.replaceChildren(
+      ...rows.map(([label, value]) => make("div", {}, make("dt", {}, label), make("dd", {}, grouped(value)))),
+    );
     this.draw();
   }
 
@@ -71,7 +100,12 @@ class Half {
     const pixel = `pixel (${steps.row[step]}, ${steps.column[step]})`;
     const [outer, inner] = this.order === "object" ? [object, pixel] : [pixel, object];
     const affects = box ? "" : result === RESULT.none ? "no" : "yes";
-    const keep = result === RESULT.first || result === RESULT.nearer ? `object ${grouped(steps.object[step])}` : result === RESULT.behind ? "the one before" : "";
+    const keep =
+      result === RESULT.first || result === RESULT.nearer
+        ? `object ${grouped(steps.object[step])}`
+        : result === RESULT.behind
+          ? "the one before"
+          : "";
     return [outer, inner, affects, keep, lit === 4 ? `done after ${counted(steps.count, "step")}` : ""];
   }
 
@@ -90,7 +124,8 @@ class Half {
     context.fillStyle = colour("empty-other");
     context.fillRect(0, 0, width, width);
     context.fillStyle = colour("empty");
-    for (let row = 0; row < size; row++) for (let column = row % 2; column < size; column += 2) context.fillRect(column * cell, row * cell, cell, cell);
+    for (let row = 0; row < size; row++)
+      for (let column = row % 2; column < size; column += 2) context.fillRect(column * cell, row * cell, cell, cell);
     context.imageSmoothingEnabled = false;
     context.drawImage(this.sheet, 0, 0, width, width);
     if (cell >= 7) {
@@ -120,7 +155,13 @@ class Half {
     for (let asked = step; asked >= 0 && steps.object[asked] === steps.object[step]; asked--) {
       const radius = Math.min(cell * 0.09, 4);
       context.beginPath();
-      context.arc((steps.column[asked] + 0.5) * cell, (steps.row[asked] + 0.5) * cell, Math.max(radius, 1), 0, 2 * Math.PI);
+      context.arc(
+        (steps.column[asked] + 0.5) * cell,
+        (steps.row[asked] + 0.5) * cell,
+        Math.max(radius, 1),
+        0,
+        2 * Math.PI,
+      );
       context.globalAlpha = 0.8;
       context.fill();
     }
@@ -137,10 +178,14 @@ class Half {
     const { steps } = /** @type {Recording} */ (this.record);
     const [x, y] = [steps.column[step] * cell, steps.row[step] * cell];
     const outline = outlines.get(steps.object[step]);
-    if (outline && steps.result[step] !== RESULT.missed && steps.result[step] !== RESULT.entered) drawOutline(context, outline, cell, colour(this.order));
+    if (outline && steps.result[step] !== RESULT.missed && steps.result[step] !== RESULT.entered)
+      drawOutline(context, outline, cell, colour(this.order));
     if (this.order === "object") this.drawTrail(context, cell, step);
     const covered = steps.result[step] !== RESULT.none && steps.result[step] !== RESULT.missed;
-    for (const [line, ink] of /** @type {const} */ ([[7, "#000"], [3.5, "#f0e442"]])) {
+    for (const [line, ink] of /** @type {const} */ ([
+      [7, "#000"],
+      [3.5, "#f0e442"],
+    ])) {
       context.strokeStyle = ink;
       context.lineWidth = line;
       context.strokeRect(x, y, cell, cell);
@@ -165,7 +210,10 @@ class Half {
  */
 function drawOutline(context, outline, cell, ink) {
   context.lineJoin = "round";
-  for (const [line, pen] of /** @type {const} */ ([[4.5, "#000a"], [2, ink]])) {
+  for (const [line, pen] of /** @type {const} */ ([
+    [4.5, "#000a"],
+    [2, ink],
+  ])) {
     context.strokeStyle = pen;
     context.lineWidth = line;
     context.beginPath();

@@ -25,7 +25,10 @@ const KEYS = [
 
 /** Whether a key belongs to the field that has the focus. @param {EventTarget | null} target */
 function takesKeys(target) {
-  return target instanceof HTMLElement && target.matches("input:not([type=range], [type=radio], [type=checkbox]), select, textarea");
+  return (
+    target instanceof HTMLElement &&
+    target.matches("input:not([type=range], [type=radio], [type=checkbox]), select, textarea")
+  );
 }
 
 /** @param {KeyboardEvent} event */
@@ -59,8 +62,10 @@ function obeyStepKey(key, onControl) {
   else if (key === "." || key === ",") stepBy(key === "." ? 1 : -1);
   else if (key === ">" || key === "<" || key === ":" || key === ";") toMark(key === ">" || key === ":" ? 1 : -1);
   else if (key === "s") swapLoops();
-  else if (key === "m") change({ method: after(/** @type {const} */ (["textbook", "boxes", "hierarchy"]), state.method) });
-  else if (key === "1" || key === "2" || key === "3") change({ loops: /** @type {const} */ (["object", "image", "both"])[Number(key) - 1] });
+  else if (key === "m")
+    change({ method: after(/** @type {const} */ (["textbook", "boxes", "hierarchy"]), state.method) });
+  else if (key === "1" || key === "2" || key === "3")
+    change({ loops: /** @type {const} */ (["object", "image", "both"])[Number(key) - 1] });
   else return false;
   return true;
 }
@@ -89,7 +94,8 @@ function obeyLetter(key) {
   else if (key === "h" && view === "questions") giveHint();
   else if (key === "n" && (view === "questions" || view === "quiz")) change({ seed: newSeed() });
   else if (WITHOUT_SCENE.has(view)) return false;
-  else if (key === "r" && view === "outside") change({ rays: after(/** @type {const} */ (["one", "row", "column", "all"]), state.rays) });
+  else if (key === "r" && view === "outside")
+    change({ rays: after(/** @type {const} */ (["one", "row", "column", "all"]), state.rays) });
   else if (view === "break" && (key === "r" || key === "R")) nextRule(key === "r" ? "object" : "image");
   else if (key === "+" || key === "=") approach(1 / 1.12);
   else if (key === "-") approach(1.12);
@@ -104,7 +110,11 @@ function obeyLetter(key) {
 const byIdDialog = () => /** @type {HTMLDialogElement} */ (byId("keys"));
 
 function beginKeys() {
-  byId("keys-list").append(...KEYS.map(([keys, what]) => make("div", {}, make("dt", {}, ...keys.map((key) => make("kbd", {}, key))), make("dd", {}, what))));
+  byId("keys-list").append(
+    ...KEYS.map(([keys, what]) =>
+      make("div", {}, make("dt", {}, ...keys.map((key) => make("kbd", {}, key))), make("dd", {}, what)),
+    ),
+  );
   byId("keys-open").addEventListener("click", () => byIdDialog().showModal());
   document.addEventListener("keydown", obeyKey);
 }

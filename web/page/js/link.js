@@ -10,10 +10,13 @@ function fragment() {
   const view = viewOf(state.chapter);
   if (camera && opened && !WITHOUT_SCENE.has(view)) {
     const own = opened.camera;
-    for (const key of /** @type {const} */ (["eye", "direction", "up"])) if (String(camera[key]) !== String(own[key])) parts.set(key, camera[key].map(tidy).join(","));
-    for (const key of /** @type {const} */ (["vw", "vh", "d"])) if (camera[key] !== own[key]) parts.set(key, String(camera[key]));
+    for (const key of /** @type {const} */ (["eye", "direction", "up"]))
+      if (String(camera[key]) !== String(own[key])) parts.set(key, camera[key].map(tidy).join(","));
+    for (const key of /** @type {const} */ (["vw", "vh", "d"]))
+      if (camera[key] !== own[key]) parts.set(key, String(camera[key]));
     if (camera.projection !== own.projection) parts.set("projection", camera.projection);
-    if (camera.height !== own.height || camera.width !== own.width) parts.set("image", `${camera.height},${camera.width}`);
+    if (camera.height !== own.height || camera.width !== own.width)
+      parts.set("image", `${camera.height},${camera.width}`);
     if (pixel) parts.set("pixel", pixel.join(","));
   }
   if (view === "loops") {
@@ -22,7 +25,8 @@ function fragment() {
     parts.set("step", String(state.step));
   }
   if (view === "outside") parts.set("rays", state.rays);
-  if (view === "break") for (const key of /** @type {const} */ (["objectRule", "imageRule"])) if (state[key]) parts.set(key, state[key]);
+  if (view === "break")
+    for (const key of /** @type {const} */ (["objectRule", "imageRule"])) if (state[key]) parts.set(key, state[key]);
   if (view === "questions" && state.question) parts.set("question", state.question);
   if (view === "questions" || view === "quiz") parts.set("seed", String(state.seed));
   return `#${parts.toString().replaceAll("%2C", ",").replaceAll("%3A", ":")}`;
@@ -57,7 +61,8 @@ async function followLink() {
   const chapter = chapterOf(parts.get("chapter") ?? "algorithms");
   /** @type {Partial<State>} */
   const patch = { chapter: chapter.id, step: 0, ...chapter.state };
-  const oneOf = (/** @type {string} */ key, /** @type {string[]} */ values) => values.find((value) => value === parts.get(key));
+  const oneOf = (/** @type {string} */ key, /** @type {string[]} */ values) =>
+    values.find((value) => value === parts.get(key));
   const loops = oneOf("loops", ["object", "image", "both"]);
   if (loops) patch.loops = /** @type {State["loops"]} */ (loops);
   const method = oneOf("method", ["textbook", "boxes", "hierarchy"]);
@@ -68,7 +73,8 @@ async function followLink() {
   if ([8, 12, 16, 24, 32, 48, 64].includes(size)) patch.stepsSize = size;
   if (/^\d+$/.test(parts.get("step") ?? "")) patch.step = Number(parts.get("step"));
   if (/^\d+$/.test(parts.get("seed") ?? "")) patch.seed = Number(parts.get("seed"));
-  if (parts.has("chapter") && chapter.view === "break") Object.assign(patch, { objectRule: parts.get("objectRule") ?? "", imageRule: parts.get("imageRule") ?? "" });
+  if (parts.has("chapter") && chapter.view === "break")
+    Object.assign(patch, { objectRule: parts.get("objectRule") ?? "", imageRule: parts.get("imageRule") ?? "" });
   if (parts.get("question")) patch.question = parts.get("question") ?? "";
   change(patch);
   /** @type {Partial<Camera>} */
@@ -91,7 +97,10 @@ async function followLink() {
   const isFile = /\.(obj|ply|toml)$/i.test(scene);
   const own = state.own && state.scene === scene;
   if (own && state.opened) change({ camera: patched(state.opened.camera, camera) });
-  else if (isFile || !(await openScene({ name: scene }, { camera, byHand: Boolean(parts.get("scene")) && scene !== chapter.scene }))) {
+  else if (
+    isFile ||
+    !(await openScene({ name: scene }, { camera, byHand: Boolean(parts.get("scene")) && scene !== chapter.scene }))
+  ) {
     if (!state.opened) await openScene({ name: "lecture" });
     showTrouble(`the link is about the scene ${scene}: open that file, or drop it on this page`);
   }

@@ -14,7 +14,7 @@ const loopsAreShown = () => viewOf(state.chapter) === "loops";
 
 /** Records the loops, if they were not. */
 async function record() {
-  if (!loopsAreShown() || !state.camera || !state.opened) return;
+  if (!loopsAreShown() || !state.camera || !state.opened || sceneIsOpening) return;
   const size = state.stepsSize;
   const camera = { ...state.camera, height: size, width: size, vw: state.camera.vh };
   const wantedFor = JSON.stringify([state.scene, camera, state.method]);
@@ -22,7 +22,13 @@ async function record() {
   recordedFor = wantedFor;
   try {
     // One after the other: a worker has one thread.
-    const object = await engine.call("steps", { order: "object", kind: state.method, height: size, width: size, camera });
+    const object = await engine.call("steps", {
+      order: "object",
+      kind: state.method,
+      height: size,
+      width: size,
+      camera,
+    });
     const image = await engine.call("steps", { order: "image", kind: state.method, height: size, width: size, camera });
     if (wantedFor !== recordedFor) return;
     halves.object.load(new Recording(object, size));
@@ -30,7 +36,7 @@ async function record() {
     outlines = await findOutlines(camera, size);
     if (wantedFor !== recordedFor) return;
     clockEnd = Math.max(object.count, image.count);
-    noteSteps("");
+    noteSteps(METHOD_NOTES[state.method]);
   } catch (error) {
     clockEnd = 0;
     halves.object.load(null);
@@ -58,6 +64,15 @@ async function findOutlines(camera, size) {
     return new Map();
   }
 }
+
+/** What each order skips. */
+const METHOD_NOTES = {
+  textbook: "",
+  boxes:
+    "Object order asks only for the pixels within an object's bounding box. Image order has no use for that: it still tests every pair.",
+  hierarchy:
+    "Object order keeps to bounding boxes. Image order walks a hierarchy of boxes, and skips all that is in a box that its ray misses.",
+};
 
 /** @param {string} text */
 function noteSteps(text) {
@@ -103,8 +118,13 @@ function stepBy(by) {
 /** The next place at which an object or a row begins. @param {1 | -1} way */
 function toMark(way) {
   stopPlaying();
-  const marks = shownOrders().flatMap((order) => [...(halves[order].record?.steps.marks ?? [])]).sort((one, other) => one - other);
-  const next = way > 0 ? marks.find((mark) => mark > state.step) ?? clockEnd : marks.filter((mark) => mark < state.step).pop() ?? 0;
+  const marks = shownOrders()
+    .flatMap((order) => [...(halves[order].record?.steps.marks ?? [])])
+    .sort((one, other) => one - other);
+  const next =
+    way > 0
+      ? (marks.find((mark) => mark > state.step) ?? clockEnd)
+      : (marks.filter((mark) => mark < state.step).pop() ?? 0);
   change({ step: next });
 }
 
@@ -169,11 +189,21 @@ function swapLoops() {
       if (lessMotion.matches) return;
       const items = [...halves[to].code.children];
       const here = items.map((item) => item.getBoundingClientRect().top);
-      [[0, 1], [1, 0]].forEach(([now, before]) => {
+      [
+        [0, 1],
+        [1, 0],
+      ].forEach(([now, before]) => {
         const shift = places[before] - here[now];
         // They pass each other: the one that moves up swings out to the right.
         const [indent, swing] = now === 0 ? [1.1, 3] : [-1.1, -0.5];
-        items[now].animate([{ transform: `translate(${indent}em, ${shift}px)` }, { transform: `translate(${swing}em, ${shift / 2}px)` }, { transform: "none" }], { duration: 1000, easing: "ease-in-out" });
+        items[now].animate(
+          [
+            { transform: `translate(${indent}em, ${shift}px)` },
+            { transform: `translate(${swing}em, ${shift / 2}px)` },
+            { transform: "none" },
+          ],
+          { duration: 1000, easing: "ease-in-out" },
+        );
       });
       halves[to].canvas.animate([{ opacity: 0.25 }, { opacity: 1 }], { duration: 900 });
     });
@@ -188,7 +218,9 @@ function beginLoops() {
   byId("halves").append(halves.object.root, halves.image.root);
   onChoice("loops", (value) => change({ loops: /** @type {State["loops"]} */ (value) }));
   onChoice("method", (value) => change({ method: /** @type {State["method"]} */ (value) }));
-  selectById("steps-size").addEventListener("change", (event) => change({ stepsSize: Number(/** @type {HTMLSelectElement} */ (event.target).value) }));
+  selectById("steps-size").addEventListener("change", (event) =>
+    change({ stepsSize: Number(/** @type {HTMLSelectElement} */ (event.target).value) }),
+  );
   byId("swap").addEventListener("click", swapLoops);
   byId("play").addEventListener("click", togglePlaying);
   byId("to-start").addEventListener("click", () => stepBy(-clockEnd));

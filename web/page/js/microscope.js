@@ -30,7 +30,10 @@ async function look() {
 }
 
 /** @param {string} symbol @param {...(string | Node)} lines */
-const definition = (symbol, ...lines) => [make("dt", {}, ...rich(symbol)), make("dd", {}, ...lines.map((line) => (typeof line === "string" ? make("span", {}, ...rich(line)) : line)))];
+const definition = (symbol, ...lines) => [
+  make("dt", {}, ...rich(symbol)),
+  make("dd", {}, ...lines.map((line) => (typeof line === "string" ? make("span", {}, ...rich(line)) : line))),
+];
 
 /**
  * The lecture's formulas with this camera's numbers. The lecture counts from 1, the page from 0.
@@ -45,15 +48,47 @@ function showRay(report, camera) {
   /** @param {string} text */
   const value = (text) => make("span", { class: "value" }, text);
   byId("ray").replaceChildren(
-    make("p", { class: "quiet" }, `Pixel (${report.pixel.join(", ")}) of ${height} rows and ${width} columns. The lecture counts from 1, so i = ${i} and j = ${j} in its formulas.`),
-    make("dl", { class: "formula" },
-      ...definition("x", `= vw ((j − ½)/W − ½) = ${short(camera.vw)} ((${j} − ½)/${width} − ½)`, value(`= ${whole(x)}`)),
-      ...definition("y", `= −vh ((i − ½)/H − ½) = −${short(camera.vh)} ((${i} − ½)/${height} − ½)`, value(`= ${whole(y)}`)),
+    make(
+      "p",
+      { class: "quiet" },
+      `Pixel (${report.pixel.join(", ")}) of ${height} rows and ${width} columns. The lecture counts from 1, so i = ${i} and j = ${j} in its formulas.`,
+    ),
+    make(
+      "dl",
+      { class: "formula" },
+      ...definition(
+        "x",
+        `= vw ((j − ½)/W − ½) = ${short(camera.vw)} ((${j} − ½)/${width} − ½)`,
+        value(`= ${whole(x)}`),
+      ),
+      ...definition(
+        "y",
+        `= −vh ((i − ½)/H − ½) = −${short(camera.vh)} ((${i} − ½)/${height} − ½)`,
+        value(`= ${whole(y)}`),
+      ),
       ...(perspective
-        ? [...definition("*p*", "= eye", value(`= ${vectorText(report.eye, 9)}`)), ...definition("*d*", `= x *u* + y *v* − d *w*, with d = ${short(camera.d)}`, value(`= ${vectorText(direction, 9)}`))]
-        : [...definition("*p*", "= eye + x *u* + y *v*", value(`= ${vectorText(add(report.eye, origin), 9)}`)), ...definition("*d*", "= −*w*", value(`= ${vectorText(direction, 9)}`))]),
-      ...definition("*r*(t)", "= *p* + t *d*, with t > 0")),
-    make("p", { class: report.agree ? "right" : "wrong" }, report.agree ? `Both orders saw ${report.at[0].object_order.id === null ? "nothing" : `id ${report.at[0].object_order.id}`} here, which is what is nearest.` : "The orders did not both see what is nearest."));
+        ? [
+            ...definition("*p*", "= eye", value(`= ${vectorText(report.eye, 9)}`)),
+            ...definition(
+              "*d*",
+              `= x *u* + y *v* − d *w*, with d = ${short(camera.d)}`,
+              value(`= ${vectorText(direction, 9)}`),
+            ),
+          ]
+        : [
+            ...definition("*p*", "= eye + x *u* + y *v*", value(`= ${vectorText(add(report.eye, origin), 9)}`)),
+            ...definition("*d*", "= −*w*", value(`= ${vectorText(direction, 9)}`)),
+          ]),
+      ...definition("*r*(t)", "= *p* + t *d*, with t > 0"),
+    ),
+    make(
+      "p",
+      { class: report.agree ? "right" : "wrong" },
+      report.agree
+        ? `Both orders saw ${report.at[0].object_order.id === null ? "nothing" : `id ${report.at[0].object_order.id}`} here, which is what is nearest.`
+        : "The orders did not both see what is nearest.",
+    ),
+  );
 }
 
 /** All that the ray meets, on an axis of t. @param {PixelReport} report */
@@ -69,27 +104,66 @@ function showAlong(report) {
   /** @param {number} t */
   const at = (t) => left + (t / most) * (width - left - right);
   const letters = { "font-size": 15, fill: "currentColor" };
-  const picture = makeSvg("svg", { viewBox: `0 0 ${width} ${height}`, class: "axis", role: "img", "aria-label": `Along the ray: ${covering.map(({ id, t }) => `id ${id} at t = ${short(t)}`).join(", ")}` },
+  const picture = makeSvg(
+    "svg",
+    {
+      viewBox: `0 0 ${width} ${height}`,
+      class: "axis",
+      role: "img",
+      "aria-label": `Along the ray: ${covering.map(({ id, t }) => `id ${id} at t = ${short(t)}`).join(", ")}`,
+    },
     makeSvg("line", { x1: at(0), y1: 52, x2: width - 6, y2: 52, stroke: "currentColor", "stroke-width": 1.5 }),
-    makeSvg("path", { d: `M${width - 14} 46 L${width - 4} 52 L${width - 14} 58`, fill: "none", stroke: "currentColor", "stroke-width": 1.5 }),
+    makeSvg("path", {
+      d: `M${width - 14} 46 L${width - 4} 52 L${width - 14} 58`,
+      fill: "none",
+      stroke: "currentColor",
+      "stroke-width": 1.5,
+    }),
     makeSvg("circle", { cx: at(0), cy: 52, r: 5, fill: colour("camera") }),
-    makeSvg("text", { x: at(0) - 4, y: 80, ...letters }, "t = 0"));
+    makeSvg("text", { x: at(0) - 4, y: 80, ...letters }, "t = 0"),
+  );
   let taken = -Infinity;
   covering.forEach(({ id, t }, place) => {
     const x = at(t);
-    picture.append(makeSvg("line", { x1: x, y1: place === 0 ? 30 : 40, x2: x, y2: place === 0 ? 74 : 64, stroke: place === 0 ? colour("good") : "currentColor", "stroke-width": place === 0 ? 4 : 1.5 }));
+    picture.append(
+      makeSvg("line", {
+        x1: x,
+        y1: place === 0 ? 30 : 40,
+        x2: x,
+        y2: place === 0 ? 74 : 64,
+        stroke: place === 0 ? colour("good") : "currentColor",
+        "stroke-width": place === 0 ? 4 : 1.5,
+      }),
+    );
     const text = `id ${id}`;
     if (x - taken > 44) {
       const middle = { "text-anchor": "middle", x: clamp(x, 24, width - 40) };
-      picture.append(makeSvg("text", { ...middle, y: 22, ...letters, "font-weight": place === 0 ? 650 : 400 }, text), makeSvg("text", { ...middle, y: 91, ...letters, "font-size": 13 }, short(t, 4)));
+      picture.append(
+        makeSvg("text", { ...middle, y: 22, ...letters, "font-weight": place === 0 ? 650 : 400 }, text),
+        makeSvg("text", { ...middle, y: 91, ...letters, "font-size": 13 }, short(t, 4)),
+      );
       taken = x;
     }
   });
   const rows = covering.map(({ id, object, kind, t, behind }, place) =>
-    make("tr", {}, make("th", { scope: "row" }, `id ${grouped(id)}`), make("td", {}, `${kind}, object ${object}`), make("td", {}, `t = ${short(t, 10)}`),
-      make("td", { class: place === 0 ? "right" : "quiet" }, place === 0 ? "seen" : String(behind ?? "farther"))));
-  holder.replaceChildren(picture, make("div", { class: "edges", role: "region", "aria-label": "Along the ray", tabindex: 0 }, make("table", {}, make("tbody", {}, ...rows.slice(0, 12)))),
-    rows.length > 12 ? make("p", { class: "quiet" }, `and ${rows.length - 12} more`) : make("span"));
+    make(
+      "tr",
+      {},
+      make("th", { scope: "row" }, `id ${grouped(id)}`),
+      make("td", {}, `${kind}, object ${object}`),
+      make("td", {}, `t = ${short(t, 10)}`),
+      make("td", { class: place === 0 ? "right" : "quiet" }, place === 0 ? "seen" : String(behind ?? "farther")),
+    ),
+  );
+  holder.replaceChildren(
+    picture,
+    make(
+      "div",
+      { class: "edges", role: "region", "aria-label": "Along the ray", tabindex: 0 },
+      make("table", {}, make("tbody", {}, ...rows.slice(0, 12))),
+    ),
+    rows.length > 12 ? make("p", { class: "quiet" }, `and ${rows.length - 12} more`) : make("span"),
+  );
 }
 
 /** The edge functions of the triangles that cover or touch the sample. @param {SampleReport} sample */
@@ -100,14 +174,35 @@ function showEdges({ covering, touching }) {
     holder.replaceChildren(make("p", { class: "quiet" }, "No triangle covers or touches this sample."));
     return;
   }
-  const head = make("tr", {}, ...["", "E_ab_", "E_bc_", "E_ca_", "facing F", ""].map((text) => (text ? make("th", { scope: "col" }, ...rich(text)) : make("td"))));
+  const head = make(
+    "tr",
+    {},
+    ...["", "E_ab_", "E_bc_", "E_ca_", "facing F", ""].map((text) =>
+      text ? make("th", { scope: "col" }, ...rich(text)) : make("td"),
+    ),
+  );
   const rows = flat.slice(0, 10).map((triangle) => {
     const covers = covering.includes(triangle);
-    return make("tr", {}, make("th", { scope: "row" }, `id ${grouped(triangle.id)}`), ...edgeCells(triangle.edges), make("td", { class: covers ? "right" : "quiet" }, covers ? "covers" : "only touches"));
+    return make(
+      "tr",
+      {},
+      make("th", { scope: "row" }, `id ${grouped(triangle.id)}`),
+      ...edgeCells(triangle.edges),
+      make("td", { class: covers ? "right" : "quiet" }, covers ? "covers" : "only touches"),
+    );
   });
   holder.replaceChildren(
-    make("p", { class: "quiet" }, "A triangle covers a sample if its edge functions have the sign of its facing F. Where one is 0, the sample is moved infinitely little to the right, and far less down: left and top edges own it."),
-    make("div", { class: "edges", role: "region", "aria-label": "Edge functions", tabindex: 0 }, make("table", {}, make("thead", {}, head), make("tbody", {}, ...rows))));
+    make(
+      "p",
+      { class: "quiet" },
+      "A triangle covers a sample if its edge functions have the sign of its facing F. Where one is 0, the sample is moved infinitely little to the right, and far less down: left and top edges own it.",
+    ),
+    make(
+      "div",
+      { class: "edges", role: "region", "aria-label": "Edge functions", tabindex: 0 },
+      make("table", {}, make("thead", {}, head), make("tbody", {}, ...rows)),
+    ),
+  );
 }
 
 /**
@@ -118,18 +213,33 @@ function edgeCells({ values, on_edge: sides, decided, facing_value: facing }) {
   const cells = values.map((value, index) => {
     const side = sides[index];
     if (!side) return signCell(value);
-    return make("td", {}, make("span", { class: "tie" }, "0"), ` ${side} edge, nudged to `, make("span", { class: decided[index] > 0 ? "sign-plus" : "sign-minus" }, decided[index] > 0 ? "+" : "−"));
+    return make(
+      "td",
+      {},
+      make("span", { class: "tie" }, "0"),
+      ` ${side} edge, nudged to `,
+      make("span", { class: decided[index] > 0 ? "sign-plus" : "sign-minus" }, decided[index] > 0 ? "+" : "−"),
+    );
   });
   return [...cells, signCell(facing)];
 }
 
 /** @param {number} number */
-const signCell = (number) => make("td", {}, make("span", { class: number > 0 ? "sign-plus" : "sign-minus" }, number > 0 ? "+" : number < 0 ? "−" : ""), ` ${short(Math.abs(number))}`);
+const signCell = (number) =>
+  make(
+    "td",
+    {},
+    make("span", { class: number > 0 ? "sign-plus" : "sign-minus" }, number > 0 ? "+" : number < 0 ? "−" : ""),
+    ` ${short(Math.abs(number))}`,
+  );
 
 function showPixelFields() {
   if (!state.pixel || !state.camera) return;
   const [row, column] = state.pixel;
-  for (const [id, value, most] of /** @type {const} */ ([["pixel-row", row, state.camera.height - 1], ["pixel-column", column, state.camera.width - 1]])) {
+  for (const [id, value, most] of /** @type {const} */ ([
+    ["pixel-row", row, state.camera.height - 1],
+    ["pixel-column", column, state.camera.width - 1],
+  ])) {
     inputById(id).max = String(most);
     if (document.activeElement !== byId(id)) inputById(id).value = String(value);
   }
@@ -140,7 +250,8 @@ function beginMicroscope() {
     event.preventDefault();
     change({ pixel: [inputById("pixel-row").valueAsNumber, inputById("pixel-column").valueAsNumber] });
   });
-  for (const id of ["pixel-row", "pixel-column"]) byId(id).addEventListener("change", () => /** @type {HTMLFormElement} */ (byId("pixel-form")).requestSubmit());
+  for (const id of ["pixel-row", "pixel-column"])
+    byId(id).addEventListener("change", () => /** @type {HTMLFormElement} */ (byId("pixel-form")).requestSubmit());
   inputById("radius").addEventListener("input", lookAgain);
   watch(["pixel", "camera"], showPixelFields);
   watch(["pixel", "camera", "chapter", "scene"], lookAgain);

@@ -14,7 +14,12 @@ let magnified = null;
 /** @param {Neighbourhood} near @param {PixelReport} report */
 function showNeighbourhood(near, report) {
   const [{ covering, touching }] = report.at;
-  magnified = { near, pixel: report.pixel, nearest: covering[0]?.id ?? null, touching: new Set([...covering, ...touching].map(({ id }) => id)) };
+  magnified = {
+    near,
+    pixel: report.pixel,
+    nearest: covering[0]?.id ?? null,
+    touching: new Set([...covering, ...touching].map(({ id }) => id)),
+  };
   drawNeighbourhood();
 }
 
@@ -22,7 +27,12 @@ function drawNeighbourhood() {
   const prepared = magnified && prepareCanvas(canvasById("neighbourhood"));
   if (!prepared || !magnified) return;
   const { context, width } = prepared;
-  const { near, pixel: [row, column], nearest, touching } = magnified;
+  const {
+    near,
+    pixel: [row, column],
+    nearest,
+    touching,
+  } = magnified;
   const cells = 2 * near.radius + 1;
   const cell = width / cells;
   /** @param {number} x @param {number} y @returns {[number, number]} */
@@ -47,7 +57,9 @@ function drawNeighbourhood() {
   }
   context.stroke();
   // Those that the pixel is about are drawn last, and strongly.
-  const ordered = [...near.triangles].sort((one, other) => Number(touching.has(one.id)) - Number(touching.has(other.id)));
+  const ordered = [...near.triangles].sort(
+    (one, other) => Number(touching.has(one.id)) - Number(touching.has(other.id)),
+  );
   for (const { id, corners } of ordered) {
     const strong = touching.has(id);
     context.strokeStyle = id === nearest ? colour("good") : strong ? colour("bright") : colour("quiet");
@@ -71,7 +83,10 @@ function drawNeighbourhood() {
     context.stroke();
   }
   const [x, y] = place(column, row);
-  for (const [line, ink] of /** @type {const} */ ([[5, "#000c"], [2.5, "#f0e442"]])) {
+  for (const [line, ink] of /** @type {const} */ ([
+    [5, "#000c"],
+    [2.5, "#f0e442"],
+  ])) {
     context.strokeStyle = ink;
     context.lineWidth = line;
     context.strokeRect(x, y, cell, cell);
@@ -83,10 +98,19 @@ function beginNeighbourhood() {
   drawWhenShown(canvas, drawNeighbourhood);
   canvas.addEventListener("click", (event) => {
     if (!magnified || !state.camera) return;
-    const { near, pixel: [row, column] } = magnified;
+    const {
+      near,
+      pixel: [row, column],
+    } = magnified;
     const cell = canvas.clientWidth / (2 * near.radius + 1);
-    const [down, right] = [Math.floor(event.offsetY / cell) - near.radius, Math.floor(event.offsetX / cell) - near.radius];
-    const pixel = /** @type {Pixel} */ ([clamp(row + down, 0, state.camera.height - 1), clamp(column + right, 0, state.camera.width - 1)]);
+    const [down, right] = [
+      Math.floor(event.offsetY / cell) - near.radius,
+      Math.floor(event.offsetX / cell) - near.radius,
+    ];
+    const pixel = /** @type {Pixel} */ ([
+      clamp(row + down, 0, state.camera.height - 1),
+      clamp(column + right, 0, state.camera.width - 1),
+    ]);
     change({ pixel });
   });
 }

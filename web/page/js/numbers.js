@@ -28,7 +28,10 @@ const grouped = (number) => Math.round(number).toLocaleString("en");
 function short(number, digits = 6) {
   if (!Number.isFinite(number)) return String(number);
   const rounded = Number(number.toPrecision(digits)) + 0;
-  const text = Math.abs(rounded) !== 0 && (Math.abs(rounded) < 1e-4 || Math.abs(rounded) >= 1e9) ? rounded.toExponential() : String(rounded);
+  const text =
+    Math.abs(rounded) !== 0 && (Math.abs(rounded) < 1e-4 || Math.abs(rounded) >= 1e9)
+      ? rounded.toExponential()
+      : String(rounded);
   return text.replaceAll("-", "−");
 }
 

@@ -15,14 +15,23 @@ const MOST_RAYS = { row: 40, column: 40, all: 12 };
 
 const askOutside = debounced(30, async () => {
   if (viewOf(state.chapter) !== "outside" || !state.camera || !state.pixel) return;
-  const { camera, pixel: [row, column] } = state;
+  const {
+    camera,
+    pixel: [row, column],
+  } = state;
   const wantedFor = JSON.stringify([state.scene, camera, row, column, state.rays]);
   if (wantedFor === outsideFor) return;
   outsideFor = wantedFor;
-  const which = { one: { row, column }, row: { row, most: MOST_RAYS.row }, column: { column, most: MOST_RAYS.column }, all: { all: MOST_RAYS.all } }[state.rays];
+  const which = {
+    one: { row, column },
+    row: { row, most: MOST_RAYS.row },
+    column: { column, most: MOST_RAYS.column },
+    all: { all: MOST_RAYS.all },
+  }[state.rays];
   try {
     const outside = await engine.call("outside", { camera });
     const { rays } = await engine.call("rays", { camera, ...which });
+    if (state.rays !== "one") rays.push(...(await engine.call("rays", { camera, row, column })).rays);
     if (wantedFor !== outsideFor) return;
     turnInto(outside, rays);
   } catch (error) {
@@ -32,7 +41,8 @@ const askOutside = debounced(30, async () => {
 });
 
 /** Where a ray that hits nothing is cut off. @param {Outside} outside */
-const farAway = (outside) => 1.5 * Math.max(lengthOf(subtract(outside.eye, pivot)), lengthOf(subtract(outside.eye, outside.corners[0])));
+const farAway = (outside) =>
+  1.5 * Math.max(lengthOf(subtract(outside.eye, pivot)), lengthOf(subtract(outside.eye, outside.corners[0])));
 
 /** @param {Outside} outside @param {ViewingRay} ray @returns {DrawnRay} */
 function drawnRay(outside, { row, column, origin, direction, point }) {
@@ -51,7 +61,10 @@ let turning = 0;
  */
 function turnInto(outside, rays) {
   const changedProjection = outsideNow && outsideNow.projection !== outside.projection && observedScene === state.scene;
-  stageBefore = changedProjection && outsideNow ? { outside: outsideNow, rays: raysNow.map((ray) => drawnRay(/** @type {Outside} */ (outsideNow), ray)) } : null;
+  stageBefore =
+    changedProjection && outsideNow
+      ? { outside: outsideNow, rays: raysNow.map((ray) => drawnRay(/** @type {Outside} */ (outsideNow), ray)) }
+      : null;
   outsideNow = outside;
   raysNow = rays;
   if (!observerNow || observedScene !== state.scene) observerNow = besideCamera(outside, pivot);
@@ -80,16 +93,31 @@ function drawOutside(part = 1) {
   let rays = raysNow.map((ray) => drawnRay(outside, ray));
   if (part < 1 && stageBefore) {
     const { outside: old, rays: oldRays } = stageBefore;
-    outside = { ...outside, projection: "parallel", corners: outside.corners.map((corner, index) => between(old.corners[index], corner, part)) };
+    outside = {
+      ...outside,
+      projection: "parallel",
+      corners: outside.corners.map((corner, index) => between(old.corners[index], corner, part)),
+    };
     // Between the two, rays are only drawn; what they would hit is not asked, and not shown.
     rays = rays.map((ray) => {
       const before = oldRays.find(({ row, column }) => row === ray.row && column === ray.column) ?? ray;
-      return { ...ray, origin: between(before.origin, ray.origin, part), end: between(before.end, ray.end, part), hit: false };
+      return {
+        ...ray,
+        origin: between(before.origin, ray.origin, part),
+        end: between(before.end, ray.end, part),
+        hit: false,
+      };
     });
   }
   drawObjects(context, map, outside, observerNow);
   drawRays(context, map, rays, state.rays === "one");
-  if (state.rays !== "one") drawRays(context, map, rays.filter(({ row, column }) => row === state.pixel?.[0] && column === state.pixel[1]), true);
+  if (state.rays !== "one")
+    drawRays(
+      context,
+      map,
+      rays.filter(({ row, column }) => row === state.pixel?.[0] && column === state.pixel[1]),
+      true,
+    );
   drawCamera(context, map, outside, state.camera, state.pixel);
 }
 
@@ -97,7 +125,10 @@ function tellRays() {
   const text = byId("outside-text");
   if (!state.camera || !outsideNow) return;
   const step = gridStep(state.camera);
-  const grid = step === 1 ? "The grid on the viewport is that of the pixels." : `The grid on the viewport has a line every ${step} pixels.`;
+  const grid =
+    step === 1
+      ? "The grid on the viewport is that of the pixels."
+      : `The grid on the viewport has a line every ${step} pixels.`;
   if (state.rays === "one" && raysNow.length === 1) {
     const [{ row, column, origin, direction, t, id }] = raysNow;
     text.textContent = `Pixel (${row}, ${column}): p = ${vectorText(origin)}, d = ${vectorText(direction)}. ${t === null ? "The ray hits nothing." : `It hits id ${id} at t = ${short(t)}.`} ${grid}`;
@@ -106,7 +137,8 @@ function tellRays() {
     text.textContent = `${counted(raysNow.length, "ray")}, of which ${hits} ${hits === 1 ? "hits" : "hit"} something. ${grid}`;
   }
   const omitted = outsideNow.omitted ?? 0;
-  if (omitted > 0) text.textContent += ` ${counted(omitted, "triangle")} of the scene ${omitted === 1 ? "is" : "are"} not drawn here.`;
+  if (omitted > 0)
+    text.textContent += ` ${counted(omitted, "triangle")} of the scene ${omitted === 1 ? "is" : "are"} not drawn here.`;
   say(text.textContent);
 }
 
@@ -144,14 +176,23 @@ function beginOutside() {
   };
   canvas.addEventListener("pointerup", release);
   canvas.addEventListener("pointercancel", release);
-  canvas.addEventListener("wheel", (event) => {
-    if (event.ctrlKey || !observerNow) return;
-    event.preventDefault();
-    observerNow.away *= 1.1 ** clamp(event.deltaY / 100, -3, 3);
-    drawOutside();
-  }, { passive: false });
+  canvas.addEventListener(
+    "wheel",
+    (event) => {
+      if (event.ctrlKey || !observerNow) return;
+      event.preventDefault();
+      observerNow.away *= 1.1 ** clamp(event.deltaY / 100, -3, 3);
+      drawOutside();
+    },
+    { passive: false },
+  );
   canvas.addEventListener("keydown", (event) => {
-    const arrows = /** @type {Record<string, [number, number]>} */ ({ ArrowUp: [0, 1], ArrowDown: [0, -1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] });
+    const arrows = /** @type {Record<string, [number, number]>} */ ({
+      ArrowUp: [0, 1],
+      ArrowDown: [0, -1],
+      ArrowLeft: [-1, 0],
+      ArrowRight: [1, 0],
+    });
     const arrow = arrows[event.key];
     if (arrow && event.shiftKey) turnObserver(arrow[0] * KEY_TURN, arrow[1] * KEY_TURN);
     else if (arrow) movePixel(-arrow[1], arrow[0]);

@@ -29,7 +29,9 @@ function fillSheet(kind, rgba, width, height) {
  */
 function paintPixels(canvas, rgba, width, height) {
   if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
-  const bytes = /** @type {Uint8ClampedArray<ArrayBuffer>} */ (rgba instanceof Uint8ClampedArray ? rgba : Uint8ClampedArray.from(rgba));
+  const bytes = /** @type {Uint8ClampedArray<ArrayBuffer>} */ (
+    rgba instanceof Uint8ClampedArray ? rgba : Uint8ClampedArray.from(rgba)
+  );
   canvas.getContext("2d", { willReadFrequently: true })?.putImageData(new ImageData(bytes, width, height), 0, 0);
 }
 
@@ -61,7 +63,10 @@ function frameOf(context, [row, column], across, down) {
   const least = 0.8 * letterSize();
   const [width, height] = [Math.max(across, least), Math.max(down, least)];
   const [x, y] = [(column + 0.5) * across, (row + 0.5) * down];
-  for (const [line, ink] of /** @type {const} */ ([[5, "#000c"], [2.5, "#f0e442"]])) {
+  for (const [line, ink] of /** @type {const} */ ([
+    [5, "#000c"],
+    [2.5, "#f0e442"],
+  ])) {
     context.strokeStyle = ink;
     context.lineWidth = line;
     context.strokeRect(x - width / 2, y - height / 2, width, height);
@@ -114,13 +119,23 @@ function movePixel(rows, columns) {
 }
 
 function beginPictures() {
-  const titles = { object: "Object order", image: "Image order", difference: "Difference", reasons: "Pixels that disagree" };
-  for (const canvas of /** @type {NodeListOf<HTMLCanvasElement>} */ (document.querySelectorAll("canvas[data-picture]"))) {
+  const titles = {
+    object: "Object order",
+    image: "Image order",
+    difference: "Difference",
+    reasons: "Pixels that disagree",
+  };
+  for (const canvas of /** @type {NodeListOf<HTMLCanvasElement>} */ (
+    document.querySelectorAll("canvas[data-picture]")
+  )) {
     const kind = /** @type {PictureKind} */ (canvas.dataset.picture);
     pictureCanvases.set(canvas, kind);
     canvas.tabIndex = 0;
     canvas.setAttribute("role", "application");
-    canvas.setAttribute("aria-label", `${titles[kind]}. Arrow keys choose a pixel, with Shift they turn the camera, plus and minus move it.`);
+    canvas.setAttribute(
+      "aria-label",
+      `${titles[kind]}. Arrow keys choose a pixel, with Shift they turn the camera, plus and minus move it.`,
+    );
     drawWhenShown(canvas, () => showPicture(canvas, kind));
     steer(canvas);
   }

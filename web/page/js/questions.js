@@ -3,7 +3,12 @@
 
 /** The problems of the lecture, in its order. */
 const QUESTION_KINDS = /** @type {const} */ ([
-  ["ray", "1  A viewing ray"], ["plane", "2  Intersect a plane"], ["eye", "3  The eye elsewhere"], ["viewport", "4  vh ≠ vw ≠ 1"], ["distance", "5  d ≠ 1"], ["frame", "6  A turned frame"],
+  ["ray", "1  A viewing ray"],
+  ["plane", "2  Intersect a plane"],
+  ["eye", "3  The eye elsewhere"],
+  ["viewport", "4  vh ≠ vw ≠ 1"],
+  ["distance", "5  d ≠ 1"],
+  ["frame", "6  A turned frame"],
 ]);
 
 /**
@@ -39,7 +44,10 @@ async function askQuestion() {
   byId("question-verdict").textContent = "";
   byId("question-hints").replaceChildren();
   buttonById("question-hint").disabled = question.hints.length === 0;
-  byId("question-text").replaceChildren(make("h3", {}, question.title), ...question.text.map((paragraph) => make("p", {}, paragraph)));
+  byId("question-text").replaceChildren(
+    make("h3", {}, question.title),
+    ...question.text.map((paragraph) => make("p", {}, paragraph)),
+  );
   byId("question-fields").replaceChildren(...fieldRows(question.fields));
 }
 
@@ -52,7 +60,16 @@ function fieldRows(fields) {
   const rows = new Map();
   for (const { name, label: text } of fields) {
     const [, vector, axis] = /^(.+) ([xyz])$/.exec(text) ?? [null, text, ""];
-    const input = make("input", { type: "text", inputmode: "text", autocomplete: "off", "data-field": name, "aria-label": text, spellcheck: "false", required: true, placeholder: axis || "−3/8" });
+    const input = make("input", {
+      type: "text",
+      inputmode: "text",
+      autocomplete: "off",
+      "data-field": name,
+      "aria-label": text,
+      spellcheck: "false",
+      required: true,
+      placeholder: axis || "−3/8",
+    });
     const row = rows.get(vector) ?? make("div", { class: "field" }, make("span", {}, vector));
     row.append(input);
     rows.set(vector, row);
@@ -69,8 +86,14 @@ async function checkQuestion(event) {
   const fields = questionFields();
   try {
     const kind = state.question || QUESTION_KINDS[0][0];
-    const { right, wrong = [], message = "" } = await engine.call("check", { kind, seed: state.seed, values: fields.map(({ value }) => value.trim()) });
-    fields.forEach((field, index) => (wrong.includes(index) ? field.setAttribute("aria-invalid", "true") : field.removeAttribute("aria-invalid")));
+    const {
+      right,
+      wrong = [],
+      message = "",
+    } = await engine.call("check", { kind, seed: state.seed, values: fields.map(({ value }) => value.trim()) });
+    fields.forEach((field, index) =>
+      wrong.includes(index) ? field.setAttribute("aria-invalid", "true") : field.removeAttribute("aria-invalid"),
+    );
     const verdict = byId("question-verdict");
     verdict.className = right ? "right" : "wrong";
     verdict.textContent = message || (right ? "Right." : "Not yet: look at what is marked.");
@@ -98,7 +121,10 @@ async function showAnswer() {
   const kind = state.question || QUESTION_KINDS[0][0];
   try {
     const place = { kind, seed: state.seed, camera };
-    answerPicture = { outside: await engine.call("outside", place), rays: (await engine.call("rays", { ...place, row, column })).rays };
+    answerPicture = {
+      outside: await engine.call("outside", place),
+      rays: (await engine.call("rays", { ...place, row, column })).rays,
+    };
   } catch {
     return;
   }
@@ -116,12 +142,21 @@ function drawAnswer() {
   const observer = besideCamera(outside, target);
   const map = stageMap(observer, width, height);
   drawObjects(context, map, outside, observer);
-  drawRays(context, map, rays.map((ray) => drawnRay(outside, ray)), true);
+  drawRays(
+    context,
+    map,
+    rays.map((ray) => drawnRay(outside, ray)),
+    true,
+  );
   drawCamera(context, map, outside, question.camera, [question.row ?? 0, question.column ?? 0]);
 }
 
 function beginQuestions() {
-  byId("question-kinds").append(...QUESTION_KINDS.map(([value, text]) => make("label", {}, make("input", { type: "radio", name: "question", value }), make("span", {}, text))));
+  byId("question-kinds").append(
+    ...QUESTION_KINDS.map(([value, text]) =>
+      make("label", {}, make("input", { type: "radio", name: "question", value }), make("span", {}, text)),
+    ),
+  );
   onChoice("question", (value) => change({ question: value }));
   byId("question-form").addEventListener("submit", checkQuestion);
   byId("question-hint").addEventListener("click", giveHint);

@@ -17,14 +17,27 @@ async function askQuiz(seed) {
   if (!quiz) return;
   quizAnswered = false;
   byId("quiz-answer").textContent = "";
-  byId("quiz-choices").replaceChildren(...quiz.choices.map((text, index) => make("label", {}, make("input", { type: "radio", name: "quiz", value: index, required: true }), make("span", {}, text))));
+  byId("quiz-choices").replaceChildren(
+    ...quiz.choices.map((text, index) =>
+      make(
+        "label",
+        {},
+        make("input", { type: "radio", name: "quiz", value: index, required: true }),
+        make("span", {}, text),
+      ),
+    ),
+  );
   drawQuiz();
 }
 
 function drawQuiz() {
   if (!quiz) return;
   const { width, height } = quiz;
-  for (const [id, { rgba }] of /** @type {const} */ ([["quiz-truth", quiz.truth], ["quiz-drawn", quiz.renderer], ["quiz-difference", quiz.difference]])) {
+  for (const [id, { rgba }] of /** @type {const} */ ([
+    ["quiz-truth", quiz.truth],
+    ["quiz-drawn", quiz.renderer],
+    ["quiz-difference", quiz.difference],
+  ])) {
     const canvas = canvasById(id);
     canvas.style.setProperty("--form", String(width / height));
     canvas.style.imageRendering = "pixelated";

@@ -2,7 +2,8 @@
 // Saves what is shown as PNG: the chapter with its pictures, numbers and words, as it stands on the page.
 
 /** Where an element is left out of the picture: controls say nothing there. */
-const NOT_SAVED = ".camera, .transport .row, #chapter-scene, #count-offer, .loop-choices, #pixel-form, .unseen, dialog, [hidden]";
+const NOT_SAVED =
+  ".camera, .transport .row, #chapter-scene, #count-offer, .loop-choices, #pixel-form, .unseen, dialog, [hidden]";
 
 /**
  * A copy of the chapter that needs nothing but itself: canvases have become images.
@@ -24,7 +25,8 @@ function standAlone(original) {
     if (field instanceof HTMLInputElement && source instanceof HTMLInputElement) {
       field.setAttribute("value", source.value);
       field.toggleAttribute("checked", source.checked);
-    } else if (field instanceof HTMLSelectElement) [...field.options].forEach((option) => option.toggleAttribute("selected", option.value === source.value));
+    } else if (field instanceof HTMLSelectElement)
+      [...field.options].forEach((option) => option.toggleAttribute("selected", option.value === source.value));
   });
   copy.querySelectorAll(`${NOT_SAVED}, .still`).forEach((element) => element.remove());
   return copy;
@@ -57,7 +59,7 @@ async function chapterAsPicture() {
   probe.remove();
   const { theme } = document.documentElement.dataset;
   const size = letterSize();
-  const style = `${styleText().replaceAll(":root[data-theme=\"dark\"]", ".page-root[data-theme=\"dark\"]").replaceAll(":root", ".page-root").replaceAll("rem", "em")}
+  const style = `${styleText().replaceAll(':root[data-theme="dark"]', '.page-root[data-theme="dark"]').replaceAll(":root", ".page-root").replaceAll("rem", "em")}
     .page-root { background: var(--ground); color: var(--bright); font: 400 ${size}px/1.45 var(--text); }`;
   root.className = "page-root";
   if (theme) root.dataset.theme = theme;
@@ -78,7 +80,9 @@ async function chapterAsPicture() {
 
 /** The canvases of the view side by side, for browsers that do not let a page read what it draws of HTML. */
 function canvasesAlone() {
-  const shown = [.../** @type {NodeListOf<HTMLCanvasElement>} */ (document.querySelectorAll(".view:not([hidden]) .mat > canvas"))].filter((canvas) => canvas.offsetParent !== null && canvas.width > 0);
+  const shown = [
+    .../** @type {NodeListOf<HTMLCanvasElement>} */ (document.querySelectorAll(".view:not([hidden]) .mat > canvas")),
+  ].filter((canvas) => canvas.offsetParent !== null && canvas.width > 0);
   const gap = 24;
   const sheet = document.createElement("canvas");
   sheet.width = shown.reduce((sum, canvas) => sum + canvas.width + gap, gap);

@@ -1,6 +1,9 @@
 // @ts-check
 // Opens scenes, and moves their camera.
 
+/** Whether a scene is being opened: what is recorded of the old one would be of no use. */
+let sceneIsOpening = false;
+
 /** The pivot about which the camera turns. */
 let pivot = /** @type {Vector} */ ([0, 0, 0]);
 
@@ -14,18 +17,25 @@ async function openScene(what, { byHand = false, camera = {} } = {}) {
   const own = "file" in what;
   /** @type {Opened} */
   let opened;
+  sceneIsOpening = true;
   try {
     opened = await engine.call("open", what);
   } catch (error) {
     showTrouble(messageOf(error));
     say(messageOf(error));
     return false;
+  } finally {
+    sceneIsOpening = false;
   }
   showTrouble(opened.warnings.join("\n"));
   pivot = pivotOf(opened.camera);
   const started = patched(opened.camera, camera);
   change({
-    opened, own, byHand: byHand || state.byHand, scene: own ? what.file.name : opened.name, camera: started,
+    opened,
+    own,
+    byHand: byHand || state.byHand,
+    scene: own ? what.file.name : opened.name,
+    camera: started,
     pixel: pixelWithin(started, state.pixel),
   });
   say(`scene ${state.scene} is open`);
@@ -44,7 +54,8 @@ function pixelWithin({ height, width }, pixel) {
 }
 
 /** What the scene's camera looks at, or a point before it. @param {Camera} camera @returns {Vector} */
-const pivotOf = ({ eye, direction, look_at: target }) => target ?? add(eye, scaled(unit(direction), Math.max(lengthOf(eye), 4)));
+const pivotOf = ({ eye, direction, look_at: target }) =>
+  target ?? add(eye, scaled(unit(direction), Math.max(lengthOf(eye), 4)));
 
 /**
  * The camera with other values. Where it stands or looks elsewhere, direction and up say so, and no longer what it looked at.
@@ -62,7 +73,8 @@ function patched(camera, patch) {
 function moveCamera(patch) {
   if (!state.camera) return;
   const camera = patched(state.camera, patch);
-  for (const key of /** @type {const} */ (["eye", "direction", "up"])) camera[key] = /** @type {Vector} */ (camera[key].map(tidy));
+  for (const key of /** @type {const} */ (["eye", "direction", "up"]))
+    camera[key] = /** @type {Vector} */ (camera[key].map(tidy));
   for (const key of /** @type {const} */ (["vw", "vh", "d"])) camera[key] = tidy(camera[key]);
   change({ camera, pixel: pixelWithin(camera, state.pixel) });
 }
@@ -107,7 +119,16 @@ function cameraBack() {
 /** The lecture's first camera. Its viewport is 1 by 1, so the image becomes as wide as it is high. */
 function canonicalCamera() {
   if (!state.camera) return;
-  moveCamera({ eye: [0, 0, 0], direction: [0, 0, -1], up: [0, 1, 0], vw: 1, vh: 1, d: 1, projection: "perspective", width: state.camera.height });
+  moveCamera({
+    eye: [0, 0, 0],
+    direction: [0, 0, -1],
+    up: [0, 1, 0],
+    vw: 1,
+    vh: 1,
+    d: 1,
+    projection: "perspective",
+    width: state.camera.height,
+  });
   say("the canonical camera: eye at the origin, looking down the negative z axis");
 }
 

@@ -6,9 +6,14 @@ const EDGE_ROWS = 12;
 const EDGE_COLUMNS = 16;
 
 /** The corners, in raster coordinates; the edge from the first to the third is shared. @type {[number, number][]} */
-const corners = [[3.5, 2.5], [13.5, 1.5], [12.5, 10.5], [2.5, 9.5]];
+const corners = [
+  [3.5, 2.5],
+  [13.5, 1.5],
+  [12.5, 10.5],
+  [2.5, 9.5],
+];
 let chosenCorner = 0;
-/** @type {{owners: Uint8Array, ties?: any[]} | null} */
+/** @type {{owners: ArrayLike<number>, ties: [number, number, string, string][]} | null} */
 let owned = null;
 let askedFor = "";
 let ownUnderWay = false;
@@ -25,7 +30,11 @@ async function askOwners() {
   ownUnderWay = true;
   askedFor = wantedFor;
   try {
-    owned = await engine.call("own", { vertices: corners.map((corner) => [...corner]), height: EDGE_ROWS, width: EDGE_COLUMNS });
+    owned = await engine.call("own", {
+      vertices: corners.map((corner) => [...corner]),
+      height: EDGE_ROWS,
+      width: EDGE_COLUMNS,
+    });
   } catch (error) {
     showTrouble(messageOf(error));
   }
@@ -37,25 +46,63 @@ async function askOwners() {
 function showOwners() {
   drawOwners();
   if (!owned) return;
+  const owners = Array.from(owned.owners);
   const counts = [0, 0, 0, 0];
-  for (const owner of owned.owners) counts[owner]++;
-  const rows = /** @type {[string, number][]} */ ([["of the first triangle alone", counts[1]], ["of the second triangle alone", counts[2]], ["of both", counts[3]], ["of neither", counts[0]]]);
-  /** @type {HTMLElement} */ (byId("owners").querySelector("tbody")).replaceChildren(...rows.map(([label, value]) => make("tr", {}, make("th", { scope: "row" }, label), make("td", {}, grouped(value)))));
-  const ties = owned.ties?.length ?? 0;
-  const folded = sidesOfShared();
-  const text = folded
-    ? `Both triangles lie on the same side of their shared edge, so they overlap: ${counted(counts[3], "sample")} of both.`
-    : counts[3] === 0
-      ? `No sample belongs to both. ${ties ? `${counted(ties, "sample")} ${ties === 1 ? "lies" : "lie"} exactly on the shared edge, and each has exactly one owner.` : "No sample lies exactly on the shared edge now: move a vertex to the middle of a pixel."}`
-      : `${counted(counts[3], "sample")} ${counts[3] === 1 ? "belongs" : "belong"} to both.`;
+  for (const owner of owners) counts[owner]++;
+  const rows = /** @type {[string, number][]} */ ([
+    ["of the first triangle alone", counts[1]],
+    ["of the second triangle alone", counts[2]],
+    ["of both", counts[3]],
+    ["of neither", counts[0]],
+  ]);
+  /** @type {HTMLElement} */ (byId("owners").querySelector("tbody")).replaceChildren(
+    ...rows.map(([label, value]) =>
+      make("tr", {}, make("th", { scope: "row" }, label), make("td", {}, grouped(value))),
+    ),
+  );
   const verdict = byId("owners-verdict");
+  const [text, isRight] = ownersText(
+    counts[3],
+    owned.ties.map(([row, column]) => owners[row * EDGE_COLUMNS + column]),
+  );
   verdict.textContent = text;
-  verdict.className = folded ? "" : counts[3] === 0 ? "right" : "wrong";
+  verdict.className = isRight === null ? "" : isRight ? "right" : "wrong";
   say(text);
 }
 
+/**
+ * What is true of the samples, in words, and whether it is as it should be: `null` where the triangles overlap.
+ * @param {number} both  Samples of both triangles.
+ * @param {number[]} ties  The owners of the samples that lie on edges of both.
+ * @returns {[string, boolean | null]}
+ */
+function ownersText(both, ties) {
+  if (foldsOver()) {
+    return [
+      `Both triangles lie on the same side of their shared edge, so they overlap: ${counted(both, "sample")} of both.`,
+      null,
+    ];
+  }
+  if (both > 0) return [`${counted(both, "sample")} ${both === 1 ? "belongs" : "belong"} to both.`, false];
+  if (ties.length === 0) {
+    return [
+      "No sample belongs to both, and none lies exactly on the shared edge now: move a vertex to the middle of a pixel.",
+      true,
+    ];
+  }
+  const single = ties.filter((owner) => owner === 1 || owner === 2).length;
+  const none = ties.length - single;
+  const corner =
+    none === 0 ? "" : ` ${counted(none, "sample")} at its end ${none === 1 ? "belongs" : "belong"} to neither.`;
+  const lie = `${counted(ties.length, "sample")} ${ties.length === 1 ? "lies" : "lie"} exactly on the shared edge`;
+  return [
+    `No sample belongs to both. ${lie}: ${single} ${single === 1 ? "has" : "have"} exactly one owner.${corner}`,
+    true,
+  ];
+}
+
 /** Whether the two triangles lie on the same side of the edge that they share, as the picture shows it. */
-function sidesOfShared() {
+function foldsOver() {
   const [a, b, c, d] = corners;
   /** @param {number[]} p */
   const side = (p) => (c[0] - a[0]) * (p[1] - a[1]) - (c[1] - a[1]) * (p[0] - a[0]);
@@ -71,7 +118,7 @@ function drawOwners() {
   context.fillStyle = colour("mat");
   context.fillRect(0, 0, width, height);
   const fills = ["", colour("object"), colour("image"), colour("bad")];
-  owned?.owners.forEach((owner, index) => {
+  Array.from(owned?.owners ?? []).forEach((owner, index) => {
     if (!owner) return;
     const [row, column] = [Math.floor(index / EDGE_COLUMNS), index % EDGE_COLUMNS];
     context.globalAlpha = 0.3;
@@ -91,7 +138,10 @@ function drawOwners() {
   context.stroke();
   drawSamples(context, cell);
   const [a, b, c, d] = corners.map(([x, y]) => /** @type {[number, number]} */ ([x * cell, y * cell]));
-  for (const [ink, points] of /** @type {[string, [number, number][]][]} */ ([[colour("object"), [a, b, c]], [colour("image"), [a, c, d]]])) {
+  for (const [ink, points] of /** @type {[string, [number, number][]][]} */ ([
+    [colour("object"), [a, b, c]],
+    [colour("image"), [a, c, d]],
+  ])) {
     context.strokeStyle = ink;
     context.lineWidth = 2.5;
     context.beginPath();
@@ -155,7 +205,10 @@ function drawSamples(context, cell) {
 /** @param {number} x @param {number} y */
 function moveCorner(x, y) {
   const grid = inputById("snap").checked ? 4 : 64;
-  corners[chosenCorner] = [clamp(Math.round(x * grid) / grid, 0, EDGE_COLUMNS), clamp(Math.round(y * grid) / grid, 0, EDGE_ROWS)];
+  corners[chosenCorner] = [
+    clamp(Math.round(x * grid) / grid, 0, EDGE_COLUMNS),
+    clamp(Math.round(y * grid) / grid, 0, EDGE_ROWS),
+  ];
   showCorner();
   askOwners();
 }
@@ -172,7 +225,10 @@ function beginSharedEdge() {
   /** @type {number | null} */
   let held = null;
   /** @param {PointerEvent} event @returns {[number, number]} */
-  const under = (event) => [event.offsetX / edgeScale(canvas.clientWidth), event.offsetY / edgeScale(canvas.clientWidth)];
+  const under = (event) => [
+    event.offsetX / edgeScale(canvas.clientWidth),
+    event.offsetY / edgeScale(canvas.clientWidth),
+  ];
   canvas.addEventListener("pointerdown", (event) => {
     if (event.button !== 0 || held !== null) return;
     const [x, y] = under(event);
@@ -196,7 +252,12 @@ function beginSharedEdge() {
   canvas.addEventListener("pointerup", release);
   canvas.addEventListener("pointercancel", release);
   canvas.addEventListener("keydown", (event) => {
-    const arrows = /** @type {Record<string, [number, number]>} */ ({ ArrowUp: [0, -1], ArrowDown: [0, 1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] });
+    const arrows = /** @type {Record<string, [number, number]>} */ ({
+      ArrowUp: [0, -1],
+      ArrowDown: [0, 1],
+      ArrowLeft: [-1, 0],
+      ArrowRight: [1, 0],
+    });
     const arrow = arrows[event.key];
     const step = inputById("snap").checked ? 0.25 : 1 / 64;
     if (arrow) moveCorner(corners[chosenCorner][0] + arrow[0] * step, corners[chosenCorner][1] + arrow[1] * step);
@@ -213,7 +274,9 @@ function beginSharedEdge() {
     drawOwners();
   });
   for (const id of ["vertex-x", "vertex-y"]) {
-    byId(id).addEventListener("change", () => moveCorner(inputById("vertex-x").valueAsNumber || 0, inputById("vertex-y").valueAsNumber || 0));
+    byId(id).addEventListener("change", () =>
+      moveCorner(inputById("vertex-x").valueAsNumber || 0, inputById("vertex-y").valueAsNumber || 0),
+    );
   }
   drawWhenShown(canvas, drawOwners);
   watch(["chapter"], () => requestAnimationFrame(askOwners));

@@ -20,7 +20,10 @@
  */
 function besideCamera(outside, target) {
   const { eye, u, v, w } = outside;
-  const size = Math.max(lengthOf(subtract(eye, target)), ...outside.corners.map((corner) => lengthOf(subtract(corner, eye))));
+  const size = Math.max(
+    lengthOf(subtract(eye, target)),
+    ...outside.corners.map((corner) => lengthOf(subtract(corner, eye))),
+  );
   const from = unit(add(add(scaled(u, 0.78), scaled(v, 0.42)), scaled(w, 0.46)));
   return { centre: between(eye, target, 0.5), from, up: v, away: 1.75 * size };
 }
@@ -84,18 +87,23 @@ function drawObjects(context, map, outside, observer) {
     const lit = 0.45 + 0.55 * Math.abs(dot(unit(cross(subtract(b, a), subtract(c, a))), light));
     const ink = `rgb(${[0, 1, 2].map((channel) => Math.round(colours[3 * place + channel] * lit)).join(" ")})`;
     const depth = map.depth(a) + map.depth(b) + map.depth(c);
-    items.push({ depth: depth / 3, draw: () => {
-      context.beginPath();
-      context.moveTo(...map.project(a));
-      context.lineTo(...map.project(b));
-      context.lineTo(...map.project(c));
-      context.closePath();
-      context.fillStyle = context.strokeStyle = ink;
-      context.fill();
-      context.stroke();
-    } });
+    items.push({
+      depth: depth / 3,
+      draw: () => {
+        context.beginPath();
+        context.moveTo(...map.project(a));
+        context.lineTo(...map.project(b));
+        context.lineTo(...map.project(c));
+        context.closePath();
+        context.fillStyle = context.strokeStyle = ink;
+        context.fill();
+        context.stroke();
+      },
+    });
   }
-  for (const sphere of outside.spheres) if (map.isBefore(sphere.center)) items.push({ depth: map.depth(sphere.center), draw: () => drawSphere(context, map, sphere) });
+  for (const sphere of outside.spheres)
+    if (map.isBefore(sphere.center))
+      items.push({ depth: map.depth(sphere.center), draw: () => drawSphere(context, map, sphere) });
   context.lineWidth = 0.6;
   for (const { draw } of items.sort((one, other) => one.depth - other.depth)) draw();
 }
@@ -127,7 +135,10 @@ function drawPlane(context, map, { point, normal, colour: ink }, { centre, away 
   context.lineWidth = 1;
   context.beginPath();
   for (let step = -6; step <= 6; step++) {
-    for (const [one, two] of [[side, other], [other, side]]) {
+    for (const [one, two] of [
+      [side, other],
+      [other, side],
+    ]) {
       const middle = add(foot, scaled(one, (step / 6) * reach));
       const line = map.line(add(middle, scaled(two, -reach)), add(middle, scaled(two, reach)));
       if (!line) continue;
@@ -148,9 +159,21 @@ function drawPlane(context, map, { point, normal, colour: ink }, { centre, away 
  * @param {Pixel | null} pixel
  */
 function drawCamera(context, map, outside, image, pixel) {
-  const { eye, u, v, w, corners: [topLeft, topRight, bottomRight, bottomLeft], projection } = outside;
+  const {
+    eye,
+    u,
+    v,
+    w,
+    corners: [topLeft, topRight, bottomRight, bottomLeft],
+    projection,
+  } = outside;
   /** A point of the viewport, by its place in the image. @param {number} row @param {number} column */
-  const at = (row, column) => between(between(topLeft, topRight, column / image.width), between(bottomLeft, bottomRight, column / image.width), row / image.height);
+  const at = (row, column) =>
+    between(
+      between(topLeft, topRight, column / image.width),
+      between(bottomLeft, bottomRight, column / image.width),
+      row / image.height,
+    );
   const ink = colour("camera");
   /** @param {Vector} a @param {Vector} b */
   const line = (a, b) => {
@@ -161,7 +184,9 @@ function drawCamera(context, map, outside, image, pixel) {
   };
   if ([topLeft, topRight, bottomRight, bottomLeft].every(map.isBefore)) {
     context.beginPath();
-    [topLeft, topRight, bottomRight, bottomLeft].forEach((corner, index) => context[index ? "lineTo" : "moveTo"](...map.project(corner)));
+    [topLeft, topRight, bottomRight, bottomLeft].forEach((corner, index) =>
+      context[index ? "lineTo" : "moveTo"](...map.project(corner)),
+    );
     context.closePath();
     context.fillStyle = ink;
     context.globalAlpha = 0.16;
@@ -194,7 +219,12 @@ function drawCamera(context, map, outside, image, pixel) {
   }
   if (pixel) drawChosen(context, map, at, pixel, step);
   const length = 0.55 * lengthOf(subtract(topLeft, bottomRight)) + 0.12 * lengthOf(subtract(eye, topLeft));
-  for (const [axis, letter] of /** @type {[Vector, string][]} */ ([[u, "u"], [v, "v"], [w, "w"]])) drawArrow(context, map, eye, add(eye, scaled(axis, length)), letter, ink);
+  for (const [axis, letter] of /** @type {[Vector, string][]} */ ([
+    [u, "u"],
+    [v, "v"],
+    [w, "w"],
+  ]))
+    drawArrow(context, map, eye, add(eye, scaled(axis, length)), letter, ink);
   if (map.isBefore(eye)) {
     const [x, y] = map.project(eye);
     context.beginPath();
@@ -208,12 +238,20 @@ function drawCamera(context, map, outside, image, pixel) {
 }
 
 /** Pixels between two lines of the grid: all that the eye can still tell apart. @param {{height: number, width: number}} image */
-const gridStep = ({ height, width }) => [1, 2, 4, 5, 8, 10, 16, 20, 32, 40, 64, 80, 120, 160, 240, 320].find((step) => Math.max(height, width) / step <= 24) ?? 640;
+const gridStep = ({ height, width }) =>
+  [1, 2, 4, 5, 8, 10, 16, 20, 32, 40, 64, 80, 120, 160, 240, 320].find(
+    (step) => Math.max(height, width) / step <= 24,
+  ) ?? 640;
 
 /** @param {CanvasRenderingContext2D} context @param {StageMap} map @param {(row: number, column: number) => Vector} at @param {Pixel} pixel @param {number} step */
 function drawChosen(context, map, at, [row, column], step) {
   const half = Math.max(0.5, step * 0.25);
-  const points = [[-1, -1], [-1, 1], [1, 1], [1, -1]].map(([down, right]) => at(row + 0.5 + down * half, column + 0.5 + right * half));
+  const points = [
+    [-1, -1],
+    [-1, 1],
+    [1, 1],
+    [1, -1],
+  ].map(([down, right]) => at(row + 0.5 + down * half, column + 0.5 + right * half));
   if (!points.every(map.isBefore)) return;
   context.beginPath();
   points.forEach((point, index) => context[index ? "lineTo" : "moveTo"](...map.project(point)));
@@ -241,9 +279,19 @@ function drawArrow(context, map, from, to, letter, ink) {
   context.stroke();
   context.beginPath();
   context.moveTo(a, b);
-  for (const turn of [2.65, -2.65]) context.lineTo(a + head * Math.cos(angle + turn), b + head * Math.sin(angle + turn));
+  for (const turn of [2.65, -2.65])
+    context.lineTo(a + head * Math.cos(angle + turn), b + head * Math.sin(angle + turn));
   context.fill();
-  if (long > 6) label(context, letter, a + letterSize() * 0.8 * Math.cos(angle), b + letterSize() * 0.8 * Math.sin(angle) + 0.3 * letterSize(), ink, "center", "italic 600");
+  if (long > 6)
+    label(
+      context,
+      letter,
+      a + letterSize() * 0.8 * Math.cos(angle),
+      b + letterSize() * 0.8 * Math.sin(angle) + 0.3 * letterSize(),
+      ink,
+      "center",
+      "italic 600",
+    );
 }
 
 /** @param {CanvasRenderingContext2D} context @param {string} text @param {number} x @param {number} y @param {string} ink @param {CanvasTextAlign} align */

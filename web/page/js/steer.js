@@ -43,13 +43,17 @@ function steer(canvas) {
     readOut(state.pixel);
     touchReason(state.pixel);
   });
-  canvas.addEventListener("wheel", (event) => {
-    // With Control the browser zooms the page.
-    if (event.ctrlKey) return;
-    event.preventDefault();
-    const lines = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? event.deltaY / 100 : event.deltaY / 3;
-    approach(1.12 ** clamp(lines, -3, 3));
-  }, { passive: false });
+  canvas.addEventListener(
+    "wheel",
+    (event) => {
+      // With Control the browser zooms the page.
+      if (event.ctrlKey) return;
+      event.preventDefault();
+      const lines = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? event.deltaY / 100 : event.deltaY / 3;
+      approach(1.12 ** clamp(lines, -3, 3));
+    },
+    { passive: false },
+  );
   canvas.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     if (steerByKey(event.key, event.shiftKey)) event.preventDefault();
@@ -65,7 +69,12 @@ const KEY_TURN = Math.PI / 36;
  * @returns {boolean} whether the key is one of these
  */
 function steerByKey(key, shift) {
-  const arrows = /** @type {Record<string, [number, number]>} */ ({ ArrowUp: [-1, 0], ArrowDown: [1, 0], ArrowLeft: [0, -1], ArrowRight: [0, 1] });
+  const arrows = /** @type {Record<string, [number, number]>} */ ({
+    ArrowUp: [-1, 0],
+    ArrowDown: [1, 0],
+    ArrowLeft: [0, -1],
+    ArrowRight: [0, 1],
+  });
   const arrow = arrows[key];
   if (arrow && shift) orbit(arrow[1] * KEY_TURN, arrow[0] * KEY_TURN);
   else if (arrow) movePixel(...arrow);

@@ -16,7 +16,8 @@ class Recording {
     this.tallies = new Uint32Array(4 * (Math.floor(steps.count / STRIDE) + 1));
     const now = { tests: 0, covered: 0, comparisons: 0, boxes: 0 };
     for (let step = 0; step <= steps.count; step++) {
-      if (step % STRIDE === 0) this.tallies.set([now.tests, now.covered, now.comparisons, now.boxes], (4 * step) / STRIDE);
+      if (step % STRIDE === 0)
+        this.tallies.set([now.tests, now.covered, now.comparisons, now.boxes], (4 * step) / STRIDE);
       if (step < steps.count) count(now, steps.result[step]);
     }
   }
@@ -78,11 +79,16 @@ const objectWords = (steps, id) => `object ${grouped(id)}${steps.kinds ? `: ${st
 function stepWords(steps, step) {
   const result = steps.result[step];
   const pixel = `pixel (${steps.row[step]}, ${steps.column[step]})`;
-  if (result === RESULT.missed) return `The ray of ${pixel} misses box ${grouped(steps.node?.[step] ?? 0)}: all that is in it is skipped.`;
+  if (result === RESULT.missed)
+    return `The ray of ${pixel} misses box ${grouped(steps.node?.[step] ?? 0)}: all that is in it is skipped.`;
   if (result === RESULT.entered) return `The ray of ${pixel} enters box ${grouped(steps.node?.[step] ?? 0)}.`;
   const t = steps.t && Number.isFinite(steps.t[step]) ? ` at t = ${short(steps.t[step])}` : "";
   const subject = objectWords(steps, steps.object[step]);
   if (result === RESULT.none) return `Does ${subject} affect ${pixel}? No.`;
-  const outcome = { [RESULT.first]: "It is the first there, and is kept.", [RESULT.nearer]: "It is nearer than the one before, and replaces it.", [RESULT.behind]: "It lies behind the one before, which stays." }[result];
+  const outcome = {
+    [RESULT.first]: "It is the first there, and is kept.",
+    [RESULT.nearer]: "It is nearer than the one before, and replaces it.",
+    [RESULT.behind]: "It lies behind the one before, which stays.",
+  }[result];
   return `Does ${subject} affect ${pixel}? Yes${t}. ${outcome}`;
 }

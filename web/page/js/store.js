@@ -23,8 +23,22 @@
 
 /** @type {State} */
 const state = {
-  chapter: "algorithms", scene: "lecture", byHand: false, own: false, opened: null, camera: null, pixel: null,
-  loops: "both", method: "textbook", stepsSize: 16, step: 0, rays: "one", objectRule: "", imageRule: "", question: "", seed: 1,
+  chapter: "algorithms",
+  scene: "lecture",
+  byHand: false,
+  own: false,
+  opened: null,
+  camera: null,
+  pixel: null,
+  loops: "both",
+  method: "textbook",
+  stepsSize: 16,
+  step: 0,
+  rays: "one",
+  objectRule: "",
+  imageRule: "",
+  question: "",
+  seed: 1,
 };
 
 /** @type {{keys: (keyof State)[], listener: () => void}[]} */

@@ -3,9 +3,24 @@
 
 /** What the sliders can choose. */
 const TRIANGLES = [12, 48, 120, 300, 800, 2000, 5000, 12000, 30000, 80000, 200000];
-const IMAGES = [[30, 40], [60, 80], [120, 160], [180, 240], [240, 320], [360, 480], [480, 640]];
+const IMAGES = [
+  [30, 40],
+  [60, 80],
+  [120, 160],
+  [180, 240],
+  [240, 320],
+  [360, 480],
+  [480, 640],
+];
 
-/** @typedef {{counts: {label: string, object: number | null, image: number | null}[], steps: {object: number, image: number}, ms: {object: number, image: number}, triangles: number}} Cost */
+/**
+ * @typedef {object} Cost
+ * @property {{label: string, object: number | null, image: number | null}[]} counts
+ * @property {{object: number, image: number}} steps
+ * @property {{object: number, image: number}} ms
+ * @property {number} triangles  The mesh has about as many as were asked for.
+ * @property {number} textbook  Pairs of a triangle and a pixel: the steps of the textbooks.
+ */
 
 /** What was measured so far: by image, then by triangles. @type {Map<string, Map<number, Cost>>} */
 const costs = new Map();
@@ -31,7 +46,9 @@ async function measure() {
     if (viewOf(state.chapter) !== "work") break;
     const [image, chosen] = [chosenImage(), chosenTriangles()];
     const known = costsOf(image);
-    const next = [...TRIANGLES].sort((one, other) => Math.abs(Math.log(one / chosen)) - Math.abs(Math.log(other / chosen))).find((triangles) => !known.has(triangles) && (triangles === chosen || triangles <= 80000));
+    const next = [...TRIANGLES]
+      .sort((one, other) => Math.abs(Math.log(one / chosen)) - Math.abs(Math.log(other / chosen)))
+      .find((triangles) => !known.has(triangles) && (triangles === chosen || triangles <= 80000));
     if (next === undefined) break;
     try {
       known.set(next, await engine.call("work", { triangles: next, height: image[0], width: image[1] }));
@@ -46,7 +63,7 @@ async function measure() {
 
 function showWork() {
   const [image, chosen] = [chosenImage(), chosenTriangles()];
-  outputFor("work-triangles", grouped(chosen));
+  outputFor("work-triangles", grouped(costsOf(image).get(chosen)?.triangles ?? chosen));
   outputFor("work-pixels", `${image[1]} × ${image[0]}`);
   const cost = costsOf(image).get(chosen);
   fillCounts(byId("work-counts"), cost ? [...cost.counts, { label: "steps", ...cost.steps }] : []);
@@ -54,8 +71,14 @@ function showWork() {
   if (!cost) return;
   const { object, image: ray } = cost.steps;
   const [less, more] = object < ray ? ["Object order", "image order"] : ["Image order", "object order"];
-  const text = object === ray ? "Both orders take equally many steps." : `${less} takes fewer steps here: ${grouped(Math.min(object, ray))}, and ${more} ${grouped(Math.max(object, ray))}. A step is counted, so it is the same on every machine; it is no unit of time.`;
-  byId("chart-text").textContent = `${text} This frame: object order ${milliseconds(cost.ms.object)}, image order ${milliseconds(cost.ms.image)} in this browser.`;
+  const text =
+    object === ray
+      ? "Both orders take equally many steps."
+      : `${less} takes fewer steps here: ${grouped(Math.min(object, ray))}, and ${more} ${grouped(Math.max(object, ray))}. ` +
+        `The textbooks test every pair: ${grouped(cost.textbook)} steps. ` +
+        "A step is counted, so it is the same on every machine; it is no unit of time.";
+  byId("chart-text").textContent =
+    `${text} This frame: object order ${milliseconds(cost.ms.object)}, image order ${milliseconds(cost.ms.image)} in this browser.`;
   say(text);
 }
 
@@ -74,10 +97,12 @@ function drawChart() {
   const known = [...costsOf(chosenImage())].sort(([one], [other]) => one - other);
   const em = letterSize();
   const [left, right, top, bottom] = [6 * em, width - 1.2 * em, 1.2 * em, height - 3 * em];
-  const values = known.flatMap(([, { steps }]) => [steps.object, steps.image]).filter((value) => value > 0);
+  const values = known
+    .flatMap(([, { steps, textbook }]) => [steps.object, steps.image, textbook])
+    .filter((value) => value > 0);
   const least = Math.floor(Math.log10(Math.min(...values, 1e4)));
   const most = Math.ceil(Math.log10(Math.max(...values, 1e5)));
-  const [first, last] = [Math.log10(TRIANGLES[0]), Math.log10(TRIANGLES[TRIANGLES.length - 1])];
+  const [first, last] = [Math.log10(10), Math.log10(1.5 * TRIANGLES[TRIANGLES.length - 1])];
   /** @param {number} triangles */
   const x = (triangles) => left + ((Math.log10(triangles) - first) / (last - first)) * (right - left);
   /** @param {number} steps */
@@ -105,11 +130,37 @@ function drawChart() {
   context.setLineDash([3, 4]);
   rule(context, x(chosenTriangles()), top, x(chosenTriangles()), bottom);
   context.setLineDash([]);
+  drawTextbook(
+    context,
+    known.map(([, { triangles, textbook }]) => [x(triangles), y(textbook)]),
+  );
   const atEnd = known[known.length - 1]?.[1].steps;
   for (const order of /** @type {OrderName[]} */ (["object", "image"])) {
     const isHigher = atEnd ? atEnd[order] >= atEnd[order === "object" ? "image" : "object"] : true;
-    drawCurve(context, order, known.map(([triangles, { steps }]) => [x(triangles), y(Math.max(1, steps[order]))]), isHigher);
+    drawCurve(
+      context,
+      order,
+      known.map(([, { triangles, steps }]) => [x(triangles), y(Math.max(1, steps[order]))]),
+      isHigher,
+    );
   }
+}
+
+/** Both textbooks take the same steps: every pair. @param {CanvasRenderingContext2D} context @param {number[][]} points */
+function drawTextbook(context, points) {
+  context.strokeStyle = context.fillStyle = colour("quiet");
+  context.lineWidth = 1.5;
+  context.setLineDash([7, 5]);
+  context.beginPath();
+  points.forEach(([x, y], index) => context[index ? "lineTo" : "moveTo"](x, y));
+  context.stroke();
+  context.setLineDash([]);
+  const end = points[points.length - 1];
+  if (!end) return;
+  context.textAlign = "right";
+  context.textBaseline = "bottom";
+  context.font = `400 ${0.9 * letterSize()}px ${colour("text")}`;
+  context.fillText("every pair (textbooks)", end[0] - letterSize(), end[1]);
 }
 
 /** @param {CanvasRenderingContext2D} context @param {OrderName} order @param {number[][]} points @param {boolean} isHigher  Its name stands above, or below. */
@@ -138,7 +189,8 @@ function rule(context, x, y, a, b) {
 }
 
 /** @param {number} power */
-const grouped10 = (power) => (power < 6 ? grouped(10 ** power) : power < 9 ? `${grouped(10 ** (power - 6))} million` : `10^${power}`);
+const grouped10 = (power) =>
+  power < 6 ? grouped(10 ** power) : power < 9 ? `${grouped(10 ** (power - 6))} million` : `10^${power}`;
 
 function beginWork() {
   inputById("work-triangles").max = String(TRIANGLES.length - 1);
