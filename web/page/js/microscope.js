@@ -23,6 +23,9 @@ async function look() {
     showAlong(report);
     showEdges(report.at[0]);
     showNeighbourhood(near, report);
+    /** @type {HTMLElement} */ (document.querySelector("#pixel-prose pre")).textContent = (report.lines ?? []).join(
+      "\n",
+    );
   } catch (error) {
     lookedFor = "";
     showTrouble(messageOf(error));

@@ -96,7 +96,7 @@ function drawChart() {
   const { context, width, height } = prepared;
   const known = [...costsOf(chosenImage())].sort(([one], [other]) => one - other);
   const em = letterSize();
-  const [left, right, top, bottom] = [6 * em, width - 1.2 * em, 1.2 * em, height - 3 * em];
+  const [left, right, top, bottom] = [6 * em, width - 7.5 * em, 1.6 * em, height - 3 * em];
   const values = known
     .flatMap(([, { steps, textbook }]) => [steps.object, steps.image, textbook])
     .filter((value) => value > 0);
@@ -125,7 +125,8 @@ function drawChart() {
   }
   context.fillText("triangles", (left + right) / 2, bottom + 1.6 * em);
   context.textAlign = "left";
-  context.fillText("steps", left + 0.4 * em, top - 0.9 * em);
+  context.textBaseline = "bottom";
+  context.fillText("steps", left, top - 0.2 * em);
   context.strokeStyle = colour("bright");
   context.setLineDash([3, 4]);
   rule(context, x(chosenTriangles()), top, x(chosenTriangles()), bottom);
@@ -174,10 +175,11 @@ function drawCurve(context, order, points, isHigher) {
   for (const [x, y] of points) drawMark(context, order, x, y, 0.32 * em);
   const end = points[points.length - 1];
   if (!end) return;
-  context.textAlign = "right";
-  context.textBaseline = "bottom";
+  context.textAlign = "left";
+  context.textBaseline = "middle";
   context.font = `600 ${0.95 * em}px ${colour("text")}`;
-  context.fillText(ORDERS[order][0], end[0], end[1] + (isHigher ? -0.6 * em : 1.9 * em));
+  // Near each other, the names keep apart.
+  context.fillText(ORDERS[order][0], end[0] + 0.7 * em, end[1] + (isHigher ? -0.4 : 0.4) * em);
 }
 
 /** @param {CanvasRenderingContext2D} context @param {number} x @param {number} y @param {number} a @param {number} b */
@@ -188,9 +190,11 @@ function rule(context, x, y, a, b) {
   context.stroke();
 }
 
-/** @param {number} power */
-const grouped10 = (power) =>
-  power < 6 ? grouped(10 ** power) : power < 9 ? `${grouped(10 ** (power - 6))} million` : `10^${power}`;
+/** A power of ten in words. @param {number} power */
+function grouped10(power) {
+  const [words, less] = power < 6 ? ["", 0] : power < 9 ? [" million", 6] : [" billion", 9];
+  return `${grouped(10 ** (power - less))}${words}`;
+}
 
 function beginWork() {
   inputById("work-triangles").max = String(TRIANGLES.length - 1);
