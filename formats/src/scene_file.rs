@@ -168,7 +168,7 @@ pub fn read_text(path: &Path) -> Result<String, ReadSceneError> {
     let read =
         regular_file(path).and_then(|file| file.take(MOST_BYTES + 1).read_to_end(&mut bytes));
     match read {
-        Err(error) => return Err(ReadSceneError::Unreadable { file, error }),
+        Err(error) => Err(ReadSceneError::Unreadable { file, error }),
         Ok(_) => text(&file, bytes),
     }
 }

@@ -37,6 +37,17 @@ pub(crate) enum ProjectionJson {
     Parallel,
 }
 
+/// From where a message looks: a camera, and another size of its image. Without a camera it is the scene's own.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+pub(crate) struct From {
+    #[serde(default)]
+    camera: Option<CameraJson>,
+    #[serde(default)]
+    height: Option<u32>,
+    #[serde(default)]
+    width: Option<u32>,
+}
+
 /// What follows from a camera: its frame, and the middle of the viewport.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct FrameJson {
@@ -49,7 +60,7 @@ fn up() -> [f32; 3] {
     Vec3::Y.to_array()
 }
 
-impl From<Projection> for ProjectionJson {
+impl std::convert::From<Projection> for ProjectionJson {
     fn from(projection: Projection) -> Self {
         match projection {
             Projection::Perspective => ProjectionJson::Perspective,
@@ -58,7 +69,7 @@ impl From<Projection> for ProjectionJson {
     }
 }
 
-impl From<ProjectionJson> for Projection {
+impl std::convert::From<ProjectionJson> for Projection {
     fn from(projection: ProjectionJson) -> Self {
         match projection {
             ProjectionJson::Perspective => Projection::Perspective,
@@ -121,6 +132,47 @@ impl CameraJson {
             viewport: [self.vw, self.vh],
             image: [self.width, self.height],
         }
+    }
+}
+
+impl From {
+    /// The camera.
+    ///
+    /// # Errors
+    ///
+    /// A camera that is refused, in the words of the command line.
+    pub(crate) fn camera(&self, own: &CameraDescription) -> Result<Camera, String> {
+        let mut description = self.camera.as_ref().map_or(*own, CameraJson::description);
+        description.image[0] = self.width.unwrap_or(description.image[0]);
+        description.image[1] = self.height.unwrap_or(description.image[1]);
+        Camera::new(description).map_err(|error| error.to_string())
+    }
+}
+
+/// A pixel of a camera's image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+pub(crate) struct Pixel {
+    pub(crate) row: u32,
+    pub(crate) column: u32,
+}
+
+impl Pixel {
+    /// Makes sure that the image has the pixel.
+    ///
+    /// # Errors
+    ///
+    /// The text of the command line.
+    pub(crate) fn check(self, camera: &Camera) -> Result<Pixel, String> {
+        let (Pixel { row, column }, [width, height]) = (self, camera.image());
+        if row < height && column < width {
+            return Ok(self);
+        }
+        Err(format!(
+            "there is no pixel ({row}, {column}) in an image of {width}x{height}: the row goes from 0 to {}, the \
+             column from 0 to {}",
+            height - 1,
+            width - 1
+        ))
     }
 }
 

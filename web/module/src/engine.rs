@@ -1,7 +1,9 @@
 //! The open scene, and the list of all messages.
 
 use crate::answer::Answer;
-use crate::messages::{open, render, scenes};
+use crate::messages::{
+    open, outside, own, pixel, question, quiz, render, scenes, steps, why, work,
+};
 use crate::stage::Stage;
 use serde::de::DeserializeOwned;
 
@@ -35,6 +37,26 @@ impl Engine {
             "open" => open::answer(self, &parsed(name, arguments)?, file),
             "camera" => open::camera(self, &parsed(name, arguments)?),
             "render" => render::answer(self.stage()?, &parsed(name, arguments)?),
+            "steps" => steps::answer(self.stage()?, &parsed(name, arguments)?),
+            "pixel" => pixel::answer(self.stage()?, &parsed(name, arguments)?),
+            "neighbourhood" => pixel::neighbourhood(self.stage()?, &parsed(name, arguments)?),
+            "own" => own::answer(&parsed(name, arguments)?),
+            "outside" => match question::of_picture(arguments) {
+                Some(question) => Ok(question?.outside()),
+                None => outside::answer(self.stage()?, &parsed(name, arguments)?),
+            },
+            "rays" => match question::of_picture(arguments) {
+                Some(question) => question?.rays(),
+                None => outside::rays(self.stage()?, &parsed(name, arguments)?),
+            },
+            "rules" => Ok(why::rules()),
+            "why" => why::answer(self.stage()?, &parsed(name, arguments)?),
+            "reason" => why::reason(self.stage()?, &parsed(name, arguments)?),
+            "quiz" => quiz::quiz(&parsed(name, arguments)?),
+            "answer" => quiz::answer(&parsed(name, arguments)?),
+            "question" => question::question(&parsed(name, arguments)?),
+            "check" => question::check(&parsed(name, arguments)?),
+            "work" => work::answer(&parsed(name, arguments)?),
             _ => Err(format!("the page sent the message {name:?}, which the module does not know")),
         }
     }

@@ -1,6 +1,7 @@
 //! A scene with all that a moving camera would not repeat: what both orders prepared of it, and their frames.
 
 use bothways_lab::common::{Camera, Frame, Observer, Options, View};
+use bothways_lab::diff::why::PixelReason;
 use bothways_lab::orders::{Order, Rule};
 use bothways_lab::rules::{image_order, object_order};
 use bothways_lab::scenes::LoadedScene;
@@ -18,6 +19,8 @@ pub(crate) struct Stage {
     ordinary: Option<image_order::Prepared>,
     /// The last frames of object order and of image order.
     pub(crate) frames: [Frame; 2],
+    /// Why they differ, if that was the last question.
+    pub(crate) reasons: Vec<PixelReason>,
 }
 
 impl Stage {
@@ -34,6 +37,7 @@ impl Stage {
             ray_tracer: raytrace::fast::prepare(&loaded.scene),
             ordinary: None,
             frames: [frame.clone(), frame],
+            reasons: Vec::new(),
             camera,
             loaded,
         })
@@ -53,7 +57,7 @@ impl Stage {
         observer: &mut impl Observer,
     ) {
         let options = &Options::default();
-        let Stage { loaded, camera, rasterizer, ray_tracer, ordinary, frames } = self;
+        let Stage { loaded, camera, rasterizer, ray_tracer, ordinary, frames, .. } = self;
         let view = &View::new(&loaded.scene, camera);
         let frame = &mut frames[order as usize];
         match (order, rule) {

@@ -1,34 +1,36 @@
 //! `render`: both orders from one camera, their difference, and the verdict.
 
 use crate::answer::{Answer, Buffer, entry};
-use crate::camera::{CameraJson, FrameJson};
+use crate::camera::{CameraJson, FrameJson, From};
 use crate::clock::timed;
 use crate::stage::Stage;
-use bothways_lab::common::{Camera, Frame, Work};
+use bothways_lab::common::{Frame, Work};
 use bothways_lab::diff::{self, Comparison};
 use bothways_lab::orders::{Order, Rule};
 use bothways_lab::picture::{color_of_id, picture};
 use bothways_lab::report::WorkReport;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, json};
+use std::str::FromStr;
 
-/// How to render.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "camelCase")]
-pub(crate) struct Render {
-    /// The camera; the last one if there is none.
-    #[serde(default)]
-    camera: Option<CameraJson>,
-    /// Another size of the image than the camera's; the viewport stays.
-    #[serde(default)]
-    height: Option<u32>,
-    #[serde(default)]
-    width: Option<u32>,
+/// The rules of both orders.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct RuleNames {
     /// The rule of an ordinary renderer, as on the command line; exact without it.
     #[serde(default)]
     object_rule: Option<String>,
     #[serde(default)]
     image_rule: Option<String>,
+}
+
+/// How to render.
+#[derive(Debug, Deserialize)]
+pub(crate) struct Render {
+    #[serde(flatten)]
+    from: From,
+    #[serde(flatten)]
+    rules: RuleNames,
     #[serde(default)]
     look: Look,
     /// Whether the work is counted, in a separate frame.
@@ -74,8 +76,8 @@ struct Verdict {
 }
 
 pub(crate) fn answer(stage: &mut Stage, render: &Render) -> Result<Answer, String> {
-    stage.camera = camera(stage, render)?;
-    let rules = rules(render)?;
+    stage.camera = render.from.camera(&stage.loaded.camera)?;
+    let rules = render.rules.parsed()?;
     let mut parts = Map::new();
     entry(&mut parts, "camera", CameraJson::new(stage.camera.description()));
     entry(&mut parts, "frame", FrameJson::new(&stage.camera));
@@ -113,25 +115,21 @@ pub(crate) fn key(order: Order) -> &'static str {
     }
 }
 
-fn camera(stage: &Stage, render: &Render) -> Result<Camera, String> {
-    let last = || *stage.camera.description();
-    let mut description = render.camera.as_ref().map_or_else(last, CameraJson::description);
-    if let (Some(height), Some(width)) = (render.height, render.width) {
-        description.image = [width, height];
+impl RuleNames {
+    /// The rules of object order and of image order; `None` is exact.
+    ///
+    /// # Errors
+    ///
+    /// An unknown rule, in the words of the command line.
+    pub(crate) fn parsed(&self) -> Result<[Option<Rule>; 2], String> {
+        fn parsed<T: FromStr<Err: ToString>>(text: Option<&String>) -> Result<Option<T>, String> {
+            let given = text.filter(|text| *text != "exact" && !text.is_empty());
+            given.map(|text| text.parse().map_err(|error: T::Err| error.to_string())).transpose()
+        }
+        let object_order = parsed(self.object_rule.as_ref())?.map(Rule::Object);
+        let image_order = parsed(self.image_rule.as_ref())?.map(Rule::Image);
+        Ok([object_order, image_order])
     }
-    Camera::new(description).map_err(|error| error.to_string())
-}
-
-fn rules(render: &Render) -> Result<[Option<Rule>; 2], String> {
-    fn parsed<T: std::str::FromStr<Err: ToString>>(
-        text: Option<&String>,
-    ) -> Result<Option<T>, String> {
-        let given = text.filter(|text| *text != "exact" && !text.is_empty());
-        given.map(|text| text.parse().map_err(|error: T::Err| error.to_string())).transpose()
-    }
-    let object_order = parsed(render.object_rule.as_ref())?.map(Rule::Object);
-    let image_order = parsed(render.image_rule.as_ref())?.map(Rule::Image);
-    Ok([object_order, image_order])
 }
 
 /// The counted work of a separate frame.
@@ -149,7 +147,7 @@ fn shown(frame: &Frame, look: Look) -> Vec<u8> {
     }
 }
 
-fn opaque([red, green, blue]: [u8; 3]) -> [u8; 4] {
+pub(crate) fn opaque([red, green, blue]: [u8; 3]) -> [u8; 4] {
     [red, green, blue, u8::MAX]
 }
 
