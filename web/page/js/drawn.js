@@ -18,6 +18,11 @@ function onDrawn(listener) {
   drawnListeners.push(listener);
 }
 
+/** Ends the wait for the first picture, or for the reason why there is none. @type {() => void} */
+let endWait = () => {};
+/** @type {Promise<void>} */
+const firstAnswer = new Promise((resolve) => (endWait = resolve));
+
 let telling = false;
 
 /** Shows what was drawn with the next frame of the screen, while the worker draws on. */
@@ -27,6 +32,7 @@ function tellDrawn() {
   requestAnimationFrame(() => {
     telling = false;
     for (const listener of drawnListeners) listener();
+    endWait();
   });
 }
 
@@ -58,6 +64,7 @@ async function drawAgain() {
     } catch (error) {
       showTrouble(messageOf(error));
       troubleIsOfDrawing = true;
+      endWait();
     }
   }
   underWay = false;

@@ -22,9 +22,8 @@ async function begin() {
   beginKeys();
   beginDrawing();
   showChapter();
-  const first = new Promise((resolve) => onDrawn(() => resolve(undefined)));
   await followLink();
-  if (state.camera) await first;
+  if (state.camera) await firstAnswer;
   document.documentElement.dataset.running = "yes";
   showPictures();
   await listScenes();
