@@ -53,21 +53,45 @@ function showRules() {
 
 const askWhy = debounced(120, async () => {
   if (viewOf(state.chapter) !== "break" || !state.camera || !drawn) return;
-  const { camera } = state;
-  const wantedFor = JSON.stringify([state.scene, camera, rulesNow()]);
+  const wantedFor = JSON.stringify([state.scene, state.camera, rulesNow()]);
   if (wantedFor === whyFor) return;
   whyFor = wantedFor;
+  why = null;
+  const { objectRule, imageRule } = rulesNow();
+  buttonById("finder-ask").hidden = !objectRule && !imageRule;
+  byId("finder").textContent = "";
+  byId("reasons").replaceChildren(make("li", { class: "quiet" }, "The exact judge looks at each pixel that differs …"));
   try {
-    const answer = await engine.call("why", { camera, height: camera.height, width: camera.width, ...rulesNow() });
+    const answer = await engine.call("why", ruledPicture());
     if (wantedFor !== whyFor) return;
-    why = { ...answer, width: camera.width, height: camera.height };
+    why = { ...answer, width: state.camera.width, height: state.camera.height };
     showWhy();
   } catch (error) {
     whyFor = "";
-    why = null;
-    byId("finder").textContent = messageOf(error);
+    byId("reasons").replaceChildren(make("li", {}, messageOf(error)));
   }
 });
+
+/** The picture and the rules that a question is about. */
+function ruledPicture() {
+  const { camera } = state;
+  return { camera, height: camera?.height, width: camera?.width, ...rulesNow() };
+}
+
+/** What one convention would explain the whole picture? The search takes seconds, so it waits to be asked. */
+async function askFinder() {
+  const wantedFor = whyFor;
+  const holder = byId("finder");
+  holder.textContent = "It draws the picture under hundreds of conventions; this takes some seconds …";
+  buttonById("finder-ask").disabled = true;
+  try {
+    const { sentence } = await engine.call("finder", ruledPicture());
+    if (wantedFor === whyFor) holder.textContent = sentence;
+  } catch (error) {
+    holder.textContent = messageOf(error);
+  }
+  buttonById("finder-ask").disabled = false;
+}
 
 function showWhy() {
   if (!why || !drawn || drawn.width !== why.width || drawn.height !== why.height) return;
@@ -89,7 +113,7 @@ function showWhy() {
       return make("li", {}, swatch, reason, make("span", { class: "number quiet" }, counted(pixels, "pixel")));
     }),
   );
-  byId("finder").textContent = why.sentence ?? "";
+  if (why.sentence) byId("finder").textContent = why.sentence;
   touchReason(state.pixel);
 }
 
@@ -116,14 +140,7 @@ async function lookUpReason(key, [row, column]) {
   if (askingReason || !state.camera) return;
   askingReason = true;
   try {
-    const { sentence } = await engine.call("reason", {
-      row,
-      column,
-      camera: state.camera,
-      height: state.camera.height,
-      width: state.camera.width,
-      ...rulesNow(),
-    });
+    const { sentence } = await engine.call("reason", { row, column, ...ruledPicture() });
     if (key === touched && sentence) {
       byId("reason-text").textContent = `${seenAt([row, column])}. ${sentence}`;
       say(sentence);
@@ -145,6 +162,7 @@ function beginBreaking() {
       change({ [`${order}Rule`]: `${select.value.split(":")[0]}:${number.value || 0}` }),
     );
   }
+  byId("finder-ask").addEventListener("click", askFinder);
   byId("rule-scene").addEventListener("click", () => {
     const { scene } = byId("rule-scene").dataset;
     if (scene) openScene({ name: scene }).then(() => change({ byHand: false }));

@@ -73,7 +73,7 @@ async function followLink() {
   if ([8, 12, 16, 24, 32, 48, 64].includes(size)) patch.stepsSize = size;
   if (/^\d+$/.test(parts.get("step") ?? "")) patch.step = Number(parts.get("step"));
   if (/^\d+$/.test(parts.get("seed") ?? "")) patch.seed = Number(parts.get("seed"));
-  if (parts.has("chapter") && chapter.view === "break")
+  if (parts.has("scene") && chapter.view === "break")
     Object.assign(patch, { objectRule: parts.get("objectRule") ?? "", imageRule: parts.get("imageRule") ?? "" });
   if (parts.get("question")) patch.question = parts.get("question") ?? "";
   change(patch);

@@ -70,12 +70,16 @@ function turnInto(outside, rays) {
   if (!observerNow || observedScene !== state.scene) observerNow = besideCamera(outside, pivot);
   observedScene = state.scene;
   tellRays();
+  // A wider viewport needs more distance to be seen.
+  const [near, far] = [observerNow.away, Math.max(observerNow.away, 0.85 * besideCamera(outside, pivot).away)];
   const started = performance.now();
   const turn = ++turning;
   const step = (/** @type {number} */ now) => {
     if (turn !== turning) return;
     const part = stageBefore && !lessMotion.matches ? clamp((now - started) / 1100, 0, 1) : 1;
-    drawOutside(part * part * (3 - 2 * part));
+    const smooth = part * part * (3 - 2 * part);
+    if (observerNow && far > near) observerNow.away = near + (far - near) * smooth;
+    drawOutside(smooth);
     if (part < 1) requestAnimationFrame(step);
   };
   requestAnimationFrame(step);
@@ -118,7 +122,7 @@ function drawOutside(part = 1) {
       rays.filter(({ row, column }) => row === state.pixel?.[0] && column === state.pixel[1]),
       true,
     );
-  drawCamera(context, map, outside, state.camera, state.pixel);
+  drawCamera(context, map, outside, state.camera, state.pixel, 0.13 * observerNow.away);
 }
 
 function tellRays() {

@@ -148,7 +148,7 @@ function drawAnswer() {
     rays.map((ray) => drawnRay(outside, ray)),
     true,
   );
-  drawCamera(context, map, outside, question.camera, [question.row ?? 0, question.column ?? 0]);
+  drawCamera(context, map, outside, question.camera, [question.row ?? 0, question.column ?? 0], 0.13 * observer.away);
 }
 
 function beginQuestions() {

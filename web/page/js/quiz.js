@@ -23,7 +23,8 @@ async function askQuiz(seed) {
         "label",
         {},
         make("input", { type: "radio", name: "quiz", value: index, required: true }),
-        make("span", {}, text),
+        // What stands in parentheses is about the command line.
+        make("span", {}, text.replaceAll(/ \([^)]*\)/g, "")),
       ),
     ),
   );

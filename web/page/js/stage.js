@@ -157,8 +157,9 @@ function drawPlane(context, map, { point, normal, colour: ink }, { centre, away 
  * @param {Outside} outside
  * @param {{height: number, width: number}} image
  * @param {Pixel | null} pixel
+ * @param {number} arrow  The length of the frame's arrows.
  */
-function drawCamera(context, map, outside, image, pixel) {
+function drawCamera(context, map, outside, image, pixel, arrow) {
   const {
     eye,
     u,
@@ -218,13 +219,12 @@ function drawCamera(context, map, outside, image, pixel) {
     context.globalAlpha = 1;
   }
   if (pixel) drawChosen(context, map, at, pixel, step);
-  const length = 0.55 * lengthOf(subtract(topLeft, bottomRight)) + 0.12 * lengthOf(subtract(eye, topLeft));
   for (const [axis, letter] of /** @type {[Vector, string][]} */ ([
     [u, "u"],
     [v, "v"],
     [w, "w"],
   ]))
-    drawArrow(context, map, eye, add(eye, scaled(axis, length)), letter, ink);
+    drawArrow(context, map, eye, add(eye, scaled(axis, arrow)), letter, ink);
   if (map.isBefore(eye)) {
     const [x, y] = map.project(eye);
     context.beginPath();
@@ -233,8 +233,10 @@ function drawCamera(context, map, outside, image, pixel) {
     context.fill();
     label(context, "eye", x - 0.7 * letterSize(), y + 1.2 * letterSize(), ink, "right");
   }
-  const [x, y] = map.project(bottomLeft);
-  label(context, "viewport", x, y + 1.1 * letterSize(), ink, "center");
+  // Above its upper edge, where no ray passes.
+  const ends = [map.project(topLeft), map.project(topRight)];
+  const [x, y] = ends[0][1] < ends[1][1] ? ends[0] : ends[1];
+  label(context, "viewport", x, y - 0.5 * letterSize(), ink, "center");
 }
 
 /** Pixels between two lines of the grid: all that the eye can still tell apart. @param {{height: number, width: number}} image */

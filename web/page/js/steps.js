@@ -82,13 +82,15 @@ function stepWords(steps, step) {
   if (result === RESULT.missed)
     return `The ray of ${pixel} misses box ${grouped(steps.node?.[step] ?? 0)}: all that is in it is skipped.`;
   if (result === RESULT.entered) return `The ray of ${pixel} enters box ${grouped(steps.node?.[step] ?? 0)}.`;
+  const subject = objectWords(steps, steps.object[step])
+    .replace(/: (.*)/, " ($1)")
+    .replace("o", "O");
+  if (result === RESULT.none) return `${subject} does not affect ${pixel}.`;
   const t = steps.t && Number.isFinite(steps.t[step]) ? ` at t = ${short(steps.t[step])}` : "";
-  const subject = objectWords(steps, steps.object[step]);
-  if (result === RESULT.none) return `Does ${subject} affect ${pixel}? No.`;
   const outcome = {
-    [RESULT.first]: "It is the first there, and is kept.",
-    [RESULT.nearer]: "It is nearer than the one before, and replaces it.",
-    [RESULT.behind]: "It lies behind the one before, which stays.",
+    [RESULT.first]: "the first there, and kept",
+    [RESULT.nearer]: "nearer than the one before, which it replaces",
+    [RESULT.behind]: "behind the one before, which stays",
   }[result];
-  return `Does ${subject} affect ${pixel}? Yes${t}. ${outcome}`;
+  return `${subject} affects ${pixel}${t}: ${outcome}.`;
 }

@@ -4,10 +4,10 @@
 /** What the sliders can choose. */
 const TRIANGLES = [12, 48, 120, 300, 800, 2000, 5000, 12000, 30000, 80000, 200000];
 const IMAGES = [
+  [15, 20],
   [30, 40],
   [60, 80],
   [120, 160],
-  [180, 240],
   [240, 320],
   [360, 480],
   [480, 640],
@@ -78,8 +78,31 @@ function showWork() {
         `The textbooks test every pair: ${grouped(cost.textbook)} steps. ` +
         "A step is counted, so it is the same on every machine; it is no unit of time.";
   byId("chart-text").textContent =
-    `${text} This frame: object order ${milliseconds(cost.ms.object)}, image order ${milliseconds(cost.ms.image)} in this browser.`;
+    `${crossingWords(image)}${text} This frame: object order ${milliseconds(cost.ms.object)}, image order ${milliseconds(cost.ms.image)} in this browser.`;
   say(text);
+}
+
+/**
+ * Between which two measured meshes the orders change places, if they do.
+ * @param {number[]} image
+ * @returns {[Cost, Cost] | null}
+ */
+function crossing(image) {
+  const known = [...costsOf(image).values()].sort((one, other) => one.triangles - other.triangles);
+  for (let place = 1; place < known.length; place++) {
+    const [before, behind] = [known[place - 1], known[place]];
+    if ((before.steps.object - before.steps.image) * (behind.steps.object - behind.steps.image) < 0)
+      return [before, behind];
+  }
+  return null;
+}
+
+/** @param {number[]} image */
+function crossingWords(image) {
+  const pair = crossing(image);
+  return pair
+    ? `The orders cross between ${grouped(pair[0].triangles)} and ${grouped(pair[1].triangles)} triangles. `
+    : "";
 }
 
 /** @param {string} id @param {string} text */
@@ -135,6 +158,14 @@ function drawChart() {
     context,
     known.map(([, { triangles, textbook }]) => [x(triangles), y(textbook)]),
   );
+  const pair = crossing(chosenImage());
+  if (pair) {
+    // The ground between the two measurements.
+    context.fillStyle = colour("good");
+    context.globalAlpha = 0.16;
+    context.fillRect(x(pair[0].triangles), top, x(pair[1].triangles) - x(pair[0].triangles), bottom - top);
+    context.globalAlpha = 1;
+  }
   const atEnd = known[known.length - 1]?.[1].steps;
   for (const order of /** @type {OrderName[]} */ (["object", "image"])) {
     const isHigher = atEnd ? atEnd[order] >= atEnd[order === "object" ? "image" : "object"] : true;
