@@ -96,7 +96,9 @@ fn bind(compiled: &PathBuf) -> Result<Module, Failure> {
     let bound = || {
         let mut bindgen = Bindgen::new();
         bindgen.input_path(compiled).no_modules(true)?.typescript(false).demangle(false);
-        bindgen.remove_name_section(true).remove_producers_section(true);
+        bindgen
+            .remove_name_section(std::env::var_os("KEEP_NAMES").is_none())
+            .remove_producers_section(true);
         bindgen.omit_default_module_path(true);
         bindgen.generate_output()
     };

@@ -309,7 +309,7 @@ impl Classes {
                     pixels.as_chunks_mut::<3>().0.iter_mut().zip(lights.as_chunks::<3>().0);
                 for (k, (pixel, light)) in (0..).zip(pixels) {
                     *pixel = match word.class(k) {
-                        Class::Alike => faint_grey(*light),
+                        Class::Alike => alike_color(*light),
                         class => class.color(),
                     };
                 }
@@ -319,8 +319,9 @@ impl Classes {
     }
 }
 
-/// A dark grey: the reader recognises the picture and sees every difference.
-fn faint_grey([red, green, blue]: [u8; 3]) -> [u8; 3] {
+/// The colour of a pixel that is covered alike, in the difference image: a dark grey by the light of its picture. The reader
+/// recognises the picture and sees every difference.
+pub fn alike_color([red, green, blue]: [u8; 3]) -> [u8; 3] {
     // The weights of Rec. 709, in 256ths.
     let light = (54 * u32::from(red) + 183 * u32::from(green) + 19 * u32::from(blue)) / 256;
     [u8::try_from(44 + 96 * light / 255).expect("at most 140"); 3]

@@ -52,6 +52,8 @@ impl Engine {
             "rules" => Ok(why::rules()),
             "why" => why::answer(self.stage()?, &parsed(name, arguments)?),
             "reason" => why::reason(self.stage()?, &parsed(name, arguments)?),
+            "finder" => why::finder(self.stage()?, &parsed(name, arguments)?),
+            "quizFinder" => quiz::finder(&parsed(name, arguments)?),
             "quiz" => quiz::quiz(&parsed(name, arguments)?),
             "answer" => quiz::answer(&parsed(name, arguments)?),
             "question" => question::question(&parsed(name, arguments)?),

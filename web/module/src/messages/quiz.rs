@@ -1,6 +1,7 @@
 //! `quiz`: a renderer with a mistake, chosen by a number; what did it do wrong? `answer`: whether a choice is right.
+//! `quizFinder`: what the convention finder says of that renderer.
 
-use super::render::opaque;
+use super::render::{pixels, rgba};
 use super::why::{drawn, sentence_about};
 use crate::answer::{Answer, Buffer};
 use bothways_lab::common::Projection;
@@ -56,6 +57,20 @@ fn mistakes() -> [Mistake; 8] {
     ]
 }
 
+/// What a rule does, without what the command line says of its number.
+fn words(rule: Rule) -> &'static str {
+    match rule {
+        Rule::Object(object_order::Rule::Snapped { .. }) => "Vertices are rounded to whole pixels.",
+        Rule::Object(object_order::Rule::NearClip { .. }) => {
+            "What is nearer than a certain depth is cut away."
+        }
+        Rule::Image(image_order::Rule::Jittered { .. }) => {
+            "Each sample is moved randomly within its pixel."
+        }
+        rule => rule.about().what,
+    }
+}
+
 /// A question: a scene, the mistake, and the choices in their order.
 struct Question {
     loaded: LoadedScene,
@@ -103,18 +118,15 @@ pub(crate) fn quiz(quiz: &Quiz) -> Result<Answer, String> {
     let comparison = diff::compare(&truth, &wrong);
     let difference = comparison.classes().picture(&picture(&truth));
     let [width, height] = camera.image();
-    let texts: Vec<&str> = choices.iter().map(|rule| rule.about().what).collect();
-    let rgba =
-        |frame: &Frame| Buffer::U8(frame.picture().iter().flat_map(|&c| opaque(c)).collect());
-    let difference = difference.pixels().flat_map(|pixel| opaque(pixel.0)).collect();
+    let texts: Vec<&str> = choices.iter().map(|rule| words(*rule)).collect();
     Ok(Answer::new(json!({
         "scene": loaded.name, "width": width, "height": height, "choices": texts,
         "differ": comparison.visible.differing_pixels,
         "truth": {}, "renderer": {}, "difference": {},
     }))
-    .with("truth.rgba", rgba(&truth))
-    .with("renderer.rgba", rgba(&wrong))
-    .with("difference.rgba", Buffer::U8(difference)))
+    .with("truth.rgba", Buffer::U8(rgba(truth.picture())))
+    .with("renderer.rgba", Buffer::U8(rgba(wrong.picture())))
+    .with("difference.rgba", Buffer::U8(rgba(pixels(&difference)))))
 }
 
 fn true_frame(view: &View) -> Frame {
@@ -132,20 +144,18 @@ fn shaded(view: &View, rule: Rule) -> Frame {
 }
 
 pub(crate) fn answer(choice: &Choice) -> Result<Answer, String> {
-    let Question { loaded, camera, rule, choices } = Question::of(choice.seed)?;
+    let Question { rule, choices, .. } = Question::of(choice.seed)?;
     let right = choices.get(choice.choice) == Some(&rule);
     let index = choices.iter().position(|one| *one == rule);
     let about = rule.about();
-    let mut sentence = about.what.to_owned();
+    let mut sentence = words(rule).to_owned();
     if right {
-        let view = View::new(&loaded.scene, &camera);
-        let found = sentence_about(&view, &drawn(&view, rule), "the renderer");
         let order = match rule.order() {
             Order::Object => "rasterizer",
             Order::Image => "ray tracer",
         };
         sentence = format!(
-            "{sentence} It was a {order} with the rule {rule}, and gives {}. {found}",
+            "{sentence} It was a {order} with the rule {rule}, and gives {}.",
             about.reproduces
         );
     } else {
@@ -157,6 +167,13 @@ pub(crate) fn answer(choice: &Choice) -> Result<Answer, String> {
     }
     let index = if right { index } else { None };
     Ok(Answer::new(json!({ "right": right, "index": index, "sentence": sentence })))
+}
+
+pub(crate) fn finder(quiz: &Quiz) -> Result<Answer, String> {
+    let Question { loaded, camera, rule, .. } = Question::of(quiz.seed)?;
+    let view = View::new(&loaded.scene, &camera);
+    let sentence = sentence_about(&view, &drawn(&view, rule), "the renderer");
+    Ok(Answer::new(json!({ "sentence": sentence })))
 }
 
 #[cfg(test)]

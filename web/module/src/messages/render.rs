@@ -4,11 +4,13 @@ use crate::answer::{Answer, Buffer, entry};
 use crate::camera::{CameraJson, FrameJson, From};
 use crate::clock::timed;
 use crate::stage::Stage;
+use bothways_lab::common::frame::NO_PRIMITIVE;
 use bothways_lab::common::{Frame, Work};
-use bothways_lab::diff::{self, Comparison};
+use bothways_lab::diff::{self, Class, Comparison, alike_color};
 use bothways_lab::orders::{Order, Rule};
 use bothways_lab::picture::{color_of_id, picture};
 use bothways_lab::report::WorkReport;
+use image::RgbImage;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, json};
 use std::str::FromStr;
@@ -70,9 +72,9 @@ struct Verdict {
     #[serde(rename = "firstDiffering")]
     first_differing: Vec<[u32; 2]>,
     #[serde(rename = "colourDifference")]
-    colour_difference: u8,
+    colour_difference: Option<u8>,
     #[serde(rename = "depthDifference")]
-    depth_difference: f64,
+    depth_difference: Option<f64>,
 }
 
 pub(crate) fn answer(stage: &mut Stage, render: &Render) -> Result<Answer, String> {
@@ -88,10 +90,9 @@ pub(crate) fn answer(stage: &mut Stage, render: &Render) -> Result<Answer, Strin
         let times = json!({ "visibility": visibility, "shading": shading });
         entry(&mut parts, key(order), json!({ "ms": times, "work": work }));
     }
-    let [object_order, image_order] = &stage.frames;
-    let (comparison, compared) = timed(|| diff::compare(object_order, image_order));
-    entry(&mut parts, "difference", json!({ "ms": compared }));
-    entry(&mut parts, "verdict", Verdict::new(&comparison));
+    let (compared, compare) = timed(|| Compared::new(&stage.frames, render.counts));
+    entry(&mut parts, "difference", json!({ "ms": compare }));
+    entry(&mut parts, "verdict", &compared.verdict);
     let mut answer = Answer::new(parts);
     for (order, frame) in Order::ALL.into_iter().zip(&stage.frames) {
         let at = |what: &str| format!("{}.{what}", key(order));
@@ -102,9 +103,7 @@ pub(crate) fn answer(stage: &mut Stage, render: &Render) -> Result<Answer, Strin
             answer = answer.with(at("t"), Buffer::F32(frame.distances().to_vec()));
         }
     }
-    let difference = comparison.classes().picture(&picture(&stage.frames[0]));
-    let pixels = difference.pixels().flat_map(|pixel| opaque(pixel.0));
-    Ok(answer.with("difference.rgba", Buffer::U8(pixels.collect())))
+    Ok(answer.with("difference.rgba", Buffer::U8(rgba(&compared.difference))))
 }
 
 /// The name of an order in messages.
@@ -142,13 +141,75 @@ fn counted(stage: &mut Stage, order: Order) -> WorkReport {
 /// The picture of a frame with four bytes for each pixel.
 fn shown(frame: &Frame, look: Look) -> Vec<u8> {
     match look {
-        Look::Shaded => frame.picture().iter().flat_map(|&color| opaque(color)).collect(),
-        Look::Ids => frame.ids().iter().flat_map(|&id| opaque(color_of_id(id))).collect(),
+        Look::Shaded => rgba(frame.picture()),
+        Look::Ids => {
+            let colors: Vec<_> = frame.ids().iter().map(|&id| color_of_id(id)).collect();
+            rgba(&colors)
+        }
     }
 }
 
-pub(crate) fn opaque([red, green, blue]: [u8; 3]) -> [u8; 4] {
-    [red, green, blue, u8::MAX]
+/// The pixels of an image.
+pub(crate) fn pixels(image: &RgbImage) -> &[[u8; 3]] {
+    image.as_raw().as_chunks().0
+}
+
+/// Opaque pixels of four bytes each, as a canvas takes them.
+pub(crate) fn rgba(colors: &[[u8; 3]]) -> Vec<u8> {
+    let mut bytes = vec![u8::MAX; 4 * colors.len()];
+    for (pixel, color) in bytes.chunks_exact_mut(4).zip(colors) {
+        pixel[..3].copy_from_slice(color);
+    }
+    bytes
+}
+
+/// The verdict, and the difference image.
+struct Compared {
+    verdict: Verdict,
+    difference: Vec<[u8; 3]>,
+}
+
+impl Compared {
+    /// Compares the frames of both orders. Where they have the same ids, and the page is not at rest to count, nothing else is
+    /// asked: then distances and colours are not compared.
+    fn new(frames: &[Frame; 2], completely: bool) -> Compared {
+        let [object_order, image_order] = frames;
+        if !completely && object_order.ids() == image_order.ids() {
+            return Compared::of_equal(object_order);
+        }
+        let pictures = frames.each_ref().map(picture);
+        let comparison = diff::compare_shown([object_order, image_order], pictures.each_ref());
+        let difference = comparison.classes().picture(&pictures[0]);
+        Compared { verdict: Verdict::new(&comparison), difference: pixels(&difference).to_vec() }
+    }
+
+    /// The comparison of frames with the same ids.
+    fn of_equal(frame: &Frame) -> Compared {
+        let is_covered = |id: u32| id != NO_PRIMITIVE;
+        let covered = frame.ids().iter().filter(|&&id| is_covered(id)).count() as u64;
+        let pixels = frame.ids().iter().zip(frame.picture());
+        let color = |(&id, &light): (&u32, &[u8; 3])| match is_covered(id) {
+            true => alike_color(light),
+            false => Class::Neither.color(),
+        };
+        Compared {
+            verdict: Verdict {
+                text: diff::verdict_of_equal(covered),
+                equal: true,
+                coverage_equal: true,
+                ids_equal: true,
+                pixels: frame.ids().len() as u64,
+                covered: [covered; 2],
+                differ: 0,
+                only_object: 0,
+                only_image: 0,
+                first_differing: Vec::new(),
+                colour_difference: None,
+                depth_difference: None,
+            },
+            difference: pixels.map(color).collect(),
+        }
+    }
 }
 
 impl Verdict {
@@ -166,8 +227,8 @@ impl Verdict {
             only_object: coverage.only_object_order,
             only_image: coverage.only_image_order,
             first_differing: comparison.visible.first_differing.clone(),
-            colour_difference: comparison.color.max_difference,
-            depth_difference: comparison.depth.max_relative_difference,
+            colour_difference: Some(comparison.color.max_difference),
+            depth_difference: Some(comparison.depth.max_relative_difference),
         }
     }
 }

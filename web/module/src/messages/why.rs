@@ -1,5 +1,5 @@
 //! `rules`: the rules of ordinary renderers. `why`: where and why the orders disagree under some of them. `reason`: the same
-//! for one pixel, in a sentence.
+//! for one pixel, in a sentence. `finder`: what the convention finder says, which takes its time.
 
 use super::render::RuleNames;
 use crate::answer::{Answer, Buffer};
@@ -33,7 +33,7 @@ pub(crate) struct OfPixel {
 
 /// The convention finder draws the scene under hundreds of hypotheses: in a picture of at most so many pixels, it answers while
 /// one waits.
-const MOST_FINDER_PIXELS: f64 = 6000.0;
+const MOST_FINDER_PIXELS: f64 = 2500.0;
 /// It leaves out scenes of more primitives than this, for the same reason.
 const MOST_FINDER_PRIMITIVES: u32 = 20_000;
 
@@ -66,18 +66,13 @@ pub(crate) fn answer(stage: &mut Stage, why: &Why) -> Result<Answer, String> {
         comparison.classes().differing().map(|(pixel, _)| pixel).collect();
     let [a, b] = [0, 1].map(|side: usize| Known::of_frame(&frames[side], &pictures[side]));
     let reasons = find_reasons(&view, &a, &b, &differing).map_err(|error| error.to_string())?;
-    let sentences: Vec<String> = Order::ALL
-        .into_iter()
-        .zip(rules)
-        .filter_map(|(order, rule)| Some(finder(&view, order, rule?)))
-        .collect();
-    let answer = with_reasons(&reasons, view.camera, &sentences.join(" "));
+    let answer = with_reasons(&reasons, view.camera);
     stage.reasons = reasons.pixels;
     Ok(answer)
 }
 
 /// The counts of reasons, and for each pixel the place of its reason among them, from 1; 0 where the orders agree.
-fn with_reasons(reasons: &Reasons, camera: &Camera, sentence: &str) -> Answer {
+fn with_reasons(reasons: &Reasons, camera: &Camera) -> Answer {
     let counts = reasons.counts();
     let [width, height] = camera.image();
     let mut index = vec![0_u8; width as usize * height as usize];
@@ -93,13 +88,23 @@ fn with_reasons(reasons: &Reasons, camera: &Camera, sentence: &str) -> Answer {
         "counts": counts.iter().map(entry).collect::<Vec<Value>>(),
         "differing": reasons.differing,
         "partial": reasons.is_partial(),
-        "sentence": sentence,
     }))
     .with("index", Buffer::U8(index))
 }
 
+/// What the convention finder says of each order that has a rule.
+pub(crate) fn finder(stage: &Stage, why: &Why) -> Result<Answer, String> {
+    let rules = why.rules.parsed()?;
+    let camera = why.from.camera(&stage.loaded.camera)?;
+    let view = View::new(&stage.loaded.scene, &camera);
+    let each = Order::ALL.into_iter().zip(rules);
+    let sentences: Vec<String> =
+        each.filter_map(|(order, rule)| Some(about_order(&view, order, rule?))).collect();
+    Ok(Answer::new(json!({ "sentence": sentences.join(" ") })))
+}
+
 /// What the convention finder says of a renderer with a rule, in a small picture from the same camera.
-fn finder(view: &View, order: Order, rule: Rule) -> String {
+fn about_order(view: &View, order: Order, rule: Rule) -> String {
     let name = order.name();
     if view.scene.primitive_count() > MOST_FINDER_PRIMITIVES {
         return format!(
