@@ -9,7 +9,6 @@ let rules = { object: [], image: [] };
  * @typedef {object} Why
  * @property {{reason: string, count: number, colour: [number, number, number]}[]} counts
  * @property {Uint8Array} index  For every pixel: 0 if the orders agree, otherwise its reason's place, counted from 1.
- * @property {string} [sentence]  What the convention finder says of the whole picture.
  */
 /** @type {(Why & {width: number, height: number}) | null} */
 let why = null;
@@ -113,7 +112,6 @@ function showWhy() {
       return make("li", {}, swatch, reason, make("span", { class: "number quiet" }, counted(pixels, "pixel")));
     }),
   );
-  if (why.sentence) byId("finder").textContent = why.sentence;
   touchReason(state.pixel);
 }
 

@@ -1,7 +1,16 @@
 // @ts-check
 // The quiz: what did this renderer do wrong? The engine plants the mistake, and knows it.
 
-/** @typedef {{truth: {rgba: Uint8ClampedArray}, renderer: {rgba: Uint8ClampedArray}, difference: {rgba: Uint8ClampedArray}, choices: string[], height: number, width: number}} Quiz */
+/** @typedef {{rgba: Uint8ClampedArray}} QuizPicture */
+/**
+ * @typedef {object} Quiz
+ * @property {QuizPicture} truth
+ * @property {QuizPicture} renderer
+ * @property {QuizPicture} difference
+ * @property {string[]} choices
+ * @property {number} height
+ * @property {number} width
+ */
 /** @type {Quiz | null} */
 let quiz = null;
 let [quizRight, quizAsked, quizAnswered] = [0, 0, false];
@@ -16,15 +25,15 @@ async function askQuiz(seed) {
   }
   if (!quiz) return;
   quizAnswered = false;
-  byId("quiz-answer").textContent = "";
+  byId("quiz-answer").textContent = byId("quiz-finder").textContent = "";
+  byId("quiz-finder-ask").hidden = true;
   byId("quiz-choices").replaceChildren(
     ...quiz.choices.map((text, index) =>
       make(
         "label",
         {},
         make("input", { type: "radio", name: "quiz", value: index, required: true }),
-        // What stands in parentheses is about the command line.
-        make("span", {}, text.replaceAll(/ \([^)]*\)/g, "")),
+        make("span", {}, text),
       ),
     ),
   );
@@ -61,13 +70,29 @@ async function answerQuiz(event) {
       if (right) quizRight++;
       quizAnswered = true;
     }
+    if (right) byId("quiz-finder-ask").hidden = false;
     byId("quiz-score").textContent = `${quizRight} of ${quizAsked} right at once`;
   } catch (error) {
     showTrouble(messageOf(error));
   }
 }
 
+/** What the convention finder makes of the same picture: it knows only the picture and the scene. */
+async function askQuizFinder() {
+  const { seed } = state;
+  byId("quiz-finder-ask").hidden = true;
+  const holder = byId("quiz-finder");
+  holder.textContent = "It draws the picture under hundreds of conventions; this takes some seconds …";
+  try {
+    const { sentence } = await engine.call("quizFinder", { seed });
+    if (seed === state.seed) holder.textContent = sentence;
+  } catch (error) {
+    holder.textContent = messageOf(error);
+  }
+}
+
 function beginQuiz() {
+  byId("quiz-finder-ask").addEventListener("click", askQuizFinder);
   byId("quiz-form").addEventListener("submit", answerQuiz);
   byId("quiz-new").addEventListener("click", () => change({ seed: newSeed() }));
   const ask = () => {

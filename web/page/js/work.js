@@ -48,7 +48,7 @@ async function measure() {
     const known = costsOf(image);
     const next = [...TRIANGLES]
       .sort((one, other) => Math.abs(Math.log(one / chosen)) - Math.abs(Math.log(other / chosen)))
-      .find((triangles) => !known.has(triangles) && (triangles === chosen || triangles <= 80000));
+      .find((triangles) => !known.has(triangles));
     if (next === undefined) break;
     try {
       known.set(next, await engine.call("work", { triangles: next, height: image[0], width: image[1] }));
@@ -119,12 +119,14 @@ function drawChart() {
   const { context, width, height } = prepared;
   const known = [...costsOf(chosenImage())].sort(([one], [other]) => one - other);
   const em = letterSize();
-  const [left, right, top, bottom] = [6 * em, width - 7.5 * em, 1.6 * em, height - 3 * em];
+  // Where there is room, names stand beside their curves.
+  const isWide = width > 34 * em;
+  const [left, right, top, bottom] = [6 * em, width - (isWide ? 7.5 : 1.5) * em, 1.6 * em, height - 3 * em];
   const values = known
     .flatMap(([, { steps, textbook }]) => [steps.object, steps.image, textbook])
     .filter((value) => value > 0);
   const least = Math.floor(Math.log10(Math.min(...values, 1e4)));
-  const most = Math.ceil(Math.log10(Math.max(...values, 1e5)));
+  const most = Math.ceil(Math.log10(2 * Math.max(...values, 1e5)));
   const [first, last] = [Math.log10(10), Math.log10(1.5 * TRIANGLES[TRIANGLES.length - 1])];
   /** @param {number} triangles */
   const x = (triangles) => left + ((Math.log10(triangles) - first) / (last - first)) * (right - left);
@@ -142,7 +144,7 @@ function drawChart() {
   }
   context.textAlign = "center";
   context.textBaseline = "top";
-  for (const triangles of [100, 1000, 10000, 100000]) {
+  for (const triangles of isWide ? [100, 1000, 10000, 100000] : [100, 10000]) {
     rule(context, x(triangles), top, x(triangles), bottom);
     context.fillText(grouped(triangles), x(triangles), bottom + 0.4 * em);
   }
@@ -174,6 +176,7 @@ function drawChart() {
       order,
       known.map(([, { triangles, steps }]) => [x(triangles), y(Math.max(1, steps[order]))]),
       isHigher,
+      isWide,
     );
   }
 }
@@ -192,11 +195,11 @@ function drawTextbook(context, points) {
   context.textAlign = "right";
   context.textBaseline = "bottom";
   context.font = `400 ${0.9 * letterSize()}px ${colour("text")}`;
-  context.fillText("every pair (textbooks)", end[0] - letterSize(), end[1]);
+  context.fillText("every pair (textbooks)", end[0], end[1] - 0.4 * letterSize());
 }
 
-/** @param {CanvasRenderingContext2D} context @param {OrderName} order @param {number[][]} points @param {boolean} isHigher  Its name stands above, or below. */
-function drawCurve(context, order, points, isHigher) {
+/** @param {CanvasRenderingContext2D} context @param {OrderName} order @param {number[][]} points @param {boolean} isHigher  Its name stands above, or below. @param {boolean} isWide */
+function drawCurve(context, order, points, isHigher, isWide) {
   context.strokeStyle = context.fillStyle = colour(order);
   context.lineWidth = 2.5;
   context.beginPath();
@@ -206,11 +209,12 @@ function drawCurve(context, order, points, isHigher) {
   for (const [x, y] of points) drawMark(context, order, x, y, 0.32 * em);
   const end = points[points.length - 1];
   if (!end) return;
-  context.textAlign = "left";
-  context.textBaseline = "middle";
   context.font = `600 ${0.95 * em}px ${colour("text")}`;
+  context.textAlign = isWide ? "left" : "right";
+  context.textBaseline = "middle";
   // Near each other, the names keep apart.
-  context.fillText(ORDERS[order][0], end[0] + 0.7 * em, end[1] + (isHigher ? -0.4 : 0.4) * em);
+  const away = (isWide ? 0.4 : 1.1) * em;
+  context.fillText(ORDERS[order][0], end[0] + (isWide ? 0.7 * em : 0), end[1] + (isHigher ? -away : away));
 }
 
 /** @param {CanvasRenderingContext2D} context @param {number} x @param {number} y @param {number} a @param {number} b */
