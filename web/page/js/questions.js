@@ -138,7 +138,7 @@ function drawAnswer() {
   if (!prepared) return;
   const { context, width, height } = prepared;
   const { outside, rays } = answerPicture;
-  const target = rays[0]?.point ?? add(outside.eye, scaled(outside.w, -2.5 * outside.d));
+  const target = rays[0]?.point ?? add(outside.eye, scaled(outside.w, -1.2 * outside.d));
   const observer = besideCamera(outside, target);
   const map = stageMap(observer, width, height);
   drawObjects(context, map, outside, observer);
