@@ -46,6 +46,8 @@ async function record() {
   inputById("scrub").max = inputById("step").max = String(clockEnd);
   byId("steps-total").textContent = `of ${grouped(clockEnd)}`;
   change({ step: clamp(state.step, 0, clockEnd) });
+  // What cannot be recorded is not shown half.
+  byId("halves").hidden = clockEnd === 0;
   drawMarks();
   showStep();
 }

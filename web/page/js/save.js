@@ -28,7 +28,7 @@ function standAlone(original) {
     } else if (field instanceof HTMLSelectElement)
       [...field.options].forEach((option) => option.toggleAttribute("selected", option.value === source.value));
   });
-  copy.querySelectorAll(`${NOT_SAVED}, .still`).forEach((element) => element.remove());
+  copy.querySelectorAll(`${NOT_SAVED}, .still, noscript`).forEach((element) => element.remove());
   return copy;
 }
 
