@@ -107,6 +107,7 @@ async function followLink() {
 }
 
 function beginLinks() {
+  writeLink();
   watch(/** @type {(keyof State)[]} */ (Object.keys(state)), writeLink);
   addEventListener("hashchange", () => {
     if (location.hash !== lastFragment) followLink();
