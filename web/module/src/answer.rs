@@ -1,7 +1,7 @@
 //! What a message is answered with: JSON, and buffers of numbers beside it.
 
 use serde::Serialize;
-use serde_json::{Map, Value};
+use serde_json::Value;
 
 /// Numbers that the page gets as a typed array.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,7 +21,8 @@ pub enum Buffer {
 /// The answer to a message.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
-    json: Value,
+    /// The text: an `f32` has the fewest digits that read back as the same `f32`, which a [`Value`] does not keep.
+    json: String,
     buffers: Vec<(String, Buffer)>,
 }
 
@@ -32,7 +33,7 @@ impl Answer {
     ///
     /// If the value has no form in JSON; those of this crate have one.
     pub(crate) fn new(value: impl Serialize) -> Answer {
-        let json = serde_json::to_value(value).expect("plain structures become JSON");
+        let json = serde_json::to_string(&value).expect("plain structures become JSON");
         Answer { json, buffers: Vec::new() }
     }
 
@@ -42,9 +43,18 @@ impl Answer {
         self
     }
 
-    /// The JSON, without the buffers.
-    pub fn json(&self) -> &Value {
+    /// The JSON text, without the buffers.
+    pub fn text(&self) -> &str {
         &self.json
+    }
+
+    /// The same, read.
+    ///
+    /// # Panics
+    ///
+    /// Never: what was written can be read.
+    pub fn json(&self) -> Value {
+        serde_json::from_str(&self.json).expect("it was written as JSON")
     }
 
     /// The buffers, each with its path in the JSON.
@@ -64,7 +74,18 @@ impl Answer {
     }
 }
 
-/// An entry of a map, from a value that has a form in JSON.
-pub(crate) fn entry(map: &mut Map<String, Value>, key: &str, value: impl Serialize) {
-    map.insert(key.into(), serde_json::to_value(value).expect("plain structures become JSON"));
+/// A number for `json!`, with the fewest digits that read back as the same `f32`.
+pub(crate) fn short(number: f32) -> f64 {
+    number.to_string().parse().expect("a number is written as a number")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_few_digits() {
+        assert_eq!(Answer::new([0.1_f32, 6.8]).text(), "[0.1,6.8]");
+        assert_eq!(short(0.1).to_string(), "0.1");
+    }
 }

@@ -59,7 +59,7 @@ pub fn panic_text() -> String {
 impl Reply {
     /// The JSON text.
     pub fn json(&self) -> String {
-        self.0.json().to_string()
+        self.0.text().to_owned()
     }
 
     /// The number of buffers.

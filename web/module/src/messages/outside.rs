@@ -1,6 +1,6 @@
 //! `outside`: the camera and the scene in the world, for a view from outside. `rays`: viewing rays and what they hit.
 
-use crate::answer::{Answer, Buffer};
+use crate::answer::{Answer, Buffer, short};
 use crate::camera::{From, Pixel};
 use crate::stage::Stage;
 use bothways_lab::common::glam::{DVec3, Vec3};
@@ -55,11 +55,11 @@ pub(crate) fn of_scene(scene: &Scene, camera: &Camera) -> Answer {
     for (object, first) in (0..).zip(scene.objects()).map(|(at, one)| (one, scene.first_id(at))) {
         match &object.shape {
             Shape::Sphere(Sphere { center, radius }) => spheres.push(json!({
-                "center": center.to_array(), "radius": radius, "colour": color(object.material.color),
+                "center": shortened(*center), "radius": short(*radius), "colour": color(object.material.color),
                 "id": first,
             })),
             Shape::Plane(Plane { point, normal }) => planes.push(json!({
-                "point": point.to_array(), "normal": normal.to_array(),
+                "point": shortened(*point), "normal": shortened(*normal),
                 "colour": color(object.material.color), "id": first,
             })),
             Shape::Triangle(_) | Shape::Mesh(_) => {
@@ -78,11 +78,11 @@ pub(crate) fn of_scene(scene: &Scene, camera: &Camera) -> Answer {
     let shown = triangles.len() / 9;
     let [u, v, w] = [camera.u(), camera.v(), camera.w()].map(plain);
     Answer::new(json!({
-        "eye": (camera.eye() + Vec3::ZERO).to_array(),
+        "eye": shortened(camera.eye() + Vec3::ZERO),
         "u": u, "v": v, "w": w,
-        "d": camera.description().distance,
-        "vw": camera.description().viewport[0],
-        "vh": camera.description().viewport[1],
+        "d": short(camera.description().distance),
+        "vw": short(camera.description().viewport[0]),
+        "vh": short(camera.description().viewport[1]),
         "projection": match camera.projection() {
             Projection::Perspective => "perspective",
             Projection::Parallel => "parallel",
@@ -104,6 +104,11 @@ fn corners(camera: &Camera) -> [DVec3; 4] {
         let across = 0.5 * x * vw * camera.u() + 0.5 * y * vh * camera.v();
         camera.eye().as_dvec3() + across - camera.distance() * camera.w()
     })
+}
+
+/// The coordinates with few digits.
+fn shortened(vector: Vec3) -> [f64; 3] {
+    vector.to_array().map(short)
 }
 
 /// sRGB bytes.

@@ -16,8 +16,8 @@ use bothways_lab::common::{
 use bothways_lab::raytrace;
 use fastrand::Rng;
 use number::Number;
-use serde::Deserialize;
-use serde_json::{Value, json};
+use serde::{Deserialize, Serialize};
+use serde_json::json;
 
 /// Which question: its kind, and a number that chooses its numbers.
 #[derive(Clone, Copy, Debug, Deserialize)]
@@ -42,6 +42,23 @@ enum Kind {
     Distance,
     /// The camera is turned.
     Frame,
+}
+
+#[derive(Serialize)]
+struct QuestionJson {
+    title: &'static str,
+    text: Vec<String>,
+    fields: Vec<FieldJson>,
+    hints: Vec<String>,
+    camera: CameraJson,
+    row: u32,
+    column: u32,
+}
+
+#[derive(Serialize)]
+struct FieldJson {
+    name: &'static str,
+    label: &'static str,
 }
 
 #[derive(Debug, Deserialize)]
@@ -204,16 +221,16 @@ pub(crate) fn of_picture(arguments: &str) -> Option<Result<Question, String>> {
 
 pub(crate) fn question(which: &Which) -> Result<Answer, String> {
     let question = Question::new(*which)?;
-    let field = |field: &Field| json!({ "name": field.name, "label": field.label });
-    Ok(Answer::new(json!({
-        "title": question.title(),
-        "text": question.text(),
-        "fields": question.fields.iter().map(field).collect::<Vec<Value>>(),
-        "hints": question.hints(),
-        "camera": CameraJson::new(question.camera.description()),
-        "row": question.pixel[0],
-        "column": question.pixel[1],
-    })))
+    let field = |field: &Field| FieldJson { name: field.name, label: field.label };
+    Ok(Answer::new(QuestionJson {
+        title: question.title(),
+        text: question.text(),
+        fields: question.fields.iter().map(field).collect(),
+        hints: question.hints(),
+        camera: CameraJson::new(question.camera.description()),
+        row: question.pixel[0],
+        column: question.pixel[1],
+    }))
 }
 
 pub(crate) fn check(check: &Check) -> Result<Answer, String> {
@@ -243,12 +260,13 @@ pub(crate) fn check(check: &Check) -> Result<Answer, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use serde_json::Value;
 
     const KINDS: [Kind; 6] =
         [Kind::Ray, Kind::Plane, Kind::Eye, Kind::Viewport, Kind::Distance, Kind::Frame];
 
     fn checked(kind: Kind, seed: u64, values: Vec<String>) -> Value {
-        check(&Check { kind, seed, values }).unwrap().json().clone()
+        check(&Check { kind, seed, values }).unwrap().json()
     }
 
     fn right(question: &Question) -> Vec<String> {
@@ -327,7 +345,8 @@ mod tests {
     fn the_picture_shows_the_point() {
         let question = Question::new(Which { kind: Kind::Plane, seed: 5 }).unwrap();
         let rays = question.rays().unwrap();
-        let point = &rays.json()["rays"][0]["point"];
+        let json = rays.json();
+        let point = &json["rays"][0]["point"];
         for (place, field) in question.fields[1..].iter().enumerate() {
             assert_eq!(point[place].as_f64().unwrap(), field.right);
         }

@@ -1,6 +1,6 @@
 //! `render`: both orders from one camera, their difference, and the verdict.
 
-use crate::answer::{Answer, Buffer, entry};
+use crate::answer::{Answer, Buffer};
 use crate::camera::{CameraJson, FrameJson, From};
 use crate::clock::timed;
 use crate::stage::Stage;
@@ -12,7 +12,6 @@ use bothways_lab::picture::{color_of_id, picture};
 use bothways_lab::report::WorkReport;
 use image::RgbImage;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, json};
 use std::str::FromStr;
 
 /// The rules of both orders.
@@ -54,6 +53,36 @@ enum Look {
     Ids,
 }
 
+/// The JSON of the answer.
+#[derive(Serialize)]
+struct Rendered<'a> {
+    camera: CameraJson,
+    frame: FrameJson,
+    object: Drawn,
+    image: Drawn,
+    difference: Difference,
+    verdict: &'a Verdict,
+}
+
+/// What one order took.
+#[derive(Clone, Copy, Default, Serialize)]
+struct Drawn {
+    ms: Times,
+    work: Option<WorkReport>,
+}
+
+/// Milliseconds.
+#[derive(Clone, Copy, Default, Serialize)]
+struct Times {
+    visibility: f64,
+    shading: f64,
+}
+
+#[derive(Serialize)]
+struct Difference {
+    ms: f64,
+}
+
 #[derive(Serialize)]
 struct Verdict {
     text: String,
@@ -80,20 +109,23 @@ struct Verdict {
 pub(crate) fn answer(stage: &mut Stage, render: &Render) -> Result<Answer, String> {
     stage.camera = render.from.camera(&stage.loaded.camera)?;
     let rules = render.rules.parsed()?;
-    let mut parts = Map::new();
-    entry(&mut parts, "camera", CameraJson::new(stage.camera.description()));
-    entry(&mut parts, "frame", FrameJson::new(&stage.camera));
-    for (order, rule) in Order::ALL.into_iter().zip(rules) {
+    let mut drawn = [Drawn::default(); 2];
+    for (drawn, (order, rule)) in drawn.iter_mut().zip(Order::ALL.into_iter().zip(rules)) {
         let ((), visibility) = timed(|| stage.determine_visibility(order, rule, &mut ()));
         let ((), shading) = timed(|| stage.shade(order, rule));
-        let work = if render.counts && rule.is_none() { Some(counted(stage, order)) } else { None };
-        let times = json!({ "visibility": visibility, "shading": shading });
-        entry(&mut parts, key(order), json!({ "ms": times, "work": work }));
+        drawn.ms = Times { visibility, shading };
+        drawn.work = (render.counts && rule.is_none()).then(|| counted(stage, order));
     }
-    let (compared, compare) = timed(|| Compared::new(&stage.frames, render.counts));
-    entry(&mut parts, "difference", json!({ "ms": compare }));
-    entry(&mut parts, "verdict", &compared.verdict);
-    let mut answer = Answer::new(parts);
+    let (compared, ms) = timed(|| Compared::new(&stage.frames, render.counts));
+    let [object, image] = drawn;
+    let mut answer = Answer::new(Rendered {
+        camera: CameraJson::new(stage.camera.description()),
+        frame: FrameJson::new(&stage.camera),
+        object,
+        image,
+        difference: Difference { ms },
+        verdict: &compared.verdict,
+    });
     for (order, frame) in Order::ALL.into_iter().zip(&stage.frames) {
         let at = |what: &str| format!("{}.{what}", key(order));
         answer = answer
