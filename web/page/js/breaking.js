@@ -59,6 +59,9 @@ const askWhy = debounced(120, async () => {
   const { objectRule, imageRule } = rulesNow();
   buttonById("finder-ask").hidden = !objectRule && !imageRule;
   byId("finder").textContent = "";
+  // Until the reasons are there, the difference stands in their place.
+  fillSheet("reasons", drawn.difference.rgba, drawn.width, drawn.height);
+  showPictures();
   byId("reasons").replaceChildren(make("li", { class: "quiet" }, "The exact judge looks at each pixel that differs …"));
   try {
     const answer = await engine.call("why", ruledPicture());

@@ -31,7 +31,7 @@ const CHAPTERS = [
     view: "loops",
     scene: "canonical",
     state: { method: "textbook", loops: "both" },
-    text: "One step tests one pair of an object and a pixel. Both loops make the same tests, in another order.",
+    text: "One step tests one pair of an object and a pixel. Where every pair is tested, both loops make the same tests, in another order.",
   },
   {
     id: "projection",
@@ -111,7 +111,7 @@ const CHAPTERS = [
     title: "What did this renderer do wrong?",
     brief: "One mistake: which?",
     view: "quiz",
-    text: "One convention of this renderer differs from the lecture's. The picture is all that you have.",
+    text: "One rule of this renderer is not the exact one. Its picture tells which.",
   },
 ];
 

@@ -118,7 +118,14 @@ class Half {
     const { size, steps } = record;
     const rgba = new Uint8ClampedArray(4 * size * size);
     const stored = record.picture(this.done, rgba);
-    this.progress.textContent = `${this.order === "image" ? "decided" : "stored"} ${grouped(stored)} of ${grouped(size * size)}`;
+    // Object order knows at the end, and of all pixels at once, that nothing nearer will come.
+    const [word, known] =
+      this.order === "image"
+        ? ["decided", stored]
+        : this.done === steps.count
+          ? ["decided", size * size]
+          : ["stored", stored];
+    this.progress.textContent = `${word} ${grouped(known)} of ${grouped(size * size)}`;
     paintPixels(this.sheet, rgba, size, size);
     const cell = width / size;
     context.fillStyle = colour("empty-other");

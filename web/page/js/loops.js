@@ -86,6 +86,7 @@ function showStep() {
   if (!loopsAreShown()) return;
   const step = clamp(state.step, 0, clockEnd);
   inputById("scrub").value = String(step);
+  inputById("scrub").setAttribute("aria-valuetext", `step ${step} of ${clockEnd}`);
   if (document.activeElement !== byId("step") || playing) inputById("step").value = String(step);
   for (const order of shownOrders()) halves[order].show(step);
   if (!playing) {
