@@ -76,15 +76,15 @@ class Half {
     });
     this.words.textContent = last < 0 ? "Nothing is tested yet." : stepWords(steps, last);
     const { tests, covered, comparisons, boxes } = this.record.tally(this.done);
-    const rows = /** @type {[string, number][]} */ ([
-      ["tests", tests],
-      ["covered", covered],
-      ["comparisons", comparisons],
-    ]);
-    if (state.method === "hierarchy" && this.order === "image") rows.push(["boxes", boxes]);
-    if (finished && steps.skipped > 0) rows.push(["pairs skipped", steps.skipped]);
+    const rows = [
+      ["tests", `${grouped(tests)} of ${counted(steps.pairs, "pair")}`],
+      ["covered", grouped(covered)],
+      ["comparisons", grouped(comparisons)],
+    ];
+    if (state.method === "hierarchy" && this.order === "image") rows.push(["boxes", grouped(boxes)]);
+    if (finished && steps.skipped > 0) rows.push(["pairs skipped", grouped(steps.skipped)]);
     this.tally.replaceChildren(
-      ...rows.map(([label, value]) => make("div", {}, make("dt", {}, label), make("dd", {}, grouped(value)))),
+      ...rows.map(([label, value]) => make("div", {}, make("dt", {}, label), make("dd", {}, value))),
     );
     this.draw();
   }

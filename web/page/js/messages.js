@@ -73,7 +73,8 @@
  * @property {Uint32Array} marks  The steps at which each object (object order) or each row (image order) begins.
  * @property {{step: Uint32Array, row: Uint16Array, column: Uint16Array, id: Uint32Array, rgb: Uint8Array}} changes
  * @property {string[]} [kinds]  The kind of each primitive, in words.
- * @property {number} skipped  Pairs that no step looks at.
+ * @property {number} pairs  Of a primitive and a pixel.
+ * @property {number} skipped  Those that no step looks at.
  */
 
 /** What a step found. */

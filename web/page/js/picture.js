@@ -47,7 +47,7 @@ function showPicture(canvas, kind) {
   if (!prepared) return;
   const { context, width, height } = prepared;
   context.imageSmoothingEnabled = width * devicePixelRatio < 1.5 * sheet.width;
-  context.imageSmoothingQuality = "high";
+  context.imageSmoothingQuality = "low";
   context.drawImage(sheet, 0, 0, width, height);
   if (state.pixel) frameOf(context, state.pixel, width / sheet.width, height / sheet.height);
 }
