@@ -37,6 +37,8 @@ class Half {
       this.tally,
     );
     this.done = 0;
+    /** The colour of what shows nothing, once that is known. @type {ArrayLike<number> | null} */
+    this.background = null;
     drawWhenShown(this.canvas, () => this.draw());
     this.canvas.addEventListener("click", (event) => {
       const box = this.canvas.getBoundingClientRect();
@@ -77,12 +79,14 @@ class Half {
     this.words.textContent = last < 0 ? "Nothing is tested yet." : stepWords(steps, last);
     const { tests, covered, comparisons, boxes } = this.record.tally(this.done);
     const rows = [
-      ["tests", `${grouped(tests)} of ${counted(steps.pairs, "pair")}`],
+      [
+        "tests",
+        `${grouped(tests)} of ${counted(steps.pairs, "pair")}${finished && steps.skipped > 0 ? `, ${grouped(steps.skipped)} skipped` : ""}`,
+      ],
       ["covered", grouped(covered)],
       ["comparisons", grouped(comparisons)],
     ];
     if (state.method === "hierarchy" && this.order === "image") rows.push(["boxes", grouped(boxes)]);
-    if (finished && steps.skipped > 0) rows.push(["pairs skipped", grouped(steps.skipped)]);
     this.tally.replaceChildren(
       ...rows.map(([label, value]) => make("div", {}, make("dt", {}, label), make("dd", {}, value))),
     );
@@ -126,6 +130,7 @@ class Half {
           ? ["decided", size * size]
           : ["stored", stored];
     this.progress.textContent = `${word} ${grouped(known)} of ${grouped(size * size)}`;
+    if (this.done === steps.count) fillRest(rgba, this.background);
     paintPixels(this.sheet, rgba, size, size);
     const cell = width / size;
     context.fillStyle = colour("empty-other");
@@ -228,4 +233,21 @@ function drawOutline(context, outline, cell, ink) {
     context.closePath();
     context.stroke();
   }
+}
+
+/**
+ * At the end, what nothing is stored in shows the background.
+ * @param {Uint8ClampedArray} rgba
+ * @param {ArrayLike<number> | null} background
+ */
+function fillRest(rgba, background) {
+  if (!background) return;
+  for (let at = 0; at < rgba.length; at += 4)
+    if (rgba[at + 3] === 0) rgba.set([background[0], background[1], background[2], 254], at);
+}
+
+/** The colour that image order gives to a pixel in which it sees nothing. @param {Steps} steps @returns {ArrayLike<number> | null} */
+function backgroundOf({ changes: { id, rgb } }) {
+  const place = id.indexOf(NOTHING);
+  return place < 0 ? null : rgb.slice(3 * place, 3 * place + 3);
 }

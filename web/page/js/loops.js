@@ -33,6 +33,7 @@ async function record() {
     if (wantedFor !== recordedFor) return;
     halves.object.load(new Recording(object, size));
     halves.image.load(new Recording(image, size));
+    halves.object.background = backgroundOf(image);
     outlines = await findOutlines(camera, size);
     if (wantedFor !== recordedFor) return;
     clockEnd = Math.max(object.count, image.count);
