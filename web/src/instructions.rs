@@ -54,7 +54,7 @@ mod tests {
     /// `v128.const 0`, an instruction on it (a number of one or two bytes), `drop`.
     fn with(number: &[u8]) -> Vec<u8> {
         let constant = [&[VECTOR, 12], &[0; 16][..]].concat();
-        module(&[&constant, &constant, &[VECTOR], number, &[0x1a]].concat())
+        module(&[&constant[..], &constant, &[VECTOR], number, &[0x1a]].concat())
     }
 
     #[test]
