@@ -81,10 +81,10 @@ class Half {
     const rows = [
       [
         "tests",
-        `${grouped(tests)} of ${counted(steps.pairs, "pair")}${finished && steps.skipped > 0 ? `, ${grouped(steps.skipped)} skipped` : ""}`,
+        `${grouped(tests)} of ${grouped(steps.pairs)}${finished && steps.skipped > 0 ? `, ${grouped(steps.skipped)} skipped` : ""}`,
       ],
       ["covered", grouped(covered)],
-      ["comparisons", grouped(comparisons)],
+      ["compared", grouped(comparisons)],
     ];
     if (state.method === "hierarchy" && this.order === "image") rows.push(["boxes", grouped(boxes)]);
     this.tally.replaceChildren(

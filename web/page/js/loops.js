@@ -37,7 +37,8 @@ async function record() {
     outlines = await findOutlines(camera, size);
     if (wantedFor !== recordedFor) return;
     clockEnd = Math.max(object.count, image.count);
-    noteSteps(METHOD_NOTES[state.method]);
+    // The chapter about hierarchies says it itself.
+    noteSteps(state.chapter === "skip" && state.method === "hierarchy" ? "" : METHOD_NOTES[state.method]);
   } catch (error) {
     clockEnd = 0;
     halves.object.load(null);

@@ -86,11 +86,11 @@ function stepWords(steps, step) {
     .replace(/: (.*)/, " ($1)")
     .replace("o", "O");
   if (result === RESULT.none) return `${subject} does not affect ${pixel}.`;
-  const t = steps.t && Number.isFinite(steps.t[step]) ? ` at t = ${short(steps.t[step])}` : "";
+  const t = steps.t && Number.isFinite(steps.t[step]) ? ` at t = ${short(steps.t[step], 4)}` : "";
   const outcome = {
-    [RESULT.first]: "the first there, and kept",
-    [RESULT.nearer]: "nearer than the one before, which it replaces",
-    [RESULT.behind]: "behind the one before, which stays",
+    [RESULT.first]: "the first there, kept",
+    [RESULT.nearer]: "nearer, it replaces the one before",
+    [RESULT.behind]: "behind the one before",
   }[result];
   return `${subject} affects ${pixel}${t}: ${outcome}.`;
 }
