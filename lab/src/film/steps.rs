@@ -140,14 +140,16 @@ impl Steps {
     /// ```
     pub fn record(order: Order, method: Method, view: &View) -> Result<Steps, TooManySteps> {
         let primitives = view.scene.primitive_count();
-        let pixels = view.camera.image().map(u64::from).iter().product();
+        let image = view.camera.image();
+        let pixels = image.map(u64::from).iter().product();
+        let has_short_sides = image.iter().all(|&side| side <= u32::from(u16::MAX));
         let check = |steps| match steps {
-            0..=MOST_KEPT => Ok(()),
+            0..=MOST_KEPT if has_short_sides => Ok(()),
             _ => Err(TooManySteps { steps, primitives, pixels }),
         };
-        if method == Method::Textbook {
-            check(pixels * u64::from(primitives))?;
-        }
+        // By the fast method the number is known only after a first run, which is worth it for small pictures.
+        let at_least = if method == Method::Textbook { u64::from(primitives) } else { 1 };
+        check(pixels * at_least)?;
         let loops = Loops::new(order, method, *view);
         check(loops.steps)?;
         let (steps, painted) = loops.keep();
@@ -197,7 +199,7 @@ fn marks(order: Order, steps: &[Step]) -> Vec<u32> {
 
 impl Painted {
     fn stored(&self) -> StoredChange {
-        let small = |index: u32| u16::try_from(index).expect("a picture with few pixels");
+        let small = |index: u32| u16::try_from(index).expect("a picture with short sides");
         StoredChange {
             steps: u32::try_from(self.steps).expect("few steps"),
             row: small(self.row),
@@ -235,7 +237,7 @@ struct Keeper {
 
 impl Keeper {
     fn begin(&mut self, sample: Sample, tested: Tested, outcome: Outcome) {
-        let small = |index| u16::try_from(index).expect("a picture with few pixels");
+        let small = |index| u16::try_from(index).expect("a picture with short sides");
         let (row, column) = (small(sample.row), small(sample.column));
         self.steps.push(Step { tested, row, column, outcome, t: None });
     }

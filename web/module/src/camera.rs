@@ -2,6 +2,7 @@
 
 use bothways_lab::common::glam::Vec3;
 use bothways_lab::common::{Camera, CameraDescription, Orientation, Projection};
+use bothways_lab::wording::grouped;
 use serde::{Deserialize, Serialize};
 
 /// A camera as JSON. It states where it looks by `u`, `v`, `w`, or else by `look_at`, or else by `direction`, the last two with
@@ -36,6 +37,9 @@ pub(crate) enum ProjectionJson {
     Perspective,
     Parallel,
 }
+
+/// The most pixels of an image: as many as a 4K screen has, and a few more.
+const MOST_PIXELS: u64 = 1 << 23;
 
 /// From where a message looks: a camera, and another size of its image. Without a camera it is the scene's own.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
@@ -145,6 +149,14 @@ impl From {
         let mut description = self.camera.as_ref().map_or(*own, CameraJson::description);
         description.image[0] = self.width.unwrap_or(description.image[0]);
         description.image[1] = self.height.unwrap_or(description.image[1]);
+        let [width, height] = description.image;
+        if u64::from(width) * u64::from(height) > MOST_PIXELS {
+            return Err(format!(
+                "an image of {width}x{height} is too large for a browser, which draws at most {} pixels here; choose a \
+                 smaller one",
+                grouped(MOST_PIXELS)
+            ));
+        }
         Camera::new(description).map_err(|error| error.to_string())
     }
 }

@@ -5,7 +5,7 @@ use crate::camera::{CameraJson, FrameJson, ProjectionJson};
 use crate::engine::{Engine, File};
 use crate::stage::Stage;
 use bothways_lab::common::Camera;
-use bothways_lab::scenes::{self, LoadedScene, with_projection};
+use bothways_lab::scenes::{self, BUILT_IN, LoadedScene, with_projection};
 use serde::{Deserialize, Serialize};
 
 /// What to open: a built-in scene, or the file that comes with the message, by its name.
@@ -57,12 +57,9 @@ pub(crate) fn answer(
     file: Option<File>,
 ) -> Result<Answer, String> {
     let (loaded, bytes) = match file {
-        Some(File { bytes }) => {
-            (scenes::load_bytes(&open.name, bytes, open.image), Some(bytes.len()))
-        }
-        None => (built_in(&open.name), None),
+        Some(File { bytes }) => (given(open, bytes)?, Some(bytes.len())),
+        None => (built_in(&open.name)?, None),
     };
-    let loaded = loaded.map_err(|error| full(&error))?;
     // The old scene goes first: two at once take twice the memory.
     engine.stage = None;
     let stage = Stage::new(loaded)?;
@@ -84,15 +81,24 @@ pub(crate) fn answer(
     Ok(answer)
 }
 
-/// A page has no files beside it: only names of built-in scenes are known.
-fn built_in(name: &str) -> Result<LoadedScene, scenes::LoadError> {
-    scenes::load(name)
+/// A page has no files but those that it is given: a name is that of a built-in scene.
+fn built_in(name: &str) -> Result<LoadedScene, String> {
+    if BUILT_IN.iter().any(|scene| scene.name == name) || !name.contains(['.', '/', '\\']) {
+        return scenes::load(name).map_err(|error| error.to_string());
+    }
+    Err(format!("{name} is no built-in scene; open the file itself, or drop it on the page"))
 }
 
-/// The message as on the command line: with the lines of a scene file that it is about.
-fn full(error: &scenes::LoadError) -> String {
-    let scenes::LoadError::SceneFile(error) = error else { return error.to_string() };
-    error.to_string()
+/// Opens a file that was given to the page, in the words of the command line.
+fn given(open: &Open, bytes: &[u8]) -> Result<LoadedScene, String> {
+    scenes::load_bytes(&open.name, bytes, open.image).map_err(|error| {
+        let mut text = error.to_string();
+        // What WebAssembly says of every file.
+        if text.ends_with("operation not supported on this platform") {
+            text += "; a page reads no file beside the one that it is given: open the mesh alone, or generate one";
+        }
+        text
+    })
 }
 
 pub(crate) fn camera(engine: &mut Engine, change: &Change) -> Result<Answer, String> {
@@ -107,4 +113,23 @@ pub(crate) fn camera(engine: &mut Engine, change: &Change) -> Result<Answer, Str
         camera: CameraJson::new(&description),
         frame: FrameJson::new(&camera),
     }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_given_files_are_read() {
+        let mut engine = Engine::default();
+        let says = engine.call("open", r#"{"name": "../a.obj"}"#, None).unwrap_err();
+        assert!(says.starts_with("../a.obj is no built-in scene; open the file itself"), "{says}");
+        let triangle = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+        let opened = engine.call("open", r#"{"name": "a.obj"}"#, Some(triangle)).unwrap();
+        assert_eq!(opened.json()["triangles"], 1);
+        // What is wrong leaves the scene that is open.
+        engine.call("open", r#"{"name": "b.obj"}"#, Some(b"f 1 2 3\n")).unwrap_err();
+        let rendered = engine.call("render", "{}", None).unwrap();
+        assert_eq!(rendered.json()["verdict"]["equal"], true);
+    }
 }
