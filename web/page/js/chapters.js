@@ -71,7 +71,7 @@ const CHAPTERS = [
     title: "Which samples a triangle owns",
     brief: "A shared edge has one owner.",
     view: "edge",
-    text: "A triangle covers a pixel if it covers its middle. A sample exactly on a shared edge belongs to exactly one of the two triangles.",
+    text: "A triangle covers a pixel if it covers its middle. A sample exactly on a shared edge, between its ends, belongs to exactly one of the two triangles.",
   },
   {
     id: "nearest",
@@ -132,7 +132,7 @@ async function visit(id) {
   closeChapters();
   stopPlaying();
   change({ chapter: chapter.id, step: 0, ...chapter.state });
-  if (chapter.scene && chapter.scene !== state.scene && !state.byHand) await openScene({ name: chapter.scene });
+  if (chapter.scene && chapter.scene !== askedScene && !state.byHand) await openScene({ name: chapter.scene });
   say(`chapter ${CHAPTERS.indexOf(chapter) + 1}: ${chapter.title}`);
 }
 

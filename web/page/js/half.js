@@ -246,7 +246,11 @@ function fillRest(rgba, background) {
     if (rgba[at + 3] === 0) rgba.set([background[0], background[1], background[2], 254], at);
 }
 
-/** The colour that image order gives to a pixel in which it sees nothing. @param {Steps} steps @returns {ArrayLike<number> | null} */
+/**
+ * The colour that image order gives to a pixel in which it sees nothing.
+ * @param {Steps} steps
+ * @returns {ArrayLike<number> | null}
+ */
 function backgroundOf({ changes: { id, rgb } }) {
   const place = id.indexOf(NOTHING);
   return place < 0 ? null : rgb.slice(3 * place, 3 * place + 3);

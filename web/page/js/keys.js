@@ -52,7 +52,11 @@ function obeyKey(event) {
   else if (inputById("letters").checked && obeyLetter(key)) event.preventDefault();
 }
 
-/** @param {string} key @param {boolean} onControl @returns {boolean} */
+/**
+ * @param {string} key
+ * @param {boolean} onControl
+ * @returns {boolean}
+ */
 function obeyStepKey(key, onControl) {
   if (key === " " && !onControl) togglePlaying();
   else if (key === "Home" && !onControl) stepBy(-clockEnd);

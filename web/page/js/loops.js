@@ -14,7 +14,7 @@ const loopsAreShown = () => viewOf(state.chapter) === "loops";
 
 /** Records the loops, if they were not. */
 async function record() {
-  if (!loopsAreShown() || !state.camera || !state.opened || sceneIsOpening) return;
+  if (!loopsAreShown() || !state.camera || !state.opened || scenesOpening > 0) return;
   const size = state.stepsSize;
   const camera = { ...state.camera, height: size, width: size, vw: state.camera.vh };
   const wantedFor = JSON.stringify([state.scene, camera, state.method]);

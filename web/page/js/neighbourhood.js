@@ -35,7 +35,11 @@ function drawNeighbourhood() {
   } = magnified;
   const cells = 2 * near.radius + 1;
   const cell = width / cells;
-  /** @param {number} x @param {number} y @returns {[number, number]} */
+  /**
+   * @param {number} x
+   * @param {number} y
+   * @returns {[number, number]}
+   */
   const place = (x, y) => [(x - (column - near.radius)) * cell, (y - (row - near.radius)) * cell];
   const sheet = sheets.get("object");
   context.fillStyle = colour("mat");

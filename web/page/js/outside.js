@@ -44,7 +44,11 @@ const askOutside = debounced(30, async () => {
 const farAway = (outside) =>
   1.5 * Math.max(lengthOf(subtract(outside.eye, pivot)), lengthOf(subtract(outside.eye, outside.corners[0])));
 
-/** @param {Outside} outside @param {ViewingRay} ray @returns {DrawnRay} */
+/**
+ * @param {Outside} outside
+ * @param {ViewingRay} ray
+ * @returns {DrawnRay}
+ */
 function drawnRay(outside, { row, column, origin, direction, point }) {
   const far = scaled(direction, farAway(outside) / lengthOf(direction));
   return { row, column, origin, through: add(origin, direction), end: point ?? add(origin, far), hit: point !== null };

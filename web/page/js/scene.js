@@ -1,8 +1,10 @@
 // @ts-check
 // Opens scenes, and moves their camera.
 
-/** Whether a scene is being opened: what is recorded of the old one would be of no use. */
-let sceneIsOpening = false;
+/** Scenes that are being opened: what is recorded of an old one meanwhile would be of no use. */
+let scenesOpening = 0;
+/** The scene that was asked for last, open or not yet. */
+let askedScene = "";
 
 /** The pivot about which the camera turns. */
 let pivot = /** @type {Vector} */ ([0, 0, 0]);
@@ -17,15 +19,17 @@ async function openScene(what, { byHand = false, camera = {} } = {}) {
   const own = "file" in what;
   /** @type {Opened} */
   let opened;
-  sceneIsOpening = true;
+  scenesOpening++;
+  askedScene = "file" in what ? what.file.name : what.name;
   try {
     opened = await engine.call("open", what);
   } catch (error) {
+    askedScene = state.scene;
     showTrouble(messageOf(error));
     say(messageOf(error));
     return false;
   } finally {
-    sceneIsOpening = false;
+    scenesOpening--;
   }
   showTrouble(opened.warnings.join("\n"));
   pivot = pivotOf(opened.camera);

@@ -172,7 +172,11 @@ function drawOwners() {
   });
 }
 
-/** The samples: a disc for the first triangle, a square for the second, a ring for neither. @param {CanvasRenderingContext2D} context @param {number} cell */
+/**
+ * The samples: a disc for the first triangle, a square for the second, a ring for neither.
+ * @param {CanvasRenderingContext2D} context
+ * @param {number} cell
+ */
 function drawSamples(context, cell) {
   const ties = new Set((owned?.ties ?? []).map(([row, column]) => row * EDGE_COLUMNS + column));
   for (let row = 0; row < EDGE_ROWS; row++) {

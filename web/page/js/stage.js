@@ -55,7 +55,12 @@ function stageMap({ centre, from, up, away }, width, height) {
   const scaleAt = (point) => focal / Math.max(nearest, away - turnedPoint(point)[2]);
   /** Whether a point lies before the observer. @param {ArrayLike<number>} point */
   const isBefore = (point) => away - turnedPoint(point)[2] > nearest;
-  /** A line as far as it lies before the observer. @param {Vector} a @param {Vector} b @returns {[[number, number], [number, number]] | null} */
+  /**
+   * A line as far as it lies before the observer.
+   * @param {Vector} a
+   * @param {Vector} b
+   * @returns {[[number, number], [number, number]] | null}
+   */
   const line = (a, b) => {
     let [one, other] = [turnedPoint(a), turnedPoint(b)];
     const limit = away - nearest;
@@ -108,7 +113,11 @@ function drawObjects(context, map, outside, observer) {
   for (const { draw } of items.sort((one, other) => one.depth - other.depth)) draw();
 }
 
-/** @param {CanvasRenderingContext2D} context @param {StageMap} map @param {Outside["spheres"][0]} sphere */
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {StageMap} map
+ * @param {Outside["spheres"][0]} sphere
+ */
 function drawSphere(context, map, { center, radius, colour: [red, green, blue] }) {
   const [x, y] = map.project(center);
   const size = radius * map.scaleAt(center);
@@ -123,7 +132,13 @@ function drawSphere(context, map, { center, radius, colour: [red, green, blue] }
   context.fill();
 }
 
-/** A part of a plane, as a net of lines. @param {CanvasRenderingContext2D} context @param {StageMap} map @param {Outside["planes"][0]} plane @param {Observer3} observer */
+/**
+ * A part of a plane, as a net of lines.
+ * @param {CanvasRenderingContext2D} context
+ * @param {StageMap} map
+ * @param {Outside["planes"][0]} plane
+ * @param {Observer3} observer
+ */
 function drawPlane(context, map, { point, normal, colour: ink }, { centre, away }) {
   const n = unit(normal);
   const foot = subtract(centre, scaled(n, dot(subtract(centre, point), n)));
@@ -239,13 +254,22 @@ function drawCamera(context, map, outside, image, pixel, arrow) {
   label(context, "viewport", x, y - 0.5 * letterSize(), ink, "center");
 }
 
-/** Pixels between two lines of the grid: all that the eye can still tell apart. @param {{height: number, width: number}} image */
+/**
+ * Pixels between two lines of the grid: all that the eye can still tell apart.
+ * @param {{height: number, width: number}} image
+ */
 const gridStep = ({ height, width }) =>
   [1, 2, 4, 5, 8, 10, 16, 20, 32, 40, 64, 80, 120, 160, 240, 320].find(
     (step) => Math.max(height, width) / step <= 24,
   ) ?? 640;
 
-/** @param {CanvasRenderingContext2D} context @param {StageMap} map @param {(row: number, column: number) => Vector} at @param {Pixel} pixel @param {number} step */
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {StageMap} map
+ * @param {(row: number, column: number) => Vector} at
+ * @param {Pixel} pixel
+ * @param {number} step
+ */
 function drawChosen(context, map, at, [row, column], step) {
   const half = Math.max(0.5, step * 0.25);
   const points = [
@@ -265,7 +289,14 @@ function drawChosen(context, map, at, [row, column], step) {
   context.stroke();
 }
 
-/** @param {CanvasRenderingContext2D} context @param {StageMap} map @param {Vector} from @param {Vector} to @param {string} letter @param {string} ink */
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {StageMap} map
+ * @param {Vector} from
+ * @param {Vector} to
+ * @param {string} letter
+ * @param {string} ink
+ */
 function drawArrow(context, map, from, to, letter, ink) {
   const ends = map.line(from, to);
   if (!ends) return;
@@ -296,7 +327,14 @@ function drawArrow(context, map, from, to, letter, ink) {
     );
 }
 
-/** @param {CanvasRenderingContext2D} context @param {string} text @param {number} x @param {number} y @param {string} ink @param {CanvasTextAlign} align */
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {string} text
+ * @param {number} x
+ * @param {number} y
+ * @param {string} ink
+ * @param {CanvasTextAlign} align
+ */
 function label(context, text, x, y, ink, align, style = "400") {
   context.font = `${style} ${letterSize()}px ${colour("text")}`;
   context.textAlign = align;
@@ -309,7 +347,12 @@ function label(context, text, x, y, ink, align, style = "400") {
   context.fillText(text, x, y);
 }
 
-/** @param {CanvasRenderingContext2D} context @param {StageMap} map @param {DrawnRay[]} rays @param {boolean} strong */
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {StageMap} map
+ * @param {DrawnRay[]} rays
+ * @param {boolean} strong
+ */
 function drawRays(context, map, rays, strong) {
   // One ray has the colour of what is looked at; many are quiet, so that what they hit stands out.
   context.strokeStyle = colour(strong ? "focus" : "bright");

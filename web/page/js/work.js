@@ -181,7 +181,11 @@ function drawChart() {
   }
 }
 
-/** Both textbooks take the same steps: every pair. @param {CanvasRenderingContext2D} context @param {number[][]} points */
+/**
+ * Both textbooks take the same steps: every pair.
+ * @param {CanvasRenderingContext2D} context
+ * @param {number[][]} points
+ */
 function drawTextbook(context, points) {
   context.strokeStyle = context.fillStyle = colour("quiet");
   context.lineWidth = 1.5;
@@ -198,7 +202,13 @@ function drawTextbook(context, points) {
   context.fillText("every pair (textbooks)", end[0], end[1] - 0.4 * letterSize());
 }
 
-/** @param {CanvasRenderingContext2D} context @param {OrderName} order @param {number[][]} points @param {boolean} isHigher  Its name stands above, or below. @param {boolean} isWide */
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {OrderName} order
+ * @param {number[][]} points
+ * @param {boolean} isHigher  Its name stands above, or below.
+ * @param {boolean} isWide
+ */
 function drawCurve(context, order, points, isHigher, isWide) {
   context.strokeStyle = context.fillStyle = colour(order);
   context.lineWidth = 2.5;
@@ -217,7 +227,13 @@ function drawCurve(context, order, points, isHigher, isWide) {
   context.fillText(ORDERS[order][0], end[0] + (isWide ? 0.7 * em : 0), end[1] + (isHigher ? -away : away));
 }
 
-/** @param {CanvasRenderingContext2D} context @param {number} x @param {number} y @param {number} a @param {number} b */
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {number} x
+ * @param {number} y
+ * @param {number} a
+ * @param {number} b
+ */
 function rule(context, x, y, a, b) {
   context.beginPath();
   context.moveTo(x, y);
