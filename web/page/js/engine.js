@@ -14,22 +14,31 @@ const engine = (() => {
   let worker;
   /** @type {Error | undefined} Why there is no worker. */
   let dead;
+  /** The texts of the worker's script and of the module. @type {{script: string, module: string} | undefined} */
+  let parts;
+  /** The last scene that was opened, for a module that has to begin anew. @type {any} */
+  let opened;
 
   /** @param {string} id */
   function textOf(id) {
     const element = document.getElementById(id);
     if (element === null) throw new Error(`the page has no part ${id}`);
     const text = element.textContent ?? "";
-    // It is needed once, and it is long.
+    // The page does without it: it is long.
     element.remove();
     return text;
+  }
+
+  /** @param {Error} error */
+  function rejectAll(error) {
+    for (const { reject } of waiting.values()) reject(error);
+    waiting.clear();
   }
 
   /** @param {string} text */
   function fail(text) {
     dead = new Error(text);
-    for (const { reject } of waiting.values()) reject(dead);
-    waiting.clear();
+    rejectAll(dead);
   }
 
   function start() {
@@ -37,26 +46,47 @@ const engine = (() => {
       return fail("this browser does not run WebAssembly; open the page in another one");
     }
     try {
-      const script = new Blob([textOf("bothways-worker")], { type: "text/javascript" });
-      const address = URL.createObjectURL(script);
-      worker = new Worker(address);
+      parts ??= { script: textOf("bothways-worker"), module: textOf("bothways-module") };
+      const address = URL.createObjectURL(new Blob([parts.script], { type: "text/javascript" }));
+      const started = new Worker(address);
+      worker = started;
       // The script is being read; its address is not needed again once it has answered.
-      void send("start", { module: textOf("bothways-module") }, []).then(
+      void send("start", { module: parts.module }, []).then(
         () => URL.revokeObjectURL(address),
         (/** @type {Error} */ error) => fail(`the module does not start: ${error.message}`),
       );
-      worker.addEventListener("message", ({ data: { id, ok, value, error } }) => {
-        const one = waiting.get(id);
-        waiting.delete(id);
-        if (ok) one?.resolve(value);
-        else one?.reject(new Error(error));
+      started.addEventListener("message", ({ data }) => {
+        if (worker === started) receive(data);
       });
-      worker.addEventListener("error", (event) => {
+      started.addEventListener("error", (event) => {
         fail(`the worker does not run: ${event.message || "this browser allows no worker here"}`);
       });
     } catch (error) {
       fail(`this browser allows no worker here: ${error}`);
     }
+  }
+
+  /** @param {{id: number, ok: boolean, value?: any, error?: string, broke?: boolean}} answer */
+  function receive({ id, ok, value, error, broke }) {
+    if (broke) return beginAnew(String(error));
+    const one = waiting.get(id);
+    waiting.delete(id);
+    if (ok) one?.resolve(value);
+    else one?.reject(new Error(error));
+  }
+
+  /**
+   * Ends a worker whose module broke, and starts another one with the same scene.
+   * @param {string} said
+   */
+  function beginAnew(said) {
+    worker?.terminate();
+    rejectAll(new Error(`the module broke, which is a bug, and begins anew; please report this: ${said}`));
+    start();
+    // If it breaks again by opening the scene, the next one begins without.
+    const again = opened;
+    opened = undefined;
+    if (again !== undefined) void open(again).catch(() => {});
   }
 
   /**
@@ -77,17 +107,21 @@ const engine = (() => {
     });
   }
 
+  /** Opens a scene, and keeps what it was opened from. @param {any} args */
+  async function open(args) {
+    const value = await send("open", args, []);
+    opened = args;
+    return value;
+  }
+
   start();
   return {
     /**
-     * Asks the module. The bytes of a file leave the page.
+     * Asks the module.
      * @param {string} name
      * @param {any} [args]
      * @returns {Promise<any>}
      */
-    call(name, args = {}) {
-      const bytes = args.file?.bytes;
-      return send(name, args, bytes instanceof ArrayBuffer ? [bytes] : []);
-    },
+    call: (name, args = {}) => (name === "open" ? open(args) : send(name, args, [])),
   };
 })();

@@ -18,7 +18,8 @@ async function openFile(file) {
   }
   try {
     const bytes = await file.arrayBuffer();
-    if (await openScene({ file: { name: file.name, bytes } }, { byHand: true })) showSceneChoice();
+    if (await openScene({ file: { name: file.name, bytes } }, { byHand: true, ...awaitedFor(file.name) }))
+      showSceneChoice();
   } catch (error) {
     showTrouble(`${file.name}: ${messageOf(error)}`);
   }

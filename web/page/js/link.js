@@ -55,6 +55,17 @@ function numbersOf(text, length) {
   return text && numbers.length === length && numbers.every(Number.isFinite) ? numbers : null;
 }
 
+/** What a link says about a file that only the user can open. @type {{scene: string, camera: Partial<Camera>, pixel: Pixel | null} | null} */
+let awaited = null;
+
+/** Camera and pixel of the link that waits for this file. @param {string} name */
+function awaitedFor(name) {
+  if (awaited?.scene !== name) return {};
+  const { camera, pixel } = awaited;
+  awaited = null;
+  return { camera, pixel };
+}
+
 /** Shows what a link is about. What it does not say, or says wrongly, stays as it is in the chapter. */
 async function followLink() {
   const parts = new URLSearchParams(location.hash.slice(1));
@@ -92,18 +103,19 @@ async function followLink() {
   const image = numbersOf(parts.get("image"), 2)?.map((side) => clamp(Math.round(side), 1, 4096));
   if (image) [camera.height, camera.width] = image;
   const scene = parts.get("scene") ?? chapter.scene ?? "lecture";
-  const pixel = numbersOf(parts.get("pixel"), 2);
-  if (pixel) change({ pixel: /** @type {Pixel} */ (pixel.map((place) => Math.max(0, Math.round(place)))) });
+  const place = numbersOf(parts.get("pixel"), 2)?.map((index) => Math.max(0, Math.round(index)));
+  const pixel = /** @type {Pixel | null} */ (place ?? null);
   const isFile = /\.(obj|ply|toml)$/i.test(scene);
-  const own = state.own && state.scene === scene;
-  if (own && state.opened) change({ camera: patched(state.opened.camera, camera) });
-  else if (
-    isFile ||
-    !(await openScene({ name: scene }, { camera, byHand: Boolean(parts.get("scene")) && scene !== chapter.scene }))
-  ) {
-    if (!state.opened) await openScene({ name: "lecture" });
-    showTrouble(`the link is about the scene ${scene}: open that file, or drop it on this page`);
+  if (state.own && state.scene === scene && state.opened) {
+    const moved = patched(state.opened.camera, camera);
+    change({ camera: moved, pixel: pixelWithin(moved, pixel) });
+    return;
   }
+  const byHand = Boolean(parts.get("scene")) && scene !== chapter.scene;
+  if (!isFile && (await openScene({ name: scene }, { camera, pixel, byHand }))) return;
+  awaited = { scene, camera, pixel };
+  if (!state.opened) await openScene({ name: "lecture" });
+  showTrouble(`the link is about the scene ${scene}: open that file, or drop it on this page`);
 }
 
 function beginLinks() {

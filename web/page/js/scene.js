@@ -12,10 +12,10 @@ let pivot = /** @type {Vector} */ ([0, 0, 0]);
 /**
  * Opens a built-in scene or a file; the engine's words say what is wrong with it.
  * @param {{name: string} | {file: {name: string, bytes: ArrayBuffer}}} what
- * @param {{byHand?: boolean, camera?: Partial<Camera>}} [options]
+ * @param {{byHand?: boolean, camera?: Partial<Camera>, pixel?: Pixel | null}} [options]
  * @returns {Promise<boolean>}
  */
-async function openScene(what, { byHand = false, camera = {} } = {}) {
+async function openScene(what, { byHand = false, camera = {}, pixel = null } = {}) {
   const own = "file" in what;
   /** @type {Opened} */
   let opened;
@@ -40,7 +40,7 @@ async function openScene(what, { byHand = false, camera = {} } = {}) {
     byHand: byHand || state.byHand,
     scene: own ? what.file.name : opened.name,
     camera: started,
-    pixel: pixelWithin(started, state.pixel),
+    pixel: pixelWithin(started, pixel),
   });
   say(`scene ${state.scene} is open`);
   return true;
