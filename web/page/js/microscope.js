@@ -61,12 +61,12 @@ function showRay(report, camera) {
       { class: "formula" },
       ...definition(
         "x",
-        `= vw ((j − ½)/W − ½) = ${short(camera.vw)} ((${j} − ½)/${width} − ½)`,
+        `= vw ((j − ½)/W − ½) = ${stored(camera.vw)} ((${j} − ½)/${width} − ½)`,
         value(`= ${whole(x)}`),
       ),
       ...definition(
         "y",
-        `= −vh ((i − ½)/H − ½) = −${short(camera.vh)} ((${i} − ½)/${height} − ½)`,
+        `= −vh ((i − ½)/H − ½) = −${stored(camera.vh)} ((${i} − ½)/${height} − ½)`,
         value(`= ${whole(y)}`),
       ),
       ...(perspective
@@ -74,7 +74,7 @@ function showRay(report, camera) {
             ...definition("*p*", "= eye", value(`= ${vectorText(report.eye, 9)}`)),
             ...definition(
               "*d*",
-              `= x *u* + y *v* − d *w*, with d = ${short(camera.d)}`,
+              `= x *u* + y *v* − d *w*, with d = ${stored(camera.d)}`,
               value(`= ${vectorText(direction, 9)}`),
             ),
           ]
@@ -93,6 +93,9 @@ function showRay(report, camera) {
     ),
   );
 }
+
+/** A size of the camera as it is stored, in 32 bits: with all digits, a calculator gives the same results. @param {number} size */
+const stored = (size) => whole(Math.fround(size));
 
 /** All that the ray meets, on an axis of t. @param {PixelReport} report */
 function showAlong(report) {
@@ -139,13 +142,13 @@ function showAlong(report) {
       }),
     );
     const text = `id ${id}`;
-    if (x - taken > 44) {
+    if (x - taken > 0) {
       const middle = { "text-anchor": "middle", x: clamp(x, 24, width - 40) };
       picture.append(
         makeSvg("text", { ...middle, y: 22, ...letters, "font-weight": place === 0 ? 650 : 400 }, text),
         makeSvg("text", { ...middle, y: 91, ...letters, "font-size": 13 }, short(t, 4)),
       );
-      taken = x;
+      taken = x + 9.5 * text.length + 8;
     }
   });
   const rows = covering.map(({ id, object, kind, t, behind }, place) =>

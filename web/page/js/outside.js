@@ -114,6 +114,7 @@ function drawOutside(part = 1) {
         origin: between(before.origin, ray.origin, part),
         end: between(before.end, ray.end, part),
         hit: false,
+        moving: true,
       };
     });
   }

@@ -10,7 +10,7 @@
  * @property {number} away
  */
 
-/** @typedef {{origin: Vector, through: Vector, end: Vector, hit: boolean, row: number, column: number}} DrawnRay */
+/** @typedef {{origin: Vector, through: Vector, end: Vector, hit: boolean, moving?: boolean, row: number, column: number}} DrawnRay */
 
 /**
  * A place from which the camera and its target are well seen: beside the camera, a little above.
@@ -361,9 +361,9 @@ function drawRays(context, map, rays, strong) {
   for (const ray of rays) {
     const line = map.line(ray.origin, ray.end);
     if (!line) continue;
-    context.globalAlpha = strong ? 1 : ray.hit ? 0.5 : 0.22;
+    context.globalAlpha = strong ? 1 : ray.hit || ray.moving ? 0.5 : 0.22;
     // What leaves the scene fades out.
-    context.setLineDash(ray.hit ? [] : [5, 4]);
+    context.setLineDash(ray.hit || ray.moving ? [] : [5, 4]);
     context.beginPath();
     context.moveTo(...line[0]);
     context.lineTo(...line[1]);
