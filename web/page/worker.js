@@ -2,7 +2,8 @@
 // The worker: it holds the module and answers the page's messages, one after another.
 //
 // It is made from a text, behind the JavaScript of wasm-bindgen, which defines `wasm_bindgen`. A message is
-// {id, call, ...arguments} and gets {id, ok: true, value} or {id, ok: false, error}. The first one is
+// {id, call, ...arguments} and gets {id, ok: true, value} or {id, ok: false, error}; with `broke: true` if the module is in no
+// known state from now on: then the page ends this worker. The first message is
 // {id, call: "start", module}, with the module's bytes, compressed by gzip, in base64.
 "use strict";
 
@@ -22,12 +23,8 @@
 // @ts-ignore
 const bindgen = wasm_bindgen;
 
-/** @type {WebAssembly.Module | undefined} */
-let compiled;
 /** @type {Module | undefined} */
 let module;
-/** @type {Message | undefined} The last message that opened a scene, for a module that has to begin anew. */
-let opened;
 
 /** @param {string} base64 */
 function bytesOf(base64) {
@@ -43,9 +40,9 @@ async function decompressed(bytes) {
   return new Response(stream).arrayBuffer();
 }
 
-/** Makes a new instance of the compiled module. */
-function begin() {
-  bindgen.initSync({ module: compiled });
+/** @param {string} base64  The module's bytes, compressed. */
+async function start(base64) {
+  bindgen.initSync({ module: await WebAssembly.compile(await decompressed(bytesOf(base64))) });
   module = new bindgen.Module();
 }
 
@@ -83,40 +80,21 @@ function valueOf(reply) {
   return { value, buffers };
 }
 
-/**
- * Starts the module anew after it broke: its memory is in no known state.
- * @param {unknown} error
- * @returns {string} what happened
- */
-function recover(error) {
-  /** @type {string} */
-  const said = bindgen.panicText() || String(error);
-  begin();
-  try {
-    if (opened !== undefined) ask(opened).free();
-  } catch {
-    opened = undefined;
-  }
-  return `the module broke, which is a bug, and was started anew; please report this: ${said}`;
-}
-
 /** @param {Message} message */
 async function answer(message) {
   const { id } = message;
   try {
     if (message.call === "start") {
-      compiled = await WebAssembly.compile(await decompressed(bytesOf(String(message.module))));
-      begin();
+      await start(String(message.module));
       return postMessage({ id, ok: true, value: null });
     }
     const { value, buffers } = valueOf(ask(message));
-    if (message.call === "open") opened = message;
     postMessage({ id, ok: true, value }, { transfer: buffers });
   } catch (error) {
     // The module's own texts are strings. A trap, such as the end of a panic or of memory, is a RuntimeError.
     const broke = error instanceof WebAssembly.RuntimeError || error instanceof RangeError;
-    const text = typeof error === "string" ? error : broke ? recover(error) : String(error);
-    postMessage({ id, ok: false, error: text });
+    const said = broke && module !== undefined ? bindgen.panicText() : "";
+    postMessage({ id, ok: false, error: said || String(error), broke });
   }
 }
 

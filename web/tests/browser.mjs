@@ -36,16 +36,16 @@ export async function stop() {
 
 /**
  * Opens the page from its file, and waits until it is ready. `said` collects what the console said, and every request.
- * @param {{hash?: string, width?: number, height?: number, scheme?: "light" | "dark"}} [options]
+ * @param {{file?: string, hash?: string, width?: number, height?: number, scheme?: "light" | "dark"}} [options]
  */
-export async function open({ hash = "", width = 1440, height = 900, scheme = "light" } = {}) {
+export async function open({ file = PAGE, hash = "", width = 1440, height = 900, scheme = "light" } = {}) {
   const context = await (await start()).newContext({ viewport: { width, height }, colorScheme: scheme });
   const page = await context.newPage();
   const said = { console: [], requests: [] };
   page.on("console", (message) => said.console.push(`${message.type()}: ${message.text()}`));
   page.on("pageerror", (error) => said.console.push(`error: ${error}`));
   page.on("request", (request) => said.requests.push(request.url()));
-  await page.goto(pathToFileURL(PAGE).href + hash);
+  await page.goto(pathToFileURL(file).href + hash);
   await page.waitForSelector("html[data-ready]", { timeout: 60_000 });
   return { page, said, close: () => context.close() };
 }

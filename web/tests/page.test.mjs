@@ -1,8 +1,11 @@
 // The page in Debian's chromium, opened from its file, as a reader uses it.
 
 import assert from "node:assert/strict";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
 import { after, test } from "node:test";
-import { CHAPTERS, open, program, stop, until } from "./browser.mjs";
+import { CHAPTERS, PAGE, engineIn, open, program, stop, until } from "./browser.mjs";
 
 after(stop);
 
@@ -165,7 +168,6 @@ function planeIn(words) {
 }
 
 test("every question takes the right answer, and refuses a wrong one", async () => {
-  const { engineIn } = await import("./browser.mjs");
   const { page, close } = await open();
   const engine = await engineIn(page);
   for (const kind of ["ray", "plane", "eye", "viewport", "distance", "frame"]) {
@@ -244,4 +246,21 @@ test("arrow keys turn the camera, and a key brings it back", async () => {
   await page.keyboard.press("0");
   await until("the scene's own eye", async () => eye() === null);
   await close();
+});
+
+test("a module that breaks begins anew with the same scene", async () => {
+  // A module that ends by a trap when it is asked about the rules.
+  const html = readFileSync(PAGE, "utf8");
+  const trap = `{ const call = wasm_bindgen.Module.prototype.call; wasm_bindgen.Module.prototype.call = function (name, ...rest) {
+    if (name === "own") throw new WebAssembly.RuntimeError("unreachable");
+    return call.call(this, name, ...rest); }; }`;
+  const folder = mkdtempSync(join(tmpdir(), "bothways-web-"));
+  const broken = join(folder, "broken.html");
+  writeFileSync(broken, html.replace("// @ts-check\n// The worker:", `${trap}\n// The worker:`));
+  const { page, close } = await open({ file: broken, hash: "#chapter=coverage&scene=ties" });
+  await until("a report", async () => (await text(page, "#trouble")).includes("begins anew"));
+  await page.evaluate(() => (location.hash = "#chapter=algorithms&scene=ties"));
+  await until("a verdict", async () => (await text(page, "#verdict-text")).startsWith("match"));
+  await close();
+  rmSync(folder, { recursive: true });
 });
