@@ -17,9 +17,10 @@ async function look() {
   try {
     /** @type {PixelReport} */
     const report = await engine.call("pixel", { row, column, camera });
+    const { frame } = await engine.call("camera", { camera });
     const near = await engine.call("neighbourhood", { row, column, radius, camera });
     if (wantedFor !== lookedFor) return;
-    showRay(report, camera);
+    showRay(report, camera, frame);
     showAlong(report);
     showEdges(report.at[0]);
     showNeighbourhood(near, report);
@@ -42,8 +43,9 @@ const definition = (symbol, ...lines) => [
  * The lecture's formulas with this camera's numbers. The lecture counts from 1, the page from 0.
  * @param {PixelReport} report
  * @param {Camera} camera
+ * @param {{u: Vector, v: Vector, w: Vector}} frame
  */
-function showRay(report, camera) {
+function showRay(report, camera, frame) {
   const [{ x, y, origin_from_eye: origin, direction }] = report.at;
   const [width, height] = report.size;
   const [i, j] = report.pixel.map((place) => place + 1);
@@ -69,6 +71,7 @@ function showRay(report, camera) {
         `= −vh ((i − ½)/H − ½) = −${stored(camera.vh)} ((${i} − ½)/${height} − ½)`,
         value(`= ${whole(y)}`),
       ),
+      ...definition("*u*, *v*, *w*", `= ${[frame.u, frame.v, frame.w].map((axis) => vectorText(axis)).join(", ")}`),
       ...(perspective
         ? [
             ...definition("*p*", "= eye", value(`= ${vectorText(report.eye, 9)}`)),
