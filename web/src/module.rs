@@ -16,6 +16,9 @@ const PACKAGE: &str = "bothways-web-module";
 /// Vectors, and a stack as large as a thread of a native program has: readers of files are recursive.
 const FLAGS: [&str; 2] = ["-Ctarget-feature=+simd128", "-Clink-arg=-zstack-size=8388608"];
 
+/// With this variable in the environment the functions keep their names, for profilers.
+const KEEP_NAMES: &str = "BOTHWAYS_KEEP_NAMES";
+
 /// The module, and what calls it.
 #[derive(Debug)]
 pub(crate) struct Module {
@@ -97,7 +100,7 @@ fn bind(compiled: &PathBuf) -> Result<Module, Failure> {
         let mut bindgen = Bindgen::new();
         bindgen.input_path(compiled).no_modules(true)?.typescript(false).demangle(false);
         bindgen
-            .remove_name_section(std::env::var_os("KEEP_NAMES").is_none())
+            .remove_name_section(std::env::var_os(KEEP_NAMES).is_none())
             .remove_producers_section(true);
         bindgen.omit_default_module_path(true);
         bindgen.generate_output()

@@ -43,7 +43,7 @@ const MOST_PIXELS: u64 = 1 << 23;
 
 /// From where a message looks: a camera, and another size of its image. Without a camera it is the scene's own.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
-pub(crate) struct From {
+pub(crate) struct Viewpoint {
     #[serde(default)]
     camera: Option<CameraJson>,
     #[serde(default)]
@@ -64,7 +64,7 @@ fn up() -> [f32; 3] {
     Vec3::Y.to_array()
 }
 
-impl std::convert::From<Projection> for ProjectionJson {
+impl From<Projection> for ProjectionJson {
     fn from(projection: Projection) -> Self {
         match projection {
             Projection::Perspective => ProjectionJson::Perspective,
@@ -73,7 +73,7 @@ impl std::convert::From<Projection> for ProjectionJson {
     }
 }
 
-impl std::convert::From<ProjectionJson> for Projection {
+impl From<ProjectionJson> for Projection {
     fn from(projection: ProjectionJson) -> Self {
         match projection {
             ProjectionJson::Perspective => Projection::Perspective,
@@ -139,7 +139,7 @@ impl CameraJson {
     }
 }
 
-impl From {
+impl Viewpoint {
     /// The camera.
     ///
     /// # Errors

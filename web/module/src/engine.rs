@@ -7,12 +7,6 @@ use crate::messages::{
 use crate::stage::Stage;
 use serde::de::DeserializeOwned;
 
-/// A file that was given to the page.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct File<'a> {
-    pub(crate) bytes: &'a [u8],
-}
-
 /// Answers messages, one after another. It keeps the scene that was opened last.
 #[derive(Debug, Default)]
 pub struct Engine {
@@ -31,7 +25,6 @@ impl Engine {
         arguments: &str,
         file: Option<&[u8]>,
     ) -> Result<Answer, String> {
-        let file = file.map(|bytes| File { bytes });
         match name {
             "scenes" => Ok(scenes::answer()),
             "open" => open::answer(self, &parsed(name, arguments)?, file),

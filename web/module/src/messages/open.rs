@@ -2,7 +2,7 @@
 
 use crate::answer::Answer;
 use crate::camera::{CameraJson, FrameJson, ProjectionJson};
-use crate::engine::{Engine, File};
+use crate::engine::Engine;
 use crate::stage::Stage;
 use bothways_lab::common::Camera;
 use bothways_lab::scenes::{self, BUILT_IN, LoadedScene, with_projection};
@@ -54,10 +54,10 @@ struct Changed {
 pub(crate) fn answer(
     engine: &mut Engine,
     open: &Open,
-    file: Option<File>,
+    file: Option<&[u8]>,
 ) -> Result<Answer, String> {
     let (loaded, bytes) = match file {
-        Some(File { bytes }) => (given(open, bytes)?, Some(bytes.len())),
+        Some(bytes) => (given(open, bytes)?, Some(bytes.len())),
         None => (built_in(&open.name)?, None),
     };
     // The old scene goes first: two at once take twice the memory.

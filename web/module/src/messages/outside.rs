@@ -1,7 +1,7 @@
 //! `outside`: the camera and the scene in the world, for a view from outside. `rays`: viewing rays and what they hit.
 
 use crate::answer::{Answer, Buffer, short};
-use crate::camera::{From, Pixel};
+use crate::camera::{Pixel, Viewpoint};
 use crate::stage::Stage;
 use bothways_lab::common::glam::{DVec3, Vec3};
 use bothways_lab::common::look::color::srgb_from_linear;
@@ -15,14 +15,14 @@ use serde_json::{Value, json};
 #[derive(Debug, Deserialize)]
 pub(crate) struct Outside {
     #[serde(flatten)]
-    pub(crate) from: From,
+    pub(crate) from: Viewpoint,
 }
 
 /// Which rays: of one pixel, of a row, of a column, or of at most so many rows and columns of the whole image.
 #[derive(Debug, Deserialize)]
 pub(crate) struct Rays {
     #[serde(flatten)]
-    pub(crate) from: From,
+    pub(crate) from: Viewpoint,
     #[serde(default)]
     row: Option<u32>,
     #[serde(default)]

@@ -1,7 +1,7 @@
 //! `pixel`: one pixel as `bothways pixel` reports it. `neighbourhood`: the pixels around it.
 
 use crate::answer::Answer;
-use crate::camera::{From, Pixel};
+use crate::camera::{Pixel, Viewpoint};
 use crate::stage::Stage;
 use bothways_lab::common::{Options, View};
 use bothways_lab::pixel::{self, Lesson, Outline};
@@ -13,7 +13,7 @@ pub(crate) struct OfPixel {
     #[serde(flatten)]
     pixel: Pixel,
     #[serde(flatten)]
-    from: From,
+    from: Viewpoint,
 }
 
 #[derive(Debug, Deserialize)]

@@ -1,7 +1,7 @@
 //! `render`: both orders from one camera, their difference, and the verdict.
 
 use crate::answer::{Answer, Buffer};
-use crate::camera::{CameraJson, FrameJson, From};
+use crate::camera::{CameraJson, FrameJson, Viewpoint};
 use crate::clock::timed;
 use crate::stage::Stage;
 use bothways_lab::common::frame::NO_PRIMITIVE;
@@ -29,7 +29,7 @@ pub(crate) struct RuleNames {
 #[derive(Debug, Deserialize)]
 pub(crate) struct Render {
     #[serde(flatten)]
-    from: From,
+    from: Viewpoint,
     #[serde(flatten)]
     rules: RuleNames,
     #[serde(default)]

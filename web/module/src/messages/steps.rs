@@ -1,7 +1,7 @@
 //! `steps`: every step of one order's loops, recorded once, so that the page goes to any of them at once.
 
 use crate::answer::{Answer, Buffer};
-use crate::camera::From;
+use crate::camera::Viewpoint;
 use crate::stage::Stage;
 use bothways_lab::common::frame::NO_PRIMITIVE;
 use bothways_lab::common::{Shape, View};
@@ -15,7 +15,7 @@ pub(crate) struct Record {
     order: OrderName,
     kind: Kind,
     #[serde(flatten)]
-    from: From,
+    from: Viewpoint,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]

@@ -3,7 +3,7 @@
 
 use super::render::RuleNames;
 use crate::answer::{Answer, Buffer};
-use crate::camera::{From, Pixel};
+use crate::camera::{Pixel, Viewpoint};
 use crate::stage::Stage;
 use bothways_lab::common::{Camera, CameraDescription, Frame, Options, View};
 use bothways_lab::diff::foreign::Buffer as Known;
@@ -20,7 +20,7 @@ use serde_json::{Value, json};
 #[derive(Debug, Deserialize)]
 pub(crate) struct Why {
     #[serde(flatten)]
-    from: From,
+    from: Viewpoint,
     #[serde(flatten)]
     rules: RuleNames,
 }
