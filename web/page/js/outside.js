@@ -151,6 +151,25 @@ function tellRays() {
   say(text.textContent);
 }
 
+let drawsSoon = false;
+
+/** Draws with the next frame of the screen, once for all that has moved until then. */
+function drawSoon() {
+  if (drawsSoon) return;
+  drawsSoon = true;
+  requestAnimationFrame(() => {
+    drawsSoon = false;
+    if (observerNow) observerNow.turns = true;
+    drawOutside();
+    drawAtRest();
+  });
+}
+
+const drawAtRest = debounced(180, () => {
+  if (observerNow) observerNow.turns = false;
+  drawOutside();
+});
+
 /** @param {number} right @param {number} up  In radians. */
 function turnObserver(right, up) {
   if (!observerNow) return;
@@ -159,7 +178,7 @@ function turnObserver(right, up) {
   const height = Math.acos(clamp(dot(from, axis), -1, 1));
   const lift = clamp(up, height - Math.PI + 0.08, height - 0.08);
   observerNow.from = unit(turned(turned(from, level, -lift), axis, -right));
-  drawOutside();
+  drawSoon();
 }
 
 function beginOutside() {
@@ -191,7 +210,7 @@ function beginOutside() {
       if (event.ctrlKey || !observerNow) return;
       event.preventDefault();
       observerNow.away *= 1.1 ** clamp(event.deltaY / 100, -3, 3);
-      drawOutside();
+      drawSoon();
     },
     { passive: false },
   );

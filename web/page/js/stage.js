@@ -8,6 +8,7 @@
  * @property {Vector} from  Of length 1, from the centre to the observer.
  * @property {Vector} up  Of length 1.
  * @property {number} away
+ * @property {boolean} [turns]  Whether the observer moves: the drawing is then made as quickly as possible.
  */
 
 /** @typedef {{origin: Vector, through: Vector, end: Vector, hit: boolean, moving?: boolean, row: number, column: number}} DrawnRay */
@@ -69,7 +70,30 @@ function stageMap({ centre, from, up, away }, width, height) {
     if (other[2] > limit) other = between(one, other, (limit - one[2]) / (other[2] - one[2]));
     return [flat(one), flat(other)];
   };
-  return { project, scaleAt, isBefore, line, depth: (/** @type {ArrayLike<number>} */ point) => turnedPoint(point)[2] };
+  /**
+   * Puts a point onto the canvas: two numbers of `out`. Gives its depth, or NaN where it lies behind the observer.
+   * @param {ArrayLike<number>} points
+   * @param {number} at
+   * @param {Float64Array} out
+   * @param {number} to
+   */
+  const place = (points, at, out, to) => {
+    const [x, y, z] = [points[at] - centre[0], points[at + 1] - centre[1], points[at + 2] - centre[2]];
+    const depth = x * from[0] + y * from[1] + z * from[2];
+    if (away - depth <= nearest) return NaN;
+    const scale = focal / (away - depth);
+    out[to] = width / 2 + scale * (x * right[0] + y * right[1] + z * right[2]);
+    out[to + 1] = height / 2 - scale * (x * above[0] + y * above[1] + z * above[2]);
+    return depth;
+  };
+  return {
+    project,
+    scaleAt,
+    isBefore,
+    line,
+    place,
+    depth: (/** @type {ArrayLike<number>} */ point) => turnedPoint(point)[2],
+  };
 }
 
 /** @typedef {ReturnType<typeof stageMap>} StageMap */
@@ -82,35 +106,7 @@ function stageMap({ centre, from, up, away }, width, height) {
  */
 function drawObjects(context, map, outside, observer) {
   for (const plane of outside.planes) drawPlane(context, map, plane, observer);
-  /** @type {{depth: number, draw: () => void}[]} */
-  const items = [];
-  const { triangles, colours } = outside;
-  const light = unit(add(observer.from, scaled(observer.up, 0.6)));
-  for (let place = 0; place < triangles.length / 9; place++) {
-    const [a, b, c] = [0, 3, 6].map((start) => triangles.subarray(9 * place + start, 9 * place + start + 3));
-    if (![a, b, c].every(map.isBefore)) continue;
-    const lit = 0.45 + 0.55 * Math.abs(dot(unit(cross(subtract(b, a), subtract(c, a))), light));
-    const ink = `rgb(${[0, 1, 2].map((channel) => Math.round(colours[3 * place + channel] * lit)).join(" ")})`;
-    const depth = map.depth(a) + map.depth(b) + map.depth(c);
-    items.push({
-      depth: depth / 3,
-      draw: () => {
-        context.beginPath();
-        context.moveTo(...map.project(a));
-        context.lineTo(...map.project(b));
-        context.lineTo(...map.project(c));
-        context.closePath();
-        context.fillStyle = context.strokeStyle = ink;
-        context.fill();
-        context.stroke();
-      },
-    });
-  }
-  for (const sphere of outside.spheres)
-    if (map.isBefore(sphere.center))
-      items.push({ depth: map.depth(sphere.center), draw: () => drawSphere(context, map, sphere) });
-  context.lineWidth = 0.6;
-  for (const { draw } of items.sort((one, other) => one.depth - other.depth)) draw();
+  drawSolids(context, map, outside, observer);
 }
 
 /**
