@@ -17,14 +17,16 @@ function drawSolids(context, map, outside, observer) {
   const { triangles, colours, spheres } = outside;
   const count = triangles.length / 9;
   const corners = new Float64Array(6 * count);
-  const depths = new Float64Array(count).fill(NaN);
+  const depths = new Float64Array(count);
+  const cut = 1.3 * lengthOf(subtract(outside.eye, observer.centre));
   for (let place = 0; place < count; place++) {
     let sum = 0;
     for (let corner = 0; corner < 3; corner++) {
       const depth = map.place(triangles, 9 * place + 3 * corner, corners, 6 * place + 2 * corner);
       sum += depth / 3;
     }
-    depths[place] = sum;
+    // A wall between the observer and the camera would hide both.
+    depths[place] = sum > cut ? NaN : sum;
   }
   const balls = spheres
     .filter(({ center }) => map.isBefore(center))
@@ -34,7 +36,7 @@ function drawSolids(context, map, outside, observer) {
   const layers = Array.from({ length: DEPTHS }, () => /** @type {Map<string, number[]>} */ (new Map()));
   const light = unit(add(observer.from, scaled(observer.up, 0.6)));
   for (let place = 0; place < count; place++) {
-    // What reaches behind the observer has no depth.
+    // What reaches behind the observer has no depth, and is not drawn.
     if (Number.isNaN(depths[place])) continue;
     const ink = inkOf(triangles, colours, place, light);
     const layer = layers[part(depths[place])];
