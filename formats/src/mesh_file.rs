@@ -68,6 +68,23 @@ impl Format {
             Format::Ply => (ply::read(path)?, Vec::new()),
         })
     }
+
+    /// Reads a mesh from the bytes of a file of this format, which messages call `name`. The materials of an OBJ file are in
+    /// other files, which are not read: warnings name them as missing.
+    ///
+    /// # Errors
+    ///
+    /// The bytes are wrong.
+    pub fn parse(
+        self,
+        name: &str,
+        bytes: &[u8],
+    ) -> Result<(Mesh, Vec<MaterialWarning>), ReadMeshError> {
+        Ok(match self {
+            Format::Obj => obj::parse_alone(name, bytes)?,
+            Format::Ply => (ply::parse(name, bytes)?, Vec::new()),
+        })
+    }
 }
 
 #[cfg(test)]

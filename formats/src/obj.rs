@@ -109,6 +109,17 @@ pub fn parse(name: &str, bytes: &[u8]) -> Result<Mesh, ReadObjError> {
     finish(name.to_owned(), parser)
 }
 
+/// Reads a mesh as [`parse`] does, with warnings about the material files that it names: only its own bytes are read.
+///
+/// # Errors
+///
+/// As for [`parse`].
+pub fn parse_alone(name: &str, bytes: &[u8]) -> Result<(Mesh, Vec<MaterialWarning>), ReadObjError> {
+    let mesh = parse(name, bytes)?;
+    let warnings = materials::all_missing(&mesh, name);
+    Ok((mesh, warnings))
+}
+
 /// Checks the references to definitions further down, at the end of the file, and builds the mesh.
 fn finish(file: String, parser: Parser<MeshBuilder>) -> Result<Mesh, ReadObjError> {
     if let Err((line, fault)) = parser.check_forward() {

@@ -168,9 +168,20 @@ pub fn read_text(path: &Path) -> Result<String, ReadSceneError> {
     let read =
         regular_file(path).and_then(|file| file.take(MOST_BYTES + 1).read_to_end(&mut bytes));
     match read {
-        Err(error) => return Err(ReadSceneError::Unreadable { file, error }),
-        Ok(_) if bytes.len() as u64 > MOST_BYTES => return Err(ReadSceneError::TooLarge { file }),
-        Ok(_) => {}
+        Err(error) => Err(ReadSceneError::Unreadable { file, error }),
+        Ok(_) => text(&file, bytes),
+    }
+}
+
+/// The text of a scene file that messages call `name`, from its bytes.
+///
+/// # Errors
+///
+/// The bytes are too many, or no UTF-8 text.
+pub fn text(name: &str, bytes: Vec<u8>) -> Result<String, ReadSceneError> {
+    let file = name.to_owned();
+    if bytes.len() as u64 > MOST_BYTES {
+        return Err(ReadSceneError::TooLarge { file });
     }
     String::from_utf8(bytes).map_err(|error| {
         let byte = error.utf8_error().valid_up_to();

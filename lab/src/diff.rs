@@ -21,8 +21,10 @@ pub mod pairs;
 mod tolerance;
 pub mod why;
 
-pub use classes::{Class, Classes};
-pub use orders::{Color, Comparison, Coverage, Depth, Visible, compare, compare_shown};
+pub use classes::{Class, Classes, alike_color};
+pub use orders::{
+    Color, Comparison, Coverage, Depth, Visible, compare, compare_shown, verdict_of_equal,
+};
 pub use tolerance::{
     COLOR_TOLERANCE, CompareOptions, DEPTH_TOLERANCE, NORMAL_TOLERANCE, Tolerances,
 };

@@ -37,6 +37,7 @@ mod palette;
 mod recorder;
 mod shots;
 mod size;
+mod steps;
 mod track;
 
 pub use frames::Frames;
@@ -46,6 +47,7 @@ pub use length::{
 pub use recorder::{Line, Position};
 pub use shots::{OrderShot, Shot, Shots};
 pub use size::default_size;
+pub use steps::{MOST_KEPT, Outcome, Step, Steps, StoredChange, Tested, TooManySteps};
 
 use crate::common::View;
 use crate::diff::{Comparison, compare_shown};

@@ -3,6 +3,13 @@
 //! The exact judge of the view determines the truth. The renderers' own loops, observed at this pixel alone,
 //! determine the results: the report cannot disagree with the picture.
 
+mod json;
+mod lesson;
+mod neighbourhood;
+
+pub use lesson::Lesson;
+pub use neighbourhood::{Neighbourhood, Outline, neighbourhood};
+
 use crate::common::exact::{EdgeSigns, EdgeValues};
 use crate::common::observe::Question;
 use crate::common::raster::{Region, Sample};

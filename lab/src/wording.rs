@@ -1,6 +1,7 @@
 //! Numbers in a form for readers: `1,234,567 samples`.
 
 use crate::common::Crop;
+use crate::common::glam::DVec3;
 
 pub use crate::common::camera::wording::readable;
 
@@ -50,6 +51,16 @@ pub fn milliseconds(time: f64) -> String {
         _ => 0,
     };
     format!("{time:.decimals$} ms")
+}
+
+/// The vector without a negative zero.
+pub fn plain(vector: DVec3) -> [f64; 3] {
+    (vector + DVec3::ZERO).to_array()
+}
+
+/// `(x, y, z)`, each number with the fewest digits that read back as the same number.
+pub fn vector<T: std::fmt::Display>([x, y, z]: [T; 3]) -> String {
+    format!("({x}, {y}, {z})")
 }
 
 #[cfg(test)]

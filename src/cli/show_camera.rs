@@ -4,10 +4,11 @@ use super::args::CameraArgs;
 use super::camera::camera;
 use super::failure::Failure;
 use super::terminal;
-use bothways::common::glam::{DVec3, Vec3};
+use bothways::common::glam::Vec3;
 use bothways::common::{Projection, View};
 use bothways::opengl::{self, Matrices, Matrix};
 use bothways::scenes::{self, DEFAULT};
+use bothways::wording::{plain, vector};
 use clap::Args;
 use serde::Serialize;
 use std::process::ExitCode;
@@ -145,16 +146,6 @@ impl OpenGl {
             last = height - 1,
         )
     }
-}
-
-/// The vector without a negative zero.
-pub(super) fn plain(vector: DVec3) -> [f64; 3] {
-    (vector + DVec3::ZERO).to_array()
-}
-
-/// `(x, y, z)`, each number with the fewest digits that read back as the same number.
-pub(super) fn vector<T: std::fmt::Display>([x, y, z]: [T; 3]) -> String {
-    format!("({x}, {y}, {z})")
 }
 
 /// The number in OpenGL's precision.

@@ -60,6 +60,18 @@ pub(super) fn resolve(mesh: &mut Mesh, path: &Path) -> Result<Vec<MaterialWarnin
     Ok(warnings)
 }
 
+/// Warnings about all material files that a mesh names: nobody looks for them.
+pub(super) fn all_missing(mesh: &Mesh, file: &str) -> Vec<MaterialWarning> {
+    let Some(materials) = mesh.materials().filter(|materials| !materials.spans().is_empty()) else {
+        return Vec::new();
+    };
+    let missing = |library: &String| MaterialWarning::MissingLibrary {
+        file: file.to_owned(),
+        library: library.clone(),
+    };
+    materials.libraries().iter().map(missing).collect()
+}
+
 /// The files that an `mtllib` names: one file, whose name may contain blanks, or several files, separated by blanks.
 /// `None` if one of them does not exist.
 fn library_files(folder: &Path, library: &str) -> Option<Vec<PathBuf>> {

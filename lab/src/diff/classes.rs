@@ -318,7 +318,7 @@ impl Classes {
                 let word = self.word(i * words_of(self.image) + number);
                 let first = i * width + number * WORD as usize;
                 for (at, pixel) in (first..).zip(pixels.iter_mut()) {
-                    *pixel = faint_grey(light(at));
+                    *pixel = alike_color(light(at));
                 }
                 // Most pixels of most pictures are alike.
                 let mut others = word.not_alike(pixels.len());
@@ -333,8 +333,9 @@ impl Classes {
     }
 }
 
-/// A dark grey: the reader recognises the picture and sees every difference.
-fn faint_grey([red, green, blue]: [u8; 3]) -> [u8; 3] {
+/// The colour of a pixel that is covered alike, in the difference image: a dark grey by the light of its picture. The reader
+/// recognises the picture and sees every difference.
+pub fn alike_color([red, green, blue]: [u8; 3]) -> [u8; 3] {
     /// The grey of each light.
     const GREYS: [u8; 256] = {
         let mut greys = [0; 256];

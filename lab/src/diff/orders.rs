@@ -100,6 +100,18 @@ pub fn compare_shown(
     Comparison::new(compare::compare(&pair).expect("frames of one view can be compared"))
 }
 
+/// The verdict on frames that see the same everywhere, and cover so many samples.
+pub fn verdict_of_equal(covered: u64) -> String {
+    match covered {
+        0 => "match: neither order covers any sample".into(),
+        1 => "match: both orders cover the same sample and see the same primitive in it".into(),
+        covered => format!(
+            "match: both orders cover the same {} samples and see the same primitive in each",
+            grouped(covered)
+        ),
+    }
+}
+
 impl Comparison {
     fn new(details: BufferComparison) -> Comparison {
         const ALL: &str = "frames tell everything";
@@ -138,15 +150,7 @@ impl Comparison {
     /// The verdict in one line.
     pub fn verdict(&self) -> String {
         if self.matches() {
-            return match self.coverage.both {
-                0 => "match: neither order covers any sample".into(),
-                1 => "match: both orders cover the same sample and see the same primitive in it"
-                    .into(),
-                covered => format!(
-                    "match: both orders cover the same {} samples and see the same primitive in each",
-                    grouped(covered)
-                ),
-            };
+            return verdict_of_equal(self.coverage.both);
         }
         let pixels = count(self.visible.differing_pixels, "pixels");
         let alone = self.coverage.only_object_order + self.coverage.only_image_order;

@@ -50,6 +50,28 @@ impl Projector<'_> {
         Some([self.place(from)?, self.place(to)?])
     }
 
+    /// The corners of the part of a triangle before the eye, on the raster: none if there is no such part.
+    pub(crate) fn polygon(&self, corners: &[DVec3; 3]) -> Vec<[f64; 2]> {
+        // Far enough from the eye that the corners of what is left are not very far out of the picture.
+        let near = match self.camera.projection() {
+            Projection::Perspective => 1e-3 * self.camera.distance(),
+            Projection::Parallel => f64::NEG_INFINITY,
+        };
+        let before = |point: DVec3| -point.dot(self.camera.w()) - near;
+        let mut kept = Vec::new();
+        for (place, &from) in corners.iter().enumerate() {
+            let to = corners[(place + 1) % 3];
+            let (here, there) = (before(from), before(to));
+            if here >= 0.0 {
+                kept.push(from);
+            }
+            if (here >= 0.0) != (there >= 0.0) {
+                kept.push(from + here / (here - there) * (to - from));
+            }
+        }
+        kept.into_iter().filter_map(|point| self.place(point)).collect()
+    }
+
     /// The lines that bound a primitive on the raster: the edges of a triangle, the outline of a sphere, the horizon of
     /// a plane.
     pub(crate) fn outline(&self, primitive: &Primitive) -> Vec<Vec<[f64; 2]>> {

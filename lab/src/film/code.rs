@@ -60,7 +60,7 @@ fn half<'a>(film: &Film, order: Order, shot: &'a OrderShot) -> FilmHalf<'a> {
 }
 
 /// The lecture's loops, a line for each [`Line`].
-fn code(order: Order, method: Method) -> [&'static str; 5] {
+pub(super) fn code(order: Order, method: Method) -> [&'static str; 5] {
     let inner = match (order, method) {
         (Order::Object, Method::Textbook) => "for each pixel in the image {",
         (Order::Object, Method::Fast) => "for each pixel it may affect {",

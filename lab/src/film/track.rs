@@ -29,6 +29,7 @@ pub(super) struct Painted {
     pub(super) row: u32,
     pub(super) column: u32,
     pub(super) color: Rgb<u8>,
+    pub(super) id: Option<u32>,
     /// Whether the pixel now is as it ends.
     pub(super) stays: bool,
 }
@@ -42,7 +43,7 @@ pub(super) struct Loops<'a> {
     /// All steps.
     pub(super) steps: u64,
     /// The steps before each part of the picture.
-    parts: HashMap<Sample, u64>,
+    pub(super) parts: HashMap<Sample, u64>,
 }
 
 impl<'a> Loops<'a> {
@@ -76,7 +77,7 @@ impl<'a> Loops<'a> {
     }
 
     /// Runs the loops for an observer. The parts of a picture come to it in an order that no thread changes.
-    fn watched<O: Observer>(&self, mut observer: O) -> (O, Frame) {
+    pub(super) fn watched<O: Observer>(&self, mut observer: O) -> (O, Frame) {
         let (view, options) = (&self.view, &Options::default());
         let mut frame = Frame::new(view.camera, options);
         let (to, watch) = (&mut frame, &mut observer);
@@ -99,7 +100,7 @@ impl<'a> Loops<'a> {
         (observer, frame)
     }
 
-    fn shade(&self, frame: &mut Frame) {
+    pub(super) fn shade(&self, frame: &mut Frame) {
         match self.order {
             Order::Object => rasterize::shade(&self.view, frame),
             Order::Image => raytrace::shade(&self.view, frame),
@@ -108,7 +109,12 @@ impl<'a> Loops<'a> {
 
     /// The changes with their colours. What is seen at the end has its colour in the finished picture. What is hidden later
     /// is shaded as if nothing hid it: the first such changes of all pixels together, then the second ones, and so on.
-    fn painted(&self, frame: &Frame, finished: &RgbImage, changes: &[Change]) -> Vec<Painted> {
+    pub(super) fn painted(
+        &self,
+        frame: &Frame,
+        finished: &RgbImage,
+        changes: &[Change],
+    ) -> Vec<Painted> {
         let view = &self.view;
         let width = frame.width();
         let mut layers: Vec<Vec<usize>> = Vec::new();
@@ -121,7 +127,7 @@ impl<'a> Loops<'a> {
             let [i, j] =
                 [row, column].map(|index| u32::try_from(index).expect("a side of a picture"));
             let color = *finished.get_pixel(j, i);
-            painted.push(Painted { steps, row: i, column: j, color, stays });
+            painted.push(Painted { steps, row: i, column: j, color, id, stays });
             if !stays {
                 let layer = &mut depth[row * width + column];
                 if layers.len() == *layer {

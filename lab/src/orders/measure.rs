@@ -108,11 +108,15 @@ pub(super) fn prepared<R: Renderer>(
     scene: &Scene,
     options: &RenderOptions,
 ) -> (R::Prepared, Spread) {
+    if options.no_times {
+        // No clock is read: not every machine has one, WebAssembly for example.
+        return (renderer.prepare(scene), Spread::default());
+    }
     let begun = Instant::now();
     let (mut prepared, first) = timed(|| renderer.prepare(scene));
     // The first run is the warm-up; this also holds without `repeat`, unless a second run would take long.
     let repeat = options.repeat.unwrap_or(u32::from(begun.elapsed() < WARM_UP_BUDGET));
-    if repeat == 0 || options.no_times {
+    if repeat == 0 {
         return (prepared, Spread::of(vec![first]));
     }
     let mut times = Vec::new();

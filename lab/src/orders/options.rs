@@ -19,7 +19,7 @@ pub struct RenderOptions<'a> {
     /// frames. What a frame executed is counted in any case, in the frame itself.
     pub no_counts: bool,
     /// Whether to leave out times. Then no frame is repeated for timing: at most one is drawn beside the frame that
-    /// counts.
+    /// counts. WebAssembly without a system has no clock, and needs this.
     pub no_times: bool,
     /// Whether shading also stores the linear colour and the normal of every sample, for
     /// [`Frame::colors`](crate::common::Frame::colors) and [`Frame::normals`](crate::common::Frame::normals).

@@ -3,9 +3,10 @@
 use super::built_in::{BUILT_IN, BuiltIn, names};
 use super::framing::{FrameMeshError, Framing};
 use super::studio;
-use crate::common::{CameraDescription, Object, Scene, SceneError, Shape};
+use crate::common::{CameraDescription, Mesh, Object, Scene, SceneError, Shape};
 use crate::formats::mesh_file::{EXTENSIONS, Format, ReadMeshError};
 use crate::formats::mesh_stream::StreamError;
+use crate::formats::obj::MaterialWarning;
 use crate::formats::scene_file::{self, ReadSceneError, nearest_name};
 use crate::formats::smooth;
 use std::path::Path;
@@ -136,6 +137,40 @@ pub fn load_for(source: &str, image: Option<[u32; 2]>) -> Result<LoadedScene, Lo
     }
 }
 
+/// Loads a scene file or a mesh file from its bytes, as [`load_for`] does from a path. The ending of `name` says what the
+/// bytes are; messages call them `name`. Nothing else is read: the materials of an OBJ file have names only, and are
+/// missing.
+///
+/// # Errors
+///
+/// An error for an unknown kind of file, or for an error in the file. A mesh that a scene file names cannot be read.
+///
+/// ```
+/// let triangle = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+/// let loaded = bothways_lab::scenes::load_bytes("small.obj", triangle, None)?;
+/// assert_eq!((loaded.name.as_str(), loaded.scene.primitive_count()), ("small", 1));
+/// # Ok::<(), bothways_lab::scenes::LoadError>(())
+/// ```
+pub fn load_bytes(
+    name: &str,
+    bytes: &[u8],
+    image: Option<[u32; 2]>,
+) -> Result<LoadedScene, LoadError> {
+    let path = Path::new(name);
+    if let Some(format) = Format::of(path) {
+        let (mesh, missing) = format.parse(name, bytes)?;
+        return of_mesh(path, mesh, &missing, &framing_for(image));
+    }
+    match path.extension() {
+        Some(extension) if extension.eq_ignore_ascii_case("toml") => {
+            let toml = scene_file::text(name, bytes.to_vec())?;
+            let file = scene_file::parse(name, &toml, Path::new(""))?;
+            Ok(loaded(stem(path), file, toml))
+        }
+        _ => Err(LoadError::UnknownExtension { path: name.to_owned() }),
+    }
+}
+
 fn load_built_in(built_in: &BuiltIn) -> Result<LoadedScene, LoadError> {
     let toml = built_in.toml.to_owned();
     let file = scene_file::parse(&format!("{}.toml", built_in.name), &toml, Path::new(""))?;
@@ -162,6 +197,16 @@ pub(super) fn framing_for(image: Option<[u32; 2]>) -> Framing {
 
 fn load_mesh(path: &Path, format: Format, framing: &Framing) -> Result<LoadedScene, LoadError> {
     let (mesh, missing) = format.read_with_materials(path)?;
+    of_mesh(path, mesh, &missing, framing)
+}
+
+/// A mesh in the studio, before a camera that frames it.
+fn of_mesh(
+    path: &Path,
+    mesh: Mesh,
+    missing: &[MaterialWarning],
+    framing: &Framing,
+) -> Result<LoadedScene, LoadError> {
     let warnings = missing.iter().map(ToString::to_string).collect();
     let shown = path.display().to_string();
     let camera =

@@ -1,33 +1,31 @@
-//! The output of `pixel --json`.
+//! The same report for programs: the output of `bothways pixel --json`.
 
-use super::{Lesson, certain};
-use crate::cli::failure::Failure;
-use crate::cli::show_camera::plain;
-use crate::cli::terminal;
-use bothways::common::Sign;
-use bothways::common::exact::{EdgeSigns, EdgeValues, Side};
-use bothways::common::glam::Vec3;
-use bothways::pixel::{Answer, Behind, SampleReport};
-use bothways::report::WorkReport;
+use super::lesson::{Lesson, certain};
+use super::{Answer, Behind, SampleReport};
+use crate::common::Sign;
+use crate::common::exact::{EdgeSigns, EdgeValues, Side};
+use crate::common::glam::Vec3;
+use crate::report::WorkReport;
+use crate::wording::plain;
 use serde::{Serialize, Serializer};
 
-impl Lesson<'_> {
-    /// Prints the samples one after another: the text of a million samples takes gigabytes.
-    pub(super) fn print_json(&self) -> Result<(), Failure> {
-        let camera = self.camera;
-        terminal::print_json(&PixelJson {
+impl Serialize for Lesson<'_> {
+    /// Writes the samples one after another: the text of a million samples takes gigabytes.
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let json = PixelJson {
             scene: self.scene,
-            pixel: [self.args.row, self.args.column],
-            size: camera.image(),
-            samples: self.args.samples,
-            eye: (camera.eye() + Vec3::ZERO).to_array(),
-            agree: self.samples.iter().all(SampleReport::agrees),
+            pixel: self.pixel,
+            size: self.camera.image(),
+            samples: self.along,
+            eye: (self.camera.eye() + Vec3::ZERO).to_array(),
+            agree: self.agrees(),
             at: Samples(self.samples),
-        })
+        };
+        json.serialize(serializer)
     }
 }
 
-/// The output of `--json`, in this order.
+/// The fields, in this order.
 #[derive(Debug, Serialize)]
 struct PixelJson<'a> {
     scene: &'a str,

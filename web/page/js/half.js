@@ -1,0 +1,257 @@
+// @ts-check
+// One order in the view of the steps: its pseudocode with the current line, its picture, its counters.
+
+/** The orders' names, and those by which everybody knows them. */
+const ORDERS = /** @type {const} */ ({
+  object: ["object order", "rasterization"],
+  image: ["image order", "ray tracing"],
+});
+
+/** One half of the view. */
+class Half {
+  /** @param {OrderName} order */
+  constructor(order) {
+    this.order = order;
+    /** @type {Recording | null} */
+    this.record = null;
+    this.canvas = make("canvas", { role: "img", "aria-label": `The picture of ${ORDERS[order][0]} so far` });
+    this.code = make("ol", { class: "pseudo", "aria-label": `Pseudocode of ${ORDERS[order][0]}` });
+    this.words = make("p", { class: "words" });
+    this.tally = make("dl", { class: "tally" });
+    this.progress = make("span", { class: "number" });
+    this.sheet = document.createElement("canvas");
+    this.root = make(
+      "section",
+      { class: `half ${order}`, "aria-label": ORDERS[order][0] },
+      make(
+        "div",
+        { class: "half-title" },
+        make("span", { class: `mark ${order === "object" ? "disc" : "square"}` }),
+        make("b", {}, ORDERS[order][0]),
+        make("span", { class: "quiet" }, ORDERS[order][1]),
+        this.progress,
+      ),
+      this.code,
+      make("div", { class: "mat" }, this.canvas),
+      this.words,
+      this.tally,
+    );
+    this.done = 0;
+    /** The colour of what shows nothing, once that is known. @type {ArrayLike<number> | null} */
+    this.background = null;
+    drawWhenShown(this.canvas, () => this.draw());
+    this.canvas.addEventListener("click", (event) => {
+      const box = this.canvas.getBoundingClientRect();
+      const { size } = this.record ?? { size: 0 };
+      const place = /** @type {Pixel} */ (
+        [event.clientY - box.top, event.clientX - box.left].map((at, axis) =>
+          Math.floor((at / (axis ? box.width : box.height)) * size),
+        )
+      );
+      const step = this.record?.firstAt(place);
+      if (step !== null && step !== undefined) change({ step: step + 1 });
+    });
+  }
+
+  /** @param {Recording | null} record */
+  load(record) {
+    this.record = record;
+    this.code.replaceChildren(
+      ...(record?.steps.pseudocode ?? []).map((line, number) =>
+        make("li", {}, make("span", {}, "  ".repeat(number % 4) + line), make("span", {})),
+      ),
+    );
+  }
+
+  /** Shows the half after so many steps. @param {number} clock */
+  show(clock) {
+    if (!this.record) return;
+    const { steps } = this.record;
+    this.done = Math.min(clock, steps.count);
+    const last = this.done - 1;
+    const finished = this.done === steps.count;
+    const lit = finished ? 4 : last < 0 ? 0 : steps.line[last];
+    const variables = this.variables(last, lit);
+    [...this.code.children].forEach((item, number) => {
+      item.classList.toggle("lit", number === lit);
+      /** @type {HTMLElement} */ (item.lastElementChild).textContent = variables[number];
+    });
+    this.words.textContent = last < 0 ? "Nothing is tested yet." : stepWords(steps, last);
+    const { tests, covered, comparisons, boxes } = this.record.tally(this.done);
+    const rows = [
+      [
+        "tests",
+        `${grouped(tests)} of ${grouped(steps.pairs)}${finished && steps.skipped > 0 ? `, ${grouped(steps.skipped)} skipped` : ""}`,
+      ],
+      ["covered", grouped(covered)],
+      ["compared", grouped(comparisons)],
+    ];
+    if (state.method === "hierarchy" && this.order === "image") rows.push(["boxes", grouped(boxes)]);
+    this.tally.replaceChildren(
+      ...rows.map(([label, value]) => make("div", {}, make("dt", {}, label), make("dd", {}, value))),
+    );
+    this.draw();
+  }
+
+  /** The values of the loop variables in each line. @param {number} step @param {number} lit */
+  variables(step, lit) {
+    if (!this.record || step < 0) return ["", "", "", "", ""];
+    const { steps } = this.record;
+    const result = steps.result[step];
+    const box = result === RESULT.missed || result === RESULT.entered;
+    const inBox = `box ${grouped(steps.node?.[step] ?? 0)}: ${result === RESULT.entered ? "entered" : "missed"}`;
+    const object = box ? inBox : objectWords(steps, steps.object[step]);
+    const pixel = `pixel (${steps.row[step]}, ${steps.column[step]})`;
+    const [outer, inner] = this.order === "object" ? [object, pixel] : [pixel, object];
+    const affects = box ? "" : result === RESULT.none ? "no" : "yes";
+    const keep =
+      result === RESULT.first || result === RESULT.nearer
+        ? `object ${grouped(steps.object[step])}`
+        : result === RESULT.behind
+          ? "the one before"
+          : "";
+    return [outer, inner, affects, keep, lit === 4 ? `done after ${counted(steps.count, "step")}` : ""];
+  }
+
+  draw() {
+    const { record } = this;
+    if (!record || this.canvas.offsetParent === null) return;
+    const prepared = prepareCanvas(this.canvas);
+    if (!prepared) return;
+    const { context, width } = prepared;
+    const { size, steps } = record;
+    const rgba = new Uint8ClampedArray(4 * size * size);
+    const stored = record.picture(this.done, rgba);
+    // Object order knows at the end, and of all pixels at once, that nothing nearer will come.
+    const [word, known] =
+      this.order === "image"
+        ? ["decided", stored]
+        : this.done === steps.count
+          ? ["decided", size * size]
+          : ["stored", stored];
+    this.progress.textContent = `${word} ${grouped(known)} of ${grouped(size * size)}`;
+    if (this.done === steps.count) fillRest(rgba, this.background);
+    paintPixels(this.sheet, rgba, size, size);
+    const cell = width / size;
+    context.fillStyle = colour("empty-other");
+    context.fillRect(0, 0, width, width);
+    context.fillStyle = colour("empty");
+    for (let row = 0; row < size; row++)
+      for (let column = row % 2; column < size; column += 2) context.fillRect(column * cell, row * cell, cell, cell);
+    context.imageSmoothingEnabled = false;
+    context.drawImage(this.sheet, 0, 0, width, width);
+    if (cell >= 7) {
+      context.strokeStyle = isDark() ? "#ffffff18" : "#00000018";
+      context.lineWidth = 1;
+      context.beginPath();
+      for (let line = 1; line < size; line++) {
+        context.moveTo(line * cell, 0);
+        context.lineTo(line * cell, width);
+        context.moveTo(0, line * cell);
+        context.lineTo(width, line * cell);
+      }
+      context.stroke();
+    }
+    if (this.done > 0 && this.done < steps.count) this.drawCursor(context, cell, this.done - 1);
+  }
+
+  /**
+   * The pixels that the inner loop of object order has asked for the object so far: with boxes they are few.
+   * @param {CanvasRenderingContext2D} context
+   * @param {number} cell
+   * @param {number} step
+   */
+  drawTrail(context, cell, step) {
+    const { steps } = /** @type {Recording} */ (this.record);
+    context.fillStyle = colour("object");
+    for (let asked = step; asked >= 0 && steps.object[asked] === steps.object[step]; asked--) {
+      const radius = Math.min(cell * 0.09, 4);
+      context.beginPath();
+      context.arc(
+        (steps.column[asked] + 0.5) * cell,
+        (steps.row[asked] + 0.5) * cell,
+        Math.max(radius, 1),
+        0,
+        2 * Math.PI,
+      );
+      context.globalAlpha = 0.8;
+      context.fill();
+    }
+    context.globalAlpha = 1;
+  }
+
+  /**
+   * The pixel of a step, and the row or the object's pixels that its outer loop is about.
+   * @param {CanvasRenderingContext2D} context
+   * @param {number} cell
+   * @param {number} step
+   */
+  drawCursor(context, cell, step) {
+    const { steps } = /** @type {Recording} */ (this.record);
+    const [x, y] = [steps.column[step] * cell, steps.row[step] * cell];
+    const outline = outlines.get(steps.object[step]);
+    if (outline && steps.result[step] !== RESULT.missed && steps.result[step] !== RESULT.entered)
+      drawOutline(context, outline, cell, colour(this.order));
+    if (this.order === "object") this.drawTrail(context, cell, step);
+    const covered = steps.result[step] !== RESULT.none && steps.result[step] !== RESULT.missed;
+    for (const [line, ink] of /** @type {const} */ ([
+      [7, "#000"],
+      [3.5, "#f0e442"],
+    ])) {
+      context.strokeStyle = ink;
+      context.lineWidth = line;
+      context.strokeRect(x, y, cell, cell);
+    }
+    context.fillStyle = "#f0e442";
+    context.strokeStyle = "#000";
+    context.lineWidth = 1;
+    const radius = Math.min(cell * 0.22, 9);
+    context.beginPath();
+    context.arc(x + cell / 2, y + cell / 2, radius, 0, 2 * Math.PI);
+    if (covered) context.fill();
+    context.stroke();
+  }
+}
+
+/**
+ * The outline of the object that a step is about.
+ * @param {CanvasRenderingContext2D} context
+ * @param {number[][]} outline  In raster coordinates.
+ * @param {number} cell
+ * @param {string} ink
+ */
+function drawOutline(context, outline, cell, ink) {
+  context.lineJoin = "round";
+  for (const [line, pen] of /** @type {const} */ ([
+    [4.5, "#000a"],
+    [2, ink],
+  ])) {
+    context.strokeStyle = pen;
+    context.lineWidth = line;
+    context.beginPath();
+    outline.forEach(([x, y], index) => context[index ? "lineTo" : "moveTo"](x * cell, y * cell));
+    context.closePath();
+    context.stroke();
+  }
+}
+
+/**
+ * At the end, what nothing is stored in shows the background.
+ * @param {Uint8ClampedArray} rgba
+ * @param {ArrayLike<number> | null} background
+ */
+function fillRest(rgba, background) {
+  if (!background) return;
+  for (let at = 0; at < rgba.length; at += 4)
+    if (rgba[at + 3] === 0) rgba.set([background[0], background[1], background[2], 254], at);
+}
+
+/**
+ * The colour that image order gives to a pixel in which it sees nothing.
+ * @param {Steps} steps
+ * @returns {ArrayLike<number> | null}
+ */
+function backgroundOf({ changes: { id, rgb } }) {
+  const place = id.indexOf(NOTHING);
+  return place < 0 ? null : rgb.slice(3 * place, 3 * place + 3);
+}

@@ -1,0 +1,249 @@
+// @ts-check
+// The view of the steps: play, pause, step on and back, scrub; both loops on one clock of work.
+
+/** @type {Record<OrderName, Half>} */
+let halves;
+/** The total of the clock: the longer of both records. */
+let clockEnd = 0;
+/** What is recorded now. */
+let recordedFor = "";
+let playing = false;
+
+const shownOrders = () => /** @type {OrderName[]} */ (state.loops === "both" ? ["object", "image"] : [state.loops]);
+const loopsAreShown = () => viewOf(state.chapter) === "loops";
+
+/** Records the loops, if they were not. */
+async function record() {
+  if (!loopsAreShown() || !state.camera || !state.opened || scenesOpening > 0) return;
+  const size = state.stepsSize;
+  const camera = { ...state.camera, height: size, width: size, vw: state.camera.vh };
+  const wantedFor = JSON.stringify([state.scene, camera, state.method]);
+  if (wantedFor === recordedFor) return;
+  recordedFor = wantedFor;
+  try {
+    // One after the other: a worker has one thread.
+    const object = await engine.call("steps", {
+      order: "object",
+      kind: state.method,
+      height: size,
+      width: size,
+      camera,
+    });
+    const image = await engine.call("steps", { order: "image", kind: state.method, height: size, width: size, camera });
+    if (wantedFor !== recordedFor) return;
+    halves.object.load(new Recording(object, size));
+    halves.image.load(new Recording(image, size));
+    halves.object.background = backgroundOf(image);
+    outlines = await findOutlines(camera, size);
+    if (wantedFor !== recordedFor) return;
+    clockEnd = Math.max(object.count, image.count);
+    // The chapter about hierarchies says it itself.
+    noteSteps(state.chapter === "skip" && state.method === "hierarchy" ? "" : METHOD_NOTES[state.method]);
+  } catch (error) {
+    clockEnd = 0;
+    halves.object.load(null);
+    halves.image.load(null);
+    noteSteps(messageOf(error));
+  }
+  inputById("scrub").max = inputById("step").max = String(clockEnd);
+  byId("steps-total").textContent = `of ${grouped(clockEnd)}`;
+  change({ step: clamp(state.step, 0, clockEnd) });
+  // What cannot be recorded is not shown half.
+  byId("halves").hidden = clockEnd === 0;
+  drawMarks();
+  showStep();
+}
+
+/** The outlines of triangles on the image of the steps, by id. @type {Map<number, number[][]>} */
+let outlines = new Map();
+
+/** @param {Camera} camera @param {number} size */
+async function findOutlines(camera, size) {
+  try {
+    const middle = Math.floor(size / 2);
+    /** @type {Neighbourhood} */
+    const { triangles } = await engine.call("neighbourhood", { row: middle, column: middle, radius: middle, camera });
+    return new Map(triangles.map(({ id, corners: points }) => [id, points]));
+  } catch {
+    return new Map();
+  }
+}
+
+/** What each order skips. */
+const METHOD_NOTES = {
+  textbook: "",
+  boxes:
+    "Object order asks only for the pixels within an object's bounding box. Image order has no use for that: it still tests every pair.",
+  hierarchy:
+    "Object order keeps to bounding boxes. Image order walks a hierarchy of boxes, and skips all that is in a box that its ray misses.",
+};
+
+/** @param {string} text */
+function noteSteps(text) {
+  byId("steps-note").textContent = text;
+  byId("steps-note").hidden = text === "";
+}
+
+function showStep() {
+  if (!loopsAreShown()) return;
+  const step = clamp(state.step, 0, clockEnd);
+  inputById("scrub").value = String(step);
+  inputById("scrub").setAttribute("aria-valuetext", `step ${step} of ${clockEnd}`);
+  if (document.activeElement !== byId("step") || playing) inputById("step").value = String(step);
+  for (const order of shownOrders()) halves[order].show(step);
+  if (!playing) {
+    const texts = shownOrders().map((order) => `${ORDERS[order][0]}: ${halves[order].words.textContent}`);
+    say(`step ${step} of ${clockEnd}. ${texts.join(" ")}`);
+  }
+}
+
+/** Where each object, or each row, begins: object order above, image order below. */
+function drawMarks() {
+  const prepared = prepareCanvas(canvasById("marks"));
+  if (!prepared || clockEnd === 0) return;
+  const { context, width, height } = prepared;
+  const shown = shownOrders();
+  shown.forEach((order, place) => {
+    const marks = halves[order].record?.steps.marks ?? [];
+    // Where marks are closer than the screen can show, they say nothing.
+    if (marks.length > width / 3) return;
+    context.fillStyle = colour(order);
+    const [top, part] = [(place * height) / shown.length, height / shown.length];
+    // The thumb of the slider never reaches the ends: half its width stays free.
+    for (const mark of marks) context.fillRect(8 + ((width - 16) * mark) / clockEnd, top, 1.5, part - 1);
+  });
+}
+
+/** @param {number} by */
+function stepBy(by) {
+  stopPlaying();
+  change({ step: clamp(state.step + by, 0, clockEnd) });
+}
+
+/** The next place at which an object or a row begins. @param {1 | -1} way */
+function toMark(way) {
+  stopPlaying();
+  const marks = shownOrders()
+    .flatMap((order) => [...(halves[order].record?.steps.marks ?? [])])
+    .sort((one, other) => one - other);
+  const next =
+    way > 0
+      ? (marks.find((mark) => mark > state.step) ?? clockEnd)
+      : (marks.filter((mark) => mark < state.step).pop() ?? 0);
+  change({ step: next });
+}
+
+function stopPlaying() {
+  if (!playing) return;
+  playing = false;
+  byId("play").textContent = "Play";
+  byId("play").setAttribute("aria-pressed", "false");
+}
+
+function togglePlaying() {
+  if (playing) {
+    stopPlaying();
+    showStep();
+    return;
+  }
+  if (clockEnd === 0) return;
+  playing = true;
+  byId("play").textContent = "Pause";
+  byId("play").setAttribute("aria-pressed", "true");
+  if (state.step >= clockEnd) change({ step: 0 });
+  let [before, owed] = [performance.now(), 0];
+  const tick = (/** @type {number} */ now) => {
+    if (!playing) return;
+    const speed = Number(selectById("speed").value) || clockEnd / 10;
+    owed += (Math.max(0, now - before) / 1000) * speed;
+    before = now;
+    const steps = Math.floor(owed);
+    owed -= steps;
+    if (steps > 0) change({ step: Math.min(clockEnd, state.step + steps) });
+    if (state.step >= clockEnd) stopPlaying();
+    else requestAnimationFrame(tick);
+  };
+  requestAnimationFrame(tick);
+}
+
+function showHalves() {
+  const orders = shownOrders();
+  for (const order of /** @type {OrderName[]} */ (["object", "image"])) {
+    halves[order].root.hidden = !orders.includes(order);
+    halves[order].root.classList.toggle("alone", orders.length === 1);
+  }
+  byId("halves").classList.toggle("alone", orders.length === 1);
+  setChoice("loops", state.loops);
+  setChoice("method", state.method);
+  selectById("steps-size").value = String(state.stepsSize);
+  requestAnimationFrame(drawMarks);
+  showStep();
+}
+
+/** Turns one order into the other: the two lines that begin the loops change places, and nothing else. */
+function swapLoops() {
+  const from = state.loops === "both" ? "object" : state.loops;
+  const to = from === "object" ? "image" : "object";
+  const lead = state.loops === "both";
+  change({ loops: from });
+  const turn = () => {
+    const places = [...halves[from].code.children].map((item) => item.getBoundingClientRect().top);
+    change({ loops: to });
+    // After the watchers have shown the other half.
+    requestAnimationFrame(() => {
+      if (lessMotion.matches) return;
+      const items = [...halves[to].code.children];
+      const here = items.map((item) => item.getBoundingClientRect().top);
+      [
+        [0, 1],
+        [1, 0],
+      ].forEach(([now, before]) => {
+        const shift = places[before] - here[now];
+        // They pass each other: the one that moves up swings out to the right.
+        const [indent, swing] = now === 0 ? [1.1, 3] : [-1.1, -0.5];
+        items[now].animate(
+          [
+            { transform: `translate(${indent}em, ${shift}px)` },
+            { transform: `translate(${swing}em, ${shift / 2}px)` },
+            { transform: "none" },
+          ],
+          { duration: 1000, easing: "ease-in-out" },
+        );
+      });
+      halves[to].canvas.animate([{ opacity: 0.25 }, { opacity: 1 }], { duration: 900 });
+    });
+  };
+  if (lead && !lessMotion.matches) setTimeout(turn, 450);
+  else requestAnimationFrame(turn);
+  say(`the loops are swapped: ${ORDERS[to][0]}`);
+}
+
+function beginLoops() {
+  halves = { object: new Half("object"), image: new Half("image") };
+  byId("halves").append(halves.object.root, halves.image.root);
+  onChoice("loops", (value) => change({ loops: /** @type {State["loops"]} */ (value) }));
+  onChoice("method", (value) => change({ method: /** @type {State["method"]} */ (value) }));
+  selectById("steps-size").addEventListener("change", (event) =>
+    change({ stepsSize: Number(/** @type {HTMLSelectElement} */ (event.target).value) }),
+  );
+  byId("swap").addEventListener("click", swapLoops);
+  byId("play").addEventListener("click", togglePlaying);
+  byId("to-start").addEventListener("click", () => stepBy(-clockEnd));
+  byId("to-end").addEventListener("click", () => stepBy(clockEnd));
+  byId("step-back").addEventListener("click", () => stepBy(-1));
+  byId("step-on").addEventListener("click", () => stepBy(1));
+  inputById("scrub").addEventListener("input", (event) => {
+    stopPlaying();
+    change({ step: Number(/** @type {HTMLInputElement} */ (event.target).value) });
+  });
+  inputById("step").addEventListener("change", (event) => {
+    stopPlaying();
+    const { valueAsNumber } = /** @type {HTMLInputElement} */ (event.target);
+    change({ step: clamp(Math.round(valueAsNumber) || 0, 0, clockEnd) });
+  });
+  drawWhenShown(canvasById("marks"), drawMarks);
+  watch(["step"], showStep);
+  watch(["loops"], showHalves);
+  watch(["chapter", "method", "stepsSize"], showHalves);
+  watch(["chapter", "scene", "camera", "method", "stepsSize"], record);
+}

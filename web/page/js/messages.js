@@ -1,0 +1,129 @@
+// @ts-check
+// The values that the engine answers with, as types: nothing here runs.
+
+/** @typedef {[number, number, number]} Vector */
+/** @typedef {[number, number]} Pixel  Row and column, counted from 0 from the top left. */
+/** @typedef {"object" | "image"} OrderName */
+/** @typedef {"perspective" | "parallel"} ProjectionName */
+
+/**
+ * The camera in the scene file's terms.
+ * @typedef {object} Camera
+ * @property {Vector} eye
+ * @property {Vector} direction
+ * @property {Vector} up
+ * @property {number} vw
+ * @property {number} vh
+ * @property {number} d
+ * @property {ProjectionName} projection
+ * @property {number} height
+ * @property {number} width
+ * @property {Vector} [look_at]  Stands for the direction, as long as nothing has moved the camera.
+ * @property {Vector} [u]  With `v` and `w`: stand for direction and up.
+ * @property {Vector} [v]
+ * @property {Vector} [w]
+ */
+
+/**
+ * @typedef {object} Opened
+ * @property {string} name
+ * @property {string | null} sentence
+ * @property {Camera} camera
+ * @property {number} objects
+ * @property {number} primitives
+ * @property {number} triangles
+ * @property {string[]} warnings
+ */
+
+/** @typedef {{rgba: Uint8ClampedArray, ids: Uint32Array, ms: {visibility: number, shading: number}, work: Record<string, number> | null}} OrderPicture */
+
+/**
+ * @typedef {object} Verdict
+ * @property {string} text
+ * @property {boolean} equal
+ * @property {boolean} coverageEqual
+ * @property {boolean} idsEqual
+ * @property {number} pixels
+ * @property {[number, number]} covered  In object order, in image order.
+ * @property {number} differ
+ * @property {number} onlyObject
+ * @property {number} onlyImage
+ */
+
+/**
+ * @typedef {object} Rendered
+ * @property {OrderPicture} object
+ * @property {OrderPicture} image
+ * @property {{rgba: Uint8ClampedArray, ms: number}} difference
+ * @property {Verdict} verdict
+ */
+
+/**
+ * The steps of one order. A step is one test of a pair, or of a box.
+ * @typedef {object} Steps
+ * @property {number} count
+ * @property {Uint8Array} line  0 outer, 1 inner, 2 test, 3 keep, 4 done.
+ * @property {Uint32Array} object  The primitive.
+ * @property {Uint16Array} row
+ * @property {Uint16Array} column
+ * @property {Uint8Array} result  See `RESULT`.
+ * @property {Float32Array} [t]
+ * @property {Uint32Array} [node]
+ * @property {string[]} pseudocode
+ * @property {Uint32Array} marks  The steps at which each object (object order) or each row (image order) begins.
+ * @property {{step: Uint32Array, row: Uint16Array, column: Uint16Array, id: Uint32Array, rgb: Uint8Array}} changes
+ * @property {string[]} [kinds]  The kind of each primitive, in words.
+ * @property {number} pairs  Of a primitive and a pixel.
+ * @property {number} skipped  Those that no step looks at.
+ */
+
+/** What a step found. */
+const RESULT = { none: 0, first: 1, nearer: 2, behind: 3, missed: 4, entered: 5 };
+
+/** Stands for no primitive in buffers of ids. */
+const NOTHING = 0xffffffff;
+
+/**
+ * @typedef {object} EdgeReport
+ * @property {Record<string, any>} [edges]
+ */
+
+/**
+ * @typedef {object} SampleReport
+ * @property {number} x
+ * @property {number} y
+ * @property {Vector} origin_from_eye
+ * @property {Vector} direction
+ * @property {any[]} covering
+ * @property {any[]} touching
+ * @property {{id: number | null, t: number | null, work: Record<string, number>}} object_order
+ * @property {{id: number | null, t: number | null, work: Record<string, number>}} image_order
+ */
+
+/**
+ * @typedef {object} PixelReport
+ * @property {Pixel} pixel
+ * @property {[number, number]} size  Width and height.
+ * @property {Vector} eye
+ * @property {boolean} agree
+ * @property {SampleReport[]} at
+ * @property {string[]} [lines]
+ */
+
+/**
+ * @typedef {object} Outside
+ * @property {Vector} eye
+ * @property {Vector} u
+ * @property {Vector} v
+ * @property {Vector} w
+ * @property {Vector[]} corners  Of the viewport: top left, top right, bottom right, bottom left.
+ * @property {number} d
+ * @property {ProjectionName} projection
+ * @property {Float32Array} triangles  Nine numbers a triangle.
+ * @property {Uint8Array} colours  Three numbers a triangle.
+ * @property {{center: Vector, radius: number, colour: Vector}[]} spheres
+ * @property {{point: Vector, normal: Vector, colour: Vector}[]} planes
+ * @property {number} [omitted]
+ */
+
+/** @typedef {{row: number, column: number, origin: Vector, direction: Vector, t: number | null, id: number | null, point: Vector | null}} ViewingRay */

@@ -1,0 +1,83 @@
+// @ts-check
+// Steers the camera on a picture: drag to turn, wheel to move; a click chooses a pixel; keys do the same.
+
+/** Pixels of the screen from which on a press is a drag. */
+const DRAG = 4;
+
+/** @param {HTMLCanvasElement} canvas */
+function steer(canvas) {
+  /** @type {{id: number, x: number, y: number, moved: boolean} | null} */
+  let press = null;
+  canvas.addEventListener("pointerdown", (event) => {
+    if (event.button !== 0 || press) return;
+    press = { id: event.pointerId, x: event.clientX, y: event.clientY, moved: false };
+    canvas.setPointerCapture(event.pointerId);
+  });
+  canvas.addEventListener("pointermove", (event) => {
+    if (!press || press.id !== event.pointerId) {
+      const pixel = pixelUnder(canvas, event);
+      readOut(pixel ?? state.pixel);
+      touchReason(pixel ?? state.pixel);
+      return;
+    }
+    const [right, down] = [event.clientX - press.x, event.clientY - press.y];
+    if (!press.moved && Math.hypot(right, down) < DRAG) return;
+    press.moved = true;
+    canvas.classList.add("dragged");
+    [press.x, press.y] = [event.clientX, event.clientY];
+    const turn = Math.PI / canvas.clientHeight;
+    orbit(right * turn, down * turn);
+  });
+  const release = (/** @type {PointerEvent} */ event) => {
+    if (!press || press.id !== event.pointerId) return;
+    const { moved } = press;
+    press = null;
+    canvas.classList.remove("dragged");
+    if (moved || event.type === "pointercancel") return;
+    const pixel = pixelUnder(canvas, event);
+    if (pixel) change({ pixel });
+  };
+  canvas.addEventListener("pointerup", release);
+  canvas.addEventListener("pointercancel", release);
+  canvas.addEventListener("pointerleave", () => {
+    readOut(state.pixel);
+    touchReason(state.pixel);
+  });
+  canvas.addEventListener(
+    "wheel",
+    (event) => {
+      // With Control the browser zooms the page.
+      if (event.ctrlKey) return;
+      event.preventDefault();
+      const lines = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? event.deltaY / 100 : event.deltaY / 3;
+      approach(1.12 ** clamp(lines, -3, 3));
+    },
+    { passive: false },
+  );
+  canvas.addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (steerByKey(event.key, event.shiftKey)) event.preventDefault();
+  });
+}
+
+/** Radians a press of a key. */
+const KEY_TURN = Math.PI / 36;
+
+/**
+ * @param {string} key
+ * @param {boolean} shift
+ * @returns {boolean} whether the key is one of these
+ */
+function steerByKey(key, shift) {
+  const arrows = /** @type {Record<string, [number, number]>} */ ({
+    ArrowUp: [-1, 0],
+    ArrowDown: [1, 0],
+    ArrowLeft: [0, -1],
+    ArrowRight: [0, 1],
+  });
+  const arrow = arrows[key];
+  if (arrow && shift) orbit(arrow[1] * KEY_TURN, arrow[0] * KEY_TURN);
+  else if (arrow) movePixel(...arrow);
+  else return false;
+  return true;
+}

@@ -1,0 +1,105 @@
+// @ts-check
+// The worker: it holds the module and answers the page's messages, one after another.
+//
+// It is made from a text, behind the JavaScript of wasm-bindgen, which defines `wasm_bindgen`. A message is
+// {id, call, ...arguments} and gets {id, ok: true, value} or {id, ok: false, error}; with `broke: true` if the module is in no
+// known state from now on: then the page ends this worker. The first message is
+// {id, call: "start", module}, with the module's bytes, compressed by gzip, in base64.
+"use strict";
+
+/**
+ * @typedef {{
+ *   json(): string, buffers(): number, path(index: number): string, kind(index: number): BufferKind, free(): void,
+ *   u8(index: number): Uint8ClampedArray<ArrayBuffer>, u16(index: number): Uint16Array<ArrayBuffer>,
+ *   u32(index: number): Uint32Array<ArrayBuffer>, f32(index: number): Float32Array<ArrayBuffer>,
+ *   f64(index: number): Float64Array<ArrayBuffer>
+ * }} Reply
+ * @typedef {"u8" | "u16" | "u32" | "f32" | "f64"} BufferKind
+ * @typedef {{call(name: string, args: string, file?: Uint8Array): Reply}} Module
+ * @typedef {{id: number, call: string, file?: {name: string, bytes: ArrayBuffer}, [argument: string]: unknown}} Message
+ */
+
+/** @type {any} The name that the JavaScript of wasm-bindgen defines. */
+// @ts-ignore
+const bindgen = wasm_bindgen;
+
+/** @type {Module | undefined} */
+let module;
+
+/** @param {string} base64 */
+function bytesOf(base64) {
+  const text = atob(base64);
+  const bytes = new Uint8Array(text.length);
+  for (let index = 0; index < text.length; index++) bytes[index] = text.charCodeAt(index);
+  return bytes;
+}
+
+/** @param {Uint8Array<ArrayBuffer>} bytes */
+async function decompressed(bytes) {
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return new Response(stream).arrayBuffer();
+}
+
+/** @param {string} base64  The module's bytes, compressed. */
+async function start(base64) {
+  bindgen.initSync({ module: await WebAssembly.compile(await decompressed(bytesOf(base64))) });
+  module = new bindgen.Module();
+}
+
+/**
+ * Asks the module. A file becomes the bytes beside the arguments.
+ * @param {Message} message
+ */
+function ask(message) {
+  const { id, call, file, ...args } = message;
+  if (module === undefined) throw new Error("the module has not started");
+  const named = file === undefined ? args : { ...args, name: file.name };
+  const bytes = file === undefined ? undefined : new Uint8Array(file.bytes);
+  return module.call(call, JSON.stringify(named), bytes);
+}
+
+/**
+ * The value of a reply: its JSON, with the typed arrays at their places.
+ * @param {Reply} reply
+ * @returns {{value: any, buffers: ArrayBuffer[]}}
+ */
+function valueOf(reply) {
+  const value = JSON.parse(reply.json());
+  /** @type {ArrayBuffer[]} */
+  const buffers = [];
+  for (let index = 0; index < reply.buffers(); index++) {
+    const names = reply.path(index).split(".");
+    const last = /** @type {string} */ (names.pop());
+    let at = value;
+    for (const name of names) at = at[name];
+    const array = reply[reply.kind(index)](index);
+    at[last] = array;
+    buffers.push(array.buffer);
+  }
+  reply.free();
+  return { value, buffers };
+}
+
+/** @param {Message} message */
+async function answer(message) {
+  const { id } = message;
+  try {
+    if (message.call === "start") {
+      await start(String(message.module));
+      return postMessage({ id, ok: true, value: null });
+    }
+    const { value, buffers } = valueOf(ask(message));
+    postMessage({ id, ok: true, value }, { transfer: buffers });
+  } catch (error) {
+    // The module's own texts are strings. A trap, such as the end of a panic or of memory, is a RuntimeError.
+    const broke = error instanceof WebAssembly.RuntimeError || error instanceof RangeError;
+    const said = broke && module !== undefined ? bindgen.panicText() : "";
+    postMessage({ id, ok: false, error: said || String(error), broke });
+  }
+}
+
+// Messages wait for one another: the first one compiles the module.
+let turn = Promise.resolve();
+addEventListener("message", (event) => {
+  turn = turn.then(() => answer(event.data));
+});

@@ -1,0 +1,266 @@
+// The page in Debian's chromium, opened from its file, as a reader uses it.
+
+import assert from "node:assert/strict";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, test } from "node:test";
+import { CHAPTERS, PAGE, engineIn, open, program, stop, until } from "./browser.mjs";
+
+after(stop);
+
+const text = (page, selector) => page.locator(selector).first().innerText();
+
+/** Sets a form control as a reader does. */
+async function set(page, selector, value) {
+  const field = page.locator(selector);
+  await field.fill(String(value));
+  await field.press("Enter");
+}
+
+test("it opens from a file, asks nobody, and says nothing", async () => {
+  const { page, said, close } = await open();
+  assert.equal(page.url().slice(0, 7), "file://");
+  await until("a verdict", async () => (await text(page, "#verdict-text")).startsWith("match"));
+  for (const chapter of CHAPTERS) {
+    await page.evaluate((chapter) => (location.hash = `#chapter=${chapter}`), chapter);
+    await page.waitForTimeout(800);
+  }
+  assert.deepEqual(said.console, []);
+  assert.deepEqual(said.requests.filter((url) => !/^(file|data|blob):/.test(url)), []);
+  await close();
+});
+
+test("text and a still picture stand before any script has run", async () => {
+  const { page: ready, close: done } = await open();
+  const context = await ready.context().browser().newContext({ javaScriptEnabled: false });
+  const page = await context.newPage();
+  await page.goto(ready.url());
+  assert.ok((await text(page, "#chapter-text")).includes("two loops"));
+  const [still] = await page.locator("img.still").all();
+  assert.ok(await still.isVisible());
+  assert.ok((await still.boundingBox()).width > 100);
+  await context.close();
+  await done();
+});
+
+test("steps go to the end and back", async () => {
+  for (const method of ["textbook", "hierarchy"]) {
+    const { page, close } = await open({ hash: `#chapter=loops&scene=canonical&size=8&method=${method}` });
+    const step = async () => Number(await page.locator("#step").inputValue());
+    const end = await until("a record", async () => Number((await text(page, "#steps-total")).replace(/\D/g, "")));
+    await page.locator("#to-start").click();
+    await until("the start", async () => (await step()) === 0);
+    const before = await text(page, "#halves");
+    await page.locator("#step-on").click();
+    await until("one step on", async () => (await step()) === 1);
+    await page.locator("#to-end").click();
+    await until("the end", async () => (await step()) === end);
+    const done = await text(page, "#halves");
+    assert.notEqual(done, before);
+    await page.locator("#step-back").click();
+    await until("one step back", async () => (await step()) === end - 1);
+    await page.locator("#to-end").click();
+    await until("the end again", async () => (await step()) === end);
+    assert.equal(await text(page, "#halves"), done);
+    await page.locator("#to-start").click();
+    await until("the start again", async () => (await step()) === 0);
+    assert.equal(await text(page, "#halves"), before);
+    if (method === "textbook") assert.equal(end, 3 * 8 * 8, "three objects at 64 pixels");
+    await close();
+  }
+});
+
+test("the microscope shows the numbers of `bothways pixel`", async () => {
+  const { page, close } = await open({ hash: "#chapter=ray&scene=canonical&pixel=300,200" });
+  const report = program("pixel", "canonical", "300", "200", "--json");
+  const [{ x, y, covering }] = report.at;
+  const shown = (number) => String(number).replace("-", "\u2212");
+  await until("the ray", async () => (await text(page, "#ray")).includes(shown(x)));
+  assert.ok((await text(page, "#ray")).includes(shown(y)));
+  const along = await text(page, "#along");
+  for (const { id, t } of covering) {
+    assert.ok(along.includes(`id ${id}`), along);
+    assert.ok(along.includes(String(t).slice(0, 6)), `${t}: ${along}`);
+  }
+  await set(page, "#pixel-row", 100);
+  await until("another pixel", async () => (await text(page, "#ray")).includes("(100, 200)"));
+  await close();
+});
+
+test("a link brings back the moment", async () => {
+  const first = await open({ hash: "#chapter=loops&scene=ties&size=8&loops=image&method=textbook" });
+  await until("a record", async () => /[1-9]/.test(await text(first.page, "#steps-total")));
+  await set(first.page, "#step", 37);
+  const hash = await until("the link", async () => {
+    const hash = new URL(first.page.url()).hash;
+    return hash.includes("step=37") && hash;
+  });
+  const second = await open({ hash });
+  await until("the step", async () => (await second.page.locator("#step").inputValue()) === "37");
+  const halves = await text(first.page, "#halves");
+  await until("the same words", async () => (await text(second.page, "#halves")) === halves);
+  await first.close();
+  await second.close();
+
+  const camera = "#chapter=algorithms&scene=lecture&eye=2,3,5&direction=-2,-2,-5&vw=1.5&projection=parallel&pixel=3,4";
+  const third = await open({ hash: camera });
+  await third.page.waitForTimeout(1500);
+  const said = new URLSearchParams(new URL(third.page.url()).hash.slice(1));
+  assert.deepEqual([said.get("eye"), said.get("projection"), said.get("pixel")], ["2,3,5", "parallel", "3,4"]);
+  await third.close();
+});
+
+/** Drops a file on the page. */
+async function drop(page, name, content) {
+  await page.evaluate(
+    ([name, content]) => {
+      const transfer = new DataTransfer();
+      const parts = typeof content === "number" ? [new Uint8Array(content)] : [content];
+      transfer.items.add(new File(parts, name));
+      document.body.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true }));
+    },
+    [name, content],
+  );
+}
+
+test("a good file is opened; a broken and a huge one are refused with reasons", async () => {
+  const { page, said, close } = await open();
+  await drop(page, "small.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  await until("the scene", async () => (await page.locator("#scene").inputValue()).startsWith("small"));
+  await until("its verdict", async () => (await text(page, "#verdict-text")).startsWith("match"));
+
+  await drop(page, "broken.obj", "v 0 0 0\nv 1 0 O\n");
+  await until("a reason", async () => (await text(page, "#trouble")).includes('broken.obj:2: "O" is not a number'));
+  await drop(page, "scene.toml", "[[object]]\nspere = { center = [0, 0, 0], radius = 1 }\n");
+  await until("a suggestion", async () => (await text(page, "#trouble")).includes('did you mean "sphere"?'));
+  await drop(page, "huge.obj", 80 * 1024 * 1024);
+  await until("the limit", async () => (await text(page, "#trouble")).includes("at most 64 MiB"));
+  await drop(page, "picture.gif", "GIF89a");
+  await until("the kinds", async () => (await text(page, "#trouble")).includes(".obj"));
+
+  // What was open stays open.
+  assert.ok((await page.locator("#scene").inputValue()).startsWith("small"));
+  assert.deepEqual(said.console, []);
+  await close();
+});
+
+/** The lecture's formulas, once more: what a student computes by hand. */
+function worked({ camera, row, column }, plane) {
+  const axis = (name, other) => camera[name] ?? other;
+  const [u, v, w] = [axis("u", [1, 0, 0]), axis("v", [0, 1, 0]), axis("w", [0, 0, 1])];
+  const x = camera.vw * ((column + 0.5) / camera.width - 0.5);
+  const y = -camera.vh * ((row + 0.5) / camera.height - 0.5);
+  const direction = [0, 1, 2].map((k) => x * u[k] + y * v[k] - camera.d * w[k]);
+  if (!plane) return [...camera.eye, ...direction];
+  const t = plane.constant / plane.normal.reduce((sum, part, k) => sum + part * direction[k], 0);
+  return [t, ...direction.map((part) => t * part)];
+}
+
+/** The plane in the words of a question: "x + 2 z = −4". */
+function planeIn(words) {
+  const [, sum, constant] = words.match(/the plane ([xyz0-9 +]+) = (−?\d+)/);
+  const normal = ["x", "y", "z"].map((name) => {
+    const term = sum.split("+").map((part) => part.trim()).find((part) => part.endsWith(name));
+    return term === undefined ? 0 : Number(term.slice(0, -1) || 1);
+  });
+  return { normal, constant: Number(constant.replace("−", "-")) };
+}
+
+test("every question takes the right answer, and refuses a wrong one", async () => {
+  const { page, close } = await open();
+  const engine = await engineIn(page);
+  for (const kind of ["ray", "plane", "eye", "viewport", "distance", "frame"]) {
+    const seed = 11;
+    const question = await engine.ask("question", { kind, seed });
+    await page.evaluate((hash) => (location.hash = hash), `#chapter=problems&question=${kind}&seed=${seed}`);
+    await until("the question", async () => (await text(page, "#question-text")).includes(question.title));
+    const plane = kind === "plane" ? planeIn(question.text.join(" ")) : undefined;
+    const numbers = worked(question, plane).map((number) => number.toFixed(6));
+    const fields = await page.locator("#question-fields input").all();
+    assert.equal(fields.length, numbers.length);
+    const submit = async (values) => {
+      for (const [place, field] of fields.entries()) await field.fill(values[place]);
+      await page.locator("#question-form button[type=submit]").click();
+    };
+    await submit(numbers.map((number, place) => (place === 3 ? String(Number(number) + 1) : number)));
+    await until(`${kind}: a refusal`, async () => (await text(page, "#question-verdict")).startsWith("Not yet"));
+    assert.equal(await fields[3].getAttribute("aria-invalid"), "true");
+    await submit(numbers);
+    await until(`${kind}: a yes`, async () => (await text(page, "#question-verdict")).startsWith("Right"));
+    await until(`${kind}: the picture`, () => page.locator("#question-picture").isVisible());
+  }
+  await close();
+});
+
+test("the quiz knows its answer", async () => {
+  const { page, close } = await open({ hash: "#chapter=quiz&seed=4" });
+  const choices = page.locator("input[name=quiz]");
+  await until("four choices", async () => (await choices.count()) === 4);
+  let right = 0;
+  for (let place = 0; place < 4; place++) {
+    await choices.nth(place).check();
+    await page.locator("#quiz-form button[type=submit]").click();
+    await until("a verdict", async () => /^(Right|Not this)/.test(await text(page, "#quiz-answer")));
+    right += (await text(page, "#quiz-answer")).startsWith("Right") ? 1 : 0;
+    await page.locator("#quiz-answer").evaluate((element) => (element.textContent = ""));
+  }
+  assert.equal(right, 1);
+  await close();
+});
+
+test("the keyboard alone reaches every control", async () => {
+  for (const chapter of CHAPTERS) {
+    const { page, close } = await open({ hash: `#chapter=${chapter}` });
+    await page.waitForTimeout(800);
+    // Once around, and no further: of radio buttons, one stands for its group.
+    for (let press = 0; press < 150; press++) {
+      await page.keyboard.press("Tab");
+      const isInside = await page.evaluate(() => {
+        const element = document.activeElement;
+        if (!element || element === document.body) return false;
+        element.dataset.reached = "yes";
+        return true;
+      });
+      if (!isInside) break;
+    }
+    const missed = await page.evaluate(() => {
+      const controls = [...document.querySelectorAll("button, input, select, summary, a[href], [tabindex='0']")];
+      const isShown = (one) => one.checkVisibility({ visibilityProperty: true }) && !one.disabled && one.tabIndex >= 0;
+      const isInGroup = (one) =>
+        one.type === "radio" && document.querySelector(`input[name="${one.name}"][data-reached]`) !== null;
+      const missing = controls.filter((one) => isShown(one) && one.dataset.reached !== "yes" && !isInGroup(one));
+      return missing.map((one) => one.id || one.outerHTML.slice(0, 80));
+    });
+    assert.deepEqual(missed, [], chapter);
+    await close();
+  }
+});
+
+test("arrow keys turn the camera, and a key brings it back", async () => {
+  const { page, close } = await open();
+  const eye = () => new URLSearchParams(new URL(page.url()).hash.slice(1)).get("eye");
+  await page.locator("canvas[data-picture=object]").first().focus();
+  await page.keyboard.press("Shift+ArrowRight");
+  await until("another eye", async () => eye() !== null);
+  await page.keyboard.press("0");
+  await until("the scene's own eye", async () => eye() === null);
+  await close();
+});
+
+test("a module that breaks begins anew with the same scene", async () => {
+  // A module that ends by a trap when it is asked about the rules.
+  const html = readFileSync(PAGE, "utf8");
+  const trap = `{ const call = wasm_bindgen.Module.prototype.call; wasm_bindgen.Module.prototype.call = function (name, ...rest) {
+    if (name === "own") throw new WebAssembly.RuntimeError("unreachable");
+    return call.call(this, name, ...rest); }; }`;
+  const folder = mkdtempSync(join(tmpdir(), "bothways-web-"));
+  const broken = join(folder, "broken.html");
+  writeFileSync(broken, html.replace("// @ts-check\n// The worker:", `${trap}\n// The worker:`));
+  const { page, close } = await open({ file: broken, hash: "#chapter=coverage&scene=ties" });
+  await until("a report", async () => (await text(page, "#trouble")).includes("begins anew"));
+  await page.evaluate(() => (location.hash = "#chapter=algorithms&scene=ties"));
+  await until("a verdict", async () => (await text(page, "#verdict-text")).startsWith("match"));
+  await close();
+  rmSync(folder, { recursive: true });
+});
