@@ -136,7 +136,7 @@ fn covered_if_equal(values: &[bool], others: &[bool]) -> Option<u64> {
     const LANES: usize = 64;
     /// So many values at once: no sum is more than a byte holds, and twice as many bytes fit into that cache.
     const AT_ONCE: usize = 128 * LANES;
-    let mut count = 0;
+    let (mut columns, mut count) = ([0_u32; LANES], 0);
     for (values, others) in values.chunks(AT_ONCE).zip(others.chunks(AT_ONCE)) {
         if values != others {
             return None;
@@ -148,10 +148,12 @@ fn covered_if_equal(values: &[bool], others: &[bool]) -> Option<u64> {
                 *sum += u8::from(*value);
             }
         }
-        let all = sums.into_iter().chain(rest.iter().copied().map(u8::from));
-        count += all.map(u64::from).sum::<u64>();
+        for (column, sum) in columns.iter_mut().zip(sums) {
+            *column += u32::from(sum);
+        }
+        count += rest.iter().map(|value| u64::from(*value)).sum::<u64>();
     }
-    Some(count)
+    Some(count + columns.into_iter().map(u64::from).sum::<u64>())
 }
 
 /// Packs values into words of 64 bits, and counts the true ones; `None` if others are not equal to them.
