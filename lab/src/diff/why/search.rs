@@ -334,6 +334,7 @@ impl Search<'_> {
         finalists.sort_by_key(Candidate::rank);
         let mut all = finalists.clone();
         let mut starts: Vec<Candidate> = finalists.iter().take(2).copied().collect();
+        all.extend(starts.iter().flat_map(|start| self.with_tie_rules_instead(start, &changes)));
         // More parts cannot do better than what explains all.
         if starts[0].score.differing == 0 {
             return all;
@@ -381,6 +382,15 @@ impl Search<'_> {
             all.extend(self.simplified(best, differing));
         }
         all
+    }
+
+    /// A candidate with a rule for ties in place of a change that moves more on the same axis: who is drawn last is seen, or
+    /// only who is drawn last of equally near ones.
+    fn with_tie_rules_instead(&self, candidate: &Candidate, changes: &[Change]) -> Vec<Candidate> {
+        let axes: Vec<usize> =
+            candidate.convention.changes().into_iter().map(Change::axis).collect();
+        let rules = changes.iter().filter(|rule| !rule.is_coarse() && axes.contains(&rule.axis()));
+        rules.map(|&rule| self.drawn_whole(candidate.convention.with(rule))).collect()
     }
 
     /// Our conventions, with the placement under which they fit best.

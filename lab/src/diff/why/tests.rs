@@ -122,6 +122,53 @@ fn every_pair_of_changes_on_different_axes_is_named_from_ids_in_parallel() {
     check_every_pair(Projection::Parallel);
 }
 
+/// Triangles with corners in the middles of pixels and on the corners of pixels, many of them in one plane: most of their
+/// edges meet samples exactly, and many samples see two of them equally far away.
+fn lattice(run: impl Fn(&View)) {
+    let mut dice = bothways_test_support::Dice(11);
+    let mut objects: Vec<crate::common::Object> = Vec::new();
+    for index in 0..14 {
+        let depth = [8.0, 8.0, 8.0, 16.0][index % 4];
+        let mut corner = || {
+            let half = |at: f32, side: f32| (at * side).round() / 2.0;
+            let at = dice.point();
+            let middle = crate::common::glam::Vec3::new(half(at.x, 15.0), half(at.y, 11.0), -8.0);
+            middle * (depth / 8.0)
+        };
+        let [a, b, c] = [corner(), corner(), corner()];
+        objects.push(crate::common::Shape::Triangle(crate::common::Triangle { a, b, c }).into());
+    }
+    let scene = crate::common::Scene::new(objects).unwrap();
+    let camera = CameraDescription {
+        viewport: [16.0, 12.0],
+        distance: 8.0,
+        image: [16, 12],
+        ..CameraDescription::default()
+    };
+    run(&View::new(&scene, &Camera::new(camera).unwrap()));
+}
+
+#[test]
+fn every_rule_for_ties_is_named_from_ids_beside_every_change_on_another_axis() {
+    lattice(|view| {
+        let mut changes = Change::of_rendering(view.camera);
+        changes.extend(Placement::ALL[1..3].iter().map(|&one| Change::Placement(one)));
+        let (coarse, ties): (Vec<Change>, Vec<Change>) =
+            changes.into_iter().partition(|change| change.is_coarse());
+        let (mut missed, mut count) = (Vec::new(), 0);
+        for &tie in &ties {
+            for other in coarse.iter().filter(|other| other.axis() != tie.axis()) {
+                let planted = Convention::default().with(*other).with(tie);
+                count += 1;
+                if !is_named(view, &planted, true) {
+                    missed.push(planted.changes());
+                }
+            }
+        }
+        assert!(missed.is_empty(), "{} of {count} {missed:?}", missed.len());
+    });
+}
+
 /// Asserts that each change alone is named from ids.
 fn check_every_change(projection: Projection) {
     with_scene("lecture", [66, 44], projection, |view| {
