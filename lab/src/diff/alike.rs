@@ -77,9 +77,15 @@ impl Buffer<'_> {
         Some((a, covered))
     }
 
-    /// The number of covered pixels of a row in which two masks of one sample a pixel are alike; stores a bit for each, 64
-    /// pixels in a word. `None` if they are not, or if these are no masks.
-    pub(super) fn alike_row(&self, other: &Buffer, row: u32, words: &mut Vec<u64>) -> Option<u64> {
+    /// Stores a bit for each pixel of a row of two masks of one sample a pixel, 64 pixels of this one and of the other in a
+    /// word each. Gives the number of pixels that both cover, that this one alone, and that the other alone covers; `None` if
+    /// these are no masks.
+    pub(super) fn mask_row(
+        &self,
+        other: &Buffer,
+        row: u32,
+        words: &mut Vec<[u64; 2]>,
+    ) -> Option<[u64; 3]> {
         let (Content::Mask(a), Content::Mask(b)) = (self.content(), other.content()) else {
             return None;
         };
@@ -88,7 +94,7 @@ impl Buffer<'_> {
         words.clear();
         words.reserve(run.len().div_ceil(64));
         let [a, b] = [&a[run.clone()], &b[run]];
-        dispatch!(best_level(), simd => packed_if_equal(simd, [a, b], words))
+        Some(dispatch!(best_level(), simd => packed_pairs(simd, [a, b], words)))
     }
 }
 
@@ -156,21 +162,22 @@ fn covered_if_equal(values: &[bool], others: &[bool]) -> Option<u64> {
     Some(count + columns.into_iter().map(u64::from).sum::<u64>())
 }
 
-/// Packs values into words of 64 bits, and counts the true ones; `None` if others are not equal to them.
+/// Packs the values of both into words of 64 bits; counts what is true in both, in the first alone and in the second alone.
 #[inline(always)]
-fn packed_if_equal<S: Simd>(
+fn packed_pairs<S: Simd>(
     simd: S,
     [values, others]: [&[bool]; 2],
-    words: &mut Vec<u64>,
-) -> Option<u64> {
-    let (mut count, mut differing) = (0, 0);
+    words: &mut Vec<[u64; 2]>,
+) -> [u64; 3] {
+    let mut counts = [0; 3];
     for (values, others) in values.chunks(64).zip(others.chunks(64)) {
-        let (bits, other) = (packed(simd, values), packed(simd, others));
-        differing |= bits ^ other;
-        count += u64::from(bits.count_ones());
-        words.push(bits);
+        let [a, b] = [packed(simd, values), packed(simd, others)];
+        for (count, bits) in counts.iter_mut().zip([a & b, a & !b, !a & b]) {
+            *count += u64::from(bits.count_ones());
+        }
+        words.push([a, b]);
     }
-    (differing == 0).then_some(count)
+    counts
 }
 
 /// A bit for each of up to 64 values in memory, the first one lowest, by the vectors of this processor.

@@ -194,10 +194,10 @@ impl<'a> BufferPair<'a> {
         self.compares_whole_runs().then(|| self.a.equal_mask(self.b))?
     }
 
-    /// The number of covered pixels of a row in which two masks are alike; stores a bit for each, 64 pixels in a word. `None`
-    /// if they are not, or if these are no masks.
-    pub(super) fn alike_row(&self, row: u32, words: &mut Vec<u64>) -> Option<u64> {
-        self.compares_whole_runs().then(|| self.a.alike_row(self.b, row, words))?
+    /// A bit for each pixel of a row of two masks, and the number of pixels that both cover, that A alone and that B alone
+    /// covers; `None` if these are no masks.
+    pub(super) fn mask_row(&self, row: u32, words: &mut Vec<[u64; 2]>) -> Option<[u64; 3]> {
+        self.compares_whole_runs().then(|| self.a.mask_row(self.b, row, words))?
     }
 
     /// The covered ones of up to 64 pixels of a row, if A and B are alike there and no value differs by more than is known

@@ -107,6 +107,21 @@ impl Word {
         Word([bits, 0, 0])
     }
 
+    /// The classes of pixels of two masks.
+    pub(super) fn of_masks([a, b]: [u64; 2]) -> Word {
+        let mut word = Word::default();
+        for (class, bits) in [
+            (Class::Alike, a & b),
+            (Class::OnlyObjectOrder, a & !b),
+            (Class::OnlyImageOrder, !a & b),
+        ] {
+            for (plane, stored) in word.0.iter_mut().enumerate() {
+                *stored |= bits * (class.code() >> plane & 1);
+            }
+        }
+        word
+    }
+
     /// Makes pixels alike, which must have no class yet.
     pub(super) fn put_alike(&mut self, bits: u64) {
         self.0[0] |= bits;
@@ -180,17 +195,6 @@ pub(super) struct Rows<'a> {
 }
 
 impl Rows<'_> {
-    /// Writes the words of a row in which nothing differs: pixels are alike where a bit is 1, and empty elsewhere.
-    pub(super) fn write_alike(&mut self, row: u32, words: &[u64]) {
-        let first = row as usize * self.words;
-        for (stored, &bits) in self.planes[0][first..].iter_mut().zip(words) {
-            // What is 0 is never written: see `Stored::Planes`.
-            if bits != 0 {
-                *stored = bits;
-            }
-        }
-    }
-
     /// Writes the word at a place: its row, counted from the first, and its number in the row.
     pub(super) fn write(&mut self, row: u32, word: u32, classes: Word) {
         let index = row as usize * self.words + word as usize;

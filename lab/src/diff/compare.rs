@@ -225,17 +225,22 @@ fn all_pixels(pair: &BufferPair) -> (Sums, Classes) {
     if let Some((mask, both)) = pair.equal_mask() {
         return (Sums { both, ..Sums::default() }, Classes::of_equal(size, mask));
     }
+    // The number of each word of a row, and its first column.
+    let places = || (0..).zip((0..width).step_by(WORD as usize));
     let (classes, sums) = Classes::written(size, ROWS, |rows| {
         let mut sums = Sums::default();
         let mut words = Vec::new();
         for row in 0..rows.count {
             let i = rows.first + row;
-            if let Some(covered) = pair.alike_row(i, &mut words) {
-                sums.both += covered;
-                rows.write_alike(row, &words);
+            if let Some(counts) = pair.mask_row(i, &mut words) {
+                sums.add_masks(counts);
+                for ((word, first), &masks) in places().zip(&words) {
+                    sums.add_differing([top + i, left + first], masks[0] ^ masks[1]);
+                    rows.write(row, word, Word::of_masks(masks));
+                }
                 continue;
             }
-            for (word, first) in (0..width).step_by(WORD as usize).enumerate() {
+            for (word, first) in places() {
                 let columns = first..width.min(first + WORD);
                 let known = Known {
                     t: sums.depth.max_relative_difference,
@@ -247,7 +252,7 @@ fn all_pixels(pair: &BufferPair) -> (Sums, Classes) {
                 } else {
                     few_pixels(pair, i, columns, [top, left], &mut sums, known)
                 };
-                rows.write(row, u32::try_from(word).expect("fewer than columns"), classes);
+                rows.write(row, word, classes);
             }
         }
         sums
@@ -344,14 +349,30 @@ impl Sums {
         }
         let class = found.class();
         self.ignored_pixels += u64::from(class == Class::Ignored);
-        if class.differs() {
-            self.differing_pixels += 1;
-            self.include(pixel);
-            if self.first_differing.len() < NAMED_PIXELS {
-                self.first_differing.push(pixel);
-            }
-        }
+        self.differing_pixels += u64::from(class.differs());
+        self.add_differing(pixel, class.differs().into());
         class
+    }
+
+    /// Adds the pixels of two masks that both cover, that A alone and that B alone covers.
+    fn add_masks(&mut self, [both, only_a, only_b]: [u64; 3]) {
+        self.both += both;
+        self.only_a += only_a;
+        self.only_b += only_b;
+        self.differing_pixels += only_a + only_b;
+    }
+
+    /// Adds the places of pixels of a row that differ, where a bit is 1; the lowest is that of `first`.
+    fn add_differing(&mut self, [row, first]: [u32; 2], mut differing: u64) {
+        if differing == 0 {
+            return;
+        }
+        self.include([row, first + differing.trailing_zeros()]);
+        self.include([row, first + differing.ilog2()]);
+        while differing != 0 && self.first_differing.len() < NAMED_PIXELS {
+            self.first_differing.push([row, first + differing.trailing_zeros()]);
+            differing &= differing - 1;
+        }
     }
 
     /// The sums over these rows, and over others below.
@@ -424,15 +445,20 @@ mod tests {
             let first: Vec<u8> = (0..count).map(|_| dice.u8(0..8)).collect();
             let other = |&value: &u8| if dice.u8(0..20) == 0 { dice.u8(0..8) } else { value };
             let second: Vec<u8> = first.iter().map(other).collect();
-            [first, second].map(|values| Buffer::new(size, 1, content(kind, &values)))
+            [first, second].map(|values| Buffer::new(size, 1, content(kind, size, &values)))
         };
-        (0..6).map(&mut two).collect()
+        (0..8).map(&mut two).collect()
     }
 
-    fn content(kind: u32, values: &[u8]) -> Content<'static> {
+    fn content(kind: u32, [width, height]: [u32; 2], values: &[u8]) -> Content<'static> {
         let picture = |covered| {
             let colors = values.iter().map(|&value| [value, 0, 7, value % 2]);
             Content::Picture(Picture { pixels: Pixels::Bytes(colors.collect()), covered })
+        };
+        let opaque = |covered| {
+            let colors = values.iter().flat_map(|&value| [value, 0, 7]).collect();
+            let pixels = RgbImage::from_raw(width, height, colors).unwrap();
+            Content::Picture(Picture { pixels: Pixels::Opaque(pixels.into()), covered })
         };
         let numbers = [1.0, 1.0 + 1e-7, 1.5, f64::NAN, -0.0, 0.0, 4e-320, 5e-320];
         match kind {
@@ -444,7 +470,9 @@ mod tests {
             2 => Content::Distances(values.iter().map(|&at| numbers[at as usize]).collect()),
             3 => picture(Covered::Unknown),
             4 => picture(Covered::ByAlpha),
-            _ => picture(Covered::ByBackground([2, 0, 7])),
+            5 => picture(Covered::ByBackground([2, 0, 7])),
+            6 => opaque(Covered::Unknown),
+            _ => opaque(Covered::ByBackground([2, 0, 7])),
         }
     }
 
@@ -469,6 +497,20 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn opaque_pictures_compare_as_those_with_an_alpha_that_tells_nothing() {
+        let size = [70, 9];
+        let mut dice = fastrand::Rng::with_seed(3);
+        let values = [(); 2].map(|()| (0..70 * 9).map(|_| dice.u8(0..8)).collect::<Vec<u8>>());
+        let [opaque, with_alpha] = [6, 3].map(|kind| {
+            let [a, b] =
+                values.each_ref().map(|values| Buffer::new(size, 1, content(kind, size, values)));
+            compare(&BufferPair::new(&a, &b, Decides::Everything)).unwrap()
+        });
+        assert!(opaque.differing_pixels > 100);
+        assert_eq!(opaque, with_alpha);
     }
 
     #[test]
