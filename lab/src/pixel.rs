@@ -134,12 +134,28 @@ impl SampleReport {
 /// # Ok::<(), bothways_lab::common::SceneError>(())
 /// ```
 pub fn report(view: &View, options: &Options, i: u32, j: u32) -> Vec<SampleReport> {
+    let prepared = (&rasterize::fast::prepare(view.scene), &raytrace::fast::prepare(view.scene));
+    report_prepared(prepared, view, options, i, j)
+}
+
+/// The same with what both orders prepared of the scene, for several pixels.
+///
+/// # Panics
+///
+/// Those of [`report`].
+pub fn report_prepared(
+    prepared: (&rasterize::fast::Prepared, &raytrace::fast::Prepared),
+    view: &View,
+    options: &Options,
+    i: u32,
+    j: u32,
+) -> Vec<SampleReport> {
     let [width, height] = view.camera.image();
     assert!(i < height && j < width, "there is no pixel ({i}, {j})");
     let crop = Crop { row: i, column: j, height: 1, width: 1 };
     let options = &Options { crop: Some(crop), ..*options };
     let pixel = crop.region(options.samples);
-    let [object_order, image_order] = answers(view, options, &pixel);
+    let [object_order, image_order] = answers(prepared, view, options, &pixel);
     let grid = view.camera.sample_grid(options.samples);
     let answers = object_order.into_iter().zip(image_order);
     let answered: Vec<_> = samples(&pixel).zip(answers).collect();
@@ -154,14 +170,17 @@ pub fn report(view: &View, options: &Options, i: u32, j: u32) -> Vec<SampleRepor
 }
 
 /// The results of both orders at each sample of the pixel.
-fn answers(view: &View, options: &Options, pixel: &Region) -> [Vec<Answer>; 2] {
+fn answers(
+    (rasterizer, ray_tracer): (&rasterize::fast::Prepared, &raytrace::fast::Prepared),
+    view: &View,
+    options: &Options,
+    pixel: &Region,
+) -> [Vec<Answer>; 2] {
     let object_order = watched(view, options, pixel, |frame, watch| {
-        let prepared = rasterize::fast::prepare(view.scene);
-        rasterize::fast::determine_visibility(&prepared, view, options, frame, watch);
+        rasterize::fast::determine_visibility(rasterizer, view, options, frame, watch);
     });
     let image_order = watched(view, options, pixel, |frame, watch| {
-        let prepared = raytrace::fast::prepare(view.scene);
-        raytrace::fast::determine_visibility(&prepared, view, options, frame, watch);
+        raytrace::fast::determine_visibility(ray_tracer, view, options, frame, watch);
     });
     [object_order, image_order]
 }
@@ -334,6 +353,9 @@ mod tests {
             (description.projection, description.image) = (projection, [80, 60]);
             let camera = Camera::new(description).unwrap();
             let view = View::new(&loaded.scene, &camera);
+            let rasterizer = rasterize::fast::prepare(view.scene);
+            let ray_tracer = raytrace::fast::prepare(view.scene);
+            let prepared = (&rasterizer, &ray_tracer);
             let whole = Options { samples: 2, ..Options::default() };
             for [row, column] in [[0, 0], [31, 32], [32, 40], [59, 79]] {
                 let crop = Crop { row, column, height: 1, width: 1 };
@@ -341,7 +363,7 @@ mod tests {
                 let pixel = crop.region(whole.samples);
                 // The number of the judge's decisions depends on the neighbouring samples.
                 let told = |options| {
-                    answers(&view, options, &pixel).map(|answers| {
+                    answers(prepared, &view, options, &pixel).map(|answers| {
                         answers
                             .into_iter()
                             .map(|mut answer| {

@@ -29,7 +29,7 @@ mod plan;
 mod summary;
 mod table;
 
-pub use bench::Bench;
+pub use bench::{Bench, steps};
 pub use case::{Axis, Case};
 pub use fit::{Crossing, Slope};
 pub use json::json;

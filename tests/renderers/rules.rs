@@ -21,13 +21,6 @@ fn options(rules: Rules) -> RenderOptions<'static> {
     RenderOptions { rules, no_times: true, no_counts: true, ..RenderOptions::default() }
 }
 
-fn rules_of(rule: Rule) -> Rules {
-    match rule {
-        Rule::Object(rule) => Rules { object_order: Some(rule), ..Rules::default() },
-        Rule::Image(rule) => Rules { image_order: Some(rule), ..Rules::default() },
-    }
-}
-
 fn rendered(view: &View, order: Order, rules: Rules, frame: Options) -> Rendered {
     let options = RenderOptions { frame, ..options(rules) };
     orders::render(order, Method::Fast, view, &options).expect("the scene is in memory")
@@ -36,7 +29,7 @@ fn rendered(view: &View, order: Order, rules: Rules, frame: Options) -> Rendered
 /// The frames of a rule and of the exact renderer of the same order.
 fn both(view: &View, rule: Rule) -> [Frame; 2] {
     let order = rule.order();
-    [rules_of(rule), Rules::default()]
+    [rule.into(), Rules::default()]
         .map(|rules| rendered(view, order, rules, Options::default()).frame)
 }
 
@@ -208,7 +201,7 @@ fn threads_and_crops_change_nothing() {
         let draw = |threads, crop| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             let options = Options { samples: 2, crop };
-            pool.install(|| rendered(&view, rule.order(), rules_of(rule), options).frame)
+            pool.install(|| rendered(&view, rule.order(), rule.into(), options).frame)
         };
         let whole = draw(1, None);
         assert_eq!(whole, draw(3, None), "{rule:?}");
@@ -231,7 +224,7 @@ fn every_rule_survives_hostile_scenes() {
     for numbers in [Numbers::FewBits, Numbers::Ordinary, Numbers::Extreme] {
         for_each(numbers, 40, |view, frame| {
             for rule in Rule::examples() {
-                let frame = rendered(view, rule.order(), rules_of(rule), *frame).frame;
+                let frame = rendered(view, rule.order(), rule.into(), *frame).frame;
                 let ids = frame.ids().iter();
                 assert!(ids.zip(frame.distances()).all(|(&id, &t)| {
                     if id == u32::MAX { t == f32::INFINITY } else { t > 0.0 && t.is_finite() }

@@ -24,6 +24,15 @@ pub enum Primitive {
 }
 
 impl Primitive {
+    /// What it is, in a word.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Primitive::Triangle(_) => "triangle",
+            Primitive::Sphere { .. } => "sphere",
+            Primitive::Plane { .. } => "plane",
+        }
+    }
+
     /// Whether it is round: a sphere. Every other primitive is flat: it lies in one plane. Of primitives that a ray
     /// meets at the same `t`, flat ones are seen before round ones.
     #[inline]

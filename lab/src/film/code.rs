@@ -3,7 +3,7 @@
 use super::Film;
 use super::recorder::{Line, Position};
 use super::shots::{OrderShot, Shot};
-use crate::common::{Shape, View};
+use crate::common::View;
 use crate::figure::{CodeLine, FilmHalf, FilmPage};
 use crate::orders::{Method, Order};
 use crate::wording::{count, grouped};
@@ -106,11 +106,5 @@ fn variables(film: &Film, order: Order, shot: &OrderShot) -> [String; 5] {
 
 /// A primitive in words.
 fn object(view: &View, id: u32) -> String {
-    let (object, _) = view.scene.locate(id);
-    let kind = match view.scene.objects()[object].shape {
-        Shape::Triangle(_) | Shape::Mesh(_) => "triangle",
-        Shape::Sphere(_) => "sphere",
-        Shape::Plane(_) => "plane",
-    };
-    format!("object {}: {kind}", grouped(id.into()))
+    format!("object {}: {}", grouped(id.into()), view.primitive(id).kind())
 }

@@ -33,6 +33,16 @@ impl Rules {
     }
 }
 
+impl From<Rule> for Rules {
+    /// This rule, and the other order exact.
+    fn from(rule: Rule) -> Rules {
+        match rule {
+            Rule::Object(rule) => Rules { object_order: Some(rule), ..Rules::default() },
+            Rule::Image(rule) => Rules { image_order: Some(rule), ..Rules::default() },
+        }
+    }
+}
+
 impl Rule {
     /// The order that it belongs to.
     pub fn order(self) -> Order {

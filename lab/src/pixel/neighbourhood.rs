@@ -32,7 +32,7 @@ pub struct Outline {
     pub corners: Vec<[f64; 2]>,
 }
 
-/// Finds what is within `radius` pixels of pixel `(i, j)`, in rows and columns.
+/// Finds what is within `radius` pixels of pixel `(i, j)`, in rows and columns; `prepared` is of the view's scene.
 ///
 /// # Panics
 ///
@@ -43,29 +43,36 @@ pub struct Outline {
 ///
 /// let loaded = bothways_lab::scenes::load("ties")?;
 /// let camera = Camera::new(loaded.camera)?;
-/// let near = bothways_lab::pixel::neighbourhood(&View::new(&loaded.scene, &camera), 0, 5, 2);
+/// let prepared = bothways_lab::rasterize::fast::prepare(&loaded.scene);
+/// let view = View::new(&loaded.scene, &camera);
+/// let near = bothways_lab::pixel::neighbourhood(&prepared, &view, 0, 5, 2);
 /// assert_eq!(near.pixels.to_array(), [0, 3, 3, 5]);
 /// assert_eq!(near.seen.len(), 15);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn neighbourhood(view: &View, i: u32, j: u32, radius: u32) -> Neighbourhood {
+pub fn neighbourhood(
+    prepared: &rasterize::fast::Prepared,
+    view: &View,
+    i: u32,
+    j: u32,
+    radius: u32,
+) -> Neighbourhood {
     let [width, height] = view.camera.image();
     assert!(i < height && j < width, "there is no pixel ({i}, {j})");
     let (row, column) = (i.saturating_sub(radius), j.saturating_sub(radius));
     let last = |index: u32, side: u32| index.saturating_add(radius).min(side - 1) + 1;
     let pixels =
         Crop { row, column, height: last(i, height) - row, width: last(j, width) - column };
-    let seen = seen(view, pixels);
+    let seen = seen(prepared, view, pixels);
     let (triangles, omitted) = triangles(view, pixels, &seen);
     Neighbourhood { pixels, seen, triangles, omitted }
 }
 
 /// What object order sees there.
-fn seen(view: &View, pixels: Crop) -> Vec<Option<u32>> {
+fn seen(prepared: &rasterize::fast::Prepared, view: &View, pixels: Crop) -> Vec<Option<u32>> {
     let options = Options { crop: Some(pixels), ..Options::default() };
     let mut frame = Frame::new(view.camera, &options);
-    let prepared = rasterize::fast::prepare(view.scene);
-    rasterize::fast::determine_visibility(&prepared, view, &options, &mut frame, &mut ());
+    rasterize::fast::determine_visibility(prepared, view, &options, &mut frame, &mut ());
     frame.ids().iter().map(|&id| (id != NO_PRIMITIVE).then_some(id)).collect()
 }
 
@@ -112,9 +119,10 @@ mod tests {
             let loaded = scenes::load(name).unwrap();
             let camera = Camera::new(loaded.camera).unwrap();
             let view = View::new(&loaded.scene, &camera);
+            let prepared = rasterize::fast::prepare(view.scene);
             let [width, height] = camera.image();
             for (i, j) in [(0, 0), (height / 2, width / 2), (height / 2, width / 3)] {
-                let near = neighbourhood(&view, i, j, 1);
+                let near = neighbourhood(&prepared, &view, i, j, 1);
                 for id in near.seen.iter().flatten() {
                     let is_triangle = view.scene.triangle(*id).is_some();
                     let is_listed = near.triangles.iter().any(|triangle| triangle.id == *id);

@@ -67,7 +67,7 @@ impl Bench {
 }
 
 /// Iterations of all loops: the outer ones begin primitives or rays, the inner ones test boxes and primitives.
-fn steps(work: &Work) -> u64 {
+pub fn steps(work: &Work) -> u64 {
     work.primitives + work.rays + work.nodes + work.tests
 }
 

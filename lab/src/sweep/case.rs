@@ -136,7 +136,8 @@ pub(super) enum Form {
 }
 
 impl Case {
-    fn sphere(axis: Axis, rings: u32, image: [u32; 2]) -> Case {
+    /// A sphere of `4 · rings²` triangles, in an image of this size.
+    pub fn sphere(axis: Axis, rings: u32, image: [u32; 2]) -> Case {
         // Twice as many columns as rings; the two rings at the poles have half the triangles.
         let triangles = 4 * u64::from(rings) * u64::from(rings);
         let x = if axis == Axis::Triangles { triangles as f64 } else { area(image) };
@@ -160,7 +161,11 @@ impl Case {
     }
 
     /// The scene's mesh, and the camera that sees it.
-    pub(super) fn mesh(&self) -> (Mesh, CameraDescription) {
+    ///
+    /// # Panics
+    ///
+    /// A sphere has at least two rings.
+    pub fn mesh(&self) -> (Mesh, CameraDescription) {
         match self.form {
             Form::Sphere { rings } => {
                 let mesh = Kind::Sphere.mesh([2 * rings, rings + 1]);

@@ -2,7 +2,7 @@
 
 use bothways_lab::common::glam::Vec3;
 use bothways_lab::common::{Camera, CameraDescription, Orientation, Projection};
-use bothways_lab::wording::grouped;
+use bothways_lab::wording::{self, grouped};
 use serde::{Deserialize, Serialize};
 
 /// A camera as JSON. It states where it looks by `u`, `v`, `w`, or else by `look_at`, or else by `direction`, the last two with
@@ -52,7 +52,7 @@ pub(crate) struct Viewpoint {
     width: Option<u32>,
 }
 
-/// What follows from a camera: its frame, and the middle of the viewport.
+/// The frame of a camera.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct FrameJson {
     pub(crate) u: [f64; 3],
@@ -173,7 +173,7 @@ impl Pixel {
     ///
     /// # Errors
     ///
-    /// The text of the command line.
+    /// Which pixels there are.
     pub(crate) fn check(self, camera: &Camera) -> Result<Pixel, String> {
         let (Pixel { row, column }, [width, height]) = (self, camera.image());
         if row < height && column < width {
@@ -190,8 +190,7 @@ impl Pixel {
 
 impl FrameJson {
     pub(crate) fn new(camera: &Camera) -> FrameJson {
-        let [u, v, w] =
-            [camera.u(), camera.v(), camera.w()].map(|axis| axis.to_array().map(|x| x + 0.0));
+        let [u, v, w] = [camera.u(), camera.v(), camera.w()].map(wording::plain);
         FrameJson { u, v, w }
     }
 }

@@ -64,7 +64,7 @@ const askWhy = debounced(120, async () => {
   showPictures();
   byId("reasons").replaceChildren(make("li", { class: "quiet" }, "The exact judge looks at each pixel that differs …"));
   try {
-    const answer = await engine.call("why", ruledPicture());
+    const answer = await engine.call("why", askedPicture());
     if (wantedFor !== whyFor) return;
     why = { ...answer, width: state.camera.width, height: state.camera.height };
     showWhy();
@@ -74,12 +74,6 @@ const askWhy = debounced(120, async () => {
   }
 });
 
-/** The picture and the rules that a question is about. */
-function ruledPicture() {
-  const { camera } = state;
-  return { camera, height: camera?.height, width: camera?.width, ...rulesNow() };
-}
-
 /** What one convention would explain the whole picture? The search takes seconds, so it waits to be asked. */
 async function askFinder() {
   const wantedFor = whyFor;
@@ -87,7 +81,7 @@ async function askFinder() {
   holder.textContent = "It draws the picture under hundreds of conventions; this takes some seconds …";
   buttonById("finder-ask").disabled = true;
   try {
-    const { sentence } = await engine.call("finder", ruledPicture());
+    const { sentence } = await engine.call("finder", askedPicture());
     if (wantedFor === whyFor) holder.textContent = sentence;
   } catch (error) {
     holder.textContent = messageOf(error);
@@ -141,7 +135,7 @@ async function lookUpReason(key, [row, column]) {
   if (askingReason || !state.camera) return;
   askingReason = true;
   try {
-    const { sentence } = await engine.call("reason", { row, column, ...ruledPicture() });
+    const { sentence } = await engine.call("reason", { row, column });
     if (key === touched && sentence) {
       byId("reason-text").textContent = `${seenAt([row, column])}. ${sentence}`;
       say(sentence);

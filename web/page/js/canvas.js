@@ -51,6 +51,49 @@ function drawWhenShown(canvas, draw) {
 }
 
 /**
+ * The lines between the cells of a grid that begins at the top left, in the ink that is set.
+ * @param {CanvasRenderingContext2D} context
+ * @param {number} rows
+ * @param {number} columns
+ * @param {number} cell  The side of a cell.
+ */
+function drawGrid(context, rows, columns, cell) {
+  context.lineWidth = 1;
+  context.beginPath();
+  for (let line = 0; line <= columns; line++) {
+    context.moveTo(line * cell, 0);
+    context.lineTo(line * cell, rows * cell);
+  }
+  for (let line = 0; line <= rows; line++) {
+    context.moveTo(0, line * cell);
+    context.lineTo(columns * cell, line * cell);
+  }
+  context.stroke();
+}
+
+/** The colour of what is chosen in a picture, in both themes: it stands on pictures, and has a black edge. */
+const CHOSEN = "#f0e442";
+
+/**
+ * A frame about what is chosen.
+ * @param {CanvasRenderingContext2D} context
+ * @param {number} x
+ * @param {number} y
+ * @param {number} width
+ * @param {number} height
+ */
+function drawChosenFrame(context, x, y, width, height) {
+  for (const [line, ink] of /** @type {const} */ ([
+    [5, "#000c"],
+    [2.5, CHOSEN],
+  ])) {
+    context.strokeStyle = ink;
+    context.lineWidth = line;
+    context.strokeRect(x, y, width, height);
+  }
+}
+
+/**
  * A disc for object order, a square for image order: those who cannot tell the colours apart see the form.
  * @param {CanvasRenderingContext2D} context
  * @param {OrderName} order

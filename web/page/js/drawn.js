@@ -42,6 +42,12 @@ function rulesNow() {
   return { objectRule: (breaking && state.objectRule) || null, imageRule: (breaking && state.imageRule) || null };
 }
 
+/** The picture that the engine is asked about: its camera, its size and its rules. */
+function askedPicture() {
+  const { camera } = state;
+  return { camera, height: camera?.height, width: camera?.width, ...rulesNow() };
+}
+
 async function drawAgain() {
   wanted = true;
   if (underWay) return;
@@ -50,12 +56,7 @@ async function drawAgain() {
     wanted = false;
     const { camera } = state;
     try {
-      const rendered = await engine.call("render", {
-        camera,
-        height: camera.height,
-        width: camera.width,
-        ...rulesNow(),
-      });
+      const rendered = await engine.call("render", askedPicture());
       drawn = { ...rendered, height: camera.height, width: camera.width };
       framesDrawn++;
       if (troubleIsOfDrawing) showTrouble("");
@@ -83,13 +84,7 @@ async function countWork() {
   if (!camera || underWay) return;
   underWay = true;
   try {
-    const rendered = await engine.call("render", {
-      camera,
-      height: camera.height,
-      width: camera.width,
-      counts: true,
-      ...rulesNow(),
-    });
+    const rendered = await engine.call("render", { ...askedPicture(), counts: true });
     if (camera === state.camera) {
       drawn = { ...rendered, height: camera.height, width: camera.width };
       tellDrawn();

@@ -29,8 +29,8 @@ async function openFile(file) {
 async function listScenes() {
   const scenes = await engine.call("scenes");
   selectById("scene").replaceChildren(
-    ...scenes.map((/** @type {{name: string, title?: string, sentence?: string}} */ { name, sentence }) =>
-      make("option", { value: name, title: sentence ?? "" }, name),
+    ...scenes.map((/** @type {{name: string, sentence: string}} */ { name, sentence }) =>
+      make("option", { value: name, title: sentence }, name),
     ),
   );
   showSceneChoice();

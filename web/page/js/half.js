@@ -142,15 +142,7 @@ class Half {
     context.drawImage(this.sheet, 0, 0, width, width);
     if (cell >= 7) {
       context.strokeStyle = isDark() ? "#ffffff18" : "#00000018";
-      context.lineWidth = 1;
-      context.beginPath();
-      for (let line = 1; line < size; line++) {
-        context.moveTo(line * cell, 0);
-        context.lineTo(line * cell, width);
-        context.moveTo(0, line * cell);
-        context.lineTo(width, line * cell);
-      }
-      context.stroke();
+      drawGrid(context, size, size, cell);
     }
     if (this.done > 0 && this.done < steps.count) this.drawCursor(context, cell, this.done - 1);
   }
@@ -194,15 +186,8 @@ class Half {
       drawOutline(context, outline, cell, colour(this.order));
     if (this.order === "object") this.drawTrail(context, cell, step);
     const covered = steps.result[step] !== RESULT.none && steps.result[step] !== RESULT.missed;
-    for (const [line, ink] of /** @type {const} */ ([
-      [7, "#000"],
-      [3.5, "#f0e442"],
-    ])) {
-      context.strokeStyle = ink;
-      context.lineWidth = line;
-      context.strokeRect(x, y, cell, cell);
-    }
-    context.fillStyle = "#f0e442";
+    drawChosenFrame(context, x, y, cell, cell);
+    context.fillStyle = CHOSEN;
     context.strokeStyle = "#000";
     context.lineWidth = 1;
     const radius = Math.min(cell * 0.22, 9);

@@ -80,8 +80,9 @@ async function followLink() {
   if (method) patch.method = /** @type {State["method"]} */ (method);
   const rays = oneOf("rays", ["one", "row", "column", "all"]);
   if (rays) patch.rays = /** @type {State["rays"]} */ (rays);
-  const size = Number(parts.get("size"));
-  if ([8, 12, 16, 24, 32, 48, 64].includes(size)) patch.stepsSize = size;
+  const sizes = [...selectById("steps-size").options].map(({ value }) => value);
+  const size = oneOf("size", sizes);
+  if (size) patch.stepsSize = Number(size);
   if (/^\d+$/.test(parts.get("step") ?? "")) patch.step = Number(parts.get("step"));
   if (/^\d+$/.test(parts.get("seed") ?? "")) patch.seed = Number(parts.get("seed"));
   if (parts.has("scene") && chapter.view === "break")

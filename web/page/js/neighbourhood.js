@@ -51,15 +51,7 @@ function drawNeighbourhood() {
     context.globalAlpha = 1;
   }
   context.strokeStyle = colour("hairline");
-  context.lineWidth = 1;
-  context.beginPath();
-  for (let line = 0; line <= cells; line++) {
-    context.moveTo(line * cell, 0);
-    context.lineTo(line * cell, width);
-    context.moveTo(0, line * cell);
-    context.lineTo(width, line * cell);
-  }
-  context.stroke();
+  drawGrid(context, cells, cells, cell);
   // Those that the pixel is about are drawn last, and strongly.
   const ordered = [...near.triangles].sort(
     (one, other) => Number(touching.has(one.id)) - Number(touching.has(other.id)),
@@ -86,15 +78,7 @@ function drawNeighbourhood() {
     context.fill();
     context.stroke();
   }
-  const [x, y] = place(column, row);
-  for (const [line, ink] of /** @type {const} */ ([
-    [5, "#000c"],
-    [2.5, "#f0e442"],
-  ])) {
-    context.strokeStyle = ink;
-    context.lineWidth = line;
-    context.strokeRect(x, y, cell, cell);
-  }
+  drawChosenFrame(context, ...place(column, row), cell, cell);
 }
 
 function beginNeighbourhood() {

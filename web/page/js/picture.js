@@ -63,14 +63,7 @@ function frameOf(context, [row, column], across, down) {
   const least = 0.8 * letterSize();
   const [width, height] = [Math.max(across, least), Math.max(down, least)];
   const [x, y] = [(column + 0.5) * across, (row + 0.5) * down];
-  for (const [line, ink] of /** @type {const} */ ([
-    [5, "#000c"],
-    [2.5, "#f0e442"],
-  ])) {
-    context.strokeStyle = ink;
-    context.lineWidth = line;
-    context.strokeRect(x - width / 2, y - height / 2, width, height);
-  }
+  drawChosenFrame(context, x - width / 2, y - height / 2, width, height);
 }
 
 function showPictures() {

@@ -13,15 +13,14 @@ const corners = [
   [2.5, 9.5],
 ];
 let chosenCorner = 0;
-/** @type {{owners: ArrayLike<number>, ties: [number, number, string, string][]} | null} */
+/** A sample that lies exactly on an edge of both triangles. @typedef {{row: number, column: number, atEnd: boolean}} EdgeTie */
+/** @type {{owners: ArrayLike<number>, ties: EdgeTie[]} | null} */
 let owned = null;
 let askedFor = "";
 let ownUnderWay = false;
 
-/** Where the raster lies on the canvas: a margin of half a cell all around. */
-function edgeScale(/** @type {number} */ width) {
-  return width / EDGE_COLUMNS;
-}
+/** The side of a pixel of the raster on a canvas of this width. @param {number} width */
+const edgeScale = (width) => width / EDGE_COLUMNS;
 
 async function askOwners() {
   const wantedFor = JSON.stringify(corners);
@@ -63,7 +62,7 @@ function showOwners() {
   const verdict = byId("owners-verdict");
   const [text, isRight] = ownersText(
     counts[3],
-    owned.ties.map(([row, column]) => owners[row * EDGE_COLUMNS + column]),
+    owned.ties.map(({ row, column, atEnd }) => ({ owner: owners[row * EDGE_COLUMNS + column], atEnd })),
   );
   verdict.textContent = text;
   verdict.className = isRight === null ? "" : isRight ? "right" : "wrong";
@@ -73,7 +72,7 @@ function showOwners() {
 /**
  * What is true of the samples, in words, and whether it is as it should be: `null` where the triangles overlap.
  * @param {number} both  Samples of both triangles.
- * @param {number[]} ties  The owners of the samples that lie on edges of both.
+ * @param {{owner: number, atEnd: boolean}[]} ties  The samples that lie on edges of both, with their owners.
  * @returns {[string, boolean | null]}
  */
 function ownersText(both, ties) {
@@ -90,8 +89,14 @@ function ownersText(both, ties) {
       true,
     ];
   }
-  const single = ties.filter((owner) => owner === 1 || owner === 2).length;
-  const none = ties.length - single;
+  const unowned = ties.filter(({ owner }) => owner === 0);
+  const within = unowned.filter(({ atEnd }) => !atEnd).length;
+  if (within > 0) {
+    const text = `${counted(within, "sample")} on the shared edge ${within === 1 ? "belongs" : "belong"} to neither triangle.`;
+    return isFlat() ? [`One triangle has no area. ${text}`, null] : [text, false];
+  }
+  const single = ties.length - unowned.length;
+  const none = unowned.length;
   const corner =
     none === 0 ? "" : ` ${counted(none, "sample")} at its end ${none === 1 ? "belongs" : "belong"} to neither.`;
   const lie = `${counted(ties.length, "sample")} ${ties.length === 1 ? "lies" : "lie"} exactly on the shared edge`;
@@ -101,13 +106,14 @@ function ownersText(both, ties) {
   ];
 }
 
-/** Whether the two triangles lie on the same side of the edge that they share, as the picture shows it. */
-function foldsOver() {
+/** On which sides of the shared edge the two other corners lie, as the picture shows it. */
+function sidesOfEdge() {
   const [a, b, c, d] = corners;
-  /** @param {number[]} p */
-  const side = (p) => (c[0] - a[0]) * (p[1] - a[1]) - (c[1] - a[1]) * (p[0] - a[0]);
-  return side(b) * side(d) > 0;
+  return [b, d].map((p) => Math.sign((c[0] - a[0]) * (p[1] - a[1]) - (c[1] - a[1]) * (p[0] - a[0])));
 }
+
+const foldsOver = () => sidesOfEdge()[0] * sidesOfEdge()[1] > 0;
+const isFlat = () => sidesOfEdge().includes(0);
 
 function drawOwners() {
   const canvas = canvasById("own");
@@ -127,15 +133,7 @@ function drawOwners() {
     context.globalAlpha = 1;
   });
   context.strokeStyle = colour("hairline");
-  context.lineWidth = 1;
-  context.beginPath();
-  for (let line = 0; line <= EDGE_COLUMNS; line++) {
-    context.moveTo(line * cell, 0);
-    context.lineTo(line * cell, height);
-    context.moveTo(0, line * cell);
-    context.lineTo(width, line * cell);
-  }
-  context.stroke();
+  drawGrid(context, EDGE_ROWS, EDGE_COLUMNS, cell);
   drawSamples(context, cell);
   const [a, b, c, d] = corners.map(([x, y]) => /** @type {[number, number]} */ ([x * cell, y * cell]));
   for (const [ink, points] of /** @type {[string, [number, number][]][]} */ ([
@@ -178,7 +176,7 @@ function drawOwners() {
  * @param {number} cell
  */
 function drawSamples(context, cell) {
-  const ties = new Set((owned?.ties ?? []).map(([row, column]) => row * EDGE_COLUMNS + column));
+  const ties = new Set((owned?.ties ?? []).map(({ row, column }) => row * EDGE_COLUMNS + column));
   for (let row = 0; row < EDGE_ROWS; row++) {
     for (let column = 0; column < EDGE_COLUMNS; column++) {
       const index = row * EDGE_COLUMNS + column;

@@ -278,7 +278,7 @@ function drawChosen(context, map, at, [row, column], step) {
   context.beginPath();
   points.forEach((point, index) => context[index ? "lineTo" : "moveTo"](...map.project(point)));
   context.closePath();
-  context.fillStyle = "#f0e442";
+  context.fillStyle = CHOSEN;
   context.strokeStyle = "#000";
   context.lineWidth = 1;
   context.fill();

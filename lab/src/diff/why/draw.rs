@@ -334,9 +334,7 @@ impl Canvas<'_> {
             _ => order.then(id.cmp(&stored)) == Ordering::Less,
         }
     }
-}
 
-impl Canvas<'_> {
     /// Which of two primitives is nearer along a ray.
     fn compare(&mut self, incoming: (u32, &Primitive), stored: u32, ray: &Ray) -> Comparison {
         let held = self.view.primitive(stored);

@@ -234,7 +234,7 @@ fn words(sheet: &mut Sheet, subject: &Subject, patch: &Patch, cells: &[Cell], id
     let covered = cells.iter().filter(|cell| cell.covered).count() as u64;
     let mut y = TOP + 26.0;
     let heading = theme.heading().of(theme.of(Role::Good));
-    let kind = kind(&subject.view.primitive(id));
+    let kind = subject.view.primitive(id).kind();
     y = sheet.lines(
         [WORDS, y],
         width,
@@ -346,12 +346,4 @@ fn ties(sheet: &mut Sheet, [x, y]: [f64; 2], cells: &[Cell]) {
     let [row, column] = cell.pixel;
     let example = format!("Pixel ({row}, {column}): {}, so it is {verdict}.", decided.join(", "));
     sheet.paragraph([x, y], width, 34.0, &example, theme.text());
-}
-
-fn kind(primitive: &Primitive) -> &'static str {
-    match primitive {
-        Primitive::Triangle(_) => "triangle",
-        Primitive::Sphere { .. } => "sphere",
-        Primitive::Plane { .. } => "plane",
-    }
 }

@@ -5,10 +5,9 @@ use crate::camera::{Pixel, Viewpoint};
 use crate::stage::Stage;
 use bothways_lab::common::glam::{DVec3, Vec3};
 use bothways_lab::common::look::color::srgb_from_linear;
-use bothways_lab::common::{
-    Camera, Frame, Options, Plane, Primitive, Projection, Scene, Shape, Sphere, View,
-};
+use bothways_lab::common::{Camera, Frame, Options, Plane, Projection, Scene, Shape, Sphere, View};
 use bothways_lab::raytrace;
+use bothways_lab::wording::plain;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -116,11 +115,6 @@ fn color(linear: Vec3) -> [u8; 3] {
     linear.to_array().map(srgb_from_linear)
 }
 
-/// The vector without a negative zero.
-fn plain(vector: DVec3) -> [f64; 3] {
-    (vector + DVec3::ZERO).to_array()
-}
-
 pub(crate) fn rays(stage: &Stage, rays: &Rays) -> Result<Answer, String> {
     let camera = rays.from.camera(&stage.loaded.camera)?;
     let view = View::new(&stage.loaded.scene, &camera);
@@ -149,11 +143,7 @@ pub(crate) fn of_rays(
         let id = frame.id(row as usize, column as usize);
         let t = id.map(|id| judge.distance(&view.primitive(id), &ray));
         let point = t.map(|t| plain(eye + ray.origin + t * ray.direction));
-        let kind = id.map(|id| match view.primitive(id) {
-            Primitive::Triangle(_) => "triangle",
-            Primitive::Sphere { .. } => "sphere",
-            Primitive::Plane { .. } => "plane",
-        });
+        let kind = id.map(|id| view.primitive(id).kind());
         json!({
             "row": row, "column": column,
             "origin": plain(eye + ray.origin), "direction": plain(ray.direction),

@@ -15,7 +15,7 @@ pub(crate) struct Own {
     width: u32,
 }
 
-/// The most pixels: each is a button to the eye, so there are few.
+/// The most pixels: enough for any screen on which single samples are told apart.
 const MOST_PIXELS: u64 = 1 << 20;
 
 pub(crate) fn answer(own: &Own) -> Result<Answer, String> {
@@ -32,8 +32,10 @@ pub(crate) fn answer(own: &Own) -> Result<Answer, String> {
             let owner = u8::from(first) + 2 * u8::from(second);
             owners.push(owner);
             if covers.iter().all(|cover| is_tie(cover, row, column)) {
-                let name = ["neither", "the first", "the second", "both"][usize::from(owner)];
-                ties.push(json!([row, column, "shared edge", name]));
+                #[expect(clippy::cast_precision_loss, reason = "at most 2^20, exact with the half")]
+                let middle = Vec2::new(column as f32 + 0.5, row as f32 + 0.5);
+                let at_end = [a, c].contains(&middle);
+                ties.push(json!({ "row": row, "column": column, "atEnd": at_end }));
             }
         }
     }
@@ -43,4 +45,20 @@ pub(crate) fn answer(own: &Own) -> Result<Answer, String> {
 /// Whether the centre of a pixel lies exactly on an edge.
 fn is_tie(cover: &Cover, row: u32, column: u32) -> bool {
     matches!(cover.place(row, column), Place::OnEdge { .. })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_shared_edge_has_one_owner_for_each_sample_between_its_ends() {
+        let vertices = [[2.5, 2.5], [7.0, 2.0], [6.5, 6.5], [2.0, 7.0]];
+        let answer = answer(&Own { vertices, height: 9, width: 9 }).unwrap();
+        let Some(Buffer::U8(owners)) = answer.buffer("owners") else { panic!("no owners") };
+        let tie = |at: usize, at_end| json!({ "row": at, "column": at, "atEnd": at_end });
+        let ties: Vec<Value> = (2..=6).map(|at| tie(at, [2, 6].contains(&at))).collect();
+        assert_eq!(answer.json()["ties"], Value::from(ties));
+        assert!((3..6).all(|at| [1, 2].contains(&owners[at * 9 + at])), "{owners:?}");
+    }
 }

@@ -37,7 +37,8 @@ pub(crate) fn answer(stage: &Stage, of: &OfPixel) -> Result<Answer, String> {
     let camera = of.from.camera(&stage.loaded.camera)?;
     let Pixel { row, column } = of.pixel.check(&camera)?;
     let view = View::new(&stage.loaded.scene, &camera);
-    let samples = pixel::report(&view, &Options::default(), row, column);
+    let prepared = (&stage.rasterizer, &stage.ray_tracer);
+    let samples = pixel::report_prepared(prepared, &view, &Options::default(), row, column);
     let report = Lesson {
         scene: &stage.loaded.name,
         camera: &camera,
@@ -54,7 +55,7 @@ pub(crate) fn neighbourhood(stage: &Stage, near: &Near) -> Result<Answer, String
     let Pixel { row, column } = near.of.pixel.check(&camera)?;
     let view = View::new(&stage.loaded.scene, &camera);
     let radius = near.radius.min(MOST_RADIUS);
-    let found = pixel::neighbourhood(&view, row, column, radius);
+    let found = pixel::neighbourhood(&stage.rasterizer, &view, row, column, radius);
     let width = found.pixels.width;
     let samples = (0..).zip(&found.seen).map(|(place, id)| {
         let (row, column) = (found.pixels.row + place / width, found.pixels.column + place % width);

@@ -5,11 +5,10 @@ use super::render::{pixels, rgba};
 use super::why::{drawn, sentence_about};
 use crate::answer::{Answer, Buffer};
 use bothways_lab::common::Projection;
-use bothways_lab::common::{Camera, CameraDescription, Frame, Options, View};
+use bothways_lab::common::{Camera, Frame, View};
 use bothways_lab::diff;
-use bothways_lab::orders::{Order, Rule};
+use bothways_lab::orders::{Order, Rule, Rules};
 use bothways_lab::picture::picture;
-use bothways_lab::rasterize;
 use bothways_lab::rules::{image_order, object_order};
 use bothways_lab::scenes::{self, LoadedScene, with_projection};
 use fastrand::Rng;
@@ -108,13 +107,13 @@ fn camera(loaded: &LoadedScene, rule: Rule) -> Result<Camera, bothways_lab::comm
     if rule == Rule::Image(image_order::Rule::OneOrigin) {
         camera = with_projection(&camera, Projection::Parallel, &loaded.scene)?;
     }
-    Camera::new(CameraDescription { ..camera })
+    Camera::new(camera)
 }
 
 pub(crate) fn quiz(quiz: &Quiz) -> Result<Answer, String> {
     let Question { loaded, camera, rule, choices } = Question::of(quiz.seed)?;
     let view = View::new(&loaded.scene, &camera);
-    let (truth, wrong) = (true_frame(&view), shaded(&view, rule));
+    let [truth, wrong] = both(&view, rule);
     let comparison = diff::compare(&truth, &wrong);
     let difference = comparison.classes().picture(&picture(&truth));
     let [width, height] = camera.image();
@@ -129,50 +128,34 @@ pub(crate) fn quiz(quiz: &Quiz) -> Result<Answer, String> {
     .with("difference.rgba", Buffer::U8(rgba(pixels(&difference)))))
 }
 
-fn true_frame(view: &View) -> Frame {
-    let prepared = rasterize::fast::prepare(view.scene);
-    rasterize::fast::render(&prepared, view, &Options::default())
-}
-
-fn shaded(view: &View, rule: Rule) -> Frame {
-    let mut frame = drawn(view, rule);
-    match rule {
-        Rule::Object(rule) => object_order::shade(view, rule, &mut frame),
-        Rule::Image(rule) => image_order::shade(view, rule, &mut frame),
-    }
-    frame
+/// The frame of a rule's order, exact and by the rule.
+fn both(view: &View, rule: Rule) -> [Frame; 2] {
+    [Rules::default(), rule.into()].map(|rules| drawn(view, rule.order(), rules))
 }
 
 pub(crate) fn answer(choice: &Choice) -> Result<Answer, String> {
     let Question { rule, choices, .. } = Question::of(choice.seed)?;
     let right = choices.get(choice.choice) == Some(&rule);
-    let index = choices.iter().position(|one| *one == rule);
-    let about = rule.about();
-    let mut sentence = words(rule).to_owned();
-    if right {
-        let order = match rule.order() {
-            Order::Object => "rasterizer",
-            Order::Image => "ray tracer",
-        };
-        sentence = format!(
-            "{sentence} It was a {order} with the rule {rule}, and gives {}.",
-            about.reproduces
-        );
-    } else {
+    let order = match rule.order() {
+        Order::Object => "rasterizer",
+        Order::Image => "ray tracer",
+    };
+    let sentence = match choices.get(choice.choice) {
+        Some(chosen) if *chosen == rule => {
+            let (words, gives) = (words(rule), rule.about().reproduces);
+            format!("{words} It was a {order} with the rule {rule}, and gives {gives}.")
+        }
         // The answer stays open: one can try again.
-        sentence = match choices.get(choice.choice) {
-            Some(chosen) => format!("That would give {}.", chosen.about().reproduces),
-            None => "There is no such choice.".into(),
-        };
-    }
-    let index = if right { index } else { None };
-    Ok(Answer::new(json!({ "right": right, "index": index, "sentence": sentence })))
+        Some(chosen) => format!("That would give {}.", chosen.about().reproduces),
+        None => "There is no such choice.".into(),
+    };
+    Ok(Answer::new(json!({ "right": right, "sentence": sentence })))
 }
 
 pub(crate) fn finder(quiz: &Quiz) -> Result<Answer, String> {
     let Question { loaded, camera, rule, .. } = Question::of(quiz.seed)?;
     let view = View::new(&loaded.scene, &camera);
-    let sentence = sentence_about(&view, &drawn(&view, rule), "the renderer");
+    let sentence = sentence_about(&view, &drawn(&view, rule.order(), rule.into()), "the renderer");
     Ok(Answer::new(json!({ "sentence": sentence })))
 }
 
@@ -188,9 +171,8 @@ mod tests {
                 let loaded = scenes::load(name).unwrap();
                 let camera = camera(&loaded, rule).unwrap();
                 let view = View::new(&loaded.scene, &camera);
-                let differ = diff::compare(&true_frame(&view), &drawn(&view, rule));
-                let differing = differ.visible.differing_pixels;
-                println!("{name} {rule}: {differing}");
+                let [truth, wrong] = both(&view, rule);
+                let differing = diff::compare(&truth, &wrong).visible.differing_pixels;
                 assert!(differing >= 8, "{name} {rule}: {differing}");
             }
         }

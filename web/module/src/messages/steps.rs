@@ -3,8 +3,8 @@
 use crate::answer::{Answer, Buffer};
 use crate::camera::Viewpoint;
 use crate::stage::Stage;
+use bothways_lab::common::View;
 use bothways_lab::common::frame::NO_PRIMITIVE;
-use bothways_lab::common::{Shape, View};
 use bothways_lab::film::{Step, Steps, StoredChange, Tested};
 use bothways_lab::orders::{Method, Order};
 use serde::Deserialize;
@@ -81,16 +81,7 @@ fn pairs(view: &View) -> u64 {
 
 /// The kind of each primitive in words.
 fn kinds(view: &View) -> Vec<&'static str> {
-    let objects = view.scene.objects().iter();
-    let each = objects.flat_map(|object| {
-        let kind = match object.shape {
-            Shape::Triangle(_) | Shape::Mesh(_) => "triangle",
-            Shape::Sphere(_) => "sphere",
-            Shape::Plane(_) => "plane",
-        };
-        std::iter::repeat_n(kind, object.shape.primitive_count())
-    });
-    each.collect()
+    view.primitives().map(|(_, primitive)| primitive.kind()).collect()
 }
 
 fn with_steps(answer: Answer, steps: &[Step], has_nodes: bool) -> Answer {

@@ -5,15 +5,14 @@ use super::render::RuleNames;
 use crate::answer::{Answer, Buffer};
 use crate::camera::{Pixel, Viewpoint};
 use crate::stage::Stage;
-use bothways_lab::common::{Camera, CameraDescription, Frame, Options, View};
+use bothways_lab::common::{Camera, CameraDescription, Frame, View};
+use bothways_lab::diff;
 use bothways_lab::diff::foreign::Buffer as Known;
 use bothways_lab::diff::why::{
     Finding, PixelReason, ReasonKind, Reasons, Wrong, alternatives, find_conventions, find_reasons,
 };
-use bothways_lab::diff::{self};
-use bothways_lab::orders::{Order, Rule};
+use bothways_lab::orders::{self, Method, Order, RenderOptions, Rule, Rules};
 use bothways_lab::picture::picture;
-use bothways_lab::rules::{image_order, object_order};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -116,7 +115,7 @@ fn about_order(view: &View, order: Order, rule: Rule) -> String {
         return String::new();
     };
     let view = View::new(view.scene, &camera);
-    sentence_about(&view, &drawn(&view, rule), name)
+    sentence_about(&view, &drawn(&view, order, rule.into()), name)
 }
 
 /// The same camera with a smaller image of the same form.
@@ -128,18 +127,12 @@ fn reduced(camera: &CameraDescription) -> CameraDescription {
     CameraDescription { image: [side(width), side(height)], ..*camera }
 }
 
-/// A frame by a rule, without its look.
-pub(crate) fn drawn(view: &View, rule: Rule) -> Frame {
-    let options = &Options::default();
-    let mut frame = Frame::new(view.camera, options);
-    match rule {
-        Rule::Object(rule) => object_order::determine_visibility(view, options, rule, &mut frame),
-        Rule::Image(rule) => {
-            let prepared = image_order::prepare(view.scene);
-            image_order::determine_visibility(&prepared, view, options, rule, &mut frame);
-        }
-    }
-    frame
+/// A frame of one order, by such rules.
+pub(crate) fn drawn(view: &View, order: Order, rules: Rules) -> Frame {
+    let options =
+        RenderOptions { rules, no_times: true, no_counts: true, ..RenderOptions::default() };
+    let rendered = orders::render(order, Method::Fast, view, &options);
+    rendered.expect("only streams of meshes fail").frame
 }
 
 /// What the convention finder says of a frame.

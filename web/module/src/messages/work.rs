@@ -2,9 +2,8 @@
 
 use crate::answer::Answer;
 use crate::clock::timed;
-use bothways_lab::common::{Camera, Frame, Mesh, Object, Options, Scene, Shape, View, Work};
-use bothways_lab::formats::generate::Kind;
-use bothways_lab::scenes::Framing;
+use bothways_lab::common::{Camera, Frame, Object, Options, Scene, Shape, View, Work};
+use bothways_lab::sweep::{Axis, Case, steps};
 use bothways_lab::{rasterize, raytrace};
 use serde::Deserialize;
 use serde_json::json;
@@ -29,9 +28,7 @@ pub(crate) fn answer(measure: &Measure) -> Result<Answer, String> {
             "at most {MOST_TRIANGLES} triangles and {MOST_PIXELS} pixels are measured here; choose fewer"
         ));
     }
-    let mesh = sphere(triangles)?;
-    let framing = Framing { image: [width, height], ..Framing::default() };
-    let camera = framing.camera(&mesh).map_err(|error| error.to_string())?;
+    let (mesh, camera) = sphere(triangles, [width, height]).mesh();
     let camera = Camera::new(camera).map_err(|error| error.to_string())?;
     let scene = Scene::new(vec![Object::from(Shape::Mesh(mesh))]);
     let scene = scene.map_err(|error| error.to_string())?;
@@ -70,16 +67,11 @@ pub(crate) fn answer(measure: &Measure) -> Result<Answer, String> {
     })))
 }
 
-/// The steps of both loops, as a sweep counts them.
-fn steps(work: &Work) -> u64 {
-    work.primitives + work.rays + work.nodes + work.tests
-}
-
-/// A sphere with about so many triangles: twice as many columns as rings, and the two rings at the poles have half the
-/// triangles.
-fn sphere(triangles: u32) -> Result<Mesh, String> {
-    let rings = (2..).find(|rings: &u32| 4 * rings * (rings - 1) >= triangles).unwrap_or(2);
-    Kind::Sphere.mesh([2 * rings, rings]).map_err(|error| error.to_string())
+/// The smallest sphere of a sweep with at least so many triangles.
+fn sphere(triangles: u32, image: [u32; 2]) -> Case {
+    let has_enough = |rings: &u32| 4 * rings * rings >= triangles;
+    let rings = (2..=MOST_TRIANGLES).find(has_enough).unwrap_or(MOST_TRIANGLES);
+    Case::sphere(Axis::Triangles, rings, image)
 }
 
 #[cfg(test)]
@@ -89,9 +81,10 @@ mod tests {
     #[test]
     fn spheres_have_about_the_triangles_that_are_asked_for() {
         for triangles in [12, 100, 5000, 200_000] {
-            let found = sphere(triangles).unwrap().triangles().len();
+            let (mesh, _) = sphere(triangles, [40, 30]).mesh();
+            let found = mesh.triangles().len();
             let ratio = found as f64 / f64::from(triangles);
-            assert!((1.0..2.1).contains(&ratio), "{triangles}: {found}");
+            assert!((1.0..1.4).contains(&ratio), "{triangles}: {found}");
         }
     }
 }
