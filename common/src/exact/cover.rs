@@ -114,8 +114,24 @@ pub(super) fn edge_values(
     };
     let [p, q, r] = facing;
     let signs = edge_signs(projection, nudge, triangle, ray);
+    EdgeValues {
+        facing: difference_value::<Dyadic>(p, q, r).to_f64(),
+        at_sample: [(a, b), (b, c), (c, a)].map(edge),
+        sides: edge_sides(projection, nudge, triangle, ray, &signs),
+    }
+}
+
+/// On what kind of edge a sample lies that lies on one.
+pub(super) fn edge_sides(
+    projection: Projection,
+    nudge: &Nudge,
+    triangle: &[DVec3; 3],
+    ray: &Ray,
+    signs: &EdgeSigns,
+) -> [Option<Side>; 3] {
+    let [a, b, c] = *triangle;
     let edges = [(a, b), (b, c), (c, a)];
-    let side = |index: usize| {
+    std::array::from_fn(|index| {
         let (p, q) = edges[index];
         if signs.at_sample[index] != Sign::Zero || signs.facing == Sign::Zero {
             return None;
@@ -127,12 +143,7 @@ pub(super) fn edge_values(
             (true, true) => Side::Top,
             (true, false) => Side::Bottom,
         })
-    };
-    EdgeValues {
-        facing: difference_value::<Dyadic>(p, q, r).to_f64(),
-        at_sample: edges.map(edge),
-        sides: [side(0), side(1), side(2)],
-    }
+    })
 }
 
 /// [`EdgeSigns::covers`], with no sign computed that is not needed.

@@ -1,6 +1,6 @@
 //! The judge: what is true of the samples of one camera.
 
-use super::cover::{self, EdgeSigns, EdgeValues, Nudge};
+use super::cover::{self, EdgeSigns, EdgeValues, Nudge, Side};
 use super::nearest::{self, Comparison};
 use super::sign::Sign;
 use crate::camera::{Camera, Projection, Ray};
@@ -97,6 +97,17 @@ impl Judge {
     /// The numbers behind [`Judge::edge_signs`], and what kind of edge a sample lies on.
     pub fn edge_values(&self, triangle: &[DVec3; 3], ray: &Ray) -> EdgeValues {
         cover::edge_values(self.projection, &self.nudge, triangle, ray)
+    }
+
+    /// What kind of edge a sample lies on, of each of the three: [`EdgeValues::sides`] for these signs, without the
+    /// numbers.
+    pub fn edge_sides(
+        &self,
+        triangle: &[DVec3; 3],
+        ray: &Ray,
+        signs: &EdgeSigns,
+    ) -> [Option<Side>; 3] {
+        cover::edge_sides(self.projection, &self.nudge, triangle, ray, signs)
     }
 
     /// Compares the distances of two primitives that both cover the sample; `Less` says that the first is nearer.

@@ -12,8 +12,10 @@ use skrifa::raw::tables::gsub::{SingleSubst, SubstitutionSubtables};
 use skrifa::raw::tables::layout::{ClassDef, FeatureList};
 use skrifa::raw::{ReadError, TableProvider};
 use skrifa::{FontRef, GlyphId16, MetadataProvider, Tag};
+use std::collections::HashMap;
 use std::fmt::Write;
-use std::sync::LazyLock;
+use std::hash::Hash;
+use std::sync::{LazyLock, PoisonError, RwLock};
 use tiny_skia::{Color, FillRule, Paint, Path, PathBuilder, Pixmap, Transform};
 
 /// The weight of the letters.
@@ -35,7 +37,7 @@ pub(crate) struct Style {
 }
 
 /// The widths of figures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Figures {
     /// All figures have equal width, for columns of numbers.
     Tabular,
@@ -112,6 +114,28 @@ struct Font {
     outlines: OutlineGlyphCollection<'static>,
     tabular: Vec<SingleSubst<'static>>,
     kerning: Vec<PairPos<'static>>,
+    /// What was once found: the same few letters come again and again, and the tables of a font are slow to search.
+    found_glyphs: Found<(char, Figures), (GlyphId16, f32)>,
+    found_kerning: Found<[GlyphId16; 2], f32>,
+}
+
+/// Answers that are looked up once.
+struct Found<K, V>(RwLock<HashMap<K, V>>);
+
+impl<K: Copy + Eq + Hash, V: Copy> Found<K, V> {
+    fn new() -> Self {
+        Found(RwLock::default())
+    }
+
+    fn get(&self, key: K, look_up: impl FnOnce() -> V) -> V {
+        // A thread that panicked between two insertions left the answers whole.
+        let known = self.0.read().unwrap_or_else(PoisonError::into_inner).get(&key).copied();
+        known.unwrap_or_else(|| {
+            let answer = look_up();
+            self.0.write().unwrap_or_else(PoisonError::into_inner).insert(key, answer);
+            answer
+        })
+    }
 }
 
 /// A line of glyphs in font units, each glyph with its distance from the beginning of the line.
@@ -145,6 +169,8 @@ impl Font {
                 outlines: font.outline_glyphs(),
                 tabular: tabular(&font)?,
                 kerning: kerning(&font)?,
+                found_glyphs: Found::new(),
+                found_kerning: Found::new(),
             })
         };
         read(bytes).expect("the embedded font is sound")
@@ -159,10 +185,16 @@ impl Font {
         let (mut glyphs, mut width) = (Vec::new(), 0.0);
         let mut previous = None;
         for letter in text.chars() {
-            let glyph = self.glyph(letter, figures);
-            width += previous.map_or(0.0, |previous| self.kern(previous, glyph));
+            let (glyph, advance) = self.found_glyphs.get((letter, figures), || {
+                let glyph = self.glyph(letter, figures);
+                (glyph, self.metrics.advance_width(glyph.into()).unwrap_or(0.0))
+            });
+            width += previous.map_or(0.0, |previous| {
+                let pair = [previous, glyph];
+                self.found_kerning.get(pair, || self.kern(pair))
+            });
             glyphs.push((glyph, width));
-            width += self.metrics.advance_width(glyph.into()).unwrap_or(0.0);
+            width += advance;
             previous = Some(glyph);
         }
         Line { glyphs, width }
@@ -193,7 +225,7 @@ impl Font {
     }
 
     /// The extra distance between two glyphs; a negative distance moves the glyphs nearer.
-    fn kern(&self, left: GlyphId16, right: GlyphId16) -> f32 {
+    fn kern(&self, [left, right]: [GlyphId16; 2]) -> f32 {
         let adjustment = self.kerning.iter().find_map(|table| match table {
             PairPos::Format1(table) => {
                 let place = table.coverage().ok()?.get(left)?;

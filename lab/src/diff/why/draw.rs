@@ -376,7 +376,7 @@ pub(super) fn covers(judge: &Judge, edges: Edges, primitive: &Primitive, ray: &R
     if signs.facing == Sign::Zero || !signs.in_front {
         return false;
     }
-    let values = judge.edge_values(corners, ray);
+    let sides = judge.edge_sides(corners, ray, &signs);
     let owned = |side: Side| match edges {
         Edges::TopLeft => matches!(side, Side::Left | Side::Top),
         Edges::BottomLeft => matches!(side, Side::Left | Side::Bottom),
@@ -385,7 +385,7 @@ pub(super) fn covers(judge: &Judge, edges: Edges, primitive: &Primitive, ray: &R
         Edges::Inclusive => true,
         Edges::Exclusive => false,
     };
-    signs.at_sample.iter().zip(values.sides).all(|(&sign, side)| match side {
+    signs.at_sample.iter().zip(sides).all(|(&sign, side)| match side {
         Some(side) => owned(side),
         None => sign == signs.facing,
     })
