@@ -21,7 +21,7 @@ pub use drawing::{CANVAS, Drawing};
 pub(crate) use film_page::{CodeLine, FilmHalf, FilmPage};
 pub use kinds::{Kind, WorkMap, work_at_samples, work_figure, work_maps};
 pub use legend::{Entry, with_legend};
-pub(crate) use project::Projector;
+pub(crate) use project::{Projector, corners_of_box};
 pub(crate) use resize::within;
 pub use slide::Slide;
 pub(crate) use still_page::{Still, StillPage};

@@ -33,6 +33,7 @@ mod code;
 mod frames;
 mod gif;
 mod length;
+mod outlines;
 mod palette;
 mod recorder;
 mod shots;
@@ -44,6 +45,7 @@ pub use frames::Frames;
 pub use length::{
     FASTEST_IN_BROWSERS, FRAME_RATES, Length, LengthError, MOST_FRAMES, MOST_SECONDS, rates,
 };
+pub use outlines::{Lines, outline, outline_of_box};
 pub use recorder::{Line, Position};
 pub use shots::{OrderShot, Shot, Shots};
 pub use size::default_size;

@@ -248,6 +248,35 @@ test("arrow keys turn the camera, and a key brings it back", async () => {
   await close();
 });
 
+test("two fingers move the eye, and one turns it", async () => {
+  const { page, close } = await open({ hash: "#scene=lecture" });
+  const fields = '[data-vector="eye"] input[type="number"]';
+  const eye = () => page.locator(fields).evaluateAll((inputs) => inputs.map(({ value }) => Number(value)));
+  const box = await page.locator("canvas[data-picture]").first().boundingBox();
+  const middle = [box.x + box.width / 2, box.y + box.height / 2];
+  const touch = await page.context().newCDPSession(page);
+  const send = (type, ...apart) =>
+    touch.send("Input.dispatchTouchEvent", {
+      type,
+      touchPoints: apart.map((x, id) => ({ x: middle[0] + x, y: middle[1], id })),
+    });
+  const before = await eye();
+  assert.equal(before.length, 3);
+  await send("touchStart", -20);
+  await send("touchStart", -20, 20);
+  for (const side of [25, 30, 35, 40]) await send("touchMove", -side, side);
+  // The finger that stays turns the camera, and does not choose a pixel.
+  await send("touchMove", -40);
+  const nearer = await until("a nearer eye", async () => {
+    const now = await eye();
+    return Math.hypot(...now.map((at, axis) => at - before[axis])) > 1 && now;
+  });
+  await send("touchMove", 20);
+  await until("a turn", async () => (await eye())[0] !== nearer[0]);
+  await send("touchEnd");
+  await close();
+});
+
 test("a module that breaks begins anew with the same scene", async () => {
   // A module that ends by a trap when it is asked about the rules.
   const html = readFileSync(PAGE, "utf8");

@@ -2,8 +2,8 @@
 //!
 //! Rounded arithmetic: good for drawing, and never asked what covers what.
 
-use crate::common::glam::DVec3;
-use crate::common::{Camera, Primitive, Projection};
+use crate::common::glam::{DVec3, Vec3};
+use crate::common::{Camera, Primitive, Projection, View};
 
 /// A camera's map from points relative to its eye to the raster.
 #[derive(Clone, Copy, Debug)]
@@ -88,6 +88,17 @@ impl Projector<'_> {
         }
     }
 
+    /// The parts before the eye of the twelve edges of a box with these corners, on the raster.
+    pub(crate) fn edges_of_box(&self, corners: &[DVec3; 8]) -> Vec<Vec<[f64; 2]>> {
+        // An edge joins two corners whose numbers differ in one bit.
+        (0..8_usize)
+            .flat_map(|from| (0..3).map(move |axis| (from, from | 1 << axis)))
+            .filter(|(from, to)| from != to)
+            .filter_map(|(from, to)| self.segment(corners[from], corners[to]))
+            .map(|edge| edge.to_vec())
+            .collect()
+    }
+
     /// The circle on which rays touch a sphere; none if the eye is within it.
     fn sphere(&self, center: DVec3, radius: f64) -> Option<Vec<[f64; 2]>> {
         const SIDES: u32 = 180;
@@ -135,4 +146,13 @@ impl Projector<'_> {
         let place = |x: f64, y: f64| [(x / vw + 0.5) * width, (0.5 - y / vh) * height];
         Some(vec![place(x - far * b, y + far * a), place(x + far * b, y - far * a)])
     }
+}
+
+/// The corners of a box that is aligned with the axes of the world, relative to the eye: bit `k` of a corner's number
+/// tells whether it lies at the low or at the high end of axis `k`.
+pub(crate) fn corners_of_box(view: &View, bounds: [Vec3; 2]) -> [DVec3; 8] {
+    std::array::from_fn(|corner| {
+        let axis = |axis: usize| bounds[corner >> axis & 1][axis];
+        view.offset(Vec3::new(axis(0), axis(1), axis(2)))
+    })
 }

@@ -98,7 +98,7 @@ class Half {
     if (!this.record || step < 0) return ["", "", "", "", ""];
     const { steps } = this.record;
     const result = steps.result[step];
-    const box = result === RESULT.missed || result === RESULT.entered;
+    const box = isOfBox(steps, step);
     const inBox = `box ${grouped(steps.node?.[step] ?? 0)}: ${result === RESULT.entered ? "entered" : "missed"}`;
     const object = box ? inBox : objectWords(steps, steps.object[step]);
     const pixel = `pixel (${steps.row[step]}, ${steps.column[step]})`;
@@ -148,13 +148,14 @@ class Half {
   }
 
   /**
-   * The pixels that the inner loop of object order has asked for the object so far: with boxes they are few.
+   * The pixels that the inner loop of object order asks for the object: with boxes they are few, and those done have a dot.
    * @param {CanvasRenderingContext2D} context
    * @param {number} cell
    * @param {number} step
    */
-  drawTrail(context, cell, step) {
-    const { steps } = /** @type {Recording} */ (this.record);
+  drawAsked(context, cell, step) {
+    const record = /** @type {Recording} */ (this.record);
+    const { steps } = record;
     context.fillStyle = colour("object");
     for (let asked = step; asked >= 0 && steps.object[asked] === steps.object[step]; asked--) {
       const radius = Math.min(cell * 0.09, 4);
@@ -170,6 +171,18 @@ class Half {
       context.fill();
     }
     context.globalAlpha = 1;
+    if (state.method === "textbook") return;
+    const [top, left, bottom, right] = record.rectangle(step);
+    context.setLineDash([6, 4]);
+    const corners = /** @type {[number, number][]} */ ([
+      [left, top],
+      [right, top],
+      [right, bottom],
+      [left, bottom],
+      [left, top],
+    ]);
+    drawLines(context, [corners], cell, colour("object"));
+    context.setLineDash([]);
   }
 
   /**
@@ -179,12 +192,11 @@ class Half {
    * @param {number} step
    */
   drawCursor(context, cell, step) {
-    const { steps } = /** @type {Recording} */ (this.record);
+    const record = /** @type {Recording} */ (this.record);
+    const { steps } = record;
     const [x, y] = [steps.column[step] * cell, steps.row[step] * cell];
-    const outline = outlines.get(steps.object[step]);
-    if (outline && steps.result[step] !== RESULT.missed && steps.result[step] !== RESULT.entered)
-      drawOutline(context, outline, cell, colour(this.order));
-    if (this.order === "object") this.drawTrail(context, cell, step);
+    drawLines(context, record.outline(step), cell, colour(this.order));
+    if (this.order === "object") this.drawAsked(context, cell, step);
     const covered = steps.result[step] !== RESULT.none && steps.result[step] !== RESULT.missed;
     drawChosenFrame(context, x, y, cell, cell);
     context.fillStyle = CHOSEN;
@@ -199,23 +211,24 @@ class Half {
 }
 
 /**
- * The outline of the object that a step is about.
+ * Lines over a picture, with a dark edge.
  * @param {CanvasRenderingContext2D} context
- * @param {number[][]} outline  In raster coordinates.
+ * @param {[number, number][][]} lines  In raster coordinates.
  * @param {number} cell
  * @param {string} ink
  */
-function drawOutline(context, outline, cell, ink) {
+function drawLines(context, lines, cell, ink) {
   context.lineJoin = "round";
-  for (const [line, pen] of /** @type {const} */ ([
+  context.lineCap = context.getLineDash().length > 0 ? "butt" : "round";
+  for (const [width, pen] of /** @type {const} */ ([
     [4.5, "#000a"],
     [2, ink],
   ])) {
     context.strokeStyle = pen;
-    context.lineWidth = line;
+    context.lineWidth = width;
     context.beginPath();
-    outline.forEach(([x, y], index) => context[index ? "lineTo" : "moveTo"](x * cell, y * cell));
-    context.closePath();
+    for (const line of lines)
+      line.forEach(([x, y], index) => context[index ? "lineTo" : "moveTo"](x * cell, y * cell));
     context.stroke();
   }
 }

@@ -34,8 +34,6 @@ async function record() {
     halves.object.load(new Recording(object, size));
     halves.image.load(new Recording(image, size));
     halves.object.background = backgroundOf(image);
-    outlines = await findOutlines(camera, size);
-    if (wantedFor !== recordedFor) return;
     clockEnd = Math.max(object.count, image.count);
     // The chapter about hierarchies says it itself.
     noteSteps(state.chapter === "skip" && state.method === "hierarchy" ? "" : METHOD_NOTES[state.method]);
@@ -52,21 +50,6 @@ async function record() {
   byId("halves").hidden = clockEnd === 0;
   drawMarks();
   showStep();
-}
-
-/** The outlines of triangles on the image of the steps, by id. @type {Map<number, number[][]>} */
-let outlines = new Map();
-
-/** @param {Camera} camera @param {number} size */
-async function findOutlines(camera, size) {
-  try {
-    const middle = Math.floor(size / 2);
-    /** @type {Neighbourhood} */
-    const { triangles } = await engine.call("neighbourhood", { row: middle, column: middle, radius: middle, camera });
-    return new Map(triangles.map(({ id, corners: points }) => [id, points]));
-  } catch {
-    return new Map();
-  }
 }
 
 /** What each order skips. */

@@ -75,6 +75,15 @@
  * @property {string[]} [kinds]  The kind of each primitive, in words.
  * @property {number} pairs  Of a primitive and a pixel.
  * @property {number} skipped  Those that no step looks at.
+ * @property {{primitives: Lines, boxes: Lines & {number: Uint32Array}}} outlines
+ */
+
+/**
+ * The lines that bound things on the raster, for thing after thing.
+ * @typedef {object} Lines
+ * @property {Float32Array} points  Column and row of each point.
+ * @property {Uint32Array} lines  The end of each line, counted in points.
+ * @property {Uint32Array} ends  The end of each thing, counted in lines.
  */
 
 /** What a step found. */

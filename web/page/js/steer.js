@@ -1,19 +1,33 @@
 // @ts-check
-// Steers the camera on a picture: drag to turn, wheel to move; a click chooses a pixel; keys do the same.
+// Steers the camera on a picture: drag to turn, wheel or two fingers to move; a click chooses a pixel; keys do the same.
 
 /** Pixels of the screen from which on a press is a drag. */
 const DRAG = 4;
 
 /** @param {HTMLCanvasElement} canvas */
 function steer(canvas) {
-  /** @type {{id: number, x: number, y: number, moved: boolean} | null} */
+  /** @typedef {{id: number, x: number, y: number, moved: boolean}} Press */
+  /** The first pointer that is down, and a second finger beside it. @type {Press | null} */
   let press = null;
+  /** @type {Press | null} */
+  let finger = null;
+  const apart = () => (press && finger ? Math.max(Math.hypot(press.x - finger.x, press.y - finger.y), 1) : 1);
   canvas.addEventListener("pointerdown", (event) => {
-    if (event.button !== 0 || press) return;
-    press = { id: event.pointerId, x: event.clientX, y: event.clientY, moved: false };
+    if (event.button !== 0 || finger || (press && event.pointerType !== "touch")) return;
+    const down = { id: event.pointerId, x: event.clientX, y: event.clientY, moved: false };
     canvas.setPointerCapture(event.pointerId);
+    if (!press) press = down;
+    else [press.moved, finger] = [true, down];
   });
   canvas.addEventListener("pointermove", (event) => {
+    const one = [press, finger].find((down) => down?.id === event.pointerId);
+    if (one && finger) {
+      // Two fingers: what is between them keeps its size on the screen.
+      const before = apart();
+      [one.x, one.y] = [event.clientX, event.clientY];
+      approach(before / apart());
+      return;
+    }
     if (!press || press.id !== event.pointerId) {
       const pixel = pixelUnder(canvas, event);
       readOut(pixel ?? state.pixel);
@@ -29,6 +43,12 @@ function steer(canvas) {
     orbit(right * turn, down * turn);
   });
   const release = (/** @type {PointerEvent} */ event) => {
+    if (finger && [press, finger].some((down) => down?.id === event.pointerId)) {
+      // The finger that stays goes on as a drag, from where it is.
+      press = press?.id === event.pointerId ? { ...finger, moved: true } : press;
+      finger = null;
+      return;
+    }
     if (!press || press.id !== event.pointerId) return;
     const { moved } = press;
     press = null;

@@ -20,6 +20,36 @@ class Recording {
         this.tallies.set([now.tests, now.covered, now.comparisons, now.boxes], (4 * step) / STRIDE);
       if (step < steps.count) count(now, steps.result[step]);
     }
+    /** The place of each box among the outlines, by its number. @type {Map<number, number>} */
+    this.places = new Map([...steps.outlines.boxes.number].map((number, place) => [number, place]));
+  }
+
+  /** The lines that bound what a step tests. @param {number} step @returns {[number, number][][]} */
+  outline(step) {
+    const { outlines, object, node } = this.steps;
+    if (!isOfBox(this.steps, step)) return linesOf(outlines.primitives, object[step]);
+    const place = this.places.get(node?.[step] ?? NOTHING);
+    return place === undefined ? [] : linesOf(outlines.boxes, place);
+  }
+
+  /**
+   * The rectangle of pixels that object order asks for the object of a step, those to come included: first row, first
+   * column, and those behind the last.
+   * @param {number} step
+   * @returns {[number, number, number, number]}
+   */
+  rectangle(step) {
+    const { marks, count: all, row, column } = this.steps;
+    const next = marks.findIndex((mark) => mark > step);
+    const [from, to] = next < 0 ? [marks[marks.length - 1], all] : [marks[next - 1], marks[next]];
+    const rectangle = /** @type {[number, number, number, number]} */ ([Infinity, Infinity, 0, 0]);
+    for (let asked = from; asked < to; asked++) {
+      rectangle[0] = Math.min(rectangle[0], row[asked]);
+      rectangle[1] = Math.min(rectangle[1], column[asked]);
+      rectangle[2] = Math.max(rectangle[2], row[asked] + 1);
+      rectangle[3] = Math.max(rectangle[3], column[asked] + 1);
+    }
+    return rectangle;
   }
 
   /** What was counted in the first steps. @param {number} done @returns {Tally} */
@@ -56,6 +86,22 @@ class Recording {
     return null;
   }
 }
+
+/** Whether a step is about a box of the hierarchy. @param {Steps} steps @param {number} step */
+const isOfBox = ({ result }, step) => result[step] === RESULT.missed || result[step] === RESULT.entered;
+
+/** The lines of one thing. @param {Lines} all @param {number} place @returns {[number, number][][]} */
+function linesOf({ points, lines, ends }, place) {
+  const found = [];
+  for (let line = place === 0 ? 0 : ends[place - 1]; line < ends[place]; line++) {
+    const from = line === 0 ? 0 : lines[line - 1];
+    found.push(Array.from({ length: lines[line] - from }, (_, at) => pointOf(points, from + at)));
+  }
+  return found;
+}
+
+/** @param {Float32Array} points @param {number} at @returns {[number, number]} */
+const pointOf = (points, at) => [points[2 * at], points[2 * at + 1]];
 
 /** @param {Tally} tally @param {number} result */
 function count(tally, result) {

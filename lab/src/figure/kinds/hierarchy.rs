@@ -1,9 +1,9 @@
 //! How each order finds quickly what matters: the boxes of the ray tracer's hierarchy by level, the rasterizer's
 //! clusters and tiles, over the picture.
 
-use crate::common::glam::{DVec3, Vec3};
+use crate::common::glam::Vec3;
 use crate::figure::drawing::{Anchor, Drawing, Ink, Pen};
-use crate::figure::project::Projector;
+use crate::figure::project::{Projector, corners_of_box};
 use crate::figure::sheet::{MARGIN, Sheet, TOP};
 use crate::figure::subject::{FigureError, Subject, small_picture};
 use crate::figure::theme::{Role, faded};
@@ -113,16 +113,15 @@ fn panel(
     let pen =
         Pen::new(theme.of(role), if few { 1.8 } else { 1.0 }).alpha(if few { 0.95 } else { 0.7 });
     for bounds in boxes.iter().step_by(every) {
-        let corners = corners(subject, *bounds);
+        let corners = corners_of_box(&subject.view, *bounds);
         let seen: Option<Vec<[f64; 2]>> =
             corners.iter().map(|corner| projector.place(*corner)).collect();
         // A box that reaches behind the eye has no rectangle around it: its edges are drawn.
         let seen = seen.filter(|_| !few);
         let Some(seen) = seen else {
-            for (from, to) in edges() {
-                if let Some([from, to]) = projector.segment(corners[from], corners[to]) {
-                    sheet.drawing.line(&[place(from), place(to)], pen);
-                }
+            for edge in projector.edges_of_box(&corners) {
+                let edge: Vec<[f64; 2]> = edge.into_iter().map(place).collect();
+                sheet.drawing.line(&edge, pen);
             }
             continue;
         };
@@ -136,21 +135,6 @@ fn panel(
         sheet.drawing.closed_line(&around, pen);
     }
     sheet.drawing.window(None);
-}
-
-/// The corners of a box, relative to the eye.
-fn corners(subject: &Subject, bounds: [Vec3; 2]) -> [DVec3; 8] {
-    std::array::from_fn(|k| {
-        let axis = |axis: usize| bounds[k >> axis & 1][axis];
-        subject.view.offset(Vec3::new(axis(0), axis(1), axis(2)))
-    })
-}
-
-/// The pairs of corners that an edge joins: they differ in one axis.
-fn edges() -> impl Iterator<Item = (usize, usize)> {
-    (0..8)
-        .flat_map(|from: usize| (0..3).map(move |axis| (from, from | 1 << axis)))
-        .filter(|(from, to)| from != to)
 }
 
 /// The tiles of the rasterizer: each thread draws one at a time.

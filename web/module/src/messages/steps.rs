@@ -5,8 +5,9 @@ use crate::camera::Viewpoint;
 use crate::stage::Stage;
 use bothways_lab::common::View;
 use bothways_lab::common::frame::NO_PRIMITIVE;
-use bothways_lab::film::{Step, Steps, StoredChange, Tested};
+use bothways_lab::film::{self, Step, Steps, StoredChange, Tested};
 use bothways_lab::orders::{Method, Order};
+use bothways_lab::raytrace::fast::Prepared;
 use serde::Deserialize;
 use serde_json::json;
 
@@ -67,9 +68,11 @@ pub(crate) fn answer(stage: &Stage, record: &Record) -> Result<Answer, String> {
         "pairs": pairs,
         "skipped": pairs.saturating_sub(tests as u64),
         "changes": {},
+        "outlines": { "primitives": {}, "boxes": {} },
     }));
     let has_nodes = steps.iter().any(|step| matches!(step.tested, Tested::Node(_)));
     let answer = with_steps(answer, &steps, has_nodes).with("marks", Buffer::U32(marks));
+    let answer = with_outlines(answer, &view, has_nodes.then_some(&stage.ray_tracer));
     Ok(with_changes(answer, &changes))
 }
 
@@ -105,6 +108,42 @@ fn with_steps(answer: Answer, steps: &[Step], has_nodes: bool) -> Answer {
     answer.with("node", Buffer::U32(each(steps, |step| number(step)[1])))
 }
 
+/// The lines that bound each primitive and each box.
+fn with_outlines(answer: Answer, view: &View, ray_tracer: Option<&Prepared>) -> Answer {
+    let primitives = (0..view.scene.primitive_count()).map(|id| film::outline(view, id));
+    let answer = with_lines(answer, "outlines.primitives", primitives);
+    let boxes = ray_tracer.map(Prepared::boxes).unwrap_or_default();
+    let lines = boxes.iter().map(|one| film::outline_of_box(view, [one.low, one.high]));
+    let answer = with_lines(answer, "outlines.boxes", lines);
+    let numbers = boxes.iter().map(|one| one.number).collect();
+    answer.with("outlines.boxes.number", Buffer::U32(numbers))
+}
+
+/// The most points of all lines: a scene that has more is too full to follow single outlines, and the rest has none.
+const MOST_POINTS: usize = 1_000_000;
+
+/// Lines of many things: all points, as columns and rows; the end of each line, counted in points; and of each thing,
+/// counted in lines.
+fn with_lines(answer: Answer, path: &str, things: impl Iterator<Item = film::Lines>) -> Answer {
+    let (mut points, mut lines, mut ends) = (Vec::new(), Vec::new(), Vec::new());
+    let number = |count: usize| u32::try_from(count).unwrap_or(u32::MAX);
+    for thing in things {
+        for line in thing {
+            if points.len() / 2 + line.len() > MOST_POINTS {
+                break;
+            }
+            #[expect(clippy::cast_possible_truncation, reason = "for a drawing")]
+            points.extend(line.iter().flatten().map(|&at| at as f32));
+            lines.push(number(points.len() / 2));
+        }
+        ends.push(number(lines.len()));
+    }
+    answer
+        .with(format!("{path}.points"), Buffer::F32(points))
+        .with(format!("{path}.lines"), Buffer::U32(lines))
+        .with(format!("{path}.ends"), Buffer::U32(ends))
+}
+
 fn with_changes(answer: Answer, changes: &[StoredChange]) -> Answer {
     fn each<T>(changes: &[StoredChange], value: impl Fn(&StoredChange) -> T) -> Vec<T> {
         changes.iter().map(value).collect()
@@ -116,4 +155,97 @@ fn with_changes(answer: Answer, changes: &[StoredChange]) -> Answer {
         .with("changes.column", Buffer::U16(each(changes, |change| change.column)))
         .with("changes.id", Buffer::U32(each(changes, |change| change.id.unwrap_or(NO_PRIMITIVE))))
         .with("changes.rgb", Buffer::U8(colors))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::answer::{Answer, Buffer};
+    use crate::engine::Engine;
+    use std::ops::Range;
+
+    fn recorded(scene: &str, order: &str, kind: &str) -> Answer {
+        let mut engine = Engine::default();
+        engine.call("open", &format!(r#"{{"name": "{scene}"}}"#), None).unwrap();
+        let question =
+            format!(r#"{{"order": "{order}", "kind": "{kind}", "height": 12, "width": 12}}"#);
+        engine.call("steps", &question, None).unwrap()
+    }
+
+    fn numbers(answer: &Answer, path: &str) -> Vec<u32> {
+        match answer.buffer(path) {
+            Some(Buffer::U32(numbers)) => numbers.clone(),
+            Some(Buffer::U16(numbers)) => numbers.iter().map(|&number| number.into()).collect(),
+            Some(Buffer::U8(numbers)) => numbers.iter().map(|&number| number.into()).collect(),
+            other => panic!("{path}: {other:?}"),
+        }
+    }
+
+    /// The points of all lines of one thing.
+    fn points(answer: &Answer, path: &str, place: usize) -> Vec<[f32; 2]> {
+        let Some(Buffer::F32(points)) = answer.buffer(&format!("{path}.points")) else {
+            panic!("{path}");
+        };
+        let part = |ends: &[u32], at: usize| -> Range<usize> {
+            let begin = if at == 0 { 0 } else { ends[at - 1] };
+            begin as usize..ends[at] as usize
+        };
+        let lines = numbers(answer, &format!("{path}.lines"));
+        let ends = numbers(answer, &format!("{path}.ends"));
+        let own = part(&ends, place).flat_map(|line| part(&lines, line));
+        own.map(|point| [points[2 * point], points[2 * point + 1]]).collect()
+    }
+
+    /// Whether the middle of a pixel is within the rectangle around some points, or some hundredths of a pixel beside it.
+    fn is_around(points: &[[f32; 2]], [row, column]: [u32; 2]) -> bool {
+        [column, row].iter().enumerate().all(|(axis, &at)| {
+            let at = at as f32 + 0.5;
+            points.iter().any(|point| point[axis] <= at + 0.02)
+                && points.iter().any(|point| point[axis] >= at - 0.02)
+        })
+    }
+
+    #[test]
+    fn what_affects_a_pixel_has_its_outline_around_it() {
+        for (scene, order, kind) in [
+            ("lecture", "object", "boxes"),
+            ("canonical", "image", "textbook"),
+            ("lecture", "image", "hierarchy"),
+        ] {
+            let answer = recorded(scene, order, kind);
+            let [objects, rows, columns, results] =
+                ["object", "row", "column", "result"].map(|path| numbers(&answer, path));
+            let kinds = answer.json()["kinds"].clone();
+            let covering = (0..results.len()).filter(|&step| matches!(results[step], 1..=3));
+            let mut count = 0;
+            for step in covering {
+                let (id, pixel) = (objects[step] as usize, [rows[step], columns[step]]);
+                // A plane has a horizon, and nothing around it.
+                if kinds[id] != "plane" {
+                    let points = points(&answer, "outlines.primitives", id);
+                    assert!(is_around(&points, pixel), "{scene}: {id} at {pixel:?}: {points:?}");
+                    count += 1;
+                }
+            }
+            assert!(count > 10, "{scene}: {count}");
+        }
+    }
+
+    #[test]
+    fn a_ray_that_enters_a_box_has_its_edges_around_it() {
+        let answer = recorded("lecture", "image", "hierarchy");
+        let [nodes, rows, columns, results, boxes] =
+            ["node", "row", "column", "result", "outlines.boxes.number"]
+                .map(|path| numbers(&answer, path));
+        let mut count = 0;
+        for step in (0..results.len()).filter(|&step| matches!(results[step], 4 | 5)) {
+            let place = boxes.iter().position(|&number| number == nodes[step]).unwrap();
+            let points = points(&answer, "outlines.boxes", place);
+            assert_eq!(points.len(), 24);
+            if results[step] == 5 {
+                assert!(is_around(&points, [rows[step], columns[step]]), "{place}");
+                count += 1;
+            }
+        }
+        assert!(count > 10, "{count}");
+    }
 }
