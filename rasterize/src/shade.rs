@@ -4,13 +4,13 @@
 mod form;
 mod quotient;
 
-use bothways_common::engine::simd::{Level, Simd, SimdBase, best_level, f64x8};
-use bothways_common::look::bands::{self, Points, Samples, Seen, Surfaces, Wanted};
-use bothways_common::look::lanes::{DVec3x8, Lanes, each};
+use bothways_common::engine::simd::{Level, Simd, SimdBase, SimdNarrow, best_level, f64x8};
+use bothways_common::look::bands::{self, Points, Rays, Samples, Seen, Sixteen, Surfaces, Wanted};
+use bothways_common::look::lanes::{DVec3x8, Lanes, Vec3x16, each};
 use bothways_common::look::texture::{self, TexturePoints};
 use bothways_common::{Frame, Primitive, Projection, View};
 use form::{Form, HitPoints};
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec3};
 use quotient::{Affine, Quotient};
 
 /// Gives a frame its picture, by interpolation over the triangle that is seen at each sample. If the frame keeps
@@ -43,10 +43,11 @@ fn sample_step(view: &View, samples: u32) -> [f64; 2] {
     [-down, across]
 }
 
-/// One visible primitive, set up for all samples at which it is seen.
+/// One visible primitive, set up for all samples at which it is seen. What only some have is in boxes, so that many small
+/// triangles stay in the caches.
 struct Surface {
     /// `None` where only the normals of a flat form are wanted.
-    form: Option<Form>,
+    form: Option<Box<Form>>,
     normals: Normals,
     texture: Texture,
 }
@@ -57,17 +58,22 @@ enum Texture {
     /// That of a sphere.
     Sphere,
     /// That of a flat form: a function on the viewport.
-    Flat(Quotient),
+    Flat(Box<Quotient>),
 }
 
 enum Normals {
     /// The same everywhere, towards the viewer.
-    Flat(DVec3),
+    Flat(Vec3),
     /// Those of a sphere; the reciprocal of its radius.
     Sphere(f64),
-    /// Interpolated: each coordinate is a function on the viewport. And the flat one, unless the corners' are alike
-    /// enough never to cancel each other.
-    Smooth { coordinates: [Affine; 3], flat: Option<DVec3> },
+    Smooth(Smooth),
+}
+
+/// Interpolated normals: each coordinate is a function on the viewport.
+struct Smooth {
+    coordinates: [Affine; 3],
+    /// The flat one, unless the corners' are alike enough never to cancel each other.
+    flat: Option<Box<DVec3>>,
 }
 
 impl Surfaces for Interpolated<'_> {
@@ -83,43 +89,67 @@ impl Surfaces for Interpolated<'_> {
             Texture::None
         };
         let is_sphere = matches!(primitive, Primitive::Sphere { .. });
-        let form = (is_sphere || wanted.positions).then(|| Form::new(view, primitive));
+        let form = (is_sphere || wanted.positions).then(|| Box::new(Form::new(view, primitive)));
         Surface { form, normals, texture }
     }
 
     #[inline(always)]
-    fn at<S: Simd>(&self, simd: S, surface: &Surface, samples: &Samples<S>) -> Points<S> {
-        let hit = match &surface.form {
-            Some(form) => form.hit_points(simd, samples),
-            None => HitPoints::nowhere(simd),
+    fn looks_at_t(&self, surface: &Surface) -> bool {
+        surface.form.is_some()
+    }
+
+    #[inline(always)]
+    fn at<S: Simd>(
+        &self,
+        simd: S,
+        surface: &Surface,
+        samples: &Sixteen<S>,
+        points: &mut Points<'_>,
+    ) {
+        match &surface.normals {
+            Normals::Flat(flat) => points.set_normals(Vec3x16::splat(simd, *flat)),
+            Normals::Smooth(smooth) => {
+                let low = smooth.at(simd, &samples.low);
+                let high = if samples.is_short { low } else { smooth.at(simd, &samples.high) };
+                points.set_normals(low.narrow(high));
+            }
+            Normals::Sphere(_) => {}
+        }
+        let hits = match &surface.form {
+            None => [HitPoints::nowhere(simd); 2],
+            Some(form) => {
+                let halves = [&samples.low, &samples.high];
+                let rays = each!(k in [0, 1] => self.rays(simd, halves[k]));
+                let hits = each!(k in [0, 1] => form.hit_points(simd, halves[k], &rays[k]));
+                points.set_positions(each!(k in [0, 1] => hits[k].position));
+                if let Normals::Sphere(scale) = surface.normals {
+                    let [low, high] =
+                        each!(k in [0, 1] => on_ball(simd, scale, &hits[k], &rays[k]));
+                    points.set_normals(low.narrow(high));
+                }
+                hits
+            }
         };
-        let normal = surface.normals.at(simd, samples, &hit);
-        let texture = self.texture_points(simd, &surface.texture, samples, &hit);
-        Points { position: hit.position, normal, texture }
+        let [low, high] = match &surface.texture {
+            Texture::None => return,
+            Texture::Flat(quotient) => each!(half in [&samples.low, &samples.high] => {
+                quotient.with_footprint(simd, half.x, half.y, self.step)
+            }),
+            Texture::Sphere => {
+                each!(half in [(&samples.low, &hits[0]), (&samples.high, &hits[1])] => {
+                    self.on_sphere(simd, half.0, half.1)
+                })
+            }
+        };
+        let footprint = each!(k in [0, 1] => low.1[k].narrow(high.1[k]));
+        points.set_texture(&TexturePoints { halves: [low.0, high.0], footprint });
     }
 }
 
 impl Interpolated<'_> {
-    /// The texture coordinates at some samples, and how they change towards their neighbours.
     #[inline(always)]
-    fn texture_points<S: Simd>(
-        &self,
-        simd: S,
-        texture: &Texture,
-        samples: &Samples<S>,
-        hit: &HitPoints<S>,
-    ) -> Option<TexturePoints<S>> {
-        let (coordinate, [along_x, along_y]) = match texture {
-            Texture::None => return None,
-            Texture::Flat(quotient) => quotient.at(simd, samples.x, samples.y),
-            Texture::Sphere => self.on_sphere(simd, samples, hit),
-        };
-        let [down, across] = each!(k in [0, 1] => f64x8::splat(simd, self.step[k]));
-        Some(TexturePoints::new(
-            coordinate,
-            each!(k in [0, 1] => along_x[k] * across),
-            each!(k in [0, 1] => along_y[k] * down),
-        ))
+    fn rays<S: Simd>(&self, simd: S, samples: &Samples<S>) -> Rays<S> {
+        Rays::of_camera(simd, self.view.camera, [samples.x, samples.y])
     }
 
     /// Near a sample the sphere is the plane that touches it there.
@@ -129,16 +159,18 @@ impl Interpolated<'_> {
         simd: S,
         samples: &Samples<S>,
         hit: &HitPoints<S>,
-    ) -> ([f64x8<S>; 2], [[f64x8<S>; 2]; 2]) {
+    ) -> ([f64x8<S>; 2], [f64x8<S>; 2]) {
         let (coordinate, gradients) = texture::on_sphere_lanes(simd, hit.from_center);
-        let changes: [[DVec2; 2]; 8] = std::array::from_fn(|lane| {
+        let [down, across] = self.step;
+        let changes: [DVec2; 8] = std::array::from_fn(|lane| {
             let (position, normal) = (hit.position.lane(lane), hit.from_center.lane(lane));
             let gradients = gradients.map(|gradient| gradient.lane(lane));
             let touching = Quotient::on_plane(self.view, position, normal, gradients);
-            touching.changes(samples.x[lane], samples.y[lane])
+            let [along_x, along_y] = touching.changes(samples.x[lane], samples.y[lane]);
+            (along_x * across).abs() + (along_y * down).abs()
         });
-        let of = |axis: usize, k: usize| f64x8::from_fn(simd, |lane| changes[lane][axis][k]);
-        (coordinate, each!(axis in [0, 1] => each!(k in [0, 1] => of(axis, k))))
+        let footprint = each!(k in [0, 1] => f64x8::from_fn(simd, |lane| changes[lane][k]));
+        (coordinate, footprint)
     }
 }
 
@@ -149,14 +181,16 @@ impl Normals {
             Primitive::Sphere { radius, .. } => Normals::Sphere(1.0 / radius),
             Primitive::Plane { point, normal } => {
                 let flat = normal.normalize_or_zero();
-                Normals::Flat(flat * side_seen(view, point, flat))
+                Normals::Flat((flat * side_seen(view, point, flat)).as_vec3())
             }
             Primitive::Triangle([a, b, c]) => {
                 let normal = (b - a).cross(c - a);
                 // The surface, not its smooth look, says which side is seen.
                 let side = side_seen(view, a, normal);
-                let flat = normal.normalize_or_zero() * side;
-                let Some([at_a, at_b, at_c]) = corners else { return Normals::Flat(flat) };
+                let flat = || normal.normalize_or_zero() * side;
+                let Some([at_a, at_b, at_c]) = corners else {
+                    return Normals::Flat(flat().as_vec3());
+                };
                 let [of_a, of_b, of_c] = weights(view, [a, b, c], normal);
                 // All weights times one number change no direction; with this one they keep clear of overflow.
                 let scale = 1.0 / (of_a + of_b + of_c).largest(view);
@@ -164,32 +198,32 @@ impl Normals {
                 let coordinate = |k: usize| of_a * at_a[k] + of_b * at_b[k] + of_c * at_c[k];
                 let coordinates = each!(k in [0, 1, 2] => coordinate(k) * scale);
                 let apart = at_a.dot(at_b).min(at_b.dot(at_c)).min(at_c.dot(at_a));
-                Normals::Smooth { coordinates, flat: (apart < 0.1).then_some(flat) }
+                let flat = (apart < 0.1).then(|| Box::new(flat()));
+                Normals::Smooth(Smooth { coordinates, flat })
             }
         }
     }
+}
 
+impl Smooth {
     /// The normals at some samples, towards the viewer.
     #[inline(always)]
-    fn at<S: Simd>(&self, simd: S, samples: &Samples<S>, hit: &HitPoints<S>) -> DVec3x8<S> {
+    fn at<S: Simd>(&self, simd: S, samples: &Samples<S>) -> DVec3x8<S> {
         /// Corners' normals that cancel each other leave the flat one.
         const CANCELLED: f64 = 1e-15;
-        let zero = f64x8::splat(simd, 0.0);
-        match self {
-            Normals::Flat(flat) => DVec3x8::splat(simd, *flat),
-            Normals::Sphere(scale) => {
-                let normal = hit.from_center * f64x8::splat(simd, *scale);
-                normal.negated_where(normal.dot(samples.rays.direction).simd_gt(zero))
-            }
-            Normals::Smooth { coordinates, flat } => {
-                let [x, y, z] = each!(k in [0, 1, 2] => coordinates[k].lanes(simd, samples));
-                let smooth = Lanes { x, y, z };
-                let Some(flat) = flat else { return smooth };
-                let is_direction = smooth.max_magnitude().simd_gt(f64x8::splat(simd, CANCELLED));
-                smooth.or(is_direction, DVec3x8::splat(simd, *flat))
-            }
-        }
+        let [x, y, z] = each!(k in [0, 1, 2] => self.coordinates[k].lanes(simd, samples));
+        let smooth = Lanes { x, y, z };
+        let Some(flat) = &self.flat else { return smooth };
+        let is_direction = smooth.max_magnitude().simd_gt(f64x8::splat(simd, CANCELLED));
+        smooth.or(is_direction, DVec3x8::splat(simd, **flat))
     }
+}
+
+/// The normals of a sphere at some of its points, towards the viewer, from the reciprocal of its radius.
+#[inline(always)]
+fn on_ball<S: Simd>(simd: S, scale: f64, hit: &HitPoints<S>, rays: &Rays<S>) -> DVec3x8<S> {
+    let normal = hit.from_center * f64x8::splat(simd, scale);
+    normal.negated_where(normal.dot(rays.direction).simd_gt(f64x8::splat(simd, 0.0)))
 }
 
 /// 1 if a normal of a flat form through a point is towards the viewer, −1 if it is away.
@@ -209,11 +243,12 @@ impl Texture {
             (Primitive::Sphere { .. }, _) => Texture::Sphere,
             (Primitive::Plane { point, normal }, _) => {
                 let axes = texture::plane_axes(normal);
-                Texture::Flat(Quotient::on_plane(view, point, normal, axes))
+                Texture::Flat(Box::new(Quotient::on_plane(view, point, normal, axes)))
             }
             (Primitive::Triangle([a, b, c]), Some(coordinates)) => {
                 let flat = (b - a).cross(c - a);
-                Texture::Flat(Quotient::interpolating(weights(view, [a, b, c], flat), coordinates))
+                let weights = weights(view, [a, b, c], flat);
+                Texture::Flat(Box::new(Quotient::interpolating(weights, coordinates)))
             }
             (Primitive::Triangle(_), None) => Texture::None,
         }

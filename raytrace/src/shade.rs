@@ -1,11 +1,13 @@
 //! The look of what is seen. Image order goes along each ray to the point that it hit.
 
-use bothways_common::engine::simd::{Level, Select, Simd, SimdBase, SimdFloat, best_level, f64x8};
-use bothways_common::look::bands::{self, Points, Samples, Seen, Surfaces, Wanted};
-use bothways_common::look::lanes::{DVec3x8, each};
+use bothways_common::engine::simd::{
+    Level, Select, Simd, SimdBase, SimdFloat, SimdNarrow, best_level, f32x16, f64x8,
+};
+use bothways_common::look::bands::{self, Points, Rays, Samples, Seen, Sixteen, Surfaces, Wanted};
+use bothways_common::look::lanes::{DVec3x8, Vec3x16, each};
 use bothways_common::look::texture::{self, TexturePoints};
 use bothways_common::{Frame, Primitive, Projection, View};
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec3};
 
 /// Gives a frame its picture, from the hit point of each sample's ray. If the frame keeps
 /// [linear colours](Frame::with_colors), [normals](Frame::with_normals) or
@@ -39,11 +41,29 @@ fn steps(view: &View, samples: u32) -> [DVec3; 2] {
 /// One visible primitive.
 struct Surface {
     form: Form,
-    /// The flat normal; zero for a sphere.
-    flat: DVec3,
-    /// The normals of a triangle's corners, if it looks smooth.
-    smooth: Option<[DVec3; 3]>,
+    normals: Normals,
+    /// Whether more than normals is needed: where the points are, or their texture.
+    has_points: bool,
     texture: Texture,
+}
+
+enum Normals {
+    /// The same everywhere, towards the viewer.
+    Flat(Vec3),
+    /// Those of a sphere; the reciprocal of its radius.
+    Sphere(f64),
+    /// The normal of the first corner, and what those of the others add to it, towards the viewer. They never cancel
+    /// each other: no two are farther apart than 84°, so what they add up to is longer than 0.6.
+    Smooth(Smooth),
+    /// The same where they may cancel, and the flat one.
+    Wild(Box<Wild>),
+}
+
+struct Smooth([Vec3; 3]);
+
+struct Wild {
+    corners: [DVec3; 3],
+    flat: DVec3,
 }
 
 enum Form {
@@ -55,11 +75,13 @@ enum Form {
         point: DVec3,
         normal: DVec3,
     },
-    /// `normal` is the cross product of two sides; `dual` is it divided by the square of its length.
+    /// `normal` is the cross product of two sides.
     Triangle {
-        corners: [DVec3; 3],
+        /// The first corner.
+        a: DVec3,
         normal: DVec3,
-        dual: DVec3,
+        /// The directions in which the weights of the second and the third corner grow, and how fast.
+        growth: [DVec3; 2],
     },
 }
 
@@ -67,13 +89,19 @@ enum Texture {
     /// There is none, or it is not needed.
     None,
     Sphere,
-    /// The directions in which the two coordinates grow.
-    Plane([DVec3; 2]),
-    /// The coordinates at the corners, and the directions in which they grow.
-    Triangle {
-        corners: [DVec2; 3],
-        gradients: [DVec3; 2],
-    },
+    Flat(Chart),
+}
+
+/// The texture of a flat form.
+struct Chart {
+    /// The coordinates at the point of a plane, or the first corner of a triangle.
+    first: DVec2,
+    /// The directions in which the two coordinates grow, and how fast.
+    gradients: [DVec3; 2],
+    /// How far they grow along the steps from a sample to the next ones: those across and down of each.
+    growth: [[f32; 2]; 2],
+    /// The part of the steps along the normal.
+    rise: [f64; 2],
 }
 
 impl Surfaces for AtHits<'_> {
@@ -83,23 +111,53 @@ impl Surfaces for AtHits<'_> {
     fn set_up(&self, seen: &Seen, wanted: Wanted) -> Surface {
         let form = Form::new(&seen.primitive);
         let texture = if wanted.texture_coordinates || seen.material.checker.is_some() {
-            Texture::new(&form, seen.corner_coordinates())
+            Texture::new(&form, seen.corner_coordinates(), self.steps)
         } else {
             Texture::None
         };
-        Surface { flat: form.flat_normal(), form, smooth: seen.corner_normals(), texture }
+        let normals = Normals::new(self.view, &form, seen.corner_normals());
+        let has_points = wanted.positions || !matches!(texture, Texture::None);
+        Surface { form, normals, has_points, texture }
     }
 
     #[inline(always)]
-    fn at<S: Simd>(&self, simd: S, surface: &Surface, samples: &Samples<S>) -> Points<S> {
-        let hit = surface.form.hits(simd, samples);
-        let weights = match &surface.form {
-            Form::Triangle { corners, dual, .. } => Some(areas(simd, corners, *dual, hit.position)),
-            Form::Sphere { .. } | Form::Plane { .. } => None,
-        };
-        let normal = surface.normals(simd, samples, &hit, weights);
-        let texture = self.texture_points(simd, surface, samples, &hit, weights);
-        Points { position: hit.position, normal, texture }
+    fn at<S: Simd>(
+        &self,
+        simd: S,
+        surface: &Surface,
+        samples: &Sixteen<S>,
+        points: &mut Points<'_>,
+    ) {
+        if !surface.has_points {
+            // Small triangles of a mesh end here.
+            match &surface.normals {
+                Normals::Flat(flat) => return points.set_normals(Vec3x16::splat(simd, *flat)),
+                Normals::Smooth(smooth) => {
+                    let low = self.hits(simd, surface, &samples.low).weights;
+                    let high = if samples.is_short {
+                        low
+                    } else {
+                        self.hits(simd, surface, &samples.high).weights
+                    };
+                    return points.set_normals(smooth.at(simd, [low, high]));
+                }
+                Normals::Sphere(_) | Normals::Wild(_) => {}
+            }
+        }
+        let [low, high] = each!(half in [&samples.low, &samples.high] => {
+            self.hits(simd, surface, half)
+        });
+        points.set_positions([low.position, high.position]);
+        points.set_normals(surface.normals.at(simd, [&low, &high]));
+        match &surface.texture {
+            Texture::None => {}
+            Texture::Flat(chart) => points.set_texture(&self.on_chart(simd, chart, [&low, &high])),
+            Texture::Sphere => {
+                let [low, high] = each!(hit in [&low, &high] => self.on_globe(simd, hit));
+                let footprint = each!(k in [0, 1] => low.1[k].narrow(high.1[k]));
+                points.set_texture(&TexturePoints { halves: [low.0, high.0], footprint });
+            }
+        }
     }
 }
 
@@ -109,8 +167,14 @@ struct Hits<S: Simd> {
     t: f64x8<S>,
     /// Relative to the eye.
     position: DVec3x8<S>,
-    /// Relative to the centre of a sphere; of other primitives, the same as `position`.
-    from_center: DVec3x8<S>,
+    /// Relative to the centre of a sphere, the point of a plane or the first corner of a triangle.
+    beside: DVec3x8<S>,
+    /// The directions of the rays.
+    direction: DVec3x8<S>,
+    /// 1 by the product of the directions and the normal of a flat form.
+    reciprocal: f64x8<S>,
+    /// The weights of the second and the third corner of a triangle.
+    weights: [f64x8<S>; 2],
 }
 
 impl Form {
@@ -119,21 +183,10 @@ impl Form {
         match *primitive {
             Primitive::Sphere { center, radius } => Form::Sphere { center, radius },
             Primitive::Plane { point, normal } => Form::Plane { point, normal },
-            Primitive::Triangle(corners) => {
-                let [a, b, c] = corners;
+            Primitive::Triangle([a, b, c]) => {
                 let normal = (b - a).cross(c - a);
-                Form::Triangle { corners, normal, dual: normal / normal.length_squared() }
-            }
-        }
-    }
-
-    /// The unit normal of a flat form.
-    #[inline(always)]
-    fn flat_normal(&self) -> DVec3 {
-        match *self {
-            Form::Sphere { .. } => DVec3::ZERO,
-            Form::Plane { normal, .. } | Form::Triangle { normal, .. } => {
-                normal.normalize_or_zero()
+                let dual = normal / normal.length_squared();
+                Form::Triangle { a, normal, growth: [dual.cross(a - c), dual.cross(b - a)] }
             }
         }
     }
@@ -144,32 +197,58 @@ impl Form {
     /// Where a ray runs along the surface, or numbers are extreme, the new `t` may be worse than the stored one, which
     /// is then used.
     #[inline(always)]
-    fn hits<S: Simd>(&self, simd: S, samples: &Samples<S>) -> Hits<S> {
-        match *self {
-            Form::Sphere { center, radius } => on_sphere(simd, center, radius, samples),
-            Form::Plane { point, normal } => on_plane(simd, point, normal, samples),
-            Form::Triangle { corners: [a, ..], normal, .. } => on_plane(simd, a, normal, samples),
+    fn hits<S: Simd>(&self, simd: S, samples: &Samples<S>, rays: &Rays<S>) -> Hits<S> {
+        match self {
+            Form::Sphere { center, radius } => on_sphere(simd, *center, *radius, samples, rays),
+            Form::Plane { point, normal } => on_plane(simd, *point, *normal, samples, rays),
+            Form::Triangle { a, normal, growth } => {
+                let hit = on_plane(simd, *a, *normal, samples, rays);
+                let weights = each!(k in [0, 1] => DVec3x8::splat(simd, growth[k]).dot(hit.beside));
+                Hits { weights, ..hit }
+            }
         }
     }
 }
 
+impl AtHits<'_> {
+    #[inline(always)]
+    fn hits<S: Simd>(&self, simd: S, surface: &Surface, samples: &Samples<S>) -> Hits<S> {
+        let rays = Rays::of_camera(simd, self.view.camera, [samples.x, samples.y]);
+        surface.form.hits(simd, samples, &rays)
+    }
+}
+
 #[inline(always)]
-fn on_plane<S: Simd>(simd: S, point: DVec3, normal: DVec3, samples: &Samples<S>) -> Hits<S> {
+fn on_plane<S: Simd>(
+    simd: S,
+    point: DVec3,
+    normal: DVec3,
+    samples: &Samples<S>,
+    rays: &Rays<S>,
+) -> Hits<S> {
     let [point, normal] = each!(vector in [point, normal] => DVec3x8::splat(simd, vector));
-    let t = normal.dot(point - samples.rays.origin) / normal.dot(samples.rays.direction);
+    let reciprocal = f64x8::splat(simd, 1.0) / normal.dot(rays.direction);
+    let t = normal.dot(point - rays.origin) * reciprocal;
     let t = samples.is_close(simd, t).select(t, samples.t);
-    let position = samples.points_at(t);
-    Hits { t, position, from_center: position }
+    let position = rays.at(t);
+    let weights = [f64x8::splat(simd, 0.0); 2];
+    Hits { t, position, beside: position - point, direction: rays.direction, reciprocal, weights }
 }
 
 /// A ray comes nearest to the centre at `t = −k`, where it passes beside it by `f`. It meets the sphere half of
 /// the way through the sphere before and after that. An eye outside sees the nearer point; where rounding hides
 /// whether the eye is outside, the stored `t` decides.
 #[inline(always)]
-fn on_sphere<S: Simd>(simd: S, center: DVec3, radius: f64, samples: &Samples<S>) -> Hits<S> {
+fn on_sphere<S: Simd>(
+    simd: S,
+    center: DVec3,
+    radius: f64,
+    samples: &Samples<S>,
+    rays: &Rays<S>,
+) -> Hits<S> {
     let splat = |number: f64| f64x8::splat(simd, number);
     let center = DVec3x8::splat(simd, center);
-    let (m, d) = (samples.rays.origin - center, samples.rays.direction);
+    let (m, d) = (rays.origin - center, rays.direction);
     let a = d.dot(d);
     let k = m.dot(d) / a;
     let f = m - d * k;
@@ -183,138 +262,153 @@ fn on_sphere<S: Simd>(simd: S, center: DVec3, radius: f64, samples: &Samples<S>)
     let t = half - k;
     let is_close = samples.is_close(simd, t);
     let t = is_close.select(t, samples.t);
-    let position = samples.points_at(t);
-    Hits { t, position, from_center: (f + d * half).or(is_close, position - center) }
+    let position = rays.at(t);
+    let beside = (f + d * half).or(is_close, position - center);
+    Hits { t, position, beside, direction: d, reciprocal: zero, weights: [zero; 2] }
 }
 
-impl Surface {
+impl Normals {
+    #[inline(always)]
+    fn new(view: &View, form: &Form, corners: Option<[DVec3; 3]>) -> Normals {
+        let (point, normal) = match *form {
+            Form::Sphere { radius, .. } => return Normals::Sphere(1.0 / radius),
+            Form::Plane { point, normal } => (point, normal),
+            Form::Triangle { a, normal, .. } => (a, normal),
+        };
+        // The surface decides which side is seen, not its smooth normals; every ray that hits it comes to the same side.
+        let is_back = match view.camera.projection() {
+            Projection::Perspective => normal.dot(point) > 0.0,
+            Projection::Parallel => normal.dot(view.camera.w()) < 0.0,
+        };
+        let side = if is_back { -1.0 } else { 1.0 };
+        let flat = || normal.normalize_or_zero() * side;
+        let Some([a, b, c]) = corners else { return Normals::Flat(flat().as_vec3()) };
+        let corners = [a, b - a, c - a].map(|normal| normal * side);
+        if a.dot(b).min(b.dot(c)).min(c.dot(a)) < 0.1 {
+            return Normals::Wild(Box::new(Wild { corners, flat: flat() }));
+        }
+        Normals::Smooth(Smooth(corners.map(|normal| normal.as_vec3())))
+    }
+
     /// The normals at some hit points, towards the viewer.
     #[inline(always)]
-    fn normals<S: Simd>(
-        &self,
-        simd: S,
-        samples: &Samples<S>,
-        hit: &Hits<S>,
-        weights: Option<[f64x8<S>; 3]>,
-    ) -> DVec3x8<S> {
+    fn at<S: Simd>(&self, simd: S, [low, high]: [&Hits<S>; 2]) -> Vec3x16<S> {
         /// Corners' normals that cancel each other leave the flat one.
         const CANCELLED: f64 = 1e-15;
-        let flat = match self.form {
-            Form::Sphere { radius, .. } => hit.from_center * f64x8::splat(simd, 1.0 / radius),
-            Form::Plane { .. } | Form::Triangle { .. } => DVec3x8::splat(simd, self.flat),
-        };
-        let normal = match (&self.smooth, weights) {
-            (Some(normals), Some([of_a, of_b, of_c])) => {
-                let [at_a, at_b, at_c] = each!(k in [0, 1, 2] => DVec3x8::splat(simd, normals[k]));
-                let smooth = at_a * of_a + at_b * of_b + at_c * of_c;
-                let is_direction = smooth.max_magnitude().simd_gt(f64x8::splat(simd, CANCELLED));
-                smooth.or(is_direction, flat)
+        match self {
+            Normals::Flat(flat) => Vec3x16::splat(simd, *flat),
+            Normals::Sphere(scale) => {
+                let [zero, scale] = each!(value in [0.0, *scale] => f64x8::splat(simd, value));
+                let [low, high] = each!(hit in [low, high] => {
+                    let is_back = hit.beside.dot(hit.direction).simd_gt(zero);
+                    (hit.beside * scale).negated_where(is_back)
+                });
+                low.narrow(high)
             }
-            _ => flat,
-        };
-        // The surface decides which side is seen, not its smooth normals.
-        let is_back = flat.dot(samples.rays.direction).simd_gt(f64x8::splat(simd, 0.0));
-        normal.negated_where(is_back)
-    }
-}
-
-/// The weights of the corners: the areas into which the hit points divide the triangle, as fractions of its own.
-#[inline(always)]
-fn areas<S: Simd>(simd: S, corners: &[DVec3; 3], dual: DVec3, hit: DVec3x8<S>) -> [f64x8<S>; 3] {
-    let dual = DVec3x8::splat(simd, dual);
-    let [a, b, c] = each!(k in [0, 1, 2] => DVec3x8::splat(simd, corners[k]) - hit);
-    [b.cross(c).dot(dual), c.cross(a).dot(dual), a.cross(b).dot(dual)]
-}
-
-impl Texture {
-    #[inline(always)]
-    fn new(form: &Form, corners: Option<[DVec2; 3]>) -> Texture {
-        match (form, corners) {
-            (Form::Sphere { .. }, _) => Texture::Sphere,
-            (Form::Plane { normal, .. }, _) => Texture::Plane(texture::plane_axes(*normal)),
-            (Form::Triangle { corners: [a, b, c], dual, .. }, Some(values)) => {
-                // The area opposite to a corner grows away from its side, in proportion to the side's length.
-                let growth = [*c - *b, *a - *c, *b - *a].map(|side| dual.cross(side));
-                let gradient = |k: usize| {
-                    growth.iter().zip(values).map(|(&growth, value)| growth * value[k]).sum()
-                };
-                Texture::Triangle { corners: values, gradients: [gradient(0), gradient(1)] }
+            Normals::Smooth(smooth) => smooth.at(simd, [low.weights, high.weights]),
+            Normals::Wild(wild) => {
+                let Wild { corners, flat } = &**wild;
+                let [at_a, to_b, to_c] = each!(k in [0, 1, 2] => DVec3x8::splat(simd, corners[k]));
+                let flat = DVec3x8::splat(simd, *flat);
+                let [low, high] = each!(hit in [low, high] => {
+                    let smooth = at_a + to_b * hit.weights[0] + to_c * hit.weights[1];
+                    let is_direction = smooth.max_magnitude().simd_gt(f64x8::splat(simd, CANCELLED));
+                    smooth.or(is_direction, flat)
+                });
+                low.narrow(high)
             }
-            (Form::Triangle { .. }, None) => Texture::None,
         }
     }
 }
 
-/// The texture of surfaces around some of their points.
-struct Charts<S: Simd> {
-    coordinate: [f64x8<S>; 2],
-    /// The directions in which the two coordinates grow, and how fast.
-    gradients: [DVec3x8<S>; 2],
-    /// Those of the surface; their lengths do not matter.
-    normal: DVec3x8<S>,
+impl Smooth {
+    /// The normals where the second and the third corner have these weights, which were found in `f64`: on a sliver they
+    /// are differences of large numbers. Here they are at most 1, so three roundings of numbers up to 2 remain.
+    #[inline(always)]
+    fn at<S: Simd>(&self, simd: S, [low, high]: [[f64x8<S>; 2]; 2]) -> Vec3x16<S> {
+        let [b, c] = each!(k in [0, 1] => low[k].narrow(high[k]));
+        let [at_a, to_b, to_c] = each!(k in [0, 1, 2] => Vec3x16::splat(simd, self.0[k]));
+        at_a + to_b * b + to_c * c
+    }
+}
+
+impl Texture {
+    #[inline(always)]
+    fn new(form: &Form, corners: Option<[DVec2; 3]>, steps: [DVec3; 2]) -> Texture {
+        let (first, gradients, normal) = match (form, corners) {
+            (Form::Sphere { .. }, _) => return Texture::Sphere,
+            (Form::Plane { normal, .. }, _) => (DVec2::ZERO, texture::plane_axes(*normal), *normal),
+            (Form::Triangle { normal, growth: [of_b, of_c], .. }, Some([a, b, c])) => {
+                let gradient = |k: usize| *of_b * (b - a)[k] + *of_c * (c - a)[k];
+                (a, [gradient(0), gradient(1)], *normal)
+            }
+            (Form::Triangle { .. }, None) => return Texture::None,
+        };
+        #[expect(clippy::cast_possible_truncation, reason = "a footprint needs no more digits")]
+        let growth = gradients.map(|gradient| steps.map(|step| gradient.dot(step) as f32));
+        let rise = steps.map(|step| normal.dot(step));
+        Texture::Flat(Chart { first, gradients, growth, rise })
+    }
 }
 
 impl AtHits<'_> {
-    /// The texture at some hit points.
+    /// The texture of a flat form at some hit points.
+    ///
+    /// The rays through the neighbouring samples meet its plane a little beside this point: a step leads there, and then
+    /// along the ray as far as the step rose from the plane. Igehy, "Tracing Ray Differentials", SIGGRAPH 1999.
+    ///
+    /// Coordinates are found in `f64`: a footprint may be far smaller than they are. Footprints are differences in `f32`,
+    /// with an error of at most `5ε` of their terms' sizes, `ε = 2⁻²⁴`. A coordinate's gradient `g` seen along a ray `D`,
+    /// `w = g − n (g·D)/(n·D)`, is no shorter than either part, since `g` lies in the plane, and at a right angle to `D`:
+    /// so, pixels being square, a footprint is at least `cos θ` of the largest term; `θ` lies between the ray and the axis,
+    /// and its relative error stays below `20ε / cos θ`.
     #[inline(always)]
-    fn texture_points<S: Simd>(
+    fn on_chart<S: Simd>(
         &self,
         simd: S,
-        surface: &Surface,
-        samples: &Samples<S>,
-        hit: &Hits<S>,
-        weights: Option<[f64x8<S>; 3]>,
-    ) -> Option<TexturePoints<S>> {
-        let splat = |vector: DVec3| DVec3x8::splat(simd, vector);
-        let charts = match (&surface.texture, &surface.form, weights) {
-            (Texture::Sphere, ..) => {
-                let (coordinate, gradients) = texture::on_sphere_lanes(simd, hit.from_center);
-                Charts { coordinate, gradients, normal: hit.from_center }
-            }
-            (Texture::Plane(axes), Form::Plane { point, normal }, _) => {
-                let gradients = each!(k in [0, 1] => splat(axes[k]));
-                let beside = hit.position - splat(*point);
-                let coordinate = each!(k in [0, 1] => gradients[k].dot(beside));
-                Charts { coordinate, gradients, normal: splat(*normal) }
-            }
-            (Texture::Triangle { corners, gradients }, _, Some([of_a, of_b, of_c])) => {
-                let total = of_a + of_b + of_c;
-                let coordinate = each!(k in [0, 1] => {
-                    let [a, b, c] =
-                        each!(corner in [0, 1, 2] => f64x8::splat(simd, corners[corner][k]));
-                    (a * of_a + b * of_b + c * of_c) / total
-                });
-                let gradients = each!(k in [0, 1] => splat(gradients[k]));
-                Charts { coordinate, gradients, normal: splat(surface.flat) }
-            }
-            _ => return None,
-        };
-        Some(self.seen_along(simd, &charts, samples, hit.t))
+        chart: &Chart,
+        [low, high]: [&Hits<S>; 2],
+    ) -> TexturePoints<S> {
+        let is_perspective = self.view.camera.projection() == Projection::Perspective;
+        let wide = |number: f64| f64x8::splat(simd, number);
+        let gradients = each!(k in [0, 1] => DVec3x8::splat(simd, chart.gradients[k]));
+        let halves = each!(hit in [low, high] => each!(k in [0, 1] => {
+            wide(chart.first[k]) + gradients[k].dot(hit.beside)
+        }));
+        // A parallel ray moves with its sample, a perspective one turns: it moves by t steps.
+        let one = wide(1.0);
+        let [low_moved, high_moved] =
+            each!(hit in [low, high] => if is_perspective { hit.t } else { one });
+        let moved = low_moved.narrow(high_moved);
+        let rise = each!(axis in [0, 1] => {
+            let rise = wide(chart.rise[axis]);
+            (rise * low.reciprocal).narrow(rise * high.reciprocal)
+        });
+        let footprint = each!(k in [0, 1] => {
+            let along_ray = (gradients[k].dot(low.direction) * low_moved)
+                .narrow(gradients[k].dot(high.direction) * high_moved);
+            let [across, down] = each!(axis in [0, 1] => {
+                moved * f32x16::splat(simd, chart.growth[k][axis]) - along_ray * rise[axis]
+            });
+            across.abs() + down.abs()
+        });
+        TexturePoints { halves, footprint }
     }
 
-    /// What rays that hit here, at `t`, see of the texture.
-    ///
-    /// The rays through the neighbouring samples meet the tangent plane of the surface a little
-    /// beside this point. Igehy, "Tracing Ray Differentials", SIGGRAPH 1999.
+    /// The texture of a sphere at eight hit points, and the footprints there: those of the planes that touch it.
     #[inline(always)]
-    fn seen_along<S: Simd>(
-        &self,
-        simd: S,
-        charts: &Charts<S>,
-        samples: &Samples<S>,
-        t: f64x8<S>,
-    ) -> TexturePoints<S> {
+    fn on_globe<S: Simd>(&self, simd: S, hit: &Hits<S>) -> ([f64x8<S>; 2], [f64x8<S>; 2]) {
+        let (coordinate, gradients) = texture::on_sphere_lanes(simd, hit.beside);
         let [across, down] = each!(axis in [0, 1] => {
             let step = DVec3x8::splat(simd, self.steps[axis]);
-            // A parallel ray moves with its sample, a perspective one turns.
             let moved = match self.view.camera.projection() {
-                Projection::Perspective => step * t,
+                Projection::Perspective => step * hit.t,
                 Projection::Parallel => step,
             };
-            let farther = -(charts.normal.dot(moved) / charts.normal.dot(samples.rays.direction));
-            let beside = moved + samples.rays.direction * farther;
-            each!(k in [0, 1] => charts.gradients[k].dot(beside))
+            let farther = -(hit.beside.dot(moved) / hit.beside.dot(hit.direction));
+            let beside = moved + hit.direction * farther;
+            each!(k in [0, 1] => gradients[k].dot(beside).abs())
         });
-        TexturePoints::new(charts.coordinate, across, down)
+        (coordinate, each!(k in [0, 1] => across[k] + down[k]))
     }
 }

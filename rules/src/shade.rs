@@ -4,9 +4,9 @@
 //! here asks whether the ray really meets the primitive there.
 
 use crate::samples::Samples;
-use bothways_common::engine::simd::{Simd, SimdBase, best_level, f64x8};
-use bothways_common::look::bands::{self, Points, Rays, Surfaces, Wanted};
-use bothways_common::look::lanes::DVec3x8;
+use bothways_common::engine::simd::{Simd, SimdBase, SimdNarrow, best_level, f32x16, f64x8};
+use bothways_common::look::bands::{self, Points, Sixteen, Surfaces, Wanted};
+use bothways_common::look::lanes::{DVec3x8, Vec3x16};
 use bothways_common::look::texture::{self, TexturePoints};
 use bothways_common::{Camera, Frame, Primitive, Projection, Ray, Sample, Shape, View};
 use glam::{DVec2, DVec3};
@@ -26,49 +26,50 @@ impl Surfaces for AsSeen<'_> {
     /// Its id.
     type Surface = u32;
 
-    fn rays<S: Simd>(
+    fn to_viewer<S: Simd>(
         &self,
         simd: S,
         _camera: &Camera,
         first: Sample,
-        _viewport: [f64x8<S>; 2],
-    ) -> Rays<S> {
-        let [_, columns] = self.samples.size();
-        let rays: [Ray; 8] = std::array::from_fn(|lane| {
-            self.samples.ray(first.row, (first.column + lane).min(columns as usize - 1))
+        _places: [f32x16<S>; 2],
+    ) -> Vec3x16<S> {
+        let [low, high] = [first, Sample { column: first.column + 8, ..first }].map(|first| {
+            let rays = self.rays(first);
+            DVec3x8::from_fn(simd, |lane| -rays[lane].direction)
         });
-        Rays {
-            origin: DVec3x8::from_fn(simd, |lane| rays[lane].origin),
-            direction: DVec3x8::from_fn(simd, |lane| rays[lane].direction),
-        }
+        low.narrow(high)
     }
 
     fn set_up(&self, seen: &bands::Seen, _wanted: Wanted) -> u32 {
         seen.id
     }
 
-    fn at<S: Simd>(&self, simd: S, id: &u32, samples: &bands::Samples<S>) -> Points<S> {
-        let seen: [Seen; 8] = std::array::from_fn(|lane| {
-            let rays = &samples.rays;
-            let ray = Ray { origin: rays.origin.lane(lane), direction: rays.direction.lane(lane) };
-            self.seen(&ray, *id, samples.t[lane])
+    fn at<S: Simd>(&self, simd: S, id: &u32, samples: &Sixteen<S>, points: &mut Points<'_>) {
+        let halves = [&samples.low, &samples.high].map(|samples| -> [Seen; 8] {
+            let rays = self.rays(samples.first);
+            std::array::from_fn(|lane| self.seen(&rays[lane], *id, samples.t[lane]))
         });
-        let lanes = |of: fn(&Texture) -> DVec2| {
-            [0, 1].map(|k| {
-                f64x8::from_fn(simd, |lane| seen[lane].texture.as_ref().map_or(0.0, |t| of(t)[k]))
+        let vectors = |of: fn(&Seen) -> DVec3| {
+            halves.each_ref().map(|seen| DVec3x8::from_fn(simd, |lane| of(&seen[lane])))
+        };
+        let numbers = |of: fn(&Texture) -> DVec2| {
+            halves.each_ref().map(|seen| {
+                [0, 1].map(|k| {
+                    f64x8::from_fn(simd, |lane| {
+                        seen[lane].texture.as_ref().map_or(0.0, |t| of(t)[k])
+                    })
+                })
             })
         };
-        let texture = seen[0].texture.is_some().then(|| {
-            TexturePoints::new(
-                lanes(|of| of.coordinate),
-                lanes(|of| of.across),
-                lanes(|of| of.down),
-            )
-        });
-        Points {
-            position: DVec3x8::from_fn(simd, |lane| seen[lane].position),
-            normal: DVec3x8::from_fn(simd, |lane| seen[lane].normal),
-            texture,
+        let [low, high] = vectors(|seen| seen.normal);
+        points.set_normals(low.narrow(high));
+        points.set_positions(vectors(|seen| seen.position));
+        if halves[0][0].texture.is_some() {
+            let [low, high] = numbers(|texture| texture.footprint);
+            points.set_texture(&TexturePoints {
+                halves: numbers(|texture| texture.coordinate),
+                footprint: [low[0].narrow(high[0]), low[1].narrow(high[1])],
+            });
         }
     }
 }
@@ -80,14 +81,21 @@ struct Seen {
     texture: Option<Texture>,
 }
 
-/// A texture coordinate, and how it changes to the neighbouring samples.
+/// A texture coordinate, and how far it changes to the neighbouring samples.
 struct Texture {
     coordinate: DVec2,
-    across: DVec2,
-    down: DVec2,
+    footprint: DVec2,
 }
 
 impl AsSeen<'_> {
+    /// The rays of eight samples; those beyond the row's end are the last one's.
+    fn rays(&self, first: Sample) -> [Ray; 8] {
+        let [_, columns] = self.samples.size();
+        std::array::from_fn(|lane| {
+            self.samples.ray(first.row, (first.column + lane).min(columns as usize - 1))
+        })
+    }
+
     /// What a primitive looks like along a ray at `t`.
     fn seen(&self, ray: &Ray, id: u32, t: f64) -> Seen {
         let (view, position) = (self.view, ray.origin + t * ray.direction);
@@ -96,7 +104,7 @@ impl AsSeen<'_> {
         let texture = point.texture().map(|(coordinate, gradients)| {
             let [across, down] = steps(self.samples, ray, t, normal)
                 .map(|step| DVec2::from(gradients.map(|gradient| gradient.dot(step))));
-            Texture { coordinate, across, down }
+            Texture { coordinate, footprint: across.abs() + down.abs() }
         });
         Seen { position, normal, texture }
     }

@@ -8,22 +8,23 @@
 mod desk;
 mod surfaces;
 
-use crate::camera::{Projection, SampleGrid};
-use crate::engine::simd::{Level, Simd, SimdBase, SimdNarrow, dispatch, f64x8};
+use crate::camera::SampleGrid;
+use crate::engine::simd::{Level, Simd, SimdBase, dispatch, f32x16, f64x8};
 use crate::frame::{Frame, NO_PRIMITIVE, ShadingBand};
 use crate::look::color::{srgb_from_linear, srgb_of_sixteen};
-use crate::look::lanes::{DVec3x8, Vec3x16, each};
-use crate::look::shade::{Lighting, SurfacePoints};
-use crate::look::texture::TexturePoints;
+use crate::look::lanes::{Vec3x16, each};
+use crate::look::shade::{Finish, Lighting, SurfacePoints};
 use crate::raster::Sample;
 use crate::scene::material::Material;
 use crate::view::View;
-use desk::{CHUNK, Chunk, Desk, Kept, Run, Setting, eight, eight_vectors, store_eight};
-use glam::{DVec3, Vec2, Vec3};
+use desk::{
+    CHUNK, Chunk, Desk, Kept, Run, Setting, eight, eight_vectors, sixteen, sixteen_vectors,
+};
+use glam::{DVec2, Vec2, Vec3};
 use rayon::prelude::*;
 use std::ops::Range;
 
-pub use surfaces::{Points, Rays, STORED_ERROR, Samples, Seen, Surfaces, Wanted};
+pub use surfaces::{Points, Rays, STORED_ERROR, Samples, Seen, Sixteen, Surfaces, Wanted};
 
 /// Gives a frame its picture, and all else that it keeps of the look of what is seen.
 ///
@@ -39,7 +40,12 @@ pub fn shade(view: &View, frame: &mut Frame, surfaces: &impl Surfaces, level: Le
     };
     let samples = frame.samples() as usize;
     let setting = Setting { view, surfaces, wanted };
-    let look = Look { setting, grid, lighting, samples };
+    let [across, down] = [grid.x(), grid.y()].map(|places| {
+        #[expect(clippy::cast_possible_truncation, reason = "light needs no more digits")]
+        let places = places.iter().map(|place| (place / view.camera.distance()) as f32);
+        places.chain([0.0; 16]).collect()
+    });
+    let look = Look { setting, grid, lighting, across, down, samples };
     // A pixel of one sample has no sum.
     let sums = if samples > 1 { look.grid.width() / samples } else { 0 };
     frame.shading_bands().into_par_iter().for_each_init(
@@ -53,6 +59,9 @@ struct Look<'a, A> {
     setting: Setting<'a, A>,
     grid: SampleGrid<'a>,
     lighting: Lighting,
+    /// The places of columns and rows on the viewport, in lengths of the camera's distance; and sixteen more.
+    across: Vec<f32>,
+    down: Vec<f32>,
     /// Along one side of a pixel.
     samples: usize,
 }
@@ -105,49 +114,17 @@ impl<'a, A: Surfaces> Look<'a, A> {
             }
         } else {
             desk.find_runs(simd, &self.setting, ids);
-            self.find_rays(simd, desk, Sample { row, column: first }, &band.t[stored.clone()]);
-            self.find_points(simd, desk, row, kept);
+            desk.chunk.x[..ids.len()].copy_from_slice(&self.grid.x()[first..first + ids.len()]);
+            if desk.seen().any(|surface| self.setting.surfaces.looks_at_t(surface)) {
+                for (wide, t) in desk.chunk.t.iter_mut().zip(&band.t[stored.clone()]) {
+                    *wide = f64::from(*t);
+                }
+            }
+            self.find_points(simd, desk, Sample { row, column: first }, kept);
         }
         let normals = band.normals.as_mut().map(|kept| &mut kept[stored.clone()]);
-        self.light(simd, desk, normals);
+        self.light(simd, desk, Sample { row, column: first }, normals);
         self.write(desk, band, within, stored);
-    }
-
-    /// Where the samples of a chunk are, their viewing rays and their `t`, from the first to the last sample at which
-    /// something is seen.
-    #[inline(always)]
-    fn find_rays<S: Simd>(
-        &self,
-        simd: S,
-        desk: &mut Desk<'a, A::Surface>,
-        start: Sample,
-        stored: &[f32],
-    ) {
-        let (camera, runs, chunk) = (self.setting.view.camera, &desk.runs, &mut *desk.chunk);
-        let nothing_until = match runs[..] {
-            [Run { end, place: None }, ..] => end,
-            _ => 0,
-        };
-        let nothing_from = match runs[..] {
-            [.., Run { end, .. }, Run { place: None, .. }] => end,
-            _ => stored.len(),
-        };
-        let seen = nothing_until..nothing_from;
-        let columns = start.column + seen.start..start.column + seen.end;
-        chunk.x[seen.clone()].copy_from_slice(&self.grid.x()[columns]);
-        for (wide, t) in chunk.t[seen.clone()].iter_mut().zip(&stored[seen.clone()]) {
-            *wide = f64::from(*t);
-        }
-        let y = f64x8::splat(simd, self.grid.y()[start.row]);
-        for at in seen.step_by(8) {
-            let sample = Sample { column: start.column + at, ..start };
-            let rays =
-                self.setting.surfaces.rays(simd, camera, sample, [eight(simd, &chunk.x, at), y]);
-            store_eight(rays.direction, &mut chunk.direction, at);
-            if camera.projection() == Projection::Parallel {
-                store_eight(rays.origin, &mut chunk.origin, at);
-            }
-        }
     }
 
     /// What is seen at the samples of a chunk: fills its positions, normals and fractions.
@@ -156,7 +133,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
         &self,
         simd: S,
         desk: &mut Desk<'a, A::Surface>,
-        row: usize,
+        start: Sample,
         mut texture_coordinates: Option<&mut [Vec2]>,
     ) {
         let (kept, chunk, mut begin) = (&desk.kept, &mut *desk.chunk, 0);
@@ -165,7 +142,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
             begin = end;
             if let Some(place) = place {
                 let kept = &kept[place as usize];
-                self.find_run(simd, chunk, kept, row, run, &mut texture_coordinates);
+                self.find_run(simd, chunk, kept, start, run, &mut texture_coordinates);
             } else if let Some(kept) = &mut texture_coordinates {
                 kept[run].fill(Vec2::ZERO);
             }
@@ -179,44 +156,50 @@ impl<'a, A: Surfaces> Look<'a, A> {
         simd: S,
         chunk: &mut Chunk,
         Kept { surface, material }: &Kept<'a, A::Surface>,
-        row: usize,
+        start: Sample,
         run: Range<usize>,
         texture_coordinates: &mut Option<&mut [Vec2]>,
     ) {
-        let y = f64x8::splat(simd, self.grid.y()[row]);
-        for at in run.clone().step_by(8) {
-            let rays = Rays {
-                // All perspective rays begin at the eye.
-                origin: match self.setting.view.camera.projection() {
-                    Projection::Perspective => DVec3x8::splat(simd, DVec3::ZERO),
-                    Projection::Parallel => eight_vectors(simd, &chunk.origin, at),
+        let y = f64x8::splat(simd, self.grid.y()[start.row]);
+        for at in run.clone().step_by(16) {
+            let first = Sample { column: start.column + at, ..start };
+            let next = Sample { column: first.column + 8, ..first };
+            let samples = Sixteen {
+                low: Samples {
+                    first,
+                    x: eight(simd, &chunk.x, at),
+                    y,
+                    t: eight(simd, &chunk.t, at),
                 },
-                direction: eight_vectors(simd, &chunk.direction, at),
+                high: Samples {
+                    first: next,
+                    x: eight(simd, &chunk.x, at + 8),
+                    y,
+                    t: eight(simd, &chunk.t, at + 8),
+                },
+                is_short: run.end - at <= 8,
             };
-            let samples =
-                Samples { x: eight(simd, &chunk.x, at), y, rays, t: eight(simd, &chunk.t, at) };
-            let points = self.setting.surfaces.at(simd, surface, &samples);
             // What is written beyond the run is overwritten by the next one.
-            store_eight(points.normal, &mut chunk.normal, at);
-            if self.setting.wanted.positions {
-                store_eight(points.position, &mut chunk.position, at);
-            }
+            let mut points = Points { chunk: &mut *chunk, at, has_texture: false };
+            self.setting.surfaces.at(simd, surface, &samples, &mut points);
+            let has_texture = points.has_texture;
             if let Some(checker) = &material.checker {
-                let none = f64x8::splat(simd, 0.0);
-                let fraction =
-                    points.texture.map_or(none, |texture| checker.fraction(simd, &texture));
-                fraction.store_slice(&mut chunk.fraction[at..at + 8]);
+                let fraction = if has_texture {
+                    checker.fraction(simd, &points.texture(simd))
+                } else {
+                    f32x16::splat(simd, 0.0)
+                };
+                fraction.store_slice(&mut chunk.fraction[at..at + 16]);
             }
             if let Some(kept) = texture_coordinates {
-                let here = &mut kept[at..run.end.min(at + 8)];
-                match &points.texture {
-                    None => here.fill(Vec2::ZERO),
-                    Some(TexturePoints { coordinate: [across, up], .. }) => {
-                        let [across, up] = [across.narrow(*across), up.narrow(*up)];
-                        for (lane, kept) in here.iter_mut().enumerate() {
-                            *kept = Vec2::new(across[lane], up[lane]);
-                        }
+                let here = &mut kept[at..run.end.min(at + 16)];
+                if has_texture {
+                    let [across, up] = &chunk.coordinate;
+                    for (lane, kept) in here.iter_mut().enumerate() {
+                        *kept = DVec2::new(across[at + lane], up[at + lane]).as_vec2();
                     }
+                } else {
+                    here.fill(Vec2::ZERO);
                 }
             }
         }
@@ -228,8 +211,10 @@ impl<'a, A: Surfaces> Look<'a, A> {
         &self,
         simd: S,
         desk: &mut Desk<'a, A::Surface>,
+        start: Sample,
         mut normals: Option<&mut [Vec3]>,
     ) {
+        let y = f32x16::splat(simd, self.down[start.row]);
         let background = self.setting.view.scene.background;
         let background_bytes = {
             let [red, green, blue] = background.to_array().map(srgb_from_linear);
@@ -250,21 +235,20 @@ impl<'a, A: Surfaces> Look<'a, A> {
                 begin = end;
                 continue;
             };
+            let finish = Finish::new(material);
             for at in (begin..end).step_by(16) {
-                let [low, high] =
-                    each!(half in [at, at + 8] => eight_vectors(simd, &chunk.direction, half));
-                let to_viewer = low.narrow(high).normalized(simd).negated();
-                let [low, high] =
-                    each!(half in [at, at + 8] => eight_vectors(simd, &chunk.normal, half));
-                let normal = low.narrow(high).normalized(simd);
-                let fraction = eight(simd, &chunk.fraction, at);
+                let first = Sample { column: start.column + at, ..start };
+                let x = sixteen(simd, &self.across, first.column);
+                let Setting { view, surfaces, .. } = self.setting;
+                let to_viewer = surfaces.to_viewer(simd, view.camera, first, [x, y]);
+                let normal = sixteen_vectors(simd, &chunk.normal, at).normalized(simd);
                 let points = SurfacePoints {
                     positions: each!(half in [at, at + 8] => eight_vectors(simd, &chunk.position, half)),
                     normals: normal,
-                    to_viewer,
-                    fraction: fraction.narrow(eight(simd, &chunk.fraction, at + 8)),
+                    to_viewer: to_viewer.normalized(simd),
+                    fraction: sixteen(simd, &chunk.fraction, at),
                 };
-                let colors = self.lighting.colors(simd, &points, material);
+                let colors = self.lighting.colors(simd, &points, &finish);
                 let [red, green, blue] = &mut chunk.color;
                 colors[0].store_slice(&mut red[at..at + 16]);
                 colors[1].store_slice(&mut green[at..at + 16]);

@@ -27,7 +27,7 @@ pub fn linear_from_encoded(encoded: f32) -> f32 {
 /// [`srgb_from_linear`] of the red, green and blue of sixteen colours; each is `red + 2⁸·green + 2¹⁶·blue`.
 #[inline(always)]
 pub(crate) fn srgb_of_sixteen<S: Simd>(simd: S, colors: [f32x16<S>; 3]) -> [u32; 16] {
-    let table: &[u32; ENTRIES] = &ENCODING;
+    let table: &[u32; ROOM] = &ENCODING;
     let [least, one] = each!(value in [LEAST, 1.0] => f32x16::splat(simd, value));
     let [red, green, blue] = each!(k in [0, 1, 2] => {
         let linear = colors[k];
@@ -35,11 +35,10 @@ pub(crate) fn srgb_of_sixteen<S: Simd>(simd: S, colors: [f32x16<S>; 3]) -> [u32;
         let linear = linear.simd_lt(one).select(linear, one);
         let above = linear.bitcast::<u32x16<S>>() - u32x16::splat(simd, LEAST.to_bits());
         let places = (above >> 16).to_array();
-        // The remainder never leads outside, but only the clamping above knows it.
-        let mut entries = [0; 16];
-        for (entry, place) in entries.iter_mut().zip(places) {
-            *entry = table[(place as usize).min(ENTRIES - 1)];
-        }
+        // The mask never changes a place, but only the clamping above knows it.
+        let entries = each!(lane in [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15] => {
+            table[places[lane] as usize & (ROOM - 1)]
+        });
         let entries = u32x16::from_slice(simd, &entries);
         (entries + (above & u32x16::splat(simd, 0xffff))) >> 16
     });
@@ -51,14 +50,17 @@ const LEAST: f32 = f32::from_bits((127 - 13) << 23);
 /// The steps of the table up to 1, and 1 itself: 128 to an octave.
 const ENTRIES: usize = 13 * 128 + 1;
 
+/// Room for them, as a power of 2.
+const ROOM: usize = ENTRIES.next_power_of_two();
+
 /// One entry for all numbers with the same upper half of their bits: `2¹⁶` times the byte of the first of them, and the
 /// distance from the last to the smallest of them, if there is one, whose byte is larger by 1. Added to the lower half
 /// of a number's bits, it gives the byte in the upper half. No entry has two such: the encoding rises by at most
 /// 255 · 1.055 / (2.4 · 128) < 1 in a step.
-static ENCODING: LazyLock<Box<[u32; ENTRIES]>> = LazyLock::new(|| {
-    let mut table = Box::new([0; ENTRIES]);
+static ENCODING: LazyLock<Box<[u32; ROOM]>> = LazyLock::new(|| {
+    let mut table = Box::new([0; ROOM]);
     let mut byte = 0;
-    for (place, entry) in (0_u32..).zip(table.iter_mut()) {
+    for (place, entry) in (0_u32..).zip(table[..ENTRIES].iter_mut()) {
         let first = LEAST.to_bits() + (place << 16);
         while byte < 255 && first_with(byte + 1).to_bits() <= first {
             byte += 1;

@@ -1,7 +1,7 @@
 //! Vectors of space in SIMD lanes: of eight samples in `f64`, of sixteen in `f32`.
 
 use crate::engine::simd::{Select, Simd, SimdBase, SimdFloat, SimdNarrow, f32x16, f64x8, mask64x8};
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use std::ops::{Add, Mul, Sub};
 
 /// The values of an expression for each of some others, as an array: `each!(k in [0, 1] => a[k] * b[k])`. With vectors,
@@ -137,6 +137,14 @@ impl<S: Simd> DVec3x8<S> {
 }
 
 impl<S: Simd> Vec3x16<S> {
+    /// The same vector for all samples.
+    #[inline(always)]
+    pub fn splat(simd: S, vector: Vec3) -> Self {
+        let Vec3 { x, y, z } = vector;
+        let [x, y, z] = each!(coordinate in [x, y, z] => f32x16::splat(simd, coordinate));
+        Lanes { x, y, z }
+    }
+
     /// Against the directions.
     #[inline(always)]
     pub fn negated(self) -> Self {

@@ -1,10 +1,42 @@
 //! Powers in SIMD, with a derived bound.
 
-use crate::engine::simd::{Bytes, Select, Simd, SimdBase, SimdFloat, SimdInt, f32x16, i32x16};
+use crate::engine::simd::{
+    Bytes, Select, Simd, SimdBase, SimdFloat, SimdInt, f32x16, i32x16, mask32x16,
+};
 use std::f32::consts::{FRAC_1_SQRT_2, LN_2, LOG2_E};
 
-/// `base^exponent` for a base in 0 … 1 and a positive exponent; a base above 1 counts as 1, and what is not a number
-/// as 0.
+/// An exponent, and from which base on its powers are worth computing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Exponent {
+    exponent: f32,
+    /// Powers of smaller bases are below 2⁻²², or the bases are subnormal.
+    least: f32,
+}
+
+impl Exponent {
+    /// A positive exponent.
+    pub(crate) fn new(exponent: f32) -> Exponent {
+        // The power is below 2^−22 if log₂ base < −22 / exponent; eighths of an octave are fine enough. Roots and products
+        // are rounded alike on every machine; a hundredth of an octave is more than all their roundings.
+        let eighths = (8.0 * 22.01 / exponent).ceil();
+        let eighth = 0.5_f32.sqrt().sqrt().sqrt();
+        let (mut least, mut count) = (1.0, 0.0);
+        while count < eighths && least > f32::MIN_POSITIVE {
+            least *= eighth;
+            count += 1.0;
+        }
+        Exponent { exponent, least: least.max(f32::MIN_POSITIVE) }
+    }
+
+    /// Where the power of a base is not certainly 0: what is left out is below 2⁻²².
+    #[inline(always)]
+    pub(crate) fn is_some<S: Simd>(self, simd: S, base: f32x16<S>) -> mask32x16<S> {
+        base.simd_ge(f32x16::splat(simd, self.least))
+    }
+}
+
+/// `base^exponent` for a base in 0 … 1 and a positive exponent; a base above 1 counts as 1. Where
+/// [`Exponent::is_some`] is false, the result means nothing, and 0 is to be taken: so it is for what is not a number.
 ///
 /// The result is within 2⁻²¹ of the true power, absolutely. The derivation, with `ε = 2⁻²⁴` for one rounding:
 ///
@@ -22,9 +54,8 @@ use std::f32::consts::{FRAC_1_SQRT_2, LN_2, LOG2_E};
 ///   `2^y · (10ε · |y| ln 2 + 4ε) ≤ 10ε/e + 4ε < 8ε = 2⁻²¹`, as `2^y · |y| ln 2 ≤ 1/e`. Where `y` was raised to
 ///   −126, both the result and the true power are below 2⁻¹²⁵.
 #[inline(always)]
-pub(crate) fn power<S: Simd>(simd: S, base: f32x16<S>, exponent: f32x16<S>) -> f32x16<S> {
+pub(crate) fn power<S: Simd>(simd: S, base: f32x16<S>, exponent: Exponent) -> f32x16<S> {
     let splat = |value: f32| f32x16::splat(simd, value);
-    let is_normal = base.simd_ge(splat(f32::MIN_POSITIVE));
     let base = base.simd_lt(splat(1.0)).select(base, splat(1.0));
 
     let bits: i32x16<S> = base.bitcast();
@@ -40,7 +71,7 @@ pub(crate) fn power<S: Simd>(simd: S, base: f32x16<S>, exponent: f32x16<S>) -> f
     }
     let logarithm = s * sum * splat(2.0 * LOG2_E) + e.to_float::<f32x16<S>>();
 
-    let y = exponent * logarithm;
+    let y = splat(exponent.exponent) * logarithm;
     let y = y.simd_gt(splat(-126.0)).select(y, splat(-126.0));
     let n = y.round_ties_even();
     let g = (y - n) * splat(LN_2);
@@ -49,7 +80,7 @@ pub(crate) fn power<S: Simd>(simd: S, base: f32x16<S>, exponent: f32x16<S>) -> f
         sum = sum * g + splat(coefficient);
     }
     let scaled: i32x16<S> = sum.bitcast::<i32x16<S>>() + (n.to_int::<i32x16<S>>() << 23);
-    is_normal.select(scaled.bitcast(), splat(0.0))
+    scaled.bitcast()
 }
 
 #[cfg(test)]
@@ -59,8 +90,9 @@ mod tests {
 
     fn powers(level: Level, bases: [f32; 16], exponent: f32) -> [f32; 16] {
         dispatch!(level, simd => {
-            let base = f32x16::from_slice(simd, &bases);
-            power(simd, base, f32x16::splat(simd, exponent)).to_array()
+            let (base, exponent) = (f32x16::from_slice(simd, &bases), Exponent::new(exponent));
+            let is_some = exponent.is_some(simd, base);
+            is_some.select(power(simd, base, exponent), f32x16::splat(simd, 0.0)).to_array()
         })
     }
 
@@ -91,6 +123,22 @@ mod tests {
         }
         println!("largest error: 2^{:.2}", worst.log2());
         assert!(worst < f64::from(2f32.powi(-21)), "{worst}");
+    }
+
+    #[test]
+    fn only_powers_that_are_too_small_to_be_seen_are_left_out() {
+        for exponent in [0.01_f32, 0.25, 1.0, 3.7, 12.5, 30.0, 60.0, 500.0, 1e5] {
+            let least = f64::from(Exponent::new(exponent).least);
+            let left_out = least.powf(f64::from(exponent));
+            let ends = least <= f64::from(f32::MIN_POSITIVE);
+            assert!(
+                least < 1.0 && (ends || left_out <= 2f64.powi(-22)),
+                "{exponent}: {left_out:e}"
+            );
+            // Not even an eighth of an octave more than needed, unless numbers end.
+            let next = (least * 2f64.powf(0.13)).min(1.0).powf(f64::from(exponent));
+            assert!(ends || next > 2f64.powf(-22.01), "{exponent}: {next:e}");
+        }
     }
 
     #[test]

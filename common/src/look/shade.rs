@@ -1,9 +1,9 @@
 //! The look of surface points: one function for both orders, which each bring their own normals
 //! and texture coordinates.
 
-use crate::engine::simd::{Select, Simd, SimdBase, SimdMask, f32x16};
-use crate::look::lanes::{DVec3x8, Lanes, Vec3x16, each};
-use crate::look::power::power;
+use crate::engine::simd::{Select, Simd, SimdBase, SimdMask, f32x16, mask32x16};
+use crate::look::lanes::{DVec3x8, Vec3x16, each};
+use crate::look::power::{Exponent, power};
 use crate::scene::material::{Light, Material};
 use crate::view::View;
 use glam::{DVec3, Vec3};
@@ -20,6 +20,21 @@ pub struct SurfacePoints<S: Simd> {
     pub to_viewer: Vec3x16<S>,
     /// The fraction of the material's pattern that has the second colour.
     pub fraction: f32x16<S>,
+}
+
+/// A material, prepared for all its samples.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Finish<'a> {
+    material: &'a Material,
+    /// That of the square of a cosine.
+    exponent: Exponent,
+}
+
+impl Finish<'_> {
+    /// The look of this material.
+    pub fn new(material: &Material) -> Finish<'_> {
+        Finish { material, exponent: Exponent::new(0.5 * material.shininess) }
+    }
 }
 
 /// The lights of a view, prepared for all its samples.
@@ -83,17 +98,15 @@ impl Lighting {
         &self,
         simd: S,
         points: &SurfacePoints<S>,
-        material: &Material,
+        finish: &Finish,
     ) -> [f32x16<S>; 3] {
+        let material = finish.material;
         let splat = |value: f32| f32x16::splat(simd, value);
         let mut diffuse = splat(self.ambient);
         let mut highlights = splat(0.0);
         for Lamp { place, intensity } in &self.lamps {
             let to_light = match place {
-                Place::Towards(direction) => {
-                    let Vec3 { x, y, z } = *direction;
-                    Lanes { x: splat(x), y: splat(y), z: splat(z) }
-                }
+                Place::Towards(direction) => Vec3x16::splat(simd, *direction),
                 Place::At(light) => {
                     let light = DVec3x8::splat(simd, *light);
                     let [low, high] = each!(k in [0, 1] => light - points.positions[k]);
@@ -108,8 +121,10 @@ impl Lighting {
             }
             let intensity = is_lit.select(splat(*intensity), splat(0.0));
             diffuse += intensity * is_lit.select(cosine, splat(0.0));
-            if material.specular != 0.0 {
-                highlights += intensity * highlight(simd, points, to_light, material.shininess);
+            if material.specular != 0.0
+                && let Some(highlight) = highlight(simd, points, to_light, finish.exponent, is_lit)
+            {
+                highlights += intensity * highlight;
             }
         }
         let highlights = highlights * splat(material.specular);
@@ -119,20 +134,25 @@ impl Lighting {
 }
 
 /// Blinn's highlight: the cosine between the normal and halfway from the light to the viewer, to the power of the
-/// shininess. It is found from the square of the cosine, without a root.
+/// shininess. It is found from the square of the cosine, without a root. `None` if it is 0 for all.
 #[inline(always)]
 fn highlight<S: Simd>(
     simd: S,
     points: &SurfacePoints<S>,
     to_light: Vec3x16<S>,
-    shininess: f32,
-) -> f32x16<S> {
+    exponent: Exponent,
+    is_lit: mask32x16<S>,
+) -> Option<f32x16<S>> {
     let halfway = to_light + points.to_viewer;
     let along = points.normals.dot(halfway);
     let zero = f32x16::splat(simd, 0.0);
-    let along = along.simd_gt(zero).select(along, zero);
     let square = along * along / halfway.dot(halfway);
-    power(simd, square, f32x16::splat(simd, 0.5 * shininess))
+    // Most of a surface has no highlight.
+    let is_some = exponent.is_some(simd, square) & along.simd_gt(zero) & is_lit;
+    if is_some.all_false() {
+        return None;
+    }
+    Some(is_some.select(power(simd, square, exponent), zero))
 }
 
 /// The material's colour where so much of its pattern has the second colour.
@@ -163,15 +183,15 @@ mod tests {
         let lighting = Lighting::new(&View::new(&scene, &camera));
         let of_level = |level| {
             dispatch!(level, simd => {
-                let [zero, one] = [0.0, 1.0].map(|value| f32x16::splat(simd, value));
-                let towards = Lanes { x: zero, y: zero, z: one };
+                let zero = f32x16::splat(simd, 0.0);
+                let towards = Vec3x16::splat(simd, Vec3::Z);
                 let points = SurfacePoints {
                     positions: [DVec3x8::splat(simd, -DVec3::Z); 2],
                     normals: towards,
                     to_viewer: towards,
                     fraction: zero,
                 };
-                lighting.colors(simd, &points, material).map(|channel| channel[3])
+                lighting.colors(simd, &points, &Finish::new(material)).map(|channel| channel[3])
             })
         };
         levels().into_iter().map(of_level).collect()

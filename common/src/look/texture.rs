@@ -9,37 +9,24 @@
 //! | sphere | the turn around the y axis from +x towards −z, and the latitude; both from 0 to 1 |
 //! | plane | lengths of the world from the plane's point, to the right and up: see [`plane_axes`] |
 
-use crate::engine::simd::{Select, Simd, SimdBase, SimdFloat, f64x8};
+use crate::engine::simd::{Select, Simd, SimdBase, SimdFloat, SimdMask, SimdNarrow, f32x16, f64x8};
 use crate::look::lanes::{DVec3x8, each};
 use crate::scene::material::Checker;
 use crate::scene::shape::Shape;
 use glam::{DVec2, DVec3, Vec2};
 use std::f64::consts::{FRAC_1_PI, TAU};
 
-/// The texture coordinates of eight samples, and how much of the texture each sample sees.
+/// The texture coordinates of sixteen samples, and how much of the texture each sample sees.
 #[derive(Clone, Copy, Debug)]
 pub struct TexturePoints<S: Simd> {
-    /// The coordinates of the surface points in the middle of the samples.
-    pub coordinate: [f64x8<S>; 2],
+    /// The coordinates of the surface points in the middle of the samples: of the first eight, and of the next ones.
+    pub halves: [[f64x8<S>; 2]; 2],
     /// Width and height of the part of the texture from one sample to the next, to first order.
-    pub footprint: [f64x8<S>; 2],
-}
-
-impl<S: Simd> TexturePoints<S> {
-    /// Coordinates that change by so much from a sample to the next one across, and to the next one down.
-    #[inline(always)]
-    pub fn new(
-        coordinate: [f64x8<S>; 2],
-        across: [f64x8<S>; 2],
-        down: [f64x8<S>; 2],
-    ) -> TexturePoints<S> {
-        let footprint = each!(k in [0, 1] => across[k].abs() + down[k].abs());
-        TexturePoints { coordinate, footprint }
-    }
+    pub footprint: [f32x16<S>; 2],
 }
 
 impl Checker {
-    /// The fraction of a sample's footprint that has the pattern's second colour, from 0 to 1, for each of eight.
+    /// The fraction of a sample's footprint that has the pattern's second colour, from 0 to 1, for each of sixteen.
     ///
     /// The pattern is averaged over the sample's footprint. So it turns grey towards the horizon
     /// where cells become smaller than samples, and it is a continuous function of the coordinate: two orders
@@ -48,34 +35,61 @@ impl Checker {
     /// Williams, "Pyramidal Parametrics", SIGGRAPH 1983, for why; the average of stripes is exact
     /// here, from their integral.
     #[inline(always)]
-    pub fn fraction<S: Simd>(&self, simd: S, points: &TexturePoints<S>) -> f64x8<S> {
+    pub fn fraction<S: Simd>(&self, simd: S, points: &TexturePoints<S>) -> f32x16<S> {
+        let [low, high] = points.halves;
         let [across, up] = each!(k in [0, 1] => {
-            let divisions = f64x8::splat(simd, self.divisions[k].into());
-            stripes(simd, points.coordinate[k] * divisions, points.footprint[k] * divisions)
+            let divisions = self.divisions[k];
+            let wide = f64x8::splat(simd, divisions.into());
+            let depth = each!(half in [low, high] => depth_in_stripe(simd, half[k] * wide));
+            let width = points.footprint[k] * f32x16::splat(simd, divisions);
+            stripes(simd, depth[0].narrow(depth[1]), width)
         });
-        let half = f64x8::splat(simd, 0.5);
-        let fraction = half - half * (across * up);
-        let [zero, one] = each!(value in [0.0, 1.0] => f64x8::splat(simd, value));
-        let fraction = fraction.simd_gt(zero).select(fraction, zero);
-        fraction.simd_lt(one).select(fraction, one)
+        let half = f32x16::splat(simd, 0.5);
+        half - half * (across * up)
     }
 }
 
-/// The average, over an interval, of stripes that are 1 from 0 to 1, −1 from 1 to 2, and so on.
+/// How deep in their stripe places are: the distance from the nearest border, at most ½, with the stripe's sign. Stripes
+/// are 1 from 0 to 1, −1 from 1 to 2, and so on. Where a place is no number, so is the result.
+///
+/// What is computed here rounds only when the place itself has lost its last digits to its size, so in `f32` the result
+/// has all its digits, however close the border.
 #[inline(always)]
-fn stripes<S: Simd>(simd: S, middle: f64x8<S>, width: f64x8<S>) -> f64x8<S> {
-    /// Below it the difference of integrals would be all rounding.
-    const LEAST: f64 = 1e-9;
-    let splat = |value: f64| f64x8::splat(simd, value);
-    let (half, one, two) = (splat(0.5), splat(1.0), splat(2.0));
-    // The integral rises and falls between 0 and 1 with a period of 2.
-    let integral = |at: f64x8<S>| one - (at - two * (half * at).floor() - one).abs();
-    // Near 0, so that adding half of the width loses nothing.
-    let near = middle - two * (half * middle).floor();
-    let wide = half * width.simd_gt(splat(LEAST)).select(width, splat(LEAST));
-    let average = (integral(near + wide) - integral(near - wide)) / (two * wide);
+fn depth_in_stripe<S: Simd>(simd: S, place: f64x8<S>) -> f64x8<S> {
+    let [half, one, two] = each!(value in [0.5, 1.0, 2.0] => f64x8::splat(simd, value));
+    // Between −1 and 1, in the stripe of its sign.
+    let near = place - two * (half * place).round_ties_even();
+    let size = near.abs();
+    let rest = one - size;
+    size.simd_lt(rest).select(size, rest).copysign(near)
+}
+
+/// The average of stripes over an interval, from the depth of its middle and its width: within 2⁻²¹.
+///
+/// - An interval that is no wider than a stripe meets one border, the nearest one, or none. The average is the depth in
+///   halves of the interval, and no more than 1: one quotient of two numbers with one rounding each.
+/// - A wider one is averaged from the stripes' integral, which rises and falls between 0 and 1. Its two ends are rounded
+///   by at most `ε · (½ + width)` in all, with `ε = 2⁻²⁴`, and so is the integral, whose slope is 1; divided by a width
+///   above 1, the two differences stay below `4ε`, and three more roundings of numbers up to 1 add `3ε`.
+#[inline(always)]
+fn stripes<S: Simd>(simd: S, depth: f32x16<S>, width: f32x16<S>) -> f32x16<S> {
+    /// A point: narrower intervals are taken for it, so that no quotient is of zeros.
+    const LEAST: f32 = 1e-9;
+    let splat = |value: f32| f32x16::splat(simd, value);
+    let (one, zero) = (splat(1.0), splat(0.0));
+    let wide = splat(0.5) * width.simd_gt(splat(LEAST)).select(width, splat(LEAST));
+    let average = depth / wide;
+    let size = average.abs();
+    let mut average = size.simd_lt(one).select(size, one).copysign(depth);
+    let is_wider = width.simd_gt(one);
+    if is_wider.any_true() {
+        let integral =
+            |at: f32x16<S>| (at - splat(2.0) * (splat(0.5) * at).round_ties_even()).abs();
+        let of_wider = (integral(depth + wide) - integral(depth - wide)) / width;
+        average = is_wider.select(of_wider, average);
+    }
     // At a pole, or beyond all numbers: every stripe is seen at once.
-    (middle.is_finite() & width.is_finite()).select(average, splat(0.0))
+    (depth.is_finite() & width.is_finite()).select(average, zero)
 }
 
 /// The texture coordinates at the corners of a triangle of this shape, if all three have one. `local` counts the
@@ -127,16 +141,16 @@ pub fn on_sphere_lanes<S: Simd>(simd: S, offsets: DVec3x8<S>) -> ([f64x8<S>; 2],
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::simd::{best_level, dispatch};
+    use crate::engine::simd::{best_level, dispatch, levels};
     use glam::Vec3;
 
-    fn fraction(divisions: [f32; 2], coordinate: [f64; 2], footprint: f64) -> f64 {
+    fn fraction(divisions: [f32; 2], coordinate: [f64; 2], footprint: f32) -> f32 {
         let checker = Checker { color: Vec3::ZERO, divisions };
         dispatch!(best_level(), simd => {
-            let splat = |value: f64| f64x8::splat(simd, value);
+            let coordinate = coordinate.map(|value| f64x8::splat(simd, value));
             let points = TexturePoints {
-                coordinate: coordinate.map(splat),
-                footprint: [splat(footprint); 2],
+                halves: [coordinate; 2],
+                footprint: [f32x16::splat(simd, footprint); 2],
             };
             checker.fraction(simd, &points)[3]
         })
@@ -156,14 +170,38 @@ mod tests {
         let at = |k: i32| fraction([3.0, 5.0], [f64::from(k) * 1e-4, 0.1], footprint);
         // From one colour to the other takes a whole footprint: 100 steps.
         assert!((-20_000..20_000).all(|k| (at(k) - at(k + 1)).abs() < 0.011));
-        assert!((0..10_000).any(|k| at(k) < 1e-9) && (0..10_000).any(|k| at(k) > 1.0 - 1e-9));
+        assert!((0..10_000).any(|k| at(k) <= 0.0) && (0..10_000).any(|k| at(k) >= 1.0));
+    }
+
+    #[test]
+    fn averages_of_stripes_are_within_their_bound_at_every_level() {
+        let integral = |at: f64| 1.0 - (at - 2.0 * (0.5 * at).floor() - 1.0).abs();
+        let mut worst = 0.0_f64;
+        for step in 0..4000_u32 {
+            let middle = f64::from(step) * 0.618_034 - 1200.0;
+            for width in [1e-4_f32, 0.02, 0.3, 0.999, 1.0, 1.001, 1.7, 2.0, 3.3, 50.0, 1e4] {
+                let found = levels().into_iter().map(|level| {
+                    dispatch!(level, simd => {
+                        let depth = depth_in_stripe(simd, f64x8::splat(simd, middle));
+                        stripes(simd, depth.narrow(depth), f32x16::splat(simd, width))[5]
+                    })
+                });
+                let found: Vec<f32> = found.collect();
+                assert!(found.iter().all(|one| one.to_bits() == found[0].to_bits()));
+                let half = 0.5 * f64::from(width);
+                let expected = (integral(middle + half) - integral(middle - half)) / (2.0 * half);
+                worst = worst.max((f64::from(found[0]) - expected).abs());
+            }
+        }
+        println!("largest error: 2^{:.2}", worst.log2());
+        assert!(worst < f64::from(2f32.powi(-21)), "{worst}");
     }
 
     #[test]
     fn what_is_too_fine_or_nowhere_is_grey() {
         assert!((fraction([1.0; 2], [0.3, 0.4], 1000.0) - 0.5).abs() < 1e-3);
-        for odd in [f64::NAN, f64::INFINITY] {
-            assert_eq!(fraction([1.0; 2], [odd, 0.5], 0.1), 0.5);
+        for odd in [f32::NAN, f32::INFINITY] {
+            assert_eq!(fraction([1.0; 2], [odd.into(), 0.5], 0.1), 0.5);
             assert_eq!(fraction([1.0; 2], [0.5, 0.5], odd), 0.5);
         }
         assert_eq!(fraction([1.0; 2], [0.5, 0.5], 0.0), 0.0, "no footprint is a point");

@@ -7,7 +7,7 @@
 
 use super::quotient::Affine;
 use bothways_common::engine::simd::{Select, Simd, SimdBase, SimdFloat, f64x8};
-use bothways_common::look::bands::Samples;
+use bothways_common::look::bands::{Rays, Samples};
 use bothways_common::look::lanes::{DVec3x8, each};
 use bothways_common::{Primitive, Projection, View};
 use glam::DVec3;
@@ -34,10 +34,23 @@ impl<S: Simd> HitPoints<S> {
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Form {
     /// Seen at `t = −above/along`.
-    Flat { above: Affine, along: Affine },
-    /// The ray crosses the plane through the centre that faces the camera at `depth`, at `across·u + up·v` from the
-    /// centre.
-    Sphere { center: DVec3, radius: f64, depth: f64, across: Affine, up: Affine, axes: [DVec3; 2] },
+    Flat {
+        above: Affine,
+        along: Affine,
+    },
+    Sphere(Ball),
+}
+
+/// The ray crosses the plane through the centre that faces the camera at `depth`, at `across·u + up·v` from the
+/// centre.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ball {
+    center: DVec3,
+    radius: f64,
+    depth: f64,
+    across: Affine,
+    up: Affine,
+    axes: [DVec3; 2],
 }
 
 impl Form {
@@ -59,7 +72,7 @@ impl Form {
                 };
                 let across = Affine { at_center: -center.dot(u), across: scale, up: 0.0 };
                 let up = Affine { at_center: -center.dot(v), across: 0.0, up: scale };
-                Form::Sphere { center, radius, depth, across, up, axes: [u, v] }
+                Form::Sphere(Ball { center, radius, depth, across, up, axes: [u, v] })
             }
         }
     }
@@ -75,25 +88,30 @@ impl Form {
     /// The points that are seen at some samples. The stored `t` is taken where rounding leaves less: where a surface is
     /// seen almost edge-on, and where numbers are extreme.
     #[inline(always)]
-    pub(super) fn hit_points<S: Simd>(&self, simd: S, samples: &Samples<S>) -> HitPoints<S> {
+    pub(super) fn hit_points<S: Simd>(
+        &self,
+        simd: S,
+        samples: &Samples<S>,
+        rays: &Rays<S>,
+    ) -> HitPoints<S> {
         match self {
             Form::Flat { above, along } => {
                 let t = -above.lanes(simd, samples) / along.lanes(simd, samples);
                 let t = samples.is_close(simd, t).select(t, samples.t);
-                let position = samples.points_at(t);
+                let position = rays.at(t);
                 HitPoints { position, from_center: position }
             }
-            Form::Sphere { center, radius, depth, across, up, axes } => {
+            Form::Sphere(ball) => {
+                let Ball { center, radius, depth, across, up, axes } = ball;
                 let [u, v] = each!(k in [0, 1] => DVec3x8::splat(simd, axes[k]));
                 let (center, depth) = (DVec3x8::splat(simd, *center), f64x8::splat(simd, *depth));
                 let beside = u * across.lanes(simd, samples) + v * up.lanes(simd, samples);
-                let from = samples.rays.origin - center;
-                let on =
-                    farther(simd, beside, *radius, samples, [from.dot(from), samples.t - depth]);
+                let from = rays.origin - center;
+                let on = farther(simd, beside, *radius, rays, [from.dot(from), samples.t - depth]);
                 let t = depth + on;
                 let is_close = samples.is_close(simd, t);
-                let position = samples.points_at(is_close.select(t, samples.t));
-                let from_center = beside + samples.rays.direction * on;
+                let position = rays.at(is_close.select(t, samples.t));
+                let from_center = beside + rays.direction * on;
                 HitPoints { position, from_center: from_center.or(is_close, position - center) }
             }
         }
@@ -108,11 +126,11 @@ fn farther<S: Simd>(
     simd: S,
     beside: DVec3x8<S>,
     radius: f64,
-    samples: &Samples<S>,
+    rays: &Rays<S>,
     [begins, about]: [f64x8<S>; 2],
 ) -> f64x8<S> {
     let splat = |number: f64| f64x8::splat(simd, number);
-    let direction = samples.rays.direction;
+    let direction = rays.direction;
     let (a, b) = (direction.dot(direction), beside.dot(direction));
     let (zero, square) = (splat(0.0), splat(radius * radius));
     let discriminant = b * b - a * (beside.dot(beside) - square);

@@ -60,13 +60,20 @@ impl Affine {
         self.at_places(simd, samples.x, samples.y)
     }
 
-    /// Its values at some places of the viewport.
+    /// The part of its values that is the same in a row, and its values at some places of the row.
     #[inline(always)]
-    fn at_places<S: Simd>(&self, simd: S, x: f64x8<S>, y: f64x8<S>) -> f64x8<S> {
+    fn row<S: Simd>(&self, simd: S, x: f64x8<S>, y: f64x8<S>) -> (f64x8<S>, f64x8<S>) {
         let Affine { at_center, across, up } = *self;
         let [at_center, across, up] =
             each!(number in [at_center, across, up] => f64x8::splat(simd, number));
-        (at_center + y * up) + x * across
+        let in_row = at_center + y * up;
+        (in_row, in_row + x * across)
+    }
+
+    /// Its values at some places of the viewport.
+    #[inline(always)]
+    fn at_places<S: Simd>(&self, simd: S, x: f64x8<S>, y: f64x8<S>) -> f64x8<S> {
+        self.row(simd, x, y).1
     }
 
     /// No value on the viewport has a larger magnitude.
@@ -146,25 +153,31 @@ impl Quotient {
         Quotient { numerators: vectors.map(numerator), denominator: along }
     }
 
-    /// Both values at some places of the viewport, and their derivatives along `x` and along `y`.
+    /// Both values at some places of a row of the viewport, and how far each changes by a step down or across, added up.
+    ///
+    /// The derivative of `n/d` along `x` is `(n' d − n d') / d²`; what is above is the same in the whole row.
     #[inline(always)]
-    pub(super) fn at<S: Simd>(
+    pub(super) fn with_footprint<S: Simd>(
         &self,
         simd: S,
         x: f64x8<S>,
         y: f64x8<S>,
-    ) -> ([f64x8<S>; 2], [[f64x8<S>; 2]; 2]) {
-        let below = self.denominator.at_places(simd, x, y);
-        let value = each!(k in [0, 1] => self.numerators[k].at_places(simd, x, y) / below);
-        let slopes = |line: &Affine| [line.across, line.up];
-        let derivatives = each!(axis in [0, 1] => {
-            let of_denominator = f64x8::splat(simd, slopes(&self.denominator)[axis]);
-            each!(k in [0, 1] => {
-                let of_numerator = f64x8::splat(simd, slopes(&self.numerators[k])[axis]);
-                (of_numerator - value[k] * of_denominator) / below
-            })
+        [down, across]: [f64; 2],
+    ) -> ([f64x8<S>; 2], [f64x8<S>; 2]) {
+        let splat = |number: f64| f64x8::splat(simd, number);
+        let (along_row, below) = self.denominator.row(simd, x, y);
+        let reciprocal = splat(1.0) / below;
+        let of_both = each!(k in [0, 1] => {
+            let numerator = &self.numerators[k];
+            let (in_row, above) = numerator.row(simd, x, y);
+            let along_x = along_row * splat(numerator.across * across)
+                - in_row * splat(self.denominator.across * across);
+            let along_y = below * splat(numerator.up * down) - above * splat(self.denominator.up * down);
+            let value = above * reciprocal;
+            (value, (along_x.abs() + along_y.abs()) * reciprocal * reciprocal)
         });
-        (value, derivatives)
+        let [(across, width), (up, height)] = of_both;
+        ([across, up], [width, height])
     }
 
     /// The derivatives along `x` and along `y` at one place.
@@ -192,11 +205,18 @@ mod tests {
     fn at(quotient: &Quotient, x: f64, y: f64) -> (DVec2, [DVec2; 2]) {
         dispatch!(best_level(), simd => {
             let [x_lanes, y_lanes] = [x, y].map(|place| f64x8::splat(simd, place));
-            let (value, along) = quotient.at(simd, x_lanes, y_lanes);
             let of_lane = |pair: [f64x8<_>; 2]| DVec2::from(pair.map(|lanes| lanes[5]));
-            let along = along.map(of_lane);
-            assert_eq!(along, quotient.changes(x, y));
-            (of_lane(value), along)
+            // The footprints of steps that go only across, only down, and both ways.
+            let [(value, across), (_, down), (_, both)] = [[0.0, 1.0], [1.0, 0.0], [-2.0, 3.0]]
+                .map(|step| quotient.with_footprint(simd, x_lanes, y_lanes, step))
+                .map(|(value, footprint)| (of_lane(value), of_lane(footprint)));
+            let changes = quotient.changes(x, y);
+            let [along_x, along_y] = changes.map(DVec2::abs);
+            assert!((across - along_x).length() < 1e-13 * along_x.length().max(1.0), "{across}");
+            assert!((down - along_y).length() < 1e-13 * along_y.length().max(1.0), "{down}");
+            let sum = 3.0 * along_x + 2.0 * along_y;
+            assert!((both - sum).length() < 1e-13 * sum.length().max(1.0), "{both} {sum}");
+            (value, changes)
         })
     }
 

@@ -1,9 +1,9 @@
 //! What a thread works with while it shades: the samples of a chunk, and the primitives that are seen there.
 
 use super::surfaces::{Seen, Surfaces, Wanted};
-use crate::engine::simd::{Simd, SimdBase, SimdMask, f64x8, u32x16};
+use crate::engine::simd::{Simd, SimdBase, SimdMask, f32x16, f64x8, u32x16};
 use crate::frame::NO_PRIMITIVE;
-use crate::look::lanes::{DVec3x8, Lanes, each};
+use crate::look::lanes::{DVec3x8, Lanes, Vec3x16, each};
 use crate::scene::material::Material;
 use crate::view::View;
 use glam::Vec3;
@@ -52,14 +52,15 @@ pub(super) struct Run {
 }
 
 /// Numbers of the samples of a chunk.
+#[derive(Debug)]
 pub(super) struct Chunk {
     pub(super) x: [f64; CHUNK + BEYOND],
     pub(super) t: [f64; CHUNK + BEYOND],
-    pub(super) origin: [[f64; CHUNK + BEYOND]; 3],
-    pub(super) direction: [[f64; CHUNK + BEYOND]; 3],
     pub(super) position: [[f64; CHUNK + BEYOND]; 3],
-    pub(super) normal: [[f64; CHUNK + BEYOND]; 3],
-    pub(super) fraction: [f64; CHUNK + BEYOND],
+    pub(super) normal: [[f32; CHUNK + BEYOND]; 3],
+    pub(super) coordinate: [[f64; CHUNK + BEYOND]; 2],
+    pub(super) footprint: [[f32; CHUNK + BEYOND]; 2],
+    pub(super) fraction: [f32; CHUNK + BEYOND],
     pub(super) color: [[f32; CHUNK + BEYOND]; 3],
     pub(super) bytes: [u32; CHUNK + BEYOND],
 }
@@ -74,10 +75,10 @@ impl<'a, T> Desk<'a, T> {
             chunk: Box::new(Chunk {
                 x: [0.0; WIDE],
                 t: [0.0; WIDE],
-                origin: [[0.0; WIDE]; 3],
-                direction: [[0.0; WIDE]; 3],
                 position: [[0.0; WIDE]; 3],
                 normal: [[0.0; WIDE]; 3],
+                coordinate: [[0.0; WIDE]; 2],
+                footprint: [[0.0; WIDE]; 2],
                 fraction: [0.0; WIDE],
                 color: [[0.0; WIDE]; 3],
                 bytes: [0; WIDE],
@@ -120,6 +121,13 @@ impl<'a, T> Desk<'a, T> {
                 self.end_run(setting, ids, last);
             }
         }
+    }
+
+    /// The primitives of the runs.
+    #[inline(always)]
+    pub(super) fn seen(&self) -> impl Iterator<Item = &T> {
+        let places = self.runs.iter().filter_map(|run| run.place);
+        places.map(|place| &self.kept[place as usize].surface)
     }
 
     /// Adds the run of samples that ends with this one.
@@ -190,4 +198,32 @@ pub(super) fn store_eight<S: Simd>(
     vectors.x.store_slice(&mut to_x[at..at + 8]);
     vectors.y.store_slice(&mut to_y[at..at + 8]);
     vectors.z.store_slice(&mut to_z[at..at + 8]);
+}
+
+/// The next sixteen numbers.
+#[inline(always)]
+pub(super) fn sixteen<S: Simd>(simd: S, numbers: &[f32], at: usize) -> f32x16<S> {
+    f32x16::from_slice(simd, &numbers[at..at + 16])
+}
+
+/// The next sixteen vectors.
+#[inline(always)]
+pub(super) fn sixteen_vectors<S: Simd>(
+    simd: S,
+    [x, y, z]: &[[f32; CHUNK + BEYOND]; 3],
+    at: usize,
+) -> Vec3x16<S> {
+    Lanes { x: sixteen(simd, x, at), y: sixteen(simd, y, at), z: sixteen(simd, z, at) }
+}
+
+#[inline(always)]
+pub(super) fn store_sixteen<S: Simd>(
+    vectors: Vec3x16<S>,
+    to: &mut [[f32; CHUNK + BEYOND]; 3],
+    at: usize,
+) {
+    let [to_x, to_y, to_z] = to;
+    vectors.x.store_slice(&mut to_x[at..at + 16]);
+    vectors.y.store_slice(&mut to_y[at..at + 16]);
+    vectors.z.store_slice(&mut to_z[at..at + 16]);
 }

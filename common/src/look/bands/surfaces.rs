@@ -1,8 +1,9 @@
-//! What a renderer says of its surfaces, eight samples at a time.
+//! What a renderer says of its surfaces, sixteen samples at a time.
 
+use super::desk::{Chunk, eight, sixteen, store_eight, store_sixteen};
 use crate::camera::{Camera, Projection};
-use crate::engine::simd::{Simd, SimdBase, f64x8, mask64x8};
-use crate::look::lanes::{DVec3x8, each};
+use crate::engine::simd::{Simd, SimdBase, f32x16, f64x8, mask64x8};
+use crate::look::lanes::{DVec3x8, Vec3x16, each};
 use crate::look::texture::{self, TexturePoints};
 use crate::raster::Sample;
 use crate::scene::material::Material;
@@ -14,24 +15,44 @@ pub trait Surfaces: Sync {
     /// A visible primitive, set up for all samples at which it is seen.
     type Surface: Send;
 
-    /// The viewing rays through eight samples that follow one another in a row: those of the camera, unless a renderer
-    /// has others. There may be fewer samples; the lanes that are left over have any values.
+    /// The directions towards the viewer, of any length, at sixteen samples that follow one another in a row: against
+    /// the rays of the camera, unless a renderer has others. The samples are given by the first of them and by their
+    /// places, in lengths of the camera's distance. There may be fewer; the lanes that are left over have any values.
     #[inline(always)]
-    fn rays<S: Simd>(
+    fn to_viewer<S: Simd>(
         &self,
         simd: S,
         camera: &Camera,
         _first: Sample,
-        [x, y]: [f64x8<S>; 2],
-    ) -> Rays<S> {
-        Rays::of_camera(simd, camera, [x, y])
+        [x, y]: [f32x16<S>; 2],
+    ) -> Vec3x16<S> {
+        let splat = |axis: DVec3| Vec3x16::splat(simd, axis.as_vec3());
+        match camera.projection() {
+            Projection::Perspective => {
+                (splat(camera.w()) - splat(camera.v()) * y) - splat(camera.u()) * x
+            }
+            Projection::Parallel => splat(camera.w()),
+        }
     }
 
     /// Sets up a primitive. Where triangles are as small as samples, most of the time goes here: `#[inline(always)]`.
     fn set_up(&self, seen: &Seen, wanted: Wanted) -> Self::Surface;
 
-    /// What a primitive looks like at eight samples, at which it is seen. Lanes at which it is not have any values.
-    fn at<S: Simd>(&self, simd: S, surface: &Self::Surface, samples: &Samples<S>) -> Points<S>;
+    /// Whether the `t` of the samples matter to a primitive.
+    #[inline(always)]
+    fn looks_at_t(&self, _surface: &Self::Surface) -> bool {
+        true
+    }
+
+    /// Writes down what a primitive looks like at up to sixteen samples, at which it is seen. Lanes at which it is not
+    /// get any values.
+    fn at<S: Simd>(
+        &self,
+        simd: S,
+        surface: &Self::Surface,
+        samples: &Sixteen<S>,
+        points: &mut Points<'_>,
+    );
 }
 
 /// A primitive that is seen somewhere.
@@ -56,7 +77,7 @@ impl Seen<'_> {
         match &self.object.shape {
             Shape::Mesh(mesh) => {
                 let [a, b, c] = mesh.normals().of(self.local)?;
-                Some(each!(normal in [a, b, c] => normal.as_dvec3().normalize_or_zero()))
+                Some(each!(normal in [a, b, c] => unit(normal.as_dvec3())))
             }
             Shape::Triangle(_) | Shape::Sphere(_) | Shape::Plane(_) => None,
         }
@@ -69,6 +90,13 @@ impl Seen<'_> {
     }
 }
 
+/// The unit vector; a vector whose length is 1 but for its rounding to `f32` already stands for it, and takes no root.
+#[inline(always)]
+fn unit(vector: DVec3) -> DVec3 {
+    let is_unit = (vector.length_squared() - 1.0).abs() < 1e-6;
+    if is_unit { vector } else { vector.normalize_or_zero() }
+}
+
 /// What is needed to know of surfaces besides their normals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Wanted {
@@ -78,15 +106,26 @@ pub struct Wanted {
     pub texture_coordinates: bool,
 }
 
-/// Eight samples of a row.
+/// Up to sixteen samples of a row.
+#[derive(Clone, Copy, Debug)]
+pub struct Sixteen<S: Simd> {
+    /// The first eight.
+    pub low: Samples<S>,
+    /// The next ones.
+    pub high: Samples<S>,
+    /// Whether the first eight are all that matter.
+    pub is_short: bool,
+}
+
+/// Eight samples of a row; there may be fewer.
 #[derive(Clone, Copy, Debug)]
 pub struct Samples<S: Simd> {
+    /// The first of them.
+    pub first: Sample,
     /// Where they are on the viewport.
     pub x: f64x8<S>,
     /// Where their row is on the viewport.
     pub y: f64x8<S>,
-    /// Their viewing rays.
-    pub rays: Rays<S>,
     /// The `t` that is stored of what is seen.
     pub t: f64x8<S>,
 }
@@ -116,17 +155,65 @@ impl<S: Simd> Rays<S> {
             }
         }
     }
+
+    /// The points of the rays at these `t`.
+    #[inline(always)]
+    pub fn at(&self, t: f64x8<S>) -> DVec3x8<S> {
+        self.origin + self.direction * t
+    }
 }
 
-/// What is seen at eight samples.
-#[derive(Clone, Copy, Debug)]
-pub struct Points<S: Simd> {
-    /// Where it is, relative to the eye; anything unless positions are wanted.
-    pub position: DVec3x8<S>,
-    /// Normals towards the viewer, of any length between 2⁻⁶⁰ and 2⁶⁰.
-    pub normal: DVec3x8<S>,
-    /// Texture coordinates, where there are any and they are wanted or a pattern is drawn.
-    pub texture: Option<TexturePoints<S>>,
+/// Where to write what is seen at sixteen samples. It goes to memory at once: what is passed on in many vectors, some of
+/// which may be missing, is copied several times on its way.
+#[derive(Debug)]
+pub struct Points<'a> {
+    pub(super) chunk: &'a mut Chunk,
+    /// The first of the samples in the chunk.
+    pub(super) at: usize,
+    pub(super) has_texture: bool,
+}
+
+impl Points<'_> {
+    /// Normals towards the viewer, of any length between 2⁻⁶⁰ and 2⁶⁰. They are always wanted.
+    #[inline(always)]
+    pub fn set_normals<S: Simd>(&mut self, normals: Vec3x16<S>) {
+        store_sixteen(normals, &mut self.chunk.normal, self.at);
+    }
+
+    /// Where the points are, relative to the eye, two times eight: if positions are wanted.
+    #[inline(always)]
+    pub fn set_positions<S: Simd>(&mut self, [low, high]: [DVec3x8<S>; 2]) {
+        store_eight(low, &mut self.chunk.position, self.at);
+        store_eight(high, &mut self.chunk.position, self.at + 8);
+    }
+
+    /// Texture coordinates, if there are any and they are wanted or a pattern is drawn.
+    #[inline(always)]
+    pub fn set_texture<S: Simd>(&mut self, texture: &TexturePoints<S>) {
+        self.has_texture = true;
+        let [low, high] = &texture.halves;
+        let at = self.at;
+        let [across, up] = &mut self.chunk.coordinate;
+        low[0].store_slice(&mut across[at..at + 8]);
+        high[0].store_slice(&mut across[at + 8..at + 16]);
+        low[1].store_slice(&mut up[at..at + 8]);
+        high[1].store_slice(&mut up[at + 8..at + 16]);
+        let [width, height] = &mut self.chunk.footprint;
+        texture.footprint[0].store_slice(&mut width[at..at + 16]);
+        texture.footprint[1].store_slice(&mut height[at..at + 16]);
+    }
+
+    /// The texture that was set.
+    #[inline(always)]
+    pub(super) fn texture<S: Simd>(&self, simd: S) -> TexturePoints<S> {
+        let Chunk { coordinate, footprint, .. } = &*self.chunk;
+        TexturePoints {
+            halves: each!(at in [self.at, self.at + 8] => {
+                each!(k in [0, 1] => eight(simd, &coordinate[k], at))
+            }),
+            footprint: each!(k in [0, 1] => sixteen(simd, &footprint[k], self.at)),
+        }
+    }
 }
 
 /// The largest part of a stored `t` by which it may differ from the true one, with room: a `t` that is computed anew
@@ -138,11 +225,5 @@ impl<S: Simd> Samples<S> {
     #[inline(always)]
     pub fn is_close(&self, simd: S, t: f64x8<S>) -> mask64x8<S> {
         (t - self.t).abs().simd_le(f64x8::splat(simd, STORED_ERROR) * self.t)
-    }
-
-    /// The points of the viewing rays at these `t`.
-    #[inline(always)]
-    pub fn points_at(&self, t: f64x8<S>) -> DVec3x8<S> {
-        self.rays.origin + self.rays.direction * t
     }
 }
