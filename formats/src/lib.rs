@@ -53,6 +53,7 @@
 //! | [`mesh_stream`] | reads meshes that are larger than memory, in passes |
 //! | [`generate`] | generates meshes from formulas |
 //! | [`smooth`] | computes normals for meshes that have none |
+//! | [`warning`] | says what of a mesh's materials is missing |
 //! | [`source`] | opens files, and prepares text from files for messages |
 //!
 //! Dependencies run downwards only: `scene_file` and `mesh_stream` know `mesh_file`, `mesh_file` knows `obj` and `ply`,
@@ -83,5 +84,6 @@ pub mod ply;
 pub mod scene_file;
 pub mod smooth;
 pub mod source;
+pub mod warning;
 
 pub use bothways_common as common;

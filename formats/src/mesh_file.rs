@@ -1,7 +1,8 @@
 //! Reads mesh files of any supported format. The extension of a file names its format.
 
-use crate::obj::{self, MaterialWarning, ReadObjError};
+use crate::obj::{self, ReadObjError};
 use crate::ply::{self, ReadPlyError};
+use crate::warning::MaterialWarning;
 use bothways_common::scene::Mesh;
 use std::ffi::OsStr;
 use std::path::Path;
@@ -54,7 +55,8 @@ impl Format {
 
     /// Reads a mesh from a file of this format, and its materials from the files beside it.
     ///
-    /// OBJ files have such material files. Warnings name the materials that are missing. PLY files have none.
+    /// OBJ files have such material files. Warnings name the materials that are missing, and say if the colours of a PLY file
+    /// are.
     ///
     /// # Errors
     ///
@@ -65,7 +67,7 @@ impl Format {
     ) -> Result<(Mesh, Vec<MaterialWarning>), ReadMeshError> {
         Ok(match self {
             Format::Obj => obj::read_with_materials(path)?,
-            Format::Ply => (ply::read(path)?, Vec::new()),
+            Format::Ply => ply::read_with_warnings(path)?,
         })
     }
 
@@ -82,7 +84,7 @@ impl Format {
     ) -> Result<(Mesh, Vec<MaterialWarning>), ReadMeshError> {
         Ok(match self {
             Format::Obj => obj::parse_alone(name, bytes)?,
-            Format::Ply => (ply::parse(name, bytes)?, Vec::new()),
+            Format::Ply => ply::parse_with_warnings(name, bytes)?,
         })
     }
 }

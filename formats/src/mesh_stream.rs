@@ -5,8 +5,9 @@
 //! would show them.
 
 use crate::mesh_file::{Format, ReadMeshError};
-use crate::obj::{MaterialWarning, ObjFile};
+use crate::obj::ObjFile;
 use crate::ply::PlyFile;
+use crate::warning::MaterialWarning;
 use bothways_common::scene::Positions;
 use glam::Vec3;
 use std::fs::File;
@@ -99,7 +100,7 @@ impl MeshStream {
     pub fn material_warning(&self) -> Option<MaterialWarning> {
         match &self.faces {
             Faces::Obj(file) => file.material_warning(),
-            Faces::Ply(_) => None,
+            Faces::Ply(file) => file.color_warning(),
         }
     }
 

@@ -137,7 +137,7 @@ pub struct SceneFile {
     pub camera: CameraDescription,
     /// Whether the file states the viewport. If so, another image size keeps both its sides.
     pub viewport_stated: bool,
-    /// Messages about missing materials: see [`MaterialWarning`](crate::obj::MaterialWarning).
+    /// Messages about missing materials: see [`MaterialWarning`](crate::warning::MaterialWarning).
     pub warnings: Vec<String>,
 }
 

@@ -6,6 +6,7 @@ pub use materials::{MaterialSpan, MeshMaterials, NamedMaterial};
 
 use super::material::Material;
 use glam::{Vec2, Vec3};
+use rayon::prelude::*;
 
 /// Triangles over shared vertices.
 ///
@@ -95,10 +96,10 @@ impl Mesh {
     /// # Ok::<(), bothways_common::MeshError>(())
     /// ```
     pub fn new(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Result<Mesh, MeshError> {
-        if let Some(vertex) = positions.iter().position(|p| !p.is_finite()) {
+        if let Some(vertex) = positions.par_iter().position_first(|p| !p.is_finite()) {
             return Err(MeshError::NotFinite { vertex, position: positions[vertex] });
         }
-        check_indices("vertex", &triangles, positions.len())?;
+        check_indices("vertex", &triangles, positions.len(), None)?;
         Ok(Mesh { positions, triangles, ..Mesh::default() })
     }
 
@@ -211,40 +212,25 @@ impl Mesh {
         if corners != triangles && corners != 0 {
             return Err(MeshError::CornerCount { what, corners, triangles });
         }
-        let named = |index: &u32| *index != Attribute::<T>::NONE;
-        for (triangle, corners) in attribute.corners.iter().enumerate() {
-            for &index in corners.iter().filter(|index| named(index)) {
-                check_index(what, triangle, index, attribute.values.len())?;
-            }
-        }
-        Ok(())
+        let none = Some(Attribute::<T>::NONE);
+        check_indices(what, &attribute.corners, attribute.values.len(), none)
     }
 }
 
+/// Makes sure that all indices but `none` are less than `count`.
 fn check_indices(
     what: &'static str,
     triangles: &[[u32; 3]],
     count: usize,
+    none: Option<u32>,
 ) -> Result<(), MeshError> {
-    for (triangle, indices) in triangles.iter().enumerate() {
-        for &index in indices {
-            check_index(what, triangle, index, count)?;
-        }
-    }
-    Ok(())
-}
-
-fn check_index(
-    what: &'static str,
-    triangle: usize,
-    index: u32,
-    count: usize,
-) -> Result<(), MeshError> {
-    if (index as usize) < count {
-        Ok(())
-    } else {
-        Err(MeshError::UnknownIndex { triangle, what, index, count })
-    }
+    let is_unknown = |index: u32| index as usize >= count && Some(index) != none;
+    let wrong =
+        triangles.par_iter().position_first(|indices| indices.iter().copied().any(is_unknown));
+    let Some(triangle) = wrong else { return Ok(()) };
+    let index = triangles[triangle].into_iter().find(|&index| is_unknown(index));
+    let index = index.expect("one of the three is unknown");
+    Err(MeshError::UnknownIndex { triangle, what, index, count })
 }
 
 #[cfg(test)]

@@ -18,9 +18,9 @@
 use super::error::{ReadObjError, StatementFault};
 use super::file::ObjFile;
 use super::statements::Statements;
-use super::warning::MaterialWarning;
 use super::words::{Words, is_text, number};
 use crate::source::quote::quote;
+use crate::warning::MaterialWarning;
 use bothways_common::look::color::linear_from_encoded;
 use bothways_common::scene::{Material, Mesh};
 use glam::Vec3;

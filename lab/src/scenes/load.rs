@@ -6,9 +6,9 @@ use super::studio;
 use crate::common::{CameraDescription, Mesh, Object, Scene, SceneError, Shape};
 use crate::formats::mesh_file::{EXTENSIONS, Format, ReadMeshError};
 use crate::formats::mesh_stream::StreamError;
-use crate::formats::obj::MaterialWarning;
 use crate::formats::scene_file::{self, ReadSceneError, nearest_name};
 use crate::formats::smooth;
+use crate::formats::warning::MaterialWarning;
 use std::path::Path;
 
 /// A scene, ready to be rendered.

@@ -1,4 +1,4 @@
-//! What is missing of the materials of an OBJ file.
+//! Warnings about mesh files that are read, but not drawn in all of their colours.
 
 use crate::source::quote::quoted;
 use std::fmt;
@@ -20,6 +20,11 @@ pub enum MaterialWarning {
         file: String,
         /// Their names.
         names: Vec<String>,
+    },
+    /// The file gives colours to vertices or faces, which are not read.
+    Colors {
+        /// The mesh's file.
+        file: String,
     },
     /// The mesh is streamed, and streams do not read materials.
     Streamed {
@@ -51,6 +56,11 @@ impl fmt::Display for MaterialWarning {
                      light grey"
                 )
             }
+            MaterialWarning::Colors { file } => write!(
+                f,
+                "{file}: the colours of its vertices and faces are not read; all of it is drawn in \
+                 the material of its object"
+            ),
             MaterialWarning::Streamed { file } => write!(
                 f,
                 "{file}: the materials of a mesh that is streamed are not read; all of it is drawn \
