@@ -96,7 +96,10 @@ impl Mesh {
     /// # Ok::<(), bothways_common::MeshError>(())
     /// ```
     pub fn new(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Result<Mesh, MeshError> {
-        if let Some(vertex) = positions.par_iter().position_first(|p| !p.is_finite()) {
+        let any_infinite = |positions: &[Vec3]| {
+            positions.iter().fold(false, |any, position| any | !position.is_finite())
+        };
+        if let Some(vertex) = first(&positions, any_infinite, |p| !p.is_finite()) {
             return Err(MeshError::NotFinite { vertex, position: positions[vertex] });
         }
         check_indices("vertex", &triangles, positions.len(), None)?;
@@ -217,6 +220,18 @@ impl Mesh {
     }
 }
 
+/// The place of the first item that is wrong, if one is. `any` tells whether one of some items is; all threads ask it.
+fn first<T: Sync>(
+    items: &[T],
+    any: impl Fn(&[T]) -> bool + Send + Sync,
+    is_wrong: impl Fn(&T) -> bool,
+) -> Option<usize> {
+    const SOME: usize = 1 << 14;
+    let part = items.par_chunks(SOME).position_first(any)?;
+    let within = items[part * SOME..].iter().position(is_wrong);
+    Some(part * SOME + within.expect("one of them is wrong"))
+}
+
 /// Makes sure that all indices but `none` are less than `count`.
 fn check_indices(
     what: &'static str,
@@ -225,8 +240,11 @@ fn check_indices(
     none: Option<u32>,
 ) -> Result<(), MeshError> {
     let is_unknown = |index: u32| index as usize >= count && Some(index) != none;
-    let wrong =
-        triangles.par_iter().position_first(|indices| indices.iter().copied().any(is_unknown));
+    // Without a branch for each index, which makes this several times as fast.
+    let any_unknown = |triangles: &[[u32; 3]]| {
+        triangles.as_flattened().iter().fold(false, |any, &index| any | is_unknown(index))
+    };
+    let wrong = first(triangles, any_unknown, |indices| indices.iter().copied().any(is_unknown));
     let Some(triangle) = wrong else { return Ok(()) };
     let index = triangles[triangle].into_iter().find(|&index| is_unknown(index));
     let index = index.expect("one of the three is unknown");

@@ -109,6 +109,13 @@ impl FaceLayout {
         let (length_size, item_size) = (self.length.size(), self.item.size());
         let mut decoded = Decoded::default();
         while decoded.elements < most {
+            let triangles =
+                self.decode_triangles(&bytes[decoded.bytes..], most - decoded.elements, &mut visit);
+            decoded.elements += triangles.elements;
+            decoded.bytes += triangles.bytes;
+            if decoded.elements == most {
+                break;
+            }
             let face = &bytes[decoded.bytes..];
             if face.len() < self.before + length_size {
                 break;
@@ -138,6 +145,38 @@ impl FaceLayout {
             }
             decoded.elements += 1;
             decoded.bytes += end;
+        }
+        decoded
+    }
+}
+
+impl FaceLayout {
+    /// Decodes the triangles at the beginning, if indices have four bytes and their number one, as in most files.
+    fn decode_triangles(
+        &self,
+        bytes: &[u8],
+        most: u64,
+        mut visit: impl FnMut([u32; 3]),
+    ) -> Decoded {
+        let mut decoded = Decoded::default();
+        if self.length.size() != 1 || self.item.size() != 4 {
+            return decoded;
+        }
+        // A negative index is too large, as an unsigned one.
+        let is_signed = self.item == ScalarType::I32;
+        let vertices = if is_signed { self.vertices.min(1 << 31) } else { self.vertices };
+        let size = self.before + 13 + self.after;
+        for face in bytes.chunks_exact(size) {
+            let (corners, indices) = (face[self.before], &face[self.before + 1..]);
+            let triangle =
+                [0, 4, 8].map(|at| u32::from_le_bytes(array(indices, at, self.is_big_endian)));
+            let is_known = triangle.iter().all(|&index| index < vertices);
+            if corners != 3 || !is_known || decoded.elements == most {
+                break;
+            }
+            visit(triangle);
+            decoded.elements += 1;
+            decoded.bytes += size;
         }
         decoded
     }

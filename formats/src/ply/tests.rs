@@ -382,15 +382,14 @@ fn binary_files() -> impl Strategy<Value = Vec<u8>> {
                     bytes.extend(value(*number, TYPES[*kind], is_big));
                 }
             }
+            let flags = |number, kind: usize| {
+                if has_flags { value(number, TYPES[kind], is_big) } else { Vec::new() }
+            };
             for polygon in polygons {
-                bytes.extend(
-                    has_flags.then(|| value(1, TYPES[kinds[8]], is_big)).unwrap_or_default(),
-                );
+                bytes.extend(flags(1, kinds[8]));
                 bytes.extend(value(u8::try_from(polygon.len()).unwrap(), length, is_big));
                 polygon.iter().for_each(|index| bytes.extend(value(*index, item, is_big)));
-                bytes.extend(
-                    has_flags.then(|| value(2, TYPES[kinds[9]], is_big)).unwrap_or_default(),
-                );
+                bytes.extend(flags(2, kinds[9]));
             }
             bytes
         },
