@@ -118,7 +118,7 @@ enum Command {
     /// Print a scene's camera: eye, frame, viewport, field of view, OpenGL matrices
     #[command(after_help = show_camera::EXAMPLES)]
     Camera(Box<show_camera::ShowCameraArgs>),
-    /// Generate a mesh and write it as an OBJ or PLY file
+    /// Generate a mesh and write it as an OBJ, PLY or STL file
     #[command(after_help = mesh::EXAMPLES)]
     Mesh(mesh::MeshArgs),
     /// Write a conformance set for other renderers: small scenes and what is seen of each

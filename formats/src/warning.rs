@@ -14,6 +14,13 @@ pub enum MaterialWarning {
         /// The material file, as the mesh's file names it.
         library: String,
     },
+    /// Many more material files do not exist.
+    MissingLibraries {
+        /// The mesh's file.
+        file: String,
+        /// How many there are beside those that other warnings name.
+        more: usize,
+    },
     /// No material file defines these materials.
     Undefined {
         /// The mesh's file.
@@ -23,6 +30,11 @@ pub enum MaterialWarning {
     },
     /// The file gives colours to vertices or faces, which are not read.
     Colors {
+        /// The mesh's file.
+        file: String,
+    },
+    /// The file's materials have textures, which are not read.
+    Textures {
         /// The mesh's file.
         file: String,
     },
@@ -43,6 +55,9 @@ impl fmt::Display for MaterialWarning {
                 "{file}: there is no material file {} beside it; what needs it is drawn in light grey",
                 quoted(library)
             ),
+            MaterialWarning::MissingLibraries { file, more } => {
+                write!(f, "{file}: {more} more material files are missing beside it")
+            }
             MaterialWarning::Undefined { file, names } => {
                 let some: Vec<String> = names.iter().take(MOST).map(|name| quoted(name)).collect();
                 let more = match names.len().saturating_sub(MOST) {
@@ -60,6 +75,10 @@ impl fmt::Display for MaterialWarning {
                 f,
                 "{file}: the colours of its vertices and faces are not read; all of it is drawn in \
                  the material of its object"
+            ),
+            MaterialWarning::Textures { file } => write!(
+                f,
+                "{file}: its textures are not read; what has one is drawn in its base colour"
             ),
             MaterialWarning::Streamed { file } => write!(
                 f,

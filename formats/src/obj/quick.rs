@@ -105,10 +105,10 @@ fn quick_numbers(bytes: &[u8], needed: usize) -> Option<([f32; 3], usize)> {
 
 /// Reads one corner, `v`, `v/vt`, `v//vn` or `v/vt/vn`, and tells where it ends: before a blank or the end of the line.
 fn quick_corner(bytes: &[u8], mut at: usize, corner: &mut WrittenCorner) -> Option<usize> {
-    for position in 0..3 {
+    for (position, index) in corner.iter_mut().enumerate() {
         let is_left_out = position == 1 && bytes.get(at) == Some(&b'/');
         if !is_left_out {
-            (corner[position], at) = quick_index(bytes, at)?;
+            (*index, at) = quick_index(bytes, at)?;
         }
         match *bytes.get(at)? {
             b'/' if position < 2 => at += 1,
