@@ -227,6 +227,10 @@ fn first<T: Sync>(
     is_wrong: impl Fn(&T) -> bool,
 ) -> Option<usize> {
     const SOME: usize = 1 << 14;
+    // Small meshes do not wake other threads.
+    if items.len() <= SOME {
+        return any(items).then(|| items.iter().position(&is_wrong)).flatten();
+    }
     let part = items.par_chunks(SOME).position_first(any)?;
     let within = items[part * SOME..].iter().position(is_wrong);
     Some(part * SOME + within.expect("one of them is wrong"))
