@@ -51,6 +51,7 @@ Examples:
   bothways                                   the lecture's scene, into out/lecture
   bothways canonical --size 64x64 -o small   a built-in scene, in small
   bothways bunny.obj --projection parallel   a mesh file, framed automatically
+  bothways model.glb#front                   a glTF file, through its camera of this name
   bothways scene.toml --order object         one order alone
   bothways --crop 100,200,48,64              a part of the picture alone, to the last bit
   bothways huge.ply --order object --stream  a mesh that is larger than memory

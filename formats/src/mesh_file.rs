@@ -20,7 +20,7 @@ pub enum Format {
     Ply,
     /// STL, ASCII or binary: [`stl`].
     Stl,
-    /// glTF 2.0, text or binary: [`gltf`](crate::gltf).
+    /// glTF 2.0, text or binary: [`gltf`].
     Gltf,
 }
 

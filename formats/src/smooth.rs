@@ -241,10 +241,15 @@ mod tests {
 
     #[test]
     fn a_sphere_becomes_smooth_again() {
-        let (sphere, bare) = bare(Kind::Sphere, [48, 24]);
-        let smooth = with_normals(bare, CREASE);
-        assert!(farthest(&sphere, &smooth) < 2.0, "{}", farthest(&sphere, &smooth));
-        assert_eq!(smooth.normals().values.len(), sphere.positions().len(), "one for each vertex");
+        // The second is smoothed in parts.
+        for divisions in [[48, 24], [150, 75]] {
+            let (sphere, bare) = bare(Kind::Sphere, divisions);
+            let smooth = with_normals(bare, CREASE);
+            assert!(farthest(&sphere, &smooth) < 2.0, "{}", farthest(&sphere, &smooth));
+            let [normals, vertices] =
+                [&smooth.normals().values[..], sphere.positions()].map(<[Vec3]>::len);
+            assert_eq!(normals, vertices, "one for each vertex");
+        }
     }
 
     #[test]
