@@ -449,6 +449,19 @@ fn without_scenes_all_nodes_without_a_parent_are_drawn() {
 }
 
 #[test]
+fn what_applications_add_of_their_own_is_skipped() {
+    for extras in ["{ \"a\": [1, {}] }", "\"text\"", "3", "null", "[[]]"] {
+        let changes = [("\"mesh\": 0", &format!("\"mesh\": 0, \"extras\": {extras}")[..])];
+        assert_eq!(square(&changes).mesh.triangles().len(), 2, "{extras}");
+    }
+    let unknown = [
+        ("\"mesh\": 0", "\"mesh\": 0, \"extensions\": { \"X_own\": { \"a\": [] } }, \"own\": 1"),
+        ("\"NORMAL\": 1,", "\"_OWN\": 1,"),
+    ];
+    assert_eq!(square(&unknown).mesh.triangles().len(), 2);
+}
+
+#[test]
 fn containers_and_versions_that_are_not_read_say_so() {
     assert_eq!(fault_of(""), "the file is empty");
     assert_eq!(
