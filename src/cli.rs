@@ -51,6 +51,7 @@ Examples:
   bothways                                   the lecture's scene, into out/lecture
   bothways canonical --size 64x64 -o small   a built-in scene, in small
   bothways bunny.obj --projection parallel   a mesh file, framed automatically
+  bothways model.glb#front                   a glTF file, through its camera of this name
   bothways scene.toml --order object         one order alone
   bothways --crop 100,200,48,64              a part of the picture alone, to the last bit
   bothways huge.ply --order object --stream  a mesh that is larger than memory
@@ -118,7 +119,7 @@ enum Command {
     /// Print a scene's camera: eye, frame, viewport, field of view, OpenGL matrices
     #[command(after_help = show_camera::EXAMPLES)]
     Camera(Box<show_camera::ShowCameraArgs>),
-    /// Generate a mesh and write it as an OBJ or PLY file
+    /// Generate a mesh and write it as an OBJ, PLY or STL file
     #[command(after_help = mesh::EXAMPLES)]
     Mesh(mesh::MeshArgs),
     /// Write a conformance set for other renderers: small scenes and what is seen of each

@@ -48,21 +48,23 @@
 //! | module | what it does |
 //! |---|---|
 //! | [`scene_file`] | reads and writes scene files: a scene and its camera, in TOML |
-//! | [`obj`], [`ply`] | read and write meshes in these formats; [`obj`] reads material files, too |
-//! | [`mesh_file`] | reads a mesh in the format that the name of its file says |
+//! | [`obj`], [`ply`], [`stl`] | read and write meshes in these formats; [`obj`] reads material files, too |
+//! | [`gltf`] | reads the scene of a glTF file as one mesh, with its materials and cameras |
+//! | [`mesh_file`] | reads a mesh in the format that the content or the name of its file tells |
 //! | [`mesh_stream`] | reads meshes that are larger than memory, in passes |
 //! | [`generate`] | generates meshes from formulas |
 //! | [`smooth`] | computes normals for meshes that have none |
+//! | [`warning`] | says what of a mesh's materials is missing |
 //! | [`source`] | opens files, and prepares text from files for messages |
 //!
-//! Dependencies run downwards only: `scene_file` and `mesh_stream` know `mesh_file`, `mesh_file` knows `obj` and `ply`,
-//! and `obj` and `ply` know `source`. So a new mesh format is a module beside `obj` and `ply`, and a variant of
+//! Dependencies run downwards only: `scene_file` and `mesh_stream` know `mesh_file`, `mesh_file` knows the formats, and the
+//! formats know `source` and `warning`. So a new mesh format is a module beside `obj` and `ply`, and a variant of
 //! [`mesh_file::Format`].
 //!
 //! # Errors
 //!
-//! Each reader has an error of its own: [`obj::ReadObjError`], [`ply::ReadPlyError`] and
-//! [`scene_file::ReadSceneError`]. Messages name the file, the line (or the byte of a binary file) and the reason:
+//! Each reader has an error of its own: [`obj::ReadObjError`], [`ply::ReadPlyError`], [`stl::ReadStlError`],
+//! [`gltf::ReadGltfError`] and [`scene_file::ReadSceneError`]. Messages name the file, the line (or the byte of a binary file) and the reason:
 //!
 //! ```
 //! use bothways_formats::obj;
@@ -76,6 +78,7 @@
 //! they quote from a file: see [`source::quote`].
 
 pub mod generate;
+pub mod gltf;
 pub mod mesh_file;
 pub mod mesh_stream;
 pub mod obj;
@@ -83,5 +86,7 @@ pub mod ply;
 pub mod scene_file;
 pub mod smooth;
 pub mod source;
+pub mod stl;
+pub mod warning;
 
 pub use bothways_common as common;

@@ -1,9 +1,14 @@
-//! Reads mesh files of any supported format. The extension of a file names its format.
+//! Reads mesh files of any supported format, which the content of a file tells, or else its name.
 
-use crate::obj::{self, MaterialWarning, ReadObjError};
+use crate::gltf::{self, Model, ReadGltfError};
+use crate::obj::{self, ReadObjError};
 use crate::ply::{self, ReadPlyError};
+use crate::source::regular_file;
+use crate::stl::{self, ReadStlError};
+use crate::warning::MaterialWarning;
 use bothways_common::scene::Mesh;
 use std::ffi::OsStr;
+use std::io::{self, Read};
 use std::path::Path;
 
 /// A format of mesh files.
@@ -13,6 +18,10 @@ pub enum Format {
     Obj,
     /// PLY, ASCII or binary: [`ply`].
     Ply,
+    /// STL, ASCII or binary: [`stl`].
+    Stl,
+    /// glTF 2.0, text or binary: [`gltf`].
+    Gltf,
 }
 
 /// Why a mesh file could not be read.
@@ -24,10 +33,29 @@ pub enum ReadMeshError {
     /// It is a PLY file.
     #[error(transparent)]
     Ply(#[from] ReadPlyError),
+    /// It is an STL file.
+    #[error(transparent)]
+    Stl(#[from] ReadStlError),
+    /// It is a glTF file.
+    #[error(transparent)]
+    Gltf(#[from] ReadGltfError),
+    /// It is to be streamed, but its format is read as a whole.
+    #[error(
+        "{file}: only {STREAMED} files are streamed; render this one in memory, without --stream"
+    )]
+    NotStreamed {
+        /// The file.
+        file: String,
+    },
 }
 
 /// The extensions of all formats, as messages list them.
-pub const EXTENSIONS: &str = ".obj, .ply";
+pub const EXTENSIONS: &str = ".obj, .ply, .stl, .gltf, .glb";
+/// The extensions of the formats that [`MeshStream`](crate::mesh_stream::MeshStream) reads, as messages list them.
+pub const STREAMED: &str = ".obj, .ply";
+
+/// The most bytes of a file that tell its format.
+const BEGINNING: usize = 4096;
 
 impl Format {
     /// The format that a file's extension names, in lower or upper case; `None` for any other extension.
@@ -36,8 +64,53 @@ impl Format {
         match extension.to_ascii_lowercase().as_str() {
             "obj" => Some(Format::Obj),
             "ply" => Some(Format::Ply),
+            "stl" => Some(Format::Stl),
+            "gltf" | "glb" => Some(Format::Gltf),
             _ => None,
         }
+    }
+
+    /// The format of a file: the one that its content tells, or else the one that its name tells.
+    ///
+    /// A file that cannot be read is of the format that its name tells.
+    pub fn of_file(path: &Path) -> Option<Format> {
+        let beginning = || -> io::Result<(Vec<u8>, u64)> {
+            let file = regular_file(path)?;
+            let size = file.metadata()?.len();
+            let mut bytes = Vec::new();
+            file.take(BEGINNING as u64).read_to_end(&mut bytes)?;
+            Ok((bytes, size))
+        };
+        let told = beginning().ok().and_then(|(bytes, size)| Format::told_by(&bytes, size));
+        told.or_else(|| Format::of(path))
+    }
+
+    /// The format of bytes that messages call `name`, as [`Format::of_file`] tells it.
+    pub fn of_bytes(name: &str, bytes: &[u8]) -> Option<Format> {
+        Format::told_by(bytes, bytes.len() as u64).or_else(|| Format::of(Path::new(name)))
+    }
+
+    /// The format of a file that begins like this and has this size. Nothing in an OBJ file tells that it is one.
+    fn told_by(beginning: &[u8], size: u64) -> Option<Format> {
+        let is_json = || {
+            let some = &beginning[..beginning.len().min(BEGINNING)];
+            some.trim_ascii_start().starts_with(b"{")
+                && memchr::memmem::find(some, b"\"asset\"").is_some()
+        };
+        if beginning.starts_with(b"ply\n") || beginning.starts_with(b"ply\r") {
+            Some(Format::Ply)
+        } else if gltf::is_binary(beginning) || is_json() {
+            Some(Format::Gltf)
+        } else if stl::is_binary(beginning, size) || stl::is_text(beginning) {
+            Some(Format::Stl)
+        } else {
+            None
+        }
+    }
+
+    /// Whether meshes of this format can be read in passes, without being in memory.
+    pub fn can_be_streamed(self) -> bool {
+        matches!(self, Format::Obj | Format::Ply)
     }
 
     /// Reads a mesh from a file of this format.
@@ -49,12 +122,15 @@ impl Format {
         Ok(match self {
             Format::Obj => obj::read(path)?,
             Format::Ply => ply::read(path)?,
+            Format::Stl => stl::read(path)?,
+            Format::Gltf => gltf::read(path)?.mesh,
         })
     }
 
     /// Reads a mesh from a file of this format, and its materials from the files beside it.
     ///
-    /// OBJ files have such material files. Warnings name the materials that are missing. PLY files have none.
+    /// OBJ files have such material files, glTF files have materials of their own. Warnings name the materials that are missing,
+    /// and say which colours are not read.
     ///
     /// # Errors
     ///
@@ -65,7 +141,12 @@ impl Format {
     ) -> Result<(Mesh, Vec<MaterialWarning>), ReadMeshError> {
         Ok(match self {
             Format::Obj => obj::read_with_materials(path)?,
-            Format::Ply => (ply::read(path)?, Vec::new()),
+            Format::Ply => ply::read_with_warnings(path)?,
+            Format::Stl => (stl::read(path)?, Vec::new()),
+            Format::Gltf => {
+                let Model { mesh, warnings, .. } = gltf::read(path)?;
+                (mesh, warnings)
+            }
         })
     }
 
@@ -82,7 +163,12 @@ impl Format {
     ) -> Result<(Mesh, Vec<MaterialWarning>), ReadMeshError> {
         Ok(match self {
             Format::Obj => obj::parse_alone(name, bytes)?,
-            Format::Ply => (ply::parse(name, bytes)?, Vec::new()),
+            Format::Ply => ply::parse_with_warnings(name, bytes)?,
+            Format::Stl => (stl::parse(name, bytes)?, Vec::new()),
+            Format::Gltf => {
+                let Model { mesh, warnings, .. } = gltf::parse(name, bytes)?;
+                (mesh, warnings)
+            }
         })
     }
 }
@@ -95,6 +181,25 @@ mod tests {
     fn the_extension_names_the_format() {
         let of = |path: &str| Format::of(Path::new(path));
         assert_eq!([of("a/b.obj"), of("B.PLY")], [Some(Format::Obj), Some(Format::Ply)]);
-        assert_eq!([of("ply"), of("a.stl"), of("a.obj.gz"), of("")], [None; 4]);
+        assert_eq!([of("a.Stl"), of("a.glb")], [Some(Format::Stl), Some(Format::Gltf)]);
+        assert_eq!([of("ply"), of("a.off"), of("a.obj.gz"), of("")], [None; 4]);
+    }
+
+    #[test]
+    fn the_content_tells_the_format_before_the_name_does() {
+        let of = |bytes: &[u8]| Format::of_bytes("a.obj", bytes);
+        assert_eq!(of(b"ply\nformat"), Some(Format::Ply));
+        assert_eq!(of(b"plywood\n"), Some(Format::Obj));
+        assert_eq!(of(b"glTF\x02\0\0\0"), Some(Format::Gltf));
+        assert_eq!(of(b" {\n \"asset\": {}}"), Some(Format::Gltf));
+        assert_eq!(of(b"{}"), Some(Format::Obj));
+        assert_eq!(of(b"solid cube\n"), Some(Format::Stl));
+        assert_eq!(of(b"solidus"), Some(Format::Obj));
+        let mut binary = vec![b' '; 84 + 50];
+        binary[80..84].copy_from_slice(&[1, 0, 0, 0]);
+        assert_eq!(of(&binary), Some(Format::Stl));
+        assert_eq!(of(&binary[1..]), Some(Format::Obj));
+        assert_eq!(Format::of_bytes("a", b"v 0 0 0\n"), None);
+        assert_eq!(Format::of_file(Path::new("no-such.ply")), Some(Format::Ply));
     }
 }

@@ -5,8 +5,9 @@
 //! would show them.
 
 use crate::mesh_file::{Format, ReadMeshError};
-use crate::obj::{MaterialWarning, ObjFile};
+use crate::obj::ObjFile;
 use crate::ply::PlyFile;
+use crate::warning::MaterialWarning;
 use bothways_common::scene::Positions;
 use glam::Vec3;
 use std::fs::File;
@@ -67,7 +68,8 @@ impl MeshStream {
     ///
     /// # Errors
     ///
-    /// The file cannot be read more than once, as a pipe cannot, or is wrong before the end of its last vertex.
+    /// The file cannot be read more than once, as a pipe cannot, or is wrong before the end of its last vertex; or the format
+    /// cannot be [streamed](Format::can_be_streamed).
     pub fn open(path: &Path, format: Format) -> Result<MeshStream, ReadMeshError> {
         let mut positions = Positions::default();
         let faces = match format {
@@ -80,6 +82,9 @@ impl MeshStream {
                 let mut file = Box::new(PlyFile::open(path)?);
                 file.vertices(|position| positions.push(position))?;
                 Faces::Ply(file)
+            }
+            Format::Stl | Format::Gltf => {
+                return Err(ReadMeshError::NotStreamed { file: path.display().to_string() });
             }
         };
         Ok(MeshStream { name: path.display().to_string(), positions, faces, triangles: None })
@@ -99,7 +104,7 @@ impl MeshStream {
     pub fn material_warning(&self) -> Option<MaterialWarning> {
         match &self.faces {
             Faces::Obj(file) => file.material_warning(),
-            Faces::Ply(_) => None,
+            Faces::Ply(file) => file.color_warning(),
         }
     }
 

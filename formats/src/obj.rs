@@ -22,27 +22,30 @@
 mod builder;
 mod error;
 mod file;
+mod in_parallel;
 mod materials;
 mod parser;
+mod pieces;
+mod quick;
 mod statements;
 mod visitor;
-mod warning;
 mod words;
 mod write;
 
 pub use error::{IndexKind, ReadObjError, StatementFault};
 pub(crate) use file::ObjFile;
 pub use materials::parse_materials;
-pub use warning::MaterialWarning;
 pub use write::write;
 
+use crate::warning::MaterialWarning;
 use bothways_common::scene::Mesh;
 use builder::MeshBuilder;
+use in_parallel::{Sizes, Stopped};
 use parser::Parser;
 use statements::Statements;
 use std::path::Path;
 
-/// Reads a mesh from an OBJ file.
+/// Reads a mesh from an OBJ file, on all threads of the current rayon pool if the file is large.
 ///
 /// # Errors
 ///
@@ -50,9 +53,14 @@ use std::path::Path;
 pub fn read(path: &Path) -> Result<Mesh, ReadObjError> {
     let mut file = ObjFile::open(path)?;
     let name = path.display().to_string();
-    // One statement at a time: a file of another format ends the reader early, and does not fill the memory.
-    if file.length()? > MOST_BYTES {
+    // A part at a time: a file of another format ends the reader early, and does not fill the memory.
+    let length = file.length()?;
+    if length > MOST_BYTES {
         return Err(ReadObjError::TooLarge { file: name });
+    }
+    if length >= LARGE {
+        let read = in_parallel::read(file.unread()?, MOST_BYTES, Sizes::for_threads());
+        return read.map_err(|error| stopped(name.clone(), error)).and_then(|p| finish(name, p));
     }
     let mut parser = Parser::new(MeshBuilder::default(), None);
     match file.statements(|line, words| parser.statement(line, words))? {
@@ -120,6 +128,15 @@ pub fn parse_alone(name: &str, bytes: &[u8]) -> Result<(Mesh, Vec<MaterialWarnin
     Ok((mesh, warnings))
 }
 
+/// The error that stopped the reader of a large file.
+fn stopped(file: String, stopped: Stopped) -> ReadObjError {
+    match stopped {
+        Stopped::Io(error) => ReadObjError::Unreadable { file, error },
+        Stopped::Statement(line, fault) => ReadObjError::Statement { file, line, fault },
+        Stopped::TooLarge => ReadObjError::TooLarge { file },
+    }
+}
+
 /// Checks the references to definitions further down, at the end of the file, and builds the mesh.
 fn finish(file: String, parser: Parser<MeshBuilder>) -> Result<Mesh, ReadObjError> {
     if let Err((line, fault)) = parser.check_forward() {
@@ -134,6 +151,9 @@ fn finish(file: String, parser: Parser<MeshBuilder>) -> Result<Mesh, ReadObjErro
 /// The most bytes of a file. The shortest definition, `vt 0` and a line end, has five bytes: a file of this size has
 /// fewer than 2³² − 1 definitions of any kind, and every valid index fits into a `u32` other than `NONE`.
 const MOST_BYTES: u64 = 1 << 34;
+
+/// From this number of bytes on, a file is read on several threads.
+const LARGE: u64 = 1 << 20;
 
 #[cfg(test)]
 mod tests;

@@ -6,17 +6,21 @@
 //! a file that describes triangles, and is strict about it:
 //!
 //! - `x`, `y`, `z` of the element `vertex`, of any type: each number is rounded once, to the nearest `f32`.
+//! - `nx`, `ny`, `nz` of the element `vertex`, if all three are there: its normal. One without direction (zero, or not
+//!   finite) is left out; if all are, the mesh has no normals.
 //! - The list `vertex_indices` or `vertex_index` of the element `face`, of any integer types: a polygon of any size, cut
 //!   into the fan `(0, k, k + 1)` in file order. Indices count from 0.
+//! - Colours are not read; [`read_with_warnings`] says so.
 //! - Other properties and other elements are skipped, but must be complete. Nothing may follow the last element: the
 //!   header of such a file does not fit its content.
 //!
-//! A file is read value by value. A count in the file never makes the reader reserve memory before the values
+//! A binary file is decoded as fast as it comes into memory, and value by value where that is not possible. A count in the file never makes the reader reserve memory before the values
 //! themselves have been read.
 
 mod error;
 mod file;
 mod header;
+mod quick;
 mod values;
 mod write;
 
@@ -24,6 +28,7 @@ pub use error::{ElementFault, HeaderFault, Location, ReadPlyError};
 pub(crate) use file::PlyFile;
 pub use write::write;
 
+use crate::warning::MaterialWarning;
 use bothways_common::scene::Mesh;
 use std::io::Cursor;
 use std::path::Path;
@@ -35,6 +40,15 @@ use std::path::Path;
 /// The file cannot be read, or one of the errors of [`parse`]; messages call the file by `path`.
 pub fn read(path: &Path) -> Result<Mesh, ReadPlyError> {
     PlyFile::open(path)?.mesh()
+}
+
+/// Reads a mesh as [`read`] does, with a warning if the file has colours.
+///
+/// # Errors
+///
+/// As for [`read`].
+pub fn read_with_warnings(path: &Path) -> Result<(Mesh, Vec<MaterialWarning>), ReadPlyError> {
+    PlyFile::open(path)?.mesh_with_warnings()
 }
 
 /// Reads a mesh from the bytes of a PLY file, which messages call `name`.
@@ -62,6 +76,18 @@ pub fn read(path: &Path) -> Result<Mesh, ReadPlyError> {
 /// ```
 pub fn parse(name: &str, bytes: &[u8]) -> Result<Mesh, ReadPlyError> {
     PlyFile::new(name.to_owned(), Cursor::new(bytes))?.mesh()
+}
+
+/// Reads a mesh as [`parse`] does, with a warning if the file has colours.
+///
+/// # Errors
+///
+/// As for [`parse`].
+pub fn parse_with_warnings(
+    name: &str,
+    bytes: &[u8],
+) -> Result<(Mesh, Vec<MaterialWarning>), ReadPlyError> {
+    PlyFile::new(name.to_owned(), Cursor::new(bytes))?.mesh_with_warnings()
 }
 
 #[cfg(test)]

@@ -79,7 +79,7 @@
 //! | `triangle = { a, b, c }` | a triangle: its corners |
 //! | `sphere = { center, radius }` | a sphere |
 //! | `plane = { point, normal }` | an infinite plane |
-//! | `mesh = "bunny.obj"` | a mesh from an OBJ file, with its own materials, or a PLY file; the path is relative to the scene file |
+//! | `mesh = "bunny.obj"` | a mesh from an OBJ or glTF file, with its own materials, or a PLY or STL file; the path is relative to the scene file |
 //! | `generate = { kind, divisions }` | a generated mesh: see [`Kind`](crate::generate::Kind) |
 //! | `material` | the name of a material, in place of those of a mesh file; light grey without it |
 //! | `scale`, `rotate = { axis, degrees }`, `translate` | the transformation, in this order |
@@ -137,7 +137,7 @@ pub struct SceneFile {
     pub camera: CameraDescription,
     /// Whether the file states the viewport. If so, another image size keeps both its sides.
     pub viewport_stated: bool,
-    /// Messages about missing materials: see [`MaterialWarning`](crate::obj::MaterialWarning).
+    /// Messages about missing materials: see [`MaterialWarning`](crate::warning::MaterialWarning).
     pub warnings: Vec<String>,
 }
 

@@ -8,12 +8,15 @@ use bothways_common::scene::{Attribute, Mesh};
 use facet::Facet;
 use glam::{DVec3, Vec3};
 use normal_tree::NormalTree;
+use rayon::prelude::*;
 use std::collections::HashMap;
 
 /// The angle between two faces, in degrees, beyond which the edge between them is a visible crease.
 pub const CREASE: f64 = 40.0;
 
 /// Gives a mesh a normal at each corner: the weighted mean of the normals of the faces around its vertex.
+///
+/// All threads of the current rayon pool work on it; their number changes nothing.
 ///
 /// The mean takes the faces whose normals differ from that of the corner's own face by at most `crease` degrees. The
 /// weight of a face is its angle at the vertex (Thürmer and Wüthrich, "Computing Vertex Normals from Polygonal Facets",
@@ -35,54 +38,88 @@ pub fn with_normals(mesh: Mesh, crease: f64) -> Mesh {
     if !mesh.normals().corners.is_empty() {
         return mesh;
     }
-    let faces: Vec<DVec3> = (0..mesh.triangles().len()).map(|k| face_normal(&mesh, k)).collect();
-    let corners = CornersByVertex::new(&mesh);
+    let (faces, mut corners): (Vec<DVec3>, _) = rayon::join(
+        || (0..mesh.triangles().len()).into_par_iter().map(|k| face_normal(&mesh, k)).collect(),
+        || CornersByVertex::new(&mesh),
+    );
     let least_cosine = libm::cos(crease.to_radians());
-    let mut normals =
-        Attribute { values: Vec::new(), corners: vec![[Attribute::<Vec3>::NONE; 3]; faces.len()] };
-    let mut facets = Vec::new();
-    for vertex in 0..mesh.positions().len() {
-        facets.clear();
-        facets.extend(corners.of(vertex).iter().map(|&(triangle, corner)| {
-            let normal = faces[triangle as usize];
-            let angle = angle_at(&mesh, triangle as usize, corner as usize);
-            Facet { normal, weighted: normal * angle, triangle, corner }
-        }));
-        smooth_vertex(&facets, least_cosine, &mut normals);
-    }
+    // A normal belongs to one vertex alone, so all vertices are smoothed at once.
+    let values: Vec<Vec<Vec3>> = corners
+        .by_vertices(VERTICES_AT_ONCE)
+        .into_par_iter()
+        .map(|vertices| smooth_vertices(&mesh, &faces, vertices, least_cosine))
+        .collect();
+    let normals = corners.attribute(values);
     mesh.with_normals(normals).expect("each corner names a normal that was made")
+}
+
+/// How many vertices one thread smooths in one go. The normals and their order do not depend on it.
+const VERTICES_AT_ONCE: usize = 1 << 12;
+
+/// Computes the normals around some vertices, and puts their indices, from 0 on, in the place of the corners' triangles.
+fn smooth_vertices(
+    mesh: &Mesh,
+    faces: &[DVec3],
+    vertices: SomeVertices,
+    least_cosine: f64,
+) -> Vec<Vec3> {
+    let SomeVertices { starts, corners } = vertices;
+    let (mut facets, mut values) = (Vec::new(), Vec::new());
+    for ends in starts.windows(2) {
+        let [begin, end] = [0, 1].map(|k| (ends[k] - starts[0]) as usize);
+        let around = &mut corners[begin..end];
+        facets.clear();
+        facets.extend(around.iter().map(|&(triangle, corner)| {
+            let normal = faces[triangle as usize];
+            let angle = angle_at(mesh, triangle as usize, corner as usize);
+            Facet { normal, weighted: normal * angle, triangle }
+        }));
+        smooth_vertex(&facets, least_cosine, &mut values, around);
+    }
+    values
 }
 
 /// The number of triangles around a vertex from which a tree is faster than a comparison of all pairs.
 const MANY: usize = 64;
 
-/// Computes the normals of the corners around one vertex.
-fn smooth_vertex(facets: &[Facet], least_cosine: f64, normals: &mut Attribute<Vec3>) {
+/// Computes the normals of the corners around one vertex, and puts their indices in the place of the corners' triangles.
+fn smooth_vertex(
+    facets: &[Facet],
+    least_cosine: f64,
+    values: &mut Vec<Vec3>,
+    around: &mut [(u32, u8)],
+) {
     let tree = (facets.len() >= MANY).then(|| NormalTree::new(facets));
     // Corners of one smooth surface share a normal: few values for many corners.
-    let first = normals.values.len();
+    let first = values.len();
     let mut known = HashMap::new();
-    for facet in facets.iter().filter(|facet| facet.normal != DVec3::ZERO) {
+    for (facet, (place, _)) in facets.iter().zip(around) {
+        if facet.normal == DVec3::ZERO {
+            *place = NONE;
+            continue;
+        }
         let sum = match &tree {
             Some(tree) => tree.sum(facet.normal, least_cosine),
             None => sum_one_by_one(facets, facet, least_cosine),
         };
         let normal = sum.normalize_or(facet.normal).as_vec3();
-        let next = normals.values.len();
+        let next = values.len();
         let index = if tree.is_some() {
             // 0 and −0 are two keys for equal normals: this only stores one more value.
             *known.entry(normal.to_array().map(f32::to_bits)).or_insert(next)
         } else {
-            let equal = normals.values[first..].iter().position(|value| *value == normal);
+            let equal = values[first..].iter().position(|value| *value == normal);
             equal.map_or(next, |place| first + place)
         };
         if index == next {
-            normals.values.push(normal);
+            values.push(normal);
         }
-        normals.corners[facet.triangle as usize][usize::from(facet.corner)] =
-            u32::try_from(index).unwrap_or(Attribute::<Vec3>::NONE);
+        *place = u32::try_from(index).unwrap_or(NONE);
     }
 }
+
+/// [`Attribute::NONE`], which is the same number for values of every type.
+const NONE: u32 = Attribute::<Vec3>::NONE;
 
 /// The sum of the weighted normals of the faces whose normals differ from that of `one` by at most the crease.
 fn sum_one_by_one(facets: &[Facet], one: &Facet, least_cosine: f64) -> DVec3 {
@@ -94,8 +131,18 @@ fn sum_one_by_one(facets: &[Facet], one: &Facet, least_cosine: f64) -> DVec3 {
 
 /// The corners at each vertex: their triangles, and their numbers in the triangles.
 struct CornersByVertex {
+    /// The corners at vertex `v` are those from `starts[v]` up to `starts[v + 1]`.
     starts: Vec<u32>,
     corners: Vec<(u32, u8)>,
+    /// The place of each triangle's corners among `corners`.
+    places: Vec<[u32; 3]>,
+}
+
+/// Some vertices in a row, with their corners.
+struct SomeVertices<'a> {
+    /// As in [`CornersByVertex`], with one more at the end.
+    starts: &'a [u32],
+    corners: &'a mut [(u32, u8)],
 }
 
 impl CornersByVertex {
@@ -110,18 +157,51 @@ impl CornersByVertex {
         }
         let mut next = starts.clone();
         let mut corners = vec![(0, 0); 3 * mesh.triangles().len()];
-        for (triangle, vertices) in (0..).zip(mesh.triangles()) {
-            for (corner, vertex) in (0..).zip(vertices) {
-                let place = &mut next[*vertex as usize];
-                corners[*place as usize] = (triangle, corner);
-                *place += 1;
+        let mut places = mesh.triangles().to_vec();
+        for (triangle, places) in (0..).zip(&mut places) {
+            for (corner, place) in (0..).zip(places) {
+                let next = &mut next[*place as usize];
+                corners[*next as usize] = (triangle, corner);
+                *place = *next;
+                *next += 1;
             }
         }
-        CornersByVertex { starts, corners }
+        CornersByVertex { starts, corners, places }
     }
 
-    fn of(&self, vertex: usize) -> &[(u32, u8)] {
-        &self.corners[self.starts[vertex] as usize..self.starts[vertex + 1] as usize]
+    /// All vertices, so many at a time.
+    fn by_vertices(&mut self, many: usize) -> Vec<SomeVertices<'_>> {
+        let mut rest = &mut self.corners[..];
+        let vertices = self.starts.len() - 1;
+        let begins = (0..vertices).step_by(many);
+        let some = begins.map(|begin| {
+            let starts = &self.starts[begin..=(begin + many).min(vertices)];
+            let count = starts[starts.len() - 1] - starts[0];
+            let corners =
+                rest.split_off_mut(..count as usize).expect("the corners of all vertices");
+            SomeVertices { starts, corners }
+        });
+        some.collect()
+    }
+
+    /// The attribute of these normals, in lists of [`VERTICES_AT_ONCE`] vertices each, whose indices stand in the place of the
+    /// corners' triangles.
+    fn attribute(mut self, values: Vec<Vec<Vec3>>) -> Attribute<Vec3> {
+        let first = |before: &mut u32, values: &Vec<Vec3>| {
+            let count = u32::try_from(values.len()).expect("no more normals than corners");
+            Some(std::mem::replace(before, *before + count))
+        };
+        let firsts: Vec<u32> = values.iter().scan(0, first).collect();
+        self.by_vertices(VERTICES_AT_ONCE).into_par_iter().zip(firsts).for_each(|(some, first)| {
+            for (index, _) in some.corners.iter_mut().filter(|(index, _)| *index != NONE) {
+                *index += first;
+            }
+        });
+        let CornersByVertex { corners: sorted, places: mut corners, .. } = self;
+        corners
+            .par_iter_mut()
+            .for_each(|corners| *corners = corners.map(|place| sorted[place as usize].0));
+        Attribute { values: values.concat(), corners }
     }
 }
 
@@ -161,10 +241,15 @@ mod tests {
 
     #[test]
     fn a_sphere_becomes_smooth_again() {
-        let (sphere, bare) = bare(Kind::Sphere, [48, 24]);
-        let smooth = with_normals(bare, CREASE);
-        assert!(farthest(&sphere, &smooth) < 2.0, "{}", farthest(&sphere, &smooth));
-        assert_eq!(smooth.normals().values.len(), sphere.positions().len(), "one for each vertex");
+        // The second is smoothed in parts.
+        for divisions in [[48, 24], [150, 75]] {
+            let (sphere, bare) = bare(Kind::Sphere, divisions);
+            let smooth = with_normals(bare, CREASE);
+            assert!(farthest(&sphere, &smooth) < 2.0, "{}", farthest(&sphere, &smooth));
+            let [normals, vertices] =
+                [&smooth.normals().values[..], sphere.positions()].map(<[Vec3]>::len);
+            assert_eq!(normals, vertices, "one for each vertex");
+        }
     }
 
     #[test]
@@ -189,6 +274,12 @@ mod tests {
         assert_eq!(with_normals(torus.clone(), CREASE), torus);
     }
 
+    impl CornersByVertex {
+        fn of(&self, vertex: usize) -> &[(u32, u8)] {
+            &self.corners[self.starts[vertex] as usize..self.starts[vertex + 1] as usize]
+        }
+    }
+
     /// A cone of so many sides, with fine wrinkles and a crease at every seventh side. Its base is one polygon, cut into a
     /// fan.
     fn cone(sides: u32) -> Mesh {
@@ -208,7 +299,7 @@ mod tests {
     fn many_faces_around_a_vertex_are_smoothed_as_few_are() {
         let mesh = cone(500);
         let faces: Vec<_> = (0..mesh.triangles().len()).map(|k| face_normal(&mesh, k)).collect();
-        let corners = CornersByVertex::new(&mesh);
+        let sorted = CornersByVertex::new(&mesh);
         for crease in [0.0, 1.0, CREASE, 90.0, 180.0] {
             let smooth = with_normals(mesh.clone(), crease);
             let least = libm::cos(crease.to_radians());
@@ -216,7 +307,7 @@ mod tests {
             for (triangle, vertices) in mesh.triangles().iter().enumerate() {
                 for (corner, vertex) in vertices.iter().enumerate() {
                     let mut sum = DVec3::ZERO;
-                    for &(other, there) in corners.of(*vertex as usize) {
+                    for &(other, there) in sorted.of(*vertex as usize) {
                         let (own, face) = (faces[triangle], faces[other as usize]);
                         if own.dot(face) >= least || other as usize == triangle {
                             sum += face * angle_at(&mesh, other as usize, there.into());

@@ -1,5 +1,6 @@
 //! Opens files to read, and words the messages about files that cannot be read.
 
+pub(crate) mod decimal;
 pub mod quote;
 
 use std::fs::{self, File, Metadata};

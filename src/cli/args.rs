@@ -13,7 +13,7 @@ use std::str::FromStr;
 /// What to render, how, and where to.
 #[derive(Debug, Args)]
 pub(super) struct RenderArgs {
-    /// A built-in scene, a .toml scene file, or a mesh file (.obj or .ply, framed automatically)
+    /// A built-in scene, a .toml scene file, or a mesh file (.obj, .ply, .stl, .gltf or .glb, framed automatically)
     #[arg(default_value = "lecture")]
     pub(super) scene: String,
     #[command(flatten)]

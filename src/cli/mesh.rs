@@ -1,10 +1,10 @@
-//! `bothways mesh`: writes a generated mesh as an OBJ or PLY file.
+//! `bothways mesh`: writes a generated mesh as an OBJ, PLY or STL file.
 
 use super::failure::Failure;
 use super::output::OutputFile;
 use bothways::formats::generate::Kind;
 use bothways::formats::mesh_file::Format;
-use bothways::formats::{obj, ply, scene_file};
+use bothways::formats::{obj, ply, scene_file, stl};
 use bothways::wording::{count, grouped};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -25,7 +25,7 @@ Normals point outward. Closed surfaces share their vertices by index, also acros
 Examples:
   bothways mesh teapot -o teapot.obj
   bothways mesh sphere --divisions 512,256 -o ball.obj
-  bothways mesh grid --divisions 4 -o grid.ply     PLY: positions and triangles alone
+  bothways mesh grid --divisions 4 -o grid.ply     PLY or STL: positions and triangles alone
   bothways mesh box -o - | less                    to standard output, as OBJ";
 
 /// Which mesh, and where to.
@@ -37,7 +37,7 @@ pub(super) struct MeshArgs {
     /// How finely it is divided, in its two directions; one number stands for both
     #[arg(long, value_name = "N[,M]", value_parser = divisions, allow_hyphen_values = true)]
     divisions: Option<[u32; 2]>,
-    /// The file, OBJ or PLY as its name ends; - is standard output
+    /// The file, OBJ, PLY or STL as its name ends; - is standard output
     #[arg(short = 'o', long = "output", value_name = "FILE.obj")]
     file: PathBuf,
 }
@@ -51,6 +51,8 @@ pub(super) fn run(args: &MeshArgs) -> Result<ExitCode, Failure> {
     file.write(|out| match format {
         Format::Obj => obj::write(&mesh, out),
         Format::Ply => ply::write(&mesh, out),
+        Format::Stl => stl::write(&mesh, out),
+        Format::Gltf => unreachable!("the format was chosen among those that are written"),
     })?;
     let vertices = grouped(mesh.positions().len() as u64);
     anstream::eprintln!(
@@ -64,10 +66,11 @@ pub(super) fn run(args: &MeshArgs) -> Result<ExitCode, Failure> {
 /// The format for the file's name; OBJ if the name has no ending.
 fn format(file: &OutputFile) -> Result<Format, Failure> {
     let Some(ending) = file.ending() else { return Ok(Format::Obj) };
-    Format::of(Path::new(&format!("mesh.{ending}"))).ok_or_else(|| {
+    let named = Format::of(Path::new(&format!("mesh.{ending}")));
+    named.filter(|&format| format != Format::Gltf).ok_or_else(|| {
         Failure::new(format!(
-            "cannot write {}: a mesh is written as OBJ or PLY, and .{ending} is neither; end the \
-             name in .obj or .ply",
+            "cannot write {}: a mesh is written as OBJ, PLY or STL, and .{ending} is none of them; end \
+             the name in .obj, .ply or .stl",
             file.said()
         ))
     })

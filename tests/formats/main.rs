@@ -4,5 +4,6 @@
 
 mod hostile_files;
 mod mesh;
+mod other_formats;
 mod ply;
 mod stream;

@@ -168,6 +168,6 @@ fn a_mesh_without_coordinates_takes_no_checker() {
     assert_eq!(
         error.to_string(),
         "a.toml:5:1: this material has a checker, and the mesh has no texture coordinates; export \
-         the mesh as OBJ with texture coordinates (vt), or choose a material without checker"
+         the mesh with texture coordinates, as OBJ (vt) or glTF, or choose a material without checker"
     );
 }

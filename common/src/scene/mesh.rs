@@ -6,6 +6,7 @@ pub use materials::{MaterialSpan, MeshMaterials, NamedMaterial};
 
 use super::material::Material;
 use glam::{Vec2, Vec3};
+use rayon::prelude::*;
 
 /// Triangles over shared vertices.
 ///
@@ -95,10 +96,13 @@ impl Mesh {
     /// # Ok::<(), bothways_common::MeshError>(())
     /// ```
     pub fn new(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Result<Mesh, MeshError> {
-        if let Some(vertex) = positions.iter().position(|p| !p.is_finite()) {
+        let any_infinite = |positions: &[Vec3]| {
+            positions.iter().fold(false, |any, position| any | !position.is_finite())
+        };
+        if let Some(vertex) = first(&positions, any_infinite, |p| !p.is_finite()) {
             return Err(MeshError::NotFinite { vertex, position: positions[vertex] });
         }
-        check_indices("vertex", &triangles, positions.len())?;
+        check_indices("vertex", &triangles, positions.len(), None)?;
         Ok(Mesh { positions, triangles, ..Mesh::default() })
     }
 
@@ -211,40 +215,44 @@ impl Mesh {
         if corners != triangles && corners != 0 {
             return Err(MeshError::CornerCount { what, corners, triangles });
         }
-        let named = |index: &u32| *index != Attribute::<T>::NONE;
-        for (triangle, corners) in attribute.corners.iter().enumerate() {
-            for &index in corners.iter().filter(|index| named(index)) {
-                check_index(what, triangle, index, attribute.values.len())?;
-            }
-        }
-        Ok(())
+        let none = Some(Attribute::<T>::NONE);
+        check_indices(what, &attribute.corners, attribute.values.len(), none)
     }
 }
 
+/// The place of the first item that is wrong, if one is. `any` tells whether one of some items is; all threads ask it.
+fn first<T: Sync>(
+    items: &[T],
+    any: impl Fn(&[T]) -> bool + Send + Sync,
+    is_wrong: impl Fn(&T) -> bool,
+) -> Option<usize> {
+    const SOME: usize = 1 << 14;
+    // Small meshes do not wake other threads.
+    if items.len() <= SOME {
+        return any(items).then(|| items.iter().position(&is_wrong)).flatten();
+    }
+    let part = items.par_chunks(SOME).position_first(any)?;
+    let within = items[part * SOME..].iter().position(is_wrong);
+    Some(part * SOME + within.expect("one of them is wrong"))
+}
+
+/// Makes sure that all indices but `none` are less than `count`.
 fn check_indices(
     what: &'static str,
     triangles: &[[u32; 3]],
     count: usize,
+    none: Option<u32>,
 ) -> Result<(), MeshError> {
-    for (triangle, indices) in triangles.iter().enumerate() {
-        for &index in indices {
-            check_index(what, triangle, index, count)?;
-        }
-    }
-    Ok(())
-}
-
-fn check_index(
-    what: &'static str,
-    triangle: usize,
-    index: u32,
-    count: usize,
-) -> Result<(), MeshError> {
-    if (index as usize) < count {
-        Ok(())
-    } else {
-        Err(MeshError::UnknownIndex { triangle, what, index, count })
-    }
+    let is_unknown = |index: u32| index as usize >= count && Some(index) != none;
+    // Without a branch for each index, which makes this several times as fast.
+    let any_unknown = |triangles: &[[u32; 3]]| {
+        triangles.as_flattened().iter().fold(false, |any, &index| any | is_unknown(index))
+    };
+    let wrong = first(triangles, any_unknown, |indices| indices.iter().copied().any(is_unknown));
+    let Some(triangle) = wrong else { return Ok(()) };
+    let index = triangles[triangle].into_iter().find(|&index| is_unknown(index));
+    let index = index.expect("one of the three is unknown");
+    Err(MeshError::UnknownIndex { triangle, what, index, count })
 }
 
 #[cfg(test)]

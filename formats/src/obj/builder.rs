@@ -1,4 +1,4 @@
-//! The mesh that an OBJ file describes, built while the file is parsed.
+//! The mesh that an OBJ file describes, built while the file is parsed: in one go, or in pieces.
 
 use super::visitor::{Corner, NONE, Visitor};
 use bothways_common::scene::{Attribute, Mesh, MeshMaterials};
@@ -7,37 +7,45 @@ use glam::{Vec2, Vec3};
 /// A mesh under construction.
 #[derive(Default)]
 pub(super) struct MeshBuilder {
-    positions: Vec<Vec3>,
-    triangles: Vec<[u32; 3]>,
-    texture_coordinates: Attribute<Vec2>,
-    normals: Attribute<Vec3>,
+    geometry: Geometry,
     materials: MeshMaterials,
     /// The material of the last `usemtl`, until a face uses it; `Some(None)` is a `usemtl` without a name.
     next_material: Option<Option<String>>,
 }
 
+/// What a piece of a file adds to a mesh. Indices are those of the whole file.
+#[derive(Default)]
+pub(super) struct Piece {
+    geometry: Geometry,
+    /// The last `usemtl` before a triangle of the piece, or behind its last one, with the triangle's number in the piece.
+    materials: Vec<(usize, Option<String>)>,
+    libraries: Vec<String>,
+}
+
+#[derive(Default)]
+struct Geometry {
+    positions: Vec<Vec3>,
+    triangles: Vec<[u32; 3]>,
+    texture_coordinates: Attribute<Vec2>,
+    normals: Attribute<Vec3>,
+}
+
 impl Visitor for MeshBuilder {
     fn position(&mut self, position: Vec3) {
-        self.positions.push(position);
+        self.geometry.positions.push(position);
     }
 
     fn texture_coordinate(&mut self, value: Vec2) {
-        self.texture_coordinates.values.push(value);
+        self.geometry.texture_coordinates.values.push(value);
     }
 
     fn normal(&mut self, normal: Vec3) {
-        self.normals.values.push(normal);
+        self.geometry.normals.values.push(normal);
     }
 
     fn triangle(&mut self, corners: [Corner; 3]) {
-        let triangle = self.triangles.len();
-        if let Some(name) = self.next_material.take() {
-            self.materials.use_from(triangle, name.as_deref());
-        }
-        self.triangles.push(corners.map(|[vertex, _, _]| vertex));
-        let texture_coordinates = corners.map(|[_, texture_coordinate, _]| texture_coordinate);
-        store(&mut self.texture_coordinates.corners, triangle, texture_coordinates);
-        store(&mut self.normals.corners, triangle, corners.map(|[_, _, normal]| normal));
+        self.use_material(self.geometry.triangles.len());
+        self.geometry.triangle(corners);
     }
 
     fn material(&mut self, name: Option<String>) {
@@ -49,22 +57,107 @@ impl Visitor for MeshBuilder {
     }
 }
 
+impl Visitor for Piece {
+    fn position(&mut self, position: Vec3) {
+        self.geometry.positions.push(position);
+    }
+
+    fn texture_coordinate(&mut self, value: Vec2) {
+        self.geometry.texture_coordinates.values.push(value);
+    }
+
+    fn normal(&mut self, normal: Vec3) {
+        self.geometry.normals.values.push(normal);
+    }
+
+    fn triangle(&mut self, corners: [Corner; 3]) {
+        self.geometry.triangle(corners);
+    }
+
+    fn material(&mut self, name: Option<String>) {
+        let triangle = self.geometry.triangles.len();
+        match self.materials.last_mut() {
+            Some(last) if last.0 == triangle => last.1 = name,
+            _ => self.materials.push((triangle, name)),
+        }
+    }
+
+    fn material_library(&mut self, name: &str) {
+        self.libraries.push(name.to_owned());
+    }
+}
+
 impl MeshBuilder {
     /// Tells whether there is anything to draw.
     pub(super) fn has_triangles(&self) -> bool {
-        !self.triangles.is_empty()
+        !self.geometry.triangles.is_empty()
+    }
+
+    /// Adds the next piece of the file.
+    pub(super) fn append(&mut self, piece: Piece) {
+        let first = self.geometry.triangles.len();
+        for library in piece.libraries {
+            self.materials.add_library(&library);
+        }
+        let count = piece.geometry.triangles.len();
+        // The first triangle of the piece may be of the material that an earlier piece has named last.
+        if count > 0 && piece.materials.first().is_none_or(|&(triangle, _)| triangle > 0) {
+            self.use_material(first);
+        }
+        for (triangle, name) in piece.materials {
+            self.next_material = Some(name);
+            if triangle < count {
+                self.use_material(first + triangle);
+            }
+        }
+        self.geometry.append(piece.geometry);
+    }
+
+    /// Uses the material of the last `usemtl`, if no face has used it yet, from a triangle on.
+    fn use_material(&mut self, triangle: usize) {
+        if let Some(name) = self.next_material.take() {
+            self.materials.use_from(triangle, name.as_deref());
+        }
     }
 
     /// The mesh, after the whole file has been parsed and all indices have been checked.
     pub(super) fn finish(self) -> Mesh {
-        let triangles = self.triangles.len();
-        let normals = complete(self.normals, triangles);
-        let texture_coordinates = complete(self.texture_coordinates, triangles);
-        Mesh::new(self.positions, self.triangles)
+        let Geometry { positions, triangles, texture_coordinates, normals } = self.geometry;
+        let count = triangles.len();
+        let normals = complete(normals, count);
+        let texture_coordinates = complete(texture_coordinates, count);
+        Mesh::new(positions, triangles)
             .and_then(|mesh| mesh.with_normals(normals))
             .and_then(|mesh| mesh.with_texture_coordinates(texture_coordinates))
             .expect("the reader has checked every number and every index")
             .with_materials(self.materials)
+    }
+}
+
+impl Geometry {
+    fn triangle(&mut self, corners: [Corner; 3]) {
+        let triangle = self.triangles.len();
+        self.triangles.push(corners.map(|[vertex, _, _]| vertex));
+        let texture_coordinates = corners.map(|[_, texture_coordinate, _]| texture_coordinate);
+        store(&mut self.texture_coordinates.corners, triangle, texture_coordinates);
+        store(&mut self.normals.corners, triangle, corners.map(|[_, _, normal]| normal));
+    }
+
+    fn append(&mut self, piece: Geometry) {
+        let triangles = self.triangles.len();
+        self.positions.extend_from_slice(&piece.positions);
+        self.triangles.extend_from_slice(&piece.triangles);
+        append(&mut self.texture_coordinates, &piece.texture_coordinates, triangles);
+        append(&mut self.normals, &piece.normals, triangles);
+    }
+}
+
+/// Appends what a piece has of an attribute, behind so many triangles.
+fn append<T: Copy>(attribute: &mut Attribute<T>, piece: &Attribute<T>, triangles: usize) {
+    attribute.values.extend_from_slice(&piece.values);
+    if !piece.corners.is_empty() {
+        attribute.corners.resize(triangles, [NONE; 3]);
+        attribute.corners.extend_from_slice(&piece.corners);
     }
 }
 

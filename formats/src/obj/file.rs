@@ -3,18 +3,17 @@
 
 use super::error::{IndexKind, ReadObjError, StatementFault};
 use super::parser::Parser;
-use super::statements::{BYTE_ORDER_MARK, BufferedStatements};
+use super::statements::{
+    BYTE_ORDER_MARK, BufferedStatements, MOST_BYTES_A_STATEMENT, check_length,
+};
 use super::visitor::{Corner, Visitor};
-use super::warning::MaterialWarning;
-use super::words::{Words, is_text};
+use super::words::Words;
 use crate::source::{READ_AT_ONCE, regular_file};
+use crate::warning::MaterialWarning;
 use glam::Vec3;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Seek};
 use std::path::Path;
-
-/// The longest statement that is read: a polygon of some million corners.
-const MOST_BYTES_A_STATEMENT: usize = 1 << 24;
 
 /// An open OBJ or MTL file, and what the first pass over it found.
 #[derive(Debug)]
@@ -104,6 +103,15 @@ impl ObjFile {
         if found { Ok(()) } else { Err(ReadObjError::NoFaces { file: self.name.clone() }) }
     }
 
+    /// The file itself, from its beginning on.
+    pub(super) fn unread(self) -> Result<File, ReadObjError> {
+        let ObjFile { name, mut input, .. } = self;
+        match input.rewind() {
+            Ok(()) => Ok(input.into_inner()),
+            Err(error) => Err(ReadObjError::Unreadable { file: name, error }),
+        }
+    }
+
     /// The number of bytes in the file.
     pub(super) fn length(&self) -> Result<u64, ReadObjError> {
         let unreadable = |error| ReadObjError::Unreadable { file: self.name.clone(), error };
@@ -128,14 +136,9 @@ impl ObjFile {
         while let Some((line, words)) =
             statements.next(MOST_BYTES_A_STATEMENT).map_err(unreadable)?
         {
-            if words.length() > MOST_BYTES_A_STATEMENT {
-                let fault = match words.clone().next() {
-                    Some(word) if !is_text(word) => StatementFault::NotText,
-                    _ => StatementFault::TooLong { most: MOST_BYTES_A_STATEMENT },
-                };
-                return Err(located(line, fault));
-            }
-            visit(line, words).map_err(|fault| located(line, fault))?;
+            check_length(&words)
+                .and_then(|()| visit(line, words))
+                .map_err(|fault| located(line, fault))?;
             count += 1;
         }
         Ok(count)

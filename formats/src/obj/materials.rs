@@ -18,9 +18,9 @@
 use super::error::{ReadObjError, StatementFault};
 use super::file::ObjFile;
 use super::statements::Statements;
-use super::warning::MaterialWarning;
 use super::words::{Words, is_text, number};
 use crate::source::quote::quote;
+use crate::warning::MaterialWarning;
 use bothways_common::look::color::linear_from_encoded;
 use bothways_common::scene::{Material, Mesh};
 use glam::Vec3;
@@ -53,6 +53,7 @@ pub(super) fn resolve(mesh: &mut Mesh, path: &Path) -> Result<Vec<MaterialWarnin
     let named = mesh.materials().map_or(&[][..], |materials| materials.named());
     let undefined = named.iter().filter(|named| named.material.is_none());
     let names: Vec<String> = undefined.map(|named| named.name.clone()).collect();
+    summarize(&mut warnings, &file);
     // The missing file may define the missing materials: one warning is enough.
     if !names.is_empty() && warnings.is_empty() {
         warnings.push(MaterialWarning::Undefined { file, names });
@@ -69,7 +70,19 @@ pub(super) fn all_missing(mesh: &Mesh, file: &str) -> Vec<MaterialWarning> {
         file: file.to_owned(),
         library: library.clone(),
     };
-    materials.libraries().iter().map(missing).collect()
+    let mut warnings = materials.libraries().iter().map(missing).collect();
+    summarize(&mut warnings, file);
+    warnings
+}
+
+/// Puts one warning in the place of all but the first missing material files.
+fn summarize(warnings: &mut Vec<MaterialWarning>, file: &str) {
+    const MOST: usize = 8;
+    let more = warnings.len().saturating_sub(MOST);
+    if more > 0 {
+        warnings.truncate(MOST);
+        warnings.push(MaterialWarning::MissingLibraries { file: file.to_owned(), more });
+    }
 }
 
 /// The files that an `mtllib` names: one file, whose name may contain blanks, or several files, separated by blanks.

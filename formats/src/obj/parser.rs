@@ -24,7 +24,7 @@ struct ForwardReference {
 }
 
 /// The kinds of index, in the order in which a corner has them.
-const INDEX_KINDS: [IndexKind; 3] =
+pub(super) const INDEX_KINDS: [IndexKind; 3] =
     [IndexKind::Vertex, IndexKind::TextureCoordinate, IndexKind::Normal];
 
 impl<V: Visitor> Parser<V> {
@@ -32,6 +32,11 @@ impl<V: Visitor> Parser<V> {
     /// [`IndexKind`], if it is known from an earlier pass.
     pub(super) fn new(visitor: V, total: Option<[usize; 3]>) -> Self {
         Parser { visitor, defined: [0; 3], total, forward: Default::default() }
+    }
+
+    /// A parser behind so many definitions, for each [`IndexKind`].
+    pub(super) fn behind(visitor: V, defined: [usize; 3]) -> Self {
+        Parser { defined, ..Parser::new(visitor, None) }
     }
 
     /// Parses one statement, which begins on line `line`.
@@ -99,7 +104,12 @@ impl<V: Visitor> Parser<V> {
     }
 
     /// Turns an index as the file writes it into one that counts from 0.
-    fn resolve(&mut self, line: usize, kind: IndexKind, index: i64) -> Result<u32, StatementFault> {
+    pub(super) fn resolve(
+        &mut self,
+        line: usize,
+        kind: IndexKind,
+        index: i64,
+    ) -> Result<u32, StatementFault> {
         let defined = self.defined[kind as usize];
         // No file has as many definitions as i64::MAX.
         let count = i64::try_from(defined).unwrap_or(i64::MAX);
@@ -119,6 +129,14 @@ impl<V: Visitor> Parser<V> {
         }
         // An index that does not fit is larger than any number of definitions: `check_forward` refuses it.
         Ok(u32::try_from(from_zero).unwrap_or(NONE))
+    }
+
+    /// Adds what the parser of the next piece of the file found, which began with the number of definitions so far.
+    pub(super) fn follow(&mut self, piece: Parser<impl Visitor>) {
+        self.defined = piece.defined;
+        for (kind, forward) in INDEX_KINDS.into_iter().zip(piece.forward) {
+            forward.into_iter().for_each(|forward| self.note_forward(kind, forward));
+        }
     }
 
     /// Keeps a forward reference if its index is larger than those of all references before it. The first

@@ -1,10 +1,14 @@
 //! The statements of an OBJ or MTL file: its lines, where a backslash at the end of a line joins the next one.
 
-use super::words::Words;
+use super::error::StatementFault;
+use super::words::{Words, is_text};
 use std::io::{self, BufRead, Read};
 
 /// The byte order mark that some editors write before the first line.
 pub(super) const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
+/// The longest statement that is read from a file: a polygon of some million corners.
+pub(super) const MOST_BYTES_A_STATEMENT: usize = 1 << 24;
 
 /// Iterates over the statements of a file in memory, without a copy.
 ///
@@ -17,7 +21,23 @@ pub(super) struct Statements<'a> {
 impl<'a> Statements<'a> {
     /// All statements of a file, after its byte order mark if it has one.
     pub(super) fn new(bytes: &'a [u8]) -> Self {
-        Statements { rest: bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes), next_line: 1 }
+        Statements::from_line(bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes), 1)
+    }
+
+    /// The statements of a piece of a file that begins with this line.
+    pub(super) fn from_line(piece: &'a [u8], line: usize) -> Self {
+        Statements { rest: piece, next_line: line }
+    }
+
+    /// What has not been iterated over yet, and the number of its first line.
+    pub(super) fn rest(&self) -> (&'a [u8], usize) {
+        (self.rest, self.next_line)
+    }
+
+    /// Skips the first bytes of the rest, which are one line.
+    pub(super) fn skip_line(&mut self, bytes: usize) {
+        self.rest = &self.rest[bytes..];
+        self.next_line += 1;
     }
 }
 
@@ -86,8 +106,20 @@ impl<R: BufRead> BufferedStatements<R> {
     }
 }
 
+/// Makes sure that a statement is not too long to be read from a file.
+pub(super) fn check_length(words: &Words) -> Result<(), StatementFault> {
+    if words.length() <= MOST_BYTES_A_STATEMENT {
+        return Ok(());
+    }
+    // The reader of statements one by one stops here, perhaps within the first word.
+    match words.cut(MOST_BYTES_A_STATEMENT + 1).next() {
+        Some(word) if !is_text(word) => Err(StatementFault::NotText),
+        _ => Err(StatementFault::TooLong { most: MOST_BYTES_A_STATEMENT }),
+    }
+}
+
 /// Tells whether the line after this one belongs to the same statement.
-fn continues(line: &[u8]) -> bool {
+pub(super) fn continues(line: &[u8]) -> bool {
     // A comment ends with its line, even if its last character is a backslash, as after a folder's name.
     let has_comment = || Words::new(line).has_comment();
     line.strip_suffix(b"\r").unwrap_or(line).ends_with(b"\\") && !has_comment()

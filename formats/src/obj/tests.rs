@@ -100,6 +100,20 @@ fn a_file_without_anything_to_draw_says_so() {
 }
 
 #[test]
+fn very_many_material_files_take_no_quadratic_time_and_few_warnings() {
+    // A comparison of all pairs would take 10¹⁰ steps.
+    let libraries: String = (0..100_000).map(|k| format!("mtllib {k:07}.mtl\n")).collect();
+    let begun = std::time::Instant::now();
+    let text = format!("{libraries}{SQUARE}usemtl a\nf 1 2 3\n");
+    let (_, warnings) = parse_alone("a", text.as_bytes()).unwrap();
+    assert_eq!(
+        (warnings.len(), warnings[8].to_string().as_str()),
+        (9, "a: 99992 more material files are missing beside it")
+    );
+    assert!(begun.elapsed().as_secs() < 20, "{:?}", begun.elapsed());
+}
+
+#[test]
 fn what_is_no_statement_says_so() {
     assert_eq!(fault("foo 1 2"), r#"there is no statement "foo" that an OBJ file may have here"#);
     assert_eq!(fault("V 1 2 3"), r#"there is no statement "V" that an OBJ file may have here"#);

@@ -1,6 +1,7 @@
 //! The words of a statement, and the numbers that words stand for.
 
 use super::error::StatementFault;
+use crate::source::decimal;
 use crate::source::quote::quote;
 
 /// Iterates over the words of a statement, up to a comment. Blanks and joined line ends separate words.
@@ -20,6 +21,11 @@ impl<'a> Words<'a> {
     pub(super) fn text(&self) -> Option<String> {
         let text = self.rest.trim_ascii();
         (!text.is_empty()).then(|| String::from_utf8_lossy(text).into_owned())
+    }
+
+    /// The words of so many bytes of the rest of the statement.
+    pub(super) fn cut(&self, bytes: usize) -> Self {
+        Words { rest: &self.rest[..bytes.min(self.rest.len())] }
     }
 
     /// The number of bytes in the rest of the statement.
@@ -69,11 +75,8 @@ impl<'a> Iterator for Words<'a> {
 }
 
 /// Reads a word as the nearest `f32`.
-///
-/// The word is rounded once: rounding to `f64` first could give a neighbour of the nearest `f32`.
 pub(super) fn number(word: &[u8]) -> Result<f32, StatementFault> {
-    let parsed = str::from_utf8(word).ok().and_then(|text| text.parse::<f32>().ok());
-    match parsed {
+    match decimal::nearest(word) {
         Some(value) if value.is_finite() => Ok(value),
         Some(_) if word.iter().any(u8::is_ascii_digit) => {
             Err(StatementFault::OutOfRange { text: quote(word) })

@@ -2,10 +2,12 @@
 
 use super::error::{ElementFault, ReadPlyError};
 use super::header::{ElementGroup, Header, HeaderError, PropertyType, ScalarType};
+use super::quick::{Decoded, FaceLayout, VertexLayout};
 use super::values::{ValueError, ValueReader};
 use crate::source::quote::shown;
 use crate::source::{READ_AT_ONCE, regular_file};
-use bothways_common::scene::Mesh;
+use crate::warning::MaterialWarning;
+use bothways_common::scene::{Attribute, Mesh};
 use glam::Vec3;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Seek, SeekFrom};
@@ -18,6 +20,13 @@ pub(crate) struct PlyFile<R> {
     header: Header,
     input: R,
     length: u64,
+}
+
+/// A vertex, with its normal if the file has normals.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Vertex {
+    pub(super) position: Vec3,
+    pub(super) normal: Vec3,
 }
 
 /// What a pass over a file visits; it skips the rest where it can.
@@ -56,14 +65,36 @@ impl<R: BufRead + Seek> PlyFile<R> {
 
     /// Reads all elements into a mesh.
     pub(super) fn mesh(&mut self) -> Result<Mesh, ReadPlyError> {
-        let (mut positions, mut triangles) = (Vec::new(), Vec::new());
-        self.visit(Pass::Everything, &mut |p| positions.push(p), &mut |t| triangles.push(t))?;
-        Ok(Mesh::new(positions, triangles).expect("the reader has checked numbers and indices"))
+        let (mut positions, mut normals, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
+        let has_normals = self.header.normals.is_some();
+        let mut vertex = |vertex: Vertex| {
+            positions.push(vertex.position);
+            if has_normals {
+                normals.push(vertex.normal);
+            }
+        };
+        self.visit(Pass::Everything, &mut vertex, &mut |t| triangles.push(t))?;
+        let normals = normals_of(&triangles, normals);
+        Ok(Mesh::new(positions, triangles)
+            .and_then(|mesh| mesh.with_normals(normals))
+            .expect("the reader has checked numbers and indices"))
+    }
+
+    /// Reads all elements into a mesh, with a warning if the file has colours.
+    pub(super) fn mesh_with_warnings(
+        &mut self,
+    ) -> Result<(Mesh, Vec<MaterialWarning>), ReadPlyError> {
+        Ok((self.mesh()?, self.color_warning().into_iter().collect()))
     }
 
     /// Visits all vertices, and does not read what follows them.
     pub(crate) fn vertices(&mut self, mut visit: impl FnMut(Vec3)) -> Result<(), ReadPlyError> {
-        self.visit(Pass::Vertices, &mut visit, &mut |_| ())
+        self.visit(Pass::Vertices, &mut |vertex: Vertex| visit(vertex.position), &mut |_| ())
+    }
+
+    /// A warning if the file has colours: no pass reads them.
+    pub(crate) fn color_warning(&self) -> Option<MaterialWarning> {
+        self.header.has_colors.then(|| MaterialWarning::Colors { file: self.name.clone() })
     }
 
     /// Visits all triangles in file order, and reads the whole file but its vertices. The indices are those of
@@ -79,7 +110,7 @@ impl<R: BufRead + Seek> PlyFile<R> {
     fn visit(
         &mut self,
         pass: Pass,
-        vertex: &mut impl FnMut(Vec3),
+        vertex: &mut impl FnMut(Vertex),
         triangle: &mut impl FnMut([u32; 3]),
     ) -> Result<(), ReadPlyError> {
         let PlyFile { name, header, input, length } = self;
@@ -95,9 +126,19 @@ impl<R: BufRead + Seek> PlyFile<R> {
                 }
                 _ => 0,
             };
-            for number in first..group.count {
-                let element = element(&mut values, header, group, vertex, triangle);
-                element.map_err(|error| located(name, group, number, &values, error))?;
+            let quick = Quick::of(header, group);
+            let mut number = first;
+            while number < group.count {
+                // All that is in memory at once; and then one element by itself, which is wrong, or not all in memory.
+                let bytes = values.in_memory().map_err(unreadable)?;
+                let decoded = quick.decode(bytes, group.count - number, vertex, triangle);
+                values.consume(decoded.bytes);
+                number += decoded.elements;
+                if number < group.count {
+                    let element = element(&mut values, header, group, vertex, triangle);
+                    element.map_err(|error| located(name, group, number, &values, error))?;
+                    number += 1;
+                }
             }
             if is_vertex && pass == Pass::Vertices {
                 return Ok(());
@@ -112,24 +153,74 @@ impl<R: BufRead + Seek> PlyFile<R> {
     }
 }
 
+/// The elements that can be decoded many at a time.
+enum Quick {
+    Vertices(VertexLayout),
+    Faces(FaceLayout),
+    Nothing,
+}
+
+impl Quick {
+    fn of(header: &Header, group: &ElementGroup) -> Quick {
+        match group.name.as_str() {
+            "vertex" => VertexLayout::new(header, group).map_or(Quick::Nothing, Quick::Vertices),
+            "face" => FaceLayout::new(header, group).map_or(Quick::Nothing, Quick::Faces),
+            _ => Quick::Nothing,
+        }
+    }
+
+    /// Decodes at most `most` elements that are in memory.
+    fn decode(
+        &self,
+        bytes: &[u8],
+        most: u64,
+        vertex: &mut impl FnMut(Vertex),
+        triangle: &mut impl FnMut([u32; 3]),
+    ) -> Decoded {
+        match self {
+            Quick::Vertices(layout) => layout.decode(bytes, most, vertex),
+            Quick::Faces(layout) => layout.decode(bytes, most, triangle),
+            Quick::Nothing => Decoded::default(),
+        }
+    }
+}
+
+/// The normals of vertices, as an attribute of triangles. A normal without direction is none.
+fn normals_of(triangles: &[[u32; 3]], mut values: Vec<Vec3>) -> Attribute<Vec3> {
+    const NONE: u32 = Attribute::<Vec3>::NONE;
+    let has_direction = |normal: &Vec3| normal.is_finite() && *normal != Vec3::ZERO;
+    if !values.iter().any(has_direction) {
+        return Attribute::default();
+    }
+    let index = |v: u32| if has_direction(&values[v as usize]) { v } else { NONE };
+    let corners = triangles.iter().map(|corners| corners.map(index)).collect();
+    values.iter_mut().filter(|normal| !normal.is_finite()).for_each(|normal| *normal = Vec3::ZERO);
+    Attribute { values, corners }
+}
+
 /// Reads one element of any kind.
 fn element<R: BufRead + Seek>(
     values: &mut ValueReader<R>,
     header: &Header,
     group: &ElementGroup,
-    vertex: &mut impl FnMut(Vec3),
+    vertex: &mut impl FnMut(Vertex),
     triangle: &mut impl FnMut([u32; 3]),
 ) -> Result<(), ValueError> {
     values.begin_element()?;
     let (is_vertex, is_face) = (group.name == "vertex", group.name == "face");
-    let mut position = [0.0; 3];
+    let [mut position, mut normal] = [[0.0; 3]; 2];
     for (k, property) in group.properties.iter().enumerate() {
-        let axis = header.coordinates.iter().position(|&at| at == k).filter(|_| is_vertex);
-        match (property.kind, axis) {
+        let axis = |of: &[usize; 3]| of.iter().position(|&at| at == k).filter(|_| is_vertex);
+        match (property.kind, axis(&header.coordinates)) {
             (PropertyType::Scalar(scalar), Some(axis)) => {
                 position[axis] = values.coordinate(&property.name, scalar)?;
             }
-            (PropertyType::Scalar(scalar), None) => values.ignore(scalar)?,
+            (PropertyType::Scalar(scalar), None) => {
+                let component = values.component(scalar)?;
+                if let Some(axis) = header.normals.as_ref().and_then(axis) {
+                    normal[axis] = component;
+                }
+            }
             (PropertyType::List { length, item }, _) if is_face && k == header.corners => {
                 fan(values, length, item, header.vertices, triangle)?;
             }
@@ -139,13 +230,13 @@ fn element<R: BufRead + Seek>(
                     let name = shown(&property.name);
                     return Err(ElementFault::NegativeLength { name, length }.into());
                 }
-                (0..length).try_for_each(|_| values.ignore(item))?;
+                (0..length).try_for_each(|_| values.component(item).map(drop))?;
             }
         }
     }
     values.end_element()?;
     if is_vertex {
-        vertex(position.into());
+        vertex(Vertex { position: position.into(), normal: normal.into() });
     }
     Ok(())
 }

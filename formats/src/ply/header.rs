@@ -3,6 +3,7 @@
 use super::error::HeaderFault;
 use crate::source::quote::{self, quote};
 use std::io::{self, BufRead, Read};
+use std::ops::Range;
 
 /// The encoding of the values after the header.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,7 +46,7 @@ impl ScalarType {
     }
 
     /// The size of one value in a binary file, in bytes.
-    pub(super) fn size(self) -> u64 {
+    pub(super) fn size(self) -> usize {
         match self {
             ScalarType::I8 | ScalarType::U8 => 1,
             ScalarType::I16 | ScalarType::U16 => 2,
@@ -83,12 +84,17 @@ pub(super) struct ElementGroup {
 
 impl ElementGroup {
     /// The size of one element in a binary file, in bytes; `None` if the sizes differ.
-    pub(super) fn stride(&self) -> Option<u64> {
+    pub(super) fn stride(&self) -> Option<usize> {
+        self.size(0..self.properties.len())
+    }
+
+    /// The size of some properties of one element in a binary file, in bytes; `None` if one of them is a list.
+    pub(super) fn size(&self, properties: Range<usize>) -> Option<usize> {
         let size = |property: &Property| match property.kind {
             PropertyType::Scalar(scalar) => Some(scalar.size()),
             PropertyType::List { .. } => None,
         };
-        self.properties.iter().map(size).sum()
+        self.properties[properties].iter().map(size).sum()
     }
 
     /// The index of the property of this name.
@@ -106,6 +112,10 @@ pub(super) struct Header {
     pub(super) vertices: u32,
     /// The indices of `x`, `y` and `z` among the properties of a vertex.
     pub(super) coordinates: [usize; 3],
+    /// The indices of `nx`, `ny` and `nz` among the properties of a vertex, if it has all three.
+    pub(super) normals: Option<[usize; 3]>,
+    /// Whether vertices or faces have colours.
+    pub(super) has_colors: bool,
     /// The index of the list of corners among the properties of a face.
     pub(super) corners: usize,
     /// The number of bytes before the first element.
@@ -284,13 +294,29 @@ impl Draft {
             _ => Err(HeaderFault::NoCoordinate { name }),
         };
         let coordinates = [coordinate("x")?, coordinate("y")?, coordinate("z")?];
+        let normals = match ["nx", "ny", "nz"].map(|name| coordinate(name).ok()) {
+            [Some(x), Some(y), Some(z)] => Some([x, y, z]),
+            _ => None,
+        };
+        let has_colors = [vertex, face].iter().any(|group| group.property("red").is_some());
         let corners = face.property("vertex_indices").or_else(|| face.property("vertex_index"));
         let is_index_list = |&k: &usize| match face.properties[k].kind {
             PropertyType::List { item, .. } => item.is_integer(),
             PropertyType::Scalar(_) => false,
         };
         let corners = corners.filter(is_index_list).ok_or(HeaderFault::NoCorners)?;
-        Ok(Header { encoding, vertices, coordinates, corners, bytes, lines, groups: self.groups })
+        let groups = self.groups;
+        Ok(Header {
+            encoding,
+            groups,
+            vertices,
+            coordinates,
+            normals,
+            has_colors,
+            corners,
+            bytes,
+            lines,
+        })
     }
 }
 

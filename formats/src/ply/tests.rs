@@ -330,3 +330,122 @@ proptest! {
         let _ = parse("a", &bytes);
     }
 }
+
+/// The names and sizes of types, in bytes; the last two are for numbers with a fraction.
+const TYPES: [(&str, usize); 8] = [
+    ("char", 1),
+    ("uchar", 1),
+    ("short", 2),
+    ("ushort", 2),
+    ("int", 4),
+    ("uint", 4),
+    ("float", 4),
+    ("double", 8),
+];
+
+/// A whole number as a value of one of the [`TYPES`].
+fn value(number: u8, (name, size): (&str, usize), is_big: bool) -> Vec<u8> {
+    let mut bytes = match name {
+        "float" => f32::from(number).to_le_bytes().to_vec(),
+        "double" => f64::from(number).to_le_bytes().to_vec(),
+        _ => u64::from(number).to_le_bytes()[..size].to_vec(),
+    };
+    if is_big {
+        bytes.reverse();
+    }
+    bytes
+}
+
+/// Binary files with values of all types and polygons of many sizes.
+fn binary_files() -> impl Strategy<Value = Vec<u8>> {
+    let kinds = vec(0_usize..8, 10);
+    let lists = [0_usize..6, 0..6];
+    let polygons = vec(vec(0_u8..12, 3..6), 1..12);
+    (kinds, lists, vec(vec(0_u8..127, 8), 12), polygons, any::<(bool, bool, bool)>()).prop_map(
+        |(kinds, [length, item], vertices, polygons, (is_big, has_normals, has_flags))| {
+            let mut names = vec!["x", "red", "y", "z"];
+            names.extend(if has_normals { &["nx", "ny", "alpha", "nz"][..] } else { &[] });
+            let property =
+                |(name, kind): (&&str, &usize)| format!("property {} {name}", TYPES[*kind].0);
+            let mut lines = vec!["element vertex 12".to_owned()];
+            lines.extend(names.iter().zip(&kinds).map(property));
+            lines.push(format!("element face {}", polygons.len()));
+            lines.extend(has_flags.then(|| property((&"flags", &kinds[8]))));
+            let [length, item] = [TYPES[length], TYPES[item]];
+            lines.push(format!("property list {} {} vertex_index", length.0, item.0));
+            lines.extend(has_flags.then(|| property((&"more", &kinds[9]))));
+            let encoding = if is_big { "binary_big_endian" } else { "binary_little_endian" };
+            let lines: Vec<&str> = lines.iter().map(String::as_str).collect();
+            let mut bytes = header(encoding, &lines).into_bytes();
+            for vertex in vertices {
+                for (number, kind) in vertex.iter().zip(&kinds).take(names.len()) {
+                    bytes.extend(value(*number, TYPES[*kind], is_big));
+                }
+            }
+            let flags = |number, kind: usize| {
+                if has_flags { value(number, TYPES[kind], is_big) } else { Vec::new() }
+            };
+            for polygon in polygons {
+                bytes.extend(flags(1, kinds[8]));
+                bytes.extend(value(u8::try_from(polygon.len()).unwrap(), length, is_big));
+                polygon.iter().for_each(|index| bytes.extend(value(*index, item, is_big)));
+                bytes.extend(flags(2, kinds[9]));
+            }
+            bytes
+        },
+    )
+}
+
+proptest! {
+    #[test]
+    fn what_is_in_memory_is_decoded_as_value_by_value(
+        bytes in binary_files(),
+        changes in vec((any::<proptest::sample::Index>(), any::<u8>()), 0..3),
+        cut in proptest::option::weighted(0.2, any::<proptest::sample::Index>()),
+        room in 2_usize..200,
+    ) {
+        let mut bytes = bytes;
+        let header = bytes.windows(11).position(|word| word == b"end_header\n").unwrap() + 11;
+        for (place, byte) in changes {
+            let place = header + place.index(bytes.len() - header);
+            bytes[place] = byte;
+        }
+        if let Some(cut) = cut {
+            bytes.truncate(header + cut.index(bytes.len() - header));
+        }
+        let [all, some, one] = [bytes.len(), room, 1].map(|room| {
+            let input = std::io::BufReader::with_capacity(room, Cursor::new(&bytes));
+            let read = PlyFile::new("a".into(), input).and_then(|mut file| file.mesh());
+            // As text, because 0 equals −0, and NaN nothing.
+            format!("{:?}", read.map_err(|error| error.to_string()))
+        });
+        prop_assert_eq!(&all, &one);
+        prop_assert_eq!(&some, &one);
+    }
+}
+
+#[test]
+fn normals_are_those_of_the_vertices() {
+    let lines = [
+        "element vertex 4",
+        XYZ,
+        "property float nx",
+        "property float ny",
+        "property double nz",
+        "property uchar red",
+        "element face 2",
+        FACES,
+    ];
+    let vertices = "0 0 0 0 0 2 9\n1 0 0 0 1 0 9\n0 1 0 0.5 0 0 9\n0 0 1 nan 0 0 9\n";
+    let file = header("ascii", &lines) + vertices + "3 0 1 2\n3 0 1 3\n";
+    let (mesh, warnings) = parse_with_warnings("a", file.as_bytes()).unwrap();
+    assert_eq!(mesh.normals().of(0), Some([2.0 * Vec3::Z, Vec3::Y, 0.5 * Vec3::X]));
+    assert_eq!(mesh.normals().of(1), None);
+    let says = "a: the colours of its vertices and faces are not read; all of it is drawn in the material of its object";
+    assert_eq!(warnings.iter().map(ToString::to_string).collect::<Vec<_>>(), [says]);
+    let without = file
+        .replace("0 0 2 9", "0 0 0 9")
+        .replace("0 1 0 9", "0 inf 0 9")
+        .replace("0.5 0 0 9", "0 0 0 9");
+    assert_eq!(parse("a", without.as_bytes()).unwrap().normals().corners, [[0_u32; 3]; 0]);
+}

@@ -2,6 +2,7 @@
 
 use super::error::{ElementFault, Location};
 use super::header::{Encoding, Header, ScalarType};
+use crate::source::decimal;
 use crate::source::quote::{quote, shown};
 use std::io::{self, BufRead, ErrorKind, Seek};
 
@@ -62,13 +63,25 @@ impl<'a, R: BufRead + Seek> ValueReader<'a, R> {
 
     /// Skips `count` binary elements of `stride` bytes each, without reading them. Returns the number of skipped elements,
     /// which is less than `count` if the input ends before the last one.
-    pub(super) fn skip(&mut self, count: u64, stride: u64) -> io::Result<u64> {
+    pub(super) fn skip(&mut self, count: u64, stride: usize) -> io::Result<u64> {
+        let stride = stride as u64;
         let whole = (self.length.saturating_sub(self.position) / stride).min(count);
         let bytes = whole * stride;
         let offset = i64::try_from(bytes).map_err(io::Error::other)?;
         self.input.seek_relative(offset)?;
         self.position += bytes;
         Ok(whole)
+    }
+
+    /// The next bytes, as many as are in memory; at least one, unless the input has ended.
+    pub(super) fn in_memory(&mut self) -> io::Result<&[u8]> {
+        self.input.fill_buf()
+    }
+
+    /// Moves behind some of the bytes that are [in memory](Self::in_memory).
+    pub(super) fn consume(&mut self, bytes: usize) {
+        self.input.consume(bytes);
+        self.position += bytes as u64;
     }
 
     /// Tells whether elements of equal size can be skipped.
@@ -133,10 +146,8 @@ impl<'a, R: BufRead + Seek> ValueReader<'a, R> {
         Ok(match (self.encoding, scalar) {
             (Encoding::Ascii, _) => {
                 self.next_word()?;
-                // Rounding to `f64` first could give a neighbour of the nearest `f32`.
-                let parsed = str::from_utf8(&self.word).ok().and_then(|word| word.parse().ok());
-                let rounded: f32 =
-                    parsed.ok_or_else(|| ElementFault::NotANumber { text: quote(&self.word) })?;
+                let rounded = decimal::nearest(&self.word)
+                    .ok_or_else(|| ElementFault::NotANumber { text: quote(&self.word) })?;
                 (rounded, rounded.into())
             }
             (_, ScalarType::F32) => {
@@ -170,10 +181,10 @@ impl<'a, R: BufRead + Seek> ValueReader<'a, R> {
         })
     }
 
-    /// Skips a value.
-    pub(super) fn ignore(&mut self, scalar: ScalarType) -> Result<(), ValueError> {
+    /// Reads a value that need not be finite as the nearest `f32`.
+    pub(super) fn component(&mut self, scalar: ScalarType) -> Result<f32, ValueError> {
         // A value that is not needed must be a number, too: otherwise the header does not fit the file.
-        self.number(scalar).map(|_| ())
+        self.number(scalar).map(|(rounded, _)| rounded)
     }
 
     /// Reads a whole number in an ASCII file.

@@ -6,7 +6,7 @@ use super::material::Materials;
 use super::suggestion::suggestion;
 use super::transform::{self, Transform};
 use crate::generate::Kind;
-use crate::mesh_file::{Format, ReadMeshError};
+use crate::mesh_file::{EXTENSIONS, Format, ReadMeshError};
 use crate::smooth;
 use crate::source::quote::{quoted, shown};
 use bothways_common::scene::{Material, MeshMaterials, Object, Plane, Shape, Sphere, Triangle};
@@ -49,7 +49,7 @@ fn check_pattern(object: &Table, shape: &Shape, material: &Material) -> Result<(
         {
             let message = "this material has a checker, and the mesh has no texture coordinates";
             Err(Problem::new(object.span_of("material"), message).help(
-                "export the mesh as OBJ with texture coordinates (vt), or choose a material without \
+                "export the mesh with texture coordinates, as OBJ (vt) or glTF, or choose a material without \
                  checker",
             ))
         }
@@ -105,11 +105,11 @@ fn mesh(
     warnings: &mut Vec<String>,
 ) -> Result<Shape, Problem> {
     let path = Path::new(item.text()?);
-    let Some(format) = Format::of(path) else {
-        let problem = format!("is {}, which is no .obj or .ply file", quoted(item.text()?));
-        return Err(item.problem(problem).help("convert it to OBJ or PLY; no others are read"));
-    };
     let path = folder.join(path);
+    let Some(format) = Format::of_file(&path) else {
+        let problem = format!("is {}, which is no mesh file ({EXTENSIONS})", quoted(item.text()?));
+        return Err(item.problem(problem).help("convert it to one of these; no others are read"));
+    };
     let wrong = |error: ReadMeshError| Problem::new(item.span.clone(), error.to_string());
     let mesh = if own_materials {
         let (mesh, missing) = format.read_with_materials(&path).map_err(wrong)?;

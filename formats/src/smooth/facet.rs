@@ -10,5 +10,4 @@ pub(super) struct Facet {
     /// The normal times the triangle's angle at the vertex.
     pub(super) weighted: DVec3,
     pub(super) triangle: u32,
-    pub(super) corner: u8,
 }

@@ -415,9 +415,9 @@ fn what_is_wrong_with_an_object() {
             "4:12: there is no material \"gold\"; the materials are clay",
         ),
         (
-            "[[object]]\nmesh = 'bunny.stl'",
-            "'bunny.stl'",
-            "2:8: mesh is \"bunny.stl\", which is no .obj or .ply file; convert it to OBJ or PLY; \
+            "[[object]]\nmesh = 'bunny.off'",
+            "'bunny.off'",
+            "2:8: mesh is \"bunny.off\", which is no mesh file (.obj, .ply, .stl, .gltf, .glb); convert it to one of these; \
              no others are read",
         ),
         (

@@ -3,6 +3,7 @@
 use crate::common::glam::{DVec3, Vec3};
 use crate::common::{CameraDescription, Mesh, Orientation};
 use crate::wording::readable;
+use rayon::prelude::*;
 
 /// The reason why no camera frames a mesh.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -121,8 +122,22 @@ impl Framing {
     ///
     /// If `up` runs along `towards_eye`, a side of the image is 0, or `distance` or `filled` is not positive.
     pub fn camera(&self, mesh: &Mesh) -> Result<CameraDescription, FrameMeshError> {
-        let used = mesh.triangles().iter().flatten();
-        self.camera_of(used.map(|&vertex| mesh.positions()[vertex as usize]))
+        let used = used_vertices(mesh);
+        let parts = || {
+            let parts = mesh.positions().par_chunks(PART).zip(used.par_chunks(PART));
+            parts.map(|(positions, used)| {
+                let all = positions.iter().zip(used).filter(|(_, used)| **used);
+                all.map(|(position, _)| position.as_dvec3())
+            })
+        };
+        // The greatest of all parts does not depend on the threads that work on them.
+        self.camera_around(
+            parts().filter_map(bounds).reduce_with(around),
+            |axes, slopes, center| {
+                let reaches = parts().map(|points| reach(axes, slopes, points.map(|p| p - center)));
+                reaches.reduce(|| NOWHERE, farther)
+            },
+        )
     }
 
     /// The camera that sees all of these positions in the middle of the picture: those that a mesh's triangles use, each
@@ -140,13 +155,24 @@ impl Framing {
         positions: impl Iterator<Item = Vec3> + Clone,
     ) -> Result<CameraDescription, FrameMeshError> {
         let points = positions.map(|position| position.as_dvec3());
-        let (low, high) = bounds(points.clone()).ok_or(FrameMeshError::Empty)?;
+        self.camera_around(bounds(points.clone()), |axes, slopes, center| {
+            reach(axes, slopes, points.clone().map(|point| point - center))
+        })
+    }
+
+    /// The camera for a mesh with these bounds. `reach` is [`reach`] for the mesh, seen from a center.
+    fn camera_around(
+        &self,
+        bounds: Option<(DVec3, DVec3)>,
+        reach: impl Fn(&[DVec3; 3], [f64; 2], DVec3) -> Reach,
+    ) -> Result<CameraDescription, FrameMeshError> {
+        let (low, high) = bounds.ok_or(FrameMeshError::Empty)?;
         let (center, diagonal) = (0.5 * (low + high), (high - low).length());
         if diagonal == 0.0 {
             return Err(FrameMeshError::Point);
         }
         let axes = self.axes();
-        let place = self.place_of_eye(&axes, diagonal, points.map(|point| point - center));
+        let place = self.place_of_eye(diagonal, |slopes| reach(&axes, slopes, center));
         let [u, v, w] = axes;
         // The point in the middle of the picture, as far away as the middle of the mesh.
         let middle = center + place.x * u + place.y * v;
@@ -186,16 +212,10 @@ impl Framing {
     /// X = (A − B)/2. So it is with the height.
     ///
     /// From this position, a parallel projection also shows the whole mesh, although it shows distant parts larger.
-    fn place_of_eye(
-        &self,
-        axes: &[DVec3; 3],
-        diagonal: f64,
-        points: impl Iterator<Item = DVec3> + Clone,
-    ) -> DVec3 {
+    fn place_of_eye(&self, diagonal: f64, reach: impl Fn([f64; 2]) -> Reach) -> DVec3 {
         let [width, height] = self.image.map(f64::from);
         let lens = 2.0 * f64::from(self.distance);
         let half = [width / height / lens, 1.0 / lens];
-        let reach = |slopes| reach(axes, slopes, points.clone());
         let slopes = half.map(|half| self.filled * half);
         let [across, down] = [0, 1].map(|axis| {
             let [right, left] = reach(slopes)[axis];
@@ -205,7 +225,7 @@ impl Framing {
         let mut away = across.max(down).max(diagonal);
         let flat = reach([0.0; 2]);
         for _ in 0..MOST_STEPS {
-            let place = in_the_middle(away, slopes, &half, reach);
+            let place = in_the_middle(away, slopes, &half, &reach);
             let parallel = [0, 1].map(|axis| {
                 let [right, left] = flat[axis];
                 (right - place[axis]).max(left + place[axis]) / (FILLED_IN_PARALLEL * half[axis])
@@ -217,7 +237,7 @@ impl Framing {
             // A factor slightly above 1, so that the loop ends.
             away = needed * 1.001;
         }
-        let place = in_the_middle(away, slopes, &half, reach);
+        let place = in_the_middle(away, slopes, &half, &reach);
         DVec3::new(place[0], place[1], away)
     }
 }
@@ -231,7 +251,7 @@ fn in_the_middle(
     away: f64,
     slopes: [f64; 2],
     half: &[f64; 2],
-    reach: impl Fn([f64; 2]) -> [[f64; 2]; 2],
+    reach: impl Fn([f64; 2]) -> Reach,
 ) -> [f64; 2] {
     let mut tight = slopes;
     for _ in 0..MOST_STEPS {
@@ -246,28 +266,46 @@ fn in_the_middle(
     reach(tight).map(|[right, left]| 0.5 * (right - left))
 }
 
-/// For `u` and for `v` with their slopes, the greatest of x + s·z and of −x + s·z.
-fn reach(
-    [u, v, w]: &[DVec3; 3],
-    slopes: [f64; 2],
-    points: impl Iterator<Item = DVec3>,
-) -> [[f64; 2]; 2] {
-    let start = [[f64::NEG_INFINITY; 2]; 2];
-    points.fold(start, |mut most, point| {
-        let z = point.dot(*w);
-        for (axis, x) in [point.dot(*u), point.dot(*v)].into_iter().enumerate() {
-            let [right, left] = &mut most[axis];
-            *right = right.max(x + slopes[axis] * z);
-            *left = left.max(-x + slopes[axis] * z);
-        }
-        most
+/// For `u` and for `v` with their slopes, the greatest of x + s·z and of −x + s·z of some points.
+type Reach = [[f64; 2]; 2];
+
+/// The reach of no point.
+const NOWHERE: Reach = [[f64::NEG_INFINITY; 2]; 2];
+
+fn reach([u, v, w]: &[DVec3; 3], slopes: [f64; 2], points: impl Iterator<Item = DVec3>) -> Reach {
+    points.fold(NOWHERE, |most, point| {
+        let (x, y, z) = (point.dot(*u), point.dot(*v), point.dot(*w));
+        let [across, down] = slopes.map(|slope| slope * z);
+        farther(most, [[x + across, -x + across], [y + down, -y + down]])
     })
+}
+
+/// The reach of the points of both.
+fn farther(a: Reach, b: Reach) -> Reach {
+    [0, 1].map(|axis| [0, 1].map(|side| a[axis][side].max(b[axis][side])))
 }
 
 /// The least and the greatest coordinates of the points.
 fn bounds(points: impl Iterator<Item = DVec3>) -> Option<(DVec3, DVec3)> {
-    points.map(|p| (p, p)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+    points.map(|p| (p, p)).reduce(around)
 }
+
+/// The bounds of both.
+fn around(a: (DVec3, DVec3), b: (DVec3, DVec3)) -> (DVec3, DVec3) {
+    (a.0.min(b.0), a.1.max(b.1))
+}
+
+/// For each vertex of a mesh, whether a triangle uses it.
+fn used_vertices(mesh: &Mesh) -> Vec<bool> {
+    let mut used = vec![false; mesh.positions().len()];
+    for &vertex in mesh.triangles().iter().flatten() {
+        used[vertex as usize] = true;
+    }
+    used
+}
+
+/// The number of vertices that one thread looks at in one go.
+const PART: usize = 1 << 14;
 
 #[cfg(test)]
 mod tests {

@@ -3,12 +3,16 @@
 use super::built_in::{BUILT_IN, BuiltIn, names};
 use super::framing::{FrameMeshError, Framing};
 use super::studio;
-use crate::common::{CameraDescription, Mesh, Object, Scene, SceneError, Shape};
-use crate::formats::mesh_file::{EXTENSIONS, Format, ReadMeshError};
+use crate::common::{
+    Camera, CameraDescription, CameraError, Mesh, Object, Scene, SceneError, Shape,
+};
+use crate::formats::gltf::{self, GltfCamera, Model};
+use crate::formats::mesh_file::{EXTENSIONS, Format, ReadMeshError, STREAMED};
 use crate::formats::mesh_stream::StreamError;
-use crate::formats::obj::MaterialWarning;
 use crate::formats::scene_file::{self, ReadSceneError, nearest_name};
 use crate::formats::smooth;
+use crate::formats::source::quote::{listed, quoted};
+use crate::formats::warning::MaterialWarning;
 use std::path::Path;
 
 /// A scene, ready to be rendered.
@@ -80,12 +84,30 @@ pub enum LoadError {
     Stream(#[from] StreamError),
     /// The file to stream is not a mesh file.
     #[error(
-        "only a mesh file ({EXTENSIONS}) can be streamed, and {source_name:?} is none; render it \
+        "only a mesh file ({STREAMED}) can be streamed, and {source_name:?} is none; render it \
          in memory, without --stream, or name a mesh file"
     )]
     NotStreamed {
         /// The requested name.
         source_name: String,
+    },
+    /// The glTF file has a camera that is not accepted.
+    #[error("{path}: {error}")]
+    Camera {
+        /// The glTF file.
+        path: String,
+        /// The reason.
+        error: CameraError,
+    },
+    /// The glTF file has no camera of this name.
+    #[error("{path} has no camera {}; {}", quoted(.name), cameras_of(.names))]
+    NoCamera {
+        /// The glTF file.
+        path: String,
+        /// The requested name.
+        name: String,
+        /// The names of its cameras.
+        names: Vec<String>,
     },
     /// The mesh file is correct, but no camera frames its mesh.
     #[error("{path}: {error}")]
@@ -97,7 +119,17 @@ pub enum LoadError {
     },
 }
 
+/// The names of a file's cameras, in a message.
+fn cameras_of(names: &[String]) -> String {
+    match names {
+        [] => "it has none; leave # and the name out, and the mesh is framed".to_owned(),
+        names => format!("its cameras are {}", listed(names.iter().map(String::as_str))),
+    }
+}
+
 /// Loads a built-in scene by its name, a scene file, or a mesh file with a camera that frames the mesh.
+///
+/// A glTF file may be followed by `#` and the name of one of its cameras, or by `#` alone for the first.
 ///
 /// # Errors
 ///
@@ -123,12 +155,17 @@ pub fn load_for(source: &str, image: Option<[u32; 2]>) -> Result<LoadedScene, Lo
     if let Some(built_in) = BUILT_IN.iter().find(|built_in| built_in.name == source) {
         return load_built_in(built_in);
     }
+    if let Some((path, camera)) = of_camera(source) {
+        return load_with_camera(path, camera, image);
+    }
     let path = Path::new(source);
-    if let Some(format) = Format::of(path) {
+    if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
+        return load_scene_file(path);
+    }
+    if let Some(format) = mesh_format(source) {
         return load_mesh(path, format, &framing_for(image));
     }
     match path.extension() {
-        Some(extension) if extension.eq_ignore_ascii_case("toml") => load_scene_file(path),
         None if !source.contains(['/', '\\']) => Err(LoadError::UnknownName {
             name: source.to_owned(),
             meant: nearest_name(source, BUILT_IN.iter().map(|built_in| built_in.name)),
@@ -157,9 +194,10 @@ pub fn load_bytes(
     image: Option<[u32; 2]>,
 ) -> Result<LoadedScene, LoadError> {
     let path = Path::new(name);
-    if let Some(format) = Format::of(path) {
+    let is_scene = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
+    if let Some(format) = Format::of_bytes(name, bytes).filter(|_| !is_scene) {
         let (mesh, missing) = format.parse(name, bytes)?;
-        return of_mesh(path, mesh, &missing, &framing_for(image));
+        return of_framed(path, mesh, &missing, &framing_for(image));
     }
     match path.extension() {
         Some(extension) if extension.eq_ignore_ascii_case("toml") => {
@@ -195,22 +233,72 @@ pub(super) fn framing_for(image: Option<[u32; 2]>) -> Framing {
     Framing { image: image.unwrap_or(standard.image), ..standard }
 }
 
+/// The format of a mesh file. What could be the name of a built-in scene is none.
+fn mesh_format(source: &str) -> Option<Format> {
+    let is_name = Path::new(source).extension().is_none() && !source.contains(['/', '\\']);
+    Format::of_file(Path::new(source)).filter(|_| !is_name)
+}
+
+/// A glTF file and the name of a camera, if they are written as `FILE#CAMERA`.
+fn of_camera(source: &str) -> Option<(&Path, &str)> {
+    let (path, camera) = source.split_once('#')?;
+    let path = Path::new(path);
+    let is_meant = !Path::new(source).exists() && Format::of_file(path) == Some(Format::Gltf);
+    is_meant.then_some((path, camera))
+}
+
+/// Loads a glTF file, seen by one of its cameras: of this name, or the first if the name is empty.
+fn load_with_camera(
+    path: &Path,
+    name: &str,
+    image: Option<[u32; 2]>,
+) -> Result<LoadedScene, LoadError> {
+    let Model { mesh, cameras, warnings } = gltf::read(path).map_err(ReadMeshError::from)?;
+    let found = cameras.iter().find(|camera| camera.name == name || name.is_empty());
+    let Some(GltfCamera { camera, aspect_stated, .. }) = found else {
+        let names = cameras.into_iter().map(|camera| camera.name).collect();
+        let path = path.display().to_string();
+        return Err(LoadError::NoCamera { path, name: name.to_owned(), names });
+    };
+    let mut camera = CameraDescription { image: image.unwrap_or(camera.image), ..*camera };
+    let [width, height] = camera.image.map(|side| side as f32);
+    let of_square_pixels = [width / height, 1.0];
+    if !aspect_stated {
+        camera.viewport = of_square_pixels;
+    }
+    let shown = path.display().to_string();
+    let camera_error = |error: CameraError| LoadError::Camera { path: shown.clone(), error };
+    Camera::new(camera).map_err(camera_error)?;
+    let viewport_stated = camera.viewport != of_square_pixels;
+    Ok(LoadedScene { viewport_stated, ..of_mesh(path, mesh, &warnings, camera)? })
+}
+
 fn load_mesh(path: &Path, format: Format, framing: &Framing) -> Result<LoadedScene, LoadError> {
     let (mesh, missing) = format.read_with_materials(path)?;
-    of_mesh(path, mesh, &missing, framing)
+    of_framed(path, mesh, &missing, framing)
 }
 
 /// A mesh in the studio, before a camera that frames it.
-fn of_mesh(
+fn of_framed(
     path: &Path,
     mesh: Mesh,
     missing: &[MaterialWarning],
     framing: &Framing,
 ) -> Result<LoadedScene, LoadError> {
+    let framed = framing.camera(&mesh);
+    let wrong = |error| LoadError::Framing { path: path.display().to_string(), error };
+    of_mesh(path, mesh, missing, framed.map_err(wrong)?)
+}
+
+/// A mesh in the studio, before a camera.
+fn of_mesh(
+    path: &Path,
+    mesh: Mesh,
+    missing: &[MaterialWarning],
+    camera: CameraDescription,
+) -> Result<LoadedScene, LoadError> {
     let warnings = missing.iter().map(ToString::to_string).collect();
     let shown = path.display().to_string();
-    let camera =
-        framing.camera(&mesh).map_err(|error| LoadError::Framing { path: shown.clone(), error })?;
     let material = studio::material_for(mesh.materials().is_some());
     let toml = studio::toml(&camera, &shown, material.is_some());
     let shape = Shape::Mesh(smooth::with_normals(mesh, smooth::CREASE));

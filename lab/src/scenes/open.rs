@@ -87,7 +87,7 @@ pub fn open(source: &str, image: Option<[u32; 2]>, stream: bool) -> Result<Opene
 pub fn open_stream(source: &str, image: Option<[u32; 2]>) -> Result<StreamedScene, LoadError> {
     let begun = Instant::now();
     let path = Path::new(source);
-    let Some(format) = Format::of(path) else {
+    let Some(format) = Format::of_file(path).filter(|format| format.can_be_streamed()) else {
         return Err(LoadError::NotStreamed { source_name: source.to_owned() });
     };
     let mut mesh = MeshStream::open(path, format)?;

@@ -28,7 +28,8 @@ fn many_has_about_a_hundred_thousand_triangles() {
 fn an_unknown_name_lists_the_known_ones() {
     let says = |name| load(name).unwrap_err().to_string();
     let list = "the built-in scenes are lecture, canonical, ties, behind, slivers, overlap, \
-                parallel, inside, many; a scene file (.toml) or a mesh file (.obj, .ply) can be named, too";
+                parallel, inside, many; a scene file (.toml) or a mesh file (.obj, .ply, \
+                .stl, .gltf, .glb) can be named, too";
     let near = format!("there is no built-in scene \"lectuer\"; did you mean \"lecture\"? {list}");
     assert_eq!(says("lectuer"), near);
     assert_eq!(says("bunny"), format!("there is no built-in scene \"bunny\"; {list}"));
@@ -37,10 +38,9 @@ fn an_unknown_name_lists_the_known_ones() {
 
 #[test]
 fn an_unknown_kind_of_file_is_refused_by_name() {
-    for path in ["meshes/bunny.stl", "bunny.stl", "meshes/bunny"] {
+    for path in ["meshes/bunny.off", "bunny.off", "meshes/bunny"] {
         let says = load(path).unwrap_err().to_string();
-        let reason =
-            "is neither a scene file (.toml) nor a mesh file (.obj, .ply); no others are read";
+        let reason = "is neither a scene file (.toml) nor a mesh file (.obj, .ply, .stl, .gltf, .glb); no others are read";
         assert_eq!(says, format!("{path} {reason}"));
     }
 }

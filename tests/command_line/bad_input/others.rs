@@ -475,13 +475,13 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
         "cannot write file/m.obj: a file is where a folder would be; choose another file with -o",
     ),
     (
-        "mesh grid -o new/m.stl",
-        "cannot write new/m.stl: a mesh is written as OBJ or PLY, and .stl is neither; end the \
-         name in .obj or .ply",
+        "mesh grid -o new/m.glb",
+        "cannot write new/m.glb: a mesh is written as OBJ, PLY or STL, and .glb is none of them; end \
+         the name in .obj, .ply or .stl",
     ),
     (
         "mesh grid -o new/m.",
-        "cannot write new/m.: a mesh is written as OBJ or PLY, and . is neither; end the name in",
+        "cannot write new/m.: a mesh is written as OBJ, PLY or STL, and . is none of them; end the name in",
     ),
     ("mesh grid -o new/", "cannot write new/: it names a folder; choose another file with -o"),
     ("vectors all", "unexpected argument 'all' found"),

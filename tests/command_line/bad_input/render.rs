@@ -17,8 +17,8 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
     ("no-such.obj", "no-such.obj: there is no such file"),
     ("no-such.ply", "no-such.ply: there is no such file"),
     (
-        "no-such.stl",
-        "no-such.stl is neither a scene file (.toml) nor a mesh file (.obj, .ply); no others are read",
+        "no-such.off",
+        "no-such.off is neither a scene file (.toml) nor a mesh file (.obj, .ply, .stl, .gltf, .glb); no others are read",
     ),
     (
         "empty.obj",

@@ -1,7 +1,7 @@
 //! What the triangles of a mesh are made of, where its file says so.
 
 use crate::scene::material::Material;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Materials by name, and which of them each triangle has.
 ///
@@ -10,6 +10,8 @@ use std::collections::BTreeMap;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeshMaterials {
     libraries: Vec<String>,
+    /// The same, to be found among very many.
+    known_libraries: BTreeSet<String>,
     named: Vec<NamedMaterial>,
     /// The place of each name in `named`.
     places: BTreeMap<String, u32>,
@@ -37,7 +39,8 @@ pub struct MaterialSpan {
 impl MeshMaterials {
     /// Adds a file that defines materials, under the name that the mesh's file gives it, unless it is there already.
     pub fn add_library(&mut self, name: &str) {
-        if !self.libraries.iter().any(|known| known == name) {
+        if !self.known_libraries.contains(name) {
+            self.known_libraries.insert(name.to_owned());
             self.libraries.push(name.to_owned());
         }
     }

@@ -1,4 +1,4 @@
-//! What is missing of the materials of an OBJ file.
+//! Warnings about mesh files that are read, but not drawn in all of their colours.
 
 use crate::source::quote::quoted;
 use std::fmt;
@@ -14,12 +14,29 @@ pub enum MaterialWarning {
         /// The material file, as the mesh's file names it.
         library: String,
     },
+    /// Many more material files do not exist.
+    MissingLibraries {
+        /// The mesh's file.
+        file: String,
+        /// How many there are beside those that other warnings name.
+        more: usize,
+    },
     /// No material file defines these materials.
     Undefined {
         /// The mesh's file.
         file: String,
         /// Their names.
         names: Vec<String>,
+    },
+    /// The file gives colours to vertices or faces, which are not read.
+    Colors {
+        /// The mesh's file.
+        file: String,
+    },
+    /// The file's materials have textures, which are not read.
+    Textures {
+        /// The mesh's file.
+        file: String,
     },
     /// The mesh is streamed, and streams do not read materials.
     Streamed {
@@ -38,6 +55,9 @@ impl fmt::Display for MaterialWarning {
                 "{file}: there is no material file {} beside it; what needs it is drawn in light grey",
                 quoted(library)
             ),
+            MaterialWarning::MissingLibraries { file, more } => {
+                write!(f, "{file}: {more} more material files are missing beside it")
+            }
             MaterialWarning::Undefined { file, names } => {
                 let some: Vec<String> = names.iter().take(MOST).map(|name| quoted(name)).collect();
                 let more = match names.len().saturating_sub(MOST) {
@@ -51,6 +71,15 @@ impl fmt::Display for MaterialWarning {
                      light grey"
                 )
             }
+            MaterialWarning::Colors { file } => write!(
+                f,
+                "{file}: the colours of its vertices and faces are not read; all of it is drawn in \
+                 the material of its object"
+            ),
+            MaterialWarning::Textures { file } => write!(
+                f,
+                "{file}: its textures are not read; what has one is drawn in its base colour"
+            ),
             MaterialWarning::Streamed { file } => write!(
                 f,
                 "{file}: the materials of a mesh that is streamed are not read; all of it is drawn \

@@ -1,0 +1,157 @@
+//! Reads the scene of a glTF 2.0 file, `.gltf` or `.glb`, as one mesh, with its cameras.
+//!
+//! # What is read
+//!
+//! The reader takes the part of the format that describes triangles (Khronos, "glTF 2.0 Specification", 2021), and is strict
+//! about it:
+//!
+//! - The nodes of the default scene (or of the first, or all nodes if there is no scene), each with its transformation: all are
+//!   composed in `f64`, and each vertex is rounded to `f32` once. Nodes come in the order of the file, children behind their
+//!   parent, and a mesh that several nodes name is there several times: the order of the triangles is the order of ids.
+//! - `POSITION`, `NORMAL` and `TEXCOORD_0` of primitives of triangles, strips and fans; also sparse, and as integers
+//!   (`KHR_mesh_quantization`). Points and lines are skipped.
+//! - The base colour factor of materials; a warning says that textures and colours of vertices are not read.
+//! - Cameras, by name.
+//!
+//! Animations, skins and morph targets are not read: the mesh rests. A file that requires any other extension is refused.
+//! Every accessor is checked before anything is read from it, as the specification says: types, alignment, stride, and its
+//! place in its view and buffer. The bounds that accessors state are neither used nor checked.
+//!
+//! Buffers are in the file, in `data:` URIs, or in files in the folder of the file or below. No other file is opened, and
+//! nothing is fetched.
+
+mod accessor;
+mod buffers;
+mod camera;
+mod container;
+mod error;
+mod mesh;
+mod nodes;
+
+pub use camera::GltfCamera;
+pub use error::{GltfFault, ReadGltfError};
+
+use crate::source::regular_file;
+use crate::warning::MaterialWarning;
+use ::gltf::json::Root;
+use bothways_common::scene::Mesh;
+use buffers::{Buffers, Folder};
+use std::io::Read;
+use std::path::Path;
+
+/// The scene of a glTF file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Model {
+    /// All triangles, where the nodes put them.
+    pub mesh: Mesh,
+    /// The cameras, in the order of the nodes that hold them.
+    pub cameras: Vec<GltfCamera>,
+    /// What of its colours is not drawn.
+    pub warnings: Vec<MaterialWarning>,
+}
+
+/// The most bytes of a file: the lengths in a binary file have 32 bits.
+const MOST_BYTES: u64 = u32::MAX as u64;
+
+/// Reads the scene of a glTF file, and of the files of its folder that it names.
+///
+/// # Errors
+///
+/// A file cannot be read, or one of the errors of [`parse`]; messages call the file by `path`.
+pub fn read(path: &Path) -> Result<Model, ReadGltfError> {
+    let file = path.display().to_string();
+    let mut bytes = Vec::new();
+    let read =
+        regular_file(path).and_then(|input| input.take(MOST_BYTES + 1).read_to_end(&mut bytes));
+    match read {
+        Err(error) => Err(ReadGltfError::Unreadable { file, error }),
+        Ok(_) if bytes.len() as u64 > MOST_BYTES => Err(ReadGltfError::TooLarge { file }),
+        Ok(_) => model(file, &bytes, Folder::Of(path)),
+    }
+}
+
+/// Reads the scene of a glTF file from its bytes, which messages call `name`. No other file is read.
+///
+/// # Errors
+///
+/// The file is no glTF file of version 2; it names what does not exist, or breaks another rule of the format; it requires an
+/// extension; it has no triangles, or too many.
+///
+/// ```
+/// use bothways_formats::gltf;
+///
+/// // Three points as nine floats, in base 64.
+/// let json = r#"{ "asset": { "version": "2.0" }, "scenes": [{ "nodes": [0] }],
+///     "nodes": [{ "mesh": 0, "translation": [0, 0, 5] }],
+///     "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 } }] }],
+///     "accessors": [{ "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+///                     "min": [0, 0, 0], "max": [1, 1, 0] }],
+///     "bufferViews": [{ "buffer": 0, "byteLength": 36 }],
+///     "buffers": [{ "byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA" }] }"#;
+/// let model = gltf::parse("a.gltf", json.as_bytes())?;
+/// assert_eq!(model.mesh.corners(0)[1].to_array(), [1.0, 0.0, 5.0]);
+///
+/// let error = gltf::parse("a.gltf", json.replace("\"count\": 3", "\"count\": 6").as_bytes()).unwrap_err();
+/// let says = "a.gltf: mesh 0, primitive 0, accessor 0: its 6 elements end at byte 72, but its view has 36 bytes";
+/// assert_eq!(error.to_string(), says);
+/// # Ok::<(), gltf::ReadGltfError>(())
+/// ```
+pub fn parse(name: &str, bytes: &[u8]) -> Result<Model, ReadGltfError> {
+    model(name.to_owned(), bytes, Folder::None)
+}
+
+/// Tells whether bytes are the beginning of a binary glTF file.
+pub(crate) fn is_binary(beginning: &[u8]) -> bool {
+    beginning.starts_with(container::MAGIC)
+}
+
+fn model(file: String, bytes: &[u8], folder: Folder) -> Result<Model, ReadGltfError> {
+    let read = read_model(&file, bytes, folder);
+    read.map_err(|(place, fault)| ReadGltfError::Wrong { file, place, fault: Box::new(fault) })
+}
+
+/// A fault, and what has it, such as `accessor 3`; empty if it is the file itself.
+type Located = (String, GltfFault);
+
+fn read_model(file: &str, bytes: &[u8], folder: Folder) -> Result<Model, Located> {
+    let whole = |fault| (String::new(), fault);
+    let container = container::split(bytes).map_err(whole)?;
+    let root = container::root(container.json).map_err(whole)?;
+    check_version(&root).map_err(whole)?;
+    let buffers = Buffers::read(&root, container.bin, folder)?;
+    let placed = nodes::placed(&root)?;
+    let cameras = camera::cameras(&root, &placed)?;
+    let (mesh, warnings) = mesh::mesh(file, &root, &buffers, &placed)?;
+    Ok(Model { mesh, cameras, warnings })
+}
+
+/// Makes sure that the file is of a version that is read, and requires no extension that is not.
+fn check_version(root: &Root) -> Result<(), GltfFault> {
+    let is_2 = |version: &str| version == "2" || version.starts_with("2.");
+    let least = root.asset.min_version.as_deref();
+    if !is_2(&root.asset.version) || least.is_some_and(|least| least != "2.0") {
+        let text = least.unwrap_or(&root.asset.version).to_owned();
+        return Err(GltfFault::Version { text });
+    }
+    match root.extensions_required.iter().find(|name| *name != QUANTIZATION) {
+        Some(name) => Err(GltfFault::Extension { name: name.clone() }),
+        None => Ok(()),
+    }
+}
+
+/// The extension that allows integers as positions and normals.
+const QUANTIZATION: &str = "KHR_mesh_quantization";
+
+/// The item of a list that a file names by its index.
+fn item<'a, T, U>(
+    list: &'a [T],
+    index: ::gltf::json::Index<U>,
+    what: &'static str,
+) -> Result<(usize, &'a T), GltfFault> {
+    let (index, count) = (index.value(), list.len());
+    let item = list.get(index).ok_or(GltfFault::Unknown { what, index, count })?;
+    Ok((index, item))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,304 @@
+//! All triangles of a scene as one mesh: the primitives of each node's mesh, where the node puts them.
+
+use super::accessor::{Elements, Role};
+use super::buffers::Buffers;
+use super::error::GltfFault;
+use super::nodes::Placed;
+use super::{Located, item};
+use crate::warning::MaterialWarning;
+use ::gltf::json::mesh::{Mode, Primitive, Semantic};
+use ::gltf::json::validation::Checked;
+use ::gltf::json::{Root, material};
+use bothways_common::scene::{Attribute, Material, Mesh, MeshMaterials};
+use glam::{DMat3, DMat4, Vec2, Vec3};
+
+/// The most triangles, and the most vertices, of a scene, each mesh counted where it is placed: some 5 GB of memory, though
+/// the file may be small.
+const MOST: u64 = 1 << 26;
+
+/// The index that says that a corner has no value: the same number for values of every type.
+const NONE: u32 = Attribute::<Vec3>::NONE;
+
+/// The mesh of all nodes, and what of its colours is missing.
+pub(super) fn mesh(
+    file: &str,
+    root: &Root,
+    buffers: &Buffers,
+    placed: &[Placed],
+) -> Result<(Mesh, Vec<MaterialWarning>), Located> {
+    let mut builder = Builder::new(root);
+    for place in placed {
+        let Some(index) = place.node.mesh else { continue };
+        let (number, mesh) =
+            item(&root.meshes, index, "mesh").map_err(|fault| place.located(fault))?;
+        for (k, primitive) in mesh.primitives.iter().enumerate() {
+            let read = part(root, buffers, primitive);
+            let part = read.map_err(|(place, fault)| {
+                let primitive = format!("mesh {number}, primitive {k}");
+                (if place.is_empty() { primitive } else { format!("{primitive}, {place}") }, fault)
+            })?;
+            if let Some(part) = part {
+                builder.add(part, place).map_err(|fault| place.located(fault))?;
+            }
+        }
+    }
+    if builder.triangles.is_empty() {
+        return Err((String::new(), GltfFault::NoTriangles));
+    }
+    builder.finish(file)
+}
+
+/// A primitive in the coordinates of its node.
+struct Part<'a> {
+    positions: Vec<[f32; 3]>,
+    normals: Option<Vec<[f32; 3]>>,
+    texture_coordinates: Option<Vec<[f32; 2]>>,
+    triangles: Vec<[u32; 3]>,
+    primitive: &'a Primitive,
+}
+
+/// Reads a primitive; `None` if it has no triangles.
+fn part<'a>(
+    root: &Root,
+    buffers: &Buffers,
+    primitive: &'a Primitive,
+) -> Result<Option<Part<'a>>, Located> {
+    let own = |fault| (String::new(), fault);
+    let Checked::Valid(mode) = primitive.mode else {
+        return Err(own(GltfFault::Invalid { what: "its mode" }));
+    };
+    if !matches!(mode, Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
+        return Ok(None);
+    }
+    let attribute = |semantic, role| {
+        let accessor = primitive.attributes.get(&Checked::Valid(semantic));
+        accessor.map(|&index| Elements::new(root, buffers, index, role)).transpose()
+    };
+    let positions = attribute(Semantic::Positions, Role::Positions)?;
+    let positions = positions.ok_or_else(|| own(GltfFault::NoPositions))?;
+    let count = positions.count;
+    let same_count = |attribute: &'static str, elements: &Option<Elements>| match elements {
+        Some(elements) if elements.count != count => {
+            let [count, positions] = [elements.count, count].map(|count| count as u64);
+            Err(own(GltfFault::AttributeCount { attribute, count, positions }))
+        }
+        _ => Ok(()),
+    };
+    let normals = attribute(Semantic::Normals, Role::Normals)?;
+    same_count("NORMAL", &normals)?;
+    let texture_coordinates = attribute(Semantic::TexCoords(0), Role::TextureCoordinates)?;
+    same_count("TEXCOORD_0", &texture_coordinates)?;
+    let triangles = match primitive.indices {
+        Some(index) => {
+            let indices = Elements::new(root, buffers, index, Role::Indices)?.indices();
+            let unknown = |&(_, index): &(usize, &u32)| *index as usize >= count;
+            if let Some((place, &index)) = indices.iter().enumerate().find(unknown) {
+                return Err(own(GltfFault::UnknownVertex { place, index, count }));
+            }
+            triangles(mode, indices.len(), |k| indices[k])
+        }
+        None => {
+            let count =
+                u32::try_from(count).map_err(|_| own(too_many("vertices", count as u64)))?;
+            #[expect(clippy::cast_possible_truncation, reason = "less than the count")]
+            triangles(mode, count as usize, |k| k as u32)
+        }
+    };
+    Ok(Some(Part {
+        positions: positions.vectors(),
+        normals: normals.map(|normals| normals.vectors()),
+        texture_coordinates: texture_coordinates.map(|values| values.vectors()),
+        triangles: triangles.map_err(own)?,
+        primitive,
+    }))
+}
+
+/// The triangles of so many corners, as the specification orders them in 3.7.2.1.
+fn triangles(
+    mode: Mode,
+    count: usize,
+    corner: impl Fn(usize) -> u32,
+) -> Result<Vec<[u32; 3]>, GltfFault> {
+    let of = |corners: [usize; 3]| corners.map(&corner);
+    match mode {
+        Mode::Triangles if count.is_multiple_of(3) => {
+            Ok((0..count / 3).map(|k| of([3 * k, 3 * k + 1, 3 * k + 2])).collect())
+        }
+        Mode::Triangles => {
+            Err(GltfFault::CornerCount { count, mode: "triangles", need: "a multiple of 3" })
+        }
+        _ if count < 3 => Err(GltfFault::CornerCount { count, mode: "strips and fans", need: "3" }),
+        Mode::TriangleStrip => {
+            let strip = |k| of([k, k + (1 + k % 2), k + (2 - k % 2)]);
+            Ok((0..count - 2).map(strip).collect())
+        }
+        _ => Ok((0..count - 2).map(|k| of([k + 1, k + 2, 0])).collect()),
+    }
+}
+
+fn too_many(what: &'static str, count: u64) -> GltfFault {
+    GltfFault::TooMany { count, what, most: MOST }
+}
+
+/// The mesh under construction.
+struct Builder<'a> {
+    root: &'a Root,
+    positions: Vec<Vec3>,
+    triangles: Vec<[u32; 3]>,
+    normals: Attribute<Vec3>,
+    texture_coordinates: Attribute<Vec2>,
+    materials: MeshMaterials,
+    /// The name of each material of the file.
+    names: Vec<String>,
+    has_textures: bool,
+    has_colors: bool,
+}
+
+impl<'a> Builder<'a> {
+    fn new(root: &'a Root) -> Self {
+        Builder {
+            root,
+            positions: Vec::new(),
+            triangles: Vec::new(),
+            normals: Attribute::default(),
+            texture_coordinates: Attribute::default(),
+            materials: MeshMaterials::default(),
+            names: names(root),
+            has_textures: false,
+            has_colors: false,
+        }
+    }
+
+    /// Adds a primitive where its node puts it.
+    fn add(&mut self, part: Part, place: &Placed) -> Result<(), GltfFault> {
+        let first = self.positions.len();
+        let counts = [
+            ("triangles", self.triangles.len() + part.triangles.len()),
+            ("vertices", first + part.positions.len()),
+        ];
+        if let Some((what, count)) = counts.into_iter().find(|&(_, count)| count as u64 > MOST) {
+            return Err(too_many(what, count as u64));
+        }
+        self.use_material(part.primitive)?;
+        for (vertex, position) in part.positions.iter().enumerate() {
+            let position = Vec3::from_array(*position).as_dvec3();
+            let position = place.world_from_node.transform_point3(position).as_vec3();
+            if !position.is_finite() {
+                return Err(GltfFault::OutOfRange { vertex });
+            }
+            self.positions.push(position);
+        }
+        let [first, triangles] = [first, self.triangles.len()]
+            .map(|count| u32::try_from(count).expect("there are fewer than MOST"));
+        // A mirror makes counter-clockwise triangles clockwise. They are turned, so that the outside stays outside.
+        let mirrors = place.world_from_node.determinant() < 0.0;
+        let turned = |[a, b, c]: [u32; 3]| if mirrors { [a, c, b] } else { [a, b, c] };
+        let added: Vec<[u32; 3]> = part.triangles.into_iter().map(turned).collect();
+        if let Some(normals) = part.normals {
+            let turn = normal_matrix(&place.world_from_node);
+            let values = normals.into_iter().map(|normal| {
+                (turn * Vec3::from_array(normal).as_dvec3()).normalize_or_zero().as_vec3()
+            });
+            extend(&mut self.normals, values.collect(), &added, triangles, |normal| {
+                *normal != Vec3::ZERO
+            });
+        }
+        if let Some(values) = part.texture_coordinates {
+            // The format counts from the upper edge of an image, we from the lower one.
+            let values = values.into_iter().map(|[u, v]| Vec2::new(u, 1.0 - v)).collect();
+            extend(&mut self.texture_coordinates, values, &added, triangles, |_| true);
+        }
+        self.triangles.extend(added.iter().map(|corners| corners.map(|corner| first + corner)));
+        Ok(())
+    }
+
+    /// Uses the material of a primitive from the next triangle on.
+    fn use_material(&mut self, primitive: &Primitive) -> Result<(), GltfFault> {
+        self.has_colors |= primitive.attributes.contains_key(&Checked::Valid(Semantic::Colors(0)));
+        let first = self.triangles.len();
+        let Some(index) = primitive.material else {
+            self.materials.use_from(first, None);
+            return Ok(());
+        };
+        let (number, material) = item(&self.root.materials, index, "material")?;
+        self.has_textures |= material.pbr_metallic_roughness.base_color_texture.is_some();
+        let name = &self.names[number];
+        self.materials.use_from(first, Some(name));
+        self.materials.define(name, material_of(material)?);
+        Ok(())
+    }
+
+    fn finish(self, file: &str) -> Result<(Mesh, Vec<MaterialWarning>), Located> {
+        let count = self.triangles.len();
+        let normals = complete(self.normals, count);
+        let texture_coordinates = complete(self.texture_coordinates, count);
+        let mesh = Mesh::new(self.positions, self.triangles)
+            .and_then(|mesh| mesh.with_normals(normals))
+            .and_then(|mesh| mesh.with_texture_coordinates(texture_coordinates))
+            .expect("the reader has checked every number and every index")
+            .with_materials(self.materials);
+        let file = || file.to_owned();
+        let mut warnings = Vec::new();
+        warnings.extend(self.has_textures.then(|| MaterialWarning::Textures { file: file() }));
+        warnings.extend(self.has_colors.then(|| MaterialWarning::Colors { file: file() }));
+        Ok((mesh, warnings))
+    }
+}
+
+/// Adds values for the corners of some triangles, behind those of other primitives, which may have none.
+fn extend<T: Copy>(
+    attribute: &mut Attribute<T>,
+    values: Vec<T>,
+    added: &[[u32; 3]],
+    triangles: u32,
+    is_value: impl Fn(&T) -> bool,
+) {
+    let first = u32::try_from(attribute.values.len()).expect("there are fewer than MOST");
+    let index =
+        |corner: u32| if is_value(&values[corner as usize]) { first + corner } else { NONE };
+    attribute.corners.resize(triangles as usize, [NONE; 3]);
+    attribute.corners.extend(added.iter().map(|corners| corners.map(index)));
+    attribute.values.extend_from_slice(&values);
+}
+
+/// Gives an attribute an entry for each triangle, unless there is none at all.
+fn complete<T>(mut attribute: Attribute<T>, triangles: usize) -> Attribute<T> {
+    if attribute.corners.as_flattened().iter().all(|&index| index == NONE) {
+        return Attribute { values: Vec::new(), corners: Vec::new() };
+    }
+    attribute.corners.resize(triangles, [NONE; 3]);
+    attribute
+}
+
+/// The matrix that turns normals: of the cofactors, which is the inverse transpose times the determinant. It exists for
+/// every matrix. Its sign keeps normals outside.
+fn normal_matrix(world_from_node: &DMat4) -> DMat3 {
+    let DMat3 { x_axis: x, y_axis: y, z_axis: z } = DMat3::from_mat4(*world_from_node);
+    let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
+    if world_from_node.determinant() < 0.0 { -cofactors } else { cofactors }
+}
+
+/// A name for each material: its own if no other has it.
+fn names(root: &Root) -> Vec<String> {
+    let mut counts = std::collections::BTreeMap::new();
+    let stated = || root.materials.iter().map(|material| material.name.clone().unwrap_or_default());
+    for name in stated() {
+        *counts.entry(name).or_insert(0) += 1;
+    }
+    let unique = |(number, name): (usize, String)| match counts.get(&name) {
+        Some(1) if !name.is_empty() => name,
+        _ => format!("{name}#{number}"),
+    };
+    stated().enumerate().map(unique).collect()
+}
+
+/// A material in its base colour, which the format states in linear light.
+fn material_of(material: &material::Material) -> Result<Material, GltfFault> {
+    let [red, green, blue, _] = material.pbr_metallic_roughness.base_color_factor.0;
+    let color = Vec3::new(red, green, blue);
+    if color.to_array().iter().all(|component| (0.0..=1.0).contains(component)) {
+        Ok(Material { color, ..Material::default() })
+    } else {
+        Err(GltfFault::Color)
+    }
+}

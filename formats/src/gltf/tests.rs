@@ -1,0 +1,615 @@
+//! Files that the reader accepts, files that break one rule each, and the messages.
+
+use super::*;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use bothways_common::camera::{Orientation, Projection};
+use glam::{Vec2, Vec3};
+use proptest::prelude::*;
+use std::fs;
+
+/// A square of two triangles: positions, normals, texture coordinates and indices, each in a view of one buffer.
+const SQUARE: &str = r#"{
+"asset": { "version": "2.0" }, "extensionsUsed": [],
+"scene": 0, "scenes": [{ "nodes": [0] }],
+"nodes": [{ "mesh": 0 }, { "camera": 0, "name": "stand" }],
+"meshes": [{ "primitives": [{ "attributes": { "POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2 }, "indices": 3 }] }],
+"materials": [{ "name": "red", "pbrMetallicRoughness": { "baseColorFactor": [1, 0.25, 0, 1] } }],
+"cameras": [{ "type": "perspective", "perspective": { "yfov": 1.5707963, "znear": 1 } }],
+"accessors": [
+{ "bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0] },
+{ "bufferView": 1, "componentType": 5126, "count": 4, "type": "VEC3" },
+{ "bufferView": 2, "componentType": 5126, "count": 4, "type": "VEC2" },
+{ "bufferView": 3, "componentType": 5123, "count": 6, "type": "SCALAR" }],
+"bufferViews": [
+{ "buffer": 0, "byteOffset": 0, "byteLength": 48 },
+{ "buffer": 0, "byteOffset": 48, "byteLength": 48 },
+{ "buffer": 0, "byteOffset": 96, "byteLength": 32 },
+{ "buffer": 0, "byteOffset": 128, "byteLength": 12 }],
+"buffers": [{ "byteLength": 140, "uri": "DATA" }] }"#;
+
+const CORNERS: [[f32; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+
+/// The buffer of the square.
+fn data() -> Vec<u8> {
+    let normals = [[0.0_f32, 0.0, 1.0]; 4];
+    let texture = CORNERS.map(|[x, y, _]| [x, y]);
+    let floats =
+        CORNERS.as_flattened().iter().chain(normals.as_flattened()).chain(texture.as_flattened());
+    let floats = floats.flat_map(|number| number.to_le_bytes());
+    floats.chain([0_u16, 1, 2, 0, 2, 3].into_iter().flat_map(u16::to_le_bytes)).collect()
+}
+
+/// The square with changes, and with this data.
+fn document(data: &[u8], changes: &[(&str, &str)]) -> String {
+    let mut text = SQUARE.to_owned();
+    for (from, to) in changes {
+        assert!(text.contains(from), "{from}");
+        text = text.replacen(from, to, 1);
+    }
+    text.replace("DATA", &format!("data:application/octet-stream;base64,{}", STANDARD.encode(data)))
+}
+
+fn square(changes: &[(&str, &str)]) -> Model {
+    parse("a", document(&data(), changes).as_bytes()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// What is said about the square with changes.
+fn fault(changes: &[(&str, &str)]) -> String {
+    fault_of(document(&data(), changes))
+}
+
+fn fault_of(bytes: impl AsRef<[u8]>) -> String {
+    let says = parse("a", bytes.as_ref()).map(|_| ()).unwrap_err().to_string();
+    says.strip_prefix("a: ").expect("it names the file").to_owned()
+}
+
+/// A binary file.
+fn binary(json: &str, bin: Option<&[u8]>) -> Vec<u8> {
+    let chunk = |kind: &[u8; 4], content: &[u8], padding: u8| {
+        let mut bytes = content.to_vec();
+        bytes.resize(bytes.len().next_multiple_of(4), padding);
+        [&u32::try_from(bytes.len()).unwrap().to_le_bytes(), &kind[..], &bytes].concat()
+    };
+    let mut chunks = chunk(b"JSON", json.as_bytes(), b' ');
+    chunks.extend(bin.map(|bin| chunk(b"BIN\0", bin, 0)).unwrap_or_default());
+    let length = u32::try_from(12 + chunks.len()).unwrap();
+    [b"glTF", &2_u32.to_le_bytes()[..], &length.to_le_bytes(), &chunks].concat()
+}
+
+#[test]
+fn a_square_is_read_from_text_and_from_a_binary_file() {
+    let model = square(&[]);
+    assert_eq!(model.mesh.positions(), CORNERS.map(Vec3::from_array));
+    assert_eq!(model.mesh.triangles(), [[0, 1, 2], [0, 2, 3]]);
+    assert_eq!(model.mesh.normals().of(0), Some([Vec3::Z; 3]));
+    assert_eq!(model.mesh.texture_coordinates().of(0), Some([Vec2::Y, Vec2::ONE, Vec2::X]));
+    assert!(model.cameras.is_empty() && model.warnings.is_empty());
+    let json = SQUARE.replace(", \"uri\": \"DATA\"", "");
+    assert_eq!(parse("a", &binary(&json, Some(&data()))).unwrap(), model);
+    assert_eq!(
+        fault_of(json),
+        "buffer 0: it has no uri, and the file has no binary part that would be meant"
+    );
+}
+
+#[test]
+fn nodes_move_what_they_hold_and_a_mesh_may_be_there_twice() {
+    let nodes = r#"[{ "mesh": 0, "translation": [0, 0, 5], "scale": [2, 2, 2], "children": [1] },
+                    { "mesh": 0, "matrix": [-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 3, 0, 0, 1] }]"#;
+    let Model { mesh, .. } =
+        square(&[(r#"[{ "mesh": 0 }, { "camera": 0, "name": "stand" }]"#, nodes)]);
+    assert_eq!(mesh.triangles().len(), 4);
+    assert_eq!(
+        mesh.corners(0).map(|p| p.to_array()),
+        [[0.0, 0.0, 5.0], [2.0, 0.0, 5.0], [2.0, 2.0, 5.0]]
+    );
+    // The mirror in x turns the triangle, so that the normal stays on its outside.
+    assert_eq!(
+        mesh.corners(2).map(|p| p.to_array()),
+        [[6.0, 0.0, 5.0], [4.0, 2.0, 5.0], [4.0, 0.0, 5.0]]
+    );
+    assert_eq!(mesh.normals().of(2), Some([Vec3::Z; 3]));
+    let turned = r#"[{ "mesh": 0, "rotation": [0, 0.70710677, 0, 0.70710677] }]"#;
+    let Model { mesh, .. } =
+        square(&[(r#"[{ "mesh": 0 }, { "camera": 0, "name": "stand" }]"#, turned)]);
+    assert!((mesh.corners(0)[1] - Vec3::NEG_Z).length() < 1e-6);
+    assert!((mesh.normals().of(0).unwrap()[0] - Vec3::X).length() < 1e-6);
+}
+
+#[test]
+fn strips_and_fans_become_triangles_in_the_order_of_the_specification() {
+    let mode = |mode| square(&[("\"indices\": 3", mode)]).mesh.triangles().to_vec();
+    assert_eq!(mode(r#""indices": 3, "mode": 5"#), [[0, 1, 2], [1, 0, 2], [2, 0, 2], [0, 3, 2]]);
+    assert_eq!(mode(r#""mode": 5"#), [[0, 1, 2], [1, 3, 2]]);
+    assert_eq!(mode(r#""mode": 6"#), [[1, 2, 0], [2, 3, 0]]);
+    let says = fault(&[("\"indices\": 3", "\"mode\": 1")]);
+    assert_eq!(says, "its scene has no triangles, so nothing to draw");
+    let says = fault(&[(", \"indices\": 3", "")]);
+    assert_eq!(says, "mesh 0, primitive 0: it has 4 corners, and triangles need a multiple of 3");
+}
+
+#[test]
+fn materials_have_their_base_colour_and_textures_are_missed() {
+    let with = |material: &str| {
+        square(&[
+            ("\"indices\": 3", "\"indices\": 3, \"material\": 0"),
+            ("\"name\": \"red\",", material),
+        ])
+    };
+    let model = with("\"name\": \"red\",");
+    let material = model.mesh.materials().unwrap().of(1).unwrap();
+    assert_eq!(material.color, Vec3::new(1.0, 0.25, 0.0));
+    assert_eq!(model.mesh.materials().unwrap().named()[0].name, "red");
+    assert_eq!(with("").mesh.materials().unwrap().named()[0].name, "#0");
+    let texture = ("[1, 0.25, 0, 1]", "[1, 0.25, 0, 1], \"baseColorTexture\": { \"index\": 0 }");
+    let color = ("\"NORMAL\": 1,", "\"NORMAL\": 1, \"COLOR_0\": 1,");
+    let model = square(&[("\"indices\": 3", "\"indices\": 3, \"material\": 0"), texture, color]);
+    let warnings: Vec<String> = model.warnings.iter().map(ToString::to_string).collect();
+    let says = "a: its textures are not read; what has one is drawn in its base colour";
+    assert_eq!((warnings.len(), warnings[0].as_str()), (2, says));
+    let says = fault(&[("\"indices\": 3", "\"indices\": 3, \"material\": 0"), ("0.25", "2.5")]);
+    assert_eq!(says, "node 0: its base colour has a component that is not from 0 to 1");
+}
+
+#[test]
+fn cameras_become_those_of_the_lecture() {
+    let camera = |changes: &[(&str, &str)]| {
+        let held = ("\"nodes\": [0]", "\"nodes\": [0, 1]");
+        square(&[&[held], changes].concat()).cameras.remove(0)
+    };
+    let wide = camera(&[]);
+    assert_eq!((wide.name.as_str(), wide.aspect_stated), ("stand", false));
+    assert!((wide.camera.distance - 0.5).abs() < 1e-6, "{}", wide.camera.distance);
+    assert_eq!(wide.camera.viewport, [640.0 / 480.0, 1.0]);
+    let named = camera(&[
+        ("\"znear\": 1", "\"znear\": 1, \"aspectRatio\": 1.5"),
+        ("\"type\": \"p", "\"name\": \"eye\", \"type\": \"p"),
+        ("\"camera\": 0", "\"camera\": 0, \"translation\": [1, 2, 3], \"rotation\": [0, 1, 0, 0]"),
+    ]);
+    assert_eq!((named.name.as_str(), named.aspect_stated), ("eye", true));
+    assert_eq!((named.camera.viewport, named.camera.image), ([1.5, 1.0], [720, 480]));
+    let (u, v, w) = (Vec3::NEG_X, Vec3::Y, Vec3::NEG_Z);
+    assert_eq!(
+        (named.camera.eye, named.camera.orientation),
+        (Vec3::new(1.0, 2.0, 3.0), Orientation::Frame { u, v, w })
+    );
+    let parallel = "\"orthographic\": { \"xmag\": 2, \"ymag\": 1, \"znear\": 0, \"zfar\": 9";
+    let parallel =
+        camera(&[("\"perspective\": { \"yfov\": 1.5707963, \"znear\": 1", parallel)]).camera;
+    assert_eq!(
+        (parallel.projection, parallel.viewport, parallel.image),
+        (Projection::Parallel, [4.0, 2.0], [960, 480])
+    );
+    let held = ("\"nodes\": [0]", "\"nodes\": [0, 1]");
+    assert_eq!(
+        fault(&[held, ("1.5707963", "3.5")]),
+        "camera 0: its yfov is 3.5; it must be between 0 and pi"
+    );
+    assert_eq!(
+        fault(&[held, ("\"camera\": 0", "\"camera\": 7")]),
+        "node 1: it names camera 7, counted from 0, but there is only 1"
+    );
+    assert_eq!(
+        fault(&[held, ("\"camera\": 0", "\"camera\": 0, \"scale\": [0, 1, 1]")]),
+        "camera 0: its transformation has a number that is not finite"
+    );
+}
+
+/// The rules for accessors, views and buffers, one by one: 3.6 of the specification.
+#[test]
+fn accessors_that_break_a_rule_are_refused() {
+    let rules: &[(&[(&str, &str)], &str)] = &[
+        (
+            &[("\"POSITION\": 0", "\"POSITION\": 9")],
+            "mesh 0, primitive 0: it names accessor 9, counted from 0, but there are only 4",
+        ),
+        (&[("\"POSITION\": 0, ", "")], "mesh 0, primitive 0: it has no POSITION"),
+        (
+            &[("\"bufferView\": 0", "\"bufferView\": 7")],
+            "accessor 0: it names view 7, counted from 0, but there are only 4",
+        ),
+        (
+            &[("\"bufferView\": 0, ", "")],
+            "accessor 0: it has no view, so its 4 elements would all be 0",
+        ),
+        (
+            &[("{ \"buffer\": 0", "{ \"buffer\": 3")],
+            "accessor 0, view 0: it names buffer 3, counted from 0, but there is only 1",
+        ),
+        (&[("5126", "5125")], "accessor 0: its components must be floats, not UNSIGNED_INT"),
+        (&[("5126", "5121")], "accessor 0: its components must be floats, not UNSIGNED_BYTE"),
+        (&[("5126", "5130")], "accessor 0: its componentType is not known to the format"),
+        (&[("VEC3", "VEC2")], "accessor 0: its type must be VEC3, not VEC2"),
+        (&[("VEC3", "VEC5")], "accessor 0: its type is not known to the format"),
+        (
+            &[("5123", "5126")],
+            "accessor 3: its components must be unsigned bytes, shorts or ints that are not normalized, not FLOAT",
+        ),
+        (
+            &[("5123", "5123, \"normalized\": true")],
+            "accessor 3: its components must be unsigned bytes, shorts or ints that are not normalized, not UNSIGNED_SHORT, normalized",
+        ),
+        (&[("\"count\": 4", "\"count\": 0")], "accessor 0: it has no elements"),
+        (
+            &[("\"count\": 4", "\"count\": 5")],
+            "accessor 0: its 5 elements end at byte 60, but its view has 48 bytes",
+        ),
+        (
+            &[("\"count\": 4", "\"count\": 18446744073709551615")],
+            "accessor 0: its 18446744073709551615 elements end at byte 221360928884514619380, but its view has 48 bytes",
+        ),
+        (
+            &[("\"count\": 4", "\"count\": 3")],
+            "mesh 0, primitive 0: its attribute NORMAL has 4 elements for 3 vertices",
+        ),
+        (
+            &[("\"bufferView\": 0", "\"bufferView\": 0, \"byteOffset\": 4")],
+            "accessor 0: its 4 elements end at byte 52, but its view has 48 bytes",
+        ),
+        (
+            &[("\"bufferView\": 0", "\"bufferView\": 0, \"byteOffset\": 2")],
+            "accessor 0: it begins at byte 2 of its view, which is no multiple of 4",
+        ),
+        (
+            &[("\"byteOffset\": 0, \"byteLength\": 48", "\"byteOffset\": 2, \"byteLength\": 48")],
+            "accessor 0: it begins at byte 2 of its buffer, which is no multiple of 4",
+        ),
+        (
+            &[(
+                "\"byteOffset\": 128, \"byteLength\": 12",
+                "\"byteOffset\": 127, \"byteLength\": 12",
+            )],
+            "accessor 3: it begins at byte 127 of its buffer, which is no multiple of 2",
+        ),
+        (
+            &[(
+                "\"byteOffset\": 128, \"byteLength\": 12",
+                "\"byteOffset\": 128, \"byteLength\": 14",
+            )],
+            "accessor 3, view 3: it ends at byte 142 of its buffer, which has 140 bytes",
+        ),
+        (
+            &[("\"byteOffset\": 128", "\"byteOffset\": 18446744073709551615")],
+            "accessor 3, view 3: it ends at byte 18446744073709551627 of its buffer, which has 140 bytes",
+        ),
+        (
+            &[("\"byteLength\": 48", "\"byteLength\": 48, \"byteStride\": 8")],
+            "accessor 0: it has a stride of 8 bytes, but its elements have 12",
+        ),
+        (
+            &[("\"byteLength\": 48", "\"byteLength\": 48, \"byteStride\": 16")],
+            "accessor 0: its 4 elements end at byte 60, but its view has 48 bytes",
+        ),
+        (
+            &[("\"byteLength\": 48", "\"byteLength\": 48, \"byteStride\": 14")],
+            "accessor 0, view 0: it has a stride of 14 bytes; a stride is a multiple of 4 from 4 to 252",
+        ),
+        (
+            &[("\"byteLength\": 48", "\"byteLength\": 48, \"byteStride\": 256")],
+            "accessor 0, view 0: it has a stride of 256 bytes; a stride is a multiple of 4 from 4 to 252",
+        ),
+        (
+            &[("\"byteLength\": 12", "\"byteLength\": 12, \"byteStride\": 4")],
+            "accessor 3: its view has a stride, which is for attributes of vertices only",
+        ),
+        (
+            &[("\"byteLength\": 140", "\"byteLength\": 141")],
+            "buffer 0: it should have 141 bytes, but its data has 140",
+        ),
+    ];
+    for (changes, says) in rules {
+        let found = fault(changes);
+        assert!(
+            found == *says || found == format!("mesh 0, primitive 0, {says}"),
+            "{changes:?}: {found}"
+        );
+    }
+    // The same with an index, and with a number.
+    let mut wrong = data();
+    wrong[128 + 2] = 4;
+    let says = "mesh 0, primitive 0: index 1, counted from 0, names vertex 4, but there are only 4";
+    assert_eq!(fault_of(document(&wrong, &[])), says);
+    let mut wrong = data();
+    wrong[16..20].copy_from_slice(&f32::NAN.to_le_bytes());
+    assert_eq!(
+        fault_of(document(&wrong, &[])),
+        "mesh 0, primitive 0, accessor 0: number 4, counted from 0, is not finite"
+    );
+}
+
+#[test]
+fn elements_of_any_stride_and_integers_are_read() {
+    let stride = ("\"byteLength\": 48 }", "\"byteLength\": 128, \"byteStride\": 16 }");
+    let mesh = square(&[stride]).mesh;
+    assert_eq!(mesh.positions()[1].to_array(), [0.0, 0.0, 1.0], "the floats from byte 16 on");
+    // Texture coordinates as normalized shorts: the floats 0 and 1 are the shorts 0, 0 and 0, 0x3f80.
+    let shorts = (
+        "\"bufferView\": 2, \"componentType\": 5126",
+        "\"bufferView\": 2, \"normalized\": true, \"componentType\": 5123",
+    );
+    let mesh = square(&[shorts]).mesh;
+    assert_eq!(
+        mesh.texture_coordinates().values[2],
+        Vec2::new(0.0, 1.0 - f32::from(0x3f80_u16) / 65535.0)
+    );
+    // Positions as signed bytes, which the extension allows.
+    let bytes = ("5126", "5120");
+    let padded = ("\"byteLength\": 48", "\"byteLength\": 48, \"byteStride\": 4");
+    let used = (
+        "\"extensionsUsed\": []",
+        "\"extensionsUsed\": [\"KHR_mesh_quantization\"], \"extensionsRequired\": [\"KHR_mesh_quantization\"]",
+    );
+    let mesh = square(&[bytes, padded, used]).mesh;
+    assert_eq!(mesh.positions()[3].to_array(), [0.0, 0.0, -128.0], "the bytes of 1.0");
+    let says = fault(&[bytes, used]);
+    assert!(
+        says.ends_with(
+            "accessor 0: its elements follow one another every 3 bytes, which is no multiple of 4"
+        ),
+        "{says}"
+    );
+}
+
+#[test]
+fn sparse_accessors_replace_some_elements() {
+    // Indices 0 and 2 (the second and third short), and two vectors: normals.
+    let sparse = |count: u32, at: u32| {
+        format!(
+            "\"bufferView\": 0, \"sparse\": {{ \"count\": {count}, \"indices\": {{ \"bufferView\": 3, \"byteOffset\": {at}, \
+                 \"componentType\": 5123 }}, \"values\": {{ \"bufferView\": 1 }} }}"
+        )
+    };
+    let with = |count, at| fault(&[("\"bufferView\": 0", &sparse(count, at))]);
+    let model = square(&[("\"bufferView\": 0", &sparse(2, 2))]);
+    let expected = [CORNERS[0], [0.0, 0.0, 1.0], [0.0, 0.0, 1.0], CORNERS[3]];
+    assert_eq!(model.mesh.positions(), expected.map(Vec3::from_array));
+    let without = sparse(2, 2).replace("\"bufferView\": 0, \"sparse\"", "\"sparse\"");
+    let model = square(&[("\"bufferView\": 0", &without)]);
+    assert_eq!(model.mesh.positions()[3], Vec3::ZERO);
+    let place = "mesh 0, primitive 0, accessor 0: ";
+    assert_eq!(with(0, 0), format!("{place}it replaces 0 of 4 elements"));
+    assert_eq!(with(5, 0), format!("{place}it replaces 5 of 4 elements"));
+    assert_eq!(
+        with(4, 0),
+        format!("{place}it replaces element 0 behind element 2; they must rise, and there are 4")
+    );
+    assert_eq!(
+        with(3, 8),
+        format!("{place}its 3 elements end at byte 14, but its view has 12 bytes")
+    );
+    assert_eq!(
+        with(1, 1),
+        format!("{place}it begins at byte 129 of its buffer, which is no multiple of 2")
+    );
+    let huge = fault(&[("\"bufferView\": 0", &without), ("\"count\": 4", "\"count\": 4000000000")]);
+    assert_eq!(huge, format!("{place}it has no view, so its 4000000000 elements would all be 0"));
+}
+
+#[test]
+fn nodes_that_form_no_trees_are_refused() {
+    let nodes = |nodes: &str| {
+        fault(&[("[{ \"mesh\": 0 }, { \"camera\": 0, \"name\": \"stand\" }]", nodes)])
+    };
+    let twice = "it is reached twice: by a circle of nodes, or from two parents";
+    assert_eq!(nodes(r#"[{ "children": [0] }]"#), format!("node 0: {twice}"));
+    assert_eq!(nodes(r#"[{ "children": [1] }, { "children": [0] }]"#), format!("node 0: {twice}"));
+    assert_eq!(
+        nodes(r#"[{ "children": [1, 2] }, { "children": [2] }, {}]"#),
+        format!("node 2: {twice}")
+    );
+    assert_eq!(
+        nodes(r#"[{ "children": [5] }]"#),
+        "node 0: it names node 5, counted from 0, but there is only 1"
+    );
+    assert_eq!(
+        nodes(r#"[{ "mesh": 5 }]"#),
+        "node 0: it names mesh 5, counted from 0, but there is only 1"
+    );
+    assert_eq!(
+        nodes(r#"[{ "mesh": 0, "scale": [1e38, 1, 1], "translation": [3.4e38, 0, 0] }]"#),
+        "node 0: it moves vertex 1 of its mesh where no f32 number reaches"
+    );
+    let two = "node 0: it has a matrix, and translation, rotation or scale as well; one excludes the other";
+    assert_eq!(
+        nodes(
+            r#"[{ "mesh": 0, "scale": [1, 1, 1], "matrix": [1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1] }]"#
+        ),
+        two
+    );
+    assert_eq!(
+        nodes(r#"[{ "mesh": 0, "translation": [1e39, 0, 0] }]"#),
+        "node 0: its transformation has a number that is not finite"
+    );
+    assert_eq!(
+        fault(&[("\"scene\": 0", "\"scene\": 3")]),
+        "it names scene 3, counted from 0, but there is only 1"
+    );
+    // A chain as long as the file does not overflow the stack.
+    let chain: Vec<String> = (1..100_000).map(|k| format!("{{\"children\":[{k}]}}")).collect();
+    let text = format!("[{}, {{ \"mesh\": 0 }}]", chain.join(","));
+    let model = square(&[("[{ \"mesh\": 0 }, { \"camera\": 0, \"name\": \"stand\" }]", &text)]);
+    assert_eq!(model.mesh.triangles().len(), 2);
+    // Many nodes of one mesh take more memory than the file.
+    let many = vec!["{\"mesh\":0}"; 1000].join(",");
+    let all: Vec<String> = (0..1000).map(|k| k.to_string()).collect();
+    let model = square(&[
+        ("[{ \"mesh\": 0 }, { \"camera\": 0, \"name\": \"stand\" }]", &format!("[{many}]")),
+        ("\"nodes\": [0]", &format!("\"nodes\": [{}]", all.join(","))),
+    ]);
+    assert_eq!(model.mesh.triangles().len(), 2000);
+}
+
+#[test]
+fn without_scenes_all_nodes_without_a_parent_are_drawn() {
+    let scenes = "\"scene\": 0, \"scenes\": [{ \"nodes\": [0] }],";
+    let nodes = ("[{ \"mesh\": 0 },", "[{ \"mesh\": 0, \"children\": [2] }, { \"mesh\": 0 },");
+    assert_eq!(square(&[(scenes, ""), nodes]).mesh.triangles().len(), 4);
+    assert_eq!(square(&[("\"scene\": 0, ", "")]).mesh.triangles().len(), 2);
+}
+
+#[test]
+fn what_applications_add_of_their_own_is_skipped() {
+    for extras in ["{ \"a\": [1, {}] }", "\"text\"", "3", "null", "[[]]"] {
+        let changes = [("\"mesh\": 0", &format!("\"mesh\": 0, \"extras\": {extras}")[..])];
+        assert_eq!(square(&changes).mesh.triangles().len(), 2, "{extras}");
+    }
+    let unknown = [
+        ("\"mesh\": 0", "\"mesh\": 0, \"extensions\": { \"X_own\": { \"a\": [] } }, \"own\": 1"),
+        ("\"NORMAL\": 1,", "\"_OWN\": 1,"),
+    ];
+    assert_eq!(square(&unknown).mesh.triangles().len(), 2);
+}
+
+#[test]
+fn containers_and_versions_that_are_not_read_say_so() {
+    assert_eq!(fault_of(""), "the file is empty");
+    assert_eq!(
+        fault_of("v 0 0 0"),
+        "this is no glTF file: it begins neither with \"glTF\" nor with JSON"
+    );
+    assert!(fault_of("{ \"asset\": 3 }").starts_with("its JSON is not that of a glTF file: "));
+    assert!(fault_of("{ \u{1b}[2J").starts_with("its JSON is not that of a glTF file: "));
+    assert_eq!(fault(&[("\"2.0\"", "\"1.0\"")]), "it is of version \"1.0\", and only 2.0 is read");
+    assert_eq!(
+        fault(&[("\"2.0\"", "\"2.1\", \"minVersion\": \"2.1\"")]),
+        "it is of version \"2.1\", and only 2.0 is read"
+    );
+    let says = "it requires the extension \"KHR_draco_mesh_compression\", which is not supported; export it without (without \
+                compression, for example)";
+    assert_eq!(
+        fault(&[(
+            "\"extensionsUsed\": []",
+            "\"extensionsRequired\": [\"KHR_draco_mesh_compression\"]"
+        )]),
+        says
+    );
+    let whole = binary(SQUARE, None);
+    let changed = |at: usize, bytes: &[u8]| {
+        let mut whole = whole.clone();
+        whole[at..at + bytes.len()].copy_from_slice(bytes);
+        fault_of(whole)
+    };
+    assert_eq!(changed(4, &[1]), "a binary glTF file of version 1 is not read, only of version 2");
+    assert_eq!(
+        changed(8, &[0; 4]),
+        format!("it should have 0 bytes, but has {}; is it truncated?", whole.len())
+    );
+    assert_eq!(
+        changed(8, &[0xff; 4]),
+        format!("it should have 4294967295 bytes, but has {}; is it truncated?", whole.len())
+    );
+    assert_eq!(
+        changed(12, &[0xff; 4]),
+        format!("a chunk of 4294967295 bytes begins where only {} are left", whole.len() - 20)
+    );
+    assert_eq!(changed(16, b"BIN\0"), "its first chunk is no JSON, or no chunk at all");
+    assert_eq!(fault_of(b"glTF\x02\0\0\0"), "it should have 12 bytes, but has 8; is it truncated?");
+    let objects = format!("{{\"nodes\":[{}]}}", vec!["{}"; 1 << 20].join(","));
+    assert_eq!(fault_of(objects), "its JSON has more than 1048576 objects; split the scene up");
+}
+
+#[test]
+fn buffers_beside_the_file_are_read_and_no_others() {
+    let home = std::env::temp_dir().join(format!("bothways-gltf-{}", std::process::id()));
+    let folder = home.join("inside");
+    fs::create_dir_all(folder.join("deep")).unwrap();
+    for name in ["outside.bin", "inside/a b.bin", "inside/deep/c.bin"] {
+        fs::write(home.join(name), data()).unwrap();
+    }
+    let path = folder.join("a.gltf");
+    let with = |uri: &str| {
+        fs::write(&path, SQUARE.replace("DATA", uri)).unwrap();
+        let says = read(&path).map(|model| model.mesh.triangles().len());
+        says.map_err(|error| error.to_string().replace(&path.display().to_string(), "a"))
+    };
+    for uri in ["a%20b.bin", "a b.bin", "./a%20b.bin", "deep/c.bin", "deep/../a%20b.bin"] {
+        assert_eq!(with(uri), Ok(2), "{uri}");
+    }
+    let outside = "only files in the folder of the glTF file, or below it, are read; move it there";
+    let absolute = home.join("outside.bin").display().to_string();
+    for uri in [
+        "../outside.bin",
+        "deep/../../outside.bin",
+        "%2e%2e/outside.bin",
+        "/etc/passwd",
+        &absolute,
+        "file:///etc/passwd",
+        "http://example.org/a.bin",
+        "C:/a.bin",
+        "",
+    ] {
+        let says = with(uri).unwrap_err();
+        assert!(
+            says.starts_with("a: buffer 0: the URI ") && says.ends_with(outside),
+            "{uri}: {says}"
+        );
+    }
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink(home.join("outside.bin"), folder.join("link.bin")).unwrap();
+        assert!(with("link.bin").unwrap_err().ends_with(outside));
+    }
+    assert_eq!(
+        with("none.bin"),
+        Err("a: buffer 0: \"none.bin\": there is no such file".to_owned())
+    );
+    assert!(with("data:text/plain,hello").unwrap_err().ends_with("data must be in base64"));
+    assert!(with("data:;base64,*").unwrap_err().ends_with("its data is no base64"));
+    let alone = parse("a", SQUARE.replace("DATA", "a b.bin").as_bytes()).unwrap_err().to_string();
+    assert!(alone.ends_with("no other file is read here; pack it into a .glb file"), "{alone}");
+    fs::remove_dir_all(&home).unwrap();
+}
+
+/// Numbers and words of the square that can be exchanged for others.
+fn damaged() -> impl Strategy<Value = String> {
+    let numbers = prop_oneof![
+        "[0-9]{1,3}",
+        Just("-1".to_owned()),
+        Just("4294967296".to_owned()),
+        Just("5121".to_owned()),
+        Just("5125".to_owned()),
+        Just("1e30".to_owned()),
+        Just("18446744073709551615".to_owned())
+    ];
+    proptest::collection::vec((any::<prop::sample::Index>(), numbers), 1..4).prop_map(|changes| {
+        let mut text = document(
+            &data(),
+            &[
+                ("\"nodes\": [0]", "\"nodes\": [0, 1]"),
+                ("\"count\": 6", "\"count\": 6, \"byteOffset\": 0"),
+            ],
+        );
+        for (place, number) in changes {
+            let end = text.find("\"buffers\"").unwrap();
+            let places: Vec<usize> =
+                text[..end].match_indices(|c: char| c.is_ascii_digit()).map(|(at, _)| at).collect();
+            let at = places[place.index(places.len())];
+            let length = text[at..].bytes().take_while(u8::is_ascii_digit).count();
+            text.replace_range(at..at + length, &number);
+        }
+        text
+    })
+}
+
+proptest! {
+    #[test]
+    fn no_numbers_make_the_reader_panic(text in damaged()) {
+        // `Mesh` itself checks what is accepted.
+        let _ = parse("a", text.as_bytes());
+    }
+
+    #[test]
+    fn no_bytes_make_the_reader_panic(
+        damage in proptest::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6),
+        cut in proptest::option::weighted(0.3, any::<prop::sample::Index>()),
+    ) {
+        let mut bytes = binary(&SQUARE.replace(", \"uri\": \"DATA\"", ""), Some(&data()));
+        for (place, byte) in damage {
+            let place = place.index(bytes.len());
+            bytes[place] = byte;
+        }
+        bytes.truncate(cut.map_or(bytes.len(), |cut| cut.index(bytes.len())));
+        let _ = parse("a", &bytes);
+    }
+}

@@ -1,0 +1,114 @@
+//! Reads and writes meshes as STL files, which printers and CAD programs use.
+//!
+//! # What is read
+//!
+//! The reader takes both forms of the format (3D Systems, "Stereolithography Interface Specification", 1988):
+//!
+//! - **binary**: 80 bytes of any content, the number of facets, and 50 bytes a facet, all little-endian. A file is binary if
+//!   its size is exactly that, `84 + 50·n`: many binary files begin with the word "solid", too.
+//! - **ASCII**: `solid`, facets (`facet normal`, `outer loop`, three times `vertex x y z`, `endloop`, `endfacet`), and
+//!   `endsolid`, in lower or upper case; any number of solids. Each number is rounded once, to the nearest `f32`.
+//!
+//! A facet is a triangle, in the order of the file. The format has no shared vertices: corners at the same place become one
+//! vertex, numbered in the order in which they come first, so that the surface can be smoothed. The normals of facets are not
+//! read, for they follow from the corners, and many files have zeros in their place. Two bytes a facet of the binary form,
+//! which some programs use for colours in ways of their own, are skipped.
+//!
+//! A file is read facet by facet. A count in the file never makes the reader reserve memory.
+
+mod ascii;
+mod binary;
+mod builder;
+mod error;
+mod write;
+
+pub use error::{ReadStlError, StlFault};
+pub use write::write;
+
+use crate::source::{READ_AT_ONCE, regular_file};
+use bothways_common::scene::Mesh;
+use builder::Builder;
+use std::io::{BufRead, BufReader, Cursor, Read, Seek, SeekFrom};
+use std::path::Path;
+
+/// Reads a mesh from an STL file.
+///
+/// # Errors
+///
+/// The file cannot be read, or one of the errors of [`parse`]; messages call the file by `path`.
+pub fn read(path: &Path) -> Result<Mesh, ReadStlError> {
+    let file = path.display().to_string();
+    match regular_file(path) {
+        Ok(opened) => read_from(file, BufReader::with_capacity(READ_AT_ONCE, opened)),
+        Err(error) => Err(ReadStlError::Unreadable { file, error }),
+    }
+}
+
+/// Reads a mesh from the bytes of an STL file, which messages call `name`.
+///
+/// # Errors
+///
+/// A file that is neither of the two forms, that has no facets, or too many; a word that does not belong where it stands; a
+/// coordinate that is not finite.
+///
+/// ```
+/// use bothways_formats::stl;
+///
+/// let facet = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
+/// let mesh = stl::parse("one.stl", format!("solid one\n{facet}endsolid one\n").as_bytes())?;
+/// assert_eq!(mesh.triangles(), [[0, 1, 2]]);
+///
+/// let error = stl::parse("bad.stl", b"solid bad\nfacet normal 0 0 1\nvertex 0 0 0\n").unwrap_err();
+/// assert_eq!(error.to_string(), r#"bad.stl:3: "vertex" stands here in place of "outer loop""#);
+/// # Ok::<(), stl::ReadStlError>(())
+/// ```
+pub fn parse(name: &str, bytes: &[u8]) -> Result<Mesh, ReadStlError> {
+    read_from(name.to_owned(), Cursor::new(bytes))
+}
+
+/// The bytes of a binary file before its first facet, and those of each facet.
+const HEADER: usize = 84;
+const FACET: usize = 50;
+
+/// The size of a binary file of so many facets.
+fn binary_size(facets: u32) -> u64 {
+    HEADER as u64 + FACET as u64 * u64::from(facets)
+}
+
+/// Tells whether a file that begins with these bytes and has this size is binary.
+pub(crate) fn is_binary(beginning: &[u8], size: u64) -> bool {
+    promised(beginning).is_some_and(|facets| size == binary_size(facets))
+}
+
+/// Tells whether a file that begins with these bytes is an ASCII one.
+pub(crate) fn is_text(beginning: &[u8]) -> bool {
+    ascii::begins(beginning)
+}
+
+/// The number of facets that a binary file promises.
+fn promised(beginning: &[u8]) -> Option<u32> {
+    Some(u32::from_le_bytes(*beginning.get(80..84)?.first_chunk()?))
+}
+
+fn read_from(file: String, mut input: impl BufRead + Seek) -> Result<Mesh, ReadStlError> {
+    let unreadable = |error| ReadStlError::Unreadable { file: file.clone(), error };
+    let size = input.seek(SeekFrom::End(0)).map_err(unreadable)?;
+    input.rewind().map_err(unreadable)?;
+    let mut beginning = Vec::new();
+    input.by_ref().take(HEADER as u64).read_to_end(&mut beginning).map_err(unreadable)?;
+    let mut builder = Builder::default();
+    if is_binary(&beginning, size) {
+        binary::read(&file, input, &mut builder)?;
+    } else if beginning.is_empty() {
+        return Err(ReadStlError::Empty { file });
+    } else if ascii::begins(&beginning) {
+        input.rewind().map_err(unreadable)?;
+        ascii::read(&file, input, &mut builder)?;
+    } else {
+        return Err(ReadStlError::Neither { file, size, facets: promised(&beginning) });
+    }
+    if builder.is_empty() { Err(ReadStlError::NoFacets { file }) } else { Ok(builder.finish()) }
+}
+
+#[cfg(test)]
+mod tests;

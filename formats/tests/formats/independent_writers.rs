@@ -1,0 +1,113 @@
+//! Files of independent writers, which `files/make.py` makes: all show the same mesh, whatever the format.
+
+use bothways_common::{Mesh, glam::Vec3};
+use bothways_formats::gltf;
+use bothways_formats::mesh_file::Format;
+use std::fs;
+use std::path::PathBuf;
+
+fn folder() -> PathBuf {
+    PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/formats/files"))
+}
+
+/// Reads a file in the format that its content tells. Its name without an extension tells none.
+fn read(name: &str) -> Mesh {
+    let path = folder().join(name);
+    let bytes = fs::read(&path).expect("the file is committed");
+    let told =
+        Format::of_bytes("nameless", &bytes).or_else(|| Format::of(&path)).expect("it has a name");
+    assert_eq!(Some(told), Format::of(&path), "{name}");
+    told.read(&path).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The corners of all triangles.
+fn corners(mesh: &Mesh) -> Vec<[Vec3; 3]> {
+    (0..mesh.triangles().len()).map(|triangle| mesh.corners(triangle)).collect()
+}
+
+/// The pyramid, as `make.py` states it.
+fn pyramid() -> Vec<[Vec3; 3]> {
+    let positions =
+        [[-1.0, 0.0, -1.0], [1.0, 0.0, -1.0], [1.0, 0.0, 1.0], [-1.0, 0.0, 1.0], [0.1, 1.7, 0.3]];
+    let triangles = [[0, 1, 2], [0, 2, 3], [1, 0, 4], [2, 1, 4], [3, 2, 4], [0, 3, 4]];
+    triangles
+        .map(|corners| corners.map(|corner: usize| Vec3::from_array(positions[corner])))
+        .to_vec()
+}
+
+#[test]
+fn the_same_triangles_are_read_in_the_same_order_from_every_format() {
+    let names = [
+        "trimesh.obj",
+        "trimesh.ply",
+        "trimesh-ascii.ply",
+        "trimesh.stl",
+        "trimesh.glb",
+        "plyfile-little.ply",
+        "plyfile-big.ply",
+        "plyfile-ascii.ply",
+        "numpy-stl.stl",
+    ];
+    for name in names {
+        let mesh = read(name);
+        assert_eq!(corners(&mesh), pyramid(), "{name}");
+        assert_eq!(mesh.positions().len(), 5, "{name}");
+    }
+    // These writers round to some digits.
+    for name in ["trimesh-ascii.stl", "numpy-stl-ascii.stl"] {
+        let mesh = read(name);
+        assert_eq!(mesh.positions().len(), 5, "{name}");
+        for (found, expected) in corners(&mesh).iter().flatten().zip(pyramid().iter().flatten()) {
+            assert!((*found - *expected).length() < 1e-6, "{name}");
+        }
+    }
+}
+
+#[test]
+fn normals_of_ply_files_are_those_that_were_written() {
+    for name in ["plyfile-little.ply", "plyfile-big.ply", "plyfile-ascii.ply"] {
+        let mesh = read(name);
+        let [a, _, top] = mesh.normals().of(2).unwrap();
+        assert_eq!([a, top], [Vec3::new(1.0, 0.0, -1.0), Vec3::Y], "{name}");
+    }
+}
+
+#[test]
+fn the_nodes_of_a_scene_place_its_meshes() {
+    let mesh = read("trimesh-scene.glb");
+    assert_eq!(mesh.triangles().len(), 12);
+    assert_eq!(corners(&mesh)[..6], pyramid()[..]);
+    // What trimesh itself makes of the file, in another order: trimesh.load(...).to_geometry().vertices[4].
+    let (top, expected) = (mesh.corners(6 + 2)[2], Vec3::new(3.622_845, 0.776_932_2, -1.327_452));
+    assert!((top - expected).length() < 1e-5, "{top}");
+}
+
+#[test]
+fn models_of_pygltflib_are_alike_wherever_their_buffer_is() {
+    let model = |name: &str| gltf::read(&folder().join(name)).unwrap();
+    let binary = model("pygltflib.glb");
+    for name in ["pygltflib-beside.gltf", "pygltflib-data.gltf"] {
+        assert_eq!(model(name), binary);
+    }
+    // Half a turn about y, upside down, and moved; the mirror turns the triangles.
+    let placed = |p: Vec3| Vec3::new(1.0 - p.x, 2.0 - p.y, 3.0 - p.z);
+    let expected: Vec<[Vec3; 3]> =
+        pyramid().into_iter().map(|[a, b, c]| [placed(a), placed(c), placed(b)]).collect();
+    for (found, expected) in corners(&binary.mesh).iter().flatten().zip(expected.iter().flatten()) {
+        assert!((*found - *expected).length() < 1e-6, "{found} {expected}");
+    }
+    let materials = binary.mesh.materials().unwrap();
+    assert_eq!(
+        (materials.named()[0].name.as_str(), materials.of(5).unwrap().color),
+        ("copper", Vec3::new(0.6, 0.25, 0.1))
+    );
+    // The mirror has exchanged the last two corners.
+    let [_, top, _] = binary.mesh.texture_coordinates().of(2).unwrap();
+    assert_eq!(top.to_array(), [128.0 / 255.0, 1.0 - 51.0 / 255.0]);
+    let camera = &binary.cameras[0];
+    assert_eq!(
+        (camera.name.as_str(), camera.camera.viewport, camera.camera.image),
+        ("front", [1.5, 1.0], [720, 480])
+    );
+    assert!((camera.camera.distance - 0.5 / 0.4_f32.tan()).abs() < 1e-5);
+}
