@@ -116,7 +116,7 @@ enum Command {
     /// Film both orders at work on one picture, on one clock of work done: GIF, PNG, MP4 or frames
     #[command(after_help = film::EXAMPLES)]
     Film(Box<film::FilmArgs>),
-    /// Print a scene's camera: eye, frame, viewport, field of view, OpenGL matrices
+    /// Print a scene's camera: eye, frame, viewport, field of view, OpenGL matrices; or for other systems
     #[command(after_help = show_camera::EXAMPLES)]
     Camera(Box<show_camera::ShowCameraArgs>),
     /// Generate a mesh and write it as an OBJ, PLY or STL file

@@ -25,7 +25,7 @@
 //!   [`verify`] holds samples of it to the textbook.
 //! - **Comparing**: [`diff`], and [`diff::why`] for the reasons; [`check`] and [`grade`] do this for many files.
 //! - **Showing**: [`picture`], [`figure`], [`film`], [`slides`], [`sweep`].
-//! - **Single questions**: [`cover`], [`pixel`], [`opengl`].
+//! - **Single questions**: [`cover`], [`pixel`], [`opengl`]; [`exchange`] writes a camera for other systems.
 //! - **Testing**: [`vectors`] is a conformance set, [`fuzz`] draws random scenes.
 
 pub use bothways_common as common;
@@ -37,6 +37,7 @@ pub use bothways_rules as rules;
 pub mod check;
 pub mod cover;
 pub mod diff;
+pub mod exchange;
 pub mod figure;
 pub mod film;
 pub mod fuzz;

@@ -36,7 +36,7 @@ pub struct Matrices {
 
 /// The near plane of a perspective projection, in parts of `d`: a power of two, so that the matrix
 /// stays exact.
-const NEAR: f64 = 1.0 / 1024.0;
+pub(crate) const NEAR: f64 = 1.0 / 1024.0;
 
 /// The matrices that draw a view's picture, with depths that leave out as little as possible.
 pub fn matrices(view: &View) -> Matrices {
@@ -80,7 +80,7 @@ pub fn field_of_view(view: &View) -> Option<[f64; 2]> {
     (camera.projection() == Projection::Perspective).then(|| camera.viewport().map(angle))
 }
 
-fn camera_from_world(camera: &Camera) -> Matrix {
+pub(crate) fn camera_from_world(camera: &Camera) -> Matrix {
     let eye = camera.eye().as_dvec3();
     // Adding 0 turns −0 into 0.
     let row = |axis: DVec3| [axis.x, axis.y, axis.z, -axis.dot(eye) + 0.0];
@@ -88,7 +88,7 @@ fn camera_from_world(camera: &Camera) -> Matrix {
 }
 
 /// A depth behind all triangles and spheres: a power of two.
-fn behind_everything(view: &View) -> f64 {
+pub(crate) fn behind_everything(view: &View) -> f64 {
     let depth = |point: DVec3| -point.dot(view.camera.w());
     let depths = view.primitives().map(|(_, primitive)| match primitive {
         Primitive::Triangle(corners) => corners.map(depth).into_iter().fold(0.0, f64::max),

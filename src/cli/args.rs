@@ -345,7 +345,7 @@ fn numbers<const N: usize>(text: &str, expected: &str) -> Result<[f32; N], Strin
         .map_err(|_| format!("it has {}, but needs {expected}", count(given as u64, "numbers")))
 }
 
-fn number(text: &str) -> Result<f32, String> {
+pub(super) fn number(text: &str) -> Result<f32, String> {
     let text = text.trim();
     let number: f32 = text.parse().map_err(|_| format!("'{text}' is not a number"))?;
     if number.is_finite() {

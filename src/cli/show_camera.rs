@@ -1,15 +1,16 @@
 //! `bothways camera`: a scene's camera in numbers, for other renderers.
 
-use super::args::CameraArgs;
+use super::args::{CameraArgs, number};
 use super::camera::camera;
 use super::failure::Failure;
 use super::terminal;
 use bothways::common::glam::Vec3;
 use bothways::common::{Projection, View};
+use bothways::exchange::{self, Exchanged, StatedDepths, System};
 use bothways::opengl::{self, Matrices, Matrix};
 use bothways::scenes::{self, DEFAULT};
 use bothways::wording::{plain, vector};
-use clap::Args;
+use clap::{Args, ValueEnum};
 use serde::Serialize;
 use std::process::ExitCode;
 
@@ -18,7 +19,9 @@ Examples:
   bothways camera canonical                          the lecture's first camera
   bothways camera bunny.obj                          the camera that frames a mesh
   bothways camera --projection parallel --json       for a program to read
-  bothways camera scene.toml --eye 0,1,4 --size 64x64";
+  bothways camera scene.toml --eye 0,1,4 --size 64x64
+  bothways camera lecture --as blender               the same camera in another program
+  bothways camera canonical --as vulkan --near 0.1 --far 100";
 
 /// Which camera.
 #[derive(Debug, Args)]
@@ -31,6 +34,54 @@ pub(super) struct ShowCameraArgs {
     /// Print JSON
     #[arg(long)]
     json: bool,
+    /// Print the camera for another system, as text to paste or to pipe into a file; what that
+    /// system cannot express is an error
+    #[arg(long = "as", value_name = "SYSTEM", value_enum, help_heading = "Exchange")]
+    system: Option<SystemArg>,
+    /// The depth of the near plane, in lengths of the world, where the system has one; otherwise
+    /// as near as possible
+    #[arg(long, value_name = "DEPTH", value_parser = number, allow_hyphen_values = true,
+          requires = "system", help_heading = "Exchange")]
+    near: Option<f32>,
+    /// The depth of the far plane; otherwise at infinity, or behind everything
+    #[arg(long, value_name = "DEPTH", value_parser = number, allow_hyphen_values = true,
+          requires = "system", help_heading = "Exchange")]
+    far: Option<f32>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum SystemArg {
+    /// View and projection for columns, depths from -1 to 1
+    Opengl,
+    /// View and projection for columns, y down, depths from 0 to 1
+    Vulkan,
+    /// View and projection for rows, right-handed, depths from 0 to 1
+    Directx,
+    /// Lines of a pbrt-v4 file before WorldBegin
+    Pbrt,
+    /// A sensor of Mitsuba 3, in XML
+    Mitsuba,
+    /// A Python script for Blender
+    Blender,
+    /// K, R and t; pixel middles are whole numbers
+    Opencv,
+    /// Lines of cameras.txt and images.txt; pixel middles at .5
+    Colmap,
+}
+
+impl SystemArg {
+    fn system(self) -> System {
+        match self {
+            SystemArg::Opengl => System::OpenGl,
+            SystemArg::Vulkan => System::Vulkan,
+            SystemArg::Directx => System::DirectX,
+            SystemArg::Pbrt => System::Pbrt,
+            SystemArg::Mitsuba => System::Mitsuba,
+            SystemArg::Blender => System::Blender,
+            SystemArg::Opencv => System::OpenCv,
+            SystemArg::Colmap => System::Colmap,
+        }
+    }
 }
 
 /// Prints the camera.
@@ -38,10 +89,38 @@ pub(super) fn run(args: &ShowCameraArgs) -> Result<ExitCode, Failure> {
     let loaded = scenes::load_for(&args.scene, args.camera.size)?;
     let camera = camera(&loaded, &args.camera)?;
     let view = View::new(&loaded.scene, &camera);
+    if let Some(system) = args.system {
+        terminal::print(&exchanged(&loaded.name, &view, system.system(), args)?)?;
+        return Ok(ExitCode::SUCCESS);
+    }
     let report = Report::new(&loaded.name, &view);
     let text = if args.json { terminal::json(&report)? } else { report.text() };
     terminal::print(&text)?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// The text for another system, or with `--json` the same numbers for a program.
+fn exchanged(
+    scene: &str,
+    view: &View,
+    system: System,
+    args: &ShowCameraArgs,
+) -> Result<String, Failure> {
+    let depths = StatedDepths { near: args.near.map(f64::from), far: args.far.map(f64::from) };
+    let camera = exchange::exchange(view, system, depths)
+        .map_err(|error| Failure::new(format!("the camera of '{scene}': {error}")))?;
+    if !args.json {
+        return Ok(camera.text());
+    }
+    terminal::json(&ExchangeReport { scene, system: system.name(), camera })
+}
+
+/// The output of `--as SYSTEM --json`. All numbers are those of the text.
+#[derive(Debug, Serialize)]
+struct ExchangeReport<'a> {
+    scene: &'a str,
+    system: &'static str,
+    camera: Exchanged,
 }
 
 /// The output of `--json`, in this order. Numbers that the camera stores as `f32` have the fewest digits that read

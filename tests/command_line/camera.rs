@@ -116,3 +116,72 @@ fn a_field_of_view_and_its_viewport_are_both_printed() {
     let report = report(&args);
     assert!((report["field_of_view_degrees"][1].as_f64().unwrap() - 40.0).abs() < 1e-5);
 }
+
+#[test]
+fn a_camera_for_blender_is_a_script() {
+    let args = ["canonical", "--as", "blender", "--near", "0.5", "--far", "64"];
+    let output = camera(&args).assert().code(0).stderr("").get_output().stdout.clone();
+    insta::assert_snapshot!(String::from_utf8(output).unwrap(), @r#"
+    # Blender, for its Python console. Coordinates are those of the scene: import meshes without turning
+    # them (forward Y, up Z). What is beyond clip_start and clip_end is cut off.
+    import bpy
+    from mathutils import Matrix
+
+    data = bpy.data.cameras.new("bothways")
+    data.type = 'PERSP'
+    data.sensor_fit = 'HORIZONTAL'
+    data.sensor_width = 36.0
+    data.lens = 36.0
+    data.shift_x = 0.0
+    data.shift_y = 0.0
+    data.clip_start = 0.5
+    data.clip_end = 64.0
+
+    camera = bpy.data.objects.new("bothways", data)
+    camera.matrix_world = Matrix((
+        (1.0, 0.0, 0.0, 0.0),
+        (0.0, 1.0, 0.0, 0.0),
+        (0.0, 0.0, 1.0, 0.0),
+        (0.0, 0.0, 0.0, 1.0),
+    ))
+
+    scene = bpy.context.scene
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+    scene.render.resolution_x = 480
+    scene.render.resolution_y = 480
+    scene.render.resolution_percentage = 100
+    scene.render.pixel_aspect_x = 1.0
+    scene.render.pixel_aspect_y = 1.0
+    "#);
+}
+
+#[test]
+fn every_system_has_text_and_json_of_the_same_numbers() {
+    let systems = [
+        ("opengl", "OpenGL", "projection"),
+        ("vulkan", "Vulkan", "projection"),
+        ("directx", "DirectX", "projection"),
+        ("pbrt", "pbrt", "screen_window"),
+        ("mitsuba", "Mitsuba", "to_world"),
+        ("blender", "Blender", "matrix_world"),
+        ("opencv", "OpenCV", "r"),
+        ("colmap", "COLMAP", "quaternion"),
+    ];
+    for (word, name, what) in systems {
+        let args = ["lecture", "--as", word, "--eye=1,2.1,6.8"];
+        let output = camera(&args).assert().code(0).stderr("").get_output().stdout.clone();
+        let text = String::from_utf8(output).unwrap();
+        let report = report(&args);
+        assert_eq!((&report["scene"], &report["system"]), (&json!("lecture"), &json!(name)));
+        let rows = report["camera"][what].as_array().unwrap();
+        let cells: Vec<&Value> = rows
+            .iter()
+            .flat_map(|row| row.as_array().map_or(vec![row], |row| row.iter().collect()))
+            .collect();
+        assert!(cells.len() >= 4, "{word}: {report}");
+        for cell in cells {
+            assert!(text.contains(&cell.to_string()), "{word}: no {cell} in\n{text}");
+        }
+    }
+}

@@ -25,6 +25,45 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
         "camera canonical --json=yes",
         "unexpected value 'yes' for '--json' found; no more were expected",
     ),
+    // Another system's camera.
+    (
+        "camera canonical --as maya",
+        "invalid value 'maya' for '--as <SYSTEM>' [possible values: opengl, vulkan, directx, pbrt,",
+    ),
+    (
+        "camera canonical --near 1",
+        "the following required arguments were not provided: --as <SYSTEM>",
+    ),
+    (
+        "camera canonical --as opengl --near x",
+        "invalid value 'x' for '--near <DEPTH>': 'x' is not a number",
+    ),
+    (
+        "camera canonical --as opengl --far inf",
+        "invalid value 'inf' for '--far <DEPTH>': inf is not a finite number",
+    ),
+    (
+        "camera canonical --as vulkan --near 0",
+        "the camera of 'canonical': the near plane is at 0, but a perspective camera needs one before the eye;",
+    ),
+    (
+        "camera canonical --as directx --near 3 --far 2",
+        "the camera of 'canonical': the far plane at 2 does not lie behind the near plane at 3;",
+    ),
+    (
+        "camera canonical --as pbrt --near 1",
+        "the camera of 'canonical': pbrt has no near and no far plane; leave --near and --far out",
+    ),
+    (
+        "camera canonical --as mitsuba --viewport 2,1",
+        "the camera of 'canonical': Mitsuba's perspective camera has square pixels, but a viewport of 2 x 1",
+    ),
+    (
+        "camera canonical --as blender --size 2x2",
+        "the camera of 'canonical': Blender's images have at least 4x4 pixels, and this one has 2x2;",
+    ),
+    ("camera parallel --as opencv", "the camera of 'parallel': OpenCV has no parallel camera:"),
+    ("camera parallel --as colmap", "the camera of 'parallel': COLMAP has no parallel camera:"),
     // A whole renderer.
     ("check", "the following required arguments were not provided: <THEIRS>"),
     ("check no-such", "cannot list the folder no-such: there is no such folder"),
