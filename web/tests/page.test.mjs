@@ -130,6 +130,10 @@ test("a good file is opened; a broken and a huge one are refused with reasons", 
   await until("the scene", async () => (await page.locator("#scene").inputValue()).startsWith("small"));
   await until("its verdict", async () => (await text(page, "#verdict-text")).startsWith("match"));
 
+  const corners = ["0 0 0", "1 0 0", "0 1 0"].map((at) => `vertex ${at}`).join(" ");
+  await drop(page, "facet.stl", `solid\nfacet normal 0 0 1 outer loop ${corners} endloop endfacet\nendsolid\n`);
+  await until("the facet", async () => (await page.locator("#scene").inputValue()).startsWith("facet"));
+
   await drop(page, "broken.obj", "v 0 0 0\nv 1 0 O\n");
   await until("a reason", async () => (await text(page, "#trouble")).includes('broken.obj:2: "O" is not a number'));
   await drop(page, "scene.toml", "[[object]]\nspere = { center = [0, 0, 0], radius = 1 }\n");
@@ -140,7 +144,7 @@ test("a good file is opened; a broken and a huge one are refused with reasons", 
   await until("the kinds", async () => (await text(page, "#trouble")).includes(".obj"));
 
   // What was open stays open.
-  assert.ok((await page.locator("#scene").inputValue()).startsWith("small"));
+  assert.ok((await page.locator("#scene").inputValue()).startsWith("facet"));
   assert.deepEqual(said.console, []);
   await close();
 });

@@ -4,6 +4,9 @@
 /** The size of a file that is read at most, in bytes: 64 MiB. */
 const LARGEST_FILE = 64 * 2 ** 20;
 
+/** Whether a scene of this name is a file, and none of the built-in ones. @param {string} name */
+const isFileName = (name) => /\.(obj|ply|stl|gltf|glb|toml)$/i.test(name);
+
 /** @param {File} file */
 async function openFile(file) {
   if (file.size > LARGEST_FILE) {
@@ -12,8 +15,8 @@ async function openFile(file) {
     );
     return;
   }
-  if (!/\.(obj|ply|toml)$/i.test(file.name)) {
-    showTrouble(`${file.name}: this page opens .obj and .ply meshes and .toml scenes`);
+  if (!isFileName(file.name)) {
+    showTrouble(`${file.name}: this page opens meshes (.obj, .ply, .stl, .gltf, .glb) and .toml scenes`);
     return;
   }
   try {

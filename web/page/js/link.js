@@ -106,7 +106,7 @@ async function followLink() {
   const scene = parts.get("scene") ?? chapter.scene ?? "lecture";
   const place = numbersOf(parts.get("pixel"), 2)?.map((index) => Math.max(0, Math.round(index)));
   const pixel = /** @type {Pixel | null} */ (place ?? null);
-  const isFile = /\.(obj|ply|toml)$/i.test(scene);
+  const isFile = isFileName(scene);
   if (state.own && state.scene === scene && state.opened) {
     const moved = patched(state.opened.camera, camera);
     change({ camera: moved, pixel: pixelWithin(moved, pixel) });
