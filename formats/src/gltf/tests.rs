@@ -419,7 +419,7 @@ fn nodes_that_form_no_trees_are_refused() {
     );
     assert_eq!(
         nodes(r#"[{ "mesh": 0, "translation": [1e39, 0, 0] }]"#),
-        "node 0: its transformation has a number that is not finite"
+        "its JSON is not that of a glTF file: number out of range at line 4 column 43"
     );
     assert_eq!(
         fault(&[("\"scene\": 0", "\"scene\": 3")]),
