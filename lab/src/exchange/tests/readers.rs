@@ -7,6 +7,7 @@ type Vector = [f64; 3];
 type Affine = [[f64; 4]; 3];
 
 /// What a text says.
+#[expect(clippy::large_enum_variant, reason = "there are few")]
 pub(super) enum Reader {
     Clip {
         image: [u32; 2],
