@@ -57,7 +57,7 @@ enum SystemArg {
     Vulkan,
     /// View and projection for rows, right-handed, depths from 0 to 1
     Directx,
-    /// Lines of a pbrt-v4 file before WorldBegin
+    /// The head of a pbrt-v4 file, before its world begins
     Pbrt,
     /// A sensor of Mitsuba 3, in XML
     Mitsuba,
