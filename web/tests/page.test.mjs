@@ -130,8 +130,9 @@ test("a good file is opened; a broken and a huge one are refused with reasons", 
   await until("the scene", async () => (await page.locator("#scene").inputValue()).startsWith("small"));
   await until("its verdict", async () => (await text(page, "#verdict-text")).startsWith("match"));
 
-  const corners = ["0 0 0", "1 0 0", "0 1 0"].map((at) => `vertex ${at}`).join(" ");
-  await drop(page, "facet.stl", `solid\nfacet normal 0 0 1 outer loop ${corners} endloop endfacet\nendsolid\n`);
+  const corners = ["0 0 0", "1 0 0", "0 1 0"].map((at) => `vertex ${at}`);
+  const facet = ["solid", "facet normal 0 0 1", "outer loop", ...corners, "endloop", "endfacet", "endsolid"];
+  await drop(page, "facet.stl", facet.join("\n"));
   await until("the facet", async () => (await page.locator("#scene").inputValue()).startsWith("facet"));
 
   await drop(page, "broken.obj", "v 0 0 0\nv 1 0 O\n");
