@@ -77,6 +77,7 @@
 //! No file makes a reader panic: tests and fuzzers look for such a file. Messages are safe to show on a terminal, whatever
 //! they quote from a file: see [`source::quote`].
 
+mod attributes;
 pub mod generate;
 pub mod gltf;
 pub mod mesh_file;

@@ -4,6 +4,7 @@
 mod facet;
 mod normal_tree;
 
+use crate::attributes::NONE;
 use bothways_common::scene::{Attribute, Mesh};
 use facet::Facet;
 use glam::{DVec3, Vec3};
@@ -117,9 +118,6 @@ fn smooth_vertex(
         *place = u32::try_from(index).unwrap_or(NONE);
     }
 }
-
-/// [`Attribute::NONE`], which is the same number for values of every type.
-const NONE: u32 = Attribute::<Vec3>::NONE;
 
 /// The sum of the weighted normals of the faces whose normals differ from that of `one` by at most the crease.
 fn sum_one_by_one(facets: &[Facet], one: &Facet, least_cosine: f64) -> DVec3 {

@@ -18,6 +18,14 @@ pub(crate) fn metadata(path: &Path) -> io::Result<Metadata> {
 /// The size of read buffers, in bytes.
 pub const READ_AT_ONCE: usize = 1 << 18;
 
+/// The byte order mark that some editors write before the first line.
+pub(crate) const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
+/// The bytes of a file behind its byte order mark, if it has one.
+pub(crate) fn without_mark(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes)
+}
+
 /// Opens a regular file, which can be read from any position and more than once.
 ///
 /// Folders are refused, and pipes too: to open one would wait for a program that writes to it.

@@ -49,26 +49,54 @@ pub fn matrices(view: &View) -> Matrices {
 /// The matrices of a camera with stated depths: a perspective projection begins at `near` and has no end, a parallel
 /// projection begins at the eye and ends at `far`.
 pub fn between(camera: &Camera, near: f64, far: f64) -> Matrices {
-    let [vw, vh] = camera.viewport();
-    let view = camera_from_world(camera);
+    let depths = match camera.projection() {
+        Projection::Perspective => Depths { near, far: None },
+        Projection::Parallel => Depths { near: 0.0, far: Some(far) },
+    };
+    let projection = |at| clip_from_camera(camera, depths, 1.0, at);
+    Matrices {
+        view: camera_from_world(camera),
+        projection: projection([-1.0, 1.0]),
+        reversed: projection([1.0, 0.0]),
+        near: depths.near,
+        far: depths.far,
+    }
+}
+
+/// The depths of both planes along `−w`; `far` is infinite where it is `None`, which it never is for a parallel camera.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Depths {
+    pub(crate) near: f64,
+    pub(crate) far: Option<f64>,
+}
+
+/// `clip_from_camera`: `top` is the `y` of the picture's upper border, and `at` are the depths at the near and at the far
+/// plane, all after the division by the clip coordinate `w`.
+pub(crate) fn clip_from_camera(camera: &Camera, depths: Depths, top: f64, at: [f64; 2]) -> Matrix {
+    let ([vw, vh], d) = (camera.viewport(), camera.distance());
+    let ([at_near, at_far], Depths { near, far }) = (at, depths);
     match camera.projection() {
         Projection::Perspective => {
-            let d = camera.distance();
-            let with = |depth| {
-                let (x, y) = ([2.0 * d / vw, 0.0, 0.0, 0.0], [0.0, 2.0 * d / vh, 0.0, 0.0]);
-                [x, y, depth, [0.0, 0.0, -1.0, 0.0]]
-            };
-            let projection = with([0.0, 0.0, -1.0, -2.0 * near]);
-            Matrices { view, projection, reversed: with([0.0, 0.0, 0.0, near]), near, far: None }
+            // Depth is (a·z + b) / −z: at_near for z = −near, at_far for z = −far.
+            let toward_far = far.map_or(0.0, |far| near / far);
+            let b = (at_near - at_far) * near / (1.0 - toward_far);
+            let a = far.map_or(0.0, |far| b / far) - at_far;
+            [
+                [2.0 * d / vw, 0.0, 0.0, 0.0],
+                [0.0, top * 2.0 * d / vh, 0.0, 0.0],
+                [0.0, 0.0, a, b],
+                [0.0, 0.0, -1.0, 0.0],
+            ]
         }
         Projection::Parallel => {
-            let with = |depth| {
-                let (x, y) = ([2.0 / vw, 0.0, 0.0, 0.0], [0.0, 2.0 / vh, 0.0, 0.0]);
-                [x, y, depth, [0.0, 0.0, 0.0, 1.0]]
-            };
-            let projection = with([0.0, 0.0, -2.0 / far, -1.0]);
-            let reversed = with([0.0, 0.0, 1.0 / far, 1.0]);
-            Matrices { view, projection, reversed, near: 0.0, far: Some(far) }
+            // Depth is a·z + b.
+            let a = far.map_or(0.0, |far| (at_near - at_far) / (far - near));
+            [
+                [2.0 / vw, 0.0, 0.0, 0.0],
+                [0.0, top * 2.0 / vh, 0.0, 0.0],
+                [0.0, 0.0, a, at_near + a * near],
+                [0.0, 0.0, 0.0, 1.0],
+            ]
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The parts of a glTF file: its JSON, and in a binary file what follows it.
 
 use super::error::GltfFault;
+use crate::source::without_mark;
 use ::gltf::json::{Root, deserialize};
 
 /// The beginning of a binary file.
@@ -16,7 +17,7 @@ pub(super) struct Container<'a> {
 /// Splits a file into its parts.
 pub(super) fn split(bytes: &[u8]) -> Result<Container<'_>, GltfFault> {
     if !bytes.starts_with(MAGIC) {
-        let json = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        let json = without_mark(bytes);
         return match json.trim_ascii_start().first() {
             Some(b'{') => Ok(Container { json, bin: None }),
             Some(_) => Err(GltfFault::NotGltf),

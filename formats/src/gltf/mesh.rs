@@ -5,6 +5,7 @@ use super::buffers::Buffers;
 use super::error::GltfFault;
 use super::nodes::Placed;
 use super::{Located, item};
+use crate::attributes::{self, NONE};
 use crate::warning::MaterialWarning;
 use ::gltf::json::mesh::{Mode, Primitive, Semantic};
 use ::gltf::json::validation::Checked;
@@ -15,9 +16,6 @@ use glam::{DMat3, DMat4, Vec2, Vec3};
 /// The most triangles, and the most vertices, of a scene, each mesh counted where it is placed: some 5 GB of memory, though
 /// the file may be small.
 const MOST: u64 = 1 << 26;
-
-/// The index that says that a corner has no value: the same number for values of every type.
-const NONE: u32 = Attribute::<Vec3>::NONE;
 
 /// The mesh of all nodes, and what of its colours is missing.
 pub(super) fn mesh(
@@ -229,14 +227,13 @@ impl<'a> Builder<'a> {
     }
 
     fn finish(self, file: &str) -> Result<(Mesh, Vec<MaterialWarning>), Located> {
-        let count = self.triangles.len();
-        let normals = complete(self.normals, count);
-        let texture_coordinates = complete(self.texture_coordinates, count);
-        let mesh = Mesh::new(self.positions, self.triangles)
-            .and_then(|mesh| mesh.with_normals(normals))
-            .and_then(|mesh| mesh.with_texture_coordinates(texture_coordinates))
-            .expect("the reader has checked every number and every index")
-            .with_materials(self.materials);
+        let mesh = attributes::mesh(
+            self.positions,
+            self.triangles,
+            self.normals,
+            self.texture_coordinates,
+            self.materials,
+        );
         let file = || file.to_owned();
         let mut warnings = Vec::new();
         warnings.extend(self.has_textures.then(|| MaterialWarning::Textures { file: file() }));
@@ -259,15 +256,6 @@ fn extend<T: Copy>(
     attribute.corners.resize(triangles as usize, [NONE; 3]);
     attribute.corners.extend(added.iter().map(|corners| corners.map(index)));
     attribute.values.extend_from_slice(&values);
-}
-
-/// Gives an attribute an entry for each triangle, unless there is none at all.
-fn complete<T>(mut attribute: Attribute<T>, triangles: usize) -> Attribute<T> {
-    if attribute.corners.as_flattened().iter().all(|&index| index == NONE) {
-        return Attribute { values: Vec::new(), corners: Vec::new() };
-    }
-    attribute.corners.resize(triangles, [NONE; 3]);
-    attribute
 }
 
 /// The matrix that turns normals: of the cofactors, which is the inverse transpose times the determinant. It exists for

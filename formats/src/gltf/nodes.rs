@@ -40,6 +40,10 @@ pub(super) fn placed(root: &Root) -> Result<Vec<Placed<'_>>, Located> {
             return Err(located(GltfFault::ReachedTwice));
         }
         let world_from_node = world_from_parent * transform(node).map_err(located)?;
+        // Many large scales in a row end beyond all numbers.
+        if !world_from_node.is_finite() {
+            return Err(located(GltfFault::TransformNotFinite));
+        }
         let children = node.children.iter().flatten().rev();
         waiting.extend(children.map(|&child| (child, Some(placed.len()))));
         placed.push(Placed { number, node, world_from_node });
@@ -75,10 +79,10 @@ fn roots(root: &Root) -> Result<Vec<Index<Node>>, Located> {
 /// The transformation that a node states: its matrix, or scale, then rotation, then translation.
 fn transform(node: &Node) -> Result<DMat4, GltfFault> {
     let has_parts = node.translation.is_some() || node.rotation.is_some() || node.scale.is_some();
-    let matrix = match node.matrix {
+    Ok(match node.matrix {
         Some(_) if has_parts => return Err(GltfFault::TwoTransforms),
         Some(matrix) => DMat4::from_cols_array(&matrix.map(f64::from)),
-        None if !has_parts => return Ok(DMat4::IDENTITY),
+        None if !has_parts => DMat4::IDENTITY,
         None => {
             let UnitQuaternion(rotation) = node.rotation.unwrap_or_default();
             let rotation = DQuat::from_array(rotation.map(f64::from));
@@ -95,6 +99,5 @@ fn transform(node: &Node) -> Result<DMat4, GltfFault> {
                 (vector(node.scale, DVec3::ONE), vector(node.translation, DVec3::ZERO));
             DMat4::from_scale_rotation_translation(scale, rotation, translation)
         }
-    };
-    if matrix.is_finite() { Ok(matrix) } else { Err(GltfFault::TransformNotFinite) }
+    })
 }

@@ -1,6 +1,7 @@
 //! The mesh that an OBJ file describes, built while the file is parsed: in one go, or in pieces.
 
-use super::visitor::{Corner, NONE, Visitor};
+use super::visitor::{Corner, Visitor};
+use crate::attributes::{self, NONE};
 use bothways_common::scene::{Attribute, Mesh, MeshMaterials};
 use glam::{Vec2, Vec3};
 
@@ -123,14 +124,7 @@ impl MeshBuilder {
     /// The mesh, after the whole file has been parsed and all indices have been checked.
     pub(super) fn finish(self) -> Mesh {
         let Geometry { positions, triangles, texture_coordinates, normals } = self.geometry;
-        let count = triangles.len();
-        let normals = complete(normals, count);
-        let texture_coordinates = complete(texture_coordinates, count);
-        Mesh::new(positions, triangles)
-            .and_then(|mesh| mesh.with_normals(normals))
-            .and_then(|mesh| mesh.with_texture_coordinates(texture_coordinates))
-            .expect("the reader has checked every number and every index")
-            .with_materials(self.materials)
+        attributes::mesh(positions, triangles, normals, texture_coordinates, self.materials)
     }
 }
 
@@ -167,14 +161,4 @@ fn store(indices: &mut Vec<[u32; 3]>, triangle: usize, corners: [u32; 3]) {
         indices.resize(triangle, [NONE; 3]);
         indices.push(corners);
     }
-}
-
-/// Gives an attribute an entry for each triangle, or removes its values if no corner has an index.
-fn complete<T>(mut attribute: Attribute<T>, triangles: usize) -> Attribute<T> {
-    if attribute.corners.is_empty() {
-        attribute.values = Vec::new();
-    } else {
-        attribute.corners.resize(triangles, [NONE; 3]);
-    }
-    attribute
 }

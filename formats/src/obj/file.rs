@@ -3,12 +3,10 @@
 
 use super::error::{IndexKind, ReadObjError, StatementFault};
 use super::parser::Parser;
-use super::statements::{
-    BYTE_ORDER_MARK, BufferedStatements, MOST_BYTES_A_STATEMENT, check_length,
-};
+use super::statements::{BufferedStatements, MOST_BYTES_A_STATEMENT, check_length};
 use super::visitor::{Corner, Visitor};
 use super::words::Words;
-use crate::source::{READ_AT_ONCE, regular_file};
+use crate::source::{BYTE_ORDER_MARK, READ_AT_ONCE, regular_file};
 use crate::warning::MaterialWarning;
 use glam::Vec3;
 use std::fs::File;

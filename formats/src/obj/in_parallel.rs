@@ -10,7 +10,8 @@ use super::builder::{MeshBuilder, Piece};
 use super::error::StatementFault;
 use super::parser::Parser;
 use super::pieces::{Counts, cut, whole_statements};
-use super::statements::{BYTE_ORDER_MARK, MOST_BYTES_A_STATEMENT, Statements, check_length};
+use super::statements::{MOST_BYTES_A_STATEMENT, Statements, check_length};
+use crate::source::BYTE_ORDER_MARK;
 use rayon::prelude::*;
 use std::io::{self, Read};
 

@@ -1,8 +1,9 @@
 //! The parser of OBJ files: from statements to positions, values and triangles with checked indices.
 
 use super::error::{IndexKind, StatementFault};
-use super::visitor::{Corner, NONE, Visitor};
+use super::visitor::{Corner, Visitor};
 use super::words::{Words, integer, is_text, number};
+use crate::attributes::NONE;
 use crate::source::quote::quote;
 
 /// Parses statement after statement, checks the indices of faces, and calls a [`Visitor`].

@@ -3,7 +3,8 @@
 
 use super::error::{IndexKind, StatementFault};
 use super::parser::{INDEX_KINDS, Parser};
-use super::visitor::{NONE, Visitor};
+use super::visitor::Visitor;
+use crate::attributes::NONE;
 use crate::source::decimal;
 
 /// The most numbers of a definition, and the most corners of a face.

@@ -2,10 +2,8 @@
 
 use super::error::StatementFault;
 use super::words::{Words, is_text};
+use crate::source::without_mark;
 use std::io::{self, BufRead, Read};
-
-/// The byte order mark that some editors write before the first line.
-pub(super) const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
 /// The longest statement that is read from a file: a polygon of some million corners.
 pub(super) const MOST_BYTES_A_STATEMENT: usize = 1 << 24;
@@ -21,7 +19,7 @@ pub(super) struct Statements<'a> {
 impl<'a> Statements<'a> {
     /// All statements of a file, after its byte order mark if it has one.
     pub(super) fn new(bytes: &'a [u8]) -> Self {
-        Statements::from_line(bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes), 1)
+        Statements::from_line(without_mark(bytes), 1)
     }
 
     /// The statements of a piece of a file that begins with this line.

@@ -1,7 +1,7 @@
 //! Files that the reader accepts, files that it refuses, and the messages.
 
-use super::visitor::NONE;
 use super::*;
+use crate::attributes::NONE;
 use bothways_common::scene::Attribute;
 use glam::{Vec2, Vec3};
 use proptest::collection::vec;

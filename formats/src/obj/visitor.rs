@@ -1,6 +1,5 @@
 //! The visitor that the parser of OBJ files calls, and the corners that it passes.
 
-use bothways_common::scene::Attribute;
 use glam::{Vec2, Vec3};
 
 /// Receives what the statements of a file define, in the order of the file.
@@ -19,9 +18,6 @@ pub(super) trait Visitor {
     fn material_library(&mut self, _name: &str) {}
 }
 
-/// One corner of a face: the indices of its vertex, texture coordinate and normal, counted from 0, or [`NONE`].
+/// One corner of a face: the indices of its vertex, texture coordinate and normal, counted from 0, or
+/// [`NONE`](crate::attributes::NONE).
 pub(super) type Corner = [u32; 3];
-
-/// The index that says that a corner has no texture coordinate or no normal: [`Attribute::NONE`], which is the same
-/// number for values of every type.
-pub(super) const NONE: u32 = Attribute::<()>::NONE;

@@ -1,6 +1,6 @@
 //! Writes OBJ files.
 
-use super::visitor::NONE;
+use crate::attributes::NONE;
 use bothways_common::scene::{Attribute, Mesh, MeshMaterials};
 use std::fmt;
 use std::io::{self, Write};

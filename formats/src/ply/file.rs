@@ -4,6 +4,7 @@ use super::error::{ElementFault, ReadPlyError};
 use super::header::{ElementGroup, Header, HeaderError, PropertyType, ScalarType};
 use super::quick::{Decoded, FaceLayout, VertexLayout};
 use super::values::{ValueError, ValueReader};
+use crate::attributes::NONE;
 use crate::source::quote::shown;
 use crate::source::{READ_AT_ONCE, regular_file};
 use crate::warning::MaterialWarning;
@@ -187,7 +188,6 @@ impl Quick {
 
 /// The normals of vertices, as an attribute of triangles. A normal without direction is none.
 fn normals_of(triangles: &[[u32; 3]], mut values: Vec<Vec3>) -> Attribute<Vec3> {
-    const NONE: u32 = Attribute::<Vec3>::NONE;
     let has_direction = |normal: &Vec3| normal.is_finite() && *normal != Vec3::ZERO;
     if !values.iter().any(has_direction) {
         return Attribute::default();

@@ -2,8 +2,8 @@
 
 use super::builder::Builder;
 use super::error::{ReadStlError, StlFault};
-use crate::source::decimal;
 use crate::source::quote::quote;
+use crate::source::{decimal, without_mark};
 use glam::Vec3;
 use std::io::{BufRead, Read};
 
@@ -12,7 +12,7 @@ const MOST_BYTES_A_LINE: u64 = 1 << 16;
 
 /// Tells whether a file that begins with these bytes is of this form.
 pub(super) fn begins(bytes: &[u8]) -> bool {
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
+    let bytes = without_mark(bytes).trim_ascii_start();
     let after = bytes.get(..5).filter(|word| word.eq_ignore_ascii_case(b"solid"));
     after.is_some() && bytes.get(5).is_none_or(u8::is_ascii_whitespace)
 }
@@ -32,7 +32,7 @@ pub(super) fn read(
         if lines.text.len() as u64 >= MOST_BYTES_A_LINE {
             return Err(located(StlFault::LineTooLong { most: MOST_BYTES_A_LINE }));
         }
-        let text = lines.text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&lines.text);
+        let text = without_mark(&lines.text);
         let mut words = text.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
         let Some(word) = words.next() else { continue };
         let keyword = word.to_ascii_lowercase();

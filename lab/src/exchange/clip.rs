@@ -1,9 +1,8 @@
 //! Matrices into clip space, which OpenGL, Vulkan and Direct3D share but for signs, depths and the order of factors.
 
-use super::depths::Depths;
 use super::number;
-use crate::common::{Camera, Projection};
-use crate::opengl::{LAYOUT, Matrix, camera_from_world};
+use crate::common::Camera;
+use crate::opengl::{Depths, LAYOUT, Matrix, camera_from_world, clip_from_camera};
 use serde::Serialize;
 
 /// The matrices of a camera for a graphics processor.
@@ -41,7 +40,8 @@ pub(super) struct ClipSpace {
 impl ClipMatrices {
     /// The matrices for columns.
     pub(super) fn new(camera: &Camera, depths: Depths, space: ClipSpace) -> ClipMatrices {
-        let projection = |at_near, at_far| projection(camera, depths, space.top, [at_near, at_far]);
+        let projection =
+            |at_near, at_far| clip_from_camera(camera, depths, space.top, [at_near, at_far]);
         ClipMatrices {
             layout: LAYOUT,
             vectors: "columns",
@@ -79,36 +79,6 @@ impl ClipMatrices {
             rows(&self.projection),
             rows(&self.projection_reversed_depth),
         )
-    }
-}
-
-/// `clip_from_camera`, with these depths at the near and at the far plane.
-fn projection(camera: &Camera, depths: Depths, top: f64, at: [f64; 2]) -> Matrix {
-    let ([vw, vh], d) = (camera.viewport(), camera.distance());
-    let ([at_near, at_far], Depths { near, far }) = (at, depths);
-    match camera.projection() {
-        Projection::Perspective => {
-            // Depth is (a·z + b) / −z: at_near for z = −near, at_far for z = −far.
-            let toward_far = far.map_or(0.0, |far| near / far);
-            let b = (at_near - at_far) * near / (1.0 - toward_far);
-            let a = far.map_or(0.0, |far| b / far) - at_far;
-            [
-                [2.0 * d / vw, 0.0, 0.0, 0.0],
-                [0.0, top * 2.0 * d / vh, 0.0, 0.0],
-                [0.0, 0.0, a, b],
-                [0.0, 0.0, -1.0, 0.0],
-            ]
-        }
-        Projection::Parallel => {
-            // Depth is a·z + b. A parallel camera always has a far plane.
-            let a = far.map_or(0.0, |far| (at_near - at_far) / (far - near));
-            [
-                [2.0 / vw, 0.0, 0.0, 0.0],
-                [0.0, top * 2.0 / vh, 0.0, 0.0],
-                [0.0, 0.0, a, at_near + a * near],
-                [0.0, 0.0, 0.0, 1.0],
-            ]
-        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::{ExchangeError, System};
 use crate::common::{Primitive, Projection, View};
-use crate::opengl::{NEAR, behind_everything};
+use crate::opengl::{Depths, NEAR, behind_everything};
 
 /// The depths of the near and the far plane along `−w`, in lengths of the world, as far as they are stated.
 ///
@@ -15,13 +15,6 @@ pub struct StatedDepths {
     pub near: Option<f64>,
     /// The depth of the far plane.
     pub far: Option<f64>,
-}
-
-/// The depths of both planes; `far` is infinite where it is `None`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Depths {
-    pub(super) near: f64,
-    pub(super) far: Option<f64>,
 }
 
 impl StatedDepths {

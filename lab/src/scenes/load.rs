@@ -159,7 +159,7 @@ pub fn load_for(source: &str, image: Option<[u32; 2]>) -> Result<LoadedScene, Lo
         return load_with_camera(path, camera, image);
     }
     let path = Path::new(source);
-    if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
+    if is_scene_file(path) {
         return load_scene_file(path);
     }
     if let Some(format) = mesh_format(source) {
@@ -194,19 +194,21 @@ pub fn load_bytes(
     image: Option<[u32; 2]>,
 ) -> Result<LoadedScene, LoadError> {
     let path = Path::new(name);
-    let is_scene = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
-    if let Some(format) = Format::of_bytes(name, bytes).filter(|_| !is_scene) {
-        let (mesh, missing) = format.parse(name, bytes)?;
-        return of_framed(path, mesh, &missing, &framing_for(image));
+    if is_scene_file(path) {
+        let toml = scene_file::text(name, bytes.to_vec())?;
+        let file = scene_file::parse(name, &toml, Path::new(""))?;
+        return Ok(loaded(stem(path), file, toml));
     }
-    match path.extension() {
-        Some(extension) if extension.eq_ignore_ascii_case("toml") => {
-            let toml = scene_file::text(name, bytes.to_vec())?;
-            let file = scene_file::parse(name, &toml, Path::new(""))?;
-            Ok(loaded(stem(path), file, toml))
-        }
-        _ => Err(LoadError::UnknownExtension { path: name.to_owned() }),
-    }
+    let Some(format) = Format::of_bytes(name, bytes) else {
+        return Err(LoadError::UnknownExtension { path: name.to_owned() });
+    };
+    let (mesh, missing) = format.parse(name, bytes)?;
+    of_framed(path, mesh, &missing, &framing_for(image))
+}
+
+/// Whether the name is that of a scene file.
+fn is_scene_file(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
 }
 
 fn load_built_in(built_in: &BuiltIn) -> Result<LoadedScene, LoadError> {
