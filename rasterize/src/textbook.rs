@@ -54,11 +54,11 @@ pub fn determine_visibility(
                 let sample = Sample { row, column };
                 let ray = grid.ray(row, column);
                 observer.sample_tested(sample, id);
-                let coverage = judge.coverage(&primitive, &ray);
-                if let Some(edges) = coverage.edges {
-                    observer.edge_signs(sample, id, edges.at_sample.map(Some));
+                let test = judge.test(&primitive, &ray);
+                if let Some(signs) = test.edge_signs {
+                    observer.edge_signs(sample, id, signs.map(Some));
                 }
-                if !coverage.covers {
+                if !test.covers {
                     continue;
                 }
                 observer.fragment(sample, id);

@@ -87,7 +87,7 @@ pub(super) fn edge_signs(
 ) -> EdgeSigns {
     let [a, b, c] = *triangle;
     let facing = facing(projection, triangle, ray);
-    let at_sample = [(a, b), (b, c), (c, a)].map(|(p, q)| edge(projection, p, q, ray));
+    let at_sample = sample_signs(projection, triangle, ray);
     let mut decided = at_sample;
     for (sign, (p, q)) in decided.iter_mut().zip([(a, b), (b, c), (c, a)]) {
         *sign = sign.or_else(|| nudged_edge(projection, nudge, p, q, ray));
@@ -144,6 +144,37 @@ pub(super) fn edge_sides(
             (true, false) => Side::Bottom,
         })
     })
+}
+
+/// The signs of `E_ab`, `E_bc`, `E_ca` at the sample itself.
+pub(super) fn sample_signs(
+    projection: Projection,
+    [a, b, c]: &[DVec3; 3],
+    ray: &Ray,
+) -> [Sign; 3] {
+    [(a, b), (b, c), (c, a)].map(|(p, q)| edge(projection, *p, *q, ray))
+}
+
+/// [`EdgeSigns::covers`] with these [`sample_signs`]. Two that are opposed exclude the sample, whatever the facing is:
+/// most samples outside of a triangle are told by that.
+pub(super) fn signs_cover(
+    projection: Projection,
+    nudge: &Nudge,
+    triangle: &[DVec3; 3],
+    ray: &Ray,
+    signs: &[Sign; 3],
+) -> bool {
+    if signs.contains(&Sign::Positive) && signs.contains(&Sign::Negative) {
+        return false;
+    }
+    let [a, b, c] = *triangle;
+    let facing = facing(projection, triangle, ray);
+    let owns = |(sign, (p, q)): (&Sign, _)| {
+        sign.or_else(|| nudged_edge(projection, nudge, p, q, ray)) == facing
+    };
+    facing != Sign::Zero
+        && signs.iter().zip([(a, b), (b, c), (c, a)]).all(owns)
+        && in_front(projection, facing, triangle, ray)
 }
 
 /// [`EdgeSigns::covers`], with no sign computed that is not needed.
@@ -228,9 +259,14 @@ fn in_front(projection: Projection, facing: Sign, [a, b, c]: &[DVec3; 3], ray: &
 /// product is zero or at least 2⁻¹⁸¹, hence with its 53 bits a multiple of 2⁻²³³, and directions are
 /// below 2⁶⁷. So products of three stay below 2³²⁶ and are multiples of 2⁻⁵³¹ (of three offsets: 2³⁸⁸
 /// and 2⁻⁴⁴⁷), far within f64's 2¹⁰²³ and 2⁻¹⁰⁷⁴.
+#[inline]
 fn determinant(p: DVec3, q: DVec3, r: DVec3) -> Sign {
-    let point = |v: DVec3| Coord3D { x: v.x, y: v.y, z: v.z };
-    Sign::of(orient3d(point(p), point(q), point(r), point(DVec3::ZERO)))
+    let to_origin = [p, q, r].map(|v| [v, DVec3::ZERO]);
+    let [from, via, to] = to_origin;
+    rounded_difference_determinant(from, via, to).unwrap_or_else(|| {
+        let point = |v: DVec3| Coord3D { x: v.x, y: v.y, z: v.z };
+        Sign::of(orient3d(point(p), point(q), point(r), point(DVec3::ZERO)))
+    })
 }
 
 /// The sign of `det(p₀ − p₁, q₀ − q₁, r₀ − r₁)`, of the real differences.

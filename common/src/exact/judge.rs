@@ -65,6 +65,22 @@ impl Judge {
         }
     }
 
+    /// [`Judge::covers`] as a loop over samples asks it: with the signs of a triangle's edge functions, and no sign
+    /// computed that neither is shown nor decides.
+    pub fn test(&self, primitive: &Primitive, ray: &Ray) -> SampleTest {
+        match primitive {
+            Primitive::Triangle(triangle) => {
+                let signs = cover::sample_signs(self.projection, triangle, ray);
+                let covers =
+                    cover::signs_cover(self.projection, &self.nudge, triangle, ray, &signs);
+                SampleTest { covers, edge_signs: Some(signs) }
+            }
+            Primitive::Sphere { .. } | Primitive::Plane { .. } => {
+                SampleTest { covers: self.covers(primitive, ray), edge_signs: None }
+            }
+        }
+    }
+
     /// The facing `F` of a triangle: negative when its corners are seen counter-clockwise, zero for
     /// edge-on. It is the same for every ray of the camera.
     pub fn facing(&self, triangle: &[DVec3; 3], ray: &Ray) -> Sign {
@@ -132,6 +148,15 @@ impl Judge {
     pub fn distance(&self, primitive: &Primitive, ray: &Ray) -> f64 {
         nearest::distance(primitive, ray)
     }
+}
+
+/// Whether a primitive covers a sample, and on which side of its edges the sample lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SampleTest {
+    /// Whether the primitive covers the sample.
+    pub covers: bool,
+    /// The signs of a triangle's `E_ab`, `E_bc`, `E_ca` at the sample itself; `None` for a sphere or a plane.
+    pub edge_signs: Option<[Sign; 3]>,
 }
 
 /// Whether a primitive covers a sample, and why.

@@ -75,6 +75,13 @@ impl Judges {
             if self.library.covers(primitive, ray) != truth.covers {
                 return Err(format!("coverage by {primitive:?} of {ray:?} is {truth:?}"));
             }
+            let (test, coverage) =
+                (self.library.test(primitive, ray), self.library.coverage(primitive, ray));
+            if (test.covers, coverage.covers) != (truth.covers, truth.covers)
+                || test.edge_signs != coverage.edges.map(|edges| edges.at_sample)
+            {
+                return Err(format!("{test:?} and {coverage:?} of {primitive:?} and {ray:?}"));
+            }
             tally.decisions += 1;
             tally.edge_ties += u64::from(truth.on_edge);
             if truth.covers {
