@@ -147,11 +147,7 @@ pub(super) fn edge_sides(
 }
 
 /// The signs of `E_ab`, `E_bc`, `E_ca` at the sample itself.
-pub(super) fn sample_signs(
-    projection: Projection,
-    [a, b, c]: &[DVec3; 3],
-    ray: &Ray,
-) -> [Sign; 3] {
+pub(super) fn sample_signs(projection: Projection, [a, b, c]: &[DVec3; 3], ray: &Ray) -> [Sign; 3] {
     [(a, b), (b, c), (c, a)].map(|(p, q)| edge(projection, *p, *q, ray))
 }
 

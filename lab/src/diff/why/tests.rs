@@ -28,12 +28,7 @@ fn file(view: &View, convention: &Convention, of_ids: bool) -> Buffer<'static> {
     Buffer::new(size.map(|side| u32::try_from(side).unwrap()), 1, content)
 }
 
-fn with_scene(
-    loaded: &LoadedScene,
-    image: [u32; 2],
-    projection: Projection,
-    run: impl Fn(&View),
-) {
+fn with_scene(loaded: &LoadedScene, image: [u32; 2], projection: Projection, run: impl Fn(&View)) {
     let mut description = CameraDescription { projection, image, ..loaded.camera };
     description.viewport[0] = description.width_of_square_pixels();
     if projection == Projection::Parallel {
