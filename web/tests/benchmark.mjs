@@ -55,7 +55,7 @@ async function dragging(scene) {
   await page.evaluate(() => {
     window.frames_seen = 0;
     const facts = document.getElementById("verdict");
-    new MutationObserver(() => window.frames_seen++).observe(facts, { childList: true, characterData: true, subtree: true, attributes: true });
+    new MutationObserver(() => window.frames_seen++).observe(facts, { attributes: true, attributeFilter: ["data-match"] });
   });
   const box = await page.locator("canvas[data-picture=object]").first().boundingBox();
   const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];

@@ -23,6 +23,7 @@ async function sameIds(scene, camera, ...options) {
     assert.equal(first, -1, `${scene} ${options.join(" ")}, ${order} order, differs at ${first}`);
   });
   assert.ok(rendered.verdict.idsEqual);
+  assert.deepEqual(await engine.ask("ids"), { object: rendered.object.ids, image: rendered.image.ids });
 }
 
 test("all scenes of the program are there", async () => {

@@ -30,6 +30,7 @@ impl Engine {
             "open" => open::answer(self, &parsed(name, arguments)?, file),
             "camera" => open::camera(self, &parsed(name, arguments)?),
             "render" => render::answer(self.stage()?, &parsed(name, arguments)?),
+            "ids" => Ok(render::ids(self.stage()?)),
             "steps" => steps::answer(self.stage()?, &parsed(name, arguments)?),
             "pixel" => pixel::answer(self.stage()?, &parsed(name, arguments)?),
             "neighbourhood" => pixel::neighbourhood(self.stage()?, &parsed(name, arguments)?),

@@ -45,7 +45,8 @@ function rangeDials() {
   }
 }
 
-function showCamera() {
+/** Shows the camera's numbers, ten times a second at most: while a pointer drags, nobody reads more. */
+const showCamera = seldom(100, () => {
   const { camera } = state;
   if (!camera) return;
   for (const { slider, number, read } of dials) {
@@ -57,14 +58,17 @@ function showCamera() {
   if (document.activeElement !== byId("image-width")) inputById("image-width").value = String(camera.width);
   setChoice("projection", camera.projection);
   setChoice("projection-outside", camera.projection);
-  byId("camera-formula").replaceChildren(
+  const formula = byId("camera-formula");
+  if (formula.dataset.projection === camera.projection) return;
+  formula.dataset.projection = camera.projection;
+  formula.replaceChildren(
     ...rich(
       camera.projection === "perspective"
         ? "perspective: all viewing rays begin at the eye. origin = eye, direction = x *u* + y *v* − d *w*"
         : "parallel: all viewing rays have the same direction. origin = eye + x *u* + y *v*, direction = −*w*",
     ),
   );
-}
+});
 
 /** Another size of the image. The viewport keeps its height; where pixels were square, they stay so. */
 function resizeImage() {

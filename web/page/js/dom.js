@@ -102,3 +102,22 @@ function debounced(milliseconds, call) {
     timer = setTimeout(call, milliseconds);
   };
 }
+
+/**
+ * Calls at once, and then at most once in so many milliseconds. The last call is never lost, only late: it is made when no
+ * other one has come for that long, so that between the frames of a dragged picture nothing else is drawn.
+ * @param {number} milliseconds
+ * @param {() => void} call
+ */
+function seldom(milliseconds, call) {
+  let due = 0;
+  const now = () => {
+    due = performance.now() + milliseconds;
+    call();
+  };
+  const later = debounced(milliseconds, () => performance.now() >= due && now());
+  return () => {
+    if (performance.now() >= due) now();
+    else later();
+  };
+}

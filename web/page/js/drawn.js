@@ -52,11 +52,15 @@ async function drawAgain() {
   wanted = true;
   if (underWay) return;
   underWay = true;
-  while (wanted && state.camera) {
+  while (state.camera && (wanted || lacksIds())) {
+    if (!wanted) {
+      await takeIds();
+      continue;
+    }
     wanted = false;
     const { camera } = state;
     try {
-      const rendered = await engine.call("render", askedPicture());
+      const rendered = await engine.call("render", { ...askedPicture(), withoutIds: true });
       drawn = { ...rendered, height: camera.height, width: camera.width };
       framesDrawn++;
       if (troubleIsOfDrawing) showTrouble("");
@@ -67,11 +71,27 @@ async function drawAgain() {
       troubleIsOfDrawing = true;
       endWait();
     }
+    await makeMoves();
   }
   underWay = false;
   restful();
 }
 let troubleIsOfDrawing = false;
+
+const lacksIds = () => drawn !== null && !drawn.object.ids && !troubleIsOfDrawing;
+
+/** Takes the ids of the last frames, once no other frame is wanted. */
+async function takeIds() {
+  try {
+    const { object, image } = await engine.call("ids");
+    if (drawn) [drawn.object.ids, drawn.image.ids] = [object, image];
+    tellDrawn();
+  } catch (error) {
+    showTrouble(messageOf(error));
+    troubleIsOfDrawing = true;
+  }
+  await makeMoves();
+}
 
 /** Counts the work once the camera rests, where that is quick. */
 const restful = debounced(350, () => {
@@ -92,8 +112,30 @@ async function countWork() {
   } catch (error) {
     showTrouble(messageOf(error));
   }
+  await makeMoves();
   underWay = false;
   if (wanted) drawAgain();
+}
+
+/** What moves the camera with the next frame. @type {Set<() => void>} */
+const moves = new Set();
+
+/**
+ * Moves the camera before the next frame is asked for: at once, or as soon as the one under way is there. A pointer moves
+ * more often than frames are drawn, and a camera that no frame has costs the page its time all the same.
+ * @param {() => void} move  Called once, however often it is given meanwhile.
+ */
+function moveWithNextFrame(move) {
+  if (underWay) moves.add(move);
+  else move();
+}
+
+/** Makes the moves that wait, and lets the watchers hear of them: they want another frame. */
+async function makeMoves() {
+  const waiting = [...moves];
+  moves.clear();
+  for (const move of waiting) move();
+  await null;
 }
 
 /** What an order took for its frame, in milliseconds. @param {OrderPicture} picture */

@@ -101,8 +101,8 @@ function obeyLetter(key) {
   else if (key === "r" && view === "outside")
     change({ rays: after(/** @type {const} */ (["one", "row", "column", "all"]), state.rays) });
   else if (view === "break" && (key === "r" || key === "R")) nextRule(key === "r" ? "object" : "image");
-  else if (key === "+" || key === "=") approach(1 / 1.12);
-  else if (key === "-") approach(1.12);
+  else if (key === "+" || key === "=") steerBy({ factor: 1 / 1.12 });
+  else if (key === "-") steerBy({ factor: 1.12 });
   else if (key === "0" && view === "outside") byId("outside-back").click();
   else if (key === "0") cameraBack();
   else if (key === "c") canonicalCamera();

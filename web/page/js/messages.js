@@ -35,7 +35,8 @@
  * @property {string[]} warnings
  */
 
-/** @typedef {{rgba: Uint8ClampedArray, ids: Uint32Array, ms: {visibility: number, shading: number}, work: Record<string, number> | null}} OrderPicture */
+/** What one order drew; the ids are there once the camera rests. */
+/** @typedef {{rgba: Uint8ClampedArray, ids?: Uint32Array, ms: {visibility: number, shading: number}, work: Record<string, number> | null}} OrderPicture */
 
 /**
  * @typedef {object} Verdict

@@ -91,7 +91,8 @@ const seen = (id) => (id === NOTHING ? "nothing" : `id ${grouped(id)}`);
 function seenAt([row, column]) {
   if (!drawn || row >= drawn.height || column >= drawn.width) return "";
   const index = row * drawn.width + column;
-  const [object, image] = [drawn.object.ids[index], drawn.image.ids[index]];
+  const [object, image] = [drawn.object.ids?.[index], drawn.image.ids?.[index]];
+  if (object === undefined || image === undefined) return `pixel (${row}, ${column})`;
   const place = `pixel (${row}, ${column}): `;
   if (object === image) return `${place}both orders see ${seen(object)}`;
   return `${place}object order sees ${seen(object)}, image order sees ${seen(image)}`;

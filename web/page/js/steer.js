@@ -4,6 +4,24 @@
 /** Pixels of the screen from which on a press is a drag. */
 const DRAG = 4;
 
+/** Where pointers and wheels have moved the camera since the last frame. */
+const steered = { right: 0, down: 0, factor: 1 };
+
+/** @param {{right?: number, down?: number, factor?: number}} by  Angles, and a factor for the distance. */
+function steerBy({ right = 0, down = 0, factor = 1 }) {
+  steered.right += right;
+  steered.down += down;
+  steered.factor *= factor;
+  moveWithNextFrame(takeSteering);
+}
+
+function takeSteering() {
+  const { right, down, factor } = steered;
+  [steered.right, steered.down, steered.factor] = [0, 0, 1];
+  if (right !== 0 || down !== 0) orbit(right, down);
+  if (factor !== 1) approach(factor);
+}
+
 /** @param {HTMLCanvasElement} canvas */
 function steer(canvas) {
   /** @typedef {{id: number, x: number, y: number, moved: boolean}} Press */
@@ -25,7 +43,7 @@ function steer(canvas) {
       // Two fingers: what is between them keeps its size on the screen.
       const before = apart();
       [one.x, one.y] = [event.clientX, event.clientY];
-      approach(before / apart());
+      steerBy({ factor: before / apart() });
       return;
     }
     if (!press || press.id !== event.pointerId) {
@@ -40,7 +58,7 @@ function steer(canvas) {
     canvas.classList.add("dragged");
     [press.x, press.y] = [event.clientX, event.clientY];
     const turn = Math.PI / canvas.clientHeight;
-    orbit(right * turn, down * turn);
+    steerBy({ right: right * turn, down: down * turn });
   });
   const release = (/** @type {PointerEvent} */ event) => {
     if (finger && [press, finger].some((down) => down?.id === event.pointerId)) {
@@ -70,7 +88,7 @@ function steer(canvas) {
       if (event.ctrlKey) return;
       event.preventDefault();
       const lines = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? event.deltaY / 100 : event.deltaY / 3;
-      approach(1.12 ** clamp(lines, -3, 3));
+      steerBy({ factor: 1.12 ** clamp(lines, -3, 3) });
     },
     { passive: false },
   );
@@ -96,7 +114,7 @@ function steerByKey(key, shift) {
     ArrowRight: [0, 1],
   });
   const arrow = arrows[key];
-  if (arrow && shift) orbit(arrow[1] * KEY_TURN, arrow[0] * KEY_TURN);
+  if (arrow && shift) steerBy({ right: arrow[1] * KEY_TURN, down: arrow[0] * KEY_TURN });
   else if (arrow) movePixel(...arrow);
   else return false;
   return true;

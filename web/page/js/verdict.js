@@ -24,7 +24,7 @@ const CLASSES = /** @type {const} */ ([
 
 function showVerdict() {
   if (!drawn) return;
-  const { verdict, object, image } = drawn;
+  const { verdict } = drawn;
   const match = verdict.equal;
   const bar = byId("verdict");
   bar.dataset.match = match ? "yes" : "no";
@@ -34,6 +34,14 @@ function showVerdict() {
     byId("verdict-text").textContent = sentence;
     say(sentence);
   }
+  showFacts();
+  showCounts();
+}
+
+/** The numbers beside the verdict: ten times a second is as often as anyone reads them. */
+const showFacts = seldom(100, () => {
+  if (!drawn) return;
+  const { verdict, object, image } = drawn;
   const [byObject, byImage] = verdict.covered;
   const covered = byObject === byImage ? grouped(byObject) : `${grouped(byObject)} and ${grouped(byImage)}`;
   const facts = [
@@ -44,27 +52,41 @@ function showVerdict() {
   ];
   byId("verdict-facts").textContent = facts.join("  ·  ");
   const other = verdict.differ - verdict.onlyObject - verdict.onlyImage;
-  const classes = /** @type {Record<string, number>} */ ({
+  showClasses({
     both_alike: byObject - verdict.onlyObject - other,
     only_object: verdict.onlyObject,
     only_image: verdict.onlyImage,
     other_primitive: other,
   });
-  byId("classes").replaceChildren(
-    ...CLASSES.map(([key, words, ink]) => {
+});
+
+/** The classes with their numbers of pixels. The list is made once: while the camera moves, only numbers change. */
+function showClasses(/** @type {Record<string, number>} */ classes) {
+  const list = byId("classes");
+  if (list.childElementCount === 0) {
+    for (const [, words, ink] of CLASSES) {
       const swatch = make("span", { class: "swatch" });
       swatch.style.background = ink;
-      return make("li", {}, swatch, words, make("span", { class: "number" }, grouped(classes[key])));
-    }),
-  );
-  showCounts();
+      list.append(make("li", {}, swatch, words, make("span", { class: "number" })));
+    }
+  }
+  list.querySelectorAll(".number").forEach((number, index) => {
+    const text = grouped(classes[CLASSES[index][0]]);
+    if (number.textContent !== text) number.textContent = text;
+  });
 }
+
+/** The numbers that the table of counts was made of. */
+let countsShown = "";
 
 /** @param {number} ms */
 const milliseconds = (ms) => `${ms < 10 ? ms.toFixed(1) : Math.round(ms)} ms`;
 
 function showCounts() {
   const [object, image] = [drawn?.object.work, drawn?.image.work];
+  const numbers = JSON.stringify([object, image]);
+  if (countsShown === numbers) return;
+  countsShown = numbers;
   const keys = Object.keys({ ...object, ...image }).filter((key) => object?.[key] || image?.[key]);
   byId("count-offer").hidden = keys.length > 0;
   byId("work-done").hidden = keys.length === 0;

@@ -40,6 +40,9 @@ pub(crate) struct Render {
     /// Whether the answer has the distances, too.
     #[serde(default)]
     distances: bool,
+    /// Whether the answer leaves the ids out: while a camera moves nobody reads them, and [`ids`] gives them afterwards.
+    #[serde(default, rename = "withoutIds")]
+    without_ids: bool,
 }
 
 /// What the pictures show.
@@ -128,14 +131,23 @@ pub(crate) fn answer(stage: &mut Stage, render: &Render) -> Result<Answer, Strin
     });
     for (order, frame) in Order::ALL.into_iter().zip(&stage.frames) {
         let at = |what: &str| format!("{}.{what}", key(order));
-        answer = answer
-            .with(at("rgba"), Buffer::U8(shown(frame, render.look)))
-            .with(at("ids"), Buffer::U32(frame.ids().to_vec()));
+        answer = answer.with(at("rgba"), Buffer::U8(shown(frame, render.look)));
+        if !render.without_ids {
+            answer = answer.with(at("ids"), Buffer::U32(frame.ids().to_vec()));
+        }
         if render.distances {
             answer = answer.with(at("t"), Buffer::F32(frame.distances().to_vec()));
         }
     }
     Ok(answer.with("difference.rgba", Buffer::U8(rgba(&compared.difference))))
+}
+
+/// `ids`: what both orders see in the last frames.
+pub(crate) fn ids(stage: &Stage) -> Answer {
+    let none = Answer::new(serde_json::json!({}));
+    Order::ALL.into_iter().zip(&stage.frames).fold(none, |answer, (order, frame)| {
+        answer.with(key(order), Buffer::U32(frame.ids().to_vec()))
+    })
 }
 
 /// The name of an order in messages.
@@ -188,9 +200,19 @@ pub(crate) fn pixels(image: &RgbImage) -> &[[u8; 3]] {
 
 /// Opaque pixels of four bytes each, as a canvas takes them.
 pub(crate) fn rgba(colors: &[[u8; 3]]) -> Vec<u8> {
-    let mut bytes = vec![u8::MAX; 4 * colors.len()];
-    for (pixel, color) in bytes.chunks_exact_mut(4).zip(colors) {
-        pixel[..3].copy_from_slice(color);
+    const OPAQUE: u32 = u32::from_le_bytes([0, 0, 0, u8::MAX]);
+    // Four pixels are three words of the one form and four of the other.
+    let (fours, rest) = colors.as_flattened().as_chunks::<12>();
+    let mut bytes = Vec::with_capacity(4 * colors.len());
+    for four in fours {
+        let [a, b, c] = [0, 4, 8]
+            .map(|at| u32::from_le_bytes([four[at], four[at + 1], four[at + 2], four[at + 3]]));
+        let pixels = [a, a >> 24 | b << 8, b >> 16 | c << 16, c >> 8];
+        let words = pixels.map(|pixel| (pixel | OPAQUE).to_le_bytes());
+        bytes.extend_from_slice(words.as_flattened());
+    }
+    for color in rest.as_chunks::<3>().0 {
+        bytes.extend_from_slice(&[color[0], color[1], color[2], u8::MAX]);
     }
     bytes
 }
@@ -261,6 +283,23 @@ impl Verdict {
             first_differing: comparison.visible.first_differing.clone(),
             colour_difference: Some(comparison.color.max_difference),
             depth_difference: Some(comparison.depth.max_relative_difference),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::rgba;
+
+    #[test]
+    fn pixels_become_opaque_one_by_one() {
+        let colors: Vec<[u8; 3]> = (0..11_u8).map(|at| [at, 100 + at, 255 - at]).collect();
+        for count in 0..colors.len() {
+            let expected: Vec<u8> = colors[..count]
+                .iter()
+                .flat_map(|&[red, green, blue]| [red, green, blue, 255])
+                .collect();
+            assert_eq!(rgba(&colors[..count]), expected, "{count} pixels");
         }
     }
 }
