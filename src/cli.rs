@@ -10,6 +10,7 @@ mod check;
 mod completions;
 mod cover;
 mod diff;
+mod export;
 mod exr;
 mod failure;
 mod figure;
@@ -119,6 +120,9 @@ enum Command {
     /// Print a scene's camera: eye, frame, viewport, field of view, OpenGL matrices; or for other systems
     #[command(after_help = show_camera::EXAMPLES)]
     Camera(Box<show_camera::ShowCameraArgs>),
+    /// Write a whole scene for another program: pbrt, Mitsuba, glTF, OBJ or PLY
+    #[command(after_help = export::EXAMPLES)]
+    Export(Box<export::ExportArgs>),
     /// Generate a mesh and write it as an OBJ, PLY or STL file
     #[command(after_help = mesh::EXAMPLES)]
     Mesh(mesh::MeshArgs),
@@ -173,6 +177,7 @@ fn run(cli: Cli) -> Result<ExitCode, Failure> {
         Some(Command::Pixel(args)) => pixel::run(&args),
         Some(Command::Film(args)) => film::run(&args),
         Some(Command::Camera(args)) => show_camera::run(&args),
+        Some(Command::Export(args)) => export::run(&args),
         Some(Command::Mesh(args)) => mesh::run(&args),
         Some(Command::Vectors(args)) => vectors::run(&args),
         Some(Command::Fuzz(args)) => fuzz::run(&args),

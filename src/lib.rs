@@ -62,7 +62,8 @@
 //!   result for programs.
 //! - **Showing**: [`picture`] and [`figure`]; [`film`] shows both orders at work; [`wording`] writes numbers for people.
 //! - **Single questions**: [`cover`] answers for one triangle on a raster, [`pixel`] for one pixel of a scene,
-//!   [`opengl`] gives the matrices of a camera, and [`exchange`] writes it for other systems.
+//!   [`opengl`] gives the matrices of a camera, and [`exchange`] writes it for other systems; [`export`] writes
+//!   whole scenes.
 //! - **Testing other renderers**: [`vectors`] is a conformance set, [`check`] holds a renderer to it, [`grade`] gives
 //!   marks for one scene; [`fuzz`] draws random scenes by all four renderers, and
 //!   shrinks what they disagree on.
@@ -75,6 +76,6 @@ pub use bothways_rules as rules;
 
 #[doc(inline)]
 pub use bothways_lab::{
-    check, cover, diff, exchange, figure, film, fuzz, grade, opengl, orders, picture, pixel,
-    progress, report, scenes, slides, sweep, vectors, verify, wording,
+    check, cover, diff, exchange, export, figure, film, fuzz, grade, opengl, orders, picture,
+    pixel, progress, report, scenes, slides, sweep, vectors, verify, wording,
 };

@@ -25,7 +25,8 @@
 //!   [`verify`] holds samples of it to the textbook.
 //! - **Comparing**: [`diff`], and [`diff::why`] for the reasons; [`check`] and [`grade`] do this for many files.
 //! - **Showing**: [`picture`], [`figure`], [`film`], [`slides`], [`sweep`].
-//! - **Single questions**: [`cover`], [`pixel`], [`opengl`]; [`exchange`] writes a camera for other systems.
+//! - **Single questions**: [`cover`], [`pixel`], [`opengl`]; [`exchange`] writes a camera for other systems,
+//!   [`export`] a whole scene.
 //! - **Testing**: [`vectors`] is a conformance set, [`fuzz`] draws random scenes.
 
 pub use bothways_common as common;
@@ -38,6 +39,7 @@ pub mod check;
 pub mod cover;
 pub mod diff;
 pub mod exchange;
+pub mod export;
 pub mod figure;
 pub mod film;
 pub mod fuzz;

@@ -12,6 +12,7 @@ mod diff_folders;
 mod diff_hints;
 mod diff_page;
 mod diff_why;
+mod export;
 mod exr;
 mod film;
 mod fuzz;

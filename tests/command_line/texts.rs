@@ -348,6 +348,7 @@ fn short_help() {
         "pixel",
         "film",
         "camera",
+        "export",
         "mesh",
         "vectors",
         "fuzz",

@@ -1,0 +1,143 @@
+//! A whole scene for other programs: its surfaces, and where they can be said its camera and its lights.
+//!
+//! Meshes and triangles go over exactly: the same `f32` positions, in the same order, so that the ids of a scene of
+//! triangles stay. What a program cannot express is replaced by what comes nearest, and [`Export::notes`] say so; the
+//! camera alone is never nearly right: where it cannot be said, [`export`] is an error, or the notes name it.
+
+mod corners;
+mod gltf;
+mod lights;
+mod mitsuba;
+mod pbrt;
+mod pieces;
+#[cfg(test)]
+mod tests;
+
+use crate::common::View;
+use crate::exchange::ExchangeError;
+use crate::formats::{obj, ply};
+use pieces::{Pieces, Spheres};
+use std::io;
+use thiserror::Error;
+
+/// A program, or a format of many programs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Target {
+    /// pbrt, version 4: one scene file.
+    Pbrt,
+    /// Mitsuba 3: a scene in XML, and a file for each mesh.
+    Mitsuba,
+    /// glTF 2.0, in one binary file.
+    Gltf,
+    /// Wavefront OBJ: triangles with normals and texture coordinates.
+    Obj,
+    /// PLY: triangles alone.
+    Ply,
+}
+
+impl Target {
+    /// All of them.
+    pub const ALL: [Target; 5] =
+        [Target::Pbrt, Target::Mitsuba, Target::Gltf, Target::Obj, Target::Ply];
+
+    /// The name, as its makers write it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Target::Pbrt => "pbrt",
+            Target::Mitsuba => "Mitsuba",
+            Target::Gltf => "glTF",
+            Target::Obj => "OBJ",
+            Target::Ply => "PLY",
+        }
+    }
+
+    /// The ending of the file that is to be opened.
+    pub fn ending(self) -> &'static str {
+        match self {
+            Target::Pbrt => "pbrt",
+            Target::Mitsuba => "xml",
+            Target::Gltf => "glb",
+            Target::Obj => "obj",
+            Target::Ply => "ply",
+        }
+    }
+}
+
+/// A scene in the words of another program.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Export {
+    /// The files, each with its name in one folder. The first one is to be opened, and names the others.
+    pub files: Vec<(String, Vec<u8>)>,
+    /// What is not as in the scene, each in a sentence.
+    pub notes: Vec<String>,
+}
+
+/// Why a scene cannot be exported.
+#[derive(Debug, Error)]
+pub enum ExportError {
+    /// The camera cannot be said.
+    #[error(transparent)]
+    Camera(#[from] ExchangeError),
+    /// There is nothing in it.
+    #[error("the scene has no objects, and a file without triangles is refused by most programs")]
+    Empty,
+    /// There are more vertices than the files' numbers count.
+    #[error("the scene has {vertices} vertices, and {} counts to 4,294,967,295", target.name())]
+    TooMany {
+        /// Which format.
+        target: Target,
+        /// How many there are.
+        vertices: usize,
+    },
+    /// Memory that is full.
+    #[error("the files cannot be made: {0}")]
+    Write(#[from] io::Error),
+}
+
+/// The view's scene in the words of a program. `name` becomes the name of its file, without the ending.
+///
+/// # Errors
+///
+/// A camera that the program cannot express, and a scene without objects: see [`ExportError`].
+///
+/// ```
+/// use bothways_lab::common::{Camera, View};
+/// use bothways_lab::export::{Target, export};
+/// use bothways_lab::scenes;
+///
+/// let loaded = scenes::load("ties")?;
+/// let camera = Camera::new(loaded.camera)?;
+/// let exported = export(&View::new(&loaded.scene, &camera), "ties", Target::Obj)?;
+/// let (name, text) = &exported.files[0];
+/// let again = scenes::load_bytes(name, text, None)?;
+/// assert_eq!(again.scene.primitive_count(), loaded.scene.primitive_count());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn export(view: &View, name: &str, target: Target) -> Result<Export, ExportError> {
+    if view.scene.primitive_count() == 0 {
+        return Err(ExportError::Empty);
+    }
+    let spheres = match target {
+        Target::Pbrt | Target::Mitsuba => Spheres::Kept,
+        Target::Gltf | Target::Obj | Target::Ply => Spheres::Divided,
+    };
+    let pieces = Pieces::of(view, spheres);
+    let file = format!("{name}.{}", target.ending());
+    let mut notes = pieces.notes.clone();
+    let files = match target {
+        Target::Pbrt => vec![(file, pbrt::scene(view, &pieces, &mut notes)?)],
+        Target::Mitsuba => mitsuba::files(view, &pieces, name, &mut notes)?,
+        Target::Gltf => vec![(file, gltf::binary(view, &pieces, &mut notes)?)],
+        Target::Obj | Target::Ply => {
+            notes.push(format!("{} has no camera, no lights and here no materials", target.name()));
+            let mesh = pieces.merged(target)?;
+            let mut bytes = Vec::new();
+            match target {
+                Target::Obj => obj::write(&mesh, &mut bytes)?,
+                _ => ply::write(&mesh, &mut bytes)?,
+            }
+            vec![(file, bytes)]
+        }
+    };
+    Ok(Export { files, notes })
+}

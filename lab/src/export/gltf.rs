@@ -1,0 +1,202 @@
+//! A scene as binary glTF 2.0 (Khronos Group, "glTF 2.0 Specification", 2021): a node for each object, and the camera.
+//!
+//! The parts of a mesh of different materials are primitives of one mesh, in the order of their triangles: whoever counts
+//! triangles in the order of nodes and primitives has our ids.
+
+use super::ExportError;
+use super::corners::Corners;
+use super::pieces::{Form, Pieces};
+use crate::common::glam::{DMat3, DQuat};
+use crate::common::{Material, Mesh, Primitive, Projection, View};
+use serde_json::{Value, json};
+use std::ops::Range;
+
+pub(super) fn binary(
+    view: &View,
+    pieces: &Pieces,
+    notes: &mut Vec<String>,
+) -> Result<Vec<u8>, ExportError> {
+    notes.push("lights and the background are left out".into());
+    let mut file = File::default();
+    let mut nodes: Vec<Value> = Vec::new();
+    let mut meshes: Vec<Value> = Vec::new();
+    for group in pieces.all.chunk_by(|one, other| one.object == other.object) {
+        let mut primitives = Vec::new();
+        for piece in group {
+            let Form::Triangles(mesh, triangles) = &piece.form else { continue };
+            primitives.push(file.primitive(mesh, triangles, piece.material));
+        }
+        nodes.push(json!({ "name": format!("object {}", group[0].object), "mesh": meshes.len() }));
+        meshes.push(json!({ "primitives": primitives }));
+    }
+    let (camera, node) = camera(view, notes);
+    nodes.push(node);
+    let root = json!({
+        "asset": { "version": "2.0", "generator": concat!("bothways ", env!("CARGO_PKG_VERSION")) },
+        "scene": 0,
+        "scenes": [{ "nodes": (0..nodes.len()).collect::<Vec<_>>() }],
+        "nodes": nodes,
+        "cameras": [camera],
+        "meshes": meshes,
+        "materials": file.materials,
+        "accessors": file.accessors,
+        "bufferViews": file.views,
+        "buffers": [{ "byteLength": file.bytes.len() }],
+    });
+    container(&root, file.bytes)
+}
+
+/// The two chunks of a binary file.
+fn container(root: &Value, mut bytes: Vec<u8>) -> Result<Vec<u8>, ExportError> {
+    let mut text = serde_json::to_vec(root).expect("plain values become JSON");
+    text.resize(text.len().next_multiple_of(4), b' ');
+    bytes.resize(bytes.len().next_multiple_of(4), 0);
+    let length = 12 + 8 + text.len() + 8 + bytes.len();
+    let size = |length: usize| {
+        let too_long =
+            || std::io::Error::other("binary glTF files have less than 4 GiB; export as PLY");
+        u32::try_from(length).map(u32::to_le_bytes).map_err(|_| too_long())
+    };
+    let mut out = Vec::with_capacity(length);
+    out.extend(b"glTF");
+    out.extend(2_u32.to_le_bytes());
+    out.extend(size(length)?);
+    for (kind, chunk) in [(b"JSON", &text), (b"BIN\0", &bytes)] {
+        out.extend(size(chunk.len())?);
+        out.extend(kind);
+        out.extend(chunk);
+    }
+    Ok(out)
+}
+
+/// The file's tables.
+#[derive(Default)]
+struct File {
+    bytes: Vec<u8>,
+    views: Vec<Value>,
+    accessors: Vec<Value>,
+    materials: Vec<Value>,
+}
+
+impl File {
+    fn primitive(&mut self, mesh: &Mesh, triangles: &Range<usize>, material: &Material) -> Value {
+        let corners = Corners::of(mesh, triangles);
+        let bounds = |pick: fn(f32, f32) -> f32| {
+            let all = corners.positions.iter().copied();
+            all.reduce(|one, other| [0, 1, 2].map(|axis| pick(one[axis], other[axis])))
+        };
+        let [least, largest] = [bounds(f32::min), bounds(f32::max)];
+        let mut position = self.floats("VEC3", 34962, &corners.positions);
+        position["min"] = json!(least);
+        position["max"] = json!(largest);
+        let mut attributes = json!({ "POSITION": self.accessor(position) });
+        if let Some(normals) = &corners.normals {
+            let accessor = self.floats("VEC3", 34962, normals);
+            attributes["NORMAL"] = json!(self.accessor(accessor));
+        }
+        if let Some(coordinates) = &corners.coordinates {
+            // Here v grows upwards, in glTF downwards.
+            let down: Vec<[f32; 2]> = coordinates.iter().map(|[u, v]| [*u, 1.0 - v]).collect();
+            let accessor = self.floats("VEC2", 34962, &down);
+            attributes["TEXCOORD_0"] = json!(self.accessor(accessor));
+        }
+        let bytes = corners.indices.iter().flat_map(|index| index.to_le_bytes());
+        let view = self.view(34963, bytes);
+        let indices = json!({
+            "bufferView": view, "componentType": 5125, "count": corners.indices.len(), "type": "SCALAR",
+        });
+        let indices = self.accessor(indices);
+        let material = self.material(material);
+        json!({ "attributes": attributes, "indices": indices, "material": material })
+    }
+
+    fn view(&mut self, target: u32, bytes: impl Iterator<Item = u8>) -> usize {
+        let offset = self.bytes.len();
+        self.bytes.extend(bytes);
+        let length = self.bytes.len() - offset;
+        self.views.push(
+            json!({ "buffer": 0, "byteOffset": offset, "byteLength": length, "target": target }),
+        );
+        self.views.len() - 1
+    }
+
+    fn floats<const N: usize>(&mut self, kind: &str, target: u32, values: &[[f32; N]]) -> Value {
+        let bytes = values.as_flattened().iter().flat_map(|value| value.to_le_bytes());
+        let view = self.view(target, bytes);
+        json!({ "bufferView": view, "componentType": 5126, "count": values.len(), "type": kind })
+    }
+
+    fn accessor(&mut self, accessor: Value) -> usize {
+        self.accessors.push(accessor);
+        self.accessors.len() - 1
+    }
+
+    /// The number of a material; equal ones are one.
+    fn material(&mut self, material: &Material) -> usize {
+        let [red, green, blue] = material.color.to_array();
+        // Blinn and Phong's exponent n is as rough as α² = 2/(n + 2), and glTF's roughness is the root of α (Walter et
+        // al., "Microfacet Models for Refraction through Rough Surfaces", 2007).
+        let roughness = match material.specular > 0.0 {
+            true => (2.0 / (material.shininess + 2.0)).sqrt().sqrt(),
+            false => 1.0,
+        };
+        let value = json!({
+            "pbrMetallicRoughness": {
+                "baseColorFactor": [red, green, blue, 1.0], "metallicFactor": 0.0, "roughnessFactor": roughness,
+            },
+            "doubleSided": true,
+        });
+        let known = self.materials.iter().position(|one| *one == value);
+        known.unwrap_or_else(|| {
+            self.materials.push(value);
+            self.materials.len() - 1
+        })
+    }
+}
+
+/// The camera, and its node. glTF's cameras look along −z with y up, as ours do.
+fn camera(view: &View, notes: &mut Vec<String>) -> (Value, Value) {
+    let camera = view.camera;
+    let [vw, vh] = camera.viewport();
+    let [width, height] = camera.image().map(f64::from);
+    if ((vw * height) / (vh * width) - 1.0).abs() > 1e-6 {
+        notes.push(
+            "glTF's images have square pixels: there the picture is as wide as the viewport says"
+                .into(),
+        );
+    }
+    // glTF needs a near plane, and for parallel cameras a far one; neither may cut anything.
+    let reach =
+        view.primitives().fold(1.0_f64, |reach, (_, primitive)| reach.max(farthest(&primitive)));
+    let described = match camera.projection() {
+        Projection::Perspective => json!({
+            "type": "perspective",
+            "perspective": {
+                "aspectRatio": vw / vh,
+                "yfov": 2.0 * (vh / 2.0).atan2(camera.distance()),
+                "znear": camera.distance() * 1e-3,
+            },
+        }),
+        Projection::Parallel => json!({
+            "type": "orthographic",
+            "orthographic": { "xmag": vw / 2.0, "ymag": vh / 2.0, "znear": 0.0, "zfar": 2.0 * reach },
+        }),
+    };
+    let turn = DQuat::from_mat3(&DMat3::from_cols(camera.u(), camera.v(), camera.w())).normalize();
+    let node = json!({
+        "name": "camera",
+        "camera": 0,
+        "translation": camera.eye().to_array(),
+        "rotation": turn.to_array(),
+    });
+    (described, node)
+}
+
+/// How far a primitive reaches from the eye; a plane counts with its point.
+fn farthest(primitive: &Primitive) -> f64 {
+    match primitive {
+        Primitive::Triangle(corners) => corners.iter().fold(0.0, |far, at| at.length().max(far)),
+        Primitive::Sphere { center, radius } => center.length() + radius,
+        Primitive::Plane { point, .. } => 10.0 * point.length(),
+    }
+}

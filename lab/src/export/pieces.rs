@@ -1,0 +1,254 @@
+//! The surfaces of a scene as other programs know them: spheres where they have some, and triangles of one material.
+
+use super::{ExportError, Target};
+use crate::common::glam::{DVec3, Vec2, Vec3};
+use crate::common::look::texture::plane_axes;
+use crate::common::scene::Attribute;
+use crate::common::{Material, Mesh, Object, Plane, Shape, Sphere, Triangle, View};
+use crate::formats::generate::Kind;
+use crate::wording::{count, readable};
+use std::borrow::Cow;
+use std::ops::Range;
+
+/// Whether the program knows spheres.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Spheres {
+    Kept,
+    Divided,
+}
+
+/// How finely a sphere is divided, around and from pole to pole: its outline is off by a four-thousandth of its radius.
+const DIVISIONS: [u32; 2] = [128, 64];
+/// How far the square that stands for a plane reaches, in lengths of what the scene has else: seen from within that, its
+/// edge is less than a tenth of a thousandth of a radian below the horizon.
+const REACH: f64 = 1e4;
+
+/// A surface of one material.
+#[derive(Debug)]
+pub(super) struct Piece<'a> {
+    /// The object, counted from 0.
+    pub(super) object: usize,
+    pub(super) form: Form<'a>,
+    pub(super) material: &'a Material,
+}
+
+#[derive(Debug)]
+pub(super) enum Form<'a> {
+    Sphere(Sphere),
+    /// Some triangles of a mesh.
+    Triangles(Cow<'a, Mesh>, Range<usize>),
+}
+
+/// All surfaces, in the order of the scene.
+#[derive(Debug)]
+pub(super) struct Pieces<'a> {
+    pub(super) all: Vec<Piece<'a>>,
+    /// What is not as in the scene.
+    pub(super) notes: Vec<String>,
+    /// The middle of what has an end.
+    pub(super) middle: DVec3,
+}
+
+impl<'a> Pieces<'a> {
+    pub(super) fn of(view: &View<'a>, spheres: Spheres) -> Pieces<'a> {
+        let objects = view.scene.objects();
+        let (middle, size) = extent(view, objects);
+        let mut pieces = Pieces { all: Vec::new(), notes: Vec::new(), middle };
+        for (number, object) in objects.iter().enumerate() {
+            pieces.add(number, object, spheres, view, size);
+        }
+        let has = |is: fn(&Material) -> bool| pieces.all.iter().any(|piece| is(piece.material));
+        if has(|material| material.specular > 0.0) {
+            pieces.notes.push("highlights are left out: surfaces are diffuse".into());
+        }
+        if has(|material| material.checker.is_some()) {
+            pieces
+                .notes
+                .push("patterns of two colours are left out: the first one is everywhere".into());
+        }
+        pieces
+    }
+
+    fn add(&mut self, number: usize, object: &'a Object, spheres: Spheres, view: &View, size: f64) {
+        let mut push = |form, material| self.all.push(Piece { object: number, form, material });
+        let whole = |mesh: Mesh| {
+            let triangles = 0..mesh.triangles().len();
+            Form::Triangles(Cow::Owned(mesh), triangles)
+        };
+        match &object.shape {
+            Shape::Triangle(triangle) => push(whole(of_triangle(*triangle)), &object.material),
+            Shape::Mesh(mesh) => {
+                for run in runs(object, mesh) {
+                    let material = object.material_of(run.start);
+                    push(Form::Triangles(Cow::Borrowed(mesh), run), material);
+                }
+            }
+            Shape::Sphere(sphere) if spheres == Spheres::Kept => {
+                push(Form::Sphere(*sphere), &object.material);
+            }
+            Shape::Sphere(sphere) => {
+                let mesh = of_sphere(*sphere);
+                let triangles = count(mesh.triangles().len() as u64, "triangles");
+                push(whole(mesh), &object.material);
+                self.notes.push(format!("object {number} is a sphere, and becomes {triangles}"));
+            }
+            Shape::Plane(plane) => {
+                let (mesh, side) = of_plane(*plane, view, size);
+                push(whole(mesh), &object.material);
+                self.notes.push(format!(
+                    "object {number} is a plane without an end, and becomes a square of side {}",
+                    readable(side)
+                ));
+            }
+        }
+    }
+
+    /// All triangles in one mesh, with what the corners carry.
+    pub(super) fn merged(&self, target: Target) -> Result<Mesh, ExportError> {
+        let meshes = self.all.iter().filter_map(|piece| match &piece.form {
+            Form::Triangles(mesh, triangles) => Some((mesh, triangles)),
+            Form::Sphere(_) => None,
+        });
+        let mut merged = Merged::default();
+        let mut last: Option<&Mesh> = None;
+        for (mesh, triangles) in meshes {
+            // The pieces of one mesh follow one another and share its vertices.
+            if !last.is_some_and(|last| std::ptr::eq(last, &**mesh)) {
+                merged.begin(mesh);
+            }
+            last = Some(mesh);
+            merged.add(mesh, triangles.clone());
+        }
+        let vertices = merged.positions.len();
+        if u32::try_from(vertices).is_err() {
+            return Err(ExportError::TooMany { target, vertices });
+        }
+        Ok(merged.mesh())
+    }
+}
+
+/// The triangles of a mesh in runs of one material.
+fn runs(object: &Object, mesh: &Mesh) -> Vec<Range<usize>> {
+    let end = mesh.triangles().len();
+    let Some(materials) = mesh.materials() else { return std::iter::once(0..end).collect() };
+    let mut starts: Vec<usize> = materials.spans().iter().map(|span| span.first).collect();
+    if starts.first() != Some(&0) {
+        starts.insert(0, 0);
+    }
+    starts.retain(|start| *start < end);
+    let same = |a: usize, b: usize| std::ptr::eq(object.material_of(a), object.material_of(b));
+    starts.dedup_by(|later, start| same(*start, *later));
+    let ends = starts[1..].iter().copied().chain([end]).collect::<Vec<_>>();
+    starts.into_iter().zip(ends).map(|(start, end)| start..end).collect()
+}
+
+/// Meshes that are being joined.
+#[derive(Default)]
+struct Merged {
+    positions: Vec<Vec3>,
+    triangles: Vec<[u32; 3]>,
+    normals: Attribute<Vec3>,
+    texture_coordinates: Attribute<Vec2>,
+    /// Where the mesh of the last piece begins in each of the three.
+    begins: [usize; 3],
+}
+
+impl Merged {
+    fn begin(&mut self, mesh: &Mesh) {
+        self.begins = [
+            self.positions.len(),
+            self.normals.values.len(),
+            self.texture_coordinates.values.len(),
+        ];
+        self.positions.extend_from_slice(mesh.positions());
+        self.normals.values.extend_from_slice(&mesh.normals().values);
+        self.texture_coordinates.values.extend_from_slice(&mesh.texture_coordinates().values);
+    }
+
+    fn add(&mut self, mesh: &Mesh, triangles: Range<usize>) {
+        let [position, normal, texture] = self.begins;
+        for triangle in triangles {
+            self.triangles.push(moved(mesh.triangles()[triangle], position));
+            self.normals.corners.push(corners(mesh.normals(), triangle, normal));
+            let coordinates = mesh.texture_coordinates();
+            self.texture_coordinates.corners.push(corners(coordinates, triangle, texture));
+        }
+    }
+
+    fn mesh(self) -> Mesh {
+        let mesh = Mesh::new(self.positions, self.triangles).expect("they were in meshes");
+        let mesh = mesh.with_normals(self.normals).expect("one for each triangle");
+        mesh.with_texture_coordinates(self.texture_coordinates).expect("one for each triangle")
+    }
+}
+
+/// The indices of a triangle's corners, behind so many other values.
+#[expect(clippy::cast_possible_truncation, reason = "more are refused before anything is written")]
+fn moved(corners: [u32; 3], by: usize) -> [u32; 3] {
+    corners.map(|corner| match corner {
+        Attribute::<Vec3>::NONE => corner,
+        corner => corner.wrapping_add(by as u32),
+    })
+}
+
+fn corners<T: Copy>(attribute: &Attribute<T>, triangle: usize, by: usize) -> [u32; 3] {
+    let none = [Attribute::<T>::NONE; 3];
+    attribute.corners.get(triangle).map_or(none, |corners| moved(*corners, by))
+}
+
+fn of_triangle(Triangle { a, b, c }: Triangle) -> Mesh {
+    Mesh::new(vec![a, b, c], vec![[0, 1, 2]]).expect("a scene has finite corners")
+}
+
+/// A sphere of triangles whose vertices lie on it, with its normals.
+fn of_sphere(Sphere { center, radius }: Sphere) -> Mesh {
+    let unit = Kind::Sphere.mesh(DIVISIONS).expect("they are few");
+    let positions = unit.positions().iter().map(|&at| center + radius * at).collect();
+    let mesh = Mesh::new(positions, unit.triangles().to_vec()).expect("a scene's spheres end");
+    mesh.with_normals(unit.normals().clone()).expect("they are those of the unit sphere")
+}
+
+/// A square about the point of a plane that is nearest to the eye, facing as the plane does; and its side.
+fn of_plane(Plane { point, normal }: Plane, view: &View, size: f64) -> (Mesh, f32) {
+    let eye = view.camera.eye().as_dvec3();
+    let normal = normal.as_dvec3().normalize();
+    let height = normal.dot(eye - point.as_dvec3());
+    let foot = eye - height * normal;
+    let side = (REACH * size.max(height.abs())).min(f64::from(f32::MAX) / 4.0);
+    let [right, up] = plane_axes(normal).map(|axis| axis * (side / 2.0));
+    let corners = [foot - right - up, foot + right - up, foot + right + up, foot - right + up];
+    let positions = corners.map(|corner| corner.as_vec3()).to_vec();
+    let mesh = Mesh::new(positions, vec![[0, 1, 2], [0, 2, 3]]).expect("it was made to end");
+    #[expect(clippy::cast_possible_truncation, reason = "a number to read")]
+    let side = side as f32;
+    (mesh, side)
+}
+
+/// The middle of all that has an end, and how far it reaches from the eye at most; at least 1.
+fn extent(view: &View, objects: &[Object]) -> (DVec3, f64) {
+    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let mut hold = |point: DVec3, radius: f64| {
+        low = low.min(point - radius);
+        high = high.max(point + radius);
+    };
+    for object in objects {
+        match &object.shape {
+            Shape::Triangle(Triangle { a, b, c }) => {
+                [a, b, c].into_iter().for_each(|corner| hold(corner.as_dvec3(), 0.0));
+            }
+            Shape::Mesh(mesh) => {
+                mesh.positions().iter().for_each(|position| hold(position.as_dvec3(), 0.0));
+            }
+            Shape::Sphere(Sphere { center, radius }) => {
+                hold(center.as_dvec3(), f64::from(*radius));
+            }
+            Shape::Plane(_) => {}
+        }
+    }
+    let eye = view.camera.eye().as_dvec3();
+    if low.x > high.x {
+        return (eye - view.camera.w(), 1.0);
+    }
+    let middle = (low + high) / 2.0;
+    (middle, ((high - low).length() / 2.0 + (middle - eye).length()).max(1.0))
+}

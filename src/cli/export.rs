@@ -1,0 +1,100 @@
+//! `bothways export`: a whole scene for another program.
+
+use super::args::CameraArgs;
+use super::camera::camera;
+use super::failure::Failure;
+use super::output::Staging;
+use super::terminal;
+use bothways::common::View;
+use bothways::export::{Export, Target, export};
+use bothways::scenes::{self, DEFAULT};
+use bothways::wording::count;
+use clap::{Args, ValueEnum};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  bothways export lecture --as gltf                  into out/lecture-gltf: lecture.glb
+  bothways export lecture --as mitsuba -o there      lecture.xml, and a file for each mesh
+  bothways export scene.toml --as pbrt --size 64x64  with another camera
+  bothways export bunny.obj --as ply                 from one mesh format to another
+
+Triangles go over exactly and in their order, so the ids of a scene of triangles stay. What becomes
+something else is said as a warning: spheres are triangles in glTF, OBJ and PLY, planes end, and
+lights are in physical units.
+
+Exit codes: 0 the files are written, 2 something went wrong: then none is.";
+
+/// Which scene, and for what.
+#[derive(Debug, Args)]
+pub(super) struct ExportArgs {
+    /// A built-in scene, a .toml scene file, or a mesh file (framed automatically)
+    #[arg(default_value = DEFAULT)]
+    scene: String,
+    /// The program or the format
+    #[arg(long = "as", value_name = "SYSTEM", value_enum)]
+    target: TargetArg,
+    /// The folder to write into; other files in it are left alone [default: out/SCENE-SYSTEM]
+    #[arg(short = 'o', long = "output", value_name = "DIR")]
+    folder: Option<PathBuf>,
+    #[command(flatten)]
+    camera: CameraArgs,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum TargetArg {
+    /// A scene of pbrt-v4, with camera and lights
+    Pbrt,
+    /// A scene of Mitsuba 3 in XML with its meshes, with camera and lights
+    Mitsuba,
+    /// Binary glTF 2.0, with camera and colours
+    Gltf,
+    /// Triangles with normals and texture coordinates
+    Obj,
+    /// Triangles alone
+    Ply,
+}
+
+impl TargetArg {
+    fn target(self) -> Target {
+        match self {
+            TargetArg::Pbrt => Target::Pbrt,
+            TargetArg::Mitsuba => Target::Mitsuba,
+            TargetArg::Gltf => Target::Gltf,
+            TargetArg::Obj => Target::Obj,
+            TargetArg::Ply => Target::Ply,
+        }
+    }
+}
+
+/// Writes all files or no file, and says what is not as in the scene.
+pub(super) fn run(args: &ExportArgs) -> Result<ExitCode, Failure> {
+    let loaded = scenes::load_for(&args.scene, args.camera.size)?;
+    let camera = camera(&loaded, &args.camera)?;
+    let target = args.target.target();
+    let view = View::new(&loaded.scene, &camera);
+    let Export { files, notes } = export(&view, &loaded.name, target)
+        .map_err(|error| Failure::new(format!("cannot export '{}': {error}", loaded.name)))?;
+    let folder = args.folder.clone().unwrap_or_else(|| {
+        let system = target.name().to_lowercase();
+        Path::new("out").join(format!("{}-{system}", loaded.name))
+    });
+    // The presence of the last file shows that all are complete: the one that is to be opened.
+    let names = files.iter().rev().map(|(name, _)| name.clone()).collect();
+    let mut staging = Staging::begin_with(&folder, names)?;
+    for (name, bytes) in files.iter().rev() {
+        staging.write(name, |out| out.write_all(bytes))?;
+    }
+    staging.commit()?;
+    terminal::warn(&loaded.warnings);
+    terminal::warn(&notes);
+    let (first, others) = (&files[0].0, files.len() - 1);
+    let others = match others {
+        0 => String::new(),
+        _ => format!(", and {} beside it", count(others as u64, "files")),
+    };
+    anstream::eprintln!("wrote {}{others}", folder.join(first).display());
+    Ok(ExitCode::SUCCESS)
+}
