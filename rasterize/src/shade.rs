@@ -83,7 +83,7 @@ impl Surfaces for Interpolated<'_> {
     fn set_up(&self, seen: &Seen, wanted: Wanted) -> Surface {
         let (view, primitive) = (self.view, &seen.primitive);
         let normals = Normals::new(view, primitive, seen.corner_normals());
-        let texture = if wanted.texture_coordinates || seen.material.checker.is_some() {
+        let texture = if wanted.texture_coordinates || seen.material.has_pattern() {
             Texture::new(view, primitive, seen.corner_coordinates())
         } else {
             Texture::None

@@ -110,7 +110,7 @@ impl Surfaces for AtHits<'_> {
     #[inline(always)]
     fn set_up(&self, seen: &Seen, wanted: Wanted) -> Surface {
         let form = Form::new(&seen.primitive);
-        let texture = if wanted.texture_coordinates || seen.material.checker.is_some() {
+        let texture = if wanted.texture_coordinates || seen.material.has_pattern() {
             Texture::new(&form, seen.corner_coordinates(), self.steps)
         } else {
             Texture::None

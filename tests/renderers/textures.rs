@@ -3,7 +3,10 @@
 
 use crate::four_renderers::RENDERERS;
 use bothways::common::glam::{DVec2, Vec2, Vec3};
-use bothways::common::{Camera, Frame, Object, Options, Scene, Shape, Triangle, View};
+use bothways::common::scene::{Attribute, Pyramid, Sampler, Wrap};
+use bothways::common::{
+    Camera, Frame, Material, Mesh, Object, Options, Scene, Shape, Texture, Triangle, View,
+};
 use bothways::diff::compare;
 use bothways::formats::scene_file;
 use bothways::scenes::load;
@@ -170,4 +173,72 @@ fn a_mesh_without_coordinates_takes_no_checker() {
         "a.toml:5:1: this material has a checker, and the mesh has no texture coordinates; export \
          the mesh with texture coordinates, as OBJ (vt) or glTF, or choose a material without checker"
     );
+}
+
+/// A picture without symmetry, of odd sides.
+fn picture(sampler: Sampler) -> Texture {
+    let value = |k: usize| (k as f32 * 0.618_034).fract();
+    let texels = (0..13 * 9).map(|k| Vec3::new(value(k), value(3 * k + 1), value(7 * k)));
+    Texture { pyramid: Pyramid::new(13, texels.collect()).into(), sampler }
+}
+
+/// The still life with a texture in the place of each pattern.
+fn textured(sampler: Sampler) -> Scene {
+    let scene = still_life();
+    let objects = scene.objects().iter().map(|object| {
+        let mut object = object.clone();
+        object.material.checker = None;
+        object.material.texture = Some(picture(sampler));
+        object
+    });
+    Scene::new(objects.collect()).expect("it is a scene")
+}
+
+#[test]
+fn both_orders_read_the_same_texels() {
+    for (filter, wrap) in [
+        (Sampler::NEAREST, [Wrap::Repeat, Wrap::Mirror]),
+        (Sampler::BILINEAR, [Wrap::Clamp, Wrap::Repeat]),
+        (Sampler::BILINEAR, [Wrap::Mirror, Wrap::Clamp]),
+    ] {
+        let scene = textured(Sampler { wrap, tiles: [2.0, 1.5], ..filter });
+        for projection in PROJECTIONS {
+            for (eye, samples) in [([1.0, 1.5, 6.0], 1), ([-2.0, 0.4, 3.0], 2)] {
+                let camera = turned(projection, eye, [0.0; 3], [80, 60]);
+                let view = View::new(&scene, &camera);
+                let frames = both(&view, &Options { samples, ..Options::default() });
+                let comparison = compare(&frames[0], &frames[1]);
+                assert_eq!(
+                    comparison.color.differing_pixels, 0,
+                    "{filter:?} {projection:?} {eye:?}"
+                );
+                let plain = still_life();
+                let plain = both(&View::new(&plain, &camera), &frames[0].options());
+                assert!(compare(&frames[0], &plain[0]).color.differing_pixels > 1000);
+            }
+        }
+    }
+}
+
+/// Texels, samples and the eye on one grid: every second sample of a row is on a border between texels.
+#[test]
+fn where_texels_and_samples_are_aligned_both_orders_choose_alike() {
+    let wall = |x: f32| {
+        let corner = |x: f32, y: f32| Vec3::new(x, y, -1.0);
+        [corner(-x, -x), corner(x, -x), corner(x, x), corner(-x, x)]
+    };
+    let mesh = Mesh::new(wall(0.5).to_vec(), vec![[0, 1, 2], [0, 2, 3]]).unwrap();
+    let values = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(Vec2::from).to_vec();
+    let corners = vec![[0, 1, 2], [0, 2, 3]];
+    let mesh = mesh.with_texture_coordinates(Attribute { values, corners }).unwrap();
+    let texels: Vec<Vec3> = (0..64).map(|k| Vec3::splat(f32::from(k % 3 == 0))).collect();
+    let texture = Texture { pyramid: Pyramid::new(8, texels).into(), sampler: Sampler::NEAREST };
+    let material = Material { texture: Some(texture), ..Material::default() };
+    let scene = scene(vec![Object { shape: Shape::Mesh(mesh), material }]);
+    // A pixel is 1/15 of the wall: the middle one is on a border, and in 120 pixels of 1/120 many are.
+    for side in [15, 45, 120, 121, 135] {
+        let camera = Camera::canonical(side, side);
+        let [by_object, by_image] = both(&View::new(&scene, &camera), &Options::default());
+        assert_eq!(by_object.picture(), by_image.picture(), "{side}");
+    }
 }

@@ -7,6 +7,7 @@
 
 mod desk;
 mod surfaces;
+mod tint;
 
 use crate::camera::SampleGrid;
 use crate::engine::simd::{Level, Simd, SimdBase, dispatch, f32x16, f64x8};
@@ -155,7 +156,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
         &self,
         simd: S,
         chunk: &mut Chunk,
-        Kept { surface, material }: &Kept<'a, A::Surface>,
+        Kept { surface, material, is_tinted }: &Kept<'a, A::Surface>,
         start: Sample,
         run: Range<usize>,
         texture_coordinates: &mut Option<&mut [Vec2]>,
@@ -190,6 +191,9 @@ impl<'a, A: Surfaces> Look<'a, A> {
                     f32x16::splat(simd, 0.0)
                 };
                 fraction.store_slice(&mut chunk.fraction[at..at + 16]);
+            } else if *is_tinted {
+                let count = (run.end - at).min(16);
+                tint::fill(chunk, at..at + count, material, has_texture);
             }
             if let Some(kept) = texture_coordinates {
                 let here = &mut kept[at..run.end.min(at + 16)];
@@ -221,10 +225,11 @@ impl<'a, A: Surfaces> Look<'a, A> {
             u32::from_le_bytes([red, green, blue, 0])
         };
         let (chunk, mut begin) = (&mut *desk.chunk, 0);
-        let material_of = |run: &Run| run.place.map(|place| desk.kept[place as usize].material);
+        let kept_of = |run: &Run| run.place.map(|place| &desk.kept[place as usize]);
+        let material_of = |run: &Run| kept_of(run).map(|kept| kept.material);
         for runs in desk.runs.chunk_by(|a, b| same_material(material_of(a), material_of(b))) {
-            let (end, material) = (runs[runs.len() - 1].end, material_of(&runs[0]));
-            let Some(material) = material else {
+            let (end, kept) = (runs[runs.len() - 1].end, kept_of(&runs[0]));
+            let Some(Kept { material, is_tinted, .. }) = kept else {
                 for (to, channel) in chunk.color.iter_mut().zip(background.to_array()) {
                     to[begin..end].fill(channel);
                 }
@@ -235,7 +240,8 @@ impl<'a, A: Surfaces> Look<'a, A> {
                 begin = end;
                 continue;
             };
-            let finish = Finish::new(material);
+            // All that is made of one material belongs to one object: all of it has tints, or nothing.
+            let finish = Finish::new(material, *is_tinted);
             for at in (begin..end).step_by(16) {
                 let first = Sample { column: start.column + at, ..start };
                 let x = sixteen(simd, &self.across, first.column);
@@ -247,6 +253,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
                     normals: normal,
                     to_viewer: to_viewer.normalized(simd),
                     fraction: sixteen(simd, &chunk.fraction, at),
+                    tint: each!(k in [0, 1, 2] => sixteen(simd, &chunk.tint[k], at)),
                 };
                 let colors = self.lighting.colors(simd, &points, &finish);
                 let [red, green, blue] = &mut chunk.color;

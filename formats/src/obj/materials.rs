@@ -135,8 +135,8 @@ fn read_materials(path: &Path) -> Result<Vec<(String, Material)>, ReadObjError> 
 fn finished(mut materials: Vec<(String, Material)>) -> Vec<(String, Material)> {
     for (_, material) in &mut materials {
         if material.shininess == 0.0 {
-            *material =
-                Material { specular: 0.0, shininess: Material::default().shininess, ..*material };
+            material.specular = 0.0;
+            material.shininess = Material::default().shininess;
         }
     }
     materials

@@ -45,13 +45,15 @@ pub(super) fn read(
 fn check_pattern(object: &Table, shape: &Shape, material: &Material) -> Result<(), Problem> {
     match shape {
         Shape::Mesh(mesh)
-            if material.checker.is_some() && mesh.texture_coordinates().corners.is_empty() =>
+            if material.has_pattern() && mesh.texture_coordinates().corners.is_empty() =>
         {
-            let message = "this material has a checker, and the mesh has no texture coordinates";
-            Err(Problem::new(object.span_of("material"), message).help(
+            let pattern = if material.checker.is_some() { "checker" } else { "texture" };
+            let message =
+                format!("this material has a {pattern}, and the mesh has no texture coordinates");
+            Err(Problem::new(object.span_of("material"), message).help(format!(
                 "export the mesh with texture coordinates, as OBJ (vt) or glTF, or choose a material without \
-                 checker",
-            ))
+                 {pattern}"
+            )))
         }
         _ => Ok(()),
     }
@@ -61,7 +63,7 @@ fn check_pattern(object: &Table, shape: &Shape, material: &Material) -> Result<(
 fn material(object: &Table, materials: &Materials) -> Result<Material, Problem> {
     let Some(item) = object.get("material") else { return Ok(Material::default()) };
     let name = item.text()?;
-    materials.get(name).copied().ok_or_else(|| {
+    materials.get(name).cloned().ok_or_else(|| {
         let problem =
             Problem::new(item.span.clone(), format!("there is no material {}", quoted(name)));
         if materials.is_empty() {
