@@ -65,7 +65,7 @@
 //! | key of `texture` | what it says | without it |
 //! |---|---|---|
 //! | `file` | the path of a PNG, JPEG, BMP or PNM file in the folder of the scene file, or below it | |
-//! | `filter` | `"nearest"` texel, or `"bilinear"` between four | bilinear |
+//! | `filter` | `"nearest"` texel, `"bilinear"` between four, or `"mipmaps"`: bilinear, and between smaller pictures where texels are smaller than samples | bilinear |
 //! | `wrap` | beyond the picture: `"repeat"`, `"clamp"` to its border, or `"mirror"`; one for both directions, or `[across, up]` | repeat |
 //! | `tiles` | pictures to one unit of the texture coordinates, across and up | `[1, 1]` |
 //!
@@ -89,9 +89,9 @@
 //! | `triangle = { a, b, c }` | a triangle: its corners |
 //! | `sphere = { center, radius }` | a sphere |
 //! | `plane = { point, normal }` | an infinite plane |
-//! | `mesh = "bunny.obj"` | a mesh from an OBJ or glTF file, with its own materials, or a PLY or STL file; the path is relative to the scene file |
+//! | `mesh = "bunny.obj"` | a mesh from an OBJ, glTF, PLY or STL file, with its own materials and colours; the path is relative to the scene file |
 //! | `generate = { kind, divisions }` | a generated mesh: see [`Kind`](crate::generate::Kind) |
-//! | `material` | the name of a material, in place of those of a mesh file; light grey without it |
+//! | `material` | the name of a material, in place of the materials and colours of a mesh file; light grey without it |
 //! | `scale`, `rotate = { axis, degrees }`, `translate` | the transformation, in this order |
 //!
 //! A `scale` is one factor, or `[x, y, z]`, one for each axis; negative factors mirror.

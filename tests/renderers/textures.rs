@@ -242,3 +242,97 @@ fn where_texels_and_samples_are_aligned_both_orders_choose_alike() {
         assert_eq!(by_object.picture(), by_image.picture(), "{side}");
     }
 }
+
+/// The frames of both orders, with levels.
+fn with_levels(view: &View, options: &Options) -> [Frame; 2] {
+    both(view, options).map(|frame| {
+        let mut frame = frame.with_levels();
+        frame.fit(view.camera, options);
+        frame
+    })
+}
+
+/// Shades both frames again, so that they have levels.
+fn both_levels(view: &View, options: &Options) -> [Frame; 2] {
+    let [mut by_object, mut by_image] = with_levels(view, options);
+    rasterize::shade(view, &mut by_object);
+    raytrace::shade(view, &mut by_image);
+    [by_object, by_image]
+}
+
+/// Where the orders find the same level but for a hundredth, or none, a pixel has the same colour, within a step of 255.
+#[test]
+fn where_levels_agree_colors_do() {
+    let scene = textured(Sampler { tiles: [3.0, 2.0], ..Sampler::MIPMAPS });
+    let (mut agreeing, mut apart) = (0, 0);
+    for projection in PROJECTIONS {
+        for eye in [[1.0, 1.5, 6.0], [-2.0, 0.4, 3.0], [0.0, 4.0, 0.5]] {
+            let camera = turned(projection, eye, [0.0; 3], [80, 60]);
+            let frames = both_levels(&View::new(&scene, &camera), &Options::default());
+            let [one, other] = &frames;
+            let levels = one.levels().iter().zip(other.levels());
+            let pictures = one.picture().iter().zip(other.picture());
+            for ((one, other), (a, b)) in levels.zip(pictures) {
+                // Below 0, and above the last level, all are the same.
+                let [one, other] = [one, other].map(|level| level.clamp(0.0, 3.0));
+                if (one - other).abs() > 0.01 {
+                    apart += 1;
+                    continue;
+                }
+                agreeing += 1;
+                assert!(
+                    (0..3).all(|k| a[k].abs_diff(b[k]) <= 1),
+                    "{projection:?} {eye:?}: {a:?} {b:?}"
+                );
+            }
+        }
+    }
+    assert!(agreeing > 10_000 && apart > 100, "{agreeing} {apart}");
+}
+
+/// A wall that faces the eye: a texel is so many pixels, everywhere. There both orders find the level that the formula gives.
+#[test]
+fn the_level_of_a_wall_is_known() {
+    let wall = "[[object]]\nplane = { point = [0, 0, -3], normal = [0, 0, 1] }\nmaterial = 'm'\n\
+                [material.m]\nchecker = { color = '#000000', divisions = [1, 1] }\n";
+    let scene = scene_file::parse("a.toml", wall, Path::new("")).unwrap().scene;
+    for side in [16_u16, 64, 100] {
+        let camera = Camera::canonical(side.into(), side.into());
+        // Of 256 texels to a unit: a pixel is 1/side of the viewport at distance 1, and three times as wide on the wall.
+        let [width, _] = camera.viewport();
+        let expected = (3.0 * width / camera.distance() * 256.0 / f64::from(side)).log2() as f32;
+        for frame in both_levels(&View::new(&scene, &camera), &Options::default()) {
+            assert_eq!(frame.levels().len(), usize::from(side).pow(2));
+            for level in frame.levels() {
+                assert!((level - expected).abs() < 1e-4, "{side}: {level} {expected}");
+            }
+        }
+    }
+}
+
+/// On a floor, a row at `k` rows and a half below the horizon has the level of `1/k²`; the difference of a pair of rows has
+/// that of `1/(k(k + 1))`, for both of its rows.
+#[test]
+fn on_a_floor_object_order_finds_levels_in_pairs() {
+    let floor = "[[object]]\nplane = { point = [0, -1, 0], normal = [0, 1, 0] }\nmaterial = 'm'\n\
+                 [material.m]\nchecker = { color = '#000000', divisions = [1, 1] }\n";
+    let scene = scene_file::parse("a.toml", floor, Path::new("")).unwrap().scene;
+    let camera = Camera::canonical(64, 64);
+    let [by_object, by_image] = both_levels(&View::new(&scene, &camera), &Options::default());
+    let (grid, texels) = (camera.sample_grid(1), 256.0);
+    // The floor is seen at a depth of d/−y; its texture goes up with the depth.
+    let depth = |row: usize| camera.distance() / -grid.y()[row];
+    let step = grid.y()[0] - grid.y()[1];
+    let mut pairs = 0;
+    for row in (32..64).step_by(2) {
+        let at = |frame: &Frame, row: usize| frame.levels()[row * 64 + 31];
+        let expected = (texels * (depth(row) - depth(row + 1))).log2() as f32;
+        for row in [row, row + 1] {
+            let derivative = (texels * step * depth(row) / -grid.y()[row]).log2() as f32;
+            assert!((at(&by_object, row) - expected).abs() < 1e-3, "{row}");
+            assert!((at(&by_image, row) - derivative).abs() < 1e-3, "{row}");
+        }
+        pairs += usize::from((at(&by_object, row) - at(&by_image, row)).abs() > 0.05);
+    }
+    assert!(pairs > 4, "{pairs}");
+}

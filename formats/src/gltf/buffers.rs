@@ -35,6 +35,15 @@ enum Data<'a> {
     File(usize),
 }
 
+/// Where the bytes of an image are.
+pub(super) enum Image {
+    Own(Vec<u8>),
+    /// In a file of this name.
+    File(String),
+    /// In a file that is not read.
+    Elsewhere,
+}
+
 /// Part of a buffer.
 #[derive(Clone, Copy)]
 pub(super) struct View<'a> {
@@ -64,6 +73,15 @@ impl<'a> Buffers<'a> {
             buffers.check_length(buffer, index).map_err(located)?;
         }
         Ok(buffers)
+    }
+
+    /// The content of an image's URI: its own, or a picture in the folder.
+    pub(super) fn image(uri: &str, folder: Folder) -> Result<Image, GltfFault> {
+        if let Some(data) = strip_scheme(uri, "data:") {
+            return Ok(Image::Own(decoded(data)?));
+        }
+        let name = percent_decoded(uri).filter(|_| matches!(folder, Folder::Of(_)));
+        Ok(name.map_or(Image::Elsewhere, Image::File))
     }
 
     fn of_uri(

@@ -4,12 +4,13 @@ use super::{Problem, open};
 use crate::source::folder::{PathFault, within};
 use crate::source::quote::quoted;
 use crate::source::{READ_AT_ONCE, Unreadable, regular_file};
+use crate::warning::MaterialWarning;
 use bothways_common::look::color::{linear_from_encoded, linear_from_srgb};
 use bothways_common::scene::Pyramid;
 use glam::Vec3;
 use image::DynamicImage;
-use std::collections::BTreeMap;
-use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::{self, BufRead, BufReader, Cursor, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -72,12 +73,14 @@ const MOST_MEMORY: u64 = MOST_TEXELS * 16;
 /// The pictures that a file names, each read once.
 pub(crate) struct Pictures {
     known: BTreeMap<PathBuf, Arc<Pyramid>>,
+    /// The names of those that do not exist.
+    missing: BTreeSet<String>,
     left: u64,
 }
 
 impl Default for Pictures {
     fn default() -> Self {
-        Pictures { known: BTreeMap::new(), left: MOST_TEXELS }
+        Pictures { known: BTreeMap::new(), missing: BTreeSet::new(), left: MOST_TEXELS }
     }
 }
 
@@ -102,6 +105,48 @@ impl Pictures {
         let pyramid = self.read(&file(), input)?;
         self.known.insert(path, Arc::clone(&pyramid));
         Ok(pyramid)
+    }
+
+    /// Reads a picture from its bytes, which messages call `name`.
+    pub(crate) fn of_bytes(
+        &mut self,
+        name: &str,
+        bytes: &[u8],
+    ) -> Result<Arc<Pyramid>, ReadTextureError> {
+        self.read(name, Cursor::new(bytes))
+    }
+
+    /// Reads the picture of a name as [`Pictures::of_file`] does, and notes its name if there is none in the folder.
+    pub(crate) fn find(
+        &mut self,
+        folder: &Path,
+        name: &str,
+    ) -> Result<Option<Arc<Pyramid>>, ReadTextureError> {
+        let read = self.of_file(folder, name);
+        let is_missing = match &read {
+            Err(ReadTextureError::Unreadable { error, .. }) => {
+                error.kind() == io::ErrorKind::NotFound
+            }
+            Err(ReadTextureError::Outside { .. }) => true,
+            _ => false,
+        };
+        if is_missing {
+            self.miss(name);
+            return Ok(None);
+        }
+        read.map(Some)
+    }
+
+    /// Notes that a picture is missing.
+    pub(crate) fn miss(&mut self, name: &str) {
+        self.missing.insert(name.to_owned());
+    }
+
+    /// A warning about those that are missing, for a file that names them.
+    pub(crate) fn warning(&self, file: &str) -> Option<MaterialWarning> {
+        let names: Vec<String> = self.missing.iter().cloned().collect();
+        let file = file.to_owned();
+        (!names.is_empty()).then_some(MaterialWarning::MissingPictures { file, names })
     }
 
     /// Reads a picture, if there is room for it.

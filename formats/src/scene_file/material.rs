@@ -88,7 +88,11 @@ fn texture(item: &Item, folder: &Path, pictures: &mut Pictures) -> Result<Textur
 }
 
 fn filter(item: &Item) -> Result<Sampler, Problem> {
-    let known = [("nearest", Sampler::NEAREST), ("bilinear", Sampler::BILINEAR)];
+    let known = [
+        ("nearest", Sampler::NEAREST),
+        ("bilinear", Sampler::BILINEAR),
+        ("mipmaps", Sampler::MIPMAPS),
+    ];
     named(item, "filters", &known)
 }
 

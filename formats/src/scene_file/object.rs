@@ -36,7 +36,7 @@ pub(super) fn read(
         Some(world_from_object) => world_from_object.apply(shape)?,
         None => shape,
     };
-    let material = material(&table, materials)?;
+    let material = material(&table, &shape, materials)?;
     check_pattern(&table, &shape, &material)?;
     Ok(Object { shape, material })
 }
@@ -60,8 +60,13 @@ fn check_pattern(object: &Table, shape: &Shape, material: &Material) -> Result<(
 }
 
 /// The material of an object.
-fn material(object: &Table, materials: &Materials) -> Result<Material, Problem> {
-    let Some(item) = object.get("material") else { return Ok(Material::default()) };
+fn material(object: &Table, shape: &Shape, materials: &Materials) -> Result<Material, Problem> {
+    let Some(item) = object.get("material") else {
+        return Ok(match shape {
+            Shape::Mesh(mesh) => mesh.own_material(),
+            _ => Material::default(),
+        });
+    };
     let name = item.text()?;
     materials.get(name).cloned().ok_or_else(|| {
         let problem =
@@ -118,7 +123,8 @@ fn mesh(
         warnings.extend(missing.iter().map(ToString::to_string));
         mesh
     } else {
-        format.read(&path).map_err(wrong)?.with_materials(MeshMaterials::default())
+        let mesh = format.read(&path).map_err(wrong)?.with_materials(MeshMaterials::default());
+        mesh.with_colors(Vec::new()).expect("no colours fit every mesh")
     };
     Ok(Shape::Mesh(smooth::with_normals(mesh, smooth::CREASE)))
 }

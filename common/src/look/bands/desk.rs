@@ -65,6 +65,9 @@ pub(super) struct Chunk {
     pub(super) fraction: [f32; CHUNK + BEYOND],
     /// Linear red, green and blue that materials are multiplied by, where they have a tint.
     pub(super) tint: [[f32; CHUNK + BEYOND]; 3],
+    /// How the texture coordinates of the last sixteen samples move: across and up, to the next sample across, and to the
+    /// next one down.
+    pub(super) steps: [[f32; 16]; 4],
     pub(super) color: [[f32; CHUNK + BEYOND]; 3],
     pub(super) bytes: [u32; CHUNK + BEYOND],
 }
@@ -85,6 +88,7 @@ impl<'a, T> Desk<'a, T> {
                 footprint: [[0.0; WIDE]; 2],
                 fraction: [0.0; WIDE],
                 tint: [[0.0; WIDE]; 3],
+                steps: [[0.0; 16]; 4],
                 color: [[0.0; WIDE]; 3],
                 bytes: [0; WIDE],
             }),
@@ -172,7 +176,7 @@ impl<'a, T> Desk<'a, T> {
         let seen = Seen { id, primitive, object, local, material };
         let place = u32::try_from(self.kept.len()).expect("few are kept");
         let surface = setting.surfaces.set_up(&seen, setting.wanted);
-        self.kept.push(Kept { surface, material, is_tinted: material.texture.is_some() });
+        self.kept.push(Kept { surface, material, is_tinted: seen.is_tinted() });
         self.places[hash] = (id, place);
         place
     }
