@@ -1,5 +1,7 @@
 //! Textures of scene files: what their pictures become, and what is said about files that are none.
 
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 use bothways::common::glam::{DVec2, Vec3};
 use bothways::common::look::color::linear_from_srgb;
 use bothways::common::scene::Texture;

@@ -300,11 +300,12 @@ fn the_level_of_a_wall_is_known() {
         let camera = Camera::canonical(side.into(), side.into());
         // Of 256 texels to a unit: a pixel is 1/side of the viewport at distance 1, and three times as wide on the wall.
         let [width, _] = camera.viewport();
-        let expected = (3.0 * width / camera.distance() * 256.0 / f64::from(side)).log2() as f32;
+        let expected = (3.0 * width / camera.distance() * 256.0 / f64::from(side)).log2();
         for frame in both_levels(&View::new(&scene, &camera), &Options::default()) {
             assert_eq!(frame.levels().len(), usize::from(side).pow(2));
             for level in frame.levels() {
-                assert!((level - expected).abs() < 1e-4, "{side}: {level} {expected}");
+                let apart = f64::from(*level) - expected;
+                assert!(apart.abs() < 1e-4, "{side}: {level} {expected}");
             }
         }
     }
@@ -325,10 +326,10 @@ fn on_a_floor_object_order_finds_levels_in_pairs() {
     let step = grid.y()[0] - grid.y()[1];
     let mut pairs = 0;
     for row in (32..64).step_by(2) {
-        let at = |frame: &Frame, row: usize| frame.levels()[row * 64 + 31];
-        let expected = (texels * (depth(row) - depth(row + 1))).log2() as f32;
+        let at = |frame: &Frame, row: usize| f64::from(frame.levels()[row * 64 + 31]);
+        let expected = (texels * (depth(row) - depth(row + 1))).log2();
         for row in [row, row + 1] {
-            let derivative = (texels * step * depth(row) / -grid.y()[row]).log2() as f32;
+            let derivative = (texels * step * depth(row) / -grid.y()[row]).log2();
             assert!((at(&by_object, row) - expected).abs() < 1e-3, "{row}");
             assert!((at(&by_image, row) - derivative).abs() < 1e-3, "{row}");
         }

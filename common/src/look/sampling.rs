@@ -197,7 +197,7 @@ mod tests {
             Filter::Bilinear => (1.0 - from_middle.abs()).max(0.0),
         };
         let (mut sum, mut weights) = (DVec3::ZERO, 0.0);
-        let [i, j] = [place.x.floor() as i64, place.y.floor() as i64];
+        let [i, j] = [place.x, place.y].map(|at| i64::try_from(floor(at)).unwrap());
         for row in j - 2..j + 3 {
             for column in i - 2..i + 3 {
                 // The place relative to the middle of the texel.
