@@ -33,6 +33,12 @@ impl Options {
 /// The number that an id buffer stores for "no primitive"; [`Frame::id`] says `None`.
 pub const NO_PRIMITIVE: u32 = u32::MAX;
 
+/// What [`Frame::levels`] has where there is no texture coordinate.
+pub const NO_LEVEL: f32 = f32::NEG_INFINITY;
+/// The width and height in texels of the texture whose levels [`Frame::levels`] has where there is none, once in each unit
+/// of the texture coordinate.
+pub const LEVELS_OF: [usize; 2] = [256; 2];
+
 /// One rendered picture, in samples: `height·N` rows of `width·N` columns, row by row from the top.
 ///
 /// It may hold a [`Crop`] of the camera's image: then its size is the crop's, while pixels, rows and
@@ -53,6 +59,8 @@ pub struct Frame {
     normals: Vec<Vec3>,
     /// Empty unless they are asked for.
     texture_coordinates: Vec<Vec2>,
+    /// Empty unless they are asked for.
+    levels: Vec<f32>,
 }
 
 /// A part of a frame that one thread may write: ids and distances of a rectangle of samples.
@@ -84,6 +92,8 @@ pub struct ShadingBand<'a> {
     pub normals: Option<&'a mut [Vec3]>,
     /// Texture coordinates, zero where there are none; `None` unless the frame keeps them.
     pub texture_coordinates: Option<&'a mut [Vec2]>,
+    /// The levels of textures, [`NO_LEVEL`] where there is no texture coordinate; `None` unless the frame keeps them.
+    pub levels: Option<&'a mut [f32]>,
 }
 
 impl Frame {
@@ -108,6 +118,7 @@ impl Frame {
             colors: Vec::new(),
             normals: Vec::new(),
             texture_coordinates: Vec::new(),
+            levels: Vec::new(),
         }
     }
 
@@ -129,8 +140,14 @@ impl Frame {
         self
     }
 
+    /// The same frame, with room for the level of every sample, which shading then stores: see [`Frame::levels`].
+    pub fn with_levels(mut self) -> Frame {
+        self.levels = vec![NO_LEVEL; self.ids.len()];
+        self
+    }
+
     /// Makes the frame fit a camera and options; one that fits already keeps its memory. Its content is meaningless
-    /// until it is cleared or drawn anew. Room for colours, normals and texture coordinates stays, if it has any.
+    /// until it is cleared or drawn anew. Room for colours, normals, texture coordinates and levels stays, if it has any.
     ///
     /// # Panics
     ///
@@ -147,6 +164,9 @@ impl Frame {
             }
             if !was.texture_coordinates.is_empty() {
                 self.texture_coordinates = vec![Vec2::ZERO; count];
+            }
+            if !was.levels.is_empty() {
+                self.levels = vec![NO_LEVEL; count];
             }
         }
     }
@@ -268,6 +288,14 @@ impl Frame {
         &self.texture_coordinates
     }
 
+    /// How large each sample is on the texture of what is seen: the logarithm to base 2 of texels from a sample to the next, as
+    /// the order that shaded the frame finds it (see [`Texture::level`](crate::scene::Texture::level)). Where a surface has
+    /// texture coordinates and no texture, one of [`LEVELS_OF`] texels is thought of; [`NO_LEVEL`] elsewhere. Empty unless
+    /// [`Frame::with_levels`] asked for them.
+    pub fn levels(&self) -> &[f32] {
+        &self.levels
+    }
+
     /// The indices of a pixel's samples, in [`Frame::ids`] and the other buffers.
     pub fn samples_of(&self, i: usize, j: usize) -> impl Iterator<Item = usize> + use<> {
         let (n, width) = (self.samples() as usize, self.width());
@@ -312,6 +340,7 @@ impl Frame {
         let mut colors = self.colors.chunks_mut(size);
         let mut normals = self.normals.chunks_mut(size);
         let mut texture_coordinates = self.texture_coordinates.chunks_mut(size);
+        let mut levels = self.levels.chunks_mut(size);
         rows.step_by(samples)
             .zip(seen.zip(self.picture.chunks_mut(width / samples)))
             .map(|(row, ((ids, t), picture))| ShadingBand {
@@ -322,6 +351,7 @@ impl Frame {
                 colors: colors.next(),
                 normals: normals.next(),
                 texture_coordinates: texture_coordinates.next(),
+                levels: levels.next(),
             })
             .collect()
     }

@@ -69,6 +69,6 @@ pub use observe::{Events, Executed, Observer, Work};
 pub use raster::{Crop, CropError, Raster, Region, Sample, SizeError};
 pub use scene::{
     Checker, Light, Material, Mesh, MeshError, Object, Plane, Primitive, Scene, SceneError, Shape,
-    Sphere, Triangle,
+    Sphere, Texture, Triangle,
 };
 pub use view::View;

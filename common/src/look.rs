@@ -5,5 +5,8 @@ pub mod bands;
 pub mod color;
 pub mod lanes;
 mod power;
+mod sampling;
 pub mod shade;
 pub mod texture;
+
+pub use sampling::level_of;

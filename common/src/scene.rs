@@ -5,12 +5,14 @@ pub mod mesh;
 pub mod positions;
 pub mod primitive;
 pub mod shape;
+pub mod texture;
 
 pub use material::{Checker, Light, Material};
 pub use mesh::{Attribute, MaterialSpan, Mesh, MeshError, MeshMaterials, NamedMaterial};
 pub use positions::Positions;
 pub use primitive::{Primitive, are_same_corners};
 pub use shape::{Plane, Shape, Sphere, Triangle};
+pub use texture::{Filter, Levels, Pyramid, Sampler, Texture, Wrap};
 
 use glam::Vec3;
 

@@ -8,9 +8,11 @@
 //! - The nodes of the default scene (or of the first, or all nodes if there is no scene), each with its transformation: all are
 //!   composed in `f64`, and each vertex is rounded to `f32` once. Nodes come in the order of the file, children behind their
 //!   parent, and a mesh that several nodes name is there several times: the order of the triangles is the order of ids.
-//! - `POSITION`, `NORMAL` and `TEXCOORD_0` of primitives of triangles, strips and fans; also sparse, and as integers
+//! - `POSITION`, `NORMAL`, `COLOR_0` and the texture coordinates of the base colour of primitives of triangles, strips and fans; also sparse, and as integers
 //!   (`KHR_mesh_quantization`). Points and lines are skipped.
-//! - The base colour factor of materials; a warning says that textures and colours of vertices are not read.
+//! - The base colour of materials: its factor, its texture with the sampler's filters and ways to wrap, and the colours of vertices,
+//!   all multiplied. Opacity is not read, and `KHR_texture_transform` neither. Pictures (PNG or JPEG) are in views, in `data:` URIs, or in files in the folder of the file or
+//!   below; a warning names those that are missing.
 //! - Cameras, by name.
 //!
 //! Animations, skins and morph targets are not read: the mesh rests. A file that requires any other extension is refused.
@@ -27,6 +29,7 @@ mod container;
 mod error;
 mod mesh;
 mod nodes;
+mod texture;
 
 pub use camera::GltfCamera;
 pub use error::{GltfFault, ReadGltfError};
@@ -121,7 +124,7 @@ fn read_model(file: &str, bytes: &[u8], folder: Folder) -> Result<Model, Located
     let buffers = Buffers::read(&root, container.bin, folder)?;
     let placed = nodes::placed(&root)?;
     let cameras = camera::cameras(&root, &placed)?;
-    let (mesh, warnings) = mesh::mesh(file, &root, &buffers, &placed)?;
+    let (mesh, warnings) = mesh::mesh(file, &root, &buffers, folder, &placed)?;
     Ok(Model { mesh, cameras, warnings })
 }
 

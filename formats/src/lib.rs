@@ -54,6 +54,7 @@
 //! | [`mesh_stream`] | reads meshes that are larger than memory, in passes |
 //! | [`generate`] | generates meshes from formulas |
 //! | [`smooth`] | computes normals for meshes that have none |
+//! | [`picture`] | opens picture files, to compare them or as textures |
 //! | [`warning`] | says what of a mesh's materials is missing |
 //! | [`source`] | opens files, and prepares text from files for messages |
 //!
@@ -83,6 +84,7 @@ pub mod gltf;
 pub mod mesh_file;
 pub mod mesh_stream;
 pub mod obj;
+pub mod picture;
 pub mod ply;
 pub mod scene_file;
 pub mod smooth;

@@ -5,8 +5,9 @@
 //! The reader takes the part of the format that describes triangles (Wavefront, "Advanced Visualizer" manual,
 //! appendix B1, "Object Files"), and is strict about it:
 //!
-//! - `v x y z`, `vt u [v]`, `vn x y z`: each number is rounded once, to the nearest `f32`. What follows (a weight `w`,
-//!   a colour) must be numbers and is ignored; `w` is a weight for free-form curves only.
+//! - `v x y z`, `vt u [v]`, `vn x y z`: each number is rounded once, to the nearest `f32`. `v x y z r g b` gives a vertex a
+//!   colour, from 0 to 1, which is read as sRGB: programs that write it show it unchanged. What else follows must be numbers and
+//!   is ignored; a weight `w` is for free-form curves only.
 //! - `f` with corners `v`, `v/vt`, `v//vn`, `v/vt/vn`: a polygon of any size, cut into the fan `(0, k, k + 1)` in file
 //!   order. A positive index counts from 1, a negative one counts back from the last definition above the face. A
 //!   positive index may name a definition further down in the file: some programs write faces first, and `tobj`,

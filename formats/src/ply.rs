@@ -10,7 +10,9 @@
 //!   finite) is left out; if all are, the mesh has no normals.
 //! - The list `vertex_indices` or `vertex_index` of the element `face`, of any integer types: a polygon of any size, cut
 //!   into the fan `(0, k, k + 1)` in file order. Indices count from 0.
-//! - Colours are not read; [`read_with_warnings`] says so.
+//! - `red`, `green`, `blue` of the element `vertex`, if all three are there: its colour, from 0 to 1, or to 255 or 65,535 in
+//!   integers. It is read as sRGB: programs that write it show it unchanged. The colours of faces are not read;
+//!   [`read_with_warnings`] says so.
 //! - Other properties and other elements are skipped, but must be complete. Nothing may follow the last element: the
 //!   header of such a file does not fit its content.
 //!
@@ -42,7 +44,7 @@ pub fn read(path: &Path) -> Result<Mesh, ReadPlyError> {
     PlyFile::open(path)?.mesh()
 }
 
-/// Reads a mesh as [`read`] does, with a warning if the file has colours.
+/// Reads a mesh as [`read`] does, with a warning if the file has colours that are not read.
 ///
 /// # Errors
 ///

@@ -58,6 +58,16 @@
 //! | `specular` | the strength of the highlight, from 0 to 1 | 0 |
 //! | `shininess` | the exponent of the highlight | 32 |
 //! | `checker = { color, divisions }` | a pattern: its second colour, and its cells to a unit of the texture coordinates | one colour |
+//! | `texture = "tiles.png"` | a picture over the texture coordinates, in place of a `checker`; the path is relative to the scene file | one colour |
+//!
+//! A texture is multiplied by `color`, which is then white without it. In place of the path, a table says more:
+//!
+//! | key of `texture` | what it says | without it |
+//! |---|---|---|
+//! | `file` | the path of a PNG, JPEG, BMP or PNM file in the folder of the scene file, or below it | |
+//! | `filter` | `"nearest"` texel, `"bilinear"` between four, or `"mipmaps"`: bilinear, and between smaller pictures where texels are smaller than samples | bilinear |
+//! | `wrap` | beyond the picture: `"repeat"`, `"clamp"` to its border, or `"mirror"`; one for both directions, or `[across, up]` | repeat |
+//! | `tiles` | pictures to one unit of the texture coordinates, across and up | `[1, 1]` |
 //!
 //! ## `[[light]]`
 //!
@@ -79,9 +89,9 @@
 //! | `triangle = { a, b, c }` | a triangle: its corners |
 //! | `sphere = { center, radius }` | a sphere |
 //! | `plane = { point, normal }` | an infinite plane |
-//! | `mesh = "bunny.obj"` | a mesh from an OBJ or glTF file, with its own materials, or a PLY or STL file; the path is relative to the scene file |
+//! | `mesh = "bunny.obj"` | a mesh from an OBJ, glTF, PLY or STL file, with its own materials and colours; the path is relative to the scene file |
 //! | `generate = { kind, divisions }` | a generated mesh: see [`Kind`](crate::generate::Kind) |
-//! | `material` | the name of a material, in place of those of a mesh file; light grey without it |
+//! | `material` | the name of a material, in place of the materials and colours of a mesh file; light grey without it |
 //! | `scale`, `rotate = { axis, degrees }`, `translate` | the transformation, in this order |
 //!
 //! A `scale` is one factor, or `[x, y, z]`, one for each axis; negative factors mirror.
@@ -209,7 +219,7 @@ fn document(text: &str, folder: &Path) -> Result<SceneFile, Problem> {
 
     let camera = table.get("camera").map(|item| camera::read(&item)).transpose()?;
     let camera = camera.unwrap_or_default();
-    let materials = table.get("material").map(|item| materials(&item)).transpose()?;
+    let materials = table.get("material").map(|item| materials(&item, folder)).transpose()?;
     let lights = table.get("light").map(|item| lights(&item)).transpose()?;
     let list = table.get("object").ok_or_else(|| {
         let help = format!("begin one with [[object]] and, for example, {}", object::EXAMPLE);

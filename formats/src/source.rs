@@ -1,6 +1,7 @@
 //! Opens files to read, and words the messages about files that cannot be read.
 
 pub(crate) mod decimal;
+pub(crate) mod folder;
 pub mod quote;
 
 use std::fs::{self, File, Metadata};

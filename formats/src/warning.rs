@@ -28,17 +28,24 @@ pub enum MaterialWarning {
         /// Their names.
         names: Vec<String>,
     },
-    /// The file gives colours to vertices or faces, which are not read.
-    Colors {
+    /// The file gives colours to faces, which are not read.
+    FaceColors {
         /// The mesh's file.
         file: String,
     },
-    /// The file's materials have textures, which are not read.
+    /// Pictures do not exist in the file's folder.
+    MissingPictures {
+        /// The mesh's file, or its material file.
+        file: String,
+        /// Their names.
+        names: Vec<String>,
+    },
+    /// The file's materials have textures of a kind that is not read.
     Textures {
         /// The mesh's file.
         file: String,
     },
-    /// The mesh is streamed, and streams do not read materials.
+    /// The mesh is streamed, and streams do not read materials and colours.
     Streamed {
         /// The mesh's file.
         file: String,
@@ -47,8 +54,6 @@ pub enum MaterialWarning {
 
 impl fmt::Display for MaterialWarning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        /// The most names that the message lists.
-        const MOST: usize = 3;
         match self {
             MaterialWarning::MissingLibrary { file, library } => write!(
                 f,
@@ -59,32 +64,47 @@ impl fmt::Display for MaterialWarning {
                 write!(f, "{file}: {more} more material files are missing beside it")
             }
             MaterialWarning::Undefined { file, names } => {
-                let some: Vec<String> = names.iter().take(MOST).map(|name| quoted(name)).collect();
-                let more = match names.len().saturating_sub(MOST) {
-                    0 => String::new(),
-                    more => format!(" and {more} more"),
-                };
-                let some = some.join(", ");
+                let some = some_of(names);
                 write!(
                     f,
-                    "{file}: no material file defines {some}{more}; what is made of it is drawn in \
+                    "{file}: no material file defines {some}; what is made of it is drawn in \
                      light grey"
                 )
             }
-            MaterialWarning::Colors { file } => write!(
+            MaterialWarning::FaceColors { file } => write!(
                 f,
-                "{file}: the colours of its vertices and faces are not read; all of it is drawn in \
-                 the material of its object"
+                "{file}: the colours of its faces are not read; all of it is drawn in the material of its \
+                 object"
             ),
+            MaterialWarning::MissingPictures { file, names } => {
+                let some = some_of(names);
+                write!(
+                    f,
+                    "{file}: there is no picture {some} in its folder; what has it as its texture is drawn \
+                     without"
+                )
+            }
             MaterialWarning::Textures { file } => write!(
                 f,
-                "{file}: its textures are not read; what has one is drawn in its base colour"
+                "{file}: some of its textures are of a kind that is not read; what has one is drawn in its base colour"
             ),
             MaterialWarning::Streamed { file } => write!(
                 f,
-                "{file}: the materials of a mesh that is streamed are not read; all of it is drawn \
+                "{file}: the materials and colours of a mesh that is streamed are not read; all of it is drawn \
                  in light grey"
             ),
         }
     }
+}
+
+/// The first names of a list, and how many more there are.
+fn some_of(names: &[String]) -> String {
+    /// The most names that a message lists.
+    const MOST: usize = 3;
+    let some: Vec<String> = names.iter().take(MOST).map(|name| quoted(name)).collect();
+    let more = match names.len().saturating_sub(MOST) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    some.join(", ") + &more
 }

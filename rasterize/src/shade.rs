@@ -11,7 +11,7 @@ use bothways_common::look::texture::{self, TexturePoints};
 use bothways_common::{Frame, Primitive, Projection, View};
 use form::{Form, HitPoints};
 use glam::{DVec2, DVec3, Vec3};
-use quotient::{Affine, Quotient};
+use quotient::{Affine, Colors, Quotient};
 
 /// Gives a frame its picture, by interpolation over the triangle that is seen at each sample. If the frame keeps
 /// [linear colours](Frame::with_colors), [normals](Frame::with_normals) or
@@ -59,6 +59,15 @@ enum Texture {
     Sphere,
     /// That of a flat form: a function on the viewport.
     Flat(Box<Quotient>),
+    /// What few surfaces need.
+    Rich(Box<Rich>),
+}
+
+/// A texture and more: colours of vertices, or how the texture coordinate moves from sample to sample.
+struct Rich {
+    texture: Texture,
+    colors: Option<Colors>,
+    has_steps: bool,
 }
 
 enum Normals {
@@ -83,11 +92,7 @@ impl Surfaces for Interpolated<'_> {
     fn set_up(&self, seen: &Seen, wanted: Wanted) -> Surface {
         let (view, primitive) = (self.view, &seen.primitive);
         let normals = Normals::new(view, primitive, seen.corner_normals());
-        let texture = if wanted.texture_coordinates || seen.material.checker.is_some() {
-            Texture::new(view, primitive, seen.corner_coordinates())
-        } else {
-            Texture::None
-        };
+        let texture = Texture::of(view, seen, wanted);
         let is_sphere = matches!(primitive, Primitive::Sphere { .. });
         let form = (is_sphere || wanted.positions).then(|| Box::new(Form::new(view, primitive)));
         Surface { form, normals, texture }
@@ -130,8 +135,26 @@ impl Surfaces for Interpolated<'_> {
                 hits
             }
         };
-        let [low, high] = match &surface.texture {
-            Texture::None => return,
+        match &surface.texture {
+            Texture::Rich(rich) => self.rich(simd, rich, samples, &hits, points),
+            plain => self.plain(simd, plain, samples, &hits, points),
+        }
+    }
+}
+
+impl Interpolated<'_> {
+    /// The texture coordinates of some samples, and their footprints.
+    #[inline(always)]
+    fn plain<S: Simd>(
+        &self,
+        simd: S,
+        texture: &Texture,
+        samples: &Sixteen<S>,
+        hits: &[HitPoints<S>; 2],
+        points: &mut Points<'_>,
+    ) {
+        let [low, high] = match texture {
+            Texture::None | Texture::Rich(_) => return,
             Texture::Flat(quotient) => each!(half in [&samples.low, &samples.high] => {
                 quotient.with_footprint(simd, half.x, half.y, self.step)
             }),
@@ -144,9 +167,59 @@ impl Surfaces for Interpolated<'_> {
         let footprint = each!(k in [0, 1] => low.1[k].narrow(high.1[k]));
         points.set_texture(&TexturePoints { halves: [low.0, high.0], footprint });
     }
-}
 
-impl Interpolated<'_> {
+    /// The same, and what else the surface needs.
+    #[inline(always)]
+    fn rich<S: Simd>(
+        &self,
+        simd: S,
+        rich: &Rich,
+        samples: &Sixteen<S>,
+        hits: &[HitPoints<S>; 2],
+        points: &mut Points<'_>,
+    ) {
+        if let Some(colors) = &rich.colors {
+            points.set_colors(colors.at(simd, &samples.low).narrow(colors.at(simd, &samples.high)));
+        }
+        self.plain(simd, &rich.texture, samples, hits, points);
+        if !rich.has_steps {
+            return;
+        }
+        let halves = [(&samples.low, &hits[0]), (&samples.high, &hits[1])];
+        let [low, high] = match &rich.texture {
+            Texture::None | Texture::Rich(_) => return,
+            Texture::Flat(quotient) => {
+                each!(k in [0, 1] => quotient.differences(simd, halves[k].0, self.step))
+            }
+            Texture::Sphere => {
+                each!(k in [0, 1] => self.differences_on_sphere(simd, halves[k].0, halves[k].1))
+            }
+        };
+        points.set_steps(each!(way in [0, 1] => {
+            each!(k in [0, 1] => low[way][k].narrow(high[way][k]))
+        }));
+    }
+
+    /// The differences on the planes that touch a sphere where it is seen.
+    #[inline(always)]
+    fn differences_on_sphere<S: Simd>(
+        &self,
+        simd: S,
+        samples: &Samples<S>,
+        hit: &HitPoints<S>,
+    ) -> [[f64x8<S>; 2]; 2] {
+        let (_, gradients) = texture::on_sphere_lanes(simd, hit.from_center);
+        let touching: [Quotient; 8] = std::array::from_fn(|lane| {
+            let gradients = gradients.map(|gradient| gradient.lane(lane));
+            let (position, normal) = (hit.position.lane(lane), hit.from_center.lane(lane));
+            Quotient::on_plane(self.view, position, normal, gradients)
+        });
+        // Each lane has a plane of its own, whose differences are taken for all lanes, and kept for one.
+        let all: [[[f64x8<S>; 2]; 2]; 8] =
+            std::array::from_fn(|lane| touching[lane].differences(simd, samples, self.step));
+        each!(way in [0, 1] => each!(k in [0, 1] => f64x8::from_fn(simd, |lane| all[lane][way][k][lane])))
+    }
+
     #[inline(always)]
     fn rays<S: Simd>(&self, simd: S, samples: &Samples<S>) -> Rays<S> {
         Rays::of_camera(simd, self.view.camera, [samples.x, samples.y])
@@ -238,6 +311,30 @@ fn side_seen(view: &View, point: DVec3, normal: DVec3) -> f64 {
 }
 
 impl Texture {
+    /// What is needed of the texture of a primitive.
+    #[inline(always)]
+    fn of(view: &View, seen: &Seen, wanted: Wanted) -> Texture {
+        let (colors, has_steps) = (seen.corner_colors(), seen.needs_steps(wanted));
+        let texture = || {
+            if seen.needs_texture(wanted) {
+                Texture::new(view, &seen.primitive, seen.corner_coordinates())
+            } else {
+                Texture::None
+            }
+        };
+        if colors.is_none() && !has_steps {
+            return texture();
+        }
+        let colors = match (seen.primitive, colors) {
+            (Primitive::Triangle([a, b, c]), Some(colors)) => {
+                let weights = weights(view, [a, b, c], (b - a).cross(c - a));
+                Some(Colors::interpolating(weights, colors))
+            }
+            _ => None,
+        };
+        Texture::Rich(Box::new(Rich { texture: texture(), colors, has_steps }))
+    }
+
     fn new(view: &View, primitive: &Primitive, corners: Option<[DVec2; 3]>) -> Texture {
         match (*primitive, corners) {
             (Primitive::Sphere { .. }, _) => Texture::Sphere,

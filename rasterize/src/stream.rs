@@ -156,9 +156,9 @@ impl Canvas {
         visible.par_sort_unstable();
         visible.dedup();
         let shape = mesh_of(visible.iter().map(|(_, corners)| *corners), positions);
-        let Look { material, ref lights, background } = *look;
+        let Look { material, lights, background } = look.clone();
         let mut scene = checked(Object { shape, material });
-        (scene.lights, scene.background) = (lights.clone(), background);
+        (scene.lights, scene.background) = (lights, background);
         // The small scene contains only visible triangles.
         let ids = mem::take(&mut self.ids);
         self.put(&ids, |id| visible.partition_point(|&(seen, _)| seen < id));

@@ -90,6 +90,16 @@ enum Texture {
     None,
     Sphere,
     Flat(Chart),
+    /// What few surfaces need.
+    Rich(Box<Rich>),
+}
+
+/// A texture and more: colours of vertices, or how the texture coordinate moves from sample to sample.
+struct Rich {
+    texture: Texture,
+    /// The colour of the first corner, and what those of the others add to it.
+    colors: Option<[Vec3; 3]>,
+    has_steps: bool,
 }
 
 /// The texture of a flat form.
@@ -110,11 +120,7 @@ impl Surfaces for AtHits<'_> {
     #[inline(always)]
     fn set_up(&self, seen: &Seen, wanted: Wanted) -> Surface {
         let form = Form::new(&seen.primitive);
-        let texture = if wanted.texture_coordinates || seen.material.checker.is_some() {
-            Texture::new(&form, seen.corner_coordinates(), self.steps)
-        } else {
-            Texture::None
-        };
+        let texture = Texture::of(&form, seen, wanted, self.steps);
         let normals = Normals::new(self.view, &form, seen.corner_normals());
         let has_points = wanted.positions || !matches!(texture, Texture::None);
         Surface { form, normals, has_points, texture }
@@ -150,13 +156,14 @@ impl Surfaces for AtHits<'_> {
         points.set_positions([low.position, high.position]);
         points.set_normals(surface.normals.at(simd, [&low, &high]));
         match &surface.texture {
-            Texture::None => {}
-            Texture::Flat(chart) => points.set_texture(&self.on_chart(simd, chart, [&low, &high])),
-            Texture::Sphere => {
-                let [low, high] = each!(hit in [&low, &high] => self.on_globe(simd, hit));
-                let footprint = each!(k in [0, 1] => low.1[k].narrow(high.1[k]));
-                points.set_texture(&TexturePoints { halves: [low.0, high.0], footprint });
+            Texture::Rich(rich) => {
+                if let Some([at_a, to_b, to_c]) = rich.colors {
+                    let colors = Smooth([at_a, to_b, to_c]);
+                    points.set_colors(colors.at(simd, [low.weights, high.weights]));
+                }
+                self.texture(simd, &rich.texture, [&low, &high], rich.has_steps, points);
             }
+            plain => self.texture(simd, plain, [&low, &high], false, points),
         }
     }
 }
@@ -211,6 +218,27 @@ impl Form {
 }
 
 impl AtHits<'_> {
+    /// The texture coordinates at some hit points, and how they move from sample to sample if that is needed.
+    #[inline(always)]
+    fn texture<S: Simd>(
+        &self,
+        simd: S,
+        texture: &Texture,
+        [low, high]: [&Hits<S>; 2],
+        has_steps: bool,
+        points: &mut Points<'_>,
+    ) {
+        let (found, steps) = match texture {
+            Texture::None | Texture::Rich(_) => return,
+            Texture::Flat(chart) => self.on_chart(simd, chart, [low, high]),
+            Texture::Sphere => self.on_globes(simd, [low, high]),
+        };
+        points.set_texture(&found);
+        if has_steps {
+            points.set_steps(steps);
+        }
+    }
+
     #[inline(always)]
     fn hits<S: Simd>(&self, simd: S, surface: &Surface, samples: &Samples<S>) -> Hits<S> {
         let rays = Rays::of_camera(simd, self.view.camera, [samples.x, samples.y]);
@@ -333,6 +361,24 @@ impl Smooth {
 }
 
 impl Texture {
+    /// What is needed of the texture of a primitive.
+    #[inline(always)]
+    fn of(form: &Form, seen: &Seen, wanted: Wanted, steps: [DVec3; 2]) -> Texture {
+        let (colors, has_steps) = (seen.corner_colors(), seen.needs_steps(wanted));
+        let texture = || {
+            if seen.needs_texture(wanted) {
+                Texture::new(form, seen.corner_coordinates(), steps)
+            } else {
+                Texture::None
+            }
+        };
+        if colors.is_none() && !has_steps {
+            return texture();
+        }
+        let colors = colors.map(|[a, b, c]| [a, b - a, c - a]);
+        Texture::Rich(Box::new(Rich { texture: texture(), colors, has_steps }))
+    }
+
     #[inline(always)]
     fn new(form: &Form, corners: Option<[DVec2; 3]>, steps: [DVec3; 2]) -> Texture {
         let (first, gradients, normal) = match (form, corners) {
@@ -363,12 +409,7 @@ impl AtHits<'_> {
     /// so, pixels being square, a footprint is at least `cos θ` of the largest term; `θ` lies between the ray and the axis,
     /// and its relative error stays below `20ε / cos θ`.
     #[inline(always)]
-    fn on_chart<S: Simd>(
-        &self,
-        simd: S,
-        chart: &Chart,
-        [low, high]: [&Hits<S>; 2],
-    ) -> TexturePoints<S> {
+    fn on_chart<S: Simd>(&self, simd: S, chart: &Chart, [low, high]: [&Hits<S>; 2]) -> Found<S> {
         let is_perspective = self.view.camera.projection() == Projection::Perspective;
         let wide = |number: f64| f64x8::splat(simd, number);
         let gradients = each!(k in [0, 1] => DVec3x8::splat(simd, chart.gradients[k]));
@@ -384,20 +425,34 @@ impl AtHits<'_> {
             let rise = wide(chart.rise[axis]);
             (rise * low.reciprocal).narrow(rise * high.reciprocal)
         });
-        let footprint = each!(k in [0, 1] => {
+        let moves = each!(k in [0, 1] => {
             let along_ray = (gradients[k].dot(low.direction) * low_moved)
                 .narrow(gradients[k].dot(high.direction) * high_moved);
-            let [across, down] = each!(axis in [0, 1] => {
+            each!(axis in [0, 1] => {
                 moved * f32x16::splat(simd, chart.growth[k][axis]) - along_ray * rise[axis]
-            });
-            across.abs() + down.abs()
+            })
         });
-        TexturePoints { halves, footprint }
+        let footprint = each!(k in [0, 1] => moves[k][0].abs() + moves[k][1].abs());
+        (TexturePoints { halves, footprint }, steps_of(moves))
     }
 
-    /// The texture of a sphere at eight hit points, and the footprints there: those of the planes that touch it.
+    /// The texture of a sphere at sixteen hit points.
     #[inline(always)]
-    fn on_globe<S: Simd>(&self, simd: S, hit: &Hits<S>) -> ([f64x8<S>; 2], [f64x8<S>; 2]) {
+    fn on_globes<S: Simd>(&self, simd: S, [low, high]: [&Hits<S>; 2]) -> Found<S> {
+        let [low, high] = each!(hit in [low, high] => self.on_globe(simd, hit));
+        let moves = each!(k in [0, 1] => {
+            each!(axis in [0, 1] => low.1[k][axis].narrow(high.1[k][axis]))
+        });
+        let footprint = each!(k in [0, 1] => {
+            let [low, high] = each!(moves in [low.1, high.1] => moves[k][0].abs() + moves[k][1].abs());
+            low.narrow(high)
+        });
+        (TexturePoints { halves: [low.0, high.0], footprint }, steps_of(moves))
+    }
+
+    /// The texture of a sphere at eight hit points, and how each coordinate moves across and down: on the planes that touch it.
+    #[inline(always)]
+    fn on_globe<S: Simd>(&self, simd: S, hit: &Hits<S>) -> ([f64x8<S>; 2], [[f64x8<S>; 2]; 2]) {
         let (coordinate, gradients) = texture::on_sphere_lanes(simd, hit.beside);
         let [across, down] = each!(axis in [0, 1] => {
             let step = DVec3x8::splat(simd, self.steps[axis]);
@@ -407,8 +462,17 @@ impl AtHits<'_> {
             };
             let farther = -(hit.beside.dot(moved) / hit.beside.dot(hit.direction));
             let beside = moved + hit.direction * farther;
-            each!(k in [0, 1] => gradients[k].dot(beside).abs())
+            each!(k in [0, 1] => gradients[k].dot(beside))
         });
-        (coordinate, each!(k in [0, 1] => across[k] + down[k]))
+        (coordinate, each!(k in [0, 1] => [across[k], down[k]]))
     }
+}
+
+/// The texture of sixteen hit points, and how the coordinate moves to the next sample across, and to the next one down.
+type Found<S> = (TexturePoints<S>, [[f32x16<S>; 2]; 2]);
+
+/// The steps across and down, from how each coordinate moves.
+#[inline(always)]
+fn steps_of<S: Simd>(moves: [[f32x16<S>; 2]; 2]) -> [[f32x16<S>; 2]; 2] {
+    each!(axis in [0, 1] => each!(k in [0, 1] => moves[k][axis]))
 }

@@ -133,3 +133,17 @@ fn the_work_of_all_pixels_is_the_work_of_the_report() {
         assert!(uneven(Order::Object) && uneven(Order::Image));
     }
 }
+
+/// The scene with a texture that comes with the repository: its levels are drawn, with a column to look at.
+#[test]
+fn the_levels_of_a_floor_up_to_the_horizon_are_drawn() {
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/horizon/horizon.toml");
+    let loaded = load(scene).unwrap();
+    let camera = Camera::new(CameraDescription { image: [64, 48], ..loaded.camera }).unwrap();
+    let subject = (loaded.scene, camera);
+    for (theme, focus) in [(Theme::Dark, "#f0e442"), (Theme::Light, "#b03a86")] {
+        let drawing = draw(Kind::Levels, "horizon", &subject, theme);
+        assert_eq!(drawing.faults(), [""; 0], "{theme:?}");
+        assert!(drawing.svg().contains(focus), "a column is framed");
+    }
+}

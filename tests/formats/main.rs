@@ -7,3 +7,4 @@ mod mesh;
 mod other_formats;
 mod ply;
 mod stream;
+mod textures;

@@ -267,7 +267,9 @@ fn materials_are_left_out_with_a_warning() {
     let with = |file: &'static str, folder: &'static str| [file, "--no-times", "-o", folder];
     let picture = |name: &str| fs::read(home.path().join(name).join("object-order.png")).unwrap();
 
-    let says = contains("red.obj: the materials of a mesh that is streamed are not read").count(1);
+    let says =
+        contains("red.obj: the materials and colours of a mesh that is streamed are not read")
+            .count(1);
     stream(&home, &with("red.obj", "streamed")).code(0).stderr(says);
     stream(&home, &[&with("red.obj", "quiet")[..], &["--quiet"]].concat()).code(0).stderr("");
     in_memory(&home, &with("plain.obj", "default"));

@@ -84,11 +84,11 @@ fn mixed_scene() -> Scene {
     let triangles = (0..600).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
     let soup = mesh(Mesh::new(positions.collect(), triangles).unwrap());
     let lecture = scenes::load("lecture").unwrap().scene;
-    let mut materials = lecture.objects().iter().map(|object| object.material);
+    let mut materials = lecture.objects().iter().map(|object| &object.material);
     let checkered = materials.find(|material| material.checker.is_some()).unwrap();
     let ball = Shape::Sphere(Sphere { center: Vec3::new(0.5, 0.4, 0.0), radius: 0.6 });
     let ground = Shape::Plane(Plane { point: Vec3::new(0.0, -1.0, 0.0), normal: Vec3::Y });
-    let textured = |shape| Object { material: checkered, ..Object::from(shape) };
+    let textured = |shape| Object { material: checkered.clone(), ..Object::from(shape) };
     let teapot = Kind::Teapot.mesh([6, 6]).unwrap();
     scene(vec![soup, textured(ball), textured(ground), mesh(teapot)])
 }

@@ -22,6 +22,7 @@ fn scene() -> Scene {
         specular: 0.4,
         shininess: 30.0,
         checker: Some(Checker { color: Vec3::new(0.1, 0.5, 0.7), divisions: [9.0, 7.0] }),
+        ..Material::default()
     };
     let torus = Kind::Torus.mesh([96, 64]).expect("it is a torus");
     let torus = torus.map(|p| 0.5 * p + Vec3::new(-0.75, 0.5, 0.0), |n| n).expect("it is a mesh");
@@ -38,7 +39,7 @@ fn scene() -> Scene {
             normal: Vec3::new(0.125, 1.0, 0.75),
         }),
     ];
-    let objects = shapes.map(|shape| Object { shape, material });
+    let objects = shapes.map(|shape| Object { shape, material: material.clone() });
     let mut scene = Scene::new(objects.into()).expect("it is a scene");
     scene.lights = vec![
         Light::Point { position: Vec3::new(0.25, 0.5, 1.5), intensity: 0.5 },

@@ -3,10 +3,10 @@
 
 use crate::four_renderers::RENDERERS;
 use assert_cmd::Command;
-use bothways::common::glam::Vec3;
-use bothways::common::look::color::linear_from_encoded;
-use bothways::common::scene::MeshMaterials;
-use bothways::common::{Material, Mesh, Options, Scene, Shape, View};
+use bothways::common::glam::{DVec3, Vec3};
+use bothways::common::look::color::{linear_from_encoded, srgb_from_linear};
+use bothways::common::scene::{Levels, MeshMaterials, Sampler, Wrap};
+use bothways::common::{Frame, Material, Mesh, Options, Scene, Shape, View};
 use bothways::diff::compare;
 use bothways::formats::{obj, scene_file};
 use bothways_test_support::{PROJECTIONS, turned};
@@ -40,7 +40,7 @@ Ks 0.25 0.5 0.75
 Ns 40.5
 d 0.5
 illum 2
-map_Kd -s 1 1 1 clay.png
+map_Ks clay.png
 
 newmtl Material #25
   Kd 0 0 1
@@ -240,4 +240,88 @@ fn a_wrong_material_file_is_an_error_that_names_its_line() {
         bothways(folder.path(), &small).code(2).stderr(predicate::str::contains(says));
         assert!(!folder.path().join("out").exists(), "{text:?} left something behind");
     }
+}
+
+/// What is drawn of a material is its picture, in the colours of the picture; the picture is beside the material file.
+#[test]
+fn a_picture_stands_in_the_place_of_a_color() {
+    let (folder, path) = cards();
+    let map = "Kd 0.8 0.25 0.125\nmap_Kd -s 2 3 1 -clamp on -bm 0.5 pictures\\clay tiles.png\n";
+    let text = CARDS_MTL.replace("Kd 0.8 0.25 0.125\n", map);
+    fs::write(folder.path().join("cards.mtl"), &text).unwrap();
+    let (mesh, warnings) = obj::read_with_materials(&path).unwrap();
+    let says = "there is no picture \"pictures/clay tiles.png\" in its folder; what has it as its texture is drawn without";
+    assert!(warnings.len() == 1 && warnings[0].to_string().ends_with(says), "{warnings:?}");
+    let clay = mesh.materials().unwrap().of(0).unwrap();
+    assert_eq!(clay.color, Vec3::from([0.8, 0.25, 0.125].map(linear_from_encoded)));
+
+    fs::create_dir(folder.path().join("pictures")).unwrap();
+    let file = folder.path().join("pictures/clay tiles.png");
+    image::RgbImage::from_pixel(2, 1, image::Rgb([255, 0, 0])).save(&file).unwrap();
+    let mesh = read(&path);
+    let clay = mesh.materials().unwrap().of(0).unwrap();
+    let texture = clay.texture.as_ref().unwrap();
+    assert_eq!((clay.color, texture.pyramid.levels()[0].size()), (Vec3::ONE, [2, 1]));
+    let Sampler { tiles, wrap, levels, .. } = texture.sampler;
+    assert_eq!((tiles, wrap, levels), ([2.0, 3.0], [Wrap::Clamp; 2], Levels::Blended));
+
+    fs::write(&file, "no picture").unwrap();
+    let error = obj::read_with_materials(&path).unwrap_err().to_string();
+    assert!(
+        error.ends_with("is no picture (PNG, JPEG, BMP or PNM); save it as one of these"),
+        "{error}"
+    );
+}
+
+/// A square whose corners have colours, and one half of which is made of a material.
+#[test]
+fn colors_of_vertices_are_drawn_alike_by_both_orders() {
+    let text = "v -1 -1 0 1 0 0\nv 1 -1 0 0 1 0\nv 1 1 -3 0 0 1\nv -1 1 -3 1 1 1\nf 1 2 3\nusemtl clay\nf 1 3 4\n";
+    let folder =
+        folder(&[("a.obj", &format!("mtllib cards.mtl\n{text}")), ("cards.mtl", CARDS_MTL)]);
+    let scene = "[[light]]\nambient = true\n[[object]]\nmesh = 'a.obj'\n";
+    let colored = scene_file::parse("a.toml", scene, folder.path()).unwrap().scene;
+    assert_eq!(colored.objects()[0].material.color, Vec3::ONE, "colours show as they are");
+    for projection in PROJECTIONS {
+        let camera = turned(projection, [0.5, 0.7, 3.0], [0.0, 0.0, -1.0], [60, 48]);
+        let (view, options) = (View::new(&colored, &camera), Options::default());
+        let frames = RENDERERS.map(|(_, render)| render(&view, &options));
+        for frame in &frames[1..] {
+            assert_eq!(compare(&frames[0], frame).color.differing_pixels, 0);
+        }
+        check_interpolated(&view, &frames[0]);
+    }
+    let stated = format!("{scene}material = 'grey'\n[material.grey]\ncolor = '#808080'\n");
+    let stated = scene_file::parse("a.toml", &stated, folder.path()).unwrap().scene;
+    let Shape::Mesh(mesh) = &stated.objects()[0].shape else { panic!("it is a mesh") };
+    assert!(mesh.colors().is_empty(), "a stated material replaces them");
+}
+
+/// Under ambient light alone, a pixel shows the colour that the weights of its hit point give, in linear light.
+fn check_interpolated(view: &View, frame: &Frame) {
+    let Shape::Mesh(mesh) = &view.scene.objects()[0].shape else { panic!("it is a mesh") };
+    let grid = view.camera.sample_grid(1);
+    let mut seen = 0;
+    for (row, &y) in grid.y().iter().enumerate() {
+        for (column, &x) in grid.x().iter().enumerate() {
+            let Some(id) = frame.id(row, column) else { continue };
+            let triangle = mesh.triangles()[id as usize];
+            let [a, b, c] = triangle.map(|v| view.offset(mesh.positions()[v as usize]));
+            let ray = view.camera.ray_through(x, y);
+            let normal = (b - a).cross(c - a);
+            let hit = ray.origin
+                + ray.direction * (normal.dot(a - ray.origin) / normal.dot(ray.direction));
+            let part =
+                |p: DVec3, q: DVec3| (p - hit).cross(q - hit).dot(normal) / normal.length_squared();
+            let weights = [part(b, c), part(c, a), part(a, b)];
+            let colors = triangle.map(|v| mesh.colors()[v as usize].as_dvec3());
+            let mixed: DVec3 = (0..3).map(|k| colors[k] * weights[k]).sum();
+            let material = view.scene.objects()[0].material_of(id as usize);
+            let expected = (mixed.as_vec3() * material.color).to_array().map(srgb_from_linear);
+            let found = frame.picture()[row * frame.width() + column];
+            assert!((0..3).all(|k| found[k].abs_diff(expected[k]) <= 1), "{found:?} {expected:?}");
+            seen += 1;
+        }
+    }
+    assert!(seen > 300, "{seen}");
 }

@@ -3,7 +3,10 @@
 
 use crate::four_renderers::RENDERERS;
 use bothways::common::glam::{DVec2, Vec2, Vec3};
-use bothways::common::{Camera, Frame, Object, Options, Scene, Shape, Triangle, View};
+use bothways::common::scene::{Attribute, Pyramid, Sampler, Wrap};
+use bothways::common::{
+    Camera, Frame, Material, Mesh, Object, Options, Scene, Shape, Texture, Triangle, View,
+};
 use bothways::diff::compare;
 use bothways::formats::scene_file;
 use bothways::scenes::load;
@@ -170,4 +173,167 @@ fn a_mesh_without_coordinates_takes_no_checker() {
         "a.toml:5:1: this material has a checker, and the mesh has no texture coordinates; export \
          the mesh with texture coordinates, as OBJ (vt) or glTF, or choose a material without checker"
     );
+}
+
+/// A picture without symmetry, of odd sides.
+fn picture(sampler: Sampler) -> Texture {
+    let value = |k: usize| (k as f32 * 0.618_034).fract();
+    let texels = (0..13 * 9).map(|k| Vec3::new(value(k), value(3 * k + 1), value(7 * k)));
+    Texture { pyramid: Pyramid::new(13, texels.collect()).into(), sampler }
+}
+
+/// The still life with a texture in the place of each pattern.
+fn textured(sampler: Sampler) -> Scene {
+    let scene = still_life();
+    let objects = scene.objects().iter().map(|object| {
+        let mut object = object.clone();
+        object.material.checker = None;
+        object.material.texture = Some(picture(sampler));
+        object
+    });
+    Scene::new(objects.collect()).expect("it is a scene")
+}
+
+#[test]
+fn both_orders_read_the_same_texels() {
+    for (filter, wrap) in [
+        (Sampler::NEAREST, [Wrap::Repeat, Wrap::Mirror]),
+        (Sampler::BILINEAR, [Wrap::Clamp, Wrap::Repeat]),
+        (Sampler::BILINEAR, [Wrap::Mirror, Wrap::Clamp]),
+    ] {
+        let scene = textured(Sampler { wrap, tiles: [2.0, 1.5], ..filter });
+        for projection in PROJECTIONS {
+            for (eye, samples) in [([1.0, 1.5, 6.0], 1), ([-2.0, 0.4, 3.0], 2)] {
+                let camera = turned(projection, eye, [0.0; 3], [80, 60]);
+                let view = View::new(&scene, &camera);
+                let frames = both(&view, &Options { samples, ..Options::default() });
+                let comparison = compare(&frames[0], &frames[1]);
+                assert_eq!(
+                    comparison.color.differing_pixels, 0,
+                    "{filter:?} {projection:?} {eye:?}"
+                );
+                let plain = still_life();
+                let plain = both(&View::new(&plain, &camera), &frames[0].options());
+                assert!(compare(&frames[0], &plain[0]).color.differing_pixels > 1000);
+            }
+        }
+    }
+}
+
+/// Texels, samples and the eye on one grid: every second sample of a row is on a border between texels.
+#[test]
+fn where_texels_and_samples_are_aligned_both_orders_choose_alike() {
+    let wall = |x: f32| {
+        let corner = |x: f32, y: f32| Vec3::new(x, y, -1.0);
+        [corner(-x, -x), corner(x, -x), corner(x, x), corner(-x, x)]
+    };
+    let mesh = Mesh::new(wall(0.5).to_vec(), vec![[0, 1, 2], [0, 2, 3]]).unwrap();
+    let values = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(Vec2::from).to_vec();
+    let corners = vec![[0, 1, 2], [0, 2, 3]];
+    let mesh = mesh.with_texture_coordinates(Attribute { values, corners }).unwrap();
+    let texels: Vec<Vec3> = (0..64).map(|k| Vec3::splat(f32::from(k % 3 == 0))).collect();
+    let texture = Texture { pyramid: Pyramid::new(8, texels).into(), sampler: Sampler::NEAREST };
+    let material = Material { texture: Some(texture), ..Material::default() };
+    let scene = scene(vec![Object { shape: Shape::Mesh(mesh), material }]);
+    // A pixel is 1/15 of the wall: the middle one is on a border, and in 120 pixels of 1/120 many are.
+    for side in [15, 45, 120, 121, 135] {
+        let camera = Camera::canonical(side, side);
+        let [by_object, by_image] = both(&View::new(&scene, &camera), &Options::default());
+        assert_eq!(by_object.picture(), by_image.picture(), "{side}");
+    }
+}
+
+/// The frames of both orders, with levels.
+fn with_levels(view: &View, options: &Options) -> [Frame; 2] {
+    both(view, options).map(|frame| {
+        let mut frame = frame.with_levels();
+        frame.fit(view.camera, options);
+        frame
+    })
+}
+
+/// Shades both frames again, so that they have levels.
+fn both_levels(view: &View, options: &Options) -> [Frame; 2] {
+    let [mut by_object, mut by_image] = with_levels(view, options);
+    rasterize::shade(view, &mut by_object);
+    raytrace::shade(view, &mut by_image);
+    [by_object, by_image]
+}
+
+/// Where the orders find the same level but for a hundredth, or none, a pixel has the same colour, within a step of 255.
+#[test]
+fn where_levels_agree_colors_do() {
+    let scene = textured(Sampler { tiles: [3.0, 2.0], ..Sampler::MIPMAPS });
+    let (mut agreeing, mut apart) = (0, 0);
+    for projection in PROJECTIONS {
+        for eye in [[1.0, 1.5, 6.0], [-2.0, 0.4, 3.0], [0.0, 4.0, 0.5]] {
+            let camera = turned(projection, eye, [0.0; 3], [80, 60]);
+            let frames = both_levels(&View::new(&scene, &camera), &Options::default());
+            let [one, other] = &frames;
+            let levels = one.levels().iter().zip(other.levels());
+            let pictures = one.picture().iter().zip(other.picture());
+            for ((one, other), (a, b)) in levels.zip(pictures) {
+                // Below 0, and above the last level, all are the same.
+                let [one, other] = [one, other].map(|level| level.clamp(0.0, 3.0));
+                if (one - other).abs() > 0.01 {
+                    apart += 1;
+                    continue;
+                }
+                agreeing += 1;
+                assert!(
+                    (0..3).all(|k| a[k].abs_diff(b[k]) <= 1),
+                    "{projection:?} {eye:?}: {a:?} {b:?}"
+                );
+            }
+        }
+    }
+    assert!(agreeing > 10_000 && apart > 100, "{agreeing} {apart}");
+}
+
+/// A wall that faces the eye: a texel is so many pixels, everywhere. There both orders find the level that the formula gives.
+#[test]
+fn the_level_of_a_wall_is_known() {
+    let wall = "[[object]]\nplane = { point = [0, 0, -3], normal = [0, 0, 1] }\nmaterial = 'm'\n\
+                [material.m]\nchecker = { color = '#000000', divisions = [1, 1] }\n";
+    let scene = scene_file::parse("a.toml", wall, Path::new("")).unwrap().scene;
+    for side in [16_u16, 64, 100] {
+        let camera = Camera::canonical(side.into(), side.into());
+        // Of 256 texels to a unit: a pixel is 1/side of the viewport at distance 1, and three times as wide on the wall.
+        let [width, _] = camera.viewport();
+        let expected = (3.0 * width / camera.distance() * 256.0 / f64::from(side)).log2();
+        for frame in both_levels(&View::new(&scene, &camera), &Options::default()) {
+            assert_eq!(frame.levels().len(), usize::from(side).pow(2));
+            for level in frame.levels() {
+                let apart = f64::from(*level) - expected;
+                assert!(apart.abs() < 1e-4, "{side}: {level} {expected}");
+            }
+        }
+    }
+}
+
+/// On a floor, a row at `k` rows and a half below the horizon has the level of `1/k²`; the difference of a pair of rows has
+/// that of `1/(k(k + 1))`, for both of its rows.
+#[test]
+fn on_a_floor_object_order_finds_levels_in_pairs() {
+    let floor = "[[object]]\nplane = { point = [0, -1, 0], normal = [0, 1, 0] }\nmaterial = 'm'\n\
+                 [material.m]\nchecker = { color = '#000000', divisions = [1, 1] }\n";
+    let scene = scene_file::parse("a.toml", floor, Path::new("")).unwrap().scene;
+    let camera = Camera::canonical(64, 64);
+    let [by_object, by_image] = both_levels(&View::new(&scene, &camera), &Options::default());
+    let (grid, texels) = (camera.sample_grid(1), 256.0);
+    // The floor is seen at a depth of d/−y; its texture goes up with the depth.
+    let depth = |row: usize| camera.distance() / -grid.y()[row];
+    let step = grid.y()[0] - grid.y()[1];
+    let mut pairs = 0;
+    for row in (32..64).step_by(2) {
+        let at = |frame: &Frame, row: usize| f64::from(frame.levels()[row * 64 + 31]);
+        let expected = (texels * (depth(row) - depth(row + 1))).log2();
+        for row in [row, row + 1] {
+            let derivative = (texels * step * depth(row) / -grid.y()[row]).log2();
+            assert!((at(&by_object, row) - expected).abs() < 1e-3, "{row}");
+            assert!((at(&by_image, row) - derivative).abs() < 1e-3, "{row}");
+        }
+        pairs += usize::from((at(&by_object, row) - at(&by_image, row)).abs() > 0.05);
+    }
+    assert!(pairs > 4, "{pairs}");
 }

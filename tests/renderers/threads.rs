@@ -39,10 +39,11 @@ fn threads_never_change_a_bit() {
 }
 
 /// Pictures are wider than what is shaded at once. The scenes have triangles, smooth and flat ones, spheres, planes,
-/// patterns and all sorts of light.
+/// patterns, a texture with mipmaps and all sorts of light.
 #[test]
 fn no_level_of_simd_changes_a_bit_of_what_is_shaded() {
-    for (name, samples) in [("lecture", 1), ("overlap", 1), ("inside", 2)] {
+    let textured = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/horizon/horizon.toml");
+    for (name, samples) in [("lecture", 1), ("overlap", 1), ("inside", 2), (textured, 1)] {
         let loaded = scenes::load(name).unwrap();
         for projection in PROJECTIONS {
             let mut description = loaded.camera;
@@ -53,6 +54,7 @@ fn no_level_of_simd_changes_a_bit_of_what_is_shaded() {
             let options = Options { samples, ..Options::default() };
             let empty = Frame::new(&camera, &options);
             let empty = empty.with_colors().with_normals().with_texture_coordinates();
+            let empty = empty.with_levels();
             let (mut object, mut image) = (empty.clone(), empty);
             let prepared = rasterize::fast::prepare(&loaded.scene);
             rasterize::fast::determine_visibility(&prepared, &view, &options, &mut object, &mut ());

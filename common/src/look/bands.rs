@@ -7,10 +7,11 @@
 
 mod desk;
 mod surfaces;
+mod tint;
 
 use crate::camera::SampleGrid;
 use crate::engine::simd::{Level, Simd, SimdBase, dispatch, f32x16, f64x8};
-use crate::frame::{Frame, NO_PRIMITIVE, ShadingBand};
+use crate::frame::{Frame, NO_LEVEL, NO_PRIMITIVE, ShadingBand};
 use crate::look::color::{srgb_from_linear, srgb_of_sixteen};
 use crate::look::lanes::{Vec3x16, each};
 use crate::look::shade::{Finish, Lighting, SurfacePoints};
@@ -37,6 +38,7 @@ pub fn shade(view: &View, frame: &mut Frame, surfaces: &impl Surfaces, level: Le
     let wanted = Wanted {
         positions: lighting.needs_positions(),
         texture_coordinates: !frame.texture_coordinates().is_empty(),
+        steps: !frame.levels().is_empty(),
     };
     let samples = frame.samples() as usize;
     let setting = Setting { view, surfaces, wanted };
@@ -52,6 +54,24 @@ pub fn shade(view: &View, frame: &mut Frame, surfaces: &impl Surfaces, level: Le
         || Desk::new(sums),
         |desk, mut band| dispatch!(level, simd => look.shade_band(simd, desk, &mut band)),
     );
+}
+
+/// What a frame keeps of the textures of some samples.
+struct KeptTexture<'a> {
+    coordinates: Option<&'a mut [Vec2]>,
+    levels: Option<&'a mut [f32]>,
+}
+
+impl KeptTexture<'_> {
+    /// At these samples there is no texture.
+    fn fill_nothing(&mut self, samples: Range<usize>) {
+        if let Some(kept) = &mut self.coordinates {
+            kept[samples.clone()].fill(Vec2::ZERO);
+        }
+        if let Some(kept) = &mut self.levels {
+            kept[samples].fill(NO_LEVEL);
+        }
+    }
 }
 
 /// What all samples of a picture share.
@@ -105,13 +125,14 @@ impl<'a, A: Surfaces> Look<'a, A> {
         let width = band.region.columns.len();
         let stored = line * width + within.start..line * width + within.end;
         let (ids, first) = (&band.ids[stored.clone()], band.region.columns.start + within.start);
-        let mut kept = band.texture_coordinates.as_mut().map(|kept| &mut kept[stored.clone()]);
+        let mut kept = KeptTexture {
+            coordinates: band.texture_coordinates.as_mut().map(|kept| &mut kept[stored.clone()]),
+            levels: band.levels.as_mut().map(|kept| &mut kept[stored.clone()]),
+        };
         if is_nothing(ids) {
             desk.runs.clear();
             desk.runs.push(Run { end: ids.len(), place: None });
-            if let Some(kept) = &mut kept {
-                kept.fill(Vec2::ZERO);
-            }
+            kept.fill_nothing(0..ids.len());
         } else {
             desk.find_runs(simd, &self.setting, ids);
             desk.chunk.x[..ids.len()].copy_from_slice(&self.grid.x()[first..first + ids.len()]);
@@ -120,7 +141,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
                     *wide = f64::from(*t);
                 }
             }
-            self.find_points(simd, desk, Sample { row, column: first }, kept);
+            self.find_points(simd, desk, Sample { row, column: first }, &mut kept);
         }
         let normals = band.normals.as_mut().map(|kept| &mut kept[stored.clone()]);
         self.light(simd, desk, Sample { row, column: first }, normals);
@@ -134,7 +155,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
         simd: S,
         desk: &mut Desk<'a, A::Surface>,
         start: Sample,
-        mut texture_coordinates: Option<&mut [Vec2]>,
+        texture: &mut KeptTexture,
     ) {
         let (kept, chunk, mut begin) = (&desk.kept, &mut *desk.chunk, 0);
         for &Run { end, place } in &desk.runs {
@@ -142,9 +163,9 @@ impl<'a, A: Surfaces> Look<'a, A> {
             begin = end;
             if let Some(place) = place {
                 let kept = &kept[place as usize];
-                self.find_run(simd, chunk, kept, start, run, &mut texture_coordinates);
-            } else if let Some(kept) = &mut texture_coordinates {
-                kept[run].fill(Vec2::ZERO);
+                self.find_run(simd, chunk, kept, start, run, texture);
+            } else {
+                texture.fill_nothing(run);
             }
         }
     }
@@ -155,10 +176,10 @@ impl<'a, A: Surfaces> Look<'a, A> {
         &self,
         simd: S,
         chunk: &mut Chunk,
-        Kept { surface, material }: &Kept<'a, A::Surface>,
+        Kept { surface, material, is_tinted }: &Kept<'a, A::Surface>,
         start: Sample,
         run: Range<usize>,
-        texture_coordinates: &mut Option<&mut [Vec2]>,
+        texture: &mut KeptTexture,
     ) {
         let y = f64x8::splat(simd, self.grid.y()[start.row]);
         for at in run.clone().step_by(16) {
@@ -180,9 +201,16 @@ impl<'a, A: Surfaces> Look<'a, A> {
                 is_short: run.end - at <= 8,
             };
             // What is written beyond the run is overwritten by the next one.
-            let mut points = Points { chunk: &mut *chunk, at, has_texture: false };
+            let mut points = Points {
+                chunk: &mut *chunk,
+                at,
+                has_texture: false,
+                has_colors: false,
+                has_steps: false,
+            };
             self.setting.surfaces.at(simd, surface, &samples, &mut points);
-            let has_texture = points.has_texture;
+            let (has_texture, has_colors) = (points.has_texture, points.has_colors);
+            let has_steps = points.has_steps;
             if let Some(checker) = &material.checker {
                 let fraction = if has_texture {
                     checker.fraction(simd, &points.texture(simd))
@@ -190,8 +218,16 @@ impl<'a, A: Surfaces> Look<'a, A> {
                     f32x16::splat(simd, 0.0)
                 };
                 fraction.store_slice(&mut chunk.fraction[at..at + 16]);
+            } else if *is_tinted {
+                let samples = at..run.end.min(at + 16);
+                tint::fill(chunk, samples, material, [has_texture, has_colors, has_steps]);
             }
-            if let Some(kept) = texture_coordinates {
+            if let Some(kept) = &mut texture.levels {
+                let here = &mut kept[at..run.end.min(at + 16)];
+                let texture = material.texture.as_ref().filter(|_| has_steps);
+                tint::store_levels(&chunk.steps, texture, has_steps, here);
+            }
+            if let Some(kept) = &mut texture.coordinates {
                 let here = &mut kept[at..run.end.min(at + 16)];
                 if has_texture {
                     let [across, up] = &chunk.coordinate;
@@ -221,10 +257,11 @@ impl<'a, A: Surfaces> Look<'a, A> {
             u32::from_le_bytes([red, green, blue, 0])
         };
         let (chunk, mut begin) = (&mut *desk.chunk, 0);
-        let material_of = |run: &Run| run.place.map(|place| desk.kept[place as usize].material);
+        let kept_of = |run: &Run| run.place.map(|place| &desk.kept[place as usize]);
+        let material_of = |run: &Run| kept_of(run).map(|kept| kept.material);
         for runs in desk.runs.chunk_by(|a, b| same_material(material_of(a), material_of(b))) {
-            let (end, material) = (runs[runs.len() - 1].end, material_of(&runs[0]));
-            let Some(material) = material else {
+            let (end, kept) = (runs[runs.len() - 1].end, kept_of(&runs[0]));
+            let Some(Kept { material, is_tinted, .. }) = kept else {
                 for (to, channel) in chunk.color.iter_mut().zip(background.to_array()) {
                     to[begin..end].fill(channel);
                 }
@@ -235,7 +272,8 @@ impl<'a, A: Surfaces> Look<'a, A> {
                 begin = end;
                 continue;
             };
-            let finish = Finish::new(material);
+            // All that is made of one material belongs to one object: all of it has tints, or nothing.
+            let finish = Finish::new(material, *is_tinted);
             for at in (begin..end).step_by(16) {
                 let first = Sample { column: start.column + at, ..start };
                 let x = sixteen(simd, &self.across, first.column);
@@ -247,6 +285,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
                     normals: normal,
                     to_viewer: to_viewer.normalized(simd),
                     fraction: sixteen(simd, &chunk.fraction, at),
+                    tint: each!(k in [0, 1, 2] => sixteen(simd, &chunk.tint[k], at)),
                 };
                 let colors = self.lighting.colors(simd, &points, &finish);
                 let [red, green, blue] = &mut chunk.color;

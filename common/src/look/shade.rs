@@ -20,20 +20,24 @@ pub struct SurfacePoints<S: Simd> {
     pub to_viewer: Vec3x16<S>,
     /// The fraction of the material's pattern that has the second colour.
     pub fraction: f32x16<S>,
+    /// What textures and colours of vertices leave of the material's colour, where [`Finish`] says that there are any.
+    pub tint: [f32x16<S>; 3],
 }
 
 /// A material, prepared for all its samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Finish<'a> {
     material: &'a Material,
+    /// Whether each sample has a tint.
+    is_tinted: bool,
     /// That of the square of a cosine.
     exponent: Exponent,
 }
 
 impl Finish<'_> {
-    /// The look of this material.
-    pub fn new(material: &Material) -> Finish<'_> {
-        Finish { material, exponent: Exponent::new(0.5 * material.shininess) }
+    /// The look of this material, whose surface has a tint at each sample or not.
+    pub fn new(material: &Material, is_tinted: bool) -> Finish<'_> {
+        Finish { material, is_tinted, exponent: Exponent::new(0.5 * material.shininess) }
     }
 }
 
@@ -128,7 +132,7 @@ impl Lighting {
             }
         }
         let highlights = highlights * splat(material.specular);
-        let colors = reflectance(simd, material, points.fraction);
+        let colors = reflectance(simd, finish, points);
         each!(k in [0, 1, 2] => colors[k] * diffuse + highlights)
     }
 }
@@ -155,15 +159,18 @@ fn highlight<S: Simd>(
     Some(is_some.select(power(simd, square, exponent), zero))
 }
 
-/// The material's colour where so much of its pattern has the second colour.
+/// The material's colour, and what is drawn over it.
 #[inline(always)]
-fn reflectance<S: Simd>(simd: S, material: &Material, fraction: f32x16<S>) -> [f32x16<S>; 3] {
-    let own = material.color.to_array();
-    match &material.checker {
+fn reflectance<S: Simd>(simd: S, finish: &Finish, points: &SurfacePoints<S>) -> [f32x16<S>; 3] {
+    let own = finish.material.color.to_array();
+    match &finish.material.checker {
+        None if finish.is_tinted => {
+            each!(k in [0, 1, 2] => f32x16::splat(simd, own[k]) * points.tint[k])
+        }
         None => each!(k in [0, 1, 2] => f32x16::splat(simd, own[k])),
         Some(checker) => each!(k in [0, 1, 2] => {
             let step = f32x16::splat(simd, checker.color[k] - own[k]);
-            f32x16::splat(simd, own[k]) + step * fraction
+            f32x16::splat(simd, own[k]) + step * points.fraction
         }),
     }
 }
@@ -190,8 +197,9 @@ mod tests {
                     normals: towards,
                     to_viewer: towards,
                     fraction: zero,
+                    tint: [zero; 3],
                 };
-                lighting.colors(simd, &points, &Finish::new(material)).map(|channel| channel[3])
+                lighting.colors(simd, &points, &Finish::new(material, false)).map(|channel| channel[3])
             })
         };
         levels().into_iter().map(of_level).collect()
@@ -221,7 +229,7 @@ mod tests {
     #[test]
     fn a_highlight_is_the_cosine_halfway_to_the_power_of_the_shininess() {
         let material =
-            Material { color: Vec3::ZERO, specular: 0.5, shininess: 20.0, checker: None };
+            Material { color: Vec3::ZERO, specular: 0.5, shininess: 20.0, ..Material::default() };
         for degrees in [0.0_f32, 10.0, 45.0, 80.0] {
             let (sine, cosine) = degrees.to_radians().sin_cos();
             let direction = Vec3::new(sine, 0.0, -cosine);

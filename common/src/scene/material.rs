@@ -1,11 +1,12 @@
 //! What surfaces are made of, and where light comes from.
 
+use super::texture::Texture;
 use glam::Vec3;
 
 /// How a surface reflects light.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Material {
-    /// Diffuse reflectance, linear red, green and blue in 0 … 1.
+    /// Diffuse reflectance, linear red, green and blue in 0 … 1. Textures and colours of vertices are multiplied by it.
     pub color: Vec3,
     /// Strength of the highlight, 0 … 1.
     pub specular: f32,
@@ -13,12 +14,27 @@ pub struct Material {
     pub shininess: f32,
     /// A second colour over the texture coordinates.
     pub checker: Option<Checker>,
+    /// A picture over the texture coordinates; then there is no checker.
+    pub texture: Option<Texture>,
+}
+
+impl Material {
+    /// Whether anything is drawn over the texture coordinates.
+    pub fn has_pattern(&self) -> bool {
+        self.checker.is_some() || self.texture.is_some()
+    }
 }
 
 impl Default for Material {
     /// Matt light grey.
     fn default() -> Self {
-        Material { color: Vec3::splat(0.6), specular: 0.0, shininess: 32.0, checker: None }
+        Material {
+            color: Vec3::splat(0.6),
+            specular: 0.0,
+            shininess: 32.0,
+            checker: None,
+            texture: None,
+        }
     }
 }
 

@@ -19,6 +19,8 @@ pub struct Mesh {
     triangles: Vec<[u32; 3]>,
     normals: Attribute<Vec3>,
     texture_coordinates: Attribute<Vec2>,
+    /// For each vertex, or none at all.
+    colors: Vec<Vec3>,
     /// Few meshes have materials, hence the box.
     materials: Option<Box<MeshMaterials>>,
 }
@@ -68,6 +70,14 @@ pub enum MeshError {
         index: u32,
         /// How many exist.
         count: usize,
+    },
+    /// There is not one colour for each vertex.
+    #[error("there are {colors} colours for {vertices} vertices")]
+    ColorCount {
+        /// How many colours there are.
+        colors: usize,
+        /// How many vertices there are.
+        vertices: usize,
     },
     /// An attribute does not have one entry for each triangle.
     #[error("there are {corners} triangles of {what} for {triangles} triangles")]
@@ -128,6 +138,21 @@ impl Mesh {
         Ok(self)
     }
 
+    /// The same mesh with a colour at each vertex, linear red, green and blue in 0 … 1, by which materials are multiplied;
+    /// none at all takes them away.
+    ///
+    /// # Errors
+    ///
+    /// Not one colour for each vertex.
+    pub fn with_colors(mut self, colors: Vec<Vec3>) -> Result<Mesh, MeshError> {
+        let vertices = self.positions.len();
+        if !colors.is_empty() && colors.len() != vertices {
+            return Err(MeshError::ColorCount { colors: colors.len(), vertices });
+        }
+        self.colors = colors;
+        Ok(self)
+    }
+
     /// The same mesh, its triangles made of these; [`MeshMaterials::default`] takes them away.
     pub fn with_materials(self, materials: MeshMaterials) -> Mesh {
         let materials = (!materials.is_empty()).then(|| Box::new(materials));
@@ -157,8 +182,9 @@ impl Mesh {
         for normal in &mut self.normals.values {
             *normal = turn(*normal);
         }
-        let Mesh { positions, triangles, normals, texture_coordinates, materials } = self;
-        Ok(Mesh { normals, texture_coordinates, materials, ..Mesh::new(positions, triangles)? })
+        let Mesh { positions, triangles, normals, texture_coordinates, colors, materials } = self;
+        let moved = Mesh::new(positions, triangles)?;
+        Ok(Mesh { normals, texture_coordinates, colors, materials, ..moved })
     }
 
     /// The same triangles with their corners in the opposite order: those seen counter-clockwise are then seen
@@ -189,6 +215,25 @@ impl Mesh {
     /// Texture coordinates at the corners.
     pub fn texture_coordinates(&self) -> &Attribute<Vec2> {
         &self.texture_coordinates
+    }
+
+    /// The colours of the vertices, linear red, green and blue; empty if they have none.
+    pub fn colors(&self) -> &[Vec3] {
+        &self.colors
+    }
+
+    /// What its triangles without a material of their own are made of, unless their object says so: white, for their colours
+    /// to be seen, or the default.
+    pub fn own_material(&self) -> Material {
+        match self.colors[..] {
+            [] => Material::default(),
+            _ => Material { color: Vec3::ONE, ..Material::default() },
+        }
+    }
+
+    /// Whether it says what it looks like: by colours or by materials.
+    pub fn has_look(&self) -> bool {
+        self.materials.is_some() || !self.colors.is_empty()
     }
 
     /// The materials of the triangles, if the mesh names any.

@@ -17,6 +17,8 @@ pub(super) enum Role {
     Positions,
     Normals,
     TextureCoordinates,
+    /// Of three components; a fourth, the opacity, is not read.
+    Colors,
     Indices,
 }
 
@@ -25,8 +27,14 @@ impl Role {
         match self {
             Role::Positions | Role::Normals => (Type::Vec3, "VEC3"),
             Role::TextureCoordinates => (Type::Vec2, "VEC2"),
+            Role::Colors => (Type::Vec3, "VEC3 or VEC4"),
             Role::Indices => (Type::Scalar, "SCALAR"),
         }
+    }
+
+    /// How many components of an element are read.
+    fn read(self) -> usize {
+        self.kind().0.multiplicity()
     }
 
     /// Whether components of this type are allowed, and what is.
@@ -42,7 +50,7 @@ impl Role {
                 matches!(component, U8 | U16 | U32) && !is_normalized,
                 "unsigned bytes, shorts or ints that are not normalized",
             ),
-            (Role::TextureCoordinates, false) => (
+            (Role::TextureCoordinates, false) | (Role::Colors, _) => (
                 component == F32 || matches!(component, U8 | U16) && is_normalized,
                 "floats, or normalized unsigned bytes or shorts",
             ),
@@ -92,12 +100,12 @@ impl<'a> Elements<'a> {
             "" => located(fault),
             view => (format!("accessor {number}, {view}"), fault),
         };
-        let component = component_of(root, accessor, role).map_err(located)?;
+        let (component, kind) = component_of(root, accessor, role).map_err(located)?;
         let count = accessor.count.0;
         if count == 0 {
             return Err(located(GltfFault::NoElements));
         }
-        let layout = Layout { role, component, count };
+        let layout = Layout { role, kind, component, count };
         let base = match accessor.buffer_view {
             Some(view) => {
                 let view = buffers.view(root, view).map_err(place)?;
@@ -164,7 +172,7 @@ impl<'a> Elements<'a> {
         if self.component != ComponentType::F32 {
             return Ok(());
         }
-        let numbers = if role == Role::TextureCoordinates { 2 } else { 3 };
+        let numbers = role.read();
         let replaced = self.replacements.iter().map(|values| (values, self.replaced.len()));
         for (values, count) in self.base.iter().map(|base| (base, self.count)).chain(replaced) {
             let is_finite =
@@ -198,8 +206,12 @@ impl<'a> Elements<'a> {
     }
 }
 
-/// The type of an accessor's components, if the role allows it.
-fn component_of(root: &Root, accessor: &Accessor, role: Role) -> Result<ComponentType, GltfFault> {
+/// The types of an accessor's components and of its elements, if the role allows them.
+fn component_of(
+    root: &Root,
+    accessor: &Accessor,
+    role: Role,
+) -> Result<(ComponentType, Type), GltfFault> {
     let Checked::Valid(GenericComponentType(component)) = accessor.component_type else {
         return Err(GltfFault::Invalid { what: "its componentType" });
     };
@@ -207,14 +219,14 @@ fn component_of(root: &Root, accessor: &Accessor, role: Role) -> Result<Componen
         return Err(GltfFault::Invalid { what: "its type" });
     };
     let (expected, name) = role.kind();
-    if kind != expected {
+    if kind != expected && (role, kind) != (Role::Colors, Type::Vec4) {
         let found = format!("{kind:?}").to_uppercase();
         return Err(GltfFault::Type { what: "type", expected: name, found });
     }
     let quantized = root.extensions_used.iter().any(|name| name == QUANTIZATION);
     let (is_allowed, expected) = role.allows(component, accessor.normalized, quantized);
     if is_allowed {
-        return Ok(component);
+        return Ok((component, kind));
     }
     let normalized = if accessor.normalized { ", normalized" } else { "" };
     let found = format!("{}{normalized}", name_of(component));
@@ -236,13 +248,14 @@ fn name_of(component: ComponentType) -> &'static str {
 #[derive(Clone, Copy)]
 struct Layout {
     role: Role,
+    kind: Type,
     component: ComponentType,
     count: u64,
 }
 
 impl Layout {
     fn element_size(self) -> usize {
-        self.component.size() * self.role.kind().0.multiplicity()
+        self.component.size() * self.kind.multiplicity()
     }
 
     /// The elements from a byte of a view on.

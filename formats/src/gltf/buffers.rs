@@ -2,6 +2,7 @@
 
 use super::error::GltfFault;
 use super::{Located, item};
+use crate::source::folder::{PathFault, within};
 use crate::source::regular_file;
 use ::gltf::json::{Buffer, Index, Root, buffer};
 use base64::Engine;
@@ -9,7 +10,7 @@ use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::io::{self, Read};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 /// Where files may be that a file names.
@@ -32,6 +33,15 @@ pub(super) struct Buffers<'a> {
 enum Data<'a> {
     Own(Cow<'a, [u8]>),
     File(usize),
+}
+
+/// Where the bytes of an image are.
+pub(super) enum Image {
+    Own(Vec<u8>),
+    /// In a file of this name.
+    File(String),
+    /// In a file that is not read.
+    Elsewhere,
 }
 
 /// Part of a buffer.
@@ -63,6 +73,15 @@ impl<'a> Buffers<'a> {
             buffers.check_length(buffer, index).map_err(located)?;
         }
         Ok(buffers)
+    }
+
+    /// The content of an image's URI: its own, or a picture in the folder.
+    pub(super) fn image(uri: &str, folder: Folder) -> Result<Image, GltfFault> {
+        if let Some(data) = strip_scheme(uri, "data:") {
+            return Ok(Image::Own(decoded(data)?));
+        }
+        let name = percent_decoded(uri).filter(|_| matches!(folder, Folder::Of(_)));
+        Ok(name.map_or(Image::Elsewhere, Image::File))
     }
 
     fn of_uri(
@@ -159,31 +178,10 @@ fn path_of(uri: &str, folder: Folder) -> Result<PathBuf, GltfFault> {
         return Err(refused("no other file is read here; pack it into a .glb file"));
     };
     let name = percent_decoded(uri).ok_or_else(|| refused("it is no path"))?;
-    let begins_with_scheme =
-        name.split(['/', '\\']).next().is_some_and(|first| first.contains(':'));
-    if begins_with_scheme || name.starts_with(['/', '\\']) || name.is_empty() {
-        return Err(refused(outside));
-    }
-    let folder = match file.parent() {
-        Some(parent) if parent != Path::new("") => parent,
-        _ => Path::new("."),
-    };
-    let unreadable = |error: io::Error| GltfFault::BufferFile { name: uri.to_owned(), error };
-    // A path that leads out is refused whether the file exists or not.
-    let mut depth = 0_i64;
-    for part in name.split(['/', '\\']) {
-        depth += match part {
-            ".." => -1,
-            "" | "." => 0,
-            _ => 1,
-        };
-        if depth < 0 {
-            return Err(refused(outside));
-        }
-    }
-    let folder = folder.canonicalize().map_err(unreadable)?;
-    let path = folder.join(name).canonicalize().map_err(unreadable)?;
-    if path.starts_with(&folder) { Ok(path) } else { Err(refused(outside)) }
+    within(file.parent().unwrap_or(Path::new("")), &name).map_err(|fault| match fault {
+        PathFault::Outside => refused(outside),
+        PathFault::Unreadable(error) => GltfFault::BufferFile { name: uri.to_owned(), error },
+    })
 }
 
 /// The text that a URI stands for; `None` if it is none.

@@ -1,5 +1,6 @@
 //! Errors about glTF files: each names the file, the object of the file, and the fault.
 
+use crate::picture::ReadTextureError;
 use crate::source::Unreadable;
 use crate::source::quote::quoted;
 use std::io;
@@ -114,6 +115,10 @@ pub enum GltfFault {
     NoPositions,
     #[error("its attribute {attribute} has {count} elements for {positions} vertices")]
     AttributeCount { attribute: &'static str, count: u64, positions: u64 },
+    #[error("image {image}: {error}")]
+    Picture { image: usize, error: ReadTextureError },
+    #[error("image {image} has neither a uri nor a view")]
+    NoImage { image: usize },
     #[error("its base colour has a component that is not from 0 to 1")]
     Color,
     #[error("its {what} is {value}; it must be {range}")]

@@ -1,11 +1,12 @@
 //! All triangles of a scene as one mesh: the primitives of each node's mesh, where the node puts them.
 
 use super::accessor::{Elements, Role};
-use super::buffers::Buffers;
+use super::buffers::{Buffers, Folder};
 use super::error::GltfFault;
 use super::nodes::Placed;
+use super::texture::Textures;
 use super::{Located, item};
-use crate::attributes::{self, NONE};
+use crate::attributes::{self, NONE, push_color};
 use crate::warning::MaterialWarning;
 use ::gltf::json::mesh::{Mode, Primitive, Semantic};
 use ::gltf::json::validation::Checked;
@@ -22,9 +23,10 @@ pub(super) fn mesh(
     file: &str,
     root: &Root,
     buffers: &Buffers,
+    folder: Folder,
     placed: &[Placed],
 ) -> Result<(Mesh, Vec<MaterialWarning>), Located> {
-    let mut builder = Builder::new(root);
+    let mut builder = Builder::new(root, Textures::new(root, buffers, folder));
     for place in placed {
         let Some(index) = place.node.mesh else { continue };
         let (number, mesh) =
@@ -43,7 +45,7 @@ pub(super) fn mesh(
     if builder.triangles.is_empty() {
         return Err((String::new(), GltfFault::NoTriangles));
     }
-    builder.finish(file)
+    Ok(builder.finish(file))
 }
 
 /// A primitive in the coordinates of its node.
@@ -51,6 +53,7 @@ struct Part<'a> {
     positions: Vec<[f32; 3]>,
     normals: Option<Vec<[f32; 3]>>,
     texture_coordinates: Option<Vec<[f32; 2]>>,
+    colors: Option<Vec<[f32; 3]>>,
     triangles: Vec<[u32; 3]>,
     primitive: &'a Primitive,
 }
@@ -84,8 +87,11 @@ fn part<'a>(
     };
     let normals = attribute(Semantic::Normals, Role::Normals)?;
     same_count("NORMAL", &normals)?;
-    let texture_coordinates = attribute(Semantic::TexCoords(0), Role::TextureCoordinates)?;
-    same_count("TEXCOORD_0", &texture_coordinates)?;
+    let set = Semantic::TexCoords(coordinates_of_texture(root, primitive));
+    let texture_coordinates = attribute(set, Role::TextureCoordinates)?;
+    same_count("TEXCOORD", &texture_coordinates)?;
+    let colors = attribute(Semantic::Colors(0), Role::Colors)?;
+    same_count("COLOR_0", &colors)?;
     let triangles = match primitive.indices {
         Some(index) => {
             let indices = Elements::new(root, buffers, index, Role::Indices)?.indices();
@@ -106,9 +112,17 @@ fn part<'a>(
         positions: positions.vectors(),
         normals: normals.map(|normals| normals.vectors()),
         texture_coordinates: texture_coordinates.map(|values| values.vectors()),
+        colors: colors.map(|values| values.vectors()),
         triangles: triangles.map_err(own)?,
         primitive,
     }))
+}
+
+/// Which of a primitive's texture coordinates the texture of its base colour uses; the first if it has none.
+fn coordinates_of_texture(root: &Root, primitive: &Primitive) -> u32 {
+    let material = primitive.material.and_then(|index| root.materials.get(index.value()));
+    let texture = material.and_then(|m| m.pbr_metallic_roughness.base_color_texture.as_ref());
+    texture.map_or(0, |texture| texture.tex_coord)
 }
 
 /// The triangles of so many corners, as the specification orders them in 3.7.2.1.
@@ -145,25 +159,25 @@ struct Builder<'a> {
     triangles: Vec<[u32; 3]>,
     normals: Attribute<Vec3>,
     texture_coordinates: Attribute<Vec2>,
+    colors: Vec<Vec3>,
     materials: MeshMaterials,
     /// The name of each material of the file.
     names: Vec<String>,
-    has_textures: bool,
-    has_colors: bool,
+    textures: Textures<'a>,
 }
 
 impl<'a> Builder<'a> {
-    fn new(root: &'a Root) -> Self {
+    fn new(root: &'a Root, textures: Textures<'a>) -> Self {
         Builder {
             root,
             positions: Vec::new(),
             triangles: Vec::new(),
             normals: Attribute::default(),
             texture_coordinates: Attribute::default(),
+            colors: Vec::new(),
             materials: MeshMaterials::default(),
             names: names(root),
-            has_textures: false,
-            has_colors: false,
+            textures,
         }
     }
 
@@ -185,6 +199,10 @@ impl<'a> Builder<'a> {
                 return Err(GltfFault::OutOfRange { vertex });
             }
             self.positions.push(position);
+        }
+        for (vertex, color) in part.colors.into_iter().flatten().enumerate() {
+            let color = Vec3::from_array(color).clamp(Vec3::ZERO, Vec3::ONE);
+            push_color(&mut self.colors, first + vertex, color);
         }
         let [first, triangles] = [first, self.triangles.len()]
             .map(|count| u32::try_from(count).expect("there are fewer than MOST"));
@@ -212,33 +230,30 @@ impl<'a> Builder<'a> {
 
     /// Uses the material of a primitive from the next triangle on.
     fn use_material(&mut self, primitive: &Primitive) -> Result<(), GltfFault> {
-        self.has_colors |= primitive.attributes.contains_key(&Checked::Valid(Semantic::Colors(0)));
         let first = self.triangles.len();
         let Some(index) = primitive.material else {
             self.materials.use_from(first, None);
             return Ok(());
         };
         let (number, material) = item(&self.root.materials, index, "material")?;
-        self.has_textures |= material.pbr_metallic_roughness.base_color_texture.is_some();
         let name = &self.names[number];
         self.materials.use_from(first, Some(name));
-        self.materials.define(name, material_of(material)?);
+        let texture = material.pbr_metallic_roughness.base_color_texture.as_ref();
+        let texture = texture.map_or(Ok(None), |info| self.textures.of(info))?;
+        self.materials.define(name, Material { texture, ..material_of(material)? });
         Ok(())
     }
 
-    fn finish(self, file: &str) -> Result<(Mesh, Vec<MaterialWarning>), Located> {
+    fn finish(self, file: &str) -> (Mesh, Vec<MaterialWarning>) {
         let mesh = attributes::mesh(
             self.positions,
             self.triangles,
             self.normals,
             self.texture_coordinates,
+            self.colors,
             self.materials,
         );
-        let file = || file.to_owned();
-        let mut warnings = Vec::new();
-        warnings.extend(self.has_textures.then(|| MaterialWarning::Textures { file: file() }));
-        warnings.extend(self.has_colors.then(|| MaterialWarning::Colors { file: file() }));
-        Ok((mesh, warnings))
+        (mesh, self.textures.warnings(file))
     }
 }
 

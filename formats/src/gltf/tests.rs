@@ -132,7 +132,7 @@ fn strips_and_fans_become_triangles_in_the_order_of_the_specification() {
 }
 
 #[test]
-fn materials_have_their_base_colour_and_textures_are_missed() {
+fn materials_have_their_base_colour() {
     let with = |material: &str| {
         square(&[
             ("\"indices\": 3", "\"indices\": 3, \"material\": 0"),
@@ -144,14 +144,54 @@ fn materials_have_their_base_colour_and_textures_are_missed() {
     assert_eq!(material.color, Vec3::new(1.0, 0.25, 0.0));
     assert_eq!(model.mesh.materials().unwrap().named()[0].name, "red");
     assert_eq!(with("").mesh.materials().unwrap().named()[0].name, "#0");
-    let texture = ("[1, 0.25, 0, 1]", "[1, 0.25, 0, 1], \"baseColorTexture\": { \"index\": 0 }");
-    let color = ("\"NORMAL\": 1,", "\"NORMAL\": 1, \"COLOR_0\": 1,");
-    let model = square(&[("\"indices\": 3", "\"indices\": 3, \"material\": 0"), texture, color]);
-    let warnings: Vec<String> = model.warnings.iter().map(ToString::to_string).collect();
-    let says = "a: its textures are not read; what has one is drawn in its base colour";
-    assert_eq!((warnings.len(), warnings[0].as_str()), (2, says));
     let says = fault(&[("\"indices\": 3", "\"indices\": 3, \"material\": 0"), ("0.25", "2.5")]);
     assert_eq!(says, "node 0: its base colour has a component that is not from 0 to 1");
+}
+
+/// The square with a texture of an image that is stated so.
+fn image(image: &str) -> [(&'static str, String); 3] {
+    let texture = "[1, 0.25, 0, 1], \"baseColorTexture\": { \"index\": 0 }";
+    let list =
+        format!("\"textures\": [{{ \"source\": 0 }}], \"images\": [{image}], \"cameras\": [");
+    [
+        ("\"indices\": 3", "\"indices\": 3, \"material\": 0".to_owned()),
+        ("[1, 0.25, 0, 1]", texture.to_owned()),
+        ("\"cameras\": [", list),
+    ]
+}
+
+#[test]
+fn images_that_are_wrong_say_why() {
+    let fault_of = |stated: &str| {
+        let changes = image(stated);
+        fault(&changes.each_ref().map(|(from, to)| (*from, to.as_str())))
+    };
+    for (stated, says) in [
+        ("{}", "node 0: image 0 has neither a uri nor a view"),
+        (
+            "{ \"bufferView\": 99 }",
+            "node 0: it names view 99, counted from 0, but there are only 4",
+        ),
+        (
+            "{ \"bufferView\": 0 }",
+            "node 0: image 0: its data is no picture (PNG, JPEG, BMP or PNM); save it as one of these",
+        ),
+        (
+            "{ \"uri\": \"data:image/png;base64,AAAA\" }",
+            "node 0: image 0: its data is no picture (PNG, JPEG, BMP or PNM); save it as one of these",
+        ),
+        (
+            "{ \"uri\": \"data:image/png,AAAA\" }",
+            "node 0: the URI \"data:image/png,AAAA\" cannot be read; data must be in base64",
+        ),
+    ] {
+        assert_eq!(fault_of(stated), says, "{stated}");
+    }
+    let changes = image("{ \"uri\": \"../a.png\" }");
+    let model = square(&changes.each_ref().map(|(from, to)| (*from, to.as_str())));
+    let says = "a: there is no picture \"../a.png\" in its folder; what has it as its texture is drawn without";
+    assert_eq!(model.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(), [says]);
+    assert_eq!(model.mesh.materials().unwrap().of(0).unwrap().texture, None);
 }
 
 #[test]

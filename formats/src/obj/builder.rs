@@ -1,7 +1,7 @@
 //! The mesh that an OBJ file describes, built while the file is parsed: in one go, or in pieces.
 
 use super::visitor::{Corner, Visitor};
-use crate::attributes::{self, NONE};
+use crate::attributes::{self, NONE, linear_colors, push_color};
 use bothways_common::scene::{Attribute, Mesh, MeshMaterials};
 use glam::{Vec2, Vec3};
 
@@ -29,11 +29,17 @@ struct Geometry {
     triangles: Vec<[u32; 3]>,
     texture_coordinates: Attribute<Vec2>,
     normals: Attribute<Vec3>,
+    /// As they are written, up to the last vertex that has one.
+    colors: Vec<Vec3>,
 }
 
 impl Visitor for MeshBuilder {
     fn position(&mut self, position: Vec3) {
         self.geometry.positions.push(position);
+    }
+
+    fn color(&mut self, color: Vec3) {
+        self.geometry.color(color);
     }
 
     fn texture_coordinate(&mut self, value: Vec2) {
@@ -61,6 +67,10 @@ impl Visitor for MeshBuilder {
 impl Visitor for Piece {
     fn position(&mut self, position: Vec3) {
         self.geometry.positions.push(position);
+    }
+
+    fn color(&mut self, color: Vec3) {
+        self.geometry.color(color);
     }
 
     fn texture_coordinate(&mut self, value: Vec2) {
@@ -123,12 +133,17 @@ impl MeshBuilder {
 
     /// The mesh, after the whole file has been parsed and all indices have been checked.
     pub(super) fn finish(self) -> Mesh {
-        let Geometry { positions, triangles, texture_coordinates, normals } = self.geometry;
-        attributes::mesh(positions, triangles, normals, texture_coordinates, self.materials)
+        let Geometry { positions, triangles, texture_coordinates, normals, colors } = self.geometry;
+        let colors = linear_colors(colors);
+        attributes::mesh(positions, triangles, normals, texture_coordinates, colors, self.materials)
     }
 }
 
 impl Geometry {
+    fn color(&mut self, color: Vec3) {
+        push_color(&mut self.colors, self.positions.len() - 1, color);
+    }
+
     fn triangle(&mut self, corners: [Corner; 3]) {
         let triangle = self.triangles.len();
         self.triangles.push(corners.map(|[vertex, _, _]| vertex));
@@ -139,6 +154,10 @@ impl Geometry {
 
     fn append(&mut self, piece: Geometry) {
         let triangles = self.triangles.len();
+        if !piece.colors.is_empty() {
+            self.colors.resize(self.positions.len(), Vec3::ONE);
+            self.colors.extend_from_slice(&piece.colors);
+        }
         self.positions.extend_from_slice(&piece.positions);
         self.triangles.extend_from_slice(&piece.triangles);
         append(&mut self.texture_coordinates, &piece.texture_coordinates, triangles);

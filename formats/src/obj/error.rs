@@ -1,5 +1,6 @@
 //! Errors about OBJ and MTL files: each names the file, the line and the fault.
 
+use crate::picture::ReadTextureError;
 use crate::source::Unreadable;
 use std::fmt;
 use std::io;
@@ -32,6 +33,14 @@ pub enum ReadObjError {
     NoFaces {
         /// The file.
         file: String,
+    },
+    /// A material file names a picture that cannot be read.
+    #[error("{file}: {error}")]
+    Picture {
+        /// The material file.
+        file: String,
+        /// What is wrong with the picture.
+        error: ReadTextureError,
     },
     /// A statement is wrong.
     #[error("{file}:{line}: {fault}")]

@@ -6,8 +6,11 @@
 //! - `Kd r g b` and `Ks r g b` are the diffuse colour and the colour of the highlight, from 0 to 1. One number alone
 //!   is grey.
 //! - `Ns s` is the exponent of the highlight. The format defines it with the half vector, as we do.
+//! - `map_Kd [options] file` is a texture, in the folder of the material file or below it; of its options, `-clamp on` and the first two
+//!   numbers of `-s` count. It is read with mipmaps, and stands in place of `Kd`: the format would multiply the two, but programs
+//!   write any grey beside a picture and show the picture alone. One that is missing is a warning.
 //!
-//! All other statements (ambient colour, transparency, maps, extensions of other programs) are skipped.
+//! All other statements (ambient colour, transparency, other maps, extensions of other programs) are skipped.
 //!
 //! The format does not say whether its colours are linear. `Kd` is read as an sRGB colour: the programs that most of
 //! these files were made with and for wrote these numbers to the screen unchanged. So a surface that faces the light
@@ -19,10 +22,11 @@ use super::error::{ReadObjError, StatementFault};
 use super::file::ObjFile;
 use super::statements::Statements;
 use super::words::{Words, is_text, number};
+use crate::picture::texture::Pictures;
 use crate::source::quote::quote;
 use crate::warning::MaterialWarning;
 use bothways_common::look::color::linear_from_encoded;
-use bothways_common::scene::{Material, Mesh};
+use bothways_common::scene::{Material, Mesh, Sampler, Texture, Wrap};
 use glam::Vec3;
 use std::path::{Path, PathBuf};
 
@@ -32,7 +36,7 @@ use std::path::{Path, PathBuf};
 ///
 /// A material file exists but cannot be read, or is wrong.
 pub(super) fn resolve(mesh: &mut Mesh, path: &Path) -> Result<Vec<MaterialWarning>, ReadObjError> {
-    let mut warnings = Vec::new();
+    let (mut warnings, mut pictures_missing) = (Vec::new(), Vec::new());
     let libraries = match mesh.materials() {
         Some(materials) if !materials.spans().is_empty() => materials.libraries().to_vec(),
         _ => return Ok(warnings),
@@ -45,9 +49,14 @@ pub(super) fn resolve(mesh: &mut Mesh, path: &Path) -> Result<Vec<MaterialWarnin
             continue;
         };
         for path in paths {
-            for (name, material) in read_materials(&path)? {
-                mesh.define_material(&name, material);
+            let mut pictures = Pictures::default();
+            for (name, read) in read_materials(&path)? {
+                if is_used(mesh, &name) {
+                    let material = read.with_picture(&path, &mut pictures)?;
+                    mesh.define_material(&name, material);
+                }
             }
+            pictures_missing.extend(pictures.warning(&path.display().to_string()));
         }
     }
     let named = mesh.materials().map_or(&[][..], |materials| materials.named());
@@ -58,6 +67,7 @@ pub(super) fn resolve(mesh: &mut Mesh, path: &Path) -> Result<Vec<MaterialWarnin
     if !names.is_empty() && warnings.is_empty() {
         warnings.push(MaterialWarning::Undefined { file, names });
     }
+    warnings.append(&mut pictures_missing);
     Ok(warnings)
 }
 
@@ -96,7 +106,7 @@ fn library_files(folder: &Path, library: &str) -> Option<Vec<PathBuf>> {
     library.split_whitespace().map(existing).collect()
 }
 
-/// Reads materials and their names from the bytes of an MTL file, which messages call `name`.
+/// Reads materials and their names from the bytes of an MTL file, which messages call `name`. No picture is read.
 ///
 /// # Errors
 ///
@@ -121,22 +131,92 @@ pub fn parse_materials(name: &str, bytes: &[u8]) -> Result<Vec<(String, Material
             fault,
         })?;
     }
-    Ok(finished(materials))
+    Ok(finished(materials).into_iter().map(|(name, read)| (name, read.material)).collect())
 }
 
 /// Reads materials and their names from an MTL file, one statement at a time.
-fn read_materials(path: &Path) -> Result<Vec<(String, Material)>, ReadObjError> {
+fn read_materials(path: &Path) -> Result<Vec<(String, ReadMaterial)>, ReadObjError> {
     let mut materials = Vec::new();
     ObjFile::open(path)?.statements(|_, words| statement(&mut materials, words))?;
     Ok(finished(materials))
 }
 
+/// A material, and the picture that it names.
+#[derive(Default)]
+struct ReadMaterial {
+    material: Material,
+    map: Option<Map>,
+}
+
+/// A picture as a statement names it, and how it is read.
+struct Map {
+    name: String,
+    sampler: Sampler,
+}
+
+impl ReadMaterial {
+    /// The material with its picture, unless that is missing.
+    fn with_picture(self, path: &Path, pictures: &mut Pictures) -> Result<Material, ReadObjError> {
+        let ReadMaterial { mut material, map } = self;
+        let Some(Map { name, sampler }) = map else { return Ok(material) };
+        // Programs write the separators of their own system.
+        let name = name.replace('\\', "/");
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let wrong = |error| ReadObjError::Picture { file: path.display().to_string(), error };
+        if let Some(pyramid) = pictures.find(folder, &name).map_err(wrong)? {
+            material.texture = Some(Texture { pyramid, sampler });
+            // The picture shows in its own colours.
+            material.color = Vec3::ONE;
+        }
+        Ok(material)
+    }
+}
+
+/// Whether a mesh has triangles of a material that is not defined yet.
+fn is_used(mesh: &Mesh, name: &str) -> bool {
+    let named = mesh.materials().map_or(&[][..], |materials| materials.named());
+    named.iter().any(|named| named.material.is_none() && named.name == name)
+}
+
+/// The picture that a statement names behind its options; `None` if it names none.
+fn map_of(mut words: Words) -> Option<Map> {
+    let mut sampler = Sampler::MIPMAPS;
+    loop {
+        let mut rest = words.clone();
+        let option = rest.next()?;
+        let Some(option) = option.strip_prefix(b"-") else { break };
+        // How many words at most belong to an option; those of some may be fewer.
+        let (most, are_numbers) = match option {
+            b"s" | b"o" | b"t" => (3, true),
+            b"mm" => (2, false),
+            b"blendu" | b"blendv" | b"boost" | b"texres" | b"clamp" | b"bm" | b"imfchan"
+            | b"cc" | b"type" => (1, false),
+            _ => (0, false),
+        };
+        for k in 0..most {
+            let Some(word) = rest.clone().next() else { break };
+            let value = number(word).ok().filter(|_| are_numbers);
+            if are_numbers && value.is_none() {
+                break;
+            }
+            match (option, value) {
+                (b"s", Some(tiles)) if k < 2 && tiles > 0.0 => sampler.tiles[k] = tiles,
+                (b"clamp", _) if word == b"on" => sampler.wrap = [Wrap::Clamp; 2],
+                _ => {}
+            }
+            rest.next();
+        }
+        words = rest;
+    }
+    words.text().map(|name| Map { name, sampler })
+}
+
 /// Removes the highlight of materials with `Ns 0`, at the end of a file.
-fn finished(mut materials: Vec<(String, Material)>) -> Vec<(String, Material)> {
-    for (_, material) in &mut materials {
+fn finished(mut materials: Vec<(String, ReadMaterial)>) -> Vec<(String, ReadMaterial)> {
+    for (_, ReadMaterial { material, .. }) in &mut materials {
         if material.shininess == 0.0 {
-            *material =
-                Material { specular: 0.0, shininess: Material::default().shininess, ..*material };
+            material.specular = 0.0;
+            material.shininess = Material::default().shininess;
         }
     }
     materials
@@ -144,16 +224,20 @@ fn finished(mut materials: Vec<(String, Material)>) -> Vec<(String, Material)> {
 
 /// Parses one statement.
 fn statement(
-    materials: &mut Vec<(String, Material)>,
+    materials: &mut Vec<(String, ReadMaterial)>,
     mut words: Words,
 ) -> Result<(), StatementFault> {
     let Some(keyword) = words.next() else { return Ok(()) };
     match keyword {
         b"newmtl" => match words.text() {
             None => return Err(StatementFault::NoName),
-            Some(name) => materials.push((name, Material::default())),
+            Some(name) => materials.push((name, ReadMaterial::default())),
         },
-        b"Kd" | b"Ks" | b"Ns" => describe(last(materials, keyword)?, keyword, words)?,
+        b"Kd" | b"Ks" | b"Ns" => {
+            let read = last(materials, keyword)?;
+            describe(&mut read.material, keyword, words)?;
+        }
+        b"map_Kd" => last(materials, keyword)?.map = map_of(words),
         _ if !is_text(keyword) => return Err(StatementFault::NotText),
         _ => {}
     }
@@ -172,9 +256,9 @@ fn describe(material: &mut Material, keyword: &[u8], words: Words) -> Result<(),
 
 /// The material that a statement describes: the one of the last `newmtl`.
 fn last<'a>(
-    materials: &'a mut [(String, Material)],
+    materials: &'a mut [(String, ReadMaterial)],
     keyword: &[u8],
-) -> Result<&'a mut Material, StatementFault> {
+) -> Result<&'a mut ReadMaterial, StatementFault> {
     let last = materials.last_mut().map(|(_, material)| material);
     last.ok_or_else(|| StatementFault::NoMaterial { keyword: quote(keyword) })
 }

@@ -49,15 +49,15 @@ impl<V: Visitor> Parser<V> {
         let Some(keyword) = words.next() else { return Ok(()) };
         match keyword {
             b"v" => {
-                self.visitor.position(numbers(words, IndexKind::Vertex, 3)?.into());
-                self.defined[IndexKind::Vertex as usize] += 1;
+                let (numbers, found) = numbers::<6>(words, IndexKind::Vertex, 3)?;
+                self.vertex(numbers, found);
             }
             b"vn" => {
-                self.visitor.normal(numbers(words, IndexKind::Normal, 3)?.into());
+                self.visitor.normal(numbers::<3>(words, IndexKind::Normal, 3)?.0.into());
                 self.defined[IndexKind::Normal as usize] += 1;
             }
             b"vt" => {
-                let value: [f32; 2] = numbers(words, IndexKind::TextureCoordinate, 1)?;
+                let (value, _) = numbers::<2>(words, IndexKind::TextureCoordinate, 1)?;
                 self.visitor.texture_coordinate(value.into());
                 self.defined[IndexKind::TextureCoordinate as usize] += 1;
             }
@@ -70,6 +70,16 @@ impl<V: Visitor> Parser<V> {
             _ => return Err(StatementFault::UnknownKeyword { keyword: quote(keyword) }),
         }
         Ok(())
+    }
+
+    /// Passes on a vertex, and its colour if there are six numbers.
+    #[inline]
+    pub(super) fn vertex(&mut self, [x, y, z, red, green, blue]: [f32; 6], found: usize) {
+        self.visitor.position([x, y, z].into());
+        if found == 6 {
+            self.visitor.color([red, green, blue].into());
+        }
+        self.defined[IndexKind::Vertex as usize] += 1;
     }
 
     /// Passes on the triangles of one polygon, cut into a fan.
@@ -165,13 +175,13 @@ fn is_within(index: i64, count: usize) -> bool {
     usize::try_from(index).is_ok_and(|index| index <= count)
 }
 
-/// Reads the first `N` numbers of a statement. At least `needed` must be there; the others are 0. All words after
-/// them must be numbers, too.
+/// Reads the first `N` numbers of a statement, and tells how many there are. At least `needed` must be there; the others are
+/// 0. All words after them must be numbers, too.
 fn numbers<const N: usize>(
     words: Words,
     kind: IndexKind,
     needed: usize,
-) -> Result<[f32; N], StatementFault> {
+) -> Result<([f32; N], usize), StatementFault> {
     let mut values = [0.0; N];
     let mut found = 0;
     for word in words {
@@ -184,7 +194,7 @@ fn numbers<const N: usize>(
     if found < needed {
         return Err(StatementFault::MissingCoordinates { kind, needed, found });
     }
-    Ok(values)
+    Ok((values, found))
 }
 
 /// Tells whether a statement of the format, of version 2 too, describes nothing that is drawn here.

@@ -27,17 +27,18 @@ impl<V: Visitor> Parser<V> {
         let [first, second, third, ..] = *bytes else { return Ok(None) };
         Ok(match (first, second, third) {
             (b'f', b' ', _) => return self.quick_face(line, bytes),
-            (b'v', b' ', _) => quick_numbers(&bytes[1..], 3).map(|([x, y, z], length)| {
-                self.visitor.position([x, y, z].into());
-                self.defined[IndexKind::Vertex as usize] += 1;
+            (b'v', b' ', _) => quick_numbers(&bytes[1..], 3).map(|(numbers, found, length)| {
+                self.vertex(numbers, found);
                 1 + length
             }),
-            (b'v', b'n', b' ') => quick_numbers(&bytes[2..], 3).map(|([x, y, z], length)| {
-                self.visitor.normal([x, y, z].into());
-                self.defined[IndexKind::Normal as usize] += 1;
-                2 + length
-            }),
-            (b'v', b't', b' ') => quick_numbers(&bytes[2..], 1).map(|([u, v, _], length)| {
+            (b'v', b'n', b' ') => {
+                quick_numbers(&bytes[2..], 3).map(|([x, y, z, ..], _, length)| {
+                    self.visitor.normal([x, y, z].into());
+                    self.defined[IndexKind::Normal as usize] += 1;
+                    2 + length
+                })
+            }
+            (b'v', b't', b' ') => quick_numbers(&bytes[2..], 1).map(|([u, v, ..], _, length)| {
                 self.visitor.texture_coordinate([u, v].into());
                 self.defined[IndexKind::TextureCoordinate as usize] += 1;
                 2 + length
@@ -81,9 +82,9 @@ impl<V: Visitor> Parser<V> {
 /// A line as long as this is left to the parser of statements, which has a limit.
 const MOST_BYTES: usize = 4096;
 
-/// Reads the numbers up to the end of the line, at least `needed`. Tells the first three, with 0 for those that are
-/// missing, and how many bytes they have, with the end of the line.
-fn quick_numbers(bytes: &[u8], needed: usize) -> Option<([f32; 3], usize)> {
+/// Reads the numbers up to the end of the line, at least `needed`. Tells the first six, with 0 for those that are missing, how
+/// many there are, and how many bytes they have, with the end of the line.
+fn quick_numbers(bytes: &[u8], needed: usize) -> Option<([f32; 6], usize, usize)> {
     let mut numbers = [0.0; MOST_NUMBERS];
     let (mut found, mut at) = (0, 0);
     loop {
@@ -100,8 +101,9 @@ fn quick_numbers(bytes: &[u8], needed: usize) -> Option<([f32; 3], usize)> {
             return None;
         }
     }
-    let [first, second, third, ..] = numbers;
-    (found >= needed && at <= MOST_BYTES).then_some(([first, second, third], at + 1))
+    let [x, y, z, red, green, blue, ..] = numbers;
+    let first = [x, y, z, red, green, blue];
+    (found >= needed && at <= MOST_BYTES).then_some((first, found, at + 1))
 }
 
 /// Reads one corner, `v`, `v/vt`, `v//vn` or `v/vt/vn`, and tells where it ends: before a blank or the end of the line.

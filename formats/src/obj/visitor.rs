@@ -6,6 +6,8 @@ use glam::{Vec2, Vec3};
 pub(super) trait Visitor {
     /// A vertex.
     fn position(&mut self, position: Vec3);
+    /// The colour of the vertex that was defined last, as it is written.
+    fn color(&mut self, _color: Vec3) {}
     /// A texture coordinate.
     fn texture_coordinate(&mut self, _value: Vec2) {}
     /// A normal.

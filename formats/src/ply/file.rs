@@ -4,7 +4,7 @@ use super::error::{ElementFault, ReadPlyError};
 use super::header::{ElementGroup, Header, HeaderError, PropertyType, ScalarType};
 use super::quick::{Decoded, FaceLayout, VertexLayout};
 use super::values::{ValueError, ValueReader};
-use crate::attributes::NONE;
+use crate::attributes::{NONE, linear_colors};
 use crate::source::quote::shown;
 use crate::source::{READ_AT_ONCE, regular_file};
 use crate::warning::MaterialWarning;
@@ -23,11 +23,12 @@ pub(crate) struct PlyFile<R> {
     length: u64,
 }
 
-/// A vertex, with its normal if the file has normals.
+/// A vertex, with its normal if the file has normals, and its colour, as it is written, if it has colours.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Vertex {
     pub(super) position: Vec3,
     pub(super) normal: Vec3,
+    pub(super) color: Vec3,
 }
 
 /// What a pass over a file visits; it skips the rest where it can.
@@ -67,25 +68,34 @@ impl<R: BufRead + Seek> PlyFile<R> {
     /// Reads all elements into a mesh.
     pub(super) fn mesh(&mut self) -> Result<Mesh, ReadPlyError> {
         let (mut positions, mut normals, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
-        let has_normals = self.header.normals.is_some();
+        let mut colors = Vec::new();
+        let [has_normals, has_colors] =
+            [self.header.normals, self.header.colors].map(|of| of.is_some());
         let mut vertex = |vertex: Vertex| {
             positions.push(vertex.position);
             if has_normals {
                 normals.push(vertex.normal);
+            }
+            if has_colors {
+                colors.push(vertex.color);
             }
         };
         self.visit(Pass::Everything, &mut vertex, &mut |t| triangles.push(t))?;
         let normals = normals_of(&triangles, normals);
         Ok(Mesh::new(positions, triangles)
             .and_then(|mesh| mesh.with_normals(normals))
+            .and_then(|mesh| mesh.with_colors(linear_colors(colors)))
             .expect("the reader has checked numbers and indices"))
     }
 
-    /// Reads all elements into a mesh, with a warning if the file has colours.
+    /// Reads all elements into a mesh, with a warning if its faces have colours and its vertices have none.
     pub(super) fn mesh_with_warnings(
         &mut self,
     ) -> Result<(Mesh, Vec<MaterialWarning>), ReadPlyError> {
-        Ok((self.mesh()?, self.color_warning().into_iter().collect()))
+        let Header { has_face_colors, colors, .. } = self.header;
+        let is_missed = has_face_colors && colors.is_none();
+        let warning = is_missed.then(|| MaterialWarning::FaceColors { file: self.name.clone() });
+        Ok((self.mesh()?, warning.into_iter().collect()))
     }
 
     /// Visits all vertices, and does not read what follows them.
@@ -93,9 +103,10 @@ impl<R: BufRead + Seek> PlyFile<R> {
         self.visit(Pass::Vertices, &mut |vertex: Vertex| visit(vertex.position), &mut |_| ())
     }
 
-    /// A warning if the file has colours: no pass reads them.
+    /// A warning if the file has colours: no stream reads them.
     pub(crate) fn color_warning(&self) -> Option<MaterialWarning> {
-        self.header.has_colors.then(|| MaterialWarning::Colors { file: self.name.clone() })
+        let has_colors = self.header.has_face_colors || self.header.colors.is_some();
+        has_colors.then(|| MaterialWarning::Streamed { file: self.name.clone() })
     }
 
     /// Visits all triangles in file order, and reads the whole file but its vertices. The indices are those of
@@ -208,7 +219,7 @@ fn element<R: BufRead + Seek>(
 ) -> Result<(), ValueError> {
     values.begin_element()?;
     let (is_vertex, is_face) = (group.name == "vertex", group.name == "face");
-    let [mut position, mut normal] = [[0.0; 3]; 2];
+    let [mut position, mut normal, mut color] = [[0.0; 3]; 3];
     for (k, property) in group.properties.iter().enumerate() {
         let axis = |of: &[usize; 3]| of.iter().position(|&at| at == k).filter(|_| is_vertex);
         match (property.kind, axis(&header.coordinates)) {
@@ -219,6 +230,8 @@ fn element<R: BufRead + Seek>(
                 let component = values.component(scalar)?;
                 if let Some(axis) = header.normals.as_ref().and_then(axis) {
                     normal[axis] = component;
+                } else if let Some(axis) = header.colors.as_ref().and_then(axis) {
+                    color[axis] = component / scalar.full_color();
                 }
             }
             (PropertyType::List { length, item }, _) if is_face && k == header.corners => {
@@ -236,7 +249,7 @@ fn element<R: BufRead + Seek>(
     }
     values.end_element()?;
     if is_vertex {
-        vertex(Vertex { position: position.into(), normal: normal.into() });
+        vertex(Vertex { position: position.into(), normal: normal.into(), color: color.into() });
     }
     Ok(())
 }

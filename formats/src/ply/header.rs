@@ -55,6 +55,15 @@ impl ScalarType {
         }
     }
 
+    /// What a colour is divided by to be between 0 and 1.
+    pub(super) fn full_color(self) -> f32 {
+        match self {
+            ScalarType::F32 | ScalarType::F64 => 1.0,
+            ScalarType::I16 | ScalarType::U16 => 65535.0,
+            ScalarType::I8 | ScalarType::U8 | ScalarType::I32 | ScalarType::U32 => 255.0,
+        }
+    }
+
     fn is_integer(self) -> bool {
         !matches!(self, ScalarType::F32 | ScalarType::F64)
     }
@@ -114,8 +123,10 @@ pub(super) struct Header {
     pub(super) coordinates: [usize; 3],
     /// The indices of `nx`, `ny` and `nz` among the properties of a vertex, if it has all three.
     pub(super) normals: Option<[usize; 3]>,
-    /// Whether vertices or faces have colours.
-    pub(super) has_colors: bool,
+    /// The indices of `red`, `green` and `blue` among the properties of a vertex, if it has all three.
+    pub(super) colors: Option<[usize; 3]>,
+    /// Whether faces have colours.
+    pub(super) has_face_colors: bool,
     /// The index of the list of corners among the properties of a face.
     pub(super) corners: usize,
     /// The number of bytes before the first element.
@@ -298,7 +309,11 @@ impl Draft {
             [Some(x), Some(y), Some(z)] => Some([x, y, z]),
             _ => None,
         };
-        let has_colors = [vertex, face].iter().any(|group| group.property("red").is_some());
+        let colors = match ["red", "green", "blue"].map(|name| coordinate(name).ok()) {
+            [Some(red), Some(green), Some(blue)] => Some([red, green, blue]),
+            _ => None,
+        };
+        let has_face_colors = face.property("red").is_some();
         let corners = face.property("vertex_indices").or_else(|| face.property("vertex_index"));
         let is_index_list = |&k: &usize| match face.properties[k].kind {
             PropertyType::List { item, .. } => item.is_integer(),
@@ -312,7 +327,8 @@ impl Draft {
             vertices,
             coordinates,
             normals,
-            has_colors,
+            colors,
+            has_face_colors,
             corners,
             bytes,
             lines,

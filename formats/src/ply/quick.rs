@@ -19,6 +19,7 @@ pub(super) struct VertexLayout {
     stride: usize,
     coordinates: [(usize, ScalarType); 3],
     normals: Option<[(usize, ScalarType); 3]>,
+    colors: Option<[(usize, ScalarType); 3]>,
 }
 
 /// Where the corners of a face stand in its bytes.
@@ -45,7 +46,8 @@ impl VertexLayout {
         let places = |[x, y, z]: [usize; 3]| Some([place(x)?, place(y)?, place(z)?]);
         let coordinates = places(header.coordinates)?;
         let normals = header.normals.and_then(places);
-        Some(VertexLayout { is_big_endian, stride, coordinates, normals })
+        let colors = header.colors.and_then(places);
+        Some(VertexLayout { is_big_endian, stride, coordinates, normals, colors })
     }
 
     /// Decodes at most `most` vertices, up to the first with a coordinate that is not finite.
@@ -59,7 +61,14 @@ impl VertexLayout {
             if decoded.elements == most || !position.is_finite() {
                 break;
             }
-            visit(Vertex { position, normal: self.normals.map_or(Vec3::ZERO, vector) });
+            let color = |places: [(usize, ScalarType); 3]| {
+                vector(places) / Vec3::from(places.map(|(_, scalar)| scalar.full_color()))
+            };
+            visit(Vertex {
+                position,
+                normal: self.normals.map_or(Vec3::ZERO, vector),
+                color: self.colors.map_or(Vec3::ONE, color),
+            });
             decoded.elements += 1;
             decoded.bytes += self.stride;
         }

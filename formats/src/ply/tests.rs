@@ -2,6 +2,7 @@
 
 use super::header::Encoding;
 use super::*;
+use bothways_common::look::color::{linear_from_encoded, linear_from_srgb};
 use glam::Vec3;
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -441,11 +442,42 @@ fn normals_are_those_of_the_vertices() {
     let (mesh, warnings) = parse_with_warnings("a", file.as_bytes()).unwrap();
     assert_eq!(mesh.normals().of(0), Some([2.0 * Vec3::Z, Vec3::Y, 0.5 * Vec3::X]));
     assert_eq!(mesh.normals().of(1), None);
-    let says = "a: the colours of its vertices and faces are not read; all of it is drawn in the material of its object";
-    assert_eq!(warnings.iter().map(ToString::to_string).collect::<Vec<_>>(), [says]);
+    // One channel alone is no colour.
+    assert_eq!((warnings, mesh.colors().len()), (Vec::new(), 0));
     let without = file
         .replace("0 0 2 9", "0 0 0 9")
         .replace("0 1 0 9", "0 inf 0 9")
         .replace("0.5 0 0 9", "0 0 0 9");
     assert_eq!(parse("a", without.as_bytes()).unwrap().normals().corners, [[0_u32; 3]; 0]);
+}
+
+#[test]
+fn colors_are_those_of_the_vertices() {
+    let colored = |kind: &str, vertices: &str| {
+        let [red, green, blue] =
+            ["red", "green", "blue"].map(|name| format!("property {kind} {name}"));
+        let lines = ["element vertex 3", XYZ, &red, &green, &blue, "element face 1", FACES];
+        let file = header("ascii", &lines) + vertices + "3 0 1 2\n";
+        parse("a", file.as_bytes()).unwrap().colors().to_vec()
+    };
+    let bytes = "0 0 0 255 0 188\n1 0 0 51 51 51\n0 1 0 0 0 255\n";
+    let expected = [[255, 0, 188], [51, 51, 51], [0, 0, 255]]
+        .map(|color| Vec3::from(color.map(linear_from_srgb)));
+    assert_eq!(colored("uchar", bytes), expected);
+    // Fractions, of which those outside are clamped.
+    let fractions = "0 0 0 2 -1 0.2\n1 0 0 nan 1 1\n0 1 0 0 0.25 1\n";
+    let found = colored("float", fractions);
+    assert_eq!(found[0], Vec3::new(1.0, 0.0, linear_from_srgb(51)));
+    assert_eq!(found[1], Vec3::new(0.0, 1.0, 1.0));
+    assert!((found[2].y - linear_from_encoded(0.25)).abs() < 1e-7);
+}
+
+#[test]
+fn colors_of_faces_are_missed() {
+    let faces = format!("{FACES}\nproperty uchar red");
+    let lines = ["element vertex 3", XYZ, "element face 1", &faces];
+    let file = header("ascii", &lines) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 9\n";
+    let (_, warnings) = parse_with_warnings("a", file.as_bytes()).unwrap();
+    let says = "a: the colours of its faces are not read; all of it is drawn in the material of its object";
+    assert_eq!(warnings.iter().map(ToString::to_string).collect::<Vec<_>>(), [says]);
 }

@@ -228,9 +228,19 @@ impl<'t> Item<'t> {
         matches!(self.value, DeValue::Integer(_) | DeValue::Float(_))
     }
 
+    /// Tells whether the value is a table.
+    pub(super) fn is_table(&self) -> bool {
+        matches!(self.value, DeValue::Table(_))
+    }
+
+    /// Tells whether the value is an array.
+    pub(super) fn is_array(&self) -> bool {
+        matches!(self.value, DeValue::Array(_))
+    }
+
     /// Three numbers that are not 0.
     pub(super) fn not_zero_triple(&self) -> Read<[f32; 3]> {
-        if !matches!(self.value, DeValue::Array(_)) {
+        if !self.is_array() {
             return Err(self.not("a number, or three numbers in brackets"));
         }
         let items = self.elements::<3>("three numbers")?;
@@ -256,7 +266,7 @@ impl<'t> Item<'t> {
     }
 
     /// The elements of an array of exactly `N`; `what` says so in messages.
-    fn elements<const N: usize>(&self, what: &str) -> Read<[Item<'t>; N]> {
+    pub(super) fn elements<const N: usize>(&self, what: &str) -> Read<[Item<'t>; N]> {
         let DeValue::Array(elements) = self.value else { return Err(self.not(what)) };
         let items = numbered(&self.name, elements);
         items.try_into().map_err(|items: Vec<Item>| {

@@ -36,7 +36,7 @@ pub(super) fn read(
         Some(world_from_object) => world_from_object.apply(shape)?,
         None => shape,
     };
-    let material = material(&table, materials)?;
+    let material = material(&table, &shape, materials)?;
     check_pattern(&table, &shape, &material)?;
     Ok(Object { shape, material })
 }
@@ -45,23 +45,30 @@ pub(super) fn read(
 fn check_pattern(object: &Table, shape: &Shape, material: &Material) -> Result<(), Problem> {
     match shape {
         Shape::Mesh(mesh)
-            if material.checker.is_some() && mesh.texture_coordinates().corners.is_empty() =>
+            if material.has_pattern() && mesh.texture_coordinates().corners.is_empty() =>
         {
-            let message = "this material has a checker, and the mesh has no texture coordinates";
-            Err(Problem::new(object.span_of("material"), message).help(
+            let pattern = if material.checker.is_some() { "checker" } else { "texture" };
+            let message =
+                format!("this material has a {pattern}, and the mesh has no texture coordinates");
+            Err(Problem::new(object.span_of("material"), message).help(format!(
                 "export the mesh with texture coordinates, as OBJ (vt) or glTF, or choose a material without \
-                 checker",
-            ))
+                 {pattern}"
+            )))
         }
         _ => Ok(()),
     }
 }
 
 /// The material of an object.
-fn material(object: &Table, materials: &Materials) -> Result<Material, Problem> {
-    let Some(item) = object.get("material") else { return Ok(Material::default()) };
+fn material(object: &Table, shape: &Shape, materials: &Materials) -> Result<Material, Problem> {
+    let Some(item) = object.get("material") else {
+        return Ok(match shape {
+            Shape::Mesh(mesh) => mesh.own_material(),
+            _ => Material::default(),
+        });
+    };
     let name = item.text()?;
-    materials.get(name).copied().ok_or_else(|| {
+    materials.get(name).cloned().ok_or_else(|| {
         let problem =
             Problem::new(item.span.clone(), format!("there is no material {}", quoted(name)));
         if materials.is_empty() {
@@ -116,7 +123,8 @@ fn mesh(
         warnings.extend(missing.iter().map(ToString::to_string));
         mesh
     } else {
-        format.read(&path).map_err(wrong)?.with_materials(MeshMaterials::default())
+        let mesh = format.read(&path).map_err(wrong)?.with_materials(MeshMaterials::default());
+        mesh.with_colors(Vec::new()).expect("no colours fit every mesh")
     };
     Ok(Shape::Mesh(smooth::with_normals(mesh, smooth::CREASE)))
 }

@@ -1,6 +1,9 @@
 //! Files of independent writers, which `files/make.py` makes: all show the same mesh, whatever the format.
 
-use bothways_common::{Mesh, glam::Vec3};
+use bothways_common::Mesh;
+use bothways_common::glam::{DVec2, Vec3};
+use bothways_common::look::color::linear_from_srgb;
+use bothways_common::scene::{Filter, Levels, Sampler, Texture, Wrap};
 use bothways_formats::gltf;
 use bothways_formats::mesh_file::Format;
 use std::fs;
@@ -110,4 +113,75 @@ fn models_of_pygltflib_are_alike_wherever_their_buffer_is() {
         ("front", [1.5, 1.0], [720, 480])
     );
     assert!((camera.camera.distance - 0.5 / 0.4_f32.tan()).abs() < 1e-5);
+}
+
+/// What is read at a texture coordinate.
+fn read_at(texture: &Texture, x: f64, y: f64) -> Vec3 {
+    texture.color(DVec2::new(x, y), 0.0)
+}
+
+/// `textured_with_trimesh`: at the corners, trimesh reads blue, grey, green and red.
+#[test]
+fn a_texture_stands_as_its_writer_meant_it() {
+    let grey = Vec3::splat(linear_from_srgb(188));
+    let corners =
+        [([0.0, 0.0], Vec3::Z), ([1.0, 0.0], grey), ([1.0, 1.0], Vec3::Y), ([0.0, 1.0], Vec3::X)];
+    for name in ["trimesh-texture.glb", "trimesh-texture.obj"] {
+        let path = folder().join(name);
+        let format = Format::of_file(&path).expect("it is a mesh");
+        let (mesh, warnings) = format.read_with_materials(&path).expect("it is right");
+        assert_eq!(warnings, [], "{name}");
+        let texture = mesh.materials().unwrap().of(1).unwrap().texture.clone().expect("it has one");
+        for (position, coordinates) in (0..2).flat_map(|triangle| {
+            mesh.corners(triangle).into_iter().zip(mesh.texture_coordinates().of(triangle).unwrap())
+        }) {
+            let (_, color) =
+                corners.iter().find(|(at, _)| *at == position.truncate().to_array()).unwrap();
+            // A little towards the middle, where the nearest texel is the corner's.
+            let at = coordinates.as_dvec2() * 0.9 + 0.05;
+            let nearest = Texture { sampler: Sampler::NEAREST, ..texture.clone() };
+            assert_eq!(read_at(&nearest, at.x, at.y), *color, "{name}: {position}");
+        }
+    }
+}
+
+/// `textured_with_pygltflib`.
+#[test]
+fn pictures_in_views_uris_and_files_are_the_same() {
+    let names =
+        ["pygltflib-texture.glb", "pygltflib-texture-data.gltf", "pygltflib-texture-beside.gltf"];
+    let meshes = names.map(|name| {
+        let model = gltf::read(&folder().join(name)).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(model.warnings, [], "{name}");
+        model.mesh
+    });
+    assert_eq!(meshes[0], meshes[1]);
+    assert_eq!(meshes[0], meshes[2]);
+    let mesh = &meshes[0];
+    let material = mesh.materials().unwrap().of(0).unwrap();
+    assert_eq!(material.color, Vec3::new(1.0, 0.5, 0.25));
+    let texture = material.texture.as_ref().expect("it has one");
+    let expected = Sampler {
+        magnified: Filter::Nearest,
+        minified: Filter::Bilinear,
+        levels: Levels::Nearest,
+        wrap: [Wrap::Mirror, Wrap::Clamp],
+        tiles: [1.0; 2],
+    };
+    assert_eq!(texture.sampler, expected);
+    // TEXCOORD_1, counted from the lower edge: the picture's lower left corner is blue.
+    assert_eq!(mesh.texture_coordinates().of(0).unwrap()[0].to_array(), [-1.0, -1.0]);
+    assert_eq!(read_at(texture, 0.25, 0.25), Vec3::Z);
+    assert_eq!(read_at(texture, -0.25, 0.75), Vec3::X, "mirrored to the left");
+    assert_eq!(read_at(texture, 0.75, 7.0), Vec3::Y, "its upper border goes on");
+    // COLOR_0 is linear: 51 of 255 is a fifth.
+    assert_eq!(mesh.colors()[1], Vec3::new(0.2, 1.0, 1.0));
+}
+
+#[test]
+fn colors_of_ply_files_are_those_that_were_written() {
+    let expected = Vec3::from([200, 100, 50].map(linear_from_srgb));
+    for name in ["plyfile-little.ply", "plyfile-big.ply", "plyfile-ascii.ply"] {
+        assert_eq!(read(name).colors(), [expected; 5], "{name}");
+    }
 }

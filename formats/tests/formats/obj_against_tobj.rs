@@ -4,6 +4,7 @@ use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
+use bothways_common::look::color::linear_from_encoded;
 use bothways_common::{Mesh, glam::Vec3};
 use bothways_formats::obj;
 
@@ -13,6 +14,7 @@ struct Oracle {
     positions: Vec<[[u32; 3]; 3]>,
     texture_coordinates: Vec<[[u32; 2]; 3]>,
     normals: Vec<[[u32; 3]; 3]>,
+    colors: Vec<[[u32; 3]; 3]>,
 }
 
 /// Reads a file with `tobj`. It begins a new model at each `o`, `g` or `usemtl`.
@@ -21,12 +23,19 @@ fn read_with_tobj(bytes: &[u8]) -> Oracle {
     let no_material = |_: &Path| Err(tobj::LoadError::OpenFileFailed);
     let (models, _) = tobj::load_obj_buf(&mut BufReader::new(bytes), &options, no_material)
         .expect("the oracle reads the file");
-    let mut oracle =
-        Oracle { positions: Vec::new(), texture_coordinates: Vec::new(), normals: Vec::new() };
+    let mut oracle = Oracle {
+        positions: Vec::new(),
+        texture_coordinates: Vec::new(),
+        normals: Vec::new(),
+        colors: Vec::new(),
+    };
     for tobj::Model { mesh, .. } in models {
         oracle.positions.extend(triangles(&mesh.positions, &mesh.indices));
         oracle.texture_coordinates.extend(triangles(&mesh.texcoords, &mesh.texcoord_indices));
         oracle.normals.extend(triangles(&mesh.normals, &mesh.normal_indices));
+        if !mesh.vertex_color.is_empty() {
+            oracle.colors.extend(triangles(&mesh.vertex_color, &mesh.indices));
+        }
     }
     oracle
 }
@@ -56,6 +65,14 @@ fn check(name: &str, bytes: &[u8]) -> Mesh {
             let expected = oracle.texture_coordinates[triangle];
             assert_eq!(values, expected, "{name}, triangle {triangle}");
         }
+        if !mesh.colors().is_empty() {
+            let of = |vertex: u32| mesh.colors()[vertex as usize];
+            let linear =
+                |bits: [u32; 3]| Vec3::from(bits.map(f32::from_bits).map(linear_from_encoded));
+            let expected = oracle.colors[triangle].map(linear);
+            let apart = |k: usize| (of(mesh.triangles()[triangle][k]) - expected[k]).length();
+            assert!((0..3).all(|k| apart(k) < 1e-6), "{name}, triangle {triangle}");
+        }
     }
     mesh
 }
@@ -72,7 +89,9 @@ fn handwritten_files_are_read_alike() {
     check("negative indices", format!("{square}f -4 -3 -2\nv 0 0 1\nf -1 -2 1 2\n"));
     check("a vertex below its face", format!("f 1 2 3\n{square}f 2 3 4\n"));
     check("blanks and comments", format!("# x\r\n\r\n{square}\n  f\t1  2 3 \r\n#\n"));
-    check("colours", "v 2 1 0 0.5 0.25 1\nv 3 3 3 0 0 0\nv 0 0 0 1 1 1\nf 1 2 3\n".to_owned());
+    let mesh =
+        check("colours", "v 2 1 0 0.5 0.25 1\nv 3 3 3 0 0 0\nv 0 0 0 1 1 1\nf 1 2 3\n".to_owned());
+    assert_eq!(mesh.colors().len(), 3);
     check("weights", format!("{square}v 2 2 2 1\nf 1 2 5\n"));
     check("groups", format!("o a\n{square}g b c\nf 1 2 3\ng d\ns 1\nusemtl m\nf 2 3 4\n"));
     check("numbers", "v 0.1 1e-46 -1.17549435e-38\nv 3.4028235e38 -0 +7\nf 1 2 1\n".to_owned());

@@ -86,7 +86,7 @@ fn every_key_is_read() {
     ];
     assert_eq!(file.scene.lights, lights);
     let [triangle, sphere, plane] = file.scene.objects() else { panic!("three objects") };
-    let clay = Material { color: Vec3::X, specular: 0.2, shininess: 40.0, checker: None };
+    let clay = Material { color: Vec3::X, specular: 0.2, shininess: 40.0, ..Material::default() };
     assert_eq!(triangle.material, clay);
     let corners = Triangle { a: Vec3::ZERO, b: Vec3::X, c: Vec3::Y };
     assert_eq!(triangle.shape, Shape::Triangle(corners));

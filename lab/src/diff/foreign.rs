@@ -18,14 +18,11 @@
 mod channels;
 mod depth;
 mod hints;
-mod jpeg;
 mod normals;
 mod npy;
 mod open_exr;
 mod picture;
 mod placements;
-mod png;
-mod problem;
 mod read;
 
 pub use super::aspect::{Aspect, Side, Unit};

@@ -9,6 +9,7 @@ mod grid;
 mod hierarchy;
 mod image;
 mod interest;
+mod levels;
 mod order;
 mod patch;
 mod ray;
@@ -44,6 +45,8 @@ pub enum Kind {
     Order,
     /// How many primitives cover each sample.
     DepthComplexity,
+    /// The level of its texture that each order reads at each pixel, and where they differ.
+    Levels,
     /// Both pictures, their difference and their work: the slide of render.
     SideBySide,
     /// A patch of all buffers of both orders, around a differing or a chosen pixel.
@@ -54,7 +57,7 @@ pub enum Kind {
 
 impl Kind {
     /// All kinds, in the order of a lecture.
-    pub const ALL: [Kind; 12] = [
+    pub const ALL: [Kind; 13] = [
         Kind::Image,
         Kind::Camera,
         Kind::Grid,
@@ -64,6 +67,7 @@ impl Kind {
         Kind::Hierarchy,
         Kind::Order,
         Kind::DepthComplexity,
+        Kind::Levels,
         Kind::SideBySide,
         Kind::Zoom,
         Kind::Reasons,
@@ -81,6 +85,7 @@ impl Kind {
             Kind::Hierarchy => "hierarchy",
             Kind::Order => "order",
             Kind::DepthComplexity => "depth-complexity",
+            Kind::Levels => "levels",
             Kind::SideBySide => "side-by-side",
             Kind::Zoom => "zoom",
             Kind::Reasons => "reasons",
@@ -114,6 +119,9 @@ impl Kind {
             }
             Kind::Order => "pixels coloured by when each order decided them",
             Kind::DepthComplexity => "how many primitives cover each sample",
+            Kind::Levels => {
+                "the level of its texture that each order reads at each pixel, and where they differ"
+            }
             Kind::SideBySide => {
                 "both pictures, their difference and their work: the slide of render"
             }
@@ -135,6 +143,7 @@ impl Kind {
             | Kind::Hierarchy
             | Kind::Order
             | Kind::DepthComplexity
+            | Kind::Levels
             | Kind::SideBySide
             | Kind::Reasons => 0,
         }
@@ -167,6 +176,7 @@ impl Kind {
             Kind::Hierarchy => hierarchy::draw(subject),
             Kind::Order => order::draw(subject),
             Kind::DepthComplexity => depth_complexity::draw(subject),
+            Kind::Levels => levels::draw(subject),
             Kind::SideBySide => side_by_side::draw(subject),
             Kind::Zoom => zoom::draw(subject),
             Kind::Reasons => reasons::draw(subject),

@@ -301,10 +301,11 @@ fn of_mesh(
 ) -> Result<LoadedScene, LoadError> {
     let warnings = missing.iter().map(ToString::to_string).collect();
     let shown = path.display().to_string();
-    let material = studio::material_for(mesh.materials().is_some());
+    let material = studio::material_for(mesh.has_look());
     let toml = studio::toml(&camera, &shown, material.is_some());
-    let shape = Shape::Mesh(smooth::with_normals(mesh, smooth::CREASE));
-    let object = Object { shape, material: material.unwrap_or_default() };
+    let material = material.unwrap_or_else(|| mesh.own_material());
+    let object =
+        Object { shape: Shape::Mesh(smooth::with_normals(mesh, smooth::CREASE)), material };
     let scene = studio::lit(Scene::new(vec![object])?);
     Ok(LoadedScene { name: stem(path), scene, camera, viewport_stated: false, toml, warnings })
 }

@@ -21,7 +21,7 @@ pub struct StreamedScene {
     /// The number of triangles in the mesh.
     pub triangles: u32,
     /// The material and the light of the mesh.
-    pub look: Look,
+    pub look: Box<Look>,
     /// The time for opening the file, reading it once, and framing the mesh.
     pub opening: Duration,
 }
@@ -102,10 +102,10 @@ pub fn open_stream(source: &str, image: Option<[u32; 2]>) -> Result<StreamedScen
         toml: studio::toml(&camera, source, true),
         warnings: mesh.material_warning().iter().map(ToString::to_string).collect(),
     };
-    let look = Look {
+    let look = Box::new(Look {
         material: studio::material_for(false).unwrap_or_default(),
         lights: loaded.scene.lights.clone(),
         background: loaded.scene.background,
-    };
+    });
     Ok(StreamedScene { loaded, mesh, triangles, look, opening: begun.elapsed() })
 }

@@ -46,7 +46,7 @@ pub(super) fn toml(camera: &CameraDescription, mesh: &str, plaster: bool) -> Str
 
 /// The material of a mesh, unless the mesh has its own material.
 pub(super) fn material_for(has_its_own: bool) -> Option<Material> {
-    (!has_its_own).then(|| sample().objects()[0].material)
+    (!has_its_own).then(|| sample().objects()[0].material.clone())
 }
 
 /// The scene in this light.

@@ -8,9 +8,9 @@
 
 use bothways_common::engine::simd::{Simd, SimdBase, f64x8};
 use bothways_common::look::bands::Samples;
-use bothways_common::look::lanes::each;
+use bothways_common::look::lanes::{DVec3x8, Lanes, each};
 use bothways_common::{Projection, View};
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec3};
 use std::ops::{Add, Mul};
 
 /// A function `at_center + x·across + y·up`.
@@ -180,6 +180,40 @@ impl Quotient {
         ([across, up], [width, height])
     }
 
+    /// How far both values move from each sample to the next one across, and to the next one down: the differences between
+    /// the two samples of a pair, of which the first is in an even column, and in an even row. So graphics hardware finds
+    /// them, which shades squares of 2 × 2 samples together: both samples of a pair get the same difference.
+    ///
+    /// The other sample need not see the form; the functions go on beyond it.
+    #[inline(always)]
+    pub(super) fn differences<S: Simd>(
+        &self,
+        simd: S,
+        samples: &Samples<S>,
+        step: [f64; 2],
+    ) -> [[f64x8<S>; 2]; 2] {
+        let [odd_row, odd_column] = [samples.first.row, samples.first.column].map(|k| k % 2 == 1);
+        // The way to the other sample of a pair, in steps.
+        let way = |is_odd: bool| if is_odd { -1.0 } else { 1.0 };
+        let along_row = f64x8::from_fn(simd, |lane| way(odd_column ^ (lane % 2 == 1)));
+        let along_column = f64x8::splat(simd, way(odd_row));
+        let [down, across] = each!(k in [0, 1] => f64x8::splat(simd, step[k]));
+        let here = self.at(simd, samples.x, samples.y);
+        let aside = self.at(simd, samples.x + along_row * across, samples.y);
+        let below = self.at(simd, samples.x, samples.y + along_column * down);
+        [
+            each!(k in [0, 1] => (aside[k] - here[k]) * along_row),
+            each!(k in [0, 1] => (below[k] - here[k]) * along_column),
+        ]
+    }
+
+    /// Both values at some places.
+    #[inline(always)]
+    fn at<S: Simd>(&self, simd: S, x: f64x8<S>, y: f64x8<S>) -> [f64x8<S>; 2] {
+        let below = self.denominator.at_places(simd, x, y);
+        each!(k in [0, 1] => self.numerators[k].at_places(simd, x, y) / below)
+    }
+
     /// The derivatives along `x` and along `y` at one place.
     #[inline(always)]
     pub(super) fn changes(&self, x: f64, y: f64) -> [DVec2; 2] {
@@ -191,6 +225,30 @@ impl Quotient {
             }))
         };
         [derivative(|line| line.across), derivative(|line| line.up)]
+    }
+}
+
+/// Colours as quotients of affine functions, one denominator for all.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Colors {
+    numerators: [Affine; 3],
+    denominator: Affine,
+}
+
+impl Colors {
+    /// The functions that have these values at the corners of a triangle with these weights.
+    pub(super) fn interpolating([a, b, c]: [Affine; 3], values: [Vec3; 3]) -> Colors {
+        let [of_a, of_b, of_c] = values.map(|value| value.as_dvec3());
+        let numerator = |k: usize| a * of_a[k] + b * of_b[k] + c * of_c[k];
+        Colors { numerators: [numerator(0), numerator(1), numerator(2)], denominator: a + b + c }
+    }
+
+    /// The colours at some samples.
+    #[inline(always)]
+    pub(super) fn at<S: Simd>(&self, simd: S, samples: &Samples<S>) -> DVec3x8<S> {
+        let below = self.denominator.lanes(simd, samples);
+        let [x, y, z] = each!(k in [0, 1, 2] => self.numerators[k].lanes(simd, samples) / below);
+        Lanes { x, y, z }
     }
 }
 

@@ -40,6 +40,8 @@ pub(super) struct Desk<'a, T> {
 pub(super) struct Kept<'a, T> {
     pub(super) surface: T,
     pub(super) material: &'a Material,
+    /// Whether its samples have a tint each.
+    pub(super) is_tinted: bool,
 }
 
 /// Samples of a row, one after another, that show the same primitive.
@@ -61,6 +63,11 @@ pub(super) struct Chunk {
     pub(super) coordinate: [[f64; CHUNK + BEYOND]; 2],
     pub(super) footprint: [[f32; CHUNK + BEYOND]; 2],
     pub(super) fraction: [f32; CHUNK + BEYOND],
+    /// Linear red, green and blue that materials are multiplied by, where they have a tint.
+    pub(super) tint: [[f32; CHUNK + BEYOND]; 3],
+    /// How the texture coordinates of the last sixteen samples move: across and up, to the next sample across, and to the
+    /// next one down.
+    pub(super) steps: [[f32; 16]; 4],
     pub(super) color: [[f32; CHUNK + BEYOND]; 3],
     pub(super) bytes: [u32; CHUNK + BEYOND],
 }
@@ -80,6 +87,8 @@ impl<'a, T> Desk<'a, T> {
                 coordinate: [[0.0; WIDE]; 2],
                 footprint: [[0.0; WIDE]; 2],
                 fraction: [0.0; WIDE],
+                tint: [[0.0; WIDE]; 3],
+                steps: [[0.0; 16]; 4],
                 color: [[0.0; WIDE]; 3],
                 bytes: [0; WIDE],
             }),
@@ -166,7 +175,8 @@ impl<'a, T> Desk<'a, T> {
         let material = object.material_of(local);
         let seen = Seen { id, primitive, object, local, material };
         let place = u32::try_from(self.kept.len()).expect("few are kept");
-        self.kept.push(Kept { surface: setting.surfaces.set_up(&seen, setting.wanted), material });
+        let surface = setting.surfaces.set_up(&seen, setting.wanted);
+        self.kept.push(Kept { surface, material, is_tinted: seen.is_tinted() });
         self.places[hash] = (id, place);
         place
     }

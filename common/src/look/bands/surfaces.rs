@@ -7,8 +7,8 @@ use crate::look::lanes::{DVec3x8, Vec3x16, each};
 use crate::look::texture::{self, TexturePoints};
 use crate::raster::Sample;
 use crate::scene::material::Material;
-use crate::scene::{Object, Primitive, Shape};
-use glam::{DVec2, DVec3};
+use crate::scene::{Mesh, Object, Primitive, Shape};
+use glam::{DVec2, DVec3, Vec3};
 
 /// How a renderer finds out what its surfaces look like.
 pub trait Surfaces: Sync {
@@ -83,6 +83,39 @@ impl Seen<'_> {
         }
     }
 
+    /// The colours at the corners of a triangle that has some.
+    #[inline(always)]
+    pub fn corner_colors(&self) -> Option<[Vec3; 3]> {
+        match &self.object.shape {
+            Shape::Mesh(mesh) if !mesh.colors().is_empty() => {
+                let [a, b, c] = mesh.triangles()[self.local];
+                Some(each!(vertex in [a, b, c] => mesh.colors()[vertex as usize]))
+            }
+            _ => None,
+        }
+    }
+
+    /// Whether each of its samples has a tint: by a texture, or by colours.
+    #[inline(always)]
+    pub(super) fn is_tinted(&self) -> bool {
+        let has_colors = |mesh: &Mesh| !mesh.colors().is_empty();
+        self.material.texture.is_some()
+            || matches!(&self.object.shape, Shape::Mesh(mesh) if has_colors(mesh))
+    }
+
+    /// Whether texture coordinates are needed.
+    #[inline(always)]
+    pub fn needs_texture(&self, wanted: Wanted) -> bool {
+        wanted.texture_coordinates || wanted.steps || self.material.has_pattern()
+    }
+
+    /// Whether it is needed how texture coordinates move from sample to sample.
+    #[inline(always)]
+    pub fn needs_steps(&self, wanted: Wanted) -> bool {
+        let texture = &self.material.texture;
+        wanted.steps || texture.as_ref().is_some_and(|texture| texture.sampler.has_footprint())
+    }
+
     /// The texture coordinates at the corners of a triangle that has some.
     #[inline]
     pub fn corner_coordinates(&self) -> Option<[DVec2; 3]> {
@@ -104,6 +137,8 @@ pub struct Wanted {
     pub positions: bool,
     /// Their texture coordinates, even where no pattern is drawn.
     pub texture_coordinates: bool,
+    /// How these move from sample to sample, even where no texture needs it.
+    pub steps: bool,
 }
 
 /// Up to sixteen samples of a row.
@@ -171,6 +206,8 @@ pub struct Points<'a> {
     /// The first of the samples in the chunk.
     pub(super) at: usize,
     pub(super) has_texture: bool,
+    pub(super) has_colors: bool,
+    pub(super) has_steps: bool,
 }
 
 impl Points<'_> {
@@ -201,6 +238,25 @@ impl Points<'_> {
         let [width, height] = &mut self.chunk.footprint;
         texture.footprint[0].store_slice(&mut width[at..at + 16]);
         texture.footprint[1].store_slice(&mut height[at..at + 16]);
+    }
+
+    /// How the texture coordinate moves from each sample to the next one across and to the next one down, as this order
+    /// finds it: if steps are needed.
+    #[inline(always)]
+    pub fn set_steps<S: Simd>(&mut self, [across, down]: [[f32x16<S>; 2]; 2]) {
+        self.has_steps = true;
+        let steps = &mut self.chunk.steps;
+        across[0].store_slice(&mut steps[0]);
+        across[1].store_slice(&mut steps[1]);
+        down[0].store_slice(&mut steps[2]);
+        down[1].store_slice(&mut steps[3]);
+    }
+
+    /// Interpolated colours, if the corners have some.
+    #[inline(always)]
+    pub fn set_colors<S: Simd>(&mut self, colors: Vec3x16<S>) {
+        self.has_colors = true;
+        store_sixteen(colors, &mut self.chunk.tint, self.at);
     }
 
     /// The texture that was set.

@@ -122,9 +122,9 @@ mod tests {
         materials.use_from(7, None);
         assert_eq!(materials.spans().len(), 4, "no span says what the one before says");
         let red = Material { color: Vec3::X, ..Material::default() };
-        materials.define("red", red);
+        materials.define("red", red.clone());
         materials.define("red", Material::default());
-        materials.define("unheard-of", red);
+        materials.define("unheard-of", red.clone());
         let of: Vec<bool> = (0..9).map(|triangle| materials.of(triangle) == Some(&red)).collect();
         assert_eq!(of, [false, false, true, true, false, false, true, false, false]);
     }

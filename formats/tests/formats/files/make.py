@@ -1,17 +1,20 @@
 """Writes the files of this folder, with writers that share nothing with this project.
 
-    python3 -m venv /tmp/writers && /tmp/writers/bin/pip install numpy trimesh pygltflib plyfile numpy-stl
+    python3 -m venv /tmp/writers && /tmp/writers/bin/pip install numpy trimesh pygltflib plyfile numpy-stl pillow
     /tmp/writers/bin/python formats/tests/formats/files/make.py
 
 The tests read what is committed. Every file shows the same mesh, in the same order: a pyramid of six triangles. What each
 writer was asked for stands beside it.
 """
 
+import base64
+import io
 from pathlib import Path
 
 import numpy as np
 import plyfile
 import pygltflib
+from PIL import Image
 import stl.mesh
 import trimesh
 
@@ -111,7 +114,63 @@ def with_pygltflib():
     model.save_json(str(HERE / "pygltflib-beside.gltf"))
 
 
+# A picture without symmetry: red and green above, blue and grey below; and a square that shows it twice as large.
+PICTURE = Image.fromarray(np.array([[[255, 0, 0], [0, 255, 0]], [[0, 0, 255], [188, 188, 188]]], np.uint8))
+SQUARE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], np.float32)
+HALVES = np.array([[0, 1, 2], [0, 2, 3]], np.uint16)
+COLORS = np.array([[255, 255, 255, 255], [51, 255, 255, 255], [255, 102, 255, 255], [255, 255, 0, 255]], np.uint8)
+
+
+def textured_with_trimesh():
+    # trimesh counts v from the lower edge, and turns it around where glTF wants that.
+    uv = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
+    mesh = trimesh.Trimesh(SQUARE, HALVES, visual=trimesh.visual.TextureVisuals(uv=uv, image=PICTURE), process=False)
+    mesh.visual.material.name = "four"
+    mesh.export(HERE / "trimesh-texture.glb")
+    mesh.export(HERE / "trimesh-texture.obj", mtl_name="trimesh-texture.mtl")
+    print("colours of the corners, as trimesh reads them:", mesh.visual.to_color().vertex_colors.tolist())
+
+
+def textured_with_pygltflib():
+    g = pygltflib
+    png = io.BytesIO()
+    PICTURE.save(png, "PNG")
+    (HERE / "pygltflib texture.png").write_bytes(png.getvalue())
+    # From −1 to 2, counted from the upper edge.
+    uv = np.array([[-1, 2], [2, 2], [2, -1], [-1, -1]], np.float32)
+    parts = [SQUARE, uv, COLORS, HALVES.ravel(), np.frombuffer(png.getvalue(), np.uint8)]
+    blob, views = b"", []
+    for part in parts:
+        views.append(g.BufferView(buffer=0, byteOffset=len(blob), byteLength=part.nbytes))
+        blob += part.tobytes() + b"\0" * (-part.nbytes % 4)
+    accessors = [
+        g.Accessor(bufferView=0, componentType=g.FLOAT, count=4, type=g.VEC3, min=[0, 0, 0], max=[1, 1, 0]),
+        g.Accessor(bufferView=1, componentType=g.FLOAT, count=4, type=g.VEC2),
+        g.Accessor(bufferView=2, componentType=g.UNSIGNED_BYTE, count=4, type=g.VEC4, normalized=True),
+        g.Accessor(bufferView=3, componentType=g.UNSIGNED_SHORT, count=6, type=g.SCALAR),
+    ]
+    color = g.PbrMetallicRoughness(baseColorFactor=[1, 0.5, 0.25, 1], baseColorTexture=g.TextureInfo(index=0, texCoord=1))
+    attributes = g.Attributes(POSITION=0, TEXCOORD_1=1, COLOR_0=2)
+    model = g.GLTF2(
+        scene=0, scenes=[g.Scene(nodes=[0])], nodes=[g.Node(mesh=0)],
+        meshes=[g.Mesh(primitives=[g.Primitive(attributes=attributes, indices=3, material=0)])],
+        materials=[g.Material(name="four", pbrMetallicRoughness=color)],
+        textures=[g.Texture(source=0, sampler=0)],
+        samplers=[g.Sampler(magFilter=g.NEAREST, minFilter=g.LINEAR_MIPMAP_NEAREST, wrapS=g.MIRRORED_REPEAT, wrapT=g.CLAMP_TO_EDGE)],
+        images=[g.Image(bufferView=4, mimeType="image/png")],
+        accessors=accessors, bufferViews=views, buffers=[g.Buffer(byteLength=len(blob))])
+    model.set_binary_blob(blob)
+    model.save_binary(str(HERE / "pygltflib-texture.glb"))
+    model.convert_buffers(g.BufferFormat.DATAURI)
+    model.images = [g.Image(uri="pygltflib%20texture.png")]
+    model.save_json(str(HERE / "pygltflib-texture-beside.gltf"))
+    model.images = [g.Image(uri="data:image/png;base64," + base64.b64encode(png.getvalue()).decode())]
+    model.save_json(str(HERE / "pygltflib-texture-data.gltf"))
+
+
 if __name__ == "__main__":
+    textured_with_trimesh()
+    textured_with_pygltflib()
     with_trimesh()
     with_plyfile()
     with_numpy_stl()

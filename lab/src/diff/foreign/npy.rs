@@ -1,10 +1,10 @@
 //! NumPy arrays of any origin: every shape, order and number type of pixels.
 
 use super::normals::are_normals;
-use super::problem::{Problem, ends_early};
 use super::read::{ReadBuffer, ReadOptions};
 use super::{Buffer, Content, Covered, Picture, Pixels};
 use crate::common::raster::{MAX_SAMPLES, check_samples};
+use crate::formats::picture::{Problem, ends_early};
 use crate::formats::source::quote::shown;
 use half::f16;
 use npyz::{DType, Endianness, NpyHeader, Order, TypeChar};

@@ -2,11 +2,11 @@
 
 use super::channels::{Channel, Choice, Meaning, choose, listed};
 use super::picture::MOST_MEMORY;
-use super::problem::{Problem, ends_early};
 use super::read::{ReadBuffer, ReadOptions};
 use super::{Content, Covered, Picture, Pixels, normals};
 use crate::common::raster::check_samples;
 use crate::diff::buffer::Buffer;
+use crate::formats::picture::{Problem, ends_early};
 use crate::formats::source::quote::{shown, visible};
 use ::exr::block::chunk::Chunk;
 use ::exr::block::lines::LineRef;

@@ -1,9 +1,9 @@
 //! Reads a file of any origin. The content determines the format, not the name.
 
-use super::problem::Problem;
 use super::{npy, open_exr, picture};
 use crate::common::SizeError;
 use crate::diff::buffer::Buffer;
+use crate::formats::picture::Problem;
 use crate::formats::source::{READ_AT_ONCE, regular_file};
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
@@ -156,6 +156,13 @@ pub fn read_from(
     read.map_err(|problem| match problem {
         Problem::Content(problem) => ReadBufferError::Content { path: path(), problem },
         Problem::Size(error) => ReadBufferError::Size { path: path(), error },
+        Problem::Memory => {
+            let problem = format!(
+                "it needs more than the {} MiB of memory that a picture may take; compare parts of it",
+                picture::MOST_MEMORY >> 20
+            );
+            ReadBufferError::Content { path: path(), problem }
+        }
         Problem::Io(error) => ReadBufferError::Open { path: path(), error },
     })
 }

@@ -1,20 +1,23 @@
-//! Errors in a file, reported by the reader of its format.
+//! Errors in a picture file, reported by the reader of its format.
 
-use crate::common::SizeError;
+use bothways_common::SizeError;
 use std::io;
 
 /// An error in the content of a file, without the name of the file.
 #[derive(Debug)]
-pub(super) enum Problem {
+pub enum Problem {
     /// The text of a message: the error, and the remedy.
     Content(String),
+    /// It has no pixels, or too many.
     Size(SizeError),
+    /// Decoding needs more memory than the reader may take.
+    Memory,
     /// The system cannot read the file.
     Io(io::Error),
 }
 
 /// The message for a file with fewer bytes than expected.
-pub(super) fn ends_early(bytes: u64) -> String {
+pub fn ends_early(bytes: u64) -> String {
     format!("the file ends early, after {bytes} bytes; copy it or write it again")
 }
 

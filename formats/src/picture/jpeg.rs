@@ -6,10 +6,6 @@ use std::io::{BufRead, Seek};
 /// The most pixels that a byte can stand for: 8 blocks of 8 × 8 pixels of one bit each, twice.
 const LONGEST_RUN: u64 = 1024;
 
-/// What a JPEG does to a mask.
-pub(super) const WARNING: &str = "JPEG changes pixels, most of all at edges, so that what is covered (not black, or not the \
-     background) is not trustworthy; save the picture as PNG";
-
 /// Refuses a file whose data does not end as it must.
 pub(super) fn check(input: &mut (impl BufRead + Seek), length: u64) -> Result<(), Problem> {
     input.rewind()?;

@@ -2,7 +2,7 @@
 //! its place.
 
 use super::problem::{Problem, ends_early};
-use crate::common::SizeError;
+use bothways_common::SizeError;
 use std::io::{BufRead, Read, Seek, SeekFrom};
 
 /// Bytes of the signature before the first chunk.

@@ -1,0 +1,119 @@
+//! The textures of materials: pictures in views, in `data:` URIs, or in files beside the file.
+
+use super::buffers::{Buffers, Folder, Image};
+use super::error::GltfFault;
+use super::item;
+use crate::picture::texture::Pictures;
+use crate::warning::MaterialWarning;
+use ::gltf::json::texture::{self, Info, MagFilter, MinFilter, WrappingMode};
+use ::gltf::json::validation::Checked;
+use ::gltf::json::{Root, image};
+use bothways_common::scene::{Filter, Levels, Pyramid, Sampler, Texture, Wrap};
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::Arc;
+
+/// The pictures of a file, each read once.
+pub(super) struct Textures<'a> {
+    root: &'a Root,
+    buffers: &'a Buffers<'a>,
+    folder: Folder<'a>,
+    pictures: Pictures,
+    /// For each image that was asked for, its picture, if there is one.
+    known: BTreeMap<usize, Option<Arc<Pyramid>>>,
+    /// Whether a texture is of an extension alone.
+    has_others: bool,
+}
+
+impl<'a> Textures<'a> {
+    pub(super) fn new(root: &'a Root, buffers: &'a Buffers<'a>, folder: Folder<'a>) -> Self {
+        let (pictures, known) = (Pictures::default(), BTreeMap::new());
+        Textures { root, buffers, folder, pictures, known, has_others: false }
+    }
+
+    /// The texture that a material names; `None` if its picture is missing.
+    pub(super) fn of(&mut self, info: &Info) -> Result<Option<Texture>, GltfFault> {
+        let (_, texture) = item(&self.root.textures, info.index, "texture")?;
+        let sampler = match texture.sampler {
+            Some(index) => sampler(item(&self.root.samplers, index, "sampler")?.1)?,
+            // The format leaves this to us.
+            None => Sampler::MIPMAPS,
+        };
+        // What the JSON reader makes of a texture without an image.
+        if texture.source.value() == u32::MAX as usize {
+            self.has_others = true;
+            return Ok(None);
+        }
+        let (number, image) = item(&self.root.images, texture.source, "image")?;
+        let pyramid = match self.known.get(&number) {
+            Some(known) => known.clone(),
+            None => self.read(number, image)?,
+        };
+        self.known.insert(number, pyramid.clone());
+        Ok(pyramid.map(|pyramid| Texture { pyramid, sampler }))
+    }
+
+    fn read(
+        &mut self,
+        number: usize,
+        image: &image::Image,
+    ) -> Result<Option<Arc<Pyramid>>, GltfFault> {
+        const NAME: &str = "its data";
+        let wrong = |error| GltfFault::Picture { image: number, error };
+        if let Some(index) = image.buffer_view {
+            let view = self.buffers.view(self.root, index).map_err(|(_, fault)| fault)?;
+            return self.pictures.of_bytes(NAME, view.bytes).map(Some).map_err(wrong);
+        }
+        let uri = image.uri.as_deref().ok_or(GltfFault::NoImage { image: number })?;
+        match (Buffers::image(uri, self.folder)?, self.folder) {
+            (Image::Own(bytes), _) => self.pictures.of_bytes(NAME, &bytes).map(Some).map_err(wrong),
+            (Image::File(name), Folder::Of(file)) => {
+                let folder = file.parent().unwrap_or(Path::new(""));
+                self.pictures.find(folder, &name).map_err(wrong)
+            }
+            (Image::File(_) | Image::Elsewhere, _) => {
+                self.pictures.miss(uri);
+                Ok(None)
+            }
+        }
+    }
+
+    /// Warnings about pictures that are missing, or of a kind that is not read.
+    pub(super) fn warnings(&self, file: &str) -> Vec<MaterialWarning> {
+        let others = || MaterialWarning::Textures { file: file.to_owned() };
+        self.pictures.warning(file).into_iter().chain(self.has_others.then(others)).collect()
+    }
+}
+
+/// How a texture is read, as a sampler says.
+fn sampler(stated: &texture::Sampler) -> Result<Sampler, GltfFault> {
+    let invalid = |what| GltfFault::Invalid { what };
+    let magnified = match &stated.mag_filter {
+        Some(Checked::Valid(MagFilter::Nearest)) => Filter::Nearest,
+        Some(Checked::Valid(MagFilter::Linear)) | None => Filter::Bilinear,
+        Some(Checked::Invalid) => return Err(invalid("the magFilter of its sampler")),
+    };
+    let (minified, levels) = match &stated.min_filter {
+        Some(Checked::Valid(filter)) => match filter {
+            MinFilter::Nearest => (Filter::Nearest, Levels::One),
+            MinFilter::Linear => (Filter::Bilinear, Levels::One),
+            MinFilter::NearestMipmapNearest => (Filter::Nearest, Levels::Nearest),
+            MinFilter::LinearMipmapNearest => (Filter::Bilinear, Levels::Nearest),
+            MinFilter::NearestMipmapLinear => (Filter::Nearest, Levels::Blended),
+            MinFilter::LinearMipmapLinear => (Filter::Bilinear, Levels::Blended),
+        },
+        Some(Checked::Invalid) => return Err(invalid("the minFilter of its sampler")),
+        None => (Filter::Bilinear, Levels::Blended),
+    };
+    let wrap = |mode: &Checked<WrappingMode>, what| match mode {
+        Checked::Valid(WrappingMode::ClampToEdge) => Ok(Wrap::Clamp),
+        Checked::Valid(WrappingMode::MirroredRepeat) => Ok(Wrap::Mirror),
+        Checked::Valid(WrappingMode::Repeat) => Ok(Wrap::Repeat),
+        Checked::Invalid => Err(invalid(what)),
+    };
+    let wrap = [
+        wrap(&stated.wrap_s, "the wrapS of its sampler")?,
+        wrap(&stated.wrap_t, "the wrapT of its sampler")?,
+    ];
+    Ok(Sampler { magnified, minified, levels, wrap, tiles: [1.0; 2] })
+}
