@@ -66,6 +66,16 @@ impl<'a> Pieces<'a> {
                 .notes
                 .push("patterns of two colours are left out: the first one is everywhere".into());
         }
+        if has(|material| material.texture.is_some()) {
+            pieces.notes.push("pictures on surfaces are left out".into());
+        }
+        let colored = |piece: &Piece| match &piece.form {
+            Form::Triangles(mesh, _) => !mesh.colors().is_empty(),
+            Form::Sphere(_) => false,
+        };
+        if pieces.all.iter().any(colored) {
+            pieces.notes.push("colours of vertices are left out".into());
+        }
         pieces
     }
 
