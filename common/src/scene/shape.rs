@@ -1,5 +1,6 @@
 //! The shape of an object, in the world.
 
+use super::instances::Instances;
 use super::mesh::Mesh;
 use glam::Vec3;
 
@@ -43,6 +44,8 @@ pub enum Shape {
     Plane(Plane),
     /// A triangle mesh: one primitive for each of its triangles.
     Mesh(Mesh),
+    /// A triangle mesh in many places: one primitive for each of its triangles in each of them.
+    Instances(Instances),
 }
 
 impl Shape {
@@ -50,6 +53,7 @@ impl Shape {
     pub fn primitive_count(&self) -> usize {
         match self {
             Shape::Mesh(mesh) => mesh.triangles().len(),
+            Shape::Instances(instances) => instances.primitive_count(),
             Shape::Triangle(_) | Shape::Sphere(_) | Shape::Plane(_) => 1,
         }
     }

@@ -2,6 +2,7 @@
 
 use super::document::{Item, Table};
 use super::error::Problem;
+use super::instances;
 use super::material::Materials;
 use super::suggestion::suggestion;
 use super::transform::{self, Transform};
@@ -22,7 +23,7 @@ pub(super) fn read(
     folder: &Path,
     warnings: &mut Vec<String>,
 ) -> Result<Object, Problem> {
-    let known = [&SHAPES[..], &["material"], &transform::KEYS].concat();
+    let known = [&SHAPES[..], &["material", instances::KEY], &transform::KEYS].concat();
     let table = item.table(&known)?;
     let stated = table.exactly_one("an object", &SHAPES, EXAMPLE)?;
     let shape = match stated.name.as_str() {
@@ -36,6 +37,17 @@ pub(super) fn read(
         Some(world_from_object) => world_from_object.apply(shape)?,
         None => shape,
     };
+    let shape = match (instances::read(&table)?, shape) {
+        (None, shape) => shape,
+        (Some(placements), Shape::Mesh(mesh)) => {
+            Shape::Instances(instances::placed(mesh, placements, table.span_of(instances::KEY))?)
+        }
+        (Some(_), _) => {
+            let message = format!("a {} has no instances, only a mesh has", stated.name);
+            let help = "state each as an object, or use mesh or generate";
+            return Err(Problem::new(table.span_of(instances::KEY), message).help(help));
+        }
+    };
     let material = material(&table, materials)?;
     check_pattern(&table, &shape, &material)?;
     Ok(Object { shape, material })
@@ -43,10 +55,13 @@ pub(super) fn read(
 
 /// Makes sure that an object with a pattern has texture coordinates: without them the pattern would silently be missing.
 fn check_pattern(object: &Table, shape: &Shape, material: &Material) -> Result<(), Problem> {
-    match shape {
-        Shape::Mesh(mesh)
-            if material.checker.is_some() && mesh.texture_coordinates().corners.is_empty() =>
-        {
+    let mesh = match shape {
+        Shape::Mesh(mesh) => mesh,
+        Shape::Instances(instances) => instances.mesh(),
+        Shape::Triangle(_) | Shape::Sphere(_) | Shape::Plane(_) => return Ok(()),
+    };
+    match material.checker {
+        Some(_) if mesh.texture_coordinates().corners.is_empty() => {
             let message = "this material has a checker, and the mesh has no texture coordinates";
             Err(Problem::new(object.span_of("material"), message).help(
                 "export the mesh with texture coordinates, as OBJ (vt) or glTF, or choose a material without \

@@ -79,6 +79,10 @@ impl Seen<'_> {
                 let [a, b, c] = mesh.normals().of(self.local)?;
                 Some(each!(normal in [a, b, c] => unit(normal.as_dvec3())))
             }
+            Shape::Instances(instances) => {
+                let [a, b, c] = instances.corner_normals(self.local)?;
+                Some(each!(normal in [a, b, c] => unit(normal)))
+            }
             Shape::Triangle(_) | Shape::Sphere(_) | Shape::Plane(_) => None,
         }
     }
