@@ -43,7 +43,8 @@
 //! - Positions are stored as `f32` in the world and judged by their offset from the eye, one `f64`
 //!   subtraction a coordinate. From there on, the eye is the origin and the axes are the world's.
 //! - `t` counts in lengths of the viewing ray's direction; larger is farther.
-//! - Primitive ids count from 0 in scene order: one for a triangle, sphere or plane, and one for each triangle of a mesh.
+//! - Primitive ids count from 0 in scene order: one for a triangle, sphere or plane, and one for each triangle of a mesh;
+//!   instances of a mesh come one after another.
 //!
 //! The whole contract, with its derivations, is in `docs/contract.md`.
 
@@ -68,7 +69,7 @@ pub use frame::{Frame, Options};
 pub use observe::{Events, Executed, Observer, Work};
 pub use raster::{Crop, CropError, Raster, Region, Sample, SizeError};
 pub use scene::{
-    Checker, Light, Material, Mesh, MeshError, Object, Plane, Primitive, Scene, SceneError, Shape,
-    Sphere, Texture, Triangle,
+    Checker, Instances, Light, Material, Mesh, MeshError, Object, Placement, Plane, Primitive,
+    Scene, SceneError, Shape, Sphere, Texture, Triangle,
 };
 pub use view::View;

@@ -1,5 +1,6 @@
 //! What there is to see: objects in an order, what they are made of, and light.
 
+pub mod instances;
 pub mod material;
 pub mod mesh;
 pub mod positions;
@@ -7,6 +8,7 @@ pub mod primitive;
 pub mod shape;
 pub mod texture;
 
+pub use instances::{Instances, InstancesError, Placement};
 pub use material::{Checker, Light, Material};
 pub use mesh::{Attribute, MaterialSpan, Mesh, MeshError, MeshMaterials, NamedMaterial};
 pub use positions::Positions;
@@ -32,6 +34,11 @@ impl Object {
         match &self.shape {
             Shape::Mesh(mesh) => {
                 let own = mesh.materials().and_then(|materials| materials.of(primitive));
+                own.unwrap_or(&self.material)
+            }
+            Shape::Instances(instances) => {
+                let materials = instances.mesh().materials();
+                let own = materials.and_then(|all| all.of(instances.locate(primitive).1));
                 own.unwrap_or(&self.material)
             }
             Shape::Triangle(_) | Shape::Sphere(_) | Shape::Plane(_) => &self.material,
@@ -105,7 +112,7 @@ impl Scene {
         for (index, object) in objects.iter().enumerate() {
             check_shape(index, &object.shape)?;
             first_ids.push(id(primitives)?);
-            primitives += object.shape.primitive_count();
+            primitives = object.shape.primitive_count().saturating_add(primitives);
         }
         first_ids.push(id(primitives)?);
         let lights = vec![Light::AtCamera { intensity: 0.9 }, Light::Ambient { intensity: 0.1 }];
@@ -154,6 +161,7 @@ impl Scene {
         match &self.objects[object].shape {
             Shape::Triangle(Triangle { a, b, c }) => Some([*a, *b, *c]),
             Shape::Mesh(mesh) => Some(mesh.corners(local)),
+            Shape::Instances(instances) => Some(instances.corners(local)),
             Shape::Sphere(_) | Shape::Plane(_) => None,
         }
     }
@@ -200,8 +208,8 @@ fn check_shape(object: usize, shape: &Shape) -> Result<(), SceneError> {
             finite("the normal", *normal)?;
             if *normal == Vec3::ZERO { Err(SceneError::NoNormal { object }) } else { Ok(()) }
         }
-        // A mesh was checked when it was made.
-        Shape::Mesh(_) => Ok(()),
+        // They were checked when they were made.
+        Shape::Mesh(_) | Shape::Instances(_) => Ok(()),
     }
 }
 

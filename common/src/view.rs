@@ -62,6 +62,9 @@ impl<'a> View<'a> {
             Shape::Mesh(mesh) => {
                 Primitive::Triangle(mesh.corners(local).map(|corner| self.offset(corner)))
             }
+            Shape::Instances(instances) => {
+                Primitive::Triangle(instances.corners(local).map(|corner| self.offset(corner)))
+            }
             Shape::Sphere(Sphere { center, radius }) => {
                 Primitive::Sphere { center: self.offset(*center), radius: f64::from(*radius) }
             }

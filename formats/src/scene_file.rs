@@ -93,8 +93,22 @@
 //! | `generate = { kind, divisions }` | a generated mesh: see [`Kind`](crate::generate::Kind) |
 //! | `material` | the name of a material, in place of the materials and colours of a mesh file; light grey without it |
 //! | `scale`, `rotate = { axis, degrees }`, `translate` | the transformation, in this order |
+//! | `instances` | of a mesh, read or generated: the places in which it is there, see below; one without it |
 //!
 //! A `scale` is one factor, or `[x, y, z]`, one for each axis; negative factors mirror.
+//!
+//! ## `instances`
+//!
+//! A mesh may be there many times, and takes memory once and 48 bytes for each time. The object's own transformation
+//! comes first, then that of each instance. Ids count through the instances, in their order.
+//!
+//! | form | what it says |
+//! |---|---|
+//! | `instances = [[x, y, z], …]` | a list: where each is moved, |
+//! | `[[m, m, m, x, m, m, m, y, m, m, m, z], …]` | or the rows of its 3 × 4 matrix, each number rounded to `f32`, |
+//! | `[{ scale, rotate, translate }, …]` | or a transformation like that of an object |
+//! | `instances = { grid = { count = [10, 1, 10], spacing = 2 } }` | on a grid about the origin, along x first, then y, then z; `spacing` may be `[x, y, z]` |
+//! | `instances = { scatter = { count, size, seed, turn, scale } }` | anywhere in a box about the origin with sides `size = [x, y, z]`; turned by any angle about the axis `turn`; scaled by `scale = [least, most]`; other places for another `seed` |
 //!
 //! # Errors
 //!
@@ -115,6 +129,7 @@ mod color;
 mod document;
 mod error;
 mod excerpt;
+mod instances;
 mod light;
 mod material;
 mod object;

@@ -13,9 +13,10 @@ mod pieces;
 #[cfg(test)]
 mod tests;
 
-use crate::common::View;
+use crate::common::{Shape, View};
 use crate::exchange::ExchangeError;
 use crate::formats::{obj, ply};
+use crate::wording::grouped;
 use pieces::{Pieces, Spheres};
 use std::io;
 use thiserror::Error;
@@ -72,6 +73,9 @@ pub struct Export {
     pub notes: Vec<String>,
 }
 
+/// The most triangles of instances that are copied.
+const MOST_COPIED: u64 = 100_000_000;
+
 /// Why a scene cannot be exported.
 #[derive(Debug, Error)]
 pub enum ExportError {
@@ -81,6 +85,15 @@ pub enum ExportError {
     /// There is nothing in it.
     #[error("the scene has no objects, and a file without triangles is refused by most programs")]
     Empty,
+    /// Instances are copied, and these are too many.
+    #[error(
+        "its instances have {} triangles, each of which would be copied, and at most {} are; state fewer instances",
+        grouped(*triangles), grouped(MOST_COPIED)
+    )]
+    Copies {
+        /// The triangles of all instances.
+        triangles: u64,
+    },
     /// There are more vertices than the files' numbers count.
     #[error("the scene has {vertices} vertices, and {} counts to 4,294,967,295", target.name())]
     TooMany {
@@ -116,6 +129,15 @@ pub enum ExportError {
 pub fn export(view: &View, name: &str, target: Target) -> Result<Export, ExportError> {
     if view.scene.primitive_count() == 0 {
         return Err(ExportError::Empty);
+    }
+    let objects = view.scene.objects().iter();
+    let copied = objects.map(|object| match &object.shape {
+        Shape::Instances(instances) => instances.primitive_count() as u64,
+        Shape::Triangle(_) | Shape::Sphere(_) | Shape::Plane(_) | Shape::Mesh(_) => 0,
+    });
+    let triangles = copied.sum();
+    if triangles > MOST_COPIED {
+        return Err(ExportError::Copies { triangles });
     }
     let spheres = match target {
         Target::Pbrt | Target::Mitsuba => Spheres::Kept,

@@ -251,6 +251,7 @@ fn kind(shape: &Shape) -> &'static str {
         Shape::Sphere(_) => "sphere",
         Shape::Plane(_) => "plane",
         Shape::Mesh(_) => "triangle of a mesh",
+        Shape::Instances(_) => "triangle of an instance",
     }
 }
 

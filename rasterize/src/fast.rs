@@ -22,6 +22,9 @@
 //! Rounded arithmetic decides wherever its bound says that the sign is certain; the rest goes to the
 //! exact judge. The loop over primitives decides visibility: no ray is walked, and no tree. Normals and
 //! colours are computed at the end, for what is visible.
+//!
+//! An instance of a mesh is dropped by its box (`search/instances`): from tiles where it is not seen, and where the tile
+//! already shows something nearer. Only then clusters are looked at, and their vertices placed; none is kept.
 
 mod affine;
 mod aligned;
@@ -234,6 +237,7 @@ fn run(
         vertices,
         first_vertices: &prepared.first_vertices,
         clusters: &prepared.clusters,
+        shared: &prepared.shared,
     };
     let mut executed = bin_primitives(prepared, &geometry, bins, observer, loops);
 
@@ -284,7 +288,8 @@ fn place_vertices(
                 rest = others;
                 place(&[triangle.a, triangle.b, triangle.c], own);
             }
-            Shape::Sphere(_) | Shape::Plane(_) => {}
+            // Vertices of instances are placed where they are drawn.
+            Shape::Sphere(_) | Shape::Plane(_) | Shape::Instances(_) => {}
         }
     }
 }

@@ -14,6 +14,9 @@
 //! enough to find that out (`search/box_culling`, `local_projection`). Edges through samples need no judge where
 //! corners lie on quarters of samples (`aligned`).
 //!
+//! Instances of meshes have a hierarchy of their own, each mesh once one in its own coordinates, to which a tile's rays are
+//! carried over (`search/instance_frustum`).
+//!
 //! For an observer, each ray is walked alone as well, as a tile of one. So the events belong to the ray, and
 //! depend on nothing else. The frame is that of the tiles, whether they are watched or not.
 

@@ -9,7 +9,7 @@ use bothways_common::look::bands::{self, Points, Sixteen, Surfaces, Wanted};
 use bothways_common::look::lanes::{DVec3x8, Vec3x16};
 use bothways_common::look::texture::{self, TexturePoints};
 use bothways_common::{Camera, Frame, Primitive, Projection, Ray, Sample, Shape, View};
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec3};
 
 /// Gives a frame its picture; also all else that it keeps of the look of what is seen.
 pub(crate) fn shade(view: &View, samples: &Samples, frame: &mut Frame) {
@@ -147,8 +147,12 @@ impl Point<'_> {
 
     fn smooth_normal(&self, corners: [DVec3; 3]) -> Option<DVec3> {
         let (object, local) = self.view.scene.locate(self.id);
-        let Shape::Mesh(mesh) = &self.view.scene.objects()[object].shape else { return None };
-        let normals = mesh.normals().of(local)?.map(|n| n.as_dvec3().normalize_or_zero());
+        let normals = match &self.view.scene.objects()[object].shape {
+            Shape::Mesh(mesh) => mesh.normals().of(local)?.map(Vec3::as_dvec3),
+            Shape::Instances(instances) => instances.corner_normals(local)?,
+            Shape::Triangle(_) | Shape::Sphere(_) | Shape::Plane(_) => return None,
+        };
+        let normals = normals.map(DVec3::normalize_or_zero);
         let weights = weights(corners, self.position);
         Some(weights.into_iter().zip(normals).map(|(weight, normal)| weight * normal).sum())
     }

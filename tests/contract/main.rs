@@ -7,6 +7,7 @@ mod covered_triangles;
 mod four_renderers;
 mod fuzzing;
 mod hostile_scenes;
+mod instances;
 mod orders_agree;
 mod planted_faults;
 mod public_cases;

@@ -98,6 +98,11 @@ pub fn corners(shape: &Shape, local: usize) -> Option<[DVec2; 3]> {
     match shape {
         Shape::Triangle(_) => Some([DVec2::ZERO, DVec2::X, DVec2::Y]),
         Shape::Mesh(mesh) => Some(mesh.texture_coordinates().of(local)?.map(Vec2::as_dvec2)),
+        Shape::Instances(instances) => {
+            let (_, triangle) = instances.locate(local);
+            let coordinates = instances.mesh().texture_coordinates().of(triangle)?;
+            Some(coordinates.map(Vec2::as_dvec2))
+        }
         Shape::Sphere(_) | Shape::Plane(_) => None,
     }
 }

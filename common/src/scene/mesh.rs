@@ -202,6 +202,14 @@ impl Mesh {
         &self.positions
     }
 
+    /// The least and the greatest corner of the box around all positions; `None` if there are none.
+    pub fn bounds(&self) -> Option<[Vec3; 2]> {
+        let around =
+            |[low, high]: [Vec3; 2], position: &Vec3| [low.min(*position), high.max(*position)];
+        let first = *self.positions.first()?;
+        Some(self.positions.iter().fold([first; 2], around))
+    }
+
     /// The triangles, each three indices of positions.
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles

@@ -1,5 +1,6 @@
 //! The shape of an object, in the world.
 
+use super::instances::Instances;
 use super::mesh::Mesh;
 use glam::Vec3;
 
@@ -43,13 +44,26 @@ pub enum Shape {
     Plane(Plane),
     /// A triangle mesh: one primitive for each of its triangles.
     Mesh(Mesh),
+    /// A triangle mesh in many places: one primitive for each of its triangles in each of them.
+    Instances(Instances),
 }
 
 impl Shape {
+    /// The mesh that it shows, once or many times.
+    #[inline]
+    pub fn mesh(&self) -> Option<&Mesh> {
+        match self {
+            Shape::Mesh(mesh) => Some(mesh),
+            Shape::Instances(instances) => Some(instances.mesh()),
+            Shape::Triangle(_) | Shape::Sphere(_) | Shape::Plane(_) => None,
+        }
+    }
+
     /// How many primitive ids this shape takes.
     pub fn primitive_count(&self) -> usize {
         match self {
             Shape::Mesh(mesh) => mesh.triangles().len(),
+            Shape::Instances(instances) => instances.primitive_count(),
             Shape::Triangle(_) | Shape::Sphere(_) | Shape::Plane(_) => 1,
         }
     }

@@ -81,6 +81,7 @@ impl Placement {
                 let mesh = mesh.clone().map(place, |normal| normal);
                 Shape::Mesh(mesh.expect("places are finite"))
             }
+            Shape::Instances(_) => unreachable!("no instances are made"),
             Shape::Sphere(Sphere { center, radius }) => {
                 let rim = place(*center + Vec3::X * *radius);
                 let center = place(*center);

@@ -170,7 +170,9 @@ fn beside_the_origin(
     let anchor = match shapes[0] {
         Shape::Triangle(Triangle { a, .. }) => a,
         Shape::Sphere(Sphere { center, .. }) => center,
-        Shape::Plane(_) | Shape::Mesh(_) => unreachable!("no such shape comes first"),
+        Shape::Plane(_) | Shape::Mesh(_) | Shape::Instances(_) => {
+            unreachable!("no such shape comes first")
+        }
     };
     for shape in &mut shapes {
         match shape {
@@ -179,13 +181,15 @@ fn beside_the_origin(
             }
             Shape::Sphere(Sphere { center, .. }) => *center -= anchor,
             Shape::Plane(plane) => plane.point -= anchor,
-            Shape::Mesh(_) => unreachable!("no mesh is used"),
+            Shape::Mesh(_) | Shape::Instances(_) => unreachable!("no mesh is used"),
         }
     }
     match &mut shapes[0] {
         Shape::Triangle(Triangle { a: first, .. })
         | Shape::Sphere(Sphere { center: first, .. }) => *first = step,
-        Shape::Plane(_) | Shape::Mesh(_) => unreachable!("no such shape comes first"),
+        Shape::Plane(_) | Shape::Mesh(_) | Shape::Instances(_) => {
+            unreachable!("no such shape comes first")
+        }
     }
     let camera = CameraDescription {
         projection,

@@ -223,14 +223,34 @@ impl<'t> Item<'t> {
         Ok(Vec3::new(x.number()?, y.number()?, z.number()?))
     }
 
-    /// Tells whether the value is one number.
-    pub(super) fn is_number(&self) -> bool {
-        matches!(self.value, DeValue::Integer(_) | DeValue::Float(_))
+    /// Three whole numbers that are not negative.
+    pub(super) fn three_counts(&self) -> Read<[u32; 3]> {
+        let [a, b, c] = self.elements("three whole numbers")?;
+        Ok([a.count()?, b.count()?, c.count()?])
+    }
+
+    /// The elements of an array of any length. The message shows `example`.
+    pub(super) fn list(&self, example: &str) -> Read<Vec<Item<'t>>> {
+        let DeValue::Array(elements) = self.value else {
+            return Err(self.not("a list or a table").help(format!("write for example {example}")));
+        };
+        Ok(numbered(&self.name, elements))
+    }
+
+    /// Any number of numbers; `what` says in messages what they must be.
+    pub(super) fn numbers(&self, what: &str) -> Read<Vec<f32>> {
+        let DeValue::Array(elements) = self.value else { return Err(self.not(what)) };
+        numbered(&self.name, elements).iter().map(Item::number).collect()
     }
 
     /// Tells whether the value is a table.
     pub(super) fn is_table(&self) -> bool {
         matches!(self.value, DeValue::Table(_))
+    }
+
+    /// Tells whether the value is one number.
+    pub(super) fn is_number(&self) -> bool {
+        matches!(self.value, DeValue::Integer(_) | DeValue::Float(_))
     }
 
     /// Tells whether the value is an array.

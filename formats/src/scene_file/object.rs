@@ -2,6 +2,7 @@
 
 use super::document::{Item, Table};
 use super::error::Problem;
+use super::instances;
 use super::material::Materials;
 use super::suggestion::suggestion;
 use super::transform::{self, Transform};
@@ -9,7 +10,9 @@ use crate::generate::Kind;
 use crate::mesh_file::{EXTENSIONS, Format, ReadMeshError};
 use crate::smooth;
 use crate::source::quote::{quoted, shown};
-use bothways_common::scene::{Material, MeshMaterials, Object, Plane, Shape, Sphere, Triangle};
+use bothways_common::scene::{
+    Material, Mesh, MeshMaterials, Object, Plane, Shape, Sphere, Triangle,
+};
 use std::path::Path;
 
 const SHAPES: [&str; 5] = ["triangle", "sphere", "plane", "mesh", "generate"];
@@ -22,7 +25,7 @@ pub(super) fn read(
     folder: &Path,
     warnings: &mut Vec<String>,
 ) -> Result<Object, Problem> {
-    let known = [&SHAPES[..], &["material"], &transform::KEYS].concat();
+    let known = [&SHAPES[..], &["material", instances::KEY], &transform::KEYS].concat();
     let table = item.table(&known)?;
     let stated = table.exactly_one("an object", &SHAPES, EXAMPLE)?;
     let shape = match stated.name.as_str() {
@@ -36,6 +39,17 @@ pub(super) fn read(
         Some(world_from_object) => world_from_object.apply(shape)?,
         None => shape,
     };
+    let shape = match (instances::read(&table)?, shape) {
+        (None, shape) => shape,
+        (Some(placements), Shape::Mesh(mesh)) => {
+            Shape::Instances(instances::placed(mesh, placements, table.span_of(instances::KEY))?)
+        }
+        (Some(_), _) => {
+            let message = format!("a {} has no instances, only a mesh has", stated.name);
+            let help = "state each as an object, or use mesh or generate";
+            return Err(Problem::new(table.span_of(instances::KEY), message).help(help));
+        }
+    };
     let material = material(&table, &shape, materials)?;
     check_pattern(&table, &shape, &material)?;
     Ok(Object { shape, material })
@@ -43,29 +57,21 @@ pub(super) fn read(
 
 /// Makes sure that an object with a pattern has texture coordinates: without them the pattern would silently be missing.
 fn check_pattern(object: &Table, shape: &Shape, material: &Material) -> Result<(), Problem> {
-    match shape {
-        Shape::Mesh(mesh)
-            if material.has_pattern() && mesh.texture_coordinates().corners.is_empty() =>
-        {
-            let pattern = if material.checker.is_some() { "checker" } else { "texture" };
-            let message =
-                format!("this material has a {pattern}, and the mesh has no texture coordinates");
-            Err(Problem::new(object.span_of("material"), message).help(format!(
-                "export the mesh with texture coordinates, as OBJ (vt) or glTF, or choose a material without \
-                 {pattern}"
-            )))
-        }
-        _ => Ok(()),
+    let Some(mesh) = shape.mesh() else { return Ok(()) };
+    if !material.has_pattern() || !mesh.texture_coordinates().corners.is_empty() {
+        return Ok(());
     }
+    let pattern = if material.checker.is_some() { "checker" } else { "texture" };
+    let message = format!("this material has a {pattern}, and the mesh has no texture coordinates");
+    Err(Problem::new(object.span_of("material"), message).help(format!(
+        "export the mesh with texture coordinates, as OBJ (vt) or glTF, or choose a material without {pattern}"
+    )))
 }
 
 /// The material of an object.
 fn material(object: &Table, shape: &Shape, materials: &Materials) -> Result<Material, Problem> {
     let Some(item) = object.get("material") else {
-        return Ok(match shape {
-            Shape::Mesh(mesh) => mesh.own_material(),
-            _ => Material::default(),
-        });
+        return Ok(shape.mesh().map_or_else(Material::default, Mesh::own_material));
     };
     let name = item.text()?;
     materials.get(name).cloned().ok_or_else(|| {

@@ -4,8 +4,8 @@
 
 use super::document::{Item, Table};
 use super::error::Problem;
-use bothways_common::scene::{Mesh, Plane, Shape, Sphere, Triangle};
-use glam::{DVec3, Vec3};
+use bothways_common::scene::{Mesh, Placement, Plane, Shape, Sphere, Triangle};
+use glam::{DAffine3, DMat3, DVec3, Vec3};
 use std::ops::Range;
 
 /// The keys of the transformation in an object's table.
@@ -83,6 +83,19 @@ impl Transform {
                 normal: self.plane_normal(normal)?,
             }),
             Shape::Mesh(mesh) => Shape::Mesh(self.mesh(mesh)?),
+            Shape::Instances(_) => unreachable!("a mesh is moved before it is there many times"),
+        })
+    }
+
+    /// The transformation as that of an instance.
+    pub(super) fn placement(&self) -> Placement {
+        let column = |axis: DVec3| {
+            let scaled = axis * self.scale;
+            self.rotation.map_or(scaled, |rotation| rotation.rotate(scaled))
+        };
+        Placement::from_affine(&DAffine3 {
+            matrix3: DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z)),
+            translation: self.translation,
         })
     }
 
@@ -183,7 +196,7 @@ impl Rotation {
 }
 
 /// The sine and the cosine of an angle: exact for quarter turns, and the same on every machine.
-fn sine_and_cosine(degrees: f32) -> [f64; 2] {
+pub(super) fn sine_and_cosine(degrees: f32) -> [f64; 2] {
     let degrees = f64::from(degrees).rem_euclid(360.0);
     let rest = (degrees % 90.0).to_radians();
     let (sine, cosine) = (libm::sin(rest), libm::cos(rest));

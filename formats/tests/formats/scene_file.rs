@@ -168,3 +168,57 @@ fn objects_are_scaled_then_turned_then_moved() {
         assert_eq!(*q, Vec3::new(-p.y, p.x, p.z));
     }
 }
+
+/// The places in which a square with sides of 1 is there.
+fn places(instances: &str) -> Vec<[[f32; 4]; 3]> {
+    let square = "generate = { kind = \"grid\", divisions = [1, 1] }";
+    let Shape::Instances(read) = shape(&format!("{square}\n{instances}")) else {
+        panic!("instances")
+    };
+    let Shape::Mesh(own) = shape(square) else { panic!("a mesh") };
+    assert_eq!(*read.mesh(), own, "the mesh stays as it is");
+    read.placements().iter().map(|placement| *placement.rows()).collect()
+}
+
+#[test]
+fn instances_are_listed_or_follow_a_rule() {
+    let moved =
+        |x: f32, y: f32, z: f32| [[1.0, 0.0, 0.0, x], [0.0, 1.0, 0.0, y], [0.0, 0.0, 1.0, z]];
+    assert_eq!(places("instances = []"), [[[0.0; 4]; 3]; 0]);
+    let listed = places(
+        "instances = [[1, 2, 3], [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12], {}, \
+         { scale = [1, -2, 1], rotate = { axis = [0, 0, 1], degrees = 90 }, translate = [5, 0, 0] }]",
+    );
+    let rows = [[1.0, 2.0, 3.0, 4.0], [5.0, 6.0, 7.0, 8.0], [9.0, 10.0, 11.0, 12.0]];
+    let turned = [[0.0, 2.0, 0.0, 5.0], [1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
+    assert_eq!(listed, [moved(1.0, 2.0, 3.0), rows, moved(0.0, 0.0, 0.0), turned]);
+
+    let grid = places("instances = { grid = { count = [2, 1, 2], spacing = [3, 9, 0.5] } }");
+    let corners = [[-1.5, -0.25], [1.5, -0.25], [-1.5, 0.25], [1.5, 0.25]];
+    assert_eq!(grid, corners.map(|[x, z]| moved(x, 0.0, z)));
+    let line = places("instances = { grid = { count = [3, 1, 1], spacing = 2 } }");
+    assert_eq!(line, [-2.0, 0.0, 2.0].map(|x| moved(x, 0.0, 0.0)));
+
+    let scattered = |more: &str| {
+        places(&format!("instances = {{ scatter = {{ count = 500, size = [4, 0, 8]{more} }} }}"))
+    };
+    let (first, other) = (scattered(""), scattered(", seed = 1"));
+    assert_eq!((first.len(), &first), (500, &scattered(", seed = 0")));
+    assert_ne!(first, other);
+    let reach = |axis: usize| first.iter().map(|rows| rows[axis][3].abs()).fold(0.0, f32::max);
+    assert!(reach(0) <= 2.0 && reach(0) > 1.9 && reach(1) == 0.0 && reach(2) <= 4.0);
+    for [x, y, z] in scattered(", turn = [0, 2, 0], scale = [2, 3]") {
+        let size = (x[0] * x[0] + z[0] * z[0]).sqrt();
+        assert!((1.999..3.001).contains(&size) && (y[1] - size).abs() < 1e-4 && y[0] == 0.0);
+    }
+}
+
+#[test]
+fn an_object_of_instances_is_moved_before_they_are() {
+    let text =
+        "generate = { kind = \"grid\", divisions = [1, 1] }\nscale = 2\ninstances = [[5, 0, 0]]";
+    let Shape::Instances(placed) = shape(text) else { panic!("instances") };
+    let xs = placed.corners(0).map(|corner| corner.x);
+    assert!(xs.iter().all(|x| [3.0, 7.0].contains(x)), "{xs:?}");
+    assert_eq!(placed.primitive_count(), placed.mesh().triangles().len());
+}

@@ -533,6 +533,95 @@ proptest! {
     }
 }
 
+#[test]
+fn what_is_wrong_with_instances() {
+    let mesh = |instances: &str| {
+        format!(
+            "[[object]]\ngenerate = {{ kind = 'grid', divisions = [1, 1] }}\ninstances = {instances}"
+        )
+    };
+    let what = "3 numbers that move it, 12 (the rows of a 3 x 4 matrix), or a table of scale, rotate and translate";
+    for (instances, underlined, message) in [
+        (
+            "5",
+            "5",
+            "3:13: instances is a whole number; it must be a list or a table; write for example \
+             instances = [[0, 0, 0], [2, 0, 0]]"
+                .to_owned(),
+        ),
+        ("[[1, 2]]", "[1, 2]", format!("3:14: instances[0] has 2 numbers; it must be {what}")),
+        ("[1, 2, 3]", "1", format!("3:14: instances[0] is a whole number; it must be {what}")),
+        (
+            "[[0, 0, 0], [0, 'x', 0]]",
+            "'x'",
+            "3:29: instances[1][1] is a string; it must be a number".to_owned(),
+        ),
+        (
+            "[[1e38, 0, 0, 3e38,  0, 1, 0, 0,  0, 0, 1, 0]]",
+            "instances",
+            "3:1: instance 0, counted from 0, reaches where no f32 number does; stay between \
+             -3.4e38 and 3.4e38"
+                .to_owned(),
+        ),
+        (
+            "[{ scael = 2 }]",
+            "scael",
+            "3:16: instances[0] has no key \"scael\"; did you mean \"scale\"?".to_owned(),
+        ),
+        (
+            "{}",
+            "{}",
+            "3:13: instances needs one of grid, scatter; write for example instances = { grid = \
+             { count = [10, 1, 10], spacing = 2 } }"
+                .to_owned(),
+        ),
+        (
+            "{ grid = { count = [5000, 5000, 1], spacing = 1 } }",
+            "[5000, 5000, 1]",
+            "3:32: count asks for more than 16777216 instances; divide them between several objects"
+                .to_owned(),
+        ),
+        (
+            "{ grid = { count = [4294967295, 4294967295, 4294967295], spacing = 1 } }",
+            "[4294967295, 4294967295, 4294967295]",
+            "3:32: count asks for more than 16777216 instances; divide them between several objects"
+                .to_owned(),
+        ),
+        (
+            "{ grid = { count = [2, 2], spacing = 1 } }",
+            "[2, 2]",
+            "3:32: count has 2 elements; it must be three whole numbers".to_owned(),
+        ),
+        (
+            "{ scatter = { count = 9 } }",
+            "{ count = 9 }",
+            "3:25: scatter lacks size; write for example scatter = { count = 1000, size = [40, 0, \
+             40], seed = 1 }"
+                .to_owned(),
+        ),
+    ] {
+        let text = mesh(instances);
+        let error = read(&text).expect_err("it is wrong");
+        assert_eq!(error.to_string(), format!("scene.toml:{message}"), "in {text:?}");
+        assert_eq!(&error.text[error.span.clone()], underlined, "in {text:?}");
+    }
+    check_errors(&[(
+        "[[object]]\nsphere = { center = [0, 0, 0], radius = 1 }\ninstances = [[0, 0, 0]]",
+        "instances",
+        "3:1: a sphere has no instances, only a mesh has; state each as an object, or use mesh or \
+         generate",
+    )]);
+}
+
+#[test]
+fn more_triangles_than_ids_are_refused_before_anything_is_drawn() {
+    let text = "[[object]]\ngenerate = { kind = 'grid', divisions = [100, 100] }\n\
+                instances = { grid = { count = [1000, 300, 1], spacing = 1 } }";
+    let error = read(text).expect_err("there are too many").to_string();
+    let says = "the scene has 6000000000 primitives; at most 4294967294 can be told apart";
+    assert!(error.ends_with(says), "{error}");
+}
+
 const EXAMPLE: &str = "[camera]\neye = [0, 1, 4]\nlook_at = [0, 0, 0]\nimage = [64, 48]\n
 [material.clay]\ncolor = '#c8553d'\n[[light]]\npoint = [1, 2, 3]\n[[object]]\n
 sphere = { center = [0, 0, 0], radius = 1 }\nmaterial = 'clay'\n[[object]]\n
@@ -569,6 +658,10 @@ fn word() -> impl Strategy<Value = String> {
         "scale = ",
         "rotate = ",
         "translate = ",
+        "instances = ",
+        "[[1, 2, 3]]",
+        "{ grid = { count = [2, 1, 2], spacing = 2 } }",
+        "{ scatter = { count = 3, size = [1, 2, 3], scale = [1, 2] } }",
         "{ center = [0, 0, 0], radius = 1 }",
         "{ kind = 'grid', divisions = [1, 1] }",
         "{ axis = [1, 2, 3], degrees = ",

@@ -93,6 +93,18 @@ impl<'a> Pieces<'a> {
                     push(Form::Triangles(Cow::Borrowed(mesh), run), material);
                 }
             }
+            Shape::Instances(instances) => {
+                let meshes = count(instances.placements().len() as u64, "meshes of their own");
+                self.notes.push(format!("the instances of object {number} become {meshes}"));
+                for instance in 0..instances.placements().len() {
+                    let mesh = instances.copied(instance);
+                    let runs = runs(object, &mesh);
+                    for run in runs {
+                        let material = object.material_of(run.start);
+                        push(Form::Triangles(Cow::Owned(mesh.clone()), run), material);
+                    }
+                }
+            }
             Shape::Sphere(sphere) if spheres == Spheres::Kept => {
                 push(Form::Sphere(*sphere), &object.material);
             }
@@ -251,6 +263,13 @@ fn extent(view: &View, objects: &[Object]) -> (DVec3, f64) {
             }
             Shape::Sphere(Sphere { center, radius }) => {
                 hold(center.as_dvec3(), f64::from(*radius));
+            }
+            Shape::Instances(instances) => {
+                for (placement, &position) in instances.placements().iter().flat_map(|placement| {
+                    instances.mesh().positions().iter().map(move |at| (placement, at))
+                }) {
+                    hold(placement.position(position).as_dvec3(), 0.0);
+                }
             }
             Shape::Plane(_) => {}
         }

@@ -44,6 +44,7 @@ fn title(summary: &Summary) -> String {
         Axis::Pixels => "more pixels",
         Axis::DepthComplexity => "more layers",
         Axis::TriangleSize => "larger triangles",
+        Axis::Instances => "more instances",
     };
     match summary.quantity {
         Quantity::Steps => format!("How many steps do {grows} take?"),

@@ -47,6 +47,9 @@ impl Case {
     pub fn without_meshes(&self) -> Case {
         let shapes = self.shapes.iter().flat_map(|shape| match shape {
             Shape::Mesh(mesh) => triangles(mesh),
+            Shape::Instances(instances) => (0..instances.placements().len())
+                .flat_map(|k| triangles(&instances.copied(k)))
+                .collect(),
             other => vec![other.clone()],
         });
         Case { shapes: shapes.collect(), ..self.clone() }

@@ -5,6 +5,7 @@
 //! picture; some are not, or reach behind the eye.
 
 mod camera;
+mod instances;
 mod meshes;
 mod shapes;
 mod stage;
@@ -94,6 +95,9 @@ pub(super) fn generate_with(dice: &mut Dice) -> Case {
     case
 }
 
+/// Triangles of a mesh that may be there several times.
+const MOST_IN_INSTANCE: usize = 2000;
+
 /// The objects of a scene, some of them nearly the same as earlier ones.
 fn shapes(stage: &mut Stage, scale: Scale) -> Vec<Shape> {
     let most = match scale {
@@ -113,7 +117,15 @@ fn shapes(stage: &mut Stage, scale: Scale) -> Vec<Shape> {
             0 => shapes.extend(shapes::triangles(stage)),
             1 => shapes.extend(shapes::spheres(stage)),
             2 => shapes.push(shapes::plane(stage)),
-            _ => shapes.push(meshes::mesh(stage, scale)),
+            _ => {
+                let mesh = meshes::mesh(stage, scale);
+                let is_small = mesh.triangles().len() <= MOST_IN_INSTANCE;
+                shapes.push(if is_small && stage.dice.once_in(3) {
+                    instances::instances(stage, mesh)
+                } else {
+                    Shape::Mesh(mesh)
+                });
+            }
         }
     }
     shapes
@@ -133,6 +145,10 @@ fn drawable_area(case: &Case, camera: &Camera) -> Option<u64> {
     let count = |shape: &Shape| match shape {
         Shape::Mesh(mesh) => {
             let all = (0..mesh.triangles().len()).map(|triangle| mesh.corners(triangle));
+            all.filter(reaches_behind).count() as u64
+        }
+        Shape::Instances(instances) => {
+            let all = (0..instances.primitive_count()).map(|local| instances.corners(local));
             all.filter(reaches_behind).count() as u64
         }
         Shape::Triangle(_) | Shape::Sphere(_) | Shape::Plane(_) => 1,
@@ -195,9 +211,10 @@ mod tests {
                 Shape::Plane(_) => "plane",
                 Shape::Mesh(mesh) if mesh.triangles().len() > 5000 => "large mesh",
                 Shape::Mesh(_) => "mesh",
+                Shape::Instances(_) => "instances",
             }));
         }
-        assert_eq!(kinds.len(), 11, "{kinds:?}");
+        assert_eq!(kinds.len(), 12, "{kinds:?}");
         assert!(largest > 500_000, "{largest}");
     }
 }

@@ -4,7 +4,7 @@ use super::case::Case;
 use super::check::{Disagreement, Witness};
 use super::summary::Finding;
 use crate::common::glam::Vec3;
-use crate::common::{Crop, Plane, Shape, Sphere, Triangle};
+use crate::common::{Crop, Instances, Placement, Plane, Shape, Sphere, Triangle};
 use crate::formats::{ply, scene_file::framed_mesh_toml};
 use crate::orders::Method;
 use std::fmt::Write;
@@ -39,9 +39,14 @@ pub fn scene_files(finding: &Finding, stem: &str) -> Vec<(String, Vec<u8>)> {
             Shape::Plane(Plane { point, normal }) => {
                 format!("plane = {{ point = {}, normal = {} }}", numbers(point), numbers(normal))
             }
-            Shape::Mesh(mesh) => {
+            Shape::Mesh(_) | Shape::Instances(_) => {
+                let (mesh, instances) = match shape {
+                    Shape::Instances(instances) => (instances.mesh(), rows(instances)),
+                    Shape::Mesh(mesh) => (mesh, String::new()),
+                    _ => unreachable!("it is one of these"),
+                };
                 let name = format!("{stem}-{number}.ply");
-                let object = format!("mesh = \"{name}\"");
+                let object = format!("mesh = \"{name}\"{instances}");
                 let mut file = Vec::new();
                 ply::write(mesh, &mut file).expect("memory has room");
                 files.push((name, file));
@@ -52,6 +57,16 @@ pub fn scene_files(finding: &Finding, stem: &str) -> Vec<(String, Vec<u8>)> {
     }
     files.push((toml, text.into_bytes()));
     files
+}
+
+/// The places of instances, behind their mesh.
+fn rows(instances: &Instances) -> String {
+    let numbers = |placement: &Placement| {
+        let numbers = placement.rows().as_flattened().iter().map(|number| format!("{number:?}"));
+        format!("[{}]", numbers.collect::<Vec<_>>().join(", "))
+    };
+    let rows: Vec<String> = instances.placements().iter().map(numbers).collect();
+    format!("\ninstances = [{}]", rows.join(", "))
 }
 
 /// The command that shows the disagreement again, for the finding's scene file at a path.

@@ -74,6 +74,16 @@ fn middle(scene: &Scene) -> Option<DVec3> {
                 let used = mesh.triangles().iter().flatten();
                 used.for_each(|&vertex| include(mesh.positions()[vertex as usize], 0.0));
             }
+            Shape::Instances(instances) => {
+                let Some([low, high]) = instances.mesh().bounds() else { continue };
+                for placement in instances.placements() {
+                    for corner in 0..8 {
+                        let side =
+                            |axis: usize| if corner >> axis & 1 == 1 { high } else { low }[axis];
+                        include(placement.position(Vec3::new(side(0), side(1), side(2))), 0.0);
+                    }
+                }
+            }
             Shape::Plane(_) => {}
         }
     }

@@ -350,9 +350,9 @@ impl Plan<'_> {
         };
         let mut shapes = loaded.scene.objects().iter().map(|object| &object.shape);
         match self.what {
-            What::Figure(Kind::EdgeFunctions) => {
-                shapes.any(|shape| matches!(shape, Shape::Triangle(_) | Shape::Mesh(_)))
-            }
+            What::Figure(Kind::EdgeFunctions) => shapes.any(|shape| {
+                matches!(shape, Shape::Triangle(_) | Shape::Mesh(_) | Shape::Instances(_))
+            }),
             What::Figure(Kind::Hierarchy) => shapes.any(|shape| !matches!(shape, Shape::Plane(_))),
             // The textbook of a large scene takes too long; its still would be of a handful of pixels.
             What::Stills(_) | What::Film(Method::Textbook) => {

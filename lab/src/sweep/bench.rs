@@ -3,7 +3,7 @@
 use super::case::Case;
 use super::plan::{Quantity, Task};
 use super::table::{Measured, Source};
-use crate::common::{Camera, Frame, Options, Scene, Shape, View, Work};
+use crate::common::{Camera, Frame, Options, Scene, View, Work};
 use crate::orders::{Method, Order};
 use crate::{rasterize, raytrace};
 use std::time::{Duration, Instant};
@@ -113,10 +113,10 @@ fn frame(stage: &Stage) -> Frame {
 
 impl Stage {
     fn new(case: Case) -> Stage {
-        let (mesh, camera) = case.mesh();
-        debug_assert_eq!(mesh.triangles().len() as u64, case.triangles, "{case:?}");
+        let (shape, camera) = case.shape();
+        debug_assert_eq!(shape.primitive_count() as u64, case.triangles, "{case:?}");
         let camera = Camera::new(camera).expect("it is a camera");
-        let scene = Scene::new(vec![Shape::Mesh(mesh).into()]).expect("it is a scene");
+        let scene = Scene::new(vec![shape.into()]).expect("it is a scene");
         let rasterizer = rasterize::fast::prepare(&scene);
         let ray_tracer = raytrace::fast::prepare(&scene);
         Stage { case, scene, camera, rasterizer, ray_tracer }

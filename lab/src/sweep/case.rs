@@ -1,7 +1,7 @@
 //! The axes of a sweep, and the scenes along them.
 
-use crate::common::glam::Vec3;
-use crate::common::{CameraDescription, Mesh};
+use crate::common::glam::{DAffine3, DMat3, DVec3, Vec3};
+use crate::common::{CameraDescription, Instances, Mesh, Placement, Shape};
 use crate::formats::generate::Kind;
 use crate::scenes::Framing;
 use std::str::FromStr;
@@ -17,12 +17,14 @@ pub enum Axis {
     DepthComplexity,
     /// The area of a triangle in pixels, for one layer that covers the picture: larger ones are fewer.
     TriangleSize,
+    /// Instances of one sphere of a thousand triangles, in a cube that is seen whole: they get smaller as they become more.
+    Instances,
 }
 
 impl Axis {
     /// All axes.
-    pub const ALL: [Axis; 4] =
-        [Axis::Triangles, Axis::Pixels, Axis::DepthComplexity, Axis::TriangleSize];
+    pub const ALL: [Axis; 5] =
+        [Axis::Triangles, Axis::Pixels, Axis::DepthComplexity, Axis::TriangleSize, Axis::Instances];
 
     /// The name on the command line and in files.
     pub fn name(self) -> &'static str {
@@ -31,6 +33,7 @@ impl Axis {
             Axis::Pixels => "pixels",
             Axis::DepthComplexity => "depth-complexity",
             Axis::TriangleSize => "triangle-size",
+            Axis::Instances => "instances",
         }
     }
 
@@ -41,6 +44,7 @@ impl Axis {
             Axis::Pixels => "pixels",
             Axis::DepthComplexity => "layers",
             Axis::TriangleSize => "pixels a triangle",
+            Axis::Instances => "instances of 1,024 triangles",
         }
     }
 
@@ -51,6 +55,7 @@ impl Axis {
             Axis::Pixels => "a sphere of 10,000 triangles",
             Axis::DepthComplexity => "opaque layers of 80 triangles, the farthest first",
             Axis::TriangleSize => "one layer over the whole picture",
+            Axis::Instances => "a cube of spheres, one mesh of 1,024 triangles",
         }
     }
 
@@ -66,10 +71,15 @@ impl Axis {
             Axis::TriangleSize => {
                 AREAS.map(|area| Case::layers(self, cells_of(area, image), 1, image)).into()
             }
+            Axis::Instances => ALONG_CUBE.map(|along| Case::crowd(along, image)).into(),
         };
         let mut cases: Vec<Case> = cases
             .into_iter()
-            .filter(|case| self == Axis::Pixels || case.triangles <= most)
+            .filter(|case| match self {
+                Axis::Pixels => true,
+                Axis::Instances => case.triangles <= most * INSTANCED,
+                _ => case.triangles <= most,
+            })
             .collect();
         cases.sort_by(|a, b| a.x.total_cmp(&b.x));
         // In a small image, several sizes may come down to the same cells.
@@ -109,6 +119,12 @@ const IMAGES: [[u32; 2]; 13] = [
     [1536, 864],
     [2048, 1152],
 ];
+/// The instances along each side of a cube of them.
+const ALONG_CUBE: [u32; 12] = [1, 2, 3, 4, 6, 8, 11, 16, 22, 32, 45, 64];
+/// The rings of their sphere.
+const CROWD_SPHERE: u32 = 16;
+/// How many times as many triangles there may be if they are not stored.
+const INSTANCED: u64 = 300;
 /// The columns and rows of a layer.
 const LAYER: [u32; 2] = [8, 5];
 /// The areas of triangles, in pixels.
@@ -119,7 +135,7 @@ const AREAS: [f64; 12] = [0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1e3, 3e3, 1e4
 pub struct Case {
     /// What grows.
     pub axis: Axis,
-    /// Its value: triangles, pixels, layers, or pixels a triangle.
+    /// Its value: triangles, pixels, layers, pixels a triangle, or instances.
     pub x: f64,
     /// The triangles of the scene.
     pub triangles: u64,
@@ -133,6 +149,7 @@ pub struct Case {
 pub(super) enum Form {
     Sphere { rings: u32 },
     Layers { cells: [u32; 2], layers: u32 },
+    Crowd { along: u32 },
 }
 
 impl Case {
@@ -155,34 +172,73 @@ impl Case {
         Case { axis, x, triangles: in_layer * u64::from(layers), image, form }
     }
 
+    fn crowd(along: u32, image: [u32; 2]) -> Case {
+        let instances = u64::from(along).pow(3);
+        let triangles = 4 * u64::from(CROWD_SPHERE).pow(2) * instances;
+        let form = Form::Crowd { along };
+        Case { axis: Axis::Instances, x: instances as f64, triangles, image, form }
+    }
+
     /// The samples of the image.
     pub fn samples(&self) -> u64 {
         u64::from(self.image[0]) * u64::from(self.image[1])
     }
 
-    /// The scene's mesh, and the camera that sees it.
+    /// The scene's only object, and the camera that sees it.
     ///
     /// # Panics
     ///
     /// A sphere has at least two rings.
-    pub fn mesh(&self) -> (Mesh, CameraDescription) {
+    pub fn shape(&self) -> (Shape, CameraDescription) {
         match self.form {
             Form::Sphere { rings } => {
-                let mesh = Kind::Sphere.mesh([2 * rings, rings + 1]);
-                let mesh = mesh.expect("a sphere has so many divisions");
+                let mesh = ball(rings);
                 let framing = Framing { image: self.image, ..Framing::default() };
                 let camera = framing.camera(&mesh).expect("a sphere has a size");
-                (mesh, camera)
+                (Shape::Mesh(mesh), camera)
             }
             Form::Layers { cells, layers } => {
                 let [width, height] = self.image.map(|side| side as f32);
                 let viewport = [width / height, 1.0];
                 let image = self.image;
                 let camera = CameraDescription { viewport, image, ..CameraDescription::default() };
-                (layered(cells, layers, viewport), camera)
+                (Shape::Mesh(layered(cells, layers, viewport)), camera)
+            }
+            Form::Crowd { along } => {
+                let cube = Kind::Box.mesh([1, 1]).expect("a box has so many divisions");
+                let framing = Framing { image: self.image, ..Framing::default() };
+                let camera = framing.camera(&cube).expect("a box has a size");
+                (Shape::Instances(crowd(along)), camera)
             }
         }
     }
+}
+
+fn ball(rings: u32) -> Mesh {
+    Kind::Sphere.mesh([2 * rings, rings + 1]).expect("a sphere has so many divisions")
+}
+
+/// As many spheres along each side of the cube from −1 to 1, each somewhere in a cell of its own.
+fn crowd(along: u32) -> Instances {
+    let mut dice = fastrand::Rng::with_seed(u64::from(along));
+    let cell = 2.0 / f64::from(along);
+    let mut place = |index: u32| {
+        let beside = 0.1 * (dice.f64() - 0.5);
+        ((f64::from(index) + 0.5 + beside) * cell - 1.0, 0.45 * cell)
+    };
+    let mut placements = Vec::with_capacity((along * along * along) as usize);
+    for x in 0..along {
+        for y in 0..along {
+            for z in 0..along {
+                let [(x, radius), (y, _), (z, _)] = [place(x), place(y), place(z)];
+                placements.push(Placement::from_affine(&DAffine3 {
+                    matrix3: DMat3::from_diagonal(DVec3::splat(radius)),
+                    translation: DVec3::new(x, y, z),
+                }));
+            }
+        }
+    }
+    Instances::new(ball(CROWD_SPHERE), placements).expect("they are near")
 }
 
 /// How much larger than the picture a layer is, on each axis, so that all of the picture is covered.

@@ -64,6 +64,14 @@ fn larger_triangles_are_fewer() {
 }
 
 #[test]
+fn more_instances_cost_image_order_little() {
+    let [object_order, image_order, textbooks @ ..] = slopes(Axis::Instances);
+    assert!(textbooks.iter().all(|slope| (slope - 1.0).abs() < 0.01), "{textbooks:?}");
+    assert!((object_order - 1.0).abs() < 0.2, "every triangle of every instance: {object_order}");
+    assert!(image_order < 0.4, "{image_order}");
+}
+
+#[test]
 fn what_holds_by_definition_is_what_a_run_counts() {
     let plan = Plan { image: [48, 30], most: 1000, ..SMALL };
     let mut bench = Bench::default();

@@ -7,13 +7,15 @@ use super::geometry::Geometry;
 use super::lanes::Lanes;
 use super::picture::Picture;
 use super::search::bins::BatchBins;
-use super::search::clusters::Cluster;
+use super::search::clusters::{Cluster, Sight, sight};
 use super::search::finder::Finder;
+use super::search::instances::{Extent, Instance, PlacedVertices, placed_box};
 use super::setup::{AxisBounds, Setup};
 use super::size_class::{FEW, SizeClass, VERY_FEW};
 use super::tile::TileBuffer;
-use super::vertices::{ON_RASTER, OUT_OF_SIGHT};
+use super::vertices::{ON_RASTER, OUT_OF_SIGHT, Vertex};
 use super::{many_samples, one_primitive};
+use bothways_common::Shape;
 use bothways_common::engine::context::ScalarContext;
 use bothways_common::engine::simd::{
     Level, Simd, SimdBase, SimdMask, dispatch_with, i32x16, mask32x16,
@@ -56,9 +58,13 @@ impl Drawing<'_> {
             large.extend(bins.list(tile, SizeClass::Large).iter().map(|slot| finder.id(*slot)));
             painter.draw_large();
         }
+        painter.draw_instances(tile);
         painter.goes_on()
     }
 }
+
+/// As many large primitives of instances may wait before they are drawn.
+const MANY_LARGE: usize = 256;
 
 /// Draws into one tile.
 struct Painter<'a, 'b, C> {
@@ -87,17 +93,18 @@ impl<C: ScalarContext> Painter<'_, '_, C> {
     fn draw_clusters(&mut self, tile: usize) {
         let drawing = self.drawing;
         let clusters = || drawing.bins.iter().flat_map(|bins| bins.clusters(tile));
-        let keys = || clusters().map(|cluster| cluster.nearest);
+        let keys = || clusters().map(|cluster| cluster.extent.nearest);
         let (low, high) = (keys().fold(f32::INFINITY, f32::min), keys().fold(0.0, f32::max));
         let middle = f32::midpoint(low, high);
         for nearer in [true, false] {
-            for cluster in clusters().filter(|cluster| (cluster.nearest >= middle) == nearer) {
+            for cluster in clusters().filter(|cluster| (cluster.extent.nearest >= middle) == nearer)
+            {
                 if !self.goes_on() {
                     return;
                 }
                 self.buffer.executed.clusters += 1;
                 // If the loops are watched, every triangle is an event.
-                if C::WATCHED || !self.hides(cluster) {
+                if C::WATCHED || !self.hides(&cluster.extent) {
                     self.sort_cluster(cluster);
                 } else {
                     self.buffer.executed.clusters_skipped += 1;
@@ -110,13 +117,13 @@ impl<C: ScalarContext> Painter<'_, '_, C> {
         self.draw_large();
     }
 
-    /// Whether the whole cluster is certainly farther, in the tile, than what is drawn there.
+    /// Whether a whole cluster or instance is certainly farther, in the tile, than what is drawn there.
     ///
     /// The depth along the view is linear in space, and the largest key is that of the least depth. In a box, that is
     /// at a corner, whose key is off by less than a fragment's key may be.
-    fn hides(&self, cluster: &Cluster) -> bool {
-        let here = cluster.region().intersection(self.buffer.region());
-        let farthest = cluster.nearest * nearer_by::<C::Fault>();
+    fn hides(&self, extent: &Extent) -> bool {
+        let here = extent.region().intersection(self.buffer.region());
+        let farthest = extent.nearest * nearer_by::<C::Fault>();
         dispatch_with!(C::Fault, self.drawing.level, simd => self.buffer.is_nearer(simd, &here, farthest))
     }
 
@@ -124,15 +131,23 @@ impl<C: ScalarContext> Painter<'_, '_, C> {
     /// size class.
     fn sort_cluster(&mut self, cluster: &Cluster) {
         let Cluster { object, first, count, .. } = *cluster;
-        self.buffer.executed.triangles += u64::from(count);
         let (first_id, triangles, vertices) = self.finder.object(object);
-        for first in (first..first + count).step_by(16) {
-            let sixteen = (cluster.first + count - first).min(16) as usize;
+        self.sort_triangles(count, |place| {
+            let index = first + place;
+            let corners = triangles.corners[index as usize].map(|vertex| vertices[vertex as usize]);
+            (first_id + triangles.number(index), corners)
+        });
+    }
+
+    /// Sorts triangles by class, given by their places from 0 to a count; draws what does not wait any longer.
+    #[inline(always)]
+    fn sort_triangles(&mut self, count: u32, triangle: impl Fn(u32) -> (u32, [Vertex; 3])) {
+        self.buffer.executed.triangles += u64::from(count);
+        for first in (0..count).step_by(16) {
+            let sixteen = (count - first).min(16) as usize;
             dispatch_with!(C::Fault, self.drawing.level, simd => {
                 self.gathered.fill(simd, sixteen, |lane| {
-                    let index = first + u32::try_from(lane).expect("there are sixteen lanes");
-                    let corners = triangles.corners[index as usize].map(|vertex| vertices[vertex as usize]);
-                    (first_id + triangles.number(index), corners)
+                    triangle(first + u32::try_from(lane).expect("there are sixteen lanes"))
                 });
                 self.sort(simd);
             });
@@ -141,6 +156,83 @@ impl<C: ScalarContext> Painter<'_, '_, C> {
                     self.draw_waiting(class);
                 }
             }
+        }
+    }
+
+    /// Draws the instances that may be seen in the tile, the nearest first: those that they hide need not be drawn.
+    fn draw_instances(&mut self, tile: usize) {
+        let bins = self.drawing.bins;
+        let mut instances: Vec<&Instance> =
+            bins.iter().flat_map(|bins| bins.instances(tile)).collect();
+        if instances.is_empty() {
+            return;
+        }
+        instances.sort_by(|a, b| b.extent.nearest.total_cmp(&a.extent.nearest));
+        let mut vertices = [[0; 4]; _];
+        for instance in instances {
+            if !self.goes_on() {
+                return;
+            }
+            // If the loops are watched, every triangle is an event.
+            if C::WATCHED || !self.hides(&instance.extent) {
+                self.sort_instance(instance, &mut vertices);
+            } else {
+                self.buffer.executed.clusters += 1;
+                self.buffer.executed.clusters_skipped += 1;
+            }
+            if self.large.len() >= MANY_LARGE {
+                self.draw_large();
+            }
+        }
+        for class in SizeClass::IN_LANES {
+            self.draw_waiting(class);
+        }
+        self.draw_large();
+    }
+
+    /// Looks at the clusters of an instance, and at the triangles of those that may be seen in the tile.
+    fn sort_instance(&mut self, instance: &Instance, vertices: &mut PlacedVertices) {
+        let Drawing { geometry, level, .. } = *self.drawing;
+        let object = instance.object as usize;
+        let scene = geometry.view.scene;
+        let (Shape::Instances(instances), Some(mesh)) =
+            (&scene.objects()[object].shape, &geometry.shared[object])
+        else {
+            unreachable!("only instances of meshes are listed");
+        };
+        let placement = &instances.placements()[instance.number as usize];
+        let first_id = scene.first_id(object) + instance.number * mesh.triangle_count();
+        let onto = (geometry.map, geometry.raster);
+        let is_whole = mesh.clusters.len() == 1;
+        for cluster in &mesh.clusters {
+            if !is_whole {
+                self.buffer.executed.boxes_tested += 1;
+                let seen = dispatch_with!(C::Fault, level, simd => {
+                    sight(simd, onto, &placed_box(placement, &cluster.bounds))
+                });
+                match seen {
+                    Sight::Nowhere => continue,
+                    Sight::Within(extent) => {
+                        if extent.region().intersection(self.buffer.region()).is_empty() {
+                            continue;
+                        }
+                        if !C::WATCHED && self.hides(&extent) {
+                            self.buffer.executed.clusters += 1;
+                            self.buffer.executed.clusters_skipped += 1;
+                            continue;
+                        }
+                    }
+                    Sight::Anywhere => {}
+                }
+            }
+            self.buffer.executed.clusters += 1;
+            dispatch_with!(C::Fault, level, simd => {
+                mesh.place(simd, onto, placement, cluster, vertices);
+            });
+            self.sort_triangles(cluster.count(), |place| {
+                let (number, corners) = cluster.triangle(mesh, place, vertices);
+                (first_id + number, corners)
+            });
         }
     }
 

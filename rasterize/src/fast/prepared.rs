@@ -3,13 +3,14 @@
 use super::search::batches::{Batch, batches};
 use super::search::bins::BatchBins;
 use super::search::clusters::Clusters;
+use super::search::instances::{SharedMesh, placed_box, shared_meshes};
 use super::tile::TileBuffer;
 use super::vertices::Vertex;
 use bothways_common::engine::simd::{Level, best_level};
-use bothways_common::{Scene, Shape};
+use bothways_common::{Instances, Scene, Shape};
 use glam::DVec3;
 use rayon::prelude::*;
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex};
 
 /// Rows and columns of a tile, as powers of two: its keys and ids fill a MiB. Full HD has 20 tiles, enough
 /// for some threads.
@@ -22,6 +23,8 @@ pub struct Prepared {
     pub(super) batches: Vec<Batch>,
     /// The clusters of every object.
     pub(super) clusters: Vec<Clusters>,
+    /// Of every object of instances their mesh.
+    pub(super) shared: Vec<Option<Arc<SharedMesh>>>,
     pub(super) primitives: u32,
     /// The index of each object's first vertex among all vertices; at the end, the number of all vertices.
     pub(super) first_vertices: Vec<usize>,
@@ -40,6 +43,18 @@ pub(super) struct Recycled {
     pub(super) vertices: Vec<Vertex>,
     pub(super) bins: Vec<BatchBins>,
     pub(super) tiles: Vec<TileBuffer>,
+}
+
+/// A box around all instances of a mesh.
+fn around(instances: &Instances) -> [DVec3; 2] {
+    let nothing = || [DVec3::INFINITY, DVec3::NEG_INFINITY];
+    let Some(bounds) = instances.mesh().bounds() else { return nothing() };
+    let boxes = instances
+        .placements()
+        .par_iter()
+        .with_min_len(1024)
+        .map(|placement| placed_box(placement, &bounds).map(|corner| corner.as_dvec3()));
+    boxes.reduce(nothing, |a, b| [a[0].min(b[0]), a[1].max(b[1])])
 }
 
 /// The corners of a box.
@@ -78,6 +93,11 @@ impl Prepared {
                     include(center - radius, center + radius);
                     0
                 }
+                Shape::Instances(instances) => {
+                    let [low, high] = around(instances);
+                    include(low, high);
+                    0
+                }
                 Shape::Plane(_) => {
                     has_planes = true;
                     0
@@ -89,6 +109,7 @@ impl Prepared {
         Prepared {
             batches: batches(scene),
             clusters: clusters.collect(),
+            shared: shared_meshes(scene),
             primitives,
             first_vertices,
             bounds: corners(bounds),
@@ -119,6 +140,7 @@ impl Clone for Prepared {
         Prepared {
             batches: self.batches.clone(),
             clusters: self.clusters.clone(),
+            shared: self.shared.clone(),
             first_vertices: self.first_vertices.clone(),
             recycled: Mutex::default(),
             ..*self

@@ -91,37 +91,35 @@ impl FixedPointRaster {
         let (positions, rest) = positions.as_chunks::<16>();
         let (vertices, last) = vertices.split_at_mut(16 * positions.len());
         for (positions, vertices) in positions.iter().zip(vertices.chunks_exact_mut(16)) {
-            self.place_sixteen(simd, map, positions, vertices.as_flattened_mut());
+            self.place_sixteen(simd, map, &rows(positions), vertices);
         }
         if !rest.is_empty() {
             let mut padded = [Vec3::ZERO; 16];
             padded[..rest.len()].copy_from_slice(rest);
             let mut placed = [[0; 4]; 16];
-            self.place_sixteen(simd, map, &padded, placed.as_flattened_mut());
+            self.place_sixteen(simd, map, &rows(&padded), &mut placed);
             last.copy_from_slice(&placed[..rest.len()]);
         }
     }
 
+    /// The vertex stage for sixteen vertices, given as rows of x, y and z.
     #[inline(always)]
-    fn place_sixteen<S: Simd>(
+    pub(super) fn place_sixteen<S: Simd>(
         &self,
         simd: S,
         map: &CameraMap,
-        positions: &[Vec3; 16],
-        vertices: &mut [i32],
+        [x, y, z]: &[[f32; 16]; 3],
+        vertices: &mut [Vertex],
     ) {
-        let (x, y, z) = (
-            coordinates(simd, positions, 0),
-            coordinates(simd, positions, 1),
-            coordinates(simd, positions, 2),
-        );
+        let wide = |row: &[f32; 16]| simd.widen_f32x16(f32x16::load_array_ref(simd, row));
+        let (x, y, z) = (wide(x), wide(y), wide(z));
         let upper = self.place_eight(simd, map, [x.0, y.0, z.0]);
         let lower = self.place_eight(simd, map, [x.1, y.1, z.1]);
         let rows = integers(upper.row, lower.row).to_array();
         let columns = integers(upper.column, lower.column).to_array();
         let keys = simd.narrow_f64x8(upper.key, lower.key).bitcast::<i32x16<S>>().to_array();
         let flags = integers(upper.flags, lower.flags).to_array();
-        for (four, vertices) in vertices.chunks_exact_mut(16).enumerate() {
+        for (four, vertices) in vertices.as_flattened_mut().chunks_exact_mut(16).enumerate() {
             let part = |lanes: &[i32; 16]| i32x4::from_slice(simd, &lanes[four * 4..four * 4 + 4]);
             let parts = [part(&rows), part(&columns), part(&keys), part(&flags)];
             i32x4::store_four_interleaved(parts, vertices);
@@ -313,14 +311,16 @@ pub(super) struct Corners {
     pub(super) flags: i32,
 }
 
-/// One coordinate of sixteen positions.
+/// Rows of x, y and z of sixteen positions.
 #[inline(always)]
-fn coordinates<S: Simd>(simd: S, positions: &[Vec3; 16], axis: usize) -> (f64x8<S>, f64x8<S>) {
-    let mut along = [0.0; 16];
-    for (along, position) in along.iter_mut().zip(positions) {
-        *along = position.to_array()[axis];
+fn rows(positions: &[Vec3; 16]) -> [[f32; 16]; 3] {
+    let mut rows = [[0.0; 16]; 3];
+    for (axis, row) in rows.iter_mut().enumerate() {
+        for (along, position) in row.iter_mut().zip(positions) {
+            *along = position.to_array()[axis];
+        }
     }
-    simd.widen_f32x16(f32x16::load_array(simd, along))
+    rows
 }
 
 /// The nearest integers, which must be within 31 bits: those of `upper`, then those of `lower`.

@@ -5,4 +5,5 @@
 mod fast;
 mod frames;
 mod hostile_scenes;
+mod instances;
 mod spheres;

@@ -1,7 +1,7 @@
 //! How the scene is divided, as something to look at: the boxes of the hierarchy and their levels.
 
 use super::prepared::Prepared;
-use super::search::tree::{NodeKind, NodeRef, WIDTH};
+use super::search::tree::{LeafCounts, NodeKind, NodeRef, WIDTH};
 use bothways_common::glam::Vec3;
 
 /// A box of the hierarchy.
@@ -15,7 +15,7 @@ pub struct HierarchyBox {
     pub low: Vec3,
     /// Its greatest corner, in the world.
     pub high: Vec3,
-    /// The primitives of a leaf; `None` if there are boxes in this one.
+    /// The primitives of a leaf, those of whole instances included; `None` if there are boxes in this one.
     pub primitives: Option<usize>,
 }
 
@@ -56,12 +56,23 @@ impl Prepared {
                 level,
                 low: side(0),
                 high: side(3),
-                primitives: is_leaf.then(|| node.counts[lane].all()),
+                primitives: is_leaf.then(|| self.primitives_of(child, node.counts[lane])),
             });
             if !is_leaf {
                 next.push(child);
             }
         }
+    }
+
+    fn primitives_of(&self, leaf: NodeRef, counts: LeafCounts) -> usize {
+        if leaf.kind() != NodeKind::Instances {
+            return counts.all();
+        }
+        let triangles = |number: &u32| {
+            let after = self.instanced.partition_point(|one| one.first_number <= *number);
+            self.instanced[after - 1].triangles as usize
+        };
+        self.instance_leaves[leaf.index()][..counts.all()].iter().map(triangles).sum()
     }
 }
 

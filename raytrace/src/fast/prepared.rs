@@ -1,7 +1,11 @@
 //! What is kept of a scene for any number of views of it.
 
-use super::search::tree::{Bounds, IndexedLeaf, Node, NodeRef, PlainLeaf, SPHERES};
+use super::search::instance_frustum::PlacedBy;
+use super::search::tree::{
+    Bounds, INSTANCES, IndexedLeaf, LEAF_KINDS, LeafCounts, Node, NodeRef, PlainLeaf, SPHERES,
+};
 use bothways_common::engine::simd::Level;
+use bothways_common::{Scene, Shape};
 
 /// What a moving camera would not repeat: the hierarchy over all bounded primitives.
 #[derive(Clone, Debug)]
@@ -11,7 +15,13 @@ pub struct Prepared {
     pub(super) plain_leaves: Vec<PlainLeaf>,
     /// The ids of the spheres of the hierarchy's leaves; unused lanes repeat the first.
     pub(super) sphere_leaves: Vec<[u32; SPHERES]>,
-    /// Where the walk begins: the triangles, and the spheres, as far as there are any.
+    /// The numbers of the instances of the hierarchy's leaves; unused lanes repeat the first.
+    pub(super) instance_leaves: Vec<[u32; INSTANCES]>,
+    /// The hierarchies of the meshes that instances share, in coordinates of the meshes.
+    pub(super) meshes: Vec<MeshRoot>,
+    /// The objects that are instances.
+    pub(super) instanced: Vec<Instanced>,
+    /// Where the walk begins: the triangles, the spheres and the instances, as far as there are any.
     pub(super) roots: Vec<NodeRef>,
     /// Around everything in the hierarchy.
     pub(super) bounds: Bounds,
@@ -25,7 +35,50 @@ pub struct Prepared {
     pub(super) side: usize,
 }
 
+/// The hierarchy of a mesh that instances share.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct MeshRoot {
+    /// A node, or a leaf with these counts.
+    pub(super) root: NodeRef,
+    pub(super) counts: LeafCounts,
+    /// Around all of it.
+    pub(super) bounds: Bounds,
+}
+
+/// An object that is instances of a mesh.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Instanced {
+    /// The number of its first instance among those of all objects.
+    pub(super) first_number: u32,
+    pub(super) object: usize,
+    pub(super) first_id: u32,
+    /// How many triangles the mesh has, and its place among [`Prepared::meshes`].
+    pub(super) triangles: u32,
+    pub(super) mesh: usize,
+}
+
 impl Prepared {
+    /// An instance, by its number among those of all objects.
+    #[inline(always)]
+    pub(super) fn instance<'a>(&self, scene: &'a Scene, number: u32) -> (&MeshRoot, PlacedBy<'a>) {
+        let after = self.instanced.partition_point(|instanced| instanced.first_number <= number);
+        let Instanced { first_number, object, first_id, triangles, mesh } =
+            self.instanced[after - 1];
+        let Shape::Instances(instances) = &scene.objects()[object].shape else {
+            unreachable!("another scene was prepared")
+        };
+        let number = number - first_number;
+        let placement = &instances.placements()[number as usize];
+        let first_id = first_id + number * triangles;
+        (&self.meshes[mesh], PlacedBy { placement, first_id })
+    }
+
+    /// The number of leaves of each kind.
+    pub(super) fn leaf_counts(&self) -> [usize; LEAF_KINDS] {
+        let Prepared { indexed_leaves, plain_leaves, sphere_leaves, instance_leaves, .. } = self;
+        [indexed_leaves.len(), plain_leaves.len(), sphere_leaves.len(), instance_leaves.len()]
+    }
+
     /// The same, traced at another level of SIMD and in tiles of 16 × 16 or 32 × 32 samples: for tests. They check that
     /// the level changes no bit of a frame, and that the tiles change no id and no event.
     ///

@@ -3,6 +3,7 @@
 pub(crate) mod box_culling;
 pub(crate) mod build;
 mod candidates;
+pub(crate) mod instance_frustum;
 mod leaf;
 pub(crate) mod tile_frustum;
 pub(crate) mod tree;

@@ -246,6 +246,18 @@ impl TileBuffer {
         }
     }
 
+    /// The least low end in the blocks that hold these rows and columns of samples: the first and the last of each.
+    pub(super) fn far_in(&self, [rows, columns]: [[usize; 2]; 2]) -> f32 {
+        let blocks = |[first, last]: [usize; 2]| first / BLOCK..=last / BLOCK;
+        let mut far = f32::INFINITY;
+        for row in blocks(rows) {
+            for column in blocks(columns) {
+                far = far.min(self.block_far[index(self.side, BLOCK * row, BLOCK * column) / 16]);
+            }
+        }
+        far
+    }
+
     /// What is seen at the tile's only sample.
     pub(super) fn seen(&self) -> Option<u32> {
         (self.high[0] != f32::NEG_INFINITY).then_some(self.ids[0])

@@ -60,6 +60,10 @@ impl Hierarchy {
                     (0..mesh.triangles().len())
                         .for_each(|local| add(Shape::Triangle(mesh.corners(local))));
                 }
+                Form::Instances(instances) => {
+                    (0..instances.primitive_count())
+                        .for_each(|local| add(Shape::Triangle(instances.corners(local))));
+                }
             }
         }
         let mut hierarchy = Hierarchy { nodes: Vec::new(), items, endless };

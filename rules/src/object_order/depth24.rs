@@ -38,6 +38,10 @@ fn range(samples: &Samples, view: &View) -> [f64; 2] {
             Shape::Mesh(mesh) => {
                 mesh.positions().iter().for_each(|&position| add(map.vertex(position)[2]));
             }
+            Shape::Instances(instances) => {
+                let corners = (0..instances.primitive_count()).flat_map(|k| instances.corners(k));
+                corners.for_each(|corner| add(map.vertex(corner)[2]));
+            }
             Shape::Sphere(sphere) => {
                 let depth = map.vertex(sphere.center)[2];
                 [-1.0, 1.0]

@@ -128,6 +128,7 @@ fn set_up<A: Rasterizer>(
     let corners = match &view.scene.objects()[object].shape {
         Shape::Triangle(Triangle { a, b, c }) => [*a, *b, *c],
         Shape::Mesh(mesh) => mesh.corners(local),
+        Shape::Instances(instances) => instances.corners(local),
         Shape::Sphere(sphere) => return vec![set_up_sphere(rule, id, *sphere, picture)],
         Shape::Plane(plane) => return vec![set_up_plane(rule, id, *plane, picture)],
     };

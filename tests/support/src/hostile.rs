@@ -4,8 +4,8 @@
 use crate::cases;
 use bothways_common::glam::{Quat, Vec3};
 use bothways_common::{
-    Camera, CameraDescription, Mesh, Object, Options, Orientation, Plane, Projection, Scene, Shape,
-    Sphere, Triangle, View,
+    Camera, CameraDescription, Instances, Mesh, Object, Options, Orientation, Placement, Plane,
+    Projection, Scene, Shape, Sphere, Triangle, View,
 };
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRng, TestRunner};
@@ -13,12 +13,32 @@ use proptest::test_runner::{Config, TestRng, TestRunner};
 /// Gives `count` random scenes to a check: the same scenes in every run, so that a failure can be repeated; many more
 /// and different scenes with `BOTHWAYS_LONG` set.
 pub fn for_each(numbers: Numbers, count: u32, check: impl Fn(&View, &Options)) {
+    each(numbers, objects(numbers), count, check);
+}
+
+/// The same with scenes of up to four such shapes.
+pub fn for_each_of(
+    numbers: Numbers,
+    shape: impl Strategy<Value = Shape>,
+    count: u32,
+    check: impl Fn(&View, &Options),
+) {
+    let objects = proptest::collection::vec(shape.prop_map(Object::from), 1..5);
+    each(numbers, objects, count, check);
+}
+
+fn each(
+    numbers: Numbers,
+    objects: impl Strategy<Value = Vec<Object>>,
+    count: u32,
+    check: impl Fn(&View, &Options),
+) {
     // With several samples per pixel, samples lie between the integers of few bits.
     let samples = match numbers {
         Numbers::FewBits => prop_oneof![9 => Just(1_u32), 1 => 2..4_u32].boxed(),
         Numbers::Ordinary | Numbers::Extreme => (1..4_u32).boxed(),
     };
-    let strategy = (objects(numbers), camera(numbers), samples);
+    let strategy = (objects, camera(numbers), samples);
     runner(count)
         .run(&strategy, |(objects, description, samples)| {
             let scene = Scene::new(objects).expect("it is a scene");
@@ -98,14 +118,76 @@ fn shape(numbers: Numbers) -> impl Strategy<Value = Shape> {
     let plane = (point(numbers), point(numbers)).prop_filter_map("a normal", |(point, normal)| {
         (normal != Vec3::ZERO).then_some(Shape::Plane(Plane { point, normal }))
     });
-    let fan = proptest::collection::vec(point(numbers), 4..8).prop_map(|positions| {
+    let fan = fan(numbers).prop_map(Shape::Mesh);
+    let any = prop_oneof![
+        4 => triangle, 1 => degenerate, 3 => coplanar, 1 => needle, 2 => ball, 1 => plane, 2 => fan
+    ];
+    match numbers {
+        // Most instances would leave the few coordinates at which these scenes tie.
+        Numbers::FewBits => any.boxed(),
+        Numbers::Ordinary | Numbers::Extreme => {
+            prop_oneof![14 => any, 2 => instances(numbers)].boxed()
+        }
+    }
+}
+
+/// A mesh of some triangles about one corner.
+fn fan(numbers: Numbers) -> impl Strategy<Value = Mesh> {
+    proptest::collection::vec(point(numbers), 4..8).prop_map(|positions| {
         let count = u32::try_from(positions.len()).expect("they are few");
         let triangles = (1..count - 1).map(|k| [0, k, k + 1]).collect();
-        Shape::Mesh(Mesh::new(positions, triangles).expect("it is a mesh"))
+        Mesh::new(positions, triangles).expect("it is a mesh")
+    })
+}
+
+/// Up to seven instances of a mesh.
+pub fn instances(numbers: Numbers) -> impl Strategy<Value = Shape> {
+    let placements = proptest::collection::vec(placement(numbers), 1..8);
+    (fan(numbers), placements).prop_filter_map("in range", |(mesh, placements)| {
+        Instances::new(mesh, placements).ok().map(Shape::Instances)
+    })
+}
+
+/// Moved, turned by quarters and mirrored, flattened onto a plane or a line, and any map at all.
+fn placement(numbers: Numbers) -> impl Strategy<Value = Placement> {
+    let rows = move || {
+        let row =
+            || (point(numbers), coordinate(numbers)).prop_map(|(p, by)| p.extend(by).to_array());
+        [row(), row(), row()]
+    };
+    let moved = point(numbers).prop_map(Placement::translation);
+    let quarters = (0..6_usize, 0..8_u8, point(numbers)).prop_map(|(order, signs, by)| {
+        const ORDERS: [[usize; 3]; 6] =
+            [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
+        Placement::from_rows([0, 1, 2].map(|axis| {
+            let mut row = [0.0, 0.0, 0.0, by[axis]];
+            row[ORDERS[order][axis]] = if signs >> axis & 1 == 1 { -1.0 } else { 1.0 };
+            row
+        }))
     });
-    prop_oneof![
-        4 => triangle, 1 => degenerate, 3 => coplanar, 1 => needle, 2 => ball, 1 => plane, 2 => fan
-    ]
+    let flat = (rows(), 0..3_usize, 0..3_usize).prop_map(|(mut rows, from, to)| {
+        rows[to] = if from == to { [0.0, 0.0, 0.0, rows[to][3]] } else { rows[from] };
+        Placement::from_rows(rows)
+    });
+    let any = rows().prop_map(Placement::from_rows);
+    prop_oneof![1 => Just(Placement::IDENTITY), 3 => moved, 3 => quarters, 1 => flat, 3 => any]
+}
+
+/// The same scene with every instance a mesh of its own: its primitives have the same ids.
+pub fn copied(scene: &Scene) -> Scene {
+    let objects = scene.objects().iter().flat_map(|object| match &object.shape {
+        Shape::Instances(instances) => (0..instances.placements().len())
+            .map(|instance| {
+                let shape = Shape::Mesh(instances.copied(instance));
+                Object { shape, ..object.clone() }
+            })
+            .collect(),
+        _ => vec![object.clone()],
+    });
+    let mut copied = Scene::new(objects.collect()).expect("it is a scene");
+    copied.lights.clone_from(&scene.lights);
+    copied.background = scene.background;
+    copied
 }
 
 /// Objects. Some are followed by a copy; some triangles by a copy with another first corner, or with the opposite

@@ -4,6 +4,7 @@
 //! orders is next to the tests that use it, in `tests/contract/four_renderers.rs`.
 
 mod cameras;
+mod crowds;
 mod dice;
 mod frames;
 pub mod hostile;
@@ -12,6 +13,7 @@ pub mod repeats;
 mod scenes;
 
 pub use cameras::*;
+pub use crowds::*;
 pub use dice::*;
 pub use frames::*;
 pub use observers::*;

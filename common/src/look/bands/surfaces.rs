@@ -7,7 +7,7 @@ use crate::look::lanes::{DVec3x8, Vec3x16, each};
 use crate::look::texture::{self, TexturePoints};
 use crate::raster::Sample;
 use crate::scene::material::Material;
-use crate::scene::{Mesh, Object, Primitive, Shape};
+use crate::scene::{Object, Primitive, Shape};
 use glam::{DVec2, DVec3, Vec3};
 
 /// How a renderer finds out what its surfaces look like.
@@ -79,6 +79,10 @@ impl Seen<'_> {
                 let [a, b, c] = mesh.normals().of(self.local)?;
                 Some(each!(normal in [a, b, c] => unit(normal.as_dvec3())))
             }
+            Shape::Instances(instances) => {
+                let [a, b, c] = instances.corner_normals(self.local)?;
+                Some(each!(normal in [a, b, c] => unit(normal)))
+            }
             Shape::Triangle(_) | Shape::Sphere(_) | Shape::Plane(_) => None,
         }
     }
@@ -86,21 +90,24 @@ impl Seen<'_> {
     /// The colours at the corners of a triangle that has some.
     #[inline(always)]
     pub fn corner_colors(&self) -> Option<[Vec3; 3]> {
-        match &self.object.shape {
-            Shape::Mesh(mesh) if !mesh.colors().is_empty() => {
-                let [a, b, c] = mesh.triangles()[self.local];
-                Some(each!(vertex in [a, b, c] => mesh.colors()[vertex as usize]))
-            }
-            _ => None,
+        let (mesh, triangle) = match &self.object.shape {
+            Shape::Mesh(mesh) => (mesh, self.local),
+            Shape::Instances(instances) => (instances.mesh(), instances.locate(self.local).1),
+            Shape::Triangle(_) | Shape::Sphere(_) | Shape::Plane(_) => return None,
+        };
+        let colors = mesh.colors();
+        if colors.is_empty() {
+            return None;
         }
+        let [a, b, c] = mesh.triangles()[triangle];
+        Some(each!(vertex in [a, b, c] => colors[vertex as usize]))
     }
 
     /// Whether each of its samples has a tint: by a texture, or by colours.
     #[inline(always)]
     pub(super) fn is_tinted(&self) -> bool {
-        let has_colors = |mesh: &Mesh| !mesh.colors().is_empty();
-        self.material.texture.is_some()
-            || matches!(&self.object.shape, Shape::Mesh(mesh) if has_colors(mesh))
+        let mesh = self.object.shape.mesh();
+        self.material.texture.is_some() || mesh.is_some_and(|mesh| !mesh.colors().is_empty())
     }
 
     /// Whether texture coordinates are needed.

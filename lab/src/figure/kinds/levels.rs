@@ -103,10 +103,7 @@ struct Levels<'a> {
 impl<'a> Levels<'a> {
     fn new(view: &View, frames: &'a [Frame; 2]) -> Levels<'a> {
         let materials = view.scene.objects().iter().flat_map(|object| {
-            let named = match &object.shape {
-                crate::common::Shape::Mesh(mesh) => mesh.materials(),
-                _ => None,
-            };
+            let named = object.shape.mesh().and_then(|mesh| mesh.materials());
             let of_mesh = named.into_iter().flat_map(|materials| materials.named());
             of_mesh.filter_map(|named| named.material.as_ref()).chain([&object.material])
         });

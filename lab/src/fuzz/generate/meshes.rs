@@ -3,21 +3,20 @@
 
 use super::Scale;
 use super::stage::{Place, Stage, stored, tame};
+use crate::common::Mesh;
 use crate::common::glam::{DVec3, Vec3};
-use crate::common::{Mesh, Shape};
 use crate::formats::generate::Kind;
 
 /// A mesh.
-pub(super) fn mesh(stage: &mut Stage, scale: Scale) -> Shape {
+pub(super) fn mesh(stage: &mut Stage, scale: Scale) -> Mesh {
     let most = most_triangles(stage, scale);
-    let mesh = match stage.dice.below(8) {
+    match stage.dice.below(8) {
         0 | 1 => fan(stage),
         2..=4 => grid(stage, most),
         5 => soup(stage, most.min(if scale.is_large() { 20 } else { 200 })),
         6 => cloud(stage, most),
         _ => closed(stage, most),
-    };
-    Shape::Mesh(mesh)
+    }
 }
 
 /// A limit for the triangles of a mesh: low for most, so that many scenes are drawn in a second.

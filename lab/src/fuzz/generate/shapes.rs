@@ -190,6 +190,6 @@ pub(super) fn near_copy(stage: &mut Stage, shape: Shape) -> Shape {
             }
             _ => Shape::Plane(Plane { point: moved(point), normal }),
         },
-        other @ Shape::Mesh(_) => other,
+        other @ (Shape::Mesh(_) | Shape::Instances(_)) => other,
     }
 }

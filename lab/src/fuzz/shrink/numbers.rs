@@ -3,7 +3,7 @@
 use super::Shrinker;
 use crate::common::camera::Orientation;
 use crate::common::glam::Vec3;
-use crate::common::{Mesh, Plane, Shape, Sphere, Triangle};
+use crate::common::{Instances, Mesh, Placement, Plane, Shape, Sphere, Triangle};
 use crate::fuzz::case::Case;
 use std::collections::BTreeSet;
 
@@ -106,6 +106,20 @@ fn change(case: &Case, mut number: impl FnMut(usize, f32) -> f32) -> Option<Case
             Shape::Mesh(mesh) => {
                 let positions = mesh.positions().iter().map(|p| vector(*p)).collect();
                 Shape::Mesh(Mesh::new(positions, mesh.triangles().to_vec()).ok()?)
+            }
+            Shape::Instances(instances) => {
+                let mesh = instances.mesh();
+                let positions = mesh.positions().iter().map(|p| vector(*p)).collect();
+                let mesh = Mesh::new(positions, mesh.triangles().to_vec()).ok()?;
+                // Twelve numbers, three at a time.
+                let placed = instances.placements().iter().map(|placement| {
+                    let mut rows = *placement.rows();
+                    for three in rows.as_flattened_mut().chunks_exact_mut(3) {
+                        three.copy_from_slice(&vector(Vec3::from_slice(three)).to_array());
+                    }
+                    Placement::from_rows(rows)
+                });
+                Shape::Instances(Instances::new(mesh, placed.collect()).ok()?)
             }
         });
     }

@@ -1,7 +1,7 @@
 //! Fewer primitives.
 
 use super::Shrinker;
-use crate::common::{Mesh, Shape};
+use crate::common::{Instances, Mesh, Shape};
 use crate::fuzz::case::Case;
 
 /// Removes primitives: halves of them, then ever smaller parts, down to single ones. Triangles of meshes become objects of
@@ -37,6 +37,16 @@ fn kept(case: &Case, is_kept: impl Fn(usize) -> bool) -> Case {
         id = ids.end;
         match shape {
             Shape::Mesh(mesh) => shapes.extend(part_of(mesh, |local| is_kept(ids.start + local))),
+            Shape::Instances(instances) => {
+                let triangles = instances.mesh().triangles().len();
+                let first = |instance: usize| ids.start + instance * triangles;
+                let placements = instances.placements().iter().enumerate();
+                let kept = placements
+                    .filter(|(k, _)| (first(*k)..first(k + 1)).any(&is_kept))
+                    .map(|(_, placement)| *placement);
+                let kept = Instances::new(instances.shared_mesh().clone(), kept.collect());
+                shapes.push(Shape::Instances(kept.expect("it is a part of them")));
+            }
             other if is_kept(ids.start) => shapes.push(other.clone()),
             _ => {}
         }

@@ -1,19 +1,20 @@
 //! Lists for every tile of the primitives that may affect it, in the order of the clusters.
 
 use super::batches::{Batch, Piece};
-use super::clusters::{self, CLUSTER, Cluster, ClusterExtent};
+use super::clusters::{self, CLUSTER, Cluster, ClusterExtent, Sight};
+use super::instances::{Extent, Instance, SharedMesh, placed_box};
 use super::tiling::Tiling;
 use crate::fast::bounds::region;
 use crate::fast::geometry::Geometry;
 use crate::fast::setup::BOX_MARGIN;
 use crate::fast::size_class::{FEW, MOST_SAMPLES_ACROSS, SizeClass, VERY_FEW};
 use crate::fast::vertices::{ON_RASTER, OUT_OF_SIGHT, Vertex};
-use bothways_common::Shape;
 use bothways_common::engine::context::{Context, ScalarContext};
 use bothways_common::engine::fault::{Fault, Planted};
 use bothways_common::engine::simd::{Simd, SimdBase, SimdMask, i32x4};
 use bothways_common::observe::{Events, Executed};
 use bothways_common::raster::Region;
+use bothways_common::{Placement, Shape};
 use std::ops::Range;
 
 /// A primitive and the samples that it may cover.
@@ -79,6 +80,9 @@ impl Entry {
 #[derive(Debug, Default)]
 pub(crate) struct BatchBins {
     clusters: Vec<Vec<Cluster>>,
+    /// For each tile the instances of meshes that may be seen there, and how many triangles they have.
+    instances: Vec<Vec<Instance>>,
+    instanced: Vec<usize>,
     lists: Vec<Vec<u32>>,
     /// The entries of some triangles at a time: they stay in the fastest cache until they go to their lists.
     entries: Vec<Entry>,
@@ -90,10 +94,15 @@ impl BatchBins {
         &self.clusters[tile]
     }
 
+    /// The instances that may be seen in a tile.
+    pub(crate) fn instances(&self, tile: usize) -> &[Instance] {
+        &self.instances[tile]
+    }
+
     /// About how many primitives come to a tile.
     pub(crate) fn work(&self, tile: usize) -> usize {
         let lists = &self.lists[tile * SizeClass::COUNT as usize..][..SizeClass::COUNT as usize];
-        let clusters = self.clusters[tile].len() * CLUSTER as usize;
+        let clusters = self.clusters[tile].len() * CLUSTER as usize + self.instanced[tile];
         clusters + lists.iter().map(Vec::len).sum::<usize>()
     }
 
@@ -118,10 +127,18 @@ impl BatchBins {
         self.lists.iter_mut().for_each(Vec::clear);
         self.clusters.resize_with(tiles, Vec::new);
         self.clusters.iter_mut().for_each(Vec::clear);
+        self.instances.resize_with(tiles, Vec::new);
+        self.instances.iter_mut().for_each(Vec::clear);
+        self.instanced.clear();
+        self.instanced.resize(tiles, 0);
         let scene = geometry.view.scene;
         for piece in batch.pieces(scene) {
             match &scene.objects()[piece.object].shape {
                 Shape::Mesh(_) => self.add_clusters(context, &piece, geometry, &mut executed),
+                Shape::Instances(instances) => {
+                    let placements = instances.placements();
+                    self.add_instances(context, &piece, placements, geometry, &mut executed);
+                }
                 Shape::Triangle(_) => {
                     executed.binned += 1;
                     let first = geometry.first_vertices[piece.object];
@@ -181,12 +198,71 @@ impl BatchBins {
                 }
                 ClusterExtent::Nowhere => {}
                 ClusterExtent::FewTiles(cluster) => {
-                    for tile in geometry.tiling.tiles(cluster.bounds) {
+                    for tile in geometry.tiling.tiles(cluster.extent.bounds) {
                         self.clusters[tile].push(cluster);
                     }
                 }
             }
         }
+    }
+
+    /// Adds a piece of an object of instances, which is cut between them: those that may be seen, each by its box.
+    #[inline(always)]
+    fn add_instances<C: Context>(
+        &mut self,
+        context: &mut C,
+        piece: &Piece,
+        placements: &[Placement],
+        geometry: &Geometry,
+        executed: &mut Executed,
+    ) {
+        let number = |count: usize| u32::try_from(count).expect("there are fewer than ids");
+        let mesh = geometry.shared[piece.object].as_ref().expect("instances share a mesh");
+        let triangles = mesh.triangle_count();
+        let first = piece.first / triangles;
+        let object = number(piece.object);
+        for (number, first_id) in (first..first + piece.count / triangles)
+            .zip((piece.first_id..).step_by(triangles as usize))
+        {
+            let placement = &placements[number as usize];
+            executed.boxes_tested += 1;
+            let bounds = placed_box(placement, &mesh.bounds);
+            let sight = clusters::sight(context.simd(), (geometry.map, geometry.raster), &bounds);
+            if C::WATCHED {
+                self.tell(context, (mesh, placement), first_id, geometry);
+            }
+            let extent = match sight {
+                Sight::Nowhere => continue,
+                Sight::Anywhere => Extent::anywhere(geometry.raster),
+                Sight::Within(extent) => extent,
+            };
+            for tile in geometry.tiling.tiles(extent.bounds) {
+                self.instances[tile].push(Instance { object, number, extent });
+                self.instanced[tile] += triangles as usize;
+            }
+        }
+    }
+
+    /// Tells an observer that the triangles of an instance begin.
+    #[inline(always)]
+    fn tell<C: Context>(
+        &mut self,
+        context: &mut C,
+        (mesh, placement): (&SharedMesh, &Placement),
+        first_id: u32,
+        geometry: &Geometry,
+    ) {
+        let mut vertices = [[0; 4]; _];
+        for cluster in &mesh.clusters {
+            let onto = (geometry.map, geometry.raster);
+            mesh.place(context.simd(), onto, placement, cluster, &mut vertices);
+            for place in 0..cluster.count() {
+                let (number, corners) = cluster.triangle(mesh, place, &vertices);
+                self.entries.clear();
+                self.enter(context, [first_id + number; 2], &corners, geometry);
+            }
+        }
+        self.entries.clear();
     }
 
     /// Enters the samples that a triangle may cover, if there are any.

@@ -1,12 +1,12 @@
 //! Clusters of neighbouring triangles of a mesh. Most lie in one tile, which takes them as a whole and looks at each
 //! triangle once, when it draws it.
 
+use super::instances::Extent;
 use super::tiling::Tiling;
 use crate::fast::camera_map::CameraMap;
 use crate::fast::setup::BOX_MARGIN;
 use crate::fast::vertices::{FixedPointRaster, ON_RASTER, OUT_OF_SIGHT};
 use bothways_common::engine::simd::Simd;
-use bothways_common::raster::Region;
 use bothways_common::{Mesh, Shape};
 use glam::{Vec3, Vec3A};
 use rayon::prelude::*;
@@ -30,10 +30,8 @@ pub(crate) struct Cluster {
     pub(crate) object: u32,
     pub(crate) first: u32,
     pub(crate) count: u32,
-    /// The samples that they may cover: first and last row, first and last column.
-    pub(crate) bounds: [[u16; 2]; 2],
-    /// No depth key of theirs is larger, except for rounding.
-    pub(crate) nearest: f32,
+    /// Where they may be seen.
+    pub(crate) extent: Extent,
 }
 
 /// Where a cluster may be seen.
@@ -71,8 +69,13 @@ pub(crate) struct Triangles<'a> {
     numbers: Option<&'a [u32]>,
 }
 
-impl Triangles<'_> {
+impl<'a> Triangles<'a> {
     pub(crate) const NONE: Triangles<'static> = Triangles { corners: &[], numbers: None };
+
+    /// All corners, and all numbers if they are not those of their places.
+    pub(crate) fn parts(self) -> (&'a [[u32; 3]], Option<&'a [u32]>) {
+        (self.corners, self.numbers)
+    }
 
     /// The number in the mesh of the triangle at this index.
     #[inline(always)]
@@ -87,7 +90,16 @@ impl Triangles<'_> {
 impl Clusters {
     /// Clusters of neighbours.
     pub(crate) fn new(shape: &Shape) -> Clusters {
-        let Shape::Mesh(mesh) = shape else { return Clusters::default() };
+        match shape {
+            Shape::Mesh(mesh) => Clusters::of_mesh(mesh),
+            Shape::Triangle(_) | Shape::Sphere(_) | Shape::Plane(_) | Shape::Instances(_) => {
+                Clusters::default()
+            }
+        }
+    }
+
+    /// Clusters of neighbours.
+    pub(crate) fn of_mesh(mesh: &Mesh) -> Clusters {
         let (positions, triangles) = (mesh.positions(), mesh.triangles());
         let (bounds, is_coherent) = bounds(positions, triangles);
         if is_coherent {
@@ -105,12 +117,21 @@ impl Clusters {
 
     /// The object's triangles in the order of their clusters.
     pub(crate) fn triangles<'a>(&'a self, shape: &'a Shape) -> Triangles<'a> {
-        match (shape, &self.sorted) {
-            (Shape::Mesh(_), Some(Sorted { numbers, triangles, .. })) => {
+        match shape {
+            Shape::Mesh(mesh) => self.triangles_of(mesh),
+            Shape::Triangle(_) | Shape::Sphere(_) | Shape::Plane(_) | Shape::Instances(_) => {
+                Triangles::NONE
+            }
+        }
+    }
+
+    /// The mesh's triangles in the order of their clusters.
+    pub(crate) fn triangles_of<'a>(&'a self, mesh: &'a Mesh) -> Triangles<'a> {
+        match &self.sorted {
+            Some(Sorted { numbers, triangles, .. }) => {
                 Triangles { corners: triangles, numbers: Some(numbers) }
             }
-            (Shape::Mesh(mesh), None) => Triangles { corners: mesh.triangles(), numbers: None },
-            (Shape::Triangle(_) | Shape::Sphere(_) | Shape::Plane(_), _) => Triangles::NONE,
+            None => Triangles { corners: mesh.triangles(), numbers: None },
         }
     }
 
@@ -201,11 +222,16 @@ fn sort(points: &mut [(Vec3A, u32)]) {
     }
 }
 
+/// Where what lies in a box may be seen.
+pub(crate) enum Sight {
+    /// Nowhere.
+    Nowhere,
+    /// It is not known where.
+    Anywhere,
+    Within(Extent),
+}
+
 /// Finds where a cluster may be seen, from the corners of its box.
-///
-/// All points of a box in front of the eye are seen between the places of its corners. A corner's place is
-/// off by at most a unit and a half, and so is a vertex's: with three units more than a triangle's own box
-/// has, no triangle's box reaches over the cluster's.
 #[inline(always)]
 pub(crate) fn extent<S: Simd>(
     simd: S,
@@ -213,12 +239,32 @@ pub(crate) fn extent<S: Simd>(
     bounds: &Bounds,
     [object, first, count]: [u32; 3],
 ) -> ClusterExtent {
+    match sight(simd, (map, raster), bounds) {
+        Sight::Nowhere => ClusterExtent::Nowhere,
+        Sight::Within(extent) if tiling.tiles(extent.bounds).count() <= MOST_TILES => {
+            ClusterExtent::FewTiles(Cluster { object, first, count, extent })
+        }
+        Sight::Within(_) | Sight::Anywhere => ClusterExtent::ManyTiles,
+    }
+}
+
+/// Finds where the triangles in a box may be seen, from the corners of the box.
+///
+/// All points of a box in front of the eye are seen between the places of its corners. A corner's place is
+/// off by at most a unit and a half, and so is a vertex's: with three units more than a triangle's own box
+/// has, no triangle's box reaches over the cluster's.
+#[inline(always)]
+pub(crate) fn sight<S: Simd>(
+    simd: S,
+    (map, raster): (&CameraMap, &FixedPointRaster),
+    bounds: &Bounds,
+) -> Sight {
     let corners = raster.place_corners(simd, map, *bounds);
     if corners.flags & OUT_OF_SIGHT != 0 {
-        return ClusterExtent::Nowhere;
+        return Sight::Nowhere;
     }
     if corners.flags & ON_RASTER == 0 {
-        return ClusterExtent::ManyTiles;
+        return Sight::Anywhere;
     }
     let bits = raster.fraction_bits;
     let samples = |[low, high]: [i32; 2], size: i32| {
@@ -231,20 +277,7 @@ pub(crate) fn extent<S: Simd>(
     let (Some(rows), Some(columns)) =
         (samples(corners.rows, height), samples(corners.columns, width))
     else {
-        return ClusterExtent::Nowhere;
+        return Sight::Nowhere;
     };
-    let bounds = [rows, columns];
-    if tiling.tiles(bounds).count() > MOST_TILES {
-        return ClusterExtent::ManyTiles;
-    }
-    ClusterExtent::FewTiles(Cluster { object, first, count, bounds, nearest: corners.nearest })
-}
-
-impl Cluster {
-    /// The samples that it may cover.
-    pub(crate) fn region(&self) -> Region {
-        let range = |[first, last]: [u16; 2]| first.into()..usize::from(last) + 1;
-        let [rows, columns] = self.bounds;
-        Region { rows: range(rows), columns: range(columns) }
-    }
+    Sight::Within(Extent { bounds: [rows, columns], nearest: corners.nearest })
 }

@@ -6,7 +6,7 @@ use crate::fast::world_affine::{LARGEST, WorldAffine, narrowed, upward};
 use bothways_common::engine::context::Context;
 use bothways_common::engine::fault::Planted;
 use bothways_common::engine::roundoff::EPS24;
-use bothways_common::engine::simd::{Simd, SimdBase, SimdMask, f32x16};
+use bothways_common::engine::simd::{Simd, SimdBase, SimdFloat, SimdMask, f32x16, mask32x16};
 use glam::{DVec3, Vec3};
 
 /// What all tiles share to cull boxes. Errors are infinite if numbers might overflow.
@@ -14,17 +14,37 @@ use glam::{DVec3, Vec3};
 pub(crate) struct BoxCulling {
     /// The point of the world from which coordinates count: the eye, or a point near all boxes if the eye is far
     /// from them.
-    origin: [f32; 3],
+    pub(super) origin: [f32; 3],
     /// The same relative to the eye, and its `t`.
     pub(crate) from_eye: DVec3,
-    t_at_origin: f64,
+    pub(super) t_at_origin: f64,
     /// `t` less that of the origin.
-    t: WorldAffine,
+    pub(super) t: WorldAffine,
     /// The computed `t` of a point in front of the eye is not smaller.
     pub(crate) least_t: f32,
     /// How far computed values may be off: those of `t`, and those for sides.
     pub(crate) t_error: f32,
     pub(crate) sides_error: f32,
+    /// What of both errors is there before anything is rounded to `f32`.
+    pub(super) t_exact: f64,
+    pub(super) sides_exact: f64,
+    /// No two vertices in a box are farther from each other, along any axis of the world, than the longest side times
+    /// this, and this more: 1 and 0 if the box lies in the world.
+    pub(super) stretch: f32,
+    pub(super) slack: f32,
+    /// Where boxes of an instance are seen in the tile.
+    pub(super) places: Option<Places>,
+}
+
+/// Columns and rows, times `t` of a perspective camera, from the tile's middle, as functions like that of `t`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Places {
+    pub(super) across: WorldAffine,
+    pub(super) down: WorldAffine,
+    /// Columns from the tile's middle to its first sample, and what rays may be off.
+    pub(super) half: f32,
+    pub(super) beside: f32,
+    pub(super) parallel: bool,
 }
 
 /// What bounds the values of a map.
@@ -52,7 +72,7 @@ pub(crate) struct BoxHits {
     pub(crate) hit: u64,
     /// The nearest `t` of each, as computed.
     pub(crate) near: [f32; WIDTH],
-    /// The longest side of each.
+    /// How far vertices in each are from each other at most, along any axis.
     pub(crate) size: [f32; WIDTH],
 }
 
@@ -77,9 +97,11 @@ impl BoxCulling {
     pub(crate) fn new(origin: Vec3, from_eye: DVec3, row_of_t: DVec3, sizes: &Sizes) -> BoxCulling {
         let Sizes { reach, near, t, place, offset, place_of_origin, wide, beside } = *sizes;
         let t_at_origin = row_of_t.dot(from_eye);
+        let exact =
+            |normal: DVec3, offset: f64| (-44f64).exp2() * (reach * normal.element_sum() + offset);
         let error = |normal: DVec3, offset: f64, at_origin: f64| {
             let size = near * normal.element_sum() + offset + at_origin;
-            let in_f64 = (-44f64).exp2() * (reach * normal.element_sum() + offset);
+            let in_f64 = exact(normal, offset);
             let floor = f64::from(f32::MIN_POSITIVE) * (1.0 + reach);
             let largest = size.max(reach).max(normal.max_element());
             if largest < LARGEST {
@@ -98,6 +120,11 @@ impl BoxCulling {
             least_t: narrowed(-t_at_origin - f64::from(t_error)).next_down(),
             t_error,
             sides_error: error(beside * t + place, wide + offset, side_at_origin),
+            t_exact: exact(t, offset),
+            sides_exact: exact(beside * t + place, wide + offset),
+            stretch: 1.0,
+            slack: 0.0,
+            places: None,
         }
     }
 
@@ -136,11 +163,56 @@ impl BoxCulling {
         let missed = across.min(down).simd_lt(f32x16::splat(simd, -room))
             | far.simd_lt(f32x16::splat(simd, self.least_t))
             | near.simd_gt(f32x16::splat(simd, farthest));
+        let missed = match &self.places {
+            Some(places) => missed | self.between_samples(simd, places, &boxes, [near, far]),
+            None => missed,
+        };
         BoxHits {
             hit: (!missed).to_bitmask() & ((1 << node.used) - 1),
             near: near.to_array(),
-            size: longest_side(simd, node).to_array(),
+            size: (longest_side(simd, node) * self.stretch + self.slack).to_array(),
         }
+    }
+
+    /// Which boxes of an instance lie between the rows or the columns of samples. A mesh that is there very often is mostly
+    /// seen from far away, where most leaves are smaller than a sample.
+    ///
+    /// Columns times `t` are off by no more than a side, and `t` lies between its two ends, which for an instance are
+    /// moved by their error already; see [`InstanceFrustum`](super::instance_frustum::InstanceFrustum). So a column lies between the quotients
+    /// of their ends. Sums, reciprocal and product are rounded by `5·ε₂₄` of the column, the last sum by `ε₂₄` of that
+    /// and half a tile; `16·ε₂₄` is more. A point on a ray is off by what [`MapErrors::wide`] is more than half of a tile.
+    ///
+    /// [`MapErrors::wide`]: crate::fast::camera_map::MapErrors::wide
+    #[inline(always)]
+    fn between_samples<S: Simd>(
+        &self,
+        simd: S,
+        places: &Places,
+        boxes: &[[f32x16<S>; 2]; 3],
+        [near, far]: [f32x16<S>; 2],
+    ) -> mask32x16<S> {
+        let splat = |value: f32| f32x16::splat(simd, value);
+        let (one, zero) = (splat(1.0), splat(0.0));
+        let at_origin = narrowed(self.t_at_origin);
+        let [first_t, last_t] = if places.parallel {
+            [one; 2]
+        } else {
+            let last = upward(2.0 * f64::from(self.t_error)).next_up();
+            [near + at_origin.next_down(), far + last + at_origin.next_up()]
+        };
+        let [by_first, by_last] = [one / first_t, one / last_t];
+        let error = splat(self.sides_error);
+        let beside = places.beside + 16.0 * EPS24 * (places.half + 1.0);
+        let none = |function: &WorldAffine| {
+            let low = function.extreme(boxes, false) - error;
+            let high = function.extreme(boxes, true) + error;
+            let low = (low * by_first).min(low * by_last);
+            let high = (high * by_first).max(high * by_last);
+            let first = low - low.abs() * (16.0 * EPS24) + (places.half - beside);
+            let last = high + high.abs() * (16.0 * EPS24) + (places.half + beside);
+            last.floor().simd_lt(first.ceil())
+        };
+        first_t.simd_gt(zero) & (none(&places.across) | none(&places.down))
     }
 
     /// Whether [`BoxCulling::test`] certainly drops all boxes of a node for each ray of a tile that is tested alone, as a

@@ -12,67 +12,130 @@ mod prim_ref;
 mod sah;
 mod split;
 
-use super::tree::{Bounds, Node, NodeKind};
-use crate::fast::prepared::Prepared;
+use super::tree::{Bounds, INSTANCES, LeafCounts, Node, NodeKind, NodeRef, SPHERES};
+use crate::fast::prepared::{Instanced, MeshRoot, Prepared};
 use arena::{Arena, LeafRange};
-use bothways_common::Scene;
 use bothways_common::engine::simd::best_level;
+use bothways_common::{Mesh, Scene, Shape};
 use grow::grow;
-use prim_ref::{Corners, PrimRef, collect};
+use prim_ref::{Corners, PrimRef, Source, collect, triangles_of};
 use rayon::prelude::*;
-use split::{BuildContext, BuildRecord};
+use split::{BuildContext, BuildRecord, Kind};
+use std::collections::HashMap;
+use std::sync::Arc;
 
-/// Builds the hierarchy of a scene, to be traced in tiles of `side` × `side` samples.
+/// Builds the hierarchy of a scene, to be traced in tiles of `side` × `side` samples. A mesh of which there are
+/// instances has a hierarchy of its own, once.
 pub(crate) fn build(scene: &Scene, side: usize) -> Prepared {
     let mut collected = collect(scene);
-    let mut arena = Arena::default();
-    let mut roots = Vec::new();
-    let mut bounds = Bounds::EMPTY;
-    let hierarchies = [(false, &mut collected.triangles), (true, &mut collected.spheres)];
-    for (spheres, prims) in hierarchies {
-        if prims.is_empty() {
-            continue;
-        }
-        let all = BuildRecord::new(prims, 0, 0, false);
-        let root = all.bounds.bounds();
-        bounds = bounds.union(&root);
-        let (mut tree, child, counts) = grow(all, &BuildContext { spheres, scene });
-        // Few primitives are a leaf; the walk begins at a node.
-        if child.kind() != NodeKind::Node {
-            tree.nodes.push(Node::empty());
-            tree.attach(0, &root, child, counts);
-        }
-        roots.push(arena.append(tree));
-    }
-    let [indexed, plain, spheres] = &arena.leaves;
-    let triangles = &collected.triangles;
-    Prepared {
-        indexed_leaves: filled(scene, triangles, indexed, leaves::indexed_leaf),
-        plain_leaves: filled(scene, triangles, plain, leaves::plain_leaf),
-        sphere_leaves: filled(scene, &collected.spheres, spheres, |prims, _| {
-            std::array::from_fn(|lane| prims.get(lane).unwrap_or(&prims[0]).id())
-        }),
-        nodes: arena.nodes,
-        roots,
-        bounds,
+    let mut prepared = Prepared {
+        nodes: Vec::new(),
+        indexed_leaves: Vec::new(),
+        plain_leaves: Vec::new(),
+        sphere_leaves: Vec::new(),
+        instance_leaves: Vec::new(),
+        roots: Vec::new(),
+        meshes: Vec::new(),
+        instanced: Vec::new(),
+        bounds: Bounds::EMPTY,
         unbounded: collected.unbounded,
         extents: collected.extents,
         primitives: scene.primitive_count(),
         level: best_level(),
         side,
+    };
+    add_meshes(scene, &mut prepared);
+    // The walk begins with the last; instances come last, as there may be very many that something else hides.
+    let hierarchies = [
+        (Kind::Instances, &mut collected.instances),
+        (Kind::Triangles, &mut collected.triangles),
+        (Kind::Spheres, &mut collected.spheres),
+    ];
+    for (kind, prims) in hierarchies {
+        if prims.is_empty() {
+            continue;
+        }
+        let context = BuildContext { kind, source: Source::Scene(scene) };
+        let MeshRoot { root, bounds, .. } = add_hierarchy(prims, &context, true, &mut prepared);
+        prepared.bounds = prepared.bounds.union(&bounds);
+        prepared.roots.push(root);
+        *prims = Vec::new();
     }
+    prepared
+}
+
+/// Builds the hierarchies of the meshes that instances share, and notes where the instances of each object are.
+fn add_meshes(scene: &Scene, prepared: &mut Prepared) {
+    let mut known: HashMap<*const Mesh, usize> = HashMap::new();
+    let mut first_number = 0;
+    for (object, described) in scene.objects().iter().enumerate() {
+        let Shape::Instances(instances) = &described.shape else { continue };
+        if instances.primitive_count() == 0 {
+            continue;
+        }
+        let mesh = *known.entry(Arc::as_ptr(instances.shared_mesh())).or_insert_with(|| {
+            let mesh = instances.mesh();
+            let context = BuildContext { kind: Kind::Triangles, source: Source::Mesh(mesh) };
+            let built = add_hierarchy(&mut triangles_of(mesh), &context, false, prepared);
+            prepared.meshes.push(built);
+            prepared.meshes.len() - 1
+        });
+        let triangles = u32::try_from(instances.mesh().triangles().len()).expect("ids are u32");
+        let first_id = scene.first_id(object);
+        prepared.instanced.push(Instanced { first_number, object, first_id, triangles, mesh });
+        first_number +=
+            u32::try_from(instances.placements().len()).expect("they are fewer than ids");
+    }
+}
+
+/// Builds a hierarchy, and adds it to those that are there. If there are few primitives, it is a leaf, or
+/// `begins_with_node` and a node with that leaf.
+fn add_hierarchy(
+    prims: &mut [PrimRef],
+    context: &BuildContext,
+    begins_with_node: bool,
+    prepared: &mut Prepared,
+) -> MeshRoot {
+    let all = BuildRecord::new(prims, 0, 0, false);
+    let bounds = all.bounds.bounds();
+    let (mut tree, mut root, mut counts) = grow(all, context);
+    if begins_with_node && root.kind() != NodeKind::Node {
+        tree.nodes.push(Node::empty());
+        tree.attach(0, &bounds, root, counts);
+        (root, counts) = (NodeRef::new(NodeKind::Node, 0), LeafCounts::default());
+    }
+    let (nodes, leaves) = (prepared.nodes.len(), prepared.leaf_counts());
+    let Arena { nodes: added, leaves: [indexed, plain, spheres, instances] } =
+        tree.shifted(nodes, leaves);
+    append(&mut prepared.nodes, added);
+    let source = context.source;
+    append(&mut prepared.indexed_leaves, filled(source, prims, &indexed, leaves::indexed_leaf));
+    append(&mut prepared.plain_leaves, filled(source, prims, &plain, leaves::plain_leaf));
+    append(&mut prepared.sphere_leaves, filled(source, prims, &spheres, ids::<SPHERES>));
+    append(&mut prepared.instance_leaves, filled(source, prims, &instances, ids::<INSTANCES>));
+    MeshRoot { root: root.shifted(nodes, leaves), counts, bounds }
+}
+
+/// Adds more at the end; without a copy if they are the first.
+fn append<T>(to: &mut Vec<T>, mut more: Vec<T>) {
+    if to.is_empty() { *to = more } else { to.append(&mut more) }
 }
 
 /// All leaves of one kind.
 fn filled<L: Send>(
-    scene: &Scene,
+    source: Source,
     prims: &[PrimRef],
     ranges: &[LeafRange],
     leaf: impl Fn(&[PrimRef], &mut Corners) -> L + Sync,
 ) -> Vec<L> {
     let ranges = ranges.par_iter().with_min_len(64);
     let of = |range: &LeafRange| &prims[range.first as usize..][..usize::from(range.count)];
-    ranges.map_init(|| Corners::new(scene), |corners, range| leaf(of(range), corners)).collect()
+    ranges.map_init(|| Corners::new(source), |corners, range| leaf(of(range), corners)).collect()
+}
+
+/// The ids of a leaf's primitives; unused lanes repeat the first.
+fn ids<const MOST: usize>(prims: &[PrimRef], _: &mut Corners) -> [u32; MOST] {
+    std::array::from_fn(|lane| prims.get(lane).unwrap_or(&prims[0]).id())
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@
 //! Large triangles are drawn at once, because of what they hide. With small ones, leaves wait until the machine has
 //! fetched them, and triangles wait until there are eight, from several leaves.
 
+use super::instance_frustum::PlacedBy;
 use super::leaf::Leaf;
 use super::tile_frustum::TileFrustum;
 use super::tree::{LEAF, NodeKind, NodeRef};
@@ -23,8 +24,8 @@ const ROOM: usize = 80 + LEAVES * LEAF + EIGHT;
 
 /// Leaves that wait, and triangles that passed the test of their leaf and wait.
 #[derive(Debug)]
-pub(crate) struct CandidateQueue {
-    leaves: [WaitingLeaf; LEAVES],
+pub(crate) struct CandidateQueue<'a> {
+    leaves: [WaitingLeaf<'a>; LEAVES],
     leaf_count: usize,
     corners: [[f32; ROOM]; 9],
     ids: [u32; ROOM],
@@ -35,7 +36,7 @@ pub(crate) struct CandidateQueue {
 
 /// A leaf that waits.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct WaitingLeaf {
+pub(crate) struct WaitingLeaf<'a> {
     pub(crate) leaf: NodeRef,
     /// How many of its triangles count: the first ones.
     pub(crate) used: usize,
@@ -43,16 +44,19 @@ pub(crate) struct WaitingLeaf {
     pub(crate) near: f32,
     /// No two vertices are farther from each other along any axis.
     pub(crate) size: f32,
+    /// The instance that it belongs to, if it is a leaf of a mesh that several share.
+    pub(crate) place: Option<PlacedBy<'a>>,
 }
 
-impl CandidateQueue {
-    pub(crate) fn new() -> CandidateQueue {
+impl<'a> CandidateQueue<'a> {
+    pub(crate) fn new() -> Self {
         CandidateQueue {
             leaves: [WaitingLeaf {
                 leaf: NodeRef::new(NodeKind::IndexedLeaf, 0),
                 used: 0,
                 near: 0.0,
                 size: 0.0,
+                place: None,
             }; LEAVES],
             leaf_count: 0,
             corners: [[0.0; ROOM]; 9],
@@ -64,7 +68,7 @@ impl CandidateQueue {
 
     /// Adds a leaf, which waits while the machine fetches it. Returns whether the queue of leaves is full.
     #[inline(always)]
-    pub(crate) fn add(&mut self, leaf: WaitingLeaf) -> bool {
+    pub(crate) fn add(&mut self, leaf: WaitingLeaf<'a>) -> bool {
         self.leaves[self.leaf_count & (LEAVES - 1)] = leaf;
         self.leaf_count += 1;
         self.leaf_count == LEAVES
@@ -100,9 +104,21 @@ impl CandidateQueue {
             let waiting = self.leaves[k];
             let index = waiting.leaf.index();
             if waiting.leaf.kind() == NodeKind::IndexedLeaf {
-                self.test_leaf(simd, &prepared.indexed_leaves[index], frustum, &waiting, test);
+                let mut leaf = &prepared.indexed_leaves[index];
+                let placed;
+                if let Some(place) = waiting.place {
+                    placed = place.indexed_leaf(simd, leaf);
+                    leaf = &placed;
+                }
+                self.test_leaf(simd, leaf, frustum, &waiting, test);
             } else {
-                self.test_leaf(simd, &prepared.plain_leaves[index], frustum, &waiting, test);
+                let mut leaf = &prepared.plain_leaves[index];
+                let placed;
+                if let Some(place) = waiting.place {
+                    placed = place.plain_leaf(simd, leaf);
+                    leaf = &placed;
+                }
+                self.test_leaf(simd, leaf, frustum, &waiting, test);
             }
         }
         self.leaves.copy_within(2.., 0);

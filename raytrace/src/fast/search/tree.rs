@@ -9,6 +9,8 @@ pub(crate) const WIDTH: usize = 16;
 pub(crate) const LEAF: usize = 16;
 /// Spheres in a leaf at most.
 pub(crate) const SPHERES: usize = 8;
+/// Instances of meshes in a leaf at most.
+pub(crate) const INSTANCES: usize = 4;
 
 /// Sixteen boxes, and the node or leaf in each.
 #[derive(Clone, Copy, Debug)]
@@ -23,7 +25,7 @@ pub(crate) struct Node {
     pub(crate) only_leaves: bool,
 }
 
-/// Refers to a node or a leaf: its kind in two bits, its index in the others.
+/// Refers to a node, a leaf or an instance: its kind in three bits, its index in the others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct NodeRef(u32);
 
@@ -33,7 +35,10 @@ pub(crate) enum NodeKind {
     IndexedLeaf,
     PlainLeaf,
     Spheres,
+    Instances,
     Node,
+    /// One instance of a mesh, by its number.
+    Instance,
 }
 
 /// How many kinds of leaves there are: all kinds before nodes.
@@ -75,13 +80,18 @@ pub(crate) struct Bounds {
 impl Bounds {
     pub(crate) const EMPTY: Bounds = Bounds { low: Vec3::INFINITY, high: Vec3::NEG_INFINITY };
 
+    /// The middle, computed from halves, so that it is finite.
+    pub(crate) fn middle(&self) -> Vec3 {
+        0.5 * self.low + 0.5 * self.high
+    }
+
     pub(crate) fn union(self, other: &Bounds) -> Bounds {
         Bounds { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 }
 
 impl NodeRef {
-    const BITS: u32 = 30;
+    const BITS: u32 = 29;
 
     pub(crate) fn new(kind: NodeKind, index: usize) -> NodeRef {
         let index = u32::try_from(index).ok().filter(|index| index >> Self::BITS == 0);
@@ -95,7 +105,9 @@ impl NodeRef {
             0 => NodeKind::IndexedLeaf,
             1 => NodeKind::PlainLeaf,
             2 => NodeKind::Spheres,
-            _ => NodeKind::Node,
+            3 => NodeKind::Instances,
+            4 => NodeKind::Node,
+            _ => NodeKind::Instance,
         }
     }
 
@@ -130,7 +142,7 @@ impl Node {
             self.bounds[3 + axis][lane] = bounds.high[axis];
         }
         self.children[lane] = child;
-        self.only_leaves &= child.kind() != NodeKind::Node;
+        self.only_leaves &= !matches!(child.kind(), NodeKind::Node);
         self.used += 1;
     }
 }

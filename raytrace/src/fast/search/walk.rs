@@ -1,8 +1,9 @@
 //! The walk of a tile's rays through the hierarchy, near boxes first.
 
 use super::candidates::{CandidateQueue, EIGHT, Test, WaitingLeaf};
+use super::instance_frustum::InstanceFrustum;
 use super::tile_frustum::{FrustumTemplate, TileFrustum};
-use super::tree::{LeafCounts, Node, NodeKind, NodeRef, WIDTH};
+use super::tree::{INSTANCES, LeafCounts, Node, NodeKind, NodeRef, WIDTH};
 use crate::fast::camera_map::CameraMap;
 use crate::fast::one_primitive::unbounded::Unbounded;
 use crate::fast::prepared::Prepared;
@@ -33,7 +34,12 @@ pub(crate) struct Walker<'a> {
     pub(crate) tile: TileBuffer,
     unbounded: &'a Unbounded,
     stack: Vec<StackEntry>,
-    queue: CandidateQueue,
+    queue: CandidateQueue<'a>,
+    /// The instance whose mesh is walked last, whether that walk goes on, and how long the stack was before: what lies
+    /// above belongs to the instance. Outside of instances, 0.
+    instance: Option<InstanceFrustum<'a>>,
+    is_inside: bool,
+    base: usize,
 }
 
 impl<'a> Walker<'a> {
@@ -49,6 +55,9 @@ impl<'a> Walker<'a> {
             unbounded,
             stack: Vec::new(),
             queue: CandidateQueue::new(),
+            instance: None,
+            is_inside: false,
+            base: 0,
         }
     }
 
@@ -68,13 +77,18 @@ impl<'a> Walker<'a> {
         let mut class = SizeClass::Many;
         let mut farthest = self.farthest(&frustum);
         loop {
-            let Some(entry) = self.stack.pop() else {
+            if self.stack.len() == self.base {
+                if self.is_inside {
+                    (self.is_inside, self.base) = (false, 0);
+                    continue;
+                }
                 if self.queue.is_empty() {
                     break;
                 }
                 self.draw_candidates(context, &frustum, class, true);
                 continue;
-            };
+            }
+            let Some(entry) = self.stack.pop() else { break };
             if entry.near > farthest {
                 continue;
             }
@@ -93,6 +107,14 @@ impl<'a> Walker<'a> {
                     class = self.draw_candidates(context, &frustum, class, flush);
                 }
                 NodeKind::Spheres => self.draw_spheres(context, &frustum, &entry),
+                NodeKind::Instances => {
+                    self.push_instances(&frustum, &entry);
+                    continue;
+                }
+                NodeKind::Instance => {
+                    self.enter_instance(&frustum, &entry, farthest);
+                    continue;
+                }
             }
             farthest = self.farthest(&frustum);
         }
@@ -148,6 +170,7 @@ impl<'a> Walker<'a> {
             one_primitive::draw_unbounded(context, self.map, frustum, unbounded, tile);
         }
         self.stack.clear();
+        (self.is_inside, self.base) = (false, 0);
         let root = |&child: &NodeRef| StackEntry {
             near: f32::NEG_INFINITY,
             size: f32::INFINITY,
@@ -175,7 +198,57 @@ impl<'a> Walker<'a> {
         if C::WATCHED {
             self.emit_tests(context, child, used);
         }
-        self.queue.add(WaitingLeaf { leaf: child, used, near, size })
+        let place = self.inside().map(|instance| instance.place);
+        self.queue.add(WaitingLeaf { leaf: child, used, near, size, place })
+    }
+
+    /// The instance whose mesh is walked now.
+    #[inline(always)]
+    fn inside(&self) -> Option<&InstanceFrustum<'a>> {
+        self.instance.as_ref().filter(|_| self.is_inside)
+    }
+
+    /// Pushes the instances of a leaf, those with nearer middles last.
+    fn push_instances(&mut self, frustum: &TileFrustum, entry: &StackEntry) {
+        let (prepared, view) = (self.prepared, &self.map.view);
+        let count = entry.counts.all();
+        let mut instances = [(0.0, 0); INSTANCES];
+        for (to, &number) in
+            instances.iter_mut().zip(&prepared.instance_leaves[entry.child.index()][..count])
+        {
+            let (mesh, place) = prepared.instance(view.scene, number);
+            let middle = place.placement.position(mesh.bounds.middle());
+            *to = (view.offset(middle).dot(frustum.rows[0].into()), number);
+        }
+        instances[..count].sort_by(|a, b| b.0.total_cmp(&a.0));
+        self.stack.extend(instances[..count].iter().map(|&(_, number)| StackEntry {
+            child: NodeRef::new(NodeKind::Instance, number as usize),
+            ..*entry
+        }));
+    }
+
+    /// Begins the walk through the mesh of an instance, unless its box misses the tile or lies behind its hits.
+    #[inline(always)]
+    fn enter_instance(&mut self, frustum: &TileFrustum, entry: &StackEntry, farthest: f32) {
+        let number = u32::try_from(entry.child.index()).expect("it has 29 bits");
+        let (mesh, place) = self.prepared.instance(self.map.view.scene, number);
+        let instance = InstanceFrustum::new(frustum, place, &mesh.bounds);
+        self.tile.executed.boxes_tested += 1;
+        let Some(seen) = instance.seen else { return };
+        // What is hit there may hide it long before the whole tile is full.
+        let template = frustum.template;
+        let there = self.map.depth.farthest(self.tile.far_in(seen), template.errors.t);
+        if instance.near > farthest.min(template.boxes.farthest(there)) {
+            return;
+        }
+        (self.is_inside, self.base) = (true, self.stack.len());
+        self.stack.push(StackEntry {
+            near: entry.near.max(instance.near),
+            size: entry.size.min(instance.size),
+            child: mesh.root,
+            counts: mesh.counts,
+        });
+        self.instance = Some(instance);
     }
 
     /// Tests the spheres of a leaf.
@@ -239,7 +312,8 @@ impl<'a> Walker<'a> {
             NodeKind::IndexedLeaf => &self.prepared.indexed_leaves[leaf.index()].ids,
             _ => &self.prepared.plain_leaves[leaf.index()].ids,
         };
-        ids.iter().take(used).for_each(|id| sink.sample_tested(sample, *id));
+        let first_id = self.inside().map_or(0, |instance| instance.place.first_id);
+        ids.iter().take(used).for_each(|id| sink.sample_tested(sample, first_id + id));
     }
 
     /// Tests the boxes of a node and pushes those that a ray of the tile may meet: near ones last, so that they come
@@ -264,7 +338,11 @@ impl<'a> Walker<'a> {
         }
         self.tile.executed.nodes_opened += 1;
         self.tile.executed.boxes_tested += u64::from(node.used);
-        let boxes = frustum.template.boxes.test(context, &frustum.sides, node, farthest);
+        let (culling, sides) = match self.inside() {
+            Some(instance) => (&instance.boxes, &instance.sides),
+            None => (&frustum.template.boxes, &frustum.sides),
+        };
+        let boxes = culling.test(context, sides, node, farthest);
         if C::WATCHED {
             self.emit_boxes(context, index, node, boxes.hit);
         }
@@ -280,7 +358,7 @@ impl<'a> Walker<'a> {
                 NodeKind::Node => prefetch(&self.prepared.nodes[child.index()]),
                 NodeKind::IndexedLeaf => prefetch(&self.prepared.indexed_leaves[child.index()]),
                 NodeKind::PlainLeaf => prefetch(&self.prepared.plain_leaves[child.index()]),
-                NodeKind::Spheres => {}
+                NodeKind::Spheres | NodeKind::Instances | NodeKind::Instance => {}
             }
             let (near, size) = (boxes.near[lane], boxes.size[lane]);
             let entry = StackEntry { near, size, child, counts: node.counts[lane] };

@@ -61,7 +61,7 @@ pub(crate) fn of_scene(scene: &Scene, camera: &Camera) -> Answer {
                 "point": shortened(*point), "normal": shortened(*normal),
                 "colour": color(object.material.color), "id": first,
             })),
-            Shape::Triangle(_) | Shape::Mesh(_) => {
+            Shape::Triangle(_) | Shape::Mesh(_) | Shape::Instances(_) => {
                 for (local, id) in (first..).enumerate().take(object.shape.primitive_count()) {
                     if place % step == 0
                         && let Some(corners) = scene.triangle(id)

@@ -2,7 +2,7 @@
 
 use crate::answer::Answer;
 use crate::clock::timed;
-use bothways_lab::common::{Camera, Frame, Object, Options, Scene, Shape, View, Work};
+use bothways_lab::common::{Camera, Frame, Object, Options, Scene, View, Work};
 use bothways_lab::sweep::{Axis, Case, steps};
 use bothways_lab::{rasterize, raytrace};
 use serde::Deserialize;
@@ -28,9 +28,9 @@ pub(crate) fn answer(measure: &Measure) -> Result<Answer, String> {
             "at most {MOST_TRIANGLES} triangles and {MOST_PIXELS} pixels are measured here; choose fewer"
         ));
     }
-    let (mesh, camera) = sphere(triangles, [width, height]).mesh();
+    let (shape, camera) = sphere(triangles, [width, height]).shape();
     let camera = Camera::new(camera).map_err(|error| error.to_string())?;
-    let scene = Scene::new(vec![Object::from(Shape::Mesh(mesh))]);
+    let scene = Scene::new(vec![Object::from(shape)]);
     let scene = scene.map_err(|error| error.to_string())?;
     let view = View::new(&scene, &camera);
 
@@ -81,8 +81,8 @@ mod tests {
     #[test]
     fn spheres_have_about_the_triangles_that_are_asked_for() {
         for triangles in [12, 100, 5000, 200_000] {
-            let (mesh, _) = sphere(triangles, [40, 30]).mesh();
-            let found = mesh.triangles().len();
+            let (shape, _) = sphere(triangles, [40, 30]).shape();
+            let found = shape.primitive_count();
             let ratio = found as f64 / f64::from(triangles);
             assert!((1.0..1.4).contains(&ratio), "{triangles}: {found}");
         }

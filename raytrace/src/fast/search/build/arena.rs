@@ -1,6 +1,6 @@
 //! The nodes of a hierarchy under construction, and the primitives of its leaves.
 
-use crate::fast::search::tree::{Bounds, LEAF_KINDS, LeafCounts, Node, NodeKind, NodeRef};
+use crate::fast::search::tree::{Bounds, LEAF_KINDS, LeafCounts, Node, NodeRef};
 
 /// Nodes and leaves of the hierarchy, or of a part of it, in depth-first order.
 #[derive(Default)]
@@ -30,19 +30,25 @@ impl Arena {
         node.push(bounds, child);
     }
 
-    /// Appends a part that was built separately, and returns its first node.
-    pub(super) fn append(&mut self, part: Arena) -> NodeRef {
-        let (nodes, leaves) = (self.nodes.len(), self.leaf_counts());
-        self.nodes.extend(part.nodes.into_iter().map(|mut node| {
-            for child in &mut node.children[..usize::from(node.used)] {
-                *child = child.shifted(nodes, leaves);
-            }
-            node
-        }));
+    /// Appends a part that was built separately.
+    pub(super) fn append(&mut self, part: Arena) {
+        let part = part.shifted(self.nodes.len(), self.leaf_counts());
+        self.nodes.extend(part.nodes);
         for (leaves, more) in self.leaves.iter_mut().zip(part.leaves) {
             leaves.extend(more);
         }
-        NodeRef::new(NodeKind::Node, nodes)
+    }
+
+    /// The same for a hierarchy in which this many more nodes, and leaves of each kind, precede it.
+    pub(super) fn shifted(mut self, nodes: usize, leaves: [usize; LEAF_KINDS]) -> Arena {
+        if nodes + leaves.iter().sum::<usize>() > 0 {
+            for node in &mut self.nodes {
+                for child in &mut node.children[..usize::from(node.used)] {
+                    *child = child.shifted(nodes, leaves);
+                }
+            }
+        }
+        self
     }
 
     /// The number of leaves of each kind.

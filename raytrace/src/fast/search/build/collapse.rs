@@ -7,7 +7,7 @@
 use super::arena::{Arena, LeafRange};
 use super::leaves::{VertexSet, put_duplicates_last};
 use super::prim_ref::Corners;
-use super::split::{BuildContext, BuildRecord, Split, split};
+use super::split::{BuildContext, BuildRecord, Kind, Split, split};
 use crate::fast::search::tree::{Bounds, LeafCounts, Node, NodeKind, NodeRef, WIDTH};
 
 /// A record that is split in two repeatedly, down to the leaves. The root is the last node.
@@ -51,13 +51,15 @@ impl BinaryTree {
             }
         }
         let count = record.prims.len();
-        let (kind, distinct) = if context.spheres {
-            (NodeKind::Spheres, count)
-        } else {
-            let corners = &mut Corners::new(context.scene);
-            let is_indexed = VertexSet::new(record.prims, corners).is_some();
-            let kind = if is_indexed { NodeKind::IndexedLeaf } else { NodeKind::PlainLeaf };
-            (kind, put_duplicates_last(record.prims, corners))
+        let (kind, distinct) = match context.kind {
+            Kind::Spheres => (NodeKind::Spheres, count),
+            Kind::Instances => (NodeKind::Instances, count),
+            Kind::Triangles => {
+                let corners = &mut Corners::new(context.source);
+                let is_indexed = VertexSet::new(record.prims, corners).is_some();
+                let kind = if is_indexed { NodeKind::IndexedLeaf } else { NodeKind::PlainLeaf };
+                (kind, put_duplicates_last(record.prims, corners))
+            }
         };
         let first = u32::try_from(record.first).expect("ids are u32");
         let leaf = LeafRange { first, count: u8::try_from(count).expect("sixteen at most") };

@@ -1,7 +1,7 @@
 //! The input of the build: references to primitives, each with its box and id.
 
 use crate::fast::search::tree::Bounds;
-use bothways_common::{Mesh, Plane, Scene, Shape, Sphere, Triangle};
+use bothways_common::{Mesh, Placement, Plane, Scene, Shape, Sphere, Triangle};
 use glam::{Vec3, Vec4};
 use rayon::prelude::*;
 
@@ -61,6 +61,8 @@ impl Box4 {
 pub(super) struct Collected {
     pub(super) triangles: Vec<PrimRef>,
     pub(super) spheres: Vec<PrimRef>,
+    /// Instances of meshes, which count on from object to object.
+    pub(super) instances: Vec<PrimRef>,
     pub(super) unbounded: Vec<u32>,
     /// The ids of the spheres, and the extent of each; see [`sphere`].
     pub(super) extents: Vec<(u32, f32)>,
@@ -68,7 +70,12 @@ pub(super) struct Collected {
 
 pub(super) fn collect(scene: &Scene) -> Collected {
     let mut all = Collected::default();
-    all.triangles.reserve_exact(scene.primitive_count() as usize);
+    let triangles = scene.objects().iter().map(|object| match &object.shape {
+        Shape::Triangle(_) => 1,
+        Shape::Mesh(mesh) => mesh.triangles().len(),
+        Shape::Sphere(_) | Shape::Plane(_) | Shape::Instances(_) => 0,
+    });
+    all.triangles.reserve_exact(triangles.sum());
     for (index, object) in scene.objects().iter().enumerate() {
         let first_id = scene.first_id(index);
         match &object.shape {
@@ -81,6 +88,18 @@ pub(super) fn collect(scene: &Scene) -> Collected {
                     triangles.map(|(corners, id)| triangle(id, mesh_corners(mesh, corners))),
                 );
             }
+            Shape::Instances(instances) => {
+                let Some([low, high]) = instances.mesh().bounds() else { continue };
+                if instances.primitive_count() == 0 {
+                    continue;
+                }
+                let bounds = Bounds { low, high };
+                let first = u32::try_from(all.instances.len()).expect("they are fewer than ids");
+                let placed = instances.placements().par_iter().zip(first..u32::MAX);
+                all.instances.par_extend(placed.map(|(placement, number)| {
+                    PrimRef::new(&placed_bounds(placement, &bounds), number)
+                }));
+            }
             Shape::Sphere(shape) => match sphere(first_id, shape) {
                 Some((prim, extent)) => {
                     all.spheres.push(prim);
@@ -92,6 +111,27 @@ pub(super) fn collect(scene: &Scene) -> Collected {
         }
     }
     all
+}
+
+/// The triangles of a mesh that instances share, by their numbers.
+pub(super) fn triangles_of(mesh: &Mesh) -> Vec<PrimRef> {
+    let triangles = mesh.triangles().par_iter().zip(0..u32::MAX);
+    triangles.map(|(corners, number)| triangle(number, mesh_corners(mesh, corners))).collect()
+}
+
+/// A box around an instance of what lies in a box of the mesh: along each axis of the world every coordinate of the mesh
+/// contributes least at one of the box's sides and most at the other.
+///
+/// [`Placement::position`] is monotonic, so these contributions, summed up and rounded as it does it, bound every vertex.
+fn placed_bounds(placement: &Placement, Bounds { low, high }: &Bounds) -> Bounds {
+    let ends = |most: bool| {
+        Vec3::from_array([0, 1, 2].map(|axis| {
+            let row = placement.rows()[axis];
+            let side = |k: usize| if (row[k] >= 0.0) == most { high[k] } else { low[k] };
+            placement.position(Vec3::new(side(0), side(1), side(2)))[axis]
+        }))
+    };
+    Bounds { low: ends(false), high: ends(true) }
 }
 
 pub(super) fn mesh_corners(mesh: &Mesh, corners: &[u32; 3]) -> [Vec3; 3] {
@@ -122,30 +162,62 @@ pub(super) fn sphere(id: u32, &Sphere { center, radius }: &Sphere) -> Option<(Pr
 
 /// Finds the corners of triangles; this is fast in the order of the scene.
 pub(super) struct Corners<'a> {
-    scene: &'a Scene,
+    source: Source<'a>,
+    /// The ids of the triangles that were found last, and where they are.
     ids: std::ops::Range<u32>,
-    shape: Option<&'a Shape>,
+    among: Among<'a>,
+}
+
+/// What the triangles of a hierarchy are triangles of.
+#[derive(Clone, Copy)]
+pub(super) enum Source<'a> {
+    /// A scene: ids are those of primitives.
+    Scene(&'a Scene),
+    /// A mesh: ids are numbers of triangles.
+    Mesh(&'a Mesh),
+}
+
+enum Among<'a> {
+    Mesh(&'a Mesh),
+    One([Vec3; 3]),
 }
 
 impl<'a> Corners<'a> {
-    pub(super) fn new(scene: &'a Scene) -> Self {
-        Corners { scene, ids: 0..0, shape: None }
+    pub(super) fn new(source: Source<'a>) -> Self {
+        Corners { source, ids: 0..0, among: Among::One([Vec3::ZERO; 3]) }
     }
 
+    #[inline]
     pub(super) fn of(&mut self, id: u32) -> [Vec3; 3] {
         if !self.ids.contains(&id) {
-            let (object, _) = self.scene.locate(id);
-            let shape = &self.scene.objects()[object].shape;
-            let first = self.scene.first_id(object);
-            let count = u32::try_from(shape.primitive_count()).expect("ids are u32");
-            (self.ids, self.shape) = (first..first + count, Some(shape));
+            (self.ids, self.among) = self.source.around(id);
         }
-        match self.shape {
-            Some(Shape::Mesh(mesh)) => {
+        match self.among {
+            Among::Mesh(mesh) => {
                 mesh_corners(mesh, &mesh.triangles()[(id - self.ids.start) as usize])
             }
-            Some(Shape::Triangle(Triangle { a, b, c })) => [*a, *b, *c],
-            Some(Shape::Sphere(_) | Shape::Plane(_)) | None => {
+            Among::One(corners) => corners,
+        }
+    }
+}
+
+impl<'a> Source<'a> {
+    /// The triangles around one, and their ids.
+    #[cold]
+    fn around(self, id: u32) -> (std::ops::Range<u32>, Among<'a>) {
+        let ids = |first: u32, mesh: &Mesh| {
+            first..first + u32::try_from(mesh.triangles().len()).expect("ids are u32")
+        };
+        let scene = match self {
+            Source::Scene(scene) => scene,
+            Source::Mesh(mesh) => return (ids(0, mesh), Among::Mesh(mesh)),
+        };
+        let (object, _) = scene.locate(id);
+        let first = scene.first_id(object);
+        match &scene.objects()[object].shape {
+            Shape::Mesh(mesh) => (ids(first, mesh), Among::Mesh(mesh)),
+            Shape::Triangle(Triangle { a, b, c }) => (id..id + 1, Among::One([*a, *b, *c])),
+            Shape::Sphere(_) | Shape::Plane(_) | Shape::Instances(_) => {
                 unreachable!("leaves of triangles hold triangles")
             }
         }

@@ -1,9 +1,8 @@
 //! Splits primitives in two: at the place that the surface area heuristic chooses, or by count.
 
-use super::prim_ref::{Box4, Corners, PrimRef};
+use super::prim_ref::{Box4, Corners, PrimRef, Source};
 use super::sah::{SahSplit, cheapest_split};
-use crate::fast::search::tree::{LEAF, SPHERES};
-use bothways_common::Scene;
+use crate::fast::search::tree::{INSTANCES, LEAF, SPHERES};
 
 /// From this depth on a record is halved by count, which bounds the depth of any hierarchy.
 pub(super) const DEEP: usize = 64;
@@ -39,15 +38,27 @@ impl<'a> BuildRecord<'a> {
 
 /// The common data of all records of one hierarchy.
 pub(super) struct BuildContext<'a> {
-    /// Whether the hierarchy is the hierarchy of the spheres.
-    pub(super) spheres: bool,
-    pub(super) scene: &'a Scene,
+    pub(super) kind: Kind,
+    pub(super) source: Source<'a>,
+}
+
+/// What a hierarchy is a hierarchy of.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    Triangles,
+    Spheres,
+    /// Instances of meshes.
+    Instances,
 }
 
 impl BuildContext<'_> {
     /// The most primitives in a leaf.
     pub(super) fn most(&self) -> usize {
-        if self.spheres { SPHERES } else { LEAF }
+        match self.kind {
+            Kind::Triangles => LEAF,
+            Kind::Spheres => SPHERES,
+            Kind::Instances => INSTANCES,
+        }
     }
 }
 
@@ -65,7 +76,7 @@ pub(super) fn split<'a>(record: BuildRecord<'a>, context: &BuildContext) -> Spli
         return Split::Halves(partition(record, &best));
     }
     let BuildRecord { prims, first, depth, distinct, .. } = record;
-    if !context.spheres && !distinct {
+    if context.kind == Kind::Triangles && !distinct {
         let count = leave_out_duplicates(prims, context);
         return Split::Distinct(BuildRecord::new(&mut prims[..count], first, depth, true));
     }
@@ -111,7 +122,7 @@ fn partition<'a>(record: BuildRecord<'a>, best: &SahSplit) -> [BuildRecord<'a>; 
 /// Moves the distinct triangles to the start, the first triangle in the scene of each group, and returns the number
 /// of distinct triangles: the duplicates are never visible.
 fn leave_out_duplicates(prims: &mut [PrimRef], context: &BuildContext) -> usize {
-    let mut corners = Corners::new(context.scene);
+    let mut corners = Corners::new(context.source);
     let mut bits = |prim: &PrimRef| {
         // Adding 0 makes −0 and 0 equal.
         let mut bits = corners.of(prim.id()).map(|v| (v + 0.0).to_array().map(f32::to_bits));

@@ -1,0 +1,206 @@
+//! Meshes that instances share, in clusters with vertices of their own; and where an instance of one may be seen.
+//!
+//! No vertex of an instance is kept: where a cluster of it may be seen in a tile, its vertices are placed in the world
+//! and on the raster there, some dozens at a time.
+
+use super::clusters::{Bounds, CLUSTER, Clusters};
+use crate::fast::camera_map::CameraMap;
+use crate::fast::vertices::{FixedPointRaster, Vertex};
+use bothways_common::engine::simd::Simd;
+use bothways_common::raster::Region;
+use bothways_common::{Mesh, Placement, Scene, Shape};
+use glam::Vec3;
+use rayon::prelude::*;
+use std::collections::HashMap;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// Vertices of a cluster at most: three for each triangle.
+const MOST_VERTICES: usize = 3 * CLUSTER as usize;
+
+/// The vertices of one cluster of one instance.
+pub(crate) type PlacedVertices = [Vertex; MOST_VERTICES];
+
+/// One instance that may be seen in a tile.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Instance {
+    pub(crate) object: u32,
+    /// Its number in the object.
+    pub(crate) number: u32,
+    pub(crate) extent: Extent,
+}
+
+/// Where something may be seen, and how near it is.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Extent {
+    /// First and last row, first and last column.
+    pub(crate) bounds: [[u16; 2]; 2],
+    /// No depth key in it is larger, except for rounding.
+    pub(crate) nearest: f32,
+}
+
+impl Extent {
+    /// The samples that are in it.
+    pub(crate) fn region(&self) -> Region {
+        let range = |[first, last]: [u16; 2]| first.into()..usize::from(last) + 1;
+        let [rows, columns] = self.bounds;
+        Region { rows: range(rows), columns: range(columns) }
+    }
+
+    /// Of what may be seen anywhere, and as near as can be.
+    pub(crate) fn anywhere(raster: &FixedPointRaster) -> Extent {
+        let last = raster.size.map(|size| u16::try_from(size - 1).expect("at most 65,536 samples"));
+        Extent { bounds: last.map(|last| [0, last]), nearest: f32::INFINITY }
+    }
+}
+
+/// A mesh that instances share, in clusters of neighbouring triangles.
+#[derive(Clone, Debug)]
+pub(crate) struct SharedMesh {
+    pub(crate) clusters: Vec<SharedCluster>,
+    /// A box around all of it, in its own coordinates.
+    pub(crate) bounds: Bounds,
+    /// The vertices of the clusters: rows of x, y and z of sixteen each.
+    positions: Vec<[[f32; 16]; 3]>,
+    /// For each triangle, in the order of the clusters, which of its cluster's vertices are its corners.
+    corners: Vec<[u8; 3]>,
+    /// Its number in the mesh, unless that is its place here.
+    numbers: Option<Vec<u32>>,
+}
+
+/// Some consecutive triangles of a [`SharedMesh`].
+#[derive(Clone, Debug)]
+pub(crate) struct SharedCluster {
+    pub(crate) bounds: Bounds,
+    blocks: Range<u32>,
+    triangles: Range<u32>,
+}
+
+impl SharedMesh {
+    fn new(mesh: &Mesh) -> SharedMesh {
+        let clusters = Clusters::of_mesh(mesh);
+        let (triangles, numbers) = clusters.triangles_of(mesh).parts();
+        let positions = clusters.positions(mesh);
+        let mut shared = SharedMesh {
+            clusters: Vec::with_capacity(clusters.bounds().len()),
+            bounds: mesh.bounds().unwrap_or_default(),
+            positions: Vec::new(),
+            corners: Vec::with_capacity(triangles.len()),
+            numbers: numbers.map(<[u32]>::to_vec),
+        };
+        for (bounds, triangles) in clusters.bounds().iter().zip(triangles.chunks(CLUSTER as usize))
+        {
+            shared.add(*bounds, triangles, positions);
+        }
+        shared
+    }
+
+    fn add(&mut self, bounds: Bounds, triangles: &[[u32; 3]], positions: &[Vec3]) {
+        let mut vertices: Vec<u32> = Vec::with_capacity(MOST_VERTICES);
+        let mut number = |vertex: u32| {
+            let place = vertices.iter().position(|known| *known == vertex);
+            let place = place.unwrap_or_else(|| {
+                vertices.push(vertex);
+                vertices.len() - 1
+            });
+            u8::try_from(place).expect("a cluster has at most 96 vertices")
+        };
+        let index = |length: usize| u32::try_from(length).expect("ids are u32");
+        let first = index(self.corners.len());
+        self.corners.extend(triangles.iter().map(|corners| corners.map(&mut number)));
+        let first_block = index(self.positions.len());
+        for sixteen in vertices.chunks(16) {
+            // Lanes behind the last vertex repeat the first.
+            let vertex =
+                |lane: usize| positions[*sixteen.get(lane).unwrap_or(&sixteen[0]) as usize];
+            let row = |axis: usize| std::array::from_fn(|lane| vertex(lane)[axis]);
+            self.positions.push([row(0), row(1), row(2)]);
+        }
+        let blocks = first_block..index(self.positions.len());
+        self.clusters.push(SharedCluster {
+            bounds,
+            blocks,
+            triangles: first..index(self.corners.len()),
+        });
+    }
+
+    /// How many triangles an instance has.
+    pub(crate) fn triangle_count(&self) -> u32 {
+        u32::try_from(self.corners.len()).expect("ids are u32")
+    }
+
+    /// Places the vertices of a cluster of one instance.
+    #[inline(always)]
+    pub(crate) fn place<S: Simd>(
+        &self,
+        simd: S,
+        (map, raster): (&CameraMap, &FixedPointRaster),
+        placement: &Placement,
+        cluster: &SharedCluster,
+        vertices: &mut PlacedVertices,
+    ) {
+        let blocks = &self.positions[cluster.blocks.start as usize..cluster.blocks.end as usize];
+        for (block, vertices) in blocks.iter().zip(vertices.chunks_exact_mut(16)) {
+            raster.place_sixteen(simd, map, &placement.positions(block), vertices);
+        }
+    }
+}
+
+impl SharedCluster {
+    /// How many triangles it has.
+    pub(crate) fn count(&self) -> u32 {
+        self.triangles.end - self.triangles.start
+    }
+
+    /// The number in the mesh of the triangle at this place of the cluster, and its corners among the cluster's vertices.
+    #[inline(always)]
+    pub(crate) fn triangle(
+        &self,
+        mesh: &SharedMesh,
+        place: u32,
+        vertices: &PlacedVertices,
+    ) -> (u32, [Vertex; 3]) {
+        let index = self.triangles.start + place;
+        let number = mesh.numbers.as_ref().map_or(index, |numbers| numbers[index as usize]);
+        (number, mesh.corners[index as usize].map(|vertex| vertices[usize::from(vertex)]))
+    }
+}
+
+/// For every object the mesh that its instances share, if it has some. Objects with the same mesh share it here, too.
+pub(crate) fn shared_meshes(scene: &Scene) -> Vec<Option<Arc<SharedMesh>>> {
+    let instances = || {
+        scene.objects().iter().map(|object| match &object.shape {
+            Shape::Instances(instances) => Some(instances.shared_mesh()),
+            Shape::Triangle(_) | Shape::Sphere(_) | Shape::Plane(_) | Shape::Mesh(_) => None,
+        })
+    };
+    let address = |mesh: &Arc<Mesh>| Arc::as_ptr(mesh).addr();
+    let (mut places, mut distinct) = (HashMap::new(), Vec::new());
+    for mesh in instances().flatten() {
+        places.entry(address(mesh)).or_insert_with(|| {
+            distinct.push(mesh);
+            distinct.len() - 1
+        });
+    }
+    let shared: Vec<Arc<SharedMesh>> =
+        distinct.into_par_iter().map(|mesh| Arc::new(SharedMesh::new(mesh))).collect();
+    instances().map(|mesh| Some(shared[places[&address(mesh?)]].clone())).collect()
+}
+
+/// A box in the world around an instance of what lies in a box of the mesh.
+///
+/// [`Placement::position`] is monotonic: no vertex in the box is put beyond all eight corners, its rounding included.
+#[inline(always)]
+pub(crate) fn placed_box(placement: &Placement, [low, high]: &Bounds) -> Bounds {
+    let corners = [
+        [low.x, high.x, low.x, high.x, low.x, high.x, low.x, high.x],
+        [low.y, low.y, high.y, high.y, low.y, low.y, high.y, high.y],
+        [low.z, low.z, low.z, low.z, high.z, high.z, high.z, high.z],
+    ];
+    let placed = placement.positions(&corners);
+    let end = |axis: usize, end: fn(f32, f32) -> f32| placed[axis].into_iter().reduce(end);
+    let corner = |extreme: fn(f32, f32) -> f32| {
+        Vec3::from_array([0, 1, 2].map(|axis| end(axis, extreme).unwrap_or_default()))
+    };
+    [corner(f32::min), corner(f32::max)]
+}

@@ -1,0 +1,230 @@
+//! The rays of a tile in the coordinates of an instance's mesh: there the hierarchy of the mesh is walked, which is the
+//! same for all instances.
+
+use super::box_culling::{BoxCulling, Places};
+use super::tile_frustum::TileFrustum;
+use super::tree::{Bounds, IndexedLeaf, LEAF, PlainLeaf};
+use crate::fast::world_affine::{LARGEST, WorldAffine, narrowed, upward};
+use bothways_common::Placement;
+use bothways_common::engine::roundoff::EPS24;
+use bothways_common::engine::simd::{Simd, SimdBase, u32x16};
+use glam::{DMat3, DVec3, Vec3};
+
+/// One instance, as a tile's rays see it.
+#[derive(Clone, Debug)]
+pub(crate) struct InstanceFrustum<'a> {
+    pub(crate) place: PlacedBy<'a>,
+    /// How boxes of the mesh are culled.
+    pub(crate) boxes: BoxCulling,
+    pub(crate) sides: [WorldAffine; 4],
+    /// The rows and columns of the tile at which it may be seen, the first and the last of each; `None` if all rays of the
+    /// tile miss it.
+    pub(crate) seen: Option<[[usize; 2]; 2]>,
+    /// As of a box: see [`BoxHits`](super::box_culling::BoxHits).
+    pub(crate) near: f32,
+    pub(crate) size: f32,
+}
+
+/// Where an instance is, and the id of its first triangle.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PlacedBy<'a> {
+    pub(crate) placement: &'a Placement,
+    pub(crate) first_id: u32,
+}
+
+impl<'a> InstanceFrustum<'a> {
+    /// For an instance of a mesh in this box.
+    ///
+    /// A function of the world `N·p + o` is, with `p = M·q + τ`, the function `(MᵀN)·q + (N·τ + o)` of the mesh. It is
+    /// computed in `f64` about the middle `c` of the mesh's box, and rounded to `f32`. So boxes stay as they are, and as
+    /// tight.
+    ///
+    /// # The errors, rounding by rounding
+    ///
+    /// `H` is half of the mesh's box. The sums of what a coordinate is made of are `P = |M|·max|q| + |τ|`, and no vertex
+    /// is farther from the origin of the world, along an axis, than `V = |M·c + τ| + |M|·H`.
+    ///
+    /// *The vertex* is `M·q + τ`, rounded thrice in `f64`, which is less than `4·ε₅₃·P`, and once to `f32`: `ε₂₄·V`, or
+    /// half the least denormal number. Both times `|N|`.
+    ///
+    /// *`f64`.* `MᵀN` carries 4 roundings, `M·c + τ − eye` 5, `N` times that 4, and what sides are made of 3: of all that
+    /// sums up to `|N|·(P + |eye|)` and to the offset, so `32·ε₅₃` of both is more. What `N` and the rays carry is that of
+    /// [`BoxCulling::new`].
+    ///
+    /// *`f32`.* As in [`BoxCulling::new`]: `6.5·ε₂₄` of `|MᵀN|·H` and of the offset at `c`; what underflows is less than
+    /// the smallest normal number, times the extents.
+    ///
+    /// The middle and the half are rounded, too: `H` is made larger by more than that.
+    #[inline(always)]
+    pub(crate) fn new(
+        frustum: &TileFrustum,
+        place: PlacedBy<'a>,
+        bounds: &Bounds,
+    ) -> InstanceFrustum<'a> {
+        let template = frustum.template;
+        let world = &template.boxes;
+        let (m, by) = parts(place.placement);
+        let columns = DMat3 { x_axis: m[0], y_axis: m[1], z_axis: m[2] };
+        let (Bounds { low, high }, middle) = (bounds, bounds.middle());
+        let c = middle.as_dvec3();
+        let half = (high.as_dvec3() - c).max(c - low.as_dvec3()) * (1.0 + 1e-6);
+        let eye = DVec3::from_array(template.eye);
+
+        let absolute = DMat3 { x_axis: m[0].abs(), y_axis: m[1].abs(), z_axis: m[2].abs() };
+        let most = low.abs().max(high.abs()).as_dvec3();
+        let center = columns * c + by;
+        let extent = absolute * half;
+        let sums = absolute * most + by.abs();
+        let farthest = center.abs() + extent;
+        let rounding = f64::from(EPS24) * 1.001 * farthest
+            + 8.0 * (-53f64).exp2() * sums
+            + DVec3::splat((-149f64).exp2());
+        let uncertain = rounding + (-48f64).exp2() * (sums + eye.abs());
+
+        // `t`, columns and rows, at the middle and along the mesh's axes.
+        let from_eye = center - eye;
+        let rows = frustum.rows.map(DVec3::from_array);
+        let along = rows.map(|row| DVec3::new(row.dot(m[0]), row.dot(m[1]), row.dot(m[2])));
+        let at = [0, 1, 2].map(|k| rows[k].dot(from_eye) + frustum.shift[k]);
+
+        let error = |row: DVec3, offset: f64, exact: f64| {
+            let size = row.dot(extent) + offset;
+            let floor =
+                f64::from(f32::MIN_POSITIVE) * (8.0 + half.element_sum() + row.element_sum());
+            let largest = size.max(row.dot(absolute * DVec3::ONE)).max(half.max_element());
+            if largest < LARGEST {
+                let in_f64 = (-48f64).exp2() * offset + exact;
+                upward(6.5 * f64::from(EPS24) * size + row.dot(uncertain) + in_f64 + floor)
+            } else {
+                f32::INFINITY
+            }
+        };
+        let wide = template.errors.wide;
+        let (beside, at_side) =
+            if template.parallel { (DVec3::ZERO, wide) } else { (along[0] * wide, at[0] * wide) };
+        let size_of_side = if template.parallel { DVec3::ZERO } else { rows[0].abs() * wide };
+        let size_of_place = size_of_side + rows[1].abs().max(rows[2].abs());
+        let largest = at_side.abs() + wide + at[1].abs().max(at[2].abs());
+        let sides_error = error(size_of_place, largest, world.sides_exact);
+
+        let t = at[0] - world.t_at_origin;
+        let t_error = error(rows[0].abs(), t.abs() + at[0].abs(), world.t_exact);
+        let lowered = t - f64::from(t_error);
+        let least_t = upward(2.0 * f64::from(t_error) + world.t_at_origin);
+        let sides = [
+            (beside - along[1], at_side - at[1]),
+            (beside + along[1], at_side + at[1]),
+            (beside - along[2], at_side - at[2]),
+            (beside + along[2], at_side + at[2]),
+        ];
+        let is_beyond =
+            |(normal, at): &(DVec3, f64)| normal.abs().dot(half) + at < -f64::from(sides_error);
+        // As in `BoxCulling::between_samples`, but in `f64`, whose roundings are far less than 2⁻⁴⁰ of the place.
+        let t_ends =
+            [-1.0, 1.0].map(|end| at[0] + end * (along[0].abs().dot(half) + f64::from(t_error)));
+        let between = |axis: usize| {
+            let last = template.side - 1;
+            let spread = along[1 + axis].abs().dot(half) + f64::from(sides_error);
+            let [low, high] = [at[1 + axis] - spread, at[1 + axis] + spread];
+            let [low, high] = if template.parallel {
+                [low, high]
+            } else if t_ends[0] > 0.0 {
+                let [near, far] = t_ends;
+                [(low / near).min(low / far), (high / near).max(high / far)]
+            } else {
+                return Some([0, last]);
+            };
+            let beside = wide - template.half;
+            let room = |place: f64| beside + (-40f64).exp2() * (place.abs() + template.half);
+            samples_between(
+                low + template.half - room(low),
+                high + template.half + room(high),
+                last,
+            )
+        };
+        let stretch = upward((absolute * DVec3::ONE).max_element() * (1.0 + 1e-6));
+        let slack = upward(2.0 * rounding.max_element());
+        let size = upward(2.0 * half.max_element());
+        InstanceFrustum {
+            place,
+            boxes: BoxCulling {
+                origin: middle.to_array(),
+                t: WorldAffine::new(along[0], lowered),
+                least_t: -least_t.next_up(),
+                sides_error,
+                stretch,
+                slack,
+                t_error,
+                places: Some(Places {
+                    across: WorldAffine::new(along[1], at[1]),
+                    down: WorldAffine::new(along[2], at[2]),
+                    half: narrowed(template.half),
+                    beside: upward(wide - template.half),
+                    parallel: template.parallel,
+                }),
+                ..*world
+            },
+            sides: sides.map(|(normal, at)| WorldAffine::new(normal, at)),
+            seen: if sides.iter().any(is_beyond) {
+                None
+            } else {
+                between(1).zip(between(0)).map(|(rows, columns)| [rows, columns])
+            },
+            near: narrowed(lowered - along[0].abs().dot(half)).next_down(),
+            size: size * stretch + slack,
+        }
+    }
+}
+
+/// The first and the last of the whole numbers from 0 to `last` that lie between two places; NaN lets pass.
+#[inline(always)]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the conversion saturates, and makes 0 of NaN"
+)]
+fn samples_between(low: f64, high: f64, last: usize) -> Option<[usize; 2]> {
+    let (first, end) = (low.ceil(), high.floor());
+    if end < first || end < 0.0 || first > last as f64 {
+        return None;
+    }
+    let end = if end.is_nan() { last } else { (end as usize).min(last) };
+    Some([first as usize, end])
+}
+
+/// The columns of a map, and what it adds.
+#[inline(always)]
+fn parts(placement: &Placement) -> ([DVec3; 3], DVec3) {
+    let [x, y, z] = placement.rows();
+    let column = |k: usize| Vec3::new(x[k], y[k], z[k]).as_dvec3();
+    ([column(0), column(1), column(2)], column(3))
+}
+
+impl PlacedBy<'_> {
+    /// A leaf of the mesh in the world.
+    #[inline(always)]
+    pub(crate) fn indexed_leaf<S: Simd>(&self, simd: S, leaf: &IndexedLeaf) -> IndexedLeaf {
+        IndexedLeaf {
+            vertices: self.placement.positions(&leaf.vertices),
+            corners: leaf.corners,
+            ids: self.ids(simd, &leaf.ids),
+        }
+    }
+
+    /// A leaf of the mesh in the world.
+    #[inline(always)]
+    pub(crate) fn plain_leaf<S: Simd>(&self, simd: S, leaf: &PlainLeaf) -> PlainLeaf {
+        let mut corners = [[0.0; LEAF]; 9];
+        for (corner, placed) in
+            leaf.corners.as_chunks::<3>().0.iter().zip(corners.as_chunks_mut().0)
+        {
+            *placed = self.placement.positions(corner);
+        }
+        PlainLeaf { corners, ids: self.ids(simd, &leaf.ids) }
+    }
+
+    #[inline(always)]
+    fn ids<S: Simd>(&self, simd: S, ids: &[u32; LEAF]) -> [u32; LEAF] {
+        (u32x16::load_array_ref(simd, ids) + self.first_id).to_array()
+    }
+}
