@@ -10,8 +10,8 @@ use clap_complete::Shell;
 use std::fmt::Write;
 
 /// The subcommands with a scene argument; without a subcommand, `render` runs.
-const TAKE_A_SCENE: [&str; 8] =
-    ["render", "grade", "figure", "slides", "scenes", "pixel", "film", "camera"];
+const TAKE_A_SCENE: [&str; 9] =
+    ["render", "grade", "figure", "slides", "scenes", "pixel", "film", "camera", "export"];
 
 /// The script.
 pub(super) fn script(shell: Shell) -> String {

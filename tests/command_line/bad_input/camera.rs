@@ -139,6 +139,7 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
 pub(super) const COMMANDS: &[&str] = &[
     "canonical",
     "camera canonical",
+    "export canonical --as ply",
     "pixel canonical 1 1",
     "figure image canonical",
     "film canonical",

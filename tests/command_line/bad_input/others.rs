@@ -25,6 +25,20 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
         "camera canonical --json=yes",
         "unexpected value 'yes' for '--json' found; no more were expected",
     ),
+    // Another system's scene.
+    (
+        "export canonical --as maya",
+        "invalid value 'maya' for '--as <SYSTEM>' [possible values: pbrt, mitsuba, gltf, obj, ply]",
+    ),
+    ("export canonical", "the following required arguments were not provided: --as <SYSTEM>"),
+    (
+        "export canonical --as mitsuba --viewport 2,1",
+        "cannot export 'canonical': Mitsuba's perspective camera has square pixels, but a viewport of 2 x 1",
+    ),
+    (
+        "export canonical --as ply --output file",
+        "cannot write into the folder file: a file is where a folder would be; choose another one with -o",
+    ),
     // Another system's camera.
     (
         "camera canonical --as maya",

@@ -1,13 +1,16 @@
 //! Fewer primitives.
 
 use super::Shrinker;
-use crate::common::{Instances, Mesh, Shape};
+use crate::common::{Instances, Mesh, Placement, Shape};
 use crate::fuzz::case::Case;
+use std::ops::Range;
 
 /// Removes primitives: halves of them, then ever smaller parts, down to single ones. Triangles of meshes become objects of
-/// their own, unless the disagreement needs the mesh.
+/// their own, and instances meshes, unless the disagreement needs the mesh or the instances.
 pub(super) fn shrink(shrinker: &mut Shrinker) {
     shrinker.try_change(|case| Some(case.without_meshes()));
+    shrinker.try_change(|case| Some(with_copies(case)));
+    remove_instances(shrinker);
     let count = |shrinker: &Shrinker| {
         usize::try_from(shrinker.case.primitives()).expect("primitives are in memory")
     };
@@ -28,6 +31,42 @@ pub(super) fn shrink(shrinker: &mut Shrinker) {
     shrinker.try_change(|case| Some(case.without_meshes()));
 }
 
+/// Removes whole instances, which parts of any other size leave as they are.
+fn remove_instances(shrinker: &mut Shrinker) {
+    let mut last = usize::MAX;
+    while let Some(ids) = last_instance(&shrinker.case, last) {
+        last = ids.start;
+        shrinker.try_change(|case| Some(kept(case, |id| !ids.contains(&id))));
+    }
+}
+
+/// The ids of the last instance that begins before one of them.
+fn last_instance(case: &Case, before: usize) -> Option<Range<usize>> {
+    let (mut id, mut found) = (0, None);
+    for shape in &case.shapes {
+        if let Shape::Instances(instances) = shape {
+            let count = instances.mesh().triangles().len();
+            let starts = (0..instances.placements().len()).map(|k| id + k * count);
+            let start = starts.take_while(|start| *start < before).last();
+            found = start.map(|start| start..start + count).or(found);
+        }
+        id += shape.primitive_count();
+    }
+    found
+}
+
+/// The case with each instance as a mesh of its own.
+fn with_copies(case: &Case) -> Case {
+    let copies = |shape: &Shape| match shape {
+        Shape::Instances(instances) => {
+            let all = 0..instances.placements().len();
+            all.map(|instance| Shape::Mesh(instances.copied(instance))).collect()
+        }
+        other => vec![other.clone()],
+    };
+    Case { shapes: case.shapes.iter().flat_map(copies).collect(), ..case.clone() }
+}
+
 /// The case with some of its primitives, chosen by their ids.
 fn kept(case: &Case, is_kept: impl Fn(usize) -> bool) -> Case {
     let mut id = 0;
@@ -44,8 +83,11 @@ fn kept(case: &Case, is_kept: impl Fn(usize) -> bool) -> Case {
                 let kept = placements
                     .filter(|(k, _)| (first(*k)..first(k + 1)).any(&is_kept))
                     .map(|(_, placement)| *placement);
-                let kept = Instances::new(instances.shared_mesh().clone(), kept.collect());
-                shapes.push(Shape::Instances(kept.expect("it is a part of them")));
+                let kept: Vec<Placement> = kept.collect();
+                if !kept.is_empty() {
+                    let kept = Instances::new(instances.shared_mesh().clone(), kept);
+                    shapes.push(Shape::Instances(kept.expect("it is a part of them")));
+                }
             }
             other if is_kept(ids.start) => shapes.push(other.clone()),
             _ => {}
@@ -83,7 +125,8 @@ mod tests {
     #[test]
     fn what_is_kept_stays_as_it_is() {
         for scene in 0..50 {
-            let case = generate(5, scene);
+            // Instances are kept as wholes.
+            let case = with_copies(&generate(5, scene));
             let (before, _) = case.accepted().unwrap();
             let third = kept(&case, |id| id % 3 == 1);
             let (after, _) = third.accepted().unwrap();
