@@ -71,6 +71,8 @@ def arguments():
     option("--shared", metavar="FOLDER", type=Path, default=ROOT / "../shared",
            help="where peers and meshes are, if not in ../shared")
     option("--order", choices=["both", "object", "image"], default="both")
+    option("--without-fill", action="store_true",
+           help="leave the memory fill out: its bench alone compiles all packages once more")
     option("--markdown", action="store_true", help="also write the tables into docs/performance.md")
     return parser.parse_args()
 
@@ -117,7 +119,7 @@ def measure(options):
     peers = build_peers(options.shared / "peers")
     if "mkmesh" not in peers:
         fail("nothing to draw: ../shared/peers and a C++ compiler make the scenes; get both")
-    ours, fill = build_ours()
+    ours, fill = build_ours(options.without_fill)
     if options.threads != 2 and "embree" in peers and options.order != "object":
         say("Embree's program times 1 and 2 threads only")
     rows = []
@@ -194,13 +196,13 @@ def build_peers(folder):
     return programs
 
 
-def build_ours():
-    """Builds our program and the bench `memory_fill`, and returns their paths."""
+def build_ours(without_fill):
+    """Builds our program and, if it is wanted, the bench `memory_fill`, and returns their paths."""
     say("building ours")
-    return (
-        built("bothways", "build", "--release", "--bin", "bothways"),
-        built("memory_fill", "bench", "--no-run", "--bench", "memory_fill"),
-    )
+    ours = built("bothways", "build", "--release", "--bin", "bothways")
+    if without_fill:
+        return ours, None
+    return ours, built("memory_fill", "bench", "--no-run", "--bench", "memory_fill")
 
 
 def built(name, *words):
@@ -249,7 +251,8 @@ def compare(spec, image, options, peers, ours, fill, folder):
             if "embree" in peers and options.threads <= 2:
                 for mode, value in embree(peers["embree"], tri, image, options).items():
                     note(mode, value)
-        note("fill", json.loads(run(fill, image, options.threads, options.repeats))["median"])
+        if fill is not None:
+            note("fill", json.loads(run(fill, image, options.threads, options.repeats))["median"])
     for path in folder.glob(f"{name}.*"):
         path.unlink()
     return {"mesh": name, "triangles": triangles, "size": image, "ms": times}
