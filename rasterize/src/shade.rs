@@ -50,6 +50,7 @@ struct Surface {
     form: Option<Box<Form>>,
     normals: Normals,
     texture: Texture,
+    details: Option<Box<Details>>,
 }
 
 enum Texture {
@@ -59,14 +60,13 @@ enum Texture {
     Sphere,
     /// That of a flat form: a function on the viewport.
     Flat(Box<Quotient>),
-    /// What few surfaces need.
-    Rich(Box<Rich>),
 }
 
-/// A texture and more: colours of vertices, or how the texture coordinate moves from sample to sample.
-struct Rich {
-    texture: Texture,
+/// What few surfaces need.
+struct Details {
+    /// The colours of the vertices.
     colors: Option<Colors>,
+    /// Whether it is needed how the texture coordinate moves from sample to sample.
     has_steps: bool,
 }
 
@@ -92,10 +92,15 @@ impl Surfaces for Interpolated<'_> {
     fn set_up(&self, seen: &Seen, wanted: Wanted) -> Surface {
         let (view, primitive) = (self.view, &seen.primitive);
         let normals = Normals::new(view, primitive, seen.corner_normals());
-        let texture = Texture::of(view, seen, wanted);
+        let texture = if seen.needs_texture(wanted) {
+            Texture::new(view, primitive, seen.corner_coordinates())
+        } else {
+            Texture::None
+        };
+        let details = Details::new(view, seen, wanted).map(Box::new);
         let is_sphere = matches!(primitive, Primitive::Sphere { .. });
         let form = (is_sphere || wanted.positions).then(|| Box::new(Form::new(view, primitive)));
-        Surface { form, normals, texture }
+        Surface { form, normals, texture, details }
     }
 
     #[inline(always)]
@@ -135,9 +140,9 @@ impl Surfaces for Interpolated<'_> {
                 hits
             }
         };
-        match &surface.texture {
-            Texture::Rich(rich) => self.rich(simd, rich, samples, &hits, points),
-            plain => self.plain(simd, plain, samples, &hits, points),
+        self.texture(simd, &surface.texture, samples, &hits, points);
+        if let Some(details) = &surface.details {
+            self.details(simd, details, &surface.texture, samples, &hits, points);
         }
     }
 }
@@ -145,7 +150,7 @@ impl Surfaces for Interpolated<'_> {
 impl Interpolated<'_> {
     /// The texture coordinates of some samples, and their footprints.
     #[inline(always)]
-    fn plain<S: Simd>(
+    fn texture<S: Simd>(
         &self,
         simd: S,
         texture: &Texture,
@@ -154,7 +159,7 @@ impl Interpolated<'_> {
         points: &mut Points<'_>,
     ) {
         let [low, high] = match texture {
-            Texture::None | Texture::Rich(_) => return,
+            Texture::None => return,
             Texture::Flat(quotient) => each!(half in [&samples.low, &samples.high] => {
                 quotient.with_footprint(simd, half.x, half.y, self.step)
             }),
@@ -168,26 +173,26 @@ impl Interpolated<'_> {
         points.set_texture(&TexturePoints { halves: [low.0, high.0], footprint });
     }
 
-    /// The same, and what else the surface needs.
+    /// What few surfaces need at some samples.
     #[inline(always)]
-    fn rich<S: Simd>(
+    fn details<S: Simd>(
         &self,
         simd: S,
-        rich: &Rich,
+        details: &Details,
+        texture: &Texture,
         samples: &Sixteen<S>,
         hits: &[HitPoints<S>; 2],
         points: &mut Points<'_>,
     ) {
-        if let Some(colors) = &rich.colors {
+        if let Some(colors) = &details.colors {
             points.set_colors(colors.at(simd, &samples.low).narrow(colors.at(simd, &samples.high)));
         }
-        self.plain(simd, &rich.texture, samples, hits, points);
-        if !rich.has_steps {
+        if !details.has_steps {
             return;
         }
         let halves = [(&samples.low, &hits[0]), (&samples.high, &hits[1])];
-        let [low, high] = match &rich.texture {
-            Texture::None | Texture::Rich(_) => return,
+        let [low, high] = match texture {
+            Texture::None => return,
             Texture::Flat(quotient) => {
                 each!(k in [0, 1] => quotient.differences(simd, halves[k].0, self.step))
             }
@@ -310,20 +315,13 @@ fn side_seen(view: &View, point: DVec3, normal: DVec3) -> f64 {
     if away { -1.0 } else { 1.0 }
 }
 
-impl Texture {
-    /// What is needed of the texture of a primitive.
+impl Details {
+    /// `None` if nothing of it is needed.
     #[inline(always)]
-    fn of(view: &View, seen: &Seen, wanted: Wanted) -> Texture {
+    fn new(view: &View, seen: &Seen, wanted: Wanted) -> Option<Details> {
         let (colors, has_steps) = (seen.corner_colors(), seen.needs_steps(wanted));
-        let texture = || {
-            if seen.needs_texture(wanted) {
-                Texture::new(view, &seen.primitive, seen.corner_coordinates())
-            } else {
-                Texture::None
-            }
-        };
         if colors.is_none() && !has_steps {
-            return texture();
+            return None;
         }
         let colors = match (seen.primitive, colors) {
             (Primitive::Triangle([a, b, c]), Some(colors)) => {
@@ -332,9 +330,11 @@ impl Texture {
             }
             _ => None,
         };
-        Texture::Rich(Box::new(Rich { texture: texture(), colors, has_steps }))
+        Some(Details { colors, has_steps })
     }
+}
 
+impl Texture {
     fn new(view: &View, primitive: &Primitive, corners: Option<[DVec2; 3]>) -> Texture {
         match (*primitive, corners) {
             (Primitive::Sphere { .. }, _) => Texture::Sphere,

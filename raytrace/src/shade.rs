@@ -45,6 +45,7 @@ struct Surface {
     /// Whether more than normals is needed: where the points are, or their texture.
     has_points: bool,
     texture: Texture,
+    details: Option<Box<Details>>,
 }
 
 enum Normals {
@@ -90,15 +91,13 @@ enum Texture {
     None,
     Sphere,
     Flat(Chart),
-    /// What few surfaces need.
-    Rich(Box<Rich>),
 }
 
-/// A texture and more: colours of vertices, or how the texture coordinate moves from sample to sample.
-struct Rich {
-    texture: Texture,
-    /// The colour of the first corner, and what those of the others add to it.
-    colors: Option<[Vec3; 3]>,
+/// What few surfaces need.
+struct Details {
+    /// The colours of the vertices, as smooth normals are kept.
+    colors: Option<Smooth>,
+    /// Whether it is needed how the texture coordinate moves from sample to sample.
     has_steps: bool,
 }
 
@@ -120,10 +119,15 @@ impl Surfaces for AtHits<'_> {
     #[inline(always)]
     fn set_up(&self, seen: &Seen, wanted: Wanted) -> Surface {
         let form = Form::new(&seen.primitive);
-        let texture = Texture::of(&form, seen, wanted, self.steps);
+        let texture = if seen.needs_texture(wanted) {
+            Texture::new(&form, seen.corner_coordinates(), self.steps)
+        } else {
+            Texture::None
+        };
+        let details = Details::new(seen, wanted).map(Box::new);
         let normals = Normals::new(self.view, &form, seen.corner_normals());
-        let has_points = wanted.positions || !matches!(texture, Texture::None);
-        Surface { form, normals, has_points, texture }
+        let has_points = wanted.positions || !matches!(texture, Texture::None) || details.is_some();
+        Surface { form, normals, has_points, texture, details }
     }
 
     #[inline(always)]
@@ -155,15 +159,15 @@ impl Surfaces for AtHits<'_> {
         });
         points.set_positions([low.position, high.position]);
         points.set_normals(surface.normals.at(simd, [&low, &high]));
-        match &surface.texture {
-            Texture::Rich(rich) => {
-                if let Some([at_a, to_b, to_c]) = rich.colors {
-                    let colors = Smooth([at_a, to_b, to_c]);
+        let hits = [&low, &high];
+        match &surface.details {
+            None => self.texture(simd, &surface.texture, hits, false, points),
+            Some(details) => {
+                if let Some(colors) = &details.colors {
                     points.set_colors(colors.at(simd, [low.weights, high.weights]));
                 }
-                self.texture(simd, &rich.texture, [&low, &high], rich.has_steps, points);
+                self.texture(simd, &surface.texture, hits, details.has_steps, points);
             }
-            plain => self.texture(simd, plain, [&low, &high], false, points),
         }
     }
 }
@@ -229,7 +233,7 @@ impl AtHits<'_> {
         points: &mut Points<'_>,
     ) {
         let (found, steps) = match texture {
-            Texture::None | Texture::Rich(_) => return,
+            Texture::None => return,
             Texture::Flat(chart) => self.on_chart(simd, chart, [low, high]),
             Texture::Sphere => self.on_globes(simd, [low, high]),
         };
@@ -360,25 +364,20 @@ impl Smooth {
     }
 }
 
-impl Texture {
-    /// What is needed of the texture of a primitive.
+impl Details {
+    /// `None` if nothing of it is needed.
     #[inline(always)]
-    fn of(form: &Form, seen: &Seen, wanted: Wanted, steps: [DVec3; 2]) -> Texture {
+    fn new(seen: &Seen, wanted: Wanted) -> Option<Details> {
         let (colors, has_steps) = (seen.corner_colors(), seen.needs_steps(wanted));
-        let texture = || {
-            if seen.needs_texture(wanted) {
-                Texture::new(form, seen.corner_coordinates(), steps)
-            } else {
-                Texture::None
-            }
-        };
         if colors.is_none() && !has_steps {
-            return texture();
+            return None;
         }
-        let colors = colors.map(|[a, b, c]| [a, b - a, c - a]);
-        Texture::Rich(Box::new(Rich { texture: texture(), colors, has_steps }))
+        let colors = colors.map(|[a, b, c]| Smooth([a, b - a, c - a]));
+        Some(Details { colors, has_steps })
     }
+}
 
+impl Texture {
     #[inline(always)]
     fn new(form: &Form, corners: Option<[DVec2; 3]>, steps: [DVec3; 2]) -> Texture {
         let (first, gradients, normal) = match (form, corners) {

@@ -7,12 +7,13 @@
 mod camera;
 mod others;
 mod render;
+mod two_files;
 
 use crate::arguments::arguments;
+use crate::folder::names;
 use assert_cmd::Command;
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::Path;
 use tempfile::TempDir;
 
 /// The tested command lines, and the beginnings of the messages.
@@ -20,7 +21,7 @@ fn refused() -> impl Iterator<Item = (String, &'static str)> {
     let of_camera = camera::COMMANDS.iter().flat_map(|command| {
         camera::REFUSED.iter().map(move |(flags, message)| (format!("{command} {flags}"), *message))
     });
-    let others = render::REFUSED.iter().chain(others::REFUSED);
+    let others = render::REFUSED.iter().chain(two_files::REFUSED).chain(others::REFUSED);
     others.map(|(line, message)| ((*line).to_owned(), *message)).chain(of_camera)
 }
 
@@ -40,11 +41,6 @@ fn home() -> TempDir {
     write("a.pgm", b"P2 2 1 1\n0 1\n");
     write("b.pgm", b"P2 1 2 1\n0 1\n");
     home
-}
-
-fn names(folder: &Path) -> BTreeSet<String> {
-    let entries = fs::read_dir(folder).unwrap();
-    entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
 }
 
 /// The message without its label, with its lines joined, and without the usage text that may follow.

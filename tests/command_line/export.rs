@@ -2,22 +2,14 @@
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+use crate::folder::names;
 use assert_cmd::Command;
-use std::fs;
 use std::path::Path;
 
 fn export(home: &Path, args: &[&str]) -> Command {
     let mut command = Command::cargo_bin("bothways").unwrap();
     command.current_dir(home).env("NO_COLOR", "1").arg("export").args(args);
     command
-}
-
-fn names(folder: &Path) -> Vec<String> {
-    let entries = fs::read_dir(folder).unwrap();
-    let mut names: Vec<String> =
-        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
-    names.sort();
-    names
 }
 
 #[test]

@@ -1,14 +1,11 @@
 //! `bothways film`: its files, its facts and its errors.
 
-#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
-
+use crate::folder::names;
 use crate::texts::{bothways, home, printed};
 use assert_cmd::Command;
 use bothways::wording::grouped;
 use serde_json::Value;
-use std::collections::BTreeSet;
 use std::fs;
-use std::path::Path;
 use tempfile::TempDir;
 
 /// A film of a moment: five frames, and five more for the pause.
@@ -29,11 +26,6 @@ fn film(home: &TempDir, more: &[&str]) -> Command {
     let mut command = bothways(home, &SHORT);
     command.args(["--pause", "0.5", "--width", "480"]).args(more);
     command
-}
-
-fn names(folder: &Path) -> BTreeSet<String> {
-    let entries = fs::read_dir(folder).unwrap();
-    entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
 }
 
 #[test]
@@ -91,7 +83,7 @@ fn a_folder_holds_the_frames_of_one_film() {
     let mut shorter = bothways(&home, &SHORT);
     shorter.args(["--pause", "0", "--width", "480", "-o", "frames"]).assert().code(0);
     let frames = (1..=5).map(|number| format!("frame-{number:04}.png"));
-    let expected: BTreeSet<String> =
+    let expected: Vec<String> =
         frames.chain(["frames.txt", "mine.txt"].map(str::to_owned)).collect();
     assert_eq!(names(&folder), expected);
     let size = image::image_dimensions(folder.join("frame-0001.png")).unwrap();

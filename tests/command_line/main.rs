@@ -15,6 +15,7 @@ mod diff_why;
 mod export;
 mod exr;
 mod film;
+mod folder;
 mod fuzz;
 mod output;
 mod pixel;

@@ -3,6 +3,7 @@
 #![cfg(unix)]
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+use crate::folder::names;
 use assert_cmd::Command;
 use bothways::common::Mesh;
 use bothways::formats::generate::Kind;
@@ -32,14 +33,6 @@ fn started(home: &TempDir, args: &[&str]) -> Child {
     let mut command = process::Command::new(assert_cmd::cargo::cargo_bin("bothways"));
     command.current_dir(home).args(args).stdin(Stdio::null());
     command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
-}
-
-fn names(folder: &Path) -> Vec<String> {
-    let entries = fs::read_dir(folder).unwrap();
-    let mut names: Vec<String> =
-        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
-    names.sort();
-    names
 }
 
 /// A sphere from the program, and its OBJ file.

@@ -6,7 +6,7 @@ use crate::fast::world_affine::{LARGEST, WorldAffine, narrowed, upward};
 use bothways_common::engine::context::Context;
 use bothways_common::engine::fault::Planted;
 use bothways_common::engine::roundoff::EPS24;
-use bothways_common::engine::simd::{Simd, SimdBase, SimdFloat, SimdMask, f32x16, mask32x16};
+use bothways_common::engine::simd::{Simd, SimdBase, SimdMask, f32x16, mask32x16};
 use glam::{DVec3, Vec3};
 
 /// What all tiles share to cull boxes. Errors are infinite if numbers might overflow.
@@ -28,24 +28,17 @@ pub(crate) struct BoxCulling {
     /// What of both errors is there before anything is rounded to `f32`.
     pub(super) t_exact: f64,
     pub(super) sides_exact: f64,
-    /// No two vertices in a box are farther from each other, along any axis of the world, than the longest side times
-    /// this, and this more: 1 and 0 if the box lies in the world.
-    pub(super) stretch: f32,
-    pub(super) slack: f32,
-    /// Where boxes of an instance are seen in the tile.
-    pub(super) places: Option<Places>,
 }
 
-/// Columns and rows, times `t` of a perspective camera, from the tile's middle, as functions like that of `t`.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Places {
-    pub(super) across: WorldAffine,
-    pub(super) down: WorldAffine,
-    /// Columns from the tile's middle to its first sample, and what rays may be off.
-    pub(super) half: f32,
-    pub(super) beside: f32,
-    pub(super) parallel: bool,
+/// What a test of a node's boxes finds: which are missed, and the least and the largest `t` of each, as computed.
+pub(super) struct Tested<S: Simd> {
+    pub(super) missed: mask32x16<S>,
+    pub(super) near: f32x16<S>,
+    pub(super) far: f32x16<S>,
 }
+
+/// The low and the high sides of a node's boxes along each axis.
+pub(super) type Sides<S> = [[f32x16<S>; 2]; 3];
 
 /// What bounds the values of a map.
 #[derive(Clone, Copy, Debug)]
@@ -122,9 +115,6 @@ impl BoxCulling {
             sides_error: error(beside * t + place, wide + offset, side_at_origin),
             t_exact: exact(t, offset),
             sides_exact: exact(beside * t + place, wide + offset),
-            stretch: 1.0,
-            slack: 0.0,
-            places: None,
         }
     }
 
@@ -141,9 +131,6 @@ impl BoxCulling {
     }
 
     /// Finds the boxes of a node that a ray of a tile with these sides may meet before `farthest`.
-    ///
-    /// The function of a side is largest, in a box, at one of its corners. The error of points on rays counts, which
-    /// [`MapErrors::wide`](crate::fast::camera_map::MapErrors::wide) allows for, and that of what is computed here.
     #[inline(always)]
     pub(crate) fn test<C: Context>(
         &self,
@@ -153,66 +140,33 @@ impl BoxCulling {
         farthest: f32,
     ) -> BoxHits {
         let simd = context.simd();
-        let boxes = self.boxes_of(simd, node);
+        let tested = self.tested(context, sides, &self.boxes_of(simd, node), farthest);
+        BoxHits::new(node, tested.missed, tested.near, longest_side(simd, node))
+    }
+
+    /// Finds the boxes that no ray of a tile with these sides meets before `farthest`.
+    ///
+    /// The function of a side is largest, in a box, at one of its corners. The error of points on rays counts, which
+    /// [`MapErrors::wide`](crate::fast::camera_map::MapErrors::wide) allows for, and that of what is computed here.
+    #[inline(always)]
+    pub(super) fn tested<C: Context>(
+        &self,
+        context: &C,
+        sides: &[WorldAffine; 4],
+        boxes: &Sides<C::Simd>,
+        farthest: f32,
+    ) -> Tested<C::Simd> {
+        let simd = context.simd();
         let [left, right, upper, lower] = sides;
-        let across = left.extreme(&boxes, true).min(right.extreme(&boxes, true));
-        let down = upper.extreme(&boxes, true).min(lower.extreme(&boxes, true));
-        let (near, far) = (self.t.extreme(&boxes, false), self.t.extreme(&boxes, true));
+        let across = left.extreme(boxes, true).min(right.extreme(boxes, true));
+        let down = upper.extreme(boxes, true).min(lower.extreme(boxes, true));
+        let (near, far) = (self.t.extreme(boxes, false), self.t.extreme(boxes, true));
         let room = if C::has(Planted::ShrunkBox) { 0.0 } else { self.sides_error };
         // NaN, from numbers that overflow, lets pass.
         let missed = across.min(down).simd_lt(f32x16::splat(simd, -room))
             | far.simd_lt(f32x16::splat(simd, self.least_t))
             | near.simd_gt(f32x16::splat(simd, farthest));
-        let missed = match &self.places {
-            Some(places) => missed | self.between_samples(simd, places, &boxes, [near, far]),
-            None => missed,
-        };
-        BoxHits {
-            hit: (!missed).to_bitmask() & ((1 << node.used) - 1),
-            near: near.to_array(),
-            size: (longest_side(simd, node) * self.stretch + self.slack).to_array(),
-        }
-    }
-
-    /// Which boxes of an instance lie between the rows or the columns of samples. A mesh that is there very often is mostly
-    /// seen from far away, where most leaves are smaller than a sample.
-    ///
-    /// Columns times `t` are off by no more than a side, and `t` lies between its two ends, which for an instance are
-    /// moved by their error already; see [`InstanceFrustum`](super::instance_frustum::InstanceFrustum). So a column lies between the quotients
-    /// of their ends. Sums, reciprocal and product are rounded by `5·ε₂₄` of the column, the last sum by `ε₂₄` of that
-    /// and half a tile; `16·ε₂₄` is more. A point on a ray is off by what [`MapErrors::wide`] is more than half of a tile.
-    ///
-    /// [`MapErrors::wide`]: crate::fast::camera_map::MapErrors::wide
-    #[inline(always)]
-    fn between_samples<S: Simd>(
-        &self,
-        simd: S,
-        places: &Places,
-        boxes: &[[f32x16<S>; 2]; 3],
-        [near, far]: [f32x16<S>; 2],
-    ) -> mask32x16<S> {
-        let splat = |value: f32| f32x16::splat(simd, value);
-        let (one, zero) = (splat(1.0), splat(0.0));
-        let at_origin = narrowed(self.t_at_origin);
-        let [first_t, last_t] = if places.parallel {
-            [one; 2]
-        } else {
-            let last = upward(2.0 * f64::from(self.t_error)).next_up();
-            [near + at_origin.next_down(), far + last + at_origin.next_up()]
-        };
-        let [by_first, by_last] = [one / first_t, one / last_t];
-        let error = splat(self.sides_error);
-        let beside = places.beside + 16.0 * EPS24 * (places.half + 1.0);
-        let none = |function: &WorldAffine| {
-            let low = function.extreme(boxes, false) - error;
-            let high = function.extreme(boxes, true) + error;
-            let low = (low * by_first).min(low * by_last);
-            let high = (high * by_first).max(high * by_last);
-            let first = low - low.abs() * (16.0 * EPS24) + (places.half - beside);
-            let last = high + high.abs() * (16.0 * EPS24) + (places.half + beside);
-            last.floor().simd_lt(first.ceil())
-        };
-        first_t.simd_gt(zero) & (none(&places.across) | none(&places.down))
+        Tested { missed, near, far }
     }
 
     /// Whether [`BoxCulling::test`] certainly drops all boxes of a node for each ray of a tile that is tested alone, as a
@@ -255,9 +209,9 @@ impl BoxCulling {
         (!missed).to_bitmask() & ((1 << node.used) - 1) == 0
     }
 
-    /// The low and the high sides of a node's boxes along each axis, counted from the origin.
+    /// The sides of a node's boxes, counted from the origin.
     #[inline(always)]
-    fn boxes_of<S: Simd>(&self, simd: S, node: &Node) -> [[f32x16<S>; 2]; 3] {
+    pub(super) fn boxes_of<S: Simd>(&self, simd: S, node: &Node) -> Sides<S> {
         let [ox, oy, oz] = self.origin;
         let [lx, ly, lz, hx, hy, hz] = &node.bounds;
         [
@@ -268,9 +222,26 @@ impl BoxCulling {
     }
 }
 
+impl BoxHits {
+    /// Those of a node's boxes that are not missed.
+    #[inline(always)]
+    pub(super) fn new<S: Simd>(
+        node: &Node,
+        missed: mask32x16<S>,
+        near: f32x16<S>,
+        size: f32x16<S>,
+    ) -> BoxHits {
+        BoxHits {
+            hit: (!missed).to_bitmask() & ((1 << node.used) - 1),
+            near: near.to_array(),
+            size: size.to_array(),
+        }
+    }
+}
+
 /// The longest side of each box.
 #[inline(always)]
-fn longest_side<S: Simd>(simd: S, node: &Node) -> f32x16<S> {
+pub(super) fn longest_side<S: Simd>(simd: S, node: &Node) -> f32x16<S> {
     let [lx, ly, lz, hx, hy, hz] = &node.bounds;
     let width = f32x16::load_array_ref(simd, hx) - f32x16::load_array_ref(simd, lx);
     let height = f32x16::load_array_ref(simd, hy) - f32x16::load_array_ref(simd, ly);

@@ -1,13 +1,14 @@
 //! The rays of a tile in the coordinates of an instance's mesh: there the hierarchy of the mesh is walked, which is the
 //! same for all instances.
 
-use super::box_culling::{BoxCulling, Places};
+use super::box_culling::{BoxCulling, BoxHits, Sides, Tested, longest_side};
 use super::tile_frustum::TileFrustum;
-use super::tree::{Bounds, IndexedLeaf, LEAF, PlainLeaf};
+use super::tree::{Bounds, IndexedLeaf, LEAF, Node, PlainLeaf};
 use crate::fast::world_affine::{LARGEST, WorldAffine, narrowed, upward};
 use bothways_common::Placement;
+use bothways_common::engine::context::Context;
 use bothways_common::engine::roundoff::EPS24;
-use bothways_common::engine::simd::{Simd, SimdBase, u32x16};
+use bothways_common::engine::simd::{Simd, SimdBase, SimdFloat, f32x16, mask32x16, u32x16};
 use glam::{DMat3, DVec3, Vec3};
 
 /// One instance, as a tile's rays see it.
@@ -15,14 +16,31 @@ use glam::{DMat3, DVec3, Vec3};
 pub(crate) struct InstanceFrustum<'a> {
     pub(crate) place: PlacedBy<'a>,
     /// How boxes of the mesh are culled.
-    pub(crate) boxes: BoxCulling,
-    pub(crate) sides: [WorldAffine; 4],
+    boxes: BoxCulling,
+    sides: [WorldAffine; 4],
+    /// Where they are seen in the tile.
+    places: Places,
+    /// No two vertices in a box are farther from each other, along any axis of the world, than its longest side times
+    /// this, and this more.
+    stretch: f32,
+    slack: f32,
     /// The rows and columns of the tile at which it may be seen, the first and the last of each; `None` if all rays of the
     /// tile miss it.
     pub(crate) seen: Option<[[usize; 2]; 2]>,
     /// As of a box: see [`BoxHits`](super::box_culling::BoxHits).
     pub(crate) near: f32,
     pub(crate) size: f32,
+}
+
+/// Columns and rows, times `t` of a perspective camera, from the tile's middle, as functions like that of `t`.
+#[derive(Clone, Copy, Debug)]
+struct Places {
+    across: WorldAffine,
+    down: WorldAffine,
+    /// Columns from the tile's middle to its first sample, and what rays may be off.
+    half: f32,
+    beside: f32,
+    parallel: bool,
 }
 
 /// Where an instance is, and the id of its first triangle.
@@ -55,7 +73,6 @@ impl<'a> InstanceFrustum<'a> {
     /// the smallest normal number, times the extents.
     ///
     /// The middle and the half are rounded, too: `H` is made larger by more than that.
-    #[inline(always)]
     pub(crate) fn new(
         frustum: &TileFrustum,
         place: PlacedBy<'a>,
@@ -152,18 +169,18 @@ impl<'a> InstanceFrustum<'a> {
                 t: WorldAffine::new(along[0], lowered),
                 least_t: -least_t.next_up(),
                 sides_error,
-                stretch,
-                slack,
                 t_error,
-                places: Some(Places {
-                    across: WorldAffine::new(along[1], at[1]),
-                    down: WorldAffine::new(along[2], at[2]),
-                    half: narrowed(template.half),
-                    beside: upward(wide - template.half),
-                    parallel: template.parallel,
-                }),
                 ..*world
             },
+            places: Places {
+                across: WorldAffine::new(along[1], at[1]),
+                down: WorldAffine::new(along[2], at[2]),
+                half: narrowed(template.half),
+                beside: upward(wide - template.half),
+                parallel: template.parallel,
+            },
+            stretch,
+            slack,
             sides: sides.map(|(normal, at)| WorldAffine::new(normal, at)),
             seen: if sides.iter().any(is_beyond) {
                 None
@@ -173,6 +190,58 @@ impl<'a> InstanceFrustum<'a> {
             near: narrowed(lowered - along[0].abs().dot(half)).next_down(),
             size: size * stretch + slack,
         }
+    }
+
+    /// [`BoxCulling::test`] for a node of the mesh.
+    #[inline(always)]
+    pub(crate) fn test<C: Context>(&self, context: &C, node: &Node, farthest: f32) -> BoxHits {
+        let simd = context.simd();
+        let boxes = self.boxes.boxes_of(simd, node);
+        let Tested { missed, near, far } =
+            self.boxes.tested(context, &self.sides, &boxes, farthest);
+        let missed = missed | self.between_samples(simd, &boxes, [near, far]);
+        BoxHits::new(node, missed, near, longest_side(simd, node) * self.stretch + self.slack)
+    }
+
+    /// Which boxes lie between the rows or the columns of samples. A mesh that is there very often is mostly
+    /// seen from far away, where most leaves are smaller than a sample.
+    ///
+    /// Columns times `t` are off by no more than a side, and `t` lies between its two ends, which are
+    /// moved by their error already: see [`InstanceFrustum::new`]. So a column lies between the quotients
+    /// of their ends. Sums, reciprocal and product are rounded by `5·ε₂₄` of the column, the last sum by `ε₂₄` of that
+    /// and half a tile; `16·ε₂₄` is more. A point on a ray is off by what [`MapErrors::wide`] is more than half of a tile.
+    ///
+    /// [`MapErrors::wide`]: crate::fast::camera_map::MapErrors::wide
+    #[inline(always)]
+    fn between_samples<S: Simd>(
+        &self,
+        simd: S,
+        boxes: &Sides<S>,
+        [near, far]: [f32x16<S>; 2],
+    ) -> mask32x16<S> {
+        let splat = |value: f32| f32x16::splat(simd, value);
+        let (one, zero) = (splat(1.0), splat(0.0));
+        let (culling, places) = (&self.boxes, &self.places);
+        let at_origin = narrowed(culling.t_at_origin);
+        let [first_t, last_t] = if places.parallel {
+            [one; 2]
+        } else {
+            let last = upward(2.0 * f64::from(culling.t_error)).next_up();
+            [near + at_origin.next_down(), far + last + at_origin.next_up()]
+        };
+        let [by_first, by_last] = [one / first_t, one / last_t];
+        let error = splat(culling.sides_error);
+        let beside = places.beside + 16.0 * EPS24 * (places.half + 1.0);
+        let none = |function: &WorldAffine| {
+            let low = function.extreme(boxes, false) - error;
+            let high = function.extreme(boxes, true) + error;
+            let low = (low * by_first).min(low * by_last);
+            let high = (high * by_first).max(high * by_last);
+            let first = low - low.abs() * (16.0 * EPS24) + (places.half - beside);
+            let last = high + high.abs() * (16.0 * EPS24) + (places.half + beside);
+            last.floor().simd_lt(first.ceil())
+        };
+        first_t.simd_gt(zero) & (none(&places.across) | none(&places.down))
     }
 }
 

@@ -228,7 +228,9 @@ impl<'a> Walker<'a> {
     }
 
     /// Begins the walk through the mesh of an instance, unless its box misses the tile or lies behind its hits.
-    #[inline(always)]
+    ///
+    /// It stays out of the loop of the walk, which other scenes go through without it.
+    #[inline(never)]
     fn enter_instance(&mut self, frustum: &TileFrustum, entry: &StackEntry, farthest: f32) {
         let number = u32::try_from(entry.child.index()).expect("it has 29 bits");
         let (mesh, place) = self.prepared.instance(self.map.view.scene, number);
@@ -338,11 +340,10 @@ impl<'a> Walker<'a> {
         }
         self.tile.executed.nodes_opened += 1;
         self.tile.executed.boxes_tested += u64::from(node.used);
-        let (culling, sides) = match self.inside() {
-            Some(instance) => (&instance.boxes, &instance.sides),
-            None => (&frustum.template.boxes, &frustum.sides),
+        let boxes = match self.inside() {
+            Some(instance) => instance.test(context, node, farthest),
+            None => frustum.template.boxes.test(context, &frustum.sides, node, farthest),
         };
-        let boxes = culling.test(context, sides, node, farthest);
         if C::WATCHED {
             self.emit_boxes(context, index, node, boxes.hit);
         }
