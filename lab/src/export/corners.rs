@@ -33,7 +33,8 @@ impl Corners {
                 let normal = if has_normals { normals.corners[triangle][corner] } else { 0 };
                 let coordinate =
                     if has_coordinates { coordinates.corners[triangle][corner] } else { 0 };
-                let next = u32::try_from(corners.positions.len()).unwrap_or(u32::MAX);
+                let next = u32::try_from(corners.positions.len())
+                    .expect("memory does not hold so many different corners");
                 let index = *known.entry([vertex, normal, coordinate]).or_insert(next);
                 corners.indices.push(index);
                 if index != next {

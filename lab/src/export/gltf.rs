@@ -46,6 +46,12 @@ pub(super) fn binary(
     container(&root, file.bytes)
 }
 
+/// The numbers of the format for types of components, and for what a view holds.
+const U32: u32 = 5125;
+const F32: u32 = 5126;
+const VERTICES: u32 = 34962;
+const INDICES: u32 = 34963;
+
 /// The two chunks of a binary file.
 fn container(root: &Value, mut bytes: Vec<u8>) -> Result<Vec<u8>, ExportError> {
     let mut text = serde_json::to_vec(root).expect("plain values become JSON");
@@ -86,24 +92,24 @@ impl File {
             all.reduce(|one, other| [0, 1, 2].map(|axis| pick(one[axis], other[axis])))
         };
         let [least, largest] = [bounds(f32::min), bounds(f32::max)];
-        let mut position = self.floats("VEC3", 34962, &corners.positions);
+        let mut position = self.floats("VEC3", &corners.positions);
         position["min"] = json!(least);
         position["max"] = json!(largest);
         let mut attributes = json!({ "POSITION": self.accessor(position) });
         if let Some(normals) = &corners.normals {
-            let accessor = self.floats("VEC3", 34962, normals);
+            let accessor = self.floats("VEC3", normals);
             attributes["NORMAL"] = json!(self.accessor(accessor));
         }
         if let Some(coordinates) = &corners.coordinates {
             // Here v grows upwards, in glTF downwards.
             let down: Vec<[f32; 2]> = coordinates.iter().map(|[u, v]| [*u, 1.0 - v]).collect();
-            let accessor = self.floats("VEC2", 34962, &down);
+            let accessor = self.floats("VEC2", &down);
             attributes["TEXCOORD_0"] = json!(self.accessor(accessor));
         }
         let bytes = corners.indices.iter().flat_map(|index| index.to_le_bytes());
-        let view = self.view(34963, bytes);
+        let view = self.view(INDICES, bytes);
         let indices = json!({
-            "bufferView": view, "componentType": 5125, "count": corners.indices.len(), "type": "SCALAR",
+            "bufferView": view, "componentType": U32, "count": corners.indices.len(), "type": "SCALAR",
         });
         let indices = self.accessor(indices);
         let material = self.material(material);
@@ -120,10 +126,10 @@ impl File {
         self.views.len() - 1
     }
 
-    fn floats<const N: usize>(&mut self, kind: &str, target: u32, values: &[[f32; N]]) -> Value {
+    fn floats<const N: usize>(&mut self, kind: &str, values: &[[f32; N]]) -> Value {
         let bytes = values.as_flattened().iter().flat_map(|value| value.to_le_bytes());
-        let view = self.view(target, bytes);
-        json!({ "bufferView": view, "componentType": 5126, "count": values.len(), "type": kind })
+        let view = self.view(VERTICES, bytes);
+        json!({ "bufferView": view, "componentType": F32, "count": values.len(), "type": kind })
     }
 
     fn accessor(&mut self, accessor: Value) -> usize {

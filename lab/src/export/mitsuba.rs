@@ -8,7 +8,7 @@ use super::lights::{Physical, lights};
 use super::pieces::{Form, Piece, Pieces};
 use super::{ExportError, Target};
 use crate::common::{Sphere, View};
-use crate::exchange::{Exchanged, StatedDepths, System, exchange};
+use crate::exchange::{StatedDepths, System, exchange};
 use crate::formats::{obj, ply};
 
 pub(super) fn files(
@@ -17,10 +17,8 @@ pub(super) fn files(
     name: &str,
     notes: &mut Vec<String>,
 ) -> Result<Vec<(String, Vec<u8>)>, ExportError> {
-    let camera = exchange(view, System::Mitsuba, StatedDepths::default())?;
-    let Exchanged::Mitsuba(_) = &camera else { unreachable!("a camera for Mitsuba was asked for") };
     let mut xml = String::from("<scene version=\"3.0.0\">\n<integrator type=\"path\"/>\n");
-    xml += &camera.text().replace(", a part of a scene", "");
+    xml += &exchange(view, System::Mitsuba, StatedDepths::default())?.text();
     for light in lights(view, pieces, notes) {
         xml += &emitter(light);
     }

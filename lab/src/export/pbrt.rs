@@ -7,7 +7,7 @@ use super::corners::Corners;
 use super::lights::{Physical, lights};
 use super::pieces::{Form, Piece, Pieces};
 use crate::common::{Mesh, Sphere, View};
-use crate::exchange::{Exchanged, StatedDepths, System, exchange};
+use crate::exchange::{StatedDepths, System, exchange};
 use std::fmt::Write as _;
 use std::io::{self, Write};
 use std::ops::Range;
@@ -17,10 +17,7 @@ pub(super) fn scene(
     pieces: &Pieces,
     notes: &mut Vec<String>,
 ) -> Result<Vec<u8>, ExportError> {
-    let camera = exchange(view, System::Pbrt, StatedDepths::default())?;
-    let Exchanged::Pbrt(_) = &camera else { unreachable!("a camera for pbrt was asked for") };
-    let mut out =
-        camera.text().replace("# pbrt-v4, before WorldBegin. ", "# pbrt-v4. ").into_bytes();
+    let mut out = exchange(view, System::Pbrt, StatedDepths::default())?.text().into_bytes();
     out.write_all(b"Integrator \"path\"\nSampler \"independent\" \"integer pixelsamples\" [ 64 ]\n\nWorldBegin\n")?;
     for light in lights(view, pieces, notes) {
         out.write_all(text_of(light).as_bytes())?;
