@@ -70,7 +70,7 @@ impl Mitsuba {
         let planes = float("near_clip", self.near_clip) + &float("far_clip", self.far_clip);
         let matrix = self.to_world.map(|row| numbers(&row, " ")).join("\n                       ");
         format!(
-            "<!-- Mitsuba 3, a part of a scene. Its rays begin at the near plane and end at the far plane. -->\n\
+            "<!-- The camera of Mitsuba 3. Its rays begin at the near plane and end at the far plane. -->\n\
              <sensor type=\"{}\">\n{fov}{planes}    <transform name=\"to_world\">\n        \
                  <matrix value=\"{matrix}\"/>\n    </transform>\n    <film type=\"hdrfilm\">\n        \
                  <integer name=\"width\" value=\"{width}\"/>\n        \

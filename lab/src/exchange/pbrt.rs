@@ -59,7 +59,7 @@ impl Pbrt {
             .fov
             .map_or(String::new(), |fov| format!("\n    \"float fov\" [ {} ]", number(fov)));
         format!(
-            "# pbrt-v4, before WorldBegin. The scale mirrors pbrt's left-handed camera: the world is right-handed.\n\
+            "# The camera of pbrt-v4, which stands before WorldBegin. The scale mirrors pbrt's left-handed camera: the world is right-handed.\n\
              Scale -1 1 1\n\
              LookAt {}\n       {}\n       {}\n\
              Camera \"{}\"{fov}\n    \"float screenwindow\" [ {} ]\n\
