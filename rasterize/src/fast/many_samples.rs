@@ -8,7 +8,7 @@ use super::tile::TileBuffer;
 use bothways_common::engine::context::{Context, ScalarContext};
 use bothways_common::engine::fault::Fault;
 use bothways_common::engine::simd::{
-    Select, Simd, SimdBase, SimdMask, f32x8, f32x16, mask32x16, u32x8, u32x16,
+    Select, Simd, SimdBase, SimdFloat, SimdMask, f32x8, f32x16, mask32x16, u32x8, u32x16,
 };
 use bothways_common::observe::Events;
 use bothways_common::raster::{Region, Sample};
@@ -64,17 +64,27 @@ fn draw_blocks<const ACROSS: usize, C: Context>(
     let Sample { row: first_row, column: first_column } = triangle.origin;
     let end_row = f32x16::splat(simd, difference(rows.end, first_row));
     let end_column = f32x16::splat(simd, difference(columns.end, first_column));
-    let first_rows = lane_row + difference(rows.start, first_row);
     let down = 16 / ACROSS;
     let step = f32x16::splat(simd, const { difference(16 / ACROSS, 0) });
     let to_next = down * buffer.stride();
-    let blocks_down = rows.len().div_ceil(down);
 
+    // If the loops are watched, every test is an event.
+    let is_cut = !C::WATCHED && ACROSS == 16 && columns.len() > 16;
+    let mut ends = [[0; 16]; 2];
+    if is_cut {
+        let own = [difference(rows.start, first_row), difference(rows.end, first_row)];
+        ends = broadcast.rows_of_columns(simd, difference(columns.start, first_column), own);
+    }
     // Most triangles have one column of blocks: what depends on columns is computed once.
-    for column in columns.clone().step_by(ACROSS) {
+    for (number, column) in columns.clone().step_by(ACROSS).enumerate() {
+        let mut rows = rows.clone();
+        if is_cut {
+            rows = first_row + ends[0][number & 15] as usize
+                ..first_row + ends[1][number & 15] as usize;
+        }
         let lane_columns = lane_column + difference(column, first_column);
         let at_top = broadcast.at_top(lane_columns, lane_columns.simd_lt(end_column));
-        let mut lane_rows = first_rows;
+        let mut lane_rows = lane_row + difference(rows.start, first_row);
         let mut index = buffer.index(Sample { row: rows.start, column });
         for row in rows.clone().step_by(down) {
             let in_rows = (ACROSS < 16).then(|| lane_rows.simd_lt(end_row));
@@ -102,7 +112,7 @@ fn draw_blocks<const ACROSS: usize, C: Context>(
             lane_rows += step;
             index += to_next;
         }
-        buffer.executed.blocks += blocks_down as u64;
+        buffer.executed.blocks += rows.len().div_ceil(down) as u64;
     }
 }
 
@@ -158,6 +168,42 @@ impl<S: Simd> Broadcast<S> {
             c[0] + c[1] * column,
             key[0] + key[1] * column,
         ]
+    }
+
+    /// For each of sixteen columns of blocks of sixteen samples, the first of which begins at a column, the rows at which no
+    /// edge function is certainly negative at all samples of a block: of some rows, the first, and the end. Rows and
+    /// columns count from the triangle's origin.
+    ///
+    /// Rounding keeps order: in a row, the computed edge function is largest at one end of the block, and there it never falls
+    /// from row to row, or never rises. So a row at which it is certainly negative excludes all rows on one side. The
+    /// quotient only guesses such a row, and the test asks the function itself.
+    #[inline(always)]
+    fn rows_of_columns(&self, simd: S, column: f32, [first, end]: [f32; 2]) -> [[u32; 16]; 2] {
+        let zero = f32x16::splat(simd, 0.0);
+        let (all_first, all_end) = (f32x16::splat(simd, first), f32x16::splat(simd, end));
+        let left = f32x16::load_array(simd, const { lane_places::<16>()[1] }) * 16.0 + column;
+        let right = left + 15.0;
+        let (mut from, mut to) = (all_first, all_end);
+        for [at_origin, across, down] in &self.edges {
+            let best = across.simd_gt(zero).select(right, left);
+            let largest = *at_origin + *across * best;
+            let crossing = (-self.error - largest) / *down;
+            // From here on it may be inside; what is not a number stays at the first row.
+            let guess = crossing.floor();
+            let guess = guess.simd_gt(all_first).select(guess, all_first);
+            let guess = guess.simd_lt(all_end).select(guess, all_end);
+            let is_out = (largest + *down * (guess - 1.0)).simd_lt(-self.error);
+            let rises = down.simd_ge(zero);
+            from = (rises & is_out).select(guess.max(from), from);
+            // Up to here.
+            let guess = (crossing + 1.0).ceil();
+            let guess = guess.simd_lt(all_end).select(guess, all_end);
+            let guess = guess.simd_gt(all_first).select(guess, all_first);
+            let is_out = (largest + *down * guess).simd_lt(-self.error);
+            to = (!rises & is_out).select(guess.min(to), to);
+        }
+        let to = to.max(from);
+        [from.to_int::<u32x16<S>>().to_array(), to.to_int::<u32x16<S>>().to_array()]
     }
 
     /// Tests sixteen samples, of which some may lie outside of the triangle's rows.
@@ -310,5 +356,61 @@ fn emit_tests<const ACROSS: usize, C: Context>(
             let at = buffer.index(sample);
             buffer.emit_certain(context, at, triangle.id, keys[lane]);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bothways_common::engine::simd::{dispatch, levels};
+
+    /// A triangle's setup with edge functions of all slopes, some of them 0.
+    fn setup(random: &mut fastrand::Rng) -> TriangleSetup {
+        let mut number = |most: f32| match random.u32(0..8) {
+            0 => 0.0,
+            1 => most * 1e-6 * (random.f32() - 0.5),
+            _ => most * (random.f32() - 0.5),
+        };
+        let edges = std::array::from_fn(|_| [number(3e4), number(400.0), number(400.0)]);
+        let error = number(10.0).abs();
+        TriangleSetup {
+            id: 0,
+            edges,
+            error,
+            key: [0.0; 3],
+            origin: Sample { row: 0, column: 0 },
+            region: Region { rows: 0..256, columns: 0..256 },
+            facing: 1.0,
+        }
+    }
+
+    #[test]
+    fn rows_that_are_left_out_are_certainly_outside() {
+        let random = &mut fastrand::Rng::with_seed(7);
+        let mut left_out = 0;
+        for _ in 0..300 {
+            let triangle = setup(random);
+            let (first, end) = (random.u8(0..40), random.u8(40..));
+            for level in levels() {
+                dispatch!(level, simd => {
+                    let broadcast = Broadcast::new(simd, &triangle);
+                    let ends = [first, end].map(f32::from);
+                    let [from, to] = broadcast.rows_of_columns(simd, 3.0, ends);
+                    let lane_column = f32x16::load_array(simd, const { lane_places::<16>()[1] });
+                    for column in 0..16_u8 {
+                        let (from, to) = (from[usize::from(column)], to[usize::from(column)]);
+                        assert!(u32::from(first) <= from && from <= to && to <= u32::from(end));
+                        let columns = lane_column + f32::from(3 + 16 * column);
+                        let at_top = broadcast.at_top(columns, columns.simd_lt(1e9));
+                        for row in (first..end).filter(|row| !(from..to).contains(&u32::from(*row))) {
+                            let row = f32x16::splat(simd, row.into());
+                            assert!(broadcast.test(row, &at_top, None).perhaps.all_false());
+                            left_out += 1;
+                        }
+                    }
+                });
+            }
+        }
+        assert!(left_out > 100_000, "{left_out}");
     }
 }
