@@ -11,16 +11,16 @@
 //! - `POSITION`, `NORMAL`, `COLOR_0` and the texture coordinates of the base colour of primitives of triangles, strips and fans; also sparse, and as integers
 //!   (`KHR_mesh_quantization`). Points and lines are skipped.
 //! - The base colour of materials: its factor, its texture with the sampler's filters and ways to wrap, and the colours of vertices,
-//!   all multiplied. Opacity is not read, and `KHR_texture_transform` neither. Pictures (PNG or JPEG) are in views, in `data:` URIs, or in files in the folder of the file or
-//!   below; a warning names those that are missing.
+//!   all multiplied. Opacity is not read, and `KHR_texture_transform` neither. Pictures (PNG or JPEG) are in views, in `data:` URIs, or in files; a warning names
+//!   those that are missing.
 //! - Cameras, by name.
 //!
 //! Animations, skins and morph targets are not read: the mesh rests. A file that requires any other extension is refused.
 //! Every accessor is checked before anything is read from it, as the specification says: types, alignment, stride, and its
 //! place in its view and buffer. The bounds that accessors state are neither used nor checked.
 //!
-//! Buffers are in the file, in `data:` URIs, or in files in the folder of the file or below. No other file is opened, and
-//! nothing is fetched.
+//! Buffers are in the file, in `data:` URIs, or in files that the file names: see [`source::files`](crate::source::files).
+//! Nothing is fetched.
 
 mod accessor;
 mod buffers;
@@ -34,13 +34,11 @@ mod texture;
 pub use camera::GltfCamera;
 pub use error::{GltfFault, ReadGltfError};
 
-use crate::source::regular_file;
+use crate::source::{Files, InputFile};
 use crate::warning::MaterialWarning;
 use ::gltf::json::Root;
 use bothways_common::scene::Mesh;
-use buffers::{Buffers, Folder};
-use std::io::Read;
-use std::path::Path;
+use buffers::Buffers;
 
 /// The scene of a glTF file.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,20 +54,17 @@ pub struct Model {
 /// The most bytes of a file: the lengths in a binary file have 32 bits.
 const MOST_BYTES: u64 = u32::MAX as u64;
 
-/// Reads the scene of a glTF file, and of the files of its folder that it names.
+/// Reads the scene of a glTF file, and of the files that it names.
 ///
 /// # Errors
 ///
-/// A file cannot be read, or one of the errors of [`parse`]; messages call the file by `path`.
-pub fn read(path: &Path) -> Result<Model, ReadGltfError> {
-    let file = path.display().to_string();
-    let mut bytes = Vec::new();
-    let read =
-        regular_file(path).and_then(|input| input.take(MOST_BYTES + 1).read_to_end(&mut bytes));
-    match read {
+/// A file cannot be read, or one of the errors of [`parse`]; messages call the file by its path.
+pub fn read(input: &InputFile) -> Result<Model, ReadGltfError> {
+    let file = input.name();
+    match input.beginning(MOST_BYTES + 1) {
         Err(error) => Err(ReadGltfError::Unreadable { file, error }),
-        Ok(_) if bytes.len() as u64 > MOST_BYTES => Err(ReadGltfError::TooLarge { file }),
-        Ok(_) => model(file, &bytes, Folder::Of(path)),
+        Ok(bytes) if bytes.len() as u64 > MOST_BYTES => Err(ReadGltfError::TooLarge { file }),
+        Ok(bytes) => model(file, &bytes, input.files()),
     }
 }
 
@@ -100,7 +95,7 @@ pub fn read(path: &Path) -> Result<Model, ReadGltfError> {
 /// # Ok::<(), gltf::ReadGltfError>(())
 /// ```
 pub fn parse(name: &str, bytes: &[u8]) -> Result<Model, ReadGltfError> {
-    model(name.to_owned(), bytes, Folder::None)
+    model(name.to_owned(), bytes, &Files::none())
 }
 
 /// Tells whether bytes are the beginning of a binary glTF file.
@@ -108,23 +103,23 @@ pub(crate) fn is_binary(beginning: &[u8]) -> bool {
     beginning.starts_with(container::MAGIC)
 }
 
-fn model(file: String, bytes: &[u8], folder: Folder) -> Result<Model, ReadGltfError> {
-    let read = read_model(&file, bytes, folder);
+fn model(file: String, bytes: &[u8], files: &Files) -> Result<Model, ReadGltfError> {
+    let read = read_model(&file, bytes, files);
     read.map_err(|(place, fault)| ReadGltfError::Wrong { file, place, fault: Box::new(fault) })
 }
 
 /// A fault, and what has it, such as `accessor 3`; empty if it is the file itself.
 type Located = (String, GltfFault);
 
-fn read_model(file: &str, bytes: &[u8], folder: Folder) -> Result<Model, Located> {
+fn read_model(file: &str, bytes: &[u8], files: &Files) -> Result<Model, Located> {
     let whole = |fault| (String::new(), fault);
     let container = container::split(bytes).map_err(whole)?;
     let root = container::root(container.json).map_err(whole)?;
     check_version(&root).map_err(whole)?;
-    let buffers = Buffers::read(&root, container.bin, folder)?;
+    let buffers = Buffers::read(&root, container.bin, files)?;
     let placed = nodes::placed(&root)?;
     let cameras = camera::cameras(&root, &placed)?;
-    let (mesh, warnings) = mesh::mesh(file, &root, &buffers, folder, &placed)?;
+    let (mesh, warnings) = mesh::mesh(file, &root, &buffers, files, &placed)?;
     Ok(Model { mesh, cameras, warnings })
 }
 

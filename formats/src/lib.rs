@@ -8,8 +8,8 @@
 //! ```
 //! use bothways_formats::common::glam::Vec3;
 //! use bothways_formats::generate::Kind;
+//! use bothways_formats::source::Files;
 //! use bothways_formats::{obj, ply, scene_file, smooth};
-//! use std::path::Path;
 //!
 //! // Read an OBJ file. Polygons become triangles.
 //! let square = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
@@ -38,7 +38,7 @@
 //!     [[object]]
 //!     generate = { kind = "torus", divisions = [64, 32] }
 //! "##;
-//! let file = scene_file::parse("torus.toml", text, Path::new(""))?;
+//! let file = scene_file::parse("torus.toml", text, &Files::none())?;
 //! assert_eq!(file.scene.primitive_count(), 4096);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -56,7 +56,7 @@
 //! | [`smooth`] | computes normals for meshes that have none |
 //! | [`picture`] | opens picture files, to compare them or as textures |
 //! | [`warning`] | says what of a mesh's materials is missing |
-//! | [`source`] | opens files, and prepares text from files for messages |
+//! | [`source`] | opens files and finds those that they name, on the disk or in memory; prepares text from files for messages |
 //!
 //! Dependencies run downwards only: `scene_file` and `mesh_stream` know `mesh_file`, `mesh_file` knows the formats, and the
 //! formats know `source` and `warning`. So a new mesh format is a module beside `obj` and `ply`, and a variant of

@@ -5,6 +5,7 @@
 mod hostile_files;
 mod mesh;
 mod other_formats;
+mod outside;
 mod ply;
 mod stream;
 mod textures;

@@ -1,8 +1,8 @@
 //! Errors about glTF files: each names the file, the object of the file, and the fault.
 
 use crate::picture::ReadTextureError;
-use crate::source::Unreadable;
 use crate::source::quote::quoted;
+use crate::source::{FindFileError, Unreadable};
 use std::io;
 
 /// Why a glTF file could not be read.
@@ -75,6 +75,8 @@ pub enum GltfFault {
     NoData,
     #[error("the URI {} cannot be read; {help}", quoted(.uri))]
     Uri { uri: String, help: &'static str },
+    #[error(transparent)]
+    NamedFile { error: FindFileError },
     #[error("{}: {}", quoted(.name), Unreadable::new(.error, "the data of a buffer"))]
     BufferFile { name: String, error: io::Error },
     #[error("it should have {stated} bytes, but its data has {found}")]

@@ -1,12 +1,13 @@
 //! All triangles of a scene as one mesh: the primitives of each node's mesh, where the node puts them.
 
 use super::accessor::{Elements, Role};
-use super::buffers::{Buffers, Folder};
+use super::buffers::Buffers;
 use super::error::GltfFault;
 use super::nodes::Placed;
 use super::texture::Textures;
 use super::{Located, item};
 use crate::attributes::{self, NONE, push_color};
+use crate::source::Files;
 use crate::warning::MaterialWarning;
 use ::gltf::json::mesh::{Mode, Primitive, Semantic};
 use ::gltf::json::validation::Checked;
@@ -23,10 +24,10 @@ pub(super) fn mesh(
     file: &str,
     root: &Root,
     buffers: &Buffers,
-    folder: Folder,
+    files: &Files,
     placed: &[Placed],
 ) -> Result<(Mesh, Vec<MaterialWarning>), Located> {
-    let mut builder = Builder::new(root, Textures::new(root, buffers, folder));
+    let mut builder = Builder::new(root, Textures::new(root, buffers, files));
     for place in placed {
         let Some(index) = place.node.mesh else { continue };
         let (number, mesh) =

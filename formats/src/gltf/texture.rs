@@ -1,23 +1,23 @@
 //! The textures of materials: pictures in views, in `data:` URIs, or in files beside the file.
 
-use super::buffers::{Buffers, Folder, Image};
+use super::buffers::{Buffers, Image};
 use super::error::GltfFault;
 use super::item;
 use crate::picture::texture::Pictures;
-use crate::warning::MaterialWarning;
+use crate::source::Files;
+use crate::warning::{MaterialWarning, Missing};
 use ::gltf::json::texture::{self, Info, MagFilter, MinFilter, WrappingMode};
 use ::gltf::json::validation::Checked;
 use ::gltf::json::{Root, image};
 use bothways_common::scene::{Filter, Levels, Pyramid, Sampler, Texture, Wrap};
 use std::collections::BTreeMap;
-use std::path::Path;
 use std::sync::Arc;
 
 /// The pictures of a file, each read once.
 pub(super) struct Textures<'a> {
     root: &'a Root,
     buffers: &'a Buffers<'a>,
-    folder: Folder<'a>,
+    files: &'a Files<'a>,
     pictures: Pictures,
     /// For each image that was asked for, its picture, if there is one.
     known: BTreeMap<usize, Option<Arc<Pyramid>>>,
@@ -26,9 +26,9 @@ pub(super) struct Textures<'a> {
 }
 
 impl<'a> Textures<'a> {
-    pub(super) fn new(root: &'a Root, buffers: &'a Buffers<'a>, folder: Folder<'a>) -> Self {
+    pub(super) fn new(root: &'a Root, buffers: &'a Buffers<'a>, files: &'a Files<'a>) -> Self {
         let (pictures, known) = (Pictures::default(), BTreeMap::new());
-        Textures { root, buffers, folder, pictures, known, has_others: false }
+        Textures { root, buffers, files, pictures, known, has_others: false }
     }
 
     /// The texture that a material names; `None` if its picture is missing.
@@ -65,14 +65,11 @@ impl<'a> Textures<'a> {
             return self.pictures.of_bytes(NAME, view.bytes).map(Some).map_err(wrong);
         }
         let uri = image.uri.as_deref().ok_or(GltfFault::NoImage { image: number })?;
-        match (Buffers::image(uri, self.folder)?, self.folder) {
-            (Image::Own(bytes), _) => self.pictures.of_bytes(NAME, &bytes).map(Some).map_err(wrong),
-            (Image::File(name), Folder::Of(file)) => {
-                let folder = file.parent().unwrap_or(Path::new(""));
-                self.pictures.find(folder, &name).map_err(wrong)
-            }
-            (Image::File(_) | Image::Elsewhere, _) => {
-                self.pictures.miss(uri);
+        match Buffers::image(uri)? {
+            Image::Own(bytes) => self.pictures.of_bytes(NAME, &bytes).map(Some).map_err(wrong),
+            Image::File(name) => self.pictures.find(self.files, &name).map_err(wrong),
+            Image::NoFile => {
+                self.pictures.miss(uri, Missing::Absent);
                 Ok(None)
             }
         }
@@ -81,7 +78,7 @@ impl<'a> Textures<'a> {
     /// Warnings about pictures that are missing, or of a kind that is not read.
     pub(super) fn warnings(&self, file: &str) -> Vec<MaterialWarning> {
         let others = || MaterialWarning::Textures { file: file.to_owned() };
-        self.pictures.warning(file).into_iter().chain(self.has_others.then(others)).collect()
+        self.pictures.warnings(file).chain(self.has_others.then(others)).collect()
     }
 }
 

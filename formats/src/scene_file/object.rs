@@ -9,6 +9,7 @@ use super::transform::{self, Transform};
 use crate::generate::Kind;
 use crate::mesh_file::{EXTENSIONS, Format, ReadMeshError};
 use crate::smooth;
+use crate::source::Files;
 use crate::source::quote::{quoted, shown};
 use bothways_common::scene::{
     Material, Mesh, MeshMaterials, Object, Plane, Shape, Sphere, Triangle,
@@ -22,7 +23,7 @@ pub(super) const EXAMPLE: &str = "sphere = { center = [0, 0, 0], radius = 1 }";
 pub(super) fn read(
     item: &Item,
     materials: &Materials,
-    folder: &Path,
+    files: &Files,
     warnings: &mut Vec<String>,
 ) -> Result<Object, Problem> {
     let known = [&SHAPES[..], &["material", instances::KEY], &transform::KEYS].concat();
@@ -32,7 +33,7 @@ pub(super) fn read(
         "triangle" => triangle(&stated)?,
         "sphere" => sphere(&stated)?,
         "plane" => plane(&stated)?,
-        "mesh" => mesh(&stated, folder, table.get("material").is_none(), warnings)?,
+        "mesh" => mesh(&stated, files, table.get("material").is_none(), warnings)?,
         _ => generated(&stated)?,
     };
     let shape = match Transform::read(&table)? {
@@ -113,23 +114,28 @@ fn plane(item: &Item) -> Result<Shape, Problem> {
 /// Reads a mesh file, with the materials that it names if `own_materials`.
 fn mesh(
     item: &Item,
-    folder: &Path,
+    files: &Files,
     own_materials: bool,
     warnings: &mut Vec<String>,
 ) -> Result<Shape, Problem> {
-    let path = Path::new(item.text()?);
-    let path = folder.join(path);
-    let Some(format) = Format::of_file(&path) else {
-        let problem = format!("is {}, which is no mesh file ({EXTENSIONS})", quoted(item.text()?));
+    let name = item.text()?;
+    let found = files.find(name);
+    let format = match &found {
+        Ok(file) => Format::of_file(file),
+        Err(_) => Format::of(Path::new(name)),
+    };
+    let Some(format) = format else {
+        let problem = format!("is {}, which is no mesh file ({EXTENSIONS})", quoted(name));
         return Err(item.problem(problem).help("convert it to one of these; no others are read"));
     };
+    let file = found.map_err(|error| Problem::new(item.span.clone(), error.to_string()))?;
     let wrong = |error: ReadMeshError| Problem::new(item.span.clone(), error.to_string());
     let mesh = if own_materials {
-        let (mesh, missing) = format.read_with_materials(&path).map_err(wrong)?;
+        let (mesh, missing) = format.read_with_materials(&file).map_err(wrong)?;
         warnings.extend(missing.iter().map(ToString::to_string));
         mesh
     } else {
-        let mesh = format.read(&path).map_err(wrong)?.with_materials(MeshMaterials::default());
+        let mesh = format.read(&file).map_err(wrong)?.with_materials(MeshMaterials::default());
         mesh.with_colors(Vec::new()).expect("no colours fit every mesh")
     };
     Ok(Shape::Mesh(smooth::with_normals(mesh, smooth::CREASE)))

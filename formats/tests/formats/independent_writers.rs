@@ -6,6 +6,7 @@ use bothways_common::look::color::linear_from_srgb;
 use bothways_common::scene::{Filter, Levels, Sampler, Texture, Wrap};
 use bothways_formats::gltf;
 use bothways_formats::mesh_file::Format;
+use bothways_formats::source::{GivenFile, InputFile, Reach};
 use std::fs;
 use std::path::PathBuf;
 
@@ -13,14 +14,19 @@ fn folder() -> PathBuf {
     PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/formats/files"))
 }
 
+fn input(name: &str) -> InputFile<'static> {
+    InputFile::on_disk(&folder().join(name), Reach::Folder)
+}
+
 /// Reads a file in the format that its content tells. Its name without an extension tells none.
 fn read(name: &str) -> Mesh {
     let path = folder().join(name);
     let bytes = fs::read(&path).expect("the file is committed");
-    let told =
-        Format::of_bytes("nameless", &bytes).or_else(|| Format::of(&path)).expect("it has a name");
+    let nameless = [GivenFile::new("nameless", &bytes)];
+    let told = Format::of_file(&InputFile::given(&nameless, 0));
+    let told = told.or_else(|| Format::of(&path)).expect("it has a name");
     assert_eq!(Some(told), Format::of(&path), "{name}");
-    told.read(&path).unwrap_or_else(|error| panic!("{error}"))
+    told.read(&input(name)).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// The corners of all triangles.
@@ -87,7 +93,7 @@ fn the_nodes_of_a_scene_place_its_meshes() {
 
 #[test]
 fn models_of_pygltflib_are_alike_wherever_their_buffer_is() {
-    let model = |name: &str| gltf::read(&folder().join(name)).unwrap();
+    let model = |name: &str| gltf::read(&input(name)).unwrap();
     let binary = model("pygltflib.glb");
     for name in ["pygltflib-beside.gltf", "pygltflib-data.gltf"] {
         assert_eq!(model(name), binary);
@@ -127,9 +133,9 @@ fn a_texture_stands_as_its_writer_meant_it() {
     let corners =
         [([0.0, 0.0], Vec3::Z), ([1.0, 0.0], grey), ([1.0, 1.0], Vec3::Y), ([0.0, 1.0], Vec3::X)];
     for name in ["trimesh-texture.glb", "trimesh-texture.obj"] {
-        let path = folder().join(name);
-        let format = Format::of_file(&path).expect("it is a mesh");
-        let (mesh, warnings) = format.read_with_materials(&path).expect("it is right");
+        let file = input(name);
+        let format = Format::of_file(&file).expect("it is a mesh");
+        let (mesh, warnings) = format.read_with_materials(&file).expect("it is right");
         assert_eq!(warnings, [], "{name}");
         let texture = mesh.materials().unwrap().of(1).unwrap().texture.clone().expect("it has one");
         for (position, coordinates) in (0..2).flat_map(|triangle| {
@@ -151,7 +157,7 @@ fn pictures_in_views_uris_and_files_are_the_same() {
     let names =
         ["pygltflib-texture.glb", "pygltflib-texture-data.gltf", "pygltflib-texture-beside.gltf"];
     let meshes = names.map(|name| {
-        let model = gltf::read(&folder().join(name)).unwrap_or_else(|error| panic!("{error}"));
+        let model = gltf::read(&input(name)).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(model.warnings, [], "{name}");
         model.mesh
     });
