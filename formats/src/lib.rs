@@ -49,8 +49,9 @@
 //! |---|---|
 //! | [`scene_file`] | reads and writes scene files: a scene and its camera, in TOML |
 //! | [`obj`], [`ply`], [`stl`] | read and write meshes in these formats; [`obj`] reads material files, too |
-//! | [`gltf`] | reads the scene of a glTF file as one mesh, with its materials and cameras |
+//! | [`gltf`] | reads the scene of a glTF file as meshes and instances, with its materials and cameras |
 //! | [`mesh_file`] | reads a mesh in the format that the content or the name of its file tells |
+//! | [`shapes`] | changes the meshes of shapes that share them |
 //! | [`mesh_stream`] | reads meshes that are larger than memory, in passes |
 //! | [`generate`] | generates meshes from formulas |
 //! | [`smooth`] | computes normals for meshes that have none |
@@ -87,6 +88,7 @@ pub mod obj;
 pub mod picture;
 pub mod ply;
 pub mod scene_file;
+pub mod shapes;
 pub mod smooth;
 pub mod source;
 pub mod stl;

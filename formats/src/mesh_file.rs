@@ -6,7 +6,7 @@ use crate::ply::{self, ReadPlyError};
 use crate::source::InputFile;
 use crate::stl::{self, ReadStlError};
 use crate::warning::MaterialWarning;
-use bothways_common::scene::Mesh;
+use bothways_common::scene::{Mesh, Shape};
 use std::ffi::OsStr;
 use std::io;
 use std::path::Path;
@@ -116,7 +116,7 @@ impl Format {
         }
     }
 
-    /// Reads a mesh from a file of this format, and its materials from the files that it names.
+    /// Reads a mesh from a file of this format, and its materials from the files that it names. All of a glTF file is one mesh.
     ///
     /// OBJ files have such material files, glTF files have materials of their own. Warnings name the materials that are missing,
     /// and say which colours are not read.
@@ -132,11 +132,26 @@ impl Format {
             Format::Obj => obj::read_with_materials(file)?,
             Format::Ply => ply::read_with_warnings(file)?,
             Format::Stl => (stl::read_file(file)?, Vec::new()),
-            Format::Gltf => {
-                let Model { mesh, warnings, .. } = gltf::read(file)?;
-                (mesh, warnings)
-            }
+            Format::Gltf => gltf::read_as_one(file)?,
         })
+    }
+
+    /// Reads what a file of this format shows, in the order of ids: one mesh, or for a glTF file instances of meshes, too; and
+    /// materials, as [`Format::read_with_materials`] does.
+    ///
+    /// # Errors
+    ///
+    /// As for [`Format::read_with_materials`].
+    pub fn read_shapes(
+        self,
+        file: &InputFile,
+    ) -> Result<(Vec<Shape>, Vec<MaterialWarning>), ReadMeshError> {
+        if self == Format::Gltf {
+            let Model { shapes, warnings, .. } = gltf::read(file)?;
+            return Ok((shapes, warnings));
+        }
+        let (mesh, warnings) = self.read_with_materials(file)?;
+        Ok((vec![Shape::Mesh(mesh)], warnings))
     }
 }
 

@@ -101,7 +101,8 @@
 //! ## `instances`
 //!
 //! A mesh may be there many times, and takes memory once and 48 bytes for each time. The object's own transformation
-//! comes first, then that of each instance. Ids count through the instances, in their order.
+//! comes first, then that of each instance. Ids count through the instances, in their order. A glTF file whose nodes share a
+//! large mesh is several objects, some of them instances; with `instances` of its own it is copied into one mesh.
 //!
 //! | form | what it says |
 //! |---|---|
@@ -145,7 +146,7 @@ pub use write::framed_mesh_toml;
 
 use crate::source::{Files, InputFile};
 use bothways_common::camera::CameraDescription;
-use bothways_common::scene::{Object, Scene, SceneError};
+use bothways_common::scene::{Scene, SceneError};
 use document::{Item, Table};
 use error::Problem;
 use light::lights;
@@ -248,13 +249,16 @@ fn scene(
     warnings: &mut Vec<String>,
 ) -> Result<Scene, Problem> {
     let items: Vec<Item> = list.tables()?.collect();
-    let objects: Result<Vec<Object>, Problem> =
-        items.iter().map(|item| object::read(item, materials, files, warnings)).collect();
-    Scene::new(objects?).map_err(|error| {
+    let (mut objects, mut items_of) = (Vec::new(), Vec::new());
+    for (index, item) in items.iter().enumerate() {
+        objects.extend(object::read(item, materials, files, warnings)?);
+        items_of.resize(objects.len(), index);
+    }
+    Scene::new(objects).map_err(|error| {
         let index = match error {
             SceneError::NotFinite { object, .. }
             | SceneError::Radius { object, .. }
-            | SceneError::NoNormal { object } => object,
+            | SceneError::NoNormal { object } => items_of[object],
             // No single object is one too many. The last one is a place that exists.
             SceneError::TooManyPrimitives { .. } => items.len() - 1,
         };

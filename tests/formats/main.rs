@@ -7,5 +7,6 @@ mod mesh;
 mod other_formats;
 mod outside;
 mod ply;
+mod shared_meshes;
 mod stream;
 mod textures;

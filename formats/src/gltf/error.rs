@@ -71,6 +71,8 @@ pub enum GltfFault {
     TwoTransforms,
     #[error("it moves vertex {vertex} of its mesh where no f32 number reaches")]
     OutOfRange { vertex: usize },
+    #[error("it moves its mesh where no f32 number reaches")]
+    InstanceOutOfRange,
     #[error("it has no uri, and the file has no binary part that would be meant")]
     NoData,
     #[error("the URI {} cannot be read; {help}", quoted(.uri))]
@@ -126,7 +128,7 @@ pub enum GltfFault {
     #[error("its {what} is {value}; it must be {range}")]
     Camera { what: &'static str, value: f32, range: &'static str },
     #[error(
-        "its scene has {count} {what}, each mesh counted where it is placed; at most {most} are read"
+        "its scene has {count} {what}, each mesh counted where it is copied; at most {most} are read"
     )]
     TooMany { count: u64, what: &'static str, most: u64 },
     #[error("its scene has no triangles, so nothing to draw")]

@@ -1,6 +1,7 @@
 //! Files that the reader accepts, files that break one rule each, and the messages.
 
 mod accessors;
+mod sharing;
 
 use super::*;
 use crate::source::Reach;
@@ -53,6 +54,12 @@ fn document(data: &[u8], changes: &[(&str, &str)]) -> String {
     text.replace("DATA", &format!("data:application/octet-stream;base64,{}", STANDARD.encode(data)))
 }
 
+/// The mesh of a model that has one.
+fn mesh_of(model: &Model) -> &Mesh {
+    let [Shape::Mesh(mesh)] = &model.shapes[..] else { panic!("{:?}", model.shapes) };
+    mesh
+}
+
 fn square(changes: &[(&str, &str)]) -> Model {
     parse("a", document(&data(), changes).as_bytes()).unwrap_or_else(|error| panic!("{error}"))
 }
@@ -83,10 +90,10 @@ fn binary(json: &str, bin: Option<&[u8]>) -> Vec<u8> {
 #[test]
 fn a_square_is_read_from_text_and_from_a_binary_file() {
     let model = square(&[]);
-    assert_eq!(model.mesh.positions(), CORNERS.map(Vec3::from_array));
-    assert_eq!(model.mesh.triangles(), [[0, 1, 2], [0, 2, 3]]);
-    assert_eq!(model.mesh.normals().of(0), Some([Vec3::Z; 3]));
-    assert_eq!(model.mesh.texture_coordinates().of(0), Some([Vec2::Y, Vec2::ONE, Vec2::X]));
+    assert_eq!(mesh_of(&model).positions(), CORNERS.map(Vec3::from_array));
+    assert_eq!(mesh_of(&model).triangles(), [[0, 1, 2], [0, 2, 3]]);
+    assert_eq!(mesh_of(&model).normals().of(0), Some([Vec3::Z; 3]));
+    assert_eq!(mesh_of(&model).texture_coordinates().of(0), Some([Vec2::Y, Vec2::ONE, Vec2::X]));
     assert!(model.cameras.is_empty() && model.warnings.is_empty());
     let json = SQUARE.replace(", \"uri\": \"DATA\"", "");
     assert_eq!(parse("a", &binary(&json, Some(&data()))).unwrap(), model);
@@ -100,8 +107,8 @@ fn a_square_is_read_from_text_and_from_a_binary_file() {
 fn nodes_move_what_they_hold_and_a_mesh_may_be_there_twice() {
     let nodes = r#"[{ "mesh": 0, "translation": [0, 0, 5], "scale": [2, 2, 2], "children": [1] },
                     { "mesh": 0, "matrix": [-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 3, 0, 0, 1] }]"#;
-    let Model { mesh, .. } =
-        square(&[(r#"[{ "mesh": 0 }, { "camera": 0, "name": "stand" }]"#, nodes)]);
+    let model = square(&[(r#"[{ "mesh": 0 }, { "camera": 0, "name": "stand" }]"#, nodes)]);
+    let mesh = mesh_of(&model);
     assert_eq!(mesh.triangles().len(), 4);
     assert_eq!(
         mesh.corners(0).map(|p| p.to_array()),
@@ -114,15 +121,15 @@ fn nodes_move_what_they_hold_and_a_mesh_may_be_there_twice() {
     );
     assert_eq!(mesh.normals().of(2), Some([Vec3::Z; 3]));
     let turned = r#"[{ "mesh": 0, "rotation": [0, 0.70710677, 0, 0.70710677] }]"#;
-    let Model { mesh, .. } =
-        square(&[(r#"[{ "mesh": 0 }, { "camera": 0, "name": "stand" }]"#, turned)]);
+    let model = square(&[(r#"[{ "mesh": 0 }, { "camera": 0, "name": "stand" }]"#, turned)]);
+    let mesh = mesh_of(&model);
     assert!((mesh.corners(0)[1] - Vec3::NEG_Z).length() < 1e-6);
     assert!((mesh.normals().of(0).unwrap()[0] - Vec3::X).length() < 1e-6);
 }
 
 #[test]
 fn strips_and_fans_become_triangles_in_the_order_of_the_specification() {
-    let mode = |mode| square(&[("\"indices\": 3", mode)]).mesh.triangles().to_vec();
+    let mode = |mode| mesh_of(&square(&[("\"indices\": 3", mode)])).triangles().to_vec();
     assert_eq!(mode(r#""indices": 3, "mode": 5"#), [[0, 1, 2], [1, 0, 2], [2, 0, 2], [0, 3, 2]]);
     assert_eq!(mode(r#""mode": 5"#), [[0, 1, 2], [1, 3, 2]]);
     assert_eq!(mode(r#""mode": 6"#), [[1, 2, 0], [2, 3, 0]]);
@@ -141,10 +148,10 @@ fn materials_have_their_base_colour() {
         ])
     };
     let model = with("\"name\": \"red\",");
-    let material = model.mesh.materials().unwrap().of(1).unwrap();
+    let material = mesh_of(&model).materials().unwrap().of(1).unwrap();
     assert_eq!(material.color, Vec3::new(1.0, 0.25, 0.0));
-    assert_eq!(model.mesh.materials().unwrap().named()[0].name, "red");
-    assert_eq!(with("").mesh.materials().unwrap().named()[0].name, "#0");
+    assert_eq!(mesh_of(&model).materials().unwrap().named()[0].name, "red");
+    assert_eq!(mesh_of(&with("")).materials().unwrap().named()[0].name, "#0");
     let says = fault(&[("\"indices\": 3", "\"indices\": 3, \"material\": 0"), ("0.25", "2.5")]);
     assert_eq!(says, "node 0: its base colour has a component that is not from 0 to 1");
 }
@@ -192,7 +199,7 @@ fn images_that_are_wrong_say_why() {
     let model = square(&changes.each_ref().map(|(from, to)| (*from, to.as_str())));
     let says = "a: the picture \"../a.png\" was not opened with it (open or drop both together); what has it as its texture is drawn without";
     assert_eq!(model.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(), [says]);
-    assert_eq!(model.mesh.materials().unwrap().of(0).unwrap().texture, None);
+    assert_eq!(mesh_of(&model).materials().unwrap().of(0).unwrap().texture, None);
 }
 
 #[test]
@@ -289,7 +296,7 @@ fn nodes_that_form_no_trees_are_refused() {
     let chain: Vec<String> = (1..100_000).map(|k| format!("{{\"children\":[{k}]}}")).collect();
     let text = format!("[{}, {{ \"mesh\": 0 }}]", chain.join(","));
     let model = square(&[("[{ \"mesh\": 0 }, { \"camera\": 0, \"name\": \"stand\" }]", &text)]);
-    assert_eq!(model.mesh.triangles().len(), 2);
+    assert_eq!(mesh_of(&model).triangles().len(), 2);
     // Many nodes of one mesh take more memory than the file.
     let many = vec!["{\"mesh\":0}"; 1000].join(",");
     let all: Vec<String> = (0..1000).map(|k| k.to_string()).collect();
@@ -297,28 +304,28 @@ fn nodes_that_form_no_trees_are_refused() {
         ("[{ \"mesh\": 0 }, { \"camera\": 0, \"name\": \"stand\" }]", &format!("[{many}]")),
         ("\"nodes\": [0]", &format!("\"nodes\": [{}]", all.join(","))),
     ]);
-    assert_eq!(model.mesh.triangles().len(), 2000);
+    assert_eq!(mesh_of(&model).triangles().len(), 2000);
 }
 
 #[test]
 fn without_scenes_all_nodes_without_a_parent_are_drawn() {
     let scenes = "\"scene\": 0, \"scenes\": [{ \"nodes\": [0] }],";
     let nodes = ("[{ \"mesh\": 0 },", "[{ \"mesh\": 0, \"children\": [2] }, { \"mesh\": 0 },");
-    assert_eq!(square(&[(scenes, ""), nodes]).mesh.triangles().len(), 4);
-    assert_eq!(square(&[("\"scene\": 0, ", "")]).mesh.triangles().len(), 2);
+    assert_eq!(mesh_of(&square(&[(scenes, ""), nodes])).triangles().len(), 4);
+    assert_eq!(mesh_of(&square(&[("\"scene\": 0, ", "")])).triangles().len(), 2);
 }
 
 #[test]
 fn what_applications_add_of_their_own_is_skipped() {
     for extras in ["{ \"a\": [1, {}] }", "\"text\"", "3", "null", "[[]]"] {
         let changes = [("\"mesh\": 0", &format!("\"mesh\": 0, \"extras\": {extras}")[..])];
-        assert_eq!(square(&changes).mesh.triangles().len(), 2, "{extras}");
+        assert_eq!(mesh_of(&square(&changes)).triangles().len(), 2, "{extras}");
     }
     let unknown = [
         ("\"mesh\": 0", "\"mesh\": 0, \"extensions\": { \"X_own\": { \"a\": [] } }, \"own\": 1"),
         ("\"NORMAL\": 1,", "\"_OWN\": 1,"),
     ];
-    assert_eq!(square(&unknown).mesh.triangles().len(), 2);
+    assert_eq!(mesh_of(&square(&unknown)).triangles().len(), 2);
 }
 
 #[test]
@@ -381,7 +388,7 @@ fn buffers_beside_the_file_are_read_and_no_others() {
     let with = |uri: &str| {
         fs::write(&path, SQUARE.replace("DATA", uri)).unwrap();
         let says = read(&InputFile::on_disk(&path, Reach::Folder))
-            .map(|model| model.mesh.triangles().len());
+            .map(|model| mesh_of(&model).triangles().len());
         says.map_err(|error| error.to_string().replace(&path.display().to_string(), "a"))
     };
     for uri in ["a%20b.bin", "a b.bin", "./a%20b.bin", "deep/c.bin", "deep/../a%20b.bin"] {

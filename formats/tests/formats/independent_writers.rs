@@ -3,7 +3,7 @@
 use bothways_common::Mesh;
 use bothways_common::glam::{DVec2, Vec3};
 use bothways_common::look::color::linear_from_srgb;
-use bothways_common::scene::{Filter, Levels, Sampler, Texture, Wrap};
+use bothways_common::scene::{Filter, Levels, Sampler, Shape, Texture, Wrap};
 use bothways_formats::gltf;
 use bothways_formats::mesh_file::Format;
 use bothways_formats::source::{GivenFile, InputFile, Reach};
@@ -27,6 +27,12 @@ fn read(name: &str) -> Mesh {
     let told = told.or_else(|| Format::of(&path)).expect("it has a name");
     assert_eq!(Some(told), Format::of(&path), "{name}");
     told.read(&input(name)).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The mesh of a model that has one.
+fn mesh_of(model: &gltf::Model) -> &Mesh {
+    let [Shape::Mesh(mesh)] = &model.shapes[..] else { panic!("{:?}", model.shapes) };
+    mesh
 }
 
 /// The corners of all triangles.
@@ -102,16 +108,18 @@ fn models_of_pygltflib_are_alike_wherever_their_buffer_is() {
     let placed = |p: Vec3| Vec3::new(1.0 - p.x, 2.0 - p.y, 3.0 - p.z);
     let expected: Vec<[Vec3; 3]> =
         pyramid().into_iter().map(|[a, b, c]| [placed(a), placed(c), placed(b)]).collect();
-    for (found, expected) in corners(&binary.mesh).iter().flatten().zip(expected.iter().flatten()) {
+    for (found, expected) in
+        corners(mesh_of(&binary)).iter().flatten().zip(expected.iter().flatten())
+    {
         assert!((*found - *expected).length() < 1e-6, "{found} {expected}");
     }
-    let materials = binary.mesh.materials().unwrap();
+    let materials = mesh_of(&binary).materials().unwrap();
     assert_eq!(
         (materials.named()[0].name.as_str(), materials.of(5).unwrap().color),
         ("copper", Vec3::new(0.6, 0.25, 0.1))
     );
     // The mirror has exchanged the last two corners.
-    let [_, top, _] = binary.mesh.texture_coordinates().of(2).unwrap();
+    let [_, top, _] = mesh_of(&binary).texture_coordinates().of(2).unwrap();
     assert_eq!(top.to_array(), [128.0 / 255.0, 1.0 - 51.0 / 255.0]);
     let camera = &binary.cameras[0];
     assert_eq!(
@@ -159,7 +167,7 @@ fn pictures_in_views_uris_and_files_are_the_same() {
     let meshes = names.map(|name| {
         let model = gltf::read(&input(name)).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(model.warnings, [], "{name}");
-        model.mesh
+        mesh_of(&model).clone()
     });
     assert_eq!(meshes[0], meshes[1]);
     assert_eq!(meshes[0], meshes[2]);

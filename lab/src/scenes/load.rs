@@ -10,10 +10,10 @@ use crate::formats::gltf::{self, GltfCamera, Model};
 use crate::formats::mesh_file::{EXTENSIONS, Format, ReadMeshError, STREAMED};
 use crate::formats::mesh_stream::StreamError;
 use crate::formats::scene_file::{self, ReadSceneError, nearest_name};
-use crate::formats::smooth;
 use crate::formats::source::quote::{listed, quoted};
 use crate::formats::source::{Files, InputFile, Reach};
 use crate::formats::warning::MaterialWarning;
+use crate::formats::{shapes, smooth};
 use std::path::Path;
 
 /// A scene, ready to be rendered.
@@ -205,8 +205,10 @@ pub fn load_file(file: &InputFile, image: Option<[u32; 2]>) -> Result<LoadedScen
     let Some(format) = Format::of_file(file) else {
         return Err(LoadError::UnknownExtension { path: file.name() });
     };
-    let (mesh, missing) = format.read_with_materials(file)?;
-    of_framed(file.path(), mesh, &missing, &framing_for(image))
+    let (shapes, missing) = format.read_shapes(file)?;
+    let camera = framing_for(image).camera_of_shapes(&shapes);
+    let wrong = |error| LoadError::Framing { path: file.name(), error };
+    of_shapes(file.path(), shapes, &missing, camera.map_err(wrong)?)
 }
 
 /// Whether the name is that of a scene file.
@@ -245,7 +247,7 @@ fn load_with_camera(
     name: &str,
     image: Option<[u32; 2]>,
 ) -> Result<LoadedScene, LoadError> {
-    let Model { mesh, cameras, warnings } = gltf::read(file).map_err(ReadMeshError::from)?;
+    let Model { shapes, cameras, warnings } = gltf::read(file).map_err(ReadMeshError::from)?;
     let path = file.path();
     let found = cameras.iter().find(|camera| camera.name == name || name.is_empty());
     let Some(GltfCamera { camera, aspect_stated, .. }) = found else {
@@ -263,36 +265,25 @@ fn load_with_camera(
     let camera_error = |error: CameraError| LoadError::Camera { path: shown.clone(), error };
     Camera::new(camera).map_err(camera_error)?;
     let viewport_stated = camera.viewport != of_square_pixels;
-    Ok(LoadedScene { viewport_stated, ..of_mesh(path, mesh, &warnings, camera)? })
+    Ok(LoadedScene { viewport_stated, ..of_shapes(path, shapes, &warnings, camera)? })
 }
 
-/// A mesh in the studio, before a camera that frames it.
-fn of_framed(
+/// What a mesh file shows, in the studio, before a camera.
+fn of_shapes(
     path: &Path,
-    mesh: Mesh,
-    missing: &[MaterialWarning],
-    framing: &Framing,
-) -> Result<LoadedScene, LoadError> {
-    let framed = framing.camera(&mesh);
-    let wrong = |error| LoadError::Framing { path: path.display().to_string(), error };
-    of_mesh(path, mesh, missing, framed.map_err(wrong)?)
-}
-
-/// A mesh in the studio, before a camera.
-fn of_mesh(
-    path: &Path,
-    mesh: Mesh,
+    shapes: Vec<Shape>,
     missing: &[MaterialWarning],
     camera: CameraDescription,
 ) -> Result<LoadedScene, LoadError> {
     let warnings = missing.iter().map(ToString::to_string).collect();
     let shown = path.display().to_string();
-    let material = studio::material_for(mesh.has_look());
+    let has_look = shapes.iter().filter_map(Shape::mesh).any(Mesh::has_look);
+    let material = studio::material_for(has_look);
     let toml = studio::toml(&camera, &shown, material.is_some());
-    let material = material.unwrap_or_else(|| mesh.own_material());
-    let object =
-        Object { shape: Shape::Mesh(smooth::with_normals(mesh, smooth::CREASE)), material };
-    let scene = studio::lit(Scene::new(vec![object])?);
+    let material = material.unwrap_or_else(|| shapes::own_material(&shapes));
+    let shapes = smooth::shapes_with_normals(shapes, smooth::CREASE).into_iter();
+    let objects = shapes.map(|shape| Object { shape, material: material.clone() }).collect();
+    let scene = studio::lit(Scene::new(objects)?);
     Ok(LoadedScene { name: stem(path), scene, camera, viewport_stated: false, toml, warnings })
 }
 
