@@ -13,7 +13,7 @@
 //! - `POSITION`, `NORMAL`, `COLOR_0` and the texture coordinates of the base colour of primitives of triangles, strips and fans; also sparse, and as integers
 //!   (`KHR_mesh_quantization`). Points and lines are skipped.
 //! - The base colour of materials: its factor, its texture with the sampler's filters and ways to wrap, and the colours of vertices,
-//!   all multiplied. Opacity is not read, and `KHR_texture_transform` neither. Pictures (PNG or JPEG) are in views, in `data:` URIs, or in files; a warning names
+//!   all multiplied; `KHR_texture_transform` moves its coordinates. Opacity is not read. Pictures (PNG or JPEG) are in views, in `data:` URIs, or in files; a warning names
 //!   those that are missing.
 //! - Cameras, by name.
 //!
@@ -165,7 +165,7 @@ fn check_version(root: &Root) -> Result<(), GltfFault> {
         let text = least.unwrap_or(&root.asset.version).to_owned();
         return Err(GltfFault::Version { text });
     }
-    match root.extensions_required.iter().find(|name| *name != QUANTIZATION) {
+    match root.extensions_required.iter().find(|name| !READ_EXTENSIONS.contains(&name.as_str())) {
         Some(name) => Err(GltfFault::Extension { name: name.clone() }),
         None => Ok(()),
     }
@@ -173,6 +173,9 @@ fn check_version(root: &Root) -> Result<(), GltfFault> {
 
 /// The extension that allows integers as positions and normals.
 const QUANTIZATION: &str = "KHR_mesh_quantization";
+
+/// The extensions that a file may require.
+const READ_EXTENSIONS: [&str; 2] = [QUANTIZATION, "KHR_texture_transform"];
 
 /// The item of a list that a file names by its index.
 fn item<'a, T, U>(

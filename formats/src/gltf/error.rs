@@ -119,6 +119,10 @@ pub enum GltfFault {
     NoPositions,
     #[error("its attribute {attribute} has {count} elements for {positions} vertices")]
     AttributeCount { attribute: &'static str, count: u64, positions: u64 },
+    #[error(
+        "the KHR_texture_transform of its texture moves coordinates where no f32 number reaches"
+    )]
+    TextureTransform,
     #[error("image {image}: {error}")]
     Picture { image: usize, error: ReadTextureError },
     #[error("image {image} has neither a uri nor a view")]

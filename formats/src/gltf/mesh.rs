@@ -4,10 +4,11 @@ use super::accessor::{Elements, Role};
 use super::buffers::Buffers;
 use super::error::GltfFault;
 use super::nodes::Placed;
-use super::texture::Textures;
+use super::texture::{Coordinates, Textures};
 use super::{Located, item};
 use crate::attributes::{self, NONE, push_color};
 use ::gltf::json::mesh::{Mode, Primitive, Semantic};
+use ::gltf::json::texture::Info;
 use ::gltf::json::validation::Checked;
 use ::gltf::json::{Root, material};
 use bothways_common::scene::{Attribute, Material, Mesh, MeshMaterials};
@@ -126,7 +127,8 @@ fn part(root: &Root, buffers: &Buffers, primitive: &Primitive) -> Result<Option<
     };
     let normals = attribute(Semantic::Normals, Role::Normals)?;
     same_count("NORMAL", &normals)?;
-    let set = Semantic::TexCoords(coordinates_of_texture(root, primitive));
+    let of_texture = Coordinates::of(base_color_texture(root, primitive));
+    let set = Semantic::TexCoords(of_texture.set);
     let texture_coordinates = attribute(set, Role::TextureCoordinates)?;
     same_count("TEXCOORD", &texture_coordinates)?;
     let colors = attribute(Semantic::Colors(0), Role::Colors)?;
@@ -150,17 +152,19 @@ fn part(root: &Root, buffers: &Buffers, primitive: &Primitive) -> Result<Option<
     Ok(Some(Part {
         positions: positions.vectors(),
         normals: normals.map(|normals| normals.vectors()),
-        texture_coordinates: texture_coordinates.map(|values| values.vectors()),
+        texture_coordinates: texture_coordinates
+            .map(|values| of_texture.mapped(values.vectors()))
+            .transpose()
+            .map_err(own)?,
         colors: colors.map(|values| values.vectors()),
         triangles: triangles.map_err(own)?,
     }))
 }
 
-/// Which of a primitive's texture coordinates the texture of its base colour uses; the first if it has none.
-fn coordinates_of_texture(root: &Root, primitive: &Primitive) -> u32 {
-    let material = primitive.material.and_then(|index| root.materials.get(index.value()));
-    let texture = material.and_then(|m| m.pbr_metallic_roughness.base_color_texture.as_ref());
-    texture.map_or(0, |texture| texture.tex_coord)
+/// The texture of a primitive's base colour.
+fn base_color_texture<'r>(root: &'r Root, primitive: &Primitive) -> Option<&'r Info> {
+    let material = root.materials.get(primitive.material?.value())?;
+    material.pbr_metallic_roughness.base_color_texture.as_ref()
 }
 
 /// The triangles of so many corners, as the specification orders them in 3.7.2.1.

@@ -202,6 +202,60 @@ fn images_that_are_wrong_say_why() {
     assert_eq!(mesh_of(&model).materials().unwrap().of(0).unwrap().texture, None);
 }
 
+/// The square with a texture whose coordinates are moved so.
+fn moved_texture(transform: &str) -> Vec<(String, String)> {
+    let texture = format!(
+        "\"baseColorTexture\": {{ \"index\": 0, \"texCoord\": 1, \"extensions\": {{ \"KHR_texture_transform\": {transform} }} }}"
+    );
+    [
+        ("\"indices\": 3 }", "\"indices\": 3, \"material\": 0 }".to_owned()),
+        ("\"baseColorFactor\": [1, 0.25, 0, 1]", texture),
+        (
+            "\"extensionsUsed\": []",
+            "\"extensionsRequired\": [\"KHR_texture_transform\"], \"textures\": [{ \"source\": 0 }], \
+             \"images\": [{ \"uri\": \"a.png\" }]"
+                .to_owned(),
+        ),
+        ("\"NORMAL\": 1, \"TEXCOORD_0\": 2", "\"TEXCOORD_0\": 2, \"TEXCOORD_1\": 2".to_owned()),
+    ]
+    .map(|(from, to)| (from.to_owned(), to))
+    .to_vec()
+}
+
+/// The example of the specification: the lower left quarter of the picture, turned clockwise.
+#[test]
+fn a_transform_of_a_texture_moves_its_coordinates() {
+    let coordinates = |transform: &str| {
+        let changes = moved_texture(transform);
+        let changes: Vec<(&str, &str)> =
+            changes.iter().map(|(from, to)| (from.as_str(), to.as_str())).collect();
+        let model = square(&changes);
+        let all = mesh_of(&model).texture_coordinates();
+        // Of the corners at (0, 0), (1, 0), (1, 1) and (0, 1) in the format's coordinates, whose v runs down.
+        let [[a, b, c], [_, _, d]] = [0, 1].map(|triangle| all.of(triangle).unwrap());
+        [a, b, c, d].map(|ours| Vec2::new(ours.x, 1.0 - ours.y))
+    };
+    let of_example =
+        coordinates("{ \"offset\": [0, 1], \"rotation\": 1.57079632679, \"scale\": [0.5, 0.5] }");
+    let expected = [[0.0, 1.0], [0.0, 0.5], [0.5, 0.5], [0.5, 1.0]].map(Vec2::from_array);
+    for (found, expected) in of_example.iter().zip(expected) {
+        assert!((*found - expected).length() < 1e-6, "{of_example:?}");
+    }
+    // The other example: v runs up.
+    let inverted = coordinates("{ \"offset\": [0, 1], \"scale\": [1, -1], \"texCoord\": 0 }");
+    let expected = [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]].map(Vec2::from_array);
+    assert_eq!(inverted, expected);
+    assert_eq!(
+        coordinates("{}"),
+        [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(Vec2::from_array)
+    );
+    let far = moved_texture("{ \"offset\": [3e38, 0], \"scale\": [3e38, 1] }");
+    let far: Vec<(&str, &str)> =
+        far.iter().map(|(from, to)| (from.as_str(), to.as_str())).collect();
+    let says = "mesh 0, primitive 0: the KHR_texture_transform of its texture moves coordinates where no f32 number reaches";
+    assert_eq!(fault(&far), says);
+}
+
 #[test]
 fn cameras_become_those_of_the_lecture() {
     let camera = |changes: &[(&str, &str)]| {

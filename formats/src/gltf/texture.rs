@@ -10,6 +10,7 @@ use ::gltf::json::texture::{self, Info, MagFilter, MinFilter, WrappingMode};
 use ::gltf::json::validation::Checked;
 use ::gltf::json::{Root, image};
 use bothways_common::scene::{Filter, Levels, Pyramid, Sampler, Texture, Wrap};
+use glam::{DAffine2, DMat2, DVec2, Vec2};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -79,6 +80,48 @@ impl<'a> Textures<'a> {
     pub(super) fn warnings(&self, file: &str) -> Vec<MaterialWarning> {
         let others = || MaterialWarning::Textures { file: file.to_owned() };
         self.pictures.warnings(file).chain(self.has_others.then(others)).collect()
+    }
+}
+
+/// Which texture coordinates of a primitive a texture uses, and how it maps them.
+pub(super) struct Coordinates {
+    pub(super) set: u32,
+    map: Option<DAffine2>,
+}
+
+impl Coordinates {
+    /// Those of a texture; the first ones as they are if there is none.
+    ///
+    /// The map is that of Khronos, "`KHR_texture_transform`", 2018: coordinates are scaled, then turned counter-clockwise as seen
+    /// with `v` down, then moved.
+    pub(super) fn of(texture: Option<&Info>) -> Coordinates {
+        let Some(texture) = texture else { return Coordinates { set: 0, map: None } };
+        let extensions = texture.extensions.as_ref();
+        let Some(stated) = extensions.and_then(|all| all.texture_transform.as_ref()) else {
+            return Coordinates { set: texture.tex_coord, map: None };
+        };
+        let [offset, scale] = [stated.offset.0, stated.scale.0]
+            .map(|numbers| DVec2::from_array(numbers.map(f64::from)));
+        let angle = f64::from(stated.rotation.0);
+        // libm gives the same result on every machine.
+        let (sine, cosine) = (libm::sin(angle), libm::cos(angle));
+        let turned = DMat2::from_cols(DVec2::new(cosine, -sine), DVec2::new(sine, cosine));
+        let map = DAffine2::from_mat2_translation(turned * DMat2::from_diagonal(scale), offset);
+        Coordinates { set: stated.tex_coord.unwrap_or(texture.tex_coord), map: Some(map) }
+    }
+
+    /// The coordinates at which the texture is read.
+    pub(super) fn mapped(&self, values: Vec<[f32; 2]>) -> Result<Vec<[f32; 2]>, GltfFault> {
+        let Some(map) = self.map else { return Ok(values) };
+        let mapped = |value: [f32; 2]| {
+            let mapped = map.transform_point2(Vec2::from_array(value).as_dvec2()).as_vec2();
+            if mapped.is_finite() {
+                Ok(mapped.to_array())
+            } else {
+                Err(GltfFault::TextureTransform)
+            }
+        };
+        values.into_iter().map(mapped).collect()
     }
 }
 
