@@ -61,7 +61,7 @@ fn colors(second: bool) -> Buffer<'static> {
 
 /// Two frames of the scene `many`, one in object order and one in image order, with their pictures.
 fn frames() -> [(Frame, RgbImage); 2] {
-    let loaded = scenes::load_for("many", Some(SIZE)).expect("it is built in");
+    let loaded = scenes::load("many").expect("it is built in");
     let camera = CameraDescription { image: SIZE, ..loaded.camera };
     let camera = Camera::new(camera).expect("its camera is one");
     let view = View::new(&loaded.scene, &camera);

@@ -37,7 +37,7 @@ mod terminal;
 mod usage;
 mod vectors;
 
-use args::RenderArgs;
+use args::{FilesArgs, RenderArgs};
 use bothways::scenes;
 use clap::{Parser, Subcommand};
 use clap_complete::Shell;
@@ -104,6 +104,8 @@ enum Command {
     Scenes {
         /// A built-in scene, or a scene or mesh file: prints its TOML
         name: Option<String>,
+        #[command(flatten)]
+        files: FilesArgs,
     },
     /// List the rules of ordinary renderers that either order can have, and what each gets wrong
     #[command(after_help = rules::EXAMPLES)]
@@ -171,7 +173,7 @@ fn run(cli: Cli) -> Result<ExitCode, Failure> {
         Some(Command::Grade(args)) => grade::run(&args),
         Some(Command::Figure(args)) => figure::run(&args),
         Some(Command::Slides(args)) => slides::run(&args),
-        Some(Command::Scenes { name }) => print_scenes(name.as_deref()),
+        Some(Command::Scenes { name, files }) => print_scenes(name.as_deref(), files),
         Some(Command::Rules(args)) => rules::run(&args),
         Some(Command::Cover(args)) => cover::run(&args),
         Some(Command::Pixel(args)) => pixel::run(&args),
@@ -186,9 +188,9 @@ fn run(cli: Cli) -> Result<ExitCode, Failure> {
     }
 }
 
-fn print_scenes(name: Option<&str>) -> Result<ExitCode, Failure> {
+fn print_scenes(name: Option<&str>, files: FilesArgs) -> Result<ExitCode, Failure> {
     let text = match name {
-        Some(name) => scenes::load(name)?.toml,
+        Some(name) => files.load(name, None)?.toml,
         None => scene_list(),
     };
     terminal::print(&text)?;

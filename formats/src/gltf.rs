@@ -1,4 +1,4 @@
-//! Reads the scene of a glTF 2.0 file, `.gltf` or `.glb`, as one mesh, with its cameras.
+//! Reads the scene of a glTF 2.0 file, `.gltf` or `.glb`, as meshes and instances, with its cameras.
 //!
 //! # What is read
 //!
@@ -8,19 +8,21 @@
 //! - The nodes of the default scene (or of the first, or all nodes if there is no scene), each with its transformation: all are
 //!   composed in `f64`, and each vertex is rounded to `f32` once. Nodes come in the order of the file, children behind their
 //!   parent, and a mesh that several nodes name is there several times: the order of the triangles is the order of ids.
+//! - A large mesh that several nodes name is stored once: nodes in a row become [`Instances`](bothways_common::scene::Instances)
+//!   of it, 48 bytes each, with the numbers of their maps rounded to `f32`. [`read_as_one`] copies all of them instead.
 //! - `POSITION`, `NORMAL`, `COLOR_0` and the texture coordinates of the base colour of primitives of triangles, strips and fans; also sparse, and as integers
 //!   (`KHR_mesh_quantization`). Points and lines are skipped.
 //! - The base colour of materials: its factor, its texture with the sampler's filters and ways to wrap, and the colours of vertices,
-//!   all multiplied. Opacity is not read, and `KHR_texture_transform` neither. Pictures (PNG or JPEG) are in views, in `data:` URIs, or in files in the folder of the file or
-//!   below; a warning names those that are missing.
+//!   all multiplied; `KHR_texture_transform` moves its coordinates. Opacity is not read. Pictures (PNG or JPEG) are in views, in `data:` URIs, or in files; a warning names
+//!   those that are missing.
 //! - Cameras, by name.
 //!
 //! Animations, skins and morph targets are not read: the mesh rests. A file that requires any other extension is refused.
 //! Every accessor is checked before anything is read from it, as the specification says: types, alignment, stride, and its
 //! place in its view and buffer. The bounds that accessors state are neither used nor checked.
 //!
-//! Buffers are in the file, in `data:` URIs, or in files in the folder of the file or below. No other file is opened, and
-//! nothing is fetched.
+//! Buffers are in the file, in `data:` URIs, or in files that the file names: see [`source::files`](crate::source::files).
+//! Nothing is fetched.
 
 mod accessor;
 mod buffers;
@@ -29,24 +31,26 @@ mod container;
 mod error;
 mod mesh;
 mod nodes;
+mod shapes;
 mod texture;
 
 pub use camera::GltfCamera;
 pub use error::{GltfFault, ReadGltfError};
 
-use crate::source::regular_file;
+use crate::source::{Files, InputFile};
 use crate::warning::MaterialWarning;
 use ::gltf::json::Root;
-use bothways_common::scene::Mesh;
-use buffers::{Buffers, Folder};
-use std::io::Read;
-use std::path::Path;
+use bothways_common::scene::{Mesh, Shape};
+use buffers::Buffers;
+use mesh::Meshes;
+use std::borrow::Cow;
+use texture::Textures;
 
 /// The scene of a glTF file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model {
-    /// All triangles, where the nodes put them.
-    pub mesh: Mesh,
+    /// Meshes, and instances of meshes, where the nodes put them, in the order of ids.
+    pub shapes: Vec<Shape>,
     /// The cameras, in the order of the nodes that hold them.
     pub cameras: Vec<GltfCamera>,
     /// What of its colours is not drawn.
@@ -56,20 +60,39 @@ pub struct Model {
 /// The most bytes of a file: the lengths in a binary file have 32 bits.
 const MOST_BYTES: u64 = u32::MAX as u64;
 
-/// Reads the scene of a glTF file, and of the files of its folder that it names.
+/// Reads the scene of a glTF file, and of the files that it names.
 ///
 /// # Errors
 ///
-/// A file cannot be read, or one of the errors of [`parse`]; messages call the file by `path`.
-pub fn read(path: &Path) -> Result<Model, ReadGltfError> {
-    let file = path.display().to_string();
-    let mut bytes = Vec::new();
-    let read =
-        regular_file(path).and_then(|input| input.take(MOST_BYTES + 1).read_to_end(&mut bytes));
-    match read {
-        Err(error) => Err(ReadGltfError::Unreadable { file, error }),
-        Ok(_) if bytes.len() as u64 > MOST_BYTES => Err(ReadGltfError::TooLarge { file }),
-        Ok(_) => model(file, &bytes, Folder::Of(path)),
+/// A file cannot be read, or one of the errors of [`parse`]; messages call the file by its path.
+pub fn read(input: &InputFile) -> Result<Model, ReadGltfError> {
+    let name = input.name();
+    model(&name, &bytes(input)?, input.files(), true)
+}
+
+/// Reads the scene of a glTF file as one mesh: the mesh of each node is copied to where the node puts it.
+///
+/// # Errors
+///
+/// As for [`read`]; and at most 2²⁶ triangles, and as many vertices, are copied.
+pub fn read_as_one(input: &InputFile) -> Result<(Mesh, Vec<MaterialWarning>), ReadGltfError> {
+    let name = input.name();
+    let Model { shapes, warnings, .. } = model(&name, &bytes(input)?, input.files(), false)?;
+    let mesh = shapes.into_iter().find_map(|shape| match shape {
+        Shape::Mesh(mesh) => Some(mesh),
+        _ => None,
+    });
+    Ok((mesh.expect("what is not shared is one mesh"), warnings))
+}
+
+/// The bytes of a file.
+fn bytes<'f>(input: &InputFile<'f>) -> Result<Cow<'f, [u8]>, ReadGltfError> {
+    match input.beginning(MOST_BYTES + 1) {
+        Err(error) => Err(ReadGltfError::Unreadable { file: input.name(), error }),
+        Ok(bytes) if bytes.len() as u64 > MOST_BYTES => {
+            Err(ReadGltfError::TooLarge { file: input.name() })
+        }
+        Ok(bytes) => Ok(bytes),
     }
 }
 
@@ -81,6 +104,7 @@ pub fn read(path: &Path) -> Result<Model, ReadGltfError> {
 /// extension; it has no triangles, or too many.
 ///
 /// ```
+/// use bothways_formats::common::scene::Shape;
 /// use bothways_formats::gltf;
 ///
 /// // Three points as nine floats, in base 64.
@@ -92,7 +116,8 @@ pub fn read(path: &Path) -> Result<Model, ReadGltfError> {
 ///     "bufferViews": [{ "buffer": 0, "byteLength": 36 }],
 ///     "buffers": [{ "byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA" }] }"#;
 /// let model = gltf::parse("a.gltf", json.as_bytes())?;
-/// assert_eq!(model.mesh.corners(0)[1].to_array(), [1.0, 0.0, 5.0]);
+/// let [Shape::Mesh(mesh)] = &model.shapes[..] else { panic!("it is one mesh") };
+/// assert_eq!(mesh.corners(0)[1].to_array(), [1.0, 0.0, 5.0]);
 ///
 /// let error = gltf::parse("a.gltf", json.replace("\"count\": 3", "\"count\": 6").as_bytes()).unwrap_err();
 /// let says = "a.gltf: mesh 0, primitive 0, accessor 0: its 6 elements end at byte 72, but its view has 36 bytes";
@@ -100,7 +125,7 @@ pub fn read(path: &Path) -> Result<Model, ReadGltfError> {
 /// # Ok::<(), gltf::ReadGltfError>(())
 /// ```
 pub fn parse(name: &str, bytes: &[u8]) -> Result<Model, ReadGltfError> {
-    model(name.to_owned(), bytes, Folder::None)
+    model(name, bytes, &Files::none(), true)
 }
 
 /// Tells whether bytes are the beginning of a binary glTF file.
@@ -108,24 +133,28 @@ pub(crate) fn is_binary(beginning: &[u8]) -> bool {
     beginning.starts_with(container::MAGIC)
 }
 
-fn model(file: String, bytes: &[u8], folder: Folder) -> Result<Model, ReadGltfError> {
-    let read = read_model(&file, bytes, folder);
-    read.map_err(|(place, fault)| ReadGltfError::Wrong { file, place, fault: Box::new(fault) })
+fn model(file: &str, bytes: &[u8], files: &Files, sharing: bool) -> Result<Model, ReadGltfError> {
+    read_model(file, bytes, files, sharing).map_err(|(place, fault)| ReadGltfError::Wrong {
+        file: file.to_owned(),
+        place,
+        fault: Box::new(fault),
+    })
 }
 
 /// A fault, and what has it, such as `accessor 3`; empty if it is the file itself.
 type Located = (String, GltfFault);
 
-fn read_model(file: &str, bytes: &[u8], folder: Folder) -> Result<Model, Located> {
+fn read_model(file: &str, bytes: &[u8], files: &Files, sharing: bool) -> Result<Model, Located> {
     let whole = |fault| (String::new(), fault);
     let container = container::split(bytes).map_err(whole)?;
     let root = container::root(container.json).map_err(whole)?;
     check_version(&root).map_err(whole)?;
-    let buffers = Buffers::read(&root, container.bin, folder)?;
+    let buffers = Buffers::read(&root, container.bin, files)?;
     let placed = nodes::placed(&root)?;
     let cameras = camera::cameras(&root, &placed)?;
-    let (mesh, warnings) = mesh::mesh(file, &root, &buffers, folder, &placed)?;
-    Ok(Model { mesh, cameras, warnings })
+    let mut meshes = Meshes::new(&root, &buffers, Textures::new(&root, &buffers, files));
+    let shapes = shapes::shapes(&root, &mut meshes, &placed, sharing)?;
+    Ok(Model { shapes, cameras, warnings: meshes.textures.warnings(file) })
 }
 
 /// Makes sure that the file is of a version that is read, and requires no extension that is not.
@@ -136,7 +165,7 @@ fn check_version(root: &Root) -> Result<(), GltfFault> {
         let text = least.unwrap_or(&root.asset.version).to_owned();
         return Err(GltfFault::Version { text });
     }
-    match root.extensions_required.iter().find(|name| *name != QUANTIZATION) {
+    match root.extensions_required.iter().find(|name| !READ_EXTENSIONS.contains(&name.as_str())) {
         Some(name) => Err(GltfFault::Extension { name: name.clone() }),
         None => Ok(()),
     }
@@ -144,6 +173,9 @@ fn check_version(root: &Root) -> Result<(), GltfFault> {
 
 /// The extension that allows integers as positions and normals.
 const QUANTIZATION: &str = "KHR_mesh_quantization";
+
+/// The extensions that a file may require.
+const READ_EXTENSIONS: [&str; 2] = [QUANTIZATION, "KHR_texture_transform"];
 
 /// The item of a list that a file names by its index.
 fn item<'a, T, U>(

@@ -8,8 +8,8 @@
 //! ```
 //! use bothways_formats::common::glam::Vec3;
 //! use bothways_formats::generate::Kind;
+//! use bothways_formats::source::Files;
 //! use bothways_formats::{obj, ply, scene_file, smooth};
-//! use std::path::Path;
 //!
 //! // Read an OBJ file. Polygons become triangles.
 //! let square = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
@@ -38,7 +38,7 @@
 //!     [[object]]
 //!     generate = { kind = "torus", divisions = [64, 32] }
 //! "##;
-//! let file = scene_file::parse("torus.toml", text, Path::new(""))?;
+//! let file = scene_file::parse("torus.toml", text, &Files::none())?;
 //! assert_eq!(file.scene.primitive_count(), 4096);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -49,14 +49,15 @@
 //! |---|---|
 //! | [`scene_file`] | reads and writes scene files: a scene and its camera, in TOML |
 //! | [`obj`], [`ply`], [`stl`] | read and write meshes in these formats; [`obj`] reads material files, too |
-//! | [`gltf`] | reads the scene of a glTF file as one mesh, with its materials and cameras |
+//! | [`gltf`] | reads the scene of a glTF file as meshes and instances, with its materials and cameras |
 //! | [`mesh_file`] | reads a mesh in the format that the content or the name of its file tells |
+//! | [`shapes`] | changes the meshes of shapes that share them |
 //! | [`mesh_stream`] | reads meshes that are larger than memory, in passes |
 //! | [`generate`] | generates meshes from formulas |
 //! | [`smooth`] | computes normals for meshes that have none |
 //! | [`picture`] | opens picture files, to compare them or as textures |
 //! | [`warning`] | says what of a mesh's materials is missing |
-//! | [`source`] | opens files, and prepares text from files for messages |
+//! | [`source`] | opens files and finds those that they name, on the disk or in memory; prepares text from files for messages |
 //!
 //! Dependencies run downwards only: `scene_file` and `mesh_stream` know `mesh_file`, `mesh_file` knows the formats, and the
 //! formats know `source` and `warning`. So a new mesh format is a module beside `obj` and `ply`, and a variant of
@@ -87,6 +88,7 @@ pub mod obj;
 pub mod picture;
 pub mod ply;
 pub mod scene_file;
+pub mod shapes;
 pub mod smooth;
 pub mod source;
 pub mod stl;

@@ -3,12 +3,12 @@
 use crate::gltf::{self, Model, ReadGltfError};
 use crate::obj::{self, ReadObjError};
 use crate::ply::{self, ReadPlyError};
-use crate::source::regular_file;
+use crate::source::InputFile;
 use crate::stl::{self, ReadStlError};
 use crate::warning::MaterialWarning;
-use bothways_common::scene::Mesh;
+use bothways_common::scene::{Mesh, Shape};
 use std::ffi::OsStr;
-use std::io::{self, Read};
+use std::io;
 use std::path::Path;
 
 /// A format of mesh files.
@@ -73,21 +73,12 @@ impl Format {
     /// The format of a file: the one that its content tells, or else the one that its name tells.
     ///
     /// A file that cannot be read is of the format that its name tells.
-    pub fn of_file(path: &Path) -> Option<Format> {
-        let beginning = || -> io::Result<(Vec<u8>, u64)> {
-            let file = regular_file(path)?;
-            let size = file.metadata()?.len();
-            let mut bytes = Vec::new();
-            file.take(BEGINNING as u64).read_to_end(&mut bytes)?;
-            Ok((bytes, size))
+    pub fn of_file(file: &InputFile) -> Option<Format> {
+        let told = || -> io::Result<Option<Format>> {
+            let size = file.length()?;
+            Ok(Format::told_by(&file.beginning(BEGINNING as u64)?, size))
         };
-        let told = beginning().ok().and_then(|(bytes, size)| Format::told_by(&bytes, size));
-        told.or_else(|| Format::of(path))
-    }
-
-    /// The format of bytes that messages call `name`, as [`Format::of_file`] tells it.
-    pub fn of_bytes(name: &str, bytes: &[u8]) -> Option<Format> {
-        Format::told_by(bytes, bytes.len() as u64).or_else(|| Format::of(Path::new(name)))
+        told().ok().flatten().or_else(|| Format::of(file.path()))
     }
 
     /// The format of a file that begins like this and has this size. Nothing in an OBJ file tells that it is one.
@@ -113,21 +104,19 @@ impl Format {
         matches!(self, Format::Obj | Format::Ply)
     }
 
-    /// Reads a mesh from a file of this format.
+    /// Reads a mesh from a file of this format. The materials of an OBJ file have names only.
     ///
     /// # Errors
     ///
-    /// The file cannot be read, or is wrong; messages call it by `path`.
-    pub fn read(self, path: &Path) -> Result<Mesh, ReadMeshError> {
-        Ok(match self {
-            Format::Obj => obj::read(path)?,
-            Format::Ply => ply::read(path)?,
-            Format::Stl => stl::read(path)?,
-            Format::Gltf => gltf::read(path)?.mesh,
-        })
+    /// The file cannot be read, or is wrong; messages call it by its path.
+    pub fn read(self, file: &InputFile) -> Result<Mesh, ReadMeshError> {
+        match self {
+            Format::Obj => Ok(obj::read_file(file)?),
+            _ => Ok(self.read_with_materials(file)?.0),
+        }
     }
 
-    /// Reads a mesh from a file of this format, and its materials from the files beside it.
+    /// Reads a mesh from a file of this format, and its materials from the files that it names. All of a glTF file is one mesh.
     ///
     /// OBJ files have such material files, glTF files have materials of their own. Warnings name the materials that are missing,
     /// and say which colours are not read.
@@ -137,45 +126,39 @@ impl Format {
     /// As for [`Format::read`], for the mesh file and for each material file that exists.
     pub fn read_with_materials(
         self,
-        path: &Path,
+        file: &InputFile,
     ) -> Result<(Mesh, Vec<MaterialWarning>), ReadMeshError> {
         Ok(match self {
-            Format::Obj => obj::read_with_materials(path)?,
-            Format::Ply => ply::read_with_warnings(path)?,
-            Format::Stl => (stl::read(path)?, Vec::new()),
-            Format::Gltf => {
-                let Model { mesh, warnings, .. } = gltf::read(path)?;
-                (mesh, warnings)
-            }
+            Format::Obj => obj::read_with_materials(file)?,
+            Format::Ply => ply::read_with_warnings(file)?,
+            Format::Stl => (stl::read_file(file)?, Vec::new()),
+            Format::Gltf => gltf::read_as_one(file)?,
         })
     }
 
-    /// Reads a mesh from the bytes of a file of this format, which messages call `name`. The materials of an OBJ file are in
-    /// other files, which are not read: warnings name them as missing.
+    /// Reads what a file of this format shows, in the order of ids: one mesh, or for a glTF file instances of meshes, too; and
+    /// materials, as [`Format::read_with_materials`] does.
     ///
     /// # Errors
     ///
-    /// The bytes are wrong.
-    pub fn parse(
+    /// As for [`Format::read_with_materials`].
+    pub fn read_shapes(
         self,
-        name: &str,
-        bytes: &[u8],
-    ) -> Result<(Mesh, Vec<MaterialWarning>), ReadMeshError> {
-        Ok(match self {
-            Format::Obj => obj::parse_alone(name, bytes)?,
-            Format::Ply => ply::parse_with_warnings(name, bytes)?,
-            Format::Stl => (stl::parse(name, bytes)?, Vec::new()),
-            Format::Gltf => {
-                let Model { mesh, warnings, .. } = gltf::parse(name, bytes)?;
-                (mesh, warnings)
-            }
-        })
+        file: &InputFile,
+    ) -> Result<(Vec<Shape>, Vec<MaterialWarning>), ReadMeshError> {
+        if self == Format::Gltf {
+            let Model { shapes, warnings, .. } = gltf::read(file)?;
+            return Ok((shapes, warnings));
+        }
+        let (mesh, warnings) = self.read_with_materials(file)?;
+        Ok((vec![Shape::Mesh(mesh)], warnings))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::source::{GivenFile, Reach};
 
     #[test]
     fn the_extension_names_the_format() {
@@ -187,7 +170,10 @@ mod tests {
 
     #[test]
     fn the_content_tells_the_format_before_the_name_does() {
-        let of = |bytes: &[u8]| Format::of_bytes("a.obj", bytes);
+        let of_named = |name: &str, bytes: &[u8]| {
+            Format::of_file(&InputFile::given(&[GivenFile::new(name, bytes)], 0))
+        };
+        let of = |bytes: &[u8]| of_named("a.obj", bytes);
         assert_eq!(of(b"ply\nformat"), Some(Format::Ply));
         assert_eq!(of(b"plywood\n"), Some(Format::Obj));
         assert_eq!(of(b"glTF\x02\0\0\0"), Some(Format::Gltf));
@@ -199,7 +185,8 @@ mod tests {
         binary[80..84].copy_from_slice(&[1, 0, 0, 0]);
         assert_eq!(of(&binary), Some(Format::Stl));
         assert_eq!(of(&binary[1..]), Some(Format::Obj));
-        assert_eq!(Format::of_bytes("a", b"v 0 0 0\n"), None);
-        assert_eq!(Format::of_file(Path::new("no-such.ply")), Some(Format::Ply));
+        assert_eq!(of_named("a", b"v 0 0 0\n"), None);
+        let missing = InputFile::on_disk(Path::new("no-such.ply"), Reach::Folder);
+        assert_eq!(Format::of_file(&missing), Some(Format::Ply));
     }
 }

@@ -166,6 +166,7 @@ impl MeshStream {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::source::{InputFile, Reach};
     use bothways_common::scene::Mesh;
     use proptest::collection::vec;
     use proptest::prelude::*;
@@ -178,7 +179,7 @@ mod tests {
         let path = folder.join(name);
         std::fs::write(&path, content).unwrap();
         let format = Format::of(&path).unwrap();
-        let whole = format.read(&path).ok().map(|whole| {
+        let whole = format.read(&InputFile::on_disk(&path, Reach::Folder)).ok().map(|whole| {
             Mesh::new(whole.positions().to_vec(), whole.triangles().to_vec()).unwrap()
         });
         let streamed = MeshStream::open(&path, format).ok().and_then(|mut stream| {

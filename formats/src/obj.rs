@@ -38,6 +38,7 @@ pub(crate) use file::ObjFile;
 pub use materials::parse_materials;
 pub use write::write;
 
+use crate::source::InputFile;
 use crate::warning::MaterialWarning;
 use bothways_common::scene::Mesh;
 use builder::MeshBuilder;
@@ -70,7 +71,15 @@ pub fn read(path: &Path) -> Result<Mesh, ReadObjError> {
     }
 }
 
-/// Reads a mesh from an OBJ file, and its materials from the material files beside it.
+/// Reads a mesh as [`read`] does, from the disk or from memory.
+pub(crate) fn read_file(file: &InputFile) -> Result<Mesh, ReadObjError> {
+    match file.in_memory() {
+        Some(bytes) => parse(&file.name(), bytes),
+        None => read(file.path()),
+    }
+}
+
+/// Reads a mesh from an OBJ file, and its materials from the material files that it names.
 ///
 /// A missing material file or a missing material is a warning and no error: many meshes come without their material
 /// files. Triangles without a known material are drawn in the material of their object.
@@ -78,9 +87,9 @@ pub fn read(path: &Path) -> Result<Mesh, ReadObjError> {
 /// # Errors
 ///
 /// As for [`read`], for the OBJ file and for each material file that exists.
-pub fn read_with_materials(path: &Path) -> Result<(Mesh, Vec<MaterialWarning>), ReadObjError> {
-    let mut mesh = read(path)?;
-    let warnings = materials::resolve(&mut mesh, path)?;
+pub fn read_with_materials(file: &InputFile) -> Result<(Mesh, Vec<MaterialWarning>), ReadObjError> {
+    let mut mesh = read_file(file)?;
+    let warnings = materials::resolve(&mut mesh, file)?;
     Ok((mesh, warnings))
 }
 
@@ -116,17 +125,6 @@ pub fn parse(name: &str, bytes: &[u8]) -> Result<Mesh, ReadObjError> {
         parser.statement(line, words).map_err(|fault| located(line, fault))?;
     }
     finish(name.to_owned(), parser)
-}
-
-/// Reads a mesh as [`parse`] does, with warnings about the material files that it names: only its own bytes are read.
-///
-/// # Errors
-///
-/// As for [`parse`].
-pub fn parse_alone(name: &str, bytes: &[u8]) -> Result<(Mesh, Vec<MaterialWarning>), ReadObjError> {
-    let mesh = parse(name, bytes)?;
-    let warnings = materials::all_missing(&mesh, name);
-    Ok((mesh, warnings))
 }
 
 /// The error that stopped the reader of a large file.

@@ -30,6 +30,7 @@ pub use error::{ElementFault, HeaderFault, Location, ReadPlyError};
 pub(crate) use file::PlyFile;
 pub use write::write;
 
+use crate::source::InputFile;
 use crate::warning::MaterialWarning;
 use bothways_common::scene::Mesh;
 use std::io::Cursor;
@@ -44,13 +45,16 @@ pub fn read(path: &Path) -> Result<Mesh, ReadPlyError> {
     PlyFile::open(path)?.mesh()
 }
 
-/// Reads a mesh as [`read`] does, with a warning if the file has colours that are not read.
+/// Reads a mesh as [`read`] does, from the disk or from memory, with a warning if the file has colours that are not read.
 ///
 /// # Errors
 ///
 /// As for [`read`].
-pub fn read_with_warnings(path: &Path) -> Result<(Mesh, Vec<MaterialWarning>), ReadPlyError> {
-    PlyFile::open(path)?.mesh_with_warnings()
+pub fn read_with_warnings(file: &InputFile) -> Result<(Mesh, Vec<MaterialWarning>), ReadPlyError> {
+    match file.in_memory() {
+        Some(bytes) => PlyFile::new(file.name(), Cursor::new(bytes))?.mesh_with_warnings(),
+        None => PlyFile::open(file.path())?.mesh_with_warnings(),
+    }
 }
 
 /// Reads a mesh from the bytes of a PLY file, which messages call `name`.
@@ -78,18 +82,6 @@ pub fn read_with_warnings(path: &Path) -> Result<(Mesh, Vec<MaterialWarning>), R
 /// ```
 pub fn parse(name: &str, bytes: &[u8]) -> Result<Mesh, ReadPlyError> {
     PlyFile::new(name.to_owned(), Cursor::new(bytes))?.mesh()
-}
-
-/// Reads a mesh as [`parse`] does, with a warning if the file has colours.
-///
-/// # Errors
-///
-/// As for [`parse`].
-pub fn parse_with_warnings(
-    name: &str,
-    bytes: &[u8],
-) -> Result<(Mesh, Vec<MaterialWarning>), ReadPlyError> {
-    PlyFile::new(name.to_owned(), Cursor::new(bytes))?.mesh_with_warnings()
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 //!
 //! ```
 //! use bothways_formats::scene_file;
-//! use std::path::Path;
+//! use bothways_formats::source::Files;
 //!
 //! let text = r##"
 //! [camera]
@@ -25,7 +25,7 @@
 //! scale = 2
 //! rotate = { axis = [0, 0, 1], degrees = 90 }
 //! "##;
-//! let file = scene_file::parse("example.toml", text, Path::new(""))?;
+//! let file = scene_file::parse("example.toml", text, &Files::none())?;
 //! assert_eq!(file.scene.objects().len(), 2);
 //! # Ok::<(), scene_file::ReadSceneError>(())
 //! ```
@@ -33,7 +33,8 @@
 //! # Tables
 //!
 //! The tables are `[camera]`, `[material.NAME]`, `[[light]]` and `[[object]]`. Only an object is needed. An unknown key is
-//! an error, so that no typing error stays unnoticed. Numbers are read as the nearest `f32`, and must be finite.
+//! an error, so that no typing error stays unnoticed. Numbers are read as the nearest `f32`, and must be finite. Paths of
+//! files are relative to the scene file, and lead to its folder or below, unless [`Reach`](crate::source::Reach) allows more.
 //!
 //! ## `[camera]`
 //!
@@ -58,13 +59,13 @@
 //! | `specular` | the strength of the highlight, from 0 to 1 | 0 |
 //! | `shininess` | the exponent of the highlight | 32 |
 //! | `checker = { color, divisions }` | a pattern: its second colour, and its cells to a unit of the texture coordinates | one colour |
-//! | `texture = "tiles.png"` | a picture over the texture coordinates, in place of a `checker`; the path is relative to the scene file | one colour |
+//! | `texture = "tiles.png"` | a picture over the texture coordinates, in place of a `checker` | one colour |
 //!
 //! A texture is multiplied by `color`, which is then white without it. In place of the path, a table says more:
 //!
 //! | key of `texture` | what it says | without it |
 //! |---|---|---|
-//! | `file` | the path of a PNG, JPEG, BMP or PNM file in the folder of the scene file, or below it | |
+//! | `file` | the path of a PNG, JPEG, BMP or PNM file | |
 //! | `filter` | `"nearest"` texel, `"bilinear"` between four, or `"mipmaps"`: bilinear, and between smaller pictures where texels are smaller than samples | bilinear |
 //! | `wrap` | beyond the picture: `"repeat"`, `"clamp"` to its border, or `"mirror"`; one for both directions, or `[across, up]` | repeat |
 //! | `tiles` | pictures to one unit of the texture coordinates, across and up | `[1, 1]` |
@@ -89,7 +90,7 @@
 //! | `triangle = { a, b, c }` | a triangle: its corners |
 //! | `sphere = { center, radius }` | a sphere |
 //! | `plane = { point, normal }` | an infinite plane |
-//! | `mesh = "bunny.obj"` | a mesh from an OBJ, glTF, PLY or STL file, with its own materials and colours; the path is relative to the scene file |
+//! | `mesh = "bunny.obj"` | a mesh from an OBJ, glTF, PLY or STL file, with its own materials and colours |
 //! | `generate = { kind, divisions }` | a generated mesh: see [`Kind`](crate::generate::Kind) |
 //! | `material` | the name of a material, in place of the materials and colours of a mesh file; light grey without it |
 //! | `scale`, `rotate = { axis, degrees }`, `translate` | the transformation, in this order |
@@ -100,7 +101,8 @@
 //! ## `instances`
 //!
 //! A mesh may be there many times, and takes memory once and 48 bytes for each time. The object's own transformation
-//! comes first, then that of each instance. Ids count through the instances, in their order.
+//! comes first, then that of each instance. Ids count through the instances, in their order. A glTF file whose nodes share a
+//! large mesh is several objects, some of them instances; with `instances` of its own it is copied into one mesh.
 //!
 //! | form | what it says |
 //! |---|---|
@@ -116,10 +118,10 @@
 //!
 //! ```
 //! use bothways_formats::scene_file;
-//! use std::path::Path;
+//! use bothways_formats::source::Files;
 //!
 //! let text = "[[object]]\nspere = { center = [0, 0, 0], radius = 1 }\n";
-//! let error = scene_file::parse("example.toml", text, Path::new("")).unwrap_err();
+//! let error = scene_file::parse("example.toml", text, &Files::none()).unwrap_err();
 //! let message = r#"example.toml:2:1: object has no key "spere"; did you mean "sphere"?"#;
 //! assert_eq!(error.to_string(), message);
 //! ```
@@ -142,15 +144,13 @@ pub use excerpt::Excerpt;
 pub use suggestion::nearest_name;
 pub use write::framed_mesh_toml;
 
-use crate::source::regular_file;
+use crate::source::{Files, InputFile};
 use bothways_common::camera::CameraDescription;
-use bothways_common::scene::{Object, Scene, SceneError};
+use bothways_common::scene::{Scene, SceneError};
 use document::{Item, Table};
 use error::Problem;
 use light::lights;
 use material::{Materials, materials};
-use std::io::Read;
-use std::path::Path;
 use toml::de::DeTable;
 
 /// The content of a scene file.
@@ -166,14 +166,13 @@ pub struct SceneFile {
     pub warnings: Vec<String>,
 }
 
-/// Reads a scene file. Paths in it are relative to its folder.
+/// Reads a scene file, and the files that it names.
 ///
 /// # Errors
 ///
 /// Those of [`read_text`] and of [`parse`].
-pub fn read(path: &Path) -> Result<SceneFile, ReadSceneError> {
-    let text = read_text(path)?;
-    parse(&path.display().to_string(), &text, path.parent().unwrap_or(Path::new("")))
+pub fn read(file: &InputFile) -> Result<SceneFile, ReadSceneError> {
+    parse(&file.name(), &read_text(file)?, file.files())
 }
 
 /// The most bytes of a scene file: some 140,000 objects. While a file is read, its tables take about 70 times as much
@@ -186,28 +185,17 @@ const MOST_BYTES: u64 = 8 << 20;
 /// # Errors
 ///
 /// The file does not exist, cannot be read, is a pipe or a device, is too large or is not UTF-8 text.
-pub fn read_text(path: &Path) -> Result<String, ReadSceneError> {
-    let file = path.display().to_string();
-    let mut bytes = Vec::new();
+pub fn read_text(file: &InputFile) -> Result<String, ReadSceneError> {
     // One byte more than the limit shows that the file is too large, whatever length the system reports.
-    let read =
-        regular_file(path).and_then(|file| file.take(MOST_BYTES + 1).read_to_end(&mut bytes));
-    match read {
-        Err(error) => Err(ReadSceneError::Unreadable { file, error }),
-        Ok(_) => text(&file, bytes),
-    }
-}
-
-/// The text of a scene file that messages call `name`, from its bytes.
-///
-/// # Errors
-///
-/// The bytes are too many, or no UTF-8 text.
-pub fn text(name: &str, bytes: Vec<u8>) -> Result<String, ReadSceneError> {
-    let file = name.to_owned();
-    if bytes.len() as u64 > MOST_BYTES {
-        return Err(ReadSceneError::TooLarge { file });
-    }
+    let read = file.beginning(MOST_BYTES + 1);
+    let file = file.name();
+    let bytes = match read {
+        Err(error) => return Err(ReadSceneError::Unreadable { file, error }),
+        Ok(bytes) if bytes.len() as u64 > MOST_BYTES => {
+            return Err(ReadSceneError::TooLarge { file });
+        }
+        Ok(bytes) => bytes.into_owned(),
+    };
     String::from_utf8(bytes).map_err(|error| {
         let byte = error.utf8_error().valid_up_to();
         let before = &error.as_bytes()[..byte];
@@ -216,32 +204,32 @@ pub fn text(name: &str, bytes: Vec<u8>) -> Result<String, ReadSceneError> {
     })
 }
 
-/// Reads a scene from a text that messages call `name`; paths in it are relative to `folder`.
+/// Reads a scene from a text that messages call `name`, and the files that it names.
 ///
 /// # Errors
 ///
 /// The first fault that is found, with its place in the text: see [`LocatedError`].
-pub fn parse(name: &str, text: &str, folder: &Path) -> Result<SceneFile, ReadSceneError> {
-    let read = document(text, folder);
+pub fn parse(name: &str, text: &str, files: &Files) -> Result<SceneFile, ReadSceneError> {
+    let read = document(text, files);
     read.map_err(|problem| problem.in_text(name, text).into())
 }
 
 /// Reads `camera`, `material`, `light` and `object`.
-fn document(text: &str, folder: &Path) -> Result<SceneFile, Problem> {
+fn document(text: &str, files: &Files) -> Result<SceneFile, Problem> {
     let document = DeTable::parse(text)?;
     let known = ["camera", "material", "light", "object"];
     let table = Table::new(document.get_ref(), "a scene file".to_owned(), 0..0, &known)?;
 
     let camera = table.get("camera").map(|item| camera::read(&item)).transpose()?;
     let camera = camera.unwrap_or_default();
-    let materials = table.get("material").map(|item| materials(&item, folder)).transpose()?;
+    let materials = table.get("material").map(|item| materials(&item, files)).transpose()?;
     let lights = table.get("light").map(|item| lights(&item)).transpose()?;
     let list = table.get("object").ok_or_else(|| {
         let help = format!("begin one with [[object]] and, for example, {}", object::EXAMPLE);
         Problem::new(0..0, "the scene has no object").help(help)
     })?;
     let mut warnings = Vec::new();
-    let mut scene = scene(&list, &materials.unwrap_or_default(), folder, &mut warnings)?;
+    let mut scene = scene(&list, &materials.unwrap_or_default(), files, &mut warnings)?;
 
     if let Some(lights) = lights {
         scene.lights = lights;
@@ -257,17 +245,20 @@ fn document(text: &str, folder: &Path) -> Result<SceneFile, Problem> {
 fn scene(
     list: &Item,
     materials: &Materials,
-    folder: &Path,
+    files: &Files,
     warnings: &mut Vec<String>,
 ) -> Result<Scene, Problem> {
     let items: Vec<Item> = list.tables()?.collect();
-    let objects: Result<Vec<Object>, Problem> =
-        items.iter().map(|item| object::read(item, materials, folder, warnings)).collect();
-    Scene::new(objects?).map_err(|error| {
+    let (mut objects, mut items_of) = (Vec::new(), Vec::new());
+    for (index, item) in items.iter().enumerate() {
+        objects.extend(object::read(item, materials, files, warnings)?);
+        items_of.resize(objects.len(), index);
+    }
+    Scene::new(objects).map_err(|error| {
         let index = match error {
             SceneError::NotFinite { object, .. }
             | SceneError::Radius { object, .. }
-            | SceneError::NoNormal { object } => object,
+            | SceneError::NoNormal { object } => items_of[object],
             // No single object is one too many. The last one is a place that exists.
             SceneError::TooManyPrimitives { .. } => items.len() - 1,
         };

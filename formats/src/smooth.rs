@@ -5,7 +5,8 @@ mod facet;
 mod normal_tree;
 
 use crate::attributes::NONE;
-use bothways_common::scene::{Attribute, Mesh};
+use crate::shapes::with_meshes;
+use bothways_common::scene::{Attribute, Mesh, Shape};
 use facet::Facet;
 use glam::{DVec3, Vec3};
 use normal_tree::NormalTree;
@@ -52,6 +53,11 @@ pub fn with_normals(mesh: Mesh, crease: f64) -> Mesh {
         .collect();
     let normals = corners.attribute(values);
     mesh.with_normals(normals).expect("each corner names a normal that was made")
+}
+
+/// Gives the meshes of shapes normals, as [`with_normals`] does; one that several instances share stays shared.
+pub fn shapes_with_normals(shapes: Vec<Shape>, crease: f64) -> Vec<Shape> {
+    with_meshes(shapes, |mesh| with_normals(mesh, crease))
 }
 
 /// How many vertices one thread smooths in one go. The normals and their order do not depend on it.

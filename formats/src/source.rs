@@ -1,8 +1,10 @@
 //! Opens files to read, and words the messages about files that cannot be read.
 
 pub(crate) mod decimal;
-pub(crate) mod folder;
+pub mod files;
 pub mod quote;
+
+pub use files::{Files, FindFileError, GivenFile, InputFile, Reach};
 
 use std::fs::{self, File, Metadata};
 use std::path::Path;

@@ -25,10 +25,10 @@ mod write;
 pub use error::{ReadStlError, StlFault};
 pub use write::write;
 
-use crate::source::{READ_AT_ONCE, regular_file};
+use crate::source::{InputFile, Reach};
 use bothways_common::scene::Mesh;
 use builder::Builder;
-use std::io::{BufRead, BufReader, Cursor, Read, Seek, SeekFrom};
+use std::io::{BufRead, Cursor, Read, Seek, SeekFrom};
 use std::path::Path;
 
 /// Reads a mesh from an STL file.
@@ -37,10 +37,14 @@ use std::path::Path;
 ///
 /// The file cannot be read, or one of the errors of [`parse`]; messages call the file by `path`.
 pub fn read(path: &Path) -> Result<Mesh, ReadStlError> {
-    let file = path.display().to_string();
-    match regular_file(path) {
-        Ok(opened) => read_from(file, BufReader::with_capacity(READ_AT_ONCE, opened)),
-        Err(error) => Err(ReadStlError::Unreadable { file, error }),
+    read_file(&InputFile::on_disk(path, Reach::Folder))
+}
+
+/// Reads a mesh from an STL file, on the disk or in memory.
+pub(crate) fn read_file(file: &InputFile) -> Result<Mesh, ReadStlError> {
+    match file.open() {
+        Ok(opened) => read_from(file.name(), opened),
+        Err(error) => Err(ReadStlError::Unreadable { file: file.name(), error }),
     }
 }
 

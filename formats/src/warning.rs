@@ -3,18 +3,33 @@
 use crate::source::quote::quoted;
 use std::fmt;
 
+/// Why a file that a file names is not there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Missing {
+    /// It does not exist.
+    Absent,
+    /// It is outside of the folder that is read.
+    Outside,
+    /// It is not among the files that were given.
+    NotGiven,
+    /// Several of the files that were given have its name.
+    Ambiguous,
+}
+
 /// What is missing of a mesh's materials. Triangles without one are drawn in the material of their object, which is light
 /// grey unless it states another.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum MaterialWarning {
-    /// A material file does not exist.
+    /// A material file is not there.
     MissingLibrary {
         /// The mesh's file.
         file: String,
         /// The material file, as the mesh's file names it.
         library: String,
+        /// Why.
+        why: Missing,
     },
-    /// Many more material files do not exist.
+    /// Many more material files are not there.
     MissingLibraries {
         /// The mesh's file.
         file: String,
@@ -33,12 +48,14 @@ pub enum MaterialWarning {
         /// The mesh's file.
         file: String,
     },
-    /// Pictures do not exist in the file's folder.
+    /// Pictures are not there.
     MissingPictures {
         /// The mesh's file, or its material file.
         file: String,
         /// Their names.
         names: Vec<String>,
+        /// Why.
+        why: Missing,
     },
     /// The file's materials have textures of a kind that is not read.
     Textures {
@@ -55,11 +72,10 @@ pub enum MaterialWarning {
 impl fmt::Display for MaterialWarning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            MaterialWarning::MissingLibrary { file, library } => write!(
-                f,
-                "{file}: there is no material file {} beside it; what needs it is drawn in light grey",
-                quoted(library)
-            ),
+            MaterialWarning::MissingLibrary { file, library, why } => {
+                let missing = why.of("material file", &quoted(library));
+                write!(f, "{file}: {missing}; what needs it is drawn in light grey")
+            }
             MaterialWarning::MissingLibraries { file, more } => {
                 write!(f, "{file}: {more} more material files are missing beside it")
             }
@@ -76,13 +92,9 @@ impl fmt::Display for MaterialWarning {
                 "{file}: the colours of its faces are not read; all of it is drawn in the material of its \
                  object"
             ),
-            MaterialWarning::MissingPictures { file, names } => {
-                let some = some_of(names);
-                write!(
-                    f,
-                    "{file}: there is no picture {some} in its folder; what has it as its texture is drawn \
-                     without"
-                )
+            MaterialWarning::MissingPictures { file, names, why } => {
+                let missing = why.of("picture", &some_of(names));
+                write!(f, "{file}: {missing}; what has it as its texture is drawn without")
             }
             MaterialWarning::Textures { file } => write!(
                 f,
@@ -93,6 +105,22 @@ impl fmt::Display for MaterialWarning {
                 "{file}: the materials and colours of a mesh that is streamed are not read; all of it is drawn \
                  in light grey"
             ),
+        }
+    }
+}
+
+impl Missing {
+    /// The reason in words, for a file of a kind.
+    fn of(self, kind: &str, names: &str) -> String {
+        match self {
+            Missing::Absent => format!("there is no {kind} {names} beside it"),
+            Missing::Outside => {
+                format!("the {kind} {names} is outside of its folder, which takes --allow-outside")
+            }
+            Missing::NotGiven => {
+                format!("the {kind} {names} was not opened with it (open or drop both together)")
+            }
+            Missing::Ambiguous => format!("several opened files could be the {kind} {names}"),
         }
     }
 }

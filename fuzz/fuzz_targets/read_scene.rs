@@ -3,16 +3,16 @@
 
 use bothways_common::Camera;
 use bothways_formats::scene_file;
+use bothways_formats::source::Files;
 use bothways_fuzz::check_message;
 use libfuzzer_sys::{Corpus, fuzz_target};
-use std::path::Path;
 
 fuzz_target!(|text: &str| -> Corpus {
     // A short text may rightly ask for a hundred million triangles, which takes too long here.
     if text.contains("divisions") && text.contains("generate") {
         return Corpus::Reject;
     }
-    match scene_file::parse("a.toml", text, Path::new("no-such-folder")) {
+    match scene_file::parse("a.toml", text, &Files::none()) {
         Ok(file) => {
             if let Err(error) = Camera::new(file.camera) {
                 panic!("the reader accepts what the camera refuses: {error}");

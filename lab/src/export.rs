@@ -116,13 +116,15 @@ pub enum ExportError {
 /// ```
 /// use bothways_lab::common::{Camera, View};
 /// use bothways_lab::export::{Target, export};
+/// use bothways_lab::formats::source::{GivenFile, InputFile};
 /// use bothways_lab::scenes;
 ///
 /// let loaded = scenes::load("ties")?;
 /// let camera = Camera::new(loaded.camera)?;
 /// let exported = export(&View::new(&loaded.scene, &camera), "ties", Target::Obj)?;
 /// let (name, text) = &exported.files[0];
-/// let again = scenes::load_bytes(name, text, None)?;
+/// let file = GivenFile::new(name, text);
+/// let again = scenes::load_file(&InputFile::given(&[file], 0), None)?;
 /// assert_eq!(again.scene.primitive_count(), loaded.scene.primitive_count());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

@@ -10,7 +10,7 @@ mod studio;
 
 pub use built_in::{BUILT_IN, BuiltIn, DEFAULT};
 pub use framing::{FrameMeshError, Framing, framed};
-pub use load::{LoadError, LoadedScene, load, load_bytes, load_for};
+pub use load::{LoadError, LoadOptions, LoadedScene, load, load_file, load_with};
 pub use open::{OpenedScene, StreamedScene, open, open_stream};
 pub use projection::with_projection;
 

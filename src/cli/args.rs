@@ -3,8 +3,10 @@
 use bothways::common::glam::Vec3;
 use bothways::common::raster::{MAX_SAMPLES, MAX_SIDE};
 use bothways::common::{Crop, Options, Projection};
+use bothways::formats::source::Reach;
 use bothways::orders::{Method, Order, Rules};
 use bothways::rules::{ParseRuleError, image_order, object_order};
+use bothways::scenes::{LoadError, LoadOptions, LoadedScene, load_with};
 use bothways::wording::count;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -17,11 +19,39 @@ pub(super) struct RenderArgs {
     #[arg(default_value = "lecture")]
     pub(super) scene: String,
     #[command(flatten)]
+    pub(super) files: FilesArgs,
+    #[command(flatten)]
     pub(super) camera: CameraArgs,
     #[command(flatten)]
     pub(super) method: MethodArgs,
     #[command(flatten)]
     pub(super) output: OutputArgs,
+}
+
+/// Which files a scene may name.
+#[derive(Clone, Copy, Debug, Default, Args)]
+pub(super) struct FilesArgs {
+    /// Read files outside of the scene's folder, too: meshes, materials, pictures and buffers that the scene, or a mesh,
+    /// names. Without it they are refused
+    #[arg(long)]
+    pub(super) allow_outside: bool,
+}
+
+impl FilesArgs {
+    /// How to load a scene; a mesh is framed for an image of this size.
+    pub(super) fn options(self, image: Option<[u32; 2]>) -> LoadOptions {
+        let reach = if self.allow_outside { Reach::Anywhere } else { Reach::Folder };
+        LoadOptions { image, reach }
+    }
+
+    /// Loads a scene; a mesh is framed for an image of this size.
+    pub(super) fn load(
+        self,
+        source: &str,
+        image: Option<[u32; 2]>,
+    ) -> Result<LoadedScene, LoadError> {
+        load_with(source, self.options(image))
+    }
 }
 
 /// What to change in the scene's camera.

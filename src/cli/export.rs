@@ -1,13 +1,13 @@
 //! `bothways export`: a whole scene for another program.
 
-use super::args::CameraArgs;
+use super::args::{CameraArgs, FilesArgs};
 use super::camera::camera;
 use super::failure::Failure;
 use super::output::Staging;
 use super::terminal;
 use bothways::common::View;
 use bothways::export::{Export, Target, export};
-use bothways::scenes::{self, DEFAULT};
+use bothways::scenes::DEFAULT;
 use bothways::wording::count;
 use clap::{Args, ValueEnum};
 use std::io::Write;
@@ -40,6 +40,8 @@ pub(super) struct ExportArgs {
     #[arg(short = 'o', long = "output", value_name = "DIR")]
     folder: Option<PathBuf>,
     #[command(flatten)]
+    files: FilesArgs,
+    #[command(flatten)]
     camera: CameraArgs,
 }
 
@@ -71,7 +73,7 @@ impl TargetArg {
 
 /// Writes all files or no file, and says what is not as in the scene.
 pub(super) fn run(args: &ExportArgs) -> Result<ExitCode, Failure> {
-    let loaded = scenes::load_for(&args.scene, args.camera.size)?;
+    let loaded = args.files.load(&args.scene, args.camera.size)?;
     let camera = camera(&loaded, &args.camera)?;
     let target = args.target.target();
     let view = View::new(&loaded.scene, &camera);

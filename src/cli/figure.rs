@@ -1,6 +1,6 @@
 //! `bothways figure`: a drawing of what the renderers do with a scene, as SVG or PNG.
 
-use super::args::{CameraArgs, RulesArg, from_1, rules};
+use super::args::{CameraArgs, FilesArgs, RulesArg, from_1, rules};
 use super::camera::camera;
 use super::failure::Failure;
 use super::npy;
@@ -13,7 +13,7 @@ use bothways::figure::{Drawing, Kind, Subject, Theme, WorkMap, work_figure, work
 use bothways::formats::scene_file::nearest_name;
 use bothways::orders::Rules;
 use bothways::rules::{image_order, object_order};
-use bothways::scenes::{self, DEFAULT};
+use bothways::scenes::DEFAULT;
 use bothways::wording::count;
 use clap::Args;
 use std::io::Write;
@@ -50,6 +50,8 @@ pub(super) struct FigureArgs {
     /// A built-in scene, a .toml scene file, or a mesh file (framed automatically)
     #[arg(default_value = DEFAULT)]
     scene: String,
+    #[command(flatten)]
+    files: FilesArgs,
     #[command(flatten)]
     camera: CameraArgs,
     /// The pixel to look at, its row from the top and its column from the left, both from 0; for the kind camera it can
@@ -95,7 +97,7 @@ pub(super) fn run(args: &FigureArgs) -> Result<ExitCode, Failure> {
     check(args)?;
     let named = args.file.as_deref().map(OutputFile::find).transpose()?;
     let format = named.as_ref().map_or(Ok(Format::Svg), format)?;
-    let loaded = scenes::load_for(&args.scene, args.camera.size)?;
+    let loaded = args.files.load(&args.scene, args.camera.size)?;
     terminal::warn(&loaded.warnings);
     let file = match named {
         Some(file) => file,

@@ -3,7 +3,7 @@
 mod target;
 mod video;
 
-use super::args::{CameraArgs, MethodArg};
+use super::args::{CameraArgs, FilesArgs, MethodArg};
 use super::camera::{camera, squashed};
 use super::failure::Failure;
 use super::run::folder_name;
@@ -12,7 +12,6 @@ use super::terminal;
 use bothways::common::View;
 use bothways::figure::Theme;
 use bothways::film::{Film, Length, MOST_SECONDS, WIDTH_STEP, WIDTHS, default_size, rates};
-use bothways::scenes;
 use bothways::wording::{count, grouped};
 use clap::Args;
 use serde::Serialize;
@@ -70,6 +69,8 @@ pub(super) struct FilmArgs {
     json: bool,
     // Last, because its heading holds for what follows.
     #[command(flatten)]
+    files: FilesArgs,
+    #[command(flatten)]
     camera: CameraArgs,
 }
 
@@ -77,7 +78,7 @@ pub(super) struct FilmArgs {
 pub(super) fn run(args: &FilmArgs) -> Result<ExitCode, Failure> {
     let length = Length::new(args.seconds, args.fps, args.pause)
         .map_err(|error| Failure::new(format!("--seconds, --fps and --pause: {error}")))?;
-    let mut loaded = scenes::load_for(&args.scene, args.camera.size)?;
+    let mut loaded = args.files.load(&args.scene, args.camera.size)?;
     terminal::warn(&loaded.warnings);
     let method = args.method.into();
     if args.camera.size.is_none() {

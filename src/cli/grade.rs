@@ -1,6 +1,6 @@
 //! `bothways grade SCENE FILE…`: marks for pictures of one scene.
 
-use super::args::CameraArgs;
+use super::args::{CameraArgs, FilesArgs};
 use super::beside::{Beside, TABLE};
 use super::camera::camera;
 use super::diff::color;
@@ -11,7 +11,6 @@ use bothways::common::View;
 use bothways::diff::foreign::{ReadOptions, read_with};
 use bothways::formats::source::quote::visible;
 use bothways::grade::{FORMULA, Grade, Verdict, grade};
-use bothways::scenes;
 use bothways::wording::count;
 use clap::Args;
 use serde::Serialize;
@@ -57,13 +56,15 @@ pub(super) struct GradeArgs {
     #[arg(long)]
     json: bool,
     #[command(flatten)]
+    scene_files: FilesArgs,
+    #[command(flatten)]
     camera: CameraArgs,
 }
 
 /// Grades and prints.
 pub(super) fn run(args: &GradeArgs) -> Result<ExitCode, Failure> {
     let table = Beside::find(TABLE, args.csv.as_deref())?;
-    let loaded = scenes::load_for(&args.scene, args.camera.size)?;
+    let loaded = args.scene_files.load(&args.scene, args.camera.size)?;
     terminal::warn(&loaded.warnings);
     let camera = camera(&loaded, &args.camera)?;
     let view = View::new(&loaded.scene, &camera);

@@ -1,14 +1,13 @@
 //! `bothways pixel`: the viewing ray of one pixel, derived; the primitives that cover the pixel; the results of both
 //! orders.
 
-use super::args::{CameraArgs, from_0, from_1};
+use super::args::{CameraArgs, FilesArgs, from_0, from_1};
 use super::camera::camera;
 use super::failure::Failure;
 use super::terminal;
 use bothways::common::raster::check_samples;
 use bothways::common::{Options, View};
 use bothways::pixel::{self, Lesson};
-use bothways::scenes;
 use clap::Args;
 use std::process::ExitCode;
 
@@ -35,6 +34,8 @@ pub(super) struct PixelArgs {
     #[arg(value_parser = from_0, allow_negative_numbers = true)]
     column: u32,
     #[command(flatten)]
+    files: FilesArgs,
+    #[command(flatten)]
     camera: CameraArgs,
     /// Samples a pixel: an N×N regular grid; the first one's ray is derived
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = from_1,
@@ -47,7 +48,7 @@ pub(super) struct PixelArgs {
 
 /// Computes the true result, renders and prints; the exit code is 0 if both orders saw the true primitives.
 pub(super) fn run(args: &PixelArgs) -> Result<ExitCode, Failure> {
-    let loaded = scenes::load_for(&args.scene, args.camera.size)?;
+    let loaded = args.files.load(&args.scene, args.camera.size)?;
     terminal::warn(&loaded.warnings);
     let camera = camera(&loaded, &args.camera)?;
     check_samples(camera.image(), args.samples)

@@ -34,7 +34,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
         check_stream(args)?;
     }
     let mut scene = Bar::during("reading the scene", args, || {
-        scenes::open(&args.scene, args.camera.size, stream)
+        scenes::open(&args.scene, args.files.options(args.camera.size), stream)
     })?;
     check_verify(args)?;
     let (camera, staging, folder) = prepared_output(args, scene.loaded())?;

@@ -1,6 +1,6 @@
 //! `bothways camera`: a scene's camera in numbers, for other renderers.
 
-use super::args::{CameraArgs, number};
+use super::args::{CameraArgs, FilesArgs, number};
 use super::camera::camera;
 use super::failure::Failure;
 use super::terminal;
@@ -8,7 +8,7 @@ use bothways::common::glam::Vec3;
 use bothways::common::{Projection, View};
 use bothways::exchange::{self, Exchanged, StatedDepths, System};
 use bothways::opengl::{self, Matrices, Matrix};
-use bothways::scenes::{self, DEFAULT};
+use bothways::scenes::DEFAULT;
 use bothways::wording::{plain, vector};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
@@ -29,6 +29,8 @@ pub(super) struct ShowCameraArgs {
     /// A built-in scene, a .toml scene file, or a mesh file (framed automatically)
     #[arg(default_value = DEFAULT)]
     scene: String,
+    #[command(flatten)]
+    files: FilesArgs,
     #[command(flatten)]
     camera: CameraArgs,
     /// Print JSON
@@ -86,7 +88,7 @@ impl SystemArg {
 
 /// Prints the camera.
 pub(super) fn run(args: &ShowCameraArgs) -> Result<ExitCode, Failure> {
-    let loaded = scenes::load_for(&args.scene, args.camera.size)?;
+    let loaded = args.files.load(&args.scene, args.camera.size)?;
     let camera = camera(&loaded, &args.camera)?;
     let view = View::new(&loaded.scene, &camera);
     if let Some(system) = args.system {

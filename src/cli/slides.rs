@@ -1,11 +1,12 @@
 //! `bothways slides`: the whole set of slides for a lecture, into a folder.
 
+use super::args::FilesArgs;
 use super::failure::Failure;
 use super::output::Staging;
 use super::status_line::StatusLine;
 use super::terminal;
 use bothways::figure::Theme;
-use bothways::scenes::{self, DEFAULT, LoadedScene};
+use bothways::scenes::{DEFAULT, LoadedScene};
 use bothways::slides::{Content, Deck};
 use bothways::wording::count;
 use clap::Args;
@@ -31,6 +32,8 @@ pub(super) struct SlidesArgs {
     /// Built-in scenes, .toml scene files, or mesh files (framed automatically)
     #[arg(value_name = "SCENE", default_value = DEFAULT)]
     scenes: Vec<String>,
+    #[command(flatten)]
+    files: FilesArgs,
     /// dark, for projectors in dim rooms, or light, for paper
     #[arg(long, default_value = "dark")]
     theme: Theme,
@@ -51,7 +54,7 @@ const BESIDE: [&str; 3] = ["README.md", LIST, "index.html"];
 
 /// Draws all slides, writes them and says where they are.
 pub(super) fn run(args: &SlidesArgs) -> Result<ExitCode, Failure> {
-    let loaded = args.scenes.iter().map(|name| scenes::load(name));
+    let loaded = args.scenes.iter().map(|name| args.files.load(name, None));
     let loaded = loaded.collect::<Result<Vec<LoadedScene>, _>>()?;
     for scene in &loaded {
         terminal::warn(&scene.warnings);

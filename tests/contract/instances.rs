@@ -8,6 +8,7 @@ use bothways::common::{
 };
 use bothways::formats::generate::Kind;
 use bothways::formats::scene_file;
+use bothways::formats::source::{InputFile, Reach};
 use bothways::{rasterize, raytrace};
 use bothways_test_support::hostile::{self, Numbers, copied};
 use bothways_test_support::{PROJECTIONS, assert_same_visibility, scene, turned};
@@ -147,7 +148,8 @@ fn hostile_instances_look_alike_in_both_orders() {
 
 #[test]
 fn the_crowd_is_the_same_in_both_orders_and_on_any_number_of_threads() {
-    let file = scene_file::read(Path::new("scenes/crowd.toml")).expect("it is a scene file");
+    let file = InputFile::on_disk(Path::new("scenes/crowd.toml"), Reach::Folder);
+    let file = scene_file::read(&file).expect("it is a scene file");
     assert!(file.scene.primitive_count() > 10_000_000);
     let camera = CameraDescription { image: [240, 135], ..file.camera };
     let camera = Camera::new(camera).expect("it is a camera");

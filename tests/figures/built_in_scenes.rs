@@ -6,7 +6,7 @@ use bothways::common::{
 };
 use bothways::rasterize::fast;
 use bothways::raytrace::textbook;
-use bothways::scenes::{LoadedScene, load, load_for};
+use bothways::scenes::{LoadOptions, LoadedScene, load, load_with};
 use std::collections::HashSet;
 
 /// The scene's camera with another image, and the parallel camera that shows the target at the same size.
@@ -146,7 +146,10 @@ fn the_shared_meshes_are_framed() {
     let paths = files.map(|file| file.expect("the folder can be listed").path());
     for path in paths.filter(|path| path.extension().is_some_and(|extension| extension == "obj")) {
         for image in [[64, 48], [30, 70], [90, 30]] {
-            let loaded = load_for(path.to_str().unwrap(), Some(image));
+            let loaded = load_with(
+                path.to_str().unwrap(),
+                LoadOptions { image: Some(image), ..LoadOptions::default() },
+            );
             let loaded = loaded.unwrap_or_else(|error| panic!("{error}"));
             for camera in cameras(&loaded, image) {
                 let view = View::new(&loaded.scene, &camera);

@@ -5,6 +5,8 @@
 mod hostile_files;
 mod mesh;
 mod other_formats;
+mod outside;
 mod ply;
+mod shared_meshes;
 mod stream;
 mod textures;

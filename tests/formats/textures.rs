@@ -6,6 +6,7 @@ use bothways::common::glam::{DVec2, Vec3};
 use bothways::common::look::color::linear_from_srgb;
 use bothways::common::scene::Texture;
 use bothways::formats::scene_file::{self, ReadSceneError};
+use bothways::formats::source::{Files, Reach};
 use image::{GrayImage, Luma, Rgb, RgbImage, Rgba, RgbaImage};
 use std::fs;
 use std::path::Path;
@@ -27,12 +28,17 @@ fn four() -> RgbImage {
     RgbImage::from_fn(2, 2, |x, y| Rgb(colors[(2 * y + x) as usize]))
 }
 
+/// The files of the scene.
+fn files(folder: &Path) -> Files<'static> {
+    Files::in_folder(&folder.join("scene"), Reach::Folder)
+}
+
 fn scene_with(folder: &Path, texture: &str) -> Result<scene_file::SceneFile, ReadSceneError> {
     let text = format!(
         "[material.m]\ntexture = {texture}\n[[object]]\nmaterial = 'm'\n\
          sphere = {{ center = [0, 0, 0], radius = 1 }}\n"
     );
-    scene_file::parse("scene.toml", &text, &folder.join("scene"))
+    scene_file::parse("scene.toml", &text, &files(folder))
 }
 
 fn texture(folder: &Path, texture: &str) -> Texture {
@@ -95,7 +101,7 @@ fn a_file_that_two_materials_name_is_read_once() {
                 material.b.texture = { file = './four.png', filter = 'nearest' }\n\
                 [[object]]\nmaterial = 'a'\nsphere = { center = [0, 0, 0], radius = 1 }\n\
                 [[object]]\nmaterial = 'b'\nsphere = { center = [0, 0, 0], radius = 1 }\n";
-    let file = scene_file::parse("a.toml", text, &folder.path().join("scene")).unwrap();
+    let file = scene_file::parse("a.toml", text, &files(folder.path())).unwrap();
     let texture = |k: usize| file.scene.objects()[k].material.texture.as_ref().unwrap();
     assert!(std::sync::Arc::ptr_eq(&texture(0).pyramid, &texture(1).pyramid));
     assert_ne!(texture(0).sampler, texture(1).sampler);
@@ -156,8 +162,8 @@ fn a_picture_outside_of_the_folder_is_not_read() {
     let absolute = folder.path().join("beside.png").display().to_string();
     for name in ["../beside.png", "x/../../beside.png", "../no-such.png", &absolute, "C:\\a.png"] {
         let expected = format!(
-            "scene.toml:2:11: the picture \"{}\" is not in the folder of the file that names it, or below; \
-             only files there are read: move it there",
+            "scene.toml:2:11: \"{}\" is not in the folder of the file that was opened, or below it; move it there, \
+             or allow it with --allow-outside",
             name.replace('\\', "\\\\")
         );
         let scene = scene_with(folder.path(), &format!("'{name}'"));

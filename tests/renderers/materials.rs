@@ -8,6 +8,7 @@ use bothways::common::look::color::{linear_from_encoded, srgb_from_linear};
 use bothways::common::scene::{Levels, MeshMaterials, Sampler, Wrap};
 use bothways::common::{Frame, Material, Mesh, Options, Scene, Shape, View};
 use bothways::diff::compare;
+use bothways::formats::source::{Files, InputFile, Reach};
 use bothways::formats::{obj, scene_file};
 use bothways_test_support::{PROJECTIONS, turned};
 use predicates::prelude::*;
@@ -72,7 +73,8 @@ fn cards() -> (TempDir, PathBuf) {
 }
 
 fn read(path: &Path) -> Mesh {
-    let (mesh, warnings) = obj::read_with_materials(path).expect("it is a mesh");
+    let (mesh, warnings) =
+        obj::read_with_materials(&InputFile::on_disk(path, Reach::Folder)).expect("it is a mesh");
     assert_eq!(warnings, []);
     mesh
 }
@@ -161,7 +163,7 @@ fn a_material_of_the_scene_file_is_used_instead() {
     // The file's own colours are not read.
     fs::write(folder.path().join("cards.mtl"), "Kd what").unwrap();
     let text = "[material.gold]\ncolor = '#ffd700'\n[[object]]\nmesh = 'cards.obj'\n";
-    let own = scene_file::parse("a.toml", text, folder.path()).unwrap_err().to_string();
+    let own = scene_file::parse("a.toml", text, &files(&folder)).unwrap_err().to_string();
     assert!(
         own.ends_with(
             "cards.mtl:1: Kd stands before the first newmtl, so it describes no material"
@@ -169,7 +171,7 @@ fn a_material_of_the_scene_file_is_used_instead() {
         "{own}"
     );
     let gold = format!("{text}material = 'gold'\n");
-    let file = scene_file::parse("a.toml", &gold, folder.path()).unwrap();
+    let file = scene_file::parse("a.toml", &gold, &files(&folder)).unwrap();
     let object = &file.scene.objects()[0];
     assert!((0..6).all(|triangle| *object.material_of(triangle) == object.material));
     assert_eq!(file.warnings, [""; 0]);
@@ -179,7 +181,7 @@ fn a_material_of_the_scene_file_is_used_instead() {
 fn what_is_moved_keeps_its_colors() {
     let (folder, _) = cards();
     let text = "[[object]]\nmesh = 'cards.obj'\nscale = 2\n";
-    let file = scene_file::parse("a.toml", text, folder.path()).unwrap();
+    let file = scene_file::parse("a.toml", text, &files(&folder)).unwrap();
     assert_eq!(file.scene.objects()[0].material_of(0).shininess, 40.5);
 }
 
@@ -194,6 +196,11 @@ fn names_are_written_back() {
     assert_eq!(read(&again), mesh);
     let text = String::from_utf8(text).unwrap();
     assert_eq!(text.matches("usemtl").count(), 4, "{text}");
+}
+
+/// The files that a scene in the folder may name.
+fn files(folder: &TempDir) -> Files<'static> {
+    Files::in_folder(folder.path(), Reach::Folder)
 }
 
 fn bothways(folder: &Path, args: &[&str]) -> assert_cmd::assert::Assert {
@@ -249,8 +256,9 @@ fn a_picture_stands_in_the_place_of_a_color() {
     let map = "Kd 0.8 0.25 0.125\nmap_Kd -s 2 3 1 -clamp on -bm 0.5 pictures\\clay tiles.png\n";
     let text = CARDS_MTL.replace("Kd 0.8 0.25 0.125\n", map);
     fs::write(folder.path().join("cards.mtl"), &text).unwrap();
-    let (mesh, warnings) = obj::read_with_materials(&path).unwrap();
-    let says = "there is no picture \"pictures/clay tiles.png\" in its folder; what has it as its texture is drawn without";
+    let (mesh, warnings) =
+        obj::read_with_materials(&InputFile::on_disk(&path, Reach::Folder)).unwrap();
+    let says = "there is no picture \"pictures/clay tiles.png\" beside it; what has it as its texture is drawn without";
     assert!(warnings.len() == 1 && warnings[0].to_string().ends_with(says), "{warnings:?}");
     let clay = mesh.materials().unwrap().of(0).unwrap();
     assert_eq!(clay.color, Vec3::from([0.8, 0.25, 0.125].map(linear_from_encoded)));
@@ -266,7 +274,9 @@ fn a_picture_stands_in_the_place_of_a_color() {
     assert_eq!((tiles, wrap, levels), ([2.0, 3.0], [Wrap::Clamp; 2], Levels::Blended));
 
     fs::write(&file, "no picture").unwrap();
-    let error = obj::read_with_materials(&path).unwrap_err().to_string();
+    let error = obj::read_with_materials(&InputFile::on_disk(&path, Reach::Folder))
+        .unwrap_err()
+        .to_string();
     assert!(
         error.ends_with("is no picture (PNG, JPEG, BMP or PNM); save it as one of these"),
         "{error}"
@@ -280,7 +290,7 @@ fn colors_of_vertices_are_drawn_alike_by_both_orders() {
     let folder =
         folder(&[("a.obj", &format!("mtllib cards.mtl\n{text}")), ("cards.mtl", CARDS_MTL)]);
     let scene = "[[light]]\nambient = true\n[[object]]\nmesh = 'a.obj'\n";
-    let colored = scene_file::parse("a.toml", scene, folder.path()).unwrap().scene;
+    let colored = scene_file::parse("a.toml", scene, &files(&folder)).unwrap().scene;
     assert_eq!(colored.objects()[0].material.color, Vec3::ONE, "colours show as they are");
     for projection in PROJECTIONS {
         let camera = turned(projection, [0.5, 0.7, 3.0], [0.0, 0.0, -1.0], [60, 48]);
@@ -292,7 +302,7 @@ fn colors_of_vertices_are_drawn_alike_by_both_orders() {
         check_interpolated(&view, &frames[0]);
     }
     let stated = format!("{scene}material = 'grey'\n[material.grey]\ncolor = '#808080'\n");
-    let stated = scene_file::parse("a.toml", &stated, folder.path()).unwrap().scene;
+    let stated = scene_file::parse("a.toml", &stated, &files(&folder)).unwrap().scene;
     let Shape::Mesh(mesh) = &stated.objects()[0].shape else { panic!("it is a mesh") };
     assert!(mesh.colors().is_empty(), "a stated material replaces them");
 }

@@ -9,10 +9,10 @@ use bothways::common::{
 };
 use bothways::diff::compare;
 use bothways::formats::scene_file;
+use bothways::formats::source::{Files, Reach};
 use bothways::scenes::load;
 use bothways::{rasterize, raytrace};
 use bothways_test_support::{PROJECTIONS, scene, turned};
-use std::path::Path;
 
 /// One textured object of every kind, all in front of one camera.
 const STILL_LIFE: &str = r##"
@@ -50,7 +50,7 @@ material = "floor"
 "##;
 
 fn still_life() -> Scene {
-    let file = scene_file::parse("still-life.toml", STILL_LIFE, Path::new(""));
+    let file = scene_file::parse("still-life.toml", STILL_LIFE, &Files::none());
     file.expect("it is a scene").scene
 }
 
@@ -167,7 +167,8 @@ fn a_mesh_without_coordinates_takes_no_checker() {
     std::fs::write(folder.path().join("bare.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
     let text = "[material.tiles]\nchecker = { color = '#000000', divisions = [4, 4] }\n\
                 [[object]]\nmesh = 'bare.obj'\nmaterial = 'tiles'\n";
-    let error = scene_file::parse("a.toml", text, folder.path()).unwrap_err();
+    let error = scene_file::parse("a.toml", text, &Files::in_folder(folder.path(), Reach::Folder))
+        .unwrap_err();
     assert_eq!(
         error.to_string(),
         "a.toml:5:1: this material has a checker, and the mesh has no texture coordinates; export \
@@ -295,7 +296,7 @@ fn where_levels_agree_colors_do() {
 fn the_level_of_a_wall_is_known() {
     let wall = "[[object]]\nplane = { point = [0, 0, -3], normal = [0, 0, 1] }\nmaterial = 'm'\n\
                 [material.m]\nchecker = { color = '#000000', divisions = [1, 1] }\n";
-    let scene = scene_file::parse("a.toml", wall, Path::new("")).unwrap().scene;
+    let scene = scene_file::parse("a.toml", wall, &Files::none()).unwrap().scene;
     for side in [16_u16, 64, 100] {
         let camera = Camera::canonical(side.into(), side.into());
         // Of 256 texels to a unit: a pixel is 1/side of the viewport at distance 1, and three times as wide on the wall.
@@ -317,7 +318,7 @@ fn the_level_of_a_wall_is_known() {
 fn on_a_floor_object_order_finds_levels_in_pairs() {
     let floor = "[[object]]\nplane = { point = [0, -1, 0], normal = [0, 1, 0] }\nmaterial = 'm'\n\
                  [material.m]\nchecker = { color = '#000000', divisions = [1, 1] }\n";
-    let scene = scene_file::parse("a.toml", floor, Path::new("")).unwrap().scene;
+    let scene = scene_file::parse("a.toml", floor, &Files::none()).unwrap().scene;
     let camera = Camera::canonical(64, 64);
     let [by_object, by_image] = both_levels(&View::new(&scene, &camera), &Options::default());
     let (grid, texels) = (camera.sample_grid(1), 256.0);

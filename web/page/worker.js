@@ -15,8 +15,9 @@
  *   f64(index: number): Float64Array<ArrayBuffer>
  * }} Reply
  * @typedef {"u8" | "u16" | "u32" | "f32" | "f64"} BufferKind
- * @typedef {{call(name: string, args: string, file?: Uint8Array): Reply}} Module
- * @typedef {{id: number, call: string, file?: {name: string, bytes: ArrayBuffer}, [argument: string]: unknown}} Message
+ * @typedef {{call(name: string, args: string, bytes?: Uint8Array): Reply}} Module
+ * @typedef {{name: string, bytes: ArrayBuffer}} GivenFile
+ * @typedef {{id: number, call: string, files?: GivenFile[], [argument: string]: unknown}} Message
  */
 
 /** @type {any} The name that the JavaScript of wasm-bindgen defines. */
@@ -46,16 +47,27 @@ async function start(base64) {
   module = new bindgen.Module();
 }
 
+/** The bytes of files, one after another. @param {GivenFile[]} files */
+function joined(files) {
+  const bytes = new Uint8Array(files.reduce((sum, file) => sum + file.bytes.byteLength, 0));
+  let at = 0;
+  for (const file of files) {
+    bytes.set(new Uint8Array(file.bytes), at);
+    at += file.bytes.byteLength;
+  }
+  return bytes;
+}
+
 /**
- * Asks the module. A file becomes the bytes beside the arguments.
+ * Asks the module. The bytes of files stand beside the arguments.
  * @param {Message} message
  */
 function ask(message) {
-  const { id, call, file, ...args } = message;
+  const { id, call, files, ...args } = message;
   if (module === undefined) throw new Error("the module has not started");
-  const named = file === undefined ? args : { ...args, name: file.name };
-  const bytes = file === undefined ? undefined : new Uint8Array(file.bytes);
-  return module.call(call, JSON.stringify(named), bytes);
+  if (files === undefined) return module.call(call, JSON.stringify(args));
+  const listed = files.map(({ name, bytes }) => ({ name, bytes: bytes.byteLength }));
+  return module.call(call, JSON.stringify({ ...args, files: listed }), joined(files));
 }
 
 /**

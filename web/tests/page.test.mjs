@@ -111,41 +111,140 @@ test("a link brings back the moment", async () => {
   await third.close();
 });
 
-/** Drops a file on the page. */
-async function drop(page, name, content) {
-  await page.evaluate(
-    ([name, content]) => {
-      const transfer = new DataTransfer();
-      const parts = typeof content === "number" ? [new Uint8Array(content)] : [content];
-      transfer.items.add(new File(parts, name));
-      document.body.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true }));
-    },
-    [name, content],
-  );
+/** Drops files on the page together: the content of each by its name, as text, as bytes, or as the number of bytes. */
+async function drop(page, files) {
+  await page.evaluate((files) => {
+    const transfer = new DataTransfer();
+    for (const [name, content] of Object.entries(files)) {
+      const part = typeof content === "string" ? content : new Uint8Array(content);
+      transfer.items.add(new File([part], name));
+    }
+    document.body.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true }));
+  }, files);
 }
 
 test("a good file is opened; a broken and a huge one are refused with reasons", async () => {
   const { page, said, close } = await open();
-  await drop(page, "small.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  await drop(page, { "small.obj": "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n" });
   await until("the scene", async () => (await page.locator("#scene").inputValue()).startsWith("small"));
   await until("its verdict", async () => (await text(page, "#verdict-text")).startsWith("match"));
 
   const corners = ["0 0 0", "1 0 0", "0 1 0"].map((at) => `vertex ${at}`);
   const facet = ["solid", "facet normal 0 0 1", "outer loop", ...corners, "endloop", "endfacet", "endsolid"];
-  await drop(page, "facet.stl", facet.join("\n"));
+  await drop(page, { "facet.stl": facet.join("\n") });
   await until("the facet", async () => (await page.locator("#scene").inputValue()).startsWith("facet"));
 
-  await drop(page, "broken.obj", "v 0 0 0\nv 1 0 O\n");
+  await drop(page, { "broken.obj": "v 0 0 0\nv 1 0 O\n" });
   await until("a reason", async () => (await text(page, "#trouble")).includes('broken.obj:2: "O" is not a number'));
-  await drop(page, "scene.toml", "[[object]]\nspere = { center = [0, 0, 0], radius = 1 }\n");
+  await drop(page, { "scene.toml": "[[object]]\nspere = { center = [0, 0, 0], radius = 1 }\n" });
   await until("a suggestion", async () => (await text(page, "#trouble")).includes('did you mean "sphere"?'));
-  await drop(page, "huge.obj", 80 * 1024 * 1024);
+  await drop(page, { "huge.obj": 80 * 1024 * 1024 });
   await until("the limit", async () => (await text(page, "#trouble")).includes("at most 64 MiB"));
-  await drop(page, "picture.gif", "GIF89a");
+  await drop(page, { "picture.gif": "GIF89a" });
   await until("the kinds", async () => (await text(page, "#trouble")).includes(".obj"));
 
   // What was open stays open.
   assert.ok((await page.locator("#scene").inputValue()).startsWith("facet"));
+  assert.deepEqual(said.console, []);
+  await close();
+});
+
+/** Red and green above, blue and grey below. */
+const FOUR = readFileSync(new URL("../../formats/tests/formats/files/four.png", import.meta.url));
+
+/** Two squares, one with the picture and one with another, by a material file and by the scene itself. */
+const TOGETHER = {
+  "wall.toml": `[camera]
+eye = [0, 0, 3]
+image = [64, 32]
+[[light]]
+ambient = true
+[material.tiles]
+texture = { file = "four.png", filter = "nearest" }
+[[object]]
+mesh = "meshes/Wall.obj"
+translate = [-1, 0, 0]
+[[object]]
+mesh = "meshes/Wall.obj"
+material = "tiles"
+translate = [1, 0, 0]
+`,
+  "wall.obj": `mtllib wall.mtl
+usemtl paint
+v -0.9 -0.9 0
+v 0.9 -0.9 0
+v 0.9 0.9 0
+v -0.9 0.9 0
+vt 0 0
+vt 1 0
+vt 1 1
+vt 0 1
+f 1/1 2/2 3/3 4/4
+`,
+  "wall.mtl": "newmtl paint\nKd 1 1 1\nmap_Kd four.png\n",
+  "four.png": [...FOUR],
+};
+
+/** How many pixels of the picture in object order are red, green and blue. */
+const colours = (page) =>
+  page.evaluate(() => {
+    const canvas = document.querySelector("canvas[data-picture=object]");
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    const counts = [0, 0, 0];
+    for (let at = 0; at < data.length; at += 4) {
+      const [r, g, b] = data.subarray(at, at + 3);
+      if (r > 150 && g + b < 100) counts[0]++;
+      if (g > 150 && r + b < 100) counts[1]++;
+      if (b > 150 && r + g < 100) counts[2]++;
+    }
+    return counts;
+  });
+
+test("a scene is opened with the mesh, the materials and the pictures that are dropped with it", async () => {
+  const { page, said, close } = await open();
+  await drop(page, TOGETHER);
+  await until("the scene", async () => (await page.locator("#scene").inputValue()) === "wall.toml");
+  await until("its verdict", async () => (await text(page, "#verdict-text")).startsWith("match"));
+  assert.match(await text(page, "#scene-text"), /2 objects, 4 primitives/);
+  assert.equal(await page.locator("#trouble").textContent(), "");
+  await until("the picture's colours", async () => (await colours(page)).every((count) => count > 20));
+
+  // Without its scene, the mesh is what is opened; what nothing names is said.
+  const { "wall.toml": _, ...mesh } = TOGETHER;
+  await drop(page, { ...mesh, "notes.txt": "?" });
+  await until("the mesh", async () => (await page.locator("#scene").inputValue()) === "wall.obj");
+  assert.equal(await text(page, "#trouble"), 'not used, because no opened file names it: "notes.txt"');
+  // The button takes several files, too.
+  const chosen = Object.entries(TOGETHER).map(([name, content]) => ({
+    name,
+    mimeType: "application/octet-stream",
+    buffer: Buffer.from(content),
+  }));
+  await page.locator("#file").setInputFiles(chosen);
+  await until("the scene again", async () => (await page.locator("#scene").inputValue()) === "wall.toml");
+  assert.deepEqual(said.console, []);
+  await close();
+});
+
+test("what is missing of a scene's files, or what was meant, is said", async () => {
+  const { page, said, close } = await open();
+  const trouble = (says) => until(says, async () => (await text(page, "#trouble")).includes(says));
+  const { "wall.toml": scene, "wall.obj": mesh, "wall.mtl": materials } = TOGETHER;
+  await drop(page, { "wall.toml": scene.replace("four.png", "Four.PNG") });
+  await trouble('"Four.PNG" is not among the opened files; open it together with the file that names it, or drop both together');
+  await drop(page, { "wall.toml": scene, "four.png": TOGETHER["four.png"] });
+  await trouble('"meshes/Wall.obj" is not among the opened files');
+  assert.equal(await page.locator("#scene").inputValue(), "lecture", "what was open stays open");
+  await drop(page, { "wall.obj": mesh });
+  await trouble('the material file "wall.mtl" was not opened with it (open or drop both together)');
+  await drop(page, { "wall.obj": mesh, "wall.mtl": materials });
+  await trouble('the picture "four.png" was not opened with it');
+  await drop(page, { "a.toml": scene, "b.toml": scene, "wall.obj": mesh });
+  await trouble("a.toml, b.toml: which one?");
+  await drop(page, { "a.obj": mesh, "b.obj": mesh });
+  await trouble("a.obj, b.obj: which one?");
+  await drop(page, { "wall.toml": scene, "a.bin": 40 * 1024 * 1024, "b.bin": 40 * 1024 * 1024 });
+  await trouble("wall.toml, a.bin, b.bin: the 3 files have 80 MiB, and this page reads at most 64 MiB");
   assert.deepEqual(said.console, []);
   await close();
 });

@@ -2,31 +2,20 @@
 
 use super::error::GltfFault;
 use super::{Located, item};
-use crate::source::folder::{PathFault, within};
-use crate::source::regular_file;
+use crate::source::Files;
 use ::gltf::json::{Buffer, Index, Root, buffer};
 use base64::Engine;
 use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::io::Read;
-use std::path::{Path, PathBuf};
-
-/// Where files may be that a file names.
-#[derive(Clone, Copy)]
-pub(super) enum Folder<'a> {
-    /// In the folder of this file, or below it.
-    Of(&'a Path),
-    /// Nowhere.
-    None,
-}
+use std::path::PathBuf;
 
 /// The data of all buffers.
 pub(super) struct Buffers<'a> {
     data: Vec<Data<'a>>,
     /// The content of files, each once.
-    files: Vec<Vec<u8>>,
+    files: Vec<Cow<'a, [u8]>>,
 }
 
 /// The data of a buffer: its own, or the index of a file.
@@ -40,8 +29,8 @@ pub(super) enum Image {
     Own(Vec<u8>),
     /// In a file of this name.
     File(String),
-    /// In a file that is not read.
-    Elsewhere,
+    /// The URI can be no path.
+    NoFile,
 }
 
 /// Part of a buffer.
@@ -58,7 +47,7 @@ impl<'a> Buffers<'a> {
     pub(super) fn read(
         root: &Root,
         bin: Option<&'a [u8]>,
-        folder: Folder,
+        files: &Files<'a>,
     ) -> Result<Buffers<'a>, Located> {
         let mut known = BTreeMap::new();
         let mut buffers = Buffers { data: Vec::new(), files: Vec::new() };
@@ -67,7 +56,7 @@ impl<'a> Buffers<'a> {
             let data = match (&buffer.uri, bin.filter(|_| index == 0)) {
                 (None, Some(bin)) => Data::Own(bin.into()),
                 (None, None) => return Err(located(GltfFault::NoData)),
-                (Some(uri), _) => buffers.of_uri(uri, folder, &mut known).map_err(located)?,
+                (Some(uri), _) => buffers.of_uri(uri, files, &mut known).map_err(located)?,
             };
             buffers.data.push(data);
             buffers.check_length(buffer, index).map_err(located)?;
@@ -75,34 +64,33 @@ impl<'a> Buffers<'a> {
         Ok(buffers)
     }
 
-    /// The content of an image's URI: its own, or a picture in the folder.
-    pub(super) fn image(uri: &str, folder: Folder) -> Result<Image, GltfFault> {
+    /// The content of an image's URI: its own, or a picture in a file.
+    pub(super) fn image(uri: &str) -> Result<Image, GltfFault> {
         if let Some(data) = strip_scheme(uri, "data:") {
             return Ok(Image::Own(decoded(data)?));
         }
-        let name = percent_decoded(uri).filter(|_| matches!(folder, Folder::Of(_)));
-        Ok(name.map_or(Image::Elsewhere, Image::File))
+        Ok(percent_decoded(uri).map_or(Image::NoFile, Image::File))
     }
 
     fn of_uri(
         &mut self,
         uri: &str,
-        folder: Folder,
+        files: &Files<'a>,
         known: &mut BTreeMap<PathBuf, usize>,
     ) -> Result<Data<'a>, GltfFault> {
         if let Some(data) = strip_scheme(uri, "data:") {
             return Ok(Data::Own(decoded(data)?.into()));
         }
-        let path = path_of(uri, folder)?;
-        if let Some(&file) = known.get(&path) {
+        let name = percent_decoded(uri)
+            .ok_or_else(|| GltfFault::Uri { uri: uri.to_owned(), help: "it is no path" })?;
+        let file = files.find(&name).map_err(|error| GltfFault::NamedFile { error })?;
+        if let Some(&file) = known.get(file.identity()) {
             return Ok(Data::File(file));
         }
-        let mut content = Vec::new();
-        let most = u64::from(u32::MAX);
-        let read = regular_file(&path).and_then(|file| file.take(most).read_to_end(&mut content));
-        read.map_err(|error| GltfFault::BufferFile { name: uri.to_owned(), error })?;
-        known.insert(path, self.files.len());
-        self.files.push(content);
+        let read = file.beginning(u32::MAX.into());
+        let read = read.map_err(|error| GltfFault::BufferFile { name: uri.to_owned(), error })?;
+        known.insert(file.identity().to_owned(), self.files.len());
+        self.files.push(read);
         Ok(Data::File(self.files.len() - 1))
     }
 
@@ -168,20 +156,6 @@ fn decoded(uri: &str) -> Result<Vec<u8>, GltfFault> {
         GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent);
     let decoded = GeneralPurpose::new(&STANDARD, config).decode(data);
     decoded.map_err(|_| refused("its data is no base64"))
-}
-
-/// The file that a URI names. It exists, and is in the folder or below it, also behind links.
-fn path_of(uri: &str, folder: Folder) -> Result<PathBuf, GltfFault> {
-    let refused = |help| GltfFault::Uri { uri: uri.to_owned(), help };
-    let outside = "only files in the folder of the glTF file, or below it, are read; move it there";
-    let Folder::Of(file) = folder else {
-        return Err(refused("no other file is read here; pack it into a .glb file"));
-    };
-    let name = percent_decoded(uri).ok_or_else(|| refused("it is no path"))?;
-    within(file.parent().unwrap_or(Path::new("")), &name).map_err(|fault| match fault {
-        PathFault::Outside => refused(outside),
-        PathFault::Unreadable(error) => GltfFault::BufferFile { name: uri.to_owned(), error },
-    })
 }
 
 /// The text that a URI stands for; `None` if it is none.

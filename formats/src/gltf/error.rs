@@ -1,8 +1,8 @@
 //! Errors about glTF files: each names the file, the object of the file, and the fault.
 
 use crate::picture::ReadTextureError;
-use crate::source::Unreadable;
 use crate::source::quote::quoted;
+use crate::source::{FindFileError, Unreadable};
 use std::io;
 
 /// Why a glTF file could not be read.
@@ -71,10 +71,14 @@ pub enum GltfFault {
     TwoTransforms,
     #[error("it moves vertex {vertex} of its mesh where no f32 number reaches")]
     OutOfRange { vertex: usize },
+    #[error("it moves its mesh where no f32 number reaches")]
+    InstanceOutOfRange,
     #[error("it has no uri, and the file has no binary part that would be meant")]
     NoData,
     #[error("the URI {} cannot be read; {help}", quoted(.uri))]
     Uri { uri: String, help: &'static str },
+    #[error(transparent)]
+    NamedFile { error: FindFileError },
     #[error("{}: {}", quoted(.name), Unreadable::new(.error, "the data of a buffer"))]
     BufferFile { name: String, error: io::Error },
     #[error("it should have {stated} bytes, but its data has {found}")]
@@ -115,6 +119,10 @@ pub enum GltfFault {
     NoPositions,
     #[error("its attribute {attribute} has {count} elements for {positions} vertices")]
     AttributeCount { attribute: &'static str, count: u64, positions: u64 },
+    #[error(
+        "the KHR_texture_transform of its texture moves coordinates where no f32 number reaches"
+    )]
+    TextureTransform,
     #[error("image {image}: {error}")]
     Picture { image: usize, error: ReadTextureError },
     #[error("image {image} has neither a uri nor a view")]
@@ -124,7 +132,7 @@ pub enum GltfFault {
     #[error("its {what} is {value}; it must be {range}")]
     Camera { what: &'static str, value: f32, range: &'static str },
     #[error(
-        "its scene has {count} {what}, each mesh counted where it is placed; at most {most} are read"
+        "its scene has {count} {what}, each mesh counted where it is copied; at most {most} are read"
     )]
     TooMany { count: u64, what: &'static str, most: u64 },
     #[error("its scene has no triangles, so nothing to draw")]

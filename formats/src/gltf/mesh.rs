@@ -1,69 +1,109 @@
-//! All triangles of a scene as one mesh: the primitives of each node's mesh, where the node puts them.
+//! The triangles of a scene: the primitives of each node's mesh, where the node puts them.
 
 use super::accessor::{Elements, Role};
-use super::buffers::{Buffers, Folder};
+use super::buffers::Buffers;
 use super::error::GltfFault;
 use super::nodes::Placed;
-use super::texture::Textures;
+use super::texture::{Coordinates, Textures};
 use super::{Located, item};
 use crate::attributes::{self, NONE, push_color};
-use crate::warning::MaterialWarning;
 use ::gltf::json::mesh::{Mode, Primitive, Semantic};
+use ::gltf::json::texture::Info;
 use ::gltf::json::validation::Checked;
 use ::gltf::json::{Root, material};
 use bothways_common::scene::{Attribute, Material, Mesh, MeshMaterials};
 use glam::{DMat3, DMat4, Vec2, Vec3};
 
-/// The most triangles, and the most vertices, of a scene, each mesh counted where it is placed: some 5 GB of memory, though
-/// the file may be small.
+/// The most triangles, and the most vertices, that are copied into the meshes of a scene: some 5 GB of memory, though the file
+/// may be small.
 const MOST: u64 = 1 << 26;
 
-/// The mesh of all nodes, and what of its colours is missing.
-pub(super) fn mesh(
-    file: &str,
-    root: &Root,
-    buffers: &Buffers,
-    folder: Folder,
-    placed: &[Placed],
-) -> Result<(Mesh, Vec<MaterialWarning>), Located> {
-    let mut builder = Builder::new(root, Textures::new(root, buffers, folder));
-    for place in placed {
-        let Some(index) = place.node.mesh else { continue };
+/// Reads meshes of a file.
+pub(super) struct Meshes<'a> {
+    root: &'a Root,
+    buffers: &'a Buffers<'a>,
+    pub(super) textures: Textures<'a>,
+    /// The name of each material of the file.
+    names: Vec<String>,
+    /// What the meshes that were read have together.
+    triangles: u64,
+    vertices: u64,
+}
+
+impl<'a> Meshes<'a> {
+    pub(super) fn new(root: &'a Root, buffers: &'a Buffers<'a>, textures: Textures<'a>) -> Self {
+        Meshes { root, buffers, textures, names: names(root), triangles: 0, vertices: 0 }
+    }
+
+    /// Adds the mesh that a node names, where the map puts it.
+    pub(super) fn add(
+        &mut self,
+        builder: &mut Builder,
+        place: &Placed,
+        world_from_mesh: &DMat4,
+    ) -> Result<(), Located> {
+        let Some(index) = place.node.mesh else { return Ok(()) };
         let (number, mesh) =
-            item(&root.meshes, index, "mesh").map_err(|fault| place.located(fault))?;
+            item(&self.root.meshes, index, "mesh").map_err(|fault| place.located(fault))?;
         for (k, primitive) in mesh.primitives.iter().enumerate() {
-            let read = part(root, buffers, primitive);
+            let read = part(self.root, self.buffers, primitive);
             let part = read.map_err(|(place, fault)| {
                 let primitive = format!("mesh {number}, primitive {k}");
                 (if place.is_empty() { primitive } else { format!("{primitive}, {place}") }, fault)
             })?;
-            if let Some(part) = part {
-                builder.add(part, place).map_err(|fault| place.located(fault))?;
-            }
+            let Some(part) = part else { continue };
+            let added = self.count(&part).and_then(|()| {
+                self.use_material(builder, primitive)?;
+                builder.add(part, world_from_mesh)
+            });
+            added.map_err(|fault| place.located(fault))?;
+        }
+        Ok(())
+    }
+
+    /// Makes sure that there is room for one more primitive.
+    fn count(&mut self, part: &Part) -> Result<(), GltfFault> {
+        self.triangles += part.triangles.len() as u64;
+        self.vertices += part.positions.len() as u64;
+        let counts = [("triangles", self.triangles), ("vertices", self.vertices)];
+        match counts.into_iter().find(|&(_, count)| count > MOST) {
+            Some((what, count)) => Err(too_many(what, count)),
+            None => Ok(()),
         }
     }
-    if builder.triangles.is_empty() {
-        return Err((String::new(), GltfFault::NoTriangles));
+
+    /// Uses the material of a primitive from the next triangle on.
+    fn use_material(
+        &mut self,
+        builder: &mut Builder,
+        primitive: &Primitive,
+    ) -> Result<(), GltfFault> {
+        let first = builder.triangles.len();
+        let Some(index) = primitive.material else {
+            builder.materials.use_from(first, None);
+            return Ok(());
+        };
+        let (number, material) = item(&self.root.materials, index, "material")?;
+        let name = &self.names[number];
+        builder.materials.use_from(first, Some(name));
+        let texture = material.pbr_metallic_roughness.base_color_texture.as_ref();
+        let texture = texture.map_or(Ok(None), |info| self.textures.of(info))?;
+        builder.materials.define(name, Material { texture, ..material_of(material)? });
+        Ok(())
     }
-    Ok(builder.finish(file))
 }
 
 /// A primitive in the coordinates of its node.
-struct Part<'a> {
+struct Part {
     positions: Vec<[f32; 3]>,
     normals: Option<Vec<[f32; 3]>>,
     texture_coordinates: Option<Vec<[f32; 2]>>,
     colors: Option<Vec<[f32; 3]>>,
     triangles: Vec<[u32; 3]>,
-    primitive: &'a Primitive,
 }
 
 /// Reads a primitive; `None` if it has no triangles.
-fn part<'a>(
-    root: &Root,
-    buffers: &Buffers,
-    primitive: &'a Primitive,
-) -> Result<Option<Part<'a>>, Located> {
+fn part(root: &Root, buffers: &Buffers, primitive: &Primitive) -> Result<Option<Part>, Located> {
     let own = |fault| (String::new(), fault);
     let Checked::Valid(mode) = primitive.mode else {
         return Err(own(GltfFault::Invalid { what: "its mode" }));
@@ -87,7 +127,8 @@ fn part<'a>(
     };
     let normals = attribute(Semantic::Normals, Role::Normals)?;
     same_count("NORMAL", &normals)?;
-    let set = Semantic::TexCoords(coordinates_of_texture(root, primitive));
+    let of_texture = Coordinates::of(base_color_texture(root, primitive));
+    let set = Semantic::TexCoords(of_texture.set);
     let texture_coordinates = attribute(set, Role::TextureCoordinates)?;
     same_count("TEXCOORD", &texture_coordinates)?;
     let colors = attribute(Semantic::Colors(0), Role::Colors)?;
@@ -111,18 +152,19 @@ fn part<'a>(
     Ok(Some(Part {
         positions: positions.vectors(),
         normals: normals.map(|normals| normals.vectors()),
-        texture_coordinates: texture_coordinates.map(|values| values.vectors()),
+        texture_coordinates: texture_coordinates
+            .map(|values| of_texture.mapped(values.vectors()))
+            .transpose()
+            .map_err(own)?,
         colors: colors.map(|values| values.vectors()),
         triangles: triangles.map_err(own)?,
-        primitive,
     }))
 }
 
-/// Which of a primitive's texture coordinates the texture of its base colour uses; the first if it has none.
-fn coordinates_of_texture(root: &Root, primitive: &Primitive) -> u32 {
-    let material = primitive.material.and_then(|index| root.materials.get(index.value()));
-    let texture = material.and_then(|m| m.pbr_metallic_roughness.base_color_texture.as_ref());
-    texture.map_or(0, |texture| texture.tex_coord)
+/// The texture of a primitive's base colour.
+fn base_color_texture<'r>(root: &'r Root, primitive: &Primitive) -> Option<&'r Info> {
+    let material = root.materials.get(primitive.material?.value())?;
+    material.pbr_metallic_roughness.base_color_texture.as_ref()
 }
 
 /// The triangles of so many corners, as the specification orders them in 3.7.2.1.
@@ -152,49 +194,28 @@ fn too_many(what: &'static str, count: u64) -> GltfFault {
     GltfFault::TooMany { count, what, most: MOST }
 }
 
-/// The mesh under construction.
-struct Builder<'a> {
-    root: &'a Root,
+/// A mesh under construction.
+#[derive(Default)]
+pub(super) struct Builder {
     positions: Vec<Vec3>,
     triangles: Vec<[u32; 3]>,
     normals: Attribute<Vec3>,
     texture_coordinates: Attribute<Vec2>,
     colors: Vec<Vec3>,
     materials: MeshMaterials,
-    /// The name of each material of the file.
-    names: Vec<String>,
-    textures: Textures<'a>,
 }
 
-impl<'a> Builder<'a> {
-    fn new(root: &'a Root, textures: Textures<'a>) -> Self {
-        Builder {
-            root,
-            positions: Vec::new(),
-            triangles: Vec::new(),
-            normals: Attribute::default(),
-            texture_coordinates: Attribute::default(),
-            colors: Vec::new(),
-            materials: MeshMaterials::default(),
-            names: names(root),
-            textures,
-        }
+impl Builder {
+    pub(super) fn is_empty(&self) -> bool {
+        self.triangles.is_empty()
     }
 
-    /// Adds a primitive where its node puts it.
-    fn add(&mut self, part: Part, place: &Placed) -> Result<(), GltfFault> {
+    /// Adds a primitive where the map puts it.
+    fn add(&mut self, part: Part, world_from_mesh: &DMat4) -> Result<(), GltfFault> {
         let first = self.positions.len();
-        let counts = [
-            ("triangles", self.triangles.len() + part.triangles.len()),
-            ("vertices", first + part.positions.len()),
-        ];
-        if let Some((what, count)) = counts.into_iter().find(|&(_, count)| count as u64 > MOST) {
-            return Err(too_many(what, count as u64));
-        }
-        self.use_material(part.primitive)?;
         for (vertex, position) in part.positions.iter().enumerate() {
             let position = Vec3::from_array(*position).as_dvec3();
-            let position = place.world_from_node.transform_point3(position).as_vec3();
+            let position = world_from_mesh.transform_point3(position).as_vec3();
             if !position.is_finite() {
                 return Err(GltfFault::OutOfRange { vertex });
             }
@@ -207,11 +228,11 @@ impl<'a> Builder<'a> {
         let [first, triangles] = [first, self.triangles.len()]
             .map(|count| u32::try_from(count).expect("there are fewer than MOST"));
         // A mirror makes counter-clockwise triangles clockwise. They are turned, so that the outside stays outside.
-        let mirrors = place.world_from_node.determinant() < 0.0;
+        let mirrors = world_from_mesh.determinant() < 0.0;
         let turned = |[a, b, c]: [u32; 3]| if mirrors { [a, c, b] } else { [a, b, c] };
         let added: Vec<[u32; 3]> = part.triangles.into_iter().map(turned).collect();
         if let Some(normals) = part.normals {
-            let turn = normal_matrix(&place.world_from_node);
+            let turn = normal_matrix(world_from_mesh);
             let values = normals.into_iter().map(|normal| {
                 (turn * Vec3::from_array(normal).as_dvec3()).normalize_or_zero().as_vec3()
             });
@@ -228,32 +249,15 @@ impl<'a> Builder<'a> {
         Ok(())
     }
 
-    /// Uses the material of a primitive from the next triangle on.
-    fn use_material(&mut self, primitive: &Primitive) -> Result<(), GltfFault> {
-        let first = self.triangles.len();
-        let Some(index) = primitive.material else {
-            self.materials.use_from(first, None);
-            return Ok(());
-        };
-        let (number, material) = item(&self.root.materials, index, "material")?;
-        let name = &self.names[number];
-        self.materials.use_from(first, Some(name));
-        let texture = material.pbr_metallic_roughness.base_color_texture.as_ref();
-        let texture = texture.map_or(Ok(None), |info| self.textures.of(info))?;
-        self.materials.define(name, Material { texture, ..material_of(material)? });
-        Ok(())
-    }
-
-    fn finish(self, file: &str) -> (Mesh, Vec<MaterialWarning>) {
-        let mesh = attributes::mesh(
+    pub(super) fn finish(self) -> Mesh {
+        attributes::mesh(
             self.positions,
             self.triangles,
             self.normals,
             self.texture_coordinates,
             self.colors,
             self.materials,
-        );
-        (mesh, self.textures.warnings(file))
+        )
     }
 }
 

@@ -1,8 +1,10 @@
 //! Files that the reader accepts, files that break one rule each, and the messages.
 
 mod accessors;
+mod sharing;
 
 use super::*;
+use crate::source::Reach;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use bothways_common::camera::{Orientation, Projection};
@@ -52,6 +54,12 @@ fn document(data: &[u8], changes: &[(&str, &str)]) -> String {
     text.replace("DATA", &format!("data:application/octet-stream;base64,{}", STANDARD.encode(data)))
 }
 
+/// The mesh of a model that has one.
+fn mesh_of(model: &Model) -> &Mesh {
+    let [Shape::Mesh(mesh)] = &model.shapes[..] else { panic!("{:?}", model.shapes) };
+    mesh
+}
+
 fn square(changes: &[(&str, &str)]) -> Model {
     parse("a", document(&data(), changes).as_bytes()).unwrap_or_else(|error| panic!("{error}"))
 }
@@ -82,10 +90,10 @@ fn binary(json: &str, bin: Option<&[u8]>) -> Vec<u8> {
 #[test]
 fn a_square_is_read_from_text_and_from_a_binary_file() {
     let model = square(&[]);
-    assert_eq!(model.mesh.positions(), CORNERS.map(Vec3::from_array));
-    assert_eq!(model.mesh.triangles(), [[0, 1, 2], [0, 2, 3]]);
-    assert_eq!(model.mesh.normals().of(0), Some([Vec3::Z; 3]));
-    assert_eq!(model.mesh.texture_coordinates().of(0), Some([Vec2::Y, Vec2::ONE, Vec2::X]));
+    assert_eq!(mesh_of(&model).positions(), CORNERS.map(Vec3::from_array));
+    assert_eq!(mesh_of(&model).triangles(), [[0, 1, 2], [0, 2, 3]]);
+    assert_eq!(mesh_of(&model).normals().of(0), Some([Vec3::Z; 3]));
+    assert_eq!(mesh_of(&model).texture_coordinates().of(0), Some([Vec2::Y, Vec2::ONE, Vec2::X]));
     assert!(model.cameras.is_empty() && model.warnings.is_empty());
     let json = SQUARE.replace(", \"uri\": \"DATA\"", "");
     assert_eq!(parse("a", &binary(&json, Some(&data()))).unwrap(), model);
@@ -99,8 +107,8 @@ fn a_square_is_read_from_text_and_from_a_binary_file() {
 fn nodes_move_what_they_hold_and_a_mesh_may_be_there_twice() {
     let nodes = r#"[{ "mesh": 0, "translation": [0, 0, 5], "scale": [2, 2, 2], "children": [1] },
                     { "mesh": 0, "matrix": [-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 3, 0, 0, 1] }]"#;
-    let Model { mesh, .. } =
-        square(&[(r#"[{ "mesh": 0 }, { "camera": 0, "name": "stand" }]"#, nodes)]);
+    let model = square(&[(r#"[{ "mesh": 0 }, { "camera": 0, "name": "stand" }]"#, nodes)]);
+    let mesh = mesh_of(&model);
     assert_eq!(mesh.triangles().len(), 4);
     assert_eq!(
         mesh.corners(0).map(|p| p.to_array()),
@@ -113,15 +121,15 @@ fn nodes_move_what_they_hold_and_a_mesh_may_be_there_twice() {
     );
     assert_eq!(mesh.normals().of(2), Some([Vec3::Z; 3]));
     let turned = r#"[{ "mesh": 0, "rotation": [0, 0.70710677, 0, 0.70710677] }]"#;
-    let Model { mesh, .. } =
-        square(&[(r#"[{ "mesh": 0 }, { "camera": 0, "name": "stand" }]"#, turned)]);
+    let model = square(&[(r#"[{ "mesh": 0 }, { "camera": 0, "name": "stand" }]"#, turned)]);
+    let mesh = mesh_of(&model);
     assert!((mesh.corners(0)[1] - Vec3::NEG_Z).length() < 1e-6);
     assert!((mesh.normals().of(0).unwrap()[0] - Vec3::X).length() < 1e-6);
 }
 
 #[test]
 fn strips_and_fans_become_triangles_in_the_order_of_the_specification() {
-    let mode = |mode| square(&[("\"indices\": 3", mode)]).mesh.triangles().to_vec();
+    let mode = |mode| mesh_of(&square(&[("\"indices\": 3", mode)])).triangles().to_vec();
     assert_eq!(mode(r#""indices": 3, "mode": 5"#), [[0, 1, 2], [1, 0, 2], [2, 0, 2], [0, 3, 2]]);
     assert_eq!(mode(r#""mode": 5"#), [[0, 1, 2], [1, 3, 2]]);
     assert_eq!(mode(r#""mode": 6"#), [[1, 2, 0], [2, 3, 0]]);
@@ -140,10 +148,10 @@ fn materials_have_their_base_colour() {
         ])
     };
     let model = with("\"name\": \"red\",");
-    let material = model.mesh.materials().unwrap().of(1).unwrap();
+    let material = mesh_of(&model).materials().unwrap().of(1).unwrap();
     assert_eq!(material.color, Vec3::new(1.0, 0.25, 0.0));
-    assert_eq!(model.mesh.materials().unwrap().named()[0].name, "red");
-    assert_eq!(with("").mesh.materials().unwrap().named()[0].name, "#0");
+    assert_eq!(mesh_of(&model).materials().unwrap().named()[0].name, "red");
+    assert_eq!(mesh_of(&with("")).materials().unwrap().named()[0].name, "#0");
     let says = fault(&[("\"indices\": 3", "\"indices\": 3, \"material\": 0"), ("0.25", "2.5")]);
     assert_eq!(says, "node 0: its base colour has a component that is not from 0 to 1");
 }
@@ -189,9 +197,63 @@ fn images_that_are_wrong_say_why() {
     }
     let changes = image("{ \"uri\": \"../a.png\" }");
     let model = square(&changes.each_ref().map(|(from, to)| (*from, to.as_str())));
-    let says = "a: there is no picture \"../a.png\" in its folder; what has it as its texture is drawn without";
+    let says = "a: the picture \"../a.png\" was not opened with it (open or drop both together); what has it as its texture is drawn without";
     assert_eq!(model.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(), [says]);
-    assert_eq!(model.mesh.materials().unwrap().of(0).unwrap().texture, None);
+    assert_eq!(mesh_of(&model).materials().unwrap().of(0).unwrap().texture, None);
+}
+
+/// The square with a texture whose coordinates are moved so.
+fn moved_texture(transform: &str) -> Vec<(String, String)> {
+    let texture = format!(
+        "\"baseColorTexture\": {{ \"index\": 0, \"texCoord\": 1, \"extensions\": {{ \"KHR_texture_transform\": {transform} }} }}"
+    );
+    [
+        ("\"indices\": 3 }", "\"indices\": 3, \"material\": 0 }".to_owned()),
+        ("\"baseColorFactor\": [1, 0.25, 0, 1]", texture),
+        (
+            "\"extensionsUsed\": []",
+            "\"extensionsRequired\": [\"KHR_texture_transform\"], \"textures\": [{ \"source\": 0 }], \
+             \"images\": [{ \"uri\": \"a.png\" }]"
+                .to_owned(),
+        ),
+        ("\"NORMAL\": 1, \"TEXCOORD_0\": 2", "\"TEXCOORD_0\": 2, \"TEXCOORD_1\": 2".to_owned()),
+    ]
+    .map(|(from, to)| (from.to_owned(), to))
+    .to_vec()
+}
+
+/// The example of the specification: the lower left quarter of the picture, turned clockwise.
+#[test]
+fn a_transform_of_a_texture_moves_its_coordinates() {
+    let coordinates = |transform: &str| {
+        let changes = moved_texture(transform);
+        let changes: Vec<(&str, &str)> =
+            changes.iter().map(|(from, to)| (from.as_str(), to.as_str())).collect();
+        let model = square(&changes);
+        let all = mesh_of(&model).texture_coordinates();
+        // Of the corners at (0, 0), (1, 0), (1, 1) and (0, 1) in the format's coordinates, whose v runs down.
+        let [[a, b, c], [_, _, d]] = [0, 1].map(|triangle| all.of(triangle).unwrap());
+        [a, b, c, d].map(|ours| Vec2::new(ours.x, 1.0 - ours.y))
+    };
+    let of_example =
+        coordinates("{ \"offset\": [0, 1], \"rotation\": 1.57079632679, \"scale\": [0.5, 0.5] }");
+    let expected = [[0.0, 1.0], [0.0, 0.5], [0.5, 0.5], [0.5, 1.0]].map(Vec2::from_array);
+    for (found, expected) in of_example.iter().zip(expected) {
+        assert!((*found - expected).length() < 1e-6, "{of_example:?}");
+    }
+    // The other example: v runs up.
+    let inverted = coordinates("{ \"offset\": [0, 1], \"scale\": [1, -1], \"texCoord\": 0 }");
+    let expected = [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]].map(Vec2::from_array);
+    assert_eq!(inverted, expected);
+    assert_eq!(
+        coordinates("{}"),
+        [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(Vec2::from_array)
+    );
+    let far = moved_texture("{ \"offset\": [3e38, 0], \"scale\": [3e38, 1] }");
+    let far: Vec<(&str, &str)> =
+        far.iter().map(|(from, to)| (from.as_str(), to.as_str())).collect();
+    let says = "mesh 0, primitive 0: the KHR_texture_transform of its texture moves coordinates where no f32 number reaches";
+    assert_eq!(fault(&far), says);
 }
 
 #[test]
@@ -288,7 +350,7 @@ fn nodes_that_form_no_trees_are_refused() {
     let chain: Vec<String> = (1..100_000).map(|k| format!("{{\"children\":[{k}]}}")).collect();
     let text = format!("[{}, {{ \"mesh\": 0 }}]", chain.join(","));
     let model = square(&[("[{ \"mesh\": 0 }, { \"camera\": 0, \"name\": \"stand\" }]", &text)]);
-    assert_eq!(model.mesh.triangles().len(), 2);
+    assert_eq!(mesh_of(&model).triangles().len(), 2);
     // Many nodes of one mesh take more memory than the file.
     let many = vec!["{\"mesh\":0}"; 1000].join(",");
     let all: Vec<String> = (0..1000).map(|k| k.to_string()).collect();
@@ -296,28 +358,28 @@ fn nodes_that_form_no_trees_are_refused() {
         ("[{ \"mesh\": 0 }, { \"camera\": 0, \"name\": \"stand\" }]", &format!("[{many}]")),
         ("\"nodes\": [0]", &format!("\"nodes\": [{}]", all.join(","))),
     ]);
-    assert_eq!(model.mesh.triangles().len(), 2000);
+    assert_eq!(mesh_of(&model).triangles().len(), 2000);
 }
 
 #[test]
 fn without_scenes_all_nodes_without_a_parent_are_drawn() {
     let scenes = "\"scene\": 0, \"scenes\": [{ \"nodes\": [0] }],";
     let nodes = ("[{ \"mesh\": 0 },", "[{ \"mesh\": 0, \"children\": [2] }, { \"mesh\": 0 },");
-    assert_eq!(square(&[(scenes, ""), nodes]).mesh.triangles().len(), 4);
-    assert_eq!(square(&[("\"scene\": 0, ", "")]).mesh.triangles().len(), 2);
+    assert_eq!(mesh_of(&square(&[(scenes, ""), nodes])).triangles().len(), 4);
+    assert_eq!(mesh_of(&square(&[("\"scene\": 0, ", "")])).triangles().len(), 2);
 }
 
 #[test]
 fn what_applications_add_of_their_own_is_skipped() {
     for extras in ["{ \"a\": [1, {}] }", "\"text\"", "3", "null", "[[]]"] {
         let changes = [("\"mesh\": 0", &format!("\"mesh\": 0, \"extras\": {extras}")[..])];
-        assert_eq!(square(&changes).mesh.triangles().len(), 2, "{extras}");
+        assert_eq!(mesh_of(&square(&changes)).triangles().len(), 2, "{extras}");
     }
     let unknown = [
         ("\"mesh\": 0", "\"mesh\": 0, \"extensions\": { \"X_own\": { \"a\": [] } }, \"own\": 1"),
         ("\"NORMAL\": 1,", "\"_OWN\": 1,"),
     ];
-    assert_eq!(square(&unknown).mesh.triangles().len(), 2);
+    assert_eq!(mesh_of(&square(&unknown)).triangles().len(), 2);
 }
 
 #[test]
@@ -379,13 +441,15 @@ fn buffers_beside_the_file_are_read_and_no_others() {
     let path = folder.join("a.gltf");
     let with = |uri: &str| {
         fs::write(&path, SQUARE.replace("DATA", uri)).unwrap();
-        let says = read(&path).map(|model| model.mesh.triangles().len());
+        let says = read(&InputFile::on_disk(&path, Reach::Folder))
+            .map(|model| mesh_of(&model).triangles().len());
         says.map_err(|error| error.to_string().replace(&path.display().to_string(), "a"))
     };
     for uri in ["a%20b.bin", "a b.bin", "./a%20b.bin", "deep/c.bin", "deep/../a%20b.bin"] {
         assert_eq!(with(uri), Ok(2), "{uri}");
     }
-    let outside = "only files in the folder of the glTF file, or below it, are read; move it there";
+    let outside = "is not in the folder of the file that was opened, or below it; move it there, or allow it with \
+                   --allow-outside";
     let absolute = home.join("outside.bin").display().to_string();
     for uri in [
         "../outside.bin",
@@ -396,27 +460,21 @@ fn buffers_beside_the_file_are_read_and_no_others() {
         "file:///etc/passwd",
         "http://example.org/a.bin",
         "C:/a.bin",
-        "",
     ] {
         let says = with(uri).unwrap_err();
-        assert!(
-            says.starts_with("a: buffer 0: the URI ") && says.ends_with(outside),
-            "{uri}: {says}"
-        );
+        assert!(says.starts_with("a: buffer 0: \"") && says.ends_with(outside), "{uri}: {says}");
     }
     #[cfg(unix)]
     {
         std::os::unix::fs::symlink(home.join("outside.bin"), folder.join("link.bin")).unwrap();
         assert!(with("link.bin").unwrap_err().ends_with(outside));
     }
-    assert_eq!(
-        with("none.bin"),
-        Err("a: buffer 0: \"none.bin\": there is no such file".to_owned())
-    );
+    assert!(with("none.bin").unwrap_err().ends_with("none.bin: there is no such file"));
+    assert!(with("").unwrap_err().ends_with("this is a folder, not the data of a buffer"));
     assert!(with("data:text/plain,hello").unwrap_err().ends_with("data must be in base64"));
     assert!(with("data:;base64,*").unwrap_err().ends_with("its data is no base64"));
     let alone = parse("a", SQUARE.replace("DATA", "a b.bin").as_bytes()).unwrap_err().to_string();
-    assert!(alone.ends_with("no other file is read here; pack it into a .glb file"), "{alone}");
+    assert!(alone.contains("\"a b.bin\" is not among the opened files"), "{alone}");
     fs::remove_dir_all(&home).unwrap();
 }
 

@@ -6,7 +6,7 @@
 //! - `Kd r g b` and `Ks r g b` are the diffuse colour and the colour of the highlight, from 0 to 1. One number alone
 //!   is grey.
 //! - `Ns s` is the exponent of the highlight. The format defines it with the half vector, as we do.
-//! - `map_Kd [options] file` is a texture, in the folder of the material file or below it; of its options, `-clamp on` and the first two
+//! - `map_Kd [options] file` is a texture, by its path from the material file; of its options, `-clamp on` and the first two
 //!   numbers of `-s` count. It is read with mipmaps, and stands in place of `Kd`: the format would multiply the two, but programs
 //!   write any grey beside a picture and show the picture alone. One that is missing is a warning.
 //!
@@ -23,40 +23,45 @@ use super::file::ObjFile;
 use super::statements::Statements;
 use super::words::{Words, is_text, number};
 use crate::picture::texture::Pictures;
+use crate::source::InputFile;
 use crate::source::quote::quote;
-use crate::warning::MaterialWarning;
+use crate::warning::{MaterialWarning, Missing};
 use bothways_common::look::color::linear_from_encoded;
 use bothways_common::scene::{Material, Mesh, Sampler, Texture, Wrap};
 use glam::Vec3;
-use std::path::{Path, PathBuf};
 
-/// Gives a mesh its materials, from the files beside its own, and returns warnings about missing ones.
+/// Gives a mesh its materials, from the files that its own file names, and returns warnings about missing ones.
 ///
 /// # Errors
 ///
 /// A material file exists but cannot be read, or is wrong.
-pub(super) fn resolve(mesh: &mut Mesh, path: &Path) -> Result<Vec<MaterialWarning>, ReadObjError> {
+pub(super) fn resolve(
+    mesh: &mut Mesh,
+    input: &InputFile,
+) -> Result<Vec<MaterialWarning>, ReadObjError> {
     let (mut warnings, mut pictures_missing) = (Vec::new(), Vec::new());
     let libraries = match mesh.materials() {
         Some(materials) if !materials.spans().is_empty() => materials.libraries().to_vec(),
         _ => return Ok(warnings),
     };
-    let file = path.display().to_string();
-    let folder = path.parent().unwrap_or(Path::new(""));
+    let file = input.name();
     for library in libraries {
-        let Some(paths) = library_files(folder, &library) else {
-            warnings.push(MaterialWarning::MissingLibrary { file: file.clone(), library });
-            continue;
+        let found = match library_files(input, &library) {
+            Ok(found) => found,
+            Err(why) => {
+                warnings.push(MaterialWarning::MissingLibrary { file: file.clone(), library, why });
+                continue;
+            }
         };
-        for path in paths {
+        for found in found {
             let mut pictures = Pictures::default();
-            for (name, read) in read_materials(&path)? {
+            for (name, read) in read_materials(&found)? {
                 if is_used(mesh, &name) {
-                    let material = read.with_picture(&path, &mut pictures)?;
+                    let material = read.with_picture(&found, &mut pictures)?;
                     mesh.define_material(&name, material);
                 }
             }
-            pictures_missing.extend(pictures.warning(&path.display().to_string()));
+            pictures_missing.extend(pictures.warnings(&found.name()));
         }
     }
     let named = mesh.materials().map_or(&[][..], |materials| materials.named());
@@ -71,20 +76,6 @@ pub(super) fn resolve(mesh: &mut Mesh, path: &Path) -> Result<Vec<MaterialWarnin
     Ok(warnings)
 }
 
-/// Warnings about all material files that a mesh names: nobody looks for them.
-pub(super) fn all_missing(mesh: &Mesh, file: &str) -> Vec<MaterialWarning> {
-    let Some(materials) = mesh.materials().filter(|materials| !materials.spans().is_empty()) else {
-        return Vec::new();
-    };
-    let missing = |library: &String| MaterialWarning::MissingLibrary {
-        file: file.to_owned(),
-        library: library.clone(),
-    };
-    let mut warnings = materials.libraries().iter().map(missing).collect();
-    summarize(&mut warnings, file);
-    warnings
-}
-
 /// Puts one warning in the place of all but the first missing material files.
 fn summarize(warnings: &mut Vec<MaterialWarning>, file: &str) {
     const MOST: usize = 8;
@@ -95,15 +86,18 @@ fn summarize(warnings: &mut Vec<MaterialWarning>, file: &str) {
     }
 }
 
-/// The files that an `mtllib` names: one file, whose name may contain blanks, or several files, separated by blanks.
-/// `None` if one of them does not exist.
-fn library_files(folder: &Path, library: &str) -> Option<Vec<PathBuf>> {
-    let whole = folder.join(library);
-    if whole.is_file() {
-        return Some(vec![whole]);
+/// The files that an `mtllib` names: one file, whose name may contain blanks, or several files, separated by blanks; or why
+/// one of them is missing.
+fn library_files<'f>(input: &InputFile<'f>, library: &str) -> Result<Vec<InputFile<'f>>, Missing> {
+    let existing = |name: &str| {
+        let found = input.files().find(name);
+        let found = found.map_err(|error| error.missing().unwrap_or(Missing::Absent))?;
+        if found.is_file() { Ok(found) } else { Err(Missing::Absent) }
+    };
+    match existing(library) {
+        Ok(whole) => Ok(vec![whole]),
+        Err(_) => library.split_whitespace().map(existing).collect(),
     }
-    let existing = |name: &str| Some(folder.join(name)).filter(|path| path.is_file());
-    library.split_whitespace().map(existing).collect()
 }
 
 /// Reads materials and their names from the bytes of an MTL file, which messages call `name`. No picture is read.
@@ -123,6 +117,11 @@ fn library_files(folder: &Path, library: &str) -> Option<Vec<PathBuf>> {
 /// # Ok::<(), obj::ReadObjError>(())
 /// ```
 pub fn parse_materials(name: &str, bytes: &[u8]) -> Result<Vec<(String, Material)>, ReadObjError> {
+    let materials = materials_in(name, bytes)?;
+    Ok(materials.into_iter().map(|(name, read)| (name, read.material)).collect())
+}
+
+fn materials_in(name: &str, bytes: &[u8]) -> Result<Vec<(String, ReadMaterial)>, ReadObjError> {
     let mut materials = Vec::new();
     for (line, words) in Statements::new(bytes) {
         statement(&mut materials, words).map_err(|fault| ReadObjError::Statement {
@@ -131,13 +130,16 @@ pub fn parse_materials(name: &str, bytes: &[u8]) -> Result<Vec<(String, Material
             fault,
         })?;
     }
-    Ok(finished(materials).into_iter().map(|(name, read)| (name, read.material)).collect())
+    Ok(finished(materials))
 }
 
-/// Reads materials and their names from an MTL file, one statement at a time.
-fn read_materials(path: &Path) -> Result<Vec<(String, ReadMaterial)>, ReadObjError> {
+/// Reads materials and their names from an MTL file; from the disk, one statement at a time.
+fn read_materials(file: &InputFile) -> Result<Vec<(String, ReadMaterial)>, ReadObjError> {
+    if let Some(bytes) = file.in_memory() {
+        return materials_in(&file.name(), bytes);
+    }
     let mut materials = Vec::new();
-    ObjFile::open(path)?.statements(|_, words| statement(&mut materials, words))?;
+    ObjFile::open(file.path())?.statements(|_, words| statement(&mut materials, words))?;
     Ok(finished(materials))
 }
 
@@ -156,14 +158,17 @@ struct Map {
 
 impl ReadMaterial {
     /// The material with its picture, unless that is missing.
-    fn with_picture(self, path: &Path, pictures: &mut Pictures) -> Result<Material, ReadObjError> {
+    fn with_picture(
+        self,
+        file: &InputFile,
+        pictures: &mut Pictures,
+    ) -> Result<Material, ReadObjError> {
         let ReadMaterial { mut material, map } = self;
         let Some(Map { name, sampler }) = map else { return Ok(material) };
         // Programs write the separators of their own system.
         let name = name.replace('\\', "/");
-        let folder = path.parent().unwrap_or(Path::new(""));
-        let wrong = |error| ReadObjError::Picture { file: path.display().to_string(), error };
-        if let Some(pyramid) = pictures.find(folder, &name).map_err(wrong)? {
+        let wrong = |error| ReadObjError::Picture { file: file.name(), error };
+        if let Some(pyramid) = pictures.find(file.files(), &name).map_err(wrong)? {
             material.texture = Some(Texture { pyramid, sampler });
             // The picture shows in its own colours.
             material.color = Vec3::ONE;

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::attributes::NONE;
+use crate::source::GivenFile;
 use bothways_common::scene::Attribute;
 use glam::{Vec2, Vec3};
 use proptest::collection::vec;
@@ -105,7 +106,8 @@ fn very_many_material_files_take_no_quadratic_time_and_few_warnings() {
     let libraries: String = (0..100_000).map(|k| format!("mtllib {k:07}.mtl\n")).collect();
     let begun = std::time::Instant::now();
     let text = format!("{libraries}{SQUARE}usemtl a\nf 1 2 3\n");
-    let (_, warnings) = parse_alone("a", text.as_bytes()).unwrap();
+    let given = [GivenFile::new("a", text.as_bytes())];
+    let (_, warnings) = read_with_materials(&InputFile::given(&given, 0)).unwrap();
     assert_eq!(
         (warnings.len(), warnings[8].to_string().as_str()),
         (9, "a: 99992 more material files are missing beside it")

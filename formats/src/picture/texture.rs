@@ -1,38 +1,30 @@
 //! Reads pictures as textures.
 
 use super::{Problem, open};
-use crate::source::folder::{PathFault, within};
-use crate::source::quote::quoted;
-use crate::source::{READ_AT_ONCE, Unreadable, regular_file};
-use crate::warning::MaterialWarning;
+use crate::source::{Files, FindFileError, Unreadable};
+use crate::warning::{MaterialWarning, Missing};
 use bothways_common::look::color::{linear_from_encoded, linear_from_srgb};
 use bothways_common::scene::Pyramid;
 use glam::Vec3;
 use image::DynamicImage;
 use std::collections::{BTreeMap, BTreeSet};
-use std::io::{self, BufRead, BufReader, Cursor, Read, Seek, SeekFrom};
-use std::path::{Path, PathBuf};
+use std::io::{self, BufRead, Cursor, Read, Seek, SeekFrom};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Why a picture cannot be read as a texture.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadTextureError {
-    /// The file does not exist, is a folder or a pipe, or the system reports another error.
+    /// There is no such file, or it may not be read.
+    #[error(transparent)]
+    Find(#[from] FindFileError),
+    /// The file is a folder or a pipe, or the system reports another error.
     #[error("{file}: {}", Unreadable::new(.error, "a picture"))]
     Unreadable {
         /// The file.
         file: String,
         /// The system's error. The message contains it, so it is not a [source](std::error::Error::source) as well.
         error: io::Error,
-    },
-    /// The file is not in the folder of the file that names it.
-    #[error(
-        "the picture {} is not in the folder of the file that names it, or below; only files there are read: move it there",
-        quoted(.file)
-    )]
-    Outside {
-        /// The file, as it is named.
-        file: String,
     },
     /// The first bytes of the file belong to no known format.
     #[error("{file} is no picture (PNG, JPEG, BMP or PNM); save it as one of these")]
@@ -73,37 +65,31 @@ const MOST_MEMORY: u64 = MOST_TEXELS * 16;
 /// The pictures that a file names, each read once.
 pub(crate) struct Pictures {
     known: BTreeMap<PathBuf, Arc<Pyramid>>,
-    /// The names of those that do not exist.
-    missing: BTreeSet<String>,
+    /// The names of those that are not there.
+    missing: BTreeMap<Missing, BTreeSet<String>>,
     left: u64,
 }
 
 impl Default for Pictures {
     fn default() -> Self {
-        Pictures { known: BTreeMap::new(), missing: BTreeSet::new(), left: MOST_TEXELS }
+        Pictures { known: BTreeMap::new(), missing: BTreeMap::new(), left: MOST_TEXELS }
     }
 }
 
 impl Pictures {
-    /// Reads the picture of a name, in a folder or below it.
+    /// Reads the picture of a name.
     pub(crate) fn of_file(
         &mut self,
-        folder: &Path,
+        files: &Files,
         name: &str,
     ) -> Result<Arc<Pyramid>, ReadTextureError> {
-        let file = || folder.join(name).display().to_string();
-        let unreadable = |error| ReadTextureError::Unreadable { file: file(), error };
-        let path = within(folder, name).map_err(|fault| match fault {
-            PathFault::Outside => ReadTextureError::Outside { file: name.to_owned() },
-            PathFault::Unreadable(error) => unreadable(error),
-        })?;
-        if let Some(known) = self.known.get(&path) {
+        let file = files.find(name)?;
+        if let Some(known) = self.known.get(file.identity()) {
             return Ok(Arc::clone(known));
         }
-        let input = regular_file(&path).map_err(unreadable)?;
-        let input = BufReader::with_capacity(READ_AT_ONCE, input);
-        let pyramid = self.read(&file(), input)?;
-        self.known.insert(path, Arc::clone(&pyramid));
+        let unreadable = |error| ReadTextureError::Unreadable { file: file.name(), error };
+        let pyramid = self.read(&file.name(), file.open().map_err(unreadable)?)?;
+        self.known.insert(file.identity().to_owned(), Arc::clone(&pyramid));
         Ok(pyramid)
     }
 
@@ -116,37 +102,33 @@ impl Pictures {
         self.read(name, Cursor::new(bytes))
     }
 
-    /// Reads the picture of a name as [`Pictures::of_file`] does, and notes its name if there is none in the folder.
+    /// Reads the picture of a name as [`Pictures::of_file`] does, and notes its name if it is not there.
     pub(crate) fn find(
         &mut self,
-        folder: &Path,
+        files: &Files,
         name: &str,
     ) -> Result<Option<Arc<Pyramid>>, ReadTextureError> {
-        let read = self.of_file(folder, name);
-        let is_missing = match &read {
-            Err(ReadTextureError::Unreadable { error, .. }) => {
-                error.kind() == io::ErrorKind::NotFound
-            }
-            Err(ReadTextureError::Outside { .. }) => true,
-            _ => false,
-        };
-        if is_missing {
-            self.miss(name);
+        let read = self.of_file(files, name);
+        if let Err(ReadTextureError::Find(error)) = &read
+            && let Some(why) = error.missing()
+        {
+            self.miss(name, why);
             return Ok(None);
         }
         read.map(Some)
     }
 
     /// Notes that a picture is missing.
-    pub(crate) fn miss(&mut self, name: &str) {
-        self.missing.insert(name.to_owned());
+    pub(crate) fn miss(&mut self, name: &str, why: Missing) {
+        self.missing.entry(why).or_default().insert(name.to_owned());
     }
 
-    /// A warning about those that are missing, for a file that names them.
-    pub(crate) fn warning(&self, file: &str) -> Option<MaterialWarning> {
-        let names: Vec<String> = self.missing.iter().cloned().collect();
-        let file = file.to_owned();
-        (!names.is_empty()).then_some(MaterialWarning::MissingPictures { file, names })
+    /// Warnings about those that are missing, for a file that names them.
+    pub(crate) fn warnings(&self, file: &str) -> impl Iterator<Item = MaterialWarning> {
+        self.missing.iter().map(|(&why, names)| {
+            let names = names.iter().cloned().collect();
+            MaterialWarning::MissingPictures { file: file.to_owned(), names, why }
+        })
     }
 
     /// Reads a picture, if there is room for it.

@@ -2,10 +2,16 @@
 
 use super::header::Encoding;
 use super::*;
+use crate::source::GivenFile;
 use bothways_common::look::color::{linear_from_encoded, linear_from_srgb};
 use glam::Vec3;
 use proptest::collection::vec;
 use proptest::prelude::*;
+
+/// The mesh of a file in memory, and the warnings.
+fn given_with_warnings(file: &str) -> Result<(Mesh, Vec<MaterialWarning>), ReadPlyError> {
+    read_with_warnings(&InputFile::given(&[GivenFile::new("a", file.as_bytes())], 0))
+}
 
 /// A header with these lines.
 fn header(encoding: &str, lines: &[&str]) -> String {
@@ -439,7 +445,7 @@ fn normals_are_those_of_the_vertices() {
     ];
     let vertices = "0 0 0 0 0 2 9\n1 0 0 0 1 0 9\n0 1 0 0.5 0 0 9\n0 0 1 nan 0 0 9\n";
     let file = header("ascii", &lines) + vertices + "3 0 1 2\n3 0 1 3\n";
-    let (mesh, warnings) = parse_with_warnings("a", file.as_bytes()).unwrap();
+    let (mesh, warnings) = given_with_warnings(&file).unwrap();
     assert_eq!(mesh.normals().of(0), Some([2.0 * Vec3::Z, Vec3::Y, 0.5 * Vec3::X]));
     assert_eq!(mesh.normals().of(1), None);
     // One channel alone is no colour.
@@ -477,7 +483,7 @@ fn colors_of_faces_are_missed() {
     let faces = format!("{FACES}\nproperty uchar red");
     let lines = ["element vertex 3", XYZ, "element face 1", &faces];
     let file = header("ascii", &lines) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 9\n";
-    let (_, warnings) = parse_with_warnings("a", file.as_bytes()).unwrap();
+    let (_, warnings) = given_with_warnings(&file).unwrap();
     let says = "a: the colours of its faces are not read; all of it is drawn in the material of its object";
     assert_eq!(warnings.iter().map(ToString::to_string).collect::<Vec<_>>(), [says]);
 }

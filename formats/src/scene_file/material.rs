@@ -5,24 +5,24 @@ use super::document::Item;
 use super::error::Problem;
 use super::suggestion::suggestion;
 use crate::picture::texture::Pictures;
+use crate::source::Files;
 use crate::source::quote::quoted;
 use bothways_common::Checker;
 use bothways_common::scene::{Material, Sampler, Texture, Wrap};
 use glam::Vec3;
 use std::collections::BTreeMap;
-use std::path::Path;
 
 /// Materials by name.
 pub(super) type Materials = BTreeMap<String, Material>;
 
-/// Reads all materials, and the pictures that they name in a folder.
-pub(super) fn materials(item: &Item, folder: &Path) -> Result<Materials, Problem> {
+/// Reads all materials, and the pictures that they name.
+pub(super) fn materials(item: &Item, files: &Files) -> Result<Materials, Problem> {
     let mut pictures = Pictures::default();
-    let mut read = |item: Item| Ok((item.name.clone(), material(&item, folder, &mut pictures)?));
+    let mut read = |item: Item| Ok((item.name.clone(), material(&item, files, &mut pictures)?));
     item.entries()?.map(&mut read).collect()
 }
 
-fn material(item: &Item, folder: &Path, pictures: &mut Pictures) -> Result<Material, Problem> {
+fn material(item: &Item, files: &Files, pictures: &mut Pictures) -> Result<Material, Problem> {
     let table = item.table(&["color", "specular", "shininess", "checker", "texture"])?;
     let mut material = Material::default();
     if let Some(item) = table.get("texture") {
@@ -31,7 +31,7 @@ fn material(item: &Item, folder: &Path, pictures: &mut Pictures) -> Result<Mater
             let help = "remove one of them";
             return Err(Problem::new(table.span_of("texture"), message).help(help));
         }
-        material.texture = Some(texture(&item, folder, pictures)?);
+        material.texture = Some(texture(&item, files, pictures)?);
         // The picture shows in its own colours.
         material.color = Vec3::ONE;
     }
@@ -65,7 +65,7 @@ fn checker(item: &Item) -> Result<Checker, Problem> {
 }
 
 /// Reads a texture: the name of its file alone, or a table.
-fn texture(item: &Item, folder: &Path, pictures: &mut Pictures) -> Result<Texture, Problem> {
+fn texture(item: &Item, files: &Files, pictures: &mut Pictures) -> Result<Texture, Problem> {
     const EXAMPLE: &str = "texture = { file = \"tiles.png\", filter = \"bilinear\" }";
     let (file, sampler) = if item.is_table() {
         let table = item.table(&["file", "filter", "wrap", "tiles"])?;
@@ -82,7 +82,7 @@ fn texture(item: &Item, folder: &Path, pictures: &mut Pictures) -> Result<Textur
         (item.clone(), Sampler::BILINEAR)
     };
     let pyramid = pictures
-        .of_file(folder, file.text()?)
+        .of_file(files, file.text()?)
         .map_err(|error| Problem::new(file.span.clone(), error.to_string()))?;
     Ok(Texture { pyramid, sampler })
 }

@@ -8,7 +8,9 @@ use super::suggestion::suggestion;
 use super::transform::{self, Transform};
 use crate::generate::Kind;
 use crate::mesh_file::{EXTENSIONS, Format, ReadMeshError};
+use crate::shapes;
 use crate::smooth;
+use crate::source::Files;
 use crate::source::quote::{quoted, shown};
 use bothways_common::scene::{
     Material, Mesh, MeshMaterials, Object, Plane, Shape, Sphere, Triangle,
@@ -18,41 +20,49 @@ use std::path::Path;
 const SHAPES: [&str; 5] = ["triangle", "sphere", "plane", "mesh", "generate"];
 pub(super) const EXAMPLE: &str = "sphere = { center = [0, 0, 0], radius = 1 }";
 
-/// Reads one object.
+/// Reads what one table describes: one object, or several where a mesh file has meshes and instances of others.
 pub(super) fn read(
     item: &Item,
     materials: &Materials,
-    folder: &Path,
+    files: &Files,
     warnings: &mut Vec<String>,
-) -> Result<Object, Problem> {
+) -> Result<Vec<Object>, Problem> {
     let known = [&SHAPES[..], &["material", instances::KEY], &transform::KEYS].concat();
     let table = item.table(&known)?;
     let stated = table.exactly_one("an object", &SHAPES, EXAMPLE)?;
-    let shape = match stated.name.as_str() {
-        "triangle" => triangle(&stated)?,
-        "sphere" => sphere(&stated)?,
-        "plane" => plane(&stated)?,
-        "mesh" => mesh(&stated, folder, table.get("material").is_none(), warnings)?,
-        _ => generated(&stated)?,
+    let shapes = match stated.name.as_str() {
+        "triangle" => vec![triangle(&stated)?],
+        "sphere" => vec![sphere(&stated)?],
+        "plane" => vec![plane(&stated)?],
+        "mesh" => mesh(&stated, &table, files, warnings)?,
+        _ => vec![generated(&stated)?],
     };
-    let shape = match Transform::read(&table)? {
-        Some(world_from_object) => world_from_object.apply(shape)?,
-        None => shape,
+    let shapes = match Transform::read(&table)? {
+        Some(world_from_object) => shapes
+            .into_iter()
+            .map(|shape| world_from_object.apply(shape))
+            .collect::<Result<_, _>>()?,
+        None => shapes,
     };
-    let shape = match (instances::read(&table)?, shape) {
-        (None, shape) => shape,
-        (Some(placements), Shape::Mesh(mesh)) => {
-            Shape::Instances(instances::placed(mesh, placements, table.span_of(instances::KEY))?)
+    let shapes = match instances::read(&table)? {
+        None => shapes,
+        Some(placements) => {
+            let span = table.span_of(instances::KEY);
+            let mut shapes = shapes.into_iter();
+            let (Some(Shape::Mesh(mesh)), None) = (shapes.next(), shapes.next()) else {
+                let message = format!("a {} has no instances, only a mesh has", stated.name);
+                let help = "state each as an object, or use mesh or generate";
+                return Err(Problem::new(span, message).help(help));
+            };
+            vec![Shape::Instances(instances::placed(mesh, placements, span)?)]
         }
-        (Some(_), _) => {
-            let message = format!("a {} has no instances, only a mesh has", stated.name);
-            let help = "state each as an object, or use mesh or generate";
-            return Err(Problem::new(table.span_of(instances::KEY), message).help(help));
-        }
     };
-    let material = material(&table, &shape, materials)?;
-    check_pattern(&table, &shape, &material)?;
-    Ok(Object { shape, material })
+    let material = material(&table, &shapes, materials)?;
+    for shape in &shapes {
+        check_pattern(&table, shape, &material)?;
+    }
+    let object = |shape| Object { shape, material: material.clone() };
+    Ok(shapes.into_iter().map(object).collect())
 }
 
 /// Makes sure that an object with a pattern has texture coordinates: without them the pattern would silently be missing.
@@ -69,10 +79,8 @@ fn check_pattern(object: &Table, shape: &Shape, material: &Material) -> Result<(
 }
 
 /// The material of an object.
-fn material(object: &Table, shape: &Shape, materials: &Materials) -> Result<Material, Problem> {
-    let Some(item) = object.get("material") else {
-        return Ok(shape.mesh().map_or_else(Material::default, Mesh::own_material));
-    };
+fn material(object: &Table, shapes: &[Shape], materials: &Materials) -> Result<Material, Problem> {
+    let Some(item) = object.get("material") else { return Ok(shapes::own_material(shapes)) };
     let name = item.text()?;
     materials.get(name).cloned().ok_or_else(|| {
         let problem =
@@ -110,29 +118,50 @@ fn plane(item: &Item) -> Result<Shape, Problem> {
     Ok(Shape::Plane(Plane { point, normal: table.need("normal", EXAMPLE)?.direction()? }))
 }
 
-/// Reads a mesh file, with the materials that it names if `own_materials`.
+/// Reads a mesh file, with the materials that it names unless the object has one.
 fn mesh(
     item: &Item,
-    folder: &Path,
-    own_materials: bool,
+    object: &Table,
+    files: &Files,
     warnings: &mut Vec<String>,
-) -> Result<Shape, Problem> {
-    let path = Path::new(item.text()?);
-    let path = folder.join(path);
-    let Some(format) = Format::of_file(&path) else {
-        let problem = format!("is {}, which is no mesh file ({EXTENSIONS})", quoted(item.text()?));
+) -> Result<Vec<Shape>, Problem> {
+    let name = item.text()?;
+    let found = files.find(name);
+    let format = match &found {
+        Ok(file) => Format::of_file(file),
+        Err(_) => Format::of(Path::new(name)),
+    };
+    let Some(format) = format else {
+        let problem = format!("is {}, which is no mesh file ({EXTENSIONS})", quoted(name));
         return Err(item.problem(problem).help("convert it to one of these; no others are read"));
     };
+    let file = found.map_err(|error| Problem::new(item.span.clone(), error.to_string()))?;
     let wrong = |error: ReadMeshError| Problem::new(item.span.clone(), error.to_string());
-    let mesh = if own_materials {
-        let (mesh, missing) = format.read_with_materials(&path).map_err(wrong)?;
-        warnings.extend(missing.iter().map(ToString::to_string));
-        mesh
+    let own_materials = object.get("material").is_none();
+    // Instances of instances would be as many lists as there are instances.
+    let as_one = object.get(instances::KEY).is_some();
+    let one = |mesh| vec![Shape::Mesh(mesh)];
+    let read = if format == Format::Gltf && !as_one {
+        format.read_shapes(&file)
+    } else if own_materials {
+        format.read_with_materials(&file).map(|(mesh, missing)| (one(mesh), missing))
     } else {
-        let mesh = format.read(&path).map_err(wrong)?.with_materials(MeshMaterials::default());
-        mesh.with_colors(Vec::new()).expect("no colours fit every mesh")
+        format.read(&file).map(|mesh| (one(mesh), Vec::new()))
     };
-    Ok(Shape::Mesh(smooth::with_normals(mesh, smooth::CREASE)))
+    let (shapes, missing) = read.map_err(wrong)?;
+    if own_materials {
+        warnings.extend(missing.iter().map(ToString::to_string));
+    }
+    Ok(shapes::with_meshes(shapes, |mesh| {
+        let mesh = if own_materials { mesh } else { bare(mesh) };
+        smooth::with_normals(mesh, smooth::CREASE)
+    }))
+}
+
+/// The mesh without materials and colours.
+fn bare(mesh: Mesh) -> Mesh {
+    let mesh = mesh.with_materials(MeshMaterials::default());
+    mesh.with_colors(Vec::new()).expect("no colours fit every mesh")
 }
 
 /// Generates a mesh.

@@ -7,7 +7,7 @@ use glam::Vec3;
 
 fn read_back(camera: &CameraDescription) -> (CameraDescription, bool) {
     let toml = camera_toml(camera) + "[[object]]\nsphere = { center = [0, 0, 0], radius = 1 }";
-    let file = parse("written.toml", &toml, Path::new("")).unwrap();
+    let file = parse("written.toml", &toml, &Files::none()).unwrap();
     (file.camera, file.viewport_stated)
 }
 

@@ -4,9 +4,10 @@
 
 use super::document::{Item, Table};
 use super::error::Problem;
-use bothways_common::scene::{Mesh, Placement, Plane, Shape, Sphere, Triangle};
+use bothways_common::scene::{Instances, Mesh, Placement, Plane, Shape, Sphere, Triangle};
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 use std::ops::Range;
+use std::sync::Arc;
 
 /// The keys of the transformation in an object's table.
 pub(super) const KEYS: [&str; 3] = ["scale", "rotate", "translate"];
@@ -83,20 +84,24 @@ impl Transform {
                 normal: self.plane_normal(normal)?,
             }),
             Shape::Mesh(mesh) => Shape::Mesh(self.mesh(mesh)?),
-            Shape::Instances(_) => unreachable!("a mesh is moved before it is there many times"),
+            Shape::Instances(instances) => Shape::Instances(self.instances(&instances)?),
         })
     }
 
     /// The transformation as that of an instance.
     pub(super) fn placement(&self) -> Placement {
+        Placement::from_affine(&self.affine())
+    }
+
+    fn affine(&self) -> DAffine3 {
         let column = |axis: DVec3| {
             let scaled = axis * self.scale;
             self.rotation.map_or(scaled, |rotation| rotation.rotate(scaled))
         };
-        Placement::from_affine(&DAffine3 {
+        DAffine3 {
             matrix3: DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z)),
             translation: self.translation,
-        })
+        }
     }
 
     fn finite_position(&self, position: Vec3) -> Result<Vec3, Problem> {
@@ -114,6 +119,21 @@ impl Transform {
         // A mirror makes counter-clockwise triangles clockwise. They are turned, so that the outside stays outside.
         let mirrors = self.scale.x * self.scale.y * self.scale.z < 0.0;
         Ok(if mirrors { moved.turned_inside_out() } else { moved })
+    }
+
+    /// Instances of a mesh, each moved.
+    fn instances(&self, instances: &Instances) -> Result<Instances, Problem> {
+        let own = self.affine();
+        let moved = |placement: &Placement| {
+            let [x, y, z] = placement.rows().map(|row| row.map(f64::from));
+            let rows = [x, y, z].map(|[x, y, z, _]| [x, y, z]);
+            let matrix3 = DMat3::from_cols_array_2d(&rows).transpose();
+            let translation = DVec3::new(x[3], y[3], z[3]);
+            Placement::from_affine(&(own * DAffine3 { matrix3, translation }))
+        };
+        let placements = instances.placements().iter().map(moved).collect();
+        Instances::new(Arc::clone(instances.shared_mesh()), placements)
+            .map_err(|_| self.out_of_range("a vertex"))
     }
 
     fn out_of_range(&self, what: &str) -> Problem {

@@ -3,9 +3,10 @@
 use bothways_common::Mesh;
 use bothways_common::glam::{DVec2, Vec3};
 use bothways_common::look::color::linear_from_srgb;
-use bothways_common::scene::{Filter, Levels, Sampler, Texture, Wrap};
+use bothways_common::scene::{Filter, Levels, Sampler, Shape, Texture, Wrap};
 use bothways_formats::gltf;
 use bothways_formats::mesh_file::Format;
+use bothways_formats::source::{GivenFile, InputFile, Reach};
 use std::fs;
 use std::path::PathBuf;
 
@@ -13,14 +14,25 @@ fn folder() -> PathBuf {
     PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/formats/files"))
 }
 
+fn input(name: &str) -> InputFile<'static> {
+    InputFile::on_disk(&folder().join(name), Reach::Folder)
+}
+
 /// Reads a file in the format that its content tells. Its name without an extension tells none.
 fn read(name: &str) -> Mesh {
     let path = folder().join(name);
     let bytes = fs::read(&path).expect("the file is committed");
-    let told =
-        Format::of_bytes("nameless", &bytes).or_else(|| Format::of(&path)).expect("it has a name");
+    let nameless = [GivenFile::new("nameless", &bytes)];
+    let told = Format::of_file(&InputFile::given(&nameless, 0));
+    let told = told.or_else(|| Format::of(&path)).expect("it has a name");
     assert_eq!(Some(told), Format::of(&path), "{name}");
-    told.read(&path).unwrap_or_else(|error| panic!("{error}"))
+    told.read(&input(name)).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The mesh of a model that has one.
+fn mesh_of(model: &gltf::Model) -> &Mesh {
+    let [Shape::Mesh(mesh)] = &model.shapes[..] else { panic!("{:?}", model.shapes) };
+    mesh
 }
 
 /// The corners of all triangles.
@@ -87,7 +99,7 @@ fn the_nodes_of_a_scene_place_its_meshes() {
 
 #[test]
 fn models_of_pygltflib_are_alike_wherever_their_buffer_is() {
-    let model = |name: &str| gltf::read(&folder().join(name)).unwrap();
+    let model = |name: &str| gltf::read(&input(name)).unwrap();
     let binary = model("pygltflib.glb");
     for name in ["pygltflib-beside.gltf", "pygltflib-data.gltf"] {
         assert_eq!(model(name), binary);
@@ -96,16 +108,18 @@ fn models_of_pygltflib_are_alike_wherever_their_buffer_is() {
     let placed = |p: Vec3| Vec3::new(1.0 - p.x, 2.0 - p.y, 3.0 - p.z);
     let expected: Vec<[Vec3; 3]> =
         pyramid().into_iter().map(|[a, b, c]| [placed(a), placed(c), placed(b)]).collect();
-    for (found, expected) in corners(&binary.mesh).iter().flatten().zip(expected.iter().flatten()) {
+    for (found, expected) in
+        corners(mesh_of(&binary)).iter().flatten().zip(expected.iter().flatten())
+    {
         assert!((*found - *expected).length() < 1e-6, "{found} {expected}");
     }
-    let materials = binary.mesh.materials().unwrap();
+    let materials = mesh_of(&binary).materials().unwrap();
     assert_eq!(
         (materials.named()[0].name.as_str(), materials.of(5).unwrap().color),
         ("copper", Vec3::new(0.6, 0.25, 0.1))
     );
     // The mirror has exchanged the last two corners.
-    let [_, top, _] = binary.mesh.texture_coordinates().of(2).unwrap();
+    let [_, top, _] = mesh_of(&binary).texture_coordinates().of(2).unwrap();
     assert_eq!(top.to_array(), [128.0 / 255.0, 1.0 - 51.0 / 255.0]);
     let camera = &binary.cameras[0];
     assert_eq!(
@@ -127,9 +141,9 @@ fn a_texture_stands_as_its_writer_meant_it() {
     let corners =
         [([0.0, 0.0], Vec3::Z), ([1.0, 0.0], grey), ([1.0, 1.0], Vec3::Y), ([0.0, 1.0], Vec3::X)];
     for name in ["trimesh-texture.glb", "trimesh-texture.obj"] {
-        let path = folder().join(name);
-        let format = Format::of_file(&path).expect("it is a mesh");
-        let (mesh, warnings) = format.read_with_materials(&path).expect("it is right");
+        let file = input(name);
+        let format = Format::of_file(&file).expect("it is a mesh");
+        let (mesh, warnings) = format.read_with_materials(&file).expect("it is right");
         assert_eq!(warnings, [], "{name}");
         let texture = mesh.materials().unwrap().of(1).unwrap().texture.clone().expect("it has one");
         for (position, coordinates) in (0..2).flat_map(|triangle| {
@@ -151,9 +165,9 @@ fn pictures_in_views_uris_and_files_are_the_same() {
     let names =
         ["pygltflib-texture.glb", "pygltflib-texture-data.gltf", "pygltflib-texture-beside.gltf"];
     let meshes = names.map(|name| {
-        let model = gltf::read(&folder().join(name)).unwrap_or_else(|error| panic!("{error}"));
+        let model = gltf::read(&input(name)).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(model.warnings, [], "{name}");
-        model.mesh
+        mesh_of(&model).clone()
     });
     assert_eq!(meshes[0], meshes[1]);
     assert_eq!(meshes[0], meshes[2]);

@@ -6,10 +6,10 @@ use bothways_common::{
     Triangle,
 };
 use bothways_formats::scene_file::{self, ReadSceneError, SceneFile};
-use std::path::Path;
+use bothways_formats::source::Files;
 
 fn read(text: &str) -> Result<SceneFile, ReadSceneError> {
-    scene_file::parse("scene.toml", text, Path::new(""))
+    scene_file::parse("scene.toml", text, &Files::none())
 }
 
 const SPHERE: &str = "[[object]]\nsphere = { center = [0, 0, 0], radius = 1 }\n";

@@ -3,11 +3,16 @@
 mod objects;
 
 use bothways_formats::scene_file::{self, LocatedError, ReadSceneError, SceneFile};
+use bothways_formats::source::{Files, InputFile, Reach};
 use proptest::prelude::*;
 use std::path::Path;
 
 fn read(text: &str) -> Result<SceneFile, LocatedError> {
-    match scene_file::parse("scene.toml", text, Path::new("no-such-folder")) {
+    match scene_file::parse(
+        "scene.toml",
+        text,
+        &Files::in_folder(Path::new("no-such-folder"), Reach::Folder),
+    ) {
         Ok(file) => Ok(file),
         Err(ReadSceneError::Located(error)) => Err(error),
         Err(error) => panic!("a text has a place: {error}"),
@@ -340,7 +345,9 @@ fn what_is_wrong_with_a_checker() {
 fn a_scene_file_that_cannot_be_read_is_named() {
     let folder = std::env::temp_dir().join(format!("bothways-scene-file-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
-    let says = |path: &Path| scene_file::read(path).unwrap_err().to_string();
+    let says = |path: &Path| {
+        scene_file::read(&InputFile::on_disk(path, Reach::Folder)).unwrap_err().to_string()
+    };
 
     let missing = folder.join("missing.toml");
     assert_eq!(says(&missing), format!("{}: there is no such file", missing.display()));
@@ -355,7 +362,8 @@ fn a_scene_file_that_cannot_be_read_is_named() {
     let scene = folder.join("scene.toml");
     std::fs::write(folder.join("one.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
     std::fs::write(&scene, "[[object]]\nmesh = 'one.obj'\n").unwrap();
-    assert_eq!(scene_file::read(&scene).unwrap().scene.primitive_count(), 1);
+    let read = scene_file::read(&InputFile::on_disk(&scene, Reach::Folder)).unwrap();
+    assert_eq!(read.scene.primitive_count(), 1);
     std::fs::remove_dir_all(&folder).unwrap();
 }
 

@@ -3,6 +3,7 @@
 use super::{Export, ExportError, Target, export};
 use crate::common::frame::NO_PRIMITIVE;
 use crate::common::{Camera, CameraDescription, Projection, Scene, Shape, View};
+use crate::formats::source::{GivenFile, InputFile};
 use crate::orders::{Method, Order, RenderOptions, render};
 use crate::scenes::{self, BUILT_IN, LoadedScene};
 
@@ -26,6 +27,12 @@ fn is_of_triangles(loaded: &LoadedScene) -> bool {
         .all(|shape| matches!(shape, Shape::Mesh(_) | Shape::Triangle(_)))
 }
 
+/// The scene of an exported file.
+fn loaded_from(name: &str, bytes: &[u8]) -> LoadedScene {
+    let file = GivenFile::new(name, bytes);
+    scenes::load_file(&InputFile::given(&[file], 0), None).unwrap()
+}
+
 #[test]
 fn triangles_come_back_with_the_same_ids() {
     let all = BUILT_IN.iter().map(|scene| scenes::load(scene.name).unwrap());
@@ -40,7 +47,7 @@ fn triangles_come_back_with_the_same_ids() {
             for target in [Target::Gltf, Target::Obj, Target::Ply] {
                 let Export { files, .. } = exported(&loaded, &camera, target);
                 let [(file, bytes)] = &files[..] else { panic!("{name}, {target:?}") };
-                let again = scenes::load_bytes(file, bytes, None).unwrap();
+                let again = loaded_from(file, bytes);
                 assert_eq!(again.warnings, [""; 0], "{name}, {target:?}");
                 assert_eq!(
                     ids(&again.scene, &camera),
@@ -99,7 +106,7 @@ fn a_sphere_and_a_plane_become_triangles_where_there_are_no_others() {
     let Export { files, notes } = exported(&loaded, &camera, Target::Gltf);
     assert!(notes.iter().any(|note| note.contains("is a sphere, and becomes")), "{notes:?}");
     assert!(notes.iter().any(|note| note.contains("is a plane without an end")), "{notes:?}");
-    let again = scenes::load_bytes(&files[0].0, &files[0].1, None).unwrap();
+    let again = loaded_from(&files[0].0, &files[0].1);
     // By the colour of what is seen: a polygon lies within its circle, by less than a pixel here.
     let color_of = |scene: &Scene, id: u32| {
         (id != NO_PRIMITIVE).then(|| {

@@ -1,9 +1,11 @@
 //! A camera that shows all of a mesh of any size and in any place.
 
 use crate::common::glam::{DVec3, Vec3};
-use crate::common::{CameraDescription, Mesh, Orientation};
+use crate::common::scene::Placement;
+use crate::common::{CameraDescription, Mesh, Orientation, Shape};
 use crate::wording::readable;
 use rayon::prelude::*;
+use std::collections::HashMap;
 
 /// The reason why no camera frames a mesh.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -92,6 +94,9 @@ const FILLED_IN_PARALLEL: f64 = 0.98;
 /// The most steps of the search for the middle; few meshes take more than three steps.
 const MOST_STEPS: u32 = 16;
 
+/// The most positions that are looked at one by one, several times.
+const MOST_POSITIONS: usize = 1 << 24;
+
 /// A camera that looks at a mesh from a little above and sees the whole mesh, in the middle of a 640 × 480 image.
 ///
 /// # Errors
@@ -158,6 +163,44 @@ impl Framing {
         self.camera_around(bounds(points.clone()), |axes, slopes, center| {
             reach(axes, slopes, points.clone().map(|point| point - center))
         })
+    }
+
+    /// The camera that sees all of these meshes and instances in the middle of the picture.
+    ///
+    /// Of very many vertices, those of each instance are replaced by the corners of the box around its mesh.
+    ///
+    /// # Errors
+    ///
+    /// The errors of [`camera`](Framing::camera).
+    ///
+    /// # Panics
+    ///
+    /// In the cases of [`camera`](Framing::camera).
+    pub fn camera_of_shapes(&self, shapes: &[Shape]) -> Result<CameraDescription, FrameMeshError> {
+        if let [Shape::Mesh(mesh)] = shapes {
+            return self.camera(mesh);
+        }
+        // Once for each mesh, however many instances share it.
+        let mut known: HashMap<*const Mesh, Vec<Vec3>> = HashMap::new();
+        let mut placed = 0_usize;
+        for shape in shapes {
+            if let Some(mesh) = shape.mesh() {
+                let used =
+                    known.entry(std::ptr::from_ref(mesh)).or_insert_with(|| used_positions(mesh));
+                let instances = places(shape).len();
+                placed = placed.saturating_add(used.len().saturating_mul(instances));
+            }
+        }
+        if placed > MOST_POSITIONS {
+            known.values_mut().for_each(|used| *used = corners_of_box(used));
+        }
+        let positions = shapes.iter().flat_map(|shape| {
+            let used = shape.mesh().map_or(&[][..], |mesh| &known[&std::ptr::from_ref(mesh)]);
+            places(shape)
+                .iter()
+                .flat_map(|place| used.iter().map(|position| place.position(*position)))
+        });
+        self.camera_of(positions)
     }
 
     /// The camera for a mesh with these bounds. `reach` is [`reach`] for the mesh, seen from a center.
@@ -293,6 +336,31 @@ fn bounds(points: impl Iterator<Item = DVec3>) -> Option<(DVec3, DVec3)> {
 /// The bounds of both.
 fn around(a: (DVec3, DVec3), b: (DVec3, DVec3)) -> (DVec3, DVec3) {
     (a.0.min(b.0), a.1.max(b.1))
+}
+
+/// The positions that triangles use.
+fn used_positions(mesh: &Mesh) -> Vec<Vec3> {
+    let used = used_vertices(mesh);
+    let all = mesh.positions().iter().zip(&used).filter(|(_, used)| **used);
+    all.map(|(position, _)| *position).collect()
+}
+
+/// Where a shape's mesh is.
+fn places(shape: &Shape) -> &[Placement] {
+    match shape {
+        Shape::Instances(instances) => instances.placements(),
+        _ => &[Placement::IDENTITY],
+    }
+}
+
+/// The corners of the box around some positions.
+fn corners_of_box(positions: &[Vec3]) -> Vec<Vec3> {
+    let Some(&first) = positions.first() else { return Vec::new() };
+    let around =
+        |[low, high]: [Vec3; 2], position: &Vec3| [low.min(*position), high.max(*position)];
+    let sides = positions.iter().fold([first; 2], around);
+    let corner = |k: usize| Vec3::new(sides[k & 1].x, sides[k >> 1 & 1].y, sides[k >> 2].z);
+    (0..8).map(corner).collect()
 }
 
 /// For each vertex of a mesh, whether a triangle uses it.

@@ -10,9 +10,10 @@ use crate::formats::gltf::{self, GltfCamera, Model};
 use crate::formats::mesh_file::{EXTENSIONS, Format, ReadMeshError, STREAMED};
 use crate::formats::mesh_stream::StreamError;
 use crate::formats::scene_file::{self, ReadSceneError, nearest_name};
-use crate::formats::smooth;
 use crate::formats::source::quote::{listed, quoted};
+use crate::formats::source::{Files, InputFile, Reach};
 use crate::formats::warning::MaterialWarning;
+use crate::formats::{shapes, smooth};
 use std::path::Path;
 
 /// A scene, ready to be rendered.
@@ -44,6 +45,16 @@ impl LoadedScene {
         let comment = self.toml.lines().next()?.strip_prefix('#')?;
         Some(comment.trim_start_matches('#').trim()).filter(|line| !line.is_empty())
     }
+}
+
+/// How a scene is loaded.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct LoadOptions {
+    /// The width and height of the image for which the camera of a mesh file is framed; without it, of the default size. The
+    /// cameras of other scenes stay unchanged.
+    pub image: Option<[u32; 2]>,
+    /// Which files the scene may name.
+    pub reach: Reach,
 }
 
 /// The reason why a scene could not be loaded.
@@ -142,68 +153,62 @@ fn cameras_of(names: &[String]) -> String {
 /// # Ok::<(), bothways_lab::scenes::LoadError>(())
 /// ```
 pub fn load(source: &str) -> Result<LoadedScene, LoadError> {
-    load_for(source, None)
+    load_with(source, LoadOptions::default())
 }
 
-/// Loads a scene as [`load`] does, for an image of this width and height: the camera of a mesh file is framed for this
-/// aspect ratio. The cameras of other scenes stay unchanged.
+/// Loads a scene as [`load`] does, with options.
 ///
 /// # Errors
 ///
 /// The errors of [`load`].
-pub fn load_for(source: &str, image: Option<[u32; 2]>) -> Result<LoadedScene, LoadError> {
+pub fn load_with(source: &str, options: LoadOptions) -> Result<LoadedScene, LoadError> {
     if let Some(built_in) = BUILT_IN.iter().find(|built_in| built_in.name == source) {
         return load_built_in(built_in);
     }
-    if let Some((path, camera)) = of_camera(source) {
-        return load_with_camera(path, camera, image);
+    if let Some((file, camera)) = of_camera(source, options.reach) {
+        return load_with_camera(&file, camera, options.image);
     }
-    let path = Path::new(source);
-    if is_scene_file(path) {
-        return load_scene_file(path);
-    }
-    if let Some(format) = mesh_format(source) {
-        return load_mesh(path, format, &framing_for(image));
-    }
-    match path.extension() {
-        None if !source.contains(['/', '\\']) => Err(LoadError::UnknownName {
+    // What could be the name of a built-in scene is no file.
+    if Path::new(source).extension().is_none() && !source.contains(['/', '\\']) {
+        return Err(LoadError::UnknownName {
             name: source.to_owned(),
             meant: nearest_name(source, BUILT_IN.iter().map(|built_in| built_in.name)),
-        }),
-        _ => Err(LoadError::UnknownExtension { path: source.to_owned() }),
+        });
     }
+    load_file(&InputFile::on_disk(Path::new(source), options.reach), options.image)
 }
 
-/// Loads a scene file or a mesh file from its bytes, as [`load_for`] does from a path. The ending of `name` says what the
-/// bytes are; messages call them `name`. Nothing else is read: the materials of an OBJ file have names only, and are
-/// missing.
+/// Loads a scene file, or a mesh file with a camera that frames it for an image of this width and height; from the disk, or
+/// from memory together with the files that it names.
 ///
 /// # Errors
 ///
-/// An error for an unknown kind of file, or for an error in the file. A mesh that a scene file names cannot be read.
+/// An error for an unknown kind of file, or for an error in the file or in one that it names.
 ///
 /// ```
+/// use bothways_lab::formats::source::{GivenFile, InputFile};
+/// use bothways_lab::scenes;
+///
 /// let triangle = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-/// let loaded = bothways_lab::scenes::load_bytes("small.obj", triangle, None)?;
-/// assert_eq!((loaded.name.as_str(), loaded.scene.primitive_count()), ("small", 1));
+/// let scene = b"[[object]]\nmesh = \"small.obj\"\n";
+/// let given = [GivenFile::new("scene.toml", scene), GivenFile::new("small.obj", triangle)];
+/// let loaded = scenes::load_file(&InputFile::given(&given, 0), None)?;
+/// assert_eq!((loaded.name.as_str(), loaded.scene.primitive_count()), ("scene", 1));
 /// # Ok::<(), bothways_lab::scenes::LoadError>(())
 /// ```
-pub fn load_bytes(
-    name: &str,
-    bytes: &[u8],
-    image: Option<[u32; 2]>,
-) -> Result<LoadedScene, LoadError> {
-    let path = Path::new(name);
-    if is_scene_file(path) {
-        let toml = scene_file::text(name, bytes.to_vec())?;
-        let file = scene_file::parse(name, &toml, Path::new(""))?;
-        return Ok(loaded(stem(path), file, toml));
+pub fn load_file(file: &InputFile, image: Option<[u32; 2]>) -> Result<LoadedScene, LoadError> {
+    if is_scene_file(file.path()) {
+        let toml = scene_file::read_text(file)?;
+        let read = scene_file::parse(&file.name(), &toml, file.files())?;
+        return Ok(loaded(stem(file.path()), read, toml));
     }
-    let Some(format) = Format::of_bytes(name, bytes) else {
-        return Err(LoadError::UnknownExtension { path: name.to_owned() });
+    let Some(format) = Format::of_file(file) else {
+        return Err(LoadError::UnknownExtension { path: file.name() });
     };
-    let (mesh, missing) = format.parse(name, bytes)?;
-    of_framed(path, mesh, &missing, &framing_for(image))
+    let (shapes, missing) = format.read_shapes(file)?;
+    let camera = framing_for(image).camera_of_shapes(&shapes);
+    let wrong = |error| LoadError::Framing { path: file.name(), error };
+    of_shapes(file.path(), shapes, &missing, camera.map_err(wrong)?)
 }
 
 /// Whether the name is that of a scene file.
@@ -213,15 +218,8 @@ fn is_scene_file(path: &Path) -> bool {
 
 fn load_built_in(built_in: &BuiltIn) -> Result<LoadedScene, LoadError> {
     let toml = built_in.toml.to_owned();
-    let file = scene_file::parse(&format!("{}.toml", built_in.name), &toml, Path::new(""))?;
+    let file = scene_file::parse(&format!("{}.toml", built_in.name), &toml, &Files::none())?;
     Ok(loaded(built_in.name.to_owned(), file, toml))
-}
-
-fn load_scene_file(path: &Path) -> Result<LoadedScene, LoadError> {
-    let toml = scene_file::read_text(path)?;
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let file = scene_file::parse(&path.display().to_string(), &toml, folder)?;
-    Ok(loaded(stem(path), file, toml))
 }
 
 fn loaded(name: String, file: scene_file::SceneFile, toml: String) -> LoadedScene {
@@ -235,27 +233,22 @@ pub(super) fn framing_for(image: Option<[u32; 2]>) -> Framing {
     Framing { image: image.unwrap_or(standard.image), ..standard }
 }
 
-/// The format of a mesh file. What could be the name of a built-in scene is none.
-fn mesh_format(source: &str) -> Option<Format> {
-    let is_name = Path::new(source).extension().is_none() && !source.contains(['/', '\\']);
-    Format::of_file(Path::new(source)).filter(|_| !is_name)
-}
-
 /// A glTF file and the name of a camera, if they are written as `FILE#CAMERA`.
-fn of_camera(source: &str) -> Option<(&Path, &str)> {
+fn of_camera(source: &str, reach: Reach) -> Option<(InputFile<'static>, &str)> {
     let (path, camera) = source.split_once('#')?;
-    let path = Path::new(path);
-    let is_meant = !Path::new(source).exists() && Format::of_file(path) == Some(Format::Gltf);
-    is_meant.then_some((path, camera))
+    let file = InputFile::on_disk(Path::new(path), reach);
+    let is_meant = !Path::new(source).exists() && Format::of_file(&file) == Some(Format::Gltf);
+    is_meant.then_some((file, camera))
 }
 
 /// Loads a glTF file, seen by one of its cameras: of this name, or the first if the name is empty.
 fn load_with_camera(
-    path: &Path,
+    file: &InputFile,
     name: &str,
     image: Option<[u32; 2]>,
 ) -> Result<LoadedScene, LoadError> {
-    let Model { mesh, cameras, warnings } = gltf::read(path).map_err(ReadMeshError::from)?;
+    let Model { shapes, cameras, warnings } = gltf::read(file).map_err(ReadMeshError::from)?;
+    let path = file.path();
     let found = cameras.iter().find(|camera| camera.name == name || name.is_empty());
     let Some(GltfCamera { camera, aspect_stated, .. }) = found else {
         let names = cameras.into_iter().map(|camera| camera.name).collect();
@@ -272,41 +265,25 @@ fn load_with_camera(
     let camera_error = |error: CameraError| LoadError::Camera { path: shown.clone(), error };
     Camera::new(camera).map_err(camera_error)?;
     let viewport_stated = camera.viewport != of_square_pixels;
-    Ok(LoadedScene { viewport_stated, ..of_mesh(path, mesh, &warnings, camera)? })
+    Ok(LoadedScene { viewport_stated, ..of_shapes(path, shapes, &warnings, camera)? })
 }
 
-fn load_mesh(path: &Path, format: Format, framing: &Framing) -> Result<LoadedScene, LoadError> {
-    let (mesh, missing) = format.read_with_materials(path)?;
-    of_framed(path, mesh, &missing, framing)
-}
-
-/// A mesh in the studio, before a camera that frames it.
-fn of_framed(
+/// What a mesh file shows, in the studio, before a camera.
+fn of_shapes(
     path: &Path,
-    mesh: Mesh,
-    missing: &[MaterialWarning],
-    framing: &Framing,
-) -> Result<LoadedScene, LoadError> {
-    let framed = framing.camera(&mesh);
-    let wrong = |error| LoadError::Framing { path: path.display().to_string(), error };
-    of_mesh(path, mesh, missing, framed.map_err(wrong)?)
-}
-
-/// A mesh in the studio, before a camera.
-fn of_mesh(
-    path: &Path,
-    mesh: Mesh,
+    shapes: Vec<Shape>,
     missing: &[MaterialWarning],
     camera: CameraDescription,
 ) -> Result<LoadedScene, LoadError> {
     let warnings = missing.iter().map(ToString::to_string).collect();
     let shown = path.display().to_string();
-    let material = studio::material_for(mesh.has_look());
+    let has_look = shapes.iter().filter_map(Shape::mesh).any(Mesh::has_look);
+    let material = studio::material_for(has_look);
     let toml = studio::toml(&camera, &shown, material.is_some());
-    let material = material.unwrap_or_else(|| mesh.own_material());
-    let object =
-        Object { shape: Shape::Mesh(smooth::with_normals(mesh, smooth::CREASE)), material };
-    let scene = studio::lit(Scene::new(vec![object])?);
+    let material = material.unwrap_or_else(|| shapes::own_material(&shapes));
+    let shapes = smooth::shapes_with_normals(shapes, smooth::CREASE).into_iter();
+    let objects = shapes.map(|shape| Object { shape, material: material.clone() }).collect();
+    let scene = studio::lit(Scene::new(objects)?);
     Ok(LoadedScene { name: stem(path), scene, camera, viewport_stated: false, toml, warnings })
 }
 

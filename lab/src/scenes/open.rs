@@ -1,11 +1,12 @@
 //! A scene opened for rendering: in memory, or as a stream. The camera of a stream is the camera that frames the same
 //! mesh in memory.
 
-use super::load::{LoadError, LoadedScene, framing_for, load_for, stem};
+use super::load::{LoadError, LoadOptions, LoadedScene, framing_for, load_with, stem};
 use super::studio;
 use crate::common::{Camera, Scene, View};
 use crate::formats::mesh_file::Format;
 use crate::formats::mesh_stream::MeshStream;
+use crate::formats::source::{InputFile, Reach};
 use crate::orders::Source;
 use crate::rasterize::stream::Look;
 use std::path::Path;
@@ -64,17 +65,16 @@ impl OpenedScene {
     }
 }
 
-/// Opens a scene: a mesh file as a stream, or any scene in memory. The camera of a mesh is framed for an image of
-/// this size, or of the default size.
+/// Opens a scene: a mesh file as a stream, which names no other file, or any scene in memory.
 ///
 /// # Errors
 ///
 /// The errors of [`load`](super::load) and [`open_stream`].
-pub fn open(source: &str, image: Option<[u32; 2]>, stream: bool) -> Result<OpenedScene, LoadError> {
+pub fn open(source: &str, options: LoadOptions, stream: bool) -> Result<OpenedScene, LoadError> {
     if stream {
-        open_stream(source, image).map(OpenedScene::Streamed)
+        open_stream(source, options.image).map(OpenedScene::Streamed)
     } else {
-        load_for(source, image).map(OpenedScene::InMemory)
+        load_with(source, options).map(OpenedScene::InMemory)
     }
 }
 
@@ -87,7 +87,8 @@ pub fn open(source: &str, image: Option<[u32; 2]>, stream: bool) -> Result<Opene
 pub fn open_stream(source: &str, image: Option<[u32; 2]>) -> Result<StreamedScene, LoadError> {
     let begun = Instant::now();
     let path = Path::new(source);
-    let Some(format) = Format::of_file(path).filter(|format| format.can_be_streamed()) else {
+    let format = Format::of_file(&InputFile::on_disk(path, Reach::Folder));
+    let Some(format) = format.filter(|format| format.can_be_streamed()) else {
         return Err(LoadError::NotStreamed { source_name: source.to_owned() });
     };
     let mut mesh = MeshStream::open(path, format)?;

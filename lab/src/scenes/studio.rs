@@ -5,7 +5,7 @@
 
 use crate::common::{CameraDescription, Material, Scene};
 use crate::formats::scene_file::{self, framed_mesh_toml};
-use std::path::Path;
+use crate::formats::source::Files;
 
 const BACKGROUND: &str = "background = \"#36424b\"\n";
 
@@ -60,5 +60,5 @@ pub(super) fn lit(mut scene: Scene) -> Scene {
 fn sample() -> Scene {
     let ball = "[[object]]\nsphere = { center = [0, 0, 0], radius = 1 }\nmaterial = \"plaster\"\n";
     let text = format!("[camera]\n{BACKGROUND}{PLASTER}{LIGHTS}\n{ball}");
-    scene_file::parse("studio.toml", &text, Path::new("")).expect("it is right").scene
+    scene_file::parse("studio.toml", &text, &Files::none()).expect("it is right").scene
 }

@@ -3,7 +3,7 @@
 use super::*;
 use crate::common::Camera;
 use crate::formats::scene_file;
-use std::path::Path;
+use crate::formats::source::{Files, Reach};
 
 #[test]
 fn every_built_in_scene_loads_and_says_its_point() {
@@ -61,7 +61,8 @@ fn a_mesh_file_is_framed_and_its_scene_file_reads_back() {
     let loaded = load(path.to_str().unwrap()).unwrap();
     assert_eq!(loaded.name, "a \"triangle\"");
     assert!(!loaded.viewport_stated);
-    let again = scene_file::parse("again.toml", &loaded.toml, Path::new("")).unwrap();
+    let files = Files::in_folder(&folder, Reach::Folder);
+    let again = scene_file::parse("again.toml", &loaded.toml, &files).unwrap();
     assert_eq!((again.scene, again.camera), (loaded.scene, loaded.camera));
     assert!(!again.viewport_stated);
 

@@ -10,13 +10,13 @@ use bothways_common::{
 };
 use bothways_formats::generate::Kind;
 use bothways_formats::scene_file;
+use bothways_formats::source::Files;
 use bothways_rasterize::fast::{self, Prepared};
 use bothways_rasterize::textbook;
 use bothways_test_support::{
     PROJECTIONS, assert_same_visibility, grids_on_quarters, mesh, on_integers, scene, triangle,
     turned,
 };
-use std::path::Path;
 
 /// Scenes that come with the program, as files.
 const BUILT_IN: [&str; 5] = [
@@ -70,7 +70,7 @@ pub(super) fn every_way_to_draw() -> impl Iterator<Item = (Level, [u32; 2])> {
 #[test]
 fn no_width_of_simd_and_no_tile_changes_a_bit() {
     let built_in = BUILT_IN.map(|toml| {
-        scene_file::parse("built-in.toml", toml, Path::new("")).expect("it is a scene").scene
+        scene_file::parse("built-in.toml", toml, &Files::none()).expect("it is a scene").scene
     });
     for (k, scene) in built_in.into_iter().chain([all_sizes(600)]).enumerate() {
         for projection in PROJECTIONS {

@@ -1,14 +1,14 @@
 //! The files that are compared: which part of each is read, and what its numbers mean.
 
 use super::DiffArgs;
-use crate::cli::args::CameraArgs;
+use crate::cli::args::{CameraArgs, FilesArgs};
 use crate::cli::camera::{camera, options_given};
 use crate::cli::failure::Failure;
 use crate::cli::terminal;
 use bothways::common::Camera;
 use bothways::diff::foreign::{self, Buffer, Content, Depth, ReadBuffer, ReadOptions};
 use bothways::formats::source::quote::visible;
-use bothways::scenes::{self, LoadedScene};
+use bothways::scenes::LoadedScene;
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -39,6 +39,8 @@ pub(in crate::cli) struct SceneArgs {
     /// options of render. Its image has the size of the files
     #[arg(long, value_name = "SCENE")]
     pub(in crate::cli) scene: Option<String>,
+    #[command(flatten)]
+    pub(in crate::cli) files: FilesArgs,
     #[command(flatten)]
     pub(in crate::cli) camera: CameraArgs,
 }
@@ -82,6 +84,9 @@ pub(in crate::cli) fn scene_of_size(
     let otherwise = otherwise.filter(|path| path.is_file()).map(|path| path.display().to_string());
     let Some(source) = args.scene.clone().or(otherwise) else {
         return match &changes[..] {
+            "" if args.files.allow_outside => Err(Failure::new(
+                "--allow-outside: the files of which scene? Name it with --scene SCENE, or leave --allow-outside out",
+            )),
             "" => Ok(None),
             changes => Err(Failure::new(format!(
                 "{changes}: the camera of which scene? Name it with --scene SCENE, or leave {changes} out"
@@ -89,7 +94,7 @@ pub(in crate::cli) fn scene_of_size(
         };
     };
     let camera_args = CameraArgs { size: args.camera.size.or(size), ..args.camera.clone() };
-    let loaded = scenes::load_for(&source, camera_args.size)?;
+    let loaded = args.files.load(&source, camera_args.size)?;
     terminal::warn(&loaded.warnings);
     // A message names the options that the user gave, and not the size of the files.
     let camera = camera(&loaded, &camera_args)

@@ -450,7 +450,7 @@ pub(super) fn of_sizes(args: &SceneArgs, [a, b]: [&Buffer; 2]) -> String {
 
 /// The scene and the options of its camera, as `bothways pixel` takes them.
 pub(super) fn arguments(args: &SceneArgs, files: [u32; 2]) -> String {
-    let SceneArgs { scene, camera } = args;
+    let SceneArgs { scene, files: read, camera } = args;
     let mut words: Vec<String> = scene.iter().cloned().collect();
     let mut add = |name: &str, value: Option<String>| {
         words.extend(value.map(|value| format!("--{name} {value}")));
@@ -469,5 +469,8 @@ pub(super) fn arguments(args: &SceneArgs, files: [u32; 2]) -> String {
     add("distance", camera.distance.map(|distance| distance.to_string()));
     add("viewport", camera.viewport.map(|viewport| list(&viewport)));
     add("fov", camera.fov.map(|fov| fov.to_string()));
+    if read.allow_outside {
+        words.push("--allow-outside".to_owned());
+    }
     words.join(" ")
 }

@@ -1,7 +1,11 @@
-//! The camera's flags, for `render`, `camera`, `pixel`, `film`, `grade` and `diff`.
+//! The flags of a scene's camera and of its files, for `render`, `camera`, `pixel`, `film`, `grade` and `diff`.
 
 /// The arguments after each of [`COMMANDS`], and the beginning of the message.
 pub(super) const REFUSED: &[(&str, &str)] = &[
+    (
+        "--allow-outside=yes",
+        "unexpected value 'yes' for '--allow-outside' found; no more were expected",
+    ),
     ("--size 8", "invalid value '8' for '--size <WxH>': write it as WIDTHxHEIGHT, such as 640x480"),
     ("--size 0x8", "invalid value '0x8' for '--size <WxH>': both sides need at least 1 pixel"),
     (

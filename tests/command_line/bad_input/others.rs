@@ -295,6 +295,14 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
     ("slides no-such", "there is no built-in scene \"no-such\""),
     ("slides canonical --theme blue", "invalid value 'blue' for '--theme <THEME>'"),
     (
+        "slides canonical --allow-outside=yes",
+        "unexpected value 'yes' for '--allow-outside' found; no more were expected",
+    ),
+    (
+        "scenes canonical --allow-outside=yes",
+        "unexpected value 'yes' for '--allow-outside' found; no more were expected",
+    ),
+    (
         "slides canonical --no-films=yes",
         "unexpected value 'yes' for '--no-films' found; no more were expected",
     ),

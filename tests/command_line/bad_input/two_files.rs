@@ -117,6 +117,10 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
         "unexpected value 'yes' for '--json' found; no more were expected",
     ),
     (
+        "diff a.pgm a.pgm --allow-outside",
+        "--allow-outside: the files of which scene? Name it with --scene SCENE, or leave --allow-outside out",
+    ),
+    (
         "diff a.pgm a.pgm -o file",
         "cannot write into the folder file: a file is where a folder would be; choose another \
          one with -o",

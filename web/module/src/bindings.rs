@@ -42,9 +42,9 @@ impl Module {
         &mut self,
         name: &str,
         arguments: &str,
-        file: Option<Box<[u8]>>,
+        bytes: Option<Box<[u8]>>,
     ) -> Result<Reply, String> {
-        self.engine.call(name, arguments, file.as_deref()).map(Reply)
+        self.engine.call(name, arguments, bytes.as_deref()).map(Reply)
     }
 }
 

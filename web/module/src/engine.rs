@@ -14,7 +14,7 @@ pub struct Engine {
 }
 
 impl Engine {
-    /// Answers a message: its name, its arguments as a JSON object, and the bytes of the file that it comes with.
+    /// Answers a message: its name, its arguments as a JSON object, and the bytes of the files that it comes with.
     ///
     /// # Errors
     ///
@@ -23,11 +23,11 @@ impl Engine {
         &mut self,
         name: &str,
         arguments: &str,
-        file: Option<&[u8]>,
+        bytes: Option<&[u8]>,
     ) -> Result<Answer, String> {
         match name {
             "scenes" => Ok(scenes::answer()),
-            "open" => open::answer(self, &parsed(name, arguments)?, file),
+            "open" => open::answer(self, &parsed(name, arguments)?, bytes),
             "camera" => open::camera(self, &parsed(name, arguments)?),
             "render" => render::answer(self.stage()?, &parsed(name, arguments)?),
             "ids" => Ok(render::ids(self.stage()?)),

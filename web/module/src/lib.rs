@@ -1,6 +1,6 @@
 //! The WebAssembly module of the lecture page: it answers the page's messages with the crates that the program is made of.
 //!
-//! A message has a name, arguments in JSON, and for some a file. [`Engine::call`] answers it with JSON and with buffers
+//! A message has a name, arguments in JSON, and for some the bytes of files. [`Engine::call`] answers it with JSON and with buffers
 //! of numbers, which go to the page as typed arrays; or with a text that says what is wrong, as the command line says it.
 //! Nothing here renders, tests or counts by itself: what the page shows comes from the loops that the program runs.
 //!

@@ -1,30 +1,56 @@
 // @ts-check
 // Opens scenes from the user's disk: by a button, or dropped on the page. Nothing leaves the browser.
 
-/** The size of a file that is read at most, in bytes: 64 MiB. */
-const LARGEST_FILE = 64 * 2 ** 20;
+/** The size of all files together that are read at most, in bytes: 64 MiB. */
+const MOST_BYTES = 64 * 2 ** 20;
 
 /** Whether a scene of this name is a file, and none of the built-in ones. @param {string} name */
 const isFileName = (name) => /\.(obj|ply|stl|gltf|glb|toml)$/i.test(name);
 
-/** @param {File} file */
-async function openFile(file) {
-  if (file.size > LARGEST_FILE) {
+/** What is opened of files that come together: the one of the first kind that there is. The others are those that it names. */
+const KINDS = [/\.toml$/i, /\.(gltf|glb)$/i, /\.(obj|ply|stl)$/i];
+
+/** Some names, and how many more there are. @param {File[]} files */
+function namesOf(files) {
+  const names = files.slice(0, 3).map(({ name }) => name);
+  return names.join(", ") + (files.length > names.length ? ` and ${files.length - names.length} more` : "");
+}
+
+/**
+ * The file that is to be opened, or a text that says why none is.
+ * @param {File[]} files
+ * @returns {File | string}
+ */
+function chosenOf(files) {
+  for (const kind of KINDS) {
+    const meant = files.filter(({ name }) => kind.test(name));
+    if (meant.length === 1) return meant[0];
+    if (meant.length > 1)
+      return `${namesOf(meant)}: which one? Open one of them with the files that it names, or a scene (.toml) that names them`;
+  }
+  return `${namesOf(files)}: this page opens meshes (.obj, .ply, .stl, .gltf, .glb) and .toml scenes, with the files that they name`;
+}
+
+/** Opens one of some files; it may name the others. @param {File[]} files */
+async function openFiles(files) {
+  if (files.length === 0) return;
+  const chosen = chosenOf(files);
+  if (typeof chosen === "string") return showTrouble(chosen);
+  const size = files.reduce((sum, file) => sum + file.size, 0);
+  if (size > MOST_BYTES) {
+    const have = files.length === 1 ? "the file has" : `the ${files.length} files have`;
     showTrouble(
-      `${file.name}: the file has ${grouped(file.size / 2 ** 20)} MiB, and this page reads at most ${LARGEST_FILE / 2 ** 20} MiB; the program bothways takes larger ones`,
+      `${namesOf(files)}: ${have} ${grouped(size / 2 ** 20)} MiB, and this page reads at most ${MOST_BYTES / 2 ** 20} MiB; the program bothways takes more`,
     );
     return;
   }
-  if (!isFileName(file.name)) {
-    showTrouble(`${file.name}: this page opens meshes (.obj, .ply, .stl, .gltf, .glb) and .toml scenes`);
-    return;
-  }
+  const { name } = chosen;
   try {
-    const bytes = await file.arrayBuffer();
-    if (await openScene({ file: { name: file.name, bytes } }, { byHand: true, ...awaitedFor(file.name) }))
-      showSceneChoice();
+    const read = files.map(async (file) => ({ name: file.name, bytes: await file.arrayBuffer() }));
+    const what = { name, files: await Promise.all(read) };
+    if (await openScene(what, { byHand: true, ...awaitedFor(name) })) showSceneChoice();
   } catch (error) {
-    showTrouble(`${file.name}: ${messageOf(error)}`);
+    showTrouble(`${name}: ${messageOf(error)}`);
   }
 }
 
@@ -50,8 +76,7 @@ function beginFiles() {
   const input = inputById("file");
   byId("open-file").addEventListener("click", () => input.click());
   input.addEventListener("change", () => {
-    const file = input.files?.[0];
-    if (file) openFile(file);
+    openFiles([...(input.files ?? [])]);
     input.value = "";
   });
   selectById("scene").addEventListener("change", async (event) => {
@@ -59,9 +84,9 @@ function beginFiles() {
     if (select.selectedOptions[0]?.dataset.own !== undefined) return;
     if (!(await openScene({ name: select.value }, { byHand: true }))) showSceneChoice();
   });
-  const holdsFile = (/** @type {DragEvent} */ event) => event.dataTransfer?.types.includes("Files");
+  const holdsFiles = (/** @type {DragEvent} */ event) => event.dataTransfer?.types.includes("Files");
   addEventListener("dragover", (event) => {
-    if (!holdsFile(event)) return;
+    if (!holdsFiles(event)) return;
     event.preventDefault();
     document.body.classList.add("dropping");
   });
@@ -70,10 +95,9 @@ function beginFiles() {
   });
   addEventListener("drop", (event) => {
     document.body.classList.remove("dropping");
-    if (!holdsFile(event)) return;
+    if (!holdsFiles(event)) return;
     event.preventDefault();
-    const file = event.dataTransfer?.files[0];
-    if (file) openFile(file);
+    openFiles([...(event.dataTransfer?.files ?? [])]);
   });
   watch(["scene", "own"], showSceneChoice);
   watch(["opened"], () => {

@@ -10,17 +10,17 @@ let askedScene = "";
 let pivot = /** @type {Vector} */ ([0, 0, 0]);
 
 /**
- * Opens a built-in scene or a file; the engine's words say what is wrong with it.
- * @param {{name: string} | {file: {name: string, bytes: ArrayBuffer}}} what
+ * Opens a built-in scene, or one of some files, by its name; the engine's words say what is wrong with it.
+ * @param {{name: string, files?: {name: string, bytes: ArrayBuffer}[]}} what
  * @param {{byHand?: boolean, camera?: Partial<Camera>, pixel?: Pixel | null}} [options]
  * @returns {Promise<boolean>}
  */
 async function openScene(what, { byHand = false, camera = {}, pixel = null } = {}) {
-  const own = "file" in what;
+  const own = what.files !== undefined;
   /** @type {Opened} */
   let opened;
   scenesOpening++;
-  askedScene = "file" in what ? what.file.name : what.name;
+  askedScene = what.name;
   try {
     opened = await engine.call("open", what);
   } catch (error) {
@@ -38,7 +38,7 @@ async function openScene(what, { byHand = false, camera = {}, pixel = null } = {
     opened,
     own,
     byHand: byHand || state.byHand,
-    scene: own ? what.file.name : opened.name,
+    scene: own ? what.name : opened.name,
     camera: started,
     pixel: pixelWithin(started, pixel),
   });

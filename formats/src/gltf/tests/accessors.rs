@@ -126,14 +126,16 @@ fn accessors_that_break_a_rule_are_refused() {
 #[test]
 fn elements_of_any_stride_and_integers_are_read() {
     let stride = ("\"byteLength\": 48 }", "\"byteLength\": 128, \"byteStride\": 16 }");
-    let mesh = square(&[stride]).mesh;
+    let model = square(&[stride]);
+    let mesh = mesh_of(&model);
     assert_eq!(mesh.positions()[1].to_array(), [0.0, 0.0, 1.0], "the floats from byte 16 on");
     // Texture coordinates as normalized shorts: the floats 0 and 1 are the shorts 0, 0 and 0, 0x3f80.
     let shorts = (
         "\"bufferView\": 2, \"componentType\": 5126",
         "\"bufferView\": 2, \"normalized\": true, \"componentType\": 5123",
     );
-    let mesh = square(&[shorts]).mesh;
+    let model = square(&[shorts]);
+    let mesh = mesh_of(&model);
     assert_eq!(
         mesh.texture_coordinates().values[2],
         Vec2::new(0.0, 1.0 - f32::from(0x3f80_u16) / 65535.0)
@@ -145,7 +147,8 @@ fn elements_of_any_stride_and_integers_are_read() {
         "\"extensionsUsed\": []",
         "\"extensionsUsed\": [\"KHR_mesh_quantization\"], \"extensionsRequired\": [\"KHR_mesh_quantization\"]",
     );
-    let mesh = square(&[bytes, padded, used]).mesh;
+    let model = square(&[bytes, padded, used]);
+    let mesh = mesh_of(&model);
     assert_eq!(mesh.positions()[3].to_array(), [0.0, 0.0, -128.0], "the bytes of 1.0");
     let says = fault(&[bytes, used]);
     assert!(
@@ -168,10 +171,10 @@ fn sparse_accessors_replace_some_elements() {
     let with = |count, at| fault(&[("\"bufferView\": 0", &sparse(count, at))]);
     let model = square(&[("\"bufferView\": 0", &sparse(2, 2))]);
     let expected = [CORNERS[0], [0.0, 0.0, 1.0], [0.0, 0.0, 1.0], CORNERS[3]];
-    assert_eq!(model.mesh.positions(), expected.map(Vec3::from_array));
+    assert_eq!(mesh_of(&model).positions(), expected.map(Vec3::from_array));
     let without = sparse(2, 2).replace("\"bufferView\": 0, \"sparse\"", "\"sparse\"");
     let model = square(&[("\"bufferView\": 0", &without)]);
-    assert_eq!(model.mesh.positions()[3], Vec3::ZERO);
+    assert_eq!(mesh_of(&model).positions()[3], Vec3::ZERO);
     let place = "mesh 0, primitive 0, accessor 0: ";
     assert_eq!(with(0, 0), format!("{place}it replaces 0 of 4 elements"));
     assert_eq!(with(5, 0), format!("{place}it replaces 5 of 4 elements"));

@@ -5,6 +5,7 @@ use super::*;
 use crate::common::frame::NO_PRIMITIVE;
 use crate::common::{Camera, CameraDescription, Projection, View};
 use crate::diff::buffer::{Buffer, Content};
+use crate::formats::source::{GivenFile, InputFile};
 use crate::scenes::{self, BUILT_IN, LoadedScene};
 
 /// The file of a renderer with these conventions.
@@ -167,7 +168,8 @@ fn every_rule_for_ties_is_named_from_ids_beside_every_change_on_another_axis() {
 fn coarse_lecture() -> LoadedScene {
     let lecture = BUILT_IN.iter().find(|scene| scene.name == "lecture").unwrap();
     let coarse = lecture.toml.replace("divisions = [12, 12]", "divisions = [4, 4]");
-    let loaded = scenes::load_bytes("coarse.toml", coarse.as_bytes(), None).unwrap();
+    let file = GivenFile::new("coarse.toml", coarse.as_bytes());
+    let loaded = scenes::load_file(&InputFile::given(&[file], 0), None).unwrap();
     assert!(loaded.scene.primitive_count() < 2000, "{}", loaded.scene.primitive_count());
     loaded
 }

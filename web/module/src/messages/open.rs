@@ -1,21 +1,35 @@
-//! `open`: a built-in scene, or a file that was given to the page. `camera`: what follows from a camera.
+//! `open`: a built-in scene, or files that were given to the page. `camera`: what follows from a camera.
 
 use crate::answer::Answer;
 use crate::camera::{CameraJson, FrameJson, ProjectionJson};
 use crate::engine::Engine;
 use crate::stage::Stage;
 use bothways_lab::common::Camera;
+use bothways_lab::formats::source::quote::quoted;
+use bothways_lab::formats::source::{GivenFile, InputFile};
 use bothways_lab::scenes::{self, BUILT_IN, LoadedScene, with_projection};
 use serde::{Deserialize, Serialize};
 
-/// What to open: a built-in scene, or the file that comes with the message, by its name.
+/// What to open: a built-in scene, or one of the files that come with the message, by its name.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Open {
     name: String,
+    /// The files whose bytes come with the message, one after another.
+    #[serde(default)]
+    files: Vec<Given>,
     /// The width and height of the image for which the camera of a mesh file is framed.
     #[serde(default)]
     image: Option<[u32; 2]>,
+}
+
+/// A file that was given to the page.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Given {
+    name: String,
+    /// How many bytes it has.
+    bytes: usize,
 }
 
 #[derive(Serialize)]
@@ -54,10 +68,10 @@ struct Changed {
 pub(crate) fn answer(
     engine: &mut Engine,
     open: &Open,
-    file: Option<&[u8]>,
+    bytes: Option<&[u8]>,
 ) -> Result<Answer, String> {
-    let (loaded, bytes) = match file {
-        Some(bytes) => (given(open, bytes)?, Some(bytes.len())),
+    let (loaded, bytes) = match bytes {
+        Some(bytes) => given(open, bytes).map(|(loaded, bytes)| (loaded, Some(bytes)))?,
         None => (built_in(&open.name)?, None),
     };
     // The old scene goes first: two at once take twice the memory.
@@ -89,16 +103,37 @@ fn built_in(name: &str) -> Result<LoadedScene, String> {
     Err(format!("{name} is no built-in scene; open the file itself, or drop it on the page"))
 }
 
-/// Opens a file that was given to the page, in the words of the command line.
-fn given(open: &Open, bytes: &[u8]) -> Result<LoadedScene, String> {
-    scenes::load_bytes(&open.name, bytes, open.image).map_err(|error| {
-        let mut text = error.to_string();
-        // What WebAssembly says of every file.
-        if text.ends_with("operation not supported on this platform") {
-            text += "; a page reads no file beside the one that it is given: open the mesh alone, or generate one";
-        }
-        text
-    })
+/// Opens one of the files that were given to the page, in the words of the command line, and says how many bytes it has. It
+/// may name the others; a warning names those that are not used.
+fn given(open: &Open, bytes: &[u8]) -> Result<(LoadedScene, usize), String> {
+    let (mut files, mut rest) = (Vec::new(), bytes);
+    for Given { name, bytes } in &open.files {
+        let (own, after) = rest
+            .split_at_checked(*bytes)
+            .ok_or_else(|| format!("the page sent too few bytes for the file {}", quoted(name)))?;
+        files.push(GivenFile::new(name, own));
+        rest = after;
+    }
+    let index = files.iter().position(|file| file.path() == open.name);
+    let index = index.ok_or_else(|| format!("the page sent no file {}", quoted(&open.name)))?;
+    let file = InputFile::given(&files, index);
+    let mut loaded = scenes::load_file(&file, open.image).map_err(|error| error.to_string())?;
+    loaded.warnings.extend(unused(&files));
+    Ok((loaded, open.files[index].bytes))
+}
+
+/// A warning about files that were given and that no file names.
+fn unused(files: &[GivenFile]) -> Option<String> {
+    /// The most names that the warning lists.
+    const MOST: usize = 3;
+    let names = files.iter().filter(|file| !file.is_used()).map(|file| quoted(file.path()));
+    let names: Vec<String> = names.collect();
+    let more = match names.len().saturating_sub(MOST) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    let some = names[..names.len().min(MOST)].join(", ");
+    (!names.is_empty()).then(|| format!("not used, because no opened file names it: {some}{more}"))
 }
 
 pub(crate) fn camera(engine: &mut Engine, change: &Change) -> Result<Answer, String> {
@@ -118,18 +153,64 @@ pub(crate) fn camera(engine: &mut Engine, change: &Change) -> Result<Answer, Str
 #[cfg(test)]
 mod tests {
     use super::*;
+    use serde_json::json;
+
+    /// Opens the first of some files.
+    fn open(engine: &mut Engine, files: &[(&str, &str)]) -> Result<Answer, String> {
+        let listed: Vec<_> =
+            files.iter().map(|(name, text)| json!({ "name": name, "bytes": text.len() })).collect();
+        let bytes: String = files.iter().map(|(_, text)| *text).collect();
+        let arguments = json!({ "name": files[0].0, "files": listed }).to_string();
+        engine.call("open", &arguments, Some(bytes.as_bytes()))
+    }
+
+    const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
     #[test]
     fn only_given_files_are_read() {
         let mut engine = Engine::default();
         let says = engine.call("open", r#"{"name": "../a.obj"}"#, None).unwrap_err();
         assert!(says.starts_with("../a.obj is no built-in scene; open the file itself"), "{says}");
-        let triangle = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-        let opened = engine.call("open", r#"{"name": "a.obj"}"#, Some(triangle)).unwrap();
+        let opened = open(&mut engine, &[("a.obj", TRIANGLE)]).unwrap();
         assert_eq!(opened.json()["triangles"], 1);
         // What is wrong leaves the scene that is open.
-        engine.call("open", r#"{"name": "b.obj"}"#, Some(b"f 1 2 3\n")).unwrap_err();
+        open(&mut engine, &[("b.obj", "f 1 2 3\n")]).unwrap_err();
         let rendered = engine.call("render", "{}", None).unwrap();
         assert_eq!(rendered.json()["verdict"]["equal"], true);
+    }
+
+    #[test]
+    fn files_that_a_file_names_are_given_with_it() {
+        let mut engine = Engine::default();
+        let scene = ("scene.toml", "[[object]]\nmesh = 'in/A.obj'\n");
+        let says = open(&mut engine, &[scene]).unwrap_err();
+        let together = "\"in/A.obj\" is not among the opened files; open it together with the file that names it, or drop \
+                        both together";
+        assert_eq!(says, format!("scene.toml:2:8: {together}"));
+
+        let mesh = format!("mtllib a.mtl\nusemtl red\n{TRIANGLE}");
+        let opened = open(&mut engine, &[scene, ("a.obj", &mesh), ("b.txt", "?")]).unwrap();
+        let said = opened.json()["warnings"].clone();
+        let missing = "a.obj: the material file \"a.mtl\" was not opened with it (open or drop both together); what needs it is \
+                       drawn in light grey";
+        assert_eq!(said, json!([missing, "not used, because no opened file names it: \"b.txt\""]));
+
+        let library = ("A.MTL", "newmtl red\nKd 1 0 0\n");
+        let opened = open(&mut engine, &[scene, ("a.obj", &mesh), library]).unwrap();
+        assert_eq!(opened.json()["warnings"], json!([]));
+        assert_eq!(
+            (opened.json()["name"].clone(), opened.json()["triangles"].clone()),
+            (json!("scene"), json!(1))
+        );
+    }
+
+    #[test]
+    fn lists_of_files_that_do_not_fit_their_bytes_are_refused() {
+        let mut engine = Engine::default();
+        let mut says = |arguments: &str| engine.call("open", arguments, Some(b"v")).unwrap_err();
+        let long = r#"{"name": "a.obj", "files": [{"name": "a.obj", "bytes": 2}]}"#;
+        assert_eq!(says(long), "the page sent too few bytes for the file \"a.obj\"");
+        let other = r#"{"name": "a.obj", "files": [{"name": "b.obj", "bytes": 1}]}"#;
+        assert_eq!(says(other), "the page sent no file \"a.obj\"");
     }
 }
