@@ -13,6 +13,9 @@ use bothways_common::engine::simd::{
 use bothways_common::observe::Events;
 use bothways_common::raster::{Region, Sample};
 
+/// Boxes of no more columns are drawn in all their rows: to find out where a triangle is not would take longer.
+const MOST_UNCUT: usize = 32;
+
 /// One triangle, its numbers broadcast to all lanes.
 struct Broadcast<S: Simd> {
     id: u32,
@@ -69,7 +72,7 @@ fn draw_blocks<const ACROSS: usize, C: Context>(
     let to_next = down * buffer.stride();
 
     // If the loops are watched, every test is an event.
-    let is_cut = !C::WATCHED && ACROSS == 16 && columns.len() > 16;
+    let is_cut = !C::WATCHED && ACROSS == 16 && columns.len() > MOST_UNCUT;
     let mut ends = [[0; 16]; 2];
     if is_cut {
         let own = [difference(rows.start, first_row), difference(rows.end, first_row)];
