@@ -14,7 +14,7 @@ use bothways_common::{
 };
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use numbers::Numbers;
-pub use readers::{check_mesh, check_message, with_checksums};
+pub use readers::{check_mesh, check_message, textured, with_checksums};
 
 /// The largest side of an image: of most images, and of those that are larger than tiles and blocks.
 const SIDES: [u32; 2] = [14, 48];

@@ -75,8 +75,11 @@ static ENCODING: LazyLock<Box<[u32; ROOM]>> = LazyLock::new(|| {
 /// The smallest linear value whose nearest byte is this one.
 fn first_with(byte: u32) -> f32 {
     let encoded = (f64::from(byte) - 0.5) / 255.0;
-    let linear =
-        if encoded <= 0.040_45 { encoded / 12.92 } else { libm::pow((encoded + 0.055) / 1.055, 2.4) };
+    let linear = if encoded <= 0.040_45 {
+        encoded / 12.92
+    } else {
+        libm::pow((encoded + 0.055) / 1.055, 2.4)
+    };
     #[expect(clippy::cast_possible_truncation, reason = "rounded up below")]
     let rounded = linear as f32;
     if f64::from(rounded) < linear { rounded.next_up() } else { rounded }
