@@ -176,9 +176,8 @@ fn obj_files(
     materials.add_library(&file);
     let mut bytes = Vec::new();
     obj::write(&mesh.with_materials(materials), &mut bytes)?;
-    let (text, pictures, note) = library.files();
-    notes.extend(note);
-    let mut files = vec![(format!("{name}.obj"), bytes), (file, text.into_bytes())];
-    files.extend(pictures);
+    notes.extend(library.note());
+    let mut files = vec![(format!("{name}.obj"), bytes)];
+    files.extend(library.files(file));
     Ok(files)
 }

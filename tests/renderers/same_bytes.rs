@@ -59,8 +59,8 @@ fn textbook(order: Order, level: Level, view: &View, options: &Options) -> Drawn
 /// Asserts that a way to draw leaves the same with any number of threads and at every level.
 fn check(what: &str, levels: &[Level], draw: impl Fn(Level) -> Drawn + Send + Sync) -> Drawn {
     let with = |threads: usize, level: Level| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| draw(level))
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.expect("threads can be started").install(|| draw(level))
     };
     let one = with(1, best_level());
     for threads in [2, 3, 5] {

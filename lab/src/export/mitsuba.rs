@@ -51,12 +51,11 @@ impl<'a> Beside<'a> {
     }
 
     fn notes(&self) -> impl Iterator<Item = String> + use<> {
-        let levels = self.has_levels.then(|| {
-            "Mitsuba reads no smaller pictures where a texel is smaller than a pixel: it takes more samples"
-        });
-        let wraps = self
-            .has_two_wraps
-            .then(|| "Mitsuba has one wrap for both directions: pictures have the one across them");
+        const LEVELS: &str = "Mitsuba reads no smaller pictures where a texel is smaller than a pixel: it takes more samples";
+        const WRAPS: &str =
+            "Mitsuba has one wrap for both directions: pictures have the one across them";
+        let levels = self.has_levels.then_some(LEVELS);
+        let wraps = self.has_two_wraps.then_some(WRAPS);
         [levels, wraps].into_iter().flatten().map(str::to_owned)
     }
 }

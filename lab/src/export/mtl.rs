@@ -41,12 +41,16 @@ impl Library {
         name(number)
     }
 
-    /// The text, the pictures beside it, and what it could not say.
-    pub(super) fn files(self) -> (String, Vec<(String, Vec<u8>)>, Option<String>) {
-        let note = self.has_other_samplers.then(|| {
-            "OBJ says no filter, and repeats or clamps a picture in both directions: others are left out".to_owned()
-        });
-        (self.text, self.pictures.named(&self.scene).collect(), note)
+    /// What the format has no word for, if a picture is read in such a way.
+    pub(super) fn note(&self) -> Option<String> {
+        const NOTE: &str = "OBJ says no filter, and repeats or clamps a picture in both directions: others are left out";
+        self.has_other_samplers.then(|| NOTE.to_owned())
+    }
+
+    /// The file of the materials, under a name, and the pictures beside it.
+    pub(super) fn files(self, name: String) -> impl Iterator<Item = (String, Vec<u8>)> {
+        let file = (name, self.text.into_bytes());
+        std::iter::once(file).chain(self.pictures.named(&self.scene).collect::<Vec<_>>())
     }
 
     fn write(&mut self, number: usize, (material, has_coordinates): &(Material, bool)) {

@@ -107,7 +107,7 @@ fn size(text: &str) -> Result<u64, String> {
     }
     // More than 64 bits count is no limit at all.
     let bytes = number.parse::<u64>().unwrap_or(u64::MAX);
-    let bytes = bytes.checked_mul(1 << shift).unwrap_or(u64::MAX);
+    let bytes = bytes.saturating_mul(1 << shift);
     if bytes < LEAST {
         return Err(format!(
             "the program by itself takes most of {} MiB, the least that can be given; {example}",
