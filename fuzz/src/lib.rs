@@ -10,7 +10,7 @@ mod readers;
 use bothways_common::engine::simd::{Level, levels};
 use bothways_common::glam::{Quat, Vec3};
 use bothways_common::{
-    Camera, CameraDescription, Frame, Options, Orientation, Projection, Scene, View,
+    Camera, CameraDescription, Events, Frame, Options, Orientation, Projection, Scene, View,
 };
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use numbers::Numbers;
@@ -139,7 +139,7 @@ fn distance_and_viewport(
 /// If the frames differ.
 pub fn check<D: Fn(&View, &mut Frame)>(
     bytes: &[u8],
-    textbook: impl FnOnce(&View, &Options, &mut Frame, &mut ()),
+    textbook: impl FnOnce(&View, &Options, &mut Frame, &mut dyn Events),
     prepare: impl FnOnce(&Case, Level) -> D,
 ) {
     let Some(case) = Case::decode(bytes) else {
