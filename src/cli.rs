@@ -77,6 +77,8 @@ struct Cli {
     command: Option<Command>,
     #[command(flatten)]
     render: RenderArgs,
+    #[command(flatten)]
+    limits: memory::LimitArgs,
 }
 
 #[derive(Debug, Subcommand)]
@@ -157,6 +159,7 @@ Example:
 
 /// Runs the program: 0 is a match, 1 a difference, 2 a failure.
 pub(crate) fn main() -> ExitCode {
+    memory::fail_where_memory_ends();
     interrupt::clean_up();
     usage::parse().and_then(run).unwrap_or_else(|failure| {
         failure.print();
@@ -165,6 +168,7 @@ pub(crate) fn main() -> ExitCode {
 }
 
 fn run(cli: Cli) -> Result<ExitCode, Failure> {
+    memory::obey(&cli.limits)?;
     match cli.command {
         None => run::run(&cli.render),
         Some(Command::Render(args)) => run::run(&args),
@@ -221,7 +225,7 @@ mod tests {
     #[test]
     fn render_is_what_happens_without_a_subcommand() {
         let scene_of = |line: &[&str]| match Cli::parse_from(line) {
-            Cli { command: None, render } => render.scene,
+            Cli { command: None, render, .. } => render.scene,
             Cli { command: Some(Command::Render(args)), .. } => args.scene,
             Cli { command: Some(_), .. } => panic!("another subcommand"),
         };

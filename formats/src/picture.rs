@@ -77,6 +77,9 @@ impl OpenPicture<'_> {
     /// Damaged or missing pixels.
     pub fn decode(self) -> Result<DynamicImage, Problem> {
         let OpenPicture { decoder, format, length, .. } = self;
+        if format == ImageFormat::Png {
+            png::check_size(decoder.dimensions().into(), length)?;
+        }
         DynamicImage::from_decoder(decoder).map_err(|error| problem(error, format, length))
     }
 }

@@ -10,11 +10,11 @@ mod readers;
 use bothways_common::engine::simd::{Level, levels};
 use bothways_common::glam::{Quat, Vec3};
 use bothways_common::{
-    Camera, CameraDescription, Frame, Options, Orientation, Projection, Scene, View,
+    Camera, CameraDescription, Events, Frame, Options, Orientation, Projection, Scene, View,
 };
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use numbers::Numbers;
-pub use readers::{check_mesh, check_message, with_checksums};
+pub use readers::{check_mesh, check_message, textured, with_checksums};
 
 /// The largest side of an image: of most images, and of those that are larger than tiles and blocks.
 const SIDES: [u32; 2] = [14, 48];
@@ -139,7 +139,7 @@ fn distance_and_viewport(
 /// If the frames differ.
 pub fn check<D: Fn(&View, &mut Frame)>(
     bytes: &[u8],
-    textbook: impl FnOnce(&View, &Options, &mut Frame, &mut ()),
+    textbook: impl FnOnce(&View, &Options, &mut Frame, &mut dyn Events),
     prepare: impl FnOnce(&Case, Level) -> D,
 ) {
     let Some(case) = Case::decode(bytes) else {

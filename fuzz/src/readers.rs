@@ -52,3 +52,34 @@ pub fn with_checksums(bytes: &[u8]) -> Vec<u8> {
     }
     bytes
 }
+
+/// A binary glTF file of one triangle, on which these bytes are a picture.
+pub fn textured(picture: &[u8]) -> Vec<u8> {
+    let corners = [[0.0_f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let mut data: Vec<u8> =
+        corners.as_flattened().iter().flat_map(|value| value.to_le_bytes()).collect();
+    let (positions, length) = (data.len(), picture.len());
+    data.extend_from_slice(picture);
+    let json = format!(
+        r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],
+        "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"TEXCOORD_0":1}},"material":0}}]}}],
+        "accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}},
+        {{"bufferView":0,"componentType":5126,"count":3,"type":"VEC2"}}],
+        "materials":[{{"pbrMetallicRoughness":{{"baseColorTexture":{{"index":0}}}}}}],
+        "textures":[{{"source":0}}],"images":[{{"bufferView":1,"mimeType":"image/png"}}],
+        "bufferViews":[{{"buffer":0,"byteLength":{positions}}},
+        {{"buffer":0,"byteOffset":{positions},"byteLength":{length}}}],"buffers":[{{"byteLength":{}}}]}}"#,
+        data.len()
+    );
+    let mut json = json.into_bytes();
+    json.resize(json.len().next_multiple_of(4), b' ');
+    data.resize(data.len().next_multiple_of(4), 0);
+    let size = |length: usize| u32::try_from(length).expect("inputs are small").to_le_bytes();
+    let mut file = [&b"glTF"[..], &2_u32.to_le_bytes(), &size(28 + json.len() + data.len())].concat();
+    for (kind, chunk) in [(b"JSON", &json), (b"BIN\0", &data)] {
+        file.extend(size(chunk.len()));
+        file.extend_from_slice(kind);
+        file.extend_from_slice(chunk);
+    }
+    file
+}

@@ -8,8 +8,11 @@ mod corners;
 mod gltf;
 mod lights;
 mod mitsuba;
+mod mtl;
 mod pbrt;
+mod pictures;
 mod pieces;
+mod srgb;
 #[cfg(test)]
 mod tests;
 
@@ -17,22 +20,22 @@ use crate::common::{Shape, View};
 use crate::exchange::ExchangeError;
 use crate::formats::{obj, ply};
 use crate::wording::grouped;
-use pieces::{Pieces, Spheres};
+use pieces::Pieces;
 use std::io;
 use thiserror::Error;
 
 /// A program, or a format of many programs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Target {
-    /// pbrt, version 4: one scene file.
+    /// pbrt, version 4: one scene file, and its pictures.
     Pbrt,
-    /// Mitsuba 3: a scene in XML, and a file for each mesh.
+    /// Mitsuba 3: a scene in XML, and a file for each mesh and each picture.
     Mitsuba,
     /// glTF 2.0, in one binary file.
     Gltf,
-    /// Wavefront OBJ: triangles with normals and texture coordinates.
+    /// Wavefront OBJ: triangles with normals and texture coordinates, a file of materials, and pictures.
     Obj,
-    /// PLY: triangles alone.
+    /// PLY: triangles and the colours of vertices.
     Ply,
 }
 
@@ -141,27 +144,42 @@ pub fn export(view: &View, name: &str, target: Target) -> Result<Export, ExportE
     if triangles > MOST_COPIED {
         return Err(ExportError::Copies { triangles });
     }
-    let spheres = match target {
-        Target::Pbrt | Target::Mitsuba => Spheres::Kept,
-        Target::Gltf | Target::Obj | Target::Ply => Spheres::Divided,
-    };
-    let pieces = Pieces::of(view, spheres);
+    let pieces = Pieces::of(view, target);
     let file = format!("{name}.{}", target.ending());
     let mut notes = pieces.notes.clone();
     let files = match target {
-        Target::Pbrt => vec![(file, pbrt::scene(view, &pieces, &mut notes)?)],
+        Target::Pbrt => pbrt::files(view, &pieces, name, &mut notes)?,
         Target::Mitsuba => mitsuba::files(view, &pieces, name, &mut notes)?,
         Target::Gltf => vec![(file, gltf::binary(view, &pieces, &mut notes)?)],
-        Target::Obj | Target::Ply => {
-            notes.push(format!("{} has no camera, no lights and here no materials", target.name()));
-            let mesh = pieces.merged(target)?;
+        Target::Obj => {
+            notes.push("OBJ has no camera and no lights".into());
+            obj_files(&pieces, name, &mut notes)?
+        }
+        Target::Ply => {
+            notes.push("PLY has no camera, no lights and no materials".into());
             let mut bytes = Vec::new();
-            match target {
-                Target::Obj => obj::write(&mesh, &mut bytes)?,
-                _ => ply::write(&mesh, &mut bytes)?,
-            }
+            ply::write(&pieces.merged(target, |_| None)?, &mut bytes)?;
             vec![(file, bytes)]
         }
     };
     Ok(Export { files, notes })
+}
+
+/// The mesh, its materials and their pictures.
+fn obj_files(
+    pieces: &Pieces,
+    name: &str,
+    notes: &mut Vec<String>,
+) -> Result<Vec<(String, Vec<u8>)>, ExportError> {
+    let mut library = mtl::Library::new(name);
+    let mesh = pieces.merged(Target::Obj, |piece| Some(library.name_of(piece)))?;
+    let file = format!("{name}.mtl");
+    let mut materials = mesh.materials().cloned().unwrap_or_default();
+    materials.add_library(&file);
+    let mut bytes = Vec::new();
+    obj::write(&mesh.with_materials(materials), &mut bytes)?;
+    notes.extend(library.note());
+    let mut files = vec![(format!("{name}.obj"), bytes)];
+    files.extend(library.files(file));
+    Ok(files)
 }

@@ -23,7 +23,7 @@ Examples:
 
 Triangles go over exactly and in their order, so the ids of a scene of triangles stay. What becomes
 something else is said as a warning: spheres are triangles in glTF, OBJ and PLY, planes end, and
-lights are in physical units.
+lights are in physical units. Pictures are PNG files beside the scene, in glTF within it.
 
 Exit codes: 0 the files are written, 2 something went wrong: then none is.";
 
@@ -51,11 +51,11 @@ enum TargetArg {
     Pbrt,
     /// A scene of Mitsuba 3 in XML with its meshes, with camera and lights
     Mitsuba,
-    /// Binary glTF 2.0, with camera and colours
+    /// Binary glTF 2.0, with camera, colours and pictures
     Gltf,
-    /// Triangles with normals and texture coordinates
+    /// Triangles with normals and texture coordinates, a file of materials, and pictures
     Obj,
-    /// Triangles alone
+    /// Triangles and the colours of their vertices
     Ply,
 }
 

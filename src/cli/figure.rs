@@ -3,12 +3,13 @@
 use super::args::{CameraArgs, FilesArgs, RulesArg, from_1, rules};
 use super::camera::camera;
 use super::failure::Failure;
+use super::memory;
 use super::npy;
 use super::output::{OutputFile, Staging};
 use super::run::folder_name;
 use super::terminal;
-use bothways::common::View;
 use bothways::common::raster::check_samples;
+use bothways::common::{Options, View};
 use bothways::figure::{Drawing, Kind, Subject, Theme, WorkMap, work_figure, work_maps};
 use bothways::formats::scene_file::nearest_name;
 use bothways::orders::Rules;
@@ -106,6 +107,7 @@ pub(super) fn run(args: &FigureArgs) -> Result<ExitCode, Failure> {
     let camera = camera(&loaded, &args.camera)?;
     check_samples(camera.image(), args.samples)
         .map_err(|error| Failure::new(format!("--samples {}: {error}", args.samples)))?;
+    memory::check_both_orders(&camera, &Options { samples: args.samples, ..Options::default() })?;
     let subject = Subject {
         name: &loaded.name,
         about: loaded.about(),

@@ -6,10 +6,11 @@ mod video;
 use super::args::{CameraArgs, FilesArgs, MethodArg};
 use super::camera::{camera, squashed};
 use super::failure::Failure;
+use super::memory;
 use super::run::folder_name;
 use super::status_line::StatusLine;
 use super::terminal;
-use bothways::common::View;
+use bothways::common::{Options, View};
 use bothways::figure::Theme;
 use bothways::film::{Film, Length, MOST_SECONDS, WIDTH_STEP, WIDTHS, default_size, rates};
 use bothways::wording::{count, grouped};
@@ -88,6 +89,7 @@ pub(super) fn run(args: &FilmArgs) -> Result<ExitCode, Failure> {
         }
     }
     let camera = camera(&loaded, &args.camera)?;
+    memory::check_both_orders(&camera, &Options::default())?;
     let output = args
         .output
         .clone()

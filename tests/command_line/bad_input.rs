@@ -16,13 +16,40 @@ use std::collections::BTreeSet;
 use std::fs;
 use tempfile::TempDir;
 
+/// All commands.
+const COMMANDS: &[&str] = &[
+    "render",
+    "diff",
+    "check",
+    "grade",
+    "figure",
+    "slides",
+    "scenes",
+    "rules",
+    "cover",
+    "pixel",
+    "film",
+    "camera",
+    "export",
+    "mesh",
+    "vectors",
+    "fuzz",
+    "sweep",
+    "completions",
+];
+
 /// The tested command lines, and the beginnings of the messages.
 fn refused() -> impl Iterator<Item = (String, &'static str)> {
     let of_camera = camera::COMMANDS.iter().flat_map(|command| {
         camera::REFUSED.iter().map(move |(flags, message)| (format!("{command} {flags}"), *message))
     });
+    let of_limits = COMMANDS.iter().map(|command| {
+        let message =
+            "invalid value '2X' for '--max-memory <SIZE>': write a whole number with K, M, G or T";
+        (format!("{command} --max-memory 2X"), message)
+    });
     let others = render::REFUSED.iter().chain(two_files::REFUSED).chain(others::REFUSED);
-    others.map(|(line, message)| ((*line).to_owned(), *message)).chain(of_camera)
+    others.map(|(line, message)| ((*line).to_owned(), *message)).chain(of_camera).chain(of_limits)
 }
 
 fn bothways(home: &TempDir, args: &[String]) -> Command {

@@ -19,7 +19,7 @@ fn every_system_gets_its_files() {
         ("pbrt", &["canonical.pbrt"]),
         ("mitsuba", &["canonical-0.ply", "canonical-2.ply", "canonical.xml"]),
         ("gltf", &["canonical.glb"]),
-        ("obj", &["canonical.obj"]),
+        ("obj", &["canonical.mtl", "canonical.obj"]),
         ("ply", &["canonical.ply"]),
     ];
     for (system, files) in expected {

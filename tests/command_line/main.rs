@@ -17,6 +17,7 @@ mod exr;
 mod film;
 mod folder;
 mod fuzz;
+mod limits;
 mod output;
 mod pixel;
 mod readme;

@@ -11,6 +11,7 @@ mod four_renderers;
 mod from_afar;
 mod materials;
 mod rules;
+mod same_bytes;
 mod telescope;
 mod textures;
 mod threads;

@@ -21,7 +21,8 @@ pub fn linear_from_srgb(byte: u8) -> f32 {
 
 /// The linear value in 0 … 1 that an sRGB value in 0 … 1 stands for.
 pub fn linear_from_encoded(encoded: f32) -> f32 {
-    if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
+    // libm gives the same result on every machine and in WebAssembly; the standard library does not promise that.
+    if encoded <= 0.040_45 { encoded / 12.92 } else { libm::powf((encoded + 0.055) / 1.055, 2.4) }
 }
 
 /// [`srgb_from_linear`] of the red, green and blue of sixteen colours; each is `red + 2⁸·green + 2¹⁶·blue`.
@@ -74,8 +75,11 @@ static ENCODING: LazyLock<Box<[u32; ROOM]>> = LazyLock::new(|| {
 /// The smallest linear value whose nearest byte is this one.
 fn first_with(byte: u32) -> f32 {
     let encoded = (f64::from(byte) - 0.5) / 255.0;
-    let linear =
-        if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) };
+    let linear = if encoded <= 0.040_45 {
+        encoded / 12.92
+    } else {
+        libm::pow((encoded + 0.055) / 1.055, 2.4)
+    };
     #[expect(clippy::cast_possible_truncation, reason = "rounded up below")]
     let rounded = linear as f32;
     if f64::from(rounded) < linear { rounded.next_up() } else { rounded }

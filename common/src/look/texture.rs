@@ -125,10 +125,11 @@ pub fn plane_axes(normal: DVec3) -> [DVec3; 2] {
 /// At a pole there is no such direction, and the gradient of the first is not finite.
 pub fn on_sphere(offset: DVec3) -> (DVec2, [DVec3; 2]) {
     let radius = offset.length();
-    let from_axis = offset.x.hypot(offset.z);
-    let turn = f64::atan2(-offset.z, offset.x) / TAU;
+    // libm gives the same result on every machine and in WebAssembly.
+    let from_axis = libm::hypot(offset.x, offset.z);
+    let turn = libm::atan2(-offset.z, offset.x) / TAU;
     let coordinate =
-        DVec2::new(turn.rem_euclid(1.0), 0.5 + FRAC_1_PI * f64::atan2(offset.y, from_axis));
+        DVec2::new(turn.rem_euclid(1.0), 0.5 + FRAC_1_PI * libm::atan2(offset.y, from_axis));
     let east = DVec3::new(offset.z, 0.0, -offset.x) / from_axis;
     let north = offset.cross(east) / radius;
     (coordinate, [east / (TAU * from_axis), north * (FRAC_1_PI / radius)])

@@ -12,6 +12,22 @@ const HEADER: u32 = 13;
 /// The most bytes of a palette: 256 colours.
 const LARGEST_PALETTE: u32 = 3 * 256;
 
+/// The most bytes that a byte of compressed pixels can stand for: 258 for two bits (RFC 1951, 3.2.5), and a little more at
+/// the beginning.
+const LONGEST_RUN: u64 = 1032;
+/// The most pixels in a byte: those of one bit.
+const PIXELS: u64 = 8;
+
+/// Refuses a size that the file is far too short for, before memory is reserved for it.
+pub(super) fn check_size([width, height]: [u32; 2], length: u64) -> Result<(), String> {
+    if u64::from(width) * u64::from(height) > length.saturating_mul(LONGEST_RUN * PIXELS) {
+        return Err(format!(
+            "a PNG of {length} bytes cannot fill {width} x {height} pixels; copy it or save it again"
+        ));
+    }
+    Ok(())
+}
+
 /// Walks through the chunks of a file of `file_length` bytes. The result says whether the pixels are colours of a
 /// palette.
 pub(super) fn check(input: &mut (impl BufRead + Seek), file_length: u64) -> Result<bool, Problem> {

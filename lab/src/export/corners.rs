@@ -1,8 +1,8 @@
 //! Triangles as most programs have them: one index for each corner.
 
+use super::pieces::Piece;
 use crate::common::Mesh;
-use crate::common::glam::{DVec3, Vec2, Vec3};
-use crate::common::scene::Attribute;
+use crate::common::glam::{DVec3, Vec3};
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -12,20 +12,24 @@ pub(super) struct Corners {
     pub(super) positions: Vec<[f32; 3]>,
     /// Unit vectors, if all corners have one.
     pub(super) normals: Option<Vec<[f32; 3]>>,
-    /// As the mesh has them, `v` upwards, if all corners have one.
+    /// As the mesh has them, `v` upwards, if all corners have one; in pictures where the material has a texture.
     pub(super) coordinates: Option<Vec<[f32; 2]>>,
+    /// Linear red, green and blue, if the mesh has colours.
+    pub(super) colors: Option<Vec<[f32; 3]>>,
 }
 
 impl Corners {
-    pub(super) fn of(mesh: &Mesh, triangles: &Range<usize>) -> Corners {
+    pub(super) fn of(piece: &Piece, mesh: &Mesh, triangles: &Range<usize>) -> Corners {
         let (normals, coordinates) = (mesh.normals(), mesh.texture_coordinates());
         let has_normals = triangles.clone().all(|at| normals.of(at).is_some());
         let has_coordinates = triangles.clone().all(|at| coordinates.of(at).is_some());
+        let tiles = piece.material.texture.as_ref().map_or([1.0; 2], |one| one.sampler.tiles);
         let mut corners = Corners {
             indices: Vec::with_capacity(3 * triangles.len()),
             positions: Vec::new(),
             normals: has_normals.then(Vec::new),
             coordinates: has_coordinates.then(Vec::new),
+            colors: (!mesh.colors().is_empty()).then(Vec::new),
         };
         let mut known: HashMap<[u32; 3], u32> = HashMap::new();
         for triangle in triangles.clone() {
@@ -46,27 +50,21 @@ impl Corners {
                     kept.push(normal.normalize_or(DVec3::Z).as_vec3().to_array());
                 }
                 if let Some(kept) = &mut corners.coordinates {
-                    kept.push(coordinates.values[coordinate as usize].to_array());
+                    let [u, v] = coordinates.values[coordinate as usize].to_array();
+                    kept.push([u * tiles[0], v * tiles[1]]);
+                }
+                if let Some(kept) = &mut corners.colors {
+                    kept.push(mesh.colors()[vertex as usize].to_array());
                 }
             }
         }
         corners
     }
-    /// The same as a mesh.
-    pub(super) fn mesh(self) -> Mesh {
-        let triangles = self.indices.as_chunks().0.to_vec();
-        let positions = self.positions.into_iter().map(Vec3::from_array).collect();
-        let mut mesh = Mesh::new(positions, triangles.clone()).expect("they were in a mesh");
-        if let Some(normals) = self.normals {
-            let values = normals.into_iter().map(Vec3::from_array).collect();
-            let normals = Attribute { values, corners: triangles.clone() };
-            mesh = mesh.with_normals(normals).expect("every corner has one");
+
+    /// Multiplies the colours of the vertices by one, where the program cannot.
+    pub(super) fn multiply_colors(&mut self, color: Vec3) {
+        for vertex in self.colors.iter_mut().flatten() {
+            *vertex = (color * Vec3::from_array(*vertex)).to_array();
         }
-        if let Some(coordinates) = self.coordinates {
-            let values = coordinates.into_iter().map(Vec2::from_array).collect();
-            let coordinates = Attribute { values, corners: triangles };
-            mesh = mesh.with_texture_coordinates(coordinates).expect("every corner has one");
-        }
-        mesh
     }
 }

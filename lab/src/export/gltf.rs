@@ -5,9 +5,11 @@
 
 use super::ExportError;
 use super::corners::Corners;
-use super::pieces::{Form, Pieces};
-use crate::common::glam::{DMat3, DQuat};
-use crate::common::{Material, Mesh, Primitive, Projection, View};
+use super::pictures::Pictures;
+use super::pieces::{Form, Piece, Pieces};
+use crate::common::glam::{DMat3, DQuat, Vec3};
+use crate::common::scene::{Filter, Levels, Sampler, Texture, Wrap};
+use crate::common::{Mesh, Primitive, Projection, View};
 use serde_json::{Value, json};
 use std::ops::Range;
 
@@ -24,14 +26,15 @@ pub(super) fn binary(
         let mut primitives = Vec::new();
         for piece in group {
             let Form::Triangles(mesh, triangles) = &piece.form else { continue };
-            primitives.push(file.primitive(mesh, triangles, piece.material));
+            primitives.push(file.primitive(piece, mesh, triangles));
         }
         nodes.push(json!({ "name": format!("object {}", group[0].object), "mesh": meshes.len() }));
         meshes.push(json!({ "primitives": primitives }));
     }
     let (camera, node) = camera(view, notes);
     nodes.push(node);
-    let root = json!({
+    file.add_images();
+    let mut root = json!({
         "asset": { "version": "2.0", "generator": concat!("bothways ", env!("CARGO_PKG_VERSION")) },
         "scene": 0,
         "scenes": [{ "nodes": (0..nodes.len()).collect::<Vec<_>>() }],
@@ -43,6 +46,12 @@ pub(super) fn binary(
         "bufferViews": file.views,
         "buffers": [{ "byteLength": file.bytes.len() }],
     });
+    // Lists without items are not allowed.
+    if !file.textures.is_empty() {
+        root["textures"] = json!(file.textures);
+        root["samplers"] = json!(file.samplers);
+        root["images"] = json!(file.images);
+    }
     container(&root, file.bytes)
 }
 
@@ -51,6 +60,16 @@ const U32: u32 = 5125;
 const F32: u32 = 5126;
 const VERTICES: u32 = 34962;
 const INDICES: u32 = 34963;
+/// The numbers of filters, without smaller levels and with them, and of what is beyond a picture.
+const NEAREST: u32 = 9728;
+const LINEAR: u32 = 9729;
+const NEAREST_MIPMAP_NEAREST: u32 = 9984;
+const LINEAR_MIPMAP_NEAREST: u32 = 9985;
+const NEAREST_MIPMAP_LINEAR: u32 = 9986;
+const LINEAR_MIPMAP_LINEAR: u32 = 9987;
+const REPEAT: u32 = 10497;
+const CLAMP_TO_EDGE: u32 = 33071;
+const MIRRORED_REPEAT: u32 = 33648;
 
 /// The two chunks of a binary file.
 fn container(root: &Value, mut bytes: Vec<u8>) -> Result<Vec<u8>, ExportError> {
@@ -82,11 +101,15 @@ struct File {
     views: Vec<Value>,
     accessors: Vec<Value>,
     materials: Vec<Value>,
+    textures: Vec<Value>,
+    samplers: Vec<Value>,
+    images: Vec<Value>,
+    pictures: Pictures,
 }
 
 impl File {
-    fn primitive(&mut self, mesh: &Mesh, triangles: &Range<usize>, material: &Material) -> Value {
-        let corners = Corners::of(mesh, triangles);
+    fn primitive(&mut self, piece: &Piece, mesh: &Mesh, triangles: &Range<usize>) -> Value {
+        let corners = Corners::of(piece, mesh, triangles);
         let bounds = |pick: fn(f32, f32) -> f32| {
             let all = corners.positions.iter().copied();
             all.reduce(|one, other| [0, 1, 2].map(|axis| pick(one[axis], other[axis])))
@@ -106,29 +129,35 @@ impl File {
             let accessor = self.floats("VEC2", &down);
             attributes["TEXCOORD_0"] = json!(self.accessor(accessor));
         }
+        if let Some(colors) = &corners.colors {
+            let accessor = self.floats("VEC3", colors);
+            attributes["COLOR_0"] = json!(self.accessor(accessor));
+        }
         let bytes = corners.indices.iter().flat_map(|index| index.to_le_bytes());
-        let view = self.view(INDICES, bytes);
+        let view = self.view(Some(INDICES), bytes);
         let indices = json!({
             "bufferView": view, "componentType": U32, "count": corners.indices.len(), "type": "SCALAR",
         });
         let indices = self.accessor(indices);
-        let material = self.material(material);
+        let material = self.material(piece, corners.coordinates.is_some());
         json!({ "attributes": attributes, "indices": indices, "material": material })
     }
 
-    fn view(&mut self, target: u32, bytes: impl Iterator<Item = u8>) -> usize {
+    fn view(&mut self, target: Option<u32>, bytes: impl Iterator<Item = u8>) -> usize {
         let offset = self.bytes.len();
         self.bytes.extend(bytes);
         let length = self.bytes.len() - offset;
-        self.views.push(
-            json!({ "buffer": 0, "byteOffset": offset, "byteLength": length, "target": target }),
-        );
+        let mut view = json!({ "buffer": 0, "byteOffset": offset, "byteLength": length });
+        if let Some(target) = target {
+            view["target"] = json!(target);
+        }
+        self.views.push(view);
         self.views.len() - 1
     }
 
     fn floats<const N: usize>(&mut self, kind: &str, values: &[[f32; N]]) -> Value {
         let bytes = values.as_flattened().iter().flat_map(|value| value.to_le_bytes());
-        let view = self.view(VERTICES, bytes);
+        let view = self.view(Some(VERTICES), bytes);
         json!({ "bufferView": view, "componentType": F32, "count": values.len(), "type": kind })
     }
 
@@ -137,8 +166,9 @@ impl File {
         self.accessors.len() - 1
     }
 
-    /// The number of a material; equal ones are one.
-    fn material(&mut self, material: &Material) -> usize {
+    /// The number of a piece's material; equal ones are one.
+    fn material(&mut self, piece: &Piece, has_coordinates: bool) -> usize {
+        let material = piece.material;
         let [red, green, blue] = material.color.to_array();
         // Blinn and Phong's exponent n is as rough as α² = 2/(n + 2), and glTF's roughness is the root of α (Walter et
         // al., "Microfacet Models for Refraction through Rough Surfaces", 2007).
@@ -146,18 +176,65 @@ impl File {
             true => (2.0 / (material.shininess + 2.0)).sqrt().sqrt(),
             false => 1.0,
         };
-        let value = json!({
+        let mut value = json!({
             "pbrMetallicRoughness": {
                 "baseColorFactor": [red, green, blue, 1.0], "metallicFactor": 0.0, "roughnessFactor": roughness,
             },
             "doubleSided": true,
         });
-        let known = self.materials.iter().position(|one| *one == value);
-        known.unwrap_or_else(|| {
-            self.materials.push(value);
-            self.materials.len() - 1
-        })
+        if let Some(texture) = material.texture.as_ref().filter(|_| has_coordinates) {
+            value["pbrMetallicRoughness"]["baseColorTexture"] =
+                json!({ "index": self.texture(texture) });
+        }
+        place(&mut self.materials, value)
     }
+
+    fn texture(&mut self, texture: &Texture) -> usize {
+        // The format multiplies a picture by the material's colour.
+        let image = self.pictures.place(&texture.pyramid, Vec3::ONE);
+        let sampler = place(&mut self.samplers, sampler(&texture.sampler));
+        place(&mut self.textures, json!({ "source": image, "sampler": sampler }))
+    }
+
+    /// Puts the pictures behind all else.
+    fn add_images(&mut self) {
+        for file in std::mem::take(&mut self.pictures).files() {
+            // A view begins where four bytes do, as accessors must.
+            self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
+            let view = self.view(None, file.into_iter());
+            self.images.push(json!({ "bufferView": view, "mimeType": "image/png" }));
+        }
+    }
+}
+
+/// The number of a value in a list, to which it is added if it is not there yet.
+fn place(list: &mut Vec<Value>, value: Value) -> usize {
+    let known = list.iter().position(|one| *one == value);
+    known.unwrap_or_else(|| {
+        list.push(value);
+        list.len() - 1
+    })
+}
+
+fn sampler(sampler: &Sampler) -> Value {
+    let magnified = match sampler.magnified {
+        Filter::Nearest => NEAREST,
+        Filter::Bilinear => LINEAR,
+    };
+    let minified = match (sampler.minified, sampler.levels) {
+        (Filter::Nearest, Levels::One) => NEAREST,
+        (Filter::Bilinear, Levels::One) => LINEAR,
+        (Filter::Nearest, Levels::Nearest) => NEAREST_MIPMAP_NEAREST,
+        (Filter::Bilinear, Levels::Nearest) => LINEAR_MIPMAP_NEAREST,
+        (Filter::Nearest, Levels::Blended) => NEAREST_MIPMAP_LINEAR,
+        (Filter::Bilinear, Levels::Blended) => LINEAR_MIPMAP_LINEAR,
+    };
+    let [across, up] = sampler.wrap.map(|wrap| match wrap {
+        Wrap::Repeat => REPEAT,
+        Wrap::Clamp => CLAMP_TO_EDGE,
+        Wrap::Mirror => MIRRORED_REPEAT,
+    });
+    json!({ "magFilter": magnified, "minFilter": minified, "wrapS": across, "wrapT": up })
 }
 
 /// The camera, and its node. glTF's cameras look along −z with y up, as ours do.

@@ -1,15 +1,16 @@
-//! A scene for Mitsuba 3: XML, and a file for each mesh, which XML cannot hold.
+//! A scene for Mitsuba 3: XML, and a file for each mesh and each picture, which XML cannot hold.
 //!
-//! Meshes with normals are OBJ files, others PLY files, whose faces are then flat by `face_normals` (Mitsuba 3
-//! documentation, "Shapes"). Colours are linear, with the primaries of sRGB ("Spectra").
+//! Meshes are PLY files; those without normals are flat by `face_normals` (Mitsuba 3 documentation, "Shapes"). Colours are
+//! linear, with the primaries of sRGB ("Spectra"), also those of vertices.
 
 use super::corners::Corners;
 use super::lights::{Physical, lights};
+use super::pictures::Pictures;
 use super::pieces::{Form, Piece, Pieces};
 use super::{ExportError, Target};
+use crate::common::scene::{Filter, Levels, Texture, Wrap};
 use crate::common::{Sphere, View};
 use crate::exchange::{StatedDepths, System, exchange};
-use crate::formats::{obj, ply};
 
 pub(super) fn files(
     view: &View,
@@ -22,14 +23,41 @@ pub(super) fn files(
     for light in lights(view, pieces, notes) {
         xml += &emitter(light);
     }
-    let mut meshes = Vec::new();
+    let mut beside = Beside::new(name);
     for (number, piece) in pieces.all.iter().enumerate() {
-        xml += &shape(piece, name, number, &mut meshes)?;
+        xml += &shape(piece, number, &mut beside);
     }
     xml += "</scene>\n";
+    notes.extend(beside.notes());
     let mut files = vec![(format!("{name}.{}", Target::Mitsuba.ending()), xml.into_bytes())];
-    files.extend(meshes);
+    files.extend(beside.meshes);
+    files.extend(beside.pictures.named(name));
     Ok(files)
+}
+
+/// The files that the XML names, and what was not said.
+struct Beside<'a> {
+    scene: &'a str,
+    meshes: Vec<(String, Vec<u8>)>,
+    pictures: Pictures,
+    has_levels: bool,
+    has_two_wraps: bool,
+}
+
+impl<'a> Beside<'a> {
+    fn new(scene: &'a str) -> Beside<'a> {
+        let (meshes, pictures) = (Vec::new(), Pictures::default());
+        Beside { scene, meshes, pictures, has_levels: false, has_two_wraps: false }
+    }
+
+    fn notes(&self) -> impl Iterator<Item = String> + use<> {
+        const LEVELS: &str = "Mitsuba reads no smaller pictures where a texel is smaller than a pixel: it takes more samples";
+        const WRAPS: &str =
+            "Mitsuba has one wrap for both directions: pictures have the one across them";
+        let levels = self.has_levels.then_some(LEVELS);
+        let wraps = self.has_two_wraps.then_some(WRAPS);
+        [levels, wraps].into_iter().flatten().map(str::to_owned)
+    }
 }
 
 fn emitter(light: Physical) -> String {
@@ -53,18 +81,8 @@ fn emitter(light: Physical) -> String {
     format!("<emitter type=\"{plugin}\">\n{inside}</emitter>\n")
 }
 
-/// The XML of a piece; its mesh goes to a file.
-fn shape(
-    piece: &Piece,
-    name: &str,
-    number: usize,
-    meshes: &mut Vec<(String, Vec<u8>)>,
-) -> Result<String, ExportError> {
-    let [red, green, blue] = piece.material.color.to_array();
-    let material = format!(
-        "    <bsdf type=\"twosided\"><bsdf type=\"diffuse\">\n        \
-             <rgb name=\"reflectance\" value=\"{red:?}, {green:?}, {blue:?}\"/>\n    </bsdf></bsdf>\n"
-    );
+/// The XML of a piece; its mesh and its picture go to files.
+fn shape(piece: &Piece, number: usize, beside: &mut Beside) -> String {
     let (plugin, inside) = match &piece.form {
         Form::Sphere(Sphere { center: c, radius }) => (
             "sphere",
@@ -75,22 +93,93 @@ fn shape(
             ),
         ),
         Form::Triangles(mesh, triangles) => {
-            let corners = Corners::of(mesh, triangles);
-            let is_smooth = corners.normals.is_some();
-            let mesh = corners.mesh();
-            let mut bytes = Vec::new();
-            let (plugin, flat) = if is_smooth {
-                obj::write(&mesh, &mut bytes)?;
-                ("obj", "")
-            } else {
-                ply::write(&mesh, &mut bytes)?;
-                ("ply", "    <boolean name=\"face_normals\" value=\"true\"/>\n")
+            let mut corners = Corners::of(piece, mesh, triangles);
+            corners.multiply_colors(piece.material.color);
+            let flat = match corners.normals {
+                Some(_) => "",
+                None => "    <boolean name=\"face_normals\" value=\"true\"/>\n",
             };
-            let file = format!("{name}-{number}.{plugin}");
+            let file = format!("{}-{number}.ply", beside.scene);
             let inside = format!("    <string name=\"filename\" value=\"{file}\"/>\n{flat}");
-            meshes.push((file, bytes));
-            (plugin, inside)
+            beside.meshes.push((file, ply(&corners)));
+            ("ply", inside)
         }
     };
-    Ok(format!("<shape type=\"{plugin}\">\n{inside}{material}</shape>\n"))
+    let reflectance = reflectance(piece, beside);
+    format!(
+        "<shape type=\"{plugin}\">\n{inside}    \
+             <bsdf type=\"twosided\"><bsdf type=\"diffuse\">\n{reflectance}    </bsdf></bsdf>\n</shape>\n"
+    )
+}
+
+/// A picture, the colours of the vertices, or one colour.
+fn reflectance(piece: &Piece, beside: &mut Beside) -> String {
+    let color = piece.material.color;
+    if let Some(Texture { pyramid, sampler }) =
+        piece.material.texture.as_ref().filter(|_| piece.has_coordinates())
+    {
+        // Nothing there multiplies a picture by a colour.
+        let file = Pictures::name(beside.scene, beside.pictures.place(pyramid, color));
+        let filter = match sampler.magnified {
+            Filter::Nearest => "nearest",
+            Filter::Bilinear => "bilinear",
+        };
+        let wrap = match sampler.wrap[0] {
+            Wrap::Repeat => "repeat",
+            Wrap::Clamp => "clamp",
+            Wrap::Mirror => "mirror",
+        };
+        beside.has_levels |= sampler.levels != Levels::One;
+        beside.has_two_wraps |= sampler.wrap[0] != sampler.wrap[1];
+        return format!(
+            "        <texture type=\"bitmap\" name=\"reflectance\">\n            \
+                 <string name=\"filename\" value=\"{file}\"/>\n            \
+                 <string name=\"filter_type\" value=\"{filter}\"/>\n            \
+                 <string name=\"wrap_mode\" value=\"{wrap}\"/>\n        </texture>\n"
+        );
+    }
+    if piece.has_colors() {
+        return "        <texture type=\"mesh_attribute\" name=\"reflectance\">\n            \
+                    <string name=\"name\" value=\"vertex_color\"/>\n        </texture>\n"
+            .into();
+    }
+    let [red, green, blue] = color.to_array();
+    format!("        <rgb name=\"reflectance\" value=\"{red:?}, {green:?}, {blue:?}\"/>\n")
+}
+
+/// A binary PLY file with the names that Mitsuba knows.
+fn ply(corners: &Corners) -> Vec<u8> {
+    // There v grows downwards in a picture.
+    let down = |[u, v]: &[f32; 2]| [*u, 1.0 - v];
+    let coordinates: Option<Vec<[f32; 2]>> =
+        corners.coordinates.as_ref().map(|values| values.iter().map(down).collect());
+    let of_three =
+        |values: &'_ Option<Vec<[f32; 3]>>| values.as_ref().map(|one| one.as_flattened().to_vec());
+    let columns = [
+        (&["x", "y", "z"][..], Some(corners.positions.as_flattened().to_vec())),
+        (&["nx", "ny", "nz"], of_three(&corners.normals)),
+        (&["u", "v"], coordinates.map(|values| values.as_flattened().to_vec())),
+        (&["r", "g", "b"], of_three(&corners.colors)),
+    ];
+    let columns: Vec<(&[&str], Vec<f32>)> =
+        columns.into_iter().filter_map(|(names, values)| Some((names, values?))).collect();
+    let names = columns.iter().flat_map(|(names, _)| names.iter());
+    let properties: String = names.map(|name| format!("property float {name}\n")).collect();
+    let (vertices, faces) = (corners.positions.len(), corners.indices.len() / 3);
+    let mut bytes = format!(
+        "ply\nformat binary_little_endian 1.0\nelement vertex {vertices}\n{properties}\
+         element face {faces}\nproperty list uchar uint vertex_indices\nend_header\n"
+    )
+    .into_bytes();
+    for vertex in 0..vertices {
+        for (names, values) in &columns {
+            let of_vertex = &values[names.len() * vertex..][..names.len()];
+            bytes.extend(of_vertex.iter().flat_map(|value| value.to_le_bytes()));
+        }
+    }
+    for triangle in corners.indices.as_chunks::<3>().0 {
+        bytes.push(3);
+        bytes.extend(triangle.iter().flat_map(|index| index.to_le_bytes()));
+    }
+    bytes
 }

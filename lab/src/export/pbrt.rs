@@ -1,31 +1,91 @@
-//! A scene for pbrt, version 4: one text.
+//! A scene for pbrt, version 4: one text, and a file for each picture.
 //!
 //! Colours are linear, with the primaries of sRGB, as ours are (pbrt-v4 file format, "Spectra").
 
-use super::ExportError;
 use super::corners::Corners;
 use super::lights::{Physical, lights};
+use super::pictures::Pictures;
 use super::pieces::{Form, Piece, Pieces};
+use super::{ExportError, Target};
+use crate::common::scene::{Filter, Levels, Sampler, Texture, Wrap};
 use crate::common::{Mesh, Sphere, View};
 use crate::exchange::{StatedDepths, System, exchange};
 use std::fmt::Write as _;
 use std::io::{self, Write};
 use std::ops::Range;
 
-pub(super) fn scene(
+pub(super) fn files(
     view: &View,
     pieces: &Pieces,
+    name: &str,
     notes: &mut Vec<String>,
-) -> Result<Vec<u8>, ExportError> {
+) -> Result<Vec<(String, Vec<u8>)>, ExportError> {
     let mut out = exchange(view, System::Pbrt, StatedDepths::default())?.text().into_bytes();
     out.write_all(b"Integrator \"path\"\nSampler \"independent\" \"integer pixelsamples\" [ 64 ]\n\nWorldBegin\n")?;
     for light in lights(view, pieces, notes) {
         out.write_all(text_of(light).as_bytes())?;
     }
+    let mut textures = Textures::new(name);
     for piece in &pieces.all {
-        write_piece(&mut out, piece)?;
+        let texture = textures.write(&mut out, piece)?;
+        write_piece(&mut out, piece, texture)?;
     }
-    Ok(out)
+    if textures.has_other_wraps {
+        notes.push("pbrt repeats or clamps a picture in both directions: where another wrap is, it repeats".into());
+    }
+    let mut files = vec![(format!("{name}.{}", Target::Pbrt.ending()), out)];
+    files.extend(textures.pictures.named(name));
+    Ok(files)
+}
+
+/// The textures that are defined, each once.
+struct Textures<'a> {
+    scene: &'a str,
+    known: Vec<(usize, Sampler)>,
+    pictures: Pictures,
+    has_other_wraps: bool,
+}
+
+impl<'a> Textures<'a> {
+    fn new(scene: &'a str) -> Textures<'a> {
+        let (known, pictures) = (Vec::new(), Pictures::default());
+        Textures { scene, known, pictures, has_other_wraps: false }
+    }
+
+    /// The number of a piece's texture, which is defined where it is needed first.
+    fn write(&mut self, out: &mut Vec<u8>, piece: &Piece) -> io::Result<Option<usize>> {
+        let texture = piece.material.texture.as_ref().filter(|_| piece.has_coordinates());
+        let Some(Texture { pyramid, sampler }) = texture else { return Ok(None) };
+        // Nothing there multiplies a picture by a colour.
+        let picture = self.pictures.place(pyramid, piece.material.color);
+        // The texture coordinates are in pictures already.
+        let key = (picture, Sampler { tiles: [1.0; 2], ..*sampler });
+        if let Some(known) = self.known.iter().position(|one| *one == key) {
+            return Ok(Some(known));
+        }
+        let number = self.known.len();
+        self.known.push(key);
+        let file = Pictures::name(self.scene, picture);
+        let filter = match (sampler.magnified, sampler.levels) {
+            (Filter::Nearest, Levels::One) => "point",
+            (Filter::Bilinear, Levels::One) => "bilinear",
+            (_, Levels::Nearest | Levels::Blended) => "trilinear",
+        };
+        let wrap = match sampler.wrap {
+            [Wrap::Clamp, Wrap::Clamp] => "clamp",
+            [Wrap::Repeat, Wrap::Repeat] => "repeat",
+            _ => {
+                self.has_other_wraps = true;
+                "repeat"
+            }
+        };
+        writeln!(
+            out,
+            "\nTexture \"texture-{number}\" \"spectrum\" \"imagemap\" \"string filename\" [ \"{file}\" ]\n    \
+             \"string filter\" [ \"{filter}\" ] \"string wrap\" [ \"{wrap}\" ]"
+        )?;
+        Ok(Some(number))
+    }
 }
 
 fn text_of(light: Physical) -> String {
@@ -46,23 +106,32 @@ fn text_of(light: Physical) -> String {
     }
 }
 
-fn write_piece(out: &mut Vec<u8>, piece: &Piece) -> io::Result<()> {
+fn write_piece(out: &mut Vec<u8>, piece: &Piece, texture: Option<usize>) -> io::Result<()> {
     let [red, green, blue] = piece.material.color.to_array();
     writeln!(out, "\n# object {}\nAttributeBegin", piece.object)?;
-    writeln!(out, "Material \"diffuse\" \"rgb reflectance\" [ {red:?} {green:?} {blue:?} ]")?;
+    let reflectance = match texture {
+        Some(number) => format!("\"texture reflectance\" [ \"texture-{number}\" ]"),
+        None => format!("\"rgb reflectance\" [ {red:?} {green:?} {blue:?} ]"),
+    };
+    writeln!(out, "Material \"diffuse\" {reflectance}")?;
     match &piece.form {
         Form::Sphere(Sphere { center, radius }) => {
             writeln!(out, "Translate {:?} {:?} {:?}", center.x, center.y, center.z)?;
             writeln!(out, "Shape \"sphere\" \"float radius\" [ {radius:?} ]")?;
         }
-        Form::Triangles(mesh, triangles) => write_triangles(out, mesh, triangles)?,
+        Form::Triangles(mesh, triangles) => write_triangles(out, piece, mesh, triangles)?,
     }
     writeln!(out, "AttributeEnd")
 }
 
 /// Vertices with all that they carry: pbrt has one index for a corner.
-fn write_triangles(out: &mut Vec<u8>, mesh: &Mesh, triangles: &Range<usize>) -> io::Result<()> {
-    let corners = Corners::of(mesh, triangles);
+fn write_triangles(
+    out: &mut Vec<u8>,
+    piece: &Piece,
+    mesh: &Mesh,
+    triangles: &Range<usize>,
+) -> io::Result<()> {
+    let corners = Corners::of(piece, mesh, triangles);
     let mut text = String::from("Shape \"trianglemesh\"\n    \"integer indices\" [");
     for (place, index) in corners.indices.iter().enumerate() {
         let between = if place % 12 == 0 { "\n       " } else { "" };
@@ -73,13 +142,20 @@ fn write_triangles(out: &mut Vec<u8>, mesh: &Mesh, triangles: &Range<usize>) -> 
     if let Some(normals) = &corners.normals {
         write_vectors(&mut text, "normal N", normals);
     }
+    if let Some(coordinates) = corners.coordinates.as_ref().filter(|_| piece.has_picture()) {
+        write_vectors(&mut text, "point2 uv", coordinates);
+    }
     out.write_all(text.as_bytes())
 }
 
-fn write_vectors(text: &mut String, name: &str, vectors: &[[f32; 3]]) {
+fn write_vectors<const N: usize>(text: &mut String, name: &str, vectors: &[[f32; N]]) {
     let _ = writeln!(text, "    \"{name}\" [");
-    for [x, y, z] in vectors {
-        let _ = writeln!(text, "        {:?} {:?} {:?}", x + 0.0, y + 0.0, z + 0.0);
+    for vector in vectors {
+        *text += "       ";
+        for value in vector {
+            let _ = write!(text, " {:?}", value + 0.0);
+        }
+        *text += "\n";
     }
     *text += "    ]\n";
 }

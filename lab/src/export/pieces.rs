@@ -1,21 +1,14 @@
 //! The surfaces of a scene as other programs know them: spheres where they have some, and triangles of one material.
 
 use super::{ExportError, Target};
-use crate::common::glam::{DVec3, Vec2, Vec3};
+use crate::common::glam::{DVec2, DVec3, Vec2, Vec3};
 use crate::common::look::texture::plane_axes;
-use crate::common::scene::Attribute;
+use crate::common::scene::{Attribute, MeshMaterials};
 use crate::common::{Material, Mesh, Object, Plane, Shape, Sphere, Triangle, View};
 use crate::formats::generate::Kind;
 use crate::wording::{count, readable};
 use std::borrow::Cow;
 use std::ops::Range;
-
-/// Whether the program knows spheres.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Spheres {
-    Kept,
-    Divided,
-}
 
 /// How finely a sphere is divided, around and from pole to pole: its outline is off by a four-thousandth of its radius.
 const DIVISIONS: [u32; 2] = [128, 64];
@@ -30,6 +23,31 @@ pub(super) struct Piece<'a> {
     pub(super) object: usize,
     pub(super) form: Form<'a>,
     pub(super) material: &'a Material,
+}
+
+impl Piece<'_> {
+    pub(super) fn has_picture(&self) -> bool {
+        self.material.texture.is_some()
+    }
+
+    /// Whether all corners have texture coordinates.
+    pub(super) fn has_coordinates(&self) -> bool {
+        match &self.form {
+            Form::Triangles(mesh, triangles) => {
+                let coordinates = mesh.texture_coordinates();
+                triangles.clone().all(|triangle| coordinates.of(triangle).is_some())
+            }
+            Form::Sphere(_) => true,
+        }
+    }
+
+    /// Whether the vertices have colours.
+    pub(super) fn has_colors(&self) -> bool {
+        match &self.form {
+            Form::Triangles(mesh, _) => !mesh.colors().is_empty(),
+            Form::Sphere(_) => false,
+        }
+    }
 }
 
 #[derive(Debug)]
@@ -50,36 +68,47 @@ pub(super) struct Pieces<'a> {
 }
 
 impl<'a> Pieces<'a> {
-    pub(super) fn of(view: &View<'a>, spheres: Spheres) -> Pieces<'a> {
+    pub(super) fn of(view: &View<'a>, target: Target) -> Pieces<'a> {
         let objects = view.scene.objects();
         let (middle, size) = extent(view, objects);
         let mut pieces = Pieces { all: Vec::new(), notes: Vec::new(), middle };
         for (number, object) in objects.iter().enumerate() {
-            pieces.add(number, object, spheres, view, size);
+            pieces.add(number, object, target, view, size);
         }
-        let has = |is: fn(&Material) -> bool| pieces.all.iter().any(|piece| is(piece.material));
-        if has(|material| material.specular > 0.0) {
-            pieces.notes.push("highlights are left out: surfaces are diffuse".into());
-        }
-        if has(|material| material.checker.is_some()) {
-            pieces
-                .notes
-                .push("patterns of two colours are left out: the first one is everywhere".into());
-        }
-        if has(|material| material.texture.is_some()) {
-            pieces.notes.push("pictures on surfaces are left out".into());
-        }
-        let colored = |piece: &Piece| match &piece.form {
-            Form::Triangles(mesh, _) => !mesh.colors().is_empty(),
-            Form::Sphere(_) => false,
-        };
-        if pieces.all.iter().any(colored) {
-            pieces.notes.push("colours of vertices are left out".into());
-        }
+        pieces.note_what_is_left_out(target);
         pieces
     }
 
-    fn add(&mut self, number: usize, object: &'a Object, spheres: Spheres, view: &View, size: f64) {
+    fn note_what_is_left_out(&mut self, target: Target) {
+        let has = |is: fn(&Piece) -> bool| self.all.iter().any(is);
+        let mut notes = Vec::new();
+        let mut note = |text: &str| notes.push(text.to_owned());
+        if target != Target::Obj && has(|piece| piece.material.specular > 0.0) {
+            note("highlights are left out: surfaces are diffuse");
+        }
+        if has(|piece| piece.material.checker.is_some()) {
+            note("patterns of two colours are left out: the first one is everywhere");
+        }
+        if has(|piece| piece.has_picture()) {
+            match target {
+                Target::Ply => note("pictures on surfaces are left out"),
+                Target::Pbrt | Target::Mitsuba | Target::Gltf | Target::Obj => {
+                    if has(|piece| piece.has_picture() && !piece.has_coordinates()) {
+                        note("pictures are left out where a corner has no texture coordinates");
+                    }
+                }
+            }
+        }
+        if matches!(target, Target::Obj | Target::Pbrt) && has(|piece| piece.has_colors()) {
+            note("colours of vertices are left out");
+        }
+        if target == Target::Mitsuba && has(|piece| piece.has_picture() && piece.has_colors()) {
+            note("colours of vertices are left out where a picture is");
+        }
+        self.notes.append(&mut notes);
+    }
+
+    fn add(&mut self, number: usize, object: &'a Object, target: Target, view: &View, size: f64) {
         let mut push = |form, material| self.all.push(Piece { object: number, form, material });
         let whole = |mesh: Mesh| {
             let triangles = 0..mesh.triangles().len();
@@ -105,7 +134,11 @@ impl<'a> Pieces<'a> {
                     }
                 }
             }
-            Shape::Sphere(sphere) if spheres == Spheres::Kept => {
+            // Their own texture coordinates begin elsewhere.
+            Shape::Sphere(sphere)
+                if matches!(target, Target::Pbrt | Target::Mitsuba)
+                    && object.material.texture.is_none() =>
+            {
                 push(Form::Sphere(*sphere), &object.material);
             }
             Shape::Sphere(sphere) => {
@@ -125,15 +158,19 @@ impl<'a> Pieces<'a> {
         }
     }
 
-    /// All triangles in one mesh, with what the corners carry.
-    pub(super) fn merged(&self, target: Target) -> Result<Mesh, ExportError> {
-        let meshes = self.all.iter().filter_map(|piece| match &piece.form {
-            Form::Triangles(mesh, triangles) => Some((mesh, triangles)),
-            Form::Sphere(_) => None,
-        });
+    /// All triangles in one mesh, with what vertices and corners carry; `material` names the materials of the pieces.
+    pub(super) fn merged(
+        &self,
+        target: Target,
+        mut material: impl FnMut(&Piece) -> Option<String>,
+    ) -> Result<Mesh, ExportError> {
         let mut merged = Merged::default();
         let mut last: Option<&Mesh> = None;
-        for (mesh, triangles) in meshes {
+        for piece in &self.all {
+            let Form::Triangles(mesh, triangles) = &piece.form else { continue };
+            if let Some(name) = material(piece) {
+                merged.materials.use_from(merged.triangles.len(), Some(&name));
+            }
             // The pieces of one mesh follow one another and share its vertices.
             if !last.is_some_and(|last| std::ptr::eq(last, &**mesh)) {
                 merged.begin(mesh);
@@ -171,6 +208,9 @@ struct Merged {
     triangles: Vec<[u32; 3]>,
     normals: Attribute<Vec3>,
     texture_coordinates: Attribute<Vec2>,
+    /// Of the first vertices, up to the last one that has a colour.
+    colors: Vec<Vec3>,
+    materials: MeshMaterials,
     /// Where the mesh of the last piece begins in each of the three.
     begins: [usize; 3],
 }
@@ -182,6 +222,10 @@ impl Merged {
             self.normals.values.len(),
             self.texture_coordinates.values.len(),
         ];
+        if !mesh.colors().is_empty() {
+            self.colors.resize(self.positions.len(), Vec3::ONE);
+            self.colors.extend_from_slice(mesh.colors());
+        }
         self.positions.extend_from_slice(mesh.positions());
         self.normals.values.extend_from_slice(&mesh.normals().values);
         self.texture_coordinates.values.extend_from_slice(&mesh.texture_coordinates().values);
@@ -197,10 +241,16 @@ impl Merged {
         }
     }
 
-    fn mesh(self) -> Mesh {
-        let mesh = Mesh::new(self.positions, self.triangles).expect("they were in meshes");
-        let mesh = mesh.with_normals(self.normals).expect("one for each triangle");
-        mesh.with_texture_coordinates(self.texture_coordinates).expect("one for each triangle")
+    fn mesh(mut self) -> Mesh {
+        if !self.colors.is_empty() {
+            self.colors.resize(self.positions.len(), Vec3::ONE);
+        }
+        Mesh::new(self.positions, self.triangles)
+            .and_then(|mesh| mesh.with_normals(self.normals))
+            .and_then(|mesh| mesh.with_texture_coordinates(self.texture_coordinates))
+            .and_then(|mesh| mesh.with_colors(self.colors))
+            .expect("they were in meshes")
+            .with_materials(self.materials)
     }
 }
 
@@ -219,15 +269,24 @@ fn corners<T: Copy>(attribute: &Attribute<T>, triangle: usize, by: usize) -> [u3
 }
 
 fn of_triangle(Triangle { a, b, c }: Triangle) -> Mesh {
-    Mesh::new(vec![a, b, c], vec![[0, 1, 2]]).expect("a scene has finite corners")
+    let mesh = Mesh::new(vec![a, b, c], vec![[0, 1, 2]]).expect("a scene has finite corners");
+    with_coordinates(mesh, vec![Vec2::ZERO, Vec2::X, Vec2::Y])
 }
 
-/// A sphere of triangles whose vertices lie on it, with its normals.
+/// The same with a texture coordinate at each vertex.
+fn with_coordinates(mesh: Mesh, values: Vec<Vec2>) -> Mesh {
+    let corners = mesh.triangles().to_vec();
+    mesh.with_texture_coordinates(Attribute { values, corners }).expect("there is one for each")
+}
+
+/// A sphere of triangles whose vertices lie on it, with its normals and texture coordinates.
 fn of_sphere(Sphere { center, radius }: Sphere) -> Mesh {
     let unit = Kind::Sphere.mesh(DIVISIONS).expect("they are few");
     let positions = unit.positions().iter().map(|&at| center + radius * at).collect();
     let mesh = Mesh::new(positions, unit.triangles().to_vec()).expect("a scene's spheres end");
-    mesh.with_normals(unit.normals().clone()).expect("they are those of the unit sphere")
+    mesh.with_normals(unit.normals().clone())
+        .and_then(|mesh| mesh.with_texture_coordinates(unit.texture_coordinates().clone()))
+        .expect("they are those of the unit sphere")
 }
 
 /// A square about the point of a plane that is nearest to the eye, facing as the plane does; and its side.
@@ -241,6 +300,12 @@ fn of_plane(Plane { point, normal }: Plane, view: &View, size: f64) -> (Mesh, f3
     let corners = [foot - right - up, foot + right - up, foot + right + up, foot - right + up];
     let positions = corners.map(|corner| corner.as_vec3()).to_vec();
     let mesh = Mesh::new(positions, vec![[0, 1, 2], [0, 2, 3]]).expect("it was made to end");
+    let axes = plane_axes(normal);
+    let coordinate = |corner: DVec3| {
+        let offset = corner - point.as_dvec3();
+        DVec2::from(axes.map(|axis| axis.dot(offset))).as_vec2()
+    };
+    let mesh = with_coordinates(mesh, corners.map(coordinate).to_vec());
     #[expect(clippy::cast_possible_truncation, reason = "a number to read")]
     let side = side as f32;
     (mesh, side)

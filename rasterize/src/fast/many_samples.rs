@@ -12,11 +12,9 @@ use bothways_common::engine::simd::{
 };
 use bothways_common::observe::Events;
 use bothways_common::raster::{Region, Sample};
-use std::ops::Range;
 
-/// Boxes of no more samples, or no more rows, are drawn whole: to find out where a triangle is not would take longer.
-const MOST_UNCUT: usize = 2048;
-const MOST_ROWS_UNCUT: usize = 16;
+/// Boxes of no more columns are drawn in all their rows: to find out where a triangle is not would take longer.
+const MOST_UNCUT: usize = 32;
 
 /// One triangle, its numbers broadcast to all lanes.
 struct Broadcast<S: Simd> {
@@ -62,97 +60,63 @@ fn draw_blocks<const ACROSS: usize, C: Context>(
     buffer: &mut TileBuffer,
 ) {
     let simd = context.simd();
-    let origin = triangle.origin;
-    let blocks = Blocks::<'_, ACROSS, _> {
-        triangle,
-        picture,
-        broadcast: Broadcast::new(simd, triangle),
-        ends: [rows.end, columns.end],
-        end_row: f32x16::splat(simd, difference(rows.end, origin.row)),
-        end_column: f32x16::splat(simd, difference(columns.end, origin.column)),
-    };
+    let broadcast = Broadcast::new(simd, triangle);
+    let lane_row = f32x16::load_array(simd, const { lane_places::<ACROSS>()[0] });
+    let lane_column = f32x16::load_array(simd, const { lane_places::<ACROSS>()[1] });
+    // Rows and columns from the triangle's origin.
+    let Sample { row: first_row, column: first_column } = triangle.origin;
+    let end_row = f32x16::splat(simd, difference(rows.end, first_row));
+    let end_column = f32x16::splat(simd, difference(columns.end, first_column));
+    let down = 16 / ACROSS;
+    let step = f32x16::splat(simd, const { difference(16 / ACROSS, 0) });
+    let to_next = down * buffer.stride();
+
     // If the loops are watched, every test is an event.
-    let is_small = rows.len() <= MOST_ROWS_UNCUT || rows.len() * columns.len() <= MOST_UNCUT;
-    if C::WATCHED || ACROSS < 16 || is_small {
-        for column in columns.step_by(ACROSS) {
-            if !blocks.draw_column(context, column, rows.clone(), buffer) {
-                return;
-            }
-        }
-        return;
+    let is_wide = columns.len() > MOST_UNCUT && triangle.facing != 0.0;
+    let is_cut = !C::WATCHED && ACROSS == 16 && is_wide;
+    let mut ends = [[0; 16]; 2];
+    if is_cut {
+        let own = [difference(rows.start, first_row), difference(rows.end, first_row)];
+        ends = broadcast.rows_of_columns(simd, difference(columns.start, first_column), own);
     }
-    let own = [difference(rows.start, origin.row), difference(rows.end, origin.row)];
-    let first = difference(columns.start, origin.column);
-    let ends = blocks.broadcast.rows_of_columns(simd, first, own);
-    for (number, column) in columns.step_by(ACROSS).enumerate() {
-        let [first, end] = [ends[0][number & 15], ends[1][number & 15]];
-        let rows = origin.row + first as usize..origin.row + end as usize;
-        if !blocks.draw_column(context, column, rows, buffer) {
-            return;
+    // Most triangles have one column of blocks: what depends on columns is computed once.
+    for (number, column) in columns.clone().step_by(ACROSS).enumerate() {
+        let mut rows = rows.clone();
+        if is_cut {
+            rows = first_row + ends[0][number & 15] as usize
+                ..first_row + ends[1][number & 15] as usize;
         }
-    }
-}
-
-/// One triangle in blocks of sixteen samples, in `ACROSS` columns.
-struct Blocks<'a, const ACROSS: usize, S: Simd> {
-    triangle: &'a TriangleSetup,
-    picture: &'a Picture<'a>,
-    broadcast: Broadcast<S>,
-    /// The ends of rows and columns; and counted from the triangle's origin.
-    ends: [usize; 2],
-    end_row: f32x16<S>,
-    end_column: f32x16<S>,
-}
-
-impl<const ACROSS: usize, S: Simd> Blocks<'_, ACROSS, S> {
-    /// Draws the blocks of some rows that begin at a column. Returns whether to go on with the next columns. Most triangles
-    /// have one column of blocks: what depends on columns is computed once.
-    #[inline(always)]
-    fn draw_column<C: Context<Simd = S>>(
-        &self,
-        context: &mut C,
-        column: usize,
-        rows: Range<usize>,
-        buffer: &mut TileBuffer,
-    ) -> bool {
-        let (simd, Blocks { triangle, broadcast, .. }) = (context.simd(), self);
-        let Sample { row: first_row, column: first_column } = triangle.origin;
-        let lane_row = f32x16::load_array(simd, const { lane_places::<ACROSS>()[0] });
-        let lane_column = f32x16::load_array(simd, const { lane_places::<ACROSS>()[1] });
-        let down = 16 / ACROSS;
-        let step = f32x16::splat(simd, const { difference(16 / ACROSS, 0) });
-        let to_next = down * buffer.stride();
         let lane_columns = lane_column + difference(column, first_column);
-        let at_top = broadcast.at_top(lane_columns, lane_columns.simd_lt(self.end_column));
+        let at_top = broadcast.at_top(lane_columns, lane_columns.simd_lt(end_column));
         let mut lane_rows = lane_row + difference(rows.start, first_row);
         let mut index = buffer.index(Sample { row: rows.start, column });
         for row in rows.clone().step_by(down) {
-            let in_rows = (ACROSS < 16).then(|| lane_rows.simd_lt(self.end_row));
+            let in_rows = (ACROSS < 16).then(|| lane_rows.simd_lt(end_row));
             let tested = broadcast.test(lane_rows, &at_top, in_rows);
             let first = Sample { row, column };
             if C::WATCHED {
-                emit_tests::<ACROSS, C>(context, triangle, buffer, first, self.ends, &tested);
+                let ends = [rows.end, columns.end];
+                emit_tests::<ACROSS, C>(context, triangle, buffer, first, ends, &tested);
             }
             let doubt = if ACROSS == 8 {
-                keep_two_rows::<_, C::Fault>(simd, broadcast, &tested, buffer, index)
+                keep_two_rows::<_, C::Fault>(simd, &broadcast, &tested, buffer, index)
             } else {
-                keep_row::<_, C::Fault>(simd, broadcast, &tested, buffer, index)
+                keep_row::<_, C::Fault>(simd, &broadcast, &tested, buffer, index)
             };
             if doubt.any_true() {
                 let masks = [doubt.to_bitmask(), tested.inside.to_bitmask()];
                 let fragments = (broadcast.id, tested.keys.to_array());
                 let context = &mut context.scalar();
-                leave_open::<ACROSS, _>(context, fragments, self.picture, buffer, first, masks);
+                leave_open::<ACROSS, _>(context, fragments, picture, buffer, first, masks);
                 if buffer.is_duplicate::<C>(broadcast.id) {
                     buffer.executed.blocks += ((row - rows.start) / down + 1) as u64;
-                    return false;
+                    return;
                 }
             }
             lane_rows += step;
             index += to_next;
         }
         buffer.executed.blocks += rows.len().div_ceil(down) as u64;
-        true
     }
 }
 

@@ -80,6 +80,19 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
         "invalid value 'slow' for '--method <METHOD>' [possible values: fast, textbook]",
     ),
     (
+        "canonical --max-memory 0",
+        "invalid value '0' for '--max-memory <SIZE>': the program by itself takes most of 64 MiB, the least that can be \
+         given; write a whole number with K, M, G or T, such as 500M or 2G",
+    ),
+    (
+        "canonical --max-memory -1G",
+        "invalid value '-1G' for '--max-memory <SIZE>': write a whole number with K, M, G or T, such as 500M or 2G",
+    ),
+    (
+        "canonical --size 30000x30000 --max-memory 1G",
+        "900,000,000 samples need at least 28.5 GiB of memory, more than --max-memory leaves (",
+    ),
+    (
         "canonical --samples 0",
         "invalid value '0' for '--samples <N>': give a whole number from 1 to 4294967295",
     ),
