@@ -259,7 +259,7 @@ fn a_sphere_keeps_its_texture_coordinates() {
         }
     }
     assert!(compared > 10_000);
-    let (ours, theirs) = (seen(&scene), seen(&alone(vec![Shape::Mesh(mesh)], &scene)));
+    let (ours, theirs) = (seen(&scene), seen(&alone(vec![Shape::Mesh(mesh.clone())], &scene)));
     let near = |(one, other): (&[u8; 3], &[u8; 3])| {
         one.iter().zip(other).all(|(one, other)| one.abs_diff(*other) <= 8)
     };
