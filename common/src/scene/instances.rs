@@ -2,6 +2,8 @@
 
 use super::mesh::{Mesh, MeshError};
 use super::shape::Shape;
+use crate::engine::simd::{Simd, SimdBase, SimdNarrow, SimdWiden, f32x16, f64x8};
+use crate::look::lanes::each;
 use glam::{DAffine3, DVec3, Vec3};
 use std::sync::Arc;
 
@@ -58,17 +60,30 @@ impl Placement {
         Vec3::new(x, y, z)
     }
 
-    /// [`Placement::position`] of many positions: rows of their x, y and z.
+    /// [`Placement::position`] of a few positions: rows of their x, y and z.
     #[inline(always)]
     pub fn positions<const N: usize>(&self, positions: &[[f32; N]; 3]) -> [[f32; N]; 3] {
         let [x, y, z] = positions;
-        let mut placed = [[0.0; N]; 3];
-        for (row, placed) in self.rows.iter().zip(&mut placed) {
-            for (k, placed) in placed.iter_mut().enumerate() {
-                *placed = coordinate(*row, [x[k], y[k], z[k]]);
-            }
-        }
-        placed
+        self.rows.map(|row| std::array::from_fn(|k| coordinate(row, [x[k], y[k], z[k]])))
+    }
+
+    /// [`Placement::position`] of sixteen positions: rows of their x, y and z.
+    #[inline(always)]
+    pub fn sixteen_positions<S: Simd>(
+        &self,
+        simd: S,
+        positions: &[[f32; 16]; 3],
+    ) -> [[f32; 16]; 3] {
+        let [x, y, z] = each!(row in [&positions[0], &positions[1], &positions[2]] => {
+            f32x16::from_slice(simd, row).widen()
+        });
+        each!(row in [&self.rows[0], &self.rows[1], &self.rows[2]] => {
+            let [m0, m1, m2, m3] = each!(k in [0, 1, 2, 3] => f64x8::splat(simd, f64::from(row[k])));
+            let [low, high] = each!(half in [[x.0, y.0, z.0], [x.1, y.1, z.1]] => {
+                m0 * half[0] + m1 * half[1] + m2 * half[2] + m3
+            });
+            low.narrow(high).to_array()
+        })
     }
 
     /// A normal of the mesh in the world, of another length: the cofactors of the map (its inverse transpose times its
@@ -249,6 +264,7 @@ impl From<Instances> for Shape {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::engine::simd::{dispatch, levels};
     use glam::DMat3;
 
     fn triangle() -> Mesh {
@@ -269,6 +285,36 @@ mod tests {
             Vec3::new(3.0 * f32::EPSILON, 7.0, 9.0)
         );
         assert_eq!(placement.positions(&[[x], [7.0], [9.0]]), [[3.0 * f32::EPSILON], [7.0], [9.0]]);
+        for level in levels() {
+            let sixteen = [[x; 16], [7.0; 16], [9.0; 16]];
+            let placed = dispatch!(level, simd => placement.sixteen_positions(simd, &sixteen));
+            assert_eq!(placed, [[3.0 * f32::EPSILON; 16], [7.0; 16], [9.0; 16]]);
+        }
+    }
+
+    #[test]
+    fn sixteen_positions_have_the_bits_of_one() {
+        let number = |k: usize| ((k * 37 % 101) as f32 - 50.3) * 1.7f32.powi((k % 19) as i32 - 9);
+        let rows = |first: usize| {
+            std::array::from_fn(|row| std::array::from_fn(|k| number(first + 4 * row + k)))
+        };
+        for first in 0..40 {
+            let placement = Placement::from_rows(rows(first));
+            let positions: [[f32; 16]; 3] = std::array::from_fn(|axis| {
+                std::array::from_fn(|k| number(7 * first + 16 * axis + k))
+            });
+            let expected = placement.positions(&positions);
+            for (lane, x) in expected[0].into_iter().enumerate() {
+                let one = positions.map(|row| row[lane]);
+                assert_eq!(placement.position(Vec3::from(one)).x.to_bits(), x.to_bits());
+            }
+            for level in levels() {
+                let placed =
+                    dispatch!(level, simd => placement.sixteen_positions(simd, &positions));
+                let bits = |rows: [[f32; 16]; 3]| rows.map(|row| row.map(f32::to_bits));
+                assert_eq!(bits(placed), bits(expected));
+            }
+        }
         let same = Vec3::new(0.1, -3.4e38, 1e-45);
         assert_eq!(Placement::IDENTITY.position(same), same);
     }

@@ -9,6 +9,7 @@ use bothways_common::Placement;
 use bothways_common::engine::context::Context;
 use bothways_common::engine::roundoff::EPS24;
 use bothways_common::engine::simd::{Simd, SimdBase, SimdFloat, f32x16, mask32x16, u32x16};
+use bothways_common::look::lanes::each;
 use glam::{DMat3, DVec3, Vec3};
 
 /// One instance, as a tile's rays see it.
@@ -232,7 +233,7 @@ impl<'a> InstanceFrustum<'a> {
         let [by_first, by_last] = [one / first_t, one / last_t];
         let error = splat(culling.sides_error);
         let beside = places.beside + 16.0 * EPS24 * (places.half + 1.0);
-        let none = |function: &WorldAffine| {
+        let [across, down] = each!(function in [&places.across, &places.down] => {
             let low = function.extreme(boxes, false) - error;
             let high = function.extreme(boxes, true) + error;
             let low = (low * by_first).min(low * by_last);
@@ -240,8 +241,8 @@ impl<'a> InstanceFrustum<'a> {
             let first = low - low.abs() * (16.0 * EPS24) + (places.half - beside);
             let last = high + high.abs() * (16.0 * EPS24) + (places.half + beside);
             last.floor().simd_lt(first.ceil())
-        };
-        first_t.simd_gt(zero) & (none(&places.across) | none(&places.down))
+        });
+        first_t.simd_gt(zero) & (across | down)
     }
 }
 
@@ -274,7 +275,7 @@ impl PlacedBy<'_> {
     #[inline(always)]
     pub(crate) fn indexed_leaf<S: Simd>(&self, simd: S, leaf: &IndexedLeaf) -> IndexedLeaf {
         IndexedLeaf {
-            vertices: self.placement.positions(&leaf.vertices),
+            vertices: self.placement.sixteen_positions(simd, &leaf.vertices),
             corners: leaf.corners,
             ids: self.ids(simd, &leaf.ids),
         }
@@ -287,7 +288,7 @@ impl PlacedBy<'_> {
         for (corner, placed) in
             leaf.corners.as_chunks::<3>().0.iter().zip(corners.as_chunks_mut().0)
         {
-            *placed = self.placement.positions(corner);
+            *placed = self.placement.sixteen_positions(simd, corner);
         }
         PlainLeaf { corners, ids: self.ids(simd, &leaf.ids) }
     }
