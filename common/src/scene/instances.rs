@@ -64,7 +64,13 @@ impl Placement {
     #[inline(always)]
     pub fn positions<const N: usize>(&self, positions: &[[f32; N]; 3]) -> [[f32; N]; 3] {
         let [x, y, z] = positions;
-        self.rows.map(|row| std::array::from_fn(|k| coordinate(row, [x[k], y[k], z[k]])))
+        let mut placed = [[0.0; N]; 3];
+        for (row, placed) in self.rows.iter().zip(&mut placed) {
+            for (k, placed) in placed.iter_mut().enumerate() {
+                *placed = coordinate(*row, [x[k], y[k], z[k]]);
+            }
+        }
+        placed
     }
 
     /// [`Placement::position`] of sixteen positions: rows of their x, y and z.

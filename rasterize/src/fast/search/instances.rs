@@ -141,7 +141,7 @@ impl SharedMesh {
     ) {
         let blocks = &self.positions[cluster.blocks.start as usize..cluster.blocks.end as usize];
         for (block, vertices) in blocks.iter().zip(vertices.chunks_exact_mut(16)) {
-            raster.place_sixteen(simd, map, &placement.sixteen_positions(simd, block), vertices);
+            raster.place_sixteen(simd, map, &placement.positions(block), vertices);
         }
     }
 }
