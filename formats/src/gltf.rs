@@ -29,6 +29,7 @@ mod buffers;
 mod camera;
 mod container;
 mod error;
+mod item;
 mod mesh;
 mod nodes;
 mod shapes;
@@ -42,6 +43,7 @@ use crate::warning::MaterialWarning;
 use ::gltf::json::Root;
 use bothways_common::scene::{Mesh, Shape};
 use buffers::Buffers;
+use item::{Located, QUANTIZATION};
 use mesh::Meshes;
 use std::borrow::Cow;
 use texture::Textures;
@@ -141,9 +143,6 @@ fn model(file: &str, bytes: &[u8], files: &Files, sharing: bool) -> Result<Model
     })
 }
 
-/// A fault, and what has it, such as `accessor 3`; empty if it is the file itself.
-type Located = (String, GltfFault);
-
 fn read_model(file: &str, bytes: &[u8], files: &Files, sharing: bool) -> Result<Model, Located> {
     let whole = |fault| (String::new(), fault);
     let container = container::split(bytes).map_err(whole)?;
@@ -171,22 +170,8 @@ fn check_version(root: &Root) -> Result<(), GltfFault> {
     }
 }
 
-/// The extension that allows integers as positions and normals.
-const QUANTIZATION: &str = "KHR_mesh_quantization";
-
 /// The extensions that a file may require.
 const READ_EXTENSIONS: [&str; 2] = [QUANTIZATION, "KHR_texture_transform"];
-
-/// The item of a list that a file names by its index.
-fn item<'a, T, U>(
-    list: &'a [T],
-    index: ::gltf::json::Index<U>,
-    what: &'static str,
-) -> Result<(usize, &'a T), GltfFault> {
-    let (index, count) = (index.value(), list.len());
-    let item = list.get(index).ok_or(GltfFault::Unknown { what, index, count })?;
-    Ok((index, item))
-}
 
 #[cfg(test)]
 mod tests;

@@ -11,32 +11,11 @@ mod two_files;
 
 use crate::arguments::arguments;
 use crate::folder::names;
+use crate::texts::COMMANDS;
 use assert_cmd::Command;
 use std::collections::BTreeSet;
 use std::fs;
 use tempfile::TempDir;
-
-/// All commands.
-const COMMANDS: &[&str] = &[
-    "render",
-    "diff",
-    "check",
-    "grade",
-    "figure",
-    "slides",
-    "scenes",
-    "rules",
-    "cover",
-    "pixel",
-    "film",
-    "camera",
-    "export",
-    "mesh",
-    "vectors",
-    "fuzz",
-    "sweep",
-    "completions",
-];
 
 /// The tested command lines, and the beginnings of the messages.
 fn refused() -> impl Iterator<Item = (String, &'static str)> {

@@ -15,6 +15,28 @@ use tempfile::TempDir;
 /// A picture with exact counts of work: the textbook method skips no work.
 const TEXTBOOK: [&str; 5] = ["--method", "textbook", "--no-times", "--threads", "1"];
 
+/// All commands, as the help lists them.
+pub(crate) const COMMANDS: &[&str] = &[
+    "render",
+    "diff",
+    "check",
+    "grade",
+    "figure",
+    "slides",
+    "scenes",
+    "rules",
+    "cover",
+    "pixel",
+    "film",
+    "camera",
+    "export",
+    "mesh",
+    "vectors",
+    "fuzz",
+    "sweep",
+    "completions",
+];
+
 /// `bothways` in a separate folder, on a terminal 100 characters wide.
 pub(crate) fn bothways(home: &TempDir, args: &[&str]) -> Command {
     let mut command = Command::cargo_bin("bothways").unwrap();
@@ -335,28 +357,8 @@ fn a_squashed_picture_has_a_hint() {
 
 #[test]
 fn short_help() {
-    let commands = [
-        "render",
-        "diff",
-        "check",
-        "grade",
-        "figure",
-        "slides",
-        "scenes",
-        "rules",
-        "cover",
-        "pixel",
-        "film",
-        "camera",
-        "export",
-        "mesh",
-        "vectors",
-        "fuzz",
-        "sweep",
-        "completions",
-    ];
     insta::assert_snapshot!("help", printed(bothways(&home(), &["-h"]), 0));
-    for command in commands {
+    for &command in COMMANDS {
         let help = printed(bothways(&home(), &[command, "-h"]), 0);
         insta::assert_snapshot!(format!("help_{command}"), help);
     }

@@ -25,6 +25,17 @@ pub fn linear_from_encoded(encoded: f32) -> f32 {
     if encoded <= 0.040_45 { encoded / 12.92 } else { libm::powf((encoded + 0.055) / 1.055, 2.4) }
 }
 
+/// The sRGB value in 0 … 1 of a linear one; values outside are clamped.
+pub fn encoded_from_linear(linear: f64) -> f64 {
+    let linear = linear.clamp(0.0, 1.0);
+    let encoded = if linear <= 0.003_130_8 {
+        12.92 * linear
+    } else {
+        1.055 * libm::pow(linear, 1.0 / 2.4) - 0.055
+    };
+    encoded.clamp(0.0, 1.0)
+}
+
 /// [`srgb_from_linear`] of the red, green and blue of sixteen colours; each is `red + 2⁸·green + 2¹⁶·blue`.
 #[inline(always)]
 pub(crate) fn srgb_of_sixteen<S: Simd>(simd: S, colors: [f32x16<S>; 3]) -> [u32; 16] {

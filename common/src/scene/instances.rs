@@ -1,7 +1,6 @@
 //! One mesh in many places: the mesh is stored once, and each place is an affine map.
 
 use super::mesh::{Mesh, MeshError};
-use super::shape::Shape;
 use crate::engine::simd::{Simd, SimdBase, SimdNarrow, SimdWiden, f32x16, f64x8};
 use crate::look::lanes::each;
 use glam::{DAffine3, DVec3, Vec3};
@@ -258,12 +257,6 @@ impl Instances {
         let placed: Result<Mesh, MeshError> =
             Mesh::clone(&self.mesh).map(|position| placement.position(position), turn);
         placed.expect("instances are in the range of f32")
-    }
-}
-
-impl From<Instances> for Shape {
-    fn from(instances: Instances) -> Self {
-        Shape::Instances(instances)
     }
 }
 

@@ -68,3 +68,9 @@ impl Shape {
         }
     }
 }
+
+impl From<Instances> for Shape {
+    fn from(instances: Instances) -> Self {
+        Shape::Instances(instances)
+    }
+}

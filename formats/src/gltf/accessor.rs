@@ -5,7 +5,7 @@
 
 use super::buffers::{Buffers, View};
 use super::error::GltfFault;
-use super::{Located, QUANTIZATION, item};
+use super::item::{Located, QUANTIZATION, item};
 use ::gltf::json::accessor::sparse::Sparse;
 use ::gltf::json::accessor::{ComponentType, GenericComponentType, IndexComponentType, Type};
 use ::gltf::json::validation::Checked;

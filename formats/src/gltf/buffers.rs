@@ -1,7 +1,7 @@
 //! The data of a glTF file's buffers: in the file, in a `data:` URI, or in a file beside it.
 
 use super::error::GltfFault;
-use super::{Located, item};
+use super::item::{Located, item};
 use crate::source::Files;
 use ::gltf::json::{Buffer, Index, Root, buffer};
 use base64::Engine;

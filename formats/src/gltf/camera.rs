@@ -1,8 +1,8 @@
 //! The cameras of a glTF file, as cameras of the lecture.
 
 use super::error::GltfFault;
+use super::item::{Located, item};
 use super::nodes::Placed;
-use super::{Located, item};
 use ::gltf::json::Root;
 use ::gltf::json::camera::{Camera, Orthographic, Perspective};
 use bothways_common::camera::{CameraDescription, Orientation, Projection};

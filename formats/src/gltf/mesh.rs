@@ -3,9 +3,9 @@
 use super::accessor::{Elements, Role};
 use super::buffers::Buffers;
 use super::error::GltfFault;
+use super::item::{Located, item};
 use super::nodes::Placed;
 use super::texture::{Coordinates, Textures};
-use super::{Located, item};
 use crate::attributes::{self, NONE, push_color};
 use ::gltf::json::mesh::{Mode, Primitive, Semantic};
 use ::gltf::json::texture::Info;

@@ -1,7 +1,7 @@
 //! The nodes of a scene, each with its place in the world.
 
 use super::error::GltfFault;
-use super::{Located, item};
+use super::item::{Located, item};
 use ::gltf::json::scene::{Node, UnitQuaternion};
 use ::gltf::json::{Index, Root};
 use glam::{DMat4, DQuat, DVec3};

@@ -1,7 +1,7 @@
 //! The shapes of a scene: meshes, and instances of those that many nodes name.
 
-use super::Located;
 use super::error::GltfFault;
+use super::item::Located;
 use super::mesh::{Builder, Meshes};
 use super::nodes::Placed;
 use ::gltf::json::Root;

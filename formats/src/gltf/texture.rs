@@ -2,7 +2,7 @@
 
 use super::buffers::{Buffers, Image};
 use super::error::GltfFault;
-use super::item;
+use super::item::item;
 use crate::picture::texture::Pictures;
 use crate::source::Files;
 use crate::warning::{MaterialWarning, Missing};

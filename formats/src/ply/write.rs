@@ -1,6 +1,6 @@
 //! Writes PLY files.
 
-use bothways_common::look::color::{linear_from_srgb, srgb_from_linear};
+use bothways_common::look::color::{encoded_from_linear, linear_from_srgb, srgb_from_linear};
 use bothways_common::scene::Mesh;
 use glam::Vec3;
 use std::io::{self, Write};
@@ -96,14 +96,10 @@ impl Colors {
     }
 }
 
-/// The sRGB value of a linear one (IEC 61966-2-1:1999).
+/// The sRGB value of a linear one, rounded to what is written.
+#[expect(clippy::cast_possible_truncation, reason = "the rounding")]
 fn encoded(linear: f32) -> f32 {
-    let linear = f64::from(linear.clamp(0.0, 1.0));
-    let encoded =
-        if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
-    #[expect(clippy::cast_possible_truncation, reason = "rounded to what is written")]
-    let encoded = encoded as f32;
-    encoded
+    encoded_from_linear(linear.into()) as f32
 }
 
 #[cfg(test)]

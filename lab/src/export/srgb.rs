@@ -1,6 +1,6 @@
 //! Linear values as sRGB values, finer than bytes (IEC 61966-2-1:1999).
 
-use crate::common::look::color::{linear_from_srgb, srgb_from_linear};
+use crate::common::look::color::{encoded_from_linear, linear_from_srgb, srgb_from_linear};
 
 /// The sRGB value in 0 … 1 of a linear one: that of a byte, if a byte stands for it.
 pub(super) fn encoded(linear: f32) -> f32 {
@@ -9,22 +9,15 @@ pub(super) fn encoded(linear: f32) -> f32 {
         return f32::from(byte) / 255.0;
     }
     #[expect(clippy::cast_possible_truncation, reason = "rounded to what is written")]
-    let encoded = exactly(linear) as f32;
+    let encoded = encoded_from_linear(linear.into()) as f32;
     encoded
 }
 
 /// The 16 bits that stand for a linear value.
 pub(super) fn encoded_in_16_bits(linear: f32) -> u16 {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 65535")]
-    let value = (65535.0 * exactly(linear)).round() as u16;
+    let value = (65535.0 * encoded_from_linear(linear.into())).round() as u16;
     value
-}
-
-fn exactly(linear: f32) -> f64 {
-    let linear = f64::from(linear).clamp(0.0, 1.0);
-    let encoded =
-        if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
-    encoded.clamp(0.0, 1.0)
 }
 
 #[cfg(test)]

@@ -72,8 +72,8 @@ fn draw_blocks<const ACROSS: usize, C: Context>(
     let to_next = down * buffer.stride();
 
     // If the loops are watched, every test is an event.
-    let is_wide = columns.len() > MOST_UNCUT && triangle.facing != 0.0;
-    let is_cut = !C::WATCHED && ACROSS == 16 && is_wide;
+    let is_cut =
+        !C::WATCHED && ACROSS == 16 && columns.len() > MOST_UNCUT && triangle.facing != 0.0;
     let mut ends = [[0; 16]; 2];
     if is_cut {
         let own = [difference(rows.start, first_row), difference(rows.end, first_row)];
@@ -98,11 +98,7 @@ fn draw_blocks<const ACROSS: usize, C: Context>(
                 let ends = [rows.end, columns.end];
                 emit_tests::<ACROSS, C>(context, triangle, buffer, first, ends, &tested);
             }
-            let doubt = if ACROSS == 8 {
-                keep_two_rows::<_, C::Fault>(simd, &broadcast, &tested, buffer, index)
-            } else {
-                keep_row::<_, C::Fault>(simd, &broadcast, &tested, buffer, index)
-            };
+            let doubt = keep::<ACROSS, _, C::Fault>(simd, &broadcast, &tested, buffer, index);
             if doubt.any_true() {
                 let masks = [doubt.to_bitmask(), tested.inside.to_bitmask()];
                 let fragments = (broadcast.id, tested.keys.to_array());
@@ -230,6 +226,22 @@ impl<S: Simd> Broadcast<S> {
             perhaps: least.simd_ge(-self.error),
             keys: at_top[3] + self.keys[2] * row,
         }
+    }
+}
+
+/// The depth test of a block. Returns the lanes that are left open.
+#[inline(always)]
+fn keep<const ACROSS: usize, S: Simd, F: Fault>(
+    simd: S,
+    broadcast: &Broadcast<S>,
+    tested: &Tested<S>,
+    buffer: &mut TileBuffer,
+    index: usize,
+) -> mask32x16<S> {
+    if ACROSS == 8 {
+        keep_two_rows::<S, F>(simd, broadcast, tested, buffer, index)
+    } else {
+        keep_row::<S, F>(simd, broadcast, tested, buffer, index)
     }
 }
 

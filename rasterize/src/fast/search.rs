@@ -7,6 +7,7 @@
 pub(super) mod batches;
 pub(super) mod bins;
 pub(super) mod clusters;
+pub(super) mod extent;
 pub(super) mod finder;
 pub(super) mod instances;
 pub(super) mod tiling;

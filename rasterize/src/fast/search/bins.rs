@@ -2,7 +2,8 @@
 
 use super::batches::{Batch, Piece};
 use super::clusters::{self, CLUSTER, Cluster, ClusterExtent, Sight};
-use super::instances::{Extent, Instance, SharedMesh, placed_box};
+use super::extent::Extent;
+use super::instances::{Instance, SharedMesh, placed_box};
 use super::tiling::Tiling;
 use crate::fast::bounds::region;
 use crate::fast::geometry::Geometry;

@@ -1,7 +1,7 @@
 //! Clusters of neighbouring triangles of a mesh. Most lie in one tile, which takes them as a whole and looks at each
 //! triangle once, when it draws it.
 
-use super::instances::Extent;
+use super::extent::Extent;
 use super::tiling::Tiling;
 use crate::fast::camera_map::CameraMap;
 use crate::fast::setup::BOX_MARGIN;

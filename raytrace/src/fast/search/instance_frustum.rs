@@ -81,92 +81,29 @@ impl<'a> InstanceFrustum<'a> {
     ) -> InstanceFrustum<'a> {
         let template = frustum.template;
         let world = &template.boxes;
-        let (m, by) = parts(place.placement);
-        let columns = DMat3 { x_axis: m[0], y_axis: m[1], z_axis: m[2] };
-        let (Bounds { low, high }, middle) = (bounds, bounds.middle());
-        let c = middle.as_dvec3();
-        let half = (high.as_dvec3() - c).max(c - low.as_dvec3()) * (1.0 + 1e-6);
         let eye = DVec3::from_array(template.eye);
+        let placed = PlacedBounds::new(place.placement, bounds, eye);
+        let functions = Functions::new(frustum, &placed, eye);
+        let Functions { along, at, .. } = functions;
 
-        let absolute = DMat3 { x_axis: m[0].abs(), y_axis: m[1].abs(), z_axis: m[2].abs() };
-        let most = low.abs().max(high.abs()).as_dvec3();
-        let center = columns * c + by;
-        let extent = absolute * half;
-        let sums = absolute * most + by.abs();
-        let farthest = center.abs() + extent;
-        let rounding = f64::from(EPS24) * 1.001 * farthest
-            + 8.0 * (-53f64).exp2() * sums
-            + DVec3::splat((-149f64).exp2());
-        let uncertain = rounding + (-48f64).exp2() * (sums + eye.abs());
-
-        // `t`, columns and rows, at the middle and along the mesh's axes.
-        let from_eye = center - eye;
-        let rows = frustum.rows.map(DVec3::from_array);
-        let along = rows.map(|row| DVec3::new(row.dot(m[0]), row.dot(m[1]), row.dot(m[2])));
-        let at = [0, 1, 2].map(|k| rows[k].dot(from_eye) + frustum.shift[k]);
-
-        let error = |row: DVec3, offset: f64, exact: f64| {
-            let size = row.dot(extent) + offset;
-            let floor =
-                f64::from(f32::MIN_POSITIVE) * (8.0 + half.element_sum() + row.element_sum());
-            let largest = size.max(row.dot(absolute * DVec3::ONE)).max(half.max_element());
-            if largest < LARGEST {
-                let in_f64 = (-48f64).exp2() * offset + exact;
-                upward(6.5 * f64::from(EPS24) * size + row.dot(uncertain) + in_f64 + floor)
-            } else {
-                f32::INFINITY
-            }
-        };
-        let wide = template.errors.wide;
-        let (beside, at_side) =
-            if template.parallel { (DVec3::ZERO, wide) } else { (along[0] * wide, at[0] * wide) };
-        let size_of_side = if template.parallel { DVec3::ZERO } else { rows[0].abs() * wide };
-        let size_of_place = size_of_side + rows[1].abs().max(rows[2].abs());
-        let largest = at_side.abs() + wide + at[1].abs().max(at[2].abs());
-        let sides_error = error(size_of_place, largest, world.sides_exact);
-
+        let sides_error = functions.sides_error(frustum, &placed);
         let t = at[0] - world.t_at_origin;
-        let t_error = error(rows[0].abs(), t.abs() + at[0].abs(), world.t_exact);
+        let t_error = placed.error(functions.rows[0].abs(), t.abs() + at[0].abs(), world.t_exact);
         let lowered = t - f64::from(t_error);
         let least_t = upward(2.0 * f64::from(t_error) + world.t_at_origin);
-        let sides = [
-            (beside - along[1], at_side - at[1]),
-            (beside + along[1], at_side + at[1]),
-            (beside - along[2], at_side - at[2]),
-            (beside + along[2], at_side + at[2]),
-        ];
-        let is_beyond =
-            |(normal, at): &(DVec3, f64)| normal.abs().dot(half) + at < -f64::from(sides_error);
-        // As in `BoxCulling::between_samples`, but in `f64`, whose roundings are far less than 2⁻⁴⁰ of the place.
-        let t_ends =
-            [-1.0, 1.0].map(|end| at[0] + end * (along[0].abs().dot(half) + f64::from(t_error)));
-        let between = |axis: usize| {
-            let last = template.side - 1;
-            let spread = along[1 + axis].abs().dot(half) + f64::from(sides_error);
-            let [low, high] = [at[1 + axis] - spread, at[1 + axis] + spread];
-            let [low, high] = if template.parallel {
-                [low, high]
-            } else if t_ends[0] > 0.0 {
-                let [near, far] = t_ends;
-                [(low / near).min(low / far), (high / near).max(high / far)]
-            } else {
-                return Some([0, last]);
-            };
-            let beside = wide - template.half;
-            let room = |place: f64| beside + (-40f64).exp2() * (place.abs() + template.half);
-            samples_between(
-                low + template.half - room(low),
-                high + template.half + room(high),
-                last,
-            )
+        let sides = functions.sides(frustum);
+        let is_beyond = |(normal, at): &(DVec3, f64)| {
+            normal.abs().dot(placed.half) + at < -f64::from(sides_error)
         };
-        let stretch = upward((absolute * DVec3::ONE).max_element() * (1.0 + 1e-6));
-        let slack = upward(2.0 * rounding.max_element());
-        let size = upward(2.0 * half.max_element());
+        let is_missed = sides.iter().any(is_beyond);
+        let seen = || functions.seen(frustum, &placed, [t_error, sides_error].map(f64::from));
+        let stretch = upward((placed.absolute * DVec3::ONE).max_element() * (1.0 + 1e-6));
+        let slack = upward(2.0 * placed.rounding.max_element());
+        let size = upward(2.0 * placed.half.max_element());
         InstanceFrustum {
             place,
             boxes: BoxCulling {
-                origin: middle.to_array(),
+                origin: placed.middle.to_array(),
                 t: WorldAffine::new(along[0], lowered),
                 least_t: -least_t.next_up(),
                 sides_error,
@@ -177,18 +114,14 @@ impl<'a> InstanceFrustum<'a> {
                 across: WorldAffine::new(along[1], at[1]),
                 down: WorldAffine::new(along[2], at[2]),
                 half: narrowed(template.half),
-                beside: upward(wide - template.half),
+                beside: upward(template.errors.wide - template.half),
                 parallel: template.parallel,
             },
             stretch,
             slack,
             sides: sides.map(|(normal, at)| WorldAffine::new(normal, at)),
-            seen: if sides.iter().any(is_beyond) {
-                None
-            } else {
-                between(1).zip(between(0)).map(|(rows, columns)| [rows, columns])
-            },
-            near: narrowed(lowered - along[0].abs().dot(half)).next_down(),
+            seen: if is_missed { None } else { seen() },
+            near: narrowed(lowered - along[0].abs().dot(placed.half)).next_down(),
             size: size * stretch + slack,
         }
     }
@@ -243,6 +176,143 @@ impl<'a> InstanceFrustum<'a> {
             last.floor().simd_lt(first.ceil())
         });
         first_t.simd_gt(zero) & (across | down)
+    }
+}
+
+/// The box of a mesh where an instance puts it, with what its vertices are off by: see [`InstanceFrustum::new`].
+struct PlacedBounds {
+    /// The columns of the map, and their magnitudes.
+    columns: DMat3,
+    absolute: DMat3,
+    /// The middle of the mesh's box, which the map puts at `center`; half of the box, which it makes `extent`.
+    middle: Vec3,
+    half: DVec3,
+    center: DVec3,
+    extent: DVec3,
+    /// What a vertex may be off by, and with it what a function's argument may be.
+    rounding: DVec3,
+    uncertain: DVec3,
+}
+
+impl PlacedBounds {
+    fn new(placement: &Placement, bounds: &Bounds, eye: DVec3) -> Self {
+        let (m, by) = parts(placement);
+        let columns = DMat3 { x_axis: m[0], y_axis: m[1], z_axis: m[2] };
+        let absolute = DMat3 { x_axis: m[0].abs(), y_axis: m[1].abs(), z_axis: m[2].abs() };
+        let (Bounds { low, high }, middle) = (bounds, bounds.middle());
+        let c = middle.as_dvec3();
+        let half = (high.as_dvec3() - c).max(c - low.as_dvec3()) * (1.0 + 1e-6);
+        let most = low.abs().max(high.abs()).as_dvec3();
+        let center = columns * c + by;
+        let extent = absolute * half;
+        let sums = absolute * most + by.abs();
+        let farthest = center.abs() + extent;
+        let rounding = f64::from(EPS24) * 1.001 * farthest
+            + 8.0 * (-53f64).exp2() * sums
+            + DVec3::splat((-149f64).exp2());
+        let uncertain = rounding + (-48f64).exp2() * (sums + eye.abs());
+        PlacedBounds { columns, absolute, middle, half, center, extent, rounding, uncertain }
+    }
+
+    /// What a function may be off by, whose factors in the world have these magnitudes, with an offset that sums up to so
+    /// much, of which `exact` is known.
+    fn error(&self, row: DVec3, offset: f64, exact: f64) -> f32 {
+        let PlacedBounds { absolute, half, extent, uncertain, .. } = self;
+        let size = row.dot(*extent) + offset;
+        let floor = f64::from(f32::MIN_POSITIVE) * (8.0 + half.element_sum() + row.element_sum());
+        let largest = size.max(row.dot(*absolute * DVec3::ONE)).max(half.max_element());
+        if largest < LARGEST {
+            let in_f64 = (-48f64).exp2() * offset + exact;
+            upward(6.5 * f64::from(EPS24) * size + row.dot(*uncertain) + in_f64 + floor)
+        } else {
+            f32::INFINITY
+        }
+    }
+}
+
+/// `t`, columns and rows as functions of a tile.
+struct Functions {
+    /// Their factors in the world.
+    rows: [DVec3; 3],
+    /// Their factors in the mesh, and their values at the middle of its box.
+    along: [DVec3; 3],
+    at: [f64; 3],
+}
+
+impl Functions {
+    fn new(frustum: &TileFrustum, placed: &PlacedBounds, eye: DVec3) -> Self {
+        let DMat3 { x_axis, y_axis, z_axis } = placed.columns;
+        let from_eye = placed.center - eye;
+        let rows = frustum.rows.map(DVec3::from_array);
+        let along = rows.map(|row| DVec3::new(row.dot(x_axis), row.dot(y_axis), row.dot(z_axis)));
+        let at = [0, 1, 2].map(|k| rows[k].dot(from_eye) + frustum.shift[k]);
+        Functions { rows, along, at }
+    }
+
+    /// Half of a tile and what rays may be off, as a function: of `t` where the camera is perspective.
+    fn beside(&self, frustum: &TileFrustum) -> (DVec3, f64) {
+        let wide = frustum.template.errors.wide;
+        if frustum.template.parallel {
+            (DVec3::ZERO, wide)
+        } else {
+            (self.along[0] * wide, self.at[0] * wide)
+        }
+    }
+
+    /// The sides of the frustum: positive inside.
+    fn sides(&self, frustum: &TileFrustum) -> [(DVec3, f64); 4] {
+        let Functions { along, at, .. } = self;
+        let (beside, at_side) = self.beside(frustum);
+        [
+            (beside - along[1], at_side - at[1]),
+            (beside + along[1], at_side + at[1]),
+            (beside - along[2], at_side - at[2]),
+            (beside + along[2], at_side + at[2]),
+        ]
+    }
+
+    /// What sides may be off by.
+    fn sides_error(&self, frustum: &TileFrustum, placed: &PlacedBounds) -> f32 {
+        let Functions { rows, at, .. } = self;
+        let template = frustum.template;
+        let wide = template.errors.wide;
+        let (_, at_side) = self.beside(frustum);
+        let of_side = if template.parallel { DVec3::ZERO } else { rows[0].abs() * wide };
+        let size = of_side + rows[1].abs().max(rows[2].abs());
+        let largest = at_side.abs() + wide + at[1].abs().max(at[2].abs());
+        placed.error(size, largest, template.boxes.sides_exact)
+    }
+
+    /// The rows and columns of the tile at which the box may be seen, from the errors of `t` and of sides.
+    ///
+    /// As in [`InstanceFrustum::between_samples`], but in `f64`, whose roundings are far less than 2⁻⁴⁰ of the place.
+    fn seen(
+        &self,
+        frustum: &TileFrustum,
+        placed: &PlacedBounds,
+        [t_error, sides_error]: [f64; 2],
+    ) -> Option<[[usize; 2]; 2]> {
+        let Functions { along, at, .. } = self;
+        let (template, half) = (frustum.template, placed.half);
+        let last = template.side - 1;
+        let t_ends = [-1.0, 1.0].map(|end| at[0] + end * (along[0].abs().dot(half) + t_error));
+        let beside = template.errors.wide - template.half;
+        let room = |place: f64| beside + (-40f64).exp2() * (place.abs() + template.half);
+        let between = |axis: usize| {
+            let spread = along[1 + axis].abs().dot(half) + sides_error;
+            let [low, high] = [at[1 + axis] - spread, at[1 + axis] + spread];
+            let [low, high] = if template.parallel {
+                [low, high]
+            } else if t_ends[0] > 0.0 {
+                let [near, far] = t_ends;
+                [(low / near).min(low / far), (high / near).max(high / far)]
+            } else {
+                return Some([0, last]);
+            };
+            let first = low + template.half - room(low);
+            samples_between(first, high + template.half + room(high), last)
+        };
+        between(1).zip(between(0)).map(|(rows, columns)| [rows, columns])
     }
 }
 
