@@ -12,6 +12,7 @@ use bothways_common::engine::simd::{
 };
 use bothways_common::observe::Events;
 use bothways_common::raster::{Region, Sample};
+use std::ops::Range;
 
 /// Boxes of no more columns are drawn in all their rows: to find out where a triangle is not would take longer.
 const MOST_UNCUT: usize = 32;
@@ -81,11 +82,7 @@ fn draw_blocks<const ACROSS: usize, C: Context>(
     }
     // Most triangles have one column of blocks: what depends on columns is computed once.
     for (number, column) in columns.clone().step_by(ACROSS).enumerate() {
-        let mut rows = rows.clone();
-        if is_cut {
-            rows = first_row + ends[0][number & 15] as usize
-                ..first_row + ends[1][number & 15] as usize;
-        }
+        let rows = if is_cut { counted_from(first_row, &ends, number) } else { rows.clone() };
         let lane_columns = lane_column + difference(column, first_column);
         let at_top = broadcast.at_top(lane_columns, lane_columns.simd_lt(end_column));
         let mut lane_rows = lane_row + difference(rows.start, first_row);
@@ -114,6 +111,13 @@ fn draw_blocks<const ACROSS: usize, C: Context>(
         }
         buffer.executed.blocks += rows.len().div_ceil(down) as u64;
     }
+}
+
+/// The rows of one of sixteen columns of blocks, given by their ends, which count from a first row.
+#[inline(always)]
+fn counted_from(first_row: usize, ends: &[[u32; 16]; 2], column: usize) -> Range<usize> {
+    let [first, end] = [ends[0][column & 15], ends[1][column & 15]];
+    first_row + first as usize..first_row + end as usize
 }
 
 /// A row or column of the picture, counted from a first one.
