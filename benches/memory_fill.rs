@@ -55,7 +55,7 @@ fn read(words: &[String]) -> Option<([u32; 2], usize, u32)> {
 fn fill(frame: &mut Frame) {
     let columns = frame.width();
     frame.tiles_mut(ROWS, columns).into_par_iter().for_each(|tile| {
-        tile.ids.into_iter().for_each(|row| row.fill(NO_PRIMITIVE));
+        tile.ids.narrow().into_iter().for_each(|row| row.fill(NO_PRIMITIVE));
         tile.t.into_iter().for_each(|row| row.fill(f32::INFINITY));
     });
 }

@@ -49,7 +49,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }
         println!();
     }
-    let owned = frame.ids().iter().filter(|&&id| id < scene.primitive_count()).count();
+    let owned = frame.ids().covered();
     println!(
         "\na, b: the two halves; A, B: owned although exactly on an edge; o: on one, not owned"
     );

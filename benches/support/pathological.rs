@@ -54,7 +54,7 @@ impl Case {
         match self {
             Case::Pathological(_) => (pathological, covered),
             Case::Ordinary(_) => {
-                let count = pathological.primitive_count();
+                let count = pathological.name_count();
                 let ordinary = scene([scattered(count, covered as f32 / count as f32)]);
                 let covered = self::covered(&ordinary);
                 (ordinary, covered)

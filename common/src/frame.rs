@@ -1,9 +1,15 @@
 //! What a renderer answers: for every sample the primitive that is seen, how far it is, and its look.
 
+mod ids;
+
+pub use ids::{IdRows, Ids};
+
 use crate::camera::Camera;
 use crate::engine::memory::filled;
 use crate::raster::{Crop, Region, check_samples};
+use crate::view::View;
 use glam::{Vec2, Vec3};
+use ids::IdPlane;
 
 /// How to render, the same for both orders.
 ///
@@ -32,6 +38,8 @@ impl Options {
 
 /// The number that an id buffer stores for "no primitive"; [`Frame::id`] says `None`.
 pub const NO_PRIMITIVE: u32 = u32::MAX;
+/// The same where ids do not fit into 32 bits: see [`Ids`].
+pub const NO_WIDE_PRIMITIVE: u64 = u64::MAX;
 
 /// What [`Frame::levels`] has where there is no texture coordinate.
 pub const NO_LEVEL: f32 = f32::NEG_INFINITY;
@@ -49,7 +57,7 @@ pub struct Frame {
     options: Options,
     /// The samples that it holds, on the raster of the whole image.
     region: Region,
-    ids: Vec<u32>,
+    ids: IdPlane,
     t: Vec<f32>,
     /// sRGB bytes, for each pixel.
     picture: Vec<[u8; 3]>,
@@ -68,8 +76,8 @@ pub struct Frame {
 pub struct Tile<'a> {
     /// Its samples, on the raster of the whole image.
     pub region: Region,
-    /// Its ids, a slice for each row; [`NO_PRIMITIVE`] for nothing.
-    pub ids: Vec<&'a mut [u32]>,
+    /// Its ids, a slice for each row.
+    pub ids: IdRows<'a>,
     /// Its `t`, a slice for each row; +∞ for nothing.
     pub t: Vec<&'a mut [f32]>,
 }
@@ -80,8 +88,8 @@ pub struct Tile<'a> {
 pub struct ShadingBand<'a> {
     /// The samples, on the raster of the whole image.
     pub region: Region,
-    /// The ids of the primitives that are seen; [`NO_PRIMITIVE`] for nothing.
-    pub ids: &'a [u32],
+    /// The ids of the primitives that are seen.
+    pub ids: Ids<'a>,
     /// Their `t`, in lengths of the viewing ray's direction; +∞ for nothing.
     pub t: &'a [f32],
     /// The sRGB bytes of the pixels, to be written.
@@ -97,7 +105,8 @@ pub struct ShadingBand<'a> {
 }
 
 impl Frame {
-    /// A frame in which nothing is seen, and every pixel is black.
+    /// A frame in which nothing is seen, and every pixel is black. It has room for ids of 32 bits; [`Frame::fit`] makes room
+    /// for wider ones where a scene has them.
     ///
     /// # Panics
     ///
@@ -112,7 +121,7 @@ impl Frame {
             camera_image: camera.image(),
             options: *options,
             region,
-            ids: filled(NO_PRIMITIVE, count),
+            ids: IdPlane::Narrow(filled(NO_PRIMITIVE, count)),
             t: filled(f32::INFINITY, count),
             picture: vec![[0; 3]; pixels.width as usize * pixels.height as usize],
             colors: Vec::new(),
@@ -124,38 +133,39 @@ impl Frame {
 
     /// The same frame, with room for the linear colour of every sample, which shading then stores.
     pub fn with_colors(mut self) -> Frame {
-        self.colors = vec![Vec3::ZERO; self.ids.len()];
+        self.colors = vec![Vec3::ZERO; self.t.len()];
         self
     }
 
     /// The same frame, with room for the normal of every sample, which shading then stores.
     pub fn with_normals(mut self) -> Frame {
-        self.normals = vec![Vec3::ZERO; self.ids.len()];
+        self.normals = vec![Vec3::ZERO; self.t.len()];
         self
     }
 
     /// The same frame, with room for the texture coordinate of every sample, which shading then stores.
     pub fn with_texture_coordinates(mut self) -> Frame {
-        self.texture_coordinates = vec![Vec2::ZERO; self.ids.len()];
+        self.texture_coordinates = vec![Vec2::ZERO; self.t.len()];
         self
     }
 
     /// The same frame, with room for the level of every sample, which shading then stores: see [`Frame::levels`].
     pub fn with_levels(mut self) -> Frame {
-        self.levels = vec![NO_LEVEL; self.ids.len()];
+        self.levels = vec![NO_LEVEL; self.t.len()];
         self
     }
 
-    /// Makes the frame fit a camera and options; one that fits already keeps its memory. Its content is meaningless
+    /// Makes the frame fit a view and options; one that fits already keeps its memory. Its content is meaningless
     /// until it is cleared or drawn anew. Room for colours, normals, texture coordinates and levels stays, if it has any.
     ///
     /// # Panics
     ///
     /// As [`Frame::new`].
-    pub fn fit(&mut self, camera: &Camera, options: &Options) {
+    pub fn fit(&mut self, view: &View, options: &Options) {
+        let camera = view.camera;
         if self.camera_image != camera.image() || self.options != *options {
             let was = std::mem::replace(self, Frame::new(camera, options));
-            let count = self.ids.len();
+            let count = self.t.len();
             if !was.colors.is_empty() {
                 self.colors = vec![Vec3::ZERO; count];
             }
@@ -169,11 +179,12 @@ impl Frame {
                 self.levels = vec![NO_LEVEL; count];
             }
         }
+        self.ids.fit(self.t.len(), view.scene.has_wide_ids());
     }
 
     /// Clears ids and distances: nothing is seen. Shading writes all the rest anew.
     pub fn clear(&mut self) {
-        self.ids.fill(NO_PRIMITIVE);
+        self.ids.clear();
         self.t.fill(f32::INFINITY);
     }
 
@@ -234,29 +245,30 @@ impl Frame {
     ///
     /// Here and in [`Frame::t`] and [`Frame::set`], row and column are those of the whole image's raster, and must lie
     /// in [`Frame::region`].
-    pub fn id(&self, row: usize, column: usize) -> Option<u32> {
-        match self.ids[self.index(row, column)] {
-            NO_PRIMITIVE => None,
-            id => Some(id),
-        }
+    pub fn id(&self, row: usize, column: usize) -> Option<u64> {
+        self.ids().get(self.index(row, column))
     }
 
     /// The distance `t` of what is seen at a sample, in lengths of the viewing ray's direction; `None` for nothing.
     pub fn t(&self, row: usize, column: usize) -> Option<f32> {
         let index = self.index(row, column);
-        (self.ids[index] != NO_PRIMITIVE).then(|| self.t[index])
+        self.ids().get(index).map(|_| self.t[index])
     }
 
     /// Stores that a primitive is seen at a sample, at the distance `t`, which is rounded by [`stored_t`].
-    pub fn set(&mut self, row: usize, column: usize, id: u32, t: f64) {
+    ///
+    /// # Panics
+    ///
+    /// If the frame has no room for ids that are so wide.
+    pub fn set(&mut self, row: usize, column: usize, id: u64, t: f64) {
         let index = self.index(row, column);
-        self.ids[index] = id;
+        self.ids.set(index, id);
         self.t[index] = stored_t(t);
     }
 
-    /// The ids of all samples, row by row from the top; [`NO_PRIMITIVE`] for nothing.
-    pub fn ids(&self) -> &[u32] {
-        &self.ids
+    /// The ids of all samples, row by row from the top.
+    pub fn ids(&self) -> Ids<'_> {
+        self.ids.as_ids()
     }
 
     /// The distances `t` of all samples, in the order of [`Frame::ids`]; +∞ for nothing.
@@ -310,25 +322,11 @@ impl Frame {
     ///
     /// If `rows` or `columns` is 0.
     pub fn tiles_mut(&mut self, rows: usize, columns: usize) -> Vec<Tile<'_>> {
-        let (width, region) = (self.width(), self.region.clone());
-        let mut tiles: Vec<Tile<'_>> = region
-            .tiles(rows, columns)
-            .map(|region| {
-                let height = region.rows.len();
-                Tile { region, ids: Vec::with_capacity(height), t: Vec::with_capacity(height) }
-            })
-            .collect();
-        let across = region.tiles_across(columns);
-        let first = region.rows.start / rows;
-        let lines = self.ids.chunks_mut(width).zip(self.t.chunks_mut(width));
-        for (row, (mut ids, mut t)) in region.rows.zip(lines) {
-            for tile in &mut tiles[(row / rows - first) * across..][..across] {
-                let wide = tile.region.columns.len();
-                tile.ids.push(ids.split_off_mut(..wide).expect("tiles are as wide as the frame"));
-                tile.t.push(t.split_off_mut(..wide).expect("tiles are as wide as the frame"));
-            }
-        }
-        tiles
+        let region = self.region.clone();
+        let ids = self.ids.cut(&region, [rows, columns]);
+        let t = cut(&mut self.t, &region, [rows, columns]);
+        let regions = region.tiles(rows, columns);
+        regions.zip(ids).zip(t).map(|((region, ids), t)| Tile { region, ids, t }).collect()
     }
 
     /// The frame's rows of pixels, for shading.
@@ -336,7 +334,7 @@ impl Frame {
         let samples = self.options.samples as usize;
         let (width, size) = (self.width(), self.width() * samples);
         let Region { rows, columns } = self.region.clone();
-        let seen = self.ids.chunks(size).zip(self.t.chunks(size));
+        let seen = self.ids.as_ids().chunks(size).zip(self.t.chunks(size));
         let mut colors = self.colors.chunks_mut(size);
         let mut normals = self.normals.chunks_mut(size);
         let mut texture_coordinates = self.texture_coordinates.chunks_mut(size);
@@ -357,6 +355,25 @@ impl Frame {
     }
 }
 
+/// Cuts the rows of a plane, which covers a region, into tiles: for each a slice for each row.
+fn cut<'a, T>(
+    plane: &'a mut [T],
+    region: &Region,
+    [rows, columns]: [usize; 2],
+) -> Vec<Vec<&'a mut [T]>> {
+    let tiles = region.tiles(rows, columns);
+    let wide: Vec<usize> = tiles.map(|tile| tile.columns.len()).collect();
+    let mut tiles: Vec<Vec<&mut [T]>> = wide.iter().map(|_| Vec::new()).collect();
+    let (across, first) = (region.tiles_across(columns), region.rows.start / rows);
+    for (row, mut line) in region.rows.clone().zip(plane.chunks_mut(region.columns.len())) {
+        let start = (row / rows - first) * across;
+        for (tile, wide) in tiles[start..][..across].iter_mut().zip(&wide[start..]) {
+            tile.push(line.split_off_mut(..*wide).expect("tiles are as wide as the frame"));
+        }
+    }
+    tiles
+}
+
 /// A distance as a frame stores it: the nearest `f32` that is finite and positive, as every `t` is.
 pub fn stored_t(t: f64) -> f32 {
     #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is what is asked")]
@@ -375,14 +392,14 @@ mod tests {
         let mut area = 0;
         for tile in frame.tiles_mut(3, 4) {
             area += tile.region.area();
-            assert_eq!(tile.ids.len(), tile.region.rows.len());
-            for row in tile.ids {
+            assert_eq!(tile.t.len(), tile.region.rows.len());
+            for row in tile.ids.narrow() {
                 assert_eq!(row.len(), tile.region.columns.len());
                 row.iter_mut().for_each(|id| *id = id.wrapping_add(1));
             }
         }
         assert_eq!(area, 140);
-        assert!(frame.ids().iter().all(|&id| id == 0));
+        assert!(frame.ids().iter().all(|id| id == Some(0)));
     }
 
     #[test]
@@ -394,8 +411,8 @@ mod tests {
             .tiles_mut(4, 8)
             .iter_mut()
             .map(|tile| {
-                assert!(tile.ids.iter().all(|ids| ids.len() == tile.region.columns.len()));
-                assert_eq!(tile.ids.len(), tile.region.rows.len());
+                assert!(tile.t.iter().all(|t| t.len() == tile.region.columns.len()));
+                assert_eq!(tile.t.len(), tile.region.rows.len());
                 cells += tile.region.area();
                 (tile.region.rows.clone(), tile.region.columns.clone())
             })
@@ -413,7 +430,7 @@ mod tests {
         frame.set(3, 6, 9, 1.0);
         assert_eq!(frame.id(3, 6), Some(9));
         assert_eq!(frame.samples_of(1, 3).collect::<Vec<_>>(), [2, 3, 6, 7]);
-        assert_eq!(frame.ids()[6], 9);
+        assert_eq!(frame.ids().get(6), Some(9));
         let bands = frame.shading_bands();
         assert_eq!((bands.len(), bands[0].picture.len(), bands[0].ids.len()), (1, 2, 8));
         assert_eq!(bands[0].region, Region { rows: 2..4, columns: 4..8 });

@@ -37,8 +37,9 @@ pub trait Events {
         false
     }
 
-    /// Object order begins a primitive, which affects no sample outside of the region.
-    fn primitive_begun(&mut self, _primitive: u32, _region: &Region) {}
+    /// Object order begins a primitive, which affects no sample outside of the region. In a scene of wide ids, it does not
+    /// begin those of instances that certainly cover no sample of the picture.
+    fn primitive_begun(&mut self, _primitive: u64, _region: &Region) {}
 
     /// Image order begins the ray of a sample.
     fn ray_begun(&mut self, _sample: Sample) {}
@@ -47,21 +48,21 @@ pub trait Events {
     fn node_opened(&mut self, _sample: Sample, _node: u32, _entered: bool) {}
 
     /// One primitive is tested against one sample: the step at the heart of both loops.
-    fn sample_tested(&mut self, _sample: Sample, _primitive: u32) {}
+    fn sample_tested(&mut self, _sample: Sample, _primitive: u64) {}
 
     /// The signs of a triangle's edge functions `E_ab`, `E_bc`, `E_ca` at a sample; zero is a tie.
     /// `None` stands for a sign that was not needed, because another one had decided. A triangle that is culled by
     /// where its corners are seen has no such event.
-    fn edge_signs(&mut self, _sample: Sample, _primitive: u32, _signs: [Option<Sign>; 3]) {}
+    fn edge_signs(&mut self, _sample: Sample, _primitive: u64, _signs: [Option<Sign>; 3]) {}
 
     /// The primitive covers the sample.
-    fn fragment(&mut self, _sample: Sample, _primitive: u32) {}
+    fn fragment(&mut self, _sample: Sample, _primitive: u64) {}
 
     /// A fragment meets an earlier one at its sample, and replaces it or not.
-    fn depth_test(&mut self, _sample: Sample, _incoming: u32, _stored: u32, _replaced: bool) {}
+    fn depth_test(&mut self, _sample: Sample, _incoming: u64, _stored: u64, _replaced: bool) {}
 
     /// The first primitive along a ray is known.
-    fn hit(&mut self, _sample: Sample, _primitive: Option<u32>) {}
+    fn hit(&mut self, _sample: Sample, _primitive: Option<u64>) {}
 
     /// A decision that the fast arithmetic left open goes to the exact judge.
     fn judged(&mut self, _sample: Sample, _question: Question) {}
@@ -131,7 +132,7 @@ impl<A: Events, B: Events> Events for (A, B) {
         self.0.has_enough() & self.1.has_enough()
     }
 
-    fn primitive_begun(&mut self, primitive: u32, region: &Region) {
+    fn primitive_begun(&mut self, primitive: u64, region: &Region) {
         self.0.primitive_begun(primitive, region);
         self.1.primitive_begun(primitive, region);
     }
@@ -146,27 +147,27 @@ impl<A: Events, B: Events> Events for (A, B) {
         self.1.node_opened(sample, node, entered);
     }
 
-    fn sample_tested(&mut self, sample: Sample, primitive: u32) {
+    fn sample_tested(&mut self, sample: Sample, primitive: u64) {
         self.0.sample_tested(sample, primitive);
         self.1.sample_tested(sample, primitive);
     }
 
-    fn edge_signs(&mut self, sample: Sample, primitive: u32, signs: [Option<Sign>; 3]) {
+    fn edge_signs(&mut self, sample: Sample, primitive: u64, signs: [Option<Sign>; 3]) {
         self.0.edge_signs(sample, primitive, signs);
         self.1.edge_signs(sample, primitive, signs);
     }
 
-    fn fragment(&mut self, sample: Sample, primitive: u32) {
+    fn fragment(&mut self, sample: Sample, primitive: u64) {
         self.0.fragment(sample, primitive);
         self.1.fragment(sample, primitive);
     }
 
-    fn depth_test(&mut self, sample: Sample, incoming: u32, stored: u32, replaced: bool) {
+    fn depth_test(&mut self, sample: Sample, incoming: u64, stored: u64, replaced: bool) {
         self.0.depth_test(sample, incoming, stored, replaced);
         self.1.depth_test(sample, incoming, stored, replaced);
     }
 
-    fn hit(&mut self, sample: Sample, primitive: Option<u32>) {
+    fn hit(&mut self, sample: Sample, primitive: Option<u64>) {
         self.0.hit(sample, primitive);
         self.1.hit(sample, primitive);
     }
@@ -242,7 +243,7 @@ impl Events for Work {
         Some(self)
     }
 
-    fn primitive_begun(&mut self, _primitive: u32, _region: &Region) {
+    fn primitive_begun(&mut self, _primitive: u64, _region: &Region) {
         self.primitives += 1;
     }
 
@@ -254,15 +255,15 @@ impl Events for Work {
         self.nodes += 1;
     }
 
-    fn sample_tested(&mut self, _sample: Sample, _primitive: u32) {
+    fn sample_tested(&mut self, _sample: Sample, _primitive: u64) {
         self.tests += 1;
     }
 
-    fn fragment(&mut self, _sample: Sample, _primitive: u32) {
+    fn fragment(&mut self, _sample: Sample, _primitive: u64) {
         self.fragments += 1;
     }
 
-    fn depth_test(&mut self, _sample: Sample, _incoming: u32, _stored: u32, _replaced: bool) {
+    fn depth_test(&mut self, _sample: Sample, _incoming: u64, _stored: u64, _replaced: bool) {
         self.depth_tests += 1;
     }
 

@@ -57,8 +57,10 @@ impl From<Shape> for Object {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
     objects: Vec<Object>,
-    /// The id of each object's first primitive, and behind the last the number of primitives.
-    first_ids: Vec<u32>,
+    /// The name of each object's first primitive, and behind the last the number of names: see [`Scene::first_name`].
+    first_names: Vec<u32>,
+    /// The same for ids, in a scene of wide ids; otherwise names are ids, and it is empty.
+    first_ids: Vec<u64>,
     /// Where light comes from.
     pub lights: Vec<Light>,
     /// The colour where no primitive is seen, linear red, green and blue.
@@ -90,12 +92,90 @@ pub enum SceneError {
         /// The object, counted from 0.
         object: usize,
     },
-    /// There are more primitives than ids.
-    #[error("the scene has {primitives} primitives; at most {} can be told apart", u32::MAX - 1)]
+    /// More triangles and other primitives are stored than can be told apart.
+    #[error(
+        "the scene stores {stored} primitives, each mesh of instances once; at most {most} can be told apart; leave some \
+         of its objects out"
+    )]
     TooManyPrimitives {
-        /// How many there are.
-        primitives: usize,
+        /// How many are stored.
+        stored: u64,
+        /// How many may be.
+        most: u64,
     },
+    /// There are more instances of meshes than can be told apart.
+    #[error(
+        "the scene has {instances} instances of meshes; at most {MOST_INSTANCES} can be told apart; give fewer"
+    )]
+    TooManyInstances {
+        /// How many there are.
+        instances: u64,
+    },
+    /// There are more primitives than a machine of 32 bits can count.
+    #[error(
+        "the scene has {primitives} primitives with all instances; on a machine of 32 bits at most {MOST_NARROW} can be \
+         told apart"
+    )]
+    TooManyHere {
+        /// How many there are.
+        primitives: u64,
+    },
+}
+
+/// So many primitives have ids of 32 bits, of which [`NO_PRIMITIVE`](crate::frame::NO_PRIMITIVE) is none.
+const MOST_NARROW: u64 = u32::MAX as u64 - 1;
+/// Where instances make more primitives than that, so many may be stored: those that are not of instances, and the largest
+/// mesh that has some. Then what is seen in a tile always has names of 32 bits: see [`crate::engine::names`].
+const MOST_STORED: u64 = 1 << 31;
+/// So many instances of meshes can be told apart: a hierarchy refers to each in 29 bits.
+const MOST_INSTANCES: u64 = 1 << 29;
+
+/// How many primitives a scene has.
+#[derive(Clone, Copy, Debug, Default)]
+struct Counts {
+    all: u64,
+    /// Those that are not of instances.
+    own: u64,
+    instances: u64,
+    /// The triangles of the largest mesh that has instances.
+    largest: u64,
+}
+
+impl Counts {
+    fn add(&mut self, shape: &Shape) {
+        if let Shape::Instances(instances) = shape {
+            let (triangles, instances) =
+                (instances.mesh().triangles().len() as u64, instances.placements().len() as u64);
+            // What is saturated is refused.
+            self.instances = self.instances.saturating_add(instances);
+            self.all = self.all.saturating_add(triangles.saturating_mul(instances));
+            self.largest = self.largest.max(triangles);
+        } else {
+            let count = shape.primitive_count() as u64;
+            self.own += count;
+            self.all = self.all.saturating_add(count);
+        }
+    }
+
+    /// Whether ids do not fit into 32 bits.
+    fn are_wide(&self) -> bool {
+        self.all > MOST_NARROW
+    }
+
+    fn check(&self) -> Result<(), SceneError> {
+        let Counts { all, own, instances, largest } = *self;
+        let most = if largest == 0 { MOST_NARROW } else { MOST_STORED };
+        if self.are_wide() && own + largest > most {
+            return Err(SceneError::TooManyPrimitives { stored: own + largest, most });
+        }
+        if instances > MOST_INSTANCES {
+            return Err(SceneError::TooManyInstances { instances });
+        }
+        if self.are_wide() && usize::BITS < u64::BITS {
+            return Err(SceneError::TooManyHere { primitives: all });
+        }
+        Ok(())
+    }
 }
 
 impl Scene {
@@ -104,19 +184,52 @@ impl Scene {
     ///
     /// # Errors
     ///
-    /// Numbers that are not finite, a radius that is not positive, a normal of zero, or more
-    /// primitives than ids.
+    /// Numbers that are not finite, a radius that is not positive, a normal of zero, or more primitives or instances than
+    /// can be told apart.
     pub fn new(objects: Vec<Object>) -> Result<Scene, SceneError> {
-        let mut first_ids = Vec::with_capacity(objects.len() + 1);
-        let mut primitives = 0;
+        let mut counts = Counts::default();
         for (index, object) in objects.iter().enumerate() {
             check_shape(index, &object.shape)?;
-            first_ids.push(id(primitives)?);
-            primitives = object.shape.primitive_count().saturating_add(primitives);
+            counts.add(&object.shape);
         }
-        first_ids.push(id(primitives)?);
+        counts.check()?;
         let lights = vec![Light::AtCamera { intensity: 0.9 }, Light::Ambient { intensity: 0.1 }];
-        Ok(Scene { objects, first_ids, lights, background: Vec3::splat(0.006) })
+        let mut scene = Scene {
+            objects,
+            first_names: Vec::new(),
+            first_ids: Vec::new(),
+            lights,
+            background: Vec3::splat(0.006),
+        };
+        scene.number(counts.are_wide());
+        Ok(scene)
+    }
+
+    /// The same scene with wide ids, whether they are needed or not: for tests.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn with_wide_ids(mut self) -> Scene {
+        self.number(true);
+        self
+    }
+
+    /// Finds the first name and id of each object.
+    fn number(&mut self, has_wide_ids: bool) {
+        let (mut names, mut ids) = (0_u32, 0);
+        self.first_names = vec![names];
+        self.first_ids = if has_wide_ids { vec![ids] } else { Vec::new() };
+        for object in &self.objects {
+            let count = object.shape.primitive_count();
+            if has_wide_ids {
+                ids += count as u64;
+                self.first_ids.push(ids);
+            }
+            if !(has_wide_ids && matches!(object.shape, Shape::Instances(_))) {
+                names += u32::try_from(count).expect("they were counted");
+            }
+            self.first_names.push(names);
+        }
+        self.first_names.shrink_to_fit();
     }
 
     /// The objects, in scene order.
@@ -129,14 +242,21 @@ impl Scene {
     /// # Panics
     ///
     /// If there is no such object.
-    pub fn first_id(&self, object: usize) -> u32 {
+    pub fn first_id(&self, object: usize) -> u64 {
         assert!(object < self.objects.len(), "there is no object {object}");
-        self.first_ids[object]
+        self.first_ids.get(object).copied().unwrap_or(u64::from(self.first_names[object]))
     }
 
     /// How many primitives there are; ids are smaller.
-    pub fn primitive_count(&self) -> u32 {
-        self.first_ids[self.objects.len()]
+    pub fn primitive_count(&self) -> u64 {
+        let last = u64::from(self.first_names[self.objects.len()]);
+        self.first_ids.last().copied().unwrap_or(last)
+    }
+
+    /// Whether ids do not fit into 32 bits: there are more than 2³² − 2 primitives.
+    #[inline]
+    pub fn has_wide_ids(&self) -> bool {
+        !self.first_ids.is_empty()
     }
 
     /// The object that a primitive belongs to, and the primitive's number within it.
@@ -145,10 +265,47 @@ impl Scene {
     ///
     /// If there is no primitive of this id.
     #[inline]
-    pub fn locate(&self, id: u32) -> (usize, usize) {
+    pub fn locate(&self, id: u64) -> (usize, usize) {
+        match u32::try_from(id) {
+            Ok(name) if self.first_ids.is_empty() => self.locate_name(name),
+            _ => self.locate_wide(id),
+        }
+    }
+
+    fn locate_wide(&self, id: u64) -> (usize, usize) {
         assert!(id < self.primitive_count(), "there is no primitive {id}");
         let object = self.first_ids.partition_point(|&first| first <= id) - 1;
-        (object, (id - self.first_ids[object]) as usize)
+        let local = usize::try_from(id - self.first_ids[object]);
+        (object, local.expect("a machine of 32 bits has no wide ids"))
+    }
+
+    /// A short name of an object's first primitive: the renderers call primitives by names of 32 bits. Where ids are
+    /// no wider, they are names. Otherwise names count the primitives that are not of instances; those of instances get
+    /// theirs where they are needed: see [`crate::engine::names`].
+    ///
+    /// # Panics
+    ///
+    /// If there is no such object.
+    pub fn first_name(&self, object: usize) -> u32 {
+        assert!(object < self.objects.len(), "there is no object {object}");
+        self.first_names[object]
+    }
+
+    /// How many names there are: see [`Scene::first_name`].
+    pub fn name_count(&self) -> u32 {
+        self.first_names[self.objects.len()]
+    }
+
+    /// The object that the primitive of a name belongs to, and the primitive's number within it.
+    ///
+    /// # Panics
+    ///
+    /// If there is no primitive of this name.
+    #[inline]
+    pub fn locate_name(&self, name: u32) -> (usize, usize) {
+        assert!(name < self.name_count(), "there is no primitive {name}");
+        let object = self.first_names.partition_point(|&first| first <= name) - 1;
+        (object, (name - self.first_names[object]) as usize)
     }
 
     /// The corners of a primitive that is a triangle, in the world; `None` for a sphere or a plane.
@@ -156,7 +313,7 @@ impl Scene {
     /// # Panics
     ///
     /// If there is no primitive of this id.
-    pub fn triangle(&self, id: u32) -> Option<[Vec3; 3]> {
+    pub fn triangle(&self, id: u64) -> Option<[Vec3; 3]> {
         let (object, local) = self.locate(id);
         match &self.objects[object].shape {
             Shape::Triangle(Triangle { a, b, c }) => Some([*a, *b, *c]),
@@ -172,18 +329,11 @@ impl Scene {
     /// # Panics
     ///
     /// If there is no primitive of one of the ids.
-    pub fn are_same_triangle(&self, first: u32, second: u32) -> bool {
+    pub fn are_same_triangle(&self, first: u64, second: u64) -> bool {
         match (self.triangle(first), self.triangle(second)) {
             (Some(first), Some(second)) => are_same_corners(&first, &second),
             _ => false,
         }
-    }
-}
-
-fn id(primitives: usize) -> Result<u32, SceneError> {
-    match u32::try_from(primitives) {
-        Ok(id) if id < u32::MAX => Ok(id),
-        _ => Err(SceneError::TooManyPrimitives { primitives }),
     }
 }
 
@@ -239,5 +389,68 @@ mod tests {
         }
         let plane = Shape::Plane(Plane { point: Vec3::ZERO, normal: Vec3::ZERO });
         assert_eq!(Scene::new(vec![plane.into()]), Err(SceneError::NoNormal { object: 0 }));
+    }
+
+    #[test]
+    fn limits_are_met_exactly() {
+        let counts = |own, largest, instances| Counts {
+            all: own + largest * instances,
+            own,
+            instances,
+            largest,
+        };
+        let narrow = MOST_NARROW;
+        assert!(counts(narrow, 0, 0).check().is_ok() && !counts(narrow, 0, 0).are_wide());
+        let most = MOST_NARROW;
+        let refused = Err(SceneError::TooManyPrimitives { stored: narrow + 1, most });
+        assert_eq!(counts(narrow + 1, 0, 0).check(), refused);
+
+        assert!(!counts(narrow - 6, 3, 2).are_wide() && counts(narrow - 6, 3, 2).check().is_ok());
+        let stored = narrow - 5 + 3;
+        let refused = Err(SceneError::TooManyPrimitives { stored, most: MOST_STORED });
+        assert_eq!(counts(narrow - 5, 3, 2).check(), refused);
+        let wide = counts(5, MOST_STORED - 5, 8);
+        assert!(wide.check().is_ok() && wide.are_wide());
+        assert!(counts(6, MOST_STORED - 5, 8).check().is_err());
+
+        let largest = counts(0, MOST_STORED, MOST_INSTANCES);
+        assert!(largest.check().is_ok() && largest.all == 1 << 60);
+        let instances = MOST_INSTANCES + 1;
+        let refused = Err(SceneError::TooManyInstances { instances });
+        assert_eq!(counts(0, 1, instances).check(), refused);
+    }
+
+    #[test]
+    fn wide_ids_name_what_is_not_of_instances() {
+        let mesh = Mesh::new(vec![Vec3::ZERO], vec![[0; 3]; 3]).unwrap();
+        let placements = vec![Placement::IDENTITY; 2];
+        let instances: Object =
+            Shape::Instances(Instances::new(mesh.clone(), placements).unwrap()).into();
+        let objects = vec![instances.clone(), sphere(1.0), Shape::Mesh(mesh).into(), instances];
+        let (narrow, wide) =
+            (Scene::new(objects.clone()).unwrap(), Scene::new(objects).unwrap().with_wide_ids());
+        assert!(!narrow.has_wide_ids() && wide.has_wide_ids());
+        for scene in [&narrow, &wide] {
+            assert_eq!(scene.primitive_count(), 16);
+            assert_eq!([0, 1, 2, 3].map(|object| scene.first_id(object)), [0, 6, 7, 10]);
+            assert_eq!([5, 6, 9, 15].map(|id| scene.locate(id)), [(0, 5), (1, 0), (2, 2), (3, 5)]);
+        }
+        assert_eq!((narrow.name_count(), wide.name_count()), (16, 4));
+        assert_eq!([0, 1, 3].map(|name| wide.locate_name(name)), [(1, 0), (2, 0), (2, 2)]);
+    }
+
+    #[test]
+    fn ids_become_wide_where_they_must() {
+        // 65,535·65,537 = 2³² − 1.
+        for (triangles, instances, is_wide) in
+            [(65_534, 65_536, false), (65_535, 65_537, true), (65_536, 65_536, true)]
+        {
+            let mesh = Mesh::new(vec![Vec3::ZERO], vec![[0; 3]; triangles]).unwrap();
+            let instances = Instances::new(mesh, vec![Placement::IDENTITY; instances]).unwrap();
+            let all = instances.primitive_count() as u64;
+            let scene = Scene::new(vec![Shape::Instances(instances).into()]).unwrap();
+            assert_eq!((scene.has_wide_ids(), scene.primitive_count()), (is_wide, all));
+            assert_eq!(scene.locate(all - 1), (0, usize::try_from(all).unwrap() - 1));
+        }
     }
 }

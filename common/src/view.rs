@@ -33,13 +33,24 @@ impl<'a> View<'a> {
     ///
     /// If there is no primitive of this id.
     #[inline]
-    pub fn primitive(&self, id: u32) -> Primitive {
+    pub fn primitive(&self, id: u64) -> Primitive {
         let (object, local) = self.scene.locate(id);
         self.primitive_of(&self.scene.objects()[object].shape, local)
     }
 
+    /// The primitive of a name, relative to the eye: see [`Scene::first_name`].
+    ///
+    /// # Panics
+    ///
+    /// If there is no primitive of this name.
+    #[inline]
+    pub fn named(&self, name: u32) -> Primitive {
+        let (object, local) = self.scene.locate_name(name);
+        self.primitive_of(&self.scene.objects()[object].shape, local)
+    }
+
     /// All primitives with their ids, in scene order.
-    pub fn primitives(&self) -> impl Iterator<Item = (u32, Primitive)> {
+    pub fn primitives(&self) -> impl Iterator<Item = (u64, Primitive)> {
         let shapes = self.scene.objects().iter().map(|object| &object.shape);
         let all = shapes.flat_map(move |shape| {
             (0..shape.primitive_count()).map(move |local| self.primitive_of(shape, local))

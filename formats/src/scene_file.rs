@@ -260,7 +260,9 @@ fn scene(
             | SceneError::Radius { object, .. }
             | SceneError::NoNormal { object } => items_of[object],
             // No single object is one too many. The last one is a place that exists.
-            SceneError::TooManyPrimitives { .. } => items.len() - 1,
+            SceneError::TooManyPrimitives { .. }
+            | SceneError::TooManyInstances { .. }
+            | SceneError::TooManyHere { .. } => items.len() - 1,
         };
         let span = items.get(index).map_or(list.span.clone(), |item| item.span.clone());
         Problem::new(span, error.to_string())

@@ -163,7 +163,7 @@ fn assert_same(case: &Case, expected: &Frame, frame: &Frame) {
     let width = expected.width();
     for index in 0..expected.ids().len() {
         let place = (index / width, index % width);
-        let (id, other) = (expected.ids()[index], frame.ids()[index]);
+        let (id, other) = (expected.ids().get(index), frame.ids().get(index));
         assert_eq!(id, other, "ids at sample {place:?} of {case:#?}");
         let (t, other) = (expected.distances()[index], frame.distances()[index]);
         let close = t == other || (t - other).abs() <= 1e-5 * t;

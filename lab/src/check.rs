@@ -20,7 +20,6 @@ mod set;
 
 pub use set::{ConformanceSet, SetError};
 
-use crate::common::frame::NO_PRIMITIVE;
 use crate::common::raster::check_samples;
 use crate::common::{Camera, Options, Scene, View};
 use crate::diff::foreign::Aspect;
@@ -189,14 +188,13 @@ pub(crate) fn truth(view: &View, like: &Buffer) -> Result<Buffer<'static>, Strin
     let frame = rendered.expect("only a stream has errors").frame;
     // A frame stores rows of samples, a file the samples of a pixel together.
     let order = || frame.pixels().flat_map(|[i, j]| frame.samples_of(i as usize, j as usize));
-    let ids = || order().map(|sample| frame.ids()[sample]);
-    let covered = |id: u32| id != NO_PRIMITIVE;
+    let ids = || order().map(|sample| frame.ids().get(sample));
     let content = if like.tells(Aspect::Ids) {
-        Content::Ids(ids().map(|id| covered(id).then_some(id.into())).collect())
+        Content::Ids(ids().collect())
     } else if like.tells(Aspect::T) {
         Content::Distances(order().map(|sample| frame.distances()[sample].into()).collect())
     } else {
-        let mask: Vec<bool> = ids().map(covered).collect();
+        let mask: Vec<bool> = ids().map(|id| id.is_some()).collect();
         Content::Mask(mask.into())
     };
     Ok(Buffer::new(view.camera.image(), samples, content))

@@ -90,13 +90,13 @@ pub enum FilmError {
     /// The loops take too long to be shown.
     #[error(
         "the textbook would take {} steps, {} objects at {} pixels, and a film shows at most {}; {advice}",
-        grouped(*.steps), grouped((*.primitives).into()), grouped(*.pixels), grouped(MOST_STEPS)
+        grouped(*.steps), grouped(*.primitives), grouped(*.pixels), grouped(MOST_STEPS)
     )]
     TooManySteps {
         /// The steps of each order.
         steps: u64,
         /// The primitives of the scene.
-        primitives: u32,
+        primitives: u64,
         /// The pixels of the picture.
         pixels: u64,
         /// What to do.
@@ -246,11 +246,15 @@ fn check(view: &View, method: Method) -> Result<(), FilmError> {
         return Err(FilmError::TooManyPixels { size });
     }
     let primitives = view.scene.primitive_count();
-    let steps = pixels * u64::from(primitives);
-    if method == Method::Fast || steps <= MOST_STEPS {
+    let steps = primitives.saturating_mul(pixels);
+    if (method == Method::Fast && !view.scene.has_wide_ids()) || steps <= MOST_STEPS {
         return Ok(());
     }
-    let smaller = within(size, MOST_STEPS / u64::from(primitives));
+    if view.scene.has_wide_ids() {
+        let advice = "film a scene of fewer instances".into();
+        return Err(FilmError::TooManySteps { steps, primitives, pixels, advice });
+    }
+    let smaller = within(size, MOST_STEPS / primitives);
     let fits = smaller.map(|[width, height]| format!(", or a --size of at most {width}x{height}"));
     let advice = format!("take --method fast{}", fits.unwrap_or_default());
     Err(FilmError::TooManySteps { steps, primitives, pixels, advice })

@@ -8,8 +8,8 @@
 //! its far plane at infinity, and a near plane at a small fraction of `d`: only OpenGL cuts off the parts nearer to
 //! the eye. A parallel projection reaches from the eye to a plane behind all primitives except planes.
 
-use crate::common::glam::DVec3;
-use crate::common::{Camera, Primitive, Projection, View};
+use crate::common::glam::{DVec3, Vec3};
+use crate::common::{Camera, Primitive, Projection, Shape, Sphere, Triangle, View};
 
 /// Four rows of four numbers.
 pub type Matrix = [[f64; 4]; 4];
@@ -118,14 +118,53 @@ pub(crate) fn camera_from_world(camera: &Camera) -> Matrix {
 /// A depth behind all triangles and spheres: a power of two.
 pub(crate) fn behind_everything(view: &View) -> f64 {
     let depth = |point: DVec3| -point.dot(view.camera.w());
-    let depths = view.primitives().map(|(_, primitive)| match primitive {
-        Primitive::Triangle(corners) => corners.map(depth).into_iter().fold(0.0, f64::max),
-        Primitive::Sphere { center, radius } => depth(center) + radius,
-        Primitive::Plane { .. } => 0.0,
-    });
-    let deepest = depths.fold(0.0, f64::max);
+    let deepest = if view.scene.has_wide_ids() {
+        // There are too many to look at each: the boxes of instances are behind their triangles.
+        corners_of_all(view).map(depth).fold(0.0, f64::max)
+    } else {
+        let depths = view.primitives().map(|(_, primitive)| match primitive {
+            Primitive::Triangle(corners) => corners.map(depth).into_iter().fold(0.0, f64::max),
+            Primitive::Sphere { center, radius } => depth(center) + radius,
+            Primitive::Plane { .. } => 0.0,
+        });
+        depths.fold(0.0, f64::max)
+    };
     // The depth is strictly behind, so that the farthest corner is not cut off.
     if deepest > 0.0 { (deepest.log2().floor() + 1.0).exp2() } else { 1.0 }
+}
+
+/// The corners of boxes around all that ends, relative to the eye: one for each object, and for each instance.
+fn corners_of_all<'a>(view: &'a View) -> impl Iterator<Item = DVec3> + 'a {
+    let objects = view.scene.objects().iter().map(|object| &object.shape);
+    objects.flat_map(move |shape| -> Box<dyn Iterator<Item = DVec3> + 'a> {
+        let corner = |[low, high]: [Vec3; 2], k: usize| {
+            Vec3::from_array(
+                [0, 1, 2].map(|axis| if k >> axis & 1 == 1 { high[axis] } else { low[axis] }),
+            )
+        };
+        let bounds = match shape {
+            Shape::Instances(instances) => {
+                let bounds = instances.mesh().bounds();
+                let placed = bounds.into_iter().flat_map(move |bounds| {
+                    let corners = (0..8).map(move |k| corner(bounds, k));
+                    let all = instances.placements().iter();
+                    all.flat_map(move |placement| {
+                        corners.clone().map(|corner| placement.position(corner))
+                    })
+                });
+                return Box::new(placed.map(|position| view.offset(position)));
+            }
+            Shape::Mesh(mesh) => mesh.bounds(),
+            Shape::Triangle(Triangle { a, b, c }) => Some([a.min(*b).min(*c), a.max(*b).max(*c)]),
+            Shape::Sphere(Sphere { center, radius }) => {
+                Some([*center - *radius, *center + *radius])
+            }
+            Shape::Plane(_) => None,
+        };
+        let corners =
+            bounds.into_iter().flat_map(move |bounds| (0..8).map(move |k| corner(bounds, k)));
+        Box::new(corners.map(|position| view.offset(position)))
+    })
 }
 
 #[cfg(test)]

@@ -1,7 +1,6 @@
 //! The images of a frame: its picture, its mask of coverage, and its ids as colours.
 
 use crate::common::Frame;
-use crate::common::frame::NO_PRIMITIVE;
 use crate::common::glam::Vec3;
 use crate::common::look::color::{linear_from_srgb, srgb_from_linear};
 use image::{GrayImage, RgbImage};
@@ -25,7 +24,7 @@ pub fn picture(frame: &Frame) -> RgbImage {
 pub fn id_picture(frame: &Frame) -> RgbImage {
     let linear: Vec<f32> = (0..=u8::MAX).map(linear_from_srgb).collect();
     let color = |sample: usize| {
-        let bytes = color_of_id(frame.ids()[sample]);
+        let bytes = color_of_id(frame.ids().get(sample));
         Vec3::from_array(bytes.map(|channel| linear[usize::from(channel)]))
     };
     let ([width, height], [top, left]) = (frame.image(), first_pixel(frame));
@@ -39,11 +38,12 @@ pub fn id_picture(frame: &Frame) -> RgbImage {
     picture
 }
 
-/// The sRGB colour of a primitive in an [`id_picture`].
-pub fn color_of_id(id: u32) -> [u8; 3] {
-    if id == NO_PRIMITIVE {
-        return NOTHING;
-    }
+/// The sRGB colour of a primitive in an [`id_picture`]; `None` for nothing.
+pub fn color_of_id(id: Option<u64>) -> [u8; 3] {
+    let Some(id) = id else { return NOTHING };
+    // Ids of 64 bits are folded: neighbours stay as far apart as others are.
+    #[expect(clippy::cast_possible_truncation, reason = "the two halves of 64 bits")]
+    let id = (id as u32).wrapping_add(((id >> 32) as u32).wrapping_mul(0x632b_e5ab));
     // Steps of the golden section around the circle of hues: a few consecutive ids are as far apart as possible.
     const GOLDEN: u32 = 0x9e37_79b9;
     let hue = 6.0 * part(id.wrapping_mul(GOLDEN));
@@ -119,7 +119,7 @@ fn average(frame: &Frame, i: usize, j: usize, color: impl Fn(usize) -> Vec3) -> 
 
 fn coverage_byte(frame: &Frame, i: usize, j: usize) -> u8 {
     let covered =
-        frame.samples_of(i, j).filter(|&sample| frame.ids()[sample] != NO_PRIMITIVE).count() as u64;
+        frame.samples_of(i, j).filter(|&sample| frame.ids().is_covered(sample)).count() as u64;
     let samples = u64::from(frame.samples()).pow(2);
     if covered == 0 {
         return 0;
@@ -160,7 +160,7 @@ mod tests {
         let apart = |a: [u8; 3], b: [u8; 3]| {
             a.iter().zip(b).map(|(a, b)| u32::from(a.abs_diff(b))).sum::<u32>()
         };
-        let colors: Vec<_> = (0..3000).map(color_of_id).collect();
+        let colors: Vec<_> = (0..3000).map(|id| color_of_id(Some(id))).collect();
         for (id, &color) in colors.iter().enumerate() {
             assert!(color.iter().any(|&channel| channel >= 128), "{id}: {color:?}");
             for near in 1..=5 {
@@ -173,14 +173,14 @@ mod tests {
             let alike = (0..2000).filter(|&id| apart(colors[id], colors[id + row]) <= 24).count();
             assert!(alike < 700, "{row}: {alike}");
         }
-        assert_eq!(color_of_id(NO_PRIMITIVE), NOTHING);
-        assert_eq!(color_of_id(0), colors[0]);
+        assert_eq!(color_of_id(None), NOTHING);
+        assert_eq!(color_of_id(Some(0)), colors[0]);
     }
 
     #[test]
     fn ids_are_shown_pixel_by_pixel() {
         let shown = id_picture(&frame(1, &[(0, 1)])).into_raw();
-        assert_eq!(shown, [NOTHING, color_of_id(0)].concat());
+        assert_eq!(shown, [NOTHING, color_of_id(Some(0))].concat());
     }
 
     #[test]

@@ -3,6 +3,7 @@
 //! The exact judge of the view determines the truth. The renderers' own loops, observed at this pixel alone,
 //! determine the results: the report cannot disagree with the picture.
 
+mod candidates;
 mod json;
 mod lesson;
 mod neighbourhood;
@@ -16,6 +17,7 @@ use crate::common::raster::{Region, Sample};
 use crate::common::{Crop, Events, Frame, Observer, Options, Primitive, Ray, Shape, View, Work};
 use crate::sample_map::SampleMap;
 use crate::{rasterize, raytrace};
+use candidates::candidates;
 use rayon::prelude::*;
 use std::cmp::Ordering;
 
@@ -42,7 +44,7 @@ pub struct SampleReport {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Covering {
     /// The id of the primitive.
-    pub id: u32,
+    pub id: u64,
     /// The object of the primitive, counted from 0.
     pub object: usize,
     /// The kind of the primitive, in words: `triangle`, `sphere`, `plane` or `triangle of a mesh`.
@@ -61,7 +63,7 @@ pub struct Covering {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Touching {
     /// The id of the triangle.
-    pub id: u32,
+    pub id: u64,
     /// The object of the triangle, counted from 0.
     pub object: usize,
     /// The signs of the triangle's edge functions.
@@ -99,7 +101,7 @@ impl Behind {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Answer {
     /// The primitive that the order saw.
-    pub id: Option<u32>,
+    pub id: Option<u64>,
     /// The distance that the order found.
     pub t: Option<f32>,
     /// The work of the order's loops at this sample. Its `primitives` are the primitives with a bounding region that
@@ -199,7 +201,7 @@ fn truth(view: &View, ray: &Ray) -> (Vec<Covering>, Vec<Touching>) {
         Primitive::Sphere { .. } | Primitive::Plane { .. } => None,
     };
     let (mut found, mut touching) = (Vec::new(), Vec::new());
-    for (id, primitive) in view.primitives() {
+    for (id, primitive) in candidates(view, ray) {
         let coverage = judge.coverage(&primitive, ray);
         if coverage.covers {
             found.push((id, primitive, coverage.edges));
@@ -304,7 +306,7 @@ impl Observer for Watch {
 }
 
 impl Events for Watch {
-    fn primitive_begun(&mut self, primitive: u32, region: &Region) {
+    fn primitive_begun(&mut self, primitive: u64, region: &Region) {
         for sample in samples(&self.pixel.intersection(region)) {
             self.tell(sample, |work| work.primitive_begun(primitive, region));
         }
@@ -318,15 +320,15 @@ impl Events for Watch {
         self.tell(sample, |work| work.node_opened(sample, node, entered));
     }
 
-    fn sample_tested(&mut self, sample: Sample, primitive: u32) {
+    fn sample_tested(&mut self, sample: Sample, primitive: u64) {
         self.tell(sample, |work| work.sample_tested(sample, primitive));
     }
 
-    fn fragment(&mut self, sample: Sample, primitive: u32) {
+    fn fragment(&mut self, sample: Sample, primitive: u64) {
         self.tell(sample, |work| work.fragment(sample, primitive));
     }
 
-    fn depth_test(&mut self, sample: Sample, challenger: u32, holder: u32, replaced: bool) {
+    fn depth_test(&mut self, sample: Sample, challenger: u64, holder: u64, replaced: bool) {
         self.tell(sample, |work| work.depth_test(sample, challenger, holder, replaced));
     }
 

@@ -116,7 +116,7 @@ impl Observer for Watch<'_> {
 }
 
 impl Events for Watch<'_> {
-    fn primitive_begun(&mut self, _primitive: u32, _region: &Region) {
+    fn primitive_begun(&mut self, _primitive: u64, _region: &Region) {
         self.steps.begin();
     }
 

@@ -22,7 +22,7 @@ pub struct Report {
     /// The number of rendering threads.
     pub threads: usize,
     /// The number of primitives in the scene.
-    pub primitives: u32,
+    pub primitives: u64,
     /// The comparison of covered samples; like the other parts of the comparison, `None` unless both orders were
     /// rendered.
     pub coverage: Option<Coverage>,
@@ -111,7 +111,7 @@ impl Report {
     /// If there is no rendered order.
     pub fn new(
         scene: &str,
-        primitives: u32,
+        primitives: u64,
         threads: usize,
         rendered: &[Rendered],
         comparison: Option<&Comparison>,

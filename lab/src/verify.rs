@@ -175,7 +175,7 @@ fn against(
         let drawn = one.frame.samples_of(i as usize, j as usize);
         let pairs = expected.samples_of(i as usize, j as usize).zip(drawn);
         let differing =
-            pairs.filter(|(own, drawn)| expected.ids()[*own] != one.frame.ids()[*drawn]);
+            pairs.filter(|(own, drawn)| expected.ids().get(*own) != one.frame.ids().get(*drawn));
         let differing = differing.count() as u64;
         progress();
         (choice.pixel, differing)

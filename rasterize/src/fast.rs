@@ -214,7 +214,7 @@ fn run(
     loops: &Loops,
 ) -> Executed {
     assert_eq!(prepared.primitives, view.scene.primitive_count(), "another scene was prepared");
-    frame.fit(view.camera, options);
+    frame.fit(view, options);
     let grid = view.camera.sample_grid(options.samples);
     let raster = view.camera.raster(options.samples);
     let mut map = CameraMap::new(view.camera, &grid, raster, &prepared.bounds);

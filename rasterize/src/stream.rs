@@ -185,7 +185,7 @@ impl Canvas {
         for (index, &id) in ids.iter().enumerate().filter(|(_, id)| **id != NO_PRIMITIVE) {
             let id = u32::try_from(renamed(id)).expect("there are fewer names than ids");
             let (row, column) = (rows.start + index / width, columns.start + index % width);
-            self.frame.set(row, column, id, self.t[index].into());
+            self.frame.set(row, column, id.into(), self.t[index].into());
         }
     }
 }
@@ -220,7 +220,7 @@ impl<O: Observer> Pass<'_, O> {
         }
         let scene = scene_of(self.waiting.iter().copied(), positions);
         let view = View::new(&scene, self.camera);
-        let mut observer = Shifted { inner: self.observer.fork(), by: self.first_id };
+        let mut observer = Shifted { inner: self.observer.fork(), by: self.first_id.into() };
         let Canvas { frame, options, .. } = &mut *self.canvas;
         let bounds = *self.bounds.get_or_insert_with(|| {
             let ends = [DVec3::INFINITY, DVec3::NEG_INFINITY];
@@ -247,7 +247,8 @@ impl<O: Observer> Pass<'_, O> {
         let (first_id, chunk) = (self.first_id, self.waiting.as_slice());
         let held = ids.par_chunks_mut(width).zip(t.par_chunks_mut(width));
         let held = held.zip(corners.par_chunks_mut(width));
-        let drawn = frame.ids().par_chunks(width).zip(frame.distances().par_chunks(width));
+        let ids_of_chunk = frame.ids().narrow().expect("a chunk has few triangles");
+        let drawn = ids_of_chunk.par_chunks(width).zip(frame.distances().par_chunks(width));
         let begin = || CachedJudge::new(view.judge());
         let parts: Vec<O> = rows
             .into_par_iter()
@@ -318,7 +319,7 @@ impl<O: Observer> DepthTest<'_, O> {
         }
         let nearer = surely_nearer(incoming.t, stored.t)
             .unwrap_or_else(|| self.judge(sample, incoming, stored));
-        self.observer.depth_test(sample, incoming.id, stored.id, nearer);
+        self.observer.depth_test(sample, incoming.id.into(), stored.id.into(), nearer);
         nearer
     }
 
@@ -353,7 +354,7 @@ fn surely_nearer(incoming: f32, stored: f32) -> Option<bool> {
 /// An observer of a chunk that receives the ids of the whole mesh.
 struct Shifted<O> {
     inner: O,
-    by: u32,
+    by: u64,
 }
 
 impl<O: Observer> Observer for Shifted<O> {
@@ -377,23 +378,23 @@ impl<O: Events> Events for Shifted<O> {
         self.inner.has_enough()
     }
 
-    fn primitive_begun(&mut self, primitive: u32, region: &Region) {
+    fn primitive_begun(&mut self, primitive: u64, region: &Region) {
         self.inner.primitive_begun(primitive + self.by, region);
     }
 
-    fn sample_tested(&mut self, sample: Sample, primitive: u32) {
+    fn sample_tested(&mut self, sample: Sample, primitive: u64) {
         self.inner.sample_tested(sample, primitive + self.by);
     }
 
-    fn edge_signs(&mut self, sample: Sample, primitive: u32, signs: [Option<Sign>; 3]) {
+    fn edge_signs(&mut self, sample: Sample, primitive: u64, signs: [Option<Sign>; 3]) {
         self.inner.edge_signs(sample, primitive + self.by, signs);
     }
 
-    fn fragment(&mut self, sample: Sample, primitive: u32) {
+    fn fragment(&mut self, sample: Sample, primitive: u64) {
         self.inner.fragment(sample, primitive + self.by);
     }
 
-    fn depth_test(&mut self, sample: Sample, incoming: u32, stored: u32, replaced: bool) {
+    fn depth_test(&mut self, sample: Sample, incoming: u64, stored: u64, replaced: bool) {
         self.inner.depth_test(sample, incoming + self.by, stored + self.by, replaced);
     }
 

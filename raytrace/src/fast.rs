@@ -52,8 +52,9 @@ use bothways_common::engine::any_observer::{AnyObserver, PartObserver};
 use bothways_common::engine::context::{Parts, ScalarContext};
 use bothways_common::engine::fault::{Fault, Planted, Sound};
 use bothways_common::engine::simd::dispatch_with;
-use bothways_common::frame::{NO_PRIMITIVE, Tile};
+use bothways_common::frame::{IdRows, NO_PRIMITIVE, Tile};
 use bothways_common::observe::{Events, Executed, Observer};
+use bothways_common::raster::Region;
 use bothways_common::{Frame, Options, Scene, View};
 use camera_map::CameraMap;
 use one_primitive::unbounded::Unbounded;
@@ -62,7 +63,8 @@ use search::build::build;
 use search::tile_frustum::FrustumTemplate;
 use search::walk::Walker;
 use std::ops::Range;
-use store::store;
+use store::{store, store_wide_ids};
+use tile::TileBuffer;
 
 pub use any_ray::{Hit, WorldRay, first_hit};
 pub use partition::HierarchyBox;
@@ -176,7 +178,7 @@ fn run(
     loops: &Loops,
 ) -> Executed {
     assert_eq!(prepared.primitives, view.scene.primitive_count(), "another scene was prepared");
-    frame.fit(view.camera, options);
+    frame.fit(view, options);
     let map = CameraMap::new(view, options.samples, &prepared.bounds);
     let unbounded = Unbounded::for_tiles(prepared, &map);
     // A box's last place matters to a ray alone: a fault there shows in tiles of one.
@@ -206,8 +208,8 @@ fn run(
 }
 
 /// A fault: nothing is seen in a chunk of the picture.
-fn drop_chunk(Tile { ids, t, .. }: Tile) {
-    ids.into_iter().for_each(|ids| ids.fill(NO_PRIMITIVE));
+fn drop_chunk(Tile { mut ids, t, .. }: Tile) {
+    ids.clear();
     t.into_iter().for_each(|t| t.fill(f32::INFINITY));
 }
 
@@ -252,8 +254,32 @@ fn watch<F: Fault>(
 /// Traces the rays of a chunk of the picture, tile by tile. Of a tile at the border of a crop all rays are
 /// traced, so that the crop shows the bits of the whole picture, and those in the chunk are stored.
 fn trace<F: Fault>(walker: &mut Walker, template: &FrustumTemplate, chunk: Tile) -> Executed {
+    let Tile { region, ids, mut t } = chunk;
+    match ids {
+        IdRows::Narrow(mut ids) => {
+            trace_tiles::<F>(walker, template, &region, (&mut ids, &mut t), &mut |_, _, _| {})
+        }
+        IdRows::Wide(mut wide) => {
+            let mut names = vec![NO_PRIMITIVE; region.area()];
+            let mut names: Vec<&mut [u32]> = names.chunks_mut(region.columns.len()).collect();
+            let mut store_ids = |tile: &TileBuffer, names: &[&mut [u32]], drawn: &Region| {
+                store_wide_ids(tile, &region, drawn, names, &mut wide);
+            };
+            trace_tiles::<F>(walker, template, &region, (&mut names, &mut t), &mut store_ids)
+        }
+    }
+}
+
+/// Traces the rays of the tiles that meet a region, and stores names and distances, row by row. After every tile, `done`
+/// gets the names and the samples of the tile that lie in the region.
+fn trace_tiles<F: Fault>(
+    walker: &mut Walker,
+    template: &FrustumTemplate,
+    region: &Region,
+    (names, t): (&mut [&mut [u32]], &mut [&mut [f32]]),
+    done: &mut dyn FnMut(&TileBuffer, &[&mut [u32]], &Region),
+) -> Executed {
     let mut executed = Executed::default();
-    let Tile { region, mut ids, mut t } = chunk;
     let (map, side) = (walker.map, template.side);
     let tiles = |range: &Range<usize>| (range.start / side * side..range.end).step_by(side);
     dispatch_with!(F, walker.prepared.level, simd => {
@@ -262,7 +288,9 @@ fn trace<F: Fault>(walker: &mut Walker, template: &FrustumTemplate, chunk: Tile)
                 let size = [map.grid.height() - top, map.grid.width() - left];
                 let size = size.map(|count| count.min(side));
                 walker.walk(&mut Parts::<_, (), F>::of(simd, &mut ()), template, [top, left], size);
-                store(simd, map, &walker.tile, &region, &mut ids, &mut t);
+                store(simd, map, &walker.tile, region, names, t);
+                let [rows, columns] = [top..top + size[0], left..left + size[1]];
+                done(&walker.tile, names, &region.intersection(&Region { rows, columns }));
                 executed += walker.tile.executed.of_one_tile();
             }
         }

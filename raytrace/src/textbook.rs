@@ -42,7 +42,7 @@ pub fn determine_visibility(
     frame: &mut Frame,
     observer: &mut dyn Events,
 ) {
-    frame.fit(view.camera, options);
+    frame.fit(view, options);
     frame.clear();
     let judge = view.judge();
     let grid = view.camera.sample_grid(options.samples);

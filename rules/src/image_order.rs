@@ -159,6 +159,10 @@ impl fmt::Display for Rule {
 pub struct Prepared(Hierarchy);
 
 /// Builds the hierarchy of a scene.
+///
+/// # Panics
+///
+/// If ids do not fit into 32 bits: see [`Scene::has_wide_ids`].
 pub fn prepare(scene: &Scene) -> Prepared {
     Prepared(Hierarchy::new(scene))
 }
@@ -180,7 +184,7 @@ pub fn determine_visibility(
     rule: Rule,
     frame: &mut Frame,
 ) {
-    frame.fit(view.camera, options);
+    frame.fit(view, options);
     frame.clear();
     let samples = rule.samples(view, options);
     let hierarchy = &prepared.0;

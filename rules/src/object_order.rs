@@ -170,8 +170,12 @@ pub fn render(view: &View, options: &Options, rule: Rule) -> Frame {
 
 /// Finds what is seen at every sample by a rule, and how far it is, on the current rayon pool. The number of threads
 /// changes nothing.
+///
+/// # Panics
+///
+/// If ids do not fit into 32 bits: see [`Scene::has_wide_ids`](bothways_common::Scene::has_wide_ids).
 pub fn determine_visibility(view: &View, options: &Options, rule: Rule, frame: &mut Frame) {
-    frame.fit(view.camera, options);
+    frame.fit(view, options);
     frame.clear();
     let samples = rule.samples(view, options);
     match rule {

@@ -24,7 +24,7 @@ struct AsSeen<'a> {
 
 impl Surfaces for AsSeen<'_> {
     /// Its id.
-    type Surface = u32;
+    type Surface = u64;
 
     fn to_viewer<S: Simd>(
         &self,
@@ -40,11 +40,11 @@ impl Surfaces for AsSeen<'_> {
         low.narrow(high)
     }
 
-    fn set_up(&self, seen: &bands::Seen, _wanted: Wanted) -> u32 {
+    fn set_up(&self, seen: &bands::Seen, _wanted: Wanted) -> u64 {
         seen.id
     }
 
-    fn at<S: Simd>(&self, simd: S, id: &u32, samples: &Sixteen<S>, points: &mut Points<'_>) {
+    fn at<S: Simd>(&self, simd: S, id: &u64, samples: &Sixteen<S>, points: &mut Points<'_>) {
         let halves = [&samples.low, &samples.high].map(|samples| -> [Seen; 8] {
             let rays = self.rays(samples.first);
             std::array::from_fn(|lane| self.seen(&rays[lane], *id, samples.t[lane]))
@@ -97,7 +97,7 @@ impl AsSeen<'_> {
     }
 
     /// What a primitive looks like along a ray at `t`.
-    fn seen(&self, ray: &Ray, id: u32, t: f64) -> Seen {
+    fn seen(&self, ray: &Ray, id: u64, t: f64) -> Seen {
         let (view, position) = (self.view, ray.origin + t * ray.direction);
         let point = Point { view, id, primitive: view.primitive(id), position };
         let normal = point.normal(ray.direction);
@@ -127,7 +127,7 @@ fn steps(samples: &Samples, ray: &Ray, t: f64, normal: DVec3) -> [DVec3; 2] {
 /// A point of a primitive.
 struct Point<'a> {
     view: &'a View<'a>,
-    id: u32,
+    id: u64,
     primitive: Primitive,
     /// Relative to the eye.
     position: DVec3,

@@ -1,13 +1,14 @@
 //! The options of `render`, and how their values are read.
 
+use super::failure::Failure;
 use bothways::common::glam::Vec3;
 use bothways::common::raster::{MAX_SAMPLES, MAX_SIDE};
-use bothways::common::{Crop, Options, Projection};
+use bothways::common::{Crop, Options, Projection, Scene};
 use bothways::formats::source::Reach;
 use bothways::orders::{Method, Order, Rules};
 use bothways::rules::{ParseRuleError, image_order, object_order};
 use bothways::scenes::{LoadError, LoadOptions, LoadedScene, load_with};
-use bothways::wording::count;
+use bothways::wording::{count, grouped};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -52,6 +53,30 @@ impl FilesArgs {
     ) -> Result<LoadedScene, LoadError> {
         load_with(source, self.options(image))
     }
+
+    /// The same for what looks at each primitive of a scene: a scene of wide ids has too many.
+    pub(super) fn load_narrow(
+        self,
+        source: &str,
+        image: Option<[u32; 2]>,
+        what: &str,
+    ) -> Result<LoadedScene, Failure> {
+        let loaded = self.load(source, image)?;
+        check_narrow(&loaded.scene, &loaded.name, what)?;
+        Ok(loaded)
+    }
+}
+
+/// Refuses a scene of more primitives than have ids of 32 bits.
+pub(super) fn check_narrow(scene: &Scene, name: &str, what: &str) -> Result<(), Failure> {
+    if !scene.has_wide_ids() {
+        return Ok(());
+    }
+    Err(Failure::new(format!(
+        "{name} has {} primitives with all instances, and {what} at most {}; leave some instances out",
+        grouped(scene.primitive_count()),
+        grouped(u64::from(u32::MAX) - 1)
+    )))
 }
 
 /// What to change in the scene's camera.

@@ -73,7 +73,7 @@ impl TargetArg {
 
 /// Writes all files or no file, and says what is not as in the scene.
 pub(super) fn run(args: &ExportArgs) -> Result<ExitCode, Failure> {
-    let loaded = args.files.load(&args.scene, args.camera.size)?;
+    let loaded = args.files.load_narrow(&args.scene, args.camera.size, "an export writes")?;
     let camera = camera(&loaded, &args.camera)?;
     let target = args.target.target();
     let view = View::new(&loaded.scene, &camera);

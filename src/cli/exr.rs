@@ -1,7 +1,8 @@
 //! Buffers as one EXR file: what each order saw at every sample, in channels that are named after the order.
 //!
 //! All channels have one size, so that every viewer opens the file: several samples a pixel are several pixels here.
-//! Ids are integers of 32 bits, all else is floats of 32 bits; zip loses no bit of either.
+//! Ids are integers of 32 bits, all else is floats of 32 bits; zip loses no bit of either. The format has no integers of
+//! 64 bits: in a scene of so many primitives, a second channel has the higher half.
 
 use ::exr::block::chunk::Chunk;
 use ::exr::block::lines::LineRefMut;
@@ -16,6 +17,7 @@ use ::exr::meta::attribute::{ChannelDescription, IntegerBounds, LineOrder, Sampl
 use ::exr::meta::header::Header;
 use ::exr::meta::{BlockDescription, MetaData};
 use bothways::common::camera::Projection;
+use bothways::common::frame::Ids;
 use bothways::common::look::color::linear_from_srgb;
 use bothways::common::raster::Region;
 use bothways::common::{Camera, Frame, View};
@@ -23,6 +25,7 @@ use bothways::figure::work_at_samples;
 use bothways::orders::{Method, Order, Rendered};
 use bothways::picture::color_of_id;
 use rayon::prelude::*;
+use std::borrow::Cow;
 use std::io::{self, Seek, Write};
 
 /// The name of the file.
@@ -37,6 +40,10 @@ light, the background where nothing is seen. normal.X, Y, Z: the unit normal in 
 for nothing. depth.Z: the depth along the camera's axis; t: in lengths of the viewing ray's direction; both +infinity \
 for nothing. id: the primitive's number from 0 in scene order, 4294967295 for nothing. id_color.R, G, B: ids as colors. \
 coverage: 1 or 0. work: primitives and boxes tested there.";
+
+/// What is added where ids have 64 bits.
+const WIDE_IDS: &str = " The scene has ids of 64 bits: the id is id + 2^32 id_high, and both are 4294967295 for \
+nothing.";
 
 /// What one order saw.
 #[derive(Debug)]
@@ -142,7 +149,8 @@ fn header(frame: &Frame, channels: &[Channel]) -> Header {
     .with_encoding(Compression::ZIP16, BlockDescription::ScanLines, LineOrder::Increasing)
     .with_position(Vec2(start(columns.start), start(rows.start)))
     .with_display_window(IntegerBounds::from_dimensions((whole[0], whole[1])));
-    header.own_attributes.comments = Some(Text::from(COMMENT));
+    let wide = if frame.ids().narrow().is_some() { "" } else { WIDE_IDS };
+    header.own_attributes.comments = Some(Text::from(format!("{COMMENT}{wide}").as_str()));
     header.own_attributes.software_name = Some(Text::from("bothways"));
     header
 }
@@ -154,7 +162,7 @@ struct Channel<'a> {
 }
 
 enum Values<'a> {
-    Integers(&'a [u32]),
+    Integers(Cow<'a, [u32]>),
     Floats(Box<dyn Fn(usize) -> f32 + Sync + 'a>),
 }
 
@@ -177,14 +185,24 @@ fn channels<'a>(layer: &Layer<'a>, camera: &Camera) -> Vec<Channel<'a>> {
         Projection::Parallel => 1.0,
     };
     let mut channels = vec![
-        Channel { name: name("id"), values: Values::Integers(ids) },
         float("t", Box::new(move |at| t[at])),
         #[expect(clippy::cast_possible_truncation, reason = "a depth is stored as `t` is")]
         float("depth.Z", Box::new(move |at| (f64::from(t[at]) * ray) as f32)),
         float("coverage", Box::new(move |at| if t[at].is_finite() { 1.0 } else { 0.0 })),
     ];
+    let integers =
+        |part: &str, values| Channel { name: name(part), values: Values::Integers(values) };
+    match ids {
+        Ids::Narrow(ids) => channels.push(integers("id", Cow::Borrowed(ids))),
+        Ids::Wide(ids) => {
+            #[expect(clippy::cast_possible_truncation, reason = "the two halves of 64 bits")]
+            let halves = [0, 32].map(|from| ids.iter().map(|id| (id >> from) as u32).collect());
+            let parts = halves.into_iter().zip(["id", "id_high"]);
+            channels.extend(parts.map(|(half, part)| integers(part, Cow::Owned(half))));
+        }
+    }
     for (axis, [color, normal]) in [["R", "X"], ["G", "Y"], ["B", "Z"]].into_iter().enumerate() {
-        let part = move |at: usize| linear_from_srgb(color_of_id(ids[at])[axis]);
+        let part = move |at: usize| linear_from_srgb(color_of_id(ids.get(at))[axis]);
         channels.push(float(color, Box::new(move |at| colors[at][axis])));
         channels.push(float(&format!("id_color.{color}"), Box::new(part)));
         channels.push(float(&format!("normal.{normal}"), Box::new(move |at| normals[at][axis])));

@@ -98,7 +98,7 @@ pub(super) fn run(args: &FigureArgs) -> Result<ExitCode, Failure> {
     check(args)?;
     let named = args.file.as_deref().map(OutputFile::find).transpose()?;
     let format = named.as_ref().map_or(Ok(Format::Svg), format)?;
-    let loaded = args.files.load(&args.scene, args.camera.size)?;
+    let loaded = args.files.load_narrow(&args.scene, args.camera.size, "a figure shows")?;
     terminal::warn(&loaded.warnings);
     let file = match named {
         Some(file) => file,

@@ -79,7 +79,7 @@ pub(super) struct FilmArgs {
 pub(super) fn run(args: &FilmArgs) -> Result<ExitCode, Failure> {
     let length = Length::new(args.seconds, args.fps, args.pause)
         .map_err(|error| Failure::new(format!("--seconds, --fps and --pause: {error}")))?;
-    let mut loaded = args.files.load(&args.scene, args.camera.size)?;
+    let mut loaded = args.files.load_narrow(&args.scene, args.camera.size, "a film shows")?;
     terminal::warn(&loaded.warnings);
     let method = args.method.into();
     if args.camera.size.is_none() {

@@ -64,7 +64,8 @@ pub(super) struct GradeArgs {
 /// Grades and prints.
 pub(super) fn run(args: &GradeArgs) -> Result<ExitCode, Failure> {
     let table = Beside::find(TABLE, args.csv.as_deref())?;
-    let loaded = args.scene_files.load(&args.scene, args.camera.size)?;
+    let loaded =
+        args.scene_files.load_narrow(&args.scene, args.camera.size, "reasons are found among")?;
     terminal::warn(&loaded.warnings);
     let camera = camera(&loaded, &args.camera)?;
     let view = View::new(&loaded.scene, &camera);

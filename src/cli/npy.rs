@@ -1,12 +1,17 @@
 //! Buffers as NumPy arrays: H×W, or H×W×N×N with several samples.
 
 use bothways::common::Frame;
+use bothways::common::frame::Ids;
 use npyz::{AutoSerialize, NpyWriter, WriteOptions, WriterBuilder};
 use std::io::{self, Write};
 
-/// Writes the id of the visible primitive at each sample, all ones for nothing.
+/// Writes the id of the visible primitive at each sample, all ones for nothing: as `u32`, or as `u64` in a scene of so many
+/// primitives.
 pub(super) fn write_ids(frame: &Frame, out: impl Write) -> io::Result<()> {
-    write(frame, frame.ids(), out)
+    match frame.ids() {
+        Ids::Narrow(ids) => write(frame, ids, out),
+        Ids::Wide(ids) => write(frame, ids, out),
+    }
 }
 
 /// Writes the distance of the visible primitive at each sample, +∞ for nothing.

@@ -1,6 +1,6 @@
 //! `bothways render`: from a scene to the output folder and the verdict.
 
-use super::args::{BuffersArg, MethodArg, OnlyArg, OrderArg, RenderArgs};
+use super::args::{BuffersArg, MethodArg, OnlyArg, OrderArg, RenderArgs, check_narrow};
 use super::camera::{camera, squashed};
 use super::failure::Failure;
 use super::output::{NewFile, Out, Staging};
@@ -36,6 +36,11 @@ pub(super) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
     let mut scene = Bar::during("reading the scene", args, || {
         scenes::open(&args.scene, args.files.options(args.camera.size), stream)
     })?;
+    for rule in [Order::Object, Order::Image].map(|order| args.method.rules().of(order)) {
+        let Some(rule) = rule else { continue };
+        let loaded = scene.loaded();
+        check_narrow(&loaded.scene, &loaded.name, &format!("{} draws", rule.option()))?;
+    }
     check_verify(args)?;
     let (camera, staging, folder) = prepared_output(args, scene.loaded())?;
     let pool = thread_pool(args)?;

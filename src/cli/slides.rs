@@ -54,7 +54,7 @@ const BESIDE: [&str; 3] = ["README.md", LIST, "index.html"];
 
 /// Draws all slides, writes them and says where they are.
 pub(super) fn run(args: &SlidesArgs) -> Result<ExitCode, Failure> {
-    let loaded = args.scenes.iter().map(|name| args.files.load(name, None));
+    let loaded = args.scenes.iter().map(|name| args.files.load_narrow(name, None, "slides show"));
     let loaded = loaded.collect::<Result<Vec<LoadedScene>, _>>()?;
     for scene in &loaded {
         terminal::warn(&scene.warnings);

@@ -27,3 +27,4 @@ mod sweep;
 mod terminal;
 mod texts;
 mod verify;
+mod wide_ids;

@@ -60,7 +60,7 @@ fn all_pixels_together_are_the_picture() {
 }
 
 /// The reason why each primitive at the middle of a 5 × 5 picture is behind the one before it.
-fn reasons(objects: Vec<Object>) -> Vec<(u32, Option<Behind>)> {
+fn reasons(objects: Vec<Object>) -> Vec<(u64, Option<Behind>)> {
     let (scene, camera) = (Scene::new(objects).unwrap(), Camera::canonical(5, 5));
     let samples = report(&View::new(&scene, &camera), &Options::default(), 2, 2);
     assert!(samples[0].agrees());

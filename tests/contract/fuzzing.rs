@@ -13,7 +13,7 @@ use std::time::Duration;
 /// Whether a primitive covers a sample, in a renderer that may be wrong.
 type Covers = fn(&Judge, &Primitive, &Ray) -> bool;
 /// Whether the primitive of the first id is seen rather than the stored one.
-type Nearer = fn(&Judge, (u32, &Primitive), (u32, &Primitive), &Ray) -> bool;
+type Nearer = fn(&Judge, (u64, &Primitive), (u64, &Primitive), &Ray) -> bool;
 
 /// The textbook's loop with other rules, for the primitives of these ids.
 fn draw(
@@ -21,7 +21,7 @@ fn draw(
     frame: &mut Frame,
     covers: Covers,
     nearer: Nearer,
-    is_drawn: impl Fn(u32) -> bool,
+    is_drawn: impl Fn(u64) -> bool,
 ) {
     frame.clear();
     let (judge, region) = (view.judge(), frame.region().clone());
@@ -49,8 +49,8 @@ fn covers(judge: &Judge, primitive: &Primitive, ray: &Ray) -> bool {
 
 fn nearer(
     judge: &Judge,
-    incoming: (u32, &Primitive),
-    stored: (u32, &Primitive),
+    incoming: (u64, &Primitive),
+    stored: (u64, &Primitive),
     ray: &Ray,
 ) -> bool {
     judge.nearer(incoming, stored, ray)
@@ -73,8 +73,8 @@ fn with_inclusive_edges(judge: &Judge, primitive: &Primitive, ray: &Ray) -> bool
 #[expect(clippy::cast_possible_truncation, reason = "that is the fault")]
 fn by_rounded_distance(
     judge: &Judge,
-    (_, incoming): (u32, &Primitive),
-    (_, stored): (u32, &Primitive),
+    (_, incoming): (u64, &Primitive),
+    (_, stored): (u64, &Primitive),
     ray: &Ray,
 ) -> bool {
     let [incoming, stored] =
@@ -202,7 +202,7 @@ fn a_lost_column_of_tiles_is_found() {
         rasterize::fast::determine_visibility(&prepared, view, options, frame, &mut ());
         for mut tile in frame.tiles_mut(usize::MAX >> 1, 8) {
             if tile.region.columns.start / 8 == 1 {
-                tile.ids.iter_mut().for_each(|row| row.fill(u32::MAX));
+                tile.ids.clear();
             }
         }
     });
@@ -212,7 +212,7 @@ fn a_lost_column_of_tiles_is_found() {
 #[test]
 fn a_fault_that_only_meshes_show_keeps_its_mesh() {
     // Triangles of a mesh of at least three are lost.
-    let is_lost = |scene: &Scene, id: u32| {
+    let is_lost = |scene: &Scene, id: u64| {
         let (object, _) = scene.locate(id);
         let shape = &scene.objects()[object].shape;
         matches!(shape, Shape::Mesh(mesh) if mesh.triangles().len() >= 3)

@@ -105,7 +105,9 @@ fn the_scene_inside_covers_every_sample() {
         let camera = camera(&scene, Projection::Perspective, image);
         let view = View::new(&scene.scene, &camera);
         let frame = check_looks(&view, &Options { samples: 2, ..Options::default() }, "inside");
-        assert!(frame.ids().iter().all(|&id| id < scene.scene.primitive_count()));
+        assert!(
+            frame.ids().iter().all(|id| id.is_some_and(|id| id < scene.scene.primitive_count()))
+        );
     }
 }
 

@@ -351,7 +351,7 @@ fn distances_are_written_in_at_most_nine_digits() {
 }
 
 /// The visible primitives if `x` and `y` are computed in `f64` in the order in which the lecture writes them.
-fn seen_with_the_lecture_s_formula(vector: &bothways::vectors::Vector) -> Vec<Option<u32>> {
+fn seen_with_the_lecture_s_formula(vector: &bothways::vectors::Vector) -> Vec<Option<u64>> {
     let (scene, camera) = (vector.scene(), vector.camera());
     let view = View::new(&scene, &camera);
     let ([width, height], [vw, vh]) = (camera.image(), camera.viewport());
@@ -392,7 +392,7 @@ fn the_readme_s_numbers_are_those_of_the_set() {
     for (vector, (_, scene)) in bothways::vectors::all().iter().zip(&scenes) {
         let ids = table(&scene["ids"], -1.0);
         let seen = seen_with_the_lecture_s_formula(vector);
-        if seen.iter().map(|id| id.map_or(-1.0, f64::from)).ne(ids.iter().copied()) {
+        if seen.iter().map(|id| id.map_or(-1.0, |id| id as f64)).ne(ids.iter().copied()) {
             rounded.push(vector.name);
         }
     }

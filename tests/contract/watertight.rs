@@ -2,7 +2,6 @@
 
 use crate::four_renderers::{RENDERERS, all_agree, owners};
 use bothways::common::exact::Sign;
-use bothways::common::frame::NO_PRIMITIVE;
 use bothways::common::glam::Vec3;
 use bothways::common::{Camera, Mesh, Options, Primitive, Projection, Ray, Scene, Shape, View};
 use bothways_test_support::{PROJECTIONS, camera, mesh, scene, triangle, turned};
@@ -104,7 +103,7 @@ fn a_closed_mesh_from_inside_covers_every_sample() {
         let view = View::new(&scene, camera);
         let options = Options { samples: 2, ..Options::default() };
         let frame = all_agree(&view, &options, "octahedron from inside");
-        assert!(frame.ids().iter().all(|&id| id < 8));
+        assert!(frame.ids().iter().all(|id| id.is_some_and(|id| id < 8)));
     }
 }
 
@@ -200,10 +199,10 @@ fn the_canonical_camera_s_ties_follow_the_top_left_rule() {
             let view = View::new(&scene, &camera);
             for (name, render) in RENDERERS {
                 let frame = render(&view, &Options::default());
-                for (k, &id) in (0..).zip(frame.ids()) {
+                for (k, id) in (0..).zip(frame.ids().iter()) {
                     let (i, j) = (k / SIZE, k % SIZE);
                     let expected = top_left_covers(corners, [2 * j + 1, 2 * i + 1]);
-                    let seen = id != NO_PRIMITIVE;
+                    let seen = id.is_some();
                     assert_eq!(seen, expected, "{name}, {projection:?}: {corners:?} at ({i}, {j})");
                 }
             }

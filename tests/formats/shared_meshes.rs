@@ -71,7 +71,7 @@ fn instances_of_a_gltf_file_have_the_ids_of_copies_in_both_orders() {
     let camera = CameraDescription { image: [160, 120], ..loaded.camera };
     let camera = Camera::new(camera).unwrap();
     let [shared, copied] = [&loaded.scene, &copied].map(|scene| frames(scene, &camera));
-    let seen: std::collections::BTreeSet<&u32> = copied[0].ids().iter().collect();
+    let seen: std::collections::BTreeSet<Option<u64>> = copied[0].ids().iter().collect();
     assert!(seen.len() > 1000, "{}", seen.len());
     for frame in [&copied[1], &shared[0], &shared[1]] {
         assert!(frame.ids() == copied[0].ids());

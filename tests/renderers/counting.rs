@@ -2,7 +2,6 @@
 //! does not change the frame.
 
 use assert_cmd::Command;
-use bothways::common::frame::NO_PRIMITIVE;
 use bothways::common::glam::Vec3;
 use bothways::common::observe::budget::{Budget, WorkWithin};
 use bothways::common::observe::{Events, Question};
@@ -32,7 +31,7 @@ impl Observer for OneByOne {
 }
 
 impl Events for OneByOne {
-    fn primitive_begun(&mut self, primitive: u32, region: &Region) {
+    fn primitive_begun(&mut self, primitive: u64, region: &Region) {
         self.0.primitive_begun(primitive, region);
     }
 
@@ -44,15 +43,15 @@ impl Events for OneByOne {
         self.0.node_opened(sample, node, entered);
     }
 
-    fn sample_tested(&mut self, sample: Sample, primitive: u32) {
+    fn sample_tested(&mut self, sample: Sample, primitive: u64) {
         self.0.sample_tested(sample, primitive);
     }
 
-    fn fragment(&mut self, sample: Sample, primitive: u32) {
+    fn fragment(&mut self, sample: Sample, primitive: u64) {
         self.0.fragment(sample, primitive);
     }
 
-    fn depth_test(&mut self, sample: Sample, challenger: u32, holder: u32, replaced: bool) {
+    fn depth_test(&mut self, sample: Sample, challenger: u64, holder: u64, replaced: bool) {
         self.0.depth_test(sample, challenger, holder, replaced);
     }
 
@@ -151,7 +150,7 @@ fn rays_that_miss_everything_count_what_they_test() {
                 let frame = watched(Order::Image, &view, &options, &mut sums);
                 watched(Order::Image, &view, &options, &mut events);
                 assert_eq!(sums, events.0, "mesh {k}, {projection:?} from {distance}");
-                missed += frame.ids().iter().filter(|&&id| id == NO_PRIMITIVE).count();
+                missed += frame.ids().len() - frame.ids().covered();
             }
         }
     }
@@ -231,7 +230,7 @@ impl Events for Within<'_> {
         self.received.node_opened(sample, node, entered);
     }
 
-    fn sample_tested(&mut self, sample: Sample, primitive: u32) {
+    fn sample_tested(&mut self, sample: Sample, primitive: u64) {
         self.within.sample_tested(sample, primitive);
         self.received.sample_tested(sample, primitive);
     }
@@ -278,7 +277,7 @@ fn ten_thousand_triangles_in_one_place_take_little_memory() {
     let mut ids = Vec::new();
     for order in [Order::Object, Order::Image] {
         let mut work = Work::default();
-        ids.push(watched(order, &view, &options, &mut work).ids().to_vec());
+        ids.push(watched(order, &view, &options, &mut work).ids().iter().collect::<Vec<_>>());
         assert!(order == Order::Image || work.fragments > 10_000_000, "{work:?}");
     }
     assert_eq!(ids[0], ids[1]);

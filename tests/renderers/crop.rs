@@ -163,7 +163,7 @@ impl Observer for Within {
 }
 
 impl Events for Within {
-    fn primitive_begun(&mut self, _primitive: u32, region: &Region) {
+    fn primitive_begun(&mut self, _primitive: u64, region: &Region) {
         let is_within = region.is_empty() || region.intersection(&self.region) == *region;
         self.outside += u64::from(!is_within);
     }

@@ -150,7 +150,7 @@ fn both_orders_draw_each_triangle_in_its_own_material() {
             let comparison = compare(&frames[0], frame);
             assert!(comparison.matches() && comparison.color.differing_pixels == 0);
         }
-        let seen: BTreeSet<&u32> = frames[0].ids().iter().collect();
+        let seen: BTreeSet<Option<u64>> = frames[0].ids().iter().collect();
         assert!(seen.len() > 4, "{seen:?}");
         let grey = RENDERERS[0].1(&View::new(&plain, &camera), &options);
         assert!(compare(&frames[0], &grey).color.differing_pixels > 100);

@@ -122,7 +122,7 @@ fn a_perspective_camera_has_one_origin() {
     assert_eq!(ruled.ids(), exact.ids());
     let camera = plain_camera(Projection::Parallel);
     let [ruled, exact] = both(&View::new(&scene, &camera), parse("one-origin"));
-    assert!(ruled.ids().iter().all(|&id| id == ruled.ids()[0]));
+    assert!(ruled.ids().iter().all(|id| id == ruled.ids().get(0)));
     assert_ne!(ruled.ids(), exact.ids());
 }
 
@@ -172,7 +172,7 @@ fn fill_rules_differ_on_ties_alone() {
     let view = View::new(&loaded.scene, &camera);
     let [inclusive, exact] = both(&view, parse("inclusive"));
     let exclusive = both(&view, parse("exclusive"))[0].clone();
-    let covered = |frame: &Frame| frame.ids().iter().filter(|&&id| id != u32::MAX).count();
+    let covered = |frame: &Frame| frame.ids().covered();
     assert!(covered(&exclusive) < covered(&exact) && covered(&exact) < covered(&inclusive));
     // Snapping moves no vertex of this scene: each lies on a pixel's corner or middle.
     let snapped = both(&view, parse("snapped:8"))[0].clone();
@@ -212,7 +212,7 @@ fn threads_and_crops_change_nothing() {
             assert_eq!(pixels.next(), whole.picture().get(160 * i + j), "{rule:?} at {i}, {j}");
             let pairs = part.samples_of(i, j).zip(whole.samples_of(i, j));
             for (own, in_whole) in pairs {
-                assert_eq!(part.ids()[own], whole.ids()[in_whole], "{rule:?} at {i}, {j}");
+                assert_eq!(part.ids().get(own), whole.ids().get(in_whole), "{rule:?} at {i}, {j}");
                 assert_eq!(part.distances()[own], whole.distances()[in_whole]);
             }
         }
@@ -226,8 +226,8 @@ fn every_rule_survives_hostile_scenes() {
             for rule in Rule::examples() {
                 let frame = rendered(view, rule.order(), rule.into(), *frame).frame;
                 let ids = frame.ids().iter();
-                assert!(ids.zip(frame.distances()).all(|(&id, &t)| {
-                    if id == u32::MAX { t == f32::INFINITY } else { t > 0.0 && t.is_finite() }
+                assert!(ids.zip(frame.distances()).all(|(id, &t)| {
+                    if id.is_none() { t == f32::INFINITY } else { t > 0.0 && t.is_finite() }
                 }));
             }
         });
@@ -313,8 +313,7 @@ fn the_diff_names_every_rule_of_image_order_on_its_scene() {
 /// The ids of a frame, each row from right to left.
 fn mirrored(frame: &Frame, [width, height]: [u32; 2]) -> Buffer<'static> {
     let rows = frame.ids().chunks(width as usize);
-    let ids =
-        rows.flat_map(|row| row.iter().rev()).map(|&id| (id != u32::MAX).then_some(id.into()));
+    let ids = rows.flat_map(|row| row.iter().rev());
     Buffer::new([width, height], 1, Content::Ids(ids.collect()))
 }
 
@@ -333,9 +332,9 @@ fn check_names_in_a_mirror(order: Order) {
         let found = find_conventions(&view, &file).expect("it has ids").finding;
         let Finding::Explained(found) = found else { panic!("{rule} in a mirror: {found:?}") };
         let by_rule =
-            ruled.ids().iter().zip(exact.ids()).filter(|(one, other)| one != other).count();
+            ruled.ids().iter().zip(exact.ids().iter()).filter(|(one, other)| one != other).count();
         // All pixels of one colour have no sides.
-        let is_uniform = ruled.ids().iter().all(|&id| id == ruled.ids()[0]);
+        let is_uniform = ruled.ids().iter().all(|id| id == ruled.ids().get(0));
         let is_named = |one: &Explanation| match expected(rule) {
             Named::Change(change) if is_uniform => one.convention.changes() == [change],
             // Upside down, too, makes it half a turn.

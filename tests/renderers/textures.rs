@@ -157,7 +157,8 @@ fn a_frame_keeps_no_coordinates_unless_asked() {
     let frame = RENDERERS[0].1(&view, &Options::default());
     assert!(frame.texture_coordinates().is_empty());
     let mut frame = frame.with_texture_coordinates();
-    frame.fit(&Camera::canonical(7, 5), &Options::default());
+    let small = Camera::canonical(7, 5);
+    frame.fit(&View::new(&loaded.scene, &small), &Options::default());
     assert_eq!(frame.texture_coordinates().len(), 35, "a frame of another size keeps them, too");
 }
 
@@ -248,7 +249,7 @@ fn where_texels_and_samples_are_aligned_both_orders_choose_alike() {
 fn with_levels(view: &View, options: &Options) -> [Frame; 2] {
     both(view, options).map(|frame| {
         let mut frame = frame.with_levels();
-        frame.fit(view.camera, options);
+        frame.fit(view, options);
         frame
     })
 }

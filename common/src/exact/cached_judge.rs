@@ -89,7 +89,7 @@ impl Pair {
 /// A judge with a cache of the pairs that it compared last.
 ///
 /// Its answers are those of [`Judge`]. They come sooner where the same two flat primitives meet at many samples. The
-/// cache knows primitives by their ids: an id must always mean the same primitive.
+/// cache knows primitives by names: a name must always mean the same primitive, until the judge is told to forget.
 #[derive(Debug)]
 pub struct CachedJudge {
     judge: Judge,
@@ -106,16 +106,16 @@ impl CachedJudge {
         CachedJudge { judge, pairs: HashMap::new(), unseen: HashMap::new() }
     }
 
-    /// [`Judge::is_edge_on`], of a primitive with an id. A primitive that is edge-on leaves every fast test open.
-    pub fn is_edge_on(&mut self, id: u32, primitive: &Primitive) -> bool {
+    /// [`Judge::is_edge_on`], of a primitive with a name. A primitive that is edge-on leaves every fast test open.
+    pub fn is_edge_on(&mut self, name: u32, primitive: &Primitive) -> bool {
         if self.unseen.len() >= Self::MOST {
             self.unseen.clear();
         }
         let judge = &self.judge;
-        *self.unseen.entry(id).or_insert_with(|| judge.is_edge_on(primitive))
+        *self.unseen.entry(name).or_insert_with(|| judge.is_edge_on(primitive))
     }
 
-    /// [`Judge::nearer`].
+    /// [`Judge::nearer`], where names are in the order of the scene.
     pub fn nearer(
         &mut self,
         incoming: (u32, &Primitive),
@@ -126,14 +126,20 @@ impl CachedJudge {
         order.then(incoming.0.cmp(&stored.0)).is_lt()
     }
 
+    /// Forgets what it compared: from here on, a name may mean another primitive.
+    pub fn forget(&mut self) {
+        self.pairs.clear();
+        self.unseen.clear();
+    }
+
     /// Whether two primitives are equally far along every ray that meets both: they are the same, or flat
-    /// and in one plane. Then the smaller id is seen wherever both cover.
+    /// and in one plane. Then the first in the scene is seen wherever both cover.
     pub fn are_tied(&mut self, first: (u32, &Primitive), second: (u32, &Primitive)) -> bool {
         are_identical(first.1, second.1)
             || matches!(self.pair(first, second), Some(Pair::SamePlane))
     }
 
-    /// [`Judge::compare`], of primitives with ids.
+    /// [`Judge::compare`], of primitives with names.
     pub fn compare(
         &mut self,
         first: (u32, &Primitive),
@@ -162,12 +168,12 @@ impl CachedJudge {
         if self.pairs.len() >= Self::MOST {
             self.pairs.clear();
         }
-        let ids = [first.0, second.0];
-        if let Some(pair) = self.pairs.get(&ids) {
+        let names = [first.0, second.0];
+        if let Some(pair) = self.pairs.get(&names) {
             return Some(*pair);
         }
         let pair = Pair::new(&self.judge, first.1, second.1)?;
-        self.pairs.insert(ids, pair);
+        self.pairs.insert(names, pair);
         Some(pair)
     }
 }

@@ -135,8 +135,8 @@ impl Judge {
     /// sample. What no distance tells apart, the smaller id does.
     pub fn nearer(
         &self,
-        (incoming_id, incoming): (u32, &Primitive),
-        (stored_id, stored): (u32, &Primitive),
+        (incoming_id, incoming): (u64, &Primitive),
+        (stored_id, stored): (u64, &Primitive),
         ray: &Ray,
     ) -> bool {
         let order = self.compare(incoming, stored, ray).decided;

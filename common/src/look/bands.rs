@@ -11,7 +11,7 @@ mod tint;
 
 use crate::camera::SampleGrid;
 use crate::engine::simd::{Level, Simd, SimdBase, dispatch, f32x16, f64x8};
-use crate::frame::{Frame, NO_LEVEL, NO_PRIMITIVE, ShadingBand};
+use crate::frame::{Frame, Ids, NO_LEVEL, NO_PRIMITIVE, NO_WIDE_PRIMITIVE, ShadingBand};
 use crate::look::color::{srgb_from_linear, srgb_of_sixteen};
 use crate::look::lanes::{Vec3x16, each};
 use crate::look::shade::{Finish, Lighting, SurfacePoints};
@@ -124,7 +124,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
     ) {
         let width = band.region.columns.len();
         let stored = line * width + within.start..line * width + within.end;
-        let (ids, first) = (&band.ids[stored.clone()], band.region.columns.start + within.start);
+        let (ids, first) = (band.ids.of(stored.clone()), band.region.columns.start + within.start);
         let mut kept = KeptTexture {
             coordinates: band.texture_coordinates.as_mut().map(|kept| &mut kept[stored.clone()]),
             levels: band.levels.as_mut().map(|kept| &mut kept[stored.clone()]),
@@ -134,7 +134,10 @@ impl<'a, A: Surfaces> Look<'a, A> {
             desk.runs.push(Run { end: ids.len(), place: None });
             kept.fill_nothing(0..ids.len());
         } else {
-            desk.find_runs(simd, &self.setting, ids);
+            match ids {
+                Ids::Narrow(ids) => desk.find_runs(simd, &self.setting, ids),
+                Ids::Wide(ids) => desk.find_wide_runs(simd, &self.setting, ids),
+            }
             desk.chunk.x[..ids.len()].copy_from_slice(&self.grid.x()[first..first + ids.len()]);
             if desk.seen().any(|surface| self.setting.surfaces.looks_at_t(surface)) {
                 for (wide, t) in desk.chunk.t.iter_mut().zip(&band.t[stored.clone()]) {
@@ -338,9 +341,17 @@ impl<'a, A: Surfaces> Look<'a, A> {
 
 /// Whether nothing is seen at any of some samples.
 #[inline(always)]
-fn is_nothing(ids: &[u32]) -> bool {
+fn is_nothing(ids: Ids) -> bool {
     // Without a branch for each sample, vectors compare them.
-    ids.chunks(64).all(|ids| ids.iter().fold(true, |all, &id| all & (id == NO_PRIMITIVE)))
+    match ids {
+        Ids::Narrow(ids) => are_all(ids, NO_PRIMITIVE),
+        Ids::Wide(ids) => are_all(ids, NO_WIDE_PRIMITIVE),
+    }
+}
+
+#[inline(always)]
+fn are_all<T: Copy + PartialEq>(ids: &[T], one: T) -> bool {
+    ids.chunks(64).all(|ids| ids.iter().fold(true, |all, &id| all & (id == one)))
 }
 
 /// Whether two runs can be lit together.

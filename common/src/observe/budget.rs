@@ -87,7 +87,7 @@ impl Events for WorkWithin<'_> {
         before.saturating_add(more) > self.budget.most
     }
 
-    fn primitive_begun(&mut self, primitive: u32, region: &Region) {
+    fn primitive_begun(&mut self, primitive: u64, region: &Region) {
         self.work.primitive_begun(primitive, region);
     }
 
@@ -99,23 +99,23 @@ impl Events for WorkWithin<'_> {
         self.work.node_opened(sample, node, entered);
     }
 
-    fn sample_tested(&mut self, sample: Sample, primitive: u32) {
+    fn sample_tested(&mut self, sample: Sample, primitive: u64) {
         self.work.sample_tested(sample, primitive);
     }
 
-    fn edge_signs(&mut self, sample: Sample, primitive: u32, signs: [Option<Sign>; 3]) {
+    fn edge_signs(&mut self, sample: Sample, primitive: u64, signs: [Option<Sign>; 3]) {
         self.work.edge_signs(sample, primitive, signs);
     }
 
-    fn fragment(&mut self, sample: Sample, primitive: u32) {
+    fn fragment(&mut self, sample: Sample, primitive: u64) {
         self.work.fragment(sample, primitive);
     }
 
-    fn depth_test(&mut self, sample: Sample, incoming: u32, stored: u32, replaced: bool) {
+    fn depth_test(&mut self, sample: Sample, incoming: u64, stored: u64, replaced: bool) {
         self.work.depth_test(sample, incoming, stored, replaced);
     }
 
-    fn hit(&mut self, sample: Sample, primitive: Option<u32>) {
+    fn hit(&mut self, sample: Sample, primitive: Option<u64>) {
         self.work.hit(sample, primitive);
     }
 

@@ -110,9 +110,10 @@ impl Judges {
         ray: &Ray,
     ) -> Result<bool, String> {
         let truth = self.truth.precedence(first, second, ray);
+        let wide = |(id, primitive)| (u64::from(id), primitive);
         let answers = [
-            self.library.nearer(first, second, ray),
-            !self.library.nearer(second, first, ray),
+            self.library.nearer(wide(first), wide(second), ray),
+            !self.library.nearer(wide(second), wide(first), ray),
             cached.nearer(first, second, ray),
             !cached.nearer(second, first, ray),
         ];
@@ -140,7 +141,9 @@ impl Judges {
 fn confirm_case(case: &Case) -> Result<Tally, String> {
     let (camera, scene) = (case.camera(), case.scene());
     let judges = Judges::new(&camera);
-    let primitives: Vec<_> = View::new(&scene, &camera).primitives().collect();
+    let primitives: Vec<_> = (0..)
+        .zip(View::new(&scene, &camera).primitives().map(|(_, primitive)| primitive))
+        .collect();
     let mut cached = CachedJudge::new(judges.library);
     case.rays().iter().try_fold(Tally::default(), |sum, ray| {
         Ok(sum.plus(judges.confirm(&mut cached, &primitives, ray)?))

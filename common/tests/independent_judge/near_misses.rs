@@ -144,7 +144,9 @@ fn search(cases: u32, pictures: impl Strategy<Value = Case>) -> Wrong {
         let case = pictures.new_tree(&mut runner).expect("cases are found").current();
         let (camera, scene) = (case.camera(), case.scene());
         let judges = Judges::new(&camera);
-        let primitives: Vec<_> = View::new(&scene, &camera).primitives().collect();
+        let view = View::new(&scene, &camera);
+        let primitives: Vec<_> =
+            (0..).zip(view.primitives().map(|(_, primitive)| primitive)).collect();
         let [x, y] = case.points[0];
         let ray = camera.ray_through(x, y);
         count_wrong(&judges, &primitives, &ray, &mut wrong);

@@ -152,7 +152,7 @@ fn ids_of_samples(rule: Option<&str>) -> TempDir {
         let mut ids = options.writer(file).begin_nd().unwrap();
         for [i, j] in frame.pixels() {
             let samples = frame.samples_of(i as usize, j as usize);
-            ids.extend(samples.map(|sample| frame.ids()[sample])).unwrap();
+            ids.extend(samples.map(|sample| frame.ids().narrow().unwrap()[sample])).unwrap();
         }
         ids.finish().unwrap();
     }

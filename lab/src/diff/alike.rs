@@ -2,7 +2,7 @@
 
 use super::buffer::{Buffer, Content, Covered, Pixels};
 use crate::common::engine::simd::{Simd, SimdBase, SimdMask, best_level, dispatch, u8x64};
-use crate::common::frame::NO_PRIMITIVE;
+use crate::common::frame::{Ids, NO_PRIMITIVE, NO_WIDE_PRIMITIVE};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::Arc;
@@ -50,14 +50,17 @@ impl Buffer<'_> {
                 Some(bits(run.map(|at| is_unknown || covered(at))))
             }
             (Content::Frame(a), Content::Frame(b)) => {
-                let ids = [a, b].map(|seen| &seen.frame.ids()[run.clone()]);
+                let ids = [a, b].map(|seen| seen.frame.ids().of(run.clone()));
                 let t = [a, b].map(|seen| &seen.frame.distances()[run.clone()]);
                 let bytes = 3 * run.start..3 * run.end;
                 let colors = [a, b].map(|seen| &seen.picture.as_raw()[bytes.clone()]);
                 let is_alike = ids[0] == ids[1]
                     && all(t[0], t[1], |a, b| known.covers_distances((*a).into(), (*b).into()))
                     && all(colors[0], colors[1], |a, b| known.covers_steps(a.abs_diff(*b)));
-                is_alike.then(|| bits(ids[0].iter().map(|&id| id != NO_PRIMITIVE)))
+                is_alike.then(|| match ids[0] {
+                    Ids::Narrow(ids) => bits(ids.iter().map(|&id| id != NO_PRIMITIVE)),
+                    Ids::Wide(ids) => bits(ids.iter().map(|&id| id != NO_WIDE_PRIMITIVE)),
+                })
             }
             _ => None,
         }

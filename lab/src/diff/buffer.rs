@@ -3,7 +3,6 @@
 use super::aspect::Aspect;
 use super::classes::pixels;
 use crate::common::Frame;
-use crate::common::frame::NO_PRIMITIVE;
 use image::RgbImage;
 use rayon::prelude::*;
 use std::borrow::Cow;
@@ -350,7 +349,7 @@ impl<'a> Buffer<'a> {
             Content::Distances(t) => Some(t[sample].is_finite()),
             Content::Normals(normals) => Some(has_direction(normals[sample])),
             Content::Picture(picture) => picture.covered(sample),
-            Content::Frame(seen) => Some(seen.frame.ids()[sample] != NO_PRIMITIVE),
+            Content::Frame(seen) => Some(seen.frame.ids().is_covered(sample)),
         }
     }
 
@@ -368,9 +367,7 @@ impl<'a> Buffer<'a> {
     pub(super) fn id(&self, sample: usize) -> Option<u64> {
         match &self.content {
             Content::Ids(ids) => ids[sample],
-            Content::Frame(seen) => {
-                Some(seen.frame.ids()[sample]).filter(|id| *id != NO_PRIMITIVE).map(u64::from)
-            }
+            Content::Frame(seen) => seen.frame.ids().get(sample),
             _ => None,
         }
     }

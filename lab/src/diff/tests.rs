@@ -12,7 +12,7 @@ fn frame(samples: u32, rows: &[&str]) -> Frame {
     for (row, text) in rows.iter().enumerate() {
         for (column, letter) in text.chars().enumerate() {
             if let Some(id) = letter.to_digit(10) {
-                frame.set(row, column, id, 1.0);
+                frame.set(row, column, id.into(), 1.0);
             }
         }
     }

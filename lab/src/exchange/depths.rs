@@ -1,7 +1,7 @@
 //! Near and far planes, which our rays do not have and other systems need.
 
 use super::{ExchangeError, System};
-use crate::common::{Primitive, Projection, View};
+use crate::common::{Projection, Shape, View};
 use crate::opengl::{Depths, NEAR, behind_everything};
 
 /// The depths of the near and the far plane along `−w`, in lengths of the world, as far as they are stated.
@@ -51,7 +51,9 @@ impl StatedDepths {
         least: f64,
         what: &'static str,
     ) -> Result<[f64; 2], ExchangeError> {
-        let planes = view.primitives().any(|(_, shape)| matches!(shape, Primitive::Plane { .. }));
+        let objects = view.scene.objects().iter();
+        let planes =
+            objects.map(|object| &object.shape).any(|shape| matches!(shape, Shape::Plane(_)));
         let behind = behind_everything(view) * if planes { 1024.0 } else { 1.0 };
         let chosen = match view.camera.projection() {
             Projection::Perspective => NEAR * view.camera.distance(),

@@ -3,7 +3,6 @@
 mod looks;
 
 use super::{Export, ExportError, Target, export};
-use crate::common::frame::NO_PRIMITIVE;
 use crate::common::{Camera, CameraDescription, Projection, Scene, Shape, View};
 use crate::formats::source::{GivenFile, InputFile};
 use crate::orders::{Method, Order, RenderOptions, render};
@@ -13,13 +12,14 @@ fn exported(loaded: &LoadedScene, camera: &Camera, target: Target) -> Export {
     export(&View::new(&loaded.scene, camera), &loaded.name, target).unwrap()
 }
 
-fn ids(scene: &Scene, camera: &Camera) -> Vec<u32> {
+fn ids(scene: &Scene, camera: &Camera) -> Vec<Option<u64>> {
     let view = View::new(scene, camera);
     render(Order::Object, Method::Fast, &view, &RenderOptions::default())
         .unwrap()
         .frame
         .ids()
-        .to_vec()
+        .iter()
+        .collect()
 }
 
 fn is_of_triangles(loaded: &LoadedScene) -> bool {
@@ -114,14 +114,14 @@ fn a_sphere_and_a_plane_become_triangles_where_there_are_no_others() {
     assert!(notes.iter().any(|note| note.contains("is a plane without an end")), "{notes:?}");
     let again = loaded_from(&files[0].0, &files[0].1);
     // By the colour of what is seen: a polygon lies within its circle, by less than a pixel here.
-    let color_of = |scene: &Scene, id: u32| {
-        (id != NO_PRIMITIVE).then(|| {
+    let color_of = |scene: &Scene, id: Option<u64>| {
+        id.map(|id| {
             let (object, local) = scene.locate(id);
             scene.objects()[object].material_of(local).color
         })
     };
     let (ours, theirs) = (ids(&loaded.scene, &camera), ids(&again.scene, &camera));
-    let differs = |(ours, theirs): &(&u32, &u32)| {
+    let differs = |(ours, theirs): &(&Option<u64>, &Option<u64>)| {
         color_of(&loaded.scene, **ours) != color_of(&again.scene, **theirs)
     };
     let differ = ours.iter().zip(&theirs).filter(differs).count();

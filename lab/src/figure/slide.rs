@@ -22,7 +22,7 @@ pub struct Slide<'a> {
     /// The scene in one line; the slide leaves out the part that does not fit.
     pub about: Option<&'a str>,
     /// Primitives in the scene.
-    pub primitives: u32,
+    pub primitives: u64,
     /// The number of rendering threads; the slide shows this number if it shows times.
     pub threads: usize,
     /// The result of object order.

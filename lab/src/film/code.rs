@@ -106,5 +106,5 @@ fn variables(film: &Film, order: Order, shot: &OrderShot) -> [String; 5] {
 
 /// A primitive in words.
 fn object(view: &View, id: u32) -> String {
-    format!("object {}: {}", grouped(id.into()), view.primitive(id).kind())
+    format!("object {}: {}", grouped(id.into()), view.primitive(id.into()).kind())
 }

@@ -23,7 +23,7 @@ pub type Lines = Vec<Vec<[f64; 2]>>;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn outline(view: &View, id: u32) -> Lines {
-    Projector { camera: view.camera }.outline(&view.primitive(id))
+    Projector { camera: view.camera }.outline(&view.primitive(id.into()))
 }
 
 /// The edges of a box of the world, from its least to its greatest corner, as

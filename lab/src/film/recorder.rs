@@ -137,8 +137,8 @@ impl Observer for Recorder<'_> {
 }
 
 impl Events for Recorder<'_> {
-    fn primitive_begun(&mut self, primitive: u32, _region: &Region) {
-        self.now = Position { primitive: Some(primitive), ..Position::default() };
+    fn primitive_begun(&mut self, primitive: u64, _region: &Region) {
+        self.now = Position { primitive: Some(short(primitive)), ..Position::default() };
     }
 
     fn ray_begun(&mut self, sample: Sample) {
@@ -152,13 +152,14 @@ impl Events for Recorder<'_> {
             Position { line: Line::Inner, sample: Some(sample), node, ..Position::default() };
     }
 
-    fn sample_tested(&mut self, sample: Sample, primitive: u32) {
+    fn sample_tested(&mut self, sample: Sample, primitive: u64) {
         self.begin_step(sample);
-        let (sample, primitive) = (Some(sample), Some(primitive));
+        let (sample, primitive) = (Some(sample), Some(short(primitive)));
         self.now = Position { line: Line::Test, sample, primitive, ..Position::default() };
     }
 
-    fn fragment(&mut self, sample: Sample, primitive: u32) {
+    fn fragment(&mut self, sample: Sample, primitive: u64) {
+        let primitive = short(primitive);
         let (at, id) = (Some(sample), Some(primitive));
         self.now = Position { line: Line::Keep, sample: at, primitive: id, ..Position::default() };
         match self.stored.get(&sample) {
@@ -168,14 +169,14 @@ impl Events for Recorder<'_> {
         }
     }
 
-    fn depth_test(&mut self, sample: Sample, incoming: u32, _stored: u32, replaced: bool) {
+    fn depth_test(&mut self, sample: Sample, incoming: u64, _stored: u64, replaced: bool) {
         if replaced {
-            self.keep(sample, incoming);
+            self.keep(sample, short(incoming));
         }
     }
 
-    fn hit(&mut self, sample: Sample, primitive: Option<u32>) {
-        self.changes.push(Change { steps: self.steps, sample, id: primitive });
+    fn hit(&mut self, sample: Sample, primitive: Option<u64>) {
+        self.changes.push(Change { steps: self.steps, sample, id: primitive.map(short) });
         self.stored.clear();
     }
 }
@@ -218,7 +219,12 @@ impl Events for Survey {
         self.step(sample);
     }
 
-    fn sample_tested(&mut self, sample: Sample, _primitive: u32) {
+    fn sample_tested(&mut self, sample: Sample, _primitive: u64) {
         self.step(sample);
     }
+}
+
+/// An id as films keep it: no scene of wider ones is filmed.
+pub(super) fn short(id: u64) -> u32 {
+    u32::try_from(id).expect("a film shows narrow ids alone")
 }

@@ -3,7 +3,7 @@
 //! A film shows some moments of long loops; this keeps all moments of short ones.
 
 use super::code::code;
-use super::recorder::{Line, Plan, Recorder};
+use super::recorder::{Line, Plan, Recorder, short};
 use super::track::{Loops, Painted};
 use crate::common::raster::Sample;
 use crate::common::{Events, Observer, View};
@@ -91,13 +91,13 @@ pub struct Steps {
 #[error(
     "these loops take {} steps, {} objects and {} pixels, and at most {} are kept to step through; choose a smaller \
      image, a scene with fewer objects, or a method that skips more",
-    grouped(*.steps), grouped((*.primitives).into()), grouped(*.pixels), grouped(MOST_KEPT)
+    grouped(*.steps), grouped(*.primitives), grouped(*.pixels), grouped(MOST_KEPT)
 )]
 pub struct TooManySteps {
     /// The steps.
     pub steps: u64,
     /// The primitives of the scene.
-    pub primitives: u32,
+    pub primitives: u64,
     /// The pixels of the picture.
     pub pixels: u64,
 }
@@ -147,9 +147,10 @@ impl Steps {
             0..=MOST_KEPT if has_short_sides => Ok(()),
             _ => Err(TooManySteps { steps, primitives, pixels }),
         };
-        // By the fast method the number is known only after a first run, which is worth it for small pictures.
-        let at_least = if method == Method::Textbook { u64::from(primitives) } else { 1 };
-        check(pixels * at_least)?;
+        // By the fast method the number is known only after a first run, which is worth it for small pictures; not where
+        // ids have 64 bits, as there are more primitives than steps that are kept.
+        let is_known = method == Method::Textbook || view.scene.has_wide_ids();
+        check(primitives.saturating_mul(if is_known { pixels } else { 0 }).max(pixels))?;
         let loops = Loops::new(order, method, *view);
         check(loops.steps)?;
         let (steps, painted) = loops.keep();
@@ -170,7 +171,7 @@ impl Steps {
                 continue;
             }
             let (ray, primitive) =
-                (grid.ray(step.row.into(), step.column.into()), view.primitive(id));
+                (grid.ray(step.row.into(), step.column.into()), view.primitive(id.into()));
             if step.outcome == Outcome::NotCovered && judge.covers(&primitive, &ray) {
                 step.outcome = Outcome::Behind;
             }
@@ -270,20 +271,20 @@ impl Events for Keeper {
         self.begin(sample, Tested::Node(node), outcome);
     }
 
-    fn sample_tested(&mut self, sample: Sample, primitive: u32) {
+    fn sample_tested(&mut self, sample: Sample, primitive: u64) {
         if self.told_late {
-            self.pairs.insert((sample, primitive), self.steps.len());
+            self.pairs.insert((sample, short(primitive)), self.steps.len());
         }
-        self.begin(sample, Tested::Primitive(primitive), Outcome::NotCovered);
+        self.begin(sample, Tested::Primitive(short(primitive)), Outcome::NotCovered);
     }
 
-    fn fragment(&mut self, sample: Sample, primitive: u32) {
-        self.note(sample, primitive, Outcome::First);
+    fn fragment(&mut self, sample: Sample, primitive: u64) {
+        self.note(sample, short(primitive), Outcome::First);
     }
 
-    fn depth_test(&mut self, sample: Sample, incoming: u32, _stored: u32, replaced: bool) {
+    fn depth_test(&mut self, sample: Sample, incoming: u64, _stored: u64, replaced: bool) {
         let outcome = if replaced { Outcome::Nearer } else { Outcome::Behind };
-        self.note(sample, incoming, outcome);
+        self.note(sample, short(incoming), outcome);
     }
 }
 
@@ -322,7 +323,11 @@ mod tests {
                 }
                 for (at, id) in stored.into_iter().enumerate() {
                     let [row, column] = [at / frame.width(), at % frame.width()];
-                    assert_eq!(id, frame.id(row, column), "{name} {order:?} ({row}, {column})");
+                    assert_eq!(
+                        id.map(u64::from),
+                        frame.id(row, column),
+                        "{name} {order:?} ({row}, {column})"
+                    );
                 }
                 assert!(steps.changes.is_sorted_by_key(|change| change.steps));
             });
@@ -337,7 +342,7 @@ mod tests {
                 for step in &steps.steps {
                     let Tested::Primitive(id) = step.tested else { continue };
                     let ray = grid.ray(step.row.into(), step.column.into());
-                    let covers = judge.covers(&view.primitive(id), &ray);
+                    let covers = judge.covers(&view.primitive(id.into()), &ray);
                     assert_eq!(covers, step.line() == Line::Keep, "{order:?} {step:?}");
                     assert_eq!(covers, step.t.is_some());
                 }

@@ -111,8 +111,8 @@ impl Events for Log {
         self.0.push((sample, None));
     }
 
-    fn sample_tested(&mut self, sample: Sample, primitive: u32) {
-        self.0.push((sample, Some(primitive)));
+    fn sample_tested(&mut self, sample: Sample, primitive: u64) {
+        self.0.push((sample, Some(u32::try_from(primitive).unwrap())));
     }
 }
 

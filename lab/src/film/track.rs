@@ -123,7 +123,7 @@ impl<'a> Loops<'a> {
         for (number, &Change { steps, sample: Sample { row, column }, id }) in
             changes.iter().enumerate()
         {
-            let stays = frame.id(row, column) == id;
+            let stays = frame.id(row, column) == id.map(u64::from);
             let [i, j] =
                 [row, column].map(|index| u32::try_from(index).expect("a side of a picture"));
             let color = *finished.get_pixel(j, i);
@@ -144,8 +144,9 @@ impl<'a> Loops<'a> {
             for &number in &layer {
                 let Change { sample: Sample { row, column }, id, .. } = changes[number];
                 if let Some(id) = id {
-                    let distance = judge.distance(&view.primitive(id), &grid.ray(row, column));
-                    shaded.set(row, column, id, distance);
+                    let distance =
+                        judge.distance(&view.primitive(id.into()), &grid.ray(row, column));
+                    shaded.set(row, column, id.into(), distance);
                 }
             }
             self.shade(&mut shaded);

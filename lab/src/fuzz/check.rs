@@ -48,7 +48,7 @@ pub enum Disagreement {
         /// The first pixel in which they differ, `[i, j]` of the whole image.
         pixel: [u32; 2],
         /// The primitive that each sees at the first such sample of the pixel; `None` for nothing.
-        ids: [Option<u32>; 2],
+        ids: [Option<u64>; 2],
     },
     /// A renderer panicked.
     Panic {

@@ -49,13 +49,13 @@ impl Events for CloseCalls<'_> {
         Some(&mut self.work)
     }
 
-    fn edge_signs(&mut self, _sample: Sample, _primitive: u32, signs: [Option<Sign>; 3]) {
+    fn edge_signs(&mut self, _sample: Sample, _primitive: u64, signs: [Option<Sign>; 3]) {
         let has = |sign| signs.contains(&Some(sign));
         let decided_elsewhere = has(Sign::Negative) && has(Sign::Positive);
         self.exact_ties += u64::from(has(Sign::Zero) && !decided_elsewhere);
     }
 
-    fn depth_test(&mut self, sample: Sample, incoming: u32, stored: u32, _replaced: bool) {
+    fn depth_test(&mut self, sample: Sample, incoming: u64, stored: u64, _replaced: bool) {
         let ray = self.grid.ray(sample.row, sample.column);
         let [incoming, stored] = [incoming, stored].map(|id| self.view.primitive(id));
         let order = self.view.judge().compare(&incoming, &stored, &ray).at_sample;
@@ -93,7 +93,7 @@ mod tests {
         let mut frame = Frame::new(&camera, &options);
         let mut close = CloseCalls::new(&view, 1);
         textbook::determine_visibility(&view, &options, &mut frame, &mut close);
-        let covered = frame.ids().iter().filter(|id| **id == 0).count() as u64;
+        let covered = frame.ids().iter().filter(|id| *id == Some(0)).count() as u64;
         assert_eq!(close.exact_ties, 2 * 3 + covered);
     }
 }

@@ -146,7 +146,7 @@ mod tests {
     }
 
     /// The bits of a primitive's numbers.
-    fn bits(scene: &crate::common::Scene, id: u32) -> Vec<u32> {
+    fn bits(scene: &crate::common::Scene, id: u64) -> Vec<u32> {
         let (object, _) = scene.locate(id);
         let vectors = match (scene.triangle(id), &scene.objects()[object].shape) {
             (Some(corners), _) => corners.to_vec(),

@@ -4,7 +4,6 @@ use super::counts::Counts;
 use super::order::{Method, Order};
 use super::rules::Rule;
 use super::times::Times;
-use crate::common::frame::NO_PRIMITIVE;
 use crate::common::{Executed, Frame, Work};
 
 /// The result of one order, and its cost.
@@ -37,7 +36,7 @@ impl Rendered {
 
     /// The number of covered samples.
     pub fn covered(&self) -> u64 {
-        self.frame.ids().iter().filter(|&&id| id != NO_PRIMITIVE).count() as u64
+        self.frame.ids().covered() as u64
     }
 
     /// The work for one frame, if it was counted.

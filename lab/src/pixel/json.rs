@@ -61,7 +61,7 @@ struct SampleJson {
 
 #[derive(Debug, Serialize)]
 struct CoveringJson {
-    id: u32,
+    id: u64,
     object: usize,
     kind: &'static str,
     t: f64,
@@ -71,7 +71,7 @@ struct CoveringJson {
 
 #[derive(Debug, Serialize)]
 struct TouchingJson {
-    id: u32,
+    id: u64,
     object: usize,
     edges: EdgesJson,
 }
@@ -90,7 +90,7 @@ struct EdgesJson {
 
 #[derive(Debug, Serialize)]
 struct AnswerJson {
-    id: Option<u32>,
+    id: Option<u64>,
     t: Option<f32>,
     work: WorkReport,
 }

@@ -1,6 +1,5 @@
 //! The pixels around one: what is seen at each, and the triangles that lie there.
 
-use crate::common::frame::NO_PRIMITIVE;
 use crate::common::{Crop, Frame, Options, Primitive, View};
 use crate::figure::Projector;
 use crate::rasterize;
@@ -15,7 +14,7 @@ pub struct Neighbourhood {
     /// The pixels.
     pub pixels: Crop,
     /// The primitive that is seen at each of them, row by row; `None` for nothing.
-    pub seen: Vec<Option<u32>>,
+    pub seen: Vec<Option<u64>>,
     /// Triangles that lie among them, in scene order: those that are seen first of all, if there are too many.
     pub triangles: Vec<Outline>,
     /// The number of further triangles.
@@ -26,7 +25,7 @@ pub struct Neighbourhood {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outline {
     /// The id of the triangle.
-    pub id: u32,
+    pub id: u64,
     /// The corners, column and row in pixels from the top left of the image: three of them, or other ones where the part
     /// behind the eye is cut away. They are rounded: good for drawing, and never asked what covers what.
     pub corners: Vec<[f64; 2]>,
@@ -69,15 +68,15 @@ pub fn neighbourhood(
 }
 
 /// What object order sees there.
-fn seen(prepared: &rasterize::fast::Prepared, view: &View, pixels: Crop) -> Vec<Option<u32>> {
+fn seen(prepared: &rasterize::fast::Prepared, view: &View, pixels: Crop) -> Vec<Option<u64>> {
     let options = Options { crop: Some(pixels), ..Options::default() };
     let mut frame = Frame::new(view.camera, &options);
     rasterize::fast::determine_visibility(prepared, view, &options, &mut frame, &mut ());
-    frame.ids().iter().map(|&id| (id != NO_PRIMITIVE).then_some(id)).collect()
+    frame.ids().iter().collect()
 }
 
 /// The triangles whose bounding boxes meet the pixels.
-fn triangles(view: &View, pixels: Crop, seen: &[Option<u32>]) -> (Vec<Outline>, usize) {
+fn triangles(view: &View, pixels: Crop, seen: &[Option<u64>]) -> (Vec<Outline>, usize) {
     let [row, column, height, width] = pixels.to_array().map(f64::from);
     let meets = |corners: &[[f64; 2]], axis: usize, from: f64, to: f64| {
         let least = corners.iter().map(|corner| corner[axis]).fold(f64::INFINITY, f64::min);
@@ -99,7 +98,7 @@ fn triangles(view: &View, pixels: Crop, seen: &[Option<u32>]) -> (Vec<Outline>, 
         .collect();
     let omitted = found.len().saturating_sub(MOST_TRIANGLES);
     if omitted > 0 {
-        let seen: HashSet<u32> = seen.iter().flatten().copied().collect();
+        let seen: HashSet<u64> = seen.iter().flatten().copied().collect();
         found.sort_by_key(|one| !seen.contains(&one.id));
         found.truncate(MOST_TRIANGLES);
         found.sort_by_key(|one| one.id);

@@ -46,10 +46,10 @@ impl OpenedScene {
     }
 
     /// The number of primitives in the scene.
-    pub fn primitive_count(&self) -> u32 {
+    pub fn primitive_count(&self) -> u64 {
         match self {
             OpenedScene::InMemory(loaded) => loaded.scene.primitive_count(),
-            OpenedScene::Streamed(streamed) => streamed.triangles,
+            OpenedScene::Streamed(streamed) => streamed.triangles.into(),
         }
     }
 

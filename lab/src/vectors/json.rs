@@ -20,7 +20,7 @@ pub struct Entry {
     /// Width and height in pixels.
     pub image: [u32; 2],
     /// The number of triangles.
-    pub triangles: u32,
+    pub triangles: u64,
     /// Whether the scene's corners have exact raster coordinates.
     pub raster: bool,
     /// The number of covered samples.
@@ -33,7 +33,7 @@ impl Entry {
     /// The index entry of a scene with this expected frame.
     pub fn new(vector: &Vector, frame: &Frame) -> Entry {
         let (scene, camera) = (vector.scene(), vector.camera());
-        let seen = frame.ids().iter().filter(|&&id| id < scene.primitive_count());
+        let seen = frame.ids().covered();
         Entry {
             name: vector.name,
             group: vector.group.name(),
@@ -41,7 +41,7 @@ impl Entry {
             image: frame.image(),
             triangles: scene.primitive_count(),
             raster: raster::triangles(&View::new(&scene, &camera)).is_some(),
-            covered: seen.count() as u64,
+            covered: seen as u64,
             files: ENDINGS.map(|ending| format!("{}{ending}", vector.name)).to_vec(),
         }
     }

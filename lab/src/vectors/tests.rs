@@ -9,7 +9,7 @@ fn drawn(name: &str) -> Vec<String> {
     let all = all();
     let vector = all.iter().find(|vector| vector.name == name).unwrap();
     let frame = expected(vector).unwrap();
-    let letter = |id: u32| char::from(b'a' + u8::try_from(id).unwrap());
+    let letter = |id: u64| char::from(b'a' + u8::try_from(id).unwrap());
     let pixel = |row, column| frame.id(row, column).map_or('.', letter);
     (0..frame.height())
         .map(|row| (0..frame.width()).map(|column| pixel(row, column)).collect())

@@ -136,7 +136,7 @@ fn scattered(number: u64) -> u64 {
 /// Whether two frames show different primitives in a pixel.
 fn differs(frame: &Frame, other: &Frame, [i, j]: [u32; 2]) -> bool {
     let mut samples = frame.samples_of(i as usize, j as usize);
-    samples.any(|sample| frame.ids()[sample] != other.ids()[sample])
+    samples.any(|sample| frame.ids().get(sample) != other.ids().get(sample))
 }
 
 /// The rows and columns of a pixel's samples.
@@ -147,7 +147,7 @@ fn samples(frame: &Frame, [i, j]: [u32; 2]) -> impl Iterator<Item = [usize; 2]> 
 }
 
 /// The primitives at a sample and at its neighbours, within the frame.
-fn around(frame: &Frame, [row, column]: [usize; 2]) -> impl Iterator<Item = Option<u32>> {
+fn around(frame: &Frame, [row, column]: [usize; 2]) -> impl Iterator<Item = Option<u64>> {
     let region = frame.region();
     let beside = [
         [row, column],
@@ -185,7 +185,7 @@ fn is_tie(view: &View, frame: &Frame, pixel: [u32; 2]) -> bool {
     let (judge, grid) = (view.judge(), view.camera.sample_grid(frame.samples()));
     samples(frame, pixel).any(|sample| {
         let ray = grid.ray(sample[0], sample[1]);
-        let seen: BTreeSet<u32> = around(frame, sample).flatten().collect();
+        let seen: BTreeSet<u64> = around(frame, sample).flatten().collect();
         let primitives: Vec<Primitive> = seen.into_iter().map(|id| view.primitive(id)).collect();
         let on_edge = |primitive: &Primitive| {
             let Some(edges) = judge.coverage(primitive, &ray).edges else { return false };

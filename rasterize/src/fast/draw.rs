@@ -56,7 +56,7 @@ impl Drawing<'_> {
                 painter.draw_list(class, bins.list(tile, class));
             }
             let Painter { large, finder, .. } = &mut painter;
-            large.extend(bins.list(tile, SizeClass::Large).iter().map(|slot| finder.id(*slot)));
+            large.extend(bins.list(tile, SizeClass::Large).iter().map(|slot| finder.name(*slot)));
             painter.draw_large();
         }
         painter.draw_instances(tile);
@@ -132,11 +132,11 @@ impl<C: ScalarContext> Painter<'_, '_, C> {
     /// size class.
     fn sort_cluster(&mut self, cluster: &Cluster) {
         let Cluster { object, first, count, .. } = *cluster;
-        let (first_id, triangles, vertices) = self.finder.object(object);
+        let (first_name, triangles, vertices) = self.finder.object(object);
         self.sort_triangles(count, |place| {
             let index = first + place;
             let corners = triangles.corners[index as usize].map(|vertex| vertices[vertex as usize]);
-            (first_id + triangles.number(index), corners)
+            (first_name + triangles.number(index), corners)
         });
     }
 
@@ -176,6 +176,9 @@ impl<C: ScalarContext> Painter<'_, '_, C> {
             }
             // If the loops are watched, every triangle is an event.
             if C::WATCHED || !self.hides(&instance.extent) {
+                if self.buffer.names.are_used_up() {
+                    self.give_names_anew();
+                }
                 self.sort_instance(instance, &mut vertices);
             } else {
                 self.buffer.executed.clusters += 1;
@@ -185,10 +188,23 @@ impl<C: ScalarContext> Painter<'_, '_, C> {
                 self.draw_large();
             }
         }
+        self.draw_all_waiting();
+    }
+
+    /// Draws all that waits.
+    fn draw_all_waiting(&mut self) {
         for class in SizeClass::IN_LANES {
             self.draw_waiting(class);
         }
         self.draw_large();
+    }
+
+    /// Gives new names to the instances that are seen, as names are used up.
+    #[cold]
+    fn give_names_anew(&mut self) {
+        // What waits has names that others will have.
+        self.draw_all_waiting();
+        self.buffer.give_names_anew();
     }
 
     /// Looks at the clusters of an instance, and at the triangles of those that may be seen in the tile.
@@ -202,7 +218,9 @@ impl<C: ScalarContext> Painter<'_, '_, C> {
             unreachable!("only instances of meshes are listed");
         };
         let placement = &instances.placements()[instance.number as usize];
-        let first_id = scene.first_id(object) + instance.number * mesh.triangle_count();
+        let triangles = mesh.triangle_count();
+        let first_id = scene.first_id(object) + u64::from(instance.number) * u64::from(triangles);
+        let first_name = self.buffer.names.of_instance(first_id, triangles);
         let onto = (geometry.map, geometry.raster);
         let is_whole = mesh.clusters.len() == 1;
         for cluster in &mesh.clusters {
@@ -232,7 +250,7 @@ impl<C: ScalarContext> Painter<'_, '_, C> {
             });
             self.sort_triangles(cluster.count(), |place| {
                 let (number, corners) = cluster.triangle(mesh, place, vertices);
-                (first_id + number, corners)
+                (first_name + number, corners)
             });
         }
     }

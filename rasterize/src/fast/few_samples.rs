@@ -199,6 +199,6 @@ fn emit_tests<C: Context>(
     for lane in lanes_of(active.to_bitmask()) {
         let at = index[lane].cast_unsigned() as usize;
         let edges = values.map(|values| values[lane]);
-        setup.triangle(lane).emit_test(context.sink(), buffer.sample(at), edges);
+        setup.triangle(lane).emit_test(context.sink(), &buffer.names, buffer.sample(at), edges);
     }
 }

@@ -371,7 +371,12 @@ fn emit_tests<const ACROSS: usize, C: Context>(
         if sample.row >= end_row || sample.column >= end_column {
             continue;
         }
-        triangle.emit_test(context.sink(), sample, values.map(|values| values[lane]));
+        triangle.emit_test(
+            context.sink(),
+            &buffer.names,
+            sample,
+            values.map(|values| values[lane]),
+        );
         if inside >> lane & 1 == 1 {
             let at = buffer.index(sample);
             buffer.emit_certain(context, at, triangle.id, keys[lane]);

@@ -30,7 +30,7 @@ pub(super) fn draw<C: Context>(
         }
         let last = ids.len() - 1;
         let primitives: [Primitive; 8] =
-            std::array::from_fn(|k| picture.view.primitive(ids[k.min(last)]));
+            std::array::from_fn(|k| buffer.names.primitive(picture.view, ids[k.min(last)]));
         for (id, primitive) in ids.iter().zip(primitives) {
             draw_primitive(context, &mut FragmentWriter { id: *id, primitive, picture, buffer });
         }

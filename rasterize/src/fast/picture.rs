@@ -21,7 +21,7 @@ pub(super) fn judge_covers<C: ScalarContext>(
     context: &mut C,
     picture: &Picture,
     sample: Sample,
-    id: u32,
+    id: u64,
     primitive: &Primitive,
 ) -> bool {
     context.sink().judged(sample, Question::Coverage);

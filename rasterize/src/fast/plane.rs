@@ -54,7 +54,7 @@ fn draw_samples<C: ScalarContext>(
         for column in here.columns.clone() {
             let sample = Sample { row, column };
             let depth = depth.at(on_row, xs[column]);
-            context.sink().sample_tested(sample, writer.id);
+            context.sink().sample_tested(sample, writer.real_id());
             // In front of the eye the depth has this side's sign, behind it the other.
             let [near, far] =
                 if side > 0.0 { [depth.low, depth.high] } else { [-depth.high, -depth.low] };

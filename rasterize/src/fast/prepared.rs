@@ -25,7 +25,7 @@ pub struct Prepared {
     pub(super) clusters: Vec<Clusters>,
     /// Of every object of instances their mesh.
     pub(super) shared: Vec<Option<Arc<SharedMesh>>>,
-    pub(super) primitives: u32,
+    pub(super) primitives: u64,
     /// The index of each object's first vertex among all vertices; at the end, the number of all vertices.
     pub(super) first_vertices: Vec<usize>,
     /// The corners of a box around all objects that are not planes.

@@ -8,6 +8,7 @@ use super::size_class::MOST_SAMPLES_ACROSS;
 use super::vertices::{ALIGNED, FixedPointRaster};
 use bothways_common::Sign;
 use bothways_common::engine::fault::{Fault, Planted};
+use bothways_common::engine::names::Names;
 use bothways_common::engine::roundoff::EPS24;
 use bothways_common::engine::simd::{
     Select, Simd, SimdBase, SimdInt, SimdMask, f32x16, i32x16, mask32x16,
@@ -338,10 +339,11 @@ impl TriangleSetup {
     pub(super) fn emit_test(
         &self,
         sink: &mut (impl EventSink + ?Sized),
+        names: &Names,
         sample: Sample,
         edges: [f32; 3],
     ) {
-        let (id, error) = (self.id, self.error);
+        let (id, error) = (names.id(self.id), self.error);
         sink.sample_tested(sample, id);
         let out = edges.iter().any(|edge| *edge < -error);
         let inside = edges.iter().all(|edge| *edge > error);

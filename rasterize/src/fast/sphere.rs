@@ -55,7 +55,7 @@ fn draw_samples<C: ScalarContext>(
     for row in here.rows {
         for column in here.columns.clone() {
             let sample = Sample { row, column };
-            context.sink().sample_tested(sample, writer.id);
+            context.sink().sample_tested(sample, writer.real_id());
             draw_sample(context, writer, sphere, sample);
         }
     }

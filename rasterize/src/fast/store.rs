@@ -3,16 +3,43 @@
 use super::depth::{NOTHING, distances};
 use super::picture::Picture;
 use super::tile::TileBuffer;
+use bothways_common::engine::names::Names;
 use bothways_common::engine::simd::{
     Select, Simd, SimdBase, SimdMask, f32x16, finish_streaming, stream, u32x16,
 };
-use bothways_common::frame::{NO_PRIMITIVE, Tile, stored_t};
+use bothways_common::frame::{IdRows, NO_PRIMITIVE, NO_WIDE_PRIMITIVE, Tile, stored_t};
 use bothways_common::raster::Sample;
 
 /// Writes ids and distances into the frame, and leaves the buffer ready for another tile.
 #[inline(always)]
 pub(super) fn store<S: Simd>(simd: S, picture: &Picture, buffer: &mut TileBuffer, tile: Tile) {
-    for (row, (ids, t)) in tile.ids.into_iter().zip(tile.t).enumerate() {
+    let Tile { region, ids, t } = tile;
+    let mut names = Vec::new();
+    let (names_of_rows, wide) = match ids {
+        IdRows::Narrow(rows) => (rows, Vec::new()),
+        IdRows::Wide(rows) => {
+            names = vec![NO_PRIMITIVE; region.area()];
+            (names.chunks_mut(region.columns.len()).collect(), rows)
+        }
+    };
+    store_rows(simd, picture, buffer, names_of_rows, t);
+    for (names, ids) in names.chunks(region.columns.len()).zip(wide) {
+        for (id, &name) in ids.iter_mut().zip(names) {
+            *id = if name == NO_PRIMITIVE { NO_WIDE_PRIMITIVE } else { buffer.names.id(name) };
+        }
+    }
+}
+
+/// Writes names and distances, row by row.
+#[inline(always)]
+fn store_rows<S: Simd>(
+    simd: S,
+    picture: &Picture,
+    buffer: &mut TileBuffer,
+    ids: Vec<&mut [u32]>,
+    t: Vec<&mut [f32]>,
+) {
+    for (row, (ids, t)) in ids.into_iter().zip(t).enumerate() {
         let start = row * buffer.stride();
         let (whole_ids, rest_ids) = ids.as_chunks_mut::<16>();
         let (whole_t, rest_t) = t.as_chunks_mut::<16>();
@@ -33,7 +60,16 @@ pub(super) fn store<S: Simd>(simd: S, picture: &Picture, buffer: &mut TileBuffer
 
 /// Writes a tile in which nothing is seen.
 pub(super) fn store_nothing(tile: Tile) {
-    for (ids, t) in tile.ids.into_iter().zip(tile.t) {
+    let Tile { mut ids, t, .. } = tile;
+    let ids = match ids {
+        IdRows::Narrow(rows) => rows,
+        IdRows::Wide(_) => {
+            ids.clear();
+            t.into_iter().for_each(|t| t.fill(f32::INFINITY));
+            return;
+        }
+    };
+    for (ids, t) in ids.into_iter().zip(t) {
         let (whole_ids, rest_ids) = ids.as_chunks_mut::<16>();
         let (whole_t, rest_t) = t.as_chunks_mut::<16>();
         for (ids, t) in whole_ids.iter_mut().zip(whole_t) {
@@ -72,7 +108,7 @@ fn store_sixteen<S: Simd>(
     let mut distances = nothing.select(f32x16::splat(simd, f32::INFINITY), distances).to_array();
     if unsure.any_true() {
         let first = buffer.sample(from);
-        judge_distances(picture, first, &seen, unsure.to_bitmask(), &mut distances);
+        judge_distances(picture, &buffer.names, first, &seen, unsure.to_bitmask(), &mut distances);
     }
     stream(seen, ids);
     stream(distances, t);
@@ -82,6 +118,7 @@ fn store_sixteen<S: Simd>(
 #[cold]
 fn judge_distances(
     picture: &Picture,
+    names: &Names,
     first: Sample,
     ids: &[u32; 16],
     lanes: u64,
@@ -90,7 +127,7 @@ fn judge_distances(
     let judge = picture.view.judge();
     for (lane, t) in t.iter_mut().enumerate().filter(|(lane, _)| lanes >> lane & 1 == 1) {
         let ray = picture.map.grid.ray(first.row, first.column + lane);
-        let primitive = picture.view.primitive(ids[lane]);
+        let primitive = names.primitive(picture.view, ids[lane]);
         *t = stored_t(judge.distance(&primitive, &ray));
     }
 }

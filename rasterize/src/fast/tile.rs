@@ -6,6 +6,7 @@ use super::search::tiling::Tiling;
 use super::sphere::nearer;
 use bothways_common::engine::context::ScalarContext;
 use bothways_common::engine::fault::Planted;
+use bothways_common::engine::names::Names;
 use bothways_common::engine::simd::{Simd, SimdBase, SimdMask, f32x16};
 use bothways_common::exact::CachedJudge;
 use bothways_common::frame::NO_PRIMITIVE;
@@ -21,12 +22,13 @@ pub(super) struct TileBuffer {
     /// Samples from one row to the next: more than a row has, so that sixteen at a time may reach
     /// over its end.
     stride: usize,
-    /// The primitive that is seen, where the key says that one is.
+    /// The name of the primitive that is seen, where the key says that one is.
     ids: Vec<u32>,
     /// Depth keys; [`NOTHING`] where nothing is seen, and everywhere between two tiles.
     keys: Vec<f32>,
     open: Vec<OpenFragment>,
     judge: CachedJudge,
+    pub(super) names: Names,
     /// The last ids, incoming and stored, that were found to be tied everywhere without being the same.
     tied: Option<[u32; 2]>,
     /// The last two ids that were compared (at first, those of no primitive), and whether they are the same
@@ -54,8 +56,8 @@ pub(super) struct Incoming {
 }
 
 impl Incoming {
-    fn primitive(&mut self, picture: &Picture) -> Primitive {
-        *self.primitive.get_or_insert_with(|| picture.view.primitive(self.id))
+    fn primitive(&mut self, picture: &Picture, names: &Names) -> Primitive {
+        *self.primitive.get_or_insert_with(|| names.primitive(picture.view, self.id))
     }
 }
 
@@ -72,6 +74,7 @@ impl TileBuffer {
         let samples = stride * (tiling.rows + 1);
         TileBuffer {
             judge: CachedJudge::new(view.judge()),
+            names: Names::new(view.scene),
             region: Region { rows: 0..0, columns: 0..0 },
             stride,
             ids: vec![NO_PRIMITIVE; samples],
@@ -91,6 +94,7 @@ impl TileBuffer {
     /// Starts a tile in which nothing is seen.
     pub(super) fn begin(&mut self, view: &View, region: &Region) {
         self.judge = CachedJudge::new(view.judge());
+        self.names = Names::new(view.scene);
         self.tied = None;
         self.compared = ([NO_PRIMITIVE; 2], false);
         self.region = region.clone();
@@ -179,7 +183,7 @@ impl TileBuffer {
         let stored = self.ids[index];
         let pair = [id, stored];
         self.keys[index] != NOTHING
-            && id > stored
+            && self.names.precedes(stored, id)
             && (self.tied == Some(pair) || self.are_same(picture, pair))
     }
 
@@ -189,7 +193,7 @@ impl TileBuffer {
     pub(super) fn is_duplicate<C: ScalarContext>(&self, id: u32) -> bool {
         let ([last, stored], are_same) = self.compared;
         let drops = !(C::WATCHED || C::has(Planted::TiesToLast));
-        drops && are_same && last == id && stored < id
+        drops && are_same && last == id && self.names.precedes(stored, id)
     }
 
     /// Whether two primitives are the same triangle: they mostly meet at several samples, one after the
@@ -197,7 +201,8 @@ impl TileBuffer {
     #[inline(always)]
     fn are_same(&mut self, picture: &Picture, pair: [u32; 2]) -> bool {
         if self.compared.0 != pair {
-            self.compared = (pair, picture.view.scene.are_same_triangle(pair[0], pair[1]));
+            let [one, other] = pair.map(|name| self.names.id(name));
+            self.compared = (pair, picture.view.scene.are_same_triangle(one, other));
         }
         self.compared.1
     }
@@ -241,9 +246,10 @@ impl TileBuffer {
             return;
         }
         let sample = self.sample(index);
+        let id = self.names.id(id);
         sink.fragment(sample, id);
         if meets_earlier {
-            sink.depth_test(sample, id, self.ids[index], nearer);
+            sink.depth_test(sample, id, self.names.id(self.ids[index]), nearer);
         }
     }
 
@@ -273,8 +279,9 @@ impl TileBuffer {
             };
             let index = *index as usize;
             let covered = *covered || {
-                let (sample, primitive) = (self.sample(index), incoming.primitive(picture));
-                judge_covers(context, picture, sample, *id, &primitive)
+                let primitive = incoming.primitive(picture, &self.names);
+                let (sample, id) = (self.sample(index), self.names.id(*id));
+                judge_covers(context, picture, sample, id, &primitive)
             };
             if covered {
                 self.settle_depth(context, picture, index, incoming, *key);
@@ -324,12 +331,13 @@ impl TileBuffer {
         if C::WATCHED {
             context.sink().judged(self.sample(index), Question::Nearest);
         }
-        let before = (id < stored_id) != C::has(Planted::TiesToLast);
+        let before = self.names.precedes(id, stored_id) != C::has(Planted::TiesToLast);
         // Duplicates are the most frequent ties.
         if self.are_same(picture, [id, stored_id]) || self.tied == Some([id, stored_id]) {
             return before;
         }
-        let (primitive, other) = (incoming.primitive(picture), picture.view.primitive(stored_id));
+        let primitive = incoming.primitive(picture, &self.names);
+        let other = self.names.primitive(picture.view, stored_id);
         let Sample { row, column } = self.sample(index);
         let ray = picture.map.grid.ray(row, column);
         let (incoming, stored) = ((id, &primitive), (stored_id, &other));
@@ -360,9 +368,18 @@ impl TileBuffer {
         if C::has(Planted::ZeroErrorBound) {
             return None;
         }
-        let stored = sphere(picture.view.primitive(self.ids[index]))?;
+        let stored = sphere(self.names.primitive(picture.view, self.ids[index]))?;
         let Sample { row, column } = self.sample(index);
         nearer([incoming, stored], &picture.map.grid.ray(row, column))
+    }
+
+    /// Gives new names to the instances that are seen, as names are used up. Nothing is open, and nothing waits.
+    pub(super) fn give_names_anew(&mut self) {
+        let TileBuffer { names, ids, keys, .. } = self;
+        names.give_anew(ids, |index| keys[index] != NOTHING);
+        self.judge.forget();
+        self.tied = None;
+        self.compared = ([NO_PRIMITIVE; 2], false);
     }
 
     /// Whether a flat primitive covers no sample of this camera at all; see [`CachedJudge::is_edge_on`].

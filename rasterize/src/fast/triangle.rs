@@ -64,11 +64,11 @@ fn draw_samples<C: ScalarContext>(
             let (x, sample) = (xs[column], Sample { row, column });
             let e =
                 [on_row[0] + x * ab.across, on_row[1] + x * bc.across, on_row[2] + x * ca.across];
-            context.sink().sample_tested(sample, writer.id);
+            context.sink().sample_tested(sample, writer.real_id());
             let out = e[0] < -ab.error || e[1] < -bc.error || e[2] < -ca.error;
             let inside = e[0] > ab.error && e[1] > bc.error && e[2] > ca.error;
             if out || inside {
-                context.sink().edge_signs(sample, writer.id, certain_signs(setup, &e));
+                context.sink().edge_signs(sample, writer.real_id(), certain_signs(setup, &e));
             }
             if out || (!inside && !writer.judge_covers(context, sample)) {
                 continue;

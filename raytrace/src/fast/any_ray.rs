@@ -26,7 +26,7 @@ pub struct WorldRay {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
     /// The id of the primitive.
-    pub id: u32,
+    pub id: u64,
     /// How far it is from the ray's origin, in units of the world: the length of the ray's direction does not matter.
     pub distance: f32,
 }
@@ -97,7 +97,7 @@ pub fn first_hit(prepared: &Prepared, scene: &Scene, ray: WorldRay) -> Option<Hi
     let distance = dispatch!(prepared.level, simd => {
         trace_alone(&mut Parts::new(simd, &mut (), Sound), &mut walker)
     });
-    walker.tile.seen().map(|id| Hit { id, distance })
+    walker.seen().map(|id| Hit { id, distance })
 }
 
 /// Traces the only ray of a picture. Returns how far the hit is, or infinity if there is none.

@@ -156,7 +156,8 @@ fn emit_edge_signs<S: Simd>(
                 let sign = if on_edge { 0.0 } else { f64::from(facing[lane] * edge) };
                 (edge.abs() > error[lane]).then(|| Sign::of(sign))
             };
-            sink.edge_signs(sample, eight.ids[lane], edges.map(sign));
+            let id = tile.names.id(eight.ids[lane]);
+            sink.edge_signs(sample, id, edges.map(sign));
         }
     }
 }

@@ -23,6 +23,7 @@ use bothways_common::raster::Sample;
 use bothways_common::{Primitive, Ray, Sign};
 use flat::FlatFunctions;
 use narrow::narrow;
+use std::cmp::Ordering;
 use unbounded::Unbounded;
 
 /// What rounded arithmetic says of a ray and a primitive; of a triangle, the signs of its edge functions, too.
@@ -141,7 +142,7 @@ pub(super) fn draw<C: ScalarContext>(
         for column in columns[0]..columns[1] {
             let at = index(tile.side(), row, column);
             if let Some(sample) = tile.sample(at) {
-                context.sink().sample_tested(sample, id);
+                context.sink().sample_tested(sample, tile.names.id(id));
                 decide(context, map, at, (id, primitive), false, tile);
             }
         }
@@ -178,13 +179,13 @@ fn decide<C: ScalarContext>(
     let ray = map.grid.ray(sample.row, sample.column);
     let (answer, signs) = answer(&ray, primitive, Trust::new::<C::Fault>());
     let (Answer::Hit(distance) | Answer::Open(distance)) = answer else {
-        context.sink().edge_signs(sample, id, signs);
+        context.sink().edge_signs(sample, tile.names.id(id), signs);
         return;
     };
     if covered {
         // Only the depth is open.
     } else if let Answer::Hit(_) = answer {
-        context.sink().edge_signs(sample, id, signs);
+        context.sink().edge_signs(sample, tile.names.id(id), signs);
     } else {
         if tile.is_edge_on(id, primitive) {
             return;
@@ -192,13 +193,13 @@ fn decide<C: ScalarContext>(
         context.sink().judged(sample, Question::Coverage);
         let coverage = map.view.judge().coverage(primitive, &ray);
         if let Some(edges) = coverage.edges {
-            context.sink().edge_signs(sample, id, edges.at_sample.map(Some));
+            context.sink().edge_signs(sample, tile.names.id(id), edges.at_sample.map(Some));
         }
         if !coverage.covers || C::has(Planted::StrictComparison) {
             return;
         }
     }
-    context.sink().fragment(sample, id);
+    context.sink().fragment(sample, tile.names.id(id));
     let [low, high] = map.depth.keys(distance);
     let empty = tile.is_empty_at(at);
     let nearer = if empty || low > tile.high[at] {
@@ -209,7 +210,8 @@ fn decide<C: ScalarContext>(
         is_nearer(context, map, (sample, at), (id, primitive, distance), tile)
     };
     if !empty {
-        context.sink().depth_test(sample, id, tile.ids[at], nearer);
+        let [id, stored] = [id, tile.ids[at]].map(|name| tile.names.id(name));
+        context.sink().depth_test(sample, id, stored, nearer);
     }
     if nearer {
         tile.keep(at, id, [low, high]);
@@ -225,7 +227,7 @@ fn is_nearer<C: ScalarContext>(
     tile: &mut TileBuffer,
 ) -> bool {
     let stored_id = tile.ids[at];
-    let stored = map.view.primitive(stored_id);
+    let stored = tile.names.primitive(&map.view, stored_id);
     let ray = map.grid.ray(sample.row, sample.column);
     let trust = Trust::new::<C::Fault>();
     if let (Answer::Hit(other) | Answer::Open(other), _) = answer(&ray, &stored, trust) {
@@ -247,9 +249,10 @@ fn is_nearer<C: ScalarContext>(
     }
     context.sink().judged(sample, Question::Nearest);
     let (incoming, stored) = ((id, incoming), (stored_id, &stored));
-    if C::has(Planted::TiesToLast) {
-        let order = tile.judge.compare(incoming, stored, &ray);
-        return order.decided.then(stored_id.cmp(&id)).is_lt();
+    match tile.judge.compare(incoming, stored, &ray).decided {
+        Ordering::Less => true,
+        Ordering::Greater => false,
+        Ordering::Equal if C::has(Planted::TiesToLast) => tile.names.precedes(stored_id, id),
+        Ordering::Equal => tile.names.precedes(id, stored_id),
     }
-    tile.judge.nearer(incoming, stored, &ray)
 }

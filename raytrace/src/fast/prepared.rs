@@ -1,11 +1,10 @@
 //! What is kept of a scene for any number of views of it.
 
-use super::search::instance_frustum::PlacedBy;
 use super::search::tree::{
     Bounds, INSTANCES, IndexedLeaf, LEAF_KINDS, LeafCounts, Node, NodeRef, PlainLeaf, SPHERES,
 };
 use bothways_common::engine::simd::Level;
-use bothways_common::{Scene, Shape};
+use bothways_common::{Placement, Scene, Shape};
 
 /// What a moving camera would not repeat: the hierarchy over all bounded primitives.
 #[derive(Clone, Debug)]
@@ -13,7 +12,7 @@ pub struct Prepared {
     pub(super) nodes: Vec<Node>,
     pub(super) indexed_leaves: Vec<IndexedLeaf>,
     pub(super) plain_leaves: Vec<PlainLeaf>,
-    /// The ids of the spheres of the hierarchy's leaves; unused lanes repeat the first.
+    /// The names of the spheres of the hierarchy's leaves; unused lanes repeat the first.
     pub(super) sphere_leaves: Vec<[u32; SPHERES]>,
     /// The numbers of the instances of the hierarchy's leaves; unused lanes repeat the first.
     pub(super) instance_leaves: Vec<[u32; INSTANCES]>,
@@ -29,7 +28,7 @@ pub struct Prepared {
     pub(super) unbounded: Vec<u32>,
     /// Spheres in boxes, and for each the extent that the margin of its box was made for.
     pub(super) extents: Vec<(u32, f32)>,
-    pub(super) primitives: u32,
+    pub(super) primitives: u64,
     pub(super) level: Level,
     /// Samples along one side of a tile.
     pub(super) side: usize,
@@ -51,16 +50,26 @@ pub(super) struct Instanced {
     /// The number of its first instance among those of all objects.
     pub(super) first_number: u32,
     pub(super) object: usize,
-    pub(super) first_id: u32,
+    pub(super) first_id: u64,
     /// How many triangles the mesh has, and its place among [`Prepared::meshes`].
     pub(super) triangles: u32,
     pub(super) mesh: usize,
 }
 
+/// One instance of a mesh.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct OneInstance<'a, 'b> {
+    pub(super) mesh: &'a MeshRoot,
+    pub(super) placement: &'b Placement,
+    /// The id of its first triangle, and how many it has.
+    pub(super) first_id: u64,
+    pub(super) triangles: u32,
+}
+
 impl Prepared {
     /// An instance, by its number among those of all objects.
     #[inline(always)]
-    pub(super) fn instance<'a>(&self, scene: &'a Scene, number: u32) -> (&MeshRoot, PlacedBy<'a>) {
+    pub(super) fn instance<'a>(&self, scene: &'a Scene, number: u32) -> OneInstance<'_, 'a> {
         let after = self.instanced.partition_point(|instanced| instanced.first_number <= number);
         let Instanced { first_number, object, first_id, triangles, mesh } =
             self.instanced[after - 1];
@@ -69,8 +78,8 @@ impl Prepared {
         };
         let number = number - first_number;
         let placement = &instances.placements()[number as usize];
-        let first_id = first_id + number * triangles;
-        (&self.meshes[mesh], PlacedBy { placement, first_id })
+        let first_id = first_id + u64::from(number) * u64::from(triangles);
+        OneInstance { mesh: &self.meshes[mesh], placement, first_id, triangles }
     }
 
     /// The number of leaves of each kind.

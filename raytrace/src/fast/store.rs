@@ -6,7 +6,7 @@ use super::one_primitive;
 use super::tile::{BLOCK, TileBuffer, place};
 use bothways_common::Projection;
 use bothways_common::engine::simd::{Select, Simd, SimdBase, SimdMask, f32x16, u32x16};
-use bothways_common::frame::{NO_PRIMITIVE, stored_t};
+use bothways_common::frame::{NO_PRIMITIVE, NO_WIDE_PRIMITIVE, stored_t};
 use bothways_common::raster::{Region, Sample};
 use std::ops::Range;
 
@@ -68,6 +68,25 @@ pub(super) fn store<S: Simd>(
     }
 }
 
+/// Writes the wide ids of the samples that were drawn in a tile, from their names; both cover a region.
+pub(super) fn store_wide_ids(
+    tile: &TileBuffer,
+    region: &Region,
+    drawn: &Region,
+    names: &[&mut [u32]],
+    ids: &mut [&mut [u64]],
+) {
+    let columns =
+        drawn.columns.start - region.columns.start..drawn.columns.end - region.columns.start;
+    for row in drawn.rows.clone() {
+        let line = row - region.rows.start;
+        let to = &mut ids[line][columns.clone()];
+        for (id, &name) in to.iter_mut().zip(&names[line][columns.clone()]) {
+            *id = if name == NO_PRIMITIVE { NO_WIDE_PRIMITIVE } else { tile.names.id(name) };
+        }
+    }
+}
+
 /// The ids and distances of a block. A distance is taken from the middle of its key's interval if that is
 /// narrow: within 0.75·10⁻⁶ of the true one, and three roundings of `ε₂₄`.
 #[inline(always)]
@@ -118,7 +137,8 @@ fn find_distances(
 ) {
     for lane in (0..16).filter(|lane| lanes >> lane & 1 == 1) {
         let Some(Sample { row, column }) = tile.sample(from + lane) else { continue };
-        let (ray, primitive) = (map.grid.ray(row, column), map.view.primitive(ids[lane]));
+        let (ray, primitive) =
+            (map.grid.ray(row, column), tile.names.primitive(&map.view, ids[lane]));
         let rounded = match one_primitive::answer(&ray, &primitive, Trust::Sound).0 {
             Answer::Hit(distance) | Answer::Open(distance) => narrow_middle(distance),
             Answer::Miss => None,

@@ -1,13 +1,14 @@
 //! What the rays of one tile have hit so far: ids and depth keys, the depth test, and what is left open.
 
 use super::one_primitive::flat::FlatCache;
-use bothways_common::Primitive;
 use bothways_common::engine::context::ScalarContext;
+use bothways_common::engine::names::Names;
 use bothways_common::engine::simd::{Simd, SimdBase, SimdMask, f32x16};
-use bothways_common::exact::{CachedJudge, Judge};
+use bothways_common::exact::CachedJudge;
 use bothways_common::frame::NO_PRIMITIVE;
 use bothways_common::observe::{Events, Executed};
 use bothways_common::raster::Sample;
+use bothways_common::{Primitive, View};
 
 /// Samples along one side of a block: sixteen samples are tested at once.
 pub(super) const BLOCK: usize = 4;
@@ -22,6 +23,7 @@ const BLOCKS: usize = SAMPLES / 16;
 /// Both ends are −∞ where nothing is hit, and +∞ beyond the picture, where nothing can be nearer.
 #[derive(Debug)]
 pub(super) struct TileBuffer {
+    /// By their names: see [`Names`].
     pub(super) ids: Box<[u32; SAMPLES]>,
     pub(super) low: Box<[f32; SAMPLES]>,
     pub(super) high: Box<[f32; SAMPLES]>,
@@ -41,6 +43,7 @@ pub(super) struct TileBuffer {
     side: usize,
     open: Vec<OpenFragment>,
     pub(super) judge: CachedJudge,
+    pub(super) names: Names,
     /// Triangles that were set up alone.
     pub(super) flats: FlatCache,
     /// What was executed for the tile.
@@ -58,7 +61,7 @@ pub(super) struct OpenFragment {
 
 impl TileBuffer {
     /// A tile without samples; [`TileBuffer::begin`] gives it some.
-    pub(super) fn new(judge: Judge) -> TileBuffer {
+    pub(super) fn new(view: &View) -> TileBuffer {
         TileBuffer {
             ids: Box::new([NO_PRIMITIVE; SAMPLES]),
             low: Box::new([0.0; SAMPLES]),
@@ -72,7 +75,8 @@ impl TileBuffer {
             size: [0; 2],
             side: 1,
             open: Vec::new(),
-            judge: CachedJudge::new(judge),
+            judge: CachedJudge::new(view.judge()),
+            names: Names::new(view.scene),
             flats: FlatCache::default(),
             executed: Executed::default(),
         }
@@ -183,6 +187,15 @@ impl TileBuffer {
         }
     }
 
+    /// Gives new names to the instances that are seen, as names are used up. Nothing is open, and nothing waits.
+    #[cold]
+    pub(super) fn give_names_anew(&mut self) {
+        let TileBuffer { names, ids, high, judge, flats, .. } = self;
+        names.give_anew(&mut ids[..], |index| high[index] != f32::NEG_INFINITY);
+        judge.forget();
+        flats.forget();
+    }
+
     /// Whether a triangle or plane covers no sample of this camera at all; see [`CachedJudge::is_edge_on`].
     pub(super) fn is_edge_on(&mut self, id: u32, primitive: &Primitive) -> bool {
         self.judge.is_edge_on(id, primitive)
@@ -234,9 +247,11 @@ impl TileBuffer {
         let nearer = certain && low > self.high[at];
         let emits = C::WATCHED && certain && (farther || nearer);
         if emits && let Some(sample) = self.sample(at) {
+            let id = self.names.id(id);
             context.sink().fragment(sample, id);
             if !self.is_empty_at(at) {
-                context.sink().depth_test(sample, id, self.ids[at], nearer);
+                let stored = self.names.id(self.ids[at]);
+                context.sink().depth_test(sample, id, stored, nearer);
             }
         }
         if nearer {

@@ -1,13 +1,31 @@
 //! A scene of instances shows what the same scene with copied vertices shows.
 
 use bothways_common::engine::simd::levels;
-use bothways_common::{Frame, Options, Scene, View, Work};
+use bothways_common::glam::Vec3;
+use bothways_common::{
+    Camera, CameraDescription, Frame, Instances, Mesh, Options, Placement, Plane, Projection,
+    Scene, Shape, Sphere, View, Work,
+};
 use bothways_raytrace::{fast, textbook};
 use bothways_test_support::hostile::{self, Numbers, copied};
 use bothways_test_support::{CROWDS, assert_same_visibility, crowd};
+use std::collections::BTreeSet;
 
 fn render(scene: &Scene, view: &View, options: &Options) -> Frame {
-    fast::render(&fast::prepare(scene), &View::new(scene, view.camera), options)
+    let frame = fast::render(&fast::prepare(scene), &View::new(scene, view.camera), options);
+    assert!(frame.ids().narrow().is_some());
+    let scene = scene.clone().with_wide_ids();
+    let wide = fast::render(&fast::prepare(&scene), &View::new(&scene, view.camera), options);
+    assert_same_bits(&frame, &wide);
+    frame
+}
+
+/// A frame of wide ids is that of narrow ones, to the last bit.
+fn assert_same_bits(narrow: &Frame, wide: &Frame) {
+    assert!(wide.ids().narrow().is_none());
+    assert_eq!(narrow.ids(), wide.ids());
+    assert_eq!(narrow.distances(), wide.distances());
+    assert!(narrow.picture() == wide.picture());
 }
 
 fn check(numbers: Numbers, count: u32) {
@@ -16,6 +34,9 @@ fn check(numbers: Numbers, count: u32) {
         let expected = textbook::render(&View::new(&copies, view.camera), options);
         let instanced = textbook::render(view, options);
         assert_same_visibility(&expected, &instanced, "the textbook's instances");
+        let wide = view.scene.clone().with_wide_ids();
+        let wide = textbook::render(&View::new(&wide, view.camera), options);
+        assert_same_bits(&instanced, &wide);
         assert_same_visibility(&expected, &render(view.scene, view, options), "instances");
         assert_same_visibility(&expected, &render(&copies, view, options), "copies");
     });
@@ -53,6 +74,14 @@ fn every_level_tile_and_observer_sees_the_same_instances() {
             let prepared = fast::prepare(view.scene);
             fast::determine_visibility(&prepared, view, options, &mut frame, &mut work);
             assert_same_visibility(&expected, &frame, "a watched frame");
+            let (mut wide_frame, mut wide_work) = (frame.clone(), Work::default());
+            let wide = view.scene.clone().with_wide_ids();
+            let (prepared, view) = (fast::prepare(&wide), View::new(&wide, view.camera));
+            let to = &mut wide_frame;
+            fast::determine_visibility(&prepared, &view, options, to, &mut wide_work);
+            assert_eq!(frame.ids(), wide_frame.ids());
+            assert_eq!(frame.distances(), wide_frame.distances());
+            assert_eq!(work, wide_work);
             assert_eq!(work.rays, expected.ids().len() as u64);
         },
     );
@@ -66,7 +95,39 @@ fn a_crowd_of_large_meshes_is_that_of_its_copies() {
         let expected = render(&copies, &view, &options);
         let frame = render(&scene, &view, &options);
         assert_same_visibility(&expected, &frame, &format!("crowd {seed}"));
-        let seen = frame.ids().iter().filter(|&&id| id < scene.primitive_count()).count();
+        let seen = frame.ids().covered();
         assert!(seen * 50 > frame.ids().len(), "crowd {seed} shows {seen} samples");
+    }
+}
+
+/// Every tile meets more instances than have names at a time; half of them lie where others do.
+#[test]
+fn names_are_given_anew_where_instances_are_many() {
+    let corners = [[0.0, 0.0], [1.0, 0.0], [0.3, 1.0]].map(|[x, y]| Vec3::new(x, y, 0.2 * x));
+    let mesh = Mesh::new(corners.to_vec(), vec![[0, 1, 2], [2, 1, 0]]).expect("it is a mesh");
+    let placements = (0..50_000_u32).map(|k| {
+        let [x, y, z] = [37, 53, 101].map(|factor| (k % 25_000 * factor % 997) as f32 / 997.0);
+        Placement::translation(Vec3::new(3.0 * x - 2.5, 3.0 * y - 2.0, -4.0 - 6.0 * z))
+    });
+    let instances = Instances::new(mesh, placements.collect()).expect("they are near");
+    let plane = Plane { point: Vec3::new(0.0, 0.0, -7.0), normal: Vec3::new(0.1, 0.2, 1.0) };
+    let sphere = Sphere { center: Vec3::new(0.4, 0.3, -3.0), radius: 0.5 };
+    let objects = vec![
+        Shape::Plane(plane).into(),
+        Shape::from(instances.clone()).into(),
+        Shape::Sphere(sphere).into(),
+        Shape::from(instances).into(),
+    ];
+    let scene = Scene::new(objects).expect("it is a scene");
+    for projection in [Projection::Perspective, Projection::Parallel] {
+        let viewport = if projection == Projection::Parallel { [4.0, 3.0] } else { [1.0, 0.75] };
+        let description =
+            CameraDescription { projection, viewport, image: [48, 36], ..Default::default() };
+        let camera = Camera::new(description).expect("it is a camera");
+        let frame = render(&scene, &View::new(&scene, &camera), &Options::default());
+        let seen: BTreeSet<usize> =
+            frame.ids().iter().flatten().map(|id| scene.locate(id).0).collect();
+        // What ties with an earlier object is seen nowhere.
+        assert!(seen.iter().eq([0, 1, 2].iter()), "{seen:?}");
     }
 }

@@ -37,6 +37,7 @@ const MARGIN: f64 = 64.0 * (f32::EPSILON as f64);
 impl Hierarchy {
     pub(super) fn new(scene: &Scene) -> Hierarchy {
         let (mut items, mut endless) = (Vec::new(), Vec::new());
+        assert!(!scene.has_wide_ids(), "rules draw narrow ids alone");
         let mut id = 0;
         let mut add = |shape: Shape| {
             let item = Item { id, shape };

@@ -3,7 +3,7 @@
 use super::hierarchy::Hierarchy;
 use crate::samples::Samples;
 use bothways_common::Frame;
-use bothways_common::frame::stored_t;
+use bothways_common::frame::{Tile, stored_t};
 use glam::Vec3;
 use rayon::prelude::*;
 
@@ -36,8 +36,8 @@ pub(super) fn trace<T: Tracer>(
     samples: &Samples,
     frame: &mut Frame,
 ) {
-    frame.tiles_mut(TILE, TILE).into_par_iter().for_each(|mut tile| {
-        let region = tile.region.clone();
+    frame.tiles_mut(TILE, TILE).into_par_iter().for_each(|Tile { region, ids, mut t }| {
+        let mut ids = ids.narrow();
         for (in_tile, row) in region.rows.clone().enumerate() {
             for (at, column) in region.columns.clone().enumerate() {
                 // The search is in f64 whatever the rule: it must not lose what the rule hits.
@@ -48,8 +48,8 @@ pub(super) fn trace<T: Tracer>(
                     tracer.hit(&ray, shape)
                 });
                 if nearest.0.is_finite() {
-                    tile.ids[in_tile][at] = nearest.1;
-                    tile.t[in_tile][at] = stored_t(nearest.0);
+                    ids[in_tile][at] = nearest.1;
+                    t[in_tile][at] = stored_t(nearest.0);
                 }
             }
         }

@@ -5,6 +5,7 @@ use super::projection::{CameraMap, Vertex, covering};
 use crate::quadric;
 use crate::real::{Real, Vector, position, vector};
 use crate::samples::Samples;
+use bothways_common::frame::{Tile, stored_t};
 use bothways_common::{Frame, Plane, Projection, Region, Shape, Sphere, Triangle, View};
 use glam::Vec3;
 use rayon::prelude::*;
@@ -71,7 +72,7 @@ const BAND: usize = 16;
 pub(super) fn draw<A: Rasterizer>(rule: &A, view: &View, frame: &mut Frame) {
     let (width, picture) = (frame.width(), frame.region().clone());
     let mut keys = vec![f64::INFINITY; picture.area()];
-    let count = view.scene.primitive_count();
+    let count = u32::try_from(view.scene.primitive_count()).expect("rules draw narrow ids alone");
     let clip = clip_of(rule);
     for first in (0..count).step_by(CHUNK as usize) {
         let ids = first..count.min(first.saturating_add(CHUNK));
@@ -85,22 +86,23 @@ pub(super) fn draw<A: Rasterizer>(rule: &A, view: &View, frame: &mut Frame) {
             let (keys, others) =
                 std::mem::take(&mut rest).split_at_mut(tile.region.rows.len() * width);
             rest = others;
-            (tile, keys)
+            let Tile { region, ids, t } = tile;
+            (region, ids.narrow(), t, keys)
         });
         let bands: Vec<_> = bands.collect();
-        bands.into_par_iter().for_each(|(mut tile, keys)| {
+        bands.into_par_iter().for_each(|(region, mut ids, mut t, keys)| {
             for item in &items {
-                let both = item.bounds.intersection(&tile.region);
+                let both = item.bounds.intersection(&region);
                 for row in both.rows {
-                    let in_tile = row - tile.region.rows.start;
+                    let in_tile = row - region.rows.start;
                     let keys = &mut keys[in_tile * width..][..width];
                     for column in both.columns.clone() {
                         let Some(fragment) = item.fragment(rule, row, column) else { continue };
-                        let at = column - tile.region.columns.start;
+                        let at = column - region.columns.start;
                         if fragment.key < keys[at] {
                             keys[at] = fragment.key;
-                            tile.ids[in_tile][at] = item.id;
-                            tile.t[in_tile][at] = bothways_common::frame::stored_t(fragment.t);
+                            ids[in_tile][at] = item.id;
+                            t[in_tile][at] = stored_t(fragment.t);
                         }
                     }
                 }
@@ -124,7 +126,7 @@ fn set_up<A: Rasterizer>(
     picture: &Region,
     polygon: &mut Vec<Vertex>,
 ) -> Vec<Item<A::Triangle, A::Real>> {
-    let (object, local) = view.scene.locate(id);
+    let (object, local) = view.scene.locate(id.into());
     let corners = match &view.scene.objects()[object].shape {
         Shape::Triangle(Triangle { a, b, c }) => [*a, *b, *c],
         Shape::Mesh(mesh) => mesh.corners(local),

@@ -94,7 +94,7 @@ pub(in crate::cli) fn scene_of_size(
         };
     };
     let camera_args = CameraArgs { size: args.camera.size.or(size), ..args.camera.clone() };
-    let loaded = args.files.load(&source, camera_args.size)?;
+    let loaded = args.files.load_narrow(&source, camera_args.size, "reasons are found among")?;
     terminal::warn(&loaded.warnings);
     // A message names the options that the user gave, and not the size of the files.
     let camera = camera(&loaded, &camera_args)

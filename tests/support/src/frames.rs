@@ -6,7 +6,7 @@ use bothways_common::{Crop, Frame};
 pub fn assert_same_visibility(expected: &Frame, frame: &Frame, what: &str) {
     let width = expected.width();
     let place = |index: usize| (index / width, index % width);
-    for (index, (id, other)) in expected.ids().iter().zip(frame.ids()).enumerate() {
+    for (index, (id, other)) in expected.ids().iter().zip(frame.ids().iter()).enumerate() {
         assert_eq!(id, other, "{what}: sample {:?}", place(index));
     }
     for (index, (t, other)) in expected.distances().iter().zip(frame.distances()).enumerate() {
@@ -26,7 +26,7 @@ pub fn assert_is_part(whole: &Frame, part: &Frame, what: &str) {
         let normal = frame.normals().get(sample).map(|normal| normal.to_array().map(f32::to_bits));
         let color = frame.colors().get(sample).map(|color| color.to_array().map(f32::to_bits));
         let texture = texture.map(|texture| texture.to_array().map(f32::to_bits));
-        (frame.ids()[sample], t.to_bits(), normal, color, texture)
+        (frame.ids().get(sample), t.to_bits(), normal, color, texture)
     };
     let mut pixels = part.picture().iter();
     for [i, j] in part.pixels().map(|pixel| pixel.map(|place| place as usize)) {

@@ -39,17 +39,17 @@ impl Observer for Ties<'_> {
 }
 
 impl Events for Ties<'_> {
-    fn sample_tested(&mut self, _sample: Sample, _primitive: u32) {
+    fn sample_tested(&mut self, _sample: Sample, _primitive: u64) {
         self.tested += 1;
     }
 
-    fn edge_signs(&mut self, _sample: Sample, _primitive: u32, signs: [Option<Sign>; 3]) {
+    fn edge_signs(&mut self, _sample: Sample, _primitive: u64, signs: [Option<Sign>; 3]) {
         let has = |sign| signs.contains(&Some(sign));
         let decided_elsewhere = has(Sign::Negative) && has(Sign::Positive);
         self.edge += u64::from(has(Sign::Zero) && !decided_elsewhere);
     }
 
-    fn depth_test(&mut self, sample: Sample, challenger: u32, holder: u32, _replaced: bool) {
+    fn depth_test(&mut self, sample: Sample, challenger: u64, holder: u64, _replaced: bool) {
         let ray = self.view.camera.sample_grid(self.samples).ray(sample.row, sample.column);
         let [first, second] = [challenger, holder].map(|id| self.view.primitive(id));
         let at_sample = self.view.judge().compare(&first, &second, &ray).at_sample;
@@ -86,7 +86,7 @@ impl Observer for Owners {
 }
 
 impl Events for Owners {
-    fn fragment(&mut self, sample: Sample, _primitive: u32) {
+    fn fragment(&mut self, sample: Sample, _primitive: u64) {
         self.counts[sample.row * self.width + sample.column] += 1;
     }
 }

@@ -2,11 +2,12 @@
 
 use super::surfaces::{Seen, Surfaces, Wanted};
 use crate::engine::simd::{Simd, SimdBase, SimdMask, f32x16, f64x8, u32x16};
-use crate::frame::NO_PRIMITIVE;
+use crate::frame::{NO_PRIMITIVE, NO_WIDE_PRIMITIVE};
 use crate::look::lanes::{DVec3x8, Lanes, Vec3x16, each};
 use crate::scene::material::Material;
 use crate::view::View;
 use glam::Vec3;
+use std::collections::HashMap;
 
 /// The most samples of a row that are shaded together: what is kept of them stays in the innermost cache.
 pub(super) const CHUNK: usize = 256;
@@ -25,10 +26,20 @@ pub(super) struct Setting<'a, A> {
     pub(super) wanted: Wanted,
 }
 
+/// Short names of wide ids: their numbers among those that are kept.
+#[derive(Default)]
+struct Names {
+    ids: Vec<u64>,
+    names: HashMap<u64, u32>,
+    /// Those of the samples of a chunk.
+    of_chunk: Vec<u32>,
+}
+
 /// What a thread works with. It decides no bit of the result.
 pub(super) struct Desk<'a, T> {
-    /// For each hash, the id that came last, and its place in `kept`.
+    /// For each hash, the id that came last, and its place in `kept`; of wide ids, their names.
     places: Vec<(u32, u32)>,
+    names: Names,
     pub(super) kept: Vec<Kept<'a, T>>,
     pub(super) chunk: Box<Chunk>,
     /// The samples of the chunk in runs of one primitive each.
@@ -78,6 +89,7 @@ impl<'a, T> Desk<'a, T> {
         const WIDE: usize = CHUNK + BEYOND;
         Desk {
             places: vec![(NO_PRIMITIVE, 0); HASHES],
+            names: Names::default(),
             kept: Vec::new(),
             chunk: Box::new(Chunk {
                 x: [0.0; WIDE],
@@ -108,8 +120,7 @@ impl<'a, T> Desk<'a, T> {
         ids: &[u32],
     ) {
         if self.kept.len() >= MANY_KEPT {
-            self.kept.clear();
-            self.places.fill((NO_PRIMITIVE, 0));
+            self.forget();
         }
         self.runs.clear();
         // The ends of the runs: where an id differs from the next one. Vectors find sixteen at a time.
@@ -130,6 +141,43 @@ impl<'a, T> Desk<'a, T> {
                 self.end_run(setting, ids, last);
             }
         }
+    }
+
+    fn forget(&mut self) {
+        self.kept.clear();
+        self.places.fill((NO_PRIMITIVE, 0));
+    }
+
+    /// The same for wide ids.
+    pub(super) fn find_wide_runs<S: Simd, A: Surfaces<Surface = T>>(
+        &mut self,
+        simd: S,
+        setting: &Setting<'a, A>,
+        ids: &[u64],
+    ) {
+        // Names are kept with the primitives: there are at least as many of these.
+        if self.kept.len() >= MANY_KEPT {
+            self.forget();
+        }
+        if self.kept.is_empty() {
+            self.names.ids.clear();
+            self.names.names.clear();
+        }
+        let Names { ids: known, names, of_chunk } = &mut self.names;
+        let mut name_of = |id: u64| {
+            *names.entry(id).or_insert_with(|| {
+                known.push(id);
+                u32::try_from(known.len() - 1).expect("few are kept")
+            })
+        };
+        of_chunk.clear();
+        of_chunk.extend(ids.iter().map(|&id| match id {
+            NO_WIDE_PRIMITIVE => NO_PRIMITIVE,
+            id => name_of(id),
+        }));
+        let of_chunk = std::mem::take(&mut self.names.of_chunk);
+        self.find_runs(simd, setting, &of_chunk);
+        self.names.of_chunk = of_chunk;
     }
 
     /// The primitives of the runs.
@@ -169,6 +217,8 @@ impl<'a, T> Desk<'a, T> {
         hash: usize,
     ) -> u32 {
         let scene = setting.view.scene;
+        let (name, id) =
+            (id, if scene.has_wide_ids() { self.names.ids[id as usize] } else { u64::from(id) });
         let (object, local) = scene.locate(id);
         let object = &scene.objects()[object];
         let primitive = setting.view.primitive_of(&object.shape, local);
@@ -177,7 +227,7 @@ impl<'a, T> Desk<'a, T> {
         let place = u32::try_from(self.kept.len()).expect("few are kept");
         let surface = setting.surfaces.set_up(&seen, setting.wanted);
         self.kept.push(Kept { surface, material, is_tinted: seen.is_tinted() });
-        self.places[hash] = (id, place);
+        self.places[hash] = (name, place);
         place
     }
 }

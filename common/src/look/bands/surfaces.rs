@@ -59,7 +59,7 @@ pub trait Surfaces: Sync {
 #[derive(Clone, Copy, Debug)]
 pub struct Seen<'a> {
     /// Its id.
-    pub id: u32,
+    pub id: u64,
     /// The primitive, relative to the eye.
     pub primitive: Primitive,
     /// The object that it belongs to.

@@ -72,6 +72,18 @@ pub(super) fn choose(all: &[Channel], names: &[String], normals: bool) -> Result
     Ok(choice)
 }
 
+/// The same choice; of ids in a channel of integers also the channel with their higher halves, if there is one: its name ends
+/// in `_high`, as ours do where ids have 64 bits.
+pub(super) fn with_high_half(mut choice: Choice, all: &[Channel]) -> Choice {
+    if let (Meaning::Ids, &[at]) = (choice.meaning, &choice.channels[..]) {
+        let name = format!("{}_high", all[at].name);
+        let is_half = |channel: &Channel| channel.is_integer && channel.name == name;
+        let high = all.iter().position(is_half).filter(|_| all[at].is_integer);
+        choice.channels.extend(high);
+    }
+    choice
+}
+
 /// The names of the chosen channels.
 pub(super) fn listed(choice: &Choice, all: &[Channel]) -> String {
     let names: Vec<String> = choice.channels.iter().map(|&at| shown(&all[at].name)).collect();

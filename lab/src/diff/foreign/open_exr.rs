@@ -1,6 +1,6 @@
 //! EXR pictures of any origin: colours, ids, distances and normals in channels that are chosen by name.
 
-use super::channels::{Channel, Choice, Meaning, choose, listed};
+use super::channels::{Channel, Choice, Meaning, choose, listed, with_high_half};
 use super::picture::MOST_MEMORY;
 use super::read::{ReadBuffer, ReadOptions};
 use super::{Content, Covered, Picture, Pixels, normals};
@@ -36,7 +36,7 @@ pub(super) fn read(
     let reader = open(input, false).map_err(told)?;
     let parts = Part::all(reader.meta_data());
     let all: Vec<Channel> = parts.iter().map(|part| part.channel.clone()).collect();
-    let choice = choose(&all, &options.channels, options.normals)?;
+    let choice = with_high_half(choose(&all, &options.channels, options.normals)?, &all);
     let chosen: Vec<&Part> = choice.channels.iter().map(|&at| &parts[at]).collect();
     let layer = chosen[0].layer;
     if chosen.iter().any(|part| part.layer != layer) {
@@ -183,8 +183,8 @@ fn check_header(
 /// The values of some channels, each row by row.
 enum Values {
     Floats(Vec<Vec<f32>>),
-    /// One channel of integers.
-    Integers(Vec<u32>),
+    /// One channel of integers, or the halves of integers of 64 bits.
+    Integers(Vec<Vec<u32>>),
 }
 
 impl Values {
@@ -199,7 +199,7 @@ impl Values {
         let list = reader.meta_data().headers[layer].channels.clone();
         let types: Vec<SampleType> = list.list.iter().map(|channel| channel.sample_type).collect();
         let mut values = match (places, types[places[0]]) {
-            ([_], SampleType::U32) => Values::Integers(vec![0; count]),
+            ([_] | [_, _], SampleType::U32) => Values::Integers(vec![vec![0; count]; places.len()]),
             _ => Values::Floats(vec![vec![0.0; count]; places.len()]),
         };
         let mut missing = count;
@@ -237,8 +237,10 @@ impl Values {
         place: std::ops::Range<usize>,
     ) -> Result<(), Error> {
         let floats = match self {
-            Values::Integers(values) => {
-                for (value, read) in values[place].iter_mut().zip(line.read_samples::<u32>()) {
+            Values::Integers(halves) => {
+                for (value, read) in
+                    halves[target][place].iter_mut().zip(line.read_samples::<u32>())
+                {
                     *value = read?;
                 }
                 return Ok(());
@@ -266,10 +268,7 @@ fn content(
     options: &ReadOptions,
 ) -> Result<Content<'static>, String> {
     let channels = match values {
-        Values::Integers(ids) => {
-            let id = |id: u32| (id != u32::MAX).then_some(u64::from(id));
-            return Ok(Content::Ids(ids.into_iter().map(id).collect()));
-        }
+        Values::Integers(halves) => return Ok(Content::Ids(joined(&halves))),
         Values::Floats(channels) => channels,
     };
     let place = |pixel: usize| format!("({}, {})", pixel / width as usize, pixel % width as usize);
@@ -284,6 +283,18 @@ fn content(
         }
         Meaning::Colors | Meaning::Grey => picture(&channels, options.background, place)?,
     })
+}
+
+/// Ids of 32 bits, or of 64 in two halves; all ones are nothing.
+fn joined(halves: &[Vec<u32>]) -> Vec<Option<u64>> {
+    let low = halves[0].iter().map(|&low| u64::from(low));
+    match halves.get(1) {
+        None => low.map(|id| (id != u64::from(u32::MAX)).then_some(id)).collect(),
+        Some(high) => {
+            let ids = low.zip(high).map(|(low, &high)| low | u64::from(high) << 32);
+            ids.map(|id| (id != u64::MAX).then_some(id)).collect()
+        }
+    }
 }
 
 fn vectors(channels: &[Vec<f32>]) -> Vec<[f32; 3]> {

@@ -1,6 +1,5 @@
 //! The pictures of a page: colours as they are, ids as colours, distances as greys, masks as white on dark.
 
-use crate::common::frame::NO_PRIMITIVE;
 use crate::common::glam::Vec3;
 use crate::common::look::color::{linear_from_srgb, srgb_from_linear};
 use crate::diff::aspect::Aspect;
@@ -37,7 +36,7 @@ pub(crate) fn shown(buffers: [&Buffer; 2]) -> [Shown; 2] {
                 (buffer.samples() > 1).then(|| "a pixel is the average of its samples".into());
             Shown { picture: colors(buffer), note }
         } else if buffer.tells(Aspect::Ids) {
-            let picture = averaged(buffer, |sample| color_of_id(short(buffer.id(sample))));
+            let picture = averaged(buffer, |sample| color_of_id(buffer.id(sample)));
             Shown { picture, note: note("each id has a colour; near black is nothing") }
         } else if buffer.tells(Aspect::T) {
             let picture = averaged(buffer, |sample| range.grey(buffer.t(sample)));
@@ -119,12 +118,6 @@ fn averaged(buffer: &Buffer, color: impl Fn(usize) -> [u8; 3]) -> RgbImage {
 fn direction(component: f32) -> u8 {
     let [byte] = bytes([127.5 + 127.5 * component]);
     byte
-}
-
-/// An id that has a colour. Ids of more than 32 bits share the colours of others.
-fn short(id: Option<u64>) -> u32 {
-    let Some(id) = id else { return NO_PRIMITIVE };
-    u32::try_from(id % u64::from(NO_PRIMITIVE)).expect("less than 2^32")
 }
 
 /// The distances between white and dark.
@@ -240,7 +233,7 @@ mod tests {
         let [mask, ids] = shown([&mask, &ids]);
         assert_eq!(greys(&mask.picture), [255, NOTHING[0]]);
         let [mixed, full] = [0, 1].map(|j| ids.picture[(j, 0)].0);
-        assert_eq!(full, color_of_id(3));
+        assert_eq!(full, color_of_id(Some(3)));
         assert!(mixed.iter().zip(full).all(|(mixed, full)| *mixed < full));
         assert!(ids.note.unwrap().contains("average of its samples"));
     }

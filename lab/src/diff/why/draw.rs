@@ -72,7 +72,7 @@ pub(super) fn draw(view: &View, convention: &Convention, rows: Rows) -> Drawn {
         },
         errors: vec![0.0; count],
     };
-    for (id, primitive) in view.primitives() {
+    for (id, primitive) in (0..).zip(view.primitives().map(|(_, primitive)| primitive)) {
         canvas.add(id, &primitive);
     }
     if canvas.rays.are_one() {
@@ -94,7 +94,8 @@ pub(super) fn equally_near(view: &View, convention: &Convention, drawn: &Drawn) 
         return Vec::new();
     }
     let (ray, judge) = (rays.ray(0, 0), rays.judge());
-    let others = view.primitives().filter(|(id, _)| *id != seen);
+    let all = (0..).zip(view.primitives().map(|(_, primitive)| primitive));
+    let others = all.filter(|(id, _)| *id != seen);
     let on_the_ray = others.filter(|(_, primitive)| judge.covers(primitive, &ray));
     on_the_ray
         .map(|(id, primitive)| (id, judge.distance(&primitive, &ray)))
@@ -337,7 +338,7 @@ impl Canvas<'_> {
 
     /// Which of two primitives is nearer along a ray.
     fn compare(&mut self, incoming: (u32, &Primitive), stored: u32, ray: &Ray) -> Comparison {
-        let held = self.view.primitive(stored);
+        let held = self.view.primitive(stored.into());
         // The cache has the parallel rays of a camera in mind, which do not run backward.
         if self.rays.projection == Projection::Parallel && self.convention.look == Look::Backward {
             self.judge.compare(incoming.1, &held, ray)
@@ -428,7 +429,7 @@ mod tests {
                     view,
                     &Options::default(),
                 );
-                assert_eq!(drawn.ids, frame.ids(), "{}", scene.name);
+                assert_eq!(Some(&drawn.ids[..]), frame.ids().narrow(), "{}", scene.name);
                 for (t, expected) in drawn.t.iter().zip(frame.distances()) {
                     let expected = f64::from(*expected);
                     assert!((t - expected).abs() <= 1e-6 * expected || *t == expected);
@@ -467,7 +468,7 @@ mod tests {
                 let judge = rays.judge();
                 for (index, &id) in drawn.ids.iter().enumerate() {
                     let ray = rays.ray(index / drawn.width, index % drawn.width);
-                    let mut nearest: Option<&(u32, Primitive)> = None;
+                    let mut nearest: Option<&(u64, Primitive)> = None;
                     for one in &primitives {
                         if covers(&judge, convention.edges, &one.1, &ray)
                             && nearest.is_none_or(|held| {
@@ -477,7 +478,8 @@ mod tests {
                             nearest = Some(one);
                         }
                     }
-                    let expected = nearest.map_or(NO_PRIMITIVE, |one| one.0);
+                    let expected = nearest.map(|one| one.0);
+                    let id = (id != NO_PRIMITIVE).then_some(u64::from(id));
                     assert_eq!(id, expected, "{change:?} at {index}");
                 }
             }

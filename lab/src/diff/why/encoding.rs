@@ -336,8 +336,8 @@ impl<'a> Expected<'a> {
         match encoding {
             IdEncoding::FromZero | IdEncoding::OneToOne => id.into(),
             IdEncoding::FromOne => u64::from(id) + 1,
-            IdEncoding::FromTheEnd => u64::from(self.view.scene.primitive_count() - 1 - id),
-            IdEncoding::OfObjects => self.view.scene.locate(id).0 as u64,
+            IdEncoding::FromTheEnd => self.view.scene.primitive_count() - 1 - u64::from(id),
+            IdEncoding::OfObjects => self.view.scene.locate(id.into()).0 as u64,
         }
     }
 

@@ -21,7 +21,7 @@ pub(super) fn near_primitives(
     let slots = Slots::new(rays, pixels);
     let (judge, spacing) = (rays.judge(), rays.spacing());
     let mut near = vec![Vec::new(); pixels.len()];
-    for (id, primitive) in view.primitives() {
+    for (id, primitive) in (0..).zip(view.primitives().map(|(_, primitive)| primitive)) {
         let Some((area, region)) = Region::new(&primitive, rays, spacing, reach) else { continue };
         slots.each(&area, |slot, i, j| {
             if region.holds(&judge, &primitive, rays, [i, j]) {

@@ -303,7 +303,7 @@ impl<'a> Finder<'a> {
             return sample.truth.is_some().then(|| self.of_id(file, None, covering, sample));
         }
         let is_at = |id: u32| {
-            is_same_distance(t, self.judge.distance(&self.view.primitive(id), sample.ray()))
+            is_same_distance(t, self.judge.distance(&self.view.primitive(id.into()), sample.ray()))
         };
         match sample.truth {
             Some(truth) if is_at(truth) => None,
@@ -318,7 +318,7 @@ impl<'a> Finder<'a> {
 
     /// The primitives that cover the sample, near to far.
     fn covering(&self, sample: &Sample) -> Vec<u32> {
-        let primitive = |id: u32| self.view.primitive(id);
+        let primitive = |id: u32| self.view.primitive(id.into());
         let covers = |id: &u32| self.judge.covers(&primitive(*id), sample.ray());
         let mut covering: Vec<u32> = sample.near.iter().copied().filter(covers).collect();
         covering.sort_by(|&one, &other| {
@@ -331,7 +331,7 @@ impl<'a> Finder<'a> {
     /// Whether a primitive that does not cover the sample, but nearly does, lies before one that does: the plane of a
     /// triangle, the middle of a sphere.
     fn lies_before(&self, shown: u32, id: u32, sample: &Sample) -> bool {
-        let [shown, id] = [shown, id].map(|id| self.view.primitive(id));
+        let [shown, id] = [shown, id].map(|id| self.view.primitive(id.into()));
         let t = self.judge.distance(&id, sample.ray());
         match &shown {
             Primitive::Triangle(corners) => TriangleOutline::new(corners, &self.rays)
@@ -347,7 +347,7 @@ impl<'a> Finder<'a> {
 
     /// Why the farther of two primitives that both cover a sample is shown: a tie, or nearly one.
     fn exchanged(&self, seen: u32, shown: u32, sample: &Sample) -> Option<Reason> {
-        let [one, other] = [seen, shown].map(|id| self.view.primitive(id));
+        let [one, other] = [seen, shown].map(|id| self.view.primitive(id.into()));
         let both_cover = self.judge.covers(&other, sample.ray());
         if !both_cover {
             return None;
@@ -368,7 +368,7 @@ impl<'a> Finder<'a> {
 
     /// Why a primitive that covers the sample is missing there.
     fn lost(&self, file: &Shown, id: u32, sample: &Sample) -> Option<Reason> {
-        let primitive = self.view.primitive(id);
+        let primitive = self.view.primitive(id.into());
         let (outline, is_back) = match &primitive {
             Primitive::Triangle(corners) => self.lost_triangle(id, corners, sample),
             Primitive::Sphere { center, radius } => {
@@ -422,7 +422,7 @@ impl<'a> Finder<'a> {
 
     /// Why a primitive that does not cover the sample is shown there.
     fn gained(&self, id: u32, sample: &Sample) -> Option<Reason> {
-        match &self.view.primitive(id) {
+        match &self.view.primitive(id.into()) {
             Primitive::Triangle(corners) => {
                 let signs = self.judge.edge_signs(corners, sample.ray());
                 if signs.facing == Sign::Zero {

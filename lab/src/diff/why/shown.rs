@@ -51,7 +51,7 @@ impl Shown {
             }
             nearest = nearest.min(truth.t[index] * rays.distance.abs());
             if seen.insert(id)
-                && let Primitive::Triangle(corners) = view.primitive(id)
+                && let Primitive::Triangle(corners) = view.primitive(id.into())
             {
                 let ray = rays.ray(index / rays.x.len(), index % rays.x.len());
                 let is_back = judge.facing(&corners, &ray) == Sign::Positive;
@@ -78,7 +78,7 @@ impl Shown {
 
 /// Whether a triangle that is seen at a sample is a back face; `None` if its outline is within a pixel.
 fn well_within(view: &View, rays: &ViewingRays, at: [usize; 2], id: u32) -> Option<bool> {
-    let Primitive::Triangle(corners) = view.primitive(id) else { return None };
+    let Primitive::Triangle(corners) = view.primitive(id.into()) else { return None };
     let outline = TriangleOutline::new(&corners, rays)?;
     let distances = SampleDistances::new(rays, at);
     let is_within = outline.edges.iter().all(|edge| distances.to_zero(edge) > 1.0);

@@ -55,11 +55,11 @@ fn camera() -> Camera {
 }
 
 /// The bytes of the picture, and the ids.
-fn seen(scene: &Scene) -> (Vec<[u8; 3]>, Vec<u32>) {
+fn seen(scene: &Scene) -> (Vec<[u8; 3]>, Vec<Option<u64>>) {
     let camera = camera();
     let view = View::new(scene, &camera);
     let rendered = render(Order::Image, Method::Fast, &view, &RenderOptions::default()).unwrap();
-    (rendered.frame.picture().to_vec(), rendered.frame.ids().to_vec())
+    (rendered.frame.picture().to_vec(), rendered.frame.ids().iter().collect())
 }
 
 /// The files in a folder, and the one to open.

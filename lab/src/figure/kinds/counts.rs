@@ -69,7 +69,7 @@ impl Observer for Counts {
 }
 
 impl Events for Counts {
-    fn sample_tested(&mut self, sample: Sample, _primitive: u32) {
+    fn sample_tested(&mut self, sample: Sample, _primitive: u64) {
         if self.counted == Counted::Tests {
             self.add(sample);
         }
@@ -81,7 +81,7 @@ impl Events for Counts {
         }
     }
 
-    fn fragment(&mut self, sample: Sample, _primitive: u32) {
+    fn fragment(&mut self, sample: Sample, _primitive: u64) {
         if self.counted == Counted::Fragments {
             self.add(sample);
         }

@@ -103,9 +103,9 @@ impl Panels {
 }
 
 /// The triangle to draw: that of the chosen pixel, else the one that most pixels show.
-fn triangle(subject: &Subject, frame: &Frame) -> Result<(u32, [DVec3; 3]), FigureError> {
+fn triangle(subject: &Subject, frame: &Frame) -> Result<(u64, [DVec3; 3]), FigureError> {
     let view = &subject.view;
-    let corners = |id: u32| match view.primitive(id) {
+    let corners = |id: u64| match view.primitive(id) {
         Primitive::Triangle(corners) => Some((id, corners)),
         Primitive::Sphere { .. } | Primitive::Plane { .. } => None,
     };
@@ -117,8 +117,8 @@ fn triangle(subject: &Subject, frame: &Frame) -> Result<(u32, [DVec3; 3]), Figur
             ))
         });
     }
-    let mut pixels: BTreeMap<u32, u32> = BTreeMap::new();
-    for id in frame.ids().iter().copied().filter(|id| *id < view.scene.primitive_count()) {
+    let mut pixels: BTreeMap<u64, u32> = BTreeMap::new();
+    for id in frame.ids().iter().flatten() {
         *pixels.entry(id).or_default() += 1;
     }
     let triangles = pixels.into_iter().filter_map(|(id, pixels)| Some((pixels, corners(id)?)));
@@ -143,7 +143,7 @@ struct Place {
 }
 
 impl Extent {
-    fn of(view: &View, corners: &[DVec3; 3], frame: &Frame, id: u32) -> Extent {
+    fn of(view: &View, corners: &[DVec3; 3], frame: &Frame, id: u64) -> Extent {
         let projector = Projector { camera: view.camera };
         let places: Option<Vec<[f64; 2]>> =
             corners.iter().map(|corner| projector.place(*corner)).collect();

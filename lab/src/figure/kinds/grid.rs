@@ -89,7 +89,7 @@ fn cells(view: &View, patch: &Patch, primitive: &Primitive) -> Vec<Cell> {
 }
 
 /// The primitive of the pixel, or of the nearest pixel around it that shows something.
-fn at_or_near(frame: &Frame, [i, j]: [u32; 2]) -> Option<u32> {
+fn at_or_near(frame: &Frame, [i, j]: [u32; 2]) -> Option<u64> {
     let (i, j) = (i64::from(i), i64::from(j));
     let within = |at: i64, side: usize| usize::try_from(at).ok().filter(|at| *at < side);
     let around = (-4..=4).flat_map(|down| (-6..=6).map(move |right| (down, right)));
@@ -119,11 +119,11 @@ fn draw_cells(sheet: &mut Sheet, patch: &Patch, cells: &[Cell], frame: &Frame) {
 }
 
 /// The outlines of all primitives that are seen in the patch, and of the one that is looked at.
-fn draw_outlines(sheet: &mut Sheet, view: &View, patch: &Patch, frame: &Frame, id: u32) {
+fn draw_outlines(sheet: &mut Sheet, view: &View, patch: &Patch, frame: &Frame, id: u64) {
     const MOST: usize = 400;
     let theme = sheet.theme;
     let projector = Projector { camera: view.camera };
-    let seen: BTreeSet<u32> =
+    let seen: BTreeSet<u64> =
         patch.pixels().filter_map(|[row, column]| frame.id(row, column)).collect();
     patch.window(&mut sheet.drawing);
     let place = |line: Vec<[f64; 2]>| -> Vec<[f64; 2]> {
@@ -150,7 +150,7 @@ fn draw_outlines(sheet: &mut Sheet, view: &View, patch: &Patch, frame: &Frame, i
 }
 
 /// The names of a triangle's edges, beside them.
-fn name_edges(sheet: &mut Sheet, view: &View, patch: &Patch, id: u32) {
+fn name_edges(sheet: &mut Sheet, view: &View, patch: &Patch, id: u64) {
     let theme = sheet.theme;
     let primitive = view.primitive(id);
     let Primitive::Triangle([a, b, c]) = primitive else { return };
@@ -226,7 +226,7 @@ fn letters(size: f64) -> f32 {
     size.clamp(12.0, 30.0) as f32
 }
 
-fn words(sheet: &mut Sheet, subject: &Subject, patch: &Patch, cells: &[Cell], id: u32) {
+fn words(sheet: &mut Sheet, subject: &Subject, patch: &Patch, cells: &[Cell], id: u64) {
     let theme = sheet.theme;
     let width = RIGHT - WORDS;
     let (text, quiet) = (theme.text(), theme.label());

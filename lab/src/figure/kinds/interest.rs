@@ -88,23 +88,23 @@ struct Border {
     /// Row and column of the pixel on its left or above it, and of the one on the other side.
     pixels: [[usize; 2]; 2],
     /// One of the primitives.
-    id: u32,
+    id: u64,
     /// Whether different objects meet, or an object and nothing.
     outline: bool,
 }
 
 /// A pixel where something is decided, and the primitive to look at there: best a tie of a triangle, else the outline of
 /// an object; of those a primitive of many pixels, and near the middle.
-pub(super) fn best_border(view: &View, frame: &Frame) -> Option<([u32; 2], u32)> {
+pub(super) fn best_border(view: &View, frame: &Frame) -> Option<([u32; 2], u64)> {
     const MOST: usize = 4000;
     let borders = borders(view, frame);
-    let mut pixels: HashMap<u32, usize> = HashMap::new();
-    frame.ids().iter().for_each(|id| *pixels.entry(*id).or_default() += 1);
+    let mut pixels: HashMap<u64, usize> = HashMap::new();
+    frame.ids().iter().flatten().for_each(|id| *pixels.entry(id).or_default() += 1);
     let middle = [frame.height() as f64 / 2.0, frame.width() as f64 / 2.0];
     let far = |[row, column]: [usize; 2]| (row as f64 - middle[0]).hypot(column as f64 - middle[1]);
     let judge = view.judge();
     let grid = view.camera.sample_grid(1);
-    let is_triangle = |id: u32| matches!(view.primitive(id), Primitive::Triangle(_));
+    let is_triangle = |id: u64| matches!(view.primitive(id), Primitive::Triangle(_));
     let at = |pixel: [usize; 2], border: &Border| {
         judge.coverage(&view.primitive(border.id), &grid.ray(pixel[0], pixel[1]))
     };
@@ -134,7 +134,7 @@ pub(super) fn best_border(view: &View, frame: &Frame) -> Option<([u32; 2], u32)>
 
 fn borders(view: &View, frame: &Frame) -> Vec<Border> {
     let (height, width) = (frame.height(), frame.width());
-    let object = |id: Option<u32>| id.map(|id| view.scene.locate(id).0);
+    let object = |id: Option<u64>| id.map(|id| view.scene.locate(id).0);
     let mut borders = Vec::new();
     for row in 0..height {
         for column in 0..width {

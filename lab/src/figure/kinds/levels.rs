@@ -1,7 +1,7 @@
 //! The level of the texture that each order reads at each pixel, where they differ, and why: along one column.
 
 use super::counts::scale_bar;
-use crate::common::frame::{LEVELS_OF, NO_LEVEL};
+use crate::common::frame::{Ids, LEVELS_OF, NO_LEVEL};
 use crate::common::{Frame, Options, View};
 use crate::figure::drawing::{Anchor, Drawing, Ink, Pen};
 use crate::figure::marks::mark;
@@ -93,7 +93,7 @@ fn shaded(view: &View, order: Order) -> Frame {
 struct Levels<'a> {
     of: [&'a [f32]; 2],
     /// What is seen.
-    ids: &'a [u32],
+    ids: Ids<'a>,
     width: usize,
     height: usize,
     /// The last level of the largest texture, which has a single texel.
@@ -162,7 +162,7 @@ impl<'a> Levels<'a> {
         let (row, column) = (most / self.width, most % self.width);
         let is_shown = |row: &usize| {
             let at = row * self.width + column;
-            self.ids[at] == self.ids[most] && self.difference(at).is_some()
+            self.ids.get(at) == self.ids.get(most) && self.difference(at).is_some()
         };
         let above = (0..row).rev().take_while(is_shown).take(2).count();
         let rows: Vec<usize> =

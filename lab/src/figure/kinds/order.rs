@@ -236,24 +236,24 @@ impl Events for Clock {
         self.steps += 1;
     }
 
-    fn sample_tested(&mut self, _sample: Sample, _primitive: u32) {
+    fn sample_tested(&mut self, _sample: Sample, _primitive: u64) {
         self.steps += 1;
     }
 
-    fn fragment(&mut self, sample: Sample, _primitive: u32) {
+    fn fragment(&mut self, sample: Sample, _primitive: u64) {
         if self.order == Order::Object {
             let decided = self.decided.get_mut(sample);
             *decided = self.steps.min(*decided);
         }
     }
 
-    fn depth_test(&mut self, sample: Sample, _incoming: u32, _stored: u32, replaced: bool) {
+    fn depth_test(&mut self, sample: Sample, _incoming: u64, _stored: u64, replaced: bool) {
         if self.order == Order::Object && replaced {
             *self.decided.get_mut(sample) = self.steps;
         }
     }
 
-    fn hit(&mut self, sample: Sample, primitive: Option<u32>) {
+    fn hit(&mut self, sample: Sample, primitive: Option<u64>) {
         if self.order == Order::Image && primitive.is_some() {
             *self.decided.get_mut(sample) = self.steps;
         }

@@ -115,7 +115,7 @@ impl Events for Path {
         }
     }
 
-    fn sample_tested(&mut self, sample: Sample, _primitive: u32) {
+    fn sample_tested(&mut self, sample: Sample, _primitive: u64) {
         self.tested += u64::from(self.sample == Some(sample));
     }
 

@@ -100,7 +100,7 @@ fn cells(
         let side = |part: usize| u32::try_from(part).expect("within the image");
         let color = match buffer {
             0 => Some(picture.get_pixel(side(column), side(row)).0),
-            1 => frame.id(row, column).map(color_of_id),
+            1 => frame.id(row, column).map(|id| color_of_id(Some(id))),
             2 => frame.t(row, column).map(|t| {
                 let span = if high > low { high - low } else { 1.0 };
                 ramp(0.06 + 0.94 * (f64::from(t) - low) / span)

@@ -46,7 +46,7 @@ fn slide(scene: &str, size: [u32; 2], count: u64, match_: bool) -> RgbImage {
     let slide = Slide {
         scene,
         about: Some(scene),
-        primitives: u32::MAX - 1,
+        primitives: u64::MAX - 1,
         threads: 128,
         object_order: &object_order,
         image_order: &image_order,

@@ -11,6 +11,7 @@ use bothways_common::raster::Sample;
 
 /// Writes fragments of one primitive into a tile.
 pub(crate) struct FragmentWriter<'a, 'b> {
+    /// Its name.
     pub(crate) id: u32,
     pub(crate) primitive: Primitive,
     pub(crate) picture: &'a Picture<'a>,
@@ -18,6 +19,11 @@ pub(crate) struct FragmentWriter<'a, 'b> {
 }
 
 impl FragmentWriter<'_, '_> {
+    /// The id that its name stands for.
+    pub(crate) fn real_id(&self) -> u64 {
+        self.buffer.names.id(self.id)
+    }
+
     /// Writes one fragment, if it passes its depth test.
     pub(crate) fn write<C: ScalarContext>(
         &mut self,
@@ -52,6 +58,7 @@ impl FragmentWriter<'_, '_> {
         context: &mut C,
         sample: Sample,
     ) -> bool {
-        judge_covers(&mut context.scalar(), self.picture, sample, self.id, &self.primitive)
+        let id = self.real_id();
+        judge_covers(&mut context.scalar(), self.picture, sample, id, &self.primitive)
     }
 }

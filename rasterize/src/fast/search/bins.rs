@@ -1,6 +1,6 @@
 //! Lists for every tile of the primitives that may affect it, in the order of the clusters.
 
-use super::batches::{Batch, Piece};
+use super::batches::{Batch, Piece, pieces};
 use super::clusters::{self, CLUSTER, Cluster, ClusterExtent, Sight};
 use super::extent::Extent;
 use super::instances::{Instance, SharedMesh, placed_box};
@@ -107,7 +107,7 @@ impl BatchBins {
         clusters + lists.iter().map(Vec::len).sum::<usize>()
     }
 
-    /// The primitives of one class in a tile, other than those in clusters, by their slots: a slot is an id, if the
+    /// The primitives of one class in a tile, other than those in clusters, by their slots: a slot is a name, if the
     /// triangles of an object are counted in the order in which they are drawn.
     pub(crate) fn list(&self, tile: usize, class: SizeClass) -> &[u32] {
         &self.lists[tile * SizeClass::COUNT as usize + class as usize]
@@ -133,25 +133,31 @@ impl BatchBins {
         self.instanced.clear();
         self.instanced.resize(tiles, 0);
         let scene = geometry.view.scene;
-        for piece in batch.pieces(scene) {
+        let (first_name, count) = match *batch {
+            Batch::Primitives { first_name, count } => (first_name, count),
+            Batch::Instances { object, first, count } => {
+                let numbers = first..first + count;
+                self.add_instances(context, (object, numbers), geometry, &mut executed);
+                return executed;
+            }
+        };
+        for piece in pieces(scene, first_name, count) {
+            let id_and_slot = (piece.first_id, piece.first_name);
             match &scene.objects()[piece.object].shape {
                 Shape::Mesh(_) => self.add_clusters(context, &piece, geometry, &mut executed),
-                Shape::Instances(instances) => {
-                    let placements = instances.placements();
-                    self.add_instances(context, &piece, placements, geometry, &mut executed);
-                }
+                Shape::Instances(_) => unreachable!("they have batches of their own"),
                 Shape::Triangle(_) => {
                     executed.binned += 1;
                     let first = geometry.first_vertices[piece.object];
                     let corners = std::array::from_fn(|corner| geometry.vertices[first + corner]);
                     self.entries.clear();
-                    self.enter(context, [piece.first_id; 2], &corners, geometry);
+                    self.enter(context, id_and_slot, &corners, geometry);
                     self.add_entries(geometry.tiling);
                 }
                 Shape::Sphere(_) | Shape::Plane(_) => {
                     executed.binned += 1;
                     self.entries.clear();
-                    self.enter_large(context, [piece.first_id; 2], geometry);
+                    self.enter_large(context, id_and_slot, geometry);
                     self.add_entries(geometry.tiling);
                 }
             }
@@ -173,7 +179,8 @@ impl BatchBins {
         let triangles = clusters.triangles(shape);
         let vertices = &geometry.vertices[geometry.first_vertices[piece.object]..];
         // Batches are cut between clusters.
-        let first_id = piece.first_id - piece.first;
+        let first_id = piece.first_id - u64::from(piece.first);
+        let first_slot = piece.first_name - piece.first;
         let object = u32::try_from(piece.object).expect("there are fewer objects than ids");
         let all = piece.first..piece.first + piece.count;
         let on = (geometry.map, geometry.raster, geometry.tiling);
@@ -186,7 +193,8 @@ impl BatchBins {
             if C::WATCHED || matches!(extent, ClusterExtent::ManyTiles) {
                 self.entries.clear();
                 for index in indices {
-                    let id_and_slot = [first_id + triangles.number(index), first_id + index];
+                    let id = first_id + u64::from(triangles.number(index));
+                    let id_and_slot = (id, first_slot + index);
                     let corners =
                         triangles.corners[index as usize].map(|vertex| vertices[vertex as usize]);
                     self.enter(context, id_and_slot, &corners, geometry);
@@ -207,36 +215,39 @@ impl BatchBins {
         }
     }
 
-    /// Adds a piece of an object of instances, which is cut between them: those that may be seen, each by its box.
+    /// Adds some instances of an object: those that may be seen, each by its box.
     #[inline(always)]
     fn add_instances<C: Context>(
         &mut self,
         context: &mut C,
-        piece: &Piece,
-        placements: &[Placement],
+        (object, numbers): (usize, Range<u32>),
         geometry: &Geometry,
         executed: &mut Executed,
     ) {
-        let number = |count: usize| u32::try_from(count).expect("there are fewer than ids");
-        let mesh = geometry.shared[piece.object].as_ref().expect("instances share a mesh");
+        let scene = geometry.view.scene;
+        let (Shape::Instances(instances), Some(mesh)) =
+            (&scene.objects()[object].shape, &geometry.shared[object])
+        else {
+            unreachable!("instances share a mesh")
+        };
         let triangles = mesh.triangle_count();
-        let first = piece.first / triangles;
-        let object = number(piece.object);
-        for (number, first_id) in (first..first + piece.count / triangles)
-            .zip((piece.first_id..).step_by(triangles as usize))
-        {
-            let placement = &placements[number as usize];
+        let of_object = scene.first_id(object);
+        let object = u32::try_from(object).expect("there are fewer objects than ids");
+        for number in numbers {
+            let placement = &instances.placements()[number as usize];
             executed.boxes_tested += 1;
             let bounds = placed_box(placement, &mesh.bounds);
             let sight = clusters::sight(context.simd(), (geometry.map, geometry.raster), &bounds);
-            if C::WATCHED {
-                self.tell(context, (mesh, placement), first_id, geometry);
-            }
             let extent = match sight {
-                Sight::Nowhere => continue,
-                Sight::Anywhere => Extent::anywhere(geometry.raster),
-                Sight::Within(extent) => extent,
+                Sight::Nowhere => None,
+                Sight::Anywhere => Some(Extent::anywhere(geometry.raster)),
+                Sight::Within(extent) => Some(extent),
             };
+            if C::WATCHED {
+                let first_id = of_object + u64::from(number) * u64::from(triangles);
+                self.tell(context, (mesh, placement), (first_id, extent), geometry);
+            }
+            let Some(extent) = extent else { continue };
             for tile in geometry.tiling.tiles(extent.bounds) {
                 self.instances[tile].push(Instance { object, number, extent });
                 self.instanced[tile] += triangles as usize;
@@ -244,15 +255,25 @@ impl BatchBins {
         }
     }
 
-    /// Tells an observer that the triangles of an instance begin.
+    /// Tells an observer that the triangles of an instance begin: to one that only counts, how many there are. In a scene of
+    /// wide ids, there are too many to tell of those that certainly cover no sample that is drawn.
     #[inline(always)]
     fn tell<C: Context>(
         &mut self,
         context: &mut C,
         (mesh, placement): (&SharedMesh, &Placement),
-        first_id: u32,
+        (first_id, extent): (u64, Option<Extent>),
         geometry: &Geometry,
     ) {
+        if let Some(counts) = context.sink().counts() {
+            counts.primitives += u64::from(mesh.triangle_count());
+            return;
+        }
+        let drawn = geometry.tiling.region();
+        let is_drawn = |extent: Extent| !extent.region().intersection(&drawn).is_empty();
+        if geometry.view.scene.has_wide_ids() && !extent.is_some_and(is_drawn) {
+            return;
+        }
         let mut vertices = [[0; 4]; _];
         for cluster in &mesh.clusters {
             let onto = (geometry.map, geometry.raster);
@@ -260,7 +281,9 @@ impl BatchBins {
             for place in 0..cluster.count() {
                 let (number, corners) = cluster.triangle(mesh, place, &vertices);
                 self.entries.clear();
-                self.enter(context, [first_id + number; 2], &corners, geometry);
+                // These have no slots.
+                let id_and_slot = (first_id + u64::from(number), u32::MAX);
+                self.enter(context, id_and_slot, &corners, geometry);
             }
         }
         self.entries.clear();
@@ -271,7 +294,7 @@ impl BatchBins {
     fn enter<C: Context>(
         &mut self,
         context: &mut C,
-        [id, slot]: [u32; 2],
+        (id, slot): (u64, u32),
         corners: &[Vertex; 3],
         geometry: &Geometry,
     ) {
@@ -289,7 +312,7 @@ impl BatchBins {
         } else if flags & OUT_OF_SIGHT != 0 {
             context.sink().primitive_begun(id, &NOWHERE);
         } else {
-            self.enter_large(context, [id, slot], geometry);
+            self.enter_large(context, (id, slot), geometry);
         }
     }
 
@@ -297,7 +320,7 @@ impl BatchBins {
     fn enter_large<C: ScalarContext>(
         &mut self,
         context: &mut C,
-        [id, slot]: [u32; 2],
+        (id, slot): (u64, u32),
         geometry: &Geometry,
     ) {
         let region = region::<C::Fault>(&geometry.view.primitive(id), geometry.map);

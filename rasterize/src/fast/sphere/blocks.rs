@@ -219,7 +219,7 @@ fn emit_tests<C: Context>(
     let keys = tested.keys.to_array();
     for lane in 0..count {
         let sample = Sample { row: first.row, column: first.column + lane };
-        context.sink().sample_tested(sample, writer.id);
+        context.sink().sample_tested(sample, writer.real_id());
         if certain >> lane & 1 == 1 {
             writer.buffer.emit_certain(context, index + lane, writer.id, keys[lane & 15]);
         }

@@ -69,7 +69,12 @@ impl FlatCache {
     /// It holds this many triangles, some megabytes, and is emptied when it is full.
     const MOST: usize = 1 << 14;
 
-    /// The functions of a triangle with an id, which must always mean the same one.
+    /// Forgets all triangles: from here on, a name may mean another one.
+    pub(crate) fn forget(&mut self) {
+        self.functions.clear();
+    }
+
+    /// The functions of a triangle with a name, which must always mean the same one.
     pub(crate) fn get(
         &mut self,
         id: u32,

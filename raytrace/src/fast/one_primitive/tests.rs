@@ -36,7 +36,7 @@ fn check(shape: Shape, camera: &Camera) -> Tested {
     let mut tested = Tested::default();
     for row in (0..map.grid.height()).step_by(SIDE) {
         for column in (0..map.grid.width()).step_by(SIDE) {
-            let mut tile = TileBuffer::new(view.judge());
+            let mut tile = TileBuffer::new(&view);
             let size = [map.grid.height() - row, map.grid.width() - column];
             tile.begin([row, column], size.map(|count| count.min(SIDE)), SIDE);
             dispatch!(best_level(), simd => {

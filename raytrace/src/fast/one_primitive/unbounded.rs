@@ -13,7 +13,7 @@ use bothways_common::engine::simd::{Select, Simd, SimdBase, SimdMask, f64x8};
 /// The primitives of a scene that are tested without a box, for the rays of one picture.
 #[derive(Clone, Debug)]
 pub(crate) struct Unbounded {
-    /// All of them, with their ids, in the order of the scene: planes before spheres.
+    /// All of them, with their names, in the order of the scene: planes before spheres.
     pub(crate) primitives: Vec<(u32, Primitive)>,
     /// The planes that can be seen, as indices into the primitives.
     pub(crate) planes: Vec<(usize, FlatFunctions)>,
@@ -46,7 +46,7 @@ impl Unbounded {
         let loose = spheres.filter(|(_, extent)| eye.abs().max_element() > room(*extent));
         let ids = prepared.unbounded.iter().chain(loose.map(|(id, _)| id));
         Unbounded {
-            primitives: ids.map(|&id| (id, map.view.primitive(id))).collect(),
+            primitives: ids.map(|&id| (id, map.view.named(id))).collect(),
             planes: Vec::new(),
             others: Vec::new(),
             keys: Vec::new(),

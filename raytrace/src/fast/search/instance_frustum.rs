@@ -44,11 +44,11 @@ struct Places {
     parallel: bool,
 }
 
-/// Where an instance is, and the id of its first triangle.
+/// Where an instance is, and the name of its first triangle.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PlacedBy<'a> {
     pub(crate) placement: &'a Placement,
-    pub(crate) first_id: u32,
+    pub(crate) first_name: u32,
 }
 
 impl<'a> InstanceFrustum<'a> {
@@ -76,13 +76,13 @@ impl<'a> InstanceFrustum<'a> {
     /// The middle and the half are rounded, too: `H` is made larger by more than that.
     pub(crate) fn new(
         frustum: &TileFrustum,
-        place: PlacedBy<'a>,
+        placement: &'a Placement,
         bounds: &Bounds,
     ) -> InstanceFrustum<'a> {
         let template = frustum.template;
         let world = &template.boxes;
         let eye = DVec3::from_array(template.eye);
-        let placed = PlacedBounds::new(place.placement, bounds, eye);
+        let placed = PlacedBounds::new(placement, bounds, eye);
         let functions = Functions::new(frustum, &placed, eye);
         let Functions { along, at, .. } = functions;
 
@@ -101,7 +101,8 @@ impl<'a> InstanceFrustum<'a> {
         let slack = upward(2.0 * placed.rounding.max_element());
         let size = upward(2.0 * placed.half.max_element());
         InstanceFrustum {
-            place,
+            // It has no name yet.
+            place: PlacedBy { placement, first_name: 0 },
             boxes: BoxCulling {
                 origin: placed.middle.to_array(),
                 t: WorldAffine::new(along[0], lowered),
@@ -365,6 +366,6 @@ impl PlacedBy<'_> {
 
     #[inline(always)]
     fn ids<S: Simd>(&self, simd: S, ids: &[u32; LEAF]) -> [u32; LEAF] {
-        (u32x16::load_array_ref(simd, ids) + self.first_id).to_array()
+        (u32x16::load_array_ref(simd, ids) + self.first_name).to_array()
     }
 }

@@ -6,7 +6,7 @@ use super::tile_frustum::{FrustumTemplate, TileFrustum};
 use super::tree::{INSTANCES, LeafCounts, Node, NodeKind, NodeRef, WIDTH};
 use crate::fast::camera_map::CameraMap;
 use crate::fast::one_primitive::unbounded::Unbounded;
-use crate::fast::prepared::Prepared;
+use crate::fast::prepared::{OneInstance, Prepared};
 use crate::fast::size_class::SizeClass;
 use crate::fast::tile::TileBuffer;
 use crate::fast::{draw, one_primitive};
@@ -51,7 +51,7 @@ impl<'a> Walker<'a> {
         Walker {
             prepared,
             map,
-            tile: TileBuffer::new(map.view.judge()),
+            tile: TileBuffer::new(&map.view),
             unbounded,
             stack: Vec::new(),
             queue: CandidateQueue::new(),
@@ -112,6 +112,13 @@ impl<'a> Walker<'a> {
                     continue;
                 }
                 NodeKind::Instance => {
+                    if self.tile.names.are_used_up() {
+                        // What waits has names that others will have.
+                        while !self.queue.is_empty() {
+                            self.draw_candidates(context, &frustum, class, true);
+                        }
+                        self.tile.give_names_anew();
+                    }
                     self.enter_instance(&frustum, &entry, farthest);
                     continue;
                 }
@@ -121,8 +128,14 @@ impl<'a> Walker<'a> {
         if C::WATCHED
             && let Some(sample) = self.tile.sample(0)
         {
-            context.sink().hit(sample, self.tile.seen());
+            context.sink().hit(sample, self.seen());
         }
+    }
+
+    /// The id of what is seen at the only sample of a tile.
+    pub(crate) fn seen(&self) -> Option<u64> {
+        let name = self.tile.seen()?;
+        Some(self.tile.names.id(name))
     }
 
     /// How many boxes each ray of a tile tests when it is walked alone, if every ray certainly misses all of them.
@@ -216,8 +229,8 @@ impl<'a> Walker<'a> {
         for (to, &number) in
             instances.iter_mut().zip(&prepared.instance_leaves[entry.child.index()][..count])
         {
-            let (mesh, place) = prepared.instance(view.scene, number);
-            let middle = place.placement.position(mesh.bounds.middle());
+            let instance = prepared.instance(view.scene, number);
+            let middle = instance.placement.position(instance.mesh.bounds.middle());
             *to = (view.offset(middle).dot(frustum.rows[0].into()), number);
         }
         instances[..count].sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -233,8 +246,9 @@ impl<'a> Walker<'a> {
     #[inline(never)]
     fn enter_instance(&mut self, frustum: &TileFrustum, entry: &StackEntry, farthest: f32) {
         let number = u32::try_from(entry.child.index()).expect("it has 29 bits");
-        let (mesh, place) = self.prepared.instance(self.map.view.scene, number);
-        let instance = InstanceFrustum::new(frustum, place, &mesh.bounds);
+        let OneInstance { mesh, placement, first_id, triangles } =
+            self.prepared.instance(self.map.view.scene, number);
+        let mut instance = InstanceFrustum::new(frustum, placement, &mesh.bounds);
         self.tile.executed.boxes_tested += 1;
         let Some(seen) = instance.seen else { return };
         // What is hit there may hide it long before the whole tile is full.
@@ -243,6 +257,7 @@ impl<'a> Walker<'a> {
         if instance.near > farthest.min(template.boxes.farthest(there)) {
             return;
         }
+        instance.place.first_name = self.tile.names.of_instance(first_id, triangles);
         (self.is_inside, self.base) = (true, self.stack.len());
         self.stack.push(StackEntry {
             near: entry.near.max(instance.near),
@@ -263,7 +278,7 @@ impl<'a> Walker<'a> {
     ) {
         let count = entry.counts.all();
         for &id in &self.prepared.sphere_leaves[entry.child.index()][..count] {
-            let sphere = self.map.view.primitive(id);
+            let sphere = self.map.view.named(id);
             one_primitive::draw_round(context, self.map, frustum, (id, &sphere), &mut self.tile);
         }
     }
@@ -314,8 +329,9 @@ impl<'a> Walker<'a> {
             NodeKind::IndexedLeaf => &self.prepared.indexed_leaves[leaf.index()].ids,
             _ => &self.prepared.plain_leaves[leaf.index()].ids,
         };
-        let first_id = self.inside().map_or(0, |instance| instance.place.first_id);
-        ids.iter().take(used).for_each(|id| sink.sample_tested(sample, first_id + id));
+        let first_name = self.inside().map_or(0, |instance| instance.place.first_name);
+        let id = |name: u32| self.tile.names.id(first_name + name);
+        ids.iter().take(used).for_each(|name| sink.sample_tested(sample, id(*name)));
     }
 
     /// Tests the boxes of a node and pushes those that a ray of the tile may meet: near ones last, so that they come

@@ -39,7 +39,7 @@ struct Opened<'a> {
     sentence: Option<&'a str>,
     camera: CameraJson,
     objects: usize,
-    primitives: u32,
+    primitives: u64,
     triangles: usize,
     /// The file that was opened, in bytes; for a built-in scene, its scene file.
     bytes: usize,
@@ -78,7 +78,7 @@ pub(crate) fn answer(
     engine.stage = None;
     let stage = Stage::new(loaded)?;
     let LoadedScene { name, scene, camera, viewport_stated, toml, warnings } = &stage.loaded;
-    let triangles = |id: &u32| scene.triangle(*id).is_some();
+    let triangles = |id: &u64| scene.triangle(*id).is_some();
     let answer = Answer::new(Opened {
         name,
         sentence: stage.loaded.about(),

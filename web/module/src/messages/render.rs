@@ -4,7 +4,6 @@ use crate::answer::{Answer, Buffer};
 use crate::camera::{CameraJson, FrameJson, Viewpoint};
 use crate::clock::timed;
 use crate::stage::Stage;
-use bothways_lab::common::frame::NO_PRIMITIVE;
 use bothways_lab::common::{Frame, Work};
 use bothways_lab::diff::{self, Class, Comparison, alike_color};
 use bothways_lab::orders::{Order, Rule};
@@ -133,7 +132,7 @@ pub(crate) fn answer(stage: &mut Stage, render: &Render) -> Result<Answer, Strin
         let at = |what: &str| format!("{}.{what}", key(order));
         answer = answer.with(at("rgba"), Buffer::U8(shown(frame, render.look)));
         if !render.without_ids {
-            answer = answer.with(at("ids"), Buffer::U32(frame.ids().to_vec()));
+            answer = answer.with(at("ids"), Buffer::U32(narrow_ids(frame)));
         }
         if render.distances {
             answer = answer.with(at("t"), Buffer::F32(frame.distances().to_vec()));
@@ -142,11 +141,16 @@ pub(crate) fn answer(stage: &mut Stage, render: &Render) -> Result<Answer, Strin
     Ok(answer.with("difference.rgba", Buffer::U8(rgba(&compared.difference))))
 }
 
+/// The page runs where addresses have 32 bits, so ids have no more.
+fn narrow_ids(frame: &Frame) -> Vec<u32> {
+    frame.ids().narrow().expect("scenes of wide ids are refused").to_vec()
+}
+
 /// `ids`: what both orders see in the last frames.
 pub(crate) fn ids(stage: &Stage) -> Answer {
     let none = Answer::new(serde_json::json!({}));
     Order::ALL.into_iter().zip(&stage.frames).fold(none, |answer, (order, frame)| {
-        answer.with(key(order), Buffer::U32(frame.ids().to_vec()))
+        answer.with(key(order), Buffer::U32(narrow_ids(frame)))
     })
 }
 
@@ -187,7 +191,7 @@ fn shown(frame: &Frame, look: Look) -> Vec<u8> {
     match look {
         Look::Shaded => rgba(frame.picture()),
         Look::Ids => {
-            let colors: Vec<_> = frame.ids().iter().map(|&id| color_of_id(id)).collect();
+            let colors: Vec<_> = frame.ids().iter().map(color_of_id).collect();
             rgba(&colors)
         }
     }
@@ -239,12 +243,11 @@ impl Compared {
 
     /// The comparison of frames with the same ids.
     fn of_equal(frame: &Frame) -> Compared {
-        let is_covered = |id: u32| id != NO_PRIMITIVE;
-        let covered = frame.ids().iter().filter(|&&id| is_covered(id)).count() as u64;
+        let covered = frame.ids().covered() as u64;
         let pixels = frame.ids().iter().zip(frame.picture());
-        let color = |(&id, &light): (&u32, &[u8; 3])| match is_covered(id) {
-            true => alike_color(light),
-            false => Class::Neither.color(),
+        let color = |(id, &light): (Option<u64>, &[u8; 3])| match id {
+            Some(_) => alike_color(light),
+            None => Class::Neither.color(),
         };
         Compared {
             verdict: Verdict {

@@ -110,7 +110,7 @@ fn with_steps(answer: Answer, steps: &[Step], has_nodes: bool) -> Answer {
 
 /// The lines that bound each primitive and each box.
 fn with_outlines(answer: Answer, view: &View, ray_tracer: Option<&Prepared>) -> Answer {
-    let primitives = (0..view.scene.primitive_count()).map(|id| film::outline(view, id));
+    let primitives = (0..view.scene.name_count()).map(|id| film::outline(view, id));
     let answer = with_lines(answer, "outlines.primitives", primitives);
     let boxes = ray_tracer.map(Prepared::boxes).unwrap_or_default();
     let lines = boxes.iter().map(|one| film::outline_of_box(view, [one.low, one.high]));

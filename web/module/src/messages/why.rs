@@ -34,7 +34,7 @@ pub(crate) struct OfPixel {
 /// one waits.
 const MOST_FINDER_PIXELS: f64 = 2500.0;
 /// It leaves out scenes of more primitives than this, for the same reason.
-const MOST_FINDER_PRIMITIVES: u32 = 20_000;
+const MOST_FINDER_PRIMITIVES: u64 = 20_000;
 
 pub(crate) fn rules() -> Answer {
     let of = |order: Order| -> Vec<Value> {

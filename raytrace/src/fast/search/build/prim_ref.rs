@@ -77,7 +77,7 @@ pub(super) fn collect(scene: &Scene) -> Collected {
     });
     all.triangles.reserve_exact(triangles.sum());
     for (index, object) in scene.objects().iter().enumerate() {
-        let first_id = scene.first_id(index);
+        let first_id = scene.first_name(index);
         match &object.shape {
             Shape::Triangle(Triangle { a, b, c }) => {
                 all.triangles.push(triangle(first_id, [*a, *b, *c]));
@@ -212,8 +212,8 @@ impl<'a> Source<'a> {
             Source::Scene(scene) => scene,
             Source::Mesh(mesh) => return (ids(0, mesh), Among::Mesh(mesh)),
         };
-        let (object, _) = scene.locate(id);
-        let first = scene.first_id(object);
+        let (object, _) = scene.locate_name(id);
+        let first = scene.first_name(object);
         match &scene.objects()[object].shape {
             Shape::Mesh(mesh) => (ids(first, mesh), Among::Mesh(mesh)),
             Shape::Triangle(Triangle { a, b, c }) => (id..id + 1, Among::One([*a, *b, *c])),

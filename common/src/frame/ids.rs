@@ -1,0 +1,232 @@
+//! The ids of a frame: of 32 bits, or of 64 where a scene has more primitives.
+
+use super::{NO_PRIMITIVE, NO_WIDE_PRIMITIVE, cut};
+use crate::engine::memory::filled;
+use crate::raster::Region;
+use std::ops::Range;
+
+/// Ids of samples, one after another. They are narrow wherever the ids of the scene fit into 32 bits.
+///
+/// Two are equal if the same primitives are seen.
+#[derive(Clone, Copy, Debug)]
+pub enum Ids<'a> {
+    /// Ids of 32 bits; [`NO_PRIMITIVE`] for nothing.
+    Narrow(&'a [u32]),
+    /// Ids of 64 bits; [`NO_WIDE_PRIMITIVE`] for nothing.
+    Wide(&'a [u64]),
+}
+
+impl<'a> Ids<'a> {
+    /// How many samples there are.
+    pub fn len(self) -> usize {
+        match self {
+            Ids::Narrow(ids) => ids.len(),
+            Ids::Wide(ids) => ids.len(),
+        }
+    }
+
+    /// Whether there is no sample.
+    pub fn is_empty(self) -> bool {
+        self.len() == 0
+    }
+
+    /// The id at a sample; `None` for nothing.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such sample.
+    #[inline]
+    pub fn get(self, sample: usize) -> Option<u64> {
+        match self {
+            Ids::Narrow(ids) => Some(ids[sample]).filter(|id| *id != NO_PRIMITIVE).map(u64::from),
+            Ids::Wide(ids) => Some(ids[sample]).filter(|id| *id != NO_WIDE_PRIMITIVE),
+        }
+    }
+
+    /// Whether something is seen at a sample.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such sample.
+    #[inline]
+    pub fn is_covered(self, sample: usize) -> bool {
+        match self {
+            Ids::Narrow(ids) => ids[sample] != NO_PRIMITIVE,
+            Ids::Wide(ids) => ids[sample] != NO_WIDE_PRIMITIVE,
+        }
+    }
+
+    /// The ids of all samples; `None` for nothing.
+    pub fn iter(
+        self,
+    ) -> impl ExactSizeIterator<Item = Option<u64>> + DoubleEndedIterator + Clone + use<'a> {
+        (0..self.len()).map(move |sample| self.get(sample))
+    }
+
+    /// The ids of some samples.
+    ///
+    /// # Panics
+    ///
+    /// If there are no such samples.
+    #[must_use]
+    pub fn of(self, samples: Range<usize>) -> Ids<'a> {
+        match self {
+            Ids::Narrow(ids) => Ids::Narrow(&ids[samples]),
+            Ids::Wide(ids) => Ids::Wide(&ids[samples]),
+        }
+    }
+
+    /// The ids of so many samples at a time, the last time perhaps of fewer.
+    ///
+    /// # Panics
+    ///
+    /// If `size` is 0.
+    pub fn chunks(self, size: usize) -> impl ExactSizeIterator<Item = Ids<'a>> + use<'a> {
+        let count = self.len().div_ceil(size);
+        (0..count).map(move |k| self.of(k * size..self.len().min((k + 1) * size)))
+    }
+
+    /// At how many samples something is seen.
+    pub fn covered(self) -> usize {
+        match self {
+            Ids::Narrow(ids) => ids.iter().filter(|&&id| id != NO_PRIMITIVE).count(),
+            Ids::Wide(ids) => ids.iter().filter(|&&id| id != NO_WIDE_PRIMITIVE).count(),
+        }
+    }
+
+    /// The ids of 32 bits, [`NO_PRIMITIVE`] for nothing; `None` if they are wider.
+    pub fn narrow(self) -> Option<&'a [u32]> {
+        match self {
+            Ids::Narrow(ids) => Some(ids),
+            Ids::Wide(_) => None,
+        }
+    }
+}
+
+impl PartialEq for Ids<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Ids::Narrow(one), Ids::Narrow(other)) => one == other,
+            (Ids::Wide(one), Ids::Wide(other)) => one == other,
+            _ => self.iter().eq(other.iter()),
+        }
+    }
+}
+
+impl Eq for Ids<'_> {}
+
+/// The ids of a tile that one thread may write, a slice for each row.
+#[derive(Debug)]
+pub enum IdRows<'a> {
+    /// Ids of 32 bits; [`NO_PRIMITIVE`] for nothing.
+    Narrow(Vec<&'a mut [u32]>),
+    /// Ids of 64 bits; [`NO_WIDE_PRIMITIVE`] for nothing.
+    Wide(Vec<&'a mut [u64]>),
+}
+
+impl<'a> IdRows<'a> {
+    /// The rows of 32 bits, for those who draw no scene of wider ids.
+    ///
+    /// # Panics
+    ///
+    /// If they are wider.
+    pub fn narrow(self) -> Vec<&'a mut [u32]> {
+        match self {
+            IdRows::Narrow(rows) => rows,
+            IdRows::Wide(_) => panic!("the ids of this scene have 64 bits"),
+        }
+    }
+
+    /// Nothing is seen.
+    pub fn clear(&mut self) {
+        match self {
+            IdRows::Narrow(rows) => rows.iter_mut().for_each(|row| row.fill(NO_PRIMITIVE)),
+            IdRows::Wide(rows) => rows.iter_mut().for_each(|row| row.fill(NO_WIDE_PRIMITIVE)),
+        }
+    }
+}
+
+/// The ids that a frame stores.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum IdPlane {
+    Narrow(Vec<u32>),
+    Wide(Vec<u64>),
+}
+
+impl IdPlane {
+    /// Makes room for so many ids, wide ones or not; keeps what is there if it fits.
+    pub(super) fn fit(&mut self, count: usize, are_wide: bool) {
+        match self {
+            IdPlane::Narrow(ids) if !are_wide && ids.len() == count => {}
+            IdPlane::Wide(ids) if are_wide && ids.len() == count => {}
+            _ if are_wide => *self = IdPlane::Wide(vec![NO_WIDE_PRIMITIVE; count]),
+            _ => *self = IdPlane::Narrow(filled(NO_PRIMITIVE, count)),
+        }
+    }
+
+    pub(super) fn clear(&mut self) {
+        match self {
+            IdPlane::Narrow(ids) => ids.fill(NO_PRIMITIVE),
+            IdPlane::Wide(ids) => ids.fill(NO_WIDE_PRIMITIVE),
+        }
+    }
+
+    pub(super) fn set(&mut self, index: usize, id: u64) {
+        match self {
+            IdPlane::Narrow(ids) => {
+                ids[index] = u32::try_from(id).expect("the frame has room for narrow ids alone");
+            }
+            IdPlane::Wide(ids) => ids[index] = id,
+        }
+    }
+
+    pub(super) fn as_ids(&self) -> Ids<'_> {
+        match self {
+            IdPlane::Narrow(ids) => Ids::Narrow(ids),
+            IdPlane::Wide(ids) => Ids::Wide(ids),
+        }
+    }
+
+    /// The ids of tiles of at most so many rows and columns, row by row.
+    pub(super) fn cut(&mut self, region: &Region, tile: [usize; 2]) -> Vec<IdRows<'_>> {
+        match self {
+            IdPlane::Narrow(ids) => {
+                cut(ids, region, tile).into_iter().map(IdRows::Narrow).collect()
+            }
+            IdPlane::Wide(ids) => cut(ids, region, tile).into_iter().map(IdRows::Wide).collect(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn narrow_and_wide_ids_are_equal_where_they_show_the_same() {
+        let narrow = [3, NO_PRIMITIVE, 0];
+        let wide = [3, NO_WIDE_PRIMITIVE, 0];
+        let (narrow, wide) = (Ids::Narrow(&narrow), Ids::Wide(&wide));
+        assert_eq!(narrow, wide);
+        assert_eq!([narrow.covered(), wide.covered()], [2, 2]);
+        // This is the id of a primitive.
+        let last = [3, u64::from(NO_PRIMITIVE), 0];
+        assert_ne!(narrow, Ids::Wide(&last));
+        assert_eq!(Ids::Wide(&last).get(1), Some(u64::from(NO_PRIMITIVE)));
+        let pairs: Vec<usize> = wide.chunks(2).map(Ids::covered).collect();
+        assert_eq!(pairs, [1, 1]);
+    }
+
+    #[test]
+    fn a_plane_becomes_wide_and_narrow_again() {
+        let mut plane = IdPlane::Narrow(vec![7; 2]);
+        plane.fit(2, false);
+        assert_eq!(plane.as_ids().get(0), Some(7));
+        plane.fit(2, true);
+        plane.set(1, 1 << 40);
+        assert_eq!(plane.as_ids().iter().collect::<Vec<_>>(), [None, Some(1 << 40)]);
+        plane.clear();
+        plane.fit(2, false);
+        assert_eq!(plane, IdPlane::Narrow(vec![NO_PRIMITIVE; 2]));
+    }
+}
