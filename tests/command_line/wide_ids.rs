@@ -64,7 +64,6 @@ fn both_orders_write_ids_of_64_bits_that_diff_reads() {
         .assert()
         .code(0)
         .stdout(equal.and(contains("channels object.id, object.id_high")));
-    bothways(&home, "diff npy exr").assert().code(0);
     // One half of the ids is not the ids.
     bothways(&home, &format!("diff {files} --channels object.id_high")).assert().code(1);
 }
@@ -91,7 +90,7 @@ fn what_looks_at_each_primitive_refuses_so_many() {
     let home = home();
     for line in [
         "film rings.toml -o film.gif",
-        "figure edges rings.toml -o edges.svg",
+        "figure order rings.toml -o order.svg",
         "export rings.toml --as obj -o rings.obj",
         "render rings.toml --object-rules snapped:8 -o ruled",
         "slides rings.toml -o slides",
