@@ -5,6 +5,7 @@
 //! [`Surfaces`]. Every number belongs to its sample alone: neither neighbours nor threads nor the width of SIMD change
 //! a bit of it.
 
+mod chunk;
 mod desk;
 mod surfaces;
 mod tint;
@@ -18,9 +19,8 @@ use crate::look::shade::{Finish, Lighting, SurfacePoints};
 use crate::raster::Sample;
 use crate::scene::material::Material;
 use crate::view::View;
-use desk::{
-    CHUNK, Chunk, Desk, Kept, Run, Setting, eight, eight_vectors, sixteen, sixteen_vectors,
-};
+use chunk::{CHUNK, Chunk, eight, eight_vectors, sixteen, sixteen_vectors};
+use desk::{Desk, Kept, Run, Setting};
 use glam::{DVec2, Vec2, Vec3};
 use rayon::prelude::*;
 use std::ops::Range;

@@ -1,6 +1,6 @@
 //! The words of a film: the pseudocode of each order, and its loop variables.
 
-use super::Film;
+use super::recorded::Film;
 use super::recorder::{Line, Position};
 use super::shots::{OrderShot, Shot};
 use crate::common::View;

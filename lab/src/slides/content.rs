@@ -1,5 +1,6 @@
 //! What is on each slide, in the order of the lecture, and how it is drawn.
 
+use super::error::SlideError;
 use super::stills;
 use super::words::{self, Words};
 use crate::common::{Camera, Projection, View};
@@ -8,7 +9,6 @@ use crate::film::{Film, Length, default_size};
 use crate::orders::{Method, Order, Rules};
 use crate::scenes::{self, LoadedScene};
 use crate::sweep::{self, Axis, Bench, Quantity, Summary, Table};
-use thiserror::Error;
 
 /// A slide that is drawn.
 #[derive(Debug)]
@@ -18,11 +18,6 @@ pub enum Content {
     /// A film, as GIF.
     Film(Vec<u8>),
 }
-
-/// Why a slide cannot be drawn.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("{0}")]
-pub struct SlideError(pub(crate) String);
 
 /// A slide of the plan.
 #[derive(Debug)]

@@ -1,6 +1,6 @@
 //! Stills of a film: one order's loops, and its picture after parts of the work.
 
-use super::content::SlideError;
+use super::error::SlideError;
 use crate::common::{Camera, CameraDescription, View};
 use crate::figure::{Drawing, Still, StillPage, Subject};
 use crate::film::{Film, Length, default_size};

@@ -1,6 +1,6 @@
 //! The tint of samples: what textures and colours of vertices leave of the material's colour.
 
-use super::desk::Chunk;
+use super::chunk::Chunk;
 use crate::frame::{LEVELS_OF, NO_LEVEL};
 use crate::look::level_of;
 use crate::scene::material::Material;

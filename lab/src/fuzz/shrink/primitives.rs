@@ -1,6 +1,6 @@
 //! Fewer primitives.
 
-use super::Shrinker;
+use super::shrinker::Shrinker;
 use crate::common::{Instances, Mesh, Placement, Shape};
 use crate::fuzz::case::Case;
 use std::ops::Range;

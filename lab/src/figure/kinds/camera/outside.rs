@@ -1,7 +1,7 @@
 //! The camera from outside: a parallel camera to the right of, above and behind it, with hidden lines dashed.
 
 use super::stage::Stage;
-use super::{ViewingRay, label_at};
+use super::viewing_ray::{ViewingRay, label_at};
 use crate::common::glam::DVec3;
 use crate::common::{Camera, CameraDescription, Frame, Options, Orientation, Projection, View};
 use crate::figure::drawing::{Anchor, Drawing, Ink, Pen};

@@ -1,7 +1,7 @@
 //! The camera from the side, as the lecture draws it.
 
 use super::stage::Stage;
-use super::{SIDE, ViewingRay, label_at};
+use super::viewing_ray::{SIDE, ViewingRay, label_at};
 use crate::common::glam::DVec3;
 use crate::common::{Crop, Options, View};
 use crate::figure::drawing::{Ink, Pen};
