@@ -12,6 +12,7 @@ mod why;
 
 pub(super) use args::{DiffArgs, EXAMPLES};
 
+use super::beside::Beside;
 use super::failure::Failure;
 use super::output::Staging;
 use super::terminal;
@@ -37,16 +38,19 @@ const NAMES: [&str; 2] = ["difference.png", "reasons.png"];
 pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
     let page = html::find(args)?;
     match [&args.a, &args.b].map(|path| path.is_dir()) {
-        [true, true] => return folders::run(args),
-        [false, false] => {}
+        [true, true] => folders::run(args),
+        [false, false] => compare_files(args, &page),
         [a_is_folder, _] => {
             let (folder, file) = if a_is_folder { (&args.a, &args.b) } else { (&args.b, &args.a) };
             let (folder, file) = (folder.display(), file.display());
-            return Err(Failure::new(format!(
+            Err(Failure::new(format!(
                 "{folder} is a folder and {file} is none; compare two files, or two folders"
-            )));
+            )))
         }
     }
+}
+
+fn compare_files(args: &DiffArgs, page: &Beside) -> Result<ExitCode, Failure> {
     let read = read::read(args)?;
     for file in &read {
         terminal::warn(&file.named_warnings());
@@ -84,7 +88,7 @@ pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
         }
         staging.commit()?;
     }
-    html::write(&page, args, [a, b], &comparison, |page| {
+    html::write(page, args, [a, b], &comparison, |page| {
         if let Some(why) = &why {
             why.fill(page);
         }

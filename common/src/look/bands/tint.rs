@@ -55,6 +55,22 @@ pub(super) fn store_levels(
     }
 }
 
+/// Stores the texture coordinates of some samples, at most sixteen.
+#[inline(never)]
+pub(super) fn store_coordinates(
+    chunk: &Chunk,
+    at: usize,
+    has_texture: bool,
+    coordinates: &mut [Vec2],
+) {
+    let [across, up] = &chunk.coordinate;
+    for (lane, coordinate) in coordinates.iter_mut().enumerate() {
+        let at = at + lane;
+        *coordinate =
+            if has_texture { DVec2::new(across[at], up[at]).as_vec2() } else { Vec2::ZERO };
+    }
+}
+
 /// How the texture coordinate moves from a sample to the next one across, and to the next one down.
 fn steps_of(steps: &[[f32; 16]; 4], lane: usize) -> [Vec2; 2] {
     let [across, across_up, down, down_up] = steps;

@@ -68,10 +68,15 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
         }
         curves(&mut sheet, &clocks, camera.image(), [left, top]);
     }
-    let y = 944.0;
-    let label = theme.label();
-    let x = LEFT;
-    scale_bar(&mut sheet, [x, y], RIGHT - x, &[]);
+    legend(&mut sheet);
+    Ok(sheet.drawing)
+}
+
+/// What the colours and the word step mean.
+fn legend(sheet: &mut Sheet) {
+    let label = sheet.theme.label();
+    let [x, y] = [LEFT, 944.0];
+    scale_bar(sheet, [x, y], RIGHT - x, &[]);
     sheet.drawing.text([x, y + 40.0], Anchor::Left, "decided first", label);
     sheet.drawing.text(
         [0.5 * (x + RIGHT), y + 40.0],
@@ -92,7 +97,6 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
         "box is tested; plain: nothing",
         label.sized(19.0),
     );
-    Ok(sheet.drawing)
 }
 
 /// How many pixels each order has decided after which part of its steps.
