@@ -7,3 +7,4 @@ pub mod fault;
 pub mod memory;
 pub mod roundoff;
 pub mod simd;
+pub mod tasks;

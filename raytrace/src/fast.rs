@@ -52,6 +52,7 @@ use bothways_common::engine::any_observer::{AnyObserver, PartObserver};
 use bothways_common::engine::context::{Parts, ScalarContext};
 use bothways_common::engine::fault::{Fault, Planted, Sound};
 use bothways_common::engine::simd::dispatch_with;
+use bothways_common::engine::tasks::TaskTimes;
 use bothways_common::frame::{NO_PRIMITIVE, Tile};
 use bothways_common::observe::{Events, Executed, Observer};
 use bothways_common::{Frame, Options, Scene, View};
@@ -186,6 +187,8 @@ fn run(
     let mut chunks: Vec<Tile> = frame.tiles_mut(prepared.side, CHUNK);
     let dropped = (loops.is)(Planted::DroppedTile).then_some(chunks.len() / 2);
     let mut executed = Executed::default();
+    let times = prepared.times.as_deref();
+    TaskTimes::begin_stage(times);
     observer.in_parts(chunks.len(), &mut |parts| {
         let draw = |walker: &mut Walker, (index, (chunk, part)): (_, (Tile, &mut _))| {
             if dropped == Some(index) {
@@ -195,7 +198,7 @@ fn run(
             if let Some(sink) = PartObserver::sink(part) {
                 (loops.watch)(walker, [&of_tile, &of_ray], &chunk, sink);
             }
-            (loops.trace)(walker, &of_tile, chunk)
+            TaskTimes::time(times, || (loops.trace)(walker, &of_tile, chunk))
         };
         let chunks = std::mem::take(&mut chunks).into_par_iter().zip(parts);
         let each = chunks.with_max_len(1).enumerate();
