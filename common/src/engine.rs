@@ -8,3 +8,4 @@ pub mod memory;
 pub mod names;
 pub mod roundoff;
 pub mod simd;
+pub mod tasks;

@@ -24,6 +24,7 @@ mod file;
 mod header;
 mod quick;
 mod values;
+mod vertex;
 mod write;
 
 pub use error::{ElementFault, HeaderFault, Location, ReadPlyError};

@@ -20,6 +20,7 @@ mod ascii;
 mod binary;
 mod builder;
 mod error;
+mod layout;
 mod write;
 
 pub use error::{ReadStlError, StlFault};
@@ -28,6 +29,7 @@ pub use write::write;
 use crate::source::{InputFile, Reach};
 use bothways_common::scene::Mesh;
 use builder::Builder;
+use layout::{HEADER, binary_size};
 use std::io::{BufRead, Cursor, Read, Seek, SeekFrom};
 use std::path::Path;
 
@@ -68,15 +70,6 @@ pub(crate) fn read_file(file: &InputFile) -> Result<Mesh, ReadStlError> {
 /// ```
 pub fn parse(name: &str, bytes: &[u8]) -> Result<Mesh, ReadStlError> {
     read_from(name.to_owned(), Cursor::new(bytes))
-}
-
-/// The bytes of a binary file before its first facet, and those of each facet.
-const HEADER: usize = 84;
-const FACET: usize = 50;
-
-/// The size of a binary file of so many facets.
-fn binary_size(facets: u32) -> u64 {
-    HEADER as u64 + FACET as u64 * u64::from(facets)
 }
 
 /// Tells whether a file that begins with these bytes and has this size is binary.

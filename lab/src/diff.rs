@@ -9,6 +9,7 @@
 
 mod alike;
 mod aspect;
+mod bits;
 mod buffer;
 mod buffer_pair;
 mod classes;

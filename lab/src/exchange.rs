@@ -8,6 +8,7 @@
 //! Pixel `(i, j)` of ours has its middle at `(j + ½, i + ½)`, counted from the upper left corner, rightwards and
 //! downwards; each file here says where the other system puts it.
 
+mod aspect;
 mod blender;
 mod clip;
 mod colmap;
@@ -15,9 +16,11 @@ mod depths;
 mod directx;
 mod error;
 mod mitsuba;
+mod numbers;
 mod opencv;
 mod opengl;
 mod pbrt;
+mod system;
 #[cfg(test)]
 mod tests;
 mod vulkan;
@@ -30,58 +33,10 @@ pub use error::ExchangeError;
 pub use mitsuba::Mitsuba;
 pub use opencv::OpenCv;
 pub use pbrt::Pbrt;
+pub use system::System;
 
-use crate::common::{Camera, View};
+use crate::common::View;
 use serde::Serialize;
-
-/// A system that a camera can be written for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum System {
-    /// OpenGL: matrices for columns, depths from −1 to 1.
-    OpenGl,
-    /// Vulkan: matrices for columns, `y` down, depths from 0 to 1.
-    Vulkan,
-    /// Direct3D: matrices for rows, right-handed, depths from 0 to 1.
-    DirectX,
-    /// pbrt, version 4: a part of a scene file.
-    Pbrt,
-    /// Mitsuba 3: a sensor in XML.
-    Mitsuba,
-    /// Blender: a Python script.
-    Blender,
-    /// OpenCV: `K`, `R` and `t`.
-    OpenCv,
-    /// COLMAP: a line of `cameras.txt` and one of `images.txt`.
-    Colmap,
-}
-
-impl System {
-    /// All systems.
-    pub const ALL: [System; 8] = [
-        System::OpenGl,
-        System::Vulkan,
-        System::DirectX,
-        System::Pbrt,
-        System::Mitsuba,
-        System::Blender,
-        System::OpenCv,
-        System::Colmap,
-    ];
-
-    /// The name, as its makers write it.
-    pub fn name(self) -> &'static str {
-        match self {
-            System::OpenGl => "OpenGL",
-            System::Vulkan => "Vulkan",
-            System::DirectX => "DirectX",
-            System::Pbrt => "pbrt",
-            System::Mitsuba => "Mitsuba",
-            System::Blender => "Blender",
-            System::OpenCv => "OpenCV",
-            System::Colmap => "COLMAP",
-        }
-    }
-}
 
 /// A camera in the words of one system.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -156,25 +111,4 @@ pub fn exchange(
         System::OpenCv => Exchanged::OpenCv(OpenCv::new(view.camera, depths)?),
         System::Colmap => Exchanged::Colmap(Colmap::new(view.camera, depths)?),
     })
-}
-
-/// How much wider than high a pixel of the camera's image is: 1 for a square.
-fn pixel_aspect(camera: &Camera) -> f64 {
-    let ([vw, vh], [width, height]) = (camera.viewport(), camera.image().map(f64::from));
-    vw * height / (vh * width)
-}
-
-/// Whether the pixels are squares, as far as a viewport of two `f32` can say it: each of them is rounded by up to 2⁻²⁴.
-fn has_square_pixels(camera: &Camera) -> bool {
-    (pixel_aspect(camera) - 1.0).abs() <= (-22f64).exp2()
-}
-
-/// The number with the fewest digits that read back as the same number, never `-0.0`. All systems here read it.
-fn number(number: f64) -> String {
-    format!("{:?}", number + 0.0)
-}
-
-/// Numbers with something between them.
-fn numbers(numbers: &[f64], between: &str) -> String {
-    numbers.iter().map(|value| number(*value)).collect::<Vec<_>>().join(between)
 }

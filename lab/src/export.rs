@@ -5,6 +5,7 @@
 //! camera alone is never nearly right: where it cannot be said, [`export`] is an error, or the notes name it.
 
 mod corners;
+mod error;
 mod gltf;
 mod lights;
 mod mitsuba;
@@ -13,59 +14,17 @@ mod pbrt;
 mod pictures;
 mod pieces;
 mod srgb;
+mod target;
 #[cfg(test)]
 mod tests;
 
+pub use error::ExportError;
+pub use target::Target;
+
 use crate::common::{Shape, View};
-use crate::exchange::ExchangeError;
 use crate::formats::{obj, ply};
-use crate::wording::grouped;
+use error::MOST_COPIED;
 use pieces::Pieces;
-use std::io;
-use thiserror::Error;
-
-/// A program, or a format of many programs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Target {
-    /// pbrt, version 4: one scene file, and its pictures.
-    Pbrt,
-    /// Mitsuba 3: a scene in XML, and a file for each mesh and each picture.
-    Mitsuba,
-    /// glTF 2.0, in one binary file.
-    Gltf,
-    /// Wavefront OBJ: triangles with normals and texture coordinates, a file of materials, and pictures.
-    Obj,
-    /// PLY: triangles and the colours of vertices.
-    Ply,
-}
-
-impl Target {
-    /// All of them.
-    pub const ALL: [Target; 5] =
-        [Target::Pbrt, Target::Mitsuba, Target::Gltf, Target::Obj, Target::Ply];
-
-    /// The name, as its makers write it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Target::Pbrt => "pbrt",
-            Target::Mitsuba => "Mitsuba",
-            Target::Gltf => "glTF",
-            Target::Obj => "OBJ",
-            Target::Ply => "PLY",
-        }
-    }
-
-    /// The ending of the file that is to be opened.
-    pub fn ending(self) -> &'static str {
-        match self {
-            Target::Pbrt => "pbrt",
-            Target::Mitsuba => "xml",
-            Target::Gltf => "glb",
-            Target::Obj => "obj",
-            Target::Ply => "ply",
-        }
-    }
-}
 
 /// A scene in the words of another program.
 #[derive(Clone, Debug, PartialEq)]
@@ -74,40 +33,6 @@ pub struct Export {
     pub files: Vec<(String, Vec<u8>)>,
     /// What is not as in the scene, each in a sentence.
     pub notes: Vec<String>,
-}
-
-/// The most triangles of instances that are copied.
-const MOST_COPIED: u64 = 100_000_000;
-
-/// Why a scene cannot be exported.
-#[derive(Debug, Error)]
-pub enum ExportError {
-    /// The camera cannot be said.
-    #[error(transparent)]
-    Camera(#[from] ExchangeError),
-    /// There is nothing in it.
-    #[error("the scene has no objects, and a file without triangles is refused by most programs")]
-    Empty,
-    /// Instances are copied, and these are too many.
-    #[error(
-        "its instances have {} triangles, each of which would be copied, and at most {} are; state fewer instances",
-        grouped(*triangles), grouped(MOST_COPIED)
-    )]
-    Copies {
-        /// The triangles of all instances.
-        triangles: u64,
-    },
-    /// There are more vertices than the files' numbers count.
-    #[error("the scene has {vertices} vertices, and {} counts to 4,294,967,295", target.name())]
-    TooMany {
-        /// Which format.
-        target: Target,
-        /// How many there are.
-        vertices: usize,
-    },
-    /// Memory that is full.
-    #[error("the files cannot be made: {0}")]
-    Write(#[from] io::Error),
 }
 
 /// The view's scene in the words of a program. `name` becomes the name of its file, without the ending.

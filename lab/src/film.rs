@@ -35,6 +35,7 @@ mod gif;
 mod length;
 mod outlines;
 mod palette;
+mod recorded;
 mod recorder;
 mod shots;
 mod size;
@@ -46,6 +47,7 @@ pub use length::{
     FASTEST_IN_BROWSERS, FRAME_RATES, Length, LengthError, MOST_FRAMES, MOST_SECONDS, rates,
 };
 pub use outlines::{Lines, outline, outline_of_box};
+pub use recorded::Film;
 pub use recorder::{Line, Position};
 pub use shots::{OrderShot, Shot, Shots};
 pub use size::default_size;
@@ -58,7 +60,7 @@ use crate::orders::{Method, Order};
 use crate::wording::grouped;
 use image::RgbImage;
 use std::io;
-use track::{Loops, Track};
+use track::Loops;
 
 /// The most steps that one order may take in a film by the textbook: about a minute of work.
 const MOST_STEPS: u64 = 1 << 30;
@@ -68,21 +70,6 @@ const MOST_PIXELS: u64 = 1 << 21;
 pub const WIDTHS: [u32; 2] = [480, 3840];
 /// The width of a film is a multiple of this: then its height is even, as video needs it.
 pub const WIDTH_STEP: u32 = 32;
-
-/// A film of a scene.
-#[derive(Debug)]
-pub struct Film<'a> {
-    scene: String,
-    view: View<'a>,
-    method: Method,
-    length: Length,
-    /// The clock at each frame.
-    moments: Vec<u64>,
-    tracks: [Track; 2],
-    /// The pixels finished at each frame.
-    finished: Vec<[u64; 2]>,
-    comparison: Comparison,
-}
 
 /// Why there is no film of a scene.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

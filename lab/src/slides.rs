@@ -15,36 +15,19 @@
 //! ```
 
 mod content;
+mod deck;
+mod error;
 mod page;
 mod stills;
 mod words;
 
-pub use content::{Content, SlideError};
+pub use content::Content;
+pub use deck::{Deck, Slide};
+pub use error::SlideError;
 
 use crate::figure::Theme;
 use crate::scenes::LoadedScene;
-use content::{Plan, plans};
-
-/// A set of slides.
-#[derive(Debug)]
-pub struct Deck<'a> {
-    theme: Theme,
-    slides: Vec<Slide<'a>>,
-}
-
-/// One slide of a set.
-#[derive(Debug)]
-pub struct Slide<'a> {
-    /// The name of its file.
-    pub file: String,
-    /// What it shows, in a few words.
-    pub title: String,
-    /// What to see in it, in a sentence.
-    pub caption: &'static str,
-    /// What the lecturer may say.
-    pub notes: &'static str,
-    plan: Plan<'a>,
-}
+use content::plans;
 
 impl<'a> Deck<'a> {
     /// The set for some scenes: the whole lecture with the first one, then a chapter for each of the others.

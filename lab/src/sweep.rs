@@ -26,6 +26,7 @@ mod case;
 mod fit;
 mod json;
 mod plan;
+mod point;
 mod summary;
 mod table;
 
@@ -34,7 +35,8 @@ pub use case::{Axis, Case};
 pub use fit::{Crossing, Slope};
 pub use json::json;
 pub use plan::{Plan, Quantity, Task};
-pub use summary::{Curve, Point, Summary, short};
+pub use point::Point;
+pub use summary::{Curve, Summary, short};
 pub use table::{Measured, ReadTableError, Source, Table};
 
 #[cfg(test)]

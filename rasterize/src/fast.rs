@@ -62,6 +62,7 @@ use bothways_common::engine::context::Parts;
 use bothways_common::engine::fault::{Fault, Planted, Sound};
 use bothways_common::engine::memory::filled;
 use bothways_common::engine::simd::{Level, dispatch, dispatch_with};
+use bothways_common::engine::tasks::TaskTimes;
 use bothways_common::frame;
 use bothways_common::observe::{Events, Executed, Observer};
 use bothways_common::{Frame, Options, Scene, Shape, View};
@@ -243,7 +244,8 @@ fn run(
 
     let picture = Picture { view, map: &map, keys };
     let drawing = Drawing { geometry: &geometry, picture: &picture, bins, level: prepared.level };
-    executed += draw_tiles(&drawing, frame, tiles, observer, loops);
+    let times = prepared.times.as_deref();
+    executed += draw_tiles(&drawing, frame, tiles, observer, loops, times);
     *lock(&prepared.recycled) = recycled;
     executed
 }
@@ -263,6 +265,7 @@ fn place_vertices(
     /// Vertices that one thread takes up at a time.
     const CHUNK: usize = 4096;
     let count = prepared.first_vertices[prepared.first_vertices.len() - 1];
+    let times = prepared.times.as_deref();
     if vertices.len() != count {
         *vertices = filled([0; 4], count);
     }
@@ -279,8 +282,11 @@ fn place_vertices(
                 if positions.len() <= CHUNK {
                     place(positions, own);
                 } else {
+                    TaskTimes::begin_stage(times);
                     let chunks = positions.par_chunks(CHUNK).zip(own.par_chunks_mut(CHUNK));
-                    chunks.for_each(|(positions, vertices)| place(positions, vertices));
+                    chunks.for_each(|(positions, vertices)| {
+                        TaskTimes::time(times, || place(positions, vertices));
+                    });
                 }
             }
             Shape::Triangle(triangle) => {
@@ -304,10 +310,14 @@ fn bin_primitives(
 ) -> Executed {
     bins.resize_with(prepared.batches.len(), BatchBins::default);
     let mut executed = Executed::default();
+    let times = prepared.times.as_deref();
+    TaskTimes::begin_stage(times);
     observer.in_parts(bins.len(), &mut |parts| {
         let batches = prepared.batches.par_iter().zip(bins.par_iter_mut()).zip(parts);
         let of_batches = batches.map(|((batch, bins), part)| {
-            (loops.fill)(bins, batch, geometry, prepared.level, part.sink())
+            TaskTimes::time(times, || {
+                (loops.fill)(bins, batch, geometry, prepared.level, part.sink())
+            })
         });
         executed = of_batches.sum();
     });
@@ -321,12 +331,14 @@ fn draw_tiles(
     buffers: &mut Vec<TileBuffer>,
     observer: &mut dyn AnyObserver,
     loops: &Loops,
+    times: Option<&TaskTimes>,
 ) -> Executed {
     let Drawing { geometry: &Geometry { view, tiling, .. }, picture, bins, level } = *drawing;
     let mut tiles: Vec<frame::Tile> = frame.tiles_mut(tiling.rows, tiling.columns);
     let dropped = (loops.is)(Planted::DroppedTile).then_some(tiles.len() / 2);
     let free = Mutex::new(std::mem::take(buffers));
     let mut executed = Executed::default();
+    TaskTimes::begin_stage(times);
     observer.in_parts(tiles.len(), &mut |parts| {
         // Tiles with most to draw come first, so that all threads end at about the same time.
         let mut queue: Vec<_> =
@@ -338,14 +350,16 @@ fn draw_tiles(
         let of_tiles = (0..count).into_par_iter().with_max_len(1).map(|_| {
             let (index, (tile, part)) = lock(&queue).next().expect("there are as many");
             if dropped == Some(index) || bins.iter().all(|bins| bins.work(index) == 0) {
-                store_nothing(tile);
+                TaskTimes::time(times, || store_nothing(tile));
                 return Executed::default().of_one_tile();
             }
             let buffer = lock(&free).pop().filter(|buffer| buffer.fits(tiling));
             let mut buffer = buffer.unwrap_or_else(|| TileBuffer::new(view, tiling));
-            buffer.begin(view, &tile.region);
-            (loops.draw_tile)(drawing, index, &mut buffer, part.sink());
-            dispatch!(level, simd => store(simd, picture, &mut buffer, tile));
+            TaskTimes::time(times, || {
+                buffer.begin(view, &tile.region);
+                (loops.draw_tile)(drawing, index, &mut buffer, part.sink());
+                dispatch!(level, simd => store(simd, picture, &mut buffer, tile));
+            });
             let executed = buffer.executed.of_one_tile();
             lock(&free).push(buffer);
             executed

@@ -52,6 +52,7 @@ use bothways_common::engine::any_observer::{AnyObserver, PartObserver};
 use bothways_common::engine::context::{Parts, ScalarContext};
 use bothways_common::engine::fault::{Fault, Planted, Sound};
 use bothways_common::engine::simd::dispatch_with;
+use bothways_common::engine::tasks::TaskTimes;
 use bothways_common::frame::{IdRows, NO_PRIMITIVE, Tile};
 use bothways_common::observe::{Events, Executed, Observer};
 use bothways_common::raster::Region;
@@ -188,6 +189,8 @@ fn run(
     let mut chunks: Vec<Tile> = frame.tiles_mut(prepared.side, CHUNK);
     let dropped = (loops.is)(Planted::DroppedTile).then_some(chunks.len() / 2);
     let mut executed = Executed::default();
+    let times = prepared.times.as_deref();
+    TaskTimes::begin_stage(times);
     observer.in_parts(chunks.len(), &mut |parts| {
         let draw = |walker: &mut Walker, (index, (chunk, part)): (_, (Tile, &mut _))| {
             if dropped == Some(index) {
@@ -197,7 +200,7 @@ fn run(
             if let Some(sink) = PartObserver::sink(part) {
                 (loops.watch)(walker, [&of_tile, &of_ray], &chunk, sink);
             }
-            (loops.trace)(walker, &of_tile, chunk)
+            TaskTimes::time(times, || (loops.trace)(walker, &of_tile, chunk))
         };
         let chunks = std::mem::take(&mut chunks).into_par_iter().zip(parts);
         let each = chunks.with_max_len(1).enumerate();
@@ -270,6 +273,9 @@ fn trace<F: Fault>(walker: &mut Walker, template: &FrustumTemplate, chunk: Tile)
     }
 }
 
+/// Takes a tile that was traced, the names of a region, and which of its samples are the tile's.
+type StoreIds<'a> = dyn FnMut(&TileBuffer, &[&mut [u32]], &Region) + 'a;
+
 /// Traces the rays of the tiles that meet a region, and stores names and distances, row by row. After every tile, `done`
 /// gets the names and the samples of the tile that lie in the region.
 fn trace_tiles<F: Fault>(
@@ -277,7 +283,7 @@ fn trace_tiles<F: Fault>(
     template: &FrustumTemplate,
     region: &Region,
     (names, t): (&mut [&mut [u32]], &mut [&mut [f32]]),
-    done: &mut dyn FnMut(&TileBuffer, &[&mut [u32]], &Region),
+    done: &mut StoreIds,
 ) -> Executed {
     let mut executed = Executed::default();
     let (map, side) = (walker.map, template.side);

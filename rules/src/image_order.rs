@@ -11,6 +11,7 @@ mod hierarchy;
 mod jittered;
 mod moller_trumbore;
 mod one_origin;
+mod shape;
 mod single;
 mod trace;
 mod watertight;

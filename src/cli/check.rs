@@ -1,7 +1,7 @@
 //! `bothways check THEIRS [VECTORS]`: a renderer held to a whole conformance set.
 
 use super::beside::{Beside, PAGE};
-use super::diff::color;
+use super::color::color;
 use super::failure::Failure;
 use super::terminal;
 use anstyle::{AnsiColor, Style};

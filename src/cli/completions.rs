@@ -3,7 +3,7 @@
 //! `clap_complete` knows commands and options. It cannot know the values of SCENE: a value is a name or any file, and
 //! a list of values would hide the files. This module adds the names to the scripts.
 
-use super::Cli;
+use super::command::Cli;
 use bothways::scenes::{BUILT_IN, BuiltIn};
 use clap::CommandFactory;
 use clap_complete::Shell;

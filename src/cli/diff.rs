@@ -1,12 +1,18 @@
 //! `bothways diff A B`: a comparison of the output of two renderers.
 
+mod args;
 mod folders;
 mod html;
 mod inputs;
 mod measures;
 mod options;
+mod read;
+mod text;
 mod why;
 
+pub(super) use args::{DiffArgs, EXAMPLES};
+
+use super::beside::Beside;
 use super::failure::Failure;
 use super::output::Staging;
 use super::terminal;
@@ -17,105 +23,35 @@ use bothways::diff::pairs::reference;
 use bothways::formats::source::quote::visible;
 use bothways::picture::enlarged;
 use bothways::wording::grouped;
-use clap::Args;
-use inputs::{InputArgs, ReadFile, SceneArgs};
-use options::{ComparisonArgs, differing, ignored, short};
+use options::{differing, ignored, short};
+use read::ReadFile;
 use serde::Serialize;
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use text::{line, number};
 use why::Why;
-
-pub(super) const EXAMPLES: &str = "\
-Examples:
-  bothways diff out/canonical/object-order.ids.npy mine.npy    ids: the same primitives?
-  bothways diff out/canonical/object-order.t.npy mine-t.npy    distances, within 1e-5 of t
-  bothways diff out/canonical/mask-object-order.png mine.png   coverage
-  bothways diff yours.png mine.png --background '#101418'      colours, and what is not background
-  bothways diff a.npy b.npy -o out/diff                        writes out/diff/difference.png
-  bothways diff t.npy mine.exr --channels Z --depth axis --scene canonical
-                                          a depth along the axis, as t
-  bothways diff a.png b.png --allow-pixels 3 --ignore 0,0,20,640
-                                          equal enough, but for the first 20 rows
-  bothways diff a.png b.png --html out/diff.html
-                                          a page: slider, blink, zoom, values
-  bothways diff mine out/vectors          a whole folder: each NAME.png or NAME.npy of mine, and
-                                          which scenes it lacks
-
-Files:
-  PNG, PNM or BMP    one channel: a mask or grey picture, covered where it is not 0;
-                     with alpha: covered where alpha is not 0; RGB: colours alone
-  JPEG               the same, with a warning: JPEG changes pixels
-  NPY, H x W         bool: a mask; integers: ids, all ones (or -1) for nothing;
-                     floats: distances t, infinity (or NaN) for nothing;
-                     with N x N samples a pixel, H x W x N x N
-  NPY, H x W x 3|4   colours in sRGB: uint8, uint16, or floats from 0 to 1;
-                     three floats of unit length, some negative: normals
-  EXR                R, G, B and A: colours, linear, brought to sRGB; a single channel, or one of
-                     a known name: distances (Z, depth), ids (id, object_id), normals (normal.X)
-
-Coverage and ids are compared exactly; distances, normals and colours within tolerances.
-Measures such as intersection over union, PSNR and SSIM are told, but never decide: one wrong
-pixel changes them little.
-
-Of two folders, files of the same name are compared; beside a conformance set (bothways vectors),
-those that begin with a scene's name, by what is in them: ids, distances or a mask. --depth takes
-the scenes of the set.
-
-Exit codes: 0 equal in everything compared (or equal enough), 1 something differs or lacks its
-partner, 2 something went wrong.";
 
 /// The output files.
 const NAMES: [&str; 2] = ["difference.png", "reasons.png"];
-
-/// What to compare.
-#[derive(Debug, Args)]
-pub(super) struct DiffArgs {
-    /// A mask, a picture or a buffer; or a folder of them
-    a: PathBuf,
-    /// Another one of the same size; or another folder
-    b: PathBuf,
-    /// The folder to write difference.png into (of two folders, NAME.difference.png of each pair that
-    /// differs); without it, nothing is written
-    #[arg(short = 'o', long = "output", value_name = "DIR")]
-    folder: Option<PathBuf>,
-    /// The colour of what is not covered, in pictures that have no alpha, such as #101418
-    #[arg(long, value_name = "COLOR", value_parser = color)]
-    background: Option<[u8; 3]>,
-    /// Write the comparison as a page for a browser: slider, blink, linked zoom, values, a filter; - is
-    /// standard output
-    #[arg(long, value_name = "FILE.html")]
-    html: Option<PathBuf>,
-    /// Print the comparison as JSON
-    #[arg(long)]
-    json: bool,
-    #[command(flatten)]
-    comparison: ComparisonArgs,
-    #[command(flatten)]
-    inputs: InputArgs,
-    #[command(flatten)]
-    scene: SceneArgs,
-    /// Tell of this pixel alone why it differs: its row and column, counted from 0
-    #[arg(long, value_name = "ROW,COLUMN", value_parser = pixel, requires = "scene",
-          conflicts_with = "json", allow_hyphen_values = true, help_heading = "Scene")]
-    pixel: Option<[u32; 2]>,
-}
 
 /// Compares and prints; the exit code is 0 if the files are equal in all compared aspects, or equal enough, otherwise 1.
 pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
     let page = html::find(args)?;
     match [&args.a, &args.b].map(|path| path.is_dir()) {
-        [true, true] => return folders::run(args),
-        [false, false] => {}
+        [true, true] => folders::run(args),
+        [false, false] => compare_files(args, &page),
         [a_is_folder, _] => {
             let (folder, file) = if a_is_folder { (&args.a, &args.b) } else { (&args.b, &args.a) };
             let (folder, file) = (folder.display(), file.display());
-            return Err(Failure::new(format!(
+            Err(Failure::new(format!(
                 "{folder} is a folder and {file} is none; compare two files, or two folders"
-            )));
+            )))
         }
     }
-    let read = inputs::read(args)?;
+}
+
+fn compare_files(args: &DiffArgs, page: &Beside) -> Result<ExitCode, Failure> {
+    let read = read::read(args)?;
     for file in &read {
         terminal::warn(&file.named_warnings());
     }
@@ -152,7 +88,7 @@ pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
         }
         staging.commit()?;
     }
-    html::write(&page, args, [a, b], &comparison, |page| {
+    html::write(page, args, [a, b], &comparison, |page| {
         if let Some(why) = &why {
             why.fill(page);
         }
@@ -166,29 +102,6 @@ pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
     };
     page.print(&text)?;
     Ok(ExitCode::from(u8::from(!comparison.passes)))
-}
-
-/// A row and a column.
-fn pixel(text: &str) -> Result<[u32; 2], String> {
-    let number = |text: &str| text.trim().parse::<u32>().ok();
-    let numbers = text.split_once(',').map(|(row, column)| [number(row), number(column)]);
-    match numbers {
-        Some([Some(row), Some(column)]) => Ok([row, column]),
-        _ => Err("write a row and a column, such as 12,40; both count from 0".into()),
-    }
-}
-
-/// A colour in sRGB.
-pub(super) fn color(text: &str) -> Result<[u8; 3], String> {
-    let digits = text.strip_prefix('#').filter(|digits| digits.len() == 6);
-    let bytes = digits
-        .filter(|digits| digits.bytes().all(|digit| digit.is_ascii_hexdigit()))
-        .and_then(|digits| u32::from_str_radix(digits, 16).ok())
-        .map(u32::to_be_bytes);
-    match bytes {
-        Some([_, red, green, blue]) => Ok([red, green, blue]),
-        None => Err("write a # and six hexadecimal digits, such as '#101418'".into()),
-    }
 }
 
 /// The content of the report.
@@ -418,11 +331,6 @@ impl FileReport<'_> {
     }
 }
 
-/// `1 differs`, `2 differ`.
-fn count_of(number: usize, one: &str, several: &str) -> String {
-    format!("{number} {}", if number == 1 { one } else { several })
-}
-
 /// The possible causes; if several causes explain everything, each of them is possible.
 fn hints(hints: &[String]) -> String {
     let mut text = String::new();
@@ -437,26 +345,4 @@ fn hints(hints: &[String]) -> String {
         }
     }
     text
-}
-
-fn line(text: &mut String, content: std::fmt::Arguments) {
-    writeln!(text, "{content}").expect("a string takes all");
-}
-
-/// A number without unnecessary decimals.
-fn number(steps: f32) -> String {
-    if steps.fract() == 0.0 { format!("{steps}") } else { format!("{steps:.2}") }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn colors_are_six_digits() {
-        assert_eq!(color("#0172fF"), Ok([0x01, 0x72, 0xff]));
-        for bad in ["", "#", "101418", "#10141", "#1014188", "#+01418", "#12345é", "black"] {
-            assert!(color(bad).is_err(), "{bad}");
-        }
-    }
 }

@@ -3,7 +3,7 @@
 use super::args::{CameraArgs, FilesArgs};
 use super::beside::{Beside, TABLE};
 use super::camera::camera;
-use super::diff::color;
+use super::color::color;
 use super::failure::Failure;
 use super::terminal;
 use anstyle::{AnsiColor, Style};

@@ -6,6 +6,7 @@
 //! of another run.
 
 mod file;
+mod folders;
 mod hidden;
 mod png;
 mod sink;
@@ -16,6 +17,8 @@ pub(super) use sink::Out;
 use super::exr;
 use super::failure::Failure;
 use super::interrupt;
+use super::reason::reason;
+use folders::missing_folders;
 use hidden::Hidden;
 use rayon::prelude::*;
 use std::fs::{self, File, TryLockError};
@@ -296,12 +299,6 @@ impl Staging {
 const NEW: &str = "new";
 const HIDDEN: &str = "the hidden folder is there until the end";
 
-/// The missing folders above and including this folder, the innermost first.
-fn missing_folders(folder: &Path) -> Vec<PathBuf> {
-    let missing = |folder: &&Path| !folder.as_os_str().is_empty() && !folder.exists();
-    folder.ancestors().take_while(missing).map(Path::to_owned).collect()
-}
-
 /// Waits until no other run moves files into a folder, and makes other runs wait. `None` if the system cannot lock
 /// folders.
 fn locked(folder: &Path) -> io::Result<Option<File>> {
@@ -317,30 +314,6 @@ fn locked(folder: &Path) -> io::Result<Option<File>> {
             Err(TryLockError::WouldBlock) => sleep(Duration::from_millis(10)),
         }
     }
-}
-
-/// The reason why a file cannot be written, in words if the system has only a number, and a remedy: the remedy for
-/// this error, or `otherwise`.
-pub(super) fn reason(error: &io::Error, otherwise: &str) -> String {
-    let (cause, help) = match error.kind() {
-        ErrorKind::NotFound => ("there is no such folder", ""),
-        ErrorKind::AlreadyExists | ErrorKind::NotADirectory => {
-            ("a file is where a folder would be", "")
-        }
-        ErrorKind::IsADirectory => ("a folder of this name is there", ""),
-        ErrorKind::PermissionDenied => ("there is no permission to", ""),
-        ErrorKind::ReadOnlyFilesystem => ("the file system can only be read", ""),
-        ErrorKind::StorageFull => ("no space is left on the device", "free some, or "),
-        ErrorKind::QuotaExceeded => ("the quota of disk space is used up", "free some, or "),
-        ErrorKind::FileTooLarge => ("files may not become so large", "raise the limit, or "),
-        ErrorKind::ResourceBusy => ("another run is writing into it", "wait for it, or "),
-        _ => {
-            let text = error.to_string();
-            let text = text.split(" (os error").next().unwrap_or_default();
-            return format!("{text}; {otherwise}");
-        }
-    };
-    format!("{cause}; {help}{otherwise}")
 }
 
 impl Drop for Staging {

@@ -137,7 +137,7 @@ fn begun(args: &SweepArgs, plan: &Plan, conditions: &str) -> Result<Table, Failu
             Err(refused("it is not a text".into()))
         }
         Err(error) => {
-            let reason = super::output::reason(&error, advice);
+            let reason = super::reason::reason(&error, advice);
             Err(Failure::new(format!("cannot read {}: {reason}", path.display())))
         }
     }

@@ -79,7 +79,7 @@ fn heading(report: &Report, rendered: &[Rendered]) -> String {
         1 => "1 sample a pixel".into(),
         n => format!("{n} x {n} samples a pixel"),
     };
-    let primitives = count(report.primitives.into(), "primitives");
+    let primitives = count(report.primitives, "primitives");
     let mut text = format!("{bold}{}{bold:#}: {primitives}, {pixels}, {samples}", report.scene);
     if rendered.iter().any(|one| one.times.is_some()) {
         text += ", ";

@@ -1,7 +1,7 @@
 //! Printing: results to stdout, warnings to stderr.
 
 use super::failure::Failure;
-use super::output::reason;
+use super::reason::reason;
 use bothways::formats::source::quote::visible;
 use serde::Serialize;
 use std::borrow::Cow;

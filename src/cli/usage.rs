@@ -1,6 +1,6 @@
 //! Reading the command line, and the messages about unexpected words.
 
-use super::Cli;
+use super::command::Cli;
 use super::failure::Failure;
 use super::terminal::tame;
 use bothways::formats::scene_file::nearest_name;

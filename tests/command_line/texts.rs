@@ -108,6 +108,7 @@ fn one_order_alone() {
 }
 
 #[test]
+#[expect(clippy::too_many_lines, reason = "the expected text is long")]
 fn the_report_in_its_stated_order() {
     insta::assert_snapshot!(rendered(&["canonical", "--size", "12x12", "--json"]), @r#"
     {

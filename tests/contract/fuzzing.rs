@@ -85,7 +85,7 @@ fn by_rounded_distance(
 /// Renderers of which the fast rasterizer is another one. It draws small scenes only: it is slow.
 fn broken(draw: impl Fn(&View, &Options, &mut Frame) + Send + Sync + 'static) -> Renderers {
     Renderers::sound().with(Order::Object, Method::Fast, move |view, options, frame, _| {
-        let samples = u64::from(view.scene.primitive_count()) * frame.region().area() as u64;
+        let samples = view.scene.primitive_count() * frame.region().area() as u64;
         if samples <= 1 << 16 {
             draw(view, options, frame);
         } else {

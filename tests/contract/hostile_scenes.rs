@@ -111,6 +111,7 @@ const WAYS: [[f32; 3]; 5] =
 
 /// Two spheres with radii of up to 2³⁰ that share one point or nearly do, or that nearly coincide; in one case of five
 /// also the plane that touches them at that point. The point is in front of the eye, behind it, or the eye itself.
+#[expect(clippy::too_many_lines, reason = "it is a table of numbers")]
 fn nearly_touching() -> impl Strategy<Value = (Vec<Object>, CameraDescription, u32)> {
     let radius = || {
         prop_oneof![

@@ -196,7 +196,7 @@ fn events_stay_inside_the_crop_and_number_samples_in_the_whole_image() {
         let [(by_object, object_work), (_, image_work)] = draw_both(&view, &part, [10, 6], 16);
         assert_eq!(by_object.region(), &region);
         // Object order begins every primitive, however small the crop; image order begins the crop's rays alone.
-        assert_eq!(object_work.primitives, u64::from(scene.primitive_count()));
+        assert_eq!(object_work.primitives, scene.primitive_count());
         assert_eq!((image_work.rays, object_work.rays), (4 * 7 * 18, 0));
 
         let mut within = Within { region, outside: 0 };

@@ -315,7 +315,7 @@ fn check_interpolated(view: &View, frame: &Frame) {
     for (row, &y) in grid.y().iter().enumerate() {
         for (column, &x) in grid.x().iter().enumerate() {
             let Some(id) = frame.id(row, column) else { continue };
-            let triangle = mesh.triangles()[id as usize];
+            let triangle = mesh.triangles()[usize::try_from(id).expect("it is small")];
             let [a, b, c] = triangle.map(|v| view.offset(mesh.positions()[v as usize]));
             let ray = view.camera.ray_through(x, y);
             let normal = (b - a).cross(c - a);
@@ -326,7 +326,8 @@ fn check_interpolated(view: &View, frame: &Frame) {
             let weights = [part(b, c), part(c, a), part(a, b)];
             let colors = triangle.map(|v| mesh.colors()[v as usize].as_dvec3());
             let mixed: DVec3 = (0..3).map(|k| colors[k] * weights[k]).sum();
-            let material = view.scene.objects()[0].material_of(id as usize);
+            let material =
+                view.scene.objects()[0].material_of(usize::try_from(id).expect("it is small"));
             let expected = (mixed.as_vec3() * material.color).to_array().map(srgb_from_linear);
             let found = frame.picture()[row * frame.width() + column];
             assert!((0..3).all(|k| found[k].abs_diff(expected[k]) <= 1), "{found:?} {expected:?}");

@@ -79,10 +79,11 @@ impl Names {
         let mut ids: Vec<u64> = seen.map(|(_, name)| self.wide_id(*name)).collect();
         ids.sort_unstable();
         ids.dedup();
-        for index in 0..names.len() {
-            if is_given(index, names[index]) {
-                let place = ids.partition_point(|id| *id < self.wide_id(names[index]));
-                names[index] = own + u32::try_from(place).expect("a tile has few samples");
+        for (index, name) in names.iter_mut().enumerate() {
+            if is_given(index, *name) {
+                let id = self.wide_id(*name);
+                let place = ids.partition_point(|seen| *seen < id);
+                *name = own + u32::try_from(place).expect("a tile has few samples");
             }
         }
         self.next = own + u32::try_from(ids.len()).expect("a tile has few samples");

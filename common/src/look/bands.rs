@@ -5,6 +5,7 @@
 //! [`Surfaces`]. Every number belongs to its sample alone: neither neighbours nor threads nor the width of SIMD change
 //! a bit of it.
 
+mod chunk;
 mod desk;
 mod surfaces;
 mod tint;
@@ -18,10 +19,9 @@ use crate::look::shade::{Finish, Lighting, SurfacePoints};
 use crate::raster::Sample;
 use crate::scene::material::Material;
 use crate::view::View;
-use desk::{
-    CHUNK, Chunk, Desk, Kept, Run, Setting, eight, eight_vectors, sixteen, sixteen_vectors,
-};
-use glam::{DVec2, Vec2, Vec3};
+use chunk::{CHUNK, Chunk, eight, eight_vectors, sixteen, sixteen_vectors};
+use desk::{Desk, Kept, Run, Setting};
+use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -72,6 +72,12 @@ impl KeptTexture<'_> {
             kept[samples].fill(NO_LEVEL);
         }
     }
+}
+
+/// The sRGB bytes of a colour, as [`srgb_of_sixteen`] packs them.
+fn packed_bytes(color: Vec3) -> u32 {
+    let [red, green, blue] = color.to_array().map(srgb_from_linear);
+    u32::from_le_bytes([red, green, blue, 0])
 }
 
 /// What all samples of a picture share.
@@ -232,14 +238,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
             }
             if let Some(kept) = &mut texture.coordinates {
                 let here = &mut kept[at..run.end.min(at + 16)];
-                if has_texture {
-                    let [across, up] = &chunk.coordinate;
-                    for (lane, kept) in here.iter_mut().enumerate() {
-                        *kept = DVec2::new(across[at + lane], up[at + lane]).as_vec2();
-                    }
-                } else {
-                    here.fill(Vec2::ZERO);
-                }
+                tint::store_coordinates(chunk, at, has_texture, here);
             }
         }
     }
@@ -255,10 +254,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
     ) {
         let y = f32x16::splat(simd, self.down[start.row]);
         let background = self.setting.view.scene.background;
-        let background_bytes = {
-            let [red, green, blue] = background.to_array().map(srgb_from_linear);
-            u32::from_le_bytes([red, green, blue, 0])
-        };
+        let background_bytes = packed_bytes(background);
         let (chunk, mut begin) = (&mut *desk.chunk, 0);
         let kept_of = |run: &Run| run.place.map(|place| &desk.kept[place as usize]);
         let material_of = |run: &Run| kept_of(run).map(|kept| kept.material);

@@ -1,6 +1,9 @@
 //! Pictures that surfaces are covered with.
 
+mod level;
 mod mipmaps;
+
+pub use level::Level;
 
 use glam::Vec3;
 use std::sync::Arc;
@@ -25,14 +28,6 @@ pub struct Texture {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pyramid {
     levels: Vec<Level>,
-}
-
-/// A picture of some size.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Level {
-    width: usize,
-    /// Linear red, green and blue in 0 … 1, row by row from the top.
-    texels: Vec<Vec3>,
 }
 
 /// How a texture is read.
@@ -119,23 +114,5 @@ impl Pyramid {
     /// The picture, and behind it the smaller ones.
     pub fn levels(&self) -> &[Level] {
         &self.levels
-    }
-}
-
-impl Level {
-    /// Its width and its height, in texels.
-    pub fn size(&self) -> [usize; 2] {
-        [self.width, self.texels.len() / self.width]
-    }
-
-    /// Linear red, green and blue in 0 … 1, row by row from the top.
-    pub fn texels(&self) -> &[Vec3] {
-        &self.texels
-    }
-
-    /// The texel in a column and a row, both counted from the upper left corner.
-    #[inline]
-    pub(crate) fn texel(&self, column: usize, row: usize) -> Vec3 {
-        self.texels[row * self.width + column]
     }
 }

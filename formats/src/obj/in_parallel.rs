@@ -212,6 +212,7 @@ mod tests {
     }
 
     /// Lines of files, some wrong, and pieces that make lines out of one another.
+    #[expect(clippy::too_many_lines, reason = "it is a table of lines")]
     fn lines() -> impl Strategy<Value = Vec<u8>> {
         let right: &[&[u8]] = &[
             b"v 0 0 0\n",

@@ -4,6 +4,7 @@ use super::error::{ElementFault, ReadPlyError};
 use super::header::{ElementGroup, Header, HeaderError, PropertyType, ScalarType};
 use super::quick::{Decoded, FaceLayout, VertexLayout};
 use super::values::{ValueError, ValueReader};
+use super::vertex::Vertex;
 use crate::attributes::{NONE, linear_colors};
 use crate::source::quote::shown;
 use crate::source::{READ_AT_ONCE, regular_file};
@@ -21,14 +22,6 @@ pub(crate) struct PlyFile<R> {
     header: Header,
     input: R,
     length: u64,
-}
-
-/// A vertex, with its normal if the file has normals, and its colour, as it is written, if it has colours.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Vertex {
-    pub(super) position: Vec3,
-    pub(super) normal: Vec3,
-    pub(super) color: Vec3,
 }
 
 /// What a pass over a file visits; it skips the rest where it can.

@@ -1,8 +1,8 @@
 //! Decodes the binary elements that are in memory already, without a look at each value's type by itself. What is unusual is
 //! left to the reader of single values, which gives the same result, or says what is wrong.
 
-use super::file::Vertex;
 use super::header::{ElementGroup, Encoding, Header, PropertyType, ScalarType};
+use super::vertex::Vertex;
 use glam::Vec3;
 
 /// How far the elements were decoded.

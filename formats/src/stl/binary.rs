@@ -1,8 +1,8 @@
 //! Reads the facets of a binary STL file.
 
-use super::FACET;
 use super::builder::Builder;
 use super::error::{ReadStlError, StlFault};
+use super::layout::FACET;
 use glam::Vec3;
 use std::io::{ErrorKind, Read};
 

@@ -64,7 +64,7 @@ fn size_of(size: u64, facets: Option<u32>) -> String {
         None => format!(", and a binary one has at least 84 bytes, this one has {size}"),
         Some(facets) => format!(
             ", and as a binary one of {facets} facets it would have {} bytes, but has {size}; is it truncated?",
-            super::binary_size(facets)
+            super::layout::binary_size(facets)
         ),
     }
 }

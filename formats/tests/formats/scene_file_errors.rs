@@ -132,6 +132,7 @@ fn what_is_wrong_with_a_field_of_view() {
 }
 
 #[test]
+#[expect(clippy::too_many_lines, reason = "it is a table of cases")]
 fn what_is_wrong_with_a_value() {
     check_errors(&[
         ("[camera]\neye = [0, 0]", "[0, 0]", "2:7: eye has 2 elements; it must be three numbers"),
@@ -197,6 +198,7 @@ fn what_is_wrong_with_a_value() {
 }
 
 #[test]
+#[expect(clippy::too_many_lines, reason = "it is a table of cases")]
 fn what_is_wrong_with_a_camera() {
     check_errors(&[
         (

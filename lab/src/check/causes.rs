@@ -1,6 +1,6 @@
 //! Why files of a renderer are wrong: conventions that explain many of them at once, then the reasons of the pixels of each.
 
-use super::{Cause, Certainty, CheckedFile};
+use super::found::{Cause, Certainty, CheckedFile};
 use crate::common::{Camera, Scene, View};
 use crate::diff::foreign::{Buffer, CompareOptions, compare_with};
 use crate::diff::why::{

@@ -2,7 +2,7 @@
 //!
 //! The page is one file without a script. It loads nothing from anywhere.
 
-use super::{Certainty, Check, CheckedFile};
+use super::found::{Certainty, Check, CheckedFile};
 use crate::diff::Class;
 use crate::diff::page::{escaped, shown, write_data_uri};
 use crate::formats::source::quote::visible;

@@ -1,7 +1,8 @@
 //! Runs of pixels in which two buffers are alike: whole masks, rows of masks, and up to 64 pixels of anything.
 
+use super::bits::{bits, packed};
 use super::buffer::{Buffer, Content, Covered, Pixels};
-use crate::common::engine::simd::{Simd, SimdBase, SimdMask, best_level, dispatch, u8x64};
+use crate::common::engine::simd::{Simd, best_level, dispatch};
 use crate::common::frame::{Ids, NO_PRIMITIVE, NO_WIDE_PRIMITIVE};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -132,11 +133,6 @@ fn all<T>(a: &[T], b: &[T], holds: impl Fn(&T, &T) -> bool) -> bool {
     a.iter().zip(b).fold(true, |all, (a, b)| all & holds(a, b))
 }
 
-/// A bit for each of up to 64 values, the first one lowest.
-fn bits(values: impl Iterator<Item = bool>) -> u64 {
-    values.enumerate().fold(0, |bits, (at, value)| bits | u64::from(value) << at)
-}
-
 /// The number of true ones among values; `None` if others are not equal to them. What was compared is counted while it is in
 /// the nearest cache.
 #[inline(always)]
@@ -181,22 +177,4 @@ fn packed_pairs<S: Simd>(
         words.push([a, b]);
     }
     counts
-}
-
-/// A bit for each of up to 64 values in memory, the first one lowest, by the vectors of this processor.
-pub(super) fn packed_bits(values: &[bool]) -> u64 {
-    dispatch!(best_level(), simd => packed(simd, values))
-}
-
-/// A bit for each of up to 64 values in memory, the first one lowest.
-#[inline(always)]
-fn packed<S: Simd>(simd: S, values: &[bool]) -> u64 {
-    let Some(values) = values.first_chunk::<64>() else {
-        return bits(values.iter().copied());
-    };
-    let mut bytes = [0; 64];
-    for (byte, value) in bytes.iter_mut().zip(values) {
-        *byte = u8::from(*value);
-    }
-    u8x64::from_slice(simd, &bytes).simd_gt(0).to_bitmask()
 }

@@ -1,6 +1,6 @@
 //! The difference as a picture: a class for each pixel.
 
-use super::alike::packed_bits;
+use super::bits::packed_bits;
 use crate::picture::NOTHING;
 use image::RgbImage;
 use rayon::prelude::*;

@@ -24,6 +24,7 @@ mod open_exr;
 mod picture;
 mod placements;
 mod read;
+mod read_buffer;
 
 pub use super::aspect::{Aspect, Side, Unit};
 pub use super::buffer::{Buffer, Content, Covered, Picture, Pixels, distance_text};
@@ -33,7 +34,8 @@ pub use super::compare::{
 };
 pub use depth::{Depth, DepthError};
 pub use placements::exchanged_sides;
-pub use read::{ReadBuffer, ReadBufferError, ReadOptions, read, read_from, read_with};
+pub use read::{ReadBufferError, read, read_from, read_with};
+pub use read_buffer::{ReadBuffer, ReadOptions};
 
 pub use super::measures::{BorderDistance, ColorMeasures, CoverageMeasures, Measures};
 pub use super::tolerance::{CompareOptions, Tolerances};

@@ -18,14 +18,17 @@
 //! ```
 
 mod arrays;
+mod content;
 mod data;
+mod escape;
 mod groups;
 mod shown;
 mod summary;
 mod template;
 
+pub use content::Page;
 pub use groups::Group;
-pub(crate) use {data::write_data_uri, shown::shown, template::escaped};
+pub(crate) use {data::write_data_uri, escape::escaped, shown::shown};
 
 use super::compare::BufferComparison;
 use super::foreign::Buffer;
@@ -35,33 +38,6 @@ use std::io::{self, Write};
 const MOST_PIXELS: u64 = 8192 * 8192;
 /// The longest side of a page's pictures.
 const LONGEST_SIDE: u32 = 16_384;
-/// The most samples whose values are in a page; of more samples, only the pictures are.
-const MOST_VALUES: u64 = 4096 * 4096;
-
-/// What a page shows. [`Page::new`] fills in what the comparison itself tells; every field may be replaced.
-#[derive(Clone, Debug)]
-pub struct Page<'a> {
-    /// The names of A and B, in any characters.
-    pub names: [String; 2],
-    /// A and B.
-    pub buffers: [&'a Buffer<'a>; 2],
-    /// Their comparison.
-    pub comparison: &'a BufferComparison,
-    /// The heading: whether A and B differ, in one sentence.
-    pub verdict: String,
-    /// Whether the verdict is good: usually, whether no more pixels differ than are allowed to.
-    pub good: bool,
-    /// The differing pixels by class or by reason. A pixel in several groups has the colour of the first one that is
-    /// shown.
-    pub groups: Vec<Group>,
-    /// What may be the cause of the difference as a whole, a sentence each.
-    pub findings: Vec<String>,
-    /// Counts and measures: a label and a value each.
-    pub figures: Vec<(String, String)>,
-    /// The beginning of the command that explains a pixel, such as `bothways pixel ties`; the page appends row and
-    /// column. `None` if the scene is unknown.
-    pub why: Option<String>,
-}
 
 /// The pictures are too large for a browser.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -115,13 +91,6 @@ impl<'a> Page<'a> {
     /// If a group names a pixel that does not exist.
     pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
         template::write(self, out)
-    }
-
-    /// Whether the values of all samples are part of the page.
-    fn has_values(&self) -> bool {
-        let pixels: u64 = self.comparison.size.map(u64::from).iter().product();
-        let samples = self.buffers.map(|buffer| u64::from(buffer.samples()).pow(2));
-        pixels * samples[0].max(samples[1]) <= MOST_VALUES
     }
 }
 

@@ -5,7 +5,10 @@
 //! resolution and the form of a pixel (Blender 4.5, Python API, `Camera` and `RenderSettings`, and
 //! `BKE_camera_params_compute_viewplane`).
 
-use super::{ExchangeError, StatedDepths, has_square_pixels, number, numbers, pixel_aspect};
+use super::aspect::{has_square_pixels, pixel_aspect};
+use super::depths::StatedDepths;
+use super::error::ExchangeError;
+use super::numbers::{number, numbers};
 use crate::common::{Camera, Projection, View};
 use crate::opengl::Matrix;
 use serde::Serialize;

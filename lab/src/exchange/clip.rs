@@ -1,6 +1,6 @@
 //! Matrices into clip space, which OpenGL, Vulkan and Direct3D share but for signs, depths and the order of factors.
 
-use super::number;
+use super::numbers::number;
 use crate::common::Camera;
 use crate::opengl::{Depths, LAYOUT, Matrix, camera_from_world, clip_from_camera};
 use serde::Serialize;

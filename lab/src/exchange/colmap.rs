@@ -3,8 +3,11 @@
 //! As OpenCV, but for two things: the middle of the first pixel is at (½, ½), and the rotation is a unit quaternion
 //! (COLMAP documentation, "Output Format" and "Camera Models").
 
+use super::depths::StatedDepths;
+use super::error::ExchangeError;
+use super::numbers::numbers;
 use super::opencv::{intrinsics, pose};
-use super::{ExchangeError, StatedDepths, System, numbers};
+use super::system::System;
 use crate::common::Camera;
 use crate::common::glam::{DMat3, DQuat, DVec3};
 use serde::Serialize;

@@ -1,6 +1,7 @@
 //! Near and far planes, which our rays do not have and other systems need.
 
-use super::{ExchangeError, System};
+use super::error::ExchangeError;
+use super::system::System;
 use crate::common::{Projection, Shape, View};
 use crate::opengl::{Depths, NEAR, behind_everything};
 

@@ -5,7 +5,8 @@
 //! `XMMatrixOrthographicRH`: the camera looks along `−z`. The left-handed ones would mirror the picture.
 
 use super::clip::{ClipMatrices, ClipSpace};
-use super::{ExchangeError, StatedDepths};
+use super::depths::StatedDepths;
+use super::error::ExchangeError;
 use crate::common::View;
 
 pub(super) fn matrices(view: &View, stated: StatedDepths) -> Result<ClipMatrices, ExchangeError> {

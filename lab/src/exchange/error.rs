@@ -1,6 +1,7 @@
 //! Why a camera cannot be written for a system.
 
-use super::System;
+use super::aspect::pixel_aspect;
+use super::system::System;
 use crate::common::Camera;
 use crate::wording::readable;
 use thiserror::Error;
@@ -103,7 +104,7 @@ impl ExchangeError {
             viewport: camera.description().viewport,
             width,
             height,
-            aspect: super::pixel_aspect(camera),
+            aspect: pixel_aspect(camera),
             square: camera.description().width_of_square_pixels(),
         }
     }

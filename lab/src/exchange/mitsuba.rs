@@ -4,7 +4,11 @@
 //! and its pixels are squares. The orthographic camera sees `x` from −1 to 1, and `to_world` may scale it, each axis by
 //! itself; the perspective one refuses a scale (Mitsuba 3 documentation, "Sensors").
 
-use super::{ExchangeError, StatedDepths, System, has_square_pixels, number, numbers};
+use super::aspect::has_square_pixels;
+use super::depths::StatedDepths;
+use super::error::ExchangeError;
+use super::numbers::{number, numbers};
+use super::system::System;
 use crate::common::{Projection, View};
 use crate::opengl::Matrix;
 use serde::Serialize;

@@ -4,7 +4,10 @@
 //! `(fx·x/z + cx, fy·y/z + cy)`, column first, where whole numbers are the middles of pixels (OpenCV documentation, "Camera
 //! Calibration and 3D Reconstruction"; kornia documentation, camera conventions).
 
-use super::{ExchangeError, StatedDepths, System, numbers};
+use super::depths::StatedDepths;
+use super::error::ExchangeError;
+use super::numbers::numbers;
+use super::system::System;
 use crate::common::{Camera, Projection};
 use crate::wording::plain;
 use serde::Serialize;

@@ -2,7 +2,8 @@
 //! lower left (OpenGL 4.6 core specification, 13.7 and 13.8).
 
 use super::clip::{ClipMatrices, ClipSpace};
-use super::{ExchangeError, StatedDepths};
+use super::depths::StatedDepths;
+use super::error::ExchangeError;
 use crate::common::View;
 
 pub(super) fn matrices(view: &View, stated: StatedDepths) -> Result<ClipMatrices, ExchangeError> {

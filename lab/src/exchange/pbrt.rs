@@ -7,7 +7,10 @@
 //! `fov` is the angle at which the screen window's unit is seen, so that at 90 degrees the window is that of the plane
 //! at distance 1, and no trigonometric function is needed. A window of any form makes pixels of any form.
 
-use super::{ExchangeError, StatedDepths, System, number, numbers};
+use super::depths::StatedDepths;
+use super::error::ExchangeError;
+use super::numbers::{number, numbers};
+use super::system::System;
 use crate::common::{Camera, Projection};
 use crate::wording::plain;
 use serde::Serialize;

@@ -4,7 +4,9 @@ mod readers;
 
 use super::*;
 use crate::common::glam::{DVec3, Vec3};
-use crate::common::{CameraDescription, Orientation, Primitive, Projection, Scene, Shape, Sphere};
+use crate::common::{
+    Camera, CameraDescription, Orientation, Primitive, Projection, Scene, Shape, Sphere,
+};
 use crate::scenes;
 use readers::Reader;
 

@@ -2,7 +2,8 @@
 //! counts pixels from the upper left (Vulkan 1.3 specification, "Primitive Clipping" and "Controlling the Viewport").
 
 use super::clip::{ClipMatrices, ClipSpace};
-use super::{ExchangeError, StatedDepths};
+use super::depths::StatedDepths;
+use super::error::ExchangeError;
 use crate::common::View;
 
 pub(super) fn matrices(view: &View, stated: StatedDepths) -> Result<ClipMatrices, ExchangeError> {

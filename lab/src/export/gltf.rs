@@ -3,8 +3,8 @@
 //! The parts of a mesh of different materials are primitives of one mesh, in the order of their triangles: whoever counts
 //! triangles in the order of nodes and primitives has our ids.
 
-use super::ExportError;
 use super::corners::Corners;
+use super::error::ExportError;
 use super::pictures::Pictures;
 use super::pieces::{Form, Piece, Pieces};
 use crate::common::glam::{DMat3, DQuat, Vec3};

@@ -4,10 +4,11 @@
 //! linear, with the primaries of sRGB ("Spectra"), also those of vertices.
 
 use super::corners::Corners;
+use super::error::ExportError;
 use super::lights::{Physical, lights};
 use super::pictures::Pictures;
 use super::pieces::{Form, Piece, Pieces};
-use super::{ExportError, Target};
+use super::target::Target;
 use crate::common::scene::{Filter, Levels, Texture, Wrap};
 use crate::common::{Sphere, View};
 use crate::exchange::{StatedDepths, System, exchange};

@@ -3,10 +3,11 @@
 //! Colours are linear, with the primaries of sRGB, as ours are (pbrt-v4 file format, "Spectra").
 
 use super::corners::Corners;
+use super::error::ExportError;
 use super::lights::{Physical, lights};
 use super::pictures::Pictures;
 use super::pieces::{Form, Piece, Pieces};
-use super::{ExportError, Target};
+use super::target::Target;
 use crate::common::scene::{Filter, Levels, Sampler, Texture, Wrap};
 use crate::common::{Mesh, Sphere, View};
 use crate::exchange::{StatedDepths, System, exchange};

@@ -1,6 +1,7 @@
 //! The surfaces of a scene as other programs know them: spheres where they have some, and triangles of one material.
 
-use super::{ExportError, Target};
+use super::error::ExportError;
+use super::target::Target;
 use crate::common::glam::{DVec2, DVec3, Vec2, Vec3};
 use crate::common::look::texture::plane_axes;
 use crate::common::scene::{Attribute, MeshMaterials};

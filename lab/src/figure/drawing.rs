@@ -4,109 +4,21 @@
 //! Both outputs walk the same list of items, so that they show the same. Every shape is clipped before it gets into
 //! the list: no output ever sees an extreme coordinate.
 
+mod canvas;
 mod clip;
+mod items;
 mod pixels;
 mod svg;
+
+pub use canvas::CANVAS;
+pub use items::Drawing;
+pub(crate) use items::{Anchor, Ink, Pen};
 
 use super::text::{self, Style};
 use clip::Rectangle;
 use image::{ImageFormat, RgbImage};
+use items::{Corners, Item, Text};
 use std::io::Cursor;
-
-/// The canvas's width and height in units; in a picture of this size a unit is a pixel.
-pub const CANVAS: [f64; 2] = [1920.0, 1080.0];
-
-/// A colour in sRGB and how opaque it is, from 0 to 1.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Ink {
-    pub(crate) color: [u8; 3],
-    pub(crate) alpha: f64,
-}
-
-impl Ink {
-    pub(crate) const fn new(color: [u8; 3]) -> Ink {
-        Ink { color, alpha: 1.0 }
-    }
-
-    pub(crate) const fn alpha(self, alpha: f64) -> Ink {
-        Ink { alpha, ..self }
-    }
-}
-
-/// How a line is drawn.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Pen {
-    pub(crate) ink: Ink,
-    /// In units.
-    pub(crate) width: f64,
-    /// The lengths of a dash and of a gap, in units.
-    pub(crate) dash: Option<[f64; 2]>,
-}
-
-impl Pen {
-    pub(crate) const fn new(color: [u8; 3], width: f64) -> Pen {
-        Pen { ink: Ink::new(color), width, dash: None }
-    }
-
-    pub(crate) const fn dashed(self, dash: f64, gap: f64) -> Pen {
-        Pen { dash: Some([dash, gap]), ..self }
-    }
-
-    pub(crate) const fn alpha(self, alpha: f64) -> Pen {
-        Pen { ink: self.ink.alpha(alpha), ..self }
-    }
-}
-
-/// Which point of a text stands at the given place.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Anchor {
-    Left,
-    Middle,
-    Right,
-}
-
-/// One item of a drawing, clipped, in units from the top left.
-#[derive(Clone, Debug)]
-enum Item {
-    Fill { outline: Vec<[f64; 2]>, ink: Ink },
-    Line { points: Vec<[f64; 2]>, closed: bool, pen: Pen },
-    Disc { center: [f64; 2], radius: f64, ink: Ink },
-    Text(Text),
-    Picture { picture: RgbImage, corners: Corners, alpha: f64 },
-}
-
-/// Where three corners of a picture lie: the top left one, the top right one, the bottom left one.
-type Corners = [[f64; 2]; 3];
-
-/// A line of text in a drawing.
-#[derive(Clone, Debug)]
-pub(crate) struct Text {
-    pub(crate) text: String,
-    /// The left end of the line that the letters stand on.
-    pub(crate) left: f64,
-    pub(crate) baseline: f64,
-    pub(crate) style: Style,
-    /// The colour of the line around the letters, where they stand on a picture.
-    pub(crate) halo: Option<[u8; 3]>,
-}
-
-impl Text {
-    /// What the letters may ink: left, top, right and bottom.
-    fn extent(&self) -> [f64; 4] {
-        let (size, width) =
-            (f64::from(self.style.size), f64::from(text::width(&self.text, self.style)));
-        [self.left, self.baseline - 0.76 * size, self.left + width, self.baseline + 0.2 * size]
-    }
-}
-
-/// A drawing.
-#[derive(Clone, Debug)]
-pub struct Drawing {
-    title: String,
-    description: String,
-    items: Vec<Item>,
-    window: Rectangle,
-}
 
 impl Drawing {
     /// A canvas of one colour. The title and the description are for those who cannot see the picture.

@@ -100,7 +100,7 @@ impl Slide<'_> {
             1 => "1 sample a pixel".into(),
             n => format!("{n} × {n} samples a pixel"),
         };
-        let primitives = count(self.primitives.into(), "primitives");
+        let primitives = count(self.primitives, "primitives");
         let pixels = pixels_shown(frame.camera_image(), frame.crop(), "×");
         let mut facts = format!("{primitives}   ·   {pixels}   ·   {samples}");
         facts += &format!("   ·   method {}", self.object_order.method.name());

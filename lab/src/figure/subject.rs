@@ -64,7 +64,7 @@ impl Subject<'_> {
     /// The scene in one line, with the numbers that matter for pictures.
     pub(crate) fn facts(&self) -> String {
         let [width, height] = self.view.camera.image();
-        let primitives = count(self.view.scene.primitive_count().into(), "primitives");
+        let primitives = count(self.view.scene.primitive_count(), "primitives");
         format!("{}   ·   {primitives}   ·   {width} × {height} pixels", self.name)
     }
 

@@ -1,8 +1,8 @@
 //! A film as an animated PNG: of each frame only what changed, in true colour. Its default image, which programs without
 //! animation show, is the finished picture.
 
-use super::Film;
 use super::change::{changed, pixels};
+use super::recorded::Film;
 use crate::figure::Theme;
 use image::RgbImage;
 use png::{BitDepth, BlendOp, ColorType, Compression, DisposeOp, Encoder, EncodingError, Writer};

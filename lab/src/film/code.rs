@@ -1,6 +1,6 @@
 //! The words of a film: the pseudocode of each order, and its loop variables.
 
-use super::Film;
+use super::recorded::Film;
 use super::recorder::{Line, Position};
 use super::shots::{OrderShot, Shot};
 use crate::common::View;
@@ -29,7 +29,7 @@ pub(super) fn page<'a>(film: &'a Film, shot: &'a Shot) -> FilmPage<'a> {
 }
 
 fn facts(film: &Film, pixels: u64) -> String {
-    let objects = count(film.view.scene.primitive_count().into(), "objects");
+    let objects = count(film.view.scene.primitive_count(), "objects");
     let how = match film.method {
         Method::Textbook => "one step: one pair is tested",
         Method::Fast => "one step: one pair or one box is tested",

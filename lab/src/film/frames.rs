@@ -1,7 +1,8 @@
 //! The frames of a film as pictures.
 
+use super::code;
+use super::recorded::Film;
 use super::shots::{Shot, Shots};
-use super::{Film, code};
 use crate::figure::Theme;
 use image::RgbImage;
 use rayon::prelude::*;

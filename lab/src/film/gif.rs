@@ -1,8 +1,8 @@
 //! A film as a GIF: one palette for all frames, and of each frame only what changed.
 
-use super::Film;
 use super::change::{changed, pixels};
 use super::palette::{Histogram, Palette};
+use super::recorded::Film;
 use crate::figure::{FilmPage, Theme};
 use gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
 use image::RgbImage;

@@ -355,7 +355,7 @@ mod tests {
         both("ties", Method::Fast, |order, steps, view, _| {
             let is_pair = |step: &&Step| matches!(step.tested, Tested::Primitive(_));
             let pairs = steps.steps.iter().filter(is_pair).count();
-            let all = view.scene.primitive_count() as usize * 24 * 16;
+            let all = view.scene.name_count() as usize * 24 * 16;
             assert!(pairs > 0 && pairs < all / 2, "{order:?}: {pairs} of {all}");
         });
     }

@@ -50,7 +50,7 @@ impl<'a> Loops<'a> {
     /// Counts the steps. Those of the textbooks need no counting: every pair is tested.
     pub(super) fn new(order: Order, method: Method, view: View<'a>) -> Loops<'a> {
         let [width, height] = view.camera.image().map(u64::from);
-        let steps = u64::from(view.scene.primitive_count()) * width * height;
+        let steps = view.scene.primitive_count() * width * height;
         let mut loops = Loops { order, method, view, steps, parts: HashMap::new() };
         if method == Method::Fast {
             let (survey, _) = loops.watched(Survey::default());

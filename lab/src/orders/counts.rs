@@ -47,9 +47,7 @@ impl Counting {
     /// The same where every primitive is tested at every sample: the number of steps is then known in advance.
     pub(super) fn of_all_tests(self, primitives: u64) -> Counting {
         match self {
-            Counting::AtMost { most, samples }
-                if u64::from(primitives).saturating_mul(samples) > most =>
-            {
+            Counting::AtMost { most, samples } if primitives.saturating_mul(samples) > most => {
                 Counting::Not(Counts::TooMany { most })
             }
             counting => counting,

@@ -53,7 +53,7 @@ impl Source<'_> {
             }
             (Source::View(_), Method::Fast, _) => None,
             (Source::View(view), Method::Textbook, Order::Object) => {
-                Some(view.scene.primitive_count().into())
+                Some(view.scene.primitive_count())
             }
             (Source::View(view), Method::Textbook, Order::Image) => {
                 let rows = options.pixels(view.camera.image()).height;

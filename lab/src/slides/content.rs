@@ -1,5 +1,6 @@
 //! What is on each slide, in the order of the lecture, and how it is drawn.
 
+use super::error::SlideError;
 use super::stills;
 use super::words::{self, Words};
 use crate::common::{Camera, Projection, View};
@@ -8,7 +9,6 @@ use crate::film::{Film, Length, default_size};
 use crate::orders::{Method, Order, Rules};
 use crate::scenes::{self, LoadedScene};
 use crate::sweep::{self, Axis, Bench, Quantity, Summary, Table};
-use thiserror::Error;
 
 /// A slide that is drawn.
 #[derive(Debug)]
@@ -18,11 +18,6 @@ pub enum Content {
     /// A film, as GIF.
     Film(Vec<u8>),
 }
-
-/// Why a slide cannot be drawn.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("{0}")]
-pub struct SlideError(pub(crate) String);
 
 /// A slide of the plan.
 #[derive(Debug)]
@@ -152,17 +147,50 @@ impl<'a> Planned<'a> {
             Plan { scene, what, projection: None, rules: Rules::default(), pixels: Vec::new() };
         Planned { name: name.into(), title: title.into(), caption, notes, plan }
     }
+}
 
-    fn projected(mut self, projection: Projection) -> Planned<'a> {
-        self.plan.projection = Some(projection);
-        self
+/// A slide of the lecture, before it has its scene.
+struct Topic {
+    name: &'static str,
+    title: &'static str,
+    words: Words,
+    what: What,
+    /// The built-in scene that shows it; `None` for the lecture's first scene.
+    scene: Option<&'static str>,
+    projection: Option<Projection>,
+    /// The rule of object order, by its name.
+    rule: Option<&'static str>,
+}
+
+impl Topic {
+    const fn new(name: &'static str, title: &'static str, words: Words, what: What) -> Topic {
+        Topic { name, title, words, what, scene: None, projection: None, rule: None }
     }
 
-    fn ruled(mut self, object_order: &str) -> Result<Planned<'a>, SlideError> {
-        let rule =
-            object_order.parse().map_err(|error| SlideError(format!("{object_order}: {error}")))?;
-        self.plan.rules.object_order = Some(rule);
-        Ok(self)
+    const fn of(self, scene: &'static str) -> Topic {
+        Topic { scene: Some(scene), ..self }
+    }
+
+    const fn projected(self, projection: Projection) -> Topic {
+        Topic { projection: Some(projection), ..self }
+    }
+
+    const fn ruled(self, object_order: &'static str) -> Topic {
+        Topic { rule: Some(object_order), ..self }
+    }
+
+    fn planned<'a>(&self, first: &'a LoadedScene) -> Result<Planned<'a>, SlideError> {
+        let scene = match self.scene {
+            Some(name) => built_in(name)?,
+            None => Shown::Given(first),
+        };
+        let mut planned = Planned::new(self.name, self.title, self.words, scene, self.what);
+        planned.plan.projection = self.projection;
+        if let Some(rule) = self.rule {
+            let parsed = rule.parse().map_err(|error| SlideError(format!("{rule}: {error}")))?;
+            planned.plan.rules.object_order = Some(parsed);
+        }
+        Ok(planned)
     }
 }
 
@@ -181,122 +209,79 @@ fn built_in<'a>(name: &str) -> Result<Shown<'a>, SlideError> {
     Ok(Shown::BuiltIn(Box::new(loaded)))
 }
 
+/// The lecture, slide by slide.
+const LECTURE: [Topic; 18] = [
+    Topic::new("image", "What is an image?", words::IMAGE, What::Figure(Kind::Image)),
+    Topic::new("object-order", "Object order", words::OBJECT_ORDER, What::Stills(Order::Object)),
+    Topic::new("image-order", "Image order", words::IMAGE_ORDER, What::Stills(Order::Image)),
+    Topic::new(
+        "camera-perspective",
+        "The camera: perspective",
+        words::PERSPECTIVE,
+        What::Figure(Kind::Camera),
+    )
+    .projected(Projection::Perspective),
+    Topic::new(
+        "camera-parallel",
+        "The camera: parallel",
+        words::PARALLEL,
+        What::Figure(Kind::Camera),
+    )
+    .projected(Projection::Parallel),
+    Topic::new(
+        "edge-functions",
+        "Coverage: three half-planes",
+        words::EDGES,
+        What::Figure(Kind::EdgeFunctions),
+    ),
+    Topic::new("grid", "Coverage: samples", words::GRID, What::Figure(Kind::Grid)),
+    Topic::new("ties", "The tie rule", words::TIES, What::Figure(Kind::Grid)).of("ties"),
+    Topic::new("ray", "The nearest along a ray", words::RAY, What::Figure(Kind::Ray)),
+    Topic::new(
+        "depth-complexity",
+        "Depth complexity",
+        words::DEPTH,
+        What::Figure(Kind::DepthComplexity),
+    ),
+    Topic::new("work", "Work", words::WORK, What::Figure(Kind::Work)),
+    Topic::new("hierarchy", "Skipping work", words::HIERARCHY, What::Figure(Kind::Hierarchy)),
+    Topic::new("order", "When is a pixel decided?", words::ORDER, What::Figure(Kind::Order)),
+    Topic::new(
+        "cost-triangles",
+        "Cost: more triangles",
+        words::TRIANGLES,
+        What::Sweep(Axis::Triangles),
+    ),
+    Topic::new("cost-pixels", "Cost: more pixels", words::PIXELS, What::Sweep(Axis::Pixels)),
+    Topic::new("agree", "Both orders agree", words::AGREE, What::Figure(Kind::SideBySide)),
+    Topic::new(
+        "reasons",
+        "When real systems do not agree",
+        words::REASONS,
+        What::Figure(Kind::Reasons),
+    )
+    .of("ties")
+    .ruled("inclusive"),
+    Topic::new("zoom", "What it looks like", words::ZOOM, What::Figure(Kind::Zoom))
+        .of("ties")
+        .ruled("inclusive"),
+];
+
+/// Its films.
+const FILMS: [Topic; 2] = [
+    Topic::new(
+        "film-textbook",
+        "Film: the textbook's loops",
+        words::FILM,
+        What::Film(Method::Textbook),
+    ),
+    Topic::new("film-fast", "Film: the fast renderers", words::FAST_FILM, What::Film(Method::Fast)),
+];
+
 /// The lecture with its first scene.
 fn lecture(first: &LoadedScene, films: bool) -> Result<Vec<Planned<'_>>, SlideError> {
-    let given = || Shown::Given(first);
-    let figure = What::Figure;
-    let mut plans = vec![
-        Planned::new("image", "What is an image?", words::IMAGE, given(), figure(Kind::Image)),
-        Planned::new(
-            "object-order",
-            "Object order",
-            words::OBJECT_ORDER,
-            given(),
-            What::Stills(Order::Object),
-        ),
-        Planned::new(
-            "image-order",
-            "Image order",
-            words::IMAGE_ORDER,
-            given(),
-            What::Stills(Order::Image),
-        ),
-        Planned::new(
-            "camera-perspective",
-            "The camera: perspective",
-            words::PERSPECTIVE,
-            given(),
-            figure(Kind::Camera),
-        )
-        .projected(Projection::Perspective),
-        Planned::new(
-            "camera-parallel",
-            "The camera: parallel",
-            words::PARALLEL,
-            given(),
-            figure(Kind::Camera),
-        )
-        .projected(Projection::Parallel),
-        Planned::new(
-            "edge-functions",
-            "Coverage: three half-planes",
-            words::EDGES,
-            given(),
-            figure(Kind::EdgeFunctions),
-        ),
-        Planned::new("grid", "Coverage: samples", words::GRID, given(), figure(Kind::Grid)),
-        Planned::new("ties", "The tie rule", words::TIES, built_in("ties")?, figure(Kind::Grid)),
-        Planned::new("ray", "The nearest along a ray", words::RAY, given(), figure(Kind::Ray)),
-        Planned::new(
-            "depth-complexity",
-            "Depth complexity",
-            words::DEPTH,
-            given(),
-            figure(Kind::DepthComplexity),
-        ),
-        Planned::new("work", "Work", words::WORK, given(), figure(Kind::Work)),
-        Planned::new(
-            "hierarchy",
-            "Skipping work",
-            words::HIERARCHY,
-            given(),
-            figure(Kind::Hierarchy),
-        ),
-        Planned::new(
-            "order",
-            "When is a pixel decided?",
-            words::ORDER,
-            given(),
-            figure(Kind::Order),
-        ),
-        Planned::new(
-            "cost-triangles",
-            "Cost: more triangles",
-            words::TRIANGLES,
-            given(),
-            What::Sweep(Axis::Triangles),
-        ),
-        Planned::new(
-            "cost-pixels",
-            "Cost: more pixels",
-            words::PIXELS,
-            given(),
-            What::Sweep(Axis::Pixels),
-        ),
-        Planned::new("agree", "Both orders agree", words::AGREE, given(), figure(Kind::SideBySide)),
-        Planned::new(
-            "reasons",
-            "When real systems do not agree",
-            words::REASONS,
-            built_in("ties")?,
-            figure(Kind::Reasons),
-        )
-        .ruled("inclusive")?,
-        Planned::new(
-            "zoom",
-            "What it looks like",
-            words::ZOOM,
-            built_in("ties")?,
-            figure(Kind::Zoom),
-        )
-        .ruled("inclusive")?,
-    ];
-    if films {
-        plans.push(Planned::new(
-            "film-textbook",
-            "Film: the textbook's loops",
-            words::FILM,
-            given(),
-            What::Film(Method::Textbook),
-        ));
-        plans.push(Planned::new(
-            "film-fast",
-            "Film: the fast renderers",
-            words::FAST_FILM,
-            given(),
-            What::Film(Method::Fast),
-        ));
-    }
+    let topics = LECTURE.iter().chain(FILMS.iter().filter(|_| films));
+    let mut plans = topics.map(|topic| topic.planned(first)).collect::<Result<Vec<_>, _>>()?;
     // A scene of planes and spheres has no edges, and one of planes alone no boxes: those slides would be empty.
     plans.retain(|planned| planned.plan.applies());
     Ok(plans)

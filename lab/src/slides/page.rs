@@ -1,6 +1,6 @@
 //! The page to leaf through the slides, and the text beside it.
 
-use super::Deck;
+use super::deck::Deck;
 use crate::figure::Theme;
 use serde::Serialize;
 

@@ -1,6 +1,6 @@
 //! Stills of a film: one order's loops, and its picture after parts of the work.
 
-use super::content::SlideError;
+use super::error::SlideError;
 use crate::common::{Camera, CameraDescription, View};
 use crate::figure::{Drawing, Still, StillPage, Subject};
 use crate::film::{Film, Length, default_size};
@@ -34,7 +34,7 @@ pub(super) fn draw(subject: &Subject, order: Order) -> Result<Drawing, SlideErro
     let [width, height] = image;
     let facts = format!(
         "{} primitives × {} pixels = {} steps",
-        grouped(view.scene.primitive_count().into()),
+        grouped(view.scene.primitive_count()),
         grouped(u64::from(width) * u64::from(height)),
         grouped(film.steps()[index])
     );

@@ -1,6 +1,6 @@
 //! How a curve grows, and where two curves cross, on logarithmic axes.
 
-use super::summary::Point;
+use super::point::Point;
 
 /// The slope of a curve on logarithmic axes: 1 is linear, 0 is constant.
 #[derive(Clone, Copy, Debug, PartialEq)]

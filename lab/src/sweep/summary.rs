@@ -3,23 +3,9 @@
 use super::case::Axis;
 use super::fit::{Crossing, Slope, crossing, slope};
 use super::plan::Quantity;
+use super::point::Point;
 use super::table::{Source, Table};
 use crate::orders::{Method, Order};
-
-/// One point of a curve.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Point {
-    /// The place on the axis.
-    pub x: f64,
-    /// The steps; or the least time of all rounds, in milliseconds.
-    pub value: f64,
-    /// The least and the greatest of the rounds.
-    pub least: f64,
-    /// The greatest of the rounds.
-    pub most: f64,
-    /// How the value is known.
-    pub source: Source,
-}
 
 /// The curve of one renderer.
 #[derive(Clone, Debug, PartialEq)]

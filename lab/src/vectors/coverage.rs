@@ -1,7 +1,7 @@
 //! The scenes that test coverage alone: edges, corners, shared edges and slivers, in pixels.
 
 use super::sketch::sketch;
-use super::{Group, Vector};
+use super::vector::{Group, Vector};
 
 pub(super) fn vectors() -> Vec<Vector> {
     [edges(), corners(), shared_edges(), slivers()].concat()

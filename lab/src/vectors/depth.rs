@@ -4,7 +4,7 @@
 //! In a slanted plane, `1/depth` is linear in pixels: 1/32, 1/16 and 1/8 lie at distances 1 : 2.
 
 use super::sketch::sketch;
-use super::{Group, Vector};
+use super::vector::{Group, Vector};
 
 pub(super) fn vectors() -> Vec<Vector> {
     [order(), ties(), crossings()].concat()

@@ -1,7 +1,7 @@
 //! The scenes that test size: very large, very small, very far, and cameras that are not straight.
 
 use super::sketch::sketch;
-use super::{Group, Vector};
+use super::vector::{Group, Vector};
 
 /// A million pixels.
 const FAR_OFF: f32 = 1_048_576.0;

@@ -1,7 +1,7 @@
 //! The scenes that test the eye: triangles that reach behind the eye, and parallel rays, which have no eye.
 
 use super::sketch::sketch;
-use super::{Group, Vector};
+use super::vector::{Group, Vector};
 
 pub(super) fn vectors() -> Vec<Vector> {
     [behind(), parallel()].concat()

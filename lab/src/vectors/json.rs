@@ -3,7 +3,8 @@
 //! Every number of a scene is an exact `f64`: a program that reads the number as a double gets exactly the same
 //! number. The visible `t` are rounded to `f32`, and written with the fewest digits that read back as the same `f32`.
 
-use super::{ENDINGS, Vector, raster};
+use super::raster;
+use super::vector::{ENDINGS, Vector};
 use crate::common::{Camera, Frame, Projection, View};
 use crate::opengl;
 use serde::Serialize;

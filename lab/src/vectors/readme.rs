@@ -1,6 +1,7 @@
 //! The `README.md` of the set.
 
-use super::{Entry, Group};
+use super::json::Entry;
+use super::vector::Group;
 use std::fmt::Write;
 
 /// The description of the files and their use, and a list of all scenes.

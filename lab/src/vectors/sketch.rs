@@ -1,6 +1,6 @@
 //! A builder for the set's scenes: in pixels where pixels are the point of the scene, otherwise in the world.
 
-use super::{Group, Vector};
+use super::vector::{Group, Vector};
 use crate::common::glam::Vec3;
 use crate::common::{CameraDescription, Mesh, Orientation, Projection};
 

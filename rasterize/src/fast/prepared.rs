@@ -7,6 +7,7 @@ use super::search::instances::{SharedMesh, placed_box, shared_meshes};
 use super::tile::TileBuffer;
 use super::vertices::Vertex;
 use bothways_common::engine::simd::{Level, best_level};
+use bothways_common::engine::tasks::TaskTimes;
 use bothways_common::{Instances, Scene, Shape};
 use glam::DVec3;
 use rayon::prelude::*;
@@ -33,6 +34,8 @@ pub struct Prepared {
     pub(super) has_planes: bool,
     pub(super) level: Level,
     pub(super) tile: [u32; 2],
+    /// For benches.
+    pub(super) times: Option<Arc<TaskTimes>>,
     /// Of the last frame: allocations for the next.
     pub(super) recycled: Mutex<Recycled>,
 }
@@ -116,6 +119,7 @@ impl Prepared {
             has_planes,
             level: best_level(),
             tile: TILE,
+            times: None,
             recycled: Mutex::default(),
         }
     }
@@ -133,6 +137,13 @@ impl Prepared {
     pub fn drawn_with(self, level: Level, tile: [u32; 2]) -> Prepared {
         Prepared { level, tile, ..self }
     }
+
+    /// The same, with a note of how long the tasks of each frame take: for benches.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn timed_by(self, times: Arc<TaskTimes>) -> Prepared {
+        Prepared { times: Some(times), ..self }
+    }
 }
 
 impl Clone for Prepared {
@@ -142,6 +153,7 @@ impl Clone for Prepared {
             clusters: self.clusters.clone(),
             shared: self.shared.clone(),
             first_vertices: self.first_vertices.clone(),
+            times: self.times.clone(),
             recycled: Mutex::default(),
             ..*self
         }

@@ -4,7 +4,9 @@ use super::search::tree::{
     Bounds, INSTANCES, IndexedLeaf, LEAF_KINDS, LeafCounts, Node, NodeRef, PlainLeaf, SPHERES,
 };
 use bothways_common::engine::simd::Level;
+use bothways_common::engine::tasks::TaskTimes;
 use bothways_common::{Placement, Scene, Shape};
+use std::sync::Arc;
 
 /// What a moving camera would not repeat: the hierarchy over all bounded primitives.
 #[derive(Clone, Debug)]
@@ -30,6 +32,8 @@ pub struct Prepared {
     pub(super) extents: Vec<(u32, f32)>,
     pub(super) primitives: u64,
     pub(super) level: Level,
+    /// For benches.
+    pub(super) times: Option<Arc<TaskTimes>>,
     /// Samples along one side of a tile.
     pub(super) side: usize,
 }
@@ -99,5 +103,12 @@ impl Prepared {
     pub fn drawn_with(self, level: Level, side: usize) -> Prepared {
         assert!([16, 32].contains(&side), "tiles have 16 or 32 samples a side, not {side}");
         Prepared { level, side, ..self }
+    }
+
+    /// The same, with a note of how long the tasks of each frame take: for benches.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn timed_by(self, times: Arc<TaskTimes>) -> Prepared {
+        Prepared { times: Some(times), ..self }
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! Edges belong to one side: a ray that meets one exactly is moved a little to the right, then down.
 
-use super::trace::{Shape, Tracer};
+use super::shape::Shape;
+use super::trace::Tracer;
 use crate::quadric;
 use crate::samples::Samples;
 use bothways_common::{Projection, Ray, View};

@@ -1,6 +1,6 @@
 //! A hierarchy of boxes: median splits along the longest side, and a margin for the rounding of every rule.
 
-use super::trace::Shape;
+use super::shape::Shape;
 use bothways_common::{Ray, Scene, Shape as Form, Triangle};
 use glam::{DVec3, Vec3};
 

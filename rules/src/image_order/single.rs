@@ -1,6 +1,7 @@
 //! Rays in `f32`, in the world: what the rules have in common whose intersection tests round.
 
-use super::trace::{Shape, Tracer};
+use super::shape::Shape;
+use super::trace::Tracer;
 use crate::quadric;
 use crate::real::{Vector, plus, position, scaled, vector};
 use crate::samples::Samples;

@@ -1,19 +1,11 @@
 //! The loop of every rule: for each sample in the picture, for each object that its ray may hit, keep the nearest.
 
 use super::hierarchy::Hierarchy;
+use super::shape::Shape;
 use crate::samples::Samples;
 use bothways_common::Frame;
 use bothways_common::frame::{Tile, stored_t};
-use glam::Vec3;
 use rayon::prelude::*;
-
-/// One primitive, in the world.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Shape {
-    Triangle([Vec3; 3]),
-    Sphere { center: Vec3, radius: f32 },
-    Plane { point: Vec3, normal: Vec3 },
-}
 
 /// A rule at work.
 pub(super) trait Tracer: Sync {

@@ -1,8 +1,10 @@
 //! `bothways diff FOLDER FOLDER`: a comparison of each file of one folder with its partner in the other, such as a whole
 //! conformance set.
 
+use super::args::DiffArgs;
 use super::options::differing;
-use super::{DiffArgs, count_of, inputs};
+use super::read;
+use super::text::count_of;
 use crate::cli::failure::Failure;
 use crate::cli::output::Staging;
 use crate::cli::terminal;
@@ -55,7 +57,7 @@ fn compared(args: &DiffArgs, pair: &Pair, set: Option<Side>) -> Result<BufferCom
     let paths = [args.a.join(&pair.a), args.b.join(&pair.b)];
     let of_set = scene_of(args, pair, set);
     let read =
-        inputs::read_pair(args, &paths, of_set.as_deref()).map_err(|error| error.to_string())?;
+        read::read_pair(args, &paths, of_set.as_deref()).map_err(|error| error.to_string())?;
     for file in &read {
         terminal::warn(&file.named_warnings());
     }

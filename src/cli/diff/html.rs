@@ -1,6 +1,6 @@
 //! `bothways diff A B --html FILE`: the comparison as one page for a browser.
 
-use super::DiffArgs;
+use super::args::DiffArgs;
 use crate::cli::beside::{Beside, PAGE};
 use crate::cli::failure::Failure;
 use bothways::diff::foreign::{Buffer, BufferComparison};

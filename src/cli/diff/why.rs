@@ -1,7 +1,7 @@
 //! `bothways diff A B --scene SCENE`: why the files differ, by the scene that they show.
 
 use super::inputs::{self, SceneArgs};
-use super::line;
+use super::text::line;
 use crate::cli::args::ProjectionArg;
 use crate::cli::failure::Failure;
 use anstyle::Style;

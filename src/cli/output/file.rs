@@ -1,10 +1,11 @@
 //! `-o FILE`: the destination of the one file of a run, and the way of writing it.
 
+use super::folders::missing_folders;
 use super::hidden::Hidden;
 use super::sink::{Out, fill};
-use super::{missing_folders, reason};
 use crate::cli::failure::Failure;
 use crate::cli::interrupt;
+use crate::cli::reason::reason;
 use std::ffi::OsStr;
 use std::fs::{self, File, Metadata};
 use std::io::{self, ErrorKind, Write};

@@ -10,7 +10,7 @@ use serde::de::DeserializeOwned;
 /// Answers messages, one after another. It keeps the scene that was opened last.
 #[derive(Debug, Default)]
 pub struct Engine {
-    pub(crate) stage: Option<Stage>,
+    stage: Option<Stage>,
 }
 
 impl Engine {
@@ -27,8 +27,8 @@ impl Engine {
     ) -> Result<Answer, String> {
         match name {
             "scenes" => Ok(scenes::answer()),
-            "open" => open::answer(self, &parsed(name, arguments)?, bytes),
-            "camera" => open::camera(self, &parsed(name, arguments)?),
+            "open" => open::answer(&mut self.stage, &parsed(name, arguments)?, bytes),
+            "camera" => open::camera(self.stage()?, &parsed(name, arguments)?),
             "render" => render::answer(self.stage()?, &parsed(name, arguments)?),
             "ids" => Ok(render::ids(self.stage()?)),
             "steps" => steps::answer(self.stage()?, &parsed(name, arguments)?),
@@ -58,7 +58,7 @@ impl Engine {
     }
 
     /// The open scene.
-    pub(crate) fn stage(&mut self) -> Result<&mut Stage, String> {
+    fn stage(&mut self) -> Result<&mut Stage, String> {
         self.stage.as_mut().ok_or_else(|| "no scene is open; open one first".into())
     }
 }

@@ -1,6 +1,6 @@
 //! What a renderer says of its surfaces, sixteen samples at a time.
 
-use super::desk::{Chunk, eight, sixteen, store_eight, store_sixteen};
+use super::chunk::{Chunk, eight, sixteen, store_eight, store_sixteen};
 use crate::camera::{Camera, Projection};
 use crate::engine::simd::{Simd, SimdBase, f32x16, f64x8, mask64x8};
 use crate::look::lanes::{DVec3x8, Vec3x16, each};

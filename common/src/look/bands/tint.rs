@@ -1,6 +1,6 @@
 //! The tint of samples: what textures and colours of vertices leave of the material's colour.
 
-use super::desk::Chunk;
+use super::chunk::Chunk;
 use crate::frame::{LEVELS_OF, NO_LEVEL};
 use crate::look::level_of;
 use crate::scene::material::Material;
@@ -52,6 +52,22 @@ pub(super) fn store_levels(
             Some(texture) => texture.level(steps),
             None => level_of(LEVELS_OF, [1.0; 2], steps),
         };
+    }
+}
+
+/// Stores the texture coordinates of some samples, at most sixteen.
+#[inline(never)]
+pub(super) fn store_coordinates(
+    chunk: &Chunk,
+    at: usize,
+    has_texture: bool,
+    coordinates: &mut [Vec2],
+) {
+    let [across, up] = &chunk.coordinate;
+    for (lane, coordinate) in coordinates.iter_mut().enumerate() {
+        let at = at + lane;
+        *coordinate =
+            if has_texture { DVec2::new(across[at], up[at]).as_vec2() } else { Vec2::ZERO };
     }
 }
 

@@ -1,6 +1,6 @@
 //! The smaller pictures of a texture.
 
-use super::Level;
+use super::level::Level;
 use glam::Vec3;
 use rayon::prelude::*;
 

@@ -3,6 +3,7 @@
 use super::*;
 
 #[test]
+#[expect(clippy::too_many_lines, reason = "it is a table of cases")]
 fn accessors_that_break_a_rule_are_refused() {
     let rules: &[(&[(&str, &str)], &str)] = &[
         (

@@ -3,6 +3,7 @@
 use super::{check_errors, read};
 
 #[test]
+#[expect(clippy::too_many_lines, reason = "it is a table of cases")]
 fn what_is_wrong_with_an_object() {
     check_errors(&[
         (
@@ -160,6 +161,7 @@ fn a_mesh_that_cannot_be_made_is_underlined() {
 }
 
 #[test]
+#[expect(clippy::too_many_lines, reason = "it is a table of cases")]
 fn what_is_wrong_with_instances() {
     let mesh = |instances: &str| {
         format!(

@@ -1,7 +1,7 @@
 //! NumPy arrays of any origin: every shape, order and number type of pixels.
 
 use super::normals::are_normals;
-use super::read::{ReadBuffer, ReadOptions};
+use super::read_buffer::{ReadBuffer, ReadOptions};
 use super::{Buffer, Content, Covered, Picture, Pixels};
 use crate::common::raster::{MAX_SAMPLES, check_samples};
 use crate::formats::picture::{Problem, ends_early};

@@ -2,7 +2,7 @@
 
 use super::channels::{Channel, Choice, Meaning, choose, listed, with_high_half};
 use super::picture::MOST_MEMORY;
-use super::read::{ReadBuffer, ReadOptions};
+use super::read_buffer::{ReadBuffer, ReadOptions};
 use super::{Content, Covered, Picture, Pixels, normals};
 use crate::common::raster::check_samples;
 use crate::diff::buffer::Buffer;

@@ -1,6 +1,6 @@
 //! Pictures of any origin: PNG and the other formats that the `image` crate reads.
 
-use super::read::{ReadBuffer, ReadOptions};
+use super::read_buffer::{ReadBuffer, ReadOptions};
 use crate::common::raster::check_samples;
 use crate::diff::buffer::{Buffer, Content, Covered, Picture, Pixels};
 use crate::formats::picture::{self, Problem};

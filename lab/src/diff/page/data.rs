@@ -1,9 +1,10 @@
 //! What the page's script reads: facts as JSON, pictures as PNG, values and groups as arrays.
 
 use super::arrays::{Array, Kind, write_base64};
+use super::content::{MOST_VALUES, Page};
+use super::escape::{escaped, json};
+use super::groups::Group;
 use super::shown::{Shown, base, has_alpha, shown};
-use super::template::{escaped, json};
-use super::{Group, MOST_VALUES, Page};
 use crate::diff::aspect::Aspect;
 use crate::diff::buffer::{Buffer, bytes};
 use crate::diff::classes::pixels;

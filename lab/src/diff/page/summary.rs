@@ -1,7 +1,7 @@
 //! The summary at the top of a page: verdict, files, counts, and what may be the cause.
 
-use super::Page;
-use super::template::escaped;
+use super::content::Page;
+use super::escape::escaped;
 use crate::diff::aspect::{Aspect, Unit};
 use crate::diff::buffer::Buffer;
 use crate::diff::compare::BufferComparison;

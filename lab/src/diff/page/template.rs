@@ -1,9 +1,9 @@
 //! The frame of a page, and the rules for putting texts into it.
 
-use super::{Page, data, summary};
+use super::content::Page;
+use super::escape::escaped;
+use super::{data, summary};
 use crate::formats::source::quote::visible;
-use serde::Serialize;
-use std::borrow::Cow;
 use std::io::{self, Write};
 
 /// The page; `{{name}}` stands for a part of it.
@@ -44,43 +44,9 @@ fn title(page: &Page) -> String {
     format!("{a} and {b}: {}", visible(&page.verdict))
 }
 
-/// A text that stands for itself in HTML, between tags and in quoted attributes.
-pub(crate) fn escaped(text: &str) -> Cow<'_, str> {
-    if !text.contains(['&', '<', '>', '"', '\'']) {
-        return Cow::Borrowed(text);
-    }
-    let mut escaped = String::with_capacity(text.len() + 16);
-    for character in text.chars() {
-        match character {
-            '&' => escaped += "&amp;",
-            '<' => escaped += "&lt;",
-            '>' => escaped += "&gt;",
-            '"' => escaped += "&quot;",
-            '\'' => escaped += "&#39;",
-            other => escaped.push(other),
-        }
-    }
-    Cow::Owned(escaped)
-}
-
-/// JSON that ends no script: there a tag may only begin with the escape of its bracket.
-pub(super) fn json(facts: &impl Serialize) -> String {
-    let json = serde_json::to_string(facts).expect("facts are plain data");
-    json.replace('<', r"\u003c")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn text_stands_for_itself() {
-        assert_eq!(escaped("a.png"), "a.png");
-        let hostile = r#"<img src=x onerror='alert("1 & 2")'>"#;
-        let text = "&lt;img src=x onerror=&#39;alert(&quot;1 &amp; 2&quot;)&#39;&gt;";
-        assert_eq!(escaped(hostile), text);
-        assert_eq!(json(&["</script><!--"]), r#"["\u003c/script>\u003c!--"]"#);
-    }
 
     #[test]
     fn our_script_ends_no_script() {

@@ -247,7 +247,7 @@ impl<'a> Finder<'a> {
                 if shown == sample.truth.map(u64::from) {
                     return None;
                 }
-                let is_known = |id: &u64| *id < self.view.scene.primitive_count().into();
+                let is_known = |id: &u64| *id < self.view.scene.primitive_count();
                 if !shown.iter().all(is_known) {
                     return Some(Reason::Unexplained);
                 }

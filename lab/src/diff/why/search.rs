@@ -251,7 +251,7 @@ impl Search<'_> {
             .collect();
         hypotheses.extend(changes.iter().map(|&change| Convention::default().with(change)));
         let pairs = changes.len() * changes.len() / 2;
-        if pairs as u64 * u64::from(self.view.scene.primitive_count()) <= MOST_PRIMITIVES {
+        if pairs as u64 * self.view.scene.primitive_count() <= MOST_PRIMITIVES {
             for (index, &one) in changes.iter().enumerate() {
                 let others = changes[index + 1..].iter().filter(|other| other.axis() != one.axis());
                 hypotheses.extend(others.map(|&other| Convention::default().with(one).with(other)));

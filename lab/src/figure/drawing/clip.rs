@@ -3,7 +3,7 @@
 //! Polygons: Sutherland and Hodgman, "Reentrant Polygon Clipping", Communications of the ACM, 1974. Lines: Liang and
 //! Barsky, "A New Concept and Method for Line Clipping", ACM Transactions on Graphics, 1984.
 
-use super::CANVAS;
+use super::canvas::CANVAS;
 
 /// An upright rectangle on the canvas.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,7 @@
 //! A drawing as a picture of pixels.
 
-use super::{CANVAS, Corners, Drawing, Ink, Item, Pen, Text};
+use super::canvas::CANVAS;
+use super::items::{Corners, Drawing, Ink, Item, Pen, Text};
 use crate::figure::resize::resized;
 use crate::figure::text;
 use image::RgbImage;

@@ -3,7 +3,8 @@
 //! Letters are outlines, each written once and used where it stands, so that the file needs no fonts and stays small.
 //! Pictures are PNG files within it.
 
-use super::{CANVAS, Drawing, Ink, Item, Pen, Text};
+use super::canvas::CANVAS;
+use super::items::{Drawing, Ink, Item, Pen, Text};
 use crate::figure::text::{self, Weight};
 use base64::Engine;
 use image::{ImageFormat, RgbImage};

@@ -4,19 +4,17 @@
 mod outside;
 mod side;
 mod stage;
+mod viewing_ray;
 
 use self::stage::Stage;
+use self::viewing_ray::{SIDE, ViewingRay};
 use super::interest::pixels_of_objects;
+use crate::common::Projection;
 use crate::common::glam::{DVec3, Vec3};
-use crate::common::{Options, Projection, Ray, View};
 use crate::figure::drawing::Drawing;
-use crate::figure::sheet::{RIGHT, Sheet, TOP, number};
+use crate::figure::sheet::{Sheet, number};
 use crate::figure::subject::{FigureError, Subject};
 use crate::figure::theme::{Role, Theme};
-use crate::pixel::{self, SampleReport};
-
-/// The panel of the view from the side.
-const SIDE: ([f64; 2], [f64; 2]) = ([1204.0, TOP + 44.0], [RIGHT - 1204.0, 330.0]);
 
 /// The first baseline of the formulas.
 const FORMULAS: f64 = 628.0;
@@ -54,47 +52,9 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
     Ok(sheet.drawing)
 }
 
-/// The viewing ray of a pixel, and what it hits. All points are relative to the eye.
-struct ViewingRay {
-    pixel: [u32; 2],
-    color: [u8; 3],
-    report: SampleReport,
-}
-
-impl ViewingRay {
-    fn new(view: &View, pixel: [u32; 2], color: [u8; 3]) -> ViewingRay {
-        let report = pixel::report(view, &Options::default(), pixel[0], pixel[1]).remove(0);
-        ViewingRay { pixel, color, report }
-    }
-
-    fn ray(&self) -> Ray {
-        self.report.ray
-    }
-
-    fn at(&self, t: f64) -> DVec3 {
-        self.ray().origin + t * self.ray().direction
-    }
-
-    fn t(&self) -> Option<f64> {
-        self.report.covering.first().map(|nearest| nearest.t)
-    }
-}
-
 /// The colours of the rays: what is looked at first, then categories.
 fn ray_colors(theme: Theme) -> [[u8; 3]; 4] {
     [theme.of(Role::Focus), theme.of(Role::Image), theme.of(Role::Good), theme.of(Role::Object)]
-}
-
-/// A label beside a point, where it meets no other.
-fn label_at(
-    drawing: &mut Drawing,
-    point: [f64; 2],
-    prefer: [f64; 2],
-    text: &str,
-    theme: Theme,
-    color: [u8; 3],
-) {
-    drawing.label(point, prefer, text, theme.label().of(color).semi_bold(), Some(theme.mat()));
 }
 
 /// The lecture's formulas with the numbers of the first pixel.

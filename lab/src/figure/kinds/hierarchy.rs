@@ -186,7 +186,7 @@ fn numbers(
     }
     rows.push(("leaves".into(), grouped(leaves as u64)));
     rows.push(("clusters of triangles".into(), grouped(clusters as u64)));
-    rows.push(("primitives".into(), grouped(subject.view.scene.primitive_count().into())));
+    rows.push(("primitives".into(), grouped(subject.view.scene.primitive_count())));
     let step = 40.0;
     for (row, (name, figure)) in rows.iter().enumerate() {
         let baseline = y + 30.0 + row as f64 * step;

@@ -68,10 +68,15 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
         }
         curves(&mut sheet, &clocks, camera.image(), [left, top]);
     }
-    let y = 944.0;
-    let label = theme.label();
-    let x = LEFT;
-    scale_bar(&mut sheet, [x, y], RIGHT - x, &[]);
+    legend(&mut sheet);
+    Ok(sheet.drawing)
+}
+
+/// What the colours and the word step mean.
+fn legend(sheet: &mut Sheet) {
+    let label = sheet.theme.label();
+    let [x, y] = [LEFT, 944.0];
+    scale_bar(sheet, [x, y], RIGHT - x, &[]);
     sheet.drawing.text([x, y + 40.0], Anchor::Left, "decided first", label);
     sheet.drawing.text(
         [0.5 * (x + RIGHT), y + 40.0],
@@ -92,7 +97,6 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
         "box is tested; plain: nothing",
         label.sized(19.0),
     );
-    Ok(sheet.drawing)
 }
 
 /// How many pixels each order has decided after which part of its steps.
@@ -132,7 +136,7 @@ fn curves(sheet: &mut Sheet, clocks: &[Clock; 2], image: [u32; 2], corner: [f64;
 /// The camera with an image so small that the textbook ends soon; `None` if that would be hardly a picture.
 fn smaller(view: &View) -> Option<Camera> {
     const FEWEST: u64 = 48;
-    let most = MOST_TESTS / u64::from(view.scene.primitive_count()).max(1);
+    let most = MOST_TESTS / view.scene.primitive_count().max(1);
     let image = view.camera.image();
     let pixels = |[width, height]: [u32; 2]| u64::from(width) * u64::from(height);
     if pixels(image) <= most {

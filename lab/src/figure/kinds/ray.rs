@@ -189,7 +189,7 @@ fn words(sheet: &mut Sheet, subject: &Subject, report: &SampleReport, path: &Pat
     let tested = format!(
         "{} tested; the textbook tests all {}",
         count(path.tested, "primitives"),
-        grouped(all.into())
+        grouped(all)
     );
     let judged = format!("{} left to the exact judge", count(path.judged, "decisions"));
     let text = theme.text();

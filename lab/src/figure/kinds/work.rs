@@ -40,7 +40,7 @@ pub fn work_maps(view: &View) -> Vec<WorkMap> {
     all.map(|(order, method)| {
         let counts = match method {
             Method::Fast => work_at_samples(view, order, &Options::default()),
-            Method::Textbook => vec![u64::from(view.scene.primitive_count()); width * height],
+            Method::Textbook => vec![view.scene.primitive_count(); width * height],
         };
         WorkMap { order, method, size: [height, width], counts }
     })

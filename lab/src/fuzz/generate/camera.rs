@@ -1,6 +1,6 @@
 //! Random cameras: along the world's axes, tilted by next to nothing, turned anyhow; pixels of all forms.
 
-use super::{Scale, Style};
+use super::style::{Scale, Style};
 use crate::common::glam::{Quat, Vec3};
 use crate::common::{CameraDescription, Orientation, Projection};
 use crate::fuzz::dice::Dice;

@@ -1,8 +1,8 @@
 //! Meshes with shared vertices: fans, grids, soups, clouds of small triangles, closed surfaces; some large ones, so that
 //! clusters, bins and hierarchies are used.
 
-use super::Scale;
 use super::stage::{Place, Stage, stored, tame};
+use super::style::Scale;
 use crate::common::Mesh;
 use crate::common::glam::{DVec3, Vec3};
 use crate::formats::generate::Kind;

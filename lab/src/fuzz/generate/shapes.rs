@@ -1,8 +1,8 @@
 //! Triangles, spheres and planes: alone, side by side, one on the other, through one another.
 
-use super::Style;
 use super::camera::exp2;
 use super::stage::{Place, Stage, stored, tame};
+use super::style::Style;
 use crate::common::glam::Vec3;
 use crate::common::{Plane, Projection, Shape, Sphere, Triangle};
 

@@ -1,7 +1,7 @@
 //! What the camera sees, as a place to put things: points by their position in the picture and their depth.
 
 use super::camera::exp2;
-use super::{Scale, Style};
+use super::style::{Scale, Style};
 use crate::common::glam::{DVec3, Vec3};
 use crate::common::{Camera, Projection};
 use crate::fuzz::dice::Dice;

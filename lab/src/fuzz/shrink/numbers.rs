@@ -1,6 +1,6 @@
 //! Simpler numbers: fewer bits, and closer to 1.
 
-use super::Shrinker;
+use super::shrinker::Shrinker;
 use crate::common::camera::Orientation;
 use crate::common::glam::Vec3;
 use crate::common::{Instances, Mesh, Placement, Plane, Shape, Sphere, Triangle};

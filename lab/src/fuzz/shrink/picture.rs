@@ -1,6 +1,6 @@
 //! Smaller pictures, and simpler cameras.
 
-use super::Shrinker;
+use super::shrinker::Shrinker;
 use crate::common::camera::Orientation;
 use crate::common::glam::{DVec3, Vec3};
 use crate::common::{Camera, Crop, Mesh, Plane, Projection, Shape, Sphere, Triangle};

@@ -1,6 +1,6 @@
 //! Fewer primitives.
 
-use super::Shrinker;
+use super::shrinker::Shrinker;
 use crate::common::{Instances, Mesh, Placement, Shape};
 use crate::fuzz::case::Case;
 use std::ops::Range;
@@ -130,7 +130,7 @@ mod tests {
             let (before, _) = case.accepted().unwrap();
             let third = kept(&case, |id| id % 3 == 1);
             let (after, _) = third.accepted().unwrap();
-            assert_eq!(u64::from(after.primitive_count()), (case.primitives() + 1) / 3);
+            assert_eq!(after.primitive_count(), (case.primitives() + 1) / 3);
             for id in 0..after.primitive_count() {
                 assert_eq!(after.triangle(id), before.triangle(3 * id + 1), "scene {scene}");
             }

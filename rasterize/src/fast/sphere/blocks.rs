@@ -1,8 +1,8 @@
 //! A sphere tested at sixteen samples of a row at once, in `f64`.
 
+use super::by_sample::{Sphere, draw_sample};
 use super::forms::{Forms, Seen};
 use super::rows::{EightRows, Row};
-use super::{Sphere, draw_sample};
 use crate::fast::depth::{KEY_ERROR, LARGEST_KEY, NOTHING, nearer_by};
 use crate::fast::lanes::lanes_of;
 use crate::fast::one_primitive::fragment_writer::FragmentWriter;

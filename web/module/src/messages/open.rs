@@ -2,7 +2,6 @@
 
 use crate::answer::Answer;
 use crate::camera::{CameraJson, FrameJson, ProjectionJson};
-use crate::engine::Engine;
 use crate::stage::Stage;
 use bothways_lab::common::Camera;
 use bothways_lab::formats::source::quote::quoted;
@@ -66,7 +65,7 @@ struct Changed {
 }
 
 pub(crate) fn answer(
-    engine: &mut Engine,
+    kept: &mut Option<Stage>,
     open: &Open,
     bytes: Option<&[u8]>,
 ) -> Result<Answer, String> {
@@ -75,7 +74,7 @@ pub(crate) fn answer(
         None => (built_in(&open.name)?, None),
     };
     // The old scene goes first: two at once take twice the memory.
-    engine.stage = None;
+    *kept = None;
     let stage = Stage::new(loaded)?;
     let LoadedScene { name, scene, camera, viewport_stated, toml, warnings } = &stage.loaded;
     let triangles = |id: &u64| scene.triangle(*id).is_some();
@@ -91,7 +90,7 @@ pub(crate) fn answer(
         warnings,
         toml,
     });
-    engine.stage = Some(stage);
+    *kept = Some(stage);
     Ok(answer)
 }
 
@@ -136,10 +135,10 @@ fn unused(files: &[GivenFile]) -> Option<String> {
     (!names.is_empty()).then(|| format!("not used, because no opened file names it: {some}{more}"))
 }
 
-pub(crate) fn camera(engine: &mut Engine, change: &Change) -> Result<Answer, String> {
+pub(crate) fn camera(stage: &Stage, change: &Change) -> Result<Answer, String> {
     let mut description = change.camera.description();
     if let Some(projection) = change.projection {
-        let scene = &engine.stage()?.loaded.scene;
+        let scene = &stage.loaded.scene;
         description = with_projection(&description, projection.into(), scene)
             .map_err(|error| error.to_string())?;
     }
@@ -153,6 +152,7 @@ pub(crate) fn camera(engine: &mut Engine, change: &Change) -> Result<Answer, Str
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::engine::Engine;
     use serde_json::json;
 
     /// Opens the first of some files.

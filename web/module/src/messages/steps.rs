@@ -79,7 +79,7 @@ pub(crate) fn answer(stage: &Stage, record: &Record) -> Result<Answer, String> {
 /// The number of pairs of a primitive and a pixel.
 fn pairs(view: &View) -> u64 {
     let pixels: u64 = view.camera.image().map(u64::from).iter().product();
-    pixels * u64::from(view.scene.primitive_count())
+    pixels * view.scene.primitive_count()
 }
 
 /// The kind of each primitive in words.

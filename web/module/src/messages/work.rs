@@ -49,7 +49,7 @@ pub(crate) fn answer(measure: &Measure) -> Result<Answer, String> {
     });
     let [by_object, by_image] = work;
     let row = |label: &str, object: Option<u64>, image: Option<u64>| json!({ "label": label, "object": object, "image": image });
-    let triangles = u64::from(scene.primitive_count());
+    let triangles = scene.primitive_count();
     Ok(Answer::new(json!({
         "triangles": triangles,
         "counts": [

@@ -1,7 +1,7 @@
 //! The camera from outside: a parallel camera to the right of, above and behind it, with hidden lines dashed.
 
 use super::stage::Stage;
-use super::{ViewingRay, label_at};
+use super::viewing_ray::{ViewingRay, label_at};
 use crate::common::glam::DVec3;
 use crate::common::{Camera, CameraDescription, Frame, Options, Orientation, Projection, View};
 use crate::figure::drawing::{Anchor, Drawing, Ink, Pen};
@@ -50,17 +50,7 @@ pub(super) fn draw(
     let frame_pen = Pen::new(theme.of(Role::Camera), 3.0);
     pyramid(drawing, &outside, stage, camera, frame_pen);
     viewport(drawing, &outside, subject, stage, rays);
-    for ray in rays.iter().rev() {
-        let (start, through) =
-            (outside.place(ray.ray().origin), outside.place(ray.at(stage.passing(camera))));
-        drawing.line(&[start, through], Pen::new(ray.color, 4.0));
-        drawing.disc(outside.place(ray.ray().origin), 4.0, Ink::new(ray.color));
-        if ray.t().is_some() {
-            let end = stage.end(ray, camera);
-            drawing.disc(outside.place(end), 9.0, Ink::new(theme.background()));
-            drawing.disc(outside.place(end), 6.5, Ink::new(ray.color));
-        }
-    }
+    ends_of_rays(drawing, &outside, stage, rays, subject);
     axes(drawing, &outside, stage, camera, theme);
     drawing.disc(outside.place(DVec3::ZERO), 9.0, theme.ink(Role::Camera));
     outside_labels(drawing, &outside, stage, camera, theme);
@@ -79,6 +69,28 @@ pub(super) fn draw(
     drawing.window(None);
     sheet.border(corner, size);
     Ok(())
+}
+
+/// The rays up to the viewport, where they start, and what they hit.
+fn ends_of_rays(
+    drawing: &mut Drawing,
+    outside: &Outside,
+    stage: &Stage,
+    rays: &[ViewingRay],
+    subject: &Subject,
+) {
+    let camera = subject.view.camera;
+    for ray in rays.iter().rev() {
+        let (start, through) =
+            (outside.place(ray.ray().origin), outside.place(ray.at(stage.passing(camera))));
+        drawing.line(&[start, through], Pen::new(ray.color, 4.0));
+        drawing.disc(start, 4.0, Ink::new(ray.color));
+        if ray.t().is_some() {
+            let end = outside.place(stage.end(ray, camera));
+            drawing.disc(end, 9.0, Ink::new(subject.theme.background()));
+            drawing.disc(end, 6.5, Ink::new(ray.color));
+        }
+    }
 }
 
 /// The view from outside: a parallel camera to the right of, above and behind the scene's camera.

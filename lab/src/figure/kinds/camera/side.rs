@@ -1,7 +1,7 @@
 //! The camera from the side, as the lecture draws it.
 
 use super::stage::Stage;
-use super::{SIDE, ViewingRay, label_at};
+use super::viewing_ray::{SIDE, ViewingRay, label_at};
 use crate::common::glam::DVec3;
 use crate::common::{Crop, Options, View};
 use crate::figure::drawing::{Ink, Pen};
@@ -23,13 +23,7 @@ pub(super) fn draw(sheet: &mut Sheet, subject: &Subject, stage: &Stage, ray: &Vi
     points.retain(|[depth, _]| *depth <= stage.deepest);
     points.extend(stage.viewport.map(side));
     points.extend([[0.0, 0.0], side(stage.end(ray, camera))]);
-    let bound = |axis: usize| {
-        points
-            .iter()
-            .map(|point| point[axis])
-            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| [low.min(at), high.max(at)])
-    };
-    let ([near, far], [low, high]) = (bound(0), bound(1));
+    let ([near, far], [low, high]) = (bounds(&points, 0), bounds(&points, 1));
     let scale = (0.84 * size[0] / (far - near)).min(0.76 * size[1] / (high - low).max(1e-300));
     let place = |point: DVec3| {
         let [depth, height] = side(point);
@@ -42,7 +36,8 @@ pub(super) fn draw(sheet: &mut Sheet, subject: &Subject, stage: &Stage, ray: &Vi
     drawing.window(Some((corner, size)));
     let eye = place(DVec3::ZERO);
     let axis = Pen::new(theme.quiet(), 1.5).dashed(2.0, 7.0);
-    drawing.line(&[eye, [corner[0] + size[0], eye[1]]], axis);
+    let right = corner[0] + size[0];
+    drawing.line(&[eye, [right, eye[1]]], axis);
     for pair in profile.windows(2) {
         let ([from, to], same) = ([place(pair[0].0), place(pair[1].0)], pair[0].1 == pair[1].1);
         if same && (from[0] - to[0]).hypot(from[1] - to[1]) < 24.0 {
@@ -57,24 +52,20 @@ pub(super) fn draw(sheet: &mut Sheet, subject: &Subject, stage: &Stage, ray: &Vi
     }
     drawing.line(&[place(ray.ray().origin), place(stage.end(ray, camera))], Pen::new(focus, 4.0));
     drawing.line(&[place(top), place(bottom)], Pen::new(theme.of(Role::Camera), 4.0));
+    let end = place(stage.end(ray, camera));
     if ray.t().is_some() {
-        drawing.disc(place(stage.end(ray, camera)), 6.5, Ink::new(focus));
+        drawing.disc(end, 6.5, Ink::new(focus));
     }
     drawing.disc(eye, 8.0, theme.ink(Role::Camera));
     label_at(drawing, eye, [-0.3, 1.0], "eye", theme, theme.of(Role::Camera));
     label_at(drawing, place(top), [0.0, -1.0], "viewport", theme, theme.of(Role::Camera));
     if ray.t().is_some() {
-        label_at(drawing, place(stage.end(ray, camera)), [0.8, -0.5], "hit", theme, focus);
+        label_at(drawing, end, [0.8, -0.5], "hit", theme, focus);
     }
     let ray_middle = place(0.5 * (ray.at(stage.passing(camera)) + stage.end(ray, camera)));
     label_at(drawing, ray_middle, [0.0, -1.0], "r(t) = p + t d", theme, focus);
-    drawing.label(
-        [corner[0] + size[0] - 34.0, eye[1]],
-        [0.0, 1.0],
-        "−w",
-        theme.label().semi_bold(),
-        Some(theme.mat()),
-    );
+    let w = theme.label().semi_bold();
+    drawing.label([right - 34.0, eye[1]], [0.0, 1.0], "−w", w, Some(theme.mat()));
     drawing.window(None);
     sheet.border(corner, size);
 }
@@ -92,4 +83,11 @@ fn profile(view: &View, column: u32) -> Vec<(DVec3, usize)> {
         Some((ray.origin + f64::from(t) * ray.direction, view.scene.locate(id).0))
     })
     .collect()
+}
+
+/// The least and the greatest of a coordinate.
+fn bounds(points: &[[f64; 2]], axis: usize) -> [f64; 2] {
+    let coordinates = points.iter().map(|point| point[axis]);
+    coordinates
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| [low.min(at), high.max(at)])
 }

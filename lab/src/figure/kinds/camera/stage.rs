@@ -1,7 +1,7 @@
 //! What both views of the camera show: the viewport as it is drawn, and points of what is seen.
 
 use super::super::interest::samples;
-use super::ViewingRay;
+use super::viewing_ray::ViewingRay;
 use crate::common::glam::DVec3;
 use crate::common::{Camera, CameraDescription, Options, Projection, Ray, Shape, View};
 use crate::figure::subject::{Subject, seen};

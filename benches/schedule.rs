@@ -1,0 +1,147 @@
+//! How many threads each order could keep busy, on a machine of any size: the critical path of a frame against all its work.
+//!
+//! A frame of 1920 × 1080 pixels is drawn on one thread, and each of its tasks is timed: chunks of vertices, batches of
+//! primitives, tiles. On `n` threads a stage takes as long as the longest queue of tasks, each thread taking the next one
+//! when it is done; what is in no task stays serial. So the printed speed-ups leave out what threads lose to one another
+//! (memory, caches), and are what the cutting of the work allows at most.
+//!
+//! `cargo bench --bench schedule -- [SCENE...] [--tile ROWSxCOLUMNS]` draws built-in scenes or files; without any, some that
+//! differ much. `--tile` tries other tiles in object order (powers of two).
+
+use bothways::common::engine::simd::best_level;
+use bothways::common::engine::tasks::{TaskTimes, makespan};
+use bothways::common::{Camera, CameraDescription, Frame, Options, Scene, Shape, View};
+use bothways::formats::generate::Kind;
+use bothways::scenes::{Framing, load};
+use bothways::{rasterize, raytrace};
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// Of so many frames the fastest counts.
+const FRAMES: usize = 15;
+const FULL_HD: [u32; 2] = [1920, 1080];
+const THREADS: [usize; 4] = [2, 4, 8, 16];
+
+fn main() -> ExitCode {
+    let Some((names, tile)) = read(std::env::args().skip(1).filter(|word| word != "--bench"))
+    else {
+        eprintln!(
+            "give names of scenes, and a tile as --tile 128x256: its sides are powers of two"
+        );
+        return ExitCode::from(2);
+    };
+    let mut cases = Vec::new();
+    for name in &names {
+        match loaded(name) {
+            Ok((scene, camera)) => cases.push((name.clone(), scene, camera)),
+            Err(error) => {
+                eprintln!("{error}");
+                return ExitCode::from(2);
+            }
+        }
+    }
+    if names.is_empty() {
+        cases = usual();
+    }
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("there is a thread");
+    println!(
+        "{:16} {:>6} {:>6} {:>9} {:>9} {:>9}  speed-up on {THREADS:?} threads",
+        "scene", "order", "tasks", "all, ms", "serial", "longest"
+    );
+    for (name, scene, camera) in &cases {
+        let view = View::new(scene, camera);
+        pool.install(|| measure(name, &view, tile));
+    }
+    ExitCode::SUCCESS
+}
+
+/// The names of scenes, and the logarithms of a tile's rows and columns.
+fn read(mut words: impl Iterator<Item = String>) -> Option<(Vec<String>, Option<[u32; 2]>)> {
+    let (mut names, mut tile) = (Vec::new(), None);
+    while let Some(word) = words.next() {
+        if word == "--tile" {
+            let sides = words.next()?;
+            let (rows, columns) = sides.split_once('x')?;
+            let side = |text: &str| text.parse::<u32>().ok().filter(|side| side.is_power_of_two());
+            tile = Some([side(rows)?, side(columns)?].map(u32::ilog2));
+        } else {
+            names.push(word);
+        }
+    }
+    Some((names, tile))
+}
+
+/// A scene and its camera at full HD.
+fn loaded(name: &str) -> Result<(Scene, Camera), String> {
+    let loaded = load(name).map_err(|error| error.to_string())?;
+    let height = loaded.camera.viewport[1];
+    let viewport = [height * 1920.0 / 1080.0, height];
+    let description = CameraDescription { viewport, image: FULL_HD, ..loaded.camera };
+    let camera = Camera::new(description).map_err(|error| error.to_string())?;
+    Ok((loaded.scene, camera))
+}
+
+fn usual() -> Vec<(String, Scene, Camera)> {
+    let mut cases = Vec::new();
+    for name in ["lecture", "many", "slivers"] {
+        let (scene, camera) = loaded(name).expect("it is built in");
+        cases.push((name.into(), scene, camera));
+    }
+    let bunny = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/meshes/stanford-bunny.obj");
+    if let Ok((scene, camera)) = loaded(bunny) {
+        cases.push(("bunny".into(), scene, camera));
+    }
+    let ball = Kind::Sphere.mesh([1000, 501]).expect("a sphere has so many divisions");
+    let framing = Framing { image: FULL_HD, ..Framing::default() };
+    let description = framing.camera(&ball).expect("the mesh has a size");
+    let camera = Camera::new(description).expect("it is a camera");
+    let scene = Scene::new(vec![Shape::Mesh(ball).into()]).expect("it is a scene");
+    cases.push(("sphere of 1 M".into(), scene, camera));
+    cases
+}
+
+/// Draws frames in both orders, and prints the line of each.
+fn measure(name: &str, view: &View, tile: Option<[u32; 2]>) {
+    let (times, options) = (Arc::new(TaskTimes::default()), Options::default());
+    let mut frame = Frame::new(view.camera, &options);
+    let mut prepared = rasterize::fast::prepare(view.scene).timed_by(times.clone());
+    if let Some(tile) = tile {
+        prepared = prepared.drawn_with(best_level(), tile);
+    }
+    print(name, "object", &times, || {
+        rasterize::fast::determine_visibility(&prepared, view, &options, &mut frame, &mut ());
+    });
+    let prepared = raytrace::fast::prepare(view.scene).timed_by(times.clone());
+    print(name, "image", &times, || {
+        raytrace::fast::determine_visibility(&prepared, view, &options, &mut frame, &mut ());
+    });
+}
+
+fn print(name: &str, order: &str, times: &TaskTimes, mut draw: impl FnMut()) {
+    let (all, stages) = (0..FRAMES)
+        .map(|_| {
+            let begun = Instant::now();
+            draw();
+            (begun.elapsed(), times.take())
+        })
+        .min_by_key(|(all, _)| *all)
+        .expect("there are frames");
+    let tasks: Duration = stages.iter().flatten().sum();
+    let serial = all.saturating_sub(tasks);
+    let milliseconds = |time: Duration| 1e3 * time.as_secs_f64();
+    // The longest chain: one task of each stage, after what no task does.
+    let longest = stages.iter().filter_map(|stage| stage.iter().max()).sum::<Duration>() + serial;
+    let speedups = THREADS.map(|threads| {
+        let stages = stages.iter().map(|stage| makespan(stage, threads)).sum::<Duration>();
+        format!("{:5.1}", all.as_secs_f64() / (serial + stages).as_secs_f64())
+    });
+    println!(
+        "{name:16} {order:>6} {:6} {:9.3} {:9.3} {:9.3}  {}",
+        stages.iter().map(Vec::len).sum::<usize>(),
+        milliseconds(all),
+        milliseconds(serial),
+        milliseconds(longest),
+        speedups.join(" ")
+    );
+}

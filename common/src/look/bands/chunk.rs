@@ -1,0 +1,96 @@
+//! Numbers of some samples of a row, and how vectors are read from them and written to them.
+
+use crate::engine::simd::{Simd, SimdBase, f32x16, f64x8};
+use crate::look::lanes::{DVec3x8, Lanes, Vec3x16};
+
+/// The most samples of a row that are shaded together: what is kept of them stays in the innermost cache.
+pub(super) const CHUNK: usize = 256;
+/// What vectors may write beyond the last sample.
+const BEYOND: usize = 16;
+const WIDE: usize = CHUNK + BEYOND;
+
+/// Numbers of the samples of a chunk.
+#[derive(Debug)]
+pub(super) struct Chunk {
+    pub(super) x: [f64; WIDE],
+    pub(super) t: [f64; WIDE],
+    pub(super) position: [[f64; WIDE]; 3],
+    pub(super) normal: [[f32; WIDE]; 3],
+    pub(super) coordinate: [[f64; WIDE]; 2],
+    pub(super) footprint: [[f32; WIDE]; 2],
+    pub(super) fraction: [f32; WIDE],
+    /// Linear red, green and blue that materials are multiplied by, where they have a tint.
+    pub(super) tint: [[f32; WIDE]; 3],
+    /// How the texture coordinates of the last sixteen samples move: across and up, to the next sample across, and to the
+    /// next one down.
+    pub(super) steps: [[f32; 16]; 4],
+    pub(super) color: [[f32; WIDE]; 3],
+    pub(super) bytes: [u32; WIDE],
+}
+
+impl Chunk {
+    /// Zeros.
+    pub(super) fn new() -> Chunk {
+        Chunk {
+            x: [0.0; WIDE],
+            t: [0.0; WIDE],
+            position: [[0.0; WIDE]; 3],
+            normal: [[0.0; WIDE]; 3],
+            coordinate: [[0.0; WIDE]; 2],
+            footprint: [[0.0; WIDE]; 2],
+            fraction: [0.0; WIDE],
+            tint: [[0.0; WIDE]; 3],
+            steps: [[0.0; 16]; 4],
+            color: [[0.0; WIDE]; 3],
+            bytes: [0; WIDE],
+        }
+    }
+}
+
+/// The next eight numbers.
+#[inline(always)]
+pub(super) fn eight<S: Simd>(simd: S, numbers: &[f64], at: usize) -> f64x8<S> {
+    f64x8::from_slice(simd, &numbers[at..at + 8])
+}
+
+/// The next eight vectors.
+#[inline(always)]
+pub(super) fn eight_vectors<S: Simd>(
+    simd: S,
+    [x, y, z]: &[[f64; WIDE]; 3],
+    at: usize,
+) -> DVec3x8<S> {
+    Lanes { x: eight(simd, x, at), y: eight(simd, y, at), z: eight(simd, z, at) }
+}
+
+#[inline(always)]
+pub(super) fn store_eight<S: Simd>(vectors: DVec3x8<S>, to: &mut [[f64; WIDE]; 3], at: usize) {
+    let [to_x, to_y, to_z] = to;
+    vectors.x.store_slice(&mut to_x[at..at + 8]);
+    vectors.y.store_slice(&mut to_y[at..at + 8]);
+    vectors.z.store_slice(&mut to_z[at..at + 8]);
+}
+
+/// The next sixteen numbers.
+#[inline(always)]
+pub(super) fn sixteen<S: Simd>(simd: S, numbers: &[f32], at: usize) -> f32x16<S> {
+    f32x16::from_slice(simd, &numbers[at..at + 16])
+}
+
+/// The next sixteen vectors.
+#[inline(always)]
+pub(super) fn sixteen_vectors<S: Simd>(
+    simd: S,
+    [x, y, z]: &[[f32; WIDE]; 3],
+    at: usize,
+) -> Vec3x16<S> {
+    Lanes { x: sixteen(simd, x, at), y: sixteen(simd, y, at), z: sixteen(simd, z, at) }
+}
+
+#[inline(always)]
+pub(super) fn store_sixteen<S: Simd>(vectors: Vec3x16<S>, to: &mut [[f32; WIDE]; 3], at: usize) {
+    let [to_x, to_y, to_z] = to;
+    vectors.x.store_slice(&mut to_x[at..at + 16]);
+    vectors.y.store_slice(&mut to_y[at..at + 16]);
+    vectors.z.store_slice(&mut to_z[at..at + 16]);
+}
