@@ -2,14 +2,14 @@
 
 mod ids;
 
-pub use ids::{IdRows, Ids};
+pub use ids::{IdRows, Ids, NO_PRIMITIVE, NO_WIDE_PRIMITIVE};
 
 use crate::camera::Camera;
 use crate::engine::memory::filled;
 use crate::raster::{Crop, Region, check_samples};
 use crate::view::View;
 use glam::{Vec2, Vec3};
-use ids::IdPlane;
+use ids::{IdPlane, cut};
 
 /// How to render, the same for both orders.
 ///
@@ -35,11 +35,6 @@ impl Options {
         self.crop.unwrap_or(Crop::whole(image))
     }
 }
-
-/// The number that an id buffer stores for "no primitive"; [`Frame::id`] says `None`.
-pub const NO_PRIMITIVE: u32 = u32::MAX;
-/// The same where ids do not fit into 32 bits: see [`Ids`].
-pub const NO_WIDE_PRIMITIVE: u64 = u64::MAX;
 
 /// What [`Frame::levels`] has where there is no texture coordinate.
 pub const NO_LEVEL: f32 = f32::NEG_INFINITY;
@@ -353,25 +348,6 @@ impl Frame {
             })
             .collect()
     }
-}
-
-/// Cuts the rows of a plane, which covers a region, into tiles: for each a slice for each row.
-fn cut<'a, T>(
-    plane: &'a mut [T],
-    region: &Region,
-    [rows, columns]: [usize; 2],
-) -> Vec<Vec<&'a mut [T]>> {
-    let tiles = region.tiles(rows, columns);
-    let wide: Vec<usize> = tiles.map(|tile| tile.columns.len()).collect();
-    let mut tiles: Vec<Vec<&mut [T]>> = wide.iter().map(|_| Vec::new()).collect();
-    let (across, first) = (region.tiles_across(columns), region.rows.start / rows);
-    for (row, mut line) in region.rows.clone().zip(plane.chunks_mut(region.columns.len())) {
-        let start = (row / rows - first) * across;
-        for (tile, wide) in tiles[start..][..across].iter_mut().zip(&wide[start..]) {
-            tile.push(line.split_off_mut(..*wide).expect("tiles are as wide as the frame"));
-        }
-    }
-    tiles
 }
 
 /// A distance as a frame stores it: the nearest `f32` that is finite and positive, as every `t` is.

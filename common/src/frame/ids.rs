@@ -1,9 +1,13 @@
 //! The ids of a frame: of 32 bits, or of 64 where a scene has more primitives.
 
-use super::{NO_PRIMITIVE, NO_WIDE_PRIMITIVE, cut};
 use crate::engine::memory::filled;
 use crate::raster::Region;
 use std::ops::Range;
+
+/// The number that an id buffer stores for "no primitive"; [`Frame::id`](super::Frame::id) says `None`.
+pub const NO_PRIMITIVE: u32 = u32::MAX;
+/// The same where ids do not fit into 32 bits: see [`Ids`].
+pub const NO_WIDE_PRIMITIVE: u64 = u64::MAX;
 
 /// Ids of samples, one after another. They are narrow wherever the ids of the scene fit into 32 bits.
 ///
@@ -196,6 +200,25 @@ impl IdPlane {
             IdPlane::Wide(ids) => cut(ids, region, tile).into_iter().map(IdRows::Wide).collect(),
         }
     }
+}
+
+/// Cuts the rows of a plane, which covers a region, into tiles: for each a slice for each row.
+pub(super) fn cut<'a, T>(
+    plane: &'a mut [T],
+    region: &Region,
+    [rows, columns]: [usize; 2],
+) -> Vec<Vec<&'a mut [T]>> {
+    let tiles = region.tiles(rows, columns);
+    let wide: Vec<usize> = tiles.map(|tile| tile.columns.len()).collect();
+    let mut tiles: Vec<Vec<&mut [T]>> = wide.iter().map(|_| Vec::new()).collect();
+    let (across, first) = (region.tiles_across(columns), region.rows.start / rows);
+    for (row, mut line) in region.rows.clone().zip(plane.chunks_mut(region.columns.len())) {
+        let start = (row / rows - first) * across;
+        for (tile, wide) in tiles[start..][..across].iter_mut().zip(&wide[start..]) {
+            tile.push(line.split_off_mut(..*wide).expect("tiles are as wide as the frame"));
+        }
+    }
+    tiles
 }
 
 #[cfg(test)]
