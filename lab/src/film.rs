@@ -2,7 +2,7 @@
 //!
 //! A step of the clock is a pair of a primitive and a sample that is tested, or a box of the hierarchy: what
 //! [`Work`](crate::common::Work) counts as `tests` and `nodes`. Frame `k` of `F` shows both pictures after `k/F` of the
-//! steps that the longer order takes. So a film is honest about who is ahead when; it says nothing about seconds, as a
+//! steps that the longer order takes. So a film shows which order is ahead at each moment; it says nothing about seconds, as a
 //! step of one order may take longer than one of the other. Building the hierarchy of image order, and placing vertices
 //! and filling bins in object order, are no steps: the counts of work do not have them either.
 //!

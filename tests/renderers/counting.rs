@@ -52,8 +52,8 @@ impl Events for OneByOne {
         self.0.fragment(sample, primitive);
     }
 
-    fn depth_test(&mut self, sample: Sample, challenger: u32, holder: u32, replaced: bool) {
-        self.0.depth_test(sample, challenger, holder, replaced);
+    fn depth_test(&mut self, sample: Sample, incoming: u32, stored: u32, replaced: bool) {
+        self.0.depth_test(sample, incoming, stored, replaced);
     }
 
     fn judged(&mut self, sample: Sample, question: Question) {
