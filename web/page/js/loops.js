@@ -12,37 +12,61 @@ let playing = false;
 const shownOrders = () => /** @type {OrderName[]} */ (state.loops === "both" ? ["object", "image"] : [state.loops]);
 const loopsAreShown = () => viewOf(state.chapter) === "loops";
 
+/** Whether a record is being made, and whether that takes more than a moment. */
+let [recording, recordingLong] = [false, false];
+
+/** What is to be recorded: the first of the two is all that it depends on. */
+function wantedRecord() {
+  const size = state.stepsSize;
+  const camera = { ...state.camera, height: size, width: size, vw: state.camera?.vh };
+  return { key: JSON.stringify([state.scene, camera, state.method]), camera, size, kind: state.method };
+}
+
 /** Records the loops, if they were not. */
 async function record() {
   if (!loopsAreShown() || !state.camera || !state.opened || scenesOpening > 0) return;
-  const size = state.stepsSize;
-  const camera = { ...state.camera, height: size, width: size, vw: state.camera.vh };
-  const wantedFor = JSON.stringify([state.scene, camera, state.method]);
-  if (wantedFor === recordedFor) return;
-  recordedFor = wantedFor;
-  try {
-    // One after the other: a worker has one thread.
-    const object = await engine.call("steps", {
-      order: "object",
-      kind: state.method,
-      height: size,
-      width: size,
-      camera,
-    });
-    const image = await engine.call("steps", { order: "image", kind: state.method, height: size, width: size, camera });
-    if (wantedFor !== recordedFor) return;
-    halves.object.load(new Recording(object, size));
-    halves.image.load(new Recording(image, size));
-    halves.object.background = backgroundOf(image);
-    clockEnd = Math.max(object.count, image.count);
-    // The chapter about hierarchies says it itself.
-    noteSteps(state.chapter === "skip" && state.method === "hierarchy" ? "" : METHOD_NOTES[state.method]);
-  } catch (error) {
-    clockEnd = 0;
-    halves.object.load(null);
-    halves.image.load(null);
-    noteSteps(messageOf(error));
+  if (wantedRecord().key === recordedFor) return;
+  recordedFor = wantedRecord().key;
+  // What is no longer wanted is given up where it takes long. The record that runs begins anew by itself.
+  if (recordingLong) recorder.stop();
+  if (recording) return;
+  recording = true;
+  let key = "";
+  while (key !== recordedFor) {
+    key = recordedFor;
+    recordingLong = false;
+    const { records, trouble } = await recordBoth(wantedRecord());
+    if (key === recordedFor) load(records, trouble);
   }
+  [recording, recordingLong] = [false, false];
+  byId("recording").hidden = true;
+}
+
+/** @param {ReturnType<typeof wantedRecord>} what @returns {Promise<{records: Recording[], trouble: string}>} */
+async function recordBoth({ camera, size, kind }) {
+  try {
+    const records = [];
+    // One after the other: a worker has one thread.
+    for (const order of /** @type {const} */ (["object", "image"])) {
+      const args = { order, kind, height: size, width: size, camera };
+      const steps = await recorder.steps(args, (done, of) => showRecording(order, done, of));
+      records.push(new Recording(steps, order, size));
+    }
+    return { records, trouble: "" };
+  } catch (error) {
+    return { records: [], trouble: messageOf(error) };
+  }
+}
+
+/** @param {Recording[]} records  Both, or none. @param {string} trouble */
+function load([object, image], trouble) {
+  halves.object.load(object ?? null);
+  halves.image.load(image ?? null);
+  halves.object.background = image ? backgroundOf(image.steps) : null;
+  clockEnd = image ? Math.max(object.steps.count, image.steps.count) : 0;
+  // The chapter about hierarchies says it itself.
+  const note = state.chapter === "skip" && state.method === "hierarchy" ? "" : METHOD_NOTES[state.method];
+  noteSteps(image ? note : trouble);
   inputById("scrub").max = inputById("step").max = String(clockEnd);
   byId("steps-total").textContent = `of ${grouped(clockEnd)}`;
   change({ step: clamp(state.step, 0, clockEnd) });
@@ -50,6 +74,26 @@ async function record() {
   byId("halves").hidden = clockEnd === 0;
   drawMarks();
   showStep();
+}
+
+/**
+ * Shows how far a record is that takes more than a moment.
+ * @param {OrderName} order
+ * @param {number} done
+ * @param {number} of
+ */
+function showRecording(order, done, of) {
+  if (!recordingLong) {
+    stopPlaying();
+    noteSteps("");
+    say(`recording ${grouped(of)} steps of each order`);
+  }
+  recordingLong = true;
+  byId("halves").hidden = true;
+  byId("recording").hidden = false;
+  const progress = /** @type {HTMLProgressElement} */ (byId("recording-progress"));
+  progress.value = (done / of + (order === "image" ? 1 : 0)) / 2;
+  byId("recording-text").textContent = `Recording ${ORDERS[order][0]}: ${grouped(done)} of ${grouped(of)} steps`;
 }
 
 /** What each order skips. */
@@ -229,4 +273,8 @@ function beginLoops() {
   watch(["loops"], showHalves);
   watch(["chapter", "method", "stepsSize"], showHalves);
   watch(["chapter", "scene", "camera", "method", "stepsSize"], record);
+  // The scene before takes room in the recorder, and is of no use there.
+  watch(["opened"], () => {
+    if (!recording) recorder.stop();
+  });
 }
