@@ -11,7 +11,7 @@ let pivot = /** @type {Vector} */ ([0, 0, 0]);
 
 /**
  * Opens a built-in scene, or one of some files, by its name; the engine's words say what is wrong with it.
- * @param {{name: string, files?: {name: string, bytes: ArrayBuffer}[]}} what
+ * @param {{name: string, files?: {name: string, bytes: ArrayBuffer}[], folder?: boolean}} what
  * @param {{byHand?: boolean, camera?: Partial<Camera>, pixel?: Pixel | null}} [options]
  * @returns {Promise<boolean>}
  */
