@@ -91,6 +91,13 @@ test("millions of steps are recorded while the page answers, and scrubbed at onc
   await until("the end", async () => (await text(page, ".half.object")).includes("done after"));
   await page.locator("#to-start").click();
   await until("the start", async () => (await text(page, ".half.object")).includes("Nothing is tested yet"));
+  // The other ways of testing come, and the first one comes back, with what is recorded already.
+  await page.locator("label", { hasText: "bounding boxes" }).click();
+  await until("boxes", async () => (await text(page, "#steps-note")).startsWith("Object order asks only"), 5);
+  assert.equal(await page.locator("#recording").isVisible(), false);
+  await page.locator("label", { hasText: "every pair" }).click();
+  await until("every pair", async () => !(await page.locator("#steps-note").isVisible()), 5);
+  assert.equal(await page.locator("#recording").isVisible(), false);
   // What is no longer wanted is given up.
   await page.locator("#steps-size").selectOption("48");
   await until("progress again", () => page.locator("#recording").isVisible());
@@ -237,6 +244,16 @@ test("a scene is opened with the mesh, the materials and the pictures that are d
   await page.locator("#file").setInputFiles(chosen);
   await until("the scene again", async () => (await page.locator("#scene").inputValue()) === "wall.toml");
   assert.deepEqual(said.console, []);
+  await close();
+});
+
+test("a file that comes back with other content is another scene", async () => {
+  const { page, close } = await open({ hash: "#chapter=loops&size=8" });
+  const scene = (objects) => `[camera]\n${"[[object]]\nplane = { point = [0, 0, -3], normal = [0, 0, 1] }\n".repeat(objects)}`;
+  for (const objects of [1, 2]) {
+    await drop(page, { "planes.toml": scene(objects) });
+    await until(`${objects} objects`, async () => (await text(page, "#steps-total")) === `of ${64 * objects}`);
+  }
   await close();
 });
 

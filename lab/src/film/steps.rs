@@ -12,8 +12,9 @@ use crate::orders::{Method, Order};
 use crate::picture::picture;
 use crate::wording::grouped;
 
-/// The most steps of a textbook that are kept. They need little room, but time: some seconds.
-pub const MOST_TEXTBOOK_STEPS: u64 = 1 << 27;
+/// The most steps of a textbook that are kept. They need little room, but time: a minute or so. All built-in scenes have fewer at
+/// 64 × 64.
+pub const MOST_TEXTBOOK_STEPS: u64 = 1 << 29;
 
 /// The most steps of a fast method that are kept: tens of megabytes.
 pub const MOST_FAST_STEPS: u64 = 3_000_000;

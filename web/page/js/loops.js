@@ -15,12 +15,20 @@ const loopsAreShown = () => viewOf(state.chapter) === "loops";
 /** Whether a record is being made, and whether that takes more than a moment. */
 let [recording, recordingLong] = [false, false];
 
-/** What is to be recorded: the first of the two is all that it depends on. */
+/** The records of one scene and camera, so that the ways of testing change at once, by what each skips. */
+const recorded = { subject: "", records: /** @type {Map<string, Recording>} */ (new Map()) };
+
+/** What is to be recorded; `key` is all that it depends on. */
 function wantedRecord() {
   const size = state.stepsSize;
   const camera = { ...state.camera, height: size, width: size, vw: state.camera?.vh };
-  return { key: JSON.stringify([state.scene, camera, state.method]), camera, size, kind: state.method };
+  const subject = JSON.stringify([sceneKey(), camera]);
+  return { key: `${subject} ${state.method}`, subject, camera, size, kind: state.method };
 }
+
+/** What one order skips: image order has no use for bounding boxes, and object order none for a hierarchy. */
+const skips = (/** @type {OrderName} */ order, /** @type {State["method"]} */ kind) =>
+  kind === "textbook" || (kind === "boxes" && order === "image") ? "every pair" : `fewer in ${order} order`;
 
 /** Records the loops, if they were not. */
 async function record() {
@@ -43,14 +51,22 @@ async function record() {
 }
 
 /** @param {ReturnType<typeof wantedRecord>} what @returns {Promise<{records: Recording[], trouble: string}>} */
-async function recordBoth({ camera, size, kind }) {
+async function recordBoth({ subject, camera, size, kind }) {
+  if (recorded.subject !== subject) recorded.records.clear();
+  recorded.subject = subject;
   try {
     const records = [];
     // One after the other: a worker has one thread.
     for (const order of /** @type {const} */ (["object", "image"])) {
-      const args = { order, kind, height: size, width: size, camera };
-      const steps = await recorder.steps(args, (done, of) => showRecording(order, done, of));
-      records.push(new Recording(steps, order, size));
+      const key = `${order} ${skips(order, kind)}`;
+      let one = recorded.records.get(key);
+      if (!one) {
+        const args = { order, kind, height: size, width: size, camera };
+        const steps = await recorder.steps(args, (done, of) => showRecording(order, done, of));
+        one = new Recording(steps, order, size);
+        recorded.records.set(key, one);
+      }
+      records.push(one);
     }
     return { records, trouble: "" };
   } catch (error) {
@@ -72,6 +88,7 @@ function load([object, image], trouble) {
   change({ step: clamp(state.step, 0, clockEnd) });
   // What cannot be recorded is not shown half.
   byId("halves").hidden = clockEnd === 0;
+  byId("transport").inert = false;
   drawMarks();
   showStep();
 }
@@ -90,6 +107,7 @@ function showRecording(order, done, of) {
   }
   recordingLong = true;
   byId("halves").hidden = true;
+  byId("transport").inert = true;
   byId("recording").hidden = false;
   const progress = /** @type {HTMLProgressElement} */ (byId("recording-progress"));
   progress.value = (done / of + (order === "image" ? 1 : 0)) / 2;
@@ -143,12 +161,14 @@ function drawMarks() {
 
 /** @param {number} by */
 function stepBy(by) {
+  if (recordingLong) return;
   stopPlaying();
   change({ step: clamp(state.step + by, 0, clockEnd) });
 }
 
 /** The next place at which an object or a row begins. @param {1 | -1} way */
 function toMark(way) {
+  if (recordingLong) return;
   stopPlaying();
   const marks = shownOrders()
     .flatMap((order) => [...(halves[order].record?.steps.marks ?? [])])
@@ -173,7 +193,7 @@ function togglePlaying() {
     showStep();
     return;
   }
-  if (clockEnd === 0) return;
+  if (clockEnd === 0 || recordingLong) return;
   playing = true;
   byId("play").textContent = "Pause";
   byId("play").setAttribute("aria-pressed", "true");
