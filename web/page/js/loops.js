@@ -54,22 +54,26 @@ async function record() {
 async function recordBoth({ subject, camera, size, kind }) {
   if (recorded.subject !== subject) recorded.records.clear();
   recorded.subject = subject;
+  /** How far each order is: the steps done, and all. @type {Map<OrderName, [number, number]>} */
+  const progress = new Map();
+  const recordOne = async (/** @type {OrderName} */ order) => {
+    const key = `${order} ${skips(order, kind)}`;
+    const before = recorded.records.get(key);
+    if (before) return before;
+    const steps = await recorder.steps({ order, kind, height: size, width: size, camera }, (done, of) => {
+      progress.set(order, [done, of]);
+      showRecording(progress);
+    });
+    progress.set(order, [steps.count, steps.count]);
+    const record = new Recording(steps, order, size);
+    if (recorded.subject === subject) recorded.records.set(key, record);
+    return record;
+  };
   try {
-    const records = [];
-    // One after the other: a worker has one thread.
-    for (const order of /** @type {const} */ (["object", "image"])) {
-      const key = `${order} ${skips(order, kind)}`;
-      let one = recorded.records.get(key);
-      if (!one) {
-        const args = { order, kind, height: size, width: size, camera };
-        const steps = await recorder.steps(args, (done, of) => showRecording(order, done, of));
-        one = new Recording(steps, order, size);
-        recorded.records.set(key, one);
-      }
-      records.push(one);
-    }
-    return { records, trouble: "" };
+    return { records: await Promise.all([recordOne("object"), recordOne("image")]), trouble: "" };
   } catch (error) {
+    // The other order alone is of no use.
+    if (recordingLong) recorder.stop();
     return { records: [], trouble: messageOf(error) };
   }
 }
@@ -85,6 +89,7 @@ function load([object, image], trouble) {
   noteSteps(image ? note : trouble);
   inputById("scrub").max = inputById("step").max = String(clockEnd);
   byId("steps-total").textContent = `of ${grouped(clockEnd)}`;
+  byId("step").style.setProperty("--digits", String(String(clockEnd).length));
   change({ step: clamp(state.step, 0, clockEnd) });
   // What cannot be recorded is not shown half.
   byId("halves").hidden = clockEnd === 0;
@@ -95,23 +100,21 @@ function load([object, image], trouble) {
 
 /**
  * Shows how far a record is that takes more than a moment.
- * @param {OrderName} order
- * @param {number} done
- * @param {number} of
+ * @param {Map<OrderName, [number, number]>} progress
  */
-function showRecording(order, done, of) {
+function showRecording(progress) {
+  const [done, of] = [0, 1].map((place) => [...progress.values()].reduce((sum, one) => sum + one[place], 0));
   if (!recordingLong) {
     stopPlaying();
     noteSteps("");
-    say(`recording ${grouped(of)} steps of each order`);
+    say(`recording the steps of both orders`);
   }
   recordingLong = true;
   byId("halves").hidden = true;
   byId("transport").inert = true;
   byId("recording").hidden = false;
-  const progress = /** @type {HTMLProgressElement} */ (byId("recording-progress"));
-  progress.value = (done / of + (order === "image" ? 1 : 0)) / 2;
-  byId("recording-text").textContent = `Recording ${ORDERS[order][0]}: ${grouped(done)} of ${grouped(of)} steps`;
+  /** @type {HTMLProgressElement} */ (byId("recording-progress")).value = done / of;
+  byId("recording-text").textContent = `Recording both orders: ${grouped(done)} of ${grouped(of)} steps`;
 }
 
 /** What each order skips. */
