@@ -32,6 +32,7 @@ mod change;
 mod code;
 mod frames;
 mod gif;
+mod keeper;
 mod length;
 mod outlines;
 mod palette;
@@ -39,6 +40,7 @@ mod recorded;
 mod recorder;
 mod shots;
 mod size;
+mod step;
 mod steps;
 mod track;
 
@@ -51,7 +53,8 @@ pub use recorded::Film;
 pub use recorder::{Line, Position};
 pub use shots::{OrderShot, Shot, Shots};
 pub use size::default_size;
-pub use steps::{MOST_KEPT, Outcome, Step, Steps, StoredChange, Tested, TooManySteps};
+pub use step::{Outcome, Run, Step, Tested, Told};
+pub use steps::{MOST_FAST_STEPS, MOST_TEXTBOOK_STEPS, Steps, StoredChange, TooManySteps};
 
 use crate::common::View;
 use crate::diff::{Comparison, compare_shown};
