@@ -9,7 +9,7 @@ Our object order runs against Mesa llvmpipe, our image order against Intel Embre
 the same camera. ../shared/peers says how, and what its programs time. A picture in colour runs against llvmpipe with the
 same lights in its fragment shader (gl_shaded.cpp). Rounds alternate between ours and
 theirs, so that changes of the machine's speed affect both. A ratio is their time over ours: above 1, ours is
-faster. The tables give the median of the rounds, and the time to clear the id and distance buffers. Let
+faster. Where perf counts, a table says what a ray of image order executes and fetches. The tables give the median of the rounds, and the time to clear the id and distance buffers. Let
 nothing else run on the machine. The README of the peers lists what they need; a message names each peer that
 is missing, and the tables leave it out.
 """
@@ -36,6 +36,12 @@ GENERATED = ["sphere:51x100", "sphere:501x1000", "sphere:1415x2828", "soup:10000
 MANY = 50_000
 # A mesh of at least so many triangles takes each process seconds to load, so that one round must do.
 LARGE = 4_000_000
+# What perf counts of image order: the instructions of the program, and lines of memory that come into the first cache and
+# into the last one. A line has so many bytes.
+EVENTS = {"instructions": "instructions:u", "cached": "L1-dcache-load-misses:u", "memory": "cache-misses:u"}
+LINE = 64
+# Frames of a short run: what a longer one counts beyond it belongs to the frames that it has more.
+FEW = 2
 
 
 def main():
@@ -122,6 +128,8 @@ def measure(options):
     ours, fill = build_ours(options.without_fill)
     if options.threads != 2 and "embree" in peers and options.order != "object":
         say("Embree's program times 1 and 2 threads only")
+    if options.order != "object" and not counted([sys.executable, "-c", ""]):
+        say("perf counts no instructions here: what a ray takes is left out")
     rows = []
     with tempfile.TemporaryDirectory(prefix="bothways-peers-") as folder:
         for spec in specs:
@@ -248,6 +256,8 @@ def compare(spec, image, options, peers, ours, fill, folder):
             report = ours_on(ours, "image", scene, options, folder)
             note("image", report["visibility_ms"]["median"])
             note("prepare", report["prepare_ms"]["median"])
+            for key, value in a_ray(ours, scene, image, options, folder).items():
+                note(key, value)
             if "embree" in peers and options.threads <= 2:
                 for mode, value in embree(peers["embree"], tri, image, options).items():
                     note(mode, value)
@@ -263,6 +273,30 @@ def ours_on(program, order, scene, options, folder):
     words = ["render", "--order", order, "--threads", options.threads, "--repeat", options.repeats]
     report = json.loads(run(program, *words, "--json", "-o", folder / "out", scene))
     return report[f"{order}_order"]
+
+
+def a_ray(program, scene, image, options, folder):
+    """What a frame of image order executes and fetches, for each of its rays: nothing of what is done once."""
+    words = [program, "render", "--order", "image", "--threads", options.threads, "--only", "report"]
+    runs = [[*words, "--repeat", frames, "-o", folder / "out", scene] for frames in (FEW, FEW + options.repeats)]
+    few, many = map(counted, runs)
+    width, height = map(int, image.split("x"))
+    rays = width * height * options.repeats
+    units = {"instructions": 1, "cached": LINE, "memory": LINE}
+    return {f"{key}_a_ray": (many[key] - few[key]) * units[key] / rays for key in EVENTS if key in few and key in many}
+
+
+def counted(words):
+    """What perf counts of a program, as far as this machine counts it."""
+    perf = shutil.which("perf")
+    if not perf:
+        return {}
+    with tempfile.NamedTemporaryFile("r", suffix=".csv") as report:
+        run(perf, "stat", "-x", ",", "-o", report.name, "-e", ",".join(EVENTS.values()), "--", *words)
+        rows = [line.split(",") for line in report.read().splitlines()]
+    # A count, its unit, its event; in place of the count, what says that there is none.
+    counts = {row[2]: float(row[0]) for row in rows if len(row) > 2 and row[0].replace(".", "", 1).isdigit()}
+    return {key: counts[event] for key, event in EVENTS.items() if event in counts}
 
 
 def in_studio(program, scene):
@@ -421,6 +455,13 @@ def image_order(rows):
 
     heads = ["prepare", "Embree, high", "medium", "ratio to high", "to medium"]
     yield table(heads, rows, builds)
+
+    def rays(row):
+        return [shown(median(row, f"{key}_a_ray"), 1) for key in EVENTS]
+
+    if any(f"{key}_a_ray" in row["ms"] for row in rows for key in EVENTS):
+        yield "What a ray of image order takes, by perf: instructions, and bytes that come from beyond the first cache and from memory."
+        yield table(["instructions a ray", "bytes into the first cache", "bytes from memory"], rows, rays)
 
 
 def summary(start, rows, theirs, ours, digits):

@@ -1,5 +1,5 @@
-//! The engine room, for the two renderers alone: vectors of lanes, memory in large pages, planted faults,
-//! observers of any type, short names, and the vocabulary of rounding errors. Nothing in it decides a sign.
+//! The engine room, for the crates of this workspace: vectors of lanes, memory in large pages, planted faults, observers of
+//! any type, short names, the constants of rounding errors, and the times of tasks. It computes, and holds no predicate.
 
 pub mod any_observer;
 pub mod context;

@@ -297,7 +297,7 @@ impl Frame {
 
     /// How large each sample is on the texture of what is seen: the logarithm to base 2 of texels from a sample to the next, as
     /// the order that shaded the frame finds it (see [`Texture::level`](crate::scene::Texture::level)). Where a surface has
-    /// texture coordinates and no texture, one of [`LEVELS_OF`] texels is thought of; [`NO_LEVEL`] elsewhere. Empty unless
+    /// texture coordinates and no texture, a texture of [`LEVELS_OF`] texels is assumed; [`NO_LEVEL`] elsewhere. Empty unless
     /// [`Frame::with_levels`] asked for them.
     pub fn levels(&self) -> &[f32] {
         &self.levels

@@ -1,4 +1,4 @@
-//! The events of the loops, and who receives them. Counts, heat maps, films and lessons are all made from these.
+//! The events of the loops, and the observers that receive them. Counts, heat maps, films and lessons are all made from these.
 //!
 //! There are two sorts of counts. [`Work`] counts events: the work of the algorithm, for each primitive or ray alone.
 //! [`Executed`] is what the loops of a fast renderer executed for a frame, tile by tile.

@@ -45,7 +45,7 @@ pub struct Row {
 
 /// The position of a pixel's centre.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum Containment {
     /// Outside: not covered.
     Outside,
     /// Exactly on an edge or a corner.
@@ -109,16 +109,16 @@ pub fn cover(triangle: [Vec2; 3], image: [u32; 2]) -> Result<Cover, CoverError> 
 
 impl Cover {
     /// The position of the centre of pixel `(i, j)`.
-    pub fn place(&self, i: u32, j: u32) -> Place {
+    pub fn place(&self, i: u32, j: u32) -> Containment {
         let Ok(index) = self.rows.binary_search_by_key(&i, |row| row.i) else {
-            return Place::Outside;
+            return Containment::Outside;
         };
         self.rows[index].place(j)
     }
 
     /// Whether pixel `(i, j)` is covered.
     pub fn covers(&self, i: u32, j: u32) -> bool {
-        matches!(self.place(i, j), Place::Inside | Place::OnEdge { covered: true })
+        matches!(self.place(i, j), Containment::Inside | Containment::OnEdge { covered: true })
     }
 
     /// The number of covered pixels.
@@ -150,13 +150,13 @@ impl Cover {
 
 impl Row {
     /// The position of the centre of this row's pixel in column `j`.
-    pub fn place(&self, j: u32) -> Place {
+    pub fn place(&self, j: u32) -> Containment {
         if self.inside.contains(&j) {
-            Place::Inside
+            Containment::Inside
         } else if self.touched.contains(&j) {
-            Place::OnEdge { covered: self.covered.contains(&j) }
+            Containment::OnEdge { covered: self.covered.contains(&j) }
         } else {
-            Place::Outside
+            Containment::Outside
         }
     }
 }
@@ -262,10 +262,10 @@ mod tests {
     fn drawn(corners: [[f32; 2]; 3], image: [u32; 2]) -> Vec<String> {
         let cover = cover(triangle(corners), image).unwrap();
         let letter = |i, j| match cover.place(i, j) {
-            Place::Inside => '#',
-            Place::OnEdge { covered: true } => '+',
-            Place::OnEdge { covered: false } => 'o',
-            Place::Outside => '.',
+            Containment::Inside => '#',
+            Containment::OnEdge { covered: true } => '+',
+            Containment::OnEdge { covered: false } => 'o',
+            Containment::Outside => '.',
         };
         (0..image[1]).map(|i| (0..image[0]).map(|j| letter(i, j)).collect()).collect()
     }
@@ -304,9 +304,9 @@ mod tests {
         // The left edge passes through the centre (0.5, 0.5), or by it at a distance of 2^-149.
         let corners = |x| triangle([[x, 0.0], [1.0 + x, 1.0], [0.0, 2.0]]);
         let place = |x| cover(corners(x), [1, 1]).unwrap().place(0, 0);
-        assert_eq!(place(0.0), Place::OnEdge { covered: false });
-        assert_eq!(place(f32::from_bits(1)), Place::Inside);
-        assert_eq!(place(-f32::from_bits(1)), Place::Outside);
+        assert_eq!(place(0.0), Containment::OnEdge { covered: false });
+        assert_eq!(place(f32::from_bits(1)), Containment::Inside);
+        assert_eq!(place(-f32::from_bits(1)), Containment::Outside);
     }
 
     #[test]

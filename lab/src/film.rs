@@ -2,7 +2,7 @@
 //!
 //! A step of the clock is a pair of a primitive and a sample that is tested, or a box of the hierarchy: what
 //! [`Work`](crate::common::Work) counts as `tests` and `nodes`. Frame `k` of `F` shows both pictures after `k/F` of the
-//! steps that the longer order takes. So a film is honest about who is ahead when; it says nothing about seconds, as a
+//! steps that the longer order takes. So a film shows which order is ahead at each moment; it says nothing about seconds, as a
 //! step of one order may take longer than one of the other. Building the hierarchy of image order, and placing vertices
 //! and filling bins in object order, are no steps: the counts of work do not have them either.
 //!
@@ -32,6 +32,7 @@ mod change;
 mod code;
 mod frames;
 mod gif;
+mod keeper;
 mod length;
 mod outlines;
 mod palette;
@@ -39,6 +40,7 @@ mod recorded;
 mod recorder;
 mod shots;
 mod size;
+mod step;
 mod steps;
 mod track;
 
@@ -51,7 +53,8 @@ pub use recorded::Film;
 pub use recorder::{Line, Position};
 pub use shots::{OrderShot, Shot, Shots};
 pub use size::default_size;
-pub use steps::{MOST_KEPT, Outcome, Step, Steps, StoredChange, Tested, TooManySteps};
+pub use step::{Outcome, Run, Step, Tested, Told};
+pub use steps::{MOST_FAST_STEPS, MOST_TEXTBOOK_STEPS, Steps, StoredChange, TooManySteps};
 
 use crate::common::View;
 use crate::diff::{Comparison, compare_shown};

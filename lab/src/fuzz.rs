@@ -77,9 +77,9 @@ pub struct Options<'a> {
     pub threads: Option<NonZero<usize>>,
     /// Ends the run early once it is true.
     pub stop: Option<&'a AtomicBool>,
-    /// A scene that takes longer is told of, and so is a run that time or an order to stop should have ended so long ago.
+    /// A scene that takes longer is reported, and so is a run that should have ended so long ago.
     pub patience: Duration,
-    /// Is told of every scene and of every finding, in the order in which they end.
+    /// Receives every scene and every finding, in the order in which they end.
     pub listener: Option<&'a (dyn Fn(Event) + Sync)>,
 }
 

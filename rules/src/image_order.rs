@@ -17,7 +17,7 @@ mod trace;
 mod watertight;
 
 use crate::rule::{About, ParseRuleError, forms, parts};
-use crate::samples::{Place, Samples};
+use crate::samples::{SamplePoint, Samples};
 use bothways_common::{Frame, Options, Scene, View};
 use double::Double;
 use hierarchy::Hierarchy;
@@ -104,7 +104,7 @@ impl Rule {
     fn samples<'a>(self, view: &View<'a>, options: &Options) -> Samples<'a> {
         let samples = |place| Samples::new(view.camera, options.samples, place);
         match self {
-            Rule::MollerTrumbore | Rule::Watertight | Rule::Float32 => samples(Place::Middle),
+            Rule::MollerTrumbore | Rule::Watertight | Rule::Float32 => samples(SamplePoint::Middle),
             Rule::Corner => corner::samples(samples),
             Rule::OneOrigin => one_origin::samples(samples),
             Rule::FlipRows => flip_rows::samples(samples),

@@ -18,7 +18,7 @@ mod projection;
 mod snapped;
 
 use crate::rule::{About, ParseRuleError, forms, parts};
-use crate::samples::{Place, Samples};
+use crate::samples::{SamplePoint, Samples};
 use bothways_common::{Frame, Options, View};
 use std::fmt;
 use std::str::FromStr;
@@ -105,7 +105,7 @@ impl Rule {
     }
 
     fn samples<'a>(self, view: &View<'a>, options: &Options) -> Samples<'a> {
-        let place = if self == Rule::Corner { Place::Corner } else { Place::Middle };
+        let place = if self == Rule::Corner { SamplePoint::Corner } else { SamplePoint::Middle };
         Samples::new(view.camera, options.samples, place)
     }
 }

@@ -5,7 +5,7 @@ use glam::DVec3;
 
 /// Where in its cell of the picture a sample lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Place {
+pub(crate) enum SamplePoint {
     /// In the middle, as it should.
     Middle,
     /// At the upper left corner.
@@ -20,7 +20,7 @@ pub(crate) struct Samples<'a> {
     camera: &'a Camera,
     /// Rows and columns of samples in the whole image.
     size: [u32; 2],
-    place: Place,
+    place: SamplePoint,
     /// Whether row 0 is the lowest.
     upside_down: bool,
     /// Whether all rays start at the eye.
@@ -28,7 +28,7 @@ pub(crate) struct Samples<'a> {
 }
 
 impl<'a> Samples<'a> {
-    pub(crate) fn new(camera: &'a Camera, samples: u32, place: Place) -> Samples<'a> {
+    pub(crate) fn new(camera: &'a Camera, samples: u32, place: SamplePoint) -> Samples<'a> {
         let size = camera.raster(samples).size();
         Samples { camera, size, place, upside_down: false, one_origin: false }
     }
@@ -78,13 +78,13 @@ impl<'a> Samples<'a> {
     }
 }
 
-impl Place {
+impl SamplePoint {
     /// How far a sample lies below and to the right of the upper left corner of its cell, in cells.
     pub(crate) fn offset(self, row: usize, column: usize) -> [f64; 2] {
         match self {
-            Place::Middle => [0.5; 2],
-            Place::Corner => [0.0; 2],
-            Place::Jittered(seed) => {
+            SamplePoint::Middle => [0.5; 2],
+            SamplePoint::Corner => [0.0; 2],
+            SamplePoint::Jittered(seed) => {
                 let sample = (row as u64) << 32 | column as u64;
                 let bits = mixed(mixed(seed) ^ sample);
                 // 26 bits each: a sample on the viewport needs no more, and never reaches the next cell.
@@ -118,7 +118,8 @@ mod tests {
     #[test]
     fn the_middle_is_the_camera_s_own_sample() {
         let camera = Camera::canonical(7, 5);
-        let (samples, grid) = (Samples::new(&camera, 2, Place::Middle), camera.sample_grid(2));
+        let (samples, grid) =
+            (Samples::new(&camera, 2, SamplePoint::Middle), camera.sample_grid(2));
         for (row, column) in [(0, 0), (9, 13), (3, 8)] {
             assert_eq!(samples.ray(row, column), grid.ray(row, column));
             assert_eq!(samples.upside_down().ray(row, column), grid.ray(9 - row, column));
@@ -128,13 +129,14 @@ mod tests {
     #[test]
     fn a_corner_is_half_a_sample_up_and_left() {
         let camera = Camera::canonical(4, 2);
-        let [x, y] = Samples::new(&camera, 1, Place::Corner).on_viewport(0, 0);
+        let [x, y] = Samples::new(&camera, 1, SamplePoint::Corner).on_viewport(0, 0);
         assert_eq!([x, y], [-0.5, 0.5]);
     }
 
     #[test]
     fn jittered_samples_fill_their_cells_and_depend_on_the_seed() {
-        let places = |seed| (0..4000).map(move |column| Place::Jittered(seed).offset(3, column));
+        let places =
+            |seed| (0..4000).map(move |column| SamplePoint::Jittered(seed).offset(3, column));
         assert!(places(7).flatten().all(|offset| (0.0..1.0).contains(&offset)));
         let mean = |axis: usize| places(7).map(|offset| offset[axis]).sum::<f64>() / 4000.0;
         assert!((mean(0) - 0.5).abs() < 0.02 && (mean(1) - 0.5).abs() < 0.02);

@@ -87,7 +87,7 @@ pub(super) struct CameraArgs {
     /// scene states a viewport
     #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true)]
     pub(super) size: Option<[u32; 2]>,
-    /// How the world loses a dimension; eye and frame stay, and the viewport is scaled so that what
+    /// Perspective or parallel; eye and frame stay, and the viewport is scaled so that what
     /// is looked at keeps its size (unless --viewport is given)
     #[arg(long, value_enum)]
     pub(super) projection: Option<ProjectionArg>,
@@ -120,7 +120,7 @@ pub(super) struct MethodArgs {
     /// Which order to render in
     #[arg(long, value_enum, default_value_t = OrderArg::Both)]
     pub(super) order: OrderArg,
-    /// With all machinery, or the lecture's double loop
+    /// The fast renderer, or the lecture's double loop
     #[arg(long, value_enum, default_value_t = MethodArg::Fast)]
     pub(super) method: MethodArg,
     /// Give object order the rules of an ordinary rasterizer, to see what they get wrong; 'bothways rules' lists them
@@ -143,7 +143,7 @@ pub(super) struct MethodArgs {
     /// Threads to render with; all cores if not given
     #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]
     pub(super) threads: Option<u16>,
-    /// Draw a mesh file that may be larger than memory: only its vertices are kept, its faces pass by
+    /// Draw a mesh file that may be larger than memory: only its vertices are kept, its faces are read in passes
     /// (with --order object; flat normals)
     #[arg(long)]
     pub(super) stream: bool,

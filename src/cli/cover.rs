@@ -6,7 +6,7 @@ use super::output::OutputFile;
 use super::terminal;
 use bothways::common::Sign;
 use bothways::common::glam::Vec2;
-use bothways::cover::{Cover, Place, Row, cover};
+use bothways::cover::{Containment, Cover, Row, cover};
 use bothways::wording::{count, grouped};
 use clap::Args;
 use image::{ExtendedColorType, ImageEncoder, codecs::png::PngEncoder};
@@ -182,12 +182,12 @@ fn around(runs: impl Iterator<Item = [u32; 2]>, side: u32) -> Option<RangeInclus
     Some(low.saturating_sub(1)..=(high + 1).min(side - 1))
 }
 
-fn letter(place: Place) -> char {
+fn letter(place: Containment) -> char {
     match place {
-        Place::Inside => '#',
-        Place::OnEdge { covered: true } => '+',
-        Place::OnEdge { covered: false } => 'o',
-        Place::Outside => '.',
+        Containment::Inside => '#',
+        Containment::OnEdge { covered: true } => '+',
+        Containment::OnEdge { covered: false } => 'o',
+        Containment::Outside => '.',
     }
 }
 

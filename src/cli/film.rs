@@ -39,7 +39,7 @@ Exit codes: 0 both orders see the same, 1 they differ, 2 something went wrong.";
 pub(super) struct FilmArgs {
     /// A built-in scene, a .toml scene file, or a mesh file (framed automatically)
     scene: String,
-    /// The lecture's double loop, or with all machinery
+    /// The lecture's double loop, or the fast renderers
     #[arg(long, value_enum, default_value_t = MethodArg::Textbook)]
     method: MethodArg,
     /// How long both orders draw

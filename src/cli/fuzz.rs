@@ -47,7 +47,7 @@ const INTERRUPTED: u8 = 130;
 /// What to draw, and for how long.
 #[derive(Debug, Args)]
 pub(super) struct FuzzArgs {
-    /// Draw scenes for S seconds [default: 60]; what has begun then has ten seconds more
+    /// Draw scenes for S seconds [default: 60]; scenes that have begun get ten seconds more
     #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true,
           conflicts_with = "scenes")]
     seconds: Option<f64>,

@@ -38,19 +38,19 @@ fn agree_on(numbers: Numbers, count: u32) -> (f64, f64) {
         distance.set(distance.get() + ties.distance);
         tested.set(tested.get() + ties.tested);
     });
-    #[expect(clippy::cast_precision_loss, reason = "shares need no more")]
-    let share = |ties: u64| ties as f64 / tested.get() as f64;
-    let shares = (share(edge.get()), share(distance.get()));
+    #[expect(clippy::cast_precision_loss, reason = "fractions need no more")]
+    let fraction = |ties: u64| ties as f64 / tested.get() as f64;
+    let fractions = (fraction(edge.get()), fraction(distance.get()));
     println!(
         "{numbers:?}: {} tests of a primitive at a sample, {} exact edge ties ({:.2} %), \
          {} exact distance ties ({:.2} %)",
         tested.get(),
         edge.get(),
-        100.0 * shares.0,
+        100.0 * fractions.0,
         distance.get(),
-        100.0 * shares.1
+        100.0 * fractions.1
     );
-    shares
+    fractions
 }
 
 #[test]

@@ -51,8 +51,8 @@ impl Events for OneByOne {
         self.0.fragment(sample, primitive);
     }
 
-    fn depth_test(&mut self, sample: Sample, challenger: u64, holder: u64, replaced: bool) {
-        self.0.depth_test(sample, challenger, holder, replaced);
+    fn depth_test(&mut self, sample: Sample, incoming: u64, stored: u64, replaced: bool) {
+        self.0.depth_test(sample, incoming, stored, replaced);
     }
 
     fn judged(&mut self, sample: Sample, question: Question) {

@@ -3,18 +3,19 @@
 //
 // It is made from a text, behind the JavaScript of wasm-bindgen, which defines `wasm_bindgen`. A message is
 // {id, call, ...arguments} and gets {id, ok: true, value} or {id, ok: false, error}; with `broke: true` if the module is in no
-// known state from now on: then the page ends this worker. The first message is
-// {id, call: "start", module}, with the module's bytes, compressed by gzip, in base64.
+// known state from now on: then the page ends this worker. Long ones are told of by {id, progress: [done, of]} before. The first
+// message is {id, call: "start", module}, with the module's bytes, compressed by gzip, in base64, or with the compiled module that
+// another worker has answered this message with.
 "use strict";
 
 /**
  * @typedef {{
  *   json(): string, buffers(): number, path(index: number): string, kind(index: number): BufferKind, free(): void,
- *   u8(index: number): Uint8ClampedArray<ArrayBuffer>, u16(index: number): Uint16Array<ArrayBuffer>,
+ *   u8(index: number): Uint8ClampedArray<ArrayBuffer>,
  *   u32(index: number): Uint32Array<ArrayBuffer>, f32(index: number): Float32Array<ArrayBuffer>,
  *   f64(index: number): Float64Array<ArrayBuffer>
  * }} Reply
- * @typedef {"u8" | "u16" | "u32" | "f32" | "f64"} BufferKind
+ * @typedef {"u8" | "u32" | "f32" | "f64"} BufferKind
  * @typedef {{call(name: string, args: string, bytes?: Uint8Array): Reply}} Module
  * @typedef {{name: string, bytes: ArrayBuffer}} GivenFile
  * @typedef {{id: number, call: string, files?: GivenFile[], [argument: string]: unknown}} Message
@@ -41,10 +42,29 @@ async function decompressed(bytes) {
   return new Response(stream).arrayBuffer();
 }
 
-/** @param {string} base64  The module's bytes, compressed. */
-async function start(base64) {
-  bindgen.initSync({ module: await WebAssembly.compile(await decompressed(bytesOf(base64))) });
+/** @param {unknown} given  The module's bytes, compressed; or the compiled module. */
+async function start(given) {
+  const compiled =
+    given instanceof WebAssembly.Module
+      ? given
+      : await WebAssembly.compile(await decompressed(bytesOf(String(given))));
+  bindgen.initSync({ module: compiled });
   module = new bindgen.Module();
+  return compiled;
+}
+
+/** The message that is being answered, and when its progress was told last, in milliseconds. */
+const turn = { id: 0, told: 0 };
+/** The milliseconds between two words about progress: what takes less is not told of. */
+const MOMENT = 150;
+
+/** Called by the module. @param {number} done @param {number} of */
+// @ts-ignore
+function tellProgress(done, of) {
+  const now = performance.now();
+  if (now - turn.told < MOMENT) return;
+  turn.told = now;
+  postMessage({ id: turn.id, progress: [done, of] });
 }
 
 /** The bytes of files, one after another. @param {GivenFile[]} files */
@@ -95,10 +115,11 @@ function valueOf(reply) {
 /** @param {Message} message */
 async function answer(message) {
   const { id } = message;
+  turn.id = id;
+  turn.told = performance.now();
   try {
     if (message.call === "start") {
-      await start(String(message.module));
-      return postMessage({ id, ok: true, value: null });
+      return postMessage({ id, ok: true, value: await start(message.module) });
     }
     const { value, buffers } = valueOf(ask(message));
     postMessage({ id, ok: true, value }, { transfer: buffers });
@@ -111,7 +132,7 @@ async function answer(message) {
 }
 
 // Messages wait for one another: the first one compiles the module.
-let turn = Promise.resolve();
+let last = Promise.resolve();
 addEventListener("message", (event) => {
-  turn = turn.then(() => answer(event.data));
+  last = last.then(() => answer(event.data));
 });

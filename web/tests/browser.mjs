@@ -65,7 +65,9 @@ export async function engineIn(page) {
   await page.evaluate(async ({ worker: script, module }) => {
     const worker = new Worker(URL.createObjectURL(new Blob([script], { type: "text/javascript" })));
     const waiting = new Map();
-    worker.addEventListener("message", ({ data }) => waiting.get(data.id)(data));
+    worker.addEventListener("message", ({ data }) => {
+      if (!data.progress) waiting.get(data.id)(data);
+    });
     let last = 0;
     window.ask = (call, args = {}) =>
       new Promise((resolve) => {
@@ -151,3 +153,21 @@ export async function until(what, holds, seconds = 30) {
     await new Promise((resolve) => setTimeout(resolve, 50));
   }
 }
+
+/** The text of an element as it is shown. */
+export const text = (page, selector) => page.locator(selector).first().innerText();
+
+/** How many pixels of the picture in object order are red, green and blue. */
+export const colours = (page) =>
+  page.evaluate(() => {
+    const canvas = document.querySelector("canvas[data-picture=object]");
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    const counts = [0, 0, 0];
+    for (let at = 0; at < data.length; at += 4) {
+      const [r, g, b] = data.subarray(at, at + 3);
+      if (r > 150 && g + b < 100) counts[0]++;
+      if (g > 150 && r + b < 100) counts[1]++;
+      if (b > 150 && r + g < 100) counts[2]++;
+    }
+    return counts;
+  });

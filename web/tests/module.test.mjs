@@ -1,6 +1,7 @@
 // The module in a browser against the native program, which is the oracle: WebAssembly has one level of SIMD.
 
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { after, before, test } from "node:test";
 import { engineIn, open, program, programIds, stop } from "./browser.mjs";
 
@@ -85,6 +86,72 @@ test("a record of the loops ends in the rendered picture", async () => {
       assert.deepEqual(stored, ids, `${name} ${kind} ${order}`);
     }
   }
+});
+
+/** The page's own way to read a record: its `Recording`, whose scripts need no page. */
+function recordingClass() {
+  const script = (name) => readFileSync(new URL(`../page/js/${name}.js`, import.meta.url), "utf8");
+  const scripts = ["messages", "numbers", "steps"].map(script).join("\n");
+  return new Function(`"use strict"; ${scripts}\nreturn { Recording, NOTHING, RESULT };`)();
+}
+
+const { Recording, NOTHING, RESULT } = recordingClass();
+
+/** What is true of the teapot by the textbooks at 64 × 64: tens of millions of steps, of which the page reads any. */
+test("the teapot is recorded at 64 × 64 by both textbooks, and every step of it can be read", { timeout: 300_000 }, async () => {
+  const { camera, primitives } = await engine.ask("open", { name: "lecture" });
+  const small = { ...camera, height: 64, width: 64, vw: camera.vh };
+  const pixels = 64 * 64;
+  const { ids } = (await engine.ask("render", { camera: small })).object;
+  const found = {};
+  for (const order of ["object", "image"]) {
+    const steps = await engine.ask("steps", { camera: small, order, kind: "textbook" });
+    assert.equal(steps.count, primitives * pixels);
+    const record = new Recording(steps, order, 64);
+    const read = (object, pixel) => record.step(order === "object" ? object * pixels + pixel : pixel * primitives + object);
+    // Pairs all over the scene and the picture: those that nobody was told about, too.
+    for (let at = 0; at < 4000; at++) {
+      const [object, pixel] = [(at * 7919) % primitives, (at * 104729) % pixels];
+      const { object: read_, node, row, column } = read(object, pixel);
+      assert.deepEqual([read_, node, row, column], [object, NOTHING, Math.floor(pixel / 64), pixel % 64]);
+    }
+    // What is seen covers its pixel, wherever the loop meets it.
+    ids.forEach((id, pixel) => {
+      if (id === NOTHING) return;
+      const { result, t } = read(id, pixel);
+      assert.ok([RESULT.first, RESULT.nearer].includes(result) && t > 0, `${order} ${id} at ${pixel}: ${result}, ${t}`);
+    });
+    // The tally of each moment is that of its steps, and the last picture is the rendered one.
+    const all = record.tally(steps.count);
+    assert.deepEqual([all.tests, all.covered], [steps.count, steps.told.step.length]);
+    for (const done of [0, 1, 12_345_678, steps.count - 1]) {
+      const covered = steps.told.step.filter((step) => step < done).length;
+      assert.deepEqual([record.tally(done).tests, record.tally(done).covered], [done, covered]);
+    }
+    const rgba = new Uint8ClampedArray(4 * pixels);
+    record.picture(steps.count, rgba);
+    const stored = ids.map((_, pixel) => rgba[4 * pixel + 3] === 255);
+    assert.deepEqual(stored, ids.map((id) => id !== NOTHING), `${order}: what is stored at the end`);
+    assert.equal(record.picture(0, rgba), 0);
+    assert.equal(record.firstAt([1, 3]), order === "object" ? 67 : 67 * primitives);
+    found[order] = new Map(steps.told.step.map((step, at) => {
+      const { object, row, column } = record.step(step);
+      return [`${object} (${row}, ${column})`, steps.told.t[at]];
+    }));
+  }
+  assert.deepEqual([...found.object].sort(), [...found.image].sort(), "the same fragments in both orders");
+  // The distances are those of the pixel reports.
+  const [row, column] = [30, 33];
+  const { at } = await engine.ask("pixel", { camera: small, row, column });
+  const covering = at[0].covering.map(({ id, t }) => [`${id} (${row}, ${column})`, Math.fround(t)]);
+  assert.ok(covering.length > 1);
+  covering.forEach(([pair, t]) => assert.equal(found.object.get(pair), t, pair));
+});
+
+test("what would take too long to record is refused with advice", async () => {
+  const { camera } = await engine.ask("open", { name: "many" });
+  const large = { ...camera, height: 1024, width: 1024 };
+  await assert.rejects(engine.ask("steps", { camera: large, order: "object", kind: "textbook" }), /choose a smaller image/);
 });
 
 test("what is wrong is said as on the command line", async () => {

@@ -5,11 +5,9 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import { CHAPTERS, PAGE, engineIn, open, program, stop, until } from "./browser.mjs";
+import { CHAPTERS, PAGE, colours, engineIn, open, program, stop, text, until } from "./browser.mjs";
 
 after(stop);
-
-const text = (page, selector) => page.locator(selector).first().innerText();
 
 /** Sets a form control as a reader does. */
 async function set(page, selector, value) {
@@ -69,6 +67,44 @@ test("steps go to the end and back", async () => {
     if (method === "textbook") assert.equal(end, 3 * 8 * 8, "three objects at 64 pixels");
     await close();
   }
+});
+
+test("millions of steps are recorded while the page answers, and scrubbed at once", { timeout: 300_000 }, async () => {
+  const { page, said, close } = await open({ hash: "#chapter=loops&scene=lecture&size=64&step=20000000" });
+  await until("progress", () => page.locator("#recording").isVisible());
+  // Meanwhile the page's other questions do not wait for the record.
+  await page.evaluate(() => (location.hash = "#chapter=ray&scene=lecture&pixel=240,320"));
+  await until("a ray", async () => (await text(page, "#ray")).includes("(240, 320)"));
+  await page.evaluate(() => (location.hash = "#chapter=loops&scene=lecture&size=64&step=20000000"));
+  const end = await until("a record", async () => Number((await text(page, "#steps-total")).replace(/\D/g, "")) > 30_000_000, 240);
+  assert.ok(end);
+  assert.equal(await page.locator("#recording").isVisible(), false);
+  assert.equal(await page.locator("#step").inputValue(), "20000000", "the step of the link has waited for its record");
+  const words = [];
+  for (const step of [1, 12_345_678, 30_000_000, 12_345_678]) {
+    await set(page, "#step", step);
+    words.push(await text(page, "#halves"));
+  }
+  assert.equal(words[1], words[3]);
+  assert.equal(new Set(words).size, 3);
+  await page.locator("#to-end").click();
+  await until("the end", async () => (await text(page, ".half.object")).includes("done after"));
+  await page.locator("#to-start").click();
+  await until("the start", async () => (await text(page, ".half.object")).includes("Nothing is tested yet"));
+  // The other ways of testing come, and the first one comes back, with what is recorded already.
+  await page.locator("label", { hasText: "bounding boxes" }).click();
+  await until("boxes", async () => (await text(page, "#steps-note")).startsWith("Object order asks only"), 5);
+  assert.equal(await page.locator("#recording").isVisible(), false);
+  await page.locator("label", { hasText: "every pair" }).click();
+  await until("every pair", async () => !(await page.locator("#steps-note").isVisible()), 5);
+  assert.equal(await page.locator("#recording").isVisible(), false);
+  // What is no longer wanted is given up.
+  await page.locator("#steps-size").selectOption("48");
+  await until("progress again", () => page.locator("#recording").isVisible());
+  await page.locator("#steps-size").selectOption("8");
+  await until("a small record", async () => (await text(page, "#steps-total")).length < 12 && page.locator("#halves").isVisible());
+  assert.deepEqual(said.console, []);
+  await close();
 });
 
 test("the microscope shows the numbers of `bothways pixel`", async () => {
@@ -185,21 +221,6 @@ f 1/1 2/2 3/3 4/4
   "four.png": [...FOUR],
 };
 
-/** How many pixels of the picture in object order are red, green and blue. */
-const colours = (page) =>
-  page.evaluate(() => {
-    const canvas = document.querySelector("canvas[data-picture=object]");
-    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
-    const counts = [0, 0, 0];
-    for (let at = 0; at < data.length; at += 4) {
-      const [r, g, b] = data.subarray(at, at + 3);
-      if (r > 150 && g + b < 100) counts[0]++;
-      if (g > 150 && r + b < 100) counts[1]++;
-      if (b > 150 && r + g < 100) counts[2]++;
-    }
-    return counts;
-  });
-
 test("a scene is opened with the mesh, the materials and the pictures that are dropped with it", async () => {
   const { page, said, close } = await open();
   await drop(page, TOGETHER);
@@ -223,6 +244,16 @@ test("a scene is opened with the mesh, the materials and the pictures that are d
   await page.locator("#file").setInputFiles(chosen);
   await until("the scene again", async () => (await page.locator("#scene").inputValue()) === "wall.toml");
   assert.deepEqual(said.console, []);
+  await close();
+});
+
+test("a file that comes back with other content is another scene", async () => {
+  const { page, close } = await open({ hash: "#chapter=loops&size=8" });
+  const scene = (objects) => `[camera]\n${"[[object]]\nplane = { point = [0, 0, -3], normal = [0, 0, 1] }\n".repeat(objects)}`;
+  for (const objects of [1, 2]) {
+    await drop(page, { "planes.toml": scene(objects) });
+    await until(`${objects} objects`, async () => (await text(page, "#steps-total")) === `of ${64 * objects}`);
+  }
   await close();
 });
 

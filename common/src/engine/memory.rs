@@ -3,9 +3,9 @@
 use rayon::prelude::*;
 use std::mem::MaybeUninit;
 
-/// From so many bytes on, large pages are asked for: two of 2 MiB are certain to fit.
+/// Vectors of at least this many bytes are put on large pages: two of 2 MiB are certain to fit.
 const LARGE: usize = 6 << 20;
-/// So many bytes are written by one thread.
+/// One thread writes this many bytes.
 const PART: usize = 1 << 20;
 
 /// A vector of equal values, as `vec![value; count]`, on large pages if the system has some to give: its

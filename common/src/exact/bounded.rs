@@ -81,7 +81,7 @@ mod tests {
 
     #[test]
     fn a_bound_holds_the_rounding_of_each_step() {
-        // Rounding swallows the 2⁻⁶⁰ in (1 + 2⁻⁶⁰) − 1; the bound knows that it may have.
+        // Rounding swallows the 2⁻⁶⁰ in (1 + 2⁻⁶⁰) − 1; the bound covers that.
         let sum = |bounded: bool| {
             if bounded {
                 let [a, b, c] = [1.0, (-60f64).exp2(), 1.0].map(Bounded::new);

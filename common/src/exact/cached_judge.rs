@@ -10,6 +10,7 @@ use super::nearest::{Comparison, Crossing, are_identical, by_rounded_arithmetic,
 use super::real::Real;
 use super::sign::Sign;
 use crate::camera::{Projection, Ray};
+use crate::engine::roundoff::EPS53;
 use crate::scene::primitive::Primitive;
 use glam::DVec3;
 use std::collections::HashMap;
@@ -78,7 +79,7 @@ impl Pair {
             Projection::Parallel => ray.origin,
         };
         let value = constant + slope.dot(along);
-        let error = 4.0 * f64::EPSILON * (constant.abs() + slope.abs().dot(along.abs()));
+        let error = 8.0 * EPS53 * (constant.abs() + slope.abs().dot(along.abs()));
         (value.abs() > error).then(|| {
             let order = ordering(Sign::of(value) * side);
             Comparison { at_sample: order, decided: order }

@@ -216,9 +216,9 @@ fn edge(projection: Projection, p: DVec3, q: DVec3, ray: &Ray) -> Sign {
 
 /// The edge function's sign when it is zero at the sample: its derivative along the nudge.
 ///
-/// With `D(ε) = D + ε·u − ε²·v` the edge function of a perspective camera is
-/// `det(p, q, D) + ε·det(p, q, u) − ε²·det(p, q, v)`. With `O(ε) = O + ε·u − ε²·v` that of a parallel
-/// camera is `det(p − O, q − O, D) + ε·det(u, p − q, D) − ε²·det(v, p − q, D)`: what is quadratic in
+/// With `D(ε₅₃) = D + ε₅₃·u − ε₅₃²·v` the edge function of a perspective camera is
+/// `det(p, q, D) + ε₅₃·det(p, q, u) − ε₅₃²·det(p, q, v)`. With `O(ε₅₃) = O + ε₅₃·u − ε₅₃²·v` that of a parallel
+/// camera is `det(p − O, q − O, D) + ε₅₃·det(u, p − q, D) − ε₅₃²·det(v, p − q, D)`: what is quadratic in
 /// `O` cancels, since `det(O, O, D) = 0`.
 fn nudged_edge(projection: Projection, nudge: &Nudge, p: DVec3, q: DVec3, ray: &Ray) -> Sign {
     let derivative = |along| edge_derivative(projection, along, p, q, ray);
@@ -279,9 +279,9 @@ fn difference_sign<R: Real>(p: [DVec3; 2], q: [DVec3; 2], r: [DVec3; 2]) -> Opti
 ///
 /// Each of the six products of the determinant is rounded at most eight times on its way to the sum: three times as
 /// differences are taken, twice as they are multiplied, three times as products are added. So the sum is off by at most
-/// `γ₈ = 8ε/(1 − 8ε)` times the real sum of the products' sizes, where `ε` is 2⁻⁵³. That sum is rounded in the same way:
+/// `γ₈ = 8ε₅₃/(1 − 8ε₅₃)` times the real sum of the products' sizes, where `ε₅₃` is 2⁻⁵³. That sum is rounded in the same way:
 /// the real one is at most `1/(1 − γ₈)` times the computed one. Both factors and the rounding of the product are below
-/// `9ε`.
+/// `9ε₅₃`.
 ///
 /// A product that underflows loses at most 2⁻¹⁰⁷⁵, and a third factor makes it larger. By the ranges that
 /// [`determinant`] names, factors are below 2¹³¹ (parallel rays begin on the viewport, below 2⁶⁷): twelve products of

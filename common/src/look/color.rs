@@ -47,7 +47,7 @@ pub(crate) fn srgb_of_sixteen<S: Simd>(simd: S, colors: [f32x16<S>; 3]) -> [u32;
         let linear = linear.simd_lt(one).select(linear, one);
         let above = linear.bitcast::<u32x16<S>>() - u32x16::splat(simd, LEAST.to_bits());
         let places = (above >> 16).to_array();
-        // The mask never changes a place, but only the clamping above knows it.
+        // The mask changes no place, because of the clamping above; the compiler does not see that.
         let entries = each!(lane in [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15] => {
             table[places[lane] as usize & (ROOM - 1)]
         });

@@ -38,20 +38,20 @@ impl Exponent {
 /// `base^exponent` for a base in 0 … 1 and a positive exponent; a base above 1 counts as 1. Where
 /// [`Exponent::is_some`] is false, the result means nothing, and 0 is to be taken: so it is for what is not a number.
 ///
-/// The result is within 2⁻²¹ of the true power, absolutely. The derivation, with `ε = 2⁻²⁴` for one rounding:
+/// The result is within 2⁻²¹ of the true power, absolutely. The derivation, with `ε₂₄ = 2⁻²⁴` for one rounding:
 ///
 /// - `base = 2^e · m` with `m` between √½ and √2, exactly. `f = m − 1` is exact, too. With `s = f / (2 + f)`, `|s| ≤
 ///   0.1716`, is `log₂ m = 2/ln 2 · (s + s³/3 + s⁵/5 + s⁷/7 + s⁹/9 + …)`. The terms that are left out are at most
-///   `s¹⁰/11 / (1 − s²) < 2.1·10⁻⁹ < ε/28` of the sum. `s` has two roundings, the polynomial of `s²` less than three
-///   more (all that follows its leading 1 is below 0.011), and two products: a relative error below `8ε`. The sum with
+///   `s¹⁰/11 / (1 − s²) < 2.1·10⁻⁹ < ε₂₄/28` of the sum. `s` has two roundings, the polynomial of `s²` less than three
+///   more (all that follows its leading 1 is below 0.011), and two products: a relative error below `8ε₂₄`. The sum with
 ///   `e` adds one rounding; where `e ≠ 0`, the sum is at least ½ and no smaller than `|log₂ m|`, so the error of
-///   `log₂ base` stays below `9ε`, relatively.
-/// - `y = exponent · log₂ base` has a relative error of less than `10ε`, and is raised to −126 if it is below that.
+///   `log₂ base` stays below `9ε₂₄`, relatively.
+/// - `y = exponent · log₂ base` has a relative error of less than `10ε₂₄`, and is raised to −126 if it is below that.
 /// - `y = n + g` with `|g| ≤ ½`, exactly. `2^g = e^{g ln 2}` is summed up to the seventh power; what is left out is less
-///   than `0.3466⁸/8! · 1.04 < 5.4·10⁻⁹ < ε/11`. The argument's two roundings weigh `0.35 · 2ε`, those of Horner's
-///   scheme less than `2.6ε` in all: less than `4ε`. The scaling by `2^n` is exact.
+///   than `0.3466⁸/8! · 1.04 < 5.4·10⁻⁹ < ε₂₄/11`. The argument's two roundings weigh `0.35 · 2ε₂₄`, those of Horner's
+///   scheme less than `2.6ε₂₄` in all: less than `4ε₂₄`. The scaling by `2^n` is exact.
 /// - An absolute error `δ` of `y` is a relative error of about `δ ln 2` of the power. So the error is at most
-///   `2^y · (10ε · |y| ln 2 + 4ε) ≤ 10ε/e + 4ε < 8ε = 2⁻²¹`, as `2^y · |y| ln 2 ≤ 1/e`. Where `y` was raised to
+///   `2^y · (10ε₂₄ · |y| ln 2 + 4ε₂₄) ≤ 10ε₂₄/e + 4ε₂₄ < 8ε₂₄ = 2⁻²¹`, as `2^y · |y| ln 2 ≤ 1/e`. Where `y` was raised to
 ///   −126, both the result and the true power are below 2⁻¹²⁵.
 #[inline(always)]
 pub(crate) fn power<S: Simd>(simd: S, base: f32x16<S>, exponent: Exponent) -> f32x16<S> {

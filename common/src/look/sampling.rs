@@ -80,7 +80,7 @@ impl Filter {
         match self {
             Filter::Nearest => {
                 let index = |k: usize| wrap[k].index(floor(place(k) + OFF_BORDERS), size[k]);
-                level.texel(index(0), index(1))
+                level.texel(index(1), index(0))
             }
             Filter::Bilinear => {
                 // The middles of the texels count.
@@ -96,7 +96,7 @@ impl Filter {
                 };
                 let (columns, rows) = (indices(0, floor(left)), indices(1, floor(above)));
                 let [upper, lower] = rows.map(|row| {
-                    let [one, other] = columns.map(|column| level.texel(column, row));
+                    let [one, other] = columns.map(|column| level.texel(row, column));
                     mixed(one, other, right_part)
                 });
                 mixed(upper, lower, below_part)

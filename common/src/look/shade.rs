@@ -51,12 +51,12 @@ pub struct Lighting {
 /// A light that comes from somewhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Lamp {
-    place: Place,
+    place: LightSource,
     intensity: f32,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Place {
+enum LightSource {
     /// Far away, in this unit direction.
     Towards(Vec3),
     /// Here, relative to the eye.
@@ -76,12 +76,12 @@ impl Lighting {
                     continue;
                 }
                 Light::Directional { direction, intensity } => {
-                    (Place::Towards(-direction.normalize_or_zero()), intensity)
+                    (LightSource::Towards(-direction.normalize_or_zero()), intensity)
                 }
                 Light::Point { position, intensity } => {
-                    (Place::At(view.offset(position)), intensity)
+                    (LightSource::At(view.offset(position)), intensity)
                 }
-                Light::AtCamera { intensity } => (Place::AtCamera, intensity),
+                Light::AtCamera { intensity } => (LightSource::AtCamera, intensity),
             };
             lamps.push(Lamp { place, intensity });
         }
@@ -90,7 +90,7 @@ impl Lighting {
 
     /// Whether [`Lighting::colors`] needs to know where the points are.
     pub fn needs_positions(&self) -> bool {
-        self.lamps.iter().any(|lamp| matches!(lamp.place, Place::At(_)))
+        self.lamps.iter().any(|lamp| matches!(lamp.place, LightSource::At(_)))
     }
 
     /// The linear red, green and blue of surface points of one material: ambient light, Lambert's cosine and a
@@ -110,13 +110,13 @@ impl Lighting {
         let mut highlights = splat(0.0);
         for Lamp { place, intensity } in &self.lamps {
             let to_light = match place {
-                Place::Towards(direction) => Vec3x16::splat(simd, *direction),
-                Place::At(light) => {
+                LightSource::Towards(direction) => Vec3x16::splat(simd, *direction),
+                LightSource::At(light) => {
                     let light = DVec3x8::splat(simd, *light);
                     let [low, high] = each!(k in [0, 1] => light - points.positions[k]);
                     low.narrow(high).normalized(simd)
                 }
-                Place::AtCamera => points.to_viewer,
+                LightSource::AtCamera => points.to_viewer,
             };
             let cosine = points.normals.dot(to_light);
             let is_lit = cosine.simd_gt(splat(0.0));

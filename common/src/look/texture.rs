@@ -69,8 +69,8 @@ fn depth_in_stripe<S: Simd>(simd: S, place: f64x8<S>) -> f64x8<S> {
 /// - An interval that is no wider than a stripe meets one border, the nearest one, or none. The average is the depth in
 ///   halves of the interval, and no more than 1: one quotient of two numbers with one rounding each.
 /// - A wider one is averaged from the stripes' integral, which rises and falls between 0 and 1. Its two ends are rounded
-///   by at most `ε · (½ + width)` in all, with `ε = 2⁻²⁴`, and so is the integral, whose slope is 1; divided by a width
-///   above 1, the two differences stay below `4ε`, and three more roundings of numbers up to 1 add `3ε`.
+///   by at most `ε₂₄ · (½ + width)` in all, with `ε₂₄ = 2⁻²⁴`, and so is the integral, whose slope is 1; divided by a width
+///   above 1, the two differences stay below `4ε₂₄`, and three more roundings of numbers up to 1 add `3ε₂₄`.
 #[inline(always)]
 fn stripes<S: Simd>(simd: S, depth: f32x16<S>, width: f32x16<S>) -> f32x16<S> {
     /// A point: narrower intervals are taken for it, so that no quotient is of zeros.

@@ -1,4 +1,4 @@
-//! Counts work up to a limit, because nobody knows before how much there is to count.
+//! Counts work up to a limit, because the amount is not known in advance.
 
 use crate::exact::Sign;
 use crate::observe::{Events, Observer, Question, Work};
@@ -40,7 +40,7 @@ impl Budget {
 #[derive(Clone, Debug)]
 pub struct WorkWithin<'a> {
     work: Work,
-    /// Steps of it that the budget knows of.
+    /// The steps of it that the budget has counted.
     told: u64,
     budget: &'a Budget,
 }

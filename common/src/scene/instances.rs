@@ -46,7 +46,8 @@ impl Placement {
         &self.rows
     }
 
-    /// A position of the mesh in the world: an instance's vertex. Whoever needs one gets it from here, with the same bits.
+    /// A position of the mesh in the world: an instance's vertex. All code computes it by this
+    /// function, so it has the same bits everywhere.
     ///
     /// Each coordinate is `m₀·x + m₁·y + m₂·z + m₃`, computed in `f64` from left to right and rounded to `f32` once. The
     /// products are exact: they have 48 bits, and neither over- nor underflow.
@@ -119,7 +120,7 @@ fn coordinate([m0, m1, m2, m3]: [f32; 4], [x, y, z]: [f32; 3]) -> f32 {
     rounded
 }
 
-/// A mesh in many places, of which it is a copy in none. Each place is an instance.
+/// A mesh in many places, stored once. Each place is an instance.
 ///
 /// Its primitives are the triangles of the first instance, in the mesh's order, then those of the second, and so on.
 #[derive(Clone, Debug, PartialEq)]

@@ -230,8 +230,8 @@ impl Mesh {
         &self.colors
     }
 
-    /// What its triangles without a material of their own are made of, unless their object says so: white, for their colours
-    /// to be seen, or the default.
+    /// The material of triangles without one, unless their object has one: white if vertices have colours, so that these are
+    /// seen, otherwise the default.
     pub fn own_material(&self) -> Material {
         match self.colors[..] {
             [] => Material::default(),

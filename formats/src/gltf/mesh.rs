@@ -62,7 +62,7 @@ impl<'a> Meshes<'a> {
     }
 
     /// Makes sure that there is room for one more primitive.
-    fn count(&mut self, part: &Part) -> Result<(), GltfFault> {
+    fn count(&mut self, part: &MeshPart) -> Result<(), GltfFault> {
         self.triangles += part.triangles.len() as u64;
         self.vertices += part.positions.len() as u64;
         let counts = [("triangles", self.triangles), ("vertices", self.vertices)];
@@ -94,7 +94,7 @@ impl<'a> Meshes<'a> {
 }
 
 /// A primitive in the coordinates of its node.
-struct Part {
+struct MeshPart {
     positions: Vec<[f32; 3]>,
     normals: Option<Vec<[f32; 3]>>,
     texture_coordinates: Option<Vec<[f32; 2]>>,
@@ -103,7 +103,11 @@ struct Part {
 }
 
 /// Reads a primitive; `None` if it has no triangles.
-fn part(root: &Root, buffers: &Buffers, primitive: &Primitive) -> Result<Option<Part>, Located> {
+fn part(
+    root: &Root,
+    buffers: &Buffers,
+    primitive: &Primitive,
+) -> Result<Option<MeshPart>, Located> {
     let own = |fault| (String::new(), fault);
     let Checked::Valid(mode) = primitive.mode else {
         return Err(own(GltfFault::Invalid { what: "its mode" }));
@@ -149,7 +153,7 @@ fn part(root: &Root, buffers: &Buffers, primitive: &Primitive) -> Result<Option<
             triangles(mode, count as usize, |k| k as u32)
         }
     };
-    Ok(Some(Part {
+    Ok(Some(MeshPart {
         positions: positions.vectors(),
         normals: normals.map(|normals| normals.vectors()),
         texture_coordinates: texture_coordinates
@@ -211,7 +215,7 @@ impl Builder {
     }
 
     /// Adds a primitive where the map puts it.
-    fn add(&mut self, part: Part, world_from_mesh: &DMat4) -> Result<(), GltfFault> {
+    fn add(&mut self, part: MeshPart, world_from_mesh: &DMat4) -> Result<(), GltfFault> {
         let first = self.positions.len();
         for (vertex, position) in part.positions.iter().enumerate() {
             let position = Vec3::from_array(*position).as_dvec3();

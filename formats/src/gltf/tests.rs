@@ -140,7 +140,7 @@ fn strips_and_fans_become_triangles_in_the_order_of_the_specification() {
 }
 
 #[test]
-fn materials_have_their_base_colour() {
+fn materials_have_their_base_color() {
     let with = |material: &str| {
         square(&[
             ("\"indices\": 3", "\"indices\": 3, \"material\": 0"),

@@ -66,11 +66,11 @@ impl<'f> GivenFile<'f> {
 pub struct Files<'f> {
     /// Names are paths from here.
     folder: PathBuf,
-    place: Place<'f>,
+    place: Origin<'f>,
 }
 
 #[derive(Clone, Debug)]
-enum Place<'f> {
+enum Origin<'f> {
     /// The disk; the root is the folder of the file that was opened first.
     Disk { root: PathBuf, reach: Reach },
     /// Memory.
@@ -148,12 +148,12 @@ impl Files<'static> {
     /// Files on the disk, by paths from a folder.
     pub fn in_folder(folder: &Path, reach: Reach) -> Files<'static> {
         let root = folder.to_owned();
-        Files { folder: root.clone(), place: Place::Disk { root, reach } }
+        Files { folder: root.clone(), place: Origin::Disk { root, reach } }
     }
 
     /// No files.
     pub fn none() -> Files<'static> {
-        Files { folder: PathBuf::new(), place: Place::Given(&[]) }
+        Files { folder: PathBuf::new(), place: Origin::Given(&[]) }
     }
 }
 
@@ -168,8 +168,8 @@ impl<'f> Files<'f> {
     /// There is no such file, it may not be read, or there are several.
     pub fn find(&self, name: &str) -> Result<InputFile<'f>, FindFileError> {
         match &self.place {
-            Place::Disk { root, reach } => self.find_on_disk(root, *reach, name),
-            Place::Given(given) => self.find_given(given, name),
+            Origin::Disk { root, reach } => self.find_on_disk(root, *reach, name),
+            Origin::Given(given) => self.find_given(given, name),
         }
     }
 
@@ -246,7 +246,7 @@ impl<'f> InputFile<'f> {
         let GivenFile { path, bytes, ref is_used } = files[index];
         is_used.set(true);
         let path = PathBuf::from(path);
-        let files = Files { folder: folder_of(&path), place: Place::Given(files) };
+        let files = Files { folder: folder_of(&path), place: Origin::Given(files) };
         InputFile { identity: path.clone(), path, bytes: Some(bytes), files }
     }
 

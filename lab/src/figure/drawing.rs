@@ -307,7 +307,7 @@ impl Drawing {
     }
 }
 
-/// A circle as a polygon whose sides nobody sees.
+/// A circle, as a polygon whose sides are too short to be seen.
 fn circle([x, y]: [f64; 2], radius: f64) -> Vec<[f64; 2]> {
     const SIDES: u32 = 96;
     (0..SIDES)

@@ -148,9 +148,9 @@ impl FilmPage<'_> {
             let pen = Pen::new(theme.of(half.order.into()), 5.0);
             // The dashes of image order tell the curves apart without colour.
             let pen = if half.order == Order::Image { pen.dashed(16.0, 12.0) } else { pen };
-            let shares = self.finished.iter().map(|both| both[which]);
+            let finished = self.finished.iter().map(|both| both[which]);
             let points = std::iter::once([MARGIN, up(0)])
-                .chain((1..).zip(shares).map(|(frame, share)| [across(frame), up(share)]));
+                .chain((1..).zip(finished).map(|(frame, pixels)| [across(frame), up(pixels)]));
             let points: Vec<[f64; 2]> = points.collect();
             drawing.line(&points, pen);
             if let Some(&head) = points.last() {

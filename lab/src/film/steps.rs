@@ -3,59 +3,21 @@
 //! A film shows some moments of long loops; this keeps all moments of short ones.
 
 use super::code::code;
-use super::recorder::{Line, Plan, Recorder, short};
+use super::keeper::{Keeper, Listener, MOST_KEPT};
+use super::recorder::Plan;
+use super::step::{Outcome, Run, Step, Tested, Told};
 use super::track::{Loops, Painted};
-use crate::common::raster::Sample;
-use crate::common::{Events, Observer, View};
+use crate::common::View;
 use crate::orders::{Method, Order};
+use crate::picture::picture;
 use crate::wording::grouped;
-use std::collections::HashMap;
 
-/// The most steps that are kept.
-pub const MOST_KEPT: u64 = 3_000_000;
+/// The most steps of a textbook that are kept. They need little room, but time: a minute or so. All built-in scenes have fewer at
+/// 64 × 64.
+pub const MOST_TEXTBOOK_STEPS: u64 = 1 << 29;
 
-/// What came of a step.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[repr(u8)]
-pub enum Outcome {
-    /// The object does not affect the pixel.
-    #[default]
-    NotCovered = 0,
-    /// It does, and is the first to do so.
-    First = 1,
-    /// It does, and is nearer than what was stored, which it replaces.
-    Nearer = 2,
-    /// It does, and lies behind what is stored.
-    Behind = 3,
-    /// The ray misses the box.
-    Missed = 4,
-    /// The ray enters the box.
-    Entered = 5,
-}
-
-/// A step: a pair of a primitive and a pixel that is tested, or a pixel's ray and a box of the hierarchy.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Step {
-    /// The primitive, or the box.
-    pub tested: Tested,
-    /// The row of the pixel.
-    pub row: u16,
-    /// The column of the pixel.
-    pub column: u16,
-    /// What came of it.
-    pub outcome: Outcome,
-    /// Where the ray meets the primitive, if the primitive covers the pixel.
-    pub t: Option<f32>,
-}
-
-/// What a step tests.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Tested {
-    /// A primitive, by its id.
-    Primitive(u32),
-    /// A box of the hierarchy, by the number of its node.
-    Node(u32),
-}
+/// The most steps of a fast method that are kept: tens of megabytes.
+pub const MOST_FAST_STEPS: u64 = 3_000_000;
 
 /// A change of the stored picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,59 +25,70 @@ pub struct StoredChange {
     /// The number of steps that were done by then.
     pub steps: u32,
     /// The row of the pixel.
-    pub row: u16,
+    pub row: u32,
     /// The column of the pixel.
-    pub column: u16,
+    pub column: u32,
     /// The primitive that is stored from now on; `None` once it is known that nothing is seen.
     pub id: Option<u32>,
     /// What it looks like, in sRGB.
     pub color: [u8; 3],
 }
 
-/// All steps of one order.
+/// All steps of one order. [`Steps::step`] gives any of them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Steps {
-    /// The lecture's pseudocode, a line for each [`Line`].
+    /// The lecture's pseudocode, a line for each [`Line`](super::Line).
     pub code: [&'static str; 5],
-    /// The steps, in the order in which they are done.
-    pub steps: Vec<Step>,
+    /// The number of all steps.
+    pub count: u32,
+    /// The runs of the inner loop, in the order in which they are done. They say what every step tests.
+    pub runs: Vec<Run>,
+    /// What came of the steps that found something, ascending; all others found that the object does not affect the pixel.
+    pub told: Vec<Told>,
     /// The changes of the stored picture, in the order in which they happen. Object order stores a fragment at once; image order
     /// stores a pixel when its ray is done.
     pub changes: Vec<StoredChange>,
     /// The steps at which object order begins an object, or image order a row of pixels.
     pub marks: Vec<u32>,
+    order: Order,
+    width: u32,
 }
 
 /// Why the steps are not kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "these loops take {} steps, {} objects and {} pixels, and at most {} are kept to step through; choose a smaller \
-     image, a scene with fewer objects, or a method that skips more",
-    grouped(*.steps), grouped(*.primitives), grouped(*.pixels), grouped(MOST_KEPT)
-)]
-pub struct TooManySteps {
-    /// The steps.
-    pub steps: u64,
-    /// The primitives of the scene.
-    pub primitives: u64,
-    /// The pixels of the picture.
-    pub pixels: u64,
-}
-
-impl Step {
-    /// The line of the code that is lit.
-    pub fn line(&self) -> Line {
-        match (self.tested, self.outcome) {
-            (Tested::Node(_), _) => Line::Inner,
-            (_, Outcome::First | Outcome::Nearer | Outcome::Behind) => Line::Keep,
-            _ => Line::Test,
-        }
-    }
+pub enum TooManySteps {
+    /// It would take too long, or too much room.
+    #[error(
+        "these loops take {} steps, {} objects and {} pixels, and at most {} are kept to step through; choose a smaller \
+         image, a scene with fewer objects, or a method that skips more",
+        grouped(*.steps), grouped(*.primitives), grouped(*.pixels), grouped(*.most)
+    )]
+    Steps {
+        /// The steps.
+        steps: u64,
+        /// The most that are kept.
+        most: u64,
+        /// The primitives of the scene.
+        primitives: u64,
+        /// The pixels of the picture.
+        pixels: u64,
+    },
+    /// Too many objects lie one behind another.
+    #[error(
+        "of these loops' {} steps, more than {} find that an object affects a pixel, which is more than are kept to step \
+         through; choose a smaller image, or a scene with fewer objects behind one another",
+        grouped(*.steps), grouped(MOST_KEPT as u64)
+    )]
+    Found {
+        /// The steps.
+        steps: u64,
+    },
 }
 
 impl Steps {
     /// Renders a view in one order, and keeps all steps. The textbook tests every pair; the fast method skips pairs, by bounding
-    /// boxes in object order and by a hierarchy in image order.
+    /// boxes in object order and by a hierarchy in image order. Calls `listener` now and then with the number of steps that are
+    /// done, and of all steps.
     ///
     /// # Errors
     ///
@@ -123,168 +96,140 @@ impl Steps {
     ///
     /// ```
     /// use bothways_lab::common::{Camera, CameraDescription, View};
-    /// use bothways_lab::film::Steps;
+    /// use bothways_lab::film::{Outcome, Steps, Tested};
     /// use bothways_lab::orders::{Method, Order};
     ///
     /// let loaded = bothways_lab::scenes::load("canonical")?;
     /// let camera = Camera::new(CameraDescription { image: [8, 8], ..loaded.camera })?;
     /// let view = View::new(&loaded.scene, &camera);
-    /// let [object_order, image_order] = Order::ALL.map(|order| Steps::record(order, Method::Textbook, &view));
-    /// let (object_order, image_order) = (object_order?, image_order?);
+    /// let record = |order| Steps::record(order, Method::Textbook, &view, &|_done, _of| ());
+    /// let (object_order, image_order) = (record(Order::Object)?, record(Order::Image)?);
     ///
     /// // The same pairs, in another order.
-    /// assert_eq!(object_order.steps.len(), 3 * 8 * 8);
-    /// assert_eq!(image_order.steps.len(), 3 * 8 * 8);
+    /// assert_eq!((object_order.count, image_order.count), (3 * 8 * 8, 3 * 8 * 8));
     /// assert_eq!((object_order.marks.len(), image_order.marks.len()), (3, 8));
+    /// let [one, same] = [object_order.step(64 + 8 * 2 + 5), image_order.step(3 * (8 * 2 + 5) + 1)];
+    /// assert_eq!((one.tested, one.row, one.column), (Tested::Primitive(1), 2, 5));
+    /// assert_eq!((same.tested, same.row, same.column), (Tested::Primitive(1), 2, 5));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn record(order: Order, method: Method, view: &View) -> Result<Steps, TooManySteps> {
+    pub fn record(
+        order: Order,
+        method: Method,
+        view: &View,
+        listener: &(dyn Fn(u32, u32) + Sync),
+    ) -> Result<Steps, TooManySteps> {
         let primitives = view.scene.primitive_count();
-        let image = view.camera.image();
-        let pixels = image.map(u64::from).iter().product();
-        let has_short_sides = image.iter().all(|&side| side <= u32::from(u16::MAX));
-        let check = |steps| match steps {
-            0..=MOST_KEPT if has_short_sides => Ok(()),
-            _ => Err(TooManySteps { steps, primitives, pixels }),
+        let [width, height] = view.camera.image();
+        let pixels = u64::from(width) * u64::from(height);
+        let most = match method {
+            Method::Textbook => MOST_TEXTBOOK_STEPS,
+            Method::Fast => MOST_FAST_STEPS,
         };
-        // By the fast method the number is known only after a first run, which is worth it for small pictures; not where
-        // ids have 64 bits, as there are more primitives than steps that are kept.
+        let check = |steps| match u32::try_from(steps) {
+            Ok(count) if steps <= most => Ok(count),
+            _ => Err(TooManySteps::Steps { steps, most, primitives, pixels }),
+        };
+        // By the fast method the number is known only after a first run, which is worth it for small pictures.
+        // Where ids have 64 bits, there are more primitives than steps that are kept.
         let is_known = method == Method::Textbook || view.scene.has_wide_ids();
-        check(primitives.saturating_mul(if is_known { pixels } else { 0 }).max(pixels))?;
+        let at_least = if is_known { primitives } else { 1 };
+        check(pixels * at_least)?;
         let loops = Loops::new(order, method, *view);
-        check(loops.steps)?;
-        let (steps, painted) = loops.keep();
-        let changes = painted.iter().map(|change| change.stored()).collect();
-        let mut steps =
-            Steps { code: code(order, method), marks: marks(order, &steps), steps, changes };
+        let count = check(loops.steps)?;
+        let mut steps = Steps::keep(&loops, width, &|done| listener(done, count))
+            .ok_or(TooManySteps::Found { steps: loops.steps })?;
+        assert_eq!(steps.count, count, "the same loops take the same steps");
         steps.find_distances(method, view);
         Ok(steps)
+    }
+
+    /// Runs the loops for a keeper; `None` if it has no room for what it is told.
+    fn keep(loops: &Loops, width: u32, listener: Listener) -> Option<Steps> {
+        let plan = Plan { moments: Vec::new(), parts: loops.parts.clone() };
+        let (order, method) = (loops.order, loops.method);
+        let (mut keeper, mut frame) =
+            loops.watched(Keeper::new(order, method, width, &plan, listener));
+        if !keeper.has_room() {
+            return None;
+        }
+        keeper.sort();
+        loops.shade(&mut frame);
+        let painted = loops.painted(&frame, &picture(&frame), &keeper.recorder.changes);
+        let changes = painted.iter().map(Painted::stored).collect();
+        let Keeper { count, runs, told, .. } = keeper;
+        let (code, marks) = (code(order, method), marks(order, width, &runs));
+        Some(Steps { code, count, runs, told, changes, marks, order, width })
+    }
+
+    /// A step, by its number from 0.
+    ///
+    /// # Panics
+    ///
+    /// If there are not that many.
+    pub fn step(&self, number: u32) -> Step {
+        assert!(number < self.count, "step {number} of {}", self.count);
+        let run = self.runs[self.runs.partition_point(|run| run.first <= number) - 1];
+        let along = number - run.first;
+        let (tested, pixel) = match (self.order, run.tested) {
+            (Order::Image, Tested::Primitive(id)) => (Tested::Primitive(id + along), run.pixel),
+            (_, tested) => (tested, run.pixel + along),
+        };
+        let told = self.told.binary_search_by_key(&number, |told| told.step).ok();
+        let (outcome, t) =
+            told.map_or((Outcome::NotCovered, None), |at| (self.told[at].outcome, self.told[at].t));
+        Step { tested, row: pixel / self.width, column: pixel % self.width, outcome, t }
     }
 
     /// The exact judge says where the rays meet what covers their pixels. The fast ray tracer drops what is certainly farther
     /// than the nearest so far, and does not ask whether it covers the sample: the judge says that, too.
     fn find_distances(&mut self, method: Method, view: &View) {
         let (judge, grid) = (view.judge(), view.camera.sample_grid(1));
-        for step in &mut self.steps {
-            let Tested::Primitive(id) = step.tested else { continue };
-            if method == Method::Textbook && step.outcome == Outcome::NotCovered {
-                continue;
+        let look = |number| {
+            let Step { tested, row, column, mut outcome, .. } = self.step(number);
+            let told = |outcome, t| Told { step: number, outcome, t };
+            let Tested::Primitive(id) = tested else { return Some(told(outcome, None)) };
+            let ray = grid.ray(row as usize, column as usize);
+            let primitive = view.primitive(id.into());
+            if outcome == Outcome::NotCovered {
+                if method == Method::Textbook || !judge.covers(&primitive, &ray) {
+                    return None;
+                }
+                outcome = Outcome::Behind;
             }
-            let (ray, primitive) =
-                (grid.ray(step.row.into(), step.column.into()), view.primitive(id.into()));
-            if step.outcome == Outcome::NotCovered && judge.covers(&primitive, &ray) {
-                step.outcome = Outcome::Behind;
-            }
-            if step.line() == Line::Keep {
-                #[expect(clippy::cast_possible_truncation, reason = "a frame stores t as f32, too")]
-                let t = judge.distance(&primitive, &ray) as f32;
-                step.t = Some(t);
-            }
-        }
+            #[expect(clippy::cast_possible_truncation, reason = "a frame stores t as f32, too")]
+            let t = judge.distance(&primitive, &ray) as f32;
+            Some(told(outcome, Some(t)))
+        };
+        self.told = match method {
+            Method::Textbook => self.told.iter().filter_map(|told| look(told.step)).collect(),
+            Method::Fast => (0..self.count).filter_map(look).collect(),
+        };
     }
 }
 
-/// Where the outer loop takes its next value: an object, or a pixel of another row.
-fn marks(order: Order, steps: &[Step]) -> Vec<u32> {
-    let outer = |step: &Step| match (order, step.tested) {
+/// Where the outer loop takes its next value: an object, or a pixel of another row. Nothing else happens within a run.
+fn marks(order: Order, width: u32, runs: &[Run]) -> Vec<u32> {
+    let outer = |run: &Run| match (order, run.tested) {
         (Order::Object, Tested::Primitive(id)) => id,
-        _ => step.row.into(),
+        _ => run.pixel / width,
     };
-    let mut last = None;
-    let begins = (0..).zip(steps).filter_map(|(number, step)| {
-        let now = Some(outer(step));
-        (std::mem::replace(&mut last, now) != now).then_some(number)
-    });
-    begins.collect()
+    let begins = |(at, run): (usize, &Run)| {
+        let goes_on = at > 0 && outer(&runs[at - 1]) == outer(run);
+        (!goes_on).then_some(run.first)
+    };
+    runs.iter().enumerate().filter_map(begins).collect()
 }
 
 impl Painted {
     fn stored(&self) -> StoredChange {
-        let small = |index: u32| u16::try_from(index).expect("a picture with short sides");
         StoredChange {
             steps: u32::try_from(self.steps).expect("few steps"),
-            row: small(self.row),
-            column: small(self.column),
+            row: self.row,
+            column: self.column,
             id: self.id,
             color: self.color.0,
         }
-    }
-}
-
-impl Loops<'_> {
-    /// Runs the loops for a keeper of all steps; gives the changes as well.
-    fn keep(&self) -> (Vec<Step>, Vec<Painted>) {
-        let plan = Plan { moments: Vec::new(), parts: self.parts.clone() };
-        let keeper = Keeper { told_late: self.method == Method::Fast, ..Keeper::default() };
-        let observer = (keeper, Recorder::new(self.order, &plan));
-        let ((keeper, recorder), mut frame) = self.watched(observer);
-        self.shade(&mut frame);
-        let picture = crate::picture::picture(&frame);
-        let painted = self.painted(&frame, &picture, &recorder.changes);
-        (keeper.steps, painted)
-    }
-}
-
-/// An observer that keeps all steps.
-#[derive(Debug, Default)]
-struct Keeper {
-    steps: Vec<Step>,
-    /// Whether what came of a test may be told after further tests: the fast renderers test some pairs at once, and tell the
-    /// results together.
-    told_late: bool,
-    /// The steps that tested each pair, if so.
-    pairs: HashMap<(Sample, u32), usize>,
-}
-
-impl Keeper {
-    fn begin(&mut self, sample: Sample, tested: Tested, outcome: Outcome) {
-        let small = |index| u16::try_from(index).expect("a picture with short sides");
-        let (row, column) = (small(sample.row), small(sample.column));
-        self.steps.push(Step { tested, row, column, outcome, t: None });
-    }
-
-    /// Notes what came of the test of a pair.
-    fn note(&mut self, sample: Sample, primitive: u32, outcome: Outcome) {
-        let step = match self.told_late {
-            true => self.pairs.get(&(sample, primitive)).map(|&step| &mut self.steps[step]),
-            false => self.steps.last_mut(),
-        };
-        if let Some(step) = step {
-            step.outcome = outcome;
-        }
-    }
-}
-
-impl Observer for Keeper {
-    fn fork(&self) -> Self {
-        Keeper { told_late: self.told_late, ..Keeper::default() }
-    }
-
-    fn join(&mut self, part: Self) {
-        self.steps.extend(part.steps);
-    }
-}
-
-impl Events for Keeper {
-    fn node_opened(&mut self, sample: Sample, node: u32, entered: bool) {
-        let outcome = if entered { Outcome::Entered } else { Outcome::Missed };
-        self.begin(sample, Tested::Node(node), outcome);
-    }
-
-    fn sample_tested(&mut self, sample: Sample, primitive: u64) {
-        if self.told_late {
-            self.pairs.insert((sample, short(primitive)), self.steps.len());
-        }
-        self.begin(sample, Tested::Primitive(short(primitive)), Outcome::NotCovered);
-    }
-
-    fn fragment(&mut self, sample: Sample, primitive: u64) {
-        self.note(sample, short(primitive), Outcome::First);
-    }
-
-    fn depth_test(&mut self, sample: Sample, incoming: u64, _stored: u64, replaced: bool) {
-        let outcome = if replaced { Outcome::Nearer } else { Outcome::Behind };
-        self.note(sample, short(incoming), outcome);
     }
 }
 
@@ -292,7 +237,14 @@ impl Events for Keeper {
 mod tests {
     use super::*;
     use crate::common::{Camera, CameraDescription, Frame, Options};
+    use crate::film::Line;
+    use crate::formats::source::{GivenFile, InputFile};
     use crate::{rasterize, scenes};
+    use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
+
+    fn record(order: Order, method: Method, view: &View) -> Result<Steps, TooManySteps> {
+        Steps::record(order, method, view, &|_, _| ())
+    }
 
     fn both(name: &str, method: Method, check: impl Fn(Order, &Steps, &View, &Frame)) {
         let loaded = scenes::load(name).unwrap();
@@ -301,7 +253,7 @@ mod tests {
         let view = View::new(&loaded.scene, &camera);
         let frame = rasterize::textbook::render(&view, &Options::default());
         for order in Order::ALL {
-            check(order, &Steps::record(order, method, &view).unwrap(), &view, &frame);
+            check(order, &record(order, method, &view).unwrap(), &view, &frame);
         }
     }
 
@@ -317,17 +269,13 @@ mod tests {
             both(name, method, |order, steps, _, frame| {
                 let mut stored = vec![None; frame.ids().len()];
                 for change in &steps.changes {
-                    let at = usize::from(change.row) * frame.width() + usize::from(change.column);
+                    let at = change.row as usize * frame.width() + change.column as usize;
                     stored[at] = change.id;
-                    assert!(change.steps as usize <= steps.steps.len());
+                    assert!(change.steps <= steps.count);
                 }
                 for (at, id) in stored.into_iter().enumerate() {
                     let [row, column] = [at / frame.width(), at % frame.width()];
-                    assert_eq!(
-                        id.map(u64::from),
-                        frame.id(row, column),
-                        "{name} {order:?} ({row}, {column})"
-                    );
+                    assert_eq!(id.map(u64::from), frame.id(row, column), "{name} {order:?} ({row}, {column})");
                 }
                 assert!(steps.changes.is_sorted_by_key(|change| change.steps));
             });
@@ -339,9 +287,9 @@ mod tests {
         for method in [Method::Textbook, Method::Fast] {
             both("overlap", method, |order, steps, view, _| {
                 let (judge, grid) = (view.judge(), view.camera.sample_grid(1));
-                for step in &steps.steps {
+                for step in (0..steps.count).map(|number| steps.step(number)) {
                     let Tested::Primitive(id) = step.tested else { continue };
-                    let ray = grid.ray(step.row.into(), step.column.into());
+                    let ray = grid.ray(step.row as usize, step.column as usize);
                     let covers = judge.covers(&view.primitive(id.into()), &ray);
                     assert_eq!(covers, step.line() == Line::Keep, "{order:?} {step:?}");
                     assert_eq!(covers, step.t.is_some());
@@ -353,11 +301,55 @@ mod tests {
     #[test]
     fn the_fast_method_skips_pairs() {
         both("ties", Method::Fast, |order, steps, view, _| {
-            let is_pair = |step: &&Step| matches!(step.tested, Tested::Primitive(_));
-            let pairs = steps.steps.iter().filter(is_pair).count();
+            let is_pair = |&number: &u32| matches!(steps.step(number).tested, Tested::Primitive(_));
+            let pairs = (0..steps.count).filter(is_pair).count();
             let all = view.scene.name_count() as usize * 24 * 16;
             assert!(pairs > 0 && pairs < all / 2, "{order:?}: {pairs} of {all}");
         });
+    }
+
+    /// The textbooks test every pair in the order of their loops, and each pair once.
+    #[test]
+    fn runs_are_the_two_loops() {
+        both("overlap", Method::Textbook, |order, steps, view, _| {
+            let (objects, pixels) = (view.scene.primitive_count(), 24 * 16);
+            assert_eq!(steps.count, objects * pixels);
+            assert_eq!(
+                steps.runs.len(),
+                (if order == Order::Object { objects } else { pixels }) as usize
+            );
+            for number in 0..steps.count {
+                let (object, pixel) = match order {
+                    Order::Object => (number / pixels, number % pixels),
+                    Order::Image => (number % objects, number / objects),
+                };
+                let Step { tested, row, column, .. } = steps.step(number);
+                assert_eq!(
+                    (tested, row, column),
+                    (Tested::Primitive(object), pixel / 24, pixel % 24)
+                );
+            }
+        });
+    }
+
+    /// Millions of steps in hundreds of kilobytes.
+    #[test]
+    fn the_teapot_needs_little_room() {
+        let loaded = scenes::load("lecture").unwrap();
+        let camera = Camera::new(CameraDescription { image: [24, 24], ..loaded.camera }).unwrap();
+        let view = View::new(&loaded.scene, &camera);
+        for order in Order::ALL {
+            let (heard, last) = (AtomicU32::new(0), AtomicU32::new(0));
+            let listener = |done, of| {
+                heard.fetch_add(1, Relaxed);
+                assert!(last.swap(done, Relaxed) < done && done <= of);
+            };
+            let steps = Steps::record(order, Method::Textbook, &view, &listener).unwrap();
+            assert!(steps.count as usize > MOST_KEPT, "{}", steps.count);
+            let bytes = size_of_val(&steps.runs[..]) + size_of_val(&steps.told[..]);
+            assert!(bytes < 300_000, "{order:?}: {bytes}");
+            assert!(heard.into_inner() > 10, "someone who waits hears about it");
+        }
     }
 
     #[test]
@@ -365,7 +357,24 @@ mod tests {
         let loaded = scenes::load("many").unwrap();
         let camera = Camera::new(loaded.camera).unwrap();
         let view = View::new(&loaded.scene, &camera);
-        let error = Steps::record(Order::Object, Method::Textbook, &view).unwrap_err();
+        let error = record(Order::Object, Method::Textbook, &view).unwrap_err();
         assert!(error.to_string().ends_with("or a method that skips more"), "{error}");
+    }
+
+    /// Each of many objects before the one before, each over the whole picture: there is something to keep of every step.
+    #[test]
+    fn too_many_fragments_are_refused() {
+        let plane = |number| {
+            format!("[[object]]\nplane = {{ point = [0, 0, {number}], normal = [0, 0, 1] }}\n")
+        };
+        let objects: String = (0..800).map(plane).collect();
+        let text = format!("[camera]\neye = [0, 0, 1000]\nimage = [64, 64]\n{objects}");
+        let files = [GivenFile::new("planes.toml", text.as_bytes())];
+        let loaded = scenes::load_file(&InputFile::given(&files, 0), None).unwrap();
+        let camera = Camera::new(loaded.camera).unwrap();
+        let view = View::new(&loaded.scene, &camera);
+        let error = record(Order::Object, Method::Textbook, &view).unwrap_err();
+        let says = "of these loops' 3,276,800 steps, more than 3,000,000 find that an object affects a pixel";
+        assert!(error.to_string().starts_with(says), "{error}");
     }
 }

@@ -1,7 +1,7 @@
 //! `corner`: rays through the upper left corners of pixels, as from formulas without `+ 0.5`. All else is right, in `f64`.
 
-use crate::samples::{Place, Samples};
+use crate::samples::{SamplePoint, Samples};
 
-pub(super) fn samples<'a>(at: impl Fn(Place) -> Samples<'a>) -> Samples<'a> {
-    at(Place::Corner)
+pub(super) fn samples<'a>(at: impl Fn(SamplePoint) -> Samples<'a>) -> Samples<'a> {
+    at(SamplePoint::Corner)
 }

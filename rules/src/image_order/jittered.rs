@@ -4,8 +4,8 @@
 //!
 //! Cook, "Stochastic Sampling in Computer Graphics", ACM Transactions on Graphics, 1986.
 
-use crate::samples::{Place, Samples};
+use crate::samples::{SamplePoint, Samples};
 
-pub(super) fn samples<'a>(at: impl Fn(Place) -> Samples<'a>, seed: u64) -> Samples<'a> {
-    at(Place::Jittered(seed))
+pub(super) fn samples<'a>(at: impl Fn(SamplePoint) -> Samples<'a>, seed: u64) -> Samples<'a> {
+    at(SamplePoint::Jittered(seed))
 }

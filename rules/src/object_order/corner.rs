@@ -3,8 +3,8 @@
 //! All else is right, in `f64`.
 
 use super::float_edges::FloatEdges;
-use crate::samples::{Place, Samples};
+use crate::samples::{SamplePoint, Samples};
 
 pub(super) fn rule(samples: Samples<'_>) -> FloatEdges<'_, f64> {
-    FloatEdges::new(samples, Place::Corner)
+    FloatEdges::new(samples, SamplePoint::Corner)
 }

@@ -7,7 +7,7 @@
 
 use super::float_edges::{DepthBuffer, FloatEdges, least_depth};
 use super::projection::CameraMap;
-use crate::samples::{Place, Samples};
+use crate::samples::{SamplePoint, Samples};
 use bothways_common::{Shape, Triangle, View};
 
 /// *Near* is at least this part of *far*.
@@ -16,7 +16,7 @@ const LEAST_RATIO: f64 = 1e-4;
 pub(super) fn rule<'a>(samples: Samples<'a>, view: &View) -> FloatEdges<'a, f64> {
     let [near, far] = range(&samples, view);
     let depth = DepthBuffer::Fixed24 { near, far };
-    FloatEdges { depth, ..FloatEdges::new(samples, Place::Middle) }
+    FloatEdges { depth, ..FloatEdges::new(samples, SamplePoint::Middle) }
 }
 
 /// The near and the far depth.

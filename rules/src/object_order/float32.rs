@@ -4,8 +4,8 @@
 //! coordinates: a shared edge is not the same edge from both sides.
 
 use super::float_edges::FloatEdges;
-use crate::samples::{Place, Samples};
+use crate::samples::{SamplePoint, Samples};
 
 pub(super) fn rule(samples: Samples<'_>) -> FloatEdges<'_, f32> {
-    FloatEdges::new(samples, Place::Middle)
+    FloatEdges::new(samples, SamplePoint::Middle)
 }

@@ -3,10 +3,10 @@
 use super::draw::{Fragment, Fragments, Rasterizer};
 use super::projection::{CameraMap, Vertex, covering};
 use crate::real::Real;
-use crate::samples::{Place, Samples, whole};
+use crate::samples::{SamplePoint, Samples, whole};
 use bothways_common::{Projection, Region};
 
-/// Who owns a sample exactly on an edge.
+/// Which triangle owns a sample exactly on an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Fill {
     /// The triangle whose left or top edge it is.
@@ -52,7 +52,7 @@ pub(super) fn least_depth(samples: &Samples) -> f64 {
 
 impl<'a, R: Real> FloatEdges<'a, R> {
     /// The rasterizer that does everything as it should, in its arithmetic.
-    pub(super) fn new(samples: Samples<'a>, place: Place) -> FloatEdges<'a, R> {
+    pub(super) fn new(samples: Samples<'a>, place: SamplePoint) -> FloatEdges<'a, R> {
         let [offset, _] = place.offset(0, 0);
         FloatEdges {
             samples,

@@ -3,8 +3,8 @@
 //! The test is `edge >= 0` three times, which is what most first rasterizers write. All else is right, in `f64`.
 
 use super::float_edges::{Fill, FloatEdges};
-use crate::samples::{Place, Samples};
+use crate::samples::{SamplePoint, Samples};
 
 pub(super) fn rule(samples: Samples<'_>) -> FloatEdges<'_, f64> {
-    FloatEdges { fill: Fill::Inclusive, ..FloatEdges::new(samples, Place::Middle) }
+    FloatEdges { fill: Fill::Inclusive, ..FloatEdges::new(samples, SamplePoint::Middle) }
 }

@@ -17,7 +17,7 @@ pub(super) struct CameraMap<R> {
     pub(super) projection: Projection,
     /// The factors from `x/depth` and `y/depth` (of a parallel camera, from `x` and `y`) to −1…1 over the picture.
     pub(super) to_device: [R; 2],
-    /// Half of the columns and half of the rows of samples.
+    /// Half of the raster's size, along its `x` and its `y`.
     pub(super) half: [R; 2],
     /// The lecture's `d`.
     pub(super) distance: R,
@@ -47,7 +47,8 @@ impl<R: Real> CameraMap<R> {
         self.axes.map(|axis| dot(axis, offset).double())
     }
 
-    /// The column and the row of a vertex: pixel corners are whole numbers, the upper left corner of the picture is 0.
+    /// The `x` and `y` of a vertex on the raster, rightwards and downwards: pixel corners are whole numbers, the upper left
+    /// corner of the picture is 0.
     pub(super) fn raster(&self, [x, y, depth]: Vertex) -> [R; 2] {
         let [x, y] = [x, -y].map(R::of);
         let [x, y] = [self.to_device[0] * x, self.to_device[1] * y];

@@ -214,14 +214,14 @@ impl Fragments for Triangle {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::samples::Place;
+    use crate::samples::SamplePoint;
     use bothways_common::Camera;
 
     #[test]
     fn vertices_move_to_the_grid() {
         let camera = Camera::canonical(4, 4);
         let at = |bits| {
-            let rule = rule(Samples::new(&camera, 1, Place::Middle), bits);
+            let rule = rule(Samples::new(&camera, 1, SamplePoint::Middle), bits);
             rule.snapped([1.3, 2.5])
         };
         // In half steps: 1.3 pixels are 1 pixel, 3/2 pixels or 333/256 pixels from the left; 2.5 from below goes to the even 2,
@@ -235,7 +235,7 @@ mod tests {
     fn a_square_of_two_triangles_covers_each_sample_once() {
         let camera = Camera::canonical(4, 4);
         for bits in [0, 1, 8, 16] {
-            let rule = rule(Samples::new(&camera, 1, Place::Middle), bits);
+            let rule = rule(Samples::new(&camera, 1, SamplePoint::Middle), bits);
             // At depth 1 the picture is 1 x 1.
             let [a, b, c, d] = [[-0.5, 0.5], [0.5, 0.5], [0.5, -0.5], [-0.5, -0.5]]
                 .map(|[x, y]: [f64; 2]| [x, y, 1.0]);

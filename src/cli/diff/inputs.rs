@@ -23,8 +23,8 @@ pub(in crate::cli) struct InputArgs {
     #[arg(long)]
     pub(super) normals: bool,
     /// What distances mean: t, ray (along the viewing ray), axis (along the axis of the view) or
-    /// opengl:NEAR,FAR (window depth from 0 to 1); all but t need --scene. Given once, it is not said of files
-    /// *.t.npy, which are t; given twice: of A, and of B
+    /// opengl:NEAR,FAR (window depth from 0 to 1); all but t need --scene. Given once, it does not apply to
+    /// files *.t.npy, which hold t; given twice: of A, and of B
     #[arg(long, value_name = "MEANING", value_parser = depth, allow_hyphen_values = true)]
     pub(super) depth: Vec<Depth>,
 }

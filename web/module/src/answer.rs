@@ -8,8 +8,6 @@ use serde_json::Value;
 pub enum Buffer {
     /// A `Uint8ClampedArray`: what pictures are made of.
     U8(Vec<u8>),
-    /// A `Uint16Array`.
-    U16(Vec<u16>),
     /// A `Uint32Array`.
     U32(Vec<u32>),
     /// A `Float32Array`.

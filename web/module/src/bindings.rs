@@ -76,7 +76,6 @@ impl Reply {
     pub fn kind(&self, index: usize) -> String {
         let name = match &self.0.buffers()[index].1 {
             Buffer::U8(_) => "u8",
-            Buffer::U16(_) => "u16",
             Buffer::U32(_) => "u32",
             Buffer::F32(_) => "f32",
             Buffer::F64(_) => "f64",
@@ -93,14 +92,6 @@ impl Reply {
         match self.0.buffer_mut(index) {
             Buffer::U8(bytes) => Clamped(std::mem::take(bytes)),
             _ => Clamped(Vec::new()),
-        }
-    }
-
-    /// Takes the numbers of a `Uint16Array`.
-    pub fn u16(&mut self, index: usize) -> Vec<u16> {
-        match self.0.buffer_mut(index) {
-            Buffer::U16(numbers) => std::mem::take(numbers),
-            _ => Vec::new(),
         }
     }
 

@@ -30,6 +30,7 @@ mod camera;
 mod clock;
 mod engine;
 mod messages;
+mod progress;
 mod stage;
 
 pub use answer::{Answer, Buffer};

@@ -52,7 +52,7 @@ function showRules() {
 
 const askWhy = debounced(120, async () => {
   if (viewOf(state.chapter) !== "break" || !state.camera || !drawn) return;
-  const wantedFor = JSON.stringify([state.scene, state.camera, rulesNow()]);
+  const wantedFor = JSON.stringify([sceneKey(), state.camera, rulesNow()]);
   if (wantedFor === whyFor) return;
   whyFor = wantedFor;
   why = null;

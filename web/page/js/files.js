@@ -10,20 +10,25 @@ const isFileName = (name) => /\.(obj|ply|stl|gltf|glb|toml)$/i.test(name);
 /** What is opened of files that come together: the one of the first kind that there is. The others are those that it names. */
 const KINDS = [/\.toml$/i, /\.(gltf|glb)$/i, /\.(obj|ply|stl)$/i];
 
-/** Some names, and how many more there are. @param {File[]} files */
+/** Some names, and how many more there are. @param {FoundFile[]} files */
 function namesOf(files) {
-  const names = files.slice(0, 3).map(({ name }) => name);
+  const names = files.slice(0, 3).map(({ path }) => path);
   return names.join(", ") + (files.length > names.length ? ` and ${files.length - names.length} more` : "");
 }
 
+/** In how many folders a file lies. @param {FoundFile} file */
+const depthOf = ({ path }) => path.split("/").length;
+
 /**
- * The file that is to be opened, or a text that says why none is.
- * @param {File[]} files
- * @returns {File | string}
+ * The file that is to be opened, or a text that says why none is. What lies in a folder is meant by what lies beside the folder.
+ * @param {FoundFile[]} files
+ * @returns {FoundFile | string}
  */
 function chosenOf(files) {
   for (const kind of KINDS) {
-    const meant = files.filter(({ name }) => kind.test(name));
+    const alike = files.filter(({ path }) => kind.test(path));
+    const outermost = Math.min(...alike.map(depthOf));
+    const meant = alike.filter((file) => depthOf(file) === outermost);
     if (meant.length === 1) return meant[0];
     if (meant.length > 1)
       return `${namesOf(meant)}: which one? Open one of them with the files that it names, or a scene (.toml) that names them`;
@@ -31,26 +36,41 @@ function chosenOf(files) {
   return `${namesOf(files)}: this page opens meshes (.obj, .ply, .stl, .gltf, .glb) and .toml scenes, with the files that they name`;
 }
 
-/** Opens one of some files; it may name the others. @param {File[]} files */
-async function openFiles(files) {
-  if (files.length === 0) return;
+/**
+ * Opens one of some files; it may name the others.
+ * @param {FoundFile[]} files
+ * @param {string} [folder]  The folder that they are all the files of: it may have files that nobody needs.
+ */
+async function openFiles(files, folder) {
+  if (files.length === 0) return folder ? showTrouble(`${folder}: there is no file in this folder`) : undefined;
   const chosen = chosenOf(files);
-  if (typeof chosen === "string") return showTrouble(chosen);
-  const size = files.reduce((sum, file) => sum + file.size, 0);
+  if (typeof chosen === "string") return showTrouble(folder ? `${folder}: ${chosen}` : chosen);
+  const size = files.reduce((sum, { file }) => sum + file.size, 0);
   if (size > MOST_BYTES) {
     const have = files.length === 1 ? "the file has" : `the ${files.length} files have`;
     showTrouble(
-      `${namesOf(files)}: ${have} ${grouped(size / 2 ** 20)} MiB, and this page reads at most ${MOST_BYTES / 2 ** 20} MiB; the program bothways takes more`,
+      `${folder ?? namesOf(files)}: ${have} ${grouped(size / 2 ** 20)} MiB, and this page reads at most ${MOST_BYTES / 2 ** 20} MiB; the program bothways takes more`,
     );
     return;
   }
-  const { name } = chosen;
+  const { path: name } = chosen;
   try {
-    const read = files.map(async (file) => ({ name: file.name, bytes: await file.arrayBuffer() }));
-    const what = { name, files: await Promise.all(read) };
+    const read = files.map(async ({ path, file }) => ({ name: path, bytes: await file.arrayBuffer() }));
+    const what = { name, files: await Promise.all(read), folder: folder !== undefined };
     if (await openScene(what, { byHand: true, ...awaitedFor(name) })) showSceneChoice();
   } catch (error) {
     showTrouble(`${name}: ${messageOf(error)}`);
+  }
+}
+
+/** Opens what is dropped: files, or a folder. @param {Promise<Dropped | null>[]} dropped */
+async function openDropped(dropped) {
+  try {
+    const things = (await Promise.all(dropped)).filter((one) => one !== null);
+    const folders = things.filter(({ children }) => children).map(({ name }) => name);
+    await openFiles(await filesIn(things), folders.length > 0 ? folders.join(", ") : undefined);
+  } catch (error) {
+    showTrouble(messageOf(error));
   }
 }
 
@@ -76,7 +96,7 @@ function beginFiles() {
   const input = inputById("file");
   byId("open-file").addEventListener("click", () => input.click());
   input.addEventListener("change", () => {
-    openFiles([...(input.files ?? [])]);
+    openFiles([...(input.files ?? [])].map((file) => ({ path: file.name, file })));
     input.value = "";
   });
   selectById("scene").addEventListener("change", async (event) => {
@@ -97,7 +117,7 @@ function beginFiles() {
     document.body.classList.remove("dropping");
     if (!holdsFiles(event)) return;
     event.preventDefault();
-    openFiles([...(event.dataTransfer?.files ?? [])]);
+    if (event.dataTransfer) openDropped(droppedOf(event.dataTransfer));
   });
   watch(["scene", "own"], showSceneChoice);
   watch(["opened"], () => {

@@ -68,15 +68,15 @@ class Half {
     if (!this.record) return;
     const { steps } = this.record;
     this.done = Math.min(clock, steps.count);
-    const last = this.done - 1;
+    const last = this.done > 0 ? this.record.step(this.done - 1) : null;
     const finished = this.done === steps.count;
-    const lit = finished ? 4 : last < 0 ? 0 : steps.line[last];
+    const lit = finished ? 4 : last ? lineOf(last) : 0;
     const variables = this.variables(last, lit);
     [...this.code.children].forEach((item, number) => {
       item.classList.toggle("lit", number === lit);
       /** @type {HTMLElement} */ (item.lastElementChild).textContent = variables[number];
     });
-    this.words.textContent = last < 0 ? "Nothing is tested yet." : stepWords(steps, last);
+    this.words.textContent = last ? stepWords(steps, last) : "Nothing is tested yet.";
     const { tests, covered, comparisons, boxes } = this.record.tally(this.done);
     const rows = [
       [
@@ -93,20 +93,20 @@ class Half {
     this.draw();
   }
 
-  /** The values of the loop variables in each line. @param {number} step @param {number} lit */
+  /** The values of the loop variables in each line. @param {Step | null} step @param {number} lit */
   variables(step, lit) {
-    if (!this.record || step < 0) return ["", "", "", "", ""];
+    if (!this.record || !step) return ["", "", "", "", ""];
     const { steps } = this.record;
-    const result = steps.result[step];
-    const box = isOfBox(steps, step);
-    const inBox = `box ${grouped(steps.node?.[step] ?? 0)}: ${result === RESULT.entered ? "entered" : "missed"}`;
-    const object = box ? inBox : objectWords(steps, steps.object[step]);
-    const pixel = `pixel (${steps.row[step]}, ${steps.column[step]})`;
+    const { node, row, column, result } = step;
+    const box = node !== NOTHING;
+    const inBox = `box ${grouped(node)}: ${result === RESULT.entered ? "entered" : "missed"}`;
+    const object = box ? inBox : objectWords(steps, step.object);
+    const pixel = `pixel (${row}, ${column})`;
     const [outer, inner] = this.order === "object" ? [object, pixel] : [pixel, object];
     const affects = box ? "" : result === RESULT.none ? "no" : "yes";
     const keep =
       result === RESULT.first || result === RESULT.nearer
-        ? `object ${grouped(steps.object[step])}`
+        ? `object ${grouped(step.object)}`
         : result === RESULT.behind
           ? "the one before"
           : "";
@@ -151,28 +151,25 @@ class Half {
    * The pixels that the inner loop of object order asks for the object: with boxes they are few, and those done have a dot.
    * @param {CanvasRenderingContext2D} context
    * @param {number} cell
-   * @param {number} step
+   * @param {number} number
    */
-  drawAsked(context, cell, step) {
-    const record = /** @type {Recording} */ (this.record);
-    const { steps } = record;
-    context.fillStyle = colour("object");
-    for (let asked = step; asked >= 0 && steps.object[asked] === steps.object[step]; asked--) {
-      const radius = Math.min(cell * 0.09, 4);
-      context.beginPath();
-      context.arc(
-        (steps.column[asked] + 0.5) * cell,
-        (steps.row[asked] + 0.5) * cell,
-        Math.max(radius, 1),
-        0,
-        2 * Math.PI,
-      );
-      context.globalAlpha = 0.8;
-      context.fill();
+  drawAsked(context, cell, number) {
+    const { pixels, done } = /** @type {Recording} */ (this.record).asked(number);
+    const radius = Math.max(Math.min(cell * 0.09, 4), 1);
+    context.beginPath();
+    for (const [row, column] of pixels.slice(0, done)) {
+      const [x, y] = [(column + 0.5) * cell, (row + 0.5) * cell];
+      context.moveTo(x + radius, y);
+      context.arc(x, y, radius, 0, 2 * Math.PI);
     }
+    context.fillStyle = colour("object");
+    context.globalAlpha = 0.8;
+    context.fill();
     context.globalAlpha = 1;
     if (state.method === "textbook") return;
-    const [top, left, bottom, right] = record.rectangle(step);
+    const [rows, columns] = [0, 1].map((axis) => pixels.map((pixel) => pixel[axis]));
+    const [top, left] = [Math.min(...rows), Math.min(...columns)];
+    const [bottom, right] = [Math.max(...rows) + 1, Math.max(...columns) + 1];
     context.setLineDash([6, 4]);
     const corners = /** @type {[number, number][]} */ ([
       [left, top],
@@ -189,15 +186,15 @@ class Half {
    * The pixel of a step, and the row or the object's pixels that its outer loop is about.
    * @param {CanvasRenderingContext2D} context
    * @param {number} cell
-   * @param {number} step
+   * @param {number} number
    */
-  drawCursor(context, cell, step) {
+  drawCursor(context, cell, number) {
     const record = /** @type {Recording} */ (this.record);
-    const { steps } = record;
-    const [x, y] = [steps.column[step] * cell, steps.row[step] * cell];
+    const step = record.step(number);
+    const [x, y] = [step.column * cell, step.row * cell];
     drawLines(context, record.outline(step), cell, colour(this.order));
-    if (this.order === "object") this.drawAsked(context, cell, step);
-    const covered = steps.result[step] !== RESULT.none && steps.result[step] !== RESULT.missed;
+    if (this.order === "object") this.drawAsked(context, cell, number);
+    const covered = step.result !== RESULT.none && step.result !== RESULT.missed;
     drawChosenFrame(context, x, y, cell, cell);
     context.fillStyle = CHOSEN;
     context.strokeStyle = "#000";

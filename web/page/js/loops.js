@@ -12,44 +12,109 @@ let playing = false;
 const shownOrders = () => /** @type {OrderName[]} */ (state.loops === "both" ? ["object", "image"] : [state.loops]);
 const loopsAreShown = () => viewOf(state.chapter) === "loops";
 
+/** Whether a record is being made, and whether that takes more than a moment. */
+let [recording, recordingLong] = [false, false];
+
+/** The records of one scene and camera, so that the ways of testing change at once, by what each skips. */
+const recorded = { subject: "", records: /** @type {Map<string, Recording>} */ (new Map()) };
+
+/** What is to be recorded; `key` is all that it depends on. */
+function wantedRecord() {
+  const size = state.stepsSize;
+  const camera = { ...state.camera, height: size, width: size, vw: state.camera?.vh };
+  const subject = JSON.stringify([sceneKey(), camera]);
+  return { key: `${subject} ${state.method}`, subject, camera, size, kind: state.method };
+}
+
+/** What one order skips: image order has no use for bounding boxes, and object order none for a hierarchy. */
+const skips = (/** @type {OrderName} */ order, /** @type {State["method"]} */ kind) =>
+  kind === "textbook" || (kind === "boxes" && order === "image") ? "every pair" : `fewer in ${order} order`;
+
 /** Records the loops, if they were not. */
 async function record() {
   if (!loopsAreShown() || !state.camera || !state.opened || scenesOpening > 0) return;
-  const size = state.stepsSize;
-  const camera = { ...state.camera, height: size, width: size, vw: state.camera.vh };
-  const wantedFor = JSON.stringify([state.scene, camera, state.method]);
-  if (wantedFor === recordedFor) return;
-  recordedFor = wantedFor;
-  try {
-    // One after the other: a worker has one thread.
-    const object = await engine.call("steps", {
-      order: "object",
-      kind: state.method,
-      height: size,
-      width: size,
-      camera,
-    });
-    const image = await engine.call("steps", { order: "image", kind: state.method, height: size, width: size, camera });
-    if (wantedFor !== recordedFor) return;
-    halves.object.load(new Recording(object, size));
-    halves.image.load(new Recording(image, size));
-    halves.object.background = backgroundOf(image);
-    clockEnd = Math.max(object.count, image.count);
-    // The chapter about hierarchies says it itself.
-    noteSteps(state.chapter === "skip" && state.method === "hierarchy" ? "" : METHOD_NOTES[state.method]);
-  } catch (error) {
-    clockEnd = 0;
-    halves.object.load(null);
-    halves.image.load(null);
-    noteSteps(messageOf(error));
+  if (wantedRecord().key === recordedFor) return;
+  recordedFor = wantedRecord().key;
+  // What is no longer wanted is given up where it takes long. The record that runs begins anew by itself.
+  if (recordingLong) recorder.stop();
+  if (recording) return;
+  recording = true;
+  let key = "";
+  while (key !== recordedFor) {
+    key = recordedFor;
+    recordingLong = false;
+    const { records, trouble } = await recordBoth(wantedRecord());
+    if (key === recordedFor) load(records, trouble);
   }
+  [recording, recordingLong] = [false, false];
+  byId("recording").hidden = true;
+}
+
+/** @param {ReturnType<typeof wantedRecord>} what @returns {Promise<{records: Recording[], trouble: string}>} */
+async function recordBoth({ subject, camera, size, kind }) {
+  if (recorded.subject !== subject) recorded.records.clear();
+  recorded.subject = subject;
+  /** How far each order is: the steps done, and all. @type {Map<OrderName, [number, number]>} */
+  const progress = new Map();
+  const recordOne = async (/** @type {OrderName} */ order) => {
+    const key = `${order} ${skips(order, kind)}`;
+    const before = recorded.records.get(key);
+    if (before) return before;
+    const steps = await recorder.steps({ order, kind, height: size, width: size, camera }, (done, of) => {
+      progress.set(order, [done, of]);
+      showRecording(progress);
+    });
+    progress.set(order, [steps.count, steps.count]);
+    const record = new Recording(steps, order, size);
+    if (recorded.subject === subject) recorded.records.set(key, record);
+    return record;
+  };
+  try {
+    return { records: await Promise.all([recordOne("object"), recordOne("image")]), trouble: "" };
+  } catch (error) {
+    // The other order alone is of no use.
+    if (recordingLong) recorder.stop();
+    return { records: [], trouble: messageOf(error) };
+  }
+}
+
+/** @param {Recording[]} records  Both, or none. @param {string} trouble */
+function load([object, image], trouble) {
+  halves.object.load(object ?? null);
+  halves.image.load(image ?? null);
+  halves.object.background = image ? backgroundOf(image.steps) : null;
+  clockEnd = image ? Math.max(object.steps.count, image.steps.count) : 0;
+  // The chapter about hierarchies says it itself.
+  const note = state.chapter === "skip" && state.method === "hierarchy" ? "" : METHOD_NOTES[state.method];
+  noteSteps(image ? note : trouble);
   inputById("scrub").max = inputById("step").max = String(clockEnd);
   byId("steps-total").textContent = `of ${grouped(clockEnd)}`;
+  byId("step").style.setProperty("--digits", String(String(clockEnd).length));
   change({ step: clamp(state.step, 0, clockEnd) });
   // What cannot be recorded is not shown half.
   byId("halves").hidden = clockEnd === 0;
+  byId("transport").inert = false;
   drawMarks();
   showStep();
+}
+
+/**
+ * Shows how far a record is that takes more than a moment.
+ * @param {Map<OrderName, [number, number]>} progress
+ */
+function showRecording(progress) {
+  const [done, of] = [0, 1].map((place) => [...progress.values()].reduce((sum, one) => sum + one[place], 0));
+  if (!recordingLong) {
+    stopPlaying();
+    noteSteps("");
+    say(`recording the steps of both orders`);
+  }
+  recordingLong = true;
+  byId("halves").hidden = true;
+  byId("transport").inert = true;
+  byId("recording").hidden = false;
+  /** @type {HTMLProgressElement} */ (byId("recording-progress")).value = done / of;
+  byId("recording-text").textContent = `Recording both orders: ${grouped(done)} of ${grouped(of)} steps`;
 }
 
 /** What each order skips. */
@@ -99,12 +164,14 @@ function drawMarks() {
 
 /** @param {number} by */
 function stepBy(by) {
+  if (recordingLong) return;
   stopPlaying();
   change({ step: clamp(state.step + by, 0, clockEnd) });
 }
 
 /** The next place at which an object or a row begins. @param {1 | -1} way */
 function toMark(way) {
+  if (recordingLong) return;
   stopPlaying();
   const marks = shownOrders()
     .flatMap((order) => [...(halves[order].record?.steps.marks ?? [])])
@@ -129,7 +196,7 @@ function togglePlaying() {
     showStep();
     return;
   }
-  if (clockEnd === 0) return;
+  if (clockEnd === 0 || recordingLong) return;
   playing = true;
   byId("play").textContent = "Pause";
   byId("play").setAttribute("aria-pressed", "true");
@@ -229,4 +296,8 @@ function beginLoops() {
   watch(["loops"], showHalves);
   watch(["chapter", "method", "stepsSize"], showHalves);
   watch(["chapter", "scene", "camera", "method", "stepsSize"], record);
+  // The scene before takes room in the recorder, and is of no use there.
+  watch(["opened"], () => {
+    if (!recording) recorder.stop();
+  });
 }

@@ -60,19 +60,16 @@
  */
 
 /**
- * The steps of one order. A step is one test of a pair, or of a box.
+ * The steps of one order, in runs of the inner loop; see `Recording.step`.
  * @typedef {object} Steps
  * @property {number} count
- * @property {Uint8Array} line  0 outer, 1 inner, 2 test, 3 keep, 4 done.
- * @property {Uint32Array} object  The primitive.
- * @property {Uint16Array} row
- * @property {Uint16Array} column
- * @property {Uint8Array} result  See `RESULT`.
- * @property {Float32Array} [t]
- * @property {Uint32Array} [node]
+ * @property {{first: Uint32Array, object: Uint32Array, node: Uint32Array, pixel: Uint32Array}} runs  The number of the first
+ *   step of each, its primitive or box, the other one being `NOTHING`, and its pixel, counted row by row.
+ * @property {{step: Uint32Array, result: Uint8Array, t: Float32Array}} told  What came of the steps that found something: the
+ *   others found that the object does not affect the pixel. See `RESULT`.
  * @property {string[]} pseudocode
  * @property {Uint32Array} marks  The steps at which each object (object order) or each row (image order) begins.
- * @property {{step: Uint32Array, row: Uint16Array, column: Uint16Array, id: Uint32Array, rgb: Uint8Array}} changes
+ * @property {{step: Uint32Array, row: Uint32Array, column: Uint32Array, id: Uint32Array, rgb: Uint8Array}} changes
  * @property {string[]} [kinds]  The kind of each primitive, in words.
  * @property {number} pairs  Of a primitive and a pixel.
  * @property {number} skipped  Those that no step looks at.

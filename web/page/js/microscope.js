@@ -10,7 +10,7 @@ async function look() {
   if (viewOf(state.chapter) !== "pixel" || !state.camera || !state.pixel) return;
   const [row, column] = state.pixel;
   const radius = Number(inputById("radius").value);
-  const wantedFor = JSON.stringify([state.scene, state.camera, row, column, radius]);
+  const wantedFor = JSON.stringify([sceneKey(), state.camera, row, column, radius]);
   if (wantedFor === lookedFor) return;
   lookedFor = wantedFor;
   const { camera } = state;

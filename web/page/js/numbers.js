@@ -61,3 +61,18 @@ const counted = (number, one, more = `${one}s`) => `${grouped(number)} ${number 
  * @param {number} most
  */
 const clamp = (value, least, most) => Math.min(most, Math.max(least, value));
+
+/**
+ * The place of the last number that is not greater than a value; −1 if all are.
+ * @param {ArrayLike<number>} ascending
+ * @param {number} value
+ */
+function lastUpTo(ascending, value) {
+  let [from, to] = [0, ascending.length];
+  while (from < to) {
+    const middle = (from + to) >> 1;
+    if (ascending[middle] <= value) from = middle + 1;
+    else to = middle;
+  }
+  return from - 1;
+}

@@ -19,7 +19,7 @@ const askOutside = debounced(30, async () => {
     camera,
     pixel: [row, column],
   } = state;
-  const wantedFor = JSON.stringify([state.scene, camera, row, column, state.rays]);
+  const wantedFor = JSON.stringify([sceneKey(), camera, row, column, state.rays]);
   if (wantedFor === outsideFor) return;
   outsideFor = wantedFor;
   const which = {

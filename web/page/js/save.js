@@ -3,7 +3,7 @@
 
 /** Where an element is left out of the picture: controls say nothing there. */
 const NOT_SAVED =
-  ".camera, .transport .row, #chapter-scene, #count-offer, .loop-choices, #pixel-form, .unseen, dialog, [hidden]";
+  ".camera, .transport, #chapter-scene, #count-offer, .loop-choices, #pixel-form, .unseen, dialog, [hidden]";
 
 /**
  * A copy of the chapter that needs nothing but itself: canvases have become images.

@@ -5,13 +5,18 @@
 let scenesOpening = 0;
 /** The scene that was asked for last, open or not yet. */
 let askedScene = "";
+/** How many scenes have been opened: a file may come back under its name with other content. */
+let scenesOpened = 0;
+
+/** What answers about the scene depend on: they are asked anew for another one. */
+const sceneKey = () => `${state.scene} ${scenesOpened}`;
 
 /** The pivot about which the camera turns. */
 let pivot = /** @type {Vector} */ ([0, 0, 0]);
 
 /**
  * Opens a built-in scene, or one of some files, by its name; the engine's words say what is wrong with it.
- * @param {{name: string, files?: {name: string, bytes: ArrayBuffer}[]}} what
+ * @param {{name: string, files?: {name: string, bytes: ArrayBuffer}[], folder?: boolean}} what
  * @param {{byHand?: boolean, camera?: Partial<Camera>, pixel?: Pixel | null}} [options]
  * @returns {Promise<boolean>}
  */
@@ -31,6 +36,7 @@ async function openScene(what, { byHand = false, camera = {}, pixel = null } = {
   } finally {
     scenesOpening--;
   }
+  scenesOpened++;
   showTrouble(opened.warnings.join("\n"));
   pivot = pivotOf(opened.camera);
   const started = patched(opened.camera, camera);

@@ -1,64 +1,119 @@
 // @ts-check
 // Records of the loops, and what is true after any number of their steps.
 
-/** @typedef {{tests: number, covered: number, comparisons: number, boxes: number}} Tally */
+/** @typedef {{tests: number, covered: number, comparisons: number, boxes: number}} Tally  Tests are those of objects. */
 
-/** A tally is kept for every so many steps, so that none is far away. */
+/** A tally is kept for every so many steps that found something, so that none is far away. */
 const STRIDE = 4096;
+
+/** The stored picture is kept after every so many of its changes, for the same reason. */
+const PICTURE_STRIDE = 16384;
+
+/**
+ * A step: one test of a pair of an object and a pixel, or of a pixel's ray and a box.
+ * @typedef {object} Step
+ * @property {number} object  The primitive; `NOTHING` in a test of a box.
+ * @property {number} node  The box; `NOTHING` in a test of a primitive.
+ * @property {number} row
+ * @property {number} column
+ * @property {number} result  See `RESULT`.
+ * @property {number} t  Where the ray meets the object; not a number if it does not.
+ */
 
 /** The steps of one order with what makes scrubbing immediate. */
 class Recording {
-  /** @param {Steps} steps @param {number} size  Pixels on each side of the image. */
-  constructor(steps, size) {
+  /** @param {Steps} steps @param {OrderName} order @param {number} size  Pixels on each side of the image. */
+  constructor(steps, order, size) {
     this.steps = steps;
+    this.order = order;
     this.size = size;
-    /** @type {Uint32Array} Four counts for every `STRIDE` steps. */
-    this.tallies = new Uint32Array(4 * (Math.floor(steps.count / STRIDE) + 1));
-    const now = { tests: 0, covered: 0, comparisons: 0, boxes: 0 };
-    for (let step = 0; step <= steps.count; step++) {
-      if (step % STRIDE === 0)
-        this.tallies.set([now.tests, now.covered, now.comparisons, now.boxes], (4 * step) / STRIDE);
-      if (step < steps.count) count(now, steps.result[step]);
+    const { result } = steps.told;
+    /** @type {Uint32Array} Three counts for every `STRIDE` steps that found something. */
+    this.tallies = new Uint32Array(3 * (Math.floor(result.length / STRIDE) + 1));
+    const now = { covered: 0, comparisons: 0, boxes: 0 };
+    for (let told = 0; told <= result.length; told++) {
+      if (told % STRIDE === 0) this.tallies.set([now.covered, now.comparisons, now.boxes], (3 * told) / STRIDE);
+      if (told < result.length) count(now, result[told]);
+    }
+    /** The stored picture before every `PICTURE_STRIDE`th change. @type {Uint8ClampedArray[]} */
+    this.pictures = [];
+    const rgba = new Uint8ClampedArray(4 * size * size);
+    for (let place = 0; place <= steps.changes.step.length; place++) {
+      if (place % PICTURE_STRIDE === 0) this.pictures.push(rgba.slice());
+      if (place < steps.changes.step.length) this.store(place, rgba);
     }
     /** The place of each box among the outlines, by its number. @type {Map<number, number>} */
     this.places = new Map([...steps.outlines.boxes.number].map((number, place) => [number, place]));
   }
 
-  /** The lines that bound what a step tests. @param {number} step @returns {[number, number][][]} */
-  outline(step) {
-    const { outlines, object, node } = this.steps;
-    if (!isOfBox(this.steps, step)) return linesOf(outlines.primitives, object[step]);
-    const place = this.places.get(node?.[step] ?? NOTHING);
+  /**
+   * A step, by its number from 0. Within a run of the inner loop, object order moves on by one pixel, and image order by one
+   * object.
+   * @param {number} number
+   * @returns {Step}
+   */
+  step(number) {
+    const { runs, told } = this.steps;
+    const run = lastUpTo(runs.first, number);
+    const along = number - runs.first[run];
+    const [byObject, byPixel] = this.order === "object" ? [0, along] : [along, 0];
+    const at = lastUpTo(told.step, number);
+    const found = at >= 0 && told.step[at] === number;
+    return {
+      object: runs.object[run] === NOTHING ? NOTHING : runs.object[run] + byObject,
+      node: runs.node[run],
+      ...this.placeOf(runs.pixel[run] + byPixel),
+      result: found ? told.result[at] : RESULT.none,
+      t: found ? told.t[at] : NaN,
+    };
+  }
+
+  /** @param {number} pixel  Counted row by row. */
+  placeOf(pixel) {
+    return { row: Math.floor(pixel / this.size), column: pixel % this.size };
+  }
+
+  /** The number of steps in a run. @param {number} run */
+  lengthOf(run) {
+    const { first } = this.steps.runs;
+    return (run + 1 < first.length ? first[run + 1] : this.steps.count) - first[run];
+  }
+
+  /** The lines that bound what a step tests. @param {Step} step @returns {[number, number][][]} */
+  outline({ object, node }) {
+    const { outlines } = this.steps;
+    if (node === NOTHING) return linesOf(outlines.primitives, object);
+    const place = this.places.get(node);
     return place === undefined ? [] : linesOf(outlines.boxes, place);
   }
 
   /**
-   * The rectangle of pixels that object order asks for the object of a step, those to come included: first row, first
-   * column, and those behind the last.
-   * @param {number} step
-   * @returns {[number, number, number, number]}
+   * The pixels that object order asks for the object of a step, those to come included, and which of them are asked up to it.
+   * @param {number} number
    */
-  rectangle(step) {
-    const { marks, count: all, row, column } = this.steps;
-    const next = marks.findIndex((mark) => mark > step);
-    const [from, to] = next < 0 ? [marks[marks.length - 1], all] : [marks[next - 1], marks[next]];
-    const rectangle = /** @type {[number, number, number, number]} */ ([Infinity, Infinity, 0, 0]);
-    for (let asked = from; asked < to; asked++) {
-      rectangle[0] = Math.min(rectangle[0], row[asked]);
-      rectangle[1] = Math.min(rectangle[1], column[asked]);
-      rectangle[2] = Math.max(rectangle[2], row[asked] + 1);
-      rectangle[3] = Math.max(rectangle[3], column[asked] + 1);
-    }
-    return rectangle;
+  asked(number) {
+    const { marks, runs, count: all } = this.steps;
+    const mark = lastUpTo(marks, number);
+    const end = mark + 1 < marks.length ? marks[mark + 1] : all;
+    /** @type {Pixel[]} */
+    const pixels = [];
+    for (let run = lastUpTo(runs.first, marks[mark]); run < runs.first.length && runs.first[run] < end; run++)
+      for (let along = 0; along < this.lengthOf(run); along++) {
+        const { row, column } = this.placeOf(runs.pixel[run] + along);
+        pixels.push([row, column]);
+      }
+    return { pixels, done: number + 1 - marks[mark] };
   }
 
   /** What was counted in the first steps. @param {number} done @returns {Tally} */
   tally(done) {
-    const block = Math.floor(done / STRIDE);
-    const [tests, covered, comparisons, boxes] = this.tallies.subarray(4 * block, 4 * block + 4);
-    const now = { tests, covered, comparisons, boxes };
-    for (let step = block * STRIDE; step < done; step++) count(now, this.steps.result[step]);
-    return now;
+    const { step, result } = this.steps.told;
+    const end = lastUpTo(step, done - 1) + 1;
+    const block = Math.floor(end / STRIDE);
+    const [covered, comparisons, boxes] = this.tallies.subarray(3 * block, 3 * block + 3);
+    const now = { covered, comparisons, boxes };
+    for (let told = block * STRIDE; told < end; told++) count(now, result[told]);
+    return { tests: done - now.boxes, ...now };
   }
 
   /**
@@ -67,28 +122,37 @@ class Recording {
    * @param {Uint8ClampedArray} rgba  Is filled; alpha 0 stands for nothing stored.
    */
   picture(done, rgba) {
-    rgba.fill(0);
-    const { step, row, column, id, rgb } = this.steps.changes;
+    const end = lastUpTo(this.steps.changes.step, done) + 1;
+    const block = Math.floor(end / PICTURE_STRIDE);
+    rgba.set(this.pictures[block]);
+    for (let place = block * PICTURE_STRIDE; place < end; place++) this.store(place, rgba);
     let stored = 0;
-    for (let place = 0; place < step.length && step[place] <= done; place++) {
-      const at = 4 * (row[place] * this.size + column[place]);
-      if (rgba[at + 3] === 0) stored++;
-      // What is decided to show nothing is stored, too, in the colour that the engine gives to the background.
-      rgba.set([rgb[3 * place], rgb[3 * place + 1], rgb[3 * place + 2], id[place] === NOTHING ? 254 : 255], at);
-    }
+    for (let alpha = 3; alpha < rgba.length; alpha += 4) if (rgba[alpha] !== 0) stored++;
     return stored;
+  }
+
+  /** Makes a change of the stored picture. @param {number} place @param {Uint8ClampedArray} rgba */
+  store(place, rgba) {
+    const { row, column, id, rgb } = this.steps.changes;
+    const at = 4 * (row[place] * this.size + column[place]);
+    rgba[at] = rgb[3 * place];
+    rgba[at + 1] = rgb[3 * place + 1];
+    rgba[at + 2] = rgb[3 * place + 2];
+    // What is decided to show nothing is stored, too, in the colour that the engine gives to the background.
+    rgba[at + 3] = id[place] === NOTHING ? 254 : 255;
   }
 
   /** The first step about a pixel, or `null`. @param {Pixel} pixel */
   firstAt([row, column]) {
-    const { count: all, row: rows, column: columns } = this.steps;
-    for (let step = 0; step < all; step++) if (rows[step] === row && columns[step] === column) return step;
+    const { first, pixel } = this.steps.runs;
+    const wanted = row * this.size + column;
+    for (let run = 0; run < first.length; run++) {
+      const along = wanted - pixel[run];
+      if (along === 0 || (this.order === "object" && along > 0 && along < this.lengthOf(run))) return first[run] + along;
+    }
     return null;
   }
 }
-
-/** Whether a step is about a box of the hierarchy. @param {Steps} steps @param {number} step */
-const isOfBox = ({ result }, step) => result[step] === RESULT.missed || result[step] === RESULT.entered;
 
 /** The lines of one thing. @param {Lines} all @param {number} place @returns {[number, number][][]} */
 function linesOf({ points, lines, ends }, place) {
@@ -103,16 +167,18 @@ function linesOf({ points, lines, ends }, place) {
 /** @param {Float32Array} points @param {number} at @returns {[number, number]} */
 const pointOf = (points, at) => [points[2 * at], points[2 * at + 1]];
 
-/** @param {Tally} tally @param {number} result */
+/** @param {Omit<Tally, "tests">} tally @param {number} result  Of a step that found something. */
 function count(tally, result) {
   if (result === RESULT.missed || result === RESULT.entered) {
     tally.boxes++;
     return;
   }
-  tally.tests++;
-  if (result !== RESULT.none) tally.covered++;
-  if (result === RESULT.nearer || result === RESULT.behind) tally.comparisons++;
+  tally.covered++;
+  if (result !== RESULT.first) tally.comparisons++;
 }
+
+/** The line of the pseudocode that a step lights: a box, a test, or what is kept. @param {Step} step */
+const lineOf = ({ node, result }) => (node !== NOTHING ? 1 : result === RESULT.none ? 2 : 3);
 
 /** A primitive in words. @param {Steps} steps @param {number} id */
 const objectWords = (steps, id) => `object ${grouped(id)}${steps.kinds ? `: ${steps.kinds[id] ?? "triangle"}` : ""}`;
@@ -120,23 +186,21 @@ const objectWords = (steps, id) => `object ${grouped(id)}${steps.kinds ? `: ${st
 /**
  * A step in a sentence.
  * @param {Steps} steps
- * @param {number} step
+ * @param {Step} step
  */
-function stepWords(steps, step) {
-  const result = steps.result[step];
-  const pixel = `pixel (${steps.row[step]}, ${steps.column[step]})`;
-  if (result === RESULT.missed)
-    return `The ray of ${pixel} misses box ${grouped(steps.node?.[step] ?? 0)}: all that is in it is skipped.`;
-  if (result === RESULT.entered) return `The ray of ${pixel} enters box ${grouped(steps.node?.[step] ?? 0)}.`;
-  const subject = objectWords(steps, steps.object[step])
+function stepWords(steps, { object, node, row, column, result, t }) {
+  const pixel = `pixel (${row}, ${column})`;
+  if (result === RESULT.missed) return `The ray of ${pixel} misses box ${grouped(node)}: all that is in it is skipped.`;
+  if (result === RESULT.entered) return `The ray of ${pixel} enters box ${grouped(node)}.`;
+  const subject = objectWords(steps, object)
     .replace(/: (.*)/, " ($1)")
     .replace("o", "O");
   if (result === RESULT.none) return `${subject} does not affect ${pixel}.`;
-  const t = steps.t && Number.isFinite(steps.t[step]) ? ` at t = ${short(steps.t[step], 4)}` : "";
+  const at = Number.isFinite(t) ? ` at t = ${short(t, 4)}` : "";
   const outcome = {
     [RESULT.first]: "the first there, kept",
     [RESULT.nearer]: "nearer, it replaces the one before",
     [RESULT.behind]: "behind the one before",
   }[result];
-  return `${subject} affects ${pixel}${t}: ${outcome}.`;
+  return `${subject} affects ${pixel}${at}: ${outcome}.`;
 }

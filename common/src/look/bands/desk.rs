@@ -13,10 +13,10 @@ use std::collections::HashMap;
 /// The hashes of ids under which visible primitives are kept: those of a row are mostly seen in the next one, too.
 const HASHES: usize = 1 << HASH_BITS;
 const HASH_BITS: u32 = 12;
-/// From so many kept primitives on, a new chunk begins with none.
+/// With this many primitives kept, a new chunk begins with none.
 const MANY_KEPT: usize = HASHES;
 
-/// Whose surfaces are set up, and what of them is needed.
+/// The surfaces to set up, and what is needed of them.
 pub(super) struct Setting<'a, A> {
     pub(super) view: &'a View<'a>,
     pub(super) surfaces: &'a A,

@@ -137,7 +137,7 @@ fn unit(vector: DVec3) -> DVec3 {
     if is_unit { vector } else { vector.normalize_or_zero() }
 }
 
-/// What is needed to know of surfaces besides their normals.
+/// What shading needs of surfaces besides their normals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Wanted {
     /// Where their points are.

@@ -21,9 +21,9 @@ impl Level {
         &self.texels
     }
 
-    /// The texel in a column and a row, both counted from the upper left corner.
+    /// The texel in a row and a column, both counted from the upper left corner.
     #[inline]
-    pub(crate) fn texel(&self, column: usize, row: usize) -> Vec3 {
+    pub(crate) fn texel(&self, row: usize, column: usize) -> Vec3 {
         self.texels[row * self.width + column]
     }
 }

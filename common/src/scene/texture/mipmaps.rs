@@ -24,7 +24,7 @@ fn halved(larger: &Level) -> Level {
     let mut texels = vec![Vec3::ZERO; width * height];
     texels.par_chunks_mut(width).zip(&rows).for_each(|(line, row)| {
         for (texel, column) in line.iter_mut().zip(&columns) {
-            *texel = average(larger, column, row);
+            *texel = average(larger, row, column);
         }
     });
     Level { width, texels }
@@ -59,10 +59,10 @@ impl Span {
     }
 }
 
-fn average(larger: &Level, column: &Span, row: &Span) -> Vec3 {
+fn average(larger: &Level, row: &Span, column: &Span) -> Vec3 {
     let mut sum = glam::DVec3::ZERO;
-    for (j, down) in row.texels() {
-        for (i, across) in column.texels() {
+    for (i, down) in row.texels() {
+        for (j, across) in column.texels() {
             sum += larger.texel(i, j).as_dvec3() * (down * across);
         }
     }
@@ -103,7 +103,7 @@ mod tests {
         let levels = levels(picture(8, 4));
         let (large, small) = (&levels[0], &levels[1]);
         assert_eq!(small.size(), [4, 2]);
-        for (i, j) in [(0, 0), (3, 1), (2, 0)] {
+        for (i, j) in [(0, 0), (1, 3), (0, 2)] {
             let of = |di, dj| large.texel(2 * i + di, 2 * j + dj).as_dvec3();
             let expected = (of(0, 0) + of(1, 0) + of(0, 1) + of(1, 1)) / 4.0;
             assert!((small.texel(i, j).as_dvec3() - expected).length() < 1e-7);

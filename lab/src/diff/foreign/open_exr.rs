@@ -34,10 +34,10 @@ pub(super) fn read(
 ) -> Result<ReadBuffer, Problem> {
     let told = |error| problem(&error, length);
     let reader = open(input, false).map_err(told)?;
-    let parts = Part::all(reader.meta_data());
+    let parts = ExrChannel::all(reader.meta_data());
     let all: Vec<Channel> = parts.iter().map(|part| part.channel.clone()).collect();
     let choice = with_high_half(choose(&all, &options.channels, options.normals)?, &all);
-    let chosen: Vec<&Part> = choice.channels.iter().map(|&at| &parts[at]).collect();
+    let chosen: Vec<&ExrChannel> = choice.channels.iter().map(|&at| &parts[at]).collect();
     let layer = chosen[0].layer;
     if chosen.iter().any(|part| part.layer != layer) {
         return Err(Problem::Content(format!(
@@ -70,16 +70,16 @@ fn notes(choice: &Choice, all: &[Channel]) -> String {
 }
 
 /// A channel and its place: which layer of the file, and which channel of that.
-struct Part {
+struct ExrChannel {
     channel: Channel,
     layer: usize,
     place: usize,
 }
 
-impl Part {
+impl ExrChannel {
     /// All channels of all layers, in the order of the file.
-    fn all(meta: &MetaData) -> Vec<Part> {
-        let parts = |(layer, header): (usize, &Header)| -> Vec<Part> {
+    fn all(meta: &MetaData) -> Vec<ExrChannel> {
+        let parts = |(layer, header): (usize, &Header)| -> Vec<ExrChannel> {
             let name = header.own_attributes.layer_name.as_ref().map(Text::to_string);
             let prefix = name.filter(|name| meta.headers.len() > 1 && !name.is_empty());
             let full = |name: &Text| match &prefix {
@@ -88,7 +88,7 @@ impl Part {
             };
             let channels = header.channels.list.iter().enumerate();
             channels
-                .map(|(place, channel)| Part {
+                .map(|(place, channel)| ExrChannel {
                     channel: Channel {
                         name: full(&channel.name),
                         is_integer: channel.sample_type == SampleType::U32,

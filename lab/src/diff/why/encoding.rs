@@ -255,7 +255,7 @@ impl<'a> Expected<'a> {
         nothing: NothingEncoding,
     ) -> Vec<Probe> {
         let pixels = self.drawn.ids.len();
-        let place = Place::new(placement, self.size());
+        let place = IndexMap::new(placement, self.size());
         let step = (pixels / (PROBES * 4)).max(1);
         let width = self.rays.x.len();
         let probe = |pixel: usize| {
@@ -369,7 +369,7 @@ impl<'a> Expected<'a> {
         encoding: &Encoding,
         mut tell: impl FnMut(usize, bool, bool),
     ) -> Renaming {
-        let place = Place::new(placement, self.size());
+        let place = IndexMap::new(placement, self.size());
         let width = self.rays.x.len();
         let mut renaming = Renaming::default();
         for (line, &row) in self.drawn.rows.iter().enumerate() {
@@ -440,15 +440,15 @@ struct Probe {
 }
 
 /// The index in the file of a pixel of the picture.
-struct Place {
+struct IndexMap {
     base: isize,
     per_row: isize,
     per_column: isize,
 }
 
-impl Place {
+impl IndexMap {
     #[expect(clippy::cast_possible_wrap, reason = "at most 2^30 pixels")]
-    fn new(placement: Placement, [width, height]: [usize; 2]) -> Place {
+    fn new(placement: Placement, [width, height]: [usize; 2]) -> IndexMap {
         let (w, h) = (width as isize, height as isize);
         // The row and the column in the file are linear in the row `i` and the column `j` of the picture.
         let (row, column) = match placement {
@@ -463,7 +463,7 @@ impl Place {
         };
         let stride = if placement.swaps_sides() { h } else { w };
         let [base, per_row, per_column] = [0, 1, 2].map(|part| row[part] * stride + column[part]);
-        Place { base, per_row, per_column }
+        IndexMap { base, per_row, per_column }
     }
 
     #[expect(
@@ -515,7 +515,7 @@ mod tests {
     fn a_place_is_where_the_placement_says() {
         let size @ [width, height] = [5, 3];
         for placement in Placement::ALL {
-            let place = Place::new(placement, size);
+            let place = IndexMap::new(placement, size);
             let stride = if placement.swaps_sides() { height } else { width };
             for index in 0..width * height {
                 let pixel = placement.pixel([index / stride, index % stride], size);

@@ -30,7 +30,7 @@ impl Linear {
 
 /// The roundoff of a triple product, relative to the product of the lengths of its vectors. A triple product, and the
 /// sum of three of them for a point of the viewport, take fewer than 64 roundings of 2⁻⁵³; this is four times as much.
-const ROUNDOFF: f64 = 1.0 / (1_u64 << 45) as f64;
+const RELATIVE_ERROR: f64 = 1.0 / (1_u64 << 45) as f64;
 /// What keeps a bound above zero where products underflow.
 const FLOOR: f64 = 1e-280;
 
@@ -67,7 +67,7 @@ impl TriangleOutline {
                 at_least_length(b - a) * at_least_length(c - a) * at_least_length(axis)
             }
         };
-        let negative = if facing.abs() > bound * ROUNDOFF + FLOOR {
+        let negative = if facing.abs() > bound * RELATIVE_ERROR + FLOOR {
             facing < 0.0
         } else {
             let ray = Ray { origin: DVec3::ZERO, direction: axis };
@@ -113,7 +113,7 @@ fn edge_function(p: DVec3, q: DVec3, rays: &ViewingRays) -> Linear {
             error: at_least_length(p)
                 * at_least_length(q)
                 * (at_least_length(axis) + extent)
-                * ROUNDOFF
+                * RELATIVE_ERROR
                 + FLOOR,
         },
         // (p − O) × (q − O) = p × q + (q − p) × O
@@ -127,7 +127,7 @@ fn edge_function(p: DVec3, q: DVec3, rays: &ViewingRays) -> Linear {
                 error: (at_least_length(p) + extent)
                     * (at_least_length(q) + extent)
                     * at_least_length(axis)
-                    * ROUNDOFF
+                    * RELATIVE_ERROR
                     + FLOOR,
             }
         }
@@ -153,7 +153,7 @@ pub(super) fn plane_distance(
         constant: value,
         along_x: 0.0,
         along_y: 0.0,
-        error: size * length * ROUNDOFF + FLOOR,
+        error: size * length * RELATIVE_ERROR + FLOOR,
     };
     let along = |value: f64, length: f64, sign: f64| Linear {
         along_x: sign * normal.dot(rays.u),

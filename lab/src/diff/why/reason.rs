@@ -97,7 +97,7 @@ pub struct TieRules {
 }
 
 impl TieRules {
-    /// Who owns the sample, and by which rules the other does.
+    /// Which primitive owns the sample, and by which rules the other does.
     fn sentence(self, primitive: u32) -> String {
         let name = |edges: Edges| match edges {
             Edges::TopLeft => "top-left",

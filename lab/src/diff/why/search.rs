@@ -384,8 +384,8 @@ impl Search<'_> {
         all
     }
 
-    /// A candidate with a rule for ties in place of a change that moves more on the same axis: who is drawn last is seen, or
-    /// only who is drawn last of equally near ones.
+    /// A candidate with a rule for ties in place of a change that moves more on the same axis: the primitive that is drawn
+    /// last is seen, or the last one of those that are equally near.
     fn with_tie_rules_instead(&self, candidate: &Candidate, changes: &[Change]) -> Vec<Candidate> {
         let axes: Vec<usize> =
             candidate.convention.changes().into_iter().map(Change::axis).collect();
@@ -400,7 +400,8 @@ impl Search<'_> {
         best.convention
     }
 
-    /// Pairs of rules for exact ties besides a convention: who owns an edge, and who is seen of equally near ones. One
+    /// Pairs of rules for exact ties besides a convention: which primitive owns an edge, and which is seen of equally near
+    /// ones. One
     /// alone may explain nothing.
     fn tie_rules(&self, besides: Convention, changes: &[Change]) -> Vec<Candidate> {
         let rules: Vec<Change> =

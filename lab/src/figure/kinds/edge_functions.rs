@@ -92,7 +92,7 @@ impl Panels {
     }
 
     /// Where the words about a panel begin, and how wide they may be.
-    fn words(&self, place: &Place) -> ([f64; 2], f64) {
+    fn words(&self, place: &Panel) -> ([f64; 2], f64) {
         let ([x, y], [width, height]) = (place.corner, place.size);
         if self.beside {
             ([x + width + 24.0, y + 30.0], 876.0 - width - 24.0)
@@ -134,7 +134,7 @@ struct Extent {
 }
 
 /// The extent on the canvas.
-struct Place {
+struct Panel {
     corner: [f64; 2],
     size: [f64; 2],
     /// The extent's top left corner on the raster, and units in a pixel.
@@ -184,15 +184,15 @@ impl Extent {
     }
 
     /// Where it lies in the panel with this corner.
-    fn placed(&self, corner: [f64; 2], room: [f64; 2]) -> Place {
+    fn placed(&self, corner: [f64; 2], room: [f64; 2]) -> Panel {
         let size = self.size();
         let scale = (room[0] / size[0]).min(room[1] / size[1]);
         let drawn = size.map(|side| (side * scale).round());
-        Place { corner, size: drawn, first: self.low, scale }
+        Panel { corner, size: drawn, first: self.low, scale }
     }
 }
 
-impl Place {
+impl Panel {
     /// The place on the canvas of a place on the raster.
     fn of(&self, at: [f64; 2]) -> [f64; 2] {
         [0, 1].map(|axis| self.corner[axis] + (at[axis] - self.first[axis]) * self.scale)
@@ -284,7 +284,7 @@ impl Values {
 }
 
 /// Hatches the side where a function is negative.
-fn hatch(sheet: &mut Sheet, values: &Values, edge: usize, place: &Place) {
+fn hatch(sheet: &mut Sheet, values: &Values, edge: usize, place: &Panel) {
     const GAP: f64 = 22.0;
     let pen = Pen::new(sheet.theme.bright(), 1.4).alpha(0.5);
     let ([x, y], [width, height]) = (place.corner, place.size);
@@ -307,7 +307,7 @@ fn hatch(sheet: &mut Sheet, values: &Values, edge: usize, place: &Place) {
 }
 
 /// The line where a function is 0.
-fn zero_line(sheet: &mut Sheet, values: &Values, edge: usize, place: &Place, color: [u8; 3]) {
+fn zero_line(sheet: &mut Sheet, values: &Values, edge: usize, place: &Panel, color: [u8; 3]) {
     let ([x, y], [width, height]) = (place.corner, place.size);
     let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
     let mut ends = Vec::new();
@@ -325,7 +325,7 @@ fn zero_line(sheet: &mut Sheet, values: &Values, edge: usize, place: &Place, col
 }
 
 /// The triangle itself, thin, with the corners of the edge by name.
-fn outline(sheet: &mut Sheet, view: &View, corners: &[DVec3; 3], place: &Place, edge: usize) {
+fn outline(sheet: &mut Sheet, view: &View, corners: &[DVec3; 3], place: &Panel, edge: usize) {
     let theme = sheet.theme;
     let projector = Projector { camera: view.camera };
     sheet.drawing.window(Some((place.corner, place.size)));

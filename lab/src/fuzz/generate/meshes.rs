@@ -1,7 +1,7 @@
 //! Meshes with shared vertices: fans, grids, soups, clouds of small triangles, closed surfaces; some large ones, so that
 //! clusters, bins and hierarchies are used.
 
-use super::stage::{Place, Stage, stored, tame};
+use super::stage::{PicturePoint, Stage, stored, tame};
 use super::style::Scale;
 use crate::common::Mesh;
 use crate::common::glam::{DVec3, Vec3};
@@ -53,7 +53,7 @@ fn fan(stage: &mut Stage) -> Mesh {
             rim
         } else {
             let depth = if flat { center.depth } else { stage.depth() };
-            Place {
+            PicturePoint {
                 row: center.row + radius * angle.sin(),
                 column: center.column + radius * angle.cos(),
                 depth,
@@ -87,7 +87,7 @@ fn grid(stage: &mut Stage, most: usize) -> Mesh {
         for j in 0..=columns {
             let noise = if rough > 0.0 { stage.dice.real(0.0, rough) } else { 0.0 };
             let depth = corner.depth * (1.0 + noise + slope * i as f64);
-            let place = Place {
+            let place = PicturePoint {
                 row: corner.row + high * i as f64,
                 column: corner.column + wide * j as f64,
                 depth,
@@ -134,7 +134,7 @@ fn cloud(stage: &mut Stage, most: usize) -> Mesh {
             } else {
                 place.depth
             };
-            positions.push(stage.at(Place {
+            positions.push(stage.at(PicturePoint {
                 row: place.row + rows,
                 column: place.column + columns,
                 depth,

@@ -1,7 +1,7 @@
 //! Triangles, spheres and planes: alone, side by side, one on the other, through one another.
 
 use super::camera::exp2;
-use super::stage::{Place, Stage, stored, tame};
+use super::stage::{PicturePoint, Stage, stored, tame};
 use super::style::Style;
 use crate::common::glam::Vec3;
 use crate::common::{Plane, Projection, Shape, Sphere, Triangle};
@@ -26,7 +26,7 @@ fn coplanar(stage: &mut Stage) -> Vec<Shape> {
     let [a, b, c] = [stage.place(), stage.place(), stage.place()];
     if stage.dice.once_in(2) {
         // Corners at one depth.
-        let flat = |place: Place| Place { depth: a.depth, ..place };
+        let flat = |place: PicturePoint| PicturePoint { depth: a.depth, ..place };
         let [d, e] = [stage.place(), stage.place()].map(flat);
         let [a, b, c, d, e] = [a, flat(b), flat(c), d, e].map(|place| stage.at(place));
         return vec![triangle([a, b, c]), triangle([c, b, d]), triangle([a, e, d])];
@@ -45,7 +45,7 @@ fn crossing(stage: &mut Stage) -> Vec<Shape> {
     let upright = stage.dice.once_in(2);
     let corner = |along: f64, across: f64, depth: f64| {
         let [rows, columns] = if upright { [across, along] } else { [along, across] };
-        Place { row: place.row + rows, column: place.column + columns, depth }
+        PicturePoint { row: place.row + rows, column: place.column + columns, depth }
     };
     let one = [
         corner(-reach, -reach, place.depth),
@@ -66,9 +66,13 @@ fn sliver(stage: &mut Stage) -> Shape {
     let thin = f64::from(exp2(stage.dice.within(-26..=0)));
     let [rows, columns] =
         stage.dice.one_of(&[[0.0, 1.0], [1.0, 0.0], [1.0, 1.0], [1.0, -1.0], [0.25, 1.0]]);
-    let end =
-        Place { row: start.row + long * rows, column: start.column + long * columns, ..start };
-    let beside = Place { row: end.row + thin * columns, column: end.column - thin * rows, ..end };
+    let end = PicturePoint {
+        row: start.row + long * rows,
+        column: start.column + long * columns,
+        ..start
+    };
+    let beside =
+        PicturePoint { row: end.row + thin * columns, column: end.column - thin * rows, ..end };
     let [a, b, c] = [start, end, beside].map(|place| stage.at(place));
     match stage.dice.below(8) {
         0 => triangle([a, b, b]),
@@ -84,9 +88,9 @@ fn reaching(stage: &mut Stage) -> Shape {
     let far = f64::from(exp2(stage.dice.within(2..=20)));
     let [a, b, c] = [stage.place(), stage.place(), stage.place()];
     let behind = match stage.dice.below(3) {
-        0 => Place { depth: -b.depth, ..b },
-        1 => Place { row: far * b.row, column: -far * b.column, ..b },
-        _ => Place { depth: -far * c.depth, row: far * b.row, ..b },
+        0 => PicturePoint { depth: -b.depth, ..b },
+        1 => PicturePoint { row: far * b.row, column: -far * b.column, ..b },
+        _ => PicturePoint { depth: -far * c.depth, row: far * b.row, ..b },
     };
     let corners = [a, behind, c].map(|place| stage.at(place));
     triangle(corners.map(|corner| stage.nudged(corner)))

@@ -22,7 +22,7 @@ pub(super) struct Stage<'a> {
 
 /// A place in the picture: row and column in pixels from the top left corner, and the depth along the view.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
+pub(super) struct PicturePoint {
     pub(super) row: f64,
     pub(super) column: f64,
     pub(super) depth: f64,
@@ -71,11 +71,11 @@ impl<'a> Stage<'a> {
     }
 
     /// A place in the picture or a little beside it.
-    pub(super) fn place(&mut self) -> Place {
+    pub(super) fn place(&mut self) -> PicturePoint {
         let [width, height] = self.image();
         let (row, column) =
             (self.pixels(-0.25 * height, 1.25 * height), self.pixels(-0.25 * width, 1.25 * width));
-        Place { row, column, depth: self.depth() }
+        PicturePoint { row, column, depth: self.depth() }
     }
 
     /// A length in pixels, from a part of one to the whole picture.
@@ -97,7 +97,7 @@ impl<'a> Stage<'a> {
     }
 
     /// The point of the world that is seen at a place. For a camera along the axes and a place of few bits it is exact.
-    pub(super) fn at(&self, place: Place) -> Vec3 {
+    pub(super) fn at(&self, place: PicturePoint) -> Vec3 {
         let [width, height] = self.image();
         let [high, wide] = self.pixel_size(place.depth);
         let x = (place.column - 0.5 * width) * wide;
@@ -115,8 +115,8 @@ impl<'a> Stage<'a> {
         let point = match self.dice.below(40) {
             0 if self.has_corners_on_eye => self.camera.eye(),
             // Behind, mirrored in the eye for a perspective camera.
-            1 | 2 => self.at(Place { depth: -place.depth, ..place }),
-            3 if self.has_corners_on_eye => self.at(Place { depth: 0.0, ..place }),
+            1 | 2 => self.at(PicturePoint { depth: -place.depth, ..place }),
+            3 if self.has_corners_on_eye => self.at(PicturePoint { depth: 0.0, ..place }),
             _ => self.at(place),
         };
         self.nudged(point)
@@ -181,7 +181,7 @@ mod tests {
             let camera = Camera::new(description).unwrap();
             let mut dice = Dice::new(0, 0);
             let stage = Stage::new(&mut dice, &camera, Style::Lattice, 1, Scale::Tiny);
-            let point = stage.at(Place { row: 5.5, column: 2.5, depth: 6.0 });
+            let point = stage.at(PicturePoint { row: 5.5, column: 2.5, depth: 6.0 });
             // The centre of pixel (5, 2), three times as far as the viewport.
             let ray = camera.viewing_ray(5, 2);
             let expected = match projection {

@@ -17,6 +17,9 @@ pub(crate) struct Open {
     /// The files whose bytes come with the message, one after another.
     #[serde(default)]
     files: Vec<Given>,
+    /// Whether they are all the files of a folder: it may have some that nobody needs.
+    #[serde(default)]
+    folder: bool,
     /// The width and height of the image for which the camera of a mesh file is framed.
     #[serde(default)]
     image: Option<[u32; 2]>,
@@ -117,7 +120,9 @@ fn given(open: &Open, bytes: &[u8]) -> Result<(LoadedScene, usize), String> {
     let index = index.ok_or_else(|| format!("the page sent no file {}", quoted(&open.name)))?;
     let file = InputFile::given(&files, index);
     let mut loaded = scenes::load_file(&file, open.image).map_err(|error| error.to_string())?;
-    loaded.warnings.extend(unused(&files));
+    if !open.folder {
+        loaded.warnings.extend(unused(&files));
+    }
     Ok((loaded, open.files[index].bytes))
 }
 
@@ -201,6 +206,29 @@ mod tests {
         assert_eq!(
             (opened.json()["name"].clone(), opened.json()["triangles"].clone()),
             (json!("scene"), json!(1))
+        );
+    }
+
+    #[test]
+    fn a_folder_may_have_files_that_nobody_names() {
+        let mut engine = Engine::default();
+        let files = [
+            ("scene.toml", "[[object]]\nmesh = 'parts/a.obj'\n"),
+            ("parts/a.obj", &format!("mtllib ../paint/a.mtl\nusemtl red\n{TRIANGLE}")),
+            ("paint/a.mtl", "newmtl red\nKd 1 0 0\n"),
+            // Not this one, though it has the same name.
+            ("old/a.obj", "f 1 2 3\n"),
+            ("old/a.mtl", "?\n"),
+        ];
+        let listed: Vec<_> =
+            files.iter().map(|(name, text)| json!({ "name": name, "bytes": text.len() })).collect();
+        let bytes: String = files.iter().map(|(_, text)| *text).collect();
+        let arguments =
+            json!({ "name": "scene.toml", "files": listed, "folder": true }).to_string();
+        let opened = engine.call("open", &arguments, Some(bytes.as_bytes())).unwrap();
+        assert_eq!(
+            (&opened.json()["triangles"], &opened.json()["warnings"]),
+            (&json!(1), &json!([]))
         );
     }
 

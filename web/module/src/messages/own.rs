@@ -2,7 +2,7 @@
 
 use crate::answer::{Answer, Buffer};
 use bothways_lab::common::glam::Vec2;
-use bothways_lab::cover::{Cover, Place, cover};
+use bothways_lab::cover::{Containment, Cover, cover};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -44,7 +44,7 @@ pub(crate) fn answer(own: &Own) -> Result<Answer, String> {
 
 /// Whether the centre of a pixel lies exactly on an edge.
 fn is_tie(cover: &Cover, row: u32, column: u32) -> bool {
-    matches!(cover.place(row, column), Place::OnEdge { .. })
+    matches!(cover.place(row, column), Containment::OnEdge { .. })
 }
 
 #[cfg(test)]

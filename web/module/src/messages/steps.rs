@@ -2,10 +2,11 @@
 
 use crate::answer::{Answer, Buffer};
 use crate::camera::Viewpoint;
+use crate::progress;
 use crate::stage::Stage;
 use bothways_lab::common::View;
 use bothways_lab::common::frame::NO_PRIMITIVE;
-use bothways_lab::film::{self, Step, Steps, StoredChange, Tested};
+use bothways_lab::film::{self, Run, Steps, StoredChange, Tested, Told};
 use bothways_lab::orders::{Method, Order};
 use bothways_lab::raytrace::fast::Prepared;
 use serde::Deserialize;
@@ -57,23 +58,25 @@ impl Record {
 pub(crate) fn answer(stage: &Stage, record: &Record) -> Result<Answer, String> {
     let camera = record.from.camera(&stage.loaded.camera)?;
     let view = View::new(&stage.loaded.scene, &camera);
-    let recorded = Steps::record(record.order(), record.method(), &view);
-    let Steps { code, steps, changes, marks } = recorded.map_err(|error| error.to_string())?;
+    let recorded = Steps::record(record.order(), record.method(), &view, &progress::tell);
+    let steps = recorded.map_err(|error| error.to_string())?;
     let pairs = pairs(&view);
-    let tests = steps.iter().filter(|step| matches!(step.tested, Tested::Primitive(_))).count();
+    let boxes = steps.runs.iter().filter(|run| matches!(run.tested, Tested::Node(_))).count();
     let answer = Answer::new(json!({
-        "count": steps.len(),
-        "pseudocode": code,
+        "count": steps.count,
+        "pseudocode": steps.code,
         "kinds": kinds(&view),
         "pairs": pairs,
-        "skipped": pairs.saturating_sub(tests as u64),
+        "skipped": pairs.saturating_sub(u64::from(steps.count) - boxes as u64),
+        "runs": {},
+        "told": {},
         "changes": {},
         "outlines": { "primitives": {}, "boxes": {} },
     }));
-    let has_nodes = steps.iter().any(|step| matches!(step.tested, Tested::Node(_)));
-    let answer = with_steps(answer, &steps, has_nodes).with("marks", Buffer::U32(marks));
-    let answer = with_outlines(answer, &view, has_nodes.then_some(&stage.ray_tracer));
-    Ok(with_changes(answer, &changes))
+    let answer = with_runs(answer, &steps.runs).with("marks", Buffer::U32(steps.marks));
+    let answer = with_told(answer, &steps.told);
+    let answer = with_outlines(answer, &view, (boxes > 0).then_some(&stage.ray_tracer));
+    Ok(with_changes(answer, &steps.changes))
 }
 
 /// The number of pairs of a primitive and a pixel.
@@ -87,25 +90,31 @@ fn kinds(view: &View) -> Vec<&'static str> {
     view.primitives().map(|(_, primitive)| primitive.kind()).collect()
 }
 
-fn with_steps(answer: Answer, steps: &[Step], has_nodes: bool) -> Answer {
-    let number = |step: &Step| match step.tested {
-        Tested::Primitive(id) => [id, NO_PRIMITIVE],
-        Tested::Node(node) => [NO_PRIMITIVE, node],
+fn each<One, T>(all: &[One], value: impl Fn(&One) -> T) -> Vec<T> {
+    all.iter().map(value).collect()
+}
+
+fn with_runs(answer: Answer, runs: &[Run]) -> Answer {
+    let object = |run: &Run| match run.tested {
+        Tested::Primitive(id) => id,
+        Tested::Node(_) => NO_PRIMITIVE,
     };
-    fn each<T>(steps: &[Step], value: impl Fn(&Step) -> T) -> Vec<T> {
-        steps.iter().map(value).collect()
-    }
-    let answer = answer
-        .with("line", Buffer::U8(each(steps, |step| step.line() as u8)))
-        .with("object", Buffer::U32(each(steps, |step| number(step)[0])))
-        .with("row", Buffer::U16(each(steps, |step| step.row)))
-        .with("column", Buffer::U16(each(steps, |step| step.column)))
-        .with("result", Buffer::U8(each(steps, |step| step.outcome as u8)))
-        .with("t", Buffer::F32(each(steps, |step| step.t.unwrap_or(f32::NAN))));
-    if !has_nodes {
-        return answer;
-    }
-    answer.with("node", Buffer::U32(each(steps, |step| number(step)[1])))
+    let node = |run: &Run| match run.tested {
+        Tested::Primitive(_) => NO_PRIMITIVE,
+        Tested::Node(node) => node,
+    };
+    answer
+        .with("runs.first", Buffer::U32(each(runs, |run| run.first)))
+        .with("runs.object", Buffer::U32(each(runs, object)))
+        .with("runs.node", Buffer::U32(each(runs, node)))
+        .with("runs.pixel", Buffer::U32(each(runs, |run| run.pixel)))
+}
+
+fn with_told(answer: Answer, told: &[Told]) -> Answer {
+    answer
+        .with("told.step", Buffer::U32(each(told, |told| told.step)))
+        .with("told.result", Buffer::U8(each(told, |told| told.outcome as u8)))
+        .with("told.t", Buffer::F32(each(told, |told| told.t.unwrap_or(f32::NAN))))
 }
 
 /// The lines that bound each primitive and each box.
@@ -145,14 +154,11 @@ fn with_lines(answer: Answer, path: &str, things: impl Iterator<Item = film::Lin
 }
 
 fn with_changes(answer: Answer, changes: &[StoredChange]) -> Answer {
-    fn each<T>(changes: &[StoredChange], value: impl Fn(&StoredChange) -> T) -> Vec<T> {
-        changes.iter().map(value).collect()
-    }
     let colors = changes.iter().flat_map(|change| change.color).collect();
     answer
         .with("changes.step", Buffer::U32(each(changes, |change| change.steps)))
-        .with("changes.row", Buffer::U16(each(changes, |change| change.row)))
-        .with("changes.column", Buffer::U16(each(changes, |change| change.column)))
+        .with("changes.row", Buffer::U32(each(changes, |change| change.row)))
+        .with("changes.column", Buffer::U32(each(changes, |change| change.column)))
         .with("changes.id", Buffer::U32(each(changes, |change| change.id.unwrap_or(NO_PRIMITIVE))))
         .with("changes.rgb", Buffer::U8(colors))
 }
@@ -174,10 +180,27 @@ mod tests {
     fn numbers(answer: &Answer, path: &str) -> Vec<u32> {
         match answer.buffer(path) {
             Some(Buffer::U32(numbers)) => numbers.clone(),
-            Some(Buffer::U16(numbers)) => numbers.iter().map(|&number| number.into()).collect(),
             Some(Buffer::U8(numbers)) => numbers.iter().map(|&number| number.into()).collect(),
             other => panic!("{path}: {other:?}"),
         }
+    }
+
+    /// Every step as the page reads it: the object, the box, the row, the column, and what came of it.
+    fn steps(answer: &Answer, order: &str) -> Vec<[u32; 5]> {
+        let [firsts, objects, nodes, pixels] = ["first", "object", "node", "pixel"]
+            .map(|part| numbers(answer, &format!("runs.{part}")));
+        let count = u32::try_from(answer.json()["count"].as_u64().unwrap()).unwrap();
+        let mut steps = Vec::new();
+        for (run, &first) in firsts.iter().enumerate() {
+            for along in 0..firsts.get(run + 1).unwrap_or(&count) - first {
+                let [on_object, on_pixel] = if order == "object" { [0, along] } else { [along, 0] };
+                let pixel = pixels[run] + on_pixel;
+                steps.push([objects[run] + on_object, nodes[run], pixel / 12, pixel % 12, 0]);
+            }
+        }
+        let [told, results] = ["told.step", "told.result"].map(|path| numbers(answer, path));
+        told.iter().zip(results).for_each(|(&step, result)| steps[step as usize][4] = result);
+        steps
     }
 
     /// The points of all lines of one thing.
@@ -212,13 +235,12 @@ mod tests {
             ("lecture", "image", "hierarchy"),
         ] {
             let answer = recorded(scene, order, kind);
-            let [objects, rows, columns, results] =
-                ["object", "row", "column", "result"].map(|path| numbers(&answer, path));
             let kinds = answer.json()["kinds"].clone();
-            let covering = (0..results.len()).filter(|&step| matches!(results[step], 1..=3));
+            let steps = steps(&answer, order);
             let mut count = 0;
-            for step in covering {
-                let (id, pixel) = (objects[step] as usize, [rows[step], columns[step]]);
+            for &[object, _, row, column, _] in steps.iter().filter(|step| matches!(step[4], 1..=3))
+            {
+                let (id, pixel) = (object as usize, [row, column]);
                 // A plane has a horizon, and nothing around it.
                 if kinds[id] != "plane" {
                     let points = points(&answer, "outlines.primitives", id);
@@ -233,16 +255,15 @@ mod tests {
     #[test]
     fn a_ray_that_enters_a_box_has_its_edges_around_it() {
         let answer = recorded("lecture", "image", "hierarchy");
-        let [nodes, rows, columns, results, boxes] =
-            ["node", "row", "column", "result", "outlines.boxes.number"]
-                .map(|path| numbers(&answer, path));
+        let boxes = numbers(&answer, "outlines.boxes.number");
+        let steps = steps(&answer, "image");
         let mut count = 0;
-        for step in (0..results.len()).filter(|&step| matches!(results[step], 4 | 5)) {
-            let place = boxes.iter().position(|&number| number == nodes[step]).unwrap();
+        for &[_, node, row, column, result] in steps.iter().filter(|step| step[4] >= 4) {
+            let place = boxes.iter().position(|&number| number == node).unwrap();
             let points = points(&answer, "outlines.boxes", place);
             assert_eq!(points.len(), 24);
-            if results[step] == 5 {
-                assert!(is_around(&points, [rows[step], columns[step]]), "{place}");
+            if result == 5 {
+                assert!(is_around(&points, [row, column]), "{place}");
                 count += 1;
             }
         }
