@@ -134,7 +134,7 @@ impl Steps {
         // Where ids have 64 bits, there are more primitives than steps that are kept.
         let is_known = method == Method::Textbook || view.scene.has_wide_ids();
         let at_least = if is_known { primitives } else { 1 };
-        check(pixels * at_least)?;
+        check(pixels.saturating_mul(at_least))?;
         let loops = Loops::new(order, method, *view);
         let count = check(loops.steps)?;
         let mut steps = Steps::keep(&loops, width, &|done| listener(done, count))
@@ -312,7 +312,7 @@ mod tests {
     #[test]
     fn runs_are_the_two_loops() {
         both("overlap", Method::Textbook, |order, steps, view, _| {
-            let (objects, pixels) = (view.scene.primitive_count(), 24 * 16);
+            let (objects, pixels) = (view.scene.name_count(), 24 * 16);
             assert_eq!(steps.count, objects * pixels);
             assert_eq!(
                 steps.runs.len(),
