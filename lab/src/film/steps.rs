@@ -275,7 +275,11 @@ mod tests {
                 }
                 for (at, id) in stored.into_iter().enumerate() {
                     let [row, column] = [at / frame.width(), at % frame.width()];
-                    assert_eq!(id.map(u64::from), frame.id(row, column), "{name} {order:?} ({row}, {column})");
+                    assert_eq!(
+                        id.map(u64::from),
+                        frame.id(row, column),
+                        "{name} {order:?} ({row}, {column})"
+                    );
                 }
                 assert!(steps.changes.is_sorted_by_key(|change| change.steps));
             });
