@@ -2,7 +2,7 @@
 //!
 //! Every number is an `f64` that is exact up to its last roundings, and every text is one to paste or to pipe into a
 //! file of that system. What a system cannot express is an error, never a picture that is nearly the same: see
-//! [`ExchangeError`]. A [`Camera`] has an orthonormal frame, also where a scene states one that
+//! [`ExchangeError`]. A [`Camera`](crate::common::Camera) has an orthonormal frame, also where a scene states one that
 //! is a little skew, so that no system needs more than a rotation.
 //!
 //! Pixel `(i, j)` of ours has its middle at `(j + ½, i + ½)`, counted from the upper left corner, rightwards and

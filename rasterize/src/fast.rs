@@ -26,7 +26,6 @@
 //! An instance of a mesh is dropped by its box (`search/instances`): from tiles where it is not seen, and where the tile
 //! already shows something nearer. Only then clusters are looked at, and their vertices placed; none is kept.
 
-mod affine;
 mod aligned;
 mod answer;
 mod bounds;
@@ -52,6 +51,7 @@ mod store;
 mod tile;
 mod triangle;
 mod vertices;
+mod viewport_affine;
 
 pub use partition::ClusterBox;
 pub use prepared::Prepared;
@@ -123,8 +123,8 @@ pub fn render(prepared: &Prepared, view: &View, options: &Options) -> Frame {
 ///
 /// Fits the frame to the view and writes ids and `t`s into it; [`shade`](fn@crate::shade) gives it its colours.
 ///
-/// Runs on the rayon pool that it is called in; the number of threads changes no bit of the frame, no count and
-/// nothing that the observer is told.
+/// Runs on the rayon pool that it is called in; the number of threads changes no bit of the frame, no count and no
+/// event that the observer gets.
 ///
 /// # Panics
 ///
@@ -174,7 +174,7 @@ fn fill<F: Fault>(
     level: Level,
     sink: Option<&mut dyn Events>,
 ) -> Executed {
-    // Nobody watches a renderer with faults, so that code is never compiled.
+    // A renderer with faults runs without an observer: the code for events is not compiled for it.
     if const { F::SOUND }
         && let Some(sink) = sink
     {
@@ -199,7 +199,7 @@ fn draw_tile<F: Fault>(
         if drawing.draw_tile(&mut Parts::<_, _, F>::of((), sink), tile, buffer) {
             return;
         }
-        // The sink has enough: once more, unwatched.
+        // The sink needs no more events. The tile is drawn again, without them.
         buffer.clear();
     }
     drawing.draw_tile(&mut Parts::<_, _, F>::of((), &mut ()), tile, buffer);

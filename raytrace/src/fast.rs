@@ -8,19 +8,19 @@
 //!             keep the nearest              depth keys as intervals that hold the true ones           (depth, tile)
 //! ```
 //!
-//! Spheres and planes are tested ray by ray (`one_primitive`). Rounded arithmetic decides wherever its bound says
-//! that the sign is certain; the exact judge decides the rest. A box is dropped, and a triangle before it is set up,
+//! Planes, and triangles that eight at a time are not certain of, are set up alone and tested at sixteen samples at once
+//! (`one_primitive`), as are spheres (`sphere/blocks`). What these leave open is tested ray by ray in `f64`. Rounded
+//! arithmetic decides wherever its bound says that the sign is certain; the exact judge decides the rest. A box is dropped, and a triangle before it is set up,
 //! only when all rays of the tile certainly miss it, or when it is certainly farther than what all rays hit. `f32` is
 //! enough to find that out (`search/box_culling`, `local_projection`). Edges through samples need no judge where
 //! corners lie on quarters of samples (`aligned`).
 //!
-//! Instances of meshes have a hierarchy of their own, each mesh once one in its own coordinates, to which a tile's rays are
-//! carried over (`search/instance_frustum`).
+//! Instances are in a hierarchy of their own. Each mesh that they share has one, in its own coordinates; the rays of a tile
+//! are transformed to these coordinates (`search/instance_frustum`).
 //!
 //! For an observer, each ray is walked alone as well, as a tile of one. So the events belong to the ray, and
 //! depend on nothing else. The frame is that of the tiles, whether they are watched or not.
 
-mod affine;
 mod aligned;
 mod answer;
 mod any_ray;
@@ -30,6 +30,7 @@ mod depth;
 mod draw;
 mod few_samples;
 mod high_precision;
+mod lane_affine;
 mod local_errors;
 mod local_projection;
 mod many_samples;
@@ -164,7 +165,7 @@ impl Loops {
     fn template(&self, map: &CameraMap, side: usize) -> FrustumTemplate {
         let mut template = FrustumTemplate::new(map, side);
         if (self.is)(Planted::InfiniteMargin) {
-            template.distrust();
+            template.make_errors_infinite();
         }
         template
     }
@@ -224,7 +225,7 @@ fn watch<F: Fault>(
     chunk: &Tile,
     sink: &mut dyn Events,
 ) {
-    // Nobody watches a renderer with faults, so that code is never compiled.
+    // A renderer with faults runs without an observer: the code for events is not compiled for it.
     if const { !F::SOUND } {
         return;
     }

@@ -2,9 +2,9 @@
 
 mod clip;
 
-use super::affine::Affine;
 use super::camera_map::CameraMap;
 use super::depth::{depth_plane, sign_in_front};
+use super::viewport_affine::ViewportAffine;
 use bothways_common::engine::fault::Fault;
 use bothways_common::raster::Region;
 use bothways_common::{Primitive, Projection};
@@ -43,8 +43,8 @@ fn triangle_region<F: Fault>(map: &CameraMap, corners: &[DVec3; 3]) -> Region {
 /// The samples that a sphere may cover.
 ///
 /// Perspective: in the plane of `u` and `w` its silhouette is the two tangents from the eye to a
-/// circle around `(c_u, ζ)`, of slopes `(c_u·ζ ± r·√(c_u² + ζ² − r²))/(ζ² − r²)`. Trusted is `ζ − r
-/// ≥ 2⁻¹⁰·s` with `s = ‖c‖₁ + r`: then `ζ² − r²` carries `2⁻³⁹` of itself and is at least `2⁻²⁰·s²`,
+/// circle around `(c_u, ζ)`, of slopes `(c_u·ζ ± r·√(c_u² + ζ² − r²))/(ζ² − r²)`. The slope is trusted if `ζ −
+/// r ≥ 2⁻¹⁰·s` with `s = ‖c‖₁ + r`: then `ζ² − r²` carries `2⁻³⁹` of itself and is at least `2⁻²⁰·s²`,
 /// the numerator carries `2⁻⁴⁸·s²`, and the slope is off by `2⁻²⁷` of `1 + |slope|`. The extra
 /// margin takes `2⁻²⁴`.
 fn sphere_region<F: Fault>(map: &CameraMap, center: DVec3, radius: f64) -> Region {
@@ -79,7 +79,7 @@ fn sphere_region<F: Fault>(map: &CameraMap, center: DVec3, radius: f64) -> Regio
 }
 
 /// The samples beyond a plane's horizon, where its depth says that `t` may be positive.
-fn plane_region(map: &CameraMap, depth: &Affine) -> Region {
+fn plane_region(map: &CameraMap, depth: &ViewportAffine) -> Region {
     let (x, y) = (map.grid.x(), map.grid.y());
     let side = sign_in_front(map.projection());
     let widest = x.last().map_or(0.0, |x| x.abs()) * depth.across.abs();

@@ -1,8 +1,8 @@
 //! Depth as a function on the viewport: as an interval that is certain to hold the true one, and as the
 //! key that the z-buffer stores.
 
-use super::affine::Affine;
 use super::camera_map::CameraMap;
+use super::viewport_affine::ViewportAffine;
 use bothways_common::Projection;
 use bothways_common::engine::fault::{Fault, Planted};
 use bothways_common::engine::roundoff::{EPS53, Interval};
@@ -14,7 +14,7 @@ use glam::DVec3;
 /// Depth grows with `t`: it is `−1/t` for a perspective camera, where `1/t` is affine on the
 /// viewport, and `t` itself, from the local origin on, for a parallel one.
 pub(super) fn depth_from_t(projection: Projection, t: f64, relative: f64) -> Interval {
-    // Not certain, not finite or NaN: only the judge knows.
+    // Not certain, not finite or NaN: only the judge can decide.
     if !(relative < 0.125 && t > 0.0) {
         return Interval::ALL;
     }
@@ -46,7 +46,7 @@ pub(super) fn depth_plane(
     point: DVec3,
     normal: DVec3,
     permanent: DVec3,
-) -> Affine {
+) -> ViewportAffine {
     let projection = map.projection();
     let point = map.local.relative(point);
     let (height, mut reach) = (normal.dot(point), permanent.dot(map.reach));
@@ -69,7 +69,7 @@ pub(super) fn depth_plane(
     } else {
         f64::INFINITY
     };
-    Affine {
+    ViewportAffine {
         at_center: at_center * by_f,
         across: normal.dot(map.u) * by_f,
         up: normal.dot(map.v) * by_f,

@@ -3,7 +3,7 @@
 use super::depth::{NOTHING, nearer_by};
 use super::lanes::lanes_of;
 use super::picture::Picture;
-use super::setup::TriangleSetup;
+use super::setup::FlatSetup;
 use super::tile::TileBuffer;
 use bothways_common::engine::context::{Context, ScalarContext};
 use bothways_common::engine::fault::Fault;
@@ -39,7 +39,7 @@ struct Tested<S: Simd> {
 #[inline(always)]
 pub(super) fn draw<C: Context>(
     context: &mut C,
-    triangle: &TriangleSetup,
+    triangle: &FlatSetup,
     picture: &Picture,
     buffer: &mut TileBuffer,
 ) {
@@ -55,7 +55,7 @@ pub(super) fn draw<C: Context>(
 #[inline(always)]
 fn draw_blocks<const ACROSS: usize, C: Context>(
     context: &mut C,
-    triangle: &TriangleSetup,
+    triangle: &FlatSetup,
     Region { rows, columns }: Region,
     picture: &Picture,
     buffer: &mut TileBuffer,
@@ -143,10 +143,7 @@ const fn lane_places<const ACROSS: usize>() -> [[f32; 16]; 2] {
 
 impl<S: Simd> Broadcast<S> {
     #[inline(always)]
-    fn new(
-        simd: S,
-        TriangleSetup { id, edges: [a, b, c], error, key, .. }: &TriangleSetup,
-    ) -> Self {
+    fn new(simd: S, FlatSetup { id, edges: [a, b, c], error, key, .. }: &FlatSetup) -> Self {
         debug_assert!(error.is_finite(), "or lanes beyond the region would count");
         let in_lanes = |numbers: &[f32; 3]| {
             let [at_origin, across, down] = *numbers;
@@ -341,7 +338,7 @@ fn leave_open<const ACROSS: usize, C: ScalarContext>(
 #[inline(always)]
 fn emit_tests<const ACROSS: usize, C: Context>(
     context: &mut C,
-    triangle: &TriangleSetup,
+    triangle: &FlatSetup,
     buffer: &mut TileBuffer,
     first: Sample,
     [end_row, end_column]: [usize; 2],
@@ -390,7 +387,7 @@ mod tests {
     use bothways_common::engine::simd::{dispatch, levels};
 
     /// A triangle's setup with edge functions of all slopes, some of them 0.
-    fn setup(random: &mut fastrand::Rng) -> TriangleSetup {
+    fn setup(random: &mut fastrand::Rng) -> FlatSetup {
         let mut number = |most: f32| match random.u32(0..8) {
             0 => 0.0,
             1 => most * 1e-6 * (random.f32() - 0.5),
@@ -398,7 +395,7 @@ mod tests {
         };
         let edges = std::array::from_fn(|_| [number(3e4), number(400.0), number(400.0)]);
         let error = number(10.0).abs();
-        TriangleSetup {
+        FlatSetup {
             id: 0,
             edges,
             error,

@@ -1,10 +1,10 @@
 //! A plane, set up in `f64` and drawn as a large triangle is: strip by strip.
 
-use super::affine::Affine;
 use super::depth::{depth_plane, sign_in_front};
 use super::one_primitive::fragment_writer::FragmentWriter;
 use super::one_primitive::narrow::narrow_plane;
 use super::one_primitive::strips::{STRIP, strips};
+use super::viewport_affine::ViewportAffine;
 use bothways_common::engine::context::{Context, ScalarContext};
 use bothways_common::engine::fault::error_bound;
 use bothways_common::observe::Events;
@@ -42,7 +42,7 @@ pub(super) fn draw<C: Context>(
 fn draw_samples<C: ScalarContext>(
     context: &mut C,
     writer: &mut FragmentWriter,
-    depth: &Affine,
+    depth: &ViewportAffine,
     here: Region,
 ) {
     writer.buffer.executed.single_samples += here.area() as u64;

@@ -24,7 +24,7 @@ pub struct Prepared {
     pub(super) batches: Vec<Batch>,
     /// The clusters of every object.
     pub(super) clusters: Vec<Clusters>,
-    /// Of every object of instances their mesh.
+    /// For each object that is instances: the mesh.
     pub(super) shared: Vec<Option<Arc<SharedMesh>>>,
     pub(super) primitives: u64,
     /// The index of each object's first vertex among all vertices; at the end, the number of all vertices.

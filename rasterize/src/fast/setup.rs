@@ -65,9 +65,9 @@ impl Setup {
     /// *Facing.* The area is an edge function at a vertex, computed with at most `8ε₂₄P`, of which one more
     /// place is off: `1.5` times the error of an edge function covers it.
     ///
-    /// *Key.* With `E` the error of an edge function and `ε = E/area`, at most 2⁻⁴, the weights `λ_b =
-    /// E_ca/area` and `λ_c` are off by `1.1·ε` for the numerator and, times the weight, `1.1·1.5·ε` for the
-    /// area: `2.8·ε·(|k_b − k_a| + |k_c − k_a|)` in all, the weights of a covered sample summing up to at most
+    /// *Key.* With `E` the error of an edge function and `ρ = E/area`, at most 2⁻⁴, the weights `λ_b =
+    /// E_ca/area` and `λ_c` are off by `1.1·ρ` for the numerator and, times the weight, `1.1·1.5·ρ` for the
+    /// area: `2.8·ρ·(|k_b − k_a| + |k_c − k_a|)` in all, the weights of a covered sample summing up to at most
     /// one. Edge functions are at most `P` in the box, and so are `A·column` and `B·row`. So with `κ = ε₂₄·P·(|k_b −
     /// k_a| + |k_c − k_a|)/area` the key at the origin brings `3κ` and twice `ε₂₄·k_a`, each slope times its column
     /// or row `2κ`, evaluation `κ` for each product and for each of two sums, and of `k_a` twice `ε₂₄`: `11κ` in
@@ -318,7 +318,7 @@ impl<S: Simd> AxisBounds<S> {
 
 /// One triangle with its affine functions, as [`Setup`] has sixteen; or one strip of a plane.
 #[derive(Clone, Debug)]
-pub(super) struct TriangleSetup {
+pub(super) struct FlatSetup {
     pub(super) id: u32,
     /// Edge functions: at the origin, a column across, a row down.
     pub(super) edges: [[f32; 3]; 3],
@@ -333,7 +333,7 @@ pub(super) struct TriangleSetup {
     pub(super) facing: f32,
 }
 
-impl TriangleSetup {
+impl FlatSetup {
     /// Emits one test: the edge functions' signs as far as they are certain, in the orientation of
     /// the contract.
     pub(super) fn emit_test(
@@ -361,13 +361,13 @@ impl TriangleSetup {
 impl Setup {
     /// The triangle of one lane.
     #[inline(always)]
-    pub(super) fn triangle(&self, lane: usize) -> TriangleSetup {
+    pub(super) fn triangle(&self, lane: usize) -> FlatSetup {
         let lane = lane & 15;
         let edge = |k: usize| [self.at_origin[k][lane], self.across[k][lane], self.down[k][lane]];
         let from = |first: &[i32; 16]| first[lane].cast_unsigned() as usize;
         let (row, column) = (from(&self.first_row), from(&self.first_column));
         let rows = row..row + from(&self.rows);
-        TriangleSetup {
+        FlatSetup {
             id: self.ids[lane],
             edges: [edge(0), edge(1), edge(2)],
             error: self.error[lane],

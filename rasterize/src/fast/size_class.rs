@@ -1,4 +1,4 @@
-//! How a primitive is drawn, by the number of samples in its box.
+//! How many samples triangles may cover, in classes: each class has its own way to be drawn.
 
 /// Triangles with boxes of at most this many samples are drawn apart from larger ones: sixteen triangles take
 /// as long as the one with most samples.

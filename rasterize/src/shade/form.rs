@@ -22,7 +22,7 @@ pub(super) struct HitPoints<S: Simd> {
 }
 
 impl<S: Simd> HitPoints<S> {
-    /// Points that nobody asks for.
+    /// Points that are not needed.
     #[inline(always)]
     pub(super) fn nowhere(simd: S) -> Self {
         let zero = DVec3x8::splat(simd, DVec3::ZERO);

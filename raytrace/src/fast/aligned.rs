@@ -1,7 +1,7 @@
 //! Triangles whose corners lie exactly on rays through samples, or through quarters of the way between them: edges
 //! through samples are decided without the judge.
 
-use super::affine::Affine;
+use super::lane_affine::LaneAffine;
 use super::search::tile_frustum::TileFrustum;
 use super::straight_rays::StraightRays;
 use bothways_common::engine::context::Context;
@@ -27,7 +27,7 @@ pub(super) struct AlignedTriangles<S: Simd> {
     /// The triangles that are aligned; the other lanes have no meaning.
     pub(super) which: mask32x8<S>,
     /// The edge functions of `ab`, `bc`, `ca` on the raster, positive inside, never 0 at a sample.
-    pub(super) edges: [Affine<S>; 3],
+    pub(super) edges: [LaneAffine<S>; 3],
     /// The sign of the facing, ±1: negative when the corners are seen counter-clockwise.
     pub(super) facing: f32x8<S>,
     /// The triangles that are seen edge-on.
@@ -45,8 +45,8 @@ impl<S: Simd> AlignedTriangles<S> {
     pub(super) fn new<C: Context<Simd = S>>(
         context: &C,
         frustum: &TileFrustum,
-        offsets: &Corners<S>,
-        mapped: &Corners<S>,
+        offsets: &LaneCorners<S>,
+        mapped: &LaneCorners<S>,
     ) -> Option<Self> {
         let simd = context.simd();
         let straight = frustum.template.straight.as_ref()?;
@@ -73,7 +73,7 @@ impl<S: Simd> AlignedTriangles<S> {
 }
 
 /// Three coordinates of the three corners.
-type Corners<S> = [[f64x8<S>; 3]; 3];
+type LaneCorners<S> = [[f64x8<S>; 3]; 3];
 
 /// Where a corner of each triangle lies, in rows and columns from the tile's middle, and which are aligned.
 #[inline(always)]
@@ -100,7 +100,7 @@ fn edge<C: Context>(
     p: [f64x8<C::Simd>; 2],
     [dy, dx]: [f64x8<C::Simd>; 2],
     facing: f64x8<C::Simd>,
-) -> (Affine<C::Simd>, mask64x8<C::Simd>) {
+) -> (LaneAffine<C::Simd>, mask64x8<C::Simd>) {
     let simd = context.simd();
     let (across, down) = (-dy * facing, dx * facing);
     let at_middle = (dy * p[1] - dx * p[0]) * facing;
@@ -111,5 +111,5 @@ fn edge<C: Context>(
     let by = if C::has(Planted::StrictComparison) { -tie } else { owned.select(tie, -tie) };
     let (at_middle, across) = (at_middle + by).narrow(across).split();
     let down = down.narrow(down).split().0;
-    (Affine { at_middle, across, down }, size.simd_lt(f64x8::splat(simd, LARGEST)))
+    (LaneAffine { at_middle, across, down }, size.simd_lt(f64x8::splat(simd, LARGEST)))
 }

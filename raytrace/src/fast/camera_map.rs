@@ -46,7 +46,7 @@ pub(super) struct Axes {
     pub(super) slopes: [DVec3; 2],
 }
 
-/// How far what is computed may be from what is meant, for tiles of one size.
+/// How far computed numbers may be from exact ones, for tiles of one size.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MapErrors {
     /// Half of a tile, from the first sample to the last, and what rounding may add: a point on one of a tile's rays
@@ -64,7 +64,7 @@ pub(super) struct MapErrors {
     pub(super) depth: f64,
     /// Computed `t` of a point and `t` of the ray there: relative for a perspective camera.
     pub(super) t: f64,
-    /// All this is for coordinates of at most so much, relative to the eye.
+    /// The largest coordinate, relative to the eye, for which these errors hold.
     pub(super) reach: f64,
     /// Whether the bounds of projected triangles on the raster can be trusted.
     pub(super) small: bool,

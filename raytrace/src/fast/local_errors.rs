@@ -17,7 +17,7 @@ pub(super) struct LocalErrors {
 
 /// What bounds the numbers of a map.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Sizes {
+pub(super) struct MapSizes {
     /// Coordinates of points relative to the eye.
     pub(super) reach: f64,
     /// The sums of the coordinates of normals: those of columns and rows, and that of `t`, which is nothing if
@@ -56,8 +56,8 @@ impl LocalErrors {
     ///
     /// *Columns beyond `W`*: the same relative error, so these are taken for columns outside of the tile, by more than
     /// two.
-    pub(super) fn new(sizes: &Sizes) -> LocalErrors {
-        let Sizes { reach, place, t, wide, exact } = *sizes;
+    pub(super) fn new(sizes: &MapSizes) -> LocalErrors {
+        let MapSizes { reach, place, t, wide, exact } = *sizes;
         let away = place + (wide + BESIDE) * t;
         let underflow = 4.0 * f64::from(f32::MIN_POSITIVE) * (1.0 + reach);
         let is_ordinary = 2.0 * reach * away.max(1.0) < LARGEST;

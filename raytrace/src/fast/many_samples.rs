@@ -1,7 +1,7 @@
 //! Triangles over many samples, and planes: one of them at sixteen blocks at once, then at the sixteen samples of each
 //! block that is left.
 
-use super::affine::Affine;
+use super::lane_affine::LaneAffine;
 use super::search::tile_frustum::TileFrustum;
 use super::setup::Setup;
 use super::tile::{TileBuffer, place};
@@ -67,7 +67,7 @@ impl SetupArrays {
 }
 
 #[inline(always)]
-fn arrays<S: Simd>(affine: &Affine<S>) -> [[f32; 8]; 3] {
+fn arrays<S: Simd>(affine: &LaneAffine<S>) -> [[f32; 8]; 3] {
     [affine.at_middle.to_array(), affine.across.to_array(), affine.down.to_array()]
 }
 

@@ -12,7 +12,7 @@ use super::bounds;
 use super::camera_map::CameraMap;
 use super::many_samples::{self, SetupArrays};
 use super::search::tile_frustum::TileFrustum;
-use super::sphere::in_blocks::SphereSetup;
+use super::sphere::blocks::SphereSetup;
 use super::tile::{OpenFragment, TileBuffer, index};
 use super::{plane, sphere, triangle};
 use bothways_common::engine::context::{Context, ScalarContext};

@@ -1,9 +1,9 @@
 //! Sets up eight triangles for the rays of a tile: edge functions and keys as affine functions of the raster, computed
 //! in `f64` about the tile's middle and rounded to `f32`, with bounds of the error.
 
-use super::affine::Affine;
 use super::aligned::AlignedTriangles;
 use super::bounds;
+use super::lane_affine::LaneAffine;
 use super::search::tile_frustum::TileFrustum;
 use bothways_common::engine::context::Context;
 use bothways_common::engine::fault::Planted;
@@ -27,11 +27,11 @@ pub(super) struct TrianglePacket {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Setup<S: Simd> {
     /// Edge functions of `ab`, `bc`, `ca`, positive inside.
-    pub(super) edges: [Affine<S>; 3],
+    pub(super) edges: [LaneAffine<S>; 3],
     /// Beyond this the sign of an edge function is certain.
     pub(super) error: f32x8<S>,
     /// Larger for what is nearer: `1/t`, or `−t` of a parallel camera.
-    pub(super) key: Affine<S>,
+    pub(super) key: LaneAffine<S>,
     /// A key is off by at most this; infinite if it is not known.
     pub(super) key_error: f32x8<S>,
     /// The sign of the facing, ±1.
@@ -154,7 +154,7 @@ impl<S: Simd> Setup<S> {
             | (bc.at_middle + bc.spread(half) + self.error).simd_lt(zero)
             | (ca.at_middle + ca.spread(half) + self.error).simd_lt(zero);
         let mut out = out & !self.doubtful;
-        // Of a ray alone all signs are told to an observer.
+        // For a single ray, an observer gets all signs.
         if frustum.template.side > 1 && self.doubtful.any_true() {
             out |= self.doubtful & self.between_edges(simd, half);
         }
@@ -188,8 +188,8 @@ type Corners<S> = [[f64x8<S>; 3]; 3];
 
 /// Edge functions and keys, and in `f32` what their bounds are made of.
 struct Functions<S: Simd> {
-    edges: [Affine<S>; 3],
-    key: Affine<S>,
+    edges: [LaneAffine<S>; 3],
+    key: LaneAffine<S>,
     /// The facing, by which all functions are divided.
     f: f32x8<S>,
     corners: [[f32x8<S>; 3]; 3],
@@ -231,7 +231,7 @@ impl<S: Simd> Functions<S> {
         let (ab_t, ab_x) = narrow(ab[0], ab[1]);
         let (ab_y, ca_t) = narrow(ab[2], ca[0]);
         let (ca_x, ca_y) = narrow(ca[1], ca[2]);
-        let affine = |at_middle, across, down| Affine { at_middle, across, down };
+        let affine = |at_middle, across, down| LaneAffine { at_middle, across, down };
         Functions {
             edges: [affine(c1, x1, y1), affine(c2, x2, y2), affine(c3, x3, y3)],
             key: affine(ck, xk, yk),
@@ -247,7 +247,7 @@ impl<S: Simd> Functions<S> {
 struct ErrorBounds<S: Simd> {
     edge: f32x8<S>,
     key: f32x8<S>,
-    /// [`Affine::spread`] of the keys over the tile.
+    /// [`LaneAffine::spread`] of the keys over the tile.
     key_spread: f32x8<S>,
     /// Whether the sign of the facing is certain.
     certain: mask32x8<S>,

@@ -1,7 +1,7 @@
 //! One ray against one sphere, and two spheres against each other along a ray.
 
-pub(super) mod in_blocks;
-mod in_high_precision;
+pub(super) mod blocks;
+mod high_precision;
 
 use super::answer::{Answer, FLOOR, Trust, distance_around};
 use bothways_common::Ray;
@@ -21,7 +21,7 @@ pub(super) fn answer(ray: &Ray, center: DVec3, radius: f64, trust: Trust) -> Ans
             Answer::Hit(Interval { low, high })
         }
         open @ (Answer::Hit(_) | Answer::Open(_)) if !trust.is_sound() => open,
-        Answer::Hit(_) | Answer::Open(_) => in_high_precision::answer(ray, center, radius),
+        Answer::Hit(_) | Answer::Open(_) => high_precision::answer(ray, center, radius),
         Answer::Miss => Answer::Miss,
     }
 }

@@ -1,9 +1,9 @@
 //! A triangle set up in `f64`: edge functions and depth as affine functions on the viewport, with the errors of their
 //! rounding.
 
-use crate::fast::affine::Affine;
 use crate::fast::camera_map::{CameraMap, samples_between};
 use crate::fast::depth::depth_plane;
+use crate::fast::viewport_affine::ViewportAffine;
 use bothways_common::engine::fault::{Fault, Planted, error_bound};
 use bothways_common::engine::roundoff::{EPS53, cross_permanent};
 use bothways_common::{Judge, Projection, Sign};
@@ -13,8 +13,8 @@ use std::ops::Range;
 /// A triangle, set up in `f64`. Its edge functions are positive inside.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct F64Setup {
-    pub(crate) edges: [Affine; 3],
-    pub(crate) depth: Affine,
+    pub(crate) edges: [ViewportAffine; 3],
+    pub(crate) depth: ViewportAffine,
     /// The sign of the facing, ±1, by which the edge functions were multiplied.
     pub(crate) facing: f64,
 }
@@ -116,7 +116,7 @@ fn facing<F: Fault>(
 ///
 /// The bound takes 13, so that its own roundings (at most 10, each of one part in 2⁵³) do no harm, nor those
 /// of second order.
-fn edge_function(map: &CameraMap, [p, q]: [DVec3; 2], along: DVec3) -> Affine {
+fn edge_function(map: &CameraMap, [p, q]: [DVec3; 2], along: DVec3) -> ViewportAffine {
     let (normal, permanent) = (p.cross(q), cross_permanent(p, q));
     let (at_center, slope, size) = match map.projection() {
         Projection::Perspective => {
@@ -128,7 +128,7 @@ fn edge_function(map: &CameraMap, [p, q]: [DVec3; 2], along: DVec3) -> Affine {
             (-normal.dot(map.w), slope, size)
         }
     };
-    Affine {
+    ViewportAffine {
         at_center,
         across: slope.dot(map.u),
         up: slope.dot(map.v),

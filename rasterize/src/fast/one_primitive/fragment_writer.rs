@@ -2,7 +2,7 @@
 
 use crate::fast::many_samples;
 use crate::fast::picture::{Picture, judge_covers};
-use crate::fast::setup::TriangleSetup;
+use crate::fast::setup::FlatSetup;
 use crate::fast::tile::{Incoming, TileBuffer};
 use bothways_common::Primitive;
 use bothways_common::engine::context::{Context, ScalarContext};
@@ -48,7 +48,7 @@ impl FragmentWriter<'_, '_> {
 
     /// Writes all fragments of one strip of the primitive, sixteen samples at a time.
     #[inline(always)]
-    pub(crate) fn write_strip<C: Context>(&mut self, context: &mut C, strip: &TriangleSetup) {
+    pub(crate) fn write_strip<C: Context>(&mut self, context: &mut C, strip: &FlatSetup) {
         many_samples::draw(context, strip, self.picture, self.buffer);
     }
 

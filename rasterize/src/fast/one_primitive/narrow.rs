@@ -2,10 +2,10 @@
 //! a time.
 
 use super::edges::F64Setup;
-use crate::fast::affine::Affine;
 use crate::fast::camera_map::CameraMap;
 use crate::fast::depth::{KEY_ERROR, KeyScale, LARGEST_KEY};
-use crate::fast::setup::TriangleSetup;
+use crate::fast::setup::FlatSetup;
+use crate::fast::viewport_affine::ViewportAffine;
 use bothways_common::Projection;
 use bothways_common::engine::fault::{Fault, error_bound};
 use bothways_common::engine::roundoff::EPS24;
@@ -51,8 +51,8 @@ impl<'a> Strip<'a> {
     /// `x` of a sample is within `10·2⁻⁵³·X` of where a column's width times their number leads from the origin's,
     /// `X` the largest of any sample: three roundings for each, and two for that width. The function at the origin
     /// is rounded three times, its slopes twice: less than 2⁻⁴⁸ of all parts in all.
-    fn function(&self, function: Affine) -> RasterAffine {
-        let Affine { at_center, across, up, error } = function;
+    fn function(&self, function: ViewportAffine) -> RasterAffine {
+        let ViewportAffine { at_center, across, up, error } = function;
         let Strip { map, origin, size } = self;
         let (xs, ys) = (map.grid.x(), map.grid.y());
         let at_origin = at_center + ys[origin.row] * up + xs[origin.column] * across;
@@ -92,7 +92,7 @@ pub(crate) fn narrow_triangle<F: Fault>(
     setup: &F64Setup,
     (id, corners): (u32, &[DVec3; 3]),
     region: &Region,
-) -> Option<TriangleSetup> {
+) -> Option<FlatSetup> {
     let strip = Strip::new(map, region);
     let edges = setup.edges.map(|edge| strip.function(edge));
     let factors = edges.map(|edge| 1.0 / edge.most);
@@ -111,7 +111,7 @@ pub(crate) fn narrow_triangle<F: Fault>(
     #[expect(clippy::cast_possible_truncation, reason = "±1")]
     let facing = setup.facing as f32;
     let rounded = |k: usize| edges[k].rounded(factors[k]);
-    Some(TriangleSetup {
+    Some(FlatSetup {
         id,
         edges: [rounded(0), rounded(1), rounded(2)],
         error,
@@ -126,12 +126,12 @@ pub(crate) fn narrow_triangle<F: Fault>(
 pub(crate) fn narrow_plane(
     map: &CameraMap,
     keys: KeyScale,
-    depth: &Affine,
+    depth: &ViewportAffine,
     id: u32,
     region: &Region,
-) -> Option<TriangleSetup> {
+) -> Option<FlatSetup> {
     let strip = Strip::new(map, region);
-    Some(TriangleSetup {
+    Some(FlatSetup {
         id,
         edges: [[1.0, 0.0, 0.0]; 3],
         error: 0.0,
@@ -147,7 +147,7 @@ pub(crate) fn narrow_plane(
 fn key(
     strip: &Strip,
     keys: KeyScale,
-    depth: &Affine,
+    depth: &ViewportAffine,
     corners: Option<&[DVec3; 3]>,
 ) -> Option<RasterAffine> {
     let (map, offset) = (strip.map, keys.offset);
@@ -155,8 +155,8 @@ fn key(
         Projection::Perspective => -offset,
         Projection::Parallel => offset,
     };
-    let Affine { at_center, across, up, error } = *depth;
-    let key = strip.function(Affine {
+    let ViewportAffine { at_center, across, up, error } = *depth;
+    let key = strip.function(ViewportAffine {
         at_center: from_depth - at_center,
         across: -across,
         up: -up,

@@ -1,12 +1,13 @@
-//! Consecutive primitives that one thread takes up at a time.
+//! Consecutive primitives that one thread takes at a time.
 
 use super::clusters::CLUSTER;
 use bothways_common::{Scene, Shape};
 
-/// How many primitives one thread takes up at a time: at most, and at least if there are enough.
+/// The most primitives that one thread takes at a time.
 const MOST_IN_BATCH: u32 = 1 << 15;
+/// The fewest primitives that one thread takes at a time, if there are enough.
 const LEAST_IN_BATCH: u32 = 1 << 10;
-/// How many instances of a mesh, at most: they are taken up as wholes.
+/// The most instances of a mesh in one batch; an instance is never divided.
 const INSTANCES_IN_BATCH: u32 = 1 << 10;
 
 /// What one thread takes up at a time.

@@ -222,7 +222,7 @@ fn sort(points: &mut [(Vec3A, u32)]) {
     }
 }
 
-/// Where what lies in a box may be seen.
+/// Where the content of a box may be seen.
 pub(crate) enum Sight {
     /// Nowhere.
     Nowhere,

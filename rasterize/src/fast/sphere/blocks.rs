@@ -1,7 +1,7 @@
 //! A sphere tested at sixteen samples of a row at once, in `f64`.
 
 use super::by_sample::{Sphere, draw_sample};
-use super::forms::{Forms, Seen};
+use super::forms::{Forms, SeenRoot};
 use super::rows::{EightRows, Row};
 use crate::fast::depth::{KEY_ERROR, LARGEST_KEY, NOTHING, nearer_by};
 use crate::fast::lanes::lanes_of;
@@ -14,17 +14,17 @@ use bothways_common::engine::simd::{
 use bothways_common::observe::Events;
 use bothways_common::raster::{Region, Sample};
 
-/// A key that is no key: nothing is covered.
+/// Stands for "not covered" among keys.
 const MISS: f64 = -1.0;
 
 /// What a computed key's error may be of it, so that with the rounding to `f32`, a sixty-fourth of [`KEY_ERROR`], and
 /// those of the comparison it is still within that.
-const SHARE: f64 = 0.98 * KEY_ERROR as f64;
+const KEY_ERROR_PART: f64 = 0.98 * KEY_ERROR as f64;
 
 /// The depth test of a block.
-struct Tested<S: Simd> {
+struct SphereTested<S: Simd> {
     keys: f32x16<S>,
-    /// What certainly is a fragment.
+    /// The lanes that are certainly fragments.
     covered: mask32x16<S>,
     /// What is nearest so far, for certain.
     nearer: mask32x16<S>,
@@ -114,16 +114,16 @@ fn eight_keys<S: Simd>(simd: S, forms: &Forms, row: &Row, columns: f64x8<S>) -> 
     let square = splat(row.square[0]) + across * slope;
     let linear = splat(row.linear) + across * splat(forms.linear.across);
     let (missed, certain, key) = match forms.seen {
-        Seen::Near { square_error, key_error, behind } => {
+        SeenRoot::Near { square_error, key_error, behind } => {
             let error = splat(square_error);
             let root = square.sqrt();
             let key = linear + root;
             // The error is `key_error` and `square_error/root`.
-            let share = (key * splat(SHARE) - splat(key_error)) * root;
-            let certain = square.simd_gt(error) & share.simd_ge(error);
+            let room = (key * splat(KEY_ERROR_PART) - splat(key_error)) * root;
+            let certain = square.simd_gt(error) & room.simd_ge(error);
             (square.simd_lt(-error) | linear.simd_lt(splat(behind)), certain, key)
         }
-        Seen::Inside { depth, least_root } => {
+        SeenRoot::Inside { depth, least_root } => {
             let root = (linear * linear + square * splat(depth)).sqrt();
             let sum = linear.abs() + root;
             let approaches = linear.simd_ge(splat(0.0));
@@ -145,7 +145,7 @@ fn depth_test<S: Simd, F: Fault>(
     keys: f32x16<S>,
     count: usize,
     stored: f32x16<S>,
-) -> Tested<S> {
+) -> SphereTested<S> {
     let splat = |value: f32| f32x16::splat(simd, value);
     let in_row = lanes_before(simd, count);
     let keys = in_row.select(keys, splat(-1.0));
@@ -153,7 +153,7 @@ fn depth_test<S: Simd, F: Fault>(
     let open = !keys.simd_eq(keys);
     let nearer = covered & keys.simd_gt(stored * nearer_by::<F>());
     let farther = covered & stored.simd_gt(keys * nearer_by::<F>());
-    Tested { keys, covered, nearer, doubt: (covered | open) & !(nearer | farther) }
+    SphereTested { keys, covered, nearer, doubt: (covered | open) & !(nearer | farther) }
 }
 
 /// The lanes of the first `count` samples of a block.
@@ -168,7 +168,7 @@ fn lanes_before<S: Simd>(simd: S, count: usize) -> mask32x16<S> {
 
 /// Stores what is certainly nearest.
 #[inline(always)]
-fn store<S: Simd>(simd: S, writer: &mut FragmentWriter, index: usize, tested: &Tested<S>) {
+fn store<S: Simd>(simd: S, writer: &mut FragmentWriter, index: usize, tested: &SphereTested<S>) {
     let (ids, keys) = writer.buffer.from(index);
     let (ids, keys) = (&mut ids[..16], &mut keys[..16]);
     let stored = f32x16::from_slice(simd, keys);
@@ -204,7 +204,7 @@ fn emit_tests<C: Context>(
     writer: &mut FragmentWriter,
     first: Sample,
     count: usize,
-    tested: &Tested<C::Simd>,
+    tested: &SphereTested<C::Simd>,
 ) {
     let index = writer.buffer.index(first);
     let certain = (tested.covered & !tested.doubt).to_bitmask();

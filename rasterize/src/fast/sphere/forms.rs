@@ -23,7 +23,7 @@ const ROOM: f64 = 1.02;
 /// a quadratic one; and from outside, the key that is stored is the sum of an affine function and of a root.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Forms {
-    pub(super) seen: Seen,
+    pub(super) seen: SeenRoot,
     /// The sample from which rows and columns count.
     pub(super) origin: Sample,
     /// `η` from one row to the next (negative), and `ξ` from one column to the next.
@@ -36,7 +36,7 @@ pub(super) struct Forms {
 
 /// Which root is seen, and what tells that it is certain.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Seen {
+pub(super) enum SeenRoot {
     /// The near root of a sphere before the eye: the key is `linear + √square`.
     Near {
         /// How far `square` may be off.
@@ -121,21 +121,21 @@ impl QuadraticForm {
 }
 
 /// A region of the raster: its middle, and how far its samples are from there.
-struct Place {
+struct RegionExtent {
     origin: Sample,
     spacing: [f64; 2],
     /// The largest `|η|` and `|ξ|`.
     most: [f64; 2],
 }
 
-impl Place {
-    fn new(map: &CameraMap, Region { rows, columns }: &Region) -> Place {
+impl RegionExtent {
+    fn new(map: &CameraMap, Region { rows, columns }: &Region) -> RegionExtent {
         let origin =
             Sample { row: rows.start + rows.len() / 2, column: columns.start + columns.len() / 2 };
         let [down, across] = map.raster.spacing();
         #[expect(clippy::cast_precision_loss, reason = "at most 65,536")]
         let half = [rows.len(), columns.len()].map(|count| count.div_ceil(2) as f64);
-        Place { origin, spacing: [-down, across], most: [half[0] * down, half[1] * across] }
+        RegionExtent { origin, spacing: [-down, across], most: [half[0] * down, half[1] * across] }
     }
 }
 
@@ -166,7 +166,7 @@ impl Forms {
         (center, radius): (DVec3, f64),
         region: &Region,
     ) -> Option<Forms> {
-        let place = Place::new(map, region);
+        let place = RegionExtent::new(map, region);
         let ray = map.grid.ray(place.origin.row, place.origin.column);
         let depth = -center.dot(map.w);
         let is_in_front = depth - radius >= (center.abs().element_sum() + radius) * (-10f64).exp2();
@@ -256,7 +256,7 @@ impl Equation {
     /// sample.
     fn near<F: Fault>(
         &self,
-        place: &Place,
+        place: &RegionExtent,
         (divisor, relative): (f64, f64),
         offset: f64,
         nearest: f64,
@@ -302,7 +302,7 @@ impl Equation {
         // A scene that is all in front of the eye has an offset.
         let behind = if perspective && offset == 0.0 { -key_error } else { f64::NEG_INFINITY };
         let square_error = error_bound::<F>(square_error + f64::MIN_POSITIVE);
-        let seen = Seen::Near { square_error, key_error, behind };
+        let seen = SeenRoot::Near { square_error, key_error, behind };
         Some(self.forms(place, seen, square, linear, upper(nearest, offset)))
     }
 
@@ -316,7 +316,7 @@ impl Equation {
     /// positive, so the root is off by `2β + β² + α + 2⁻⁴⁰ + 5ε₅₃` of itself, and so is its sum with `|b|`, which is
     /// no less, by `3β + β² + α + …`. The key is `A` over that sum where `b > 0`, and the sum over `−C` elsewhere: off by
     /// `3β + β² + 2α + …` of itself. With `β` up to 2⁻²⁰ and the rounding to `f32`, that is less than 2⁻¹⁸.
-    fn inside<F: Fault>(&self, map: &CameraMap, place: &Place, depth: f64) -> Option<Forms> {
+    fn inside<F: Fault>(&self, map: &CameraMap, place: &RegionExtent, depth: f64) -> Option<Forms> {
         let Equation { p, q, q_error, .. } = *self;
         let size = q.size(place.most);
         let a_error = ROOM * (8.0 * EPS53 * size.length_squared() + 2.0 * size.dot(q_error));
@@ -328,19 +328,19 @@ impl Equation {
             return None;
         }
         let least_root = error_bound::<F>(b_error * 20f64.exp2() + f64::MIN_POSITIVE);
-        let seen = Seen::Inside { depth, least_root };
+        let seen = SeenRoot::Inside { depth, least_root };
         Some(self.forms(place, seen, q.square(), q.dot(p), f32::INFINITY))
     }
 
     fn forms(
         &self,
-        place: &Place,
-        seen: Seen,
+        place: &RegionExtent,
+        seen: SeenRoot,
         square: QuadraticForm,
         linear: LinearForm,
         nearest: f32,
     ) -> Forms {
-        let Place { origin, spacing, .. } = *place;
+        let RegionExtent { origin, spacing, .. } = *place;
         Forms { seen, origin, spacing, square, linear, nearest }
     }
 }

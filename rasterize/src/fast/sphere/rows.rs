@@ -1,6 +1,6 @@
 //! Eight rows of a sphere at a time: its functions on each row, and the columns in which it may be seen.
 
-use super::forms::{Forms, Seen};
+use super::forms::{Forms, SeenRoot};
 use bothways_common::engine::simd::{Select, Simd, SimdBase, SimdFloat, f64x8};
 use bothways_common::raster::Region;
 use std::ops::Range;
@@ -70,8 +70,8 @@ fn ends<S: Simd>(simd: S, forms: &Forms, on: f64x8<S>, across: f64x8<S>) -> (f64
     let splat = |value: f64| f64x8::splat(simd, value);
     let k = -forms.square.curvature;
     let square_error = match forms.seen {
-        Seen::Near { square_error, .. } if k > 0.0 => square_error,
-        Seen::Near { .. } | Seen::Inside { .. } => {
+        SeenRoot::Near { square_error, .. } if k > 0.0 => square_error,
+        SeenRoot::Near { .. } | SeenRoot::Inside { .. } => {
             return (splat(f64::NEG_INFINITY), splat(f64::INFINITY));
         }
     };

@@ -6,7 +6,7 @@ use crate::fast::answer::Trust;
 use crate::fast::camera_map::CameraMap;
 use crate::fast::prepare;
 use crate::fast::search::tile_frustum::FrustumTemplate;
-use crate::fast::sphere::in_blocks::SphereSetup;
+use crate::fast::sphere::blocks::SphereSetup;
 use crate::fast::tile::TileBuffer;
 use bothways_common::engine::context::{Context, Parts};
 use bothways_common::engine::fault::Sound;

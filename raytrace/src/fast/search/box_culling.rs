@@ -25,7 +25,7 @@ pub(crate) struct BoxCulling {
     /// How far computed values may be off: those of `t`, and those for sides.
     pub(crate) t_error: f32,
     pub(crate) sides_error: f32,
-    /// What of both errors is there before anything is rounded to `f32`.
+    /// The part of both errors that comes from `f64`.
     pub(super) t_exact: f64,
     pub(super) sides_exact: f64,
 }
@@ -40,9 +40,9 @@ pub(super) struct Tested<S: Simd> {
 /// The low and the high sides of a node's boxes along each axis.
 pub(super) type Sides<S> = [[f32x16<S>; 2]; 3];
 
-/// What bounds the values of a map.
+/// The bounds of a map's values.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Sizes {
+pub(crate) struct BoxSizes {
     /// Coordinates of points relative to the eye, and to the origin.
     pub(crate) reach: f64,
     pub(crate) near: f64,
@@ -87,8 +87,13 @@ impl BoxCulling {
     /// besides, as [`CameraMap::errors`] says; 2⁻⁴⁴ is more than both.
     ///
     /// [`CameraMap::errors`]: crate::fast::camera_map::CameraMap::errors
-    pub(crate) fn new(origin: Vec3, from_eye: DVec3, row_of_t: DVec3, sizes: &Sizes) -> BoxCulling {
-        let Sizes { reach, near, t, place, offset, place_of_origin, wide, beside } = *sizes;
+    pub(crate) fn new(
+        origin: Vec3,
+        from_eye: DVec3,
+        row_of_t: DVec3,
+        sizes: &BoxSizes,
+    ) -> BoxCulling {
+        let BoxSizes { reach, near, t, place, offset, place_of_origin, wide, beside } = *sizes;
         let t_at_origin = row_of_t.dot(from_eye);
         let exact =
             |normal: DVec3, offset: f64| (-44f64).exp2() * (reach * normal.element_sum() + offset);

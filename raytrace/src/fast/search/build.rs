@@ -18,7 +18,7 @@ use arena::{Arena, LeafRange};
 use bothways_common::engine::simd::best_level;
 use bothways_common::{Mesh, Scene, Shape};
 use grow::grow;
-use prim_ref::{Corners, PrimRef, Source, collect, triangles_of};
+use prim_ref::{CornerReader, PrimRef, Source, collect, triangles_of};
 use rayon::prelude::*;
 use split::{BuildContext, BuildRecord, Kind};
 use std::collections::HashMap;
@@ -127,15 +127,17 @@ fn filled<L: Send>(
     source: Source,
     prims: &[PrimRef],
     ranges: &[LeafRange],
-    leaf: impl Fn(&[PrimRef], &mut Corners) -> L + Sync,
+    leaf: impl Fn(&[PrimRef], &mut CornerReader) -> L + Sync,
 ) -> Vec<L> {
     let ranges = ranges.par_iter().with_min_len(64);
     let of = |range: &LeafRange| &prims[range.first as usize..][..usize::from(range.count)];
-    ranges.map_init(|| Corners::new(source), |corners, range| leaf(of(range), corners)).collect()
+    ranges
+        .map_init(|| CornerReader::new(source), |corners, range| leaf(of(range), corners))
+        .collect()
 }
 
 /// The ids of a leaf's primitives; unused lanes repeat the first.
-fn ids<const MOST: usize>(prims: &[PrimRef], _: &mut Corners) -> [u32; MOST] {
+fn ids<const MOST: usize>(prims: &[PrimRef], _: &mut CornerReader) -> [u32; MOST] {
     std::array::from_fn(|lane| prims.get(lane).unwrap_or(&prims[0]).id())
 }
 

@@ -21,8 +21,8 @@ pub(crate) struct InstanceFrustum<'a> {
     sides: [WorldAffine; 4],
     /// Where they are seen in the tile.
     places: Places,
-    /// No two vertices in a box are farther from each other, along any axis of the world, than its longest side times
-    /// this, and this more.
+    /// Along any axis of the world, two vertices in a box are at most as far from each other as the box's longest side
+    /// times `stretch`, and `slack`.
     stretch: f32,
     slack: f32,
     /// The rows and columns of the tile at which it may be seen, the first and the last of each; `None` if all rays of the
@@ -83,8 +83,8 @@ impl<'a> InstanceFrustum<'a> {
         let world = &template.boxes;
         let eye = DVec3::from_array(template.eye);
         let placed = PlacedBounds::new(placement, bounds, eye);
-        let functions = Functions::new(frustum, &placed, eye);
-        let Functions { along, at, .. } = functions;
+        let functions = WorldFunctions::new(frustum, &placed, eye);
+        let WorldFunctions { along, at, .. } = functions;
 
         let sides_error = functions.sides_error(frustum, &placed);
         let t = at[0] - world.t_at_origin;
@@ -232,7 +232,7 @@ impl PlacedBounds {
 }
 
 /// `t`, columns and rows as functions of a tile.
-struct Functions {
+struct WorldFunctions {
     /// Their factors in the world.
     rows: [DVec3; 3],
     /// Their factors in the mesh, and their values at the middle of its box.
@@ -240,14 +240,14 @@ struct Functions {
     at: [f64; 3],
 }
 
-impl Functions {
+impl WorldFunctions {
     fn new(frustum: &TileFrustum, placed: &PlacedBounds, eye: DVec3) -> Self {
         let DMat3 { x_axis, y_axis, z_axis } = placed.columns;
         let from_eye = placed.center - eye;
         let rows = frustum.rows.map(DVec3::from_array);
         let along = rows.map(|row| DVec3::new(row.dot(x_axis), row.dot(y_axis), row.dot(z_axis)));
         let at = [0, 1, 2].map(|k| rows[k].dot(from_eye) + frustum.shift[k]);
-        Functions { rows, along, at }
+        WorldFunctions { rows, along, at }
     }
 
     /// Half of a tile and what rays may be off, as a function: of `t` where the camera is perspective.
@@ -262,7 +262,7 @@ impl Functions {
 
     /// The sides of the frustum: positive inside.
     fn sides(&self, frustum: &TileFrustum) -> [(DVec3, f64); 4] {
-        let Functions { along, at, .. } = self;
+        let WorldFunctions { along, at, .. } = self;
         let (beside, at_side) = self.beside(frustum);
         [
             (beside - along[1], at_side - at[1]),
@@ -274,7 +274,7 @@ impl Functions {
 
     /// What sides may be off by.
     fn sides_error(&self, frustum: &TileFrustum, placed: &PlacedBounds) -> f32 {
-        let Functions { rows, at, .. } = self;
+        let WorldFunctions { rows, at, .. } = self;
         let template = frustum.template;
         let wide = template.errors.wide;
         let (_, at_side) = self.beside(frustum);
@@ -293,7 +293,7 @@ impl Functions {
         placed: &PlacedBounds,
         [t_error, sides_error]: [f64; 2],
     ) -> Option<[[usize; 2]; 2]> {
-        let Functions { along, at, .. } = self;
+        let WorldFunctions { along, at, .. } = self;
         let (template, half) = (frustum.template, placed.half);
         let last = template.side - 1;
         let t_ends = [-1.0, 1.0].map(|end| at[0] + end * (along[0].abs().dot(half) + t_error));

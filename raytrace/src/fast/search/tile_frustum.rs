@@ -50,7 +50,7 @@ impl FrustumTemplate {
         let camera = map.view.camera;
         let half = 0.5 * (count(side) - 1.0);
         let (axes, errors) = (map.axes(), map.errors(half));
-        let sizes = Sizes::new(map, &axes, half);
+        let sizes = FrustumSizes::new(map, &axes, half);
         FrustumTemplate {
             parallel: sizes.parallel,
             side,
@@ -67,7 +67,7 @@ impl FrustumTemplate {
     }
 
     /// A fault: nothing is known of where boxes, leaves and small triangles are seen.
-    pub(crate) fn distrust(&mut self) {
+    pub(crate) fn make_errors_infinite(&mut self) {
         self.boxes.t_error = f32::INFINITY;
         self.boxes.least_t = f32::NEG_INFINITY;
         self.boxes.sides_error = f32::INFINITY;
@@ -121,7 +121,7 @@ impl TileFrustum<'_> {
 }
 
 /// What bounds the values of the map, in all tiles.
-struct Sizes {
+struct FrustumSizes {
     parallel: bool,
     /// The coordinates of the row of `t`, and those of the rows of columns and rows.
     of_t: DVec3,
@@ -130,12 +130,12 @@ struct Sizes {
     places: f64,
 }
 
-impl Sizes {
-    fn new(map: &CameraMap, axes: &Axes, half: f64) -> Sizes {
+impl FrustumSizes {
+    fn new(map: &CameraMap, axes: &Axes, half: f64) -> FrustumSizes {
         let largest = map.largest(half);
         let [t, across, down] = axes.rows.map(DVec3::abs);
         let [of_row, of_column] = axes.slopes.map(|slope| largest * slope.abs());
-        Sizes {
+        FrustumSizes {
             parallel: map.depth.projection == Projection::Parallel,
             of_t: t,
             of_place: (across + of_column).max(down + of_row),
@@ -154,7 +154,7 @@ impl Sizes {
             origin,
             from_eye,
             axes.rows[0],
-            &box_culling::Sizes {
+            &box_culling::BoxSizes {
                 reach: errors.reach,
                 near: from_origin,
                 place_of_origin: place_of_origin + beyond_middle,
@@ -173,7 +173,7 @@ impl Sizes {
         let size_of_t = self.of_t.element_sum();
         let most_t = if self.parallel { 1.0 } else { errors.reach * size_of_t };
         let exact = 10.0 * errors.corner + 4.0 * errors.sample * errors.far * most_t;
-        LocalErrors::new(&local_errors::Sizes {
+        LocalErrors::new(&local_errors::MapSizes {
             reach: errors.reach,
             place: self.of_place.element_sum(),
             t: if self.parallel { 0.0 } else { size_of_t },

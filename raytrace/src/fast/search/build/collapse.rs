@@ -6,7 +6,7 @@
 
 use super::arena::{Arena, LeafRange};
 use super::leaves::{VertexSet, put_duplicates_last};
-use super::prim_ref::Corners;
+use super::prim_ref::CornerReader;
 use super::split::{BuildContext, BuildRecord, Kind, Split, split};
 use crate::fast::search::tree::{Bounds, LeafCounts, Node, NodeKind, NodeRef, WIDTH};
 
@@ -55,7 +55,7 @@ impl BinaryTree {
             Kind::Spheres => (NodeKind::Spheres, count),
             Kind::Instances => (NodeKind::Instances, count),
             Kind::Triangles => {
-                let corners = &mut Corners::new(context.source);
+                let corners = &mut CornerReader::new(context.source);
                 let is_indexed = VertexSet::new(record.prims, corners).is_some();
                 let kind = if is_indexed { NodeKind::IndexedLeaf } else { NodeKind::PlainLeaf };
                 (kind, put_duplicates_last(record.prims, corners))

@@ -1,6 +1,6 @@
 //! Leaves of triangles.
 
-use super::prim_ref::{Corners, PrimRef};
+use super::prim_ref::{CornerReader, PrimRef};
 use crate::fast::search::tree::{IndexedLeaf, LEAF, PlainLeaf};
 use bothways_common::engine::simd::{Simd, SimdBase, SimdMask, best_level, dispatch, f32x16};
 use bothways_common::scene::are_same_corners;
@@ -17,7 +17,7 @@ pub(super) struct VertexSet {
 impl VertexSet {
     /// The vertices of some triangles; `None` if there are too many. Vertices with equal coordinates are the same
     /// vertex.
-    pub(super) fn new(prims: &[PrimRef], corners: &mut Corners) -> Option<VertexSet> {
+    pub(super) fn new(prims: &[PrimRef], corners: &mut CornerReader) -> Option<VertexSet> {
         let mut set =
             VertexSet { vertices: [[0.0; LEAF]; 3], vertex_count: 0, corners: [[0; 3]; LEAF] };
         dispatch!(best_level(), simd => set.add(simd, prims, corners))?;
@@ -25,7 +25,12 @@ impl VertexSet {
     }
 
     #[inline(always)]
-    fn add<S: Simd>(&mut self, simd: S, prims: &[PrimRef], corners: &mut Corners) -> Option<()> {
+    fn add<S: Simd>(
+        &mut self,
+        simd: S,
+        prims: &[PrimRef],
+        corners: &mut CornerReader,
+    ) -> Option<()> {
         for (lane, prim) in prims.iter().enumerate() {
             let [a, b, c] = corners.of(prim.id());
             let numbers = [self.number(simd, a)?, self.number(simd, b)?, self.number(simd, c)?];
@@ -70,7 +75,7 @@ impl VertexSet {
 
 /// Orders the triangles of a leaf so that duplicates, which are never visible, come last: a duplicate has the same
 /// corners as a triangle with a smaller id. Returns the number of distinct triangles.
-pub(super) fn put_duplicates_last(prims: &mut [PrimRef], corners: &mut Corners) -> usize {
+pub(super) fn put_duplicates_last(prims: &mut [PrimRef], corners: &mut CornerReader) -> usize {
     let key = |prim: &PrimRef| {
         let (low, high) = (prim.low.truncate(), prim.high.truncate());
         let bits = low.to_array().into_iter().chain(high.to_array()).map(f32::to_bits);
@@ -97,12 +102,12 @@ pub(super) fn put_duplicates_last(prims: &mut [PrimRef], corners: &mut Corners) 
 }
 
 /// The leaf of some triangles with few distinct vertices.
-pub(super) fn indexed_leaf(prims: &[PrimRef], corners: &mut Corners) -> IndexedLeaf {
+pub(super) fn indexed_leaf(prims: &[PrimRef], corners: &mut CornerReader) -> IndexedLeaf {
     VertexSet::new(prims, corners).expect("there are few").leaf(prims)
 }
 
 /// The leaf of any triangles.
-pub(super) fn plain_leaf(prims: &[PrimRef], corners: &mut Corners) -> PlainLeaf {
+pub(super) fn plain_leaf(prims: &[PrimRef], corners: &mut CornerReader) -> PlainLeaf {
     let mut leaf = PlainLeaf { corners: [[0.0; LEAF]; 9], ids: [0; LEAF] };
     for lane in 0..LEAF {
         let id = prims.get(lane).unwrap_or(&prims[0]).id();

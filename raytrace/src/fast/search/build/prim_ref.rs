@@ -161,7 +161,7 @@ pub(super) fn sphere(id: u32, &Sphere { center, radius }: &Sphere) -> Option<(Pr
 }
 
 /// Finds the corners of triangles; this is fast in the order of the scene.
-pub(super) struct Corners<'a> {
+pub(super) struct CornerReader<'a> {
     source: Source<'a>,
     /// The ids of the triangles that were found last, and where they are.
     ids: std::ops::Range<u32>,
@@ -182,9 +182,9 @@ enum Among<'a> {
     One([Vec3; 3]),
 }
 
-impl<'a> Corners<'a> {
+impl<'a> CornerReader<'a> {
     pub(super) fn new(source: Source<'a>) -> Self {
-        Corners { source, ids: 0..0, among: Among::One([Vec3::ZERO; 3]) }
+        CornerReader { source, ids: 0..0, among: Among::One([Vec3::ZERO; 3]) }
     }
 
     #[inline]

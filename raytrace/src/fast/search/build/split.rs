@@ -1,6 +1,6 @@
 //! Splits primitives in two: at the place that the surface area heuristic chooses, or by count.
 
-use super::prim_ref::{Box4, Corners, PrimRef, Source};
+use super::prim_ref::{Box4, CornerReader, PrimRef, Source};
 use super::sah::{SahSplit, cheapest_split};
 use crate::fast::search::tree::{INSTANCES, LEAF, SPHERES};
 
@@ -122,7 +122,7 @@ fn partition<'a>(record: BuildRecord<'a>, best: &SahSplit) -> [BuildRecord<'a>; 
 /// Moves the distinct triangles to the start, the first triangle in the scene of each group, and returns the number
 /// of distinct triangles: the duplicates are never visible.
 fn leave_out_duplicates(prims: &mut [PrimRef], context: &BuildContext) -> usize {
-    let mut corners = Corners::new(context.source);
+    let mut corners = CornerReader::new(context.source);
     let mut bits = |prim: &PrimRef| {
         // Adding 0 makes −0 and 0 equal.
         let mut bits = corners.of(prim.id()).map(|v| (v + 0.0).to_array().map(f32::to_bits));

@@ -65,7 +65,7 @@ fn inspect(prepared: &Prepared, scene: &Scene) -> (usize, Vec<u32>) {
                 for corner in corners {
                     assert!(corner.cmpge(inner.low).all() && corner.cmple(inner.high).all());
                 }
-                assert_eq!(corners, Corners::new(Source::Scene(scene)).of(id));
+                assert_eq!(corners, CornerReader::new(Source::Scene(scene)).of(id));
                 ids.push(id);
             }
         }

@@ -4,7 +4,7 @@ use bothways_common::engine::roundoff::Interval;
 
 /// A function `at_center + x·across + y·up` on the viewport, to within `error`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Affine {
+pub(super) struct ViewportAffine {
     pub(super) at_center: f64,
     pub(super) across: f64,
     pub(super) up: f64,
@@ -12,11 +12,11 @@ pub(super) struct Affine {
     pub(super) error: f64,
 }
 
-impl Affine {
+impl ViewportAffine {
     /// The function times a sign, ±1.
-    pub(super) fn oriented(self, sign: f64) -> Affine {
-        let Affine { at_center, across, up, error } = self;
-        Affine { at_center: sign * at_center, across: sign * across, up: sign * up, error }
+    pub(super) fn oriented(self, sign: f64) -> ViewportAffine {
+        let ViewportAffine { at_center, across, up, error } = self;
+        ViewportAffine { at_center: sign * at_center, across: sign * across, up: sign * up, error }
     }
 
     /// The part of the function that all samples of a row share.

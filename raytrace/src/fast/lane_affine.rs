@@ -5,7 +5,7 @@ use bothways_common::engine::simd::{Select, Simd, SimdBase, f32x8, mask32x8};
 /// An affine function of the raster in eight lanes: `at_middle + δi·down + δj·across`, with `δi` rows and `δj` columns
 /// from the middle of a tile.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Affine<S: Simd> {
+pub(super) struct LaneAffine<S: Simd> {
     pub(super) at_middle: f32x8<S>,
     /// What it gains from a column to the next.
     pub(super) across: f32x8<S>,
@@ -13,7 +13,7 @@ pub(super) struct Affine<S: Simd> {
     pub(super) down: f32x8<S>,
 }
 
-impl<S: Simd> Affine<S> {
+impl<S: Simd> LaneAffine<S> {
     /// The value at a row and a column, counted from the middle.
     #[inline(always)]
     pub(super) fn at(&self, row: f32x8<S>, column: f32x8<S>) -> f32x8<S> {
@@ -29,7 +29,7 @@ impl<S: Simd> Affine<S> {
     /// The other one, in some lanes.
     #[inline(always)]
     pub(super) fn or(&self, other: &Self, which: mask32x8<S>) -> Self {
-        Affine {
+        LaneAffine {
             at_middle: which.select(other.at_middle, self.at_middle),
             across: which.select(other.across, self.across),
             down: which.select(other.down, self.down),

@@ -29,7 +29,7 @@ pub(crate) struct SphereSetup {
     /// What a key is besides the root: at the tile's middle, across, down.
     affine: [f64; 3],
     affine_error: f32,
-    /// What a key is off by besides, as a fraction of it.
+    /// The other errors of a key, as a fraction of it.
     relative: f32,
 }
 
@@ -40,7 +40,7 @@ enum Kind {
     Outside,
     /// The far one.
     Inside,
-    /// That of the sample: the near one if it is in front of the eye.
+    /// Each sample decides: the near one if it is in front of the eye.
     Parallel,
 }
 
