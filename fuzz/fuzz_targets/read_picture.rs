@@ -9,7 +9,8 @@ fuzz_target!(|bytes: &[u8]| {
     // With wrong checksums, the reader would never reach the content of the chunks.
     match gltf::parse("a.glb", &textured(&with_checksums(bytes))) {
         Ok(model) => {
-            let materials = model.mesh.materials().expect("it names one");
+            let mesh = model.shapes[0].mesh().expect("it has one triangle");
+            let materials = mesh.materials().expect("it names one");
             let texture = materials.of(0).and_then(|material| material.texture.as_ref());
             for level in texture.expect("it is of the picture").pyramid.levels() {
                 let [width, height] = level.size();
