@@ -140,9 +140,14 @@ impl<'a, A: Surfaces> Look<'a, A> {
             desk.runs.push(Run { end: ids.len(), place: None });
             kept.fill_nothing(0..ids.len());
         } else {
+            let mut named = Vec::new();
             match ids {
-                Ids::Narrow(ids) => desk.find_runs(simd, &self.setting, ids),
-                Ids::Wide(ids) => desk.find_wide_runs(simd, &self.setting, ids),
+                Ids::Narrow(_) => {}
+                Ids::Wide(ids) => named = desk.names_of(ids),
+            }
+            desk.find_runs(simd, &self.setting, ids.narrow().unwrap_or(&named));
+            if !named.is_empty() {
+                desk.take_back(named);
             }
             desk.chunk.x[..ids.len()].copy_from_slice(&self.grid.x()[first..first + ids.len()]);
             if desk.seen().any(|surface| self.setting.surfaces.looks_at_t(surface)) {

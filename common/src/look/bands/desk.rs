@@ -113,13 +113,10 @@ impl<'a, T> Desk<'a, T> {
         self.places.fill((NO_PRIMITIVE, 0));
     }
 
-    /// The same for wide ids.
-    pub(super) fn find_wide_runs<S: Simd, A: Surfaces<Surface = T>>(
-        &mut self,
-        simd: S,
-        setting: &Setting<'a, A>,
-        ids: &[u64],
-    ) {
+    /// Names for the wide ids of a chunk, of which [`Desk::find_runs`] then finds the runs. They are given back by
+    /// [`Desk::take_back`].
+    #[cold]
+    pub(super) fn names_of(&mut self, ids: &[u64]) -> Vec<u32> {
         // Names are kept with the primitives: there are at least as many of these.
         if self.kept.len() >= MANY_KEPT {
             self.forget();
@@ -135,14 +132,18 @@ impl<'a, T> Desk<'a, T> {
                 u32::try_from(known.len() - 1).expect("few are kept")
             })
         };
-        of_chunk.clear();
-        of_chunk.extend(ids.iter().map(|&id| match id {
+        let mut named = std::mem::take(of_chunk);
+        named.clear();
+        named.extend(ids.iter().map(|&id| match id {
             NO_WIDE_PRIMITIVE => NO_PRIMITIVE,
             id => name_of(id),
         }));
-        let of_chunk = std::mem::take(&mut self.names.of_chunk);
-        self.find_runs(simd, setting, &of_chunk);
-        self.names.of_chunk = of_chunk;
+        named
+    }
+
+    /// Keeps the memory of names for the next chunk.
+    pub(super) fn take_back(&mut self, names: Vec<u32>) {
+        self.names.of_chunk = names;
     }
 
     /// The primitives of the runs.
@@ -178,13 +179,16 @@ impl<'a, T> Desk<'a, T> {
     fn set_up<A: Surfaces<Surface = T>>(
         &mut self,
         setting: &Setting<'a, A>,
-        id: u32,
+        name: u32,
         hash: usize,
     ) -> u32 {
         let scene = setting.view.scene;
-        let (name, id) =
-            (id, if scene.has_wide_ids() { self.names.ids[id as usize] } else { u64::from(id) });
-        let (object, local) = scene.locate(id);
+        let (id, (object, local)) = if scene.has_wide_ids() {
+            let id = self.names.ids[name as usize];
+            (id, scene.locate(id))
+        } else {
+            (name.into(), scene.locate_name(name))
+        };
         let object = &scene.objects()[object];
         let primitive = setting.view.primitive_of(&object.shape, local);
         let material = object.material_of(local);
