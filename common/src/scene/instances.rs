@@ -99,15 +99,29 @@ impl Placement {
     /// Zero where the map flattens everything onto a line or a point. It neither over- nor underflows.
     #[inline]
     pub fn normal(&self, normal: Vec3) -> DVec3 {
-        let [a, b, c] = self.rows.map(|[x, y, z, _]| Vec3::new(x, y, z).as_dvec3());
-        let normal = normal.as_dvec3();
-        DVec3::new(b.cross(c).dot(normal), c.cross(a).dot(normal), a.cross(b).dot(normal))
+        turned(self.cofactors(), normal)
+    }
+
+    /// The rows of the map's cofactors.
+    #[inline(always)]
+    fn cofactors(&self) -> [DVec3; 3] {
+        let [a, b, c] = each!(row in [&self.rows[0], &self.rows[1], &self.rows[2]] => {
+            DVec3::new(row[0].into(), row[1].into(), row[2].into())
+        });
+        [b.cross(c), c.cross(a), a.cross(b)]
     }
 
     /// Whether all its numbers are finite.
     fn is_finite(&self) -> bool {
         self.rows.as_flattened().iter().all(|number| number.is_finite())
     }
+}
+
+/// [`Placement::normal`], by the cofactors of the map.
+#[inline(always)]
+fn turned([x, y, z]: [DVec3; 3], normal: Vec3) -> DVec3 {
+    let normal = normal.as_dvec3();
+    DVec3::new(x.dot(normal), y.dot(normal), z.dot(normal))
 }
 
 /// One coordinate of [`Placement::position`].
@@ -243,8 +257,10 @@ impl Instances {
     #[inline]
     pub fn corner_normals(&self, primitive: usize) -> Option<[DVec3; 3]> {
         let (instance, triangle) = self.locate(primitive);
-        let placement = &self.placements[instance];
-        Some(self.mesh.normals().of(triangle)?.map(|normal| placement.normal(normal)))
+        let [a, b, c] = self.mesh.normals().of(triangle)?;
+        // Three normals are turned by one map.
+        let cofactors = self.placements[instance].cofactors();
+        Some(each!(normal in [a, b, c] => turned(cofactors, normal)))
     }
 
     /// An instance as a mesh of its own, with every vertex copied: the same triangles with the same ids.
