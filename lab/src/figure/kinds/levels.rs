@@ -146,6 +146,7 @@ impl<'a> Levels<'a> {
             between(0) && between(1)
         };
         let is_same = |at: usize, other: Option<usize>| {
+            let other = other.filter(|&other| other < self.width * self.height);
             other.is_some_and(|other| self.ids.get(other) == self.ids.get(at))
         };
         let is_within = |at: usize, rows: usize| {
