@@ -6,42 +6,15 @@ import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { after, test } from "node:test";
 import { colours, open, stop, text, until } from "./browser.mjs";
+import { FOUR, PAINT, wall, walls } from "./wall.mjs";
 
 after(stop);
 
-/** Red and green above, blue and grey below. */
-const FOUR = readFileSync(new URL("../../formats/tests/formats/files/four.png", import.meta.url));
-
 /** Two squares with a picture, in folders within a folder, and what lies about there. */
 const FOLDER = {
-  "wall.toml": `[camera]
-eye = [0, 0, 3]
-image = [64, 32]
-[[light]]
-ambient = true
-[material.tiles]
-texture = { file = "paint/four.png", filter = "nearest" }
-[[object]]
-mesh = "meshes/wall.obj"
-translate = [-1, 0, 0]
-[[object]]
-mesh = "meshes/wall.obj"
-material = "tiles"
-translate = [1, 0, 0]
-`,
-  "meshes/wall.obj": `mtllib ../paint/wall.mtl
-usemtl paint
-v -0.9 -0.9 0
-v 0.9 -0.9 0
-v 0.9 0.9 0
-v -0.9 0.9 0
-vt 0 0
-vt 1 0
-vt 1 1
-vt 0 1
-f 1/1 2/2 3/3 4/4
-`,
-  "paint/wall.mtl": "newmtl paint\nKd 1 1 1\nmap_Kd four.png\n",
+  "wall.toml": walls("meshes/wall.obj", "paint/four.png"),
+  "meshes/wall.obj": wall("../paint/wall.mtl"),
+  "paint/wall.mtl": PAINT,
   "paint/four.png": FOUR,
   "notes.txt": "?",
   ".hidden/other.toml": "?",

@@ -6,6 +6,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
 import { CHAPTERS, PAGE, colours, engineIn, open, program, stop, text, until } from "./browser.mjs";
+import { FOUR, PAINT, wall, walls } from "./wall.mjs";
 
 after(stop);
 
@@ -185,39 +186,11 @@ test("a good file is opened; a broken and a huge one are refused with reasons", 
   await close();
 });
 
-/** Red and green above, blue and grey below. */
-const FOUR = readFileSync(new URL("../../formats/tests/formats/files/four.png", import.meta.url));
-
 /** Two squares, one with the picture and one with another, by a material file and by the scene itself. */
 const TOGETHER = {
-  "wall.toml": `[camera]
-eye = [0, 0, 3]
-image = [64, 32]
-[[light]]
-ambient = true
-[material.tiles]
-texture = { file = "four.png", filter = "nearest" }
-[[object]]
-mesh = "meshes/Wall.obj"
-translate = [-1, 0, 0]
-[[object]]
-mesh = "meshes/Wall.obj"
-material = "tiles"
-translate = [1, 0, 0]
-`,
-  "wall.obj": `mtllib wall.mtl
-usemtl paint
-v -0.9 -0.9 0
-v 0.9 -0.9 0
-v 0.9 0.9 0
-v -0.9 0.9 0
-vt 0 0
-vt 1 0
-vt 1 1
-vt 0 1
-f 1/1 2/2 3/3 4/4
-`,
-  "wall.mtl": "newmtl paint\nKd 1 1 1\nmap_Kd four.png\n",
+  "wall.toml": walls("meshes/Wall.obj", "four.png"),
+  "wall.obj": wall("wall.mtl"),
+  "wall.mtl": PAINT,
   "four.png": [...FOUR],
 };
 

@@ -1,14 +1,10 @@
 //! A scene of instances shows what the same scene with copied vertices shows.
 
 use bothways_common::engine::simd::levels;
-use bothways_common::glam::Vec3;
-use bothways_common::{
-    Camera, CameraDescription, Frame, Instances, Mesh, Options, Placement, Plane, Projection,
-    Scene, Shape, Sphere, View, Work,
-};
+use bothways_common::{Frame, Options, Scene, View, Work};
 use bothways_raytrace::{fast, textbook};
 use bothways_test_support::hostile::{self, Numbers, copied};
-use bothways_test_support::{CROWDS, assert_same_visibility, crowd};
+use bothways_test_support::{CROWDS, assert_same_visibility, crowd, instances_in_one_place};
 use std::collections::BTreeSet;
 
 fn render(scene: &Scene, view: &View, options: &Options) -> Frame {
@@ -103,27 +99,8 @@ fn a_crowd_of_large_meshes_is_that_of_its_copies() {
 /// Every tile meets more instances than have names at a time; half of them lie where others do.
 #[test]
 fn names_are_given_anew_where_instances_are_many() {
-    let corners = [[0.0, 0.0], [1.0, 0.0], [0.3, 1.0]].map(|[x, y]| Vec3::new(x, y, 0.2 * x));
-    let mesh = Mesh::new(corners.to_vec(), vec![[0, 1, 2], [2, 1, 0]]).expect("it is a mesh");
-    let placements = (0..50_000_u32).map(|k| {
-        let [x, y, z] = [37, 53, 101].map(|factor| (k % 25_000 * factor % 997) as f32 / 997.0);
-        Placement::translation(Vec3::new(3.0 * x - 2.5, 3.0 * y - 2.0, -4.0 - 6.0 * z))
-    });
-    let instances = Instances::new(mesh, placements.collect()).expect("they are near");
-    let plane = Plane { point: Vec3::new(0.0, 0.0, -7.0), normal: Vec3::new(0.1, 0.2, 1.0) };
-    let sphere = Sphere { center: Vec3::new(0.4, 0.3, -3.0), radius: 0.5 };
-    let objects = vec![
-        Shape::Plane(plane).into(),
-        Shape::from(instances.clone()).into(),
-        Shape::Sphere(sphere).into(),
-        Shape::from(instances).into(),
-    ];
-    let scene = Scene::new(objects).expect("it is a scene");
-    for projection in [Projection::Perspective, Projection::Parallel] {
-        let viewport = if projection == Projection::Parallel { [4.0, 3.0] } else { [1.0, 0.75] };
-        let description =
-            CameraDescription { projection, viewport, image: [48, 36], ..Default::default() };
-        let camera = Camera::new(description).expect("it is a camera");
+    let (scene, cameras) = instances_in_one_place();
+    for camera in cameras {
         let frame = render(&scene, &View::new(&scene, &camera), &Options::default());
         let seen: BTreeSet<usize> =
             frame.ids().iter().flatten().map(|id| scene.locate(id).0).collect();

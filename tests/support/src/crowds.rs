@@ -2,7 +2,10 @@
 
 use crate::{Dice, PROJECTIONS, turned};
 use bothways_common::glam::{DAffine3, DMat3, DVec3, EulerRot, Vec3};
-use bothways_common::{Camera, Instances, Mesh, Options, Placement, Scene, Shape};
+use bothways_common::{
+    Camera, CameraDescription, Instances, Mesh, Options, Placement, Plane, Projection, Scene,
+    Shape, Sphere,
+};
 use std::f32::consts::TAU;
 
 /// How many crowds [`crowd`] knows.
@@ -23,6 +26,34 @@ pub fn crowd(seed: u64) -> (Scene, Camera, Options) {
     let camera = turned(PROJECTIONS[(seed % 2) as usize], eye, target, [140, 100]);
     let options = Options { samples: if seed % 4 == 3 { 8 } else { 1 }, ..Options::default() };
     (scene, camera, options)
+}
+
+/// A hundred thousand instances of two triangles that every tile meets, among a plane and a sphere, and a camera of each
+/// projection. All instances of the second object lie where those of the first lie, and of these half where others do.
+pub fn instances_in_one_place() -> (Scene, [Camera; 2]) {
+    let corners = [[0.0, 0.0], [1.0, 0.0], [0.3, 1.0]].map(|[x, y]| Vec3::new(x, y, 0.2 * x));
+    let mesh = Mesh::new(corners.to_vec(), vec![[0, 1, 2], [2, 1, 0]]).expect("it is a mesh");
+    let placements = (0..50_000_u32).map(|k| {
+        let [x, y, z] = [37, 53, 101].map(|factor| (k % 25_000 * factor % 997) as f32 / 997.0);
+        Placement::translation(Vec3::new(3.0 * x - 2.5, 3.0 * y - 2.0, -4.0 - 6.0 * z))
+    });
+    let instances = Instances::new(mesh, placements.collect()).expect("they are near");
+    let plane = Plane { point: Vec3::new(0.0, 0.0, -7.0), normal: Vec3::new(0.1, 0.2, 1.0) };
+    let sphere = Sphere { center: Vec3::new(0.4, 0.3, -3.0), radius: 0.5 };
+    let objects = vec![
+        Shape::Plane(plane).into(),
+        Shape::from(instances.clone()).into(),
+        Shape::Sphere(sphere).into(),
+        Shape::from(instances).into(),
+    ];
+    let scene = Scene::new(objects).expect("it is a scene");
+    let cameras = [(Projection::Perspective, [1.0, 0.75]), (Projection::Parallel, [4.0, 3.0])];
+    let cameras = cameras.map(|(projection, viewport)| {
+        let description =
+            CameraDescription { projection, viewport, image: [48, 36], ..Default::default() };
+        Camera::new(description).expect("it is a camera")
+    });
+    (scene, cameras)
 }
 
 /// A closed mesh about the origin with this many rows and columns of quads.
