@@ -127,3 +127,13 @@ fn a_picture_that_lies_about_its_size_is_refused_before_there_is_memory_for_it()
     }
     assert!(tried > 5, "{tried}");
 }
+
+/// The decoder multiplied beyond 32 bits here, as the fuzz target of pictures found.
+#[test]
+fn a_jpeg_whose_numbers_overflow_is_a_picture_or_a_message() {
+    let jpeg = include_bytes!("files/fuzzed-overflow.jpg");
+    match read(jpeg) {
+        Ok(texels) => assert_eq!(texels, 3 * 62_978),
+        Err(message) => assert!(message.len() < 300, "{message}"),
+    }
+}
