@@ -22,7 +22,7 @@ fn main() -> ExitCode {
         return ExitCode::from(2);
     };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    let mut frame = Frame::new(&Camera::canonical(width, height), &Options::default());
+    let mut frame = Frame::new(&Camera::canonical(height, width), &Options::default());
     let times = pool.expect("there are threads").install(|| {
         fill(&mut frame);
         let timed = |_| {

@@ -165,7 +165,7 @@ impl Camera {
     /// assert_eq!(ray.origin.to_array(), [0.0, 0.0, 0.0]);
     /// assert_eq!(ray.direction.to_array(), [-0.25, 0.25, -1.0]);
     /// ```
-    pub fn canonical(width: u32, height: u32) -> Camera {
+    pub fn canonical(height: u32, width: u32) -> Camera {
         let description = CameraDescription {
             viewport: [1.0, 1.0],
             image: [width, height],
@@ -410,7 +410,7 @@ mod tests {
     #[test]
     fn the_canonical_camera_gives_the_lecture_s_rays() {
         // The slide for W = 4, H = 2, pixel (1, 1) counted from 1: x = (½)/4 − ½, y = −((½)/2 − ½).
-        let camera = Camera::canonical(4, 2);
+        let camera = Camera::canonical(2, 4);
         let ray = camera.viewing_ray(0, 0);
         assert_eq!(ray.direction, DVec3::new(-0.375, 0.25, -1.0));
         assert_eq!(camera.viewing_ray(1, 3).direction, DVec3::new(0.375, -0.25, -1.0));
@@ -448,8 +448,8 @@ mod tests {
 
     #[test]
     fn samples_of_a_pixel_are_pixels_of_a_finer_picture() {
-        let camera = Camera::canonical(3, 5);
-        let fine = Camera::canonical(6, 10);
+        let camera = Camera::canonical(5, 3);
+        let fine = Camera::canonical(10, 6);
         let grid = camera.sample_grid(2);
         assert_eq!((grid.width(), grid.height()), (6, 10));
         for (row, column) in [(0, 0), (3, 5), (9, 2)] {
@@ -460,7 +460,7 @@ mod tests {
 
     #[test]
     fn the_picture_is_symmetric_to_the_last_bit() {
-        let camera = Camera::canonical(1919, 1081);
+        let camera = Camera::canonical(1081, 1919);
         let grid = camera.sample_grid(1);
         for (left, right) in grid.x().iter().zip(grid.x().iter().rev()) {
             assert_eq!(*left, -*right);

@@ -363,7 +363,7 @@ mod tests {
 
     #[test]
     fn tiles_cover_every_sample_once() {
-        let camera = Camera::canonical(5, 7);
+        let camera = Camera::canonical(7, 5);
         let mut frame = Frame::new(&camera, &Options { samples: 2, ..Options::default() });
         let mut area = 0;
         for tile in frame.tiles_mut(3, 4) {
@@ -381,7 +381,7 @@ mod tests {
     #[test]
     fn tiles_of_a_crop_end_where_those_of_the_whole_do() {
         let crop = Some(Crop { row: 2, column: 5, height: 5, width: 7 });
-        let mut frame = Frame::new(&Camera::canonical(20, 9), &Options { samples: 1, crop });
+        let mut frame = Frame::new(&Camera::canonical(9, 20), &Options { samples: 1, crop });
         let mut cells = 0;
         let regions: Vec<_> = frame
             .tiles_mut(4, 8)
@@ -400,7 +400,7 @@ mod tests {
     #[test]
     fn a_crop_keeps_the_numbers_of_the_whole() {
         let crop = Some(Crop { row: 1, column: 2, height: 1, width: 2 });
-        let mut frame = Frame::new(&Camera::canonical(5, 3), &Options { samples: 2, crop });
+        let mut frame = Frame::new(&Camera::canonical(3, 5), &Options { samples: 2, crop });
         assert_eq!((frame.image(), frame.camera_image()), ([2, 1], [5, 3]));
         assert_eq!(frame.pixels().collect::<Vec<_>>(), [[1, 2], [1, 3]]);
         frame.set(3, 6, 9, 1.0);
@@ -415,7 +415,7 @@ mod tests {
     #[test]
     fn a_pixel_finds_its_samples() {
         let frame =
-            Frame::new(&Camera::canonical(3, 2), &Options { samples: 2, ..Options::default() });
+            Frame::new(&Camera::canonical(2, 3), &Options { samples: 2, ..Options::default() });
         let samples: Vec<_> = frame.samples_of(1, 2).collect();
         assert_eq!(samples, [16, 17, 22, 23]);
     }

@@ -138,7 +138,7 @@ mod tests {
 
     fn frame(samples: u32, seen: &[(usize, usize)]) -> Frame {
         let mut frame =
-            Frame::new(&Camera::canonical(2, 1), &Options { samples, ..Options::default() });
+            Frame::new(&Camera::canonical(1, 2), &Options { samples, ..Options::default() });
         seen.iter().for_each(|&(row, column)| frame.set(row, column, 0, 1.0));
         frame
     }

@@ -58,7 +58,7 @@ pub use prepared::Prepared;
 pub(crate) use prepared::corners;
 
 use bothways_common::engine::any_observer::AnyObserver;
-use bothways_common::engine::context::Parts;
+use bothways_common::engine::context::LoopContext;
 use bothways_common::engine::fault::{Fault, Planted, Sound};
 use bothways_common::engine::memory::filled;
 use bothways_common::engine::simd::{Level, dispatch, dispatch_with};
@@ -179,11 +179,11 @@ fn fill<F: Fault>(
         && let Some(sink) = sink
     {
         return dispatch_with!(F, level, simd => {
-            bins.fill(&mut Parts::<_, _, F>::of(simd, sink), batch, geometry)
+            bins.fill(&mut LoopContext::<_, _, F>::of(simd, sink), batch, geometry)
         });
     }
     dispatch_with!(F, level, simd => {
-        bins.fill(&mut Parts::<_, _, F>::of(simd, &mut ()), batch, geometry)
+        bins.fill(&mut LoopContext::<_, _, F>::of(simd, &mut ()), batch, geometry)
     })
 }
 
@@ -196,13 +196,13 @@ fn draw_tile<F: Fault>(
     if const { F::SOUND }
         && let Some(sink) = sink
     {
-        if drawing.draw_tile(&mut Parts::<_, _, F>::of((), sink), tile, buffer) {
+        if drawing.draw_tile(&mut LoopContext::<_, _, F>::of((), sink), tile, buffer) {
             return;
         }
         // The sink needs no more events. The tile is drawn again, without them.
         buffer.clear();
     }
-    drawing.draw_tile(&mut Parts::<_, _, F>::of((), &mut ()), tile, buffer);
+    drawing.draw_tile(&mut LoopContext::<_, _, F>::of((), &mut ()), tile, buffer);
 }
 
 /// The outer loop: the vertex stage, then all batches of primitives, then all tiles.

@@ -50,7 +50,7 @@ mod viewport_affine;
 mod world_affine;
 
 use bothways_common::engine::any_observer::{AnyObserver, PartObserver};
-use bothways_common::engine::context::{Parts, ScalarContext};
+use bothways_common::engine::context::{LoopContext, ScalarContext};
 use bothways_common::engine::fault::{Fault, Planted, Sound};
 use bothways_common::engine::simd::dispatch_with;
 use bothways_common::engine::tasks::TaskTimes;
@@ -230,7 +230,7 @@ fn watch<F: Fault>(
         return;
     }
     dispatch_with!(F, walker.prepared.level, simd => {
-        let mut context = Parts::<_, dyn Events, F>::of(simd, sink);
+        let mut context = LoopContext::<_, dyn Events, F>::of(simd, sink);
         let only_counts = context.sink().counts().is_some();
         let side = if only_counts { of_tile.side } else { usize::MAX };
         for part in chunk.region.tiles(side, side) {
@@ -294,7 +294,7 @@ fn trace_tiles<F: Fault>(
             for left in tiles(&region.columns) {
                 let size = [map.grid.height() - top, map.grid.width() - left];
                 let size = size.map(|count| count.min(side));
-                walker.walk(&mut Parts::<_, (), F>::of(simd, &mut ()), template, [top, left], size);
+                walker.walk(&mut LoopContext::<_, (), F>::of(simd, &mut ()), template, [top, left], size);
                 store(simd, map, &walker.tile, region, names, t);
                 let [rows, columns] = [top..top + size[0], left..left + size[1]];
                 done(&walker.tile, names, &region.intersection(&Region { rows, columns }));

@@ -117,7 +117,7 @@ mod tests {
 
     #[test]
     fn the_middle_is_the_camera_s_own_sample() {
-        let camera = Camera::canonical(7, 5);
+        let camera = Camera::canonical(5, 7);
         let (samples, grid) =
             (Samples::new(&camera, 2, SamplePoint::Middle), camera.sample_grid(2));
         for (row, column) in [(0, 0), (9, 13), (3, 8)] {
@@ -128,7 +128,7 @@ mod tests {
 
     #[test]
     fn a_corner_is_half_a_sample_up_and_left() {
-        let camera = Camera::canonical(4, 2);
+        let camera = Camera::canonical(2, 4);
         let [x, y] = Samples::new(&camera, 1, SamplePoint::Corner).on_viewport(0, 0);
         assert_eq!([x, y], [-0.5, 0.5]);
     }

@@ -116,7 +116,7 @@ fn meshes_with_shared_vertices_give_the_same_frame() {
 
 #[test]
 fn a_mesh_without_triangles_gives_an_empty_frame() {
-    let camera = Camera::canonical(3, 2);
+    let camera = Camera::canonical(2, 3);
     let (frame, work) = streamed(&Mesh::default(), &camera, &Options::default(), 1);
     let scene = Scene::new(Vec::<Object>::new()).unwrap();
     let view = View::new(&scene, &camera);
@@ -131,7 +131,7 @@ fn progress_is_reported_chunk_by_chunk() {
     let triangles = CHUNK + 1;
     let text = ["v 0 0 -2\nv 1 0 -2\nv 0 1 -2\n", &"f 1 2 3\n".repeat(triangles)].concat();
     fs::write(&path, text).unwrap();
-    let camera = Camera::canonical(4, 3);
+    let camera = Camera::canonical(3, 4);
     let reported = Mutex::new(Vec::new());
     let listener = |progress: Progress| {
         assert_eq!(progress.order, Order::Object);

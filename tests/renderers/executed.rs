@@ -31,7 +31,7 @@ fn executed_at(level: Level, order: Order, view: &View, options: &Options) -> Ex
 }
 
 fn executed(order: Order, objects: Vec<Object>, image: [u32; 2]) -> Executed {
-    let (scene, camera) = (scene(objects), Camera::canonical(image[0], image[1]));
+    let (scene, camera) = (scene(objects), Camera::canonical(image[1], image[0]));
     executed_at(best_level(), order, &View::new(&scene, &camera), &Options::default())
 }
 
@@ -212,7 +212,7 @@ fn a_bit_of_everything() -> Scene {
 
 #[test]
 fn every_timed_frame_has_its_counts_and_no_other() {
-    let (scene, camera) = (a_bit_of_everything(), Camera::canonical(48, 32));
+    let (scene, camera) = (a_bit_of_everything(), Camera::canonical(32, 48));
     let view = View::new(&scene, &camera);
     for order in ORDERS {
         let render = |method, repeat, no_times, no_counts| {
@@ -233,7 +233,7 @@ fn every_timed_frame_has_its_counts_and_no_other() {
 
 #[test]
 fn the_report_has_both_sorts_of_counts_each_under_its_name() {
-    let (scene, camera) = (a_bit_of_everything(), Camera::canonical(48, 32));
+    let (scene, camera) = (a_bit_of_everything(), Camera::canonical(32, 48));
     let view = View::new(&scene, &camera);
     let options = RenderOptions { no_times: true, ..RenderOptions::default() };
     let rendered =

@@ -157,7 +157,7 @@ fn a_frame_keeps_no_coordinates_unless_asked() {
     let frame = RENDERERS[0].1(&view, &Options::default());
     assert!(frame.texture_coordinates().is_empty());
     let mut frame = frame.with_texture_coordinates();
-    let small = Camera::canonical(7, 5);
+    let small = Camera::canonical(5, 7);
     frame.fit(&View::new(&loaded.scene, &small), &Options::default());
     assert_eq!(frame.texture_coordinates().len(), 35, "a frame of another size keeps them, too");
 }

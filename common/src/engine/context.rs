@@ -28,14 +28,14 @@ pub trait ScalarContext {
 
     /// The same with vector instructions.
     #[inline(always)]
-    fn with_simd<S: Simd>(&mut self, simd: S) -> Parts<'_, S, Self::Sink, Self::Fault> {
-        Parts { simd, sink: self.sink(), fault: PhantomData }
+    fn with_simd<S: Simd>(&mut self, simd: S) -> LoopContext<'_, S, Self::Sink, Self::Fault> {
+        LoopContext { simd, sink: self.sink(), fault: PhantomData }
     }
 
     /// The same without vector instructions.
     #[inline(always)]
-    fn scalar(&mut self) -> Parts<'_, (), Self::Sink, Self::Fault> {
-        Parts { simd: (), sink: self.sink(), fault: PhantomData }
+    fn scalar(&mut self) -> LoopContext<'_, (), Self::Sink, Self::Fault> {
+        LoopContext { simd: (), sink: self.sink(), fault: PhantomData }
     }
 }
 
@@ -50,28 +50,28 @@ pub trait Context: ScalarContext {
     fn simd(&self) -> Self::Simd;
 }
 
-/// The only type that is a [`Context`]: a struct of its parts. Without vector instructions, `S` is `()`.
-pub struct Parts<'a, S, E: ?Sized, F> {
+/// The only type that is a [`Context`]: what one loop is compiled for and tells its events to. Without vector instructions, `S` is `()`.
+pub struct LoopContext<'a, S, E: ?Sized, F> {
     simd: S,
     sink: &'a mut E,
     fault: PhantomData<F>,
 }
 
-impl<'a, S, E: EventSink + ?Sized, F: Fault> Parts<'a, S, E, F> {
+impl<'a, S, E: EventSink + ?Sized, F: Fault> LoopContext<'a, S, E, F> {
     /// The context of a loop in `simd` instructions that tells `sink` of its events, with the faults of `F`.
     #[inline(always)]
     pub fn new(simd: S, sink: &'a mut E, _fault: F) -> Self {
-        Parts::of(simd, sink)
+        LoopContext::of(simd, sink)
     }
 
-    /// As [`Parts::new`], where `F` is known as a type alone.
+    /// As [`LoopContext::new`], where `F` is known as a type alone.
     #[inline(always)]
     pub fn of(simd: S, sink: &'a mut E) -> Self {
-        Parts { simd, sink, fault: PhantomData }
+        LoopContext { simd, sink, fault: PhantomData }
     }
 }
 
-impl<S, E: EventSink + ?Sized, F: Fault> ScalarContext for Parts<'_, S, E, F> {
+impl<S, E: EventSink + ?Sized, F: Fault> ScalarContext for LoopContext<'_, S, E, F> {
     type Sink = E;
     type Fault = F;
 
@@ -81,7 +81,7 @@ impl<S, E: EventSink + ?Sized, F: Fault> ScalarContext for Parts<'_, S, E, F> {
     }
 }
 
-impl<S: Simd, E: EventSink + ?Sized, F: Fault> Context for Parts<'_, S, E, F> {
+impl<S: Simd, E: EventSink + ?Sized, F: Fault> Context for LoopContext<'_, S, E, F> {
     type Simd = S;
 
     #[inline(always)]
@@ -90,8 +90,8 @@ impl<S: Simd, E: EventSink + ?Sized, F: Fault> Context for Parts<'_, S, E, F> {
     }
 }
 
-impl<S, E: ?Sized, F> fmt::Debug for Parts<'_, S, E, F> {
+impl<S, E: ?Sized, F> fmt::Debug for LoopContext<'_, S, E, F> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.debug_struct("Parts").finish_non_exhaustive()
+        formatter.debug_struct("LoopContext").finish_non_exhaustive()
     }
 }

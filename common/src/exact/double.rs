@@ -93,7 +93,7 @@ impl Real for Double {
 }
 
 /// Products beyond this keep all that rounding loses: 53 digits more are far above 2⁻¹⁰⁷⁴.
-const LEAST: f64 = f64::MIN_POSITIVE / (f64::EPSILON * f64::EPSILON);
+const LEAST: f64 = f64::MIN_POSITIVE / (4.0 * EPS53 * EPS53);
 
 /// A rounded sum, and what rounding lost, exactly.
 ///

@@ -7,7 +7,7 @@ use crate::picture::picture;
 /// A frame drawn by hand: a digit for the primitive of each sample, `.` for nothing; all primitives at depth 1.
 fn frame(samples: u32, rows: &[&str]) -> Frame {
     let side = |length: usize| u32::try_from(length).unwrap() / samples;
-    let camera = Camera::canonical(side(rows[0].len()), side(rows.len()));
+    let camera = Camera::canonical(side(rows.len()), side(rows[0].len()));
     let mut frame = Frame::new(&camera, &Options { samples, ..Options::default() });
     for (row, text) in rows.iter().enumerate() {
         for (column, letter) in text.chars().enumerate() {

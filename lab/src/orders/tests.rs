@@ -24,7 +24,7 @@ fn two_balls() -> Scene {
 #[test]
 fn repeating_changes_neither_picture_nor_counts() {
     let scene = two_balls();
-    let camera = Camera::canonical(9, 7);
+    let camera = Camera::canonical(7, 9);
     let view = View::new(&scene, &camera);
     for order in [Order::Object, Order::Image] {
         for method in [Method::Fast, Method::Textbook] {
@@ -50,7 +50,7 @@ fn the_largest_number_of_repetitions_does_not_overflow() {
 
 #[test]
 fn progress_is_reported_to_the_end_and_changes_nothing() {
-    let (scene, camera) = (two_balls(), Camera::canonical(9, 7));
+    let (scene, camera) = (two_balls(), Camera::canonical(7, 9));
     let view = View::new(&scene, &camera);
     let frame = Options { samples: 2, ..Options::default() };
     // The steps within a frame: frames, primitives, or rows of samples.

@@ -47,12 +47,12 @@ fn edges() -> Vec<Vector> {
             .flat_quad([[1.5, 1.5], [6.5, 1.5], [6.5, 6.5], [1.5, 6.5]])
             .done(),
         sketch("winding", "Clockwise and counter-clockwise cover alike: no face is culled.")
-            .size(16, 8)
+            .size(8, 16)
             .flat([[1.5, 1.5], [6.5, 1.5], [1.5, 6.5]])
             .flat([[9.5, 1.5], [9.5, 6.5], [14.5, 1.5]])
             .done(),
         sketch("first-corner", "It does not matter which corner of a triangle comes first.")
-            .size(24, 8)
+            .size(8, 24)
             .flat([[1.5, 1.5], [6.5, 3.5], [2.5, 6.5]])
             .flat([[14.5, 3.5], [10.5, 6.5], [9.5, 1.5]])
             .flat([[18.5, 6.5], [17.5, 1.5], [22.5, 3.5]])
@@ -195,7 +195,7 @@ fn slivers() -> Vec<Vector> {
             .flat([[3.5; 2]; 3])
             .done(),
         sketch("hair", "Right edges that pass samples, or miss them, by 1/65536 of a pixel.")
-            .size(16, 8)
+            .size(8, 16)
             .flat([[5.5 + HAIR, 0.75], [5.5 + HAIR, 7.25], [0.75, 4.0]])
             .flat([[13.5 - HAIR, 0.75], [13.5 - HAIR, 7.25], [8.75, 4.0]])
             .done(),

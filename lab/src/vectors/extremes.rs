@@ -42,7 +42,7 @@ pub(super) fn vectors() -> Vec<Vector> {
         .pixels([[7.0, 7.0], [1.0, 5.0], [6.0, 1.0]].map(|[x, y]| [x, y, (-20_f32).exp2()]))
         .done(),
         sketch("oblong-pixels", "Pixels twice as high as wide: the rule is about pixels.")
-            .size(24, 12)
+            .size(12, 24)
             .viewport([12.0, 12.0])
             .flat_quad([[1.25, 1.5], [8.25, 1.5], [8.25, 8.5], [1.25, 8.5]])
             .done(),
@@ -57,7 +57,7 @@ fn turned_box() -> Vector {
     let faces =
         [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
     let turned = sketch(Group::Extremes, "turned-box", point)
-        .size(20, 16)
+        .size(16, 20)
         .looking([9.0, 7.0, 13.0], [0.0; 3]);
     faces.into_iter().fold(turned, |turned, face| turned.world_quad(face.map(corner))).done()
 }

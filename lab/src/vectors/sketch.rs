@@ -26,7 +26,7 @@ pub(super) fn sketch(group: Group, name: &'static str, point: &'static str) -> S
 
 impl Sketch {
     /// Sets the size in pixels. The call comes before the first triangle, because pixels depend on the size.
-    pub(super) fn size(mut self, width: u16, height: u16) -> Sketch {
+    pub(super) fn size(mut self, height: u16, width: u16) -> Sketch {
         assert!(self.corners.is_empty(), "{}: the size comes first", self.name);
         self.camera.image = [width.into(), height.into()];
         self.camera.viewport = [width.into(), height.into()];

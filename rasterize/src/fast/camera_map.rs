@@ -2,6 +2,7 @@
 
 use super::local_origin::LocalOrigin;
 use bothways_common::engine::fault::{Fault, Planted};
+use bothways_common::engine::roundoff::EPS53;
 use bothways_common::raster::Region;
 use bothways_common::{Camera, Projection, Raster, SampleGrid};
 use glam::DVec3;
@@ -166,7 +167,7 @@ impl<'a> CameraMap<'a> {
     ) -> Region {
         let range = |axis: usize, count: usize| {
             let margin = if F::is(Planted::ShrunkBox) {
-                -f64::EPSILON * (1.0 + low[axis].abs())
+                -2.0 * EPS53 * (1.0 + low[axis].abs())
             } else {
                 margin[axis]
             };

@@ -6,7 +6,7 @@ use super::prepared::Prepared;
 use super::search::tile_frustum::FrustumTemplate;
 use super::search::walk::Walker;
 use super::store::store;
-use bothways_common::engine::context::{Context, Parts};
+use bothways_common::engine::context::{Context, LoopContext};
 use bothways_common::engine::fault::Sound;
 use bothways_common::engine::simd::dispatch;
 use bothways_common::raster::Region;
@@ -95,7 +95,7 @@ pub fn first_hit(prepared: &Prepared, scene: &Scene, ray: WorldRay) -> Option<Hi
     let unbounded = Unbounded::for_rays(prepared, &map);
     let mut walker = Walker::new(prepared, &map, &unbounded);
     let distance = dispatch!(prepared.level, simd => {
-        trace_alone(&mut Parts::new(simd, &mut (), Sound), &mut walker)
+        trace_alone(&mut LoopContext::new(simd, &mut (), Sound), &mut walker)
     });
     walker.seen().map(|id| Hit { id, distance })
 }

@@ -84,7 +84,7 @@ impl Reach {
         let middle = 0.5 * bounds.low + 0.5 * bounds.high;
         let (from_eye, from_middle) = (from(eye), from(middle));
         // Rounded up: the differences were rounded.
-        let from_middle = from_middle * (1.0 + f64::EPSILON);
+        let from_middle = from_middle * (1.0 + 2.0 * EPS53);
         if middle.is_finite() && WORTH * from_middle < from_eye {
             Reach { from_eye, origin: middle, from_origin: from_middle }
         } else {

@@ -74,9 +74,9 @@ impl LocalErrors {
     /// vertices lie behind the eye.
     #[inline(always)]
     pub(super) fn of(&self, size: f32, vertex: [f32; 2], near: f32) -> f32 {
-        const ROUNDINGS: f32 = 1.0 + 8.0 * f32::EPSILON;
+        const ROUNDINGS: f32 = 1.0 + 16.0 * EPS24;
         let near = if near > 0.0 { near } else { f32::NAN };
-        let vertex = vertex[0].abs().max(vertex[1].abs()) * (1.25 * f32::EPSILON);
+        let vertex = vertex[0].abs().max(vertex[1].abs()) * (2.5 * EPS24);
         (self.away * size + vertex + self.at_vertex) / near * ROUNDINGS + self.rounding
     }
 }

@@ -74,7 +74,7 @@ mod tests {
     use super::*;
     use glam::DVec3;
 
-    fn picture(width: usize, height: usize) -> Level {
+    fn picture(height: usize, width: usize) -> Level {
         let value = |k: usize| (k as f32 * 0.618_034).fract();
         let texel = |k| Vec3::new(value(k), value(3 * k + 1), value(7 * k));
         Level { width, texels: (0..width * height).map(texel).collect() }
@@ -87,8 +87,8 @@ mod tests {
 
     #[test]
     fn every_level_has_the_mean_of_the_picture() {
-        for (width, height) in [(16, 16), (13, 7), (1, 9), (31, 2), (3, 3)] {
-            let levels = levels(picture(width, height));
+        for (height, width) in [(16, 16), (7, 13), (9, 1), (2, 31), (3, 3)] {
+            let levels = levels(picture(height, width));
             let sizes: Vec<[usize; 2]> = levels.iter().map(Level::size).collect();
             assert_eq!(sizes.last(), Some(&[1, 1]), "{width} × {height}");
             for level in &levels {
@@ -100,7 +100,7 @@ mod tests {
 
     #[test]
     fn a_texel_is_the_mean_of_the_four_that_it_covers() {
-        let levels = levels(picture(8, 4));
+        let levels = levels(picture(4, 8));
         let (large, small) = (&levels[0], &levels[1]);
         assert_eq!(small.size(), [4, 2]);
         for (i, j) in [(0, 0), (1, 3), (0, 2)] {

@@ -414,7 +414,7 @@ mod tests {
 
     #[test]
     fn our_sampling_has_the_bits_of_the_camera() {
-        let camera = Camera::canonical(37, 3);
+        let camera = Camera::canonical(3, 37);
         let x: Vec<f64> =
             (0..37).map(|j| Sampling::Middle.coordinate(camera.viewport()[0], j, 37)).collect();
         assert_eq!(x, camera.sample_grid(1).x());

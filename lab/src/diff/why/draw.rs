@@ -513,7 +513,7 @@ mod tests {
     #[test]
     fn every_change_of_rendering_changes_the_picture_of_some_scene() {
         let mut unseen = Vec::new();
-        for change in Change::of_rendering(&Camera::canonical(64, 32)) {
+        for change in Change::of_rendering(&Camera::canonical(32, 64)) {
             let mut seen = false;
             for name in ["lecture", "ties", "overlap", "behind", "slivers"] {
                 let loaded = scenes::load(name).unwrap();

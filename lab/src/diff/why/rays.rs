@@ -218,7 +218,7 @@ mod tests {
 
     #[test]
     fn samples_at_corners_lie_half_a_pixel_farther_left() {
-        let camera = Camera::canonical(4, 2);
+        let camera = Camera::canonical(2, 4);
         let corner = Convention::default().with(Change::Columns(Sampling::Corner));
         let rays = ViewingRays::new(&camera, &corner);
         assert_eq!(rays.x.values, [-0.5, -0.25, 0.0, 0.25]);

@@ -10,10 +10,10 @@ use crate::common::{Camera, CameraDescription};
 /// use bothways_lab::common::Camera;
 /// use bothways_lab::diff::why::camera_of_samples;
 ///
-/// let fine = camera_of_samples(&Camera::canonical(4, 3), 2).expect("it is small");
+/// let fine = camera_of_samples(&Camera::canonical(3, 4), 2).expect("it is small");
 /// assert_eq!(fine.image(), [8, 6]);
 /// // The first sample of a pixel lies a quarter of it from its corner.
-/// assert_eq!(fine.sample_grid(1).x(), Camera::canonical(4, 3).sample_grid(2).x());
+/// assert_eq!(fine.sample_grid(1).x(), Camera::canonical(3, 4).sample_grid(2).x());
 /// ```
 pub fn camera_of_samples(camera: &Camera, samples: u32) -> Option<Camera> {
     let [width, height] = camera.image();

@@ -7,7 +7,7 @@ use crate::orders::{Counts, Method, Order, Spread, Times};
 use crate::picture::picture;
 
 fn rendered(order: Order, [width, height]: [u32; 2], count: u64, seen: bool) -> Rendered {
-    let mut frame = Frame::new(&Camera::canonical(width, height), &Options::default());
+    let mut frame = Frame::new(&Camera::canonical(height, width), &Options::default());
     if seen {
         frame.set(frame.height() - 1, frame.width() / 2, 0, 1.0);
     }

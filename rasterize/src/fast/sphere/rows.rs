@@ -1,6 +1,7 @@
 //! Eight rows of a sphere at a time: its functions on each row, and the columns in which it may be seen.
 
 use super::forms::{Forms, SeenRoot};
+use bothways_common::engine::roundoff::EPS53;
 use bothways_common::engine::simd::{Select, Simd, SimdBase, SimdFloat, f64x8};
 use bothways_common::raster::Region;
 use std::ops::Range;
@@ -75,7 +76,7 @@ fn ends<S: Simd>(simd: S, forms: &Forms, on: f64x8<S>, across: f64x8<S>) -> (f64
             return (splat(f64::NEG_INFINITY), splat(f64::INFINITY));
         }
     };
-    const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
+    const ROUNDINGS: f64 = 8.0 * EPS53;
     let middle = across * splat(0.5 / k);
     let rest = splat(0.5) * across * middle;
     let peak = on + rest;

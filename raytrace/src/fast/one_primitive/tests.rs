@@ -8,7 +8,7 @@ use crate::fast::prepare;
 use crate::fast::search::tile_frustum::FrustumTemplate;
 use crate::fast::sphere::blocks::SphereSetup;
 use crate::fast::tile::TileBuffer;
-use bothways_common::engine::context::{Context, Parts};
+use bothways_common::engine::context::{Context, LoopContext};
 use bothways_common::engine::fault::Sound;
 use bothways_common::engine::simd::{best_level, dispatch};
 use bothways_common::glam::Vec3;
@@ -40,7 +40,7 @@ fn check(shape: Shape, camera: &Camera) -> Tested {
             let size = [map.grid.height() - row, map.grid.width() - column];
             tile.begin([row, column], size.map(|count| count.min(SIDE)), SIDE);
             dispatch!(best_level(), simd => {
-                draw(&mut Parts::new(simd, &mut (), Sound), &map, &template, &mut tile);
+                draw(&mut LoopContext::new(simd, &mut (), Sound), &map, &template, &mut tile);
             });
             check_tile(&map, &mut tile, &mut tested);
         }
