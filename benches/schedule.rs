@@ -5,6 +5,9 @@
 //! when it is done; what is in no task stays serial. So the printed speed-ups leave out what threads lose to one another
 //! (memory, caches), and are what the cutting of the work allows at most.
 //!
+//! For each number of threads, frames are cut as they are for so many; the speed-up is over the frame on one thread, as
+//! that is cut.
+//!
 //! `cargo bench --bench schedule -- [SCENE...] [--tile ROWSxCOLUMNS]` draws built-in scenes or files; without any, some that
 //! differ much. `--tile` tries other tiles in object order (powers of two).
 
@@ -109,39 +112,63 @@ fn measure(name: &str, view: &View, tile: Option<[u32; 2]>) {
     if let Some(tile) = tile {
         prepared = prepared.drawn_with(best_level(), tile);
     }
-    print(name, "object", &times, || {
+    print(name, "object", &times, |threads| {
+        prepared.cut_for_threads(if tile.is_some() { 0 } else { threads });
         rasterize::fast::determine_visibility(&prepared, view, &options, &mut frame, &mut ());
     });
-    let prepared = raytrace::fast::prepare(view.scene).timed_by(times.clone());
-    print(name, "image", &times, || {
+    let mut prepared = raytrace::fast::prepare(view.scene).timed_by(times.clone());
+    print(name, "image", &times, |threads| {
+        prepared.cut_for_threads(threads);
         raytrace::fast::determine_visibility(&prepared, view, &options, &mut frame, &mut ());
     });
 }
 
-fn print(name: &str, order: &str, times: &TaskTimes, mut draw: impl FnMut()) {
-    let (all, stages) = (0..FRAMES)
-        .map(|_| {
+/// The fastest of some frames that are cut for a number of threads.
+struct Fastest {
+    all: Duration,
+    stages: Vec<Vec<Duration>>,
+}
+
+impl Fastest {
+    fn of(times: &TaskTimes, mut draw: impl FnMut()) -> Fastest {
+        let frames = (0..FRAMES).map(|_| {
             let begun = Instant::now();
             draw();
-            (begun.elapsed(), times.take())
-        })
-        .min_by_key(|(all, _)| *all)
-        .expect("there are frames");
-    let tasks: Duration = stages.iter().flatten().sum();
-    let serial = all.saturating_sub(tasks);
+            Fastest { all: begun.elapsed(), stages: times.take() }
+        });
+        frames.min_by_key(|frame| frame.all).expect("there are frames")
+    }
+
+    /// What is in no task.
+    fn serial(&self) -> Duration {
+        self.all.saturating_sub(self.stages.iter().flatten().sum())
+    }
+
+    /// How long the frame takes on so many threads.
+    fn on(&self, threads: usize) -> Duration {
+        self.serial() + self.stages.iter().map(|stage| makespan(stage, threads)).sum::<Duration>()
+    }
+
+    /// The longest chain: one task of each stage, after what no task does.
+    fn longest(&self) -> Duration {
+        let longest = self.stages.iter().filter_map(|stage| stage.iter().max());
+        longest.sum::<Duration>() + self.serial()
+    }
+}
+
+fn print(name: &str, order: &str, times: &TaskTimes, mut draw: impl FnMut(usize)) {
+    let one = Fastest::of(times, || draw(1));
     let milliseconds = |time: Duration| 1e3 * time.as_secs_f64();
-    // The longest chain: one task of each stage, after what no task does.
-    let longest = stages.iter().filter_map(|stage| stage.iter().max()).sum::<Duration>() + serial;
     let speedups = THREADS.map(|threads| {
-        let stages = stages.iter().map(|stage| makespan(stage, threads)).sum::<Duration>();
-        format!("{:5.1}", all.as_secs_f64() / (serial + stages).as_secs_f64())
+        let frame = Fastest::of(times, || draw(threads));
+        format!("{:5.1}", one.all.as_secs_f64() / frame.on(threads).as_secs_f64())
     });
     println!(
         "{name:16} {order:>6} {:6} {:9.3} {:9.3} {:9.3}  {}",
-        stages.iter().map(Vec::len).sum::<usize>(),
-        milliseconds(all),
-        milliseconds(serial),
-        milliseconds(longest),
+        one.stages.iter().map(Vec::len).sum::<usize>(),
+        milliseconds(one.all),
+        milliseconds(one.serial()),
+        milliseconds(one.longest()),
         speedups.join(" ")
     );
 }

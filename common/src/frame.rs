@@ -9,7 +9,7 @@ use crate::engine::memory::filled;
 use crate::raster::{Crop, Region, check_samples};
 use crate::view::View;
 use glam::{Vec2, Vec3};
-use ids::{IdPlane, cut};
+use ids::{IdBand, IdPlane, bands, cut};
 
 /// How to render, the same for both orders.
 ///
@@ -75,6 +75,28 @@ pub struct Tile<'a> {
     pub ids: IdRows<'a>,
     /// Its `t`, a slice for each row; +∞ for nothing.
     pub t: Vec<&'a mut [f32]>,
+}
+
+/// Some rows of a frame: a row of tiles.
+#[derive(Debug)]
+pub struct Band<'a> {
+    region: Region,
+    ids: IdBand<'a>,
+    t: &'a mut [f32],
+}
+
+impl<'a> Band<'a> {
+    /// Cuts the band into tiles of at most so many columns of samples, from left to right.
+    ///
+    /// # Panics
+    ///
+    /// If `columns` is 0.
+    pub fn tiles_mut(self, columns: usize) -> Vec<Tile<'a>> {
+        let Band { region, ids, t } = self;
+        let (ids, t) = (ids.cut(&region, columns), cut(t, &region, columns));
+        let regions = region.tiles(usize::MAX, columns);
+        regions.zip(ids).zip(t).map(|((region, ids), t)| Tile { region, ids, t }).collect()
+    }
 }
 
 /// One row of a frame's pixels during shading: as many rows of samples as a pixel has. All slices but the picture's
@@ -317,11 +339,20 @@ impl Frame {
     ///
     /// If `rows` or `columns` is 0.
     pub fn tiles_mut(&mut self, rows: usize, columns: usize) -> Vec<Tile<'_>> {
-        let region = self.region.clone();
-        let ids = self.ids.cut(&region, [rows, columns]);
-        let t = cut(&mut self.t, &region, [rows, columns]);
-        let regions = region.tiles(rows, columns);
-        regions.zip(ids).zip(t).map(|((region, ids), t)| Tile { region, ids, t }).collect()
+        self.bands_mut(rows).into_iter().flat_map(|band| band.tiles_mut(columns)).collect()
+    }
+
+    /// Cuts the frame into bands of at most so many rows of samples, from above, so that several threads can cut them into
+    /// tiles. The bands are those of the whole image, as the tiles of [`Frame::tiles_mut`] are.
+    ///
+    /// # Panics
+    ///
+    /// If `rows` is 0.
+    pub fn bands_mut(&mut self, rows: usize) -> Vec<Band<'_>> {
+        let region = &self.region;
+        let (ids, t) = (self.ids.bands(region, rows), bands(&mut self.t, region, rows));
+        let regions = region.bands(rows);
+        regions.zip(ids).zip(t).map(|((region, ids), t)| Band { region, ids, t }).collect()
     }
 
     /// The frame's rows of pixels, for shading.

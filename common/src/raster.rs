@@ -152,13 +152,14 @@ impl Region {
         })
     }
 
-    /// How many tiles of so many columns lie side by side in it, whole or in part.
+    /// The parts of the picture's bands that lie in it, from above. A band has at most so many rows, and all columns.
     ///
     /// # Panics
     ///
-    /// If `columns` is 0.
-    pub fn tiles_across(&self, columns: usize) -> usize {
-        pieces(&self.columns, columns).count()
+    /// If `rows` is 0.
+    pub fn bands(&self, rows: usize) -> impl Iterator<Item = Region> + use<> {
+        let columns = self.columns.clone();
+        pieces(&self.rows, rows).map(move |rows| Region { rows, columns: columns.clone() })
     }
 
     /// The samples that both hold.

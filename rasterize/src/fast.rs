@@ -62,8 +62,7 @@ use bothways_common::engine::context::LoopContext;
 use bothways_common::engine::fault::{Fault, Planted, Sound};
 use bothways_common::engine::memory::filled;
 use bothways_common::engine::simd::{Level, dispatch, dispatch_with};
-use bothways_common::engine::tasks::TaskTimes;
-use bothways_common::frame;
+use bothways_common::engine::tasks::{self, TaskTimes};
 use bothways_common::observe::{Events, Executed, Observer};
 use bothways_common::{Frame, Options, Scene, Shape, View};
 use camera_map::CameraMap;
@@ -76,7 +75,7 @@ use prepared::Recycled;
 use rayon::prelude::*;
 use search::batches::Batch;
 use search::bins::BatchBins;
-use search::tiling::Tiling;
+use search::tiling::{Tiling, tile_for_threads};
 use std::cmp::Reverse;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use store::{store, store_nothing};
@@ -224,7 +223,8 @@ fn run(
     }
     let keys = KeyScale::new(&map, &prepared.bounds, prepared.has_planes);
     let raster = FixedPointRaster::new(&map, keys);
-    let tiling = Tiling::new(&map, prepared.tile, frame.region());
+    let tile = tile_for_threads(prepared.tile, prepared.threads, frame.region());
+    let tiling = Tiling::new(&map, tile, frame.region());
     // A thread that panicked left nothing that matters.
     let mut recycled = std::mem::take(&mut *lock(&prepared.recycled));
 
@@ -334,7 +334,7 @@ fn draw_tiles(
     times: Option<&TaskTimes>,
 ) -> Executed {
     let Drawing { geometry: &Geometry { view, tiling, .. }, picture, bins, level } = *drawing;
-    let mut tiles: Vec<frame::Tile> = frame.tiles_mut(tiling.rows, tiling.columns);
+    let mut tiles = tasks::tiles_mut(frame, [tiling.rows, tiling.columns], times);
     let dropped = (loops.is)(Planted::DroppedTile).then_some(tiles.len() / 2);
     let free = Mutex::new(std::mem::take(buffers));
     let mut executed = Executed::default();

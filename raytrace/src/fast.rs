@@ -53,7 +53,7 @@ use bothways_common::engine::any_observer::{AnyObserver, PartObserver};
 use bothways_common::engine::context::{LoopContext, ScalarContext};
 use bothways_common::engine::fault::{Fault, Planted, Sound};
 use bothways_common::engine::simd::dispatch_with;
-use bothways_common::engine::tasks::TaskTimes;
+use bothways_common::engine::tasks::{self, TaskTimes};
 use bothways_common::frame::{IdRows, NO_PRIMITIVE, Tile};
 use bothways_common::observe::{Events, Executed, Observer};
 use bothways_common::raster::Region;
@@ -74,8 +74,10 @@ pub use prepared::Prepared;
 
 /// Samples along one side of a tile.
 const SIDE: usize = 32;
-/// Columns of samples that one thread takes at a time, in a row of tiles.
+/// Columns of samples that one thread takes at a time, in a row of tiles, unless there are many threads and few chunks.
 const CHUNK: usize = 512;
+/// Each thread should get so many chunks, so that all end at about the same time.
+const CHUNKS_A_THREAD: usize = 8;
 
 /// Prepares a scene for any number of views of it: builds the hierarchy of boxes.
 ///
@@ -187,28 +189,37 @@ fn run(
     let side = if (loops.is)(Planted::ShrunkBox) { 1 } else { prepared.side };
     let (of_tile, of_ray) = (loops.template(&map, side), loops.template(&map, 1));
 
-    let mut chunks: Vec<Tile> = frame.tiles_mut(prepared.side, CHUNK);
+    let times = prepared.times.as_deref();
+    let columns = chunk_for_threads(prepared, frame.region());
+    let mut chunks = tasks::tiles_mut(frame, [prepared.side, columns], times);
     let dropped = (loops.is)(Planted::DroppedTile).then_some(chunks.len() / 2);
     let mut executed = Executed::default();
-    let times = prepared.times.as_deref();
     TaskTimes::begin_stage(times);
     observer.in_parts(chunks.len(), &mut |parts| {
-        let draw = |walker: &mut Walker, (index, (chunk, part)): (_, (Tile, &mut _))| {
+        let draw = |(index, (chunk, part)): (_, (Tile, &mut _))| {
             if dropped == Some(index) {
                 drop_chunk(chunk);
                 return Executed::default();
             }
+            let mut walker = Walker::new(prepared, &map, &unbounded);
             if let Some(sink) = PartObserver::sink(part) {
-                (loops.watch)(walker, [&of_tile, &of_ray], &chunk, sink);
+                (loops.watch)(&mut walker, [&of_tile, &of_ray], &chunk, sink);
             }
-            TaskTimes::time(times, || (loops.trace)(walker, &of_tile, chunk))
+            (loops.trace)(&mut walker, &of_tile, chunk)
         };
         let chunks = std::mem::take(&mut chunks).into_par_iter().zip(parts);
         let each = chunks.with_max_len(1).enumerate();
-        let of_chunks = each.map_init(|| Walker::new(prepared, &map, &unbounded), draw);
-        executed = of_chunks.sum();
+        executed = each.map(|chunk| TaskTimes::time(times, || draw(chunk))).sum();
     });
     executed
+}
+
+/// The columns of a chunk of a region.
+fn chunk_for_threads(prepared: &Prepared, region: &Region) -> usize {
+    let wanted = prepared.threads.saturating_mul(CHUNKS_A_THREAD);
+    let are_enough = |columns: &usize| region.tiles(prepared.side, *columns).count() >= wanted;
+    let sizes = [CHUNK, CHUNK / 2, CHUNK / 4];
+    sizes.into_iter().find(are_enough).unwrap_or(sizes[2])
 }
 
 /// A fault: nothing is seen in a chunk of the picture.

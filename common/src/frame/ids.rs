@@ -191,31 +191,61 @@ impl IdPlane {
         }
     }
 
-    /// The ids of tiles of at most so many rows and columns, row by row.
-    pub(super) fn cut(&mut self, region: &Region, tile: [usize; 2]) -> Vec<IdRows<'_>> {
+    /// The ids, cut into bands of so many rows of tiles' samples: see [`bands`].
+    pub(super) fn bands(&mut self, region: &Region, rows: usize) -> Vec<IdBand<'_>> {
         match self {
             IdPlane::Narrow(ids) => {
-                cut(ids, region, tile).into_iter().map(IdRows::Narrow).collect()
+                bands(ids, region, rows).into_iter().map(IdBand::Narrow).collect()
             }
-            IdPlane::Wide(ids) => cut(ids, region, tile).into_iter().map(IdRows::Wide).collect(),
+            IdPlane::Wide(ids) => bands(ids, region, rows).into_iter().map(IdBand::Wide).collect(),
         }
     }
 }
 
-/// Cuts the rows of a plane, which covers a region, into tiles: for each a slice for each row.
+/// The ids of a band of a frame.
+#[derive(Debug)]
+pub(super) enum IdBand<'a> {
+    Narrow(&'a mut [u32]),
+    Wide(&'a mut [u64]),
+}
+
+impl<'a> IdBand<'a> {
+    /// The ids of its tiles, from left to right.
+    pub(super) fn cut(self, band: &Region, columns: usize) -> Vec<IdRows<'a>> {
+        match self {
+            IdBand::Narrow(ids) => {
+                cut(ids, band, columns).into_iter().map(IdRows::Narrow).collect()
+            }
+            IdBand::Wide(ids) => cut(ids, band, columns).into_iter().map(IdRows::Wide).collect(),
+        }
+    }
+}
+
+/// Cuts a plane, which covers a region, into bands: one for each row of tiles of at most so many rows.
+pub(super) fn bands<'a, T>(
+    mut plane: &'a mut [T],
+    region: &Region,
+    rows: usize,
+) -> Vec<&'a mut [T]> {
+    let width = region.columns.len();
+    let areas = region.bands(rows).map(|band| band.rows.len() * width);
+    areas.map(|area| plane.split_off_mut(..area).expect("bands cover the frame")).collect()
+}
+
+/// Cuts a band into tiles of at most so many columns, from left to right: for each a slice for each row.
 pub(super) fn cut<'a, T>(
     plane: &'a mut [T],
-    region: &Region,
-    [rows, columns]: [usize; 2],
+    band: &Region,
+    columns: usize,
 ) -> Vec<Vec<&'a mut [T]>> {
-    let tiles = region.tiles(rows, columns);
-    let wide: Vec<usize> = tiles.map(|tile| tile.columns.len()).collect();
-    let mut tiles: Vec<Vec<&mut [T]>> = wide.iter().map(|_| Vec::new()).collect();
-    let (across, first) = (region.tiles_across(columns), region.rows.start / rows);
-    for (row, mut line) in region.rows.clone().zip(plane.chunks_mut(region.columns.len())) {
-        let start = (row / rows - first) * across;
-        for (tile, wide) in tiles[start..][..across].iter_mut().zip(&wide[start..]) {
-            tile.push(line.split_off_mut(..*wide).expect("tiles are as wide as the frame"));
+    let width = band.columns.len();
+    let (widths, mut tiles): (Vec<usize>, Vec<Vec<&mut [T]>>) = band
+        .tiles(usize::MAX, columns)
+        .map(|tile| (tile.columns.len(), Vec::with_capacity(tile.rows.len())))
+        .unzip();
+    for mut line in plane.chunks_mut(width) {
+        for (tile, width) in tiles.iter_mut().zip(&widths) {
+            tile.push(line.split_off_mut(..*width).expect("tiles are as wide as the frame"));
         }
     }
     tiles

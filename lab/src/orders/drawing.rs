@@ -18,6 +18,8 @@ pub(super) trait Drawing {
         observer: &mut O,
         steps: &Steps,
     ) -> Result<Option<Executed>, Self::Error>;
+    /// Cuts the frames to come for the threads there are. Whether that makes a difference.
+    fn cut_for_threads(&mut self) -> bool;
     /// Computes the look of the visible primitives.
     fn shade(&mut self);
     /// The last frame.
@@ -67,6 +69,10 @@ impl<R: Renderer> Drawing for InMemory<'_, R> {
             }
         };
         Ok(executed)
+    }
+
+    fn cut_for_threads(&mut self) -> bool {
+        self.renderer.cut_for_threads(&mut self.prepared, rayon::current_num_threads())
     }
 
     fn shade(&mut self) {
@@ -119,6 +125,10 @@ impl Drawing for Streamed<'_> {
             pass.draw(positions, triangle);
         })?;
         Ok(Some(pass.finish(self.mesh.positions())))
+    }
+
+    fn cut_for_threads(&mut self) -> bool {
+        false
     }
 
     fn shade(&mut self) {

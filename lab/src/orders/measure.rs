@@ -57,9 +57,21 @@ pub(super) fn measure<D: Drawing>(
         drawing.shade();
         return Ok(Measured { frame: drawing.into_frame(), work, executed, times: None });
     }
+    let mut is_warm_up = options.repeat.is_some();
     let run = |phase| {
         match phase {
-            Phase::Visibility => executed = drawing.draw(&mut (), steps)?,
+            // What a frame executes is told of one whose tiles do not depend on the number of threads. The frames after it
+            // are cut for the threads there are, and have a warm-up of their own.
+            Phase::Visibility if std::mem::take(&mut is_warm_up) => {
+                executed = drawing.draw(&mut (), steps)?;
+                if drawing.cut_for_threads() {
+                    drawing.draw(&mut (), steps)?;
+                }
+            }
+            Phase::Visibility => {
+                let of_this = drawing.draw(&mut (), steps)?;
+                executed = executed.or(of_this);
+            }
             Phase::Shading => drawing.shade(),
         }
         Ok(())

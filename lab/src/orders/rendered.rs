@@ -19,8 +19,8 @@ pub struct Rendered {
     pub frame: Frame,
     /// The work of the algorithm for one frame: what every primitive or ray needs alone.
     pub work: Counts,
-    /// What the last timed frame executed; without times, another frame that nothing observes. `None` if the method is
-    /// not fast or has the rules of an ordinary renderer, or if the options leave out the times of a stream but not
+    /// What the first frame executed that nothing observes; it is cut into the same tiles whatever the number of threads.
+    /// `None` if the method is not fast or has the rules of an ordinary renderer, or if the options leave out the times of a stream but not
     /// its counts: its file is not read again for this.
     pub executed: Option<Executed>,
     /// The times; `None` if the options leave out times.

@@ -8,6 +8,10 @@ use crate::{rasterize, raytrace};
 pub(super) trait Renderer {
     type Prepared;
     fn prepare(&self, scene: &Scene) -> Self::Prepared;
+    /// Cuts the frames to come for so many threads. Whether that makes a difference.
+    fn cut_for_threads(&self, _prepared: &mut Self::Prepared, _threads: usize) -> bool {
+        false
+    }
     /// Finds the visible primitives. A fast renderer returns what it executed.
     fn determine_visibility(
         &self,
@@ -29,6 +33,11 @@ macro_rules! renderer {
 
             fn prepare(&self, scene: &Scene) -> Self::Prepared {
                 $order::fast::prepare(scene)
+            }
+
+            fn cut_for_threads(&self, prepared: &mut Self::Prepared, threads: usize) -> bool {
+                prepared.cut_for_threads(threads);
+                true
             }
 
             fn determine_visibility(

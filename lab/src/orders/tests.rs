@@ -30,8 +30,13 @@ fn repeating_changes_neither_picture_nor_counts() {
         for method in [Method::Fast, Method::Textbook] {
             let once = render(order, method, &view, &RenderOptions::default()).unwrap();
             let repeating = RenderOptions { repeat: Some(3), ..RenderOptions::default() };
-            let thrice = render(order, method, &view, &repeating).unwrap();
-            assert_eq!((once.frame, once.work), (thrice.frame, thrice.work));
+            let of = |rendered: Rendered| (rendered.frame, rendered.work, rendered.executed);
+            let once = of(once);
+            for threads in [1, 16] {
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+                let thrice = pool.install(|| render(order, method, &view, &repeating));
+                assert_eq!(once, of(thrice.unwrap()), "{order:?} {method:?} {threads}");
+            }
         }
     }
 }

@@ -34,6 +34,8 @@ pub struct Prepared {
     pub(super) has_planes: bool,
     pub(super) level: Level,
     pub(super) tile: [u32; 2],
+    /// Threads that tiles are cut for; 0 if all frames have the same tiles.
+    pub(super) threads: usize,
     /// For benches.
     pub(super) times: Option<Arc<TaskTimes>>,
     /// Of the last frame: allocations for the next.
@@ -119,9 +121,18 @@ impl Prepared {
             has_planes,
             level: best_level(),
             tile: TILE,
+            threads: 0,
             times: None,
             recycled: Mutex::default(),
         }
+    }
+
+    /// Cuts frames into tiles for so many threads: into smaller ones where there are many threads and few tiles. Frames are
+    /// the same to the last bit, and sooner done; what they execute ([`Executed`]) depends on the number from then on.
+    ///
+    /// [`Executed`]: bothways_common::Executed
+    pub fn cut_for_threads(&mut self, threads: usize) {
+        self.threads = threads;
     }
 
     /// The same as a part of a larger scene: it is drawn as the larger scene would draw it, to the last bit. `bounds`

@@ -111,6 +111,25 @@ fn no_number_of_threads_changes_a_bit() {
     }
 }
 
+#[test]
+fn tiles_for_many_threads_are_more_and_change_no_bit() {
+    let scene = all_sizes(4_000);
+    let camera = turned(Projection::Perspective, [1.5, 1.0, 4.0], [0.0; 3], [1030, 300]);
+    let (view, options) = (View::new(&scene, &camera), Options::default());
+    let mut prepared = fast::prepare(&scene);
+    let drawn = |prepared: &fast::Prepared| {
+        let mut frame = Frame::new(&camera, &options);
+        let executed = fast::determine_visibility(prepared, &view, &options, &mut frame, &mut ());
+        (frame, executed.tiles)
+    };
+    let (expected, tiles) = drawn(&prepared);
+    assert_eq!(tiles, 6);
+    for (threads, tiles) in [(1, 6), (2, 10), (3, 15), (1000, 15), (0, 6)] {
+        prepared.cut_for_threads(threads);
+        assert_eq!(drawn(&prepared), (expected.clone(), tiles), "{threads} threads");
+    }
+}
+
 /// A view against the textbook; gives the work of the fast one.
 pub(super) fn check(scene: &Scene, camera: &Camera, what: &str) -> Work {
     let (view, options) = (View::new(scene, camera), Options::default());

@@ -32,6 +32,8 @@ pub struct Prepared {
     pub(super) extents: Vec<(u32, f32)>,
     pub(super) primitives: u64,
     pub(super) level: Level,
+    /// Threads that chunks are cut for; 0 if all frames have the same chunks.
+    pub(super) threads: usize,
     /// For benches.
     pub(super) times: Option<Arc<TaskTimes>>,
     /// Samples along one side of a tile.
@@ -90,6 +92,12 @@ impl Prepared {
     pub(super) fn leaf_counts(&self) -> [usize; LEAF_KINDS] {
         let Prepared { indexed_leaves, plain_leaves, sphere_leaves, instance_leaves, .. } = self;
         [indexed_leaves.len(), plain_leaves.len(), sphere_leaves.len(), instance_leaves.len()]
+    }
+
+    /// Cuts frames into chunks for so many threads: into smaller ones where there are many threads and few chunks. Frames are
+    /// the same to the last bit, and sooner done; in which order observers hear of rays depends on the number from then on.
+    pub fn cut_for_threads(&mut self, threads: usize) {
+        self.threads = threads;
     }
 
     /// The same, traced at another level of SIMD and in tiles of 16 × 16 or 32 × 32 samples: for tests. They check that

@@ -74,7 +74,8 @@ fn simd_and_threads_change_no_bit_and_tiles_no_id() {
             let mut of_side: Option<Frame> = None;
             for level in levels() {
                 for threads in [1, 3] {
-                    let prepared = prepared.clone().drawn_with(level, side);
+                    let mut prepared = prepared.clone().drawn_with(level, side);
+                    prepared.cut_for_threads(threads);
                     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
                     let mut work = Work::default();
                     let frame = pool.expect("threads").install(|| trace(&prepared, &mut work));

@@ -3,6 +3,21 @@
 use crate::fast::camera_map::CameraMap;
 use bothways_common::raster::Region;
 
+/// Each thread should get so many tiles, so that all end at about the same time.
+const TILES_A_THREAD: usize = 5;
+
+/// The logarithms of a tile's rows and columns, for a region that so many threads draw: the usual ones, or half of them where
+/// there would be too few tiles. Smaller tiles than that would cost more than the threads gain, as clusters lie in several.
+pub(crate) fn tile_for_threads(usual: [u32; 2], threads: usize, region: &Region) -> [u32; 2] {
+    let are_enough = |[rows, columns]: [u32; 2]| {
+        region.tiles(1 << rows, 1 << columns).count() >= threads.saturating_mul(TILES_A_THREAD)
+    };
+    let [rows, columns] = usual;
+    let (low, narrow) = (rows.saturating_sub(1), columns.saturating_sub(1));
+    let sizes = [usual, [rows, narrow], [low, narrow]];
+    sizes.into_iter().find(|size| are_enough(*size)).unwrap_or(sizes[2])
+}
+
 /// How the picture is cut into tiles.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tiling {

@@ -42,6 +42,7 @@ pub(crate) fn build(scene: &Scene, side: usize) -> Prepared {
         extents: collected.extents,
         primitives: scene.primitive_count(),
         level: best_level(),
+        threads: 0,
         times: None,
         side,
     };
