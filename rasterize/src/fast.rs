@@ -269,25 +269,18 @@ fn place_vertices(
     if vertices.len() != count {
         *vertices = filled([0; 4], count);
     }
+    let place = |positions: &[Vec3], vertices: &mut [Vertex]| {
+        dispatch!(prepared.level, simd => raster.place(simd, map, positions, vertices));
+    };
     let mut rest = vertices.as_mut_slice();
+    let mut chunks = Vec::new();
     for (object, clusters) in view.scene.objects().iter().zip(&prepared.clusters) {
-        let place = |positions: &[Vec3], vertices: &mut [Vertex]| {
-            dispatch!(prepared.level, simd => raster.place(simd, map, positions, vertices));
-        };
         match &object.shape {
             Shape::Mesh(mesh) => {
                 let positions = clusters.positions(mesh);
                 let (own, others) = rest.split_at_mut(positions.len());
                 rest = others;
-                if positions.len() <= CHUNK {
-                    place(positions, own);
-                } else {
-                    TaskTimes::begin_stage(times);
-                    let chunks = positions.par_chunks(CHUNK).zip(own.par_chunks_mut(CHUNK));
-                    chunks.for_each(|(positions, vertices)| {
-                        TaskTimes::time(times, || place(positions, vertices));
-                    });
-                }
+                chunks.extend(positions.chunks(CHUNK).zip(own.chunks_mut(CHUNK)));
             }
             Shape::Triangle(triangle) => {
                 let (own, others) = rest.split_at_mut(3);
@@ -297,6 +290,15 @@ fn place_vertices(
             // Vertices of instances are placed where they are drawn.
             Shape::Sphere(_) | Shape::Plane(_) | Shape::Instances(_) => {}
         }
+    }
+    TaskTimes::begin_stage(times);
+    let place = |(positions, vertices): (&[Vec3], &mut [Vertex])| {
+        TaskTimes::time(times, || place(positions, vertices));
+    };
+    if count <= CHUNK {
+        chunks.into_iter().for_each(place);
+    } else {
+        chunks.into_par_iter().for_each(place);
     }
 }
 
