@@ -6,5 +6,6 @@ mod candidates;
 pub(crate) mod instance_frustum;
 mod leaf;
 pub(crate) mod tile_frustum;
+mod tile_place;
 pub(crate) mod tree;
 pub(crate) mod walk;

@@ -273,6 +273,23 @@ impl TileBuffer {
         far
     }
 
+    /// The least low end at these rows and columns of samples, the first and the last of each; at least at those, where they
+    /// are many.
+    #[inline(always)]
+    pub(super) fn far_at(&self, [rows, columns]: [[usize; 2]; 2]) -> f32 {
+        let count = |[first, last]: [usize; 2]| last + 1 - first;
+        if count(rows) * count(columns) > BLOCK * BLOCK {
+            return self.far_in([rows, columns]);
+        }
+        let mut far = f32::INFINITY;
+        for row in rows[0]..=rows[1] {
+            for column in columns[0]..=columns[1] {
+                far = far.min(self.low[index(self.side, row, column)]);
+            }
+        }
+        far
+    }
+
     /// What is seen at the tile's only sample.
     pub(super) fn seen(&self) -> Option<u32> {
         (self.high[0] != f32::NEG_INFINITY).then_some(self.ids[0])

@@ -30,13 +30,6 @@ pub(crate) struct BoxCulling {
     pub(super) sides_exact: f64,
 }
 
-/// What a test of a node's boxes finds: which are missed, and the least and the largest `t` of each, as computed.
-pub(super) struct Tested<S: Simd> {
-    pub(super) missed: mask32x16<S>,
-    pub(super) near: f32x16<S>,
-    pub(super) far: f32x16<S>,
-}
-
 /// The low and the high sides of a node's boxes along each axis.
 pub(super) type Sides<S> = [[f32x16<S>; 2]; 3];
 
@@ -136,6 +129,9 @@ impl BoxCulling {
     }
 
     /// Finds the boxes of a node that a ray of a tile with these sides may meet before `farthest`.
+    ///
+    /// The function of a side is largest, in a box, at one of its corners. The error of points on rays counts, which
+    /// [`MapErrors::wide`](crate::fast::camera_map::MapErrors::wide) allows for, and that of what is computed here.
     #[inline(always)]
     pub(crate) fn test<C: Context>(
         &self,
@@ -145,33 +141,17 @@ impl BoxCulling {
         farthest: f32,
     ) -> BoxHits {
         let simd = context.simd();
-        let tested = self.tested(context, sides, &self.boxes_of(simd, node), farthest);
-        BoxHits::new(node, tested.missed, tested.near, longest_side(simd, node))
-    }
-
-    /// Finds the boxes that no ray of a tile with these sides meets before `farthest`.
-    ///
-    /// The function of a side is largest, in a box, at one of its corners. The error of points on rays counts, which
-    /// [`MapErrors::wide`](crate::fast::camera_map::MapErrors::wide) allows for, and that of what is computed here.
-    #[inline(always)]
-    pub(super) fn tested<C: Context>(
-        &self,
-        context: &C,
-        sides: &[WorldAffine; 4],
-        boxes: &Sides<C::Simd>,
-        farthest: f32,
-    ) -> Tested<C::Simd> {
-        let simd = context.simd();
+        let boxes = self.boxes_of(simd, node);
         let [left, right, upper, lower] = sides;
-        let across = left.extreme(boxes, true).min(right.extreme(boxes, true));
-        let down = upper.extreme(boxes, true).min(lower.extreme(boxes, true));
-        let (near, far) = (self.t.extreme(boxes, false), self.t.extreme(boxes, true));
+        let across = left.extreme(&boxes, true).min(right.extreme(&boxes, true));
+        let down = upper.extreme(&boxes, true).min(lower.extreme(&boxes, true));
+        let (near, far) = (self.t.extreme(&boxes, false), self.t.extreme(&boxes, true));
         let room = if C::has(Planted::ShrunkBox) { 0.0 } else { self.sides_error };
         // NaN, from numbers that overflow, lets pass.
         let missed = across.min(down).simd_lt(f32x16::splat(simd, -room))
             | far.simd_lt(f32x16::splat(simd, self.least_t))
             | near.simd_gt(f32x16::splat(simd, farthest));
-        Tested { missed, near, far }
+        BoxHits::new(node, missed, near, longest_side(simd, node))
     }
 
     /// Whether [`BoxCulling::test`] certainly drops all boxes of a node for each ray of a tile that is tested alone, as a

@@ -1,14 +1,15 @@
 //! The rays of a tile in the coordinates of an instance's mesh: there the hierarchy of the mesh is walked, which is the
 //! same for all instances.
 
-use super::box_culling::{BoxCulling, BoxHits, Sides, Tested, longest_side};
+use super::box_culling::{BoxCulling, BoxHits, Sides, longest_side};
 use super::tile_frustum::TileFrustum;
-use super::tree::{Bounds, IndexedLeaf, LEAF, Node, PlainLeaf};
+use super::tile_place::TilePlace;
+use super::tree::{Bounds, IndexedLeaf, LEAF, Node, PlainLeaf, WIDTH};
 use crate::fast::world_affine::{LARGEST, WorldAffine, narrowed, upward};
 use bothways_common::Placement;
 use bothways_common::engine::context::Context;
 use bothways_common::engine::roundoff::EPS24;
-use bothways_common::engine::simd::{Simd, SimdBase, SimdFloat, f32x16, mask32x16, u32x16};
+use bothways_common::engine::simd::{Select, Simd, SimdBase, SimdFloat, f32x16, mask32x16, u32x16};
 use bothways_common::look::lanes::each;
 use glam::{DMat3, DVec3, Vec3};
 
@@ -18,7 +19,6 @@ pub(crate) struct InstanceFrustum<'a> {
     pub(crate) place: PlacedBy<'a>,
     /// How boxes of the mesh are culled.
     boxes: BoxCulling,
-    sides: [WorldAffine; 4],
     /// Where they are seen in the tile.
     places: Places,
     /// Along any axis of the world, two vertices in a box are at most as far from each other as the box's longest side
@@ -120,40 +120,44 @@ impl<'a> InstanceFrustum<'a> {
             },
             stretch,
             slack,
-            sides: sides.map(|(normal, at)| WorldAffine::new(normal, at)),
             seen: if is_missed { None } else { seen() },
             near: narrowed(lowered - along[0].abs().dot(placed.half)).next_down(),
             size: size * stretch + slack,
         }
     }
 
-    /// [`BoxCulling::test`] for a node of the mesh.
+    /// Finds the boxes of a node of the mesh that a ray of the tile may meet before `farthest`, and where in the tile: see
+    /// [`TilePlace::from_whole_number`].
     #[inline(always)]
-    pub(crate) fn test<C: Context>(&self, context: &C, node: &Node, farthest: f32) -> BoxHits {
-        let simd = context.simd();
-        let boxes = self.boxes.boxes_of(simd, node);
-        let Tested { missed, near, far } =
-            self.boxes.tested(context, &self.sides, &boxes, farthest);
-        let missed = missed | self.between_samples(simd, &boxes, [near, far]);
-        BoxHits::new(node, missed, near, longest_side(simd, node) * self.stretch + self.slack)
+    pub(crate) fn test<C: Context>(
+        &self,
+        context: &C,
+        node: &Node,
+        farthest: f32,
+    ) -> (BoxHits, [f32; WIDTH]) {
+        let (simd, culling) = (context.simd(), &self.boxes);
+        let boxes = culling.boxes_of(simd, node);
+        let (near, far) = (culling.t.extreme(&boxes, false), culling.t.extreme(&boxes, true));
+        let beyond = far.simd_lt(f32x16::splat(simd, culling.least_t))
+            | near.simd_gt(f32x16::splat(simd, farthest));
+        let Seen { missed, place } = self.seen_at(simd, &boxes, [near, far]);
+        let size = longest_side(simd, node) * self.stretch + self.slack;
+        (BoxHits::new(node, beyond | missed, near, size), place.to_array())
     }
 
-    /// Which boxes lie between the rows or the columns of samples. A mesh that is there very often is mostly
-    /// seen from far away, where most leaves are smaller than a sample.
+    /// Where in the tile boxes are seen. A mesh that is there very often is mostly seen from far away, where most leaves are
+    /// smaller than a sample and lie between the rows or the columns of samples.
     ///
     /// Columns times `t` are off by no more than a side, and `t` lies between its two ends, which are
     /// moved by their error already: see [`InstanceFrustum::new`]. So a column lies between the quotients
     /// of their ends. Sums, reciprocal and product are rounded by `5·ε₂₄` of the column, the last sum by `ε₂₄` of that
     /// and half a tile; `16·ε₂₄` is more. A point on a ray is off by what [`MapErrors::wide`] is more than half of a tile.
     ///
+    /// Of a box that reaches behind the eye only `t` is known.
+    ///
     /// [`MapErrors::wide`]: crate::fast::camera_map::MapErrors::wide
     #[inline(always)]
-    fn between_samples<S: Simd>(
-        &self,
-        simd: S,
-        boxes: &Sides<S>,
-        [near, far]: [f32x16<S>; 2],
-    ) -> mask32x16<S> {
+    fn seen_at<S: Simd>(&self, simd: S, boxes: &Sides<S>, [near, far]: [f32x16<S>; 2]) -> Seen<S> {
         let splat = |value: f32| f32x16::splat(simd, value);
         let (one, zero) = (splat(1.0), splat(0.0));
         let (culling, places) = (&self.boxes, &self.places);
@@ -174,10 +178,27 @@ impl<'a> InstanceFrustum<'a> {
             let high = (high * by_first).max(high * by_last);
             let first = low - low.abs() * (16.0 * EPS24) + (places.half - beside);
             let last = high + high.abs() * (16.0 * EPS24) + (places.half + beside);
-            last.floor().simd_lt(first.ceil())
+            [first.ceil().max(zero), last.floor().min(splat(2.0 * places.half))]
         });
-        first_t.simd_gt(zero) & (across | down)
+        let nowhere = across[1].simd_lt(across[0]) | down[1].simd_lt(down[0]);
+        let ends = |[first, last]: [f32x16<S>; 2]| first + last * TilePlace::LAST;
+        let place = ends(down) + ends(across) * TilePlace::COLUMN;
+        let is_in_front = first_t.simd_gt(zero);
+        // NaN, from numbers that overflow, says nothing.
+        let is_known = is_in_front & place.simd_ge(zero);
+        Seen {
+            missed: is_in_front & nowhere,
+            place: is_known.select(place, splat(TilePlace::WHOLE_TILE)),
+        }
     }
+}
+
+/// Where the boxes of a node are seen in a tile.
+struct Seen<S: Simd> {
+    /// Those that no ray meets.
+    missed: mask32x16<S>,
+    /// The places of the others.
+    place: f32x16<S>,
 }
 
 /// The box of a mesh where an instance puts it, with what its vertices are off by: see [`InstanceFrustum::new`].
@@ -286,7 +307,7 @@ impl WorldFunctions {
 
     /// The rows and columns of the tile at which the box may be seen, from the errors of `t` and of sides.
     ///
-    /// As in [`InstanceFrustum::between_samples`], but in `f64`, whose roundings are far less than 2⁻⁴⁰ of the place.
+    /// As in [`InstanceFrustum::seen_at`], but in `f64`, whose roundings are far less than 2⁻⁴⁰ of the place.
     fn seen(
         &self,
         frustum: &TileFrustum,

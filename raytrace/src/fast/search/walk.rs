@@ -3,6 +3,7 @@
 use super::candidates::{CandidateQueue, EIGHT, Test, WaitingLeaf};
 use super::instance_frustum::InstanceFrustum;
 use super::tile_frustum::{FrustumTemplate, TileFrustum};
+use super::tile_place::TilePlace;
 use super::tree::{INSTANCES, LeafCounts, Node, NodeKind, NodeRef, WIDTH};
 use crate::fast::camera_map::CameraMap;
 use crate::fast::one_primitive::unbounded::Unbounded;
@@ -24,6 +25,8 @@ struct StackEntry {
     size: f32,
     child: NodeRef,
     counts: LeafCounts,
+    /// Where in the tile it may be seen; known of boxes in instances.
+    place: TilePlace,
 }
 
 /// Walks tiles of one view through the hierarchy.
@@ -89,7 +92,7 @@ impl<'a> Walker<'a> {
                 continue;
             }
             let Some(entry) = self.stack.pop() else { break };
-            if entry.near > farthest {
+            if entry.near > farthest || !C::WATCHED && self.is_hidden(&frustum, &entry) {
                 continue;
             }
             match entry.child.kind() {
@@ -189,6 +192,7 @@ impl<'a> Walker<'a> {
             size: f32::INFINITY,
             child,
             counts: LeafCounts::default(),
+            place: TilePlace::ALL,
         };
         self.stack.extend(self.prepared.roots.iter().map(root));
     }
@@ -200,10 +204,25 @@ impl<'a> Walker<'a> {
         template.boxes.farthest(self.map.depth.farthest(self.tile.far, template.errors.t))
     }
 
+    /// Whether something nearer is seen at all samples at which a box may be seen. Where many instances lie behind one
+    /// another, the farthest hit of all the tile hides few of them: there are gaps between them.
+    #[inline(always)]
+    fn is_hidden(&self, frustum: &TileFrustum, entry: &StackEntry) -> bool {
+        if entry.place == TilePlace::ALL {
+            return false;
+        }
+        let template = frustum.template;
+        let far = self.tile.far_at(entry.place.ends());
+        if far == f32::NEG_INFINITY {
+            return false;
+        }
+        entry.near > template.boxes.farthest(self.map.depth.farthest(far, template.errors.t))
+    }
+
     /// Adds a leaf of triangles to the queue. Returns whether the queue is full.
     #[inline(always)]
     fn add_leaf<C: ScalarContext>(&mut self, context: &mut C, entry: &StackEntry) -> bool {
-        let StackEntry { near, size, child, counts } = *entry;
+        let StackEntry { near, size, child, counts, .. } = *entry;
         let with_duplicates = C::has(Planted::TiesToLast);
         let used = if with_duplicates { counts.all() } else { counts.distinct() };
         self.tile.executed.leaves_opened += 1;
@@ -264,6 +283,7 @@ impl<'a> Walker<'a> {
             size: entry.size.min(instance.size),
             child: mesh.root,
             counts: mesh.counts,
+            place: TilePlace::ALL,
         });
         self.instance = Some(instance);
     }
@@ -356,9 +376,13 @@ impl<'a> Walker<'a> {
         }
         self.tile.executed.nodes_opened += 1;
         self.tile.executed.boxes_tested += u64::from(node.used);
-        let boxes = match self.inside() {
+        let (boxes, places) = match self.inside() {
             Some(instance) => instance.test(context, node, farthest),
-            None => frustum.template.boxes.test(context, &frustum.sides, node, farthest),
+            None => {
+                let boxes = &frustum.template.boxes;
+                let hits = boxes.test(context, &frustum.sides, node, farthest);
+                (hits, [TilePlace::WHOLE_TILE; WIDTH])
+            }
         };
         if C::WATCHED {
             self.emit_boxes(context, index, node, boxes.hit);
@@ -378,7 +402,8 @@ impl<'a> Walker<'a> {
                 NodeKind::Spheres | NodeKind::Instances | NodeKind::Instance => {}
             }
             let (near, size) = (boxes.near[lane], boxes.size[lane]);
-            let entry = StackEntry { near, size, child, counts: node.counts[lane] };
+            let place = TilePlace::from_whole_number(places[lane]);
+            let entry = StackEntry { near, size, child, counts: node.counts[lane], place };
             self.stack.push(entry);
             let mut place = self.stack.len() - 1;
             while sorted && place > base && self.stack[place - 1].near < entry.near {

@@ -1,0 +1,48 @@
+//! Where in a tile a box may be seen.
+
+/// The rows and columns of a tile at which a box may be seen: the first and the last row, the first and the last column,
+/// five bits each.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct TilePlace(u32);
+
+impl TilePlace {
+    /// All of a tile of any size.
+    pub(crate) const ALL: TilePlace = TilePlace::from_whole_number(TilePlace::WHOLE_TILE);
+    /// The same as a whole number.
+    pub(super) const WHOLE_TILE: f32 = TilePlace::LAST * 31.0 * (1.0 + TilePlace::COLUMN);
+    /// As a whole number, a place is the sum of its first row, and of its last row, its first column and its last column
+    /// times these numbers.
+    pub(super) const LAST: f32 = 32.0;
+    pub(super) const COLUMN: f32 = 1024.0;
+
+    /// The first and the last row, and the first and the last column.
+    #[inline(always)]
+    pub(crate) fn ends(self) -> [[usize; 2]; 2] {
+        let end = |from: u32| (self.0 >> from & 31) as usize;
+        [[end(0), end(5)], [end(10), end(15)]]
+    }
+
+    /// The place that a whole number stands for, of 20 bits: vectors hold it in an `f32`.
+    #[inline(always)]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a whole number of 20 bits"
+    )]
+    pub(super) const fn from_whole_number(number: f32) -> TilePlace {
+        TilePlace(number as u32)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_whole_number_holds_four_ends() {
+        assert_eq!(TilePlace::ALL.ends(), [[0, 31]; 2]);
+        let number =
+            3.0 + 7.0 * TilePlace::LAST + (30.0 + 31.0 * TilePlace::LAST) * TilePlace::COLUMN;
+        assert_eq!(TilePlace::from_whole_number(number).ends(), [[3, 7], [30, 31]]);
+    }
+}
