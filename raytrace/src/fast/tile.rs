@@ -278,6 +278,9 @@ impl TileBuffer {
     #[inline(always)]
     pub(super) fn far_at(&self, [rows, columns]: [[usize; 2]; 2]) -> f32 {
         let count = |[first, last]: [usize; 2]| last + 1 - first;
+        if [rows[0], columns[0]] == [rows[1], columns[1]] {
+            return self.low[index(self.side, rows[0], columns[0])];
+        }
         if count(rows) * count(columns) > BLOCK * BLOCK {
             return self.far_in([rows, columns]);
         }

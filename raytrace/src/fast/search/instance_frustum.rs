@@ -8,7 +8,7 @@ use super::tree::{Bounds, IndexedLeaf, LEAF, Node, PlainLeaf, WIDTH};
 use crate::fast::world_affine::{LARGEST, WorldAffine, narrowed, upward};
 use bothways_common::Placement;
 use bothways_common::engine::context::Context;
-use bothways_common::engine::roundoff::EPS24;
+use bothways_common::engine::roundoff::{EPS24, EPS53};
 use bothways_common::engine::simd::{Select, Simd, SimdBase, SimdFloat, f32x16, mask32x16, u32x16};
 use bothways_common::look::lanes::each;
 use glam::{DMat3, DVec3, Vec3};
@@ -41,6 +41,8 @@ struct Places {
     /// Columns from the tile's middle to its first sample, and what rays may be off.
     half: f32,
     beside: f32,
+    /// What keys may be off: as a fraction, or that of a parallel camera.
+    key_error: f32,
     parallel: bool,
 }
 
@@ -116,6 +118,7 @@ impl<'a> InstanceFrustum<'a> {
                 down: WorldAffine::new(along[2], at[2]),
                 half: narrowed(template.half),
                 beside: upward(template.errors.wide - template.half),
+                key_error: upward(template.errors.t + 8.0 * EPS53),
                 parallel: template.parallel,
             },
             stretch,
@@ -126,23 +129,25 @@ impl<'a> InstanceFrustum<'a> {
         }
     }
 
-    /// Finds the boxes of a node of the mesh that a ray of the tile may meet before `farthest`, and where in the tile: see
-    /// [`TilePlace::from_whole_number`].
+    /// Finds the boxes of a node of the mesh that a ray of the tile may meet before `farthest`, and where in the tile.
     #[inline(always)]
     pub(crate) fn test<C: Context>(
         &self,
         context: &C,
         node: &Node,
         farthest: f32,
-    ) -> (BoxHits, [f32; WIDTH]) {
+    ) -> (BoxHits, BoxPlaces) {
         let (simd, culling) = (context.simd(), &self.boxes);
         let boxes = culling.boxes_of(simd, node);
         let (near, far) = (culling.t.extreme(&boxes, false), culling.t.extreme(&boxes, true));
         let beyond = far.simd_lt(f32x16::splat(simd, culling.least_t))
             | near.simd_gt(f32x16::splat(simd, farthest));
-        let Seen { missed, place } = self.seen_at(simd, &boxes, [near, far]);
+        let Seen { missed, place, key } = self.seen_at(simd, &boxes, [near, far]);
         let size = longest_side(simd, node) * self.stretch + self.slack;
-        (BoxHits::new(node, beyond | missed, near, size), place.to_array())
+        (
+            BoxHits::new(node, beyond | missed, near, size),
+            BoxPlaces { place: place.to_array(), key: key.to_array() },
+        )
     }
 
     /// Where in the tile boxes are seen. A mesh that is there very often is mostly seen from far away, where most leaves are
@@ -153,7 +158,10 @@ impl<'a> InstanceFrustum<'a> {
     /// of their ends. Sums, reciprocal and product are rounded by `5·ε₂₄` of the column, the last sum by `ε₂₄` of that
     /// and half a tile; `16·ε₂₄` is more. A point on a ray is off by what [`MapErrors::wide`] is more than half of a tile.
     ///
-    /// Of a box that reaches behind the eye only `t` is known.
+    /// Of a box that reaches behind the eye only `t` is known. The key of a nearest point is that of [`KeyScale::farthest`],
+    /// the other way round: rounded twice, so that `4·ε₂₄` is more than both.
+    ///
+    /// [`KeyScale::farthest`]: crate::fast::depth::KeyScale::farthest
     ///
     /// [`MapErrors::wide`]: crate::fast::camera_map::MapErrors::wide
     #[inline(always)]
@@ -162,13 +170,20 @@ impl<'a> InstanceFrustum<'a> {
         let (one, zero) = (splat(1.0), splat(0.0));
         let (culling, places) = (&self.boxes, &self.places);
         let at_origin = narrowed(culling.t_at_origin);
+        let nearest = near + at_origin.next_down();
         let [first_t, last_t] = if places.parallel {
             [one; 2]
         } else {
             let last = upward(2.0 * f64::from(culling.t_error)).next_up();
-            [near + at_origin.next_down(), far + last + at_origin.next_up()]
+            [nearest, far + last + at_origin.next_up()]
         };
         let [by_first, by_last] = [one / first_t, one / last_t];
+        let key = if places.parallel {
+            let key = splat(places.key_error) - nearest;
+            key + key.abs() * (4.0 * EPS24)
+        } else {
+            by_first * (1.0 + 4.0 * EPS24 + places.key_error)
+        };
         let error = splat(culling.sides_error);
         let beside = places.beside + 16.0 * EPS24 * (places.half + 1.0);
         let [across, down] = each!(function in [&places.across, &places.down] => {
@@ -188,6 +203,7 @@ impl<'a> InstanceFrustum<'a> {
         let is_known = is_in_front & place.simd_ge(zero);
         Seen {
             missed: is_in_front & nowhere,
+            key,
             place: is_known.select(place, splat(TilePlace::WHOLE_TILE)),
         }
     }
@@ -197,8 +213,22 @@ impl<'a> InstanceFrustum<'a> {
 struct Seen<S: Simd> {
     /// Those that no ray meets.
     missed: mask32x16<S>,
-    /// The places of the others.
+    /// The places of the others: see [`TilePlace::from_whole_number`].
     place: f32x16<S>,
+    /// No point of theirs has a greater depth key.
+    key: f32x16<S>,
+}
+
+/// Where the boxes of a node are seen in a tile, and the depth keys of their nearest points: see [`Seen`].
+pub(crate) struct BoxPlaces {
+    pub(super) place: [f32; WIDTH],
+    pub(super) key: [f32; WIDTH],
+}
+
+impl BoxPlaces {
+    /// Nothing is known.
+    pub(super) const ANYWHERE: BoxPlaces =
+        BoxPlaces { place: [TilePlace::WHOLE_TILE; WIDTH], key: [f32::INFINITY; WIDTH] };
 }
 
 /// The box of a mesh where an instance puts it, with what its vertices are off by: see [`InstanceFrustum::new`].

@@ -1,7 +1,7 @@
 //! The walk of a tile's rays through the hierarchy, near boxes first.
 
 use super::candidates::{CandidateQueue, EIGHT, Test, WaitingLeaf};
-use super::instance_frustum::InstanceFrustum;
+use super::instance_frustum::{BoxPlaces, InstanceFrustum};
 use super::tile_frustum::{FrustumTemplate, TileFrustum};
 use super::tile_place::TilePlace;
 use super::tree::{INSTANCES, LeafCounts, Node, NodeKind, NodeRef, WIDTH};
@@ -25,8 +25,9 @@ struct StackEntry {
     size: f32,
     child: NodeRef,
     counts: LeafCounts,
-    /// Where in the tile it may be seen; known of boxes in instances.
+    /// Where in the tile it may be seen, and the largest depth key that it may have there; known of boxes in instances.
     place: TilePlace,
+    key: f32,
 }
 
 /// Walks tiles of one view through the hierarchy.
@@ -92,7 +93,7 @@ impl<'a> Walker<'a> {
                 continue;
             }
             let Some(entry) = self.stack.pop() else { break };
-            if entry.near > farthest || !C::WATCHED && self.is_hidden(&frustum, &entry) {
+            if entry.near > farthest || !C::WATCHED && self.is_hidden(&entry) {
                 continue;
             }
             match entry.child.kind() {
@@ -101,8 +102,11 @@ impl<'a> Walker<'a> {
                     continue;
                 }
                 NodeKind::IndexedLeaf | NodeKind::PlainLeaf => {
-                    let flush =
-                        C::WATCHED || class == SizeClass::Many || self.tile.is_nearly_full();
+                    // What is seen of a near instance hides the far ones.
+                    let flush = C::WATCHED
+                        || class == SizeClass::Many
+                        || self.is_inside
+                        || self.tile.is_nearly_full();
                     let is_full = self.add_leaf(context, &entry);
                     if !(is_full || flush) {
                         continue;
@@ -193,6 +197,7 @@ impl<'a> Walker<'a> {
             child,
             counts: LeafCounts::default(),
             place: TilePlace::ALL,
+            key: f32::INFINITY,
         };
         self.stack.extend(self.prepared.roots.iter().map(root));
     }
@@ -207,16 +212,8 @@ impl<'a> Walker<'a> {
     /// Whether something nearer is seen at all samples at which a box may be seen. Where many instances lie behind one
     /// another, the farthest hit of all the tile hides few of them: there are gaps between them.
     #[inline(always)]
-    fn is_hidden(&self, frustum: &TileFrustum, entry: &StackEntry) -> bool {
-        if entry.place == TilePlace::ALL {
-            return false;
-        }
-        let template = frustum.template;
-        let far = self.tile.far_at(entry.place.ends());
-        if far == f32::NEG_INFINITY {
-            return false;
-        }
-        entry.near > template.boxes.farthest(self.map.depth.farthest(far, template.errors.t))
+    fn is_hidden(&self, entry: &StackEntry) -> bool {
+        entry.place != TilePlace::ALL && entry.key < self.tile.far_at(entry.place.ends())
     }
 
     /// Adds a leaf of triangles to the queue. Returns whether the queue is full.
@@ -284,6 +281,7 @@ impl<'a> Walker<'a> {
             child: mesh.root,
             counts: mesh.counts,
             place: TilePlace::ALL,
+            key: f32::INFINITY,
         });
         self.instance = Some(instance);
     }
@@ -381,7 +379,7 @@ impl<'a> Walker<'a> {
             None => {
                 let boxes = &frustum.template.boxes;
                 let hits = boxes.test(context, &frustum.sides, node, farthest);
-                (hits, [TilePlace::WHOLE_TILE; WIDTH])
+                (hits, BoxPlaces::ANYWHERE)
             }
         };
         if C::WATCHED {
@@ -402,8 +400,8 @@ impl<'a> Walker<'a> {
                 NodeKind::Spheres | NodeKind::Instances | NodeKind::Instance => {}
             }
             let (near, size) = (boxes.near[lane], boxes.size[lane]);
-            let place = TilePlace::from_whole_number(places[lane]);
-            let entry = StackEntry { near, size, child, counts: node.counts[lane], place };
+            let (place, key) = (TilePlace::from_whole_number(places.place[lane]), places.key[lane]);
+            let entry = StackEntry { near, size, child, counts: node.counts[lane], place, key };
             self.stack.push(entry);
             let mut place = self.stack.len() - 1;
             while sorted && place > base && self.stack[place - 1].near < entry.near {
