@@ -75,14 +75,14 @@ function turnInto(outside, rays) {
   observedScene = state.scene;
   tellRays();
   // A wider viewport needs more distance to be seen.
-  const [near, far] = [observerNow.away, Math.max(observerNow.away, 0.85 * besideCamera(outside, pivot).away)];
+  const [near, far] = [observerNow.size, Math.max(observerNow.size, 0.85 * besideCamera(outside, pivot).size)];
   const started = performance.now();
   const turn = ++turning;
   const step = (/** @type {number} */ now) => {
     if (turn !== turning) return;
     const part = stageBefore && !lessMotion.matches ? clamp((now - started) / 1100, 0, 1) : 1;
     const smooth = part * part * (3 - 2 * part);
-    if (observerNow && far > near) observerNow.away = near + (far - near) * smooth;
+    if (observerNow && far > near) observerNow.size = near + (far - near) * smooth;
     drawOutside(smooth);
     if (part < 1) requestAnimationFrame(step);
   };
@@ -92,42 +92,49 @@ function turnInto(outside, rays) {
 /** @param {number} [part]  Of the way from the projection before. */
 function drawOutside(part = 1) {
   const canvas = canvasById("outside");
-  if (!outsideNow || !observerNow || !state.camera || canvas.offsetParent === null) return;
-  const prepared = prepareCanvas(canvas);
-  if (!prepared) return;
-  const { context, width, height } = prepared;
-  const map = stageMap(observerNow, width, height);
-  let outside = outsideNow;
-  let rays = raysNow.map((ray) => drawnRay(outside, ray));
-  if (part < 1 && stageBefore) {
-    const { outside: old, rays: oldRays } = stageBefore;
-    outside = {
-      ...outside,
-      projection: "parallel",
-      corners: outside.corners.map((corner, index) => between(old.corners[index], corner, part)),
-    };
-    // Between the two, rays are only drawn; what they would hit is not asked, and not shown.
-    rays = rays.map((ray) => {
-      const before = oldRays.find(({ row, column }) => row === ray.row && column === ray.column) ?? ray;
-      return {
-        ...ray,
-        origin: between(before.origin, ray.origin, part),
-        end: between(before.end, ray.end, part),
-        hit: false,
-        moving: true,
-      };
-    });
-  }
-  drawObjects(context, map, outside, observerNow);
-  drawRays(context, map, rays, state.rays === "one");
-  if (state.rays !== "one")
-    drawRays(
-      context,
-      map,
-      rays.filter(({ row, column }) => row === state.pixel?.[0] && column === state.pixel[1]),
-      true,
-    );
-  drawCamera(context, map, outside, state.camera, state.pixel, 0.13 * observerNow.away);
+  const { camera, pixel, rays: which } = state;
+  if (!outsideNow || !observerNow || !camera || canvas.offsetParent === null) return;
+  const { clientWidth: width, clientHeight: height } = canvas;
+  if (width === 0 || height === 0) return;
+  const { outside, rays } = part < 1 && stageBefore ? onTheWay(outsideNow, stageBefore, part) : stageAtRest(outsideNow);
+  // What is drawn belongs to the picture, which comes later: the observer may have moved on by then.
+  const observer = { ...observerNow };
+  const map = stageMap(observer, width, height);
+  const draw = (/** @type {Surface | null} */ surface) => {
+    const prepared = prepareCanvas(canvas);
+    // With another size it is drawn anew.
+    if (!prepared || prepared.width !== width || prepared.height !== height) return;
+    const drawing = { context: prepared.context, map, surface };
+    // For those who ask what is drawn: tests, and who measures frames.
+    canvas.dataset.observer = JSON.stringify(surface?.camera ?? null);
+    drawObjects(drawing, outside, observer);
+    drawRays(drawing, rays, which === "one");
+    const chosen = rays.filter(({ row, column }) => row === pixel?.[0] && column === pixel[1]);
+    if (which !== "one") drawRays(drawing, chosen, true);
+    drawCamera(drawing, outside, camera, pixel, 0.16 * observer.size);
+  };
+  observe({ observer, map, cut: cutOf(map, outside, rays, observer), draw });
+}
+
+/** @param {Outside} outside */
+const stageAtRest = (outside) => ({ outside, rays: raysNow.map((ray) => drawnRay(outside, ray)) });
+
+/**
+ * The stage between two projections.
+ * @param {Outside} after
+ * @param {{outside: Outside, rays: DrawnRay[]}} before
+ * @param {number} part
+ */
+function onTheWay(after, before, part) {
+  const stage = stageAtRest(after);
+  const corners = after.corners.map((corner, index) => between(before.outside.corners[index], corner, part));
+  // Between the two, rays are only drawn; what they would hit is not asked, and not shown.
+  const rays = stage.rays.map((ray) => {
+    const old = before.rays.find(({ row, column }) => row === ray.row && column === ray.column) ?? ray;
+    const [origin, end] = [between(old.origin, ray.origin, part), between(old.end, ray.end, part)];
+    return { ...ray, origin, end, hit: false, moving: true };
+  });
+  return { outside: { ...after, projection: /** @type {ProjectionName} */ ("parallel"), corners }, rays };
 }
 
 function tellRays() {
@@ -145,9 +152,8 @@ function tellRays() {
     const hits = raysNow.filter(({ t }) => t !== null).length;
     text.textContent = `${counted(raysNow.length, "ray")}, of which ${hits} ${hits === 1 ? "hits" : "hit"} something. ${grid}`;
   }
-  const omitted = outsideNow.omitted ?? 0;
-  if (omitted > 0)
-    text.textContent += ` ${counted(omitted, "triangle")} of the scene ${omitted === 1 ? "is" : "are"} not drawn here.`;
+  text.textContent += " Dashed: behind something.";
+  if (outsideNow.planes.length > 0) text.textContent += " An endless plane is drawn as a net.";
   say(text.textContent);
 }
 
@@ -209,7 +215,7 @@ function beginOutside() {
     (event) => {
       if (event.ctrlKey || !observerNow) return;
       event.preventDefault();
-      observerNow.away *= 1.1 ** clamp(event.deltaY / 100, -3, 3);
+      observerNow.size *= 1.1 ** clamp(event.deltaY / 100, -3, 3);
       drawSoon();
     },
     { passive: false },
