@@ -5,8 +5,8 @@
 /** The pixels of a picture at rest, at most: up to four for one of the screen, so that edges are smooth. */
 const MOST_AT_REST = 3_000_000;
 /** The pixels of a picture while the observer turns: as many as are drawn in time, and the limits of that. */
-let turningPixels = 300_000;
-const TURNING = { least: 40_000, most: 600_000, ms: 20 };
+let turningPixels = 250_000;
+const TURNING = { least: 40_000, most: 400_000, ms: 12 };
 
 /**
  * @typedef {object} Wanted

@@ -104,7 +104,7 @@ function drawOutside(part = 1) {
     const prepared = prepareCanvas(canvas);
     // With another size it is drawn anew.
     if (!prepared || prepared.width !== width || prepared.height !== height) return;
-    const drawing = { context: prepared.context, map, surface };
+    const drawing = { context: prepared.context, map, surface, isQuick: observer.turns };
     // For those who ask what is drawn: tests, and who measures frames.
     canvas.dataset.observer = JSON.stringify(surface?.camera ?? null);
     drawObjects(drawing, outside, observer);

@@ -83,7 +83,7 @@ function drawObjects(drawing, outside, observer) {
   const { context, map, surface } = drawing;
   if (surface) {
     context.imageSmoothingEnabled = true;
-    context.imageSmoothingQuality = "high";
+    context.imageSmoothingQuality = drawing.isQuick ? "low" : "high";
     context.drawImage(surface.sheet, 0, 0, map.width, map.height);
   }
   outside.planes.forEach((plane, place) => {
