@@ -130,7 +130,7 @@ test("a ray is dashed where something lies before it", async () => {
     for (let part = 0; part < 100; part++) {
       const [x, y] = place(from + ((to - from) * (part + 0.5)) / 100);
       const beside = at(x, y - 9);
-      const on = [-1, 0, 1].map((step) => at(x, y + step));
+      const on = [-3, -2, -1, 0, 1, 2, 3].map((step) => at(x, y + step));
       if (on.some((color) => Math.max(...color.map((c, k) => Math.abs(c - beside[k]))) > 40)) count++;
     }
     return count / 100;

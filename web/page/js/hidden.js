@@ -28,7 +28,7 @@ const SLACK = 2;
 const PART = 2;
 const MOST_PARTS = 700;
 /** How lines are drawn behind the surface. */
-const BEHIND = { dash: [3, 5], thinner: 0.7, paler: 0.7 };
+const BEHIND = { dash: [6, 5], thinner: 0.7, paler: 0.7 };
 
 /**
  * Whether the surface lies before a place.

@@ -330,5 +330,7 @@ function drawRays(drawing, rays, strong) {
     strokeLine(drawing, origin, end);
   }
   context.globalAlpha = 1;
-  for (const { end, hit } of rays) if (hit) drawDot(drawing, end, strong ? 0.32 * letterSize() : 2.6, colour("good"));
+  // On a small canvas, many dots would cover what is hit.
+  const radius = strong ? 0.32 * letterSize() : clamp(map.width / 280, 1.3, 2.6);
+  for (const { end, hit } of rays) if (hit) drawDot(drawing, end, radius, colour("good"));
 }
