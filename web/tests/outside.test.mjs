@@ -162,6 +162,11 @@ test("it turns by pointer and by keys, turns back, and is sharp at rest", async 
   await page.keyboard.press("Shift+ArrowLeft");
   const byKey = await atRest(page);
   assert.notDeepEqual(byKey.w, turned.w);
+  // In a lecture room nobody looks for the focus.
+  await canvas.blur();
+  await page.keyboard.press("Shift+ArrowUp");
+  const unfocused = await atRest(page);
+  assert.notDeepEqual(unfocused.w, byKey.w);
   await page.mouse.wheel(0, 300);
   assert.ok((await atRest(page)).vw > byKey.vw, "farther away, more is seen");
   await page.locator("#outside-back").click();

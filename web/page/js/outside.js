@@ -69,10 +69,16 @@ function turnInto(outside, rays) {
     changedProjection && outsideNow
       ? { outside: outsideNow, rays: raysNow.map((ray) => drawnRay(/** @type {Outside} */ (outsideNow), ray)) }
       : null;
+  const isMoved = JSON.stringify(outside) !== JSON.stringify(outsideNow);
   outsideNow = outside;
   raysNow = rays;
   if (!observerNow || observedScene !== state.scene) observerNow = besideCamera(outside, pivot);
   observedScene = state.scene;
+  // A camera that moves by sliders moves often, too.
+  if (isMoved) {
+    observerNow.turns = true;
+    drawAtRest();
+  }
   tellRays();
   // A wider viewport needs more distance to be seen.
   const [near, far] = [observerNow.size, Math.max(observerNow.size, 0.85 * besideCamera(outside, pivot).size)];
@@ -98,7 +104,7 @@ function drawOutside(part = 1) {
   if (width === 0 || height === 0) return;
   const { outside, rays } = part < 1 && stageBefore ? onTheWay(outsideNow, stageBefore, part) : stageAtRest(outsideNow);
   // What is drawn belongs to the picture, which comes later: the observer may have moved on by then.
-  const observer = { ...observerNow };
+  const observer = { ...observerNow, turns: observerNow.turns === true || part < 1 };
   const map = stageMap(observer, width, height);
   const draw = (/** @type {Surface | null} */ surface) => {
     const prepared = prepareCanvas(canvas);
@@ -143,8 +149,8 @@ function tellRays() {
   const step = gridStep(state.camera);
   const grid =
     step === 1
-      ? "The grid on the viewport is that of the pixels."
-      : `The grid on the viewport has a line every ${step} pixels.`;
+      ? "The grid is that of the pixels."
+      : `The grid has a line every ${step} pixels.`;
   if (state.rays === "one" && raysNow.length === 1) {
     const [{ row, column, origin, direction, t, id }] = raysNow;
     text.textContent = `Pixel (${row}, ${column}): p = ${vectorText(origin)}, d = ${vectorText(direction)}. ${t === null ? "The ray hits nothing." : `It hits id ${id} at t = ${short(t)}.`} ${grid}`;
@@ -153,7 +159,7 @@ function tellRays() {
     text.textContent = `${counted(raysNow.length, "ray")}, of which ${hits} ${hits === 1 ? "hits" : "hit"} something. ${grid}`;
   }
   text.textContent += " Dashed: behind something.";
-  if (outsideNow.planes.length > 0) text.textContent += " An endless plane is drawn as a net.";
+  if (outsideNow.planes.length > 0) text.textContent += " A net: an endless plane.";
   say(text.textContent);
 }
 
@@ -185,6 +191,25 @@ function turnObserver(right, up) {
   const lift = clamp(up, height - Math.PI + 0.08, height - 0.08);
   observerNow.from = unit(turned(turned(from, level, -lift), axis, -right));
   drawSoon();
+}
+
+/**
+ * @param {string} key
+ * @param {boolean} shift
+ * @returns {boolean} whether the key is one of these
+ */
+function outsideByKey(key, shift) {
+  const arrows = /** @type {Record<string, [number, number]>} */ ({
+    ArrowUp: [0, 1],
+    ArrowDown: [0, -1],
+    ArrowLeft: [-1, 0],
+    ArrowRight: [1, 0],
+  });
+  const arrow = arrows[key];
+  if (arrow && shift) turnObserver(arrow[0] * KEY_TURN, arrow[1] * KEY_TURN);
+  else if (arrow) movePixel(-arrow[1], arrow[0]);
+  else return false;
+  return true;
 }
 
 function beginOutside() {
@@ -221,17 +246,7 @@ function beginOutside() {
     { passive: false },
   );
   canvas.addEventListener("keydown", (event) => {
-    const arrows = /** @type {Record<string, [number, number]>} */ ({
-      ArrowUp: [0, 1],
-      ArrowDown: [0, -1],
-      ArrowLeft: [-1, 0],
-      ArrowRight: [1, 0],
-    });
-    const arrow = arrows[event.key];
-    if (arrow && event.shiftKey) turnObserver(arrow[0] * KEY_TURN, arrow[1] * KEY_TURN);
-    else if (arrow) movePixel(-arrow[1], arrow[0]);
-    else return;
-    event.preventDefault();
+    if (outsideByKey(event.key, event.shiftKey)) event.preventDefault();
   });
   byId("outside-back").addEventListener("click", () => {
     if (!outsideNow) return;
