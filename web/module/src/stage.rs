@@ -1,6 +1,6 @@
 //! A scene with all that a moving camera would not repeat: what both orders prepared of it, and their frames.
 
-use crate::messages::observed::Observed;
+use crate::observer::Observed;
 use bothways_lab::common::{Camera, Frame, Observer, Options, View};
 use bothways_lab::diff::why::PixelReason;
 use bothways_lab::orders::{Order, Rule};

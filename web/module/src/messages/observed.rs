@@ -5,8 +5,9 @@
 
 use crate::answer::{Answer, Buffer};
 use crate::camera::Viewpoint;
+use crate::observer::Observed;
 use crate::stage::Stage;
-use bothways_lab::common::{Camera, Frame, Options, Scene, SceneError, Shape, View};
+use bothways_lab::common::{Frame, Options, View};
 use bothways_lab::rasterize;
 use serde::Deserialize;
 use serde_json::json;
@@ -16,14 +17,6 @@ pub(crate) struct Observe {
     /// The observer, as a camera.
     #[serde(flatten)]
     from: Viewpoint,
-}
-
-/// What an observer of the stage needs, kept from one picture to the next.
-#[derive(Debug)]
-pub(crate) struct Observed {
-    /// The scene without its planes, and what object order prepared of it, if the scene has planes.
-    bounded: Option<(Scene, rasterize::fast::Prepared)>,
-    frame: Frame,
 }
 
 pub(crate) fn answer(stage: &mut Stage, observe: &Observe) -> Result<Answer, String> {
@@ -45,24 +38,6 @@ pub(crate) fn answer(stage: &mut Stage, observe: &Observe) -> Result<Answer, Str
     Ok(Answer::new(json!({ "width": width, "height": height }))
         .with("rgba", Buffer::U8(cut_out(frame)))
         .with("t", Buffer::F32(frame.distances().to_vec())))
-}
-
-impl Observed {
-    fn new(scene: &Scene, camera: &Camera) -> Result<Observed, SceneError> {
-        let is_plane = |shape: &Shape| matches!(shape, Shape::Plane(_));
-        let objects = scene.objects();
-        let bounded = if objects.iter().any(|object| is_plane(&object.shape)) {
-            let rest = objects.iter().filter(|object| !is_plane(&object.shape));
-            let mut bounded = Scene::new(rest.cloned().collect())?;
-            bounded.lights.clone_from(&scene.lights);
-            bounded.background = scene.background;
-            let prepared = rasterize::fast::prepare(&bounded);
-            Some((bounded, prepared))
-        } else {
-            None
-        };
-        Ok(Observed { bounded, frame: Frame::new(camera, &Options::default()) })
-    }
 }
 
 /// The picture with four bytes for each pixel, transparent where nothing is seen: the page has its own ground.
