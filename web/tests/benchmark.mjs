@@ -57,14 +57,7 @@ async function dragging(scene) {
     const facts = document.getElementById("verdict");
     new MutationObserver(() => window.frames_seen++).observe(facts, { attributes: true, attributeFilter: ["data-match"] });
   });
-  const box = await page.locator("canvas[data-picture=object]").first().boundingBox();
-  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
-  await page.mouse.move(x, y);
-  await page.mouse.down();
-  const begun = Date.now();
-  for (let move = 0; Date.now() - begun < 1000 * SECONDS; move++) {
-    await page.mouse.move(x + 100 * Math.sin(move / 30), y + 40 * Math.cos(move / 23));
-  }
+  const { begun } = await drag(page, "canvas[data-picture=object]");
   const seconds = (Date.now() - begun) / 1000;
   const frames = await page.evaluate(() => window.frames_seen);
   await page.mouse.up();
@@ -72,9 +65,41 @@ async function dragging(scene) {
   await close();
 }
 
+/** Frames of the view from outside that a reader sees while a pointer turns it. */
+async function turning(scene) {
+  const { page, close } = await open({ hash: `#chapter=projection&scene=${scene}`, width: 1920, height: 1080 });
+  await page.waitForTimeout(1500);
+  await page.evaluate(() => {
+    window.frames_seen = 0;
+    const options = { attributes: true, attributeFilter: ["data-observer"] };
+    new MutationObserver((changes) => (window.frames_seen += changes.length)).observe(document.getElementById("outside"), options);
+  });
+  const { begun, box } = await drag(page, "#outside");
+  const seconds = (Date.now() - begun) / 1000;
+  const frames = await page.evaluate(() => window.frames_seen);
+  await page.mouse.up();
+  const size = `${Math.round(box.width)} x ${Math.round(box.height)}`;
+  console.log(`${scene}, turned from outside on ${size} pixels: ${(frames / seconds).toFixed(0)} frames a second`);
+  await close();
+}
+
+/** Drags something for some seconds, and leaves the button down. */
+async function drag(page, selector) {
+  const box = await page.locator(selector).first().boundingBox();
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  const begun = Date.now();
+  for (let move = 0; Date.now() - begun < 1000 * SECONDS; move++) {
+    await page.mouse.move(x + 100 * Math.sin(move / 30), y + 40 * Math.cos(move / 23));
+  }
+  return { begun, box };
+}
+
 await firstPicture();
 for (const scene of process.argv.length > 2 ? process.argv.slice(2) : ["lecture", "canonical"]) {
   await worker(scene);
   await dragging(scene);
+  await turning(scene);
 }
 await stop();

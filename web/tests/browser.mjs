@@ -171,3 +171,15 @@ export const colours = (page) =>
     }
     return counts;
   });
+
+/** Drops files on the page together: the content of each by its name, as text, as bytes, or as the number of bytes. */
+export async function drop(page, files) {
+  await page.evaluate((files) => {
+    const transfer = new DataTransfer();
+    for (const [name, content] of Object.entries(files)) {
+      const part = typeof content === "string" ? content : new Uint8Array(content);
+      transfer.items.add(new File([part], name));
+    }
+    document.body.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true }));
+  }, files);
+}

@@ -5,7 +5,7 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import { CHAPTERS, PAGE, colours, engineIn, open, program, stop, text, until } from "./browser.mjs";
+import { CHAPTERS, PAGE, colours, drop, engineIn, open, program, stop, text, until } from "./browser.mjs";
 import { FOUR, PAINT, wall, walls } from "./wall.mjs";
 
 after(stop);
@@ -147,18 +147,6 @@ test("a link brings back the moment", async () => {
   assert.deepEqual([said.get("eye"), said.get("projection"), said.get("pixel")], ["2,3,5", "parallel", "3,4"]);
   await third.close();
 });
-
-/** Drops files on the page together: the content of each by its name, as text, as bytes, or as the number of bytes. */
-async function drop(page, files) {
-  await page.evaluate((files) => {
-    const transfer = new DataTransfer();
-    for (const [name, content] of Object.entries(files)) {
-      const part = typeof content === "string" ? content : new Uint8Array(content);
-      transfer.items.add(new File([part], name));
-    }
-    document.body.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true }));
-  }, files);
-}
 
 test("a good file is opened; a broken and a huge one are refused with reasons", async () => {
   const { page, said, close } = await open();

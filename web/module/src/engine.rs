@@ -2,7 +2,7 @@
 
 use crate::answer::Answer;
 use crate::messages::{
-    open, outside, own, pixel, question, quiz, render, scenes, steps, why, work,
+    observed, open, outside, own, pixel, question, quiz, render, scenes, steps, why, work,
 };
 use crate::stage::Stage;
 use serde::de::DeserializeOwned;
@@ -39,6 +39,7 @@ impl Engine {
                 Some(question) => Ok(question?.outside()),
                 None => outside::answer(self.stage()?, &parsed(name, arguments)?),
             },
+            "observed" => observed::answer(self.stage()?, &parsed(name, arguments)?),
             "rays" => match question::of_picture(arguments) {
                 Some(question) => question?.rays(),
                 None => outside::rays(self.stage()?, &parsed(name, arguments)?),

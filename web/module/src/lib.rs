@@ -30,6 +30,7 @@ mod camera;
 mod clock;
 mod engine;
 mod messages;
+mod observer;
 mod progress;
 mod stage;
 

@@ -1,5 +1,6 @@
 //! The messages: each module answers one, or a few that belong together.
 
+pub(crate) mod observed;
 pub(crate) mod open;
 pub(crate) mod outside;
 pub(crate) mod own;

@@ -1,5 +1,6 @@
 //! A scene with all that a moving camera would not repeat: what both orders prepared of it, and their frames.
 
+use crate::observer::Observed;
 use bothways_lab::common::{Camera, Frame, Observer, Options, View};
 use bothways_lab::diff::why::PixelReason;
 use bothways_lab::orders::{Order, Rule};
@@ -19,6 +20,8 @@ pub(crate) struct Stage {
     ordinary: Option<image_order::Prepared>,
     /// The last frames of object order and of image order.
     pub(crate) frames: [Frame; 2],
+    /// What the view from outside keeps, once it is shown.
+    pub(crate) observed: Option<Observed>,
     /// Why they differ, if that was the last question.
     pub(crate) reasons: Vec<PixelReason>,
 }
@@ -37,6 +40,7 @@ impl Stage {
             ray_tracer: raytrace::fast::prepare(&loaded.scene),
             ordinary: None,
             frames: [frame.clone(), frame],
+            observed: None,
             reasons: Vec::new(),
             camera,
             loaded,

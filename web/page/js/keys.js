@@ -6,7 +6,7 @@ const KEYS = [
   [["Page Down", "Page Up"], "the next chapter, the one before"],
   [["f"], "presenter mode: large type for the lecture room"],
   [["t"], "light or dark"],
-  [["←", "→", "↑", "↓"], "on a picture: choose a pixel; with Shift: turn the camera"],
+  [["←", "→", "↑", "↓"], "on a picture: choose a pixel; with Shift, anywhere: turn the camera, or the view from outside"],
   [["+", "−"], "move the camera nearer, farther"],
   [["0"], "the scene's own camera; from outside: turn back"],
   [["c"], "the canonical camera"],
@@ -49,7 +49,15 @@ function obeyKey(event) {
   if (takesKeys(event.target)) return;
   const onControl = event.target instanceof HTMLElement && event.target.matches("input, button, summary, a");
   if (viewOf(state.chapter) === "loops" && obeyStepKey(key, onControl)) event.preventDefault();
+  else if (event.shiftKey && !onControl && turnByKey(key)) event.preventDefault();
   else if (inputById("letters").checked && obeyLetter(key)) event.preventDefault();
+}
+
+/** Turns what the chapter shows, without its picture having the focus. @param {string} key @returns {boolean} */
+function turnByKey(key) {
+  const view = viewOf(state.chapter);
+  if (WITHOUT_SCENE.has(view) || view === "loops") return false;
+  return view === "outside" ? outsideByKey(key, true) : steerByKey(key, true);
 }
 
 /**

@@ -126,11 +126,7 @@ const NOTHING = 0xffffffff;
  * @property {Vector[]} corners  Of the viewport: top left, top right, bottom right, bottom left.
  * @property {number} d
  * @property {ProjectionName} projection
- * @property {Float32Array} triangles  Nine numbers a triangle.
- * @property {Uint8Array} colours  Three numbers a triangle.
- * @property {{center: Vector, radius: number, colour: Vector}[]} spheres
  * @property {{point: Vector, normal: Vector, colour: Vector}[]} planes
- * @property {number} [omitted]
  */
 
 /** @typedef {{row: number, column: number, origin: Vector, direction: Vector, t: number | null, id: number | null, point: Vector | null}} ViewingRay */

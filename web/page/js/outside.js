@@ -69,20 +69,26 @@ function turnInto(outside, rays) {
     changedProjection && outsideNow
       ? { outside: outsideNow, rays: raysNow.map((ray) => drawnRay(/** @type {Outside} */ (outsideNow), ray)) }
       : null;
+  const isMoved = JSON.stringify(outside) !== JSON.stringify(outsideNow);
   outsideNow = outside;
   raysNow = rays;
   if (!observerNow || observedScene !== state.scene) observerNow = besideCamera(outside, pivot);
   observedScene = state.scene;
+  // A camera that moves by sliders moves often, too.
+  if (isMoved) {
+    observerNow.turns = true;
+    drawAtRest();
+  }
   tellRays();
   // A wider viewport needs more distance to be seen.
-  const [near, far] = [observerNow.away, Math.max(observerNow.away, 0.85 * besideCamera(outside, pivot).away)];
+  const [near, far] = [observerNow.size, Math.max(observerNow.size, 0.85 * besideCamera(outside, pivot).size)];
   const started = performance.now();
   const turn = ++turning;
   const step = (/** @type {number} */ now) => {
     if (turn !== turning) return;
     const part = stageBefore && !lessMotion.matches ? clamp((now - started) / 1100, 0, 1) : 1;
     const smooth = part * part * (3 - 2 * part);
-    if (observerNow && far > near) observerNow.away = near + (far - near) * smooth;
+    if (observerNow && far > near) observerNow.size = near + (far - near) * smooth;
     drawOutside(smooth);
     if (part < 1) requestAnimationFrame(step);
   };
@@ -92,42 +98,49 @@ function turnInto(outside, rays) {
 /** @param {number} [part]  Of the way from the projection before. */
 function drawOutside(part = 1) {
   const canvas = canvasById("outside");
-  if (!outsideNow || !observerNow || !state.camera || canvas.offsetParent === null) return;
-  const prepared = prepareCanvas(canvas);
-  if (!prepared) return;
-  const { context, width, height } = prepared;
-  const map = stageMap(observerNow, width, height);
-  let outside = outsideNow;
-  let rays = raysNow.map((ray) => drawnRay(outside, ray));
-  if (part < 1 && stageBefore) {
-    const { outside: old, rays: oldRays } = stageBefore;
-    outside = {
-      ...outside,
-      projection: "parallel",
-      corners: outside.corners.map((corner, index) => between(old.corners[index], corner, part)),
-    };
-    // Between the two, rays are only drawn; what they would hit is not asked, and not shown.
-    rays = rays.map((ray) => {
-      const before = oldRays.find(({ row, column }) => row === ray.row && column === ray.column) ?? ray;
-      return {
-        ...ray,
-        origin: between(before.origin, ray.origin, part),
-        end: between(before.end, ray.end, part),
-        hit: false,
-        moving: true,
-      };
-    });
-  }
-  drawObjects(context, map, outside, observerNow);
-  drawRays(context, map, rays, state.rays === "one");
-  if (state.rays !== "one")
-    drawRays(
-      context,
-      map,
-      rays.filter(({ row, column }) => row === state.pixel?.[0] && column === state.pixel[1]),
-      true,
-    );
-  drawCamera(context, map, outside, state.camera, state.pixel, 0.13 * observerNow.away);
+  const { camera, pixel, rays: which } = state;
+  if (!outsideNow || !observerNow || !camera || canvas.offsetParent === null) return;
+  const { clientWidth: width, clientHeight: height } = canvas;
+  if (width === 0 || height === 0) return;
+  const { outside, rays } = part < 1 && stageBefore ? onTheWay(outsideNow, stageBefore, part) : stageAtRest(outsideNow);
+  // What is drawn belongs to the picture, which comes later: the observer may have moved on by then.
+  const observer = { ...observerNow, turns: observerNow.turns === true || part < 1 };
+  const map = stageMap(observer, width, height);
+  const draw = (/** @type {Surface | null} */ surface) => {
+    const prepared = prepareCanvas(canvas);
+    // With another size it is drawn anew.
+    if (!prepared || prepared.width !== width || prepared.height !== height) return;
+    const drawing = { context: prepared.context, map, surface, isQuick: observer.turns };
+    // For those who ask what is drawn: tests, and who measures frames.
+    canvas.dataset.observer = JSON.stringify(surface?.camera ?? null);
+    drawObjects(drawing, outside, observer);
+    drawRays(drawing, rays, which === "one");
+    const chosen = rays.filter(({ row, column }) => row === pixel?.[0] && column === pixel[1]);
+    if (which !== "one") drawRays(drawing, chosen, true);
+    drawCamera(drawing, outside, camera, pixel, 0.16 * observer.size);
+  };
+  observe({ observer, map, cut: cutOf(map, outside, rays, observer), draw });
+}
+
+/** @param {Outside} outside */
+const stageAtRest = (outside) => ({ outside, rays: raysNow.map((ray) => drawnRay(outside, ray)) });
+
+/**
+ * The stage between two projections.
+ * @param {Outside} after
+ * @param {{outside: Outside, rays: DrawnRay[]}} before
+ * @param {number} part
+ */
+function onTheWay(after, before, part) {
+  const stage = stageAtRest(after);
+  const corners = after.corners.map((corner, index) => between(before.outside.corners[index], corner, part));
+  // Between the two, rays are only drawn; what they would hit is not asked, and not shown.
+  const rays = stage.rays.map((ray) => {
+    const old = before.rays.find(({ row, column }) => row === ray.row && column === ray.column) ?? ray;
+    const [origin, end] = [between(old.origin, ray.origin, part), between(old.end, ray.end, part)];
+    return { ...ray, origin, end, hit: false, moving: true };
+  });
+  return { outside: { ...after, projection: /** @type {ProjectionName} */ ("parallel"), corners }, rays };
 }
 
 function tellRays() {
@@ -136,8 +149,8 @@ function tellRays() {
   const step = gridStep(state.camera);
   const grid =
     step === 1
-      ? "The grid on the viewport is that of the pixels."
-      : `The grid on the viewport has a line every ${step} pixels.`;
+      ? "The grid is that of the pixels."
+      : `The grid has a line every ${step} pixels.`;
   if (state.rays === "one" && raysNow.length === 1) {
     const [{ row, column, origin, direction, t, id }] = raysNow;
     text.textContent = `Pixel (${row}, ${column}): p = ${vectorText(origin)}, d = ${vectorText(direction)}. ${t === null ? "The ray hits nothing." : `It hits id ${id} at t = ${short(t)}.`} ${grid}`;
@@ -145,9 +158,8 @@ function tellRays() {
     const hits = raysNow.filter(({ t }) => t !== null).length;
     text.textContent = `${counted(raysNow.length, "ray")}, of which ${hits} ${hits === 1 ? "hits" : "hit"} something. ${grid}`;
   }
-  const omitted = outsideNow.omitted ?? 0;
-  if (omitted > 0)
-    text.textContent += ` ${counted(omitted, "triangle")} of the scene ${omitted === 1 ? "is" : "are"} not drawn here.`;
+  text.textContent += " Dashed: behind something.";
+  if (outsideNow.planes.length > 0) text.textContent += " A net: an endless plane.";
   say(text.textContent);
 }
 
@@ -181,6 +193,25 @@ function turnObserver(right, up) {
   drawSoon();
 }
 
+/**
+ * @param {string} key
+ * @param {boolean} shift
+ * @returns {boolean} whether the key is one of these
+ */
+function outsideByKey(key, shift) {
+  const arrows = /** @type {Record<string, [number, number]>} */ ({
+    ArrowUp: [0, 1],
+    ArrowDown: [0, -1],
+    ArrowLeft: [-1, 0],
+    ArrowRight: [1, 0],
+  });
+  const arrow = arrows[key];
+  if (arrow && shift) turnObserver(arrow[0] * KEY_TURN, arrow[1] * KEY_TURN);
+  else if (arrow) movePixel(-arrow[1], arrow[0]);
+  else return false;
+  return true;
+}
+
 function beginOutside() {
   const canvas = canvasById("outside");
   /** @type {{id: number, x: number, y: number} | null} */
@@ -209,23 +240,13 @@ function beginOutside() {
     (event) => {
       if (event.ctrlKey || !observerNow) return;
       event.preventDefault();
-      observerNow.away *= 1.1 ** clamp(event.deltaY / 100, -3, 3);
+      observerNow.size *= 1.1 ** clamp(event.deltaY / 100, -3, 3);
       drawSoon();
     },
     { passive: false },
   );
   canvas.addEventListener("keydown", (event) => {
-    const arrows = /** @type {Record<string, [number, number]>} */ ({
-      ArrowUp: [0, 1],
-      ArrowDown: [0, -1],
-      ArrowLeft: [-1, 0],
-      ArrowRight: [1, 0],
-    });
-    const arrow = arrows[event.key];
-    if (arrow && event.shiftKey) turnObserver(arrow[0] * KEY_TURN, arrow[1] * KEY_TURN);
-    else if (arrow) movePixel(-arrow[1], arrow[0]);
-    else return;
-    event.preventDefault();
+    if (outsideByKey(event.key, event.shiftKey)) event.preventDefault();
   });
   byId("outside-back").addEventListener("click", () => {
     if (!outsideNow) return;

@@ -140,15 +140,15 @@ function drawAnswer() {
   const { outside, rays } = answerPicture;
   const target = rays[0]?.point ?? add(outside.eye, scaled(outside.w, -1.2 * outside.d));
   const observer = besideCamera(outside, target);
-  const map = stageMap(observer, width, height);
-  drawObjects(context, map, outside, observer);
+  // A question has planes at most, which hide nothing here.
+  const drawing = { context, map: stageMap(observer, width, height), surface: null };
+  drawObjects(drawing, outside, observer);
   drawRays(
-    context,
-    map,
+    drawing,
     rays.map((ray) => drawnRay(outside, ray)),
     true,
   );
-  drawCamera(context, map, outside, question.camera, [question.row ?? 0, question.column ?? 0], 0.13 * observer.away);
+  drawCamera(drawing, outside, question.camera, [question.row ?? 0, question.column ?? 0], 0.16 * observer.size);
 }
 
 function beginQuestions() {

@@ -1,11 +1,11 @@
-//! `outside`: the camera and the scene in the world, for a view from outside. `rays`: viewing rays and what they hit.
+//! `outside`: the camera in the world, and the endless planes, for a view from outside. `rays`: viewing rays and what they hit.
 
-use crate::answer::{Answer, Buffer, short};
+use crate::answer::{Answer, short};
 use crate::camera::{Pixel, Viewpoint};
 use crate::stage::Stage;
 use bothways_lab::common::glam::{DVec3, Vec3};
 use bothways_lab::common::look::color::srgb_from_linear;
-use bothways_lab::common::{Camera, Frame, Options, Plane, Projection, Scene, Shape, Sphere, View};
+use bothways_lab::common::{Camera, Frame, Options, Plane, Projection, Scene, Shape, View};
 use bothways_lab::raytrace;
 use bothways_lab::wording::plain;
 use serde::Deserialize;
@@ -33,8 +33,6 @@ pub(crate) struct Rays {
     all: Option<u32>,
 }
 
-/// The most triangles that are shown: a browser draws them one by one.
-const MOST_TRIANGLES: usize = 12_000;
 /// The most rays of a row or a column, and the most rows and columns of a whole image.
 const MOST_RAYS: u32 = 1024;
 const MOST_ROWS: u32 = 64;
@@ -44,37 +42,14 @@ pub(crate) fn answer(stage: &Stage, outside: &Outside) -> Result<Answer, String>
     Ok(of_scene(&stage.loaded.scene, &camera))
 }
 
-/// A scene and a camera, from outside.
+/// A camera and the planes of a scene, from outside.
 pub(crate) fn of_scene(scene: &Scene, camera: &Camera) -> Answer {
-    let (mut triangles, mut colors) = (Vec::new(), Vec::new());
-    let (mut spheres, mut planes) = (Vec::new(), Vec::new());
-    let of_meshes = (0..scene.primitive_count()).filter(|&id| scene.triangle(id).is_some()).count();
-    let step = of_meshes.div_ceil(MOST_TRIANGLES).max(1);
-    let mut place = 0;
-    for (object, first) in (0..).zip(scene.objects()).map(|(at, one)| (one, scene.first_id(at))) {
-        match &object.shape {
-            Shape::Sphere(Sphere { center, radius }) => spheres.push(json!({
-                "center": shortened(*center), "radius": short(*radius), "colour": color(object.material.color),
-                "id": first,
-            })),
-            Shape::Plane(Plane { point, normal }) => planes.push(json!({
-                "point": shortened(*point), "normal": shortened(*normal),
-                "colour": color(object.material.color), "id": first,
-            })),
-            Shape::Triangle(_) | Shape::Mesh(_) | Shape::Instances(_) => {
-                for (local, id) in (first..).enumerate().take(object.shape.primitive_count()) {
-                    if place % step == 0
-                        && let Some(corners) = scene.triangle(id)
-                    {
-                        triangles.extend(corners.into_iter().flat_map(|corner| corner.to_array()));
-                        colors.extend(color(object.material_of(local).color));
-                    }
-                    place += 1;
-                }
-            }
-        }
-    }
-    let shown = triangles.len() / 9;
+    let planes = scene.objects().iter().filter_map(|object| match &object.shape {
+        Shape::Plane(Plane { point, normal }) => Some(json!({
+            "point": shortened(*point), "normal": shortened(*normal), "colour": color(object.material.color),
+        })),
+        _ => None,
+    });
     let [u, v, w] = [camera.u(), camera.v(), camera.w()].map(plain);
     Answer::new(json!({
         "eye": shortened(camera.eye() + Vec3::ZERO),
@@ -87,12 +62,8 @@ pub(crate) fn of_scene(scene: &Scene, camera: &Camera) -> Answer {
             Projection::Parallel => "parallel",
         },
         "corners": corners(camera).map(plain),
-        "spheres": spheres,
-        "planes": planes,
-        "omitted": of_meshes - shown,
+        "planes": planes.collect::<Vec<Value>>(),
     }))
-    .with("triangles", Buffer::F32(triangles))
-    .with("colours", Buffer::U8(colors))
 }
 
 /// The corners of the viewport in the world: top left, top right, bottom right, bottom left. That of a parallel camera is
