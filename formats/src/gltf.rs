@@ -18,8 +18,28 @@
 //! - Cameras, by name.
 //!
 //! Animations, skins and morph targets are not read: the mesh rests. A file that requires any other extension is refused.
-//! Every accessor is checked before anything is read from it, as the specification says: types, alignment, stride, and its
-//! place in its view and buffer. The bounds that accessors state are neither used nor checked.
+//!
+//! # The rules for accessors
+//!
+//! Every accessor is checked before anything is read from it. These rules of the specification, 3.6.2 and 3.7.2.1, are kept; a
+//! file that breaks one is refused, and the message names the accessor, or its view:
+//!
+//! | What | Rule |
+//! |---|---|
+//! | Type | `VEC3` for `POSITION` and `NORMAL`, `VEC2` for texture coordinates, `VEC3` or `VEC4` for `COLOR_0`, `SCALAR` for indices |
+//! | Components | floats; for texture coordinates and colours normalized unsigned bytes or shorts as well; what `KHR_mesh_quantization` adds, if the file uses it; for indices unsigned bytes, shorts or ints |
+//! | `normalized` | for bytes and shorts of attributes alone: neither floats nor indices are normalized |
+//! | `count` | at least 1, and the same for all attributes of a primitive |
+//! | `byteOffset` | in the view and in the buffer a multiple of the size of a component; for attributes in the view also of 4 |
+//! | `byteStride` | a multiple of 4 from 4 to 252, no less than an element; for attributes only. Without it elements of attributes have a multiple of 4 bytes |
+//! | End | `byteOffset + byteStride × (count − 1)` and one element more are in the view, the view in its buffer, and the buffer in its data |
+//! | `min`, `max` | if there, a number for each component |
+//! | Numbers | floats are finite; an index names a vertex, and is not the largest number of its type |
+//! | Sparse | from 1 to `count` elements are replaced; their indices are unsigned, rise strictly and are below `count`; both views have no stride, both offsets are multiples of the size of a component, and both lists are in their views |
+//!
+//! What nothing is drawn by is not asked for. `POSITION` must state `min` and `max`, and both must be those of the data; files
+//! without them, or with wrong ones, are read, and drawn as their data says. The same holds of a view's `target`, and of a view
+//! without a stride that several accessors share. An accessor with neither a view nor sparse elements would be all zeros, and is refused.
 //!
 //! Buffers are in the file, in `data:` URIs, or in files that the file names: see [`source::files`](crate::source::files).
 //! Nothing is fetched.

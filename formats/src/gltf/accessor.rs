@@ -1,7 +1,7 @@
 //! Checks accessors, and reads what they describe.
 //!
-//! The rules are those of the specification, 3.6.2: types, the alignment to the size of a component (and of vertex
-//! attributes to 4 bytes), strides, and that every element is in the view. Nothing is read before all of them hold.
+//! The rules are those of the specification, 3.6.2; the page of [`gltf`](crate::gltf) lists them. Nothing is read before all
+//! of them hold.
 
 use super::buffers::{Buffers, View};
 use super::error::GltfFault;
@@ -10,6 +10,7 @@ use ::gltf::json::accessor::sparse::Sparse;
 use ::gltf::json::accessor::{ComponentType, GenericComponentType, IndexComponentType, Type};
 use ::gltf::json::validation::Checked;
 use ::gltf::json::{Accessor, Index, Root};
+use serde_json::Value;
 
 /// What an accessor is for, which decides the types that it may have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,22 +46,23 @@ impl Role {
         quantized: bool,
     ) -> (bool, &'static str) {
         use ComponentType::{F32, I8, I16, U8, U16, U32};
+        let is_float = component == F32 && !is_normalized;
         match (self, quantized) {
             (Role::Indices, _) => (
                 matches!(component, U8 | U16 | U32) && !is_normalized,
                 "unsigned bytes, shorts or ints that are not normalized",
             ),
             (Role::TextureCoordinates, false) | (Role::Colors, _) => (
-                component == F32 || matches!(component, U8 | U16) && is_normalized,
+                is_float || matches!(component, U8 | U16) && is_normalized,
                 "floats, or normalized unsigned bytes or shorts",
             ),
-            (Role::Positions | Role::Normals, false) => (component == F32, "floats"),
+            (Role::Positions | Role::Normals, false) => (is_float, "floats"),
             (Role::Normals, true) => (
-                component == F32 || matches!(component, I8 | I16) && is_normalized,
+                is_float || matches!(component, I8 | I16) && is_normalized,
                 "floats, or normalized bytes or shorts",
             ),
             (Role::Positions | Role::TextureCoordinates, true) => {
-                (component != U32, "floats, bytes or shorts")
+                (is_float || !matches!(component, F32 | U32), "floats, bytes or shorts")
             }
         }
     }
@@ -101,6 +103,7 @@ impl<'a> Elements<'a> {
             view => (format!("accessor {number}, {view}"), fault),
         };
         let (component, kind) = component_of(root, accessor, role).map_err(located)?;
+        check_bounds(accessor, kind).map_err(located)?;
         let count = accessor.count.0;
         if count == 0 {
             return Err(located(GltfFault::NoElements));
@@ -167,6 +170,16 @@ impl<'a> Elements<'a> {
         indices
     }
 
+    /// The largest number of the type of the components, which as an index names no vertex: to graphics hardware it means
+    /// that a new primitive begins.
+    pub(super) fn restart(&self) -> u32 {
+        match self.component {
+            ComponentType::U8 => u8::MAX.into(),
+            ComponentType::U16 => u16::MAX.into(),
+            _ => u32::MAX,
+        }
+    }
+
     /// Makes sure that no number is NaN or infinite.
     fn check_finite(&self, role: Role) -> Result<(), GltfFault> {
         if self.component != ComponentType::F32 {
@@ -231,6 +244,24 @@ fn component_of(
     let normalized = if accessor.normalized { ", normalized" } else { "" };
     let found = format!("{}{normalized}", name_of(component));
     Err(GltfFault::Type { what: "components", expected, found })
+}
+
+/// Makes sure that bounds, if they are stated, are a number for each component.
+///
+/// Whether the elements keep to them is not asked. Nothing is drawn differently for them, and there are many files whose bounds
+/// are missing, or were rounded when they were written.
+fn check_bounds(accessor: &Accessor, kind: Type) -> Result<(), GltfFault> {
+    let components = kind.multiplicity();
+    let is_well_formed = |bound: &Value| {
+        let numbers = bound.as_array().filter(|numbers| numbers.len() == components);
+        numbers.is_some_and(|numbers| numbers.iter().all(Value::is_number))
+    };
+    for (bound, stated) in [("min", &accessor.min), ("max", &accessor.max)] {
+        if stated.as_ref().is_some_and(|stated| !is_well_formed(stated)) {
+            return Err(GltfFault::Bounds { bound, components });
+        }
+    }
+    Ok(())
 }
 
 fn name_of(component: ComponentType) -> &'static str {
@@ -311,10 +342,11 @@ impl Layout {
             if view.stride.is_some() {
                 return Err(own(GltfFault::StrideNotAllowed));
             }
-            let (offset_in_buffer, alignment) = (view.offset + offset, component.size() as u64);
-            if !offset_in_buffer.is_multiple_of(alignment) {
-                let (offset, of) = (offset_in_buffer, "buffer");
-                return Err(own(GltfFault::Unaligned { offset, of, alignment }));
+            let alignment = component.size() as u64;
+            for (offset, of) in [(offset, "view"), (view.offset + offset, "buffer")] {
+                if !offset.is_multiple_of(alignment) {
+                    return Err(own(GltfFault::Unaligned { offset, of, alignment }));
+                }
             }
             strided(view.bytes, offset, size, size, count).map_err(own)
         };

@@ -105,6 +105,10 @@ pub enum GltfFault {
     Type { what: &'static str, expected: &'static str, found: String },
     #[error("{what} is not known to the format")]
     Invalid { what: &'static str },
+    #[error(
+        "its {bound} must be a list of numbers, as many as its elements have components, which is {components}"
+    )]
+    Bounds { bound: &'static str, components: usize },
     #[error("number {number}, counted from 0, is not finite")]
     NotFinite { number: usize },
     #[error("it replaces {count} of {of} elements")]
@@ -113,6 +117,10 @@ pub enum GltfFault {
     SparseIndices { index: u32, before: Option<u32>, count: u64 },
     #[error("index {place}, counted from 0, names vertex {index}, but there {}", Exist(*.count))]
     UnknownVertex { place: usize, index: u32, count: usize },
+    #[error(
+        "index {place}, counted from 0, is {index}: the largest number of its type begins a new primitive, and names no vertex"
+    )]
+    RestartIndex { place: usize, index: u32 },
     #[error("it has {count} corners, and {mode} need {need}")]
     CornerCount { count: usize, mode: &'static str, need: &'static str },
     #[error("it has no POSITION")]

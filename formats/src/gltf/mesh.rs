@@ -137,22 +137,7 @@ fn part(
     same_count("TEXCOORD", &texture_coordinates)?;
     let colors = attribute(Semantic::Colors(0), Role::Colors)?;
     same_count("COLOR_0", &colors)?;
-    let triangles = match primitive.indices {
-        Some(index) => {
-            let indices = Elements::new(root, buffers, index, Role::Indices)?.indices();
-            let unknown = |&(_, index): &(usize, &u32)| *index as usize >= count;
-            if let Some((place, &index)) = indices.iter().enumerate().find(unknown) {
-                return Err(own(GltfFault::UnknownVertex { place, index, count }));
-            }
-            triangles(mode, indices.len(), |k| indices[k])
-        }
-        None => {
-            let count =
-                u32::try_from(count).map_err(|_| own(too_many("vertices", count as u64)))?;
-            #[expect(clippy::cast_possible_truncation, reason = "less than the count")]
-            triangles(mode, count as usize, |k| k as u32)
-        }
-    };
+    let triangles = triangles_of(root, buffers, primitive, mode, count)?;
     Ok(Some(MeshPart {
         positions: positions.vectors(),
         normals: normals.map(|normals| normals.vectors()),
@@ -161,8 +146,34 @@ fn part(
             .transpose()
             .map_err(own)?,
         colors: colors.map(|values| values.vectors()),
-        triangles: triangles.map_err(own)?,
+        triangles,
     }))
+}
+
+/// The triangles of a primitive of so many vertices.
+fn triangles_of(
+    root: &Root,
+    buffers: &Buffers,
+    primitive: &Primitive,
+    mode: Mode,
+    count: usize,
+) -> Result<Vec<[u32; 3]>, Located> {
+    let own = |fault| (String::new(), fault);
+    let Some(index) = primitive.indices else {
+        let count = u32::try_from(count).map_err(|_| own(too_many("vertices", count as u64)))?;
+        #[expect(clippy::cast_possible_truncation, reason = "less than the count")]
+        return triangles(mode, count as usize, |k| k as u32).map_err(own);
+    };
+    let elements = Elements::new(root, buffers, index, Role::Indices)?;
+    let (indices, restart) = (elements.indices(), elements.restart());
+    let names_none = |&(_, &index): &(usize, &u32)| index as usize >= count || index == restart;
+    match indices.iter().enumerate().find(names_none) {
+        Some((place, &index)) if index == restart => {
+            Err(own(GltfFault::RestartIndex { place, index }))
+        }
+        Some((place, &index)) => Err(own(GltfFault::UnknownVertex { place, index, count })),
+        None => triangles(mode, indices.len(), |k| indices[k]).map_err(own),
+    }
 }
 
 /// The texture of a primitive's base colour.

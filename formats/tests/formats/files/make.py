@@ -4,7 +4,8 @@
     /tmp/writers/bin/python formats/tests/formats/files/make.py
 
 The tests read what is committed. Every file shows the same mesh, in the same order: a pyramid of six triangles. What each
-writer was asked for stands beside it.
+writer was asked for stands beside it. The Khronos validator (`npm install gltf-validator`) finds neither errors nor warnings
+in the glTF files.
 """
 
 import base64
@@ -136,21 +137,23 @@ def textured_with_pygltflib():
     png = io.BytesIO()
     PICTURE.save(png, "PNG")
     (HERE / "pygltflib texture.png").write_bytes(png.getvalue())
-    # From −1 to 2, counted from the upper edge.
+    # From −1 to 2, counted from the upper edge. The material names this second set; the first one is all zeros.
     uv = np.array([[-1, 2], [2, 2], [2, -1], [-1, -1]], np.float32)
-    parts = [SQUARE, uv, COLORS, HALVES.ravel(), np.frombuffer(png.getvalue(), np.uint8)]
+    parts = [(SQUARE, g.ARRAY_BUFFER), (uv, g.ARRAY_BUFFER), (COLORS, g.ARRAY_BUFFER), (HALVES.ravel(), g.ELEMENT_ARRAY_BUFFER),
+             (np.frombuffer(png.getvalue(), np.uint8), None), (np.zeros_like(uv), g.ARRAY_BUFFER)]
     blob, views = b"", []
-    for part in parts:
-        views.append(g.BufferView(buffer=0, byteOffset=len(blob), byteLength=part.nbytes))
+    for part, target in parts:
+        views.append(g.BufferView(buffer=0, byteOffset=len(blob), byteLength=part.nbytes, target=target))
         blob += part.tobytes() + b"\0" * (-part.nbytes % 4)
     accessors = [
         g.Accessor(bufferView=0, componentType=g.FLOAT, count=4, type=g.VEC3, min=[0, 0, 0], max=[1, 1, 0]),
         g.Accessor(bufferView=1, componentType=g.FLOAT, count=4, type=g.VEC2),
         g.Accessor(bufferView=2, componentType=g.UNSIGNED_BYTE, count=4, type=g.VEC4, normalized=True),
         g.Accessor(bufferView=3, componentType=g.UNSIGNED_SHORT, count=6, type=g.SCALAR),
+        g.Accessor(bufferView=5, componentType=g.FLOAT, count=4, type=g.VEC2),
     ]
     color = g.PbrMetallicRoughness(baseColorFactor=[1, 0.5, 0.25, 1], baseColorTexture=g.TextureInfo(index=0, texCoord=1))
-    attributes = g.Attributes(POSITION=0, TEXCOORD_1=1, COLOR_0=2)
+    attributes = g.Attributes(POSITION=0, TEXCOORD_0=4, TEXCOORD_1=1, COLOR_0=2)
     model = g.GLTF2(
         scene=0, scenes=[g.Scene(nodes=[0])], nodes=[g.Node(mesh=0)],
         meshes=[g.Mesh(primitives=[g.Primitive(attributes=attributes, indices=3, material=0)])],
