@@ -51,6 +51,9 @@ const showCamera = seldom(100, () => {
   if (!camera) return;
   for (const { slider, number, read } of dials) {
     const value = read(camera);
+    // A number may lie beyond what the slider was made for: a touch on the slider must not change it.
+    if (value > Number(slider.max)) slider.max = String(1.5 * value);
+    if (value < Number(slider.min)) slider.min = String(1.5 * value);
     if (document.activeElement !== slider || Number(slider.value) !== value) slider.value = String(value);
     if (document.activeElement !== number) number.value = String(Number(value.toPrecision(6)));
   }
