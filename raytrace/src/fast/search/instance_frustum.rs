@@ -159,7 +159,7 @@ impl<'a> InstanceFrustum<'a> {
     /// and half a tile; `16·ε₂₄` is more. A point on a ray is off by what [`MapErrors::wide`] is more than half of a tile.
     ///
     /// Of a box that reaches behind the eye only `t` is known. The key of a nearest point is that of [`KeyScale::farthest`],
-    /// the other way round: rounded twice, so that `4·ε₂₄` is more than both.
+    /// the other way round: a sum, a quotient, a factor and its product are rounded, so that `8·ε₂₄` is more than all.
     ///
     /// [`KeyScale::farthest`]: crate::fast::depth::KeyScale::farthest
     ///
@@ -180,9 +180,9 @@ impl<'a> InstanceFrustum<'a> {
         let [by_first, by_last] = [one / first_t, one / last_t];
         let key = if places.parallel {
             let key = splat(places.key_error) - nearest;
-            key + key.abs() * (4.0 * EPS24)
+            key + key.abs() * (8.0 * EPS24)
         } else {
-            by_first * (1.0 + 4.0 * EPS24 + places.key_error)
+            by_first * (1.0 + 8.0 * EPS24 + places.key_error)
         };
         let error = splat(culling.sides_error);
         let beside = places.beside + 16.0 * EPS24 * (places.half + 1.0);
