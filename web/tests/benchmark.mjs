@@ -6,7 +6,7 @@
 
 import { engineIn, open, stop } from "./browser.mjs";
 
-const SECONDS = 5;
+const SECONDS = 2;
 
 async function firstPicture() {
   const { page, close } = await open();

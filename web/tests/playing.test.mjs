@@ -179,14 +179,15 @@ test("numbers and sliders of the camera are one", async () => {
 });
 
 test("every chapter is saved as a picture", async () => {
+  const { page, close } = await open();
   for (const chapter of CHAPTERS) {
-    const { page, close } = await open({ hash: `#chapter=${chapter}` });
-    await page.waitForTimeout(1000);
+    await page.evaluate((hash) => (location.hash = hash), `#chapter=${chapter}`);
+    await page.waitForTimeout(500);
     const [download] = await Promise.all([page.waitForEvent("download"), page.locator("#save").click()]);
     const bytes = readFileSync(await download.path());
     assert.equal(bytes.subarray(1, 4).toString(), "PNG", chapter);
     assert.ok(bytes.readUInt32BE(16) >= 800 && bytes.length > 20_000, `${chapter}: ${bytes.length} bytes`);
-    assert.match(download.suggestedFilename(), /\.png$/);
-    await close();
+    assert.match(download.suggestedFilename(), new RegExp(`${chapter}.*\\.png$`));
   }
+  await close();
 });

@@ -50,7 +50,8 @@ pub trait Context: ScalarContext {
     fn simd(&self) -> Self::Simd;
 }
 
-/// The only type that is a [`Context`]: what one loop is compiled for and tells its events to. Without vector instructions, `S` is `()`.
+/// The only type that is a [`Context`]: what one loop is compiled for and tells its events to. Without vector instructions,
+/// `S` is `()`.
 pub struct LoopContext<'a, S, E: ?Sized, F> {
     simd: S,
     sink: &'a mut E,

@@ -8,6 +8,7 @@ use super::tree::{Bounds, IndexedLeaf, LEAF, Node, PlainLeaf, WIDTH};
 use crate::fast::world_affine::{LARGEST, WorldAffine, narrowed, upward};
 use bothways_common::Placement;
 use bothways_common::engine::context::Context;
+use bothways_common::engine::fault::Planted;
 use bothways_common::engine::roundoff::{EPS24, EPS53};
 use bothways_common::engine::simd::{Select, Simd, SimdBase, SimdFloat, f32x16, mask32x16, u32x16};
 use bothways_common::look::lanes::each;
@@ -142,7 +143,7 @@ impl<'a> InstanceFrustum<'a> {
         let (near, far) = (culling.t.extreme(&boxes, false), culling.t.extreme(&boxes, true));
         let beyond = far.simd_lt(f32x16::splat(simd, culling.least_t))
             | near.simd_gt(f32x16::splat(simd, farthest));
-        let Seen { missed, place, key } = self.seen_at(simd, &boxes, [near, far]);
+        let Seen { missed, place, key } = self.seen_at(context, &boxes, [near, far]);
         let size = longest_side(simd, node) * self.stretch + self.slack;
         (
             BoxHits::new(node, beyond | missed, near, size),
@@ -165,7 +166,13 @@ impl<'a> InstanceFrustum<'a> {
     ///
     /// [`MapErrors::wide`]: crate::fast::camera_map::MapErrors::wide
     #[inline(always)]
-    fn seen_at<S: Simd>(&self, simd: S, boxes: &Sides<S>, [near, far]: [f32x16<S>; 2]) -> Seen<S> {
+    fn seen_at<C: Context>(
+        &self,
+        context: &C,
+        boxes: &Sides<C::Simd>,
+        [near, far]: [f32x16<C::Simd>; 2],
+    ) -> Seen<C::Simd> {
+        let simd = context.simd();
         let splat = |value: f32| f32x16::splat(simd, value);
         let (one, zero) = (splat(1.0), splat(0.0));
         let (culling, places) = (&self.boxes, &self.places);
@@ -184,7 +191,7 @@ impl<'a> InstanceFrustum<'a> {
         } else {
             by_first * (1.0 + 8.0 * EPS24 + places.key_error)
         };
-        let error = splat(culling.sides_error);
+        let error = splat(if C::has(Planted::ShrunkBox) { 0.0 } else { culling.sides_error });
         let beside = places.beside + 16.0 * EPS24 * (places.half + 1.0);
         let [across, down] = each!(function in [&places.across, &places.down] => {
             let low = function.extreme(boxes, false) - error;
@@ -196,7 +203,7 @@ impl<'a> InstanceFrustum<'a> {
             [first.ceil().max(zero), last.floor().min(splat(2.0 * places.half))]
         });
         let nowhere = across[1].simd_lt(across[0]) | down[1].simd_lt(down[0]);
-        let ends = |[first, last]: [f32x16<S>; 2]| first + last * TilePlace::LAST;
+        let ends = |[first, last]: [f32x16<C::Simd>; 2]| first + last * TilePlace::LAST;
         let place = ends(down) + ends(across) * TilePlace::COLUMN;
         let is_in_front = first_t.simd_gt(zero);
         // NaN, from numbers that overflow, says nothing.
