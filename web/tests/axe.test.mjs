@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { after, test } from "node:test";
-import { CHAPTERS, open, require, stop } from "./browser.mjs";
+import { CHAPTERS, open, require, stop, turnTo } from "./browser.mjs";
 
 after(stop);
 
@@ -11,15 +11,15 @@ const source = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
 
 for (const [scheme, width, height] of [["light", 1440, 900], ["dark", 1440, 900], ["light", 390, 844]]) {
   test(`axe-core finds nothing serious: ${scheme}, ${width} x ${height}`, async () => {
+    const { page, close } = await open({ scheme, width, height });
+    await page.evaluate(source);
     for (const chapter of CHAPTERS) {
-      const { page, close } = await open({ hash: `#chapter=${chapter}`, scheme, width, height });
-      await page.waitForTimeout(800);
-      await page.evaluate(source);
+      await turnTo(page, chapter);
       const { violations } = await page.evaluate(() => window.axe.run());
       const serious = violations.filter(({ impact }) => impact === "serious" || impact === "critical");
       const told = serious.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html.slice(0, 120)).join(" | ")}`);
       assert.deepEqual(told, [], chapter);
-      await close();
     }
+    await close();
   });
 }

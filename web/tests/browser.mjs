@@ -50,6 +50,16 @@ export async function open({ file = PAGE, hash = "", width = 1440, height = 900,
   return { page, said, close: () => context.close() };
 }
 
+/**
+ * Shows another chapter of an open page, and waits until it has drawn it.
+ * @param {import("playwright-core").Page} page
+ */
+export async function turnTo(page, chapter) {
+  await page.evaluate((hash) => (location.hash = hash), `#chapter=${chapter}`);
+  await page.locator(`#chapters a[data-chapter=${chapter}][aria-current=page]`).waitFor({ state: "attached" });
+  await page.waitForTimeout(500);
+}
+
 /** The text of a data block of the page. */
 function block(html, id) {
   return html.split(`id="${id}">`)[1].split("</script>")[0];

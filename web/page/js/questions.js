@@ -23,6 +23,8 @@ const QUESTION_KINDS = /** @type {const} */ ([
  */
 /** @type {Question | null} */
 let question = null;
+/** Its kind and seed: what is asked once is asked no second time, and keeps what was typed. */
+let asked = "";
 let hintsGiven = 0;
 /** @type {{outside: Outside, rays: ViewingRay[]} | null} */
 let answerPicture = null;
@@ -31,13 +33,21 @@ async function askQuestion() {
   if (viewOf(state.chapter) !== "questions") return;
   const kind = state.question || QUESTION_KINDS[0][0];
   setChoice("question", kind);
+  const wanted = `${kind} ${state.seed}`;
+  if (wanted === asked) return;
+  asked = wanted;
+  /** @type {Question} */
+  let answer;
   try {
-    question = await engine.call("question", { kind, seed: state.seed });
+    answer = await engine.call("question", { kind, seed: state.seed });
   } catch (error) {
+    if (wanted === asked) asked = "";
     showTrouble(messageOf(error));
     return;
   }
-  if (!question) return;
+  // Meanwhile another was asked for.
+  if (wanted !== asked) return;
+  question = answer;
   hintsGiven = 0;
   answerPicture = null;
   byId("question-picture").hidden = true;
