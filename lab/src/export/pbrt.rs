@@ -143,7 +143,7 @@ fn write_triangles(
     if let Some(normals) = &corners.normals {
         write_vectors(&mut text, "normal N", normals);
     }
-    if let Some(coordinates) = corners.coordinates.as_ref().filter(|_| piece.has_picture()) {
+    if let Some(coordinates) = &corners.coordinates {
         write_vectors(&mut text, "point2 uv", coordinates);
     }
     out.write_all(text.as_bytes())
