@@ -8,6 +8,9 @@ use crate::common::{Instances, Mesh, Placement};
 /// than a fifth of it.
 const SKEWED: f64 = 1e-6;
 
+/// The largest volume between the axes, for axes of unit length, that counts as none.
+const FLAT: f64 = 1e-4;
+
 /// An instance as a program has it.
 pub(super) enum Place<'a> {
     /// The mesh, placed.
@@ -35,16 +38,32 @@ pub(super) fn copies(target: Target, instances: &Instances) -> usize {
 /// Whether the program has instances.
 pub(super) fn has_some(target: Target) -> bool {
     match target {
-        Target::Gltf => true,
-        Target::Pbrt | Target::Mitsuba | Target::Obj | Target::Ply => false,
+        Target::Gltf | Target::Pbrt | Target::Mitsuba => true,
+        Target::Obj | Target::Ply => false,
+    }
+}
+
+/// What an instance is like that the target cannot place.
+pub(super) fn refused(target: Target) -> &'static str {
+    match target {
+        Target::Gltf => "skewed or flat",
+        Target::Pbrt | Target::Mitsuba | Target::Obj | Target::Ply => "flat",
     }
 }
 
 fn is_copied(target: Target, placement: &Placement) -> bool {
     match target {
         Target::Gltf => is_skewed(placement),
-        Target::Pbrt | Target::Mitsuba | Target::Obj | Target::Ply => true,
+        Target::Pbrt | Target::Mitsuba => is_flat(placement),
+        Target::Obj | Target::Ply => true,
     }
+}
+
+/// Whether a map has no inverse, which ray tracers carry rays to the mesh by, or one that is far off in their `f32`.
+fn is_flat(placement: &Placement) -> bool {
+    let [x, y, z] = columns(placement);
+    let volume = x.dot(y.cross(z)).abs();
+    volume <= FLAT * x.length() * y.length() * z.length()
 }
 
 /// Whether a map is not a scale, then a rotation, then a translation: no other matrix is allowed in glTF ("glTF 2.0
@@ -82,5 +101,9 @@ mod tests {
         assert!(is_skewed(&placement(turned(4) * skew)) && is_skewed(&placement(skew)));
         assert!(is_skewed(&placement(DMat3::from_diagonal(DVec3::new(1.0, 0.0, 1.0)))));
         assert!(!is_skewed(&Placement::IDENTITY));
+        // Ray tracers take any map that has an inverse.
+        let flat = DMat3::from_cols(DVec3::X, DVec3::new(2.0, 1e-5, 0.0), DVec3::Z);
+        assert!(is_flat(&placement(turned(4) * flat)));
+        assert!((0..1000).all(|k| !is_flat(&placement(turned(k) * skew))));
     }
 }

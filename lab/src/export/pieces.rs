@@ -1,7 +1,7 @@
 //! The surfaces of a scene as other programs know them: spheres where they have some, and triangles of one material.
 
 use super::error::ExportError;
-use super::instances::{copies, has_some};
+use super::instances::{copies, has_some, refused};
 use super::target::Target;
 use crate::common::glam::{DVec2, DVec3, Vec2, Vec3};
 use crate::common::look::texture::plane_axes;
@@ -187,9 +187,9 @@ impl<'a> Pieces<'a> {
         }
         let copied = copies(target, instances) as u64;
         if copied > 0 {
-            let (some, meshes) = (count(copied, "instances"), count(copied, "meshes"));
+            let some = count(copied, &format!("{} instances", refused(target)));
             self.notes.push(format!(
-                "{some} of object {number} are skewed or flat, which {} does not know: they become {meshes} of their own",
+                "object {number} has {some}, copied since {} cannot place such",
                 target.name()
             ));
         }

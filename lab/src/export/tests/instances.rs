@@ -85,6 +85,65 @@ fn ten_thousand_teapots_are_one_mesh_in_gltf() {
     assert_eq!(theirs.mesh().triangles().len(), ours.mesh().triangles().len());
 }
 
+/// The numbers between two words, at each place where the first is.
+fn numbers_between<'t>(text: &'t str, [from, to]: [&'t str; 2]) -> Vec<Vec<f32>> {
+    let inside = text.split(from).skip(1).map(|rest| rest.split(to).next().unwrap());
+    let number = |number: &str| number.parse().unwrap();
+    inside.map(|numbers| numbers.split_whitespace().map(number).collect()).collect()
+}
+
+/// pbrt lists a matrix column by column, Mitsuba row by row; both take every map that is not flat.
+#[test]
+fn ray_tracers_get_a_mesh_once_and_exactly_where_it_is() {
+    for seed in [0, 5] {
+        let (scene, camera) = (crowd(seed).0, Camera::canonical(40, 40));
+        let shapes = scene.objects().iter().map(|object| match &object.shape {
+            Shape::Instances(instances) => instances,
+            other => panic!("{other:?}"),
+        });
+        let all: Vec<&Placement> = shapes.flat_map(Instances::placements).collect();
+        for target in [Target::Pbrt, Target::Mitsuba] {
+            let Export { files, notes } =
+                export(&View::new(&scene, &camera), "crowd", target).unwrap();
+            let text = std::str::from_utf8(&files[0].1).unwrap();
+            let (words, begin, turned) = match target {
+                Target::Pbrt => (["Transform [", "]"], "ObjectBegin \"", true),
+                _ => (
+                    ["/><transform name=\"to_world\"><matrix value=\"", "\""],
+                    "type=\"shapegroup\"",
+                    false,
+                ),
+            };
+            let row_of = |m: &[f32], row: usize| {
+                [0, 1, 2, 3].map(|k| if turned { m[4 * k + row] } else { m[4 * row + k] })
+            };
+            let placed: Vec<Placement> = numbers_between(text, words)
+                .iter()
+                .map(|m| {
+                    assert_eq!((m.len(), row_of(m, 3)), (16, [0.0, 0.0, 0.0, 1.0]));
+                    Placement::from_rows([0, 1, 2].map(|row| row_of(m, row)))
+                })
+                .collect();
+            // In order, but for the flat ones: one of eight.
+            let mut rest = all.iter();
+            assert!(placed.iter().all(|one| rest.any(|other| one == *other)), "{target:?}");
+            let flat = all.len() - placed.len();
+            assert!((all.len() / 8 - 3..all.len() / 7).contains(&flat), "{target:?}: {flat}");
+            assert_eq!(text.matches(begin).count(), 3, "{target:?}");
+            assert_eq!(
+                notes.iter().filter(|note| note.contains("flat instances, copied")).count(),
+                3
+            );
+            // A mesh for each object, and those that are flat.
+            let meshes = match target {
+                Target::Pbrt => text.matches("\"trianglemesh\"").count(),
+                _ => files.len() - 1,
+            };
+            assert_eq!(meshes, 3 + flat, "{target:?}");
+        }
+    }
+}
+
 /// A torus of two materials, the second of which is the object's.
 fn torus() -> Arc<Mesh> {
     let mut materials = MeshMaterials::default();
