@@ -29,7 +29,7 @@ fn bits(scene: &Scene) -> Vec<[[u32; 3]; 3]> {
         bits.sort_unstable();
         bits
     };
-    (0..scene.primitive_count() as u64).map(of_triangle).collect()
+    (0..scene.primitive_count()).map(of_triangle).collect()
 }
 
 /// The text of a binary glTF file.
@@ -45,7 +45,7 @@ fn list<'a>(root: &'a Value, name: &str) -> &'a [Value] {
 /// Turned, stretched and mirrored, and some skewed or flat, which become meshes of their own.
 #[test]
 fn instances_come_back_from_gltf_bit_for_bit() {
-    let mut shared = 0;
+    let mut shared = 0_u64;
     for seed in 0..CROWDS {
         let (scene, camera, _) = crowd(seed);
         let Export { files, notes } =
@@ -55,7 +55,7 @@ fn instances_come_back_from_gltf_bit_for_bit() {
         assert_eq!(skewed, 3, "{notes:?}");
         let again = loaded_from(&files[0].0, &files[0].1).scene;
         let is_shared = |object: &&Object| matches!(object.shape, Shape::Instances(_));
-        shared += again.objects().iter().filter(is_shared).count();
+        shared += again.objects().iter().filter(is_shared).count() as u64;
         assert!(bits(&again) == bits(&scene), "{seed}");
         let expected = ids(Order::Object, &scene, &camera);
         assert!(expected.iter().flatten().count() > 0, "{seed}");
@@ -63,7 +63,7 @@ fn instances_come_back_from_gltf_bit_for_bit() {
             assert!(ids(order, &again, &camera) == expected, "{seed}");
         }
     }
-    assert!(shared > CROWDS as usize, "{shared}");
+    assert!(shared > CROWDS, "{shared}");
 }
 
 #[test]
@@ -186,7 +186,7 @@ fn a_mesh_of_several_objects_is_written_once_for_each_look() {
     let children = |node: &Value| node["children"].as_array().map_or(0, Vec::len);
     assert_eq!(nodes.iter().map(children).collect::<Vec<_>>().iter().max(), Some(&400));
     let again = loaded_from(&files[0].0, &files[0].1).scene;
-    for id in 0..scene.primitive_count() as u64 - 1 {
+    for id in 0..scene.primitive_count() - 1 {
         let look = |scene: &Scene| {
             let (object, local) = scene.locate(id);
             scene.objects()[object].material_of(local).color
