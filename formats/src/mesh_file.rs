@@ -52,7 +52,7 @@ pub enum ReadMeshError {
 /// The extensions of all formats, as messages list them.
 pub const EXTENSIONS: &str = ".obj, .ply, .stl, .gltf, .glb";
 /// The extensions of the formats that [`MeshStream`](crate::mesh_stream::MeshStream) reads, as messages list them.
-pub const STREAMED: &str = ".obj, .ply";
+pub const STREAMED: &str = ".obj, .ply, .stl";
 
 /// The most bytes of a file that tell its format.
 const BEGINNING: usize = 4096;
@@ -101,7 +101,7 @@ impl Format {
 
     /// Whether meshes of this format can be read in passes, without being in memory.
     pub fn can_be_streamed(self) -> bool {
-        matches!(self, Format::Obj | Format::Ply)
+        matches!(self, Format::Obj | Format::Ply | Format::Stl)
     }
 
     /// Reads a mesh from a file of this format. The materials of an OBJ file have names only.

@@ -1,12 +1,14 @@
 //! Streams meshes that are larger than memory: a file is read in passes, never as a whole.
 //!
 //! Vertices stay in memory, 12 bytes each, because any face may name any of them. Faces are read again in every pass.
+//! The facets of an STL file name no vertices: there a table of their places stays in memory as well, 20 to 40 bytes each.
 //! Only positions are read, without normals, texture coordinates and materials: few triangles of so large a mesh
 //! would show them.
 
 use crate::mesh_file::{Format, ReadMeshError};
 use crate::obj::ObjFile;
 use crate::ply::PlyFile;
+use crate::stl::StlFile;
 use crate::warning::MaterialWarning;
 use bothways_common::scene::Positions;
 use glam::Vec3;
@@ -47,6 +49,7 @@ pub struct MeshStream {
 enum Faces {
     Obj(Box<ObjFile>),
     Ply(Box<PlyFile<BufReader<File>>>),
+    Stl(Box<StlFile<BufReader<File>>>),
 }
 
 /// Why a mesh cannot be streamed.
@@ -83,7 +86,12 @@ impl MeshStream {
                 file.vertices(|position| positions.push(position))?;
                 Faces::Ply(file)
             }
-            Format::Stl | Format::Gltf => {
+            Format::Stl => {
+                let mut file = Box::new(StlFile::open(path)?);
+                file.vertices(|position| positions.push(position))?;
+                Faces::Stl(file)
+            }
+            Format::Gltf => {
                 return Err(ReadMeshError::NotStreamed { file: path.display().to_string() });
             }
         };
@@ -105,6 +113,7 @@ impl MeshStream {
         match &self.faces {
             Faces::Obj(file) => file.material_warning(),
             Faces::Ply(file) => file.color_warning(),
+            Faces::Stl(_) => None,
         }
     }
 
@@ -130,6 +139,7 @@ impl MeshStream {
         match &mut self.faces {
             Faces::Obj(file) => file.triangles(visit).map_err(ReadMeshError::from)?,
             Faces::Ply(file) => file.triangles(visit).map_err(ReadMeshError::from)?,
+            Faces::Stl(file) => file.triangles(visit).map_err(ReadMeshError::from)?,
         }
         match u32::try_from(count) {
             Ok(count) if count < u32::MAX => {
@@ -198,6 +208,54 @@ mod tests {
         let [whole, streamed] = both("a.obj", obj.as_bytes());
         assert_eq!(whole, streamed);
         assert_eq!(whole.unwrap().triangles(), [[0, 2, 1], [0, 1, 2], [0, 1, 3], [0, 3, 2]]);
+    }
+
+    #[test]
+    fn a_stream_of_either_stl_shows_what_the_reader_reads() {
+        let mesh = crate::generate::Kind::Torus.mesh([9, 7]).unwrap();
+        let mut binary = Vec::new();
+        crate::stl::write(&mesh, &mut binary).unwrap();
+        let mut text = String::from("solid torus\n");
+        for triangle in 0..mesh.triangles().len() {
+            text += "facet normal 0 0 0\nouter loop\n";
+            for corner in mesh.corners(triangle) {
+                text += &format!("vertex {:?} {:?} {:?}\n", corner.x, corner.y, corner.z);
+            }
+            text += "endloop\nendfacet\n";
+        }
+        text += "endsolid torus\n";
+        let [whole, streamed] = both("binary.stl", &binary);
+        assert_eq!(whole, streamed);
+        assert_eq!(whole.as_ref().unwrap().triangles().len(), 126);
+        let of_text = both("text.stl", text.as_bytes());
+        assert_eq!(of_text, [whole, streamed]);
+        // What is wrong is refused by both.
+        for bad in ["", "solid a\nendsolid\n", "solid a\nfacet\n", "no solid"] {
+            assert_eq!(both("bad.stl", bad.as_bytes()), [None, None], "{bad}");
+        }
+        binary[84 + 50 + 12..][..4].copy_from_slice(&f32::NAN.to_le_bytes());
+        assert_eq!(both("nan.stl", &binary), [None, None]);
+    }
+
+    #[test]
+    fn an_stl_file_that_changes_while_it_is_streamed_is_an_error() {
+        let path = std::env::temp_dir().join(format!("bothways-turns-{}.stl", std::process::id()));
+        let facet = |x: f32| {
+            format!(
+                "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex {x} 0 0\nvertex 0 1 0\n\
+                     endloop\nendfacet\nendsolid\n"
+            )
+        };
+        std::fs::write(&path, facet(1.0)).unwrap();
+        let mut stream = MeshStream::open(&path, Format::Stl).unwrap();
+        assert_eq!(
+            stream.for_each_triangle(|_, triangle| assert_eq!(triangle, [0, 1, 2])).unwrap(),
+            1
+        );
+        std::fs::write(&path, facet(2.0)).unwrap();
+        let error = stream.for_each_triangle(|_, _| ()).unwrap_err().to_string();
+        assert!(error.contains("the file has changed since its vertices were read"), "{error}");
+        std::fs::remove_file(&path).unwrap();
     }
 
     #[test]

@@ -14,12 +14,13 @@
 //! read, for they follow from the corners, and many files have zeros in their place. Two bytes a facet of the binary form,
 //! which some programs use for colours in ways of their own, are skipped.
 //!
-//! A file is read facet by facet. A count in the file never makes the reader reserve memory.
+//! A file is read facet by facet, also in [passes](crate::mesh_stream). A count in the file never makes the reader reserve memory.
 
 mod ascii;
 mod binary;
 mod builder;
 mod error;
+mod file;
 mod layout;
 mod write;
 
@@ -29,8 +30,9 @@ pub use write::write;
 use crate::source::{InputFile, Reach};
 use bothways_common::scene::Mesh;
 use builder::Builder;
-use layout::{HEADER, binary_size};
-use std::io::{BufRead, Cursor, Read, Seek, SeekFrom};
+pub(crate) use file::StlFile;
+pub(crate) use layout::is_binary;
+use std::io::{BufRead, Cursor, Seek};
 use std::path::Path;
 
 /// Reads a mesh from an STL file.
@@ -72,38 +74,15 @@ pub fn parse(name: &str, bytes: &[u8]) -> Result<Mesh, ReadStlError> {
     read_from(name.to_owned(), Cursor::new(bytes))
 }
 
-/// Tells whether a file that begins with these bytes and has this size is binary.
-pub(crate) fn is_binary(beginning: &[u8], size: u64) -> bool {
-    promised(beginning).is_some_and(|facets| size == binary_size(facets))
-}
-
 /// Tells whether a file that begins with these bytes is an ASCII one.
 pub(crate) fn is_text(beginning: &[u8]) -> bool {
     ascii::begins(beginning)
 }
 
-/// The number of facets that a binary file promises.
-fn promised(beginning: &[u8]) -> Option<u32> {
-    Some(u32::from_le_bytes(*beginning.get(80..84)?.first_chunk()?))
-}
-
-fn read_from(file: String, mut input: impl BufRead + Seek) -> Result<Mesh, ReadStlError> {
-    let unreadable = |error| ReadStlError::Unreadable { file: file.clone(), error };
-    let size = input.seek(SeekFrom::End(0)).map_err(unreadable)?;
-    input.rewind().map_err(unreadable)?;
-    let mut beginning = Vec::new();
-    input.by_ref().take(HEADER as u64).read_to_end(&mut beginning).map_err(unreadable)?;
+fn read_from(file: String, input: impl BufRead + Seek) -> Result<Mesh, ReadStlError> {
+    let mut opened = StlFile::new(file.clone(), input)?;
     let mut builder = Builder::default();
-    if is_binary(&beginning, size) {
-        binary::read(&file, input, &mut builder)?;
-    } else if beginning.is_empty() {
-        return Err(ReadStlError::Empty { file });
-    } else if ascii::begins(&beginning) {
-        input.rewind().map_err(unreadable)?;
-        ascii::read(&file, input, &mut builder)?;
-    } else {
-        return Err(ReadStlError::Neither { file, size, facets: promised(&beginning) });
-    }
+    opened.facets(|corners| builder.facet(corners))?;
     if builder.is_empty() { Err(ReadStlError::NoFacets { file }) } else { Ok(builder.finish()) }
 }
 

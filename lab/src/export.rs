@@ -7,6 +7,7 @@
 mod corners;
 mod error;
 mod gltf;
+mod instances;
 mod lights;
 mod mitsuba;
 mod mtl;
@@ -23,7 +24,7 @@ pub use target::Target;
 
 use crate::common::{Shape, View};
 use crate::formats::{obj, ply};
-use error::MOST_COPIED;
+use error::{MOST_COPIED, MOST_PLACED};
 use pieces::Pieces;
 
 /// A scene in the words of another program.
@@ -60,15 +61,7 @@ pub fn export(view: &View, name: &str, target: Target) -> Result<Export, ExportE
     if view.scene.primitive_count() == 0 {
         return Err(ExportError::Empty);
     }
-    let objects = view.scene.objects().iter();
-    let copied = objects.map(|object| match &object.shape {
-        Shape::Instances(instances) => instances.primitive_count() as u64,
-        Shape::Triangle(_) | Shape::Sphere(_) | Shape::Plane(_) | Shape::Mesh(_) => 0,
-    });
-    let triangles = copied.sum();
-    if triangles > MOST_COPIED {
-        return Err(ExportError::Copies { triangles });
-    }
+    check_instances(view, target)?;
     let pieces = Pieces::of(view, target);
     let file = format!("{name}.{}", target.ending());
     let mut notes = pieces.notes.clone();
@@ -88,6 +81,22 @@ pub fn export(view: &View, name: &str, target: Target) -> Result<Export, ExportE
         }
     };
     Ok(Export { files, notes })
+}
+
+/// Refuses instances that would take too much memory, as copies or as places.
+fn check_instances(view: &View, target: Target) -> Result<(), ExportError> {
+    let (mut triangles, mut places) = (0, 0);
+    for object in view.scene.objects() {
+        if let Shape::Instances(instances) = &object.shape {
+            let copied = instances::copies(target, instances);
+            triangles += copied as u64 * instances.mesh().triangles().len() as u64;
+            places += (instances.placements().len() - copied) as u64;
+        }
+    }
+    if triangles > MOST_COPIED {
+        return Err(ExportError::Copies { triangles });
+    }
+    if places > MOST_PLACED { Err(ExportError::Places { places }) } else { Ok(()) }
 }
 
 /// The mesh, its materials and their pictures.

@@ -23,7 +23,8 @@ Examples:
 
 Triangles go over exactly and in their order, so the ids of a scene of triangles stay. What becomes
 something else is said as a warning: spheres are triangles in glTF, OBJ and PLY, planes end, and
-lights are in physical units. Pictures are PNG files beside the scene, in glTF within it.
+lights are in physical units. Instances stay instances but in OBJ and PLY, which copy their mesh.
+Pictures are PNG files beside the scene, in glTF within it.
 
 Exit codes: 0 the files are written, 2 something went wrong: then none is.";
 

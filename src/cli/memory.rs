@@ -1,9 +1,11 @@
 //! The memory that a run needs, compared with the available memory before the work begins.
 
+mod end;
 mod limit;
 mod system;
 
-pub(super) use limit::{LimitArgs, fail_where_memory_ends, obey};
+pub(super) use end::fail_where_memory_ends;
+pub(super) use limit::{LimitArgs, obey};
 
 use super::args::{BuffersArg, RenderArgs};
 use super::failure::Failure;

@@ -70,9 +70,9 @@ fn a_camera_of_a_gltf_file_is_chosen_by_its_name() {
 #[test]
 fn formats_that_are_read_as_a_whole_are_not_streamed() {
     let home = tempfile::tempdir().unwrap();
-    fs::copy(file("trimesh.stl"), home.path().join("a.stl")).unwrap();
-    let says = "only a mesh file (.obj, .ply) can be streamed, and \"a.stl\" is none";
-    bothways(&home, &["a.stl", "--order", "object", "--stream"]).code(2).stderr(contains(says));
+    fs::copy(file("trimesh.glb"), home.path().join("a.glb")).unwrap();
+    let says = "only a mesh file (.obj, .ply, .stl) can be streamed, and \"a.glb\" is none";
+    bothways(&home, &["a.glb", "--order", "object", "--stream"]).code(2).stderr(contains(says));
 }
 
 #[test]

@@ -10,7 +10,7 @@ use bothways::diff::compare;
 use bothways::formats::generate::Kind;
 use bothways::formats::mesh_file::Format;
 use bothways::formats::mesh_stream::MeshStream;
-use bothways::formats::obj;
+use bothways::formats::{obj, stl};
 use bothways::orders::{self, Method, Order, RenderOptions, Source};
 use bothways::progress::{Progress, Stage};
 use bothways::rasterize::{self, stream::CHUNK, stream::Canvas, stream::Look};
@@ -225,15 +225,29 @@ fn torus(home: &TempDir) {
 fn the_command_writes_the_same_files_with_and_without_stream() {
     let home = tempfile::tempdir().unwrap();
     torus(&home);
+    let mut binary = Vec::new();
+    stl::write(&Kind::Torus.mesh([24, 12]).unwrap(), &mut binary).unwrap();
+    fs::write(home.path().join("torus.stl"), binary).unwrap();
     for (k, options) in [
-        vec!["--size", "50x40", "--samples", "2"],
-        vec!["--projection", "parallel", "--eye", "0,3,5", "--size", "31x20", "--threads", "1"],
+        vec!["torus.obj", "--size", "50x40", "--samples", "2"],
+        vec![
+            "torus.obj",
+            "--projection",
+            "parallel",
+            "--eye",
+            "0,3,5",
+            "--size",
+            "31x20",
+            "--threads",
+            "1",
+        ],
+        vec!["torus.stl", "--size", "50x40"],
     ]
     .into_iter()
     .enumerate()
     {
         let [a, b] = ["a", "b"].map(|name| format!("{name}{k}"));
-        let common = ["torus.obj", "--buffers", "npy", "--no-times", "--json", "-o"];
+        let common = ["--buffers", "npy", "--no-times", "--json", "-o"];
         let with = |folder: &str| [&options[..], &common, &[folder]].concat().join(" ");
         let (streamed, memory) = (with(&a), with(&b));
         stream(&home, &streamed.split(' ').collect::<Vec<_>>()).code(0).stderr("");
@@ -307,7 +321,7 @@ fn what_cannot_be_streamed_says_why_and_what_to_do() {
     stream(&home, &["torus.obj", "--method", "textbook"])
         .code(2)
         .stderr(contains("--method textbook"));
-    for source in ["lecture", "scene.toml", "-", "/dev/stdin", "mesh.stl"] {
+    for source in ["lecture", "scene.toml", "-", "/dev/stdin", "mesh.glb"] {
         let says = contains(format!("{source:?} is none; render it in memory"));
         stream(&home, &[source]).code(2).stderr(says);
     }

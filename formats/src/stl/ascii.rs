@@ -1,6 +1,5 @@
 //! Reads the words of an ASCII STL file.
 
-use super::builder::Builder;
 use super::error::{ReadStlError, StlFault};
 use crate::source::quote::quote;
 use crate::source::{decimal, without_mark};
@@ -17,11 +16,11 @@ pub(super) fn begins(bytes: &[u8]) -> bool {
     after.is_some() && bytes.get(5).is_none_or(u8::is_ascii_whitespace)
 }
 
-/// Reads all facets.
+/// Visits the corners of all facets.
 pub(super) fn read(
     file: &str,
     input: impl BufRead,
-    builder: &mut Builder,
+    facet: &mut impl FnMut([Vec3; 3]) -> Result<(), StlFault>,
 ) -> Result<(), ReadStlError> {
     let mut lines = Lines { input, line: 0, text: Vec::new() };
     let unreadable = |error| ReadStlError::Unreadable { file: file.to_owned(), error };
@@ -38,7 +37,7 @@ pub(super) fn read(
         let keyword = word.to_ascii_lowercase();
         state = state.after(&keyword, word, &mut words, &mut corners).map_err(located)?;
         if state == State::Complete {
-            builder.facet(corners).map_err(located)?;
+            facet(corners).map_err(located)?;
             state = State::LoopEnd;
         }
     }

@@ -1,16 +1,15 @@
 //! Reads the facets of a binary STL file.
 
-use super::builder::Builder;
 use super::error::{ReadStlError, StlFault};
 use super::layout::FACET;
 use glam::Vec3;
 use std::io::{ErrorKind, Read};
 
-/// Reads all facets, from the first on.
+/// Visits the corners of all facets, from the first on.
 pub(super) fn read(
     file: &str,
     mut input: impl Read,
-    builder: &mut Builder,
+    visit: &mut impl FnMut([Vec3; 3]) -> Result<(), StlFault>,
 ) -> Result<(), ReadStlError> {
     let mut bytes = [0; FACET];
     for facet in 0.. {
@@ -29,7 +28,7 @@ pub(super) fn read(
             return Err(located(StlFault::NotFinite { text: number.to_string() }));
         }
         let corners = [0, 3, 6].map(|k| Vec3::new(numbers[k], numbers[k + 1], numbers[k + 2]));
-        builder.facet(corners).map_err(located)?;
+        visit(corners).map_err(located)?;
     }
     Ok(())
 }

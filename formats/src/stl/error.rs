@@ -87,6 +87,9 @@ pub enum StlFault {
     /// The line is longer than any of the format.
     #[error("the line has {most} bytes or more; is this an STL file?")]
     LineTooLong { most: u64 },
+    /// A corner was not there when the vertices were read.
+    #[error("the file has changed since its vertices were read; render it again")]
+    Changed,
     /// A facet has more than three vertices.
     #[error("this facet has a fourth vertex, but STL has triangles only")]
     FourthVertex,

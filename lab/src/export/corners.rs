@@ -12,7 +12,7 @@ pub(super) struct Corners {
     pub(super) positions: Vec<[f32; 3]>,
     /// Unit vectors, if all corners have one.
     pub(super) normals: Option<Vec<[f32; 3]>>,
-    /// As the mesh has them, `v` upwards, if all corners have one; in pictures where the material has a texture.
+    /// In pictures, `v` upwards, if the material has a texture and all corners have one.
     pub(super) coordinates: Option<Vec<[f32; 2]>>,
     /// Linear red, green and blue, if the mesh has colours.
     pub(super) colors: Option<Vec<[f32; 3]>>,
@@ -22,7 +22,9 @@ impl Corners {
     pub(super) fn of(piece: &Piece, mesh: &Mesh, triangles: &Range<usize>) -> Corners {
         let (normals, coordinates) = (mesh.normals(), mesh.texture_coordinates());
         let has_normals = triangles.clone().all(|at| normals.of(at).is_some());
-        let has_coordinates = triangles.clone().all(|at| coordinates.of(at).is_some());
+        // Without a picture they would say nothing, and part the vertices along their seams.
+        let has_coordinates =
+            piece.has_picture() && triangles.clone().all(|at| coordinates.of(at).is_some());
         let tiles = piece.material.texture.as_ref().map_or([1.0; 2], |one| one.sampler.tiles);
         let mut corners = Corners {
             indices: Vec::with_capacity(3 * triangles.len()),

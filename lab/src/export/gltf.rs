@@ -1,16 +1,24 @@
-//! A scene as binary glTF 2.0 (Khronos Group, "glTF 2.0 Specification", 2021): a node for each object, and the camera.
+//! A scene as binary glTF 2.0 (Khronos Group, "glTF 2.0 Specification", 2021): a node for each object and for each instance,
+//! and the camera.
 //!
 //! The parts of a mesh of different materials are primitives of one mesh, in the order of their triangles: whoever counts
 //! triangles in the order of nodes and primitives has our ids.
 
+mod nodes;
+
 use super::corners::Corners;
 use super::error::ExportError;
+use super::instances::{Place, places};
 use super::pictures::Pictures;
-use super::pieces::{Form, Piece, Pieces};
+use super::pieces::{Form, Piece, Pieces, box_corners};
+use super::target::Target;
 use crate::common::glam::{DMat3, DQuat, Vec3};
 use crate::common::scene::{Filter, Levels, Sampler, Texture, Wrap};
-use crate::common::{Mesh, Primitive, Projection, View};
+use crate::common::{Mesh, Plane, Projection, Shape, Sphere, Triangle, View};
+use nodes::Node;
+use serde::Serialize;
 use serde_json::{Value, json};
+use std::collections::HashMap;
 use std::ops::Range;
 
 pub(super) fn binary(
@@ -20,39 +28,55 @@ pub(super) fn binary(
 ) -> Result<Vec<u8>, ExportError> {
     notes.push("lights and the background are left out".into());
     let mut file = File::default();
-    let mut nodes: Vec<Value> = Vec::new();
-    let mut meshes: Vec<Value> = Vec::new();
+    let mut nodes: Vec<Node> = Vec::new();
+    let mut roots = Vec::new();
     for group in pieces.all.chunk_by(|one, other| one.object == other.object) {
-        let mut primitives = Vec::new();
-        for piece in group {
-            let Form::Triangles(mesh, triangles) = &piece.form else { continue };
-            primitives.push(file.primitive(piece, mesh, triangles));
-        }
-        nodes.push(json!({ "name": format!("object {}", group[0].object), "mesh": meshes.len() }));
-        meshes.push(json!({ "primitives": primitives }));
+        roots.push(nodes.len());
+        file.add_object(group, &mut nodes);
     }
     let (camera, node) = camera(view, notes);
+    roots.push(nodes.len());
     nodes.push(node);
     file.add_images();
-    let mut root = json!({
-        "asset": { "version": "2.0", "generator": concat!("bothways ", env!("CARGO_PKG_VERSION")) },
-        "scene": 0,
-        "scenes": [{ "nodes": (0..nodes.len()).collect::<Vec<_>>() }],
-        "nodes": nodes,
-        "cameras": [camera],
-        "meshes": meshes,
-        "materials": file.materials,
-        "accessors": file.accessors,
-        "bufferViews": file.views,
-        "buffers": [{ "byteLength": file.bytes.len() }],
-    });
-    // Lists without items are not allowed.
-    if !file.textures.is_empty() {
-        root["textures"] = json!(file.textures);
-        root["samplers"] = json!(file.samplers);
-        root["images"] = json!(file.images);
-    }
-    container(&root, file.bytes)
+    let root = Root {
+        asset: json!({ "version": "2.0", "generator": concat!("bothways ", env!("CARGO_PKG_VERSION")) }),
+        scene: 0,
+        scenes: [json!({ "nodes": roots })],
+        nodes: &nodes,
+        cameras: [camera],
+        meshes: &file.meshes,
+        materials: &file.materials,
+        textures: &file.textures,
+        samplers: &file.samplers,
+        images: &file.images,
+        accessors: &file.accessors,
+        buffer_views: &file.views,
+        buffers: [json!({ "byteLength": file.bytes.len() })],
+    };
+    let text = serde_json::to_vec(&root).expect("plain values become JSON");
+    container(text, &file.bytes)
+}
+
+/// The text of a file. Lists without items are not allowed.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Root<'a> {
+    asset: Value,
+    scene: usize,
+    scenes: [Value; 1],
+    nodes: &'a [Node],
+    cameras: [Value; 1],
+    meshes: &'a [Value],
+    materials: &'a [Value],
+    #[serde(skip_serializing_if = "<[Value]>::is_empty")]
+    textures: &'a [Value],
+    #[serde(skip_serializing_if = "<[Value]>::is_empty")]
+    samplers: &'a [Value],
+    #[serde(skip_serializing_if = "<[Value]>::is_empty")]
+    images: &'a [Value],
+    accessors: &'a [Value],
+    buffer_views: &'a [Value],
+    buffers: [Value; 1],
 }
 
 /// The numbers of the format for types of components, and for what a view holds.
@@ -72,11 +96,11 @@ const CLAMP_TO_EDGE: u32 = 33071;
 const MIRRORED_REPEAT: u32 = 33648;
 
 /// The two chunks of a binary file.
-fn container(root: &Value, mut bytes: Vec<u8>) -> Result<Vec<u8>, ExportError> {
-    let mut text = serde_json::to_vec(root).expect("plain values become JSON");
+fn container(mut text: Vec<u8>, bytes: &[u8]) -> Result<Vec<u8>, ExportError> {
     text.resize(text.len().next_multiple_of(4), b' ');
-    bytes.resize(bytes.len().next_multiple_of(4), 0);
-    let length = 12 + 8 + text.len() + 8 + bytes.len();
+    let rest = bytes.len().next_multiple_of(4) - bytes.len();
+    let bytes = [bytes, &[0; 3][..rest]];
+    let length = 12 + 8 + text.len() + 8 + bytes[0].len() + rest;
     let size = |length: usize| {
         let too_long =
             || std::io::Error::other("binary glTF files have less than 4 GiB; export as PLY");
@@ -86,10 +110,11 @@ fn container(root: &Value, mut bytes: Vec<u8>) -> Result<Vec<u8>, ExportError> {
     out.extend(b"glTF");
     out.extend(2_u32.to_le_bytes());
     out.extend(size(length)?);
-    for (kind, chunk) in [(b"JSON", &text), (b"BIN\0", &bytes)] {
-        out.extend(size(chunk.len())?);
+    for (kind, chunk) in [(b"JSON", [&text[..], &[]]), (b"BIN\0", bytes)] {
+        out.extend(size(chunk[0].len() + chunk[1].len())?);
         out.extend(kind);
-        out.extend(chunk);
+        out.extend_from_slice(chunk[0]);
+        out.extend_from_slice(chunk[1]);
     }
     Ok(out)
 }
@@ -98,6 +123,9 @@ fn container(root: &Value, mut bytes: Vec<u8>) -> Result<Vec<u8>, ExportError> {
 #[derive(Default)]
 struct File {
     bytes: Vec<u8>,
+    meshes: Vec<Value>,
+    /// The meshes of instances, by where they are in memory and by the materials of their primitives.
+    shared: HashMap<(*const Mesh, Vec<usize>), usize>,
     views: Vec<Value>,
     accessors: Vec<Value>,
     materials: Vec<Value>,
@@ -108,6 +136,52 @@ struct File {
 }
 
 impl File {
+    /// Adds the node of an object, and behind it those of its instances.
+    fn add_object(&mut self, pieces: &[Piece], nodes: &mut Vec<Node>) {
+        let name = Some(format!("object {}", pieces[0].object));
+        let Some(instances) = pieces[0].instances else {
+            let mesh = Some(self.mesh(pieces, None));
+            return nodes.push(Node { name, mesh, ..Node::default() });
+        };
+        let parent = nodes.len();
+        nodes.push(Node { name, ..Node::default() });
+        for place in places(Target::Gltf, instances) {
+            nodes.push(match place {
+                Place::Shared(placement) => Node::placed(self.shared_mesh(pieces), placement),
+                Place::Copied(mesh) => {
+                    let mesh = Some(self.mesh(pieces, Some(&mesh)));
+                    Node { mesh, ..Node::default() }
+                }
+            });
+        }
+        nodes[parent].children = (parent + 1..nodes.len()).collect();
+    }
+
+    /// The number of a mesh of these pieces, written once for all instances of all objects.
+    fn shared_mesh(&mut self, pieces: &[Piece]) -> usize {
+        let Form::Triangles(mesh, _) = &pieces[0].form else { return self.mesh(pieces, None) };
+        let mesh: *const Mesh = &raw const **mesh;
+        let materials = pieces.iter().map(|piece| self.material(piece)).collect();
+        let key = (mesh, materials);
+        if let Some(known) = self.shared.get(&key) {
+            return *known;
+        }
+        let number = self.mesh(pieces, None);
+        self.shared.insert(key, number);
+        number
+    }
+
+    /// The number of a new mesh of these pieces, or with these triangles in place of theirs.
+    fn mesh(&mut self, pieces: &[Piece], copy: Option<&Mesh>) -> usize {
+        let mut primitives = Vec::new();
+        for piece in pieces {
+            let Form::Triangles(mesh, triangles) = &piece.form else { continue };
+            primitives.push(self.primitive(piece, copy.unwrap_or(mesh), triangles));
+        }
+        self.meshes.push(json!({ "primitives": primitives }));
+        self.meshes.len() - 1
+    }
+
     fn primitive(&mut self, piece: &Piece, mesh: &Mesh, triangles: &Range<usize>) -> Value {
         let corners = Corners::of(piece, mesh, triangles);
         let bounds = |pick: fn(f32, f32) -> f32| {
@@ -139,7 +213,7 @@ impl File {
             "bufferView": view, "componentType": U32, "count": corners.indices.len(), "type": "SCALAR",
         });
         let indices = self.accessor(indices);
-        let material = self.material(piece, corners.coordinates.is_some());
+        let material = self.material(piece);
         json!({ "attributes": attributes, "indices": indices, "material": material })
     }
 
@@ -167,7 +241,7 @@ impl File {
     }
 
     /// The number of a piece's material; equal ones are one.
-    fn material(&mut self, piece: &Piece, has_coordinates: bool) -> usize {
+    fn material(&mut self, piece: &Piece) -> usize {
         let material = piece.material;
         let [red, green, blue] = material.color.to_array();
         // Blinn and Phong's exponent n is as rough as α² = 2/(n + 2), and glTF's roughness is the root of α (Walter et
@@ -182,7 +256,7 @@ impl File {
             },
             "doubleSided": true,
         });
-        if let Some(texture) = material.texture.as_ref().filter(|_| has_coordinates) {
+        if let Some(texture) = material.texture.as_ref().filter(|_| piece.has_coordinates()) {
             value["pbrMetallicRoughness"]["baseColorTexture"] =
                 json!({ "index": self.texture(texture) });
         }
@@ -238,7 +312,7 @@ fn sampler(sampler: &Sampler) -> Value {
 }
 
 /// The camera, and its node. glTF's cameras look along −z with y up, as ours do.
-fn camera(view: &View, notes: &mut Vec<String>) -> (Value, Value) {
+fn camera(view: &View, notes: &mut Vec<String>) -> (Value, Node) {
     let camera = view.camera;
     let [vw, vh] = camera.viewport();
     let [width, height] = camera.image().map(f64::from);
@@ -248,9 +322,6 @@ fn camera(view: &View, notes: &mut Vec<String>) -> (Value, Value) {
                 .into(),
         );
     }
-    // glTF needs a near plane, and for parallel cameras a far one; neither may cut anything.
-    let reach =
-        view.primitives().fold(1.0_f64, |reach, (_, primitive)| reach.max(farthest(&primitive)));
     let described = match camera.projection() {
         Projection::Perspective => json!({
             "type": "perspective",
@@ -260,26 +331,35 @@ fn camera(view: &View, notes: &mut Vec<String>) -> (Value, Value) {
                 "znear": camera.distance() * 1e-3,
             },
         }),
+        // It needs a near plane, and for parallel cameras a far one; neither may cut anything.
         Projection::Parallel => json!({
             "type": "orthographic",
-            "orthographic": { "xmag": vw / 2.0, "ymag": vh / 2.0, "znear": 0.0, "zfar": 2.0 * reach },
+            "orthographic": { "xmag": vw / 2.0, "ymag": vh / 2.0, "znear": 0.0, "zfar": 2.0 * reach(view) },
         }),
     };
     let turn = DQuat::from_mat3(&DMat3::from_cols(camera.u(), camera.v(), camera.w())).normalize();
-    let node = json!({
-        "name": "camera",
-        "camera": 0,
-        "translation": camera.eye().to_array(),
-        "rotation": turn.to_array(),
-    });
+    let node = Node {
+        name: Some("camera".into()),
+        camera: Some(0),
+        translation: Some(camera.eye().as_dvec3().to_array()),
+        rotation: Some(turn.to_array()),
+        ..Node::default()
+    };
     (described, node)
 }
 
-/// How far a primitive reaches from the eye; a plane counts with its point.
-fn farthest(primitive: &Primitive) -> f64 {
-    match primitive {
-        Primitive::Triangle(corners) => corners.iter().fold(0.0, |far, at| at.length().max(far)),
-        Primitive::Sphere { center, radius } => center.length() + radius,
-        Primitive::Plane { point, .. } => 10.0 * point.length(),
-    }
+/// How far anything reaches from the eye, at least 1; a plane counts with its point.
+fn reach(view: &View) -> f64 {
+    let eye = view.camera.eye().as_dvec3();
+    let from_eye = |point: Vec3| (point.as_dvec3() - eye).length();
+    let farthest =
+        |points: &mut dyn Iterator<Item = Vec3>| points.map(from_eye).fold(0.0, f64::max);
+    let of_shape = |shape: &Shape| match shape {
+        Shape::Triangle(Triangle { a, b, c }) => farthest(&mut [*a, *b, *c].into_iter()),
+        Shape::Mesh(mesh) => farthest(&mut mesh.positions().iter().copied()),
+        Shape::Instances(instances) => farthest(&mut box_corners(instances)),
+        Shape::Sphere(Sphere { center, radius }) => from_eye(*center) + f64::from(*radius),
+        Shape::Plane(Plane { point, .. }) => 10.0 * from_eye(*point),
+    };
+    view.scene.objects().iter().map(|object| of_shape(&object.shape)).fold(1.0, f64::max)
 }

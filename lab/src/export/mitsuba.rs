@@ -5,12 +5,13 @@
 
 use super::corners::Corners;
 use super::error::ExportError;
+use super::instances::{Place, places};
 use super::lights::{Physical, lights};
 use super::pictures::Pictures;
 use super::pieces::{Form, Piece, Pieces};
 use super::target::Target;
 use crate::common::scene::{Filter, Levels, Texture, Wrap};
-use crate::common::{Sphere, View};
+use crate::common::{Instances, Mesh, Sphere, View};
 use crate::exchange::{StatedDepths, System, exchange};
 
 pub(super) fn files(
@@ -25,8 +26,17 @@ pub(super) fn files(
         xml += &emitter(light);
     }
     let mut beside = Beside::new(name);
-    for (number, piece) in pieces.all.iter().enumerate() {
-        xml += &shape(piece, number, &mut beside);
+    let mut number = 0;
+    for group in pieces.all.chunk_by(|one, other| one.object == other.object) {
+        match group[0].instances {
+            None => {
+                for (number, piece) in (number..).zip(group) {
+                    xml += &shape(piece, &number.to_string(), None, &mut beside);
+                }
+            }
+            Some(instances) => add_instances(&mut xml, group, number, instances, &mut beside),
+        }
+        number += group.len();
     }
     xml += "</scene>\n";
     notes.extend(beside.notes());
@@ -82,8 +92,45 @@ fn emitter(light: Physical) -> String {
     format!("<emitter type=\"{plugin}\">\n{inside}</emitter>\n")
 }
 
-/// The XML of a piece; its mesh and its picture go to files.
-fn shape(piece: &Piece, number: usize, beside: &mut Beside) -> String {
+/// A group of shapes, and where it is (Mitsuba 3 documentation, "Shape group" and "Instance").
+fn add_instances(
+    xml: &mut String,
+    pieces: &[Piece],
+    number: usize,
+    instances: &Instances,
+    beside: &mut Beside,
+) {
+    let group = format!("object-{}", pieces[0].object);
+    let mut is_defined = false;
+    for (instance, place) in places(Target::Mitsuba, instances).enumerate() {
+        let placement = match place {
+            Place::Shared(placement) => placement,
+            Place::Copied(mesh) => {
+                for (number, piece) in (number..).zip(pieces) {
+                    *xml += &shape(piece, &format!("{number}-{instance}"), Some(&mesh), beside);
+                }
+                continue;
+            }
+        };
+        if !is_defined {
+            let inside: String = (number..)
+                .zip(pieces)
+                .map(|(number, piece)| shape(piece, &number.to_string(), None, beside))
+                .collect();
+            *xml += &format!("<shape type=\"shapegroup\" id=\"{group}\">\n{inside}</shape>\n");
+            is_defined = true;
+        }
+        let numbers = placement.rows().as_flattened().iter();
+        let matrix: String = numbers.map(|number| format!("{number:?} ")).collect();
+        *xml += &format!(
+            "<shape type=\"instance\"><ref id=\"{group}\"/><transform name=\"to_world\">\
+             <matrix value=\"{matrix}0 0 0 1\"/></transform></shape>\n"
+        );
+    }
+}
+
+/// The XML of a piece, or of these triangles in place of its own; its mesh and its picture go to files.
+fn shape(piece: &Piece, number: &str, copy: Option<&Mesh>, beside: &mut Beside) -> String {
     let (plugin, inside) = match &piece.form {
         Form::Sphere(Sphere { center: c, radius }) => (
             "sphere",
@@ -94,7 +141,7 @@ fn shape(piece: &Piece, number: usize, beside: &mut Beside) -> String {
             ),
         ),
         Form::Triangles(mesh, triangles) => {
-            let mut corners = Corners::of(piece, mesh, triangles);
+            let mut corners = Corners::of(piece, copy.unwrap_or(mesh), triangles);
             corners.multiply_colors(piece.material.color);
             let flat = match corners.normals {
                 Some(_) => "",

@@ -4,12 +4,13 @@
 
 use super::corners::Corners;
 use super::error::ExportError;
+use super::instances::{Place, places};
 use super::lights::{Physical, lights};
 use super::pictures::Pictures;
 use super::pieces::{Form, Piece, Pieces};
 use super::target::Target;
 use crate::common::scene::{Filter, Levels, Sampler, Texture, Wrap};
-use crate::common::{Mesh, Sphere, View};
+use crate::common::{Instances, Mesh, Sphere, View};
 use crate::exchange::{StatedDepths, System, exchange};
 use std::fmt::Write as _;
 use std::io::{self, Write};
@@ -27,9 +28,15 @@ pub(super) fn files(
         out.write_all(text_of(light).as_bytes())?;
     }
     let mut textures = Textures::new(name);
-    for piece in &pieces.all {
-        let texture = textures.write(&mut out, piece)?;
-        write_piece(&mut out, piece, texture)?;
+    for group in pieces.all.chunk_by(|one, other| one.object == other.object) {
+        let parts: Vec<Part> = group
+            .iter()
+            .map(|piece| Ok((piece, textures.write(&mut out, piece)?)))
+            .collect::<io::Result<_>>()?;
+        match group[0].instances {
+            None => write_parts(&mut out, &parts, None)?,
+            Some(instances) => write_instances(&mut out, &parts, instances)?,
+        }
     }
     if textures.has_other_wraps {
         notes.push("pbrt repeats or clamps a picture in both directions: where another wrap is, it repeats".into());
@@ -107,7 +114,50 @@ fn text_of(light: Physical) -> String {
     }
 }
 
-fn write_piece(out: &mut Vec<u8>, piece: &Piece, texture: Option<usize>) -> io::Result<()> {
+/// A piece, and the number of its texture.
+type Part<'a> = (&'a Piece<'a>, Option<usize>);
+
+/// A mesh by its name, and where it is: the transformation's sixteen numbers, column by column (pbrt-v4 file format,
+/// "Object Instancing" and "Transformations").
+fn write_instances(out: &mut Vec<u8>, parts: &[Part], instances: &Instances) -> io::Result<()> {
+    let name = format!("object {}", parts[0].0.object);
+    let mut is_defined = false;
+    for place in places(Target::Pbrt, instances) {
+        let placement = match place {
+            Place::Shared(placement) => placement,
+            Place::Copied(mesh) => {
+                write_parts(out, parts, Some(&mesh))?;
+                continue;
+            }
+        };
+        if !is_defined {
+            writeln!(out, "\nObjectBegin \"{name}\"")?;
+            write_parts(out, parts, None)?;
+            writeln!(out, "ObjectEnd\n")?;
+            is_defined = true;
+        }
+        let [x, y, z] = placement.rows();
+        write!(out, "AttributeBegin Transform [")?;
+        for column in 0..4 {
+            let last = if column == 3 { 1 } else { 0 };
+            write!(out, " {:?} {:?} {:?} {last}", x[column], y[column], z[column])?;
+        }
+        writeln!(out, " ] ObjectInstance \"{name}\" AttributeEnd")?;
+    }
+    Ok(())
+}
+
+/// The pieces of an object, or of one of its instances: with these triangles in place of theirs.
+fn write_parts(out: &mut Vec<u8>, parts: &[Part], copy: Option<&Mesh>) -> io::Result<()> {
+    parts.iter().try_for_each(|(piece, texture)| write_piece(out, piece, *texture, copy))
+}
+
+fn write_piece(
+    out: &mut Vec<u8>,
+    piece: &Piece,
+    texture: Option<usize>,
+    copy: Option<&Mesh>,
+) -> io::Result<()> {
     let [red, green, blue] = piece.material.color.to_array();
     writeln!(out, "\n# object {}\nAttributeBegin", piece.object)?;
     let reflectance = match texture {
@@ -120,7 +170,9 @@ fn write_piece(out: &mut Vec<u8>, piece: &Piece, texture: Option<usize>) -> io::
             writeln!(out, "Translate {:?} {:?} {:?}", center.x, center.y, center.z)?;
             writeln!(out, "Shape \"sphere\" \"float radius\" [ {radius:?} ]")?;
         }
-        Form::Triangles(mesh, triangles) => write_triangles(out, piece, mesh, triangles)?,
+        Form::Triangles(mesh, triangles) => {
+            write_triangles(out, piece, copy.unwrap_or(mesh), triangles)?;
+        }
     }
     writeln!(out, "AttributeEnd")
 }
@@ -143,7 +195,7 @@ fn write_triangles(
     if let Some(normals) = &corners.normals {
         write_vectors(&mut text, "normal N", normals);
     }
-    if let Some(coordinates) = corners.coordinates.as_ref().filter(|_| piece.has_picture()) {
+    if let Some(coordinates) = &corners.coordinates {
         write_vectors(&mut text, "point2 uv", coordinates);
     }
     out.write_all(text.as_bytes())

@@ -1,11 +1,12 @@
 //! The surfaces of a scene as other programs know them: spheres where they have some, and triangles of one material.
 
 use super::error::ExportError;
+use super::instances::{copies, has_some, refused};
 use super::target::Target;
 use crate::common::glam::{DVec2, DVec3, Vec2, Vec3};
 use crate::common::look::texture::plane_axes;
 use crate::common::scene::{Attribute, MeshMaterials};
-use crate::common::{Material, Mesh, Object, Plane, Shape, Sphere, Triangle, View};
+use crate::common::{Instances, Material, Mesh, Object, Plane, Shape, Sphere, Triangle, View};
 use crate::formats::generate::Kind;
 use crate::wording::{count, readable};
 use std::borrow::Cow;
@@ -24,6 +25,8 @@ pub(super) struct Piece<'a> {
     pub(super) object: usize,
     pub(super) form: Form<'a>,
     pub(super) material: &'a Material,
+    /// Where it is, if it is of instances of a mesh: its form is in coordinates of the mesh.
+    pub(super) instances: Option<&'a Instances>,
 }
 
 impl Piece<'_> {
@@ -110,7 +113,17 @@ impl<'a> Pieces<'a> {
     }
 
     fn add(&mut self, number: usize, object: &'a Object, target: Target, view: &View, size: f64) {
-        let mut push = |form, material| self.all.push(Piece { object: number, form, material });
+        if object.shape.primitive_count() == 0 {
+            return;
+        }
+        if let Shape::Instances(instances) = &object.shape
+            && has_some(target)
+        {
+            return self.add_instances(number, object, target, instances);
+        }
+        let mut push = |form, material| {
+            self.all.push(Piece { object: number, form, material, instances: None });
+        };
         let whole = |mesh: Mesh| {
             let triangles = 0..mesh.triangles().len();
             Form::Triangles(Cow::Owned(mesh), triangles)
@@ -156,6 +169,29 @@ impl<'a> Pieces<'a> {
                     readable(side)
                 ));
             }
+        }
+    }
+
+    /// Adds the pieces of the mesh, once.
+    fn add_instances(
+        &mut self,
+        number: usize,
+        object: &'a Object,
+        target: Target,
+        instances: &'a Instances,
+    ) {
+        for run in runs(object, instances.mesh()) {
+            let material = object.material_of(run.start);
+            let form = Form::Triangles(Cow::Borrowed(instances.mesh()), run);
+            self.all.push(Piece { object: number, form, material, instances: Some(instances) });
+        }
+        let copied = copies(target, instances) as u64;
+        if copied > 0 {
+            let some = count(copied, &format!("{} instances", refused(target)));
+            self.notes.push(format!(
+                "object {number} has {some}, copied since {} cannot place such",
+                target.name()
+            ));
         }
     }
 
@@ -312,6 +348,18 @@ fn of_plane(Plane { point, normal }: Plane, view: &View, size: f64) -> (Mesh, f3
     (mesh, side)
 }
 
+/// The corners of the box around the mesh, where each instance puts them: no vertex is beyond them.
+pub(super) fn box_corners(instances: &Instances) -> impl Iterator<Item = Vec3> {
+    let bounds = instances.mesh().bounds();
+    instances.placements().iter().flat_map(move |placement| {
+        (0..8).filter_map(move |corner| {
+            let ends = bounds?;
+            let at = [0, 1, 2].map(|axis| ends[corner >> axis & 1][axis]);
+            Some(placement.position(at.into()))
+        })
+    })
+}
+
 /// The middle of all that has an end, and how far it reaches from the eye at most; at least 1.
 fn extent(view: &View, objects: &[Object]) -> (DVec3, f64) {
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
@@ -331,11 +379,7 @@ fn extent(view: &View, objects: &[Object]) -> (DVec3, f64) {
                 hold(center.as_dvec3(), f64::from(*radius));
             }
             Shape::Instances(instances) => {
-                for (placement, &position) in instances.placements().iter().flat_map(|placement| {
-                    instances.mesh().positions().iter().map(move |at| (placement, at))
-                }) {
-                    hold(placement.position(position).as_dvec3(), 0.0);
-                }
+                box_corners(instances).for_each(|corner| hold(corner.as_dvec3(), 0.0));
             }
             Shape::Plane(_) => {}
         }

@@ -1,5 +1,6 @@
 //! What is exported is loaded back, and seen as it was.
 
+mod instances;
 mod looks;
 
 use super::{Export, ExportError, Target, export};

@@ -50,18 +50,6 @@ pub(in crate::cli) fn obey(args: &LimitArgs) -> Result<(), Failure> {
     })
 }
 
-/// A failed allocation ends the run with the exit code of errors instead of a signal, after the message of the standard
-/// library: `memory allocation of … bytes failed`. The next run removes its hidden folder.
-pub(in crate::cli) fn fail_where_memory_ends() {
-    #[cfg(unix)]
-    {
-        let always = std::sync::Arc::new(std::sync::atomic::AtomicBool::new(true));
-        let (abort, failure) = (signal_hook::consts::SIGABRT, 2);
-        // Without it, the run ends by the signal: this is no reason to refuse the run.
-        let _ = signal_hook::flag::register_conditional_shutdown(abort, failure, always);
-    }
-}
-
 /// Limits what the process may write: its heap, the memory that it maps, and the stacks of its threads. A lower limit
 /// that is there stays.
 #[cfg(target_os = "linux")]

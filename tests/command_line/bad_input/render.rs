@@ -182,7 +182,7 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
     ),
     (
         "canonical --order object --stream",
-        "only a mesh file (.obj, .ply) can be streamed, and \"canonical\" is none",
+        "only a mesh file (.obj, .ply, .stl) can be streamed, and \"canonical\" is none",
     ),
     (
         "canonical --repeat 0",

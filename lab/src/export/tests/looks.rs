@@ -7,7 +7,7 @@ use crate::common::look::texture::on_sphere;
 use crate::common::scene::{Attribute, Filter, Levels, Pyramid, Sampler, Texture, Wrap};
 use crate::common::{Camera, Light, Material, Mesh, Object, Scene, Shape, Sphere, View};
 use crate::formats::source::{InputFile, Reach};
-use crate::formats::{gltf, mesh_file::Format, ply};
+use crate::formats::{generate::Kind, gltf, mesh_file::Format, ply};
 use crate::orders::{Method, Order, RenderOptions, render};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -115,6 +115,33 @@ fn gltf_has_pictures_samplers_and_colors() {
         let again = alone(model.shapes, &scene);
         assert_eq!(texture_of(&again), texture_of(&scene), "{sampler:?}");
         assert!(seen(&again) == seen(&scene), "{sampler:?}");
+    }
+}
+
+/// What a validator calls unused, and what parts the vertices of a seam.
+#[test]
+fn texture_coordinates_go_only_where_a_picture_is() {
+    let sphere = Kind::Sphere.mesh([8, 6]).unwrap().with_normals(Attribute::default()).unwrap();
+    let texture = Some(Texture { pyramid: picture(), sampler: Sampler::BILINEAR });
+    for texture in [None, texture] {
+        let is_there = texture.is_some();
+        let material = Material { texture, ..Material::default() };
+        let scene = lit(vec![Object { shape: Shape::Mesh(sphere.clone()), material }]);
+        for (target, file, word) in [
+            (Target::Gltf, 0, &b"TEXCOORD_0"[..]),
+            (Target::Mitsuba, 1, b"property float u"),
+            (Target::Pbrt, 0, b"point2 uv"),
+        ] {
+            let (_folder, _, exported) = written(&scene, target);
+            let bytes = &exported.files[file].1;
+            let is_said = bytes.windows(word.len()).any(|part| part == word);
+            assert_eq!(is_said, is_there, "{target:?}");
+        }
+        let (_folder, file, _) = written(&scene, Target::Gltf);
+        let model = gltf::read(&on_disk(&file)).unwrap();
+        let vertices = model.shapes[0].mesh().unwrap().positions().len();
+        // Where the first and the last coordinate meet, a vertex has both.
+        assert_eq!(vertices > sphere.positions().len(), is_there, "{vertices}");
     }
 }
 
