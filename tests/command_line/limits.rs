@@ -266,7 +266,7 @@ fn is_explained(output: &Output) -> bool {
     let stderr = String::from_utf8_lossy(&output.stderr);
     let (first, last) = stderr.trim_end().rsplit_once('\n').unwrap_or_default();
     first.contains(" bytes failed")
-        && last.starts_with("error: there is no more memory")
+        && last.starts_with("error: the run was aborted; if an allocation failed")
         && ["--max-memory", "--size", "--stream"].iter().all(|remedy| last.contains(remedy))
 }
 

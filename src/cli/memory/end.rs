@@ -22,10 +22,11 @@ pub(in crate::cli) fn fail_where_memory_ends() {
 #[cfg(unix)]
 const FAILURE: i32 = 2;
 
+/// Other faults abort, too: it does not claim to know.
 #[cfg(target_os = "linux")]
 const MESSAGE: &str = "\
-error: there is no more memory: allow more by --max-memory or ulimit -v where they limit it, or take a \
-smaller --size, fewer --samples, one --order alone, or --stream for a mesh\n";
+error: the run was aborted; if an allocation failed, as the line above then says, allow more memory by --max-memory or \
+ulimit -v where they limit it, or take a smaller --size, fewer --samples, one --order alone, or --stream for a mesh\n";
 
 /// Lets a thread that waits from the beginning print the message and end the program.
 ///
