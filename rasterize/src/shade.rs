@@ -214,14 +214,14 @@ impl Interpolated<'_> {
         hit: &HitPoints<S>,
     ) -> [[f64x8<S>; 2]; 2] {
         let (_, gradients) = texture::on_sphere_lanes(simd, hit.from_center);
-        let touching: [Quotient; 8] = std::array::from_fn(|lane| {
-            let gradients = gradients.map(|gradient| gradient.lane(lane));
-            let (position, normal) = (hit.position.lane(lane), hit.from_center.lane(lane));
-            Quotient::on_plane(self.view, position, normal, gradients)
-        });
         // Each lane has a plane of its own, whose differences are taken for all lanes, and kept for one.
-        let all: [[[f64x8<S>; 2]; 2]; 8] =
-            std::array::from_fn(|lane| touching[lane].differences(simd, samples, self.step));
+        let mut all = [[[f64x8::splat(simd, 0.0); 2]; 2]; 8];
+        for (lane, differences) in all.iter_mut().enumerate() {
+            let gradients = [gradients[0].lane(lane), gradients[1].lane(lane)];
+            let (position, normal) = (hit.position.lane(lane), hit.from_center.lane(lane));
+            let touching = Quotient::on_plane(self.view, position, normal, gradients);
+            *differences = touching.differences(simd, samples, self.step);
+        }
         each!(way in [0, 1] => each!(k in [0, 1] => f64x8::from_fn(simd, |lane| all[lane][way][k][lane])))
     }
 

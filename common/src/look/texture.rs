@@ -83,9 +83,10 @@ fn stripes<S: Simd>(simd: S, depth: f32x16<S>, width: f32x16<S>) -> f32x16<S> {
     let mut average = size.simd_lt(one).select(size, one).copysign(depth);
     let is_wider = width.simd_gt(one);
     if is_wider.any_true() {
-        let integral =
-            |at: f32x16<S>| (at - splat(2.0) * (splat(0.5) * at).round_ties_even()).abs();
-        let of_wider = (integral(depth + wide) - integral(depth - wide)) / width;
+        let [end, start] = each!(at in [depth + wide, depth - wide] => {
+            (at - splat(2.0) * (splat(0.5) * at).round_ties_even()).abs()
+        });
+        let of_wider = (end - start) / width;
         average = is_wider.select(of_wider, average);
     }
     // At a pole, or beyond all numbers: every stripe is seen at once.

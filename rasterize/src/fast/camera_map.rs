@@ -149,6 +149,7 @@ impl<'a> CameraMap<'a> {
     }
 
     /// The column of a point of the viewport, a real number.
+    #[inline(always)]
     pub(super) fn column(&self, x: f64) -> f64 {
         x * self.scale[1] + self.middle[1]
     }
@@ -183,6 +184,7 @@ impl<'a> CameraMap<'a> {
     clippy::cast_sign_loss,
     reason = "the conversion saturates: negative numbers and NaN become 0"
 )]
+#[inline(always)]
 pub(super) fn samples_between(low: f64, high: f64, count: usize) -> Range<usize> {
     let start = low.ceil() as usize;
     let end = if high < 0.0 { 0 } else { (high.floor() as usize).saturating_add(1).min(count) };

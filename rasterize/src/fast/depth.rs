@@ -41,6 +41,7 @@ pub(super) fn depth_from_t(projection: Projection, t: f64, relative: f64) -> Int
 /// taken from the local origin, which brings two more.
 /// So the depth is off by at most `(18ε₅₃·Q + Q·δF/(|F| − δF))/|F|`; the constants below leave room
 /// for the roundings of the bound itself.
+#[inline(always)]
 pub(super) fn depth_plane(
     map: &CameraMap,
     point: DVec3,

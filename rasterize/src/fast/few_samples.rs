@@ -9,6 +9,7 @@ use bothways_common::engine::context::{Context, ScalarContext};
 use bothways_common::engine::simd::{
     Select, Simd, SimdBase, SimdInt, SimdMask, f32x16, i32x16, mask32x16, u32x16,
 };
+use bothways_common::look::lanes::each;
 use bothways_common::observe::Events;
 
 /// Draws sixteen triangles, as far as they lie in the tile.
@@ -40,7 +41,7 @@ pub(super) fn draw<C: Context>(
             break;
         }
         steps += 1;
-        let values: [f32x16<C::Simd>; 3] = std::array::from_fn(|k| {
+        let values = each!(k in [0, 1, 2] => {
             let (at_origin, across, down) = edges[k];
             (at_origin + down * row) + across * column
         });

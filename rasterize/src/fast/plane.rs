@@ -2,7 +2,7 @@
 
 use super::depth::{depth_plane, sign_in_front};
 use super::one_primitive::fragment_writer::FragmentWriter;
-use super::one_primitive::narrow::narrow_plane;
+use super::one_primitive::narrow::Narrowing;
 use super::one_primitive::strips::{STRIP, strips};
 use super::viewport_affine::ViewportAffine;
 use bothways_common::engine::context::{Context, ScalarContext};
@@ -25,11 +25,12 @@ pub(super) fn draw<C: Context>(
     let (map, keys) = (writer.picture.map, writer.picture.keys);
     let mut depth = depth_plane(map, point, normal, normal.abs());
     depth.error = error_bound::<C::Fault>(depth.error);
+    let narrowing = Narrowing::of_plane(map, keys, &depth, writer.id);
     let here = region.intersection(writer.buffer.region());
     for rows in strips(&here.rows, &region.rows, STRIP[0]) {
         for columns in strips(&here.columns, &region.columns, STRIP[1]) {
             let strip = Region { rows: rows.clone(), columns };
-            if let Some(plane) = narrow_plane(map, keys, &depth, writer.id, &strip) {
+            if let Some(plane) = narrowing.strip::<C::Fault>(&strip) {
                 writer.write_strip(context, &plane);
             } else {
                 draw_samples(&mut context.scalar(), writer, &depth, strip.intersection(&here));

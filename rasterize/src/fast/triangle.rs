@@ -1,8 +1,9 @@
 //! A triangle that is set up in `f64`.
 
+use super::camera_map::CameraMap;
 use super::one_primitive::edges::F64Setup;
 use super::one_primitive::fragment_writer::FragmentWriter;
-use super::one_primitive::narrow::narrow_triangle;
+use super::one_primitive::narrow::Narrowing;
 use super::one_primitive::strips::{STRIP, strips};
 use bothways_common::engine::context::{Context, ScalarContext};
 use bothways_common::observe::Events;
@@ -23,9 +24,14 @@ pub(super) fn draw<C: Context>(
     let judge = writer.picture.view.judge();
     let Some(setup) = F64Setup::new::<C::Fault>(map, &judge, corners) else { return };
     let here = region.intersection(writer.buffer.region());
+    let is_wide = region.columns.len() > STRIP[1];
+    if is_wide && is_beside(map, &setup, region, &here) {
+        return;
+    }
+    let narrowing = Narrowing::of_triangle(map, keys, &setup, (writer.id, corners));
     for rows in strips(&here.rows, &region.rows, STRIP[0]) {
         // A wide region is cut to what the edge functions leave of each strip.
-        let columns = if region.columns.len() > STRIP[1] {
+        let columns = if is_wide {
             let ys = [map.grid.y()[rows.start], map.grid.y()[rows.end - 1]];
             setup.span(map, ys, &region.columns)
         } else {
@@ -33,15 +39,25 @@ pub(super) fn draw<C: Context>(
         };
         for columns in strips(&here.columns, &columns, STRIP[1]) {
             let strip = Region { rows: rows.clone(), columns };
-            let narrow =
-                narrow_triangle::<C::Fault>(map, keys, &setup, (writer.id, corners), &strip);
-            if let Some(triangle) = narrow {
+            if let Some(triangle) = narrowing.strip::<C::Fault>(&strip) {
                 writer.write_strip(context, &triangle);
             } else {
                 draw_samples(&mut context.scalar(), writer, &setup, strip.intersection(&here));
             }
         }
     }
+}
+
+/// Whether the triangle leaves out all samples of a part of its region: most parts of that of a sliver. The strips there are
+/// empty, too: no edge function is larger on their rows.
+#[inline(always)]
+fn is_beside(map: &CameraMap, setup: &F64Setup, region: &Region, here: &Region) -> bool {
+    if here.rows.is_empty() || here.columns.is_empty() {
+        return true;
+    }
+    let ys = [map.grid.y()[here.rows.start], map.grid.y()[here.rows.end - 1]];
+    let columns = setup.span(map, ys, &region.columns);
+    columns.end <= here.columns.start || here.columns.end <= columns.start
 }
 
 /// Draws samples one by one.

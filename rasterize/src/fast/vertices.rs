@@ -8,6 +8,7 @@ use bothways_common::engine::simd::{
     Bytes, Select, Simd, SimdBase, SimdInterleaved, SimdMask, f32x16, f64x8, i32x4, i32x16,
     mask64x8,
 };
+use bothways_common::look::lanes::each;
 use glam::{DVec3, Vec3};
 
 /// One vertex on the raster: row and column in fixed point, the bits of its depth key (an `f32`), and
@@ -195,9 +196,9 @@ impl FixedPointRaster {
     #[inline(always)]
     fn project<S: Simd>(&self, simd: S, map: &CameraMap, [x, y, z]: [f64x8<S>; 3]) -> Projected<S> {
         let splat = |value: f64| f64x8::splat(simd, value);
-        let along = |axis: DVec3| x * splat(axis.x) + y * splat(axis.y) + z * splat(axis.z);
+        let offset = [x, y, z];
         let extent = x.abs() + y.abs() + z.abs();
-        let depth = -along(map.w);
+        let depth = -along(simd, map.w, &offset);
         let behind = depth.simd_lt(extent * splat(-(-46f64).exp2()));
         let in_front = depth.simd_ge(extent * splat((-10f64).exp2())) & depth.simd_gt(splat(0.0));
         let trusted = mask64x8::splat(simd, self.trusted);
@@ -205,8 +206,8 @@ impl FixedPointRaster {
             Projection::Perspective => {
                 let onto_viewport = splat(map.distance) / depth;
                 Projected {
-                    right: along(map.u),
-                    up: along(map.v),
+                    right: along(simd, map.u, &offset),
+                    up: along(simd, map.v, &offset),
                     depth,
                     onto_viewport,
                     key: onto_viewport - splat(self.keys.offset),
@@ -220,15 +221,15 @@ impl FixedPointRaster {
                 let x = x - splat(high.x) - splat(low.x);
                 let y = y - splat(high.y) - splat(low.y);
                 let z = z - splat(high.z) - splat(low.z);
-                let along = |axis: DVec3| x * splat(axis.x) + y * splat(axis.y) + z * splat(axis.z);
+                let relative = [x, y, z];
                 let extent = x.abs() + y.abs() + z.abs();
                 let close = extent.simd_le(splat(map.trusted_extent));
                 Projected {
-                    right: along(map.u),
-                    up: along(map.v),
+                    right: along(simd, map.u, &relative),
+                    up: along(simd, map.v, &relative),
                     depth,
                     onto_viewport: splat(1.0),
-                    key: splat(self.keys.offset) + along(map.w),
+                    key: splat(self.keys.offset) + along(simd, map.w, &relative),
                     least_key: extent * splat((-20f64).exp2()),
                     behind,
                     safe: in_front & close & trusted,
@@ -251,26 +252,39 @@ impl FixedPointRaster {
             & key.simd_ge(splat(1.0 / LARGEST_KEY))
             & key.simd_le(splat(LARGEST_KEY));
         let side = f64::from(1 << (30 - self.fraction_bits));
-        let within =
-            |place: f64x8<S>| place.simd_ge(splat(-0.5 * side)) & place.simd_lt(splat(1.49 * side));
-        let on_raster = safe & key_trusted & within(column) & within(row);
+        let [least, most] = [splat(-0.5 * side), splat(1.49 * side)];
+        let is_within =
+            column.simd_ge(least) & column.simd_lt(most) & (row.simd_ge(least) & row.simd_lt(most));
+        let on_raster = safe & key_trusted & is_within;
 
         let [height, width] = self.size.map(f64::from);
-        let (one, zero) = (splat(1.0), splat(0.0));
-        let flag = |mask: mask64x8<S>, flag: i32| mask.select(splat(f64::from(flag)), zero);
-        let mut flags = flag(on_raster, ON_RASTER)
-            + flag(behind, BEHIND)
-            + flag(safe & column.simd_lt(-one), LEFT)
-            + flag(safe & column.simd_gt(splat(width)), RIGHT)
-            + flag(safe & row.simd_lt(-one), ABOVE)
-            + flag(safe & row.simd_gt(splat(height)), BELOW);
+        let one = splat(1.0);
+        let mut flags = flag(simd, on_raster, ON_RASTER)
+            + flag(simd, behind, BEHIND)
+            + flag(simd, safe & column.simd_lt(-one), LEFT)
+            + flag(simd, safe & column.simd_gt(splat(width)), RIGHT)
+            + flag(simd, safe & row.simd_lt(-one), ABOVE)
+            + flag(simd, safe & row.simd_gt(splat(height)), BELOW);
         if let Some(alignment) = &self.alignment {
             let down = alignment.is_aligned(simd, 0, [row, -up, depth]);
             let across = alignment.is_aligned(simd, 1, [column, right, depth]);
-            flags += flag(on_raster & across & down, ALIGNED);
+            flags += flag(simd, on_raster & across & down, ALIGNED);
         }
         (on_raster, flags)
     }
+}
+
+/// How far eight offsets go along an axis.
+#[inline(always)]
+fn along<S: Simd>(simd: S, axis: DVec3, [x, y, z]: &[f64x8<S>; 3]) -> f64x8<S> {
+    let [of_x, of_y, of_z] = each!(part in [axis.x, axis.y, axis.z] => f64x8::splat(simd, part));
+    *x * of_x + *y * of_y + *z * of_z
+}
+
+/// A flag where it holds, 0 elsewhere.
+#[inline(always)]
+fn flag<S: Simd>(simd: S, holds: mask64x8<S>, flag: i32) -> f64x8<S> {
+    holds.select(f64x8::splat(simd, f64::from(flag)), f64x8::splat(simd, 0.0))
 }
 
 /// Eight vertices as the camera sees them.

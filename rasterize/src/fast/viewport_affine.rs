@@ -14,12 +14,14 @@ pub(super) struct ViewportAffine {
 
 impl ViewportAffine {
     /// The function times a sign, ±1.
+    #[inline(always)]
     pub(super) fn oriented(self, sign: f64) -> ViewportAffine {
         let ViewportAffine { at_center, across, up, error } = self;
         ViewportAffine { at_center: sign * at_center, across: sign * across, up: sign * up, error }
     }
 
     /// The part of the function that all samples of a row share.
+    #[inline(always)]
     pub(super) fn on_row(&self, y: f64) -> f64 {
         self.at_center + y * self.up
     }

@@ -21,6 +21,7 @@ pub(crate) struct F64Setup {
 
 impl F64Setup {
     /// Edge functions and depth; `None` for a triangle that is edge-on, which covers nothing.
+    #[inline(always)]
     pub(crate) fn new<F: Fault>(
         map: &CameraMap,
         judge: &Judge,
@@ -46,6 +47,7 @@ impl F64Setup {
     }
 
     /// The columns at which, on some row from one to another, no edge function is certainly negative, widened by one.
+    #[inline(always)]
     pub(crate) fn span(
         &self,
         map: &CameraMap,
@@ -77,6 +79,7 @@ impl F64Setup {
 ///
 /// Perspective: `F = n·a`, `n = (b − a) × (c − a)`, of which each coordinate carries 4 roundings and
 /// the product 3 more; parallel: `F = n·D` likewise. 8 leaves room for the bound's own.
+#[inline(always)]
 fn facing<F: Fault>(
     map: &CameraMap,
     judge: &Judge,
@@ -116,6 +119,7 @@ fn facing<F: Fault>(
 ///
 /// The bound takes 13, so that its own roundings (at most 10, each of one part in 2⁵³) do no harm, nor those
 /// of second order.
+#[inline(always)]
 fn edge_function(map: &CameraMap, [p, q]: [DVec3; 2], along: DVec3) -> ViewportAffine {
     let (normal, permanent) = (p.cross(q), cross_permanent(p, q));
     let (at_center, slope, size) = match map.projection() {
