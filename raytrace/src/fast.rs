@@ -27,6 +27,7 @@ mod any_ray;
 mod bounds;
 mod camera_map;
 mod depth;
+mod distances;
 mod draw;
 mod few_samples;
 mod high_precision;

@@ -24,9 +24,11 @@ pub(super) fn distance_around(t: f64, error: f64) -> Interval {
     Interval::around(t, error).unwrap_or(Interval::NOT_NEGATIVE)
 }
 
+/// An interval of `t` is narrow if it is no longer than this part of its middle.
+pub(super) const NARROW: f64 = 1e-7;
+
 /// The middle of an interval of `t`, if the interval is as narrow as a stored `t` needs.
 pub(super) fn narrow_middle(distance: Interval) -> Option<f64> {
-    const NARROW: f64 = 1e-7;
     let t = distance.middle();
     (t.is_finite() && distance.high - distance.low <= NARROW * t).then_some(t)
 }

@@ -43,6 +43,19 @@ pub(super) fn answer(
     }
 }
 
+/// Where a ray meets a primitive that it is known to meet, as far as rounded arithmetic knows it.
+pub(super) fn distance(ray: &Ray, primitive: &Primitive, trust: Trust) -> Option<Interval> {
+    match primitive {
+        // Its edges need not be asked.
+        Primitive::Triangle(corners) => triangle::crossing(ray, corners, trust),
+        Primitive::Sphere { .. } | Primitive::Plane { .. } => match answer(ray, primitive, trust).0
+        {
+            Answer::Hit(distance) | Answer::Open(distance) => Some(distance),
+            Answer::Miss => None,
+        },
+    }
+}
+
 /// Tests what no box bounds at the samples of the tile.
 #[inline(always)]
 pub(super) fn draw_unbounded<C: Context>(

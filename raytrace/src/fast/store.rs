@@ -1,13 +1,12 @@
 //! Writes the ids and distances of a tile into a frame.
 
-use super::answer::{Answer, Trust, narrow_middle};
 use super::camera_map::CameraMap;
-use super::one_primitive;
+use super::distances::find_distances;
 use super::tile::{BLOCK, TileBuffer, place};
 use bothways_common::Projection;
 use bothways_common::engine::simd::{Select, Simd, SimdBase, SimdMask, f32x16, u32x16};
-use bothways_common::frame::{NO_PRIMITIVE, NO_WIDE_PRIMITIVE, stored_t};
-use bothways_common::raster::{Region, Sample};
+use bothways_common::frame::{NO_PRIMITIVE, NO_WIDE_PRIMITIVE};
+use bothways_common::raster::Region;
 use std::ops::Range;
 
 /// Writes as much of a tile as a region of a frame holds.
@@ -122,28 +121,5 @@ fn block_values<S: Simd>(
     let unsure = if plain { !(sure | nothing) } else { !nothing };
     if unsure.any_true() {
         find_distances(map, tile, from, unsure.to_bitmask(), ids, t);
-    }
-}
-
-/// Finds the distances of some lanes of a block again, in `f64` or by the judge.
-#[cold]
-fn find_distances(
-    map: &CameraMap,
-    tile: &TileBuffer,
-    from: usize,
-    lanes: u64,
-    ids: &[u32; 16],
-    t: &mut [f32; 16],
-) {
-    for lane in (0..16).filter(|lane| lanes >> lane & 1 == 1) {
-        let Some(Sample { row, column }) = tile.sample(from + lane) else { continue };
-        let (ray, primitive) =
-            (map.grid.ray(row, column), tile.names.primitive(&map.view, ids[lane]));
-        let rounded = match one_primitive::answer(&ray, &primitive, Trust::Sound).0 {
-            Answer::Hit(distance) | Answer::Open(distance) => narrow_middle(distance),
-            Answer::Miss => None,
-        };
-        let exact = || map.view.judge().distance(&primitive, &ray);
-        t[lane] = stored_t(rounded.unwrap_or_else(exact));
     }
 }

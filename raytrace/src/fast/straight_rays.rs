@@ -85,17 +85,8 @@ impl StraightRays {
     ) -> ([f64x8<S>; 2], mask64x8<S>) {
         let quarters = [(row * 4.0).round_ties_even(), (column * 4.0).round_ties_even()];
         let ahead = self.forward.of(offset);
-        let meets = |axis: usize, beside: f64x8<S>| {
-            let passes = (quarters[axis] - self.middle[axis]) * self.quarter[axis];
-            match self.projection {
-                Projection::Perspective => {
-                    let same = (beside * self.distance).simd_eq(ahead * passes);
-                    same & is_short(simd, beside)
-                }
-                Projection::Parallel => beside.simd_eq(passes),
-            }
-        };
-        let met = meets(0, self.down.of(offset)) & meets(1, self.right.of(offset));
+        let met = self.passes(simd, 0, quarters[0], [self.down.of(offset), ahead])
+            & self.passes(simd, 1, quarters[1], [self.right.of(offset), ahead]);
         let met = match self.projection {
             Projection::Perspective => {
                 met & is_short(simd, ahead) & ahead.simd_gt(f64x8::splat(simd, 0.0))
@@ -103,6 +94,26 @@ impl StraightRays {
             Projection::Parallel => met,
         };
         ([quarters[0] * 0.25, quarters[1] * 0.25], met)
+    }
+
+    /// Whether the rays through a quarter of a row (axis 0) or column (axis 1) pass a point along that axis, given by its
+    /// offset from the eye along the axis and ahead.
+    #[inline(always)]
+    fn passes<S: Simd>(
+        &self,
+        simd: S,
+        axis: usize,
+        quarter: f64x8<S>,
+        [beside, ahead]: [f64x8<S>; 2],
+    ) -> mask64x8<S> {
+        let passes = (quarter - self.middle[axis]) * self.quarter[axis];
+        match self.projection {
+            Projection::Perspective => {
+                let same = (beside * self.distance).simd_eq(ahead * passes);
+                same & is_short(simd, beside)
+            }
+            Projection::Parallel => beside.simd_eq(passes),
+        }
     }
 }
 

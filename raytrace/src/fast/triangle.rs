@@ -33,10 +33,7 @@ pub(super) fn answer(ray: &Ray, corners: &[DVec3; 3], trust: Trust) -> (Answer, 
     if any(positive) && any(negative) {
         return (Answer::Miss, signs);
     }
-    let [along_b, along_c] = [corners[1] - corners[0], corners[2] - corners[0]];
-    let normal = along_b.cross(along_c);
-    let permanent = cross_permanent(along_b, along_c);
-    let distance = plane::crossing(ray, a, normal, permanent, trust);
+    let distance = crossing(ray, corners, trust);
     let all = |certain: [bool; 3]| certain[0] & certain[1] & certain[2];
     let answer = if all(positive) || all(negative) {
         // The line of the ray passes inside. Does it do so in front of the eye?
@@ -45,4 +42,13 @@ pub(super) fn answer(ray: &Ray, corners: &[DVec3; 3], trust: Trust) -> (Answer, 
         Answer::Open(distance.unwrap_or(Interval::NOT_NEGATIVE))
     };
     (answer, signs)
+}
+
+/// Where the line of a ray crosses the plane of a triangle; `None` where that is not certain.
+#[inline(always)]
+pub(super) fn crossing(ray: &Ray, corners: &[DVec3; 3], trust: Trust) -> Option<Interval> {
+    let [a, b, c] = *corners;
+    let (along_b, along_c) = (b - a, c - a);
+    let normal = along_b.cross(along_c);
+    plane::crossing(ray, a - ray.origin, normal, cross_permanent(along_b, along_c), trust)
 }

@@ -184,7 +184,7 @@ impl<'a> CandidateQueue<'a> {
 /// How thoroughly triangles are tested before they are set up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Test {
-    /// By their bounds: which samples lie between their corners.
+    /// By their bounds, which samples lie between their corners; and by their edges, where these leave out all of the tile.
     Bounds,
     /// By their edges, too, where one or two samples lie between their corners.
     Edges,
@@ -207,7 +207,7 @@ fn pass<S: Simd>(
     let columns = Between::new(simd, frustum, x, error);
     let missed = columns.none | rows.none;
     if test != Test::Edges {
-        return !missed;
+        return !(missed | is_between_edges(simd, frustum, [y, x], error));
     }
     let more = columns.last - columns.first + (rows.last - rows.first);
     let beside = is_beside(simd, [y, x], [rows.first, columns.first], error)
@@ -233,6 +233,43 @@ impl<S: Simd> Between<S> {
         let none = last.min(end).simd_lt(first.max(f32x16::splat(simd, 0.0)));
         Between { first, last, none }
     }
+}
+
+/// Whether triangles cover no sample of the tile, as two edge functions have different signs in all of it: slivers, of
+/// which bounds say nothing.
+///
+/// # The error, rounding by rounding
+///
+/// Places are counted from the tile's middle, `h` from its first samples; `M` is the largest of any corner. A place may be off by
+/// `e` up to `h + 3`, and beyond that by the same fraction ([`super::super::local_errors`]): by `e(1 + M/h)`. As `e` is at least
+/// `36·ε₂₄`, half of that is more than the rounding of counting from the middle: by `δ = 2e(1 + M/h)` in all. An edge
+/// function at the middle, `x_a·y_b − y_a·x_b`, is off by `4Mδ + 2δ²`, and by its roundings of `4·ε₂₄·M²`; as `δ` is at least
+/// `4·ε₂₄·M` for `h` up to 18, that is less than `5Mδ + 2δ²`. To a sample it changes by `h(|x_b − x_a| + |y_b − y_a|)`, which is off
+/// by `4hδ` and its roundings. Comparisons with NaN are false.
+#[inline(always)]
+fn is_between_edges<S: Simd>(
+    simd: S,
+    frustum: &TileFrustum,
+    [y, x]: [&[f32x16<S>; 3]; 2],
+    error: f32,
+) -> mask32x16<S> {
+    let half = -frustum.centered(0);
+    let x = [x[0] - half, x[1] - half, x[2] - half];
+    let y = [y[0] - half, y[1] - half, y[2] - half];
+    let along_x = x[0].abs().max(x[1].abs()).max(x[2].abs());
+    let most = along_x.max(y[0].abs()).max(y[1].abs()).max(y[2].abs());
+    let off = (most * (1.0 / half) + 1.0) * (2.0 * error);
+    let error = off * ((most + half) * 5.0 + off * 3.0);
+    let mut positive = mask32x16::splat(simd, false);
+    let mut negative = positive;
+    for (p, q) in [(0, 1), (1, 2), (2, 0)] {
+        let at_middle = x[p] * y[q] - y[p] * x[q];
+        let change = ((x[q] - x[p]).abs() + (y[q] - y[p]).abs()) * half;
+        let most = (change + error) * 1.000_001;
+        positive |= at_middle.simd_gt(most);
+        negative |= at_middle.simd_lt(-most);
+    }
+    positive & negative
 }
 
 /// Whether triangles certainly do not cover a sample, as two edge functions have different signs there. There is at

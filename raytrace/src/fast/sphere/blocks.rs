@@ -17,6 +17,7 @@ use bothways_common::engine::simd::{
     Select, Simd, SimdBase, SimdFloat, SimdMask, SimdNarrow, SimdWiden, f32x16, f64x8, mask32x16,
     mask64x8, u32x16,
 };
+use bothways_common::look::lanes::each;
 use glam::DVec3;
 
 /// A sphere on the raster of a tile, in the unit of keys: `d` times the square of what `B` is multiplied with.
@@ -202,12 +203,13 @@ impl<S: Simd> Within<S> {
         let [_, across, down] = setup.affine;
         let (x0, x1) = columns(simd, WITHIN).widen();
         let (y0, y1) = rows(simd, WITHIN).widen();
-        let square =
-            |x: f64x8<S>, y: f64x8<S>| x * x * of_columns + (x * of_both + y * of_rows) * y;
         Within {
             columns: [x0, x1],
             rows: [y0, y1],
-            discriminant: [square(x0, y0), square(x1, y1)],
+            discriminant: each!(place in [(x0, y0), (x1, y1)] => {
+                let (x, y) = place;
+                x * x * of_columns + (x * of_both + y * of_rows) * y
+            }),
             affine: [x0 * across + y0 * down, x1 * across + y1 * down],
         }
     }
@@ -291,6 +293,12 @@ impl<S: Simd> EightBlocks<S> {
     }
 }
 
+/// What the key of a root may be off by.
+#[inline(always)]
+fn error_of<S: Simd>(setup: &SphereSetup, root_error: f32x16<S>, key: f32x16<S>) -> f32x16<S> {
+    (root_error + setup.affine_error + key.abs() * setup.relative) * 1.001
+}
+
 /// Sixteen samples of a block.
 struct Samples<S: Simd> {
     /// Those that certainly see the sphere, and those that certainly do not.
@@ -314,12 +322,11 @@ impl<S: Simd> Samples<S> {
         let (across, down) = (blocks.across[half][lane], blocks.down[half][lane]);
         let (middle, key) = (blocks.discriminant[half][lane], blocks.affine[half][lane]);
         let zero = f64x8::splat(simd, 0.0);
-        let of_half = |k: usize| {
+        let [(d0, root0, key0), (d1, root1, key1)] = each!(k in [0, 1] => {
             let d = within.discriminant[k] + within.columns[k] * across;
             let d = d + (within.rows[k] * down + middle);
             (d, d.max(zero).sqrt(), within.affine[k] + key)
-        };
-        let ((d0, root0, key0), (d1, root1, key1)) = (of_half(0), of_half(1));
+        });
         let error = f64x8::splat(simd, setup.discriminant_error);
         let (met0, met1) = (d0.simd_gt(error), d1.simd_gt(error));
         let (passed0, passed1) = (d0.simd_lt(-error), d1.simd_lt(-error));
@@ -332,25 +339,25 @@ impl<S: Simd> Samples<S> {
         let affine = key0.narrow(key1);
         let near = (root0 + key0).narrow(root1 + key1);
         let far = (key0 - root0).narrow(key1 - root1);
-        let error_of =
-            |key: f32x16<S>| root_error + setup.affine_error + key.abs() * setup.relative;
         let zero = f32x16::splat(simd, 0.0);
         let (met, missed) = (both(met0, met1), both(passed0, passed1));
-        let keys = |key: f32x16<S>, seen, missed| {
-            let error = error_of(key) * 1.001;
-            Samples { seen, missed, low: key - error, high: key + error }
-        };
         match setup.kind {
             Kind::Outside => {
                 let error = f32x16::splat(simd, setup.affine_error) + affine.abs() * setup.relative;
                 let leaves = affine.simd_lt(-error);
-                keys(near, met & affine.simd_gt(error), missed | leaves)
+                let met = met & affine.simd_gt(error);
+                Samples::around(near, error_of(setup, root_error, near), [met, missed | leaves])
             }
-            Kind::Inside => keys(near, met, mask32x16::splat(simd, false)),
+            Kind::Inside => {
+                let nowhere = mask32x16::splat(simd, false);
+                Samples::around(near, error_of(setup, root_error, near), [met, nowhere])
+            }
             Kind::Parallel => {
-                let error = error_of(near) * 1.001;
+                let error = error_of(setup, root_error, near);
                 let (in_front, behind) = (near.simd_lt(-error), near.simd_gt(error));
-                let root = keys(in_front.select(near, far), met, missed);
+                let root = in_front.select(near, far);
+                let error = error_of(setup, root_error, root);
+                let root = Samples::around(root, error, [met, missed]);
                 let certain = in_front | behind;
                 Samples {
                     seen: met & certain & root.high.simd_lt(zero),
@@ -361,6 +368,12 @@ impl<S: Simd> Samples<S> {
                 }
             }
         }
+    }
+
+    /// Samples whose keys may be off by an error.
+    #[inline(always)]
+    fn around(key: f32x16<S>, error: f32x16<S>, [seen, missed]: [mask32x16<S>; 2]) -> Samples<S> {
+        Samples { seen, missed, low: key - error, high: key + error }
     }
 
     /// The depth test at the samples of a block.
