@@ -243,7 +243,7 @@ impl<'a> Walker<'a> {
         let count = entry.counts.all();
         let mut instances = [(0.0, 0); INSTANCES];
         for (to, &number) in
-            instances.iter_mut().zip(&prepared.instance_leaves[entry.child.index()][..count])
+            instances.iter_mut().zip(&prepared.instance_order[entry.child.index()..][..count])
         {
             let instance = prepared.instance(view.scene, number);
             let middle = instance.placement.position(instance.mesh.bounds.middle());
