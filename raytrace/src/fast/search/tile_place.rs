@@ -38,8 +38,8 @@ mod tests {
     fn a_whole_number_holds_four_ends() {
         assert_eq!(TilePlace::ALL.ends(), [[0, 31]; 2]);
         assert_eq!(TilePlace::WHOLE_TILE, TilePlace::WHOLE as f32);
-        let number =
-            3.0 + 7.0 * TilePlace::LAST + (30.0 + 31.0 * TilePlace::LAST) * TilePlace::COLUMN;
-        assert_eq!(TilePlace::from_whole_number(number as u32).ends(), [[3, 7], [30, 31]]);
+        assert_eq!([TilePlace::LAST, TilePlace::COLUMN], [32.0, 1024.0]);
+        let number = 3 + 7 * 32 + (30 + 31 * 32) * 1024;
+        assert_eq!(TilePlace::from_whole_number(number).ends(), [[3, 7], [30, 31]]);
     }
 }

@@ -102,21 +102,14 @@ impl<'a> Walker<'a> {
                     continue;
                 }
                 NodeKind::IndexedLeaf | NodeKind::PlainLeaf => {
-                    let leaf = self.open_leaf(context, &entry);
                     // What is seen of a near instance hides the far ones.
-                    let mut flush = true;
-                    if self.is_inside {
-                        self.test_placed(context, &frustum, &leaf, class);
-                        if self.queue.is_empty() {
-                            continue;
-                        }
-                    } else {
-                        flush =
-                            C::WATCHED || class == SizeClass::Many || self.tile.is_nearly_full();
-                        let is_full = self.queue.add(leaf);
-                        if !(is_full || flush) {
-                            continue;
-                        }
+                    let flush = C::WATCHED
+                        || class == SizeClass::Many
+                        || self.is_inside
+                        || self.tile.is_nearly_full();
+                    let is_ready = self.add_leaf(context, &frustum, &entry, class);
+                    if !(is_ready || flush) || self.queue.is_empty() {
+                        continue;
                     }
                     class = self.draw_candidates(context, &frustum, class, flush);
                 }
@@ -126,18 +119,13 @@ impl<'a> Walker<'a> {
                     continue;
                 }
                 NodeKind::Instance => {
-                    // Of instances nothing waits. What waits of others may hide them.
-                    if !self.queue.is_empty() {
-                        self.draw_candidates(context, &frustum, class, true);
-                        self.stack.push(entry);
-                        farthest = self.farthest(&frustum);
+                    // Of instances nothing waits. What waits of others may hide them, and has names.
+                    if self.queue.is_empty() {
+                        self.enter_instance(&frustum, &entry, farthest);
                         continue;
                     }
-                    if self.tile.names.are_used_up() {
-                        self.tile.give_names_anew();
-                    }
-                    self.enter_instance(&frustum, &entry, farthest);
-                    continue;
+                    self.stack.push(entry);
+                    self.draw_candidates(context, &frustum, class, true);
                 }
             }
             farthest = self.farthest(&frustum);
@@ -227,9 +215,16 @@ impl<'a> Walker<'a> {
             && self.tile.hides(context.simd(), entry.place.ends(), entry.key)
     }
 
-    /// Counts a leaf of triangles that is opened.
+    /// Adds a leaf of triangles to the queue; of a leaf of an instance, those of its triangles that pass its test. Returns
+    /// whether the queue is full.
     #[inline(always)]
-    fn open_leaf<C: ScalarContext>(&mut self, context: &mut C, entry: &StackEntry) -> WaitingLeaf {
+    fn add_leaf<C: Context>(
+        &mut self,
+        context: &mut C,
+        frustum: &TileFrustum,
+        entry: &StackEntry,
+        class: SizeClass,
+    ) -> bool {
         let StackEntry { near, size, child, counts, .. } = *entry;
         let with_duplicates = C::has(Planted::TiesToLast);
         let used = if with_duplicates { counts.all() } else { counts.distinct() };
@@ -238,21 +233,13 @@ impl<'a> Walker<'a> {
         if C::WATCHED {
             self.emit_tests(context, child, used);
         }
-        WaitingLeaf { leaf: child, used, near, size }
-    }
-
-    /// Tests the triangles of a leaf of the instance whose mesh is walked now.
-    #[inline(always)]
-    fn test_placed<C: Context>(
-        &mut self,
-        context: &C,
-        frustum: &TileFrustum,
-        leaf: &WaitingLeaf,
-        class: SizeClass,
-    ) {
-        let Some(instance) = &self.instance else { return };
+        let leaf = WaitingLeaf { leaf: child, used, near, size };
+        let Some(instance) = self.instance.as_ref().filter(|_| self.is_inside) else {
+            return self.queue.add(leaf);
+        };
         let (prepared, rays) = (self.prepared, (frustum, instance));
-        self.queue.test_placed(context.simd(), prepared, rays, leaf, test_of::<C>(class));
+        self.queue.test_placed(context.simd(), prepared, rays, &leaf, test_of::<C>(class));
+        false
     }
 
     /// The instance whose mesh is walked now.
@@ -288,6 +275,9 @@ impl<'a> Walker<'a> {
         let number = u32::try_from(entry.child.index()).expect("it has 29 bits");
         let OneInstance { mesh, placement, first_id, triangles } =
             self.prepared.instance(self.map.view.scene, number);
+        if self.tile.names.are_used_up() {
+            self.tile.give_names_anew();
+        }
         self.tile.executed.boxes_tested += 1;
         let instance = InstanceFrustum::new(frustum, placement, &mesh.bounds);
         let Some(mut instance) = instance else { return };

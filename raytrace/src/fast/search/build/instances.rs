@@ -1,9 +1,8 @@
 //! Instances of meshes, as the build sorts them. There may be very many, so only their numbers are sorted: their boxes are
 //! computed wherever they are asked for, from the scene's maps, and are at hand for some thousand instances at a time.
 
-use super::prim_ref::PrimRef;
+use super::prim_ref::{PrimRef, Source};
 use super::primitives::Primitives;
-use super::split::BuildContext;
 use crate::fast::prepared::Instanced;
 use crate::fast::search::tree::Bounds;
 use bothways_common::{Placement, Scene, Shape};
@@ -91,7 +90,7 @@ impl Primitives for Numbered<'_> {
         built
     }
 
-    fn distinct(self, _: &BuildContext) -> Self {
+    fn distinct(self, _: Source) -> Self {
         self
     }
 }

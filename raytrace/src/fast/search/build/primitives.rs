@@ -1,7 +1,6 @@
 //! Primitives in an order that the build changes: at hand with their boxes, or found anew where they are asked for.
 
-use super::prim_ref::PrimRef;
-use super::split::{BuildContext, leave_out_duplicates};
+use super::prim_ref::{CornerReader, PrimRef, Source};
 use crate::fast::search::tree::WIDTH;
 use std::ops::Range;
 
@@ -27,7 +26,7 @@ pub(super) trait Primitives: Send + Sync + Sized {
     fn at_hand<R>(self, build: impl FnOnce(&mut [PrimRef]) -> R) -> R;
 
     /// Of triangles, only those that are distinct.
-    fn distinct(self, context: &BuildContext) -> Self;
+    fn distinct(self, source: Source) -> Self;
 }
 
 impl Primitives for &mut [PrimRef] {
@@ -62,8 +61,29 @@ impl Primitives for &mut [PrimRef] {
         build(self)
     }
 
-    fn distinct(self, context: &BuildContext) -> Self {
-        let count = leave_out_duplicates(self, context);
+    fn distinct(self, source: Source) -> Self {
+        let count = leave_out_duplicates(self, source);
         &mut self[..count]
     }
+}
+
+/// Moves the distinct triangles to the start, the first triangle in the scene of each group, and returns the number
+/// of distinct triangles: the duplicates are never visible.
+fn leave_out_duplicates(prims: &mut [PrimRef], source: Source) -> usize {
+    let mut corners = CornerReader::new(source);
+    let mut bits = |prim: &PrimRef| {
+        // Adding 0 makes −0 and 0 equal.
+        let mut bits = corners.of(prim.id()).map(|v| (v + 0.0).to_array().map(f32::to_bits));
+        bits.sort_unstable();
+        bits
+    };
+    prims.sort_by_cached_key(|prim| (bits(prim), prim.id()));
+    let mut kept = 1;
+    for k in 1..prims.len() {
+        if bits(&prims[k]) != bits(&prims[kept - 1]) {
+            prims[kept] = prims[k];
+            kept += 1;
+        }
+    }
+    kept
 }

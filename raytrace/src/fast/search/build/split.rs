@@ -1,6 +1,6 @@
 //! Splits primitives in two: at the place that the surface area heuristic chooses, or by count.
 
-use super::prim_ref::{Box4, CornerReader, PrimRef, Source};
+use super::prim_ref::{Box4, PrimRef, Source};
 use super::primitives::Primitives;
 use super::sah::{SahSplit, cheapest_split};
 use crate::fast::search::tree::{INSTANCES, LEAF, SPHERES};
@@ -79,7 +79,12 @@ pub(super) fn split<P: Primitives>(record: BuildRecord<P>, context: &BuildContex
     }
     let BuildRecord { prims, first, depth, distinct, .. } = record;
     if context.kind == Kind::Triangles && !distinct {
-        return Split::Distinct(BuildRecord::new(prims.distinct(context), first, depth, true));
+        return Split::Distinct(BuildRecord::new(
+            prims.distinct(context.source),
+            first,
+            depth,
+            true,
+        ));
     }
     // All centres are in one place, or the depth is too great: then any half is equally good if it is a number of
     // whole leaves.
@@ -118,25 +123,4 @@ fn partition<P: Primitives>(record: BuildRecord<P>, best: &SahSplit) -> [BuildRe
         distinct,
     };
     [half(left_prims, first, left), half(right_prims, first + middle, right)]
-}
-
-/// Moves the distinct triangles to the start, the first triangle in the scene of each group, and returns the number
-/// of distinct triangles: the duplicates are never visible.
-pub(super) fn leave_out_duplicates(prims: &mut [PrimRef], context: &BuildContext) -> usize {
-    let mut corners = CornerReader::new(context.source);
-    let mut bits = |prim: &PrimRef| {
-        // Adding 0 makes −0 and 0 equal.
-        let mut bits = corners.of(prim.id()).map(|v| (v + 0.0).to_array().map(f32::to_bits));
-        bits.sort_unstable();
-        bits
-    };
-    prims.sort_by_cached_key(|prim| (bits(prim), prim.id()));
-    let mut kept = 1;
-    for k in 1..prims.len() {
-        if bits(&prims[k]) != bits(&prims[kept - 1]) {
-            prims[kept] = prims[k];
-            kept += 1;
-        }
-    }
-    kept
 }
