@@ -9,12 +9,12 @@ pub fn with_meshes(shapes: Vec<Shape>, change: impl Fn(Mesh) -> Mesh) -> Vec<Sha
     // By the address of the mesh before, which lives as long as this list.
     let mut known: HashMap<*const Mesh, [Arc<Mesh>; 2]> = HashMap::new();
     let mut changed = |instances: Instances| {
-        let mesh = instances.shared_mesh();
-        let [_, changed] = known
-            .entry(Arc::as_ptr(mesh))
-            .or_insert_with(|| [Arc::clone(mesh), Arc::new(change(Mesh::clone(mesh)))]);
-        Instances::new(Arc::clone(changed), instances.placements().to_vec())
-            .expect("the positions are those of before")
+        let (mesh, placements) = instances.into_parts();
+        let [_, changed] = known.entry(Arc::as_ptr(&mesh)).or_insert_with(|| {
+            let changed = change(Mesh::clone(&mesh));
+            [mesh, Arc::new(changed)]
+        });
+        Instances::new(Arc::clone(changed), placements).expect("the positions are those of before")
     };
     let shapes = shapes.into_iter().map(|shape| match shape {
         Shape::Mesh(mesh) => Shape::Mesh(change(mesh)),

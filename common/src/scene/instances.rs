@@ -60,6 +60,22 @@ impl Placement {
         Vec3::new(x, y, z)
     }
 
+    /// A box in the world around all that lies in a box of the mesh, from its low to its high corner: along each axis every
+    /// coordinate of the mesh contributes least at one of the box's sides and most at the other.
+    ///
+    /// [`Placement::position`] is monotonic, so these contributions, summed up and rounded as it does it, bound every vertex.
+    #[inline]
+    pub fn bounds(&self, [low, high]: [Vec3; 2]) -> [Vec3; 2] {
+        let (low, high) = (low.to_array(), high.to_array());
+        let [x, y, z] = each!(row in [&self.rows[0], &self.rows[1], &self.rows[2]] => {
+            let [a, b, c] = each!(k in [0, 1, 2] => {
+                if row[k] >= 0.0 { [low[k], high[k]] } else { [high[k], low[k]] }
+            });
+            each!(end in [0, 1] => coordinate(*row, [a[end], b[end], c[end]]))
+        });
+        [Vec3::new(x[0], y[0], z[0]), Vec3::new(x[1], y[1], z[1])]
+    }
+
     /// [`Placement::position`] of a few positions: rows of their x, y and z.
     #[inline(always)]
     pub fn positions<const N: usize>(&self, positions: &[[f32; N]; 3]) -> [[f32; N]; 3] {
@@ -220,6 +236,11 @@ impl Instances {
         &self.placements
     }
 
+    /// The mesh, and where its instances are, which are not copied.
+    pub fn into_parts(self) -> (Arc<Mesh>, Vec<Placement>) {
+        (self.mesh, self.placements)
+    }
+
     /// How many primitives there are: the mesh's triangles, times the instances.
     pub fn primitive_count(&self) -> usize {
         self.mesh.triangles().len().saturating_mul(self.placements.len())
@@ -334,6 +355,24 @@ mod tests {
         }
         let same = Vec3::new(0.1, -3.4e38, 1e-45);
         assert_eq!(Placement::IDENTITY.position(same), same);
+    }
+
+    #[test]
+    fn every_corner_is_within_the_bounds() {
+        let placement = Placement::from_rows([
+            [0.3, -0.7, 0.1, 1e3],
+            [-0.0, 0.0, 5.0, -0.1],
+            [-0.6, -0.2, -0.9, 1e-3],
+        ]);
+        let [low, high] = [Vec3::new(-0.1, 0.2, -7.0), Vec3::new(0.7, 0.3, 11.0)];
+        let corner = |k: usize| {
+            let side = |axis: usize| if k >> axis & 1 == 1 { high[axis] } else { low[axis] };
+            placement.position(Vec3::new(side(0), side(1), side(2)))
+        };
+        let corners: [Vec3; 8] = std::array::from_fn(corner);
+        let least = corners.into_iter().reduce(Vec3::min).unwrap();
+        let most = corners.into_iter().reduce(Vec3::max).unwrap();
+        assert_eq!(placement.bounds([low, high]), [least, most]);
     }
 
     #[test]

@@ -71,7 +71,8 @@ fn grid(item: &Item) -> Result<Vec<Placement>, Problem> {
     let table = item.table(&["count", "spacing"])?;
     let counts = table.need("count", EXAMPLE)?;
     let [nx, ny, nz] = counts.three_counts()?;
-    check_count(&counts, [nx, ny, nz].into_iter().map(u64::from).try_fold(1, u64::checked_mul))?;
+    let count = [nx, ny, nz].into_iter().map(u64::from).try_fold(1, u64::checked_mul);
+    check_count(&counts, count)?;
     let spacing = table.need("spacing", EXAMPLE)?;
     let spacing =
         if spacing.is_number() { Vec3::splat(spacing.number()?) } else { spacing.vector()? };
@@ -82,8 +83,17 @@ fn grid(item: &Item) -> Result<Vec<Placement>, Problem> {
         let [x, y, z] = [along(x, nx, spacing.x), along(y, ny, spacing.y), along(z, nz, spacing.z)];
         Placement::translation(DVec3::new(x, y, z).as_vec3())
     };
-    let rows = (0..nz).flat_map(|z| (0..ny).map(move |y| (y, z)));
-    Ok(rows.flat_map(|(y, z)| (0..nx).map(move |x| place(x, y, z))).collect())
+    // A list that grew would have room for up to twice as many.
+    let count = count.and_then(|count| usize::try_from(count).ok()).unwrap_or(0);
+    let mut placements = Vec::with_capacity(count);
+    // Where there are none along one axis, there may be very many along others.
+    let nz = if count == 0 { 0 } else { nz };
+    for z in 0..nz {
+        for y in 0..ny {
+            placements.extend((0..nx).map(|x| place(x, y, z)));
+        }
+    }
+    Ok(placements)
 }
 
 /// Instances anywhere in a box about the origin, turned about an axis and scaled; the same for the same seed.

@@ -7,7 +7,6 @@ use super::error::Problem;
 use bothways_common::scene::{Instances, Mesh, Placement, Plane, Shape, Sphere, Triangle};
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 use std::ops::Range;
-use std::sync::Arc;
 
 /// The keys of the transformation in an object's table.
 pub(super) const KEYS: [&str; 3] = ["scale", "rotate", "translate"];
@@ -84,7 +83,7 @@ impl Transform {
                 normal: self.plane_normal(normal)?,
             }),
             Shape::Mesh(mesh) => Shape::Mesh(self.mesh(mesh)?),
-            Shape::Instances(instances) => Shape::Instances(self.instances(&instances)?),
+            Shape::Instances(instances) => Shape::Instances(self.instances(instances)?),
         })
     }
 
@@ -121,19 +120,19 @@ impl Transform {
         Ok(if mirrors { moved.turned_inside_out() } else { moved })
     }
 
-    /// Instances of a mesh, each moved.
-    fn instances(&self, instances: &Instances) -> Result<Instances, Problem> {
+    /// Instances of a mesh, each moved. Of their maps there is one list at any time.
+    fn instances(&self, instances: Instances) -> Result<Instances, Problem> {
         let own = self.affine();
-        let moved = |placement: &Placement| {
+        let moved = |placement: Placement| {
             let [x, y, z] = placement.rows().map(|row| row.map(f64::from));
             let rows = [x, y, z].map(|[x, y, z, _]| [x, y, z]);
             let matrix3 = DMat3::from_cols_array_2d(&rows).transpose();
             let translation = DVec3::new(x[3], y[3], z[3]);
             Placement::from_affine(&(own * DAffine3 { matrix3, translation }))
         };
-        let placements = instances.placements().iter().map(moved).collect();
-        Instances::new(Arc::clone(instances.shared_mesh()), placements)
-            .map_err(|_| self.out_of_range("a vertex"))
+        let (mesh, placements) = instances.into_parts();
+        let placements = placements.into_iter().map(moved).collect();
+        Instances::new(mesh, placements).map_err(|_| self.out_of_range("a vertex"))
     }
 
     fn out_of_range(&self, what: &str) -> Problem {

@@ -198,6 +198,9 @@ fn instances_are_listed_or_follow_a_rule() {
     assert_eq!(grid, corners.map(|[x, z]| moved(x, 0.0, z)));
     let line = places("instances = { grid = { count = [3, 1, 1], spacing = 2 } }");
     assert_eq!(line, [-2.0, 0.0, 2.0].map(|x| moved(x, 0.0, 0.0)));
+    // It does not look for them row by row.
+    let none = "instances = { grid = { count = [0, 4294967295, 4294967295], spacing = 2 } }";
+    assert!(places(none).is_empty());
 
     let scattered = |more: &str| {
         places(&format!("instances = {{ scatter = {{ count = 500, size = [4, 0, 8]{more} }} }}"))

@@ -47,8 +47,7 @@ pub(super) fn draw<C: Context>(
                     clippy::cast_sign_loss,
                     reason = "a row and a column of the tile"
                 )]
-                let at =
-                    index(tile.side(), rows[lane] as u32 as usize, columns[lane] as u32 as usize);
+                let at = index(rows[lane] as u32 as usize, columns[lane] as u32 as usize);
                 let certain = inside >> lane & 1 == 1;
                 let key = [low[lane], high[lane]];
                 tile.fragment(context, at, (lane, eight.ids[lane]), certain, key);

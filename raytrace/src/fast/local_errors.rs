@@ -69,6 +69,11 @@ impl LocalErrors {
         }
     }
 
+    /// What roundings from columns times `t` to columns bring, to those of the tile.
+    pub(super) fn rounding(&self) -> f32 {
+        self.rounding
+    }
+
     /// How far a row or column may be off in a leaf of such a size, in which no `t` is less than `near`; `vertex` is
     /// the row and column of the projection's vertex. At least `36·ε₂₄`. Infinite or NaN if numbers might overflow, or
     /// vertices lie behind the eye.

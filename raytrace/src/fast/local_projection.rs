@@ -9,9 +9,9 @@ use bothways_common::engine::simd::{Simd, SimdBase, f32x16};
 /// The map of [`super::camera_map`] about a vertex.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LocalProjection {
-    vertex: [f32; 3],
+    pub(super) vertex: [f32; 3],
     /// `t`, columns and rows times `t`, at points relative to the vertex.
-    map: [WorldAffine; 3],
+    pub(super) map: [WorldAffine; 3],
     /// How far a row or column may be off.
     pub(super) error: f32,
 }

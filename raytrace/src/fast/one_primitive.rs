@@ -153,7 +153,7 @@ pub(super) fn draw<C: ScalarContext>(
     tile.executed.single_samples += samples as u64;
     for row in rows[0]..rows[1] {
         for column in columns[0]..columns[1] {
-            let at = index(tile.side(), row, column);
+            let at = index(row, column);
             if let Some(sample) = tile.sample(at) {
                 context.sink().sample_tested(sample, tile.names.id(id));
                 decide(context, map, at, (id, primitive), false, tile);

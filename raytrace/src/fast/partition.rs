@@ -72,7 +72,7 @@ impl Prepared {
             let after = self.instanced.partition_point(|one| one.first_number <= *number);
             self.instanced[after - 1].triangles as usize
         };
-        self.instance_leaves[leaf.index()][..counts.all()].iter().map(triangles).sum()
+        self.instance_order[leaf.index()..][..counts.all()].iter().map(triangles).sum()
     }
 }
 

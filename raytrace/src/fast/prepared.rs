@@ -1,7 +1,7 @@
 //! What is kept of a scene for any number of views of it.
 
 use super::search::tree::{
-    Bounds, INSTANCES, IndexedLeaf, LEAF_KINDS, LeafCounts, Node, NodeRef, PlainLeaf, SPHERES,
+    Bounds, IndexedLeaf, LEAF_KINDS, LeafCounts, Node, NodeRef, PlainLeaf, SPHERES,
 };
 use bothways_common::engine::simd::Level;
 use bothways_common::engine::tasks::TaskTimes;
@@ -16,8 +16,8 @@ pub struct Prepared {
     pub(super) plain_leaves: Vec<PlainLeaf>,
     /// The names of the spheres of the hierarchy's leaves; unused lanes repeat the first.
     pub(super) sphere_leaves: Vec<[u32; SPHERES]>,
-    /// The numbers of the instances of the hierarchy's leaves; unused lanes repeat the first.
-    pub(super) instance_leaves: Vec<[u32; INSTANCES]>,
+    /// The numbers of all instances, leaf by leaf: a leaf of instances is known by the place of its first here.
+    pub(super) instance_order: Vec<u32>,
     /// The hierarchies of the meshes that instances share, in coordinates of the meshes.
     pub(super) meshes: Vec<MeshRoot>,
     /// The objects that are instances.
@@ -88,10 +88,16 @@ impl Prepared {
         OneInstance { mesh: &self.meshes[mesh], placement, first_id, triangles }
     }
 
-    /// The number of leaves of each kind.
+    /// The number of leaves of each kind; none of instances, which there are in one hierarchy only.
     pub(super) fn leaf_counts(&self) -> [usize; LEAF_KINDS] {
-        let Prepared { indexed_leaves, plain_leaves, sphere_leaves, instance_leaves, .. } = self;
-        [indexed_leaves.len(), plain_leaves.len(), sphere_leaves.len(), instance_leaves.len()]
+        let Prepared { indexed_leaves, plain_leaves, sphere_leaves, .. } = self;
+        [indexed_leaves.len(), plain_leaves.len(), sphere_leaves.len(), 0]
+    }
+
+    /// Adds the root of a hierarchy, in which everything has these bounds.
+    pub(super) fn add_root(&mut self, root: NodeRef, bounds: &Bounds) {
+        self.bounds = self.bounds.union(bounds);
+        self.roots.push(root);
     }
 
     /// Cuts frames into chunks for so many threads: into smaller ones where there are many threads and few chunks. Frames are

@@ -103,7 +103,7 @@ impl TileBuffer {
         if !whole {
             for row in 0..size[0] {
                 for column in 0..size[1] {
-                    let index = index(side, row, column);
+                    let index = index(row, column);
                     self.low[index] = f32::NEG_INFINITY;
                     self.high[index] = f32::NEG_INFINITY;
                     self.block_far[index / 16] = f32::NEG_INFINITY;
@@ -267,30 +267,42 @@ impl TileBuffer {
         let mut far = f32::INFINITY;
         for row in blocks(rows) {
             for column in blocks(columns) {
-                far = far.min(self.block_far[index(self.side, BLOCK * row, BLOCK * column) / 16]);
+                far = far.min(self.block_far[index(BLOCK * row, BLOCK * column) / 16]);
             }
         }
         far
     }
 
-    /// The least low end at these rows and columns of samples, the first and the last of each; at least at those, where they
-    /// are many.
+    /// Whether everything at these rows and columns of samples, the first and the last of each, has a larger key than this one.
+    /// Where they are many, blocks decide: then all of these must.
     #[inline(always)]
-    pub(super) fn far_at(&self, [rows, columns]: [[usize; 2]; 2]) -> f32 {
-        let count = |[first, last]: [usize; 2]| last + 1 - first;
+    pub(super) fn hides<S: Simd>(
+        &self,
+        simd: S,
+        [rows, columns]: [[usize; 2]; 2],
+        key: f32,
+    ) -> bool {
         if [rows[0], columns[0]] == [rows[1], columns[1]] {
-            return self.low[index(self.side, rows[0], columns[0])];
+            return key < self.low[index(rows[0], columns[0])];
         }
+        let count = |[first, last]: [usize; 2]| last + 1 - first;
         if count(rows) * count(columns) > BLOCK * BLOCK {
-            return self.far_in([rows, columns]);
+            return key < self.far_in([rows, columns]);
         }
-        let mut far = f32::INFINITY;
-        for row in rows[0]..=rows[1] {
-            for column in columns[0]..=columns[1] {
-                far = far.min(self.low[index(self.side, row, column)]);
+        let key = f32x16::splat(simd, key);
+        let blocks = |[first, last]: [usize; 2]| first / BLOCK..=last / BLOCK;
+        for row in blocks(rows) {
+            let of_rows = lanes_between(rows, row);
+            for column in blocks(columns) {
+                let at = index(BLOCK * row, BLOCK * column);
+                let nearer = f32x16::from_slice(simd, &self.low[at..at + 16]).simd_gt(key);
+                let asked = SPREAD[of_rows] & (0x1111 * lanes_between(columns, column) as u64);
+                if asked & !nearer.to_bitmask() != 0 {
+                    return false;
+                }
             }
         }
-        far
+        true
     }
 
     /// What is seen at the tile's only sample.
@@ -299,6 +311,31 @@ impl TileBuffer {
     }
 }
 
+/// Which rows of a block, or which columns, lie between two of the tile: a bit for each.
+#[inline(always)]
+fn lanes_between([first, last]: [usize; 2], block: usize) -> usize {
+    let from = first.saturating_sub(BLOCK * block);
+    let to = (last - BLOCK * block).min(BLOCK - 1);
+    0xf << from & 0xf >> (BLOCK - 1 - to)
+}
+
+/// For bits of rows those of all their samples in a block.
+const SPREAD: [u64; 1 << BLOCK] = {
+    let mut all = [0; 1 << BLOCK];
+    let mut rows = 0;
+    while rows < 1 << BLOCK {
+        let mut row = 0;
+        while row < BLOCK {
+            if rows >> row & 1 == 1 {
+                all[rows] |= 0xf << (BLOCK * row);
+            }
+            row += 1;
+        }
+        rows += 1;
+    }
+    all
+};
+
 /// The least lane; there is no NaN.
 #[inline(always)]
 fn least<S: Simd>(lanes: f32x16<S>) -> f32 {
@@ -306,12 +343,26 @@ fn least<S: Simd>(lanes: f32x16<S>) -> f32 {
     simd.reduce_min_f32x16(lanes)
 }
 
-/// The index at which a sample of a tile is kept.
+/// The index at which a sample of a tile is kept: the sum of what its row and its column bring. It is the same in tiles of all
+/// sizes, as those that are smaller than the largest have one group.
 #[inline(always)]
-pub(super) fn index(side: usize, row: usize, column: usize) -> usize {
-    let group = row / 16 * side.div_ceil(16) + column / 16;
-    let block = row % 16 / 4 * 4 + column % 16 / 4;
-    group * 256 + block * 16 + row % 4 * 4 + column % 4
+pub(super) fn index(row: usize, column: usize) -> usize {
+    usize::from(OF_ROW[row % LARGEST]) + usize::from(OF_COLUMN[column % LARGEST])
+}
+
+const OF_ROW: [u16; LARGEST] = steps([4, 64, 512]);
+const OF_COLUMN: [u16; LARGEST] = steps([1, 16, 256]);
+
+/// What rows or columns bring to an index: a step within a block, a step to the next block and one to the next group.
+const fn steps([within, block, group]: [u16; 3]) -> [u16; LARGEST] {
+    let mut all = [0; LARGEST];
+    let (mut k, mut at) = (0, 0);
+    while k < LARGEST {
+        all[k] = at % 4 * within + at % 16 / 4 * block + at / 16 * group;
+        k += 1;
+        at += 1;
+    }
+    all
 }
 
 /// The row and column of the sample that is kept there.

@@ -7,17 +7,20 @@
 mod arena;
 mod collapse;
 mod grow;
+mod instances;
 mod leaves;
 mod prim_ref;
+mod primitives;
 mod sah;
 mod split;
 
-use super::tree::{Bounds, INSTANCES, LeafCounts, Node, NodeKind, NodeRef, SPHERES};
+use super::tree::{Bounds, SPHERES};
 use crate::fast::prepared::{Instanced, MeshRoot, Prepared};
 use arena::{Arena, LeafRange};
 use bothways_common::engine::simd::best_level;
 use bothways_common::{Mesh, Scene, Shape};
 use grow::grow;
+use instances::{InstanceBoxes, Numbered};
 use prim_ref::{CornerReader, PrimRef, Source, collect, triangles_of};
 use rayon::prelude::*;
 use split::{BuildContext, BuildRecord, Kind};
@@ -33,7 +36,7 @@ pub(crate) fn build(scene: &Scene, side: usize) -> Prepared {
         indexed_leaves: Vec::new(),
         plain_leaves: Vec::new(),
         sphere_leaves: Vec::new(),
-        instance_leaves: Vec::new(),
+        instance_order: Vec::new(),
         roots: Vec::new(),
         meshes: Vec::new(),
         instanced: Vec::new(),
@@ -48,19 +51,16 @@ pub(crate) fn build(scene: &Scene, side: usize) -> Prepared {
     };
     add_meshes(scene, &mut prepared);
     // The walk begins with the last; instances come last, as there may be very many that something else hides.
-    let hierarchies = [
-        (Kind::Instances, &mut collected.instances),
-        (Kind::Triangles, &mut collected.triangles),
-        (Kind::Spheres, &mut collected.spheres),
-    ];
+    add_instances(scene, &mut prepared);
+    let hierarchies =
+        [(Kind::Triangles, &mut collected.triangles), (Kind::Spheres, &mut collected.spheres)];
     for (kind, prims) in hierarchies {
         if prims.is_empty() {
             continue;
         }
         let context = BuildContext { kind, source: Source::Scene(scene) };
         let MeshRoot { root, bounds, .. } = add_hierarchy(prims, &context, true, &mut prepared);
-        prepared.bounds = prepared.bounds.union(&bounds);
-        prepared.roots.push(root);
+        prepared.add_root(root, &bounds);
         *prims = Vec::new();
     }
     prepared
@@ -90,6 +90,24 @@ fn add_meshes(scene: &Scene, prepared: &mut Prepared) {
     }
 }
 
+/// Builds the hierarchy over instances behind the nodes that are there. Beside its nodes and the order of the instances,
+/// little memory is used: there may be a million instances.
+fn add_instances(scene: &Scene, prepared: &mut Prepared) {
+    let boxes = InstanceBoxes::new(scene, &prepared.instanced);
+    let mut order = boxes.numbers();
+    if order.is_empty() {
+        return;
+    }
+    let context = BuildContext { kind: Kind::Instances, source: Source::Scene(scene) };
+    let all = BuildRecord::new(Numbered { numbers: &mut order, boxes: &boxes }, 0, 0, false);
+    let bounds = all.bounds.bounds();
+    let mut arena = Arena { nodes: std::mem::take(&mut prepared.nodes), ..Arena::default() };
+    let (root, counts) = grow(all, &context, &mut arena);
+    let (root, _) = arena.begun_with_node(&bounds, root, counts);
+    (prepared.nodes, prepared.instance_order) = (arena.nodes, order);
+    prepared.add_root(root, &bounds);
+}
+
 /// Builds a hierarchy, and adds it to those that are there. If there are few primitives, it is a leaf, or
 /// `begins_with_node` and a node with that leaf.
 fn add_hierarchy(
@@ -98,23 +116,20 @@ fn add_hierarchy(
     begins_with_node: bool,
     prepared: &mut Prepared,
 ) -> MeshRoot {
-    let all = BuildRecord::new(prims, 0, 0, false);
+    let all = BuildRecord::new(&mut *prims, 0, 0, false);
     let bounds = all.bounds.bounds();
-    let (mut tree, mut root, mut counts) = grow(all, context);
-    if begins_with_node && root.kind() != NodeKind::Node {
-        tree.nodes.push(Node::empty());
-        tree.attach(0, &bounds, root, counts);
-        (root, counts) = (NodeRef::new(NodeKind::Node, 0), LeafCounts::default());
+    let mut tree = Arena::default();
+    let (mut root, mut counts) = grow(all, context, &mut tree);
+    if begins_with_node {
+        (root, counts) = tree.begun_with_node(&bounds, root, counts);
     }
     let (nodes, leaves) = (prepared.nodes.len(), prepared.leaf_counts());
-    let Arena { nodes: added, leaves: [indexed, plain, spheres, instances] } =
-        tree.shifted(nodes, leaves);
+    let Arena { nodes: added, leaves: [indexed, plain, spheres, _] } = tree.shifted(nodes, leaves);
     append(&mut prepared.nodes, added);
     let source = context.source;
     append(&mut prepared.indexed_leaves, filled(source, prims, &indexed, leaves::indexed_leaf));
     append(&mut prepared.plain_leaves, filled(source, prims, &plain, leaves::plain_leaf));
     append(&mut prepared.sphere_leaves, filled(source, prims, &spheres, ids::<SPHERES>));
-    append(&mut prepared.instance_leaves, filled(source, prims, &instances, ids::<INSTANCES>));
     MeshRoot { root: root.shifted(nodes, leaves), counts, bounds }
 }
 

@@ -4,7 +4,7 @@
 //! Large triangles are drawn at once, because of what they hide. With small ones, leaves wait until the machine has
 //! fetched them, and triangles wait until there are eight, from several leaves.
 
-use super::instance_frustum::PlacedBy;
+use super::instance_frustum::InstanceFrustum;
 use super::leaf::Leaf;
 use super::tile_frustum::TileFrustum;
 use super::tree::{LEAF, NodeKind, NodeRef};
@@ -22,10 +22,14 @@ pub(crate) const EIGHT: usize = 8;
 /// Room for this many triangles: those of all leaves, and those that are stored before it is known how many count.
 const ROOM: usize = 80 + LEAVES * LEAF + EIGHT;
 
+/// A projection of a whole instance that is off by more than so many columns lets triangles pass that the leaf's own
+/// would drop.
+const WORTHWHILE: f32 = 1.0 / 256.0;
+
 /// Leaves that wait, and triangles that passed the test of their leaf and wait.
 #[derive(Debug)]
-pub(crate) struct CandidateQueue<'a> {
-    leaves: [WaitingLeaf<'a>; LEAVES],
+pub(crate) struct CandidateQueue {
+    leaves: [WaitingLeaf; LEAVES],
     leaf_count: usize,
     corners: [[f32; ROOM]; 9],
     ids: [u32; ROOM],
@@ -36,7 +40,7 @@ pub(crate) struct CandidateQueue<'a> {
 
 /// A leaf that waits.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct WaitingLeaf<'a> {
+pub(crate) struct WaitingLeaf {
     pub(crate) leaf: NodeRef,
     /// How many of its triangles count: the first ones.
     pub(crate) used: usize,
@@ -44,11 +48,9 @@ pub(crate) struct WaitingLeaf<'a> {
     pub(crate) near: f32,
     /// No two vertices are farther from each other along any axis.
     pub(crate) size: f32,
-    /// The instance that it belongs to, if it is a leaf of a mesh that several share.
-    pub(crate) place: Option<PlacedBy<'a>>,
 }
 
-impl<'a> CandidateQueue<'a> {
+impl CandidateQueue {
     pub(crate) fn new() -> Self {
         CandidateQueue {
             leaves: [WaitingLeaf {
@@ -56,7 +58,6 @@ impl<'a> CandidateQueue<'a> {
                 used: 0,
                 near: 0.0,
                 size: 0.0,
-                place: None,
             }; LEAVES],
             leaf_count: 0,
             corners: [[0.0; ROOM]; 9],
@@ -68,7 +69,7 @@ impl<'a> CandidateQueue<'a> {
 
     /// Adds a leaf, which waits while the machine fetches it. Returns whether the queue of leaves is full.
     #[inline(always)]
-    pub(crate) fn add(&mut self, leaf: WaitingLeaf<'a>) -> bool {
+    pub(crate) fn add(&mut self, leaf: WaitingLeaf) -> bool {
         self.leaves[self.leaf_count & (LEAVES - 1)] = leaf;
         self.leaf_count += 1;
         self.leaf_count == LEAVES
@@ -104,25 +105,55 @@ impl<'a> CandidateQueue<'a> {
             let waiting = self.leaves[k];
             let index = waiting.leaf.index();
             if waiting.leaf.kind() == NodeKind::IndexedLeaf {
-                let mut leaf = &prepared.indexed_leaves[index];
-                let placed;
-                if let Some(place) = waiting.place {
-                    placed = place.indexed_leaf(simd, leaf);
-                    leaf = &placed;
-                }
-                self.test_leaf(simd, leaf, frustum, &waiting, test);
+                self.test_leaf(simd, &prepared.indexed_leaves[index], frustum, &waiting, test);
             } else {
-                let mut leaf = &prepared.plain_leaves[index];
-                let placed;
-                if let Some(place) = waiting.place {
-                    placed = place.plain_leaf(simd, leaf);
-                    leaf = &placed;
-                }
-                self.test_leaf(simd, leaf, frustum, &waiting, test);
+                self.test_leaf(simd, &prepared.plain_leaves[index], frustum, &waiting, test);
             }
         }
         self.leaves.copy_within(2.., 0);
         self.leaf_count -= ripe;
+    }
+
+    /// Tests the triangles of a leaf of an instance's mesh, and keeps those that pass. Nothing waits.
+    #[inline(always)]
+    pub(crate) fn test_placed<S: Simd>(
+        &mut self,
+        simd: S,
+        prepared: &Prepared,
+        (frustum, instance): (&TileFrustum, &InstanceFrustum),
+        waiting: &WaitingLeaf,
+        test: Test,
+    ) {
+        let (index, rays) = (waiting.leaf.index(), (frustum, instance));
+        if waiting.leaf.kind() == NodeKind::IndexedLeaf {
+            self.test_placed_leaf(simd, &prepared.indexed_leaves[index], rays, waiting, test);
+        } else {
+            self.test_placed_leaf(simd, &prepared.plain_leaves[index], rays, waiting, test);
+        }
+    }
+
+    /// Projects the leaf from where it is in the mesh, if that tells enough, and places it in the world if any of its
+    /// triangles passes.
+    #[inline(always)]
+    fn test_placed_leaf<S: Simd>(
+        &mut self,
+        simd: S,
+        leaf: &impl Leaf,
+        (frustum, instance): (&TileFrustum, &InstanceFrustum),
+        waiting: &WaitingLeaf,
+        test: Test,
+    ) {
+        let projection = instance.projection(waiting.near);
+        if (0.0..WORTHWHILE).contains(&projection.error) {
+            let corners = leaf.project(simd, frustum, &projection);
+            let passed = pass(simd, frustum, &corners, projection.error, test)
+                & mask32x16::from_bitmask(simd, (1 << waiting.used) - 1);
+            if passed.any_true() {
+                self.keep(simd, &leaf.placed(simd, &instance.place), passed);
+            }
+        } else {
+            self.test_leaf(simd, &leaf.placed(simd, &instance.place), frustum, waiting, test);
+        }
     }
 
     /// Keeps those triangles of a leaf that may cover samples of the tile. It branches on no result: none could be
@@ -142,6 +173,12 @@ impl<'a> CandidateQueue<'a> {
             let corners = leaf.project(simd, frustum, &local);
             passed &= pass(simd, frustum, &corners, local.error, test);
         }
+        self.keep(simd, leaf, passed);
+    }
+
+    /// Keeps some triangles of a leaf.
+    #[inline(always)]
+    fn keep<S: Simd>(&mut self, simd: S, leaf: &impl Leaf, passed: mask32x16<S>) {
         let at = self.end.min(ROOM - LEAF);
         leaf.gather(simd, passed, &mut self.corners, at);
         let ids = u32x16::load_array_ref(simd, leaf.ids());
@@ -210,8 +247,9 @@ fn pass<S: Simd>(
         return !(missed | is_between_edges(simd, frustum, [y, x], error));
     }
     let more = columns.last - columns.first + (rows.last - rows.first);
-    let beside = is_beside(simd, [y, x], [rows.first, columns.first], error)
-        & is_beside(simd, [y, x], [rows.last, columns.last], error);
+    let doubt = (columns.size.max(rows.size) * 5.0 + 8.0 * error) * error;
+    let beside = is_beside([y, x], [rows.first, columns.first], doubt)
+        & is_beside([y, x], [rows.last, columns.last], doubt);
     !(missed | more.simd_le(f32x16::splat(simd, 1.0)) & beside)
 }
 
@@ -219,6 +257,8 @@ fn pass<S: Simd>(
 struct Between<S: Simd> {
     first: f32x16<S>,
     last: f32x16<S>,
+    /// From the first corner to the last.
+    size: f32x16<S>,
     /// None of them is in the tile.
     none: mask32x16<S>,
 }
@@ -228,10 +268,10 @@ impl<S: Simd> Between<S> {
     fn new(simd: S, frustum: &TileFrustum, [a, b, c]: &[f32x16<S>; 3], error: f32) -> Self {
         #[expect(clippy::cast_precision_loss, reason = "at most 31")]
         let end = f32x16::splat(simd, (frustum.template.side - 1) as f32);
-        let first = (a.min(*b).min(*c) - error).ceil();
-        let last = (a.max(*b).max(*c) + error).floor();
+        let (low, high) = (a.min(*b).min(*c), a.max(*b).max(*c));
+        let (first, last) = ((low - error).ceil(), (high + error).floor());
         let none = last.min(end).simd_lt(first.max(f32x16::splat(simd, 0.0)));
-        Between { first, last, none }
+        Between { first, last, size: high - low, none }
     }
 }
 
@@ -272,24 +312,24 @@ fn is_between_edges<S: Simd>(
     positive & negative
 }
 
-/// Whether triangles certainly do not cover a sample, as two edge functions have different signs there. There is at
-/// most one other sample between their corners, beside it.
+/// Whether triangles certainly do not cover a sample, as two edge functions have different signs there, by more than is in
+/// `doubt`. There is at most one other sample between their corners, beside it.
 ///
-/// So the corners are no farther from the sample than 2 along one axis and 1 along the other, and with an error `e` of
-/// less than 1/16, two products are off by at most `6e + 6e²`; their factors' roundings, their own and that of
-/// their difference bring less than `e`, which is at least `36·ε₂₄`.
+/// The sample lies between the corners but for an error `e` of less than 1/16. So none is farther from it along an axis
+/// than `m`, the triangle's size along an axis and `e`, and along one axis not farther than 1 and `e`. Two products are off
+/// by at most `4·m·e + 2·e²`; their factors' roundings, their own and that of their difference bring less than `9·m·ε₂₄`,
+/// which is less than `m·e/2`, as `e` is at least `36·ε₂₄`. So `(5·s + 8·e)·e` is more than all, with `s` the size as it is
+/// computed.
 #[inline(always)]
 fn is_beside<S: Simd>(
-    simd: S,
     [y, x]: [&[f32x16<S>; 3]; 2],
     [row, column]: [f32x16<S>; 2],
-    error: f32,
+    doubt: f32x16<S>,
 ) -> mask32x16<S> {
-    let error = f32x16::splat(simd, 8.0 * error);
     let x = [x[0] - column, x[1] - column, x[2] - column];
     let y = [y[0] - row, y[1] - row, y[2] - row];
     let ab = x[0] * y[1] - y[0] * x[1];
     let bc = x[1] * y[2] - y[1] * x[2];
     let ca = x[2] * y[0] - y[2] * x[0];
-    ab.max(bc).max(ca).simd_gt(error) & ab.min(bc).min(ca).simd_lt(-error)
+    ab.max(bc).max(ca).simd_gt(doubt) & ab.min(bc).min(ca).simd_lt(-doubt)
 }

@@ -2,9 +2,10 @@
 //! same for all instances.
 
 use super::box_culling::{BoxCulling, BoxHits, Sides, longest_side};
-use super::tile_frustum::TileFrustum;
+use super::tile_frustum::{FrustumTemplate, TileFrustum};
 use super::tile_place::TilePlace;
-use super::tree::{Bounds, IndexedLeaf, LEAF, Node, PlainLeaf, WIDTH};
+use super::tree::{Bounds, LEAF, Node, WIDTH};
+use crate::fast::local_projection::LocalProjection;
 use crate::fast::world_affine::{LARGEST, WorldAffine, narrowed, upward};
 use bothways_common::Placement;
 use bothways_common::engine::context::Context;
@@ -22,13 +23,14 @@ pub(crate) struct InstanceFrustum<'a> {
     boxes: BoxCulling,
     /// Where they are seen in the tile.
     places: Places,
+    /// Where vertices of the mesh are seen.
+    vertices: PlacedVertices,
     /// Along any axis of the world, two vertices in a box are at most as far from each other as the box's longest side
     /// times `stretch`, and `slack`.
     stretch: f32,
     slack: f32,
-    /// The rows and columns of the tile at which it may be seen, the first and the last of each; `None` if all rays of the
-    /// tile miss it.
-    pub(crate) seen: Option<[[usize; 2]; 2]>,
+    /// The rows and columns of the tile at which it may be seen, the first and the last of each.
+    pub(crate) seen: [[usize; 2]; 2],
     /// As of a box: see [`BoxHits`](super::box_culling::BoxHits).
     pub(crate) near: f32,
     pub(crate) size: f32,
@@ -47,6 +49,35 @@ struct Places {
     parallel: bool,
 }
 
+/// What projects vertices of the mesh: see [`InstanceFrustum::projection`].
+#[derive(Clone, Copy, Debug)]
+struct PlacedVertices {
+    t: WorldAffine,
+    /// A computed `near` and this is not greater than the computed `t` of what it is said of.
+    from_near: f64,
+    /// How far columns times `t` may be off, and columns besides.
+    error: f32,
+    rounding: f32,
+}
+
+impl PlacedVertices {
+    /// From what `t` and sides may be off by.
+    fn new(
+        frustum: &TileFrustum,
+        functions: &WorldFunctions,
+        [t_error, sides_error]: [f32; 2],
+    ) -> PlacedVertices {
+        let FrustumTemplate { boxes: world, errors, half, local, .. } = frustum.template;
+        let at_origin = world.t_at_origin - (-48f64).exp2() * world.t_at_origin.abs();
+        PlacedVertices {
+            t: WorldAffine::new(functions.along[0], functions.at[0]),
+            from_near: at_origin - f64::from(world.t_error) - f64::from(t_error),
+            error: (4.0 * t_error + sides_error).next_up(),
+            rounding: local.rounding() + upward(errors.wide - half),
+        }
+    }
+}
+
 /// Where an instance is, and the name of its first triangle.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PlacedBy<'a> {
@@ -55,7 +86,7 @@ pub(crate) struct PlacedBy<'a> {
 }
 
 impl<'a> InstanceFrustum<'a> {
-    /// For an instance of a mesh in this box.
+    /// For an instance of a mesh in this box; `None` if all rays of the tile miss it.
     ///
     /// A function of the world `N·p + o` is, with `p = M·q + τ`, the function `(MᵀN)·q + (N·τ + o)` of the mesh. It is
     /// computed in `f64` about the middle `c` of the mesh's box, and rounded to `f32`. So boxes stay as they are, and as
@@ -81,29 +112,27 @@ impl<'a> InstanceFrustum<'a> {
         frustum: &TileFrustum,
         placement: &'a Placement,
         bounds: &Bounds,
-    ) -> InstanceFrustum<'a> {
+    ) -> Option<InstanceFrustum<'a>> {
         let template = frustum.template;
         let world = &template.boxes;
         let eye = DVec3::from_array(template.eye);
         let placed = PlacedBounds::new(placement, bounds, eye);
         let functions = WorldFunctions::new(frustum, &placed, eye);
-        let WorldFunctions { along, at, .. } = functions;
+        let WorldFunctions { along, at, .. } = &functions;
 
         let sides_error = functions.sides_error(frustum, &placed);
+        if functions.miss_box(frustum, &placed, sides_error) {
+            return None;
+        }
         let t = at[0] - world.t_at_origin;
         let t_error = placed.error(functions.rows[0].abs(), t.abs() + at[0].abs(), world.t_exact);
         let lowered = t - f64::from(t_error);
         let least_t = upward(2.0 * f64::from(t_error) + world.t_at_origin);
-        let sides = functions.sides(frustum);
-        let is_beyond = |(normal, at): &(DVec3, f64)| {
-            normal.abs().dot(placed.half) + at < -f64::from(sides_error)
-        };
-        let is_missed = sides.iter().any(is_beyond);
-        let seen = || functions.seen(frustum, &placed, [t_error, sides_error].map(f64::from));
+        let seen = functions.seen(frustum, &placed, [t_error, sides_error].map(f64::from))?;
         let stretch = upward((placed.absolute * DVec3::ONE).max_element() * (1.0 + 1e-6));
         let slack = upward(2.0 * placed.rounding.max_element());
         let size = upward(2.0 * placed.half.max_element());
-        InstanceFrustum {
+        Some(InstanceFrustum {
             // It has no name yet.
             place: PlacedBy { placement, first_name: 0 },
             boxes: BoxCulling {
@@ -122,12 +151,13 @@ impl<'a> InstanceFrustum<'a> {
                 key_error: upward(template.errors.t + 8.0 * EPS53),
                 parallel: template.parallel,
             },
+            vertices: PlacedVertices::new(frustum, &functions, [t_error, sides_error]),
             stretch,
             slack,
-            seen: if is_missed { None } else { seen() },
+            seen,
             near: narrowed(lowered - along[0].abs().dot(placed.half)).next_down(),
             size: size * stretch + slack,
-        }
+        })
     }
 
     /// Finds the boxes of a node of the mesh that a ray of the tile may meet before `farthest`, and where in the tile.
@@ -149,6 +179,38 @@ impl<'a> InstanceFrustum<'a> {
             BoxHits::new(node, beyond | missed, near, size),
             BoxPlaces { place: place.to_array(), key: key.to_array() },
         )
+    }
+
+    /// The projection of the mesh's vertices onto the tile, for a leaf in which no `t` is less than `near`, as computed
+    /// for its box in the mesh, or for that of the instance.
+    ///
+    /// It is good for all of the mesh where that is seen small, as meshes are that are there very often. Then vertices need
+    /// not be placed in the world to know which triangles miss all samples.
+    ///
+    /// # The errors, rounding by rounding
+    ///
+    /// `x` is a column times `t`, and `e_x` and `e_t` are what the functions of the mesh may be off by at a vertex:
+    /// [`InstanceFrustum::new`] derives the error of a side, which is at least `e_x` and `wide` times `e_t`. Columns up to
+    /// `wide + 3` are off by `(e_x − (x/t)·e_t)/t̂`, that is by less than the error of a side and `3·e_t`, over a `t̂` that is
+    /// not larger than any that is computed in the leaf. For `near` is less than the exact `t` of all, but for the error
+    /// of `t` in the world, and the computed one is off by that in the mesh. The roundings that follow are those of
+    /// [`LocalErrors::new`], and farther columns are taken for farther ones, as there. Rays are off by what
+    /// [`MapErrors::wide`] is more than half of a tile.
+    ///
+    /// [`LocalErrors::new`]: crate::fast::local_errors::LocalErrors::new
+    /// [`MapErrors::wide`]: crate::fast::camera_map::MapErrors::wide
+    #[inline(always)]
+    pub(super) fn projection(&self, near: f32) -> LocalProjection {
+        let PlacedVertices { t, from_near, error, rounding } = self.vertices;
+        let near = narrowed(f64::from(near) + from_near).next_down();
+        let near = if self.places.parallel { 1.0 } else { near };
+        // Behind the eye nothing is known.
+        let near = if near > 0.0 { near } else { f32::NAN };
+        LocalProjection {
+            vertex: self.boxes.origin,
+            map: [t, self.places.across, self.places.down],
+            error: error / near * (1.0 + 16.0 * EPS24) + rounding,
+        }
     }
 
     /// Where in the tile boxes are seen. A mesh that is there very often is mostly seen from far away, where most leaves are
@@ -211,7 +273,7 @@ impl<'a> InstanceFrustum<'a> {
         Seen {
             missed: is_in_front & nowhere,
             key,
-            place: is_known.select(place, splat(TilePlace::WHOLE_TILE)),
+            place: is_known.select(place, splat(TilePlace::WHOLE_TILE)).to_int(),
         }
     }
 }
@@ -221,21 +283,21 @@ struct Seen<S: Simd> {
     /// Those that no ray meets.
     missed: mask32x16<S>,
     /// The places of the others: see [`TilePlace::from_whole_number`].
-    place: f32x16<S>,
+    place: u32x16<S>,
     /// No point of theirs has a greater depth key.
     key: f32x16<S>,
 }
 
 /// Where the boxes of a node are seen in a tile, and the depth keys of their nearest points: see [`Seen`].
 pub(crate) struct BoxPlaces {
-    pub(super) place: [f32; WIDTH],
+    pub(super) place: [u32; WIDTH],
     pub(super) key: [f32; WIDTH],
 }
 
 impl BoxPlaces {
     /// Nothing is known.
     pub(super) const ANYWHERE: BoxPlaces =
-        BoxPlaces { place: [TilePlace::WHOLE_TILE; WIDTH], key: [f32::INFINITY; WIDTH] };
+        BoxPlaces { place: [TilePlace::WHOLE; WIDTH], key: [f32::INFINITY; WIDTH] };
 }
 
 /// The box of a mesh where an instance puts it, with what its vertices are off by: see [`InstanceFrustum::new`].
@@ -330,6 +392,14 @@ impl WorldFunctions {
         ]
     }
 
+    /// Whether the box is certainly beside the frustum.
+    fn miss_box(&self, frustum: &TileFrustum, placed: &PlacedBounds, sides_error: f32) -> bool {
+        let is_beyond = |(normal, at): &(DVec3, f64)| {
+            normal.abs().dot(placed.half) + at < -f64::from(sides_error)
+        };
+        self.sides(frustum).iter().any(is_beyond)
+    }
+
     /// What sides may be off by.
     fn sides_error(&self, frustum: &TileFrustum, placed: &PlacedBounds) -> f32 {
         let WorldFunctions { rows, at, .. } = self;
@@ -400,30 +470,9 @@ fn parts(placement: &Placement) -> ([DVec3; 3], DVec3) {
 }
 
 impl PlacedBy<'_> {
-    /// A leaf of the mesh in the world.
+    /// The names of triangles of the mesh in this place.
     #[inline(always)]
-    pub(crate) fn indexed_leaf<S: Simd>(&self, simd: S, leaf: &IndexedLeaf) -> IndexedLeaf {
-        IndexedLeaf {
-            vertices: self.placement.sixteen_positions(simd, &leaf.vertices),
-            corners: leaf.corners,
-            ids: self.ids(simd, &leaf.ids),
-        }
-    }
-
-    /// A leaf of the mesh in the world.
-    #[inline(always)]
-    pub(crate) fn plain_leaf<S: Simd>(&self, simd: S, leaf: &PlainLeaf) -> PlainLeaf {
-        let mut corners = [[0.0; LEAF]; 9];
-        for (corner, placed) in
-            leaf.corners.as_chunks::<3>().0.iter().zip(corners.as_chunks_mut().0)
-        {
-            *placed = self.placement.sixteen_positions(simd, corner);
-        }
-        PlainLeaf { corners, ids: self.ids(simd, &leaf.ids) }
-    }
-
-    #[inline(always)]
-    fn ids<S: Simd>(&self, simd: S, ids: &[u32; LEAF]) -> [u32; LEAF] {
-        (u32x16::load_array_ref(simd, ids) + self.first_name).to_array()
+    pub(super) fn names<S: Simd>(&self, simd: S, numbers: &[u32; LEAF]) -> [u32; LEAF] {
+        (u32x16::load_array_ref(simd, numbers) + self.first_name).to_array()
     }
 }

@@ -1,12 +1,13 @@
 //! Leaves of triangles, in whichever way they are stored.
 
+use super::instance_frustum::PlacedBy;
 use super::tile_frustum::TileFrustum;
 use super::tree::{IndexedLeaf, LEAF, PlainLeaf};
 use crate::fast::local_projection::LocalProjection;
 use bothways_common::engine::simd::{Bytes, Simd, SimdBase, f32x16, mask32x16, u8x64, u32x16};
 
 /// Up to sixteen triangles.
-pub(crate) trait Leaf {
+pub(crate) trait Leaf: Sized {
     /// The ids of the triangles; unused lanes repeat the first.
     fn ids(&self) -> &[u32; LEAF];
 
@@ -20,6 +21,9 @@ pub(crate) trait Leaf {
         frustum: &TileFrustum,
         local: &LocalProjection,
     ) -> [[f32x16<S>; 3]; 2];
+
+    /// The leaf of a mesh where an instance puts it.
+    fn placed<S: Simd>(&self, simd: S, place: &PlacedBy) -> Self;
 
     /// Stores x, y, z of the first, second and third corners of some triangles, one triangle behind the other from
     /// index `at` on. The other lanes up to sixteen are overwritten, too.
@@ -58,6 +62,15 @@ impl Leaf for IndexedLeaf {
             [rows.swizzle_dyn(a), rows.swizzle_dyn(b), rows.swizzle_dyn(c)],
             [columns.swizzle_dyn(a), columns.swizzle_dyn(b), columns.swizzle_dyn(c)],
         ]
+    }
+
+    #[inline(always)]
+    fn placed<S: Simd>(&self, simd: S, place: &PlacedBy) -> Self {
+        IndexedLeaf {
+            vertices: place.placement.sixteen_positions(simd, &self.vertices),
+            corners: self.corners,
+            ids: place.names(simd, &self.ids),
+        }
     }
 
     #[inline(always)]
@@ -103,6 +116,16 @@ impl Leaf for PlainLeaf {
         let [b, e] = local.project(simd, frustum, [bx, by, bz]);
         let [c, f] = local.project(simd, frustum, [cx, cy, cz]);
         [[a, b, c], [d, e, f]]
+    }
+
+    #[inline(always)]
+    fn placed<S: Simd>(&self, simd: S, place: &PlacedBy) -> Self {
+        let mut corners = [[0.0; LEAF]; 9];
+        let of_mesh = self.corners.as_chunks::<3>().0;
+        for (corner, placed) in of_mesh.iter().zip(corners.as_chunks_mut().0) {
+            *placed = place.placement.sixteen_positions(simd, corner);
+        }
+        PlainLeaf { corners, ids: place.names(simd, &self.ids) }
     }
 
     #[inline(always)]

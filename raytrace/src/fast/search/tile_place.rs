@@ -7,8 +7,9 @@ pub(crate) struct TilePlace(u32);
 
 impl TilePlace {
     /// All of a tile of any size.
-    pub(crate) const ALL: TilePlace = TilePlace::from_whole_number(TilePlace::WHOLE_TILE);
-    /// The same as a whole number.
+    pub(crate) const ALL: TilePlace = TilePlace(TilePlace::WHOLE);
+    /// The same as a whole number, which an `f32` holds, too.
+    pub(super) const WHOLE: u32 = 31 << 5 | 31 << 15;
     pub(super) const WHOLE_TILE: f32 = TilePlace::LAST * 31.0 * (1.0 + TilePlace::COLUMN);
     /// As a whole number, a place is the sum of its first row, and of its last row, its first column and its last column
     /// times these numbers.
@@ -22,15 +23,10 @@ impl TilePlace {
         [[end(0), end(5)], [end(10), end(15)]]
     }
 
-    /// The place that a whole number stands for, of 20 bits: vectors hold it in an `f32`.
+    /// The place that a whole number of 20 bits stands for: vectors hold it in an `f32`, which holds it exactly.
     #[inline(always)]
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a whole number of 20 bits"
-    )]
-    pub(super) const fn from_whole_number(number: f32) -> TilePlace {
-        TilePlace(number as u32)
+    pub(super) const fn from_whole_number(number: u32) -> TilePlace {
+        TilePlace(number)
     }
 }
 
@@ -41,8 +37,9 @@ mod tests {
     #[test]
     fn a_whole_number_holds_four_ends() {
         assert_eq!(TilePlace::ALL.ends(), [[0, 31]; 2]);
-        let number =
-            3.0 + 7.0 * TilePlace::LAST + (30.0 + 31.0 * TilePlace::LAST) * TilePlace::COLUMN;
+        assert_eq!(TilePlace::WHOLE_TILE, TilePlace::WHOLE as f32);
+        assert_eq!([TilePlace::LAST, TilePlace::COLUMN], [32.0, 1024.0]);
+        let number = 3 + 7 * 32 + (30 + 31 * 32) * 1024;
         assert_eq!(TilePlace::from_whole_number(number).ends(), [[3, 7], [30, 31]]);
     }
 }

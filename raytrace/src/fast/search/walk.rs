@@ -38,7 +38,7 @@ pub(crate) struct Walker<'a> {
     pub(crate) tile: TileBuffer,
     unbounded: &'a Unbounded,
     stack: Vec<StackEntry>,
-    queue: CandidateQueue<'a>,
+    queue: CandidateQueue,
     /// The instance whose mesh is walked last, whether that walk goes on, and how long the stack was before: what lies
     /// above belongs to the instance. Outside of instances, 0.
     instance: Option<InstanceFrustum<'a>>,
@@ -93,7 +93,7 @@ impl<'a> Walker<'a> {
                 continue;
             }
             let Some(entry) = self.stack.pop() else { break };
-            if entry.near > farthest || !C::WATCHED && self.is_hidden(&entry) {
+            if entry.near > farthest || !C::WATCHED && self.is_hidden(context, &entry) {
                 continue;
             }
             match entry.child.kind() {
@@ -107,8 +107,8 @@ impl<'a> Walker<'a> {
                         || class == SizeClass::Many
                         || self.is_inside
                         || self.tile.is_nearly_full();
-                    let is_full = self.add_leaf(context, &entry);
-                    if !(is_full || flush) {
+                    let is_ready = self.add_leaf(context, &frustum, &entry, class);
+                    if !(is_ready || flush) || self.queue.is_empty() {
                         continue;
                     }
                     class = self.draw_candidates(context, &frustum, class, flush);
@@ -119,15 +119,13 @@ impl<'a> Walker<'a> {
                     continue;
                 }
                 NodeKind::Instance => {
-                    if self.tile.names.are_used_up() {
-                        // What waits has names that others will have.
-                        while !self.queue.is_empty() {
-                            self.draw_candidates(context, &frustum, class, true);
-                        }
-                        self.tile.give_names_anew();
+                    // Of instances nothing waits. What waits of others may hide them, and has names.
+                    if self.queue.is_empty() {
+                        self.enter_instance(&frustum, &entry, farthest);
+                        continue;
                     }
-                    self.enter_instance(&frustum, &entry, farthest);
-                    continue;
+                    self.stack.push(entry);
+                    self.draw_candidates(context, &frustum, class, true);
                 }
             }
             farthest = self.farthest(&frustum);
@@ -212,13 +210,21 @@ impl<'a> Walker<'a> {
     /// Whether something nearer is seen at all samples at which a box may be seen. Where many instances lie behind one
     /// another, the farthest hit of all the tile hides few of them: there are gaps between them.
     #[inline(always)]
-    fn is_hidden(&self, entry: &StackEntry) -> bool {
-        entry.place != TilePlace::ALL && entry.key < self.tile.far_at(entry.place.ends())
+    fn is_hidden<C: Context>(&self, context: &C, entry: &StackEntry) -> bool {
+        entry.place != TilePlace::ALL
+            && self.tile.hides(context.simd(), entry.place.ends(), entry.key)
     }
 
-    /// Adds a leaf of triangles to the queue. Returns whether the queue is full.
+    /// Adds a leaf of triangles to the queue; of a leaf of an instance, those of its triangles that pass its test. Returns
+    /// whether the queue is full.
     #[inline(always)]
-    fn add_leaf<C: ScalarContext>(&mut self, context: &mut C, entry: &StackEntry) -> bool {
+    fn add_leaf<C: Context>(
+        &mut self,
+        context: &mut C,
+        frustum: &TileFrustum,
+        entry: &StackEntry,
+        class: SizeClass,
+    ) -> bool {
         let StackEntry { near, size, child, counts, .. } = *entry;
         let with_duplicates = C::has(Planted::TiesToLast);
         let used = if with_duplicates { counts.all() } else { counts.distinct() };
@@ -227,8 +233,13 @@ impl<'a> Walker<'a> {
         if C::WATCHED {
             self.emit_tests(context, child, used);
         }
-        let place = self.inside().map(|instance| instance.place);
-        self.queue.add(WaitingLeaf { leaf: child, used, near, size, place })
+        let leaf = WaitingLeaf { leaf: child, used, near, size };
+        let Some(instance) = self.instance.as_ref().filter(|_| self.is_inside) else {
+            return self.queue.add(leaf);
+        };
+        let (prepared, rays) = (self.prepared, (frustum, instance));
+        self.queue.test_placed(context.simd(), prepared, rays, &leaf, test_of::<C>(class));
+        false
     }
 
     /// The instance whose mesh is walked now.
@@ -243,7 +254,7 @@ impl<'a> Walker<'a> {
         let count = entry.counts.all();
         let mut instances = [(0.0, 0); INSTANCES];
         for (to, &number) in
-            instances.iter_mut().zip(&prepared.instance_leaves[entry.child.index()][..count])
+            instances.iter_mut().zip(&prepared.instance_order[entry.child.index()..][..count])
         {
             let instance = prepared.instance(view.scene, number);
             let middle = instance.placement.position(instance.mesh.bounds.middle());
@@ -264,12 +275,15 @@ impl<'a> Walker<'a> {
         let number = u32::try_from(entry.child.index()).expect("it has 29 bits");
         let OneInstance { mesh, placement, first_id, triangles } =
             self.prepared.instance(self.map.view.scene, number);
-        let mut instance = InstanceFrustum::new(frustum, placement, &mesh.bounds);
+        if self.tile.names.are_used_up() {
+            self.tile.give_names_anew();
+        }
         self.tile.executed.boxes_tested += 1;
-        let Some(seen) = instance.seen else { return };
+        let instance = InstanceFrustum::new(frustum, placement, &mesh.bounds);
+        let Some(mut instance) = instance else { return };
         // What is hit there may hide it long before the whole tile is full.
         let template = frustum.template;
-        let there = self.map.depth.farthest(self.tile.far_in(seen), template.errors.t);
+        let there = self.map.depth.farthest(self.tile.far_in(instance.seen), template.errors.t);
         if instance.near > farthest.min(template.boxes.farthest(there)) {
             return;
         }
@@ -312,12 +326,7 @@ impl<'a> Walker<'a> {
         class: SizeClass,
         flush: bool,
     ) -> SizeClass {
-        let test = match class {
-            // The events of a ray must not depend on the triangles that came before.
-            _ if C::WATCHED => Test::Edges,
-            SizeClass::VeryFew | SizeClass::Few => Test::Edges,
-            SizeClass::Many => Test::Bounds,
-        };
+        let test = test_of::<C>(class);
         self.queue.test_leaves(context.simd(), self.prepared, frustum, test, flush);
         let mut largest = None;
         loop {
@@ -425,6 +434,17 @@ impl<'a> Walker<'a> {
             let number = u32::try_from(index * WIDTH + lane).unwrap_or(u32::MAX);
             sink.node_opened(sample, number, hit >> lane & 1 == 1);
         }
+    }
+}
+
+/// How to test triangles after some of this class were drawn.
+#[inline(always)]
+fn test_of<C: ScalarContext>(class: SizeClass) -> Test {
+    match class {
+        // The events of a ray must not depend on the triangles that came before.
+        _ if C::WATCHED => Test::Edges,
+        SizeClass::VeryFew | SizeClass::Few => Test::Edges,
+        SizeClass::Many => Test::Bounds,
     }
 }
 

@@ -1,6 +1,6 @@
 //! The nodes of a hierarchy under construction, and the primitives of its leaves.
 
-use crate::fast::search::tree::{Bounds, LEAF_KINDS, LeafCounts, Node, NodeRef};
+use crate::fast::search::tree::{Bounds, LEAF_KINDS, LeafCounts, Node, NodeKind, NodeRef};
 
 /// Nodes and leaves of the hierarchy, or of a part of it, in depth-first order.
 #[derive(Default)]
@@ -28,6 +28,22 @@ impl Arena {
         let node = &mut self.nodes[node];
         node.counts[usize::from(node.used)] = counts;
         node.push(bounds, child);
+    }
+
+    /// A node for a hierarchy that is only a leaf: the root, with a node that holds it if it is one.
+    pub(super) fn begun_with_node(
+        &mut self,
+        bounds: &Bounds,
+        root: NodeRef,
+        counts: LeafCounts,
+    ) -> (NodeRef, LeafCounts) {
+        if root.kind() == NodeKind::Node {
+            return (root, counts);
+        }
+        let node = self.nodes.len();
+        self.nodes.push(Node::empty());
+        self.attach(node, bounds, root, counts);
+        (NodeRef::new(NodeKind::Node, node), LeafCounts::default())
     }
 
     /// Appends a part that was built separately.

@@ -6,7 +6,7 @@
 
 use super::arena::{Arena, LeafRange};
 use super::leaves::{VertexSet, put_duplicates_last};
-use super::prim_ref::CornerReader;
+use super::prim_ref::{CornerReader, PrimRef};
 use super::split::{BuildContext, BuildRecord, Kind, Split, split};
 use crate::fast::search::tree::{Bounds, LeafCounts, Node, NodeKind, NodeRef, WIDTH};
 
@@ -31,14 +31,14 @@ enum BinaryKind {
 }
 
 impl BinaryTree {
-    pub(super) fn new(record: BuildRecord, context: &BuildContext) -> BinaryTree {
+    pub(super) fn new(record: BuildRecord<&mut [PrimRef]>, context: &BuildContext) -> BinaryTree {
         let mut tree = BinaryTree { all: Vec::new() };
         tree.divide(record, context);
         tree
     }
 
     /// Splits a record into leaves. Returns the index of its node, which is the last index.
-    fn divide(&mut self, mut record: BuildRecord, context: &BuildContext) -> usize {
+    fn divide(&mut self, mut record: BuildRecord<&mut [PrimRef]>, context: &BuildContext) -> usize {
         let (bounds, weight) = (record.bounds.bounds(), record.bounds.half_area());
         while record.prims.len() > context.most() {
             match split(record, context) {
@@ -104,6 +104,10 @@ impl BinaryTree {
 
     fn place(&self, node: usize, arena: &mut Arena) -> (NodeRef, LeafCounts) {
         let halves = match self.all[node].kind {
+            // The order of all instances is kept, and no leaves.
+            BinaryKind::Leaf(leaf, kind @ NodeKind::Instances, counts) => {
+                return (NodeRef::new(kind, leaf.first as usize), counts);
+            }
             BinaryKind::Leaf(leaf, kind, counts) => {
                 let leaves = &mut arena.leaves[kind as usize];
                 leaves.push(leaf);

@@ -3,6 +3,7 @@
 
 use super::arena::Arena;
 use super::collapse::BinaryTree;
+use super::primitives::Primitives;
 use super::split::{BuildContext, BuildRecord, Split, split};
 use crate::fast::search::tree::{Bounds, LeafCounts, Node, NodeKind, NodeRef, WIDTH};
 use rayon::prelude::*;
@@ -10,13 +11,19 @@ use rayon::prelude::*;
 /// One thread builds a record with fewer primitives than this.
 const SERIAL: usize = 4096;
 
-/// Builds the hierarchy of a record, beginning with its first node. If there are many primitives, this function
-/// splits the record with the largest box until a node is full.
-pub(super) fn grow(whole: BuildRecord, context: &BuildContext) -> (Arena, NodeRef, LeafCounts) {
-    let mut arena = Arena::default();
-    if whole.prims.len() < SERIAL {
-        let (child, counts) = BinaryTree::new(whole, context).collapse(&mut arena);
-        return (arena, child, counts);
+/// Builds the hierarchy of a record, beginning with its first node, behind what is in an arena. If there are many
+/// primitives, this function splits the record with the largest box until a node is full.
+pub(super) fn grow<P: Primitives>(
+    whole: BuildRecord<P>,
+    context: &BuildContext,
+    arena: &mut Arena,
+) -> (NodeRef, LeafCounts) {
+    let count = whole.prims.len();
+    if count < P::AT_HAND {
+        return whole.at_hand(|whole| grow(whole, context, arena));
+    }
+    if count < SERIAL {
+        return whole.at_hand(|whole| BinaryTree::new(whole, context).collapse(arena));
     }
     let mut records = vec![whole];
     while records.len() < WIDTH {
@@ -29,14 +36,27 @@ pub(super) fn grow(whole: BuildRecord, context: &BuildContext) -> (Arena, NodeRe
             Split::Distinct(record) => records.insert(largest, record),
         }
     }
+    let node = arena.nodes.len();
     arena.nodes.push(Node::empty());
-    let bounds: Vec<Bounds> = records.iter().map(|record| record.bounds.bounds()).collect();
-    let grown: Vec<(Arena, NodeRef, LeafCounts)> =
-        records.into_par_iter().map(|record| grow(record, context)).collect();
-    for ((part, child, counts), bounds) in grown.into_iter().zip(bounds) {
-        let child = child.shifted(arena.nodes.len(), arena.leaf_counts());
-        arena.append(part);
-        arena.attach(0, &bounds, child, counts);
+    let (mut done, mut records) = (0, records.into_iter());
+    while records.len() > 0 {
+        let together: Vec<BuildRecord<P>> = records.by_ref().take(P::TOGETHER).collect();
+        done += together.iter().map(|record| record.prims.len()).sum::<usize>();
+        let bounds: Vec<Bounds> = together.iter().map(|record| record.bounds.bounds()).collect();
+        let grown = together.into_par_iter().map(|record| {
+            let mut part = Arena::default();
+            let (child, counts) = grow(record, context, &mut part);
+            (part, child, counts)
+        });
+        let grown: Vec<(Arena, NodeRef, LeafCounts)> = grown.collect();
+        for ((part, child, counts), bounds) in grown.into_iter().zip(bounds) {
+            let child = child.shifted(arena.nodes.len(), arena.leaf_counts());
+            arena.append(part);
+            arena.attach(node, &bounds, child, counts);
+        }
+        // The others will need about as many nodes. If the list grew by doubling, half of it might stay empty.
+        let more = (arena.nodes.len() - node) * count.saturating_sub(done) / done.max(1);
+        arena.nodes.reserve_exact(more + more / 16);
     }
-    (arena, NodeRef::new(NodeKind::Node, 0), LeafCounts::default())
+    (NodeRef::new(NodeKind::Node, node), LeafCounts::default())
 }

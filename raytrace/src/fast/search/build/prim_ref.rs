@@ -1,7 +1,7 @@
 //! The input of the build: references to primitives, each with its box and id.
 
 use crate::fast::search::tree::Bounds;
-use bothways_common::{Mesh, Placement, Plane, Scene, Shape, Sphere, Triangle};
+use bothways_common::{Mesh, Plane, Scene, Shape, Sphere, Triangle};
 use glam::{Vec3, Vec4};
 use rayon::prelude::*;
 
@@ -56,13 +56,11 @@ impl Box4 {
     }
 }
 
-/// The primitives of a scene, sorted by kind and by whether a box can bound them.
+/// The primitives of a scene but instances, sorted by kind and by whether a box can bound them.
 #[derive(Default)]
 pub(super) struct Collected {
     pub(super) triangles: Vec<PrimRef>,
     pub(super) spheres: Vec<PrimRef>,
-    /// Instances of meshes, which count on from object to object.
-    pub(super) instances: Vec<PrimRef>,
     pub(super) unbounded: Vec<u32>,
     /// The ids of the spheres, and the extent of each; see [`sphere`].
     pub(super) extents: Vec<(u32, f32)>,
@@ -88,18 +86,8 @@ pub(super) fn collect(scene: &Scene) -> Collected {
                     triangles.map(|(corners, id)| triangle(id, mesh_corners(mesh, corners))),
                 );
             }
-            Shape::Instances(instances) => {
-                let Some([low, high]) = instances.mesh().bounds() else { continue };
-                if instances.primitive_count() == 0 {
-                    continue;
-                }
-                let bounds = Bounds { low, high };
-                let first = u32::try_from(all.instances.len()).expect("they are fewer than ids");
-                let placed = instances.placements().par_iter().zip(first..u32::MAX);
-                all.instances.par_extend(placed.map(|(placement, number)| {
-                    PrimRef::new(&placed_bounds(placement, &bounds), number)
-                }));
-            }
+            // These are collected where their hierarchy is built.
+            Shape::Instances(_) => {}
             Shape::Sphere(shape) => match sphere(first_id, shape) {
                 Some((prim, extent)) => {
                     all.spheres.push(prim);
@@ -117,21 +105,6 @@ pub(super) fn collect(scene: &Scene) -> Collected {
 pub(super) fn triangles_of(mesh: &Mesh) -> Vec<PrimRef> {
     let triangles = mesh.triangles().par_iter().zip(0..u32::MAX);
     triangles.map(|(corners, number)| triangle(number, mesh_corners(mesh, corners))).collect()
-}
-
-/// A box around an instance of what lies in a box of the mesh: along each axis of the world every coordinate of the mesh
-/// contributes least at one of the box's sides and most at the other.
-///
-/// [`Placement::position`] is monotonic, so these contributions, summed up and rounded as it does it, bound every vertex.
-fn placed_bounds(placement: &Placement, Bounds { low, high }: &Bounds) -> Bounds {
-    let ends = |most: bool| {
-        Vec3::from_array([0, 1, 2].map(|axis| {
-            let row = placement.rows()[axis];
-            let side = |k: usize| if (row[k] >= 0.0) == most { high[k] } else { low[k] };
-            placement.position(Vec3::new(side(0), side(1), side(2)))[axis]
-        }))
-    };
-    Bounds { low: ends(false), high: ends(true) }
 }
 
 pub(super) fn mesh_corners(mesh: &Mesh, corners: &[u32; 3]) -> [Vec3; 3] {

@@ -1,8 +1,10 @@
 //! The surface area heuristic (SAH): the best split of primitives in two, between bins of their centres.
 
-use super::prim_ref::{Box4, PrimRef};
+use super::prim_ref::Box4;
+use super::primitives::Primitives;
 use glam::Vec4;
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Bins along an axis: one more than there are candidate splits.
 pub(super) const BINS: usize = 16;
@@ -63,9 +65,16 @@ pub(super) type Bins = [[Bin; BINS]; 3];
 
 pub(super) const NO_BINS: Bins = [[Bin { bounds: Box4::EMPTY, count: 0 }; BINS]; 3];
 
-pub(super) fn fill_bins(prims: &[PrimRef], mapping: &BinMapping) -> Bins {
-    if prims.len() > LARGE {
-        let chunks = prims.par_chunks(LARGE / 4).map(|chunk| fill_bins(chunk, mapping));
+/// Fills the bins with the primitives of a range.
+pub(super) fn fill_bins<P: Primitives>(
+    prims: &P,
+    range: Range<usize>,
+    mapping: &BinMapping,
+) -> Bins {
+    if range.len() > LARGE {
+        let starts = range.clone().into_par_iter().step_by(LARGE / 4);
+        let chunks =
+            starts.map(|start| fill_bins(prims, start..range.end.min(start + LARGE / 4), mapping));
         return chunks.reduce(
             || NO_BINS,
             |mut all, chunk| {
@@ -78,21 +87,25 @@ pub(super) fn fill_bins(prims: &[PrimRef], mapping: &BinMapping) -> Bins {
         );
     }
     let mut bins = NO_BINS;
-    for prim in prims {
+    prims.for_each(range, |prim| {
         let places = mapping.bins(prim.center());
         for axis in 0..3 {
             let bin = &mut bins[axis][places[axis]];
             bin.count += 1;
             bin.bounds = bin.bounds.extended(prim.low, prim.high);
         }
-    }
+    });
     bins
 }
 
 /// The cheapest split; `None` if all centres are in one bin. A leaf has at most `most` primitives.
-pub(super) fn cheapest_split(prims: &[PrimRef], centers: &Box4, most: usize) -> Option<SahSplit> {
+pub(super) fn cheapest_split(
+    prims: &impl Primitives,
+    centers: &Box4,
+    most: usize,
+) -> Option<SahSplit> {
     let mapping = BinMapping::new(centers);
-    let bins = fill_bins(prims, &mapping);
+    let bins = fill_bins(prims, 0..prims.len(), &mapping);
     let mut best: Option<SahSplit> = None;
     for (axis, bins) in bins.iter().enumerate() {
         // First from the right, the cost of the primitives in or beyond each bin; then from the left.

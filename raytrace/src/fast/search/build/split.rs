@@ -1,6 +1,7 @@
 //! Splits primitives in two: at the place that the surface area heuristic chooses, or by count.
 
-use super::prim_ref::{Box4, CornerReader, PrimRef, Source};
+use super::prim_ref::{Box4, PrimRef, Source};
+use super::primitives::Primitives;
 use super::sah::{SahSplit, cheapest_split};
 use crate::fast::search::tree::{INSTANCES, LEAF, SPHERES};
 
@@ -8,8 +9,8 @@ use crate::fast::search::tree::{INSTANCES, LEAF, SPHERES};
 pub(super) const DEEP: usize = 64;
 
 /// Some consecutive primitives to build, with the box around them and the box around their centres.
-pub(super) struct BuildRecord<'a> {
-    pub(super) prims: &'a mut [PrimRef],
+pub(super) struct BuildRecord<P> {
+    pub(super) prims: P,
     pub(super) bounds: Box4,
     centers: Box4,
     /// The index of the first primitive among all primitives.
@@ -19,20 +20,21 @@ pub(super) struct BuildRecord<'a> {
     distinct: bool,
 }
 
-impl<'a> BuildRecord<'a> {
-    pub(super) fn new(
-        prims: &'a mut [PrimRef],
-        first: usize,
-        depth: usize,
-        distinct: bool,
-    ) -> Self {
+impl<P: Primitives> BuildRecord<P> {
+    pub(super) fn new(prims: P, first: usize, depth: usize, distinct: bool) -> Self {
         let (mut bounds, mut centers) = (Box4::EMPTY, Box4::EMPTY);
-        for prim in &*prims {
+        prims.for_each(0..prims.len(), |prim| {
             bounds = bounds.extended(prim.low, prim.high);
             let center = prim.center();
             centers = centers.extended(center, center);
-        }
+        });
         BuildRecord { prims, bounds, centers, first, depth, distinct }
+    }
+
+    /// Builds something of the same record, with its primitives at hand.
+    pub(super) fn at_hand<R>(self, build: impl FnOnce(BuildRecord<&mut [PrimRef]>) -> R) -> R {
+        let BuildRecord { prims, bounds, centers, first, depth, distinct } = self;
+        prims.at_hand(|prims| build(BuildRecord { prims, bounds, centers, first, depth, distinct }))
     }
 }
 
@@ -64,37 +66,41 @@ impl BuildContext<'_> {
 
 /// The result for a record with more primitives than a leaf holds: the record is divided in two, or its duplicates
 /// are left out.
-pub(super) enum Split<'a> {
-    Halves([BuildRecord<'a>; 2]),
-    Distinct(BuildRecord<'a>),
+pub(super) enum Split<P> {
+    Halves([BuildRecord<P>; 2]),
+    Distinct(BuildRecord<P>),
 }
 
 /// Splits a record; its halves are one level deeper.
-pub(super) fn split<'a>(record: BuildRecord<'a>, context: &BuildContext) -> Split<'a> {
-    let best = cheapest_split(record.prims, &record.centers, context.most());
+pub(super) fn split<P: Primitives>(record: BuildRecord<P>, context: &BuildContext) -> Split<P> {
+    let best = cheapest_split(&record.prims, &record.centers, context.most());
     if let Some(best) = best.filter(|_| record.depth < DEEP) {
         return Split::Halves(partition(record, &best));
     }
     let BuildRecord { prims, first, depth, distinct, .. } = record;
     if context.kind == Kind::Triangles && !distinct {
-        let count = leave_out_duplicates(prims, context);
-        return Split::Distinct(BuildRecord::new(&mut prims[..count], first, depth, true));
+        return Split::Distinct(BuildRecord::new(
+            prims.distinct(context.source),
+            first,
+            depth,
+            true,
+        ));
     }
     // All centres are in one place, or the depth is too great: then any half is equally good if it is a number of
     // whole leaves.
     let half = (prims.len() / 2).next_multiple_of(context.most()).min(prims.len() - 1);
-    let (left, right) = prims.split_at_mut(half);
+    let [left, right] = prims.split_at(half);
     let left = BuildRecord::new(left, first, depth + 1, distinct);
     Split::Halves([left, BuildRecord::new(right, first + half, depth + 1, distinct)])
 }
 
 /// Sorts the primitives of a record by the side of a split on which they lie.
-fn partition<'a>(record: BuildRecord<'a>, best: &SahSplit) -> [BuildRecord<'a>; 2] {
-    let BuildRecord { prims, first, depth, distinct, .. } = record;
+fn partition<P: Primitives>(record: BuildRecord<P>, best: &SahSplit) -> [BuildRecord<P>; 2] {
+    let BuildRecord { mut prims, first, depth, distinct, .. } = record;
     let (mut middle, mut end) = (0, prims.len());
     let (mut left, mut right) = ([Box4::EMPTY; 2], [Box4::EMPTY; 2]);
     while middle < end {
-        let prim = prims[middle];
+        let prim = prims.at(middle);
         let center = prim.center();
         let goes_left = best.mapping.bins(center)[best.axis] < best.bin;
         let side = if goes_left { &mut left } else { &mut right };
@@ -107,7 +113,7 @@ fn partition<'a>(record: BuildRecord<'a>, best: &SahSplit) -> [BuildRecord<'a>; 
             prims.swap(middle, end);
         }
     }
-    let (left_prims, right_prims) = prims.split_at_mut(middle);
+    let [left_prims, right_prims] = prims.split_at(middle);
     let half = |prims, first, [bounds, centers]: [Box4; 2]| BuildRecord {
         prims,
         bounds,
@@ -117,25 +123,4 @@ fn partition<'a>(record: BuildRecord<'a>, best: &SahSplit) -> [BuildRecord<'a>; 
         distinct,
     };
     [half(left_prims, first, left), half(right_prims, first + middle, right)]
-}
-
-/// Moves the distinct triangles to the start, the first triangle in the scene of each group, and returns the number
-/// of distinct triangles: the duplicates are never visible.
-fn leave_out_duplicates(prims: &mut [PrimRef], context: &BuildContext) -> usize {
-    let mut corners = CornerReader::new(context.source);
-    let mut bits = |prim: &PrimRef| {
-        // Adding 0 makes −0 and 0 equal.
-        let mut bits = corners.of(prim.id()).map(|v| (v + 0.0).to_array().map(f32::to_bits));
-        bits.sort_unstable();
-        bits
-    };
-    prims.sort_by_cached_key(|prim| (bits(prim), prim.id()));
-    let mut kept = 1;
-    for k in 1..prims.len() {
-        if bits(&prims[k]) != bits(&prims[kept - 1]) {
-            prims[kept] = prims[k];
-            kept += 1;
-        }
-    }
-    kept
 }

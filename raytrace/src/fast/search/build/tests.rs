@@ -1,8 +1,9 @@
 //! The required properties of a hierarchy.
 
-use super::super::tree::{LEAF, LeafCounts, NodeRef};
+use super::super::tree::{LEAF, LeafCounts, Node, NodeKind, NodeRef};
 use super::split::DEEP;
 use super::*;
+use bothways_common::scene::{Instances, Placement};
 use bothways_common::{Mesh, Object, Plane, Shape, Sphere};
 use glam::Vec3;
 
@@ -83,6 +84,56 @@ fn every_primitive_is_in_one_leaf() {
         assert_eq!(ids, (0..count).collect::<Vec<_>>());
         assert!(depth < 12, "{depth}");
     }
+}
+
+/// More instances than have their boxes at hand at one time, in two objects, and the places of all.
+fn crowd() -> (Scene, Vec<Placement>) {
+    let mesh = Mesh::new(vec![Vec3::ZERO, Vec3::X, Vec3::Y], vec![[0, 1, 2]]).unwrap();
+    let place = |k: u32| Vec3::new((k % 317) as f32, (k * 53 % 97) as f32, (k / 317) as f32);
+    let places: Vec<Placement> = (0..90_000).map(|k| Placement::translation(place(k))).collect();
+    let object = |places: &[Placement]| -> Object {
+        Shape::Instances(Instances::new(mesh.clone(), places.to_vec()).unwrap()).into()
+    };
+    let (few, many) = places.split_at(10);
+    (Scene::new(vec![object(few), object(many)]).unwrap(), places)
+}
+
+#[test]
+fn every_instance_is_in_one_leaf() {
+    let (scene, places) = crowd();
+    let prepared = built(&scene);
+    let (mut numbers, mut open) = (Vec::new(), vec![(prepared.roots[0], prepared.bounds)]);
+    while let Some((node, bounds)) = open.pop() {
+        let node = &prepared.nodes[node.index()];
+        for lane in 0..usize::from(node.used) {
+            let side = |at: usize| Vec3::from_array([0, 1, 2].map(|k| node.bounds[at + k][lane]));
+            let inner = Bounds { low: side(0), high: side(3) };
+            assert_eq!(bounds.union(&inner), bounds);
+            let child = node.children[lane];
+            if child.kind() == NodeKind::Node {
+                open.push((child, inner));
+                continue;
+            }
+            assert_eq!(child.kind(), NodeKind::Instances);
+            let count = node.counts[lane].all();
+            for &number in &prepared.instance_order[child.index()..][..count] {
+                let [low, high] =
+                    places[number as usize].bounds([Vec3::ZERO, Vec3::new(1.0, 1.0, 0.0)]);
+                assert_eq!(inner.union(&Bounds { low, high }), inner);
+                numbers.push(number);
+            }
+        }
+    }
+    numbers.sort_unstable();
+    assert!(numbers.into_iter().eq(0..90_000));
+}
+
+#[test]
+fn a_crowd_takes_few_bytes_an_instance() {
+    let (scene, places) = crowd();
+    let Prepared { nodes, instance_order, .. } = built(&scene);
+    let bytes = nodes.capacity() * size_of::<Node>() + instance_order.capacity() * 4;
+    assert!(bytes <= 12 * places.len(), "{} bytes an instance", bytes / places.len());
 }
 
 #[test]

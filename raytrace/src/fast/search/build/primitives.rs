@@ -1,0 +1,89 @@
+//! Primitives in an order that the build changes: at hand with their boxes, or found anew where they are asked for.
+
+use super::prim_ref::{CornerReader, PrimRef, Source};
+use crate::fast::search::tree::WIDTH;
+use std::ops::Range;
+
+/// Some consecutive primitives of a hierarchy.
+pub(super) trait Primitives: Send + Sync + Sized {
+    /// Fewer are taken at hand before anything is built of them.
+    const AT_HAND: usize;
+    /// So many children of a node are built at the same time. What is built of them waits until all are.
+    const TOGETHER: usize;
+
+    fn len(&self) -> usize;
+
+    fn at(&self, index: usize) -> PrimRef;
+
+    fn for_each(&self, range: Range<usize>, take: impl FnMut(&PrimRef));
+
+    fn swap(&mut self, first: usize, second: usize);
+
+    /// Those before an index, and the others.
+    fn split_at(self, index: usize) -> [Self; 2];
+
+    /// Builds something of all of them at hand, which may change their order.
+    fn at_hand<R>(self, build: impl FnOnce(&mut [PrimRef]) -> R) -> R;
+
+    /// Of triangles, only those that are distinct.
+    fn distinct(self, source: Source) -> Self;
+}
+
+impl Primitives for &mut [PrimRef] {
+    const AT_HAND: usize = 0;
+    const TOGETHER: usize = WIDTH;
+
+    #[inline(always)]
+    fn len(&self) -> usize {
+        <[PrimRef]>::len(self)
+    }
+
+    #[inline(always)]
+    fn at(&self, index: usize) -> PrimRef {
+        self[index]
+    }
+
+    #[inline(always)]
+    fn for_each(&self, range: Range<usize>, take: impl FnMut(&PrimRef)) {
+        self[range].iter().for_each(take);
+    }
+
+    #[inline(always)]
+    fn swap(&mut self, first: usize, second: usize) {
+        <[PrimRef]>::swap(self, first, second);
+    }
+
+    fn split_at(self, index: usize) -> [Self; 2] {
+        self.split_at_mut(index).into()
+    }
+
+    fn at_hand<R>(self, build: impl FnOnce(&mut [PrimRef]) -> R) -> R {
+        build(self)
+    }
+
+    fn distinct(self, source: Source) -> Self {
+        let count = leave_out_duplicates(self, source);
+        &mut self[..count]
+    }
+}
+
+/// Moves the distinct triangles to the start, the first triangle in the scene of each group, and returns the number
+/// of distinct triangles: the duplicates are never visible.
+fn leave_out_duplicates(prims: &mut [PrimRef], source: Source) -> usize {
+    let mut corners = CornerReader::new(source);
+    let mut bits = |prim: &PrimRef| {
+        // Adding 0 makes −0 and 0 equal.
+        let mut bits = corners.of(prim.id()).map(|v| (v + 0.0).to_array().map(f32::to_bits));
+        bits.sort_unstable();
+        bits
+    };
+    prims.sort_by_cached_key(|prim| (bits(prim), prim.id()));
+    let mut kept = 1;
+    for k in 1..prims.len() {
+        if bits(&prims[k]) != bits(&prims[kept - 1]) {
+            prims[kept] = prims[k];
+            kept += 1;
+        }
+    }
+    kept
+}
