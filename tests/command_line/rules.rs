@@ -75,7 +75,7 @@ fn the_table_names_the_rules() {
       clusters in tiles                       not counted                        -
       of these, skipped                       not counted                        -
       triangles looked at                     not counted                      838
-      of these, set up                        not counted                      592
+      of these, set up                        not counted                      588
       primitives one by one                   not counted                        -
       steps of small triangles                not counted                       73
       blocks of 16 samples                    not counted                      804
