@@ -48,15 +48,17 @@ pub(super) fn draw<C: Context>(
     }
 }
 
-/// Whether the triangle leaves out all samples of a part of its region: most parts of that of a sliver. The strips there are
-/// empty, too: no edge function is larger on their rows.
+/// Whether all strips of a part of the triangle's region are empty: in most parts of that of a sliver. On the rows of all
+/// strips together no edge function is less than on those of one, so the columns of each are among those of all.
 #[inline(always)]
 fn is_beside(map: &CameraMap, setup: &F64Setup, region: &Region, here: &Region) -> bool {
     if here.rows.is_empty() || here.columns.is_empty() {
         return true;
     }
-    let ys = [map.grid.y()[here.rows.start], map.grid.y()[here.rows.end - 1]];
-    let columns = setup.span(map, ys, &region.columns);
+    // Strips reach beyond the part.
+    let first = (here.rows.start / STRIP[0] * STRIP[0]).max(region.rows.start);
+    let end = here.rows.end.next_multiple_of(STRIP[0]).min(region.rows.end);
+    let columns = setup.span(map, [map.grid.y()[first], map.grid.y()[end - 1]], &region.columns);
     columns.end <= here.columns.start || here.columns.end <= columns.start
 }
 
