@@ -26,9 +26,13 @@ pub(super) fn find_distances(
     ids: &[u32; 16],
     t: &mut [f32; 16],
 ) {
-    /// Fewer are found one by one: to gather them would take longer.
+    /// Fewer are found one by one, as is what begins with another primitive: to gather them would take longer.
     const FEW: u32 = 4;
-    if lanes.count_ones() >= FEW {
+    let first = (lanes.trailing_zeros() & 15) as usize;
+    // Beyond the picture there is nothing to look up.
+    let is_triangle = tile.sample(from + first).is_some()
+        && matches!(tile.names.primitive(&map.view, ids[first]), Primitive::Triangle(_));
+    if lanes.count_ones() >= FEW && is_triangle {
         return dispatch!(best_level(), simd => find_in_lanes(simd, map, tile, from, (lanes, ids), t));
     }
     for lane in (0..16).filter(|lane| lanes >> lane & 1 == 1) {
