@@ -19,7 +19,7 @@
 //! are transformed to these coordinates (`search/instance_frustum`).
 //!
 //! For an observer, each ray is walked alone as well, as a tile of one. So the events belong to the ray, and
-//! depend on nothing else. The frame is that of the tiles, whether they are watched or not.
+//! depend on nothing else. Rays that are only counted share the tests of boxes (`search/ray_square`). The frame is that of the tiles, whether they are watched or not.
 
 mod aligned;
 mod answer;
@@ -51,7 +51,7 @@ mod viewport_affine;
 mod world_affine;
 
 use bothways_common::engine::any_observer::{AnyObserver, PartObserver};
-use bothways_common::engine::context::{LoopContext, ScalarContext};
+use bothways_common::engine::context::{Context, LoopContext, ScalarContext};
 use bothways_common::engine::fault::{Fault, Planted, Sound};
 use bothways_common::engine::simd::dispatch_with;
 use bothways_common::engine::tasks::{self, TaskTimes};
@@ -63,6 +63,7 @@ use camera_map::CameraMap;
 use one_primitive::unbounded::Unbounded;
 use rayon::prelude::*;
 use search::build::build;
+use search::ray_square::{RaySquare, SQUARE};
 use search::tile_frustum::FrustumTemplate;
 use search::walk::Walker;
 use std::ops::Range;
@@ -153,7 +154,7 @@ pub fn determine_visibility_with_fault<F: Fault>(
 /// compiled once.
 struct Loops {
     is: fn(Planted) -> bool,
-    watch: fn(&mut Walker, [&FrustumTemplate; 2], &Tile, &mut dyn Events),
+    watch: fn(&mut Walker, [&FrustumTemplate; 3], &Tile, &mut dyn Events),
     trace: fn(&mut Walker, &FrustumTemplate, Tile) -> Executed,
 }
 
@@ -188,7 +189,7 @@ fn run(
     let unbounded = Unbounded::for_tiles(prepared, &map);
     // A box's last place matters to a ray alone: a fault there shows in tiles of one.
     let side = if (loops.is)(Planted::ShrunkBox) { 1 } else { prepared.side };
-    let (of_tile, of_ray) = (loops.template(&map, side), loops.template(&map, 1));
+    let [of_tile, of_square, of_ray] = [side, SQUARE, 1].map(|side| loops.template(&map, side));
 
     let times = prepared.times.as_deref();
     let columns = chunk_for_threads(prepared, frame.region());
@@ -204,7 +205,7 @@ fn run(
             }
             let mut walker = Walker::new(prepared, &map, &unbounded);
             if let Some(sink) = PartObserver::sink(part) {
-                (loops.watch)(&mut walker, [&of_tile, &of_ray], &chunk, sink);
+                (loops.watch)(&mut walker, [&of_tile, &of_square, &of_ray], &chunk, sink);
             }
             (loops.trace)(&mut walker, &of_tile, chunk)
         };
@@ -230,10 +231,11 @@ fn drop_chunk(Tile { mut ids, t, .. }: Tile) {
 }
 
 /// Walks each ray of a chunk of the picture alone, for an observer, until the observer has enough. For an observer that
-/// only counts, the rays of a tile that certainly meet no box at all are counted without a walk.
+/// only counts, rays go through the hierarchy in squares, and those of a tile that certainly meet no box at all are counted
+/// without a walk.
 fn watch<F: Fault>(
     walker: &mut Walker,
-    [of_tile, of_ray]: [&FrustumTemplate; 2],
+    [of_tile, of_square, of_ray]: [&FrustumTemplate; 3],
     chunk: &Tile,
     sink: &mut dyn Events,
 ) {
@@ -243,28 +245,45 @@ fn watch<F: Fault>(
     }
     dispatch_with!(F, walker.prepared.level, simd => {
         let mut context = LoopContext::<_, dyn Events, F>::of(simd, sink);
-        let only_counts = context.sink().counts().is_some();
-        let side = if only_counts { of_tile.side } else { usize::MAX };
-        for part in chunk.region.tiles(side, side) {
-            if only_counts {
-                let frustum = of_tile.frustum([part.rows.start, part.columns.start]);
-                let missed = walker.boxes_all_missed(&context, &frustum, of_ray);
-                if let (Some(boxes), Some(counts)) = (missed, context.sink().counts()) {
-                    counts.rays += part.area() as u64;
-                    counts.nodes += boxes * part.area() as u64;
-                    continue;
+        if context.sink().counts().is_some() {
+            count(&mut context, walker, [of_tile, of_square, of_ray], &chunk.region);
+            return;
+        }
+        for row in chunk.region.rows.clone() {
+            for column in chunk.region.columns.clone() {
+                if context.sink().has_enough() {
+                    return;
                 }
-            }
-            for row in part.rows {
-                for column in part.columns.clone() {
-                    if context.sink().has_enough() {
-                        return;
-                    }
-                    walker.walk(&mut context, of_ray, [row, column], [1, 1]);
-                }
+                walker.walk(&mut context, of_ray, [row, column], [1, 1]);
             }
         }
     });
+}
+
+/// [`watch`] for an observer that only counts.
+#[inline(always)]
+fn count(
+    context: &mut impl Context,
+    walker: &mut Walker,
+    [of_tile, of_square, of_ray]: [&FrustumTemplate; 3],
+    region: &Region,
+) {
+    let mut square = RaySquare::new([of_square, of_ray]);
+    for tile in region.tiles(of_tile.side, of_tile.side) {
+        let frustum = of_tile.frustum([tile.rows.start, tile.columns.start]);
+        let missed = walker.boxes_all_missed(context, &frustum, of_ray);
+        if let (Some(boxes), Some(counts)) = (missed, context.sink().counts()) {
+            counts.rays += tile.area() as u64;
+            counts.nodes += boxes * tile.area() as u64;
+            continue;
+        }
+        for rays in tile.tiles(SQUARE, SQUARE) {
+            if context.sink().has_enough() {
+                return;
+            }
+            walker.walk_square(context, &mut square, &rays);
+        }
+    }
 }
 
 /// Traces the rays of a chunk of the picture, tile by tile. Of a tile at the border of a crop all rays are

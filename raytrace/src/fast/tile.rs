@@ -59,6 +59,19 @@ pub(super) struct OpenFragment {
     pub(super) covered: bool,
 }
 
+/// What a ray alone has hit so far: see [`TileBuffer::resume`].
+#[derive(Clone, Copy, Debug)]
+pub(super) struct RayHit {
+    id: u32,
+    low: f32,
+    high: f32,
+}
+
+impl RayHit {
+    pub(super) const NOTHING: RayHit =
+        RayHit { id: NO_PRIMITIVE, low: f32::NEG_INFINITY, high: f32::NEG_INFINITY };
+}
+
 impl TileBuffer {
     /// A tile without samples; [`TileBuffer::begin`] gives it some.
     pub(super) fn new(view: &View) -> TileBuffer {
@@ -113,6 +126,21 @@ impl TileBuffer {
         self.far = f32::NEG_INFINITY;
         self.open_blocks = u32::MAX;
         self.dirty = 0;
+    }
+
+    /// What the only ray of the tile has hit.
+    #[inline(always)]
+    pub(super) fn hit_alone(&self) -> RayHit {
+        RayHit { id: self.ids[0], low: self.low[0], high: self.high[0] }
+    }
+
+    /// Goes on with another ray, which has hit this. The tile has begun as one of a ray alone.
+    #[inline(always)]
+    pub(super) fn resume(&mut self, start: [usize; 2], hit: RayHit) {
+        self.start = start;
+        self.touched = true;
+        (self.ids[0], self.low[0], self.high[0]) = (hit.id, hit.low, hit.high);
+        (self.block_far[0], self.far) = (hit.low, hit.low);
     }
 
     /// Samples along one side.

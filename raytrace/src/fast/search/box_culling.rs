@@ -154,8 +154,8 @@ impl BoxCulling {
         BoxHits::new(node, missed, near, longest_side(simd, node))
     }
 
-    /// Whether [`BoxCulling::test`] certainly drops all boxes of a node for each ray of a tile that is tested alone, as a
-    /// tile of one. `of_ray` is what these tiles of one share, `sides` are those of the whole tile.
+    /// The boxes of a node, one bit for each, that [`BoxCulling::test`] does not certainly drop for each ray of a tile that is
+    /// tested alone, as a tile of one. `of_ray` is what these tiles of one share, `sides` are those of the whole tile.
     ///
     /// With `f` the exact function of one of the tile's sides, and `g` that of the same side of one of its rays, `f − g`
     /// is `t` (of a parallel camera: 1) times the columns or rows between the two sides. These are at least 0, because
@@ -168,13 +168,13 @@ impl BoxCulling {
     ///
     /// [`MapErrors::wide`]: crate::fast::camera_map::MapErrors::wide
     #[inline(always)]
-    pub(crate) fn all_rays_miss<C: Context>(
+    pub(crate) fn not_missed_by_all<C: Context>(
         &self,
         context: &C,
         (sides, parallel): (&[WorldAffine; 4], bool),
         of_ray: &BoxCulling,
         node: &Node,
-    ) -> bool {
+    ) -> u64 {
         let simd = context.simd();
         let splat = |value: f32| f32x16::splat(simd, value);
         let boxes = self.boxes_of(simd, node);
@@ -191,7 +191,26 @@ impl BoxCulling {
         let (near, far) = (self.t.extreme(&boxes, false), self.t.extreme(&boxes, true));
         let beside = beside & near.simd_ge(splat(in_front));
         let missed = beside | far.simd_lt(splat(of_ray.least_t));
-        (!missed).to_bitmask() & ((1 << node.used) - 1) == 0
+        (!missed).to_bitmask() & ((1 << node.used) - 1)
+    }
+
+    /// A node's boxes as [`BoxCulling::test`] finds them, whatever the ray: their sides, counted from the origin, the nearest `t`
+    /// of each, and how far vertices in each are from each other at most.
+    #[inline(always)]
+    pub(super) fn boxes_alone<S: Simd>(
+        &self,
+        simd: S,
+        node: &Node,
+    ) -> ([[[f32; WIDTH]; 2]; 3], [f32; WIDTH], [f32; WIDTH]) {
+        let boxes = self.boxes_of(simd, node);
+        let near = self.t.extreme(&boxes, false).to_array();
+        let [x, y, z] = boxes;
+        let sides = [
+            [x[0].to_array(), x[1].to_array()],
+            [y[0].to_array(), y[1].to_array()],
+            [z[0].to_array(), z[1].to_array()],
+        ];
+        (sides, near, longest_side(simd, node).to_array())
     }
 
     /// The sides of a node's boxes, counted from the origin.

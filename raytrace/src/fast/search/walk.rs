@@ -18,16 +18,25 @@ use bothways_common::observe::Events;
 
 /// A node or leaf that is to be entered.
 #[derive(Clone, Copy, Debug)]
-struct StackEntry {
+pub(super) struct StackEntry {
     /// None of its primitives is nearer than this `t`, in the scale of the map.
-    near: f32,
+    pub(super) near: f32,
     /// The longest side of its box.
     size: f32,
-    child: NodeRef,
+    pub(super) child: NodeRef,
     counts: LeafCounts,
     /// Where in the tile it may be seen, and the largest depth key that it may have there; known of boxes in instances.
     place: TilePlace,
     key: f32,
+}
+
+impl StackEntry {
+    /// A child of a node, of whose place in the tile nothing is known.
+    #[inline(always)]
+    pub(super) fn new(node: &Node, lane: usize, near: f32, size: f32) -> StackEntry {
+        let (child, counts) = (node.children[lane], node.counts[lane]);
+        StackEntry { near, size, child, counts, place: TilePlace::ALL, key: f32::INFINITY }
+    }
 }
 
 /// Walks tiles of one view through the hierarchy.
@@ -37,7 +46,7 @@ pub(crate) struct Walker<'a> {
     pub(crate) map: &'a CameraMap<'a>,
     pub(crate) tile: TileBuffer,
     unbounded: &'a Unbounded,
-    stack: Vec<StackEntry>,
+    pub(super) stack: Vec<StackEntry>,
     queue: CandidateQueue,
     /// The instance whose mesh is walked last, whether that walk goes on, and how long the stack was before: what lies
     /// above belongs to the instance. Outside of instances, 0.
@@ -160,7 +169,7 @@ impl<'a> Walker<'a> {
         let nodes = self.prepared.roots.iter().map(|root| &self.prepared.nodes[root.index()]);
         let mut boxes = 0;
         for node in nodes {
-            if !template.boxes.all_rays_miss(context, rays, &of_ray.boxes, node) {
+            if template.boxes.not_missed_by_all(context, rays, &of_ray.boxes, node) != 0 {
                 return None;
             }
             boxes += u64::from(node.used);
@@ -170,7 +179,7 @@ impl<'a> Walker<'a> {
 
     /// Starts a tile: tests what no box bounds, and puts the roots on the stack.
     #[inline(always)]
-    fn begin<C: Context>(
+    pub(super) fn begin<C: Context>(
         &mut self,
         context: &mut C,
         frustum: &TileFrustum,
@@ -202,7 +211,7 @@ impl<'a> Walker<'a> {
 
     /// The `t` of boxes and corners beyond which nothing can be seen.
     #[inline(always)]
-    fn farthest(&self, frustum: &TileFrustum) -> f32 {
+    pub(super) fn farthest(&self, frustum: &TileFrustum) -> f32 {
         let template = frustum.template;
         template.boxes.farthest(self.map.depth.farthest(self.tile.far, template.errors.t))
     }
@@ -218,7 +227,7 @@ impl<'a> Walker<'a> {
     /// Adds a leaf of triangles to the queue; of a leaf of an instance, those of its triangles that pass its test. Returns
     /// whether the queue is full.
     #[inline(always)]
-    fn add_leaf<C: Context>(
+    pub(super) fn add_leaf<C: Context>(
         &mut self,
         context: &mut C,
         frustum: &TileFrustum,
@@ -302,7 +311,7 @@ impl<'a> Walker<'a> {
 
     /// Tests the spheres of a leaf.
     #[inline(always)]
-    fn draw_spheres<C: Context>(
+    pub(super) fn draw_spheres<C: Context>(
         &mut self,
         context: &mut C,
         frustum: &TileFrustum,
@@ -319,7 +328,7 @@ impl<'a> Walker<'a> {
     /// `flush` asks for it, and all triangles if they are large. Takes and returns the size class of those that were
     /// drawn last.
     #[inline(always)]
-    fn draw_candidates<C: Context>(
+    pub(super) fn draw_candidates<C: Context>(
         &mut self,
         context: &mut C,
         frustum: &TileFrustum,
@@ -401,16 +410,13 @@ impl<'a> Walker<'a> {
         while hit != 0 {
             let lane = (hit.trailing_zeros() & 15) as usize;
             hit &= hit - 1;
-            let child = node.children[lane];
-            match child.kind() {
-                NodeKind::Node => prefetch(&self.prepared.nodes[child.index()]),
-                NodeKind::IndexedLeaf => prefetch(&self.prepared.indexed_leaves[child.index()]),
-                NodeKind::PlainLeaf => prefetch(&self.prepared.plain_leaves[child.index()]),
-                NodeKind::Spheres | NodeKind::Instances | NodeKind::Instance => {}
-            }
-            let (near, size) = (boxes.near[lane], boxes.size[lane]);
+            self.prefetch(node.children[lane]);
             let (place, key) = (TilePlace::from_whole_number(places.place[lane]), places.key[lane]);
-            let entry = StackEntry { near, size, child, counts: node.counts[lane], place, key };
+            let entry = StackEntry {
+                place,
+                key,
+                ..StackEntry::new(node, lane, boxes.near[lane], boxes.size[lane])
+            };
             self.stack.push(entry);
             let mut place = self.stack.len() - 1;
             while sorted && place > base && self.stack[place - 1].near < entry.near {
@@ -418,6 +424,17 @@ impl<'a> Walker<'a> {
                 place -= 1;
             }
             self.stack[place] = entry;
+        }
+    }
+
+    /// Asks for a node or leaf that is entered soon.
+    #[inline(always)]
+    pub(super) fn prefetch(&self, child: NodeRef) {
+        match child.kind() {
+            NodeKind::Node => prefetch(&self.prepared.nodes[child.index()]),
+            NodeKind::IndexedLeaf => prefetch(&self.prepared.indexed_leaves[child.index()]),
+            NodeKind::PlainLeaf => prefetch(&self.prepared.plain_leaves[child.index()]),
+            NodeKind::Spheres | NodeKind::Instances | NodeKind::Instance => {}
         }
     }
 
