@@ -99,8 +99,8 @@ impl<'a> Band<'a> {
     }
 }
 
-/// One row of a frame's pixels during shading: as many rows of samples as a pixel has. All slices but the picture's
-/// hold these rows one after another.
+/// Some rows of a frame's pixels during shading: for each as many rows of samples as a pixel has. All slices hold their rows
+/// one after another.
 #[derive(Debug)]
 pub struct ShadingBand<'a> {
     /// The samples, on the raster of the whole image.
@@ -355,20 +355,26 @@ impl Frame {
         regions.zip(ids).zip(t).map(|((region, ids), t)| Band { region, ids, t }).collect()
     }
 
-    /// The frame's rows of pixels, for shading.
-    pub fn shading_bands(&mut self) -> Vec<ShadingBand<'_>> {
+    /// Cuts the frame into bands of at most so many rows of pixels, from above, for shading.
+    ///
+    /// # Panics
+    ///
+    /// If `rows` is 0.
+    pub fn shading_bands(&mut self, rows: usize) -> Vec<ShadingBand<'_>> {
         let samples = self.options.samples as usize;
-        let (width, size) = (self.width(), self.width() * samples);
-        let Region { rows, columns } = self.region.clone();
+        let (width, high) = (self.width(), rows * samples);
+        let size = width * high;
+        let Region { rows: all, columns } = self.region.clone();
         let seen = self.ids.as_ids().chunks(size).zip(self.t.chunks(size));
         let mut colors = self.colors.chunks_mut(size);
         let mut normals = self.normals.chunks_mut(size);
         let mut texture_coordinates = self.texture_coordinates.chunks_mut(size);
         let mut levels = self.levels.chunks_mut(size);
-        rows.step_by(samples)
-            .zip(seen.zip(self.picture.chunks_mut(width / samples)))
+        let end = all.end;
+        all.step_by(high)
+            .zip(seen.zip(self.picture.chunks_mut(width / samples * rows)))
             .map(|(row, ((ids, t), picture))| ShadingBand {
-                region: Region { rows: row..row + samples, columns: columns.clone() },
+                region: Region { rows: row..end.min(row + high), columns: columns.clone() },
                 ids,
                 t,
                 picture,
@@ -438,9 +444,15 @@ mod tests {
         assert_eq!(frame.id(3, 6), Some(9));
         assert_eq!(frame.samples_of(1, 3).collect::<Vec<_>>(), [2, 3, 6, 7]);
         assert_eq!(frame.ids().get(6), Some(9));
-        let bands = frame.shading_bands();
+        let bands = frame.shading_bands(1);
         assert_eq!((bands.len(), bands[0].picture.len(), bands[0].ids.len()), (1, 2, 8));
         assert_eq!(bands[0].region, Region { rows: 2..4, columns: 4..8 });
+        let options = Options { samples: 2, crop: None };
+        let mut frame = Frame::new(&Camera::canonical(7, 5), &options);
+        let bands = frame.shading_bands(3);
+        let rows = bands.iter().map(|band| (band.region.rows.clone(), band.picture.len()));
+        assert_eq!(rows.collect::<Vec<_>>(), [(0..6, 15), (6..12, 15), (12..14, 5)]);
+        assert_eq!((bands[2].ids.len(), bands[2].t.len()), (20, 20));
     }
 
     #[test]

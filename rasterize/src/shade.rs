@@ -5,8 +5,10 @@ mod form;
 mod quotient;
 
 use bothways_common::engine::simd::{Level, Simd, SimdBase, SimdNarrow, best_level, f64x8};
-use bothways_common::look::bands::{self, Points, Rays, Samples, Seen, Sixteen, Surfaces, Wanted};
-use bothways_common::look::lanes::{DVec3x8, Lanes, Vec3x16, each};
+use bothways_common::look::bands::{
+    self, EightTriangles, Points, Rays, Samples, Seen, Sixteen, Surfaces, Wanted,
+};
+use bothways_common::look::lanes::{DVec3x8, Lanes, Real, Vec3x16, each};
 use bothways_common::look::texture::{self, TexturePoints};
 use bothways_common::{Frame, Primitive, Projection, View};
 use form::{Form, HitPoints};
@@ -101,6 +103,31 @@ impl Surfaces for Interpolated<'_> {
         let is_sphere = matches!(primitive, Primitive::Sphere { .. });
         let form = (is_sphere || wanted.positions).then(|| Box::new(Form::new(view, primitive)));
         Surface { form, normals, texture, details }
+    }
+
+    #[inline(always)]
+    fn set_up_eight<S: Simd>(
+        &self,
+        triangles: &EightTriangles<S>,
+        mut keep: impl FnMut(Option<Surface>),
+    ) {
+        let certain = triangles.are_alike(LEAST_COSINE);
+        let coordinates = smooth_normals(self.view, triangles.corners, triangles.normals);
+        let coordinates = each!(k in [0, 1, 2] => {
+            let Affine { at_center, across, up } = coordinates[k];
+            [at_center.to_array(), across.to_array(), up.to_array()]
+        });
+        for lane in 0..triangles.used {
+            let of_lane = |numbers: &[[f64; 8]; 3]| {
+                let [at_center, across, up] = each!(k in [0, 1, 2] => numbers[k][lane & 7]);
+                Affine { at_center, across, up }
+            };
+            keep((certain >> lane & 1 == 1).then(|| {
+                let coordinates = each!(k in [0, 1, 2] => of_lane(&coordinates[k]));
+                let normals = Normals::Smooth(Smooth { coordinates, flat: None });
+                Surface { form: None, normals, texture: Texture::None, details: None }
+            }));
+        }
     }
 
     #[inline(always)]
@@ -261,26 +288,44 @@ impl Normals {
                 let flat = normal.normalize_or_zero();
                 Normals::Flat((flat * side_seen(view, point, flat)).as_vec3())
             }
-            Primitive::Triangle([a, b, c]) => {
-                let normal = (b - a).cross(c - a);
-                // The surface, not its smooth look, says which side is seen.
-                let side = side_seen(view, a, normal);
-                let flat = || normal.normalize_or_zero() * side;
-                let Some([at_a, at_b, at_c]) = corners else {
-                    return Normals::Flat(flat().as_vec3());
+            Primitive::Triangle(triangle) => {
+                let [a, b, c] = triangle;
+                let flat = || {
+                    let normal = (b - a).cross(c - a);
+                    normal.normalize_or_zero() * side_seen(view, a, normal)
                 };
-                let [of_a, of_b, of_c] = weights(view, [a, b, c], normal);
-                // All weights times one number change no direction; with this one they keep clear of overflow.
-                let scale = 1.0 / (of_a + of_b + of_c).largest(view);
-                let scale = if scale.is_finite() { side * scale } else { side };
-                let coordinate = |k: usize| of_a * at_a[k] + of_b * at_b[k] + of_c * at_c[k];
-                let coordinates = each!(k in [0, 1, 2] => coordinate(k) * scale);
+                let Some(normals) = corners else { return Normals::Flat(flat().as_vec3()) };
+                let [at_a, at_b, at_c] = normals;
                 let apart = at_a.dot(at_b).min(at_b.dot(at_c)).min(at_c.dot(at_a));
-                let flat = (apart < 0.1).then(|| Box::new(flat()));
-                Normals::Smooth(Smooth { coordinates, flat })
+                let flat = (apart < LEAST_COSINE).then(|| Box::new(flat()));
+                let [triangle, normals] = [triangle, normals].map(|three| three.map(Lanes::from));
+                Normals::Smooth(Smooth {
+                    coordinates: smooth_normals(view, triangle, normals),
+                    flat,
+                })
             }
         }
     }
+}
+
+/// Corners' normals with smaller cosines between them may cancel each other.
+const LEAST_COSINE: f64 = 0.1;
+
+/// The coordinates of interpolated normals, towards the viewer, of one triangle or of eight.
+#[inline(always)]
+fn smooth_normals<T: Real>(
+    view: &View,
+    [a, b, c]: [Lanes<T>; 3],
+    [at_a, at_b, at_c]: [Lanes<T>; 3],
+) -> [Affine<T>; 3] {
+    // The surface, not its smooth look, says which side is seen.
+    let side = side_of(view, a, (b - a).cross(c - a));
+    let [of_a, of_b, of_c] = weights(view, [a, b, c], side);
+    // All weights times one number change no direction; with this one they keep clear of overflow.
+    let scale = side * (of_a + of_b + of_c).largest(view).scale_to_one();
+    each!(at in [[at_a.x, at_b.x, at_c.x], [at_a.y, at_b.y, at_c.y], [at_a.z, at_b.z, at_c.z]] => {
+        (of_a * at[0] + of_b * at[1] + of_c * at[2]) * scale
+    })
 }
 
 impl Smooth {
@@ -307,12 +352,17 @@ fn on_ball<S: Simd>(simd: S, scale: f64, hit: &HitPoints<S>, rays: &Rays<S>) -> 
 /// 1 if a normal of a flat form through a point is towards the viewer, −1 if it is away.
 #[inline(always)]
 fn side_seen(view: &View, point: DVec3, normal: DVec3) -> f64 {
-    let away = match view.camera.projection() {
+    side_of(view, Lanes::from(point), Lanes::from(normal))
+}
+
+/// The same for one flat form or for eight.
+#[inline(always)]
+fn side_of<T: Real>(view: &View, point: Lanes<T>, normal: Lanes<T>) -> T {
+    match view.camera.projection() {
         // Every ray that meets the form goes to the same side of it.
-        Projection::Perspective => normal.dot(point) > 0.0,
-        Projection::Parallel => normal.dot(-view.camera.w()) > 0.0,
-    };
-    if away { -1.0 } else { 1.0 }
+        Projection::Perspective => normal.dot(point).against(),
+        Projection::Parallel => normal.along(-view.camera.w()).against(),
+    }
 }
 
 impl Details {
@@ -325,7 +375,7 @@ impl Details {
         }
         let colors = match (seen.primitive, colors) {
             (Primitive::Triangle([a, b, c]), Some(colors)) => {
-                let weights = weights(view, [a, b, c], (b - a).cross(c - a));
+                let weights = weights_of(view, [a, b, c]);
                 Some(Colors::interpolating(weights, colors))
             }
             _ => None,
@@ -343,8 +393,7 @@ impl Texture {
                 Texture::Flat(Box::new(Quotient::on_plane(view, point, normal, axes)))
             }
             (Primitive::Triangle([a, b, c]), Some(coordinates)) => {
-                let flat = (b - a).cross(c - a);
-                let weights = weights(view, [a, b, c], flat);
+                let weights = weights_of(view, [a, b, c]);
                 Texture::Flat(Box::new(Quotient::interpolating(weights, coordinates)))
             }
             (Primitive::Triangle(_), None) => Texture::None,
@@ -352,29 +401,41 @@ impl Texture {
     }
 }
 
-/// The perspective-correct weights of a triangle's corners, up to a common factor: each is the edge
+/// The perspective-correct weights of a triangle's corners: see [`weights`].
+#[inline(always)]
+fn weights_of(view: &View, [a, b, c]: [DVec3; 3]) -> [Affine; 3] {
+    let side = side_seen(view, a, (b - a).cross(c - a));
+    weights(view, each!(corner in [a, b, c] => Lanes::from(corner)), side)
+}
+
+/// The perspective-correct weights of the corners of a triangle, or of eight, up to a common factor: each is the edge
 /// function of the side opposite to its corner, positive inside of the triangle.
 ///
 /// The function from `p` to `q` is computed from the difference `q − p`: seen from afar, `p × q` would be all rounding.
 #[inline(always)]
-fn weights(view: &View, [a, b, c]: [DVec3; 3], flat: DVec3) -> [Affine; 3] {
-    let inside = side_seen(view, a, flat);
-    each!(side in [[b, c], [c, a], [a, b]] => {
-        let [p, q] = side;
-        edge_function(view, p, q) * -inside
+fn weights<T: Real>(view: &View, [a, b, c]: [Lanes<T>; 3], side: T) -> [Affine<T>; 3] {
+    each!(edge in [[b, c], [c, a], [a, b]] => {
+        let [p, q] = edge;
+        edge_function(view, p, q) * -side
     })
 }
 
 /// The edge function from `p` to `q`, positive inside of a triangle that is seen from its back.
 #[inline(always)]
-fn edge_function(view: &View, p: DVec3, q: DVec3) -> Affine {
+fn edge_function<T: Real>(view: &View, p: Lanes<T>, q: Lanes<T>) -> Affine<T> {
+    let (u, v, w) = (view.camera.u(), view.camera.v(), view.camera.w());
+    let normal = p.cross(q - p);
     match view.camera.projection() {
-        Projection::Perspective => Affine::along_ray(view, p.cross(q - p)),
+        // Its product with the direction of the viewing ray.
+        Projection::Perspective => Affine {
+            at_center: normal.along(w) * -view.camera.distance(),
+            across: normal.along(u),
+            up: normal.along(v),
+        },
         Projection::Parallel => {
-            let (u, v, w) = (view.camera.u(), view.camera.v(), view.camera.w());
-            let slope = (p - q).cross(w);
-            let [at_center, across, up] = [p.cross(q - p).dot(w), slope.dot(u), slope.dot(v)];
-            Affine { at_center, across, up } * -1.0
+            let slope = (p - q).cross_along(w);
+            let [at_center, across, up] = [normal.along(w), slope.along(u), slope.along(v)];
+            Affine { at_center: -at_center, across: -across, up: -up }
         }
     }
 }

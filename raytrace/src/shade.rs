@@ -3,8 +3,10 @@
 use bothways_common::engine::simd::{
     Level, Select, Simd, SimdBase, SimdFloat, SimdNarrow, best_level, f32x16, f64x8,
 };
-use bothways_common::look::bands::{self, Points, Rays, Samples, Seen, Sixteen, Surfaces, Wanted};
-use bothways_common::look::lanes::{DVec3x8, Vec3x16, each};
+use bothways_common::look::bands::{
+    self, EightTriangles, Points, Rays, Samples, Seen, Sixteen, Surfaces, Wanted,
+};
+use bothways_common::look::lanes::{DVec3x8, Lanes, Real, Vec3x16, each};
 use bothways_common::look::texture::{self, TexturePoints};
 use bothways_common::{Frame, Primitive, Projection, View};
 use glam::{DVec2, DVec3, Vec3};
@@ -68,22 +70,20 @@ struct Wild {
 }
 
 enum Form {
-    Sphere {
-        center: DVec3,
-        radius: f64,
-    },
-    Plane {
-        point: DVec3,
-        normal: DVec3,
-    },
-    /// `normal` is the cross product of two sides.
-    Triangle {
-        /// The first corner.
-        a: DVec3,
-        normal: DVec3,
-        /// The directions in which the weights of the second and the third corner grow, and how fast.
-        growth: [DVec3; 2],
-    },
+    Sphere { center: DVec3, radius: f64 },
+    Plane { point: DVec3, normal: DVec3 },
+    Triangle(Triangle),
+}
+
+/// A triangle, or one for each of eight: in `T` a number or eight.
+#[derive(Clone, Copy)]
+struct Triangle<T = f64> {
+    /// The first corner.
+    a: Lanes<T>,
+    /// The cross product of two sides.
+    normal: Lanes<T>,
+    /// The directions in which the weights of the second and the third corner grow, and how fast.
+    growth: [Lanes<T>; 2],
 }
 
 enum Texture {
@@ -128,6 +128,41 @@ impl Surfaces for AtHits<'_> {
         let normals = Normals::new(self.view, &form, seen.corner_normals());
         let has_points = wanted.positions || !matches!(texture, Texture::None) || details.is_some();
         Surface { form, normals, has_points, texture, details }
+    }
+
+    #[inline(always)]
+    fn set_up_eight<S: Simd>(
+        &self,
+        triangles: &EightTriangles<S>,
+        mut keep: impl FnMut(Option<Surface>),
+    ) {
+        let certain = triangles.are_alike(LEAST_COSINE);
+        let Triangle { a, normal, growth: [of_b, of_c] } = Triangle::new(triangles.corners);
+        let side = side_seen(self.view, a, normal);
+        let steps = steps_from_first(triangles.normals, side);
+        let form = each!(vector in [a, normal, of_b, of_c] => {
+            [vector.x.to_array(), vector.y.to_array(), vector.z.to_array()]
+        });
+        let steps = each!(vector in [steps[0], steps[1], steps[2]] => {
+            [vector.x.to_array(), vector.y.to_array(), vector.z.to_array()]
+        });
+        for lane in 0..triangles.used {
+            let of_lane = |numbers: &[[f64; 8]; 3]| {
+                let [x, y, z] = each!(axis in [0, 1, 2] => numbers[axis][lane & 7]);
+                DVec3 { x, y, z }
+            };
+            keep((certain >> lane & 1 == 1).then(|| {
+                let [a, normal, of_b, of_c] = each!(k in [0, 1, 2, 3] => of_lane(&form[k]).into());
+                let normals = each!(k in [0, 1, 2] => of_lane(&steps[k]).as_vec3());
+                Surface {
+                    form: Form::Triangle(Triangle { a, normal, growth: [of_b, of_c] }),
+                    normals: Normals::Smooth(Smooth(normals)),
+                    has_points: false,
+                    texture: Texture::None,
+                    details: None,
+                }
+            }));
+        }
     }
 
     #[inline(always)]
@@ -194,11 +229,7 @@ impl Form {
         match *primitive {
             Primitive::Sphere { center, radius } => Form::Sphere { center, radius },
             Primitive::Plane { point, normal } => Form::Plane { point, normal },
-            Primitive::Triangle([a, b, c]) => {
-                let normal = (b - a).cross(c - a);
-                let dual = normal / normal.length_squared();
-                Form::Triangle { a, normal, growth: [dual.cross(a - c), dual.cross(b - a)] }
-            }
+            Primitive::Triangle(corners) => Form::Triangle(Triangle::new(corners.map(Lanes::from))),
         }
     }
 
@@ -212,12 +243,23 @@ impl Form {
         match self {
             Form::Sphere { center, radius } => on_sphere(simd, *center, *radius, samples, rays),
             Form::Plane { point, normal } => on_plane(simd, *point, *normal, samples, rays),
-            Form::Triangle { a, normal, growth } => {
-                let hit = on_plane(simd, *a, *normal, samples, rays);
-                let weights = each!(k in [0, 1] => DVec3x8::splat(simd, growth[k]).dot(hit.beside));
+            Form::Triangle(Triangle { a, normal, growth }) => {
+                let hit = on_plane(simd, (*a).into(), (*normal).into(), samples, rays);
+                let weights =
+                    each!(k in [0, 1] => DVec3x8::splat(simd, growth[k].into()).dot(hit.beside));
                 Hits { weights, ..hit }
             }
         }
+    }
+}
+
+impl<T: Real> Triangle<T> {
+    #[inline(always)]
+    fn new([a, b, c]: [Lanes<T>; 3]) -> Self {
+        let normal = (b - a).cross(c - a);
+        let square = normal.dot(normal);
+        let dual = Lanes { x: normal.x / square, y: normal.y / square, z: normal.z / square };
+        Triangle { a, normal, growth: [dual.cross(a - c), dual.cross(b - a)] }
     }
 }
 
@@ -305,18 +347,14 @@ impl Normals {
         let (point, normal) = match *form {
             Form::Sphere { radius, .. } => return Normals::Sphere(1.0 / radius),
             Form::Plane { point, normal } => (point, normal),
-            Form::Triangle { a, normal, .. } => (a, normal),
+            Form::Triangle(Triangle { a, normal, .. }) => (a.into(), normal.into()),
         };
-        // The surface decides which side is seen, not its smooth normals; every ray that hits it comes to the same side.
-        let is_back = match view.camera.projection() {
-            Projection::Perspective => normal.dot(point) > 0.0,
-            Projection::Parallel => normal.dot(view.camera.w()) < 0.0,
-        };
-        let side = if is_back { -1.0 } else { 1.0 };
+        let side = side_seen(view, Lanes::from(point), Lanes::from(normal));
         let flat = || normal.normalize_or_zero() * side;
         let Some([a, b, c]) = corners else { return Normals::Flat(flat().as_vec3()) };
-        let corners = [a, b - a, c - a].map(|normal| normal * side);
-        if a.dot(b).min(b.dot(c)).min(c.dot(a)) < 0.1 {
+        let corners = steps_from_first([a, b, c].map(Lanes::from), side);
+        let corners = corners.map(DVec3::from);
+        if a.dot(b).min(b.dot(c)).min(c.dot(a)) < LEAST_COSINE {
             return Normals::Wild(Box::new(Wild { corners, flat: flat() }));
         }
         Normals::Smooth(Smooth(corners.map(|normal| normal.as_vec3())))
@@ -353,6 +391,25 @@ impl Normals {
     }
 }
 
+/// Corners' normals with smaller cosines between them may cancel each other.
+const LEAST_COSINE: f64 = 0.1;
+
+/// 1 if a normal of a flat form through a point is towards the viewer, −1 if it is away; of one form or of eight. The surface
+/// decides which side is seen, not its smooth normals; every ray that hits it comes to the same side.
+#[inline(always)]
+fn side_seen<T: Real>(view: &View, point: Lanes<T>, normal: Lanes<T>) -> T {
+    match view.camera.projection() {
+        Projection::Perspective => normal.dot(point).against(),
+        Projection::Parallel => normal.along(-view.camera.w()).against(),
+    }
+}
+
+/// The normal of the first corner of a triangle, or of eight, and what those of the others add to it, towards the viewer.
+#[inline(always)]
+fn steps_from_first<T: Real>([a, b, c]: [Lanes<T>; 3], side: T) -> [Lanes<T>; 3] {
+    each!(step in [a, b - a, c - a] => step * side)
+}
+
 impl Smooth {
     /// The normals where the second and the third corner have these weights, which were found in `f64`: on a sliver they
     /// are differences of large numbers. Here they are at most 1, so three roundings of numbers up to 2 remain.
@@ -383,11 +440,12 @@ impl Texture {
         let (first, gradients, normal) = match (form, corners) {
             (Form::Sphere { .. }, _) => return Texture::Sphere,
             (Form::Plane { normal, .. }, _) => (DVec2::ZERO, texture::plane_axes(*normal), *normal),
-            (Form::Triangle { normal, growth: [of_b, of_c], .. }, Some([a, b, c])) => {
-                let gradient = |k: usize| *of_b * (b - a)[k] + *of_c * (c - a)[k];
-                (a, [gradient(0), gradient(1)], *normal)
+            (Form::Triangle(Triangle { normal, growth, .. }), Some([a, b, c])) => {
+                let [of_b, of_c] = growth.map(DVec3::from);
+                let gradient = |k: usize| of_b * (b - a)[k] + of_c * (c - a)[k];
+                (a, [gradient(0), gradient(1)], (*normal).into())
             }
-            (Form::Triangle { .. }, None) => return Texture::None,
+            (Form::Triangle(_), None) => return Texture::None,
         };
         #[expect(clippy::cast_possible_truncation, reason = "a footprint needs no more digits")]
         let growth = gradients.map(|gradient| steps.map(|step| gradient.dot(step) as f32));

@@ -145,6 +145,58 @@ fn crops_that_cut_tiles_equal_the_whole_on_any_number_of_threads() {
     }
 }
 
+/// A ball of small triangles, whose normals are not all of length 1, and in places point in opposite directions.
+fn rough_ball() -> Scene {
+    let ball = Kind::Sphere.mesh([40, 21]).unwrap();
+    let mut normals = ball.normals().clone();
+    for (k, normal) in normals.values.iter_mut().enumerate() {
+        if k % 7 == 0 {
+            *normal *= 1.3;
+        } else if k % 11 == 0 {
+            *normal = -*normal;
+        }
+    }
+    scene(vec![mesh(ball.with_normals(normals).unwrap())])
+}
+
+/// Triangles with normals are set up eight at a time where many are seen, and alone where one is.
+#[test]
+fn a_pixel_alone_has_the_normals_and_colors_of_the_whole_picture() {
+    let (scene, image) = (rough_ball(), [90, 70]);
+    let mut seen = 0;
+    for projection in PROJECTIONS {
+        let camera = turned(projection, [1.5, 1.0, 4.0], [0.0; 3], image);
+        let view = View::new(&scene, &camera);
+        let draw = |options: &Options| {
+            let new = || Frame::new(view.camera, options).with_colors().with_normals();
+            let (mut by_object, mut by_image) = (new(), new());
+            let prepared = rasterize::fast::prepare(&scene);
+            rasterize::fast::determine_visibility(
+                &prepared,
+                &view,
+                options,
+                &mut by_object,
+                &mut (),
+            );
+            rasterize::shade(&view, &mut by_object);
+            let prepared = raytrace::fast::prepare(&scene);
+            raytrace::fast::determine_visibility(&prepared, &view, options, &mut by_image, &mut ());
+            raytrace::shade(&view, &mut by_image);
+            [by_object, by_image]
+        };
+        let wholes = draw(&Options::default());
+        for pixel in some_crops(image, 7).take(80) {
+            let pixel = Crop { width: 1, height: 1, ..pixel };
+            let parts = draw(&Options { crop: Some(pixel), ..Options::default() });
+            for ((whole, part), order) in wholes.iter().zip(&parts).zip(["object", "image"]) {
+                assert_is_part(whole, part, &format!("{projection:?}, {order} order"));
+                seen += part.ids().covered();
+            }
+        }
+    }
+    assert!(seen > 100, "{seen}");
+}
+
 /// The region of a crop, and the number of events that reach outside of it.
 #[derive(Clone, Debug)]
 struct Within {

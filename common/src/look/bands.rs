@@ -1,4 +1,4 @@
-//! The way of both orders from what is seen to a picture, a row of pixels at a time: what the surfaces look like at
+//! The way of both orders from what is seen to a picture, some samples of a row at a time: what the surfaces look like at
 //! each sample, light, and bytes.
 //!
 //! Where on a surface a sample lies, and what its normal and its texture are there, is each order's own: see
@@ -7,6 +7,7 @@
 
 mod chunk;
 mod desk;
+mod found;
 mod surfaces;
 mod tint;
 
@@ -25,7 +26,9 @@ use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 use std::ops::Range;
 
-pub use surfaces::{Points, Rays, STORED_ERROR, Samples, Seen, Sixteen, Surfaces, Wanted};
+pub use surfaces::{
+    EightTriangles, Points, Rays, STORED_ERROR, Samples, Seen, Sixteen, Surfaces, Wanted,
+};
 
 /// Gives a frame its picture, and all else that it keeps of the look of what is seen.
 ///
@@ -48,13 +51,18 @@ pub fn shade(view: &View, frame: &mut Frame, surfaces: &impl Surfaces, level: Le
         places.chain([0.0; 16]).collect()
     });
     let look = Look { setting, grid, lighting, across, down, samples };
-    // A pixel of one sample has no sum.
-    let sums = if samples > 1 { look.grid.width() / samples } else { 0 };
-    frame.shading_bands().into_par_iter().for_each_init(
+    // A pixel of one sample has no sum; sums are those of one row.
+    let (sums, rows) =
+        if samples > 1 { (look.grid.width() / samples, 1) } else { (0, TOGETHER[0]) };
+    frame.shading_bands(rows).into_par_iter().for_each_init(
         || Desk::new(sums),
         |desk, mut band| dispatch!(level, simd => look.shade_band(simd, desk, &mut band)),
     );
 }
+
+/// Rows and columns of samples that are shaded together, where a pixel has one sample: so triangles which several rows show,
+/// and the vertices of their neighbours, are still in the nearest caches. With fewer columns, the machine fetches ids and `t` late.
+const TOGETHER: [usize; 2] = [16, 2 * CHUNK];
 
 /// What a frame keeps of the textures of some samples.
 struct KeptTexture<'a> {
@@ -93,7 +101,7 @@ struct Look<'a, A> {
 }
 
 impl<'a, A: Surfaces> Look<'a, A> {
-    /// Shades a row of pixels.
+    /// Shades some rows of pixels, one where a pixel has several samples.
     #[inline(always)]
     fn shade_band<S: Simd>(
         &self,
@@ -103,10 +111,12 @@ impl<'a, A: Surfaces> Look<'a, A> {
     ) {
         let width = band.region.columns.len();
         desk.sums.fill(Vec3::ZERO);
-        for (line, row) in band.region.rows.clone().enumerate() {
-            for start in (0..width).step_by(CHUNK) {
-                let end = width.min(start + CHUNK);
-                self.shade_chunk(simd, desk, band, (line, row), start..end);
+        for block in (0..width).step_by(TOGETHER[1]) {
+            for (line, row) in band.region.rows.clone().enumerate() {
+                for start in (block..width.min(block + TOGETHER[1])).step_by(CHUNK) {
+                    let end = width.min(start + CHUNK);
+                    self.shade_chunk(simd, desk, band, (line, row), start..end);
+                }
             }
         }
         if self.samples > 1 {
@@ -150,7 +160,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
                 desk.take_back(named);
             }
             desk.chunk.x[..ids.len()].copy_from_slice(&self.grid.x()[first..first + ids.len()]);
-            if desk.seen().any(|surface| self.setting.surfaces.looks_at_t(surface)) {
+            if desk.looks_at_t {
                 for (wide, t) in desk.chunk.t.iter_mut().zip(&band.t[stored.clone()]) {
                     *wide = f64::from(*t);
                 }
@@ -158,7 +168,8 @@ impl<'a, A: Surfaces> Look<'a, A> {
             self.find_points(simd, desk, Sample { row, column: first }, &mut kept);
         }
         let normals = band.normals.as_mut().map(|kept| &mut kept[stored.clone()]);
-        self.light(simd, desk, Sample { row, column: first }, normals);
+        let needs_colors = self.samples > 1 || band.colors.is_some();
+        self.light(simd, desk, Sample { row, column: first }, needs_colors, normals);
         self.write(desk, band, within, stored);
     }
 
@@ -248,13 +259,14 @@ impl<'a, A: Surfaces> Look<'a, A> {
         }
     }
 
-    /// Lights the samples of a chunk: fills its colours and, where a pixel has one sample, its bytes.
+    /// Lights the samples of a chunk: fills its colours, if they are needed, and its bytes where a pixel has one sample.
     #[inline(always)]
     fn light<S: Simd>(
         &self,
         simd: S,
         desk: &mut Desk<'a, A::Surface>,
         start: Sample,
+        needs_colors: bool,
         mut normals: Option<&mut [Vec3]>,
     ) {
         let y = f32x16::splat(simd, self.down[start.row]);
@@ -266,8 +278,10 @@ impl<'a, A: Surfaces> Look<'a, A> {
         for runs in desk.runs.chunk_by(|a, b| same_material(material_of(a), material_of(b))) {
             let (end, kept) = (runs[runs.len() - 1].end, kept_of(&runs[0]));
             let Some(Kept { material, is_tinted, .. }) = kept else {
-                for (to, channel) in chunk.color.iter_mut().zip(background.to_array()) {
-                    to[begin..end].fill(channel);
+                if needs_colors {
+                    for (to, channel) in chunk.color.iter_mut().zip(background.to_array()) {
+                        to[begin..end].fill(channel);
+                    }
                 }
                 chunk.bytes[begin..end].fill(background_bytes);
                 if let Some(kept) = &mut normals {
@@ -292,10 +306,12 @@ impl<'a, A: Surfaces> Look<'a, A> {
                     tint: each!(k in [0, 1, 2] => sixteen(simd, &chunk.tint[k], at)),
                 };
                 let colors = self.lighting.colors(simd, &points, &finish);
-                let [red, green, blue] = &mut chunk.color;
-                colors[0].store_slice(&mut red[at..at + 16]);
-                colors[1].store_slice(&mut green[at..at + 16]);
-                colors[2].store_slice(&mut blue[at..at + 16]);
+                if needs_colors {
+                    let [red, green, blue] = &mut chunk.color;
+                    colors[0].store_slice(&mut red[at..at + 16]);
+                    colors[1].store_slice(&mut green[at..at + 16]);
+                    colors[2].store_slice(&mut blue[at..at + 16]);
+                }
                 if self.samples == 1 {
                     chunk.bytes[at..at + 16].copy_from_slice(&srgb_of_sixteen(simd, colors));
                 }
@@ -323,12 +339,12 @@ impl<'a, A: Surfaces> Look<'a, A> {
         let [red, green, blue] = &chunk.color;
         let color = |k: usize| Vec3::new(red[k], green[k], blue[k]);
         if let Some(colors) = &mut band.colors {
-            for (k, kept) in colors[stored].iter_mut().enumerate() {
+            for (k, kept) in colors[stored.clone()].iter_mut().enumerate() {
                 *kept = color(k);
             }
         }
         if self.samples == 1 {
-            for (pixel, bytes) in band.picture[within].iter_mut().zip(&chunk.bytes) {
+            for (pixel, bytes) in band.picture[stored].iter_mut().zip(&chunk.bytes) {
                 let [red, green, blue, _] = bytes.to_le_bytes();
                 *pixel = [red, green, blue];
             }

@@ -2,7 +2,7 @@
 
 use crate::engine::simd::{Select, Simd, SimdBase, SimdFloat, SimdNarrow, f32x16, f64x8, mask64x8};
 use glam::{DVec3, Vec3};
-use std::ops::{Add, Mul, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// The values of an expression for each of some others, as an array: `each!(k in [0, 1] => a[k] * b[k])`. With vectors,
 /// an array's own `map` is slow: its function is compiled without the instructions of the level.
@@ -28,6 +28,67 @@ pub struct Lanes<T> {
     pub y: T,
     /// The third coordinate.
     pub z: T,
+}
+
+/// A number in `f64`, or one for each of eight triangles or samples. What is written for it has the same bits for one and for
+/// eight.
+pub trait Real:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Mul<f64, Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// Its magnitude.
+    fn magnitude(self) -> Self;
+
+    /// −1 where it is positive, 1 elsewhere.
+    fn against(self) -> Self;
+
+    /// 1 over it, and 1 where that is not finite.
+    fn scale_to_one(self) -> Self;
+}
+
+impl Real for f64 {
+    #[inline(always)]
+    fn magnitude(self) -> f64 {
+        self.abs()
+    }
+
+    #[inline(always)]
+    fn against(self) -> f64 {
+        if self > 0.0 { -1.0 } else { 1.0 }
+    }
+
+    #[inline(always)]
+    fn scale_to_one(self) -> f64 {
+        let scale = 1.0 / self;
+        if scale.is_finite() { scale } else { 1.0 }
+    }
+}
+
+impl<S: Simd> Real for f64x8<S> {
+    #[inline(always)]
+    fn magnitude(self) -> Self {
+        self.abs()
+    }
+
+    #[inline(always)]
+    fn against(self) -> Self {
+        let [zero, one, minus_one] =
+            each!(number in [0.0, 1.0, -1.0] => f64x8::splat(self.simd, number));
+        self.simd_gt(zero).select(minus_one, one)
+    }
+
+    #[inline(always)]
+    fn scale_to_one(self) -> Self {
+        let [one, infinity] =
+            each!(number in [1.0, f64::INFINITY] => f64x8::splat(self.simd, number));
+        let scale = one / self;
+        scale.abs().simd_lt(infinity).select(scale, one)
+    }
 }
 
 /// A vector of space for each of eight samples.
@@ -78,6 +139,34 @@ impl<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T>> Lanes<T> {
             y: self.z * other.x - self.x * other.z,
             z: self.x * other.y - self.y * other.x,
         }
+    }
+}
+
+impl From<DVec3> for Lanes<f64> {
+    #[inline(always)]
+    fn from(DVec3 { x, y, z }: DVec3) -> Self {
+        Lanes { x, y, z }
+    }
+}
+
+impl From<Lanes<f64>> for DVec3 {
+    #[inline(always)]
+    fn from(Lanes { x, y, z }: Lanes<f64>) -> Self {
+        DVec3 { x, y, z }
+    }
+}
+
+impl<T: Real> Lanes<T> {
+    /// The scalar product with a vector that is the same for all.
+    #[inline(always)]
+    pub fn along(self, DVec3 { x, y, z }: DVec3) -> T {
+        self.x * x + self.y * y + self.z * z
+    }
+
+    /// The cross product with a vector that is the same for all.
+    #[inline(always)]
+    pub fn cross_along(self, DVec3 { x, y, z }: DVec3) -> Self {
+        Lanes { x: self.y * z - self.z * y, y: self.z * x - self.x * z, z: self.x * y - self.y * x }
     }
 }
 

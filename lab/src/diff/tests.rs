@@ -98,7 +98,7 @@ fn depth_is_reported_and_does_not_decide() {
 #[test]
 fn color_is_reported_and_does_not_decide() {
     let (object_order, mut image_order) = (frame(1, &["00"]), frame(1, &["00"]));
-    image_order.shading_bands()[0].picture[1] = [0, 255, 0];
+    image_order.shading_bands(1)[0].picture[1] = [0, 255, 0];
     let comparison = compare(&object_order, &image_order);
     assert!(comparison.matches());
     assert_eq!(comparison.color, Color { max_difference: 255, differing_pixels: 1 });

@@ -8,17 +8,17 @@
 
 use bothways_common::engine::simd::{Simd, SimdBase, f64x8};
 use bothways_common::look::bands::Samples;
-use bothways_common::look::lanes::{DVec3x8, Lanes, each};
+use bothways_common::look::lanes::{DVec3x8, Lanes, Real, each};
 use bothways_common::{Projection, View};
 use glam::{DVec2, DVec3, Vec3};
 use std::ops::{Add, Mul};
 
-/// A function `at_center + x·across + y·up`.
+/// A function `at_center + x·across + y·up`, or one for each of eight triangles.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Affine {
-    pub(super) at_center: f64,
-    pub(super) across: f64,
-    pub(super) up: f64,
+pub(super) struct Affine<T = f64> {
+    pub(super) at_center: T,
+    pub(super) across: T,
+    pub(super) up: T,
 }
 
 impl Affine {
@@ -76,13 +76,6 @@ impl Affine {
         self.row(simd, x, y).1
     }
 
-    /// No value on the viewport has a larger magnitude.
-    #[inline(always)]
-    pub(super) fn largest(&self, view: &View) -> f64 {
-        let [width, height] = view.camera.viewport();
-        self.at_center.abs() + 0.5 * (width * self.across.abs() + height * self.up.abs())
-    }
-
     /// The product of two functions, one of which is constant.
     #[inline(always)]
     fn times(self, other: Affine) -> Affine {
@@ -95,21 +88,31 @@ impl Affine {
     }
 }
 
-impl Mul<f64> for Affine {
-    type Output = Affine;
+impl<T: Real> Affine<T> {
+    /// No value on the viewport has a larger magnitude.
+    #[inline(always)]
+    pub(super) fn largest(&self, view: &View) -> T {
+        let [width, height] = view.camera.viewport();
+        let [across, up] = each!(slope in [self.across, self.up] => slope.magnitude());
+        self.at_center.magnitude() + (across * width + up * height) * 0.5
+    }
+}
+
+impl<T: Real> Mul<T> for Affine<T> {
+    type Output = Self;
 
     #[inline(always)]
-    fn mul(self, factor: f64) -> Affine {
+    fn mul(self, factor: T) -> Self {
         let Affine { at_center, across, up } = self;
         Affine { at_center: at_center * factor, across: across * factor, up: up * factor }
     }
 }
 
-impl Add for Affine {
-    type Output = Affine;
+impl<T: Real> Add for Affine<T> {
+    type Output = Self;
 
     #[inline(always)]
-    fn add(self, other: Affine) -> Affine {
+    fn add(self, other: Self) -> Self {
         Affine {
             at_center: self.at_center + other.at_center,
             across: self.across + other.across,

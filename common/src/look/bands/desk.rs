@@ -1,6 +1,7 @@
 //! What a thread works with while it shades: the samples of a chunk, and the primitives that are seen there.
 
 use super::chunk::Chunk;
+use super::found::{Found, FoundEight};
 use super::surfaces::{Seen, Surfaces, Wanted};
 use crate::engine::simd::{Simd, SimdBase, SimdMask, u32x16};
 use crate::frame::{NO_PRIMITIVE, NO_WIDE_PRIMITIVE};
@@ -9,6 +10,7 @@ use crate::scene::material::Material;
 use crate::view::View;
 use glam::Vec3;
 use std::collections::HashMap;
+use std::ops::Range;
 
 /// The hashes of ids under which visible primitives are kept: those of a row are mostly seen in the next one, too.
 const HASHES: usize = 1 << HASH_BITS;
@@ -38,6 +40,10 @@ pub(super) struct Desk<'a, T> {
     places: Vec<(u32, u32)>,
     names: Names,
     pub(super) kept: Vec<Kept<'a, T>>,
+    /// Whether the `t` of samples matter to any of these.
+    pub(super) looks_at_t: bool,
+    /// The names of those that come next in `kept`, and are not set up yet.
+    new: Vec<u32>,
     pub(super) chunk: Box<Chunk>,
     /// The samples of the chunk in runs of one primitive each.
     pub(super) runs: Vec<Run>,
@@ -68,6 +74,8 @@ impl<'a, T> Desk<'a, T> {
             places: vec![(NO_PRIMITIVE, 0); HASHES],
             names: Names::default(),
             kept: Vec::new(),
+            looks_at_t: false,
+            new: Vec::new(),
             chunk: Box::new(Chunk::new()),
             runs: Vec::new(),
             sums: vec![Vec3::ZERO; sums],
@@ -97,19 +105,21 @@ impl<'a, T> Desk<'a, T> {
             while ends != 0 {
                 let last = at + ends.trailing_zeros() as usize;
                 ends &= ends - 1;
-                self.end_run(setting, ids, last);
+                self.end_run(ids, last);
             }
             at += 16;
         }
         for last in at..ids.len() {
             if ids.get(last + 1) != Some(&ids[last]) {
-                self.end_run(setting, ids, last);
+                self.end_run(ids, last);
             }
         }
+        self.set_up_new(simd, setting);
     }
 
     fn forget(&mut self) {
         self.kept.clear();
+        self.looks_at_t = false;
         self.places.fill((NO_PRIMITIVE, 0));
     }
 
@@ -146,42 +156,53 @@ impl<'a, T> Desk<'a, T> {
         self.names.of_chunk = names;
     }
 
-    /// The primitives of the runs.
-    #[inline(always)]
-    pub(super) fn seen(&self) -> impl Iterator<Item = &T> {
-        let places = self.runs.iter().filter_map(|run| run.place);
-        places.map(|place| &self.kept[place as usize].surface)
-    }
-
     /// Adds the run of samples that ends with this one.
     #[inline(always)]
-    fn end_run<A: Surfaces<Surface = T>>(
-        &mut self,
-        setting: &Setting<'a, A>,
-        ids: &[u32],
-        last: usize,
-    ) {
+    fn end_run(&mut self, ids: &[u32], last: usize) {
         let id = ids[last];
-        let place = (id != NO_PRIMITIVE).then(|| self.place_of(setting, id));
+        let place = (id != NO_PRIMITIVE).then(|| self.place_of(id));
         self.runs.push(Run { end: last + 1, place });
     }
 
-    /// The place in `kept` of a visible primitive.
+    /// The place in `kept` of a visible primitive. If it is new there, it has to be set up.
     #[inline(always)]
-    fn place_of<A: Surfaces<Surface = T>>(&mut self, setting: &Setting<'a, A>, id: u32) -> u32 {
+    fn place_of(&mut self, name: u32) -> u32 {
         // The golden ratio of 2³² spreads neighbours best (Knuth, "The Art of Computer Programming", 6.4).
-        let hash = (id.wrapping_mul(0x9e37_79b9) >> (u32::BITS - HASH_BITS)) as usize;
+        let hash = (name.wrapping_mul(0x9e37_79b9) >> (u32::BITS - HASH_BITS)) as usize;
         let (kept, place) = self.places[hash];
-        if kept == id { place } else { self.set_up(setting, id, hash) }
+        if kept == name {
+            return place;
+        }
+        let place = u32::try_from(self.kept.len() + self.new.len()).expect("few are kept");
+        self.new.push(name);
+        self.places[hash] = (name, place);
+        place
     }
 
-    #[inline(never)]
-    fn set_up<A: Surfaces<Surface = T>>(
-        &mut self,
-        setting: &Setting<'a, A>,
-        name: u32,
-        hash: usize,
-    ) -> u32 {
+    /// Sets up the primitives that are new.
+    #[inline(always)]
+    fn set_up_new<S: Simd, A: Surfaces<Surface = T>>(&mut self, simd: S, setting: &Setting<'a, A>) {
+        for start in (0..self.new.len()).step_by(8) {
+            let end = self.new.len().min(start + 8);
+            let found = match self.new[start..end] {
+                // Vectors are not worth it for one or two.
+                [_] | [_, _] => None,
+                _ => self.find_eight(setting, start..end),
+            };
+            if let Some(found) = found {
+                self.set_up_eight(simd, setting, &found);
+            } else {
+                for at in start..end {
+                    self.set_up(setting, &self.locate(setting, self.new[at]));
+                }
+            }
+        }
+        self.new.clear();
+    }
+
+    /// The primitive of a name.
+    #[inline(always)]
+    fn locate<A: Surfaces<Surface = T>>(&self, setting: &Setting<'a, A>, name: u32) -> Found<'a> {
         let scene = setting.view.scene;
         let (id, (object, local)) = if scene.has_wide_ids() {
             let id = self.names.ids[name as usize];
@@ -190,13 +211,59 @@ impl<'a, T> Desk<'a, T> {
             (name.into(), scene.locate_name(name))
         };
         let object = &scene.objects()[object];
+        Found { id, object, local, material: object.material_of(local) }
+    }
+
+    /// Up to eight new primitives, if of all nothing is wanted but interpolated normals.
+    #[inline(always)]
+    fn find_eight<A: Surfaces<Surface = T>>(
+        &self,
+        setting: &Setting<'a, A>,
+        new: Range<usize>,
+    ) -> Option<FoundEight<'a>> {
+        let mut eight = FoundEight::all(self.locate(setting, self.new[new.start]), new.len());
+        for (found, name) in eight.found.iter_mut().zip(&self.new[new]) {
+            *found = self.locate(setting, *name);
+        }
+        eight.have_normals_alone(setting.wanted).then_some(eight)
+    }
+
+    #[inline(always)]
+    fn set_up_eight<S: Simd, A: Surfaces<Surface = T>>(
+        &mut self,
+        simd: S,
+        setting: &Setting<'a, A>,
+        eight: &FoundEight<'a>,
+    ) {
+        let triangles = eight.triangles(simd, setting.view);
+        let mut lane = 0;
+        setting.surfaces.set_up_eight(&triangles, |surface| {
+            let found = &eight.found[lane & 7];
+            lane += 1;
+            match surface {
+                Some(surface) => self.keep(setting, surface, (found.material, false)),
+                None => self.set_up(setting, found),
+            }
+        });
+    }
+
+    #[inline(never)]
+    fn set_up<A: Surfaces<Surface = T>>(&mut self, setting: &Setting<'a, A>, found: &Found<'a>) {
+        let Found { id, object, local, material } = *found;
         let primitive = setting.view.primitive_of(&object.shape, local);
-        let material = object.material_of(local);
         let seen = Seen { id, primitive, object, local, material };
-        let place = u32::try_from(self.kept.len()).expect("few are kept");
         let surface = setting.surfaces.set_up(&seen, setting.wanted);
-        self.kept.push(Kept { surface, material, is_tinted: seen.is_tinted() });
-        self.places[hash] = (name, place);
-        place
+        self.keep(setting, surface, (material, seen.is_tinted()));
+    }
+
+    #[inline(always)]
+    fn keep<A: Surfaces<Surface = T>>(
+        &mut self,
+        setting: &Setting<'a, A>,
+        surface: T,
+        (material, is_tinted): (&'a Material, bool),
+    ) {
+        self.looks_at_t |= setting.surfaces.looks_at_t(&surface);
+        self.kept.push(Kept { surface, material, is_tinted });
     }
 }

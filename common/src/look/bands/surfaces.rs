@@ -2,7 +2,7 @@
 
 use super::chunk::{Chunk, eight, sixteen, store_eight, store_sixteen};
 use crate::camera::{Camera, Projection};
-use crate::engine::simd::{Simd, SimdBase, f32x16, f64x8, mask64x8};
+use crate::engine::simd::{Simd, SimdBase, SimdMask, f32x16, f64x8, mask64x8};
 use crate::look::lanes::{DVec3x8, Vec3x16, each};
 use crate::look::texture::{self, TexturePoints};
 use crate::raster::Sample;
@@ -37,6 +37,17 @@ pub trait Surfaces: Sync {
 
     /// Sets up a primitive. Where triangles are as small as samples, most of the time goes here: `#[inline(always)]`.
     fn set_up(&self, seen: &Seen, wanted: Wanted) -> Self::Surface;
+
+    /// Sets up eight triangles at once, each with the bits of [`Surfaces::set_up`], and gives those that are used to `keep`,
+    /// one after another; `None` for one that is to be set up alone, as all are unless a renderer does better.
+    #[inline(always)]
+    fn set_up_eight<S: Simd>(
+        &self,
+        triangles: &EightTriangles<S>,
+        mut keep: impl FnMut(Option<Self::Surface>),
+    ) {
+        (0..triangles.used).for_each(|_| keep(None));
+    }
 
     /// Whether the `t` of the samples matter to a primitive.
     #[inline(always)]
@@ -130,15 +141,45 @@ impl Seen<'_> {
     }
 }
 
+/// The square of a unit vector's length differs from 1 by no more, whose coordinates were rounded to `f32`.
+const NEAR_ONE: f64 = 1e-6;
+
 /// The unit vector; a vector whose length is 1 but for its rounding to `f32` already stands for it, and takes no root.
 #[inline(always)]
 fn unit(vector: DVec3) -> DVec3 {
-    let is_unit = (vector.length_squared() - 1.0).abs() < 1e-6;
+    let is_unit = (vector.length_squared() - 1.0).abs() < NEAR_ONE;
     if is_unit { vector } else { vector.normalize_or_zero() }
 }
 
+/// Eight triangles of which nothing but interpolated normals is wanted.
+#[derive(Clone, Copy, Debug)]
+pub struct EightTriangles<S: Simd> {
+    /// The corners of each, relative to the eye.
+    pub corners: [DVec3x8<S>; 3],
+    /// The normals at the corners.
+    pub normals: [DVec3x8<S>; 3],
+    /// How many there are, if there are fewer than eight: the first ones.
+    pub used: usize,
+}
+
+impl<S: Simd> EightTriangles<S> {
+    /// One bit for each triangle whose normals are unit vectors as they are, and have at least this cosine between them.
+    #[inline(always)]
+    pub fn are_alike(&self, least_cosine: f64) -> u64 {
+        let [a, b, c] = self.normals;
+        let splat = |number: f64| f64x8::splat(a.x.simd, number);
+        let [near_one, one, least] =
+            each!(number in [NEAR_ONE, 1.0, least_cosine] => splat(number));
+        let [of_a, of_b, of_c] =
+            each!(normal in [a, b, c] => (normal.dot(normal) - one).abs().simd_lt(near_one));
+        let [ab, bc, ca] =
+            each!(pair in [[a, b], [b, c], [c, a]] => pair[0].dot(pair[1]).simd_ge(least));
+        (of_a & of_b & of_c & ab & bc & ca).to_bitmask()
+    }
+}
+
 /// What shading needs of surfaces besides their normals.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Wanted {
     /// Where their points are.
     pub positions: bool,
