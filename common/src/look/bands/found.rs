@@ -63,9 +63,9 @@ impl<'a> FoundEight<'a> {
     #[inline(always)]
     pub(super) fn triangles<S: Simd>(&self, simd: S, view: &View) -> EightTriangles<S> {
         let mut coordinates = [[[0.0; 8]; 3]; 6];
-        for lane in 0..8 {
-            let Shape::Mesh(mesh) = &self.found[lane].object.shape else { continue };
-            let (vertices, normals) = self.indices[lane];
+        for (lane, (found, indices)) in self.found.iter().zip(self.indices).enumerate() {
+            let Shape::Mesh(mesh) = &found.object.shape else { continue };
+            let (vertices, normals) = indices;
             let positions = vertices.map(|vertex| mesh.positions()[vertex as usize]);
             let normals = normals.map(|normal| mesh.normals().values[normal as usize]);
             for (k, vector) in positions.into_iter().chain(normals).enumerate() {
