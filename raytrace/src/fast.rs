@@ -51,7 +51,7 @@ mod viewport_affine;
 mod world_affine;
 
 use bothways_common::engine::any_observer::{AnyObserver, PartObserver};
-use bothways_common::engine::context::{Context, LoopContext, ScalarContext};
+use bothways_common::engine::context::{LoopContext, ScalarContext};
 use bothways_common::engine::fault::{Fault, Planted, Sound};
 use bothways_common::engine::simd::dispatch_with;
 use bothways_common::engine::tasks::{self, TaskTimes};
@@ -243,14 +243,56 @@ fn watch<F: Fault>(
     if const { !F::SOUND } {
         return;
     }
+    if sink.counts().is_some() {
+        count::<F>(walker, [of_tile, of_square, of_ray], &chunk.region, sink);
+    } else {
+        walk_alone::<F>(walker, of_ray, &chunk.region, sink);
+    }
+}
+
+/// [`watch`] for an observer that only counts.
+fn count<F: Fault>(
+    walker: &mut Walker,
+    [of_tile, of_square, of_ray]: [&FrustumTemplate; 3],
+    region: &Region,
+    sink: &mut dyn Events,
+) {
+    let mut square = RaySquare::new([of_square, of_ray]);
     dispatch_with!(F, walker.prepared.level, simd => {
         let mut context = LoopContext::<_, dyn Events, F>::of(simd, sink);
-        if context.sink().counts().is_some() {
-            count(&mut context, walker, [of_tile, of_square, of_ray], &chunk.region);
-            return;
+        for tile in region.tiles(of_tile.side, of_tile.side) {
+            let frustum = of_tile.frustum([tile.rows.start, tile.columns.start]);
+            let missed = walker.boxes_all_missed(&context, &frustum, of_ray);
+            if let (Some(boxes), Some(counts)) = (missed, context.sink().counts()) {
+                counts.rays += tile.area() as u64;
+                counts.nodes += boxes * tile.area() as u64;
+                continue;
+            }
+            for rays in tile.tiles(SQUARE, SQUARE) {
+                if context.sink().has_enough() {
+                    return;
+                }
+                if !walker.walk_square(&mut context, &mut square, &rays) {
+                    walk_alone::<F>(walker, of_ray, &rays, context.sink());
+                }
+            }
         }
-        for row in chunk.region.rows.clone() {
-            for column in chunk.region.columns.clone() {
+    });
+}
+
+/// Walks each ray of a region alone, until the observer has enough. It is compiled once: where it is called makes no
+/// difference beside the walk.
+#[inline(never)]
+fn walk_alone<F: Fault>(
+    walker: &mut Walker,
+    of_ray: &FrustumTemplate,
+    region: &Region,
+    sink: &mut dyn Events,
+) {
+    dispatch_with!(F, walker.prepared.level, simd => {
+        let mut context = LoopContext::<_, dyn Events, F>::of(simd, sink);
+        for row in region.rows.clone() {
+            for column in region.columns.clone() {
                 if context.sink().has_enough() {
                     return;
                 }
@@ -258,32 +300,6 @@ fn watch<F: Fault>(
             }
         }
     });
-}
-
-/// [`watch`] for an observer that only counts.
-#[inline(always)]
-fn count(
-    context: &mut impl Context,
-    walker: &mut Walker,
-    [of_tile, of_square, of_ray]: [&FrustumTemplate; 3],
-    region: &Region,
-) {
-    let mut square = RaySquare::new([of_square, of_ray]);
-    for tile in region.tiles(of_tile.side, of_tile.side) {
-        let frustum = of_tile.frustum([tile.rows.start, tile.columns.start]);
-        let missed = walker.boxes_all_missed(context, &frustum, of_ray);
-        if let (Some(boxes), Some(counts)) = (missed, context.sink().counts()) {
-            counts.rays += tile.area() as u64;
-            counts.nodes += boxes * tile.area() as u64;
-            continue;
-        }
-        for rays in tile.tiles(SQUARE, SQUARE) {
-            if context.sink().has_enough() {
-                return;
-            }
-            walker.walk_square(context, &mut square, &rays);
-        }
-    }
 }
 
 /// Traces the rays of a chunk of the picture, tile by tile. Of a tile at the border of a crop all rays are

@@ -165,7 +165,7 @@ fn a_pixel_alone_has_the_normals_and_colors_of_the_whole_picture() {
     let (scene, image) = (rough_ball(), [90, 70]);
     let mut seen = 0;
     for projection in PROJECTIONS {
-        let camera = turned(projection, [1.5, 1.0, 4.0], [0.0; 3], image);
+        let camera = turned(projection, [0.9, 0.6, 1.4], [0.0; 3], image);
         let view = View::new(&scene, &camera);
         let draw = |options: &Options| {
             let new = || Frame::new(view.camera, options).with_colors().with_normals();
@@ -194,7 +194,7 @@ fn a_pixel_alone_has_the_normals_and_colors_of_the_whole_picture() {
             }
         }
     }
-    assert!(seen > 100, "{seen}");
+    assert!(seen > 60, "{seen}");
 }
 
 /// The region of a crop, and the number of events that reach outside of it.

@@ -131,10 +131,10 @@ impl<'a> RaySquare<'a> {
         let (boxes, near, size) = of_ray.boxes_alone(simd, node);
         let error = f32x16::splat(simd, -of_ray.sides_error);
         let mut rays = [0; WIDTH];
-        let mut left = some;
-        while left != 0 {
-            let lane = (left.trailing_zeros() & 15) as usize;
-            left &= left - 1;
+        let mut untested = some;
+        while untested != 0 {
+            let lane = (untested.trailing_zeros() & 15) as usize;
+            untested &= untested - 1;
             let [left, right, upper, lower] = &self.sides;
             let across = left.largest(simd, &boxes, lane).min(right.largest(simd, &boxes, lane));
             let down = upper.largest(simd, &boxes, lane).min(lower.largest(simd, &boxes, lane));
@@ -178,21 +178,18 @@ impl SideOfRays {
 }
 
 impl Walker<'_> {
-    /// Walks the rays of some samples, at most four rows and columns, each alone, and counts what they meet.
+    /// Walks the rays of some samples, at most four rows and columns, each alone, and counts what they meet. Returns whether it
+    /// did: not all can be walked together.
     #[inline(always)]
     pub(crate) fn walk_square<C: Context>(
         &mut self,
         context: &mut C,
         square: &mut RaySquare,
         region: &Region,
-    ) {
-        // Which way a ray goes through instances is not the same for all.
-        let together = square.take(region) && self.prepared.instance_order.is_empty();
-        if !together {
-            for Ray { sample, .. } in &square.rays {
-                self.walk(context, square.of_ray, [sample.row, sample.column], [1, 1]);
-            }
-            return;
+    ) -> bool {
+        // In which order a ray comes to the boxes of an instance's mesh is not the same for all.
+        if !square.take(region) || !self.prepared.instance_order.is_empty() {
+            return false;
         }
         for (lane, ray) in square.rays.iter_mut().enumerate() {
             let Sample { row, column } = ray.sample;
@@ -218,6 +215,7 @@ impl Walker<'_> {
             self.tile.resume([ray.sample.row, ray.sample.column], ray.hit);
             context.sink().hit(ray.sample, self.seen());
         }
+        true
     }
 
     /// Tests the boxes of a node, and pushes those that some of these rays may meet, as a ray alone pushes them.
