@@ -269,8 +269,12 @@ test("every question takes the right answer, and refuses a wrong one", async () 
   for (const kind of ["ray", "plane", "eye", "viewport", "distance", "frame"]) {
     const seed = 11;
     const question = await engine.ask("question", { kind, seed });
-    await page.evaluate((hash) => (location.hash = hash), `#chapter=problems&question=${kind}&seed=${seed}`);
-    await until("the question", async () => (await text(page, "#question-text")).includes(question.title));
+    // The page writes what it shows into its address, and may do so before it hears of another.
+    await until(`${kind}: the question`, async () => {
+      await page.evaluate((hash) => (location.hash = hash), `#chapter=problems&question=${kind}&seed=${seed}`);
+      await page.waitForTimeout(500);
+      return (await text(page, "#question-text")).includes(question.title);
+    });
     const plane = kind === "plane" ? planeIn(question.text.join(" ")) : undefined;
     const numbers = worked(question, plane).map((number) => number.toFixed(6));
     const fields = await page.locator("#question-fields input").all();
@@ -319,25 +323,29 @@ test("the keyboard alone reaches every control", async () => {
     await page.evaluate(() => {
       for (const control of document.querySelectorAll("[data-reached]")) delete control.dataset.reached;
     });
-    // Once around, and no further: of radio buttons, one stands for its group.
-    for (let press = 0; press < 150; press++) {
-      await page.keyboard.press("Tab");
-      const isInside = await page.evaluate(() => {
-        const element = document.activeElement;
-        if (!element || element === document.body) return false;
-        element.dataset.reached = "yes";
-        return true;
+    // Once around, and no further: of radio buttons, one stands for its group. What is drawn while the focus goes by is reached the
+    // next time.
+    let missed = ["all"];
+    for (let round = 0; round < 3 && missed.length > 0; round++) {
+      for (let press = 0; press < 150; press++) {
+        await page.keyboard.press("Tab");
+        const isInside = await page.evaluate(() => {
+          const element = document.activeElement;
+          if (!element || element === document.body) return false;
+          element.dataset.reached = "yes";
+          return true;
+        });
+        if (!isInside) break;
+      }
+      missed = await page.evaluate(() => {
+        const controls = [...document.querySelectorAll("button, input, select, summary, a[href], [tabindex='0']")];
+        const isShown = (one) => one.checkVisibility({ visibilityProperty: true }) && !one.disabled && one.tabIndex >= 0;
+        const isInGroup = (one) =>
+          one.type === "radio" && document.querySelector(`input[name="${one.name}"][data-reached]`) !== null;
+        const missing = controls.filter((one) => isShown(one) && one.dataset.reached !== "yes" && !isInGroup(one));
+        return missing.map((one) => one.id || one.outerHTML.slice(0, 80));
       });
-      if (!isInside) break;
     }
-    const missed = await page.evaluate(() => {
-      const controls = [...document.querySelectorAll("button, input, select, summary, a[href], [tabindex='0']")];
-      const isShown = (one) => one.checkVisibility({ visibilityProperty: true }) && !one.disabled && one.tabIndex >= 0;
-      const isInGroup = (one) =>
-        one.type === "radio" && document.querySelector(`input[name="${one.name}"][data-reached]`) !== null;
-      const missing = controls.filter((one) => isShown(one) && one.dataset.reached !== "yes" && !isInGroup(one));
-      return missing.map((one) => one.id || one.outerHTML.slice(0, 80));
-    });
     assert.deepEqual(missed, [], chapter);
   }
   await close();
