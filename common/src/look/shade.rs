@@ -150,13 +150,13 @@ fn highlight<S: Simd>(
     let halfway = to_light + points.to_viewer;
     let along = points.normals.dot(halfway);
     let zero = f32x16::splat(simd, 0.0);
-    let square = along * along / halfway.dot(halfway);
+    let (square, below) = (along * along, halfway.dot(halfway));
     // Most of a surface has no highlight.
-    let is_some = exponent.is_some(simd, square) & along.simd_gt(zero) & is_lit;
+    let is_some = exponent.is_some(simd, [square, below]) & along.simd_gt(zero) & is_lit;
     if is_some.all_false() {
         return None;
     }
-    Some(is_some.select(power(simd, square, exponent), zero))
+    Some(is_some.select(power(simd, square / below, exponent), zero))
 }
 
 /// The material's colour, and what is drawn over it.
