@@ -2,17 +2,20 @@
 //! with weights that are functions on the viewport.
 
 mod form;
+mod local;
 mod quotient;
 
 use bothways_common::engine::simd::{Level, Simd, SimdBase, SimdNarrow, best_level, f64x8};
 use bothways_common::look::bands::{
-    self, EightTriangles, Points, Rays, Samples, Seen, Sixteen, Surfaces, Wanted,
+    self, EightTriangles, LocalNormals, Points, Rays, Samples, Seen, SetUp, Sixteen, Surfaces,
+    Wanted,
 };
 use bothways_common::look::lanes::{DVec3x8, Lanes, Real, Vec3x16, each};
 use bothways_common::look::texture::{self, TexturePoints};
 use bothways_common::{Frame, Primitive, Projection, View};
 use form::{Form, HitPoints};
 use glam::{DVec2, DVec3, Vec3};
+use local::{Grid, Local};
 use quotient::{Affine, Colors, Quotient};
 
 /// Gives a frame its picture, by interpolation over the triangle that is seen at each sample. If the frame keeps
@@ -29,8 +32,10 @@ pub fn shade(view: &View, frame: &mut Frame) {
 /// [`shade`] with the vector instructions of this level, for tests that compare the levels.
 #[doc(hidden)]
 pub fn shade_with(view: &View, frame: &mut Frame, level: Level) {
-    let samples = frame.samples();
-    bands::shade(view, frame, &Interpolated { view, step: sample_step(view, samples) }, level);
+    let raster = view.camera.raster(frame.samples());
+    let [down, across] = raster.spacing();
+    let surfaces = Interpolated { view, step: [-down, across], grid: Grid::of(&raster) };
+    bands::shade(view, frame, &surfaces, level);
 }
 
 /// The surfaces of a view as object order finds them.
@@ -38,11 +43,7 @@ struct Interpolated<'a> {
     view: &'a View<'a>,
     /// The way from a sample to the next one down, along `y`, and to the next one across, along `x`.
     step: [f64; 2],
-}
-
-fn sample_step(view: &View, samples: u32) -> [f64; 2] {
-    let [down, across] = view.camera.raster(samples).spacing();
-    [-down, across]
+    grid: Grid,
 }
 
 /// One visible primitive, set up for all samples at which it is seen. What only some have is in boxes, so that many small
@@ -91,9 +92,13 @@ impl Surfaces for Interpolated<'_> {
     type Surface = Surface;
 
     #[inline(always)]
-    fn set_up(&self, seen: &Seen, wanted: Wanted) -> Surface {
+    fn set_up(&self, seen: &Seen, wanted: Wanted) -> SetUp<Surface> {
         let (view, primitive) = (self.view, &seen.primitive);
-        let normals = Normals::new(view, primitive, seen.corner_normals());
+        let corners = seen.corner_normals();
+        if let Some(local) = self.local(seen, corners, wanted) {
+            return SetUp::Local(local);
+        }
+        let normals = Normals::new(view, primitive, corners);
         let texture = if seen.needs_texture(wanted) {
             Texture::new(view, primitive, seen.corner_coordinates())
         } else {
@@ -102,32 +107,20 @@ impl Surfaces for Interpolated<'_> {
         let details = Details::new(view, seen, wanted).map(Box::new);
         let is_sphere = matches!(primitive, Primitive::Sphere { .. });
         let form = (is_sphere || wanted.positions).then(|| Box::new(Form::new(view, primitive)));
-        Surface { form, normals, texture, details }
+        SetUp::Surface(Surface { form, normals, texture, details })
     }
 
     #[inline(always)]
     fn set_up_eight<S: Simd>(
         &self,
         triangles: &EightTriangles<S>,
-        mut keep: impl FnMut(Option<Surface>),
+        mut keep: impl FnMut(Option<SetUp<Surface>>),
     ) {
         let certain = triangles.are_alike(LEAST_COSINE);
-        let coordinates = smooth_normals(self.view, triangles.corners, triangles.normals);
-        let coordinates = each!(k in [0, 1, 2] => {
-            let Affine { at_center, across, up } = coordinates[k];
-            [at_center.to_array(), across.to_array(), up.to_array()]
+        let local = Local::new(self.view, &self.grid, triangles.corners, triangles.normals);
+        local.each_of(triangles.used, |lane, normals| {
+            keep(normals.filter(|_| certain >> lane & 1 == 1).map(SetUp::Local));
         });
-        for lane in 0..triangles.used {
-            let of_lane = |numbers: &[[f64; 8]; 3]| {
-                let [at_center, across, up] = each!(k in [0, 1, 2] => numbers[k][lane & 7]);
-                Affine { at_center, across, up }
-            };
-            keep((certain >> lane & 1 == 1).then(|| {
-                let coordinates = each!(k in [0, 1, 2] => of_lane(&coordinates[k]));
-                let normals = Normals::Smooth(Smooth { coordinates, flat: None });
-                Surface { form: None, normals, texture: Texture::None, details: None }
-            }));
-        }
     }
 
     #[inline(always)]
@@ -175,6 +168,24 @@ impl Surfaces for Interpolated<'_> {
 }
 
 impl Interpolated<'_> {
+    /// The normals of a small triangle of which nothing else is wanted, and whose corners' normals never cancel each other.
+    #[inline(always)]
+    fn local(
+        &self,
+        seen: &Seen,
+        normals: Option<[DVec3; 3]>,
+        wanted: Wanted,
+    ) -> Option<LocalNormals> {
+        let (Primitive::Triangle(corners), Some(normals)) = (seen.primitive, normals) else {
+            return None;
+        };
+        if !seen.needs_normals_alone(wanted) || least_cosine(normals) < LEAST_COSINE {
+            return None;
+        }
+        let [corners, normals] = each!(three in [corners, normals] => three.map(Lanes::from));
+        Local::new(self.view, &self.grid, corners, normals).normals()
+    }
+
     /// The texture coordinates of some samples, and their footprints.
     #[inline(always)]
     fn texture<S: Simd>(
@@ -295,9 +306,7 @@ impl Normals {
                     normal.normalize_or_zero() * side_seen(view, a, normal)
                 };
                 let Some(normals) = corners else { return Normals::Flat(flat().as_vec3()) };
-                let [at_a, at_b, at_c] = normals;
-                let apart = at_a.dot(at_b).min(at_b.dot(at_c)).min(at_c.dot(at_a));
-                let flat = (apart < LEAST_COSINE).then(|| Box::new(flat()));
+                let flat = (least_cosine(normals) < LEAST_COSINE).then(|| Box::new(flat()));
                 let [triangle, normals] = [triangle, normals].map(|three| three.map(Lanes::from));
                 Normals::Smooth(Smooth {
                     coordinates: smooth_normals(view, triangle, normals),
@@ -310,6 +319,12 @@ impl Normals {
 
 /// Corners' normals with smaller cosines between them may cancel each other.
 const LEAST_COSINE: f64 = 0.1;
+
+/// The least cosine between two of three unit vectors.
+#[inline(always)]
+fn least_cosine([a, b, c]: [DVec3; 3]) -> f64 {
+    a.dot(b).min(b.dot(c)).min(c.dot(a))
+}
 
 /// The coordinates of interpolated normals, towards the viewer, of one triangle or of eight.
 #[inline(always)]

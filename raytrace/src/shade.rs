@@ -4,7 +4,7 @@ use bothways_common::engine::simd::{
     Level, Select, Simd, SimdBase, SimdFloat, SimdNarrow, best_level, f32x16, f64x8,
 };
 use bothways_common::look::bands::{
-    self, EightTriangles, Points, Rays, Samples, Seen, Sixteen, Surfaces, Wanted,
+    self, EightTriangles, Points, Rays, Samples, Seen, SetUp, Sixteen, Surfaces, Wanted,
 };
 use bothways_common::look::lanes::{DVec3x8, Lanes, Real, Vec3x16, each};
 use bothways_common::look::texture::{self, TexturePoints};
@@ -117,7 +117,7 @@ impl Surfaces for AtHits<'_> {
     type Surface = Surface;
 
     #[inline(always)]
-    fn set_up(&self, seen: &Seen, wanted: Wanted) -> Surface {
+    fn set_up(&self, seen: &Seen, wanted: Wanted) -> SetUp<Surface> {
         let form = Form::new(&seen.primitive);
         let texture = if seen.needs_texture(wanted) {
             Texture::new(&form, seen.corner_coordinates(), self.steps)
@@ -127,14 +127,14 @@ impl Surfaces for AtHits<'_> {
         let details = Details::new(seen, wanted).map(Box::new);
         let normals = Normals::new(self.view, &form, seen.corner_normals());
         let has_points = wanted.positions || !matches!(texture, Texture::None) || details.is_some();
-        Surface { form, normals, has_points, texture, details }
+        SetUp::Surface(Surface { form, normals, has_points, texture, details })
     }
 
     #[inline(always)]
     fn set_up_eight<S: Simd>(
         &self,
         triangles: &EightTriangles<S>,
-        mut keep: impl FnMut(Option<Surface>),
+        mut keep: impl FnMut(Option<SetUp<Surface>>),
     ) {
         let certain = triangles.are_alike(LEAST_COSINE);
         let Triangle { a, normal, growth: [of_b, of_c] } = Triangle::new(triangles.corners);
@@ -154,13 +154,13 @@ impl Surfaces for AtHits<'_> {
             keep((certain >> lane & 1 == 1).then(|| {
                 let [a, normal, of_b, of_c] = each!(k in [0, 1, 2, 3] => of_lane(&form[k]).into());
                 let normals = each!(k in [0, 1, 2] => of_lane(&steps[k]).as_vec3());
-                Surface {
+                SetUp::Surface(Surface {
                     form: Form::Triangle(Triangle { a, normal, growth: [of_b, of_c] }),
                     normals: Normals::Smooth(Smooth(normals)),
                     has_points: false,
                     texture: Texture::None,
                     details: None,
-                }
+                })
             }));
         }
     }

@@ -5,7 +5,7 @@
 
 use crate::samples::Samples;
 use bothways_common::engine::simd::{Simd, SimdBase, SimdNarrow, best_level, f32x16, f64x8};
-use bothways_common::look::bands::{self, Points, Sixteen, Surfaces, Wanted};
+use bothways_common::look::bands::{self, Points, SetUp, Sixteen, Surfaces, Wanted};
 use bothways_common::look::lanes::{DVec3x8, Vec3x16};
 use bothways_common::look::texture::{self, TexturePoints};
 use bothways_common::{Camera, Frame, Primitive, Projection, Ray, Sample, Shape, View};
@@ -40,8 +40,8 @@ impl Surfaces for AsSeen<'_> {
         low.narrow(high)
     }
 
-    fn set_up(&self, seen: &bands::Seen, _wanted: Wanted) -> u64 {
-        seen.id
+    fn set_up(&self, seen: &bands::Seen, _wanted: Wanted) -> SetUp<u64> {
+        SetUp::Surface(seen.id)
     }
 
     fn at<S: Simd>(&self, simd: S, id: &u64, samples: &Sixteen<S>, points: &mut Points<'_>) {

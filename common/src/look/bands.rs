@@ -8,12 +8,13 @@
 mod chunk;
 mod desk;
 mod found;
+mod local;
 mod surfaces;
 mod tint;
 
 use crate::camera::SampleGrid;
 use crate::engine::simd::{Level, Simd, SimdBase, dispatch, f32x16, f64x8};
-use crate::frame::{Frame, Ids, NO_LEVEL, NO_PRIMITIVE, NO_WIDE_PRIMITIVE, ShadingBand};
+use crate::frame::{Frame, NO_LEVEL, ShadingBand};
 use crate::look::color::{srgb_from_linear, srgb_of_sixteen};
 use crate::look::lanes::{Vec3x16, each};
 use crate::look::shade::{Finish, Lighting, SurfacePoints};
@@ -21,13 +22,14 @@ use crate::raster::Sample;
 use crate::scene::material::Material;
 use crate::view::View;
 use chunk::{CHUNK, Chunk, eight, eight_vectors, sixteen, sixteen_vectors};
-use desk::{Desk, Kept, Run, Setting};
+use desk::{Desk, Kept, KeptLook, KeptSurface, Run, Setting};
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 use std::ops::Range;
 
+pub use local::LocalNormals;
 pub use surfaces::{
-    EightTriangles, Points, Rays, STORED_ERROR, Samples, Seen, Sixteen, Surfaces, Wanted,
+    EightTriangles, Points, Rays, STORED_ERROR, Samples, Seen, SetUp, Sixteen, Surfaces, Wanted,
 };
 
 /// Gives a frame its picture, and all else that it keeps of the look of what is seen.
@@ -63,6 +65,8 @@ pub fn shade(view: &View, frame: &mut Frame, surfaces: &impl Surfaces, level: Le
 /// Rows and columns of samples that are shaded together, where a pixel has one sample: so triangles which several rows show,
 /// and the vertices of their neighbours, are still in the nearest caches. With fewer columns, the machine fetches ids and `t` late.
 const TOGETHER: [usize; 2] = [16, 2 * CHUNK];
+/// Of these rows, so many have their primitives set up together: mostly enough for eight at a time, and few enough to be kept.
+const SET_UP_TOGETHER: usize = 4;
 
 /// What a frame keeps of the textures of some samples.
 struct KeptTexture<'a> {
@@ -112,11 +116,11 @@ impl<'a, A: Surfaces> Look<'a, A> {
         let width = band.region.columns.len();
         desk.sums.fill(Vec3::ZERO);
         for block in (0..width).step_by(TOGETHER[1]) {
-            for (line, row) in band.region.rows.clone().enumerate() {
-                for start in (block..width.min(block + TOGETHER[1])).step_by(CHUNK) {
-                    let end = width.min(start + CHUNK);
-                    self.shade_chunk(simd, desk, band, (line, row), start..end);
-                }
+            let columns = block..width.min(block + TOGETHER[1]);
+            let lines = band.region.rows.len();
+            for first in (0..lines).step_by(SET_UP_TOGETHER) {
+                let lines = first..lines.min(first + SET_UP_TOGETHER);
+                self.shade_block(simd, desk, band, lines, columns.clone());
             }
         }
         if self.samples > 1 {
@@ -128,38 +132,54 @@ impl<'a, A: Surfaces> Look<'a, A> {
         }
     }
 
-    /// Shades some samples of a row.
+    /// Shades some rows, or parts of them: finds and sets up what is seen there, then goes through it once more.
+    #[inline(always)]
+    fn shade_block<S: Simd>(
+        &self,
+        simd: S,
+        desk: &mut Desk<'a, A::Surface>,
+        band: &mut ShadingBand,
+        lines: Range<usize>,
+        columns: Range<usize>,
+    ) {
+        let width = band.region.columns.len();
+        let starts = || columns.clone().step_by(CHUNK);
+        let chunks = lines.flat_map(|line| starts().map(move |start| (line, start)));
+        let within = |start: usize| start..columns.end.min(start + CHUNK);
+        desk.begin_block();
+        for (line, start) in chunks.clone() {
+            let Range { start, end } = within(start);
+            desk.find_runs(simd, band.ids.of(line * width + start..line * width + end));
+        }
+        desk.set_up_new(simd, &self.setting);
+        for (number, (line, start)) in chunks.enumerate() {
+            desk.runs.go_to(number);
+            self.shade_chunk(simd, desk, band, line, within(start));
+        }
+    }
+
+    /// Shades some samples of a row, of which the runs are known.
     #[inline(always)]
     fn shade_chunk<S: Simd>(
         &self,
         simd: S,
         desk: &mut Desk<'a, A::Surface>,
         band: &mut ShadingBand,
-        (line, row): (usize, usize),
+        line: usize,
         within: Range<usize>,
     ) {
         let width = band.region.columns.len();
         let stored = line * width + within.start..line * width + within.end;
-        let (ids, first) = (band.ids.of(stored.clone()), band.region.columns.start + within.start);
+        let row = band.region.rows.start + line;
+        let (count, first) = (within.len(), band.region.columns.start + within.start);
         let mut kept = KeptTexture {
             coordinates: band.texture_coordinates.as_mut().map(|kept| &mut kept[stored.clone()]),
             levels: band.levels.as_mut().map(|kept| &mut kept[stored.clone()]),
         };
-        if is_nothing(ids) {
-            desk.runs.clear();
-            desk.runs.push(Run { end: ids.len(), place: None });
-            kept.fill_nothing(0..ids.len());
+        if let [Run { place: None, .. }] = desk.runs.of_chunk() {
+            kept.fill_nothing(0..count);
         } else {
-            let mut named = Vec::new();
-            match ids {
-                Ids::Narrow(_) => {}
-                Ids::Wide(ids) => named = desk.names_of(ids),
-            }
-            desk.find_runs(simd, &self.setting, ids.narrow().unwrap_or(&named));
-            if !named.is_empty() {
-                desk.take_back(named);
-            }
-            desk.chunk.x[..ids.len()].copy_from_slice(&self.grid.x()[first..first + ids.len()]);
+            desk.chunk.x[..count].copy_from_slice(&self.grid.x()[first..first + count]);
             if desk.looks_at_t {
                 for (wide, t) in desk.chunk.t.iter_mut().zip(&band.t[stored.clone()]) {
                     *wide = f64::from(*t);
@@ -182,15 +202,24 @@ impl<'a, A: Surfaces> Look<'a, A> {
         start: Sample,
         texture: &mut KeptTexture,
     ) {
-        let (kept, chunk, mut begin) = (&desk.kept, &mut *desk.chunk, 0);
-        for &Run { end, place } in &desk.runs {
+        let (runs, chunk, mut begin) = (desk.runs.of_chunk(), &mut *desk.chunk, 0);
+        for &Run { end, place } in runs {
             let run = begin..end;
             begin = end;
-            if let Some(place) = place {
-                let kept = &kept[place as usize];
-                self.find_run(simd, chunk, kept, start, run, texture);
-            } else {
+            let Some(place) = place else {
                 texture.fill_nothing(run);
+                continue;
+            };
+            let Kept { material, look } = &desk.kept[place as usize];
+            match look {
+                KeptLook::Local(normals) => {
+                    let first = Sample { column: start.column + run.start, ..start };
+                    normals.store(simd, first, chunk, run);
+                }
+                KeptLook::Surface(place) => {
+                    let surface = &desk.surfaces[*place as usize];
+                    self.find_run(simd, chunk, (surface, material), (start, run), texture);
+                }
             }
         }
     }
@@ -201,9 +230,8 @@ impl<'a, A: Surfaces> Look<'a, A> {
         &self,
         simd: S,
         chunk: &mut Chunk,
-        Kept { surface, material, is_tinted }: &Kept<'a, A::Surface>,
-        start: Sample,
-        run: Range<usize>,
+        (KeptSurface { surface, is_tinted }, material): (&KeptSurface<A::Surface>, &Material),
+        (start, run): (Sample, Range<usize>),
         texture: &mut KeptTexture,
     ) {
         let y = f64x8::splat(simd, self.grid.y()[start.row]);
@@ -274,10 +302,16 @@ impl<'a, A: Surfaces> Look<'a, A> {
         let background_bytes = packed_bytes(background);
         let (chunk, mut begin) = (&mut *desk.chunk, 0);
         let kept_of = |run: &Run| run.place.map(|place| &desk.kept[place as usize]);
+        let is_tinted = |kept: &Kept| match kept.look {
+            KeptLook::Local(_) => false,
+            KeptLook::Surface(place) => desk.surfaces[place as usize].is_tinted,
+        };
         let material_of = |run: &Run| kept_of(run).map(|kept| kept.material);
-        for runs in desk.runs.chunk_by(|a, b| same_material(material_of(a), material_of(b))) {
+        for runs in
+            desk.runs.of_chunk().chunk_by(|a, b| same_material(material_of(a), material_of(b)))
+        {
             let (end, kept) = (runs[runs.len() - 1].end, kept_of(&runs[0]));
-            let Some(Kept { material, is_tinted, .. }) = kept else {
+            let Some(kept @ Kept { material, .. }) = kept else {
                 if needs_colors {
                     for (to, channel) in chunk.color.iter_mut().zip(background.to_array()) {
                         to[begin..end].fill(channel);
@@ -291,7 +325,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
                 continue;
             };
             // All that is made of one material belongs to one object: all of it has tints, or nothing.
-            let finish = Finish::new(material, *is_tinted);
+            let finish = Finish::new(material, is_tinted(kept));
             for at in (begin..end).step_by(16) {
                 let first = Sample { column: start.column + at, ..start };
                 let x = sixteen(simd, &self.across, first.column);
@@ -354,21 +388,6 @@ impl<'a, A: Surfaces> Look<'a, A> {
             }
         }
     }
-}
-
-/// Whether nothing is seen at any of some samples.
-#[inline(always)]
-fn is_nothing(ids: Ids) -> bool {
-    // Without a branch for each sample, vectors compare them.
-    match ids {
-        Ids::Narrow(ids) => are_all(ids, NO_PRIMITIVE),
-        Ids::Wide(ids) => are_all(ids, NO_WIDE_PRIMITIVE),
-    }
-}
-
-#[inline(always)]
-fn are_all<T: Copy + PartialEq>(ids: &[T], one: T) -> bool {
-    ids.chunks(64).all(|ids| ids.iter().fold(true, |all, &id| all & (id == one)))
 }
 
 /// Whether two runs can be lit together.

@@ -37,6 +37,7 @@ pub trait Real:
     + Add<Output = Self>
     + Sub<Output = Self>
     + Mul<Output = Self>
+    + Add<f64, Output = Self>
     + Mul<f64, Output = Self>
     + Div<Output = Self>
     + Neg<Output = Self>
@@ -47,8 +48,14 @@ pub trait Real:
     /// −1 where it is positive, 1 elsewhere.
     fn against(self) -> Self;
 
+    /// 1 over it.
+    fn reciprocal(self) -> Self;
+
     /// 1 over it, and 1 where that is not finite.
     fn scale_to_one(self) -> Self;
+
+    /// The nearest whole number; of two, the even one.
+    fn rounded(self) -> Self;
 }
 
 impl Real for f64 {
@@ -63,9 +70,19 @@ impl Real for f64 {
     }
 
     #[inline(always)]
+    fn reciprocal(self) -> f64 {
+        1.0 / self
+    }
+
+    #[inline(always)]
     fn scale_to_one(self) -> f64 {
-        let scale = 1.0 / self;
+        let scale = self.reciprocal();
         if scale.is_finite() { scale } else { 1.0 }
+    }
+
+    #[inline(always)]
+    fn rounded(self) -> f64 {
+        self.round_ties_even()
     }
 }
 
@@ -83,10 +100,20 @@ impl<S: Simd> Real for f64x8<S> {
     }
 
     #[inline(always)]
+    fn reciprocal(self) -> Self {
+        f64x8::splat(self.simd, 1.0) / self
+    }
+
+    #[inline(always)]
+    fn rounded(self) -> Self {
+        self.round_ties_even()
+    }
+
+    #[inline(always)]
     fn scale_to_one(self) -> Self {
         let [one, infinity] =
             each!(number in [1.0, f64::INFINITY] => f64x8::splat(self.simd, number));
-        let scale = one / self;
+        let scale = self.reciprocal();
         scale.abs().simd_lt(infinity).select(scale, one)
     }
 }

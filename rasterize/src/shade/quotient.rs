@@ -48,12 +48,6 @@ impl Affine {
         }
     }
 
-    /// Its value at a place of the viewport.
-    #[inline(always)]
-    pub(super) fn at(&self, x: f64, y: f64) -> f64 {
-        (self.at_center + y * self.up) + x * self.across
-    }
-
     /// Its values at some samples.
     #[inline(always)]
     pub(super) fn lanes<S: Simd>(&self, simd: S, samples: &Samples<S>) -> f64x8<S> {
@@ -89,6 +83,12 @@ impl Affine {
 }
 
 impl<T: Real> Affine<T> {
+    /// Its value at a place of the viewport.
+    #[inline(always)]
+    pub(super) fn at(&self, x: T, y: T) -> T {
+        (self.at_center + y * self.up) + x * self.across
+    }
+
     /// No value on the viewport has a larger magnitude.
     #[inline(always)]
     pub(super) fn largest(&self, view: &View) -> T {

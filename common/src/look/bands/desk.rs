@@ -2,9 +2,10 @@
 
 use super::chunk::Chunk;
 use super::found::{Found, FoundEight};
-use super::surfaces::{Seen, Surfaces, Wanted};
+use super::local::LocalNormals;
+use super::surfaces::{Seen, SetUp, Surfaces, Wanted};
 use crate::engine::simd::{Simd, SimdBase, SimdMask, u32x16};
-use crate::frame::{NO_PRIMITIVE, NO_WIDE_PRIMITIVE};
+use crate::frame::{Ids, NO_PRIMITIVE, NO_WIDE_PRIMITIVE};
 use crate::look::lanes::each;
 use crate::scene::material::Material;
 use crate::view::View;
@@ -39,24 +40,40 @@ pub(super) struct Desk<'a, T> {
     /// For each hash, the id that came last, and its place in `kept`; of wide ids, their names.
     places: Vec<(u32, u32)>,
     names: Names,
-    pub(super) kept: Vec<Kept<'a, T>>,
+    pub(super) kept: Vec<Kept<'a>>,
+    /// Those of them that are not triangles which are seen at few samples.
+    pub(super) surfaces: Vec<KeptSurface<T>>,
     /// Whether the `t` of samples matter to any of these.
     pub(super) looks_at_t: bool,
     /// The names of those that come next in `kept`, and are not set up yet.
     new: Vec<u32>,
     pub(super) chunk: Box<Chunk>,
-    /// The samples of the chunk in runs of one primitive each.
-    pub(super) runs: Vec<Run>,
+    pub(super) runs: Runs,
     /// Of each pixel of the row, the sum over its samples; none where a pixel has one sample.
     pub(super) sums: Vec<Vec3>,
 }
 
-pub(super) struct Kept<'a, T> {
-    pub(super) surface: T,
+/// A primitive that is set up: one line of the caches.
+#[repr(align(64))]
+pub(super) struct Kept<'a> {
     pub(super) material: &'a Material,
+    pub(super) look: KeptLook,
+}
+
+pub(super) enum KeptLook {
+    /// A triangle that is seen at few samples.
+    Local(LocalNormals),
+    /// The place of anything else among the surfaces.
+    Surface(u32),
+}
+
+pub(super) struct KeptSurface<T> {
+    pub(super) surface: T,
     /// Whether its samples have a tint each.
     pub(super) is_tinted: bool,
 }
+
+const _: () = assert!(size_of::<Kept>() == 64);
 
 /// Samples of a row, one after another, that show the same primitive.
 #[derive(Clone, Copy)]
@@ -67,6 +84,35 @@ pub(super) struct Run {
     pub(super) place: Option<u32>,
 }
 
+/// The samples of some chunks in runs of one primitive each.
+#[derive(Default)]
+pub(super) struct Runs {
+    runs: Vec<Run>,
+    /// The first run after each chunk.
+    ends: Vec<usize>,
+    /// The runs of the chunk that is looked at.
+    chunk: Range<usize>,
+}
+
+impl Runs {
+    fn clear(&mut self) {
+        self.runs.clear();
+        self.ends.clear();
+    }
+
+    /// Goes to the chunk with this number.
+    pub(super) fn go_to(&mut self, chunk: usize) {
+        let start = if chunk == 0 { 0 } else { self.ends[chunk - 1] };
+        self.chunk = start..self.ends[chunk];
+    }
+
+    /// Those of the chunk that is looked at.
+    #[inline(always)]
+    pub(super) fn of_chunk(&self) -> &[Run] {
+        &self.runs[self.chunk.clone()]
+    }
+}
+
 impl<'a, T> Desk<'a, T> {
     /// With room for the sums of so many pixels.
     pub(super) fn new(sums: usize) -> Self {
@@ -74,28 +120,38 @@ impl<'a, T> Desk<'a, T> {
             places: vec![(NO_PRIMITIVE, 0); HASHES],
             names: Names::default(),
             kept: Vec::new(),
+            surfaces: Vec::new(),
             looks_at_t: false,
             new: Vec::new(),
             chunk: Box::new(Chunk::new()),
-            runs: Vec::new(),
+            runs: Runs::default(),
             sums: vec![Vec3::ZERO; sums],
         }
     }
 
-    /// Finds the runs of a chunk, and sets up their primitives, unless they are kept.
-    ///
-    /// All are set up before the first is used: so the memory that they lie in is fetched for several at once.
-    #[inline(always)]
-    pub(super) fn find_runs<S: Simd, A: Surfaces<Surface = T>>(
-        &mut self,
-        simd: S,
-        setting: &Setting<'a, A>,
-        ids: &[u32],
-    ) {
+    /// Begins with other chunks.
+    pub(super) fn begin_block(&mut self) {
         if self.kept.len() >= MANY_KEPT {
             self.forget();
         }
         self.runs.clear();
+    }
+
+    /// Finds the runs of a chunk. Their primitives are to be set up by [`Desk::set_up_new`], unless they are kept.
+    #[inline(always)]
+    pub(super) fn find_runs<S: Simd>(&mut self, simd: S, ids: Ids) {
+        if is_nothing(ids) {
+            self.runs.runs.push(Run { end: ids.len(), place: None });
+        } else if let Ids::Narrow(ids) = ids {
+            self.find_runs_of(simd, ids);
+        } else if let Ids::Wide(ids) = ids {
+            self.find_wide_runs(simd, ids);
+        }
+        self.runs.ends.push(self.runs.runs.len());
+    }
+
+    #[inline(always)]
+    fn find_runs_of<S: Simd>(&mut self, simd: S, ids: &[u32]) {
         // The ends of the runs: where an id differs from the next one. Vectors find sixteen at a time.
         let mut at = 0;
         while at + 16 < ids.len() {
@@ -114,27 +170,28 @@ impl<'a, T> Desk<'a, T> {
                 self.end_run(ids, last);
             }
         }
-        self.set_up_new(simd, setting);
+    }
+
+    /// The runs of wide ids are those of names for them.
+    #[inline(always)]
+    fn find_wide_runs<S: Simd>(&mut self, simd: S, ids: &[u64]) {
+        let named = self.names_of(ids);
+        self.find_runs_of(simd, &named);
+        self.names.of_chunk = named;
     }
 
     fn forget(&mut self) {
         self.kept.clear();
+        self.surfaces.clear();
         self.looks_at_t = false;
         self.places.fill((NO_PRIMITIVE, 0));
+        self.names.ids.clear();
+        self.names.names.clear();
     }
 
-    /// Names for the wide ids of a chunk, of which [`Desk::find_runs`] then finds the runs. They are given back by
-    /// [`Desk::take_back`].
+    /// Names for the wide ids of a chunk. They are kept with the primitives.
     #[cold]
-    pub(super) fn names_of(&mut self, ids: &[u64]) -> Vec<u32> {
-        // Names are kept with the primitives: there are at least as many of these.
-        if self.kept.len() >= MANY_KEPT {
-            self.forget();
-        }
-        if self.kept.is_empty() {
-            self.names.ids.clear();
-            self.names.names.clear();
-        }
+    fn names_of(&mut self, ids: &[u64]) -> Vec<u32> {
         let Names { ids: known, names, of_chunk } = &mut self.names;
         let mut name_of = |id: u64| {
             *names.entry(id).or_insert_with(|| {
@@ -151,17 +208,12 @@ impl<'a, T> Desk<'a, T> {
         named
     }
 
-    /// Keeps the memory of names for the next chunk.
-    pub(super) fn take_back(&mut self, names: Vec<u32>) {
-        self.names.of_chunk = names;
-    }
-
     /// Adds the run of samples that ends with this one.
     #[inline(always)]
     fn end_run(&mut self, ids: &[u32], last: usize) {
         let id = ids[last];
         let place = (id != NO_PRIMITIVE).then(|| self.place_of(id));
-        self.runs.push(Run { end: last + 1, place });
+        self.runs.runs.push(Run { end: last + 1, place });
     }
 
     /// The place in `kept` of a visible primitive. If it is new there, it has to be set up.
@@ -180,8 +232,14 @@ impl<'a, T> Desk<'a, T> {
     }
 
     /// Sets up the primitives that are new.
+    ///
+    /// All are set up before the first is used: so the memory that they lie in is fetched for several at once.
     #[inline(always)]
-    fn set_up_new<S: Simd, A: Surfaces<Surface = T>>(&mut self, simd: S, setting: &Setting<'a, A>) {
+    pub(super) fn set_up_new<S: Simd, A: Surfaces<Surface = T>>(
+        &mut self,
+        simd: S,
+        setting: &Setting<'a, A>,
+    ) {
         for start in (0..self.new.len()).step_by(8) {
             let end = self.new.len().min(start + 8);
             let found = match self.new[start..end] {
@@ -237,11 +295,11 @@ impl<'a, T> Desk<'a, T> {
     ) {
         let triangles = eight.triangles(simd, setting.view);
         let mut lane = 0;
-        setting.surfaces.set_up_eight(&triangles, |surface| {
+        setting.surfaces.set_up_eight(&triangles, |set_up| {
             let found = &eight.found[lane & 7];
             lane += 1;
-            match surface {
-                Some(surface) => self.keep(setting, surface, (found.material, false)),
+            match set_up {
+                Some(set_up) => self.keep(setting, set_up, (found.material, false)),
                 None => self.set_up(setting, found),
             }
         });
@@ -252,18 +310,40 @@ impl<'a, T> Desk<'a, T> {
         let Found { id, object, local, material } = *found;
         let primitive = setting.view.primitive_of(&object.shape, local);
         let seen = Seen { id, primitive, object, local, material };
-        let surface = setting.surfaces.set_up(&seen, setting.wanted);
-        self.keep(setting, surface, (material, seen.is_tinted()));
+        let set_up = setting.surfaces.set_up(&seen, setting.wanted);
+        self.keep(setting, set_up, (material, seen.is_tinted()));
     }
 
     #[inline(always)]
     fn keep<A: Surfaces<Surface = T>>(
         &mut self,
         setting: &Setting<'a, A>,
-        surface: T,
+        set_up: SetUp<T>,
         (material, is_tinted): (&'a Material, bool),
     ) {
-        self.looks_at_t |= setting.surfaces.looks_at_t(&surface);
-        self.kept.push(Kept { surface, material, is_tinted });
+        let look = match set_up {
+            SetUp::Local(normals) => KeptLook::Local(normals),
+            SetUp::Surface(surface) => {
+                self.looks_at_t |= setting.surfaces.looks_at_t(&surface);
+                self.surfaces.push(KeptSurface { surface, is_tinted });
+                KeptLook::Surface(u32::try_from(self.surfaces.len() - 1).expect("few are kept"))
+            }
+        };
+        self.kept.push(Kept { material, look });
     }
+}
+
+/// Whether nothing is seen at any of some samples.
+#[inline(always)]
+fn is_nothing(ids: Ids) -> bool {
+    // Without a branch for each sample, vectors compare them.
+    match ids {
+        Ids::Narrow(ids) => are_all(ids, NO_PRIMITIVE),
+        Ids::Wide(ids) => are_all(ids, NO_WIDE_PRIMITIVE),
+    }
+}
+
+#[inline(always)]
+fn are_all<T: Copy + PartialEq>(ids: &[T], one: T) -> bool {
+    ids.chunks(64).all(|ids| ids.iter().fold(true, |all, &id| all & (id == one)))
 }

@@ -1,6 +1,7 @@
 //! What a renderer says of its surfaces, sixteen samples at a time.
 
 use super::chunk::{Chunk, eight, sixteen, store_eight, store_sixteen};
+use super::local::LocalNormals;
 use crate::camera::{Camera, Projection};
 use crate::engine::simd::{Simd, SimdBase, SimdMask, f32x16, f64x8, mask64x8};
 use crate::look::lanes::{DVec3x8, Vec3x16, each};
@@ -36,7 +37,7 @@ pub trait Surfaces: Sync {
     }
 
     /// Sets up a primitive. Where triangles are as small as samples, most of the time goes here: `#[inline(always)]`.
-    fn set_up(&self, seen: &Seen, wanted: Wanted) -> Self::Surface;
+    fn set_up(&self, seen: &Seen, wanted: Wanted) -> SetUp<Self::Surface>;
 
     /// Sets up eight triangles at once, each with the bits of [`Surfaces::set_up`], and gives those that are used to `keep`,
     /// one after another; `None` for one that is to be set up alone, as all are unless a renderer does better.
@@ -44,7 +45,7 @@ pub trait Surfaces: Sync {
     fn set_up_eight<S: Simd>(
         &self,
         triangles: &EightTriangles<S>,
-        mut keep: impl FnMut(Option<Self::Surface>),
+        mut keep: impl FnMut(Option<SetUp<Self::Surface>>),
     ) {
         (0..triangles.used).for_each(|_| keep(None));
     }
@@ -64,6 +65,15 @@ pub trait Surfaces: Sync {
         samples: &Sixteen<S>,
         points: &mut Points<'_>,
     );
+}
+
+/// What a primitive is set up as.
+#[derive(Clone, Copy, Debug)]
+pub enum SetUp<T> {
+    /// A triangle that is seen at few samples, and of which nothing but its normals is wanted.
+    Local(LocalNormals),
+    /// Anything else.
+    Surface(T),
 }
 
 /// A primitive that is seen somewhere.
@@ -119,6 +129,12 @@ impl Seen<'_> {
     pub(super) fn is_tinted(&self) -> bool {
         let mesh = self.object.shape.mesh();
         self.material.texture.is_some() || mesh.is_some_and(|mesh| !mesh.colors().is_empty())
+    }
+
+    /// Whether nothing is wanted but a normal.
+    #[inline(always)]
+    pub fn needs_normals_alone(&self, wanted: Wanted) -> bool {
+        wanted == Wanted::default() && !self.material.has_pattern() && !self.is_tinted()
     }
 
     /// Whether texture coordinates are needed.

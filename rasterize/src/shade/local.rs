@@ -1,0 +1,309 @@
+//! The normals of small triangles: what changes from sample to sample is small, so `f32` is enough, counted from a sample
+//! beside the triangle.
+
+use super::{side_of, weights};
+use bothways_common::engine::simd::{Simd, SimdBase, SimdNarrow, f64x8};
+use bothways_common::look::bands::LocalNormals;
+use bothways_common::look::lanes::{Lanes, Real, each};
+use bothways_common::{Projection, Raster, View};
+
+/// The samples of a picture as rows and columns.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Grid {
+    /// From a row to the next, and from a column to the next.
+    spacing: [f64; 2],
+    /// The row and the column of the viewport's middle.
+    middle: [f64; 2],
+}
+
+/// The normals of one triangle, or of eight: affine functions of the row and the column, counted from a sample beside the first
+/// corner, the anchor.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Local<T> {
+    /// Row and column of the anchor.
+    anchor: [T; 2],
+    /// The normal at the anchor, and its changes from there to the next column and to the next row. The interpolated normal
+    /// of corners that are all alike has length 1 at the anchor.
+    normals: [Lanes<T>; 3],
+    /// Above 1, or not a number, where the triangle is not small.
+    size: T,
+}
+
+/// How far normals may change on a triangle, from its first corner to the others, all changes added up.
+const CHANGE: f64 = 1024.0;
+/// Anchors are nearer to the picture's middle: so rows and columns, and differences of them, are exact in `f32`.
+const FARTHEST: f64 = 1e6;
+
+impl Grid {
+    pub(super) fn of(raster: &Raster) -> Grid {
+        Grid { spacing: raster.spacing(), middle: raster.middle() }
+    }
+}
+
+impl<T: Real> Local<T> {
+    /// The interpolated normals of triangles with these corners, relative to the eye, and these unit normals at them.
+    ///
+    /// A triangle is small where the sum of all that is measured is at most 1: how much farther or nearer than the first corner the
+    /// others are, in halves of its depth; how much the sum of weights changes from sample to sample, in halves of what it is at the
+    /// anchor; how much the normals change from sample to sample, times the samples from corner to corner, in [`CHANGE`];
+    /// and how far the anchor is, in [`FARTHEST`]. Then the sum of the weights is positive at the anchor, which is half a
+    /// sample beside the corner at most, and nowhere on the triangle below half of that, so that normals whose cosines are at
+    /// least 0.1 have a sum no shorter than 0.3. With `ε = 2⁻²⁴` for one rounding, no coordinate has an error above
+    /// `ε(4 + 4 · 1024)`, which is 2.5·10⁻⁴: less than a thousandth of that length. Mostly it is far less, for normals
+    /// change by some tenths on a triangle.
+    #[inline(always)]
+    pub(super) fn new(
+        view: &View,
+        grid: &Grid,
+        [a, b, c]: [Lanes<T>; 3],
+        [at_a, at_b, at_c]: [Lanes<T>; 3],
+    ) -> Local<T> {
+        let ([down, across], [middle_row, middle_column]) = (grid.spacing, grid.middle);
+        let Seen { place: [x, y], depths, reach } = Seen::new(view, grid, [a, b, c]);
+        let anchor = [
+            (y * (-1.0 / down) + middle_row).rounded(),
+            (x * (1.0 / across) + middle_column).rounded(),
+        ];
+        let [row, column] = [anchor[0] + -middle_row, anchor[1] + -middle_column];
+        let [x, y] = [column * across, row * -down];
+
+        // The surface, not its smooth look, says which side is seen.
+        let side = side_of(view, a, (b - a).cross(c - a));
+        let [of_a, of_b, of_c] = weights(view, [a, b, c], side);
+        let together = of_a + of_b + of_c;
+        let scale = together.at(x, y).reciprocal();
+        let to_seen = side * scale;
+        let coordinates = each!(at in [[at_a.x, at_b.x, at_c.x], [at_a.y, at_b.y, at_c.y], [at_a.z, at_b.z, at_c.z]] => {
+            (of_a * at[0] + of_b * at[1] + of_c * at[2]) * to_seen
+        });
+        let vector = |of: [T; 3]| {
+            let [x, y, z] = of;
+            Lanes { x, y, z }
+        };
+        let normals = [
+            vector(each!(k in [0, 1, 2] => coordinates[k].at(x, y))),
+            vector(each!(k in [0, 1, 2] => coordinates[k].across * across)),
+            vector(each!(k in [0, 1, 2] => coordinates[k].up * -down)),
+        ];
+        let slopes = each!(of in [coordinates[0], coordinates[1], coordinates[2], together] => {
+            of.across.magnitude() * across + of.up.magnitude() * down
+        });
+        let slope = slopes[0] + slopes[1] + slopes[2];
+        let size = depths
+            + (slopes[3] * scale).magnitude() * 2.0
+            + slope * (reach + 1.0) * (1.0 / CHANGE)
+            + (row.magnitude() + column.magnitude()) * (1.0 / FARTHEST);
+        Local { anchor, normals, size }
+    }
+}
+
+/// Where triangles are seen.
+struct Seen<T> {
+    /// The first corner on the viewport.
+    place: [T; 2],
+    /// How much farther or nearer the other corners are, in halves of the first one's depth, added up.
+    depths: T,
+    /// No fewer than the rows and columns from there to the other corners, added up, if their depth is at least half of
+    /// that of the first one.
+    reach: T,
+}
+
+impl<T: Real> Seen<T> {
+    #[inline(always)]
+    fn new(view: &View, grid: &Grid, [a, b, c]: [Lanes<T>; 3]) -> Seen<T> {
+        let camera = view.camera;
+        let [down, across] = grid.spacing;
+        let ahead = -camera.w();
+        let [x, y, depth] = each!(axis in [camera.u(), camera.v(), ahead] => a.along(axis));
+        let edges = each!(corner in [b, c] => {
+            let edge = corner - a;
+            each!(axis in [camera.u(), camera.v(), ahead] => edge.along(axis))
+        });
+        match camera.projection() {
+            Projection::Perspective => {
+                let nearness = depth.reciprocal();
+                let scale = nearness * camera.distance();
+                let [x, y] = [x * scale, y * scale];
+                // A corner of half the depth is twice as far away as one of the same depth.
+                let to = each!(edge in [edges[0], edges[1]] => {
+                    let [along_u, along_v, farther] = edge;
+                    let farther = farther * nearness;
+                    let columns = (along_u * scale - x * farther).magnitude() * (2.0 / across);
+                    let rows = (along_v * scale - y * farther).magnitude() * (2.0 / down);
+                    (farther.magnitude() * 2.0, columns + rows)
+                });
+                Seen { place: [x, y], depths: to[0].0 + to[1].0, reach: to[0].1 + to[1].1 }
+            }
+            Projection::Parallel => {
+                let to = each!(edge in [edges[0], edges[1]] => {
+                    edge[0].magnitude() * (1.0 / across) + edge[1].magnitude() * (1.0 / down)
+                });
+                // Depths make no difference to where anything is seen.
+                Seen { place: [x, y], depths: to[0] * 0.0, reach: to[0] + to[1] }
+            }
+        }
+    }
+}
+
+impl Local<f64> {
+    /// `None` where the triangle is not small.
+    #[inline(always)]
+    pub(super) fn normals(&self) -> Option<LocalNormals> {
+        #[expect(clippy::cast_possible_truncation, reason = "see `Local::new`")]
+        let number = |number: f64| number as f32;
+        let [at_anchor, across, down] = self.normals;
+        let numbers =
+            each!(of in [at_anchor, across, down] => [number(of.x), number(of.y), number(of.z)]);
+        (self.size <= 1.0).then(|| LocalNormals::new(whole(self.anchor), numbers))
+    }
+}
+
+impl<S: Simd> Local<f64x8<S>> {
+    /// Gives the normals of the first triangles, so many, to `keep`; `None` for one that is not small.
+    #[inline(always)]
+    pub(super) fn each_of(&self, used: usize, mut keep: impl FnMut(usize, Option<LocalNormals>)) {
+        let [at_anchor, across, down] = self.normals;
+        // Two times eight numbers at a time become `f32`.
+        let halves = [
+            [at_anchor.x, at_anchor.y],
+            [at_anchor.z, across.x],
+            [across.y, across.z],
+            [down.x, down.y],
+            [down.z, down.z],
+        ];
+        let halves = each!(k in [0, 1, 2, 3, 4] => halves[k][0].narrow(halves[k][1]).to_array());
+        let [rows, columns] = each!(k in [0, 1] => self.anchor[k].to_array());
+        let sizes = self.size.to_array();
+        for lane in 0..used {
+            let at = lane & 7;
+            let number = |k: usize| halves[k / 2][k % 2 * 8 + at];
+            let numbers =
+                each!(from in [0, 3, 6] => [number(from), number(from + 1), number(from + 2)]);
+            let is_small = sizes[at] <= 1.0;
+            keep(
+                lane,
+                is_small.then(|| LocalNormals::new(whole([rows[at], columns[at]]), numbers)),
+            );
+        }
+    }
+}
+
+/// The anchor of a small triangle as whole numbers.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "whole already, and below 2²⁴")]
+fn whole([row, column]: [f64; 2]) -> [i32; 2] {
+    [row as i32, column as i32]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::smooth_normals;
+    use super::*;
+    use bothways_common::engine::simd::{best_level, dispatch};
+    use bothways_common::{Camera, CameraDescription, Sample, Scene};
+    use glam::DVec3;
+
+    /// Numbers that look random, evenly between −1 and 1.
+    struct Numbers(u64);
+
+    impl Numbers {
+        fn next(&mut self) -> f64 {
+            // Steele, Lea and Flood, "Fast Splittable Pseudorandom Number Generators", 2014.
+            self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+            let mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            (mixed >> 11) as f64 / 2f64.powi(52) - 1.0
+        }
+
+        fn vector(&mut self) -> DVec3 {
+            DVec3::new(self.next(), self.next(), self.next())
+        }
+
+        /// A triangle before the eye, of any size and often thin, and normals at its corners.
+        fn triangle(&mut self) -> [[DVec3; 3]; 2] {
+            let size = 10f64.powf(2.0 * self.next() - 1.5);
+            let a = DVec3::new(0.7 * self.next(), 0.4 * self.next(), -3.0 + self.next());
+            let b = a + size * self.vector();
+            let width = 10f64.powf(3.0 * self.next() - 3.0);
+            let corners = [a, b, a.lerp(b, self.next()) + width * size * self.vector()];
+            let normal = self.vector();
+            let change = 10f64.powf(1.5 * self.next() - 1.5);
+            let normals =
+                [0, 1, 2].map(|_: u8| (normal + change * self.vector()).normalize_or_zero());
+            [corners, normals]
+        }
+    }
+
+    #[test]
+    fn normals_of_small_triangles_are_those_of_f64() {
+        let (mut small, mut large, mut worst) = (0, 0, 0.0_f64);
+        for projection in [Projection::Perspective, Projection::Parallel] {
+            let camera = Camera::new(CameraDescription {
+                projection,
+                image: [800, 500],
+                ..CameraDescription::default()
+            });
+            let (scene, camera) = (Scene::new(Vec::new()).unwrap(), camera.unwrap());
+            let (view, raster) = (View::new(&scene, &camera), camera.raster(1));
+            let grid = Grid::of(&raster);
+            let (x, y): (Vec<f64>, Vec<f64>) = (raster.x().collect(), raster.y().collect());
+            let mut numbers = Numbers(projection as u64);
+            for _ in 0..4000 {
+                let [corners, normals] = numbers.triangle();
+                let [a, b, c] = normals;
+                if a.dot(b).min(b.dot(c)).min(c.dot(a)) < super::super::LEAST_COSINE {
+                    continue;
+                }
+                let [corners, normals] = [corners, normals].map(|three| three.map(Lanes::from));
+                let Some(local) = Local::new(&view, &grid, corners, normals).normals() else {
+                    large += 1;
+                    continue;
+                };
+                small += 1;
+                let [a, b, c] = corners;
+                let side = side_of(&view, a, (b - a).cross(c - a));
+                let weights = weights(&view, corners, side);
+                let smooth = smooth_normals(&view, corners, normals);
+                for (row, y) in y.iter().enumerate().step_by(7) {
+                    for (column, x) in x.iter().enumerate().step_by(3) {
+                        if weights.iter().any(|weight| weight.at(*x, *y) < 0.0) {
+                            continue;
+                        }
+                        let exact = DVec3::from(smooth.map(|function| function.at(*x, *y)));
+                        let found = local.at(Sample { row, column }).as_dvec3();
+                        assert!(found.length() > 0.3, "{found}");
+                        worst = worst.max(found.normalize().distance(exact.normalize()));
+                    }
+                }
+            }
+        }
+        println!("{small} small, {large} large, off by {worst:e} at most");
+        assert!(small > 1000 && large > 300, "{small}, {large}");
+        assert!(worst < 1e-4, "{worst:e}");
+    }
+
+    #[test]
+    fn eight_triangles_have_the_bits_of_each_alone() {
+        let camera = Camera::new(CameraDescription::default()).unwrap();
+        let scene = Scene::new(Vec::new()).unwrap();
+        let (view, grid) = (View::new(&scene, &camera), Grid::of(&camera.raster(1)));
+        let mut numbers = Numbers(0);
+        for _ in 0..200 {
+            let triangles: [_; 8] = std::array::from_fn(|_| numbers.triangle());
+            let alone = triangles.map(|[corners, normals]| {
+                let [corners, normals] = [corners, normals].map(|three| three.map(Lanes::from));
+                Local::new(&view, &grid, corners, normals).normals()
+            });
+            let mut together = Vec::new();
+            dispatch!(best_level(), simd => {
+                let lanes = |k: usize, corner: usize| {
+                    Lanes::<f64x8<_>>::from_fn(simd, |lane| triangles[lane][k][corner])
+                };
+                let [corners, normals] = [0, 1].map(|k| [lanes(k, 0), lanes(k, 1), lanes(k, 2)]);
+                let local = Local::new(&view, &grid, corners, normals);
+                local.each_of(8, |_, normals| together.push(normals));
+            });
+            assert_eq!(format!("{alone:?}"), format!("{together:?}"));
+        }
+    }
+}
