@@ -90,7 +90,8 @@ enum Texture {
     /// There is none, or it is not needed.
     None,
     Sphere,
-    Flat(Chart),
+    /// In a box, so that many small triangles stay in the caches.
+    Flat(Box<Chart>),
 }
 
 /// What few surfaces need.
@@ -450,7 +451,7 @@ impl Texture {
         #[expect(clippy::cast_possible_truncation, reason = "a footprint needs no more digits")]
         let growth = gradients.map(|gradient| steps.map(|step| gradient.dot(step) as f32));
         let rise = steps.map(|step| normal.dot(step));
-        Texture::Flat(Chart { first, gradients, growth, rise })
+        Texture::Flat(Box::new(Chart { first, gradients, growth, rise }))
     }
 }
 
