@@ -2,6 +2,7 @@
 //! any type, short names, the constants of rounding errors, and the times of tasks. It computes, and holds no predicate.
 
 pub mod any_observer;
+pub mod cache;
 pub mod context;
 pub mod fault;
 pub mod memory;

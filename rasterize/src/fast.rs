@@ -78,7 +78,7 @@ use search::bins::BatchBins;
 use search::tiling::{Tiling, tile_for_threads};
 use std::cmp::Reverse;
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use store::{store, store_nothing};
+use store::{stays_in_caches, store, store_nothing};
 use tile::TileBuffer;
 use vertices::{FixedPointRaster, Vertex};
 
@@ -242,7 +242,8 @@ fn run(
     };
     let mut executed = bin_primitives(prepared, &geometry, bins, observer, loops);
 
-    let picture = Picture { view, map: &map, keys };
+    let past_caches = !stays_in_caches(prepared, frame.region().area());
+    let picture = Picture { view, map: &map, keys, past_caches };
     let drawing = Drawing { geometry: &geometry, picture: &picture, bins, level: prepared.level };
     let times = prepared.times.as_deref();
     executed += draw_tiles(&drawing, frame, tiles, observer, loops, times);
@@ -352,7 +353,7 @@ fn draw_tiles(
         let of_tiles = (0..count).into_par_iter().with_max_len(1).map(|_| {
             let (index, (tile, part)) = lock(&queue).next().expect("there are as many");
             if dropped == Some(index) || bins.iter().all(|bins| bins.work(index) == 0) {
-                TaskTimes::time(times, || store_nothing(tile));
+                TaskTimes::time(times, || store_nothing(picture, tile));
                 return Executed::default().of_one_tile();
             }
             let buffer = lock(&free).pop().filter(|buffer| buffer.fits(tiling));

@@ -13,6 +13,8 @@ pub(super) struct Picture<'a> {
     pub(super) view: &'a View<'a>,
     pub(super) map: &'a CameraMap<'a>,
     pub(super) keys: KeyScale,
+    /// Whether tiles that are finished are written past the caches.
+    pub(super) past_caches: bool,
 }
 
 /// Asks the judge whether a primitive covers a sample that rounding leaves open.

@@ -2,13 +2,17 @@
 
 use super::depth::{NOTHING, distances};
 use super::picture::Picture;
+use super::prepared::Prepared;
 use super::tile::TileBuffer;
+use super::vertices::Vertex;
+use bothways_common::engine::cache::largest_cache;
 use bothways_common::engine::names::Names;
 use bothways_common::engine::simd::{
-    Select, Simd, SimdBase, SimdMask, f32x16, finish_streaming, stream, u32x16,
+    Select, Simd, SimdBase, SimdMask, Sixteen, f32x16, finish_streaming, stream, u32x16,
 };
 use bothways_common::frame::{IdRows, NO_PRIMITIVE, NO_WIDE_PRIMITIVE, Tile, stored_t};
 use bothways_common::raster::Sample;
+use glam::Vec3;
 
 /// Writes ids and distances into the frame, and leaves the buffer ready for another tile.
 #[inline(always)]
@@ -59,7 +63,7 @@ fn store_rows<S: Simd>(
 }
 
 /// Writes a tile in which nothing is seen.
-pub(super) fn store_nothing(tile: Tile) {
+pub(super) fn store_nothing(picture: &Picture, tile: Tile) {
     let Tile { mut ids, t, .. } = tile;
     let ids = match ids {
         IdRows::Narrow(rows) => rows,
@@ -73,8 +77,8 @@ pub(super) fn store_nothing(tile: Tile) {
         let (whole_ids, rest_ids) = ids.as_chunks_mut::<16>();
         let (whole_t, rest_t) = t.as_chunks_mut::<16>();
         for (ids, t) in whole_ids.iter_mut().zip(whole_t) {
-            stream([NO_PRIMITIVE; 16], ids);
-            stream([f32::INFINITY; 16], t);
+            write(picture, [NO_PRIMITIVE; 16], ids);
+            write(picture, [f32::INFINITY; 16], t);
         }
         rest_ids.fill(NO_PRIMITIVE);
         rest_t.fill(f32::INFINITY);
@@ -96,8 +100,8 @@ fn store_sixteen<S: Simd>(
     let keys = f32x16::from_slice(simd, stored_keys);
     let nothing = keys.simd_eq(f32x16::splat(simd, NOTHING));
     if nothing.all_true() {
-        stream([NO_PRIMITIVE; 16], ids);
-        stream([f32::INFINITY; 16], t);
+        write(picture, [NO_PRIMITIVE; 16], ids);
+        write(picture, [f32::INFINITY; 16], t);
         return;
     }
     f32x16::splat(simd, NOTHING).store_slice(stored_keys);
@@ -110,8 +114,35 @@ fn store_sixteen<S: Simd>(
         let first = buffer.sample(from);
         judge_distances(picture, &buffer.names, first, &seen, unsure.to_bitmask(), &mut distances);
     }
-    stream(seen, ids);
-    stream(distances, t);
+    write(picture, seen, ids);
+    write(picture, distances, t);
+}
+
+/// Whether a frame of so many samples, and what is drawn into it, leave a quarter of the largest cache free. Then it stays there from
+/// one frame to the next, or until it is shaded; otherwise it would only drive out what is drawn, and is better written past
+/// the caches.
+pub(super) fn stays_in_caches(prepared: &Prepared, samples: usize) -> bool {
+    let vertices = prepared.first_vertices.last().copied().unwrap_or(0);
+    let triangles = usize::try_from(prepared.primitives).unwrap_or(usize::MAX);
+    let sizes = [
+        (samples, size_of::<[u32; 2]>()),
+        (vertices, size_of::<Vec3>() + size_of::<Vertex>()),
+        (triangles, size_of::<[u32; 3]>()),
+    ];
+    let bytes = sizes
+        .into_iter()
+        .fold(0_usize, |bytes, (count, size)| bytes.saturating_add(count.saturating_mul(size)));
+    bytes <= largest_cache() / 4 * 3
+}
+
+/// Writes sixteen numbers of a frame.
+#[inline(always)]
+fn write<T: Copy + Sixteen>(picture: &Picture, numbers: [T; 16], to: &mut [T; 16]) {
+    if picture.past_caches {
+        stream(numbers, to);
+    } else {
+        *to = numbers;
+    }
 }
 
 /// Asks the judge for the distances of some lanes: samples of one row, from `first` on.
