@@ -148,6 +148,22 @@ test("a link brings back the moment", async () => {
   await third.close();
 });
 
+test("the page does not write over a link that waits to be followed", async () => {
+  const { page, close } = await open({ hash: "#chapter=loops&scene=ties&size=8" });
+  await until("a record", async () => /[1-9]/.test(await text(page, "#steps-total")));
+  await until("the link", async () => new URL(page.url()).hash.includes("step=0"));
+  // So it is while a busy page has not come to the event of a link that was typed.
+  const typed = "#chapter=loops&scene=canonical&size=8";
+  await page.evaluate((hash) => history.replaceState(null, "", hash), typed);
+  await set(page, "#step", 5);
+  await page.waitForTimeout(1000);
+  assert.equal(new URL(page.url()).hash, typed);
+  await page.evaluate(() => dispatchEvent(new HashChangeEvent("hashchange")));
+  await until("the scene of the link", async () => (await page.locator("#scene").inputValue()) === "canonical");
+  await until("the link goes on", async () => new URL(page.url()).hash.includes("step="));
+  await close();
+});
+
 test("a good file is opened; a broken and a huge one are refused with reasons", async () => {
   const { page, said, close } = await open();
   await drop(page, { "small.obj": "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n" });

@@ -32,21 +32,25 @@ function fragment() {
   return `#${parts.toString().replaceAll("%2C", ",").replaceAll("%3A", ":")}`;
 }
 
+/** The link that was followed or written last. */
 let lastFragment = "";
 
-/** Browsers limit how often the address changes, and some refuse it on files: then the link is only kept. */
+/** Browsers limit how often the address changes, and some refuse it on files: then the address stays as it is. */
 const writeLink = debounced(400, () => {
-  lastFragment = fragment();
-  if (location.hash === lastFragment) return;
+  // A link that was typed a moment ago waits to be followed.
+  if (location.hash !== lastFragment) return;
+  const now = fragment();
+  if (location.hash === now) return;
   try {
-    history.replaceState(null, "", lastFragment);
+    history.replaceState(null, "", now);
   } catch {
     try {
-      location.hash = lastFragment;
+      location.hash = now;
     } catch {
       // The page works without.
     }
   }
+  lastFragment = location.hash;
 });
 
 /** @param {string | null} text @param {number} length */
@@ -68,6 +72,7 @@ function awaitedFor(name) {
 
 /** Shows what a link is about. What it does not say, or says wrongly, stays as it is in the chapter. */
 async function followLink() {
+  lastFragment = location.hash;
   const parts = new URLSearchParams(location.hash.slice(1));
   const chapter = chapterOf(parts.get("chapter") ?? "algorithms");
   /** @type {Partial<State>} */
@@ -120,9 +125,11 @@ async function followLink() {
 }
 
 function beginLinks() {
-  writeLink();
-  watch(/** @type {(keyof State)[]} */ (Object.keys(state)), writeLink);
-  addEventListener("hashchange", () => {
+  const followAnother = () => {
     if (location.hash !== lastFragment) followLink();
-  });
+  };
+  watch(/** @type {(keyof State)[]} */ (Object.keys(state)), writeLink);
+  addEventListener("hashchange", followAnother);
+  followAnother();
+  writeLink();
 }
