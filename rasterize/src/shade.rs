@@ -4,6 +4,7 @@
 mod form;
 mod local;
 mod quotient;
+mod weights;
 
 use bothways_common::engine::simd::{Level, Simd, SimdBase, SimdNarrow, best_level, f64x8};
 use bothways_common::look::bands::{
@@ -12,11 +13,12 @@ use bothways_common::look::bands::{
 };
 use bothways_common::look::lanes::{DVec3x8, Lanes, Real, Vec3x16, each};
 use bothways_common::look::texture::{self, TexturePoints};
-use bothways_common::{Frame, Primitive, Projection, View};
+use bothways_common::{Frame, Primitive, View};
 use form::{Form, HitPoints};
 use glam::{DVec2, DVec3, Vec3};
-use local::{Grid, Local};
+use local::{Grid, LEAST_COSINE, Local};
 use quotient::{Affine, Colors, Quotient};
+use weights::{side_of, side_seen, weights, weights_of};
 
 /// Gives a frame its picture, by interpolation over the triangle that is seen at each sample. If the frame keeps
 /// [linear colours](Frame::with_colors), [normals](Frame::with_normals) or
@@ -317,9 +319,6 @@ impl Normals {
     }
 }
 
-/// Corners' normals with smaller cosines between them may cancel each other.
-const LEAST_COSINE: f64 = 0.1;
-
 /// The least cosine between two of three unit vectors.
 #[inline(always)]
 fn least_cosine([a, b, c]: [DVec3; 3]) -> f64 {
@@ -364,22 +363,6 @@ fn on_ball<S: Simd>(simd: S, scale: f64, hit: &HitPoints<S>, rays: &Rays<S>) -> 
     normal.negated_where(normal.dot(rays.direction).simd_gt(f64x8::splat(simd, 0.0)))
 }
 
-/// 1 if a normal of a flat form through a point is towards the viewer, −1 if it is away.
-#[inline(always)]
-fn side_seen(view: &View, point: DVec3, normal: DVec3) -> f64 {
-    side_of(view, Lanes::from(point), Lanes::from(normal))
-}
-
-/// The same for one flat form or for eight.
-#[inline(always)]
-fn side_of<T: Real>(view: &View, point: Lanes<T>, normal: Lanes<T>) -> T {
-    match view.camera.projection() {
-        // Every ray that meets the form goes to the same side of it.
-        Projection::Perspective => normal.dot(point).against(),
-        Projection::Parallel => normal.along(-view.camera.w()).against(),
-    }
-}
-
 impl Details {
     /// `None` if nothing of it is needed.
     #[inline(always)]
@@ -412,45 +395,6 @@ impl Texture {
                 Texture::Flat(Box::new(Quotient::interpolating(weights, coordinates)))
             }
             (Primitive::Triangle(_), None) => Texture::None,
-        }
-    }
-}
-
-/// The perspective-correct weights of a triangle's corners: see [`weights`].
-#[inline(always)]
-fn weights_of(view: &View, [a, b, c]: [DVec3; 3]) -> [Affine; 3] {
-    let side = side_seen(view, a, (b - a).cross(c - a));
-    weights(view, each!(corner in [a, b, c] => Lanes::from(corner)), side)
-}
-
-/// The perspective-correct weights of the corners of a triangle, or of eight, up to a common factor: each is the edge
-/// function of the side opposite to its corner, positive inside of the triangle.
-///
-/// The function from `p` to `q` is computed from the difference `q − p`: seen from afar, `p × q` would be all rounding.
-#[inline(always)]
-fn weights<T: Real>(view: &View, [a, b, c]: [Lanes<T>; 3], side: T) -> [Affine<T>; 3] {
-    each!(edge in [[b, c], [c, a], [a, b]] => {
-        let [p, q] = edge;
-        edge_function(view, p, q) * -side
-    })
-}
-
-/// The edge function from `p` to `q`, positive inside of a triangle that is seen from its back.
-#[inline(always)]
-fn edge_function<T: Real>(view: &View, p: Lanes<T>, q: Lanes<T>) -> Affine<T> {
-    let (u, v, w) = (view.camera.u(), view.camera.v(), view.camera.w());
-    let normal = p.cross(q - p);
-    match view.camera.projection() {
-        // Its product with the direction of the viewing ray.
-        Projection::Perspective => Affine {
-            at_center: normal.along(w) * -view.camera.distance(),
-            across: normal.along(u),
-            up: normal.along(v),
-        },
-        Projection::Parallel => {
-            let slope = (p - q).cross_along(w);
-            let [at_center, across, up] = [normal.along(w), slope.along(u), slope.along(v)];
-            Affine { at_center: -at_center, across: -across, up: -up }
         }
     }
 }

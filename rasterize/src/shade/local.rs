@@ -1,7 +1,7 @@
 //! The normals of small triangles: what changes from sample to sample is small, so `f32` is enough, counted from a sample
 //! beside the triangle.
 
-use super::{side_of, weights};
+use super::weights::{side_of, weights};
 use bothways_common::engine::simd::{Simd, SimdBase, SimdNarrow, f64x8};
 use bothways_common::look::bands::LocalNormals;
 use bothways_common::look::lanes::{Lanes, Real, each};
@@ -29,6 +29,8 @@ pub(super) struct Local<T> {
     size: T,
 }
 
+/// Corners' normals with smaller cosines between them may cancel each other.
+pub(super) const LEAST_COSINE: f64 = 0.1;
 /// How far normals may change on a triangle, from its first corner to the others, all changes added up.
 const CHANGE: f64 = 1024.0;
 /// Anchors are nearer to the picture's middle: so rows and columns, and differences of them, are exact in `f32`.
@@ -48,7 +50,7 @@ impl<T: Real> Local<T> {
     /// anchor; how much the normals change from sample to sample, times the samples from corner to corner, in [`CHANGE`];
     /// and how far the anchor is, in [`FARTHEST`]. Then the sum of the weights is positive at the anchor, which is half a
     /// sample beside the corner at most, and nowhere on the triangle below half of that, so that normals whose cosines are at
-    /// least 0.1 have a sum no shorter than 0.3. With `ε = 2⁻²⁴` for one rounding, no coordinate has an error above
+    /// least [`LEAST_COSINE`] have a sum no shorter than 0.3. With `ε = 2⁻²⁴` for one rounding, no coordinate has an error above
     /// `ε(4 + 4 · 1024)`, which is 2.5·10⁻⁴: less than a thousandth of that length. Mostly it is far less, for normals
     /// change by some tenths on a triangle.
     #[inline(always)]
@@ -197,7 +199,6 @@ fn whole([row, column]: [f64; 2]) -> [i32; 2] {
 
 #[cfg(test)]
 mod tests {
-    use super::super::smooth_normals;
     use super::*;
     use bothways_common::engine::simd::{best_level, dispatch};
     use bothways_common::{Camera, CameraDescription, Sample, Scene};
@@ -251,7 +252,7 @@ mod tests {
             for _ in 0..4000 {
                 let [corners, normals] = numbers.triangle();
                 let [a, b, c] = normals;
-                if a.dot(b).min(b.dot(c)).min(c.dot(a)) < super::super::LEAST_COSINE {
+                if a.dot(b).min(b.dot(c)).min(c.dot(a)) < LEAST_COSINE {
                     continue;
                 }
                 let [corners, normals] = [corners, normals].map(|three| three.map(Lanes::from));
@@ -263,13 +264,14 @@ mod tests {
                 let [a, b, c] = corners;
                 let side = side_of(&view, a, (b - a).cross(c - a));
                 let weights = weights(&view, corners, side);
-                let smooth = smooth_normals(&view, corners, normals);
                 for (row, y) in y.iter().enumerate().step_by(7) {
                     for (column, x) in x.iter().enumerate().step_by(3) {
-                        if weights.iter().any(|weight| weight.at(*x, *y) < 0.0) {
+                        let weights = weights.map(|weight| weight.at(*x, *y));
+                        if weights.iter().any(|weight| *weight < 0.0) {
                             continue;
                         }
-                        let exact = DVec3::from(smooth.map(|function| function.at(*x, *y)));
+                        let parts = [0, 1, 2].map(|k| DVec3::from(normals[k]) * weights[k]);
+                        let exact = (parts[0] + parts[1] + parts[2]) * side;
                         let found = local.at(Sample { row, column }).as_dvec3();
                         assert!(found.length() > 0.3, "{found}");
                         worst = worst.max(found.normalize().distance(exact.normalize()));
