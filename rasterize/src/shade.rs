@@ -11,7 +11,7 @@ use bothways_common::look::bands::{
     self, EightTriangles, LocalNormals, Points, Rays, Samples, Seen, SetUp, Sixteen, Surfaces,
     Wanted,
 };
-use bothways_common::look::lanes::{DVec3x8, Lanes, Real, Vec3x16, each};
+use bothways_common::look::lanes::{DVec3x8, Lanes, Vec3x16, each};
 use bothways_common::look::texture::{self, TexturePoints};
 use bothways_common::{Frame, Primitive, View};
 use form::{Form, HitPoints};
@@ -325,21 +325,16 @@ fn least_cosine([a, b, c]: [DVec3; 3]) -> f64 {
     a.dot(b).min(b.dot(c)).min(c.dot(a))
 }
 
-/// The coordinates of interpolated normals, towards the viewer, of one triangle or of eight.
-#[inline(always)]
-fn smooth_normals<T: Real>(
-    view: &View,
-    [a, b, c]: [Lanes<T>; 3],
-    [at_a, at_b, at_c]: [Lanes<T>; 3],
-) -> [Affine<T>; 3] {
+/// The coordinates of a triangle's interpolated normals, towards the viewer.
+fn smooth_normals(view: &View, [a, b, c]: [Lanes<f64>; 3], at: [Lanes<f64>; 3]) -> [Affine; 3] {
     // The surface, not its smooth look, says which side is seen.
     let side = side_of(view, a, (b - a).cross(c - a));
     let [of_a, of_b, of_c] = weights(view, [a, b, c], side);
     // All weights times one number change no direction; with this one they keep clear of overflow.
-    let scale = side * (of_a + of_b + of_c).largest(view).scale_to_one();
-    each!(at in [[at_a.x, at_b.x, at_c.x], [at_a.y, at_b.y, at_c.y], [at_a.z, at_b.z, at_c.z]] => {
-        (of_a * at[0] + of_b * at[1] + of_c * at[2]) * scale
-    })
+    let scale = 1.0 / (of_a + of_b + of_c).largest(view);
+    let scale = side * if scale.is_finite() { scale } else { 1.0 };
+    let [x, y, z] = [at.map(|at| at.x), at.map(|at| at.y), at.map(|at| at.z)];
+    [x, y, z].map(|at| (of_a * at[0] + of_b * at[1] + of_c * at[2]) * scale)
 }
 
 impl Smooth {

@@ -212,6 +212,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
             };
             let Kept { material, look } = &desk.kept[place as usize];
             match look {
+                // There are such ones only where a frame keeps nothing of textures.
                 KeptLook::Local(normals) => {
                     let first = Sample { column: start.column + run.start, ..start };
                     normals.store(simd, first, chunk, run);

@@ -51,9 +51,6 @@ pub trait Real:
     /// 1 over it.
     fn reciprocal(self) -> Self;
 
-    /// 1 over it, and 1 where that is not finite.
-    fn scale_to_one(self) -> Self;
-
     /// The nearest whole number; of two, the even one.
     fn rounded(self) -> Self;
 }
@@ -72,12 +69,6 @@ impl Real for f64 {
     #[inline(always)]
     fn reciprocal(self) -> f64 {
         1.0 / self
-    }
-
-    #[inline(always)]
-    fn scale_to_one(self) -> f64 {
-        let scale = self.reciprocal();
-        if scale.is_finite() { scale } else { 1.0 }
     }
 
     #[inline(always)]
@@ -107,14 +98,6 @@ impl<S: Simd> Real for f64x8<S> {
     #[inline(always)]
     fn rounded(self) -> Self {
         self.round_ties_even()
-    }
-
-    #[inline(always)]
-    fn scale_to_one(self) -> Self {
-        let [one, infinity] =
-            each!(number in [1.0, f64::INFINITY] => f64x8::splat(self.simd, number));
-        let scale = self.reciprocal();
-        scale.abs().simd_lt(infinity).select(scale, one)
     }
 }
 

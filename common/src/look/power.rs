@@ -105,9 +105,9 @@ pub(crate) fn power<S: Simd>(simd: S, base: f32x16<S>, exponent: Exponent) -> f3
 /// The power of a base in 0 … 1 to some halves, by squares of squares, and a root.
 ///
 /// A square has twice the relative error of what is squared, and one rounding more; a product has both errors, and one rounding
-/// more. So `base^n` has no more than `n − 1` roundings, and a root one in front of them. With the exponent `n` or `n + ½` that
-/// is a relative error below `1.001 · (n + 1) · 2⁻²⁴`: 2⁻²⁰ for an exponent of 12.5, and 2⁻¹⁷ for the largest one, 128. The last
-/// place of the base itself weighs as much.
+/// more. So `base^n` has no more than `n − 1` roundings, and with the root in front of it, `base^(n + ½)` no more than `n + 1`: a
+/// relative error of at most `1.001 · 13 · 2⁻²⁴` for an exponent of 12.5, and of about 2⁻¹⁷ for the largest. The last place of the base
+/// itself weighs as much.
 #[inline(always)]
 fn multiplied<S: Simd>(simd: S, base: f32x16<S>, halves: u32) -> f32x16<S> {
     let mut product = if halves % 2 == 1 { base.sqrt() } else { f32x16::splat(simd, 1.0) };
@@ -163,7 +163,7 @@ mod tests {
             let is_multiplied = Exponent::new(exponent).halves.is_some();
             assert_eq!(is_multiplied, multiplied.contains(&exponent));
             let bound = if is_multiplied {
-                (1.001 * (f64::from(exponent) + 1.0) * 2f64.powi(-24)).max(2f64.powi(-22))
+                (1.001 * f64::from(exponent + 0.5) * 2f64.powi(-24)).max(2f64.powi(-22))
             } else {
                 2f64.powi(-21)
             };

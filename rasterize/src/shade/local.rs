@@ -48,11 +48,21 @@ impl<T: Real> Local<T> {
     /// A triangle is small where the sum of all that is measured is at most 1: how much farther or nearer than the first corner the
     /// others are, in halves of its depth; how much the sum of weights changes from sample to sample, in halves of what it is at the
     /// anchor; how much the normals change from sample to sample, times the samples from corner to corner, in [`CHANGE`];
-    /// and how far the anchor is, in [`FARTHEST`]. Then the sum of the weights is positive at the anchor, which is half a
-    /// sample beside the corner at most, and nowhere on the triangle below half of that, so that normals whose cosines are at
-    /// least [`LEAST_COSINE`] have a sum no shorter than 0.3. With `ε = 2⁻²⁴` for one rounding, no coordinate has an error above
-    /// `ε(4 + 4 · 1024)`, which is 2.5·10⁻⁴: less than a thousandth of that length. Mostly it is far less, for normals
-    /// change by some tenths on a triangle.
+    /// and how far the anchor is, in [`FARTHEST`]. What is infinite or not a number is not small; nor is a triangle that reaches behind
+    /// the eye, as a corner there measures 2 at least.
+    ///
+    /// Then the sum of the weights is positive at the anchor, which is half a sample beside the corner at most, and nowhere on the
+    /// triangle below half or above twice of that. So normals whose cosines are at least [`LEAST_COSINE`] have a sum no shorter than
+    /// 0.3 and no longer than 2.
+    ///
+    /// # The error, rounding by rounding
+    ///
+    /// `N = (A + r·D) + c·C`, with the normal `A` at the anchor, `r` rows and `c` columns from there, and the changes `D` and `C` from row to
+    /// row and from column to column. With `ε = 2⁻²⁴`, rounding `A` to `f32` adds `ε|A|`; that of `D` and its product `2ε|rD|`; the first
+    /// sum `ε|A + rD|`; that of `C` and its product `2ε|cC|`; the second sum `ε|N|`. As `|A| ≤ |N| + |rD| + |cC|` and
+    /// `|A + rD| ≤ |N| + |cC|`, all this is at most `ε(3|N| + 3|rD| + 4|cC|)`, and with `|rD| + |cC| ≤ 1024`, all coordinates
+    /// together, less than 2.5·10⁻⁴: a thousandth of the shortest sum. Mostly it is far less, for normals change by some tenths on a
+    /// triangle. The roundings in `f64` before that weigh nothing, unless a triangle is an extreme sliver.
     #[inline(always)]
     pub(super) fn new(
         view: &View,
@@ -61,7 +71,7 @@ impl<T: Real> Local<T> {
         [at_a, at_b, at_c]: [Lanes<T>; 3],
     ) -> Local<T> {
         let ([down, across], [middle_row, middle_column]) = (grid.spacing, grid.middle);
-        let Seen { place: [x, y], depths, reach } = Seen::new(view, grid, [a, b, c]);
+        let OnViewport { place: [x, y], depths, reach } = OnViewport::new(view, grid, [a, b, c]);
         let anchor = [
             (y * (-1.0 / down) + middle_row).rounded(),
             (x * (1.0 / across) + middle_column).rounded(),
@@ -100,7 +110,7 @@ impl<T: Real> Local<T> {
 }
 
 /// Where triangles are seen.
-struct Seen<T> {
+struct OnViewport<T> {
     /// The first corner on the viewport.
     place: [T; 2],
     /// How much farther or nearer the other corners are, in halves of the first one's depth, added up.
@@ -110,9 +120,9 @@ struct Seen<T> {
     reach: T,
 }
 
-impl<T: Real> Seen<T> {
+impl<T: Real> OnViewport<T> {
     #[inline(always)]
-    fn new(view: &View, grid: &Grid, [a, b, c]: [Lanes<T>; 3]) -> Seen<T> {
+    fn new(view: &View, grid: &Grid, [a, b, c]: [Lanes<T>; 3]) -> OnViewport<T> {
         let camera = view.camera;
         let [down, across] = grid.spacing;
         let ahead = -camera.w();
@@ -134,14 +144,14 @@ impl<T: Real> Seen<T> {
                     let rows = (along_v * scale - y * farther).magnitude() * (2.0 / down);
                     (farther.magnitude() * 2.0, columns + rows)
                 });
-                Seen { place: [x, y], depths: to[0].0 + to[1].0, reach: to[0].1 + to[1].1 }
+                OnViewport { place: [x, y], depths: to[0].0 + to[1].0, reach: to[0].1 + to[1].1 }
             }
             Projection::Parallel => {
                 let to = each!(edge in [edges[0], edges[1]] => {
                     edge[0].magnitude() * (1.0 / across) + edge[1].magnitude() * (1.0 / down)
                 });
                 // Depths make no difference to where anything is seen.
-                Seen { place: [x, y], depths: to[0] * 0.0, reach: to[0] + to[1] }
+                OnViewport { place: [x, y], depths: to[0] * 0.0, reach: to[0] + to[1] }
             }
         }
     }

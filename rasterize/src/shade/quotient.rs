@@ -70,6 +70,12 @@ impl Affine {
         self.row(simd, x, y).1
     }
 
+    /// No value on the viewport has a larger magnitude.
+    pub(super) fn largest(&self, view: &View) -> f64 {
+        let [width, height] = view.camera.viewport();
+        self.at_center.abs() + (self.across.abs() * width + self.up.abs() * height) * 0.5
+    }
+
     /// The product of two functions, one of which is constant.
     #[inline(always)]
     fn times(self, other: Affine) -> Affine {
@@ -87,14 +93,6 @@ impl<T: Real> Affine<T> {
     #[inline(always)]
     pub(super) fn at(&self, x: T, y: T) -> T {
         (self.at_center + y * self.up) + x * self.across
-    }
-
-    /// No value on the viewport has a larger magnitude.
-    #[inline(always)]
-    pub(super) fn largest(&self, view: &View) -> T {
-        let [width, height] = view.camera.viewport();
-        let [across, up] = each!(slope in [self.across, self.up] => slope.magnitude());
-        self.at_center.magnitude() + (across * width + up * height) * 0.5
     }
 }
 

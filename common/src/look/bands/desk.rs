@@ -16,7 +16,7 @@ use std::ops::Range;
 /// The hashes of ids under which visible primitives are kept: those of a row are mostly seen in the next one, too.
 const HASHES: usize = 1 << HASH_BITS;
 const HASH_BITS: u32 = 12;
-/// With this many primitives kept, a new chunk begins with none.
+/// With this many primitives kept, a new block begins with none.
 const MANY_KEPT: usize = HASHES;
 
 /// The surfaces to set up, and what is needed of them.
@@ -41,7 +41,7 @@ pub(super) struct Desk<'a, T> {
     places: Vec<(u32, u32)>,
     names: Names,
     pub(super) kept: Vec<Kept<'a>>,
-    /// Those of them that are not triangles which are seen at few samples.
+    /// Those of them whose look is not local.
     pub(super) surfaces: Vec<KeptSurface<T>>,
     /// Whether the `t` of samples matter to any of these.
     pub(super) looks_at_t: bool,
@@ -61,7 +61,7 @@ pub(super) struct Kept<'a> {
 }
 
 pub(super) enum KeptLook {
-    /// A triangle that is seen at few samples.
+    /// A triangle of which nothing but its normals is wanted, if they change little.
     Local(LocalNormals),
     /// The place of anything else among the surfaces.
     Surface(u32),
@@ -129,7 +129,7 @@ impl<'a, T> Desk<'a, T> {
         }
     }
 
-    /// Begins with other chunks.
+    /// Begins a block of chunks: forgets the runs, and all that is kept if that is much.
     pub(super) fn begin_block(&mut self) {
         if self.kept.len() >= MANY_KEPT {
             self.forget();
@@ -140,12 +140,10 @@ impl<'a, T> Desk<'a, T> {
     /// Finds the runs of a chunk. Their primitives are to be set up by [`Desk::set_up_new`], unless they are kept.
     #[inline(always)]
     pub(super) fn find_runs<S: Simd>(&mut self, simd: S, ids: Ids) {
-        if is_nothing(ids) {
-            self.runs.runs.push(Run { end: ids.len(), place: None });
-        } else if let Ids::Narrow(ids) = ids {
-            self.find_runs_of(simd, ids);
-        } else if let Ids::Wide(ids) = ids {
-            self.find_wide_runs(simd, ids);
+        match ids {
+            _ if is_nothing(ids) => self.runs.runs.push(Run { end: ids.len(), place: None }),
+            Ids::Narrow(ids) => self.find_runs_of(simd, ids),
+            Ids::Wide(ids) => self.find_wide_runs(simd, ids),
         }
         self.runs.ends.push(self.runs.runs.len());
     }
@@ -177,6 +175,7 @@ impl<'a, T> Desk<'a, T> {
     fn find_wide_runs<S: Simd>(&mut self, simd: S, ids: &[u64]) {
         let named = self.names_of(ids);
         self.find_runs_of(simd, &named);
+        // The next chunk uses the same memory.
         self.names.of_chunk = named;
     }
 

@@ -1,4 +1,4 @@
-//! Normals of small triangles, which are seen at few samples.
+//! Normals of triangles on which they change little. Most of these are small, and seen at few samples of a row.
 
 use super::chunk::Chunk;
 use crate::engine::simd::{Simd, SimdBase, f32x8};
@@ -7,7 +7,8 @@ use crate::raster::Sample;
 use glam::Vec3;
 use std::ops::Range;
 
-/// Normals towards the viewer as an affine function of row and column, in `f32`, counted from a sample near the triangle.
+/// Normals towards the viewer as an affine function of row and column, in `f32`, counted from a sample near the triangle: where they
+/// change so little on it that this is exact enough.
 #[derive(Clone, Copy, Debug)]
 pub struct LocalNormals {
     /// The normal at the anchor, and how it changes from a column to the next one, and from a row to the next one.
@@ -16,13 +17,13 @@ pub struct LocalNormals {
     anchor: [i32; 2],
 }
 
-/// Samples of a row that are found together: mostly a small triangle is not seen at more.
+/// Samples of a row that are found together: most triangles are not seen at more.
 const TOGETHER: usize = 8;
 const LANES: [f32; TOGETHER] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
 
 impl LocalNormals {
-    /// The normal at an anchor, a row and a column, and its changes from there to the next column and to the next row. Lengths
-    /// where the triangle is seen are between 2⁻⁶⁰ and 2⁶⁰.
+    /// The normal at an anchor, a row and a column within 2²³, and its changes from there to the next column and to the next row.
+    /// Lengths where the triangle is seen are between 2⁻⁶⁰ and 2⁶⁰.
     #[inline(always)]
     pub fn new(anchor: [i32; 2], numbers: [[f32; 3]; 3]) -> LocalNormals {
         LocalNormals { numbers, anchor }
@@ -45,9 +46,8 @@ impl LocalNormals {
         chunk: &mut Chunk,
         samples: Range<usize>,
     ) {
-        let [rows, mut columns] = each!(k in [(first.row, self.anchor[0]), (first.column, self.anchor[1])] => {
-            steps_from(k.0, k.1)
-        });
+        let rows = steps_from(first.row, self.anchor[0]);
+        let mut columns = steps_from(first.column, self.anchor[1]);
         let [at_anchor, across, down] = &self.numbers;
         let in_row = each!(k in [0, 1, 2] => at_anchor[k] + down[k] * rows);
         for at in samples.step_by(TOGETHER) {
@@ -71,7 +71,7 @@ impl LocalNormals {
     clippy::cast_possible_truncation,
     clippy::cast_possible_wrap,
     clippy::cast_precision_loss,
-    reason = "a picture has fewer than 2²⁴ rows and columns, and a triangle that is seen there is not far away"
+    reason = "a picture has fewer than 2²³ rows and columns, and `LocalNormals::new` asks the same of anchors"
 )]
 fn steps_from(at: usize, anchor: i32) -> f32 {
     (at as i32 - anchor) as f32

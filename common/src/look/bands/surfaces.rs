@@ -70,7 +70,7 @@ pub trait Surfaces: Sync {
 /// What a primitive is set up as.
 #[derive(Clone, Copy, Debug)]
 pub enum SetUp<T> {
-    /// A triangle that is seen at few samples, and of which nothing but its normals is wanted.
+    /// A triangle of which nothing but its normals is wanted, if they change little.
     Local(LocalNormals),
     /// Anything else.
     Surface(T),
