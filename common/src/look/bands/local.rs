@@ -36,8 +36,8 @@ impl LocalNormals {
         (at_anchor + down * rows) + across * columns
     }
 
-    /// Writes down the normals at some samples of a row, of which this is the first, with the bits of [`LocalNormals::at`]. What it writes beyond them is overwritten
-    /// by what comes next.
+    /// Writes down the normals at some samples of a row, of which this is the first, with the bits of [`LocalNormals::at`]. What it
+    /// writes beyond them is overwritten by what comes next.
     #[inline(always)]
     pub(super) fn store<S: Simd>(
         &self,
