@@ -34,17 +34,13 @@ pub fn shade(view: &View, frame: &mut Frame) {
 /// [`shade`] with the vector instructions of this level, for tests that compare the levels.
 #[doc(hidden)]
 pub fn shade_with(view: &View, frame: &mut Frame, level: Level) {
-    let raster = view.camera.raster(frame.samples());
-    let [down, across] = raster.spacing();
-    let surfaces = Interpolated { view, step: [-down, across], grid: Grid::of(&raster) };
-    bands::shade(view, frame, &surfaces, level);
+    let grid = Grid::of(&view.camera.raster(frame.samples()));
+    bands::shade(view, frame, &Interpolated { view, grid }, level);
 }
 
 /// The surfaces of a view as object order finds them.
 struct Interpolated<'a> {
     view: &'a View<'a>,
-    /// The way from a sample to the next one down, along `y`, and to the next one across, along `x`.
-    step: [f64; 2],
     grid: Grid,
 }
 
@@ -201,7 +197,7 @@ impl Interpolated<'_> {
         let [low, high] = match texture {
             Texture::None => return,
             Texture::Flat(quotient) => each!(half in [&samples.low, &samples.high] => {
-                quotient.with_footprint(simd, half.x, half.y, self.step)
+                quotient.with_footprint(simd, half.x, half.y, self.grid.step())
             }),
             Texture::Sphere => {
                 each!(half in [(&samples.low, &hits[0]), (&samples.high, &hits[1])] => {
@@ -234,7 +230,7 @@ impl Interpolated<'_> {
         let [low, high] = match texture {
             Texture::None => return,
             Texture::Flat(quotient) => {
-                each!(k in [0, 1] => quotient.differences(simd, halves[k].0, self.step))
+                each!(k in [0, 1] => quotient.differences(simd, halves[k].0, self.grid.step()))
             }
             Texture::Sphere => {
                 each!(k in [0, 1] => self.differences_on_sphere(simd, halves[k].0, halves[k].1))
@@ -260,7 +256,7 @@ impl Interpolated<'_> {
             let gradients = [gradients[0].lane(lane), gradients[1].lane(lane)];
             let (position, normal) = (hit.position.lane(lane), hit.from_center.lane(lane));
             let touching = Quotient::on_plane(self.view, position, normal, gradients);
-            *differences = touching.differences(simd, samples, self.step);
+            *differences = touching.differences(simd, samples, self.grid.step());
         }
         each!(way in [0, 1] => each!(k in [0, 1] => f64x8::from_fn(simd, |lane| all[lane][way][k][lane])))
     }
@@ -279,7 +275,7 @@ impl Interpolated<'_> {
         hit: &HitPoints<S>,
     ) -> ([f64x8<S>; 2], [f64x8<S>; 2]) {
         let (coordinate, gradients) = texture::on_sphere_lanes(simd, hit.from_center);
-        let [down, across] = self.step;
+        let [down, across] = self.grid.step();
         let changes: [DVec2; 8] = std::array::from_fn(|lane| {
             let (position, normal) = (hit.position.lane(lane), hit.from_center.lane(lane));
             let gradients = gradients.map(|gradient| gradient.lane(lane));

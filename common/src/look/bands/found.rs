@@ -1,6 +1,6 @@
 //! Primitives that are seen and are to be set up: one, or eight triangles at once.
 
-use super::surfaces::{EightTriangles, Wanted};
+use super::surfaces::{EightTriangles, Wanted, needs_normals_alone};
 use crate::engine::simd::{Simd, SimdBase, f64x8};
 use crate::look::lanes::{DVec3x8, Lanes, each};
 use crate::scene::material::Material;
@@ -33,8 +33,7 @@ impl Found<'_> {
     #[inline(always)]
     fn indices(&self, wanted: Wanted) -> Option<([u32; 3], [u32; 3])> {
         let Shape::Mesh(mesh) = &self.object.shape else { return None };
-        let is_plain =
-            wanted == Wanted::default() && !self.material.has_pattern() && mesh.colors().is_empty();
+        let is_plain = needs_normals_alone(wanted, self.object, self.material);
         let normals = mesh.normals().corners.get(self.local).filter(|_| is_plain)?;
         // All corners have one.
         let have = |corner: &u32| *corner != Attribute::<Vec3>::NONE;

@@ -127,14 +127,13 @@ impl Seen<'_> {
     /// Whether each of its samples has a tint: by a texture, or by colours.
     #[inline(always)]
     pub(super) fn is_tinted(&self) -> bool {
-        let mesh = self.object.shape.mesh();
-        self.material.texture.is_some() || mesh.is_some_and(|mesh| !mesh.colors().is_empty())
+        self.material.texture.is_some() || has_colors(self.object)
     }
 
     /// Whether nothing is wanted but a normal.
     #[inline(always)]
     pub fn needs_normals_alone(&self, wanted: Wanted) -> bool {
-        wanted == Wanted::default() && !self.material.has_pattern() && !self.is_tinted()
+        needs_normals_alone(wanted, self.object, self.material)
     }
 
     /// Whether texture coordinates are needed.
@@ -155,6 +154,18 @@ impl Seen<'_> {
     pub fn corner_coordinates(&self) -> Option<[DVec2; 3]> {
         texture::corners(&self.object.shape, self.local)
     }
+}
+
+/// [`Seen::needs_normals_alone`], before the primitive is looked at.
+#[inline(always)]
+pub(super) fn needs_normals_alone(wanted: Wanted, object: &Object, material: &Material) -> bool {
+    wanted == Wanted::default() && !material.has_pattern() && !has_colors(object)
+}
+
+/// Whether its vertices have colours.
+#[inline(always)]
+fn has_colors(object: &Object) -> bool {
+    object.shape.mesh().is_some_and(|mesh| !mesh.colors().is_empty())
 }
 
 /// The square of a unit vector's length differs from 1 by no more, whose coordinates were rounded to `f32`.
