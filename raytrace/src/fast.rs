@@ -46,6 +46,7 @@ mod sphere;
 mod store;
 mod straight_rays;
 mod tile;
+mod trace;
 mod triangle;
 mod viewport_affine;
 mod world_affine;
@@ -66,9 +67,9 @@ use search::build::build;
 use search::ray_square::{RaySquare, SQUARE};
 use search::tile_frustum::FrustumTemplate;
 use search::walk::Walker;
-use std::ops::Range;
-use store::{store, store_wide_ids};
+use store::store_wide_ids;
 use tile::TileBuffer;
+use trace::trace_tiles;
 
 pub use any_ray::{Hit, WorldRay, first_hit};
 pub use partition::HierarchyBox;
@@ -319,35 +320,4 @@ fn trace<F: Fault>(walker: &mut Walker, template: &FrustumTemplate, chunk: Tile)
             trace_tiles::<F>(walker, template, &region, (&mut names, &mut t), &mut store_ids)
         }
     }
-}
-
-/// Takes a tile that was traced, the names of a region, and which of its samples are the tile's.
-type StoreIds<'a> = dyn FnMut(&TileBuffer, &[&mut [u32]], &Region) + 'a;
-
-/// Traces the rays of the tiles that meet a region, and stores names and distances, row by row. After every tile, `done`
-/// gets the names and the samples of the tile that lie in the region.
-fn trace_tiles<F: Fault>(
-    walker: &mut Walker,
-    template: &FrustumTemplate,
-    region: &Region,
-    (names, t): (&mut [&mut [u32]], &mut [&mut [f32]]),
-    done: &mut StoreIds,
-) -> Executed {
-    let mut executed = Executed::default();
-    let (map, side) = (walker.map, template.side);
-    let tiles = |range: &Range<usize>| (range.start / side * side..range.end).step_by(side);
-    dispatch_with!(F, walker.prepared.level, simd => {
-        for top in tiles(&region.rows) {
-            for left in tiles(&region.columns) {
-                let size = [map.grid.height() - top, map.grid.width() - left];
-                let size = size.map(|count| count.min(side));
-                walker.walk(&mut LoopContext::<_, (), F>::of(simd, &mut ()), template, [top, left], size);
-                store(simd, map, &walker.tile, region, names, t);
-                let [rows, columns] = [top..top + size[0], left..left + size[1]];
-                done(&walker.tile, names, &region.intersection(&Region { rows, columns }));
-                executed += walker.tile.executed.of_one_tile();
-            }
-        }
-    });
-    executed
 }

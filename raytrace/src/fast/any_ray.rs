@@ -5,10 +5,8 @@ use super::one_primitive::unbounded::Unbounded;
 use super::prepared::Prepared;
 use super::search::tile_frustum::FrustumTemplate;
 use super::search::walk::Walker;
-use super::store::store;
-use bothways_common::engine::context::{Context, LoopContext};
+use super::trace::trace_tiles;
 use bothways_common::engine::fault::Sound;
-use bothways_common::engine::simd::dispatch;
 use bothways_common::raster::Region;
 use bothways_common::{Camera, CameraDescription, Orientation, Scene, View};
 use glam::Vec3;
@@ -94,20 +92,10 @@ pub fn first_hit(prepared: &Prepared, scene: &Scene, ray: WorldRay) -> Option<Hi
     let map = CameraMap::new(&view, 1, &prepared.bounds);
     let unbounded = Unbounded::for_rays(prepared, &map);
     let mut walker = Walker::new(prepared, &map, &unbounded);
-    let distance = dispatch!(prepared.level, simd => {
-        trace_alone(&mut LoopContext::new(simd, &mut (), Sound), &mut walker)
-    });
-    walker.seen().map(|id| Hit { id, distance })
-}
-
-/// Traces the only ray of a picture. Returns how far the hit is, or infinity if there is none.
-#[inline(always)]
-fn trace_alone<C: Context>(context: &mut C, walker: &mut Walker) -> f32 {
-    let template = FrustumTemplate::new(walker.map, 1);
-    walker.walk(context, &template, [0, 0], [1, 1]);
-    let (mut id, mut distance) = ([0], [0.0]);
+    let template = FrustumTemplate::new(&map, 1);
+    let (mut name, mut distance) = ([0], [0.0]);
+    let (names, distances) = (&mut [&mut name[..]], &mut [&mut distance[..]]);
     let here = Region { rows: 0..1, columns: 0..1 };
-    let (ids, distances) = (&mut [&mut id[..]], &mut [&mut distance[..]]);
-    store(context.simd(), walker.map, &walker.tile, &here, ids, distances);
-    distance[0]
+    trace_tiles::<Sound>(&mut walker, &template, &here, (names, distances), &mut |_, _, _| {});
+    walker.seen().map(|id| Hit { id, distance: distance[0] })
 }

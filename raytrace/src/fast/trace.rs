@@ -1,0 +1,43 @@
+//! Traces the rays of tiles. It is compiled once, for the rays of a picture and for any other.
+
+use super::search::tile_frustum::FrustumTemplate;
+use super::search::walk::Walker;
+use super::store::store;
+use super::tile::TileBuffer;
+use bothways_common::engine::context::LoopContext;
+use bothways_common::engine::fault::Fault;
+use bothways_common::engine::simd::dispatch_with;
+use bothways_common::observe::Executed;
+use bothways_common::raster::Region;
+use std::ops::Range;
+
+/// Takes a tile that was traced, the names of a region, and which of its samples are the tile's.
+pub(super) type StoreIds<'a> = dyn FnMut(&TileBuffer, &[&mut [u32]], &Region) + 'a;
+
+/// Traces the rays of the tiles that meet a region, and stores names and distances, row by row. After every tile, `done`
+/// gets the names and the samples of the tile that lie in the region.
+pub(super) fn trace_tiles<F: Fault>(
+    walker: &mut Walker,
+    template: &FrustumTemplate,
+    region: &Region,
+    (names, t): (&mut [&mut [u32]], &mut [&mut [f32]]),
+    done: &mut StoreIds,
+) -> Executed {
+    let mut executed = Executed::default();
+    let (map, side) = (walker.map, template.side);
+    let tiles = |range: &Range<usize>| (range.start / side * side..range.end).step_by(side);
+    dispatch_with!(F, walker.prepared.level, simd => {
+        for top in tiles(&region.rows) {
+            for left in tiles(&region.columns) {
+                let size = [map.grid.height() - top, map.grid.width() - left];
+                let size = size.map(|count| count.min(side));
+                walker.walk(&mut LoopContext::<_, (), F>::of(simd, &mut ()), template, [top, left], size);
+                store(simd, map, &walker.tile, region, names, t);
+                let [rows, columns] = [top..top + size[0], left..left + size[1]];
+                done(&walker.tile, names, &region.intersection(&Region { rows, columns }));
+                executed += walker.tile.executed.of_one_tile();
+            }
+        }
+    });
+    executed
+}
