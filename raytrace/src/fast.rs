@@ -54,7 +54,7 @@ mod world_affine;
 use bothways_common::engine::any_observer::{AnyObserver, PartObserver};
 use bothways_common::engine::context::{LoopContext, ScalarContext};
 use bothways_common::engine::fault::{Fault, Planted, Sound};
-use bothways_common::engine::simd::dispatch_with;
+use bothways_common::engine::simd::{best_level, dispatch_with};
 use bothways_common::engine::tasks::{self, TaskTimes};
 use bothways_common::frame::{IdRows, NO_PRIMITIVE, Tile};
 use bothways_common::observe::{Events, Executed, Observer};
@@ -86,7 +86,7 @@ const CHUNKS_A_THREAD: usize = 8;
 ///
 /// Runs on the rayon pool that it is called in; the number of threads does not change the hierarchy.
 pub fn prepare(scene: &Scene) -> Prepared {
-    build(scene, SIDE)
+    build(scene, SIDE, best_level())
 }
 
 /// Renders a view of a prepared scene: what is seen at every sample, and its look.

@@ -11,8 +11,8 @@
 
 pub use fearless_simd::prelude::*;
 pub use fearless_simd::{
-    Level, Simd, dispatch, f32x8, f32x16, f64x8, i32x4, i32x16, mask32x8, mask32x16, mask64x8,
-    u8x64, u32x8, u32x16,
+    Level, Simd, dispatch, f32x4, f32x8, f32x16, f64x8, i32x4, i32x16, mask32x4, mask32x8,
+    mask32x16, mask64x8, u8x64, u32x8, u32x16,
 };
 
 /// Asks the machine to load a value into its cache before use. This function changes nothing else.

@@ -17,7 +17,7 @@ mod split;
 use super::tree::{Bounds, SPHERES};
 use crate::fast::prepared::{Instanced, MeshRoot, Prepared};
 use arena::{Arena, LeafRange};
-use bothways_common::engine::simd::best_level;
+use bothways_common::engine::simd::Level;
 use bothways_common::{Mesh, Scene, Shape};
 use grow::grow;
 use instances::{InstanceBoxes, Numbered};
@@ -27,9 +27,9 @@ use split::{BuildContext, BuildRecord, Kind};
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// Builds the hierarchy of a scene, to be traced in tiles of `side` × `side` samples. A mesh of which there are
-/// instances has a hierarchy of its own, once.
-pub(crate) fn build(scene: &Scene, side: usize) -> Prepared {
+/// Builds the hierarchy of a scene, to be traced in tiles of `side` × `side` samples at a level of SIMD, which it is built at, too.
+/// A mesh of which there are instances has a hierarchy of its own, once.
+pub(crate) fn build(scene: &Scene, side: usize, level: Level) -> Prepared {
     let mut collected = collect(scene);
     let mut prepared = Prepared {
         nodes: Vec::new(),
@@ -44,7 +44,7 @@ pub(crate) fn build(scene: &Scene, side: usize) -> Prepared {
         unbounded: collected.unbounded,
         extents: collected.extents,
         primitives: scene.primitive_count(),
-        level: best_level(),
+        level,
         threads: 0,
         times: None,
         side,
@@ -58,7 +58,7 @@ pub(crate) fn build(scene: &Scene, side: usize) -> Prepared {
         if prims.is_empty() {
             continue;
         }
-        let context = BuildContext { kind, source: Source::Scene(scene) };
+        let context = BuildContext { kind, source: Source::Scene(scene), level: prepared.level };
         let MeshRoot { root, bounds, .. } = add_hierarchy(prims, &context, true, &mut prepared);
         prepared.add_root(root, &bounds);
         *prims = Vec::new();
@@ -77,7 +77,8 @@ fn add_meshes(scene: &Scene, prepared: &mut Prepared) {
         }
         let mesh = *known.entry(Arc::as_ptr(instances.shared_mesh())).or_insert_with(|| {
             let mesh = instances.mesh();
-            let context = BuildContext { kind: Kind::Triangles, source: Source::Mesh(mesh) };
+            let (kind, source) = (Kind::Triangles, Source::Mesh(mesh));
+            let context = BuildContext { kind, source, level: prepared.level };
             let built = add_hierarchy(&mut triangles_of(mesh), &context, false, prepared);
             prepared.meshes.push(built);
             prepared.meshes.len() - 1
@@ -98,8 +99,15 @@ fn add_instances(scene: &Scene, prepared: &mut Prepared) {
     if order.is_empty() {
         return;
     }
-    let context = BuildContext { kind: Kind::Instances, source: Source::Scene(scene) };
-    let all = BuildRecord::new(Numbered { numbers: &mut order, boxes: &boxes }, 0, 0, false);
+    let (kind, source, level) = (Kind::Instances, Source::Scene(scene), prepared.level);
+    let context = BuildContext { kind, source, level };
+    let all = BuildRecord::new(
+        Numbered { numbers: &mut order, boxes: &boxes },
+        0,
+        0,
+        false,
+        context.level,
+    );
     let bounds = all.bounds.bounds();
     let mut arena = Arena { nodes: std::mem::take(&mut prepared.nodes), ..Arena::default() };
     let (root, counts) = grow(all, &context, &mut arena);
@@ -116,7 +124,7 @@ fn add_hierarchy(
     begins_with_node: bool,
     prepared: &mut Prepared,
 ) -> MeshRoot {
-    let all = BuildRecord::new(&mut *prims, 0, 0, false);
+    let all = BuildRecord::new(&mut *prims, 0, 0, false, context.level);
     let bounds = all.bounds.bounds();
     let mut tree = Arena::default();
     let (mut root, mut counts) = grow(all, context, &mut tree);
@@ -126,8 +134,10 @@ fn add_hierarchy(
     let (nodes, leaves) = (prepared.nodes.len(), prepared.leaf_counts());
     let Arena { nodes: added, leaves: [indexed, plain, spheres, _] } = tree.shifted(nodes, leaves);
     append(&mut prepared.nodes, added);
-    let source = context.source;
-    append(&mut prepared.indexed_leaves, filled(source, prims, &indexed, leaves::indexed_leaf));
+    let (source, level) = (context.source, context.level);
+    let indexed_leaf =
+        |prims: &[PrimRef], corners: &mut CornerReader| leaves::indexed_leaf(prims, corners, level);
+    append(&mut prepared.indexed_leaves, filled(source, prims, &indexed, indexed_leaf));
     append(&mut prepared.plain_leaves, filled(source, prims, &plain, leaves::plain_leaf));
     append(&mut prepared.sphere_leaves, filled(source, prims, &spheres, ids::<SPHERES>));
     MeshRoot { root: root.shifted(nodes, leaves), counts, bounds }

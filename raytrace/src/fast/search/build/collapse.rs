@@ -5,7 +5,7 @@
 //! GPUs Through Compressed Wide BVHs", High-Performance Graphics, 2017.
 
 use super::arena::{Arena, LeafRange};
-use super::leaves::{VertexSet, put_duplicates_last};
+use super::leaves::{put_duplicates_last, share_vertices};
 use super::prim_ref::{CornerReader, PrimRef};
 use super::split::{BuildContext, BuildRecord, Kind, Split, split};
 use crate::fast::search::tree::{Bounds, LeafCounts, Node, NodeKind, NodeRef, WIDTH};
@@ -28,6 +28,12 @@ enum BinaryKind {
     Leaf(LeafRange, NodeKind, LeafCounts),
     /// The indices of the two halves of the node.
     Fork([usize; 2]),
+}
+
+impl BinaryNode {
+    fn is_leaf(&self) -> bool {
+        matches!(self.kind, BinaryKind::Leaf(..))
+    }
 }
 
 impl BinaryTree {
@@ -56,7 +62,7 @@ impl BinaryTree {
             Kind::Instances => (NodeKind::Instances, count),
             Kind::Triangles => {
                 let corners = &mut CornerReader::new(context.source);
-                let is_indexed = VertexSet::new(record.prims, corners).is_some();
+                let is_indexed = share_vertices(record.prims, corners, context.level);
                 let kind = if is_indexed { NodeKind::IndexedLeaf } else { NodeKind::PlainLeaf };
                 (kind, put_duplicates_last(record.prims, corners))
             }
@@ -86,7 +92,16 @@ impl BinaryTree {
     /// The cheapest division of `children` children between two halves: the number of children for the first half,
     /// and the cost.
     fn cheapest_division(&self, [left, right]: [usize; 2], children: usize) -> (usize, f64) {
-        let (left, right) = (&self.all[left].costs, &self.all[right].costs);
+        let [left, right] = [left, right].map(|half| &self.all[half]);
+        // A leaf costs nothing, and nothing costs more as more children.
+        if left.is_leaf() {
+            return (1, right.costs[children - 2]);
+        }
+        if right.is_leaf() {
+            let cost = left.costs[children - 2];
+            return (1 + left.costs.partition_point(|more| *more > cost), cost);
+        }
+        let (left, right) = (&left.costs, &right.costs);
         let mut best = (1, f64::INFINITY);
         for first in 1..children {
             let cost = left[first - 1] + right[children - first - 1];

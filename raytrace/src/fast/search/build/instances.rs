@@ -8,7 +8,6 @@ use crate::fast::search::tree::Bounds;
 use bothways_common::{Placement, Scene, Shape};
 use glam::Vec3;
 use rayon::prelude::*;
-use std::ops::Range;
 
 /// The boxes of all instances of a scene, by the numbers of the instances.
 pub(super) struct InstanceBoxes<'a> {
@@ -51,28 +50,25 @@ pub(super) struct Numbered<'a> {
     pub(super) boxes: &'a InstanceBoxes<'a>,
 }
 
-impl Primitives for Numbered<'_> {
+impl<'a> Primitives for Numbered<'a> {
     /// 2 MB of boxes. They are divided among all threads.
     const AT_HAND: usize = 1 << 16;
     /// More at a time would be more boxes at hand, and more nodes that wait.
     const TOGETHER: usize = 1;
 
-    fn len(&self) -> usize {
-        self.numbers.len()
+    type Item = u32;
+
+    fn items(&self) -> &[u32] {
+        self.numbers
     }
 
-    fn at(&self, index: usize) -> PrimRef {
-        self.boxes.of(self.numbers[index])
+    fn items_mut(&mut self) -> &mut [u32] {
+        self.numbers
     }
 
-    fn for_each(&self, range: Range<usize>, mut take: impl FnMut(&PrimRef)) {
-        for number in &self.numbers[range] {
-            take(&self.boxes.of(*number));
-        }
-    }
-
-    fn swap(&mut self, first: usize, second: usize) {
-        self.numbers.swap(first, second);
+    fn boxes(&self) -> impl Fn(&u32) -> PrimRef + Copy + Send + Sync + use<'a> {
+        let boxes = self.boxes;
+        |number: &u32| boxes.of(*number)
     }
 
     fn split_at(self, index: usize) -> [Self; 2] {

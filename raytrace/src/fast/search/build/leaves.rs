@@ -2,25 +2,89 @@
 
 use super::prim_ref::{CornerReader, PrimRef};
 use crate::fast::search::tree::{IndexedLeaf, LEAF, PlainLeaf};
-use bothways_common::engine::simd::{Simd, SimdBase, SimdMask, best_level, dispatch, f32x16};
+use bothways_common::Mesh;
+use bothways_common::engine::simd::{Level, Simd, SimdBase, SimdMask, dispatch, f32x16, u32x16};
 use bothways_common::scene::are_same_corners;
 use glam::Vec3;
 
 /// The distinct vertices of some triangles, and each triangle as the numbers of its vertices.
-pub(super) struct VertexSet {
+struct VertexSet {
     vertices: [[f32; LEAF]; 3],
     vertex_count: usize,
     /// For each triangle, the numbers of its vertices.
     corners: [[u8; 3]; LEAF],
 }
 
+/// The same as indices of a mesh.
+struct IndexSet {
+    indices: [u32; LEAF],
+    index_count: usize,
+    corners: [[u8; 3]; LEAF],
+}
+
+/// Whether there are few enough vertices for an indexed leaf.
+pub(super) fn share_vertices(prims: &[PrimRef], corners: &mut CornerReader, level: Level) -> bool {
+    let by_index = corners.mesh_of(prims).and_then(|of| IndexSet::new(prims, of, level));
+    by_index.is_some() || VertexSet::by_place(prims, corners, level).is_some()
+}
+
+impl IndexSet {
+    /// The vertices of some triangles of a mesh, where its first triangle has this id; `None` if there are too many.
+    fn new(prims: &[PrimRef], (mesh, first_id): (&Mesh, u32), level: Level) -> Option<IndexSet> {
+        let mut set = IndexSet { indices: [0; LEAF], index_count: 0, corners: [[0; 3]; LEAF] };
+        let of = |prim: &PrimRef| mesh.triangles()[(prim.id() - first_id) as usize];
+        dispatch!(level, simd => set.add(simd, prims, of))?;
+        Some(set)
+    }
+
+    #[inline(always)]
+    fn add<S: Simd>(
+        &mut self,
+        simd: S,
+        prims: &[PrimRef],
+        of: impl Fn(&PrimRef) -> [u32; 3],
+    ) -> Option<()> {
+        for (numbers, prim) in self.corners.iter_mut().zip(prims) {
+            for (number, index) in numbers.iter_mut().zip(of(prim)) {
+                let same =
+                    u32x16::load_array_ref(simd, &self.indices).simd_eq(u32x16::splat(simd, index));
+                // The slots after the last index hold 0.
+                let at = (same.to_bitmask().trailing_zeros() as usize).min(self.index_count);
+                if at == self.index_count {
+                    *self.indices.get_mut(at)? = index;
+                    self.index_count += 1;
+                }
+                *number = u8::try_from(at).ok()?;
+            }
+        }
+        Some(())
+    }
+}
+
 impl VertexSet {
-    /// The vertices of some triangles; `None` if there are too many. Vertices with equal coordinates are the same
-    /// vertex.
-    pub(super) fn new(prims: &[PrimRef], corners: &mut CornerReader) -> Option<VertexSet> {
+    /// The vertices of some triangles; `None` if there are too many. If they are not few as vertices of a mesh, those
+    /// with equal coordinates are the same vertex.
+    fn new(prims: &[PrimRef], corners: &mut CornerReader, level: Level) -> Option<VertexSet> {
+        if let Some((mesh, first_id)) = corners.mesh_of(prims)
+            && let Some(set) = IndexSet::new(prims, (mesh, first_id), level)
+        {
+            let IndexSet { indices, index_count, corners } = set;
+            let mut vertices = [[0.0; LEAF]; 3];
+            for (lane, index) in indices[..index_count].iter().enumerate() {
+                let place = mesh.positions()[*index as usize].to_array();
+                for (row, coordinate) in vertices.iter_mut().zip(place) {
+                    row[lane] = coordinate;
+                }
+            }
+            return Some(VertexSet { vertices, vertex_count: index_count, corners });
+        }
+        VertexSet::by_place(prims, corners, level)
+    }
+
+    fn by_place(prims: &[PrimRef], corners: &mut CornerReader, level: Level) -> Option<VertexSet> {
         let mut set =
             VertexSet { vertices: [[0.0; LEAF]; 3], vertex_count: 0, corners: [[0; 3]; LEAF] };
-        dispatch!(best_level(), simd => set.add(simd, prims, corners))?;
+        dispatch!(level, simd => set.add(simd, prims, corners))?;
         Some(set)
     }
 
@@ -77,8 +141,8 @@ impl VertexSet {
 /// corners as a triangle with a smaller id. Returns the number of distinct triangles.
 pub(super) fn put_duplicates_last(prims: &mut [PrimRef], corners: &mut CornerReader) -> usize {
     let key = |prim: &PrimRef| {
-        let (low, high) = (prim.low.truncate(), prim.high.truncate());
-        let bits = low.to_array().into_iter().chain(high.to_array()).map(f32::to_bits);
+        let [x, y, z, _, u, v, w, _] = prim.0.0;
+        let bits = [x, y, z, u, v, w].into_iter().map(f32::to_bits);
         bits.fold(0_u32, |key, bits| (key.rotate_left(5) ^ bits).wrapping_mul(0x9E37_79B9))
     };
     let mut keys = [0; LEAF];
@@ -102,8 +166,12 @@ pub(super) fn put_duplicates_last(prims: &mut [PrimRef], corners: &mut CornerRea
 }
 
 /// The leaf of some triangles with few distinct vertices.
-pub(super) fn indexed_leaf(prims: &[PrimRef], corners: &mut CornerReader) -> IndexedLeaf {
-    VertexSet::new(prims, corners).expect("there are few").leaf(prims)
+pub(super) fn indexed_leaf(
+    prims: &[PrimRef],
+    corners: &mut CornerReader,
+    level: Level,
+) -> IndexedLeaf {
+    VertexSet::new(prims, corners, level).expect("there are few").leaf(prims)
 }
 
 /// The leaf of any triangles.

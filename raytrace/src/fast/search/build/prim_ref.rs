@@ -1,58 +1,70 @@
 //! The input of the build: references to primitives, each with its box and id.
 
 use crate::fast::search::tree::Bounds;
+use bothways_common::engine::simd::{
+    Select, Simd, SimdBase, SimdMask, SimdSplit, f32x4, f32x8, mask32x4,
+};
 use bothways_common::{Mesh, Plane, Scene, Shape, Sphere, Triangle};
-use glam::{Vec3, Vec4};
+use glam::Vec3;
 use rayon::prelude::*;
 
-/// A primitive during the build: its box, and the bits of its id in the fourth lane of the low corner.
+/// A box, as −low x, y, z, no number that means anything, high x, y, z, and again none: the box around several boxes is
+/// the maximum of each lane.
 #[derive(Clone, Copy)]
-pub(super) struct PrimRef {
-    pub(super) low: Vec4,
-    pub(super) high: Vec4,
+#[repr(C, align(32))]
+pub(super) struct Box8(pub(super) [f32; 8]);
+
+impl Box8 {
+    pub(super) const EMPTY: Box8 = Box8([f32::NEG_INFINITY; 8]);
+
+    #[inline(always)]
+    pub(super) fn lanes<S: Simd>(&self, simd: S) -> f32x8<S> {
+        f32x8::load_array_ref(simd, &self.0)
+    }
+
+    /// The box around this one and another.
+    #[inline(always)]
+    pub(super) fn union(&self, other: &Box8) -> Box8 {
+        Box8(std::array::from_fn(|lane| self.0[lane].max(other.0[lane])))
+    }
+
+    pub(super) fn bounds(&self) -> Bounds {
+        let [x, y, z, _, high @ .., _] = self.0;
+        Bounds { low: -Vec3::new(x, y, z), high: high.into() }
+    }
+
+    /// Half of the surface area: proportional to the chance that a ray meets the box. In `f64`, where
+    /// no finite box overflows.
+    #[inline(always)]
+    pub(super) fn half_area(&self) -> f64 {
+        let of = |axis: usize| (f64::from(self.0[4 + axis]) + f64::from(self.0[axis])).max(0.0);
+        let [x, y, z] = [of(0), of(1), of(2)];
+        x * y + y * z + z * x
+    }
 }
+
+/// A primitive during the build: its box, and the bits of its id in the fourth lane.
+#[derive(Clone, Copy)]
+pub(super) struct PrimRef(pub(super) Box8);
 
 impl PrimRef {
     pub(super) fn new(bounds: &Bounds, id: u32) -> PrimRef {
-        PrimRef { low: bounds.low.extend(f32::from_bits(id)), high: bounds.high.extend(0.0) }
+        let ([x, y, z], [u, v, w]) = ((-bounds.low).to_array(), bounds.high.to_array());
+        PrimRef(Box8([x, y, z, f32::from_bits(id), u, v, w, 0.0]))
     }
 
     pub(super) fn id(&self) -> u32 {
-        self.low.w.to_bits()
+        self.0.0[3].to_bits()
     }
 
     /// The centre of the box, computed from halves, so that it is finite. The lane of the id is left out: most ids
     /// are denormal numbers, and multiplying denormal numbers takes a hundred times as long.
     #[inline(always)]
-    pub(super) fn center(&self) -> Vec4 {
-        0.5 * self.low.with_w(0.0) + 0.5 * self.high
-    }
-}
-
-/// A box. Its fourth lane has no meaning.
-#[derive(Clone, Copy)]
-pub(super) struct Box4 {
-    pub(super) low: Vec4,
-    pub(super) high: Vec4,
-}
-
-impl Box4 {
-    pub(super) const EMPTY: Box4 = Box4 { low: Vec4::INFINITY, high: Vec4::NEG_INFINITY };
-
-    #[inline(always)]
-    pub(super) fn extended(self, low: Vec4, high: Vec4) -> Box4 {
-        Box4 { low: self.low.min(low), high: self.high.max(high) }
-    }
-
-    pub(super) fn bounds(&self) -> Bounds {
-        Bounds { low: self.low.truncate(), high: self.high.truncate() }
-    }
-
-    /// Half of the surface area: proportional to the chance that a ray meets the box. In `f64`, where
-    /// no finite box overflows.
-    pub(super) fn half_area(&self) -> f64 {
-        let size = (self.high.as_dvec4() - self.low.as_dvec4()).max(glam::DVec4::ZERO);
-        size.x * size.y + size.y * size.z + size.z * size.x
+    pub(super) fn center<S: Simd>(&self, simd: S) -> f32x4<S> {
+        let (low, high) = self.0.lanes(simd).split();
+        let is_axis = mask32x4::from_bitmask(simd, 0b0111);
+        let low = is_axis.select(low, f32x4::splat(simd, 0.0));
+        high * 0.5 - low * 0.5
     }
 }
 
@@ -162,14 +174,28 @@ impl<'a> CornerReader<'a> {
 
     #[inline]
     pub(super) fn of(&mut self, id: u32) -> [Vec3; 3] {
-        if !self.ids.contains(&id) {
-            (self.ids, self.among) = self.source.around(id);
-        }
+        self.find(id);
         match self.among {
             Among::Mesh(mesh) => {
                 mesh_corners(mesh, &mesh.triangles()[(id - self.ids.start) as usize])
             }
             Among::One(corners) => corners,
+        }
+    }
+
+    /// The mesh of which some triangles are all, and the id of its first triangle; `None` if there is no such mesh.
+    #[inline]
+    pub(super) fn mesh_of(&mut self, prims: &[PrimRef]) -> Option<(&'a Mesh, u32)> {
+        self.find(prims[0].id());
+        let Among::Mesh(mesh) = self.among else { return None };
+        prims.iter().all(|prim| self.ids.contains(&prim.id())).then_some((mesh, self.ids.start))
+    }
+
+    /// Finds the triangles around one.
+    #[inline]
+    fn find(&mut self, id: u32) {
+        if !self.ids.contains(&id) {
+            (self.ids, self.among) = self.source.around(id);
         }
     }
 }

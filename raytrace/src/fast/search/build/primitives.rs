@@ -2,7 +2,15 @@
 
 use super::prim_ref::{CornerReader, PrimRef, Source};
 use crate::fast::search::tree::WIDTH;
-use std::ops::Range;
+
+/// All threads together look at more primitives than this.
+const LARGE: usize = 2048;
+
+/// So many primitives each thread takes at a time: all, if they are few. Does not depend on the number of threads, so
+/// that neither does the hierarchy.
+pub(super) fn chunk_size(count: usize) -> usize {
+    if count <= LARGE { count } else { (count / 64).max(LARGE / 2) }
+}
 
 /// Some consecutive primitives of a hierarchy.
 pub(super) trait Primitives: Send + Sync + Sized {
@@ -11,13 +19,17 @@ pub(super) trait Primitives: Send + Sync + Sized {
     /// So many children of a node are built at the same time. What is built of them waits until all are.
     const TOGETHER: usize;
 
-    fn len(&self) -> usize;
+    /// What is kept of a primitive in their order.
+    type Item: Copy + Send + Sync;
 
-    fn at(&self, index: usize) -> PrimRef;
+    /// The primitives in their order.
+    fn items(&self) -> &[Self::Item];
 
-    fn for_each(&self, range: Range<usize>, take: impl FnMut(&PrimRef));
+    /// The same, in an order that may be changed.
+    fn items_mut(&mut self) -> &mut [Self::Item];
 
-    fn swap(&mut self, first: usize, second: usize);
+    /// Finds the boxes of primitives.
+    fn boxes(&self) -> impl Fn(&Self::Item) -> PrimRef + Copy + Send + Sync + use<Self>;
 
     /// Those before an index, and the others.
     fn split_at(self, index: usize) -> [Self; 2];
@@ -27,30 +39,32 @@ pub(super) trait Primitives: Send + Sync + Sized {
 
     /// Of triangles, only those that are distinct.
     fn distinct(self, source: Source) -> Self;
-}
-
-impl Primitives for &mut [PrimRef] {
-    const AT_HAND: usize = 0;
-    const TOGETHER: usize = WIDTH;
 
     #[inline(always)]
     fn len(&self) -> usize {
-        <[PrimRef]>::len(self)
+        self.items().len()
+    }
+}
+
+impl<'a> Primitives for &'a mut [PrimRef] {
+    const AT_HAND: usize = 0;
+    const TOGETHER: usize = WIDTH;
+
+    type Item = PrimRef;
+
+    #[inline(always)]
+    fn items(&self) -> &[PrimRef] {
+        self
     }
 
     #[inline(always)]
-    fn at(&self, index: usize) -> PrimRef {
-        self[index]
+    fn items_mut(&mut self) -> &mut [PrimRef] {
+        self
     }
 
     #[inline(always)]
-    fn for_each(&self, range: Range<usize>, take: impl FnMut(&PrimRef)) {
-        self[range].iter().for_each(take);
-    }
-
-    #[inline(always)]
-    fn swap(&mut self, first: usize, second: usize) {
-        <[PrimRef]>::swap(self, first, second);
+    fn boxes(&self) -> impl Fn(&PrimRef) -> PrimRef + Copy + Send + Sync + use<'a> {
+        |prim: &PrimRef| *prim
     }
 
     fn split_at(self, index: usize) -> [Self; 2] {

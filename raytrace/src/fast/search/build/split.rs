@@ -1,9 +1,12 @@
 //! Splits primitives in two: at the place that the surface area heuristic chooses, or by count.
 
-use super::prim_ref::{Box4, PrimRef, Source};
-use super::primitives::Primitives;
+use super::prim_ref::{Box8, PrimRef, Source};
+use super::primitives::{Primitives, chunk_size};
 use super::sah::{SahSplit, cheapest_split};
 use crate::fast::search::tree::{INSTANCES, LEAF, SPHERES};
+use bothways_common::engine::simd::{Level, Simd, SimdBase, SimdCombine, dispatch, f32x4, f32x8};
+use rayon::prelude::*;
+use std::ops::Range;
 
 /// From this depth on a record is halved by count, which bounds the depth of any hierarchy.
 pub(super) const DEEP: usize = 64;
@@ -11,8 +14,8 @@ pub(super) const DEEP: usize = 64;
 /// Some consecutive primitives to build, with the box around them and the box around their centres.
 pub(super) struct BuildRecord<P> {
     pub(super) prims: P,
-    pub(super) bounds: Box4,
-    centers: Box4,
+    pub(super) bounds: Box8,
+    centers: Box8,
     /// The index of the first primitive among all primitives.
     pub(super) first: usize,
     depth: usize,
@@ -21,13 +24,21 @@ pub(super) struct BuildRecord<P> {
 }
 
 impl<P: Primitives> BuildRecord<P> {
-    pub(super) fn new(prims: P, first: usize, depth: usize, distinct: bool) -> Self {
-        let (mut bounds, mut centers) = (Box4::EMPTY, Box4::EMPTY);
-        prims.for_each(0..prims.len(), |prim| {
-            bounds = bounds.extended(prim.low, prim.high);
-            let center = prim.center();
-            centers = centers.extended(center, center);
-        });
+    pub(super) fn new(prims: P, first: usize, depth: usize, distinct: bool, level: Level) -> Self {
+        let boxes = prims.boxes();
+        let of = |items: &[P::Item]| {
+            dispatch!(level, simd => {
+                let mut all = ExtentLanes::empty(simd);
+                for item in items {
+                    let prim = boxes(item);
+                    all.add(simd, &prim, prim.center(simd));
+                }
+                all.extent()
+            })
+        };
+        // A list of no primitives has no chunks.
+        let chunks = prims.items().par_chunks(chunk_size(prims.len()).max(1));
+        let Extent { bounds, centers } = chunks.map(of).reduce(|| Extent::EMPTY, Extent::union);
         BuildRecord { prims, bounds, centers, first, depth, distinct }
     }
 
@@ -42,6 +53,7 @@ impl<P: Primitives> BuildRecord<P> {
 pub(super) struct BuildContext<'a> {
     pub(super) kind: Kind,
     pub(super) source: Source<'a>,
+    pub(super) level: Level,
 }
 
 /// What a hierarchy is a hierarchy of.
@@ -73,48 +85,92 @@ pub(super) enum Split<P> {
 
 /// Splits a record; its halves are one level deeper.
 pub(super) fn split<P: Primitives>(record: BuildRecord<P>, context: &BuildContext) -> Split<P> {
-    let best = cheapest_split(&record.prims, &record.centers, context.most());
+    let best = cheapest_split(&record.prims, &record.centers, context.most(), context.level);
     if let Some(best) = best.filter(|_| record.depth < DEEP) {
-        return Split::Halves(partition(record, &best));
+        return Split::Halves(partition(record, &best, context.level));
     }
     let BuildRecord { prims, first, depth, distinct, .. } = record;
     if context.kind == Kind::Triangles && !distinct {
-        return Split::Distinct(BuildRecord::new(
-            prims.distinct(context.source),
-            first,
-            depth,
-            true,
-        ));
+        let prims = prims.distinct(context.source);
+        return Split::Distinct(BuildRecord::new(prims, first, depth, true, context.level));
     }
     // All centres are in one place, or the depth is too great: then any half is equally good if it is a number of
     // whole leaves.
     let half = (prims.len() / 2).next_multiple_of(context.most()).min(prims.len() - 1);
     let [left, right] = prims.split_at(half);
-    let left = BuildRecord::new(left, first, depth + 1, distinct);
-    Split::Halves([left, BuildRecord::new(right, first + half, depth + 1, distinct)])
+    let halves = [(left, first), (right, first + half)];
+    Split::Halves(
+        halves.map(|(prims, first)| {
+            BuildRecord::new(prims, first, depth + 1, distinct, context.level)
+        }),
+    )
+}
+
+/// The box around some primitives, and the box around their centres.
+#[derive(Clone, Copy)]
+struct Extent {
+    bounds: Box8,
+    centers: Box8,
+}
+
+impl Extent {
+    const EMPTY: Extent = Extent { bounds: Box8::EMPTY, centers: Box8::EMPTY };
+
+    fn union(self, Extent { bounds, centers }: Extent) -> Extent {
+        Extent { bounds: self.bounds.union(&bounds), centers: self.centers.union(&centers) }
+    }
+}
+
+/// An extent that grows.
+#[derive(Clone, Copy)]
+struct ExtentLanes<S: Simd> {
+    bounds: f32x8<S>,
+    centers: f32x8<S>,
+}
+
+impl<S: Simd> ExtentLanes<S> {
+    #[inline(always)]
+    fn empty(simd: S) -> Self {
+        let empty = Box8::EMPTY.lanes(simd);
+        ExtentLanes { bounds: empty, centers: empty }
+    }
+
+    #[inline(always)]
+    fn add(&mut self, simd: S, prim: &PrimRef, center: f32x4<S>) {
+        self.bounds = self.bounds.max(prim.0.lanes(simd));
+        self.centers = self.centers.max((-center).combine(center));
+    }
+
+    #[inline(always)]
+    fn extent(self) -> Extent {
+        let [bounds, centers] = [self.bounds, self.centers].map(|lanes| Box8(lanes.to_array()));
+        Extent { bounds, centers }
+    }
 }
 
 /// Sorts the primitives of a record by the side of a split on which they lie.
-fn partition<P: Primitives>(record: BuildRecord<P>, best: &SahSplit) -> [BuildRecord<P>; 2] {
+fn partition<P: Primitives>(
+    record: BuildRecord<P>,
+    best: &SahSplit,
+    level: Level,
+) -> [BuildRecord<P>; 2] {
     let BuildRecord { mut prims, first, depth, distinct, .. } = record;
-    let (mut middle, mut end) = (0, prims.len());
-    let (mut left, mut right) = ([Box4::EMPTY; 2], [Box4::EMPTY; 2]);
-    while middle < end {
-        let prim = prims.at(middle);
-        let center = prim.center();
-        let goes_left = best.mapping.bins(center)[best.axis] < best.bin;
-        let side = if goes_left { &mut left } else { &mut right };
-        side[0] = side[0].extended(prim.low, prim.high);
-        side[1] = side[1].extended(center, center);
-        if goes_left {
-            middle += 1;
-        } else {
-            end -= 1;
-            prims.swap(middle, end);
-        }
-    }
+    let (size, boxes) = (chunk_size(prims.len()), prims.boxes());
+    let items = prims.items_mut();
+    let of =
+        |items: &mut [P::Item]| dispatch!(level, simd => partition_items(simd, items, boxes, best));
+    let (middle, [left, right]) = if size >= items.len() {
+        of(items)
+    } else {
+        let chunks: Vec<(usize, [Extent; 2])> = items.par_chunks_mut(size).map(of).collect();
+        let lefts: Vec<usize> = chunks.iter().map(|(left, _)| *left).collect();
+        let middle = bring_together(items, size, &lefts);
+        let sides = chunks.iter().map(|(_, sides)| *sides);
+        let union = |a: [Extent; 2], b: [Extent; 2]| [a[0].union(b[0]), a[1].union(b[1])];
+        (middle, sides.fold([Extent::EMPTY; 2], union))
+    };
     let [left_prims, right_prims] = prims.split_at(middle);
-    let half = |prims, first, [bounds, centers]: [Box4; 2]| BuildRecord {
+    let half = |prims, first, Extent { bounds, centers }| BuildRecord {
         prims,
         bounds,
         centers,
@@ -123,4 +179,101 @@ fn partition<P: Primitives>(record: BuildRecord<P>, best: &SahSplit) -> [BuildRe
         distinct,
     };
     [half(left_prims, first, left), half(right_prims, first + middle, right)]
+}
+
+/// Sorts primitives by their side; returns the number on the left, and the extents of both sides.
+#[inline(always)]
+fn partition_items<S: Simd, T: Copy>(
+    simd: S,
+    items: &mut [T],
+    boxes: impl Fn(&T) -> PrimRef,
+    best: &SahSplit,
+) -> (usize, [Extent; 2]) {
+    let (mut middle, mut end) = (0, items.len());
+    let (mut left, mut right) = (ExtentLanes::empty(simd), ExtentLanes::empty(simd));
+    while middle < end {
+        let prim = boxes(&items[middle]);
+        let center = prim.center(simd);
+        if best.goes_left(simd, center) {
+            left.add(simd, &prim, center);
+            middle += 1;
+        } else {
+            right.add(simd, &prim, center);
+            end -= 1;
+            items.swap(middle, end);
+        }
+    }
+    (middle, [left.extent(), right.extent()])
+}
+
+/// Brings the left ones of chunks of some size, which are the first in each, before all others. Returns how many there are.
+fn bring_together<T: Send>(items: &mut [T], size: usize, lefts: &[usize]) -> usize {
+    let middle = lefts.iter().sum();
+    let count = items.len();
+    let chunks = (0..count).step_by(size).zip(lefts);
+    let lefts = chunks.clone().map(|(start, left)| start.max(middle)..(start + left).max(middle));
+    let rights = chunks
+        .map(|(start, left)| (start + left).min(middle)..(start + size).min(count).min(middle));
+    let (before, behind) = items.split_at_mut(middle);
+    let mut wrong_behind = pieces(behind, middle, lefts).into_iter();
+    let mut pairs = Vec::new();
+    let mut other: &mut [T] = &mut [];
+    for mut one in pieces(before, 0, rights) {
+        while !one.is_empty() {
+            if other.is_empty() {
+                other = wrong_behind.next().expect("as many are on the wrong side on both sides");
+            }
+            let both = one.len().min(other.len());
+            let (a, b);
+            (a, one) = one.split_at_mut(both);
+            (b, other) = std::mem::take(&mut other).split_at_mut(both);
+            pairs.push((a, b));
+        }
+    }
+    pairs.into_par_iter().for_each(|(a, b)| a.swap_with_slice(b));
+    middle
+}
+
+/// The parts of a list in some ranges that ascend, where its first index is `at`; no part that is empty.
+fn pieces<T>(
+    mut list: &mut [T],
+    mut at: usize,
+    ranges: impl Iterator<Item = Range<usize>>,
+) -> Vec<&mut [T]> {
+    let mut pieces = Vec::new();
+    for range in ranges.filter(|range| !range.is_empty()) {
+        let (_, from) = std::mem::take(&mut list).split_at_mut(range.start - at);
+        let (piece, rest) = from.split_at_mut(range.len());
+        (at, list) = (range.end, rest);
+        pieces.push(piece);
+    }
+    pieces
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_left_comes_before_all_others() {
+        let mut random = fastrand::Rng::with_seed(19);
+        for _ in 0..2000 {
+            let (size, count) = (random.usize(1..20), random.usize(0..200));
+            let share = random.f32();
+            let mut items: Vec<(bool, usize)> =
+                (0..count).map(|k| (random.f32() < share, k)).collect();
+            let mut expected = items.clone();
+            let sorted = |chunk: &mut [(bool, usize)]| {
+                chunk.sort_by_key(|(is_left, _)| !is_left);
+                chunk.iter().filter(|(is_left, _)| *is_left).count()
+            };
+            let lefts: Vec<usize> = items.chunks_mut(size).map(sorted).collect();
+            let middle = bring_together(&mut items, size, &lefts);
+            assert!(items[..middle].iter().all(|(is_left, _)| *is_left));
+            assert!(items[middle..].iter().all(|(is_left, _)| !is_left));
+            items.sort_unstable_by_key(|(_, k)| *k);
+            expected.sort_unstable_by_key(|(_, k)| *k);
+            assert_eq!(items, expected);
+        }
+    }
 }

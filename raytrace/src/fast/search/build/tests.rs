@@ -3,6 +3,7 @@
 use super::super::tree::{LEAF, LeafCounts, Node, NodeKind, NodeRef};
 use super::split::DEEP;
 use super::*;
+use bothways_common::engine::simd::{best_level, levels};
 use bothways_common::scene::{Instances, Placement};
 use bothways_common::{Mesh, Object, Plane, Shape, Sphere};
 use glam::Vec3;
@@ -15,7 +16,7 @@ fn mesh(positions: Vec<Vec3>) -> Scene {
 }
 
 fn built(scene: &Scene) -> Prepared {
-    build(scene, 16)
+    build(scene, 16, best_level())
 }
 
 /// The ids and the corners of a leaf's triangles.
@@ -84,6 +85,67 @@ fn every_primitive_is_in_one_leaf() {
         assert_eq!(ids, (0..count).collect::<Vec<_>>());
         assert!(depth < 12, "{depth}");
     }
+}
+
+/// A scene of two meshes, more triangles than one thread sorts, in no order; the second has its vertices once a triangle,
+/// the first, a height field, shares them.
+fn two_meshes() -> Scene {
+    let mut random = fastrand::Rng::with_seed(19);
+    let height: Vec<f32> = (0..101 * 101).map(|_| random.f32()).collect();
+    let vertex = |k: usize| Vec3::new((k % 101) as f32, height[k], (k / 101) as f32);
+    let mut triangles: Vec<[u32; 3]> = (0..100 * 100_u32)
+        .map(|k| k / 100 * 101 + k % 100)
+        .flat_map(|k| [[k, k + 1, k + 101], [k + 102, k + 101, k + 1]])
+        .collect();
+    random.shuffle(&mut triangles);
+    let shared = Mesh::new((0..101 * 101).map(vertex).collect(), triangles).unwrap();
+    let corners = shared.triangles().as_flattened().iter();
+    let apart = corners.map(|k| shared.positions()[*k as usize] + 150.0 * Vec3::X).collect();
+    let apart = Mesh::new(apart, (0..20_000).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect());
+    let objects = [shared, apart.unwrap()].map(|mesh| Object::from(Shape::Mesh(mesh)));
+    Scene::new(objects.into()).unwrap()
+}
+
+#[test]
+fn threads_and_simd_change_no_bit_of_a_hierarchy() {
+    let scene = two_meshes();
+    let shown = |threads: usize, level: Level| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let Prepared { nodes, indexed_leaves, plain_leaves, .. } =
+            pool.install(|| build(&scene, 16, level));
+        format!("{nodes:?} {indexed_leaves:?} {plain_leaves:?}")
+    };
+    let expected = shown(1, best_level());
+    for level in levels() {
+        assert!(shown(3, level) == expected, "at {level:?}");
+    }
+}
+
+#[test]
+fn vertices_are_shared_by_index_or_by_place() {
+    let scene = two_meshes();
+    let prepared = built(&scene);
+    let (depth, ids) = inspect(&prepared, &scene);
+    assert_eq!(ids, (0..40_000).collect::<Vec<_>>());
+    assert!(depth < 6, "{depth}");
+    // A leaf of 2 × 3 cells of the height field has 12 vertices, whether the mesh names each once or six times.
+    let of = |low: u32| {
+        let leaves = prepared.indexed_leaves.iter();
+        leaves.filter(|leaf| (low..low + 20_000).contains(&leaf.ids[0])).count()
+    };
+    assert!(of(0) > 1200 && of(20_000) > 1200, "{} and {}", of(0), of(20_000));
+    assert_eq!(of(0) + of(20_000), prepared.indexed_leaves.len());
+}
+
+#[test]
+fn a_leaf_may_hold_triangles_of_two_meshes() {
+    let of = |places: [Vec3; 3]| Mesh::new(places.to_vec(), vec![[0, 1, 2]]).unwrap();
+    let meshes = [of([Vec3::ZERO, Vec3::X, Vec3::Y]), of([Vec3::Y, Vec3::ONE, Vec3::X])];
+    let objects = meshes.map(|mesh| Object::from(Shape::Mesh(mesh)));
+    let scene = Scene::new(objects.into()).unwrap();
+    let prepared = built(&scene);
+    assert_eq!(inspect(&prepared, &scene), (0, vec![0, 1]));
+    assert_eq!((prepared.indexed_leaves.len(), prepared.plain_leaves.len()), (1, 0));
 }
 
 /// More instances than have their boxes at hand at one time, in two objects, and the places of all.
