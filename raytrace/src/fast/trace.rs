@@ -1,4 +1,4 @@
-//! Traces the rays of tiles. It is compiled once, for the rays of a picture and for any other.
+//! Traces the rays of tiles: those of a picture and any other ray alike, so that the walk is not compiled for each.
 
 use super::search::tile_frustum::FrustumTemplate;
 use super::search::walk::Walker;

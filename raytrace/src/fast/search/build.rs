@@ -27,8 +27,8 @@ use split::{BuildContext, BuildRecord, Kind};
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// Builds the hierarchy of a scene, to be traced in tiles of `side` × `side` samples at a level of SIMD, which it is built at, too.
-/// A mesh of which there are instances has a hierarchy of its own, once.
+/// Builds the hierarchy of a scene, to be traced in tiles of `side` × `side` samples. It is built and traced at one level
+/// of SIMD. A mesh of which there are instances has a hierarchy of its own, once.
 pub(crate) fn build(scene: &Scene, side: usize, level: Level) -> Prepared {
     let mut collected = collect(scene);
     let mut prepared = Prepared {

@@ -93,7 +93,8 @@ impl BinaryTree {
     /// and the cost.
     fn cheapest_division(&self, [left, right]: [usize; 2], children: usize) -> (usize, f64) {
         let [left, right] = [left, right].map(|half| &self.all[half]);
-        // A leaf costs nothing, and nothing costs more as more children.
+        // A leaf costs nothing as one child, and no node costs more if it may become more children: all others are the other
+        // half's, or as few of them as cost the least.
         if left.is_leaf() {
             return (1, right.costs[children - 2]);
         }

@@ -3,13 +3,10 @@
 
 use super::arena::Arena;
 use super::collapse::BinaryTree;
-use super::primitives::Primitives;
+use super::primitives::{LARGE, Primitives};
 use super::split::{BuildContext, BuildRecord, Split, split};
 use crate::fast::search::tree::{Bounds, LeafCounts, Node, NodeKind, NodeRef, WIDTH};
 use rayon::prelude::*;
-
-/// One thread builds a record with fewer primitives than this.
-const SERIAL: usize = 4096;
 
 /// Builds the hierarchy of a record, beginning with its first node, behind what is in an arena. If there are many
 /// primitives, this function splits the record with the largest box until a node is full.
@@ -22,7 +19,7 @@ pub(super) fn grow<P: Primitives>(
     if count < P::AT_HAND {
         return whole.at_hand(|whole| grow(whole, context, arena));
     }
-    if count < SERIAL {
+    if count < LARGE {
         return whole.at_hand(|whole| BinaryTree::new(whole, context).collapse(arena));
     }
     let mut records = vec![whole];

@@ -15,7 +15,7 @@ struct VertexSet {
     corners: [[u8; 3]; LEAF],
 }
 
-/// The same as indices of a mesh.
+/// The distinct vertices as indices of a mesh, and each triangle as numbers among them.
 struct IndexSet {
     indices: [u32; LEAF],
     index_count: usize,
@@ -48,7 +48,8 @@ impl IndexSet {
             for (number, index) in numbers.iter_mut().zip(of(prim)) {
                 let same =
                     u32x16::load_array_ref(simd, &self.indices).simd_eq(u32x16::splat(simd, index));
-                // The slots after the last index hold 0.
+                // The slots after the last index hold 0: index 0 is found in its own, or in the first of these, which becomes
+                // its own.
                 let at = (same.to_bitmask().trailing_zeros() as usize).min(self.index_count);
                 if at == self.index_count {
                     *self.indices.get_mut(at)? = index;
@@ -62,8 +63,8 @@ impl IndexSet {
 }
 
 impl VertexSet {
-    /// The vertices of some triangles; `None` if there are too many. If they are not few as vertices of a mesh, those
-    /// with equal coordinates are the same vertex.
+    /// The vertices of some triangles; `None` if there are too many. They are told apart by their indices, if they are few
+    /// then, and otherwise by their places.
     fn new(prims: &[PrimRef], corners: &mut CornerReader, level: Level) -> Option<VertexSet> {
         if let Some((mesh, first_id)) = corners.mesh_of(prims)
             && let Some(set) = IndexSet::new(prims, (mesh, first_id), level)

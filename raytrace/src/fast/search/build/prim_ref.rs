@@ -8,8 +8,8 @@ use bothways_common::{Mesh, Plane, Scene, Shape, Sphere, Triangle};
 use glam::Vec3;
 use rayon::prelude::*;
 
-/// A box, as −low x, y, z, no number that means anything, high x, y, z, and again none: the box around several boxes is
-/// the maximum of each lane.
+/// A box, as −low x, y, z, a lane without meaning, high x, y, z, and another: the box around several boxes is the
+/// maximum of each lane.
 #[derive(Clone, Copy)]
 #[repr(C, align(32))]
 pub(super) struct Box8(pub(super) [f32; 8]);
@@ -49,7 +49,9 @@ pub(super) struct PrimRef(pub(super) Box8);
 
 impl PrimRef {
     pub(super) fn new(bounds: &Bounds, id: u32) -> PrimRef {
-        let ([x, y, z], [u, v, w]) = ((-bounds.low).to_array(), bounds.high.to_array());
+        // Adding 0 makes −0 and 0 equal, of which a maximum may be either.
+        let ([x, y, z], [u, v, w]) =
+            ((-(bounds.low + 0.0)).to_array(), (bounds.high + 0.0).to_array());
         PrimRef(Box8([x, y, z, f32::from_bits(id), u, v, w, 0.0]))
     }
 

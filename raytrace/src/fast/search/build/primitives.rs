@@ -3,13 +3,14 @@
 use super::prim_ref::{CornerReader, PrimRef, Source};
 use crate::fast::search::tree::WIDTH;
 
-/// All threads together look at more primitives than this.
-const LARGE: usize = 2048;
+/// From so many primitives on, all threads work on them together. A thread that works alone on a tree, on fewer than this,
+/// is not interrupted.
+pub(super) const LARGE: usize = 4096;
 
-/// So many primitives each thread takes at a time: all, if they are few. Does not depend on the number of threads, so
-/// that neither does the hierarchy.
+/// The size of the chunks into which primitives are divided among threads: all of them, if they are few. It does not
+/// depend on the number of threads, so that neither does the hierarchy.
 pub(super) fn chunk_size(count: usize) -> usize {
-    if count <= LARGE { count } else { (count / 64).max(LARGE / 2) }
+    if count < LARGE { count } else { (count / 64).max(LARGE / 4) }
 }
 
 /// Some consecutive primitives of a hierarchy.

@@ -10,8 +10,9 @@ use rayon::prelude::*;
 /// Bins along an axis: one more than there are candidate splits.
 pub(super) const BINS: usize = 16;
 
-/// As a mask of the bits of a bin.
+/// The last bin, which is all bits that a bin may have.
 const LAST_BIN: i32 = 15;
+const _: () = assert!(BINS == 16);
 
 /// From so many primitives on, they are put into two sets of bins in turn.
 const MANY: usize = 256;
@@ -40,8 +41,10 @@ impl BinMapping {
     /// The bins of a centre along the three axes.
     #[inline(always)]
     fn bins<S: Simd>(&self, simd: S, center: f32x4<S>) -> i32x4<S> {
-        let [low, scale] = [&self.low, &self.scale].map(|of| f32x4::load_array_ref(simd, of));
-        // If the scale is 0, a difference that overflows may be no number, which becomes one that ends in 0 bits.
+        let low = f32x4::load_array_ref(simd, &self.low);
+        let scale = f32x4::load_array_ref(simd, &self.scale);
+        // A difference that overflows has a scale of 0. The product is no number, and becomes 0 or the least integer, as the
+        // machine has it: both end in 0 bits.
         let places: i32x4<S> = ((center - low) * scale).to_int();
         places & i32x4::splat(simd, LAST_BIN)
     }

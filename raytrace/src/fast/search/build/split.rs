@@ -143,8 +143,7 @@ impl<S: Simd> ExtentLanes<S> {
 
     #[inline(always)]
     fn extent(self) -> Extent {
-        let [bounds, centers] = [self.bounds, self.centers].map(|lanes| Box8(lanes.to_array()));
-        Extent { bounds, centers }
+        Extent { bounds: Box8(self.bounds.to_array()), centers: Box8(self.centers.to_array()) }
     }
 }
 
@@ -206,7 +205,8 @@ fn partition_items<S: Simd, T: Copy>(
     (middle, [left.extent(), right.extent()])
 }
 
-/// Brings the left ones of chunks of some size, which are the first in each, before all others. Returns how many there are.
+/// Brings the left ones of chunks of some size, which are the first in each, before all others. Returns how many there
+/// are.
 fn bring_together<T: Send>(items: &mut [T], size: usize, lefts: &[usize]) -> usize {
     let middle = lefts.iter().sum();
     let count = items.len();

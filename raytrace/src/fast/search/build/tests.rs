@@ -79,7 +79,7 @@ fn inspect(prepared: &Prepared, scene: &Scene) -> (usize, Vec<u32>) {
 #[test]
 fn every_primitive_is_in_one_leaf() {
     let corner = |k: u32| Vec3::new((k * 37 % 101) as f32, (k * 53 % 97) as f32, (k % 89) as f32);
-    for count in [1, 8, 9, 70, 3000, 20_000] {
+    for count in [1, 8, 9, 70, 3000, 4095, 4096, 4097, 5120, 20_000] {
         let scene = mesh((0..count * 3).map(corner).collect());
         let (depth, ids) = inspect(&built(&scene), &scene);
         assert_eq!(ids, (0..count).collect::<Vec<_>>());
@@ -87,12 +87,12 @@ fn every_primitive_is_in_one_leaf() {
     }
 }
 
-/// A scene of two meshes, more triangles than one thread sorts, in no order; the second has its vertices once a triangle,
-/// the first, a height field, shares them.
-fn two_meshes() -> Scene {
+/// A scene of three objects with more triangles than one thread sorts, in no order: a height field whose triangles share
+/// vertices, the same as triangles of their own vertices, and scattered triangles. Some coordinates are −0.
+fn fields() -> Scene {
     let mut random = fastrand::Rng::with_seed(19);
     let height: Vec<f32> = (0..101 * 101).map(|_| random.f32()).collect();
-    let vertex = |k: usize| Vec3::new((k % 101) as f32, height[k], (k / 101) as f32);
+    let vertex = |k: usize| Vec3::new((k % 101) as f32, height[k], -((k / 101) as f32));
     let mut triangles: Vec<[u32; 3]> = (0..100 * 100_u32)
         .map(|k| k / 100 * 101 + k % 100)
         .flat_map(|k| [[k, k + 1, k + 101], [k + 102, k + 101, k + 1]])
@@ -101,40 +101,86 @@ fn two_meshes() -> Scene {
     let shared = Mesh::new((0..101 * 101).map(vertex).collect(), triangles).unwrap();
     let corners = shared.triangles().as_flattened().iter();
     let apart = corners.map(|k| shared.positions()[*k as usize] + 150.0 * Vec3::X).collect();
-    let apart = Mesh::new(apart, (0..20_000).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect());
-    let objects = [shared, apart.unwrap()].map(|mesh| Object::from(Shape::Mesh(mesh)));
-    Scene::new(objects.into()).unwrap()
+    let mut place = || Vec3::from_array(std::array::from_fn(|_| 100.0 * random.f32()));
+    let scattered = (0..5000).flat_map(|_| {
+        let center = place() - 200.0 * Vec3::Y;
+        [(); 3].map(|()| center + 0.1 * place())
+    });
+    let scattered = scattered.collect();
+    let of = |positions: Vec<Vec3>| {
+        let count = u32::try_from(positions.len()).unwrap();
+        Mesh::new(positions, (0..count / 3).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect())
+    };
+    let meshes = [shared, of(apart).unwrap(), of(scattered).unwrap()];
+    Scene::new(meshes.map(|mesh| Object::from(Shape::Mesh(mesh))).into()).unwrap()
 }
 
 #[test]
 fn threads_and_simd_change_no_bit_of_a_hierarchy() {
-    let scene = two_meshes();
-    let shown = |threads: usize, level: Level| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let Prepared { nodes, indexed_leaves, plain_leaves, .. } =
-            pool.install(|| build(&scene, 16, level));
-        format!("{nodes:?} {indexed_leaves:?} {plain_leaves:?}")
-    };
-    let expected = shown(1, best_level());
-    for level in levels() {
-        assert!(shown(3, level) == expected, "at {level:?}");
+    for (name, scene) in [("fields", fields()), ("a crowd", crowd().0)] {
+        let shown = |threads: usize, level: Level| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let built = pool.install(|| build(&scene, 16, level));
+            let Prepared { nodes, indexed_leaves, plain_leaves, .. } = &built;
+            let Prepared { roots, bounds, instance_order, meshes, .. } = &built;
+            let leaves = format!("{indexed_leaves:?} {plain_leaves:?} {instance_order:?}");
+            format!("{nodes:?} {leaves} {roots:?} {bounds:?} {meshes:?}")
+        };
+        let expected = shown(1, best_level());
+        for level in levels() {
+            assert!(shown(3, level) == expected, "{name}, at {level:?}");
+        }
     }
 }
 
 #[test]
 fn vertices_are_shared_by_index_or_by_place() {
-    let scene = two_meshes();
+    let scene = fields();
     let prepared = built(&scene);
     let (depth, ids) = inspect(&prepared, &scene);
-    assert_eq!(ids, (0..40_000).collect::<Vec<_>>());
+    assert_eq!(ids, (0..45_000).collect::<Vec<_>>());
     assert!(depth < 6, "{depth}");
-    // A leaf of 2 × 3 cells of the height field has 12 vertices, whether the mesh names each once or six times.
-    let of = |low: u32| {
-        let leaves = prepared.indexed_leaves.iter();
-        leaves.filter(|leaf| (low..low + 20_000).contains(&leaf.ids[0])).count()
+    // A leaf of 2 × 3 cells of the height field has 12 vertices, whether the mesh names each once or six times. Those of
+    // scattered triangles are not shared.
+    let of = |object: u32| {
+        let is_of = |id: u32| id / 20_000 == object;
+        let indexed = prepared.indexed_leaves.iter().filter(|leaf| is_of(leaf.ids[0])).count();
+        let plain = prepared.plain_leaves.iter().filter(|leaf| is_of(leaf.ids[0])).count();
+        (indexed, plain)
     };
-    assert!(of(0) > 1200 && of(20_000) > 1200, "{} and {}", of(0), of(20_000));
-    assert_eq!(of(0) + of(20_000), prepared.indexed_leaves.len());
+    let ((shared, no), (apart, none), (few, many)) = (of(0), of(1), of(2));
+    assert!(shared > 1200 && apart > 1200 && many > 300, "{shared}, {apart} and {many}");
+    assert!(no < 400 && none < 400 && few < 10, "{no}, {none} and {few}");
+}
+
+#[test]
+fn a_vertex_is_known_by_its_index_if_there_are_few() {
+    // Places 0 and 3 are the same. Three more vertices than one leaf holds follow.
+    let mut places = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::ZERO];
+    places.extend((4..17).map(|k| Vec3::new(k as f32, (k * k) as f32, 1.0)));
+    let corners_of = |triangles: &[[u32; 3]]| {
+        let mesh = Mesh::new(places.clone(), triangles.to_vec()).unwrap();
+        let scene = Scene::new(vec![Object::from(Shape::Mesh(mesh))]).unwrap();
+        let prepared = built(&scene);
+        let ids: Vec<u32> = (0..u32::try_from(triangles.len()).unwrap()).collect();
+        assert_eq!(inspect(&prepared, &scene), (0, ids));
+        let leaf = prepared.indexed_leaves.first()?;
+        let used = leaf.corners[..triangles.len()].as_flattened().iter();
+        used.max().map(|last| last / 4 + 1)
+    };
+    // Index 0 is told from slots that are not used, first or later.
+    assert_eq!(corners_of(&[[0, 1, 2], [3, 2, 1]]), Some(4));
+    assert_eq!(corners_of(&[[2, 1, 4], [4, 1, 0]]), Some(4));
+    // Sixteen by their indices, with index 0 the last.
+    let sixteen = [[1, 2, 3], [4, 5, 6], [7, 8, 9], [10, 11, 12], [13, 14, 15], [14, 15, 0]];
+    assert_eq!(corners_of(&sixteen), Some(16));
+    // Seventeen, which are sixteen by their places; and seventeen of both.
+    let seventeen = [[0, 1, 2], [3, 4, 5], [6, 7, 8], [9, 10, 11], [12, 13, 14], [14, 15, 16]];
+    assert_eq!(corners_of(&seventeen), Some(16));
+    places[3] = Vec3::Z;
+    let mesh = Mesh::new(places.clone(), seventeen.to_vec()).unwrap();
+    let scene = Scene::new(vec![Object::from(Shape::Mesh(mesh))]).unwrap();
+    assert_eq!(built(&scene).plain_leaves.len(), 1);
 }
 
 #[test]
