@@ -1,130 +1,98 @@
 //! Leaves of triangles.
 
-use super::prim_ref::{CornerReader, PrimRef};
+use super::prim_ref::{CornerReader, PrimRef, place_bits};
 use crate::fast::search::tree::{IndexedLeaf, LEAF, PlainLeaf};
 use bothways_common::Mesh;
-use bothways_common::engine::simd::{Level, Simd, SimdBase, SimdMask, dispatch, f32x16, u32x16};
+use bothways_common::engine::simd::{Level, Simd, SimdBase, SimdMask, dispatch, mask32x16, u32x16};
 use bothways_common::scene::are_same_corners;
-use glam::Vec3;
 
-/// The distinct vertices of some triangles, and each triangle as the numbers of its vertices.
-struct VertexSet {
-    vertices: [[f32; LEAF]; 3],
+/// The distinct vertices of some triangles, and each triangle as the numbers of its vertices. A vertex is known by its
+/// index in a mesh, one word, or by the bits of its coordinates, three words.
+struct VertexSet<const WORDS: usize> {
+    vertices: [[u32; LEAF]; WORDS],
     vertex_count: usize,
     /// For each triangle, the numbers of its vertices.
     corners: [[u8; 3]; LEAF],
 }
 
-/// The distinct vertices as indices of a mesh, and each triangle as numbers among them.
-struct IndexSet {
-    indices: [u32; LEAF],
-    index_count: usize,
-    corners: [[u8; 3]; LEAF],
-}
-
-/// Whether there are few enough vertices for an indexed leaf.
-pub(super) fn share_vertices(prims: &[PrimRef], corners: &mut CornerReader, level: Level) -> bool {
-    let by_index = corners.mesh_of(prims).and_then(|of| IndexSet::new(prims, of, level));
-    by_index.is_some() || VertexSet::by_place(prims, corners, level).is_some()
-}
-
-impl IndexSet {
-    /// The vertices of some triangles of a mesh, where its first triangle has this id; `None` if there are too many.
-    fn new(prims: &[PrimRef], (mesh, first_id): (&Mesh, u32), level: Level) -> Option<IndexSet> {
-        let mut set = IndexSet { indices: [0; LEAF], index_count: 0, corners: [[0; 3]; LEAF] };
-        let of = |prim: &PrimRef| mesh.triangles()[(prim.id() - first_id) as usize];
-        dispatch!(level, simd => set.add(simd, prims, of))?;
-        Some(set)
-    }
-
-    #[inline(always)]
-    fn add<S: Simd>(
-        &mut self,
-        simd: S,
+impl<const WORDS: usize> VertexSet<WORDS> {
+    /// The vertices of some triangles; `None` if there are too many.
+    fn new(
         prims: &[PrimRef],
-        of: impl Fn(&PrimRef) -> [u32; 3],
-    ) -> Option<()> {
-        for (numbers, prim) in self.corners.iter_mut().zip(prims) {
-            for (number, index) in numbers.iter_mut().zip(of(prim)) {
-                let same =
-                    u32x16::load_array_ref(simd, &self.indices).simd_eq(u32x16::splat(simd, index));
-                // The slots after the last index hold 0: index 0 is found in its own, or in the first of these, which becomes
-                // its own.
-                let at = (same.to_bitmask().trailing_zeros() as usize).min(self.index_count);
-                if at == self.index_count {
-                    *self.indices.get_mut(at)? = index;
-                    self.index_count += 1;
-                }
-                *number = u8::try_from(at).ok()?;
-            }
-        }
-        Some(())
-    }
-}
-
-impl VertexSet {
-    /// The vertices of some triangles; `None` if there are too many. They are told apart by their indices, if they are few
-    /// then, and otherwise by their places.
-    fn new(prims: &[PrimRef], corners: &mut CornerReader, level: Level) -> Option<VertexSet> {
-        if let Some((mesh, first_id)) = corners.mesh_of(prims)
-            && let Some(set) = IndexSet::new(prims, (mesh, first_id), level)
-        {
-            let IndexSet { indices, index_count, corners } = set;
-            let mut vertices = [[0.0; LEAF]; 3];
-            for (lane, index) in indices[..index_count].iter().enumerate() {
-                let place = mesh.positions()[*index as usize].to_array();
-                for (row, coordinate) in vertices.iter_mut().zip(place) {
-                    row[lane] = coordinate;
-                }
-            }
-            return Some(VertexSet { vertices, vertex_count: index_count, corners });
-        }
-        VertexSet::by_place(prims, corners, level)
-    }
-
-    fn by_place(prims: &[PrimRef], corners: &mut CornerReader, level: Level) -> Option<VertexSet> {
+        level: Level,
+        mut of: impl FnMut(&PrimRef) -> [[u32; WORDS]; 3],
+    ) -> Option<Self> {
         let mut set =
-            VertexSet { vertices: [[0.0; LEAF]; 3], vertex_count: 0, corners: [[0; 3]; LEAF] };
-        dispatch!(level, simd => set.add(simd, prims, corners))?;
+            VertexSet { vertices: [[0; LEAF]; WORDS], vertex_count: 0, corners: [[0; 3]; LEAF] };
+        dispatch!(level, simd => {
+            for (lane, prim) in prims.iter().enumerate() {
+                let [a, b, c] = of(prim);
+                let numbers = [set.number(simd, a)?, set.number(simd, b)?, set.number(simd, c)?];
+                set.corners[lane] = numbers;
+            }
+            Some(())
+        })?;
         Some(set)
-    }
-
-    #[inline(always)]
-    fn add<S: Simd>(
-        &mut self,
-        simd: S,
-        prims: &[PrimRef],
-        corners: &mut CornerReader,
-    ) -> Option<()> {
-        for (lane, prim) in prims.iter().enumerate() {
-            let [a, b, c] = corners.of(prim.id());
-            let numbers = [self.number(simd, a)?, self.number(simd, b)?, self.number(simd, c)?];
-            self.corners[lane] = numbers;
-        }
-        Some(())
     }
 
     /// The number of a vertex. A new vertex is added if there is room for it.
     #[inline(always)]
-    fn number<S: Simd>(&mut self, simd: S, vertex: Vec3) -> Option<u8> {
-        let [x, y, z] = &mut self.vertices;
-        let same = f32x16::load_array_ref(simd, x).simd_eq(f32x16::splat(simd, vertex.x))
-            & f32x16::load_array_ref(simd, y).simd_eq(f32x16::splat(simd, vertex.y))
-            & f32x16::load_array_ref(simd, z).simd_eq(f32x16::splat(simd, vertex.z));
-        // The slots after the last vertex hold the origin.
+    fn number<S: Simd>(&mut self, simd: S, vertex: [u32; WORDS]) -> Option<u8> {
+        let mut same = mask32x16::splat(simd, true);
+        for (row, word) in self.vertices.iter().zip(vertex) {
+            same &= u32x16::load_array_ref(simd, row).simd_eq(u32x16::splat(simd, word));
+        }
+        // The slots after the last vertex hold zeros: a vertex of zeros is found in its own, or in the first of these,
+        // which becomes its own.
         let number = (same.to_bitmask().trailing_zeros() as usize).min(self.vertex_count);
         if number == self.vertex_count {
             if number == LEAF {
                 return None;
             }
-            [x[number], y[number], z[number]] = vertex.to_array();
+            for (row, word) in self.vertices.iter_mut().zip(vertex) {
+                row[number] = word;
+            }
             self.vertex_count += 1;
         }
         u8::try_from(number).ok()
     }
+}
+
+impl VertexSet<1> {
+    /// Vertices by their indices in a mesh, whose first triangle has this id.
+    fn by_index(prims: &[PrimRef], (mesh, first_id): (&Mesh, u32), level: Level) -> Option<Self> {
+        let of = |prim: &PrimRef| mesh.triangles()[(prim.id() - first_id) as usize];
+        VertexSet::new(prims, level, |prim| of(prim).map(|index| [index]))
+    }
+}
+
+impl VertexSet<3> {
+    /// Vertices by their places: those with equal coordinates are the same vertex.
+    fn by_place(prims: &[PrimRef], corners: &mut CornerReader, level: Level) -> Option<Self> {
+        VertexSet::new(prims, level, |prim| corners.of(prim.id()).map(place_bits))
+    }
+
+    /// Vertices by their indices, if they are few then, and otherwise by their places.
+    fn of(prims: &[PrimRef], corners: &mut CornerReader, level: Level) -> Option<Self> {
+        if let Some((mesh, first_id)) = corners.mesh_of(prims)
+            && let Some(set) = VertexSet::by_index(prims, (mesh, first_id), level)
+        {
+            let VertexSet { vertices: [indices], vertex_count, corners } = set;
+            let mut vertices = [[0; LEAF]; 3];
+            for (lane, index) in indices[..vertex_count].iter().enumerate() {
+                let place = place_bits(mesh.positions()[*index as usize]);
+                for (row, word) in vertices.iter_mut().zip(place) {
+                    row[lane] = word;
+                }
+            }
+            return Some(VertexSet { vertices, vertex_count, corners });
+        }
+        VertexSet::by_place(prims, corners, level)
+    }
 
     fn leaf(&self, prims: &[PrimRef]) -> IndexedLeaf {
         let vertices = self.vertices.map(|row| {
+            let row = row.map(f32::from_bits);
             std::array::from_fn(|k| if k < self.vertex_count { row[k] } else { row[0] })
         });
         let mut leaf = IndexedLeaf { vertices, corners: [[0; 4]; LEAF], ids: [0; LEAF] };
@@ -136,6 +104,12 @@ impl VertexSet {
         }
         leaf
     }
+}
+
+/// Whether there are few enough vertices for an indexed leaf.
+pub(super) fn share_vertices(prims: &[PrimRef], corners: &mut CornerReader, level: Level) -> bool {
+    let by_index = corners.mesh_of(prims).and_then(|of| VertexSet::by_index(prims, of, level));
+    by_index.is_some() || VertexSet::by_place(prims, corners, level).is_some()
 }
 
 /// Orders the triangles of a leaf so that duplicates, which are never visible, come last: a duplicate has the same
@@ -172,7 +146,7 @@ pub(super) fn indexed_leaf(
     corners: &mut CornerReader,
     level: Level,
 ) -> IndexedLeaf {
-    VertexSet::new(prims, corners, level).expect("there are few").leaf(prims)
+    VertexSet::of(prims, corners, level).expect("there are few").leaf(prims)
 }
 
 /// The leaf of any triangles.

@@ -125,6 +125,11 @@ pub(super) fn mesh_corners(mesh: &Mesh, corners: &[u32; 3]) -> [Vec3; 3] {
     corners.map(|vertex| mesh.positions()[vertex as usize])
 }
 
+/// The bits of the coordinates of a place. Adding 0 makes −0 and 0 equal.
+pub(super) fn place_bits(place: Vec3) -> [u32; 3] {
+    (place + 0.0).to_array().map(f32::to_bits)
+}
+
 pub(super) fn triangle(id: u32, [a, b, c]: [Vec3; 3]) -> PrimRef {
     PrimRef::new(&Bounds { low: a.min(b).min(c), high: a.max(b).max(c) }, id)
 }

@@ -1,6 +1,6 @@
 //! Primitives in an order that the build changes: at hand with their boxes, or found anew where they are asked for.
 
-use super::prim_ref::{CornerReader, PrimRef, Source};
+use super::prim_ref::{CornerReader, PrimRef, Source, place_bits};
 use crate::fast::search::tree::WIDTH;
 
 /// From so many primitives on, all threads work on them together. A thread that works alone on a tree, on fewer than this,
@@ -87,8 +87,7 @@ impl<'a> Primitives for &'a mut [PrimRef] {
 fn leave_out_duplicates(prims: &mut [PrimRef], source: Source) -> usize {
     let mut corners = CornerReader::new(source);
     let mut bits = |prim: &PrimRef| {
-        // Adding 0 makes −0 and 0 equal.
-        let mut bits = corners.of(prim.id()).map(|v| (v + 0.0).to_array().map(f32::to_bits));
+        let mut bits = corners.of(prim.id()).map(place_bits);
         bits.sort_unstable();
         bits
     };
