@@ -12,7 +12,8 @@
 //! drawn depends on its size (`size_class`):
 //!
 //! - Triangles over few samples are drawn sixteen triangles at a time, one a lane (`few_samples`).
-//! - Triangles over more samples are drawn one at a time, sixteen samples at once (`many_samples`).
+//! - Triangles over more samples are drawn one at a time, sixteen samples at once (`many_samples`), those with few columns in
+//!   each of many rows sixteen rows at once (`thin`).
 //! - Everything else is set up in `f64`, one primitive at a time (`one_primitive`): planes, and triangles that are
 //!   larger still or reach behind the eye. They are drawn strip by strip, sixteen samples at once wherever `f32` is
 //!   certain enough. Spheres are drawn row by row, sixteen samples at once in `f64` (`sphere`).
@@ -33,6 +34,7 @@ mod camera_map;
 mod depth;
 mod draw;
 mod few_samples;
+mod fragments;
 mod geometry;
 mod high_precision;
 mod lanes;
@@ -48,6 +50,7 @@ mod setup;
 mod size_class;
 mod sphere;
 mod store;
+mod thin;
 mod tile;
 mod triangle;
 mod vertices;

@@ -47,7 +47,8 @@ pub struct Executed {
     /// set-up in lanes was too uncertain; in object order also those that are large or reach behind the eye.
     pub one_by_one: u64,
     /// Both orders: steps of batches of small triangles. In one step every triangle of a batch (of sixteen in object
-    /// order, of eight in image order) is tested at one of its samples.
+    /// order, of eight in image order) is tested at one of its samples. In object order also those of thin triangles: in
+    /// one step sixteen rows of a triangle are each tested at one sample.
     pub lane_steps: u64,
     /// Both orders: blocks of sixteen samples at which one triangle, plane or sphere was tested at once.
     pub blocks: u64,

@@ -2,7 +2,8 @@
 //! classes.
 
 use super::depth::nearer_by;
-use super::few_samples::{self, Fragments};
+use super::few_samples;
+use super::fragments::Fragments;
 use super::geometry::Geometry;
 use super::lanes::Lanes;
 use super::picture::Picture;
@@ -11,11 +12,11 @@ use super::search::clusters::{Cluster, Sight, sight};
 use super::search::extent::Extent;
 use super::search::finder::Finder;
 use super::search::instances::{Instance, PlacedVertices, placed_box};
-use super::setup::{AxisBounds, Setup};
+use super::setup::{AxisBounds, FlatSetup, Setup};
 use super::size_class::{FEW, SizeClass, VERY_FEW};
 use super::tile::TileBuffer;
 use super::vertices::{ON_RASTER, OUT_OF_SIGHT, Vertex};
-use super::{many_samples, one_primitive};
+use super::{many_samples, one_primitive, thin};
 use bothways_common::Shape;
 use bothways_common::engine::context::ScalarContext;
 use bothways_common::engine::simd::{
@@ -45,6 +46,7 @@ impl Drawing<'_> {
             finder: Finder::new(self.geometry),
             gathered: Lanes::new(),
             waiting: [Lanes::new(), Lanes::new(), Lanes::new()],
+            thin: Vec::new(),
             fragments: Fragments::new(),
             large: Vec::new(),
             buffer,
@@ -75,6 +77,8 @@ struct Painter<'a, 'b, C> {
     gathered: Lanes,
     /// Triangles of each of [`SizeClass::IN_LANES`] that wait until there are sixteen.
     waiting: [Lanes; 3],
+    /// Triangles that are thin.
+    thin: Vec<FlatSetup>,
     fragments: Fragments,
     /// Primitives of the current batch that are drawn at its end.
     large: Vec<u32>,
@@ -289,7 +293,7 @@ impl<C: ScalarContext> Painter<'_, '_, C> {
 
     /// Draws the triangles that wait, at most sixteen.
     fn draw_waiting(&mut self, class: SizeClass) {
-        let Painter { drawing, waiting, fragments, large, buffer, context, .. } = self;
+        let Painter { drawing, waiting, thin, fragments, large, buffer, context, .. } = self;
         let lanes = &mut waiting[class as usize];
         let count = lanes.count();
         if count == 0 {
@@ -300,8 +304,14 @@ impl<C: ScalarContext> Painter<'_, '_, C> {
             let context = &mut context.with_simd(simd);
             let setup = Setup::new::<_, C::Fault>(simd, drawing.geometry.raster, lanes);
             if class == SizeClass::Many {
-                let elsewhere = setup.uncertain | setup.keyless;
+                let mut elsewhere = setup.uncertain | setup.keyless;
                 large.extend(setup.ids_of(elsewhere));
+                // If the loops are watched, every test is an event.
+                let thin_lanes = setup.thin & !elsewhere;
+                if thin_lanes != 0 && !C::WATCHED {
+                    elsewhere |= thin_lanes;
+                    setup.add_triangles(thin_lanes, thin);
+                }
                 for lane in (0..count).filter(|lane| elsewhere >> lane & 1 == 0) {
                     let picture = drawing.picture;
                     many_samples::draw(context, &setup.triangle(lane), picture, buffer);
@@ -315,6 +325,22 @@ impl<C: ScalarContext> Painter<'_, '_, C> {
             }
         });
         lanes.advance();
+        if !self.thin.is_empty() {
+            self.draw_thin();
+        }
+    }
+
+    /// Draws the thin triangles that wait. A function of its own leaves the loop over others as fast as it is without.
+    #[inline(never)]
+    fn draw_thin(&mut self) {
+        let Painter { drawing, thin, fragments, buffer, context, .. } = self;
+        dispatch_with!(C::Fault, drawing.level, simd => {
+            let context = &mut context.with_simd(simd);
+            for triangle in thin.drain(..) {
+                let here = triangle.region.intersection(buffer.region());
+                thin::draw(context, &triangle, &here, (drawing.picture, fragments), buffer);
+            }
+        });
     }
 
     /// Draws the triangles of a list.
@@ -340,11 +366,12 @@ impl<C: ScalarContext> Painter<'_, '_, C> {
 
     /// Draws the large primitives of a batch, and asks the judge about all that is left open.
     fn draw_large(&mut self) {
-        let Painter { drawing, large, buffer, context, .. } = self;
+        let Painter { drawing, fragments, large, buffer, context, .. } = self;
         if !large.is_empty() {
             buffer.executed.one_by_one += large.len() as u64;
             dispatch_with!(C::Fault, drawing.level, simd => {
-                one_primitive::draw(&mut context.with_simd(simd), large, drawing.picture, buffer);
+                let context = &mut context.with_simd(simd);
+                one_primitive::draw(context, large, (drawing.picture, fragments), buffer);
             });
             large.clear();
         }

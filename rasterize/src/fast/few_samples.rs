@@ -1,9 +1,9 @@
 //! Triangles over few samples: sixteen triangles at a time, each testing one of its samples.
 
+use super::fragments::Fragments;
 use super::lanes::lanes_of;
 use super::picture::Picture;
 use super::setup::Setup;
-use super::size_class::FEW;
 use super::tile::TileBuffer;
 use bothways_common::engine::context::{Context, ScalarContext};
 use bothways_common::engine::simd::{
@@ -82,63 +82,6 @@ fn leave_open<C: ScalarContext>(
     for lane in lanes_of(open) {
         let fragment = (index[lane].cast_unsigned() as usize, setup.ids[lane], keys[lane]);
         buffer.leave_open(context, picture, fragment, false);
-    }
-}
-
-/// The most fragments that sixteen triangles can have.
-const MOST_FRAGMENTS: usize = 16 * FEW as usize;
-
-/// Fragments that wait for their depth test: the machine predicts the branches of one loop over all of them better
-/// than those of one loop for each step.
-#[derive(Debug)]
-pub(super) struct Fragments {
-    /// Each array has room for sixteen more behind the last fragment.
-    index: [i32; MOST_FRAGMENTS + 16],
-    keys: [f32; MOST_FRAGMENTS + 16],
-    ids: [u32; MOST_FRAGMENTS + 16],
-    count: usize,
-}
-
-impl Fragments {
-    pub(super) const fn new() -> Self {
-        Fragments {
-            index: [0; MOST_FRAGMENTS + 16],
-            keys: [0.0; MOST_FRAGMENTS + 16],
-            ids: [0; MOST_FRAGMENTS + 16],
-            count: 0,
-        }
-    }
-
-    /// Adds the lanes in which there is a fragment.
-    #[inline(always)]
-    fn add<S: Simd>(
-        &mut self,
-        index: i32x16<S>,
-        keys: f32x16<S>,
-        ids: u32x16<S>,
-        inside: mask32x16<S>,
-    ) {
-        let from = self.count.min(MOST_FRAGMENTS);
-        index.compress(inside).store_slice(&mut self.index[from..from + 16]);
-        keys.compress(inside).store_slice(&mut self.keys[from..from + 16]);
-        ids.compress(inside).store_slice(&mut self.ids[from..from + 16]);
-        self.count = from + inside.to_bitmask().count_ones() as usize;
-    }
-
-    /// Tests the depth of all fragments, and forgets them.
-    #[inline(always)]
-    fn test_depth<C: Context>(
-        &mut self,
-        context: &mut C,
-        picture: &Picture,
-        buffer: &mut TileBuffer,
-    ) {
-        let count = std::mem::take(&mut self.count).min(MOST_FRAGMENTS);
-        let fragments = self.index[..count].iter().zip(&self.keys[..count]).zip(&self.ids[..count]);
-        for ((index, key), id) in fragments {
-            let fragment = (index.cast_unsigned() as usize, *id, *key);
-            buffer.fragment(context, picture, fragment);
-        }
     }
 }
 

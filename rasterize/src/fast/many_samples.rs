@@ -124,12 +124,12 @@ fn counted_from(first_row: usize, ends: &[[u32; 16]; 2], column: usize) -> Range
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "at most 65,536")]
 #[expect(clippy::cast_precision_loss, reason = "at most 256")]
-const fn difference(place: usize, first: usize) -> f32 {
+pub(super) const fn difference(place: usize, first: usize) -> f32 {
     (place as i32 - first as i32) as f32
 }
 
 /// Rows and columns of the sixteen samples of a block.
-const fn lane_places<const ACROSS: usize>() -> [[f32; 16]; 2] {
+pub(super) const fn lane_places<const ACROSS: usize>() -> [[f32; 16]; 2] {
     let mut places = [[0.0; 16]; 2];
     let mut lane = 0;
     while lane < 16 {
@@ -386,32 +386,12 @@ mod tests {
     use super::*;
     use bothways_common::engine::simd::{dispatch, levels};
 
-    /// A triangle's setup with edge functions of all slopes, some of them 0.
-    fn setup(random: &mut fastrand::Rng) -> FlatSetup {
-        let mut number = |most: f32| match random.u32(0..8) {
-            0 => 0.0,
-            1 => most * 1e-6 * (random.f32() - 0.5),
-            _ => most * (random.f32() - 0.5),
-        };
-        let edges = std::array::from_fn(|_| [number(3e4), number(400.0), number(400.0)]);
-        let error = number(10.0).abs();
-        FlatSetup {
-            id: 0,
-            edges,
-            error,
-            key: [0.0; 3],
-            origin: Sample { row: 0, column: 0 },
-            region: Region { rows: 0..256, columns: 0..256 },
-            facing: 1.0,
-        }
-    }
-
     #[test]
     fn rows_that_are_left_out_are_certainly_outside() {
         let random = &mut fastrand::Rng::with_seed(7);
         let mut left_out = 0;
         for _ in 0..300 {
-            let triangle = setup(random);
+            let triangle = FlatSetup::random(random);
             let (first, end) = (random.u8(0..40), random.u8(40..));
             for level in levels() {
                 dispatch!(level, simd => {

@@ -7,6 +7,7 @@ pub(super) mod narrow;
 pub(super) mod strips;
 
 use super::bounds::region;
+use super::fragments::Fragments;
 use super::picture::Picture;
 use super::tile::TileBuffer;
 use super::{plane, sphere, triangle};
@@ -20,7 +21,7 @@ use fragment_writer::FragmentWriter;
 pub(super) fn draw<C: Context>(
     context: &mut C,
     ids: &[u32],
-    picture: &Picture,
+    (picture, fragments): (&Picture, &mut Fragments),
     buffer: &mut TileBuffer,
 ) {
     // Eight primitives are looked up before the first is drawn, so that the machine waits for their memory only once.
@@ -32,7 +33,8 @@ pub(super) fn draw<C: Context>(
         let primitives: [Primitive; 8] =
             std::array::from_fn(|k| buffer.names.primitive(picture.view, ids[k.min(last)]));
         for (id, primitive) in ids.iter().zip(primitives) {
-            draw_primitive(context, &mut FragmentWriter { id: *id, primitive, picture, buffer });
+            let writer = &mut FragmentWriter { id: *id, primitive, picture, fragments, buffer };
+            draw_primitive(context, writer);
         }
     }
 }

@@ -4,7 +4,7 @@
 use super::aligned::TIE;
 use super::depth::KEY_ERROR;
 use super::lanes::{Lanes, lanes_of};
-use super::size_class::MOST_SAMPLES_ACROSS;
+use super::size_class::{FEW_COLUMNS_IN_ALL, MOST_SAMPLES_ACROSS, THIN};
 use super::vertices::{ALIGNED, FixedPointRaster};
 use bothways_common::Sign;
 use bothways_common::engine::fault::{Fault, Planted};
@@ -43,6 +43,8 @@ pub(super) struct Setup {
     pub(super) uncertain: u16,
     /// Lanes whose keys cannot be trusted.
     pub(super) keyless: u16,
+    /// Lanes whose triangles are [thin](super::size_class::THIN), and have more than a few columns in all.
+    pub(super) thin: u16,
 }
 
 impl Setup {
@@ -113,8 +115,20 @@ impl Setup {
             facing: edges.facing.to_array(),
             uncertain: lanes_of((used & !certain).to_bitmask()),
             keyless: lanes_of((drawn & !keys.trusted).to_bitmask()),
+            thin: lanes_of((drawn & are_thin(simd, &boxes, edges.area)).to_bitmask()),
         }
     }
+}
+
+/// Which of sixteen triangles are thin, given by their boxes and twice their areas.
+#[inline(always)]
+fn are_thin<S: Simd>(
+    simd: S,
+    [down, across]: &[AxisBounds<S>; 2],
+    twice_area: f32x16<S>,
+) -> mask32x16<S> {
+    across.count.simd_gt(i32x16::splat(simd, FEW_COLUMNS_IN_ALL))
+        & twice_area.simd_le(down.count.to_float::<f32x16<S>>() * THIN)
 }
 
 /// The errors of sixteen triangles; [`Setup::new`] derives them.
@@ -378,8 +392,37 @@ impl Setup {
         }
     }
 
+    /// Adds the triangles of some lanes to others.
+    #[inline(never)]
+    pub(super) fn add_triangles(&self, lanes: u16, to: &mut Vec<FlatSetup>) {
+        to.extend(lanes_of(lanes.into()).map(|lane| self.triangle(lane)));
+    }
+
     /// The ids of some lanes.
     pub(super) fn ids_of(&self, lanes: u16) -> impl Iterator<Item = u32> {
         lanes_of(lanes.into()).map(|lane| self.ids[lane])
+    }
+}
+
+#[cfg(test)]
+impl FlatSetup {
+    /// Edge functions of all slopes, some of them 0.
+    pub(super) fn random(random: &mut fastrand::Rng) -> FlatSetup {
+        let mut number = |most: f32| match random.u32(0..8) {
+            0 => 0.0,
+            1 => most * 1e-6 * (random.f32() - 0.5),
+            _ => most * (random.f32() - 0.5),
+        };
+        let edges = std::array::from_fn(|_| [number(3e4), number(400.0), number(400.0)]);
+        let error = number(10.0).abs();
+        FlatSetup {
+            id: 0,
+            edges,
+            error,
+            key: [0.0; 3],
+            origin: Sample { row: 0, column: 0 },
+            region: Region { rows: 0..256, columns: 0..256 },
+            facing: 1.0,
+        }
     }
 }

@@ -7,6 +7,11 @@ pub(super) const VERY_FEW: u32 = 4;
 pub(super) const FEW: u32 = 16;
 /// Triangles with boxes of more rows or columns than this are not drawn from `f32` setups.
 pub(super) const MOST_SAMPLES_ACROSS: i32 = 256;
+/// A triangle is thin if it has no more columns than this in the row where it has most. Most of a block of sixteen samples in a
+/// row lies beside it then.
+pub(super) const THIN: f32 = 6.0;
+/// Triangles of [`SizeClass::Many`] that have no more columns in all are drawn as others are, even if they are thin.
+pub(super) const FEW_COLUMNS_IN_ALL: i32 = 32;
 
 /// How a primitive is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,12 +4,14 @@ use super::camera_map::CameraMap;
 use super::one_primitive::edges::F64Setup;
 use super::one_primitive::fragment_writer::FragmentWriter;
 use super::one_primitive::narrow::Narrowing;
-use super::one_primitive::strips::{STRIP, strips};
+use super::one_primitive::strips::{STRIP, TALL, strips};
+use super::setup::FlatSetup;
 use bothways_common::engine::context::{Context, ScalarContext};
 use bothways_common::observe::Events;
 use bothways_common::raster::{Region, Sample};
 use bothways_common::{Projection, Sign};
 use glam::DVec3;
+use std::ops::Range;
 
 /// Draws a triangle, as far as it lies in the tile, strip by strip: sixteen samples at a time where `f32` is certain
 /// enough of depths, one by one elsewhere.
@@ -29,23 +31,44 @@ pub(super) fn draw<C: Context>(
         return;
     }
     let narrowing = Narrowing::of_triangle(map, keys, &setup, (writer.id, corners));
-    for rows in strips(&here.rows, &region.rows, STRIP[0]) {
-        // A wide region is cut to what the edge functions leave of each strip.
-        let columns = if is_wide {
-            let ys = [map.grid.y()[rows.start], map.grid.y()[rows.end - 1]];
-            setup.span(map, ys, &region.columns)
-        } else {
-            region.columns.clone()
-        };
-        for columns in strips(&here.columns, &columns, STRIP[1]) {
-            let strip = Region { rows: rows.clone(), columns };
-            if let Some(triangle) = narrowing.strip::<C::Fault>(&strip) {
-                writer.write_strip(context, &triangle);
-            } else {
-                draw_samples(&mut context.scalar(), writer, &setup, strip.intersection(&here));
+    // A wide region is cut to what the edge functions leave of a strip.
+    let columns_of = |rows: &Range<usize>| match is_wide {
+        true => setup.span(map, ends_of(map, rows), &region.columns),
+        false => region.columns.clone(),
+    };
+    for rows in strips(&here.rows, &region.rows, TALL) {
+        for columns in strips(&here.columns, &columns_of(&rows), STRIP[1]) {
+            let tall = Region { rows: rows.clone(), columns };
+            let narrowed = narrowing.strip::<C::Fault>(&tall);
+            if let (Some(triangle), false) = (&narrowed, C::WATCHED) {
+                writer.write_strip(context, triangle);
+                continue;
+            }
+            // Events are those of strips, even if these are set up together.
+            let here = here.intersection(&tall);
+            for rows in strips(&here.rows, &region.rows, STRIP[0]) {
+                let strip = Region { columns: columns_of(&rows), rows }.intersection(&tall);
+                if strip.columns.is_empty() {
+                    continue;
+                }
+                let triangle = match &narrowed {
+                    Some(triangle) => Some(FlatSetup { region: strip.clone(), ..triangle.clone() }),
+                    None => narrowing.strip::<C::Fault>(&strip),
+                };
+                if let Some(triangle) = triangle {
+                    writer.write_strip(context, &triangle);
+                } else {
+                    draw_samples(&mut context.scalar(), writer, &setup, strip.intersection(&here));
+                }
             }
         }
     }
+}
+
+/// The places of the first of some rows and of the last.
+#[inline(always)]
+fn ends_of(map: &CameraMap, rows: &Range<usize>) -> [f64; 2] {
+    [map.grid.y()[rows.start], map.grid.y()[rows.end - 1]]
 }
 
 /// Whether all strips of a part of the triangle's region are empty: in most parts of that of a sliver. On the rows of all
@@ -56,9 +79,9 @@ fn is_beside(map: &CameraMap, setup: &F64Setup, region: &Region, here: &Region) 
         return true;
     }
     // Strips reach beyond the part.
-    let first = (here.rows.start / STRIP[0] * STRIP[0]).max(region.rows.start);
-    let end = here.rows.end.next_multiple_of(STRIP[0]).min(region.rows.end);
-    let columns = setup.span(map, [map.grid.y()[first], map.grid.y()[end - 1]], &region.columns);
+    let first = (here.rows.start / TALL * TALL).max(region.rows.start);
+    let end = here.rows.end.next_multiple_of(TALL).min(region.rows.end);
+    let columns = setup.span(map, ends_of(map, &(first..end)), &region.columns);
     columns.end <= here.columns.start || here.columns.end <= columns.start
 }
 

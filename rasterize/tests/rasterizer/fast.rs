@@ -250,6 +250,66 @@ fn triangles_wider_than_the_picture_whatever_the_tiles() {
     }
 }
 
+/// Triangles of at most a few columns in a row that cross much of the picture in all directions, some of them twice, some from
+/// quarter of a sample to quarter.
+fn thin_triangles(count: usize, length: f32) -> Scene {
+    let triangles = scattered(count).enumerate().flat_map(|(k, [x, y, turn])| {
+        let along = Vec2::from_angle(std::f32::consts::TAU * turn) * length;
+        let width = [0.3, 1.0, 2.5, 5.0][k % 4];
+        let middle = Vec2::new(x - 0.5, y - 0.5) * 300.0;
+        let places = [middle - along, middle + along, middle + along.perp().normalize() * width];
+        let (tilt, is_aligned) = (if k % 7 == 3 { [1.0, 1.3, 1.1] } else { [1.0; 3] }, k % 5 == 0);
+        let corners = std::array::from_fn(|corner| {
+            let place = places[corner];
+            let place = if is_aligned { (4.0 * place).round() / 4.0 } else { place };
+            let depth = if is_aligned { 1.0 } else { 1.0 + x * y * tilt[corner] };
+            (place.extend(-200.0) * depth).to_array()
+        });
+        let again = (k % 6 == 0).then(|| triangle(corners));
+        std::iter::once(triangle(corners)).chain(again)
+    });
+    scene(triangles.collect())
+}
+
+#[test]
+fn thin_triangles_are_seen_as_the_textbook_sees_them_however_they_are_drawn() {
+    // Shorter ones are set up in `f32`, longer ones in `f64`, strip by strip.
+    for length in [60.0, 400.0] {
+        let scene = thin_triangles(160, length);
+        for (projection, samples) in PROJECTIONS.into_iter().zip([1, 2]) {
+            let viewport = match projection {
+                Projection::Perspective => [320.0, 300.0],
+                Projection::Parallel => [640.0, 600.0],
+            };
+            let camera = Camera::new(CameraDescription {
+                projection,
+                viewport,
+                distance: 200.0,
+                image: [320, 300],
+                ..CameraDescription::default()
+            });
+            let camera = camera.expect("it is a camera");
+            let what = format!("{projection:?}, {length}");
+            let work = check(&scene, &camera, &what);
+            assert!(work.fragments > 5_000, "{what}: {work:?}");
+
+            let view = View::new(&scene, &camera);
+            let options = Options { samples, ..Options::default() };
+            let prepared = fast::prepare(&scene);
+            let mut frame = Frame::new(&camera, &options);
+            let executed =
+                fast::determine_visibility(&prepared, &view, &options, &mut frame, &mut ());
+            assert!(executed.lane_steps > 1_000, "{what}: {executed:?}");
+            let (expected, _) = draw(&prepared, &view, &options);
+            for (level, tile) in every_way_to_draw() {
+                let other = draw(&prepared.clone().drawn_with(level, tile), &view, &options).0;
+                assert_eq!(other.ids(), expected.ids(), "{what}, {level:?}, tiles {tile:?}");
+                assert_eq!(other.distances(), expected.distances(), "{what}, {level:?}, {tile:?}");
+            }
+        }
+    }
+}
+
 #[test]
 fn edges_through_samples_need_no_judge_where_vertices_are_on_the_raster() {
     for (scene, camera, what) in grids_on_quarters() {

@@ -1,8 +1,10 @@
 //! Writes the fragments of one primitive into a tile.
 
+use crate::fast::fragments::Fragments;
 use crate::fast::many_samples;
 use crate::fast::picture::{Picture, judge_covers};
 use crate::fast::setup::FlatSetup;
+use crate::fast::thin;
 use crate::fast::tile::{Incoming, TileBuffer};
 use bothways_common::Primitive;
 use bothways_common::engine::context::{Context, ScalarContext};
@@ -15,6 +17,8 @@ pub(crate) struct FragmentWriter<'a, 'b> {
     pub(crate) id: u32,
     pub(crate) primitive: Primitive,
     pub(crate) picture: &'a Picture<'a>,
+    /// None waits.
+    pub(crate) fragments: &'b mut Fragments,
     pub(crate) buffer: &'b mut TileBuffer,
 }
 
@@ -49,7 +53,13 @@ impl FragmentWriter<'_, '_> {
     /// Writes all fragments of one strip of the primitive, sixteen samples at a time.
     #[inline(always)]
     pub(crate) fn write_strip<C: Context>(&mut self, context: &mut C, strip: &FlatSetup) {
-        many_samples::draw(context, strip, self.picture, self.buffer);
+        let here = strip.region.intersection(self.buffer.region());
+        // If the loops are watched, every test is an event.
+        if !C::WATCHED && thin::is_thin(strip, &here) {
+            thin::draw(context, strip, &here, (self.picture, self.fragments), self.buffer);
+        } else {
+            many_samples::draw(context, strip, self.picture, self.buffer);
+        }
     }
 
     /// Asks the judge whether the primitive covers a sample that rounding leaves open.

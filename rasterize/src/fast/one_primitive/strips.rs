@@ -7,6 +7,9 @@ use std::ops::Range;
 /// tiles nor on a crop.
 pub(crate) const STRIP: [usize; 2] = [16, MOST_SAMPLES_ACROSS.cast_unsigned() as usize];
 
+/// Rows of a tall strip, in which a triangle is set up for several strips together if `f32` is certain enough in all of them.
+pub(crate) const TALL: usize = 8 * STRIP[0];
+
 /// The pieces of `all`, cut at multiples of a length, that reach into `here`, a part of it.
 pub(crate) fn strips(
     here: &Range<usize>,
