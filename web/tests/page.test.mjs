@@ -164,6 +164,30 @@ test("the page does not write over a link that waits to be followed", async () =
   await close();
 });
 
+test("the page does not write over a link whose scene takes long to open", async () => {
+  const { page, close } = await open({ hash: "#chapter=algorithms&scene=ties" });
+  await until("the link", async () => new URL(page.url()).hash.includes("pixel="));
+  // The worker is told to open the scene when it is let go on.
+  await page.evaluate(() => {
+    const post = Worker.prototype.postMessage;
+    const held = new Promise((goOn) => (window.goOn = goOn));
+    Worker.prototype.postMessage = async function (message) {
+      if (message.call === "open") await held;
+      post.call(this, message);
+    };
+  });
+  const typed = "#chapter=ray&scene=canonical&pixel=3,4";
+  await page.evaluate((hash) => void (location.hash = hash), typed);
+  await page.waitForTimeout(1000);
+  assert.equal(new URL(page.url()).hash, typed);
+  assert.equal(await page.locator("#scene").inputValue(), "ties");
+  await page.evaluate(() => window.goOn());
+  await until("the scene of the link", async () => (await page.locator("#scene").inputValue()) === "canonical");
+  await set(page, "#pixel-row", 5);
+  await until("the link goes on", async () => new URL(page.url()).hash.includes("pixel=5,4"));
+  await close();
+});
+
 test("a good file is opened; a broken and a huge one are refused with reasons", async () => {
   const { page, said, close } = await open();
   await drop(page, { "small.obj": "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n" });

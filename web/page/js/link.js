@@ -34,11 +34,13 @@ function fragment() {
 
 /** The link that was followed or written last. */
 let lastFragment = "";
+/** The links that are being followed: their scenes may take a while to open. */
+let linksFollowed = 0;
 
 /** Browsers limit how often the address changes, and some refuse it on files: then the address stays as it is. */
 const writeLink = debounced(400, () => {
-  // A link that was typed a moment ago waits to be followed.
-  if (location.hash !== lastFragment) return;
+  // A link that was typed a moment ago waits to be followed, or to the end.
+  if (location.hash !== lastFragment || linksFollowed > 0) return;
   const now = fragment();
   if (location.hash === now) return;
   try {
@@ -70,10 +72,20 @@ function awaitedFor(name) {
   return { camera, pixel };
 }
 
-/** Shows what a link is about. What it does not say, or says wrongly, stays as it is in the chapter. */
+/** Follows the link in the address. */
 async function followLink() {
   lastFragment = location.hash;
-  const parts = new URLSearchParams(location.hash.slice(1));
+  linksFollowed++;
+  try {
+    await showLinked(new URLSearchParams(location.hash.slice(1)));
+  } finally {
+    linksFollowed--;
+    writeLink();
+  }
+}
+
+/** Shows what a link is about. What it does not say, or says wrongly, stays as it is in the chapter. @param {URLSearchParams} parts */
+async function showLinked(parts) {
   const chapter = chapterOf(parts.get("chapter") ?? "algorithms");
   /** @type {Partial<State>} */
   const patch = { chapter: chapter.id, step: 0, ...chapter.state };
