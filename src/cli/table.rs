@@ -147,7 +147,7 @@ fn executed(rendered: &[Rendered]) -> Vec<Row> {
         row("triangles looked at", |executed| executed.triangles),
         row("of these, set up", |executed| executed.set_ups),
         row("primitives one by one", |executed| executed.one_by_one),
-        row("steps of small or thin triangles", |executed| executed.lane_steps),
+        row("steps of 8 or 16 lanes", |executed| executed.lane_steps),
         row("blocks of 16 samples", |executed| executed.blocks),
         row("samples one by one", |executed| executed.single_samples),
     ]

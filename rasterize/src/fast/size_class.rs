@@ -20,7 +20,7 @@ pub(super) enum SizeClass {
     VeryFew,
     /// A triangle over few samples: likewise, but apart from smaller ones.
     Few,
-    /// A triangle over more samples: sixteen samples at a time.
+    /// A triangle over more samples: sixteen samples at a time, or sixteen rows if it is thin.
     Many,
     /// Everything else: one primitive at a time, set up in `f64`.
     Large,

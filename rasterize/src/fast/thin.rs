@@ -14,13 +14,13 @@ use bothways_common::engine::simd::{
 use bothways_common::look::lanes::each;
 use bothways_common::raster::{Region, Sample};
 
-/// In as many columns, blocks take no longer.
-const FEW_COLUMNS: usize = 8;
+/// In no more columns, blocks take no longer.
+const COLUMNS_OF_BLOCKS: usize = 8;
 
 /// Whether a triangle, or a strip of one, is thin in a part of its region. The answer only chooses how it is drawn.
 #[inline(always)]
 pub(super) fn is_thin(triangle: &FlatSetup, here: &Region) -> bool {
-    if here.columns.len() <= FEW_COLUMNS || triangle.facing == 0.0 {
+    if here.columns.len() <= COLUMNS_OF_BLOCKS || triangle.facing == 0.0 {
         return false;
     }
     let middle = difference(usize::midpoint(here.rows.start, here.rows.end), triangle.origin.row);
@@ -33,8 +33,9 @@ pub(super) fn is_thin(triangle: &FlatSetup, here: &Region) -> bool {
             high = high.min(crossing);
         }
     }
-    // As it is convex, it has at least half as many columns in the row in the middle as in any other.
-    2.0 * (high - low) <= THIN
+    // A triangle that reaches the first and the last row has at least half as many columns in the row in the middle as in any
+    // other. Of one that ends before the middle, the lines beyond its corner are as far apart.
+    2.0 * (high - low).abs() <= THIN
 }
 
 /// Draws a triangle that is thin in a part of its region. Each sample has the same values as in a block of sixteen.
@@ -110,9 +111,10 @@ struct Affine<S: Simd> {
     at_origin: f32x16<S>,
     across: f32x16<S>,
     down: f32x16<S>,
-    /// Whether it rises from column to column, or stays the same; and a column over what it rises.
+    /// Whether it rises from column to column, or stays the same.
     rises: bool,
-    columns: f32,
+    /// In how many columns it changes by one.
+    columns_per_unit: f32,
 }
 
 impl<S: Simd> Affine<S> {
@@ -124,7 +126,7 @@ impl<S: Simd> Affine<S> {
             across: splat(across),
             down: splat(down),
             rises: across >= 0.0,
-            columns: 1.0 / across,
+            columns_per_unit: 1.0 / across,
         }
     }
 
@@ -187,7 +189,7 @@ impl<S: Simd> Rows<S> {
         let (mut from, mut to) = (start, in_rows.select(all_end, start));
         for k in 0..3 {
             let (edge, down) = (&self.edges[k], down[k]);
-            let crossing = (-self.error - (edge.at_origin + down)) * edge.columns;
+            let crossing = (-self.error - (edge.at_origin + down)) * edge.columns_per_unit;
             if edge.rises {
                 // From here on it may be inside; what is not a number stays at the first column.
                 let guess = crossing.floor();

@@ -13,8 +13,8 @@ use bothways_common::{Projection, Sign};
 use glam::DVec3;
 use std::ops::Range;
 
-/// Draws a triangle, as far as it lies in the tile, strip by strip: sixteen samples at a time where `f32` is certain
-/// enough of depths, one by one elsewhere.
+/// Draws a triangle, as far as it lies in the tile, by tall strips where `f32` is certain enough of depths in all of one, by
+/// strips elsewhere, and sample by sample where it is not certain enough in these.
 #[inline(always)]
 pub(super) fn draw<C: Context>(
     context: &mut C,
@@ -25,64 +25,87 @@ pub(super) fn draw<C: Context>(
     let (map, keys) = (writer.picture.map, writer.picture.keys);
     let judge = writer.picture.view.judge();
     let Some(setup) = F64Setup::new::<C::Fault>(map, &judge, corners) else { return };
-    let here = region.intersection(writer.buffer.region());
     let is_wide = region.columns.len() > STRIP[1];
-    if is_wide && is_beside(map, &setup, region, &here) {
+    let triangle = &LargeTriangle { map, setup: &setup, region, is_wide };
+    let here = region.intersection(writer.buffer.region());
+    if is_wide && triangle.is_beside(&here) {
         return;
     }
-    let narrowing = Narrowing::of_triangle(map, keys, &setup, (writer.id, corners));
-    // A wide region is cut to what the edge functions leave of a strip.
-    let columns_of = |rows: &Range<usize>| match is_wide {
-        true => setup.span(map, ends_of(map, rows), &region.columns),
-        false => region.columns.clone(),
-    };
+    let narrowing = &Narrowing::of_triangle(map, keys, &setup, (writer.id, corners));
     for rows in strips(&here.rows, &region.rows, TALL) {
-        for columns in strips(&here.columns, &columns_of(&rows), STRIP[1]) {
+        for columns in strips(&here.columns, &triangle.columns(&rows), STRIP[1]) {
             let tall = Region { rows: rows.clone(), columns };
-            let narrowed = narrowing.strip::<C::Fault>(&tall);
-            if let (Some(triangle), false) = (&narrowed, C::WATCHED) {
-                writer.write_strip(context, triangle);
-                continue;
-            }
-            // Events are those of strips, even if these are set up together.
-            let here = here.intersection(&tall);
-            for rows in strips(&here.rows, &region.rows, STRIP[0]) {
-                let strip = Region { columns: columns_of(&rows), rows }.intersection(&tall);
-                if strip.columns.is_empty() {
-                    continue;
-                }
-                let triangle = match &narrowed {
-                    Some(triangle) => Some(FlatSetup { region: strip.clone(), ..triangle.clone() }),
-                    None => narrowing.strip::<C::Fault>(&strip),
-                };
-                if let Some(triangle) = triangle {
-                    writer.write_strip(context, &triangle);
-                } else {
-                    draw_samples(&mut context.scalar(), writer, &setup, strip.intersection(&here));
-                }
+            match narrowing.strip::<C::Fault>(&tall) {
+                Some(narrowed) if !C::WATCHED => writer.write_strip(context, &narrowed),
+                narrowed => triangle.draw_strips(context, writer, &tall, (narrowing, narrowed)),
             }
         }
     }
 }
 
-/// The places of the first of some rows and of the last.
-#[inline(always)]
-fn ends_of(map: &CameraMap, rows: &Range<usize>) -> [f64; 2] {
-    [map.grid.y()[rows.start], map.grid.y()[rows.end - 1]]
+/// A triangle that is drawn strip by strip.
+struct LargeTriangle<'a> {
+    map: &'a CameraMap<'a>,
+    setup: &'a F64Setup,
+    region: &'a Region,
+    /// Whether its region is cut to what the edge functions leave of each strip.
+    is_wide: bool,
 }
 
-/// Whether all strips of a part of the triangle's region are empty: in most parts of that of a sliver. On the rows of all
-/// strips together no edge function is less than on those of one, so the columns of each are among those of all.
-#[inline(always)]
-fn is_beside(map: &CameraMap, setup: &F64Setup, region: &Region, here: &Region) -> bool {
-    if here.rows.is_empty() || here.columns.is_empty() {
-        return true;
+impl LargeTriangle<'_> {
+    /// The columns in which it may cover samples of some rows.
+    #[inline(always)]
+    fn columns(&self, rows: &Range<usize>) -> Range<usize> {
+        if self.is_wide {
+            let ys = [self.map.grid.y()[rows.start], self.map.grid.y()[rows.end - 1]];
+            self.setup.span(self.map, ys, &self.region.columns)
+        } else {
+            self.region.columns.clone()
+        }
     }
-    // Strips reach beyond the part.
-    let first = (here.rows.start / TALL * TALL).max(region.rows.start);
-    let end = here.rows.end.next_multiple_of(TALL).min(region.rows.end);
-    let columns = setup.span(map, ends_of(map, &(first..end)), &region.columns);
-    columns.end <= here.columns.start || here.columns.end <= columns.start
+
+    /// Whether all strips of a part of the region are empty: in most parts of that of a sliver. On the rows of all
+    /// strips together no edge function is less than on those of one, so the columns of each are among those of all.
+    #[inline(always)]
+    fn is_beside(&self, here: &Region) -> bool {
+        if here.rows.is_empty() || here.columns.is_empty() {
+            return true;
+        }
+        // Strips reach beyond the part.
+        let first = (here.rows.start / TALL * TALL).max(self.region.rows.start);
+        let end = here.rows.end.next_multiple_of(TALL).min(self.region.rows.end);
+        let columns = self.columns(&(first..end));
+        columns.end <= here.columns.start || here.columns.end <= columns.start
+    }
+
+    /// Draws the strips of a tall one, each by what the tall one is narrowed to, if it is. So are watched frames, whose
+    /// events are those of strips.
+    #[inline(always)]
+    fn draw_strips<C: Context>(
+        &self,
+        context: &mut C,
+        writer: &mut FragmentWriter,
+        tall: &Region,
+        (narrowing, narrowed): (&Narrowing, Option<FlatSetup>),
+    ) {
+        let here = tall.intersection(writer.buffer.region());
+        for rows in strips(&here.rows, &self.region.rows, STRIP[0]) {
+            let strip = Region { columns: self.columns(&rows), rows }.intersection(tall);
+            if strip.columns.is_empty() {
+                continue;
+            }
+            let narrowed = match &narrowed {
+                Some(tall) => Some(FlatSetup { region: strip.clone(), ..tall.clone() }),
+                None => narrowing.strip::<C::Fault>(&strip),
+            };
+            if let Some(narrowed) = narrowed {
+                writer.write_strip(context, &narrowed);
+            } else {
+                let here = strip.intersection(&here);
+                draw_samples(&mut context.scalar(), writer, self.setup, here);
+            }
+        }
+    }
 }
 
 /// Draws samples one by one.

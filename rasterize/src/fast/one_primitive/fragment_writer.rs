@@ -17,7 +17,7 @@ pub(crate) struct FragmentWriter<'a, 'b> {
     pub(crate) id: u32,
     pub(crate) primitive: Primitive,
     pub(crate) picture: &'a Picture<'a>,
-    /// None waits.
+    /// Empty from one strip to the next.
     pub(crate) fragments: &'b mut Fragments,
     pub(crate) buffer: &'b mut TileBuffer,
 }
@@ -50,7 +50,7 @@ impl FragmentWriter<'_, '_> {
         self.buffer.settle_depth(&mut context.scalar(), self.picture, index, incoming, key);
     }
 
-    /// Writes all fragments of one strip of the primitive, sixteen samples at a time.
+    /// Writes all fragments of one strip of the primitive, sixteen samples of a row or of as many rows at a time.
     #[inline(always)]
     pub(crate) fn write_strip<C: Context>(&mut self, context: &mut C, strip: &FlatSetup) {
         let here = strip.region.intersection(self.buffer.region());
