@@ -77,7 +77,7 @@ struct Painter<'a, 'b, C> {
     gathered: Lanes,
     /// Triangles of each of [`SizeClass::IN_LANES`] that wait until there are sixteen.
     waiting: [Lanes; 3],
-    /// Triangles that are thin.
+    /// Thin triangles that wait for the end of a batch of sixteen.
     thin: Vec<FlatSetup>,
     fragments: Fragments,
     /// Primitives of the current batch that are drawn at its end.

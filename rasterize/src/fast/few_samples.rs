@@ -1,11 +1,11 @@
 //! Triangles over few samples: sixteen triangles at a time, each testing one of its samples.
 
-use super::fragments::Fragments;
+use super::fragments::{Fragments, leave_open};
 use super::lanes::lanes_of;
 use super::picture::Picture;
 use super::setup::Setup;
 use super::tile::TileBuffer;
-use bothways_common::engine::context::{Context, ScalarContext};
+use bothways_common::engine::context::Context;
 use bothways_common::engine::simd::{
     Select, Simd, SimdBase, SimdInt, SimdMask, f32x16, i32x16, mask32x16, u32x16,
 };
@@ -55,8 +55,8 @@ pub(super) fn draw<C: Context>(
         fragments.add(index, keys, ids, inside);
         let open = (perhaps & !inside).to_bitmask();
         if open != 0 {
-            let fragments = (&index.to_array(), &keys.to_array());
-            leave_open(&mut context.scalar(), setup, picture, buffer, (open, fragments));
+            let fragments = (&setup.ids, &index.to_array(), &keys.to_array());
+            leave_open(&mut context.scalar(), picture, buffer, open, fragments);
         }
         // On to the next sample of each box, row by row.
         column += f32x16::splat(simd, 1.0);
@@ -68,21 +68,6 @@ pub(super) fn draw<C: Context>(
     }
     buffer.executed.lane_steps += steps;
     fragments.test_depth(context, picture, buffer);
-}
-
-/// Leaves to the judge whether the samples of some lanes are covered.
-#[cold]
-fn leave_open<C: ScalarContext>(
-    context: &mut C,
-    setup: &Setup,
-    picture: &Picture,
-    buffer: &mut TileBuffer,
-    (open, (index, keys)): (u64, (&[i32; 16], &[f32; 16])),
-) {
-    for lane in lanes_of(open) {
-        let fragment = (index[lane].cast_unsigned() as usize, setup.ids[lane], keys[lane]);
-        buffer.leave_open(context, picture, fragment, false);
-    }
 }
 
 /// The samples of sixteen boxes that lie in the tile, row by row.

@@ -1,9 +1,10 @@
-//! Fragments that wait for their depth test.
+//! Fragments that wait for their depth test, or for the judge.
 
+use super::lanes::lanes_of;
 use super::picture::Picture;
 use super::size_class::FEW;
 use super::tile::TileBuffer;
-use bothways_common::engine::context::Context;
+use bothways_common::engine::context::{Context, ScalarContext};
 use bothways_common::engine::simd::{Simd, SimdBase, SimdMask, f32x16, i32x16, mask32x16, u32x16};
 
 /// The most fragments that wait: those that sixteen triangles over few samples can have.
@@ -66,5 +67,20 @@ impl Fragments {
             let fragment = (index.cast_unsigned() as usize, *id, *key);
             buffer.fragment(context, picture, fragment);
         }
+    }
+}
+
+/// Leaves to the judge whether the primitives of some lanes cover their samples: ids, indices and keys of all lanes.
+#[cold]
+pub(super) fn leave_open<C: ScalarContext>(
+    context: &mut C,
+    picture: &Picture,
+    buffer: &mut TileBuffer,
+    open: u64,
+    (ids, index, keys): (&[u32; 16], &[i32; 16], &[f32; 16]),
+) {
+    for lane in lanes_of(open) {
+        let fragment = (index[lane].cast_unsigned() as usize, ids[lane], keys[lane]);
+        buffer.leave_open(context, picture, fragment, false);
     }
 }

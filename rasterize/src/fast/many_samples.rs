@@ -120,6 +120,26 @@ fn counted_from(first_row: usize, ends: &[[u32; 16]; 2], column: usize) -> Range
     first_row + first as usize..first_row + end as usize
 }
 
+/// The last row or column before a crossing, between a first one and an end; what is not a number is the first.
+#[inline(always)]
+pub(super) fn guessed_first<S: Simd>(
+    crossing: f32x16<S>,
+    [first, end]: [f32x16<S>; 2],
+) -> f32x16<S> {
+    let guess = crossing.floor();
+    let guess = guess.simd_gt(first).select(guess, first);
+    guess.simd_lt(end).select(guess, end)
+}
+
+/// The first row or column that is at least one behind a crossing, between a first one and an end; what is not a number is
+/// the end.
+#[inline(always)]
+pub(super) fn guessed_end<S: Simd>(crossing: f32x16<S>, [first, end]: [f32x16<S>; 2]) -> f32x16<S> {
+    let guess = (crossing + 1.0).ceil();
+    let guess = guess.simd_lt(end).select(guess, end);
+    guess.simd_gt(first).select(guess, first)
+}
+
 /// A row or column of the picture, counted from a first one.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "at most 65,536")]
@@ -189,17 +209,13 @@ impl<S: Simd> Broadcast<S> {
             let best = across.simd_gt(zero).select(right, left);
             let largest = *at_origin + *across * best;
             let crossing = (-self.error - largest) / *down;
-            // From here on it may be inside; what is not a number stays at the first row.
-            let guess = crossing.floor();
-            let guess = guess.simd_gt(all_first).select(guess, all_first);
-            let guess = guess.simd_lt(all_end).select(guess, all_end);
+            // From here on it may be inside.
+            let guess = guessed_first(crossing, [all_first, all_end]);
             let is_out = (largest + *down * (guess - 1.0)).simd_lt(-self.error);
             let rises = down.simd_ge(zero);
             from = (rises & is_out).select(guess.max(from), from);
             // Up to here.
-            let guess = (crossing + 1.0).ceil();
-            let guess = guess.simd_lt(all_end).select(guess, all_end);
-            let guess = guess.simd_gt(all_first).select(guess, all_first);
+            let guess = guessed_end(crossing, [all_first, all_end]);
             let is_out = (largest + *down * guess).simd_lt(-self.error);
             to = (!rises & is_out).select(guess.min(to), to);
         }

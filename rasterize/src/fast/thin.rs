@@ -1,13 +1,12 @@
 //! Triangles that are thin: one triangle at a time, sixteen of its rows at once, each testing one of its samples.
 
-use super::fragments::Fragments;
-use super::lanes::lanes_of;
-use super::many_samples::{difference, lane_places};
+use super::fragments::{Fragments, leave_open};
+use super::many_samples::{difference, guessed_end, guessed_first, lane_places};
 use super::picture::Picture;
 use super::setup::FlatSetup;
 use super::size_class::THIN;
 use super::tile::TileBuffer;
-use bothways_common::engine::context::{Context, ScalarContext};
+use bothways_common::engine::context::Context;
 use bothways_common::engine::simd::{
     Select, Simd, SimdBase, SimdFloat, SimdMask, f32x16, i32x16, u32x16,
 };
@@ -34,7 +33,7 @@ pub(super) fn is_thin(triangle: &FlatSetup, here: &Region) -> bool {
         }
     }
     // A triangle that reaches the first and the last row has at least half as many columns in the row in the middle as in any
-    // other. Of one that ends before the middle, the lines beyond its corner are as far apart.
+    // other. If it ends before that row, the lines through its edges have crossed there, and are the farther apart the wider it is.
     2.0 * (high - low).abs() <= THIN
 }
 
@@ -49,7 +48,6 @@ pub(super) fn draw<C: Context>(
 ) {
     let simd = context.simd();
     let ids = u32x16::splat(simd, triangle.id);
-    let one = i32x16::splat(simd, 1);
     let rows = Rows::new(simd, triangle, here);
     let Rows { edges: [a, b, c], error, key, .. } = &rows;
     for first in here.rows.clone().step_by(16) {
@@ -74,34 +72,19 @@ pub(super) fn draw<C: Context>(
             // As inside ⊆ perhaps, this is the difference of two sets.
             let open = perhaps ^ inside;
             if open.any_true() {
-                let fragments = (triangle.id, index.to_array(), keys.to_array());
+                let fragments = (&ids.to_array(), &index.to_array(), &keys.to_array());
                 leave_open(&mut context.scalar(), picture, buffer, open.to_bitmask(), fragments);
             }
             if fragments.are_full() {
                 fragments.test_depth(context, picture, buffer);
             }
             column += 1.0;
-            index += one;
+            index += 1;
         }
         fragments.test_depth(context, picture, buffer);
         if buffer.is_duplicate::<C>(triangle.id) {
             return;
         }
-    }
-}
-
-/// Leaves to the judge whether the triangle covers the samples of some lanes.
-#[cold]
-fn leave_open<C: ScalarContext>(
-    context: &mut C,
-    picture: &Picture,
-    buffer: &mut TileBuffer,
-    open: u64,
-    (id, index, keys): (u32, [i32; 16], [f32; 16]),
-) {
-    for lane in lanes_of(open) {
-        let fragment = (index[lane].cast_unsigned() as usize, id, keys[lane]);
-        buffer.leave_open(context, picture, fragment, false);
     }
 }
 
@@ -191,17 +174,13 @@ impl<S: Simd> Rows<S> {
             let (edge, down) = (&self.edges[k], down[k]);
             let crossing = (-self.error - (edge.at_origin + down)) * edge.columns_per_unit;
             if edge.rises {
-                // From here on it may be inside; what is not a number stays at the first column.
-                let guess = crossing.floor();
-                let guess = guess.simd_gt(start).select(guess, start);
-                let guess = guess.simd_lt(all_end).select(guess, all_end);
+                // From here on it may be inside.
+                let guess = guessed_first(crossing, [start, all_end]);
                 let is_out = (edge.at_top(guess - 1.0) + down).simd_lt(-self.error);
                 from = is_out.select(guess.max(from), from);
             } else {
                 // Up to here.
-                let guess = (crossing + 1.0).ceil();
-                let guess = guess.simd_lt(all_end).select(guess, all_end);
-                let guess = guess.simd_gt(start).select(guess, start);
+                let guess = guessed_end(crossing, [start, all_end]);
                 let is_out = (edge.at_top(guess) + down).simd_lt(-self.error);
                 to = is_out.select(guess.min(to), to);
             }

@@ -311,6 +311,34 @@ fn thin_triangles_are_seen_as_the_textbook_sees_them_however_they_are_drawn() {
 }
 
 #[test]
+fn triangles_that_are_thin_in_the_middle_row_alone() {
+    // Two corners are so far above the picture that nothing bounds the triangle; the third one ends it at rows around the
+    // middle of the first tall strip, where its sides are hardly apart. Above, they are up to 200 columns apart.
+    let mut steps = 0;
+    for tip in 50..80_u8 {
+        let tip = Vec2::new(7.3, 64.4 - f32::from(tip));
+        let far = |x: f32| tip + Vec2::new(x, 1.0) * 1e9;
+        let places = [tip, far(1.5), far(-1.5)];
+        let scene = scene(vec![triangle(places.map(|place| place.extend(-5.0).to_array()))]);
+        let camera = Camera::new(CameraDescription {
+            projection: Projection::Parallel,
+            viewport: [300.0, 128.0],
+            image: [300, 128],
+            ..CameraDescription::default()
+        });
+        let camera = camera.expect("it is a camera");
+        let work = check(&scene, &camera, &format!("{tip}"));
+        assert!(work.fragments > 1_000, "{tip}: {work:?}");
+        let (view, options) = (View::new(&scene, &camera), Options::default());
+        let mut frame = Frame::new(&camera, &options);
+        let prepared = fast::prepare(&scene);
+        steps +=
+            fast::determine_visibility(&prepared, &view, &options, &mut frame, &mut ()).lane_steps;
+    }
+    assert!(steps > 300, "{steps}");
+}
+
+#[test]
 fn edges_through_samples_need_no_judge_where_vertices_are_on_the_raster() {
     for (scene, camera, what) in grids_on_quarters() {
         let work = check(&scene, &camera, &what);
