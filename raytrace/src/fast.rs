@@ -30,6 +30,7 @@ mod depth;
 mod distances;
 mod draw;
 mod few_samples;
+mod fragments;
 mod high_precision;
 mod lane_affine;
 mod local_errors;

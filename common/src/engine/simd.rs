@@ -11,7 +11,7 @@
 
 pub use fearless_simd::prelude::*;
 pub use fearless_simd::{
-    Level, Simd, dispatch, f32x4, f32x8, f32x16, f64x8, i32x4, i32x16, mask32x4, mask32x8,
+    Level, Simd, dispatch, f32x4, f32x8, f32x16, f64x8, i32x4, i32x8, i32x16, mask32x4, mask32x8,
     mask32x16, mask64x8, u8x64, u32x8, u32x16,
 };
 

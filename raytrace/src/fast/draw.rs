@@ -8,6 +8,7 @@ use super::aligned::TIE;
 use super::answer::Trust;
 use super::camera_map::CameraMap;
 use super::few_samples;
+use super::fragments::Fragments;
 use super::many_samples::{self, FlatSetup, SetupArrays};
 use super::one_primitive::flat::FlatFunctions;
 use super::one_primitive::{self, narrow::narrow};
@@ -29,7 +30,7 @@ pub(super) fn draw<C: Context>(
     map: &CameraMap,
     frustum: &TileFrustum,
     (eight, used): (&TrianglePacket, u64),
-    tile: &mut TileBuffer,
+    (fragments, tile): (&mut Fragments, &mut TileBuffer),
 ) -> SizeClass {
     let simd = context.simd();
     let setup = Setup::new(context, frustum, eight, used, tile.far);
@@ -47,7 +48,7 @@ pub(super) fn draw<C: Context>(
     let few = samples.simd_le(f32x8::splat(simd, FEW)).to_bitmask() & alive & !doubtful;
     let mut arrays = SetupArrays::new(&setup);
     if few != 0 {
-        few_samples::draw(context, frustum, &setup, (eight, few), samples, tile);
+        few_samples::draw(context, frustum, &setup, (eight, few), samples, (fragments, tile));
     }
     let mut many = alive & !few;
     let very_few = samples.simd_le(f32x8::splat(simd, VERY_FEW)).to_bitmask();

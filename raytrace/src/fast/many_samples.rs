@@ -102,7 +102,10 @@ pub(super) fn draw<S: Simd>(
     let [ab, bc, ca] = &triangle.edges;
     let key = &triangle.key;
     let side = tile.side();
-    for group in 0..tile.blocks() / 16 {
+    let mut groups = triangle.groups(tile.blocks() / 16);
+    while groups != 0 {
+        let group = groups.trailing_zeros() as usize;
+        groups &= groups - 1;
         let [top, left] = place(side, group * 256);
         let by = rows(simd, STEPS) + (frustum.centered(top) + 1.5);
         let bx = columns(simd, STEPS) + (frustum.centered(left) + 1.5);
@@ -169,6 +172,20 @@ impl<S: Simd> TriangleSetup<S> {
             rows: [rows[0][lane] + half, rows[1][lane] + half],
             columns: [columns[0][lane] + half, columns[1][lane] + half],
         }
+    }
+
+    /// The groups of blocks, of so many in the tile, in which it may cover a sample: a bit for each. NaN leaves none out.
+    #[inline(always)]
+    fn groups(&self, count: usize) -> u32 {
+        if count < 4 {
+            return (1 << count) - 1;
+        }
+        // Two rows of two groups, which meet in the tile's middle.
+        let halves = |[first, last]: [f32; 2]| {
+            [if first > 0.0 { 0 } else { u32::MAX }, if last < 0.0 { 0 } else { u32::MAX }]
+        };
+        let ([upper, lower], [left, right]) = (halves(self.rows), halves(self.columns));
+        (upper & 0b0011 | lower & 0b1100) & (left & 0b0101 | right & 0b1010)
     }
 
     /// Tests it at the samples of a block of a group; `values` holds the edge functions and the key in the middles of

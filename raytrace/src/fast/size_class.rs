@@ -1,7 +1,7 @@
 //! How many samples triangles may cover, in classes: each class has its own way to be drawn.
 
 /// Triangles over at most this many samples are drawn one a lane.
-pub(super) const FEW: f32 = 8.0;
+pub(super) const FEW: f32 = 16.0;
 /// At most this many samples are very few.
 pub(super) const VERY_FEW: f32 = 3.0;
 

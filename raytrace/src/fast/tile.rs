@@ -13,7 +13,7 @@ use bothways_common::{Primitive, View};
 /// Samples along one side of a block: sixteen samples are tested at once.
 pub(super) const BLOCK: usize = 4;
 /// Samples along one side of the largest tile.
-const LARGEST: usize = 32;
+pub(super) const LARGEST: usize = 32;
 const SAMPLES: usize = LARGEST * LARGEST;
 const BLOCKS: usize = SAMPLES / 16;
 

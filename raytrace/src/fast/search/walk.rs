@@ -6,6 +6,7 @@ use super::tile_frustum::{FrustumTemplate, TileFrustum};
 use super::tile_place::TilePlace;
 use super::tree::{INSTANCES, LeafCounts, Node, NodeKind, NodeRef, WIDTH};
 use crate::fast::camera_map::CameraMap;
+use crate::fast::fragments::Fragments;
 use crate::fast::one_primitive::unbounded::Unbounded;
 use crate::fast::prepared::{OneInstance, Prepared};
 use crate::fast::size_class::SizeClass;
@@ -48,6 +49,7 @@ pub(crate) struct Walker<'a> {
     unbounded: &'a Unbounded,
     pub(super) stack: Vec<StackEntry>,
     queue: CandidateQueue,
+    fragments: Fragments,
     /// The instance whose mesh is walked last, whether that walk goes on, and how long the stack was before: what lies
     /// above belongs to the instance. Outside of instances, 0.
     instance: Option<InstanceFrustum<'a>>,
@@ -68,6 +70,7 @@ impl<'a> Walker<'a> {
             unbounded,
             stack: Vec::new(),
             queue: CandidateQueue::new(),
+            fragments: Fragments::new(),
             instance: None,
             is_inside: false,
             base: 0,
@@ -347,7 +350,8 @@ impl<'a> Walker<'a> {
             let (eight, used) = (self.queue.take_eight(context.simd()), count.min(EIGHT));
             self.tile.executed.set_ups += used as u64;
             let of = (&eight, (1 << used) - 1);
-            let class = draw::draw(context, self.map, frustum, of, &mut self.tile);
+            let onto = (&mut self.fragments, &mut self.tile);
+            let class = draw::draw(context, self.map, frustum, of, onto);
             largest = largest.max(Some(class));
         }
         largest.unwrap_or(class)
