@@ -4,67 +4,124 @@ use super::camera_map::CameraMap;
 use super::distances::find_distances;
 use super::tile::{BLOCK, TileBuffer, place};
 use bothways_common::Projection;
-use bothways_common::engine::simd::{Select, Simd, SimdBase, SimdMask, f32x16, u32x16};
+use bothways_common::engine::simd::{
+    Bytes, Select, Simd, SimdBase, SimdCombine, SimdMask, SimdSplit, f32x16, prefetch, u32x16,
+};
 use bothways_common::frame::{NO_PRIMITIVE, NO_WIDE_PRIMITIVE};
+use bothways_common::look::lanes::each;
 use bothways_common::raster::Region;
 use std::ops::Range;
 
-/// Writes as much of a tile as a region of a frame holds.
+/// Asks the machine for the memory of those samples of a region that are traced next, before [`store`] writes it. The machine
+/// does not guess where that is, as the rows of a tile are far from each other.
+pub(super) fn prefetch_rows(region: &Region, next: &Region, ids: &[&mut [u32]], t: &[&mut [f32]]) {
+    if next.is_empty() {
+        return;
+    }
+    let [rows, columns] = counted_from(region, next);
+    // The columns of a tile lie in two lines of the cache, or in three.
+    let at = [columns.start, columns.end.min(columns.start + 16) - 1, columns.end - 1];
+    for (ids, t) in ids[rows.clone()].iter().zip(&t[rows]) {
+        for at in at {
+            prefetch(&ids[at]);
+            prefetch(&t[at]);
+        }
+    }
+}
+
+/// Rows and columns of the picture, counted from the first ones of a region that holds them.
+fn counted_from(region: &Region, Region { rows, columns }: &Region) -> [Range<usize>; 2] {
+    let [first_row, first_column] = [region.rows.start, region.columns.start];
+    [
+        rows.start - first_row..rows.end - first_row,
+        columns.start - first_column..columns.end - first_column,
+    ]
+}
+
+/// Writes those samples of a tile that are `drawn` into a region of a frame, which holds them.
 #[inline(always)]
 pub(super) fn store<S: Simd>(
     simd: S,
     map: &CameraMap,
     tile: &TileBuffer,
-    region: &Region,
+    (region, drawn): (&Region, &Region),
     ids: &mut [&mut [u32]],
     t: &mut [&mut [f32]],
 ) {
-    // What the region holds of the tile, counted from the tile's first row and column.
-    let held = |axis: usize, of: &Range<usize>| {
-        let (first, count) = (tile.start[axis], tile.size[axis]);
-        of.start.saturating_sub(first)..(of.end - first).min(count)
-    };
-    let (rows, columns) = (held(0, &region.rows), held(1, &region.columns));
-    let [top, left] = tile.start;
-    let line = |row: usize| row + top - region.rows.start;
-    let place_in_line = |column: usize| column + left - region.columns.start;
+    if drawn.is_empty() {
+        return;
+    }
     if !tile.touched {
-        let columns = place_in_line(columns.start)..place_in_line(columns.end);
-        for row in rows.map(line) {
-            ids[row][columns.clone()].fill(NO_PRIMITIVE);
-            t[row][columns.clone()].fill(f32::INFINITY);
+        let [rows, columns] = counted_from(region, drawn);
+        for (ids, t) in ids[rows.clone()].iter_mut().zip(&mut t[rows]) {
+            ids[columns.clone()].fill(NO_PRIMITIVE);
+            t[columns.clone()].fill(f32::INFINITY);
         }
         return;
     }
     if tile.side() < BLOCK {
         let (mut shown, mut far) = ([0; 16], [0.0; 16]);
         block_values(simd, map, tile, 0, &mut shown, &mut far);
-        ids[line(0)][place_in_line(0)] = shown[0];
-        t[line(0)][place_in_line(0)] = far[0];
+        let [row, column] = counted_from(region, drawn).map(|range| range.start);
+        ids[row][column] = shown[0];
+        t[row][column] = far[0];
         return;
     }
-    for block in 0..tile.blocks() {
-        let [top, left] = place(tile.side(), block * 16);
-        let rows = top.max(rows.start)..rows.end.min(top + BLOCK);
-        let columns = left.max(columns.start)..columns.end.min(left + BLOCK);
-        if rows.is_empty() || columns.is_empty() {
+    // Four blocks beside each other at a time: whole lines of the cache, if a row begins with one.
+    for first in (0..tile.blocks()).step_by(4) {
+        let [top, left] = place(tile.side(), first * 16);
+        let [top, left] = [tile.start[0] + top, tile.start[1] + left];
+        let strip = Region { rows: top..top + BLOCK, columns: left..left + 4 * BLOCK };
+        let here = drawn.intersection(&strip);
+        if here.is_empty() {
             continue;
         }
-        let (mut shown, mut far) = ([0; 16], [0.0; 16]);
-        block_values(simd, map, tile, block, &mut shown, &mut far);
-        let (wide, start) = (columns.len(), place_in_line(columns.start));
-        for row in rows {
-            let from = (row - top) * BLOCK + columns.start - left;
-            let (ids, t) = (&mut ids[line(row)], &mut t[line(row)]);
-            if wide == BLOCK {
-                ids[start..start + BLOCK].copy_from_slice(&shown[from..from + BLOCK]);
-                t[start..start + BLOCK].copy_from_slice(&far[from..from + BLOCK]);
+        let [shown, far] = values_of_four(simd, map, tile, first);
+        let (from, wide) = (here.columns.start - left, here.columns.len());
+        let [rows, columns] = counted_from(region, &here);
+        let lines = ids[rows.clone()].iter_mut().zip(&mut t[rows]);
+        for (row, (ids, t)) in (here.rows.start - top..).zip(lines) {
+            let (ids, t) = (&mut ids[columns.clone()], &mut t[columns.clone()]);
+            let (shown, far) = (shown[row % BLOCK].bitcast::<u32x16<S>>(), far[row % BLOCK]);
+            if wide == 16 {
+                shown.store_slice(ids);
+                far.store_slice(t);
             } else {
-                ids[start..start + wide].copy_from_slice(&shown[from..from + wide]);
-                t[start..start + wide].copy_from_slice(&far[from..from + wide]);
+                ids.copy_from_slice(&shown.to_array()[from..from + wide]);
+                t.copy_from_slice(&far.to_array()[from..from + wide]);
             }
         }
     }
+}
+
+/// The ids, as the bits of `f32`, and the distances of four blocks beside each other, row by row.
+#[inline(always)]
+fn values_of_four<S: Simd>(
+    simd: S,
+    map: &CameraMap,
+    tile: &TileBuffer,
+    first: usize,
+) -> [[f32x16<S>; 4]; 2] {
+    let blocks = each!(k in [0, 1, 2, 3] => {
+        let (mut shown, mut far) = ([0; 16], [0.0; 16]);
+        block_values(simd, map, tile, first + k, &mut shown, &mut far);
+        [u32x16::load_array(simd, shown).bitcast(), f32x16::load_array(simd, far)]
+    });
+    each!(of in [0, 1] => rows_of_four(each!(k in [0, 1, 2, 3] => blocks[k][of])))
+}
+
+/// The rows of four blocks beside each other.
+#[inline(always)]
+fn rows_of_four<S: Simd>(blocks: [f32x16<S>; 4]) -> [f32x16<S>; 4] {
+    let parts = each!(k in [0, 1, 2, 3] => {
+        let (upper, lower) = blocks[k].split();
+        let ((a, b), (c, d)) = (upper.split(), lower.split());
+        [a, b, c, d]
+    });
+    each!(row in [0, 1, 2, 3] => {
+        let [a, b, c, d] = each!(k in [0, 1, 2, 3] => parts[k][row]);
+        a.combine(b).combine(c.combine(d))
+    })
 }
 
 /// Writes the wide ids of the samples that were drawn in a tile, from their names; both cover a region.
@@ -75,12 +132,10 @@ pub(super) fn store_wide_ids(
     names: &[&mut [u32]],
     ids: &mut [&mut [u64]],
 ) {
-    let columns =
-        drawn.columns.start - region.columns.start..drawn.columns.end - region.columns.start;
-    for row in drawn.rows.clone() {
-        let line = row - region.rows.start;
-        let to = &mut ids[line][columns.clone()];
-        for (id, &name) in to.iter_mut().zip(&names[line][columns.clone()]) {
+    let [rows, columns] = counted_from(region, drawn);
+    for row in rows {
+        let to = &mut ids[row][columns.clone()];
+        for (id, &name) in to.iter_mut().zip(&names[row][columns.clone()]) {
             *id = if name == NO_PRIMITIVE { NO_WIDE_PRIMITIVE } else { tile.names.id(name) };
         }
     }

@@ -2,7 +2,7 @@
 
 use super::search::tile_frustum::FrustumTemplate;
 use super::search::walk::Walker;
-use super::store::store;
+use super::store::{prefetch_rows, store};
 use super::tile::TileBuffer;
 use bothways_common::engine::context::LoopContext;
 use bothways_common::engine::fault::Fault;
@@ -31,10 +31,12 @@ pub(super) fn trace_tiles<F: Fault>(
             for left in tiles(&region.columns) {
                 let size = [map.grid.height() - top, map.grid.width() - left];
                 let size = size.map(|count| count.min(side));
-                walker.walk(&mut LoopContext::<_, (), F>::of(simd, &mut ()), template, [top, left], size);
-                store(simd, map, &walker.tile, region, names, t);
                 let [rows, columns] = [top..top + size[0], left..left + size[1]];
-                done(&walker.tile, names, &region.intersection(&Region { rows, columns }));
+                let drawn = region.intersection(&Region { rows, columns });
+                prefetch_rows(region, &drawn, names, t);
+                walker.walk(&mut LoopContext::<_, (), F>::of(simd, &mut ()), template, [top, left], size);
+                store(simd, map, &walker.tile, (region, &drawn), names, t);
+                done(&walker.tile, names, &drawn);
                 executed += walker.tile.executed.of_one_tile();
             }
         }
