@@ -8,7 +8,7 @@ use super::vertices::Vertex;
 use bothways_common::engine::cache::largest_cache;
 use bothways_common::engine::names::Names;
 use bothways_common::engine::simd::{
-    Select, Simd, SimdBase, SimdMask, Sixteen, f32x16, finish_streaming, stream, u32x16,
+    Select, Simd, SimdBase, SimdMask, Sixteen, f32x16, finish_streaming, prefetch, stream, u32x16,
 };
 use bothways_common::frame::{IdRows, NO_PRIMITIVE, NO_WIDE_PRIMITIVE, Tile, stored_t};
 use bothways_common::raster::Sample;
@@ -43,14 +43,16 @@ fn store_rows<S: Simd>(
     ids: Vec<&mut [u32]>,
     t: Vec<&mut [f32]>,
 ) {
-    for (row, (ids, t)) in ids.into_iter().zip(t).enumerate() {
+    let mut rows = ids.into_iter().zip(t).enumerate().peekable();
+    while let Some((row, (ids, t))) = rows.next() {
+        let next = NextRow::new(picture, rows.peek().map(|(_, next)| next));
         let start = row * buffer.stride();
         let (whole_ids, rest_ids) = ids.as_chunks_mut::<16>();
         let (whole_t, rest_t) = t.as_chunks_mut::<16>();
         let whole = 16 * whole_ids.len();
-        let from = (start..).step_by(16);
-        for ((ids, t), from) in whole_ids.iter_mut().zip(whole_t).zip(from) {
-            store_sixteen(simd, picture, buffer, from, (ids, t));
+        for (at, (ids, t)) in (0..).step_by(16).zip(whole_ids.iter_mut().zip(whole_t)) {
+            next.prefetch(at);
+            store_sixteen(simd, picture, buffer, start + at, (ids, t));
         }
         if !rest_ids.is_empty() {
             let (mut ids, mut t) = ([NO_PRIMITIVE; 16], [f32::INFINITY; 16]);
@@ -73,10 +75,13 @@ pub(super) fn store_nothing(picture: &Picture, tile: Tile) {
             return;
         }
     };
-    for (ids, t) in ids.into_iter().zip(t) {
+    let mut rows = ids.into_iter().zip(t).peekable();
+    while let Some((ids, t)) = rows.next() {
+        let next = NextRow::new(picture, rows.peek());
         let (whole_ids, rest_ids) = ids.as_chunks_mut::<16>();
         let (whole_t, rest_t) = t.as_chunks_mut::<16>();
-        for (ids, t) in whole_ids.iter_mut().zip(whole_t) {
+        for (at, (ids, t)) in (0..).step_by(16).zip(whole_ids.iter_mut().zip(whole_t)) {
+            next.prefetch(at);
             write(picture, [NO_PRIMITIVE; 16], ids);
             write(picture, [f32::INFINITY; 16], t);
         }
@@ -84,6 +89,32 @@ pub(super) fn store_nothing(picture: &Picture, tile: Tile) {
         rest_t.fill(f32::INFINITY);
     }
     finish_streaming();
+}
+
+/// The row of a tile that is written next, where that goes through the caches. While one row is written, the machine is asked
+/// for the next one, as it does not guess where in memory that lies.
+struct NextRow<'a> {
+    ids: &'a [u32],
+    t: &'a [f32],
+}
+
+impl<'a> NextRow<'a> {
+    #[inline(always)]
+    fn new(picture: &Picture, row: Option<&'a (&mut [u32], &mut [f32])>) -> Self {
+        match row {
+            Some((ids, t)) if !picture.past_caches => NextRow { ids, t },
+            _ => NextRow { ids: &[], t: &[] },
+        }
+    }
+
+    /// Asks for the samples from an index on.
+    #[inline(always)]
+    fn prefetch(&self, at: usize) {
+        if let (Some(ids), Some(t)) = (self.ids.get(at), self.t.get(at)) {
+            prefetch(ids);
+            prefetch(t);
+        }
+    }
 }
 
 /// Writes sixteen samples of a row, from an index of the buffer on.
