@@ -32,6 +32,14 @@ pub fn prefetch<T>(soon: &T) {
     let _ = soon;
 }
 
+/// [`prefetch`] for a value of a slice, if there is one at the index.
+#[inline(always)]
+pub fn prefetch_at<T>(values: &[T], index: usize) {
+    if let Some(soon) = values.get(index) {
+        prefetch(soon);
+    }
+}
+
 /// [`dispatch!`] for code that is generic over a [`Fault`](crate::engine::fault::Fault). Code with faults may be
 /// slow: it is compiled for one level only, if there are several levels.
 #[macro_export]

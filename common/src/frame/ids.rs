@@ -1,6 +1,7 @@
 //! The ids of a frame: of 32 bits, or of 64 where a scene has more primitives.
 
 use crate::engine::memory::filled;
+use crate::engine::simd::prefetch_at;
 use crate::raster::Region;
 use std::ops::Range;
 
@@ -77,6 +78,16 @@ impl<'a> Ids<'a> {
         match self {
             Ids::Narrow(ids) => Ids::Narrow(&ids[samples]),
             Ids::Wide(ids) => Ids::Wide(&ids[samples]),
+        }
+    }
+
+    /// Asks the machine for the ids of some samples, as far as there are such, before use.
+    #[inline(always)]
+    pub(crate) fn prefetch(self, samples: Range<usize>) {
+        let samples = samples.step_by(16);
+        match self {
+            Ids::Narrow(ids) => samples.for_each(|sample| prefetch_at(ids, sample)),
+            Ids::Wide(ids) => samples.for_each(|sample| prefetch_at(ids, sample)),
         }
     }
 

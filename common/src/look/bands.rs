@@ -149,6 +149,8 @@ impl<'a, A: Surfaces> Look<'a, A> {
         desk.begin_block();
         for (line, start) in chunks.clone() {
             let Range { start, end } = within(start);
+            let below = (line + SET_UP_TOGETHER) * width;
+            band.ids.prefetch(below + start..below + end);
             desk.find_runs(simd, band.ids.of(line * width + start..line * width + end));
         }
         desk.set_up_new(simd, &self.setting);

@@ -8,7 +8,8 @@ use super::vertices::Vertex;
 use bothways_common::engine::cache::largest_cache;
 use bothways_common::engine::names::Names;
 use bothways_common::engine::simd::{
-    Select, Simd, SimdBase, SimdMask, Sixteen, f32x16, finish_streaming, prefetch, stream, u32x16,
+    Select, Simd, SimdBase, SimdMask, Sixteen, f32x16, finish_streaming, prefetch_at, stream,
+    u32x16,
 };
 use bothways_common::frame::{IdRows, NO_PRIMITIVE, NO_WIDE_PRIMITIVE, Tile, stored_t};
 use bothways_common::raster::Sample;
@@ -110,10 +111,8 @@ impl<'a> NextRow<'a> {
     /// Asks for the samples from an index on.
     #[inline(always)]
     fn prefetch(&self, at: usize) {
-        if let (Some(ids), Some(t)) = (self.ids.get(at), self.t.get(at)) {
-            prefetch(ids);
-            prefetch(t);
-        }
+        prefetch_at(self.ids, at);
+        prefetch_at(self.t, at);
     }
 }
 

@@ -232,15 +232,18 @@ impl<'a, T> Desk<'a, T> {
 
     /// Sets up the primitives that are new.
     ///
-    /// All are set up before the first is used: so the memory that they lie in is fetched for several at once.
+    /// All are set up before the first is used, and the machine is asked for what they need before that: so the memory that they
+    /// lie in is fetched for several at once.
     #[inline(always)]
     pub(super) fn set_up_new<S: Simd, A: Surfaces<Surface = T>>(
         &mut self,
         simd: S,
         setting: &Setting<'a, A>,
     ) {
+        self.prefetch_indices(setting);
         for start in (0..self.new.len()).step_by(8) {
             let end = self.new.len().min(start + 8);
+            self.prefetch_corners(setting, end..self.new.len().min(end + 8));
             let found = match self.new[start..end] {
                 // Vectors are not worth it for one or two.
                 [_] | [_, _] => None,
@@ -255,6 +258,26 @@ impl<'a, T> Desk<'a, T> {
             }
         }
         self.new.clear();
+    }
+
+    /// Asks for the indices of all new primitives.
+    #[inline(always)]
+    fn prefetch_indices<A: Surfaces<Surface = T>>(&self, setting: &Setting<'a, A>) {
+        for &name in &self.new {
+            self.locate(setting, name).prefetch_indices();
+        }
+    }
+
+    /// Asks for the corners of some new primitives, whose indices have been asked for.
+    #[inline(always)]
+    fn prefetch_corners<A: Surfaces<Surface = T>>(
+        &self,
+        setting: &Setting<'a, A>,
+        new: Range<usize>,
+    ) {
+        for &name in &self.new[new] {
+            self.locate(setting, name).prefetch_corners();
+        }
     }
 
     /// The primitive of a name.

@@ -1,7 +1,7 @@
 //! Primitives that are seen and are to be set up: one, or eight triangles at once.
 
 use super::surfaces::{EightTriangles, Wanted, needs_normals_alone};
-use crate::engine::simd::{Simd, SimdBase, f64x8};
+use crate::engine::simd::{Simd, SimdBase, f64x8, prefetch_at};
 use crate::look::lanes::{DVec3x8, Lanes, each};
 use crate::scene::material::Material;
 use crate::scene::mesh::Attribute;
@@ -38,6 +38,30 @@ impl Found<'_> {
         // All corners have one.
         let have = |corner: &u32| *corner != Attribute::<Vec3>::NONE;
         normals.iter().all(have).then(|| (mesh.triangles()[self.local], *normals))
+    }
+}
+
+impl Found<'_> {
+    /// Asks the machine for the indices of a triangle of a mesh.
+    #[inline(always)]
+    pub(super) fn prefetch_indices(&self) {
+        if let Shape::Mesh(mesh) = &self.object.shape {
+            prefetch_at(mesh.triangles(), self.local);
+            prefetch_at(&mesh.normals().corners, self.local);
+        }
+    }
+
+    /// Asks the machine for the vertices and the normals of a triangle of a mesh.
+    #[inline(always)]
+    pub(super) fn prefetch_corners(&self) {
+        let Shape::Mesh(mesh) = &self.object.shape else { return };
+        let [positions, normals] = [mesh.positions(), &mesh.normals().values];
+        for &vertex in mesh.triangles().get(self.local).into_iter().flatten() {
+            prefetch_at(positions, vertex as usize);
+        }
+        for &normal in mesh.normals().corners.get(self.local).into_iter().flatten() {
+            prefetch_at(normals, normal as usize);
+        }
     }
 }
 
