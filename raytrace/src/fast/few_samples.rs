@@ -25,6 +25,7 @@ pub(super) fn draw<C: Context>(
     let (mut column, mut row) = (first, setup.rows[0]);
     let few = mask32x8::from_bitmask(simd, few);
     let remaining = few.select(samples, zero);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
     let steps = simd.reduce_max_f32x8(remaining) as u32;
     let mut done = zero;
     for _ in 0..steps {
