@@ -84,10 +84,10 @@ impl<'a> Ids<'a> {
     /// Asks the machine for the ids of some samples, as far as there are such, before use.
     #[inline(always)]
     pub(crate) fn prefetch(self, samples: Range<usize>) {
-        let samples = samples.step_by(16);
+        // One for each line of the cache.
         match self {
-            Ids::Narrow(ids) => samples.for_each(|sample| prefetch_at(ids, sample)),
-            Ids::Wide(ids) => samples.for_each(|sample| prefetch_at(ids, sample)),
+            Ids::Narrow(ids) => samples.step_by(16).for_each(|sample| prefetch_at(ids, sample)),
+            Ids::Wide(ids) => samples.step_by(8).for_each(|sample| prefetch_at(ids, sample)),
         }
     }
 

@@ -1,7 +1,7 @@
 //! Fragments that wait for their depth test.
 
 use super::size_class::FEW;
-use super::tile::{LARGEST, TileBuffer, index};
+use super::tile::{LARGEST_SIDE, TileBuffer, index};
 use bothways_common::engine::context::ScalarContext;
 use bothways_common::engine::simd::{
     Select, Simd, SimdBase, SimdFloat, SimdMask, f32x8, i32x8, mask32x8,
@@ -10,8 +10,9 @@ use bothways_common::engine::simd::{
 /// The most fragments that wait: those that eight triangles over few samples can have.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
 const MOST_FRAGMENTS: usize = 8 * FEW as usize;
+const _: () = assert!(FEW.fract() == 0.0, "a triangle has a whole number of samples");
 /// A name holds a sample in its lower bits, then a lane, then whether the fragment is certain.
-const LANE: usize = LARGEST * LARGEST;
+const LANE: usize = LARGEST_SIDE * LARGEST_SIDE;
 const CERTAIN: usize = 8 * LANE;
 
 /// Fragments of eight triangles that wait for their depth test: the machine predicts the branches of one loop over all of them
@@ -36,7 +37,8 @@ impl Fragments {
         }
     }
 
-    /// Adds the lanes in which there is perhaps a fragment, or certainly.
+    /// Adds the lanes in which there is `perhaps` a fragment, at a row and column of the tile; where it is also `inside`, that is
+    /// certain.
     #[inline(always)]
     pub(super) fn add<S: Simd>(
         &mut self,
@@ -45,10 +47,11 @@ impl Fragments {
         (perhaps, inside): (mask32x8<S>, mask32x8<S>),
         [low, high]: [f32x8<S>; 2],
     ) {
-        // All of these are whole numbers that `f32` holds.
+        // Where there is a fragment, all of these are whole numbers that `f32` holds. What comes of other lanes is dropped below.
         let name = f32x8::load_array(simd, const { names(0) });
         let certain = f32x8::load_array(simd, const { names(CERTAIN) });
-        let name = inside.select(certain, name) + (row * LARGEST as f32 + column);
+        let name = inside.select(certain, name) + (row * LARGEST_SIDE as f32 + column);
+        debug_assert!(self.count <= MOST_FRAGMENTS, "fragments would be lost");
         let from = self.count.min(MOST_FRAGMENTS);
         name.to_int::<i32x8<S>>().compress(perhaps).store_slice(&mut self.names[from..from + 8]);
         low.compress(perhaps).store_slice(&mut self.low[from..from + 8]);
@@ -67,15 +70,31 @@ impl Fragments {
         let count = std::mem::take(&mut self.count).min(MOST_FRAGMENTS);
         let fragments = self.names[..count].iter().zip(&self.low[..count]).zip(&self.high[..count]);
         for ((name, &low), &high) in fragments {
-            let name = name.cast_unsigned() as usize;
-            let lane = name / LANE % 8;
-            let at = index(name / LARGEST, name);
-            tile.fragment(context, at, (lane, ids[lane]), name >= CERTAIN, [low, high]);
+            let Fragment { lane, at, certain } = Fragment::of(*name);
+            tile.fragment(context, at, (lane, ids[lane]), certain, [low, high]);
         }
     }
 }
 
-/// The names of the first sample in all lanes, and something more.
+/// What a name says.
+#[derive(Debug, PartialEq, Eq)]
+struct Fragment {
+    lane: usize,
+    /// The index of its sample in the tile.
+    at: usize,
+    certain: bool,
+}
+
+impl Fragment {
+    #[inline(always)]
+    fn of(name: i32) -> Fragment {
+        let name = name.cast_unsigned() as usize;
+        let at = index(name / LARGEST_SIDE, name);
+        Fragment { lane: name / LANE % 8, at, certain: name >= CERTAIN }
+    }
+}
+
+/// The names of the first sample in all lanes, plus `more`.
 #[expect(clippy::cast_precision_loss, reason = "small numbers")]
 const fn names(more: usize) -> [f32; 8] {
     let mut names = [0.0; 8];
@@ -85,4 +104,59 @@ const fn names(more: usize) -> [f32; 8] {
         lane += 1;
     }
     names
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bothways_common::engine::simd::{dispatch, levels};
+
+    /// As many steps as fill the room: in a fifth of the lanes there is nothing.
+    const STEPS: u16 = 20;
+
+    /// The row and column of a lane of a step, whether there is perhaps a fragment, and whether certainly.
+    fn drawn(step: u16, lane: usize) -> (u16, u16, bool, bool) {
+        let number = 8 * step + u16::try_from(lane).unwrap();
+        (number * 7 % 32, number * 11 % 32, number % 5 != 4, number.is_multiple_of(3))
+    }
+
+    #[inline(always)]
+    fn add_step<S: Simd>(simd: S, fragments: &mut Fragments, step: u16) {
+        let of = |lane| drawn(step, lane);
+        // Lanes without a fragment may have any row.
+        let row = |lane| if of(lane).2 { f32::from(of(lane).0) } else { f32::INFINITY };
+        let column = |lane| f32::from(of(lane).1);
+        let places = [f32x8::from_fn(simd, row), f32x8::from_fn(simd, column)];
+        let bits = |is: fn((u16, u16, bool, bool)) -> bool| {
+            (0..8).fold(0, |bits, lane| bits | u64::from(is(of(lane))) << lane)
+        };
+        let [perhaps, inside] =
+            [bits(|of| of.2), bits(|of| of.3)].map(|bits| mask32x8::from_bitmask(simd, bits));
+        let low = f32x8::from_fn(simd, |lane| f32::from(step) + 0.125 * lane as f32);
+        fragments.add(simd, places, (perhaps, inside), [low, low + 0.5]);
+    }
+
+    #[test]
+    fn fragments_keep_their_sample_lane_and_keys_at_every_level() {
+        let expected: Vec<(Fragment, [f32; 2])> = (0..STEPS)
+            .flat_map(|step| (0..8).map(move |lane| (step, lane, drawn(step, lane))))
+            .filter(|(.., (_, _, perhaps, _))| *perhaps)
+            .map(|(step, lane, (row, column, _, certain))| {
+                let at = index(row.into(), column.into());
+                let low = f32::from(step) + 0.125 * lane as f32;
+                (Fragment { lane, at, certain }, [low, low + 0.5])
+            })
+            .collect();
+        assert_eq!(expected.len(), MOST_FRAGMENTS);
+        for level in levels() {
+            let mut fragments = Fragments::new();
+            for step in 0..STEPS {
+                dispatch!(level, simd => add_step(simd, &mut fragments, step));
+            }
+            let Fragments { names, low, high, count } = &fragments;
+            let of = |k: usize| (Fragment::of(names[k]), [low[k], high[k]]);
+            let found: Vec<_> = (0..*count).map(of).collect();
+            assert_eq!(found, expected, "{level:?}");
+        }
+    }
 }

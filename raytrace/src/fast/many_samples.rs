@@ -102,7 +102,7 @@ pub(super) fn draw<S: Simd>(
     let [ab, bc, ca] = &triangle.edges;
     let key = &triangle.key;
     let side = tile.side();
-    let mut groups = triangle.groups(tile.blocks() / 16);
+    let mut groups = groups(tile.blocks() / 16, [triangle.rows, triangle.columns]);
     while groups != 0 {
         let group = groups.trailing_zeros() as usize;
         groups &= groups - 1;
@@ -130,6 +130,21 @@ pub(super) fn draw<S: Simd>(
             triangle.draw_block(simd, frustum, (group, block), &values, tile);
         }
     }
+}
+
+/// The groups of blocks, of so many in the tile, that hold samples between the first and the last of some rows and columns,
+/// counted from the tile's middle: a bit for each. NaN leaves none out.
+#[inline(always)]
+fn groups(count: usize, [rows, columns]: [[f32; 2]; 2]) -> u32 {
+    if count < 4 {
+        return (1 << count) - 1;
+    }
+    // Two rows of two groups, which meet in the tile's middle.
+    let halves = |[first, last]: [f32; 2]| {
+        [if first > 0.0 { 0 } else { u32::MAX }, if last < 0.0 { 0 } else { u32::MAX }]
+    };
+    let ([upper, lower], [left, right]) = (halves(rows), halves(columns));
+    (upper & 0b0011 | lower & 0b1100) & (left & 0b0101 | right & 0b1010)
 }
 
 /// One triangle or plane and its affine functions, the same in every lane.
@@ -172,20 +187,6 @@ impl<S: Simd> TriangleSetup<S> {
             rows: [rows[0][lane] + half, rows[1][lane] + half],
             columns: [columns[0][lane] + half, columns[1][lane] + half],
         }
-    }
-
-    /// The groups of blocks, of so many in the tile, in which it may cover a sample: a bit for each. NaN leaves none out.
-    #[inline(always)]
-    fn groups(&self, count: usize) -> u32 {
-        if count < 4 {
-            return (1 << count) - 1;
-        }
-        // Two rows of two groups, which meet in the tile's middle.
-        let halves = |[first, last]: [f32; 2]| {
-            [if first > 0.0 { 0 } else { u32::MAX }, if last < 0.0 { 0 } else { u32::MAX }]
-        };
-        let ([upper, lower], [left, right]) = (halves(self.rows), halves(self.columns));
-        (upper & 0b0011 | lower & 0b1100) & (left & 0b0101 | right & 0b1010)
     }
 
     /// Tests it at the samples of a block of a group; `values` holds the edge functions and the key in the middles of
@@ -265,5 +266,47 @@ impl<S: Simd> BlockAffine<S> {
     #[inline(always)]
     fn at(&self, row: f32x16<S>, column: f32x16<S>) -> f32x16<S> {
         (self.at_middle + self.down * row) + self.across * column
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::groups;
+    use crate::fast::tile::place;
+
+    #[test]
+    fn groups_are_left_out_where_no_sample_lies_in_them() {
+        let places = [0, 1, 14, 15, 16, 17, 30, 31_u8];
+        let ranges = || {
+            let to_last = |first: u8| places.into_iter().map(move |last| [first, last]);
+            places.into_iter().flat_map(to_last).filter(|[first, last]| first <= last)
+        };
+        let centered = |range: [u8; 2]| range.map(|place| f32::from(place) - 15.5);
+        for rows in ranges() {
+            for columns in ranges() {
+                let holds = |group: &usize| {
+                    let begins = place(32, group * 256);
+                    [rows, columns].iter().zip(begins).all(|(&[first, last], begin)| {
+                        usize::from(first) < begin + 16 && usize::from(last) >= begin
+                    })
+                };
+                let expected = (0..4).filter(holds).fold(0, |bits, group| bits | 1 << group);
+                assert_eq!(
+                    groups(4, [rows, columns].map(centered)),
+                    expected,
+                    "{rows:?} {columns:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn no_group_is_left_out_where_nothing_is_known() {
+        let [all, none] = [[-15.5, 15.5], [f32::NAN; 2]];
+        for known in [[none, none], [all, none], [none, all], [all, all]] {
+            assert_eq!(groups(4, known), 0b1111);
+        }
+        // Small tiles have one group, or blocks alone.
+        assert_eq!([groups(1, [[3.0, 3.0]; 2]), groups(0, [[0.0, 0.0]; 2])], [1, 0]);
     }
 }

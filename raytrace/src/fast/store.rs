@@ -38,7 +38,7 @@ fn counted_from(region: &Region, Region { rows, columns }: &Region) -> [Range<us
     ]
 }
 
-/// Writes those samples of a tile that are `drawn` into a region of a frame, which holds them.
+/// Writes some samples of a tile into a region of a frame: those that are `drawn`, all of which lie in the region.
 #[inline(always)]
 pub(super) fn store<S: Simd>(
     simd: S,
@@ -59,7 +59,7 @@ pub(super) fn store<S: Simd>(
         }
         return;
     }
-    if tile.side() < BLOCK {
+    if !tile.has_groups() {
         let (mut shown, mut far) = ([0; 16], [0.0; 16]);
         block_values(simd, map, tile, 0, &mut shown, &mut far);
         let [row, column] = counted_from(region, drawn).map(|range| range.start);
@@ -76,14 +76,14 @@ pub(super) fn store<S: Simd>(
         if here.is_empty() {
             continue;
         }
-        let [shown, far] = values_of_four(simd, map, tile, first);
         let (from, wide) = (here.columns.start - left, here.columns.len());
+        let [shown, far] = values_of_four(simd, map, tile, first, from..from + wide);
         let [rows, columns] = counted_from(region, &here);
         let lines = ids[rows.clone()].iter_mut().zip(&mut t[rows]);
         for (row, (ids, t)) in (here.rows.start - top..).zip(lines) {
             let (ids, t) = (&mut ids[columns.clone()], &mut t[columns.clone()]);
             let (shown, far) = (shown[row % BLOCK].bitcast::<u32x16<S>>(), far[row % BLOCK]);
-            if wide == 16 {
+            if wide == 4 * BLOCK {
                 shown.store_slice(ids);
                 far.store_slice(t);
             } else {
@@ -94,17 +94,21 @@ pub(super) fn store<S: Simd>(
     }
 }
 
-/// The ids, as the bits of `f32`, and the distances of four blocks beside each other, row by row.
+/// The ids, as the bits of `f32`, and the distances of four blocks beside each other, row by row; anything in blocks that hold
+/// none of the columns.
 #[inline(always)]
 fn values_of_four<S: Simd>(
     simd: S,
     map: &CameraMap,
     tile: &TileBuffer,
     first: usize,
+    columns: Range<usize>,
 ) -> [[f32x16<S>; 4]; 2] {
     let blocks = each!(k in [0, 1, 2, 3] => {
         let (mut shown, mut far) = ([0; 16], [0.0; 16]);
-        block_values(simd, map, tile, first + k, &mut shown, &mut far);
+        if BLOCK * k < columns.end && columns.start < BLOCK * (k + 1) {
+            block_values(simd, map, tile, first + k, &mut shown, &mut far);
+        }
         [u32x16::load_array(simd, shown).bitcast(), f32x16::load_array(simd, far)]
     });
     each!(of in [0, 1] => rows_of_four(each!(k in [0, 1, 2, 3] => blocks[k][of])))

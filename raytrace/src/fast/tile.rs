@@ -13,8 +13,8 @@ use bothways_common::{Primitive, View};
 /// Samples along one side of a block: sixteen samples are tested at once.
 pub(super) const BLOCK: usize = 4;
 /// Samples along one side of the largest tile.
-pub(super) const LARGEST: usize = 32;
-const SAMPLES: usize = LARGEST * LARGEST;
+pub(super) const LARGEST_SIDE: usize = 32;
+const SAMPLES: usize = LARGEST_SIDE * LARGEST_SIDE;
 const BLOCKS: usize = SAMPLES / 16;
 
 /// The samples of a tile, block by block, each block row by row. Blocks are in groups of 4 × 4.
@@ -375,17 +375,17 @@ fn least<S: Simd>(lanes: f32x16<S>) -> f32 {
 /// sizes, as those that are smaller than the largest have one group.
 #[inline(always)]
 pub(super) fn index(row: usize, column: usize) -> usize {
-    usize::from(OF_ROW[row % LARGEST]) + usize::from(OF_COLUMN[column % LARGEST])
+    usize::from(OF_ROW[row % LARGEST_SIDE]) + usize::from(OF_COLUMN[column % LARGEST_SIDE])
 }
 
-const OF_ROW: [u16; LARGEST] = steps([4, 64, 512]);
-const OF_COLUMN: [u16; LARGEST] = steps([1, 16, 256]);
+const OF_ROW: [u16; LARGEST_SIDE] = steps([4, 64, 512]);
+const OF_COLUMN: [u16; LARGEST_SIDE] = steps([1, 16, 256]);
 
 /// What rows or columns bring to an index: a step within a block, a step to the next block and one to the next group.
-const fn steps([within, block, group]: [u16; 3]) -> [u16; LARGEST] {
-    let mut all = [0; LARGEST];
+const fn steps([within, block, group]: [u16; 3]) -> [u16; LARGEST_SIDE] {
+    let mut all = [0; LARGEST_SIDE];
     let (mut k, mut at) = (0, 0);
-    while k < LARGEST {
+    while k < LARGEST_SIDE {
         all[k] = at % 4 * within + at % 16 / 4 * block + at / 16 * group;
         k += 1;
         at += 1;

@@ -232,8 +232,8 @@ impl<'a, T> Desk<'a, T> {
 
     /// Sets up the primitives that are new.
     ///
-    /// All are set up before the first is used, and the machine is asked for what they need before that: so the memory that they
-    /// lie in is fetched for several at once.
+    /// All are set up before the first is used, and the machine is asked for their indices before that, and for the corners of eight
+    /// while the eight before them are set up: so the memory that they lie in is fetched for several at once.
     #[inline(always)]
     pub(super) fn set_up_new<S: Simd, A: Surfaces<Surface = T>>(
         &mut self,
@@ -241,6 +241,7 @@ impl<'a, T> Desk<'a, T> {
         setting: &Setting<'a, A>,
     ) {
         self.prefetch_indices(setting);
+        self.prefetch_corners(setting, 0..self.new.len().min(8));
         for start in (0..self.new.len()).step_by(8) {
             let end = self.new.len().min(start + 8);
             self.prefetch_corners(setting, end..self.new.len().min(end + 8));

@@ -39,9 +39,7 @@ impl Found<'_> {
         let have = |corner: &u32| *corner != Attribute::<Vec3>::NONE;
         normals.iter().all(have).then(|| (mesh.triangles()[self.local], *normals))
     }
-}
 
-impl Found<'_> {
     /// Asks the machine for the indices of a triangle of a mesh.
     #[inline(always)]
     pub(super) fn prefetch_indices(&self) {
