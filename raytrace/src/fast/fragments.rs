@@ -11,7 +11,7 @@ use bothways_common::engine::simd::{
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
 const MOST_FRAGMENTS: usize = 8 * FEW as usize;
 const _: () = assert!(FEW.fract() == 0.0, "a triangle has a whole number of samples");
-/// A name holds a sample in its lower bits, then a lane, then whether the fragment is certain.
+/// The code of a fragment holds its sample in the lower bits, then a lane, then whether the fragment is certain.
 const LANE: usize = LARGEST_SIDE * LARGEST_SIDE;
 const CERTAIN: usize = 8 * LANE;
 
@@ -20,7 +20,7 @@ const CERTAIN: usize = 8 * LANE;
 #[derive(Debug)]
 pub(super) struct Fragments {
     /// Each array has room for eight more behind the last fragment.
-    names: [i32; MOST_FRAGMENTS + 8],
+    codes: [i32; MOST_FRAGMENTS + 8],
     /// The ends of their keys.
     low: [f32; MOST_FRAGMENTS + 8],
     high: [f32; MOST_FRAGMENTS + 8],
@@ -30,7 +30,7 @@ pub(super) struct Fragments {
 impl Fragments {
     pub(super) const fn new() -> Self {
         Fragments {
-            names: [0; MOST_FRAGMENTS + 8],
+            codes: [0; MOST_FRAGMENTS + 8],
             low: [0.0; MOST_FRAGMENTS + 8],
             high: [0.0; MOST_FRAGMENTS + 8],
             count: 0,
@@ -48,12 +48,12 @@ impl Fragments {
         [low, high]: [f32x8<S>; 2],
     ) {
         // Where there is a fragment, all of these are whole numbers that `f32` holds. What comes of other lanes is dropped below.
-        let name = f32x8::load_array(simd, const { names(0) });
-        let certain = f32x8::load_array(simd, const { names(CERTAIN) });
-        let name = inside.select(certain, name) + (row * LARGEST_SIDE as f32 + column);
+        let code = f32x8::load_array(simd, const { codes(0) });
+        let certain = f32x8::load_array(simd, const { codes(CERTAIN) });
+        let code = inside.select(certain, code) + (row * LARGEST_SIDE as f32 + column);
         debug_assert!(self.count <= MOST_FRAGMENTS, "fragments would be lost");
         let from = self.count.min(MOST_FRAGMENTS);
-        name.to_int::<i32x8<S>>().compress(perhaps).store_slice(&mut self.names[from..from + 8]);
+        code.to_int::<i32x8<S>>().compress(perhaps).store_slice(&mut self.codes[from..from + 8]);
         low.compress(perhaps).store_slice(&mut self.low[from..from + 8]);
         high.compress(perhaps).store_slice(&mut self.high[from..from + 8]);
         self.count = from + perhaps.to_bitmask().count_ones() as usize;
@@ -68,15 +68,15 @@ impl Fragments {
         tile: &mut TileBuffer,
     ) {
         let count = std::mem::take(&mut self.count).min(MOST_FRAGMENTS);
-        let fragments = self.names[..count].iter().zip(&self.low[..count]).zip(&self.high[..count]);
-        for ((name, &low), &high) in fragments {
-            let Fragment { lane, at, certain } = Fragment::of(*name);
+        let fragments = self.codes[..count].iter().zip(&self.low[..count]).zip(&self.high[..count]);
+        for ((code, &low), &high) in fragments {
+            let Fragment { lane, at, certain } = Fragment::of(*code);
             tile.fragment(context, at, (lane, ids[lane]), certain, [low, high]);
         }
     }
 }
 
-/// What a name says.
+/// What a code stands for.
 #[derive(Debug, PartialEq, Eq)]
 struct Fragment {
     lane: usize,
@@ -87,23 +87,23 @@ struct Fragment {
 
 impl Fragment {
     #[inline(always)]
-    fn of(name: i32) -> Fragment {
-        let name = name.cast_unsigned() as usize;
-        let at = index(name / LARGEST_SIDE, name);
-        Fragment { lane: name / LANE % 8, at, certain: name >= CERTAIN }
+    fn of(code: i32) -> Fragment {
+        let code = code.cast_unsigned() as usize;
+        let at = index(code / LARGEST_SIDE, code);
+        Fragment { lane: code / LANE % 8, at, certain: code >= CERTAIN }
     }
 }
 
-/// The names of the first sample in all lanes, plus `more`.
+/// The codes of a fragment at the first sample in all lanes, plus `more`.
 #[expect(clippy::cast_precision_loss, reason = "small numbers")]
-const fn names(more: usize) -> [f32; 8] {
-    let mut names = [0.0; 8];
+const fn codes(more: usize) -> [f32; 8] {
+    let mut codes = [0.0; 8];
     let mut lane = 0;
     while lane < 8 {
-        names[lane] = (lane * LANE + more) as f32;
+        codes[lane] = (lane * LANE + more) as f32;
         lane += 1;
     }
-    names
+    codes
 }
 
 #[cfg(test)]
@@ -153,8 +153,8 @@ mod tests {
             for step in 0..STEPS {
                 dispatch!(level, simd => add_step(simd, &mut fragments, step));
             }
-            let Fragments { names, low, high, count } = &fragments;
-            let of = |k: usize| (Fragment::of(names[k]), [low[k], high[k]]);
+            let Fragments { codes, low, high, count } = &fragments;
+            let of = |k: usize| (Fragment::of(codes[k]), [low[k], high[k]]);
             let found: Vec<_> = (0..*count).map(of).collect();
             assert_eq!(found, expected, "{level:?}");
         }
