@@ -5,6 +5,8 @@
 //! prepared scene that are reused, unless the bench varies them. `prepare` times the construction of the hierarchy.
 //! `cargo bench --bench ray_tracer` runs all benches; `BOTHWAYS_LONG=1` adds the sphere of 8 million triangles.
 
+#[path = "support/pathological.rs"]
+mod pathological_scenes;
 mod support;
 
 use bothways::common::glam::Vec3;
@@ -14,6 +16,7 @@ use bothways::common::{
 use bothways::raytrace::fast;
 use divan::Bencher;
 use divan::counter::ItemsCount;
+use pathological_scenes::Case;
 use rayon::ThreadPool;
 use support::{
     Alignment, Duplicate, FULL_HD, MILLION, Portion, camera, on_pixels, planes, scene, sphere,
@@ -172,4 +175,13 @@ fn strips(count: u16, below: f32) -> Mesh {
 ])]
 fn kinds(bencher: Bencher, kind: Kind) {
     time_visibility(bencher, &kind.scene(), &on_pixels(), 1, &Options::default());
+}
+
+/// What a renderer may stumble over, and ordinary scenes of as many triangles that cover as many samples. A pair of a
+/// triangle and a sample that it covers should cost at most 20 times as much. Items are these pairs.
+#[divan::bench(args = Case::ALL)]
+fn pathological(bencher: Bencher, case: &Case) {
+    let (scene, covered) = case.scene();
+    let bencher = bencher.counter(ItemsCount::new(covered));
+    time_visibility(bencher, &scene, &on_pixels(), 1, &Options::default());
 }

@@ -8,15 +8,14 @@ mod weights;
 
 use bothways_common::engine::simd::{Level, Simd, SimdBase, SimdNarrow, best_level, f64x8};
 use bothways_common::look::bands::{
-    self, EightTriangles, LocalNormals, Points, Rays, Samples, Seen, SetUp, Sixteen, Surfaces,
-    Wanted,
+    self, EightTriangles, Points, Rays, Samples, Seen, SetUp, Sixteen, Surfaces, Wanted,
 };
 use bothways_common::look::lanes::{DVec3x8, Lanes, Vec3x16, each};
 use bothways_common::look::texture::{self, TexturePoints};
 use bothways_common::{Frame, Primitive, View};
 use form::{Form, HitPoints};
 use glam::{DVec2, DVec3, Vec3};
-use local::{Grid, LEAST_COSINE, Local};
+use local::{AffineNormals, Grid, LEAST_COSINE, Local};
 use quotient::{Affine, Colors, Quotient};
 use weights::{side_of, side_seen, weights, weights_of};
 
@@ -88,9 +87,10 @@ struct Smooth {
 
 impl Surfaces for Interpolated<'_> {
     type Surface = Surface;
+    type Local = AffineNormals;
 
     #[inline(always)]
-    fn set_up(&self, seen: &Seen, wanted: Wanted) -> SetUp<Surface> {
+    fn set_up(&self, seen: &Seen, wanted: Wanted) -> SetUp<Surface, AffineNormals> {
         let (view, primitive) = (self.view, &seen.primitive);
         let corners = seen.corner_normals();
         if let Some(local) = self.local(seen, corners, wanted) {
@@ -112,7 +112,7 @@ impl Surfaces for Interpolated<'_> {
     fn set_up_eight<S: Simd>(
         &self,
         triangles: &EightTriangles<S>,
-        mut keep: impl FnMut(Option<SetUp<Surface>>),
+        mut keep: impl FnMut(Option<SetUp<Surface, AffineNormals>>),
     ) {
         let certain = triangles.are_alike(LEAST_COSINE);
         let local = Local::new(self.view, &self.grid, triangles.corners, triangles.normals);
@@ -173,7 +173,7 @@ impl Interpolated<'_> {
         seen: &Seen,
         normals: Option<[DVec3; 3]>,
         wanted: Wanted,
-    ) -> Option<LocalNormals> {
+    ) -> Option<AffineNormals> {
         let (Primitive::Triangle(corners), Some(normals)) = (seen.primitive, normals) else {
             return None;
         };

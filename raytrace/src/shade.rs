@@ -1,5 +1,7 @@
 //! The look of what is seen. Image order goes along each ray to the point that it hit.
 
+mod local;
+
 use bothways_common::engine::simd::{
     Level, Select, Simd, SimdBase, SimdFloat, SimdNarrow, best_level, f32x16, f64x8,
 };
@@ -8,8 +10,9 @@ use bothways_common::look::bands::{
 };
 use bothways_common::look::lanes::{DVec3x8, Lanes, Real, Vec3x16, each};
 use bothways_common::look::texture::{self, TexturePoints};
-use bothways_common::{Frame, Primitive, Projection, View};
+use bothways_common::{Frame, Primitive, Projection, Raster, View};
 use glam::{DVec2, DVec3, Vec3};
+use local::{Beside, NormalsAtHits};
 
 /// Gives a frame its picture, from the hit point of each sample's ray. If the frame keeps
 /// [linear colours](Frame::with_colors), [normals](Frame::with_normals) or
@@ -25,18 +28,20 @@ pub fn shade(view: &View, frame: &mut Frame) {
 /// [`shade`] with the vector instructions of this level, for tests that compare the levels.
 #[doc(hidden)]
 pub fn shade_with(view: &View, frame: &mut Frame, level: Level) {
-    bands::shade(view, frame, &AtHits { view, steps: steps(view, frame.samples()) }, level);
+    let raster = view.camera.raster(frame.samples());
+    bands::shade(view, frame, &AtHits { view, raster, steps: steps(view, &raster) }, level);
 }
 
 /// The surfaces of a view as image order finds them.
 struct AtHits<'a> {
     view: &'a View<'a>,
+    raster: Raster,
     /// The way on the viewport from a sample to the next one across, and to the next one down.
     steps: [DVec3; 2],
 }
 
-fn steps(view: &View, samples: u32) -> [DVec3; 2] {
-    let [of_row, of_column] = view.camera.raster(samples).spacing();
+fn steps(view: &View, raster: &Raster) -> [DVec3; 2] {
+    let [of_row, of_column] = raster.spacing();
     [view.camera.u() * of_column, view.camera.v() * -of_row]
 }
 
@@ -116,9 +121,14 @@ struct Chart {
 
 impl Surfaces for AtHits<'_> {
     type Surface = Surface;
+    type Local = NormalsAtHits;
 
     #[inline(always)]
-    fn set_up(&self, seen: &Seen, wanted: Wanted) -> SetUp<Surface> {
+    fn set_up(&self, seen: &Seen, wanted: Wanted) -> SetUp<Surface, NormalsAtHits> {
+        let corners = seen.corner_normals();
+        if let Some(local) = self.local(seen, corners, wanted) {
+            return SetUp::Local(local);
+        }
         let form = Form::new(&seen.primitive);
         let texture = if seen.needs_texture(wanted) {
             Texture::new(&form, seen.corner_coordinates(), self.steps)
@@ -126,7 +136,7 @@ impl Surfaces for AtHits<'_> {
             Texture::None
         };
         let details = Details::new(seen, wanted).map(Box::new);
-        let normals = Normals::new(self.view, &form, seen.corner_normals());
+        let normals = Normals::new(self.view, &form, corners);
         let has_points = wanted.positions || !matches!(texture, Texture::None) || details.is_some();
         SetUp::Surface(Surface { form, normals, has_points, texture, details })
     }
@@ -135,35 +145,13 @@ impl Surfaces for AtHits<'_> {
     fn set_up_eight<S: Simd>(
         &self,
         triangles: &EightTriangles<S>,
-        mut keep: impl FnMut(Option<SetUp<Surface>>),
+        mut keep: impl FnMut(Option<SetUp<Surface, NormalsAtHits>>),
     ) {
         let certain = triangles.are_alike(LEAST_COSINE);
-        let Triangle { a, normal, growth: [of_b, of_c] } = Triangle::new(triangles.corners);
-        let side = side_seen(self.view, a, normal);
-        let steps = steps_from_first(triangles.normals, side);
-        let form = each!(vector in [a, normal, of_b, of_c] => {
-            [vector.x.to_array(), vector.y.to_array(), vector.z.to_array()]
+        let beside = self.beside(triangles.corners, triangles.normals);
+        beside.each_of(triangles.used, |lane, normals| {
+            keep(normals.filter(|_| certain >> lane & 1 == 1).map(SetUp::Local));
         });
-        let steps = each!(vector in [steps[0], steps[1], steps[2]] => {
-            [vector.x.to_array(), vector.y.to_array(), vector.z.to_array()]
-        });
-        for lane in 0..triangles.used {
-            let of_lane = |numbers: &[[f64; 8]; 3]| {
-                let [x, y, z] = each!(axis in [0, 1, 2] => numbers[axis][lane & 7]);
-                DVec3 { x, y, z }
-            };
-            keep((certain >> lane & 1 == 1).then(|| {
-                let [a, normal, of_b, of_c] = each!(k in [0, 1, 2, 3] => of_lane(&form[k]).into());
-                let normals = each!(k in [0, 1, 2] => of_lane(&steps[k]).as_vec3());
-                SetUp::Surface(Surface {
-                    form: Form::Triangle(Triangle { a, normal, growth: [of_b, of_c] }),
-                    normals: Normals::Smooth(Smooth(normals)),
-                    has_points: false,
-                    texture: Texture::None,
-                    details: None,
-                })
-            }));
-        }
     }
 
     #[inline(always)]
@@ -175,7 +163,7 @@ impl Surfaces for AtHits<'_> {
         points: &mut Points<'_>,
     ) {
         if !surface.has_points {
-            // Small triangles of a mesh end here.
+            // Most triangles of a mesh that are not small end here.
             match &surface.normals {
                 Normals::Flat(flat) => return points.set_normals(Vec3x16::splat(simd, *flat)),
                 Normals::Smooth(smooth) => {
@@ -265,6 +253,33 @@ impl<T: Real> Triangle<T> {
 }
 
 impl AtHits<'_> {
+    /// The normals of a small triangle of which nothing else is wanted, and whose corners' normals never cancel each other.
+    #[inline(always)]
+    fn local(
+        &self,
+        seen: &Seen,
+        normals: Option<[DVec3; 3]>,
+        wanted: Wanted,
+    ) -> Option<NormalsAtHits> {
+        let (Primitive::Triangle(corners), Some(normals)) = (seen.primitive, normals) else {
+            return None;
+        };
+        if !seen.needs_normals_alone(wanted) || least_cosine(normals) < LEAST_COSINE {
+            return None;
+        }
+        let [corners, normals] = each!(three in [corners, normals] => three.map(Lanes::from));
+        self.beside(corners, normals).normals()
+    }
+
+    /// What small triangles, one or eight, are beside their first corners.
+    #[inline(always)]
+    fn beside<T: Real>(&self, corners: [Lanes<T>; 3], normals: [Lanes<T>; 3]) -> Beside<T> {
+        let triangle = Triangle::new(corners);
+        let side = side_seen(self.view, triangle.a, triangle.normal);
+        let normals = steps_from_first(normals, side);
+        Beside::new(self, corners, &triangle, normals)
+    }
+
     /// The texture coordinates at some hit points, and how they move from sample to sample if that is needed.
     #[inline(always)]
     fn texture<S: Simd>(
@@ -352,10 +367,10 @@ impl Normals {
         };
         let side = side_seen(view, Lanes::from(point), Lanes::from(normal));
         let flat = || normal.normalize_or_zero() * side;
-        let Some([a, b, c]) = corners else { return Normals::Flat(flat().as_vec3()) };
-        let corners = steps_from_first([a, b, c].map(Lanes::from), side);
+        let Some(normals) = corners else { return Normals::Flat(flat().as_vec3()) };
+        let corners = steps_from_first(normals.map(Lanes::from), side);
         let corners = corners.map(DVec3::from);
-        if a.dot(b).min(b.dot(c)).min(c.dot(a)) < LEAST_COSINE {
+        if least_cosine(normals) < LEAST_COSINE {
             return Normals::Wild(Box::new(Wild { corners, flat: flat() }));
         }
         Normals::Smooth(Smooth(corners.map(|normal| normal.as_vec3())))
@@ -394,6 +409,12 @@ impl Normals {
 
 /// Corners' normals with smaller cosines between them may cancel each other.
 const LEAST_COSINE: f64 = 0.1;
+
+/// The least cosine between two of three unit vectors.
+#[inline(always)]
+fn least_cosine([a, b, c]: [DVec3; 3]) -> f64 {
+    a.dot(b).min(b.dot(c)).min(c.dot(a))
+}
 
 /// 1 if a normal of a flat form through a point is towards the viewer, −1 if it is away; of one form or of eight. The surface
 /// decides which side is seen, not its smooth normals; every ray that hits it comes to the same side.

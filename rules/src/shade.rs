@@ -10,6 +10,7 @@ use bothways_common::look::lanes::{DVec3x8, Vec3x16};
 use bothways_common::look::texture::{self, TexturePoints};
 use bothways_common::{Camera, Frame, Primitive, Projection, Ray, Sample, Shape, View};
 use glam::{DVec2, DVec3, Vec3};
+use std::convert::Infallible;
 
 /// Gives a frame its picture; also all else that it keeps of the look of what is seen.
 pub(crate) fn shade(view: &View, samples: &Samples, frame: &mut Frame) {
@@ -25,6 +26,7 @@ struct AsSeen<'a> {
 impl Surfaces for AsSeen<'_> {
     /// Its id.
     type Surface = u64;
+    type Local = Infallible;
 
     fn to_viewer<S: Simd>(
         &self,
@@ -40,7 +42,7 @@ impl Surfaces for AsSeen<'_> {
         low.narrow(high)
     }
 
-    fn set_up(&self, seen: &bands::Seen, _wanted: Wanted) -> SetUp<u64> {
+    fn set_up(&self, seen: &bands::Seen, _wanted: Wanted) -> SetUp<u64, Infallible> {
         SetUp::Surface(seen.id)
     }
 

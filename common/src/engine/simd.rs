@@ -32,6 +32,14 @@ pub fn prefetch<T>(soon: &T) {
     let _ = soon;
 }
 
+/// [`prefetch`] for all values of a slice.
+#[inline(always)]
+pub fn prefetch_all<T>(values: &[T]) {
+    // One for each line of the cache, if it begins with one; the last line is asked for by its last value.
+    const { assert!(size_of::<T>() <= 64, "what is longer has several lines") };
+    values.iter().step_by(64 / size_of::<T>()).chain(values.last()).for_each(prefetch);
+}
+
 /// [`prefetch`] for a value of a slice, if there is one at the index.
 #[inline(always)]
 pub fn prefetch_at<T>(values: &[T], index: usize) {

@@ -1,7 +1,7 @@
 //! The ids of a frame: of 32 bits, or of 64 where a scene has more primitives.
 
 use crate::engine::memory::filled;
-use crate::engine::simd::prefetch_at;
+use crate::engine::simd::prefetch_all;
 use crate::raster::Region;
 use std::ops::Range;
 
@@ -81,13 +81,12 @@ impl<'a> Ids<'a> {
         }
     }
 
-    /// Asks the machine for the ids of some samples, as far as there are such, before use.
+    /// Asks the machine for the ids of some samples before use.
     #[inline(always)]
     pub(crate) fn prefetch(self, samples: Range<usize>) {
-        // One for each line of the cache.
         match self {
-            Ids::Narrow(ids) => samples.step_by(16).for_each(|sample| prefetch_at(ids, sample)),
-            Ids::Wide(ids) => samples.step_by(8).for_each(|sample| prefetch_at(ids, sample)),
+            Ids::Narrow(ids) => prefetch_all(&ids[samples]),
+            Ids::Wide(ids) => prefetch_all(&ids[samples]),
         }
     }
 

@@ -13,7 +13,7 @@ mod surfaces;
 mod tint;
 
 use crate::camera::SampleGrid;
-use crate::engine::simd::{Level, Simd, SimdBase, dispatch, f32x16, f64x8};
+use crate::engine::simd::{Level, Simd, SimdBase, dispatch, f32x16, f64x8, prefetch_all};
 use crate::frame::{Frame, NO_LEVEL, ShadingBand};
 use crate::look::color::{srgb_from_linear, srgb_of_sixteen};
 use crate::look::lanes::{Vec3x16, each};
@@ -27,7 +27,7 @@ use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 use std::ops::Range;
 
-pub use local::LocalNormals;
+pub use local::{Anchor, LocalNormals, eight_columns};
 pub use surfaces::{
     EightTriangles, Points, Rays, STORED_ERROR, Samples, Seen, SetUp, Sixteen, Surfaces, Wanted,
 };
@@ -52,7 +52,8 @@ pub fn shade(view: &View, frame: &mut Frame, surfaces: &impl Surfaces, level: Le
         let places = places.iter().map(|place| (place / view.camera.distance()) as f32);
         places.chain([0.0; 16]).collect()
     });
-    let look = Look { setting, grid, lighting, across, down, samples };
+    let background_bytes = packed_bytes(view.scene.background);
+    let look = Look { setting, grid, lighting, background_bytes, across, down, samples };
     // A pixel of one sample has no sum; sums are those of one row.
     let (sums, rows) =
         if samples > 1 { (look.grid.width() / samples, 1) } else { (0, TOGETHER[0]) };
@@ -92,11 +93,18 @@ fn packed_bytes(color: Vec3) -> u32 {
     u32::from_le_bytes([red, green, blue, 0])
 }
 
+/// Rows and columns of samples of a band whose primitives are set up together.
+struct Block {
+    lines: Range<usize>,
+    columns: Range<usize>,
+}
+
 /// What all samples of a picture share.
 struct Look<'a, A> {
     setting: Setting<'a, A>,
     grid: SampleGrid<'a>,
     lighting: Lighting,
+    background_bytes: u32,
     /// The places of columns and rows on the viewport, in lengths of the camera's distance; and sixteen more.
     across: Vec<f32>,
     down: Vec<f32>,
@@ -110,18 +118,22 @@ impl<'a, A: Surfaces> Look<'a, A> {
     fn shade_band<S: Simd>(
         &self,
         simd: S,
-        desk: &mut Desk<'a, A::Surface>,
+        desk: &mut Desk<'a, A>,
         band: &mut ShadingBand,
     ) {
         let width = band.region.columns.len();
         desk.sums.fill(Vec3::ZERO);
-        for block in (0..width).step_by(TOGETHER[1]) {
-            let columns = block..width.min(block + TOGETHER[1]);
-            let lines = band.region.rows.len();
-            for first in (0..lines).step_by(SET_UP_TOGETHER) {
-                let lines = first..lines.min(first + SET_UP_TOGETHER);
-                self.shade_block(simd, desk, band, lines, columns.clone());
-            }
+        let height = band.region.rows.len();
+        let mut blocks = (0..width).step_by(TOGETHER[1]).flat_map(|column| {
+            (0..height).step_by(SET_UP_TOGETHER).map(move |line| Block {
+                lines: line..height.min(line + SET_UP_TOGETHER),
+                columns: column..width.min(column + TOGETHER[1]),
+            })
+        });
+        let mut block = blocks.next();
+        while let Some(this) = block {
+            block = blocks.next();
+            self.shade_block(simd, desk, band, &this, block.as_ref());
         }
         if self.samples > 1 {
             #[expect(clippy::cast_precision_loss, reason = "a count of samples needs no more")]
@@ -137,21 +149,25 @@ impl<'a, A: Surfaces> Look<'a, A> {
     fn shade_block<S: Simd>(
         &self,
         simd: S,
-        desk: &mut Desk<'a, A::Surface>,
+        desk: &mut Desk<'a, A>,
         band: &mut ShadingBand,
-        lines: Range<usize>,
-        columns: Range<usize>,
+        Block { lines, columns }: &Block,
+        next: Option<&Block>,
     ) {
         let width = band.region.columns.len();
         let starts = || columns.clone().step_by(CHUNK);
-        let chunks = lines.flat_map(|line| starts().map(move |start| (line, start)));
+        let chunks = lines.clone().flat_map(|line| starts().map(move |start| (line, start)));
         let within = |start: usize| start..columns.end.min(start + CHUNK);
         desk.begin_block();
         for (line, start) in chunks.clone() {
             let Range { start, end } = within(start);
-            let below = (line + SET_UP_TOGETHER) * width;
-            band.ids.prefetch(below + start..below + end);
             desk.find_runs(simd, band.ids.of(line * width + start..line * width + end));
+        }
+        if let Some(Block { lines, columns }) = next {
+            for line in lines.clone() {
+                let samples = line * width + columns.start..line * width + columns.end;
+                self.prefetch(band, samples, desk.looks_at_t);
+            }
         }
         desk.set_up_new(simd, &self.setting);
         for (number, (line, start)) in chunks.enumerate() {
@@ -160,12 +176,25 @@ impl<'a, A: Surfaces> Look<'a, A> {
         }
     }
 
+    /// Asks the machine for what some samples of a row are shaded from and for where they are written, before use: it does not
+    /// guess where the next row is.
+    #[inline(always)]
+    fn prefetch(&self, band: &ShadingBand, samples: Range<usize>, looks_at_t: bool) {
+        band.ids.prefetch(samples.clone());
+        if looks_at_t {
+            prefetch_all(&band.t[samples.clone()]);
+        }
+        if self.samples == 1 {
+            prefetch_all(&band.picture[samples]);
+        }
+    }
+
     /// Shades some samples of a row, of which the runs are known.
     #[inline(always)]
     fn shade_chunk<S: Simd>(
         &self,
         simd: S,
-        desk: &mut Desk<'a, A::Surface>,
+        desk: &mut Desk<'a, A>,
         band: &mut ShadingBand,
         line: usize,
         within: Range<usize>,
@@ -181,7 +210,9 @@ impl<'a, A: Surfaces> Look<'a, A> {
         if let [Run { place: None, .. }] = desk.runs.of_chunk() {
             kept.fill_nothing(0..count);
         } else {
-            desk.chunk.x[..count].copy_from_slice(&self.grid.x()[first..first + count]);
+            if !desk.surfaces.is_empty() {
+                desk.chunk.x[..count].copy_from_slice(&self.grid.x()[first..first + count]);
+            }
             if desk.looks_at_t {
                 for (wide, t) in desk.chunk.t.iter_mut().zip(&band.t[stored.clone()]) {
                     *wide = f64::from(*t);
@@ -200,7 +231,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
     fn find_points<S: Simd>(
         &self,
         simd: S,
-        desk: &mut Desk<'a, A::Surface>,
+        desk: &mut Desk<'a, A>,
         start: Sample,
         texture: &mut KeptTexture,
     ) {
@@ -217,7 +248,11 @@ impl<'a, A: Surfaces> Look<'a, A> {
                 // There are such ones only where a frame keeps nothing of textures.
                 KeptLook::Local(normals) => {
                     let first = Sample { column: start.column + run.start, ..start };
-                    normals.store(simd, first, chunk, run);
+                    // What is written beyond the run is overwritten by the next one.
+                    let all = run.start..run.start + run.len().next_multiple_of(8);
+                    let [x, y, z] = &mut chunk.normal;
+                    let to = [&mut x[all.clone()], &mut y[all.clone()], &mut z[all]];
+                    normals.store(simd, first, to);
                 }
                 KeptLook::Surface(place) => {
                     let surface = &desk.surfaces[*place as usize];
@@ -295,17 +330,16 @@ impl<'a, A: Surfaces> Look<'a, A> {
     fn light<S: Simd>(
         &self,
         simd: S,
-        desk: &mut Desk<'a, A::Surface>,
+        desk: &mut Desk<'a, A>,
         start: Sample,
         needs_colors: bool,
         mut normals: Option<&mut [Vec3]>,
     ) {
         let y = f32x16::splat(simd, self.down[start.row]);
         let background = self.setting.view.scene.background;
-        let background_bytes = packed_bytes(background);
         let (chunk, mut begin) = (&mut *desk.chunk, 0);
         let kept_of = |run: &Run| run.place.map(|place| &desk.kept[place as usize]);
-        let is_tinted = |kept: &Kept| match kept.look {
+        let is_tinted = |kept: &Kept<A::Local>| match kept.look {
             KeptLook::Local(_) => false,
             KeptLook::Surface(place) => desk.surfaces[place as usize].is_tinted,
         };
@@ -320,7 +354,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
                         to[begin..end].fill(channel);
                     }
                 }
-                chunk.bytes[begin..end].fill(background_bytes);
+                chunk.bytes[begin..end].fill(self.background_bytes);
                 if let Some(kept) = &mut normals {
                     kept[begin..end].fill(Vec3::ZERO);
                 }
@@ -367,7 +401,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
     #[inline(always)]
     fn write(
         &self,
-        desk: &mut Desk<'a, A::Surface>,
+        desk: &mut Desk<'a, A>,
         band: &mut ShadingBand,
         within: Range<usize>,
         stored: Range<usize>,

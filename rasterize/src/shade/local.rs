@@ -2,10 +2,10 @@
 //! beside the triangle.
 
 use super::weights::{side_of, weights};
-use bothways_common::engine::simd::{Simd, SimdBase, SimdNarrow, f64x8};
-use bothways_common::look::bands::LocalNormals;
+use bothways_common::engine::simd::{Simd, SimdBase, SimdNarrow, f32x8, f64x8};
+use bothways_common::look::bands::{Anchor, LocalNormals, eight_columns};
 use bothways_common::look::lanes::{Lanes, Real, each};
-use bothways_common::{Projection, Raster, View};
+use bothways_common::{Projection, Raster, Sample, View};
 
 /// The samples of a picture as rows and columns.
 #[derive(Clone, Copy, Debug)]
@@ -164,23 +164,51 @@ impl<T: Real> OnViewport<T> {
     }
 }
 
+/// Normals towards the viewer as an affine function of row and column, in `f32`, counted from a sample near the triangle.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct AffineNormals {
+    /// The normal at the anchor, and how it changes from a column to the next one, and from a row to the next one.
+    numbers: [[f32; 3]; 3],
+    anchor: Anchor,
+}
+
+impl LocalNormals for AffineNormals {
+    #[inline(always)]
+    fn store<S: Simd>(&self, simd: S, first: Sample, [to_x, to_y, to_z]: [&mut [f32]; 3]) {
+        let [rows, mut columns] = self.anchor.steps_to(first);
+        let [at_anchor, across, down] = &self.numbers;
+        let in_row = each!(k in [0, 1, 2] => at_anchor[k] + down[k] * rows);
+        for at in (0..to_x.len()).step_by(8) {
+            let places = eight_columns(simd, columns);
+            columns += 8.0;
+            let [x, y, z] = each!(k in [0, 1, 2] => {
+                f32x8::splat(simd, in_row[k]) + f32x8::splat(simd, across[k]) * places
+            });
+            x.store_slice(&mut to_x[at..at + 8]);
+            y.store_slice(&mut to_y[at..at + 8]);
+            z.store_slice(&mut to_z[at..at + 8]);
+        }
+    }
+}
+
 impl Local<f64> {
     /// `None` where the triangle is not small.
     #[inline(always)]
-    pub(super) fn normals(&self) -> Option<LocalNormals> {
+    pub(super) fn normals(&self) -> Option<AffineNormals> {
         #[expect(clippy::cast_possible_truncation, reason = "see `Local::new`")]
         let number = |number: f64| number as f32;
         let [at_anchor, across, down] = self.normals;
         let numbers =
             each!(of in [at_anchor, across, down] => [number(of.x), number(of.y), number(of.z)]);
-        (self.size <= 1.0).then(|| LocalNormals::new(whole(self.anchor), numbers))
+        let anchor = Anchor::new(self.anchor);
+        (self.size <= 1.0).then_some(AffineNormals { numbers, anchor })
     }
 }
 
 impl<S: Simd> Local<f64x8<S>> {
     /// Gives the normals of the first triangles, so many, to `keep`; `None` for one that is not small.
     #[inline(always)]
-    pub(super) fn each_of(&self, used: usize, mut keep: impl FnMut(usize, Option<LocalNormals>)) {
+    pub(super) fn each_of(&self, used: usize, mut keep: impl FnMut(usize, Option<AffineNormals>)) {
         let [at_anchor, across, down] = self.normals;
         // Two times eight numbers at a time become `f32`.
         let halves = [
@@ -198,28 +226,18 @@ impl<S: Simd> Local<f64x8<S>> {
             let number = |k: usize| halves[k / 2][k % 2 * 8 + at];
             let numbers =
                 each!(from in [0, 3, 6] => [number(from), number(from + 1), number(from + 2)]);
-            let is_small = sizes[at] <= 1.0;
-            keep(
-                lane,
-                is_small.then(|| LocalNormals::new(whole([rows[at], columns[at]]), numbers)),
-            );
+            let anchor = Anchor::new([rows[at], columns[at]]);
+            keep(lane, (sizes[at] <= 1.0).then_some(AffineNormals { numbers, anchor }));
         }
     }
-}
-
-/// The anchor of a small triangle as whole numbers.
-#[inline(always)]
-#[expect(clippy::cast_possible_truncation, reason = "whole already, and below 2²⁴")]
-fn whole([row, column]: [f64; 2]) -> [i32; 2] {
-    [row as i32, column as i32]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use bothways_common::engine::simd::{best_level, dispatch};
-    use bothways_common::{Camera, CameraDescription, Sample, Scene};
-    use glam::DVec3;
+    use bothways_common::engine::simd::{best_level, dispatch, levels};
+    use bothways_common::{Camera, CameraDescription, Scene};
+    use glam::{DVec3, Vec3};
 
     /// Dice for triangles.
     struct Dice(fastrand::Rng);
@@ -265,6 +283,30 @@ mod tests {
         }
     }
 
+    impl AffineNormals {
+        /// The normal at a sample.
+        fn at(&self, sample: Sample) -> DVec3 {
+            let [rows, columns] = self.anchor.steps_to(sample);
+            let [at_anchor, across, down] = self.numbers.map(Vec3::from);
+            ((at_anchor + down * rows) + across * columns).as_dvec3()
+        }
+    }
+
+    #[test]
+    fn normals_of_a_row_have_the_bits_of_each_alone() {
+        let numbers = [[0.1, -0.7, 0.7], [0.011, 0.02, -0.031], [-0.017, 0.013, 0.07]];
+        let normals = AffineNormals { numbers, anchor: Anchor::new([-3.0, 1000.0]) };
+        let first = Sample { row: 5, column: 990 };
+        for level in levels() {
+            let [mut x, mut y, mut z] = [[0.0; 24]; 3];
+            dispatch!(level, simd => normals.store(simd, first, [&mut x, &mut y, &mut z]));
+            for at in 0..24 {
+                let expected = normals.at(Sample { column: first.column + at, ..first });
+                assert_eq!(Vec3::new(x[at], y[at], z[at]).as_dvec3(), expected);
+            }
+        }
+    }
+
     #[test]
     fn normals_of_small_triangles_are_those_of_f64() {
         let (mut small, mut large, mut worst) = (0, 0, 0.0_f64);
@@ -302,7 +344,7 @@ mod tests {
                         }
                         let parts = [0, 1, 2].map(|k| DVec3::from(normals[k]) * weights[k]);
                         let exact = (parts[0] + parts[1] + parts[2]) * side;
-                        let found = local.at(Sample { row, column }).as_dvec3();
+                        let found = local.at(Sample { row, column });
                         assert!(found.length() > 0.3, "{found}");
                         worst = worst.max(found.normalize().distance(exact.normalize()));
                     }

@@ -2,7 +2,6 @@
 
 use super::chunk::Chunk;
 use super::found::{Found, FoundEight};
-use super::local::LocalNormals;
 use super::surfaces::{Seen, SetUp, Surfaces, Wanted};
 use crate::engine::simd::{Simd, SimdBase, SimdMask, u32x16};
 use crate::frame::{Ids, NO_PRIMITIVE, NO_WIDE_PRIMITIVE};
@@ -36,13 +35,13 @@ struct Names {
 }
 
 /// What a thread works with. It decides no bit of the result.
-pub(super) struct Desk<'a, T> {
+pub(super) struct Desk<'a, A: Surfaces> {
     /// For each hash, the id that came last, and its place in `kept`; of wide ids, their names.
     places: Vec<(u32, u32)>,
     names: Names,
-    pub(super) kept: Vec<Kept<'a>>,
+    pub(super) kept: Vec<Kept<'a, A::Local>>,
     /// Those of them whose look is not local.
-    pub(super) surfaces: Vec<KeptSurface<T>>,
+    pub(super) surfaces: Vec<KeptSurface<A::Surface>>,
     /// Whether the `t` of samples matter to any of these.
     pub(super) looks_at_t: bool,
     /// The names of those that come next in `kept`, and are not set up yet.
@@ -53,16 +52,16 @@ pub(super) struct Desk<'a, T> {
     pub(super) sums: Vec<Vec3>,
 }
 
-/// A primitive that is set up: one line of the caches.
+/// A primitive that is set up, in whole lines of the caches.
 #[repr(align(64))]
-pub(super) struct Kept<'a> {
+pub(super) struct Kept<'a, L> {
     pub(super) material: &'a Material,
-    pub(super) look: KeptLook,
+    pub(super) look: KeptLook<L>,
 }
 
-pub(super) enum KeptLook {
-    /// A triangle of which nothing but its normals is wanted, if they change little.
-    Local(LocalNormals),
+pub(super) enum KeptLook<L> {
+    /// A triangle of which nothing but its normals is wanted.
+    Local(L),
     /// The place of anything else among the surfaces.
     Surface(u32),
 }
@@ -72,8 +71,6 @@ pub(super) struct KeptSurface<T> {
     /// Whether its samples have a tint each.
     pub(super) is_tinted: bool,
 }
-
-const _: () = assert!(size_of::<Kept>() == 64);
 
 /// Samples of a row, one after another, that show the same primitive.
 #[derive(Clone, Copy)]
@@ -113,7 +110,7 @@ impl Runs {
     }
 }
 
-impl<'a, T> Desk<'a, T> {
+impl<'a, A: Surfaces> Desk<'a, A> {
     /// With room for the sums of so many pixels.
     pub(super) fn new(sums: usize) -> Self {
         Desk {
@@ -235,7 +232,7 @@ impl<'a, T> Desk<'a, T> {
     /// All are set up before the first is used, and the machine is asked for their indices before that, and for the corners of eight
     /// while the eight before them are set up: so the memory that they lie in is fetched for several at once.
     #[inline(always)]
-    pub(super) fn set_up_new<S: Simd, A: Surfaces<Surface = T>>(
+    pub(super) fn set_up_new<S: Simd>(
         &mut self,
         simd: S,
         setting: &Setting<'a, A>,
@@ -263,7 +260,7 @@ impl<'a, T> Desk<'a, T> {
 
     /// Asks for the indices of all new primitives.
     #[inline(always)]
-    fn prefetch_indices<A: Surfaces<Surface = T>>(&self, setting: &Setting<'a, A>) {
+    fn prefetch_indices(&self, setting: &Setting<'a, A>) {
         for &name in &self.new {
             self.locate(setting, name).prefetch_indices();
         }
@@ -271,7 +268,7 @@ impl<'a, T> Desk<'a, T> {
 
     /// Asks for the corners of some new primitives, whose indices have been asked for.
     #[inline(always)]
-    fn prefetch_corners<A: Surfaces<Surface = T>>(
+    fn prefetch_corners(
         &self,
         setting: &Setting<'a, A>,
         new: Range<usize>,
@@ -283,7 +280,7 @@ impl<'a, T> Desk<'a, T> {
 
     /// The primitive of a name.
     #[inline(always)]
-    fn locate<A: Surfaces<Surface = T>>(&self, setting: &Setting<'a, A>, name: u32) -> Found<'a> {
+    fn locate(&self, setting: &Setting<'a, A>, name: u32) -> Found<'a> {
         let scene = setting.view.scene;
         let (id, (object, local)) = if scene.has_wide_ids() {
             let id = self.names.ids[name as usize];
@@ -297,7 +294,7 @@ impl<'a, T> Desk<'a, T> {
 
     /// Up to eight new primitives, if of all nothing is wanted but interpolated normals.
     #[inline(always)]
-    fn find_eight<A: Surfaces<Surface = T>>(
+    fn find_eight(
         &self,
         setting: &Setting<'a, A>,
         new: Range<usize>,
@@ -310,7 +307,7 @@ impl<'a, T> Desk<'a, T> {
     }
 
     #[inline(always)]
-    fn set_up_eight<S: Simd, A: Surfaces<Surface = T>>(
+    fn set_up_eight<S: Simd>(
         &mut self,
         simd: S,
         setting: &Setting<'a, A>,
@@ -329,7 +326,7 @@ impl<'a, T> Desk<'a, T> {
     }
 
     #[inline(never)]
-    fn set_up<A: Surfaces<Surface = T>>(&mut self, setting: &Setting<'a, A>, found: &Found<'a>) {
+    fn set_up(&mut self, setting: &Setting<'a, A>, found: &Found<'a>) {
         let Found { id, object, local, material } = *found;
         let primitive = setting.view.primitive_of(&object.shape, local);
         let seen = Seen { id, primitive, object, local, material };
@@ -338,10 +335,10 @@ impl<'a, T> Desk<'a, T> {
     }
 
     #[inline(always)]
-    fn keep<A: Surfaces<Surface = T>>(
+    fn keep(
         &mut self,
         setting: &Setting<'a, A>,
-        set_up: SetUp<T>,
+        set_up: SetUp<A::Surface, A::Local>,
         (material, is_tinted): (&'a Material, bool),
     ) {
         let look = match set_up {

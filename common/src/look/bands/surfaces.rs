@@ -15,6 +15,8 @@ use glam::{DVec2, DVec3, Vec3};
 pub trait Surfaces: Sync {
     /// A visible primitive, set up for all samples at which it is seen.
     type Surface: Send;
+    /// A triangle of which nothing but its normals is wanted, where few numbers are enough for them.
+    type Local: LocalNormals;
 
     /// The directions towards the viewer, of any length, at sixteen samples that follow one another in a row: against
     /// the rays of the camera, unless a renderer has others. The samples are given by the first of them and by their
@@ -37,7 +39,7 @@ pub trait Surfaces: Sync {
     }
 
     /// Sets up a primitive. Where triangles are as small as samples, most of the time goes here: `#[inline(always)]`.
-    fn set_up(&self, seen: &Seen, wanted: Wanted) -> SetUp<Self::Surface>;
+    fn set_up(&self, seen: &Seen, wanted: Wanted) -> SetUp<Self::Surface, Self::Local>;
 
     /// Sets up eight triangles at once, each with the bits of [`Surfaces::set_up`], and gives those that are used to `keep`,
     /// one after another; `None` for one that is to be set up alone, as all are unless a renderer does better.
@@ -45,7 +47,7 @@ pub trait Surfaces: Sync {
     fn set_up_eight<S: Simd>(
         &self,
         triangles: &EightTriangles<S>,
-        mut keep: impl FnMut(Option<SetUp<Self::Surface>>),
+        mut keep: impl FnMut(Option<SetUp<Self::Surface, Self::Local>>),
     ) {
         (0..triangles.used).for_each(|_| keep(None));
     }
@@ -69,11 +71,11 @@ pub trait Surfaces: Sync {
 
 /// What a primitive is set up as.
 #[derive(Clone, Copy, Debug)]
-pub enum SetUp<T> {
-    /// A triangle of which nothing but its normals is wanted, if they change little.
-    Local(LocalNormals),
+pub enum SetUp<S, L> {
+    /// A triangle of which nothing but its normals is wanted, where few numbers are enough for them.
+    Local(L),
     /// Anything else.
-    Surface(T),
+    Surface(S),
 }
 
 /// A primitive that is seen somewhere.

@@ -1,0 +1,421 @@
+//! The normals of small triangles where rays hit them: beside the ray through the first corner, `f32` is enough.
+
+use super::{AtHits, Triangle};
+use bothways_common::engine::simd::{Simd, SimdBase, SimdNarrow, f32x8, f64x8};
+use bothways_common::look::bands::{Anchor, LocalNormals, eight_columns};
+use bothways_common::look::lanes::{Lanes, Real, each};
+use bothways_common::{Projection, Sample, View};
+
+/// Where rays hit a triangle, or each of eight, beside the ray through its first corner.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Beside<T> {
+    /// Row and column of the first corner on the raster; it is hardly ever a sample.
+    corner: [T; 2],
+    /// What [`Beside::new`] calls `q`, and the numerators of the weights of the second and the third corner: their changes from a
+    /// column to the next one, and from a row to the next one.
+    slopes: [[T; 2]; 3],
+    /// The normal of the first corner, and what those of the others add to it.
+    normals: [Lanes<T>; 3],
+    /// Above 1, or not a number, where the triangle is not small.
+    size: T,
+}
+
+/// How far normals may change on a triangle, from its first corner to the others, the changes of both weights added up.
+const CHANGE: f64 = 128.0;
+/// First corners are nearer to the picture's middle: so rows and columns, and differences of them, are exact in `f32`.
+const FARTHEST: f64 = 1e6;
+
+impl<T: Real> Beside<T> {
+    /// Triangles with these corners, relative to the eye; their normals as that of the first corner, and what those of the others
+    /// add to it.
+    ///
+    /// A ray of direction `D = D₀ + δ` hits the plane through `a = t₀·D₀` with the normal `n` at `t = t₀ / (1 + q)`, where
+    /// `q = n·δ / n·D₀`. So it hits the triangle beside `a` by `t·D − a = (t₀·δ − q·a) / (1 + q)`. The weight of a corner is the
+    /// product of that with the gradient of the weight: an affine function of `δ`, 0 where `δ` is 0, over `1 + q`. Parallel rays have one
+    /// direction `D₀` and begin beside each other by `δ`: they hit the triangle beside `a` by `δ − D₀·(n·δ / n·D₀)`, and their `q`
+    /// is 0.
+    ///
+    /// A triangle is small where the sum of all that is measured is at most 1: how much farther or nearer than the first corner the
+    /// others are, in halves of its depth; how much `q` changes from sample to sample, times its reach, which is the samples from the
+    /// first corner to the others and one more; how much the numerators of the weights change, times the reach and what their corners
+    /// add to the normal, in [`CHANGE`]; and how far the first corner is from the picture's middle, in [`FARTHEST`]. What is infinite or not a number is not small; nor is a
+    /// triangle that reaches behind the eye, as a corner there measures 2 at least. So `1 + q = t₀ / t` is at least ⅔ where a small one
+    /// is seen.
+    ///
+    /// # The error, rounding by rounding
+    ///
+    /// With `ε = 2⁻²⁴`: rows and columns from the corner are off by `2ε` of the reach at most. In a product
+    /// with a slope, two roundings more make it `4ε`; the sum of two makes it `5ε` of their magnitudes. So `1 + q` is off by less than
+    /// `5ε + 2ε`, a relative error of `10.5ε`. A weight is off by `5ε` of what its numerator may change, over ⅔, and by `10.5ε` for the
+    /// denominator and `2ε` for reciprocal and product: less than `27ε` of that change. With two roundings more for the corner's
+    /// normal and the product, both weights together add less than `29ε · 128` to the error of a normal; the first corner's normal
+    /// and the two sums less than `5ε`, as no partial sum is longer than 4. All in all it is less than 2.4·10⁻⁴, of normals
+    /// no shorter than 0.6. Mostly it is far less, for normals change by some tenths on a triangle. The roundings in `f64` before
+    /// that weigh nothing, unless a triangle is an extreme sliver.
+    #[inline(always)]
+    pub(super) fn new(
+        AtHits { view, raster, steps }: &AtHits,
+        [_, b, c]: [Lanes<T>; 3],
+        triangle: &Triangle<T>,
+        normals: [Lanes<T>; 3],
+    ) -> Beside<T> {
+        let Triangle { a, normal, growth } = *triangle;
+        let FirstRay { way, t, places: [at_a, at_b, at_c], depths, turns } =
+            FirstRay::new(view, [a, b, c]);
+        let over_plane = t / normal.dot(way);
+        let of_q = each!(axis in [0, 1] => normal.along(steps[axis]) * over_plane);
+        let numerators = each!(growth in [growth[0], growth[1]] => {
+            let along = growth.dot(way);
+            each!(axis in [0, 1] => growth.along(steps[axis]) * t - of_q[axis] * along)
+        });
+
+        let ([down, across], [middle_row, middle_column]) = (raster.spacing(), raster.middle());
+        let [per_row, per_column] = [-1.0 / down, 1.0 / across];
+        let [x, y] = at_a;
+        let [row, column] = [y * per_row, x * per_column];
+        let reaches = each!(place in [at_b, at_c] => {
+            (place[0] - x).magnitude() * per_column + (place[1] - y).magnitude() * -per_row
+        });
+        let reach = reaches[0] + reaches[1] + 1.0;
+        let of_q = each!(axis in [0, 1] => of_q[axis] * turns);
+        let [from_q, from_b, from_c] = each!(slopes in [of_q, numerators[0], numerators[1]] => {
+            (slopes[0].magnitude() + slopes[1].magnitude()) * reach
+        });
+        let [_, to_b, to_c] = each!(normal in [normals[0], normals[1], normals[2]] => {
+            normal.x.magnitude() + normal.y.magnitude() + normal.z.magnitude()
+        });
+        let size = depths
+            + from_q
+            + (from_b * to_b + from_c * to_c) * (1.0 / CHANGE)
+            + (row.magnitude() + column.magnitude()) * (1.0 / FARTHEST);
+        Beside {
+            corner: [row + middle_row, column + middle_column],
+            slopes: [of_q, numerators[0], numerators[1]],
+            normals,
+            size,
+        }
+    }
+}
+
+/// The ray through the first corner of a triangle, or of each of eight.
+struct FirstRay<T> {
+    /// Its direction; the way from the eye to the corner where rays begin there.
+    way: Lanes<T>,
+    /// Where it hits the corner, in lengths of its direction; 1 for parallel rays.
+    t: T,
+    /// The three corners on the viewport.
+    places: [[T; 2]; 3],
+    /// How much farther or nearer the other corners are, in halves of the first one's depth, added up.
+    depths: T,
+    /// 1 if other rays have other directions, 0 if they are parallel.
+    turns: f64,
+}
+
+impl<T: Real> FirstRay<T> {
+    #[inline(always)]
+    fn new(view: &View, [a, b, c]: [Lanes<T>; 3]) -> FirstRay<T> {
+        let camera = view.camera;
+        let (ahead, distance) = (-camera.w(), camera.distance());
+        let places = each!(corner in [a, b, c] => {
+            each!(axis in [camera.u(), camera.v()] => corner.along(axis))
+        });
+        let depth = a.along(ahead);
+        match camera.projection() {
+            Projection::Perspective => {
+                let farther = each!(corner in [b, c] => (corner - a).along(ahead));
+                let scales = each!(depth in [depth, depth + farther[0], depth + farther[1]] => {
+                    depth.reciprocal() * distance
+                });
+                let apart = (farther[0].magnitude() + farther[1].magnitude()) * scales[0];
+                FirstRay {
+                    way: a,
+                    t: depth * (1.0 / distance),
+                    places: each!(k in [0, 1, 2] => {
+                        [places[k][0] * scales[k], places[k][1] * scales[k]]
+                    }),
+                    // Before the eye, scales are positive.
+                    depths: apart.magnitude() * (2.0 / distance),
+                    turns: 1.0,
+                }
+            }
+            Projection::Parallel => {
+                let nothing = depth * 0.0;
+                let [x, y, z] = each!(axis in [ahead.x, ahead.y, ahead.z] => nothing + axis);
+                let way = Lanes { x, y, z };
+                FirstRay { way, t: nothing + 1.0, places, depths: nothing, turns: 0.0 }
+            }
+        }
+    }
+}
+
+/// Normals towards the viewer where rays hit a small triangle, in `f32`, counted from its first corner.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct NormalsAtHits {
+    /// The sample that is nearest to the first corner, and how many rows and columns the corner is beyond it.
+    anchor: Anchor,
+    beyond: [f32; 2],
+    /// See [`Beside`].
+    slopes: [[f32; 2]; 3],
+    normals: [[f32; 3]; 3],
+}
+
+impl LocalNormals for NormalsAtHits {
+    #[inline(always)]
+    fn store<S: Simd>(&self, simd: S, first: Sample, [to_x, to_y, to_z]: [&mut [f32]; 3]) {
+        let splat = |number: f32| f32x8::splat(simd, number);
+        let [rows, mut columns] = self.anchor.steps_to(first);
+        let [beyond_row, beyond_column] = self.beyond;
+        let rows = rows - beyond_row;
+        let [q, of_b, of_c] = &self.slopes;
+        let in_row = [1.0 + q[1] * rows, of_b[1] * rows, of_c[1] * rows];
+        for at in (0..to_x.len()).step_by(8) {
+            let places = eight_columns(simd, columns) - splat(beyond_column);
+            columns += 8.0;
+            let [below, of_b, of_c] = each!(k in [0, 1, 2] => {
+                splat(in_row[k]) + splat(self.slopes[k][0]) * places
+            });
+            let reciprocal = splat(1.0) / below;
+            let (b, c) = (of_b * reciprocal, of_c * reciprocal);
+            let [at_a, to_b, to_c] = &self.normals;
+            let [x, y, z] = each!(k in [0, 1, 2] => {
+                splat(at_a[k]) + splat(to_b[k]) * b + splat(to_c[k]) * c
+            });
+            x.store_slice(&mut to_x[at..at + 8]);
+            y.store_slice(&mut to_y[at..at + 8]);
+            z.store_slice(&mut to_z[at..at + 8]);
+        }
+    }
+}
+
+impl Beside<f64> {
+    /// `None` where the triangle is not small.
+    #[inline(always)]
+    pub(super) fn normals(&self) -> Option<NormalsAtHits> {
+        #[expect(clippy::cast_possible_truncation, reason = "see `Beside::new`")]
+        let number = |number: f64| number as f32;
+        let nearest = self.corner.map(Real::rounded);
+        (self.size <= 1.0).then(|| NormalsAtHits {
+            anchor: Anchor::new(nearest),
+            beyond: each!(k in [0, 1] => number(self.corner[k] - nearest[k])),
+            slopes: each!(k in [0, 1, 2] => self.slopes[k].map(number)),
+            normals: each!(k in [0, 1, 2] => {
+                let Lanes { x, y, z } = self.normals[k];
+                [number(x), number(y), number(z)]
+            }),
+        })
+    }
+}
+
+impl<S: Simd> Beside<f64x8<S>> {
+    /// Gives the normals of the first triangles, so many, to `keep`; `None` for one that is not small.
+    #[inline(always)]
+    pub(super) fn each_of(&self, used: usize, mut keep: impl FnMut(usize, Option<NormalsAtHits>)) {
+        let Beside { corner, slopes: [q, of_b, of_c], normals: [at_a, to_b, to_c], size } = *self;
+        let nearest = each!(k in [0, 1] => corner[k].rounded());
+        let beyond = each!(k in [0, 1] => corner[k] - nearest[k]);
+        // Two times eight numbers at a time become `f32`.
+        let halves = [
+            beyond,
+            q,
+            of_b,
+            of_c,
+            [at_a.x, at_a.y],
+            [at_a.z, to_b.x],
+            [to_b.y, to_b.z],
+            [to_c.x, to_c.y],
+            [to_c.z, to_c.z],
+        ];
+        let halves = each!(k in [0, 1, 2, 3, 4, 5, 6, 7, 8] => {
+            halves[k][0].narrow(halves[k][1]).to_array()
+        });
+        let [rows, columns] = each!(k in [0, 1] => nearest[k].to_array());
+        let sizes = size.to_array();
+        for lane in 0..used {
+            let at = lane & 7;
+            let number = |k: usize| halves[k / 2][k % 2 * 8 + at];
+            let normals = NormalsAtHits {
+                anchor: Anchor::new([rows[at], columns[at]]),
+                beyond: [number(0), number(1)],
+                slopes: each!(from in [2, 4, 6] => [number(from), number(from + 1)]),
+                normals: each!(from in [8, 11, 14] => {
+                    [number(from), number(from + 1), number(from + 2)]
+                }),
+            };
+            keep(lane, (sizes[at] <= 1.0).then_some(normals));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{AtHits, LEAST_COSINE, least_cosine, steps};
+    use super::*;
+    use bothways_common::engine::simd::{best_level, dispatch, levels};
+    use bothways_common::{Camera, CameraDescription, Scene};
+    use glam::{DVec3, Vec3};
+
+    /// Dice for triangles.
+    struct Dice(fastrand::Rng);
+
+    impl Dice {
+        /// A number between −1 and 1.
+        fn next(&mut self) -> f64 {
+            2.0 * self.0.f64() - 1.0
+        }
+
+        /// Ten to a power between these two.
+        fn power(&mut self, [least, most]: [f64; 2]) -> f64 {
+            10f64.powf(least + (most - least) * self.0.f64())
+        }
+
+        fn vector(&mut self) -> DVec3 {
+            DVec3::new(self.next(), self.next(), self.next())
+        }
+
+        /// A triangle, and normals at its corners. The triangle is of any size and thickness, in the picture or beside it; some reach behind
+        /// the eye.
+        fn triangle(&mut self) -> [[DVec3; 3]; 2] {
+            let depth = self.power([0.0, 1.0]);
+            let a = depth * DVec3::new(0.6 * self.next(), 0.4 * self.next(), -1.0);
+            let (size, thickness) = (self.power([-3.5, 0.7]), self.power([-4.0, 0.0]));
+            let b = a + size * self.vector();
+            let c = a + (b - a) * self.next() + thickness * size * self.vector();
+            let change = self.power([-3.0, 0.0]);
+            let normal = self.vector();
+            let normals =
+                [0, 1, 2].map(|_: u8| (normal + change * self.vector()).normalize_or_zero());
+            [[a, b, c], normals]
+        }
+    }
+
+    fn camera(projection: Projection) -> Camera {
+        let image = [160, 100];
+        Camera::new(CameraDescription { projection, image, ..CameraDescription::default() }).unwrap()
+    }
+
+    fn at_hits<'a>(view: &'a View<'a>) -> AtHits<'a> {
+        let raster = view.camera.raster(1);
+        AtHits { view, raster, steps: steps(view, &raster) }
+    }
+
+    impl NormalsAtHits {
+        /// The normal at a sample.
+        fn at(&self, sample: Sample) -> Vec3 {
+            let steps = self.anchor.steps_to(sample);
+            let [rows, columns] = [0, 1].map(|k| steps[k] - self.beyond[k]);
+            let [q, of_b, of_c] = self.slopes;
+            let reciprocal = 1.0 / ((1.0 + q[1] * rows) + q[0] * columns);
+            let [b, c] = [of_b, of_c].map(|slopes| slopes[1] * rows + slopes[0] * columns);
+            let [at_a, to_b, to_c] = self.normals.map(Vec3::from);
+            at_a + to_b * (b * reciprocal) + to_c * (c * reciprocal)
+        }
+    }
+
+    /// The normal where the ray through a place of the viewport meets a triangle, if it does: by other formulas, in `f64`.
+    fn exact_normal(
+        camera: &Camera,
+        [x, y]: [f64; 2],
+        [a, b, c]: [DVec3; 3],
+        [at_a, at_b, at_c]: [DVec3; 3],
+    ) -> Option<DVec3> {
+        let ray = camera.ray_through(x, y);
+        let n = (b - a).cross(c - a);
+        let t = n.dot(a - ray.origin) / n.dot(ray.direction);
+        let hit = ray.origin + t * ray.direction;
+        let of_b = n.dot((hit - a).cross(c - a)) / n.dot(n);
+        let of_c = n.dot((b - a).cross(hit - a)) / n.dot(n);
+        let meets = t > 0.0 && of_b >= 0.0 && of_c >= 0.0 && of_b + of_c <= 1.0;
+        let normal = at_a + of_b * (at_b - at_a) + of_c * (at_c - at_a);
+        let seen = if n.dot(ray.direction) > 0.0 { -normal } else { normal };
+        meets.then(|| seen.normalize())
+    }
+
+    #[test]
+    fn normals_at_hits_of_small_triangles_are_those_of_f64() {
+        let (mut small, mut large, mut samples, mut worst) = (0, 0, 0, 0.0_f64);
+        for projection in [Projection::Perspective, Projection::Parallel] {
+            let (scene, camera) = (Scene::new(Vec::new()).unwrap(), camera(projection));
+            let view = View::new(&scene, &camera);
+            let surfaces = at_hits(&view);
+            let raster = surfaces.raster;
+            let (x, y): (Vec<f64>, Vec<f64>) = (raster.x().collect(), raster.y().collect());
+            let mut dice = Dice(fastrand::Rng::with_seed(projection as u64));
+            for _ in 0..20_000 {
+                let [corners, normals] = dice.triangle();
+                if least_cosine(normals) < LEAST_COSINE {
+                    continue;
+                }
+                let [corners_of, normals_of] =
+                    [corners, normals].map(|three| three.map(Lanes::from));
+                let Some(local) = surfaces.beside(corners_of, normals_of).normals() else {
+                    large += 1;
+                    continue;
+                };
+                small += 1;
+                for (row, y) in y.iter().enumerate() {
+                    for (column, x) in x.iter().enumerate() {
+                        let Some(exact) = exact_normal(&camera, [*x, *y], corners, normals) else {
+                            continue;
+                        };
+                        samples += 1;
+                        let found = local.at(Sample { row, column }).as_dvec3();
+                        assert!(found.length() > 0.5, "{found}");
+                        worst = worst.max(found.normalize().distance(exact));
+                    }
+                }
+            }
+        }
+        println!("{small} small with {samples} samples, {large} large, off by {worst:e} at most");
+        assert!(small > 5000 && large > 5000, "{small}, {large}");
+        assert!(samples > 100_000, "{samples}");
+        assert!(worst < 1e-4, "{worst:e}");
+    }
+    #[test]
+    fn normals_of_a_row_have_the_bits_of_each_alone() {
+        let normals = NormalsAtHits {
+            anchor: Anchor::new([-3.0, 1000.0]),
+            beyond: [0.31, -0.17],
+            slopes: [[0.011, -0.02], [0.3, 0.17], [-0.41, 0.07]],
+            normals: [[0.1, -0.7, 0.7], [0.011, 0.02, -0.031], [-0.017, 0.013, 0.07]],
+        };
+        let first = Sample { row: 5, column: 990 };
+        for level in levels() {
+            let [mut x, mut y, mut z] = [[0.0; 24]; 3];
+            dispatch!(level, simd => normals.store(simd, first, [&mut x, &mut y, &mut z]));
+            for at in 0..24 {
+                let expected = normals.at(Sample { column: first.column + at, ..first });
+                assert_eq!(Vec3::new(x[at], y[at], z[at]), expected);
+            }
+        }
+    }
+
+    #[test]
+    fn eight_triangles_have_the_bits_of_each_alone() {
+        for projection in [Projection::Perspective, Projection::Parallel] {
+            let (scene, camera) = (Scene::new(Vec::new()).unwrap(), camera(projection));
+            let view = View::new(&scene, &camera);
+            let surfaces = at_hits(&view);
+            let mut dice = Dice(fastrand::Rng::with_seed(3));
+            let mut small = 0;
+            for _ in 0..200 {
+                let triangles: [_; 8] = std::array::from_fn(|_| dice.triangle());
+                let alone = triangles.map(|[corners, normals]| {
+                    let [corners, normals] = [corners, normals].map(|three| three.map(Lanes::from));
+                    surfaces.beside(corners, normals).normals()
+                });
+                let mut together = Vec::new();
+                dispatch!(best_level(), simd => {
+                    let lanes = |k: usize, corner: usize| {
+                        Lanes::<f64x8<_>>::from_fn(simd, |lane| triangles[lane][k][corner])
+                    };
+                    let [corners, normals] = [0, 1].map(|k| [lanes(k, 0), lanes(k, 1), lanes(k, 2)]);
+                    let beside = surfaces.beside(corners, normals);
+                    beside.each_of(8, |_, normals| together.push(normals));
+                });
+                assert_eq!(format!("{alone:?}"), format!("{together:?}"));
+                small += alone.iter().flatten().count();
+            }
+            assert!(small > 300, "{small}");
+        }
+    }
+}
