@@ -17,6 +17,7 @@ pub use shape::{Plane, Shape, Sphere, Triangle};
 pub use texture::{Filter, Levels, Pyramid, Sampler, Texture, Wrap};
 
 use glam::Vec3;
+use std::ops::Range;
 
 /// One object: a shape and what it is made of.
 #[derive(Clone, Debug, PartialEq)]
@@ -245,6 +246,17 @@ impl Scene {
     pub fn first_id(&self, object: usize) -> u64 {
         assert!(object < self.objects.len(), "there is no object {object}");
         self.first_ids.get(object).copied().unwrap_or(u64::from(self.first_names[object]))
+    }
+
+    /// The ids of an object's primitives.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such object.
+    pub fn ids_of(&self, object: usize) -> Range<u64> {
+        let is_last = object + 1 == self.objects.len();
+        let end = if is_last { self.primitive_count() } else { self.first_id(object + 1) };
+        self.first_id(object)..end
     }
 
     /// How many primitives there are; ids are smaller.

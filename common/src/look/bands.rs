@@ -115,12 +115,7 @@ struct Look<'a, A> {
 impl<'a, A: Surfaces> Look<'a, A> {
     /// Shades some rows of pixels, one where a pixel has several samples.
     #[inline(always)]
-    fn shade_band<S: Simd>(
-        &self,
-        simd: S,
-        desk: &mut Desk<'a, A>,
-        band: &mut ShadingBand,
-    ) {
+    fn shade_band<S: Simd>(&self, simd: S, desk: &mut Desk<'a, A>, band: &mut ShadingBand) {
         let width = band.region.columns.len();
         desk.sums.fill(Vec3::ZERO);
         let height = band.region.rows.len();

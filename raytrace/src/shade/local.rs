@@ -290,7 +290,8 @@ mod tests {
 
     fn camera(projection: Projection) -> Camera {
         let image = [160, 100];
-        Camera::new(CameraDescription { projection, image, ..CameraDescription::default() }).unwrap()
+        Camera::new(CameraDescription { projection, image, ..CameraDescription::default() })
+            .unwrap()
     }
 
     fn at_hits<'a>(view: &'a View<'a>) -> AtHits<'a> {

@@ -1,8 +1,8 @@
 //! What a thread works with while it shades: the samples of a chunk, and the primitives that are seen there.
 
 use super::chunk::Chunk;
-use super::found::{Found, FoundEight};
-use super::surfaces::{Seen, SetUp, Surfaces, Wanted};
+use super::found::Found;
+use super::surfaces::{EightTriangles, Seen, SetUp, Surfaces, Wanted};
 use crate::engine::simd::{Simd, SimdBase, SimdMask, u32x16};
 use crate::frame::{Ids, NO_PRIMITIVE, NO_WIDE_PRIMITIVE};
 use crate::look::lanes::each;
@@ -46,6 +46,8 @@ pub(super) struct Desk<'a, A: Surfaces> {
     pub(super) looks_at_t: bool,
     /// The names of those that come next in `kept`, and are not set up yet.
     new: Vec<u32>,
+    /// Their ids.
+    new_ids: Vec<u64>,
     pub(super) chunk: Box<Chunk>,
     pub(super) runs: Runs,
     /// Of each pixel of the row, the sum over its samples; none where a pixel has one sample.
@@ -120,6 +122,7 @@ impl<'a, A: Surfaces> Desk<'a, A> {
             surfaces: Vec::new(),
             looks_at_t: false,
             new: Vec::new(),
+            new_ids: Vec::new(),
             chunk: Box::new(Chunk::new()),
             runs: Runs::default(),
             sums: vec![Vec3::ZERO; sums],
@@ -227,107 +230,79 @@ impl<'a, A: Surfaces> Desk<'a, A> {
         place
     }
 
-    /// Sets up the primitives that are new.
+    /// Sets up the primitives that are new: those of one object that follow one another at once.
+    #[inline(always)]
+    pub(super) fn set_up_new<S: Simd>(&mut self, simd: S, setting: &Setting<'a, A>) {
+        let scene = setting.view.scene;
+        let mut ids = std::mem::take(&mut self.new_ids);
+        ids.clear();
+        let known = scene.has_wide_ids().then_some(&self.names.ids);
+        ids.extend(
+            self.new
+                .iter()
+                .map(|&name| known.map_or(u64::from(name), |known| known[name as usize])),
+        );
+        let mut rest = &ids[..];
+        while let Some(&first) = rest.first() {
+            let found = Found::of(scene, first, setting.wanted);
+            let count = rest.iter().take_while(|id| found.has(**id)).count();
+            let (these, others) = rest.split_at(count);
+            self.set_up_found(simd, setting, &found, these);
+            rest = others;
+        }
+        self.new.clear();
+        self.new_ids = ids;
+    }
+
+    /// Sets up some primitives of one object.
     ///
     /// All are set up before the first is used, and the machine is asked for their indices before that, and for the corners of eight
     /// while the eight before them are set up: so the memory that they lie in is fetched for several at once.
     #[inline(always)]
-    pub(super) fn set_up_new<S: Simd>(
+    fn set_up_found<S: Simd>(
         &mut self,
         simd: S,
         setting: &Setting<'a, A>,
+        found: &Found<'a>,
+        ids: &[u64],
     ) {
-        self.prefetch_indices(setting);
-        self.prefetch_corners(setting, 0..self.new.len().min(8));
-        for start in (0..self.new.len()).step_by(8) {
-            let end = self.new.len().min(start + 8);
-            self.prefetch_corners(setting, end..self.new.len().min(end + 8));
-            let found = match self.new[start..end] {
-                // Vectors are not worth it for one or two.
-                [_] | [_, _] => None,
-                _ => self.find_eight(setting, start..end),
-            };
-            if let Some(found) = found {
-                self.set_up_eight(simd, setting, &found);
+        let mut corners = [[[0.0; 8]; 3]; 6];
+        ids.iter().for_each(|id| found.prefetch_indices(*id));
+        ids.iter().take(8).for_each(|id| found.prefetch_corners(*id));
+        for start in (0..ids.len()).step_by(8) {
+            let (eight, soon) = ids[start..].split_at(8.min(ids.len() - start));
+            soon.iter().take(8).for_each(|id| found.prefetch_corners(*id));
+            // Vectors are not worth it for one or two.
+            if eight.len() > 2 && found.read(eight, &mut corners) {
+                let triangles = EightTriangles::new(simd, setting.view, &corners, eight.len());
+                self.set_up_eight(setting, found, eight, &triangles);
             } else {
-                for at in start..end {
-                    self.set_up(setting, &self.locate(setting, self.new[at]));
-                }
+                eight.iter().for_each(|id| self.set_up(setting, found, *id));
             }
         }
-        self.new.clear();
-    }
-
-    /// Asks for the indices of all new primitives.
-    #[inline(always)]
-    fn prefetch_indices(&self, setting: &Setting<'a, A>) {
-        for &name in &self.new {
-            self.locate(setting, name).prefetch_indices();
-        }
-    }
-
-    /// Asks for the corners of some new primitives, whose indices have been asked for.
-    #[inline(always)]
-    fn prefetch_corners(
-        &self,
-        setting: &Setting<'a, A>,
-        new: Range<usize>,
-    ) {
-        for &name in &self.new[new] {
-            self.locate(setting, name).prefetch_corners();
-        }
-    }
-
-    /// The primitive of a name.
-    #[inline(always)]
-    fn locate(&self, setting: &Setting<'a, A>, name: u32) -> Found<'a> {
-        let scene = setting.view.scene;
-        let (id, (object, local)) = if scene.has_wide_ids() {
-            let id = self.names.ids[name as usize];
-            (id, scene.locate(id))
-        } else {
-            (name.into(), scene.locate_name(name))
-        };
-        let object = &scene.objects()[object];
-        Found { id, object, local, material: object.material_of(local) }
-    }
-
-    /// Up to eight new primitives, if of all nothing is wanted but interpolated normals.
-    #[inline(always)]
-    fn find_eight(
-        &self,
-        setting: &Setting<'a, A>,
-        new: Range<usize>,
-    ) -> Option<FoundEight<'a>> {
-        let mut eight = FoundEight::all(self.locate(setting, self.new[new.start]), new.len());
-        for (found, name) in eight.found.iter_mut().zip(&self.new[new]) {
-            *found = self.locate(setting, *name);
-        }
-        eight.have_normals_alone(setting.wanted).then_some(eight)
     }
 
     #[inline(always)]
     fn set_up_eight<S: Simd>(
         &mut self,
-        simd: S,
         setting: &Setting<'a, A>,
-        eight: &FoundEight<'a>,
+        found: &Found<'a>,
+        ids: &[u64],
+        triangles: &EightTriangles<S>,
     ) {
-        let triangles = eight.triangles(simd, setting.view);
-        let mut lane = 0;
-        setting.surfaces.set_up_eight(&triangles, |set_up| {
-            let found = &eight.found[lane & 7];
-            lane += 1;
+        let mut ids = ids.iter();
+        setting.surfaces.set_up_eight(triangles, |set_up| {
+            let Some(&id) = ids.next() else { return };
             match set_up {
-                Some(set_up) => self.keep(setting, set_up, (found.material, false)),
-                None => self.set_up(setting, found),
+                Some(set_up) => self.keep(setting, set_up, (found.material(id), false)),
+                None => self.set_up(setting, found, id),
             }
         });
     }
 
     #[inline(never)]
-    fn set_up(&mut self, setting: &Setting<'a, A>, found: &Found<'a>) {
-        let Found { id, object, local, material } = *found;
+    fn set_up(&mut self, setting: &Setting<'a, A>, found: &Found<'a>, id: u64) {
+        let (object, local, material) = (found.object, found.local(id), found.material(id));
         let primitive = setting.view.primitive_of(&object.shape, local);
         let seen = Seen { id, primitive, object, local, material };
         let set_up = setting.surfaces.set_up(&seen, setting.wanted);

@@ -1,107 +1,119 @@
-//! Primitives that are seen and are to be set up: one, or eight triangles at once.
+//! Primitives that are seen and are to be set up: those of one object, one or eight triangles at once.
 
 use super::surfaces::{EightTriangles, Wanted, needs_normals_alone};
 use crate::engine::simd::{Simd, SimdBase, f64x8, prefetch_at};
 use crate::look::lanes::{DVec3x8, Lanes, each};
 use crate::scene::material::Material;
-use crate::scene::mesh::Attribute;
-use crate::scene::{Object, Shape};
+use crate::scene::mesh::Mesh;
+use crate::scene::{Object, Scene, Shape};
 use crate::view::View;
-use glam::Vec3;
+use std::ops::Range;
 
-/// A primitive that is seen, and not set up yet.
-#[derive(Clone, Copy)]
+/// An object of which primitives are seen that are not set up yet.
 pub(super) struct Found<'a> {
-    pub(super) id: u64,
     pub(super) object: &'a Object,
-    /// Its number among the object's primitives.
-    pub(super) local: usize,
-    pub(super) material: &'a Material,
+    /// The ids of all its primitives.
+    ids: Range<u64>,
+    /// Its mesh, if it is one.
+    mesh: Option<&'a Mesh>,
+    /// Whether nothing is wanted of its triangles but normals, unless some have a pattern of their own.
+    is_plain: bool,
 }
 
-/// Up to eight triangles of meshes; the first fills the lanes that are left.
-pub(super) struct FoundEight<'a> {
-    pub(super) found: [Found<'a>; 8],
-    /// The vertices of each, and which normals its corners have.
-    indices: [([u32; 3], [u32; 3]); 8],
-    used: usize,
-}
+/// The coordinates of the corners of eight triangles, and of the normals there.
+pub(super) type Corners = [[[f32; 8]; 3]; 6];
 
-impl Found<'_> {
-    /// The vertices of a triangle of a mesh, and which normals its corners have; `None` if there are none, or if
-    /// something else is wanted.
+impl<'a> Found<'a> {
+    /// The object that this primitive belongs to.
+    pub(super) fn of(scene: &'a Scene, id: u64, wanted: Wanted) -> Found<'a> {
+        let (number, _) = scene.locate(id);
+        let object = &scene.objects()[number];
+        let mesh = match &object.shape {
+            Shape::Mesh(mesh) => Some(mesh),
+            _ => None,
+        };
+        let is_plain = mesh.is_some() && needs_normals_alone(wanted, object, &object.material);
+        Found { object, ids: scene.ids_of(number), mesh, is_plain }
+    }
+
+    /// Whether a primitive belongs to the object.
     #[inline(always)]
-    fn indices(&self, wanted: Wanted) -> Option<([u32; 3], [u32; 3])> {
-        let Shape::Mesh(mesh) = &self.object.shape else { return None };
-        let is_plain = needs_normals_alone(wanted, self.object, self.material);
-        let normals = mesh.normals().corners.get(self.local).filter(|_| is_plain)?;
-        // All corners have one.
-        let have = |corner: &u32| *corner != Attribute::<Vec3>::NONE;
-        normals.iter().all(have).then(|| (mesh.triangles()[self.local], *normals))
+    pub(super) fn has(&self, id: u64) -> bool {
+        self.ids.contains(&id)
+    }
+
+    /// The number of a primitive among the object's own.
+    #[inline(always)]
+    pub(super) fn local(&self, id: u64) -> usize {
+        usize::try_from(id - self.ids.start).expect("primitives of one object can be counted")
+    }
+
+    #[inline(always)]
+    pub(super) fn material(&self, id: u64) -> &'a Material {
+        self.object.material_of(self.local(id))
     }
 
     /// Asks the machine for the indices of a triangle of a mesh.
     #[inline(always)]
-    pub(super) fn prefetch_indices(&self) {
-        if let Shape::Mesh(mesh) = &self.object.shape {
-            prefetch_at(mesh.triangles(), self.local);
-            prefetch_at(&mesh.normals().corners, self.local);
+    pub(super) fn prefetch_indices(&self, id: u64) {
+        if let Some(mesh) = self.mesh {
+            let triangle = self.local(id);
+            prefetch_at(mesh.triangles(), triangle);
+            prefetch_at(&mesh.normals().corners, triangle);
         }
     }
 
-    /// Asks the machine for the vertices and the normals of a triangle of a mesh.
+    /// Asks the machine for the vertices and the normals of a triangle of a mesh, whose indices have been asked for.
     #[inline(always)]
-    pub(super) fn prefetch_corners(&self) {
-        let Shape::Mesh(mesh) = &self.object.shape else { return };
-        let [positions, normals] = [mesh.positions(), &mesh.normals().values];
-        for &vertex in mesh.triangles().get(self.local).into_iter().flatten() {
-            prefetch_at(positions, vertex as usize);
+    pub(super) fn prefetch_corners(&self, id: u64) {
+        let Some(mesh) = self.mesh else { return };
+        let (triangle, normals) = (self.local(id), mesh.normals());
+        for &vertex in mesh.triangles().get(triangle).into_iter().flatten() {
+            prefetch_at(mesh.positions(), vertex as usize);
         }
-        for &normal in mesh.normals().corners.get(self.local).into_iter().flatten() {
-            prefetch_at(normals, normal as usize);
+        for &normal in normals.corners.get(triangle).into_iter().flatten() {
+            prefetch_at(&normals.values, normal as usize);
         }
     }
-}
 
-impl<'a> FoundEight<'a> {
-    /// Eight times the same one, for so many that are to take its place.
+    /// Reads the corners and normals of up to eight triangles; the last one fills the lanes that are left. `false` if something else
+    /// is wanted of one, or if it has no normals.
     #[inline(always)]
-    pub(super) fn all(found: Found<'a>, used: usize) -> FoundEight<'a> {
-        FoundEight { found: [found; 8], indices: [([0; 3], [0; 3]); 8], used }
-    }
-
-    /// Whether of all nothing is wanted but interpolated normals.
-    #[inline(always)]
-    pub(super) fn have_normals_alone(&mut self, wanted: Wanted) -> bool {
-        for (found, indices) in self.found.iter().zip(&mut self.indices) {
-            let Some(known) = found.indices(wanted) else { return false };
-            *indices = known;
+    pub(super) fn read(&self, ids: &[u64], corners: &mut Corners) -> bool {
+        let Some(mesh) = self.mesh.filter(|_| self.is_plain) else { return false };
+        if mesh.materials().is_some() && ids.iter().any(|&id| self.material(id).has_pattern()) {
+            return false;
         }
-        true
-    }
-
-    /// The corners and normals: those of all eight are fetched at once.
-    #[inline(always)]
-    pub(super) fn triangles<S: Simd>(&self, simd: S, view: &View) -> EightTriangles<S> {
-        let mut coordinates = [[[0.0; 8]; 3]; 6];
-        for (lane, (found, indices)) in self.found.iter().zip(self.indices).enumerate() {
-            let Shape::Mesh(mesh) = &found.object.shape else { continue };
-            let (vertices, normals) = indices;
-            let positions = vertices.map(|vertex| mesh.positions()[vertex as usize]);
-            let normals = normals.map(|normal| mesh.normals().values[normal as usize]);
-            for (k, vector) in positions.into_iter().chain(normals).enumerate() {
-                for (axis, coordinate) in vector.to_array().into_iter().enumerate() {
-                    coordinates[k][axis][lane] = f64::from(coordinate);
+        let normals = mesh.normals();
+        for lane in 0..8 {
+            let triangle = self.local(ids[lane.min(ids.len() - 1)]);
+            let Some(of_corners) = normals.corners.get(triangle) else { return false };
+            let vertices = mesh.triangles()[triangle];
+            for k in 0..3 {
+                let position = mesh.positions()[vertices[k] as usize];
+                let Some(normal) = normals.values.get(of_corners[k] as usize) else { return false };
+                for axis in 0..3 {
+                    corners[k][axis][lane] = position[axis];
+                    corners[3 + k][axis][lane] = normal[axis];
                 }
             }
         }
+        true
+    }
+}
+
+impl<S: Simd> EightTriangles<S> {
+    /// The triangles with these corners and normals, of which so many are used.
+    #[inline(always)]
+    pub(super) fn new(simd: S, view: &View, corners: &Corners, used: usize) -> Self {
         let [a, b, c, at_a, at_b, at_c] = each!(k in [0, 1, 2, 3, 4, 5] => {
-            let [x, y, z] =
-                each!(axis in [0, 1, 2] => f64x8::load_array_ref(simd, &coordinates[k][axis]));
+            let [x, y, z] = each!(axis in [0, 1, 2] => {
+                f64x8::from_fn(simd, |lane| f64::from(corners[k][axis][lane]))
+            });
             Lanes { x, y, z }
         });
         let eye = DVec3x8::splat(simd, view.camera.eye().as_dvec3());
         let corners = each!(corner in [a, b, c] => corner - eye);
-        EightTriangles { corners, normals: [at_a, at_b, at_c], used: self.used }
+        EightTriangles { corners, normals: [at_a, at_b, at_c], used }
     }
 }
