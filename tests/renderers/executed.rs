@@ -2,7 +2,7 @@
 //! apart from the work of the algorithm.
 
 use bothways::common::engine::simd::{Level, best_level, levels};
-use bothways::common::glam::Vec3;
+use bothways::common::glam::{DVec2, Vec3};
 use bothways::common::{
     Camera, Executed, Frame, Mesh, Object, Options, Plane, Scene, Shape, Sphere, View, Work,
 };
@@ -91,6 +91,41 @@ fn a_small_triangle_takes_a_step_for_each_sample_between_its_corners() {
         [found.tiles, found.tiles_skipped, found.nodes_opened]
     });
     assert_eq!(four, [[1, 0, 0], [4, 3, 4]]);
+}
+
+/// Slivers that cross the picture in all directions, each a third of a sample wide: of a tile, those that lie along rows or
+/// columns cover few samples.
+#[test]
+fn image_order_sets_slivers_up_in_the_tiles_that_they_cross() {
+    let part = |k: u32, step: f64| (f64::from(k + 1) * step).fract();
+    let slivers: Vec<[DVec2; 3]> = (0..600)
+        .map(|k| {
+            let turn = std::f64::consts::TAU * part(k, 0.618_034);
+            let along = DVec2::from_angle(turn);
+            let middle = 512.0 * DVec2::new(part(k, 0.754_878), part(k, 0.569_840));
+            [middle - along * 1500.0, middle + along * 1500.0, middle + along.perp() * 0.33]
+        })
+        .collect();
+    let corner = |at: DVec2| Vec3::new(at.x as f32 / 512.0 - 0.5, 0.5 - at.y as f32 / 512.0, -1.0);
+    let positions = slivers.iter().flatten().map(|at| corner(*at)).collect();
+    let triangles = (0..600).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+    let found = executed(
+        Order::Image,
+        vec![mesh(Mesh::new(positions, triangles).expect("it is a mesh"))],
+        [512, 512],
+    );
+
+    let tiles =
+        || (0..16).flat_map(|i| (0..16).map(move |j| DVec2::new(f64::from(j), f64::from(i))));
+    let crosses = |[start, end, _]: &[DVec2; 3], tile: DVec2| {
+        let normal = (end - start).normalize().perp();
+        let away = normal.dot(32.0 * tile + 16.0 - *start).abs();
+        away < 16.0 * (normal.x.abs() + normal.y.abs())
+    };
+    let crossed = slivers.iter().map(|one| tiles().filter(|tile| crosses(one, *tile)).count());
+    let crossed = crossed.sum::<usize>() as u64;
+    assert!(crossed > 10_000, "{crossed}");
+    assert!(found.set_ups < 2 * crossed, "{} set-ups for {crossed} crossings", found.set_ups);
 }
 
 #[test]

@@ -74,6 +74,13 @@ impl LocalErrors {
         self.rounding
     }
 
+    /// About how many columns or rows a leaf of such a size reaches over at most, in which no `t` is less than `near`.
+    #[inline(always)]
+    pub(super) fn extent(&self, size: f32, near: f32) -> f32 {
+        // In `away` it is taken for its roundings.
+        self.away * (1.0 / (9.0 * EPS24)) * size / near
+    }
+
     /// How far a row or column may be off in a leaf of such a size, in which no `t` is less than `near`; `vertex` is
     /// the row and column of the projection's vertex. At least `36·ε₂₄`. Infinite or NaN if numbers might overflow, or
     /// vertices lie behind the eye.

@@ -26,6 +26,9 @@ const ROOM: usize = 80 + LEAVES * LEAF + EIGHT;
 /// would drop.
 const WORTHWHILE: f32 = 1.0 / 256.0;
 
+/// A leaf that reaches over more columns or rows is long: twice those of a tile.
+const LONG: f32 = 64.0;
+
 /// Leaves that wait, and triangles that passed the test of their leaf and wait.
 #[derive(Debug)]
 pub(crate) struct CandidateQueue {
@@ -171,6 +174,8 @@ impl CandidateQueue {
         let local = LocalProjection::new(frustum, leaf.first_vertex(), waiting.size, waiting.near);
         if local.is_useful() {
             let corners = leaf.project(simd, frustum, &local);
+            // Most slivers that are much longer than the tile miss it, however few samples of it others cover.
+            let test = if frustum.is_long(waiting) { Test::Bounds } else { test };
             passed &= pass(simd, frustum, &corners, local.error, test);
         }
         self.keep(simd, leaf, passed);
@@ -215,6 +220,15 @@ impl CandidateQueue {
         u32x8::from_slice(simd, &self.ids[first..first + EIGHT])
             .store_slice(&mut self.ids[..EIGHT]);
         [self.first, self.end] = [0, count];
+    }
+}
+
+impl TileFrustum<'_> {
+    /// Whether a leaf reaches much farther than the tile. No leaf does where a tile is one ray, whose edges are tested anyway.
+    #[inline(always)]
+    fn is_long(&self, leaf: &WaitingLeaf) -> bool {
+        let template = self.template;
+        template.side > 1 && template.local.extent(leaf.size, leaf.near) > LONG
     }
 }
 
