@@ -325,6 +325,7 @@ impl Scene {
     /// # Panics
     ///
     /// If there is no primitive of this id.
+    #[inline]
     pub fn triangle(&self, id: u64) -> Option<[Vec3; 3]> {
         let (object, local) = self.locate(id);
         match &self.objects[object].shape {

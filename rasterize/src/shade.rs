@@ -8,14 +8,14 @@ mod weights;
 
 use bothways_common::engine::simd::{Level, Simd, SimdBase, SimdNarrow, best_level, f64x8};
 use bothways_common::look::bands::{
-    self, EightTriangles, Points, Rays, Samples, Seen, SetUp, Sixteen, Surfaces, Wanted,
+    self, EightTriangles, Points, Rays, Samples, Seen, SetUp, Sixteen, Surfaces, Wanted, are_alike,
 };
 use bothways_common::look::lanes::{DVec3x8, Lanes, Vec3x16, each};
 use bothways_common::look::texture::{self, TexturePoints};
 use bothways_common::{Frame, Primitive, View};
 use form::{Form, HitPoints};
 use glam::{DVec2, DVec3, Vec3};
-use local::{AffineNormals, Grid, LEAST_COSINE, Local};
+use local::{AffineNormals, Grid, Local};
 use quotient::{Affine, Colors, Quotient};
 use weights::{side_of, side_seen, weights, weights_of};
 
@@ -114,7 +114,7 @@ impl Surfaces for Interpolated<'_> {
         triangles: &EightTriangles<S>,
         mut keep: impl FnMut(Option<SetUp<Surface, AffineNormals>>),
     ) {
-        let certain = triangles.are_alike(LEAST_COSINE);
+        let certain = triangles.are_alike();
         let local = Local::new(self.view, &self.grid, triangles.corners, triangles.normals);
         local.each_of(triangles.used, |lane, normals| {
             keep(normals.filter(|_| certain >> lane & 1 == 1).map(SetUp::Local));
@@ -177,7 +177,7 @@ impl Interpolated<'_> {
         let (Primitive::Triangle(corners), Some(normals)) = (seen.primitive, normals) else {
             return None;
         };
-        if !seen.needs_normals_alone(wanted) || least_cosine(normals) < LEAST_COSINE {
+        if !seen.needs_normals_alone(wanted) || !are_alike(normals) {
             return None;
         }
         let [corners, normals] = each!(three in [corners, normals] => three.map(Lanes::from));
@@ -304,7 +304,7 @@ impl Normals {
                     normal.normalize_or_zero() * side_seen(view, a, normal)
                 };
                 let Some(normals) = corners else { return Normals::Flat(flat().as_vec3()) };
-                let flat = (least_cosine(normals) < LEAST_COSINE).then(|| Box::new(flat()));
+                let flat = (!are_alike(normals)).then(|| Box::new(flat()));
                 let [triangle, normals] = [triangle, normals].map(|three| three.map(Lanes::from));
                 Normals::Smooth(Smooth {
                     coordinates: smooth_normals(view, triangle, normals),
@@ -313,12 +313,6 @@ impl Normals {
             }
         }
     }
-}
-
-/// The least cosine between two of three unit vectors.
-#[inline(always)]
-fn least_cosine([a, b, c]: [DVec3; 3]) -> f64 {
-    a.dot(b).min(b.dot(c)).min(c.dot(a))
 }
 
 /// The coordinates of a triangle's interpolated normals, towards the viewer.

@@ -6,7 +6,7 @@ use bothways_common::engine::simd::{
     Level, Select, Simd, SimdBase, SimdFloat, SimdNarrow, best_level, f32x16, f64x8,
 };
 use bothways_common::look::bands::{
-    self, EightTriangles, Points, Rays, Samples, Seen, SetUp, Sixteen, Surfaces, Wanted,
+    self, EightTriangles, Points, Rays, Samples, Seen, SetUp, Sixteen, Surfaces, Wanted, are_alike,
 };
 use bothways_common::look::lanes::{DVec3x8, Lanes, Real, Vec3x16, each};
 use bothways_common::look::texture::{self, TexturePoints};
@@ -147,7 +147,7 @@ impl Surfaces for AtHits<'_> {
         triangles: &EightTriangles<S>,
         mut keep: impl FnMut(Option<SetUp<Surface, NormalsAtHits>>),
     ) {
-        let certain = triangles.are_alike(LEAST_COSINE);
+        let certain = triangles.are_alike();
         let beside = self.beside(triangles.corners, triangles.normals);
         beside.each_of(triangles.used, |lane, normals| {
             keep(normals.filter(|_| certain >> lane & 1 == 1).map(SetUp::Local));
@@ -163,7 +163,7 @@ impl Surfaces for AtHits<'_> {
         points: &mut Points<'_>,
     ) {
         if !surface.has_points {
-            // Most triangles of a mesh that are not small end here.
+            // Triangles of a mesh that are not small mostly need nothing but this.
             match &surface.normals {
                 Normals::Flat(flat) => return points.set_normals(Vec3x16::splat(simd, *flat)),
                 Normals::Smooth(smooth) => {
@@ -264,7 +264,7 @@ impl AtHits<'_> {
         let (Primitive::Triangle(corners), Some(normals)) = (seen.primitive, normals) else {
             return None;
         };
-        if !seen.needs_normals_alone(wanted) || least_cosine(normals) < LEAST_COSINE {
+        if !seen.needs_normals_alone(wanted) || !are_alike(normals) {
             return None;
         }
         let [corners, normals] = each!(three in [corners, normals] => three.map(Lanes::from));
@@ -370,7 +370,7 @@ impl Normals {
         let Some(normals) = corners else { return Normals::Flat(flat().as_vec3()) };
         let corners = steps_from_first(normals.map(Lanes::from), side);
         let corners = corners.map(DVec3::from);
-        if least_cosine(normals) < LEAST_COSINE {
+        if !are_alike(normals) {
             return Normals::Wild(Box::new(Wild { corners, flat: flat() }));
         }
         Normals::Smooth(Smooth(corners.map(|normal| normal.as_vec3())))
@@ -405,15 +405,6 @@ impl Normals {
             }
         }
     }
-}
-
-/// Corners' normals with smaller cosines between them may cancel each other.
-const LEAST_COSINE: f64 = 0.1;
-
-/// The least cosine between two of three unit vectors.
-#[inline(always)]
-fn least_cosine([a, b, c]: [DVec3; 3]) -> f64 {
-    a.dot(b).min(b.dot(c)).min(c.dot(a))
 }
 
 /// 1 if a normal of a flat form through a point is towards the viewer, −1 if it is away; of one form or of eight. The surface

@@ -30,6 +30,7 @@ use std::ops::Range;
 pub use local::{Anchor, LocalNormals, eight_columns};
 pub use surfaces::{
     EightTriangles, Points, Rays, STORED_ERROR, Samples, Seen, SetUp, Sixteen, Surfaces, Wanted,
+    are_alike,
 };
 
 /// Gives a frame its picture, and all else that it keeps of the look of what is seen.

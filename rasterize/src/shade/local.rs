@@ -29,12 +29,8 @@ pub(super) struct Local<T> {
     size: T,
 }
 
-/// Corners' normals with smaller cosines between them may cancel each other.
-pub(super) const LEAST_COSINE: f64 = 0.1;
 /// How far normals may change on a triangle, from its first corner to the others, all changes added up.
 const CHANGE: f64 = 1024.0;
-/// Anchors are nearer to the picture's middle: so rows and columns, and differences of them, are exact in `f32`.
-const FARTHEST: f64 = 1e6;
 
 impl Grid {
     pub(super) fn of(raster: &Raster) -> Grid {
@@ -55,11 +51,11 @@ impl<T: Real> Local<T> {
     /// A triangle is small where the sum of all that is measured is at most 1: how much farther or nearer than the first corner the
     /// others are, in halves of its depth; how much the sum of weights changes from sample to sample, in halves of what it is at the
     /// anchor; how much the normals change from sample to sample, times the samples from corner to corner, in [`CHANGE`];
-    /// and how far the anchor is, in [`FARTHEST`]. What is infinite or not a number is not small; nor is a triangle that reaches behind
+    /// and how far the anchor is, in [`Anchor::FARTHEST`]. What is infinite or not a number is not small; nor is a triangle that reaches behind
     /// the eye, as a corner there measures 2 at least.
     ///
     /// Then the sum of the weights is positive at the anchor, which is half a sample beside the corner at most, and nowhere on the
-    /// triangle below half or above twice of that. So normals whose cosines are at least [`LEAST_COSINE`] have a sum no shorter than
+    /// triangle below half or above twice of that. So normals that are [alike](are_alike) have a sum no shorter than
     /// 0.3 and no longer than 2.
     ///
     /// # The error, rounding by rounding
@@ -111,7 +107,7 @@ impl<T: Real> Local<T> {
         let size = depths
             + (slopes[3] * scale).magnitude() * 2.0
             + slope * (reach + 1.0) * (1.0 / CHANGE)
-            + (row.magnitude() + column.magnitude()) * (1.0 / FARTHEST);
+            + (row.magnitude() + column.magnitude()) * (1.0 / Anchor::FARTHEST);
         Local { anchor, normals, size }
     }
 }
@@ -171,6 +167,9 @@ pub(super) struct AffineNormals {
     numbers: [[f32; 3]; 3],
     anchor: Anchor,
 }
+
+// With its material, one line of the caches.
+const _: () = assert!(size_of::<AffineNormals>() <= 48);
 
 impl LocalNormals for AffineNormals {
     #[inline(always)]
@@ -236,6 +235,7 @@ impl<S: Simd> Local<f64x8<S>> {
 mod tests {
     use super::*;
     use bothways_common::engine::simd::{best_level, dispatch, levels};
+    use bothways_common::look::bands::are_alike;
     use bothways_common::{Camera, CameraDescription, Scene};
     use glam::{DVec3, Vec3};
 
@@ -323,8 +323,7 @@ mod tests {
             let mut dice = Dice(fastrand::Rng::with_seed(projection as u64));
             for _ in 0..20_000 {
                 let [corners, normals] = dice.triangle();
-                let [a, b, c] = normals;
-                if a.dot(b).min(b.dot(c)).min(c.dot(a)) < LEAST_COSINE {
+                if !are_alike(normals) {
                     continue;
                 }
                 let [corners, normals] = [corners, normals].map(|three| three.map(Lanes::from));

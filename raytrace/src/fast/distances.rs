@@ -6,13 +6,14 @@ use super::one_primitive;
 use super::tile::TileBuffer;
 use bothways_common::engine::roundoff::EPS53;
 use bothways_common::engine::simd::{
-    Simd, SimdBase, SimdMask, best_level, dispatch, f64x8, mask64x8,
+    Simd, SimdBase, SimdCombine, SimdMask, SimdWiden, best_level, dispatch, f32x8, f64x8, mask64x8,
 };
 use bothways_common::frame::stored_t;
-use bothways_common::look::lanes::{DVec3x8, Lanes};
+use bothways_common::look::bands::Rays;
+use bothways_common::look::lanes::{DVec3x8, Lanes, each};
 use bothways_common::raster::Sample;
-use bothways_common::{Primitive, Ray};
-use glam::DVec3;
+use bothways_common::{Primitive, Ray, View};
+use glam::Vec3;
 
 /// Finds the distances of some lanes of the block of samples that begins at an index. It is a function of its own, with vectors
 /// of its own: within the loops that write tiles, it would take their registers.
@@ -31,7 +32,7 @@ pub(super) fn find_distances(
     let first = (lanes.trailing_zeros() & 15) as usize;
     // Beyond the picture there is nothing to look up.
     let is_triangle = tile.sample(from + first).is_some()
-        && matches!(tile.names.primitive(&map.view, ids[first]), Primitive::Triangle(_));
+        && map.view.scene.triangle(tile.names.id(ids[first])).is_some();
     if lanes.count_ones() >= FEW && is_triangle {
         return dispatch!(best_level(), simd => find_in_lanes(simd, map, tile, from, (lanes, ids), t));
     }
@@ -57,15 +58,14 @@ fn find_in_lanes<S: Simd>(
         let lane = (lanes.trailing_zeros() & 15) as usize;
         lanes &= lanes - 1;
         let Some(Sample { row, column }) = tile.sample(from + lane) else { continue };
-        let ray = map.grid.ray(row, column);
-        match tile.names.primitive(&map.view, ids[lane]) {
-            Primitive::Triangle(corners) => {
-                pairs.add(lane, &ray, &corners);
-                if pairs.count == 8 {
-                    pairs.find(simd, map, t);
-                }
+        let id = tile.names.id(ids[lane]);
+        if let Some(corners) = map.view.scene.triangle(id) {
+            pairs.add(lane, [map.grid.x()[column], map.grid.y()[row]], &corners);
+            if pairs.count == 8 {
+                pairs.find(simd, map, t);
             }
-            primitive => t[lane] = distance(map, &ray, &primitive),
+        } else {
+            t[lane] = distance(map, &map.grid.ray(row, column), &map.view.primitive(id));
         }
     }
     if pairs.count > 0 {
@@ -84,55 +84,66 @@ fn distance(map: &CameraMap, ray: &Ray, primitive: &Primitive) -> f32 {
 struct Pairs {
     count: usize,
     lanes: [usize; 8],
-    /// The rays' origins and directions, and the corners of the triangles, a row for each coordinate.
-    vectors: [[[f64; 8]; 3]; 5],
+    /// Where the rays meet the viewport, `x` and `y`.
+    places: [[f64; 8]; 2],
+    /// The corners in the world, a row for each coordinate.
+    corners: [[[f32; 8]; 3]; 3],
 }
 
 impl Pairs {
     #[inline(always)]
-    fn add(&mut self, lane: usize, ray: &Ray, [a, b, c]: &[DVec3; 3]) {
+    fn add(&mut self, lane: usize, place: [f64; 2], corners: &[Vec3; 3]) {
         let at = self.count & 7;
         self.lanes[at] = lane;
-        for (rows, vector) in self.vectors.iter_mut().zip([&ray.origin, &ray.direction, a, b, c]) {
-            [rows[0][at], rows[1][at], rows[2][at]] = vector.to_array();
+        [self.places[0][at], self.places[1][at]] = place;
+        for (rows, corner) in self.corners.iter_mut().zip(corners) {
+            [rows[0][at], rows[1][at], rows[2][at]] = corner.to_array();
         }
         self.count += 1;
     }
 
+    /// The rays, and the corners of their triangles relative to the eye.
     #[inline(always)]
-    fn vector<S: Simd>(&self, simd: S, which: usize) -> DVec3x8<S> {
-        let [x, y, z] = &self.vectors[which];
-        Lanes {
-            x: f64x8::load_array_ref(simd, x),
-            y: f64x8::load_array_ref(simd, y),
-            z: f64x8::load_array_ref(simd, z),
-        }
+    fn vectors<S: Simd>(&self, simd: S, view: &View) -> (Rays<S>, [DVec3x8<S>; 3]) {
+        let places = each!(k in [0, 1] => f64x8::load_array_ref(simd, &self.places[k]));
+        let eye = DVec3x8::splat(simd, view.camera.eye().as_dvec3());
+        let corners = each!(k in [0, 1, 2] => {
+            let [x, y, z] = each!(axis in [0, 1, 2] => {
+                let (low, high) = f32x8::load_array_ref(simd, &self.corners[k][axis]).widen();
+                low.combine(high)
+            });
+            Lanes { x, y, z } - eye
+        });
+        (Rays::of_camera(simd, view.camera, places), corners)
     }
 
     /// Finds their distances, and forgets them.
     #[inline(always)]
     fn find<S: Simd>(&mut self, simd: S, map: &CameraMap, t: &mut [f32; 16]) {
-        let (distances, known) = self.distances(simd);
+        let (distances, known) = self.distances(simd, &map.view);
         let (distances, known) = (distances.to_array(), known.to_bitmask());
         for (at, &lane) in self.lanes.iter().enumerate().take(self.count) {
             t[lane] = if known >> at & 1 == 1 {
                 stored_t(distances[at])
             } else {
-                let [origin, direction, a, b, c] =
-                    self.vectors.map(|[x, y, z]| DVec3::new(x[at], y[at], z[at]));
-                let ray = Ray { origin, direction };
-                distance(map, &ray, &Primitive::Triangle([a, b, c]))
+                self.find_alone(map, at)
             };
         }
         self.count = 0;
     }
 
+    #[cold]
+    fn find_alone(&self, map: &CameraMap, at: usize) -> f32 {
+        let ray = map.view.camera.ray_through(self.places[0][at], self.places[1][at]);
+        let corner = |rows: [[f32; 8]; 3]| map.view.offset(Vec3::from(rows.map(|row| row[at])));
+        distance(map, &ray, &Primitive::Triangle(self.corners.map(corner)))
+    }
+
     /// What [`narrow_middle`] makes of [`super::triangle::crossing`], bit for bit; and where that is something.
     #[inline(always)]
-    fn distances<S: Simd>(&self, simd: S) -> (f64x8<S>, mask64x8<S>) {
+    fn distances<S: Simd>(&self, simd: S, view: &View) -> (f64x8<S>, mask64x8<S>) {
         let splat = |value: f64| f64x8::splat(simd, value);
-        let [origin, direction] = [self.vector(simd, 0), self.vector(simd, 1)];
-        let [a, b, c] = [self.vector(simd, 2), self.vector(simd, 3), self.vector(simd, 4)];
+        let (Rays { origin, direction }, [a, b, c]) = self.vectors(simd, view);
         let (along_b, along_c, point) = (b - a, c - a, a - origin);
         let normal = along_b.cross(along_c);
         let permanent = permanent(along_b, along_c);
@@ -172,40 +183,48 @@ mod tests {
     use super::super::triangle;
     use super::*;
     use bothways_common::engine::simd::levels;
+    use bothways_common::{Camera, CameraDescription, Projection, Scene};
 
     #[test]
     fn eight_at_a_time_are_as_one_by_one() {
         let random = &mut fastrand::Rng::with_seed(5);
         let mut known_in_all = 0;
-        for _ in 0..2000 {
-            let scale = 10f64.powi(random.i32(-6..6));
-            let mut vector =
-                |size: f64| DVec3::from_array([0; 3].map(|_| size * (random.f64() - 0.5)));
-            let mut pairs = Pairs::default();
-            let mut all = Vec::new();
-            for lane in 0..8 {
-                let ray = Ray { origin: vector(1e-3), direction: vector(2.0) };
-                let a = vector(100.0);
-                // Some are thin, and some have no area at all.
-                let (b, c) = (a + vector(scale), a + vector(if lane % 3 == 0 { 0.0 } else { 1.0 }));
-                pairs.add(lane, &ray, &[a, b, c]);
-                all.push((ray, [a, b, c]));
-            }
-            for level in levels() {
-                let (distances, known) = dispatch!(level, simd => {
-                    let (distances, known) = pairs.distances(simd);
-                    (distances.to_array(), known.to_bitmask())
-                });
-                for (at, (ray, corners)) in all.iter().enumerate() {
-                    let expected =
-                        triangle::crossing(ray, corners, Trust::Sound).and_then(narrow_middle);
-                    let found = (known >> at & 1 == 1).then_some(distances[at]);
-                    assert_eq!(
-                        found.map(f64::to_bits),
-                        expected.map(f64::to_bits),
-                        "{ray:?} {corners:?}"
-                    );
-                    known_in_all += usize::from(found.is_some());
+        for projection in [Projection::Perspective, Projection::Parallel] {
+            let eye = Vec3::new(0.7, -1.1, 3.0);
+            let camera = CameraDescription { projection, eye, ..CameraDescription::default() };
+            let (scene, camera) = (Scene::new(Vec::new()).unwrap(), Camera::new(camera).unwrap());
+            let view = View::new(&scene, &camera);
+            for _ in 0..1000 {
+                let scale = 10f32.powi(random.i32(-6..6));
+                let mut vector =
+                    |size: f32| Vec3::from_array([0; 3].map(|_| size * (random.f32() - 0.5)));
+                let mut pairs = Pairs::default();
+                let mut all = Vec::new();
+                for lane in 0..8 {
+                    let (place, a) = (vector(2.0).as_dvec3(), vector(100.0));
+                    // Some are thin, and some have no area at all.
+                    let c = a + vector(if lane % 3 == 0 { 0.0 } else { 1.0 });
+                    let corners = [a, a + vector(scale), c];
+                    pairs.add(lane, [place.x, place.y], &corners);
+                    let ray = camera.ray_through(place.x, place.y);
+                    all.push((ray, corners.map(|corner| view.offset(corner))));
+                }
+                for level in levels() {
+                    let (distances, known) = dispatch!(level, simd => {
+                        let (distances, known) = pairs.distances(simd, &view);
+                        (distances.to_array(), known.to_bitmask())
+                    });
+                    for (at, (ray, corners)) in all.iter().enumerate() {
+                        let expected =
+                            triangle::crossing(ray, corners, Trust::Sound).and_then(narrow_middle);
+                        let found = (known >> at & 1 == 1).then_some(distances[at]);
+                        assert_eq!(
+                            found.map(f64::to_bits),
+                            expected.map(f64::to_bits),
+                            "{ray:?} {corners:?}"
+                        );
+                        known_in_all += usize::from(found.is_some());
+                    }
                 }
             }
         }

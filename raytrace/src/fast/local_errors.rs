@@ -74,10 +74,11 @@ impl LocalErrors {
         self.rounding
     }
 
-    /// About how many columns or rows a leaf of such a size reaches over at most, in which no `t` is less than `near`.
+    /// An upper estimate of how many columns or rows apart places of a leaf of such a size are, in which no `t` is less than `near`;
+    /// see [`LocalErrors::of`].
     #[inline(always)]
     pub(super) fn extent(&self, size: f32, near: f32) -> f32 {
-        // In `away` it is taken for its roundings.
+        // Nine roundings of it are in `away`.
         self.away * (1.0 / (9.0 * EPS24)) * size / near
     }
 

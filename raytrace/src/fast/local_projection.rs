@@ -14,6 +14,8 @@ pub(super) struct LocalProjection {
     pub(super) map: [WorldAffine; 3],
     /// How far a row or column may be off.
     pub(super) error: f32,
+    /// An upper estimate of how many rows or columns apart vertices are, or 0 where nothing asks for it.
+    pub(super) extent: f32,
 }
 
 impl LocalProjection {
@@ -43,6 +45,7 @@ impl LocalProjection {
                 WorldAffine { normal: down, offset: row },
             ],
             error: template.local.of(size, [row, column], near),
+            extent: template.local.extent(size, near),
         }
     }
 

@@ -22,8 +22,8 @@ pub(super) struct Beside<T> {
 
 /// How far normals may change on a triangle, from its first corner to the others, the changes of both weights added up.
 const CHANGE: f64 = 128.0;
-/// First corners are nearer to the picture's middle: so rows and columns, and differences of them, are exact in `f32`.
-const FARTHEST: f64 = 1e6;
+/// How far weights may change on a triangle where normals do not, so that no number in `f32` is infinite.
+const STEEPEST: f64 = (1_u64 << 60) as f64;
 
 impl<T: Real> Beside<T> {
     /// Triangles with these corners, relative to the eye; their normals as that of the first corner, and what those of the others
@@ -31,27 +31,29 @@ impl<T: Real> Beside<T> {
     ///
     /// A ray of direction `D = D₀ + δ` hits the plane through `a = t₀·D₀` with the normal `n` at `t = t₀ / (1 + q)`, where
     /// `q = n·δ / n·D₀`. So it hits the triangle beside `a` by `t·D − a = (t₀·δ − q·a) / (1 + q)`. The weight of a corner is the
-    /// product of that with the gradient of the weight: an affine function of `δ`, 0 where `δ` is 0, over `1 + q`. Parallel rays have one
-    /// direction `D₀` and begin beside each other by `δ`: they hit the triangle beside `a` by `δ − D₀·(n·δ / n·D₀)`, and their `q`
-    /// is 0.
+    /// product of that with the gradient of the weight: an affine function of `δ`, 0 where `δ` is 0, over `1 + q`. Parallel rays
+    /// have one direction `D₀` and begin beside each other by `δ`: they hit the triangle beside `a` by `δ − D₀·(n·δ / n·D₀)`, and
+    /// their `q` is 0.
     ///
-    /// A triangle is small where the sum of all that is measured is at most 1: how much farther or nearer than the first corner the
-    /// others are, in halves of its depth; how much `q` changes from sample to sample, times its reach, which is the samples from the
+    /// A triangle is called small where the sum of all that is measured is at most 1: how much farther or nearer than the first
+    /// corner the others are, in halves of its depth; how much `q` changes from sample to sample, times its reach, which is the samples from the
     /// first corner to the others and one more; how much the numerators of the weights change, times the reach and what their corners
-    /// add to the normal, in [`CHANGE`]; and how far the first corner is from the picture's middle, in [`FARTHEST`]. What is infinite or not a number is not small; nor is a
-    /// triangle that reaches behind the eye, as a corner there measures 2 at least. So `1 + q = t₀ / t` is at least ⅔ where a small one
-    /// is seen.
+    /// add to the normal, in [`CHANGE`]; how much they change times the reach, in [`STEEPEST`]; and how far the first corner is from
+    /// the picture's middle, in [`Anchor::FARTHEST`]. What is infinite or not a number is not small; nor is a triangle that reaches
+    /// behind the eye, as a corner there adds 2 at least. So `1 + q = t₀ / t` is at least ⅔ where a small one is seen. It may cover many
+    /// samples, if its depth and its normals hardly change.
     ///
     /// # The error, rounding by rounding
     ///
-    /// With `ε = 2⁻²⁴`: rows and columns from the corner are off by `2ε` of the reach at most. In a product
-    /// with a slope, two roundings more make it `4ε`; the sum of two makes it `5ε` of their magnitudes. So `1 + q` is off by less than
-    /// `5ε + 2ε`, a relative error of `10.5ε`. A weight is off by `5ε` of what its numerator may change, over ⅔, and by `10.5ε` for the
-    /// denominator and `2ε` for reciprocal and product: less than `27ε` of that change. With two roundings more for the corner's
-    /// normal and the product, both weights together add less than `29ε · 128` to the error of a normal; the first corner's normal
-    /// and the two sums less than `5ε`, as no partial sum is longer than 4. All in all it is less than 2.4·10⁻⁴, of normals
-    /// no shorter than 0.6. Mostly it is far less, for normals change by some tenths on a triangle. The roundings in `f64` before
-    /// that weigh nothing, unless a triangle is an extreme sliver.
+    /// With `ε = 2⁻²⁴`: rows and columns from the corner are off by `2ε` of the reach at most. In a product with a slope, two
+    /// roundings more make it `4ε`; the sum of two makes it `5ε` of their magnitudes. So `1 + q` is off by less than `5ε + 2ε`, a
+    /// relative error of `10.5ε`. A weight is off by `5ε` of what its numerator may change, over ⅔, and by `10.5ε` for the
+    /// denominator and `2ε` for reciprocal and product: less than `27ε` of that change, and both weights together bring an error of
+    /// less than `27ε · 128` to a normal. Where the triangle is seen, weights are at most 1, and no sum is longer than 1; so the
+    /// roundings of the three normals, of two products and of two sums bring less than `10ε`. All in all it is less than
+    /// 2.1·10⁻⁴, of normals no shorter than 0.6. Mostly it is far less, for normals change by some tenths on a triangle. What is
+    /// too small for a normal number of `f32` weighs nothing; nor do the roundings in `f64` before that, unless a triangle is an extreme
+    /// sliver, or so far away that only the last digits tell its corners apart.
     #[inline(always)]
     pub(super) fn new(
         AtHits { view, raster, steps }: &AtHits,
@@ -87,7 +89,8 @@ impl<T: Real> Beside<T> {
         let size = depths
             + from_q
             + (from_b * to_b + from_c * to_c) * (1.0 / CHANGE)
-            + (row.magnitude() + column.magnitude()) * (1.0 / FARTHEST);
+            + (from_b + from_c) * (1.0 / STEEPEST)
+            + (row.magnitude() + column.magnitude()) * (1.0 / Anchor::FARTHEST);
         Beside {
             corner: [row + middle_row, column + middle_column],
             slopes: [of_q, numerators[0], numerators[1]],
@@ -248,9 +251,10 @@ impl<S: Simd> Beside<f64x8<S>> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{AtHits, LEAST_COSINE, least_cosine, steps};
+    use super::super::{AtHits, steps};
     use super::*;
-    use bothways_common::engine::simd::{best_level, dispatch, levels};
+    use bothways_common::engine::simd::{dispatch, levels};
+    use bothways_common::look::bands::are_alike;
     use bothways_common::{Camera, CameraDescription, Scene};
     use glam::{DVec3, Vec3};
 
@@ -343,7 +347,7 @@ mod tests {
             let mut dice = Dice(fastrand::Rng::with_seed(projection as u64));
             for _ in 0..20_000 {
                 let [corners, normals] = dice.triangle();
-                if least_cosine(normals) < LEAST_COSINE {
+                if !are_alike(normals) {
                     continue;
                 }
                 let [corners_of, normals_of] =
@@ -391,6 +395,22 @@ mod tests {
     }
 
     #[test]
+    fn a_weight_that_f32_cannot_hold_is_left_to_f64() {
+        let (scene, camera) = (Scene::new(Vec::new()).unwrap(), camera(Projection::Perspective));
+        let view = View::new(&scene, &camera);
+        let surfaces = at_hits(&view);
+        for (size, is_small) in [(1e-3, true), (1e-9, true), (1e-41, false)] {
+            let corner = |x: f64, y: f64| Lanes::from(DVec3::new(size * x, size * y, -1.0));
+            let corners = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(0.0, 1.0)];
+            // Normals that are equal do not change, however much the weights do.
+            let local = surfaces.beside(corners, [Lanes::from(DVec3::Z); 3]).normals();
+            assert_eq!(local.is_some(), is_small, "{size:e}");
+            let sample = Sample { row: 49, column: 79 };
+            assert!(local.is_none_or(|local| local.at(sample).is_finite()), "{size:e}");
+        }
+    }
+
+    #[test]
     fn eight_triangles_have_the_bits_of_each_alone() {
         for projection in [Projection::Perspective, Projection::Parallel] {
             let (scene, camera) = (Scene::new(Vec::new()).unwrap(), camera(projection));
@@ -404,16 +424,18 @@ mod tests {
                     let [corners, normals] = [corners, normals].map(|three| three.map(Lanes::from));
                     surfaces.beside(corners, normals).normals()
                 });
-                let mut together = Vec::new();
-                dispatch!(best_level(), simd => {
-                    let lanes = |k: usize, corner: usize| {
-                        Lanes::<f64x8<_>>::from_fn(simd, |lane| triangles[lane][k][corner])
-                    };
-                    let [corners, normals] = [0, 1].map(|k| [lanes(k, 0), lanes(k, 1), lanes(k, 2)]);
-                    let beside = surfaces.beside(corners, normals);
-                    beside.each_of(8, |_, normals| together.push(normals));
-                });
-                assert_eq!(format!("{alone:?}"), format!("{together:?}"));
+                for (level, used) in levels().into_iter().zip([8, 3, 7, 1, 8].into_iter().cycle()) {
+                    let mut together = Vec::new();
+                    dispatch!(level, simd => {
+                        let lanes = |k: usize, corner: usize| {
+                            Lanes::<f64x8<_>>::from_fn(simd, |lane| triangles[lane][k][corner])
+                        };
+                        let [corners, normals] = [0, 1].map(|k| [lanes(k, 0), lanes(k, 1), lanes(k, 2)]);
+                        let beside = surfaces.beside(corners, normals);
+                        beside.each_of(used, |_, normals| together.push(normals));
+                    });
+                    assert_eq!(format!("{:?}", &alone[..used]), format!("{together:?}"));
+                }
                 small += alone.iter().flatten().count();
             }
             assert!(small > 300, "{small}");

@@ -16,7 +16,8 @@ pub(super) struct Found<'a> {
     ids: Range<u64>,
     /// Its mesh, if it is one.
     mesh: Option<&'a Mesh>,
-    /// Whether nothing is wanted of its triangles but normals, unless some have a pattern of their own.
+    wanted: Wanted,
+    /// Whether nothing is wanted of what has the object's material but normals.
     is_plain: bool,
 }
 
@@ -32,8 +33,8 @@ impl<'a> Found<'a> {
             Shape::Mesh(mesh) => Some(mesh),
             _ => None,
         };
-        let is_plain = mesh.is_some() && needs_normals_alone(wanted, object, &object.material);
-        Found { object, ids: scene.ids_of(number), mesh, is_plain }
+        let is_plain = needs_normals_alone(wanted, object, &object.material);
+        Found { object, ids: scene.ids_of(number), mesh, wanted, is_plain }
     }
 
     /// Whether a primitive belongs to the object.
@@ -80,8 +81,11 @@ impl<'a> Found<'a> {
     /// is wanted of one, or if it has no normals.
     #[inline(always)]
     pub(super) fn read(&self, ids: &[u64], corners: &mut Corners) -> bool {
-        let Some(mesh) = self.mesh.filter(|_| self.is_plain) else { return false };
-        if mesh.materials().is_some() && ids.iter().any(|&id| self.material(id).has_pattern()) {
+        let Some(mesh) = self.mesh else { return false };
+        let is_plain = |id: &u64| needs_normals_alone(self.wanted, self.object, self.material(*id));
+        let are_plain =
+            if mesh.materials().is_some() { ids.iter().all(is_plain) } else { self.is_plain };
+        if !are_plain {
             return false;
         }
         let normals = mesh.normals();

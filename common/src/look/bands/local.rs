@@ -1,5 +1,5 @@
-//! Normals of triangles that are few numbers, counted from a sample near them. Most of these triangles are small, and seen at few
-//! samples of a row.
+//! Normals that are kept as some numbers in `f32`, counted from a sample near their triangle. Most of these triangles are small, and
+//! seen at few samples of a row.
 
 use crate::engine::simd::{Simd, SimdBase, f32x8};
 use crate::raster::Sample;
@@ -27,6 +27,10 @@ pub struct Anchor {
 }
 
 impl Anchor {
+    /// Triangles are counted from anchors that are nearer to the picture's middle, rows and columns added up. So these, and
+    /// differences of them, are exact in `f32`.
+    pub const FARTHEST: f64 = 1e6;
+
     /// The sample in this row and column, which are whole numbers within 2²³.
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "whole, and within 2²³")]

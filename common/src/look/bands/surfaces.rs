@@ -191,14 +191,23 @@ pub struct EightTriangles<S: Simd> {
     pub used: usize,
 }
 
+/// Corners' normals with smaller cosines between them may cancel each other.
+const LEAST_COSINE: f64 = 0.1;
+
+/// Whether three unit normals at the corners of a triangle are alike: then what is interpolated from them is longer than 0.6.
+#[inline(always)]
+pub fn are_alike([a, b, c]: [DVec3; 3]) -> bool {
+    a.dot(b).min(b.dot(c)).min(c.dot(a)) >= LEAST_COSINE
+}
+
 impl<S: Simd> EightTriangles<S> {
-    /// One bit for each triangle whose normals are unit vectors as they are, and have at least this cosine between them.
+    /// One bit for each triangle whose normals are unit vectors as they are, and [alike](are_alike).
     #[inline(always)]
-    pub fn are_alike(&self, least_cosine: f64) -> u64 {
+    pub fn are_alike(&self) -> u64 {
         let [a, b, c] = self.normals;
         let splat = |number: f64| f64x8::splat(a.x.simd, number);
         let [near_one, one, least] =
-            each!(number in [NEAR_ONE, 1.0, least_cosine] => splat(number));
+            each!(number in [NEAR_ONE, 1.0, LEAST_COSINE] => splat(number));
         let [of_a, of_b, of_c] =
             each!(normal in [a, b, c] => (normal.dot(normal) - one).abs().simd_lt(near_one));
         let [ab, bc, ca] =

@@ -26,7 +26,7 @@ const ROOM: usize = 80 + LEAVES * LEAF + EIGHT;
 /// would drop.
 const WORTHWHILE: f32 = 1.0 / 256.0;
 
-/// A leaf that reaches over more columns or rows is long: twice those of a tile.
+/// A leaf that reaches over more columns or rows is long: over twice as many as a tile mostly has.
 const LONG: f32 = 64.0;
 
 /// Leaves that wait, and triangles that passed the test of their leaf and wait.
@@ -174,8 +174,10 @@ impl CandidateQueue {
         let local = LocalProjection::new(frustum, leaf.first_vertex(), waiting.size, waiting.near);
         if local.is_useful() {
             let corners = leaf.project(simd, frustum, &local);
-            // Most slivers that are much longer than the tile miss it, however few samples of it others cover.
-            let test = if frustum.is_long(waiting) { Test::Bounds } else { test };
+            // How many samples of the tile other triangles cover says nothing of slivers that are much longer than it: most of
+            // these miss it, which their edges tell. For a single ray, the other test asks the edges anyway.
+            let is_long = local.extent > LONG && frustum.template.side > 1;
+            let test = if is_long { Test::Bounds } else { test };
             passed &= pass(simd, frustum, &corners, local.error, test);
         }
         self.keep(simd, leaf, passed);
@@ -220,15 +222,6 @@ impl CandidateQueue {
         u32x8::from_slice(simd, &self.ids[first..first + EIGHT])
             .store_slice(&mut self.ids[..EIGHT]);
         [self.first, self.end] = [0, count];
-    }
-}
-
-impl TileFrustum<'_> {
-    /// Whether a leaf reaches much farther than the tile. No leaf does where a tile is one ray, whose edges are tested anyway.
-    #[inline(always)]
-    fn is_long(&self, leaf: &WaitingLeaf) -> bool {
-        let template = self.template;
-        template.side > 1 && template.local.extent(leaf.size, leaf.near) > LONG
     }
 }
 

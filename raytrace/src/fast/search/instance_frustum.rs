@@ -210,6 +210,7 @@ impl<'a> InstanceFrustum<'a> {
             vertex: self.boxes.origin,
             map: [t, self.places.across, self.places.down],
             error: error / near * (1.0 + 16.0 * EPS24) + rounding,
+            extent: 0.0,
         }
     }
 
