@@ -1,6 +1,7 @@
 //! The look of what is seen. Image order goes along each ray to the point that it hit.
 
 mod local;
+mod triangle;
 
 use bothways_common::engine::simd::{
     Level, Select, Simd, SimdBase, SimdFloat, SimdNarrow, best_level, f32x16, f64x8,
@@ -13,6 +14,7 @@ use bothways_common::look::texture::{self, TexturePoints};
 use bothways_common::{Frame, Primitive, Projection, Raster, View};
 use glam::{DVec2, DVec3, Vec3};
 use local::{Beside, NormalsAtHits};
+use triangle::{Triangle, side_seen, steps_from_first};
 
 /// Gives a frame its picture, from the hit point of each sample's ray. If the frame keeps
 /// [linear colours](Frame::with_colors), [normals](Frame::with_normals) or
@@ -78,17 +80,6 @@ enum Form {
     Sphere { center: DVec3, radius: f64 },
     Plane { point: DVec3, normal: DVec3 },
     Triangle(Triangle),
-}
-
-/// A triangle, or one for each of eight: in `T` a number or eight.
-#[derive(Clone, Copy)]
-struct Triangle<T = f64> {
-    /// The first corner.
-    a: Lanes<T>,
-    /// The cross product of two sides.
-    normal: Lanes<T>,
-    /// The directions in which the weights of the second and the third corner grow, and how fast.
-    growth: [Lanes<T>; 2],
 }
 
 enum Texture {
@@ -242,16 +233,6 @@ impl Form {
     }
 }
 
-impl<T: Real> Triangle<T> {
-    #[inline(always)]
-    fn new([a, b, c]: [Lanes<T>; 3]) -> Self {
-        let normal = (b - a).cross(c - a);
-        let square = normal.dot(normal);
-        let dual = Lanes { x: normal.x / square, y: normal.y / square, z: normal.z / square };
-        Triangle { a, normal, growth: [dual.cross(a - c), dual.cross(b - a)] }
-    }
-}
-
 impl AtHits<'_> {
     /// The normals of a small triangle of which nothing else is wanted, and whose corners' normals never cancel each other.
     #[inline(always)]
@@ -271,13 +252,9 @@ impl AtHits<'_> {
         self.beside(corners, normals).normals()
     }
 
-    /// What small triangles, one or eight, are beside their first corners.
     #[inline(always)]
     fn beside<T: Real>(&self, corners: [Lanes<T>; 3], normals: [Lanes<T>; 3]) -> Beside<T> {
-        let triangle = Triangle::new(corners);
-        let side = side_seen(self.view, triangle.a, triangle.normal);
-        let normals = steps_from_first(normals, side);
-        Beside::new(self, corners, &triangle, normals)
+        Beside::new(self.view, &self.raster, self.steps, corners, normals)
     }
 
     /// The texture coordinates at some hit points, and how they move from sample to sample if that is needed.
@@ -405,22 +382,6 @@ impl Normals {
             }
         }
     }
-}
-
-/// 1 if a normal of a flat form through a point is towards the viewer, −1 if it is away; of one form or of eight. The surface
-/// decides which side is seen, not its smooth normals; every ray that hits it comes to the same side.
-#[inline(always)]
-fn side_seen<T: Real>(view: &View, point: Lanes<T>, normal: Lanes<T>) -> T {
-    match view.camera.projection() {
-        Projection::Perspective => normal.dot(point).against(),
-        Projection::Parallel => normal.along(-view.camera.w()).against(),
-    }
-}
-
-/// The normal of the first corner of a triangle, or of eight, and what those of the others add to it, towards the viewer.
-#[inline(always)]
-fn steps_from_first<T: Real>([a, b, c]: [Lanes<T>; 3], side: T) -> [Lanes<T>; 3] {
-    each!(step in [a, b - a, c - a] => step * side)
 }
 
 impl Smooth {

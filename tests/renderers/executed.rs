@@ -107,7 +107,10 @@ fn image_order_sets_slivers_up_in_the_tiles_that_they_cross() {
             [middle - along * 1500.0, middle + along * 1500.0, middle + along.perp() * 0.33]
         })
         .collect();
-    let corner = |at: DVec2| Vec3::new(at.x as f32 / 512.0 - 0.5, 0.5 - at.y as f32 / 512.0, -1.0);
+    let corner = |at: DVec2| {
+        let [x, y] = (at / 512.0).as_vec2().to_array();
+        Vec3::new(x - 0.5, 0.5 - y, -1.0)
+    };
     let positions = slivers.iter().flatten().map(|at| corner(*at)).collect();
     let triangles = (0..600).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
     let scene = scene(vec![mesh(Mesh::new(positions, triangles).expect("it is a mesh"))]);

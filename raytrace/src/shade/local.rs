@@ -1,10 +1,11 @@
 //! The normals of small triangles where rays hit them: beside the ray through the first corner, `f32` is enough.
 
-use super::{AtHits, Triangle};
+use super::triangle::{Triangle, side_seen, steps_from_first};
 use bothways_common::engine::simd::{Simd, SimdBase, SimdNarrow, f32x8, f64x8};
 use bothways_common::look::bands::{Anchor, LocalNormals, eight_columns};
 use bothways_common::look::lanes::{Lanes, Real, each};
-use bothways_common::{Projection, Sample, View};
+use bothways_common::{Projection, Raster, Sample, View};
+use glam::DVec3;
 
 /// Where rays hit a triangle, or each of eight, beside the ray through its first corner.
 #[derive(Clone, Copy, Debug)]
@@ -26,8 +27,8 @@ const CHANGE: f64 = 128.0;
 const STEEPEST: f64 = (1_u64 << 60) as f64;
 
 impl<T: Real> Beside<T> {
-    /// Triangles with these corners, relative to the eye; their normals as that of the first corner, and what those of the others
-    /// add to it.
+    /// Triangles with these corners, relative to the eye, and these unit normals at them, which are alike; `steps` is the way on the
+    /// viewport from a sample to the next one across, and to the next one down.
     ///
     /// A ray of direction `D = D₀ + δ` hits the plane through `a = t₀·D₀` with the normal `n` at `t = t₀ / (1 + q)`, where
     /// `q = n·δ / n·D₀`. So it hits the triangle beside `a` by `t·D − a = (t₀·δ − q·a) / (1 + q)`. The weight of a corner is the
@@ -56,14 +57,16 @@ impl<T: Real> Beside<T> {
     /// sliver, or so far away that only the last digits tell its corners apart.
     #[inline(always)]
     pub(super) fn new(
-        AtHits { view, raster, steps }: &AtHits,
-        [_, b, c]: [Lanes<T>; 3],
-        triangle: &Triangle<T>,
+        view: &View,
+        raster: &Raster,
+        steps: [DVec3; 2],
+        corners: [Lanes<T>; 3],
         normals: [Lanes<T>; 3],
     ) -> Beside<T> {
-        let Triangle { a, normal, growth } = *triangle;
+        let Triangle { a, normal, growth } = Triangle::new(corners);
+        let normals = steps_from_first(normals, side_seen(view, a, normal));
         let FirstRay { way, t, places: [at_a, at_b, at_c], depths, turns } =
-            FirstRay::new(view, [a, b, c]);
+            FirstRay::new(view, corners);
         let over_plane = t / normal.dot(way);
         let of_q = each!(axis in [0, 1] => normal.along(steps[axis]) * over_plane);
         let numerators = each!(growth in [growth[0], growth[1]] => {
@@ -251,12 +254,11 @@ impl<S: Simd> Beside<f64x8<S>> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{AtHits, steps};
     use super::*;
     use bothways_common::engine::simd::{dispatch, levels};
     use bothways_common::look::bands::are_alike;
     use bothways_common::{Camera, CameraDescription, Scene};
-    use glam::{DVec3, Vec3};
+    use glam::Vec3;
 
     /// Dice for triangles.
     struct Dice(fastrand::Rng);
@@ -298,9 +300,12 @@ mod tests {
             .unwrap()
     }
 
-    fn at_hits<'a>(view: &'a View<'a>) -> AtHits<'a> {
+    /// What such triangles are on the raster of a view.
+    fn beside<T: Real>(view: &View, corners: [Lanes<T>; 3], normals: [Lanes<T>; 3]) -> Beside<T> {
         let raster = view.camera.raster(1);
-        AtHits { view, raster, steps: steps(view, &raster) }
+        let [down, across] = raster.spacing();
+        let steps = [view.camera.u() * across, view.camera.v() * -down];
+        Beside::new(view, &raster, steps, corners, normals)
     }
 
     impl NormalsAtHits {
@@ -341,8 +346,7 @@ mod tests {
         for projection in [Projection::Perspective, Projection::Parallel] {
             let (scene, camera) = (Scene::new(Vec::new()).unwrap(), camera(projection));
             let view = View::new(&scene, &camera);
-            let surfaces = at_hits(&view);
-            let raster = surfaces.raster;
+            let raster = camera.raster(1);
             let (x, y): (Vec<f64>, Vec<f64>) = (raster.x().collect(), raster.y().collect());
             let mut dice = Dice(fastrand::Rng::with_seed(projection as u64));
             for _ in 0..20_000 {
@@ -352,7 +356,7 @@ mod tests {
                 }
                 let [corners_of, normals_of] =
                     [corners, normals].map(|three| three.map(Lanes::from));
-                let Some(local) = surfaces.beside(corners_of, normals_of).normals() else {
+                let Some(local) = beside(&view, corners_of, normals_of).normals() else {
                     large += 1;
                     continue;
                 };
@@ -398,12 +402,11 @@ mod tests {
     fn a_weight_that_f32_cannot_hold_is_left_to_f64() {
         let (scene, camera) = (Scene::new(Vec::new()).unwrap(), camera(Projection::Perspective));
         let view = View::new(&scene, &camera);
-        let surfaces = at_hits(&view);
         for (size, is_small) in [(1e-3, true), (1e-9, true), (1e-41, false)] {
             let corner = |x: f64, y: f64| Lanes::from(DVec3::new(size * x, size * y, -1.0));
             let corners = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(0.0, 1.0)];
             // Normals that are equal do not change, however much the weights do.
-            let local = surfaces.beside(corners, [Lanes::from(DVec3::Z); 3]).normals();
+            let local = beside(&view, corners, [Lanes::from(DVec3::Z); 3]).normals();
             assert_eq!(local.is_some(), is_small, "{size:e}");
             let sample = Sample { row: 49, column: 79 };
             assert!(local.is_none_or(|local| local.at(sample).is_finite()), "{size:e}");
@@ -415,14 +418,13 @@ mod tests {
         for projection in [Projection::Perspective, Projection::Parallel] {
             let (scene, camera) = (Scene::new(Vec::new()).unwrap(), camera(projection));
             let view = View::new(&scene, &camera);
-            let surfaces = at_hits(&view);
             let mut dice = Dice(fastrand::Rng::with_seed(3));
             let mut small = 0;
             for _ in 0..200 {
                 let triangles: [_; 8] = std::array::from_fn(|_| dice.triangle());
                 let alone = triangles.map(|[corners, normals]| {
                     let [corners, normals] = [corners, normals].map(|three| three.map(Lanes::from));
-                    surfaces.beside(corners, normals).normals()
+                    beside(&view, corners, normals).normals()
                 });
                 for (level, used) in levels().into_iter().zip([8, 3, 7, 1, 8].into_iter().cycle()) {
                     let mut together = Vec::new();
@@ -431,7 +433,7 @@ mod tests {
                             Lanes::<f64x8<_>>::from_fn(simd, |lane| triangles[lane][k][corner])
                         };
                         let [corners, normals] = [0, 1].map(|k| [lanes(k, 0), lanes(k, 1), lanes(k, 2)]);
-                        let beside = surfaces.beside(corners, normals);
+                        let beside = beside(&view, corners, normals);
                         beside.each_of(used, |_, normals| together.push(normals));
                     });
                     assert_eq!(format!("{:?}", &alone[..used]), format!("{together:?}"));
