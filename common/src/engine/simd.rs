@@ -36,7 +36,7 @@ pub fn prefetch<T>(soon: &T) {
 #[inline(always)]
 pub fn prefetch_all<T>(values: &[T]) {
     // One for each line of the cache, if it begins with one; the last line is asked for by its last value.
-    const { assert!(size_of::<T>() <= 64, "what is longer has several lines") };
+    const { assert!(1 <= size_of::<T>() && size_of::<T>() <= 64, "no more than a line") };
     values.iter().step_by(64 / size_of::<T>()).chain(values.last()).for_each(prefetch);
 }
 

@@ -37,12 +37,12 @@ impl<T: Real> Beside<T> {
     /// their `q` is 0.
     ///
     /// A triangle is called small where the sum of all that is measured is at most 1: how much farther or nearer than the first
-    /// corner the others are, in halves of its depth; how much `q` changes from sample to sample, times its reach, which is the samples from the
-    /// first corner to the others and one more; how much the numerators of the weights change, times the reach and what their corners
-    /// add to the normal, in [`CHANGE`]; how much they change times the reach, in [`STEEPEST`]; and how far the first corner is from
-    /// the picture's middle, in [`Anchor::FARTHEST`]. What is infinite or not a number is not small; nor is a triangle that reaches
-    /// behind the eye, as a corner there adds 2 at least. So `1 + q = t₀ / t` is at least ⅔ where a small one is seen. It may cover many
-    /// samples, if its depth and its normals hardly change.
+    /// corner the others are, in halves of its depth; how much `q` changes from sample to sample, times its reach, which is the
+    /// samples from the first corner to the others and one more; how much the numerators of the weights change, times the reach and
+    /// what their corners add to the normal, in [`CHANGE`]; how much they change times the reach, in [`STEEPEST`]; and how far the
+    /// first corner is from the picture's middle, in [`Anchor::FARTHEST`]. What is infinite or not a number is not small; nor is a
+    /// triangle that reaches behind the eye, as a corner there adds 2 at least. So `1 + q = t₀ / t` is at least ⅔ where a small one
+    /// is seen. It may cover many samples, if its depth and its normals hardly change.
     ///
     /// # The error, rounding by rounding
     ///
