@@ -234,61 +234,46 @@ impl<S: Simd> Local<f64x8<S>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use bothways_common::engine::simd::{best_level, dispatch, levels};
+    use bothways_common::engine::simd::{best_level, dispatch};
     use bothways_common::look::bands::are_alike;
     use bothways_common::{Camera, CameraDescription, Scene};
+    use bothways_test_support::{Dice, assert_normals_of_a_row, normals_at_corners};
     use glam::{DVec3, Vec3};
 
-    /// Dice for triangles.
-    struct Dice(fastrand::Rng);
+    /// A point before the eye, in the picture or beside it.
+    fn place(dice: &mut Dice, depth: f64) -> DVec3 {
+        let place = dice.vector();
+        depth * DVec3::new(0.3 * place.x, 0.2 * place.y, -1.0)
+    }
 
-    impl Dice {
-        /// A number between −1 and 1.
-        fn next(&mut self) -> f64 {
-            2.0 * self.0.f64() - 1.0
-        }
-
-        fn vector(&mut self) -> DVec3 {
-            DVec3::new(self.next(), self.next(), self.next())
-        }
-
-        /// A point before the eye, in the picture or beside it.
-        fn place(&mut self, depth: f64) -> DVec3 {
-            depth * DVec3::new(0.3 * self.next(), 0.2 * self.next(), -1.0)
-        }
-
-        /// A triangle, and normals at its corners. It is of any size and often thin, or has corners of very different depths, or
-        /// is seen almost edge-on, or a part of it is behind the eye.
-        fn triangle(&mut self) -> [[DVec3; 3]; 2] {
-            let near = 3.0 + self.next();
-            let a = self.place(near);
-            let [size, width, depth] = [[2.0, -1.5], [3.0, -3.0], [1.0, 0.5]]
-                .map(|[range, middle]| 10f64.powf(range * self.next() + middle));
-            let beside = size * self.vector();
-            let kind = self.next();
-            let corners = if kind < -0.5 {
-                [a, a + beside, a + beside * self.next() + width * size * self.vector()]
-            } else if kind < 0.0 {
-                [a, self.place(depth), self.place(depth)]
-            } else if kind < 0.5 {
-                [a, a + beside, a * (1.0 + 0.2 * self.next()) + 0.1 * width * self.vector()]
-            } else {
-                [a, a + beside, -depth * self.vector()]
-            };
-            let normal = self.vector();
-            let change = 10f64.powf(1.5 * self.next() - 1.5);
-            let normals =
-                [0, 1, 2].map(|_: u8| (normal + change * self.vector()).normalize_or_zero());
-            [corners, normals]
-        }
+    /// A triangle, and normals at its corners. It is of any size and often thin, or has corners of very different depths, or
+    /// is seen almost edge-on, or a part of it is behind the eye.
+    fn triangle(dice: &mut Dice) -> [[DVec3; 3]; 2] {
+        let near = 3.0 + f64::from(dice.next());
+        let a = place(dice, near);
+        let [size, width, depth] = [[-3.5, 0.5], [-6.0, 0.0], [-0.5, 1.5]].map(|of| dice.power(of));
+        let (kind, part) = (dice.next(), f64::from(dice.next()));
+        let beside = size * dice.vector();
+        let c = if kind < -0.5 {
+            a + beside * part + width * size * dice.vector()
+        } else if kind < 0.0 {
+            place(dice, depth)
+        } else if kind < 0.5 {
+            a * (1.0 + 0.2 * part) + 0.1 * width * dice.vector()
+        } else {
+            -depth * dice.vector()
+        };
+        let b = if (-0.5..0.0).contains(&kind) { place(dice, depth) } else { a + beside };
+        let change = dice.power([-3.0, 0.0]);
+        [[a, b, c], normals_at_corners(dice, change)]
     }
 
     impl AffineNormals {
         /// The normal at a sample.
-        fn at(&self, sample: Sample) -> DVec3 {
+        fn at(&self, sample: Sample) -> Vec3 {
             let [rows, columns] = self.anchor.steps_to(sample);
             let [at_anchor, across, down] = self.numbers.map(Vec3::from);
-            ((at_anchor + down * rows) + across * columns).as_dvec3()
+            (at_anchor + down * rows) + across * columns
         }
     }
 
@@ -296,15 +281,7 @@ mod tests {
     fn normals_of_a_row_have_the_bits_of_each_alone() {
         let numbers = [[0.1, -0.7, 0.7], [0.011, 0.02, -0.031], [-0.017, 0.013, 0.07]];
         let normals = AffineNormals { numbers, anchor: Anchor::new([-3.0, 1000.0]) };
-        let first = Sample { row: 5, column: 990 };
-        for level in levels() {
-            let [mut x, mut y, mut z] = [[0.0; 24]; 3];
-            dispatch!(level, simd => normals.store(simd, first, [&mut x, &mut y, &mut z]));
-            for at in 0..24 {
-                let expected = normals.at(Sample { column: first.column + at, ..first });
-                assert_eq!(Vec3::new(x[at], y[at], z[at]).as_dvec3(), expected);
-            }
-        }
+        assert_normals_of_a_row(&normals, |sample| normals.at(sample));
     }
 
     #[test]
@@ -320,9 +297,9 @@ mod tests {
             let (view, raster) = (View::new(&scene, &camera), camera.raster(1));
             let grid = Grid::of(&raster);
             let (x, y): (Vec<f64>, Vec<f64>) = (raster.x().collect(), raster.y().collect());
-            let mut dice = Dice(fastrand::Rng::with_seed(projection as u64));
+            let mut dice = Dice(projection as u64);
             for _ in 0..20_000 {
-                let [corners, normals] = dice.triangle();
+                let [corners, normals] = triangle(&mut dice);
                 if !are_alike(normals) {
                     continue;
                 }
@@ -343,7 +320,7 @@ mod tests {
                         }
                         let parts = [0, 1, 2].map(|k| DVec3::from(normals[k]) * weights[k]);
                         let exact = (parts[0] + parts[1] + parts[2]) * side;
-                        let found = local.at(Sample { row, column });
+                        let found = local.at(Sample { row, column }).as_dvec3();
                         assert!(found.length() > 0.3, "{found}");
                         worst = worst.max(found.normalize().distance(exact.normalize()));
                     }
@@ -360,9 +337,9 @@ mod tests {
         let camera = Camera::new(CameraDescription::default()).unwrap();
         let scene = Scene::new(Vec::new()).unwrap();
         let (view, grid) = (View::new(&scene, &camera), Grid::of(&camera.raster(1)));
-        let mut dice = Dice(fastrand::Rng::with_seed(3));
+        let mut dice = Dice(3);
         for _ in 0..200 {
-            let triangles: [_; 8] = std::array::from_fn(|_| dice.triangle());
+            let triangles: [_; 8] = std::array::from_fn(|_| triangle(&mut dice));
             let alone = triangles.map(|[corners, normals]| {
                 let [corners, normals] = [corners, normals].map(|three| three.map(Lanes::from));
                 Local::new(&view, &grid, corners, normals).normals()

@@ -258,40 +258,19 @@ mod tests {
     use bothways_common::engine::simd::{dispatch, levels};
     use bothways_common::look::bands::are_alike;
     use bothways_common::{Camera, CameraDescription, Scene};
+    use bothways_test_support::{Dice, assert_normals_of_a_row, normals_at_corners};
     use glam::Vec3;
 
-    /// Dice for triangles.
-    struct Dice(fastrand::Rng);
-
-    impl Dice {
-        /// A number between −1 and 1.
-        fn next(&mut self) -> f64 {
-            2.0 * self.0.f64() - 1.0
-        }
-
-        /// Ten to a power between these two.
-        fn power(&mut self, [least, most]: [f64; 2]) -> f64 {
-            10f64.powf(least + (most - least) * self.0.f64())
-        }
-
-        fn vector(&mut self) -> DVec3 {
-            DVec3::new(self.next(), self.next(), self.next())
-        }
-
-        /// A triangle, and normals at its corners. The triangle is of any size and thickness, in the picture or beside it; some reach behind
-        /// the eye.
-        fn triangle(&mut self) -> [[DVec3; 3]; 2] {
-            let depth = self.power([0.0, 1.0]);
-            let a = depth * DVec3::new(0.6 * self.next(), 0.4 * self.next(), -1.0);
-            let (size, thickness) = (self.power([-3.5, 0.7]), self.power([-4.0, 0.0]));
-            let b = a + size * self.vector();
-            let c = a + (b - a) * self.next() + thickness * size * self.vector();
-            let change = self.power([-3.0, 0.0]);
-            let normal = self.vector();
-            let normals =
-                [0, 1, 2].map(|_: u8| (normal + change * self.vector()).normalize_or_zero());
-            [[a, b, c], normals]
-        }
+    /// A triangle, and normals at its corners. The triangle is of any size and thickness, in the picture or beside it; some
+    /// reach behind the eye.
+    fn triangle(dice: &mut Dice) -> [[DVec3; 3]; 2] {
+        let (depth, place) = (dice.power([0.0, 1.0]), dice.vector());
+        let a = depth * DVec3::new(0.6 * place.x, 0.4 * place.y, -1.0);
+        let (size, thickness) = (dice.power([-3.5, 0.7]), dice.power([-4.0, 0.0]));
+        let b = a + size * dice.vector();
+        let c = a + (b - a) * f64::from(dice.next()) + thickness * size * dice.vector();
+        let change = dice.power([-3.0, 0.0]);
+        [[a, b, c], normals_at_corners(dice, change)]
     }
 
     fn camera(projection: Projection) -> Camera {
@@ -348,9 +327,9 @@ mod tests {
             let view = View::new(&scene, &camera);
             let raster = camera.raster(1);
             let (x, y): (Vec<f64>, Vec<f64>) = (raster.x().collect(), raster.y().collect());
-            let mut dice = Dice(fastrand::Rng::with_seed(projection as u64));
+            let mut dice = Dice(projection as u64);
             for _ in 0..20_000 {
-                let [corners, normals] = dice.triangle();
+                let [corners, normals] = triangle(&mut dice);
                 if !are_alike(normals) {
                     continue;
                 }
@@ -379,6 +358,7 @@ mod tests {
         assert!(samples > 100_000, "{samples}");
         assert!(worst < 1e-4, "{worst:e}");
     }
+
     #[test]
     fn normals_of_a_row_have_the_bits_of_each_alone() {
         let normals = NormalsAtHits {
@@ -387,15 +367,7 @@ mod tests {
             slopes: [[0.011, -0.02], [0.3, 0.17], [-0.41, 0.07]],
             normals: [[0.1, -0.7, 0.7], [0.011, 0.02, -0.031], [-0.017, 0.013, 0.07]],
         };
-        let first = Sample { row: 5, column: 990 };
-        for level in levels() {
-            let [mut x, mut y, mut z] = [[0.0; 24]; 3];
-            dispatch!(level, simd => normals.store(simd, first, [&mut x, &mut y, &mut z]));
-            for at in 0..24 {
-                let expected = normals.at(Sample { column: first.column + at, ..first });
-                assert_eq!(Vec3::new(x[at], y[at], z[at]), expected);
-            }
-        }
+        assert_normals_of_a_row(&normals, |sample| normals.at(sample));
     }
 
     #[test]
@@ -418,10 +390,10 @@ mod tests {
         for projection in [Projection::Perspective, Projection::Parallel] {
             let (scene, camera) = (Scene::new(Vec::new()).unwrap(), camera(projection));
             let view = View::new(&scene, &camera);
-            let mut dice = Dice(fastrand::Rng::with_seed(3));
+            let mut dice = Dice(3);
             let mut small = 0;
             for _ in 0..200 {
-                let triangles: [_; 8] = std::array::from_fn(|_| dice.triangle());
+                let triangles: [_; 8] = std::array::from_fn(|_| triangle(&mut dice));
                 let alone = triangles.map(|[corners, normals]| {
                     let [corners, normals] = [corners, normals].map(|three| three.map(Lanes::from));
                     beside(&view, corners, normals).normals()

@@ -1,6 +1,6 @@
 //! Numbers that look random.
 
-use bothways_common::glam::Vec3;
+use bothways_common::glam::{DVec3, Vec3};
 
 /// Numbers that look random, the same in every run.
 #[derive(Clone, Debug)]
@@ -18,5 +18,15 @@ impl Dice {
     /// A point in a cube; each coordinate is such a number.
     pub fn point(&mut self) -> Vec3 {
         Vec3::new(self.next(), self.next(), self.next())
+    }
+
+    /// The same in `f64`.
+    pub fn vector(&mut self) -> DVec3 {
+        self.point().as_dvec3()
+    }
+
+    /// Ten to a power between these two.
+    pub fn power(&mut self, [least, most]: [f64; 2]) -> f64 {
+        10f64.powf(0.5 * (least + most + (most - least) * f64::from(self.next())))
     }
 }

@@ -11,6 +11,7 @@ pub mod hostile;
 mod observers;
 pub mod repeats;
 mod scenes;
+mod shading;
 
 pub use cameras::*;
 pub use crowds::*;
@@ -18,6 +19,7 @@ pub use dice::*;
 pub use frames::*;
 pub use observers::*;
 pub use scenes::*;
+pub use shading::*;
 
 /// The number of cases of a property test: fifty times as many with `BOTHWAYS_LONG` set.
 pub fn cases(usual: u32) -> u32 {
