@@ -12,8 +12,9 @@ use bothways_common::frame::stored_t;
 use bothways_common::look::bands::Rays;
 use bothways_common::look::lanes::{DVec3x8, Lanes, each};
 use bothways_common::raster::Sample;
-use bothways_common::{Primitive, Ray, View};
+use bothways_common::{Mesh, Primitive, Ray, Scene, Shape, View};
 use glam::Vec3;
+use std::ops::Range;
 
 /// Finds the distances of some lanes of the block of samples that begins at an index. It is a function of its own, with vectors
 /// of its own: within the loops that write tiles, it would take their registers.
@@ -31,8 +32,10 @@ pub(super) fn find_distances(
     const FEW: u32 = 4;
     let first = (lanes.trailing_zeros() & 15) as usize;
     // Beyond the picture there is nothing to look up.
-    let is_triangle = tile.sample(from + first).is_some()
-        && map.view.scene.triangle(tile.names.id(ids[first])).is_some();
+    let is_triangle = tile.sample(from + first).is_some() && {
+        let (object, _) = map.view.scene.locate(tile.names.id(ids[first]));
+        !matches!(map.view.scene.objects()[object].shape, Shape::Sphere(_) | Shape::Plane(_))
+    };
     if lanes.count_ones() >= FEW && is_triangle {
         return dispatch!(best_level(), simd => find_in_lanes(simd, map, tile, from, (lanes, ids), t));
     }
@@ -53,23 +56,52 @@ fn find_in_lanes<S: Simd>(
     (mut lanes, ids): (u64, &[u32; 16]),
     t: &mut [f32; 16],
 ) {
-    let mut pairs = Pairs::default();
+    let scene = map.view.scene;
+    let (mut pairs, mut last) = (Pairs::default(), LastMesh { ids: 0..0, mesh: None });
     while lanes != 0 {
         let lane = (lanes.trailing_zeros() & 15) as usize;
         lanes &= lanes - 1;
         let Some(Sample { row, column }) = tile.sample(from + lane) else { continue };
-        let id = tile.names.id(ids[lane]);
-        if let Some(corners) = map.view.scene.triangle(id) {
-            pairs.add(lane, [map.grid.x()[column], map.grid.y()[row]], &corners);
-            if pairs.count == 8 {
-                pairs.find(simd, map, t);
-            }
+        let (id, place) = (tile.names.id(ids[lane]), [map.grid.x()[column], map.grid.y()[row]]);
+        if !last.ids.contains(&id) {
+            last = LastMesh::of(scene, id);
+        }
+        // Corners of a mesh are read from where they are: to copy three vectors takes longer than all else here.
+        if let Some(mesh) = last.mesh {
+            let local = usize::try_from(id - last.ids.start).expect("a mesh fits into memory");
+            let [a, b, c] = mesh.triangles()[local];
+            let corners = each!(vertex in [a, b, c] => &mesh.positions()[vertex as usize]);
+            pairs.add(lane, place, corners);
+        } else if let Some([a, b, c]) = scene.triangle(id) {
+            pairs.add(lane, place, [&a, &b, &c]);
         } else {
             t[lane] = distance(map, &map.grid.ray(row, column), &map.view.primitive(id));
+        }
+        if pairs.count == 8 {
+            pairs.find(simd, map, t);
         }
     }
     if pairs.count > 0 {
         pairs.find(simd, map, t);
+    }
+}
+
+/// The mesh of the primitive that was looked at last, if it is of one: mostly the next one is of it, too.
+struct LastMesh<'a> {
+    ids: Range<u64>,
+    mesh: Option<&'a Mesh>,
+}
+
+impl<'a> LastMesh<'a> {
+    /// The mesh of this primitive.
+    #[cold]
+    fn of(scene: &'a Scene, id: u64) -> LastMesh<'a> {
+        let (object, _) = scene.locate(id);
+        let mesh = match &scene.objects()[object].shape {
+            Shape::Mesh(mesh) => Some(mesh),
+            _ => None,
+        };
+        LastMesh { ids: scene.ids_of(object), mesh }
     }
 }
 
@@ -92,7 +124,7 @@ struct Pairs {
 
 impl Pairs {
     #[inline(always)]
-    fn add(&mut self, lane: usize, place: [f64; 2], corners: &[Vec3; 3]) {
+    fn add(&mut self, lane: usize, place: [f64; 2], corners: [&Vec3; 3]) {
         let at = self.count & 7;
         self.lanes[at] = lane;
         [self.places[0][at], self.places[1][at]] = place;
@@ -183,7 +215,7 @@ mod tests {
     use super::super::triangle;
     use super::*;
     use bothways_common::engine::simd::levels;
-    use bothways_common::{Camera, CameraDescription, Projection, Scene};
+    use bothways_common::{Camera, CameraDescription, Projection};
 
     #[test]
     fn eight_at_a_time_are_as_one_by_one() {
@@ -205,7 +237,7 @@ mod tests {
                     // Some are thin, and some have no area at all.
                     let c = a + vector(if lane % 3 == 0 { 0.0 } else { 1.0 });
                     let corners = [a, a + vector(scale), c];
-                    pairs.add(lane, [place.x, place.y], &corners);
+                    pairs.add(lane, [place.x, place.y], corners.each_ref());
                     let ray = camera.ray_through(place.x, place.y);
                     all.push((ray, corners.map(|corner| view.offset(corner))));
                 }
