@@ -4,6 +4,7 @@
 mod form;
 mod local;
 mod quotient;
+mod ways;
 mod weights;
 
 use bothways_common::engine::simd::{Level, Simd, SimdBase, SimdNarrow, best_level, f64x8};
@@ -11,12 +12,14 @@ use bothways_common::look::bands::{
     self, EightTriangles, Points, Rays, Samples, Seen, SetUp, Sixteen, Surfaces, Wanted, are_alike,
 };
 use bothways_common::look::lanes::{DVec3x8, Lanes, Vec3x16, each};
+use bothways_common::look::shade::points_of_light;
 use bothways_common::look::texture::{self, TexturePoints};
 use bothways_common::{Frame, Primitive, View};
 use form::{Form, HitPoints};
 use glam::{DVec2, DVec3, Vec3};
 use local::{AffineNormals, Grid, Local};
 use quotient::{Affine, Colors, Quotient};
+use ways::WaysToLights;
 use weights::{side_of, side_seen, weights, weights_of};
 
 /// Gives a frame its picture, by interpolation over the triangle that is seen at each sample. If the frame keeps
@@ -34,23 +37,35 @@ pub fn shade(view: &View, frame: &mut Frame) {
 #[doc(hidden)]
 pub fn shade_with(view: &View, frame: &mut Frame, level: Level) {
     let grid = Grid::of(&view.camera.raster(frame.samples()));
-    bands::shade(view, frame, &Interpolated { view, grid }, level);
+    let lights = points_of_light(view);
+    bands::shade(view, frame, &Interpolated { view, grid, lights }, level);
 }
 
 /// The surfaces of a view as object order finds them.
 struct Interpolated<'a> {
     view: &'a View<'a>,
     grid: Grid,
+    /// The points of light, relative to the eye.
+    lights: Vec<DVec3>,
 }
 
 /// One visible primitive, set up for all samples at which it is seen. What only some have is in boxes, so that many small
 /// triangles stay in the caches.
 struct Surface {
-    /// `None` where only the normals of a flat form are wanted.
-    form: Option<Box<Form>>,
+    place: Place,
     normals: Normals,
     texture: Texture,
     details: Option<Box<Details>>,
+}
+
+/// Where the points are that are seen.
+enum Place {
+    /// It is not needed.
+    Unneeded,
+    /// It is found at each sample.
+    Points(Box<Form>),
+    /// The ways from there to the points of light are functions on the viewport.
+    Ways(WaysToLights),
 }
 
 enum Texture {
@@ -103,9 +118,8 @@ impl Surfaces for Interpolated<'_> {
             Texture::None
         };
         let details = Details::new(view, seen, wanted).map(Box::new);
-        let is_sphere = matches!(primitive, Primitive::Sphere { .. });
-        let form = (is_sphere || wanted.positions).then(|| Box::new(Form::new(view, primitive)));
-        SetUp::Surface(Surface { form, normals, texture, details })
+        let place = self.place(primitive, wanted);
+        SetUp::Surface(Surface { place, normals, texture, details })
     }
 
     #[inline(always)]
@@ -123,7 +137,7 @@ impl Surfaces for Interpolated<'_> {
 
     #[inline(always)]
     fn looks_at_t(&self, surface: &Surface) -> bool {
-        surface.form.is_some()
+        matches!(surface.place, Place::Points(_))
     }
 
     #[inline(always)]
@@ -143,13 +157,17 @@ impl Surfaces for Interpolated<'_> {
             }
             Normals::Sphere(_) => {}
         }
-        let hits = match &surface.form {
-            None => [HitPoints::nowhere(simd); 2],
-            Some(form) => {
+        let hits = match &surface.place {
+            Place::Unneeded => [HitPoints::nowhere(simd); 2],
+            Place::Ways(ways) => {
+                ways.store(simd, samples, points);
+                [HitPoints::nowhere(simd); 2]
+            }
+            Place::Points(form) => {
                 let halves = [&samples.low, &samples.high];
                 let rays = each!(k in [0, 1] => self.rays(simd, halves[k]));
                 let hits = each!(k in [0, 1] => form.hit_points(simd, halves[k], &rays[k]));
-                points.set_positions(each!(k in [0, 1] => hits[k].position));
+                points.set_to_lights(&self.lights, each!(k in [0, 1] => hits[k].position));
                 if let Normals::Sphere(scale) = surface.normals {
                     let [low, high] =
                         each!(k in [0, 1] => on_ball(simd, scale, &hits[k], &rays[k]));
@@ -182,6 +200,18 @@ impl Interpolated<'_> {
         }
         let [corners, normals] = each!(three in [corners, normals] => three.map(Lanes::from));
         Local::new(self.view, &self.grid, corners, normals).normals()
+    }
+
+    /// Where the points of a primitive are, if that is needed.
+    fn place(&self, primitive: &Primitive, wanted: Wanted) -> Place {
+        let is_sphere = matches!(primitive, Primitive::Sphere { .. });
+        if !(is_sphere || wanted.to_lights) {
+            return Place::Unneeded;
+        }
+        match WaysToLights::new(self.view, primitive, &self.lights) {
+            Some(ways) => Place::Ways(ways),
+            None => Place::Points(Box::new(Form::new(self.view, primitive))),
+        }
     }
 
     /// The texture coordinates of some samples, and their footprints.

@@ -17,11 +17,11 @@ use crate::engine::simd::{Level, Simd, SimdBase, dispatch, f32x16, f64x8, prefet
 use crate::frame::{Frame, NO_LEVEL, ShadingBand};
 use crate::look::color::{srgb_from_linear, srgb_of_sixteen};
 use crate::look::lanes::{Vec3x16, each};
-use crate::look::shade::{Finish, Lighting, SurfacePoints};
+use crate::look::shade::{Finish, Lighting, SurfacePoints, points_of_light};
 use crate::raster::Sample;
 use crate::scene::material::Material;
 use crate::view::View;
-use chunk::{CHUNK, Chunk, eight, eight_vectors, sixteen, sixteen_vectors};
+use chunk::{CHUNK, Chunk, eight, sixteen, sixteen_vectors};
 use desk::{Desk, Kept, KeptLook, KeptSurface, Run, Setting};
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
@@ -41,8 +41,9 @@ pub use surfaces::{
 pub fn shade(view: &View, frame: &mut Frame, surfaces: &impl Surfaces, level: Level) {
     assert_eq!(frame.camera_image(), view.camera.image(), "the frame shows another view");
     let (grid, lighting) = (view.camera.sample_grid(frame.samples()), Lighting::new(view));
+    let lights = points_of_light(view).len();
     let wanted = Wanted {
-        positions: lighting.needs_positions(),
+        to_lights: lights > 0,
         texture_coordinates: !frame.texture_coordinates().is_empty(),
         steps: !frame.levels().is_empty(),
     };
@@ -59,7 +60,7 @@ pub fn shade(view: &View, frame: &mut Frame, surfaces: &impl Surfaces, level: Le
     let (sums, rows) =
         if samples > 1 { (look.grid.width() / samples, 1) } else { (0, TOGETHER[0]) };
     frame.shading_bands(rows).into_par_iter().for_each_init(
-        || Desk::new(sums),
+        || Desk::new(sums, lights),
         |desk, mut band| dispatch!(level, simd => look.shade_band(simd, desk, &mut band)),
     );
 }
@@ -366,13 +367,13 @@ impl<'a, A: Surfaces> Look<'a, A> {
                 let to_viewer = surfaces.to_viewer(simd, view.camera, first, [x, y]);
                 let normal = sixteen_vectors(simd, &chunk.normal, at).normalized(simd);
                 let points = SurfacePoints {
-                    positions: each!(half in [at, at + 8] => eight_vectors(simd, &chunk.position, half)),
                     normals: normal,
                     to_viewer: to_viewer.normalized(simd),
                     fraction: sixteen(simd, &chunk.fraction, at),
                     tint: each!(k in [0, 1, 2] => sixteen(simd, &chunk.tint[k], at)),
                 };
-                let colors = self.lighting.colors(simd, &points, &finish);
+                let to_light = |light: usize| sixteen_vectors(simd, &chunk.to_lights[light], at);
+                let colors = self.lighting.colors(simd, &points, &finish, to_light);
                 if needs_colors {
                     let [red, green, blue] = &mut chunk.color;
                     colors[0].store_slice(&mut red[at..at + 16]);

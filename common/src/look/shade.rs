@@ -2,7 +2,7 @@
 //! and texture coordinates.
 
 use crate::engine::simd::{Select, Simd, SimdBase, SimdMask, f32x16, mask32x16};
-use crate::look::lanes::{DVec3x8, Vec3x16, each};
+use crate::look::lanes::{Vec3x16, each};
 use crate::look::power::{Exponent, power};
 use crate::scene::material::{Light, Material};
 use crate::view::View;
@@ -11,9 +11,6 @@ use glam::{DVec3, Vec3};
 /// What is seen at sixteen samples.
 #[derive(Clone, Copy, Debug)]
 pub struct SurfacePoints<S: Simd> {
-    /// Where they are, relative to the eye: two times eight, in `f64`, because the eye may be far away. Only points
-    /// of light need it.
-    pub positions: [DVec3x8<S>; 2],
     /// Unit normals, towards the viewer.
     pub normals: Vec3x16<S>,
     /// Unit directions towards the viewer, against the viewing rays.
@@ -59,16 +56,25 @@ struct Lamp {
 enum LightSource {
     /// Far away, in this unit direction.
     Towards(Vec3),
-    /// Here, relative to the eye.
-    At(DVec3),
+    /// In the point of light with this number.
+    At(usize),
     /// Where the viewing ray begins.
     AtCamera,
+}
+
+/// The points from which light comes in all directions, relative to the eye, in the order of the scene's lights.
+pub fn points_of_light(view: &View) -> Vec<DVec3> {
+    let points = view.scene.lights.iter().filter_map(|light| match light {
+        Light::Point { position, .. } => Some(view.offset(*position)),
+        Light::Ambient { .. } | Light::Directional { .. } | Light::AtCamera { .. } => None,
+    });
+    points.collect()
 }
 
 impl Lighting {
     /// The lights of the view's scene, around its eye.
     pub fn new(view: &View) -> Lighting {
-        let (mut ambient, mut lamps) = (0.0, Vec::new());
+        let (mut ambient, mut lamps, mut points) = (0.0, Vec::new(), 0..);
         for light in &view.scene.lights {
             let (place, intensity) = match *light {
                 Light::Ambient { intensity } => {
@@ -78,8 +84,8 @@ impl Lighting {
                 Light::Directional { direction, intensity } => {
                     (LightSource::Towards(-direction.normalize_or_zero()), intensity)
                 }
-                Light::Point { position, intensity } => {
-                    (LightSource::At(view.offset(position)), intensity)
+                Light::Point { intensity, .. } => {
+                    (LightSource::At(points.next().expect("numbers go on")), intensity)
                 }
                 Light::AtCamera { intensity } => (LightSource::AtCamera, intensity),
             };
@@ -88,13 +94,9 @@ impl Lighting {
         Lighting { ambient, lamps }
     }
 
-    /// Whether [`Lighting::colors`] needs to know where the points are.
-    pub fn needs_positions(&self) -> bool {
-        self.lamps.iter().any(|lamp| matches!(lamp.place, LightSource::At(_)))
-    }
-
     /// The linear red, green and blue of surface points of one material: ambient light, Lambert's cosine and a
-    /// Blinn–Phong highlight. Colours above 1 are left to the picture to clamp.
+    /// Blinn–Phong highlight. Colours above 1 are left to the picture to clamp. `to_light` gives the ways from the surface
+    /// points to the [point of light](points_of_light) with a number, of any length.
     ///
     /// Blinn, "Models of Light Reflection for Computer Synthesized Pictures", SIGGRAPH 1977.
     #[inline(always)]
@@ -103,6 +105,7 @@ impl Lighting {
         simd: S,
         points: &SurfacePoints<S>,
         finish: &Finish,
+        to_light: impl Fn(usize) -> Vec3x16<S>,
     ) -> [f32x16<S>; 3] {
         let material = finish.material;
         let splat = |value: f32| f32x16::splat(simd, value);
@@ -111,11 +114,7 @@ impl Lighting {
         for Lamp { place, intensity } in &self.lamps {
             let to_light = match place {
                 LightSource::Towards(direction) => Vec3x16::splat(simd, *direction),
-                LightSource::At(light) => {
-                    let light = DVec3x8::splat(simd, *light);
-                    let [low, high] = each!(k in [0, 1] => light - points.positions[k]);
-                    low.narrow(high).normalized(simd)
-                }
+                LightSource::At(number) => to_light(*number).normalized(simd),
                 LightSource::AtCamera => points.to_viewer,
             };
             let cosine = points.normals.dot(to_light);
@@ -193,13 +192,13 @@ mod tests {
                 let zero = f32x16::splat(simd, 0.0);
                 let towards = Vec3x16::splat(simd, Vec3::Z);
                 let points = SurfacePoints {
-                    positions: [DVec3x8::splat(simd, -DVec3::Z); 2],
                     normals: towards,
                     to_viewer: towards,
                     fraction: zero,
                     tint: [zero; 3],
                 };
-                lighting.colors(simd, &points, &Finish::new(material, false)).map(|channel| channel[3])
+                let finish = Finish::new(material, false);
+                lighting.colors(simd, &points, &finish, |_| towards).map(|channel| channel[3])
             })
         };
         levels().into_iter().map(of_level).collect()

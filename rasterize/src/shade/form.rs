@@ -5,7 +5,7 @@
 //! Functions here are `#[inline]`: where triangles are as small as samples, each sample sets up its own, and calls between
 //! codegen units take a fifth of the time of shading.
 
-use super::quotient::Affine;
+use super::quotient::{Affine, Plane};
 use bothways_common::engine::simd::{Select, Simd, SimdBase, SimdFloat, f64x8};
 use bothways_common::look::bands::{Rays, Samples};
 use bothways_common::look::lanes::{DVec3x8, each};
@@ -34,10 +34,7 @@ impl<S: Simd> HitPoints<S> {
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Form {
     /// Seen at `t = −above/along`.
-    Flat {
-        above: Affine,
-        along: Affine,
-    },
+    Flat(Plane),
     Sphere(Ball),
 }
 
@@ -79,10 +76,7 @@ impl Form {
 
     #[inline]
     fn flat(view: &View, point: DVec3, normal: DVec3) -> Form {
-        Form::Flat {
-            above: Affine::from_origin(view, normal, point),
-            along: Affine::along_ray(view, normal),
-        }
+        Form::Flat(Plane::new(view, point, normal))
     }
 
     /// The points that are seen at some samples. The stored `t` is taken where rounding leaves less: where a surface is
@@ -95,7 +89,7 @@ impl Form {
         rays: &Rays<S>,
     ) -> HitPoints<S> {
         match self {
-            Form::Flat { above, along } => {
+            Form::Flat(Plane { above, along }) => {
                 let t = -above.lanes(simd, samples) / along.lanes(simd, samples);
                 let t = samples.is_close(simd, t).select(t, samples.t);
                 let position = rays.at(t);

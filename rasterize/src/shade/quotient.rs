@@ -119,6 +119,31 @@ impl<T: Real> Add for Affine<T> {
     }
 }
 
+/// A plane through a point `p` with a normal `n`, as functions on the viewport: the viewing ray meets it at `t = −above/along`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Plane {
+    /// `n · (O − p)`.
+    pub(super) above: Affine,
+    /// `n · D`.
+    pub(super) along: Affine,
+}
+
+impl Plane {
+    #[inline(always)]
+    pub(super) fn new(view: &View, point: DVec3, normal: DVec3) -> Plane {
+        let above = Affine::from_origin(view, normal, point);
+        Plane { above, along: Affine::along_ray(view, normal) }
+    }
+
+    /// `a · (P − from)` times `along`, where `P` is the point that is seen, `O − D·above/along`: an affine function, as no division
+    /// is left.
+    #[inline(always)]
+    pub(super) fn offset_along(&self, view: &View, a: DVec3, from: DVec3) -> Affine {
+        let (start, direction) = (Affine::from_origin(view, a, from), Affine::along_ray(view, a));
+        start.times(self.along) + self.above.times(direction) * -1.0
+    }
+}
+
 /// Two quotients of affine functions with one denominator.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Quotient {
@@ -143,15 +168,9 @@ impl Quotient {
         normal: DVec3,
         vectors: [DVec3; 2],
     ) -> Quotient {
-        let along = Affine::along_ray(view, normal);
-        let above = Affine::from_origin(view, normal, point);
-        // The point that is seen is O + t·D with t = −n·(O − p) / n·D.
-        let numerator = |a: DVec3| {
-            let (start, direction) =
-                (Affine::from_origin(view, a, point), Affine::along_ray(view, a));
-            start.times(along) + above.times(direction) * -1.0
-        };
-        Quotient { numerators: vectors.map(numerator), denominator: along }
+        let plane = Plane::new(view, point, normal);
+        let numerators = vectors.map(|a| plane.offset_along(view, a, point));
+        Quotient { numerators, denominator: plane.along }
     }
 
     /// Both values at some places of a row of the viewport, and how far each changes by a step down or across, added up.

@@ -1,7 +1,7 @@
 //! Numbers of some samples of a row, and how vectors are read from them and written to them.
 
 use crate::engine::simd::{Simd, SimdBase, f32x16, f64x8};
-use crate::look::lanes::{DVec3x8, Lanes, Vec3x16};
+use crate::look::lanes::{Lanes, Vec3x16};
 
 /// The most samples of a row that are shaded together: what is kept of them stays in the innermost cache.
 pub(super) const CHUNK: usize = 256;
@@ -14,7 +14,8 @@ const WIDE: usize = CHUNK + BEYOND;
 pub(super) struct Chunk {
     pub(super) x: [f64; WIDE],
     pub(super) t: [f64; WIDE],
-    pub(super) position: [[f64; WIDE]; 3],
+    /// The ways to each point of light, of any length.
+    pub(super) to_lights: Vec<[[f32; WIDE]; 3]>,
     pub(super) normal: [[f32; WIDE]; 3],
     pub(super) coordinate: [[f64; WIDE]; 2],
     pub(super) footprint: [[f32; WIDE]; 2],
@@ -29,12 +30,12 @@ pub(super) struct Chunk {
 }
 
 impl Chunk {
-    /// Zeros.
-    pub(super) fn new() -> Chunk {
+    /// Zeros, for so many points of light.
+    pub(super) fn new(lights: usize) -> Chunk {
         Chunk {
             x: [0.0; WIDE],
             t: [0.0; WIDE],
-            position: [[0.0; WIDE]; 3],
+            to_lights: vec![[[0.0; WIDE]; 3]; lights],
             normal: [[0.0; WIDE]; 3],
             coordinate: [[0.0; WIDE]; 2],
             footprint: [[0.0; WIDE]; 2],
@@ -51,24 +52,6 @@ impl Chunk {
 #[inline(always)]
 pub(super) fn eight<S: Simd>(simd: S, numbers: &[f64], at: usize) -> f64x8<S> {
     f64x8::from_slice(simd, &numbers[at..at + 8])
-}
-
-/// The next eight vectors.
-#[inline(always)]
-pub(super) fn eight_vectors<S: Simd>(
-    simd: S,
-    [x, y, z]: &[[f64; WIDE]; 3],
-    at: usize,
-) -> DVec3x8<S> {
-    Lanes { x: eight(simd, x, at), y: eight(simd, y, at), z: eight(simd, z, at) }
-}
-
-#[inline(always)]
-pub(super) fn store_eight<S: Simd>(vectors: DVec3x8<S>, to: &mut [[f64; WIDE]; 3], at: usize) {
-    let [to_x, to_y, to_z] = to;
-    vectors.x.store_slice(&mut to_x[at..at + 8]);
-    vectors.y.store_slice(&mut to_y[at..at + 8]);
-    vectors.z.store_slice(&mut to_z[at..at + 8]);
 }
 
 /// The next sixteen numbers.

@@ -113,8 +113,8 @@ impl Runs {
 }
 
 impl<'a, A: Surfaces> Desk<'a, A> {
-    /// With room for the sums of so many pixels.
-    pub(super) fn new(sums: usize) -> Self {
+    /// With room for the sums of so many pixels, and the ways to so many points of light.
+    pub(super) fn new(sums: usize, lights: usize) -> Self {
         Desk {
             places: vec![(NO_PRIMITIVE, 0); HASHES],
             names: Names::default(),
@@ -123,7 +123,7 @@ impl<'a, A: Surfaces> Desk<'a, A> {
             looks_at_t: false,
             new: Vec::new(),
             new_ids: Vec::new(),
-            chunk: Box::new(Chunk::new()),
+            chunk: Box::new(Chunk::new(lights)),
             runs: Runs::default(),
             sums: vec![Vec3::ZERO; sums],
         }

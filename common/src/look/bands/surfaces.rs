@@ -1,6 +1,6 @@
 //! What a renderer says of its surfaces, sixteen samples at a time.
 
-use super::chunk::{Chunk, eight, sixteen, store_eight, store_sixteen};
+use super::chunk::{Chunk, eight, sixteen, store_sixteen};
 use super::local::LocalNormals;
 use crate::camera::{Camera, Projection};
 use crate::engine::simd::{Simd, SimdBase, SimdMask, f32x16, f64x8, mask64x8};
@@ -219,8 +219,8 @@ impl<S: Simd> EightTriangles<S> {
 /// What shading needs of surfaces besides their normals.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Wanted {
-    /// Where their points are.
-    pub positions: bool,
+    /// The ways from their points to the points of light.
+    pub to_lights: bool,
     /// Their texture coordinates, even where no pattern is drawn.
     pub texture_coordinates: bool,
     /// How these move from sample to sample, even where no texture needs it.
@@ -303,11 +303,20 @@ impl Points<'_> {
         store_sixteen(normals, &mut self.chunk.normal, self.at);
     }
 
-    /// Where the points are, relative to the eye, two times eight: if positions are wanted.
+    /// The ways to the [point of light](crate::look::shade::points_of_light) with this number, of any length between 2⁻⁶⁰ and
+    /// 2⁶⁰: if they are wanted.
     #[inline(always)]
-    pub fn set_positions<S: Simd>(&mut self, [low, high]: [DVec3x8<S>; 2]) {
-        store_eight(low, &mut self.chunk.position, self.at);
-        store_eight(high, &mut self.chunk.position, self.at + 8);
+    pub fn set_to_light<S: Simd>(&mut self, light: usize, ways: Vec3x16<S>) {
+        store_sixteen(ways, &mut self.chunk.to_lights[light], self.at);
+    }
+
+    /// The ways to all points of light from points, relative to the eye, two times eight: in `f64`, as the eye may be far away.
+    #[inline(always)]
+    pub fn set_to_lights<S: Simd>(&mut self, lights: &[DVec3], [low, high]: [DVec3x8<S>; 2]) {
+        for (number, light) in lights.iter().enumerate() {
+            let light = DVec3x8::splat(low.x.simd, *light);
+            self.set_to_light(number, (light - low).narrow(light - high));
+        }
     }
 
     /// Texture coordinates, if there are any and they are wanted or a pattern is drawn.
