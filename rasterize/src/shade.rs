@@ -293,7 +293,7 @@ impl Interpolated<'_> {
 
     #[inline(always)]
     fn rays<S: Simd>(&self, simd: S, samples: &Samples<S>) -> Rays<S> {
-        Rays::of_camera(simd, self.view.camera, [samples.x, samples.y])
+        Rays::of_row(simd, self.view.camera, samples.x, samples.y)
     }
 
     /// Near a sample the sphere is the plane that touches it there.
@@ -310,7 +310,7 @@ impl Interpolated<'_> {
             let (position, normal) = (hit.position.lane(lane), hit.from_center.lane(lane));
             let gradients = gradients.map(|gradient| gradient.lane(lane));
             let touching = Quotient::on_plane(self.view, position, normal, gradients);
-            let [along_x, along_y] = touching.changes(samples.x[lane], samples.y[lane]);
+            let [along_x, along_y] = touching.changes(samples.x[lane], samples.y);
             (along_x * across).abs() + (along_y * down).abs()
         });
         let footprint = each!(k in [0, 1] => f64x8::from_fn(simd, |lane| changes[lane][k]));

@@ -284,7 +284,7 @@ impl AtHits<'_> {
 
     #[inline(always)]
     fn hits<S: Simd>(&self, simd: S, surface: &Surface, samples: &Samples<S>) -> Hits<S> {
-        let rays = Rays::of_camera(simd, self.view.camera, [samples.x, samples.y]);
+        let rays = Rays::of_row(simd, self.view.camera, samples.x, samples.y);
         surface.form.hits(simd, samples, &rays)
     }
 }

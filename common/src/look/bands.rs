@@ -13,7 +13,7 @@ mod surfaces;
 mod tint;
 
 use crate::camera::SampleGrid;
-use crate::engine::simd::{Level, Simd, SimdBase, dispatch, f32x16, f64x8, prefetch_all};
+use crate::engine::simd::{Level, Simd, SimdBase, dispatch, f32x16, prefetch_all};
 use crate::frame::{Frame, NO_LEVEL, ShadingBand};
 use crate::look::color::{srgb_from_linear, srgb_of_sixteen};
 use crate::look::lanes::{Vec3x16, each};
@@ -269,7 +269,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
         (start, run): (Sample, Range<usize>),
         texture: &mut KeptTexture,
     ) {
-        let y = f64x8::splat(simd, self.grid.y()[start.row]);
+        let y = self.grid.y()[start.row];
         for at in run.clone().step_by(16) {
             let first = Sample { column: start.column + at, ..start };
             let next = Sample { column: first.column + 8, ..first };

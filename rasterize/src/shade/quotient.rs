@@ -54,20 +54,16 @@ impl Affine {
         self.at_places(simd, samples.x, samples.y)
     }
 
-    /// The part of its values that is the same in a row, and its values at some places of the row.
+    /// The part of its values that is the same in a row.
     #[inline(always)]
-    fn row<S: Simd>(&self, simd: S, x: f64x8<S>, y: f64x8<S>) -> (f64x8<S>, f64x8<S>) {
-        let Affine { at_center, across, up } = *self;
-        let [at_center, across, up] =
-            each!(number in [at_center, across, up] => f64x8::splat(simd, number));
-        let in_row = at_center + y * up;
-        (in_row, in_row + x * across)
+    fn in_row(&self, y: f64) -> f64 {
+        self.at_center + y * self.up
     }
 
-    /// Its values at some places of the viewport.
+    /// Its values at some places of a row of the viewport.
     #[inline(always)]
-    fn at_places<S: Simd>(&self, simd: S, x: f64x8<S>, y: f64x8<S>) -> f64x8<S> {
-        self.row(simd, x, y).1
+    fn at_places<S: Simd>(&self, simd: S, x: f64x8<S>, y: f64) -> f64x8<S> {
+        f64x8::splat(simd, self.in_row(y)) + x * f64x8::splat(simd, self.across)
     }
 
     /// No value on the viewport has a larger magnitude.
@@ -175,26 +171,28 @@ impl Quotient {
 
     /// Both values at some places of a row of the viewport, and how far each changes by a step down or across, added up.
     ///
-    /// The derivative of `n/d` along `x` is `(n' d − n d') / d²`; what is above is the same in the whole row.
+    /// The derivative of `n/d` along `x` is `(n' d − n d') / d²`; what is above is the same in the whole row. Along `y`, it is an affine
+    /// function of `x`.
     #[inline(always)]
     pub(super) fn with_footprint<S: Simd>(
         &self,
         simd: S,
         x: f64x8<S>,
-        y: f64x8<S>,
+        y: f64,
         [down, across]: [f64; 2],
     ) -> ([f64x8<S>; 2], [f64x8<S>; 2]) {
         let splat = |number: f64| f64x8::splat(simd, number);
-        let (along_row, below) = self.denominator.row(simd, x, y);
-        let reciprocal = splat(1.0) / below;
+        let denominator = &self.denominator;
+        let reciprocal = splat(1.0) / denominator.at_places(simd, x, y);
+        let square = reciprocal * reciprocal;
         let of_both = each!(k in [0, 1] => {
             let numerator = &self.numerators[k];
-            let (in_row, above) = numerator.row(simd, x, y);
-            let along_x = along_row * splat(numerator.across * across)
-                - in_row * splat(self.denominator.across * across);
-            let along_y = below * splat(numerator.up * down) - above * splat(self.denominator.up * down);
-            let value = above * reciprocal;
-            (value, (along_x.abs() + along_y.abs()) * reciprocal * reciprocal)
+            let [above, below] = each!(of in [numerator, denominator] => of.in_row(y));
+            let along_x = (numerator.across * below - denominator.across * above) * across;
+            let along_y = (numerator.up * below - denominator.up * above) * down;
+            let slope = (numerator.up * denominator.across - denominator.up * numerator.across) * down;
+            let changes = splat(along_x.abs()) + (splat(along_y) + x * splat(slope)).abs();
+            (numerator.at_places(simd, x, y) * reciprocal, changes * square)
         });
         let [(across, width), (up, height)] = of_both;
         ([across, up], [width, height])
@@ -216,20 +214,20 @@ impl Quotient {
         // The way to the other sample of a pair, in steps.
         let way = |is_odd: bool| if is_odd { -1.0 } else { 1.0 };
         let along_row = f64x8::from_fn(simd, |lane| way(odd_column ^ (lane % 2 == 1)));
-        let along_column = f64x8::splat(simd, way(odd_row));
-        let [down, across] = each!(k in [0, 1] => f64x8::splat(simd, step[k]));
+        let along_column = way(odd_row);
+        let [down, across] = step;
         let here = self.at(simd, samples.x, samples.y);
-        let aside = self.at(simd, samples.x + along_row * across, samples.y);
+        let aside = self.at(simd, samples.x + along_row * f64x8::splat(simd, across), samples.y);
         let below = self.at(simd, samples.x, samples.y + along_column * down);
         [
             each!(k in [0, 1] => (aside[k] - here[k]) * along_row),
-            each!(k in [0, 1] => (below[k] - here[k]) * along_column),
+            each!(k in [0, 1] => (below[k] - here[k]) * f64x8::splat(simd, along_column)),
         ]
     }
 
     /// Both values at some places.
     #[inline(always)]
-    fn at<S: Simd>(&self, simd: S, x: f64x8<S>, y: f64x8<S>) -> [f64x8<S>; 2] {
+    fn at<S: Simd>(&self, simd: S, x: f64x8<S>, y: f64) -> [f64x8<S>; 2] {
         let below = self.denominator.at_places(simd, x, y);
         each!(k in [0, 1] => self.numerators[k].at_places(simd, x, y) / below)
     }
@@ -282,11 +280,11 @@ mod tests {
     /// The values at one place, and the derivatives along `x` and along `y`.
     fn at(quotient: &Quotient, x: f64, y: f64) -> (DVec2, [DVec2; 2]) {
         dispatch!(best_level(), simd => {
-            let [x_lanes, y_lanes] = [x, y].map(|place| f64x8::splat(simd, place));
+            let x_lanes = f64x8::splat(simd, x);
             let of_lane = |pair: [f64x8<_>; 2]| DVec2::from(pair.map(|lanes| lanes[5]));
             // The footprints of steps that go only across, only down, and both ways.
             let [(value, across), (_, down), (_, both)] = [[0.0, 1.0], [1.0, 0.0], [-2.0, 3.0]]
-                .map(|step| quotient.with_footprint(simd, x_lanes, y_lanes, step))
+                .map(|step| quotient.with_footprint(simd, x_lanes, y, step))
                 .map(|(value, footprint)| (of_lane(value), of_lane(footprint)));
             let changes = quotient.changes(x, y);
             let [along_x, along_y] = changes.map(DVec2::abs);

@@ -80,7 +80,7 @@ mod tests {
     fn ways_at(ways: &WaysToLights, [x, y]: [f64; 2]) -> Vec<DVec3> {
         let all = levels().into_iter().map(|level| -> Vec<DVec3> {
             dispatch!(level, simd => {
-                let [x, y, t] = [x, y, 0.0].map(|number| f64x8::splat(simd, number));
+                let [x, t] = [x, 0.0].map(|number| f64x8::splat(simd, number));
                 let samples = Samples { first: Sample { row: 0, column: 0 }, x, y, t };
                 ways.0.iter().map(|way| way_from(simd, way, &samples).lane(3)).collect()
             })

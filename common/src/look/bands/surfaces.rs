@@ -246,7 +246,7 @@ pub struct Samples<S: Simd> {
     /// Where they are on the viewport.
     pub x: f64x8<S>,
     /// Where their row is on the viewport.
-    pub y: f64x8<S>,
+    pub y: f64,
     /// The `t` that is stored of what is seen.
     pub t: f64x8<S>,
 }
@@ -265,7 +265,19 @@ impl<S: Simd> Rays<S> {
     #[inline(always)]
     pub fn of_camera(simd: S, camera: &Camera, [x, y]: [f64x8<S>; 2]) -> Rays<S> {
         let [u, v] = each!(axis in [camera.u(), camera.v()] => DVec3x8::splat(simd, axis));
-        let across = u * x + v * y;
+        Rays::through(simd, camera, u * x + v * y)
+    }
+
+    /// Those through some places of a row of the viewport, with the same bits.
+    #[inline(always)]
+    pub fn of_row(simd: S, camera: &Camera, x: f64x8<S>, y: f64) -> Rays<S> {
+        let up = DVec3x8::splat(simd, camera.v() * y);
+        Rays::through(simd, camera, DVec3x8::splat(simd, camera.u()) * x + up)
+    }
+
+    /// Those through points of the viewport, given by the ways from its middle.
+    #[inline(always)]
+    fn through(simd: S, camera: &Camera, across: DVec3x8<S>) -> Rays<S> {
         match camera.projection() {
             Projection::Perspective => Rays {
                 origin: DVec3x8::splat(simd, DVec3::ZERO),
