@@ -12,7 +12,6 @@ use bothways_common::look::bands::{
     self, EightTriangles, Points, Rays, Samples, Seen, SetUp, Sixteen, Surfaces, Wanted, are_alike,
 };
 use bothways_common::look::lanes::{DVec3x8, Lanes, Vec3x16, each};
-use bothways_common::look::shade::points_of_light;
 use bothways_common::look::texture::{self, TexturePoints};
 use bothways_common::{Frame, Primitive, View};
 use form::{Form, HitPoints};
@@ -37,16 +36,13 @@ pub fn shade(view: &View, frame: &mut Frame) {
 #[doc(hidden)]
 pub fn shade_with(view: &View, frame: &mut Frame, level: Level) {
     let grid = Grid::of(&view.camera.raster(frame.samples()));
-    let lights = points_of_light(view);
-    bands::shade(view, frame, &Interpolated { view, grid, lights }, level);
+    bands::shade(view, frame, &Interpolated { view, grid }, level);
 }
 
 /// The surfaces of a view as object order finds them.
 struct Interpolated<'a> {
     view: &'a View<'a>,
     grid: Grid,
-    /// The points of light, relative to the eye.
-    lights: Vec<DVec3>,
 }
 
 /// One visible primitive, set up for all samples at which it is seen. What only some have is in boxes, so that many small
@@ -167,7 +163,7 @@ impl Surfaces for Interpolated<'_> {
                 let halves = [&samples.low, &samples.high];
                 let rays = each!(k in [0, 1] => self.rays(simd, halves[k]));
                 let hits = each!(k in [0, 1] => form.hit_points(simd, halves[k], &rays[k]));
-                points.set_to_lights(&self.lights, each!(k in [0, 1] => hits[k].position));
+                points.set_points(each!(k in [0, 1] => hits[k].position));
                 if let Normals::Sphere(scale) = surface.normals {
                     let [low, high] =
                         each!(k in [0, 1] => on_ball(simd, scale, &hits[k], &rays[k]));
@@ -205,10 +201,10 @@ impl Interpolated<'_> {
     /// Where the points of a primitive are, if that is needed.
     fn place(&self, primitive: &Primitive, wanted: Wanted) -> Place {
         let is_sphere = matches!(primitive, Primitive::Sphere { .. });
-        if !(is_sphere || wanted.to_lights) {
+        if !is_sphere && wanted.lights.is_empty() {
             return Place::Unneeded;
         }
-        match WaysToLights::new(self.view, primitive, &self.lights) {
+        match WaysToLights::new(self.view, primitive, wanted.lights) {
             Some(ways) => Place::Ways(ways),
             None => Place::Points(Box::new(Form::new(self.view, primitive))),
         }

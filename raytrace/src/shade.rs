@@ -10,7 +10,6 @@ use bothways_common::look::bands::{
     self, EightTriangles, Points, Rays, Samples, Seen, SetUp, Sixteen, Surfaces, Wanted, are_alike,
 };
 use bothways_common::look::lanes::{DVec3x8, Lanes, Real, Vec3x16, each};
-use bothways_common::look::shade::points_of_light;
 use bothways_common::look::texture::{self, TexturePoints};
 use bothways_common::{Frame, Primitive, Projection, Raster, View};
 use glam::{DVec2, DVec3, Vec3};
@@ -32,8 +31,7 @@ pub fn shade(view: &View, frame: &mut Frame) {
 #[doc(hidden)]
 pub fn shade_with(view: &View, frame: &mut Frame, level: Level) {
     let raster = view.camera.raster(frame.samples());
-    let (steps, lights) = (steps(view, &raster), points_of_light(view));
-    bands::shade(view, frame, &AtHits { view, raster, steps, lights }, level);
+    bands::shade(view, frame, &AtHits { view, raster, steps: steps(view, &raster) }, level);
 }
 
 /// The surfaces of a view as image order finds them.
@@ -42,8 +40,6 @@ struct AtHits<'a> {
     raster: Raster,
     /// The way on the viewport from a sample to the next one across, and to the next one down.
     steps: [DVec3; 2],
-    /// The points of light, relative to the eye.
-    lights: Vec<DVec3>,
 }
 
 fn steps(view: &View, raster: &Raster) -> [DVec3; 2] {
@@ -132,7 +128,8 @@ impl Surfaces for AtHits<'_> {
         };
         let details = Details::new(seen, wanted).map(Box::new);
         let normals = Normals::new(self.view, &form, corners);
-        let has_points = wanted.to_lights || !matches!(texture, Texture::None) || details.is_some();
+        let has_points =
+            !wanted.lights.is_empty() || !matches!(texture, Texture::None) || details.is_some();
         SetUp::Surface(Surface { form, normals, has_points, texture, details })
     }
 
@@ -176,7 +173,7 @@ impl Surfaces for AtHits<'_> {
         let [low, high] = each!(half in [&samples.low, &samples.high] => {
             self.hits(simd, surface, half)
         });
-        points.set_to_lights(&self.lights, [low.position, high.position]);
+        points.set_points([low.position, high.position]);
         points.set_normals(surface.normals.at(simd, [&low, &high]));
         let hits = [&low, &high];
         match &surface.details {

@@ -7,7 +7,6 @@ use crate::samples::Samples;
 use bothways_common::engine::simd::{Simd, SimdBase, SimdNarrow, best_level, f32x16, f64x8};
 use bothways_common::look::bands::{self, Points, SetUp, Sixteen, Surfaces, Wanted};
 use bothways_common::look::lanes::{DVec3x8, Vec3x16};
-use bothways_common::look::shade::points_of_light;
 use bothways_common::look::texture::{self, TexturePoints};
 use bothways_common::{Camera, Frame, Primitive, Projection, Ray, Sample, Shape, View};
 use glam::{DVec2, DVec3, Vec3};
@@ -15,16 +14,13 @@ use std::convert::Infallible;
 
 /// Gives a frame its picture; also all else that it keeps of the look of what is seen.
 pub(crate) fn shade(view: &View, samples: &Samples, frame: &mut Frame) {
-    let lights = points_of_light(view);
-    bands::shade(view, frame, &AsSeen { view, samples, lights }, best_level());
+    bands::shade(view, frame, &AsSeen { view, samples }, best_level());
 }
 
 /// The surfaces of a view as a rule sees them.
 struct AsSeen<'a> {
     view: &'a View<'a>,
     samples: &'a Samples<'a>,
-    /// The points of light, relative to the eye.
-    lights: Vec<DVec3>,
 }
 
 impl Surfaces for AsSeen<'_> {
@@ -69,7 +65,7 @@ impl Surfaces for AsSeen<'_> {
         };
         let [low, high] = vectors(|seen| seen.normal);
         points.set_normals(low.narrow(high));
-        points.set_to_lights(&self.lights, vectors(|seen| seen.position));
+        points.set_points(vectors(|seen| seen.position));
         if halves[0][0].texture.is_some() {
             let [low, high] = numbers(|texture| texture.footprint);
             points.set_texture(&TexturePoints {

@@ -102,6 +102,41 @@ fn a_parallel_picture_does_not_change_with_the_eye_s_distance() {
 }
 
 #[test]
+fn a_point_of_light_that_is_far_away_is_a_directional_one() {
+    let mut scene = scene();
+    let towards = Vec3::new(0.25, 0.5, 1.0);
+    for projection in PROJECTIONS {
+        scene.lights = vec![Light::Directional { direction: -towards, intensity: 0.9 }];
+        let directional = frames(&scene, description(projection, 16.0));
+        for away in [1e5, 1e8, 1e17, 1e20, 1e30] {
+            scene.lights = vec![Light::Point { position: away * towards, intensity: 0.9 }];
+            let point = frames(&scene, description(projection, 16.0));
+            for (directional, point) in directional.iter().zip(&point) {
+                let off = largest_difference(directional, point);
+                assert!(off <= 1, "{projection:?}, {away:e}: {off} of 255");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_plane_through_a_point_that_is_far_away_is_lit_alike_in_both_orders() {
+    let far = 2_f32.powi(60);
+    let normal = Vec3::new(1.0, 0.5, 1.0);
+    let shape = Shape::Plane(Plane { point: Vec3::new(far, -4.0, -far), normal });
+    let mut scene = Scene::new(vec![shape.into()]).expect("it is a scene");
+    let light = Vec3::new(0.0, 1.0, 15.0);
+    scene.lights = vec![Light::Point { position: light, intensity: 1.0 }];
+    for projection in PROJECTIONS {
+        let [object_order, image_order] = frames(&scene, description(projection, 16.0));
+        let covered = object_order.ids().iter().flatten().count();
+        assert!(covered > 7000, "{projection:?}: {covered}");
+        let off = largest_difference(&object_order, &image_order);
+        assert!(off <= 2, "{projection:?}: {off} of 255");
+    }
+}
+
+#[test]
 fn a_perspective_picture_from_afar_is_the_parallel_one() {
     let scene = scene();
     let parallel = frames(&scene, description(Projection::Parallel, 16.0));

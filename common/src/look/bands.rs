@@ -17,7 +17,7 @@ use crate::engine::simd::{Level, Simd, SimdBase, dispatch, f32x16, prefetch_all}
 use crate::frame::{Frame, NO_LEVEL, ShadingBand};
 use crate::look::color::{srgb_from_linear, srgb_of_sixteen};
 use crate::look::lanes::{Vec3x16, each};
-use crate::look::shade::{Finish, Lighting, SurfacePoints, points_of_light};
+use crate::look::shade::{Finish, Lighting, SurfacePoints};
 use crate::raster::Sample;
 use crate::scene::material::Material;
 use crate::view::View;
@@ -41,9 +41,8 @@ pub use surfaces::{
 pub fn shade(view: &View, frame: &mut Frame, surfaces: &impl Surfaces, level: Level) {
     assert_eq!(frame.camera_image(), view.camera.image(), "the frame shows another view");
     let (grid, lighting) = (view.camera.sample_grid(frame.samples()), Lighting::new(view));
-    let lights = points_of_light(view).len();
     let wanted = Wanted {
-        to_lights: lights > 0,
+        lights: lighting.points(),
         texture_coordinates: !frame.texture_coordinates().is_empty(),
         steps: !frame.levels().is_empty(),
     };
@@ -55,12 +54,13 @@ pub fn shade(view: &View, frame: &mut Frame, surfaces: &impl Surfaces, level: Le
         places.chain([0.0; 16]).collect()
     });
     let background_bytes = packed_bytes(view.scene.background);
+    let lighting = &lighting;
     let look = Look { setting, grid, lighting, background_bytes, across, down, samples };
     // A pixel of one sample has no sum; sums are those of one row.
     let (sums, rows) =
         if samples > 1 { (look.grid.width() / samples, 1) } else { (0, TOGETHER[0]) };
     frame.shading_bands(rows).into_par_iter().for_each_init(
-        || Desk::new(sums, lights),
+        || Desk::new(sums, lighting.points().len()),
         |desk, mut band| dispatch!(level, simd => look.shade_band(simd, desk, &mut band)),
     );
 }
@@ -105,7 +105,7 @@ struct Block {
 struct Look<'a, A> {
     setting: Setting<'a, A>,
     grid: SampleGrid<'a>,
-    lighting: Lighting,
+    lighting: &'a Lighting,
     background_bytes: u32,
     /// The places of columns and rows on the viewport, in lengths of the camera's distance; and sixteen more.
     across: Vec<f32>,
@@ -223,7 +223,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
         self.write(desk, band, within, stored);
     }
 
-    /// What is seen at the samples of a chunk: fills its positions, normals and fractions.
+    /// What is seen at the samples of a chunk: fills its normals, fractions, and ways to lights.
     #[inline(always)]
     fn find_points<S: Simd>(
         &self,
@@ -291,6 +291,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
             // What is written beyond the run is overwritten by the next one.
             let mut points = Points {
                 chunk: &mut *chunk,
+                lights: self.setting.wanted.lights,
                 at,
                 has_texture: false,
                 has_colors: false,

@@ -43,6 +43,7 @@ impl Finish<'_> {
 pub struct Lighting {
     ambient: f32,
     lamps: Vec<Lamp>,
+    points: Vec<DVec3>,
 }
 
 /// A light that comes from somewhere.
@@ -56,25 +57,16 @@ struct Lamp {
 enum LightSource {
     /// Far away, in this unit direction.
     Towards(Vec3),
-    /// In the point of light with this number.
+    /// In the point with this number.
     At(usize),
     /// Where the viewing ray begins.
     AtCamera,
 }
 
-/// The points from which light comes in all directions, relative to the eye, in the order of the scene's lights.
-pub fn points_of_light(view: &View) -> Vec<DVec3> {
-    let points = view.scene.lights.iter().filter_map(|light| match light {
-        Light::Point { position, .. } => Some(view.offset(*position)),
-        Light::Ambient { .. } | Light::Directional { .. } | Light::AtCamera { .. } => None,
-    });
-    points.collect()
-}
-
 impl Lighting {
     /// The lights of the view's scene, around its eye.
     pub fn new(view: &View) -> Lighting {
-        let (mut ambient, mut lamps, mut points) = (0.0, Vec::new(), 0..);
+        let (mut ambient, mut lamps, mut points) = (0.0, Vec::new(), Vec::new());
         for light in &view.scene.lights {
             let (place, intensity) = match *light {
                 Light::Ambient { intensity } => {
@@ -84,19 +76,25 @@ impl Lighting {
                 Light::Directional { direction, intensity } => {
                     (LightSource::Towards(-direction.normalize_or_zero()), intensity)
                 }
-                Light::Point { intensity, .. } => {
-                    (LightSource::At(points.next().expect("numbers go on")), intensity)
+                Light::Point { position, intensity } => {
+                    points.push(view.offset(position));
+                    (LightSource::At(points.len() - 1), intensity)
                 }
                 Light::AtCamera { intensity } => (LightSource::AtCamera, intensity),
             };
             lamps.push(Lamp { place, intensity });
         }
-        Lighting { ambient, lamps }
+        Lighting { ambient, lamps, points }
+    }
+
+    /// The points from which light comes in all directions, relative to the eye, in the order of the scene's lights.
+    pub fn points(&self) -> &[DVec3] {
+        &self.points
     }
 
     /// The linear red, green and blue of surface points of one material: ambient light, Lambert's cosine and a
     /// Blinn–Phong highlight. Colours above 1 are left to the picture to clamp. `to_light` gives the ways from the surface
-    /// points to the [point of light](points_of_light) with a number, of any length.
+    /// points to the point of light with a number among [`Lighting::points`], of any length between 2⁻⁶⁰ and 2⁶⁰.
     ///
     /// Blinn, "Models of Light Reflection for Computer Synthesized Pictures", SIGGRAPH 1977.
     #[inline(always)]
@@ -182,9 +180,9 @@ mod tests {
     use crate::scene::Scene;
 
     /// The colours of a point in front of the eye that faces it, at every level of SIMD.
-    fn colors(material: &Material, light: Light) -> Vec<[f32; 3]> {
+    fn colors(material: &Material, lights: &[Light]) -> Vec<[f32; 3]> {
         let mut scene = Scene::new(Vec::new()).unwrap();
-        scene.lights = vec![light];
+        scene.lights = lights.to_vec();
         let camera = Camera::canonical(1, 1);
         let lighting = Lighting::new(&View::new(&scene, &camera));
         let of_level = |level| {
@@ -198,7 +196,11 @@ mod tests {
                     tint: [zero; 3],
                 };
                 let finish = Finish::new(material, false);
-                lighting.colors(simd, &points, &finish, |_| towards).map(|channel| channel[3])
+                // The point lies before the eye.
+                let to_light = |light: usize| {
+                    Vec3x16::splat(simd, lighting.points()[light].as_vec3() + Vec3::Z)
+                };
+                lighting.colors(simd, &points, &finish, to_light).map(|channel| channel[3])
             })
         };
         levels().into_iter().map(of_level).collect()
@@ -215,14 +217,27 @@ mod tests {
             Light::Point { position: eye, intensity: 1.0 },
         ];
         for light in shown {
-            for color in colors(&material, light) {
+            for color in colors(&material, &[light]) {
                 assert_eq!(color, [0.5, 0.25, 0.0], "{light:?}");
             }
         }
         let behind = Light::Directional { direction: Vec3::Z, intensity: 1.0 };
-        assert!(colors(&material, behind).iter().all(|color| *color == [0.0; 3]));
+        assert!(colors(&material, &[behind]).iter().all(|color| *color == [0.0; 3]));
         let nowhere = Light::Directional { direction: Vec3::ZERO, intensity: 1.0 };
-        assert!(colors(&material, nowhere).iter().all(|color| *color == [0.0; 3]));
+        assert!(colors(&material, &[nowhere]).iter().all(|color| *color == [0.0; 3]));
+    }
+
+    #[test]
+    fn each_point_of_light_lights_in_its_own_direction() {
+        let material = Material { color: Vec3::ONE, ..Material::default() };
+        let eye = Camera::canonical(1, 1).eye();
+        // The point that is seen is one before the eye.
+        let at = |place: Vec3, intensity: f32| Light::Point { position: eye + place, intensity };
+        let behind = Light::Directional { direction: Vec3::Z, intensity: 1.0 };
+        let lights = [at(Vec3::ZERO, 0.5), behind, at(Vec3::X, 0.25), at(-3.0 * Vec3::Z, 1.0)];
+        for [red, ..] in colors(&material, &lights) {
+            assert!((red - (0.5 + 0.25 * 0.5_f32.sqrt())).abs() < 1e-6, "{red}");
+        }
     }
 
     #[test]
@@ -233,7 +248,8 @@ mod tests {
             let (sine, cosine) = degrees.to_radians().sin_cos();
             let direction = Vec3::new(sine, 0.0, -cosine);
             let expected = 0.5 * (degrees.to_radians() / 2.0).cos().powf(20.0);
-            for [red, ..] in colors(&material, Light::Directional { direction, intensity: 1.0 }) {
+            for [red, ..] in colors(&material, &[Light::Directional { direction, intensity: 1.0 }])
+            {
                 assert!((red - expected).abs() < 1e-5, "{degrees}: {red} {expected}");
             }
         }

@@ -1,6 +1,7 @@
 //! The point of a primitive that is seen at a sample, to the digits of an `f64`.
 //!
-//! A stored `t` has 20 binary digits. From afar they are too few to tell the points of a surface apart.
+//! A stored `t` has 20 binary digits. From afar they are too few to tell the points of a surface apart. Spheres need their points; flat forms
+//! do only for points of light, and where [functions](super::ways) do not give the ways to these.
 //!
 //! Functions here are `#[inline]`: where triangles are as small as samples, each sample sets up its own, and calls between
 //! codegen units take a fifth of the time of shading.

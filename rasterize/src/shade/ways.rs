@@ -14,42 +14,57 @@ use glam::DVec3;
 #[derive(Clone, Debug)]
 pub(super) struct WaysToLights(Box<[[Affine; 3]]>);
 
-/// The product of a normal and a way from a ray's origin to the form is at least this part of their lengths: with less, rounding might hide
-/// on which side of the form the rays begin.
+/// What is computed is at least this part of what it would be if nothing cancelled in it: so nine of sixteen digits may cancel, and its sign
+/// is certain.
 const LEAST: f64 = 1e-9;
 
+/// With more points of light, functions for all of them would fill the caches.
+const MOST_LIGHTS: usize = 4;
+
 impl WaysToLights {
-    /// `None` for a sphere; and where the form is seen so nearly edge-on, or numbers are so extreme, that six digits may be lost.
+    /// `None` for a sphere; for a form that is nearly a line, that is seen nearly edge-on, or that is far larger than its way from
+    /// the eye, so that too many digits cancel; and if there are too many lights.
     #[inline]
     pub(super) fn new(view: &View, primitive: &Primitive, lights: &[DVec3]) -> Option<Self> {
-        // The square of what the normal's length would be if no digits had cancelled in it.
-        let (point, normal, square) = match *primitive {
+        if lights.len() > MOST_LIGHTS {
+            return None;
+        }
+        // The normal, and the squares of what its length would be if no digits had cancelled in it, and of the farthest point's way.
+        let (point, normal, uncancelled, farthest) = match *primitive {
             Primitive::Triangle([a, b, c]) => {
                 let (along_b, along_c) = (b - a, c - a);
-                let square = along_b.length_squared() * along_c.length_squared();
-                (a, along_b.cross(along_c), square)
+                let uncancelled = along_b.length_squared() * along_c.length_squared();
+                let [of_a, of_b, of_c] = [a, b, c].map(DVec3::length_squared);
+                (a, along_b.cross(along_c), uncancelled, of_a.max(of_b).max(of_c))
             }
-            Primitive::Plane { point, normal } => (point, normal, normal.length_squared()),
+            Primitive::Plane { point, normal } => {
+                (point, normal, normal.length_squared(), point.length_squared())
+            }
             Primitive::Sphere { .. } => return None,
         };
         let plane = Plane::new(view, point, normal);
+        let is_certain = |number: f64, square: f64| number * number >= LEAST * LEAST * square;
         // Perspective rays begin in one point and parallel ones go in one direction: so one of the two functions is constant, and its
         // sign is that of the denominator, wherever the form is seen.
         let (constant, square) = match view.camera.projection() {
-            Projection::Perspective => (-plane.above.at_center, square * point.length_squared()),
-            Projection::Parallel => (plane.along.at_center, square),
+            Projection::Perspective => (-plane.above.at_center, uncancelled * farthest),
+            Projection::Parallel => (plane.along.at_center, uncancelled),
         };
-        let is_certain = constant * constant >= LEAST * LEAST * square && square > 0.0;
-        if !is_certain {
+        if !is_certain(constant, square) || uncancelled == 0.0 {
             return None;
         }
-        let ways = lights.iter().map(|light| {
+        let mut ways = Vec::with_capacity(lights.len());
+        for light in lights {
             let coordinates = DVec3::AXES.map(|axis| plane.offset_along(view, axis, *light));
             let largest: f64 = coordinates.iter().map(|at| at.largest(view)).sum();
             let scale = -constant.signum() / largest;
-            scale.is_finite().then(|| coordinates.map(|at| at * scale))
-        });
-        ways.collect::<Option<_>>().map(WaysToLights)
+            let square = uncancelled * (farthest + light.length_squared()) * longest_ray(view);
+            if !(is_certain(largest, square) && scale.is_finite()) {
+                return None;
+            }
+            ways.push(coordinates.map(|at| at * scale));
+        }
+        Some(WaysToLights(ways.into()))
     }
 
     /// Writes down the ways from some samples.
@@ -60,6 +75,17 @@ impl WaysToLights {
                 each!(half in [&samples.low, &samples.high] => way_from(simd, way, half));
             points.set_to_light(number, low.narrow(high));
         }
+    }
+}
+
+/// No direction of a viewing ray has a larger squared length.
+fn longest_ray(view: &View) -> f64 {
+    let (camera, [width, height]) = (view.camera, view.camera.viewport());
+    match camera.projection() {
+        Projection::Perspective => {
+            camera.distance().powi(2) + (width * width + height * height) * 0.25
+        }
+        Projection::Parallel => 1.0,
     }
 }
 
@@ -90,7 +116,7 @@ mod tests {
         all[0].clone()
     }
 
-    /// Points are chosen first, then planes and triangles through them, often seen almost edge-on.
+    /// Points are chosen first, then planes and triangles through them, often seen almost edge-on, or far larger than the way to the point.
     #[test]
     fn ways_lead_from_what_is_seen_to_the_lights() {
         let (mut found, mut missing, mut worst) = (0, 0, 0.0_f64);
@@ -107,24 +133,27 @@ mod tests {
                 let tilt = dice.power([-12.0, 1.0]);
                 let along = (ray.direction + tilt * dice.vector()).normalize();
                 let beside = along.cross(dice.vector()).normalize();
-                let [size, other] = [[-2.0, 1.0]; 2].map(|of| dice.power(of));
+                let [size, other] = [[-2.0, 5.0]; 2].map(|of| dice.power(of));
                 let first = point - size * along - other * beside;
                 let corners = [first, first + 3.0 * size * along, first + 3.0 * other * beside];
                 let facing = along.cross(beside).dot(ray.direction.normalize()).abs();
                 let normal = along.cross(beside) * dice.power([-3.0, 3.0]);
-                let lights = [0; 2].map(|_| point + dice.power([-2.0, 2.0]) * dice.vector());
+                let lights = [0; 2].map(|_| point + dice.power([-2.0, 4.0]) * dice.vector());
                 for primitive in
                     [Primitive::Triangle(corners), Primitive::Plane { point: first, normal }]
                 {
                     let Some(ways) = WaysToLights::new(&view, &primitive, &lights) else {
                         missing += 1;
-                        assert!(facing < 1e-6, "{facing:e} {primitive:?}");
+                        let farthest = corners.map(DVec3::length).into_iter().fold(0.0, f64::max);
+                        assert!(facing < 1e-6 * (1.0 + farthest), "{facing:e} {primitive:?}");
                         continue;
                     };
                     found += 1;
                     for (way, light) in ways_at(&ways, place).into_iter().zip(lights) {
                         let expected = light - point;
-                        let size = (light.length() + point.length()) / expected.length();
+                        let lengths = [light, point, corners[0], corners[1], corners[2]];
+                        let size =
+                            lengths.map(DVec3::length).into_iter().sum::<f64>() / expected.length();
                         let off = way.normalize().distance(expected.normalize());
                         worst = worst.max(off / size);
                     }
@@ -145,6 +174,7 @@ mod tests {
         let facing = [[0.0, 0.0, -2.0], [1.0, 0.0, -2.0], [0.0, 1.0, -2.0]];
         assert!(ways(triangle(facing)).is_some());
         let none = [
+            triangle([[0.0, 0.0, -2.0], [1.0, 0.0, -2e9], [0.0, 1.0, -2e9]]),
             triangle([[0.0, 0.0, -2.0], [1.0, 0.0, -2.0], [1.0, 0.0, -3.0]]),
             triangle([[1.0; 3]; 3]),
             triangle(facing.map(|corner| corner.map(|number: f64| 1e300 * number))),

@@ -32,12 +32,12 @@ pub(super) fn find_distances(
     const FEW: u32 = 4;
     let first = (lanes.trailing_zeros() & 15) as usize;
     // Beyond the picture there is nothing to look up.
-    let is_triangle = tile.sample(from + first).is_some() && {
-        let (object, _) = map.view.scene.locate(tile.names.id(ids[first]));
-        !matches!(map.view.scene.objects()[object].shape, Shape::Sphere(_) | Shape::Plane(_))
-    };
-    if lanes.count_ones() >= FEW && is_triangle {
-        return dispatch!(best_level(), simd => find_in_lanes(simd, map, tile, from, (lanes, ids), t));
+    if lanes.count_ones() >= FEW && tile.sample(from + first).is_some() {
+        let object = LastObject::of(map.view.scene, tile.names.id(ids[first]));
+        if object.has_triangles {
+            let which = (lanes, ids, object);
+            return dispatch!(best_level(), simd => find_in_lanes(simd, map, tile, from, which, t));
+        }
     }
     for lane in (0..16).filter(|lane| lanes >> lane & 1 == 1) {
         if let Some(Sample { row, column }) = tile.sample(from + lane) {
@@ -53,24 +53,21 @@ fn find_in_lanes<S: Simd>(
     map: &CameraMap,
     tile: &TileBuffer,
     from: usize,
-    (mut lanes, ids): (u64, &[u32; 16]),
+    (mut lanes, ids, mut last): (u64, &[u32; 16], LastObject),
     t: &mut [f32; 16],
 ) {
     let scene = map.view.scene;
-    let (mut pairs, mut last) = (Pairs::default(), LastMesh { ids: 0..0, mesh: None });
+    let mut pairs = Pairs::default();
     while lanes != 0 {
         let lane = (lanes.trailing_zeros() & 15) as usize;
         lanes &= lanes - 1;
         let Some(Sample { row, column }) = tile.sample(from + lane) else { continue };
         let (id, place) = (tile.names.id(ids[lane]), [map.grid.x()[column], map.grid.y()[row]]);
         if !last.ids.contains(&id) {
-            last = LastMesh::of(scene, id);
+            last = LastObject::of(scene, id);
         }
         // Corners of a mesh are read from where they are: to copy three vectors takes longer than all else here.
-        if let Some(mesh) = last.mesh {
-            let local = usize::try_from(id - last.ids.start).expect("a mesh fits into memory");
-            let [a, b, c] = mesh.triangles()[local];
-            let corners = each!(vertex in [a, b, c] => &mesh.positions()[vertex as usize]);
+        if let Some(corners) = last.corners(id) {
             pairs.add(lane, place, corners);
         } else if let Some([a, b, c]) = scene.triangle(id) {
             pairs.add(lane, place, [&a, &b, &c]);
@@ -86,22 +83,33 @@ fn find_in_lanes<S: Simd>(
     }
 }
 
-/// The mesh of the primitive that was looked at last, if it is of one: mostly the next one is of it, too.
-struct LastMesh<'a> {
+/// The object of the primitive that was looked at last: mostly the next one is of it, too.
+struct LastObject<'a> {
     ids: Range<u64>,
+    has_triangles: bool,
+    /// It, if it is a mesh.
     mesh: Option<&'a Mesh>,
 }
 
-impl<'a> LastMesh<'a> {
-    /// The mesh of this primitive.
-    #[cold]
-    fn of(scene: &'a Scene, id: u64) -> LastMesh<'a> {
+impl<'a> LastObject<'a> {
+    /// The object of this primitive.
+    fn of(scene: &'a Scene, id: u64) -> LastObject<'a> {
         let (object, _) = scene.locate(id);
-        let mesh = match &scene.objects()[object].shape {
-            Shape::Mesh(mesh) => Some(mesh),
-            _ => None,
+        let (has_triangles, mesh) = match &scene.objects()[object].shape {
+            Shape::Mesh(mesh) => (true, Some(mesh)),
+            Shape::Triangle(_) | Shape::Instances(_) => (true, None),
+            Shape::Sphere(_) | Shape::Plane(_) => (false, None),
         };
-        LastMesh { ids: scene.ids_of(object), mesh }
+        LastObject { ids: scene.ids_of(object), has_triangles, mesh }
+    }
+
+    /// The corners of one of its triangles, if it is a mesh.
+    #[inline(always)]
+    fn corners(&self, id: u64) -> Option<[&'a Vec3; 3]> {
+        let mesh = self.mesh?;
+        let local = usize::try_from(id - self.ids.start).expect("a mesh fits into memory");
+        let [a, b, c] = mesh.triangles()[local];
+        Some(each!(vertex in [a, b, c] => &mesh.positions()[vertex as usize]))
     }
 }
 
@@ -215,7 +223,44 @@ mod tests {
     use super::super::triangle;
     use super::*;
     use bothways_common::engine::simd::levels;
-    use bothways_common::{Camera, CameraDescription, Projection};
+    use bothways_common::glam::{DAffine3, DVec3};
+    use bothways_common::{
+        Camera, CameraDescription, Instances, Object, Placement, Plane, Projection, Sphere,
+        Triangle,
+    };
+
+    #[test]
+    fn an_object_has_the_corners_of_its_triangles() {
+        let fan = |count: u16| {
+            let places = (0..count).map(|k| Vec3::new(f32::from(k), f32::from(k * k), 1.0));
+            let triangles = (2..u32::from(count)).map(|k| [0, k - 1, k]);
+            Mesh::new(places.collect(), triangles.collect()).unwrap()
+        };
+        let [a, b, c] = [Vec3::X, Vec3::Y, Vec3::Z];
+        let placement = Placement::from_affine(&DAffine3::from_scale(DVec3::splat(2.0)));
+        let shapes = [
+            Shape::Mesh(fan(30)),
+            Shape::Triangle(Triangle { a, b, c }),
+            Shape::from(Instances::new(fan(7), vec![placement; 3]).unwrap()),
+            Shape::Sphere(Sphere { center: a, radius: 1.0 }),
+            Shape::Mesh(fan(40)),
+            Shape::Plane(Plane { point: a, normal: b }),
+        ];
+        let scene = || Scene::new(shapes.iter().cloned().map(Object::from).collect()).unwrap();
+        for scene in [scene(), scene().with_wide_ids()] {
+            let mut meshes = 0;
+            for id in 0..scene.primitive_count() {
+                let (object, expected) = (LastObject::of(&scene, id), scene.triangle(id));
+                assert!(object.ids.contains(&id), "{id}");
+                assert_eq!(object.has_triangles, expected.is_some());
+                if let Some(corners) = object.corners(id) {
+                    assert_eq!(Some(corners.map(|corner| *corner)), expected);
+                    meshes += 1;
+                }
+            }
+            assert!(meshes > 50, "{meshes}");
+        }
+    }
 
     #[test]
     fn eight_at_a_time_are_as_one_by_one() {

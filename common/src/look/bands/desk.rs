@@ -22,7 +22,7 @@ const MANY_KEPT: usize = HASHES;
 pub(super) struct Setting<'a, A> {
     pub(super) view: &'a View<'a>,
     pub(super) surfaces: &'a A,
-    pub(super) wanted: Wanted,
+    pub(super) wanted: Wanted<'a>,
 }
 
 /// Short names of wide ids: their numbers among those that are kept.

@@ -16,7 +16,7 @@ pub(super) struct Found<'a> {
     ids: Range<u64>,
     /// Its mesh, if it is one.
     mesh: Option<&'a Mesh>,
-    wanted: Wanted,
+    wanted: Wanted<'a>,
     /// Whether nothing is wanted of what has the object's material but normals.
     is_plain: bool,
 }
@@ -26,7 +26,7 @@ pub(super) type Corners = [[[f32; 8]; 3]; 6];
 
 impl<'a> Found<'a> {
     /// The object that this primitive belongs to.
-    pub(super) fn of(scene: &'a Scene, id: u64, wanted: Wanted) -> Found<'a> {
+    pub(super) fn of(scene: &'a Scene, id: u64, wanted: Wanted<'a>) -> Found<'a> {
         let (number, _) = scene.locate(id);
         let object = &scene.objects()[number];
         let mesh = match &object.shape {

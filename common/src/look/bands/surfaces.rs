@@ -217,10 +217,10 @@ impl<S: Simd> EightTriangles<S> {
 }
 
 /// What shading needs of surfaces besides their normals.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Wanted {
-    /// The ways from their points to the points of light.
-    pub to_lights: bool,
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Wanted<'a> {
+    /// The ways from their points to these points of light, which are relative to the eye.
+    pub lights: &'a [DVec3],
     /// Their texture coordinates, even where no pattern is drawn.
     pub texture_coordinates: bool,
     /// How these move from sample to sample, even where no texture needs it.
@@ -268,7 +268,7 @@ impl<S: Simd> Rays<S> {
         Rays::through(simd, camera, u * x + v * y)
     }
 
-    /// Those through some places of a row of the viewport, with the same bits.
+    /// Those through some places of a row of the viewport, with the bits of [`Rays::of_camera`].
     #[inline(always)]
     pub fn of_row(simd: S, camera: &Camera, x: f64x8<S>, y: f64) -> Rays<S> {
         let up = DVec3x8::splat(simd, camera.v() * y);
@@ -296,11 +296,31 @@ impl<S: Simd> Rays<S> {
     }
 }
 
+/// Whether the squares of some vectors' lengths are ordinary numbers in `f32`.
+#[inline(always)]
+fn is_in_range<S: Simd>(vectors: DVec3x8<S>) -> bool {
+    /// 2⁶⁰.
+    const FARTHEST: f64 = (1_u64 << 60) as f64;
+    let size = vectors.max_magnitude();
+    let [least, most] =
+        each!(size in [1.0 / FARTHEST, FARTHEST] => f64x8::splat(vectors.x.simd, size));
+    (size.simd_gt(least) & size.simd_lt(most)).all_true()
+}
+
+/// The vectors' directions, with lengths from 1 to 2; what is zero, infinite or not a number becomes not a number, which has none.
+#[inline(always)]
+fn brought_into_range<S: Simd>(vectors: DVec3x8<S>) -> DVec3x8<S> {
+    let one = f64x8::splat(vectors.x.simd, 1.0);
+    vectors * (one / vectors.max_magnitude())
+}
+
 /// Where to write what is seen at sixteen samples. It goes to memory at once: what is passed on in many vectors, some of
 /// which may be missing, is copied several times on its way.
 #[derive(Debug)]
 pub struct Points<'a> {
     pub(super) chunk: &'a mut Chunk,
+    /// Those of [`Wanted`].
+    pub(super) lights: &'a [DVec3],
     /// The first of the samples in the chunk.
     pub(super) at: usize,
     pub(super) has_texture: bool,
@@ -315,19 +335,26 @@ impl Points<'_> {
         store_sixteen(normals, &mut self.chunk.normal, self.at);
     }
 
-    /// The ways to the [point of light](crate::look::shade::points_of_light) with this number, of any length between 2⁻⁶⁰ and
-    /// 2⁶⁰: if they are wanted.
+    /// The ways to the point of light with this number, of any length between 2⁻⁶⁰ and 2⁶⁰. The ways to all of them are to be set,
+    /// or [the points](Points::set_points).
     #[inline(always)]
     pub fn set_to_light<S: Simd>(&mut self, light: usize, ways: Vec3x16<S>) {
         store_sixteen(ways, &mut self.chunk.to_lights[light], self.at);
     }
 
-    /// The ways to all points of light from points, relative to the eye, two times eight: in `f64`, as the eye may be far away.
+    /// Where the points are, relative to the eye, two times eight: in `f64`, as the eye may be far away. Sets the ways to all points
+    /// of light.
     #[inline(always)]
-    pub fn set_to_lights<S: Simd>(&mut self, lights: &[DVec3], [low, high]: [DVec3x8<S>; 2]) {
-        for (number, light) in lights.iter().enumerate() {
-            let light = DVec3x8::splat(low.x.simd, *light);
-            self.set_to_light(number, (light - low).narrow(light - high));
+    pub fn set_points<S: Simd>(&mut self, points: [DVec3x8<S>; 2]) {
+        for (number, light) in self.lights.iter().enumerate() {
+            let light = DVec3x8::splat(points[0].x.simd, *light);
+            let [low, high] = each!(k in [0, 1] => light - points[k]);
+            let ways = if is_in_range(low) & is_in_range(high) {
+                low.narrow(high)
+            } else {
+                brought_into_range(low).narrow(brought_into_range(high))
+            };
+            self.set_to_light(number, ways);
         }
     }
 
