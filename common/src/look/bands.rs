@@ -21,7 +21,7 @@ use crate::look::shade::{Finish, Lighting, SurfacePoints};
 use crate::raster::Sample;
 use crate::scene::material::Material;
 use crate::view::View;
-use chunk::{CHUNK, Chunk, eight, sixteen, sixteen_vectors};
+use chunk::{CHUNK, Chunk, Vectors, eight, sixteen, sixteen_vectors};
 use desk::{Desk, Kept, KeptLook, KeptSurface, Run, Setting};
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
@@ -232,7 +232,8 @@ impl<'a, A: Surfaces> Look<'a, A> {
         start: Sample,
         texture: &mut KeptTexture,
     ) {
-        let (runs, chunk, mut begin) = (desk.runs.of_chunk(), &mut *desk.chunk, 0);
+        let (runs, mut begin) = (desk.runs.of_chunk(), 0);
+        let (chunk, to_lights) = (&mut *desk.chunk, &mut desk.to_lights[..]);
         for &Run { end, place } in runs {
             let run = begin..end;
             begin = end;
@@ -253,18 +254,22 @@ impl<'a, A: Surfaces> Look<'a, A> {
                 }
                 KeptLook::Surface(place) => {
                     let surface = &desk.surfaces[*place as usize];
-                    self.find_run(simd, chunk, (surface, material), (start, run), texture);
+                    let (seen, run) = ((surface, *material), (start, run));
+                    self.find_run(simd, chunk, to_lights, seen, run, texture);
                 }
             }
         }
     }
 
     /// The same for one run.
+    ///
+    /// The chunk and the ways to lights are parameters of their own: so the compiler knows that to write them changes no surface.
     #[inline(always)]
     fn find_run<S: Simd>(
         &self,
         simd: S,
         chunk: &mut Chunk,
+        to_lights: &mut [Vectors],
         (KeptSurface { surface, is_tinted }, material): (&KeptSurface<A::Surface>, &Material),
         (start, run): (Sample, Range<usize>),
         texture: &mut KeptTexture,
@@ -291,6 +296,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
             // What is written beyond the run is overwritten by the next one.
             let mut points = Points {
                 chunk: &mut *chunk,
+                to_lights: &mut *to_lights,
                 lights: self.setting.wanted.lights,
                 at,
                 has_texture: false,
@@ -335,7 +341,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
     ) {
         let y = f32x16::splat(simd, self.down[start.row]);
         let background = self.setting.view.scene.background;
-        let (chunk, mut begin) = (&mut *desk.chunk, 0);
+        let (chunk, to_lights, mut begin) = (&mut *desk.chunk, &desk.to_lights[..], 0);
         let kept_of = |run: &Run| run.place.map(|place| &desk.kept[place as usize]);
         let is_tinted = |kept: &Kept<A::Local>| match kept.look {
             KeptLook::Local(_) => false,
@@ -373,7 +379,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
                     fraction: sixteen(simd, &chunk.fraction, at),
                     tint: each!(k in [0, 1, 2] => sixteen(simd, &chunk.tint[k], at)),
                 };
-                let to_light = |light: usize| sixteen_vectors(simd, &chunk.to_lights[light], at);
+                let to_light = |light: usize| sixteen_vectors(simd, &to_lights[light], at);
                 let colors = self.lighting.colors(simd, &points, &finish, to_light);
                 if needs_colors {
                     let [red, green, blue] = &mut chunk.color;

@@ -1,6 +1,8 @@
 //! Vectors of space in SIMD lanes: of eight samples in `f64`, of sixteen in `f32`.
 
-use crate::engine::simd::{Select, Simd, SimdBase, SimdFloat, SimdNarrow, f32x16, f64x8, mask64x8};
+use crate::engine::simd::{
+    Select, Simd, SimdBase, SimdFloat, SimdMask, SimdNarrow, f32x16, f64x8, mask64x8,
+};
 use glam::{DVec3, Vec3};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -250,6 +252,26 @@ impl<S: Simd> Vec3x16<S> {
         Lanes { x: -self.x, y: -self.y, z: -self.z }
     }
 
+    /// The vectors with length 1, also where the squares of their lengths are beyond all numbers, or too small to be told; zero where
+    /// a length is 0, infinite or not a number.
+    #[inline(always)]
+    pub fn directions(self, simd: S) -> Self {
+        /// 2¹²⁰ and 2⁻¹²⁰: a square between them has all its digits.
+        const LARGE: f32 = f32::from_bits((127 + 120) << 23);
+        const SMALL: f32 = 1.0 / LARGE;
+        let [one, large, small] =
+            each!(number in [1.0, LARGE, SMALL] => f32x16::splat(simd, number));
+        let square = self.dot(self);
+        let is_usual = square.simd_gt(small) & square.simd_lt(large);
+        if is_usual.all_true() {
+            return self * (one / square.sqrt());
+        }
+        // Powers of two change no digit.
+        let size = self.x.abs().max(self.y.abs()).max(self.z.abs());
+        let scale = is_usual.select(one, size.simd_gt(one).select(small, large));
+        (self * scale).normalized(simd)
+    }
+
     /// The vectors with length 1; zero where the square of a length is 0, infinite or not a number.
     #[inline(always)]
     pub fn normalized(self, simd: S) -> Self {
@@ -261,6 +283,40 @@ impl<S: Simd> Vec3x16<S> {
             x: is_length.select(self.x * factor, zero),
             y: is_length.select(self.y * factor, zero),
             z: is_length.select(self.z * factor, zero),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::simd::{dispatch, levels};
+
+    #[test]
+    fn vectors_of_any_length_have_directions() {
+        let shape = Vec3::new(2.0, -3.0, 6.0);
+        let lengths = [1e-44, 1e-40, 1e-30, 1e-19, 1e-18, 1e-17, 1.0, 1e17, 1e18, 1e19, 1e25, 5e37];
+        let none = [Vec3::ZERO, Vec3::X * f32::INFINITY, Vec3::NAN];
+        let vectors = lengths.map(|length| shape * length).into_iter().chain(none);
+        let vectors: Vec<Vec3> = vectors.chain([shape]).collect();
+        let directions = |level, of: &dyn Fn(usize) -> Vec3| -> [Vec3; 16] {
+            dispatch!(level, simd => {
+                let axis = |k: usize| f32x16::from_fn(simd, |lane| of(lane)[k]);
+                let Lanes { x, y, z } =
+                    Lanes { x: axis(0), y: axis(1), z: axis(2) }.directions(simd);
+                std::array::from_fn(|lane| Vec3::new(x[lane], y[lane], z[lane]))
+            })
+        };
+        for level in levels() {
+            let together = directions(level, &|lane| vectors[lane]);
+            for (vector, direction) in vectors.iter().zip(together) {
+                // The least numbers have few digits, which are those of the vector itself.
+                let expected = vector.as_dvec3().normalize_or_zero();
+                let off = direction.as_dvec3().distance(expected);
+                assert!(off < 1e-6, "{level:?} {vector}: {direction}, not {expected}");
+                // Neighbours change no bit.
+                assert_eq!(directions(level, &|_| *vector), [direction; 16]);
+            }
         }
     }
 }

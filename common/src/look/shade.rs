@@ -94,7 +94,7 @@ impl Lighting {
 
     /// The linear red, green and blue of surface points of one material: ambient light, Lambert's cosine and a
     /// Blinn–Phong highlight. Colours above 1 are left to the picture to clamp. `to_light` gives the ways from the surface
-    /// points to the point of light with a number among [`Lighting::points`], of any length between 2⁻⁶⁰ and 2⁶⁰.
+    /// points to the point of light with a number among [`Lighting::points`], of any length.
     ///
     /// Blinn, "Models of Light Reflection for Computer Synthesized Pictures", SIGGRAPH 1977.
     #[inline(always)]
@@ -112,7 +112,7 @@ impl Lighting {
         for Lamp { place, intensity } in &self.lamps {
             let to_light = match place {
                 LightSource::Towards(direction) => Vec3x16::splat(simd, *direction),
-                LightSource::At(number) => to_light(*number).normalized(simd),
+                LightSource::At(number) => to_light(*number).directions(simd),
                 LightSource::AtCamera => points.to_viewer,
             };
             let cosine = points.normals.dot(to_light);

@@ -7,15 +7,16 @@ use crate::look::lanes::{Lanes, Vec3x16};
 pub(super) const CHUNK: usize = 256;
 /// What vectors may write beyond the last sample.
 const BEYOND: usize = 16;
-const WIDE: usize = CHUNK + BEYOND;
+pub(super) const WIDE: usize = CHUNK + BEYOND;
+
+/// A vector for each sample of a chunk.
+pub(super) type Vectors = [[f32; WIDE]; 3];
 
 /// Numbers of the samples of a chunk.
 #[derive(Debug)]
 pub(super) struct Chunk {
     pub(super) x: [f64; WIDE],
     pub(super) t: [f64; WIDE],
-    /// The ways to each point of light, of any length.
-    pub(super) to_lights: Vec<[[f32; WIDE]; 3]>,
     pub(super) normal: [[f32; WIDE]; 3],
     pub(super) coordinate: [[f64; WIDE]; 2],
     pub(super) footprint: [[f32; WIDE]; 2],
@@ -30,12 +31,11 @@ pub(super) struct Chunk {
 }
 
 impl Chunk {
-    /// Zeros, for so many points of light.
-    pub(super) fn new(lights: usize) -> Chunk {
+    /// Zeros.
+    pub(super) fn new() -> Chunk {
         Chunk {
             x: [0.0; WIDE],
             t: [0.0; WIDE],
-            to_lights: vec![[[0.0; WIDE]; 3]; lights],
             normal: [[0.0; WIDE]; 3],
             coordinate: [[0.0; WIDE]; 2],
             footprint: [[0.0; WIDE]; 2],
@@ -71,7 +71,7 @@ pub(super) fn sixteen_vectors<S: Simd>(
 }
 
 #[inline(always)]
-pub(super) fn store_sixteen<S: Simd>(vectors: Vec3x16<S>, to: &mut [[f32; WIDE]; 3], at: usize) {
+pub(super) fn store_sixteen<S: Simd>(vectors: Vec3x16<S>, to: &mut Vectors, at: usize) {
     let [to_x, to_y, to_z] = to;
     vectors.x.store_slice(&mut to_x[at..at + 16]);
     vectors.y.store_slice(&mut to_y[at..at + 16]);

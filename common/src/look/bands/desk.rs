@@ -1,6 +1,6 @@
 //! What a thread works with while it shades: the samples of a chunk, and the primitives that are seen there.
 
-use super::chunk::Chunk;
+use super::chunk::{Chunk, Vectors, WIDE};
 use super::found::Found;
 use super::surfaces::{EightTriangles, Seen, SetUp, Surfaces, Wanted};
 use crate::engine::simd::{Simd, SimdBase, SimdMask, u32x16};
@@ -49,6 +49,8 @@ pub(super) struct Desk<'a, A: Surfaces> {
     /// Their ids.
     new_ids: Vec<u64>,
     pub(super) chunk: Box<Chunk>,
+    /// The ways from the samples of the chunk to each point of light, of any length.
+    pub(super) to_lights: Vec<Vectors>,
     pub(super) runs: Runs,
     /// Of each pixel of the row, the sum over its samples; none where a pixel has one sample.
     pub(super) sums: Vec<Vec3>,
@@ -123,7 +125,8 @@ impl<'a, A: Surfaces> Desk<'a, A> {
             looks_at_t: false,
             new: Vec::new(),
             new_ids: Vec::new(),
-            chunk: Box::new(Chunk::new(lights)),
+            chunk: Box::new(Chunk::new()),
+            to_lights: vec![[[0.0; WIDE]; 3]; lights],
             runs: Runs::default(),
             sums: vec![Vec3::ZERO; sums],
         }

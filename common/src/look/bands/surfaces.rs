@@ -1,6 +1,6 @@
 //! What a renderer says of its surfaces, sixteen samples at a time.
 
-use super::chunk::{Chunk, eight, sixteen, store_sixteen};
+use super::chunk::{Chunk, Vectors, eight, sixteen, store_sixteen};
 use super::local::LocalNormals;
 use crate::camera::{Camera, Projection};
 use crate::engine::simd::{Simd, SimdBase, SimdMask, f32x16, f64x8, mask64x8};
@@ -296,29 +296,12 @@ impl<S: Simd> Rays<S> {
     }
 }
 
-/// Whether the squares of some vectors' lengths are ordinary numbers in `f32`.
-#[inline(always)]
-fn is_in_range<S: Simd>(vectors: DVec3x8<S>) -> bool {
-    /// 2⁶⁰.
-    const FARTHEST: f64 = (1_u64 << 60) as f64;
-    let size = vectors.max_magnitude();
-    let [least, most] =
-        each!(size in [1.0 / FARTHEST, FARTHEST] => f64x8::splat(vectors.x.simd, size));
-    (size.simd_gt(least) & size.simd_lt(most)).all_true()
-}
-
-/// The vectors' directions, with lengths from 1 to 2; what is zero, infinite or not a number becomes not a number, which has none.
-#[inline(always)]
-fn brought_into_range<S: Simd>(vectors: DVec3x8<S>) -> DVec3x8<S> {
-    let one = f64x8::splat(vectors.x.simd, 1.0);
-    vectors * (one / vectors.max_magnitude())
-}
-
 /// Where to write what is seen at sixteen samples. It goes to memory at once: what is passed on in many vectors, some of
 /// which may be missing, is copied several times on its way.
 #[derive(Debug)]
 pub struct Points<'a> {
     pub(super) chunk: &'a mut Chunk,
+    pub(super) to_lights: &'a mut [Vectors],
     /// Those of [`Wanted`].
     pub(super) lights: &'a [DVec3],
     /// The first of the samples in the chunk.
@@ -335,11 +318,11 @@ impl Points<'_> {
         store_sixteen(normals, &mut self.chunk.normal, self.at);
     }
 
-    /// The ways to the point of light with this number, of any length between 2⁻⁶⁰ and 2⁶⁰. The ways to all of them are to be set,
-    /// or [the points](Points::set_points).
+    /// The ways to the point of light with this number, of any length. The ways to all of them are to be set, or
+    /// [the points](Points::set_points).
     #[inline(always)]
     pub fn set_to_light<S: Simd>(&mut self, light: usize, ways: Vec3x16<S>) {
-        store_sixteen(ways, &mut self.chunk.to_lights[light], self.at);
+        store_sixteen(ways, &mut self.to_lights[light], self.at);
     }
 
     /// Where the points are, relative to the eye, two times eight: in `f64`, as the eye may be far away. Sets the ways to all points
@@ -349,12 +332,7 @@ impl Points<'_> {
         for (number, light) in self.lights.iter().enumerate() {
             let light = DVec3x8::splat(points[0].x.simd, *light);
             let [low, high] = each!(k in [0, 1] => light - points[k]);
-            let ways = if is_in_range(low) & is_in_range(high) {
-                low.narrow(high)
-            } else {
-                brought_into_range(low).narrow(brought_into_range(high))
-            };
-            self.set_to_light(number, ways);
+            self.set_to_light(number, low.narrow(high));
         }
     }
 
