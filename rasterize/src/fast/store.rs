@@ -27,7 +27,12 @@ pub(super) fn store<S: Simd>(simd: S, picture: &Picture, buffer: &mut TileBuffer
             (names.chunks_mut(region.columns.len()).collect(), rows)
         }
     };
-    store_rows(simd, picture, buffer, names_of_rows, t);
+    // Compiled once for each way of writing: chosen within the loop, it sometimes costs a sixth of a small frame.
+    if picture.past_caches {
+        store_rows::<true, _>(simd, picture, buffer, names_of_rows, t);
+    } else {
+        store_rows::<false, _>(simd, picture, buffer, names_of_rows, t);
+    }
     for (names, ids) in names.chunks(region.columns.len()).zip(wide) {
         for (id, &name) in ids.iter_mut().zip(names) {
             *id = if name == NO_PRIMITIVE { NO_WIDE_PRIMITIVE } else { buffer.names.id(name) };
@@ -37,7 +42,7 @@ pub(super) fn store<S: Simd>(simd: S, picture: &Picture, buffer: &mut TileBuffer
 
 /// Writes names and distances, row by row.
 #[inline(always)]
-fn store_rows<S: Simd>(
+fn store_rows<const PAST_CACHES: bool, S: Simd>(
     simd: S,
     picture: &Picture,
     buffer: &mut TileBuffer,
@@ -53,11 +58,12 @@ fn store_rows<S: Simd>(
         let whole = 16 * whole_ids.len();
         for (at, (ids, t)) in (0..).step_by(16).zip(whole_ids.iter_mut().zip(whole_t)) {
             next.prefetch(at);
-            store_sixteen(simd, picture, buffer, start + at, (ids, t));
+            store_sixteen::<PAST_CACHES, _>(simd, picture, buffer, start + at, (ids, t));
         }
         if !rest_ids.is_empty() {
             let (mut ids, mut t) = ([NO_PRIMITIVE; 16], [f32::INFINITY; 16]);
-            store_sixteen(simd, picture, buffer, start + whole, (&mut ids, &mut t));
+            let last = (&mut ids, &mut t);
+            store_sixteen::<PAST_CACHES, _>(simd, picture, buffer, start + whole, last);
             rest_ids.copy_from_slice(&ids[..rest_ids.len()]);
             rest_t.copy_from_slice(&t[..rest_t.len()]);
         }
@@ -76,6 +82,18 @@ pub(super) fn store_nothing(picture: &Picture, tile: Tile) {
             return;
         }
     };
+    if picture.past_caches {
+        store_rows_of_nothing::<true>(picture, ids, t);
+    } else {
+        store_rows_of_nothing::<false>(picture, ids, t);
+    }
+}
+
+fn store_rows_of_nothing<const PAST_CACHES: bool>(
+    picture: &Picture,
+    ids: Vec<&mut [u32]>,
+    t: Vec<&mut [f32]>,
+) {
     let mut rows = ids.into_iter().zip(t).peekable();
     while let Some((ids, t)) = rows.next() {
         let next = NextRow::new(picture, rows.peek());
@@ -83,8 +101,8 @@ pub(super) fn store_nothing(picture: &Picture, tile: Tile) {
         let (whole_t, rest_t) = t.as_chunks_mut::<16>();
         for (at, (ids, t)) in (0..).step_by(16).zip(whole_ids.iter_mut().zip(whole_t)) {
             next.prefetch(at);
-            write(picture, [NO_PRIMITIVE; 16], ids);
-            write(picture, [f32::INFINITY; 16], t);
+            write::<PAST_CACHES, _>([NO_PRIMITIVE; 16], ids);
+            write::<PAST_CACHES, _>([f32::INFINITY; 16], t);
         }
         rest_ids.fill(NO_PRIMITIVE);
         rest_t.fill(f32::INFINITY);
@@ -118,7 +136,7 @@ impl<'a> NextRow<'a> {
 
 /// Writes sixteen samples of a row, from an index of the buffer on.
 #[inline(always)]
-fn store_sixteen<S: Simd>(
+fn store_sixteen<const PAST_CACHES: bool, S: Simd>(
     simd: S,
     picture: &Picture,
     buffer: &mut TileBuffer,
@@ -130,8 +148,8 @@ fn store_sixteen<S: Simd>(
     let keys = f32x16::from_slice(simd, stored_keys);
     let nothing = keys.simd_eq(f32x16::splat(simd, NOTHING));
     if nothing.all_true() {
-        write(picture, [NO_PRIMITIVE; 16], ids);
-        write(picture, [f32::INFINITY; 16], t);
+        write::<PAST_CACHES, _>([NO_PRIMITIVE; 16], ids);
+        write::<PAST_CACHES, _>([f32::INFINITY; 16], t);
         return;
     }
     f32x16::splat(simd, NOTHING).store_slice(stored_keys);
@@ -144,8 +162,8 @@ fn store_sixteen<S: Simd>(
         let first = buffer.sample(from);
         judge_distances(picture, &buffer.names, first, &seen, unsure.to_bitmask(), &mut distances);
     }
-    write(picture, seen, ids);
-    write(picture, distances, t);
+    write::<PAST_CACHES, _>(seen, ids);
+    write::<PAST_CACHES, _>(distances, t);
 }
 
 /// Whether a frame of so many samples, and what is drawn into it, leave a quarter of the largest cache free. Then it stays there from
@@ -167,8 +185,8 @@ pub(super) fn stays_in_caches(prepared: &Prepared, samples: usize) -> bool {
 
 /// Writes sixteen numbers of a frame.
 #[inline(always)]
-fn write<T: Copy + Sixteen>(picture: &Picture, numbers: [T; 16], to: &mut [T; 16]) {
-    if picture.past_caches {
+fn write<const PAST_CACHES: bool, T: Copy + Sixteen>(numbers: [T; 16], to: &mut [T; 16]) {
+    if PAST_CACHES {
         stream(numbers, to);
     } else {
         *to = numbers;
