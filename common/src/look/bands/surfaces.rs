@@ -395,3 +395,33 @@ impl<S: Simd> Samples<S> {
         (t - self.t).abs().simd_le(f64x8::splat(simd, STORED_ERROR) * self.t)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::CameraDescription;
+    use crate::engine::simd::{dispatch, levels};
+
+    #[test]
+    fn rays_of_a_row_are_those_of_the_camera() {
+        for projection in [Projection::Perspective, Projection::Parallel] {
+            let eye = Vec3::new(0.7, -1.1, 3.0);
+            let description = CameraDescription { projection, eye, ..Default::default() };
+            let camera = Camera::new(description).unwrap();
+            for (level, y) in levels().into_iter().zip([0.3, -0.7, 1e-9, 1e9].into_iter().cycle()) {
+                dispatch!(level, simd => {
+                    let x = f64x8::from_fn(simd, |lane| 0.37 * lane as f64 - 1.0);
+                    let row = Rays::of_row(simd, &camera, x, y);
+                    let places = Rays::of_camera(simd, &camera, [x, f64x8::splat(simd, y)]);
+                    for lane in 0..8 {
+                        let ray = camera.ray_through(x[lane], y);
+                        for rays in [&row, &places] {
+                            assert_eq!(rays.origin.lane(lane), ray.origin);
+                            assert_eq!(rays.direction.lane(lane), ray.direction);
+                        }
+                    }
+                });
+            }
+        }
+    }
+}
