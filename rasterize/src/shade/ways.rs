@@ -18,7 +18,7 @@ pub(super) struct WaysToLights(Box<[[Affine; 3]]>);
 /// is certain.
 const LEAST: f64 = 1e-9;
 
-/// With more points of light, functions for all of them would fill the caches.
+/// With more points of light, the point that is seen takes less room than functions for all of them. This number is a guess.
 const MOST_LIGHTS: usize = 4;
 
 impl WaysToLights {
@@ -53,12 +53,12 @@ impl WaysToLights {
         if !is_certain(constant, square) || uncancelled == 0.0 {
             return None;
         }
-        let mut ways = Vec::with_capacity(lights.len());
+        let (mut ways, longest_ray) = (Vec::with_capacity(lights.len()), longest_ray(view));
         for light in lights {
             let coordinates = DVec3::AXES.map(|axis| plane.offset_along(view, axis, *light));
             let largest: f64 = coordinates.iter().map(|at| at.largest(view)).sum();
             let scale = -constant.signum() / largest;
-            let square = uncancelled * (farthest + light.length_squared()) * longest_ray(view);
+            let square = uncancelled * (farthest + light.length_squared()) * longest_ray;
             if !(is_certain(largest, square) && scale.is_finite()) {
                 return None;
             }
@@ -184,5 +184,7 @@ mod tests {
         for primitive in none {
             assert!(ways(primitive).is_none(), "{primitive:?}");
         }
+        let of_many = |count| WaysToLights::new(&view, &triangle(facing), &vec![DVec3::Y; count]);
+        assert!(of_many(MOST_LIGHTS).is_some() && of_many(MOST_LIGHTS + 1).is_none());
     }
 }
