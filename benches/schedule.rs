@@ -6,7 +6,7 @@
 //! (memory, caches), and are what the cutting of the work allows at most.
 //!
 //! For each number of threads, frames are cut as they are for so many; the speed-up is over the frame on one thread, as
-//! that is cut.
+//! that is cut. Below it stands what this machine really reaches, as far as it has the cores, for visibility and for shading.
 //!
 //! `cargo bench --bench schedule -- [SCENE...] [--tile ROWSxCOLUMNS]` draws built-in scenes or files; without any, some that
 //! differ much. `--tile` tries other tiles in object order (powers of two).
@@ -23,6 +23,8 @@ use std::time::{Duration, Instant};
 
 /// Of so many frames the fastest counts.
 const FRAMES: usize = 15;
+/// Frames on several threads are shorter, and meet more that disturbs them.
+const MEASURED_FRAMES: usize = 60;
 const FULL_HD: [u32; 2] = [1920, 1080];
 const THREADS: [usize; 4] = [2, 4, 8, 16];
 
@@ -47,16 +49,20 @@ fn main() -> ExitCode {
     if names.is_empty() {
         cases = usual();
     }
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("there is a thread");
     println!(
         "{:16} {:>6} {:>6} {:>9} {:>9} {:>9}  speed-up on {THREADS:?} threads",
         "scene", "order", "tasks", "all, ms", "serial", "longest"
     );
     for (name, scene, camera) in &cases {
         let view = View::new(scene, camera);
-        pool.install(|| measure(name, &view, tile));
+        pool(1).install(|| predict(name, &view, tile));
+        measure(name, &view, tile);
     }
     ExitCode::SUCCESS
+}
+
+fn pool(threads: usize) -> rayon::ThreadPool {
+    rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("there are threads")
 }
 
 /// The names of scenes, and the logarithms of a tile's rows and columns.
@@ -104,14 +110,11 @@ fn usual() -> Vec<(String, Scene, Camera)> {
     cases
 }
 
-/// Draws frames in both orders, and prints the line of each.
-fn measure(name: &str, view: &View, tile: Option<[u32; 2]>) {
+/// Draws frames in both orders on one thread, and prints how many threads each could keep busy.
+fn predict(name: &str, view: &View, tile: Option<[u32; 2]>) {
     let (times, options) = (Arc::new(TaskTimes::default()), Options::default());
     let mut frame = Frame::new(view.camera, &options);
-    let mut prepared = rasterize::fast::prepare(view.scene).timed_by(times.clone());
-    if let Some(tile) = tile {
-        prepared = prepared.drawn_with(best_level(), tile);
-    }
+    let mut prepared = object_order(view, tile).timed_by(times.clone());
     print(name, "object", &times, |threads| {
         prepared.cut_for_threads(if tile.is_some() { 0 } else { threads });
         rasterize::fast::determine_visibility(&prepared, view, &options, &mut frame, &mut ());
@@ -121,6 +124,32 @@ fn measure(name: &str, view: &View, tile: Option<[u32; 2]>) {
         prepared.cut_for_threads(threads);
         raytrace::fast::determine_visibility(&prepared, view, &options, &mut frame, &mut ());
     });
+}
+
+/// Draws and shades frames in both orders on more and more threads, and prints how much faster they become.
+fn measure(name: &str, view: &View, tile: Option<[u32; 2]>) {
+    let options = Options::default();
+    let mut frame = Frame::new(view.camera, &options);
+    let mut prepared = object_order(view, tile);
+    print_measured(name, "object", |threads| {
+        prepared.cut_for_threads(if tile.is_some() { 0 } else { threads });
+        rasterize::fast::determine_visibility(&prepared, view, &options, &mut frame, &mut ());
+    });
+    print_measured(name, "object, shading", |_| rasterize::shade(view, &mut frame));
+    let mut prepared = raytrace::fast::prepare(view.scene);
+    print_measured(name, "image", |threads| {
+        prepared.cut_for_threads(threads);
+        raytrace::fast::determine_visibility(&prepared, view, &options, &mut frame, &mut ());
+    });
+    print_measured(name, "image, shading", |_| raytrace::shade(view, &mut frame));
+}
+
+fn object_order(view: &View, tile: Option<[u32; 2]>) -> rasterize::fast::Prepared {
+    let prepared = rasterize::fast::prepare(view.scene);
+    match tile {
+        Some(tile) => prepared.drawn_with(best_level(), tile),
+        None => prepared,
+    }
 }
 
 /// The fastest of some frames that are cut for a number of threads.
@@ -171,4 +200,25 @@ fn print(name: &str, order: &str, times: &TaskTimes, mut draw: impl FnMut(usize)
         milliseconds(one.longest()),
         speedups.join(" ")
     );
+}
+
+fn print_measured(name: &str, what: &str, mut draw: impl FnMut(usize) + Send) {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let mut fastest = |threads| {
+        pool(threads).install(|| {
+            let frames = (0..MEASURED_FRAMES).map(|_| {
+                let begun = Instant::now();
+                draw(threads);
+                begun.elapsed().as_secs_f64()
+            });
+            frames.min_by(f64::total_cmp).expect("there are frames")
+        })
+    };
+    let one = fastest(1);
+    let speedups = THREADS.map(|threads| match threads <= cores {
+        true => format!("{:5.1}", one / fastest(threads)),
+        false => format!("{:>5}", "–"),
+    });
+    let columns = format!("{what}, measured");
+    println!("{name:16} {columns:>33} {:9.3}  {}", 1e3 * one, speedups.join(" "));
 }
