@@ -65,7 +65,8 @@ use bothways_common::engine::context::LoopContext;
 use bothways_common::engine::fault::{Fault, Planted, Sound};
 use bothways_common::engine::memory::filled;
 use bothways_common::engine::simd::{Level, dispatch, dispatch_with};
-use bothways_common::engine::tasks::{self, TaskTimes};
+use bothways_common::engine::tasks::TaskTimes;
+use bothways_common::frame::Tile;
 use bothways_common::observe::{Events, Executed, Observer};
 use bothways_common::{Frame, Options, Scene, Shape, View};
 use camera_map::CameraMap;
@@ -243,13 +244,17 @@ fn run(
         clusters: &prepared.clusters,
         shared: &prepared.shared,
     };
-    let mut executed = bin_primitives(prepared, &geometry, bins, observer, loops);
-
+    let times = prepared.times.as_deref();
     let past_caches = !stays_in_caches(prepared, frame.region().area());
+    let mut cut = Vec::new();
+    let mut executed = rayon::in_place_scope(|scope| {
+        scope.spawn(|_| cut = cut_into_tiles(frame, &tiling, times));
+        bin_primitives(prepared, &geometry, bins, observer, loops)
+    });
+
     let picture = Picture { view, map: &map, keys, past_caches };
     let drawing = Drawing { geometry: &geometry, picture: &picture, bins, level: prepared.level };
-    let times = prepared.times.as_deref();
-    executed += draw_tiles(&drawing, frame, tiles, observer, loops, times);
+    executed += draw_tiles(&drawing, cut, tiles, observer, loops, times);
     *lock(&prepared.recycled) = recycled;
     executed
 }
@@ -267,7 +272,7 @@ fn place_vertices(
     vertices: &mut Vec<Vertex>,
 ) {
     /// Vertices that one thread takes up at a time.
-    const CHUNK: usize = 4096;
+    const CHUNK: usize = 1024;
     let count = prepared.first_vertices[prepared.first_vertices.len() - 1];
     let times = prepared.times.as_deref();
     if vertices.len() != count {
@@ -330,18 +335,30 @@ fn bin_primitives(
     executed
 }
 
+/// The tiles of a frame, cut by all threads, beside a stage that does not need them: a slice for each row of each tile is too
+/// much for one thread.
+fn cut_into_tiles<'a>(
+    frame: &'a mut Frame,
+    tiling: &Tiling,
+    times: Option<&TaskTimes>,
+) -> Vec<Tile<'a>> {
+    let bands = frame.bands_mut(tiling.rows).into_par_iter();
+    bands.flat_map_iter(|band| TaskTimes::time(times, || band.tiles_mut(tiling.columns))).collect()
+}
+
 /// Draws every tile, and stores it in the frame. `buffers` are those of earlier frames, and become those of this one.
 fn draw_tiles(
     drawing: &Drawing,
-    frame: &mut Frame,
+    mut tiles: Vec<Tile>,
     buffers: &mut Vec<TileBuffer>,
     observer: &mut dyn AnyObserver,
     loops: &Loops,
     times: Option<&TaskTimes>,
 ) -> Executed {
     let Drawing { geometry: &Geometry { view, tiling, .. }, picture, bins, level } = *drawing;
-    let mut tiles = tasks::tiles_mut(frame, [tiling.rows, tiling.columns], times);
     let dropped = (loops.is)(Planted::DroppedTile).then_some(tiles.len() / 2);
+    let mut work = vec![0; tiles.len()];
+    bins.iter().flat_map(BatchBins::work).for_each(|(tile, some)| work[*tile] += some);
     let free = Mutex::new(std::mem::take(buffers));
     let mut executed = Executed::default();
     TaskTimes::begin_stage(times);
@@ -349,13 +366,11 @@ fn draw_tiles(
         // Tiles with most to draw come first, so that all threads end at about the same time.
         let mut queue: Vec<_> =
             std::mem::take(&mut tiles).into_iter().zip(parts).enumerate().collect();
-        queue.sort_by_cached_key(|(index, _)| {
-            Reverse(bins.iter().map(|bins| bins.work(*index)).sum::<usize>())
-        });
+        queue.sort_by_key(|(index, _)| Reverse(work[*index]));
         let (count, queue) = (queue.len(), Mutex::new(queue.into_iter()));
         let of_tiles = (0..count).into_par_iter().with_max_len(1).map(|_| {
             let (index, (tile, part)) = lock(&queue).next().expect("there are as many");
-            if dropped == Some(index) || bins.iter().all(|bins| bins.work(index) == 0) {
+            if dropped == Some(index) || work[index] == 0 {
                 TaskTimes::time(times, || store_nothing(picture, tile));
                 return Executed::default().of_one_tile();
             }

@@ -56,8 +56,8 @@ use bothways_common::engine::any_observer::{AnyObserver, PartObserver};
 use bothways_common::engine::context::{LoopContext, ScalarContext};
 use bothways_common::engine::fault::{Fault, Planted, Sound};
 use bothways_common::engine::simd::{best_level, dispatch_with};
-use bothways_common::engine::tasks::{self, TaskTimes};
-use bothways_common::frame::{IdRows, NO_PRIMITIVE, Tile};
+use bothways_common::engine::tasks::TaskTimes;
+use bothways_common::frame::{Band, IdRows, NO_PRIMITIVE, Tile};
 use bothways_common::observe::{Events, Executed, Observer};
 use bothways_common::raster::Region;
 use bothways_common::{Frame, Options, Scene, View};
@@ -195,25 +195,32 @@ fn run(
 
     let times = prepared.times.as_deref();
     let columns = chunk_for_threads(prepared, frame.region());
-    let mut chunks = tasks::tiles_mut(frame, [prepared.side, columns], times);
-    let dropped = (loops.is)(Planted::DroppedTile).then_some(chunks.len() / 2);
+    let across = frame.region().tiles(usize::MAX, columns).count();
+    let mut bands = frame.bands_mut(prepared.side);
+    let dropped = (loops.is)(Planted::DroppedTile).then_some(bands.len() * across / 2);
     let mut executed = Executed::default();
     TaskTimes::begin_stage(times);
-    observer.in_parts(chunks.len(), &mut |parts| {
-        let draw = |(index, (chunk, part)): (_, (Tile, &mut _))| {
+    observer.in_parts(bands.len() * across, &mut |mut parts| {
+        let draw = |(index, (chunk, part)): (_, (Tile, &mut &mut dyn PartObserver))| {
             if dropped == Some(index) {
                 drop_chunk(chunk);
                 return Executed::default();
             }
             let mut walker = Walker::new(prepared, &map, &unbounded);
-            if let Some(sink) = PartObserver::sink(part) {
+            if let Some(sink) = part.sink() {
                 (loops.watch)(&mut walker, [&of_tile, &of_square, &of_ray], &chunk, sink);
             }
             (loops.trace)(&mut walker, &of_tile, chunk)
         };
-        let chunks = std::mem::take(&mut chunks).into_par_iter().zip(parts);
-        let each = chunks.with_max_len(1).enumerate();
-        executed = each.map(|chunk| TaskTimes::time(times, || draw(chunk))).sum();
+        // A band is cut by the thread that takes it up: a slice for each row of each chunk is too much for one thread.
+        let draw_band = |(index, (band, parts)): (usize, (Band, &mut [_]))| -> Executed {
+            let chunks = TaskTimes::time(times, || band.tiles_mut(columns));
+            let each = chunks.into_par_iter().zip(parts).with_max_len(1).enumerate();
+            let numbered = each.map(|(column, chunk)| (index * across + column, chunk));
+            numbered.map(|chunk| TaskTimes::time(times, || draw(chunk))).sum()
+        };
+        let bands = std::mem::take(&mut bands).into_par_iter().zip(parts.par_chunks_mut(across));
+        executed = bands.with_max_len(1).enumerate().map(draw_band).sum();
     });
     executed
 }

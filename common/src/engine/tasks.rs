@@ -1,7 +1,5 @@
 //! How long the tasks of a frame take: what a bench needs to say how many threads a renderer could keep busy.
 
-use crate::frame::{Frame, Tile};
-use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -37,18 +35,6 @@ impl TaskTimes {
     fn with<T>(&self, change: impl FnOnce(&mut Vec<Vec<Duration>>) -> T) -> T {
         change(&mut self.stages.lock().unwrap_or_else(PoisonError::into_inner))
     }
-}
-
-/// The tiles of [`Frame::tiles_mut`], cut by all threads: a slice for each row of each tile is too much for one. They are
-/// a stage of a frame.
-pub fn tiles_mut<'a>(
-    frame: &'a mut Frame,
-    [rows, columns]: [usize; 2],
-    times: Option<&TaskTimes>,
-) -> Vec<Tile<'a>> {
-    TaskTimes::begin_stage(times);
-    let bands = frame.bands_mut(rows).into_par_iter();
-    bands.flat_map_iter(|band| TaskTimes::time(times, || band.tiles_mut(columns))).collect()
 }
 
 /// The time that a stage takes on some threads, each of which takes the next task of the queue when it is done with one.

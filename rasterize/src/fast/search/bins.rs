@@ -85,6 +85,8 @@ pub(crate) struct BatchBins {
     instances: Vec<Vec<Instance>>,
     instanced: Vec<usize>,
     lists: Vec<Vec<u32>>,
+    /// See [`BatchBins::work`].
+    work: Vec<(usize, usize)>,
     /// The entries of some triangles at a time: they stay in the fastest cache until they go to their lists.
     entries: Vec<Entry>,
 }
@@ -100,11 +102,9 @@ impl BatchBins {
         &self.instances[tile]
     }
 
-    /// About how many primitives come to a tile.
-    pub(crate) fn work(&self, tile: usize) -> usize {
-        let lists = &self.lists[tile * SizeClass::COUNT as usize..][..SizeClass::COUNT as usize];
-        let clusters = self.clusters[tile].len() * CLUSTER as usize + self.instanced[tile];
-        clusters + lists.iter().map(Vec::len).sum::<usize>()
+    /// The tiles to which primitives of the batch come, and about how many to each.
+    pub(crate) fn work(&self) -> &[(usize, usize)] {
+        &self.work
     }
 
     /// The primitives of one class in a tile, other than those in clusters, by their slots: a slot is a name, if the
@@ -132,19 +132,44 @@ impl BatchBins {
         self.instances.iter_mut().for_each(Vec::clear);
         self.instanced.clear();
         self.instanced.resize(tiles, 0);
-        let scene = geometry.view.scene;
-        let (first_name, count) = match *batch {
-            Batch::Primitives { first_name, count } => (first_name, count),
+        match *batch {
+            Batch::Primitives { first_name, count } => {
+                self.add_primitives(context, (first_name, count), geometry, &mut executed);
+            }
             Batch::Instances { object, first, count } => {
                 let numbers = first..first + count;
                 self.add_instances(context, (object, numbers), geometry, &mut executed);
-                return executed;
             }
+        }
+        self.count_work();
+        executed
+    }
+
+    fn count_work(&mut self) {
+        let of_tile = |tile: usize| {
+            let lists = self.lists[tile * SizeClass::COUNT as usize..].iter();
+            let listed = lists.take(SizeClass::COUNT as usize).map(Vec::len).sum::<usize>();
+            self.clusters[tile].len() * CLUSTER as usize + self.instanced[tile] + listed
         };
+        let work = (0..self.clusters.len()).map(|tile| (tile, of_tile(tile)));
+        self.work.clear();
+        self.work.extend(work.filter(|(_, work)| *work > 0));
+    }
+
+    /// Adds consecutive primitives that are not of instances: the first one's name, and how many.
+    #[inline(always)]
+    fn add_primitives<C: Context>(
+        &mut self,
+        context: &mut C,
+        (first_name, count): (u32, u32),
+        geometry: &Geometry,
+        executed: &mut Executed,
+    ) {
+        let scene = geometry.view.scene;
         for piece in pieces(scene, first_name, count) {
             let id_and_slot = (piece.first_id, piece.first_name);
             match &scene.objects()[piece.object].shape {
-                Shape::Mesh(_) => self.add_clusters(context, &piece, geometry, &mut executed),
+                Shape::Mesh(_) => self.add_clusters(context, &piece, geometry, executed),
                 Shape::Instances(_) => unreachable!("they have batches of their own"),
                 Shape::Triangle(_) => {
                     executed.binned += 1;
@@ -162,7 +187,6 @@ impl BatchBins {
                 }
             }
         }
-        executed
     }
 
     /// Adds a piece of a mesh: clusters that lie in few tiles as they are, the triangles of others one by one.
