@@ -134,14 +134,16 @@ impl Canvas {
         }
     }
 
+    /// The image, in the memory of the canvas: a slide is as large as all else of a small run.
     fn into_image(self) -> RgbImage {
-        let mut image = RgbImage::new(self.pixels.width(), self.pixels.height());
+        let (width, height) = (self.pixels.width(), self.pixels.height());
+        let mut bytes = self.pixels.take();
         // The background is opaque, and so are all pixels.
-        let from = self.pixels.data().as_chunks::<4>().0;
-        for (to, &[red, green, blue, _]) in image.as_chunks_mut::<3>().0.iter_mut().zip(from) {
-            *to = [red, green, blue];
+        for pixel in 0..bytes.len() / 4 {
+            bytes.copy_within(4 * pixel..4 * pixel + 3, 3 * pixel);
         }
-        image
+        bytes.truncate(bytes.len() / 4 * 3);
+        RgbImage::from_raw(width, height, bytes).expect("three bytes a pixel")
     }
 }
 
