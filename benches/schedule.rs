@@ -135,13 +135,13 @@ fn measure(name: &str, view: &View, tile: Option<[u32; 2]>) {
         prepared.cut_for_threads(if tile.is_some() { 0 } else { threads });
         rasterize::fast::determine_visibility(&prepared, view, &options, &mut frame, &mut ());
     });
-    print_measured(name, "object, shading", |_| rasterize::shade(view, &mut frame));
+    print_measured(name, "object shading", |_| rasterize::shade(view, &mut frame));
     let mut prepared = raytrace::fast::prepare(view.scene);
     print_measured(name, "image", |threads| {
         prepared.cut_for_threads(threads);
         raytrace::fast::determine_visibility(&prepared, view, &options, &mut frame, &mut ());
     });
-    print_measured(name, "image, shading", |_| raytrace::shade(view, &mut frame));
+    print_measured(name, "image shading", |_| raytrace::shade(view, &mut frame));
 }
 
 fn object_order(view: &View, tile: Option<[u32; 2]>) -> rasterize::fast::Prepared {
@@ -219,6 +219,6 @@ fn print_measured(name: &str, what: &str, mut draw: impl FnMut(usize) + Send) {
         true => format!("{:5.1}", one / fastest(threads)),
         false => format!("{:>5}", "–"),
     });
-    let columns = format!("{what}, measured");
-    println!("{name:16} {columns:>33} {:9.3}  {}", 1e3 * one, speedups.join(" "));
+    let (milliseconds, speedups) = (1e3 * one, speedups.join(" "));
+    println!("{name:15} {what:>14} {milliseconds:9.3} {:>19}  {speedups}", "measured");
 }

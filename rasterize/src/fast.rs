@@ -247,6 +247,7 @@ fn run(
     let times = prepared.times.as_deref();
     let past_caches = !stays_in_caches(prepared, frame.region().area());
     let mut cut = Vec::new();
+    TaskTimes::begin_stage(times);
     let mut executed = rayon::in_place_scope(|scope| {
         scope.spawn(|_| cut = cut_into_tiles(frame, &tiling, times));
         bin_primitives(prepared, &geometry, bins, observer, loops)
@@ -322,7 +323,6 @@ fn bin_primitives(
     bins.resize_with(prepared.batches.len(), BatchBins::default);
     let mut executed = Executed::default();
     let times = prepared.times.as_deref();
-    TaskTimes::begin_stage(times);
     observer.in_parts(bins.len(), &mut |parts| {
         let batches = prepared.batches.par_iter().zip(bins.par_iter_mut()).zip(parts);
         let of_batches = batches.map(|((batch, bins), part)| {

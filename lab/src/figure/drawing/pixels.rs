@@ -134,7 +134,7 @@ impl Canvas {
         }
     }
 
-    /// The image, in the memory of the canvas: a slide is as large as all else of a small run.
+    /// The image, in the memory of the canvas: a slide is large beside the rest of a small run.
     fn into_image(self) -> RgbImage {
         let (width, height) = (self.pixels.width(), self.pixels.height());
         let mut bytes = self.pixels.take();
