@@ -112,43 +112,58 @@ fn usual() -> Vec<(String, Scene, Camera)> {
 
 /// Draws frames in both orders on one thread, and prints how many threads each could keep busy.
 fn predict(name: &str, view: &View, tile: Option<[u32; 2]>) {
-    let (times, options) = (Arc::new(TaskTimes::default()), Options::default());
-    let mut frame = Frame::new(view.camera, &options);
-    let mut prepared = object_order(view, tile).timed_by(times.clone());
-    print(name, "object", &times, |threads| {
-        prepared.cut_for_threads(if tile.is_some() { 0 } else { threads });
-        rasterize::fast::determine_visibility(&prepared, view, &options, &mut frame, &mut ());
-    });
-    let mut prepared = raytrace::fast::prepare(view.scene).timed_by(times.clone());
-    print(name, "image", &times, |threads| {
-        prepared.cut_for_threads(threads);
-        raytrace::fast::determine_visibility(&prepared, view, &options, &mut frame, &mut ());
-    });
+    let times = Arc::new(TaskTimes::default());
+    let mut frame = Frame::new(view.camera, &Options::default());
+    let mut draw = object_order(view, tile, Some(&times));
+    print(name, "object", &times, |threads| draw(&mut frame, threads));
+    let mut draw = image_order(view, Some(&times));
+    print(name, "image", &times, |threads| draw(&mut frame, threads));
 }
 
 /// Draws and shades frames in both orders on more and more threads, and prints how much faster they become.
 fn measure(name: &str, view: &View, tile: Option<[u32; 2]>) {
-    let options = Options::default();
-    let mut frame = Frame::new(view.camera, &options);
-    let mut prepared = object_order(view, tile);
-    print_measured(name, "object", |threads| {
-        prepared.cut_for_threads(if tile.is_some() { 0 } else { threads });
-        rasterize::fast::determine_visibility(&prepared, view, &options, &mut frame, &mut ());
-    });
+    let mut frame = Frame::new(view.camera, &Options::default());
+    let mut draw = object_order(view, tile, None);
+    print_measured(name, "object", |threads| draw(&mut frame, threads));
     print_measured(name, "object shading", |_| rasterize::shade(view, &mut frame));
-    let mut prepared = raytrace::fast::prepare(view.scene);
-    print_measured(name, "image", |threads| {
-        prepared.cut_for_threads(threads);
-        raytrace::fast::determine_visibility(&prepared, view, &options, &mut frame, &mut ());
-    });
+    let mut draw = image_order(view, None);
+    print_measured(name, "image", |threads| draw(&mut frame, threads));
     print_measured(name, "image shading", |_| raytrace::shade(view, &mut frame));
 }
 
-fn object_order(view: &View, tile: Option<[u32; 2]>) -> rasterize::fast::Prepared {
-    let prepared = rasterize::fast::prepare(view.scene);
-    match tile {
-        Some(tile) => prepared.drawn_with(best_level(), tile),
-        None => prepared,
+/// Draws a frame in object order, cut for a number of threads unless a tile is given.
+fn object_order<'a>(
+    view: &'a View,
+    tile: Option<[u32; 2]>,
+    times: Option<&Arc<TaskTimes>>,
+) -> impl FnMut(&mut Frame, usize) + Send + use<'a> {
+    let mut prepared = rasterize::fast::prepare(view.scene);
+    if let Some(times) = times {
+        prepared = prepared.timed_by(times.clone());
+    }
+    if let Some(tile) = tile {
+        prepared = prepared.drawn_with(best_level(), tile);
+    }
+    move |frame, threads| {
+        prepared.cut_for_threads(if tile.is_some() { 0 } else { threads });
+        let options = Options::default();
+        rasterize::fast::determine_visibility(&prepared, view, &options, frame, &mut ());
+    }
+}
+
+/// Draws a frame in image order, cut for a number of threads.
+fn image_order<'a>(
+    view: &'a View,
+    times: Option<&Arc<TaskTimes>>,
+) -> impl FnMut(&mut Frame, usize) + Send + use<'a> {
+    let mut prepared = raytrace::fast::prepare(view.scene);
+    if let Some(times) = times {
+        prepared = prepared.timed_by(times.clone());
+    }
+    move |frame, threads| {
+        prepared.cut_for_threads(threads);
+        let options = Options::default();
+        raytrace::fast::determine_visibility(&prepared, view, &options, frame, &mut ());
     }
 }
 
@@ -159,8 +174,8 @@ struct Fastest {
 }
 
 impl Fastest {
-    fn of(times: &TaskTimes, mut draw: impl FnMut()) -> Fastest {
-        let frames = (0..FRAMES).map(|_| {
+    fn of(frames: usize, times: &TaskTimes, mut draw: impl FnMut()) -> Fastest {
+        let frames = (0..frames).map(|_| {
             let begun = Instant::now();
             draw();
             Fastest { all: begun.elapsed(), stages: times.take() }
@@ -186,10 +201,10 @@ impl Fastest {
 }
 
 fn print(name: &str, order: &str, times: &TaskTimes, mut draw: impl FnMut(usize)) {
-    let one = Fastest::of(times, || draw(1));
+    let one = Fastest::of(FRAMES, times, || draw(1));
     let milliseconds = |time: Duration| 1e3 * time.as_secs_f64();
     let speedups = THREADS.map(|threads| {
-        let frame = Fastest::of(times, || draw(threads));
+        let frame = Fastest::of(FRAMES, times, || draw(threads));
         format!("{:5.1}", one.all.as_secs_f64() / frame.on(threads).as_secs_f64())
     });
     println!(
@@ -205,19 +220,18 @@ fn print(name: &str, order: &str, times: &TaskTimes, mut draw: impl FnMut(usize)
 fn print_measured(name: &str, what: &str, mut draw: impl FnMut(usize) + Send) {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let mut fastest = |threads| {
-        pool(threads).install(|| {
-            let frames = (0..MEASURED_FRAMES).map(|_| {
-                let begun = Instant::now();
-                draw(threads);
-                begun.elapsed().as_secs_f64()
-            });
-            frames.min_by(f64::total_cmp).expect("there are frames")
-        })
+        // No task is timed: that would take time of its own.
+        let frames = || Fastest::of(MEASURED_FRAMES, &TaskTimes::default(), || draw(threads));
+        pool(threads).install(frames).all.as_secs_f64()
     };
     let one = fastest(1);
-    let speedups = THREADS.map(|threads| match threads <= cores {
-        true => format!("{:5.1}", one / fastest(threads)),
-        false => format!("{:>5}", "–"),
+    let speedups = THREADS.map(|threads| {
+        let is_possible = threads <= cores;
+        if is_possible {
+            format!("{:5.1}", one / fastest(threads))
+        } else {
+            format!("{:>5}", "–")
+        }
     });
     let (milliseconds, speedups) = (1e3 * one, speedups.join(" "));
     println!("{name:15} {what:>14} {milliseconds:9.3} {:>19}  {speedups}", "measured");

@@ -247,6 +247,7 @@ fn run(
     let times = prepared.times.as_deref();
     let past_caches = !stays_in_caches(prepared, frame.region().area());
     let mut cut = Vec::new();
+    // Both are one stage: binning needs no tile of the frame.
     TaskTimes::begin_stage(times);
     let mut executed = rayon::in_place_scope(|scope| {
         scope.spawn(|_| cut = cut_into_tiles(frame, &tiling, times));
@@ -335,8 +336,7 @@ fn bin_primitives(
     executed
 }
 
-/// The tiles of a frame, cut by all threads, beside a stage that does not need them: a slice for each row of each tile is too
-/// much for one thread.
+/// The tiles of a frame, cut by all threads: a slice for each row of each tile is too much for one.
 fn cut_into_tiles<'a>(
     frame: &'a mut Frame,
     tiling: &Tiling,

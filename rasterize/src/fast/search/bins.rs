@@ -146,14 +146,14 @@ impl BatchBins {
     }
 
     fn count_work(&mut self) {
-        let of_tile = |tile: usize| {
-            let lists = self.lists[tile * SizeClass::COUNT as usize..].iter();
-            let listed = lists.take(SizeClass::COUNT as usize).map(Vec::len).sum::<usize>();
-            self.clusters[tile].len() * CLUSTER as usize + self.instanced[tile] + listed
-        };
-        let work = (0..self.clusters.len()).map(|tile| (tile, of_tile(tile)));
+        let lists = self.lists.chunks(SizeClass::COUNT as usize);
+        let tiles = lists.zip(&self.clusters).zip(&self.instanced);
+        let work = tiles.map(|((lists, clusters), instanced)| {
+            let listed = lists.iter().map(Vec::len).sum::<usize>();
+            clusters.len() * CLUSTER as usize + instanced + listed
+        });
         self.work.clear();
-        self.work.extend(work.filter(|(_, work)| *work > 0));
+        self.work.extend(work.enumerate().filter(|(_, work)| *work > 0));
     }
 
     /// Adds consecutive primitives that are not of instances: the first one's name, and how many.
