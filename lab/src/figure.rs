@@ -17,7 +17,7 @@ mod text;
 mod theme;
 
 pub use chart::sweep_chart;
-pub use drawing::{CANVAS, Drawing};
+pub use drawing::{Bands, CANVAS, Drawing};
 pub(crate) use film_page::{CodeLine, FilmHalf, FilmPage};
 pub use kinds::{Kind, WorkMap, work_at_samples, work_figure, work_maps};
 pub use legend::{Entry, with_legend};

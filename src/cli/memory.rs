@@ -29,10 +29,10 @@ const BYTES_PER_COUNTED_SAMPLE: u64 = 8 + 8;
 /// The bytes of a pixel in the frames' pictures, and while pictures are drawn, compared and compressed: of one order, or
 /// of both at once (measured with 3000 × 3000 pixels without the frames: 12).
 const BYTES_PER_PIXEL: [u64; 2] = [3 + 8, 6 + 12];
-/// The bytes for the program itself, and a slide of 1920 × 1080. The prepared data of an order (clusters, a
-/// hierarchy) and the data that it keeps from frame to frame (projected vertices, bins) are not counted: their size
-/// depends on the scene, and is small compared with a frame that is refused for its size.
-const BYTES_FOR_THE_REST: u64 = 32 << 20;
+/// The bytes for the program itself, and a slide, which is drawn in bands (measured with 16 × 12 pixels). The prepared
+/// data of an order (clusters, a hierarchy) and the data that it keeps from frame to frame (projected vertices, bins) are
+/// not counted: their size depends on the scene, and is small compared with a frame that is refused for its size.
+const BYTES_FOR_THE_REST: u64 = 16 << 20;
 
 /// From this number of bytes on, a run reports its memory in advance.
 const MUCH: u64 = 4 << 30;

@@ -284,8 +284,8 @@ impl<'a> Run<'a> {
                 comparison,
             };
             if wants(OnlyArg::Slide) {
-                let picture = move || slide.draw(Theme::Dark).pixels(SLIDE_WIDTH);
-                files.push(NewFile::rgb("side-by-side.png", picture));
+                let drawing = move || slide.draw(Theme::Dark);
+                files.push(NewFile::drawing("side-by-side.png", drawing, SLIDE_WIDTH));
             }
             let difference = move || {
                 let difference = comparison.classes().picture(by_object);

@@ -13,6 +13,7 @@ mod svg;
 pub use canvas::CANVAS;
 pub use items::Drawing;
 pub(crate) use items::{Anchor, Ink, Pen};
+pub use pixels::Bands;
 
 use super::text::{self, Style};
 use clip::Rectangle;
@@ -23,14 +24,13 @@ use std::io::Cursor;
 impl Drawing {
     /// A canvas of one colour. The title and the description are for those who cannot see the picture.
     pub(crate) fn new(title: &str, description: &str, background: [u8; 3]) -> Drawing {
-        let mut drawing = Drawing {
+        Drawing {
             title: title.into(),
             description: description.into(),
+            background,
             items: Vec::new(),
             window: Rectangle::CANVAS,
-        };
-        drawing.rectangle([0.0, 0.0], CANVAS, Ink::new(background));
-        drawing
+        }
     }
 
     /// The text of an SVG file. Its texts are outlines: it needs no fonts.
@@ -44,7 +44,18 @@ impl Drawing {
     ///
     /// If the width is 0, or more than 2¹⁴.
     pub fn pixels(&self, width: u32) -> RgbImage {
-        pixels::draw(self, width)
+        Bands::whole(self, width)
+    }
+
+    /// The same picture in bands, from the top to the bottom, for those who need no more than one at a time: each has
+    /// the width of the picture and some of its rows. Where a curve or a slanted line goes on from one band to the next, a
+    /// few pixels may differ a little from those of the whole picture.
+    ///
+    /// # Panics
+    ///
+    /// As [`Drawing::pixels`].
+    pub fn bands(&self, width: u32) -> Bands<'_> {
+        Bands::new(self, width)
     }
 
     /// The same as a PNG.

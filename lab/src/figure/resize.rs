@@ -2,6 +2,7 @@
 
 use crate::common::look::color::{linear_from_srgb, srgb_from_linear};
 use image::{Rgb, RgbImage};
+use std::borrow::Cow;
 use std::ops::RangeInclusive;
 
 /// The size of a picture in a frame. The picture fills the frame; but if the largest whole factor nearly fills the
@@ -49,18 +50,18 @@ pub(super) fn footprint(pixel: u32, from: u32, to: u32) -> RangeInclusive<u32> {
 }
 
 /// The picture in another size, for a size from [`fitted`].
-pub(super) fn resized(picture: &RgbImage, size: [u32; 2]) -> RgbImage {
+pub(super) fn resized(picture: &RgbImage, size: [u32; 2]) -> Cow<'_, RgbImage> {
     let [width, height] = [picture.width(), picture.height()];
     if size == [width, height] {
-        return picture.clone();
+        return Cow::Borrowed(picture);
     }
     if size[0].is_multiple_of(width) && size[1].is_multiple_of(height) {
         let (across, down) = (size[0] / width, size[1] / height);
-        return RgbImage::from_fn(size[0], size[1], |x, y| {
+        return Cow::Owned(RgbImage::from_fn(size[0], size[1], |x, y| {
             *picture.get_pixel(x / across, y / down)
-        });
+        }));
     }
-    averaged(picture, size)
+    Cow::Owned(averaged(picture, size))
 }
 
 /// The average, in linear light, of the area that each new pixel covers. In an enlarged picture, pixels stay squares
@@ -70,10 +71,11 @@ fn averaged(picture: &RgbImage, [width, height]: [u32; 2]) -> RgbImage {
     let columns = Overlaps::new(picture.width(), width);
     let rows = Overlaps::new(picture.height(), height);
 
-    // Written at once: pages of zeros that are read first cost a round to all threads at their first write.
-    let mut sums = Vec::new();
-    sums.resize(width as usize * height as usize, [0.0_f32; 3]);
+    let mut resized = RgbImage::new(width, height);
+    // The light of one old row in the new columns, and of the new row that old rows are being added to.
     let mut narrow = vec![[0.0_f32; 3]; width as usize];
+    let mut sums = narrow.clone();
+    let mut finished = resized.chunks_exact_mut(3 * width as usize);
     for (i, row) in picture.rows().enumerate() {
         narrow.fill([0.0; 3]);
         for (j, Rgb(pixel)) in row.enumerate() {
@@ -82,14 +84,16 @@ fn averaged(picture: &RgbImage, [width, height]: [u32; 2]) -> RgbImage {
                 add(&mut narrow[x], light, fraction);
             }
         }
+        let next = rows.of(i + 1).first().map(|&(y, _)| y);
         for &(y, fraction) in rows.of(i) {
-            let sums = &mut sums[y * width as usize..][..width as usize];
             sums.iter_mut().zip(&narrow).for_each(|(sum, light)| add(sum, *light, fraction));
+            if next != Some(y) {
+                let pixels = finished.next().expect("new rows are finished in their order");
+                for (pixel, sum) in pixels.as_chunks_mut::<3>().0.iter_mut().zip(&mut sums) {
+                    *pixel = std::mem::take(sum).map(srgb_from_linear);
+                }
+            }
         }
-    }
-    let mut resized = RgbImage::new(width, height);
-    for (pixel, [red, green, blue]) in resized.as_chunks_mut::<3>().0.iter_mut().zip(sums) {
-        *pixel = [srgb_from_linear(red), srgb_from_linear(green), srgb_from_linear(blue)];
     }
     resized
 }
@@ -127,9 +131,11 @@ impl Overlaps {
         Overlaps { all, ends }
     }
 
+    /// Those of one old pixel; none beyond the last.
     fn of(&self, pixel: usize) -> &[(usize, f32)] {
+        let Some(&end) = self.ends.get(pixel) else { return &[] };
         let begin = pixel.checked_sub(1).map_or(0, |before| self.ends[before]);
-        &self.all[begin..self.ends[pixel]]
+        &self.all[begin..end]
     }
 }
 

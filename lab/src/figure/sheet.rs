@@ -78,7 +78,7 @@ impl Sheet {
         // More than two pixels for each unit are more than any screen shows, and make large files.
         let finest = size.map(|side| 2 * side);
         let picture = if picture.width() > finest[0] || picture.height() > finest[1] {
-            resized(&picture, finest)
+            resized(&picture, finest).into_owned()
         } else {
             picture
         };

@@ -74,7 +74,10 @@ impl Slide<'_> {
         let size = fitted(classes.image(), PICTURE_FRAME);
         let [by_object, by_image] = self.pictures;
         let (shown, difference) = rayon::join(
-            || rayon::join(|| resized(by_object, size), || resized(by_image, size)),
+            || {
+                let shown = |picture| resized(picture, size).into_owned();
+                rayon::join(|| shown(by_object), || shown(by_image))
+            },
             || marked_difference(classes, by_object, size),
         );
         let orders = [(self.object_order, shown.0), (self.image_order, shown.1)];
@@ -161,7 +164,7 @@ fn difference(relative: f64) -> String {
 /// The difference image in its size on the slide. Every differing pixel is easy to see: where the pixel would be
 /// smaller, a square of [`SMALLEST_MARK`] pixels marks it.
 fn marked_difference(classes: &Classes, lit_by: &RgbImage, size: [u32; 2]) -> RgbImage {
-    let mut picture = resized(&classes.picture(lit_by), size);
+    let mut picture = resized(&classes.picture(lit_by), size).into_owned();
     let image = classes.image();
     // The worse class is painted later.
     let mut differing: Vec<_> = classes.differing().collect();

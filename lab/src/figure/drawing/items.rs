@@ -84,6 +84,8 @@ impl Text {
 pub struct Drawing {
     pub(super) title: String,
     pub(super) description: String,
+    /// The colour of the canvas, in sRGB.
+    pub(super) background: [u8; 3],
     pub(super) items: Vec<Item>,
     pub(super) window: Rectangle,
 }

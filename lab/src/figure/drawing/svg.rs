@@ -22,6 +22,8 @@ pub(super) fn write(drawing: &Drawing) -> String {
         escaped(&drawing.description)
     );
     svg += &letters(drawing);
+    let canvas = path(&[[0.0, 0.0], [width, 0.0], CANVAS, [0.0, height]]);
+    let _ = writeln!(svg, "<path d=\"{canvas}z\"{}/>", fill(Ink::new(drawing.background)));
     for item in &drawing.items {
         match item {
             Item::Fill { outline, ink } => {
