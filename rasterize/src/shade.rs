@@ -9,14 +9,15 @@ mod weights;
 
 use bothways_common::engine::simd::{Level, Simd, SimdBase, SimdNarrow, best_level, f64x8};
 use bothways_common::look::bands::{
-    self, EightTriangles, Points, Rays, Samples, Seen, SetUp, Sixteen, Surfaces, Wanted, are_alike,
+    self, EightTriangles, LocalVector, MOST_LIGHTS, Points, Rays, Samples, Seen, SetUp, Sixteen,
+    Surfaces, Wanted, are_alike,
 };
 use bothways_common::look::lanes::{DVec3x8, Lanes, Vec3x16, each};
 use bothways_common::look::texture::{self, TexturePoints};
 use bothways_common::{Frame, Primitive, View};
 use form::{Form, HitPoints};
 use glam::{DVec2, DVec3, Vec3};
-use local::{AffineNormals, Grid, Local};
+use local::{AffineLook, Grid, Local};
 use quotient::{Affine, Colors, Quotient};
 use ways::WaysToLights;
 use weights::{side_of, side_seen, weights, weights_of};
@@ -98,13 +99,18 @@ struct Smooth {
 
 impl Surfaces for Interpolated<'_> {
     type Surface = Surface;
-    type Local = AffineNormals;
+    type Local = AffineLook;
 
     #[inline(always)]
-    fn set_up(&self, seen: &Seen, wanted: Wanted) -> SetUp<Surface, AffineNormals> {
+    fn set_up(
+        &self,
+        seen: &Seen,
+        wanted: Wanted,
+        ways: &mut [LocalVector; MOST_LIGHTS],
+    ) -> SetUp<Surface, AffineLook> {
         let (view, primitive) = (self.view, &seen.primitive);
         let corners = seen.corner_normals();
-        if let Some(local) = self.local(seen, corners, wanted) {
+        if let Some(local) = self.local(seen, corners, wanted, ways) {
             return SetUp::Local(local);
         }
         let normals = Normals::new(view, primitive, corners);
@@ -122,12 +128,13 @@ impl Surfaces for Interpolated<'_> {
     fn set_up_eight<S: Simd>(
         &self,
         triangles: &EightTriangles<S>,
-        mut keep: impl FnMut(Option<SetUp<Surface, AffineNormals>>),
+        wanted: Wanted,
+        mut keep: impl FnMut(Option<AffineLook>, &[LocalVector; MOST_LIGHTS]),
     ) {
         let certain = triangles.are_alike();
         let local = Local::new(self.view, &self.grid, triangles.corners, triangles.normals);
-        local.each_of(triangles.used, |lane, normals| {
-            keep(normals.filter(|_| certain >> lane & 1 == 1).map(SetUp::Local));
+        local.each_of(triangles.used, wanted.lights, |lane, look, ways| {
+            keep(look.filter(|_| certain >> lane & 1 == 1), ways);
         });
     }
 
@@ -180,22 +187,24 @@ impl Surfaces for Interpolated<'_> {
 }
 
 impl Interpolated<'_> {
-    /// The normals of a small triangle of which nothing else is wanted, and whose corners' normals never cancel each other.
+    /// The look of a small triangle of which nothing is wanted but normals and the ways to lights, and whose corners' normals never
+    /// cancel each other.
     #[inline(always)]
     fn local(
         &self,
         seen: &Seen,
         normals: Option<[DVec3; 3]>,
         wanted: Wanted,
-    ) -> Option<AffineNormals> {
+        ways: &mut [LocalVector; MOST_LIGHTS],
+    ) -> Option<AffineLook> {
         let (Primitive::Triangle(corners), Some(normals)) = (seen.primitive, normals) else {
             return None;
         };
-        if !seen.needs_normals_alone(wanted) || !are_alike(normals) {
+        if !seen.is_plain(wanted) || !are_alike(normals) {
             return None;
         }
         let [corners, normals] = each!(three in [corners, normals] => three.map(Lanes::from));
-        Local::new(self.view, &self.grid, corners, normals).normals()
+        Local::new(self.view, &self.grid, corners, normals).look(wanted.lights, ways)
     }
 
     /// Where the points of a primitive are, if that is needed.

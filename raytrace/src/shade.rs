@@ -7,13 +7,14 @@ use bothways_common::engine::simd::{
     Level, Select, Simd, SimdBase, SimdFloat, SimdNarrow, best_level, f32x16, f64x8,
 };
 use bothways_common::look::bands::{
-    self, EightTriangles, Points, Rays, Samples, Seen, SetUp, Sixteen, Surfaces, Wanted, are_alike,
+    self, EightTriangles, LocalVector, MOST_LIGHTS, Points, Rays, Samples, Seen, SetUp, Sixteen,
+    Surfaces, Wanted, are_alike,
 };
 use bothways_common::look::lanes::{DVec3x8, Lanes, Real, Vec3x16, each};
 use bothways_common::look::texture::{self, TexturePoints};
 use bothways_common::{Frame, Primitive, Projection, Raster, View};
 use glam::{DVec2, DVec3, Vec3};
-use local::{Beside, NormalsAtHits};
+use local::{Beside, LookAtHits};
 use triangle::{Triangle, side_seen, steps_from_first};
 
 /// Gives a frame its picture, from the hit point of each sample's ray. If the frame keeps
@@ -112,12 +113,17 @@ struct Chart {
 
 impl Surfaces for AtHits<'_> {
     type Surface = Surface;
-    type Local = NormalsAtHits;
+    type Local = LookAtHits;
 
     #[inline(always)]
-    fn set_up(&self, seen: &Seen, wanted: Wanted) -> SetUp<Surface, NormalsAtHits> {
+    fn set_up(
+        &self,
+        seen: &Seen,
+        wanted: Wanted,
+        ways: &mut [LocalVector; MOST_LIGHTS],
+    ) -> SetUp<Surface, LookAtHits> {
         let corners = seen.corner_normals();
-        if let Some(local) = self.local(seen, corners, wanted) {
+        if let Some(local) = self.local(seen, corners, wanted, ways) {
             return SetUp::Local(local);
         }
         let form = Form::new(&seen.primitive);
@@ -137,12 +143,13 @@ impl Surfaces for AtHits<'_> {
     fn set_up_eight<S: Simd>(
         &self,
         triangles: &EightTriangles<S>,
-        mut keep: impl FnMut(Option<SetUp<Surface, NormalsAtHits>>),
+        wanted: Wanted,
+        mut keep: impl FnMut(Option<LookAtHits>, &[LocalVector; MOST_LIGHTS]),
     ) {
         let certain = triangles.are_alike();
         let beside = self.beside(triangles.corners, triangles.normals);
-        beside.each_of(triangles.used, |lane, normals| {
-            keep(normals.filter(|_| certain >> lane & 1 == 1).map(SetUp::Local));
+        beside.each_of(triangles.used, wanted.lights, |lane, look, ways| {
+            keep(look.filter(|_| certain >> lane & 1 == 1), ways);
         });
     }
 
@@ -235,22 +242,24 @@ impl Form {
 }
 
 impl AtHits<'_> {
-    /// The normals of a small triangle of which nothing else is wanted, and whose corners' normals never cancel each other.
+    /// The look of a small triangle of which nothing is wanted but normals and the ways to lights, and whose corners' normals never
+    /// cancel each other.
     #[inline(always)]
     fn local(
         &self,
         seen: &Seen,
         normals: Option<[DVec3; 3]>,
         wanted: Wanted,
-    ) -> Option<NormalsAtHits> {
+        ways: &mut [LocalVector; MOST_LIGHTS],
+    ) -> Option<LookAtHits> {
         let (Primitive::Triangle(corners), Some(normals)) = (seen.primitive, normals) else {
             return None;
         };
-        if !seen.needs_normals_alone(wanted) || !are_alike(normals) {
+        if !seen.is_plain(wanted) || !are_alike(normals) {
             return None;
         }
         let [corners, normals] = each!(three in [corners, normals] => three.map(Lanes::from));
-        self.beside(corners, normals).normals()
+        self.beside(corners, normals).look(wanted.lights, ways)
     }
 
     #[inline(always)]

@@ -5,7 +5,9 @@
 
 use crate::samples::Samples;
 use bothways_common::engine::simd::{Simd, SimdBase, SimdNarrow, best_level, f32x16, f64x8};
-use bothways_common::look::bands::{self, Points, SetUp, Sixteen, Surfaces, Wanted};
+use bothways_common::look::bands::{
+    self, LocalVector, MOST_LIGHTS, Points, SetUp, Sixteen, Surfaces, Wanted,
+};
 use bothways_common::look::lanes::{DVec3x8, Vec3x16};
 use bothways_common::look::texture::{self, TexturePoints};
 use bothways_common::{Camera, Frame, Primitive, Projection, Ray, Sample, Shape, View};
@@ -42,7 +44,12 @@ impl Surfaces for AsSeen<'_> {
         low.narrow(high)
     }
 
-    fn set_up(&self, seen: &bands::Seen, _wanted: Wanted) -> SetUp<u64, Infallible> {
+    fn set_up(
+        &self,
+        seen: &bands::Seen,
+        _wanted: Wanted,
+        _ways: &mut [LocalVector; MOST_LIGHTS],
+    ) -> SetUp<u64, Infallible> {
         SetUp::Surface(seen.id)
     }
 

@@ -21,13 +21,15 @@ use crate::look::shade::{Finish, Lighting, SurfacePoints};
 use crate::raster::Sample;
 use crate::scene::material::Material;
 use crate::view::View;
-use chunk::{CHUNK, Chunk, Vectors, eight, sixteen, sixteen_vectors};
+use chunk::{CHUNK, Chunk, Vectors, eight, part, sixteen, sixteen_vectors};
 use desk::{Desk, Kept, KeptLook, KeptSurface, Run, Setting};
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 use std::ops::Range;
 
-pub use local::{Anchor, LocalNormals, eight_columns};
+pub use local::{
+    Anchor, EightVectors, LocalLook, LocalVector, MOST_LIGHTS, eight_columns, local_vector,
+};
 pub use surfaces::{
     EightTriangles, Points, Rays, STORED_ERROR, Samples, Seen, SetUp, Sixteen, Surfaces, Wanted,
     are_alike,
@@ -244,13 +246,15 @@ impl<'a, A: Surfaces> Look<'a, A> {
             let Kept { material, look } = &desk.kept[place as usize];
             match look {
                 // There are such ones only where a frame keeps nothing of textures.
-                KeptLook::Local(normals) => {
+                KeptLook::Local { look, ways } => {
                     let first = Sample { column: start.column + run.start, ..start };
                     // What is written beyond the run is overwritten by the next one.
                     let all = run.start..run.start + run.len().next_multiple_of(8);
-                    let [x, y, z] = &mut chunk.normal;
-                    let to = [&mut x[all.clone()], &mut y[all.clone()], &mut z[all]];
-                    normals.store(simd, first, to);
+                    look.store(simd, first, look.normals(), part(&mut chunk.normal, all.clone()));
+                    for (number, to_light) in to_lights.iter_mut().enumerate() {
+                        let way = &desk.ways[*ways as usize + number];
+                        look.store(simd, first, way, part(to_light, all.clone()));
+                    }
                 }
                 KeptLook::Surface(place) => {
                     let surface = &desk.surfaces[*place as usize];
@@ -344,7 +348,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
         let (chunk, to_lights, mut begin) = (&mut *desk.chunk, &desk.to_lights[..], 0);
         let kept_of = |run: &Run| run.place.map(|place| &desk.kept[place as usize]);
         let is_tinted = |kept: &Kept<A::Local>| match kept.look {
-            KeptLook::Local(_) => false,
+            KeptLook::Local { .. } => false,
             KeptLook::Surface(place) => desk.surfaces[place as usize].is_tinted,
         };
         let material_of = |run: &Run| kept_of(run).map(|kept| kept.material);

@@ -175,6 +175,18 @@ impl<T: Real> Lanes<T> {
         self.x * x + self.y * y + self.z * z
     }
 
+    /// The way from each to a point that is the same for all.
+    #[inline(always)]
+    pub fn way_to(self, DVec3 { x, y, z }: DVec3) -> Self {
+        Lanes { x: -self.x + x, y: -self.y + y, z: -self.z + z }
+    }
+
+    /// The magnitudes of the coordinates, added up.
+    #[inline(always)]
+    pub fn size(self) -> T {
+        self.x.magnitude() + self.y.magnitude() + self.z.magnitude()
+    }
+
     /// The cross product with a vector that is the same for all.
     #[inline(always)]
     pub fn cross_along(self, DVec3 { x, y, z }: DVec3) -> Self {

@@ -1,11 +1,15 @@
-//! The normals of small triangles: what changes from sample to sample is small, so `f32` is enough, counted from a sample
-//! beside the triangle.
+//! The normals of small triangles, and their ways to points of light: what changes from sample to sample is small, so `f32` is
+//! enough, counted from a sample beside the triangle.
 
+use super::quotient::Affine;
 use super::weights::{side_of, weights};
-use bothways_common::engine::simd::{Simd, SimdBase, SimdNarrow, f32x8, f64x8};
-use bothways_common::look::bands::{Anchor, LocalNormals, eight_columns};
+use bothways_common::engine::simd::{Simd, SimdBase, f32x8, f64x8};
+use bothways_common::look::bands::{
+    Anchor, EightVectors, LocalLook, LocalVector, MOST_LIGHTS, eight_columns, local_vector,
+};
 use bothways_common::look::lanes::{Lanes, Real, each};
 use bothways_common::{Projection, Raster, Sample, View};
+use glam::DVec3;
 
 /// The samples of a picture as rows and columns.
 #[derive(Clone, Copy, Debug)]
@@ -16,21 +20,38 @@ pub(super) struct Grid {
     middle: [f64; 2],
 }
 
-/// The normals of one triangle, or of eight: affine functions of the row and the column, counted from a sample beside the first
-/// corner, the anchor.
+/// What is interpolated on one triangle, or on eight: affine functions of the row and the column, counted from a sample beside the
+/// first corner, the anchor.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Local<T> {
+    corners: [Lanes<T>; 3],
+    interpolation: Interpolation<T>,
+    /// The sum of all weights is 1 at the anchor after it is multiplied by this.
+    scale: T,
     /// Row and column of the anchor.
     anchor: [T; 2],
-    /// The normal at the anchor, and its changes from there to the next column and to the next row. The interpolated normal
-    /// of corners that are all alike has length 1 at the anchor.
+    /// No fewer than the rows and columns from the anchor to the corners, added up.
+    reach: T,
+    /// The interpolated normal of corners that are all alike has length 1 at the anchor.
     normals: [Lanes<T>; 3],
     /// Above 1, or not a number, where the triangle is not small.
     size: T,
 }
 
+/// How vectors at the corners of a triangle, or of eight, are interpolated beside an anchor.
+#[derive(Clone, Copy, Debug)]
+struct Interpolation<T> {
+    weights: [Affine<T>; 3],
+    /// The anchor on the viewport.
+    anchor: [T; 2],
+    /// From a row to the next, and from a column to the next.
+    spacing: [f64; 2],
+}
+
 /// How far normals may change on a triangle, from its first corner to the others, all changes added up.
 const CHANGE: f64 = 1024.0;
+/// How far ways to a light may change, in the length of the first corner's.
+const CHANGE_OF_WAYS: f64 = 256.0;
 
 impl Grid {
     pub(super) fn of(raster: &Raster) -> Grid {
@@ -87,28 +108,66 @@ impl<T: Real> Local<T> {
         let [of_a, of_b, of_c] = weights(view, [a, b, c], side);
         let together = of_a + of_b + of_c;
         let scale = together.at(x, y).reciprocal();
-        let to_seen = side * scale;
-        let coordinates = each!(at in [[at_a.x, at_b.x, at_c.x], [at_a.y, at_b.y, at_c.y], [at_a.z, at_b.z, at_c.z]] => {
-            (of_a * at[0] + of_b * at[1] + of_c * at[2]) * to_seen
+        let interpolation =
+            Interpolation { weights: [of_a, of_b, of_c], anchor: [x, y], spacing: grid.spacing };
+        let (normals, change) = interpolation.of([at_a, at_b, at_c], side * scale);
+        let reach = reach + 1.0;
+        let size = depths
+            + (interpolation.change(together) * scale).magnitude() * 2.0
+            + change * reach * (1.0 / CHANGE)
+            + (row.magnitude() + column.magnitude()) * (1.0 / Anchor::FARTHEST);
+        Local { corners: [a, b, c], interpolation, scale, anchor, reach, normals, size }
+    }
+
+    /// The way to a point of light, which is relative to the eye: interpolated like a normal, from the corners' ways. With it comes
+    /// its size, to be added to that of the triangle.
+    ///
+    /// The size is how much longer or shorter than the first corner's way the others may be, in halves of its length, and how much the
+    /// way changes from sample to sample, times the samples from corner to corner, in [`CHANGE_OF_WAYS`]. Lengths here are magnitudes of
+    /// coordinates, added up. So in lengths of the first corner's, ways from the triangle are no shorter than ½, and, as the sum of the
+    /// weights is no smaller than ½ and no larger than 2, what is interpolated is no shorter than ¼ and no longer than 3.
+    ///
+    /// The error is that of normals (see [`Local::new`]): at most `ε(3|N| + 3|rD| + 4|cC|)`, with `|rD| + |cC| ≤ 256` less than
+    /// 6.5·10⁻⁵, all coordinates together, or 4.5·10⁻⁴ of the shortest way, whose length in space is at least 0.14.
+    #[inline(always)]
+    fn way(&self, light: DVec3) -> ([Lanes<T>; 3], T) {
+        let [a, b, c] = self.corners;
+        let ways = each!(corner in [a, b, c] => corner.way_to(light));
+        let nearness = ways[0].size().reciprocal();
+        let (vectors, change) = self.interpolation.of(ways, self.scale * nearness);
+        let apart = ((b - a).size() + (c - a).size()) * nearness * 2.0;
+        (vectors, apart + change * self.reach * (1.0 / CHANGE_OF_WAYS))
+    }
+}
+
+impl<T: Real> Interpolation<T> {
+    /// The interpolated vector at the anchor, and its changes from there to the next column and to the next row, all times a factor; and
+    /// the sum of the changes of all coordinates.
+    #[inline(always)]
+    fn of(&self, [a, b, c]: [Lanes<T>; 3], factor: T) -> ([Lanes<T>; 3], T) {
+        let ([of_a, of_b, of_c], [down, across], [x, y]) =
+            (self.weights, self.spacing, self.anchor);
+        let coordinates = each!(at in [[a.x, b.x, c.x], [a.y, b.y, c.y], [a.z, b.z, c.z]] => {
+            (of_a * at[0] + of_b * at[1] + of_c * at[2]) * factor
         });
         let vector = |of: [T; 3]| {
             let [x, y, z] = of;
             Lanes { x, y, z }
         };
-        let normals = [
+        let vectors = [
             vector(each!(k in [0, 1, 2] => coordinates[k].at(x, y))),
             vector(each!(k in [0, 1, 2] => coordinates[k].across * across)),
             vector(each!(k in [0, 1, 2] => coordinates[k].up * -down)),
         ];
-        let slopes = each!(of in [coordinates[0], coordinates[1], coordinates[2], together] => {
-            of.across.magnitude() * across + of.up.magnitude() * down
-        });
-        let slope = slopes[0] + slopes[1] + slopes[2];
-        let size = depths
-            + (slopes[3] * scale).magnitude() * 2.0
-            + slope * (reach + 1.0) * (1.0 / CHANGE)
-            + (row.magnitude() + column.magnitude()) * (1.0 / Anchor::FARTHEST);
-        Local { anchor, normals, size }
+        let changes = each!(k in [0, 1, 2] => self.change(coordinates[k]));
+        (vectors, changes[0] + changes[1] + changes[2])
+    }
+
+    /// How much a function changes from a column to the next and from a row to the next, both added up.
+    #[inline(always)]
+    fn change(&self, of: Affine<T>) -> T {
+        let [down, across] = self.spacing;
+        of.across.magnitude() * across + of.up.magnitude() * down
     }
 }
 
@@ -160,22 +219,32 @@ impl<T: Real> OnViewport<T> {
     }
 }
 
-/// Normals towards the viewer as an affine function of row and column, in `f32`, counted from a sample near the triangle.
+/// Normals towards the viewer and ways to lights as affine functions of row and column, in `f32`, counted from a sample near the
+/// triangle: a vector at the anchor, and how it changes from a column to the next one, and from a row to the next one.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct AffineNormals {
-    /// The normal at the anchor, and how it changes from a column to the next one, and from a row to the next one.
-    numbers: [[f32; 3]; 3],
+pub(super) struct AffineLook {
+    normals: LocalVector,
     anchor: Anchor,
 }
 
-// With its material, one line of the caches.
-const _: () = assert!(size_of::<AffineNormals>() <= 48);
+// With its material and the place of its ways, one line of the caches.
+const _: () = assert!(size_of::<AffineLook>() <= 44);
 
-impl LocalNormals for AffineNormals {
+impl LocalLook for AffineLook {
     #[inline(always)]
-    fn store<S: Simd>(&self, simd: S, first: Sample, [to_x, to_y, to_z]: [&mut [f32]; 3]) {
+    fn normals(&self) -> &LocalVector {
+        &self.normals
+    }
+
+    #[inline(always)]
+    fn store<S: Simd>(
+        &self,
+        simd: S,
+        first: Sample,
+        [at_anchor, across, down]: &LocalVector,
+        [to_x, to_y, to_z]: [&mut [f32]; 3],
+    ) {
         let [rows, mut columns] = self.anchor.steps_to(first);
-        let [at_anchor, across, down] = &self.numbers;
         let in_row = each!(k in [0, 1, 2] => at_anchor[k] + down[k] * rows);
         for at in (0..to_x.len()).step_by(8) {
             let places = eight_columns(simd, columns);
@@ -191,42 +260,64 @@ impl LocalNormals for AffineNormals {
 }
 
 impl Local<f64> {
-    /// `None` where the triangle is not small.
+    /// Its look, for which the ways to lights are written down. `None` where the triangle is not small.
     #[inline(always)]
-    pub(super) fn normals(&self) -> Option<AffineNormals> {
-        #[expect(clippy::cast_possible_truncation, reason = "see `Local::new`")]
-        let number = |number: f64| number as f32;
-        let [at_anchor, across, down] = self.normals;
-        let numbers =
-            each!(of in [at_anchor, across, down] => [number(of.x), number(of.y), number(of.z)]);
-        let anchor = Anchor::new(self.anchor);
-        (self.size <= 1.0).then_some(AffineNormals { numbers, anchor })
+    pub(super) fn look(&self, lights: &[DVec3], ways: &mut [LocalVector]) -> Option<AffineLook> {
+        let mut size = self.size;
+        for (to, light) in ways.iter_mut().zip(lights) {
+            let (way, of_way) = self.way(*light);
+            *to = local_vector(way);
+            size += of_way;
+        }
+        let (normals, anchor) = (local_vector(self.normals), Anchor::new(self.anchor));
+        (size <= 1.0).then_some(AffineLook { normals, anchor })
     }
 }
 
 impl<S: Simd> Local<f64x8<S>> {
-    /// Gives the normals of the first triangles, so many, to `keep`; `None` for one that is not small.
+    /// Gives the looks of the first triangles, so many, and their ways to lights to `keep`; `None` for one that is not small.
     #[inline(always)]
-    pub(super) fn each_of(&self, used: usize, mut keep: impl FnMut(usize, Option<AffineNormals>)) {
-        let [at_anchor, across, down] = self.normals;
-        // Two times eight numbers at a time become `f32`.
-        let halves = [
-            [at_anchor.x, at_anchor.y],
-            [at_anchor.z, across.x],
-            [across.y, across.z],
-            [down.x, down.y],
-            [down.z, down.z],
-        ];
-        let halves = each!(k in [0, 1, 2, 3, 4] => halves[k][0].narrow(halves[k][1]).to_array());
+    pub(super) fn each_of(
+        &self,
+        used: usize,
+        lights: &[DVec3],
+        mut keep: impl FnMut(usize, Option<AffineLook>, &[LocalVector; MOST_LIGHTS]),
+    ) {
+        let mut of_one = [LocalVector::default(); MOST_LIGHTS];
+        if lights.is_empty() {
+            self.each_look(used, self.size, |lane, look| keep(lane, look, &of_one));
+            return;
+        }
+        let (mut size, mut ways) = (self.size, [EightVectors::ZERO; MOST_LIGHTS]);
+        for (to, light) in ways.iter_mut().zip(lights) {
+            let (way, of_way) = self.way(*light);
+            *to = EightVectors::new(way);
+            size += of_way;
+        }
+        self.each_look(used, size, |lane, look| {
+            for (to, ways) in of_one.iter_mut().zip(&ways).take(lights.len()) {
+                *to = ways.of(lane);
+            }
+            keep(lane, look, &of_one);
+        });
+    }
+
+    /// The same without ways; the sizes may be larger.
+    #[inline(always)]
+    fn each_look(
+        &self,
+        used: usize,
+        sizes: f64x8<S>,
+        mut keep: impl FnMut(usize, Option<AffineLook>),
+    ) {
+        let normals = EightVectors::new(self.normals);
         let [rows, columns] = each!(k in [0, 1] => self.anchor[k].to_array());
-        let sizes = self.size.to_array();
+        let sizes = sizes.to_array();
         for lane in 0..used {
             let at = lane & 7;
-            let number = |k: usize| halves[k / 2][k % 2 * 8 + at];
-            let numbers =
-                each!(from in [0, 3, 6] => [number(from), number(from + 1), number(from + 2)]);
             let anchor = Anchor::new([rows[at], columns[at]]);
-            keep(lane, (sizes[at] <= 1.0).then_some(AffineNormals { numbers, anchor }));
+            let look = AffineLook { normals: normals.of(at), anchor };
+            keep(lane, (sizes[at] <= 1.0).then_some(look));
         }
     }
 }
@@ -237,8 +328,10 @@ mod tests {
     use bothways_common::engine::simd::{best_level, dispatch};
     use bothways_common::look::bands::are_alike;
     use bothways_common::{Camera, CameraDescription, Scene};
-    use bothways_test_support::{Dice, assert_normals_of_a_row, normals_at_corners};
-    use glam::{DVec3, Vec3};
+    use bothways_test_support::{
+        Dice, assert_normals_of_a_row, lights_of_a_triangle as lights, normals_at_corners,
+    };
+    use glam::Vec3;
 
     /// A point before the eye, in the picture or beside it.
     fn place(dice: &mut Dice, depth: f64) -> DVec3 {
@@ -268,25 +361,26 @@ mod tests {
         [[a, b, c], normals_at_corners(dice, change)]
     }
 
-    impl AffineNormals {
-        /// The normal at a sample.
-        fn at(&self, sample: Sample) -> Vec3 {
+    impl AffineLook {
+        /// A vector at a sample.
+        fn at(&self, vector: &LocalVector, sample: Sample) -> Vec3 {
             let [rows, columns] = self.anchor.steps_to(sample);
-            let [at_anchor, across, down] = self.numbers.map(Vec3::from);
+            let [at_anchor, across, down] = vector.map(Vec3::from);
             (at_anchor + down * rows) + across * columns
         }
     }
 
     #[test]
-    fn normals_of_a_row_have_the_bits_of_each_alone() {
-        let numbers = [[0.1, -0.7, 0.7], [0.011, 0.02, -0.031], [-0.017, 0.013, 0.07]];
-        let normals = AffineNormals { numbers, anchor: Anchor::new([-3.0, 1000.0]) };
-        assert_normals_of_a_row(&normals, |sample| normals.at(sample));
+    fn vectors_of_a_row_have_the_bits_of_each_alone() {
+        let normals = [[0.1, -0.7, 0.7], [0.011, 0.02, -0.031], [-0.017, 0.013, 0.07]];
+        let look = AffineLook { normals, anchor: Anchor::new([-3.0, 1000.0]) };
+        assert_normals_of_a_row(&look, |sample| look.at(&normals, sample));
     }
 
+    /// Normals, and the ways to two lights: one that is near, and one that is anywhere.
     #[test]
-    fn normals_of_small_triangles_are_those_of_f64() {
-        let (mut small, mut large, mut worst) = (0, 0, 0.0_f64);
+    fn vectors_of_small_triangles_are_those_of_f64() {
+        let (mut small, mut large, mut worst) = (0, 0, [0.0_f64; 3]);
         for projection in [Projection::Perspective, Projection::Parallel] {
             let camera = Camera::new(CameraDescription {
                 projection,
@@ -303,8 +397,11 @@ mod tests {
                 if !are_alike(normals) {
                     continue;
                 }
+                let lights = lights(&mut dice, corners);
                 let [corners, normals] = [corners, normals].map(|three| three.map(Lanes::from));
-                let Some(local) = Local::new(&view, &grid, corners, normals).normals() else {
+                let mut ways = [LocalVector::default(); 2];
+                let look = Local::new(&view, &grid, corners, normals).look(&lights, &mut ways);
+                let Some(look) = look else {
                     large += 1;
                     continue;
                 };
@@ -318,18 +415,48 @@ mod tests {
                         if weights.iter().any(|weight| *weight < 0.0) {
                             continue;
                         }
-                        let parts = [0, 1, 2].map(|k| DVec3::from(normals[k]) * weights[k]);
-                        let exact = (parts[0] + parts[1] + parts[2]) * side;
-                        let found = local.at(Sample { row, column }).as_dvec3();
-                        assert!(found.length() > 0.3, "{found}");
-                        worst = worst.max(found.normalize().distance(exact.normalize()));
+                        let sum = |of: [DVec3; 3]| {
+                            of[0] * weights[0] + of[1] * weights[1] + of[2] * weights[2]
+                        };
+                        let exact = [
+                            sum(normals.map(DVec3::from)) * side,
+                            sum(corners.map(|corner| lights[0] - DVec3::from(corner))),
+                            sum(corners.map(|corner| lights[1] - DVec3::from(corner))),
+                        ];
+                        for (k, vector) in [look.normals, ways[0], ways[1]].iter().enumerate() {
+                            let found = look.at(vector, Sample { row, column }).as_dvec3();
+                            let shortest = if k == 0 { 0.3 } else { 0.14 };
+                            assert!(found.length() > shortest, "{found}");
+                            let off = found.normalize().distance(exact[k].normalize());
+                            worst[k] = worst[k].max(off);
+                        }
                     }
                 }
             }
         }
-        println!("{small} small, {large} large, off by {worst:e} at most");
+        println!("{small} small, {large} large, off by {worst:?} at most");
         assert!(small > 5000 && large > 5000, "{small}, {large}");
-        assert!(worst < 1e-4, "{worst:e}");
+        assert!(worst.into_iter().all(|worst| worst < 1e-4), "{worst:?}");
+    }
+
+    #[test]
+    fn a_triangle_is_not_small_for_a_light_that_is_near_it() {
+        let camera = Camera::new(CameraDescription::default()).unwrap();
+        let scene = Scene::new(Vec::new()).unwrap();
+        let (view, grid) = (View::new(&scene, &camera), Grid::of(&camera.raster(1)));
+        let corners = [[0.0, 0.0], [0.1, 0.0], [0.0, 0.1]].map(|[x, y]| DVec3::new(x, y, -3.0));
+        let [corners, normals] = [corners, [DVec3::Z; 3]].map(|three| three.map(Lanes::from));
+        let local = Local::new(&view, &grid, corners, normals);
+        let is_small = |distance| {
+            let lights = [DVec3::new(0.0, 0.0, distance - 3.0)];
+            local.look(&lights, &mut [LocalVector::default()]).is_some()
+        };
+        for distance in [1e30, 1e3, 1.0, 0.5] {
+            assert!(is_small(distance), "{distance}");
+        }
+        for distance in [0.3, 0.01, 0.0] {
+            assert!(!is_small(distance), "{distance}");
+        }
     }
 
     #[test]
@@ -338,11 +465,13 @@ mod tests {
         let scene = Scene::new(Vec::new()).unwrap();
         let (view, grid) = (View::new(&scene, &camera), Grid::of(&camera.raster(1)));
         let mut dice = Dice(3);
-        for _ in 0..200 {
+        for count in (0..200).map(|number| number % 3) {
             let triangles: [_; 8] = std::array::from_fn(|_| triangle(&mut dice));
+            let lights = &lights(&mut dice, triangles[0][0])[..count];
             let alone = triangles.map(|[corners, normals]| {
                 let [corners, normals] = [corners, normals].map(|three| three.map(Lanes::from));
-                Local::new(&view, &grid, corners, normals).normals()
+                let mut ways = [LocalVector::default(); MOST_LIGHTS];
+                (Local::new(&view, &grid, corners, normals).look(lights, &mut ways), ways)
             });
             let mut together = Vec::new();
             dispatch!(best_level(), simd => {
@@ -351,7 +480,7 @@ mod tests {
                 };
                 let [corners, normals] = [0, 1].map(|k| [lanes(k, 0), lanes(k, 1), lanes(k, 2)]);
                 let local = Local::new(&view, &grid, corners, normals);
-                local.each_of(8, |_, normals| together.push(normals));
+                local.each_of(8, lights, |_, look, ways| together.push((look, *ways)));
             });
             assert_eq!(format!("{alone:?}"), format!("{together:?}"));
         }

@@ -2,7 +2,7 @@
 
 use super::quotient::{Affine, Plane};
 use bothways_common::engine::simd::Simd;
-use bothways_common::look::bands::{Points, Samples, Sixteen};
+use bothways_common::look::bands::{MOST_LIGHTS, Points, Samples, Sixteen};
 use bothways_common::look::lanes::{DVec3x8, Lanes, each};
 use bothways_common::{Primitive, Projection, View};
 use glam::DVec3;
@@ -17,9 +17,6 @@ pub(super) struct WaysToLights(Box<[[Affine; 3]]>);
 /// What is computed is at least this part of what it would be if nothing cancelled in it: so nine of sixteen digits may cancel, and its sign
 /// is certain.
 const LEAST: f64 = 1e-9;
-
-/// With more points of light, the point that is seen takes less room than functions for all of them. This number is a guess.
-const MOST_LIGHTS: usize = 4;
 
 impl WaysToLights {
     /// `None` for a sphere; for a form that is nearly a line, that is seen nearly edge-on, or that is far larger than its way from

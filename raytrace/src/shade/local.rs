@@ -1,8 +1,11 @@
-//! The normals of small triangles where rays hit them: beside the ray through the first corner, `f32` is enough.
+//! The normals of small triangles where rays hit them, and the ways from there to points of light: beside the ray through the first
+//! corner, `f32` is enough.
 
 use super::triangle::{Triangle, side_seen, steps_from_first};
 use bothways_common::engine::simd::{Simd, SimdBase, SimdNarrow, f32x8, f64x8};
-use bothways_common::look::bands::{Anchor, LocalNormals, eight_columns};
+use bothways_common::look::bands::{
+    Anchor, EightVectors, LocalLook, LocalVector, MOST_LIGHTS, eight_columns, local_vector,
+};
 use bothways_common::look::lanes::{Lanes, Real, each};
 use bothways_common::{Projection, Raster, Sample, View};
 use glam::DVec3;
@@ -10,11 +13,14 @@ use glam::DVec3;
 /// Where rays hit a triangle, or each of eight, beside the ray through its first corner.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Beside<T> {
+    corners: [Lanes<T>; 3],
     /// Row and column of the first corner on the raster; it is hardly ever a sample.
     corner: [T; 2],
     /// What [`Beside::new`] calls `q`, and the numerators of the weights of the second and the third corner: their changes from a
     /// column to the next one, and from a row to the next one.
     slopes: [[T; 2]; 3],
+    /// How far the numerators of both weights change on the triangle.
+    changes: [T; 2],
     /// The normal of the first corner, and what those of the others add to it.
     normals: [Lanes<T>; 3],
     /// Above 1, or not a number, where the triangle is not small.
@@ -86,21 +92,44 @@ impl<T: Real> Beside<T> {
         let [from_q, from_b, from_c] = each!(slopes in [of_q, numerators[0], numerators[1]] => {
             (slopes[0].magnitude() + slopes[1].magnitude()) * reach
         });
-        let [_, to_b, to_c] = each!(normal in [normals[0], normals[1], normals[2]] => {
-            normal.x.magnitude() + normal.y.magnitude() + normal.z.magnitude()
-        });
+        let changes = [from_b, from_c];
         let size = depths
             + from_q
-            + (from_b * to_b + from_c * to_c) * (1.0 / CHANGE)
+            + change(changes, normals) * (1.0 / CHANGE)
             + (from_b + from_c) * (1.0 / STEEPEST)
             + (row.magnitude() + column.magnitude()) * (1.0 / Anchor::FARTHEST);
         Beside {
+            corners,
             corner: [row + middle_row, column + middle_column],
             slopes: [of_q, numerators[0], numerators[1]],
+            changes,
             normals,
             size,
         }
     }
+
+    /// The way to a point of light, which is relative to the eye: that of the first corner, and what those of the others add to it, in
+    /// lengths of the first. With it comes its size, to be added to that of the triangle.
+    ///
+    /// The size is how far the other corners are from the first, in halves of its way, and how much the numerators of the weights change
+    /// times that, in [`CHANGE`]. Lengths here are magnitudes of coordinates, added up. So ways from the triangle are no shorter than ½ and no
+    /// longer than 1½, and their error is that of normals (see [`Beside::new`]): less than 2.1·10⁻⁴, or 7.5·10⁻⁴ of the shortest way,
+    /// whose length in space is at least 0.28.
+    #[inline(always)]
+    fn way(&self, light: DVec3) -> ([Lanes<T>; 3], T) {
+        let [a, b, c] = self.corners;
+        let way = a.way_to(light);
+        let nearness = way.size().reciprocal();
+        let way = each!(of in [way, a - b, a - c] => of * nearness);
+        let apart = (way[1].size() + way[2].size()) * 2.0;
+        (way, apart + change(self.changes, way) * (1.0 / CHANGE))
+    }
+}
+
+/// How much a vector changes with the weights that change so much; the vector of the first corner, and what the others add to it.
+#[inline(always)]
+fn change<T: Real>([of_b, of_c]: [T; 2], [_, to_b, to_c]: [Lanes<T>; 3]) -> T {
+    of_b * to_b.size() + of_c * to_c.size()
 }
 
 /// The ray through the first corner of a triangle, or of each of eight.
@@ -154,20 +183,32 @@ impl<T: Real> FirstRay<T> {
     }
 }
 
-/// Normals towards the viewer where rays hit a small triangle, in `f32`, counted from its first corner.
+/// Normals towards the viewer where rays hit a small triangle, and the ways to lights from there, in `f32`, counted from its first
+/// corner: the vector of that corner, and what those of the others add to it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct NormalsAtHits {
+pub(super) struct LookAtHits {
+    normals: LocalVector,
     /// The sample that is nearest to the first corner, and how many rows and columns the corner is beyond it.
     anchor: Anchor,
     beyond: [f32; 2],
     /// See [`Beside`].
     slopes: [[f32; 2]; 3],
-    normals: [[f32; 3]; 3],
 }
 
-impl LocalNormals for NormalsAtHits {
+impl LocalLook for LookAtHits {
     #[inline(always)]
-    fn store<S: Simd>(&self, simd: S, first: Sample, [to_x, to_y, to_z]: [&mut [f32]; 3]) {
+    fn normals(&self) -> &LocalVector {
+        &self.normals
+    }
+
+    #[inline(always)]
+    fn store<S: Simd>(
+        &self,
+        simd: S,
+        first: Sample,
+        [at_a, to_b, to_c]: &LocalVector,
+        [to_x, to_y, to_z]: [&mut [f32]; 3],
+    ) {
         let splat = |number: f32| f32x8::splat(simd, number);
         let [rows, mut columns] = self.anchor.steps_to(first);
         let [beyond_row, beyond_column] = self.beyond;
@@ -182,7 +223,6 @@ impl LocalNormals for NormalsAtHits {
             });
             let reciprocal = splat(1.0) / below;
             let (b, c) = (of_b * reciprocal, of_c * reciprocal);
-            let [at_a, to_b, to_c] = &self.normals;
             let [x, y, z] = each!(k in [0, 1, 2] => {
                 splat(at_a[k]) + splat(to_b[k]) * b + splat(to_c[k]) * c
             });
@@ -194,60 +234,83 @@ impl LocalNormals for NormalsAtHits {
 }
 
 impl Beside<f64> {
-    /// `None` where the triangle is not small.
+    /// The look, for which the ways to lights are written down. `None` where the triangle is not small.
     #[inline(always)]
-    pub(super) fn normals(&self) -> Option<NormalsAtHits> {
+    pub(super) fn look(&self, lights: &[DVec3], ways: &mut [LocalVector]) -> Option<LookAtHits> {
         #[expect(clippy::cast_possible_truncation, reason = "see `Beside::new`")]
         let number = |number: f64| number as f32;
+        let mut size = self.size;
+        for (to, light) in ways.iter_mut().zip(lights) {
+            let (way, of_way) = self.way(*light);
+            *to = local_vector(way);
+            size += of_way;
+        }
         let nearest = self.corner.map(Real::rounded);
-        (self.size <= 1.0).then(|| NormalsAtHits {
+        (size <= 1.0).then(|| LookAtHits {
+            normals: local_vector(self.normals),
             anchor: Anchor::new(nearest),
             beyond: each!(k in [0, 1] => number(self.corner[k] - nearest[k])),
             slopes: each!(k in [0, 1, 2] => self.slopes[k].map(number)),
-            normals: each!(k in [0, 1, 2] => {
-                let Lanes { x, y, z } = self.normals[k];
-                [number(x), number(y), number(z)]
-            }),
         })
     }
 }
 
 impl<S: Simd> Beside<f64x8<S>> {
-    /// Gives the normals of the first triangles, so many, to `keep`; `None` for one that is not small.
+    /// Gives the looks of the first triangles, so many, and their ways to lights to `keep`; `None` for one that is not small.
     #[inline(always)]
-    pub(super) fn each_of(&self, used: usize, mut keep: impl FnMut(usize, Option<NormalsAtHits>)) {
-        let Beside { corner, slopes: [q, of_b, of_c], normals: [at_a, to_b, to_c], size } = *self;
+    pub(super) fn each_of(
+        &self,
+        used: usize,
+        lights: &[DVec3],
+        mut keep: impl FnMut(usize, Option<LookAtHits>, &[LocalVector; MOST_LIGHTS]),
+    ) {
+        let mut of_one = [LocalVector::default(); MOST_LIGHTS];
+        if lights.is_empty() {
+            self.each_look(used, self.size, |lane, look| keep(lane, look, &of_one));
+            return;
+        }
+        let (mut size, mut ways) = (self.size, [EightVectors::ZERO; MOST_LIGHTS]);
+        for (to, light) in ways.iter_mut().zip(lights) {
+            let (way, of_way) = self.way(*light);
+            *to = EightVectors::new(way);
+            size += of_way;
+        }
+        self.each_look(used, size, |lane, look| {
+            for (to, ways) in of_one.iter_mut().zip(&ways).take(lights.len()) {
+                *to = ways.of(lane);
+            }
+            keep(lane, look, &of_one);
+        });
+    }
+
+    /// The same without ways; the sizes may be larger.
+    #[inline(always)]
+    fn each_look(
+        &self,
+        used: usize,
+        sizes: f64x8<S>,
+        mut keep: impl FnMut(usize, Option<LookAtHits>),
+    ) {
+        let Beside { corner, slopes: [q, of_b, of_c], normals, .. } = *self;
         let nearest = each!(k in [0, 1] => corner[k].rounded());
         let beyond = each!(k in [0, 1] => corner[k] - nearest[k]);
+        let normals = EightVectors::new(normals);
         // Two times eight numbers at a time become `f32`.
-        let halves = [
-            beyond,
-            q,
-            of_b,
-            of_c,
-            [at_a.x, at_a.y],
-            [at_a.z, to_b.x],
-            [to_b.y, to_b.z],
-            [to_c.x, to_c.y],
-            [to_c.z, to_c.z],
-        ];
-        let halves = each!(k in [0, 1, 2, 3, 4, 5, 6, 7, 8] => {
-            halves[k][0].narrow(halves[k][1]).to_array()
-        });
+        let halves = [beyond, q, of_b, of_c];
+        let halves = each!(k in [0, 1, 2, 3] => halves[k][0].narrow(halves[k][1]).to_array());
         let [rows, columns] = each!(k in [0, 1] => nearest[k].to_array());
-        let sizes = size.to_array();
+        let sizes = sizes.to_array();
         for lane in 0..used {
             let at = lane & 7;
-            let number = |k: usize| halves[k / 2][k % 2 * 8 + at];
-            let normals = NormalsAtHits {
+            let [beyond, q, of_b, of_c] =
+                each!(k in [0, 1, 2, 3] => [halves[k][at], halves[k][8 + at]]);
+            let look = LookAtHits {
+                normals: normals.of(at),
                 anchor: Anchor::new([rows[at], columns[at]]),
-                beyond: [number(0), number(1)],
-                slopes: each!(from in [2, 4, 6] => [number(from), number(from + 1)]),
-                normals: each!(from in [8, 11, 14] => {
-                    [number(from), number(from + 1), number(from + 2)]
-                }),
+                beyond,
+                slopes: [q, of_b, of_c],
             };
-            keep(lane, (sizes[at] <= 1.0).then_some(normals));
+            keep(lane, (sizes[at] <= 1.0).then_some(look));
         }
     }
 }
@@ -258,7 +321,9 @@ mod tests {
     use bothways_common::engine::simd::{dispatch, levels};
     use bothways_common::look::bands::are_alike;
     use bothways_common::{Camera, CameraDescription, Scene};
-    use bothways_test_support::{Dice, assert_normals_of_a_row, normals_at_corners};
+    use bothways_test_support::{
+        Dice, assert_normals_of_a_row, lights_of_a_triangle as lights, normals_at_corners,
+    };
     use glam::Vec3;
 
     /// A triangle, and normals at its corners. The triangle is of any size and thickness, in the picture or beside it; some
@@ -287,26 +352,27 @@ mod tests {
         Beside::new(view, &raster, steps, corners, normals)
     }
 
-    impl NormalsAtHits {
-        /// The normal at a sample.
-        fn at(&self, sample: Sample) -> Vec3 {
+    impl LookAtHits {
+        /// A vector at a sample.
+        fn at(&self, vector: &LocalVector, sample: Sample) -> Vec3 {
             let steps = self.anchor.steps_to(sample);
             let [rows, columns] = [0, 1].map(|k| steps[k] - self.beyond[k]);
             let [q, of_b, of_c] = self.slopes;
             let reciprocal = 1.0 / ((1.0 + q[1] * rows) + q[0] * columns);
             let [b, c] = [of_b, of_c].map(|slopes| slopes[1] * rows + slopes[0] * columns);
-            let [at_a, to_b, to_c] = self.normals.map(Vec3::from);
+            let [at_a, to_b, to_c] = vector.map(Vec3::from);
             at_a + to_b * (b * reciprocal) + to_c * (c * reciprocal)
         }
     }
 
-    /// The normal where the ray through a place of the viewport meets a triangle, if it does: by other formulas, in `f64`.
-    fn exact_normal(
+    /// The normal where the ray through a place of the viewport meets a triangle, and that point, if it does: by other formulas, in
+    /// `f64`.
+    fn exact(
         camera: &Camera,
         [x, y]: [f64; 2],
         [a, b, c]: [DVec3; 3],
         [at_a, at_b, at_c]: [DVec3; 3],
-    ) -> Option<DVec3> {
+    ) -> Option<[DVec3; 2]> {
         let ray = camera.ray_through(x, y);
         let n = (b - a).cross(c - a);
         let t = n.dot(a - ray.origin) / n.dot(ray.direction);
@@ -316,12 +382,13 @@ mod tests {
         let meets = t > 0.0 && of_b >= 0.0 && of_c >= 0.0 && of_b + of_c <= 1.0;
         let normal = at_a + of_b * (at_b - at_a) + of_c * (at_c - at_a);
         let seen = if n.dot(ray.direction) > 0.0 { -normal } else { normal };
-        meets.then(|| seen.normalize())
+        meets.then_some([seen, hit])
     }
 
+    /// Normals, and the ways to two lights: one that is near, and one that is anywhere.
     #[test]
-    fn normals_at_hits_of_small_triangles_are_those_of_f64() {
-        let (mut small, mut large, mut samples, mut worst) = (0, 0, 0, 0.0_f64);
+    fn vectors_at_hits_of_small_triangles_are_those_of_f64() {
+        let (mut small, mut large, mut samples, mut worst) = (0, 0, 0, [0.0_f64; 3]);
         for projection in [Projection::Perspective, Projection::Parallel] {
             let (scene, camera) = (Scene::new(Vec::new()).unwrap(), camera(projection));
             let view = View::new(&scene, &camera);
@@ -333,41 +400,68 @@ mod tests {
                 if !are_alike(normals) {
                     continue;
                 }
+                let lights = lights(&mut dice, corners);
                 let [corners_of, normals_of] =
                     [corners, normals].map(|three| three.map(Lanes::from));
-                let Some(local) = beside(&view, corners_of, normals_of).normals() else {
+                let mut ways = [LocalVector::default(); 2];
+                let beside = beside(&view, corners_of, normals_of);
+                let Some(look) = beside.look(&lights, &mut ways) else {
                     large += 1;
                     continue;
                 };
                 small += 1;
                 for (row, y) in y.iter().enumerate() {
                     for (column, x) in x.iter().enumerate() {
-                        let Some(exact) = exact_normal(&camera, [*x, *y], corners, normals) else {
-                            continue;
-                        };
+                        let exact = exact(&camera, [*x, *y], corners, normals);
+                        let Some([normal, hit]) = exact else { continue };
                         samples += 1;
-                        let found = local.at(Sample { row, column }).as_dvec3();
-                        assert!(found.length() > 0.5, "{found}");
-                        worst = worst.max(found.normalize().distance(exact));
+                        let exact = [normal, lights[0] - hit, lights[1] - hit];
+                        for (k, vector) in [look.normals, ways[0], ways[1]].iter().enumerate() {
+                            let found = look.at(vector, Sample { row, column }).as_dvec3();
+                            let shortest = if k == 0 { 0.5 } else { 0.28 };
+                            assert!(found.length() > shortest, "{found}");
+                            let off = found.normalize().distance(exact[k].normalize());
+                            worst[k] = worst[k].max(off);
+                        }
                     }
                 }
             }
         }
-        println!("{small} small with {samples} samples, {large} large, off by {worst:e} at most");
+        println!("{small} small with {samples} samples, {large} large, off by {worst:?} at most");
         assert!(small > 5000 && large > 5000, "{small}, {large}");
         assert!(samples > 100_000, "{samples}");
-        assert!(worst < 1e-4, "{worst:e}");
+        assert!(worst.into_iter().all(|worst| worst < 1e-4), "{worst:?}");
     }
 
     #[test]
-    fn normals_of_a_row_have_the_bits_of_each_alone() {
-        let normals = NormalsAtHits {
+    fn a_triangle_is_not_small_for_a_light_that_is_near_it() {
+        let (scene, camera) = (Scene::new(Vec::new()).unwrap(), camera(Projection::Perspective));
+        let view = View::new(&scene, &camera);
+        let corners = [[0.0, 0.0], [0.1, 0.0], [0.0, 0.1]].map(|[x, y]| DVec3::new(x, y, -3.0));
+        let [corners, normals] = [corners, [DVec3::Z; 3]].map(|three| three.map(Lanes::from));
+        let local = beside(&view, corners, normals);
+        let is_small = |distance| {
+            let lights = [DVec3::new(0.0, 0.0, distance - 3.0)];
+            local.look(&lights, &mut [LocalVector::default()]).is_some()
+        };
+        for distance in [1e30, 1e3, 1.0, 0.5] {
+            assert!(is_small(distance), "{distance}");
+        }
+        for distance in [0.3, 0.01, 0.0] {
+            assert!(!is_small(distance), "{distance}");
+        }
+    }
+
+    #[test]
+    fn vectors_of_a_row_have_the_bits_of_each_alone() {
+        let normals = [[0.1, -0.7, 0.7], [0.011, 0.02, -0.031], [-0.017, 0.013, 0.07]];
+        let look = LookAtHits {
+            normals,
             anchor: Anchor::new([-3.0, 1000.0]),
             beyond: [0.31, -0.17],
             slopes: [[0.011, -0.02], [0.3, 0.17], [-0.41, 0.07]],
-            normals: [[0.1, -0.7, 0.7], [0.011, 0.02, -0.031], [-0.017, 0.013, 0.07]],
         };
-        assert_normals_of_a_row(&normals, |sample| normals.at(sample));
+        assert_normals_of_a_row(&look, |sample| look.at(&normals, sample));
     }
 
     #[test]
@@ -378,10 +472,10 @@ mod tests {
             let corner = |x: f64, y: f64| Lanes::from(DVec3::new(size * x, size * y, -1.0));
             let corners = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(0.0, 1.0)];
             // Normals that are equal do not change, however much the weights do.
-            let local = beside(&view, corners, [Lanes::from(DVec3::Z); 3]).normals();
-            assert_eq!(local.is_some(), is_small, "{size:e}");
+            let look = beside(&view, corners, [Lanes::from(DVec3::Z); 3]).look(&[], &mut []);
+            assert_eq!(look.is_some(), is_small, "{size:e}");
             let sample = Sample { row: 49, column: 79 };
-            assert!(local.is_none_or(|local| local.at(sample).is_finite()), "{size:e}");
+            assert!(look.is_none_or(|look| look.at(&look.normals, sample).is_finite()), "{size:e}");
         }
     }
 
@@ -392,11 +486,13 @@ mod tests {
             let view = View::new(&scene, &camera);
             let mut dice = Dice(3);
             let mut small = 0;
-            for _ in 0..200 {
+            for count in (0..200).map(|number| number % 3) {
                 let triangles: [_; 8] = std::array::from_fn(|_| triangle(&mut dice));
+                let lights = &lights(&mut dice, triangles[0][0])[..count];
                 let alone = triangles.map(|[corners, normals]| {
                     let [corners, normals] = [corners, normals].map(|three| three.map(Lanes::from));
-                    beside(&view, corners, normals).normals()
+                    let mut ways = [LocalVector::default(); MOST_LIGHTS];
+                    (beside(&view, corners, normals).look(lights, &mut ways), ways)
                 });
                 for (level, used) in levels().into_iter().zip([8, 3, 7, 1, 8].into_iter().cycle()) {
                     let mut together = Vec::new();
@@ -406,11 +502,11 @@ mod tests {
                         };
                         let [corners, normals] = [0, 1].map(|k| [lanes(k, 0), lanes(k, 1), lanes(k, 2)]);
                         let beside = beside(&view, corners, normals);
-                        beside.each_of(used, |_, normals| together.push(normals));
+                        beside.each_of(used, lights, |_, look, ways| together.push((look, *ways)));
                     });
                     assert_eq!(format!("{:?}", &alone[..used]), format!("{together:?}"));
                 }
-                small += alone.iter().flatten().count();
+                small += alone.iter().filter(|(look, _)| look.is_some()).count();
             }
             assert!(small > 300, "{small}");
         }

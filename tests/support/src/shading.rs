@@ -4,14 +4,16 @@ use crate::Dice;
 use bothways_common::Sample;
 use bothways_common::engine::simd::{dispatch, levels};
 use bothways_common::glam::{DVec3, Vec3};
-use bothways_common::look::bands::LocalNormals;
+use bothways_common::look::bands::LocalLook;
 
 /// Checks that normals of a row have the bits of each sample's own, at every level of SIMD.
-pub fn assert_normals_of_a_row(normals: &impl LocalNormals, at: impl Fn(Sample) -> Vec3) {
+pub fn assert_normals_of_a_row(look: &impl LocalLook, at: impl Fn(Sample) -> Vec3) {
     let first = Sample { row: 5, column: 990 };
     for level in levels() {
         let [mut x, mut y, mut z] = [[0.0; 24]; 3];
-        dispatch!(level, simd => normals.store(simd, first, [&mut x, &mut y, &mut z]));
+        dispatch!(level, simd => {
+            look.store(simd, first, look.normals(), [&mut x, &mut y, &mut z]);
+        });
         for lane in 0..24 {
             let expected = at(Sample { column: first.column + lane, ..first });
             assert_eq!(Vec3::new(x[lane], y[lane], z[lane]), expected);
@@ -23,4 +25,10 @@ pub fn assert_normals_of_a_row(normals: &impl LocalNormals, at: impl Fn(Sample) 
 pub fn normals_at_corners(dice: &mut Dice, change: f64) -> [DVec3; 3] {
     let normal = dice.vector();
     [0; 3].map(|_: u8| (normal + change * dice.vector()).normalize_or_zero())
+}
+
+/// Points of light for a triangle with these corners: one near it, and one anywhere.
+pub fn lights_of_a_triangle(dice: &mut Dice, [a, b, c]: [DVec3; 3]) -> [DVec3; 2] {
+    let size = (b - a).length() + (c - a).length();
+    [size * dice.power([-0.5, 2.0]), dice.power([-3.0, 9.0])].map(|far| a + far * dice.vector())
 }

@@ -2,6 +2,7 @@
 
 use crate::engine::simd::{Simd, SimdBase, f32x16, f64x8};
 use crate::look::lanes::{Lanes, Vec3x16};
+use std::ops::Range;
 
 /// The most samples of a row that are shaded together: what is kept of them stays in the innermost cache.
 pub(super) const CHUNK: usize = 256;
@@ -76,4 +77,10 @@ pub(super) fn store_sixteen<S: Simd>(vectors: Vec3x16<S>, to: &mut Vectors, at: 
     vectors.x.store_slice(&mut to_x[at..at + 16]);
     vectors.y.store_slice(&mut to_y[at..at + 16]);
     vectors.z.store_slice(&mut to_z[at..at + 16]);
+}
+
+/// The coordinates of some of the vectors.
+#[inline(always)]
+pub(super) fn part([x, y, z]: &mut Vectors, of: Range<usize>) -> [&mut [f32]; 3] {
+    [&mut x[of.clone()], &mut y[of.clone()], &mut z[of]]
 }

@@ -2,6 +2,7 @@
 
 use super::chunk::{Chunk, Vectors, WIDE};
 use super::found::Found;
+use super::local::{LocalVector, MOST_LIGHTS};
 use super::surfaces::{EightTriangles, Seen, SetUp, Surfaces, Wanted};
 use crate::engine::simd::{Simd, SimdBase, SimdMask, u32x16};
 use crate::frame::{Ids, NO_PRIMITIVE, NO_WIDE_PRIMITIVE};
@@ -40,7 +41,9 @@ pub(super) struct Desk<'a, A: Surfaces> {
     places: Vec<(u32, u32)>,
     names: Names,
     pub(super) kept: Vec<Kept<'a, A::Local>>,
-    /// Those of them whose look is not local.
+    /// The ways to the points of light from those of them whose look is local.
+    pub(super) ways: Vec<LocalVector>,
+    /// Those whose look is not local.
     pub(super) surfaces: Vec<KeptSurface<A::Surface>>,
     /// Whether the `t` of samples matter to any of these.
     pub(super) looks_at_t: bool,
@@ -64,8 +67,8 @@ pub(super) struct Kept<'a, L> {
 }
 
 pub(super) enum KeptLook<L> {
-    /// A triangle of which nothing but its normals is wanted.
-    Local(L),
+    /// A triangle of which nothing but its normals and ways to lights is wanted; the place of the first way.
+    Local { look: L, ways: u32 },
     /// The place of anything else among the surfaces.
     Surface(u32),
 }
@@ -121,6 +124,7 @@ impl<'a, A: Surfaces> Desk<'a, A> {
             places: vec![(NO_PRIMITIVE, 0); HASHES],
             names: Names::default(),
             kept: Vec::new(),
+            ways: Vec::new(),
             surfaces: Vec::new(),
             looks_at_t: false,
             new: Vec::new(),
@@ -184,6 +188,7 @@ impl<'a, A: Surfaces> Desk<'a, A> {
 
     fn forget(&mut self) {
         self.kept.clear();
+        self.ways.clear();
         self.surfaces.clear();
         self.looks_at_t = false;
         self.places.fill((NO_PRIMITIVE, 0));
@@ -198,7 +203,7 @@ impl<'a, A: Surfaces> Desk<'a, A> {
         let mut name_of = |id: u64| {
             *names.entry(id).or_insert_with(|| {
                 known.push(id);
-                u32::try_from(known.len() - 1).expect("few are kept")
+                number(known.len() - 1)
             })
         };
         let mut named = std::mem::take(of_chunk);
@@ -227,7 +232,7 @@ impl<'a, A: Surfaces> Desk<'a, A> {
         if kept == name {
             return place;
         }
-        let place = u32::try_from(self.kept.len() + self.new.len()).expect("few are kept");
+        let place = number(self.kept.len() + self.new.len());
         self.new.push(name);
         self.places[hash] = (name, place);
         place
@@ -294,10 +299,12 @@ impl<'a, A: Surfaces> Desk<'a, A> {
         triangles: &EightTriangles<S>,
     ) {
         let mut ids = ids.iter();
-        setting.surfaces.set_up_eight(triangles, |set_up| {
+        setting.surfaces.set_up_eight(triangles, setting.wanted, |look, ways| {
             let Some(&id) = ids.next() else { return };
-            match set_up {
-                Some(set_up) => self.keep(setting, set_up, (found.material(id), false)),
+            match look {
+                Some(look) => {
+                    self.keep_local(look, &ways[..setting.wanted.lights.len()], found.material(id));
+                }
                 None => self.set_up(setting, found, id),
             }
         });
@@ -308,27 +315,35 @@ impl<'a, A: Surfaces> Desk<'a, A> {
         let (object, local, material) = (found.object, found.local(id), found.material(id));
         let primitive = setting.view.primitive_of(&object.shape, local);
         let seen = Seen { id, primitive, object, local, material };
-        let set_up = setting.surfaces.set_up(&seen, setting.wanted);
-        self.keep(setting, set_up, (material, seen.is_tinted()));
+        let mut ways = [LocalVector::default(); MOST_LIGHTS];
+        match setting.surfaces.set_up(&seen, setting.wanted, &mut ways) {
+            SetUp::Local(look) => {
+                self.keep_local(look, &ways[..setting.wanted.lights.len()], material);
+            }
+            SetUp::Surface(surface) => {
+                self.looks_at_t |= setting.surfaces.looks_at_t(&surface);
+                let look = KeptLook::Surface(number(self.surfaces.len()));
+                self.surfaces.push(KeptSurface { surface, is_tinted: seen.is_tinted() });
+                self.kept.push(Kept { material, look });
+            }
+        }
     }
 
     #[inline(always)]
-    fn keep(
-        &mut self,
-        setting: &Setting<'a, A>,
-        set_up: SetUp<A::Surface, A::Local>,
-        (material, is_tinted): (&'a Material, bool),
-    ) {
-        let look = match set_up {
-            SetUp::Local(normals) => KeptLook::Local(normals),
-            SetUp::Surface(surface) => {
-                self.looks_at_t |= setting.surfaces.looks_at_t(&surface);
-                self.surfaces.push(KeptSurface { surface, is_tinted });
-                KeptLook::Surface(u32::try_from(self.surfaces.len() - 1).expect("few are kept"))
-            }
-        };
+    fn keep_local(&mut self, look: A::Local, ways: &[LocalVector], material: &'a Material) {
+        let look = KeptLook::Local { look, ways: number(self.ways.len()) };
         self.kept.push(Kept { material, look });
+        // Without points of light, nothing is to be done for each triangle.
+        if !ways.is_empty() {
+            self.ways.extend_from_slice(ways);
+        }
     }
+}
+
+/// A place among what is kept.
+#[inline(always)]
+fn number(place: usize) -> u32 {
+    u32::try_from(place).expect("few are kept")
 }
 
 /// Whether nothing is seen at any of some samples.

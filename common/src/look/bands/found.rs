@@ -1,6 +1,6 @@
 //! Primitives that are seen and are to be set up: those of one object, one or eight triangles at once.
 
-use super::surfaces::{EightTriangles, Wanted, needs_normals_alone};
+use super::surfaces::{EightTriangles, Wanted, is_plain};
 use crate::engine::simd::{Simd, SimdBase, f64x8, prefetch_at};
 use crate::look::lanes::{DVec3x8, Lanes, each};
 use crate::scene::material::Material;
@@ -17,7 +17,7 @@ pub(super) struct Found<'a> {
     /// Its mesh, if it is one.
     mesh: Option<&'a Mesh>,
     wanted: Wanted<'a>,
-    /// Whether nothing is wanted of what has the object's material but normals.
+    /// Whether nothing is wanted of what has the object's material but normals and ways to lights.
     is_plain: bool,
 }
 
@@ -33,7 +33,7 @@ impl<'a> Found<'a> {
             Shape::Mesh(mesh) => Some(mesh),
             _ => None,
         };
-        let is_plain = needs_normals_alone(wanted, object, &object.material);
+        let is_plain = is_plain(wanted, object, &object.material);
         Found { object, ids: scene.ids_of(number), mesh, wanted, is_plain }
     }
 
@@ -82,7 +82,7 @@ impl<'a> Found<'a> {
     #[inline(always)]
     pub(super) fn read(&self, ids: &[u64], corners: &mut Corners) -> bool {
         let Some(mesh) = self.mesh else { return false };
-        let is_plain = |id: &u64| needs_normals_alone(self.wanted, self.object, self.material(*id));
+        let is_plain = |id: &u64| is_plain(self.wanted, self.object, self.material(*id));
         let are_plain =
             if mesh.materials().is_some() { ids.iter().all(is_plain) } else { self.is_plain };
         if !are_plain {

@@ -1,21 +1,71 @@
-//! Normals that are kept as some numbers in `f32`, counted from a sample near their triangle. Most of these triangles are small, and
-//! seen at few samples of a row.
+//! Normals and ways to points of light that are kept as some numbers in `f32`, counted from a sample near their triangle. Most of
+//! these triangles are small, and seen at few samples of a row.
 
-use crate::engine::simd::{Simd, SimdBase, f32x8};
+use crate::engine::simd::{Simd, SimdBase, SimdNarrow, f32x8, f64x8};
+use crate::look::lanes::{DVec3x8, Lanes, each};
 use crate::raster::Sample;
 use std::convert::Infallible;
 
-/// The normals of a triangle of which nothing else is wanted, each of some numbers in `f32` that are exact enough near it.
-pub trait LocalNormals: Copy + Send {
-    /// Writes down normals towards the viewer, of any length between 2⁻⁶⁰ and 2⁶⁰, at some samples of a row, of which this is the
-    /// first: their three coordinates, a multiple of eight of each. Samples at which the triangle is not seen get any values.
-    fn store<S: Simd>(&self, simd: S, first: Sample, to: [&mut [f32]; 3]);
+/// With more points of light, the point that is seen takes less room than the ways to all of them. This number is a guess.
+pub const MOST_LIGHTS: usize = 4;
+
+/// Three vectors, of which an order makes another one at each sample.
+pub type LocalVector = [[f32; 3]; 3];
+
+/// A triangle of which nothing is wanted but normals and the ways to points of light, by some numbers in `f32` that are exact enough
+/// near it.
+pub trait LocalLook: Copy + Send {
+    /// What its normals are made of.
+    fn normals(&self) -> &LocalVector;
+
+    /// Writes down a vector at some samples of a row, of which this is the first: its three coordinates, a multiple of eight of
+    /// each. Samples at which the triangle is not seen get any values.
+    ///
+    /// Normals are towards the viewer, and ways lead to their light; all have any length between 2⁻⁶⁰ and 2⁶⁰.
+    fn store<S: Simd>(&self, simd: S, first: Sample, vector: &LocalVector, to: [&mut [f32]; 3]);
 }
 
 /// There are none.
-impl LocalNormals for Infallible {
-    fn store<S: Simd>(&self, _simd: S, _first: Sample, _to: [&mut [f32]; 3]) {
+impl LocalLook for Infallible {
+    fn normals(&self) -> &LocalVector {
         match *self {}
+    }
+
+    fn store<S: Simd>(&self, _: S, _: Sample, _: &LocalVector, _: [&mut [f32]; 3]) {
+        match *self {}
+    }
+}
+
+/// Three vectors as they are kept.
+#[inline(always)]
+pub fn local_vector([a, b, c]: [Lanes<f64>; 3]) -> LocalVector {
+    #[expect(clippy::cast_possible_truncation, reason = "each order derives what it loses")]
+    let number = |number: f64| number as f32;
+    each!(of in [a, b, c] => [number(of.x), number(of.y), number(of.z)])
+}
+
+/// The same of eight triangles.
+#[derive(Clone, Copy, Debug)]
+pub struct EightVectors([[f32; 16]; 5]);
+
+impl EightVectors {
+    /// Nothing.
+    pub const ZERO: EightVectors = EightVectors([[0.0; 16]; 5]);
+
+    /// With these vectors, rounded to `f32`.
+    #[inline(always)]
+    pub fn new<S: Simd>([a, b, c]: [DVec3x8<S>; 3]) -> EightVectors {
+        // Two times eight numbers at a time become `f32`.
+        let halves: [[f64x8<S>; 2]; 5] =
+            [[a.x, a.y], [a.z, b.x], [b.y, b.z], [c.x, c.y], [c.z, c.z]];
+        EightVectors(each!(k in [0, 1, 2, 3, 4] => halves[k][0].narrow(halves[k][1]).to_array()))
+    }
+
+    /// Those of one triangle.
+    #[inline(always)]
+    pub fn of(&self, lane: usize) -> LocalVector {
+        let number = |k: usize| self.0[k / 2][k % 2 * 8 + (lane & 7)];
+        each!(from in [0, 3, 6] => [number(from), number(from + 1), number(from + 2)])
     }
 }
 

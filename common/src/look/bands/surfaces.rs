@@ -1,7 +1,7 @@
 //! What a renderer says of its surfaces, sixteen samples at a time.
 
 use super::chunk::{Chunk, Vectors, eight, sixteen, store_sixteen};
-use super::local::LocalNormals;
+use super::local::{LocalLook, LocalVector, MOST_LIGHTS};
 use crate::camera::{Camera, Projection};
 use crate::engine::simd::{Simd, SimdBase, SimdMask, f32x16, f64x8, mask64x8};
 use crate::look::lanes::{DVec3x8, Vec3x16, each};
@@ -15,8 +15,8 @@ use glam::{DVec2, DVec3, Vec3};
 pub trait Surfaces: Sync {
     /// A visible primitive, set up for all samples at which it is seen.
     type Surface: Send;
-    /// A triangle of which nothing but its normals is wanted, where few numbers are enough for them.
-    type Local: LocalNormals;
+    /// A triangle of which nothing but its normals and ways to lights is wanted, where few numbers are enough for them.
+    type Local: LocalLook;
 
     /// The directions towards the viewer, of any length, at sixteen samples that follow one another in a row: against
     /// the rays of the camera, unless a renderer has others. The samples are given by the first of them and by their
@@ -38,18 +38,26 @@ pub trait Surfaces: Sync {
         }
     }
 
-    /// Sets up a primitive. Where triangles are as small as samples, most of the time goes here: `#[inline(always)]`.
-    fn set_up(&self, seen: &Seen, wanted: Wanted) -> SetUp<Self::Surface, Self::Local>;
+    /// Sets up a primitive. Of a local one it fills the ways to the points of light that are wanted, of which there are no more
+    /// than there is room for. Where triangles are as small as samples, most of the time goes here: `#[inline(always)]`.
+    fn set_up(
+        &self,
+        seen: &Seen,
+        wanted: Wanted,
+        ways: &mut [LocalVector; MOST_LIGHTS],
+    ) -> SetUp<Self::Surface, Self::Local>;
 
     /// Sets up eight triangles at once, each with the bits of [`Surfaces::set_up`], and gives those that are used to `keep`,
-    /// one after another; `None` for one that is to be set up alone, as all are unless a renderer does better.
+    /// one after another, with the ways to the points of light that are wanted; `None` for one that is to be set up alone, as all
+    /// are unless a renderer does better.
     #[inline(always)]
     fn set_up_eight<S: Simd>(
         &self,
         triangles: &EightTriangles<S>,
-        mut keep: impl FnMut(Option<SetUp<Self::Surface, Self::Local>>),
+        _wanted: Wanted,
+        mut keep: impl FnMut(Option<Self::Local>, &[LocalVector; MOST_LIGHTS]),
     ) {
-        (0..triangles.used).for_each(|_| keep(None));
+        (0..triangles.used).for_each(|_| keep(None, &[LocalVector::default(); MOST_LIGHTS]));
     }
 
     /// Whether the `t` of the samples matter to a primitive.
@@ -72,7 +80,7 @@ pub trait Surfaces: Sync {
 /// What a primitive is set up as.
 #[derive(Clone, Copy, Debug)]
 pub enum SetUp<S, L> {
-    /// A triangle of which nothing but its normals is wanted, where few numbers are enough for them.
+    /// A triangle of which nothing but its normals and ways to lights is wanted, where few numbers are enough for them.
     Local(L),
     /// Anything else.
     Surface(S),
@@ -132,10 +140,10 @@ impl Seen<'_> {
         self.material.texture.is_some() || has_colors(self.object)
     }
 
-    /// Whether nothing is wanted but a normal.
+    /// Whether nothing is wanted but normals and ways to few points of light.
     #[inline(always)]
-    pub fn needs_normals_alone(&self, wanted: Wanted) -> bool {
-        needs_normals_alone(wanted, self.object, self.material)
+    pub fn is_plain(&self, wanted: Wanted) -> bool {
+        is_plain(wanted, self.object, self.material)
     }
 
     /// Whether texture coordinates are needed.
@@ -158,10 +166,12 @@ impl Seen<'_> {
     }
 }
 
-/// [`Seen::needs_normals_alone`], before the primitive is looked at.
+/// [`Seen::is_plain`], before the primitive is looked at.
 #[inline(always)]
-pub(super) fn needs_normals_alone(wanted: Wanted, object: &Object, material: &Material) -> bool {
-    wanted == Wanted::default() && !material.has_pattern() && !has_colors(object)
+pub(super) fn is_plain(wanted: Wanted, object: &Object, material: &Material) -> bool {
+    let Wanted { lights, texture_coordinates, steps } = wanted;
+    let is_textured = texture_coordinates || steps || material.has_pattern();
+    lights.len() <= MOST_LIGHTS && !is_textured && !has_colors(object)
 }
 
 /// Whether its vertices have colours.
@@ -180,7 +190,7 @@ fn unit(vector: DVec3) -> DVec3 {
     if is_unit { vector } else { vector.normalize_or_zero() }
 }
 
-/// Eight triangles of which nothing but interpolated normals is wanted.
+/// Eight triangles of which nothing but interpolated normals and ways to lights is wanted.
 #[derive(Clone, Copy, Debug)]
 pub struct EightTriangles<S: Simd> {
     /// The corners of each, relative to the eye.
