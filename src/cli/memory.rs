@@ -34,6 +34,9 @@ const BYTES_PER_PIXEL: [u64; 2] = [3 + 8, 6 + 12];
 /// not counted: their size depends on the scene, and is small compared with a frame that is refused for its size.
 const BYTES_FOR_THE_REST: u64 = 16 << 20;
 
+/// The bytes for the canvas of a figure or a film, and its file.
+const BYTES_FOR_A_CANVAS: u64 = 16 << 20;
+
 /// From this number of bytes on, a run reports its memory in advance.
 const MUCH: u64 = 4 << 30;
 
@@ -84,13 +87,15 @@ impl Need {
         Need { samples, bytes }
     }
 
-    /// The frames and the pictures alone.
+    /// The frames and the pictures alone, and what is drawn of them.
     fn of_both_orders(camera: &Camera, options: &Options) -> Need {
         let pixels = options.pixels(camera.image());
         let samples = pixels.region(options.samples).area() as u64;
         let pixels = u64::from(pixels.width) * u64::from(pixels.height);
-        let bytes =
-            samples * 2 * BYTES_PER_SAMPLE + pixels * BYTES_PER_PIXEL[1] + BYTES_FOR_THE_REST;
+        let bytes = samples * 2 * BYTES_PER_SAMPLE
+            + pixels * BYTES_PER_PIXEL[1]
+            + BYTES_FOR_THE_REST
+            + BYTES_FOR_A_CANVAS;
         Need { samples, bytes }
     }
 

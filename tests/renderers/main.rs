@@ -1,4 +1,4 @@
-//! The results of both orders besides ids: looks, counts, crops, distant eyes; and the same bits for any number of
+//! The results of both orders besides ids: looks, lights, counts, crops, distant eyes; and the same bits for any number of
 //! threads.
 
 mod counting;
@@ -9,6 +9,7 @@ mod filter;
 #[path = "../contract/four_renderers.rs"]
 mod four_renderers;
 mod from_afar;
+mod lights;
 mod materials;
 mod rules;
 mod same_bytes;

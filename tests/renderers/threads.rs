@@ -52,25 +52,30 @@ fn no_level_of_simd_changes_a_bit_of_what_is_shaded() {
             let camera = Camera::new(description).unwrap();
             let view = View::new(&loaded.scene, &camera);
             let options = Options { samples, ..Options::default() };
-            let empty = Frame::new(&camera, &options);
-            let empty = empty.with_colors().with_normals().with_texture_coordinates();
-            let empty = empty.with_levels();
+            let empty = Frame::new(&camera, &options).with_colors().with_normals();
             let (mut object, mut image) = (empty.clone(), empty);
             let prepared = rasterize::fast::prepare(&loaded.scene);
             rasterize::fast::determine_visibility(&prepared, &view, &options, &mut object, &mut ());
             let prepared = raytrace::fast::prepare(&loaded.scene);
             raytrace::fast::determine_visibility(&prepared, &view, &options, &mut image, &mut ());
-            let shaded = |level| {
-                let (mut object, mut image) = (object.clone(), image.clone());
-                rasterize::shade_with(&view, &mut object, level);
-                raytrace::shade_with(&view, &mut image, level);
-                [object, image]
-            };
-            let all: Vec<_> = levels().into_iter().map(shaded).collect();
-            let colors = all[0][0].picture().iter().collect::<std::collections::HashSet<_>>();
-            assert!(colors.len() > 100, "{name}, {projection:?}: {} colours", colors.len());
-            for other in &all[1..] {
-                assert!(*other == all[0], "{name}, {projection:?}");
+            // Small triangles are set up otherwise where nothing is kept of textures.
+            for keeps_textures in [false, true] {
+                let kept = |frame: &Frame| match keeps_textures {
+                    true => frame.clone().with_texture_coordinates().with_levels(),
+                    false => frame.clone(),
+                };
+                let shaded = |level| {
+                    let [mut object, mut image] = [&object, &image].map(kept);
+                    rasterize::shade_with(&view, &mut object, level);
+                    raytrace::shade_with(&view, &mut image, level);
+                    [object, image]
+                };
+                let all: Vec<_> = levels().into_iter().map(shaded).collect();
+                let colors = all[0][0].picture().iter().collect::<std::collections::HashSet<_>>();
+                assert!(colors.len() > 100, "{name}, {projection:?}: {} colours", colors.len());
+                for other in &all[1..] {
+                    assert!(*other == all[0], "{name}, {projection:?}, {keeps_textures}");
+                }
             }
         }
     }

@@ -48,8 +48,8 @@ impl Drawing {
     }
 
     /// The same picture in bands, from the top to the bottom, for those who need no more than one at a time: each has
-    /// the width of the picture and some of its rows. Where a curve or a slanted line goes on from one band to the next, a
-    /// few pixels may differ a little from those of the whole picture.
+    /// the width of the picture and some of its rows. Where a curve or a line goes on from one band to the next, a few
+    /// pixels may differ from those of the whole picture by a subsample.
     ///
     /// # Panics
     ///

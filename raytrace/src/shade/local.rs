@@ -283,7 +283,7 @@ impl<S: Simd> Beside<f64x8<S>> {
         });
     }
 
-    /// The same without ways; the sizes may be larger.
+    /// Gives the looks alone. Triangles of these sizes may be larger, as ways to lights count.
     #[inline(always)]
     fn each_look(
         &self,
@@ -322,7 +322,7 @@ mod tests {
     use bothways_common::look::bands::are_alike;
     use bothways_common::{Camera, CameraDescription, Scene};
     use bothways_test_support::{
-        Dice, assert_normals_of_a_row, lights_of_a_triangle as lights, normals_at_corners,
+        Dice, assert_vectors_of_a_row, lights_of_a_triangle as lights, normals_at_corners,
     };
     use glam::Vec3;
 
@@ -430,7 +430,7 @@ mod tests {
         println!("{small} small with {samples} samples, {large} large, off by {worst:?} at most");
         assert!(small > 5000 && large > 5000, "{small}, {large}");
         assert!(samples > 100_000, "{samples}");
-        assert!(worst.into_iter().all(|worst| worst < 1e-4), "{worst:?}");
+        assert!(worst.into_iter().all(|worst| worst < 1e-5), "{worst:?}");
     }
 
     #[test]
@@ -461,7 +461,7 @@ mod tests {
             beyond: [0.31, -0.17],
             slopes: [[0.011, -0.02], [0.3, 0.17], [-0.41, 0.07]],
         };
-        assert_normals_of_a_row(&look, |sample| look.at(&normals, sample));
+        assert_vectors_of_a_row(&look, |sample| look.at(&normals, sample));
     }
 
     #[test]

@@ -85,7 +85,8 @@ fn in_bands(out: &mut Out, bands: Bands) -> io::Result<()> {
     for band in bands {
         stream.write_all(&band)?;
     }
-    Ok(stream.finish()?)
+    stream.finish()?;
+    Ok(writer.finish()?)
 }
 
 /// One filter for all rows: of our pictures it makes files as small as the best filter for each row, in less time.

@@ -1,4 +1,4 @@
-//! Normals of triangles, for the tests of both shaders.
+//! Normals of triangles and ways to lights, for the tests of both shaders.
 
 use crate::Dice;
 use bothways_common::Sample;
@@ -6,8 +6,8 @@ use bothways_common::engine::simd::{dispatch, levels};
 use bothways_common::glam::{DVec3, Vec3};
 use bothways_common::look::bands::LocalLook;
 
-/// Checks that normals of a row have the bits of each sample's own, at every level of SIMD.
-pub fn assert_normals_of_a_row(look: &impl LocalLook, at: impl Fn(Sample) -> Vec3) {
+/// Checks that the vectors of a row have the bits of each sample's own, at every level of SIMD.
+pub fn assert_vectors_of_a_row(look: &impl LocalLook, at: impl Fn(Sample) -> Vec3) {
     let first = Sample { row: 5, column: 990 };
     for level in levels() {
         let [mut x, mut y, mut z] = [[0.0; 24]; 3];

@@ -43,7 +43,7 @@ pub(super) struct Desk<'a, A: Surfaces> {
     pub(super) kept: Vec<Kept<'a, A::Local>>,
     /// The ways to the points of light from those of them whose look is local.
     pub(super) ways: Vec<LocalVector>,
-    /// Those whose look is not local.
+    /// The surfaces of those whose look is not local.
     pub(super) surfaces: Vec<KeptSurface<A::Surface>>,
     /// Whether the `t` of samples matter to any of these.
     pub(super) looks_at_t: bool,

@@ -6,7 +6,8 @@ use crate::look::lanes::{DVec3x8, Lanes, each};
 use crate::raster::Sample;
 use std::convert::Infallible;
 
-/// With more points of light, the point that is seen takes less room than the ways to all of them. This number is a guess.
+/// With more points of light, the point that is seen takes less room than the ways to all of them. Triangles are not kept as local
+/// looks then, either. This number is a guess.
 pub const MOST_LIGHTS: usize = 4;
 
 /// Three vectors, of which an order makes another one at each sample.
@@ -49,7 +50,7 @@ pub fn local_vector([a, b, c]: [Lanes<f64>; 3]) -> LocalVector {
 pub struct EightVectors([[f32; 16]; 5]);
 
 impl EightVectors {
-    /// Nothing.
+    /// Zeros.
     pub const ZERO: EightVectors = EightVectors([[0.0; 16]; 5]);
 
     /// With these vectors, rounded to `f32`.

@@ -1,7 +1,6 @@
 //! A drawing as a picture of pixels.
 //!
-//! It is drawn in bands of some rows. A band needs little memory, which stays in a core's cache; and a picture that goes
-//! into a file is never in memory as a whole.
+//! It can be drawn in bands of some rows: then it is never in memory as a whole.
 
 use super::canvas::CANVAS;
 use super::items::{Corners, Drawing, Ink, Item, Pen, Text};
@@ -66,7 +65,7 @@ impl<'a> Bands<'a> {
         self.size
     }
 
-    /// The row where the next band ends: the last one in its second half that cuts no path that is lower than a band, if
+    /// The row where the next band ends: the last one in its second half that cuts no path that is less high than a band, if
     /// there is one. A curve that is cut is made of other lines, so that some pixels change a little.
     fn end(&self) -> u32 {
         let [_, height] = self.size;
@@ -83,7 +82,7 @@ impl<'a> Bands<'a> {
             #[expect(
                 clippy::cast_possible_truncation,
                 clippy::cast_sign_loss,
-                reason = "a row of the picture; above it is row 0"
+                reason = "a row; what begins above the picture gives row 0"
             )]
             let above = cut.start.floor() as u32;
             end = above;
@@ -147,7 +146,7 @@ impl Shape<'_> {
     /// Draws what lies in these rows of the picture.
     fn draw(&self, band: &mut Pixmap, rows: &Range<u32>) {
         let [above, below] = [rows.start, rows.end].map(|row| single(row.into()));
-        // What is in pixels already is moved by a whole number of them, so that no coordinate is rounded.
+        // Fills are in pixels already, and are moved by a whole number of them, so that no coordinate is rounded.
         let up = Transform::from_translate(0.0, -above);
         match self {
             Shape::Rectangle { rectangle, ink } => {
@@ -290,7 +289,7 @@ impl<'a> Shapes<'a> {
         )]
         let pixels = size.map(|side| side as u32);
         // Our own resizing mixes light, and keeps enlarged pixels square.
-        if upright && size.iter().all(|side| *side >= 1.0) {
+        if upright {
             let pixels = resized(picture, pixels);
             self.all.push(Shape::Picture { pixels, corner: corner.map(f64::round), alpha });
             return;
@@ -396,12 +395,16 @@ mod tests {
         drawing.picture(checkered(), [100.0, 200.0], [80.0, 180.0]);
         drawing.picture(checkered(), [900.0, -60.0], [160.0, 360.0]);
         drawing.picture(checkered(), [300.0, 960.0], [80.0, 180.0]);
-        let whole = in_bands(&drawing, 960, 540);
-        for rows in [1, 7, 68, 539] {
-            assert!(in_bands(&drawing, 960, rows) == whole, "bands of {rows} rows");
+        for width in [960, 1920] {
+            let whole = drawing.pixels(width).into_raw();
+            for rows in [1, 7, 68, 539] {
+                let parts = in_bands(&drawing, width, rows);
+                assert!(parts == whole, "{width} pixels wide, in bands of {rows} rows");
+            }
+            // The second pixel of the first picture.
+            let [row, column] = [5 * width / 48, 5 * width / 96 + width / 960];
+            assert_eq!(whole[3 * (row * width + column) as usize..][..3], [9; 3]);
         }
-        // The picture's second pixel, in row 100 and column 51.
-        assert_eq!(whole[3 * (100 * 960 + 51)..][..3], [9; 3]);
     }
 
     #[test]

@@ -53,7 +53,14 @@ fn slide(scene: &str, size: [u32; 2], count: u64, match_: bool) -> RgbImage {
         pictures: pictures.each_ref(),
         comparison: &comparison,
     };
-    slide.draw(Theme::Dark).pixels(1920)
+    let drawing = slide.draw(Theme::Dark);
+    let whole = drawing.pixels(1920);
+    let bands: Vec<RgbImage> = drawing.bands(1920).collect();
+    // Some end between lines of text.
+    let first = bands[0].height();
+    assert!(bands[..bands.len() - 1].iter().any(|band| band.height() != first));
+    assert!(bands.iter().flat_map(|band| band.iter()).eq(whole.iter()), "{scene}");
+    whole
 }
 
 #[test]
