@@ -283,7 +283,7 @@ impl<S: Simd> Beside<f64x8<S>> {
         });
     }
 
-    /// Gives the looks alone. Triangles of these sizes may be larger, as ways to lights count.
+    /// Gives the looks alone, of triangles of these sizes, which may include those of the ways.
     #[inline(always)]
     fn each_look(
         &self,
