@@ -4,13 +4,14 @@
 mod form;
 mod local;
 mod quotient;
+mod stretch;
 mod ways;
 mod weights;
 
 use bothways_common::engine::simd::{Level, Simd, SimdBase, SimdNarrow, best_level, f64x8};
 use bothways_common::look::bands::{
     self, EightTriangles, LocalVector, MOST_LIGHTS, Points, Rays, Samples, Seen, SetUp, Sixteen,
-    Surfaces, Wanted, are_alike,
+    Stretch, Surfaces, Wanted, are_alike,
 };
 use bothways_common::look::lanes::{DVec3x8, Lanes, Vec3x16, each};
 use bothways_common::look::texture::{self, TexturePoints};
@@ -19,6 +20,7 @@ use form::{Form, HitPoints};
 use glam::{DVec2, DVec3, Vec3};
 use local::{AffineLook, Grid, Local};
 use quotient::{Affine, Colors, Quotient};
+use stretch::{QuotientAlong, VectorAlong};
 use ways::WaysToLights;
 use weights::{side_of, side_seen, weights, weights_of};
 
@@ -55,6 +57,24 @@ struct Surface {
     details: Option<Box<Details>>,
 }
 
+/// What a surface looks like along a stretch of samples, where `f32` is enough for that.
+#[derive(Default)]
+struct Along {
+    /// The ways to the points of light, if there are any.
+    ways: [VectorAlong; MOST_LIGHTS],
+    has_ways: bool,
+    pattern: Option<QuotientAlong>,
+}
+
+impl Along {
+    /// Forgets what was there.
+    #[inline(always)]
+    fn begin(&mut self) {
+        self.has_ways = false;
+        self.pattern = None;
+    }
+}
+
 /// Where the points are that are seen.
 enum Place {
     /// It is not needed.
@@ -72,6 +92,8 @@ enum Texture {
     Sphere,
     /// That of a flat form: a function on the viewport.
     Flat(Box<Quotient>),
+    /// The same, needed for a pattern alone.
+    Pattern(Box<Quotient>),
 }
 
 /// What few surfaces need.
@@ -100,6 +122,7 @@ struct Smooth {
 impl Surfaces for Interpolated<'_> {
     type Surface = Surface;
     type Local = AffineLook;
+    type Along = Along;
 
     #[inline(always)]
     fn set_up(
@@ -114,10 +137,11 @@ impl Surfaces for Interpolated<'_> {
             return SetUp::Local(local);
         }
         let normals = Normals::new(view, primitive, corners);
-        let texture = if seen.needs_texture(wanted) {
-            Texture::new(view, primitive, seen.corner_coordinates())
-        } else {
-            Texture::None
+        let texture = match Texture::new(view, seen, wanted) {
+            Texture::Flat(quotient) if seen.needs_pattern_alone(wanted) => {
+                Texture::Pattern(quotient)
+            }
+            texture => texture,
         };
         let details = Details::new(view, seen, wanted).map(Box::new);
         let place = self.place(primitive, wanted);
@@ -139,6 +163,18 @@ impl Surfaces for Interpolated<'_> {
     }
 
     #[inline(always)]
+    fn go_along(&self, surface: &Surface, stretch: &Stretch, _: Wanted, along: &mut Along) {
+        along.begin();
+        // Without a pattern, ways that are found at each sample take no longer.
+        let Texture::Pattern(quotient) = &surface.texture else { return };
+        let step = self.grid.step();
+        along.pattern = QuotientAlong::new(quotient, stretch, step);
+        if let Place::Ways(ways) = &surface.place {
+            along.has_ways = ways.go_along(stretch, step[1], &mut along.ways);
+        }
+    }
+
+    #[inline(always)]
     fn looks_at_t(&self, surface: &Surface) -> bool {
         matches!(surface.place, Place::Points(_))
     }
@@ -148,6 +184,7 @@ impl Surfaces for Interpolated<'_> {
         &self,
         simd: S,
         surface: &Surface,
+        along: &Along,
         samples: &Sixteen<S>,
         points: &mut Points<'_>,
     ) {
@@ -163,7 +200,7 @@ impl Surfaces for Interpolated<'_> {
         let hits = match &surface.place {
             Place::Unneeded => [HitPoints::nowhere(simd); 2],
             Place::Ways(ways) => {
-                ways.store(simd, samples, points);
+                ways.store(simd, along.has_ways.then_some(&along.ways), samples, points);
                 [HitPoints::nowhere(simd); 2]
             }
             Place::Points(form) => {
@@ -179,7 +216,7 @@ impl Surfaces for Interpolated<'_> {
                 hits
             }
         };
-        self.texture(simd, &surface.texture, samples, &hits, points);
+        self.texture(simd, (&surface.texture, along), samples, &hits, points);
         if let Some(details) = &surface.details {
             self.details(simd, details, &surface.texture, samples, &hits, points);
         }
@@ -224,16 +261,21 @@ impl Interpolated<'_> {
     fn texture<S: Simd>(
         &self,
         simd: S,
-        texture: &Texture,
+        (texture, along): (&Texture, &Along),
         samples: &Sixteen<S>,
         hits: &[HitPoints<S>; 2],
         points: &mut Points<'_>,
     ) {
+        if let Some(along) = &along.pattern {
+            return points.set_pattern(simd, &along.at(simd, samples.numbers(simd)));
+        }
         let [low, high] = match texture {
             Texture::None => return,
-            Texture::Flat(quotient) => each!(half in [&samples.low, &samples.high] => {
-                quotient.with_footprint(simd, half.x, half.y, self.grid.step())
-            }),
+            Texture::Flat(quotient) | Texture::Pattern(quotient) => {
+                each!(half in [&samples.low, &samples.high] => {
+                    quotient.with_footprint(simd, half.x, half.y, self.grid.step())
+                })
+            }
             Texture::Sphere => {
                 each!(half in [(&samples.low, &hits[0]), (&samples.high, &hits[1])] => {
                     self.on_sphere(simd, half.0, half.1)
@@ -264,7 +306,7 @@ impl Interpolated<'_> {
         let halves = [(&samples.low, &hits[0]), (&samples.high, &hits[1])];
         let [low, high] = match texture {
             Texture::None => return,
-            Texture::Flat(quotient) => {
+            Texture::Flat(quotient) | Texture::Pattern(quotient) => {
                 each!(k in [0, 1] => quotient.differences(simd, halves[k].0, self.grid.step()))
             }
             Texture::Sphere => {
@@ -403,8 +445,11 @@ impl Details {
 }
 
 impl Texture {
-    fn new(view: &View, primitive: &Primitive, corners: Option<[DVec2; 3]>) -> Texture {
-        match (*primitive, corners) {
+    fn new(view: &View, seen: &Seen, wanted: Wanted) -> Texture {
+        if !seen.needs_texture(wanted) {
+            return Texture::None;
+        }
+        match (seen.primitive, seen.corner_coordinates()) {
             (Primitive::Sphere { .. }, _) => Texture::Sphere,
             (Primitive::Plane { point, normal }, _) => {
                 let axes = texture::plane_axes(normal);

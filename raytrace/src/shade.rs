@@ -1,6 +1,7 @@
 //! The look of what is seen. Image order goes along each ray to the point that it hit.
 
 mod local;
+mod stretch;
 mod triangle;
 
 use bothways_common::engine::simd::{
@@ -8,13 +9,14 @@ use bothways_common::engine::simd::{
 };
 use bothways_common::look::bands::{
     self, EightTriangles, LocalVector, MOST_LIGHTS, Points, Rays, Samples, Seen, SetUp, Sixteen,
-    Surfaces, Wanted, are_alike,
+    Stretch, Surfaces, Wanted, are_alike,
 };
 use bothways_common::look::lanes::{DVec3x8, Lanes, Real, Vec3x16, each};
 use bothways_common::look::texture::{self, TexturePoints};
 use bothways_common::{Frame, Primitive, Projection, Raster, View};
 use glam::{DVec2, DVec3, Vec3};
 use local::{Beside, LookAtHits};
+use stretch::{FirstHit, HitsAlong};
 use triangle::{Triangle, side_seen, steps_from_first};
 
 /// Gives a frame its picture, from the hit point of each sample's ray. If the frame keeps
@@ -56,6 +58,16 @@ struct Surface {
     has_points: bool,
     texture: Texture,
     details: Option<Box<Details>>,
+    /// Whether it is worth finding along a stretch where it is hit: it is a plane, or a flat triangle with a pattern, and nothing is needed
+    /// but the ways to points of light or the pattern.
+    is_wide: bool,
+}
+
+/// Where a surface is hit along a stretch of samples, where `f32` is enough for that.
+#[derive(Default)]
+struct Along {
+    is_found: bool,
+    hits: HitsAlong,
 }
 
 enum Normals {
@@ -114,6 +126,7 @@ struct Chart {
 impl Surfaces for AtHits<'_> {
     type Surface = Surface;
     type Local = LookAtHits;
+    type Along = Along;
 
     #[inline(always)]
     fn set_up(
@@ -136,7 +149,13 @@ impl Surfaces for AtHits<'_> {
         let normals = Normals::new(self.view, &form, corners);
         let has_points =
             !wanted.lights.is_empty() || !matches!(texture, Texture::None) || details.is_some();
-        SetUp::Surface(Surface { form, normals, has_points, texture, details })
+        let has_pattern = seen.needs_pattern_alone(wanted) && matches!(texture, Texture::Flat(_));
+        let is_plane = matches!(form, Form::Plane { .. });
+        let is_wide = matches!(normals, Normals::Flat(_))
+            && has_points
+            && details.is_none()
+            && (has_pattern || is_plane && matches!(texture, Texture::None));
+        SetUp::Surface(Surface { form, normals, has_points, texture, details, is_wide })
     }
 
     #[inline(always)]
@@ -154,13 +173,26 @@ impl Surfaces for AtHits<'_> {
     }
 
     #[inline(always)]
+    fn go_along(&self, surface: &Surface, stretch: &Stretch, wanted: Wanted, along: &mut Along) {
+        along.is_found =
+            surface.is_wide && self.go_along_wide(surface, stretch, wanted.lights, &mut along.hits);
+    }
+
+    #[inline(always)]
     fn at<S: Simd>(
         &self,
         simd: S,
         surface: &Surface,
+        along: &Along,
         samples: &Sixteen<S>,
         points: &mut Points<'_>,
     ) {
+        if along.is_found {
+            if let Normals::Flat(flat) = surface.normals {
+                points.set_normals(Vec3x16::splat(simd, flat));
+            }
+            return along.hits.store(simd, samples, points);
+        }
         if !surface.has_points {
             // Triangles of a mesh that are not small mostly need nothing but this.
             match &surface.normals {
@@ -265,6 +297,33 @@ impl AtHits<'_> {
     #[inline(always)]
     fn beside<T: Real>(&self, corners: [Lanes<T>; 3], normals: [Lanes<T>; 3]) -> Beside<T> {
         Beside::new(self.view, &self.raster, self.steps, corners, normals)
+    }
+
+    /// Finds what is needed of a flat form along a stretch. Returns whether `f32` is enough.
+    #[inline(always)]
+    fn go_along_wide(
+        &self,
+        surface: &Surface,
+        stretch: &Stretch,
+        lights: &[DVec3],
+        hits: &mut HitsAlong,
+    ) -> bool {
+        let [point, normal] = match surface.form {
+            Form::Plane { point, normal } => [point, normal],
+            Form::Triangle(Triangle { a, normal, .. }) => [a.into(), normal.into()],
+            Form::Sphere { .. } => return false,
+        };
+        let Some(first) = FirstHit::new(self.view, [point, normal], self.steps, stretch) else {
+            return false;
+        };
+        if !hits.go_along(&first, lights) {
+            return false;
+        }
+        if let Texture::Flat(chart) = &surface.texture {
+            let Chart { first: at_point, gradients, .. } = **chart;
+            hits.add_texture(&first, (at_point, gradients), point, self.steps[1]);
+        }
+        true
     }
 
     /// The texture coordinates at some hit points, and how they move from sample to sample if that is needed.

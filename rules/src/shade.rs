@@ -29,6 +29,7 @@ impl Surfaces for AsSeen<'_> {
     /// Its id.
     type Surface = u64;
     type Local = Infallible;
+    type Along = ();
 
     fn to_viewer<S: Simd>(
         &self,
@@ -53,7 +54,14 @@ impl Surfaces for AsSeen<'_> {
         SetUp::Surface(seen.id)
     }
 
-    fn at<S: Simd>(&self, simd: S, id: &u64, samples: &Sixteen<S>, points: &mut Points<'_>) {
+    fn at<S: Simd>(
+        &self,
+        simd: S,
+        id: &u64,
+        (): &(),
+        samples: &Sixteen<S>,
+        points: &mut Points<'_>,
+    ) {
         let halves = [&samples.low, &samples.high].map(|samples| -> [Seen; 8] {
             let rays = self.rays(samples.first);
             std::array::from_fn(|lane| self.seen(&rays[lane], *id, samples.t[lane]))

@@ -94,13 +94,19 @@ fn mixed_scene() -> Scene {
 }
 
 /// The frames and the counts of both `fast` renderers with tiles of these sizes. Each frame has held another crop, and is
-/// drawn twice.
-fn draw_both(view: &View, options: &Options, tile: [u32; 2], side: usize) -> [(Frame, Work); 2] {
+/// drawn twice. Where it does not keep texture coordinates, patterns are found along stretches of samples.
+fn draw_both(
+    view: &View,
+    options: &Options,
+    (tile, side): ([u32; 2], usize),
+    keeps_textures: bool,
+) -> [(Frame, Work); 2] {
     let level = bothways::common::engine::simd::best_level();
     let mut drawn = [(); 2].map(|()| {
         let elsewhere = Options { crop: Some([0, 1, 3, 5].into()), ..*options };
-        let frame = Frame::new(view.camera, &elsewhere);
-        (frame.with_colors().with_normals().with_texture_coordinates(), Work::default())
+        let frame = Frame::new(view.camera, &elsewhere).with_colors().with_normals();
+        let frame = if keeps_textures { frame.with_texture_coordinates() } else { frame };
+        (frame, Work::default())
     });
     let [(by_object, object_work), (by_image, image_work)] = &mut drawn;
     let prepared = rasterize::fast::prepare(view.scene).drawn_with(level, tile);
@@ -126,12 +132,15 @@ fn crops_that_cut_tiles_equal_the_whole_on_any_number_of_threads() {
                 seed += 1;
                 let samples = 1 + u32::try_from(seed % 2).unwrap();
                 let options = Options { samples, ..Options::default() };
-                let wholes = draw_both(&view, &options, tile, side);
+                let keeps_textures = seed % 4 < 2;
+                let draw =
+                    |options: &Options| draw_both(&view, options, (tile, side), keeps_textures);
+                let wholes = draw(&options);
                 for crop in crops_of(image, seed) {
                     let options = Options { crop: Some(crop), ..options };
                     let on = |threads: usize| {
                         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-                        pool.unwrap().install(|| draw_both(&view, &options, tile, side))
+                        pool.unwrap().install(|| draw(&options))
                     };
                     let parts = on(1);
                     let what = format!("{projection:?} from {eye:?}, tiles {tile:?} and {side}");
@@ -245,7 +254,8 @@ fn events_stay_inside_the_crop_and_number_samples_in_the_whole_image() {
                 assert_eq!(some, expected, "{name}, sample ({row}, {column})");
             }
         }
-        let [(by_object, object_work), (_, image_work)] = draw_both(&view, &part, [10, 6], 16);
+        let [(by_object, object_work), (_, image_work)] =
+            draw_both(&view, &part, ([10, 6], 16), true);
         assert_eq!(by_object.region(), &region);
         // Object order begins every primitive, however small the crop; image order begins the crop's rays alone.
         assert_eq!(object_work.primitives, scene.primitive_count());

@@ -3,6 +3,7 @@
 
 use crate::four_renderers::RENDERERS;
 use bothways::common::glam::{DVec2, Vec2, Vec3};
+use bothways::common::scene::material::Light;
 use bothways::common::scene::{Attribute, Pyramid, Sampler, Wrap};
 use bothways::common::{
     Camera, Frame, Material, Mesh, Object, Options, Scene, Shape, Texture, Triangle, View,
@@ -56,7 +57,12 @@ fn still_life() -> Scene {
 
 /// The frames of both orders, with texture coordinates.
 fn both(view: &View, options: &Options) -> [Frame; 2] {
-    let mut frames = [(); 2].map(|()| Frame::new(view.camera, options).with_texture_coordinates());
+    let frames = [(); 2].map(|()| Frame::new(view.camera, options).with_texture_coordinates());
+    drawn(view, options, frames)
+}
+
+/// Draws and shades a frame in object order, and one in image order.
+fn drawn(view: &View, options: &Options, mut frames: [Frame; 2]) -> [Frame; 2] {
     let [by_object, by_image] = &mut frames;
     let prepared = rasterize::fast::prepare(view.scene);
     rasterize::fast::determine_visibility(&prepared, view, options, by_object, &mut ());
@@ -108,6 +114,28 @@ fn all_four_draw_the_pattern() {
             assert_eq!(compare(&frames[0], frame).color.differing_pixels, 0);
             let without = RENDERERS[0].1(&View::new(&plain, &camera), &options);
             assert!(compare(frame, &without).color.differing_pixels > 200, "a pattern is seen");
+        }
+    }
+}
+
+/// Where coordinates are kept, patterns are found from them in `f64`.
+#[test]
+fn patterns_look_the_same_where_coordinates_are_not_kept() {
+    let mut scene = still_life();
+    let lights = [[-4.0, 5.0, 2.0], [3.0, -0.9, 1.0]].map(Vec3::from);
+    scene.lights.extend(lights.map(|position| Light::Point { position, intensity: 0.4 }));
+    let options = Options::default();
+    for projection in PROJECTIONS {
+        for (eye, target) in [([1.0, 1.5, 6.0], [0.0; 3]), ([-2.0, 0.2, 5.0], [4.0, -3.0, 0.0])] {
+            let camera = turned(projection, eye, target, [300, 200]);
+            let view = View::new(&scene, &camera);
+            let alone = [(); 2].map(|()| Frame::new(&camera, &options));
+            let frames = drawn(&view, &options, alone).into_iter().zip(both(&view, &options));
+            for (alone, kept) in frames {
+                let [alone, kept] = [&alone, &kept].map(|frame| frame.picture().as_flattened());
+                let apart = alone.iter().zip(kept).map(|(a, b)| a.abs_diff(*b)).max();
+                assert!(apart <= Some(1), "{projection:?} {eye:?}: {apart:?} of 255");
+            }
         }
     }
 }

@@ -31,8 +31,8 @@ pub use local::{
     Anchor, EightVectors, LocalLook, LocalVector, MOST_LIGHTS, eight_columns, local_vector,
 };
 pub use surfaces::{
-    EightTriangles, Points, Rays, STORED_ERROR, Samples, Seen, SetUp, Sixteen, Surfaces, Wanted,
-    are_alike,
+    EightTriangles, Points, Rays, STORED_ERROR, Samples, Seen, SetUp, Sixteen, Stretch, Surfaces,
+    Wanted, are_alike,
 };
 
 /// Gives a frame its picture, and all else that it keeps of the look of what is seen.
@@ -236,6 +236,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
     ) {
         let (runs, mut begin) = (desk.runs.of_chunk(), 0);
         let (chunk, to_lights) = (&mut *desk.chunk, &mut desk.to_lights[..]);
+        let mut along = A::Along::default();
         for &Run { end, place } in runs {
             let run = begin..end;
             begin = end;
@@ -258,59 +259,75 @@ impl<'a, A: Surfaces> Look<'a, A> {
                 }
                 KeptLook::Surface(place) => {
                     let surface = &desk.surfaces[*place as usize];
-                    let (seen, run) = ((surface, *material), (start, run));
-                    self.find_run(simd, chunk, to_lights, seen, run, texture);
+                    // A run is in one stretch or more.
+                    let mut begin = run.start;
+                    while begin < run.end {
+                        let number = (start.column + begin) % Stretch::LENGTH;
+                        let end = run.end.min(begin + Stretch::LENGTH - number);
+                        let (seen, part) = ((surface, *material, &mut along), (start, begin..end));
+                        self.find_in_stretch(simd, chunk, to_lights, seen, part, texture);
+                        begin = end;
+                    }
                 }
             }
         }
     }
 
-    /// The same for one run.
+    /// The same for the part of a run that is in one stretch.
     ///
     /// The chunk and the ways to lights are parameters of their own: so the compiler knows that to write them changes no surface.
     #[inline(always)]
-    fn find_run<S: Simd>(
+    fn find_in_stretch<S: Simd>(
         &self,
         simd: S,
         chunk: &mut Chunk,
         to_lights: &mut [Vectors],
-        (KeptSurface { surface, is_tinted }, material): (&KeptSurface<A::Surface>, &Material),
+        (KeptSurface { surface, is_tinted }, material, along): (
+            &KeptSurface<A::Surface>,
+            &Material,
+            &mut A::Along,
+        ),
         (start, run): (Sample, Range<usize>),
         texture: &mut KeptTexture,
     ) {
         let y = self.grid.y()[start.row];
+        let column = start.column + run.start;
+        let begin = column - column % Stretch::LENGTH;
+        let stretch = Stretch { x: self.grid.x()[begin], y };
+        self.setting.surfaces.go_along(surface, &stretch, self.setting.wanted, along);
         for at in run.clone().step_by(16) {
             let first = Sample { column: start.column + at, ..start };
-            let next = Sample { column: first.column + 8, ..first };
+            let [low, high] = each!(beyond in [0, 8] => Samples {
+                first: Sample { column: first.column + beyond, ..first },
+                x: eight(simd, &chunk.x, at + beyond),
+                y,
+                t: eight(simd, &chunk.t, at + beyond),
+            });
             let samples = Sixteen {
-                low: Samples {
-                    first,
-                    x: eight(simd, &chunk.x, at),
-                    y,
-                    t: eight(simd, &chunk.t, at),
-                },
-                high: Samples {
-                    first: next,
-                    x: eight(simd, &chunk.x, at + 8),
-                    y,
-                    t: eight(simd, &chunk.t, at + 8),
-                },
+                low,
+                high,
                 is_short: run.end - at <= 8,
+                #[expect(clippy::cast_precision_loss, reason = "fewer than 64")]
+                number: (first.column - begin) as f32,
             };
             // What is written beyond the run is overwritten by the next one.
             let mut points = Points {
                 chunk: &mut *chunk,
                 to_lights: &mut *to_lights,
                 lights: self.setting.wanted.lights,
+                checker: material.checker.as_ref(),
                 at,
                 has_texture: false,
+                has_fraction: false,
                 has_colors: false,
                 has_steps: false,
             };
-            self.setting.surfaces.at(simd, surface, &samples, &mut points);
-            let (has_texture, has_colors) = (points.has_texture, points.has_colors);
-            let has_steps = points.has_steps;
-            if let Some(checker) = &material.checker {
+            self.setting.surfaces.at(simd, surface, along, &samples, &mut points);
+            let (has_texture, has_fraction) = (points.has_texture, points.has_fraction);
+            let (has_colors, has_steps) = (points.has_colors, points.has_steps);
+            if has_fraction {
+                // The pattern has been found already.
+            } else if let Some(checker) = &material.checker {
                 let fraction = if has_texture {
                     checker.fraction(simd, &points.texture(simd))
                 } else {

@@ -25,6 +25,17 @@ pub struct TexturePoints<S: Simd> {
     pub footprint: [f32x16<S>; 2],
 }
 
+/// The same for a pattern alone, by differences from one place of the texture that is near: `f32` is enough for them.
+#[derive(Clone, Copy, Debug)]
+pub struct TextureDifferences<S: Simd> {
+    /// The place from which the coordinates are counted.
+    pub from: [f64; 2],
+    /// The coordinates, from there.
+    pub differences: [f32x16<S>; 2],
+    /// As in [`TexturePoints`].
+    pub footprint: [f32x16<S>; 2],
+}
+
 impl Checker {
     /// The fraction of a sample's footprint that has the pattern's second colour, from 0 to 1, for each of sixteen.
     ///
@@ -47,6 +58,50 @@ impl Checker {
         let half = f32x16::splat(simd, 0.5);
         half - half * (across * up)
     }
+
+    /// The same from differences.
+    ///
+    /// Places are counted from the border of two stripes that is nearest to where the differences begin, so the rest in `f32` has all its
+    /// digits, however close the border. Where it is large beside a footprint, and the sample meets a border all the same, the
+    /// difference is as large. With `ε = 2⁻²⁴`, a difference `δ` with an error of `e·ε·δ` has one of `(e + 5)·ε·δ` here: `2ε` for
+    /// the divisions, and `3ε` for the rest and for the sum with it, neither of which is much larger than `δ` there.
+    #[inline(always)]
+    pub fn fraction_by_differences<S: Simd>(
+        &self,
+        simd: S,
+        points: &TextureDifferences<S>,
+    ) -> f32x16<S> {
+        let half = f32x16::splat(simd, 0.5);
+        let mut sign = half;
+        let [across, up] = each!(k in [0, 1] => {
+            let divisions = self.divisions[k];
+            let Border { rest, is_odd } = Border::near(points.from[k] * f64::from(divisions));
+            // Beyond a border, all stripes are exchanged.
+            sign = if is_odd { -sign } else { sign };
+            let wide = f32x16::splat(simd, divisions);
+            let place = points.differences[k] * wide + f32x16::splat(simd, rest);
+            stripes(simd, depth_of_sixteen(simd, place), points.footprint[k] * wide)
+        });
+        half - sign * (across * up)
+    }
+}
+
+/// The border between two stripes that is nearest to a place: a whole number.
+struct Border {
+    /// How far the place is beyond it.
+    rest: f32,
+    is_odd: bool,
+}
+
+impl Border {
+    #[inline(always)]
+    fn near(place: f64) -> Border {
+        let border = place.round_ties_even();
+        #[expect(clippy::cast_possible_truncation, reason = "see `fraction_by_differences`")]
+        let rest = (place - border) as f32;
+        let half = 0.5 * border;
+        Border { rest, is_odd: half != half.round_ties_even() }
+    }
 }
 
 /// How deep in their stripe places are: the distance from the nearest border, at most ½, with the stripe's sign. Stripes
@@ -58,6 +113,16 @@ impl Checker {
 fn depth_in_stripe<S: Simd>(simd: S, place: f64x8<S>) -> f64x8<S> {
     let [half, one, two] = each!(value in [0.5, 1.0, 2.0] => f64x8::splat(simd, value));
     // Between −1 and 1, in the stripe of its sign.
+    let near = place - two * (half * place).round_ties_even();
+    let size = near.abs();
+    let rest = one - size;
+    size.simd_lt(rest).select(size, rest).copysign(near)
+}
+
+/// [`depth_in_stripe`] of sixteen places in `f32`.
+#[inline(always)]
+fn depth_of_sixteen<S: Simd>(simd: S, place: f32x16<S>) -> f32x16<S> {
+    let [half, one, two] = each!(value in [0.5, 1.0, 2.0] => f32x16::splat(simd, value));
     let near = place - two * (half * place).round_ties_even();
     let size = near.abs();
     let rest = one - size;
@@ -202,6 +267,38 @@ mod tests {
         }
         println!("largest error: 2^{:.2}", worst.log2());
         assert!(worst < f64::from(2f32.powi(-21)), "{worst}");
+    }
+
+    /// Differences of up to a hundred footprints, from anywhere in a stripe, close to its border and far from the origin.
+    #[test]
+    fn fractions_by_differences_are_those_of_the_places() {
+        let mut worst = 0.0_f64;
+        for step in 0..4000_u16 {
+            let number = |factor: f32| (f32::from(step) * factor).fract();
+            let width = 10f32.powf(7.0 * number(0.618_034) - 5.0);
+            let border = (1000.0 * number(0.754_878)).floor() - 500.0;
+            let beside = [1e-6, 1e-3, 0.3][usize::from(step) % 3] * (number(0.569_84) - 0.5);
+            let from = [f64::from(border) + f64::from(beside), f64::from(7.0 * number(0.414_214))];
+            let along = [95.0, -40.0].map(|most| most * width * number(0.236_068));
+            let divisions = [1.0, 2.5];
+            let found = levels().into_iter().map(|level| {
+                dispatch!(level, simd => {
+                    let splat = |number: f32| f32x16::splat(simd, number);
+                    let checker = Checker { color: Vec3::ZERO, divisions };
+                    let (differences, footprint) = (along.map(splat), [splat(width); 2]);
+                    let points = TextureDifferences { from, differences, footprint };
+                    checker.fraction_by_differences(simd, &points)[7]
+                })
+            });
+            let found: Vec<f32> = found.collect();
+            assert!(found.iter().all(|one| one.to_bits() == found[0].to_bits()));
+            let place = [0, 1].map(|k| from[k] + f64::from(along[k]));
+            let expected = fraction(divisions, place, width);
+            worst = worst.max(f64::from((found[0] - expected).abs()));
+        }
+        println!("largest error: {worst:e}");
+        // 5 · 2⁻²⁴ of 95 footprints, over half of one; for two directions, of which each counts half.
+        assert!(worst < 6e-5, "{worst:e}");
     }
 
     #[test]

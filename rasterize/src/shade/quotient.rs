@@ -143,8 +143,8 @@ impl Plane {
 /// Two quotients of affine functions with one denominator.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Quotient {
-    numerators: [Affine; 2],
-    denominator: Affine,
+    pub(super) numerators: [Affine; 2],
+    pub(super) denominator: Affine,
 }
 
 impl Quotient {

@@ -1,8 +1,9 @@
 //! The ways from a flat form to points of light: attributes that are interpolated like others.
 
 use super::quotient::{Affine, Plane};
+use super::stretch::VectorAlong;
 use bothways_common::engine::simd::Simd;
-use bothways_common::look::bands::{MOST_LIGHTS, Points, Samples, Sixteen};
+use bothways_common::look::bands::{MOST_LIGHTS, Points, Samples, Sixteen, Stretch};
 use bothways_common::look::lanes::{DVec3x8, Lanes, each};
 use bothways_common::{Primitive, Projection, View};
 use glam::DVec3;
@@ -64,9 +65,39 @@ impl WaysToLights {
         Some(WaysToLights(ways.into()))
     }
 
+    /// Finds the ways along a stretch of samples that are `across` from each other. Returns whether none of them changes too much.
+    #[inline(always)]
+    pub(super) fn go_along(
+        &self,
+        stretch: &Stretch,
+        across: f64,
+        to: &mut [VectorAlong; MOST_LIGHTS],
+    ) -> bool {
+        self.0.iter().zip(to).all(|(way, to)| match VectorAlong::new(way, stretch, across) {
+            Some(along) => {
+                *to = along;
+                true
+            }
+            None => false,
+        })
+    }
+
     /// Writes down the ways from some samples.
     #[inline(always)]
-    pub(super) fn store<S: Simd>(&self, simd: S, samples: &Sixteen<S>, points: &mut Points<'_>) {
+    pub(super) fn store<S: Simd>(
+        &self,
+        simd: S,
+        along: Option<&[VectorAlong; MOST_LIGHTS]>,
+        samples: &Sixteen<S>,
+        points: &mut Points<'_>,
+    ) {
+        if let Some(all) = along {
+            let numbers = samples.numbers(simd);
+            for (number, way) in all.iter().enumerate().take(self.0.len()) {
+                points.set_to_light(number, way.at(simd, numbers));
+            }
+            return;
+        }
         for (number, way) in self.0.iter().enumerate() {
             let [low, high] =
                 each!(half in [&samples.low, &samples.high] => way_from(simd, way, half));

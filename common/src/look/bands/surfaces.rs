@@ -5,9 +5,9 @@ use super::local::{LocalLook, LocalVector, MOST_LIGHTS};
 use crate::camera::{Camera, Projection};
 use crate::engine::simd::{Simd, SimdBase, SimdMask, f32x16, f64x8, mask64x8};
 use crate::look::lanes::{DVec3x8, Vec3x16, each};
-use crate::look::texture::{self, TexturePoints};
+use crate::look::texture::{self, TextureDifferences, TexturePoints};
 use crate::raster::Sample;
-use crate::scene::material::Material;
+use crate::scene::material::{Checker, Material};
 use crate::scene::{Object, Primitive, Shape};
 use glam::{DVec2, DVec3, Vec3};
 
@@ -17,6 +17,8 @@ pub trait Surfaces: Sync {
     type Surface: Send;
     /// A triangle of which nothing but its normals and ways to lights is wanted, where few numbers are enough for them.
     type Local: LocalLook;
+    /// What is computed of a primitive once for a [`Stretch`] of samples.
+    type Along: Default;
 
     /// The directions towards the viewer, of any length, at sixteen samples that follow one another in a row: against
     /// the rays of the camera, unless a renderer has others. The samples are given by the first of them and by their
@@ -66,12 +68,24 @@ pub trait Surfaces: Sync {
         true
     }
 
+    /// Computes what is computed once for a stretch of samples. It must not depend on which of them show the primitive.
+    #[inline(always)]
+    fn go_along(
+        &self,
+        _surface: &Self::Surface,
+        _stretch: &Stretch,
+        _wanted: Wanted,
+        _along: &mut Self::Along,
+    ) {
+    }
+
     /// Writes down what a primitive looks like at up to sixteen samples, at which it is seen. Lanes at which it is not
     /// get any values.
     fn at<S: Simd>(
         &self,
         simd: S,
         surface: &Self::Surface,
+        along: &Self::Along,
         samples: &Sixteen<S>,
         points: &mut Points<'_>,
     );
@@ -157,6 +171,13 @@ impl Seen<'_> {
     pub fn needs_steps(&self, wanted: Wanted) -> bool {
         let texture = &self.material.texture;
         wanted.steps || texture.as_ref().is_some_and(|texture| texture.sampler.has_footprint())
+    }
+
+    /// Whether texture coordinates are needed for the pattern alone, and for no picture.
+    #[inline(always)]
+    pub fn needs_pattern_alone(&self, wanted: Wanted) -> bool {
+        let Wanted { texture_coordinates, steps, .. } = wanted;
+        self.material.checker.is_some() && !(texture_coordinates || steps)
     }
 
     /// The texture coordinates at the corners of a triangle that has some.
@@ -246,6 +267,34 @@ pub struct Sixteen<S: Simd> {
     pub high: Samples<S>,
     /// Whether the first eight are all that matter.
     pub is_short: bool,
+    /// The number of the first of them in its [`Stretch`].
+    pub number: f32,
+}
+
+impl<S: Simd> Sixteen<S> {
+    /// The numbers of the samples in their stretch. Those that would be in the next one are not looked at.
+    #[inline(always)]
+    pub fn numbers(&self, simd: S) -> f32x16<S> {
+        let lanes = [0., 1., 2., 3., 4., 5., 6., 7., 8., 9., 10., 11., 12., 13., 14., 15.];
+        f32x16::splat(simd, self.number) + f32x16::load_array(simd, lanes)
+    }
+}
+
+/// Samples of a row that are counted from the first of them. What is computed at one of them from its number is the same wherever in
+/// the stretch a primitive begins to be seen. A stretch begins in each column whose number is a multiple of 64.
+#[derive(Clone, Copy, Debug)]
+pub struct Stretch {
+    /// Where its first sample is on the viewport.
+    pub x: f64,
+    /// Where its row is on the viewport.
+    pub y: f64,
+}
+
+impl Stretch {
+    /// As many samples are in a stretch.
+    pub const LENGTH: usize = 64;
+    /// No sample of it has a larger number.
+    pub const LAST: f64 = 63.0;
 }
 
 /// Eight samples of a row; there may be fewer.
@@ -314,9 +363,12 @@ pub struct Points<'a> {
     pub(super) to_lights: &'a mut [Vectors],
     /// Those of [`Wanted`].
     pub(super) lights: &'a [DVec3],
+    /// That of the material.
+    pub(super) checker: Option<&'a Checker>,
     /// The first of the samples in the chunk.
     pub(super) at: usize,
     pub(super) has_texture: bool,
+    pub(super) has_fraction: bool,
     pub(super) has_colors: bool,
     pub(super) has_steps: bool,
 }
@@ -360,6 +412,15 @@ impl Points<'_> {
         let [width, height] = &mut self.chunk.footprint;
         texture.footprint[0].store_slice(&mut width[at..at + 16]);
         texture.footprint[1].store_slice(&mut height[at..at + 16]);
+    }
+
+    /// The texture coordinates by differences, where [the pattern is all that they are needed for](Seen::needs_pattern_alone).
+    #[inline(always)]
+    pub fn set_pattern<S: Simd>(&mut self, simd: S, texture: &TextureDifferences<S>) {
+        let Some(checker) = self.checker else { return };
+        self.has_fraction = true;
+        let fraction = checker.fraction_by_differences(simd, texture);
+        fraction.store_slice(&mut self.chunk.fraction[self.at..self.at + 16]);
     }
 
     /// How the texture coordinate moves from each sample to the next one across and to the next one down, as this order
