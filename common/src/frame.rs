@@ -160,7 +160,8 @@ impl Frame {
         self
     }
 
-    /// The same frame, with room for the texture coordinate of every sample, which shading then stores.
+    /// The same frame, with room for the texture coordinate of every sample, which shading then stores. What it stores is found in `f64`; so the
+    /// picture may differ by 1/255 from that of a frame without this room, of which more is found in `f32`. So it may with levels.
     pub fn with_texture_coordinates(mut self) -> Frame {
         self.texture_coordinates = vec![Vec2::ZERO; self.t.len()];
         self

@@ -6,6 +6,7 @@ use crate::four_renderers::{RENDERERS, owners};
 use bothways::common::glam::Vec3;
 use bothways::common::observe::{Events, Observer};
 use bothways::common::raster::Sample;
+use bothways::common::scene::material::Light;
 use bothways::common::{
     Camera, CameraDescription, Crop, Frame, Mesh, Object, Options, Plane, Projection, Region,
     Scene, Shape, Sphere, View, Work,
@@ -67,7 +68,7 @@ fn crops_of_the_conformance_set_equal_the_whole() {
     }
 }
 
-/// Triangles of all sizes, some behind the eye, a textured ball and a plane.
+/// Triangles of all sizes, some behind the eye, a textured ball and a plane; with points of light, one of them near the plane.
 fn mixed_scene() -> Scene {
     let number = |k: u32, step: f64| {
         #[expect(clippy::cast_possible_truncation, reason = "it looks random")]
@@ -90,7 +91,10 @@ fn mixed_scene() -> Scene {
     let ground = Shape::Plane(Plane { point: Vec3::new(0.0, -1.0, 0.0), normal: Vec3::Y });
     let textured = |shape| Object { material: checkered.clone(), ..Object::from(shape) };
     let teapot = Kind::Teapot.mesh([6, 6]).unwrap();
-    scene(vec![soup, textured(ball), textured(ground), mesh(teapot)])
+    let mut scene = scene(vec![soup, textured(ball), textured(ground), mesh(teapot)]);
+    let lights = [[-4.0, 5.0, 2.0], [3.0, -0.9, 1.0]].map(Vec3::from);
+    scene.lights.extend(lights.map(|position| Light::Point { position, intensity: 0.4 }));
+    scene
 }
 
 /// The frames and the counts of both `fast` renderers with tiles of these sizes. Each frame has held another crop, and is

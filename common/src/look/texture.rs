@@ -63,8 +63,9 @@ impl Checker {
     ///
     /// Places are counted from the border of two stripes that is nearest to where the differences begin, so the rest in `f32` has all its
     /// digits, however close the border. Where it is large beside a footprint, and the sample meets a border all the same, the
-    /// difference is as large. With `ε = 2⁻²⁴`, a difference `δ` with an error of `e·ε·δ` has one of `(e + 5)·ε·δ` here: `2ε` for
-    /// the divisions, and `3ε` for the rest and for the sum with it, neither of which is much larger than `δ` there.
+    /// difference is as large. With `ε = 2⁻²⁴`, a difference `δ` with an error of `e·ε·δ` has one of less than `(e + 5)·ε·δ`
+    /// here: `ε` for its product, `ε` for the rest, which is no larger than `δ` there, but for a footprint, and `2ε` for their sum, which is at most
+    /// twice `δ`.
     #[inline(always)]
     pub fn fraction_by_differences<S: Simd>(
         &self,

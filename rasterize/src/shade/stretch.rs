@@ -23,15 +23,13 @@ impl VectorAlong {
     /// `4ε|A|`, which is `8ε` of the vector.
     #[inline(always)]
     pub(super) fn new(coordinates: &[Affine; 3], stretch: &Stretch, across: f64) -> Option<Self> {
-        /// 2⁻⁶⁰.
-        const LEAST: f64 = 1.0 / (1_u64 << 60) as f64;
         let [x, y, z] = each!(k in [0, 1, 2] => coordinates[k].at(stretch.x, stretch.y));
         let at_first = DVec3 { x, y, z };
         let [x, y, z] = each!(k in [0, 1, 2] => coordinates[k].across * across);
         let change = DVec3 { x, y, z };
         let (length, steps) = (at_first.abs().max_element(), change.abs());
         let is_steady = (steps.x + steps.y + steps.z) * (2.0 * Stretch::LAST) <= length;
-        (is_steady && LEAST < length && length < 1.0 / LEAST)
+        (is_steady && Stretch::LENGTHS.contains(&length))
             .then(|| VectorAlong { at_first: at_first.as_vec3(), change: change.as_vec3() })
     }
 
@@ -63,7 +61,8 @@ pub(super) struct QuotientAlong {
 }
 
 impl QuotientAlong {
-    /// `None` where the denominator may change by more than half along the stretch, or by more than an eighth of that from a row to the next.
+    /// `None` where the denominator may change by more than half of itself along the stretch, or by more than an eighth of itself from a row
+    /// to the next.
     ///
     /// # The error, rounding by rounding
     ///

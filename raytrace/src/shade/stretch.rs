@@ -31,8 +31,9 @@ pub(super) struct FirstHit {
 }
 
 impl FirstHit {
-    /// `None` where `n·D` may change by more than half along the stretch, or by more than an eighth of that from a row to the next, and where
-    /// more than nine of sixteen digits cancel: in what the ray is above the plane, or how fast it comes nearer.
+    /// `None` where `n·D` may change by more than half of itself along the stretch, or by more than an eighth of itself from a row to the next;
+    /// and where more than nine of sixteen digits cancel: in how far the ray begins from the plane, or in how fast it comes nearer. (A triangle
+    /// whose own normal has lost its digits is a sliver that is seen at hardly any sample.)
     #[inline(always)]
     pub(super) fn new(
         view: &View,
@@ -50,14 +51,17 @@ impl FirstHit {
                 > LEAST * square * (point.length_squared() + ray.origin.length_squared());
         let (reciprocal, t) = (1.0 / nearer, above / nearer);
         let [rise, fall] = [step, step_down].map(|step| normal.dot(step) * reciprocal);
-        let is_steady = rise.abs() <= 0.5 / Stretch::LAST && fall.abs() <= 0.125;
+        let (turning, turn, scale, is_steady) = match view.camera.projection() {
+            Projection::Perspective => {
+                let is_steady = rise.abs() <= 0.5 / Stretch::LAST && fall.abs() <= 0.125;
+                (step, rise, t, is_steady)
+            }
+            // All rays have one direction.
+            Projection::Parallel => (DVec3::ZERO, 0.0, 1.0, true),
+        };
         if !(is_certain && is_steady && t > 0.0) {
             return None;
         }
-        let (turning, turn, scale) = match view.camera.projection() {
-            Projection::Perspective => (step, rise, t),
-            Projection::Parallel => (DVec3::ZERO, 0.0, 1.0),
-        };
         Some(FirstHit {
             position: ray.origin + t * ray.direction,
             direction: ray.direction,
@@ -87,9 +91,9 @@ pub(super) struct HitsAlong {
 #[derive(Clone, Copy, Debug)]
 struct TextureAlong {
     at_first: [f64; 2],
-    /// Of `e`.
+    /// How the coordinates change by `e`.
     across: [f32; 2],
-    /// Of a step down on the viewport, where `t` is that of the first ray.
+    /// How they change by a step down on the viewport, where `t` is that of the first ray.
     down: [f32; 2],
     /// What of that is taken back along the ray, and how that changes from a ray to the next.
     back: [[f32; 2]; 2],
@@ -108,24 +112,22 @@ impl HitsAlong {
     ///
     /// `1 + k·r` is between ½ and 1½. With `ε = 2⁻²⁴` it is off by `2ε` of at most ½ and by its own rounding, in all by less than `5ε` of
     /// itself, and `k / (1 + k·r)` by `7ε`. With the rounding of `e` and the product it is `9ε` of what a hit moves, so of at most half
-    /// of the way to a light; two more roundings make it `6ε` of the first way, or `12ε` of any.
+    /// of the first way to a light. The rounding of that way makes it `5½ε` of it, so `11ε` of any way, and that of the difference `12ε`.
     #[inline(always)]
     pub(super) fn go_along(&mut self, hit: &FirstHit, lights: &[DVec3]) -> bool {
-        /// 2⁻⁶⁰.
-        const LEAST: f64 = 1.0 / (1_u64 << 60) as f64;
         if lights.len() > MOST_LIGHTS {
             return false;
         }
         (self.turn, self.change) = (number(hit.turn), hit.change.as_vec3());
         (self.lights, self.texture) = (lights.len(), None);
         let change = hit.change.abs();
-        // As far as the last hit may be.
+        // No hit is farther from the first one.
         let farthest = (change.x + change.y + change.z) * (2.0 * Stretch::LAST);
         self.ways.iter_mut().zip(lights).all(|(to, light)| {
             let way = *light - hit.position;
             let length = way.abs().max_element();
             *to = way.as_vec3();
-            2.0 * farthest <= length && LEAST < length && length < 1.0 / LEAST
+            2.0 * farthest <= length && Stretch::LENGTHS.contains(&length)
         })
     }
 
@@ -141,9 +143,9 @@ impl HitsAlong {
     /// ([`fraction_by_differences`]) is off by less than `14ε · 95f`, and by twice that of the footprint, `1.6·10⁻⁴`, where the sample
     /// meets a border.
     ///
-    /// What is taken back is off by `3ε` of itself and of `126` times its change, which is an eighth of the step across at most;
-    /// with five more roundings, and those of `1 + k·r`, a footprint is off by less than `100ε` of its largest term, and so by `100ε / cos θ`
-    /// of itself, where `θ` lies between the ray and the axis.
+    /// What is taken back is off by `3ε` of itself, and of `126` times its change. In perspective, that change is an eighth of what a step across
+    /// changes, or less; parallel rays have none. With five more roundings, and those of `1 + k·r`, a footprint is off by less than
+    /// `100ε` of its largest term, and so by `100ε / cos θ` of itself, where `θ` lies between the ray and the axis.
     ///
     /// [`fraction_by_differences`]: bothways_common::scene::material::Checker::fraction_by_differences
     #[inline(always)]
@@ -255,6 +257,19 @@ mod tests {
         all[0]
     }
 
+    /// Cameras whose viewports are 1 high, and 300, and these heights.
+    fn cameras() -> impl Iterator<Item = (Camera, f64)> {
+        let projections = [Projection::Perspective, Projection::Parallel].into_iter();
+        projections.flat_map(|projection| {
+            [1.0_f32, 300.0].map(|size| {
+                let (viewport, distance) = ([4.0 / 3.0 * size, size], size);
+                let camera =
+                    CameraDescription { projection, viewport, distance, ..Default::default() };
+                (Camera::new(camera).unwrap(), size.into())
+            })
+        })
+    }
+
     /// A plane of any slope that a ray meets, near or far, with directions in which a texture grows, and a light near or far.
     fn something_seen(dice: &mut Dice, ray: &Ray) -> ([DVec3; 2], [DVec3; 2], DVec3) {
         let seen = ray.origin + ray.direction * dice.power([-1.0, 3.0]);
@@ -272,15 +287,14 @@ mod tests {
     fn hits_along_a_stretch_are_within_their_bounds() {
         const EPSILON: f64 = 1.0 / (1 << 24) as f64;
         let (mut found, mut missing, mut worst) = (0, 0, [0.0_f64; 3]);
-        for projection in [Projection::Perspective, Projection::Parallel] {
-            let camera = Camera::new(CameraDescription { projection, ..Default::default() });
-            let (scene, camera) = (Scene::new(Vec::new()).unwrap(), camera.unwrap());
+        for (number, (camera, size)) in (0..).zip(cameras()) {
+            let scene = Scene::new(Vec::new()).unwrap();
             let view = View::new(&scene, &camera);
-            let mut dice = Dice(projection as u64);
-            for case in 0..20_000 {
+            let mut dice = Dice(number);
+            for case in 0..10_000 {
                 let place = dice.vector();
-                let stretch = Stretch { x: 0.5 * place.x, y: 0.4 * place.y };
-                let pixel = dice.power([-5.0, -2.0]);
+                let stretch = Stretch { x: 0.5 * size * place.x, y: 0.4 * size * place.y };
+                let pixel = size * dice.power([-5.0, -2.0]);
                 let steps = [camera.u() * pixel, camera.v() * -pixel];
                 let ray = camera.ray_through(stretch.x, stretch.y);
                 let ([point, normal], gradients, light) = something_seen(&mut dice, &ray);
@@ -323,7 +337,7 @@ mod tests {
             }
         }
         println!("{found} found, {missing} missing, off by {worst:?} at most");
-        assert!(found > 10_000 && missing > 5_000, "{found}, {missing}");
+        assert!(found > 5_000 && missing > 5_000, "{found}, {missing}");
         assert!(worst[0] < 12.0 * EPSILON && worst[1] < 9.0 * 95.0 * EPSILON, "{worst:?}");
         // The axis is seen in the picture, so that a ray has a cosine of 0.8 with it.
         assert!(worst[2] < 125.0 * EPSILON, "{worst:?}");

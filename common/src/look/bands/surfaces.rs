@@ -10,6 +10,7 @@ use crate::raster::Sample;
 use crate::scene::material::{Checker, Material};
 use crate::scene::{Object, Primitive, Shape};
 use glam::{DVec2, DVec3, Vec3};
+use std::ops::Range;
 
 /// How a renderer finds out what its surfaces look like.
 pub trait Surfaces: Sync {
@@ -272,7 +273,7 @@ pub struct Sixteen<S: Simd> {
 }
 
 impl<S: Simd> Sixteen<S> {
-    /// The numbers of the samples in their stretch. Those that would be in the next one are not looked at.
+    /// The numbers of the samples in their stretch. Lanes beyond the stretch get numbers, too, which nobody uses.
     #[inline(always)]
     pub fn numbers(&self, simd: S) -> f32x16<S> {
         let lanes = [0., 1., 2., 3., 4., 5., 6., 7., 8., 9., 10., 11., 12., 13., 14., 15.];
@@ -291,10 +292,12 @@ pub struct Stretch {
 }
 
 impl Stretch {
-    /// As many samples are in a stretch.
+    /// How many samples a stretch has.
     pub const LENGTH: usize = 64;
-    /// No sample of it has a larger number.
+    /// The number of its last sample.
     pub const LAST: f64 = 63.0;
+    /// The lengths that vectors in `f32` may have at the first sample, so that nothing is lost on the way to a direction: from 2⁻⁶⁰ to 2⁶⁰.
+    pub const LENGTHS: Range<f64> = 1.0 / (1_u64 << 60) as f64..(1_u64 << 60) as f64;
 }
 
 /// Eight samples of a row; there may be fewer.
