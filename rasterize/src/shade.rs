@@ -55,6 +55,8 @@ struct Surface {
     normals: Normals,
     texture: Texture,
     details: Option<Box<Details>>,
+    /// Whether it is worth finding along a stretch what it looks like: it is flat, and its texture is needed for a pattern alone.
+    goes_along: bool,
 }
 
 /// What a surface looks like along a stretch of samples, where `f32` is enough for that.
@@ -92,8 +94,6 @@ enum Texture {
     Sphere,
     /// That of a flat form: a function on the viewport.
     Flat(Box<Quotient>),
-    /// The same, needed for a pattern alone.
-    Pattern(Box<Quotient>),
 }
 
 /// What few surfaces need.
@@ -137,15 +137,16 @@ impl Surfaces for Interpolated<'_> {
             return SetUp::Local(local);
         }
         let normals = Normals::new(view, primitive, corners);
-        let texture = match Texture::new(view, seen, wanted) {
-            Texture::Flat(quotient) if seen.needs_pattern_alone(wanted) => {
-                Texture::Pattern(quotient)
-            }
-            texture => texture,
+        let texture = if seen.needs_texture(wanted) {
+            Texture::new(view, primitive, seen.corner_coordinates())
+        } else {
+            Texture::None
         };
+        // Without a pattern, ways that are found at each sample take no longer.
+        let goes_along = seen.needs_pattern_alone(wanted) && matches!(texture, Texture::Flat(_));
         let details = Details::new(view, seen, wanted).map(Box::new);
         let place = self.place(primitive, wanted);
-        SetUp::Surface(Surface { place, normals, texture, details })
+        SetUp::Surface(Surface { place, normals, texture, details, goes_along })
     }
 
     #[inline(always)]
@@ -165,10 +166,13 @@ impl Surfaces for Interpolated<'_> {
     #[inline(always)]
     fn go_along(&self, surface: &Surface, stretch: &Stretch, _: Wanted, along: &mut Along) {
         along.begin();
-        // Without a pattern, ways that are found at each sample take no longer.
-        let Texture::Pattern(quotient) = &surface.texture else { return };
+        if !surface.goes_along {
+            return;
+        }
         let step = self.grid.step();
-        along.pattern = QuotientAlong::new(quotient, stretch, step);
+        if let Texture::Flat(quotient) = &surface.texture {
+            along.pattern = QuotientAlong::new(quotient, stretch, step);
+        }
         if let Place::Ways(ways) = &surface.place {
             along.has_ways = ways.go_along(stretch, step[1], &mut along.ways);
         }
@@ -271,11 +275,9 @@ impl Interpolated<'_> {
         }
         let [low, high] = match texture {
             Texture::None => return,
-            Texture::Flat(quotient) | Texture::Pattern(quotient) => {
-                each!(half in [&samples.low, &samples.high] => {
-                    quotient.with_footprint(simd, half.x, half.y, self.grid.step())
-                })
-            }
+            Texture::Flat(quotient) => each!(half in [&samples.low, &samples.high] => {
+                quotient.with_footprint(simd, half.x, half.y, self.grid.step())
+            }),
             Texture::Sphere => {
                 each!(half in [(&samples.low, &hits[0]), (&samples.high, &hits[1])] => {
                     self.on_sphere(simd, half.0, half.1)
@@ -306,7 +308,7 @@ impl Interpolated<'_> {
         let halves = [(&samples.low, &hits[0]), (&samples.high, &hits[1])];
         let [low, high] = match texture {
             Texture::None => return,
-            Texture::Flat(quotient) | Texture::Pattern(quotient) => {
+            Texture::Flat(quotient) => {
                 each!(k in [0, 1] => quotient.differences(simd, halves[k].0, self.grid.step()))
             }
             Texture::Sphere => {
@@ -445,11 +447,8 @@ impl Details {
 }
 
 impl Texture {
-    fn new(view: &View, seen: &Seen, wanted: Wanted) -> Texture {
-        if !seen.needs_texture(wanted) {
-            return Texture::None;
-        }
-        match (seen.primitive, seen.corner_coordinates()) {
+    fn new(view: &View, primitive: &Primitive, corners: Option<[DVec2; 3]>) -> Texture {
+        match (*primitive, corners) {
             (Primitive::Sphere { .. }, _) => Texture::Sphere,
             (Primitive::Plane { point, normal }, _) => {
                 let axes = texture::plane_axes(normal);

@@ -60,7 +60,7 @@ struct Surface {
     details: Option<Box<Details>>,
     /// Whether it is worth finding along a stretch where it is hit: it is a plane, or a flat triangle with a pattern, and nothing is needed
     /// but the ways to points of light or the pattern.
-    is_wide: bool,
+    goes_along: bool,
 }
 
 /// Where a surface is hit along a stretch of samples, where `f32` is enough for that.
@@ -151,11 +151,11 @@ impl Surfaces for AtHits<'_> {
             !wanted.lights.is_empty() || !matches!(texture, Texture::None) || details.is_some();
         let has_pattern = seen.needs_pattern_alone(wanted) && matches!(texture, Texture::Flat(_));
         let is_plane = matches!(form, Form::Plane { .. });
-        let is_wide = matches!(normals, Normals::Flat(_))
+        let goes_along = matches!(normals, Normals::Flat(_))
             && has_points
             && details.is_none()
             && (has_pattern || is_plane && matches!(texture, Texture::None));
-        SetUp::Surface(Surface { form, normals, has_points, texture, details, is_wide })
+        SetUp::Surface(Surface { form, normals, has_points, texture, details, goes_along })
     }
 
     #[inline(always)]
@@ -175,7 +175,7 @@ impl Surfaces for AtHits<'_> {
     #[inline(always)]
     fn go_along(&self, surface: &Surface, stretch: &Stretch, wanted: Wanted, along: &mut Along) {
         along.is_found =
-            surface.is_wide && self.go_along_wide(surface, stretch, wanted.lights, &mut along.hits);
+            surface.goes_along && self.find_along(surface, stretch, wanted.lights, &mut along.hits);
     }
 
     #[inline(always)]
@@ -301,7 +301,7 @@ impl AtHits<'_> {
 
     /// Finds what is needed of a flat form along a stretch. Returns whether `f32` is enough.
     #[inline(always)]
-    fn go_along_wide(
+    fn find_along(
         &self,
         surface: &Surface,
         stretch: &Stretch,

@@ -262,8 +262,8 @@ impl<'a, A: Surfaces> Look<'a, A> {
                     // A run is in one stretch or more.
                     let mut begin = run.start;
                     while begin < run.end {
-                        let number = (start.column + begin) % Stretch::LENGTH;
-                        let end = run.end.min(begin + Stretch::LENGTH - number);
+                        let next = Stretch::begin_of(start.column + begin) + Stretch::LENGTH;
+                        let end = run.end.min(next - start.column);
                         let (seen, part) = ((surface, *material, &mut along), (start, begin..end));
                         self.find_in_stretch(simd, chunk, to_lights, seen, part, texture);
                         begin = end;
@@ -291,8 +291,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
         texture: &mut KeptTexture,
     ) {
         let y = self.grid.y()[start.row];
-        let column = start.column + run.start;
-        let begin = column - column % Stretch::LENGTH;
+        let begin = Stretch::begin_of(start.column + run.start);
         let stretch = Stretch { x: self.grid.x()[begin], y };
         self.setting.surfaces.go_along(surface, &stretch, self.setting.wanted, along);
         for at in run.clone().step_by(16) {

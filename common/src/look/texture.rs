@@ -81,7 +81,7 @@ impl Checker {
             sign = if is_odd { -sign } else { sign };
             let wide = f32x16::splat(simd, divisions);
             let place = points.differences[k] * wide + f32x16::splat(simd, rest);
-            stripes(simd, depth_of_sixteen(simd, place), points.footprint[k] * wide)
+            stripes(simd, depth_in_stripe(simd, place), points.footprint[k] * wide)
         });
         half - sign * (across * up)
     }
@@ -111,19 +111,13 @@ impl Border {
 /// What is computed here rounds only when the place itself has lost its last digits to its size, so in `f32` the result
 /// has all its digits, however close the border.
 #[inline(always)]
-fn depth_in_stripe<S: Simd>(simd: S, place: f64x8<S>) -> f64x8<S> {
-    let [half, one, two] = each!(value in [0.5, 1.0, 2.0] => f64x8::splat(simd, value));
+fn depth_in_stripe<S: Simd, V: SimdFloat<S>>(simd: S, place: V) -> V
+where
+    V::Element: From<f32>,
+{
+    let [half, one, two] =
+        each!(value in [0.5, 1.0, 2.0] => V::splat(simd, V::Element::from(value)));
     // Between −1 and 1, in the stripe of its sign.
-    let near = place - two * (half * place).round_ties_even();
-    let size = near.abs();
-    let rest = one - size;
-    size.simd_lt(rest).select(size, rest).copysign(near)
-}
-
-/// [`depth_in_stripe`] of sixteen places in `f32`.
-#[inline(always)]
-fn depth_of_sixteen<S: Simd>(simd: S, place: f32x16<S>) -> f32x16<S> {
-    let [half, one, two] = each!(value in [0.5, 1.0, 2.0] => f32x16::splat(simd, value));
     let near = place - two * (half * place).round_ties_even();
     let size = near.abs();
     let rest = one - size;

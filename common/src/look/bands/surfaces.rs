@@ -292,6 +292,12 @@ pub struct Stretch {
 }
 
 impl Stretch {
+    /// The column in which the stretch of a column begins.
+    #[inline(always)]
+    pub(super) fn begin_of(column: usize) -> usize {
+        column - column % Self::LENGTH
+    }
+
     /// How many samples a stretch has.
     pub const LENGTH: usize = 64;
     /// The number of its last sample.
