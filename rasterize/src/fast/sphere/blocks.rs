@@ -4,7 +4,7 @@ use super::by_sample::{Sphere, draw_sample};
 use super::forms::{Forms, SeenRoot};
 use super::rows::{EightRows, Row};
 use crate::fast::depth::{KEY_ERROR, LARGEST_KEY, NOTHING, nearer_by};
-use crate::fast::lanes::lanes_of;
+use crate::fast::lanes::{keys_to_store, lanes_of};
 use crate::fast::one_primitive::fragment_writer::FragmentWriter;
 use bothways_common::engine::context::{Context, ScalarContext};
 use bothways_common::engine::fault::Fault;
@@ -172,7 +172,7 @@ fn store<S: Simd>(simd: S, writer: &mut FragmentWriter, index: usize, tested: &S
     let (ids, keys) = writer.buffer.from(index);
     let (ids, keys) = (&mut ids[..16], &mut keys[..16]);
     let stored = f32x16::from_slice(simd, keys);
-    tested.nearer.select(tested.keys, stored).store_slice(keys);
+    keys_to_store(tested.nearer, tested.keys, stored).store_slice(keys);
     let stored = u32x16::from_slice(simd, ids);
     tested.nearer.select(u32x16::splat(simd, writer.id), stored).store_slice(ids);
 }
