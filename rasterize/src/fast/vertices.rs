@@ -5,8 +5,8 @@ use super::camera_map::CameraMap;
 use super::depth::{KeyScale, LARGEST_KEY};
 use bothways_common::Projection;
 use bothways_common::engine::simd::{
-    Bytes, Select, Simd, SimdBase, SimdInterleaved, SimdMask, f32x16, f64x8, i32x4, i32x16,
-    mask64x8,
+    Bytes, Select, Simd, SimdBase, SimdInterleaved, SimdMask, SimdSplit, f32x8, f32x16, f64x8,
+    i32x4, i32x8, i32x16, mask64x8,
 };
 use bothways_common::look::lanes::each;
 use glam::{DVec3, Vec3};
@@ -143,21 +143,19 @@ impl FixedPointRaster {
         let corners =
             [f64x8::load_array(simd, x), f64x8::load_array(simd, y), f64x8::load_array(simd, z)];
         let placed = self.place_eight(simd, map, corners);
-        let rows = integers(placed.row, placed.row).to_array();
-        let columns = integers(placed.column, placed.column).to_array();
-        let flags = integers(placed.flags, placed.flags).to_array();
-        let keys = simd.narrow_f64x8(placed.key, placed.key).to_array();
-        let ends = |places: &[i32; 16]| {
-            [
-                places.iter().fold(i32::MAX, |low, place| low.min(*place)),
-                places.iter().fold(i32::MIN, |high, place| high.max(*place)),
-            ]
-        };
+        // Numbers of eight corners are in the lower half.
+        let (rows, _) = integers(placed.row, placed.row).split();
+        let (columns, _) = integers(placed.column, placed.column).split();
+        let (flags, _) = integers(placed.flags, placed.flags).split();
+        let (keys, _) = simd.narrow_f64x8(placed.key, placed.key).split();
+        // A key that is no number counts as none.
+        let zero = f32x8::splat(simd, 0.0);
+        let keys = keys.simd_gt(zero).select(keys, zero);
         Corners {
-            rows: ends(&rows),
-            columns: ends(&columns),
-            nearest: keys.into_iter().fold(0.0, f32::max),
-            flags: flags.into_iter().fold(-1, |common, flags| common & flags),
+            rows: [least(rows), greatest(rows)],
+            columns: [least(columns), greatest(columns)],
+            nearest: greatest_key(keys),
+            flags: common_bits(flags),
         }
     }
 
@@ -325,6 +323,39 @@ pub(super) struct Corners {
     pub(super) flags: i32,
 }
 
+/// The least of eight numbers.
+#[inline(always)]
+fn least<S: Simd>(numbers: i32x8<S>) -> i32 {
+    let (four, others) = numbers.split();
+    let [a, b, c, d] = four.min(others).to_array();
+    a.min(b).min(c.min(d))
+}
+
+/// The greatest of eight numbers.
+#[inline(always)]
+fn greatest<S: Simd>(numbers: i32x8<S>) -> i32 {
+    let (four, others) = numbers.split();
+    let [a, b, c, d] = four.max(others).to_array();
+    a.max(b).max(c.max(d))
+}
+
+/// The greatest of eight keys, none of which is NaN.
+#[inline(always)]
+fn greatest_key<S: Simd>(keys: f32x8<S>) -> f32 {
+    let (four, others) = keys.split();
+    let [a, b, c, d] = four.max(others).to_array();
+    let greater = |a: f32, b: f32| if a > b { a } else { b };
+    greater(greater(a, b), greater(c, d))
+}
+
+/// The bits that eight numbers have in common.
+#[inline(always)]
+fn common_bits<S: Simd>(numbers: i32x8<S>) -> i32 {
+    let (four, others) = numbers.split();
+    let [a, b, c, d] = (four & others).to_array();
+    a & b & c & d
+}
+
 /// Rows of x, y and z of sixteen positions.
 #[inline(always)]
 fn rows(positions: &[Vec3; 16]) -> [[f32; 16]; 3] {
@@ -346,4 +377,62 @@ fn integers<S: Simd>(upper: f64x8<S>, lower: f64x8<S>) -> i32x16<S> {
     const MAGIC: f64 = 6_755_399_441_055_744.0;
     // The last 32 bits come first in memory.
     (upper + MAGIC).bitcast::<i32x16<S>>().unzip_low((lower + MAGIC).bitcast::<i32x16<S>>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bothways_common::engine::simd::{dispatch, levels};
+    use bothways_common::{Camera, CameraDescription};
+
+    #[test]
+    fn corners_of_a_box_have_in_common_what_vertices_there_have() {
+        let random = &mut fastrand::Rng::with_seed(3);
+        let around = [DVec3::splat(-4.0), DVec3::splat(4.0)];
+        let bounds: [DVec3; 8] = std::array::from_fn(|k| {
+            DVec3::from_array(std::array::from_fn(|axis| around[k >> axis & 1][axis]))
+        });
+        let mut on_raster = 0;
+        for projection in [Projection::Perspective, Projection::Parallel] {
+            let description = CameraDescription {
+                eye: Vec3::new(0.5, 1.0, 6.0),
+                projection,
+                ..CameraDescription::default()
+            };
+            let camera = Camera::new(description).expect("it is a camera");
+            let grid = camera.sample_grid(1);
+            let map = CameraMap::new(&camera, &grid, camera.raster(1), &bounds);
+            let keys = KeyScale::new(&map, &bounds, false);
+            let raster = FixedPointRaster::new(&map, keys);
+            for _ in 0..500 {
+                let mut corner =
+                    || Vec3::from_array(std::array::from_fn(|_| 8.0 * random.f32() - 4.0));
+                let (a, b) = (corner(), corner());
+                let (low, high) = (a.min(b), a.max(b).lerp(a.min(b), random.f32()));
+                let corners: [Vec3; 8] = std::array::from_fn(|k| {
+                    let side =
+                        |axis: usize| if k >> axis & 1 == 1 { high[axis] } else { low[axis] };
+                    Vec3::new(side(0), side(1), side(2))
+                });
+                for level in levels() {
+                    let mut vertices = [[0; 4]; 8];
+                    let common = dispatch!(level, simd => {
+                        raster.place(simd, &map, &corners, &mut vertices);
+                        raster.place_corners(simd, &map, [low, high])
+                    });
+                    let all = |part: usize| vertices.iter().map(move |vertex| vertex[part]);
+                    let ends = |part| all(part).min().zip(all(part).max());
+                    assert_eq!(Some(common.rows.into()), ends(0));
+                    assert_eq!(Some(common.columns.into()), ends(1));
+                    let keys = all(2).map(|key| f32::from_bits(key.cast_unsigned()));
+                    assert_eq!(common.nearest, keys.fold(0.0, f32::max));
+                    // Whether it is aligned is not asked of a box.
+                    let flags = all(3).fold(-1, |common, flags| common & flags);
+                    assert_eq!(common.flags | ALIGNED, flags | ALIGNED);
+                    on_raster += common.flags & ON_RASTER;
+                }
+            }
+        }
+        assert!(on_raster > 300, "{on_raster}");
+    }
 }
