@@ -8,8 +8,9 @@ use super::extent::Extent;
 use crate::fast::camera_map::CameraMap;
 use crate::fast::vertices::{FixedPointRaster, Vertex};
 use bothways_common::engine::simd::Simd;
+use bothways_common::look::lanes::each;
 use bothways_common::{Mesh, Placement, Scene, Shape};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::ops::Range;
@@ -117,7 +118,7 @@ impl SharedMesh {
     ) {
         let blocks = &self.positions[cluster.blocks.start as usize..cluster.blocks.end as usize];
         for (block, vertices) in blocks.iter().zip(vertices.chunks_exact_mut(16)) {
-            raster.place_sixteen(simd, map, &placement.positions(block), vertices);
+            raster.place_sixteen(simd, map, &placement.sixteen_positions(simd, block), vertices);
         }
     }
 }
@@ -165,18 +166,50 @@ pub(crate) fn shared_meshes(scene: &Scene) -> Vec<Option<Arc<SharedMesh>>> {
 
 /// A box in the world around an instance of what lies in a box of the mesh.
 ///
-/// [`Placement::position`] is monotonic: no vertex in the box is put beyond all eight corners, its rounding included.
+/// Of each coordinate of the mesh, the least and the greatest product with a number of the map are at the two sides of the box.
+/// [`Placement::position`] is monotonic, its rounding included: sums of the least products and of the greatest, rounded as it
+/// rounds them, are those of two corners of the box, and no vertex in it is put beyond them.
 #[inline(always)]
 pub(crate) fn placed_box(placement: &Placement, [low, high]: &Bounds) -> Bounds {
-    let corners = [
-        [low.x, high.x, low.x, high.x, low.x, high.x, low.x, high.x],
-        [low.y, low.y, high.y, high.y, low.y, low.y, high.y, high.y],
-        [low.z, low.z, low.z, low.z, high.z, high.z, high.z, high.z],
-    ];
-    let placed = placement.positions(&corners);
-    let end = |axis: usize, end: fn(f32, f32) -> f32| placed[axis].into_iter().reduce(end);
-    let corner = |extreme: fn(f32, f32) -> f32| {
-        Vec3::from_array([0, 1, 2].map(|axis| end(axis, extreme).unwrap_or_default()))
-    };
-    [corner(f32::min), corner(f32::max)]
+    let (low, high) = (low.as_dvec3(), high.as_dvec3());
+    let [x, y, z] = placement.rows();
+    let [x, y, z] = each!(row in [x, y, z] => {
+        let [m0, m1, m2, m3] = each!(k in [0, 1, 2, 3] => f64::from(row[k]));
+        let factors = DVec3::new(m0, m1, m2);
+        let ends = [factors * low, factors * high];
+        each!(parts in [ends[0].min(ends[1]), ends[0].max(ends[1])] => {
+            #[expect(clippy::cast_possible_truncation, reason = "this is the one rounding")]
+            let end = (parts.x + parts.y + parts.z + m3) as f32;
+            end
+        })
+    });
+    each!(end in [0, 1] => Vec3::new(x[end], y[end], z[end]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_placed_box_ends_where_its_outermost_corners_are_placed() {
+        let random = &mut fastrand::Rng::with_seed(11);
+        for _ in 0..2000 {
+            let mut number = || {
+                let scale = [0.0, 1e-6, 0.3, 1.0, 5e5][random.usize(0..5)];
+                (random.f32() - 0.5) * scale
+            };
+            let rows = std::array::from_fn(|_| std::array::from_fn(|_| number()));
+            let placement = Placement::from_rows(rows);
+            let [a, b]: [Vec3; 2] =
+                std::array::from_fn(|_| Vec3::new(number(), number(), number()));
+            let (low, high) = (a.min(b), a.max(b));
+            let corners: [Vec3; 8] = std::array::from_fn(|k| {
+                let side = |axis: usize| if k >> axis & 1 == 1 { high[axis] } else { low[axis] };
+                placement.position(Vec3::new(side(0), side(1), side(2)))
+            });
+            let least = corners.into_iter().reduce(Vec3::min).expect("there are eight");
+            let most = corners.into_iter().reduce(Vec3::max).expect("there are eight");
+            assert_eq!(placed_box(&placement, &[low, high]), [least, most]);
+        }
+    }
 }
