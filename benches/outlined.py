@@ -20,7 +20,7 @@ import subprocess
 import sys
 
 KINDS = {
-    "calls of single vector instructions": re.compile(r"\scall\s.*__fearless_simd_kernel"),
+    "calls of single vector instructions": re.compile(r"\scallq?\s.*__fearless_simd_kernel"),
     # A load has the memory first.
     "masked stores": re.compile(r"\svp?maskmov\w+\s+%\w+,%\w+,"),
 }

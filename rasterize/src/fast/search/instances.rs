@@ -168,7 +168,8 @@ pub(crate) fn shared_meshes(scene: &Scene) -> Vec<Option<Arc<SharedMesh>>> {
 ///
 /// Of each coordinate of the mesh, the least and the greatest product with a number of the map are at the two sides of the box.
 /// [`Placement::position`] is monotonic, its rounding included: sums of the least products and of the greatest, rounded as it
-/// rounds them, are those of two corners of the box, and no vertex in it is put beyond them.
+/// rounds them, are those of two corners of the box, and no vertex in it is put beyond them. Image order has [`Placement::bounds`]
+/// for that; neither order relies on what hides primitives in the other.
 #[inline(always)]
 pub(crate) fn placed_box(placement: &Placement, [low, high]: &Bounds) -> Bounds {
     let (low, high) = (low.as_dvec3(), high.as_dvec3());
@@ -211,5 +212,15 @@ mod tests {
             let most = corners.into_iter().reduce(Vec3::max).expect("there are eight");
             assert_eq!(placed_box(&placement, &[low, high]), [least, most]);
         }
+    }
+
+    #[test]
+    fn a_placed_box_is_summed_up_in_the_order_of_a_position() {
+        // Of 10³⁸ − 10³⁸ + z + ¼, nothing is left of what is added before the second term.
+        let row = [1e19, -1e19, 1.0, 0.25];
+        let placement = Placement::from_rows([row; 3]);
+        let bounds = [Vec3::new(1e19, 1e19, 1.0), Vec3::new(1e19, 1e19, 2.0)];
+        assert_eq!(bounds.map(|corner| placement.position(corner).x), [1.25, 2.25]);
+        assert_eq!(placed_box(&placement, &bounds), [Vec3::splat(1.25), Vec3::splat(2.25)]);
     }
 }
