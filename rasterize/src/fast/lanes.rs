@@ -2,8 +2,7 @@
 
 use super::vertices::Vertex;
 use bothways_common::engine::simd::{
-    Bytes, Select, Simd, SimdBase, SimdMask, f32x8, f32x16, i32x4, i32x16, mask32x8, mask32x16,
-    u32x8, u32x16,
+    Bytes, Select, Simd, SimdBase, SimdMask, f32x16, i32x4, i32x16, mask32x16, u32x16,
 };
 
 /// Sixteen lanes, and room for sixteen more.
@@ -132,27 +131,17 @@ impl Lanes {
     }
 }
 
-/// The keys to store: new ones where the mask says so, stored ones elsewhere.
+/// The keys to store: new ones where the mask says so, stored ones elsewhere. `Bits` are whole numbers of as many lanes.
 ///
-/// They are chosen as bits. For AVX2, the compiler makes a masked store of a choice between floating-point numbers one of
+/// They are chosen as such bits. For AVX2, the compiler makes a masked store of a choice between floating-point numbers one of
 /// which comes from where the other goes, and some processors take as long for that as for all else that a sample needs.
 #[inline(always)]
-pub(super) fn keys_to_store<S: Simd>(
-    replaces: mask32x16<S>,
-    new: f32x16<S>,
-    stored: f32x16<S>,
-) -> f32x16<S> {
-    replaces.select(new.bitcast::<u32x16<S>>(), stored.bitcast()).bitcast()
-}
-
-/// [`keys_to_store`] for eight lanes.
-#[inline(always)]
-pub(super) fn eight_keys_to_store<S: Simd>(
-    replaces: mask32x8<S>,
-    new: f32x8<S>,
-    stored: f32x8<S>,
-) -> f32x8<S> {
-    replaces.select(new.bitcast::<u32x8<S>>(), stored.bitcast()).bitcast()
+pub(super) fn keys_to_store<Bits: Bytes, Keys: Bytes<Bytes = Bits::Bytes>>(
+    replaces: impl Select<Bits>,
+    new: Keys,
+    stored: Keys,
+) -> Keys {
+    replaces.select(new.bitcast(), stored.bitcast()).bitcast()
 }
 
 /// The numbers of the lanes that are set in a mask.
@@ -191,7 +180,7 @@ fn transposed<S: Simd>(simd: S, vertices: [Vertex; 4]) -> [i32x4<S>; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use bothways_common::engine::simd::{SimdSplit, dispatch, levels};
+    use bothways_common::engine::simd::{SimdSplit, dispatch, levels, u32x8};
 
     #[test]
     fn keys_are_chosen_bit_by_bit() {
@@ -210,13 +199,13 @@ mod tests {
                     let mask = mask32x16::from_bitmask(simd, replaces.into());
                     let (new, stored) =
                         (f32x16::load_array(simd, new), f32x16::load_array(simd, stored));
-                    let keys = keys_to_store(mask, new, stored).to_array();
+                    let keys = keys_to_store::<u32x16<_>, _>(mask, new, stored).to_array();
                     assert_eq!(keys.map(f32::to_bits), expected);
                     let (left, right) = simd.split_mask32x16(mask);
                     let ((new, others), (stored, rest)) = (new.split(), stored.split());
-                    let keys = eight_keys_to_store(left, new, stored).to_array();
+                    let keys = keys_to_store::<u32x8<_>, _>(left, new, stored).to_array();
                     assert_eq!(keys.map(f32::to_bits), expected[..8]);
-                    let keys = eight_keys_to_store(right, others, rest).to_array();
+                    let keys = keys_to_store::<u32x8<_>, _>(right, others, rest).to_array();
                     assert_eq!(keys.map(f32::to_bits), expected[8..]);
                 });
             }

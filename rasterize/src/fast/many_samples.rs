@@ -1,7 +1,7 @@
 //! Triangles over many samples: one triangle at a time, sixteen samples at once.
 
 use super::depth::{NOTHING, nearer_by};
-use super::lanes::{eight_keys_to_store, keys_to_store, lanes_of};
+use super::lanes::{keys_to_store, lanes_of};
 use super::picture::Picture;
 use super::setup::FlatSetup;
 use super::tile::TileBuffer;
@@ -275,7 +275,7 @@ fn keep_row<S: Simd, F: Fault>(
     let (ids, keys) = (&mut ids[..16], &mut keys[..16]);
     let stored = f32x16::from_slice(simd, keys);
     let (replaces, doubt) = depth_test::<S, F>(tested, stored);
-    keys_to_store(replaces, tested.keys, stored).store_slice(keys);
+    keys_to_store::<u32x16<S>, _>(replaces, tested.keys, stored).store_slice(keys);
     let stored_ids = u32x16::from_slice(simd, ids);
     replaces.select(u32x16::splat(simd, broadcast.id), stored_ids).store_slice(ids);
     doubt
@@ -300,7 +300,8 @@ fn keep_two_rows<S: Simd, F: Fault>(
     let id = u32x8::splat(simd, broadcast.id);
     for (start, mask, new) in [(0, upper, upper_keys), (stride, lower, lower_keys)] {
         let (ids, keys) = (&mut ids[start..start + 8], &mut keys[start..start + 8]);
-        eight_keys_to_store(mask, new, f32x8::from_slice(simd, keys)).store_slice(keys);
+        let stored = f32x8::from_slice(simd, keys);
+        keys_to_store::<u32x8<S>, _>(mask, new, stored).store_slice(keys);
         mask.select(id, u32x8::from_slice(simd, ids)).store_slice(ids);
     }
     doubt

@@ -148,9 +148,6 @@ impl FixedPointRaster {
         let (columns, _) = integers(placed.column, placed.column).split();
         let (flags, _) = integers(placed.flags, placed.flags).split();
         let (keys, _) = simd.narrow_f64x8(placed.key, placed.key).split();
-        // A key that is no number counts as none.
-        let zero = f32x8::splat(simd, 0.0);
-        let keys = keys.simd_gt(zero).select(keys, zero);
         Corners {
             rows: [least(rows), greatest(rows)],
             columns: [least(columns), greatest(columns)],
@@ -339,7 +336,7 @@ fn greatest<S: Simd>(numbers: i32x8<S>) -> i32 {
     a.max(b).max(c.max(d))
 }
 
-/// The greatest of eight keys, none of which is NaN.
+/// The greatest of eight keys, each of which is 0 or trusted, and so a number.
 #[inline(always)]
 fn greatest_key<S: Simd>(keys: f32x8<S>) -> f32 {
     let (four, others) = keys.split();

@@ -172,7 +172,7 @@ fn store<S: Simd>(simd: S, writer: &mut FragmentWriter, index: usize, tested: &S
     let (ids, keys) = writer.buffer.from(index);
     let (ids, keys) = (&mut ids[..16], &mut keys[..16]);
     let stored = f32x16::from_slice(simd, keys);
-    keys_to_store(tested.nearer, tested.keys, stored).store_slice(keys);
+    keys_to_store::<u32x16<S>, _>(tested.nearer, tested.keys, stored).store_slice(keys);
     let stored = u32x16::from_slice(simd, ids);
     tested.nearer.select(u32x16::splat(simd, writer.id), stored).store_slice(ids);
 }

@@ -2,7 +2,7 @@
 """Lists what the compiler made badly of vector code, by the functions of a program.
 
     cargo build --release
-    python3 benches/outlined.py target/release/bothways
+    python3 benches/vector_code.py target/release/bothways
 
 *Calls* of single vector instructions. A closure, or what `map` and `from_fn` make of arrays, is compiled without the instructions
 of the function around it, unless it is inlined; then each sum of two vectors is a call, through memory, and the loop takes
