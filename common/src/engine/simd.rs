@@ -1,7 +1,7 @@
 //! SIMD for both orders: vectors of a fixed number of lanes, and a run-time choice of how the machine
 //! computes them.
 //!
-//! All types here come from [`fearless_simd`]. Code is written once, generic over [`Simd`], for sixteen lanes of
+//! Vectors and masks come from [`fearless_simd`]. Code is written once, generic over [`Simd`], for sixteen lanes of
 //! `f32` (eight of `f64`); [`dispatch!`] runs it at a [`Level`]: AVX-512, AVX2, SSE4.2, SSE2, NEON, WebAssembly's
 //! SIMD, or plain scalars. (A clone leaves SSE4.2 out, see `.cargo/config.toml`: it takes SSE2 in its place.) The number of lanes never changes, and the code uses only operations that IEEE 754 rounds
 //! correctly (no fused multiply-add, no approximate reciprocal), so the level changes no bit of any result.
@@ -9,11 +9,15 @@
 //! Functions between [`dispatch!`] and the vector operations must be `#[inline(always)]`; otherwise they are compiled
 //! for the wrong level.
 
+mod shuffle;
+
 pub use fearless_simd::prelude::*;
 pub use fearless_simd::{
     Level, Simd, dispatch, f32x4, f32x8, f32x16, f64x8, i32x4, i32x8, i32x16, mask32x4, mask32x8,
-    mask32x16, mask64x8, u8x64, u32x8, u32x16,
+    mask32x16, mask64x8, u8x32, u8x64, u32x8, u32x16,
 };
+
+pub use shuffle::{Compression, PackedShuffles, Shuffle};
 
 /// Asks the machine to load a value into its cache before use. This function changes nothing else.
 #[inline(always)]

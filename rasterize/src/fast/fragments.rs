@@ -5,7 +5,9 @@ use super::picture::Picture;
 use super::size_class::FEW;
 use super::tile::TileBuffer;
 use bothways_common::engine::context::{Context, ScalarContext};
-use bothways_common::engine::simd::{Simd, SimdBase, SimdMask, f32x16, i32x16, mask32x16, u32x16};
+use bothways_common::engine::simd::{
+    Compression, Simd, SimdMask, f32x16, i32x16, mask32x16, u32x16,
+};
 
 /// The most fragments that wait: those that sixteen triangles over few samples can have.
 const MOST_FRAGMENTS: usize = 16 * FEW as usize;
@@ -47,9 +49,10 @@ impl Fragments {
         inside: mask32x16<S>,
     ) {
         let from = self.count.min(MOST_FRAGMENTS);
-        index.compress(inside).store_slice(&mut self.index[from..from + 16]);
-        keys.compress(inside).store_slice(&mut self.keys[from..from + 16]);
-        ids.compress(inside).store_slice(&mut self.ids[from..from + 16]);
+        let compression = Compression::new(inside);
+        compression.store(index, &mut self.index[from..from + 16]);
+        compression.store(keys, &mut self.keys[from..from + 16]);
+        compression.store(ids, &mut self.ids[from..from + 16]);
         self.count = from + inside.to_bitmask().count_ones() as usize;
     }
 

@@ -2,7 +2,7 @@
 
 use super::vertices::Vertex;
 use bothways_common::engine::simd::{
-    Bytes, Select, Simd, SimdBase, SimdMask, f32x16, i32x4, i32x16, mask32x16, u32x16,
+    Bytes, Compression, Select, Simd, SimdBase, SimdMask, f32x16, i32x4, i32x16, mask32x16, u32x16,
 };
 
 /// Sixteen lanes, and room for sixteen more.
@@ -64,8 +64,9 @@ impl Lanes {
     #[inline(always)]
     pub(super) fn add<S: Simd>(&mut self, simd: S, from: &Lanes, which: mask32x16<S>) {
         let at = self.count & 15;
+        let compression = Compression::new(which);
         let add = |from: &[i32; ROOM], to: &mut [i32; ROOM]| {
-            load(simd, from).compress(which).store_slice(&mut to[at..at + 16]);
+            compression.store(load(simd, from), &mut to[at..at + 16]);
         };
         for (from, to) in from.corners.iter().zip(&mut self.corners) {
             add(&from[0], &mut to[0]);
@@ -73,7 +74,7 @@ impl Lanes {
             add(&from[2], &mut to[2]);
         }
         add(&from.flags, &mut self.flags);
-        from.ids(simd).compress(which).store_slice(&mut self.ids[at..at + 16]);
+        compression.store(from.ids(simd), &mut self.ids[at..at + 16]);
         self.count = at + which.to_bitmask().count_ones() as usize;
     }
 

@@ -12,7 +12,7 @@ use crate::fast::local_projection::LocalProjection;
 use crate::fast::prepared::Prepared;
 use crate::fast::setup::TrianglePacket;
 use bothways_common::engine::simd::{
-    Simd, SimdBase, SimdFloat, SimdMask, f32x8, f32x16, mask32x16, u32x8, u32x16,
+    Compression, Simd, SimdBase, SimdFloat, SimdMask, f32x8, f32x16, mask32x16, u32x8, u32x16,
 };
 
 /// At most this many leaves wait.
@@ -189,7 +189,7 @@ impl CandidateQueue {
         let at = self.end.min(ROOM - LEAF);
         leaf.gather(simd, passed, &mut self.corners, at);
         let ids = u32x16::load_array_ref(simd, leaf.ids());
-        ids.compress(passed).store_slice(&mut self.ids[at..at + LEAF]);
+        Compression::new(passed).store(ids, &mut self.ids[at..at + LEAF]);
         self.end = at + passed.to_bitmask().count_ones() as usize;
     }
 

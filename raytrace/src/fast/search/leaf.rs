@@ -4,7 +4,9 @@ use super::instance_frustum::PlacedBy;
 use super::tile_frustum::TileFrustum;
 use super::tree::{IndexedLeaf, LEAF, PlainLeaf};
 use crate::fast::local_projection::LocalProjection;
-use bothways_common::engine::simd::{Bytes, Simd, SimdBase, f32x16, mask32x16, u8x64, u32x16};
+use bothways_common::engine::simd::{
+    Compression, PackedShuffles, Simd, SimdBase, f32x16, mask32x16,
+};
 
 /// Up to sixteen triangles.
 pub(crate) trait Leaf: Sized {
@@ -26,7 +28,7 @@ pub(crate) trait Leaf: Sized {
     fn placed<S: Simd>(&self, simd: S, place: &PlacedBy) -> Self;
 
     /// Stores x, y, z of the first, second and third corners of some triangles, one triangle behind the other from
-    /// index `at` on. The other lanes up to sixteen are overwritten, too.
+    /// index `at` on. What is behind them, up to sixteen, has no meaning then.
     fn gather<S: Simd, const ROOM: usize>(
         &self,
         simd: S,
@@ -56,12 +58,8 @@ impl Leaf for IndexedLeaf {
     ) -> [[f32x16<S>; 3]; 2] {
         let [x, y, z] = &self.vertices;
         let [rows, columns] = local.project(simd, frustum, [x, y, z]);
-        let corners = u8x64::from_slice(simd, self.corners.as_flattened());
-        let [a, b, c] = bytes_of_corners(simd, corners);
-        [
-            [rows.swizzle_dyn(a), rows.swizzle_dyn(b), rows.swizzle_dyn(c)],
-            [columns.swizzle_dyn(a), columns.swizzle_dyn(b), columns.swizzle_dyn(c)],
-        ]
+        let [a, b, c] = PackedShuffles::load(simd, &self.corners).unpack();
+        [[a.of(rows), b.of(rows), c.of(rows)], [a.of(columns), b.of(columns), c.of(columns)]]
     }
 
     #[inline(always)]
@@ -81,13 +79,12 @@ impl Leaf for IndexedLeaf {
         to: &mut [[f32; ROOM]; 9],
         at: usize,
     ) {
-        let corners: u32x16<S> = u8x64::from_slice(simd, self.corners.as_flattened()).bitcast();
-        let corners = bytes_of_corners(simd, corners.compress(which).bitcast());
+        let corners = PackedShuffles::load(simd, &self.corners).compress(which).unpack();
         for (axis, row) in self.vertices.iter().enumerate() {
             let row = f32x16::load_array_ref(simd, row);
-            for (corner, bytes) in corners.into_iter().enumerate() {
+            for (corner, shuffle) in corners.into_iter().enumerate() {
                 let to = &mut to[3 * corner + axis][at..at + LEAF];
-                row.swizzle_dyn(bytes).store_slice(to);
+                shuffle.of(row).store_slice(to);
             }
         }
     }
@@ -136,39 +133,9 @@ impl Leaf for PlainLeaf {
         to: &mut [[f32; ROOM]; 9],
         at: usize,
     ) {
+        let compression = Compression::new(which);
         for (row, to) in self.corners.iter().zip(to) {
-            let row = f32x16::load_array_ref(simd, row).compress(which);
-            row.store_slice(&mut to[at..at + LEAF]);
+            compression.store(f32x16::load_array_ref(simd, row), &mut to[at..at + LEAF]);
         }
     }
-}
-
-/// For each of three corners, the bytes of a row of vertices that belong to each triangle, from
-/// [`IndexedLeaf::corners`].
-#[inline(always)]
-fn bytes_of_corners<S: Simd>(simd: S, corners: u8x64<S>) -> [u8x64<S>; 3] {
-    let within = u8x64::load_array(simd, const { pattern([0, 1, 2, 3], 0) });
-    let of = [
-        u8x64::load_array(simd, const { pattern([0; 4], 4) }),
-        u8x64::load_array(simd, const { pattern([1; 4], 4) }),
-        u8x64::load_array(simd, const { pattern([2; 4], 4) }),
-    ];
-    [
-        corners.swizzle_dyn_within_blocks(of[0]) + within,
-        corners.swizzle_dyn_within_blocks(of[1]) + within,
-        corners.swizzle_dyn_within_blocks(of[2]) + within,
-    ]
-}
-
-/// Four bytes, sixteen times: each time `step` more, and again from the start after every four times.
-const fn pattern(four: [u8; 4], step: u8) -> [u8; 64] {
-    let mut all = [0; 64];
-    let mut k = 0;
-    while k < 64 {
-        #[expect(clippy::cast_possible_truncation, reason = "less than 4")]
-        let time = (k / 4 % 4) as u8;
-        all[k] = four[k % 4] + step * time;
-        k += 1;
-    }
-    all
 }
