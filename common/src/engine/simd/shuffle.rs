@@ -1,4 +1,5 @@
-//! Shuffles that are known only at run time: sixteen lanes, each of which takes one of sixteen numbers.
+//! Shuffles that are known only at run time: sixteen lanes, each of which takes one of sixteen numbers; and chosen lanes that are
+//! stored one behind the other.
 
 use super::{Bytes, Simd, SimdBase, SimdSplit, f32x16, mask32x16, u8x32, u8x64, u32x16};
 #[cfg(target_arch = "x86_64")]
@@ -82,7 +83,7 @@ impl<S: Simd> Shuffle<S> {
     }
 }
 
-/// Which of sixteen lanes are stored, one behind the other: several vectors can be stored by it.
+/// Which of sixteen lanes are stored, one behind the other. It is made once for several vectors.
 ///
 /// AVX2 stores half by half, each with one shuffle; a whole vector would have to be put together from both first.
 #[derive(Clone, Copy, Debug)]
@@ -97,7 +98,7 @@ pub struct Compression<S: Simd> {
 }
 
 impl<S: Simd> Compression<S> {
-    /// Stores the lanes of a mask.
+    /// One that chooses the lanes of a mask.
     #[inline(always)]
     pub fn new(which: mask32x16<S>) -> Self {
         #[cfg(target_arch = "x86_64")]
