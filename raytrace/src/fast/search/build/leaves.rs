@@ -5,100 +5,92 @@ use crate::fast::search::tree::{IndexedLeaf, LEAF, PlainLeaf};
 use bothways_common::Mesh;
 use bothways_common::engine::simd::{Level, Simd, SimdBase, SimdMask, dispatch, mask32x16, u32x16};
 use bothways_common::scene::are_same_corners;
+use glam::Vec3;
 
-/// The distinct vertices of some triangles, and each triangle as the numbers of its vertices. A vertex is known by its
-/// index in a mesh, one word, or by the bits of its coordinates, three words.
-struct VertexSet<const WORDS: usize> {
-    vertices: [[u32; LEAF]; WORDS],
-    vertex_count: usize,
-    /// For each triangle, the numbers of its vertices.
-    corners: [[u8; 3]; LEAF],
+/// The corners of at most so many triangles.
+const CORNERS: usize = 3 * LEAF;
+
+/// The corners of some triangles, one triangle after another, and which of them are the same vertex. A vertex is known by
+/// its index in a mesh, one word, or by the bits of its coordinates, three words.
+struct Corners<const WORDS: usize> {
+    words: [[u32; CORNERS]; WORDS],
+    /// For each corner, the first corner with the same vertex.
+    firsts: [u8; CORNERS],
+    /// A bit for each corner that is the first with its vertex.
+    are_first: u64,
 }
 
-impl<const WORDS: usize> VertexSet<WORDS> {
-    /// The vertices of some triangles; `None` if there are too many.
+impl<const WORDS: usize> Corners<WORDS> {
+    /// The corners of some triangles; `None` if they have more vertices than a leaf has room for.
     fn new(
         prims: &[PrimRef],
         level: Level,
         mut of: impl FnMut(&PrimRef) -> [[u32; WORDS]; 3],
     ) -> Option<Self> {
-        let mut set =
-            VertexSet { vertices: [[0; LEAF]; WORDS], vertex_count: 0, corners: [[0; 3]; LEAF] };
-        dispatch!(level, simd => {
-            for (lane, prim) in prims.iter().enumerate() {
-                let [a, b, c] = of(prim);
-                let numbers = [set.number(simd, a)?, set.number(simd, b)?, set.number(simd, c)?];
-                set.corners[lane] = numbers;
-            }
-            Some(())
-        })?;
-        Some(set)
-    }
-
-    /// The number of a vertex. A new vertex is added if there is room for it.
-    #[inline(always)]
-    fn number<S: Simd>(&mut self, simd: S, vertex: [u32; WORDS]) -> Option<u8> {
-        let mut same = mask32x16::splat(simd, true);
-        for (row, word) in self.vertices.iter().zip(vertex) {
-            same &= u32x16::load_array_ref(simd, row).simd_eq(u32x16::splat(simd, word));
-        }
-        // The slots after the last vertex hold zeros: a vertex of zeros is found in its own, or in the first of these,
-        // which becomes its own.
-        let number = (same.to_bitmask().trailing_zeros() as usize).min(self.vertex_count);
-        if number == self.vertex_count {
-            if number == LEAF {
-                return None;
-            }
-            for (row, word) in self.vertices.iter_mut().zip(vertex) {
-                row[number] = word;
-            }
-            self.vertex_count += 1;
-        }
-        u8::try_from(number).ok()
-    }
-}
-
-impl VertexSet<1> {
-    /// Vertices by their indices in a mesh, whose first triangle has this id.
-    fn by_index(prims: &[PrimRef], (mesh, first_id): (&Mesh, u32), level: Level) -> Option<Self> {
-        let of = |prim: &PrimRef| mesh.triangles()[(prim.id() - first_id) as usize];
-        VertexSet::new(prims, level, |prim| of(prim).map(|index| [index]))
-    }
-}
-
-impl VertexSet<3> {
-    /// Vertices by their places: those with equal coordinates are the same vertex.
-    fn by_place(prims: &[PrimRef], corners: &mut CornerReader, level: Level) -> Option<Self> {
-        VertexSet::new(prims, level, |prim| corners.of(prim.id()).map(place_bits))
-    }
-
-    /// Vertices by their indices, if they are few then, and otherwise by their places.
-    fn of(prims: &[PrimRef], corners: &mut CornerReader, level: Level) -> Option<Self> {
-        if let Some((mesh, first_id)) = corners.mesh_of(prims)
-            && let Some(set) = VertexSet::by_index(prims, (mesh, first_id), level)
-        {
-            let VertexSet { vertices: [indices], vertex_count, corners } = set;
-            let mut vertices = [[0; LEAF]; 3];
-            for (lane, index) in indices[..vertex_count].iter().enumerate() {
-                let place = place_bits(mesh.positions()[*index as usize]);
-                for (row, word) in vertices.iter_mut().zip(place) {
-                    row[lane] = word;
+        let mut corners =
+            Corners { words: [[0; CORNERS]; WORDS], firsts: [0; CORNERS], are_first: 0 };
+        // All are read first: so memory is fetched for several at once.
+        for (triangle, prim) in prims.iter().enumerate() {
+            for (k, vertex) in of(prim).into_iter().enumerate() {
+                for (words, word) in corners.words.iter_mut().zip(vertex) {
+                    words[3 * triangle + k] = word;
                 }
             }
-            return Some(VertexSet { vertices, vertex_count, corners });
         }
-        VertexSet::by_place(prims, corners, level)
+        dispatch!(level, simd => corners.find_firsts(simd, prims.len())).then_some(corners)
     }
 
-    fn leaf(&self, prims: &[PrimRef]) -> IndexedLeaf {
-        let vertices = self.vertices.map(|row| {
-            let row = row.map(f32::from_bits);
-            std::array::from_fn(|k| if k < self.vertex_count { row[k] } else { row[0] })
-        });
+    /// Finds the first corner with each vertex; returns whether there are no more than a leaf has room for.
+    ///
+    /// Each corner is compared with all before it, and none waits for what was found of another.
+    #[inline(always)]
+    fn find_firsts<S: Simd>(&mut self, simd: S, triangles: usize) -> bool {
+        for triangle in 0..triangles {
+            for corner in 3 * triangle..3 * triangle + 3 {
+                let mut same = 0;
+                for start in (0..=corner).step_by(16) {
+                    let mut are_same = mask32x16::splat(simd, true);
+                    for words in &self.words {
+                        let these = u32x16::from_slice(simd, &words[start..start + 16]);
+                        are_same &= these.simd_eq(u32x16::splat(simd, words[corner]));
+                    }
+                    same |= are_same.to_bitmask() << start;
+                }
+                // It is the same as itself, or one before it.
+                let first = same.trailing_zeros();
+                self.are_first |= 1 << first;
+                self.firsts[corner] = u8::try_from(first).expect("corners are few");
+            }
+            if self.are_first.count_ones() as usize > LEAF {
+                return false;
+            }
+        }
+        true
+    }
+
+    /// The leaf of these triangles. Each vertex is where `place` finds it.
+    #[inline(always)]
+    fn leaf(&self, prims: &[PrimRef], place: impl Fn([u32; WORDS]) -> Vec3) -> IndexedLeaf {
+        let (mut vertices, mut bytes, mut count) = ([[0.0; LEAF]; 3], [0; CORNERS], 0);
+        let mut are_left = self.are_first;
+        while are_left != 0 {
+            let corner = are_left.trailing_zeros() as usize;
+            are_left &= are_left - 1;
+            let place = place(self.words.each_ref().map(|words| words[corner]));
+            for (row, coordinate) in vertices.iter_mut().zip(place.to_array()) {
+                row[count] = coordinate;
+            }
+            bytes[corner] = u8::try_from(4 * count).expect("there are sixteen at most");
+            count += 1;
+        }
+        for row in &mut vertices {
+            let first = row[0];
+            row[count..].fill(first);
+        }
         let mut leaf = IndexedLeaf { vertices, corners: [[0; 4]; LEAF], ids: [0; LEAF] };
         for lane in 0..LEAF {
             let from = if lane < prims.len() { lane } else { 0 };
-            let [a, b, c] = self.corners[from].map(|number| 4 * number);
+            let [a, b, c] = [0, 1, 2].map(|k| bytes[usize::from(self.firsts[3 * from + k])]);
             leaf.corners[lane] = [a, b, c, 0];
             leaf.ids[lane] = prims[from].id();
         }
@@ -106,10 +98,25 @@ impl VertexSet<3> {
     }
 }
 
+impl Corners<1> {
+    /// Vertices by their indices in a mesh, whose first triangle has this id.
+    fn by_index(prims: &[PrimRef], (mesh, first_id): (&Mesh, u32), level: Level) -> Option<Self> {
+        let of = |prim: &PrimRef| mesh.triangles()[(prim.id() - first_id) as usize];
+        Corners::new(prims, level, |prim| of(prim).map(|index| [index]))
+    }
+}
+
+impl Corners<3> {
+    /// Vertices by their places: those with equal coordinates are the same vertex.
+    fn by_place(prims: &[PrimRef], corners: &mut CornerReader, level: Level) -> Option<Self> {
+        Corners::new(prims, level, |prim| corners.of(prim.id()).map(place_bits))
+    }
+}
+
 /// Whether there are few enough vertices for an indexed leaf.
 pub(super) fn share_vertices(prims: &[PrimRef], corners: &mut CornerReader, level: Level) -> bool {
-    let by_index = corners.mesh_of(prims).and_then(|of| VertexSet::by_index(prims, of, level));
-    by_index.is_some() || VertexSet::by_place(prims, corners, level).is_some()
+    let by_index = corners.mesh_of(prims).and_then(|of| Corners::by_index(prims, of, level));
+    by_index.is_some() || Corners::by_place(prims, corners, level).is_some()
 }
 
 /// Orders the triangles of a leaf so that duplicates, which are never visible, come last: a duplicate has the same
@@ -146,7 +153,15 @@ pub(super) fn indexed_leaf(
     corners: &mut CornerReader,
     level: Level,
 ) -> IndexedLeaf {
-    VertexSet::of(prims, corners, level).expect("there are few").leaf(prims)
+    // If they are few by their indices, nothing else of them is read than the places of these few.
+    if let Some((mesh, first_id)) = corners.mesh_of(prims)
+        && let Some(found) = Corners::by_index(prims, (mesh, first_id), level)
+    {
+        // Adding 0 makes −0 and 0 equal, as their bits are.
+        return found.leaf(prims, |[index]| mesh.positions()[index as usize] + 0.0);
+    }
+    let found = Corners::by_place(prims, corners, level).expect("there are few");
+    found.leaf(prims, |bits| Vec3::from_array(bits.map(f32::from_bits)))
 }
 
 /// The leaf of any triangles.

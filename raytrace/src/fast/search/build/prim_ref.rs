@@ -38,9 +38,14 @@ impl Box8 {
     #[inline(always)]
     pub(super) fn half_area(&self) -> f64 {
         let of = |axis: usize| (f64::from(self.0[4 + axis]) + f64::from(self.0[axis])).max(0.0);
-        let [x, y, z] = [of(0), of(1), of(2)];
-        x * y + y * z + z * x
+        half_area_of([of(0), of(1), of(2)])
     }
+}
+
+/// Half of the surface area of a box with these sides.
+#[inline(always)]
+pub(super) fn half_area_of([x, y, z]: [f64; 3]) -> f64 {
+    x * y + y * z + z * x
 }
 
 /// A primitive during the build: its box, and the bits of its id in the fourth lane.

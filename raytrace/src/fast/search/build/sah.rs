@@ -1,9 +1,10 @@
 //! The surface area heuristic (SAH): the best split of primitives in two, between bins of their centres.
 
-use super::prim_ref::{Box8, PrimRef};
+use super::prim_ref::{Box8, PrimRef, half_area_of};
 use super::primitives::{Primitives, chunk_size};
 use bothways_common::engine::simd::{
-    Level, Simd, SimdBase, SimdFloat, SimdMask, dispatch, f32x4, i32x4,
+    Level, Select, Simd, SimdBase, SimdFloat, SimdMask, SimdWiden, dispatch, f32x4, f32x8, i32x4,
+    mask32x8,
 };
 use rayon::prelude::*;
 
@@ -92,15 +93,51 @@ impl Bins {
         }
     }
 
-    fn union(mut self, other: &Bins) -> Bins {
+    /// The costs of the splits of each axis before its second bin, its third, …
+    ///
+    /// Each is computed alike, also where a bin is empty: a machine could not guess which ones are.
+    #[inline(always)]
+    fn split_costs<S: Simd>(&self, simd: S, most: usize) -> [[f64; BINS - 1]; 3] {
+        let empty = Box8::EMPTY.lanes(simd);
+        let mut costs = [[0.0; BINS - 1]; 3];
+        for (axis, costs) in costs.iter_mut().enumerate() {
+            let (bounds, counts) = (&self.bounds[axis], &self.counts[axis]);
+            // From the left, the cost of the primitives before each bin; then from the right, that of those in or beyond it.
+            let (mut count, mut around) = (0, empty);
+            for (bin, cost) in costs.iter_mut().enumerate() {
+                count += counts[bin] as usize;
+                around = around.max(bounds[bin].lanes(simd));
+                *cost = leaves(count, most) * half_area(around);
+            }
+            let (mut count, mut around) = (0, empty);
+            for (bin, cost) in costs.iter_mut().enumerate().rev() {
+                count += counts[bin + 1] as usize;
+                around = around.max(bounds[bin + 1].lanes(simd));
+                *cost += leaves(count, most) * half_area(around);
+            }
+        }
+        costs
+    }
+
+    /// Adds the contents of others.
+    fn extend(&mut self, other: &Bins) {
         let bounds = self.bounds.as_flattened_mut().iter_mut();
         for (bounds, other) in bounds.zip(other.bounds.as_flattened()) {
             *bounds = bounds.union(other);
         }
         let counts = self.counts.as_flattened_mut().iter_mut();
         counts.zip(other.counts.as_flattened()).for_each(|(count, other)| *count += other);
-        self
     }
+}
+
+/// [`Box8::half_area`] of a box in lanes, in the same steps.
+#[inline(always)]
+fn half_area<S: Simd>(around: f32x8<S>) -> f64 {
+    // The lanes without meaning hold ids, and with denormal numbers some machines take a hundred times as long.
+    let is_axis = mask32x8::from_bitmask(around.simd, 0b0111_0111);
+    let (low, high) = is_axis.select(around, f32x8::splat(around.simd, 0.0)).widen();
+    let [x, y, z, _] = (high + low).max(0.0).to_array();
+    half_area_of([x, y, z])
 }
 
 /// Fills the bins with some primitives.
@@ -118,7 +155,7 @@ fn fill_bins<P: Primitives>(prims: &P, mapping: &BinMapping, level: Level) -> Bi
                     bins.add(simd, &boxes(one), mapping);
                     others.add(simd, &boxes(other), mapping);
                 }
-                bins = bins.union(&others);
+                bins.extend(&others);
             }
             for item in more.as_flattened().iter().chain(rest) {
                 bins.add(simd, &boxes(item), mapping);
@@ -131,7 +168,11 @@ fn fill_bins<P: Primitives>(prims: &P, mapping: &BinMapping, level: Level) -> Bi
         return of(prims.items());
     }
     let chunks = prims.items().par_chunks(size).map(of);
-    chunks.reduce(|| Bins::EMPTY, |all, chunk| all.union(&chunk))
+    let union = |mut all: Bins, chunk: Bins| {
+        all.extend(&chunk);
+        all
+    };
+    chunks.reduce(|| Bins::EMPTY, union)
 }
 
 /// The cheapest split; `None` if all centres are in one bin. A leaf has at most `most` primitives.
@@ -143,34 +184,16 @@ pub(super) fn cheapest_split(
 ) -> Option<SahSplit> {
     let mapping = BinMapping::new(centers);
     let bins = fill_bins(prims, &mapping, level);
+    let costs = dispatch!(level, simd => bins.split_costs(simd, most));
     let mut best: Option<SahSplit> = None;
-    for (axis, (bounds, counts)) in bins.bounds.iter().zip(&bins.counts).enumerate() {
-        // First from the right, the cost of the primitives in or beyond each bin; then from the left. An empty bin
-        // makes no other split than the one before.
-        let mut beyond = [0.0; BINS + 1];
-        let (mut count, mut around) = (0, Box8::EMPTY);
-        for k in (1..BINS).rev() {
-            beyond[k] = beyond[k + 1];
-            if counts[k] > 0 {
-                count += counts[k] as usize;
-                around = around.union(&bounds[k]);
-                beyond[k] = leaves(count, most) * around.half_area();
-            }
-        }
-        let (mut count, mut around) = (0, Box8::EMPTY);
-        for k in 1..BINS {
-            if counts[k - 1] == 0 {
-                continue;
-            }
-            count += counts[k - 1] as usize;
-            if count == prims.len() {
-                break;
-            }
-            around = around.union(&bounds[k - 1]);
-            let cost = leaves(count, most) * around.half_area() + beyond[k];
-            if best.is_none_or(|best| cost < best.cost) {
-                let bin = i32::try_from(k).expect("it is less than 16");
-                best = Some(SahSplit { mapping, axis, bin, cost });
+    for (axis, (costs, counts)) in costs.iter().zip(&bins.counts).enumerate() {
+        let mut count = 0;
+        for (bin, (cost, more)) in (1..).zip(costs.iter().zip(counts)) {
+            // An empty bin makes no other split than the one before: it costs the same.
+            count += *more as usize;
+            let is_cheapest = best.is_none_or(|best| *cost < best.cost);
+            if is_cheapest && count > 0 && count < prims.len() {
+                best = Some(SahSplit { mapping, axis, bin, cost: *cost });
             }
         }
     }
@@ -181,4 +204,74 @@ pub(super) fn cheapest_split(
 #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
 pub(super) fn leaves(count: usize, most: usize) -> f64 {
     count.div_ceil(most) as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fast::search::tree::Bounds;
+    use bothways_common::engine::simd::levels;
+    use glam::Vec3;
+
+    /// Boxes in a few places or in many, some of them flat. Their ids are denormal numbers, or none at all.
+    fn boxes(random: &mut fastrand::Rng) -> Vec<PrimRef> {
+        let (count, places) = (random.u32(2..400), [3.0, 1e3, 1e30][random.usize(0..3)]);
+        let mut vector = || Vec3::from_array([(); 3].map(|()| (random.f32() * places).floor()));
+        let ids = [0, u32::MAX - 400];
+        let of = |k: u32| {
+            let (one, other) = (vector(), vector());
+            PrimRef::new(
+                &Bounds { low: one.min(other), high: one.max(other) },
+                ids[k as usize % 2] + k,
+            )
+        };
+        (0..count).map(of).collect()
+    }
+
+    /// The first of the cheapest splits, from the primitives on either side of each.
+    fn cheapest_of_all(
+        prims: &[PrimRef],
+        mapping: BinMapping,
+        most: usize,
+        level: Level,
+    ) -> Option<SahSplit> {
+        let mut cheapest: Option<SahSplit> = None;
+        for (axis, bin) in (0..3).flat_map(|axis| (1..16).map(move |bin| (axis, bin))) {
+            let split = SahSplit { mapping, axis, bin, cost: 0.0 };
+            let is_left = |prim: &&PrimRef| dispatch!(level, simd => split.goes_left(simd, prim.center(simd)));
+            let sides: (Vec<&PrimRef>, Vec<&PrimRef>) = prims.iter().partition(is_left);
+            if sides.0.is_empty() || sides.1.is_empty() {
+                continue;
+            }
+            let cost_of = |side: Vec<&PrimRef>| {
+                let all = side.iter().fold(Box8::EMPTY, |all, prim| all.union(&prim.0));
+                leaves(side.len(), most) * all.half_area()
+            };
+            let cost = cost_of(sides.0) + cost_of(sides.1);
+            if cheapest.is_none_or(|cheapest| cost < cheapest.cost) {
+                cheapest = Some(SahSplit { cost, ..split });
+            }
+        }
+        cheapest
+    }
+
+    #[test]
+    fn no_split_is_cheaper_than_the_cheapest() {
+        let mut random = fastrand::Rng::with_seed(19);
+        for _ in 0..300 {
+            let mut prims = boxes(&mut random);
+            let most = [8, 16][random.usize(0..2)];
+            for level in levels() {
+                let around = |centers: Box8, prim: &PrimRef| {
+                    let [x, y, z, _] = dispatch!(level, simd => prim.center(simd).to_array());
+                    centers.union(&Box8([-x, -y, -z, 0.0, x, y, z, 0.0]))
+                };
+                let centers = prims.iter().fold(Box8::EMPTY, around);
+                let found = cheapest_split(&&mut prims[..], &centers, most, level);
+                let expected = cheapest_of_all(&prims, BinMapping::new(&centers), most, level);
+                let shown = |split: Option<SahSplit>| split.map(|s| (s.axis, s.bin, s.cost));
+                assert_eq!(shown(found), shown(expected), "{level:?}");
+            }
+        }
+    }
 }

@@ -190,16 +190,22 @@ fn partition_items<S: Simd, T: Copy>(
 ) -> (usize, [Extent; 2]) {
     let (mut middle, mut end) = (0, items.len());
     let (mut left, mut right) = (ExtentLanes::empty(simd), ExtentLanes::empty(simd));
+    // The one that is looked at is in the hand; its place, the middle, is free.
+    let Some(&(mut item)) = items.first() else { return (0, [left.extent(), right.extent()]) };
     while middle < end {
-        let prim = boxes(&items[middle]);
+        let prim = boxes(&item);
         let center = prim.center(simd);
         if best.goes_left(simd, center) {
             left.add(simd, &prim, center);
+            items[middle] = item;
             middle += 1;
+            if let Some(next) = items.get(middle) {
+                item = *next;
+            }
         } else {
             right.add(simd, &prim, center);
             end -= 1;
-            items.swap(middle, end);
+            std::mem::swap(&mut item, &mut items[end]);
         }
     }
     (middle, [left.extent(), right.extent()])
@@ -253,6 +259,42 @@ fn pieces<T>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fast::search::tree::Bounds;
+    use bothways_common::engine::simd::best_level;
+    use glam::Vec3;
+
+    #[test]
+    fn what_a_split_parts_is_all_there_was() {
+        let mut random = fastrand::Rng::with_seed(19);
+        for count in [2, 3, 17, 300, 4095, 6000] {
+            let mut vector = || Vec3::from_array([(); 3].map(|()| random.f32()));
+            let of = |id: u32| {
+                let (one, other) = (vector(), vector());
+                PrimRef::new(&Bounds { low: one.min(other), high: one.max(other) }, id)
+            };
+            let mut prims: Vec<PrimRef> = (0..count).map(of).collect();
+            let level = best_level();
+            let record = BuildRecord::new(&mut prims[..], 7, 3, false, level);
+            let best = cheapest_split(&record.prims, &record.centers, LEAF, level).unwrap();
+            let [left, right] = partition(record, &best, level);
+            assert_eq!((left.first, right.first), (7, 7 + left.prims.len()));
+            let mut ids = Vec::new();
+            for (side, is_left) in [(left, true), (right, false)] {
+                let of_side = |prim: &PrimRef| {
+                    ids.push(prim.id());
+                    dispatch!(level, simd => best.goes_left(simd, prim.center(simd))) == is_left
+                };
+                assert!(!side.prims.is_empty() && side.prims.iter().all(of_side), "{count}");
+                let BuildRecord { bounds, centers, .. } = side;
+                let again = BuildRecord::new(side.prims, 0, 0, false, level);
+                let axes = |of: Box8| (of.bounds(), of.half_area());
+                assert_eq!(axes(bounds), axes(again.bounds));
+                assert_eq!(axes(centers), axes(again.centers));
+            }
+            ids.sort_unstable();
+            assert!(ids.into_iter().eq(0..count));
+        }
+    }
 
     #[test]
     fn what_is_left_comes_before_all_others() {
