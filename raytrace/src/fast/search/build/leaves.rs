@@ -7,7 +7,7 @@ use bothways_common::engine::simd::{Level, Simd, SimdBase, SimdMask, dispatch, m
 use bothways_common::scene::are_same_corners;
 use glam::Vec3;
 
-/// The corners of at most so many triangles.
+/// The corners of the triangles of a full leaf.
 const CORNERS: usize = 3 * LEAF;
 
 /// The corners of some triangles, one triangle after another, and which of them are the same vertex. A vertex is known by
@@ -16,7 +16,7 @@ struct Corners<const WORDS: usize> {
     words: [[u32; CORNERS]; WORDS],
     /// For each corner, the first corner with the same vertex.
     firsts: [u8; CORNERS],
-    /// A bit for each corner that is the first with its vertex.
+    /// Bit `k` is set if corner `k` is the first with its vertex.
     are_first: u64,
 }
 
@@ -29,7 +29,7 @@ impl<const WORDS: usize> Corners<WORDS> {
     ) -> Option<Self> {
         let mut corners =
             Corners { words: [[0; CORNERS]; WORDS], firsts: [0; CORNERS], are_first: 0 };
-        // All are read first: so memory is fetched for several at once.
+        // All corners are read first, so that several fetches from memory overlap.
         for (triangle, prim) in prims.iter().enumerate() {
             for (k, vertex) in of(prim).into_iter().enumerate() {
                 for (words, word) in corners.words.iter_mut().zip(vertex) {
@@ -40,9 +40,9 @@ impl<const WORDS: usize> Corners<WORDS> {
         dispatch!(level, simd => corners.find_firsts(simd, prims.len())).then_some(corners)
     }
 
-    /// Finds the first corner with each vertex; returns whether there are no more than a leaf has room for.
+    /// Finds the first corner with each vertex. Returns whether the vertices are few enough for a leaf.
     ///
-    /// Each corner is compared with all before it, and none waits for what was found of another.
+    /// Each corner is compared with all before it, whatever was found for those: so the machine works on several at a time.
     #[inline(always)]
     fn find_firsts<S: Simd>(&mut self, simd: S, triangles: usize) -> bool {
         for triangle in 0..triangles {
@@ -68,16 +68,18 @@ impl<const WORDS: usize> Corners<WORDS> {
         true
     }
 
-    /// The leaf of these triangles. Each vertex is where `place` finds it.
-    #[inline(always)]
-    fn leaf(&self, prims: &[PrimRef], place: impl Fn([u32; WORDS]) -> Vec3) -> IndexedLeaf {
-        let (mut vertices, mut bytes, mut count) = ([[0.0; LEAF]; 3], [0; CORNERS], 0);
+    /// The leaf of these triangles; `position_of` finds where a vertex is.
+    fn leaf(&self, prims: &[PrimRef], position_of: impl Fn([u32; WORDS]) -> Vec3) -> IndexedLeaf {
+        // For each first corner, the byte at which its vertex begins in a row.
+        let mut bytes = [0; CORNERS];
+        let (mut vertices, mut count) = ([[0.0; LEAF]; 3], 0);
+        // Vertices are numbered in the order of their first corners.
         let mut are_left = self.are_first;
         while are_left != 0 {
             let corner = are_left.trailing_zeros() as usize;
             are_left &= are_left - 1;
-            let place = place(self.words.each_ref().map(|words| words[corner]));
-            for (row, coordinate) in vertices.iter_mut().zip(place.to_array()) {
+            let position = position_of(self.words.each_ref().map(|words| words[corner]));
+            for (row, coordinate) in vertices.iter_mut().zip(position.to_array()) {
                 row[count] = coordinate;
             }
             bytes[corner] = u8::try_from(4 * count).expect("there are sixteen at most");
@@ -153,11 +155,11 @@ pub(super) fn indexed_leaf(
     corners: &mut CornerReader,
     level: Level,
 ) -> IndexedLeaf {
-    // If they are few by their indices, nothing else of them is read than the places of these few.
+    // If the indices alone show few vertices, only the positions of those few are read.
     if let Some((mesh, first_id)) = corners.mesh_of(prims)
         && let Some(found) = Corners::by_index(prims, (mesh, first_id), level)
     {
-        // Adding 0 makes −0 and 0 equal, as their bits are.
+        // Adding 0 turns −0 into 0, as `place_bits` does.
         return found.leaf(prims, |[index]| mesh.positions()[index as usize] + 0.0);
     }
     let found = Corners::by_place(prims, corners, level).expect("there are few");

@@ -38,13 +38,13 @@ impl Box8 {
     #[inline(always)]
     pub(super) fn half_area(&self) -> f64 {
         let of = |axis: usize| (f64::from(self.0[4 + axis]) + f64::from(self.0[axis])).max(0.0);
-        half_area_of([of(0), of(1), of(2)])
+        half_area_of_sides([of(0), of(1), of(2)])
     }
 }
 
 /// Half of the surface area of a box with these sides.
 #[inline(always)]
-pub(super) fn half_area_of([x, y, z]: [f64; 3]) -> f64 {
+pub(super) fn half_area_of_sides([x, y, z]: [f64; 3]) -> f64 {
     x * y + y * z + z * x
 }
 

@@ -190,8 +190,10 @@ fn partition_items<S: Simd, T: Copy>(
 ) -> (usize, [Extent; 2]) {
     let (mut middle, mut end) = (0, items.len());
     let (mut left, mut right) = (ExtentLanes::empty(simd), ExtentLanes::empty(simd));
-    // The one that is looked at is in the hand; its place, the middle, is free.
-    let Some(&(mut item)) = items.first() else { return (0, [left.extent(), right.extent()]) };
+    // `item` is looked at next, and its place, the middle, is free: so a step copies one, rather than exchanging two.
+    let Some(mut item) = items.first().copied() else {
+        return (0, [left.extent(), right.extent()]);
+    };
     while middle < end {
         let prim = boxes(&item);
         let center = prim.center(simd);
@@ -199,6 +201,7 @@ fn partition_items<S: Simd, T: Copy>(
             left.add(simd, &prim, center);
             items[middle] = item;
             middle += 1;
+            // There is no next one if all go left.
             if let Some(next) = items.get(middle) {
                 item = *next;
             }
@@ -260,39 +263,70 @@ fn pieces<T>(
 mod tests {
     use super::*;
     use crate::fast::search::tree::Bounds;
-    use bothways_common::engine::simd::best_level;
+    use bothways_common::engine::simd::levels;
     use glam::Vec3;
 
-    #[test]
-    fn what_a_split_parts_is_all_there_was() {
-        let mut random = fastrand::Rng::with_seed(19);
-        for count in [2, 3, 17, 300, 4095, 6000] {
-            let mut vector = || Vec3::from_array([(); 3].map(|()| random.f32()));
-            let of = |id: u32| {
-                let (one, other) = (vector(), vector());
-                PrimRef::new(&Bounds { low: one.min(other), high: one.max(other) }, id)
-            };
-            let mut prims: Vec<PrimRef> = (0..count).map(of).collect();
-            let level = best_level();
-            let record = BuildRecord::new(&mut prims[..], 7, 3, false, level);
-            let best = cheapest_split(&record.prims, &record.centers, LEAF, level).unwrap();
-            let [left, right] = partition(record, &best, level);
-            assert_eq!((left.first, right.first), (7, 7 + left.prims.len()));
-            let mut ids = Vec::new();
-            for (side, is_left) in [(left, true), (right, false)] {
-                let of_side = |prim: &PrimRef| {
-                    ids.push(prim.id());
-                    dispatch!(level, simd => best.goes_left(simd, prim.center(simd))) == is_left
-                };
-                assert!(!side.prims.is_empty() && side.prims.iter().all(of_side), "{count}");
-                let BuildRecord { bounds, centers, .. } = side;
-                let again = BuildRecord::new(side.prims, 0, 0, false, level);
-                let axes = |of: Box8| (of.bounds(), of.half_area());
-                assert_eq!(axes(bounds), axes(again.bounds));
-                assert_eq!(axes(centers), axes(again.centers));
+    /// The order of [`partition_items`], by exchanging two.
+    fn exchanged(items: &mut [PrimRef], is_left: impl Fn(&PrimRef) -> bool) {
+        let (mut middle, mut end) = (0, items.len());
+        while middle < end {
+            if is_left(&items[middle]) {
+                middle += 1;
+            } else {
+                end -= 1;
+                items.swap(middle, end);
             }
-            ids.sort_unstable();
-            assert!(ids.into_iter().eq(0..count));
+        }
+    }
+
+    /// The primitives of a record of some boxes, split where that is cheapest, and again if `again`: then whole chunks
+    /// are on one side.
+    fn check_partition(count: u32, again: bool, level: Level) {
+        fn record(prims: &mut [PrimRef], level: Level) -> BuildRecord<&mut [PrimRef]> {
+            BuildRecord::new(prims, 7, 3, false, level)
+        }
+        let mut random = fastrand::Rng::with_seed(19);
+        let mut vector = || Vec3::from_array([(); 3].map(|()| random.f32()));
+        let of = |id: u32| {
+            let (one, other) = (vector(), vector());
+            PrimRef::new(&Bounds { low: one.min(other), high: one.max(other) }, id)
+        };
+        let mut prims: Vec<PrimRef> = (0..count).map(of).collect();
+        let BuildRecord { prims: all, centers, .. } = record(&mut prims, level);
+        let best = cheapest_split(&all, &centers, LEAF, level).unwrap();
+        let is_left =
+            |prim: &PrimRef| dispatch!(level, simd => best.goes_left(simd, prim.center(simd)));
+        if again {
+            partition(record(&mut prims, level), &best, level);
+        }
+        let mut expected = prims.clone();
+        let [left, right] = partition(record(&mut prims, level), &best, level);
+        assert_eq!((left.first, right.first), (7, 7 + left.prims.len()));
+        for (side, on_left) in [(left, true), (right, false)] {
+            assert!(
+                !side.prims.is_empty() && side.prims.iter().all(|prim| is_left(prim) == on_left)
+            );
+            let all = BuildRecord::new(side.prims, 0, 0, false, level);
+            assert_eq!(side.bounds.bounds(), all.bounds.bounds());
+            assert_eq!(side.centers.bounds(), all.centers.bounds());
+        }
+        let ids = |prims: &[PrimRef]| prims.iter().map(PrimRef::id).collect::<Vec<u32>>();
+        if chunk_size(expected.len()) >= expected.len() {
+            exchanged(&mut expected, is_left);
+            assert_eq!(ids(&prims), ids(&expected));
+        }
+        let mut sorted = ids(&prims);
+        sorted.sort_unstable();
+        assert!(sorted.into_iter().eq(0..count));
+    }
+
+    #[test]
+    fn a_partition_keeps_all_primitives_and_bounds_both_sides() {
+        for level in levels() {
+            for count in [2, 3, 17, 300, 4095, 6000] {
+                check_partition(count, false, level);
+                check_partition(count, true, level);
+            }
         }
     }
 

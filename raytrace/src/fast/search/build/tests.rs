@@ -168,7 +168,7 @@ fn a_vertex_is_known_by_its_index_if_there_are_few() {
         let used = leaf.corners[..triangles.len()].as_flattened().iter();
         used.max().map(|last| last / 4 + 1)
     };
-    // Index 0 is told from slots that are not used, first or later.
+    // Index 0 is not taken for a corner that is not used, first or later.
     assert_eq!(corners_of(&[[0, 1, 2], [3, 2, 1]]), Some(4));
     assert_eq!(corners_of(&[[2, 1, 4], [4, 1, 0]]), Some(4));
     // Sixteen by their indices, with index 0 the last.
@@ -181,6 +181,28 @@ fn a_vertex_is_known_by_its_index_if_there_are_few() {
     let mesh = Mesh::new(places.clone(), seventeen.to_vec()).unwrap();
     let scene = Scene::new(vec![Object::from(Shape::Mesh(mesh))]).unwrap();
     assert_eq!(built(&scene).plain_leaves.len(), 1);
+}
+
+/// Vertices are numbered in the order of their first corners, those that are not used are the first one, and none is −0.
+#[test]
+fn vertices_of_a_leaf_have_an_order() {
+    let places = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z, Vec3::new(-0.0, 2.0, -0.0)];
+    let vertices_of = |places: Vec<Vec3>, triangles: Vec<[u32; 3]>| {
+        let mesh = Mesh::new(places, triangles).unwrap();
+        let prepared = built(&Scene::new(vec![Object::from(Shape::Mesh(mesh))]).unwrap());
+        let [x, y, z] = prepared.indexed_leaves[0].vertices;
+        [0, 1, 2, 3, 4, 5, 15].map(|k| [x[k], y[k], z[k]].map(f32::to_bits))
+    };
+    let expected =
+        |order: [usize; 7]| order.map(|k| (places[k] + 0.0).to_array().map(f32::to_bits));
+    let by_index = vertices_of(places.to_vec(), vec![[2, 1, 4], [4, 1, 0]]);
+    assert_eq!(by_index, expected([2, 1, 4, 0, 2, 2, 2]));
+    // Eighteen by their indices, five by their places.
+    let triangles = [[0, 1, 2], [0, 1, 3], [0, 1, 4], [0, 2, 3], [0, 2, 4], [1, 2, 3]];
+    let mut apart: Vec<Vec3> = triangles.as_flattened().iter().map(|k| places[*k]).collect();
+    apart[3] = -Vec3::ZERO;
+    let by_place = vertices_of(apart, (0..6).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect());
+    assert_eq!(by_place, expected([0, 1, 2, 3, 4, 0, 0]));
 }
 
 #[test]
