@@ -163,6 +163,7 @@ impl Region {
     }
 
     /// The samples that both hold.
+    #[inline]
     pub fn intersection(&self, other: &Region) -> Region {
         let overlap = |a: &Range<usize>, b: &Range<usize>| {
             let start = a.start.max(b.start);

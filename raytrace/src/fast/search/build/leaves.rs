@@ -124,29 +124,40 @@ pub(super) fn share_vertices(prims: &[PrimRef], corners: &mut CornerReader, leve
 /// Orders the triangles of a leaf so that duplicates, which are never visible, come last: a duplicate has the same
 /// corners as a triangle with a smaller id. Returns the number of distinct triangles.
 pub(super) fn put_duplicates_last(prims: &mut [PrimRef], corners: &mut CornerReader) -> usize {
+    let keys = box_keys(prims);
+    if (1..prims.len()).all(|k| !keys[..k].contains(&keys[k])) {
+        return prims.len();
+    }
+    prims.sort_unstable_by_key(PrimRef::id);
+    let mut keys = box_keys(prims);
+    let mut distinct = 0;
+    for k in 0..prims.len() {
+        // The boxes of most pairs differ, so that no corner is looked at.
+        let mut is_duplicate = |n: usize| {
+            let [these, others] = [k, n].map(|n| prims[n].id()).map(|id| corners.of(id));
+            are_same_corners(&these, &others)
+        };
+        if !(0..distinct).any(|n| keys[n] == keys[k] && is_duplicate(n)) {
+            prims[distinct..=k].rotate_right(1);
+            keys[distinct..=k].rotate_right(1);
+            distinct += 1;
+        }
+    }
+    distinct
+}
+
+/// Keys of the boxes of the triangles of a leaf: triangles with the same corners have the same key.
+fn box_keys(prims: &[PrimRef]) -> [u32; LEAF] {
     let key = |prim: &PrimRef| {
         let [x, y, z, _, u, v, w, _] = prim.0.0;
         let bits = [x, y, z, u, v, w].into_iter().map(f32::to_bits);
         bits.fold(0_u32, |key, bits| (key.rotate_left(5) ^ bits).wrapping_mul(0x9E37_79B9))
     };
     let mut keys = [0; LEAF];
-    for (to, prim) in keys.iter_mut().zip(&*prims) {
+    for (to, prim) in keys.iter_mut().zip(prims) {
         *to = key(prim);
     }
-    if (1..prims.len()).all(|k| !keys[..k].contains(&keys[k])) {
-        return prims.len();
-    }
-    prims.sort_unstable_by_key(PrimRef::id);
-    let mut distinct = 0;
-    for k in 0..prims.len() {
-        let all = corners.of(prims[k].id());
-        let is_duplicate = |other: &PrimRef| are_same_corners(&corners.of(other.id()), &all);
-        if !prims[..distinct].iter().any(is_duplicate) {
-            prims[distinct..=k].rotate_right(1);
-            distinct += 1;
-        }
-    }
-    distinct
+    keys
 }
 
 /// The leaf of some triangles with few distinct vertices.

@@ -307,6 +307,20 @@ fn duplicates_in_a_leaf_come_last() {
 }
 
 #[test]
+fn halves_of_a_square_are_no_duplicates_though_they_have_one_box() {
+    let [a, b, c, d] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
+        .map(|[x, y]: [f32; 2]| Vec3::new(x, y, 0.0));
+    let e = Vec3::new(2.0, 0.5, 0.0);
+    let halves = [[b, c, d], [a, b, d]];
+    let [again, once_more] = [[c, d, b * Vec3::new(1.0, -1.0, -1.0)], [d, -a, b]];
+    // Each triangle is followed by a duplicate, some of which have −0 in place of 0.
+    let all = [halves[0], again, halves[1], once_more, [b, e, c], [c, e, b]];
+    let prepared = built(&mesh(all.concat()));
+    assert_eq!(prepared.nodes[0].counts[0], LeafCounts::new(6, 3));
+    assert_eq!(prepared.indexed_leaves[0].ids[..3], [0, 2, 4]);
+}
+
+#[test]
 fn triangles_with_one_middle_are_halved() {
     // Nested triangles, each around the origin.
     let scene = mesh(
