@@ -31,7 +31,7 @@ pub(crate) struct InstanceFrustum<'a> {
     slack: f32,
     /// The rows and columns of the tile at which it may be seen, the first and the last of each.
     pub(crate) seen: [[usize; 2]; 2],
-    /// As of a box: see [`BoxHits`](super::box_culling::BoxHits).
+    /// As of a box: see [`BoxHits`].
     pub(crate) near: f32,
     pub(crate) size: f32,
 }
