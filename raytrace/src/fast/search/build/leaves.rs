@@ -133,11 +133,10 @@ pub(super) fn put_duplicates_last(prims: &mut [PrimRef], corners: &mut CornerRea
     let mut distinct = 0;
     for k in 0..prims.len() {
         // The boxes of most pairs differ, so that no corner is looked at.
-        let mut is_duplicate = |n: usize| {
-            let [these, others] = [k, n].map(|n| prims[n].id()).map(|id| corners.of(id));
-            are_same_corners(&these, &others)
-        };
-        if !(0..distinct).any(|n| keys[n] == keys[k] && is_duplicate(n)) {
+        let mut corners_of = |n: usize| corners.of(prims[n].id());
+        let is_duplicate_of =
+            |n: usize| keys[n] == keys[k] && are_same_corners(&corners_of(n), &corners_of(k));
+        if !(0..distinct).any(is_duplicate_of) {
             prims[distinct..=k].rotate_right(1);
             keys[distinct..=k].rotate_right(1);
             distinct += 1;

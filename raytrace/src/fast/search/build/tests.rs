@@ -318,6 +318,11 @@ fn halves_of_a_square_are_no_duplicates_though_they_have_one_box() {
     let prepared = built(&mesh(all.concat()));
     assert_eq!(prepared.nodes[0].counts[0], LeafCounts::new(6, 3));
     assert_eq!(prepared.indexed_leaves[0].ids[..3], [0, 2, 4]);
+    // Where triangles here and there take turns, dividing them mixes their order.
+    let here_and_there =
+        |triangle: [Vec3; 3]| [triangle, triangle.map(|corner| corner + 100.0 * Vec3::X)].concat();
+    let prepared = built(&mesh(all.repeat(2).into_iter().flat_map(here_and_there).collect()));
+    assert_eq!(prepared.nodes[0].counts[..2], [LeafCounts::new(12, 3); 2]);
 }
 
 #[test]
