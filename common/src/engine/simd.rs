@@ -7,7 +7,8 @@
 //! correctly (no fused multiply-add, no approximate reciprocal), so the level changes no bit of any result.
 //!
 //! Functions between [`dispatch!`] and the vector operations must be `#[inline(always)]`; otherwise they are compiled
-//! for the wrong level.
+//! for the wrong level. So that they do not all become one function, which would take minutes to compile, [`apart!`]
+//! makes a part of them a function of its own.
 
 mod shuffle;
 
@@ -51,6 +52,41 @@ pub fn prefetch_at<T>(values: &[T], index: usize) {
         prefetch(soon);
     }
 }
+
+/// Computes an expression in a function of its own, for the level of `simd`. Without this, [`dispatch!`] makes one function
+/// of all that it runs.
+///
+/// The compiler optimizes a function of its own first, and only then decides whether to make it a part of its caller. That
+/// takes far less time than to optimize the same code within a function that is many times as large.
+///
+/// A call is worth it for a tile, a leaf or some triangles, not for a few operations: arguments and results go through memory,
+/// vectors, too. Where the expression writes to memory, let it call one function, and pass what it needs as parameters. The
+/// compiler knows that these do not overlap; what a closure borrows may overlap for all that it knows, and is read anew after
+/// each write.
+///
+/// ```
+/// use bothways_common::engine::simd::{Simd, SimdBase, apart, best_level, dispatch, f32x16};
+///
+/// #[inline(always)]
+/// fn squares<S: Simd>(simd: S, of: &[f32; 16]) -> [f32; 16] {
+///     let of = f32x16::load_array_ref(simd, of);
+///     (of * of).to_array()
+/// }
+/// let nine = dispatch!(best_level(), simd => apart!(simd, squares(simd, &[3.0; 16])));
+/// assert_eq!(nine, [9.0; 16]);
+/// ```
+#[macro_export]
+macro_rules! apart {
+    ($simd:expr, $part:expr) => {
+        $crate::engine::simd::Simd::vectorize(
+            $simd,
+            #[inline(always)]
+            || $part,
+        )
+    };
+}
+
+pub use crate::apart;
 
 /// [`dispatch!`] for code that is generic over a [`Fault`](crate::engine::fault::Fault). Code with faults may be
 /// slow: it is compiled for one level only, if there are several levels.

@@ -13,7 +13,7 @@ mod surfaces;
 mod tint;
 
 use crate::camera::SampleGrid;
-use crate::engine::simd::{Level, Simd, SimdBase, dispatch, f32x16, prefetch_all};
+use crate::engine::simd::{Level, Simd, SimdBase, apart, dispatch, f32x16, prefetch_all};
 use crate::frame::{Frame, NO_LEVEL, ShadingBand};
 use crate::look::color::{srgb_from_linear, srgb_of_sixteen};
 use crate::look::lanes::{Vec3x16, each};
@@ -168,7 +168,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
                 self.prefetch(band, samples, desk.looks_at_t);
             }
         }
-        desk.set_up_new(simd, &self.setting);
+        apart!(simd, desk.set_up_new(simd, &self.setting));
         for (number, (line, start)) in chunks.enumerate() {
             desk.runs.go_to(number);
             self.shade_chunk(simd, desk, band, line, within(start));
@@ -217,11 +217,13 @@ impl<'a, A: Surfaces> Look<'a, A> {
                     *wide = f64::from(*t);
                 }
             }
-            self.find_points(simd, desk, Sample { row, column: first }, &mut kept);
+            let start = Sample { row, column: first };
+            apart!(simd, self.find_points(simd, desk, start, &mut kept));
         }
         let normals = band.normals.as_mut().map(|kept| &mut kept[stored.clone()]);
         let needs_colors = self.samples > 1 || band.colors.is_some();
-        self.light(simd, desk, Sample { row, column: first }, needs_colors, normals);
+        let start = Sample { row, column: first };
+        apart!(simd, self.light(simd, desk, start, needs_colors, normals));
         self.write(desk, band, within, stored);
     }
 
@@ -265,7 +267,8 @@ impl<'a, A: Surfaces> Look<'a, A> {
                         let next = Stretch::begin_of(start.column + begin) + Stretch::LENGTH;
                         let end = run.end.min(next - start.column);
                         let (seen, part) = ((surface, *material, &mut along), (start, begin..end));
-                        self.find_in_stretch(simd, chunk, to_lights, seen, part, texture);
+                        let ways = &mut *to_lights;
+                        apart!(simd, self.find_in_stretch(simd, chunk, ways, seen, part, texture));
                         begin = end;
                     }
                 }

@@ -20,7 +20,7 @@ use super::{many_samples, one_primitive, thin};
 use bothways_common::Shape;
 use bothways_common::engine::context::ScalarContext;
 use bothways_common::engine::simd::{
-    Level, Simd, SimdBase, SimdMask, dispatch_with, i32x16, mask32x16,
+    Level, Simd, SimdBase, SimdMask, apart, dispatch_with, i32x16, mask32x16,
 };
 use bothways_common::observe::Events;
 use std::ops::Range;
@@ -154,7 +154,7 @@ impl<C: ScalarContext> Painter<'_, '_, C> {
                 self.gathered.fill(simd, sixteen, |lane| {
                     triangle(first + u32::try_from(lane).expect("there are sixteen lanes"))
                 });
-                self.sort(simd);
+                apart!(simd, self.sort(simd));
             });
             for class in SizeClass::IN_LANES {
                 if self.waiting[class as usize].are_full() {
@@ -302,7 +302,8 @@ impl<C: ScalarContext> Painter<'_, '_, C> {
         buffer.executed.set_ups += count as u64;
         dispatch_with!(C::Fault, drawing.level, simd => {
             let context = &mut context.with_simd(simd);
-            let setup = Setup::new::<_, C::Fault>(simd, drawing.geometry.raster, lanes);
+            let raster = drawing.geometry.raster;
+            let setup = apart!(simd, Setup::new::<_, C::Fault>(simd, raster, lanes));
             if class == SizeClass::Many {
                 let mut elsewhere = setup.uncertain | setup.keyless;
                 large.extend(setup.ids_of(elsewhere));
@@ -321,7 +322,7 @@ impl<C: ScalarContext> Painter<'_, '_, C> {
                     large.extend(setup.ids_of(setup.uncertain));
                 }
                 let picture = drawing.picture;
-                few_samples::draw(context, &setup, picture, fragments, buffer);
+                apart!(simd, few_samples::draw(context, &setup, picture, fragments, buffer));
             }
         });
         lanes.advance();

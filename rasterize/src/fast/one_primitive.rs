@@ -13,6 +13,7 @@ use super::tile::TileBuffer;
 use super::{plane, sphere, triangle};
 use bothways_common::Primitive;
 use bothways_common::engine::context::Context;
+use bothways_common::engine::simd::apart;
 use bothways_common::observe::Events;
 use fragment_writer::FragmentWriter;
 
@@ -33,22 +34,25 @@ pub(super) fn draw<C: Context>(
         let primitives: [Primitive; 8] =
             std::array::from_fn(|k| buffer.names.primitive(picture.view, ids[k.min(last)]));
         for (id, primitive) in ids.iter().zip(primitives) {
-            let writer = &mut FragmentWriter { id: *id, primitive, picture, fragments, buffer };
+            let writer = FragmentWriter { id: *id, primitive, picture, fragments, buffer };
             draw_primitive(context, writer);
         }
     }
 }
 
 #[inline(always)]
-fn draw_primitive<C: Context>(context: &mut C, writer: &mut FragmentWriter) {
-    let region = region::<C::Fault>(&writer.primitive, writer.picture.map);
+fn draw_primitive<C: Context>(context: &mut C, writer: FragmentWriter) {
+    let region = &region::<C::Fault>(&writer.primitive, writer.picture.map);
+    let simd = context.simd();
     match writer.primitive {
-        Primitive::Triangle(corners) => triangle::draw(context, writer, &corners, &region),
+        Primitive::Triangle(corners) => {
+            apart!(simd, triangle::draw(context, &mut { writer }, &corners, region));
+        }
         Primitive::Sphere { center, radius } => {
-            sphere::draw(context, writer, (center, radius), &region);
+            apart!(simd, sphere::draw(context, &mut { writer }, (center, radius), region));
         }
         Primitive::Plane { point, normal } => {
-            plane::draw(context, writer, [point, normal], &region);
+            apart!(simd, plane::draw(context, &mut { writer }, [point, normal], region));
         }
     }
 }

@@ -6,7 +6,7 @@ use super::store::{prefetch_rows, store};
 use super::tile::TileBuffer;
 use bothways_common::engine::context::LoopContext;
 use bothways_common::engine::fault::Fault;
-use bothways_common::engine::simd::dispatch_with;
+use bothways_common::engine::simd::{apart, dispatch_with};
 use bothways_common::observe::Executed;
 use bothways_common::raster::Region;
 use std::ops::Range;
@@ -35,7 +35,7 @@ pub(super) fn trace_tiles<F: Fault>(
                 let drawn = region.intersection(&Region { rows, columns });
                 prefetch_rows(region, &drawn, names, t);
                 walker.walk(&mut LoopContext::<_, (), F>::of(simd, &mut ()), template, [top, left], size);
-                store(simd, map, &walker.tile, (region, &drawn), names, t);
+                apart!(simd, store(simd, map, &walker.tile, (region, &drawn), names, t));
                 done(&walker.tile, names, &drawn);
                 executed += walker.tile.executed.of_one_tile();
             }

@@ -4,7 +4,7 @@ use super::chunk::{Chunk, Vectors, WIDE};
 use super::found::Found;
 use super::local::{LocalVector, MOST_LIGHTS};
 use super::surfaces::{EightTriangles, Seen, SetUp, Surfaces, Wanted};
-use crate::engine::simd::{Simd, SimdBase, SimdMask, u32x16};
+use crate::engine::simd::{Simd, SimdBase, SimdMask, apart, u32x16};
 use crate::frame::{Ids, NO_PRIMITIVE, NO_WIDE_PRIMITIVE};
 use crate::look::lanes::each;
 use crate::scene::material::Material;
@@ -282,8 +282,10 @@ impl<'a, A: Surfaces> Desk<'a, A> {
             soon.iter().take(8).for_each(|id| found.prefetch_corners(*id));
             // Vectors are not worth it for one or two.
             if eight.len() > 2 && found.read(eight, &mut corners) {
-                let triangles = EightTriangles::new(simd, setting.view, &corners, eight.len());
-                self.set_up_eight(setting, found, eight, &triangles);
+                apart!(simd, {
+                    let triangles = EightTriangles::new(simd, setting.view, &corners, eight.len());
+                    self.set_up_eight(setting, found, eight, &triangles);
+                });
             } else {
                 eight.iter().for_each(|id| self.set_up(setting, found, *id));
             }

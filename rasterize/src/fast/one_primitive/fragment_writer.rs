@@ -9,6 +9,7 @@ use crate::fast::tile::{Incoming, TileBuffer};
 use bothways_common::Primitive;
 use bothways_common::engine::context::{Context, ScalarContext};
 use bothways_common::engine::roundoff::Interval;
+use bothways_common::engine::simd::apart;
 use bothways_common::raster::Sample;
 
 /// Writes fragments of one primitive into a tile.
@@ -54,11 +55,12 @@ impl FragmentWriter<'_, '_> {
     #[inline(always)]
     pub(crate) fn write_strip<C: Context>(&mut self, context: &mut C, strip: &FlatSetup) {
         let here = strip.region.intersection(self.buffer.region());
+        let (simd, FragmentWriter { picture, fragments, buffer, .. }) = (context.simd(), self);
         // If the loops are watched, every test is an event.
         if !C::WATCHED && thin::is_thin(strip, &here) {
-            thin::draw(context, strip, &here, (self.picture, self.fragments), self.buffer);
+            apart!(simd, thin::draw(context, strip, &here, (picture, fragments), buffer));
         } else {
-            many_samples::draw(context, strip, self.picture, self.buffer);
+            many_samples::draw(context, strip, picture, buffer);
         }
     }
 

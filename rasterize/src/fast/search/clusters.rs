@@ -6,7 +6,7 @@ use super::tiling::Tiling;
 use crate::fast::camera_map::CameraMap;
 use crate::fast::setup::BOX_MARGIN;
 use crate::fast::vertices::{FixedPointRaster, ON_RASTER, OUT_OF_SIGHT};
-use bothways_common::engine::simd::Simd;
+use bothways_common::engine::simd::{Simd, apart};
 use bothways_common::{Mesh, Shape};
 use glam::{Vec3, Vec3A};
 use rayon::prelude::*;
@@ -259,7 +259,7 @@ pub(crate) fn sight<S: Simd>(
     (map, raster): (&CameraMap, &FixedPointRaster),
     bounds: &Bounds,
 ) -> Sight {
-    let corners = raster.place_corners(simd, map, *bounds);
+    let corners = apart!(simd, raster.place_corners(simd, map, *bounds));
     if corners.flags & OUT_OF_SIGHT != 0 {
         return Sight::Nowhere;
     }

@@ -12,7 +12,8 @@ use crate::fast::local_projection::LocalProjection;
 use crate::fast::prepared::Prepared;
 use crate::fast::setup::TrianglePacket;
 use bothways_common::engine::simd::{
-    Compression, Simd, SimdBase, SimdFloat, SimdMask, f32x8, f32x16, mask32x16, u32x8, u32x16,
+    Compression, Simd, SimdBase, SimdFloat, SimdMask, apart, f32x8, f32x16, mask32x16, u32x8,
+    u32x16,
 };
 
 /// At most this many leaves wait.
@@ -129,9 +130,11 @@ impl CandidateQueue {
     ) {
         let (index, rays) = (waiting.leaf.index(), (frustum, instance));
         if waiting.leaf.kind() == NodeKind::IndexedLeaf {
-            self.test_placed_leaf(simd, &prepared.indexed_leaves[index], rays, waiting, test);
+            let leaf = &prepared.indexed_leaves[index];
+            apart!(simd, self.test_placed_leaf(simd, leaf, rays, waiting, test));
         } else {
-            self.test_placed_leaf(simd, &prepared.plain_leaves[index], rays, waiting, test);
+            let leaf = &prepared.plain_leaves[index];
+            apart!(simd, self.test_placed_leaf(simd, leaf, rays, waiting, test));
         }
     }
 
@@ -155,7 +158,8 @@ impl CandidateQueue {
                 self.keep(simd, &leaf.placed(simd, &instance.place), passed);
             }
         } else {
-            self.test_leaf(simd, &leaf.placed(simd, &instance.place), frustum, waiting, test);
+            let leaf = &leaf.placed(simd, &instance.place);
+            apart!(simd, self.test_leaf(simd, leaf, frustum, waiting, test));
         }
     }
 

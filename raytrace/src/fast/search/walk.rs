@@ -14,7 +14,7 @@ use crate::fast::tile::TileBuffer;
 use crate::fast::{draw, one_primitive};
 use bothways_common::engine::context::{Context, ScalarContext};
 use bothways_common::engine::fault::Planted;
-use bothways_common::engine::simd::prefetch;
+use bothways_common::engine::simd::{apart, prefetch};
 use bothways_common::observe::Events;
 
 /// A node or leaf that is to be entered.
@@ -196,8 +196,9 @@ impl<'a> Walker<'a> {
             context.sink().ray_begun(sample);
         }
         if !self.unbounded.primitives.is_empty() {
-            let (unbounded, tile) = (self.unbounded, &mut self.tile);
-            one_primitive::draw_unbounded(context, self.map, frustum, unbounded, tile);
+            let (map, unbounded, tile) = (self.map, self.unbounded, &mut self.tile);
+            let simd = context.simd();
+            apart!(simd, one_primitive::draw_unbounded(context, map, frustum, unbounded, tile));
         }
         self.stack.clear();
         (self.is_inside, self.base) = (false, 0);
@@ -320,10 +321,10 @@ impl<'a> Walker<'a> {
         frustum: &TileFrustum,
         entry: &StackEntry,
     ) {
-        let count = entry.counts.all();
+        let (count, simd, map) = (entry.counts.all(), context.simd(), self.map);
         for &id in &self.prepared.sphere_leaves[entry.child.index()][..count] {
-            let sphere = self.map.view.named(id);
-            one_primitive::draw_round(context, self.map, frustum, (id, &sphere), &mut self.tile);
+            let (sphere, tile) = (&map.view.named(id), &mut self.tile);
+            apart!(simd, one_primitive::draw_round(context, map, frustum, (id, sphere), tile));
         }
     }
 
@@ -332,6 +333,18 @@ impl<'a> Walker<'a> {
     /// drawn last.
     #[inline(always)]
     pub(super) fn draw_candidates<C: Context>(
+        &mut self,
+        context: &mut C,
+        frustum: &TileFrustum,
+        class: SizeClass,
+        flush: bool,
+    ) -> SizeClass {
+        apart!(context.simd(), self.test_and_draw(context, frustum, class, flush))
+    }
+
+    /// [`Walker::draw_candidates`] as a part of its caller.
+    #[inline(always)]
+    fn test_and_draw<C: Context>(
         &mut self,
         context: &mut C,
         frustum: &TileFrustum,
@@ -397,7 +410,7 @@ impl<'a> Walker<'a> {
         self.tile.executed.nodes_opened += 1;
         self.tile.executed.boxes_tested += u64::from(node.used);
         let (boxes, places) = match self.inside() {
-            Some(instance) => instance.test(context, node, farthest),
+            Some(instance) => apart!(context.simd(), instance.test(context, node, farthest)),
             None => {
                 let boxes = &frustum.template.boxes;
                 let hits = boxes.test(context, &frustum.sides, node, farthest);
