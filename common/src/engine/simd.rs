@@ -57,12 +57,14 @@ pub fn prefetch_at<T>(values: &[T], index: usize) {
 /// of all that it runs.
 ///
 /// The compiler optimizes a function of its own first, and only then decides whether to make it a part of its caller. That
-/// takes far less time than to optimize the same code within a function that is many times as large.
+/// takes far less time than to optimize the same code within a function that is many times as large. Within an
+/// `#[inline(always)]` function that is called at several places, all of these share the one function; there is one for each set
+/// of the generic parameters around it, the types of closures among them.
 ///
 /// A call is worth it for a tile, a leaf or some triangles, not for a few operations: arguments and results go through memory,
-/// vectors, too. Where the expression writes to memory, let it call one function, and pass what it needs as parameters. The
-/// compiler knows that these do not overlap; what a closure borrows may overlap for all that it knows, and is read anew after
-/// each write.
+/// vectors, too, and so does what the caller keeps in registers meanwhile. Where the expression writes to memory, let it call
+/// functions, and pass what they need as parameters. The compiler knows that references among the parameters of a function do not
+/// overlap; what a closure borrows may overlap for all that it knows, and is read anew after each write.
 ///
 /// ```
 /// use bothways_common::engine::simd::{Simd, SimdBase, apart, best_level, dispatch, f32x16};

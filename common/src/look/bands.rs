@@ -267,8 +267,10 @@ impl<'a, A: Surfaces> Look<'a, A> {
                         let next = Stretch::begin_of(start.column + begin) + Stretch::LENGTH;
                         let end = run.end.min(next - start.column);
                         let (seen, part) = ((surface, *material, &mut along), (start, begin..end));
-                        let ways = &mut *to_lights;
-                        apart!(simd, self.find_in_stretch(simd, chunk, ways, seen, part, texture));
+                        apart!(
+                            simd,
+                            self.find_in_stretch(simd, chunk, to_lights, seen, part, texture)
+                        );
                         begin = end;
                     }
                 }

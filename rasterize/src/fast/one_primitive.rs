@@ -44,6 +44,7 @@ pub(super) fn draw<C: Context>(
 fn draw_primitive<C: Context>(context: &mut C, writer: FragmentWriter) {
     let region = &region::<C::Fault>(&writer.primitive, writer.picture.map);
     let simd = context.simd();
+    // The writer is moved into the function that draws, which can then keep its fields in registers.
     match writer.primitive {
         Primitive::Triangle(corners) => {
             apart!(simd, triangle::draw(context, &mut { writer }, &corners, region));

@@ -55,7 +55,8 @@ impl FragmentWriter<'_, '_> {
     #[inline(always)]
     pub(crate) fn write_strip<C: Context>(&mut self, context: &mut C, strip: &FlatSetup) {
         let here = strip.region.intersection(self.buffer.region());
-        let (simd, FragmentWriter { picture, fragments, buffer, .. }) = (context.simd(), self);
+        let simd = context.simd();
+        let FragmentWriter { picture, fragments, buffer, .. } = self;
         // If the loops are watched, every test is an event.
         if !C::WATCHED && thin::is_thin(strip, &here) {
             apart!(simd, thin::draw(context, strip, &here, (picture, fragments), buffer));
