@@ -202,6 +202,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
         let stored = line * width + within.start..line * width + within.end;
         let row = band.region.rows.start + line;
         let (count, first) = (within.len(), band.region.columns.start + within.start);
+        let start = Sample { row, column: first };
         let mut kept = KeptTexture {
             coordinates: band.texture_coordinates.as_mut().map(|kept| &mut kept[stored.clone()]),
             levels: band.levels.as_mut().map(|kept| &mut kept[stored.clone()]),
@@ -217,12 +218,10 @@ impl<'a, A: Surfaces> Look<'a, A> {
                     *wide = f64::from(*t);
                 }
             }
-            let start = Sample { row, column: first };
             apart!(simd, self.find_points(simd, desk, start, &mut kept));
         }
         let normals = band.normals.as_mut().map(|kept| &mut kept[stored.clone()]);
         let needs_colors = self.samples > 1 || band.colors.is_some();
-        let start = Sample { row, column: first };
         apart!(simd, self.light(simd, desk, start, needs_colors, normals));
         self.write(desk, band, within, stored);
     }

@@ -302,7 +302,7 @@ impl<C: ScalarContext> Painter<'_, '_, C> {
         buffer.executed.set_ups += count as u64;
         dispatch_with!(C::Fault, drawing.level, simd => {
             let context = &mut context.with_simd(simd);
-            let raster = drawing.geometry.raster;
+            let (raster, picture) = (drawing.geometry.raster, drawing.picture);
             let setup = apart!(simd, Setup::new::<_, C::Fault>(simd, raster, lanes));
             if class == SizeClass::Many {
                 let mut elsewhere = setup.uncertain | setup.keyless;
@@ -314,14 +314,12 @@ impl<C: ScalarContext> Painter<'_, '_, C> {
                     setup.add_triangles(thin_lanes, thin);
                 }
                 for lane in (0..count).filter(|lane| elsewhere >> lane & 1 == 0) {
-                    let picture = drawing.picture;
                     many_samples::draw(context, &setup.triangle(lane), picture, buffer);
                 }
             } else {
                 if setup.uncertain != 0 {
                     large.extend(setup.ids_of(setup.uncertain));
                 }
-                let picture = drawing.picture;
                 apart!(simd, few_samples::draw(context, &setup, picture, fragments, buffer));
             }
         });

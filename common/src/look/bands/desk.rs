@@ -282,10 +282,7 @@ impl<'a, A: Surfaces> Desk<'a, A> {
             soon.iter().take(8).for_each(|id| found.prefetch_corners(*id));
             // Vectors are not worth it for one or two.
             if eight.len() > 2 && found.read(eight, &mut corners) {
-                apart!(simd, {
-                    let triangles = EightTriangles::new(simd, setting.view, &corners, eight.len());
-                    self.set_up_eight(setting, found, eight, &triangles);
-                });
+                apart!(simd, self.set_up_eight(simd, setting, found, (eight, &corners)));
             } else {
                 eight.iter().for_each(|id| self.set_up(setting, found, *id));
             }
@@ -295,13 +292,14 @@ impl<'a, A: Surfaces> Desk<'a, A> {
     #[inline(always)]
     fn set_up_eight<S: Simd>(
         &mut self,
+        simd: S,
         setting: &Setting<'a, A>,
         found: &Found<'a>,
-        ids: &[u64],
-        triangles: &EightTriangles<S>,
+        (ids, corners): (&[u64], &[[[f32; 8]; 3]; 6]),
     ) {
+        let triangles = EightTriangles::new(simd, setting.view, corners, ids.len());
         let mut ids = ids.iter();
-        setting.surfaces.set_up_eight(triangles, setting.wanted, |look, ways| {
+        setting.surfaces.set_up_eight(&triangles, setting.wanted, |look, ways| {
             let Some(&id) = ids.next() else { return };
             match look {
                 Some(look) => {
