@@ -281,7 +281,7 @@ fn place_vertices(
         *vertices = filled([0; 4], count);
     }
     let place = |positions: &[Vec3], vertices: &mut [Vertex]| {
-        dispatch!(prepared.level, simd => raster.place(simd, map, positions, vertices));
+        raster.place(prepared.level, map, positions, vertices);
     };
     let mut rest = vertices.as_mut_slice();
     let mut chunks = Vec::new();

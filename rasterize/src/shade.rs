@@ -8,7 +8,7 @@ mod stretch;
 mod ways;
 mod weights;
 
-use bothways_common::engine::simd::{Level, Simd, SimdBase, SimdNarrow, best_level, f64x8};
+use bothways_common::engine::simd::{Level, Simd, SimdBase, SimdNarrow, apart, best_level, f64x8};
 use bothways_common::look::bands::{
     self, EightTriangles, LocalVector, MOST_LIGHTS, Points, Rays, Samples, Seen, SetUp, Sixteen,
     Stretch, Surfaces, Wanted, are_alike,
@@ -328,16 +328,18 @@ impl Interpolated<'_> {
         samples: &Samples<S>,
         hit: &HitPoints<S>,
     ) -> [[f64x8<S>; 2]; 2] {
-        let (_, gradients) = texture::on_sphere_lanes(simd, hit.from_center);
-        // Each lane has a plane of its own, whose differences are taken for all lanes, and kept for one.
-        let mut all = [[[f64x8::splat(simd, 0.0); 2]; 2]; 8];
-        for (lane, differences) in all.iter_mut().enumerate() {
-            let gradients = [gradients[0].lane(lane), gradients[1].lane(lane)];
-            let (position, normal) = (hit.position.lane(lane), hit.from_center.lane(lane));
-            let touching = Quotient::on_plane(self.view, position, normal, gradients);
-            *differences = touching.differences(simd, samples, self.grid.step());
-        }
-        each!(way in [0, 1] => each!(k in [0, 1] => f64x8::from_fn(simd, |lane| all[lane][way][k][lane])))
+        apart!(simd, {
+            let (_, gradients) = texture::on_sphere_lanes(simd, hit.from_center);
+            // Each lane has a plane of its own, whose differences are taken for all lanes, and kept for one.
+            let mut all = [[[f64x8::splat(simd, 0.0); 2]; 2]; 8];
+            for (lane, differences) in all.iter_mut().enumerate() {
+                let gradients = [gradients[0].lane(lane), gradients[1].lane(lane)];
+                let (position, normal) = (hit.position.lane(lane), hit.from_center.lane(lane));
+                let touching = Quotient::on_plane(self.view, position, normal, gradients);
+                *differences = touching.differences(simd, samples, self.grid.step());
+            }
+            each!(way in [0, 1] => each!(k in [0, 1] => f64x8::from_fn(simd, |lane| all[lane][way][k][lane])))
+        })
     }
 
     #[inline(always)]
@@ -353,17 +355,19 @@ impl Interpolated<'_> {
         samples: &Samples<S>,
         hit: &HitPoints<S>,
     ) -> ([f64x8<S>; 2], [f64x8<S>; 2]) {
-        let (coordinate, gradients) = texture::on_sphere_lanes(simd, hit.from_center);
-        let [down, across] = self.grid.step();
-        let changes: [DVec2; 8] = std::array::from_fn(|lane| {
-            let (position, normal) = (hit.position.lane(lane), hit.from_center.lane(lane));
-            let gradients = gradients.map(|gradient| gradient.lane(lane));
-            let touching = Quotient::on_plane(self.view, position, normal, gradients);
-            let [along_x, along_y] = touching.changes(samples.x[lane], samples.y);
-            (along_x * across).abs() + (along_y * down).abs()
-        });
-        let footprint = each!(k in [0, 1] => f64x8::from_fn(simd, |lane| changes[lane][k]));
-        (coordinate, footprint)
+        apart!(simd, {
+            let (coordinate, gradients) = texture::on_sphere_lanes(simd, hit.from_center);
+            let [down, across] = self.grid.step();
+            let changes: [DVec2; 8] = std::array::from_fn(|lane| {
+                let (position, normal) = (hit.position.lane(lane), hit.from_center.lane(lane));
+                let gradients = gradients.map(|gradient| gradient.lane(lane));
+                let touching = Quotient::on_plane(self.view, position, normal, gradients);
+                let [along_x, along_y] = touching.changes(samples.x[lane], samples.y);
+                (along_x * across).abs() + (along_y * down).abs()
+            });
+            let footprint = each!(k in [0, 1] => f64x8::from_fn(simd, |lane| changes[lane][k]));
+            (coordinate, footprint)
+        })
     }
 }
 

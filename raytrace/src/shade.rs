@@ -5,7 +5,7 @@ mod stretch;
 mod triangle;
 
 use bothways_common::engine::simd::{
-    Level, Select, Simd, SimdBase, SimdFloat, SimdNarrow, best_level, f32x16, f64x8,
+    Level, Select, Simd, SimdBase, SimdFloat, SimdNarrow, apart, best_level, f32x16, f64x8,
 };
 use bothways_common::look::bands::{
     self, EightTriangles, LocalVector, MOST_LIGHTS, Points, Rays, Samples, Seen, SetUp, Sixteen,
@@ -193,37 +193,23 @@ impl Surfaces for AtHits<'_> {
             }
             return along.hits.store(simd, samples, points);
         }
-        if !surface.has_points {
-            // Triangles of a mesh that are not small mostly need nothing but this.
-            match &surface.normals {
-                Normals::Flat(flat) => return points.set_normals(Vec3x16::splat(simd, *flat)),
-                Normals::Smooth(smooth) => {
-                    let low = self.hits(simd, surface, &samples.low).weights;
-                    let high = if samples.is_short {
-                        low
-                    } else {
-                        self.hits(simd, surface, &samples.high).weights
-                    };
-                    return points.set_normals(smooth.at(simd, [low, high]));
-                }
-                Normals::Sphere(_) | Normals::Wild(_) => {}
-            }
+        if let (Normals::Flat(flat), false) = (&surface.normals, surface.has_points) {
+            return points.set_normals(Vec3x16::splat(simd, *flat));
         }
-        let [low, high] = each!(half in [&samples.low, &samples.high] => {
-            self.hits(simd, surface, half)
-        });
-        points.set_points([low.position, high.position]);
+        let low = self.hits(simd, surface, &samples.low);
+        let high = if samples.is_short { low } else { self.hits(simd, surface, &samples.high) };
         points.set_normals(surface.normals.at(simd, [&low, &high]));
-        let hits = [&low, &high];
-        match &surface.details {
-            None => self.texture(simd, &surface.texture, hits, false, points),
-            Some(details) => {
-                if let Some(colors) = &details.colors {
-                    points.set_colors(colors.at(simd, [low.weights, high.weights]));
-                }
-                self.texture(simd, &surface.texture, hits, details.has_steps, points);
-            }
+        // Triangles of a mesh that are not small mostly need nothing but this.
+        if !surface.has_points {
+            return;
         }
+        points.set_points([low.position, high.position]);
+        let details = surface.details.as_deref();
+        if let Some(Details { colors: Some(colors), .. }) = details {
+            points.set_colors(colors.at(simd, [low.weights, high.weights]));
+        }
+        let has_steps = details.is_some_and(|details| details.has_steps);
+        self.texture(simd, &surface.texture, [&low, &high], has_steps, points);
     }
 }
 
@@ -260,16 +246,16 @@ impl Form {
     /// is then used.
     #[inline(always)]
     fn hits<S: Simd>(&self, simd: S, samples: &Samples<S>, rays: &Rays<S>) -> Hits<S> {
-        match self {
-            Form::Sphere { center, radius } => on_sphere(simd, *center, *radius, samples, rays),
-            Form::Plane { point, normal } => on_plane(simd, *point, *normal, samples, rays),
-            Form::Triangle(Triangle { a, normal, growth }) => {
-                let hit = on_plane(simd, (*a).into(), (*normal).into(), samples, rays);
-                let weights =
-                    each!(k in [0, 1] => DVec3x8::splat(simd, growth[k].into()).dot(hit.beside));
-                Hits { weights, ..hit }
+        let ([point, normal], growth) = match self {
+            Form::Sphere { center, radius } => {
+                return on_sphere(simd, *center, *radius, samples, rays);
             }
-        }
+            Form::Plane { point, normal } => ([*point, *normal], [DVec3::ZERO; 2]),
+            Form::Triangle(Triangle { a, normal, growth }) => {
+                ([(*a).into(), (*normal).into()], growth.map(DVec3::from))
+            }
+        };
+        on_plane(simd, [point, normal], growth, samples, rays)
     }
 }
 
@@ -354,11 +340,12 @@ impl AtHits<'_> {
     }
 }
 
+/// The weights of a triangle's corners grow with the place on its plane.
 #[inline(always)]
 fn on_plane<S: Simd>(
     simd: S,
-    point: DVec3,
-    normal: DVec3,
+    [point, normal]: [DVec3; 2],
+    growth: [DVec3; 2],
     samples: &Samples<S>,
     rays: &Rays<S>,
 ) -> Hits<S> {
@@ -367,8 +354,9 @@ fn on_plane<S: Simd>(
     let t = normal.dot(point - rays.origin) * reciprocal;
     let t = samples.is_close(simd, t).select(t, samples.t);
     let position = rays.at(t);
-    let weights = [f64x8::splat(simd, 0.0); 2];
-    Hits { t, position, beside: position - point, direction: rays.direction, reciprocal, weights }
+    let beside = position - point;
+    let weights = each!(k in [0, 1] => DVec3x8::splat(simd, growth[k]).dot(beside));
+    Hits { t, position, beside, direction: rays.direction, reciprocal, weights }
 }
 
 /// A ray comes nearest to the centre at `t = −k`, where it passes beside it by `f`. It meets the sphere half of
@@ -553,18 +541,20 @@ impl AtHits<'_> {
     /// The texture of a sphere at eight hit points, and how each coordinate moves across and down: on the planes that touch it.
     #[inline(always)]
     fn on_globe<S: Simd>(&self, simd: S, hit: &Hits<S>) -> ([f64x8<S>; 2], [[f64x8<S>; 2]; 2]) {
-        let (coordinate, gradients) = texture::on_sphere_lanes(simd, hit.beside);
-        let [across, down] = each!(axis in [0, 1] => {
-            let step = DVec3x8::splat(simd, self.steps[axis]);
-            let moved = match self.view.camera.projection() {
-                Projection::Perspective => step * hit.t,
-                Projection::Parallel => step,
-            };
-            let farther = -(hit.beside.dot(moved) / hit.beside.dot(hit.direction));
-            let beside = moved + hit.direction * farther;
-            each!(k in [0, 1] => gradients[k].dot(beside))
-        });
-        (coordinate, each!(k in [0, 1] => [across[k], down[k]]))
+        apart!(simd, {
+            let (coordinate, gradients) = texture::on_sphere_lanes(simd, hit.beside);
+            let [across, down] = each!(axis in [0, 1] => {
+                let step = DVec3x8::splat(simd, self.steps[axis]);
+                let moved = match self.view.camera.projection() {
+                    Projection::Perspective => step * hit.t,
+                    Projection::Parallel => step,
+                };
+                let farther = -(hit.beside.dot(moved) / hit.beside.dot(hit.direction));
+                let beside = moved + hit.direction * farther;
+                each!(k in [0, 1] => gradients[k].dot(beside))
+            });
+            (coordinate, each!(k in [0, 1] => [across[k], down[k]]))
+        })
     }
 }
 

@@ -57,9 +57,11 @@ pub fn prefetch_at<T>(values: &[T], index: usize) {
 /// of all that it runs.
 ///
 /// The compiler optimizes a function of its own first, and only then decides whether to make it a part of its caller. That
-/// takes far less time than to optimize the same code within a function that is many times as large. Within an
-/// `#[inline(always)]` function that is called at several places, all of these share the one function; there is one for each set
-/// of the generic parameters around it, the types of closures among them.
+/// takes far less time than to optimize the same code within a function that is many times as large.
+///
+/// In an `#[inline(never)]` function, the expression is compiled once for each set of the generic parameters of that function,
+/// and all callers share it. In an `#[inline(always)]` function, it is compiled once for each set of the parameters around it, the
+/// types of event sinks and of closures among them, and again in each unit that the compiler divides the crate into.
 ///
 /// A call is worth it for a tile, a leaf or some triangles, not for a few operations: arguments and results go through memory,
 /// vectors, too, and so does what the caller keeps in registers meanwhile. Where the expression writes to memory, let it call

@@ -15,14 +15,16 @@ use super::search::instances::{Instance, PlacedVertices, placed_box};
 use super::setup::{AxisBounds, FlatSetup, Setup};
 use super::size_class::{FEW, SizeClass, VERY_FEW};
 use super::tile::TileBuffer;
-use super::vertices::{ON_RASTER, OUT_OF_SIGHT, Vertex};
+use super::vertices::{FixedPointRaster, ON_RASTER, OUT_OF_SIGHT, Vertex};
 use super::{many_samples, one_primitive, thin};
 use bothways_common::Shape;
 use bothways_common::engine::context::ScalarContext;
+use bothways_common::engine::fault::Fault;
 use bothways_common::engine::simd::{
     Level, Simd, SimdBase, SimdMask, apart, dispatch_with, i32x16, mask32x16,
 };
 use bothways_common::observe::Events;
+use bothways_common::raster::Region;
 use std::ops::Range;
 
 /// All that the tiles of a frame share while they are drawn.
@@ -154,7 +156,9 @@ impl<C: ScalarContext> Painter<'_, '_, C> {
                 self.gathered.fill(simd, sixteen, |lane| {
                     triangle(first + u32::try_from(lane).expect("there are sixteen lanes"))
                 });
-                apart!(simd, self.sort(simd));
+                let Painter { drawing, gathered, waiting, large, buffer, .. } = self;
+                let (raster, tile) = (drawing.geometry.raster, buffer.region());
+                sort::<_, C::Fault>(simd, raster, tile, gathered, (waiting, large));
             });
             for class in SizeClass::IN_LANES {
                 if self.waiting[class as usize].are_full() {
@@ -259,38 +263,6 @@ impl<C: ScalarContext> Painter<'_, '_, C> {
         }
     }
 
-    /// Sorts the gathered triangles by class.
-    #[inline(always)]
-    fn sort<S: Simd>(&mut self, simd: S) {
-        let (raster, lanes) = (self.drawing.geometry.raster, &self.gathered);
-        let splat = |value: i32| i32x16::splat(simd, value);
-        let flags = lanes.flags(simd) & splat(ON_RASTER | OUT_OF_SIGHT);
-        let on_raster = lanes.used(simd) & flags.simd_eq(splat(ON_RASTER));
-        let unknown = lanes.used(simd) & flags.simd_eq(splat(0));
-
-        let down = AxisBounds::new::<C::Fault>(simd, raster, 0, &lanes.places(simd, 0));
-        let across = AxisBounds::new::<C::Fault>(simd, raster, 1, &lanes.places(simd, 1));
-        let tile = self.buffer.region();
-        let overlaps = overlaps(simd, &down, &tile.rows) & overlaps(simd, &across, &tile.columns);
-        let here = on_raster & overlaps;
-        let short = down.is_short(simd, raster) & across.is_short(simd, raster);
-        let samples = down.count * across.count;
-        let few = samples.simd_le(splat(FEW.cast_signed()));
-        let very_few = samples.simd_le(splat(VERY_FEW.cast_signed()));
-        let small = here & short;
-        let by_class = [small & very_few, small & few & !very_few, small & !few];
-        for (waiting, which) in self.waiting.iter_mut().zip(by_class) {
-            // A mesh has hardly any triangles of some classes.
-            if which.any_true() {
-                waiting.add(simd, lanes, which);
-            }
-        }
-        let large = (here & !short | unknown).to_bitmask();
-        if large != 0 {
-            self.large.extend(lanes.ids_of(large));
-        }
-    }
-
     /// Draws the triangles that wait, at most sixteen.
     fn draw_waiting(&mut self, class: SizeClass) {
         let Painter { drawing, waiting, thin, fragments, large, buffer, context, .. } = self;
@@ -303,7 +275,7 @@ impl<C: ScalarContext> Painter<'_, '_, C> {
         dispatch_with!(C::Fault, drawing.level, simd => {
             let context = &mut context.with_simd(simd);
             let (raster, picture) = (drawing.geometry.raster, drawing.picture);
-            let setup = apart!(simd, Setup::new::<_, C::Fault>(simd, raster, lanes));
+            let setup = Setup::new::<_, C::Fault>(simd, raster, lanes);
             if class == SizeClass::Many {
                 let mut elsewhere = setup.uncertain | setup.keyless;
                 large.extend(setup.ids_of(elsewhere));
@@ -375,6 +347,54 @@ impl<C: ScalarContext> Painter<'_, '_, C> {
             large.clear();
         }
         buffer.settle(&mut context.scalar(), drawing.picture);
+    }
+}
+
+/// Sorts triangles by class: those that may be seen in the tile wait with others of their class, or are large.
+#[inline(never)]
+fn sort<S: Simd, F: Fault>(
+    simd: S,
+    raster: &FixedPointRaster,
+    tile: &Region,
+    triangles: &Lanes,
+    to: (&mut [Lanes; 3], &mut Vec<u32>),
+) {
+    apart!(simd, sort_sixteen::<S, F>(simd, raster, tile, triangles, to));
+}
+
+/// [`sort`], which is a function of its own for all kinds of loops that call it.
+#[inline(always)]
+fn sort_sixteen<S: Simd, F: Fault>(
+    simd: S,
+    raster: &FixedPointRaster,
+    tile: &Region,
+    triangles: &Lanes,
+    (waiting, large): (&mut [Lanes; 3], &mut Vec<u32>),
+) {
+    let splat = |value: i32| i32x16::splat(simd, value);
+    let flags = triangles.flags(simd) & splat(ON_RASTER | OUT_OF_SIGHT);
+    let on_raster = triangles.used(simd) & flags.simd_eq(splat(ON_RASTER));
+    let unknown = triangles.used(simd) & flags.simd_eq(splat(0));
+
+    let down = AxisBounds::new::<F>(simd, raster, 0, &triangles.places(simd, 0));
+    let across = AxisBounds::new::<F>(simd, raster, 1, &triangles.places(simd, 1));
+    let overlaps = overlaps(simd, &down, &tile.rows) & overlaps(simd, &across, &tile.columns);
+    let here = on_raster & overlaps;
+    let short = down.is_short(simd, raster) & across.is_short(simd, raster);
+    let samples = down.count * across.count;
+    let few = samples.simd_le(splat(FEW.cast_signed()));
+    let very_few = samples.simd_le(splat(VERY_FEW.cast_signed()));
+    let small = here & short;
+    let by_class = [small & very_few, small & few & !very_few, small & !few];
+    for (waiting, which) in waiting.iter_mut().zip(by_class) {
+        // A mesh has hardly any triangles of some classes.
+        if which.any_true() {
+            waiting.add(simd, triangles, which);
+        }
+    }
+    let doubtful = (here & !short | unknown).to_bitmask();
+    if doubtful != 0 {
+        large.extend(triangles.ids_of(doubtful));
     }
 }
 

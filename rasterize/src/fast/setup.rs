@@ -11,7 +11,7 @@ use bothways_common::engine::fault::{Fault, Planted};
 use bothways_common::engine::names::Names;
 use bothways_common::engine::roundoff::EPS24;
 use bothways_common::engine::simd::{
-    Select, Simd, SimdBase, SimdInt, SimdMask, f32x16, i32x16, mask32x16,
+    Select, Simd, SimdBase, SimdInt, SimdMask, apart, f32x16, i32x16, mask32x16,
 };
 use bothways_common::observe::EventSink;
 use bothways_common::raster::{Region, Sample};
@@ -80,43 +80,46 @@ impl Setup {
     /// *Aligned triangles.* Places are multiples of a quarter of a sample without any error, so edge
     /// functions are multiples of 1/16, below 2¹⁷, and `f32` adds and multiplies them without rounding.
     /// [`TIE`] decides those that are zero; the key does without it.
-    #[inline(always)]
+    #[inline(never)]
     pub(super) fn new<S: Simd, F: Fault>(
         simd: S,
         raster: &FixedPointRaster,
         lanes: &Lanes,
     ) -> Setup {
-        let places = [lanes.places(simd, 0), lanes.places(simd, 1)];
-        let boxes = [
-            AxisBounds::new::<F>(simd, raster, 0, &places[0]),
-            AxisBounds::new::<F>(simd, raster, 1, &places[1]),
-        ];
-        let errors = Errors::new::<F>(simd, raster, lanes, &boxes);
-        let edges = EdgeFunctions::new::<F>(simd, raster, &places, &boxes, errors.aligned);
-        let keys = Keys::new::<F>(simd, lanes, &edges, &errors);
+        apart!(simd, {
+            let places = [lanes.places(simd, 0), lanes.places(simd, 1)];
+            let boxes = [
+                AxisBounds::new::<F>(simd, raster, 0, &places[0]),
+                AxisBounds::new::<F>(simd, raster, 1, &places[1]),
+            ];
+            let errors = Errors::new::<F>(simd, raster, lanes, &boxes);
+            let edges = EdgeFunctions::new::<F>(simd, raster, &places, &boxes, errors.aligned);
+            let keys = Keys::new::<F>(simd, lanes, &edges, &errors);
 
-        let (used, zero) = (lanes.used(simd), i32x16::splat(simd, 0));
-        let flat = edges.area.simd_eq(f32x16::splat(simd, 0.0));
-        let certain = edges.area.simd_gt(f32x16::splat(simd, 1.5) * errors.edge) | errors.aligned;
-        let drawn = used & certain & !(errors.aligned & flat);
-        let [across, down] = [edges.across, edges.down];
-        let lanes_of = |mask: u64| u16::try_from(mask).expect("a mask has 16 lanes");
-        Setup {
-            ids: lanes.ids(simd).to_array(),
-            at_origin: arrays(edges.shifted()),
-            across: arrays(across),
-            down: arrays(down),
-            error: errors.edge.to_array(),
-            key: arrays(keys.functions(simd)),
-            first_row: boxes[0].first.to_array(),
-            first_column: boxes[1].first.to_array(),
-            rows: boxes[0].count.to_array(),
-            columns: drawn.select(boxes[1].count, zero).to_array(),
-            facing: edges.facing.to_array(),
-            uncertain: lanes_of((used & !certain).to_bitmask()),
-            keyless: lanes_of((drawn & !keys.trusted).to_bitmask()),
-            thin: lanes_of((drawn & are_thin(simd, &boxes, edges.area)).to_bitmask()),
-        }
+            let (used, zero) = (lanes.used(simd), i32x16::splat(simd, 0));
+            let flat = edges.area.simd_eq(f32x16::splat(simd, 0.0));
+            let certain =
+                edges.area.simd_gt(f32x16::splat(simd, 1.5) * errors.edge) | errors.aligned;
+            let drawn = used & certain & !(errors.aligned & flat);
+            let [across, down] = [edges.across, edges.down];
+            let lanes_of = |mask: u64| u16::try_from(mask).expect("a mask has 16 lanes");
+            Setup {
+                ids: lanes.ids(simd).to_array(),
+                at_origin: arrays(edges.shifted()),
+                across: arrays(across),
+                down: arrays(down),
+                error: errors.edge.to_array(),
+                key: arrays(keys.functions(simd)),
+                first_row: boxes[0].first.to_array(),
+                first_column: boxes[1].first.to_array(),
+                rows: boxes[0].count.to_array(),
+                columns: drawn.select(boxes[1].count, zero).to_array(),
+                facing: edges.facing.to_array(),
+                uncertain: lanes_of((used & !certain).to_bitmask()),
+                keyless: lanes_of((drawn & !keys.trusted).to_bitmask()),
+                thin: lanes_of((drawn & are_thin(simd, &boxes, edges.area)).to_bitmask()),
+            }
+        })
     }
 }
 

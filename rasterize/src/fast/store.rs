@@ -63,7 +63,8 @@ fn store_rows<const PAST_CACHES: bool, S: Simd>(
         if !rest_ids.is_empty() {
             let (mut ids, mut t) = ([NO_PRIMITIVE; 16], [f32::INFINITY; 16]);
             let last = (&mut ids, &mut t);
-            store_sixteen::<PAST_CACHES, _>(simd, picture, buffer, start + whole, last);
+            // It is read at once.
+            store_sixteen::<false, _>(simd, picture, buffer, start + whole, last);
             rest_ids.copy_from_slice(&ids[..rest_ids.len()]);
             rest_t.copy_from_slice(&t[..rest_t.len()]);
         }

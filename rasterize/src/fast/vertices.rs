@@ -5,8 +5,8 @@ use super::camera_map::CameraMap;
 use super::depth::{KeyScale, LARGEST_KEY};
 use bothways_common::Projection;
 use bothways_common::engine::simd::{
-    Bytes, Select, Simd, SimdBase, SimdInterleaved, SimdMask, SimdSplit, f32x8, f32x16, f64x8,
-    i32x4, i32x8, i32x16, mask64x8,
+    Bytes, Level, Select, Simd, SimdBase, SimdInterleaved, SimdMask, SimdSplit, dispatch, f32x8,
+    f32x16, f64x8, i32x4, i32x8, i32x16, mask64x8,
 };
 use bothways_common::look::lanes::each;
 use glam::{DVec3, Vec3};
@@ -80,26 +80,37 @@ impl FixedPointRaster {
         }
     }
 
-    /// The vertex stage for any number of vertices.
+    /// The vertex stage for any number of vertices, in the vector instructions of a level.
+    pub(super) fn place(
+        &self,
+        level: Level,
+        map: &CameraMap,
+        positions: &[Vec3],
+        vertices: &mut [Vertex],
+    ) {
+        if positions.len() < 16 {
+            let (mut padded, mut placed) = ([Vec3::ZERO; 16], [[0; 4]; 16]);
+            padded[..positions.len()].copy_from_slice(positions);
+            self.place(level, map, &padded, &mut placed);
+            vertices.copy_from_slice(&placed[..positions.len()]);
+            return;
+        }
+        dispatch!(level, simd => self.place_many(simd, map, positions, vertices));
+    }
+
+    /// The vertex stage for sixteen vertices or more. The last sixteen may be some that are placed already.
     #[inline(always)]
-    pub(super) fn place<S: Simd>(
+    fn place_many<S: Simd>(
         &self,
         simd: S,
         map: &CameraMap,
         positions: &[Vec3],
         vertices: &mut [Vertex],
     ) {
-        let (positions, rest) = positions.as_chunks::<16>();
-        let (vertices, last) = vertices.split_at_mut(16 * positions.len());
-        for (positions, vertices) in positions.iter().zip(vertices.chunks_exact_mut(16)) {
-            self.place_sixteen(simd, map, &rows(positions), vertices);
-        }
-        if !rest.is_empty() {
-            let mut padded = [Vec3::ZERO; 16];
-            padded[..rest.len()].copy_from_slice(rest);
-            let mut placed = [[0; 4]; 16];
-            self.place_sixteen(simd, map, &rows(&padded), &mut placed);
-            last.copy_from_slice(&placed[..rest.len()]);
+        for at in (0..positions.len()).step_by(16) {
+            let at = at.min(positions.len() - 16);
+            let sixteen = positions[at..].first_chunk().expect("there are sixteen or more");
+            self.place_sixteen(simd, map, &rows(sixteen), &mut vertices[at..at + 16]);
         }
     }
 
@@ -414,10 +425,9 @@ mod tests {
                 });
                 for level in levels() {
                     let mut vertices = [[0; 4]; 8];
-                    let common = dispatch!(level, simd => {
-                        raster.place(simd, &map, &corners, &mut vertices);
-                        raster.place_corners(simd, &map, [low, high])
-                    });
+                    raster.place(level, &map, &corners, &mut vertices);
+                    let common =
+                        dispatch!(level, simd => raster.place_corners(simd, &map, [low, high]));
                     let all = |part: usize| vertices.iter().map(move |vertex| vertex[part]);
                     let ends = |part| all(part).min().zip(all(part).max());
                     assert_eq!(Some(common.rows.into()), ends(0));

@@ -61,7 +61,8 @@ pub(super) fn draw<C: Context>(
         many &=
             !set_up_alone::<C::Fault>(map, frustum, (eight, many & doubtful), &mut arrays, tile);
     }
-    while many != 0 {
+    // The tile of a ray alone, which observers watch, has no groups of blocks.
+    while !C::WATCHED && many != 0 {
         let lane = (many.trailing_zeros() & 7) as usize;
         many &= many - 1;
         many_samples::draw(simd, frustum, &arrays, (lane, eight.ids[lane]), tile);

@@ -5,7 +5,7 @@ use super::lane_affine::LaneAffine;
 use super::search::tile_frustum::TileFrustum;
 use super::setup::Setup;
 use super::tile::{TileBuffer, place};
-use bothways_common::engine::simd::{Select, Simd, SimdBase, SimdMask, f32x16, u32x16};
+use bothways_common::engine::simd::{Select, Simd, SimdBase, SimdMask, apart, f32x16, u32x16};
 
 /// A setup, to be read lane by lane.
 #[derive(Default)]
@@ -87,6 +87,18 @@ pub(super) fn columns<S: Simd>(simd: S, of: [f32; 4]) -> f32x16<S> {
 pub(super) fn rows<S: Simd>(simd: S, of: [f32; 4]) -> f32x16<S> {
     let [a, b, c, d] = of;
     f32x16::load_array(simd, [a, a, a, a, b, b, b, b, c, c, c, c, d, d, d, d])
+}
+
+/// [`draw`] for what is set up alone: a function of its own for all kinds of loops that call it.
+#[inline(never)]
+pub(super) fn draw_one<S: Simd>(
+    simd: S,
+    frustum: &TileFrustum,
+    setup: &SetupArrays,
+    which: (usize, u32),
+    tile: &mut TileBuffer,
+) {
+    apart!(simd, draw(simd, frustum, setup, which, tile));
 }
 
 /// Tests the triangle or plane of one lane at the samples of the tile.

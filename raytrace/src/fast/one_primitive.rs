@@ -18,7 +18,6 @@ use super::{plane, sphere, triangle};
 use bothways_common::engine::context::{Context, ScalarContext};
 use bothways_common::engine::fault::Planted;
 use bothways_common::engine::roundoff::Interval;
-use bothways_common::engine::simd::apart;
 use bothways_common::observe::{Events, Question};
 use bothways_common::raster::Sample;
 use bothways_common::{Primitive, Ray, Sign};
@@ -132,8 +131,7 @@ pub(super) fn draw_flat<C: Context>(
     let trust = Trust::new::<C::Fault>();
     if let Some(setup) = narrow(functions, frustum, trust, tile.far) {
         let setup = SetupArrays::of_one(lane, &setup);
-        let simd = context.simd();
-        apart!(simd, many_samples::draw(simd, frustum, &setup, (lane, id), tile));
+        many_samples::draw_one(context.simd(), frustum, &setup, (lane, id), tile);
     }
 }
 

@@ -59,15 +59,8 @@ pub(super) fn store<S: Simd>(
         }
         return;
     }
-    if !tile.has_groups() {
-        let (mut shown, mut far) = ([0; 16], [0.0; 16]);
-        block_values(simd, map, tile, 0, &mut shown, &mut far);
-        let [row, column] = counted_from(region, drawn).map(|range| range.start);
-        ids[row][column] = shown[0];
-        t[row][column] = far[0];
-        return;
-    }
-    // Four blocks beside each other at a time: whole lines of the cache, if a row begins with one.
+    // Four blocks beside each other at a time: whole lines of the cache, if a row begins with one. The tile of a ray alone has one block,
+    // and nothing beside it.
     for first in (0..tile.blocks()).step_by(4) {
         let [top, left] = place(tile.side(), first * 16);
         let [top, left] = [tile.start[0] + top, tile.start[1] + left];

@@ -7,7 +7,7 @@ use super::clusters::{Bounds, CLUSTER, Clusters};
 use super::extent::Extent;
 use crate::fast::camera_map::CameraMap;
 use crate::fast::vertices::{FixedPointRaster, Vertex};
-use bothways_common::engine::simd::Simd;
+use bothways_common::engine::simd::{Simd, apart};
 use bothways_common::look::lanes::each;
 use bothways_common::{Mesh, Placement, Scene, Shape};
 use glam::{DVec3, Vec3};
@@ -107,8 +107,21 @@ impl SharedMesh {
     }
 
     /// Places the vertices of a cluster of one instance.
-    #[inline(always)]
+    #[inline(never)]
     pub(crate) fn place<S: Simd>(
+        &self,
+        simd: S,
+        onto: (&CameraMap, &FixedPointRaster),
+        placement: &Placement,
+        cluster: &SharedCluster,
+        vertices: &mut PlacedVertices,
+    ) {
+        apart!(simd, self.place_blocks(simd, onto, placement, cluster, vertices));
+    }
+
+    /// [`SharedMesh::place`], which is a function of its own for all kinds of loops that call it.
+    #[inline(always)]
+    fn place_blocks<S: Simd>(
         &self,
         simd: S,
         (map, raster): (&CameraMap, &FixedPointRaster),

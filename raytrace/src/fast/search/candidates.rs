@@ -92,8 +92,21 @@ impl CandidateQueue {
 
     /// Tests the triangles of the two leaves that have waited longest, or of `all`, and keeps those that pass. Seven
     /// triangles may wait already.
-    #[inline(always)]
+    #[inline(never)]
     pub(crate) fn test_leaves<S: Simd>(
+        &mut self,
+        simd: S,
+        prepared: &Prepared,
+        frustum: &TileFrustum,
+        test: Test,
+        all: bool,
+    ) {
+        apart!(simd, self.test_ripe(simd, prepared, frustum, test, all));
+    }
+
+    /// [`CandidateQueue::test_leaves`], which is a function of its own for all kinds of loops that call it.
+    #[inline(always)]
+    fn test_ripe<S: Simd>(
         &mut self,
         simd: S,
         prepared: &Prepared,
@@ -119,7 +132,7 @@ impl CandidateQueue {
     }
 
     /// Tests the triangles of a leaf of an instance's mesh, and keeps those that pass. Nothing waits.
-    #[inline(always)]
+    #[inline(never)]
     pub(crate) fn test_placed<S: Simd>(
         &mut self,
         simd: S,

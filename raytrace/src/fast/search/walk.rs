@@ -321,10 +321,10 @@ impl<'a> Walker<'a> {
         frustum: &TileFrustum,
         entry: &StackEntry,
     ) {
-        let (count, simd, map) = (entry.counts.all(), context.simd(), self.map);
+        let (count, map) = (entry.counts.all(), self.map);
         for &id in &self.prepared.sphere_leaves[entry.child.index()][..count] {
-            let (sphere, tile) = (&map.view.named(id), &mut self.tile);
-            apart!(simd, one_primitive::draw_round(context, map, frustum, (id, sphere), tile));
+            let sphere = &map.view.named(id);
+            one_primitive::draw_round(context, map, frustum, (id, sphere), &mut self.tile);
         }
     }
 

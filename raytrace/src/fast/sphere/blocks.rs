@@ -14,8 +14,8 @@ use crate::fast::viewport_affine::TileViewport;
 use crate::fast::world_affine::upward;
 use bothways_common::engine::roundoff::{EPS24, EPS53};
 use bothways_common::engine::simd::{
-    Select, Simd, SimdBase, SimdFloat, SimdMask, SimdNarrow, SimdWiden, f32x16, f64x8, mask32x16,
-    mask64x8, u32x16,
+    Select, Simd, SimdBase, SimdFloat, SimdMask, SimdNarrow, SimdWiden, apart, f32x16, f64x8,
+    mask32x16, mask64x8, u32x16,
 };
 use bothways_common::look::lanes::each;
 use glam::DVec3;
@@ -130,7 +130,7 @@ impl SphereSetup {
     }
 
     /// Tests the sphere at the samples of the tile.
-    #[inline(always)]
+    #[inline(never)]
     pub(crate) fn draw<S: Simd>(
         &self,
         simd: S,
@@ -138,6 +138,12 @@ impl SphereSetup {
         id: u32,
         tile: &mut TileBuffer,
     ) {
+        apart!(simd, self.draw_groups(simd, frustum, id, tile));
+    }
+
+    /// [`SphereSetup::draw`], which is a function of its own for all kinds of loops that call it.
+    #[inline(always)]
+    fn draw_groups<S: Simd>(&self, simd: S, frustum: &TileFrustum, id: u32, tile: &mut TileBuffer) {
         let within = Within::new(simd, self);
         for group in 0..tile.blocks() / 16 {
             let blocks = Blocks::new(simd, self, frustum, group, tile);
