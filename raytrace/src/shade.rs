@@ -340,7 +340,8 @@ impl AtHits<'_> {
     }
 }
 
-/// The weights of a triangle's corners grow with the place on its plane.
+/// Where rays meet a plane. `growth` is how the weights of a triangle's second and third corner grow along its plane; a plane that is
+/// no triangle's has no weights.
 #[inline(always)]
 fn on_plane<S: Simd>(
     simd: S,

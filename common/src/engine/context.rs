@@ -41,7 +41,7 @@ pub trait ScalarContext {
 
 /// One type parameter for the three that a loop is compiled for.
 ///
-/// Functions that take `&mut impl Context` and use [`Context::simd`] are `#[inline(always)]`, as all vector code is.
+/// Functions that take `&mut impl Context` and use [`Context::simd`] are `#[inline(always)]`.
 pub trait Context: ScalarContext {
     /// The vector instructions.
     type Simd: Simd;

@@ -6,9 +6,9 @@
 //! SIMD, or plain scalars. (A clone leaves SSE4.2 out, see `.cargo/config.toml`: it takes SSE2 in its place.) The number of lanes never changes, and the code uses only operations that IEEE 754 rounds
 //! correctly (no fused multiply-add, no approximate reciprocal), so the level changes no bit of any result.
 //!
-//! Functions between [`dispatch!`] and the vector operations must be `#[inline(always)]`; otherwise they are compiled
-//! for the wrong level. So that they do not all become one function, which would take minutes to compile, [`apart!`]
-//! makes a part of them a function of its own.
+//! Functions between [`dispatch!`] and the vector operations must be `#[inline(always)]`, or do all that they do with vectors
+//! within [`apart!`]; otherwise they are compiled for the wrong level. So that they do not all become one function, which would
+//! take minutes to compile, [`apart!`] makes a part of them a function of its own.
 
 mod shuffle;
 
@@ -59,9 +59,9 @@ pub fn prefetch_at<T>(values: &[T], index: usize) {
 /// The compiler optimizes a function of its own first, and only then decides whether to make it a part of its caller. That
 /// takes far less time than to optimize the same code within a function that is many times as large.
 ///
-/// In an `#[inline(never)]` function, the expression is compiled once for each set of the generic parameters of that function,
-/// and all callers share it. In an `#[inline(always)]` function, it is compiled once for each set of the parameters around it, the
-/// types of event sinks and of closures among them, and again in each unit that the compiler divides the crate into.
+/// The expression is compiled once for each set of the generic parameters of the function in which it stands: let event sinks and
+/// closures not be among them. If that function is `#[inline(never)]`, all callers share what is compiled; if it is
+/// `#[inline(always)]`, each unit of the crate that calls it has its own.
 ///
 /// A call is worth it for a tile, a leaf or some triangles, not for a few operations: arguments and results go through memory,
 /// vectors, too, and so does what the caller keeps in registers meanwhile. Where the expression writes to memory, let it call

@@ -350,7 +350,8 @@ impl<C: ScalarContext> Painter<'_, '_, C> {
     }
 }
 
-/// Sorts triangles by class: those that may be seen in the tile wait with others of their class, or are large.
+/// Sorts triangles by class: those that may be seen in the tile wait with others of their class; large ones, and those whose place
+/// is not known, are drawn at the end. It is compiled once for all loops that call it.
 #[inline(never)]
 fn sort<S: Simd, F: Fault>(
     simd: S,
@@ -362,7 +363,7 @@ fn sort<S: Simd, F: Fault>(
     apart!(simd, sort_sixteen::<S, F>(simd, raster, tile, triangles, to));
 }
 
-/// [`sort`], which is a function of its own for all kinds of loops that call it.
+/// What [`sort`] does.
 #[inline(always)]
 fn sort_sixteen<S: Simd, F: Fault>(
     simd: S,
@@ -392,9 +393,9 @@ fn sort_sixteen<S: Simd, F: Fault>(
             waiting.add(simd, triangles, which);
         }
     }
-    let doubtful = (here & !short | unknown).to_bitmask();
-    if doubtful != 0 {
-        large.extend(triangles.ids_of(doubtful));
+    let others = (here & !short | unknown).to_bitmask();
+    if others != 0 {
+        large.extend(triangles.ids_of(others));
     }
 }
 

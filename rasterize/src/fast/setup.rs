@@ -80,6 +80,8 @@ impl Setup {
     /// *Aligned triangles.* Places are multiples of a quarter of a sample without any error, so edge
     /// functions are multiples of 1/16, below 2¹⁷, and `f32` adds and multiplies them without rounding.
     /// [`TIE`] decides those that are zero; the key does without it.
+    ///
+    /// It is compiled once for all loops that call it.
     #[inline(never)]
     pub(super) fn new<S: Simd, F: Fault>(
         simd: S,

@@ -63,7 +63,7 @@ fn store_rows<const PAST_CACHES: bool, S: Simd>(
         if !rest_ids.is_empty() {
             let (mut ids, mut t) = ([NO_PRIMITIVE; 16], [f32::INFINITY; 16]);
             let last = (&mut ids, &mut t);
-            // It is read at once.
+            // These numbers are read at once, so they do not go past the caches.
             store_sixteen::<false, _>(simd, picture, buffer, start + whole, last);
             rest_ids.copy_from_slice(&ids[..rest_ids.len()]);
             rest_t.copy_from_slice(&t[..rest_t.len()]);

@@ -98,7 +98,8 @@ impl FixedPointRaster {
         dispatch!(level, simd => self.place_many(simd, map, positions, vertices));
     }
 
-    /// The vertex stage for sixteen vertices or more. The last sixteen may be some that are placed already.
+    /// The vertex stage for sixteen vertices or more. Some of the last sixteen may have been placed before: they
+    /// get the same places again.
     #[inline(always)]
     fn place_many<S: Simd>(
         &self,
@@ -390,7 +391,7 @@ fn integers<S: Simd>(upper: f64x8<S>, lower: f64x8<S>) -> i32x16<S> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use bothways_common::engine::simd::{dispatch, levels};
+    use bothways_common::engine::simd::levels;
     use bothways_common::{Camera, CameraDescription};
 
     #[test]

@@ -89,7 +89,7 @@ pub(super) fn rows<S: Simd>(simd: S, of: [f32; 4]) -> f32x16<S> {
     f32x16::load_array(simd, [a, a, a, a, b, b, b, b, c, c, c, c, d, d, d, d])
 }
 
-/// [`draw`] for what is set up alone: a function of its own for all kinds of loops that call it.
+/// [`draw`] for what is set up alone. It is compiled once for all loops that call it.
 #[inline(never)]
 pub(super) fn draw_one<S: Simd>(
     simd: S,

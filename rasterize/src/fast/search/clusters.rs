@@ -253,6 +253,8 @@ pub(crate) fn extent<S: Simd>(
 /// All points of a box in front of the eye are seen between the places of its corners. A corner's place is
 /// off by at most a unit and a half, and so is a vertex's: with three units more than a triangle's own box
 /// has, no triangle's box reaches over the cluster's.
+///
+/// It is compiled once for all loops that call it.
 #[inline(never)]
 pub(crate) fn sight<S: Simd>(
     simd: S,

@@ -106,7 +106,7 @@ impl SharedMesh {
         u32::try_from(self.corners.len()).expect("ids are u32")
     }
 
-    /// Places the vertices of a cluster of one instance.
+    /// Places the vertices of a cluster of one instance. It is compiled once for all loops that call it.
     #[inline(never)]
     pub(crate) fn place<S: Simd>(
         &self,
@@ -119,7 +119,7 @@ impl SharedMesh {
         apart!(simd, self.place_blocks(simd, onto, placement, cluster, vertices));
     }
 
-    /// [`SharedMesh::place`], which is a function of its own for all kinds of loops that call it.
+    /// What [`SharedMesh::place`] does.
     #[inline(always)]
     fn place_blocks<S: Simd>(
         &self,

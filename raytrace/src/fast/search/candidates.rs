@@ -91,7 +91,7 @@ impl CandidateQueue {
     }
 
     /// Tests the triangles of the two leaves that have waited longest, or of `all`, and keeps those that pass. Seven
-    /// triangles may wait already.
+    /// triangles may wait already. It is compiled once for all loops that call it.
     #[inline(never)]
     pub(crate) fn test_leaves<S: Simd>(
         &mut self,
@@ -104,7 +104,7 @@ impl CandidateQueue {
         apart!(simd, self.test_ripe(simd, prepared, frustum, test, all));
     }
 
-    /// [`CandidateQueue::test_leaves`], which is a function of its own for all kinds of loops that call it.
+    /// What [`CandidateQueue::test_leaves`] does.
     #[inline(always)]
     fn test_ripe<S: Simd>(
         &mut self,
@@ -131,7 +131,8 @@ impl CandidateQueue {
         self.leaf_count -= ripe;
     }
 
-    /// Tests the triangles of a leaf of an instance's mesh, and keeps those that pass. Nothing waits.
+    /// Tests the triangles of a leaf of an instance's mesh, and keeps those that pass. Nothing waits. It is compiled once for all
+    /// loops that call it.
     #[inline(never)]
     pub(crate) fn test_placed<S: Simd>(
         &mut self,

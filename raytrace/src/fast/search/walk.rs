@@ -342,7 +342,7 @@ impl<'a> Walker<'a> {
         apart!(context.simd(), self.test_and_draw(context, frustum, class, flush))
     }
 
-    /// [`Walker::draw_candidates`], which is a function of its own for all places that call it.
+    /// What [`Walker::draw_candidates`] does.
     #[inline(always)]
     fn test_and_draw<C: Context>(
         &mut self,

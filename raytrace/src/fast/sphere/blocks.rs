@@ -129,7 +129,7 @@ impl SphereSetup {
         })
     }
 
-    /// Tests the sphere at the samples of the tile.
+    /// Tests the sphere at the samples of the tile. It is compiled once for all loops that call it.
     #[inline(never)]
     pub(crate) fn draw<S: Simd>(
         &self,
@@ -141,7 +141,7 @@ impl SphereSetup {
         apart!(simd, self.draw_groups(simd, frustum, id, tile));
     }
 
-    /// [`SphereSetup::draw`], which is a function of its own for all kinds of loops that call it.
+    /// What [`SphereSetup::draw`] does.
     #[inline(always)]
     fn draw_groups<S: Simd>(&self, simd: S, frustum: &TileFrustum, id: u32, tile: &mut TileBuffer) {
         let within = Within::new(simd, self);
