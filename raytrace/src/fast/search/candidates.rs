@@ -101,24 +101,26 @@ impl CandidateQueue {
         test: Test,
         all: bool,
     ) {
-        apart!(simd, self.test_ripe(simd, prepared, frustum, test, all));
+        let ripe = if all { self.leaf_count.min(LEAVES) } else { 2 };
+        apart!(simd, self.test_first(simd, ripe, prepared, frustum, test));
+        self.leaves.copy_within(2.., 0);
+        self.leaf_count -= ripe;
     }
 
-    /// What [`CandidateQueue::test_leaves`] does.
+    /// Tests the triangles of so many leaves, the first ones that wait.
     #[inline(always)]
-    fn test_ripe<S: Simd>(
+    fn test_first<S: Simd>(
         &mut self,
         simd: S,
+        count: usize,
         prepared: &Prepared,
         frustum: &TileFrustum,
         test: Test,
-        all: bool,
     ) {
         if self.end > ROOM - LEAVES * LEAF - EIGHT {
             self.move_to_start(simd);
         }
-        let ripe = if all { self.leaf_count.min(LEAVES) } else { 2 };
-        for k in 0..ripe {
+        for k in 0..count {
             let waiting = self.leaves[k];
             let index = waiting.leaf.index();
             if waiting.leaf.kind() == NodeKind::IndexedLeaf {
@@ -127,8 +129,6 @@ impl CandidateQueue {
                 self.test_leaf(simd, &prepared.plain_leaves[index], frustum, &waiting, test);
             }
         }
-        self.leaves.copy_within(2.., 0);
-        self.leaf_count -= ripe;
     }
 
     /// Tests the triangles of a leaf of an instance's mesh, and keeps those that pass. Nothing waits. It is compiled once for all
