@@ -342,17 +342,13 @@ fn different_ids() {
 #[test]
 fn a_mesh_is_written() {
     let args = ["mesh", "torus", "--divisions", "8,5", "-o", "torus.obj"];
-    insta::assert_snapshot!(said(bothways(&home(), &args)), @r"
-    wrote torus.obj: 80 triangles, 40 vertices
-    ");
+    insta::assert_snapshot!(said(bothways(&home(), &args)), @"wrote torus.obj: 80 triangles, 40 vertices");
 }
 
 #[test]
 fn a_squashed_picture_has_a_hint() {
     let args = ["canonical", "--size", "8x4"];
-    insta::assert_snapshot!(said(bothways(&home(), &args)), @r"
-    hint: the viewport is 1 x 1 whatever the size, so the pixels of an image of 8x4 are not square; --viewport 2,1 makes them so
-    ");
+    insta::assert_snapshot!(said(bothways(&home(), &args)), @"hint: the viewport is 1 x 1 whatever the size, so the pixels of an image of 8x4 are not square; --viewport 2,1 makes them so");
     assert_eq!(said(bothways(&home(), &[&args[..], &["--quiet"]].concat())), "");
 }
 
