@@ -159,6 +159,60 @@ fn ids_of_samples(rule: Option<&str>) -> TempDir {
     folder
 }
 
+/// A folder with an array of one number a pixel for each scene of the set.
+fn arrays<T: npyz::AutoSerialize + Copy>(draw: impl Fn(&Vector) -> Vec<T>) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for vector in vectors::all() {
+        let [width, height] = vector.camera.image.map(u64::from);
+        let file = fs::File::create(folder.path().join(format!("{}.npy", vector.name))).unwrap();
+        let options = npyz::WriteOptions::new().default_dtype().shape(&[height, width]);
+        let mut numbers = options.writer(file).begin_nd().unwrap();
+        numbers.extend(draw(&vector)).unwrap();
+        numbers.finish().unwrap();
+    }
+    folder
+}
+
+/// What was found is no number of nothing: the files have ours.
+fn assert_nothing_is_ours(checked: &Check) {
+    for cause in &checked.causes {
+        let named = cause.alternatives.iter().flatten().any(|one| one.contains("for nothing"));
+        assert!(!named, "{cause:?}");
+    }
+}
+
+#[test]
+fn distances_in_another_unit_are_no_number_of_nothing() {
+    let far = |vector: &Vector, map: fn(f64) -> f64| {
+        let frame = frame(vector, vector.camera, None);
+        frame.distances().iter().map(|&t| map(f64::from(t))).collect::<Vec<f64>>()
+    };
+    for map in [|t| 2.0 * t, |t| 3.0 * t, |t| t + 1.0] {
+        let checked = checked(&arrays(|vector| far(vector, map)));
+        assert!(!checked.passes());
+        assert_nothing_is_ours(&checked);
+        let guesses = checked.causes.iter().all(|cause| cause.certainty != Certainty::Convention);
+        assert!(guesses, "{:?}", checked.causes);
+    }
+}
+
+#[test]
+fn nothing_that_is_0_in_all_files_is_a_cause() {
+    let from_one = |vector: &Vector| {
+        let frame = frame(vector, vector.camera, None);
+        let number = |&id: &u32| if id == u32::MAX { 0 } else { id + 1 };
+        frame.ids().narrow().unwrap().iter().map(number).collect::<Vec<u32>>()
+    };
+    let checked = checked(&arrays(from_one));
+    let (alternatives, certainty, _) = first_cause(&checked);
+    assert_eq!((alternatives.len(), certainty), (1, Certainty::Convention), "{alternatives:?}");
+    let sentences = &alternatives[0];
+    assert!(
+        sentences.iter().any(|one| one.starts_with("it writes 0 for nothing")),
+        "{sentences:?}"
+    );
+}
+
 #[test]
 fn several_samples_a_pixel_are_held_to_the_truth_and_explained_by_sample() {
     let right = checked(&ids_of_samples(None));

@@ -8,6 +8,7 @@ use std::path::PathBuf;
 
 pub(in crate::cli) const EXAMPLES: &str = "\
 Examples:
+  bothways render canonical --buffers npy                      writes ids and t, for what follows
   bothways diff out/canonical/object-order.ids.npy mine.npy    ids: the same primitives?
   bothways diff out/canonical/object-order.t.npy mine-t.npy    distances, within 1e-5 of t
   bothways diff out/canonical/mask-object-order.png mine.png   coverage

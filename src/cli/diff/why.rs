@@ -193,7 +193,7 @@ impl<'a> Why<'a> {
                 format_args!("{name} shows what is true of the scene in all {all} {things}"),
             ),
             Finding::NoEvidence(reason) => {
-                line(text, format_args!("{name} is no evidence of conventions: {reason}"));
+                line(text, format_args!("{name} says nothing about conventions: {reason}"));
             }
             Finding::Unexplained => line(
                 text,

@@ -11,6 +11,7 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
         "file is neither a picture (PNG, PNM, BMP, JPEG, EXR) nor a NumPy array (.npy); save it as \
          one of these",
     ),
+    ("diff a.pgm empty.png", "empty.png is empty; write it again"),
     (
         "diff a.pgm damaged.png",
         "damaged.png: the file ends early, after 8 bytes; copy it or write it again",

@@ -20,6 +20,12 @@ pub enum ReadBufferError {
         /// The error of the system.
         error: io::Error,
     },
+    /// The file has no byte.
+    #[error("{} is empty; write it again", .path.display())]
+    Empty {
+        /// The file.
+        path: PathBuf,
+    },
     /// The first bytes of the file belong to no known format.
     #[error(
         "{} is neither a picture (PNG, PNM, BMP, JPEG, EXR) nor a NumPy array (.npy); \
@@ -112,6 +118,9 @@ pub fn read_from(
     let path = || path.to_owned();
     let start = start(&mut input);
     let (start, length) = start.map_err(|error| ReadBufferError::Open { path: path(), error })?;
+    if start.is_empty() {
+        return Err(ReadBufferError::Empty { path: path() });
+    }
     if start.starts_with(b"PK\x03\x04") {
         return Err(ReadBufferError::Archive { path: path() });
     }

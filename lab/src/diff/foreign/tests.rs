@@ -146,7 +146,7 @@ fn bad_files_are_refused_with_their_reason() {
     let nan = f32::NAN.to_le_bytes().repeat(3);
     let refused: [(Vec<u8>, &str); 18] = [
         (b"hello".to_vec(), "neither a picture"),
-        (Vec::new(), "neither a picture"),
+        (Vec::new(), "is empty; write it again"),
         (b"PK\x03\x04...".to_vec(), ".npz"),
         (b"\x89PNG\r\n\x1a\nrubbish".to_vec(), "ends early, after 15 bytes; copy it"),
         (b"\x93NUMPY\x01\x00".to_vec(), "ends early, after 8 bytes; copy it"),

@@ -7,8 +7,8 @@ use crate::common::View;
 use crate::common::frame::NO_PRIMITIVE;
 use crate::diff::buffer::{Buffer, Content};
 use crate::diff::tolerance::DEPTH_TOLERANCE;
-use std::collections::HashMap;
 use std::collections::hash_map::Entry;
+use std::collections::{HashMap, HashSet};
 
 /// What the numbers of a file stand for. The default is ours.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -159,17 +159,20 @@ impl Observed {
         let mut meanings = vec![NothingEncoding::Ours];
         match &self.values {
             Values::Mask(_) => meanings.push(NothingEncoding::Inverted),
+            _ if self.has_our_nothing() => {}
             Values::Ids(ids) => {
-                if ids.iter().all(Option::is_some) && ids.contains(&Some(0)) {
+                if ids.contains(&Some(0)) {
                     meanings.push(NothingEncoding::Number(0.0));
                 }
             }
-            Values::Distances(t) if t.iter().all(|t| t.is_finite()) => {
-                meanings.extend(repeated(t).map(NothingEncoding::Number));
-            }
-            Values::Distances(_) => {}
+            Values::Distances(t) => meanings.extend(repeated(t).map(NothingEncoding::Number)),
         }
         meanings
+    }
+
+    /// Whether the file has our number of nothing somewhere.
+    pub(super) fn has_our_nothing(&self) -> bool {
+        (0..self.size[0] * self.size[1]).any(|index| !self.covered(index, NothingEncoding::Ours))
     }
 }
 
@@ -194,6 +197,8 @@ pub(super) struct Score {
     pub(super) differing: u64,
     /// Pixels that differ in coverage.
     pub(super) coverage: u64,
+    /// Pixels in which the file shows what the picture does, and not our nothing.
+    pub(super) shown: u64,
 }
 
 /// A picture as the numbers of a file should show it.
@@ -341,8 +346,8 @@ impl<'a> Expected<'a> {
         }
     }
 
-    /// The pixels in which the file differs from the picture, among the drawn rows. Names of a few primitives are no
-    /// numbering: then all pixels differ, and more.
+    /// The pixels in which the file differs from the picture, among the drawn rows; all of them if nothing is seen in the
+    /// picture, and something in the file. Names of a few primitives are no numbering: then all pixels differ, and more.
     pub(super) fn score(
         &self,
         observed: &Observed,
@@ -350,12 +355,18 @@ impl<'a> Expected<'a> {
         encoding: &Encoding,
     ) -> Score {
         let mut score = Score::default();
-        let renaming = self.each(observed, placement, encoding, |_, differs, covers_otherwise| {
+        let renaming = self.each(observed, placement, encoding, |at, differs, covers_otherwise| {
             score.differing += u64::from(differs);
             score.coverage += u64::from(covers_otherwise);
+            score.shown += u64::from(!differs && observed.covered(at, NothingEncoding::Ours));
         });
         if encoding.ids == IdEncoding::OneToOne && !renaming.is_general() {
             score.differing = u64::MAX;
+        }
+        // To see nothing explains no file that shows something, however much of it is missing there.
+        let sees_nothing = self.drawn.ids.iter().all(|&id| id == NO_PRIMITIVE);
+        if sees_nothing && score.coverage > 0 {
+            score.differing = self.drawn.ids.len() as u64;
         }
         score
     }
@@ -481,13 +492,17 @@ impl IndexMap {
 pub(super) struct Renaming {
     forth: HashMap<u32, u64>,
     back: HashMap<u64, u32>,
+    /// Primitives that were met where the file has the name of another one.
+    disputed: HashSet<u32>,
 }
 
 impl Renaming {
-    /// Whether at least half of the primitives, and two of them, have another number than ours.
+    /// Whether at least half of the primitives, and two of them, have another number than ours; and whether nearly all have a
+    /// name of their own: where one name stands for two primitives again and again, it is not one to one.
     fn is_general(&self) -> bool {
         let renamed = self.forth.iter().filter(|&(&id, &name)| u64::from(id) != name).count();
-        renamed >= 2 && 2 * renamed >= self.forth.len()
+        let nameless = self.disputed.iter().filter(|&id| !self.forth.contains_key(id)).count();
+        renamed >= 2 && 2 * renamed >= self.forth.len() && 4 * nameless <= self.forth.len()
     }
 
     fn holds(&mut self, id: u32, name: Option<u64>) -> bool {
@@ -502,7 +517,11 @@ impl Renaming {
             (Entry::Occupied(forth), Entry::Occupied(back)) => {
                 *forth.get() == name && *back.get() == id
             }
-            _ => false,
+            (Entry::Vacant(_), Entry::Occupied(_)) => {
+                self.disputed.insert(id);
+                false
+            }
+            (Entry::Occupied(_), Entry::Vacant(_)) => false,
         }
     }
 }
@@ -557,6 +576,20 @@ mod tests {
         assert!(named(&[(0, 5), (1, 3), (2, 2)]));
         assert!(!named(&[(0, 0), (1, 1), (2, 2), (3, 4), (4, 3)]));
         assert!(!named(&[(0, 1)]));
+    }
+
+    #[test]
+    fn one_number_for_two_primitives_is_no_numbering() {
+        let general = |primitives: u32, name: fn(u32) -> u64| {
+            let mut renaming = Renaming::default();
+            (0..primitives).for_each(|id| _ = renaming.holds(id, Some(name(id))));
+            renaming.is_general()
+        };
+        assert!(general(12, |id| u64::from(11 - id)));
+        // Two triangles are one square.
+        assert!(!general(12, |id| u64::from(id / 2)));
+        // One triangle of twelve is hidden behind another one's number.
+        assert!(general(12, |id| u64::from(11 - id).max(1)));
     }
 
     #[test]

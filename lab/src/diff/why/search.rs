@@ -110,9 +110,9 @@ pub fn find_conventions(view: &View, file: &Buffer) -> Result<Findings, SearchEr
     let truth = draw(view, &Convention::default(), Rows::ALL);
     let pixels = u64::from(width) * u64::from(height);
     let search = Search { view, observed: &observed, placements: &placements, truth: &truth };
-    let differing = search.differing_from_truth();
-    let finding = search.finding(differing);
-    Ok(Findings { pixels, differing, finding })
+    let ours = search.ours();
+    let finding = search.finding(ours);
+    Ok(Findings { pixels, differing: ours.differing, finding })
 }
 
 /// At least so many rows, and so many pixels, are looked at first.
@@ -161,17 +161,18 @@ fn parts(convention: &Convention, encoding: &Encoding) -> usize {
 }
 
 impl Search<'_> {
-    /// The pixels that are not as in the true picture; all of them if rows and columns are exchanged in a picture that is
-    /// not square.
-    fn differing_from_truth(&self) -> u64 {
+    /// How far the file is from the true picture; in all pixels if rows and columns are exchanged in a picture that is not
+    /// square.
+    fn ours(&self) -> Score {
         if !self.placements.contains(&Placement::Upright) {
-            return self.truth.ids.len() as u64;
+            return Score { differing: self.truth.ids.len() as u64, ..Score::default() };
         }
         let expected = Expected::new(self.view, &Convention::default(), self.truth);
-        expected.score(self.observed, Placement::Upright, &Encoding::default()).differing
+        expected.score(self.observed, Placement::Upright, &Encoding::default())
     }
 
-    fn finding(&self, differing: u64) -> Finding {
+    fn finding(&self, ours: Score) -> Finding {
+        let differing = ours.differing;
         if differing == 0 {
             return Finding::True;
         }
@@ -181,7 +182,7 @@ impl Search<'_> {
         let mut finalists = self.finalists();
         finalists = self.improved(finalists, differing);
         finalists.sort_by_key(Candidate::rank);
-        let explanations = self.best(&finalists, differing);
+        let explanations = self.best(&finalists, ours);
         match explanations.first() {
             Some(best) if best.explained * 10 >= differing => Finding::Explained(explanations),
             _ => Finding::Unexplained,
@@ -431,10 +432,13 @@ impl Search<'_> {
     }
 
     /// The explanations that leave as few pixels as the best one, simplest first.
-    fn best(&self, candidates: &[Candidate], differing: u64) -> Vec<Explanation> {
+    fn best(&self, candidates: &[Candidate], ours: Score) -> Vec<Explanation> {
+        let differing = ours.differing;
         let parts = |one: &Candidate| parts(&one.convention, &one.encoding);
-        // Our own conventions explain nothing.
-        let others = || candidates.iter().filter(|one| parts(one) > 0);
+        // Our own conventions explain nothing. And where much is missing in a file, what also shows little leaves few pixels: but
+        // what the file shows rightly is not to be wrong then.
+        let may_explain = |one: &&Candidate| parts(one) > 0 && one.score.shown >= ours.shown;
+        let others = || candidates.iter().filter(may_explain);
         let fewest = others().map(|one| one.score.differing).min().unwrap_or(differing);
         let good = |one: &&Candidate| as_good(one.score.differing, fewest, differing);
         let simplest = others().filter(good).map(parts).min();

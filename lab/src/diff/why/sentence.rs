@@ -188,10 +188,10 @@ fn of_rays(rays: Rays, projection: Projection) -> &'static str {
     match (rays, projection) {
         (Rays::AsStated, _) => "has the camera's rays",
         (Rays::OtherProjection, Projection::Parallel) => {
-            "draws a perspective picture for a parallel camera: all rays go along -w, and begin at eye + x u + y v"
+            "draws a perspective picture for a parallel camera: let all rays go along -w, and begin at eye + x u + y v"
         }
         (Rays::OtherProjection, Projection::Perspective) => {
-            "draws a parallel picture for a perspective camera: all rays begin at the eye, along x u + y v - d w"
+            "draws a parallel picture for a perspective camera: let all rays begin at the eye, and go along x u + y v - d w"
         }
         (Rays::OneOrigin, _) => {
             "lets all parallel rays begin at the eye, so that every pixel sees the same: begin at eye + x u + y v"
@@ -297,10 +297,19 @@ fn of_distances(encoding: DistanceEncoding) -> Option<String> {
         D::NegativeAlongRay => {
             "holds -t |(x, y, -d)|: change the sign, and divide by the length of the ray's direction".into()
         }
+        D::Window { near, far } if far >= INFINITE => format!(
+            "holds OpenGL's window depth for a near plane at {} and none far away: t d = {0} / (1 - depth)",
+            digits(near)
+        ),
         D::Window { near, far } => format!(
             "holds OpenGL's window depth for the planes {} and {}: t d = {0} {1} / ({1} - ({1} - {0}) depth)",
             digits(near),
             digits(far)
+        ),
+        D::ReversedWindow { near, far } if far >= INFINITE => format!(
+            "holds {0} / (t d): its reciprocal, times {0}, is t d (or it is reversed window depth, 1 at the near plane {0} and 0 \
+             infinitely far away)",
+            digits(near)
         ),
         D::ReversedWindow { near, far } => format!(
             "holds reversed window depth (1 at the near plane {}, 0 at the far plane {}): t d = {0} {1} / ({0} + \
@@ -312,11 +321,11 @@ fn of_distances(encoding: DistanceEncoding) -> Option<String> {
     Some(words)
 }
 
+/// A far plane at this depth or beyond is none: what is found of it are roundings.
+const INFINITE: f64 = 1e9;
+
 /// A number of three digits, which are certain.
 fn digits(number: f64) -> String {
-    if number >= 1e9 {
-        return "infinity".into();
-    }
     format!("{number:.2e}")
         .parse::<f64>()
         .map_or_else(|_| number.to_string(), |short| short.to_string())

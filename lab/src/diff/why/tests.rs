@@ -252,3 +252,29 @@ fn what_explains_a_third_is_a_guess() {
         assert!(found.iter().all(|one| one.is_a_guess(findings.differing)), "{found:?}");
     });
 }
+
+#[test]
+fn what_a_file_shows_rightly_is_not_wrong_by_an_explanation() {
+    let loaded = scenes::load("canonical").unwrap();
+    with_scene(&loaded, [64, 64], Projection::Perspective, |view| {
+        let truth = draw(view, &Convention::default(), Rows::ALL);
+        // A near plane that leaves a fifth: less is wrong in a picture of nothing than in the true one.
+        let mut depths: Vec<f64> = truth.t.iter().copied().filter(|t| t.is_finite()).collect();
+        depths.sort_by(f64::total_cmp);
+        let near = depths[depths.len() * 4 / 5];
+        let shown =
+            |(&id, &t): (&u32, &f64)| (id != NO_PRIMITIVE && t >= near).then_some(u64::from(id));
+        let ids: Vec<Option<u64>> = truth.ids.iter().zip(&truth.t).map(shown).collect();
+        let covered: Vec<usize> = (0..ids.len()).filter(|&at| ids[at].is_some()).collect();
+        assert!(!covered.is_empty());
+        let clipped = Buffer::new([64, 64], 1, Content::Ids(ids));
+        let Finding::Explained(found) = find_conventions(view, &clipped).unwrap().finding else {
+            return;
+        };
+        for one in found {
+            assert_eq!((one.convention.placement, one.encoding), Default::default(), "{one:?}");
+            let drawn = draw(view, &one.convention, Rows::ALL);
+            assert!(covered.iter().all(|&at| drawn.ids[at] == truth.ids[at]), "{one:?}");
+        }
+    });
+}

@@ -6,7 +6,7 @@
 
 use super::convention::{Change, Convention, Placement, Rays};
 use super::draw::{Rows, draw};
-use super::encoding::{Encoding, Expected, Observed, Values};
+use super::encoding::{Encoding, Expected, NothingEncoding, Observed, Values};
 use super::sentence::of_renderer;
 use crate::common::{Camera, Projection, View};
 use crate::diff::buffer::Buffer;
@@ -54,8 +54,8 @@ impl CommonExplanation {
 ///
 /// Pictures that hold colours alone or several samples a pixel agree with nothing.
 pub fn find_common_conventions(renderings: &[Rendering]) -> Vec<CommonExplanation> {
-    let shown = renderings.iter().map(|one| Observed::of(one.file)).collect();
-    let search = Search { renderings, shown };
+    let shown: Vec<_> = renderings.iter().map(|one| Observed::of(one.file)).collect();
+    let search = Search { renderings, writes_ours: writes_ours(&shown), shown };
     let ours = search.held_to(&Hypothesis::default(), Placement::Upright, &Encodings::default());
     let mut found = search.by_single_and_pair();
     for _ in 0..MOST_ADDED {
@@ -160,6 +160,18 @@ struct Search<'a> {
     renderings: &'a [Rendering<'a>],
     /// The files as the search reads them; `None` if it cannot.
     shown: Vec<Option<Observed>>,
+    /// The kinds of files of which one has our number of nothing somewhere: then this is what the renderer writes for
+    /// nothing, also where another file shows a number everywhere.
+    writes_ours: [bool; 3],
+}
+
+/// Whether any of the files of each kind has our number of nothing.
+fn writes_ours(shown: &[Option<Observed>]) -> [bool; 3] {
+    let mut writes = [false; 3];
+    for one in shown.iter().flatten() {
+        writes[kind(&one.values)] |= one.has_our_nothing();
+    }
+    writes
 }
 
 impl<'a> Search<'a> {
@@ -247,7 +259,12 @@ impl<'a> Search<'a> {
                     fit.differing += drawn.ids.len() as u64;
                     continue;
                 }
-                let readings = shown.meanings_of_nothing().into_iter().map(|nothing| {
+                let is_possible = |nothing: &NothingEncoding| {
+                    !(matches!(nothing, NothingEncoding::Number(_))
+                        && self.writes_ours[kind(&shown.values)])
+                };
+                let meanings = shown.meanings_of_nothing().into_iter().filter(is_possible);
+                let readings = meanings.map(|nothing| {
                     let encoding = expected.encoding(shown, *placement, nothing);
                     (expected.score(shown, *placement, &encoding).differing, encoding)
                 });
