@@ -214,6 +214,23 @@ fn nothing_that_is_0_in_all_files_is_a_cause() {
 }
 
 #[test]
+fn a_stray_nan_is_not_what_a_renderer_writes_for_nothing() {
+    let with_0 = |vector: &Vector| {
+        let frame = frame(vector, vector.camera, None);
+        let number = |&t: &f32| if t == f32::INFINITY { 0.0 } else { t };
+        let mut t: Vec<f32> = frame.distances().iter().map(number).collect();
+        if vector.name == "huge-world" {
+            *t.iter_mut().find(|t| **t == 0.0).unwrap() = f32::NAN;
+        }
+        t
+    };
+    let checked = checked(&arrays(with_0));
+    let (alternatives, certainty, _) = first_cause(&checked);
+    assert_eq!((alternatives.len(), certainty), (1, Certainty::Convention), "{alternatives:?}");
+    assert!(alternatives[0][0].starts_with("it writes 0 for nothing"), "{alternatives:?}");
+}
+
+#[test]
 fn several_samples_a_pixel_are_held_to_the_truth_and_explained_by_sample() {
     let right = checked(&ids_of_samples(None));
     assert_eq!((right.right(), right.files.len()), (23, 23), "{}", right.verdict());

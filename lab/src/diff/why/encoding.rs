@@ -197,7 +197,8 @@ pub(super) struct Score {
     pub(super) differing: u64,
     /// Pixels that differ in coverage.
     pub(super) coverage: u64,
-    /// Pixels in which the file shows what the picture does, and not our nothing.
+    /// Pixels in which the file has what it should, and not our number of nothing. (Where another number stands for nothing,
+    /// pixels of nothing count, too.)
     pub(super) shown: u64,
 }
 
@@ -346,8 +347,8 @@ impl<'a> Expected<'a> {
         }
     }
 
-    /// The pixels in which the file differs from the picture, among the drawn rows; all of them if nothing is seen in the
-    /// picture, and something in the file. Names of a few primitives are no numbering: then all pixels differ, and more.
+    /// The pixels in which the file differs from the picture, among the drawn rows. Names of a few primitives are no
+    /// numbering: then all pixels differ, and more.
     pub(super) fn score(
         &self,
         observed: &Observed,
@@ -363,10 +364,23 @@ impl<'a> Expected<'a> {
         if encoding.ids == IdEncoding::OneToOne && !renaming.is_general() {
             score.differing = u64::MAX;
         }
-        // To see nothing explains no file that shows something, however much of it is missing there.
+        score
+    }
+
+    /// How well a hypothesis does. If nothing is seen under it, and something in the file, all pixels differ: to see nothing
+    /// explains no file that shows something, however much of it is missing there.
+    pub(super) fn score_of_hypothesis(
+        &self,
+        observed: &Observed,
+        placement: Placement,
+        encoding: &Encoding,
+    ) -> Score {
+        let mut score = self.score(observed, placement, encoding);
         let sees_nothing = self.drawn.ids.iter().all(|&id| id == NO_PRIMITIVE);
         if sees_nothing && score.coverage > 0 {
-            score.differing = self.drawn.ids.len() as u64;
+            let pixels = self.drawn.ids.len() as u64;
+            score.differing = score.differing.max(pixels);
+            score.coverage = pixels;
         }
         score
     }
@@ -417,6 +431,12 @@ impl<'a> Expected<'a> {
     }
 }
 
+/// What stands for a far plane at infinity.
+pub(super) const INFINITELY_FAR: f64 = 1e30;
+
+/// A far plane that is farther than the near one by this factor cannot be told from none by depths in `f32`.
+const MOST_FAR: f64 = 1e6;
+
 /// The window depth that takes two depths to two numbers, if it has planes in front of the eye.
 fn window([z0, w0]: [f64; 2], [z1, w1]: [f64; 2]) -> Option<DistanceEncoding> {
     let possible = 0.0..=1.0;
@@ -428,12 +448,15 @@ fn window([z0, w0]: [f64; 2], [z1, w1]: [f64; 2]) -> Option<DistanceEncoding> {
     let depth_of = |number: f64| slope / (number - limit);
     let [zero, one] = [0.0, 1.0].map(depth_of);
     let in_front = |near: f64, far: f64| near > 0.0 && far > near && near.is_finite();
-    // A far plane that is infinitely far away: 1/far rounds to 0 or to less.
-    let far_plane = |far: f64| if far > 0.0 && far.is_finite() { far } else { 1e30 };
-    if slope < 0.0 && in_front(zero, far_plane(one)) {
-        Some(DistanceEncoding::Window { near: zero, far: far_plane(one) })
-    } else if slope > 0.0 && in_front(one, far_plane(zero)) {
-        Some(DistanceEncoding::ReversedWindow { near: one, far: far_plane(zero) })
+    // A far plane that is infinitely far away: 1/far rounds to 0 or to less, or to a few units of the last of 24 bits.
+    let far_plane = |near: f64, far: f64| {
+        let is_near = far > 0.0 && far < MOST_FAR * near;
+        if is_near { far } else { INFINITELY_FAR }
+    };
+    if slope < 0.0 && in_front(zero, far_plane(zero, one)) {
+        Some(DistanceEncoding::Window { near: zero, far: far_plane(zero, one) })
+    } else if slope > 0.0 && in_front(one, far_plane(one, zero)) {
+        Some(DistanceEncoding::ReversedWindow { near: one, far: far_plane(one, zero) })
     } else {
         None
     }
@@ -497,8 +520,8 @@ pub(super) struct Renaming {
 }
 
 impl Renaming {
-    /// Whether at least half of the primitives, and two of them, have another number than ours; and whether nearly all have a
-    /// name of their own: where one name stands for two primitives again and again, it is not one to one.
+    /// Whether at least half of the primitives, and two of them, have another number than ours; and whether four of five have
+    /// a name of their own: where one name stands for two primitives again and again, it is not one to one.
     fn is_general(&self) -> bool {
         let renamed = self.forth.iter().filter(|&(&id, &name)| u64::from(id) != name).count();
         let nameless = self.disputed.iter().filter(|&id| !self.forth.contains_key(id)).count();
@@ -556,6 +579,26 @@ mod tests {
             matches!(found, Some(DistanceEncoding::ReversedWindow { near, .. }) if (near - 0.5).abs() < 1e-12)
         );
         assert_eq!(window([1.0, 1.0], [2.0, 2.0]), None);
+    }
+
+    #[test]
+    #[expect(clippy::cast_possible_truncation, reason = "a depth that is stored as `f32`")]
+    fn a_far_plane_at_infinity_is_found_by_rounded_depths() {
+        let rounded = |depth: f64| f64::from(depth as f32);
+        for k in 1..400_u32 {
+            let (a, b) = (1.1 + 0.01 * f64::from(k), 7.3 + 0.03 * f64::from(k));
+            for (name, number) in
+                [("window", (|z| 1.0 - 0.1 / z) as fn(f64) -> f64), ("reversed", |z| 1.0 / z)]
+            {
+                let found = window([a, rounded(number(a))], [b, rounded(number(b))]);
+                let (DistanceEncoding::Window { far, .. }
+                | DistanceEncoding::ReversedWindow { far, .. }) = found.unwrap()
+                else {
+                    panic!("{name}: {found:?}");
+                };
+                assert_eq!(far, INFINITELY_FAR, "{name}: {found:?}");
+            }
+        }
     }
 
     #[test]

@@ -153,6 +153,14 @@ impl Candidate {
     fn rank(&self) -> (u64, usize) {
         (self.score.differing, parts(&self.convention, &self.encoding))
     }
+
+    /// Whether nearly all stays right that the file shows rightly by our conventions. Where much is missing in a file,
+    /// a picture that shows little leaves few pixels, too, and explains nothing. A few pixels may be right by accident.
+    fn may_explain(&self, ours: Score) -> bool {
+        let lost = ours.shown.saturating_sub(self.score.shown);
+        let explained = ours.differing.saturating_sub(self.score.differing);
+        10 * lost <= explained
+    }
 }
 
 /// How many choices are not ours.
@@ -180,7 +188,7 @@ impl Search<'_> {
             return Finding::NoEvidence(reason);
         }
         let mut finalists = self.finalists();
-        finalists = self.improved(finalists, differing);
+        finalists = self.improved(finalists, ours);
         finalists.sort_by_key(Candidate::rank);
         let explanations = self.best(&finalists, ours);
         match explanations.first() {
@@ -291,7 +299,7 @@ impl Search<'_> {
         let placed = self.placements.iter().map(|&placement| {
             let readings = meanings.iter().map(|&nothing| {
                 let encoding = expected.encoding(self.observed, placement, nothing);
-                let score = expected.score(self.observed, placement, &encoding);
+                let score = expected.score_of_hypothesis(self.observed, placement, &encoding);
                 Candidate { convention: Convention { placement, ..convention }, encoding, score }
             });
             readings.min_by_key(Candidate::rank).expect("one meaning of nothing is ours")
@@ -315,7 +323,7 @@ impl Search<'_> {
         let scored = self.observed.meanings_of_nothing().into_iter().flat_map(|nothing| {
             let encoding = expected.encoding(self.observed, placement, nothing);
             let with = |encoding: Encoding| {
-                let score = expected.score(self.observed, placement, &encoding);
+                let score = expected.score_of_hypothesis(self.observed, placement, &encoding);
                 Candidate { convention, encoding, score }
             };
             let own = with(encoding);
@@ -330,7 +338,8 @@ impl Search<'_> {
     }
 
     /// Adds changes to the best of the finalists, and takes back those that explain too little.
-    fn improved(&self, mut finalists: Vec<Candidate>, differing: u64) -> Vec<Candidate> {
+    fn improved(&self, mut finalists: Vec<Candidate>, by_ours: Score) -> Vec<Candidate> {
+        let differing = by_ours.differing;
         let changes = Change::of_rendering(self.view.camera);
         finalists.sort_by_key(Candidate::rank);
         let mut all = finalists.clone();
@@ -374,11 +383,14 @@ impl Search<'_> {
                 best = next;
             }
         }
-        let fewest = all.iter().map(|one| one.score.differing).min().unwrap_or(differing);
-        if fewest * 2 > differing {
+        let possible = |all: &[Candidate]| {
+            let possible = all.iter().filter(|one| one.may_explain(by_ours));
+            possible.min_by_key(|one| one.rank()).copied()
+        };
+        if possible(&all).is_none_or(|best| best.score.differing * 2 > differing) {
             all.extend(self.tie_rules(placed, &changes));
         }
-        let best = all.iter().min_by_key(|one| one.rank()).copied();
+        let best = possible(&all);
         if let Some(best) = best {
             all.extend(self.simplified(best, differing));
         }
@@ -435,10 +447,8 @@ impl Search<'_> {
     fn best(&self, candidates: &[Candidate], ours: Score) -> Vec<Explanation> {
         let differing = ours.differing;
         let parts = |one: &Candidate| parts(&one.convention, &one.encoding);
-        // Our own conventions explain nothing. And where much is missing in a file, what also shows little leaves few pixels: but
-        // what the file shows rightly is not to be wrong then.
-        let may_explain = |one: &&Candidate| parts(one) > 0 && one.score.shown >= ours.shown;
-        let others = || candidates.iter().filter(may_explain);
+        // Our own conventions explain nothing.
+        let others = || candidates.iter().filter(|one| parts(one) > 0 && one.may_explain(ours));
         let fewest = others().map(|one| one.score.differing).min().unwrap_or(differing);
         let good = |one: &&Candidate| as_good(one.score.differing, fewest, differing);
         let simplest = others().filter(good).map(parts).min();

@@ -3,7 +3,7 @@
 use super::convention::{
     Change, Convention, Depth, Edges, Faces, Field, Look, Placement, Rays, Sampling,
 };
-use super::encoding::{DistanceEncoding, Encoding, IdEncoding, NothingEncoding};
+use super::encoding::{DistanceEncoding, Encoding, INFINITELY_FAR, IdEncoding, NothingEncoding};
 use super::search::Explanation;
 use crate::common::{Camera, Projection};
 use crate::wording::readable;
@@ -297,7 +297,7 @@ fn of_distances(encoding: DistanceEncoding) -> Option<String> {
         D::NegativeAlongRay => {
             "holds -t |(x, y, -d)|: change the sign, and divide by the length of the ray's direction".into()
         }
-        D::Window { near, far } if far >= INFINITE => format!(
+        D::Window { near, far: INFINITELY_FAR } => format!(
             "holds OpenGL's window depth for a near plane at {} and none far away: t d = {0} / (1 - depth)",
             digits(near)
         ),
@@ -306,8 +306,8 @@ fn of_distances(encoding: DistanceEncoding) -> Option<String> {
             digits(near),
             digits(far)
         ),
-        D::ReversedWindow { near, far } if far >= INFINITE => format!(
-            "holds {0} / (t d): its reciprocal, times {0}, is t d (or it is reversed window depth, 1 at the near plane {0} and 0 \
+        D::ReversedWindow { near, far: INFINITELY_FAR } => format!(
+            "holds {0} / (t d): {0} divided by it is t d (or it is reversed window depth, 1 at the near plane {0} and 0 \
              infinitely far away)",
             digits(near)
         ),
@@ -320,9 +320,6 @@ fn of_distances(encoding: DistanceEncoding) -> Option<String> {
     };
     Some(words)
 }
-
-/// A far plane at this depth or beyond is none: what is found of it are roundings.
-const INFINITE: f64 = 1e9;
 
 /// A number of three digits, which are certain.
 fn digits(number: f64) -> String {

@@ -254,6 +254,28 @@ fn what_explains_a_third_is_a_guess() {
 }
 
 #[test]
+fn a_pixel_that_is_right_by_accident_hides_no_mistake() {
+    heap(Projection::Perspective, [32, 22], |view| {
+        for faces in [Faces::BackCulled, Faces::FrontCulled] {
+            let planted = Convention::default().with(Change::Faces(faces));
+            let [truth, drawn] =
+                [Convention::default(), planted].map(|one| draw(view, &one, Rows::ALL).ids);
+            let mut ids: Vec<Option<u64>> =
+                drawn.iter().map(|&id| (id != NO_PRIMITIVE).then_some(id.into())).collect();
+            let culled: Vec<usize> = (0..ids.len()).filter(|&at| drawn[at] != truth[at]).collect();
+            assert!(culled.len() > 50);
+            for &at in &[culled[7], culled[40]] {
+                ids[at] = Some(truth[at].into());
+            }
+            let file = Buffer::new(view.camera.image(), 1, Content::Ids(ids));
+            let finding = find_conventions(view, &file).unwrap().finding;
+            let Finding::Explained(found) = &finding else { panic!("{finding:?}") };
+            assert!(found.iter().any(|one| one.convention == planted), "{found:?}");
+        }
+    });
+}
+
+#[test]
 fn what_a_file_shows_rightly_is_not_wrong_by_an_explanation() {
     let loaded = scenes::load("canonical").unwrap();
     with_scene(&loaded, [64, 64], Projection::Perspective, |view| {
@@ -265,16 +287,9 @@ fn what_a_file_shows_rightly_is_not_wrong_by_an_explanation() {
         let shown =
             |(&id, &t): (&u32, &f64)| (id != NO_PRIMITIVE && t >= near).then_some(u64::from(id));
         let ids: Vec<Option<u64>> = truth.ids.iter().zip(&truth.t).map(shown).collect();
-        let covered: Vec<usize> = (0..ids.len()).filter(|&at| ids[at].is_some()).collect();
-        assert!(!covered.is_empty());
+        assert!(ids.iter().any(Option::is_some));
         let clipped = Buffer::new([64, 64], 1, Content::Ids(ids));
-        let Finding::Explained(found) = find_conventions(view, &clipped).unwrap().finding else {
-            return;
-        };
-        for one in found {
-            assert_eq!((one.convention.placement, one.encoding), Default::default(), "{one:?}");
-            let drawn = draw(view, &one.convention, Rows::ALL);
-            assert!(covered.iter().all(|&at| drawn.ids[at] == truth.ids[at]), "{one:?}");
-        }
+        let finding = find_conventions(view, &clipped).unwrap().finding;
+        assert_eq!(finding, Finding::Unexplained);
     });
 }
