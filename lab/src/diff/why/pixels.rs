@@ -7,8 +7,9 @@
 use super::convention::{Convention, Edges};
 use super::distances::SampleDistances;
 use super::draw::{Drawn, Rows, covers, draw};
-use super::encoding::{NothingEncoding, Observed, Values};
+use super::encoding::NothingEncoding;
 use super::near::near_primitives;
+use super::observed::{Observed, Values};
 use super::outline::TriangleOutline;
 use super::rays::ViewingRays;
 use super::reason::{Reason, ReasonKind, TieRules};

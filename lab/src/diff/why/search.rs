@@ -6,7 +6,9 @@
 
 use super::convention::{Change, Convention, Placement};
 use super::draw::{Drawn, Rows, draw, equally_near};
-use super::encoding::{Encoding, Expected, IdEncoding, NothingEncoding, Observed, Score, Values};
+use super::encoding::{Encoding, IdEncoding, NothingEncoding};
+use super::expected::{Expected, Score};
+use super::observed::{Observed, Values};
 use crate::common::View;
 use crate::common::frame::NO_PRIMITIVE;
 use crate::diff::buffer::Buffer;

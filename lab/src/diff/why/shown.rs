@@ -2,7 +2,8 @@
 
 use super::distances::SampleDistances;
 use super::draw::Drawn;
-use super::encoding::{NothingEncoding, Observed, Values};
+use super::encoding::NothingEncoding;
+use super::observed::{Observed, Values};
 use super::outline::TriangleOutline;
 use super::rays::ViewingRays;
 use crate::common::frame::NO_PRIMITIVE;

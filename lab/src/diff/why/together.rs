@@ -6,7 +6,9 @@
 
 use super::convention::{Change, Convention, Placement, Rays};
 use super::draw::{Rows, draw};
-use super::encoding::{Encoding, Expected, NothingEncoding, Observed, Values};
+use super::encoding::{Encoding, NothingEncoding};
+use super::expected::Expected;
+use super::observed::{Observed, Values};
 use super::sentence::of_renderer;
 use crate::common::{Camera, Projection, View};
 use crate::diff::buffer::Buffer;
@@ -55,7 +57,7 @@ impl CommonExplanation {
 /// Pictures that hold colours alone or several samples a pixel agree with nothing.
 pub fn find_common_conventions(renderings: &[Rendering]) -> Vec<CommonExplanation> {
     let shown: Vec<_> = renderings.iter().map(|one| Observed::of(one.file)).collect();
-    let search = Search { renderings, writes_ours: writes_ours(&shown), shown };
+    let search = Search { renderings, meanings: meanings_of_nothing(&shown), shown };
     let ours = search.held_to(&Hypothesis::default(), Placement::Upright, &Encodings::default());
     let mut found = search.by_single_and_pair();
     for _ in 0..MOST_ADDED {
@@ -160,18 +162,25 @@ struct Search<'a> {
     renderings: &'a [Rendering<'a>],
     /// The files as the search reads them; `None` if it cannot.
     shown: Vec<Option<Observed>>,
-    /// The kinds of files that have our number of nothing somewhere: then this is what the renderer writes for nothing, also
-    /// where another file shows a number everywhere.
-    writes_ours: [bool; 3],
+    /// What may stand for nothing in each of them.
+    meanings: Vec<Vec<NothingEncoding>>,
 }
 
-/// Whether files of each kind have our number of nothing. One in thirty-two may have it by accident: a NaN of the renderer.
-fn writes_ours(shown: &[Option<Observed>]) -> [bool; 3] {
-    let mut counts = [0; 3];
+/// What may stand for nothing in each file. Where files of a kind have our number of nothing, the renderer writes it, also where
+/// another of them shows a number everywhere. One file in thirty-two may have it by accident: a NaN of the renderer.
+fn meanings_of_nothing(shown: &[Option<Observed>]) -> Vec<Vec<NothingEncoding>> {
+    let mut with_ours = [0; 3];
     for one in shown.iter().flatten().filter(|one| one.has_our_nothing()) {
-        counts[kind(&one.values)] += 1;
+        with_ours[kind(&one.values)] += 1;
     }
-    counts.map(|count| count > shown.len() / 32)
+    let meanings = |one: &Observed| {
+        let mut meanings = one.meanings_of_nothing();
+        if with_ours[kind(&one.values)] > shown.len() / 32 {
+            meanings.retain(|meaning| !matches!(meaning, NothingEncoding::Number(_)));
+        }
+        meanings
+    };
+    shown.iter().map(|one| one.as_ref().map_or_else(Vec::new, meanings)).collect()
 }
 
 impl<'a> Search<'a> {
@@ -259,12 +268,7 @@ impl<'a> Search<'a> {
                     fit.differing += drawn.ids.len() as u64;
                     continue;
                 }
-                let is_possible = |nothing: &NothingEncoding| {
-                    !(matches!(nothing, NothingEncoding::Number(_))
-                        && self.writes_ours[kind(&shown.values)])
-                };
-                let meanings = shown.meanings_of_nothing().into_iter().filter(is_possible);
-                let readings = meanings.map(|nothing| {
+                let readings = self.meanings[index].iter().map(|&nothing| {
                     let encoding = expected.encoding(shown, *placement, nothing);
                     let score = expected.score_of_hypothesis(shown, *placement, &encoding);
                     (score.differing, encoding)
