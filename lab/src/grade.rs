@@ -112,7 +112,7 @@ pub enum GradeError {
 ///
 /// If the file has another size than the camera's image, several samples a pixel, or colours alone.
 pub fn grade(view: &View, file: &Buffer) -> Result<Grade, GradeError> {
-    check_size(view, file)?;
+    check_size(view, file).map_err(with_advice)?;
     if file.samples() != 1 {
         let samples = file.samples();
         return Err(GradeError::Content(format!(
@@ -142,6 +142,14 @@ pub fn grade(view: &View, file: &Buffer) -> Result<Grade, GradeError> {
         };
     }
     Ok(grade)
+}
+
+/// Another size, with what to do if nothing explains it.
+fn with_advice(error: OtherSize) -> OtherSize {
+    if !error.cause.is_empty() {
+        return error;
+    }
+    OtherSize { cause: "; give --size as the file has it".into(), ..error }
 }
 
 /// Explains the wrong pixels of a file.
@@ -188,6 +196,7 @@ fn explain(
                 guesses.iter().map(|one| one.sentences("it", view.camera)).collect();
             format!("a guess: {}", alternatives(&guesses))
         }
+        (_, Finding::Unexplained(Some(place))) => format!("{}; {place}", in_words(&counts)),
         _ => in_words(&counts),
     };
 }

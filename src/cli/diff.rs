@@ -157,6 +157,7 @@ impl FileReport<'_> {
         self.largest(&mut text);
         self.first(&mut text);
         text += &match self.why {
+            Some(why) if why.explains_nothing() => why.text() + &hints(&self.comparison.hints),
             Some(why) => why.text(),
             None => hints(&self.comparison.hints),
         };

@@ -178,19 +178,40 @@ fn arrays<T: npyz::AutoSerialize + Copy>(draw: impl Fn(&Vector) -> Vec<T>) -> Te
 }
 
 #[test]
-fn distances_in_another_unit_are_no_number_of_nothing() {
+fn distances_in_another_unit_are_named_as_such() {
     let far = |vector: &Vector, map: fn(f64) -> f64| {
         let frame = frame(vector, vector.camera, None);
         frame.distances().iter().map(|&t| map(f64::from(t))).collect::<Vec<f64>>()
     };
-    for map in [|t| 2.0 * t, |t| 3.0 * t, |t| t + 1.0] {
+    type Map = fn(f64) -> f64;
+    let units: [(Map, &str); 3] = [
+        (|t| 2.0 * t, "it holds 2 t"),
+        (|t| 3.0 * t, "it holds 3 t"),
+        (|t| t + 1.0, "it holds t + 1"),
+    ];
+    for (map, expected) in units {
         let checked = checked(&arrays(|vector| far(vector, map)));
         assert!(!checked.passes());
-        for cause in &checked.causes {
-            let of_nothing = |one: &String| one.contains("for nothing");
-            assert!(!cause.alternatives.iter().flatten().any(of_nothing), "{cause:?}");
-            assert_ne!(cause.certainty, Certainty::Convention, "{cause:?}");
-        }
+        let (sentences, _) = only_convention(&checked);
+        assert!(
+            sentences.len() == 1 && sentences[0].starts_with(&format!("{expected}:")),
+            "{sentences:?}"
+        );
+    }
+}
+
+#[test]
+fn distances_in_no_unit_are_no_number_of_nothing() {
+    let squared = |vector: &Vector| {
+        let frame = frame(vector, vector.camera, None);
+        frame.distances().iter().map(|&t| f64::from(t).powi(2)).collect::<Vec<f64>>()
+    };
+    let checked = checked(&arrays(squared));
+    assert!(!checked.passes());
+    for cause in &checked.causes {
+        let of_nothing = |one: &String| one.contains("for nothing");
+        assert!(!cause.alternatives.iter().flatten().any(of_nothing), "{cause:?}");
+        assert_ne!(cause.certainty, Certainty::Convention, "{cause:?}");
     }
 }
 

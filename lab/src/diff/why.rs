@@ -13,6 +13,7 @@ mod near;
 mod observed;
 mod outline;
 mod pixels;
+mod place;
 mod rays;
 mod reason;
 mod renaming;
@@ -21,10 +22,12 @@ mod search;
 mod sentence;
 mod shown;
 mod size;
+mod suggestions;
 mod together;
 
 pub use convention::{
-    Change, Convention, Depth, Edges, Faces, Field, Look, Placement, Rays, Sampling,
+    Between, Change, Convention, Depth, Edges, Faces, Field, Look, NearPlane, Omission, Placement,
+    Rays, Sampling,
 };
 pub use encoding::{DistanceEncoding, Encoding, IdEncoding, NothingEncoding};
 pub use pixels::{PixelReason, ReasonError, Reasons, Wrong, find_reasons, find_reasons_of_samples};

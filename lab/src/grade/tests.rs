@@ -95,7 +95,10 @@ fn other_sizes_have_no_grade_and_perhaps_a_cause() {
     assert!(error.contains("40 x 60") && error.contains("rows and columns exchanged"), "{error}");
     let error = of([61, 40], vec![None; 61 * 40]);
     assert!(error.contains("a loop that includes its end"), "{error}");
-    assert!(of([10, 10], vec![None; 100]).ends_with("and the scene 60 x 40"));
+    assert!(
+        of([10, 10], vec![None; 100])
+            .ends_with("and the scene 60 x 40; give --size as the file has it")
+    );
 }
 
 #[test]

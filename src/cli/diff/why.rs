@@ -133,6 +133,14 @@ impl<'a> Why<'a> {
         text
     }
 
+    /// Whether the scene explains neither file: what both look like beside each other may say more.
+    pub(super) fn explains_nothing(&self) -> bool {
+        let explains = |found: &Findings| {
+            matches!(found.finding, Finding::Explained(_) | Finding::NoEvidence(_))
+        };
+        !self.conventions.iter().flatten().any(explains)
+    }
+
     /// The pixel of a sample.
     fn pixel_of(&self, sample: [u32; 2]) -> [u32; 2] {
         sample.map(|number| number / self.samples)
@@ -195,12 +203,15 @@ impl<'a> Why<'a> {
             Finding::NoEvidence(reason) => {
                 line(text, format_args!("{name} says nothing about conventions: {reason}"));
             }
-            Finding::Unexplained => line(
-                text,
-                format_args!(
-                    "{name} is wrong in {wrong}, and no convention that is known here explains a tenth of them"
-                ),
-            ),
+            Finding::Unexplained(place) => {
+                let place = place.as_ref().map_or(String::new(), |place| format!("; {place}"));
+                line(
+                    text,
+                    format_args!(
+                        "{name} is wrong in {wrong}, and no convention that is known here explains a quarter of them{place}"
+                    ),
+                );
+            }
             Finding::Explained(explanations) => {
                 self.explanations(name, *differing, explanations, text);
             }
@@ -376,7 +387,9 @@ impl<'a> Why<'a> {
                 Finding::NoEvidence(reason) => {
                     (Some(*differing), "no_evidence", Some(reason.clone()), &[][..])
                 }
-                Finding::Unexplained => (Some(*differing), "unexplained", None, &[][..]),
+                Finding::Unexplained(place) => {
+                    (Some(*differing), "unexplained", place.clone(), &[][..])
+                }
                 Finding::Explained(found) => {
                     let guess = found[0].is_a_guess(*differing);
                     (Some(*differing), if guess { "guess" } else { "explained" }, None, &found[..])

@@ -3,10 +3,21 @@
 //! Each is an axis of its own, and our choice is the first on every axis. A [`Change`] is another choice on one axis: a
 //! hypothesis about a renderer. Hypotheses on different axes combine.
 
+mod field;
+mod omission;
+mod placement;
+mod sampling;
+
+pub use field::Field;
+pub use omission::{Between, NearPlane, Omission};
+pub use placement::Placement;
+pub use sampling::Sampling;
+
 use crate::common::{Camera, Projection};
+use field::fields;
 
 /// One choice on every axis. The default is ours.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Convention {
     /// The place of a pixel in the file.
     pub placement: Placement,
@@ -26,175 +37,12 @@ pub struct Convention {
     pub faces: Faces,
     /// The choice among the primitives at one sample.
     pub depth: Depth,
-}
-
-/// The place of a pixel in the file.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Placement {
-    /// Rows from the top, columns from the left.
-    #[default]
-    Upright,
-    /// Rows from the bottom.
-    UpsideDown,
-    /// Columns from the right.
-    LeftToRight,
-    /// Rows from the bottom and columns from the right.
-    HalfTurn,
-    /// Rows are columns.
-    Transposed,
-    /// A quarter turn to the left.
-    TurnedLeft,
-    /// A quarter turn to the right.
-    TurnedRight,
-    /// Rows are columns, both counted from the other end.
-    OtherDiagonal,
-}
-
-impl Placement {
-    /// All placements, ours first.
-    pub const ALL: [Placement; 8] = [
-        Placement::Upright,
-        Placement::UpsideDown,
-        Placement::LeftToRight,
-        Placement::HalfTurn,
-        Placement::Transposed,
-        Placement::TurnedLeft,
-        Placement::TurnedRight,
-        Placement::OtherDiagonal,
-    ];
-
-    /// Whether the file has as many rows as the picture has columns.
-    pub fn swaps_sides(self) -> bool {
-        use Placement::{OtherDiagonal, Transposed, TurnedLeft, TurnedRight};
-        matches!(self, Transposed | TurnedLeft | TurnedRight | OtherDiagonal)
-    }
-
-    /// The pixel of the picture that lies at `(i, j)` of the file; `[width, height]` is the size of the picture.
-    pub fn pixel(self, [i, j]: [usize; 2], [width, height]: [usize; 2]) -> [usize; 2] {
-        match self {
-            Placement::Upright => [i, j],
-            Placement::UpsideDown => [height - 1 - i, j],
-            Placement::LeftToRight => [i, width - 1 - j],
-            Placement::HalfTurn => [height - 1 - i, width - 1 - j],
-            Placement::Transposed => [j, i],
-            Placement::TurnedLeft => [j, width - 1 - i],
-            Placement::TurnedRight => [height - 1 - j, i],
-            Placement::OtherDiagonal => [height - 1 - j, width - 1 - i],
-        }
-    }
-}
-
-/// The coordinate on the viewport of the `j`-th of `n` columns or rows: `((j + offset)/(n − fewer) − ½)` of the side.
-///
-/// A pinhole camera with a principal point `c` and pixel centres at `j + s` has `(j + s − c)/n`. With `s = 0`, which is the
-/// integer grid, the middle is `c = (n − 1)/2`, and `c = n/2` is [`Corner`](Sampling::Corner); with `s = ½` it is
-/// `c = n/2`, and `c = (n − 1)/2` is [`FarCorner`](Sampling::FarCorner). No picture tells these from each other.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Sampling {
-    /// `(j + ½)/n`: the middle of the pixel.
-    #[default]
-    Middle,
-    /// `j/n`: the left or top edge of the pixel.
-    Corner,
-    /// `(j + 1)/n`: the right or bottom edge of the pixel.
-    FarCorner,
-    /// `j/(n − 1)`: the first and the last sample lie on the border of the viewport.
-    BorderToBorder,
-    /// `(j + ½)/(n − 1)`.
-    OneFewer,
-    /// `(j − ½)/n`: the middle of the pixel before.
-    PixelBefore,
-    /// `(j + 3/2)/n`: the middle of the next pixel.
-    PixelAfter,
-}
-
-impl Sampling {
-    /// All ways of sampling, ours first.
-    pub const ALL: [Sampling; 7] = [
-        Sampling::Middle,
-        Sampling::Corner,
-        Sampling::FarCorner,
-        Sampling::BorderToBorder,
-        Sampling::OneFewer,
-        Sampling::PixelBefore,
-        Sampling::PixelAfter,
-    ];
-
-    /// Twice the offset, and the number by which the divisor is smaller than `n`.
-    fn numbers(self) -> (i64, i64) {
-        match self {
-            Sampling::Middle => (1, 0),
-            Sampling::Corner => (0, 0),
-            Sampling::FarCorner => (2, 0),
-            Sampling::BorderToBorder => (0, 1),
-            Sampling::OneFewer => (1, 1),
-            Sampling::PixelBefore => (-1, 0),
-            Sampling::PixelAfter => (3, 0),
-        }
-    }
-
-    /// Whether `n` columns or rows can be sampled in this way.
-    pub fn is_possible(self, n: u32) -> bool {
-        i64::from(n) > self.numbers().1
-    }
-
-    /// The coordinate of column or row `index` of `n` on a side of length 1, from −½ to ½. For [`Sampling::Middle`]
-    /// it has the bits of the contract: `(2j + 1 − n)/(2n)`.
-    #[expect(clippy::cast_precision_loss, reason = "whole numbers below 2^18")]
-    pub fn coordinate(self, side: f64, index: u32, n: u32) -> f64 {
-        let (twice_offset, fewer) = self.numbers();
-        let divisor = i64::from(n) - fewer;
-        let numerator = 2 * i64::from(index) + twice_offset - divisor;
-        side * numerator as f64 / (2 * divisor) as f64
-    }
-}
-
-/// The size of the viewport.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Field {
-    /// The camera's `vw` and `vh`.
-    #[default]
-    AsStated,
-    /// `vh` is taken for the width, and the height follows from the form of the image.
-    VerticalAsHorizontal,
-    /// `vw` is taken for the height, and the width follows from the form of the image.
-    HorizontalAsVertical,
-    /// The width is `vh`: the form of the image is left out.
-    AspectLeftOut,
-    /// The width is `vh·H/W` for `vh·W/H`.
-    AspectInverted,
-    /// Both sides are twice as long: a half side or half angle is taken for a whole one, or the other way round.
-    Double,
-    /// Both sides are half as long.
-    Half,
-}
-
-impl Field {
-    /// All fields, ours first.
-    pub const ALL: [Field; 7] = [
-        Field::AsStated,
-        Field::VerticalAsHorizontal,
-        Field::HorizontalAsVertical,
-        Field::AspectLeftOut,
-        Field::AspectInverted,
-        Field::Double,
-        Field::Half,
-    ];
-
-    /// Width and height of the viewport.
-    pub fn viewport(self, camera: &Camera) -> [f64; 2] {
-        let [vw, vh] = camera.viewport();
-        let [width, height] = camera.image().map(f64::from);
-        match self {
-            Field::AsStated => [vw, vh],
-            Field::VerticalAsHorizontal => [vh, vh * height / width],
-            Field::HorizontalAsVertical => [vw * width / height, vw],
-            Field::AspectLeftOut => [vh, vh],
-            Field::AspectInverted => [vh * height / width, vh],
-            Field::Double => [2.0 * vw, 2.0 * vh],
-            Field::Half => [vw / 2.0, vh / 2.0],
-        }
-    }
+    /// Where a near plane clips; `None` for all before the eye.
+    pub near: Option<NearPlane>,
+    /// The distances `t` between which the farthest hit ends to be seen; `None` for no end.
+    pub far: Option<Between>,
+    /// What is not drawn at all.
+    pub omission: Omission,
 }
 
 /// The direction of view.
@@ -281,7 +129,7 @@ pub enum Depth {
 }
 
 /// Another choice on one axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Change {
     /// Another placement.
     Placement(Placement),
@@ -301,10 +149,17 @@ pub enum Change {
     Faces(Faces),
     /// Another choice by distance.
     Depth(Depth),
+    /// A near plane.
+    Near(NearPlane),
+    /// A far plane.
+    Far(Between),
+    /// Something that is not drawn.
+    Omission(Omission),
 }
 
 impl Change {
-    /// All changes that a renderer of this camera can make, and that change its picture, without those of placement.
+    /// All changes that a renderer of this camera can make, and that change its picture, without those of placement and
+    /// those that only a picture suggests: planes and omissions.
     pub fn of_rendering(camera: &Camera) -> Vec<Change> {
         let [width, height] = camera.image();
         let sampled = |n: u32, change: fn(Sampling) -> Change| {
@@ -340,7 +195,26 @@ impl Change {
             Change::Edges(_) => 6,
             Change::Faces(_) => 7,
             Change::Depth(_) => 8,
+            Change::Near(_) => 9,
+            Change::Far(_) => 10,
+            Change::Omission(_) => 11,
         }
+    }
+
+    /// Whether both are tried together from the start: they lie on different axes, and neither is so rare that it is only tried
+    /// alone, or beside what explains much.
+    pub fn is_paired_with(self, other: Change) -> bool {
+        let is_rare = |change: Change| match change {
+            Change::Field(field) => field.is_rare(),
+            Change::Columns(sampling) | Change::Rows(sampling) => sampling == Sampling::OneMore,
+            _ => false,
+        };
+        self.axis() != other.axis() && !is_rare(self) && !is_rare(other)
+    }
+
+    /// Whether it has a number that only a picture suggests: it fits a part of any picture.
+    pub(super) fn has_own_number(self) -> bool {
+        matches!(self, Change::Near(_) | Change::Far(_) | Change::Omission(_))
     }
 
     /// Whether the change moves much of the picture, rather than a few samples that lie exactly on edges or at equal
@@ -348,24 +222,6 @@ impl Change {
     pub fn is_coarse(self) -> bool {
         !matches!(self, Change::Edges(_) | Change::Depth(Depth::FirstOfEqual | Depth::LastOfEqual))
     }
-}
-
-/// The fields that differ from the stated viewport, each size once.
-fn fields(camera: &Camera) -> Vec<Field> {
-    let mut sizes = vec![Field::AsStated.viewport(camera)];
-    let mut fields = Vec::new();
-    for field in Field::ALL.into_iter().skip(1) {
-        let size = field.viewport(camera);
-        let same = |other: &[f64; 2]| {
-            // A viewport in `f32` that was made for the form of the image.
-            other.iter().zip(size).all(|(one, other)| (one / other - 1.0).abs() < 1e-6)
-        };
-        if !sizes.iter().any(same) {
-            sizes.push(size);
-            fields.push(field);
-        }
-    }
-    fields
 }
 
 impl Convention {
@@ -381,6 +237,9 @@ impl Convention {
             Change::Edges(edges) => Convention { edges, ..self },
             Change::Faces(faces) => Convention { faces, ..self },
             Change::Depth(depth) => Convention { depth, ..self },
+            Change::Near(plane) => Convention { near: Some(plane), ..self },
+            Change::Far(between) => Convention { far: Some(between), ..self },
+            Change::Omission(omission) => Convention { omission, ..self },
         }
     }
 
@@ -397,8 +256,16 @@ impl Convention {
             Change::Edges(self.edges),
             Change::Faces(self.faces),
             Change::Depth(self.depth),
+            Change::Omission(self.omission),
         ];
-        all.into_iter().filter(|&change| ours.with(change) != ours).collect()
+        let planes = [self.near.map(Change::Near), self.far.map(Change::Far)];
+        let all = all.into_iter().chain(planes.into_iter().flatten());
+        all.filter(|&change| ours.with(change) != ours).collect()
+    }
+
+    /// Whether it has a change on this axis.
+    pub(super) fn has(&self, axis: usize) -> bool {
+        self.changes().into_iter().any(|change| change.axis() == axis)
     }
 
     /// The convention without one of its changes.
@@ -413,66 +280,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn our_sampling_has_the_bits_of_the_camera() {
-        let camera = Camera::canonical(3, 37);
-        let x: Vec<f64> =
-            (0..37).map(|j| Sampling::Middle.coordinate(camera.viewport()[0], j, 37)).collect();
-        assert_eq!(x, camera.sample_grid(1).x());
-    }
-
-    #[test]
-    fn the_ways_of_sampling_are_the_formulas_of_their_names() {
-        let at = |sampling: Sampling| [0, 4].map(|j| sampling.coordinate(10.0, j, 5) + 5.0);
-        let expected = [[1.0, 9.0], [0.0, 8.0], [2.0, 10.0], [0.0, 10.0], [1.25, 11.25]];
-        for (sampling, expected) in Sampling::ALL.into_iter().zip(expected) {
-            assert_eq!(at(sampling), expected, "{sampling:?}");
-        }
-        assert_eq!(at(Sampling::PixelBefore), [-1.0, 7.0]);
-        assert_eq!(at(Sampling::PixelAfter), [3.0, 11.0]);
-        assert!(!Sampling::BorderToBorder.is_possible(1));
-    }
-
-    #[test]
-    fn a_principal_point_off_by_half_a_pixel_samples_corners() {
-        for n in [1_u32, 4, 7, 640] {
-            let (n_real, side) = (f64::from(n), 3.0);
-            let [of_grid, of_centres] = [(n_real - 1.0) / 2.0, n_real / 2.0];
-            for (sampling, centre, point) in [
-                (Sampling::Middle, 0.0, of_grid),
-                (Sampling::Corner, 0.0, of_centres),
-                (Sampling::Middle, 0.5, of_centres),
-                (Sampling::FarCorner, 0.5, of_grid),
-            ] {
-                for index in 0..n {
-                    // All but the quotient is exact.
-                    let expected =
-                        side * (2.0 * (f64::from(index) + centre - point)) / (2.0 * n_real);
-                    assert_eq!(sampling.coordinate(side, index, n), expected, "{sampling:?}");
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn every_placement_reaches_every_pixel_once() {
-        let size @ [width, height] = [3, 2];
-        for placement in Placement::ALL {
-            let [columns, rows] =
-                if placement.swaps_sides() { [height, width] } else { [width, height] };
-            let mut seen = vec![0; 6];
-            for (i, j) in (0..rows).flat_map(|i| (0..columns).map(move |j| (i, j))) {
-                let [i, j] = placement.pixel([i, j], size);
-                seen[i * width + j] += 1;
-            }
-            assert_eq!(seen, [1; 6], "{placement:?}");
-        }
-    }
-
-    #[test]
     fn a_square_picture_with_a_square_viewport_has_no_form_to_confuse() {
         let changes = Change::of_rendering(&Camera::canonical(8, 8));
-        let fields: Vec<_> = changes.iter().filter(|change| change.axis() == 3).collect();
-        assert_eq!(fields, [&Change::Field(Field::Double), &Change::Field(Field::Half)]);
+        let fields = changes.iter().filter_map(|change| match change {
+            Change::Field(field) => Some(*field),
+            _ => None,
+        });
+        use Field::{Double, DoubleHeight, DoubleWidth, Half, HalfHeight, HalfWidth};
+        let sizes = [Double, Half, HalfWidth, HalfHeight, DoubleWidth, DoubleHeight];
+        assert_eq!(fields.collect::<Vec<_>>(), sizes);
     }
 
     #[test]

@@ -72,8 +72,11 @@ pub(super) fn draw(view: &View, convention: &Convention, rows: Rows) -> Drawn {
         },
         errors: vec![0.0; count],
     };
+    let omitted = convention.omission.ids();
     for (id, primitive) in (0..).zip(view.primitives().map(|(_, primitive)| primitive)) {
-        canvas.add(id, &primitive);
+        if omitted.as_ref().is_none_or(|ids| !ids.contains(&id)) {
+            canvas.add(id, &primitive);
+        }
     }
     if canvas.rays.are_one() {
         canvas.drawn.repeat_first();
@@ -274,8 +277,11 @@ impl Canvas<'_> {
             return Rounded::Uncertain;
         }
         let root = discriminant.sqrt();
-        let t = if c < 0.0 { b + root } else { b - root } / a;
-        if t < 0.0 { Rounded::Outside } else { Rounded::Inside(t, t * 1e-9) }
+        let near = self.convention.near.map_or(0.0, |plane| plane.at.middle());
+        let shows_other_side = self.convention.near.is_some_and(|plane| !plane.hides_spheres);
+        let [first, second] = [b - root, b + root].map(|numerator| numerator / a);
+        let t = if c < 0.0 || (first < near && shows_other_side) { second } else { first };
+        if t < near { Rounded::Outside } else { Rounded::Inside(t, t * 1e-9) }
     }
 
     /// Keeps a primitive at a pixel, if it covers the sample and its depth wins.
@@ -294,6 +300,12 @@ impl Canvas<'_> {
                 (t, t * 1e-9)
             }
         };
+        let Convention { near, far, .. } = self.convention;
+        let is_beyond_a_plane = near.is_some_and(|near| t < near.at.middle())
+            || far.is_some_and(|far| t > far.middle());
+        if is_beyond_a_plane {
+            return;
+        }
         let pixel = index * self.drawn.width + column;
         if self.wins(id, primitive, (t, error), pixel, at) {
             self.drawn.ids[pixel] = id;

@@ -1,5 +1,7 @@
 //! What the numbers of a file stand for: ids from 1, depths along the axis, 0 for nothing, ….
 
+use crate::diff::tolerance::DEPTH_TOLERANCE;
+
 /// What the numbers of a file stand for. The default is ours.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Encoding {
@@ -58,6 +60,13 @@ pub enum DistanceEncoding {
     NegativeAlongAxis,
     /// `−t·|(x, y, −d)|`.
     NegativeAlongRay,
+    /// `factor·t + offset`.
+    Linear {
+        /// What `t` is multiplied by.
+        factor: f64,
+        /// What is added.
+        offset: f64,
+    },
     /// The window depth of OpenGL, from 0 at the near plane to 1 at the far plane.
     Window {
         /// Depth of the near plane along the axis.
@@ -115,6 +124,30 @@ pub(super) fn window([z0, w0]: [f64; 2], [z1, w1]: [f64; 2]) -> Option<DistanceE
     } else {
         None
     }
+}
+
+/// The linear function that takes the first and the last of three distances to their numbers, if it also takes the one in the
+/// middle to its own: two distances alone are on a line in any file.
+pub(super) fn linear(points: [[f64; 2]; 3]) -> Option<DistanceEncoding> {
+    let [[t0, n0], [t1, n1], [t2, n2]] = points;
+    let close = |one: f64, other: f64| {
+        (one - other).abs() <= 4.0 * DEPTH_TOLERANCE * one.abs().max(other.abs())
+    };
+    let is_apart = |one: f64, other: f64| (one - other).abs() > 0.01 * one.abs().max(other.abs());
+    if !is_apart(t0, t1) || !is_apart(t1, t2) {
+        return None;
+    }
+    let slope = (n2 - n0) / (t2 - t0);
+    let factor = if close(slope, 1.0) { 1.0 } else { slope };
+    let rest = n0 - factor * t0;
+    // What rounding leaves of no offset.
+    let offset = if rest.abs() <= 1e-5 * n0.abs().max(n2.abs()) { 0.0 } else { rest };
+    let holds = [[t0, n0], [t1, n1], [t2, n2]]
+        .into_iter()
+        .all(|[t, number]| close(factor * t + offset, number));
+    let is_ours = factor == 1.0 && offset == 0.0;
+    (holds && factor != 0.0 && factor.is_finite() && !is_ours)
+        .then_some(DistanceEncoding::Linear { factor, offset })
 }
 
 #[cfg(test)]

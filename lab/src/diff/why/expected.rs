@@ -2,7 +2,7 @@
 
 use super::convention::{Convention, Placement};
 use super::draw::Drawn;
-use super::encoding::{DistanceEncoding, Encoding, IdEncoding, NothingEncoding, window};
+use super::encoding::{DistanceEncoding, Encoding, IdEncoding, NothingEncoding, linear, window};
 use super::observed::{Observed, Values};
 use super::rays::ViewingRays;
 use super::renaming::Renaming;
@@ -113,8 +113,24 @@ impl<'a> Expected<'a> {
             let [z0, z1] = [nearest, farthest].map(depth);
             let [w0, w1] = [nearest, farthest].map(|probe| t[probe.index]);
             encodings.extend(window([z0, w0], [z1, w1]));
+            encodings.extend(self.linear_encoding(t, probes, [nearest, farthest]));
         }
         encodings
+    }
+
+    /// A linear function of `t`, by the nearest and the farthest probe and the one that is nearest to the middle of both.
+    fn linear_encoding(
+        &self,
+        t: &[f64],
+        probes: &[Probe],
+        ends: [&Probe; 2],
+    ) -> Option<DistanceEncoding> {
+        let distance = |probe: &Probe| self.number(probe, DistanceEncoding::T);
+        let middle = f64::midpoint(distance(ends[0]), distance(ends[1]));
+        let off = |probe: &Probe| (distance(probe) - middle).abs();
+        let between = probes.iter().min_by(|a, b| off(a).total_cmp(&off(b)))?;
+        let point = |probe: &Probe| [distance(probe), t[probe.index]];
+        linear([ends[0], between, ends[1]].map(point))
     }
 
     /// The number that an encoding writes for the distance at a probe.
@@ -129,6 +145,7 @@ impl<'a> Expected<'a> {
             DistanceEncoding::NegativeT => -t,
             DistanceEncoding::NegativeAlongAxis => -axis(),
             DistanceEncoding::NegativeAlongRay => -ray(),
+            DistanceEncoding::Linear { factor, offset } => factor * t + offset,
             DistanceEncoding::Window { near, far } => far / (far - near) * (1.0 - near / axis()),
             DistanceEncoding::ReversedWindow { near, far } => {
                 1.0 - far / (far - near) * (1.0 - near / axis())
@@ -283,6 +300,7 @@ impl IndexMap {
             Placement::TurnedLeft => ([w - 1, 0, -1], [0, 1, 0]),
             Placement::TurnedRight => ([0, 0, 1], [h - 1, -1, 0]),
             Placement::OtherDiagonal => ([w - 1, 0, -1], [h - 1, -1, 0]),
+            Placement::ByColumns => return IndexMap { base: 0, per_row: 1, per_column: h },
         };
         let stride = if placement.swaps_sides() { h } else { w };
         let [base, per_row, per_column] = [0, 1, 2].map(|part| row[part] * stride + column[part]);

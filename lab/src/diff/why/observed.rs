@@ -1,6 +1,8 @@
 //! A file as the search for conventions reads it.
 
+use super::convention::Placement;
 use super::encoding::NothingEncoding;
+use crate::common::Camera;
 use crate::diff::buffer::{Buffer, Content};
 use std::collections::HashMap;
 
@@ -54,6 +56,13 @@ impl Observed {
             }
             (Values::Distances(t), _) => t[index].is_finite(),
         }
+    }
+
+    /// Whether it can be a picture of a camera, placed so.
+    pub(super) fn fits(&self, placement: Placement, camera: &Camera) -> bool {
+        let image = camera.image();
+        let side = |side: usize| u32::try_from(side).expect("at most 2^16");
+        placement.fits(self.size.map(side), image)
     }
 
     /// How many pixels are covered.

@@ -176,7 +176,7 @@ impl ReasonKind {
             ReasonKind::Culled => "culled face",
             ReasonKind::Clipped => "clipped near or behind the eye",
             ReasonKind::Tessellation => "sphere against its mesh",
-            ReasonKind::Elsewhere => "sampled elsewhere in the pixel",
+            ReasonKind::Elsewhere => "within a pixel of an outline",
             ReasonKind::Convention => "conventions, see below",
             ReasonKind::WithinTolerance => "both right within tolerance",
             ReasonKind::CannotTell => "cannot tell from these files",

@@ -9,10 +9,13 @@ use super::draw::{Drawn, Rows, draw, equally_near};
 use super::encoding::{Encoding, IdEncoding, NothingEncoding};
 use super::expected::{Expected, Score};
 use super::observed::{Observed, Values};
+use super::place::common_place;
+use super::suggestions::Differences;
 use crate::common::View;
 use crate::common::frame::NO_PRIMITIVE;
 use crate::diff::buffer::Buffer;
 use rayon::prelude::*;
+use std::borrow::Cow;
 use std::collections::HashSet;
 
 /// What a search found.
@@ -35,8 +38,9 @@ pub enum Finding {
     NoEvidence(String),
     /// These conventions explain pixels; all of them explain the same number.
     Explained(Vec<Explanation>),
-    /// No convention explains as much as a tenth of the pixels.
-    Unexplained,
+    /// No convention explains as much as a quarter of the pixels. What all of them show or should show, as a sentence, if that is
+    /// one thing.
+    Unexplained(Option<String>),
 }
 
 /// Conventions that explain differing pixels.
@@ -98,16 +102,14 @@ pub enum SearchError {
 /// rows and columns exchanged.
 pub fn find_conventions(view: &View, file: &Buffer) -> Result<Findings, SearchError> {
     let observed = Observed::of(file).ok_or(SearchError::Kind)?;
-    let [width, height] = view.camera.image();
-    let placements: Vec<Placement> = Placement::ALL
-        .into_iter()
-        .filter(|placement| {
-            let size = if placement.swaps_sides() { [height, width] } else { [width, height] };
-            size == file.size()
-        })
-        .collect();
+    let image @ [width, height] = view.camera.image();
+    // In a square picture two placements are one.
+    let is_known = |placement: &Placement| *placement == Placement::ByColumns && width == height;
+    let all = Placement::ALL.into_iter().filter(|placement| !is_known(placement));
+    let placements: Vec<Placement> =
+        all.filter(|placement| placement.fits(file.size(), image)).collect();
     if placements.is_empty() {
-        return Err(SearchError::Size { file: file.size(), camera: [width, height] });
+        return Err(SearchError::Size { file: file.size(), camera: image });
     }
     let truth = draw(view, &Convention::default(), Rows::ALL);
     let pixels = u64::from(width) * u64::from(height);
@@ -158,10 +160,13 @@ impl Candidate {
 
     /// Whether nearly all stays right that the file shows rightly by our conventions. Where much is missing in a file,
     /// a picture that shows little leaves few pixels, too, and explains nothing. A few pixels may be right by accident.
+    /// What has numbers of its own must explain nearly all: it fits a part of anything.
     fn may_explain(&self, ours: Score) -> bool {
         let lost = ours.shown.saturating_sub(self.score.shown);
         let explained = ours.differing.saturating_sub(self.score.differing);
-        10 * lost <= explained
+        let mut changes = self.convention.changes().into_iter();
+        let fits = !changes.any(Change::has_own_number) || 10 * explained >= 9 * ours.differing;
+        fits && 10 * lost <= explained
     }
 }
 
@@ -194,9 +199,15 @@ impl Search<'_> {
         finalists.sort_by_key(Candidate::rank);
         let explanations = self.best(&finalists, ours);
         match explanations.first() {
-            Some(best) if best.explained * 10 >= differing => Finding::Explained(explanations),
-            _ => Finding::Unexplained,
+            Some(best) if best.explained * 4 >= differing => Finding::Explained(explanations),
+            _ => Finding::Unexplained(self.place()),
         }
+    }
+
+    /// What all differing pixels show, or should show.
+    fn place(&self) -> Option<String> {
+        let is_upright = self.placements.contains(&Placement::Upright);
+        is_upright.then(|| common_place(self.view, self.observed, self.truth))?
     }
 
     /// Why the file cannot tell conventions, if it cannot.
@@ -264,7 +275,8 @@ impl Search<'_> {
         let pairs = changes.len() * changes.len() / 2;
         if pairs as u64 * self.view.scene.primitive_count() <= MOST_PRIMITIVES {
             for (index, &one) in changes.iter().enumerate() {
-                let others = changes[index + 1..].iter().filter(|other| other.axis() != one.axis());
+                let others =
+                    changes[index + 1..].iter().filter(|other| one.is_paired_with(**other));
                 hypotheses.extend(others.map(|&other| Convention::default().with(one).with(other)));
             }
         }
@@ -309,17 +321,45 @@ impl Search<'_> {
         placed.collect()
     }
 
+    /// The whole picture under a convention.
+    fn whole(&self, convention: &Convention) -> Cow<'_, Drawn> {
+        let upright = Convention { placement: Placement::Upright, ..*convention };
+        if upright == Convention::default() {
+            Cow::Borrowed(self.truth)
+        } else {
+            Cow::Owned(self.drawn(convention, Rows::ALL))
+        }
+    }
+
+    /// The candidate with each change that the file suggests beside it, on an axis that is ours so far.
+    fn with_suggestions(&self, candidate: &Candidate) -> Vec<Candidate> {
+        let Candidate { convention, encoding, .. } = *candidate;
+        let drawn = self.whole(&convention);
+        let expected = Expected::new(self.view, &convention, &drawn);
+        let placement = convention.placement;
+        // Where each primitive may have any name, one that is missing has the name of what lies behind it.
+        let encoding = match encoding.ids {
+            IdEncoding::OneToOne => expected.encoding(self.observed, placement, encoding.nothing),
+            _ => encoding,
+        };
+        let differences = Differences::new(&expected, self.observed, placement, encoding);
+        let taken: HashSet<usize> = convention.changes().into_iter().map(Change::axis).collect();
+        let changes = differences.suggested().into_iter();
+        let free = changes.filter(|change| !taken.contains(&change.axis()));
+        let mut found: Vec<Candidate> =
+            free.map(|change| self.drawn_whole(convention.with(change))).collect();
+        // Where no sphere tells whether its other side is seen, it is.
+        found.dedup_by(|second, first| {
+            let with_same_plane = |plane| second.convention.with(Change::Near(plane));
+            let is_same = |plane| with_same_plane(plane) == first.convention;
+            first.convention.near.is_some_and(is_same) && first.score == second.score
+        });
+        found
+    }
+
     /// The whole picture of a hypothesis, with ids in any order, too.
     fn drawn_whole(&self, convention: Convention) -> Candidate {
-        let drawn;
-        let drawn = if (Convention { placement: Placement::Upright, ..convention })
-            == Convention::default()
-        {
-            self.truth
-        } else {
-            drawn = self.drawn(&convention, Rows::ALL);
-            &drawn
-        };
+        let drawn = &*self.whole(&convention);
         let expected = Expected::new(self.view, &convention, drawn);
         let placement = convention.placement;
         let scored = self.observed.meanings_of_nothing().into_iter().flat_map(|nothing| {
@@ -347,12 +387,13 @@ impl Search<'_> {
         let mut all = finalists.clone();
         let mut starts: Vec<Candidate> = finalists.iter().take(2).copied().collect();
         all.extend(starts.iter().flat_map(|start| self.with_tie_rules_instead(start, &changes)));
+        let placed = self.ours_in_place();
+        all.extend(self.with_suggestions(&self.drawn_whole(placed)));
         // More parts cannot do better than what explains all.
         if starts[0].score.differing == 0 {
             return all;
         }
         // Where many samples are ties, conventions that move them do better than ours until the rule for ties is found.
-        let placed = self.ours_in_place();
         for ours in [Convention::default(), placed] {
             if starts.iter().all(|one| one.convention != ours) {
                 starts.push(self.drawn_whole(ours));
@@ -367,7 +408,7 @@ impl Search<'_> {
                 let taken: HashSet<usize> =
                     best.convention.changes().into_iter().map(Change::axis).collect();
                 let on_rows = self.on_some_rows(best.convention);
-                let added: Vec<Candidate> = changes
+                let mut added: Vec<Candidate> = changes
                     .par_iter()
                     .filter(|change| !taken.contains(&change.axis()))
                     .map(|&change| (change, best.convention.with(change)))
@@ -377,6 +418,7 @@ impl Search<'_> {
                     })
                     .map(|(_, with)| self.drawn_whole(with))
                     .collect();
+                added.extend(self.with_suggestions(&best));
                 let Some(next) = added.iter().min_by_key(|one| one.rank()).copied() else { break };
                 all.extend(added);
                 if as_good(best.score.differing, next.score.differing, differing) {
@@ -395,8 +437,22 @@ impl Search<'_> {
         let best = possible(&all);
         if let Some(best) = best {
             all.extend(self.simplified(best, differing));
+            all.extend(self.with_own_numbers_again(&best));
         }
         all
+    }
+
+    /// The candidate with what the file suggests in place of each part with a number of its own: beside the other parts, the
+    /// number is more certain.
+    fn with_own_numbers_again(&self, candidate: &Candidate) -> Vec<Candidate> {
+        let changes = candidate.convention.changes().into_iter();
+        let own = changes.filter(|change| change.has_own_number());
+        own.flat_map(|change| {
+            let without = self.drawn_whole(candidate.convention.without(change));
+            let suggested = self.with_suggestions(&without).into_iter();
+            suggested.filter(move |one| one.convention.has(change.axis()))
+        })
+        .collect()
     }
 
     /// A candidate with a rule for ties in place of a change that moves more on the same axis: the primitive that is drawn

@@ -1,7 +1,8 @@
 //! Conventions in sentences that a student can act on.
 
 use super::convention::{
-    Change, Convention, Depth, Edges, Faces, Field, Look, Placement, Rays, Sampling,
+    Between, Change, Convention, Depth, Edges, Faces, Field, Look, NearPlane, Omission, Placement,
+    Rays, Sampling,
 };
 use super::encoding::{DistanceEncoding, Encoding, INFINITELY_FAR, IdEncoding, NothingEncoding};
 use super::search::Explanation;
@@ -73,6 +74,7 @@ fn sampling_of_both(sampling: Sampling) -> Option<String> {
              (j + 1/2)/W and (i + 1/2)/H"
         }
         Sampling::OneFewer => "divides by W - 1 and H - 1: divide j + 1/2 by W, and i + 1/2 by H",
+        Sampling::OneMore => "divides by W + 1 and H + 1: divide j + 1/2 by W, and i + 1/2 by H",
         Sampling::PixelBefore => {
             "is moved by one pixel to the right and down: do its i and j count from 1 where 0 is meant?"
         }
@@ -99,6 +101,13 @@ fn sentence(change: Change, projection: Projection) -> String {
         Change::Edges(edges) => of_edges(edges).into(),
         Change::Faces(faces) => of_faces(faces).into(),
         Change::Depth(depth) => of_depth(depth).into(),
+        Change::Near(plane) => of_near(plane, projection),
+        Change::Far(between) => format!(
+            "shows nothing beyond t = {}: it has a far plane, or a largest t, there{}; here nothing is too far to be seen",
+            of_between(between),
+            depth_of_t(projection)
+        ),
+        Change::Omission(omission) => of_omission(omission),
     }
 }
 
@@ -125,6 +134,10 @@ fn of_placement(placement: Placement) -> &'static str {
         Placement::OtherDiagonal => {
             "has rows and columns exchanged, and both count from the other end"
         }
+        Placement::ByColumns => {
+            "is written by columns: the numbers of its first column come first, then those of the second; write \
+             row by row"
+        }
     }
 }
 
@@ -145,6 +158,7 @@ fn of_sampling(sampling: Sampling, [index, sides, point, thing, first, last]: [&
              viewport: take ({index} + 1/2)/{sides}"
         ),
         Sampling::OneFewer => format!("divides {index} + 1/2 by {sides} - 1: divide by {sides}"),
+        Sampling::OneMore => format!("divides {index} + 1/2 by {sides} + 1: divide by {sides}"),
         Sampling::PixelBefore => {
             format!(
                 "shows each {thing} one pixel too far to the {last}: its {index} is 1 too small"
@@ -170,6 +184,9 @@ fn of_field(field: Field) -> &'static str {
         Field::AspectLeftOut => {
             "leaves out the form of the image: its viewport is vh wide as well; multiply x by W/H"
         }
+        Field::HeightIsWidth => {
+            "leaves out the form of the image: its viewport is vw high as well; multiply y by H/W"
+        }
         Field::AspectInverted => {
             "has the form of the image upside down: it multiplies x by H/W for W/H"
         }
@@ -180,6 +197,18 @@ fn of_field(field: Field) -> &'static str {
         Field::Half => {
             "has a viewport half as wide and as high: vw and vh are halved twice, or the tangent is of a quarter \
              instead of half the angle"
+        }
+        Field::HalfWidth => "has a viewport half as wide: vw is halved once too often",
+        Field::HalfHeight => "has a viewport half as high: vh is halved once too often",
+        Field::DoubleWidth => {
+            "has a viewport twice as wide: half of vw is missing (x goes from -vw/2 to vw/2)"
+        }
+        Field::DoubleHeight => {
+            "has a viewport twice as high: half of vh is missing (y goes from -vh/2 to vh/2)"
+        }
+        Field::Exchanged => "exchanges the sides of the viewport: it is vh wide and vw high",
+        Field::DistanceLeftOut => {
+            "takes 1 for the distance d of the viewport: the direction is x u + y v - d w"
         }
     }
 }
@@ -251,6 +280,61 @@ fn of_depth(depth: Depth) -> &'static str {
     }
 }
 
+fn of_near(NearPlane { at, hides_spheres }: NearPlane, projection: Projection) -> String {
+    let at_viewport =
+        projection == Projection::Perspective && (at.nearer..=at.farther).contains(&1.0);
+    let place = of_between(at);
+    let place = match hides_spheres {
+        true => format!("{place}, nor the other side of a sphere whose first hit is nearer"),
+        false => place,
+    };
+    if at_viewport {
+        return format!(
+            "shows nothing nearer than t = {place}: its viewport, at t = 1, clips; here all that lies before the eye is \
+             seen, also what is nearer than the viewport"
+        );
+    }
+    format!(
+        "shows nothing nearer than t = {place}: it has a near plane, or a smallest t, there{}; here all with t > 0 is seen",
+        depth_of_t(projection)
+    )
+}
+
+/// The depth along the axis, where `t` is another number.
+fn depth_of_t(projection: Projection) -> &'static str {
+    match projection {
+        Projection::Perspective => " (its depth is t d)",
+        Projection::Parallel => "",
+    }
+}
+
+/// `0.7`, or `0.7 to 0.9` where the picture tells no more.
+fn of_between(between: Between) -> String {
+    let [nearer, farther] = [between.nearer, between.farther].map(digits);
+    if nearer == farther { nearer } else { format!("{nearer} to {farther}") }
+}
+
+fn of_omission(omission: Omission) -> String {
+    match omission {
+        Omission::Nothing => "draws all".into(),
+        Omission::Primitive { id: 0, .. } => {
+            "leaves out id 0, the first primitive: does its loop begin at 1, or is 0 taken for nothing?".into()
+        }
+        Omission::Primitive { id, is_last: true } => {
+            format!("leaves out id {id}, the last primitive: does its loop end one too early?")
+        }
+        Omission::Primitive { id, .. } => {
+            format!("leaves out id {id}: is it read, and what drops it?")
+        }
+        Omission::From(first) => format!(
+            "leaves out all from id {first} on: does its loop end too early, or its memory?"
+        ),
+        Omission::Object { object, ids: [first, last] } => {
+            format!("leaves out object {object} (ids {first} to {last}): is it read, and what drops it?")
+        }
+    }
+}
+
 fn of_encoding(encoding: &Encoding) -> Vec<String> {
     let mut sentences = Vec::new();
     match encoding.ids {
@@ -297,6 +381,7 @@ fn of_distances(encoding: DistanceEncoding) -> Option<String> {
         D::NegativeAlongRay => {
             "holds -t |(x, y, -d)|: change the sign, and divide by the length of the ray's direction".into()
         }
+        D::Linear { factor, offset } => of_linear(factor, offset),
         D::Window { near, far: INFINITELY_FAR } => format!(
             "holds OpenGL's window depth for a near plane at {} and none far away: t d = {0} / (1 - depth)",
             digits(near)
@@ -319,6 +404,17 @@ fn of_distances(encoding: DistanceEncoding) -> Option<String> {
         ),
     };
     Some(words)
+}
+
+/// A linear function of `t`.
+fn of_linear(factor: f64, offset: f64) -> String {
+    let product = if factor == 1.0 { "t".into() } else { format!("{} t", digits(factor)) };
+    let unit = "t counts in lengths of the ray's direction";
+    if offset == 0.0 {
+        return format!("holds {product}: {unit}, from the eye; divide by {}", digits(factor));
+    }
+    let sign = if offset < 0.0 { '-' } else { '+' };
+    format!("holds {product} {sign} {}: {unit}, from the eye", digits(offset.abs()))
 }
 
 /// A number of three digits, which are certain.

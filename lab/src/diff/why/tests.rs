@@ -3,7 +3,7 @@
 use super::draw::{Rows, draw};
 use super::*;
 use crate::common::frame::NO_PRIMITIVE;
-use crate::common::{Camera, CameraDescription, Projection, View};
+use crate::common::{Camera, CameraDescription, Primitive, Projection, View};
 use crate::diff::buffer::{Buffer, Content};
 use crate::formats::source::{GivenFile, InputFile};
 use crate::scenes::{self, BUILT_IN, LoadedScene};
@@ -62,7 +62,7 @@ fn is_named(view: &View, planted: &Convention, of_ids: bool) -> bool {
             found.iter().all(|one| one.remaining * 1000 <= differing)
                 && found.iter().any(|one| is_planted(one) || is_simpler(one))
         }
-        Finding::Unexplained => false,
+        Finding::Unexplained(_) => false,
     }
 }
 
@@ -96,7 +96,7 @@ fn check_every_pair(projection: Projection) {
         changes.extend([Placement::UpsideDown, Placement::LeftToRight].map(Change::Placement));
         let mut missed = Vec::new();
         for (index, &one) in changes.iter().enumerate() {
-            for &other in changes[..index].iter().filter(|other| other.axis() != one.axis()) {
+            for &other in changes[..index].iter().filter(|other| one.is_paired_with(**other)) {
                 let planted = Convention::default().with(other).with(one);
                 if !is_named(view, &planted, true) {
                     missed.push(planted.changes());
@@ -152,7 +152,7 @@ fn every_rule_for_ties_is_named_from_ids_beside_every_change_on_another_axis() {
             changes.into_iter().partition(|change| change.is_coarse());
         let (mut missed, mut count) = (Vec::new(), 0);
         for &tie in &ties {
-            for other in coarse.iter().filter(|other| other.axis() != tie.axis()) {
+            for other in coarse.iter().filter(|other| tie.is_paired_with(**other)) {
                 let planted = Convention::default().with(*other).with(tie);
                 count += 1;
                 if !is_named(view, &planted, true) {
@@ -280,16 +280,167 @@ fn what_a_file_shows_rightly_is_not_wrong_by_an_explanation() {
     let loaded = scenes::load("canonical").unwrap();
     with_scene(&loaded, [64, 64], Projection::Perspective, |view| {
         let truth = draw(view, &Convention::default(), Rows::ALL);
-        // A near plane that leaves a fifth: less is wrong in a picture of nothing than in the true one.
-        let mut depths: Vec<f64> = truth.t.iter().copied().filter(|t| t.is_finite()).collect();
-        depths.sort_by(f64::total_cmp);
-        let near = depths[depths.len() * 4 / 5];
-        let shown =
-            |(&id, &t): (&u32, &f64)| (id != NO_PRIMITIVE && t >= near).then_some(u64::from(id));
-        let ids: Vec<Option<u64>> = truth.ids.iter().zip(&truth.t).map(shown).collect();
+        // Four fifths of the picture are lost: less is wrong in a picture of nothing than in the true one.
+        let is_kept = |pixel: usize| (pixel * 7919).is_multiple_of(5);
+        let shown = |(pixel, &id): (usize, &u32)| {
+            (id != NO_PRIMITIVE && is_kept(pixel)).then_some(u64::from(id))
+        };
+        let ids: Vec<Option<u64>> = truth.ids.iter().enumerate().map(shown).collect();
         assert!(ids.iter().any(Option::is_some));
-        let clipped = Buffer::new([64, 64], 1, Content::Ids(ids));
-        let finding = find_conventions(view, &clipped).unwrap().finding;
-        assert_eq!(finding, Finding::Unexplained);
+        let holes = Buffer::new([64, 64], 1, Content::Ids(ids));
+        let finding = find_conventions(view, &holes).unwrap().finding;
+        assert_eq!(finding, Finding::Unexplained(None));
+    });
+}
+
+/// The distances of what is seen, ascending.
+fn seen_distances(view: &View) -> Vec<f64> {
+    let drawn = draw(view, &Convention::default(), Rows::ALL);
+    let mut seen: Vec<f64> = drawn.t.into_iter().filter(|t| t.is_finite()).collect();
+    seen.sort_by(f64::total_cmp);
+    seen
+}
+
+#[test]
+fn planes_that_clip_are_named_with_their_distances() {
+    let check = |view: &View| {
+        let seen = seen_distances(view);
+        for twentieth in [1, 4, 10, 16, 19] {
+            let t = seen[seen.len() * twentieth / 20].next_up();
+            let at = Between { nearer: t, farther: t };
+            let near = |hides_spheres: bool| Change::Near(NearPlane { at, hides_spheres });
+            for change in [near(false), near(true), Change::Far(at)] {
+                let planted = Convention::default().with(change);
+                let findings = find_conventions(view, &file(view, &planted, true)).unwrap();
+                let differing = findings.differing;
+                let Finding::Explained(found) = findings.finding else {
+                    panic!("{twentieth} {change:?}: {findings:?}")
+                };
+                let holds = |between: Option<Between>| {
+                    between.is_some_and(|one| one.nearer <= t && t <= one.farther)
+                };
+                let is_named = |one: &Explanation| match change {
+                    Change::Near(_) => holds(one.convention.near.map(|plane| plane.at)),
+                    _ => holds(one.convention.far),
+                };
+                assert!(found.iter().any(is_named), "{twentieth} {change:?}: {found:?}");
+                // What lies behind may be seen in the gap between the two distances.
+                let is_good = |one: &Explanation| one.remaining * 20 <= differing;
+                assert!(found.iter().all(is_good), "{twentieth} {change:?}: {found:?}");
+            }
+        }
+    };
+    for projection in [Projection::Perspective, Projection::Parallel] {
+        heap(projection, [64, 44], check);
+        with_scene(&coarse_lecture(), [66, 44], projection, check);
+    }
+}
+
+#[test]
+fn what_is_left_out_is_named_in_ids_and_in_masks() {
+    let check = |view: &View, of_ids: bool| {
+        let truth = draw(view, &Convention::default(), Rows::ALL);
+        let mut seen = truth.ids;
+        seen.sort_unstable();
+        let pixels = seen.chunk_by(PartialEq::eq).filter(|one| one[0] != NO_PRIMITIVE);
+        let large: Vec<u32> = pixels.filter(|one| one.len() > 6).map(|one| one[0]).collect();
+        assert!(large.len() > 10);
+        let mut omissions: Vec<Omission> =
+            large.iter().map(|&id| Omission::of_primitive(view.scene, id)).collect();
+        omissions.extend(
+            (0..view.scene.objects().len())
+                .filter_map(|object| Omission::of_object(view.scene, object)),
+        );
+        if of_ids {
+            omissions.push(Omission::From(large[large.len() / 2]));
+        }
+        for omission in omissions {
+            let planted = Convention::default().with(Change::Omission(omission));
+            let findings = find_conventions(view, &file(view, &planted, of_ids)).unwrap();
+            match findings.finding {
+                // In a mask, what lies behind hides it.
+                Finding::True => assert!(!of_ids, "{omission:?}"),
+                Finding::Explained(found) => {
+                    let least = found.iter().map(|one| one.remaining).min();
+                    assert_eq!(least, Some(0), "{omission:?}: {found:?}");
+                    // What several omissions explain, none of them is alone in.
+                    let names = |one: &Explanation| one.convention.omission == omission;
+                    assert!(found.iter().any(names) || !of_ids, "{omission:?}: {found:?}");
+                }
+                other => panic!("{omission:?}: {other:?}"),
+            }
+        }
+    };
+    heap(Projection::Perspective, [64, 44], |view| {
+        check(view, true);
+        check(view, false);
+    });
+    with_scene(&coarse_lecture(), [66, 44], Projection::Perspective, |view| check(view, true));
+}
+
+#[test]
+fn what_is_shown_elsewhere_is_not_left_out() {
+    heap(Projection::Perspective, [64, 44], |view| {
+        let truth = draw(view, &Convention::default(), Rows::ALL).ids;
+        let mut seen = truth.clone();
+        seen.sort_unstable();
+        let pixels = seen.chunk_by(PartialEq::eq).filter(|one| one[0] != NO_PRIMITIVE);
+        let largest = pixels.max_by_key(|one| one.len()).unwrap()[0];
+        // The largest triangle is shown, but upside down.
+        let planted = Convention::default()
+            .with(Change::Omission(Omission::of_primitive(view.scene, largest)));
+        let mut ids: Vec<Option<u64>> = draw(view, &planted, Rows::ALL)
+            .ids
+            .iter()
+            .map(|&id| (id != NO_PRIMITIVE).then_some(id.into()))
+            .collect();
+        for (index, _) in truth.iter().enumerate().filter(|(_, id)| **id == largest) {
+            let [i, j] = [index / 64, index % 64];
+            ids[(43 - i) * 64 + j] = Some(largest.into());
+        }
+        let file = Buffer::new([64, 44], 1, Content::Ids(ids));
+        if let Finding::Explained(found) = find_conventions(view, &file).unwrap().finding {
+            let is_claimed = |one: &Explanation| one.convention.omission != Omission::Nothing;
+            assert!(!found.iter().any(is_claimed), "{found:?}");
+        }
+    });
+}
+
+#[test]
+fn where_one_thing_is_wrong_it_is_named_and_no_cause_is_guessed() {
+    let loaded = scenes::load("canonical").unwrap();
+    with_scene(&loaded, [64, 64], Projection::Perspective, |view| {
+        let truth = draw(view, &Convention::default(), Rows::ALL);
+        let sphere = (0..).zip(view.primitives()).find_map(|(id, (_, primitive))| {
+            matches!(primitive, Primitive::Sphere { .. }).then_some(id)
+        });
+        let sphere: u32 = sphere.unwrap();
+        // Distances that no formula of `t` gives, on the sphere alone.
+        let other = |(&id, &t): (&u32, &f64)| if id == sphere { t.sin() + 2.0 } else { t };
+        let t: Vec<f64> = truth.ids.iter().zip(&truth.t).map(other).collect();
+        let file = Buffer::new([64, 64], 1, Content::Distances(t));
+        let finding = find_conventions(view, &file).unwrap().finding;
+        let place = format!("each of them shows id {sphere}, a sphere, or should show it");
+        assert_eq!(finding, Finding::Unexplained(Some(place)));
+    });
+}
+
+#[test]
+fn distances_that_are_a_linear_function_are_named() {
+    with_scene(&coarse_lecture(), [66, 44], Projection::Perspective, |view| {
+        let truth = draw(view, &Convention::default(), Rows::ALL);
+        for (factor, offset) in [(3.0, 0.0), (1.0, -1.0), (0.5, 3.0), (-3.0, 1.0)] {
+            let t: Vec<f64> = truth.t.iter().map(|t| factor * t + offset).collect();
+            let file = Buffer::new(view.camera.image(), 1, Content::Distances(t));
+            let Finding::Explained(found) = find_conventions(view, &file).unwrap().finding else {
+                panic!("{factor} {offset}")
+            };
+            let DistanceEncoding::Linear { factor: f, offset: o } = found[0].encoding.distances
+            else {
+                panic!("{found:?}")
+            };
+            assert!((f - factor).abs() < 1e-6 && (o - offset).abs() < 1e-5, "{f} {o}");
+            assert_eq!((found.len(), found[0].remaining), (1, 0));
+        }
     });
 }

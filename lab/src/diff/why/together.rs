@@ -190,6 +190,17 @@ impl<'a> Search<'a> {
         all.filter_map(|(index, (one, shown))| Some((index, one.view, shown.as_ref()?)))
     }
 
+    /// The placements that can be told from each other.
+    fn placements(&self) -> impl Iterator<Item = Placement> + use<> {
+        let is_square = |one: &Rendering| {
+            let [width, height] = one.view.camera.image();
+            width == height
+        };
+        let all_square = self.renderings.iter().all(is_square);
+        let all = Placement::ALL.into_iter();
+        all.filter(move |&placement| placement != Placement::ByColumns || !all_square)
+    }
+
     /// Every change that a renderer of one of the cameras can make.
     fn steps(&self) -> Vec<Step> {
         let mut steps: Vec<Step> = Vec::new();
@@ -213,7 +224,7 @@ impl<'a> Search<'a> {
         for (index, &one) in steps.iter().enumerate() {
             hypotheses.push(ours.with(one));
             let others = &steps[index + 1..];
-            let apart = others.iter().filter(|other| other.change.axis() != one.change.axis());
+            let apart = others.iter().filter(|other| one.change.is_paired_with(other.change));
             hypotheses.extend(apart.map(|&other| ours.with(one).with(other)));
         }
         self.finalists(&hypotheses)
@@ -258,13 +269,13 @@ impl<'a> Search<'a> {
             let fit = Fit { hypothesis, encodings: Encodings::default(), agrees, differing: 0 };
             (placement, fit, vec![None; count])
         };
-        let mut fits: Vec<_> = Placement::ALL.into_iter().map(fit).collect();
+        let mut fits: Vec<_> = self.placements().map(fit).collect();
         for (index, view, shown) in self.readable() {
             let convention = hypothesis.of(view.camera);
             let drawn = draw(view, &convention, Rows::ALL);
             let expected = Expected::new(view, &convention, &drawn);
             for (placement, fit, chosen) in &mut fits {
-                if !fits_size(*placement, view.camera, shown) {
+                if !shown.fits(*placement, view.camera) {
                     fit.differing += drawn.ids.len() as u64;
                     continue;
                 }
@@ -332,7 +343,7 @@ impl<'a> Search<'a> {
         let mut differing = 0;
         for (index, view, shown) in self.readable() {
             let kind = kind(&shown.values);
-            if only.is_some_and(|only| only != kind) || !fits_size(placement, view.camera, shown) {
+            if only.is_some_and(|only| only != kind) || !shown.fits(placement, view.camera) {
                 continue;
             }
             let convention = hypothesis.of(view.camera);
@@ -381,11 +392,4 @@ impl<'a> Search<'a> {
         }
         explanations
     }
-}
-
-/// Whether a file can be a picture of the camera, placed so.
-fn fits_size(placement: Placement, camera: &Camera, shown: &Observed) -> bool {
-    let [width, height] = camera.image().map(|side| side as usize);
-    let size = if placement.swaps_sides() { [height, width] } else { [width, height] };
-    size == shown.size
 }

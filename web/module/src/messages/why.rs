@@ -149,7 +149,7 @@ pub(crate) fn sentence_about(view: &View, frame: &Frame, name: &str) -> String {
             )
         }
         Finding::NoEvidence(reason) => format!("The convention finder cannot tell: {reason}."),
-        Finding::Unexplained => format!(
+        Finding::Unexplained(_) => format!(
             "The convention finder knows no convention under which {name} would be right: the reasons of single pixels \
              tell more."
         ),
