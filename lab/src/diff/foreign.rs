@@ -16,6 +16,7 @@
 //! ```
 
 mod channels;
+mod colors;
 mod depth;
 mod hints;
 mod normals;
