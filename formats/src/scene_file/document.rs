@@ -112,6 +112,14 @@ impl<'t> Item<'t> {
         Table::new(entries, self.name.clone(), self.span.clone(), known)
     }
 
+    /// The same; if the value is no table, the message shows `example`.
+    pub(super) fn table_such_as(&self, known: &[&str], example: &str) -> Read<Table<'t>> {
+        if !self.is_table() {
+            return Err(self.not("a table").help(format!("write for example {example}")));
+        }
+        self.table(known)
+    }
+
     /// The values of a table that may have any keys.
     pub(super) fn entries(&self) -> Read<impl Iterator<Item = Item<'t>> + use<'t>> {
         let DeValue::Table(entries) = self.value else { return Err(self.not("a table")) };

@@ -134,6 +134,13 @@ fn on_last_line(text: &str, span: Range<usize>) -> Range<usize> {
 impl From<toml::de::Error> for Problem {
     /// The message of the TOML parser, which may quote the file.
     fn from(error: toml::de::Error) -> Problem {
-        Problem::new(error.span().unwrap_or(0..0), error.message())
+        let span = error.span().unwrap_or(0..0);
+        let is_something = !span.is_empty();
+        let problem = Problem::new(span, error.message());
+        // The parser takes two numbers without a comma for a text.
+        if is_something && error.message().starts_with("string values must be quoted") {
+            return problem.help("put a text in quotes, and a comma between two values");
+        }
+        problem
     }
 }

@@ -100,20 +100,20 @@ fn key(name: &str) -> String {
 
 fn triangle(item: &Item) -> Result<Shape, Problem> {
     const EXAMPLE: &str = "triangle = { a = [0, 0, 0], b = [1, 0, 0], c = [0, 1, 0] }";
-    let table = item.table(&["a", "b", "c"])?;
+    let table = item.table_such_as(&["a", "b", "c"], EXAMPLE)?;
     let corner = |key| table.need(key, EXAMPLE)?.vector();
     Ok(Shape::Triangle(Triangle { a: corner("a")?, b: corner("b")?, c: corner("c")? }))
 }
 
 fn sphere(item: &Item) -> Result<Shape, Problem> {
-    let table = item.table(&["center", "radius"])?;
+    let table = item.table_such_as(&["center", "radius"], EXAMPLE)?;
     let center = table.need("center", EXAMPLE)?.vector()?;
     Ok(Shape::Sphere(Sphere { center, radius: table.need("radius", EXAMPLE)?.positive()? }))
 }
 
 fn plane(item: &Item) -> Result<Shape, Problem> {
     const EXAMPLE: &str = "plane = { point = [0, 0, 0], normal = [0, 1, 0] }";
-    let table = item.table(&["point", "normal"])?;
+    let table = item.table_such_as(&["point", "normal"], EXAMPLE)?;
     let point = table.need("point", EXAMPLE)?.vector()?;
     Ok(Shape::Plane(Plane { point, normal: table.need("normal", EXAMPLE)?.direction()? }))
 }

@@ -57,7 +57,29 @@ fn what_is_wrong_with_the_document() {
         ),
         ("object = [1]", "1", "1:11: object is a whole number; it must be a table"),
         ("[[camera]]", "[[camera]]", "1:1: camera is an array; it must be a table"),
+        (
+            "[[object]]\ntriangle = [[0, 0, 0]]",
+            "[[0, 0, 0]]",
+            "2:12: triangle is an array; it must be a table; write for example triangle = { a = [0, 0, 0], \
+             b = [1, 0, 0], c = [0, 1, 0] }",
+        ),
+        (
+            "[[object]]\nsphere = 1",
+            "1",
+            "2:10: sphere is a whole number; it must be a table; write for example sphere = { center = [0, 0, 0], \
+             radius = 1 }",
+        ),
     ]);
+}
+
+#[test]
+fn numbers_without_a_comma_are_no_text() {
+    check_errors(&[(
+        "[camera]\neye = [0, 0 5]",
+        "0 5",
+        "2:11: string values must be quoted, expected literal string; put a text in quotes, and a comma between two \
+         values",
+    )]);
 }
 
 #[test]

@@ -10,7 +10,7 @@ use crate::formats::gltf::{self, GltfCamera, Model};
 use crate::formats::mesh_file::{EXTENSIONS, Format, ReadMeshError, STREAMED};
 use crate::formats::mesh_stream::StreamError;
 use crate::formats::scene_file::{self, ReadSceneError, nearest_name};
-use crate::formats::source::quote::{listed, quoted};
+use crate::formats::source::quote::{listed, quoted, visible};
 use crate::formats::source::{Files, InputFile, Reach};
 use crate::formats::warning::MaterialWarning;
 use crate::formats::{shapes, smooth};
@@ -72,6 +72,12 @@ pub enum LoadError {
         name: String,
         /// The name that was probably meant.
         meant: Option<&'static str>,
+    },
+    /// The name is that of a folder.
+    #[error("{path} is a folder; name a scene file (.toml) or a mesh file ({EXTENSIONS})")]
+    Folder {
+        /// The requested name.
+        path: String,
     },
     /// The file is of an unsupported kind.
     #[error(
@@ -167,6 +173,9 @@ pub fn load_with(source: &str, options: LoadOptions) -> Result<LoadedScene, Load
     }
     if let Some((file, camera)) = of_camera(source, options.reach) {
         return load_with_camera(&file, camera, options.image);
+    }
+    if Path::new(source).is_dir() {
+        return Err(LoadError::Folder { path: visible(source).into_owned() });
     }
     // What could be the name of a built-in scene is no file.
     if Path::new(source).extension().is_none() && !source.contains(['/', '\\']) {

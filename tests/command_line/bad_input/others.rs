@@ -153,6 +153,9 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
         "pixel canonical 1 1 --json=yes",
         "unexpected value 'yes' for '--json' found; no more were expected",
     ),
+    // A folder in the place of a scene.
+    ("render .", ". is a folder; name a scene file (.toml) or a mesh file"),
+    ("pixel file/.. 0 0", "file/.. is a folder; name a scene file (.toml) or a mesh file"),
     // Figures.
     ("figure", "the following required arguments were not provided: <KIND>"),
     (
