@@ -10,7 +10,8 @@
 //! the scene does, and `explained` the wrong pixels that have an explanation, if at least half of them have one: by
 //! `mistakes` conventions, or by reasons of single pixels (exact ties, rounding, culled or clipped faces, a mesh for a sphere),
 //! which together count as one mistake. So one mistake that explains everything
-//! gives half of the credit back, two give a quarter; a guess gives nothing.
+//! gives half of the credit back, two give a quarter; a guess gives nothing. Nor does what is left out (a primitive, an object,
+//! what lies beyond a plane), where less than half is right: whatever little a file shows, all else may be left out.
 //!
 //! ```
 //! use bothways_lab::common::{Camera, CameraDescription, View};
@@ -180,7 +181,10 @@ fn explain(
     let by_conventions = conventions.first().map_or(0, |best| best.explained);
     let explained = explained.max(by_conventions).min(comparison.differing_pixels);
     let is_evidence = !matches!(found.finding, Finding::NoEvidence(_));
-    if is_evidence && 2 * explained >= comparison.differing_pixels {
+    // Whatever little a file shows, all else may be left out.
+    let most_is_missing = conventions.first().is_some_and(|best| best.convention.leaves_out())
+        && 2 * grade.right < grade.seen;
+    if is_evidence && !most_is_missing && 2 * explained >= comparison.differing_pixels {
         grade.explained = explained;
     }
     let sentences: Vec<Vec<String>> =
@@ -189,6 +193,9 @@ fn explain(
     let parts = if grade.explained > 0 { parts } else { 0 };
     grade.mistakes = u32::try_from(parts).expect("there are few axes");
     grade.likely_mistake = match (&sentences[..], &found.finding) {
+        ([_, ..], _) if most_is_missing => {
+            format!("no credit, as most is missing: {}", alternatives(&sentences))
+        }
         ([_, ..], _) => alternatives(&sentences),
         (_, Finding::NoEvidence(reason)) => format!("no evidence: {reason}"),
         (_, Finding::Explained(guesses)) if grade.explained == 0 => {

@@ -29,7 +29,8 @@ explained   wrong pixels that have an explanation, if at least half of them have
             or exact ties, rounding, culled or clipped faces, a mesh for a sphere
 mistakes    how many conventions it takes to explain them; 1 if it takes none
 So one mistake that explains everything gives half of the credit back, two give a quarter; a guess
-gives nothing. A file that cannot be read, or has another size, is a row without a score.
+gives nothing, nor does what is left out where less than half is right. A file that cannot be read,
+or has another size, is a row without a score.
 
 Examples:
   bothways grade canonical mine.png                            my own, before I hand it in

@@ -8,6 +8,7 @@ mod convention;
 mod distances;
 mod draw;
 mod encoding;
+mod evidence;
 mod expected;
 mod near;
 mod observed;
@@ -26,8 +27,8 @@ mod suggestions;
 mod together;
 
 pub use convention::{
-    Between, Change, Convention, Depth, Edges, Faces, Field, Look, NearPlane, Omission, Placement,
-    Rays, Sampling,
+    Between, Change, Clip, Convention, Depth, Edges, Faces, Field, Look, NearPlane, Omission,
+    Placement, Rays, Sampling, Several, ShapeKind,
 };
 pub use encoding::{DistanceEncoding, Encoding, IdEncoding, NothingEncoding};
 pub use pixels::{PixelReason, ReasonError, Reasons, Wrong, find_reasons, find_reasons_of_samples};

@@ -244,7 +244,16 @@ impl<'a> Why<'a> {
                 1 => format!("{} remains", count(1, self.things())),
                 more => format!("{} remain", count(more, self.things())),
             };
-            line(text, format_args!("    explains {explained} of {}; {rest}", grouped(differing)));
+            // What explains a part may be another cause.
+            let doubt = if 10 * one.remaining > differing {
+                ": something else is wrong, too, or instead"
+            } else {
+                ""
+            };
+            line(
+                text,
+                format_args!("    explains {explained} of {}; {rest}{doubt}", grouped(differing)),
+            );
         }
     }
 

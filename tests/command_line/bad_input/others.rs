@@ -155,7 +155,6 @@ pub(super) const REFUSED: &[(&str, &str)] = &[
     ),
     // A folder in the place of a scene.
     ("render .", ". is a folder; name a scene file (.toml) or a mesh file"),
-    ("pixel file/.. 0 0", "file/.. is a folder; name a scene file (.toml) or a mesh file"),
     // Figures.
     ("figure", "the following required arguments were not provided: <KIND>"),
     (

@@ -1,11 +1,12 @@
 //! Encodings of colours under which one picture agrees with another.
 
 use crate::common::look::color::linear_from_encoded;
+use crate::diff::aspect::Side;
 use crate::diff::buffer::{Buffer, Content, bytes};
 use crate::diff::buffer_pair::BufferPair;
 
-/// Every mistake in writing colours that alone explains every difference, one sentence each.
-pub(super) fn encodings(pair: &BufferPair) -> Vec<String> {
+/// Every mistake in writing colours that alone explains every difference, one sentence each. A reference is right.
+pub(super) fn encodings(pair: &BufferPair, reference: Option<Side>) -> Vec<String> {
     let (a, b) = (pair.a, pair.b);
     if ![a, b].iter().all(|one| matches!(one.content(), Content::Picture(_))) {
         return Vec::new();
@@ -13,14 +14,22 @@ pub(super) fn encodings(pair: &BufferPair) -> Vec<String> {
     let tolerance = f64::from(pair.tolerances().color);
     let mut found = Vec::new();
     if are_exchanged(a, b, tolerance) {
-        found.push("red and blue are exchanged: one of the files holds BGR, not RGB".to_owned());
+        let who = match reference {
+            Some(Side::A) => "B",
+            Some(Side::B) => "A",
+            None => "one of the files",
+        };
+        found.push(format!("red and blue are exchanged: {who} holds BGR, not RGB"));
     }
-    for (one, name, other, of) in [(a, "A", b, "B"), (b, "B", a, "A")] {
+    for (one, name, side, other, of) in [(a, "A", Side::A, b, "B"), (b, "B", Side::B, a, "A")] {
         let agrees = |map: fn(f64) -> f64| Map::of_bytes(map).takes(other, one, tolerance);
         if agrees(linear) {
-            found.push(format!(
-                "{name} holds the linear values of {of}: it lacks the encoding as sRGB, or {of} has it twice"
-            ));
+            let cause = match reference {
+                Some(right) if right == side => format!("{of} has the encoding as sRGB twice"),
+                Some(_) => format!("{name} lacks the encoding as sRGB"),
+                None => format!("{name} lacks the encoding as sRGB, or {of} has it twice"),
+            };
+            found.push(format!("{name} holds the linear values of {of}'s colours: {cause}"));
         }
         if agrees(by_a_power) {
             found.push(format!(
@@ -51,6 +60,10 @@ fn decoded(encoded: f64) -> f64 {
 /// The least and the largest number that a map takes each byte to, rounded before and after it.
 struct Map([[f64; 2]; 256]);
 
+/// So many steps of 255 a colour must move before it tells a map from other causes of small differences, and so bright it must
+/// be behind it: all that is dark becomes black by much.
+const TELLING: f64 = 6.0;
+
 impl Map {
     fn of_bytes(map: fn(f64) -> f64) -> Map {
         let mut ends = [[0.0; 2]; 256];
@@ -61,14 +74,18 @@ impl Map {
         Map(ends)
     }
 
-    /// Whether it takes every colour of one picture to that of another.
+    /// Whether it takes every colour of one picture to that of another, and some of them tell it from other maps.
     fn takes(&self, from: &Buffer, to: &Buffer, tolerance: f64) -> bool {
-        every_color(from, to, |from, to| {
+        let mut tells = false;
+        let fits = every_color(from, to, |from, to| {
             from.into_iter().zip(to).all(|(from, to)| {
                 let [least, most] = self.0[usize::from(from)];
-                (least - tolerance..=most + tolerance).contains(&f64::from(to))
+                let (from, to) = (f64::from(from), f64::from(to));
+                tells |= to >= TELLING && (to - from).abs() >= TELLING;
+                (least - tolerance..=most + tolerance).contains(&to)
             })
-        })
+        });
+        fits && tells
     }
 }
 
@@ -127,7 +144,10 @@ mod tests {
     fn a_missing_or_another_encoding_is_named_with_the_file_that_has_it() {
         let linear = hints(srgb_from_linear, byte);
         assert_eq!(linear.len(), 1, "{linear:?}");
-        assert!(linear[0].starts_with("B holds the linear values of A: it lacks"), "{linear:?}");
+        assert!(
+            linear[0].starts_with("B holds the linear values of A's colours: B lacks"),
+            "{linear:?}"
+        );
         let twice = hints(
             |value| srgb_from_linear(f32::from(srgb_from_linear(value)) / 255.0),
             srgb_from_linear,
@@ -155,5 +175,13 @@ mod tests {
     fn colors_that_fit_no_encoding_have_no_hint_of_one() {
         let found = hints(srgb_from_linear, |value| srgb_from_linear(value / 2.0));
         assert_eq!(found, [""; 0]);
+        // A little darker, or so dark that nothing is left.
+        for (colors, darker) in [(100..=255, 3), (3..=25, 25)] {
+            let colors = colors.map(|k: u8| [k; 3]);
+            let dark = colors.clone().map(|color| color.map(|k| k.saturating_sub(darker)));
+            let found =
+                compare(&picture(colors.collect()), &picture(dark.collect())).unwrap().hints;
+            assert_eq!(found, [""; 0]);
+        }
     }
 }

@@ -29,7 +29,7 @@ pub(in crate::diff) fn hints(
     if pair.a.samples() != pair.b.samples() || !pair.ignored().is_empty() {
         return hints;
     }
-    hints.extend(colors::encodings(pair));
+    hints.extend(colors::encodings(pair, reference));
     let named = [("A", pair.a, "B", pair.b), ("B", pair.b, "A", pair.a)];
     if let (Content::Ids(a), Content::Ids(b)) = (pair.a.content(), pair.b.content()) {
         hints.extend(renaming(a, b).map(|renaming| {

@@ -9,7 +9,7 @@ mod placement;
 mod sampling;
 
 pub use field::Field;
-pub use omission::{Between, NearPlane, Omission};
+pub use omission::{Between, Clip, NearPlane, Omission, Several, ShapeKind};
 pub use placement::Placement;
 pub use sampling::Sampling;
 
@@ -39,8 +39,8 @@ pub struct Convention {
     pub depth: Depth,
     /// Where a near plane clips; `None` for all before the eye.
     pub near: Option<NearPlane>,
-    /// The distances `t` between which the farthest hit ends to be seen; `None` for no end.
-    pub far: Option<Between>,
+    /// Where a far plane clips; `None` for no end.
+    pub far: Option<Clip>,
     /// What is not drawn at all.
     pub omission: Omission,
 }
@@ -152,7 +152,7 @@ pub enum Change {
     /// A near plane.
     Near(NearPlane),
     /// A far plane.
-    Far(Between),
+    Far(Clip),
     /// Something that is not drawn.
     Omission(Omission),
 }
@@ -238,7 +238,7 @@ impl Convention {
             Change::Faces(faces) => Convention { faces, ..self },
             Change::Depth(depth) => Convention { depth, ..self },
             Change::Near(plane) => Convention { near: Some(plane), ..self },
-            Change::Far(between) => Convention { far: Some(between), ..self },
+            Change::Far(clip) => Convention { far: Some(clip), ..self },
             Change::Omission(omission) => Convention { omission, ..self },
         }
     }
@@ -256,11 +256,22 @@ impl Convention {
             Change::Edges(self.edges),
             Change::Faces(self.faces),
             Change::Depth(self.depth),
-            Change::Omission(self.omission),
         ];
         let planes = [self.near.map(Change::Near), self.far.map(Change::Far)];
         let all = all.into_iter().chain(planes.into_iter().flatten());
+        let all = all.chain([Change::Omission(self.omission)]);
         all.filter(|&change| ours.with(change) != ours).collect()
+    }
+
+    /// How many mistakes it takes: the same sampling of columns and rows is one.
+    pub(super) fn mistakes(&self) -> usize {
+        let is_one = self.columns == self.rows && self.columns != Sampling::default();
+        self.changes().len() - usize::from(is_one)
+    }
+
+    /// Whether something is not drawn: a primitive, an object, or what lies beyond a plane.
+    pub fn leaves_out(&self) -> bool {
+        self.changes().into_iter().any(Change::has_own_number)
     }
 
     /// Whether it has a change on this axis.

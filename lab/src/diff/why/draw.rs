@@ -72,9 +72,8 @@ pub(super) fn draw(view: &View, convention: &Convention, rows: Rows) -> Drawn {
         },
         errors: vec![0.0; count],
     };
-    let omitted = convention.omission.ids();
     for (id, primitive) in (0..).zip(view.primitives().map(|(_, primitive)| primitive)) {
-        if omitted.as_ref().is_none_or(|ids| !ids.contains(&id)) {
+        if !convention.omission.omits(id, &primitive) {
             canvas.add(id, &primitive);
         }
     }
@@ -277,7 +276,7 @@ impl Canvas<'_> {
             return Rounded::Uncertain;
         }
         let root = discriminant.sqrt();
-        let near = self.convention.near.map_or(0.0, |plane| plane.at.middle());
+        let near = self.convention.near.map_or(0.0, |plane| plane.clip.at.middle());
         let shows_other_side = self.convention.near.is_some_and(|plane| !plane.hides_spheres);
         let [first, second] = [b - root, b + root].map(|numerator| numerator / a);
         let t = if c < 0.0 || (first < near && shows_other_side) { second } else { first };
@@ -301,8 +300,8 @@ impl Canvas<'_> {
             }
         };
         let Convention { near, far, .. } = self.convention;
-        let is_beyond_a_plane = near.is_some_and(|near| t < near.at.middle())
-            || far.is_some_and(|far| t > far.middle());
+        let is_beyond_a_plane = near.is_some_and(|near| t < near.clip.at.middle())
+            || far.is_some_and(|far| t > far.at.middle());
         if is_beyond_a_plane {
             return;
         }

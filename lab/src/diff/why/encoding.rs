@@ -19,6 +19,12 @@ impl Encoding {
         self.parts() == 0
     }
 
+    /// Whether it has numbers that only the file suggests: they fit a part of any file.
+    pub(super) fn has_own_numbers(&self) -> bool {
+        use DistanceEncoding::{Linear, ReversedWindow, Window};
+        matches!(self.distances, Linear { .. } | Window { .. } | ReversedWindow { .. })
+    }
+
     /// How many of them do not.
     pub(super) fn parts(&self) -> usize {
         let ours = Encoding::default();

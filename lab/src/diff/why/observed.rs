@@ -71,8 +71,9 @@ impl Observed {
         pixels.filter(|&index| self.covered(index, nothing)).count() as u64
     }
 
-    /// The meanings of nothing that this file may have: ours, and others where nothing has our number.
-    pub(super) fn meanings_of_nothing(&self) -> Vec<NothingEncoding> {
+    /// The meanings of nothing that this file of a scene with so many primitives may have: ours, and others where nothing has our
+    /// number.
+    pub(super) fn meanings_of_nothing(&self, primitives: u64) -> Vec<NothingEncoding> {
         let mut meanings = vec![NothingEncoding::Ours];
         match &self.values {
             Values::Mask(_) => meanings.push(NothingEncoding::Inverted),
@@ -81,6 +82,7 @@ impl Observed {
                 if ids.contains(&Some(0)) {
                     meanings.push(NothingEncoding::Number(0.0));
                 }
+                meanings.extend(large(ids, primitives).map(NothingEncoding::Number));
             }
             Values::Distances(t) => meanings.extend(repeated(t).map(NothingEncoding::Number)),
         }
@@ -91,6 +93,14 @@ impl Observed {
     pub(super) fn has_our_nothing(&self) -> bool {
         (0..self.size[0] * self.size[1]).any(|index| !self.covered(index, NothingEncoding::Ours))
     }
+}
+
+/// The largest id, if many pixels have it and no primitive does: 255, 65535, one more than the last id, ….
+#[expect(clippy::cast_precision_loss, reason = "an id that is larger than 2^53 is no id of ours")]
+fn large(ids: &[Option<u64>], primitives: u64) -> Option<f64> {
+    let largest = ids.iter().flatten().max().copied().filter(|&id| id >= primitives)?;
+    let count = ids.iter().filter(|&&id| id == Some(largest)).count();
+    (count >= 2 && count * 100 >= ids.len()).then_some(largest as f64)
 }
 
 /// The number that most of the pixels have, if many have it: 0, −1, 1e30, the far plane, ….

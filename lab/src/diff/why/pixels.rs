@@ -387,7 +387,7 @@ impl<'a> Finder<'a> {
         let culled =
             is_back.filter(|&is_back| faces == [is_back, !is_back] && lacks[usize::from(is_back)]);
         let depth = self.judge.distance(&primitive, sample.ray()) * self.rays.distance.abs();
-        let is_before = depth < file.nearest && file.nearest.is_finite();
+        let is_before = file.may_clip && depth < file.nearest && file.nearest.is_finite();
         let near_plane = is_before.then_some(Reason::NearPlane { primitive: id, depth });
         let behind = self.reaches_behind(&primitive);
         outline

@@ -1,23 +1,26 @@
 //! Where a file differs from the true picture, if one thing of the scene is seen or shown in every such pixel.
 
-use super::convention::{Convention, Placement};
+use super::convention::{Convention, Placement, ShapeKind};
 use super::draw::Drawn;
 use super::encoding::Encoding;
 use super::expected::Expected;
 use super::observed::{Observed, Values};
+use crate::common::View;
 use crate::common::frame::NO_PRIMITIVE;
-use crate::common::{Primitive, View};
+use std::collections::BTreeSet;
 
-/// What every differing pixel shows, or should show; as a sentence without its end. `None` if there is no such thing, or if
-/// nothing else is seen.
+/// What every wrong pixel shows, or should show; as a sentence without its end. `None` if there is no such thing, or if nothing
+/// else is shown rightly.
 pub(super) fn common_place(view: &View, observed: &Observed, truth: &Drawn) -> Option<String> {
     let expected = Expected::new(view, &Convention::default(), truth);
     let mut places: Option<Vec<Thing>> = None;
+    let mut right = BTreeSet::new();
     expected.each(observed, Placement::Upright, &Encoding::default(), |pixel, differs, _| {
+        let seen = Some(truth.ids[pixel]).filter(|&id| id != NO_PRIMITIVE);
         if !differs {
+            right.extend(seen);
             return;
         }
-        let seen = Some(truth.ids[pixel]).filter(|&id| id != NO_PRIMITIVE);
         let both = [seen, shown(view, observed, pixel)];
         let is_here = |thing: &Thing| both.iter().flatten().any(|&id| thing.holds(view, id));
         match &mut places {
@@ -29,10 +32,10 @@ pub(super) fn common_place(view: &View, observed: &Observed, truth: &Drawn) -> O
         }
     });
     let places = places?;
-    let is_one_of_many =
-        |thing: &&Thing| truth.ids.iter().any(|&id| id != NO_PRIMITIVE && !thing.holds(view, id));
+    // Where nothing else is right, the file tells nothing of this thing.
+    let is_one_of_many = |thing: &&Thing| right.iter().any(|&id| !thing.holds(view, id));
     let thing = places.iter().filter(is_one_of_many).min_by_key(|thing| thing.rank())?;
-    Some(format!("each of them shows {}, or should show it", thing.words(view)))
+    Some(format!("every wrong pixel shows {}, or should", thing.words(view)))
 }
 
 /// The primitive that the file shows, if it tells.
@@ -48,7 +51,7 @@ enum Thing {
     Primitive(u32),
     Object(usize),
     /// Any sphere, or any plane.
-    Shape(&'static str),
+    Shape(ShapeKind),
 }
 
 impl Thing {
@@ -56,7 +59,8 @@ impl Thing {
     fn all_of(view: &View, id: u32) -> Vec<Thing> {
         let object = view.scene.locate(id.into()).0;
         let mut things = vec![Thing::Primitive(id), Thing::Object(object)];
-        things.extend(Some(shape(view, id)).filter(|shape| *shape != "triangle").map(Thing::Shape));
+        let shape = shape(view, id);
+        things.extend((shape != ShapeKind::Triangle).then_some(Thing::Shape(shape)));
         things
     }
 
@@ -79,20 +83,16 @@ impl Thing {
 
     fn words(self, view: &View) -> String {
         match self {
-            Thing::Primitive(id) => format!("id {id}, a {}", shape(view, id)),
+            Thing::Primitive(id) => format!("id {id}, a {}", shape(view, id).name()),
             Thing::Object(object) => {
                 let ids = view.scene.ids_of(object);
                 format!("object {object} (ids {} to {})", ids.start, ids.end - 1)
             }
-            Thing::Shape(shape) => format!("a {shape}"),
+            Thing::Shape(shape) => format!("a {}", shape.name()),
         }
     }
 }
 
-fn shape(view: &View, id: u32) -> &'static str {
-    match view.primitive(id.into()) {
-        Primitive::Triangle(_) => "triangle",
-        Primitive::Sphere { .. } => "sphere",
-        Primitive::Plane { .. } => "plane",
-    }
+fn shape(view: &View, id: u32) -> ShapeKind {
+    ShapeKind::of(&view.primitive(id.into()))
 }

@@ -1,6 +1,6 @@
 //! The viewing rays of a renderer with other conventions.
 
-use super::convention::{Convention, Look, Rays};
+use super::convention::{Convention, Field, Look, Rays};
 use crate::common::glam::DVec3;
 use crate::common::{Camera, CameraDescription, Judge, Projection, Ray};
 use std::ops::{Index, Range};
@@ -34,10 +34,13 @@ impl ViewingRays {
         let [vw, vh] = convention.field.viewport(camera);
         let projection = convention.rays.projection(camera.projection());
         let length = match projection {
-            Projection::Perspective => camera.distance(),
+            Projection::Perspective => convention.field.distance(camera),
             Projection::Parallel => 1.0,
         };
-        let description = CameraDescription { projection, ..*camera.description() };
+        let stated = camera.description();
+        let distance =
+            if convention.field == Field::DistanceLeftOut { 1.0 } else { stated.distance };
+        let description = CameraDescription { projection, distance, ..*stated };
         let coordinates = |sampling: super::convention::Sampling, side: f64, n: u32| {
             (0..n).map(move |index| sampling.coordinate(side, index, n))
         };
@@ -56,7 +59,8 @@ impl ViewingRays {
             distance,
             spread: convention.rays != Rays::OneOrigin,
             samples: 1,
-            camera: Camera::new(description).expect("only the projection is another"),
+            camera: Camera::new(description)
+                .expect("only the projection and the distance are others"),
         }
     }
 

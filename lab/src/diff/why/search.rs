@@ -7,12 +7,12 @@
 use super::convention::{Change, Convention, Placement};
 use super::draw::{Drawn, Rows, draw, equally_near};
 use super::encoding::{Encoding, IdEncoding, NothingEncoding};
+use super::evidence::no_evidence;
 use super::expected::{Expected, Score};
 use super::observed::{Observed, Values};
 use super::place::common_place;
 use super::suggestions::Differences;
 use crate::common::View;
-use crate::common::frame::NO_PRIMITIVE;
 use crate::diff::buffer::Buffer;
 use rayon::prelude::*;
 use std::borrow::Cow;
@@ -130,7 +130,7 @@ const FINALISTS: usize = 8;
 const MOST_ADDED: usize = 3;
 
 /// The most explanations that are named.
-const MOST_EXPLANATIONS: usize = 4;
+const MOST_EXPLANATIONS: usize = 6;
 
 /// Whether a hypothesis that leaves `simpler` pixels does as well as one with more parts that leaves `fewest`: the
 /// further parts explain less than half of what is left without them, or less than a thousandth of all.
@@ -160,19 +160,34 @@ impl Candidate {
 
     /// Whether nearly all stays right that the file shows rightly by our conventions. Where much is missing in a file,
     /// a picture that shows little leaves few pixels, too, and explains nothing. A few pixels may be right by accident.
-    /// What has numbers of its own must explain nearly all: it fits a part of anything.
-    fn may_explain(&self, ours: Score) -> bool {
+    ///
+    /// And the more freedom a hypothesis has, the less it may leave: several parts, or a number of its own, fit a part of
+    /// anything. A mask tells less than ids and distances.
+    fn may_explain(&self, ours: Score, is_mask: bool) -> bool {
         let lost = ours.shown.saturating_sub(self.score.shown);
         let explained = ours.differing.saturating_sub(self.score.differing);
-        let mut changes = self.convention.changes().into_iter();
-        let fits = !changes.any(Change::has_own_number) || 10 * explained >= 9 * ours.differing;
-        fits && 10 * lost <= explained
+        let parts_left = match parts(&self.convention, &self.encoding) {
+            0 | 1 => 1,
+            2 => 50,
+            _ => 200,
+        };
+        let omission_left = match (self.convention.leaves_out(), is_mask) {
+            (true, true) => 50,
+            (true, false) => 10,
+            (false, _) => 1,
+        };
+        let number_left = if self.encoding.has_own_numbers() { 50 } else { 1 };
+        let least = parts_left.max(omission_left).max(number_left);
+        let most_mistakes = if is_mask { 2 } else { 3 };
+        self.convention.mistakes() <= most_mistakes
+            && least * self.score.differing <= ours.differing
+            && 10 * lost <= explained
     }
 }
 
 /// How many choices are not ours.
 fn parts(convention: &Convention, encoding: &Encoding) -> usize {
-    convention.changes().len() + encoding.parts()
+    convention.mistakes() + encoding.parts()
 }
 
 impl Search<'_> {
@@ -191,7 +206,7 @@ impl Search<'_> {
         if differing == 0 {
             return Finding::True;
         }
-        if let Some(reason) = self.no_evidence() {
+        if let Some(reason) = no_evidence(self.view, self.observed, self.truth) {
             return Finding::NoEvidence(reason);
         }
         let mut finalists = self.finalists();
@@ -208,29 +223,6 @@ impl Search<'_> {
     fn place(&self) -> Option<String> {
         let is_upright = self.placements.contains(&Placement::Upright);
         is_upright.then(|| common_place(self.view, self.observed, self.truth))?
-    }
-
-    /// Why the file cannot tell conventions, if it cannot.
-    fn no_evidence(&self) -> Option<String> {
-        let pixels = self.truth.ids.len() as u64;
-        let covered = self.observed.covered_count(NothingEncoding::Ours);
-        let seen = self.truth.ids.iter().filter(|&&id| id != NO_PRIMITIVE).count();
-        if covered == 0 {
-            Some(
-                "the file covers nothing; to look the other way (along +w), to cull or clip everything, and never to hit \
-                 explain that equally well"
-                    .into(),
-            )
-        } else if seen == 0 {
-            Some("the scene covers no pixel of this camera: are scene, camera and size those of the file?".into())
-        } else if matches!(self.observed.values, Values::Mask(_)) && covered == pixels {
-            Some(
-                "the mask covers every pixel, and so says nothing about conventions; compare ids"
-                    .into(),
-            )
-        } else {
-            None
-        }
     }
 
     /// The rows by which hypotheses are judged first.
@@ -272,13 +264,14 @@ impl Search<'_> {
             .filter(|change| change.is_coarse())
             .collect();
         hypotheses.extend(changes.iter().map(|&change| Convention::default().with(change)));
-        let pairs = changes.len() * changes.len() / 2;
-        if pairs as u64 * self.view.scene.primitive_count() <= MOST_PRIMITIVES {
-            for (index, &one) in changes.iter().enumerate() {
-                let others =
-                    changes[index + 1..].iter().filter(|other| one.is_paired_with(**other));
-                hypotheses.extend(others.map(|&other| Convention::default().with(one).with(other)));
-            }
+        let paired = changes.iter().enumerate().flat_map(|(index, &one)| {
+            let others =
+                changes[index + 1..].iter().filter(move |other| one.is_paired_with(**other));
+            others.map(move |&other| Convention::default().with(one).with(other))
+        });
+        let pairs: Vec<Convention> = paired.collect();
+        if pairs.len() as u64 * self.view.scene.primitive_count() <= MOST_PRIMITIVES {
+            hypotheses.extend(pairs);
         }
         let mut candidates: Vec<Candidate> = hypotheses
             .par_iter()
@@ -299,6 +292,9 @@ impl Search<'_> {
         };
         candidates.sort_by_key(Candidate::rank);
         choose(&candidates);
+        // Several changes may fit a part of the file, and be refused.
+        let is_single = |one: &&Candidate| one.convention.changes().len() <= 1;
+        choose(&candidates.iter().filter(is_single).copied().collect::<Vec<_>>());
         candidates.sort_by_key(|candidate| {
             (candidate.score.coverage, parts(&candidate.convention, &candidate.encoding))
         });
@@ -306,10 +302,18 @@ impl Search<'_> {
         chosen.par_iter().map(|convention| self.drawn_whole(*convention)).collect()
     }
 
+    fn may_explain(&self, candidate: &Candidate, ours: Score) -> bool {
+        candidate.may_explain(ours, matches!(self.observed.values, Values::Mask(_)))
+    }
+
+    fn meanings_of_nothing(&self) -> Vec<NothingEncoding> {
+        self.observed.meanings_of_nothing(self.view.scene.primitive_count())
+    }
+
     /// The best reading of the file for each placement.
     fn placed(&self, convention: Convention, drawn: &Drawn) -> Vec<Candidate> {
         let expected = Expected::new(self.view, &convention, drawn);
-        let meanings = self.observed.meanings_of_nothing();
+        let meanings = self.meanings_of_nothing();
         let placed = self.placements.iter().map(|&placement| {
             let readings = meanings.iter().map(|&nothing| {
                 let encoding = expected.encoding(self.observed, placement, nothing);
@@ -344,7 +348,7 @@ impl Search<'_> {
         };
         let differences = Differences::new(&expected, self.observed, placement, encoding);
         let taken: HashSet<usize> = convention.changes().into_iter().map(Change::axis).collect();
-        let changes = differences.suggested().into_iter();
+        let changes = differences.suggested().into_par_iter();
         let free = changes.filter(|change| !taken.contains(&change.axis()));
         let mut found: Vec<Candidate> =
             free.map(|change| self.drawn_whole(convention.with(change))).collect();
@@ -362,7 +366,7 @@ impl Search<'_> {
         let drawn = &*self.whole(&convention);
         let expected = Expected::new(self.view, &convention, drawn);
         let placement = convention.placement;
-        let scored = self.observed.meanings_of_nothing().into_iter().flat_map(|nothing| {
+        let scored = self.meanings_of_nothing().into_iter().flat_map(|nothing| {
             let encoding = expected.encoding(self.observed, placement, nothing);
             let with = |encoding: Encoding| {
                 let score = expected.score_of_hypothesis(self.observed, placement, &encoding);
@@ -388,7 +392,9 @@ impl Search<'_> {
         let mut starts: Vec<Candidate> = finalists.iter().take(2).copied().collect();
         all.extend(starts.iter().flat_map(|start| self.with_tie_rules_instead(start, &changes)));
         let placed = self.ours_in_place();
-        all.extend(self.with_suggestions(&self.drawn_whole(placed)));
+        let ours = self.drawn_whole(placed);
+        all.extend(self.with_suggestions(&ours));
+        all.push(ours);
         // More parts cannot do better than what explains all.
         if starts[0].score.differing == 0 {
             return all;
@@ -400,35 +406,10 @@ impl Search<'_> {
             }
         }
         for start in starts {
-            let mut best = start;
-            for _ in 0..MOST_ADDED {
-                if best.score.differing == 0 {
-                    break;
-                }
-                let taken: HashSet<usize> =
-                    best.convention.changes().into_iter().map(Change::axis).collect();
-                let on_rows = self.on_some_rows(best.convention);
-                let mut added: Vec<Candidate> = changes
-                    .par_iter()
-                    .filter(|change| !taken.contains(&change.axis()))
-                    .map(|&change| (change, best.convention.with(change)))
-                    // What makes some rows no better is not drawn as a whole; few samples lie on ties.
-                    .filter(|(change, with)| {
-                        !change.is_coarse() || self.on_some_rows(*with) < on_rows
-                    })
-                    .map(|(_, with)| self.drawn_whole(with))
-                    .collect();
-                added.extend(self.with_suggestions(&best));
-                let Some(next) = added.iter().min_by_key(|one| one.rank()).copied() else { break };
-                all.extend(added);
-                if as_good(best.score.differing, next.score.differing, differing) {
-                    break;
-                }
-                best = next;
-            }
+            self.add_changes(start, &changes, differing, &mut all);
         }
         let possible = |all: &[Candidate]| {
-            let possible = all.iter().filter(|one| one.may_explain(by_ours));
+            let possible = all.iter().filter(|one| self.may_explain(one, by_ours));
             possible.min_by_key(|one| one.rank()).copied()
         };
         if possible(&all).is_none_or(|best| best.score.differing * 2 > differing) {
@@ -440,6 +421,41 @@ impl Search<'_> {
             all.extend(self.with_own_numbers_again(&best));
         }
         all
+    }
+
+    /// Adds to a candidate the change that explains most, as long as it explains half of what is left; all that is tried goes to
+    /// `all`.
+    fn add_changes(
+        &self,
+        start: Candidate,
+        changes: &[Change],
+        differing: u64,
+        all: &mut Vec<Candidate>,
+    ) {
+        let mut best = start;
+        for _ in 0..MOST_ADDED {
+            if best.score.differing == 0 {
+                break;
+            }
+            let taken: HashSet<usize> =
+                best.convention.changes().into_iter().map(Change::axis).collect();
+            let on_rows = self.on_some_rows(best.convention);
+            let mut added: Vec<Candidate> = changes
+                .par_iter()
+                .filter(|change| !taken.contains(&change.axis()))
+                .map(|&change| (change, best.convention.with(change)))
+                // What makes some rows no better is not drawn as a whole; few samples lie on ties.
+                .filter(|(change, with)| !change.is_coarse() || self.on_some_rows(*with) < on_rows)
+                .map(|(_, with)| self.drawn_whole(with))
+                .collect();
+            added.extend(self.with_suggestions(&best));
+            let Some(next) = added.iter().min_by_key(|one| one.rank()).copied() else { break };
+            all.extend(added);
+            if as_good(best.score.differing, next.score.differing, differing) {
+                break;
+            }
+            best = next;
+        }
     }
 
     /// The candidate with what the file suggests in place of each part with a number of its own: beside the other parts, the
@@ -506,7 +522,8 @@ impl Search<'_> {
         let differing = ours.differing;
         let parts = |one: &Candidate| parts(&one.convention, &one.encoding);
         // Our own conventions explain nothing.
-        let others = || candidates.iter().filter(|one| parts(one) > 0 && one.may_explain(ours));
+        let others =
+            || candidates.iter().filter(|one| parts(one) > 0 && self.may_explain(one, ours));
         let fewest = others().map(|one| one.score.differing).min().unwrap_or(differing);
         let good = |one: &&Candidate| as_good(one.score.differing, fewest, differing);
         let simplest = others().filter(good).map(parts).min();

@@ -1,8 +1,8 @@
 //! Conventions in sentences that a student can act on.
 
 use super::convention::{
-    Between, Change, Convention, Depth, Edges, Faces, Field, Look, NearPlane, Omission, Placement,
-    Rays, Sampling,
+    Between, Change, Clip, Convention, Depth, Edges, Faces, Field, Look, NearPlane, Omission,
+    Placement, Rays, Sampling,
 };
 use super::encoding::{DistanceEncoding, Encoding, INFINITELY_FAR, IdEncoding, NothingEncoding};
 use super::search::Explanation;
@@ -12,7 +12,7 @@ use crate::wording::readable;
 impl Explanation {
     /// The explanation in sentences, one for each part; `name` is the name of the file.
     pub fn sentences(&self, name: &str, camera: &Camera) -> Vec<String> {
-        let mut parts = of_convention(&self.convention, camera.projection());
+        let mut parts = of_convention(&self.convention, camera.projection(), Some(camera));
         parts.extend(of_encoding(&self.encoding));
         parts.iter().map(|part| with_name(part, name)).collect()
     }
@@ -26,7 +26,7 @@ pub(super) fn of_renderer(
     rays_of: Option<Projection>,
     encodings: &[Encoding; 3],
 ) -> Vec<String> {
-    let mut parts = of_convention(convention, rays_of.unwrap_or(Projection::Parallel));
+    let mut parts = of_convention(convention, rays_of.unwrap_or(Projection::Parallel), None);
     for (kind, encoding) in ["masks", "ids", "distances"].into_iter().zip(encodings) {
         let of_kind = of_encoding(encoding);
         parts.extend(of_kind.into_iter().map(|part| format!("{part} (in its {kind})")));
@@ -44,7 +44,12 @@ fn with_name(sentence: &str, name: &str) -> String {
     format!("{name} {sentence}")
 }
 
-fn of_convention(convention: &Convention, projection: Projection) -> Vec<String> {
+/// The camera tells which other viewports are of the same size, if there is one camera.
+fn of_convention(
+    convention: &Convention,
+    projection: Projection,
+    camera: Option<&Camera>,
+) -> Vec<String> {
     let mut changes = convention.changes();
     let mut sentences = Vec::new();
     // One mistake on both axes is one mistake.
@@ -54,7 +59,10 @@ fn of_convention(convention: &Convention, projection: Projection) -> Vec<String>
         changes.retain(|change| !matches!(change, Change::Columns(_) | Change::Rows(_)));
         sentences.push(both);
     }
-    let parts = changes.into_iter().map(|change| sentence(change, projection));
+    let parts = changes.into_iter().map(|change| match (change, camera) {
+        (Change::Field(field), Some(camera)) => of_fields(field, camera),
+        _ => sentence(change, projection),
+    });
     parts.chain(sentences).collect()
 }
 
@@ -102,10 +110,11 @@ fn sentence(change: Change, projection: Projection) -> String {
         Change::Faces(faces) => of_faces(faces).into(),
         Change::Depth(depth) => of_depth(depth).into(),
         Change::Near(plane) => of_near(plane, projection),
-        Change::Far(between) => format!(
-            "shows nothing beyond t = {}: it has a far plane, or a largest t, there{}; here nothing is too far to be seen",
-            of_between(between),
-            depth_of_t(projection)
+        Change::Far(Clip { at, alone }) => format!(
+            "shows nothing beyond t = {}: it has a far plane, or a largest t, there{}{}; here nothing is too far to be seen",
+            of_between(at),
+            depth_of_t(projection),
+            of_alone(alone, "ends")
         ),
         Change::Omission(omission) => of_omission(omission),
     }
@@ -170,6 +179,12 @@ fn of_sampling(sampling: Sampling, [index, sides, point, thing, first, last]: [&
             )
         }
     }
+}
+
+/// The viewport, and every other one of the same size.
+fn of_fields(field: Field, camera: &Camera) -> String {
+    let all = std::iter::once(field).chain(field.of_same_size(camera));
+    all.map(of_field).collect::<Vec<_>>().join("; or it ")
 }
 
 fn of_field(field: Field) -> &'static str {
@@ -280,24 +295,30 @@ fn of_depth(depth: Depth) -> &'static str {
     }
 }
 
-fn of_near(NearPlane { at, hides_spheres }: NearPlane, projection: Projection) -> String {
-    let at_viewport =
-        projection == Projection::Perspective && (at.nearer..=at.farther).contains(&1.0);
-    let place = of_between(at);
-    let place = match hides_spheres {
-        true => format!("{place}, nor the other side of a sphere whose first hit is nearer"),
-        false => place,
+fn of_near(NearPlane { clip, hides_spheres }: NearPlane, projection: Projection) -> String {
+    /// What lies between distances that differ by more is not certain enough to be named.
+    const NARROW: f64 = 1.2;
+    let Clip { at, alone } = clip;
+    let at_viewport = projection == Projection::Perspective
+        && (at.nearer..=at.farther).contains(&1.0)
+        && at.farther <= NARROW * at.nearer;
+    let viewport = if at_viewport { "; the viewport lies at t = 1" } else { "" };
+    let spheres = match hides_spheres {
+        true => ", nor the other side of a sphere whose first hit is nearer",
+        false => "",
     };
-    if at_viewport {
-        return format!(
-            "shows nothing nearer than t = {place}: its viewport, at t = 1, clips; here all that lies before the eye is \
-             seen, also what is nearer than the viewport"
-        );
-    }
     format!(
-        "shows nothing nearer than t = {place}: it has a near plane, or a smallest t, there{}; here all with t > 0 is seen",
-        depth_of_t(projection)
+        "shows nothing nearer than t = {}{spheres}: it has a near plane, or a smallest t, there{}{viewport}{}; here all \
+         with t > 0 is seen",
+        of_between(at),
+        depth_of_t(projection),
+        of_alone(alone, "begins")
     )
+}
+
+/// What one primitive may do where it alone is clipped.
+fn of_alone(alone: Option<u32>, ends: &str) -> String {
+    alone.map_or(String::new(), |id| format!(", or id {id} {ends} there"))
 }
 
 /// The depth along the axis, where `t` is another number.
@@ -326,9 +347,18 @@ fn of_omission(omission: Omission) -> String {
         Omission::Primitive { id, .. } => {
             format!("leaves out id {id}: is it read, and what drops it?")
         }
-        Omission::From(first) => format!(
-            "leaves out all from id {first} on: does its loop end too early, or its memory?"
-        ),
+        Omission::Several(several) => {
+            let ids: Vec<String> = several.ids().iter().map(u32::to_string).collect();
+            format!("leaves out ids {}: are they read, and what drops them?", ids.join(", "))
+        }
+        Omission::Shape(shape) => format!("draws no {}", shape.name()),
+        Omission::From { least, first } => {
+            let from = match least == first {
+                true => format!("id {first}"),
+                false => format!("some id between {least} and {first}"),
+            };
+            format!("leaves out all from {from} on: does its loop, or a buffer, end too early?")
+        }
         Omission::Object { object, ids: [first, last] } => {
             format!("leaves out object {object} (ids {first} to {last}): is it read, and what drops it?")
         }
@@ -408,13 +438,33 @@ fn of_distances(encoding: DistanceEncoding) -> Option<String> {
 
 /// A linear function of `t`.
 fn of_linear(factor: f64, offset: f64) -> String {
-    let product = if factor == 1.0 { "t".into() } else { format!("{} t", digits(factor)) };
-    let unit = "t counts in lengths of the ray's direction";
-    if offset == 0.0 {
-        return format!("holds {product}: {unit}, from the eye; divide by {}", digits(factor));
+    /// As many digits as an `f32` tells.
+    fn digits(number: f64) -> String {
+        format!("{number:.5e}").parse::<f64>().unwrap_or(number).to_string()
     }
-    let sign = if offset < 0.0 { '-' } else { '+' };
-    format!("holds {product} {sign} {}: {unit}, from the eye", digits(offset.abs()))
+    let product = match factor.abs() {
+        1.0 => "t".to_owned(),
+        factor => format!("{} t", digits(factor)),
+    };
+    let number = digits(offset.abs());
+    let sum = match (factor < 0.0, offset) {
+        (false, 0.0) => product,
+        (true, 0.0) => format!("-{product}"),
+        (false, offset) if offset < 0.0 => format!("{product} - {number}"),
+        (false, _) => format!("{product} + {number}"),
+        (true, offset) if offset < 0.0 => format!("-{product} - {number}"),
+        (true, _) => format!("{number} - {product}"),
+    };
+    let mut cure = match offset {
+        0.0 => Vec::new(),
+        offset if offset < 0.0 => vec![format!("add {number}")],
+        _ => vec![format!("subtract {number}")],
+    };
+    if factor != 1.0 {
+        cure.push(format!("divide by {}", digits(factor)));
+    }
+    let cure = cure.join(" and ");
+    format!("holds {sum}: t counts from the ray's origin, in lengths of its direction; {cure}")
 }
 
 /// A number of three digits, which are certain.
@@ -431,7 +481,7 @@ mod tests {
     /// The sentences of a convention.
     fn sentences(changes: &[Change]) -> Vec<String> {
         let convention = changes.iter().fold(Convention::default(), |all, &one| all.with(one));
-        of_convention(&convention, Projection::Perspective)
+        of_convention(&convention, Projection::Perspective, None)
     }
 
     #[test]

@@ -22,6 +22,8 @@ pub(super) struct Shown {
     pub(super) lacks_front: bool,
     /// The least depth along the axis at which it agrees with the truth; infinite if it agrees nowhere.
     pub(super) nearest: f64,
+    /// Whether at least half of what it does not show lies nearer than that: a near plane explains it.
+    pub(super) may_clip: bool,
     /// Whether meshes may stand in the place of spheres: their outlines lie inside, so that no sample is gained, and
     /// the triangles have ids of their own.
     pub(super) may_hold_meshes: bool,
@@ -38,11 +40,13 @@ impl Shown {
         let (mut shows_back, mut shows_front, mut nearest) = (false, false, f64::INFINITY);
         let (mut lacks_back, mut lacks_front) = (false, false);
         let mut seen = HashSet::new();
+        let mut missing = Vec::new();
         for (index, &id) in truth.ids.iter().enumerate() {
             if id == NO_PRIMITIVE {
                 continue;
             }
             if !agrees(&observed, index, id, truth.t[index]) {
+                missing.push(truth.t[index] * rays.distance.abs());
                 let at = [index / rays.x.len(), index % rays.x.len()];
                 if let Some(is_back) = well_within(view, rays, at, id) {
                     lacks_back |= is_back;
@@ -60,6 +64,8 @@ impl Shown {
                 shows_front |= !is_back;
             }
         }
+        let before = missing.iter().filter(|&&depth| depth < nearest).count();
+        let may_clip = 2 * before >= missing.len();
         let gains = |index: usize| {
             truth.ids[index] == NO_PRIMITIVE && observed.covered(index, NothingEncoding::Ours)
         };
@@ -72,6 +78,7 @@ impl Shown {
             lacks_back,
             lacks_front,
             nearest,
+            may_clip,
             may_hold_meshes,
         }
     }

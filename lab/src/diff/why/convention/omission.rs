@@ -1,7 +1,6 @@
 //! What a renderer leaves out: single primitives and objects, and what lies beyond a plane.
 
-use crate::common::Scene;
-use std::ops::RangeInclusive;
+use crate::common::{Primitive, Scene};
 
 /// Two distances `t`, between which something begins or ends to be seen: the picture tells no more.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,11 +18,20 @@ impl Between {
     }
 }
 
+/// A plane across the axis that clips.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Clip {
+    /// The distances `t` between which it lies.
+    pub at: Between,
+    /// The only primitive that it clips in the picture, if it is one: it may as well end there.
+    pub alone: Option<u32>,
+}
+
 /// A plane that clips what lies before it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NearPlane {
-    /// The distances `t` between which it lies.
-    pub at: Between,
+    /// Where it lies.
+    pub clip: Clip,
     /// Whether a sphere whose first hit lies before it is not seen at all, rather than its other side behind the plane.
     pub hides_spheres: bool,
 }
@@ -48,8 +56,17 @@ pub enum Omission {
         /// Its first and its last id.
         ids: [u32; 2],
     },
-    /// All from this id on.
-    From(u32),
+    /// A few primitives.
+    Several(Several),
+    /// All primitives of a shape.
+    Shape(ShapeKind),
+    /// All from some id on.
+    From {
+        /// The smallest id that may be the first of them: the one behind the last that is shown.
+        least: u32,
+        /// The largest: the first that is missing where it should be seen.
+        first: u32,
+    },
 }
 
 impl Omission {
@@ -66,13 +83,71 @@ impl Omission {
         (first < last).then_some(Omission::Object { object, ids: [first, last] })
     }
 
-    /// The ids that are not drawn.
-    pub fn ids(self) -> Option<RangeInclusive<u32>> {
+    /// Whether a primitive is not drawn.
+    pub fn omits(self, id: u32, primitive: &Primitive) -> bool {
         match self {
-            Omission::Nothing => None,
-            Omission::Primitive { id, .. } => Some(id..=id),
-            Omission::Object { ids: [first, last], .. } => Some(first..=last),
-            Omission::From(first) => Some(first..=u32::MAX),
+            Omission::Nothing => false,
+            Omission::Primitive { id: own, .. } => own == id,
+            Omission::Object { ids: [first, last], .. } => (first..=last).contains(&id),
+            Omission::Several(several) => several.ids().contains(&id),
+            Omission::Shape(kind) => kind == ShapeKind::of(primitive),
+            Omission::From { first, .. } => id >= first,
+        }
+    }
+}
+
+/// The ids of a few primitives, ascending.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Several {
+    ids: [u32; Several::MOST],
+    count: usize,
+}
+
+impl Several {
+    /// The most of them.
+    pub const MOST: usize = 8;
+
+    /// Some ids, which are ascending; `None` if they are fewer than two or more than [`Several::MOST`].
+    pub fn new(some: &[u32]) -> Option<Several> {
+        let mut ids = [0; Several::MOST];
+        let count = some.len();
+        ids.get_mut(..count).filter(|_| count > 1)?.copy_from_slice(some);
+        Some(Several { ids, count })
+    }
+
+    /// All of them.
+    pub fn ids(&self) -> &[u32] {
+        &self.ids[..self.count]
+    }
+}
+
+/// What a primitive is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum ShapeKind {
+    /// A triangle, of a mesh or alone.
+    Triangle,
+    /// A sphere.
+    Sphere,
+    /// A plane.
+    Plane,
+}
+
+impl ShapeKind {
+    /// The kind of a primitive.
+    pub fn of(primitive: &Primitive) -> ShapeKind {
+        match primitive {
+            Primitive::Triangle(_) => ShapeKind::Triangle,
+            Primitive::Sphere { .. } => ShapeKind::Sphere,
+            Primitive::Plane { .. } => ShapeKind::Plane,
+        }
+    }
+
+    /// The kind in a sentence.
+    pub fn name(self) -> &'static str {
+        match self {
+            ShapeKind::Triangle => "triangle",
+            ShapeKind::Sphere => "sphere",
+            ShapeKind::Plane => "plane",
         }
     }
 }

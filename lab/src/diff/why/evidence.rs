@@ -1,0 +1,69 @@
+//! Whether a file can tell conventions at all.
+
+use super::convention::Convention;
+use super::draw::Drawn;
+use super::encoding::NothingEncoding;
+use super::observed::{Observed, Values};
+use super::rays::ViewingRays;
+use crate::common::frame::NO_PRIMITIVE;
+use crate::common::{Projection, View};
+use std::collections::HashSet;
+
+/// Why the file cannot tell conventions, if it cannot.
+pub(super) fn no_evidence(view: &View, observed: &Observed, truth: &Drawn) -> Option<String> {
+    let pixels = truth.ids.len() as u64;
+    let covered = observed.covered_count(NothingEncoding::Ours);
+    let seen = truth.ids.iter().filter(|&&id| id != NO_PRIMITIVE).count();
+    if covered == 0 {
+        Some(
+            "the file covers nothing; to look the other way (along +w), to cull or clip everything, and never to hit \
+             explain that equally well"
+                .into(),
+        )
+    } else if seen == 0 {
+        Some("the scene covers no pixel of this camera: are scene, camera and size those of the file?".into())
+    } else if let Some(number) = only_number(view, observed, truth) {
+        Some(format!(
+            "every pixel that it covers holds the number {number}, though several objects are seen: are its ids written?"
+        ))
+    } else if matches!(observed.values, Values::Mask(_)) && covered == pixels {
+        Some(
+            "the mask covers every pixel, and so says nothing about conventions; compare ids"
+                .into(),
+        )
+    } else {
+        None
+    }
+}
+
+/// The number that a file of ids holds wherever it covers something, if several objects are seen there and the primitive
+/// with this id does not lie everywhere behind them.
+fn only_number(view: &View, observed: &Observed, truth: &Drawn) -> Option<u64> {
+    let Values::Ids(ids) = &observed.values else { return None };
+    let number = ids.iter().flatten().next().copied()?;
+    let seen = &truth.ids;
+    let objects: HashSet<usize> = seen
+        .iter()
+        .filter(|&&id| id != NO_PRIMITIVE)
+        .map(|&id| view.scene.locate(id.into()).0)
+        .collect();
+    let is_constant = objects.len() > 1
+        && ids.len() == seen.len()
+        && ids.iter().flatten().all(|&id| id == number)
+        && ids.iter().zip(seen).all(|(id, seen)| id.is_some() || *seen == NO_PRIMITIVE);
+    // Parallel rays of one origin see one primitive in all pixels.
+    let may_be_one_ray =
+        view.camera.projection() == Projection::Parallel && ids.iter().all(Option::is_some);
+    let is_behind_all =
+        || number < view.scene.primitive_count() && lies_everywhere(view, truth, number);
+    (is_constant && !may_be_one_ray && !is_behind_all()).then_some(number)
+}
+
+/// Whether a primitive covers every sample at which something is seen.
+fn lies_everywhere(view: &View, truth: &Drawn, id: u64) -> bool {
+    let (rays, primitive) =
+        (ViewingRays::new(view.camera, &Convention::default()), view.primitive(id));
+    let (judge, width) = (rays.judge(), rays.x.len());
+    let mut pixels = (0..truth.ids.len()).filter(|&at| truth.ids[at] != NO_PRIMITIVE);
+    pixels.all(|pixel| judge.covers(&primitive, &rays.ray(pixel / width, pixel % width)))
+}
