@@ -25,6 +25,12 @@ impl Encoding {
         matches!(self.distances, Linear { .. } | Window { .. } | ReversedWindow { .. })
     }
 
+    /// Whether its numbering of primitives may fit a part of any file: other orders, and numbers of objects.
+    pub(super) fn is_another_numbering(&self) -> bool {
+        use IdEncoding::{FromTheEnd, OfObjects, OneToOne};
+        matches!(self.ids, FromTheEnd | OfObjects | OneToOne)
+    }
+
     /// How many of them do not.
     pub(super) fn parts(&self) -> usize {
         let ours = Encoding::default();

@@ -36,8 +36,8 @@ pub(super) fn no_evidence(view: &View, observed: &Observed, truth: &Drawn) -> Op
     }
 }
 
-/// The number that a file of ids holds wherever it covers something, if several objects are seen there and the primitive
-/// with this id does not lie everywhere behind them.
+/// The number that a file of ids holds wherever it covers something, if several objects are seen there, and it is no id, or the
+/// first one, and its primitive does not lie everywhere behind them.
 fn only_number(view: &View, observed: &Observed, truth: &Drawn) -> Option<u64> {
     let Values::Ids(ids) = &observed.values else { return None };
     let number = ids.iter().flatten().next().copied()?;
@@ -54,9 +54,13 @@ fn only_number(view: &View, observed: &Observed, truth: &Drawn) -> Option<u64> {
     // Parallel rays of one origin see one primitive in all pixels.
     let may_be_one_ray =
         view.camera.projection() == Projection::Parallel && ids.iter().all(Option::is_some);
+    let count = view.scene.primitive_count();
+    let is_no_id = number == 0 || number >= count;
+    // Ids may count from 1.
+    let ids_of_number = [Some(number), number.checked_sub(1)].into_iter().flatten();
     let is_behind_all =
-        || number < view.scene.primitive_count() && lies_everywhere(view, truth, number);
-    (is_constant && !may_be_one_ray && !is_behind_all()).then_some(number)
+        || ids_of_number.filter(|&id| id < count).any(|id| lies_everywhere(view, truth, id));
+    (is_constant && is_no_id && !may_be_one_ray && !is_behind_all()).then_some(number)
 }
 
 /// Whether a primitive covers every sample at which something is seen.

@@ -166,7 +166,8 @@ impl Candidate {
     fn may_explain(&self, ours: Score, is_mask: bool) -> bool {
         let lost = ours.shown.saturating_sub(self.score.shown);
         let explained = ours.differing.saturating_sub(self.score.differing);
-        let parts_left = match parts(&self.convention, &self.encoding) {
+        let mistakes = self.convention.mistakes();
+        let parts_left = match mistakes + usize::from(self.encoding.is_another_numbering()) {
             0 | 1 => 1,
             2 => 50,
             _ => 200,
@@ -179,7 +180,7 @@ impl Candidate {
         let number_left = if self.encoding.has_own_numbers() { 50 } else { 1 };
         let least = parts_left.max(omission_left).max(number_left);
         let most_mistakes = if is_mask { 2 } else { 3 };
-        self.convention.mistakes() <= most_mistakes
+        mistakes <= most_mistakes
             && least * self.score.differing <= ours.differing
             && 10 * lost <= explained
     }

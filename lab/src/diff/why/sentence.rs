@@ -308,7 +308,7 @@ fn of_near(NearPlane { clip, hides_spheres }: NearPlane, projection: Projection)
         false => "",
     };
     format!(
-        "shows nothing nearer than t = {}{spheres}: it has a near plane, or a smallest t, there{}{viewport}{}; here all \
+        "shows nothing nearer than t = {}{spheres}: it has a near plane, or a smallest t, there{}{}{viewport}; here all \
          with t > 0 is seen",
         of_between(at),
         depth_of_t(projection),
@@ -477,6 +477,7 @@ fn digits(number: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::common::CameraDescription;
 
     /// The sentences of a convention.
     fn sentences(changes: &[Change]) -> Vec<String> {
@@ -509,6 +510,55 @@ mod tests {
                 );
                 assert!(said[0].ends_with("is the same picture)"), "{said:?}");
             }
+        }
+    }
+
+    #[test]
+    fn the_viewport_that_clips_is_told_with_what_may_be_instead() {
+        let at = Between { nearer: 0.98, farther: 1.05 };
+        let plane = NearPlane { clip: Clip { at, alone: Some(7) }, hides_spheres: false };
+        assert_eq!(
+            sentences(&[Change::Near(plane)]),
+            [
+                "shows nothing nearer than t = 0.98 to 1.05: it has a near plane, or a smallest t, there (its depth is t d), or \
+              id 7 begins there; the viewport lies at t = 1; here all with t > 0 is seen"
+            ]
+        );
+    }
+
+    #[test]
+    fn a_viewport_is_named_with_the_others_of_its_size_and_none_that_is_right() {
+        let description =
+            CameraDescription { distance: 2.0, image: [8, 8], ..CameraDescription::default() };
+        let square =
+            Camera::new(CameraDescription { viewport: [1.0, 1.0], ..description }).unwrap();
+        let only = of_fields(Field::DistanceLeftOut, &square);
+        assert_eq!(only, of_field(Field::DistanceLeftOut));
+        let wide = CameraDescription { viewport: [2.0, 1.0], image: [16, 8], ..description };
+        let both = of_fields(Field::AspectLeftOut, &Camera::new(wide).unwrap());
+        assert!(both.contains("; or it has a viewport half as wide: vw"), "{both}");
+    }
+
+    #[test]
+    fn a_linear_distance_is_told_with_its_cure() {
+        for (factor, offset, said) in [
+            (
+                1.001,
+                0.0,
+                "holds 1.001 t: t counts from the ray's origin, in lengths of its direction; divide by 1.001",
+            ),
+            (
+                -1.0,
+                10.0,
+                "holds 10 - t: t counts from the ray's origin, in lengths of its direction; subtract 10 and divide by -1",
+            ),
+            (
+                0.5,
+                -3.0,
+                "holds 0.5 t - 3: t counts from the ray's origin, in lengths of its direction; add 3 and divide by 0.5",
+            ),
+        ] {
+            assert_eq!(of_linear(factor, offset), said);
         }
     }
 }

@@ -147,28 +147,31 @@ impl<'a> Differences<'a> {
         let of_shape = |(shape, (number, counts))| {
             (number > 1 && several_shapes).then_some((Omission::Shape(shape), counts))
         };
-        let last = last_ones(seen);
         // A mask shows no difference where something lies behind.
         let hides_behind = matches!(self.observed.values, Values::Mask(_));
-        let several = several(seen).filter(|(_, counts)| {
-            !hides_behind && last.is_none_or(|(_, of_last)| of_last.differing != counts.differing)
-        });
-        let mut found = Vec::new();
-        for mut candidates in [
-            seen.iter().map(of_primitive).collect::<Vec<_>>(),
+        let mut named: Vec<Vec<(Omission, Counts)>> = vec![
+            seen.iter().map(of_primitive).collect(),
             objects.into_iter().filter_map(of_object).collect(),
             shapes.into_iter().filter_map(of_shape).collect(),
-            last.into_iter().collect(),
-            several.into_iter().collect(),
-        ] {
+            last_ones(seen, &self.shown_ids()).into_iter().collect(),
+        ];
+        for candidates in &mut named {
             candidates.retain(|(_, counts)| {
                 let is_missing = hides_behind || counts.is_missing();
                 is_missing && explains(counts.differing, differing)
             });
             candidates.sort_by_key(|(_, counts)| Reverse(counts.differing));
-            found.extend(candidates.into_iter().take(MOST_OMISSIONS).map(|(omission, _)| omission));
+            candidates.truncate(MOST_OMISSIONS);
         }
-        found
+        let mut found = named.concat();
+        // What has a name is not listed by its ids, too.
+        let several = several(seen).filter(|(_, all)| {
+            !hides_behind
+                && explains(all.differing, differing)
+                && !found.iter().any(|(_, counts)| counts.differing == all.differing)
+        });
+        found.extend(several);
+        found.into_iter().map(|(omission, _)| omission).collect()
     }
 
     /// In how many pixels the file shows each primitive, if its numbers are those of primitives. What is shown somewhere is
@@ -239,7 +242,10 @@ fn several(seen: &BTreeMap<u32, Seen>) -> Option<(Omission, Counts)> {
 }
 
 /// All primitives from some id on, if the file shows none of them, and several of them are seen.
-fn last_ones(seen: &BTreeMap<u32, Seen>) -> Option<(Omission, Counts)> {
+fn last_ones(
+    seen: &BTreeMap<u32, Seen>,
+    shown: &HashMap<u32, usize>,
+) -> Option<(Omission, Counts)> {
     let mut all = Counts::default();
     let mut missing = Vec::new();
     let mut ids = seen.iter().rev();
@@ -252,8 +258,9 @@ fn last_ones(seen: &BTreeMap<u32, Seen>) -> Option<(Omission, Counts)> {
         is_kept.then_some(id)
     });
     let first = *missing.last()?;
-    // Between them nothing is seen: the first that is missing may be any.
-    let least = last_kept? + 1;
+    // Of those between them nothing is seen, unless the file shows some in the holes: the first that is missing may be any.
+    let shown = shown.keys().copied().filter(|&id| id < first).max();
+    let least = shown.max(Some(last_kept?))? + 1;
     (missing.len() > 1).then_some((Omission::From { least, first }, all))
 }
 

@@ -371,6 +371,13 @@ fn what_is_left_out_is_named_in_ids_and_in_masks() {
                     assert_eq!(least, Some(0), "{omission:?}: {found:?}");
                     let is_it = |one: &Explanation| same(one.convention.omission, omission);
                     named += usize::from(found.iter().any(is_it));
+                    // What has a name is not listed by its ids, too.
+                    let of = |one: &Explanation| one.convention.omission;
+                    let is_list = |one: &Omission| matches!(one, Omission::Several(_));
+                    for list in found.iter().map(of).filter(is_list) {
+                        let like_it = found.iter().filter(|one| same(of(one), list)).count();
+                        assert_eq!(like_it, 1, "{found:?}");
+                    }
                     wrong += 1;
                 }
                 // So few pixels may be lost by rounding.

@@ -90,11 +90,12 @@ impl Field {
         if self == Field::DistanceLeftOut { 1.0 } else { camera.distance() }
     }
 
-    /// The other fields of the same size.
+    /// The other fields of the same size, if it is not the stated one.
     pub(in crate::diff::why) fn of_same_size(self, camera: &Camera) -> impl Iterator<Item = Field> {
         let size = self.viewport(camera);
-        let others =
-            Field::ALL.into_iter().filter(move |&other| other != self && !other.has_stated_size());
+        let others = Field::ALL.into_iter().filter(move |&other| {
+            !self.has_stated_size() && other != self && !other.has_stated_size()
+        });
         others.filter(move |other| is_same(other.viewport(camera), size))
     }
 
