@@ -1,6 +1,6 @@
 //! The viewing rays of a renderer with other conventions.
 
-use super::convention::{Convention, Field, Look, Rays};
+use super::convention::{Convention, Look, Rays};
 use crate::common::glam::DVec3;
 use crate::common::{Camera, CameraDescription, Judge, Projection, Ray};
 use std::ops::{Index, Range};
@@ -33,14 +33,12 @@ impl ViewingRays {
         let [width, height] = camera.image();
         let [vw, vh] = convention.field.viewport(camera);
         let projection = convention.rays.projection(camera.projection());
+        let distance = convention.field.distance(camera);
         let length = match projection {
-            Projection::Perspective => convention.field.distance(camera),
+            Projection::Perspective => f64::from(distance),
             Projection::Parallel => 1.0,
         };
-        let stated = camera.description();
-        let distance =
-            if convention.field == Field::DistanceLeftOut { 1.0 } else { stated.distance };
-        let description = CameraDescription { projection, distance, ..*stated };
+        let description = CameraDescription { projection, distance, ..*camera.description() };
         let coordinates = |sampling: super::convention::Sampling, side: f64, n: u32| {
             (0..n).map(move |index| sampling.coordinate(side, index, n))
         };
@@ -178,7 +176,7 @@ impl Index<usize> for Coordinates {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diff::why::convention::{Change, Sampling};
+    use crate::diff::why::convention::{Change, Field, Sampling};
 
     #[test]
     fn indices_are_those_between_two_coordinates() {
@@ -227,5 +225,16 @@ mod tests {
         let rays = ViewingRays::new(&camera, &corner);
         assert_eq!(rays.x.values, [-0.5, -0.25, 0.0, 0.25]);
         assert_eq!(rays.y.values, camera.sample_grid(1).y());
+    }
+
+    #[test]
+    fn where_1_is_taken_for_d_the_viewport_is_as_stated_and_lies_at_1() {
+        let stated = CameraDescription { distance: 2.0, ..*Camera::canonical(2, 4).description() };
+        let camera = Camera::new(stated).unwrap();
+        let left_out = Convention::default().with(Change::Field(Field::DistanceLeftOut));
+        let [ours, theirs] = [Convention::default(), left_out]
+            .map(|convention| ViewingRays::new(&camera, &convention).ray(0, 3).direction);
+        assert_eq!([ours.z, theirs.z], [-2.0, -1.0]);
+        assert_eq!(ours.truncate(), theirs.truncate());
     }
 }

@@ -103,11 +103,9 @@ pub enum SearchError {
 pub fn find_conventions(view: &View, file: &Buffer) -> Result<Findings, SearchError> {
     let observed = Observed::of(file).ok_or(SearchError::Kind)?;
     let image @ [width, height] = view.camera.image();
-    // In a square picture two placements are one.
-    let is_known = |placement: &Placement| *placement == Placement::ByColumns && width == height;
-    let all = Placement::ALL.into_iter().filter(|placement| !is_known(placement));
+    let distinct = Placement::distinct(std::iter::once(image));
     let placements: Vec<Placement> =
-        all.filter(|placement| placement.fits(file.size(), image)).collect();
+        distinct.filter(|placement| placement.fits(file.size(), image)).collect();
     if placements.is_empty() {
         return Err(SearchError::Size { file: file.size(), camera: image });
     }

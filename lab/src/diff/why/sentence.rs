@@ -59,10 +59,7 @@ fn of_convention(
         changes.retain(|change| !matches!(change, Change::Columns(_) | Change::Rows(_)));
         sentences.push(both);
     }
-    let parts = changes.into_iter().map(|change| match (change, camera) {
-        (Change::Field(field), Some(camera)) => of_fields(field, camera),
-        _ => sentence(change, projection),
-    });
+    let parts = changes.into_iter().map(|change| sentence(change, projection, camera));
     parts.chain(sentences).collect()
 }
 
@@ -93,14 +90,14 @@ fn sampling_of_both(sampling: Sampling) -> Option<String> {
     Some(words.into())
 }
 
-fn sentence(change: Change, projection: Projection) -> String {
+fn sentence(change: Change, projection: Projection, camera: Option<&Camera>) -> String {
     match change {
         Change::Placement(placement) => of_placement(placement).into(),
         Change::Columns(sampling) => {
             of_sampling(sampling, ["j", "W", "cx", "column", "left", "right"])
         }
         Change::Rows(sampling) => of_sampling(sampling, ["i", "H", "cy", "row", "top", "bottom"]),
-        Change::Field(field) => of_field(field).into(),
+        Change::Field(field) => of_fields(field, camera),
         Change::Look(Look::Backward | Look::Forward) => {
             "looks along +w, and sees what lies behind the eye: the direction is x u + y v - d w"
                 .into()
@@ -181,9 +178,10 @@ fn of_sampling(sampling: Sampling, [index, sides, point, thing, first, last]: [&
     }
 }
 
-/// The viewport, and every other one of the same size.
-fn of_fields(field: Field, camera: &Camera) -> String {
-    let all = std::iter::once(field).chain(field.of_same_size(camera));
+/// The viewport, and every other one of the same size, if a camera tells.
+fn of_fields(field: Field, camera: Option<&Camera>) -> String {
+    let others = camera.into_iter().flat_map(|camera| field.of_same_size(camera));
+    let all = std::iter::once(field).chain(others);
     all.map(of_field).collect::<Vec<_>>().join("; or it ")
 }
 
@@ -532,10 +530,10 @@ mod tests {
             CameraDescription { distance: 2.0, image: [8, 8], ..CameraDescription::default() };
         let square =
             Camera::new(CameraDescription { viewport: [1.0, 1.0], ..description }).unwrap();
-        let only = of_fields(Field::DistanceLeftOut, &square);
+        let only = of_fields(Field::DistanceLeftOut, Some(&square));
         assert_eq!(only, of_field(Field::DistanceLeftOut));
         let wide = CameraDescription { viewport: [2.0, 1.0], image: [16, 8], ..description };
-        let both = of_fields(Field::AspectLeftOut, &Camera::new(wide).unwrap());
+        let both = of_fields(Field::AspectLeftOut, Some(&Camera::new(wide).unwrap()));
         assert!(both.contains("; or it has a viewport half as wide: vw"), "{both}");
     }
 

@@ -53,7 +53,7 @@ impl<'a> Differences<'a> {
 
     /// Whether all differences lie in one row or one column.
     fn is_one_line(&self) -> bool {
-        let width = self.observed_width();
+        let width = self.expected.view.camera.image()[0] as usize;
         let mut pixels = (0..self.differs.len()).filter(|&pixel| self.differs[pixel]);
         let Some(first) = pixels.next() else { return true };
         let (mut rows, mut columns) = (false, false);
@@ -65,10 +65,6 @@ impl<'a> Differences<'a> {
             }
         }
         true
-    }
-
-    fn observed_width(&self) -> usize {
-        self.expected.view.camera.image()[0] as usize
     }
 
     /// What is seen of each primitive.
@@ -260,7 +256,7 @@ fn last_ones(
     let first = *missing.last()?;
     // Of those between them nothing is seen, unless the file shows some in the holes: the first that is missing may be any.
     let shown = shown.keys().copied().filter(|&id| id < first).max();
-    let least = shown.max(Some(last_kept?))? + 1;
+    let least = last_kept?.max(shown.unwrap_or(0)) + 1;
     (missing.len() > 1).then_some((Omission::From { least, first }, all))
 }
 
@@ -345,5 +341,19 @@ mod tests {
         assert_eq!(plane(few, 7), None);
         let enough = (0..100).map(|k| Hit { t: f64::from(k), id: k, differs: k < 8 });
         assert!(plane(enough, 8).is_some());
+    }
+
+    #[test]
+    fn the_first_that_is_missing_lies_behind_what_the_file_shows() {
+        let one = |differing: usize| {
+            let counts = Counts { seen: 9, differing, shown: 9 - differing };
+            Seen { counts, shape: ShapeKind::Triangle }
+        };
+        let seen = BTreeMap::from([(2, one(0)), (8, one(9)), (9, one(9))]);
+        for (shown, least) in [(None, 3), (Some((5, 4)), 6)] {
+            let (omission, counts) = last_ones(&seen, &shown.into_iter().collect()).unwrap();
+            assert_eq!(omission, Omission::From { least, first: 8 });
+            assert_eq!(counts.differing, 18);
+        }
     }
 }

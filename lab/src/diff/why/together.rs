@@ -201,17 +201,6 @@ impl<'a> Search<'a> {
         all.filter_map(|(index, (one, shown))| Some((index, one.view, shown.as_ref()?)))
     }
 
-    /// The placements that can be told from each other.
-    fn placements(&self) -> impl Iterator<Item = Placement> + use<> {
-        let is_square = |one: &Rendering| {
-            let [width, height] = one.view.camera.image();
-            width == height
-        };
-        let all_square = self.renderings.iter().all(is_square);
-        let all = Placement::ALL.into_iter();
-        all.filter(move |&placement| placement != Placement::ByColumns || !all_square)
-    }
-
     /// Every change that a renderer of one of the cameras can make.
     fn steps(&self) -> Vec<Step> {
         let mut steps: Vec<Step> = Vec::new();
@@ -280,7 +269,8 @@ impl<'a> Search<'a> {
             let fit = Fit { hypothesis, encodings: Encodings::default(), agrees, differing: 0 };
             (placement, fit, vec![None; count])
         };
-        let mut fits: Vec<_> = self.placements().map(fit).collect();
+        let images = self.renderings.iter().map(|one| one.view.camera.image());
+        let mut fits: Vec<_> = Placement::distinct(images).map(fit).collect();
         for (index, view, shown) in self.readable() {
             let convention = hypothesis.of(view.camera);
             let drawn = draw(view, &convention, Rows::ALL);

@@ -39,6 +39,16 @@ impl Placement {
         Placement::ByColumns,
     ];
 
+    /// The placements that pictures of these sizes tell from each other: in a square one, [`Placement::ByColumns`] is
+    /// [`Placement::Transposed`].
+    pub(in crate::diff::why) fn distinct(
+        mut images: impl Iterator<Item = [u32; 2]>,
+    ) -> impl Iterator<Item = Placement> {
+        let are_square = images.all(|[width, height]| width == height);
+        let all = Placement::ALL.into_iter();
+        all.filter(move |&placement| placement != Placement::ByColumns || !are_square)
+    }
+
     /// Whether the file has as many rows as the picture has columns.
     pub fn swaps_sides(self) -> bool {
         use Placement::{OtherDiagonal, Transposed, TurnedLeft, TurnedRight};
