@@ -15,13 +15,13 @@ mod tint;
 use crate::camera::SampleGrid;
 use crate::engine::simd::{Level, Simd, SimdBase, apart, dispatch, f32x16, prefetch_all};
 use crate::frame::{Frame, NO_LEVEL, ShadingBand};
-use crate::look::color::{srgb_from_linear, srgb_of_sixteen};
+use crate::look::color::{places_of_sixteen, srgb_from_linear};
 use crate::look::lanes::{Vec3x16, each};
 use crate::look::shade::{Finish, Lighting, SurfacePoints};
 use crate::raster::Sample;
 use crate::scene::material::Material;
 use crate::view::View;
-use chunk::{CHUNK, Chunk, Vectors, eight, part, sixteen, sixteen_vectors};
+use chunk::{CHUNK, Chunk, Vectors, eight, part, sixteen, sixteen_vectors, store_sixteen_bytes};
 use desk::{Desk, Kept, KeptLook, KeptSurface, Run, Setting};
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
@@ -55,7 +55,7 @@ pub fn shade(view: &View, frame: &mut Frame, surfaces: &impl Surfaces, level: Le
         let places = places.iter().map(|place| (place / view.camera.distance()) as f32);
         places.chain([0.0; 16]).collect()
     });
-    let background_bytes = packed_bytes(view.scene.background);
+    let background_bytes = [view.scene.background.to_array().map(srgb_from_linear); CHUNK];
     let lighting = &lighting;
     let look = Look { setting, grid, lighting, background_bytes, across, down, samples };
     // A pixel of one sample has no sum; sums are those of one row.
@@ -91,12 +91,6 @@ impl KeptTexture<'_> {
     }
 }
 
-/// The sRGB bytes of a colour, as [`srgb_of_sixteen`] packs them.
-fn packed_bytes(color: Vec3) -> u32 {
-    let [red, green, blue] = color.to_array().map(srgb_from_linear);
-    u32::from_le_bytes([red, green, blue, 0])
-}
-
 /// Rows and columns of samples of a band whose primitives are set up together.
 struct Block {
     lines: Range<usize>,
@@ -108,7 +102,8 @@ struct Look<'a, A> {
     setting: Setting<'a, A>,
     grid: SampleGrid<'a>,
     lighting: &'a Lighting,
-    background_bytes: u32,
+    /// As many as a chunk has samples: copies are faster than repetitions of three bytes.
+    background_bytes: [[u8; 3]; CHUNK],
     /// The places of columns and rows on the viewport, in lengths of the camera's distance; and sixteen more.
     across: Vec<f32>,
     down: Vec<f32>,
@@ -382,7 +377,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
                         to[begin..end].fill(channel);
                     }
                 }
-                chunk.bytes[begin..end].fill(self.background_bytes);
+                chunk.bytes[begin..end].copy_from_slice(&self.background_bytes[begin..end]);
                 if let Some(kept) = &mut normals {
                     kept[begin..end].fill(Vec3::ZERO);
                 }
@@ -412,13 +407,21 @@ impl<'a, A: Surfaces> Look<'a, A> {
                     colors[2].store_slice(&mut blue[at..at + 16]);
                 }
                 if self.samples == 1 {
-                    chunk.bytes[at..at + 16].copy_from_slice(&srgb_of_sixteen(simd, colors));
+                    let [red, green, blue] = &mut chunk.places;
+                    places_of_sixteen(simd, colors[0]).store_slice(&mut red[at..at + 16]);
+                    places_of_sixteen(simd, colors[1]).store_slice(&mut green[at..at + 16]);
+                    places_of_sixteen(simd, colors[2]).store_slice(&mut blue[at..at + 16]);
                 }
                 if let Some(kept) = &mut normals {
                     let Vec3x16 { x, y, z } = normal;
                     for (lane, kept) in kept[at..end.min(at + 16)].iter_mut().enumerate() {
                         *kept = Vec3::new(x[lane], y[lane], z[lane]);
                     }
+                }
+            }
+            if self.samples == 1 {
+                for at in (begin..end).step_by(16) {
+                    store_sixteen_bytes(simd, &chunk.places, &mut chunk.bytes, at);
                 }
             }
             begin = end;
@@ -443,10 +446,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
             }
         }
         if self.samples == 1 {
-            for (pixel, bytes) in band.picture[stored].iter_mut().zip(&chunk.bytes) {
-                let [red, green, blue, _] = bytes.to_le_bytes();
-                *pixel = [red, green, blue];
-            }
+            band.picture[stored].copy_from_slice(&chunk.bytes[..within.len()]);
         } else {
             for (k, column) in within.enumerate() {
                 desk.sums[column / self.samples] += color(k);

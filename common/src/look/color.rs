@@ -1,6 +1,6 @@
 //! Colours: linear values, which light adds up in, and the sRGB bytes of pictures.
 
-use crate::engine::simd::{Bytes, Select, Simd, SimdBase, f32x16, u32x16};
+use crate::engine::simd::{Bytes, Select, Simd, SimdBase, f32x16, u8x64, u32x16};
 use crate::look::lanes::each;
 use std::sync::LazyLock;
 
@@ -36,33 +36,51 @@ pub fn encoded_from_linear(linear: f64) -> f64 {
     encoded.clamp(0.0, 1.0)
 }
 
-/// [`srgb_from_linear`] of the red, green and blue of sixteen colours; each is `red + 2⁸·green + 2¹⁶·blue`.
+/// Where sixteen linear values stand in the encoding: how far above [`LEAST`], times 32. [`store_srgb_of_sixteen`] makes bytes of them.
+///
+/// They are to be written to memory, and read in another loop: to take each lane out of a vector lasts twice as long as to look up what
+/// stands there.
 #[inline(always)]
-pub(crate) fn srgb_of_sixteen<S: Simd>(simd: S, colors: [f32x16<S>; 3]) -> [u32; 16] {
-    let table: &[u32; ROOM] = &ENCODING;
+pub(crate) fn places_of_sixteen<S: Simd>(simd: S, linear: f32x16<S>) -> u32x16<S> {
     let [least, one] = each!(value in [LEAST, 1.0] => f32x16::splat(simd, value));
+    let linear = linear.simd_gt(least).select(linear, least);
+    let linear = linear.simd_lt(one).select(linear, one);
+    (linear.bitcast::<u32x16<S>>() - u32x16::splat(simd, LEAST.to_bits())) << 5
+}
+
+/// Writes the sRGB bytes of the red, green and blue of sixteen colours, one behind the other, as [`srgb_from_linear`] finds them, from
+/// their [places](places_of_sixteen). Four bytes more have no meaning.
+#[inline(always)]
+pub(crate) fn store_srgb_of_sixteen<S: Simd>(simd: S, places: [&[u32; 16]; 3], to: &mut [u8; 52]) {
+    let table: &[u32; ROOM] = &ENCODING;
     let [red, green, blue] = each!(k in [0, 1, 2] => {
-        let linear = colors[k];
-        let linear = linear.simd_gt(least).select(linear, least);
-        let linear = linear.simd_lt(one).select(linear, one);
-        let above = linear.bitcast::<u32x16<S>>() - u32x16::splat(simd, LEAST.to_bits());
-        let places = (above >> 16).to_array();
-        // The mask changes no place, because of the clamping above; the compiler does not see that.
+        let places = places[k];
         let entries = each!(lane in [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15] => {
-            table[places[lane] as usize & (ROOM - 1)]
+            table[(places[lane] >> (16 + 5)) as usize]
         });
         let entries = u32x16::from_slice(simd, &entries);
+        let above = u32x16::from_slice(simd, places) >> 5;
         (entries + (above & u32x16::splat(simd, 0xffff))) >> 16
     });
-    (red | (green << 8) | (blue << 16)).to_array()
+    let four_each: u8x64<S> = (red | (green << 8) | (blue << 16)).bitcast();
+    // Four colours of four bytes, of which the last is 0, become four of three bytes.
+    let three_each = u8x64::from_slice(simd, [THREE_OF_FOUR; 4].as_flattened());
+    let three_each = four_each.swizzle_dyn_within_blocks(three_each).to_array();
+    for quarter in 0..4 {
+        to[12 * quarter..12 * quarter + 16]
+            .copy_from_slice(&three_each[16 * quarter..16 * quarter + 16]);
+    }
 }
+
+/// The places of three of each four bytes; and four bytes without meaning.
+const THREE_OF_FOUR: [u8; 16] = [0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, 0, 0, 0, 0];
 
 /// 2⁻¹³: it and everything below is byte 0.
 const LEAST: f32 = f32::from_bits((127 - 13) << 23);
 /// The steps of the table up to 1, and 1 itself: 128 to an octave.
 const ENTRIES: usize = 13 * 128 + 1;
 
-/// Room for them, as a power of 2.
+/// Room for all places that eleven bits can tell.
 const ROOM: usize = ENTRIES.next_power_of_two();
 
 /// One entry for all numbers with the same upper half of their bits: `2¹⁶` times the byte of the first of them, and the
@@ -142,11 +160,14 @@ mod tests {
             for start in 0..100 {
                 let colors = dispatch!(level, simd => {
                     let lanes = |shift: usize| f32x16::from_fn(simd, |k| value(start + shift + k));
-                    srgb_of_sixteen(simd, [lanes(0), lanes(5), lanes(11)])
+                    let mut bytes = [7; 52];
+                    let places = each!(shift in [0, 5, 11] => places_of_sixteen(simd, lanes(shift)).to_array());
+                    store_srgb_of_sixteen(simd, [&places[0], &places[1], &places[2]], &mut bytes);
+                    bytes
                 });
-                for (lane, color) in colors.into_iter().enumerate() {
+                for (lane, color) in colors.chunks_exact(3).take(16).enumerate() {
                     let expected = [0, 5, 11].map(|k| srgb_from_linear(value(start + k + lane)));
-                    assert_eq!(color.to_le_bytes()[..3], expected);
+                    assert_eq!(color, expected);
                 }
             }
         }

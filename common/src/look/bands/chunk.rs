@@ -1,7 +1,8 @@
 //! Numbers of some samples of a row, and how vectors are read from them and written to them.
 
 use crate::engine::simd::{Simd, SimdBase, f32x16, f64x8};
-use crate::look::lanes::{Lanes, Vec3x16};
+use crate::look::color::store_srgb_of_sixteen;
+use crate::look::lanes::{Lanes, Vec3x16, each};
 use std::ops::Range;
 
 /// The most samples of a row that are shaded together: what is kept of them stays in the innermost cache.
@@ -12,6 +13,9 @@ pub(super) const WIDE: usize = CHUNK + BEYOND;
 
 /// A vector for each sample of a chunk.
 pub(super) type Vectors = [[f32; WIDE]; 3];
+
+/// The red, green and blue of each sample of a chunk, and room for what vectors write beyond the last one.
+pub(super) type Bytes = [[u8; 3]; WIDE + 2];
 
 /// Numbers of the samples of a chunk.
 #[derive(Debug)]
@@ -28,7 +32,10 @@ pub(super) struct Chunk {
     /// next one down.
     pub(super) steps: [[f32; 16]; 4],
     pub(super) color: [[f32; WIDE]; 3],
-    pub(super) bytes: [u32; WIDE],
+    /// Where the colours stand in the encoding as sRGB.
+    pub(super) places: [[u32; WIDE]; 3],
+    /// The sRGB bytes of pictures.
+    pub(super) bytes: Bytes,
 }
 
 impl Chunk {
@@ -44,7 +51,8 @@ impl Chunk {
             tint: [[0.0; WIDE]; 3],
             steps: [[0.0; 16]; 4],
             color: [[0.0; WIDE]; 3],
-            bytes: [0; WIDE],
+            places: [[0; WIDE]; 3],
+            bytes: [[0; 3]; WIDE + 2],
         }
     }
 }
@@ -77,6 +85,19 @@ pub(super) fn store_sixteen<S: Simd>(vectors: Vec3x16<S>, to: &mut Vectors, at: 
     vectors.x.store_slice(&mut to_x[at..at + 16]);
     vectors.y.store_slice(&mut to_y[at..at + 16]);
     vectors.z.store_slice(&mut to_z[at..at + 16]);
+}
+
+/// Writes the sRGB bytes of the next sixteen colours, from their places in the encoding.
+#[inline(always)]
+pub(super) fn store_sixteen_bytes<S: Simd>(
+    simd: S,
+    places: &[[u32; WIDE]; 3],
+    to: &mut Bytes,
+    at: usize,
+) {
+    let places = each!(k in [0, 1, 2] => places[k][at..].first_chunk().expect("vectors have room"));
+    let to = to.as_flattened_mut()[3 * at..].first_chunk_mut();
+    store_srgb_of_sixteen(simd, places, to.expect("vectors have room"));
 }
 
 /// The coordinates of some of the vectors.
