@@ -9,6 +9,7 @@ mod chunk;
 mod desk;
 mod found;
 mod local;
+mod runs;
 mod surfaces;
 mod tint;
 
@@ -22,9 +23,10 @@ use crate::raster::Sample;
 use crate::scene::material::Material;
 use crate::view::View;
 use chunk::{CHUNK, Chunk, Vectors, eight, part, sixteen, sixteen_vectors, store_sixteen_bytes};
-use desk::{Desk, Kept, KeptLook, KeptSurface, Run, Setting};
+use desk::{Desk, Kept, KeptLook, KeptSurface, Setting};
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
+use runs::Run;
 use std::ops::Range;
 
 pub use local::{
@@ -72,6 +74,8 @@ pub fn shade(view: &View, frame: &mut Frame, surfaces: &impl Surfaces, level: Le
 const TOGETHER: [usize; 2] = [16, 2 * CHUNK];
 /// Of these rows, so many have their primitives set up together: mostly enough for eight at a time, and few enough to be kept.
 const SET_UP_TOGETHER: usize = 4;
+/// The most samples of them.
+const MOST_OF_BLOCK: usize = SET_UP_TOGETHER * TOGETHER[1];
 
 /// What a frame keeps of the textures of some samples.
 struct KeptTexture<'a> {
@@ -202,7 +206,9 @@ impl<'a, A: Surfaces> Look<'a, A> {
             coordinates: band.texture_coordinates.as_mut().map(|kept| &mut kept[stored.clone()]),
             levels: band.levels.as_mut().map(|kept| &mut kept[stored.clone()]),
         };
-        if let [Run { place: None, .. }] = desk.runs.of_chunk() {
+        if let [run] = desk.runs.of_chunk()
+            && run.place().is_none()
+        {
             kept.fill_nothing(0..count);
         } else {
             if !desk.surfaces.is_empty() {
@@ -233,14 +239,14 @@ impl<'a, A: Surfaces> Look<'a, A> {
         let (runs, mut begin) = (desk.runs.of_chunk(), 0);
         let (chunk, to_lights) = (&mut *desk.chunk, &mut desk.to_lights[..]);
         let mut along = A::Along::default();
-        for &Run { end, place } in runs {
-            let run = begin..end;
-            begin = end;
+        for run in runs {
+            let (run, place) = (begin..run.end(), run.place());
+            begin = run.end;
             let Some(place) = place else {
                 texture.fill_nothing(run);
                 continue;
             };
-            let Kept { material, look } = &desk.kept[place as usize];
+            let Kept { material, look } = &desk.kept[place];
             match look {
                 // There are such ones only where a frame keeps nothing of textures.
                 KeptLook::Local { look, ways } => {
@@ -361,7 +367,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
         let y = f32x16::splat(simd, self.down[start.row]);
         let background = self.setting.view.scene.background;
         let (chunk, to_lights, mut begin) = (&mut *desk.chunk, &desk.to_lights[..], 0);
-        let kept_of = |run: &Run| run.place.map(|place| &desk.kept[place as usize]);
+        let kept_of = |run: &Run| run.place().map(|place| &desk.kept[place]);
         let is_tinted = |kept: &Kept<A::Local>| match kept.look {
             KeptLook::Local { .. } => false,
             KeptLook::Surface(place) => desk.surfaces[place as usize].is_tinted,
@@ -370,7 +376,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
         for runs in
             desk.runs.of_chunk().chunk_by(|a, b| same_material(material_of(a), material_of(b)))
         {
-            let (end, kept) = (runs[runs.len() - 1].end, kept_of(&runs[0]));
+            let (end, kept) = (runs[runs.len() - 1].end(), kept_of(&runs[0]));
             let Some(kept @ Kept { material, .. }) = kept else {
                 if needs_colors {
                     for (to, channel) in chunk.color.iter_mut().zip(background.to_array()) {

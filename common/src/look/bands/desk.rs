@@ -1,17 +1,17 @@
 //! What a thread works with while it shades: the samples of a chunk, and the primitives that are seen there.
 
+use super::MOST_OF_BLOCK;
 use super::chunk::{Chunk, Vectors, WIDE};
 use super::found::Found;
 use super::local::{LocalVector, MOST_LIGHTS};
+use super::runs::{Ends, NOTHING, Run, Runs};
 use super::surfaces::{EightTriangles, Seen, SetUp, Surfaces, Wanted};
-use crate::engine::simd::{Simd, SimdBase, SimdMask, apart, u32x16};
+use crate::engine::simd::{Simd, apart};
 use crate::frame::{Ids, NO_PRIMITIVE, NO_WIDE_PRIMITIVE};
-use crate::look::lanes::each;
 use crate::scene::material::Material;
 use crate::view::View;
 use glam::Vec3;
 use std::collections::HashMap;
-use std::ops::Range;
 
 /// The hashes of ids under which visible primitives are kept: those of a row are mostly seen in the next one, too.
 const HASHES: usize = 1 << HASH_BITS;
@@ -35,10 +35,33 @@ struct Names {
     of_chunk: Vec<u32>,
 }
 
+/// The names of primitives that a block shows and that are not kept.
+struct New {
+    names: Box<[u32; MOST_OF_BLOCK + 1]>,
+    count: u32,
+}
+
+impl New {
+    fn new() -> New {
+        New { names: Box::new([0; MOST_OF_BLOCK + 1]), count: 0 }
+    }
+
+    /// Adds a name, or not, without a branch.
+    #[inline(always)]
+    fn push_if(&mut self, is_new: bool, name: u32) {
+        self.names[self.count as usize] = name;
+        self.count += u32::from(is_new);
+    }
+
+    fn names(&self) -> &[u32] {
+        &self.names[..self.count as usize]
+    }
+}
+
 /// What a thread works with. It decides no bit of the result.
 pub(super) struct Desk<'a, A: Surfaces> {
     /// For each hash, the id that came last, and its place in `kept`; of wide ids, their names.
-    places: Vec<(u32, u32)>,
+    places: Box<[(u32, u32); HASHES]>,
     names: Names,
     pub(super) kept: Vec<Kept<'a, A::Local>>,
     /// The ways to the points of light from those of them whose look is local.
@@ -48,12 +71,13 @@ pub(super) struct Desk<'a, A: Surfaces> {
     /// Whether the `t` of samples matter to any of these.
     pub(super) looks_at_t: bool,
     /// The names of those that come next in `kept`, and are not set up yet.
-    new: Vec<u32>,
+    new: New,
     /// Their ids.
     new_ids: Vec<u64>,
     pub(super) chunk: Box<Chunk>,
     /// The ways from the samples of the chunk to each point of light, of any length.
     pub(super) to_lights: Vec<Vectors>,
+    ends: Box<Ends>,
     pub(super) runs: Runs,
     /// Of each pixel of the row, the sum over its samples; none where a pixel has one sample.
     pub(super) sums: Vec<Vec3>,
@@ -79,58 +103,21 @@ pub(super) struct KeptSurface<T> {
     pub(super) is_tinted: bool,
 }
 
-/// Samples of a row, one after another, that show the same primitive.
-#[derive(Clone, Copy)]
-pub(super) struct Run {
-    /// The first sample after them.
-    pub(super) end: usize,
-    /// The primitive's place in `kept`; `None` where nothing is seen.
-    pub(super) place: Option<u32>,
-}
-
-/// The samples of some chunks in runs of one primitive each.
-#[derive(Default)]
-pub(super) struct Runs {
-    runs: Vec<Run>,
-    /// The first run after each chunk.
-    ends: Vec<usize>,
-    /// The runs of the chunk that is looked at.
-    chunk: Range<usize>,
-}
-
-impl Runs {
-    fn clear(&mut self) {
-        self.runs.clear();
-        self.ends.clear();
-    }
-
-    /// Goes to the chunk with this number.
-    pub(super) fn go_to(&mut self, chunk: usize) {
-        let start = if chunk == 0 { 0 } else { self.ends[chunk - 1] };
-        self.chunk = start..self.ends[chunk];
-    }
-
-    /// Those of the chunk that is looked at.
-    #[inline(always)]
-    pub(super) fn of_chunk(&self) -> &[Run] {
-        &self.runs[self.chunk.clone()]
-    }
-}
-
 impl<'a, A: Surfaces> Desk<'a, A> {
     /// With room for the sums of so many pixels, and the ways to so many points of light.
     pub(super) fn new(sums: usize, lights: usize) -> Self {
         Desk {
-            places: vec![(NO_PRIMITIVE, 0); HASHES],
+            places: Box::new([(NO_PRIMITIVE, 0); HASHES]),
             names: Names::default(),
             kept: Vec::new(),
             ways: Vec::new(),
             surfaces: Vec::new(),
             looks_at_t: false,
-            new: Vec::new(),
+            new: New::new(),
             new_ids: Vec::new(),
             chunk: Box::new(Chunk::new()),
             to_lights: vec![[[0.0; WIDE]; 3]; lights],
+            ends: Box::new(Ends::new()),
             runs: Runs::default(),
             sums: vec![Vec3::ZERO; sums],
         }
@@ -148,33 +135,27 @@ impl<'a, A: Surfaces> Desk<'a, A> {
     #[inline(always)]
     pub(super) fn find_runs<S: Simd>(&mut self, simd: S, ids: Ids) {
         match ids {
-            _ if is_nothing(ids) => self.runs.runs.push(Run { end: ids.len(), place: None }),
+            _ if is_nothing(ids) => {
+                self.runs.add([Run::new(number(ids.len()), NOTHING)].into_iter())
+            }
             Ids::Narrow(ids) => self.find_runs_of(simd, ids),
             Ids::Wide(ids) => self.find_wide_runs(simd, ids),
         }
-        self.runs.ends.push(self.runs.runs.len());
     }
 
     #[inline(always)]
     fn find_runs_of<S: Simd>(&mut self, simd: S, ids: &[u32]) {
-        // The ends of the runs: where an id differs from the next one. Vectors find sixteen at a time.
-        let mut at = 0;
-        while at + 16 < ids.len() {
-            let [these, next] =
-                each!(at in [at, at + 1] => u32x16::from_slice(simd, &ids[at..at + 16]));
-            let mut ends = these.simd_ne(next).to_bitmask();
-            while ends != 0 {
-                let last = at + ends.trailing_zeros() as usize;
-                ends &= ends - 1;
-                self.end_run(ids, last);
-            }
-            at += 16;
-        }
-        for last in at..ids.len() {
-            if ids.get(last + 1) != Some(&ids[last]) {
-                self.end_run(ids, last);
-            }
-        }
+        self.ends.find(simd, ids);
+        let Desk { ends, runs, places, new, .. } = self;
+        let first = number(self.kept.len());
+        runs.add(ends.iter().map(|(name, end)| {
+            // Without a branch: whether a primitive is new, the machine would guess wrong for one in a few.
+            let place = &mut places[hash(name)];
+            let is_new = (name != NO_PRIMITIVE) & (place.0 != name);
+            *place = if is_new { (name, first + new.count) } else { *place };
+            new.push_if(is_new, name);
+            Run::new(end, if name == NO_PRIMITIVE { NOTHING } else { place.1 })
+        }));
     }
 
     /// The runs of wide ids are those of names for them.
@@ -215,29 +196,6 @@ impl<'a, A: Surfaces> Desk<'a, A> {
         named
     }
 
-    /// Adds the run of samples that ends with this one.
-    #[inline(always)]
-    fn end_run(&mut self, ids: &[u32], last: usize) {
-        let id = ids[last];
-        let place = (id != NO_PRIMITIVE).then(|| self.place_of(id));
-        self.runs.runs.push(Run { end: last + 1, place });
-    }
-
-    /// The place in `kept` of a visible primitive. If it is new there, it has to be set up.
-    #[inline(always)]
-    fn place_of(&mut self, name: u32) -> u32 {
-        // The golden ratio of 2³² spreads neighbours best (Knuth, "The Art of Computer Programming", 6.4).
-        let hash = (name.wrapping_mul(0x9e37_79b9) >> (u32::BITS - HASH_BITS)) as usize;
-        let (kept, place) = self.places[hash];
-        if kept == name {
-            return place;
-        }
-        let place = number(self.kept.len() + self.new.len());
-        self.new.push(name);
-        self.places[hash] = (name, place);
-        place
-    }
-
     /// Sets up the primitives that are new: those of one object that follow one another at once.
     #[inline(always)]
     pub(super) fn set_up_new<S: Simd>(&mut self, simd: S, setting: &Setting<'a, A>) {
@@ -247,6 +205,7 @@ impl<'a, A: Surfaces> Desk<'a, A> {
         let known = scene.has_wide_ids().then_some(&self.names.ids);
         ids.extend(
             self.new
+                .names()
                 .iter()
                 .map(|&name| known.map_or(u64::from(name), |known| known[name as usize])),
         );
@@ -258,7 +217,7 @@ impl<'a, A: Surfaces> Desk<'a, A> {
             self.set_up_found(simd, setting, &found, these);
             rest = others;
         }
-        self.new.clear();
+        self.new.count = 0;
         self.new_ids = ids;
     }
 
@@ -338,6 +297,13 @@ impl<'a, A: Surfaces> Desk<'a, A> {
             self.ways.extend_from_slice(ways);
         }
     }
+}
+
+/// Where the place of a primitive with this name stands.
+#[inline(always)]
+fn hash(name: u32) -> usize {
+    // The golden ratio of 2³² spreads neighbours best (Knuth, "The Art of Computer Programming", 6.4).
+    (name.wrapping_mul(0x9e37_79b9) >> (u32::BITS - HASH_BITS)) as usize
 }
 
 /// A place among what is kept.

@@ -1,0 +1,121 @@
+//! The samples of rows in runs of one primitive each.
+
+use super::chunk::WIDE;
+use crate::engine::simd::{Compression, Simd, SimdBase, SimdMask, u32x16};
+use std::ops::Range;
+
+/// Samples of a row, one after another, that show the same primitive.
+#[derive(Clone, Copy)]
+pub(super) struct Run {
+    /// The first sample after them.
+    end: u32,
+    /// The primitive's place in what is kept, or [`NOTHING`].
+    place: u32,
+}
+
+/// In the place of a primitive's place.
+pub(super) const NOTHING: u32 = u32::MAX;
+
+impl Run {
+    /// One that ends before this sample of the chunk, and shows the primitive with this place, or [`NOTHING`].
+    #[inline(always)]
+    pub(super) fn new(end: u32, place: u32) -> Run {
+        Run { end, place }
+    }
+
+    /// The first sample after it.
+    #[inline(always)]
+    pub(super) fn end(self) -> usize {
+        self.end as usize
+    }
+
+    /// The primitive's place in what is kept; `None` where nothing is seen.
+    #[inline(always)]
+    pub(super) fn place(self) -> Option<usize> {
+        (self.place != NOTHING).then_some(self.place as usize)
+    }
+}
+
+/// The runs of some chunks.
+#[derive(Default)]
+pub(super) struct Runs {
+    runs: Vec<Run>,
+    /// The first run after each chunk.
+    ends: Vec<usize>,
+    /// The runs of the chunk that is looked at.
+    chunk: Range<usize>,
+}
+
+impl Runs {
+    pub(super) fn clear(&mut self) {
+        self.runs.clear();
+        self.ends.clear();
+    }
+
+    /// Adds the runs of the next chunk.
+    #[inline(always)]
+    pub(super) fn add(&mut self, of_chunk: impl ExactSizeIterator<Item = Run>) {
+        self.runs.extend(of_chunk);
+        self.ends.push(self.runs.len());
+    }
+
+    /// Goes to the chunk with this number.
+    pub(super) fn go_to(&mut self, chunk: usize) {
+        let start = if chunk == 0 { 0 } else { self.ends[chunk - 1] };
+        self.chunk = start..self.ends[chunk];
+    }
+
+    /// Those of the chunk that is looked at.
+    #[inline(always)]
+    pub(super) fn of_chunk(&self) -> &[Run] {
+        &self.runs[self.chunk.clone()]
+    }
+}
+
+/// Where the runs of a chunk end, and what they show.
+pub(super) struct Ends {
+    ids: [u32; WIDE],
+    /// For each, the first sample after the run.
+    ends: [u32; WIDE],
+    count: usize,
+}
+
+impl Ends {
+    pub(super) fn new() -> Ends {
+        Ends { ids: [0; WIDE], ends: [0; WIDE], count: 0 }
+    }
+
+    /// The id that each run shows, and the first sample after it.
+    #[inline(always)]
+    pub(super) fn iter(&self) -> impl ExactSizeIterator<Item = (u32, u32)> {
+        let (ids, ends) = (&self.ids[..self.count], &self.ends[..self.count]);
+        ids.iter().zip(ends).map(|(&id, &end)| (id, end))
+    }
+
+    /// Finds the runs of a chunk: one ends where an id differs from the next one. Vectors find sixteen at a time, and no branch
+    /// depends on what they find.
+    #[inline(always)]
+    pub(super) fn find<S: Simd>(&mut self, simd: S, ids: &[u32]) {
+        self.count = 0;
+        let (sixteens, rest) = ids.as_chunks();
+        let mut ends =
+            u32x16::load_array(simd, [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16]);
+        for (number, these) in sixteens.iter().enumerate() {
+            let these = u32x16::load_array(simd, *these);
+            // The last of the chunk ends a run in any case.
+            let next = ids.get(16 * number + 16).copied().unwrap_or(!these[15]);
+            let next = these.slide::<1>(u32x16::splat(simd, next));
+            let is_end = these.simd_ne(next);
+            let compression = Compression::new(is_end);
+            compression.store(these, &mut self.ids[self.count..]);
+            compression.store(ends, &mut self.ends[self.count..]);
+            self.count += is_end.to_bitmask().count_ones() as usize;
+            ends += u32x16::splat(simd, 16);
+        }
+        let start = ids.len() - rest.len();
+        for (end, id) in (start as u32 + 1..).zip(rest) {
+            (self.ids[self.count], self.ends[self.count]) = (*id, end);
+            self.count += usize::from(ids.get(end as usize) != Some(id));
+        }
+    }
+}
