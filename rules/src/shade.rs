@@ -6,11 +6,11 @@
 use crate::samples::Samples;
 use bothways_common::engine::simd::{Simd, SimdBase, SimdNarrow, best_level, f32x16, f64x8};
 use bothways_common::look::bands::{
-    self, LocalVector, MOST_LIGHTS, Points, SetUp, Sixteen, Surfaces, Wanted,
+    self, LocalVector, MOST_LIGHTS, Points, SetUp, Sixteen, Surfaces, TowardsViewer, Wanted,
 };
 use bothways_common::look::lanes::{DVec3x8, Vec3x16};
 use bothways_common::look::texture::{self, TexturePoints};
-use bothways_common::{Camera, Frame, Primitive, Projection, Ray, Sample, Shape, View};
+use bothways_common::{Frame, Primitive, Projection, Ray, Sample, Shape, View};
 use glam::{DVec2, DVec3, Vec3};
 use std::convert::Infallible;
 
@@ -34,9 +34,9 @@ impl Surfaces for AsSeen<'_> {
     fn to_viewer<S: Simd>(
         &self,
         simd: S,
-        _camera: &Camera,
+        _row: &TowardsViewer,
         first: Sample,
-        _places: [f32x16<S>; 2],
+        _x: f32x16<S>,
     ) -> Vec3x16<S> {
         let [low, high] = [first, Sample { column: first.column + 8, ..first }].map(|first| {
             let rays = self.rays(first);

@@ -26,7 +26,7 @@ use chunk::{CHUNK, Chunk, Vectors, eight, part, sixteen, sixteen_vectors, store_
 use desk::{Desk, Kept, KeptLook, KeptSurface, Setting};
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
-use runs::Run;
+use runs::Group;
 use std::ops::Range;
 
 pub use local::{
@@ -34,7 +34,7 @@ pub use local::{
 };
 pub use surfaces::{
     EightTriangles, Points, Rays, STORED_ERROR, Samples, Seen, SetUp, Sixteen, Stretch, Surfaces,
-    Wanted, are_alike,
+    TowardsViewer, Wanted, are_alike,
 };
 
 /// Gives a frame its picture, and all else that it keeps of the look of what is seen.
@@ -210,24 +210,24 @@ impl<'a, A: Surfaces> Look<'a, A> {
             && run.place().is_none()
         {
             kept.fill_nothing(0..count);
-        } else {
-            if !desk.surfaces.is_empty() {
-                desk.chunk.x[..count].copy_from_slice(&self.grid.x()[first..first + count]);
-            }
-            if desk.looks_at_t {
-                for (wide, t) in desk.chunk.t.iter_mut().zip(&band.t[stored.clone()]) {
-                    *wide = f64::from(*t);
-                }
-            }
-            apart!(simd, self.find_points(simd, desk, start, &mut kept));
+            return self.write_background(desk, band, within, stored);
         }
+        if !desk.surfaces.is_empty() {
+            desk.chunk.x[..count].copy_from_slice(&self.grid.x()[first..first + count]);
+        }
+        if desk.looks_at_t {
+            for (wide, t) in desk.chunk.t.iter_mut().zip(&band.t[stored.clone()]) {
+                *wide = f64::from(*t);
+            }
+        }
+        apart!(simd, self.find_points(simd, desk, start, &mut kept));
         let normals = band.normals.as_mut().map(|kept| &mut kept[stored.clone()]);
         let needs_colors = self.samples > 1 || band.colors.is_some();
         apart!(simd, self.light(simd, desk, start, needs_colors, normals));
         self.write(desk, band, within, stored);
     }
 
-    /// What is seen at the samples of a chunk: fills its normals, fractions, and ways to lights.
+    /// What is seen at the samples of a chunk: fills its normals, fractions, and ways to lights, and finds which of them are lit together.
     #[inline(always)]
     fn find_points<S: Simd>(
         &self,
@@ -239,10 +239,12 @@ impl<'a, A: Surfaces> Look<'a, A> {
         let (runs, mut begin) = (desk.runs.of_chunk(), 0);
         let (chunk, to_lights) = (&mut *desk.chunk, &mut desk.to_lights[..]);
         let mut along = A::Along::default();
+        desk.groups.clear();
         for run in runs {
             let (run, place) = (begin..run.end(), run.place());
             begin = run.end;
             let Some(place) = place else {
+                desk.groups.add(run.end, None);
                 texture.fill_nothing(run);
                 continue;
             };
@@ -250,6 +252,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
             match look {
                 // There are such ones only where a frame keeps nothing of textures.
                 KeptLook::Local { look, ways } => {
+                    desk.groups.add(run.end, Some((material, false)));
                     let first = Sample { column: start.column + run.start, ..start };
                     // What is written beyond the run is overwritten by the next one.
                     let all = run.start..run.start + run.len().next_multiple_of(8);
@@ -261,6 +264,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
                 }
                 KeptLook::Surface(place) => {
                     let surface = &desk.surfaces[*place as usize];
+                    desk.groups.add(run.end, Some((material, surface.is_tinted)));
                     // A run is in one stretch or more.
                     let mut begin = run.start;
                     while begin < run.end {
@@ -364,22 +368,15 @@ impl<'a, A: Surfaces> Look<'a, A> {
         needs_colors: bool,
         mut normals: Option<&mut [Vec3]>,
     ) {
-        let y = f32x16::splat(simd, self.down[start.row]);
-        let background = self.setting.view.scene.background;
+        let Setting { view, surfaces, .. } = self.setting;
+        let towards_viewer = TowardsViewer::along_row(view.camera, self.down[start.row]);
         let (chunk, to_lights, mut begin) = (&mut *desk.chunk, &desk.to_lights[..], 0);
-        let kept_of = |run: &Run| run.place().map(|place| &desk.kept[place]);
-        let is_tinted = |kept: &Kept<A::Local>| match kept.look {
-            KeptLook::Local { .. } => false,
-            KeptLook::Surface(place) => desk.surfaces[place as usize].is_tinted,
-        };
-        let material_of = |run: &Run| kept_of(run).map(|kept| kept.material);
-        for runs in
-            desk.runs.of_chunk().chunk_by(|a, b| same_material(material_of(a), material_of(b)))
-        {
-            let (end, kept) = (runs[runs.len() - 1].end(), kept_of(&runs[0]));
-            let Some(kept @ Kept { material, .. }) = kept else {
+        for &Group { end, shown } in desk.groups.all() {
+            let Some((material, is_tinted)) = shown else {
                 if needs_colors {
-                    for (to, channel) in chunk.color.iter_mut().zip(background.to_array()) {
+                    for (to, channel) in
+                        chunk.color.iter_mut().zip(view.scene.background.to_array())
+                    {
                         to[begin..end].fill(channel);
                     }
                 }
@@ -390,13 +387,14 @@ impl<'a, A: Surfaces> Look<'a, A> {
                 begin = end;
                 continue;
             };
-            // All that is made of one material belongs to one object: all of it has tints, or nothing.
-            let finish = Finish::new(material, is_tinted(kept));
+            let finish = *match &desk.finish {
+                Some(finish) if finish.is_of(material, is_tinted) => finish,
+                _ => desk.finish.insert(Finish::new(material, is_tinted)),
+            };
             for at in (begin..end).step_by(16) {
                 let first = Sample { column: start.column + at, ..start };
                 let x = sixteen(simd, &self.across, first.column);
-                let Setting { view, surfaces, .. } = self.setting;
-                let to_viewer = surfaces.to_viewer(simd, view.camera, first, [x, y]);
+                let to_viewer = surfaces.to_viewer(simd, &towards_viewer, first, x);
                 let normal = sixteen_vectors(simd, &chunk.normal, at).normalized(simd);
                 let points = SurfacePoints {
                     normals: normal,
@@ -434,6 +432,31 @@ impl<'a, A: Surfaces> Look<'a, A> {
         }
     }
 
+    /// Writes what a chunk shows where nothing is seen, into the band.
+    #[inline(always)]
+    fn write_background(
+        &self,
+        desk: &mut Desk<'a, A>,
+        band: &mut ShadingBand,
+        within: Range<usize>,
+        stored: Range<usize>,
+    ) {
+        let background = self.setting.view.scene.background;
+        if let Some(colors) = &mut band.colors {
+            colors[stored.clone()].fill(background);
+        }
+        if let Some(normals) = &mut band.normals {
+            normals[stored.clone()].fill(Vec3::ZERO);
+        }
+        if self.samples == 1 {
+            band.picture[stored].copy_from_slice(&self.background_bytes[..within.len()]);
+        } else {
+            for column in within {
+                desk.sums[column / self.samples] += background;
+            }
+        }
+    }
+
     /// Writes what was found into the band.
     #[inline(always)]
     fn write(
@@ -458,14 +481,5 @@ impl<'a, A: Surfaces> Look<'a, A> {
                 desk.sums[column / self.samples] += color(k);
             }
         }
-    }
-}
-
-/// Whether two runs can be lit together.
-fn same_material(one: Option<&Material>, other: Option<&Material>) -> bool {
-    match (one, other) {
-        (None, None) => true,
-        (Some(one), Some(other)) => std::ptr::eq(one, other),
-        _ => false,
     }
 }

@@ -36,6 +36,11 @@ impl Finish<'_> {
     pub fn new(material: &Material, is_tinted: bool) -> Finish<'_> {
         Finish { material, is_tinted, exponent: Exponent::new(0.5 * material.shininess) }
     }
+
+    /// Whether it is the look of this very material, with a tint or not.
+    pub fn is_of(&self, material: &Material, is_tinted: bool) -> bool {
+        std::ptr::eq(self.material, material) && self.is_tinted == is_tinted
+    }
 }
 
 /// The lights of a view, prepared for all its samples.

@@ -4,10 +4,11 @@ use super::MOST_OF_BLOCK;
 use super::chunk::{Chunk, Vectors, WIDE};
 use super::found::Found;
 use super::local::{LocalVector, MOST_LIGHTS};
-use super::runs::{Ends, NOTHING, Run, Runs};
+use super::runs::{Ends, Groups, NOTHING, Run, Runs};
 use super::surfaces::{EightTriangles, Seen, SetUp, Surfaces, Wanted};
 use crate::engine::simd::{Simd, apart};
 use crate::frame::{Ids, NO_PRIMITIVE, NO_WIDE_PRIMITIVE};
+use crate::look::shade::Finish;
 use crate::scene::material::Material;
 use crate::view::View;
 use glam::Vec3;
@@ -79,6 +80,10 @@ pub(super) struct Desk<'a, A: Surfaces> {
     pub(super) to_lights: Vec<Vectors>,
     ends: Box<Ends>,
     pub(super) runs: Runs,
+    /// The samples of the chunk that is looked at, in groups of one material each.
+    pub(super) groups: Groups<'a>,
+    /// The look of the material that came last.
+    pub(super) finish: Option<Finish<'a>>,
     /// Of each pixel of the row, the sum over its samples; none where a pixel has one sample.
     pub(super) sums: Vec<Vec3>,
 }
@@ -119,6 +124,8 @@ impl<'a, A: Surfaces> Desk<'a, A> {
             to_lights: vec![[[0.0; WIDE]; 3]; lights],
             ends: Box::new(Ends::new()),
             runs: Runs::default(),
+            groups: Groups::default(),
+            finish: None,
             sums: vec![Vec3::ZERO; sums],
         }
     }

@@ -2,6 +2,7 @@
 
 use super::chunk::WIDE;
 use crate::engine::simd::{Compression, Simd, SimdBase, SimdMask, u32x16};
+use crate::scene::material::Material;
 use std::ops::Range;
 
 /// Samples of a row, one after another, that show the same primitive.
@@ -69,6 +70,49 @@ impl Runs {
     #[inline(always)]
     pub(super) fn of_chunk(&self) -> &[Run] {
         &self.runs[self.chunk.clone()]
+    }
+}
+
+/// Samples of a row, one after another, that show one material, or nothing.
+#[derive(Clone, Copy)]
+pub(super) struct Group<'a> {
+    /// The first sample after them.
+    pub(super) end: usize,
+    /// The material, and whether each sample has a tint.
+    pub(super) shown: Option<(&'a Material, bool)>,
+}
+
+/// The groups of a chunk.
+#[derive(Default)]
+pub(super) struct Groups<'a>(Vec<Group<'a>>);
+
+impl<'a> Groups<'a> {
+    pub(super) fn clear(&mut self) {
+        self.0.clear();
+    }
+
+    /// Adds samples that end before this one, to the last group or as another one.
+    #[inline(always)]
+    pub(super) fn add(&mut self, end: usize, shown: Option<(&'a Material, bool)>) {
+        match self.0.last_mut() {
+            Some(last) if is_same(last.shown, shown) => last.end = end,
+            _ => self.0.push(Group { end, shown }),
+        }
+    }
+
+    pub(super) fn all(&self) -> &[Group<'a>] {
+        &self.0
+    }
+}
+
+#[inline(always)]
+fn is_same(one: Option<(&Material, bool)>, other: Option<(&Material, bool)>) -> bool {
+    match (one, other) {
+        (None, None) => true,
+        (Some((one, tinted)), Some((other, tinted_too))) => {
+            std::ptr::eq(one, other) && tinted == tinted_too
+        }
+        _ => false,
     }
 }
 

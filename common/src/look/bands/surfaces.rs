@@ -12,6 +12,32 @@ use crate::scene::{Object, Primitive, Shape};
 use glam::{DVec2, DVec3, Vec3};
 use std::ops::Range;
 
+/// The directions against the camera's rays along a row of samples, of any length.
+#[derive(Clone, Copy, Debug)]
+pub struct TowardsViewer {
+    /// Where `x` is 0.
+    at_middle: Vec3,
+    /// How much shorter it is for each of `x`.
+    across: Vec3,
+}
+
+impl TowardsViewer {
+    /// Those of the row at `y`, in lengths of the camera's distance.
+    pub fn along_row(camera: &Camera, y: f32) -> TowardsViewer {
+        let [u, v, w] = [camera.u(), camera.v(), camera.w()].map(|axis| axis.as_vec3());
+        match camera.projection() {
+            Projection::Perspective => TowardsViewer { at_middle: w - v * y, across: u },
+            Projection::Parallel => TowardsViewer { at_middle: w, across: Vec3::ZERO },
+        }
+    }
+
+    /// Those of sixteen samples, by their places `x` in lengths of the camera's distance.
+    #[inline(always)]
+    pub fn at<S: Simd>(&self, simd: S, x: f32x16<S>) -> Vec3x16<S> {
+        Vec3x16::splat(simd, self.at_middle) - Vec3x16::splat(simd, self.across) * x
+    }
+}
+
 /// How a renderer finds out what its surfaces look like.
 pub trait Surfaces: Sync {
     /// A visible primitive, set up for all samples at which it is seen.
@@ -28,17 +54,11 @@ pub trait Surfaces: Sync {
     fn to_viewer<S: Simd>(
         &self,
         simd: S,
-        camera: &Camera,
+        row: &TowardsViewer,
         _first: Sample,
-        [x, y]: [f32x16<S>; 2],
+        x: f32x16<S>,
     ) -> Vec3x16<S> {
-        let splat = |axis: DVec3| Vec3x16::splat(simd, axis.as_vec3());
-        match camera.projection() {
-            Projection::Perspective => {
-                (splat(camera.w()) - splat(camera.v()) * y) - splat(camera.u()) * x
-            }
-            Projection::Parallel => splat(camera.w()),
-        }
+        row.at(simd, x)
     }
 
     /// Sets up a primitive. Of a local one it fills the ways to the points of light that are wanted, of which there are no more
