@@ -36,7 +36,32 @@ struct Names {
     of_chunk: Vec<u32>,
 }
 
-/// The names of primitives that a block shows and that are not kept.
+/// A name, and its place in what is kept: one number, so that the machine chooses between two of them without a branch.
+#[derive(Clone, Copy)]
+struct NamedPlace(u64);
+
+impl NamedPlace {
+    /// That of no primitive.
+    const NONE: NamedPlace = NamedPlace(NO_PRIMITIVE as u64);
+
+    #[inline(always)]
+    fn new(name: u32, place: u32) -> NamedPlace {
+        NamedPlace(u64::from(place) << 32 | u64::from(name))
+    }
+
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "the lower half")]
+    fn name(self) -> u32 {
+        self.0 as u32
+    }
+
+    #[inline(always)]
+    fn place(self) -> u32 {
+        (self.0 >> 32) as u32
+    }
+}
+
+/// The names of primitives that a block shows and that are not kept. There is room for one name more, which may be none.
 struct New {
     names: Box<[u32; MOST_OF_BLOCK + 1]>,
     count: u32,
@@ -47,13 +72,6 @@ impl New {
         New { names: Box::new([0; MOST_OF_BLOCK + 1]), count: 0 }
     }
 
-    /// Adds a name, or not, without a branch.
-    #[inline(always)]
-    fn push_if(&mut self, is_new: bool, name: u32) {
-        self.names[self.count as usize] = name;
-        self.count += u32::from(is_new);
-    }
-
     fn names(&self) -> &[u32] {
         &self.names[..self.count as usize]
     }
@@ -62,7 +80,7 @@ impl New {
 /// What a thread works with. It decides no bit of the result.
 pub(super) struct Desk<'a, A: Surfaces> {
     /// For each hash, the id that came last, and its place in `kept`; of wide ids, their names.
-    places: Box<[(u32, u32); HASHES]>,
+    places: Box<[NamedPlace; HASHES]>,
     names: Names,
     pub(super) kept: Vec<Kept<'a, A::Local>>,
     /// The ways to the points of light from those of them whose look is local.
@@ -112,7 +130,7 @@ impl<'a, A: Surfaces> Desk<'a, A> {
     /// With room for the sums of so many pixels, and the ways to so many points of light.
     pub(super) fn new(sums: usize, lights: usize) -> Self {
         Desk {
-            places: Box::new([(NO_PRIMITIVE, 0); HASHES]),
+            places: Box::new([NamedPlace::NONE; HASHES]),
             names: Names::default(),
             kept: Vec::new(),
             ways: Vec::new(),
@@ -142,9 +160,7 @@ impl<'a, A: Surfaces> Desk<'a, A> {
     #[inline(always)]
     pub(super) fn find_runs<S: Simd>(&mut self, simd: S, ids: Ids) {
         match ids {
-            _ if is_nothing(ids) => {
-                self.runs.add([Run::new(number(ids.len()), NOTHING)].into_iter())
-            }
+            _ if is_nothing(ids) => self.runs.add(1)[0] = Run::new(number(ids.len()), NOTHING),
             Ids::Narrow(ids) => self.find_runs_of(simd, ids),
             Ids::Wide(ids) => self.find_wide_runs(simd, ids),
         }
@@ -154,15 +170,19 @@ impl<'a, A: Surfaces> Desk<'a, A> {
     fn find_runs_of<S: Simd>(&mut self, simd: S, ids: &[u32]) {
         self.ends.find(simd, ids);
         let Desk { ends, runs, places, new, .. } = self;
-        let first = number(self.kept.len());
-        runs.add(ends.iter().map(|(name, end)| {
-            // Without a branch: whether a primitive is new, the machine would guess wrong for one in a few.
-            let place = &mut places[hash(name)];
-            let is_new = (name != NO_PRIMITIVE) & (place.0 != name);
-            *place = if is_new { (name, first + new.count) } else { *place };
-            new.push_if(is_new, name);
-            Run::new(end, if name == NO_PRIMITIVE { NOTHING } else { place.1 })
-        }));
+        // Without a branch: whether a primitive is new, the machine would guess wrong for one in a few.
+        let (first, mut count) = (number(self.kept.len()), new.count);
+        for (run, (name, end)) in runs.add(ends.count()).iter_mut().zip(ends.iter()) {
+            let is_nothing = name == NO_PRIMITIVE;
+            let kept = places[hash(name)];
+            let is_new = !is_nothing & (kept.name() != name);
+            let place = if is_new { NamedPlace::new(name, first + count) } else { kept };
+            places[hash(name)] = place;
+            new.names[count as usize] = name;
+            count += u32::from(is_new);
+            *run = Run::new(end, place.place() | if is_nothing { NOTHING } else { 0 });
+        }
+        new.count = count;
     }
 
     /// The runs of wide ids are those of names for them.
@@ -179,7 +199,7 @@ impl<'a, A: Surfaces> Desk<'a, A> {
         self.ways.clear();
         self.surfaces.clear();
         self.looks_at_t = false;
-        self.places.fill((NO_PRIMITIVE, 0));
+        self.places.fill(NamedPlace::NONE);
         self.names.ids.clear();
         self.names.names.clear();
     }

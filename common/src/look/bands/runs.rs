@@ -53,11 +53,13 @@ impl Runs {
         self.ends.clear();
     }
 
-    /// Adds the runs of the next chunk.
+    /// Adds so many runs for the next chunk, which are to be filled.
     #[inline(always)]
-    pub(super) fn add(&mut self, of_chunk: impl ExactSizeIterator<Item = Run>) {
-        self.runs.extend(of_chunk);
+    pub(super) fn add(&mut self, count: usize) -> &mut [Run] {
+        let start = self.runs.len();
+        self.runs.resize(start + count, Run::new(0, NOTHING));
         self.ends.push(self.runs.len());
+        &mut self.runs[start..]
     }
 
     /// Goes to the chunk with this number.
@@ -129,9 +131,13 @@ impl Ends {
         Ends { ids: [0; WIDE], ends: [0; WIDE], count: 0 }
     }
 
+    pub(super) fn count(&self) -> usize {
+        self.count
+    }
+
     /// The id that each run shows, and the first sample after it.
     #[inline(always)]
-    pub(super) fn iter(&self) -> impl ExactSizeIterator<Item = (u32, u32)> {
+    pub(super) fn iter(&self) -> impl Iterator<Item = (u32, u32)> {
         let (ids, ends) = (&self.ids[..self.count], &self.ends[..self.count]);
         ids.iter().zip(ends).map(|(&id, &end)| (id, end))
     }
