@@ -16,13 +16,16 @@ mod tint;
 use crate::camera::SampleGrid;
 use crate::engine::simd::{Level, Simd, SimdBase, apart, dispatch, f32x16, prefetch_all};
 use crate::frame::{Frame, NO_LEVEL, ShadingBand};
-use crate::look::color::{places_of_sixteen, srgb_from_linear};
+use crate::look::color::srgb_from_linear;
 use crate::look::lanes::{Vec3x16, each};
 use crate::look::shade::{Finish, Lighting, SurfacePoints};
 use crate::raster::Sample;
 use crate::scene::material::Material;
 use crate::view::View;
-use chunk::{CHUNK, Chunk, Vectors, eight, part, sixteen, sixteen_vectors, store_sixteen_bytes};
+use chunk::{
+    CHUNK, Chunk, Vectors, eight, part, sixteen, sixteen_vectors, store_sixteen_bytes,
+    store_sixteen_places,
+};
 use desk::{Desk, Kept, KeptLook, KeptSurface, Setting};
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
@@ -411,10 +414,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
                     colors[2].store_slice(&mut blue[at..at + 16]);
                 }
                 if self.samples == 1 {
-                    let [red, green, blue] = &mut chunk.places;
-                    places_of_sixteen(simd, colors[0]).store_slice(&mut red[at..at + 16]);
-                    places_of_sixteen(simd, colors[1]).store_slice(&mut green[at..at + 16]);
-                    places_of_sixteen(simd, colors[2]).store_slice(&mut blue[at..at + 16]);
+                    store_sixteen_places(simd, colors, &mut chunk.places, at);
                 }
                 if let Some(kept) = &mut normals {
                     let Vec3x16 { x, y, z } = normal;

@@ -1,7 +1,7 @@
 //! Numbers of some samples of a row, and how vectors are read from them and written to them.
 
 use crate::engine::simd::{Simd, SimdBase, f32x16, f64x8};
-use crate::look::color::store_srgb_of_sixteen;
+use crate::look::color::{places_of_sixteen, store_srgb_of_sixteen};
 use crate::look::lanes::{Lanes, Vec3x16, each};
 use std::ops::Range;
 
@@ -85,6 +85,19 @@ pub(super) fn store_sixteen<S: Simd>(vectors: Vec3x16<S>, to: &mut Vectors, at: 
     vectors.x.store_slice(&mut to_x[at..at + 16]);
     vectors.y.store_slice(&mut to_y[at..at + 16]);
     vectors.z.store_slice(&mut to_z[at..at + 16]);
+}
+
+/// Writes where the next sixteen colours stand in the encoding as sRGB.
+#[inline(always)]
+pub(super) fn store_sixteen_places<S: Simd>(
+    simd: S,
+    colors: [f32x16<S>; 3],
+    [red, green, blue]: &mut [[u32; WIDE]; 3],
+    at: usize,
+) {
+    places_of_sixteen(simd, colors[0]).store_slice(&mut red[at..at + 16]);
+    places_of_sixteen(simd, colors[1]).store_slice(&mut green[at..at + 16]);
+    places_of_sixteen(simd, colors[2]).store_slice(&mut blue[at..at + 16]);
 }
 
 /// Writes the sRGB bytes of the next sixteen colours, from their places in the encoding.

@@ -62,14 +62,14 @@ impl NamedPlace {
 }
 
 /// The names of primitives that a block shows and that are not kept. There is room for one name more, which may be none.
-struct New {
+struct NewNames {
     names: Box<[u32; MOST_OF_BLOCK + 1]>,
     count: u32,
 }
 
-impl New {
-    fn new() -> New {
-        New { names: Box::new([0; MOST_OF_BLOCK + 1]), count: 0 }
+impl NewNames {
+    fn new() -> NewNames {
+        NewNames { names: Box::new([0; MOST_OF_BLOCK + 1]), count: 0 }
     }
 
     fn names(&self) -> &[u32] {
@@ -90,7 +90,7 @@ pub(super) struct Desk<'a, A: Surfaces> {
     /// Whether the `t` of samples matter to any of these.
     pub(super) looks_at_t: bool,
     /// The names of those that come next in `kept`, and are not set up yet.
-    new: New,
+    new: NewNames,
     /// Their ids.
     new_ids: Vec<u64>,
     pub(super) chunk: Box<Chunk>,
@@ -136,7 +136,7 @@ impl<'a, A: Surfaces> Desk<'a, A> {
             ways: Vec::new(),
             surfaces: Vec::new(),
             looks_at_t: false,
-            new: New::new(),
+            new: NewNames::new(),
             new_ids: Vec::new(),
             chunk: Box::new(Chunk::new()),
             to_lights: vec![[[0.0; WIDE]; 3]; lights],

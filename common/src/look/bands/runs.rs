@@ -162,10 +162,44 @@ impl Ends {
             self.count += is_end.to_bitmask().count_ones() as usize;
             ends += u32x16::splat(simd, 16);
         }
-        let start = ids.len() - rest.len();
-        for (end, id) in (start as u32 + 1..).zip(rest) {
+        for (end, id) in (ends[0]..).zip(rest) {
             (self.ids[self.count], self.ends[self.count]) = (*id, end);
             self.count += usize::from(ids.get(end as usize) != Some(id));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::chunk::CHUNK;
+    use super::*;
+    use crate::engine::simd::{dispatch, levels};
+    use proptest::collection::vec;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn a_run_ends_where_an_id_differs_from_the_next_one(
+            runs in vec((prop_oneof![0..3_u32, Just(u32::MAX), any::<u32>()], 1..40_usize), 1..80),
+            length in 1..=CHUNK,
+        ) {
+            let ids = runs.into_iter().flat_map(|(id, times)| std::iter::repeat_n(id, times));
+            let ids: Vec<u32> = ids.take(length).collect();
+            let mut end = 0;
+            let expected: Vec<(u32, u32)> = ids
+                .chunk_by(|a, b| a == b)
+                .map(|run| {
+                    end += u32::try_from(run.len()).unwrap();
+                    (run[0], end)
+                })
+                .collect();
+            for level in levels() {
+                // What was found before does not matter.
+                let mut ends = Ends { ids: [7; WIDE], ends: [7; WIDE], count: 9 };
+                dispatch!(level, simd => ends.find(simd, &ids));
+                prop_assert_eq!(ends.iter().collect::<Vec<_>>(), &expected[..], "{:?}", level);
+                prop_assert_eq!(ends.count(), expected.len());
+            }
         }
     }
 }
