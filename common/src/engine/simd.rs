@@ -18,7 +18,7 @@ pub use fearless_simd::{
     mask32x16, mask64x8, u8x32, u8x64, u32x8, u32x16,
 };
 
-pub use shuffle::{Compression, PackedShuffles, Shuffle};
+pub use shuffle::{Compression, PackedShuffles, Shuffle, store_three_bytes_each};
 
 /// Asks the machine to load a value into its cache before use. This function changes nothing else.
 #[inline(always)]

@@ -1,6 +1,6 @@
 //! Colours: linear values, which light adds up in, and the sRGB bytes of pictures.
 
-use crate::engine::simd::{Bytes, Select, Simd, SimdBase, f32x16, u8x64, u32x16};
+use crate::engine::simd::{Bytes, Select, Simd, SimdBase, f32x16, store_three_bytes_each, u32x16};
 use crate::look::lanes::each;
 use std::sync::LazyLock;
 
@@ -62,18 +62,8 @@ pub(crate) fn store_srgb_of_sixteen<S: Simd>(simd: S, places: [&[u32; 16]; 3], t
         let above = u32x16::from_slice(simd, places) >> 5;
         (entries + (above & u32x16::splat(simd, 0xffff))) >> 16
     });
-    let four_each: u8x64<S> = (red | (green << 8) | (blue << 16)).bitcast();
-    // Four colours of four bytes, of which the last is 0, become four of three bytes.
-    let three_each = u8x64::from_slice(simd, [THREE_OF_FOUR; 4].as_flattened());
-    let three_each = four_each.swizzle_dyn_within_blocks(three_each).to_array();
-    for quarter in 0..4 {
-        to[12 * quarter..12 * quarter + 16]
-            .copy_from_slice(&three_each[16 * quarter..16 * quarter + 16]);
-    }
+    store_three_bytes_each(red | (green << 8) | (blue << 16), to);
 }
-
-/// The places of three of each four bytes; and four bytes without meaning.
-const THREE_OF_FOUR: [u8; 16] = [0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, 0, 0, 0, 0];
 
 /// 2⁻¹³: it and everything below is byte 0.
 const LEAST: f32 = f32::from_bits((127 - 13) << 23);

@@ -145,6 +145,19 @@ impl<S: Simd> Compression<S> {
     }
 }
 
+/// Writes the three lower bytes of each of sixteen numbers below 2²⁴, one behind the other. Four bytes more have no meaning.
+#[inline(always)]
+pub fn store_three_bytes_each<S: Simd>(numbers: u32x16<S>, to: &mut [u8; 52]) {
+    let three_of_four = u8x64::from_slice(numbers.simd, [THREE_OF_FOUR; 4].as_flattened());
+    let packed = numbers.bitcast::<u8x64<S>>().swizzle_dyn_within_blocks(three_of_four).to_array();
+    for quarter in 0..4 {
+        to[12 * quarter..][..16].copy_from_slice(&packed[16 * quarter..][..16]);
+    }
+}
+
+/// The places of three of each four bytes; and four bytes without meaning.
+const THREE_OF_FOUR: [u8; 16] = [0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, 0, 0, 0, 0];
+
 /// Four bytes, sixteen times: each time `step` more, and again from the start after every four times.
 const fn pattern(four: [u8; 4], step: u8) -> [u8; 64] {
     let mut all = [0; 64];
@@ -231,6 +244,22 @@ mod tests {
                     let expected = chosen(which, expected);
                     prop_assert_eq!(&some[k][..expected.len()], expected, "{:?}", level);
                 }
+            }
+        }
+
+        #[test]
+        fn three_bytes_of_each_number_are_stored_one_behind_the_other(numbers in any_bits()) {
+            let numbers = numbers.map(|number| number >> 8);
+            let expected = numbers.map(|number| {
+                let [red, green, blue, _] = number.to_le_bytes();
+                [red, green, blue]
+            });
+            for level in levels() {
+                let mut stored = [7; 52];
+                dispatch!(level, simd => {
+                    store_three_bytes_each(u32x16::load_array(simd, numbers), &mut stored);
+                });
+                prop_assert_eq!(&stored[..48], expected.as_flattened(), "{:?}", level);
             }
         }
 

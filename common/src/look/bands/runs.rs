@@ -143,7 +143,7 @@ impl Ends {
     }
 
     /// Finds the runs of a chunk: one ends where an id differs from the next one. Vectors find sixteen at a time, and no branch
-    /// depends on what they find.
+    /// depends on how many of these there are.
     #[inline(always)]
     pub(super) fn find<S: Simd>(&mut self, simd: S, ids: &[u32]) {
         self.count = 0;
@@ -156,10 +156,13 @@ impl Ends {
             let next = ids.get(16 * number + 16).copied().unwrap_or(!these[15]);
             let next = these.slide::<1>(u32x16::splat(simd, next));
             let is_end = these.simd_ne(next);
-            let compression = Compression::new(is_end);
-            compression.store(these, &mut self.ids[self.count..]);
-            compression.store(ends, &mut self.ends[self.count..]);
-            self.count += is_end.to_bitmask().count_ones() as usize;
+            // Some levels have no instruction that compresses.
+            if is_end.any_true() {
+                let compression = Compression::new(is_end);
+                compression.store(these, &mut self.ids[self.count..]);
+                compression.store(ends, &mut self.ends[self.count..]);
+                self.count += is_end.to_bitmask().count_ones() as usize;
+            }
             ends += u32x16::splat(simd, 16);
         }
         for (end, id) in (ends[0]..).zip(rest) {
