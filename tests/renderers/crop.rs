@@ -14,10 +14,12 @@ use bothways::common::{
 use bothways::diff::{Class, compare};
 use bothways::formats::generate::Kind;
 use bothways::picture::{mask, picture};
+use bothways::scenes::LoadedScene;
 use bothways::{rasterize, raytrace, scenes, vectors};
 use bothways_test_support::{
     PROJECTIONS, assert_is_part, mesh, scene, some_crops, triangle, turned,
 };
+use std::collections::HashSet;
 
 /// One pixel in each corner, the whole image, two borders, and three random crops.
 fn crops_of([width, height]: [u32; 2], seed: u64) -> Vec<Crop> {
@@ -65,6 +67,28 @@ fn crops_of_the_conformance_set_equal_the_whole() {
         let camera = Camera::new(small).unwrap();
         let samples = 1 + u32::try_from(seed % 2).unwrap();
         check_all(&View::new(&scene, &camera), samples, seed, vector.name);
+    }
+}
+
+/// Nearly each sample shows another triangle: more than are kept while the picture is shaded.
+#[test]
+fn crops_of_triangles_as_small_as_samples_equal_the_whole() {
+    let LoadedScene { scene, camera, .. } = scenes::load("many").unwrap();
+    let wide = scene.clone().with_wide_ids();
+    let [width, height] = camera.viewport.map(|side| 1.7 * side);
+    let camera = CameraDescription { viewport: [width, height], image: [600, 450], ..camera };
+    let camera = Camera::new(camera).unwrap();
+    let view = View::new(&scene, &camera);
+    for (name, render) in &RENDERERS[2..] {
+        let whole = render(&view, &Options::default());
+        let ids: HashSet<_> = whole.ids().iter().collect();
+        assert!(ids.len() > 9000, "{name}: {}", ids.len());
+        for crop in crops_of(camera.image(), 11) {
+            let part = render(&view, &Options { crop: Some(crop), ..Options::default() });
+            assert_is_part(&whole, &part, name);
+        }
+        let of_wide = render(&View::new(&wide, &camera), &Options::default());
+        assert!(of_wide.picture() == whole.picture(), "{name}");
     }
 }
 

@@ -1,6 +1,8 @@
 //! Neither the number of threads nor the level of SIMD changes a bit of the pictures of either order, or a count.
 
 use bothways::common::engine::simd::levels;
+use bothways::common::glam::Vec3;
+use bothways::common::look::color::srgb_from_linear;
 use bothways::common::{Camera, Frame, Options, View, Work};
 use bothways::{rasterize, raytrace, scenes};
 use bothways_test_support::PROJECTIONS;
@@ -75,6 +77,14 @@ fn no_level_of_simd_changes_a_bit_of_what_is_shaded() {
                 assert!(colors.len() > 100, "{name}, {projection:?}: {} colours", colors.len());
                 for other in &all[1..] {
                     assert!(*other == all[0], "{name}, {projection:?}, {keeps_textures}");
+                }
+                if samples == 1 {
+                    for frame in &all[0] {
+                        let bytes = |color: &Vec3| color.to_array().map(srgb_from_linear);
+                        assert!(
+                            frame.picture().iter().copied().eq(frame.colors().iter().map(bytes))
+                        );
+                    }
                 }
             }
         }

@@ -77,7 +77,7 @@ pub fn shade(view: &View, frame: &mut Frame, surfaces: &impl Surfaces, level: Le
 const TOGETHER: [usize; 2] = [16, 2 * CHUNK];
 /// Of these rows, so many have their primitives set up together: mostly enough for eight at a time, and few enough to be kept.
 const SET_UP_TOGETHER: usize = 4;
-/// The most samples of them.
+/// The most samples of a block of these.
 const MOST_OF_BLOCK: usize = SET_UP_TOGETHER * TOGETHER[1];
 
 /// What a frame keeps of the textures of some samples.
@@ -109,7 +109,7 @@ struct Look<'a, A> {
     setting: Setting<'a, A>,
     grid: SampleGrid<'a>,
     lighting: &'a Lighting,
-    /// As many as a chunk has samples: copies are faster than repetitions of three bytes.
+    /// The background's sRGB bytes, once for each sample of a chunk: to copy them is faster than to repeat three.
     background_bytes: [[u8; 3]; CHUNK],
     /// The places of columns and rows on the viewport, in lengths of the camera's distance; and sixteen more.
     across: Vec<f32>,
@@ -376,17 +376,7 @@ impl<'a, A: Surfaces> Look<'a, A> {
         let (chunk, to_lights, mut begin) = (&mut *desk.chunk, &desk.to_lights[..], 0);
         for &Group { end, shown } in desk.groups.all() {
             let Some((material, is_tinted)) = shown else {
-                if needs_colors {
-                    for (to, channel) in
-                        chunk.color.iter_mut().zip(view.scene.background.to_array())
-                    {
-                        to[begin..end].fill(channel);
-                    }
-                }
-                chunk.bytes[begin..end].copy_from_slice(&self.background_bytes[begin..end]);
-                if let Some(kept) = &mut normals {
-                    kept[begin..end].fill(Vec3::ZERO);
-                }
+                self.light_nothing(chunk, begin..end, needs_colors, normals.as_deref_mut());
                 begin = end;
                 continue;
             };
@@ -429,6 +419,30 @@ impl<'a, A: Surfaces> Look<'a, A> {
                 }
             }
             begin = end;
+        }
+    }
+
+    /// The same for samples of a chunk that show nothing.
+    #[inline(always)]
+    fn light_nothing(
+        &self,
+        chunk: &mut Chunk,
+        samples: Range<usize>,
+        needs_colors: bool,
+        normals: Option<&mut [Vec3]>,
+    ) {
+        let background = self.setting.view.scene.background;
+        if needs_colors {
+            for (to, channel) in chunk.color.iter_mut().zip(background.to_array()) {
+                to[samples.clone()].fill(channel);
+            }
+        }
+        if self.samples == 1 {
+            let bytes = &self.background_bytes[samples.clone()];
+            chunk.bytes[samples.clone()].copy_from_slice(bytes);
+        }
+        if let Some(normals) = normals {
+            normals[samples].fill(Vec3::ZERO);
         }
     }
 

@@ -36,7 +36,8 @@ pub fn encoded_from_linear(linear: f64) -> f64 {
     encoded.clamp(0.0, 1.0)
 }
 
-/// Where sixteen linear values stand in the encoding: how far above [`LEAST`], times 32. [`store_srgb_of_sixteen`] makes bytes of them.
+/// Where sixteen linear values stand in the encoding: how far above [`LEAST`], as differences of bits, shifted so that the upper eleven
+/// bits are the number of the entry. [`store_srgb_of_sixteen`] makes bytes of them.
 ///
 /// They are to be written to memory, and read in another loop: to take each lane out of a vector lasts twice as long as to look up what
 /// stands there.
@@ -45,7 +46,7 @@ pub(crate) fn places_of_sixteen<S: Simd>(simd: S, linear: f32x16<S>) -> u32x16<S
     let [least, one] = each!(value in [LEAST, 1.0] => f32x16::splat(simd, value));
     let linear = linear.simd_gt(least).select(linear, least);
     let linear = linear.simd_lt(one).select(linear, one);
-    (linear.bitcast::<u32x16<S>>() - u32x16::splat(simd, LEAST.to_bits())) << 5
+    (linear.bitcast::<u32x16<S>>() - u32x16::splat(simd, LEAST.to_bits())) << UNUSED
 }
 
 /// Writes the sRGB bytes of the red, green and blue of sixteen colours, one behind the other, as [`srgb_from_linear`] finds them, from
@@ -56,10 +57,10 @@ pub(crate) fn store_srgb_of_sixteen<S: Simd>(simd: S, places: [&[u32; 16]; 3], t
     let [red, green, blue] = each!(k in [0, 1, 2] => {
         let places = places[k];
         let entries = each!(lane in [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15] => {
-            table[(places[lane] >> (16 + 5)) as usize]
+            table[(places[lane] >> (u32::BITS - ENTRY_BITS)) as usize]
         });
         let entries = u32x16::from_slice(simd, &entries);
-        let above = u32x16::from_slice(simd, places) >> 5;
+        let above = u32x16::from_slice(simd, places) >> UNUSED;
         (entries + (above & u32x16::splat(simd, 0xffff))) >> 16
     });
     store_three_bytes_each(red | (green << 8) | (blue << 16), to);
@@ -70,8 +71,11 @@ const LEAST: f32 = f32::from_bits((127 - 13) << 23);
 /// The steps of the table up to 1, and 1 itself: 128 to an octave.
 const ENTRIES: usize = 13 * 128 + 1;
 
-/// Room for all places that eleven bits can tell.
+/// Room for them, as a power of 2: so the compiler sees that no place is beyond the table.
 const ROOM: usize = ENTRIES.next_power_of_two();
+const ENTRY_BITS: u32 = ROOM.ilog2();
+/// Bits that no place needs: sixteen are lower than those that number the entry.
+const UNUSED: u32 = u32::BITS - 16 - ENTRY_BITS;
 
 /// One entry for all numbers with the same upper half of their bits: `2¹⁶` times the byte of the first of them, and the
 /// distance from the last to the smallest of them, if there is one, whose byte is larger by 1. Added to the lower half

@@ -145,7 +145,7 @@ impl<S: Simd> Compression<S> {
     }
 }
 
-/// Writes the three lower bytes of each of sixteen numbers below 2²⁴, one behind the other. Four bytes more have no meaning.
+/// Writes the three lower bytes of each of sixteen numbers, one behind the other. The last four bytes have no meaning then.
 #[inline(always)]
 pub fn store_three_bytes_each<S: Simd>(numbers: u32x16<S>, to: &mut [u8; 52]) {
     let three_of_four = u8x64::from_slice(numbers.simd, [THREE_OF_FOUR; 4].as_flattened());
@@ -249,7 +249,6 @@ mod tests {
 
         #[test]
         fn three_bytes_of_each_number_are_stored_one_behind_the_other(numbers in any_bits()) {
-            let numbers = numbers.map(|number| number >> 8);
             let expected = numbers.map(|number| {
                 let [red, green, blue, _] = number.to_le_bytes();
                 [red, green, blue]

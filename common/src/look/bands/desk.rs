@@ -61,15 +61,15 @@ impl NamedPlace {
     }
 }
 
-/// The names of primitives that a block shows and that are not kept. There is room for one name more, which may be none.
+/// The names of primitives that a block shows and that are not kept. Each run adds one at most, and no block has more runs than samples.
 struct NewNames {
-    names: Box<[u32; MOST_OF_BLOCK + 1]>,
+    names: Box<[u32; MOST_OF_BLOCK]>,
     count: u32,
 }
 
 impl NewNames {
     fn new() -> NewNames {
-        NewNames { names: Box::new([0; MOST_OF_BLOCK + 1]), count: 0 }
+        NewNames { names: Box::new([0; MOST_OF_BLOCK]), count: 0 }
     }
 
     fn names(&self) -> &[u32] {
@@ -160,7 +160,7 @@ impl<'a, A: Surfaces> Desk<'a, A> {
     #[inline(always)]
     pub(super) fn find_runs<S: Simd>(&mut self, simd: S, ids: Ids) {
         match ids {
-            _ if is_nothing(ids) => self.runs.add(1)[0] = Run::new(number(ids.len()), NOTHING),
+            _ if is_nothing(ids) => self.runs.add(1)[0] = Run::of_nothing(ids.len()),
             Ids::Narrow(ids) => self.find_runs_of(simd, ids),
             Ids::Wide(ids) => self.find_wide_runs(simd, ids),
         }
@@ -180,7 +180,7 @@ impl<'a, A: Surfaces> Desk<'a, A> {
             places[hash(name)] = place;
             new.names[count as usize] = name;
             count += u32::from(is_new);
-            *run = Run::new(end, place.place() | if is_nothing { NOTHING } else { 0 });
+            *run = Run::new(end, if is_nothing { NOTHING } else { place.place() });
         }
         new.count = count;
     }

@@ -1,4 +1,4 @@
-//! The samples of rows in runs of one primitive each.
+//! The samples of rows in runs of one primitive each, and in groups of one material.
 
 use super::chunk::WIDE;
 use crate::engine::simd::{Compression, Simd, SimdBase, SimdMask, u32x16};
@@ -22,6 +22,12 @@ impl Run {
     #[inline(always)]
     pub(super) fn new(end: u32, place: u32) -> Run {
         Run { end, place }
+    }
+
+    /// One in which nothing is seen, from the first sample of the chunk on.
+    #[inline(always)]
+    pub(super) fn of_nothing(samples: usize) -> Run {
+        Run::new(u32::try_from(samples).expect("chunks are short"), NOTHING)
     }
 
     /// The first sample after it.
@@ -143,7 +149,7 @@ impl Ends {
     }
 
     /// Finds the runs of a chunk: one ends where an id differs from the next one. Vectors find sixteen at a time, and no branch
-    /// depends on how many of these there are.
+    /// depends on more than whether there are any.
     #[inline(always)]
     pub(super) fn find<S: Simd>(&mut self, simd: S, ids: &[u32]) {
         self.count = 0;
@@ -156,7 +162,7 @@ impl Ends {
             let next = ids.get(16 * number + 16).copied().unwrap_or(!these[15]);
             let next = these.slide::<1>(u32x16::splat(simd, next));
             let is_end = these.simd_ne(next);
-            // Some levels have no instruction that compresses.
+            // Where no instruction compresses, what takes its place takes longer than all the rest.
             if is_end.any_true() {
                 let compression = Compression::new(is_end);
                 compression.store(these, &mut self.ids[self.count..]);
@@ -179,6 +185,32 @@ mod tests {
     use crate::engine::simd::{dispatch, levels};
     use proptest::collection::vec;
     use proptest::prelude::*;
+
+    #[test]
+    fn a_group_ends_where_the_material_or_its_tint_is_another() {
+        let (one, other) = (Material::default(), Material::default());
+        let mut groups = Groups::default();
+        let shown = [
+            None,
+            Some((&one, false)),
+            Some((&one, false)),
+            Some((&other, false)),
+            Some((&other, true)),
+            None,
+            None,
+            Some((&one, false)),
+        ];
+        for (end, shown) in (1..).zip(shown) {
+            groups.add(end, shown);
+        }
+        let ends: Vec<usize> = groups.all().iter().map(|group| group.end).collect();
+        assert_eq!(ends, [1, 3, 4, 5, 7, 8]);
+        for Group { end, shown: of_group } in groups.all() {
+            assert!(is_same(*of_group, shown[end - 1]), "{end}");
+        }
+        groups.clear();
+        assert!(groups.all().is_empty());
+    }
 
     proptest! {
         #[test]

@@ -17,7 +17,7 @@ use std::ops::Range;
 pub struct TowardsViewer {
     /// Where `x` is 0.
     at_middle: Vec3,
-    /// How much shorter it is for each of `x`.
+    /// What is subtracted for each unit of `x`.
     across: Vec3,
 }
 
@@ -48,8 +48,8 @@ pub trait Surfaces: Sync {
     type Along: Default;
 
     /// The directions towards the viewer, of any length, at sixteen samples that follow one another in a row: against
-    /// the rays of the camera, unless a renderer has others. The samples are given by the first of them and by their
-    /// places, in lengths of the camera's distance. There may be fewer; the lanes that are left over have any values.
+    /// the rays of the camera, which `row` has, unless a renderer has others. The samples are given by the first of them and by
+    /// their places `x`, in lengths of the camera's distance. There may be fewer; the lanes that are left over have any values.
     #[inline(always)]
     fn to_viewer<S: Simd>(
         &self,
