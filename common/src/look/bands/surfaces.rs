@@ -524,4 +524,28 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn directions_to_the_viewer_are_against_the_rays() {
+        for projection in [Projection::Perspective, Projection::Parallel] {
+            let eye = Vec3::new(0.7, -1.1, 3.0);
+            let description = CameraDescription { projection, eye, ..Default::default() };
+            let camera = Camera::new(description).unwrap();
+            for (level, y) in levels().into_iter().zip([0.3, -0.7, 2.5].into_iter().cycle()) {
+                let place = |lane: usize| 0.37 * lane as f64 - 1.0;
+                #[expect(clippy::cast_possible_truncation, reason = "as light has them")]
+                let in_distances = |place: f64| (place / camera.distance()) as f32;
+                dispatch!(level, simd => {
+                    let x = f32x16::from_fn(simd, |lane| in_distances(place(lane)));
+                    let row = TowardsViewer::along_row(&camera, in_distances(y));
+                    let Vec3x16 { x, y: up, z } = row.at(simd, x).normalized(simd);
+                    for lane in 0..16 {
+                        let found = Vec3::new(x[lane], up[lane], z[lane]).as_dvec3();
+                        let ray = camera.ray_through(place(lane), y).direction.normalize();
+                        assert!((found + ray).length() < 1e-6, "{projection:?}: {lane}, {y}");
+                    }
+                });
+            }
+        }
+    }
 }
