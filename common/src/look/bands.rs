@@ -23,8 +23,8 @@ use crate::raster::Sample;
 use crate::scene::material::Material;
 use crate::view::View;
 use chunk::{
-    CHUNK, Chunk, Vectors, eight, part, sixteen, sixteen_vectors, store_sixteen_bytes,
-    store_sixteen_places,
+    CHUNK, Chunk, SET_UP_TOGETHER, TOGETHER, Vectors, eight, part, sixteen, sixteen_vectors,
+    store_sixteen_bytes, store_sixteen_places,
 };
 use desk::{Desk, Kept, KeptLook, KeptSurface, Setting};
 use glam::{Vec2, Vec3};
@@ -71,14 +71,6 @@ pub fn shade(view: &View, frame: &mut Frame, surfaces: &impl Surfaces, level: Le
         |desk, mut band| dispatch!(level, simd => look.shade_band(simd, desk, &mut band)),
     );
 }
-
-/// Rows and columns of samples that are shaded together, where a pixel has one sample: so triangles which several rows show,
-/// and the vertices of their neighbours, are still in the nearest caches. With fewer columns, the machine fetches ids and `t` late.
-const TOGETHER: [usize; 2] = [16, 2 * CHUNK];
-/// Of these rows, so many have their primitives set up together: mostly enough for eight at a time, and few enough to be kept.
-const SET_UP_TOGETHER: usize = 4;
-/// The most samples of a block of these.
-const MOST_OF_BLOCK: usize = SET_UP_TOGETHER * TOGETHER[1];
 
 /// What a frame keeps of the textures of some samples.
 struct KeptTexture<'a> {

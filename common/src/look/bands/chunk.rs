@@ -11,6 +11,14 @@ pub(super) const CHUNK: usize = 256;
 const BEYOND: usize = 16;
 pub(super) const WIDE: usize = CHUNK + BEYOND;
 
+/// Rows and columns of samples that are shaded together, where a pixel has one sample: so triangles which several rows show,
+/// and the vertices of their neighbours, are still in the nearest caches. With fewer columns, the machine fetches ids and `t` late.
+pub(super) const TOGETHER: [usize; 2] = [16, 2 * CHUNK];
+/// Of these rows, so many have their primitives set up together: mostly enough for eight at a time, and few enough to be kept.
+pub(super) const SET_UP_TOGETHER: usize = 4;
+/// The most samples of a block of these.
+pub(super) const MOST_OF_BLOCK: usize = SET_UP_TOGETHER * TOGETHER[1];
+
 /// A vector for each sample of a chunk.
 pub(super) type Vectors = [[f32; WIDE]; 3];
 

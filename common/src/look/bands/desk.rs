@@ -1,7 +1,6 @@
 //! What a thread works with while it shades: the samples of a chunk, and the primitives that are seen there.
 
-use super::MOST_OF_BLOCK;
-use super::chunk::{Chunk, Vectors, WIDE};
+use super::chunk::{Chunk, MOST_OF_BLOCK, Vectors, WIDE};
 use super::found::Found;
 use super::local::{LocalVector, MOST_LIGHTS};
 use super::runs::{Ends, Groups, NOTHING, Run, Runs};
