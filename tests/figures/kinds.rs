@@ -3,7 +3,8 @@
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use bothways::common::{Camera, CameraDescription, Projection, Scene, View};
+use bothways::common::glam::Vec3;
+use bothways::common::{Camera, CameraDescription, Mesh, Projection, Scene, Shape, Sphere, View};
 use bothways::figure::{Drawing, Kind, Subject, Theme, work_maps};
 use bothways::orders::{Method, Order, RenderOptions, Rules, render};
 use bothways::scenes::{BUILT_IN, load};
@@ -26,8 +27,12 @@ fn camera(scene: &str, projection: Projection) -> (Scene, Camera) {
     (loaded.scene, Camera::new(description).unwrap())
 }
 
-fn draw(kind: Kind, name: &str, (scene, camera): &(Scene, Camera), theme: Theme) -> Drawing {
-    let subject = Subject {
+fn subject_of<'a>(
+    (scene, camera): &'a (Scene, Camera),
+    name: &'a str,
+    theme: Theme,
+) -> Subject<'a> {
+    Subject {
         name,
         about: None,
         view: View::new(scene, camera),
@@ -35,8 +40,12 @@ fn draw(kind: Kind, name: &str, (scene, camera): &(Scene, Camera), theme: Theme)
         samples: 1,
         rules: Rules::default(),
         theme,
-    };
-    kind.draw(&subject).unwrap_or_else(|error| panic!("{kind} of {name}: {error}"))
+    }
+}
+
+fn draw(kind: Kind, name: &str, subject: &(Scene, Camera), theme: Theme) -> Drawing {
+    let drawn = kind.draw(&subject_of(subject, name, theme));
+    drawn.unwrap_or_else(|error| panic!("{kind} of {name}: {error}"))
 }
 
 /// The picture that another renderer makes of an SVG file.
@@ -145,5 +154,52 @@ fn the_levels_of_a_floor_up_to_the_horizon_are_drawn() {
         let drawing = draw(Kind::Levels, "horizon", &subject, theme);
         assert_eq!(drawing.faults(), [""; 0], "{theme:?}");
         assert!(drawing.svg().contains(focus), "a column is framed");
+    }
+}
+
+/// A sphere of radius 1 before the lecture's first camera.
+fn sphere_at(z: f32, image: [u32; 2]) -> (Scene, Camera) {
+    let sphere = Sphere { center: Vec3::new(0.0, 0.0, z), radius: 1.0 };
+    let scene = Scene::new(vec![Shape::Sphere(sphere).into()]).unwrap();
+    let [width, height] = image;
+    (scene, Camera::canonical(height, width))
+}
+
+#[test]
+fn levels_say_why_there_is_no_column_to_look_at() {
+    let drawn = |subject| draw(Kind::Levels, "sphere", subject, Theme::Dark);
+    for (subject, says) in [
+        (&sphere_at(-1.001, [900, 900]), "All samples read level 0"),
+        (&sphere_at(-100.0, [1, 1]), "All samples read the last level"),
+        (&sphere_at(-3.0, [3, 3]), "No surface that reads between two levels is five rows high"),
+    ] {
+        let drawing = drawn(subject);
+        assert_eq!(drawing.faults(), [""; 0], "{says}");
+        assert!(drawing.svg().contains(says), "{says}");
+    }
+
+    let corners = [[-1.0, -1.0], [1.0, -1.0], [0.0, 1.0]].map(|[x, y]| Vec3::new(x, y, -3.0));
+    let mesh = Mesh::new(corners.to_vec(), vec![[0, 1, 2]]).unwrap();
+    let (scene, camera) =
+        (Scene::new(vec![Shape::Mesh(mesh).into()]).unwrap(), Camera::canonical(9, 9));
+    let refused = Kind::Levels.draw(&subject_of(&(scene, camera), "mesh", Theme::Dark));
+    let error = refused.unwrap_err().to_string();
+    assert!(error.contains("nothing that is seen has texture coordinates"), "{error}");
+}
+
+/// The camera from the side shows surfaces as lines, however few rows the picture has.
+#[test]
+fn a_picture_of_few_rows_has_a_profile_all_the_same() {
+    let lines = |rows: u32| {
+        let (scene, camera) = camera("canonical", Projection::Perspective);
+        let description = CameraDescription { image: [rows; 2], ..*camera.description() };
+        let subject = (scene, Camera::new(description).unwrap());
+        let svg = draw(Kind::Camera, "canonical", &subject, Theme::Dark).svg();
+        svg.matches(r##"stroke="#eef1f4" stroke-width="4""##).count()
+    };
+    let all = lines(481);
+    for rows in [1, 2, 5, 100] {
+        let few = lines(rows);
+        assert!(few.abs_diff(all) < all / 3, "{rows} rows: {few} lines, not {all}");
     }
 }

@@ -27,11 +27,16 @@ const MOST_ROWS: usize = 24;
 const FULL: f64 = 0.1;
 
 pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
-    let point = "A sample's size decides the level. Object order subtracts neighbours, in pairs; image order differentiates its ray: \
-                 they part where sizes change fast.";
-    let mut sheet = Sheet::new(subject, "Which level of its texture does a sample read?", point);
     let frames = Order::ALL.map(|order| shaded(&subject.view, order));
     let levels = Levels::new(&subject.view, &frames);
+    let reach = levels.reach().ok_or_else(|| {
+        FigureError::new(
+            "no sample reads a texture: nothing that is seen has texture coordinates; look at a sphere, a plane, or a mesh that has \
+             some (lines \"vt\" of an OBJ file)",
+        )
+    })?;
+    let mut sheet =
+        Sheet::new(subject, "Which level of its texture does a sample read?", reach.point());
     let mut left = MARGIN;
     let most = levels.most;
     for (k, order) in Order::ALL.into_iter().enumerate() {
@@ -66,7 +71,7 @@ pub(super) fn draw(subject: &Subject) -> Result<Drawing, FigureError> {
         style.of(theme.of(Role::Object)),
         MAP[0],
     );
-    below(&mut sheet, &levels, &frames[0]);
+    below(&mut sheet, &levels, reach, &frames[0]);
     Ok(sheet.drawing)
 }
 
@@ -122,6 +127,26 @@ impl<'a> Levels<'a> {
         (level != NO_LEVEL).then(|| f64::from(level).clamp(0.0, self.most as f64))
     }
 
+    /// Which levels are read; `None` if no sample has one.
+    fn reach(&self) -> Option<Reach> {
+        let samples = 0..self.width * self.height;
+        let shown = |order| samples.clone().filter_map(move |at| self.shown(order, at));
+        let mut all = shown(0).chain(shown(1)).peekable();
+        all.peek()?;
+        let is_first = |level: f64| level <= 0.0;
+        let is_last = |level: f64| level >= self.most as f64;
+        let (mut first, mut last) = (true, true);
+        for level in all {
+            first &= is_first(level);
+            last &= is_last(level);
+        }
+        Some(match (first, last) {
+            (true, _) => Reach::First,
+            (_, true) => Reach::Last,
+            _ => Reach::Several,
+        })
+    }
+
     /// How much higher the level of object order is.
     fn difference(&self, at: usize) -> Option<f64> {
         Some(self.shown(0, at)? - self.shown(1, at)?)
@@ -172,6 +197,49 @@ impl<'a> Levels<'a> {
     }
 }
 
+/// Which levels the samples of a picture read.
+#[derive(Clone, Copy)]
+enum Reach {
+    /// The picture itself alone.
+    First,
+    /// The single texel alone.
+    Last,
+    Several,
+}
+
+impl Reach {
+    /// What the figure says in one line.
+    fn point(self) -> &'static str {
+        match self {
+            Reach::First => {
+                "A sample's size decides the level: here all samples are smaller than a texel, and both orders read the picture itself."
+            }
+            Reach::Last => {
+                "A sample's size decides the level: here each sample is as large as the whole texture, and both orders read its mean."
+            }
+            Reach::Several => {
+                "A sample's size decides the level. Object order subtracts neighbours, in pairs; image order differentiates its ray: \
+                 they part where sizes change fast."
+            }
+        }
+    }
+
+    /// Why there is no column to look at.
+    fn without_column(self) -> &'static str {
+        match self {
+            Reach::First => {
+                "All samples read level 0: all that is seen is near. Look from farther away."
+            }
+            Reach::Last => {
+                "All samples read the last level: all that is seen is far. Look from nearer."
+            }
+            Reach::Several => {
+                "No surface that reads between two levels is five rows high. Draw more pixels."
+            }
+        }
+    }
+}
+
 /// The colour of a difference: that of the order whose level is higher.
 fn apart(theme: Theme, difference: f64) -> [u8; 3] {
     let order = if difference > 0.0 { Role::Object } else { Role::Image };
@@ -202,15 +270,14 @@ fn difference_bar(sheet: &mut Sheet, [x, y]: [f64; 2], width: f64) {
 }
 
 /// The picture with the column that is looked at, and the levels along it.
-fn below(sheet: &mut Sheet, levels: &Levels, frame: &Frame) {
+fn below(sheet: &mut Sheet, levels: &Levels, reach: Reach, frame: &Frame) {
     let theme = sheet.theme;
     let top = BELOW + 40.0;
     let size = sheet.picture(picture(frame), [MARGIN, top], PICTURE);
     sheet.heading([MARGIN, top], PICTURE[0], "the picture", "");
     let Some((column, rows)) = levels.telling() else {
-        let says =
-            "No sample reads between two levels: nothing has a texture, or all of it is near.";
-        sheet.drawing.text([CHART_LEFT, top + 60.0], Anchor::Left, says, theme.text());
+        let (at, says) = ([CHART_LEFT, top + 60.0], reach.without_column());
+        sheet.drawing.text(at, Anchor::Left, says, theme.text());
         return;
     };
     let [across, down] = [size[0] / levels.width as f64, size[1] / levels.height as f64];

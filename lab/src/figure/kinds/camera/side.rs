@@ -3,7 +3,7 @@
 use super::stage::Stage;
 use super::viewing_ray::{SIDE, ViewingRay, label_at};
 use crate::common::glam::DVec3;
-use crate::common::{Crop, Options, View};
+use crate::common::{Camera, CameraDescription, Crop, Options, View};
 use crate::figure::drawing::{Ink, Pen};
 use crate::figure::sheet::Sheet;
 use crate::figure::subject::{Subject, seen};
@@ -70,8 +70,26 @@ pub(super) fn draw(sheet: &mut Sheet, subject: &Subject, stage: &Stage, ray: &Vi
     sheet.border(corner, size);
 }
 
-/// What is seen in one column of the picture, from top to bottom: points relative to the eye, and their objects.
+/// What is seen in the middle of one column of the picture, from top to bottom: points relative to the eye, and their objects. A picture
+/// of few rows has more of them here, so that surfaces are lines.
 fn profile(view: &View, column: u32) -> Vec<(DVec3, usize)> {
+    // An odd number of columns has the middle of the one whose place they take.
+    let times = (ROWS / view.camera.image()[1]) | 1;
+    match finer(view.camera, times) {
+        Some(camera) => points(&View::new(view.scene, &camera), column * times + times / 2),
+        None => points(view, column),
+    }
+}
+
+/// The camera with so many times the rows and columns, if such an image is allowed.
+fn finer(camera: &Camera, times: u32) -> Option<Camera> {
+    let [width, height] = camera.image().map(|side| side.checked_mul(times));
+    let image = [width?, height?];
+    Camera::new(CameraDescription { image, ..*camera.description() }).ok()
+}
+
+/// The points that are seen in one column, and their objects.
+fn points(view: &View, column: u32) -> Vec<(DVec3, usize)> {
     let [_, height] = view.camera.image();
     let crop = Crop { row: 0, column, height, width: 1 };
     let frame = seen(view, &Options { crop: Some(crop), ..Options::default() });
@@ -84,6 +102,9 @@ fn profile(view: &View, column: u32) -> Vec<(DVec3, usize)> {
     })
     .collect()
 }
+
+/// Rows of a profile, at least and roughly.
+const ROWS: u32 = 480;
 
 /// The least and the greatest of a coordinate.
 fn bounds(points: &[[f64; 2]], axis: usize) -> [f64; 2] {
