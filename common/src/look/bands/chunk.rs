@@ -1,4 +1,4 @@
-//! Numbers of some samples of a row, and how vectors are read from them and written to them.
+//! Numbers of some samples of a row, and how vectors are read from them and written to them; how many samples are shaded together.
 
 use crate::engine::simd::{Simd, SimdBase, f32x16, f64x8};
 use crate::look::color::{places_of_sixteen, store_srgb_of_sixteen};

@@ -502,12 +502,17 @@ mod tests {
     use crate::camera::CameraDescription;
     use crate::engine::simd::{dispatch, levels};
 
+    /// One of each projection.
+    fn cameras() -> [Camera; 2] {
+        [Projection::Perspective, Projection::Parallel].map(|projection| {
+            let eye = Vec3::new(0.7, -1.1, 3.0);
+            Camera::new(CameraDescription { projection, eye, ..Default::default() }).unwrap()
+        })
+    }
+
     #[test]
     fn rays_of_a_row_are_those_of_the_camera() {
-        for projection in [Projection::Perspective, Projection::Parallel] {
-            let eye = Vec3::new(0.7, -1.1, 3.0);
-            let description = CameraDescription { projection, eye, ..Default::default() };
-            let camera = Camera::new(description).unwrap();
+        for camera in cameras() {
             for (level, y) in levels().into_iter().zip([0.3, -0.7, 1e-9, 1e9].into_iter().cycle()) {
                 dispatch!(level, simd => {
                     let x = f64x8::from_fn(simd, |lane| 0.37 * lane as f64 - 1.0);
@@ -527,10 +532,7 @@ mod tests {
 
     #[test]
     fn directions_to_the_viewer_are_against_the_rays() {
-        for projection in [Projection::Perspective, Projection::Parallel] {
-            let eye = Vec3::new(0.7, -1.1, 3.0);
-            let description = CameraDescription { projection, eye, ..Default::default() };
-            let camera = Camera::new(description).unwrap();
+        for camera in cameras() {
             for (level, y) in levels().into_iter().zip([0.3, -0.7, 2.5].into_iter().cycle()) {
                 let place = |lane: usize| 0.37 * lane as f64 - 1.0;
                 #[expect(clippy::cast_possible_truncation, reason = "as light has them")]
@@ -542,7 +544,7 @@ mod tests {
                     for lane in 0..16 {
                         let found = Vec3::new(x[lane], up[lane], z[lane]).as_dvec3();
                         let ray = camera.ray_through(place(lane), y).direction.normalize();
-                        assert!((found + ray).length() < 1e-6, "{projection:?}: {lane}, {y}");
+                        assert!((found + ray).length() < 1e-6, "{:?}: {lane}, {y}", camera.projection());
                     }
                 });
             }

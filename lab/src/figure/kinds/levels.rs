@@ -131,20 +131,20 @@ impl<'a> Levels<'a> {
     fn reach(&self) -> Option<Reach> {
         let samples = 0..self.width * self.height;
         let shown = |order| samples.clone().filter_map(move |at| self.shown(order, at));
-        let mut all = shown(0).chain(shown(1)).peekable();
-        all.peek()?;
-        let is_first = |level: f64| level <= 0.0;
-        let is_last = |level: f64| level >= self.most as f64;
-        let (mut first, mut last) = (true, true);
-        for level in all {
-            first &= is_first(level);
-            last &= is_last(level);
+        let all = shown(0).chain(shown(1));
+        let (least, greatest) = all
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, greatest), level| {
+                (level.min(least), level.max(greatest))
+            });
+        if least > greatest {
+            None
+        } else if greatest <= 0.0 {
+            Some(Reach::First)
+        } else if least >= self.most as f64 {
+            Some(Reach::Last)
+        } else {
+            Some(Reach::Several)
         }
-        Some(match (first, last) {
-            (true, _) => Reach::First,
-            (_, true) => Reach::Last,
-            _ => Reach::Several,
-        })
     }
 
     /// How much higher the level of object order is.

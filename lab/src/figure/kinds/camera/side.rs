@@ -74,7 +74,7 @@ pub(super) fn draw(sheet: &mut Sheet, subject: &Subject, stage: &Stage, ray: &Vi
 /// of few rows has more of them here, so that surfaces are lines.
 fn profile(view: &View, column: u32) -> Vec<(DVec3, usize)> {
     // An odd number of columns has the middle of the one whose place they take.
-    let times = (ROWS / view.camera.image()[1]) | 1;
+    let times = ROWS.div_ceil(view.camera.image()[1]) | 1;
     match finer(view.camera, times) {
         Some(camera) => points(&View::new(view.scene, &camera), column * times + times / 2),
         None => points(view, column),
@@ -103,7 +103,7 @@ fn points(view: &View, column: u32) -> Vec<(DVec3, usize)> {
     .collect()
 }
 
-/// Rows of a profile, at least and roughly.
+/// The least rows of a profile.
 const ROWS: u32 = 480;
 
 /// The least and the greatest of a coordinate.
