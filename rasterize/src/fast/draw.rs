@@ -285,9 +285,8 @@ impl<C: ScalarContext> Painter<'_, '_, C> {
                     elsewhere |= thin_lanes;
                     setup.add_triangles(thin_lanes, thin);
                 }
-                for lane in (0..count).filter(|lane| elsewhere >> lane & 1 == 0) {
-                    many_samples::draw(context, &setup.triangle(lane), picture, buffer);
-                }
+                let lanes = u16::MAX >> (16 - count) & !elsewhere;
+                many_samples::draw_lanes(context, &setup, lanes, picture, buffer);
             } else {
                 if setup.uncertain != 0 {
                     large.extend(setup.ids_of(setup.uncertain));

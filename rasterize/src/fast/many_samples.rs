@@ -3,7 +3,7 @@
 use super::depth::{NOTHING, nearer_by};
 use super::lanes::{keys_to_store, lanes_of};
 use super::picture::Picture;
-use super::setup::FlatSetup;
+use super::setup::{FlatSetup, Setup};
 use super::tile::TileBuffer;
 use bothways_common::engine::context::{Context, ScalarContext};
 use bothways_common::engine::fault::Fault;
@@ -35,25 +35,64 @@ struct Tested<S: Simd> {
     keys: f32x16<S>,
 }
 
-/// Draws one triangle, as far as it lies in the tile.
+/// Draws the triangles of some lanes, as far as they lie in the tile: first those that take one column of blocks of eight samples
+/// across, then one of sixteen, then several. The machine cannot predict which it is for the next of a batch.
 #[inline(always)]
-pub(super) fn draw<C: Context>(
+pub(super) fn draw_lanes<C: Context>(
     context: &mut C,
-    triangle: &FlatSetup,
+    setup: &Setup,
+    lanes: u16,
     picture: &Picture,
     buffer: &mut TileBuffer,
 ) {
-    let here = triangle.region.intersection(buffer.region());
-    if here.columns.len() <= 8 {
-        draw_blocks::<8, C>(context, triangle, here, picture, buffer);
-    } else {
-        draw_blocks::<16, C>(context, triangle, here, picture, buffer);
+    let (simd, tile) = (context.simd(), buffer.region().columns.clone());
+    let lanes = lanes & !setup.in_columns(simd, &tile, 0);
+    let narrow = lanes & setup.in_columns(simd, &tile, 8);
+    let one_column = lanes & setup.in_columns(simd, &tile, 16);
+    draw_each::<8, true, C>(context, setup, narrow, picture, buffer);
+    draw_each::<16, true, C>(context, setup, one_column & !narrow, picture, buffer);
+    draw_each::<16, false, C>(context, setup, lanes & !one_column, picture, buffer);
+}
+
+/// [`draw_blocks`] for the triangles of some lanes.
+#[inline(always)]
+fn draw_each<const ACROSS: usize, const ONE_COLUMN: bool, C: Context>(
+    context: &mut C,
+    setup: &Setup,
+    lanes: u16,
+    picture: &Picture,
+    buffer: &mut TileBuffer,
+) {
+    for lane in lanes_of(lanes.into()) {
+        let triangle = setup.triangle(lane);
+        let here = triangle.region.intersection(buffer.region());
+        draw_blocks::<ACROSS, ONE_COLUMN, C>(context, &triangle, here, picture, buffer);
     }
 }
 
-/// Draws in blocks of sixteen samples, in `ACROSS` columns: 16 or 8.
+/// Draws a strip of a primitive, as far as it lies in the tile.
 #[inline(always)]
-fn draw_blocks<const ACROSS: usize, C: Context>(
+pub(super) fn draw_strip<C: Context>(
+    context: &mut C,
+    strip: &FlatSetup,
+    picture: &Picture,
+    buffer: &mut TileBuffer,
+) {
+    let here = strip.region.intersection(buffer.region());
+    if here.is_empty() {
+        return;
+    }
+    if here.columns.len() <= 8 {
+        draw_blocks::<8, true, C>(context, strip, here, picture, buffer);
+    } else {
+        draw_blocks::<16, false, C>(context, strip, here, picture, buffer);
+    }
+}
+
+/// Draws in blocks of sixteen samples, in `ACROSS` columns: 16 or 8. With `ONE_COLUMN`, there are as many columns or fewer, and at least
+/// one.
+#[inline(always)]
+fn draw_blocks<const ACROSS: usize, const ONE_COLUMN: bool, C: Context>(
     context: &mut C,
     triangle: &FlatSetup,
     Region { rows, columns }: Region,
@@ -73,21 +112,23 @@ fn draw_blocks<const ACROSS: usize, C: Context>(
     let to_next = down * buffer.stride();
 
     // If the loops are watched, every test is an event.
-    let is_cut =
-        !C::WATCHED && ACROSS == 16 && columns.len() > MOST_UNCUT && triangle.facing != 0.0;
+    let is_cut = !C::WATCHED && !ONE_COLUMN && columns.len() > MOST_UNCUT && triangle.facing != 0.0;
     let mut ends = [[0; 16]; 2];
     if is_cut {
         let own = [difference(rows.start, first_row), difference(rows.end, first_row)];
         ends = broadcast.rows_of_columns(simd, difference(columns.start, first_column), own);
     }
-    // Most triangles have one column of blocks: what depends on columns is computed once.
-    for (number, column) in columns.clone().step_by(ACROSS).enumerate() {
+    let columns_of_blocks = if ONE_COLUMN { 1 } else { columns.len().div_ceil(ACROSS) };
+    for number in 0..columns_of_blocks {
+        let column = columns.start + number * ACROSS;
         let rows = if is_cut { counted_from(first_row, &ends, number) } else { rows.clone() };
         let lane_columns = lane_column + difference(column, first_column);
         let at_top = broadcast.at_top(lane_columns, lane_columns.simd_lt(end_column));
         let mut lane_rows = lane_row + difference(rows.start, first_row);
         let mut index = buffer.index(Sample { row: rows.start, column });
-        for row in rows.clone().step_by(down) {
+        let count = rows.len().div_ceil(down);
+        for block in 0..count {
+            let row = rows.start + block * down;
             let in_rows = (ACROSS < 16).then(|| lane_rows.simd_lt(end_row));
             let tested = broadcast.test(lane_rows, &at_top, in_rows);
             let first = Sample { row, column };
@@ -102,14 +143,14 @@ fn draw_blocks<const ACROSS: usize, C: Context>(
                 let context = &mut context.scalar();
                 leave_open::<ACROSS, _>(context, fragments, picture, buffer, first, masks);
                 if buffer.is_duplicate::<C>(broadcast.id) {
-                    buffer.executed.blocks += ((row - rows.start) / down + 1) as u64;
+                    buffer.executed.blocks += (block + 1) as u64;
                     return;
                 }
             }
             lane_rows += step;
             index += to_next;
         }
-        buffer.executed.blocks += rows.len().div_ceil(down) as u64;
+        buffer.executed.blocks += count as u64;
     }
 }
 

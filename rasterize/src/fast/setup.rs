@@ -15,6 +15,7 @@ use bothways_common::engine::simd::{
 };
 use bothways_common::observe::EventSink;
 use bothways_common::raster::{Region, Sample};
+use std::ops::Range;
 
 /// Fixed-point units that a box of samples has room for around its vertices.
 pub(super) const BOX_MARGIN: i32 = 2;
@@ -104,7 +105,6 @@ impl Setup {
                 edges.area.simd_gt(f32x16::splat(simd, 1.5) * errors.edge) | errors.aligned;
             let drawn = used & certain & !(errors.aligned & flat);
             let [across, down] = [edges.across, edges.down];
-            let lanes_of = |mask: u64| u16::try_from(mask).expect("a mask has 16 lanes");
             Setup {
                 ids: lanes.ids(simd).to_array(),
                 at_origin: arrays(edges.shifted()),
@@ -117,9 +117,9 @@ impl Setup {
                 rows: boxes[0].count.to_array(),
                 columns: drawn.select(boxes[1].count, zero).to_array(),
                 facing: edges.facing.to_array(),
-                uncertain: lanes_of((used & !certain).to_bitmask()),
-                keyless: lanes_of((drawn & !keys.trusted).to_bitmask()),
-                thin: lanes_of((drawn & are_thin(simd, &boxes, edges.area)).to_bitmask()),
+                uncertain: mask_of((used & !certain).to_bitmask()),
+                keyless: mask_of((drawn & !keys.trusted).to_bitmask()),
+                thin: mask_of((drawn & are_thin(simd, &boxes, edges.area)).to_bitmask()),
             }
         })
     }
@@ -265,6 +265,12 @@ impl<S: Simd> Keys<S> {
     }
 }
 
+/// A mask of sixteen lanes.
+#[inline(always)]
+fn mask_of(lanes: u64) -> u16 {
+    u16::try_from(lanes).expect("a mask has 16 lanes")
+}
+
 #[inline(always)]
 fn arrays<S: Simd>([a, b, c]: [f32x16<S>; 3]) -> [[f32; 16]; 3] {
     [a.to_array(), b.to_array(), c.to_array()]
@@ -395,6 +401,18 @@ impl Setup {
             region: Region { rows, columns: column..column + from(&self.columns) },
             facing: self.facing[lane],
         }
+    }
+
+    /// The lanes whose boxes have no more than `most` columns in a tile.
+    #[inline(always)]
+    pub(super) fn in_columns<S: Simd>(&self, simd: S, tile: &Range<usize>, most: usize) -> u16 {
+        let splat = |value: usize| {
+            i32x16::splat(simd, i32::try_from(value).expect("a side has at most 65,536 samples"))
+        };
+        let first = i32x16::load_array(simd, self.first_column);
+        let end = first + i32x16::load_array(simd, self.columns);
+        let columns = end.min(splat(tile.end)) - first.max(splat(tile.start));
+        mask_of(columns.simd_le(splat(most)).to_bitmask())
     }
 
     /// Adds the triangles of some lanes to others.

@@ -61,7 +61,7 @@ impl FragmentWriter<'_, '_> {
         if !C::WATCHED && thin::is_thin(strip, &here) {
             apart!(simd, thin::draw(context, strip, &here, (picture, fragments), buffer));
         } else {
-            many_samples::draw(context, strip, picture, buffer);
+            many_samples::draw_strip(context, strip, picture, buffer);
         }
     }
 
