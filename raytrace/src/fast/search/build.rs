@@ -58,7 +58,8 @@ pub(crate) fn build(scene: &Scene, side: usize, level: Level) -> Prepared {
         if prims.is_empty() {
             continue;
         }
-        let context = BuildContext { kind, source: Source::Scene(scene), level: prepared.level };
+        let (source, level) = (Source::Scene(scene), prepared.level);
+        let context = BuildContext { kind, source, level, together: true };
         let MeshRoot { root, bounds, .. } = add_hierarchy(prims, &context, true, &mut prepared);
         prepared.add_root(root, &bounds);
         *prims = Vec::new();
@@ -78,7 +79,7 @@ fn add_meshes(scene: &Scene, prepared: &mut Prepared) {
         let mesh = *known.entry(Arc::as_ptr(instances.shared_mesh())).or_insert_with(|| {
             let mesh = instances.mesh();
             let (kind, source) = (Kind::Triangles, Source::Mesh(mesh));
-            let context = BuildContext { kind, source, level: prepared.level };
+            let context = BuildContext { kind, source, level: prepared.level, together: true };
             let built = add_hierarchy(&mut triangles_of(mesh), &context, false, prepared);
             prepared.meshes.push(built);
             prepared.meshes.len() - 1
@@ -100,7 +101,7 @@ fn add_instances(scene: &Scene, prepared: &mut Prepared) {
         return;
     }
     let (kind, source, level) = (Kind::Instances, Source::Scene(scene), prepared.level);
-    let context = BuildContext { kind, source, level };
+    let context = BuildContext { kind, source, level, together: true };
     let all = BuildRecord::new(
         Numbered { numbers: &mut order, boxes: &boxes },
         0,

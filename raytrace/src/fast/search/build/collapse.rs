@@ -1,4 +1,4 @@
-//! Collapses binary trees into nodes of sixteen children, at the least cost. Each tree is built by one thread.
+//! Collapses binary trees into nodes of sixteen children, at the least cost. Large halves of a tree are built at the same time.
 //!
 //! If the build split the largest box until a node is full, most nodes at the bottom would have few leaves. Instead,
 //! dynamic programming finds the best splits, as in Ylitie, Karras and Laine, "Efficient Incoherent Ray Traversal on
@@ -10,35 +10,40 @@ use super::prim_ref::{CornerReader, PrimRef};
 use super::split::{BuildContext, BuildRecord, Kind, Split, split};
 use crate::fast::search::tree::{Bounds, LeafCounts, Node, NodeKind, NodeRef, WIDTH};
 
+/// From so many primitives in each half on, threads build the two halves of a tree at the same time.
+const IN_PARALLEL: usize = 512;
+
 /// A record that is split in two repeatedly, down to the leaves. The root is the last node.
 pub(super) struct BinaryTree {
     all: Vec<BinaryNode>,
+    /// Of each fork, the least cost of the nodes under it, by the area of their boxes, if it becomes at most 1, 2, … children of
+    /// another node. A leaf costs nothing.
+    costs: Vec<[f64; WIDTH]>,
 }
 
 /// A node of a binary tree.
 struct BinaryNode {
     bounds: Bounds,
-    /// The least cost of the nodes under this node, by the area of their boxes, if this node becomes at most 1, 2, …
-    /// children of another node.
-    costs: [f64; WIDTH],
     kind: BinaryKind,
 }
 
 enum BinaryKind {
     Leaf(LeafRange, NodeKind, LeafCounts),
-    /// The indices of the two halves of the node.
-    Fork([usize; 2]),
+    Fork(Fork),
 }
 
-impl BinaryNode {
-    fn is_leaf(&self) -> bool {
-        matches!(self.kind, BinaryKind::Leaf(..))
-    }
+/// A node that is split.
+#[derive(Clone, Copy)]
+struct Fork {
+    /// The indices of its two halves.
+    halves: [usize; 2],
+    /// The index of its costs.
+    costs: usize,
 }
 
 impl BinaryTree {
     pub(super) fn new(record: BuildRecord<&mut [PrimRef]>, context: &BuildContext) -> BinaryTree {
-        let mut tree = BinaryTree { all: Vec::new() };
+        let mut tree = BinaryTree { all: Vec::new(), costs: Vec::new() };
         tree.divide(record, context);
         tree
     }
@@ -49,9 +54,16 @@ impl BinaryTree {
         while record.prims.len() > context.most() {
             match split(record, context) {
                 Split::Halves([left, right]) => {
-                    let halves = [self.divide(left, context), self.divide(right, context)];
-                    let costs = self.costs(weight, halves);
-                    return self.add(BinaryNode { bounds, costs, kind: BinaryKind::Fork(halves) });
+                    let halves = if left.prims.len().min(right.prims.len()) < IN_PARALLEL {
+                        [self.divide(left, context), self.divide(right, context)]
+                    } else {
+                        let new = |half| move || BinaryTree::new(half, context);
+                        let (left, right) = rayon::join(new(left), new(right));
+                        [self.append(left), self.append(right)]
+                    };
+                    self.costs.push(self.costs_of(weight, halves));
+                    let fork = Fork { halves, costs: self.costs.len() - 1 };
+                    return self.add(BinaryNode { bounds, kind: BinaryKind::Fork(fork) });
                 }
                 Split::Distinct(distinct) => record = distinct,
             }
@@ -70,7 +82,25 @@ impl BinaryTree {
         let first = u32::try_from(record.first).expect("ids are u32");
         let leaf = LeafRange { first, count: u8::try_from(count).expect("sixteen at most") };
         let kind = BinaryKind::Leaf(leaf, kind, LeafCounts::new(count, distinct));
-        self.add(BinaryNode { bounds: record.bounds.bounds(), costs: [0.0; WIDTH], kind })
+        self.add(BinaryNode { bounds: record.bounds.bounds(), kind })
+    }
+
+    /// Adds a tree that was built separately. Returns the index of its root.
+    fn append(&mut self, mut tree: BinaryTree) -> usize {
+        if self.all.is_empty() {
+            *self = tree;
+            return self.all.len() - 1;
+        }
+        let (nodes, costs) = (self.all.len(), self.costs.len());
+        for node in &mut tree.all {
+            if let BinaryKind::Fork(fork) = &mut node.kind {
+                fork.halves = fork.halves.map(|half| nodes + half);
+                fork.costs += costs;
+            }
+        }
+        self.all.append(&mut tree.all);
+        self.costs.append(&mut tree.costs);
+        self.all.len() - 1
     }
 
     fn add(&mut self, node: BinaryNode) -> usize {
@@ -79,7 +109,7 @@ impl BinaryTree {
     }
 
     /// The costs of two halves together: as one node of this weight, or as several children of another node.
-    fn costs(&self, weight: f64, halves: [usize; 2]) -> [f64; WIDTH] {
+    fn costs_of(&self, weight: f64, halves: [usize; 2]) -> [f64; WIDTH] {
         let mut costs = [0.0; WIDTH];
         costs[0] = weight + self.cheapest_division(halves, WIDTH).1;
         for children in 2..=WIDTH {
@@ -92,17 +122,21 @@ impl BinaryTree {
     /// The cheapest division of `children` children between two halves: the number of children for the first half,
     /// and the cost.
     fn cheapest_division(&self, [left, right]: [usize; 2], children: usize) -> (usize, f64) {
-        let [left, right] = [left, right].map(|half| &self.all[half]);
+        let costs = |half: usize| match self.all[half].kind {
+            BinaryKind::Leaf(..) => None,
+            BinaryKind::Fork(fork) => Some(&self.costs[fork.costs]),
+        };
         // A leaf costs nothing as one child, and no node costs more if it may become more children: all others are the other
         // half's, or as few of them as cost the least.
-        if left.is_leaf() {
-            return (1, right.costs[children - 2]);
-        }
-        if right.is_leaf() {
-            let cost = left.costs[children - 2];
-            return (1 + left.costs.partition_point(|more| *more > cost), cost);
-        }
-        let (left, right) = (&left.costs, &right.costs);
+        let (left, right) = match (costs(left), costs(right)) {
+            (None, None) => return (1, 0.0),
+            (None, Some(right)) => return (1, right[children - 2]),
+            (Some(left), None) => {
+                let cost = left[children - 2];
+                return (1 + left.partition_point(|more| *more > cost), cost);
+            }
+            (Some(left), Some(right)) => (left, right),
+        };
         let mut best = (1, f64::INFINITY);
         for first in 1..children {
             let cost = left[first - 1] + right[children - first - 1];
@@ -129,7 +163,7 @@ impl BinaryTree {
                 leaves.push(leaf);
                 return (NodeRef::new(kind, leaves.len() - 1), counts);
             }
-            BinaryKind::Fork(halves) => halves,
+            BinaryKind::Fork(Fork { halves, .. }) => halves,
         };
         let index = arena.nodes.len();
         arena.nodes.push(Node::empty());
@@ -147,13 +181,13 @@ impl BinaryTree {
     fn choose(&self, halves: [usize; 2], children: usize, into: &mut Vec<usize>) {
         let (first, _) = self.cheapest_division(halves, children);
         for (half, most) in halves.into_iter().zip([first, children - first]) {
-            let BinaryNode { costs, kind, .. } = &self.all[half];
-            let BinaryKind::Fork(halves) = *kind else {
+            let BinaryKind::Fork(Fork { halves, costs }) = self.all[half].kind else {
                 into.push(half);
                 continue;
             };
-            let is_cheap =
-                |children: &usize| self.cheapest_division(halves, *children).1 <= costs[most - 1];
+            let is_cheap = |children: &usize| {
+                self.cheapest_division(halves, *children).1 <= self.costs[costs][most - 1]
+            };
             match (2..=most).rev().find(is_cheap) {
                 Some(children) => self.choose(halves, children, into),
                 None => into.push(half),

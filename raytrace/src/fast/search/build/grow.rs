@@ -1,12 +1,15 @@
 //! Grows a hierarchy from a record: all threads split the record from the top, and each thread collapses its own
-//! part.
+//! parts.
 
 use super::arena::Arena;
 use super::collapse::BinaryTree;
-use super::primitives::{LARGE, Primitives};
+use super::primitives::Primitives;
 use super::split::{BuildContext, BuildRecord, Split, split};
 use crate::fast::search::tree::{Bounds, LeafCounts, Node, NodeKind, NodeRef, WIDTH};
 use rayon::prelude::*;
+
+/// Fewer primitives become one binary tree, parts of which threads build at the same time, each alone.
+const MOST_IN_TREE: usize = 16384;
 
 /// Builds the hierarchy of a record, beginning with its first node, behind what is in an arena. If there are many
 /// primitives, this function splits the record with the largest box until a node is full.
@@ -19,8 +22,9 @@ pub(super) fn grow<P: Primitives>(
     if count < P::AT_HAND {
         return whole.at_hand(|whole| grow(whole, context, arena));
     }
-    if count < LARGE {
-        return whole.at_hand(|whole| BinaryTree::new(whole, context).collapse(arena));
+    if count < MOST_IN_TREE {
+        let alone = &BuildContext { together: false, ..*context };
+        return whole.at_hand(|whole| BinaryTree::new(whole, alone).collapse(arena));
     }
     let mut records = vec![whole];
     while records.len() < WIDTH {

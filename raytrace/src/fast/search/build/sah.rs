@@ -1,7 +1,7 @@
 //! The surface area heuristic (SAH): the best split of primitives in two, between bins of their centres.
 
 use super::prim_ref::{Box8, PrimRef, half_area_of_sides};
-use super::primitives::{Primitives, chunk_size};
+use super::primitives::Primitives;
 use bothways_common::engine::simd::{
     Level, Select, Simd, SimdBase, SimdFloat, SimdMask, SimdWiden, dispatch, f32x4, f32x8, i32x4,
     mask32x8,
@@ -140,8 +140,8 @@ fn half_area_of_lanes<S: Simd>(around: f32x8<S>) -> f64 {
     half_area_of_sides([x, y, z])
 }
 
-/// Fills the bins with some primitives.
-fn fill_bins<P: Primitives>(prims: &P, mapping: &BinMapping, level: Level) -> Bins {
+/// Fills the bins with some primitives, in chunks of some size.
+fn fill_bins<P: Primitives>(prims: &P, size: usize, mapping: &BinMapping, level: Level) -> Bins {
     let boxes = prims.boxes();
     let of = |items: &[P::Item]| {
         let mut bins = Bins::EMPTY;
@@ -163,7 +163,6 @@ fn fill_bins<P: Primitives>(prims: &P, mapping: &BinMapping, level: Level) -> Bi
         });
         bins
     };
-    let size = chunk_size(prims.len());
     if size >= prims.len() {
         return of(prims.items());
     }
@@ -175,15 +174,17 @@ fn fill_bins<P: Primitives>(prims: &P, mapping: &BinMapping, level: Level) -> Bi
     chunks.reduce(|| Bins::EMPTY, union)
 }
 
-/// The cheapest split; `None` if all centres are in one bin. A leaf has at most `most` primitives.
+/// The cheapest split; `None` if all centres are in one bin. A leaf has at most `most` primitives. They are looked at in chunks of
+/// some size.
 pub(super) fn cheapest_split(
     prims: &impl Primitives,
+    size: usize,
     centers: &Box8,
     most: usize,
     level: Level,
 ) -> Option<SahSplit> {
     let mapping = BinMapping::new(centers);
-    let bins = fill_bins(prims, &mapping, level);
+    let bins = fill_bins(prims, size, &mapping, level);
     let costs = dispatch!(level, simd => bins.split_costs(simd, most));
     let mut best: Option<SahSplit> = None;
     for (axis, (costs, counts)) in costs.iter().zip(&bins.counts).enumerate() {
@@ -273,7 +274,7 @@ mod tests {
                     centers.union(&Box8([-x, -y, -z, 0.0, x, y, z, 0.0]))
                 };
                 let centers = prims.iter().fold(Box8::EMPTY, around);
-                let found = cheapest_split(&&mut prims[..], &centers, most, level);
+                let found = cheapest_split(&&mut prims[..], usize::MAX, &centers, most, level);
                 let expected = cheapest_of_all(&prims, BinMapping::new(&centers), most, level);
                 let shown = |split: Option<SahSplit>| split.map(|s| (s.axis, s.bin, s.cost));
                 assert_eq!(shown(found), shown(expected), "{level:?}");

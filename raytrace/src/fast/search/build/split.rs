@@ -50,10 +50,13 @@ impl<P: Primitives> BuildRecord<P> {
 }
 
 /// The common data of all records of one hierarchy.
+#[derive(Clone, Copy)]
 pub(super) struct BuildContext<'a> {
     pub(super) kind: Kind,
     pub(super) source: Source<'a>,
     pub(super) level: Level,
+    /// Whether all threads split a record together, if it has many primitives.
+    pub(super) together: bool,
 }
 
 /// What a hierarchy is a hierarchy of.
@@ -66,6 +69,11 @@ pub(super) enum Kind {
 }
 
 impl BuildContext<'_> {
+    /// The size of the chunks into which the primitives of a record are divided among threads.
+    fn chunk_size(&self, count: usize) -> usize {
+        if self.together { chunk_size(count) } else { count }
+    }
+
     /// The most primitives in a leaf.
     pub(super) fn most(&self) -> usize {
         match self.kind {
@@ -85,9 +93,10 @@ pub(super) enum Split<P> {
 
 /// Splits a record; its halves are one level deeper.
 pub(super) fn split<P: Primitives>(record: BuildRecord<P>, context: &BuildContext) -> Split<P> {
-    let best = cheapest_split(&record.prims, &record.centers, context.most(), context.level);
+    let size = context.chunk_size(record.prims.len());
+    let best = cheapest_split(&record.prims, size, &record.centers, context.most(), context.level);
     if let Some(best) = best.filter(|_| record.depth < DEEP) {
-        return Split::Halves(partition(record, &best, context.level));
+        return Split::Halves(partition(record, size, &best, context.level));
     }
     let BuildRecord { prims, first, depth, distinct, .. } = record;
     if context.kind == Kind::Triangles && !distinct {
@@ -147,14 +156,15 @@ impl<S: Simd> ExtentLanes<S> {
     }
 }
 
-/// Sorts the primitives of a record by the side of a split on which they lie.
+/// Sorts the primitives of a record by the side of a split on which they lie, in chunks of some size.
 fn partition<P: Primitives>(
     record: BuildRecord<P>,
+    size: usize,
     best: &SahSplit,
     level: Level,
 ) -> [BuildRecord<P>; 2] {
     let BuildRecord { mut prims, first, depth, distinct, .. } = record;
-    let (size, boxes) = (chunk_size(prims.len()), prims.boxes());
+    let boxes = prims.boxes();
     let items = prims.items_mut();
     let of =
         |items: &mut [P::Item]| dispatch!(level, simd => partition_items(simd, items, boxes, best));
@@ -293,14 +303,15 @@ mod tests {
         };
         let mut prims: Vec<PrimRef> = (0..count).map(of).collect();
         let BuildRecord { prims: all, centers, .. } = record(&mut prims, level);
-        let best = cheapest_split(&all, &centers, LEAF, level).unwrap();
+        let size = chunk_size(all.len());
+        let best = cheapest_split(&all, size, &centers, LEAF, level).unwrap();
         let is_left =
             |prim: &PrimRef| dispatch!(level, simd => best.goes_left(simd, prim.center(simd)));
         if again {
-            partition(record(&mut prims, level), &best, level);
+            partition(record(&mut prims, level), size, &best, level);
         }
         let mut expected = prims.clone();
-        let [left, right] = partition(record(&mut prims, level), &best, level);
+        let [left, right] = partition(record(&mut prims, level), size, &best, level);
         assert_eq!((left.first, right.first), (7, 7 + left.prims.len()));
         for (side, on_left) in [(left, true), (right, false)] {
             assert!(
@@ -311,7 +322,7 @@ mod tests {
             assert_eq!(side.centers.bounds(), all.centers.bounds());
         }
         let ids = |prims: &[PrimRef]| prims.iter().map(PrimRef::id).collect::<Vec<u32>>();
-        if chunk_size(expected.len()) >= expected.len() {
+        if size >= expected.len() {
             exchanged(&mut expected, is_left);
             assert_eq!(ids(&prims), ids(&expected));
         }
