@@ -36,7 +36,7 @@ struct Tested<S: Simd> {
 }
 
 /// Draws the triangles of some lanes, as far as they lie in the tile: first those that take one column of blocks of eight samples
-/// across, then one of sixteen, then several. The machine cannot predict which it is for the next of a batch.
+/// across, then one of sixteen, then several. If they were mixed, the machine could not predict which comes next.
 #[inline(always)]
 pub(super) fn draw_lanes<C: Context>(
     context: &mut C,
@@ -70,7 +70,7 @@ fn draw_each<const ACROSS: usize, const ONE_COLUMN: bool, C: Context>(
     }
 }
 
-/// Draws a strip of a primitive, as far as it lies in the tile.
+/// Draws a strip of a primitive, as far as it lies in the tile. Most strips are wide.
 #[inline(always)]
 pub(super) fn draw_strip<C: Context>(
     context: &mut C,
@@ -89,8 +89,7 @@ pub(super) fn draw_strip<C: Context>(
     }
 }
 
-/// Draws in blocks of sixteen samples, in `ACROSS` columns: 16 or 8. With `ONE_COLUMN`, there are as many columns or fewer, and at least
-/// one.
+/// Draws in blocks of sixteen samples, in `ACROSS` columns: 16 or 8. With `ONE_COLUMN`, the region has 1 to `ACROSS` columns.
 #[inline(always)]
 fn draw_blocks<const ACROSS: usize, const ONE_COLUMN: bool, C: Context>(
     context: &mut C,

@@ -449,3 +449,55 @@ impl FlatSetup {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bothways_common::engine::simd::{dispatch, levels};
+
+    /// Triangles in boxes of these first columns and numbers of columns.
+    fn in_boxes(first_column: [i32; 16], columns: [i32; 16]) -> Setup {
+        Setup {
+            ids: [0; 16],
+            at_origin: [[0.0; 16]; 3],
+            across: [[0.0; 16]; 3],
+            down: [[0.0; 16]; 3],
+            error: [0.0; 16],
+            key: [[0.0; 16]; 3],
+            first_row: [0; 16],
+            first_column,
+            rows: [1; 16],
+            columns,
+            facing: [1.0; 16],
+            uncertain: 0,
+            keyless: 0,
+            thin: 0,
+        }
+    }
+
+    #[test]
+    fn boxes_are_sorted_by_their_columns_in_the_tile() {
+        let random = &mut fastrand::Rng::with_seed(7);
+        let tile = Region { rows: 0..1, columns: 512..768 };
+        let mut found = [0; 3];
+        for _ in 0..300 {
+            // Beside the tile on both sides, across its ends, and within.
+            let first = [(); 16].map(|()| random.i32(480..800));
+            let columns = [(); 16].map(|()| [0, 1, 7, 8, 9, 16, 17, 300][random.usize(0..8)]);
+            let setup = in_boxes(first, columns);
+            for (most, found) in [0, 8, 16].into_iter().zip(&mut found) {
+                let is_in = |lane: &usize| {
+                    setup.triangle(*lane).region.intersection(&tile).columns.len() <= most
+                };
+                let expected = (0..16).filter(is_in).fold(0, |mask, lane| mask | 1 << lane);
+                for level in levels() {
+                    dispatch!(level, simd => {
+                        assert_eq!(setup.in_columns(simd, &tile.columns, most), expected);
+                    });
+                }
+                *found += expected.count_ones();
+            }
+        }
+        assert!(found[0] > 500 && found[0] < found[1] && found[1] < found[2], "{found:?}");
+    }
+}

@@ -59,7 +59,7 @@ pub(crate) fn build(scene: &Scene, side: usize, level: Level) -> Prepared {
             continue;
         }
         let (source, level) = (Source::Scene(scene), prepared.level);
-        let context = BuildContext { kind, source, level, together: true };
+        let context = BuildContext { kind, source, level, by_all_threads: true };
         let MeshRoot { root, bounds, .. } = add_hierarchy(prims, &context, true, &mut prepared);
         prepared.add_root(root, &bounds);
         *prims = Vec::new();
@@ -79,7 +79,8 @@ fn add_meshes(scene: &Scene, prepared: &mut Prepared) {
         let mesh = *known.entry(Arc::as_ptr(instances.shared_mesh())).or_insert_with(|| {
             let mesh = instances.mesh();
             let (kind, source) = (Kind::Triangles, Source::Mesh(mesh));
-            let context = BuildContext { kind, source, level: prepared.level, together: true };
+            let context =
+                BuildContext { kind, source, level: prepared.level, by_all_threads: true };
             let built = add_hierarchy(&mut triangles_of(mesh), &context, false, prepared);
             prepared.meshes.push(built);
             prepared.meshes.len() - 1
@@ -101,7 +102,7 @@ fn add_instances(scene: &Scene, prepared: &mut Prepared) {
         return;
     }
     let (kind, source, level) = (Kind::Instances, Source::Scene(scene), prepared.level);
-    let context = BuildContext { kind, source, level, together: true };
+    let context = BuildContext { kind, source, level, by_all_threads: true };
     let all = BuildRecord::new(
         Numbered { numbers: &mut order, boxes: &boxes },
         0,

@@ -10,14 +10,14 @@ use super::prim_ref::{CornerReader, PrimRef};
 use super::split::{BuildContext, BuildRecord, Kind, Split, split};
 use crate::fast::search::tree::{Bounds, LeafCounts, Node, NodeKind, NodeRef, WIDTH};
 
-/// From so many primitives in each half on, threads build the two halves of a tree at the same time.
+/// If each half of a tree has at least this many primitives, threads build both at the same time.
 const IN_PARALLEL: usize = 512;
 
 /// A record that is split in two repeatedly, down to the leaves. The root is the last node.
 pub(super) struct BinaryTree {
     all: Vec<BinaryNode>,
-    /// Of each fork, the least cost of the nodes under it, by the area of their boxes, if it becomes at most 1, 2, … children of
-    /// another node. A leaf costs nothing.
+    /// For each fork, the least cost (the areas of the boxes of the nodes under it) if the fork becomes at most 1, 2, … children
+    /// of another node. A leaf costs nothing.
     costs: Vec<[f64; WIDTH]>,
 }
 
@@ -43,23 +43,40 @@ struct Fork {
 
 impl BinaryTree {
     pub(super) fn new(record: BuildRecord<&mut [PrimRef]>, context: &BuildContext) -> BinaryTree {
+        BinaryTree::with_halves_in_parallel(record, context, IN_PARALLEL)
+    }
+
+    /// A tree of which threads build two halves at the same time if each has at least so many primitives.
+    fn with_halves_in_parallel(
+        record: BuildRecord<&mut [PrimRef]>,
+        context: &BuildContext,
+        in_parallel: usize,
+    ) -> BinaryTree {
         let mut tree = BinaryTree { all: Vec::new(), costs: Vec::new() };
-        tree.divide(record, context);
+        tree.divide(record, context, in_parallel);
         tree
     }
 
     /// Splits a record into leaves. Returns the index of its node, which is the last index.
-    fn divide(&mut self, mut record: BuildRecord<&mut [PrimRef]>, context: &BuildContext) -> usize {
+    fn divide(
+        &mut self,
+        mut record: BuildRecord<&mut [PrimRef]>,
+        context: &BuildContext,
+        in_parallel: usize,
+    ) -> usize {
         let (bounds, weight) = (record.bounds.bounds(), record.bounds.half_area());
         while record.prims.len() > context.most() {
             match split(record, context) {
                 Split::Halves([left, right]) => {
-                    let halves = if left.prims.len().min(right.prims.len()) < IN_PARALLEL {
-                        [self.divide(left, context), self.divide(right, context)]
+                    let halves = if left.prims.len().min(right.prims.len()) < in_parallel {
+                        [left, right].map(|half| self.divide(half, context, in_parallel))
                     } else {
-                        let new = |half| move || BinaryTree::new(half, context);
-                        let (left, right) = rayon::join(new(left), new(right));
-                        [self.append(left), self.append(right)]
+                        let new = BinaryTree::with_halves_in_parallel;
+                        let (left, right) = rayon::join(
+                            || new(left, context, in_parallel),
+                            || new(right, context, in_parallel),
+                        );
+                        [left, right].map(|half| self.append(half))
                     };
                     self.costs.push(self.costs_of(weight, halves));
                     let fork = Fork { halves, costs: self.costs.len() - 1 };
@@ -192,6 +209,67 @@ impl BinaryTree {
                 Some(children) => self.choose(halves, children, into),
                 None => into.push(half),
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fast::search::build::prim_ref::Source;
+    use bothways_common::Scene;
+    use bothways_common::engine::simd::best_level;
+    use glam::Vec3;
+
+    /// A tree of boxes, and its collapsed nodes and leaves.
+    fn collapsed(mut prims: Vec<PrimRef>, in_parallel: usize) -> (BinaryTree, Arena) {
+        let scene = Scene::new(vec![]).unwrap();
+        let (kind, level) = (Kind::Spheres, best_level());
+        let context =
+            BuildContext { kind, source: Source::Scene(&scene), level, by_all_threads: false };
+        let record = BuildRecord::new(&mut prims[..], 0, 0, false, level);
+        let tree = BinaryTree::with_halves_in_parallel(record, &context, in_parallel);
+        let mut arena = Arena::default();
+        tree.collapse(&mut arena);
+        (tree, arena)
+    }
+
+    #[test]
+    fn halves_that_are_built_apart_are_put_together() {
+        let mut random = fastrand::Rng::with_seed(19);
+        let mut vector = |size: f32| Vec3::from_array([(); 3].map(|()| size * random.f32()));
+        let of = |id: u32| {
+            let low = vector(100.0);
+            PrimRef::new(&Bounds { low, high: low + vector(3.0) }, id)
+        };
+        let prims: Vec<PrimRef> = (0..5000).map(of).collect();
+        let shown = |arena: &Arena| {
+            let leaves = arena.leaves.iter().flatten().map(|leaf| (leaf.first, leaf.count));
+            format!("{:?} {:?}", arena.nodes, leaves.collect::<Vec<_>>())
+        };
+        let expected = shown(&collapsed(prims.clone(), usize::MAX).1);
+        for in_parallel in [1, 20, 512] {
+            let (tree, arena) = collapsed(prims.clone(), in_parallel);
+            assert!(shown(&arena) == expected, "{in_parallel}");
+            // The cost of the root is what all nodes cost.
+            let root = tree.all.last().unwrap();
+            let BinaryKind::Fork(fork) = root.kind else { panic!("there are many") };
+            let area = |Bounds { low, high }: Bounds| {
+                let [x, y, z] = (high.as_dvec3() - low.as_dvec3()).to_array();
+                x * y + y * z + z * x
+            };
+            let of_node = |node: &Node| -> f64 {
+                let side = |at: usize, lane: usize| {
+                    Vec3::from_array([0, 1, 2].map(|axis| node.bounds[at + axis][lane]))
+                };
+                (0..usize::from(node.used))
+                    .filter(|lane| node.children[*lane].kind() == NodeKind::Node)
+                    .map(|lane| area(Bounds { low: side(0, lane), high: side(3, lane) }))
+                    .sum()
+            };
+            let of_all = area(root.bounds) + arena.nodes.iter().map(of_node).sum::<f64>();
+            let cost = tree.costs[fork.costs][0];
+            assert!((cost - of_all).abs() < 1e-9 * of_all, "{cost} and {of_all}");
         }
     }
 }

@@ -8,8 +8,8 @@ use super::split::{BuildContext, BuildRecord, Split, split};
 use crate::fast::search::tree::{Bounds, LeafCounts, Node, NodeKind, NodeRef, WIDTH};
 use rayon::prelude::*;
 
-/// Fewer primitives become one binary tree, parts of which threads build at the same time, each alone.
-const MOST_IN_TREE: usize = 16384;
+/// A record of fewer primitives becomes one binary tree, whose large halves threads build at the same time.
+const TOO_MANY_FOR_TREE: usize = 16384;
 
 /// Builds the hierarchy of a record, beginning with its first node, behind what is in an arena. If there are many
 /// primitives, this function splits the record with the largest box until a node is full.
@@ -22,8 +22,8 @@ pub(super) fn grow<P: Primitives>(
     if count < P::AT_HAND {
         return whole.at_hand(|whole| grow(whole, context, arena));
     }
-    if count < MOST_IN_TREE {
-        let alone = &BuildContext { together: false, ..*context };
+    if count < TOO_MANY_FOR_TREE {
+        let alone = &BuildContext { by_all_threads: false, ..*context };
         return whole.at_hand(|whole| BinaryTree::new(whole, alone).collapse(arena));
     }
     let mut records = vec![whole];

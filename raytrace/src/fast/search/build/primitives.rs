@@ -3,7 +3,7 @@
 use super::prim_ref::{CornerReader, PrimRef, Source, place_bits};
 use crate::fast::search::tree::WIDTH;
 
-/// From so many primitives on, all threads work on them together, unless each has a part of its own.
+/// From so many primitives on, all threads work on them together, unless each thread has records of its own.
 pub(super) const LARGE: usize = 4096;
 
 /// The size of the chunks into which primitives are divided among threads: all of them, if they are few. It does not

@@ -174,8 +174,8 @@ fn fill_bins<P: Primitives>(prims: &P, size: usize, mapping: &BinMapping, level:
     chunks.reduce(|| Bins::EMPTY, union)
 }
 
-/// The cheapest split; `None` if all centres are in one bin. A leaf has at most `most` primitives. They are looked at in chunks of
-/// some size.
+/// The cheapest split; `None` if all centres are in one bin. A leaf has at most `most` primitives. Bins are
+/// filled with the primitives in chunks of some size.
 pub(super) fn cheapest_split(
     prims: &impl Primitives,
     size: usize,

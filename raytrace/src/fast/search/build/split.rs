@@ -55,8 +55,8 @@ pub(super) struct BuildContext<'a> {
     pub(super) kind: Kind,
     pub(super) source: Source<'a>,
     pub(super) level: Level,
-    /// Whether all threads split a record together, if it has many primitives.
-    pub(super) together: bool,
+    /// Whether all threads fill the bins and sort the sides of one record, if it has many primitives.
+    pub(super) by_all_threads: bool,
 }
 
 /// What a hierarchy is a hierarchy of.
@@ -71,7 +71,7 @@ pub(super) enum Kind {
 impl BuildContext<'_> {
     /// The size of the chunks into which the primitives of a record are divided among threads.
     fn chunk_size(&self, count: usize) -> usize {
-        if self.together { chunk_size(count) } else { count }
+        if self.by_all_threads { chunk_size(count) } else { count }
     }
 
     /// The most primitives in a leaf.
