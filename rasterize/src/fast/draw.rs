@@ -5,7 +5,7 @@ use super::depth::nearer_by;
 use super::few_samples;
 use super::fragments::Fragments;
 use super::geometry::Geometry;
-use super::lanes::Lanes;
+use super::lanes::{Lanes, in_all_lanes};
 use super::picture::Picture;
 use super::search::bins::BatchBins;
 use super::search::clusters::{Cluster, Sight, sight};
@@ -401,11 +401,8 @@ fn sort_sixteen<S: Simd, F: Fault>(
 /// Whether sides of boxes overlap that of a tile.
 #[inline(always)]
 fn overlaps<S: Simd>(simd: S, side: &AxisBounds<S>, tile: &Range<usize>) -> mask32x16<S> {
-    let splat = |value: usize| {
-        i32x16::splat(simd, i32::try_from(value).expect("a side has at most 65,536 samples"))
-    };
     let end = side.first + side.count;
-    side.count.simd_gt(splat(0))
-        & side.first.simd_lt(splat(tile.end))
-        & end.simd_gt(splat(tile.start))
+    side.count.simd_gt(i32x16::splat(simd, 0))
+        & side.first.simd_lt(in_all_lanes(simd, tile.end))
+        & end.simd_gt(in_all_lanes(simd, tile.start))
 }

@@ -1,7 +1,7 @@
 //! Triangles over few samples: sixteen triangles at a time, each testing one of its samples.
 
 use super::fragments::{Fragments, leave_open};
-use super::lanes::lanes_of;
+use super::lanes::{in_all_lanes, lanes_of};
 use super::picture::Picture;
 use super::setup::Setup;
 use super::tile::TileBuffer;
@@ -86,9 +86,7 @@ struct Scan<S: Simd> {
 impl<S: Simd> Scan<S> {
     #[inline(always)]
     fn new(simd: S, setup: &Setup, buffer: &TileBuffer) -> Self {
-        let splat = |value: usize| {
-            i32x16::splat(simd, i32::try_from(value).expect("a side has at most 65,536 samples"))
-        };
+        let splat = |samples: usize| in_all_lanes(simd, samples);
         let load = |lanes: &[i32; 16]| i32x16::load_array_ref(simd, lanes);
         let zero = splat(0);
         let (tile, stride) = (buffer.region(), splat(buffer.stride()));

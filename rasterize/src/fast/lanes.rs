@@ -145,6 +145,12 @@ pub(super) fn keys_to_store<Bits: Bytes, Keys: Bytes<Bytes = Bits::Bytes>>(
     replaces.select(new.bitcast(), stored.bitcast()).bitcast()
 }
 
+/// A row, a column or a number of samples in all lanes.
+#[inline(always)]
+pub(super) fn in_all_lanes<S: Simd>(simd: S, samples: usize) -> i32x16<S> {
+    i32x16::splat(simd, i32::try_from(samples).expect("a side has at most 65,536 samples"))
+}
+
 /// The numbers of the lanes that are set in a mask.
 pub(super) fn lanes_of(mask: u64) -> impl Iterator<Item = usize> {
     let mut rest = mask & 0xffff;

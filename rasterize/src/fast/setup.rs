@@ -3,7 +3,7 @@
 
 use super::aligned::TIE;
 use super::depth::KEY_ERROR;
-use super::lanes::{Lanes, lanes_of};
+use super::lanes::{Lanes, in_all_lanes, lanes_of};
 use super::size_class::{FEW_COLUMNS_IN_ALL, MOST_SAMPLES_ACROSS, THIN};
 use super::vertices::{ALIGNED, FixedPointRaster};
 use bothways_common::Sign;
@@ -406,13 +406,11 @@ impl Setup {
     /// The lanes whose boxes have no more than `most` columns in a tile.
     #[inline(always)]
     pub(super) fn in_columns<S: Simd>(&self, simd: S, tile: &Range<usize>, most: usize) -> u16 {
-        let splat = |value: usize| {
-            i32x16::splat(simd, i32::try_from(value).expect("a side has at most 65,536 samples"))
-        };
         let first = i32x16::load_array(simd, self.first_column);
         let end = first + i32x16::load_array(simd, self.columns);
-        let columns = end.min(splat(tile.end)) - first.max(splat(tile.start));
-        mask_of(columns.simd_le(splat(most)).to_bitmask())
+        let columns =
+            end.min(in_all_lanes(simd, tile.end)) - first.max(in_all_lanes(simd, tile.start));
+        mask_of(columns.simd_le(in_all_lanes(simd, most)).to_bitmask())
     }
 
     /// Adds the triangles of some lanes to others.

@@ -1,7 +1,7 @@
 //! How the scene is divided, as something to look at: the boxes of the hierarchy and their levels.
 
 use super::prepared::Prepared;
-use super::search::tree::{LeafCounts, NodeKind, NodeRef, WIDTH};
+use super::search::tree::{Bounds, LeafCounts, NodeKind, NodeRef, WIDTH};
 use bothways_common::glam::Vec3;
 
 /// A box of the hierarchy.
@@ -46,16 +46,14 @@ impl Prepared {
         let index = node.index();
         let node = &self.nodes[index];
         for lane in 0..usize::from(node.used) {
-            let side = |first: usize| {
-                Vec3::from_array([0, 1, 2].map(|axis| node.bounds[first + axis][lane]))
-            };
+            let Bounds { low, high } = node.bounds_of(lane);
             let child = node.children[lane];
             let is_leaf = child.kind() != NodeKind::Node;
             boxes.push(HierarchyBox {
                 number: u32::try_from(index * WIDTH + lane).unwrap_or(u32::MAX),
                 level,
-                low: side(0),
-                high: side(3),
+                low,
+                high,
                 primitives: is_leaf.then(|| self.primitives_of(child, node.counts[lane])),
             });
             if !is_leaf {

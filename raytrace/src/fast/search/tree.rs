@@ -135,6 +135,13 @@ impl Node {
         }
     }
 
+    /// The box of one of its children.
+    pub(crate) fn bounds_of(&self, lane: usize) -> Bounds {
+        let side =
+            |first: usize| Vec3::from_array([0, 1, 2].map(|axis| self.bounds[first + axis][lane]));
+        Bounds { low: side(0), high: side(3) }
+    }
+
     pub(crate) fn push(&mut self, bounds: &Bounds, child: NodeRef) {
         let lane = usize::from(self.used);
         for axis in 0..3 {

@@ -254,18 +254,11 @@ mod tests {
             // The cost of the root is what all nodes cost.
             let root = tree.all.last().unwrap();
             let BinaryKind::Fork(fork) = root.kind else { panic!("there are many") };
-            let area = |Bounds { low, high }: Bounds| {
-                let [x, y, z] = (high.as_dvec3() - low.as_dvec3()).to_array();
-                x * y + y * z + z * x
-            };
+            let area = |bounds: Bounds| PrimRef::new(&bounds, 0).0.half_area();
             let of_node = |node: &Node| -> f64 {
-                let side = |at: usize, lane: usize| {
-                    Vec3::from_array([0, 1, 2].map(|axis| node.bounds[at + axis][lane]))
-                };
-                (0..usize::from(node.used))
-                    .filter(|lane| node.children[*lane].kind() == NodeKind::Node)
-                    .map(|lane| area(Bounds { low: side(0, lane), high: side(3, lane) }))
-                    .sum()
+                let nodes = (0..usize::from(node.used))
+                    .filter(|lane| node.children[*lane].kind() == NodeKind::Node);
+                nodes.map(|lane| area(node.bounds_of(lane))).sum()
             };
             let of_all = area(root.bounds) + arena.nodes.iter().map(of_node).sum::<f64>();
             let cost = tree.costs[fork.costs][0];

@@ -1,5 +1,5 @@
-//! Grows a hierarchy from a record: all threads split the record from the top, and each thread collapses its own
-//! parts.
+//! Grows a hierarchy from a record: all threads split a large record from the top, until its parts are small enough to become
+//! binary trees, which are collapsed.
 
 use super::arena::Arena;
 use super::collapse::BinaryTree;

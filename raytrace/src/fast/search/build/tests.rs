@@ -55,8 +55,7 @@ fn inspect(prepared: &Prepared, scene: &Scene) -> (usize, Vec<u32>) {
         let node = &prepared.nodes[child.index()];
         assert!(node.used > 0);
         for lane in 0..usize::from(node.used) {
-            let side = |at: usize| Vec3::from_array([0, 1, 2].map(|k| node.bounds[at + k][lane]));
-            let inner = Bounds { low: side(0), high: side(3) };
+            let inner = node.bounds_of(lane);
             assert!(holds(inner.low, inner.high));
             let child = node.children[lane];
             if child.kind() == NodeKind::Node {
@@ -236,8 +235,7 @@ fn every_instance_is_in_one_leaf() {
     while let Some((node, bounds)) = open.pop() {
         let node = &prepared.nodes[node.index()];
         for lane in 0..usize::from(node.used) {
-            let side = |at: usize| Vec3::from_array([0, 1, 2].map(|k| node.bounds[at + k][lane]));
-            let inner = Bounds { low: side(0), high: side(3) };
+            let inner = node.bounds_of(lane);
             assert_eq!(bounds.union(&inner), bounds);
             let child = node.children[lane];
             if child.kind() == NodeKind::Node {
