@@ -104,6 +104,7 @@ impl BinaryTree {
 
     /// Adds a tree that was built separately. Returns the index of its root.
     fn append(&mut self, mut tree: BinaryTree) -> usize {
+        // The first is taken over as it is, without a copy.
         if self.all.is_empty() {
             *self = tree;
             return self.all.len() - 1;
