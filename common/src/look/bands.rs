@@ -376,14 +376,19 @@ impl<'a, A: Surfaces> Look<'a, A> {
                 Some(finish) if finish.is_of(material, is_tinted) => finish,
                 _ => desk.finish.insert(Finish::new(material, is_tinted)),
             };
+            let looks_at_viewer = self.lighting.looks_at_viewer(&finish);
             for at in (begin..end).step_by(16) {
                 let first = Sample { column: start.column + at, ..start };
                 let x = sixteen(simd, &self.across, first.column);
-                let to_viewer = surfaces.to_viewer(simd, &towards_viewer, first, x);
                 let normal = sixteen_vectors(simd, &chunk.normal, at).normalized(simd);
+                let to_viewer = if looks_at_viewer {
+                    surfaces.to_viewer(simd, &towards_viewer, first, x).normalized(simd)
+                } else {
+                    Vec3x16::splat(simd, Vec3::ZERO)
+                };
                 let points = SurfacePoints {
                     normals: normal,
-                    to_viewer: to_viewer.normalized(simd),
+                    to_viewer,
                     fraction: sixteen(simd, &chunk.fraction, at),
                     tint: each!(k in [0, 1, 2] => sixteen(simd, &chunk.tint[k], at)),
                 };

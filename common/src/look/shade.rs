@@ -97,6 +97,13 @@ impl Lighting {
         &self.points
     }
 
+    /// Whether it matters to this look from where it is seen.
+    #[inline(always)]
+    pub fn looks_at_viewer(&self, finish: &Finish) -> bool {
+        finish.material.specular != 0.0
+            || self.lamps.iter().any(|lamp| lamp.place == LightSource::AtCamera)
+    }
+
     /// The linear red, green and blue of surface points of one material: ambient light, Lambert's cosine and a
     /// Blinn–Phong highlight. Colours above 1 are left to the picture to clamp. `to_light` gives the ways from the surface
     /// points to the point of light with a number among [`Lighting::points`], of any length.
@@ -125,7 +132,7 @@ impl Lighting {
             if is_lit.all_false() {
                 continue;
             }
-            let intensity = is_lit.select(splat(*intensity), splat(0.0));
+            let intensity = splat(*intensity);
             diffuse += intensity * is_lit.select(cosine, splat(0.0));
             if material.specular != 0.0
                 && let Some(highlight) = highlight(simd, points, to_light, finish.exponent, is_lit)
@@ -230,6 +237,22 @@ mod tests {
         assert!(colors(&material, &[behind]).iter().all(|color| *color == [0.0; 3]));
         let nowhere = Light::Directional { direction: Vec3::ZERO, intensity: 1.0 };
         assert!(colors(&material, &[nowhere]).iter().all(|color| *color == [0.0; 3]));
+    }
+
+    #[test]
+    fn the_viewer_matters_to_highlights_and_to_light_from_the_camera() {
+        let of = |specular: f32, light: Light| {
+            let mut scene = Scene::new(Vec::new()).unwrap();
+            scene.lights = vec![light];
+            let camera = Camera::canonical(1, 1);
+            let material = Material { specular, ..Material::default() };
+            Lighting::new(&View::new(&scene, &camera))
+                .looks_at_viewer(&Finish::new(&material, false))
+        };
+        let from_above = Light::Directional { direction: Vec3::NEG_Y, intensity: 1.0 };
+        let at_camera = Light::AtCamera { intensity: 1.0 };
+        assert!(!of(0.0, from_above) && !of(0.0, Light::Ambient { intensity: 1.0 }));
+        assert!(of(0.1, from_above) && of(0.0, at_camera) && of(0.1, at_camera));
     }
 
     #[test]
