@@ -9,13 +9,14 @@ mod chunk;
 mod desk;
 mod found;
 mod local;
+mod local_runs;
 mod runs;
 mod surfaces;
 mod tint;
 
 use crate::camera::SampleGrid;
 use crate::engine::simd::{Level, Simd, SimdBase, apart, dispatch, f32x16, prefetch_all};
-use crate::frame::{Frame, NO_LEVEL, ShadingBand};
+use crate::frame::{Frame, ShadingBand};
 use crate::look::color::srgb_from_linear;
 use crate::look::lanes::{Vec3x16, each};
 use crate::look::shade::{Finish, Lighting, SurfacePoints};
@@ -23,17 +24,20 @@ use crate::raster::Sample;
 use crate::scene::material::Material;
 use crate::view::View;
 use chunk::{
-    CHUNK, Chunk, SET_UP_TOGETHER, TOGETHER, Vectors, eight, part, sixteen, sixteen_vectors,
+    CHUNK, Chunk, SET_UP_TOGETHER, TOGETHER, Vectors, eight, sixteen, sixteen_vectors,
     store_sixteen_bytes, store_sixteen_places,
 };
 use desk::{Desk, Kept, KeptLook, KeptSurface, Setting};
-use glam::{Vec2, Vec3};
+use glam::Vec3;
+use local_runs::find_local;
 use rayon::prelude::*;
-use runs::Group;
+use runs::{Group, samples_of};
 use std::ops::Range;
+use tint::KeptTexture;
 
 pub use local::{
     Anchor, EightVectors, LocalLook, LocalVector, MOST_LIGHTS, eight_columns, local_vector,
+    vector_at,
 };
 pub use surfaces::{
     EightTriangles, Points, Rays, STORED_ERROR, Samples, Seen, SetUp, Sixteen, Stretch, Surfaces,
@@ -70,24 +74,6 @@ pub fn shade(view: &View, frame: &mut Frame, surfaces: &impl Surfaces, level: Le
         || Desk::new(sums, lighting.points().len()),
         |desk, mut band| dispatch!(level, simd => look.shade_band(simd, desk, &mut band)),
     );
-}
-
-/// What a frame keeps of the textures of some samples.
-struct KeptTexture<'a> {
-    coordinates: Option<&'a mut [Vec2]>,
-    levels: Option<&'a mut [f32]>,
-}
-
-impl KeptTexture<'_> {
-    /// At these samples there is no texture.
-    fn fill_nothing(&mut self, samples: Range<usize>) {
-        if let Some(kept) = &mut self.coordinates {
-            kept[samples.clone()].fill(Vec2::ZERO);
-        }
-        if let Some(kept) = &mut self.levels {
-            kept[samples].fill(NO_LEVEL);
-        }
-    }
 }
 
 /// Rows and columns of samples of a band whose primitives are set up together.
@@ -231,48 +217,30 @@ impl<'a, A: Surfaces> Look<'a, A> {
         start: Sample,
         texture: &mut KeptTexture,
     ) {
-        let (runs, mut begin) = (desk.runs.of_chunk(), 0);
+        let (runs, mut number) = (desk.runs.of_chunk(), 0);
         let (chunk, to_lights) = (&mut *desk.chunk, &mut desk.to_lights[..]);
         let mut along = A::Along::default();
         desk.groups.clear();
-        for run in runs {
-            let (run, place) = (begin..run.end(), run.place());
-            begin = run.end;
-            let Some(place) = place else {
-                desk.groups.add(run.end, None);
-                texture.fill_nothing(run);
-                continue;
+        loop {
+            let seen = (&desk.kept[..], &desk.ways[..]);
+            let to = (&mut chunk.normal, &mut *to_lights);
+            let (here, groups) = ((start, runs, number), &mut desk.groups);
+            number = find_local(simd, here, seen, to, groups, texture);
+            let Some(place) = runs.get(number).and_then(|run| run.place()) else { return };
+            let Kept { material, look: KeptLook::Surface(place) } = &desk.kept[place] else {
+                unreachable!("no local look is left out");
             };
-            let Kept { material, look } = &desk.kept[place];
-            match look {
-                // There are such ones only where a frame keeps nothing of textures.
-                KeptLook::Local { look, ways } => {
-                    desk.groups.add(run.end, Some((material, false)));
-                    let first = Sample { column: start.column + run.start, ..start };
-                    // What is written beyond the run is overwritten by the next one.
-                    let all = run.start..run.start + run.len().next_multiple_of(8);
-                    look.store(simd, first, look.normals(), part(&mut chunk.normal, all.clone()));
-                    for (number, to_light) in to_lights.iter_mut().enumerate() {
-                        let way = &desk.ways[*ways as usize + number];
-                        look.store(simd, first, way, part(to_light, all.clone()));
-                    }
-                }
-                KeptLook::Surface(place) => {
-                    let surface = &desk.surfaces[*place as usize];
-                    desk.groups.add(run.end, Some((material, surface.is_tinted)));
-                    // A run is in one stretch or more.
-                    let mut begin = run.start;
-                    while begin < run.end {
-                        let next = Stretch::begin_of(start.column + begin) + Stretch::LENGTH;
-                        let end = run.end.min(next - start.column);
-                        let (seen, part) = ((surface, *material, &mut along), (start, begin..end));
-                        apart!(
-                            simd,
-                            self.find_in_stretch(simd, chunk, to_lights, seen, part, texture)
-                        );
-                        begin = end;
-                    }
-                }
+            let (surface, run) = (&desk.surfaces[*place as usize], samples_of(runs, number));
+            number += 1;
+            desk.groups.add(run.end, Some((material, surface.is_tinted)));
+            // A run is in one stretch or more.
+            let mut begin = run.start;
+            while begin < run.end {
+                let next = Stretch::begin_of(start.column + begin) + Stretch::LENGTH;
+                let end = run.end.min(next - start.column);
+                let (seen, part) = ((surface, *material, &mut along), (start, begin..end));
+                apart!(simd, self.find_in_stretch(simd, chunk, to_lights, seen, part, texture));
+                begin = end;
             }
         }
     }

@@ -142,7 +142,7 @@ impl<T: Real> Local<T> {
 }
 
 impl<T: Real> Interpolation<T> {
-    /// The interpolated vector at the anchor, and its changes from there to the next column and to the next row, all times a factor; and
+    /// The interpolated vector at the anchor, and its changes from there to the next row and to the next column, all times a factor; and
     /// the sum of the changes of all coordinates.
     #[inline(always)]
     fn of(&self, [a, b, c]: [Lanes<T>; 3], factor: T) -> ([Lanes<T>; 3], T) {
@@ -157,8 +157,8 @@ impl<T: Real> Interpolation<T> {
         };
         let vectors = [
             vector(each!(k in [0, 1, 2] => coordinates[k].at(x, y))),
-            vector(each!(k in [0, 1, 2] => coordinates[k].across * across)),
             vector(each!(k in [0, 1, 2] => coordinates[k].up * -down)),
+            vector(each!(k in [0, 1, 2] => coordinates[k].across * across)),
         ];
         let changes = each!(k in [0, 1, 2] => self.change(coordinates[k]));
         (vectors, changes[0] + changes[1] + changes[2])
@@ -221,7 +221,7 @@ impl<T: Real> OnViewport<T> {
 }
 
 /// Normals towards the viewer and ways to lights as affine functions of row and column, in `f32`, counted from a sample near the
-/// triangle: a vector at the anchor, and how it changes from a column to the next one, and from a row to the next one.
+/// triangle: a vector at the anchor, and how it changes from a row to the next one, and from a column to the next one.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AffineLook {
     normals: LocalVector,
@@ -238,25 +238,9 @@ impl LocalLook for AffineLook {
     }
 
     #[inline(always)]
-    fn store<S: Simd>(
-        &self,
-        simd: S,
-        first: Sample,
-        [at_anchor, across, down]: &LocalVector,
-        [to_x, to_y, to_z]: [&mut [f32]; 3],
-    ) {
-        let [rows, mut columns] = self.anchor.steps_to(first);
-        let in_row = each!(k in [0, 1, 2] => at_anchor[k] + down[k] * rows);
-        for at in (0..to_x.len()).step_by(8) {
-            let places = eight_columns(simd, columns);
-            columns += 8.0;
-            let [x, y, z] = each!(k in [0, 1, 2] => {
-                f32x8::splat(simd, in_row[k]) + f32x8::splat(simd, across[k]) * places
-            });
-            x.store_slice(&mut to_x[at..at + 8]);
-            y.store_slice(&mut to_y[at..at + 8]);
-            z.store_slice(&mut to_z[at..at + 8]);
-        }
+    fn factors<S: Simd>(&self, simd: S, first: Sample) -> [f32x8<S>; 2] {
+        let [rows, columns] = self.anchor.steps_to(first);
+        [f32x8::splat(simd, rows), eight_columns(simd, columns)]
     }
 }
 
@@ -366,7 +350,7 @@ mod tests {
         /// A vector at a sample.
         fn at(&self, vector: &LocalVector, sample: Sample) -> Vec3 {
             let [rows, columns] = self.anchor.steps_to(sample);
-            let [at_anchor, across, down] = vector.map(Vec3::from);
+            let [at_anchor, down, across] = vector.map(Vec3::from);
             (at_anchor + down * rows) + across * columns
         }
     }

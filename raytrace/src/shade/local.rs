@@ -202,34 +202,19 @@ impl LocalLook for LookAtHits {
     }
 
     #[inline(always)]
-    fn store<S: Simd>(
-        &self,
-        simd: S,
-        first: Sample,
-        [at_a, to_b, to_c]: &LocalVector,
-        [to_x, to_y, to_z]: [&mut [f32]; 3],
-    ) {
+    fn factors<S: Simd>(&self, simd: S, first: Sample) -> [f32x8<S>; 2] {
         let splat = |number: f32| f32x8::splat(simd, number);
-        let [rows, mut columns] = self.anchor.steps_to(first);
+        let [rows, columns] = self.anchor.steps_to(first);
         let [beyond_row, beyond_column] = self.beyond;
         let rows = rows - beyond_row;
+        let columns = eight_columns(simd, columns) - splat(beyond_column);
         let [q, of_b, of_c] = &self.slopes;
         let in_row = [1.0 + q[1] * rows, of_b[1] * rows, of_c[1] * rows];
-        for at in (0..to_x.len()).step_by(8) {
-            let places = eight_columns(simd, columns) - splat(beyond_column);
-            columns += 8.0;
-            let [below, of_b, of_c] = each!(k in [0, 1, 2] => {
-                splat(in_row[k]) + splat(self.slopes[k][0]) * places
-            });
-            let reciprocal = splat(1.0) / below;
-            let (b, c) = (of_b * reciprocal, of_c * reciprocal);
-            let [x, y, z] = each!(k in [0, 1, 2] => {
-                splat(at_a[k]) + splat(to_b[k]) * b + splat(to_c[k]) * c
-            });
-            x.store_slice(&mut to_x[at..at + 8]);
-            y.store_slice(&mut to_y[at..at + 8]);
-            z.store_slice(&mut to_z[at..at + 8]);
-        }
+        let [below, of_b, of_c] = each!(k in [0, 1, 2] => {
+            splat(in_row[k]) + splat(self.slopes[k][0]) * columns
+        });
+        let reciprocal = splat(1.0) / below;
+        [of_b * reciprocal, of_c * reciprocal]
     }
 }
 

@@ -2,21 +2,22 @@
 
 use crate::Dice;
 use bothways_common::Sample;
-use bothways_common::engine::simd::{dispatch, levels};
+use bothways_common::engine::simd::{SimdBase, dispatch, levels};
 use bothways_common::glam::{DVec3, Vec3};
-use bothways_common::look::bands::LocalLook;
+use bothways_common::look::bands::{LocalLook, vector_at};
+use bothways_common::look::lanes::Lanes;
 
 /// Checks that the vectors of a row have the bits of each sample's own, at every level of SIMD.
 pub fn assert_vectors_of_a_row(look: &impl LocalLook, at: impl Fn(Sample) -> Vec3) {
     let first = Sample { row: 5, column: 990 };
     for level in levels() {
-        let [mut x, mut y, mut z] = [[0.0; 24]; 3];
-        dispatch!(level, simd => {
-            look.store(simd, first, look.normals(), [&mut x, &mut y, &mut z]);
+        let normals: [[f32; 8]; 3] = dispatch!(level, simd => {
+            let Lanes { x, y, z } = vector_at(simd, look.normals(), look.factors(simd, first));
+            [x, y, z].map(SimdBase::to_array)
         });
-        for lane in 0..24 {
+        for lane in 0..8 {
             let expected = at(Sample { column: first.column + lane, ..first });
-            assert_eq!(Vec3::new(x[lane], y[lane], z[lane]), expected);
+            assert_eq!(Vec3::from(normals.map(|lanes| lanes[lane])), expected);
         }
     }
 }

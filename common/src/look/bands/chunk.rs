@@ -1,9 +1,8 @@
 //! Numbers of some samples of a row, and how vectors are read from them and written to them; how many samples are shaded together.
 
-use crate::engine::simd::{Simd, SimdBase, f32x16, f64x8};
+use crate::engine::simd::{Simd, SimdBase, f32x8, f32x16, f64x8};
 use crate::look::color::{places_of_sixteen, store_srgb_of_sixteen};
 use crate::look::lanes::{Lanes, Vec3x16, each};
-use std::ops::Range;
 
 /// The most samples of a row that are shaded together: what is kept of them stays in the innermost cache.
 pub(super) const CHUNK: usize = 256;
@@ -88,6 +87,14 @@ pub(super) fn sixteen_vectors<S: Simd>(
 }
 
 #[inline(always)]
+pub(super) fn store_eight<S: Simd>(vectors: Lanes<f32x8<S>>, to: &mut Vectors, at: usize) {
+    let [to_x, to_y, to_z] = to;
+    vectors.x.store_slice(&mut to_x[at..at + 8]);
+    vectors.y.store_slice(&mut to_y[at..at + 8]);
+    vectors.z.store_slice(&mut to_z[at..at + 8]);
+}
+
+#[inline(always)]
 pub(super) fn store_sixteen<S: Simd>(vectors: Vec3x16<S>, to: &mut Vectors, at: usize) {
     let [to_x, to_y, to_z] = to;
     vectors.x.store_slice(&mut to_x[at..at + 16]);
@@ -119,10 +126,4 @@ pub(super) fn store_sixteen_bytes<S: Simd>(
     let places = each!(k in [0, 1, 2] => places[k][at..].first_chunk().expect("vectors have room"));
     let to = to.as_flattened_mut()[3 * at..].first_chunk_mut();
     store_srgb_of_sixteen(simd, places, to.expect("vectors have room"));
-}
-
-/// The coordinates of some of the vectors.
-#[inline(always)]
-pub(super) fn part([x, y, z]: &mut Vectors, of: Range<usize>) -> [&mut [f32]; 3] {
-    [&mut x[of.clone()], &mut y[of.clone()], &mut z[of]]
 }

@@ -140,7 +140,7 @@ impl<'a, A: Surfaces> Desk<'a, A> {
             chunk: Box::new(Chunk::new()),
             to_lights: vec![[[0.0; WIDE]; 3]; lights],
             ends: Box::new(Ends::new()),
-            runs: Runs::default(),
+            runs: Runs::new(),
             groups: Groups::default(),
             finish: None,
             sums: vec![Vec3::ZERO; sums],

@@ -10,20 +10,20 @@ use std::convert::Infallible;
 /// looks then, either. This number is a guess.
 pub const MOST_LIGHTS: usize = 4;
 
-/// Three vectors, of which an order makes another one at each sample.
+/// Three vectors, of which each sample has a sum: the first, and the others times a [factor](LocalLook::factors) each.
 pub type LocalVector = [[f32; 3]; 3];
 
 /// A triangle of which nothing is wanted but normals and the ways to points of light, by some numbers in `f32` that are exact enough
 /// near it.
+///
+/// Normals are towards the viewer, and ways lead to their light; where the triangle is seen, all have any length between 2⁻⁶⁰ and 2⁶⁰.
 pub trait LocalLook: Copy + Send {
     /// What its normals are made of.
     fn normals(&self) -> &LocalVector;
 
-    /// Writes down a vector at some samples of a row, of which this is the first: its three coordinates, a multiple of eight of
-    /// each. Samples at which the triangle is not seen get any values.
-    ///
-    /// Normals are towards the viewer, and ways lead to their light; all have any length between 2⁻⁶⁰ and 2⁶⁰.
-    fn store<S: Simd>(&self, simd: S, first: Sample, vector: &LocalVector, to: [&mut [f32]; 3]);
+    /// The factors of the second vector and of the third at eight samples of a row, of which this is the first. Samples at which the
+    /// triangle is not seen get any.
+    fn factors<S: Simd>(&self, simd: S, first: Sample) -> [f32x8<S>; 2];
 }
 
 /// There are none.
@@ -32,9 +32,23 @@ impl LocalLook for Infallible {
         match *self {}
     }
 
-    fn store<S: Simd>(&self, _: S, _: Sample, _: &LocalVector, _: [&mut [f32]; 3]) {
+    fn factors<S: Simd>(&self, _: S, _: Sample) -> [f32x8<S>; 2] {
         match *self {}
     }
+}
+
+/// A vector at eight samples with these factors, summed up from left to right.
+#[inline(always)]
+pub fn vector_at<S: Simd>(
+    simd: S,
+    [first, second, third]: &LocalVector,
+    [of_second, of_third]: [f32x8<S>; 2],
+) -> Lanes<f32x8<S>> {
+    let splat = |number: f32| f32x8::splat(simd, number);
+    let [x, y, z] = each!(k in [0, 1, 2] => {
+        splat(first[k]) + splat(second[k]) * of_second + splat(third[k]) * of_third
+    });
+    Lanes { x, y, z }
 }
 
 /// Three vectors as they are kept.

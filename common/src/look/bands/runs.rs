@@ -1,6 +1,6 @@
 //! The samples of rows in runs of one primitive each, and in groups of one material.
 
-use super::chunk::WIDE;
+use super::chunk::{MOST_OF_BLOCK, WIDE};
 use crate::engine::simd::{Compression, Simd, SimdBase, SimdMask, u32x16};
 use crate::scene::material::Material;
 use std::ops::Range;
@@ -43,10 +43,18 @@ impl Run {
     }
 }
 
-/// The runs of some chunks.
-#[derive(Default)]
+/// The samples of the run with this number, of those of a chunk. Behind the last run, there are none.
+#[inline(always)]
+pub(super) fn samples_of(runs: &[Run], number: usize) -> Range<usize> {
+    let begin = if number == 0 { 0 } else { runs[number - 1].end() };
+    begin..runs.get(number).map_or(begin, |run| run.end())
+}
+
+/// The runs of the chunks of a block.
 pub(super) struct Runs {
-    runs: Vec<Run>,
+    /// No block has more runs than samples.
+    runs: Box<[Run; MOST_OF_BLOCK]>,
+    count: usize,
     /// The first run after each chunk.
     ends: Vec<usize>,
     /// The runs of the chunk that is looked at.
@@ -54,18 +62,23 @@ pub(super) struct Runs {
 }
 
 impl Runs {
+    pub(super) fn new() -> Runs {
+        let runs = Box::new([Run::new(0, NOTHING); MOST_OF_BLOCK]);
+        Runs { runs, count: 0, ends: Vec::new(), chunk: 0..0 }
+    }
+
     pub(super) fn clear(&mut self) {
-        self.runs.clear();
+        self.count = 0;
         self.ends.clear();
     }
 
     /// Adds so many runs for the next chunk, which are to be filled.
     #[inline(always)]
     pub(super) fn add(&mut self, count: usize) -> &mut [Run] {
-        let start = self.runs.len();
-        self.runs.resize(start + count, Run::new(0, NOTHING));
-        self.ends.push(self.runs.len());
-        &mut self.runs[start..]
+        let start = self.count;
+        self.count += count;
+        self.ends.push(self.count);
+        &mut self.runs[start..self.count]
     }
 
     /// Goes to the chunk with this number.
@@ -90,6 +103,25 @@ pub(super) struct Group<'a> {
     pub(super) shown: Option<(&'a Material, bool)>,
 }
 
+impl Group<'_> {
+    /// Whether it shows this material in the same way, or both show nothing.
+    #[inline(always)]
+    fn shows(&self, shown: Option<(&Material, bool)>) -> bool {
+        let [own, other] = [self.shown, shown].map(Option::unzip);
+        is_same(own.0, other.0) && own.1 == other.1
+    }
+}
+
+/// Whether this is one material, not only an equal one, or both times nothing.
+#[inline(always)]
+pub(super) fn is_same(one: Option<&Material>, other: Option<&Material>) -> bool {
+    match (one, other) {
+        (None, None) => true,
+        (Some(one), Some(other)) => std::ptr::eq(one, other),
+        _ => false,
+    }
+}
+
 /// The groups of a chunk.
 #[derive(Default)]
 pub(super) struct Groups<'a>(Vec<Group<'a>>);
@@ -103,24 +135,13 @@ impl<'a> Groups<'a> {
     #[inline(always)]
     pub(super) fn add(&mut self, end: usize, shown: Option<(&'a Material, bool)>) {
         match self.0.last_mut() {
-            Some(last) if is_same(last.shown, shown) => last.end = end,
+            Some(last) if last.shows(shown) => last.end = end,
             _ => self.0.push(Group { end, shown }),
         }
     }
 
     pub(super) fn all(&self) -> &[Group<'a>] {
         &self.0
-    }
-}
-
-#[inline(always)]
-fn is_same(one: Option<(&Material, bool)>, other: Option<(&Material, bool)>) -> bool {
-    match (one, other) {
-        (None, None) => true,
-        (Some((one, tinted)), Some((other, tinted_too))) => {
-            std::ptr::eq(one, other) && tinted == tinted_too
-        }
-        _ => false,
     }
 }
 
@@ -205,8 +226,8 @@ mod tests {
         }
         let ends: Vec<usize> = groups.all().iter().map(|group| group.end).collect();
         assert_eq!(ends, [1, 3, 4, 5, 7, 8]);
-        for Group { end, shown: of_group } in groups.all() {
-            assert!(is_same(*of_group, shown[end - 1]), "{end}");
+        for group in groups.all() {
+            assert!(group.shows(shown[group.end - 1]), "{}", group.end);
         }
         groups.clear();
         assert!(groups.all().is_empty());

@@ -1,4 +1,4 @@
-//! The tint of samples: what textures and colours of vertices leave of the material's colour.
+//! What textures and colours of vertices leave of the material's colour, the tint; and what a frame keeps of textures.
 
 use super::chunk::Chunk;
 use crate::frame::{LEVELS_OF, NO_LEVEL};
@@ -7,6 +7,24 @@ use crate::scene::material::Material;
 use crate::scene::texture::Texture;
 use glam::{DVec2, Vec2, Vec3};
 use std::ops::Range;
+
+/// What a frame keeps of the textures of some samples.
+pub(super) struct KeptTexture<'a> {
+    pub(super) coordinates: Option<&'a mut [Vec2]>,
+    pub(super) levels: Option<&'a mut [f32]>,
+}
+
+impl KeptTexture<'_> {
+    /// At these samples there is no texture.
+    pub(super) fn fill_nothing(&mut self, samples: Range<usize>) {
+        if let Some(kept) = &mut self.coordinates {
+            kept[samples.clone()].fill(Vec2::ZERO);
+        }
+        if let Some(kept) = &mut self.levels {
+            kept[samples].fill(NO_LEVEL);
+        }
+    }
+}
 
 /// Fills the tint of some samples of one primitive, at most sixteen. The chunk has their texture coordinates, their colours
 /// (in the tint), and how the coordinates move from sample to sample, as far as `has` says so.
