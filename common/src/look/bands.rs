@@ -221,14 +221,14 @@ impl<'a, A: Surfaces> Look<'a, A> {
         let (chunk, to_lights) = (&mut *desk.chunk, &mut desk.to_lights[..]);
         let mut along = A::Along::default();
         desk.groups.clear();
-        loop {
-            let seen = (&desk.kept[..], &desk.ways[..]);
-            let to = (&mut chunk.normal, &mut *to_lights);
-            let (here, groups) = ((start, runs, number), &mut desk.groups);
-            number = find_local(simd, here, seen, to, groups, texture);
-            let Some(place) = runs.get(number).and_then(|run| run.place()) else { return };
-            let Kept { material, look: KeptLook::Surface(place) } = &desk.kept[place] else {
-                unreachable!("no local look is left out");
+        while let Some(run) = runs.get(number) {
+            let kept = run.place().map(|place| &desk.kept[place]);
+            let Some(Kept { material, look: KeptLook::Surface(place) }) = kept else {
+                let seen = (&desk.kept[..], &desk.ways[..]);
+                let to = (&mut chunk.normal, &mut *to_lights);
+                let (here, groups) = ((start, runs, number), &mut desk.groups);
+                number = find_local(simd, here, seen, to, groups, texture);
+                continue;
             };
             let (surface, run) = (&desk.surfaces[*place as usize], samples_of(runs, number));
             number += 1;

@@ -13,7 +13,8 @@ use glam::{DVec3, Vec3};
 pub struct SurfacePoints<S: Simd> {
     /// Unit normals, towards the viewer.
     pub normals: Vec3x16<S>,
-    /// Unit directions towards the viewer, against the viewing rays.
+    /// Unit directions towards the viewer, against the viewing rays; any others where the look [does not depend on
+    /// them](Lighting::looks_at_viewer).
     pub to_viewer: Vec3x16<S>,
     /// The fraction of the material's pattern that has the second colour.
     pub fraction: f32x16<S>,
@@ -133,7 +134,7 @@ impl Lighting {
                 continue;
             }
             let intensity = splat(*intensity);
-            diffuse += intensity * is_lit.select(cosine, splat(0.0));
+            diffuse += is_lit.select(intensity * cosine, splat(0.0));
             if material.specular != 0.0
                 && let Some(highlight) = highlight(simd, points, to_light, finish.exponent, is_lit)
             {

@@ -12,8 +12,8 @@ use crate::scene::material::Material;
 /// What is seen in runs of a chunk, from the one with this number on, up to the first whose primitive has no local look: fills normals
 /// and ways to lights, and finds which samples are lit together. Returns the number of that run.
 ///
-/// Small triangles have a run for every two or three samples. So this is a function of its own, though only one place calls it: what its
-/// loop needs is at hand then.
+/// Small triangles have a run for every two or three samples. So this is a function of its own, though only one place calls it: as a
+/// part of a larger one, its loop has no registers left, and loads again for each run what it had before.
 #[inline(never)]
 pub(super) fn find_local<'a, S: Simd, L: LocalLook>(
     simd: S,
@@ -39,6 +39,7 @@ fn find_in_runs<'a, S: Simd, L: LocalLook>(
     // What is seen just before `begin`: these samples are added together, as soon as another material begins.
     let (mut begin, mut material) = (first, None);
     let mut add = |end: usize, material: Option<&'a Material>| {
+        // Before the first run, there is nothing to add.
         if first < end {
             groups.add(end, material.map(|material| (material, false)));
         }
@@ -75,4 +76,103 @@ fn find_in_runs<'a, S: Simd, L: LocalLook>(
     }
     add(begin, material);
     number
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::chunk::{CHUNK, WIDE};
+    use super::super::runs::NOTHING;
+    use super::*;
+    use crate::engine::simd::{SimdBase, dispatch, f32x8, levels};
+    use crate::frame::NO_LEVEL;
+    use glam::Vec2;
+
+    /// A triangle whose vectors are sums by row and by column.
+    #[derive(Clone, Copy)]
+    struct ByPlace(LocalVector);
+
+    impl LocalLook for ByPlace {
+        fn normals(&self) -> &LocalVector {
+            &self.0
+        }
+
+        fn factors<S: Simd>(&self, simd: S, first: Sample) -> [f32x8<S>; 2] {
+            let columns = f32x8::from_fn(simd, |lane| (first.column + lane) as f32);
+            [f32x8::splat(simd, first.row as f32), columns]
+        }
+    }
+
+    fn vector(number: f32) -> LocalVector {
+        [[number, 0.0, 1.0], [10.0, -1.0, 0.0], [0.0, number, 0.5]]
+    }
+
+    fn at(number: f32, row: usize, column: usize) -> [f32; 3] {
+        let (row, column) = (row as f32, column as f32);
+        [number + 10.0 * row, number * column - row, 1.0 + 0.5 * column]
+    }
+
+    #[test]
+    fn runs_are_found_up_to_the_next_surface() {
+        let [one, other] = [Material::default(), Material::default()];
+        let look = |number: f32, ways| KeptLook::Local { look: ByPlace(vector(number)), ways };
+        let kept = [
+            Kept { material: &one, look: look(2.0, 0) },
+            Kept { material: &one, look: look(3.0, 1) },
+            Kept { material: &other, look: look(4.0, 2) },
+            Kept { material: &other, look: KeptLook::Surface(0) },
+        ];
+        let ways = [5.0, 6.0, 7.0].map(vector);
+        // Nothing; two triangles of one material, the second over three times eight samples; one of another; a surface; both ends.
+        let seen = [(3, None), (5, Some(0)), (25, Some(1)), (26, Some(2)), (30, Some(3))];
+        let seen = seen.into_iter().chain([(31, Some(0)), (32, None), (CHUNK, Some(2))]);
+        let runs: Vec<Run> = seen
+            .map(|(end, place)| Run::new(u32::try_from(end).unwrap(), place.unwrap_or(NOTHING)))
+            .collect();
+        let start = Sample { row: 7, column: 1000 };
+        for level in levels() {
+            let (mut normals, mut to_lights) = ([[0.0; WIDE]; 3], [[[0.0; WIDE]; 3]]);
+            let (mut groups, mut levels) = (Groups::default(), [9.0; CHUNK]);
+            let mut coordinates = [Vec2::ONE; CHUNK];
+            let mut texture =
+                KeptTexture { coordinates: Some(&mut coordinates), levels: Some(&mut levels) };
+            let mut find = |first: usize, normals: &mut Vectors, to_lights: &mut [Vectors]| {
+                let (here, seen) = ((start, &runs[..], first), (&kept[..], &ways[..]));
+                let to = (normals, to_lights);
+                dispatch!(level, simd => find_local(simd, here, seen, to, &mut groups, &mut texture))
+            };
+            assert_eq!(find(0, &mut normals, &mut to_lights), 4);
+            let check = |samples: std::ops::Range<usize>,
+                         [normal, way]: [f32; 2],
+                         normals: &Vectors,
+                         ways: &Vectors| {
+                for k in samples {
+                    assert_eq!(
+                        normals.map(|axis| axis[k]),
+                        at(normal, 7, 1000 + k),
+                        "{level:?}: {k}"
+                    );
+                    assert_eq!(ways.map(|axis| axis[k]), at(way, 7, 1000 + k), "{level:?}: {k}");
+                }
+            };
+            check(3..5, [2.0, 5.0], &normals, &to_lights[0]);
+            check(5..25, [3.0, 6.0], &normals, &to_lights[0]);
+            check(25..26, [4.0, 7.0], &normals, &to_lights[0]);
+            // On from behind the surface.
+            assert_eq!(find(5, &mut normals, &mut to_lights), runs.len());
+            check(30..31, [2.0, 5.0], &normals, &to_lights[0]);
+            check(32..CHUNK, [4.0, 7.0], &normals, &to_lights[0]);
+
+            let found: Vec<_> = groups.all().iter().map(|group| group.end).collect();
+            assert_eq!(found, [3, 25, 26, 31, 32, CHUNK], "{level:?}");
+            let shown = [None, Some(&one), Some(&other), Some(&one), None, Some(&other)];
+            for (group, shown) in groups.all().iter().zip(shown) {
+                assert!(is_same(group.shown.map(|(material, _)| material), shown), "{}", group.end);
+            }
+            for k in 0..CHUNK {
+                let is_nothing = k < 3 || k == 31;
+                assert_eq!(levels[k] == NO_LEVEL, is_nothing, "{k}");
+                assert_eq!(coordinates[k] == Vec2::ZERO, is_nothing, "{k}");
+            }
+        }
+    }
 }
