@@ -1,6 +1,6 @@
 //! Numbers of some samples of a row, and how vectors are read from them and written to them; how many samples are shaded together.
 
-use crate::engine::simd::{Simd, SimdBase, f32x8, f32x16, f64x8};
+use crate::engine::simd::{Simd, SimdBase, f32x16, f64x8};
 use crate::look::color::{places_of_sixteen, store_srgb_of_sixteen};
 use crate::look::lanes::{Lanes, Vec3x16, each};
 
@@ -86,20 +86,17 @@ pub(super) fn sixteen_vectors<S: Simd>(
     Lanes { x: sixteen(simd, x, at), y: sixteen(simd, y, at), z: sixteen(simd, z, at) }
 }
 
+/// Writes a vector for each lane, one sample after the other.
 #[inline(always)]
-pub(super) fn store_eight<S: Simd>(vectors: Lanes<f32x8<S>>, to: &mut Vectors, at: usize) {
+pub(super) fn store_vectors<S: Simd, V: SimdBase<S, Element = f32>>(
+    vectors: &Lanes<V>,
+    to: &mut Vectors,
+    at: usize,
+) {
     let [to_x, to_y, to_z] = to;
-    vectors.x.store_slice(&mut to_x[at..at + 8]);
-    vectors.y.store_slice(&mut to_y[at..at + 8]);
-    vectors.z.store_slice(&mut to_z[at..at + 8]);
-}
-
-#[inline(always)]
-pub(super) fn store_sixteen<S: Simd>(vectors: Vec3x16<S>, to: &mut Vectors, at: usize) {
-    let [to_x, to_y, to_z] = to;
-    vectors.x.store_slice(&mut to_x[at..at + 16]);
-    vectors.y.store_slice(&mut to_y[at..at + 16]);
-    vectors.z.store_slice(&mut to_z[at..at + 16]);
+    vectors.x.store_slice(&mut to_x[at..at + V::LEN]);
+    vectors.y.store_slice(&mut to_y[at..at + V::LEN]);
+    vectors.z.store_slice(&mut to_z[at..at + V::LEN]);
 }
 
 /// Writes where the next sixteen colours stand in the encoding as sRGB.

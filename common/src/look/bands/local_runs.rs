@@ -1,6 +1,6 @@
 //! What is seen where triangles are small, run by run.
 
-use super::chunk::{Vectors, store_eight};
+use super::chunk::{Vectors, store_vectors};
 use super::desk::{Kept, KeptLook};
 use super::local::{LocalLook, LocalVector, vector_at};
 use super::runs::{Groups, Run, is_same, samples_of};
@@ -10,7 +10,8 @@ use crate::raster::Sample;
 use crate::scene::material::Material;
 
 /// What is seen in runs of a chunk, from the one with this number on, up to the first whose primitive has no local look: fills normals
-/// and ways to lights, and finds which samples are lit together. Returns the number of that run.
+/// and ways to lights, and finds which samples are lit together. Returns the number of that run. `here` is the first sample of the chunk, its
+/// runs, and the number of the first of them to look at.
 ///
 /// Small triangles have a run for every two or three samples. So this is a function of its own, though only one place calls it: as a
 /// part of a larger one, its loop has no registers left, and loads again for each run what it had before.
@@ -57,10 +58,10 @@ fn find_in_runs<'a, S: Simd, L: LocalLook>(
                 let mut at = begin;
                 while at < end {
                     let factors = look.factors(simd, Sample { column: start.column + at, ..start });
-                    store_eight(vector_at(simd, look.normals(), factors), normals, at);
+                    store_vectors(&vector_at(simd, look.normals(), factors), normals, at);
                     for (light, to_light) in to_lights.iter_mut().enumerate() {
                         let way = &ways[*first_way as usize + light];
-                        store_eight(vector_at(simd, way, factors), to_light, at);
+                        store_vectors(&vector_at(simd, way, factors), to_light, at);
                     }
                     at += 8;
                 }
@@ -135,38 +136,33 @@ mod tests {
             let mut coordinates = [Vec2::ONE; CHUNK];
             let mut texture =
                 KeptTexture { coordinates: Some(&mut coordinates), levels: Some(&mut levels) };
-            let mut find = |first: usize, normals: &mut Vectors, to_lights: &mut [Vectors]| {
+            // The second time, on from behind the surface.
+            for (first, next) in [(0, 4), (5, runs.len())] {
                 let (here, seen) = ((start, &runs[..], first), (&kept[..], &ways[..]));
-                let to = (normals, to_lights);
-                dispatch!(level, simd => find_local(simd, here, seen, to, &mut groups, &mut texture))
-            };
-            assert_eq!(find(0, &mut normals, &mut to_lights), 4);
-            let check = |samples: std::ops::Range<usize>,
-                         [normal, way]: [f32; 2],
-                         normals: &Vectors,
-                         ways: &Vectors| {
-                for k in samples {
-                    assert_eq!(
-                        normals.map(|axis| axis[k]),
-                        at(normal, 7, 1000 + k),
-                        "{level:?}: {k}"
-                    );
-                    assert_eq!(ways.map(|axis| axis[k]), at(way, 7, 1000 + k), "{level:?}: {k}");
-                }
-            };
-            check(3..5, [2.0, 5.0], &normals, &to_lights[0]);
-            check(5..25, [3.0, 6.0], &normals, &to_lights[0]);
-            check(25..26, [4.0, 7.0], &normals, &to_lights[0]);
-            // On from behind the surface.
-            assert_eq!(find(5, &mut normals, &mut to_lights), runs.len());
-            check(30..31, [2.0, 5.0], &normals, &to_lights[0]);
-            check(32..CHUNK, [4.0, 7.0], &normals, &to_lights[0]);
+                let to = (&mut normals, &mut to_lights[..]);
+                let found = dispatch!(level, simd => find_local(simd, here, seen, to, &mut groups, &mut texture));
+                assert_eq!(found, next, "{level:?}");
+            }
 
-            let found: Vec<_> = groups.all().iter().map(|group| group.end).collect();
-            assert_eq!(found, [3, 25, 26, 31, 32, CHUNK], "{level:?}");
+            let expected = [
+                (3..5, [2.0, 5.0]),
+                (5..25, [3.0, 6.0]),
+                (25..26, [4.0, 7.0]),
+                (30..31, [2.0, 5.0]),
+                (32..CHUNK, [4.0, 7.0]),
+            ];
+            for (samples, numbers) in expected {
+                for k in samples {
+                    let found = [&normals, &to_lights[0]].map(|of| of.map(|axis| axis[k]));
+                    let expected = numbers.map(|number| at(number, 7, 1000 + k));
+                    assert_eq!(found, expected, "{level:?}: {k}");
+                }
+            }
+            let ends: Vec<_> = groups.all().iter().map(|group| group.end).collect();
+            assert_eq!(ends, [3, 25, 26, 31, 32, CHUNK], "{level:?}");
             let shown = [None, Some(&one), Some(&other), Some(&one), None, Some(&other)];
             for (group, shown) in groups.all().iter().zip(shown) {
-                assert!(is_same(group.shown.map(|(material, _)| material), shown), "{}", group.end);
+                assert!(group.shows(shown.map(|material| (material, false))), "{}", group.end);
             }
             for k in 0..CHUNK {
                 let is_nothing = k < 3 || k == 31;

@@ -106,7 +106,7 @@ pub(super) struct Group<'a> {
 impl Group<'_> {
     /// Whether it shows this material in the same way, or both show nothing.
     #[inline(always)]
-    fn shows(&self, shown: Option<(&Material, bool)>) -> bool {
+    pub(super) fn shows(&self, shown: Option<(&Material, bool)>) -> bool {
         let [own, other] = [self.shown, shown].map(Option::unzip);
         is_same(own.0, other.0) && own.1 == other.1
     }

@@ -1,6 +1,6 @@
 //! What a renderer says of its surfaces, sixteen samples at a time.
 
-use super::chunk::{Chunk, Vectors, eight, sixteen, store_sixteen};
+use super::chunk::{Chunk, Vectors, eight, sixteen, store_vectors};
 use super::local::{LocalLook, LocalVector, MOST_LIGHTS};
 use crate::camera::{Camera, Projection};
 use crate::engine::simd::{Simd, SimdBase, SimdMask, f32x16, f64x8, mask64x8};
@@ -406,14 +406,14 @@ impl Points<'_> {
     /// Normals towards the viewer, of any length between 2⁻⁶⁰ and 2⁶⁰. They are always wanted.
     #[inline(always)]
     pub fn set_normals<S: Simd>(&mut self, normals: Vec3x16<S>) {
-        store_sixteen(normals, &mut self.chunk.normal, self.at);
+        store_vectors(&normals, &mut self.chunk.normal, self.at);
     }
 
     /// The ways to the point of light with this number, of any length. The ways to all of them are to be set, or
     /// [the points](Points::set_points).
     #[inline(always)]
     pub fn set_to_light<S: Simd>(&mut self, light: usize, ways: Vec3x16<S>) {
-        store_sixteen(ways, &mut self.to_lights[light], self.at);
+        store_vectors(&ways, &mut self.to_lights[light], self.at);
     }
 
     /// Where the points are, relative to the eye, two times eight: in `f64`, as the eye may be far away. Sets the ways to all points
@@ -468,7 +468,7 @@ impl Points<'_> {
     #[inline(always)]
     pub fn set_colors<S: Simd>(&mut self, colors: Vec3x16<S>) {
         self.has_colors = true;
-        store_sixteen(colors, &mut self.chunk.tint, self.at);
+        store_vectors(&colors, &mut self.chunk.tint, self.at);
     }
 
     /// The texture that was set.
