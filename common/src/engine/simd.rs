@@ -14,8 +14,8 @@ mod shuffle;
 
 pub use fearless_simd::prelude::*;
 pub use fearless_simd::{
-    Level, Simd, dispatch, f32x4, f32x8, f32x16, f64x8, i32x4, i32x8, i32x16, mask32x4, mask32x8,
-    mask32x16, mask64x8, u8x32, u8x64, u32x8, u32x16,
+    Level, Simd, dispatch, f32x4, f32x8, f32x16, f64x4, f64x8, i32x4, i32x8, i32x16, mask32x4,
+    mask32x8, mask32x16, mask64x8, u8x32, u8x64, u32x8, u32x16,
 };
 
 pub use shuffle::{Compression, PackedShuffles, Shuffle, store_three_bytes_each};

@@ -1,7 +1,7 @@
 //! What is kept of a scene for any number of views of it.
 
 use super::search::tree::{
-    Bounds, IndexedLeaf, LEAF_KINDS, LeafCounts, Node, NodeRef, PlainLeaf, SPHERES,
+    Bounds, IndexedLeaf, LEAF_KINDS, LeafCounts, Node, NodeRef, PlainLeaf, SPHERES, ScatteredLeaf,
 };
 use bothways_common::engine::simd::Level;
 use bothways_common::engine::tasks::TaskTimes;
@@ -13,6 +13,7 @@ use std::sync::Arc;
 pub struct Prepared {
     pub(super) nodes: Vec<Node>,
     pub(super) indexed_leaves: Vec<IndexedLeaf>,
+    pub(super) scattered_leaves: Vec<ScatteredLeaf>,
     pub(super) plain_leaves: Vec<PlainLeaf>,
     /// The names of the spheres of the hierarchy's leaves; unused lanes repeat the first.
     pub(super) sphere_leaves: Vec<[u32; SPHERES]>,
@@ -90,8 +91,9 @@ impl Prepared {
 
     /// The number of leaves of each kind; none of instances, which there are in one hierarchy only.
     pub(super) fn leaf_counts(&self) -> [usize; LEAF_KINDS] {
-        let Prepared { indexed_leaves, plain_leaves, sphere_leaves, .. } = self;
-        [indexed_leaves.len(), plain_leaves.len(), sphere_leaves.len(), 0]
+        let Prepared { indexed_leaves, scattered_leaves, plain_leaves, sphere_leaves, .. } = self;
+        let (indexed, scattered) = (indexed_leaves.len(), scattered_leaves.len());
+        [indexed, scattered, plain_leaves.len(), sphere_leaves.len(), 0]
     }
 
     /// Adds the root of a hierarchy, in which everything has these bounds.

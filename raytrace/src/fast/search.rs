@@ -5,6 +5,7 @@ pub(crate) mod build;
 mod candidates;
 pub(crate) mod instance_frustum;
 mod leaf;
+mod packed_ids;
 pub(crate) mod ray_square;
 pub(crate) mod tile_frustum;
 mod tile_place;

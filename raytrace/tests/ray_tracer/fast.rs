@@ -3,6 +3,7 @@
 
 use bothways_common::engine::simd::levels;
 use bothways_common::glam::{Quat, Vec3};
+use bothways_common::scene::{Instances, Placement};
 use bothways_common::{
     Camera, CameraDescription, Frame, Mesh, Object, Options, Orientation, Plane, Projection, Shape,
     Sphere, Triangle, View, Work,
@@ -110,6 +111,54 @@ fn rays_that_graze_boxes_and_meet_vertices_and_edges() {
         check_against_textbook(&View::new(&scene, &camera), 1, "on the grid's lines");
         let fine = bothways_test_support::camera(projection, [1.0, 0.0, 0.0], viewport, [66, 33]);
         check_against_textbook(&View::new(&scene, &fine), 2, "and between them");
+    }
+}
+
+#[test]
+fn neighbours_whose_ids_are_far_apart_are_seen() {
+    // Two triangles of a square, and between them so many others in one place behind it, of which the first is seen.
+    let meshes = |between: usize| {
+        let mut positions = [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]]
+            .map(|[x, y]: [f32; 2]| Vec3::new(x, y, -4.0))
+            .to_vec();
+        positions
+            .extend([[-9.0, -9.0], [9.0, -9.0], [0.0, 9.0]].map(|[x, y]| Vec3::new(x, y, -20.0)));
+        let mut triangles = vec![[0, 1, 2]];
+        triangles.extend(vec![[4, 5, 6]; between]);
+        triangles.push([3, 2, 1]);
+        let one = Mesh::new(positions, triangles).expect("it is a mesh");
+        let places = [Vec3::ZERO, Vec3::new(0.5, 0.3, 1.0)].map(Placement::translation);
+        let two = Instances::new(one.clone(), places.to_vec()).expect("they are instances");
+        [Shape::Mesh(one), Shape::Instances(two)].map(|shape| scene(vec![shape.into()]))
+    };
+    let (few, many) = (3_u64, 600_000_u64);
+    let sizes = [few, many].map(|between| usize::try_from(between).expect("it is small"));
+    let [of_few, of_many] = sizes.map(meshes);
+    // The id that a triangle of the smaller scene has in the larger one.
+    let renamed = |id: u64| {
+        let (instance, local) = (id / (few + 2), id % (few + 2));
+        instance * (many + 2) + if local > few { local + many - few } else { local }
+    };
+    for (of_few, of_many) in of_few.iter().zip(&of_many) {
+        let prepared = fast::prepare(of_many);
+        for projection in PROJECTIONS {
+            let camera = turned(projection, [0.3, 0.2, 3.0], [0.1, 0.0, -4.0], [64, 48]);
+            let expected = check_against_textbook(&View::new(of_few, &camera), 1, "a few between");
+            let (view, options) = (View::new(of_many, &camera), Options::default());
+            let [mut unwatched, mut watched] = [(); 2].map(|()| Frame::new(&camera, &options));
+            let mut work = Work::default();
+            fast::determine_visibility(&prepared, &view, &options, &mut unwatched, &mut ());
+            fast::determine_visibility(&prepared, &view, &options, &mut watched, &mut work);
+            assert_eq!(unwatched, watched);
+            let ids: Vec<Option<u64>> = expected.ids().iter().map(|id| id.map(renamed)).collect();
+            assert!(unwatched.ids().iter().eq(ids.iter().copied()), "{projection:?}");
+            assert!(ids.contains(&Some(many + 1)), "one of the far apart is seen");
+            for level in levels() {
+                let prepared = prepared.clone().drawn_with(level, 16);
+                fast::determine_visibility(&prepared, &view, &options, &mut unwatched, &mut ());
+                assert_eq!(unwatched.ids(), watched.ids(), "{level:?}");
+            }
+        }
     }
 }
 

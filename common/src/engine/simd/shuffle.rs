@@ -9,30 +9,27 @@ use fearless_simd::ExtractToken;
 
 /// Which of sixteen numbers each of sixteen lanes takes.
 ///
-/// Most levels shuffle bytes. For each vector, AVX2 would need sixteen instructions for that, and needs six to shuffle numbers,
-/// eight at a time. So the places are given both ways; the compiler leaves out what a level does not ask for.
+/// Most levels shuffle bytes. AVX-512 and AVX2 shuffle numbers, which asks for less: AVX2 would need sixteen instructions for a vector
+/// by its bytes, and needs six, eight numbers at a time. So the places are given both ways; the compiler leaves out what a level does
+/// not ask for.
 #[derive(Clone, Copy, Debug)]
 pub struct Shuffle<S: Simd> {
     bytes: u8x64<S>,
     /// The places in the low four bits; the others have no meaning.
-    #[cfg_attr(not(target_arch = "x86_64"), expect(dead_code, reason = "AVX2 alone asks for it"))]
+    #[cfg_attr(not(target_arch = "x86_64"), expect(dead_code, reason = "AVX levels ask for it"))]
     lanes: u32x16<S>,
 }
 
-/// Three shuffles that belong together, packed: for each lane, three bytes that are four times the place from which it takes
-/// its number, and a byte without meaning.
+/// Three shuffles that belong together, packed: for each lane, the three places from which it takes its numbers, in four bits each,
+/// the lowest first. The other twenty bits have no meaning.
 #[derive(Clone, Copy, Debug)]
 pub struct PackedShuffles<S: Simd>(u32x16<S>);
 
 impl<S: Simd> PackedShuffles<S> {
-    /// Reads them from memory: of each lane, three bytes that are four times a place of 0 to 15, and one of any value.
+    /// For sixteen lanes.
     #[inline(always)]
-    pub fn load(simd: S, packed: &[[u8; 4]; 16]) -> Self {
-        debug_assert!(
-            packed.iter().all(|[a, b, c, _]| [a, b, c].iter().all(|byte| **byte & !60 == 0)),
-            "levels would differ"
-        );
-        PackedShuffles(u8x64::from_slice(simd, packed.as_flattened()).bitcast())
+    pub fn new(packed: u32x16<S>) -> Self {
+        PackedShuffles(packed)
     }
 
     /// Those of the lanes in a mask, one behind the other. What the lanes behind these take has no meaning.
@@ -44,40 +41,41 @@ impl<S: Simd> PackedShuffles<S> {
     /// The three shuffles.
     #[inline(always)]
     pub fn unpack(self) -> [Shuffle<S>; 3] {
-        let simd = self.0.simd;
-        let bytes: u8x64<S> = self.0.bitcast();
-        let within = u8x64::load_array(simd, const { pattern([0, 1, 2, 3], 0) });
-        let of = [
-            u8x64::load_array(simd, const { pattern([0; 4], 4) }),
-            u8x64::load_array(simd, const { pattern([1; 4], 4) }),
-            u8x64::load_array(simd, const { pattern([2; 4], 4) }),
-        ];
-        let bytes = [
-            bytes.swizzle_dyn_within_blocks(of[0]) + within,
-            bytes.swizzle_dyn_within_blocks(of[1]) + within,
-            bytes.swizzle_dyn_within_blocks(of[2]) + within,
-        ];
-        [
-            Shuffle { bytes: bytes[0], lanes: self.0 >> 2 },
-            Shuffle { bytes: bytes[1], lanes: self.0 >> 10 },
-            Shuffle { bytes: bytes[2], lanes: self.0 >> 18 },
-        ]
+        [Shuffle::new(self.0), Shuffle::new(self.0 >> 4), Shuffle::new(self.0 >> 8)]
     }
 }
 
 impl<S: Simd> Shuffle<S> {
+    /// From the places in the low four bits; the others have no meaning.
+    #[inline(always)]
+    fn new(lanes: u32x16<S>) -> Self {
+        let simd = lanes.simd;
+        let spread = u8x64::load_array(simd, const { pattern([0; 4], 4) });
+        let within = u8x64::load_array(simd, const { pattern([0, 1, 2, 3], 0) });
+        let first: u8x64<S> = ((lanes & 15) << 2).bitcast();
+        Shuffle { bytes: first.swizzle_dyn_within_blocks(spread) + within, lanes }
+    }
+
     /// Sixteen numbers, each in the lanes that take it.
     #[inline(always)]
     pub fn of(self, numbers: f32x16<S>) -> f32x16<S> {
         #[cfg(target_arch = "x86_64")]
-        if let Level::Avx2(avx2) = numbers.simd.level() {
-            let simd = numbers.simd;
-            let (low, high) = numbers.split();
-            let take = |lanes: u32x8<S>| {
-                f32x8::simd_from(simd, avx2::eight(avx2, low.into(), high.into(), lanes.into()))
-            };
-            let (first, last) = self.lanes.split();
-            return simd.combine_f32x8(take(first), take(last));
+        match numbers.simd.level() {
+            Level::Avx512(avx512) => {
+                let taken = avx512::sixteen(avx512, numbers.into(), self.lanes.into());
+                return f32x16::simd_from(numbers.simd, taken);
+            }
+            Level::Avx2(avx2) => {
+                let simd = numbers.simd;
+                let (low, high) = numbers.split();
+                let take = |lanes: u32x8<S>| {
+                    let taken = avx2::eight(avx2, low.into(), high.into(), lanes.into());
+                    f32x8::simd_from(simd, taken)
+                };
+                let (first, last) = self.lanes.split();
+                return simd.combine_f32x8(take(first), take(last));
+            }
+            _ => {}
         }
         numbers.swizzle_dyn(self.bytes)
     }
@@ -172,6 +170,19 @@ const fn pattern(four: [u8; 4], step: u8) -> [u8; 64] {
 }
 
 #[cfg(target_arch = "x86_64")]
+mod avx512 {
+    use core::arch::x86_64::{__m512, __m512i, _mm512_permutexvar_ps};
+
+    fearless_simd::kernel!(
+        /// Sixteen lanes, each from one of sixteen numbers: the low four bits of the place say which.
+        #[inline(always)]
+        pub(super) fn sixteen(avx512: Avx512, numbers: __m512, lanes: __m512i) -> __m512 {
+            _mm512_permutexvar_ps(lanes, numbers)
+        }
+    );
+}
+
+#[cfg(target_arch = "x86_64")]
 mod avx2 {
     use core::arch::x86_64::{
         __m256, __m256i, _mm256_blendv_ps, _mm256_castsi256_ps, _mm256_permutevar8x32_ps,
@@ -224,14 +235,18 @@ mod tests {
         fn every_lane_takes_the_number_at_its_place(
             numbers in any_bits(),
             places in uniform16(uniform3(0_u8..16)),
-            without_meaning in any::<u8>(),
+            without_meaning in any_bits(),
             which in any_lanes(),
         ) {
-            let packed = places.map(|[a, b, c]| [4 * a, 4 * b, 4 * c, without_meaning]);
+            let mut packed = without_meaning.map(|bits| bits << 12);
+            for (packed, places) in packed.iter_mut().zip(places) {
+                let [a, b, c] = places.map(u32::from);
+                *packed |= a | b << 4 | c << 8;
+            }
             for level in levels() {
                 let taken: [[[f32; 16]; 3]; 2] = dispatch!(level, simd => {
                     let row = f32x16::load_array(simd, numbers.map(f32::from_bits));
-                    let all = PackedShuffles::load(simd, &packed);
+                    let all = PackedShuffles::new(u32x16::load_array(simd, packed));
                     let some = all.compress(mask32x16::from_bitmask(simd, which.into()));
                     [all, some].map(|packed| {
                         packed.unpack().map(|shuffle| shuffle.of(row).to_array())

@@ -34,6 +34,7 @@ pub(crate) fn build(scene: &Scene, side: usize, level: Level) -> Prepared {
     let mut prepared = Prepared {
         nodes: Vec::new(),
         indexed_leaves: Vec::new(),
+        scattered_leaves: Vec::new(),
         plain_leaves: Vec::new(),
         sphere_leaves: Vec::new(),
         instance_order: Vec::new(),
@@ -134,14 +135,20 @@ fn add_hierarchy(
         (root, counts) = tree.begun_with_node(&bounds, root, counts);
     }
     let (nodes, leaves) = (prepared.nodes.len(), prepared.leaf_counts());
-    let Arena { nodes: added, leaves: [indexed, plain, spheres, _] } = tree.shifted(nodes, leaves);
+    let Arena { nodes: added, leaves: [indexed, scattered, plain, spheres, _] } =
+        tree.shifted(nodes, leaves);
     append(&mut prepared.nodes, added);
     let (source, level) = (context.source, context.level);
     let indexed_leaf =
         |prims: &[PrimRef], corners: &mut CornerReader| leaves::indexed_leaf(prims, corners, level);
     append(&mut prepared.indexed_leaves, filled(source, prims, &indexed, indexed_leaf));
+    let scattered_leaf = |prims: &[PrimRef], corners: &mut CornerReader| {
+        leaves::scattered_leaf(prims, corners, level)
+    };
+    let scattered_leaves = filled(source, prims, &scattered, scattered_leaf);
+    append(&mut prepared.scattered_leaves, scattered_leaves);
     append(&mut prepared.plain_leaves, filled(source, prims, &plain, leaves::plain_leaf));
-    append(&mut prepared.sphere_leaves, filled(source, prims, &spheres, ids::<SPHERES>));
+    append(&mut prepared.sphere_leaves, filled(source, prims, &spheres, leaves::ids::<SPHERES>));
     MeshRoot { root: root.shifted(nodes, leaves), counts, bounds }
 }
 
@@ -162,11 +169,6 @@ fn filled<L: Send>(
     ranges
         .map_init(|| CornerReader::new(source), |corners, range| leaf(of(range), corners))
         .collect()
-}
-
-/// The ids of a leaf's primitives; unused lanes repeat the first.
-fn ids<const MOST: usize>(prims: &[PrimRef], _: &mut CornerReader) -> [u32; MOST] {
-    std::array::from_fn(|lane| prims.get(lane).unwrap_or(&prims[0]).id())
 }
 
 #[cfg(test)]

@@ -4,10 +4,10 @@
 //! Large triangles are drawn at once, because of what they hide. With small ones, leaves wait until the machine has
 //! fetched them, and triangles wait until there are eight, from several leaves.
 
-use super::instance_frustum::InstanceFrustum;
-use super::leaf::Leaf;
+use super::instance_frustum::{InstanceFrustum, PlacedBy};
+use super::leaf::{Leaf, ids_of};
 use super::tile_frustum::TileFrustum;
-use super::tree::{LEAF, NodeKind, NodeRef};
+use super::tree::{IndexedLeaf, LEAF, NodeKind, NodeRef, PlainLeaf};
 use crate::fast::local_projection::LocalProjection;
 use crate::fast::prepared::Prepared;
 use crate::fast::setup::TrianglePacket;
@@ -122,11 +122,14 @@ impl CandidateQueue {
         }
         for k in 0..count {
             let waiting = self.leaves[k];
-            let index = waiting.leaf.index();
-            if waiting.leaf.kind() == NodeKind::IndexedLeaf {
-                self.test_leaf(simd, &prepared.indexed_leaves[index], frustum, &waiting, test);
-            } else {
-                self.test_leaf(simd, &prepared.plain_leaves[index], frustum, &waiting, test);
+            let ids = ids_of(simd, prepared, waiting.leaf);
+            match find_leaf(prepared, waiting.leaf) {
+                FoundLeaf::Indexed(leaf) => {
+                    self.test_leaf(simd, (leaf, ids), frustum, &waiting, test);
+                }
+                FoundLeaf::Plain(leaf) => {
+                    self.test_leaf(simd, (leaf, ids), frustum, &waiting, test);
+                }
             }
         }
     }
@@ -142,13 +145,14 @@ impl CandidateQueue {
         waiting: &WaitingLeaf,
         test: Test,
     ) {
-        let (index, rays) = (waiting.leaf.index(), (frustum, instance));
-        if waiting.leaf.kind() == NodeKind::IndexedLeaf {
-            let leaf = &prepared.indexed_leaves[index];
-            apart!(simd, self.test_placed_leaf(simd, leaf, rays, waiting, test));
-        } else {
-            let leaf = &prepared.plain_leaves[index];
-            apart!(simd, self.test_placed_leaf(simd, leaf, rays, waiting, test));
+        let rays = (frustum, instance);
+        match find_leaf(prepared, waiting.leaf) {
+            FoundLeaf::Indexed(leaf) => {
+                apart!(simd, self.test_placed_leaf(simd, (prepared, leaf), rays, waiting, test))
+            }
+            FoundLeaf::Plain(leaf) => {
+                apart!(simd, self.test_placed_leaf(simd, (prepared, leaf), rays, waiting, test))
+            }
         }
     }
 
@@ -158,22 +162,29 @@ impl CandidateQueue {
     fn test_placed_leaf<S: Simd>(
         &mut self,
         simd: S,
-        leaf: &impl Leaf,
+        (prepared, leaf): (&Prepared, &impl Leaf),
         (frustum, instance): (&TileFrustum, &InstanceFrustum),
         waiting: &WaitingLeaf,
         test: Test,
     ) {
+        let PlacedBy { placement, first_name } = instance.place;
+        let names = |ids: u32x16<S>| ids + first_name;
         let projection = instance.projection(waiting.near);
         if (0.0..WORTHWHILE).contains(&projection.error) {
             let corners = leaf.project(simd, frustum, &projection);
             let passed = pass(simd, frustum, &corners, projection.error, test)
                 & mask32x16::from_bitmask(simd, (1 << waiting.used) - 1);
             if passed.any_true() {
-                self.keep(simd, &leaf.placed(simd, &instance.place), passed);
+                let names = names(ids_of(simd, prepared, waiting.leaf));
+                self.keep(simd, (&leaf.placed(simd, placement), names), passed);
             }
         } else {
-            let leaf = &leaf.placed(simd, &instance.place);
-            apart!(simd, self.test_leaf(simd, leaf, frustum, waiting, test));
+            let leaf = &leaf.placed(simd, placement);
+            let names = names(ids_of(simd, prepared, waiting.leaf)).to_array();
+            apart!(simd, {
+                let names = u32x16::load_array_ref(simd, &names);
+                self.test_leaf(simd, (leaf, names), frustum, waiting, test);
+            });
         }
     }
 
@@ -183,7 +194,7 @@ impl CandidateQueue {
     fn test_leaf<S: Simd>(
         &mut self,
         simd: S,
-        leaf: &impl Leaf,
+        (leaf, ids): (&impl Leaf, u32x16<S>),
         frustum: &TileFrustum,
         waiting: &WaitingLeaf,
         test: Test,
@@ -198,15 +209,19 @@ impl CandidateQueue {
             let test = if is_long { Test::Bounds } else { test };
             passed &= pass(simd, frustum, &corners, local.error, test);
         }
-        self.keep(simd, leaf, passed);
+        self.keep(simd, (leaf, ids), passed);
     }
 
     /// Keeps some triangles of a leaf.
     #[inline(always)]
-    fn keep<S: Simd>(&mut self, simd: S, leaf: &impl Leaf, passed: mask32x16<S>) {
+    fn keep<S: Simd>(
+        &mut self,
+        simd: S,
+        (leaf, ids): (&impl Leaf, u32x16<S>),
+        passed: mask32x16<S>,
+    ) {
         let at = self.end.min(ROOM - LEAF);
         leaf.gather(simd, passed, &mut self.corners, at);
-        let ids = u32x16::load_array_ref(simd, leaf.ids());
         Compression::new(passed).store(ids, &mut self.ids[at..at + LEAF]);
         self.end = at + passed.to_bitmask().count_ones() as usize;
     }
@@ -240,6 +255,25 @@ impl CandidateQueue {
         u32x8::from_slice(simd, &self.ids[first..first + EIGHT])
             .store_slice(&mut self.ids[..EIGHT]);
         [self.first, self.end] = [0, count];
+    }
+}
+
+/// A leaf in one of the ways in which its corners are stored.
+enum FoundLeaf<'a> {
+    Indexed(&'a IndexedLeaf),
+    Plain(&'a PlainLeaf),
+}
+
+/// The leaf that a reference to one refers to.
+#[inline(always)]
+fn find_leaf(prepared: &Prepared, leaf: NodeRef) -> FoundLeaf<'_> {
+    let (kind, index) = (leaf.kind(), leaf.index());
+    if kind == NodeKind::IndexedLeaf {
+        FoundLeaf::Indexed(&prepared.indexed_leaves[index])
+    } else if kind == NodeKind::ScatteredLeaf {
+        FoundLeaf::Indexed(&prepared.scattered_leaves[index].indexed)
+    } else {
+        FoundLeaf::Plain(&prepared.plain_leaves[index])
     }
 }
 

@@ -4,7 +4,7 @@
 use super::box_culling::{BoxCulling, BoxHits, Sides, longest_side};
 use super::tile_frustum::{FrustumTemplate, TileFrustum};
 use super::tile_place::TilePlace;
-use super::tree::{Bounds, LEAF, Node, WIDTH};
+use super::tree::{Bounds, Node, WIDTH};
 use crate::fast::local_projection::LocalProjection;
 use crate::fast::world_affine::{LARGEST, WorldAffine, narrowed, upward};
 use bothways_common::Placement;
@@ -468,12 +468,4 @@ fn parts(placement: &Placement) -> ([DVec3; 3], DVec3) {
     let [x, y, z] = placement.rows();
     let column = |k: usize| Vec3::new(x[k], y[k], z[k]).as_dvec3();
     ([column(0), column(1), column(2)], column(3))
-}
-
-impl PlacedBy<'_> {
-    /// The names of triangles of the mesh in this place.
-    #[inline(always)]
-    pub(super) fn names<S: Simd>(&self, simd: S, numbers: &[u32; LEAF]) -> [u32; LEAF] {
-        (u32x16::load_array_ref(simd, numbers) + self.first_name).to_array()
-    }
 }

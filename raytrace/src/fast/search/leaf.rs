@@ -1,18 +1,31 @@
 //! Leaves of triangles, in whichever way they are stored.
 
-use super::instance_frustum::PlacedBy;
+use super::packed_ids;
 use super::tile_frustum::TileFrustum;
-use super::tree::{IndexedLeaf, LEAF, PlainLeaf};
+use super::tree::{IndexedLeaf, LEAF, NodeKind, NodeRef, PlainLeaf};
 use crate::fast::local_projection::LocalProjection;
+use crate::fast::prepared::Prepared;
+use bothways_common::Placement;
 use bothways_common::engine::simd::{
-    Compression, PackedShuffles, Simd, SimdBase, f32x16, mask32x16,
+    Compression, PackedShuffles, Simd, SimdBase, f32x16, mask32x16, u32x16,
 };
+
+/// The ids of the triangles of a leaf; unused lanes repeat the first.
+#[inline(always)]
+pub(crate) fn ids_of<S: Simd>(simd: S, prepared: &Prepared, leaf: NodeRef) -> u32x16<S> {
+    let (kind, index) = (leaf.kind(), leaf.index());
+    if kind == NodeKind::IndexedLeaf {
+        let triangles = &prepared.indexed_leaves[index].triangles;
+        packed_ids::unpack(u32x16::load_array_ref(simd, triangles))
+    } else if kind == NodeKind::ScatteredLeaf {
+        u32x16::load_array_ref(simd, &prepared.scattered_leaves[index].ids)
+    } else {
+        u32x16::load_array_ref(simd, &prepared.plain_leaves[index].ids)
+    }
+}
 
 /// Up to sixteen triangles.
 pub(crate) trait Leaf: Sized {
-    /// The ids of the triangles; unused lanes repeat the first.
-    fn ids(&self) -> &[u32; LEAF];
-
     /// A vertex of the first triangle.
     fn first_vertex(&self) -> [f32; 3];
 
@@ -25,7 +38,7 @@ pub(crate) trait Leaf: Sized {
     ) -> [[f32x16<S>; 3]; 2];
 
     /// The leaf of a mesh where an instance puts it.
-    fn placed<S: Simd>(&self, simd: S, place: &PlacedBy) -> Self;
+    fn placed<S: Simd>(&self, simd: S, placement: &Placement) -> Self;
 
     /// Stores x, y, z of the first, second and third corners of some triangles, one triangle behind the other from
     /// index `at` on. What is behind them, up to sixteen, has no meaning then.
@@ -40,11 +53,6 @@ pub(crate) trait Leaf: Sized {
 
 impl Leaf for IndexedLeaf {
     #[inline(always)]
-    fn ids(&self) -> &[u32; LEAF] {
-        &self.ids
-    }
-
-    #[inline(always)]
     fn first_vertex(&self) -> [f32; 3] {
         self.vertices.map(|row| row[0])
     }
@@ -58,17 +66,14 @@ impl Leaf for IndexedLeaf {
     ) -> [[f32x16<S>; 3]; 2] {
         let [x, y, z] = &self.vertices;
         let [rows, columns] = local.project(simd, frustum, [x, y, z]);
-        let [a, b, c] = PackedShuffles::load(simd, &self.corners).unpack();
+        let [a, b, c] = PackedShuffles::new(u32x16::load_array_ref(simd, &self.triangles)).unpack();
         [[a.of(rows), b.of(rows), c.of(rows)], [a.of(columns), b.of(columns), c.of(columns)]]
     }
 
     #[inline(always)]
-    fn placed<S: Simd>(&self, simd: S, place: &PlacedBy) -> Self {
-        IndexedLeaf {
-            vertices: place.placement.sixteen_positions(simd, &self.vertices),
-            corners: self.corners,
-            ids: place.names(simd, &self.ids),
-        }
+    fn placed<S: Simd>(&self, simd: S, placement: &Placement) -> Self {
+        let vertices = placement.sixteen_positions(simd, &self.vertices);
+        IndexedLeaf { vertices, ..*self }
     }
 
     #[inline(always)]
@@ -79,7 +84,8 @@ impl Leaf for IndexedLeaf {
         to: &mut [[f32; ROOM]; 9],
         at: usize,
     ) {
-        let corners = PackedShuffles::load(simd, &self.corners).compress(which).unpack();
+        let triangles = u32x16::load_array_ref(simd, &self.triangles);
+        let corners = PackedShuffles::new(triangles).compress(which).unpack();
         for (axis, row) in self.vertices.iter().enumerate() {
             let row = f32x16::load_array_ref(simd, row);
             for (corner, shuffle) in corners.into_iter().enumerate() {
@@ -91,11 +97,6 @@ impl Leaf for IndexedLeaf {
 }
 
 impl Leaf for PlainLeaf {
-    #[inline(always)]
-    fn ids(&self) -> &[u32; LEAF] {
-        &self.ids
-    }
-
     #[inline(always)]
     fn first_vertex(&self) -> [f32; 3] {
         [self.corners[0][0], self.corners[1][0], self.corners[2][0]]
@@ -116,13 +117,13 @@ impl Leaf for PlainLeaf {
     }
 
     #[inline(always)]
-    fn placed<S: Simd>(&self, simd: S, place: &PlacedBy) -> Self {
+    fn placed<S: Simd>(&self, simd: S, placement: &Placement) -> Self {
         let mut corners = [[0.0; LEAF]; 9];
         let of_mesh = self.corners.as_chunks::<3>().0;
         for (corner, placed) in of_mesh.iter().zip(corners.as_chunks_mut().0) {
-            *placed = place.placement.sixteen_positions(simd, corner);
+            *placed = placement.sixteen_positions(simd, corner);
         }
-        PlainLeaf { corners, ids: place.names(simd, &self.ids) }
+        PlainLeaf { corners, ..*self }
     }
 
     #[inline(always)]

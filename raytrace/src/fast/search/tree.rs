@@ -33,6 +33,7 @@ pub(crate) struct NodeRef(u32);
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum NodeKind {
     IndexedLeaf,
+    ScatteredLeaf,
     PlainLeaf,
     Spheres,
     Instances,
@@ -50,14 +51,23 @@ pub(crate) const LEAF_KINDS: usize = NodeKind::Node as usize;
 pub(crate) struct LeafCounts(u8);
 
 /// A leaf of triangles that share their vertices, as those of most meshes do. Unused lanes repeat the first triangle.
+///
+/// It takes four lines of the cache, as most of what a frame of a large mesh waits for is its leaves.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(crate) struct IndexedLeaf {
     /// x, y and z of the vertices, as they are stored in the world.
     pub(crate) vertices: [[f32; LEAF]; 3],
-    /// For each triangle, at which byte of the rows its vertices `a`, `b` and `c` begin: four times their index. The
-    /// last byte is 0.
-    pub(crate) corners: [[u8; 4]; LEAF],
+    /// For each triangle, the indices of its vertices `a`, `b` and `c` in the lowest bits, four bits each, and above them its id,
+    /// [packed](super::packed_ids). The ids of a scattered leaf are 0 here.
+    pub(crate) triangles: [u32; LEAF],
+}
+
+/// An indexed leaf of triangles whose ids lie too far from each other to be packed.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub(crate) struct ScatteredLeaf {
+    pub(crate) indexed: IndexedLeaf,
     pub(crate) ids: [u32; LEAF],
 }
 
@@ -103,10 +113,11 @@ impl NodeRef {
     pub(crate) fn kind(self) -> NodeKind {
         match self.0 >> Self::BITS {
             0 => NodeKind::IndexedLeaf,
-            1 => NodeKind::PlainLeaf,
-            2 => NodeKind::Spheres,
-            3 => NodeKind::Instances,
-            4 => NodeKind::Node,
+            1 => NodeKind::ScatteredLeaf,
+            2 => NodeKind::PlainLeaf,
+            3 => NodeKind::Spheres,
+            4 => NodeKind::Instances,
+            5 => NodeKind::Node,
             _ => NodeKind::Instance,
         }
     }

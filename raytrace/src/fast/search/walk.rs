@@ -2,6 +2,7 @@
 
 use super::candidates::{CandidateQueue, EIGHT, Test, WaitingLeaf};
 use super::instance_frustum::{BoxPlaces, InstanceFrustum};
+use super::leaf::ids_of;
 use super::tile_frustum::{FrustumTemplate, TileFrustum};
 use super::tile_place::TilePlace;
 use super::tree::{INSTANCES, LeafCounts, Node, NodeKind, NodeRef, WIDTH};
@@ -14,7 +15,7 @@ use crate::fast::tile::TileBuffer;
 use crate::fast::{draw, one_primitive};
 use bothways_common::engine::context::{Context, ScalarContext};
 use bothways_common::engine::fault::Planted;
-use bothways_common::engine::simd::{apart, prefetch};
+use bothways_common::engine::simd::{SimdBase, apart, prefetch};
 use bothways_common::observe::Events;
 
 /// A node or leaf that is to be entered.
@@ -113,7 +114,7 @@ impl<'a> Walker<'a> {
                     self.enter(context, &frustum, entry.child.index(), farthest, class);
                     continue;
                 }
-                NodeKind::IndexedLeaf | NodeKind::PlainLeaf => {
+                NodeKind::IndexedLeaf | NodeKind::ScatteredLeaf | NodeKind::PlainLeaf => {
                     // What is seen of a near instance hides the far ones.
                     let flush = C::WATCHED
                         || class == SizeClass::Many
@@ -371,17 +372,15 @@ impl<'a> Walker<'a> {
     }
 
     /// Emits the tests of a ray alone against the triangles of a leaf.
-    fn emit_tests(&self, context: &mut impl ScalarContext, leaf: NodeRef, used: usize) {
+    #[inline(always)]
+    fn emit_tests(&self, context: &mut impl Context, leaf: NodeRef, used: usize) {
+        let ids = ids_of(context.simd(), self.prepared, leaf).to_array();
         let sink = context.sink();
         if let Some(counts) = sink.counts() {
             counts.tests += used as u64;
             return;
         }
         let Some(sample) = self.tile.sample(0) else { return };
-        let ids = match leaf.kind() {
-            NodeKind::IndexedLeaf => &self.prepared.indexed_leaves[leaf.index()].ids,
-            _ => &self.prepared.plain_leaves[leaf.index()].ids,
-        };
         let first_name = self.inside().map_or(0, |instance| instance.place.first_name);
         let id = |name: u32| self.tile.names.id(first_name + name);
         ids.iter().take(used).for_each(|name| sink.sample_tested(sample, id(*name)));
@@ -450,6 +449,7 @@ impl<'a> Walker<'a> {
         match child.kind() {
             NodeKind::Node => prefetch(&self.prepared.nodes[child.index()]),
             NodeKind::IndexedLeaf => prefetch(&self.prepared.indexed_leaves[child.index()]),
+            NodeKind::ScatteredLeaf => prefetch(&self.prepared.scattered_leaves[child.index()]),
             NodeKind::PlainLeaf => prefetch(&self.prepared.plain_leaves[child.index()]),
             NodeKind::Spheres | NodeKind::Instances | NodeKind::Instance => {}
         }

@@ -5,7 +5,7 @@
 //! GPUs Through Compressed Wide BVHs", High-Performance Graphics, 2017.
 
 use super::arena::{Arena, LeafRange};
-use super::leaves::{put_duplicates_last, share_vertices};
+use super::leaves::{kind_of, put_duplicates_last};
 use super::prim_ref::{CornerReader, PrimRef};
 use super::split::{BuildContext, BuildRecord, Kind, Split, split};
 use crate::fast::search::tree::{Bounds, LeafCounts, Node, NodeKind, NodeRef, WIDTH};
@@ -91,8 +91,7 @@ impl BinaryTree {
             Kind::Instances => (NodeKind::Instances, count),
             Kind::Triangles => {
                 let corners = &mut CornerReader::new(context.source);
-                let is_indexed = share_vertices(record.prims, corners, context.level);
-                let kind = if is_indexed { NodeKind::IndexedLeaf } else { NodeKind::PlainLeaf };
+                let kind = kind_of(record.prims, corners, context.level);
                 (kind, put_duplicates_last(record.prims, corners))
             }
         };

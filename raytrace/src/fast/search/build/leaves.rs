@@ -1,7 +1,8 @@
 //! Leaves of triangles.
 
 use super::prim_ref::{CornerReader, PrimRef, place_bits};
-use crate::fast::search::tree::{IndexedLeaf, LEAF, PlainLeaf};
+use crate::fast::search::packed_ids;
+use crate::fast::search::tree::{IndexedLeaf, LEAF, NodeKind, PlainLeaf, ScatteredLeaf};
 use bothways_common::Mesh;
 use bothways_common::engine::simd::{Level, Simd, SimdBase, SimdMask, dispatch, mask32x16, u32x16};
 use bothways_common::scene::are_same_corners;
@@ -68,10 +69,10 @@ impl<const WORDS: usize> Corners<WORDS> {
         true
     }
 
-    /// The leaf of these triangles; `position_of` finds where a vertex is.
+    /// The leaf of these triangles, without their ids; `position_of` finds where a vertex is.
     fn leaf(&self, prims: &[PrimRef], position_of: impl Fn([u32; WORDS]) -> Vec3) -> IndexedLeaf {
-        // For each first corner, the byte at which its vertex begins in a row.
-        let mut bytes = [0; CORNERS];
+        // For each first corner, the index of its vertex.
+        let mut indices = [0; CORNERS];
         let (mut vertices, mut count) = ([[0.0; LEAF]; 3], 0);
         // Vertices are numbered in the order of their first corners.
         let mut are_left = self.are_first;
@@ -82,21 +83,19 @@ impl<const WORDS: usize> Corners<WORDS> {
             for (row, coordinate) in vertices.iter_mut().zip(position.to_array()) {
                 row[count] = coordinate;
             }
-            bytes[corner] = u8::try_from(4 * count).expect("there are sixteen at most");
+            indices[corner] = u32::try_from(count).expect("there are sixteen at most");
             count += 1;
         }
         for row in &mut vertices {
             let first = row[0];
             row[count..].fill(first);
         }
-        let mut leaf = IndexedLeaf { vertices, corners: [[0; 4]; LEAF], ids: [0; LEAF] };
-        for lane in 0..LEAF {
+        let triangles = std::array::from_fn(|lane| {
             let from = if lane < prims.len() { lane } else { 0 };
-            let [a, b, c] = [0, 1, 2].map(|k| bytes[usize::from(self.firsts[3 * from + k])]);
-            leaf.corners[lane] = [a, b, c, 0];
-            leaf.ids[lane] = prims[from].id();
-        }
-        leaf
+            let [a, b, c] = [0, 1, 2].map(|k| indices[usize::from(self.firsts[3 * from + k])]);
+            a | b << 4 | c << 8
+        });
+        IndexedLeaf { vertices, triangles }
     }
 }
 
@@ -115,10 +114,16 @@ impl Corners<3> {
     }
 }
 
-/// Whether there are few enough vertices for an indexed leaf.
-pub(super) fn share_vertices(prims: &[PrimRef], corners: &mut CornerReader, level: Level) -> bool {
+/// The kind of leaf that has room for the vertices of triangles, and for their ids.
+pub(super) fn kind_of(prims: &[PrimRef], corners: &mut CornerReader, level: Level) -> NodeKind {
     let by_index = corners.mesh_of(prims).and_then(|of| Corners::by_index(prims, of, level));
-    by_index.is_some() || Corners::by_place(prims, corners, level).is_some()
+    if by_index.is_none() && Corners::by_place(prims, corners, level).is_none() {
+        NodeKind::PlainLeaf
+    } else if packed_ids::can_be_packed(prims.iter().map(PrimRef::id)) {
+        NodeKind::IndexedLeaf
+    } else {
+        NodeKind::ScatteredLeaf
+    }
 }
 
 /// Orders the triangles of a leaf so that duplicates, which are never visible, come last: a duplicate has the same
@@ -159,12 +164,30 @@ fn box_keys(prims: &[PrimRef]) -> [u32; LEAF] {
     keys
 }
 
-/// The leaf of some triangles with few distinct vertices.
+/// The leaf of some triangles with few distinct vertices, and with ids that can be packed.
 pub(super) fn indexed_leaf(
     prims: &[PrimRef],
     corners: &mut CornerReader,
     level: Level,
 ) -> IndexedLeaf {
+    let mut leaf = without_ids(prims, corners, level);
+    for (triangle, id) in leaf.triangles.iter_mut().zip(packed_ids::pack(&ids(prims, corners))) {
+        *triangle |= id;
+    }
+    leaf
+}
+
+/// The leaf of some triangles with few distinct vertices, whatever their ids.
+pub(super) fn scattered_leaf(
+    prims: &[PrimRef],
+    corners: &mut CornerReader,
+    level: Level,
+) -> ScatteredLeaf {
+    ScatteredLeaf { indexed: without_ids(prims, corners, level), ids: ids(prims, corners) }
+}
+
+/// The leaf of some triangles with few distinct vertices, with their vertices alone.
+fn without_ids(prims: &[PrimRef], corners: &mut CornerReader, level: Level) -> IndexedLeaf {
     // If the indices alone show few vertices, only the positions of those few are read.
     if let Some((mesh, first_id)) = corners.mesh_of(prims)
         && let Some(found) = Corners::by_index(prims, (mesh, first_id), level)
@@ -178,10 +201,8 @@ pub(super) fn indexed_leaf(
 
 /// The leaf of any triangles.
 pub(super) fn plain_leaf(prims: &[PrimRef], corners: &mut CornerReader) -> PlainLeaf {
-    let mut leaf = PlainLeaf { corners: [[0.0; LEAF]; 9], ids: [0; LEAF] };
-    for lane in 0..LEAF {
-        let id = prims.get(lane).unwrap_or(&prims[0]).id();
-        leaf.ids[lane] = id;
+    let mut leaf = PlainLeaf { corners: [[0.0; LEAF]; 9], ids: ids(prims, corners) };
+    for (lane, id) in leaf.ids.into_iter().enumerate() {
         for (corner, position) in corners.of(id).into_iter().enumerate() {
             for axis in 0..3 {
                 leaf.corners[3 * corner + axis][lane] = position[axis];
@@ -189,4 +210,9 @@ pub(super) fn plain_leaf(prims: &[PrimRef], corners: &mut CornerReader) -> Plain
         }
     }
     leaf
+}
+
+/// The ids of a leaf's primitives; unused lanes repeat the first.
+pub(super) fn ids<const MOST: usize>(prims: &[PrimRef], _: &mut CornerReader) -> [u32; MOST] {
+    std::array::from_fn(|lane| prims.get(lane).unwrap_or(&prims[0]).id())
 }

@@ -1,9 +1,10 @@
 //! The required properties of a hierarchy.
 
-use super::super::tree::{LEAF, LeafCounts, Node, NodeKind, NodeRef};
+use super::super::leaf::ids_of;
+use super::super::tree::{IndexedLeaf, LEAF, LeafCounts, Node, NodeKind, NodeRef};
 use super::split::DEEP;
 use super::*;
-use bothways_common::engine::simd::{best_level, levels};
+use bothways_common::engine::simd::{SimdBase, best_level, dispatch, levels};
 use bothways_common::scene::{Instances, Placement};
 use bothways_common::{Mesh, Object, Plane, Shape, Sphere};
 use glam::Vec3;
@@ -19,25 +20,37 @@ fn built(scene: &Scene) -> Prepared {
     build(scene, 16, best_level())
 }
 
+/// The ids of a leaf's triangles.
+fn ids_in(prepared: &Prepared, leaf: NodeRef) -> [u32; LEAF] {
+    dispatch!(best_level(), simd => ids_of(simd, prepared, leaf).to_array())
+}
+
+/// The indices of the vertices of a triangle.
+fn indices(leaf: &IndexedLeaf, lane: usize) -> [usize; 3] {
+    [0, 4, 8].map(|bit| (leaf.triangles[lane] >> bit & 15) as usize)
+}
+
 /// The ids and the corners of a leaf's triangles.
 fn triangles(prepared: &Prepared, leaf: NodeRef, count: usize) -> Vec<(u32, [Vec3; 3])> {
-    let triangle = |lane: usize| match leaf.kind() {
-        NodeKind::IndexedLeaf => {
-            let indexed = &prepared.indexed_leaves[leaf.index()];
-            let [a, b, c, last] = indexed.corners[lane];
-            assert_eq!(last, 0);
-            let vertex =
-                |byte: u8| Vec3::from_array(indexed.vertices.map(|row| row[usize::from(byte / 4)]));
-            (indexed.ids[lane], [a, b, c].map(vertex))
+    let of_vertices = |indexed: &IndexedLeaf, lane: usize| {
+        let vertex = |index: usize| Vec3::from_array(indexed.vertices.map(|row| row[index]));
+        indices(indexed, lane).map(vertex)
+    };
+    let corners = |lane: usize| match leaf.kind() {
+        NodeKind::IndexedLeaf => of_vertices(&prepared.indexed_leaves[leaf.index()], lane),
+        NodeKind::ScatteredLeaf => {
+            of_vertices(&prepared.scattered_leaves[leaf.index()].indexed, lane)
         }
         NodeKind::PlainLeaf => {
             let leaf = &prepared.plain_leaves[leaf.index()];
             let corner =
                 |k: usize| Vec3::from_array([0, 1, 2].map(|axis| leaf.corners[3 * k + axis][lane]));
-            (leaf.ids[lane], [0, 1, 2].map(corner))
+            [0, 1, 2].map(corner)
         }
         kind => panic!("{kind:?} in a scene of triangles"),
     };
+    let ids = ids_in(prepared, leaf);
+    let triangle = |lane: usize| (ids[lane], corners(lane));
     // Unused lanes repeat the first lane.
     assert!((count..LEAF).all(|lane| triangle(lane) == triangle(0)));
     (0..count).map(triangle).collect()
@@ -120,9 +133,10 @@ fn threads_and_simd_change_no_bit_of_a_hierarchy() {
         let shown = |threads: usize, level: Level| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             let built = pool.install(|| build(&scene, 16, level));
-            let Prepared { nodes, indexed_leaves, plain_leaves, .. } = &built;
+            let Prepared { nodes, indexed_leaves, scattered_leaves, plain_leaves, .. } = &built;
             let Prepared { roots, bounds, instance_order, meshes, .. } = &built;
-            let leaves = format!("{indexed_leaves:?} {plain_leaves:?} {instance_order:?}");
+            let leaves = format!("{indexed_leaves:?} {scattered_leaves:?} {plain_leaves:?}");
+            let leaves = format!("{leaves} {instance_order:?}");
             format!("{nodes:?} {leaves} {roots:?} {bounds:?} {meshes:?}")
         };
         let expected = shown(1, best_level());
@@ -142,10 +156,12 @@ fn vertices_are_shared_by_index_or_by_place() {
     // A leaf of 2 × 3 cells of the height field has 12 vertices, whether the mesh names each once or six times. Those of
     // scattered triangles are not shared.
     let of = |object: u32| {
-        let is_of = |id: u32| id / 20_000 == object;
-        let indexed = prepared.indexed_leaves.iter().filter(|leaf| is_of(leaf.ids[0])).count();
-        let plain = prepared.plain_leaves.iter().filter(|leaf| is_of(leaf.ids[0])).count();
-        (indexed, plain)
+        let of_kind = |kind: NodeKind, all: usize| {
+            let leaves = (0..all).map(|index| NodeRef::new(kind, index));
+            leaves.filter(|leaf| ids_in(&prepared, *leaf)[0] / 20_000 == object).count()
+        };
+        let (indexed, plain) = (&prepared.indexed_leaves, &prepared.plain_leaves);
+        (of_kind(NodeKind::IndexedLeaf, indexed.len()), of_kind(NodeKind::PlainLeaf, plain.len()))
     };
     let ((shared, no), (apart, none), (few, many)) = (of(0), of(1), of(2));
     assert!(shared > 1200 && apart > 1200 && many > 300, "{shared}, {apart} and {many}");
@@ -164,8 +180,8 @@ fn a_vertex_is_known_by_its_index_if_there_are_few() {
         let ids: Vec<u32> = (0..u32::try_from(triangles.len()).unwrap()).collect();
         assert_eq!(inspect(&prepared, &scene), (0, ids));
         let leaf = prepared.indexed_leaves.first()?;
-        let used = leaf.corners[..triangles.len()].as_flattened().iter();
-        used.max().map(|last| last / 4 + 1)
+        let used = (0..triangles.len()).flat_map(|lane| indices(leaf, lane));
+        used.max().map(|last| last + 1)
     };
     // Index 0 is not taken for a corner that is not used, first or later.
     assert_eq!(corners_of(&[[0, 1, 2], [3, 2, 1]]), Some(4));
@@ -213,6 +229,23 @@ fn a_leaf_may_hold_triangles_of_two_meshes() {
     let prepared = built(&scene);
     assert_eq!(inspect(&prepared, &scene), (0, vec![0, 1]));
     assert_eq!((prepared.indexed_leaves.len(), prepared.plain_leaves.len()), (1, 0));
+}
+
+#[test]
+fn a_leaf_may_hold_triangles_whose_ids_are_far_apart() {
+    for between in [100, 600_000] {
+        let [a, b, c, d] = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::ONE];
+        let mut positions = vec![a, b, c];
+        positions.extend([a, b, c].map(|corner| corner + 1000.0 * Vec3::Z).repeat(between));
+        positions.extend([b, d, c]);
+        let scene = mesh(positions);
+        let prepared = built(&scene);
+        let last = u32::try_from(between).unwrap() + 1;
+        assert_eq!(inspect(&prepared, &scene), (0, vec![0, 1, last]));
+        let scattered = usize::from(between > 524_288);
+        assert_eq!(prepared.scattered_leaves.len(), scattered);
+        assert_eq!(prepared.indexed_leaves.len(), 2 - scattered);
+    }
 }
 
 /// More instances than have their boxes at hand at one time, in two objects, and the places of all.
@@ -303,7 +336,7 @@ fn duplicates_in_a_leaf_come_last() {
     let scene = mesh(vec![a, b, c, c, a, b, a, b, d, b, a, c]);
     let prepared = built(&scene);
     assert_eq!(prepared.nodes[0].counts[0], LeafCounts::new(4, 2));
-    assert_eq!(prepared.indexed_leaves[0].ids[..2], [0, 2]);
+    assert_eq!(ids_in(&prepared, prepared.nodes[0].children[0])[..2], [0, 2]);
 }
 
 #[test]
@@ -317,7 +350,7 @@ fn halves_of_a_square_are_no_duplicates_though_they_have_one_box() {
     let all = [halves[0], again, halves[1], once_more, [b, e, c], [c, e, b]];
     let prepared = built(&mesh(all.concat()));
     assert_eq!(prepared.nodes[0].counts[0], LeafCounts::new(6, 3));
-    assert_eq!(prepared.indexed_leaves[0].ids[..3], [0, 2, 4]);
+    assert_eq!(ids_in(&prepared, prepared.nodes[0].children[0])[..3], [0, 2, 4]);
     // Where triangles here and there take turns, dividing them mixes their order.
     let here_and_there =
         |triangle: [Vec3; 3]| [triangle, triangle.map(|corner| corner + 100.0 * Vec3::X)].concat();
