@@ -3,6 +3,13 @@
 use super::world_affine::{LARGEST, upward};
 use bothways_common::engine::roundoff::EPS24;
 
+/// The reciprocal of a `t`; infinite if that is not positive.
+#[inline(always)]
+pub(super) fn reciprocal(t: f32) -> f32 {
+    // NaN is not positive.
+    1.0 / if t > 0.0 { t } else { 0.0 }
+}
+
 /// Errors are derived for this many columns beyond the tile; none farther out is used.
 const BESIDE: f64 = 3.0;
 
@@ -74,22 +81,21 @@ impl LocalErrors {
         self.rounding
     }
 
-    /// An upper estimate of how many columns or rows apart places of a leaf of such a size are, in which no `t` is less than `near`;
-    /// see [`LocalErrors::of`].
+    /// An upper estimate of how many columns or rows apart places of a leaf of such a size are, in which no `t` is less than
+    /// `1 / by_near`; see [`LocalErrors::of`].
     #[inline(always)]
-    pub(super) fn extent(&self, size: f32, near: f32) -> f32 {
+    pub(super) fn extent(&self, size: f32, by_near: f32) -> f32 {
         // Nine roundings of it are in `away`.
-        self.away * (1.0 / (9.0 * EPS24)) * size / near
+        self.away * (1.0 / (9.0 * EPS24)) * size * by_near
     }
 
-    /// How far a row or column may be off in a leaf of such a size, in which no `t` is less than `near`; `vertex` is
-    /// the row and column of the projection's vertex. At least `36·ε₂₄`. Infinite or NaN if numbers might overflow, or
+    /// How far a row or column may be off in a leaf of such a size, in which no `t` is less than `1 / by_near`, but for two
+    /// roundings of that; `vertex` is the row and column of the projection's vertex. At least `36·ε₂₄`. Infinite or NaN if numbers might overflow, or
     /// vertices lie behind the eye.
     #[inline(always)]
-    pub(super) fn of(&self, size: f32, vertex: [f32; 2], near: f32) -> f32 {
+    pub(super) fn of(&self, size: f32, vertex: [f32; 2], by_near: f32) -> f32 {
         const ROUNDINGS: f32 = 1.0 + 16.0 * EPS24;
-        let near = if near > 0.0 { near } else { f32::NAN };
-        let vertex = vertex[0].abs().max(vertex[1].abs()) * (2.5 * EPS24);
-        (self.away * size + vertex + self.at_vertex) / near * ROUNDINGS + self.rounding
+        let vertex = (vertex[0].abs() + vertex[1].abs()) * (2.5 * EPS24);
+        (self.away * size + self.at_vertex + vertex) * (by_near * ROUNDINGS) + self.rounding
     }
 }

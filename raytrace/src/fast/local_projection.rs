@@ -1,10 +1,11 @@
 //! Projects the vertices of a leaf in `f32`: one of them in `f64`, and the others, which lie near it, by their offsets
 //! from it. So digits that the eye's distance takes are not missed.
 
+use super::local_errors::reciprocal;
 use super::search::tile_frustum::TileFrustum;
 use super::search::tree::LEAF;
-use super::world_affine::{WorldAffine, narrowed};
-use bothways_common::engine::simd::{Simd, SimdBase, f32x16};
+use super::world_affine::WorldAffine;
+use bothways_common::engine::simd::{Simd, SimdBase, SimdNarrow, f32x16, f64x4};
 
 /// The map of [`super::camera_map`] about a vertex.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +23,8 @@ impl LocalProjection {
     /// For a leaf of which no vertex is farther from this one along any axis than `size`, nor has a `t` less than
     /// `near`, as computed with [`super::search::box_culling`].
     #[inline(always)]
-    pub(super) fn new(
+    pub(super) fn new<S: Simd>(
+        simd: S,
         frustum: &TileFrustum,
         vertex: [f32; 3],
         size: f32,
@@ -30,12 +32,12 @@ impl LocalProjection {
     ) -> LocalProjection {
         let template = frustum.template;
         let [x, y, z] = [0, 1, 2].map(|axis| f64::from(vertex[axis]) - template.eye[axis]);
-        let at_vertex = |row: usize| {
-            let [nx, ny, nz] = frustum.rows[row];
-            narrowed(x * nx + y * ny + z * nz + frustum.shift[row])
-        };
-        let [t, column, row] = [at_vertex(0), at_vertex(1), at_vertex(2)];
+        let [of_x, of_y, of_z, shift] =
+            frustum.columns.each_ref().map(|column| f64x4::load_array_ref(simd, column));
+        let at_vertex = of_x * x + of_y * y + of_z * z + shift;
+        let [t, column, row, ..] = at_vertex.narrow(at_vertex).to_array();
         let near = if template.parallel { 1.0 } else { template.boxes.nearest(near) };
+        let by_near = reciprocal(near);
         let [of_t, across, down] = frustum.normals;
         LocalProjection {
             vertex,
@@ -44,8 +46,8 @@ impl LocalProjection {
                 WorldAffine { normal: across, offset: column },
                 WorldAffine { normal: down, offset: row },
             ],
-            error: template.local.of(size, [row, column], near),
-            extent: template.local.extent(size, near),
+            error: template.local.of(size, [row, column], by_near),
+            extent: template.local.extent(size, by_near),
         }
     }
 

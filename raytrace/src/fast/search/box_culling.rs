@@ -18,6 +18,8 @@ pub(crate) struct BoxCulling {
     /// The same relative to the eye, and its `t`.
     pub(crate) from_eye: DVec3,
     pub(super) t_at_origin: f64,
+    /// What is added to a computed `t`, so that it is not more than the exact one, but for the rounding of the sum.
+    pub(super) t_before: f32,
     /// `t` less that of the origin.
     pub(super) t: WorldAffine,
     /// The computed `t` of a point in front of the eye is not smaller.
@@ -107,6 +109,7 @@ impl BoxCulling {
             origin: origin.to_array(),
             from_eye,
             t_at_origin,
+            t_before: narrowed(t_at_origin - f64::from(t_error)).next_down(),
             t: WorldAffine::new(row_of_t, 0.0),
             least_t: narrowed(-t_at_origin - f64::from(t_error)).next_down(),
             t_error,
@@ -122,10 +125,10 @@ impl BoxCulling {
         (upward(t - self.t_at_origin) + self.t_error).next_up()
     }
 
-    /// The exact `t` that nothing with this computed one is nearer than.
+    /// The exact `t` that nothing with this computed one is nearer than, but for one rounding.
     #[inline(always)]
     pub(crate) fn nearest(&self, t: f32) -> f32 {
-        narrowed(f64::from(t) + (self.t_at_origin - f64::from(self.t_error))).next_down()
+        t + self.t_before
     }
 
     /// Finds the boxes of a node that a ray of a tile with these sides may meet before `farthest`.

@@ -16,8 +16,9 @@ use bothways_common::engine::simd::{
     u32x16,
 };
 
-/// At most this many leaves wait.
-const LEAVES: usize = 4;
+/// At most this many leaves wait, and half of them are tested together then.
+const LEAVES: usize = 8;
+const RIPE: usize = LEAVES / 2;
 /// Triangles that are set up together.
 pub(crate) const EIGHT: usize = 8;
 /// Room for this many triangles: those of all leaves, and those that are stored before it is known how many count.
@@ -90,7 +91,7 @@ impl CandidateQueue {
         self.end - self.first
     }
 
-    /// Tests the triangles of the two leaves that have waited longest, or of `all`, and keeps those that pass. Seven
+    /// Tests the triangles of the half that has waited longest, or of `all`, and keeps those that pass. Seven
     /// triangles may wait already. It is compiled once for all loops that call it.
     #[inline(never)]
     pub(crate) fn test_leaves<S: Simd>(
@@ -101,9 +102,9 @@ impl CandidateQueue {
         test: Test,
         all: bool,
     ) {
-        let ripe = if all { self.leaf_count.min(LEAVES) } else { 2 };
+        let ripe = if all { self.leaf_count.min(LEAVES) } else { RIPE };
         apart!(simd, self.test_first(simd, ripe, prepared, frustum, test));
-        self.leaves.copy_within(2.., 0);
+        self.leaves.copy_within(RIPE.., 0);
         self.leaf_count -= ripe;
     }
 
@@ -200,7 +201,8 @@ impl CandidateQueue {
         test: Test,
     ) {
         let mut passed = mask32x16::from_bitmask(simd, (1 << waiting.used) - 1);
-        let local = LocalProjection::new(frustum, leaf.first_vertex(), waiting.size, waiting.near);
+        let local =
+            LocalProjection::new(simd, frustum, leaf.first_vertex(), waiting.size, waiting.near);
         if local.is_useful() {
             let corners = leaf.project(simd, frustum, &local);
             // How many samples of the tile other triangles cover says nothing of slivers that are much longer than it: most of
@@ -306,7 +308,7 @@ fn pass<S: Simd>(
         return !(missed | is_between_edges(simd, frustum, [y, x], error));
     }
     let more = columns.last - columns.first + (rows.last - rows.first);
-    let doubt = (columns.size.max(rows.size) * 5.0 + 8.0 * error) * error;
+    let doubt = (9.0 + 7.0 * error) * error;
     let beside = is_beside([y, x], [rows.first, columns.first], doubt)
         & is_beside([y, x], [rows.last, columns.last], doubt);
     !(missed | more.simd_le(f32x16::splat(simd, 1.0)) & beside)
@@ -316,8 +318,6 @@ fn pass<S: Simd>(
 struct Between<S: Simd> {
     first: f32x16<S>,
     last: f32x16<S>,
-    /// From the first corner to the last.
-    size: f32x16<S>,
     /// None of them is in the tile.
     none: mask32x16<S>,
 }
@@ -330,7 +330,7 @@ impl<S: Simd> Between<S> {
         let (low, high) = (a.min(*b).min(*c), a.max(*b).max(*c));
         let (first, last) = ((low - error).ceil(), (high + error).floor());
         let none = last.min(end).simd_lt(first.max(f32x16::splat(simd, 0.0)));
-        Between { first, last, size: high - low, none }
+        Between { first, last, none }
     }
 }
 
@@ -375,15 +375,14 @@ fn is_between_edges<S: Simd>(
 /// `doubt`. There is at most one other sample between their corners, beside it.
 ///
 /// The sample lies between the corners but for an error `e` of less than 1/16. So none is farther from it along an axis
-/// than `m`, the triangle's size along an axis and `e`, and along one axis not farther than 1 and `e`. Two products are off
+/// than `m`, which is 2 and `e`: the other sample, and what lies before the next one. Two products are off
 /// by at most `4·m·e + 2·e²`; their factors' roundings, their own and that of their difference bring less than `9·m·ε₂₄`,
-/// which is less than `m·e/2`, as `e` is at least `36·ε₂₄`. So `(5·s + 8·e)·e` is more than all, with `s` the size as it is
-/// computed.
+/// which is less than `m·e/2`, as `e` is at least `36·ε₂₄`. So `(9 + 7·e)·e` is more than all.
 #[inline(always)]
 fn is_beside<S: Simd>(
     [y, x]: [&[f32x16<S>; 3]; 2],
     [row, column]: [f32x16<S>; 2],
-    doubt: f32x16<S>,
+    doubt: f32,
 ) -> mask32x16<S> {
     let x = [x[0] - column, x[1] - column, x[2] - column];
     let y = [y[0] - row, y[1] - row, y[2] - row];

@@ -15,6 +15,8 @@ pub(crate) struct TileFrustum<'a> {
     /// The map: a row for `t`, one for columns, one for rows; and what is added.
     pub(crate) rows: [[f64; 3]; 3],
     pub(crate) shift: [f64; 3],
+    /// The columns of the same, and what is added; the fourth numbers are 0.
+    pub(crate) columns: [[f64; 4]; 4],
     /// The row and column of the tile's middle, and its `x` and `y` on the viewport.
     pub(crate) middle: [f64; 2],
     pub(crate) viewport: [f64; 2],
@@ -101,8 +103,10 @@ impl FrustumTemplate {
         ];
         let normals = [t, across, down].map(|row| row.as_vec3().to_array());
         let rows = [t.to_array(), across.to_array(), down.to_array()];
+        let column = |axis: usize| [t[axis], across[axis], down[axis], 0.0];
+        let columns = [column(0), column(1), column(2), [shift[0], shift[1], shift[2], 0.0]];
         let viewport = [x, y];
-        TileFrustum { template: self, rows, shift, middle, viewport, normals, sides }
+        TileFrustum { template: self, rows, shift, columns, middle, viewport, normals, sides }
     }
 }
 
