@@ -232,7 +232,7 @@ impl Walker<'_> {
             counts.nodes += u64::from(node.used) * u64::from(rays.count_ones());
         }
         let hits = square.test(context, frustum, self.prepared, index);
-        let unsorted = if node.only_leaves { rays & square.very_few } else { 0 };
+        let unsorted = if node.only_triangles { rays & square.very_few } else { 0 };
         for (rays, sorted) in [(unsorted, false), (rays & !unsorted, true)] {
             if rays == 0 {
                 continue;

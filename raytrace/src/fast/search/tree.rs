@@ -21,8 +21,8 @@ pub(crate) struct Node {
     pub(crate) children: [NodeRef; WIDTH],
     pub(crate) counts: [LeafCounts; WIDTH],
     pub(crate) used: u8,
-    /// Whether all its children are leaves.
-    pub(crate) only_leaves: bool,
+    /// Whether all its children are leaves of triangles.
+    pub(crate) only_triangles: bool,
 }
 
 /// Refers to a node, a leaf or an instance: its kind in three bits, its index in the others.
@@ -40,6 +40,14 @@ pub(crate) enum NodeKind {
     Node,
     /// One instance of a mesh, by its number.
     Instance,
+}
+
+impl NodeKind {
+    /// Whether it is a leaf of triangles.
+    #[inline(always)]
+    pub(crate) fn holds_triangles(self) -> bool {
+        matches!(self, NodeKind::IndexedLeaf | NodeKind::ScatteredLeaf | NodeKind::PlainLeaf)
+    }
 }
 
 /// How many kinds of leaves there are: all kinds before nodes.
@@ -142,7 +150,7 @@ impl Node {
             children: [NodeRef(0); WIDTH],
             counts: [LeafCounts::default(); WIDTH],
             used: 0,
-            only_leaves: true,
+            only_triangles: true,
         }
     }
 
@@ -160,7 +168,7 @@ impl Node {
             self.bounds[3 + axis][lane] = bounds.high[axis];
         }
         self.children[lane] = child;
-        self.only_leaves &= !matches!(child.kind(), NodeKind::Node);
+        self.only_triangles &= child.kind().holds_triangles();
         self.used += 1;
     }
 }

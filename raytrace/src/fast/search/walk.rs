@@ -1,5 +1,6 @@
 //! The walk of a tile's rays through the hierarchy, near boxes first.
 
+use super::box_culling::BoxHits;
 use super::candidates::{CandidateQueue, EIGHT, Test, WaitingLeaf};
 use super::instance_frustum::{BoxPlaces, InstanceFrustum};
 use super::leaf::ids_of;
@@ -111,8 +112,10 @@ impl<'a> Walker<'a> {
             }
             match entry.child.kind() {
                 NodeKind::Node => {
-                    self.enter(context, &frustum, entry.child.index(), farthest, class);
-                    continue;
+                    let index = entry.child.index();
+                    let drawn = self.enter(context, &frustum, index, farthest, class);
+                    let Some(drawn) = drawn else { continue };
+                    class = drawn;
                 }
                 NodeKind::IndexedLeaf | NodeKind::ScatteredLeaf | NodeKind::PlainLeaf => {
                     // What is seen of a near instance hides the far ones.
@@ -387,7 +390,8 @@ impl<'a> Walker<'a> {
     }
 
     /// Tests the boxes of a node and pushes those that a ray of the tile may meet: near ones last, so that they come
-    /// first; leaves with triangles over very few samples in any order.
+    /// first. Leaves with triangles over very few samples are opened at once, in any order; if triangles were drawn meanwhile,
+    /// this returns the size class of the last ones.
     #[inline(always)]
     fn enter<C: Context>(
         &mut self,
@@ -396,9 +400,9 @@ impl<'a> Walker<'a> {
         index: usize,
         farthest: f32,
         class: SizeClass,
-    ) {
+    ) -> Option<SizeClass> {
         if C::has(Planted::ForgottenNode) && index == self.prepared.nodes.len() / 2 {
-            return;
+            return None;
         }
         let shrunk;
         let mut node = &self.prepared.nodes[index];
@@ -420,7 +424,10 @@ impl<'a> Walker<'a> {
             self.emit_boxes(context, index, node, boxes.hit);
         }
         // Where leaves wait for others anyway, sorting them costs more than it saves.
-        let sorted = !(class == SizeClass::VeryFew && node.only_leaves);
+        let sorted = !(class == SizeClass::VeryFew && node.only_triangles);
+        if !(sorted || C::WATCHED || self.is_inside || self.tile.is_nearly_full()) {
+            return self.open_leaves(context, frustum, (node, &boxes), class);
+        }
         let base = self.stack.len();
         let mut hit = boxes.hit;
         while hit != 0 {
@@ -441,6 +448,32 @@ impl<'a> Walker<'a> {
             }
             self.stack[place] = entry;
         }
+        None
+    }
+
+    /// Adds the leaves of triangles that are hit to the queue, and draws triangles whenever it is full. Returns the size class of those
+    /// that were drawn last, if any were.
+    #[inline(always)]
+    fn open_leaves<C: Context>(
+        &mut self,
+        context: &mut C,
+        frustum: &TileFrustum,
+        (node, boxes): (&Node, &BoxHits),
+        class: SizeClass,
+    ) -> Option<SizeClass> {
+        let mut drawn = None;
+        let mut hit = boxes.hit;
+        while hit != 0 {
+            let lane = (hit.trailing_zeros() & 15) as usize;
+            hit &= hit - 1;
+            self.prefetch(node.children[lane]);
+            let entry = StackEntry::new(node, lane, boxes.near[lane], boxes.size[lane]);
+            if self.add_leaf(context, frustum, &entry, class) {
+                let class = drawn.unwrap_or(class);
+                drawn = Some(self.draw_candidates(context, frustum, class, false));
+            }
+        }
+        drawn
     }
 
     /// Asks for a node or leaf that is entered soon.
