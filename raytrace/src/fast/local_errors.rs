@@ -3,13 +3,6 @@
 use super::world_affine::{LARGEST, upward};
 use bothways_common::engine::roundoff::EPS24;
 
-/// The reciprocal of a `t`; infinite if that is not positive.
-#[inline(always)]
-pub(super) fn reciprocal(t: f32) -> f32 {
-    // NaN is not positive.
-    1.0 / if t > 0.0 { t } else { 0.0 }
-}
-
 /// Errors are derived for this many columns beyond the tile; none farther out is used.
 const BESIDE: f64 = 3.0;
 
@@ -90,8 +83,8 @@ impl LocalErrors {
     }
 
     /// How far a row or column may be off in a leaf of such a size, in which no `t` is less than `1 / by_near`, but for two
-    /// roundings of that; `vertex` is the row and column of the projection's vertex. At least `36·ε₂₄`. Infinite or NaN if numbers might overflow, or
-    /// vertices lie behind the eye.
+    /// roundings of that; `vertex` is the row and column of the projection's vertex, whose sum is no less than either. At least
+    /// `36·ε₂₄`. Infinite or NaN if numbers might overflow, or vertices lie behind the eye.
     #[inline(always)]
     pub(super) fn of(&self, size: f32, vertex: [f32; 2], by_near: f32) -> f32 {
         const ROUNDINGS: f32 = 1.0 + 16.0 * EPS24;

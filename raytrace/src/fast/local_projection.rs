@@ -1,7 +1,6 @@
 //! Projects the vertices of a leaf in `f32`: one of them in `f64`, and the others, which lie near it, by their offsets
 //! from it. So digits that the eye's distance takes are not missed.
 
-use super::local_errors::reciprocal;
 use super::search::tile_frustum::TileFrustum;
 use super::search::tree::LEAF;
 use super::world_affine::WorldAffine;
@@ -33,7 +32,7 @@ impl LocalProjection {
         let template = frustum.template;
         let [x, y, z] = [0, 1, 2].map(|axis| f64::from(vertex[axis]) - template.eye[axis]);
         let [of_x, of_y, of_z, shift] =
-            frustum.columns.each_ref().map(|column| f64x4::load_array_ref(simd, column));
+            frustum.by_axis.each_ref().map(|column| f64x4::load_array_ref(simd, column));
         let at_vertex = of_x * x + of_y * y + of_z * z + shift;
         let [t, column, row, ..] = at_vertex.narrow(at_vertex).to_array();
         let near = if template.parallel { 1.0 } else { template.boxes.nearest(near) };
@@ -78,6 +77,26 @@ impl LocalProjection {
         } else {
             let by_t = f32x16::splat(simd, 1.0) / t.at(from_vertex);
             [down * by_t + half, across * by_t + half]
+        }
+    }
+}
+
+/// The reciprocal of a `t`; infinite if that is not positive.
+#[inline(always)]
+fn reciprocal(t: f32) -> f32 {
+    // NaN is not positive.
+    1.0 / if t > 0.0 { t } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_is_known_of_what_may_lie_behind_the_eye() {
+        assert_eq!(reciprocal(4.0), 0.25);
+        for behind in [0.0, -0.0, -1e-30, -4.0, f32::NEG_INFINITY, f32::NAN] {
+            assert_eq!(reciprocal(behind), f32::INFINITY, "{behind}");
         }
     }
 }

@@ -115,6 +115,44 @@ fn rays_that_graze_boxes_and_meet_vertices_and_edges() {
 }
 
 #[test]
+fn tiny_triangles_beside_large_ones() {
+    // So many that a node has more leaves than wait at one time, and with large ones, a sphere and instances among them.
+    let mut dice = Dice(8);
+    let mut objects = vec![mesh(soup(9000, 0.01))];
+    objects.extend((0..12).map(|_| {
+        let middle = dice.point();
+        triangle([(); 3].map(|()| (middle + 0.7 * dice.point()).to_array()))
+    }));
+    objects.push(Shape::Sphere(Sphere { center: Vec3::new(0.2, 0.1, 0.3), radius: 0.2 }).into());
+    let places = [Vec3::new(0.4, -0.3, 0.2), Vec3::new(-0.5, 0.2, 0.1)].map(Placement::translation);
+    let instances = Instances::new(soup(500, 0.01), places.to_vec()).expect("they are instances");
+    objects.push(Shape::Instances(instances).into());
+    let scene = scene(objects);
+    for projection in PROJECTIONS {
+        for eye in [[2.0, 1.5, 3.0], [0.3, -0.2, 1.4]] {
+            let camera = turned(projection, eye, [0.02, 0.01, 0.03], [61, 45]);
+            let view = View::new(&scene, &camera);
+            let what = format!("{projection:?} from {eye:?}");
+            let expected = check_against_textbook(&view, 1, &what);
+            let prepared = fast::prepare(&scene);
+            for side in [16, 32] {
+                let prepared = prepared.clone().drawn_with(levels()[0], side);
+                let (mut frame, mut work) = (expected.clone(), Work::default());
+                frame.clear();
+                fast::determine_visibility(
+                    &prepared,
+                    &view,
+                    &Options::default(),
+                    &mut frame,
+                    &mut work,
+                );
+                assert_same_visibility(&expected, &frame, &what);
+            }
+        }
+    }
+}
+
+#[test]
 fn neighbours_whose_ids_are_far_apart_are_seen() {
     // Two triangles of a square, and between them so many others in one place behind it, of which the first is seen.
     let meshes = |between: usize| {

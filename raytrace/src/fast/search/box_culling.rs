@@ -19,7 +19,7 @@ pub(crate) struct BoxCulling {
     pub(crate) from_eye: DVec3,
     pub(super) t_at_origin: f64,
     /// What is added to a computed `t`, so that it is not more than the exact one, but for the rounding of the sum.
-    pub(super) t_before: f32,
+    pub(crate) t_before: f32,
     /// `t` less that of the origin.
     pub(super) t: WorldAffine,
     /// The computed `t` of a point in front of the eye is not smaller.

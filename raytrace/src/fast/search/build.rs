@@ -148,7 +148,10 @@ fn add_hierarchy(
     let scattered_leaves = filled(source, prims, &scattered, scattered_leaf);
     append(&mut prepared.scattered_leaves, scattered_leaves);
     append(&mut prepared.plain_leaves, filled(source, prims, &plain, leaves::plain_leaf));
-    append(&mut prepared.sphere_leaves, filled(source, prims, &spheres, leaves::ids::<SPHERES>));
+    append(
+        &mut prepared.sphere_leaves,
+        filled(source, prims, &spheres, |prims, _| leaves::ids::<SPHERES>(prims)),
+    );
     MeshRoot { root: root.shifted(nodes, leaves), counts, bounds }
 }
 

@@ -104,6 +104,7 @@ impl CandidateQueue {
     ) {
         let ripe = if all { self.leaf_count.min(LEAVES) } else { RIPE };
         apart!(simd, self.test_first(simd, ripe, prepared, frustum, test));
+        debug_assert!(all || self.leaf_count == LEAVES);
         self.leaves.copy_within(RIPE.., 0);
         self.leaf_count -= ripe;
     }
@@ -173,7 +174,9 @@ impl CandidateQueue {
         let projection = instance.projection(waiting.near);
         if (0.0..WORTHWHILE).contains(&projection.error) {
             let corners = leaf.project(simd, frustum, &projection);
-            let passed = pass(simd, frustum, &corners, projection.error, test)
+            let error = projection.error;
+            let doubt = |size| doubt_of_size(size, error);
+            let passed = pass(simd, frustum, &corners, (error, doubt), test)
                 & mask32x16::from_bitmask(simd, (1 << waiting.used) - 1);
             if passed.any_true() {
                 let names = names(ids_of(simd, prepared, waiting.leaf));
@@ -209,7 +212,9 @@ impl CandidateQueue {
             // these miss it, which their edges tell. For a single ray, the other test asks the edges anyway.
             let is_long = local.extent > LONG && frustum.template.side > 1;
             let test = if is_long { Test::Bounds } else { test };
-            passed &= pass(simd, frustum, &corners, local.error, test);
+            let error = local.error;
+            let doubt = |_| f32x16::splat(simd, doubt_of_any_size(error));
+            passed &= pass(simd, frustum, &corners, (error, doubt), test);
         }
         self.keep(simd, (leaf, ids), passed);
     }
@@ -289,7 +294,7 @@ pub(crate) enum Test {
 }
 
 /// Which triangles may cover samples of the tile, by the rows and the columns of their corners, each of which may be
-/// off by `error`.
+/// off by `error`; `doubt` finds that of edge functions from the triangles' sizes in columns and rows.
 ///
 /// Samples to the left of all corners are not covered, nor those to the right, above and below. If one is left, or two
 /// beside each other, edge functions may show that neither is covered.
@@ -298,7 +303,7 @@ fn pass<S: Simd>(
     simd: S,
     frustum: &TileFrustum,
     [y, x]: &[[f32x16<S>; 3]; 2],
-    error: f32,
+    (error, doubt): (f32, impl FnOnce(f32x16<S>) -> f32x16<S>),
     test: Test,
 ) -> mask32x16<S> {
     let rows = Between::new(simd, frustum, y, error);
@@ -308,7 +313,7 @@ fn pass<S: Simd>(
         return !(missed | is_between_edges(simd, frustum, [y, x], error));
     }
     let more = columns.last - columns.first + (rows.last - rows.first);
-    let doubt = (9.0 + 7.0 * error) * error;
+    let doubt = doubt(columns.size.max(rows.size));
     let beside = is_beside([y, x], [rows.first, columns.first], doubt)
         & is_beside([y, x], [rows.last, columns.last], doubt);
     !(missed | more.simd_le(f32x16::splat(simd, 1.0)) & beside)
@@ -318,6 +323,8 @@ fn pass<S: Simd>(
 struct Between<S: Simd> {
     first: f32x16<S>,
     last: f32x16<S>,
+    /// From the first corner to the last.
+    size: f32x16<S>,
     /// None of them is in the tile.
     none: mask32x16<S>,
 }
@@ -330,7 +337,7 @@ impl<S: Simd> Between<S> {
         let (low, high) = (a.min(*b).min(*c), a.max(*b).max(*c));
         let (first, last) = ((low - error).ceil(), (high + error).floor());
         let none = last.min(end).simd_lt(first.max(f32x16::splat(simd, 0.0)));
-        Between { first, last, none }
+        Between { first, last, size: high - low, none }
     }
 }
 
@@ -371,18 +378,32 @@ fn is_between_edges<S: Simd>(
     positive & negative
 }
 
+/// The doubt of [`is_beside`] for triangles of a size `s` in columns and rows, as it is computed. There `m` is the size and `e`, and
+/// `(5·s + 8·e)·e` is more than all.
+#[inline(always)]
+fn doubt_of_size<S: Simd>(size: f32x16<S>, error: f32) -> f32x16<S> {
+    (size * 5.0 + 8.0 * error) * error
+}
+
+/// The same for triangles of any size, for which nothing is computed lane by lane. There `m` is 2 and `e`, one to the other
+/// sample and less than one beyond it, so that `(9 + 7·e)·e` is more than all. Where errors are small, that makes no difference.
+#[inline(always)]
+fn doubt_of_any_size(error: f32) -> f32 {
+    (9.0 + 7.0 * error) * error
+}
+
 /// Whether triangles certainly do not cover a sample, as two edge functions have different signs there, by more than is in
 /// `doubt`. There is at most one other sample between their corners, beside it.
 ///
 /// The sample lies between the corners but for an error `e` of less than 1/16. So none is farther from it along an axis
-/// than `m`, which is 2 and `e`: the other sample, and what lies before the next one. Two products are off
+/// than some `m`, and along one axis not farther than 1 and `e`. Two products are off
 /// by at most `4·m·e + 2·e²`; their factors' roundings, their own and that of their difference bring less than `9·m·ε₂₄`,
-/// which is less than `m·e/2`, as `e` is at least `36·ε₂₄`. So `(9 + 7·e)·e` is more than all.
+/// which is less than `m·e/2`, as `e` is at least `36·ε₂₄`.
 #[inline(always)]
 fn is_beside<S: Simd>(
     [y, x]: [&[f32x16<S>; 3]; 2],
     [row, column]: [f32x16<S>; 2],
-    doubt: f32,
+    doubt: f32x16<S>,
 ) -> mask32x16<S> {
     let x = [x[0] - column, x[1] - column, x[2] - column];
     let y = [y[0] - row, y[1] - row, y[2] - row];
@@ -390,4 +411,72 @@ fn is_beside<S: Simd>(
     let bc = x[1] * y[2] - y[1] * x[2];
     let ca = x[2] * y[0] - y[2] * x[0];
     ab.max(bc).max(ca).simd_gt(doubt) & ab.min(bc).min(ca).simd_lt(-doubt)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bothways_common::engine::simd::{best_level, dispatch};
+
+    /// Corners of sixteen triangles, their `y` and their `x`.
+    type Sixteen = [[[f32; LEAF]; 3]; 2];
+
+    /// Which of them are beside a sample at the origin, for each of two doubts.
+    fn beside(corners: &Sixteen, doubts: [f32; 2]) -> [u64; 2] {
+        dispatch!(best_level(), simd => {
+            let [y, x] = corners.map(|rows| rows.map(|row| f32x16::load_array(simd, row)));
+            let zero = f32x16::splat(simd, 0.0);
+            doubts.map(|doubt| {
+                let doubt = f32x16::splat(simd, doubt);
+                is_beside([&y, &x], [zero, zero], doubt).to_bitmask()
+            })
+        })
+    }
+
+    #[test]
+    #[expect(clippy::cast_possible_truncation, reason = "what is off is less for it")]
+    fn triangles_are_not_beside_a_sample_on_their_edge_however_their_corners_are_off() {
+        let mut random = fastrand::Rng::with_seed(21);
+        let mut too_little = 0;
+        for round in 0..30_000 {
+            let error = 2_f64.powf(-4.0 - 16.0 * random.f64());
+            // Another sample is beside this one, in the same row or column, or none is.
+            let mut ends = [[-1.0, 1.0]; 2];
+            if let Some(axis) = ends.get_mut(round % 3) {
+                *axis = if random.bool() { [-1.0, 2.0] } else { [-2.0, 1.0] };
+            }
+            let ends = ends.map(|[low, high]| [low + 2.0 * error, high - 2.0 * error]);
+            let mut inside = || ends.map(|[low, high]| low + (high - low) * random.f64());
+            let (a, c) = (inside(), inside());
+            // The line from the corner through the sample, up to where it ends.
+            let most = [0, 1].map(|axis| {
+                let [low, high] = ends[axis];
+                (if a[axis] > 0.0 { -low } else { high }) / a[axis].abs()
+            });
+            let opposite = most[0].min(most[1]) * random.f64();
+            let b = a.map(|value| -value * opposite);
+            let mut corners: Sixteen = [[[0.0; LEAF]; 3]; 2];
+            for (axis, rows) in corners.iter_mut().enumerate() {
+                for (row, corner) in rows.iter_mut().zip([a, b, c]) {
+                    *row = [(); LEAF].map(|()| {
+                        let off = if random.bool() { error } else { -error };
+                        // Not farther off for its rounding.
+                        (corner[axis] + off * (1.0 - 1e-6)) as f32
+                    });
+                }
+            }
+            let sizes = corners.each_ref().map(|rows| {
+                let all = rows.as_flattened();
+                all.iter().copied().fold(f32::MIN, f32::max)
+                    - all.iter().copied().fold(f32::MAX, f32::min)
+            });
+            let error = error as f32;
+            let of_size = (5.0 * sizes[0].max(sizes[1]) + 8.0 * error) * error;
+            let of_any_size = doubt_of_any_size(error);
+            assert_eq!(beside(&corners, [of_size, of_any_size]), [0; 2], "{corners:?} {error}");
+            let [third, _] = beside(&corners, [of_any_size / 3.0, of_any_size]);
+            too_little += third.count_ones();
+        }
+        assert!(too_little > 100, "a third of it is too little {too_little} times");
+    }
 }

@@ -1,7 +1,7 @@
 //! The ids of a leaf's triangles, packed in the upper twenty bits of sixteen numbers.
 //!
-//! Nineteen bits say how much an id is above the leaf's base, a multiple of 2¹⁶. The base, divided by that, are the highest bits of all
-//! lanes together.
+//! Nineteen bits say how much an id is above the leaf's base, a multiple of 2¹⁶. The base divided by that has sixteen bits: the
+//! highest bit of each lane.
 
 use super::tree::LEAF;
 use bothways_common::engine::simd::{Bytes, Simd, SimdBase, SimdMask, i32x16, u32x16};

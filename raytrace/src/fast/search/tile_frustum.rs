@@ -15,8 +15,9 @@ pub(crate) struct TileFrustum<'a> {
     /// The map: a row for `t`, one for columns, one for rows; and what is added.
     pub(crate) rows: [[f64; 3]; 3],
     pub(crate) shift: [f64; 3],
-    /// The columns of the same, and what is added; the fourth numbers are 0.
-    pub(crate) columns: [[f64; 4]; 4],
+    /// The same by the coordinates of a point: what `x`, `y` and `z` bring to `t`, columns and rows, and what is added. The fourth
+    /// numbers are 0.
+    pub(crate) by_axis: [[f64; 4]; 4],
     /// The row and column of the tile's middle, and its `x` and `y` on the viewport.
     pub(crate) middle: [f64; 2],
     pub(crate) viewport: [f64; 2],
@@ -71,6 +72,7 @@ impl FrustumTemplate {
     /// A fault: nothing is known of where boxes, leaves and small triangles are seen.
     pub(crate) fn make_errors_infinite(&mut self) {
         self.boxes.t_error = f32::INFINITY;
+        self.boxes.t_before = f32::NEG_INFINITY;
         self.boxes.least_t = f32::NEG_INFINITY;
         self.boxes.sides_error = f32::INFINITY;
         self.local = LocalErrors::UNKNOWN;
@@ -103,10 +105,10 @@ impl FrustumTemplate {
         ];
         let normals = [t, across, down].map(|row| row.as_vec3().to_array());
         let rows = [t.to_array(), across.to_array(), down.to_array()];
-        let column = |axis: usize| [t[axis], across[axis], down[axis], 0.0];
-        let columns = [column(0), column(1), column(2), [shift[0], shift[1], shift[2], 0.0]];
+        let along = |axis: usize| [t[axis], across[axis], down[axis], 0.0];
+        let by_axis = [along(0), along(1), along(2), [shift[0], shift[1], shift[2], 0.0]];
         let viewport = [x, y];
-        TileFrustum { template: self, rows, shift, columns, middle, viewport, normals, sides }
+        TileFrustum { template: self, rows, shift, by_axis, middle, viewport, normals, sides }
     }
 }
 

@@ -60,7 +60,7 @@ pub(crate) struct LeafCounts(u8);
 
 /// A leaf of triangles that share their vertices, as those of most meshes do. Unused lanes repeat the first triangle.
 ///
-/// It takes four lines of the cache, as most of what a frame of a large mesh waits for is its leaves.
+/// It takes four lines of the cache: a frame of a large mesh waits for its leaves.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(crate) struct IndexedLeaf {

@@ -390,8 +390,8 @@ impl<'a> Walker<'a> {
     }
 
     /// Tests the boxes of a node and pushes those that a ray of the tile may meet: near ones last, so that they come
-    /// first. Leaves with triangles over very few samples are opened at once, in any order; if triangles were drawn meanwhile,
-    /// this returns the size class of the last ones.
+    /// first; leaves with triangles over very few samples in any order. Of a whole tile that is far from full, and outside of
+    /// instances, such leaves are opened at once; if triangles were drawn meanwhile, this returns the size class of the last ones.
     #[inline(always)]
     fn enter<C: Context>(
         &mut self,

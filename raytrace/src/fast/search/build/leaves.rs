@@ -171,7 +171,7 @@ pub(super) fn indexed_leaf(
     level: Level,
 ) -> IndexedLeaf {
     let mut leaf = without_ids(prims, corners, level);
-    for (triangle, id) in leaf.triangles.iter_mut().zip(packed_ids::pack(&ids(prims, corners))) {
+    for (triangle, id) in leaf.triangles.iter_mut().zip(packed_ids::pack(&ids(prims))) {
         *triangle |= id;
     }
     leaf
@@ -183,7 +183,7 @@ pub(super) fn scattered_leaf(
     corners: &mut CornerReader,
     level: Level,
 ) -> ScatteredLeaf {
-    ScatteredLeaf { indexed: without_ids(prims, corners, level), ids: ids(prims, corners) }
+    ScatteredLeaf { indexed: without_ids(prims, corners, level), ids: ids(prims) }
 }
 
 /// The leaf of some triangles with few distinct vertices, with their vertices alone.
@@ -201,7 +201,7 @@ fn without_ids(prims: &[PrimRef], corners: &mut CornerReader, level: Level) -> I
 
 /// The leaf of any triangles.
 pub(super) fn plain_leaf(prims: &[PrimRef], corners: &mut CornerReader) -> PlainLeaf {
-    let mut leaf = PlainLeaf { corners: [[0.0; LEAF]; 9], ids: ids(prims, corners) };
+    let mut leaf = PlainLeaf { corners: [[0.0; LEAF]; 9], ids: ids(prims) };
     for (lane, id) in leaf.ids.into_iter().enumerate() {
         for (corner, position) in corners.of(id).into_iter().enumerate() {
             for axis in 0..3 {
@@ -213,6 +213,6 @@ pub(super) fn plain_leaf(prims: &[PrimRef], corners: &mut CornerReader) -> Plain
 }
 
 /// The ids of a leaf's primitives; unused lanes repeat the first.
-pub(super) fn ids<const MOST: usize>(prims: &[PrimRef], _: &mut CornerReader) -> [u32; MOST] {
+pub(super) fn ids<const MOST: usize>(prims: &[PrimRef]) -> [u32; MOST] {
     std::array::from_fn(|lane| prims.get(lane).unwrap_or(&prims[0]).id())
 }

@@ -233,15 +233,16 @@ fn a_leaf_may_hold_triangles_of_two_meshes() {
 
 #[test]
 fn a_leaf_may_hold_triangles_whose_ids_are_far_apart() {
-    for between in [100, 600_000] {
+    for (before, between) in [(0, 100), (70_000, 100), (0, 600_000), (70_000, 600_000)] {
         let [a, b, c, d] = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::ONE];
-        let mut positions = vec![a, b, c];
-        positions.extend([a, b, c].map(|corner| corner + 1000.0 * Vec3::Z).repeat(between));
-        positions.extend([b, d, c]);
-        let scene = mesh(positions);
+        let far = |count: usize| [a, b, c].map(|corner| corner + 1000.0 * Vec3::Z).repeat(count);
+        let scene = mesh([far(before), vec![a, b, c], far(between), vec![b, d, c]].concat());
         let prepared = built(&scene);
-        let last = u32::try_from(between).unwrap() + 1;
-        assert_eq!(inspect(&prepared, &scene), (0, vec![0, 1, last]));
+        let [first, last] = [before, before + 1 + between].map(|id| u32::try_from(id).unwrap());
+        let of_far = if before == 0 { 1 } else { 0 };
+        let mut expected = vec![first, of_far, last];
+        expected.sort_unstable();
+        assert_eq!(inspect(&prepared, &scene), (0, expected));
         let scattered = usize::from(between > 524_288);
         assert_eq!(prepared.scattered_leaves.len(), scattered);
         assert_eq!(prepared.indexed_leaves.len(), 2 - scattered);
