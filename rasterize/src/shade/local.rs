@@ -76,7 +76,7 @@ impl<T: Real> Local<T> {
     /// the eye, as a corner there measures 2 at least.
     ///
     /// Then the sum of the weights is positive at the anchor, which is half a sample beside the corner at most, and nowhere on the
-    /// triangle below half or above twice of that. So normals that are [alike](are_alike) have a sum no shorter than
+    /// triangle below half or above twice of that. So normals that are [alike](bothways_common::look::bands::are_alike) have a sum no shorter than
     /// 0.3 and no longer than 2.
     ///
     /// # The error, rounding by rounding
