@@ -77,7 +77,7 @@ fn the_table_names_the_rules() {
       triangles looked at                     not counted                      838
       of these, set up                        not counted                      588
       primitives one by one                   not counted                        -
-      steps of 8 or 16 lanes                  not counted                      137
+      steps of 8 or 16 lanes                  not counted                      131
       blocks of 16 samples                    not counted                      798
       samples one by one                      not counted                        -
     colours beyond 2 of 255                      118 pixels, by at most 125 of 255
