@@ -83,7 +83,7 @@ impl LocalProjection {
 
 /// The reciprocal of a `t`; infinite if that is not positive.
 #[inline(always)]
-fn reciprocal(t: f32) -> f32 {
+pub(super) fn reciprocal(t: f32) -> f32 {
     // NaN is not positive.
     1.0 / if t > 0.0 { t } else { 0.0 }
 }

@@ -5,9 +5,9 @@
 //! fetched them, and triangles wait until there are eight, from several leaves.
 
 use super::instance_frustum::{InstanceFrustum, PlacedBy};
-use super::leaf::{Leaf, ids_of};
+use super::leaf::{FoundLeaf, Leaf, find_leaf, ids_of};
 use super::tile_frustum::TileFrustum;
-use super::tree::{IndexedLeaf, LEAF, NodeKind, NodeRef, PlainLeaf};
+use super::tree::{LEAF, NodeKind, NodeRef};
 use crate::fast::local_projection::LocalProjection;
 use crate::fast::prepared::Prepared;
 use crate::fast::setup::TrianglePacket;
@@ -265,25 +265,6 @@ impl CandidateQueue {
     }
 }
 
-/// A leaf in one of the ways in which its corners are stored.
-enum FoundLeaf<'a> {
-    Indexed(&'a IndexedLeaf),
-    Plain(&'a PlainLeaf),
-}
-
-/// The leaf that a reference to one refers to.
-#[inline(always)]
-fn find_leaf(prepared: &Prepared, leaf: NodeRef) -> FoundLeaf<'_> {
-    let (kind, index) = (leaf.kind(), leaf.index());
-    if kind == NodeKind::IndexedLeaf {
-        FoundLeaf::Indexed(&prepared.indexed_leaves[index])
-    } else if kind == NodeKind::ScatteredLeaf {
-        FoundLeaf::Indexed(&prepared.scattered_leaves[index].indexed)
-    } else {
-        FoundLeaf::Plain(&prepared.plain_leaves[index])
-    }
-}
-
 /// How thoroughly triangles are tested before they are set up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Test {
@@ -421,15 +402,15 @@ mod tests {
     /// Corners of sixteen triangles, their `y` and their `x`.
     type Sixteen = [[[f32; LEAF]; 3]; 2];
 
-    /// Which of them are beside a sample at the origin, for each of two doubts.
-    fn beside(corners: &Sixteen, doubts: [f32; 2]) -> [u64; 2] {
+    /// Which of them are beside a sample at the origin: by the doubt of their size, by that of any size, and by a third of that.
+    fn beside(corners: &Sixteen, error: f32) -> [u64; 3] {
         dispatch!(best_level(), simd => {
             let [y, x] = corners.map(|rows| rows.map(|row| f32x16::load_array(simd, row)));
+            let size = |[a, b, c]: [f32x16<_>; 3]| a.max(b).max(c) - a.min(b).min(c);
+            let of_any_size = f32x16::splat(simd, doubt_of_any_size(error));
+            let doubts = [doubt_of_size(size(x).max(size(y)), error), of_any_size, of_any_size * (1.0 / 3.0)];
             let zero = f32x16::splat(simd, 0.0);
-            doubts.map(|doubt| {
-                let doubt = f32x16::splat(simd, doubt);
-                is_beside([&y, &x], [zero, zero], doubt).to_bitmask()
-            })
+            doubts.map(|doubt| is_beside([&y, &x], [zero, zero], doubt).to_bitmask())
         })
     }
 
@@ -465,16 +446,8 @@ mod tests {
                     });
                 }
             }
-            let sizes = corners.each_ref().map(|rows| {
-                let all = rows.as_flattened();
-                all.iter().copied().fold(f32::MIN, f32::max)
-                    - all.iter().copied().fold(f32::MAX, f32::min)
-            });
-            let error = error as f32;
-            let of_size = (5.0 * sizes[0].max(sizes[1]) + 8.0 * error) * error;
-            let of_any_size = doubt_of_any_size(error);
-            assert_eq!(beside(&corners, [of_size, of_any_size]), [0; 2], "{corners:?} {error}");
-            let [third, _] = beside(&corners, [of_any_size / 3.0, of_any_size]);
+            let [of_size, of_any_size, third] = beside(&corners, error as f32);
+            assert_eq!([of_size, of_any_size], [0; 2], "{corners:?} {error}");
             too_little += third.count_ones();
         }
         assert!(too_little > 100, "a third of it is too little {too_little} times");

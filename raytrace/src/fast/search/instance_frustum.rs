@@ -5,7 +5,7 @@ use super::box_culling::{BoxCulling, BoxHits, Sides, longest_side};
 use super::tile_frustum::{FrustumTemplate, TileFrustum};
 use super::tile_place::TilePlace;
 use super::tree::{Bounds, Node, WIDTH};
-use crate::fast::local_projection::LocalProjection;
+use crate::fast::local_projection::{LocalProjection, reciprocal};
 use crate::fast::world_affine::{LARGEST, WorldAffine, narrowed, upward};
 use bothways_common::Placement;
 use bothways_common::engine::context::Context;
@@ -204,12 +204,10 @@ impl<'a> InstanceFrustum<'a> {
         let PlacedVertices { t, from_near, error, rounding } = self.vertices;
         let near = narrowed(f64::from(near) + from_near).next_down();
         let near = if self.places.parallel { 1.0 } else { near };
-        // Behind the eye nothing is known.
-        let near = if near > 0.0 { near } else { f32::NAN };
         LocalProjection {
             vertex: self.boxes.origin,
             map: [t, self.places.across, self.places.down],
-            error: error / near * (1.0 + 16.0 * EPS24) + rounding,
+            error: error * reciprocal(near) * (1.0 + 16.0 * EPS24) + rounding,
             extent: 0.0,
         }
     }

@@ -10,6 +10,25 @@ use bothways_common::engine::simd::{
     Compression, PackedShuffles, Simd, SimdBase, f32x16, mask32x16, u32x16,
 };
 
+/// A leaf in one of the ways in which its corners are stored.
+pub(crate) enum FoundLeaf<'a> {
+    Indexed(&'a IndexedLeaf),
+    Plain(&'a PlainLeaf),
+}
+
+/// The leaf that a reference to one refers to.
+#[inline(always)]
+pub(crate) fn find_leaf(prepared: &Prepared, leaf: NodeRef) -> FoundLeaf<'_> {
+    let (kind, index) = (leaf.kind(), leaf.index());
+    if kind == NodeKind::IndexedLeaf {
+        FoundLeaf::Indexed(&prepared.indexed_leaves[index])
+    } else if kind == NodeKind::ScatteredLeaf {
+        FoundLeaf::Indexed(&prepared.scattered_leaves[index].indexed)
+    } else {
+        FoundLeaf::Plain(&prepared.plain_leaves[index])
+    }
+}
+
 /// The ids of the triangles of a leaf; unused lanes repeat the first.
 #[inline(always)]
 pub(crate) fn ids_of<S: Simd>(simd: S, prepared: &Prepared, leaf: NodeRef) -> u32x16<S> {
