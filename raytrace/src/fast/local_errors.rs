@@ -7,12 +7,13 @@ use bothways_common::engine::roundoff::EPS24;
 const BESIDE: f64 = 3.0;
 
 /// What the errors of local projections share in all tiles: those of a column times `t`, for each unit that a vertex
-/// may be away from the projection's own vertex along an axis, and besides; and those of a column.
+/// may be away from the projection's own vertex along an axis, and besides; those of a column; and those of `t` for each such unit.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LocalErrors {
     away: f32,
     at_vertex: f32,
     rounding: f32,
+    t_away: f32,
 }
 
 /// What bounds the numbers of a map.
@@ -32,8 +33,12 @@ pub(super) struct MapSizes {
 
 impl LocalErrors {
     /// Nothing is known of places.
-    pub(super) const UNKNOWN: LocalErrors =
-        LocalErrors { away: f32::INFINITY, at_vertex: f32::INFINITY, rounding: f32::INFINITY };
+    pub(super) const UNKNOWN: LocalErrors = LocalErrors {
+        away: f32::INFINITY,
+        at_vertex: f32::INFINITY,
+        rounding: f32::INFINITY,
+        t_away: f32::INFINITY,
+    };
 
     /// # The errors, rounding by rounding
     ///
@@ -66,12 +71,24 @@ impl LocalErrors {
             away: if is_ordinary { roundings(9.0, away) } else { f32::INFINITY },
             at_vertex: upward(1.1 * (exact + underflow)),
             rounding: roundings(12.0, wide + BESIDE),
+            t_away: roundings(9.0, t),
         }
     }
 
     /// What roundings from columns times `t` to columns bring, to those of the tile.
     pub(super) fn rounding(&self) -> f32 {
         self.rounding
+    }
+
+    /// How far a key in such a leaf may be off, `1/t` of a perspective camera, as a part of it; and the roundings of two sums with it.
+    ///
+    /// Where a column is off by less than 1/16, `t` is by less than a fortieth of it, and its reciprocal by 1.026 times as much as `t`
+    /// and by `ε₂₄`. So of `t` come `9·ε₂₄·P·T`, `2.2·ε₂₄·t` and 1.1 times what columns times `t` are off by in `f64`; with the
+    /// reciprocal and two sums `5.2·ε₂₄` in all, and 5.5 with what is of second order. Keys are near 1: no vertex has a `t`
+    /// greater than 2 in the scale of the map, so that no key underflows.
+    #[inline(always)]
+    pub(super) fn of_key(&self, size: f32, by_near: f32) -> f32 {
+        (self.t_away * size + self.at_vertex) * by_near + 5.5 * EPS24
     }
 
     /// An upper estimate of how many columns or rows apart places of a leaf of such a size are, in which no `t` is less than

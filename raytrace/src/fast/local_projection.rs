@@ -14,6 +14,8 @@ pub(super) struct LocalProjection {
     pub(super) map: [WorldAffine; 3],
     /// How far a row or column may be off.
     pub(super) error: f32,
+    /// How far a key may be off, as a part of it, and by the roundings of two sums; infinite where nothing asks for it.
+    pub(super) key_error: f32,
     /// An upper estimate of how many rows or columns apart vertices are, or 0 where nothing asks for it.
     pub(super) extent: f32,
 }
@@ -46,6 +48,7 @@ impl LocalProjection {
                 WorldAffine { normal: down, offset: row },
             ],
             error: template.local.of(size, [row, column], by_near),
+            key_error: template.local.of_key(size, by_near),
             extent: template.local.extent(size, by_near),
         }
     }
@@ -56,14 +59,15 @@ impl LocalProjection {
         (0.0..1.0 / 16.0).contains(&self.error)
     }
 
-    /// The rows and the columns where vertices are seen, counted from the tile's first.
+    /// The rows and the columns where vertices are seen, counted from the tile's first; and their keys, `1/t`. For a parallel camera,
+    /// these are not found.
     #[inline(always)]
     pub(super) fn project<S: Simd>(
         &self,
         simd: S,
         frustum: &TileFrustum,
         [x, y, z]: [&[f32; LEAF]; 3],
-    ) -> [f32x16<S>; 2] {
+    ) -> [f32x16<S>; 3] {
         let from_vertex = [
             f32x16::load_array_ref(simd, x) - self.vertex[0],
             f32x16::load_array_ref(simd, y) - self.vertex[1],
@@ -73,10 +77,10 @@ impl LocalProjection {
         let (across, down) = (across.at(from_vertex), down.at(from_vertex));
         let half = -frustum.centered(0);
         if frustum.template.parallel {
-            [down + half, across + half]
+            [down + half, across + half, f32x16::splat(simd, f32::NAN)]
         } else {
             let by_t = f32x16::splat(simd, 1.0) / t.at(from_vertex);
-            [down * by_t + half, across * by_t + half]
+            [down * by_t + half, across * by_t + half, by_t]
         }
     }
 }

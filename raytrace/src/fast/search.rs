@@ -5,6 +5,8 @@ pub(crate) mod build;
 mod candidates;
 pub(crate) mod instance_frustum;
 mod leaf;
+mod leaf_fragments;
+mod leaf_tests;
 mod packed_ids;
 pub(crate) mod ray_square;
 pub(crate) mod tile_frustum;

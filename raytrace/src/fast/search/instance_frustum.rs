@@ -208,6 +208,7 @@ impl<'a> InstanceFrustum<'a> {
             vertex: self.boxes.origin,
             map: [t, self.places.across, self.places.down],
             error: error * reciprocal(near) * (1.0 + 16.0 * EPS24) + rounding,
+            key_error: f32::INFINITY,
             extent: 0.0,
         }
     }

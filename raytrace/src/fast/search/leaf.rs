@@ -9,6 +9,7 @@ use bothways_common::Placement;
 use bothways_common::engine::simd::{
     Compression, PackedShuffles, Simd, SimdBase, f32x16, mask32x16, u32x16,
 };
+use bothways_common::look::lanes::each;
 
 /// A leaf in one of the ways in which its corners are stored.
 pub(crate) enum FoundLeaf<'a> {
@@ -48,13 +49,14 @@ pub(crate) trait Leaf: Sized {
     /// A vertex of the first triangle.
     fn first_vertex(&self) -> [f32; 3];
 
-    /// The rows of the three corners of each triangle, and their columns, counted from the tile's first.
+    /// The rows of the three corners of each triangle, their columns, counted from the tile's first, and their keys, as
+    /// [`LocalProjection::project`] finds them.
     fn project<S: Simd>(
         &self,
         simd: S,
         frustum: &TileFrustum,
         local: &LocalProjection,
-    ) -> [[f32x16<S>; 3]; 2];
+    ) -> [[f32x16<S>; 3]; 3];
 
     /// The leaf of a mesh where an instance puts it.
     fn placed<S: Simd>(&self, simd: S, placement: &Placement) -> Self;
@@ -82,11 +84,11 @@ impl Leaf for IndexedLeaf {
         simd: S,
         frustum: &TileFrustum,
         local: &LocalProjection,
-    ) -> [[f32x16<S>; 3]; 2] {
+    ) -> [[f32x16<S>; 3]; 3] {
         let [x, y, z] = &self.vertices;
-        let [rows, columns] = local.project(simd, frustum, [x, y, z]);
+        let found = local.project(simd, frustum, [x, y, z]);
         let [a, b, c] = PackedShuffles::new(u32x16::load_array_ref(simd, &self.triangles)).unpack();
-        [[a.of(rows), b.of(rows), c.of(rows)], [a.of(columns), b.of(columns), c.of(columns)]]
+        each!(k in [0, 1, 2] => [a.of(found[k]), b.of(found[k]), c.of(found[k])])
     }
 
     #[inline(always)]
@@ -127,12 +129,12 @@ impl Leaf for PlainLeaf {
         simd: S,
         frustum: &TileFrustum,
         local: &LocalProjection,
-    ) -> [[f32x16<S>; 3]; 2] {
+    ) -> [[f32x16<S>; 3]; 3] {
         let [ax, ay, az, bx, by, bz, cx, cy, cz] = &self.corners;
-        let [a, d] = local.project(simd, frustum, [ax, ay, az]);
-        let [b, e] = local.project(simd, frustum, [bx, by, bz]);
-        let [c, f] = local.project(simd, frustum, [cx, cy, cz]);
-        [[a, b, c], [d, e, f]]
+        let a = local.project(simd, frustum, [ax, ay, az]);
+        let b = local.project(simd, frustum, [bx, by, bz]);
+        let c = local.project(simd, frustum, [cx, cy, cz]);
+        each!(k in [0, 1, 2] => [a[k], b[k], c[k]])
     }
 
     #[inline(always)]

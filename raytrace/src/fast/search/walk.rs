@@ -1,9 +1,10 @@
 //! The walk of a tile's rays through the hierarchy, near boxes first.
 
 use super::box_culling::BoxHits;
-use super::candidates::{CandidateQueue, EIGHT, Test, WaitingLeaf};
+use super::candidates::{CandidateQueue, EIGHT, WaitingLeaf};
 use super::instance_frustum::{BoxPlaces, InstanceFrustum};
 use super::leaf::ids_of;
+use super::leaf_tests::Test;
 use super::tile_frustum::{FrustumTemplate, TileFrustum};
 use super::tile_place::TilePlace;
 use super::tree::{INSTANCES, LeafCounts, Node, NodeKind, NodeRef, WIDTH};
@@ -15,7 +16,7 @@ use crate::fast::size_class::SizeClass;
 use crate::fast::tile::TileBuffer;
 use crate::fast::{draw, one_primitive};
 use bothways_common::engine::context::{Context, ScalarContext};
-use bothways_common::engine::fault::Planted;
+use bothways_common::engine::fault::{Fault, Planted};
 use bothways_common::engine::simd::{SimdBase, apart, prefetch};
 use bothways_common::observe::Events;
 
@@ -250,12 +251,14 @@ impl<'a> Walker<'a> {
         if C::WATCHED {
             self.emit_tests(context, child, used);
         }
-        let leaf = WaitingLeaf { leaf: child, used, near, size };
+        // Both ways make it, as one that is taken by reference would go through memory before it waits.
         let Some(instance) = self.instance.as_ref().filter(|_| self.is_inside) else {
-            return self.queue.add(leaf);
+            return self.queue.add(WaitingLeaf { leaf: child, used, near, size });
         };
+        let leaf = WaitingLeaf { leaf: child, used, near, size };
         let (prepared, rays) = (self.prepared, (frustum, instance));
-        self.queue.test_placed(context.simd(), prepared, rays, &leaf, test_of::<C>(class));
+        let test = test_of::<C>(class, frustum).without_fragments();
+        self.queue.test_placed(context.simd(), prepared, rays, &leaf, test);
         false
     }
 
@@ -355,8 +358,9 @@ impl<'a> Walker<'a> {
         class: SizeClass,
         flush: bool,
     ) -> SizeClass {
-        let test = test_of::<C>(class);
+        let test = test_of::<C>(class, frustum);
         self.queue.test_leaves(context.simd(), self.prepared, frustum, test, flush);
+        self.queue.fragments.test_depth(context, self.map, &mut self.tile);
         let mut largest = None;
         loop {
             let count = self.queue.count();
@@ -506,10 +510,12 @@ impl<'a> Walker<'a> {
 
 /// How to test triangles after some of this class were drawn.
 #[inline(always)]
-fn test_of<C: ScalarContext>(class: SizeClass) -> Test {
+fn test_of<C: ScalarContext>(class: SizeClass, frustum: &TileFrustum) -> Test {
     match class {
         // The events of a ray must not depend on the triangles that came before.
         _ if C::WATCHED => Test::Edges,
+        // Faults are planted in what sets triangles up.
+        SizeClass::VeryFew if C::Fault::SOUND && !frustum.template.parallel => Test::Fragments,
         SizeClass::VeryFew | SizeClass::Few => Test::Edges,
         SizeClass::Many => Test::Bounds,
     }
