@@ -41,7 +41,7 @@ pub struct Executed {
     /// not skipped and those of the tile's lists; in image order those of opened leaves, without duplicates.
     pub triangles: u64,
     /// Both orders: those of the triangles that were set up, in lanes: sixteen at a time in object order, eight in image
-    /// order.
+    /// order, where the test of a leaf finds the fragments of many tiny triangles without that.
     pub set_ups: u64,
     /// Both orders: primitives drawn one by one in `f64`, each once for each tile. Spheres, planes, and triangles whose
     /// set-up in lanes was too uncertain; in object order also those that are large or reach behind the eye.

@@ -14,7 +14,7 @@ pub(super) struct LocalProjection {
     pub(super) map: [WorldAffine; 3],
     /// How far a row or column may be off.
     pub(super) error: f32,
-    /// How far a key may be off, as a part of it, and by the roundings of two sums; infinite where nothing asks for it.
+    /// How far a key may be off, as a part of it, and by the roundings of two sums. Without meaning where no keys are found.
     pub(super) key_error: f32,
     /// An upper estimate of how many rows or columns apart vertices are, or 0 where nothing asks for it.
     pub(super) extent: f32,

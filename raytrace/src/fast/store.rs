@@ -138,6 +138,9 @@ pub(super) fn store_wide_ids(
     }
 }
 
+/// A key's interval is narrow if it is no longer than this part of its middle.
+pub(super) const NARROW: f32 = 1.5e-6;
+
 /// The ids and distances of a block. A distance is taken from the middle of its key's interval if that is
 /// narrow: within 0.75·10⁻⁶ of the true one, and three roundings of `ε₂₄`.
 #[inline(always)]
@@ -149,7 +152,6 @@ fn block_values<S: Simd>(
     ids: &mut [u32; 16],
     t: &mut [f32; 16],
 ) {
-    const NARROW: f32 = 1.5e-6;
     let from = block * 16;
     let low = f32x16::from_slice(simd, &tile.low[from..from + 16]);
     let high = f32x16::from_slice(simd, &tile.high[from..from + 16]);

@@ -6,8 +6,10 @@
 
 use super::instance_frustum::{InstanceFrustum, PlacedBy};
 use super::leaf::{FoundLeaf, Leaf, find_leaf, ids_of};
-use super::leaf_fragments::LeafFragments;
-use super::leaf_tests::{Errors, Test, TestedTriangles, doubt_of_any_size, doubt_of_size, pass};
+use super::leaf_fragments::{LEAVES, LeafFragments};
+use super::leaf_tests::{
+    CornerErrors, Test, TestedTriangles, doubt_of_any_size, doubt_of_size, pass,
+};
 use super::tile_frustum::TileFrustum;
 use super::tree::{LEAF, NodeKind, NodeRef};
 use crate::fast::local_projection::LocalProjection;
@@ -17,8 +19,7 @@ use bothways_common::engine::simd::{
     Compression, Simd, SimdBase, SimdMask, apart, f32x8, f32x16, mask32x16, u32x8, u32x16,
 };
 
-/// At most this many leaves wait, and half of them are tested together then.
-pub(super) const LEAVES: usize = 8;
+/// So many leaves, half of all that may wait, are tested together.
 const RIPE: usize = LEAVES / 2;
 /// Triangles that are set up together.
 pub(crate) const EIGHT: usize = 8;
@@ -83,7 +84,7 @@ impl CandidateQueue {
         self.leaf_count == LEAVES
     }
 
-    /// Whether leaves or triangles wait.
+    /// Whether leaves or triangles wait. Fragments wait only from the test of leaves to what follows it.
     pub(crate) fn is_empty(&self) -> bool {
         self.leaf_count + self.count() == 0
     }
@@ -217,7 +218,7 @@ impl CandidateQueue {
             let test = if is_long { Test::Bounds } else { test };
             let LocalProjection { error, key_error, .. } = local;
             if test == Test::Fragments {
-                let errors = Errors { place: error, key: key_error };
+                let errors = CornerErrors { place: error, key: key_error };
                 let TestedTriangles { pass, found } =
                     TestedTriangles::new(simd, frustum, &[y, x], &keys, &errors);
                 self.fragments.add(&found, ids, passed);

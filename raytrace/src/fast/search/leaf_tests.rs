@@ -2,9 +2,12 @@
 //! ones, which certainly have a fragment, so that they need not be set up.
 
 use super::tile_frustum::TileFrustum;
+use crate::fast::store::NARROW;
+use bothways_common::engine::roundoff::EPS24;
 use bothways_common::engine::simd::{
     Select, Simd, SimdBase, SimdFloat, SimdMask, f32x16, mask32x16,
 };
+use bothways_common::look::lanes::each;
 
 /// How thoroughly triangles are tested before they are set up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,13 +49,13 @@ pub(super) fn pass<S: Simd>(
     }
     let more = columns.last - columns.first + (rows.last - rows.first);
     let doubt = doubt(columns.size.max(rows.size));
-    let beside = EdgeValues::new([y, x], [rows.first, columns.first]).differ(doubt)
-        & EdgeValues::new([y, x], [rows.last, columns.last]).differ(doubt);
+    let [at_first, at_last] = EdgeValues::at_ends([y, x], [&rows, &columns]);
+    let beside = at_first.differ(doubt) & at_last.differ(doubt);
     !(missed | more.simd_le(f32x16::splat(simd, 1.0)) & beside)
 }
 
 /// How far off places and keys of corners may be.
-pub(super) struct Errors {
+pub(super) struct CornerErrors {
     /// Rows and columns.
     pub(super) place: f32,
     /// Keys, as a part of the largest.
@@ -85,7 +88,7 @@ impl<S: Simd> TestedTriangles<S> {
         frustum: &TileFrustum,
         places: &[[f32x16<S>; 3]; 2],
         keys: &[f32x16<S>; 3],
-        errors: &Errors,
+        errors: &CornerErrors,
     ) -> Self {
         let (pass, only) = OnlySamples::new(simd, frustum, places, errors.place);
         let [key, error] = only.key(keys, errors);
@@ -120,8 +123,7 @@ impl<S: Simd> OnlySamples<S> {
         let rows = Between::new(simd, frustum, y, error);
         let columns = Between::new(simd, frustum, x, error);
         let doubt = splat(doubt_of_any_size(error));
-        let at_first = EdgeValues::new([y, x], [rows.first, columns.first]);
-        let at_last = EdgeValues::new([y, x], [rows.last, columns.last]);
+        let [at_first, at_last] = EdgeValues::at_ends([y, x], [&rows, &columns]);
         let (first_differ, last_differ) = (at_first.differ(doubt), at_last.differ(doubt));
         let more = columns.last - columns.first + (rows.last - rows.first);
         let at_most_two = more.simd_le(splat(1.0));
@@ -132,14 +134,15 @@ impl<S: Simd> OnlySamples<S> {
         // One of two may lie beside the tile.
         let within = rows.first.min(columns.first).simd_ge(splat(0.0))
             & rows.last.max(columns.last).simd_le(splat(last_of(frustum)));
-        let [ab, bc, ca] = at_first.edges;
+        let [ab, bc, ca] =
+            each!(k in [0, 1, 2] => is_last.select(at_last.edges[k], at_first.edges[k]));
         let only = OnlySamples {
             which: at_most_two & within & (is_first | is_last),
             place: [
                 is_last.select(rows.last, rows.first),
                 is_last.select(columns.last, columns.first),
             ],
-            edges: [is_last.select(at_last.edges[0], ab), is_last.select(at_last.edges[2], ca)],
+            edges: [ab, ca],
             by_area: splat(1.0) / (ab + bc + ca),
             size: columns.size.max(rows.size),
         };
@@ -160,14 +163,18 @@ impl<S: Simd> OnlySamples<S> {
     /// An edge function is off by `4.1·ε₂₄·m²` for its roundings, with `m`, which is at most `s + e` and less than 2.2; two of them are
     /// multiplied with differences of keys, three are in the sum by which is divided: `20.5·ε₂₄·m²·d/D`. As `e` is at
     /// least `36·ε₂₄`, that is less than `1.3·e·(s + e)·d/D`. Differences, products, sums and quotients round by
-    /// `7.2·ε₂₄·d`, that is, with `D ≤ 2·s²`, by less than `0.9·e·s·d/D`. Together `6.5·e·(s + e)·d/D`.
+    /// `7.2·ε₂₄·d`; as a triangle with at most two samples between its corners is less than 2.2 wide one way, `D ≤ 2.2·s`, and that is less
+    /// than `0.5·e·s·d/D`. Together `6.1·e·(s + e)·d/D`. The sum of edge functions of one sign, each of which is more than its doubt, is
+    /// off by less than a 40th of `D`: so `6.5·e·(s + e)·d/D`, with `D` as computed, is more.
+    ///
+    /// Nothing underflows: edge functions are more than `324·ε₂₄`, and keys near 1 differ by nothing or by their last place at least.
     ///
     /// The corners' own keys are off by [`LocalErrors::of_key`], twice of which the largest difference may be larger than it is
     /// computed, too; this holds room for the rounding of the last sum and of each end. Comparisons with NaN are false.
     ///
     /// [`LocalErrors::of_key`]: crate::fast::local_errors::LocalErrors::of_key
     #[inline(always)]
-    fn key(&self, [a, b, c]: &[f32x16<S>; 3], errors: &Errors) -> [f32x16<S>; 2] {
+    fn key(&self, [a, b, c]: &[f32x16<S>; 3], errors: &CornerErrors) -> [f32x16<S>; 2] {
         let [ab, ca] = self.edges;
         let key = *a + (ca * (*b - *a) + ab * (*c - *a)) * self.by_area;
         let (nearest, farthest) = (a.max(*b).max(*c), a.min(*b).min(*c));
@@ -178,9 +185,9 @@ impl<S: Simd> OnlySamples<S> {
     }
 }
 
-/// A key is known well enough to be stored if its error is at most this part of it: then the whole interval, with its
-/// roundings, is as narrow as [`store`](crate::fast::store) asks for.
+/// A key is known well enough if its error is at most this part of it: then the whole interval is narrow, with its roundings.
 const NARROW_HALF: f32 = 0.68e-6;
+const _: () = assert!(2.0 * (NARROW_HALF + EPS24) < NARROW, "`t` would be found again");
 
 /// The last row and column of a tile.
 #[inline(always)]
@@ -286,6 +293,18 @@ impl<S: Simd> EdgeValues<S> {
         EdgeValues { edges: [ab, bc, ca], least: ab.min(bc).min(ca), most: ab.max(bc).max(ca) }
     }
 
+    /// Those at the first sample between the corners, and at the last.
+    #[inline(always)]
+    fn at_ends(
+        places: [&[f32x16<S>; 3]; 2],
+        [rows, columns]: [&Between<S>; 2],
+    ) -> [EdgeValues<S>; 2] {
+        [
+            EdgeValues::new(places, [rows.first, columns.first]),
+            EdgeValues::new(places, [rows.last, columns.last]),
+        ]
+    }
+
     /// Whether triangles certainly do not cover the sample, as two edge functions have different signs there, by more than is in
     /// `doubt`.
     #[inline(always)]
@@ -293,7 +312,7 @@ impl<S: Simd> EdgeValues<S> {
         self.most.simd_gt(doubt) & self.least.simd_lt(-doubt)
     }
 
-    /// Whether triangles certainly cover the sample, as all have the same sign.
+    /// Whether triangles certainly cover the sample, as all have the same sign, by more than is in `doubt`.
     #[inline(always)]
     fn agree(&self, doubt: f32x16<S>) -> mask32x16<S> {
         self.least.simd_gt(doubt) | self.most.simd_lt(-doubt)
@@ -306,7 +325,6 @@ mod tests {
     use crate::fast::camera_map::CameraMap;
     use crate::fast::search::tile_frustum::FrustumTemplate;
     use crate::fast::search::tree::{Bounds, LEAF};
-    use bothways_common::engine::roundoff::EPS24;
     use bothways_common::engine::simd::{best_level, dispatch, levels};
     use bothways_common::glam::Vec3;
     use bothways_common::{Camera, CameraDescription, Scene, View};
@@ -375,18 +393,28 @@ mod tests {
 
     impl KnownTriangle {
         fn new(random: &mut fastrand::Rng, steep: f64) -> KnownTriangle {
+            let (is_turned, longer) = (random.bool(), random.usize(0..3));
             let mut number = |from: f64, to: f64| from + (to - from) * random.f64();
             let sample = [0, 1].map(|_| number(-0.5, 31.5).round());
-            let around =
-                sample.map(|place| [number(place - 0.9, place), number(place, place + 1.2)]);
-            let [[low_y, high_y], [low_x, high_x]] = around;
-            let corners =
-                [[low_y, number(low_x, high_x)], [number(low_y, high_y), high_x], [high_y, low_x]];
-            KnownTriangle {
-                corners,
-                slopes: [number(-steep, steep), number(-steep, steep)],
-                sample,
+            // Along one axis there may be room for another sample.
+            let mut around = [[0.95, 0.95]; 2];
+            if let Some(axis) = around.get_mut(longer) {
+                *axis = if is_turned { [1.95, 0.95] } else { [0.95, 1.95] };
             }
+            // Some are thin.
+            let thin = if number(0.0, 1.0) < 0.3 { 0.05 } else { 1.0 };
+            let [[low_y, high_y], [low_x, high_x]] = [0, 1].map(|axis| {
+                let (place, [below, above]) = (sample[axis], around[axis]);
+                let factor = if axis == 0 { thin } else { 1.0 };
+                [number(place - factor * below, place), number(place, place + factor * above)]
+            });
+            let mut corners =
+                [[low_y, number(low_x, high_x)], [number(low_y, high_y), high_x], [high_y, low_x]];
+            if is_turned {
+                corners.swap(0, 1);
+            }
+            let slopes = [number(-steep, steep), number(-steep, steep)];
+            KnownTriangle { corners, slopes, sample }
         }
 
         fn key(&self, at: [f64; 2]) -> f64 {
@@ -422,7 +450,7 @@ mod tests {
                 }
             }
             // A key is rounded when it is made here; two sums follow.
-            let errors = Errors { place: error as f32 + 64.0 * EPS24, key: 4.0 * EPS24 };
+            let errors = CornerErrors { place: error as f32 + 64.0 * EPS24, key: 4.0 * EPS24 };
             for level in levels() {
                 let ([row, column], [key, off], which) = dispatch!(level, simd => {
                     let places = places.map(|rows| rows.map(|row| f32x16::load_array(simd, row)));

@@ -147,6 +147,7 @@ impl<'a> Walker<'a> {
             }
             farthest = self.farthest(&frustum);
         }
+        debug_assert!(self.queue.fragments.is_empty(), "fragments are lost");
         if C::WATCHED
             && let Some(sample) = self.tile.sample(0)
         {
@@ -257,6 +258,7 @@ impl<'a> Walker<'a> {
         };
         let leaf = WaitingLeaf { leaf: child, used, near, size };
         let (prepared, rays) = (self.prepared, (frustum, instance));
+        // Its fragments would wait until other leaves are tested.
         let test = test_of::<C>(class, frustum).without_fragments();
         self.queue.test_placed(context.simd(), prepared, rays, &leaf, test);
         false
