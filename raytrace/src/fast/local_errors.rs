@@ -83,10 +83,9 @@ impl LocalErrors {
     /// How far a key in such a leaf may be off, `1/t` of a perspective camera, as a part of it; and the roundings of two sums with it.
     ///
     /// Where a column is off by less than 1/16, `t` is by less than a fortieth of it, and its reciprocal by 1.026 times as much as `t`
-    /// and by `ε₂₄`. So of `t` come `9·ε₂₄·P·T`, `2.2·ε₂₄·t` and 1.1 times what columns times `t` are off by in `f64`, which is more than the
-    /// `t` of a vertex and of a ray are; with the
-    /// reciprocal and two sums `5.2·ε₂₄` in all, and 5.5 with what is of second order. Keys are near 1: no vertex has a `t`
-    /// greater than 2 in the scale of the map, so that no key underflows.
+    /// and by `ε₂₄`. So of `t` come `9·ε₂₄·P·T`, `2.2·ε₂₄·t` and 1.1 times what columns times `t` are off by in `f64`, which is more than
+    /// the `t` of a vertex and that of a ray are; with the reciprocal and two sums `5.2·ε₂₄` in all, and 5.5 with what is of second
+    /// order. No vertex has a `t` greater than 2 in the scale of the map, so that no key underflows.
     #[inline(always)]
     pub(super) fn of_key(&self, size: f32, by_near: f32) -> f32 {
         (self.t_away * size + self.at_vertex) * by_near + 5.5 * EPS24

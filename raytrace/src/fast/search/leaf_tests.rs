@@ -164,8 +164,8 @@ impl<S: Simd> OnlySamples<S> {
     /// multiplied with differences of keys, three are in the sum by which is divided: `20.5·ε₂₄·m²·d/D`. As `e` is at
     /// least `36·ε₂₄`, that is less than `1.3·e·(s + e)·d/D`. Differences, products, sums and quotients round by
     /// `7.2·ε₂₄·d`; as a triangle with at most two samples between its corners is less than 2.2 wide one way, `D ≤ 2.2·s`, and that is less
-    /// than `0.5·e·s·d/D`. Together `6.1·e·(s + e)·d/D`. The sum of edge functions of one sign, each of which is more than its doubt, is
-    /// off by less than a 40th of `D`: so `6.5·e·(s + e)·d/D`, with `D` as computed, is more.
+    /// than `0.5·e·s·d/D`. Together `6.1·e·(s + e)·d/D`. This holds with `D` as computed, too, which is less than a 30th off: no product is
+    /// more than 2.4, so that the three are off by `29·ε₂₄`, and each is more than its doubt, `324·ε₂₄`. So `6.5·e·(s + e)·d/D` is more.
     ///
     /// Nothing underflows: edge functions are more than `324·ε₂₄`, and keys near 1 differ by nothing or by their last place at least.
     ///
