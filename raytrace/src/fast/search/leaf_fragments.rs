@@ -124,13 +124,13 @@ mod tests {
     }
 
     /// A surface of this many squares along each side, two triangles each, in the square that the camera looks at, as high as
-    /// `height` says and sheared by `shear`.
-    fn surface(squares: u32, shear: f32, height: impl Fn(f32, f32) -> f32) -> Mesh {
+    /// `height` says, sheared by `shear` and made `times` as large.
+    fn surface(squares: u32, [times, shear]: [f32; 2], height: impl Fn(f32, f32) -> f32) -> Mesh {
         let side = squares + 1;
         let along = |k: u32| 2.0 * (k as f32 / squares as f32) - 1.0;
         let places = (0..side * side).map(|k| {
             let (x, y) = (along(k % side), along(k / side));
-            Vec3::new(x + shear * y, y, height(x, y))
+            Vec3::new(times * (x + shear * y), times * y, height(x, y))
         });
         let of = |k: u32| {
             let a = k / squares * side + k % squares;
@@ -213,19 +213,23 @@ mod tests {
             (29, 4000.0, waves, 0),
             (31, 2.0, gentle, 0),
         ] {
-            let found = seen_without_set_up(surface(squares, 0.3, height), &camera(distance));
+            let found =
+                seen_without_set_up(surface(squares, [1.0, 0.3], height), &camera(distance));
             assert!(found > least, "{found} of {squares} at {distance}");
         }
     }
 
     #[test]
     fn nothing_is_certain_at_samples_on_edges_and_corners() {
-        // Samples lie at the middles of pixels, which are corners of some of these squares, or on their diagonals.
-        for squares in [64, 128, 192] {
-            seen_without_set_up(surface(squares, 0.0, |_, _| 0.0), &camera(2.0));
+        // So many times as far as the viewport, and as large. Samples lie at the middles of pixels, which are corners of some of these
+        // squares, or on their diagonals; roundings put them to either side.
+        for times in [1.0, 3.0, 7.0, 49.0] {
+            for squares in [64, 128] {
+                let surface = surface(squares, [times, 0.0], |_, _| 2.0 - 2.0 * times);
+                let found = seen_without_set_up(surface, &camera(2.0));
+                assert!(squares != 64 || found < 0, "{found} corners are inside of triangles");
+            }
         }
-        let found = seen_without_set_up(surface(64, 0.0, |_, _| 0.0), &camera(2.0));
-        assert!(found < 0, "{found} corners are inside of triangles");
     }
 
     #[test]
