@@ -23,6 +23,7 @@ impl Encoding {
     pub(super) fn has_own_numbers(&self) -> bool {
         use DistanceEncoding::{Linear, ReversedWindow, Window};
         matches!(self.distances, Linear { .. } | Window { .. } | ReversedWindow { .. })
+            || matches!(self.ids, IdEncoding::CountedFrom(first) if first > 1)
     }
 
     /// Whether its numbering of primitives may fit a part of any file: other orders, and numbers of objects.
@@ -46,8 +47,8 @@ pub enum IdEncoding {
     /// Counted from 0 in the order of the scene.
     #[default]
     FromZero,
-    /// Counted from 1.
-    FromOne,
+    /// Counted from this number, which is not 0.
+    CountedFrom(u64),
     /// Counted from the end of the scene.
     FromTheEnd,
     /// The number of the object, for all its primitives.

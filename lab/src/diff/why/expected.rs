@@ -9,6 +9,7 @@ use super::renaming::Renaming;
 use crate::common::View;
 use crate::common::frame::NO_PRIMITIVE;
 use crate::diff::tolerance::DEPTH_TOLERANCE;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// How far a file differs from a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -49,8 +50,10 @@ impl<'a> Expected<'a> {
         let mut encodings = vec![base];
         match &observed.values {
             Values::Mask(_) => return base,
-            Values::Ids(_) => {
-                let others = [IdEncoding::FromOne, IdEncoding::FromTheEnd, IdEncoding::OfObjects];
+            Values::Ids(ids) => {
+                let from_one = IdEncoding::CountedFrom(1);
+                let others = [from_one, IdEncoding::FromTheEnd, IdEncoding::OfObjects];
+                let others = others.into_iter().chain(self.first_number(ids, &probes));
                 encodings.extend(others.map(|ids| Encoding { ids, ..base }));
             }
             Values::Distances(t) => {
@@ -97,6 +100,20 @@ impl<'a> Expected<'a> {
 
     fn size(&self) -> [usize; 2] {
         [self.rays.x.len(), self.rays.y.len()]
+    }
+
+    /// The number above 1 from which most primitives count, of those at the probes. One primitive alone counts from any.
+    fn first_number(&self, ids: &[Option<u64>], probes: &[Probe]) -> Option<IdEncoding> {
+        let difference = |probe: &Probe| {
+            let id = self.drawn.ids[probe.pixel];
+            Some((ids[probe.index]?.checked_sub(id.into())?, id))
+        };
+        let counted: BTreeSet<(u64, u32)> = probes.iter().filter_map(difference).collect();
+        let mut numbers: BTreeMap<u64, usize> = BTreeMap::new();
+        counted.into_iter().for_each(|(number, _)| *numbers.entry(number).or_default() += 1);
+        let several = numbers.into_iter().filter(|(number, count)| *number > 1 && *count > 1);
+        let (number, _) = several.max_by_key(|(_, count)| *count)?;
+        Some(IdEncoding::CountedFrom(number))
     }
 
     fn distance_encodings(&self, t: &[f64], probes: &[Probe]) -> Vec<DistanceEncoding> {
@@ -178,7 +195,7 @@ impl<'a> Expected<'a> {
     fn id_number(&self, id: u32, encoding: IdEncoding) -> u64 {
         match encoding {
             IdEncoding::FromZero | IdEncoding::OneToOne => id.into(),
-            IdEncoding::FromOne => u64::from(id) + 1,
+            IdEncoding::CountedFrom(first) => first.saturating_add(id.into()),
             IdEncoding::FromTheEnd => self.view.scene.primitive_count() - 1 - u64::from(id),
             IdEncoding::OfObjects => self.view.scene.locate(id.into()).0 as u64,
         }

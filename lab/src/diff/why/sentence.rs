@@ -367,7 +367,9 @@ fn of_encoding(encoding: &Encoding) -> Vec<String> {
     let mut sentences = Vec::new();
     match encoding.ids {
         IdEncoding::FromZero => {}
-        IdEncoding::FromOne => sentences.push("counts ids from 1: subtract 1".to_owned()),
+        IdEncoding::CountedFrom(first) => {
+            sentences.push(format!("counts ids from {first}: subtract {first}"));
+        }
         IdEncoding::FromTheEnd => {
             sentences
                 .push("counts ids from the end of the scene: the first primitive has id 0".into());

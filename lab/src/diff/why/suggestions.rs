@@ -178,7 +178,7 @@ impl<'a> Differences<'a> {
         let count = self.expected.view.scene.primitive_count();
         let id_of = |number: u64| match self.encoding.ids {
             IdEncoding::FromZero => Some(number),
-            IdEncoding::FromOne => number.checked_sub(1),
+            IdEncoding::CountedFrom(first) => number.checked_sub(first),
             IdEncoding::FromTheEnd => count.checked_sub(number.saturating_add(1)),
             IdEncoding::OfObjects | IdEncoding::OneToOne => None,
         };

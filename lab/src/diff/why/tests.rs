@@ -462,6 +462,34 @@ fn distances_that_are_a_linear_function_are_named() {
     });
 }
 
+/// The file whose number for each primitive is what `number` makes of its id.
+fn numbered(view: &View, number: impl Fn(u32) -> u64) -> Buffer<'static> {
+    let truth = draw(view, &Convention::default(), Rows::ALL).ids;
+    let ids = truth.iter().map(|&id| (id != NO_PRIMITIVE).then(|| number(id)));
+    Buffer::new(view.camera.image(), 1, Content::Ids(ids.collect()))
+}
+
+#[test]
+fn a_numbering_from_another_number_is_named() {
+    with_scene(&coarse_lecture(), [66, 44], Projection::Perspective, |view| {
+        for first in [1, 2, 5, 1 << 40] {
+            let file = numbered(view, |id| first + u64::from(id));
+            let finding = find_conventions(view, &file).unwrap().finding;
+            let Finding::Explained(found) = &finding else { panic!("{finding:?}") };
+            let expected = IdEncoding::CountedFrom(first);
+            assert_eq!((found.len(), found[0].encoding.ids), (1, expected), "{found:?}");
+            assert_eq!(found[0].remaining, 0);
+        }
+        // An object too many in the middle of the scene moves those behind it only.
+        let middle = u32::try_from(view.scene.primitive_count() / 2).unwrap();
+        let file = numbered(view, |id| u64::from(id) + if id < middle { 0 } else { 5 });
+        let finding = find_conventions(view, &file).unwrap().finding;
+        let is_of_all = |one: &Explanation| matches!(one.encoding.ids, IdEncoding::CountedFrom(_));
+        let found = if let Finding::Explained(found) = &finding { found.as_slice() } else { &[] };
+        assert!(!found.iter().any(is_of_all), "{finding:?}");
+    });
+}
+
 #[test]
 fn a_file_of_one_number_says_nothing() {
     with_scene(&coarse_lecture(), [66, 44], Projection::Perspective, |view| {
