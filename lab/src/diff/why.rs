@@ -4,6 +4,7 @@
 //! - [`find_conventions`]: what a renderer does otherwise as a whole; the scene is drawn again under each hypothesis.
 //! - [`find_common_conventions`]: the same by several pictures of one renderer.
 
+mod blank;
 mod convention;
 mod distances;
 mod draw;
@@ -27,7 +28,7 @@ mod suggestions;
 mod together;
 
 pub use convention::{
-    Between, Change, Clip, Convention, Depth, Edges, Faces, Field, Look, NearPlane, Omission,
+    Between, Change, Clip, Convention, Depth, Edges, Faces, Field, Look, NearPlane, Omission, Part,
     Placement, Rays, Sampling, Several, ShapeKind,
 };
 pub use encoding::{DistanceEncoding, Encoding, IdEncoding, NothingEncoding};

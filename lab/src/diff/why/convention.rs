@@ -9,7 +9,7 @@ mod placement;
 mod sampling;
 
 pub use field::Field;
-pub use omission::{Between, Clip, NearPlane, Omission, Several, ShapeKind};
+pub use omission::{Between, Clip, NearPlane, Omission, Part, Several, ShapeKind};
 pub use placement::Placement;
 pub use sampling::Sampling;
 
@@ -272,6 +272,16 @@ impl Convention {
     /// Whether something is not drawn: a primitive, an object, or what lies beyond a plane.
     pub fn leaves_out(&self) -> bool {
         self.changes().into_iter().any(Change::has_own_number)
+    }
+
+    /// Whether a part of the picture is blank.
+    pub(super) fn leaves_part_blank(&self) -> bool {
+        matches!(self.omission, Omission::Part(_))
+    }
+
+    /// Whether a plane clips what is drawn.
+    pub(super) fn clips(&self) -> bool {
+        self.near.is_some() || self.far.is_some()
     }
 
     /// Whether it has a change on this axis.

@@ -3,7 +3,7 @@
 //! The loop is the lecture's object order with bounding boxes. It decides in `f64` where the bound of the roundoff
 //! allows, and asks the exact judge elsewhere: a hypothesis is held against the pixels without noise of its own.
 
-use super::convention::{Convention, Depth, Edges, Faces, Look};
+use super::convention::{Convention, Depth, Edges, Faces, Look, Omission, Part};
 use super::outline::{
     Area, TriangleOutline, area_of_sphere, area_of_triangle, plane_distance, whole,
 };
@@ -33,6 +33,18 @@ impl Drawn {
         let (Some(&id), Some(&t)) = (self.ids.first(), self.t.first()) else { return };
         self.ids.fill(id);
         self.t.fill(t);
+    }
+
+    /// Shows nothing in a part of the picture.
+    fn clear(&mut self, part: &Part) {
+        let [rows, columns] =
+            [part.rows, part.columns].map(|[first, last]| first as usize..=last as usize);
+        for (line, _) in self.rows.iter().enumerate().filter(|(_, row)| rows.contains(row)) {
+            let (begin, end) =
+                (line * self.width + columns.start(), line * self.width + columns.end());
+            self.ids[begin..=end].fill(NO_PRIMITIVE);
+            self.t[begin..=end].fill(f64::INFINITY);
+        }
     }
 }
 
@@ -79,6 +91,9 @@ pub(super) fn draw(view: &View, convention: &Convention, rows: Rows) -> Drawn {
     }
     if canvas.rays.are_one() {
         canvas.drawn.repeat_first();
+    }
+    if let Omission::Part(part) = convention.omission {
+        canvas.drawn.clear(&part);
     }
     canvas.drawn
 }

@@ -524,7 +524,14 @@ impl Search<'_> {
         let others =
             || candidates.iter().filter(|one| parts(one) > 0 && self.may_explain(one, ours));
         let fewest = others().map(|one| one.score.differing).min().unwrap_or(differing);
-        let good = |one: &&Candidate| as_good(one.score.differing, fewest, differing);
+        // A picture tells roughly where a plane lies: one that clips does as well as a part that is blank.
+        let best = others().min_by_key(|one| one.rank());
+        let is_of_part = best.is_some_and(|best| best.convention.leaves_part_blank());
+        let is_rival = |one: &Candidate| {
+            is_of_part && one.convention.clips() && one.score.differing <= fewest + differing / 50
+        };
+        let good =
+            |one: &&Candidate| as_good(one.score.differing, fewest, differing) || is_rival(one);
         let simplest = others().filter(good).map(parts).min();
         let is_simplest = |one: &&Candidate| Some(parts(one)) == simplest;
         let mut chosen: Vec<Candidate> =
@@ -536,7 +543,7 @@ impl Search<'_> {
             let is_known = explanations
                 .iter()
                 .any(|other| other.convention == one.convention && other.encoding == one.encoding);
-            let is_near = one.score.differing <= least + differing / 1000;
+            let is_near = one.score.differing <= least + differing / 1000 || is_rival(&one);
             if is_near && !is_known && explanations.len() < MOST_EXPLANATIONS {
                 explanations.push(self.explanation(&one, differing));
             }

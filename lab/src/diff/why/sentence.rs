@@ -1,7 +1,7 @@
 //! Conventions in sentences that a student can act on.
 
 use super::convention::{
-    Between, Change, Clip, Convention, Depth, Edges, Faces, Field, Look, NearPlane, Omission,
+    Between, Change, Clip, Convention, Depth, Edges, Faces, Field, Look, NearPlane, Omission, Part,
     Placement, Rays, Sampling,
 };
 use super::encoding::{DistanceEncoding, Encoding, INFINITELY_FAR, IdEncoding, NothingEncoding};
@@ -350,6 +350,7 @@ fn of_omission(omission: Omission) -> String {
             format!("leaves out ids {}: are they read, and what drops them?", ids.join(", "))
         }
         Omission::Shape(shape) => format!("draws no {}", shape.name()),
+        Omission::Part(part) => of_part(part),
         Omission::From { least, first } => {
             let from = match least == first {
                 true => format!("id {first}"),
@@ -361,6 +362,43 @@ fn of_omission(omission: Omission) -> String {
             format!("leaves out object {object} (ids {first} to {last}): is it read, and what drops it?")
         }
     }
+}
+
+/// Rows of the whole width, columns of the whole height, or a rectangle that is neither.
+fn of_part(Part { rows, columns, image: [width, height] }: Part) -> String {
+    let along = |axis: &str, [first, last]: [u32; 2], count: u32| match (first, last + 1 == count) {
+        (first, true) if first == last => {
+            format!("{axis} {first}, the last one: does its loop end one too early?")
+        }
+        (0, false) if last == 0 => {
+            format!("{axis} 0, the first one: does its loop begin at 1?")
+        }
+        (first, true) => {
+            format!(
+                "{axis}s {first} to {last}, the last ones: do its loop, its tiles or its buffer end too early?"
+            )
+        }
+        (0, false) => format!("{axis}s 0 to {last}, the first ones: does its loop begin too late?"),
+        _ => format!(
+            "{}: is this part of the picture not drawn, or not written?",
+            range(axis, [first, last])
+        ),
+    };
+    let what = match (rows, columns) {
+        (rows, [0, last]) if last + 1 == width => along("row", rows, height),
+        ([0, last], columns) if last + 1 == height => along("column", columns, width),
+        _ => format!(
+            "{} of {}: is a tile not drawn, or not written?",
+            range("row", rows),
+            range("column", columns)
+        ),
+    };
+    format!("shows nothing in {what}")
+}
+
+/// `row 7`, or `rows 7 to 9`.
+fn range(axis: &str, [first, last]: [u32; 2]) -> String {
+    if first == last { format!("{axis} {first}") } else { format!("{axis}s {first} to {last}") }
 }
 
 fn of_encoding(encoding: &Encoding) -> Vec<String> {

@@ -3,6 +3,7 @@
 //! They are too many to be tried each. A picture under other conventions tells which of them could explain where the
 //! file is not as expected; each is then drawn as any other hypothesis.
 
+use super::blank::blank_part;
 use super::convention::{Between, Change, Clip, NearPlane, Omission, Several, ShapeKind};
 use super::encoding::{Encoding, IdEncoding};
 use super::expected::Expected;
@@ -14,16 +15,18 @@ use std::collections::{BTreeMap, HashMap};
 
 /// So many primitives, and so many objects, are suggested.
 const MOST_OMISSIONS: usize = 2;
-/// Fewer pixels, or pixels of one row or column alone, are no evidence: rounding takes as many.
+/// Fewer pixels are no evidence, nor are those of one row or column alone, unless all of it is blank: rounding takes as many.
 const FEWEST_PIXELS: usize = 8;
 
 /// Where the file differs from a picture.
 pub(super) struct Differences<'a> {
-    expected: &'a Expected<'a>,
+    pub(super) expected: &'a Expected<'a>,
     observed: &'a Observed,
     encoding: Encoding,
     /// Whether it does, for each pixel of the picture, row by row.
     differs: Vec<bool>,
+    /// Whether it shows anything there.
+    pub(super) shows: Vec<bool>,
 }
 
 impl<'a> Differences<'a> {
@@ -33,20 +36,35 @@ impl<'a> Differences<'a> {
         placement: Placement,
         encoding: Encoding,
     ) -> Differences<'a> {
-        let mut differs = Vec::with_capacity(expected.drawn.ids.len());
-        expected.each(observed, placement, &encoding, |_, is_other, _| differs.push(is_other));
-        Differences { expected, observed, encoding, differs }
+        let pixels = expected.drawn.ids.len();
+        let (mut differs, mut shows) = (Vec::with_capacity(pixels), Vec::with_capacity(pixels));
+        expected.each(observed, placement, &encoding, |index, is_other, _| {
+            differs.push(is_other);
+            shows.push(observed.covered(index, encoding.nothing));
+        });
+        Differences { expected, observed, encoding, differs, shows }
+    }
+
+    /// Whether the file shows nothing at a pixel where something should be seen.
+    pub(super) fn is_lost(&self, pixel: usize) -> bool {
+        self.differs[pixel] && !self.shows[pixel]
     }
 
     /// The changes that could explain at least half of the differences.
     pub(super) fn suggested(&self) -> Vec<Change> {
         let differing = self.differs.iter().filter(|&&differs| differs).count();
-        if differing < FEWEST_PIXELS || self.is_one_line() {
+        if differing < FEWEST_PIXELS {
             return Vec::new();
         }
+        let lost = (0..self.differs.len()).filter(|&pixel| self.is_lost(pixel)).count();
+        let part = explains(lost, differing).then(|| blank_part(self)).flatten();
+        let part = part.map(|part| Change::Omission(Omission::Part(part)));
+        let mut changes: Vec<Change> = part.into_iter().collect();
+        if self.is_one_line() {
+            return changes;
+        }
         let seen = self.seen();
-        let mut changes: Vec<Change> =
-            self.omissions(&seen, differing).into_iter().map(Change::Omission).collect();
+        changes.extend(self.omissions(&seen, differing).into_iter().map(Change::Omission));
         changes.extend(self.planes(&seen, differing));
         changes
     }

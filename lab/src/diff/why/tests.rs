@@ -396,6 +396,68 @@ fn what_is_left_out_is_named_in_ids_and_in_masks() {
 }
 
 #[test]
+fn a_blank_part_of_a_picture_is_named_beside_nothing_that_cannot_be() {
+    let check = |view: &View, of_ids: bool| {
+        let image @ [width, height] = view.camera.image();
+        let (all_rows, all_columns) = ([0, height - 1], [0, width - 1]);
+        let parts = [
+            ([30, height - 1], all_columns, "in rows 30 to 43, the last ones"),
+            (
+                [height - 1; 2],
+                all_columns,
+                "in row 43, the last one: does its loop end one too early",
+            ),
+            ([0, 19], all_columns, "in rows 0 to 19, the first ones"),
+            ([20, 27], all_columns, "in rows 20 to 27: is this part"),
+            (all_rows, [40, width - 1], "the last ones: do its loop"),
+            (all_rows, [0, 0], "in column 0, the first one: does its loop begin at 1"),
+            ([16, 23], [24, 31], "in rows 16 to 23 of columns 24 to 31: is a tile"),
+        ];
+        for (rows, columns, said) in parts {
+            let planted = Omission::Part(Part { rows, columns, image });
+            let planted = Convention::default().with(Change::Omission(planted));
+            let findings = find_conventions(view, &file(view, &planted, of_ids)).unwrap();
+            let Finding::Explained(found) = &findings.finding else {
+                panic!("{said}: {findings:?}")
+            };
+            assert!(found.iter().all(|one| one.remaining == 0), "{said}: {found:?}");
+            let is_said = |one: &Explanation| {
+                let sentences = one.sentences("A", view.camera);
+                sentences.len() == 1 && sentences[0].contains(said)
+            };
+            assert!(found.iter().any(is_said), "{said}: {found:?}");
+        }
+    };
+    with_scene(&coarse_lecture(), [66, 44], Projection::Perspective, |view| {
+        check(view, true);
+        check(view, false);
+    });
+}
+
+#[test]
+fn an_object_that_is_missing_is_no_blank_part() {
+    // Two balls and a wall, each of which fills rows that nothing else does.
+    let ball = |y: f32| {
+        let center = crate::common::glam::Vec3::new(0.0, y, -3.0);
+        crate::common::Shape::Sphere(crate::common::Sphere { center, radius: 0.4 })
+    };
+    let objects: Vec<crate::common::Object> = [1.0, 0.0, -1.0].map(ball).map(Into::into).into();
+    let scene = crate::common::Scene::new(objects).unwrap();
+    let camera = Camera::canonical(64, 64);
+    let view = View::new(&scene, &camera);
+    for id in 0..3 {
+        let omission = Omission::of_primitive(&scene, id);
+        let planted = Convention::default().with(Change::Omission(omission));
+        for of_ids in [true, false] {
+            let findings = find_conventions(&view, &file(&view, &planted, of_ids)).unwrap();
+            let Finding::Explained(found) = &findings.finding else { panic!("{findings:?}") };
+            let is_part = |one: &Explanation| matches!(one.convention.omission, Omission::Part(_));
+            assert!(!found.iter().any(is_part), "{found:?}");
+        }
+    }
+}
+
+#[test]
 fn what_is_shown_elsewhere_is_not_left_out() {
     heap(Projection::Perspective, [64, 44], |view| {
         let truth = draw(view, &Convention::default(), Rows::ALL).ids;

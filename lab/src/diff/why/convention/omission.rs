@@ -60,6 +60,8 @@ pub enum Omission {
     Several(Several),
     /// All primitives of a shape.
     Shape(ShapeKind),
+    /// Everything in a part of the picture.
+    Part(Part),
     /// All from some id on.
     From {
         /// The smallest id that may be the first of them: the one behind the last that is shown.
@@ -83,10 +85,10 @@ impl Omission {
         (first < last).then_some(Omission::Object { object, ids: [first, last] })
     }
 
-    /// Whether a primitive is not drawn.
+    /// Whether a primitive is not drawn anywhere.
     pub fn omits(self, id: u32, primitive: &Primitive) -> bool {
         match self {
-            Omission::Nothing => false,
+            Omission::Nothing | Omission::Part(_) => false,
             Omission::Primitive { id: own, .. } => own == id,
             Omission::Object { ids: [first, last], .. } => (first..=last).contains(&id),
             Omission::Several(several) => several.ids().contains(&id),
@@ -94,6 +96,17 @@ impl Omission {
             Omission::From { first, .. } => id >= first,
         }
     }
+}
+
+/// A rectangle of pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Part {
+    /// Its first and its last row, from the top.
+    pub rows: [u32; 2],
+    /// Its first and its last column, from the left.
+    pub columns: [u32; 2],
+    /// Width and height of the picture.
+    pub image: [u32; 2],
 }
 
 /// The ids of a few primitives, ascending.
