@@ -8,7 +8,7 @@ use crate::common::frame::NO_PRIMITIVE;
 const FEWEST_CUT: usize = 4;
 
 /// The first and the last row, and the first and the last column.
-type Box2 = [[usize; 2]; 2];
+type Rectangle = [[usize; 2]; 2];
 
 /// The rows, the columns or the rectangle that the file leaves blank, if that is all that it lacks, and a side of it cuts an
 /// object that is shown beside it. Where nothing is cut, the file may as well lack an object.
@@ -16,7 +16,7 @@ pub(super) fn blank_part(differences: &Differences) -> Option<Part> {
     let image = differences.expected.view.camera.image();
     let [width, height] = image.map(|side| side as usize);
     let lost = (0..width * height).filter(|&pixel| differences.is_lost(pixel));
-    let around = lost.fold(None, |around: Option<Box2>, pixel| {
+    let around = lost.fold(None, |around: Option<Rectangle>, pixel| {
         let at = [pixel / width, pixel % width];
         let [rows, columns] = around.unwrap_or(at.map(|side| [side, side]));
         let with = |[first, last]: [usize; 2], side: usize| [first.min(side), last.max(side)];
@@ -24,28 +24,24 @@ pub(super) fn blank_part(differences: &Differences) -> Option<Part> {
     })?;
     let [rows, columns] = around;
     let whole = [[0, height - 1], [0, width - 1]];
-    let blank = |part: &Box2| is_blank(differences, width, *part);
+    let blank = |part: &Rectangle| is_blank(differences, width, *part);
     let parts = [[rows, whole[1]], [whole[0], columns], around];
-    let mut part = parts.into_iter().find(blank)?;
-    if !is_cut(differences, width, height, around) {
+    let (form, mut part) = parts.into_iter().enumerate().find(|(_, part)| blank(part))?;
+    if !is_cut(differences, [width, height], around) {
         return None;
     }
-    // Beside it, there may be nothing to see.
-    for axis in [0, 1] {
-        let side = |ends: [usize; 2]| {
-            let mut side = part;
-            side[axis] = ends;
-            side
-        };
+    // Beyond these rows or columns, there may be nothing to see.
+    if let axis @ (0 | 1) = form {
         let [first, last] = part[axis];
-        let [before, behind] =
-            [side([0, first]), side([last, whole[axis][1]])].map(|side| blank(&side));
-        if before {
-            part[axis][0] = 0;
-        }
-        if behind {
-            part[axis][1] = whole[axis][1];
-        }
+        let with = |ends: [usize; 2]| {
+            let mut with = part;
+            with[axis] = ends;
+            with
+        };
+        let end = whole[axis][1];
+        let is_first = blank(&with([0, first]));
+        let is_last = blank(&with([last, end]));
+        part[axis] = [if is_first { 0 } else { first }, if is_last { end } else { last }];
     }
     let number = |side: usize| u32::try_from(side).expect("at most 2^16");
     let [rows, columns] = part.map(|ends| ends.map(number));
@@ -53,7 +49,7 @@ pub(super) fn blank_part(differences: &Differences) -> Option<Part> {
 }
 
 /// Whether the file shows nothing in a part.
-fn is_blank(differences: &Differences, width: usize, [rows, columns]: Box2) -> bool {
+fn is_blank(differences: &Differences, width: usize, [rows, columns]: Rectangle) -> bool {
     (rows[0]..=rows[1]).all(|row| {
         let line = row * width;
         !differences.shows[line + columns[0]..=line + columns[1]].contains(&true)
@@ -61,7 +57,11 @@ fn is_blank(differences: &Differences, width: usize, [rows, columns]: Box2) -> b
 }
 
 /// Whether one side of a part cuts an object: at half of the pixels that are lost along it, the pixel beyond shows the same object.
-fn is_cut(differences: &Differences, width: usize, height: usize, [rows, columns]: Box2) -> bool {
+fn is_cut(
+    differences: &Differences,
+    [width, height]: [usize; 2],
+    [rows, columns]: Rectangle,
+) -> bool {
     let scene = differences.expected.view.scene;
     let ids = &differences.expected.drawn.ids;
     let object = |pixel: usize| {

@@ -412,6 +412,8 @@ fn a_blank_part_of_a_picture_is_named_beside_nothing_that_cannot_be() {
             (all_rows, [40, width - 1], "the last ones: do its loop"),
             (all_rows, [0, 0], "in column 0, the first one: does its loop begin at 1"),
             ([16, 23], [24, 31], "in rows 16 to 23 of columns 24 to 31: is a tile"),
+            // Above, there is nothing to see.
+            ([0, 15], [32, 47], "of columns 32 to 47: is a tile"),
         ];
         for (rows, columns, said) in parts {
             let planted = Omission::Part(Part { rows, columns, image });
