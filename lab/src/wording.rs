@@ -18,6 +18,12 @@ pub fn grouped(number: u64) -> String {
     grouped
 }
 
+/// A number of three digits.
+pub(crate) fn three_digits(number: f64) -> String {
+    let short = format!("{number:.2e}").parse::<f64>();
+    short.map_or_else(|_| number.to_string(), |short| short.to_string())
+}
+
 /// A number of things; for one thing, without the s of the plural.
 pub fn count(number: u64, things: &str) -> String {
     let things = if number == 1 { things.trim_end_matches('s') } else { things };

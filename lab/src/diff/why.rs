@@ -6,6 +6,7 @@
 
 mod blank;
 mod convention;
+mod differences;
 mod distances;
 mod draw;
 mod encoding;

@@ -1,7 +1,7 @@
 //! A part of the picture that a file leaves blank: its last rows, or a tile.
 
 use super::convention::Part;
-use super::suggestions::Differences;
+use super::differences::Differences;
 use crate::common::frame::NO_PRIMITIVE;
 
 /// On a side of a part, so many pixels must show that something visible is cut there.

@@ -5,13 +5,13 @@
 //! as each of them explains at least half of what is left. A change that explains less is left out again.
 
 use super::convention::{Change, Convention, Placement};
+use super::differences::Differences;
 use super::draw::{Drawn, Rows, draw, equally_near};
 use super::encoding::{Encoding, IdEncoding, NothingEncoding};
 use super::evidence::no_evidence;
 use super::expected::{Expected, Score};
 use super::observed::{Observed, Values};
 use super::place::common_place;
-use super::suggestions::Differences;
 use crate::common::View;
 use crate::diff::buffer::Buffer;
 use rayon::prelude::*;

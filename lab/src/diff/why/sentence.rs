@@ -8,7 +8,7 @@ use super::convention::{
 use super::encoding::{DistanceEncoding, Encoding, INFINITELY_FAR, IdEncoding, NothingEncoding};
 use super::search::Explanation;
 use crate::common::{Camera, Projection};
-use crate::wording::readable;
+use crate::wording::{readable, three_digits};
 use omission::{of_far, of_near, of_omission};
 
 impl Explanation {
@@ -341,23 +341,23 @@ fn of_distances(encoding: DistanceEncoding) -> Option<String> {
         D::Linear { factor, offset } => of_linear(factor, offset),
         D::Window { near, far: INFINITELY_FAR } => format!(
             "holds OpenGL's window depth for a near plane at {} and none far away: t d = {0} / (1 - depth)",
-            digits(near)
+            three_digits(near)
         ),
         D::Window { near, far } => format!(
             "holds OpenGL's window depth for the planes {} and {}: t d = {0} {1} / ({1} - ({1} - {0}) depth)",
-            digits(near),
-            digits(far)
+            three_digits(near),
+            three_digits(far)
         ),
         D::ReversedWindow { near, far: INFINITELY_FAR } => format!(
             "holds {0} / (t d): {0} divided by it is t d (or it is reversed window depth, 1 at the near plane {0} and 0 \
              infinitely far away)",
-            digits(near)
+            three_digits(near)
         ),
         D::ReversedWindow { near, far } => format!(
             "holds reversed window depth (1 at the near plane {}, 0 at the far plane {}): t d = {0} {1} / ({0} + \
              ({1} - {0}) depth)",
-            digits(near),
-            digits(far)
+            three_digits(near),
+            three_digits(far)
         ),
     };
     Some(words)
@@ -392,13 +392,6 @@ fn of_linear(factor: f64, offset: f64) -> String {
     }
     let cure = cure.join(" and ");
     format!("holds {sum}: t counts from the ray's origin, in lengths of its direction; {cure}")
-}
-
-/// A number of three digits, which are certain.
-fn digits(number: f64) -> String {
-    format!("{number:.2e}")
-        .parse::<f64>()
-        .map_or_else(|_| number.to_string(), |short| short.to_string())
 }
 
 #[cfg(test)]

@@ -5,11 +5,10 @@
 
 use super::blank::blank_part;
 use super::convention::{Between, Change, Clip, NearPlane, Omission, Several, ShapeKind};
-use super::encoding::{Encoding, IdEncoding};
-use super::expected::Expected;
-use super::observed::{Observed, Values};
+use super::differences::Differences;
+use super::encoding::IdEncoding;
+use super::observed::Values;
 use crate::common::frame::NO_PRIMITIVE;
-use crate::diff::why::Placement;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, HashMap};
 
@@ -18,38 +17,7 @@ const MOST_OMISSIONS: usize = 2;
 /// Fewer pixels are no evidence, nor are those of one row or column alone, unless all of it is blank: rounding takes as many.
 const FEWEST_PIXELS: usize = 8;
 
-/// Where the file differs from a picture.
-pub(super) struct Differences<'a> {
-    pub(super) expected: &'a Expected<'a>,
-    observed: &'a Observed,
-    encoding: Encoding,
-    /// Whether it does, for each pixel of the picture, row by row.
-    differs: Vec<bool>,
-    /// Whether it shows anything there.
-    pub(super) shows: Vec<bool>,
-}
-
-impl<'a> Differences<'a> {
-    pub(super) fn new(
-        expected: &'a Expected<'a>,
-        observed: &'a Observed,
-        placement: Placement,
-        encoding: Encoding,
-    ) -> Differences<'a> {
-        let pixels = expected.drawn.ids.len();
-        let (mut differs, mut shows) = (Vec::with_capacity(pixels), Vec::with_capacity(pixels));
-        expected.each(observed, placement, &encoding, |index, is_other, _| {
-            differs.push(is_other);
-            shows.push(observed.covered(index, encoding.nothing));
-        });
-        Differences { expected, observed, encoding, differs, shows }
-    }
-
-    /// Whether the file shows nothing at a pixel where something should be seen.
-    pub(super) fn is_lost(&self, pixel: usize) -> bool {
-        self.differs[pixel] && !self.shows[pixel]
-    }
-
+impl Differences<'_> {
     /// The changes that could explain at least half of the differences.
     pub(super) fn suggested(&self) -> Vec<Change> {
         let differing = self.differs.iter().filter(|&&differs| differs).count();
@@ -67,22 +35,6 @@ impl<'a> Differences<'a> {
         changes.extend(self.omissions(&seen, differing).into_iter().map(Change::Omission));
         changes.extend(self.planes(&seen, differing));
         changes
-    }
-
-    /// Whether all differences lie in one row or one column.
-    fn is_one_line(&self) -> bool {
-        let width = self.expected.view.camera.image()[0] as usize;
-        let mut pixels = (0..self.differs.len()).filter(|&pixel| self.differs[pixel]);
-        let Some(first) = pixels.next() else { return true };
-        let (mut rows, mut columns) = (false, false);
-        for pixel in pixels {
-            rows |= pixel / width != first / width;
-            columns |= pixel % width != first % width;
-            if rows && columns {
-                return false;
-            }
-        }
-        true
     }
 
     /// What is seen of each primitive.

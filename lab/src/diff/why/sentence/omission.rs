@@ -1,8 +1,8 @@
 //! What a renderer leaves out, in sentences.
 
-use super::digits;
 use crate::common::Projection;
 use crate::diff::why::convention::{Between, Clip, NearPlane, Omission, Part};
+use crate::wording::three_digits;
 
 /// A near plane.
 pub(super) fn of_near(
@@ -54,7 +54,7 @@ fn depth_of_t(projection: Projection) -> &'static str {
 
 /// `0.7`, or `0.7 to 0.9` where the picture tells no more.
 fn of_between(between: Between) -> String {
-    let [nearer, farther] = [between.nearer, between.farther].map(digits);
+    let [nearer, farther] = [between.nearer, between.farther].map(three_digits);
     if nearer == farther { nearer } else { format!("{nearer} to {farther}") }
 }
 
