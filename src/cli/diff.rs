@@ -18,7 +18,7 @@ use super::output::Staging;
 use super::terminal;
 use anstyle::{AnsiColor, Style};
 use bothways::common::View;
-use bothways::diff::foreign::{self, Aspect, Buffer, BufferComparison, Unit};
+use bothways::diff::foreign::{self, Aspect, Buffer, BufferComparison, CompareOptions, Unit};
 use bothways::diff::pairs::reference;
 use bothways::formats::source::quote::visible;
 use bothways::picture::enlarged;
@@ -57,7 +57,7 @@ fn compare_files(args: &DiffArgs, page: &Beside) -> Result<ExitCode, Failure> {
     }
     let [a, b] = [&read[0].buffer, &read[1].buffer];
     let options = args.comparison.options(reference(&args.a, &args.b));
-    let comparison = foreign::compare_with(a, b, &options).map_err(|error| {
+    let mut comparison = foreign::compare_with(a, b, &options).map_err(|error| {
         let (a_path, b_path) = (args.a.display(), args.b.display());
         let cause = why::of_sizes(&args.scene, [a, b]);
         Failure::new(format!("A = {a_path}, B = {b_path}: {error}{cause}"))
@@ -71,6 +71,15 @@ fn compare_files(args: &DiffArgs, page: &Beside) -> Result<ExitCode, Failure> {
             None => Why::find(&View::new(&loaded.scene, camera), [a, b], &comparison, words, 1),
         }
     });
+    // Hints must not say what is wrong with a file that is right.
+    if let Some(why) = why.as_ref().filter(|why| why.explains_nothing())
+        && let right @ Some(_) = why.right_side()
+    {
+        let options = CompareOptions { reference: right, ..options };
+        if let Ok(with_reference) = foreign::compare_with(a, b, &options) {
+            comparison.hints = with_reference.hints;
+        }
+    }
     let [width, height] = a.size();
     if let Some([i, j]) = args.pixel.filter(|&[i, j]| i >= height || j >= width) {
         return Err(Failure::new(format!(

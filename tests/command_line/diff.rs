@@ -42,6 +42,23 @@ pub(crate) fn count(folder: &Path) -> usize {
 }
 
 #[test]
+fn a_file_that_is_right_is_not_said_to_lack_anything() {
+    let home = rendered("1");
+    // No primitive has this id.
+    edited(&home, "object-order.ids.npy", [8, 12], 77_u32.to_le_bytes());
+    let ours = "out/image-order.ids.npy";
+    for (a, b, wrong, right) in [("mine.npy", ours, "A", "B"), (ours, "mine.npy", "B", "A")] {
+        let factual = format!("{wrong} shows the primitive 77, which {right} never shows");
+        let blamed = format!("{right} never shows the primitive 77 of {wrong}");
+        let by_scene = contains(factual).and(contains(blamed.clone()).not());
+        let scene = ["diff", a, b, "--scene", "canonical"];
+        bothways(&home, &scene).assert().code(1).stdout(by_scene);
+        // Without the scene, neither is known to be right.
+        bothways(&home, &["diff", a, b]).assert().code(1).stdout(contains(blamed));
+    }
+}
+
+#[test]
 fn both_orders_are_equal_in_every_file() {
     for samples in ["1", "2"] {
         let home = rendered(samples);

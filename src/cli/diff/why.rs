@@ -133,6 +133,18 @@ impl<'a> Why<'a> {
         text
     }
 
+    /// The file that shows what is true of the scene, if the other one does not.
+    pub(super) fn right_side(&self) -> Option<Side> {
+        let is_true = self.conventions.each_ref().map(|found| {
+            found.as_ref().is_ok_and(|findings| findings.finding == Finding::True)
+        });
+        match is_true {
+            [true, false] => Some(Side::A),
+            [false, true] => Some(Side::B),
+            _ => None,
+        }
+    }
+
     /// Whether the scene explains neither file: what both look like beside each other may say more.
     pub(super) fn explains_nothing(&self) -> bool {
         let explains = |found: &Findings| {

@@ -11,8 +11,8 @@ use crate::diff::buffer_pair::BufferPair;
 use crate::diff::classes::Classes;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Every cause that alone explains every difference, one sentence each. A reference is right, and its encoding is
-/// right too.
+/// Every cause that alone explains every difference, one sentence each. A reference is right: it lacks nothing, and its
+/// encoding is right too.
 pub(in crate::diff) fn hints(
     pair: &BufferPair,
     differing: &Classes,
@@ -38,8 +38,9 @@ pub(in crate::diff) fn hints(
                  order or from another number, or equally near ones decided otherwise"
             )
         }));
-        hints.extend(lacking(a, b).map(|ids| lacks("B", &ids, "A")));
-        hints.extend(lacking(b, a).map(|ids| lacks("A", &ids, "B")));
+        let by_side = |side| if reference == Some(side) { lacks_rightly } else { lacks };
+        hints.extend(lacking(a, b).map(|ids| by_side(Side::B)("B", &ids, "A")));
+        hints.extend(lacking(b, a).map(|ids| by_side(Side::A)("A", &ids, "B")));
     }
     let may_be_miswritten = |name: &str| match reference {
         Some(Side::A) => name != "A",
@@ -121,13 +122,26 @@ fn runs(values: &[Option<u64>]) -> impl Iterator<Item = &Option<u64>> {
 }
 
 fn lacks(name: &str, ids: &[u64], other: &str) -> String {
+    format!(
+        "{name} never shows {} of {other}, and agrees elsewhere: culled, cut off, not drawn, or missed between \
+         samples?",
+        primitives(ids)
+    )
+}
+
+/// The same of a file that is right.
+fn lacks_rightly(name: &str, ids: &[u64], other: &str) -> String {
+    format!(
+        "{other} shows {}, which {name} never shows, and agrees elsewhere; {name} is right",
+        primitives(ids)
+    )
+}
+
+/// `the primitives 7, 9`.
+fn primitives(ids: &[u64]) -> String {
     let things = if ids.len() == 1 { "the primitive" } else { "the primitives" };
     let ids: Vec<String> = ids.iter().map(u64::to_string).collect();
-    let ids = listed(&ids);
-    format!(
-        "{name} never shows {things} {ids} of {other}, and agrees elsewhere: culled, cut off, not drawn, or \
-         missed between samples?"
-    )
+    format!("{things} {}", listed(&ids))
 }
 
 /// The meaning of 0 in a buffer that covers everything, if the buffers agree with that meaning and differ otherwise.
