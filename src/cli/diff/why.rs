@@ -135,9 +135,10 @@ impl<'a> Why<'a> {
 
     /// The file that shows what is true of the scene, if the other one does not.
     pub(super) fn right_side(&self) -> Option<Side> {
-        let is_true = self.conventions.each_ref().map(|found| {
-            found.as_ref().is_ok_and(|findings| findings.finding == Finding::True)
-        });
+        let is_true = self
+            .conventions
+            .each_ref()
+            .map(|found| found.as_ref().is_ok_and(|findings| findings.finding == Finding::True));
         match is_true {
             [true, false] => Some(Side::A),
             [false, true] => Some(Side::B),
@@ -236,6 +237,9 @@ impl<'a> Why<'a> {
         let how = match (found.len(), guess) {
             (1, false) => "one explanation fits best",
             (1, true) => "a guess, which explains less than half",
+            (_, false) if found.iter().any(|one| one.remaining != found[0].remaining) => {
+                "these explain nearly equally much, and the files cannot tell which it is"
+            }
             (_, false) => "these explain equally much, and the files cannot tell which it is",
             (_, true) => "guesses, which explain less than half",
         };

@@ -15,8 +15,8 @@ type Rectangle = [[usize; 2]; 2];
 pub(super) fn blank_part(differences: &Differences) -> Option<Part> {
     let image = differences.expected.view.camera.image();
     let [width, height] = image.map(|side| side as usize);
-    let lost = (0..width * height).filter(|&pixel| differences.is_lost(pixel));
-    let around = lost.fold(None, |around: Option<Rectangle>, pixel| {
+    let lost = || (0..width * height).filter(|&pixel| differences.is_lost(pixel));
+    let around = lost().fold(None, |around: Option<Rectangle>, pixel| {
         let at = [pixel / width, pixel % width];
         let [rows, columns] = around.unwrap_or(at.map(|side| [side, side]));
         let with = |[first, last]: [usize; 2], side: usize| [first.min(side), last.max(side)];
@@ -45,7 +45,21 @@ pub(super) fn blank_part(differences: &Differences) -> Option<Part> {
     }
     let number = |side: usize| u32::try_from(side).expect("at most 2^16");
     let [rows, columns] = part.map(|ends| ends.map(number));
-    Some(Part { rows, columns, image })
+    Some(Part { rows, columns, image, alone: only_object(differences, lost()) })
+}
+
+/// The only object of several that is seen at some pixels: its number, and its first and its last id.
+fn only_object(
+    differences: &Differences,
+    mut pixels: impl Iterator<Item = usize>,
+) -> Option<(usize, [u32; 2])> {
+    let scene = differences.expected.view.scene;
+    let object = |pixel: usize| scene.locate(differences.expected.drawn.ids[pixel].into()).0;
+    let first = object(pixels.next()?);
+    let is_only = scene.objects().len() > 1 && pixels.all(|pixel| object(pixel) == first);
+    let ids = scene.ids_of(first);
+    let number = |id: u64| u32::try_from(id).ok();
+    is_only.then_some((first, [number(ids.start)?, number(ids.end.checked_sub(1)?)?]))
 }
 
 /// Whether the file shows nothing in a part.

@@ -285,6 +285,20 @@ impl<'a> Expected<'a> {
     }
 }
 
+/// How far a file is from the true picture; in all pixels if rows and columns are exchanged in a picture that is not square.
+pub(super) fn score_of_truth(
+    view: &View,
+    observed: &Observed,
+    placements: &[Placement],
+    truth: &Drawn,
+) -> Score {
+    if !placements.contains(&Placement::Upright) {
+        return Score { differing: truth.ids.len() as u64, ..Score::default() };
+    }
+    let expected = Expected::new(view, &Convention::default(), truth);
+    expected.score(observed, Placement::Upright, &Encoding::default())
+}
+
 /// A pixel of the picture and of the file.
 #[derive(Clone, Copy, Debug)]
 struct Probe {
@@ -306,22 +320,15 @@ struct IndexMap {
 impl IndexMap {
     #[expect(clippy::cast_possible_wrap, reason = "at most 2^30 pixels")]
     fn new(placement: Placement, [width, height]: [usize; 2]) -> IndexMap {
-        let (w, h) = (width as isize, height as isize);
-        // The row and the column in the file are linear in the row `i` and the column `j` of the picture.
-        let (row, column) = match placement {
-            Placement::Upright => ([0, 1, 0], [0, 0, 1]),
-            Placement::UpsideDown => ([h - 1, -1, 0], [0, 0, 1]),
-            Placement::LeftToRight => ([0, 1, 0], [w - 1, 0, -1]),
-            Placement::HalfTurn => ([h - 1, -1, 0], [w - 1, 0, -1]),
-            Placement::Transposed => ([0, 0, 1], [0, 1, 0]),
-            Placement::TurnedLeft => ([w - 1, 0, -1], [0, 1, 0]),
-            Placement::TurnedRight => ([0, 0, 1], [h - 1, -1, 0]),
-            Placement::OtherDiagonal => ([w - 1, 0, -1], [h - 1, -1, 0]),
-            Placement::ByColumns => return IndexMap { base: 0, per_row: 1, per_column: h },
+        let size = [width as isize, height as isize];
+        let stride = if placement.swaps_sides() { size[1] } else { size[0] };
+        // The index is linear in the row and the column of the picture.
+        let index = |pixel: [isize; 2]| {
+            let [row, column] = placement.in_file(pixel, size);
+            row * stride + column
         };
-        let stride = if placement.swaps_sides() { h } else { w };
-        let [base, per_row, per_column] = [0, 1, 2].map(|part| row[part] * stride + column[part]);
-        IndexMap { base, per_row, per_column }
+        let base = index([0, 0]);
+        IndexMap { base, per_row: index([1, 0]) - base, per_column: index([0, 1]) - base }
     }
 
     #[expect(

@@ -9,7 +9,7 @@ use super::differences::Differences;
 use super::draw::{Drawn, Rows, draw, equally_near};
 use super::encoding::{Encoding, IdEncoding, NothingEncoding};
 use super::evidence::no_evidence;
-use super::expected::{Expected, Score};
+use super::expected::{Expected, Score, score_of_truth};
 use super::observed::{Observed, Values};
 use super::place::common_place;
 use crate::common::View;
@@ -111,10 +111,9 @@ pub fn find_conventions(view: &View, file: &Buffer) -> Result<Findings, SearchEr
     }
     let truth = draw(view, &Convention::default(), Rows::ALL);
     let pixels = u64::from(width) * u64::from(height);
-    let search = Search { view, observed: &observed, placements: &placements, truth: &truth };
-    let ours = search.ours();
-    let finding = search.finding(ours);
-    Ok(Findings { pixels, differing: ours.differing, finding })
+    let ours = score_of_truth(view, &observed, &placements, &truth);
+    let search = Search { view, observed: &observed, placements: &placements, truth: &truth, ours };
+    Ok(Findings { pixels, differing: ours.differing, finding: search.finding() })
 }
 
 /// At least so many rows, and so many pixels, are looked at first.
@@ -141,6 +140,8 @@ struct Search<'a> {
     observed: &'a Observed,
     placements: &'a [Placement],
     truth: &'a Drawn,
+    /// How far the file is from the true picture.
+    ours: Score,
 }
 
 /// A hypothesis and how well it does.
@@ -190,18 +191,8 @@ fn parts(convention: &Convention, encoding: &Encoding) -> usize {
 }
 
 impl Search<'_> {
-    /// How far the file is from the true picture; in all pixels if rows and columns are exchanged in a picture that is not
-    /// square.
-    fn ours(&self) -> Score {
-        if !self.placements.contains(&Placement::Upright) {
-            return Score { differing: self.truth.ids.len() as u64, ..Score::default() };
-        }
-        let expected = Expected::new(self.view, &Convention::default(), self.truth);
-        expected.score(self.observed, Placement::Upright, &Encoding::default())
-    }
-
-    fn finding(&self, ours: Score) -> Finding {
-        let differing = ours.differing;
+    fn finding(&self) -> Finding {
+        let (ours, differing) = (self.ours, self.ours.differing);
         if differing == 0 {
             return Finding::True;
         }
@@ -314,14 +305,33 @@ impl Search<'_> {
         let expected = Expected::new(self.view, &convention, drawn);
         let meanings = self.meanings_of_nothing();
         let placed = self.placements.iter().map(|&placement| {
-            let readings = meanings.iter().map(|&nothing| {
-                let encoding = expected.encoding(self.observed, placement, nothing);
-                let score = expected.score_of_hypothesis(self.observed, placement, &encoding);
-                Candidate { convention: Convention { placement, ..convention }, encoding, score }
-            });
+            let convention = Convention { placement, ..convention };
+            let readings =
+                meanings.iter().map(|&nothing| self.read(convention, &expected, nothing));
             readings.min_by_key(Candidate::rank).expect("one meaning of nothing is ours")
         });
         placed.collect()
+    }
+
+    /// The reading of the file under a convention, with a meaning of nothing.
+    fn read(
+        &self,
+        convention: Convention,
+        expected: &Expected,
+        nothing: NothingEncoding,
+    ) -> Candidate {
+        let placement = convention.placement;
+        let with = |encoding: Encoding| {
+            let score = expected.score_of_hypothesis(self.observed, placement, &encoding);
+            Candidate { convention, encoding, score }
+        };
+        let best = with(expected.encoding(self.observed, placement, nothing));
+        // Who counts all from another number shows hardly any by ours.
+        let counts_otherwise = matches!(best.encoding.ids, IdEncoding::CountedFrom(2..));
+        if counts_otherwise && 1000 * self.ours.shown > self.ours.differing {
+            return with(Encoding { ids: IdEncoding::FromZero, ..best.encoding });
+        }
+        best
     }
 
     /// The whole picture under a convention.
@@ -366,17 +376,15 @@ impl Search<'_> {
         let expected = Expected::new(self.view, &convention, drawn);
         let placement = convention.placement;
         let scored = self.meanings_of_nothing().into_iter().flat_map(|nothing| {
-            let encoding = expected.encoding(self.observed, placement, nothing);
-            let with = |encoding: Encoding| {
-                let score = expected.score_of_hypothesis(self.observed, placement, &encoding);
-                Candidate { convention, encoding, score }
-            };
-            let own = with(encoding);
+            let own = self.read(convention, &expected, nothing);
             // Where primitives have other numbers, more pixels differ than in coverage alone.
             let ids_differ = own.score.differing > 2 * own.score.coverage;
             let is_ids = matches!(self.observed.values, Values::Ids(_));
-            let one_to_one = (is_ids && ids_differ)
-                .then(|| with(Encoding { ids: IdEncoding::OneToOne, ..encoding }));
+            let one_to_one = (is_ids && ids_differ).then(|| {
+                let encoding = Encoding { ids: IdEncoding::OneToOne, ..own.encoding };
+                let score = expected.score_of_hypothesis(self.observed, placement, &encoding);
+                Candidate { encoding, score, ..own }
+            });
             std::iter::once(own).chain(one_to_one)
         });
         scored.min_by_key(Candidate::rank).expect("one meaning of nothing is ours")
@@ -528,7 +536,7 @@ impl Search<'_> {
         let best = others().min_by_key(|one| one.rank());
         let is_of_part = best.is_some_and(|best| best.convention.leaves_part_blank());
         let is_rival = |one: &Candidate| {
-            is_of_part && one.convention.clips() && one.score.differing <= fewest + differing / 50
+            is_of_part && one.convention.clips() && one.score.differing <= fewest + differing / 100
         };
         let good =
             |one: &&Candidate| as_good(one.score.differing, fewest, differing) || is_rival(one);

@@ -3,13 +3,13 @@
 mod omission;
 
 use super::convention::{
-    Change, Convention, Depth, Edges, Faces, Field, Look, Placement, Rays, Sampling,
+    Change, Convention, Depth, Edges, Faces, Field, Look, Omission, Placement, Rays, Sampling,
 };
 use super::encoding::{DistanceEncoding, Encoding, INFINITELY_FAR, IdEncoding, NothingEncoding};
 use super::search::Explanation;
 use crate::common::{Camera, Projection};
 use crate::wording::{readable, three_digits};
-use omission::{of_far, of_near, of_omission};
+use omission::{of_far, of_near, of_omission, of_part};
 
 impl Explanation {
     /// The explanation in sentences, one for each part; `name` is the name of the file.
@@ -61,7 +61,11 @@ fn of_convention(
         changes.retain(|change| !matches!(change, Change::Columns(_) | Change::Rows(_)));
         sentences.push(both);
     }
-    let parts = changes.into_iter().map(|change| sentence(change, projection, camera));
+    let placement = convention.placement;
+    let parts = changes.into_iter().map(|change| match change {
+        Change::Omission(Omission::Part(part)) => of_part(part, placement),
+        change => sentence(change, projection, camera),
+    });
     parts.chain(sentences).collect()
 }
 

@@ -33,7 +33,7 @@ impl Differences<'_> {
         }
         let seen = self.seen();
         changes.extend(self.omissions(&seen, differing).into_iter().map(Change::Omission));
-        changes.extend(self.planes(&seen, differing));
+        changes.extend(self.planes(&seen, differing, part.is_some()));
         changes
     }
 
@@ -64,8 +64,13 @@ impl Differences<'_> {
         Seen { counts: Counts::default(), shape: ShapeKind::of(&primitive) }
     }
 
-    /// A near and a far plane.
-    fn planes(&self, seen: &BTreeMap<u32, Seen>, differing: usize) -> Vec<Change> {
+    /// A near and a far plane; they may be what a blank part is taken for.
+    fn planes(
+        &self,
+        seen: &BTreeMap<u32, Seen>,
+        differing: usize,
+        beside_part: bool,
+    ) -> Vec<Change> {
         // A file of ids shows the same number where the nearest hit of a sphere, or of an object, is cut off, and what lies behind
         // it is seen.
         let is_of_ids = matches!(self.observed.values, Values::Ids(_));
@@ -81,7 +86,7 @@ impl Differences<'_> {
         let near = far.iter().filter(|hit| hit.differs || !is_seen_behind_itself(hit.id)).copied();
         // What a mask covers, it covers also where a near plane shows what lies behind.
         let is_mask = matches!(self.observed.values, Values::Mask(_));
-        let near = plane(near, differing).filter(|_| !is_mask).map(|clip| {
+        let near = plane(near, differing).filter(|_| !is_mask || beside_part).map(|clip| {
             [false, true].map(|hides_spheres| Change::Near(NearPlane { clip, hides_spheres }))
         });
         // The rim of a sphere is where it is farthest: one that is too small looks like one that is cut off.

@@ -1,5 +1,6 @@
 //! What a renderer leaves out: single primitives and objects, and what lies beyond a plane.
 
+use super::placement::Placement;
 use crate::common::{Primitive, Scene};
 
 /// Two distances `t`, between which something begins or ends to be seen: the picture tells no more.
@@ -107,6 +108,32 @@ pub struct Part {
     pub columns: [u32; 2],
     /// Width and height of the picture.
     pub image: [u32; 2],
+    /// The number and the first and the last id of the only object that is lost there, of several in the scene: it alone may be
+    /// cut off.
+    pub alone: Option<(usize, [u32; 2])>,
+}
+
+impl Part {
+    /// The same rectangle in the rows and columns of a file; `None` if it is none there.
+    #[expect(clippy::cast_possible_wrap, reason = "sides are at most 2^16")]
+    pub(in crate::diff::why) fn in_file(self, placement: Placement) -> Option<Part> {
+        if placement == Placement::ByColumns {
+            return None;
+        }
+        let [width, height] = self.image;
+        let corner = |end: usize| {
+            let pixel = [self.rows[end], self.columns[end]].map(|side| side as isize);
+            placement.in_file(pixel, [width, height].map(|side| side as isize))
+        };
+        let [one, other] = [corner(0), corner(1)];
+        let ends = |axis: usize| {
+            let (one, other) = (one[axis], other[axis]);
+            let number = |side: isize| u32::try_from(side).expect("it lies in the file");
+            [number(one.min(other)), number(one.max(other))]
+        };
+        let image = if placement.swaps_sides() { [height, width] } else { self.image };
+        Some(Part { rows: ends(0), columns: ends(1), image, ..self })
+    }
 }
 
 /// The ids of a few primitives, ascending.

@@ -60,6 +60,29 @@ impl Placement {
         file == if self.swaps_sides() { [height, width] } else { [width, height] }
     }
 
+    /// Where the pixel `(i, j)` of a picture of this width and height lies in the file: its row and its column. For whole numbers
+    /// beside the picture, too, unless the file is written by columns.
+    pub(in crate::diff::why) fn in_file(
+        self,
+        [i, j]: [isize; 2],
+        [width, height]: [isize; 2],
+    ) -> [isize; 2] {
+        match self {
+            Placement::Upright => [i, j],
+            Placement::UpsideDown => [height - 1 - i, j],
+            Placement::LeftToRight => [i, width - 1 - j],
+            Placement::HalfTurn => [height - 1 - i, width - 1 - j],
+            Placement::Transposed => [j, i],
+            Placement::TurnedLeft => [width - 1 - j, i],
+            Placement::TurnedRight => [j, height - 1 - i],
+            Placement::OtherDiagonal => [width - 1 - j, height - 1 - i],
+            Placement::ByColumns => {
+                let number = j * height + i;
+                [number / width, number % width]
+            }
+        }
+    }
+
     /// The pixel of the picture that lies at `(i, j)` of the file; `[width, height]` is the size of the picture.
     pub fn pixel(self, [i, j]: [usize; 2], [width, height]: [usize; 2]) -> [usize; 2] {
         match self {

@@ -1,7 +1,7 @@
 //! What a renderer leaves out, in sentences.
 
 use crate::common::Projection;
-use crate::diff::why::convention::{Between, Clip, NearPlane, Omission, Part};
+use crate::diff::why::convention::{Between, Clip, NearPlane, Omission, Part, Placement};
 use crate::wording::three_digits;
 
 /// A near plane.
@@ -76,7 +76,7 @@ pub(super) fn of_omission(omission: Omission) -> String {
             format!("leaves out ids {}: are they read, and what drops them?", ids.join(", "))
         }
         Omission::Shape(shape) => format!("draws no {}", shape.name()),
-        Omission::Part(part) => of_part(part),
+        Omission::Part(part) => of_part(part, Placement::Upright),
         Omission::From { least, first } => {
             let from = match least == first {
                 true => format!("id {first}"),
@@ -90,36 +90,43 @@ pub(super) fn of_omission(omission: Omission) -> String {
     }
 }
 
-/// Rows of the whole width, columns of the whole height, or a rectangle that is neither.
-fn of_part(Part { rows, columns, image: [width, height] }: Part) -> String {
-    let along = |axis: &str, [first, last]: [u32; 2], count: u32| match (first, last + 1 == count) {
-        (first, true) if first == last => {
-            format!("{axis} {first}, the last one: does its loop end one too early?")
-        }
-        (0, false) if last == 0 => {
-            format!("{axis} 0, the first one: does its loop begin at 1?")
-        }
-        (first, true) => {
-            format!(
-                "{axis}s {first} to {last}, the last ones: do its loop, its tiles or its buffer end too early?"
-            )
-        }
-        (0, false) => format!("{axis}s 0 to {last}, the first ones: does its loop begin too late?"),
-        _ => format!(
-            "{}: is this part of the picture not drawn, or not written?",
-            range(axis, [first, last])
-        ),
+/// A blank part, in the rows and columns of the file.
+pub(super) fn of_part(part: Part, placement: Placement) -> String {
+    let Some(Part { rows, columns, image: [width, height], alone }) = part.in_file(placement)
+    else {
+        let [rows, columns] = [range("row", part.rows), range("column", part.columns)];
+        return format!("shows nothing where the upright picture has {rows} of {columns}");
     };
-    let what = match (rows, columns) {
+    let (what, question) = match (rows, columns) {
         (rows, [0, last]) if last + 1 == width => along("row", rows, height),
         ([0, last], columns) if last + 1 == height => along("column", columns, width),
-        _ => format!(
-            "{} of {}: is a tile not drawn, or not written?",
-            range("row", rows),
-            range("column", columns)
-        ),
+        _ => {
+            let what = format!("{} of {}", range("row", rows), range("column", columns));
+            (what, "is a tile not drawn, or not written")
+        }
     };
-    format!("shows nothing in {what}")
+    let alone = alone.map_or(String::new(), |(object, [first, last])| match first == last {
+        true => format!(", or is id {first} alone cut off there"),
+        false => format!(", or is object {object} (ids {first} to {last}) alone cut off there"),
+    });
+    format!("shows nothing in its {what}: {question}{alone}?")
+}
+
+/// Whole rows or columns, and the question about them.
+fn along(axis: &str, [first, last]: [u32; 2], count: u32) -> (String, &'static str) {
+    let range = range(axis, [first, last]);
+    match (first, last + 1 == count) {
+        (_, true) if first == last => {
+            (format!("{range}, the last one"), "does its loop end one too early")
+        }
+        (0, false) if last == 0 => (format!("{range}, the first one"), "does its loop begin at 1"),
+        (_, true) => (
+            format!("{range}, the last ones"),
+            "do its loop, its tiles or its buffer end too early",
+        ),
+        (0, false) => (format!("{range}, the first ones"), "does its loop begin too late"),
+        _ => (range, "is this part of the picture not drawn, or not written"),
+    }
 }
 
 /// `row 7`, or `rows 7 to 9`.
