@@ -326,7 +326,7 @@ impl Search<'_> {
             Candidate { convention, encoding, score }
         };
         let best = with(expected.encoding(self.observed, placement, nothing));
-        // Who counts all from another number shows hardly any by ours.
+        // A file that counts all from another number has hardly any right by ours.
         let counts_otherwise = matches!(best.encoding.ids, IdEncoding::CountedFrom(2..));
         if counts_otherwise && 1000 * self.ours.shown > self.ours.differing {
             return with(Encoding { ids: IdEncoding::FromZero, ..best.encoding });

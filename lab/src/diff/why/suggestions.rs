@@ -64,7 +64,7 @@ impl Differences<'_> {
         Seen { counts: Counts::default(), shape: ShapeKind::of(&primitive) }
     }
 
-    /// A near and a far plane; they may be what a blank part is taken for.
+    /// A near and a far plane. In a mask, a near plane is suggested only beside a blank part, as either may be the other.
     fn planes(
         &self,
         seen: &BTreeMap<u32, Seen>,

@@ -1,4 +1,4 @@
-//! What a renderer leaves out: single primitives and objects, and what lies beyond a plane.
+//! What a renderer leaves out: single primitives and objects, what lies beyond a plane, and a part of the picture.
 
 use super::placement::Placement;
 use crate::common::{Primitive, Scene};
@@ -99,7 +99,7 @@ impl Omission {
     }
 }
 
-/// A rectangle of pixels.
+/// A rectangle of pixels in which nothing is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Part {
     /// Its first and its last row, from the top.
