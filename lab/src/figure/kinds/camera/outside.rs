@@ -312,15 +312,6 @@ fn outside_labels(
         let note = "drawn nearer than d: no ray depends on d";
         label_at(drawing, bottom, [0.0, 1.0], note, theme, theme.of(Role::Camera));
     }
-    let middle = outside.place(0.5 * stage.middle());
-    label_at(
-        drawing,
-        middle,
-        [0.2, 1.0],
-        &format!("d = {}", number(camera.distance(), 4)),
-        theme,
-        theme.of(Role::Camera),
-    );
 }
 
 /// The picture from outside, paler than what is drawn over it.

@@ -4,10 +4,10 @@ use super::stage::Stage;
 use super::viewing_ray::{SIDE, ViewingRay, label_at};
 use crate::common::glam::DVec3;
 use crate::common::{Camera, CameraDescription, Crop, Options, View};
-use crate::figure::drawing::{Ink, Pen};
-use crate::figure::sheet::Sheet;
+use crate::figure::drawing::{Drawing, Ink, Pen};
+use crate::figure::sheet::{Sheet, number};
 use crate::figure::subject::{Subject, seen};
-use crate::figure::theme::Role;
+use crate::figure::theme::{Role, Theme};
 
 /// Draws the panel: `−w` to the right, `v` up, in the column of the first pixel.
 pub(super) fn draw(sheet: &mut Sheet, subject: &Subject, stage: &Stage, ray: &ViewingRay) {
@@ -24,12 +24,12 @@ pub(super) fn draw(sheet: &mut Sheet, subject: &Subject, stage: &Stage, ray: &Vi
     points.extend(stage.viewport.map(side));
     points.extend([[0.0, 0.0], side(stage.end(ray, camera))]);
     let ([near, far], [low, high]) = (bounds(&points, 0), bounds(&points, 1));
-    let scale = (0.84 * size[0] / (far - near)).min(0.76 * size[1] / (high - low).max(1e-300));
+    let scale = (0.84 * size[0] / (far - near)).min(0.68 * size[1] / (high - low).max(1e-300));
     let place = |point: DVec3| {
         let [depth, height] = side(point);
         [
             corner[0] + 0.5 * size[0] + scale * (depth - 0.5 * (near + far)),
-            corner[1] + 0.52 * size[1] - scale * (height - 0.5 * (low + high)),
+            corner[1] + 0.48 * size[1] - scale * (height - 0.5 * (low + high)),
         ]
     };
     let drawing = &mut sheet.drawing;
@@ -62,12 +62,43 @@ pub(super) fn draw(sheet: &mut Sheet, subject: &Subject, stage: &Stage, ray: &Vi
     if ray.t().is_some() {
         label_at(drawing, end, [0.8, -0.5], "hit", theme, focus);
     }
+    distance(drawing, [eye[0], place(bottom)[0]], place(bottom)[1] + 42.0, (stage, camera), theme);
     let ray_middle = place(0.5 * (ray.at(stage.passing(camera)) + stage.end(ray, camera)));
     label_at(drawing, ray_middle, [0.0, -1.0], "r(t) = p + t d", theme, focus);
     let w = theme.label().semi_bold();
     drawing.label([right - 34.0, eye[1]], [0.0, 1.0], "−w", w, Some(theme.mat()));
     drawing.window(None);
     sheet.border(corner, size);
+}
+
+/// How far the viewport is from the eye, along a line below both.
+fn distance(
+    drawing: &mut Drawing,
+    [from, to]: [f64; 2],
+    below: f64,
+    (stage, camera): (&Stage, &Camera),
+    theme: Theme,
+) {
+    const TICK: f64 = 7.0;
+    let pen = Pen::new(theme.of(Role::Camera), 1.6);
+    drawing.line(&[[from, below], [to, below]], pen);
+    for end in [from, to] {
+        drawing.line(&[[end, below - TICK], [end, below + TICK]], pen);
+    }
+    let d = number(camera.distance(), 4);
+    let text = match stage.enlarged {
+        _ if stage.nearer => format!("nearer than d = {d}"),
+        enlarged if enlarged > 1.0 => format!("{} d (d = {d})", number(enlarged, 3)),
+        _ => format!("d = {d}"),
+    };
+    label_at(
+        drawing,
+        [0.5 * (from + to), below],
+        [0.0, -1.0],
+        &text,
+        theme,
+        theme.of(Role::Camera),
+    );
 }
 
 /// What is seen in the middle of one column of the picture, from top to bottom: points relative to the eye, and their objects. A picture
