@@ -5,6 +5,7 @@
 //! - [`find_common_conventions`]: the same by several pictures of one renderer.
 
 mod blank;
+mod candidate;
 mod convention;
 mod differences;
 mod distances;

@@ -4,6 +4,7 @@
 //! some rows of the file, with every placement; the best of them are drawn as a whole, and changes are added as long
 //! as each of them explains at least half of what is left. A change that explains less is left out again.
 
+use super::candidate::{Candidate, as_good, parts};
 use super::convention::{Change, Convention, Placement};
 use super::differences::Differences;
 use super::draw::{Drawn, Rows, draw, equally_near};
@@ -129,12 +130,6 @@ const MOST_ADDED: usize = 3;
 /// The most explanations that are named.
 const MOST_EXPLANATIONS: usize = 6;
 
-/// Whether a hypothesis that leaves `simpler` pixels does as well as one with more parts that leaves `fewest`: the
-/// further parts explain less than half of what is left without them, or less than a thousandth of all.
-fn as_good(simpler: u64, fewest: u64, differing: u64) -> bool {
-    simpler < 2 * fewest || simpler.saturating_sub(fewest) <= differing / 1000
-}
-
 struct Search<'a> {
     view: &'a View<'a>,
     observed: &'a Observed,
@@ -142,52 +137,6 @@ struct Search<'a> {
     truth: &'a Drawn,
     /// How far the file is from the true picture.
     ours: Score,
-}
-
-/// A hypothesis and how well it does.
-#[derive(Clone, Copy, Debug)]
-struct Candidate {
-    convention: Convention,
-    encoding: Encoding,
-    score: Score,
-}
-
-impl Candidate {
-    fn rank(&self) -> (u64, usize) {
-        (self.score.differing, parts(&self.convention, &self.encoding))
-    }
-
-    /// Whether nearly all stays right that the file shows rightly by our conventions. Where much is missing in a file,
-    /// a picture that shows little leaves few pixels, too, and explains nothing. A few pixels may be right by accident.
-    ///
-    /// And the more freedom a hypothesis has, the less it may leave: several parts, or a number of its own, fit a part of
-    /// anything. A mask tells less than ids and distances.
-    fn may_explain(&self, ours: Score, is_mask: bool) -> bool {
-        let lost = ours.shown.saturating_sub(self.score.shown);
-        let explained = ours.differing.saturating_sub(self.score.differing);
-        let mistakes = self.convention.mistakes();
-        let parts_left = match mistakes + usize::from(self.encoding.is_another_numbering()) {
-            0 | 1 => 1,
-            2 => 50,
-            _ => 200,
-        };
-        let omission_left = match (self.convention.leaves_out(), is_mask) {
-            (true, true) => 50,
-            (true, false) => 10,
-            (false, _) => 1,
-        };
-        let number_left = if self.encoding.has_own_numbers() { 50 } else { 1 };
-        let least = parts_left.max(omission_left).max(number_left);
-        let most_mistakes = if is_mask { 2 } else { 3 };
-        mistakes <= most_mistakes
-            && least * self.score.differing <= ours.differing
-            && 10 * lost <= explained
-    }
-}
-
-/// How many choices are not ours.
-fn parts(convention: &Convention, encoding: &Encoding) -> usize {
-    convention.mistakes() + encoding.parts()
 }
 
 impl Search<'_> {
@@ -355,10 +304,16 @@ impl Search<'_> {
             IdEncoding::OneToOne => expected.encoding(self.observed, placement, encoding.nothing),
             _ => encoding,
         };
-        let differences = Differences::new(&expected, self.observed, placement, encoding);
+        let suggested = |encoding: Encoding| {
+            Differences::new(&expected, self.observed, placement, encoding).suggested()
+        };
+        let mut changes = suggested(encoding);
+        // A mask that lacks most of the picture is nearer to an inverted one.
+        if encoding.nothing == NothingEncoding::Inverted {
+            changes.extend(suggested(Encoding { nothing: NothingEncoding::Ours, ..encoding }));
+        }
         let taken: HashSet<usize> = convention.changes().into_iter().map(Change::axis).collect();
-        let changes = differences.suggested().into_par_iter();
-        let free = changes.filter(|change| !taken.contains(&change.axis()));
+        let free = changes.into_par_iter().filter(|change| !taken.contains(&change.axis()));
         let mut found: Vec<Candidate> =
             free.map(|change| self.drawn_whole(convention.with(change))).collect();
         // Where no sphere tells whether its other side is seen, it is.
@@ -375,7 +330,12 @@ impl Search<'_> {
         let drawn = &*self.whole(&convention);
         let expected = Expected::new(self.view, &convention, drawn);
         let placement = convention.placement;
-        let scored = self.meanings_of_nothing().into_iter().flat_map(|nothing| {
+        // An inverted mask with a blank part is a mask of this part alone, which is more likely.
+        let is_likely = |nothing: &NothingEncoding| {
+            *nothing != NothingEncoding::Inverted || !convention.leaves_part_blank()
+        };
+        let meanings = self.meanings_of_nothing().into_iter().filter(is_likely);
+        let scored = meanings.flat_map(|nothing| {
             let own = self.read(convention, &expected, nothing);
             // Where primitives have other numbers, more pixels differ than in coverage alone.
             let ids_differ = own.score.differing > 2 * own.score.coverage;

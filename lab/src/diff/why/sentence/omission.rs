@@ -94,8 +94,14 @@ pub(super) fn of_omission(omission: Omission) -> String {
 pub(super) fn of_part(part: Part, placement: Placement) -> String {
     let Some(Part { rows, columns, image: [width, height], alone }) = part.in_file(placement)
     else {
+        let [width, height] = part.image;
         let [rows, columns] = [range("row", part.rows), range("column", part.columns)];
-        return format!("shows nothing where the upright picture has {rows} of {columns}");
+        let what = match (part.rows, part.columns) {
+            (_, [0, last]) if last + 1 == width => rows,
+            ([0, last], _) if last + 1 == height => columns,
+            _ => format!("{rows} of {columns}"),
+        };
+        return format!("shows nothing where the upright picture has {what}");
     };
     let (what, question) = match (rows, columns) {
         (rows, [0, last]) if last + 1 == width => along("row", rows, height),

@@ -60,10 +60,7 @@ fn rows_and_columns_of_a_blank_part_are_those_of_the_file() {
             (Placement::LeftToRight, "in its rows 34 to 43, the last ones"),
             (Placement::Transposed, "in its columns 34 to 43, the last ones"),
             (Placement::TurnedRight, "in its columns 0 to 9, the first ones"),
-            (
-                Placement::ByColumns,
-                "where the upright picture has rows 34 to 43 of columns 0 to 65",
-            ),
+            (Placement::ByColumns, "where the upright picture has rows 34 to 43"),
         ] {
             let planted = last_rows.with(Change::Placement(placement));
             let found = found(view, &file(view, &planted, true));
@@ -85,6 +82,28 @@ fn a_plane_that_clips_is_named_beside_a_blank_part() {
             for said in ["nothing in its rows 36 to 43", "nothing nearer than t = "] {
                 assert!(is_said(view, &found, &[said]), "{said}: {found:?}");
             }
+        }
+    });
+}
+
+#[test]
+fn a_mask_of_a_part_alone_is_not_inverted() {
+    let loaded = scenes::load("overlap").unwrap();
+    with_scene(&loaded, [80, 60], Projection::Perspective, |view| {
+        // Everything is covered: what is left in an inverted mask is one blank part.
+        let truth = draw(view, &Convention::default(), Rows::ALL).ids;
+        assert!(!truth.contains(&NO_PRIMITIVE));
+        let found = found(view, &file(view, &with_part(view, [10, 59], [0, 79]), false));
+        assert!(is_said(view, &found, &["in its rows 10 to 59, the last ones"]), "{found:?}");
+        let is_inverted = |one: &Explanation| one.encoding.nothing == NothingEncoding::Inverted;
+        assert!(!found.iter().any(is_inverted), "{found:?}");
+        // Only a tile is covered: that is no mask in which a tile is blank.
+        let is_tile =
+            |pixel: usize| (20..40).contains(&(pixel / 80)) && (30..50).contains(&(pixel % 80));
+        let mask: Vec<bool> = (0..80 * 60).map(is_tile).collect();
+        let file = Buffer::new([80, 60], 1, Content::Mask(mask.into()));
+        if let Finding::Explained(found) = find_conventions(view, &file).unwrap().finding {
+            assert!(!is_said(view, &found, &["shows nothing"]), "{found:?}");
         }
     });
 }

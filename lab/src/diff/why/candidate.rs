@@ -1,0 +1,57 @@
+//! A hypothesis, and how well it does.
+
+use super::convention::Convention;
+use super::encoding::Encoding;
+use super::expected::Score;
+
+/// A hypothesis and how well it does.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Candidate {
+    pub(super) convention: Convention,
+    pub(super) encoding: Encoding,
+    pub(super) score: Score,
+}
+
+impl Candidate {
+    pub(super) fn rank(&self) -> (u64, usize) {
+        (self.score.differing, parts(&self.convention, &self.encoding))
+    }
+
+    /// Whether nearly all stays right that the file shows rightly by our conventions. Where much is missing in a file,
+    /// a picture that shows little leaves few pixels, too, and explains nothing. A few pixels may be right by accident.
+    ///
+    /// And the more freedom a hypothesis has, the less it may leave: several parts, or a number of its own, fit a part of
+    /// anything. A mask tells less than ids and distances.
+    pub(super) fn may_explain(&self, ours: Score, is_mask: bool) -> bool {
+        let lost = ours.shown.saturating_sub(self.score.shown);
+        let explained = ours.differing.saturating_sub(self.score.differing);
+        let mistakes = self.convention.mistakes();
+        let parts_left = match mistakes + usize::from(self.encoding.is_another_numbering()) {
+            0 | 1 => 1,
+            2 => 50,
+            _ => 200,
+        };
+        let omission_left = match (self.convention.leaves_out(), is_mask) {
+            (true, true) => 50,
+            (true, false) => 10,
+            (false, _) => 1,
+        };
+        let number_left = if self.encoding.has_own_numbers() { 50 } else { 1 };
+        let least = parts_left.max(omission_left).max(number_left);
+        let most_mistakes = if is_mask { 2 } else { 3 };
+        mistakes <= most_mistakes
+            && least * self.score.differing <= ours.differing
+            && 10 * lost <= explained
+    }
+}
+
+/// How many choices are not ours.
+pub(super) fn parts(convention: &Convention, encoding: &Encoding) -> usize {
+    convention.mistakes() + encoding.parts()
+}
+
+/// Whether a hypothesis that leaves `simpler` pixels does as well as one with more parts that leaves `fewest`: the
+/// further parts explain less than half of what is left without them, or less than a thousandth of all.
+pub(super) fn as_good(simpler: u64, fewest: u64, differing: u64) -> bool {
+    simpler < 2 * fewest || simpler.saturating_sub(fewest) <= differing / 1000
+}
