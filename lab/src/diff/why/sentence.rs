@@ -3,13 +3,13 @@
 mod omission;
 
 use super::convention::{
-    Change, Convention, Depth, Edges, Faces, Field, Look, Omission, Placement, Rays, Sampling,
+    Change, Convention, Depth, Edges, Faces, Field, Look, Placement, Rays, Sampling,
 };
 use super::encoding::{DistanceEncoding, Encoding, INFINITELY_FAR, IdEncoding, NothingEncoding};
 use super::search::Explanation;
 use crate::common::{Camera, Projection};
 use crate::wording::{readable, three_digits};
-use omission::{of_far, of_near, of_omission, of_part};
+use omission::{of_far, of_near, of_omission};
 
 impl Explanation {
     /// The explanation in sentences, one for each part; `name` is the name of the file.
@@ -62,10 +62,7 @@ fn of_convention(
         sentences.push(both);
     }
     let placement = convention.placement;
-    let parts = changes.into_iter().map(|change| match change {
-        Change::Omission(Omission::Part(part)) => of_part(part, placement),
-        change => sentence(change, projection, camera),
-    });
+    let parts = changes.into_iter().map(|change| sentence(change, placement, projection, camera));
     parts.chain(sentences).collect()
 }
 
@@ -96,7 +93,13 @@ fn sampling_of_both(sampling: Sampling) -> Option<String> {
     Some(words.into())
 }
 
-fn sentence(change: Change, projection: Projection, camera: Option<&Camera>) -> String {
+/// A change in a sentence; `placement` is that of the file in which it shows.
+fn sentence(
+    change: Change,
+    placement: Placement,
+    projection: Projection,
+    camera: Option<&Camera>,
+) -> String {
     match change {
         Change::Placement(placement) => of_placement(placement).into(),
         Change::Columns(sampling) => {
@@ -114,7 +117,7 @@ fn sentence(change: Change, projection: Projection, camera: Option<&Camera>) -> 
         Change::Depth(depth) => of_depth(depth).into(),
         Change::Near(plane) => of_near(plane, projection),
         Change::Far(clip) => of_far(clip, projection),
-        Change::Omission(omission) => of_omission(omission),
+        Change::Omission(omission) => of_omission(omission, placement),
     }
 }
 

@@ -59,7 +59,7 @@ fn of_between(between: Between) -> String {
 }
 
 /// What is not drawn at all.
-pub(super) fn of_omission(omission: Omission) -> String {
+pub(super) fn of_omission(omission: Omission, placement: Placement) -> String {
     match omission {
         Omission::Nothing => "draws all".into(),
         Omission::Primitive { id: 0, .. } => {
@@ -76,7 +76,7 @@ pub(super) fn of_omission(omission: Omission) -> String {
             format!("leaves out ids {}: are they read, and what drops them?", ids.join(", "))
         }
         Omission::Shape(shape) => format!("draws no {}", shape.name()),
-        Omission::Part(part) => of_part(part, Placement::Upright),
+        Omission::Part(part) => of_part(part, placement),
         Omission::From { least, first } => {
             let from = match least == first {
                 true => format!("id {first}"),
@@ -91,7 +91,7 @@ pub(super) fn of_omission(omission: Omission) -> String {
 }
 
 /// A blank part, in the rows and columns of the file.
-pub(super) fn of_part(part: Part, placement: Placement) -> String {
+fn of_part(part: Part, placement: Placement) -> String {
     let Some(Part { rows, columns, image: [width, height], alone }) = part.in_file(placement)
     else {
         let [width, height] = part.image;
