@@ -31,7 +31,7 @@ mod together;
 
 pub use convention::{
     Between, Change, Clip, Convention, Depth, Edges, Faces, Field, Look, NearPlane, Omission, Part,
-    Placement, Rays, Sampling, Several, ShapeKind,
+    Placement, Pose, Rays, Sampling, Several, ShapeKind,
 };
 pub use encoding::{DistanceEncoding, Encoding, IdEncoding, NothingEncoding};
 pub use pixels::{PixelReason, ReasonError, Reasons, Wrong, find_reasons, find_reasons_of_samples};

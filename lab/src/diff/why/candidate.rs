@@ -1,6 +1,6 @@
 //! A hypothesis, and how well it does.
 
-use super::convention::Convention;
+use super::convention::{Convention, Pose};
 use super::encoding::Encoding;
 use super::expected::Score;
 
@@ -37,7 +37,9 @@ impl Candidate {
             (false, _) => 1,
         };
         let number_left = if self.encoding.has_own_numbers() { 50 } else { 1 };
-        let least = parts_left.max(omission_left).max(number_left);
+        // Another eye sees much of what ours sees.
+        let pose_left = if self.convention.pose == Pose::AsStated { 1 } else { 4 };
+        let least = parts_left.max(omission_left).max(number_left).max(pose_left);
         let most_mistakes = if is_mask { 2 } else { 3 };
         mistakes <= most_mistakes
             && least * self.score.differing <= ours.differing

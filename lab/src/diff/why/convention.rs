@@ -6,15 +6,18 @@
 mod field;
 mod omission;
 mod placement;
+mod pose;
 mod sampling;
 
 pub use field::Field;
 pub use omission::{Between, Clip, NearPlane, Omission, Part, Several, ShapeKind};
 pub use placement::Placement;
+pub use pose::Pose;
 pub use sampling::Sampling;
 
 use crate::common::{Camera, Projection};
 use field::fields;
+use pose::poses;
 
 /// One choice on every axis. The default is ours.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -25,6 +28,8 @@ pub struct Convention {
     pub columns: Sampling,
     /// The part of the pixel that is sampled, from top to bottom.
     pub rows: Sampling,
+    /// Where the eye is, and how the axes of the camera lie.
+    pub pose: Pose,
     /// The size of the viewport.
     pub field: Field,
     /// The direction of view.
@@ -137,6 +142,8 @@ pub enum Change {
     Columns(Sampling),
     /// Another sampling of the rows.
     Rows(Sampling),
+    /// Another eye or other axes.
+    Pose(Pose),
     /// Another viewport.
     Field(Field),
     /// Another direction of view.
@@ -169,6 +176,7 @@ impl Change {
         let mut changes: Vec<Change> = sampled(width, Change::Columns).collect();
         changes.extend(sampled(height, Change::Rows));
         changes.extend(fields(camera).into_iter().map(Change::Field));
+        changes.extend(poses(camera).into_iter().map(Change::Pose));
         changes.push(Change::Look(Look::Backward));
         changes.push(Change::Rays(Rays::OtherProjection));
         if camera.projection() == Projection::Parallel {
@@ -198,6 +206,7 @@ impl Change {
             Change::Near(_) => 9,
             Change::Far(_) => 10,
             Change::Omission(_) => 11,
+            Change::Pose(_) => 12,
         }
     }
 
@@ -205,6 +214,7 @@ impl Change {
     /// alone, or beside what explains much.
     pub fn is_paired_with(self, other: Change) -> bool {
         let is_rare = |change: Change| match change {
+            Change::Pose(_) => true,
             Change::Field(field) => field.is_rare(),
             Change::Columns(sampling) | Change::Rows(sampling) => sampling == Sampling::OneMore,
             _ => false,
@@ -231,6 +241,7 @@ impl Convention {
             Change::Placement(placement) => Convention { placement, ..self },
             Change::Columns(columns) => Convention { columns, ..self },
             Change::Rows(rows) => Convention { rows, ..self },
+            Change::Pose(pose) => Convention { pose, ..self },
             Change::Field(field) => Convention { field, ..self },
             Change::Look(look) => Convention { look, ..self },
             Change::Rays(rays) => Convention { rays, ..self },
@@ -250,6 +261,7 @@ impl Convention {
             Change::Placement(self.placement),
             Change::Columns(self.columns),
             Change::Rows(self.rows),
+            Change::Pose(self.pose),
             Change::Field(self.field),
             Change::Look(self.look),
             Change::Rays(self.rays),
@@ -267,6 +279,11 @@ impl Convention {
     pub(super) fn mistakes(&self) -> usize {
         let is_one = self.columns == self.rows && self.columns != Sampling::default();
         self.changes().len() - usize::from(is_one)
+    }
+
+    /// The camera as a renderer with these conventions has it; the stated one where it cannot have the pose.
+    pub(super) fn camera(&self, stated: &Camera) -> Camera {
+        self.pose.camera(stated).unwrap_or(*stated)
     }
 
     /// Whether something is not drawn: a primitive, an object, or what lies beyond a plane.
@@ -299,17 +316,32 @@ impl Convention {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::common::CameraDescription;
 
     #[test]
     fn a_square_picture_with_a_square_viewport_has_no_form_to_confuse() {
-        let changes = Change::of_rendering(&Camera::canonical(8, 8));
-        let fields = changes.iter().filter_map(|change| match change {
-            Change::Field(field) => Some(*field),
-            _ => None,
-        });
         use Field::{Double, DoubleHeight, DoubleWidth, Half, HalfHeight, HalfWidth};
-        let sizes = [Double, Half, HalfWidth, HalfHeight, DoubleWidth, DoubleHeight];
-        assert_eq!(fields.collect::<Vec<_>>(), sizes);
+        let sides = [HalfWidth, HalfHeight, DoubleWidth, DoubleHeight];
+        let angles = [
+            Field::TangentOfWholeAngle,
+            Field::TangentOfQuarterAngle,
+            Field::AngleForTangent,
+            Field::DegreesAsRadians,
+            Field::VerticalAsDiagonal,
+        ];
+        let square = *Camera::canonical(8, 8).description();
+        for projection in [Projection::Perspective, Projection::Parallel] {
+            let camera = Camera::new(CameraDescription { projection, ..square }).unwrap();
+            let changes = Change::of_rendering(&camera).into_iter();
+            let fields = changes.filter_map(|change| match change {
+                Change::Field(field) => Some(field),
+                _ => None,
+            });
+            // Parallel rays have no field of view.
+            let of_angle = if projection == Projection::Parallel { &[][..] } else { &angles };
+            let expected = [&[Double, Half], of_angle, &sides].concat();
+            assert_eq!(fields.collect::<Vec<_>>(), expected);
+        }
     }
 
     #[test]

@@ -66,6 +66,8 @@ impl Rows {
 /// Draws the scene under a convention; placement is left to the reader of the picture.
 pub(super) fn draw(view: &View, convention: &Convention, rows: Rows) -> Drawn {
     let rays = ViewingRays::new(view.camera, convention);
+    let camera = convention.camera(view.camera);
+    let view = &View::new(view.scene, &camera);
     let (width, height) = (rays.x.len(), rays.y.len());
     let numbers = rows.numbers(height);
     let count = numbers.len() * width;
@@ -104,6 +106,8 @@ pub(super) fn equally_near(view: &View, convention: &Convention, drawn: &Drawn) 
     /// The largest relative difference of two distances that another rounding may exchange.
     const CLOSE: f64 = 1e-5;
     let rays = ViewingRays::new(view.camera, convention);
+    let camera = convention.camera(view.camera);
+    let view = &View::new(view.scene, &camera);
     let (Some(&seen), Some(&nearest)) = (drawn.ids.first(), drawn.t.first()) else {
         return Vec::new();
     };

@@ -30,6 +30,8 @@ impl ViewingRays {
     /// The rays of a camera under a convention. Under ours they have the bits of
     /// [`Camera::viewing_ray`](crate::common::Camera::viewing_ray).
     pub(super) fn new(camera: &Camera, convention: &Convention) -> ViewingRays {
+        let rise = convention.pose.rise(camera);
+        let camera = &convention.camera(camera);
         let [width, height] = camera.image();
         let [vw, vh] = convention.field.viewport(camera);
         let projection = convention.rays.projection(camera.projection());
@@ -43,7 +45,8 @@ impl ViewingRays {
             (0..n).map(move |index| sampling.coordinate(side, index, n))
         };
         let x = Coordinates::new(coordinates(convention.columns, vw, width).collect());
-        let y = Coordinates::new(coordinates(convention.rows, vh, height).map(|y| -y).collect());
+        let y =
+            Coordinates::new(coordinates(convention.rows, vh, height).map(|y| rise - y).collect());
         let distance = if convention.look == Look::Backward { -length } else { length };
         ViewingRays {
             extent: x.longest() + y.longest(),

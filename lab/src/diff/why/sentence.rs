@@ -1,14 +1,14 @@
 //! Conventions in sentences that a student can act on.
 
+mod camera;
 mod omission;
 
-use super::convention::{
-    Change, Convention, Depth, Edges, Faces, Field, Look, Placement, Rays, Sampling,
-};
+use super::convention::{Change, Convention, Depth, Edges, Faces, Look, Placement, Rays, Sampling};
 use super::encoding::{DistanceEncoding, Encoding, INFINITELY_FAR, IdEncoding, NothingEncoding};
 use super::search::Explanation;
 use crate::common::{Camera, Projection};
 use crate::wording::{readable, three_digits};
+use camera::{of_fields, of_pose};
 use omission::{of_far, of_near, of_omission};
 
 impl Explanation {
@@ -106,6 +106,7 @@ fn sentence(
             of_sampling(sampling, ["j", "W", "cx", "column", "left", "right"])
         }
         Change::Rows(sampling) => of_sampling(sampling, ["i", "H", "cy", "row", "top", "bottom"]),
+        Change::Pose(pose) => of_pose(pose).into(),
         Change::Field(field) => of_fields(field, camera),
         Change::Look(Look::Backward | Look::Forward) => {
             "looks along +w, and sees what lies behind the eye: the direction is x u + y v - d w"
@@ -178,54 +179,6 @@ fn of_sampling(sampling: Sampling, [index, sides, point, thing, first, last]: [&
             format!(
                 "shows each {thing} one pixel too far to the {first}: its {index} is 1 too large"
             )
-        }
-    }
-}
-
-/// The viewport, and every other one of the same size, if a camera tells.
-fn of_fields(field: Field, camera: Option<&Camera>) -> String {
-    let others = camera.into_iter().flat_map(|camera| field.of_same_size(camera));
-    let all = std::iter::once(field).chain(others);
-    all.map(of_field).collect::<Vec<_>>().join("; or it ")
-}
-
-fn of_field(field: Field) -> &'static str {
-    match field {
-        Field::AsStated => "has the camera's viewport",
-        Field::VerticalAsHorizontal => {
-            "takes the vertical field of view for the horizontal one: its viewport is vh wide and vh H/W high"
-        }
-        Field::HorizontalAsVertical => {
-            "takes the horizontal field of view for the vertical one: its viewport is vw high and vw W/H wide"
-        }
-        Field::AspectLeftOut => {
-            "leaves out the form of the image: its viewport is vh wide as well; multiply x by W/H"
-        }
-        Field::HeightIsWidth => {
-            "leaves out the form of the image: its viewport is vw high as well; multiply y by H/W"
-        }
-        Field::AspectInverted => {
-            "has the form of the image upside down: it multiplies x by H/W for W/H"
-        }
-        Field::Double => {
-            "has a viewport twice as wide and as high: half of vw and vh is missing (x goes from -vw/2 to vw/2), or \
-             the tangent is of the whole angle instead of its half"
-        }
-        Field::Half => {
-            "has a viewport half as wide and as high: vw and vh are halved twice, or the tangent is of a quarter \
-             instead of half the angle"
-        }
-        Field::HalfWidth => "has a viewport half as wide: vw is halved once too often",
-        Field::HalfHeight => "has a viewport half as high: vh is halved once too often",
-        Field::DoubleWidth => {
-            "has a viewport twice as wide: half of vw is missing (x goes from -vw/2 to vw/2)"
-        }
-        Field::DoubleHeight => {
-            "has a viewport twice as high: half of vh is missing (y goes from -vh/2 to vh/2)"
-        }
-        Field::Exchanged => "exchanges the sides of the viewport: it is vh wide and vw high",
-        Field::DistanceLeftOut => {
-            "takes 1 for the distance d of the viewport: the direction is x u + y v - d w"
         }
     }
 }
@@ -405,7 +358,6 @@ fn of_linear(factor: f64, offset: f64) -> String {
 mod tests {
     use super::super::convention::{Between, Clip, NearPlane};
     use super::*;
-    use crate::common::CameraDescription;
 
     /// The sentences of a convention.
     fn sentences(changes: &[Change]) -> Vec<String> {
@@ -452,19 +404,6 @@ mod tests {
               id 7 begins there; the viewport lies at t = 1; here all with t > 0 is seen"
             ]
         );
-    }
-
-    #[test]
-    fn a_viewport_is_named_with_the_others_of_its_size_and_none_that_is_right() {
-        let description =
-            CameraDescription { distance: 2.0, image: [8, 8], ..CameraDescription::default() };
-        let square =
-            Camera::new(CameraDescription { viewport: [1.0, 1.0], ..description }).unwrap();
-        let only = of_fields(Field::DistanceLeftOut, Some(&square));
-        assert_eq!(only, of_field(Field::DistanceLeftOut));
-        let wide = CameraDescription { viewport: [2.0, 1.0], image: [16, 8], ..description };
-        let both = of_fields(Field::AspectLeftOut, Some(&Camera::new(wide).unwrap()));
-        assert!(both.contains("; or it has a viewport half as wide: vw"), "{both}");
     }
 
     #[test]
