@@ -4,6 +4,7 @@
 //! expected frame, and the other functions write both for programs in any language: [`raster`] in pixels, [`json()`]
 //! and [`readme()`] as text.
 
+mod camera;
 mod coverage;
 mod depth;
 mod extremes;
@@ -24,7 +25,9 @@ use crate::orders::{self, Method, Order, RenderOptions};
 
 /// The whole set, group by group.
 pub fn all() -> Vec<Vector> {
-    [coverage::vectors(), depth::vectors(), eye::vectors(), extremes::vectors()].concat()
+    let groups =
+        [coverage::vectors, depth::vectors, eye::vectors, camera::vectors, extremes::vectors];
+    groups.into_iter().flat_map(|vectors| vectors()).collect()
 }
 
 /// The orders see different primitives, so the right answer is unknown.

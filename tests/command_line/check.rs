@@ -85,7 +85,7 @@ fn the_set_itself_passes_and_a_page_is_written() {
     let args = ["check", "vectors", "vectors", "--html", "check.html"];
     let said = printed(bothways(&home, &args), 0);
     assert!(
-        said.contains("all 204 files are right") && said.ends_with("page written to check.html\n"),
+        said.contains("all 222 files are right") && said.ends_with("page written to check.html\n"),
         "{said}"
     );
     let page = fs::read_to_string(home.path().join("check.html")).unwrap();

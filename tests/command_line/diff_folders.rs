@@ -31,12 +31,12 @@ fn with_vectors() -> TempDir {
 #[test]
 fn a_whole_folder_is_held_against_the_vectors() {
     let home = with_vectors();
-    let all = contains("68 of 69 pairs").not().and(contains("69 of 69 pairs equal"));
+    let all = contains("74 of 75 pairs").not().and(contains("75 of 75 pairs equal"));
     let said = all.and(contains("tiles.ids ")).and(contains("tiles.mask "));
     bothways(&home, &["diff", "mine", "vectors"]).assert().code(0).stdout(said).stderr("");
     let turned = contains("A  vectors: the conformance set");
     bothways(&home, &["diff", "vectors", "mine"]).assert().code(0).stdout(turned);
-    let two_sets = contains("204 of 204 pairs equal");
+    let two_sets = contains("222 of 222 pairs equal");
     bothways(&home, &["diff", "vectors", "vectors"]).assert().code(0).stdout(two_sets);
 
     // A wrong picture, a missing picture, and a file that belongs to no scene and is no picture.
@@ -50,7 +50,7 @@ fn a_whole_folder_is_held_against_the_vectors() {
     )
     .and(contains("A lacks 1 scene: left-edge\n"))
     .and(contains("not of the set, and left out: 1 file, such as notes.png"))
-    .and(contains("67 of 68 pairs equal, 1 differs, 1 is missing"))
+    .and(contains("73 of 74 pairs equal, 1 differs, 1 is missing"))
     .and(contains("next: bothways diff mine/square.png vectors/square.mask.png -o out/diff"))
     .and(contains("why:  bothways pixel vectors/square.toml 0 0"));
     let args = ["diff", "mine", "vectors"];
@@ -69,7 +69,7 @@ fn a_whole_folder_is_held_against_the_vectors() {
     // An unreadable file does not stop the comparison of other files, and the exit code is 2.
     fs::write(home.path().join("mine/hair.png"), "no picture").unwrap();
     let said = contains("hair.mask").and(contains("cannot be compared: mine/hair.png is neither"));
-    let said = said.and(contains("66 of 68 pairs equal, 1 differs, 1 cannot be compared"));
+    let said = said.and(contains("72 of 74 pairs equal, 1 differs, 1 cannot be compared"));
     bothways(&home, &args).assert().code(2).stdout(said);
 }
 
@@ -135,7 +135,7 @@ fn distances_beside_a_set_become_t_by_its_scenes() {
         fs::write(mine.join(format!("{}.npy", vector.name)), bytes).unwrap();
     }
     let args = ["diff", "mine", "vectors", "--depth", "axis"];
-    let said = contains("68 of 68 pairs equal\n");
+    let said = contains("74 of 74 pairs equal\n");
     bothways(&home, &args).assert().code(0).stdout(said).stderr("");
     let args = ["diff", "mine", "vectors", "--depth", "ray"];
     bothways(&home, &args).assert().code(1).stdout(contains(" differ"));

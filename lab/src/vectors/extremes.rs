@@ -1,4 +1,4 @@
-//! The scenes that test size: very large, very small, very far, and cameras that are not straight.
+//! The scenes that test size: very large, very small and very far.
 
 use super::sketch::sketch;
 use super::vector::{Group, Vector};
@@ -46,18 +46,5 @@ pub(super) fn vectors() -> Vec<Vector> {
             .viewport([12.0, 12.0])
             .flat_quad([[1.25, 1.5], [8.25, 1.5], [8.25, 8.5], [1.25, 8.5]])
             .done(),
-        turned_box(),
     ]
-}
-
-fn turned_box() -> Vector {
-    let point = "A box before a camera that looks down on it askew: no gap along any edge.";
-    let corner =
-        |index: usize| [0, 1, 2].map(|axis| if index >> axis & 1 == 1 { 3.0 } else { -3.0 });
-    let faces =
-        [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-    let turned = sketch(Group::Extremes, "turned-box", point)
-        .size(16, 20)
-        .looking([9.0, 7.0, 13.0], [0.0; 3]);
-    faces.into_iter().fold(turned, |turned, face| turned.world_quad(face.map(corner))).done()
 }

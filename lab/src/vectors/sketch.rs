@@ -46,6 +46,27 @@ impl Sketch {
         self
     }
 
+    /// Sets any eye; the axes stay those of the world.
+    pub(super) fn standing(mut self, eye: [f32; 3]) -> Sketch {
+        self.camera.eye = eye.into();
+        self
+    }
+
+    /// Sets another `up` for a camera that looks at a point.
+    pub(super) fn holding(mut self, up: [f32; 3]) -> Sketch {
+        let Orientation::LookAt { target, .. } = self.camera.orientation else {
+            panic!("{}: up is for a camera that looks at a point", self.name)
+        };
+        self.camera.orientation = Orientation::LookAt { target, up: up.into() };
+        self
+    }
+
+    /// Sets another distance of the viewport; for triangles of the world.
+    pub(super) fn at_distance(mut self, distance: f32) -> Sketch {
+        self.camera.distance = distance;
+        self
+    }
+
     /// Sets any eye and any target.
     pub(super) fn looking(mut self, eye: [f32; 3], target: [f32; 3]) -> Sketch {
         self.camera.eye = eye.into();

@@ -34,13 +34,15 @@ pub enum Group {
     Behind,
     /// Parallel viewing rays.
     Parallel,
-    /// Very large, very small, and cameras that are not straight.
+    /// Cameras with another eye, other axes or another distance.
+    Camera,
+    /// Very large, very small and very far.
     Extremes,
 }
 
 impl Group {
     /// All kinds of difficulty.
-    pub const ALL: [Group; 8] = [
+    pub const ALL: [Group; 9] = [
         Group::Edges,
         Group::Corners,
         Group::SharedEdges,
@@ -48,6 +50,7 @@ impl Group {
         Group::Depth,
         Group::Behind,
         Group::Parallel,
+        Group::Camera,
         Group::Extremes,
     ];
 
@@ -61,6 +64,7 @@ impl Group {
             Group::Depth => "depth",
             Group::Behind => "behind the eye",
             Group::Parallel => "parallel",
+            Group::Camera => "camera",
             Group::Extremes => "extremes",
         }
     }
